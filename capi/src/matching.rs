@@ -1,6 +1,6 @@
 //! Maps between two surfaces.
 
-use crate::arrays::{array, copy_out};
+use crate::arrays::{array, check_buffer, copy_out};
 use crate::choice::choices;
 use crate::control::{self, ricci_control};
 use crate::failure::{Failure, Outcome};
@@ -8,21 +8,23 @@ use crate::guard::{self, handle, shared};
 use crate::map::ricci_map;
 use crate::memory;
 use crate::mesh::ricci_mesh;
+use crate::paths::halfedges_of;
 use crate::status::*;
 use crate::structs::{self, sized};
 use ricci::Surface;
 use ricci::flow::Options;
 use ricci::matching::{
     Boundary, MapQuality, MatchOptions, Matching, Place, SoftLandmark, SurfaceMap, cycle_error, map_quality,
-    match_surfaces,
+    match_surfaces, point_error,
 };
-use ricci::mesh::{FaceId, VertexId};
+use ricci::mesh::{FaceId, HalfedgeId, VertexId};
 
 pub struct ricci_matching {
     matching: Matching,
     source: Surface,
     target: Surface,
     quality: Option<(MapQuality, [f64; 2])>,
+    point_error: f64,
     threads: usize,
 }
 handle!(ricci_matching, "matching");
@@ -63,6 +65,9 @@ pub struct ricci_match_options {
     pub n_soft: usize,
     pub boundary: u32,
     pub reserved: u32,
+    pub basis: *const i32,
+    pub basis_sizes: *const u32,
+    pub n_basis: usize,
 }
 // SAFETY: numbers and raw pointers; 8-byte alignment, size first.
 sized!(ricci_match_options, "options");
@@ -90,6 +95,9 @@ pub struct ricci_matching_summary {
     pub landmark_error: f64,
     pub cycle_mean: f64,
     pub cycle_max: f64,
+    pub n_points: usize,
+    pub n_soft: usize,
+    pub point_error: f64,
 }
 // SAFETY: numbers; 8-byte alignment, size first.
 sized!(ricci_matching_summary, "summary");
@@ -123,6 +131,7 @@ pub unsafe extern "C" fn ricci_match(
             points: points(&given)?,
             curves: curves(&given)?,
             soft: soft(&given)?,
+            basis: basis([source, target], &given)?,
             landmarks: pairs.into_iter().map(|pair| pair.map(VertexId)).collect(),
             loops: (!loops.is_empty()).then(|| loops.into_iter().map(|k| k as usize).collect()),
             boundary: BOUNDARIES.choose(given.boundary)?,
@@ -132,14 +141,14 @@ pub unsafe extern "C" fn ricci_match(
         let matching = match_surfaces(source, target, &options, &control)?;
         // Of an intrinsic surface nothing is measured in space.
         let both = [source, target];
-        let quality = if both.iter().all(|s| s.positions().is_some()) {
+        let (mut quality, mut missed) = (None, 0.0);
+        if both.iter().all(|s| s.positions().is_some()) {
             let cycle = cycle_error(both, [&matching.forward, &matching.backward])?;
-            Some((map_quality(both, &matching.forward, &options.landmarks)?, cycle))
-        } else {
-            None
-        };
+            quality = Some((map_quality(both, &matching.forward, &options.landmarks)?, cycle));
+            missed = point_error(target, &matching)?;
+        }
         let (source, target, threads) = (source.clone(), target.clone(), given.threads);
-        Ok(ricci_matching { matching, source, target, quality, threads })
+        Ok(ricci_matching { matching, source, target, quality, point_error: missed, threads })
     })
 }
 
@@ -151,6 +160,21 @@ fn points(given: &ricci_match_options) -> Outcome<Vec<[Place; 2]>> {
     let place = |face: u32, weights: [f64; 3]| Place { face: FaceId(face), weights };
     let pair = |([f, g], [p, q]): ([u32; 2], [[f64; 3]; 2])| [place(f, p), place(g, q)];
     Ok(faces.into_iter().zip(weights).map(pair).collect())
+}
+
+/// Pairs of loops, their edges one after the other.
+fn basis(meshes: [&ricci_mesh; 2], given: &ricci_match_options) -> Outcome<Vec<[Vec<HalfedgeId>; 2]>> {
+    let sizes: Vec<[u32; 2]> = array("basis_sizes", given.basis_sizes.cast(), given.n_basis)?;
+    let total = sizes.iter().flatten().fold(0usize, |sum, &n| sum.saturating_add(n as usize));
+    let edges: Vec<i32> = array("basis", given.basis, total)?;
+    let mut first = 0;
+    let mut next = |s: usize, n: u32| -> Outcome<Vec<HalfedgeId>> {
+        let own = &edges[first..first + n as usize];
+        let path = halfedges_of(&meshes[s].connectivity, "basis", own, first)?;
+        first += own.len();
+        Ok(path)
+    };
+    sizes.into_iter().map(|[n, m]| Ok([next(0, n)?, next(1, m)?])).collect()
 }
 
 /// Landmarks with weights.
@@ -181,7 +205,7 @@ pub unsafe extern "C" fn ricci_matching_summarise(
     summary: *mut ricci_matching_summary,
     size: usize,
 ) -> ricci_status {
-    guard::with(matching, |ricci_matching { matching, quality, .. }| {
+    guard::with(matching, |ricci_matching { matching, quality, point_error, .. }| {
         let [first, second] = matching.balance;
         let of = |pick: fn(&(MapQuality, [f64; 2])) -> f64| quality.as_ref().map_or(0.0, pick);
         let figures = ricci_matching_summary {
@@ -205,6 +229,9 @@ pub unsafe extern "C" fn ricci_matching_summarise(
             landmark_error: of(|(q, _)| q.landmark_error),
             cycle_mean: of(|(_, cycle)| cycle[0]),
             cycle_max: of(|(_, cycle)| cycle[1]),
+            n_points: matching.points.len(),
+            n_soft: matching.soft_left.len(),
+            point_error: *point_error,
         };
         structs::write(figures, summary, size)
     })
@@ -264,6 +291,33 @@ pub unsafe extern "C" fn ricci_matching_carry(
         }
         copy_out("carried", &all, carried, capacity)
     })
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_matching_points(
+    matching: *const ricci_matching,
+    faces: *mut u32,
+    faces_capacity: usize,
+    weights: *mut f64,
+    weights_capacity: usize,
+) -> ricci_status {
+    guard::with(matching, |matching| {
+        let points = &matching.matching.points;
+        check_buffer("weights", 6 * points.len(), weights, weights_capacity)?;
+        let all: Vec<[u32; 2]> = points.iter().map(|pair| pair.map(|place| place.face.0)).collect();
+        copy_out("faces", &all, faces, faces_capacity)?;
+        let all: Vec<[[f64; 3]; 2]> = points.iter().map(|pair| pair.map(|place| place.weights)).collect();
+        copy_out("weights", &all, weights, weights_capacity)
+    })
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_matching_soft_left(
+    matching: *const ricci_matching,
+    left: *mut f64,
+    capacity: usize,
+) -> ricci_status {
+    guard::with(matching, |matching| copy_out("left", &matching.matching.soft_left, left, capacity))
 }
 
 #[unsafe(no_mangle)]

@@ -21,13 +21,18 @@ fn not_numbered(what: &str, i: usize, number: i32, elements: &str, count: usize)
 
 /// Half-edges as signed edge numbers of a mesh.
 pub fn halfedges(mesh: &Mesh, data: *const i32, n: usize) -> Outcome<Vec<HalfedgeId>> {
+    halfedges_of(mesh, "path", &array("path", data, n)?, 0)
+}
+
+/// The half-edges of these signed edge numbers, which are those of `what` from number `first` on.
+pub fn halfedges_of(mesh: &Mesh, what: &str, edges: &[i32], first: usize) -> Outcome<Vec<HalfedgeId>> {
     let known = |(i, &number): (usize, &i32)| {
         let e = number.unsigned_abs().checked_sub(1).filter(|&e| (e as usize) < mesh.n_edges());
-        let e = e.ok_or_else(|| not_numbered("path", i, number, "edges", mesh.n_edges()))?;
+        let e = e.ok_or_else(|| not_numbered(what, first + i, number, "edges", mesh.n_edges()))?;
         let h = EdgeId(e).halfedge();
         Ok(if number > 0 { h } else { h.twin() })
     };
-    array("path", data, n)?.iter().enumerate().map(known).collect()
+    edges.iter().enumerate().map(known).collect()
 }
 
 /// Copy edge paths, one after the other, and where each starts and the last one ends.

@@ -82,6 +82,18 @@ typedef struct ricci_match_options {
     uint32_t boundary;
     /** 0. */
     uint32_t reserved;
+    /**
+     * Pairs of closed edge paths that name the homotopy class of a map of surfaces with handles, which brings
+     * each to its partner; of each pair first the edges on the source, then those on the target: 1-based,
+     * negative against the edge's direction, as ricci_homotopy_loops has them. They generate the fundamental
+     * groups of both surfaces, on each of which all start at one vertex, but on tori. NULL: a class of low
+     * energy is searched.
+     */
+    const int32_t *basis;
+    /** n_basis x 2 numbers of edges, on the source and on the target. */
+    const uint32_t *basis_sizes;
+    /** Number of pairs of loops. */
+    size_t n_basis;
 } ricci_match_options;
 
 /** Figures of a matching. */
@@ -92,7 +104,10 @@ typedef struct ricci_matching_summary {
     size_t n_source_vertices;
     /** Vertices of the target. */
     size_t n_target_vertices;
-    /** Faces that fold in the domain: 0, which makes the map a homeomorphism. */
+    /**
+     * Faces that fold in the domain: 0, which makes the map a homeomorphism. Where faces fold there is no
+     * matching but RICCI_MATCHING.
+     */
     size_t n_flipped;
     /** Isotopy classes of maps whose energies were compared. */
     size_t n_markings;
@@ -135,6 +150,15 @@ typedef struct ricci_matching_summary {
     double cycle_mean;
     /** The largest. */
     double cycle_max;
+    /**
+     * Pairs of points that correspond: those of the options, then one for every vertex of the curves on the
+     * source that is no landmark.
+     */
+    size_t n_points;
+    /** Landmarks that need not be met. */
+    size_t n_soft;
+    /** Largest distance of such a point's image from its partner, over the diagonal of the target. */
+    double point_error;
 } ricci_matching_summary;
 
 /**
@@ -142,8 +166,8 @@ typedef struct ricci_matching_summary {
  * the target's metric of constant curvature, which folds no face.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (no such vertex), RICCI_MATCHING (surfaces of
- * different topology, landmarks in conflict, no map found), RICCI_LAYOUT, RICCI_TRIANGLE_INEQUALITY,
- *         RICCI_FACTORISATION, RICCI_NO_MEMORY, RICCI_CANCELLED.
+ * different topology, landmarks in conflict, loops that name no class, no map found), RICCI_LAYOUT,
+ *         RICCI_TRIANGLE_INEQUALITY, RICCI_FACTORISATION, RICCI_NO_MEMORY, RICCI_CANCELLED.
  *
  * @param source    the surface whose vertices are mapped.
  * @param target    the surface that they are mapped to.
@@ -216,6 +240,32 @@ RICCI_API ricci_status ricci_matching_weights(const ricci_matching *matching, ui
 RICCI_API ricci_status ricci_matching_carry(const ricci_matching *matching, uint32_t direction,
                                             const double *values, size_t n_values, double *carried,
                                             size_t capacity);
+
+/**
+ * Where points that correspond went, and where they should go: both on the target.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param matching          the matching.
+ * @param faces             out: n_points x 2 faces, of the image and of the partner.
+ * @param faces_capacity    entries of `faces`.
+ * @param weights           out: n_points x 2 x 3 barycentric coordinates in these faces.
+ * @param weights_capacity  entries of `weights`.
+ */
+RICCI_API ricci_status ricci_matching_points(const ricci_matching *matching, uint32_t *faces,
+                                             size_t faces_capacity, double *weights, size_t weights_capacity);
+
+/**
+ * How far landmarks that need not be met are from their partners.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param matching  the matching.
+ * @param left      out: n_soft lengths on the target, what is left of each landmark's way to its partner.
+ * @param capacity  entries of `left`.
+ */
+RICCI_API ricci_status ricci_matching_soft_left(const ricci_matching *matching, double *left,
+                                                size_t capacity);
 
 /**
  * The two surfaces laid over each other in the domain where they were matched: their common refinement.

@@ -10,9 +10,39 @@
 #include <ricci/match.h>
 #include <ricci/ricci.hpp>
 
+#include <array>
+#include <stdexcept>
+
 namespace ricci {
 
 using matching_handle = owned<ricci_matching, ricci_matching_free>;
+
+// A point of a face of the target.
+struct matched_point {
+    std::uint32_t face;
+    std::array<double, 3> weights;
+};
+
+// Pairs of loops that name a homotopy class, for options that are used as long as this is kept.
+class match_basis {
+public:
+    match_basis(const lists<std::int32_t> &source, const lists<std::int32_t> &target) {
+        if (source.size() != target.size()) throw std::invalid_argument("as many loops on both surfaces");
+        for (std::size_t k = 0; k < source.size(); k++)
+            for (const auto &path : {source[k], target[k]}) {
+                edges_.insert(edges_.end(), path.begin(), path.end());
+                sizes_.push_back(static_cast<std::uint32_t>(path.size()));
+            }
+    }
+    void name(ricci_match_options &options) const {
+        options.basis = edges_.data(), options.basis_sizes = sizes_.data();
+        options.n_basis = sizes_.size() / 2;
+    }
+
+private:
+    std::vector<std::int32_t> edges_;
+    std::vector<std::uint32_t> sizes_;
+};
 
 // A map between two surfaces and its inverse.
 class matching : public matching_handle {
@@ -35,6 +65,23 @@ public:
         std::vector<double> all(3 * size(direction));
         check(ricci_matching_weights(get(), direction, all.data(), all.size()));
         return all;
+    }
+    // Per pair of points that correspond, where it went and where it should go.
+    std::vector<std::array<matched_point, 2>> points() const {
+        const std::size_t n = summary().n_points;
+        std::vector<std::uint32_t> faces(2 * n);
+        std::vector<double> weights(6 * n);
+        check(ricci_matching_points(get(), faces.data(), faces.size(), weights.data(), weights.size()));
+        std::vector<std::array<matched_point, 2>> all(n);
+        for (std::size_t k = 0; k < 2 * n; k++)
+            all[k / 2][k % 2] = {faces[k], {weights[3 * k], weights[3 * k + 1], weights[3 * k + 2]}};
+        return all;
+    }
+    // What is left of the ways of landmarks that need not be met.
+    std::vector<double> soft_left() const {
+        std::vector<double> left(summary().n_soft);
+        check(ricci_matching_soft_left(get(), left.data(), left.size()));
+        return left;
     }
     // The two surfaces laid over each other: RICCI_ON_INPUT is the source, RICCI_ON_METRIC the target.
     ricci::map map(const control *watched = nullptr) const {

@@ -33,8 +33,8 @@ pub(super) fn points(
         for (&v, &share) in curve[0].iter().zip(&shares[0]) {
             if known.insert(v) {
                 all.push([
-                    Place::at_vertex(surfaces[0].mesh(), v),
-                    at_share(surfaces[1], &to, (&shares[1], share)),
+                    Place::at_vertex(surfaces[0].mesh(), v)?,
+                    at_share(surfaces[1], &to, (&shares[1], share))?,
                 ]);
             }
         }
@@ -81,7 +81,7 @@ fn shares(surface: &Surface, path: &[HalfedgeId]) -> Vec<f64> {
     all
 }
 
-fn at_share(surface: &Surface, path: &[HalfedgeId], (shares, share): (&[f64], f64)) -> Place {
+fn at_share(surface: &Surface, path: &[HalfedgeId], (shares, share): (&[f64], f64)) -> Result<Place> {
     let mesh = surface.mesh();
     let k = shares.partition_point(|&s| s <= share).clamp(1, path.len()) - 1;
     let part = ((share - shares[k]) / (shares[k + 1] - shares[k])).clamp(0.0, 1.0);
@@ -96,5 +96,5 @@ fn at_share(surface: &Surface, path: &[HalfedgeId], (shares, share): (&[f64], f6
     let mut weights = [0.0; 3];
     let Some((face, corner)) = mesh.corner(inside) else { return Place::at_vertex(mesh, mesh.origin(h)) };
     (weights[corner], weights[(corner + 1) % 3]) = (1.0 - part, part);
-    Place { face, weights }
+    Ok(Place { face, weights })
 }

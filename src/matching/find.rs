@@ -16,7 +16,7 @@ use super::{curves, disk};
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::Space;
-use crate::mesh::{EdgeId, FaceId, Place, VertexId};
+use crate::mesh::{EdgeId, FaceId, HalfedgeId, Place, VertexId};
 use crate::metric::{Split, Surface};
 use crate::parallel::Pool;
 use std::collections::HashSet;
@@ -36,9 +36,10 @@ pub struct Matching {
     /// Where the domain of the target lies.
     pub space: Space,
     /// Faces of the source that are not counterclockwise in the domain of the target, from positions with twice the digits of doubles. Without any,
-    /// and with [`Matching::target_flipped`] empty, the map is a homeomorphism.
+    /// and with [`Matching::target_flipped`] empty, the map is a homeomorphism. Both are empty in what [`match_surfaces`] returns: where it finds such faces,
+    /// that is its error. They stand here so that reports say what was counted.
     pub flipped: Vec<FaceId>,
-    /// Faces of the target that are not counterclockwise in its own domain.
+    /// Faces of the target that are not counterclockwise in its own domain: as [`Matching::flipped`].
     pub target_flipped: Vec<FaceId>,
     /// Largest distance by which a vertex lies outside the other surface's domain, or by which two ways to it across a cut differ, as a share of the nearest
     /// triangle: rounding.
@@ -82,9 +83,9 @@ pub fn match_surfaces(
         let shares = options.soft.iter().map(|soft| part * soft.weight / (1.0 + soft.weight));
         let shares: Vec<f64> = shares.collect();
         let goal = |(k, soft): (usize, &SoftLandmark)| {
-            [Place::at_vertex(source.mesh(), soft.pair[0]), ways[k].at(target, shares[k])]
+            Ok([Place::at_vertex(source.mesh(), soft.pair[0])?, ways[k].at(target, shares[k])?])
         };
-        let goals = options.soft.iter().enumerate().map(goal);
+        let goals: Vec<[Place; 2]> = options.soft.iter().enumerate().map(goal).collect::<Result<_>>()?;
         let points = options.points.iter().copied().chain(goals).collect();
         match match_hard([source, target], &MatchOptions { points, ..hard.clone() }, control) {
             Ok(mut matching) => {
@@ -120,6 +121,8 @@ fn match_hard(
     let surfaces = [&surfaces[0], &surfaces[1]];
     let landmarks: Vec<[VertexId; 2]> = from.into_iter().zip(to).map(|(a, b)| [a, b]).collect();
     let marks = marks(surfaces, &landmarks, options.loops.as_deref())?;
+    let options =
+        &MatchOptions { basis: basis([&splits[0], &splits[1]], &options.basis)?, ..options.clone() };
     let added = landmarks[options.landmarks.len()..].iter().map(|pair| pair[0]);
     let points: Vec<(VertexId, Place)> = added.zip(points.iter().map(|pair| pair[1])).collect();
     Pool::new(options.flow.threads)?.run(|| {
@@ -155,6 +158,20 @@ fn split(
     Ok((split, landmarks))
 }
 
+/// The loops of a basis along the edges of the finer triangulations.
+fn basis(splits: [&Split; 2], pairs: &[[Vec<HalfedgeId>; 2]]) -> Result<Vec<[Vec<HalfedgeId>; 2]>> {
+    let along = |s: usize, path: &[HalfedgeId]| -> Result<Vec<HalfedgeId>> {
+        let parts: Vec<Vec<HalfedgeId>> = path.iter().map(|&h| splits[s].path(h)).collect::<Result<_>>()?;
+        Ok(parts.concat())
+    };
+    if !pairs.is_empty() && splits[0].given().mesh().genus() == 0 {
+        return Err(Error::Matching(
+            "surfaces of genus 0 have no handles whose loops name a class: landmarks do".into(),
+        ));
+    }
+    pairs.iter().map(|pair| Ok([along(0, &pair[0])?, along(1, &pair[1])?])).collect()
+}
+
 /// A place in a face of a finer triangulation, in the given face.
 fn on_given(place: Place, to: &Split) -> Place {
     let (face, corners) = to.place(place.face);
@@ -180,9 +197,13 @@ fn in_one_domain(
             corners: Vec::new(),
         };
         let bare = [few(marks[0]), few(marks[1])];
-        let pair = with_handles(surfaces, [&bare[0], &bare[1]], options, control)?;
         let rest = landmarks - bare[0].landmarks.len() + corners;
-        return if rest == 0 { Ok(pair) } else { pushed(&pair, surfaces, marks, options, control) };
+        let (pair, others) = with_handles(surfaces, ([&bare[0], &bare[1]], rest > 0), options, control)?;
+        return if rest == 0 {
+            Ok(pair)
+        } else {
+            pushed((&pair, &others), surfaces, marks, options, control)
+        };
     }
     if shape(loops, landmarks, corners).is_some() {
         return in_orbifold(surfaces, marks, options, control);

@@ -24,6 +24,8 @@ pub(super) enum Move {
     TwistB(usize, bool),
     /// `(a, b) → (a b a⁻¹, a⁻¹)`: a quarter of a turn of the handle.
     Quarter(usize),
+    /// The quarter of a turn back, `(a, b) → (b⁻¹, b a b⁻¹)`.
+    QuarterBack(usize),
     /// This handle and the next one change places: `(h, k) → (k, k⁻¹ h k)` with their commutators.
     Swap(usize),
 }
@@ -144,6 +146,10 @@ impl Generators {
                 let (a, b) = (m[2 * k], m[2 * k + 1]);
                 (m[2 * k], m[2 * k + 1]) = (b.conjugated_by(&a), a.inverse());
             }
+            Move::QuarterBack(k) => {
+                let (a, b) = (m[2 * k], m[2 * k + 1]);
+                (m[2 * k], m[2 * k + 1]) = (b.inverse(), a.conjugated_by(&b));
+            }
             Move::Swap(k) => {
                 let [a, b, c, d] = [0, 1, 2, 3].map(|j| m[2 * k + j]);
                 let commutator = c.compose(&d).compose(&c.inverse()).compose(&d.inverse());
@@ -154,6 +160,26 @@ impl Generators {
         }
         next.motions.iter_mut().for_each(|motion| *motion = motion.normalised());
         next
+    }
+
+    /// The images after symmetries that surfaces often have, and that single moves do not lead to at once: half a turn of all handles (of a torus x → −x, of genus 2 the
+    /// hyperelliptic involution), two neighbouring handles that change places, as they are or each turned by half a turn one way or the other, and these with the
+    /// half turn of all.
+    pub fn symmetric(&self) -> Vec<Generators> {
+        let half = |of: &Generators, k: usize, back: bool| {
+            let by = if back { Move::QuarterBack(k) } else { Move::Quarter(k) };
+            of.moved(by).moved(by)
+        };
+        let turned = |of: &Generators| (0..self.genus).fold(of.clone(), |all, k| half(&all, k, k % 2 == 1));
+        let mut all = vec![turned(self)];
+        for k in 1..self.genus {
+            let swapped = self.moved(Move::Swap(k - 1));
+            let both = |back: bool| half(&half(&swapped, k - 1, back), k, back);
+            for next in [swapped.clone(), both(false), both(true)] {
+                all.extend([turned(&next), next]);
+            }
+        }
+        all
     }
 
     /// The images of c_1 … c_b in another order, the product as before: in `order` stand the numbers of those that are to be first, second, ….
@@ -236,6 +262,14 @@ mod tests {
         for by in all.moves() {
             assert!(off(&all.moved(by)) < 1e-14, "{by:?}");
         }
+        for k in 0..2 {
+            let there_and_back = all.moved(Move::Quarter(k)).moved(Move::QuarterBack(k));
+            let apart = |(a, b): (&Motion<Twofold>, &Motion<Twofold>)| {
+                a.compose(&b.inverse()).distance_from_identity()
+            };
+            assert!(there_and_back.motions.iter().zip(&all.motions).map(apart).all(|d| d < 1e-14));
+        }
+        assert!(all.symmetric().len() == 7 && all.symmetric().iter().all(|next| off(next) < 1e-14));
         let other = all.clone().reordered(&[2, 0, 1]);
         assert!(off(&other) < 1e-14 && other.motions[4] == all.motions[6]);
     }

@@ -1,10 +1,12 @@
 //! Surfaces with handles: both in the flat or hyperbolic metric of the target, the homotopy class of the map given by bases of the fundamental groups.
 //!
 //! A homotopy basis of each surface has the same relator, and the map brings letter to letter. Which bases correspond is not canonical: from the two that
-//! are found, twists and turns of the handles are tried as long as they lower the energy of the harmonic map.
+//! are found, twists and turns of the handles are tried as long as they lower the energy of the harmonic map. A class that pairs of loops name
+//! ([`super::class`]) is taken as it is.
 
 use super::balance::{Freedom, Relaxed, relax, settle};
 use super::canonical::canonical_metric;
+use super::class::{Class, Looped, class_of};
 use super::cover::{Cover, Placed, logarithm, moved, on_axis, seen_from};
 use super::generators::Generators;
 use super::options::{Boundary, MatchOptions};
@@ -39,17 +41,21 @@ struct Own {
     iterations: usize,
 }
 
-/// Both surfaces in the target's metric.
+/// Energy of another class over the least, up to which the map of it may be the better one for landmarks.
+const SIMILAR: f64 = 1.5;
+
+/// Both surfaces in the target's metric, and, where `more` marks are to be brought to their partners, the source in other classes of about the same
+/// energy.
 ///
 /// # Errors
 /// [`Error::Matching`] for landmarks other than one on a torus, where a flow does not come to its target, and where no harmonic map is found; those of
 /// [`homotopy_basis`], [`canonical_metric`] and [`unroll`]; [`Error::Cancelled`].
 pub(super) fn with_handles(
     surfaces: [&Surface; 2],
-    marks: [&Marks; 2],
+    (marks, more): ([&Marks; 2], bool),
     options: &MatchOptions,
     control: &Control,
-) -> Result<Pair> {
+) -> Result<(Pair, Vec<Placed>)> {
     let flat = surfaces[0].mesh().euler() == 0;
     let landmarks = marks[0].landmarks.len();
     if landmarks > usize::from(flat) || !marks[0].corners.is_empty() {
@@ -63,13 +69,28 @@ pub(super) fn with_handles(
         |s: usize| in_own_metric(surfaces[s], marks[s].landmarks.first().copied(), space, options, control);
     let (source, target) = rayon::join(|| own(0), || own(1));
     let (source, target) = (source?, target?);
-    let generators = target.generators.clone().reordered(&loop_order(surfaces, marks, [&source, &target]));
+    let order = loop_order(surfaces, marks, [&source, &target]);
+    let named = named(surfaces, [&source, &target], (&options.basis, &order))?;
+    let is_named = named.is_some();
+    let generators = named.unwrap_or_else(|| target.generators.clone().reordered(&order));
     let search = Search { surfaces, source: &source, target: &target, boundary: options.boundary };
     let freedom = [0, 1].map(|s| search.freedom(s, space));
     let mut domain = target.placed.clone();
     search.straighten(&mut domain)?;
     let second = relax(&mut domain, &target.weights, &freedom[1], control)?;
-    let (mut image, first, tried) = search.least(generators, (&freedom[0], second.1), control)?;
+    // Of a class that is named no other one has less energy to offer.
+    let enough = if is_named { f64::INFINITY } else { UNTWISTED * second.1 };
+    let Least { mut image, relaxed: first, generators, mut tried } =
+        search.least(generators, (&freedom[0], enough), control)?;
+    let mut others = Vec::new();
+    for next in generators.symmetric().into_iter().filter(|_| more && !is_named) {
+        tried += 1;
+        match search.image(&next, &freedom[0], control) {
+            Ok((other, (_, energy))) if energy < SIMILAR * first.1 => others.push(other),
+            Err(Error::Cancelled) => return Err(Error::Cancelled),
+            _ => {}
+        }
+    }
     let (first, second) = rayon::join(
         || settle(&mut image, &source.weights, &freedom[0], first, control),
         || settle(&mut domain, &target.weights, &freedom[1], second, control),
@@ -79,7 +100,7 @@ pub(super) fn with_handles(
         |from: &Own, to: &Own| Seed { vertex: from.basis.base, near: to.placed.cover.own(to.basis.base) };
     let seeds = [seed(&source, &target), seed(&target, &source)];
     let flow_iterations = [source.iterations, target.iterations];
-    Ok(Pair { source: image, target: domain, seeds, reports, flow_iterations, markings: tried })
+    Ok((Pair { source: image, target: domain, seeds, reports, flow_iterations, markings: tried }, others))
 }
 
 fn in_own_metric(
@@ -169,6 +190,63 @@ fn loop_order(surfaces: [&Surface; 2], marks: [&Marks; 2], own: [&Own; 2]) -> Ve
     };
     let second: Vec<_> = own[1].basis.rims.iter().map(|rim| of(1, rim)).collect();
     own[0].basis.rims.iter().filter_map(|rim| second.iter().position(|k| *k == of(0, rim))).collect()
+}
+
+/// The images of the source's letters in the class that pairs of loops name; `None` without loops.
+///
+/// # Errors
+/// [`Error::Matching`] for boundary loops that go elsewhere by the loops than by their order; those of [`class_of`].
+fn named(
+    surfaces: [&Surface; 2],
+    own: [&Own; 2],
+    (pairs, order): (&[[Vec<HalfedgeId>; 2]], &[usize]),
+) -> Result<Option<Generators>> {
+    if pairs.is_empty() {
+        return Ok(None);
+    }
+    let looped = |s: usize| Looped {
+        mesh: surfaces[s].mesh(),
+        basis: &own[s].basis,
+        generators: &own[s].generators,
+        at_base: own[s].placed.at[own[s].basis.base],
+        loops: pairs.iter().map(|pair| &pair[s][..]).collect(),
+    };
+    let Class { handles, rims } = class_of([&looped(0), &looped(1)])?;
+    let target = &own[1].generators;
+    let mut motions = handles.iter().map(|word| target.motion(word)).collect::<Result<Vec<_>>>()?;
+    let mut lines = Vec::with_capacity(rims.len());
+    for (j, (k, by)) in rims.iter().enumerate() {
+        if order[j] != *k {
+            return Err(other_loop(surfaces, own, (j, *k)));
+        }
+        let by = target.motion(by)?;
+        motions.push(target.motions[2 * target.genus + k].conjugated_by(&by).normalised());
+        lines.push(by.compose(&target.lines[*k]).normalised());
+    }
+    Ok(Some(Generators { motions, lines, ..target.clone() }))
+}
+
+/// That the loops of the basis bring the boundary of the source's letter j to that of the target's letter k.
+fn other_loop(surfaces: [&Surface; 2], own: [&Own; 2], (j, k): (usize, usize)) -> Error {
+    let number = |s: usize, letter: usize| {
+        let (mesh, rim) = (surfaces[s].mesh(), own[s].basis.rims[letter]);
+        let runs = |around: &Vec<HalfedgeId>| around.contains(&rim.twin());
+        mesh.boundary_loops().iter().position(runs).unwrap_or_default()
+    };
+    Error::Matching(format!(
+        "the loops of the basis bring boundary loop {} of the source to boundary loop {} of the target, which is not the one that was asked for or, \
+         by default, the one of the same rank by length",
+        number(0, j),
+        number(1, k)
+    ))
+}
+
+/// A class of low energy.
+struct Least {
+    image: Placed,
+    relaxed: Relaxed,
+    generators: Generators,
+    tried: usize,
 }
 
 struct Search<'a> {
@@ -265,16 +343,16 @@ impl Search<'_> {
         Ok((placed, energy))
     }
 
-    /// From class to class as long as the energy falls; the map, its steps and energy, and the number of classes that were tried.
+    /// From class to class as long as the energy falls and is not small enough; the map, and the number of classes that were tried.
     fn least(
         &self,
         mut generators: Generators,
-        (freedom, least): (&PerVertex<Freedom>, f64),
+        (freedom, enough): (&PerVertex<Freedom>, f64),
         control: &Control,
-    ) -> Result<(Placed, Relaxed, usize)> {
+    ) -> Result<Least> {
         let (mut best, mut energy) = self.image(&generators, freedom, control)?;
         let mut tried = 1;
-        'search: while energy.1 > UNTWISTED * least {
+        'search: while energy.1 > enough {
             for by in generators.moves() {
                 if tried >= MOST_TRIED {
                     break 'search;
@@ -295,6 +373,6 @@ impl Search<'_> {
             }
             break;
         }
-        Ok((best, energy, tried))
+        Ok(Least { image: best, relaxed: energy, generators, tried })
     }
 }

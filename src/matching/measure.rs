@@ -1,5 +1,6 @@
 //! How a map between two surfaces in space distorts, and how well it can be undone.
 
+use super::find::Matching;
 use super::place::SurfaceMap;
 use crate::embed::quality::DILATATION_CAP;
 use crate::error::{Error, Result, check_size};
@@ -149,6 +150,20 @@ pub fn cycle_error(
     let size = diagonal(from).max(f64::MIN_POSITIVE);
     let off: Vec<f64> = from.iter().zip(&returned).map(|(&p, &q)| distance(p, q) / size).collect();
     Ok([off.iter().sum::<f64>() / off.len().max(1) as f64, off.iter().copied().fold(0.0, f64::max)])
+}
+
+/// The largest distance of a point of [`Matching::points`] from where it should go, as a share of the diagonal of the target's bounding box.
+///
+/// # Errors
+/// [`Error::Argument`] for a surface without positions, and for points on another one.
+pub fn point_error(target: &Surface, matching: &Matching) -> Result<f64> {
+    let to = positions(target)?;
+    let [images, goals] = [0, 1].map(|k| {
+        let places = matching.points.iter().map(|pair| pair[k]).collect();
+        SurfaceMap { places }.carry(target.mesh(), to)
+    });
+    let apart = images?.into_iter().zip(goals?).map(|(p, q)| distance(p, q));
+    Ok(apart.fold(0.0, f64::max) / diagonal(to).max(f64::MIN_POSITIVE))
 }
 
 fn positions(surface: &Surface) -> Result<&[Point]> {

@@ -9,10 +9,12 @@
 //! its landmarks, and by which the conformal factors fit.
 //!
 //! On surfaces with handles the map without landmarks is found first. Each landmark is then pushed along a short path to its partner, beside the paths
-//! of the others; that chooses the class of the map, and in the orbifold with cones at the landmarks the map of this class is an embedding again.
+//! of the others; that chooses the class of the map, and in the orbifold with cones at the landmarks the map of this class is an embedding again. Several sets of
+//! paths are compared by the energies of these maps, also from the maps without landmarks that differ by a symmetry of about the same energy.
 //!
 //! Which homotopy class is meant is said by a tree of paths between the landmarks and loops of both surfaces, or by bases of their fundamental groups.
-//! Several are compared, and the one whose harmonic map has the least energy is taken.
+//! Several are compared, and the one whose harmonic map has the least energy is taken. On surfaces with handles the class can be named by pairs of loops
+//! ([`MatchOptions::basis`]).
 //!
 //! ```
 //! use ricci::matching::{MatchOptions, map_quality, match_surfaces};
@@ -31,6 +33,7 @@
 mod axis;
 mod balance;
 mod canonical;
+mod class;
 mod cover;
 mod curves;
 mod density;
@@ -60,7 +63,7 @@ mod weights;
 pub use crate::mesh::Place;
 pub use balance::BalanceReport;
 pub use find::{Matching, match_surfaces};
-pub use measure::{MapQuality, cycle_error, dilatations, map_quality, uncovered};
+pub use measure::{MapQuality, cycle_error, dilatations, map_quality, point_error, uncovered};
 pub use options::{Boundary, MatchOptions};
 pub use overlay::{CommonDomain, DomainTriangle};
 pub use place::SurfaceMap;

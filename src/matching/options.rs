@@ -2,7 +2,7 @@
 
 use super::soft::SoftLandmark;
 use crate::flow::Options;
-use crate::mesh::{Place, VertexId};
+use crate::mesh::{HalfedgeId, Place, VertexId};
 
 /// How the boundaries of two surfaces go to each other, between vertices on them that are landmarks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -21,7 +21,8 @@ pub enum Boundary {
 pub struct MatchOptions {
     /// Pairs of vertices, of the source and of the target, that correspond: the map brings the one to the other. Both lie inside, or both on
     /// boundaries. On every surface there may be any number of them; on those with handles
-    /// each goes to its partner by a short way from where the map without landmarks has it, which chooses the class.
+    /// each goes to its partner by a short way from where the map without landmarks has it, which chooses the class: of several sets of ways that with the least
+    /// energy.
     pub landmarks: Vec<[VertexId; 2]>,
     /// Pairs of points, of the source and of the target, that correspond as landmarks do: inside faces, on edges or at vertices.
     pub points: Vec<[Place; 2]>,
@@ -30,6 +31,11 @@ pub struct MatchOptions {
     /// Pairs of curves, of the source and of the target, that correspond by shares of their lengths: vertices in order, each joined to the next by an edge,
     /// closed if the last is the first. Each vertex of the source's curve is a landmark whose partner lies on the target's curve.
     pub curves: Vec<[Vec<VertexId>; 2]>,
+    /// Pairs of closed edge paths, of the source and of the target, that name the homotopy class on surfaces with handles: the map brings each to its partner. They
+    /// generate the fundamental groups of both, a basis of 2g loops of a closed surface for example, and 2g + b − 1 with b boundary loops; on each surface they
+    /// all start at one vertex, but on tori. Landmarks leave this class of the surface without them as it is, whatever the ways on
+    /// which they are pushed to their partners. Without any loops, a class of low energy is searched.
+    pub basis: Vec<[Vec<HalfedgeId>; 2]>,
     /// Which boundary loop of the target each of the source's goes to, by their places in [`crate::mesh::Mesh::boundary_loops`]. Default: the
     /// longest to the longest, and so on.
     pub loops: Option<Vec<usize>>,

@@ -4,7 +4,7 @@
 //! As on surfaces of genus 0 ([`super::orbifold`]) this orbifold is covered by the hyperbolic plane without cones, and a map with positive weights
 //! that holds the landmarks is an embedding.
 
-use super::balance::{Freedom, relax, settle};
+use super::balance::{Freedom, Relaxed, relax, settle};
 use super::canonical::canonical_metric;
 use super::cover::{Cover, Placed, moved};
 use super::options::MatchOptions;
@@ -29,14 +29,16 @@ const AT_CORNER: f64 = 1.0 - 1e-9;
 const CLOSED: f64 = 1e-6;
 /// Distance from the identity below which a transformation is the identity up to rounding.
 const IDENTITY: f64 = 1e-12;
+/// Distance between two deck transformations below which they are the same up to rounding: others are farther apart by the size of the surface.
+const SAME: f64 = 1e-6;
 
-/// The pair of a map without landmarks, with all landmarks where they should be.
+/// The pair of a map without landmarks, with all landmarks where they should be. `others`: the source in other classes, which may be nearer to the landmarks.
 ///
 /// # Errors
 /// [`Error::Matching`] for landmarks in conflict, named, and where a flow does not come to its target or no harmonic map is found; those of [`unroll`];
 /// [`Error::Cancelled`].
 pub(super) fn pushed(
-    pair: &Pair,
+    (pair, others): (&Pair, &[Placed]),
     surfaces: [&Surface; 2],
     marks: [&Marks; 2],
     options: &MatchOptions,
@@ -53,14 +55,86 @@ pub(super) fn pushed(
     });
     straighten(&mut domain, marks[1]);
     let target_relaxed = relax(&mut domain, &weights[1], &freedom[1], control)?;
-    let (mut image, seeds) = Way::new(pair, &domain, (surfaces[0], marks), control)?.image()?;
-    let relaxed = relax(&mut image, &weights[0], &freedom[0], control)?;
+    let sources: Vec<&Placed> = std::iter::once(&pair.source).chain(others).collect();
+    let mut known: Vec<Cover> = Vec::new();
+    let image = |source: usize, variant: u64| -> Result<Option<Image>> {
+        let old = [sources[source], &pair.target];
+        let (found, _) = located(old[0], old[1], pair.seeds[0], control)?;
+        let way = Way::new(old, (&domain, found), (surfaces[0], marks), (variant, control))?;
+        let (mut image, seeds) = way.image()?;
+        if known.iter().any(|cover| is_same_class(cover, &image.cover)) {
+            return Ok(None);
+        }
+        known.push(image.cover.clone());
+        let relaxed = relax(&mut image, &weights[0], &freedom[0], control)?;
+        Ok(Some(Image { image, seeds, relaxed }))
+    };
+    let enough = UNTWISTED * target_relaxed.1;
+    let (Image { mut image, seeds, relaxed }, tried) = least(sources.len(), image, enough)?;
     let reports = [
         settle(&mut image, &weights[0], &freedom[0], relaxed, control)?,
         settle(&mut domain, &weights[1], &freedom[1], target_relaxed, control)?,
     ];
     let flow_iterations = [first, second];
-    Ok(Pair { source: image, target: domain, seeds, reports, flow_iterations, markings: pair.markings })
+    let markings = pair.markings + tried - 1;
+    Ok(Pair { source: image, target: domain, seeds, reports, flow_iterations, markings })
+}
+
+/// Most sets of paths whose maps are compared, from the map without landmarks that is best for the first of them.
+const MOST_PATHS: u64 = 8;
+/// Energy of the source in the target's domain over that of the target itself, below which no other paths are looked for.
+const UNTWISTED: f64 = 1.1;
+
+/// The source in the target's domain, by one set of paths.
+struct Image {
+    image: Placed,
+    seeds: [Seed; 2],
+    relaxed: Relaxed,
+}
+
+/// The map with the least energy, and how many there were: from each of the maps without landmarks by the shortest paths, and from the best of these by others.
+fn least(
+    sources: usize,
+    mut image: impl FnMut(usize, u64) -> Result<Option<Image>>,
+    enough: f64,
+) -> Result<(Image, usize)> {
+    let (mut best, mut failure, mut count) = (None::<(Image, usize)>, None, 0);
+    let mut all: Vec<(Option<usize>, u64)> = (0..sources).map(|source| (Some(source), 0)).collect();
+    all.extend((1..MOST_PATHS).map(|variant| (None, variant)));
+    for (source, variant) in all {
+        let source = source.or(best.as_ref().map(|best| best.1)).unwrap_or(0);
+        match image(source, variant) {
+            Ok(None) => {}
+            Ok(Some(next)) => {
+                count += 1;
+                log::debug!("map {source}, paths {variant}: energy {}, enough is {enough}", next.relaxed.1);
+                if best.as_ref().is_none_or(|(best, _)| next.relaxed.1 < best.relaxed.1) {
+                    best = Some((next, source));
+                }
+            }
+            Err(Error::Cancelled) => return Err(Error::Cancelled),
+            Err(why) => failure = failure.or(Some(why)),
+        }
+        if best.as_ref().is_some_and(|(best, _)| best.relaxed.1 < enough) {
+            break;
+        }
+    }
+    match (best, failure) {
+        (Some((best, _)), _) => Ok((best, count)),
+        (None, Some(why)) => Err(why),
+        (None, None) => Err(Error::Matching("no paths for the landmarks".into())),
+    }
+}
+
+/// Whether two maps that are opened from the same landmark go to the target in one class: with the same deck transformations.
+fn is_same_class(first: &Cover, second: &Cover) -> bool {
+    let mesh = &first.mesh;
+    let inside = mesh.halfedges().filter(|&h| !mesh.is_outside(h));
+    inside.map(|h| [first.across(h), second.across(h)]).all(|pair| match pair {
+        [None, None] => true,
+        [Some(a), Some(b)] => a.compose(&b.inverse()).distance_from_identity() < SAME,
+        _ => false,
+    })
 }
 
 /// A surface in its hyperbolic metric with cones of angle π at its landmarks and right angles at its corners, and the steps of the flow.
@@ -91,7 +165,8 @@ fn in_own_orbifold(
 
 /// The source as it lies in the old domain of the target, and the new one.
 struct Way<'a> {
-    pair: &'a Pair,
+    /// Source and target in the old domain.
+    old: [&'a Placed; 2],
     new: &'a Placed,
     marks: [&'a Marks; 2],
     found: Vec<Found>,
@@ -106,13 +181,12 @@ struct Way<'a> {
 
 impl<'a> Way<'a> {
     fn new(
-        pair: &'a Pair,
-        new: &'a Placed,
+        old: [&'a Placed; 2],
+        (new, mut found): (&'a Placed, Vec<Found>),
         (surface, marks): (&Surface, [&'a Marks; 2]),
-        control: &Control,
+        (variant, control): (u64, &Control),
     ) -> Result<Way<'a>> {
         let mesh = surface.mesh();
-        let (mut found, _) = located(&pair.source, &pair.target, pair.seeds[0], control)?;
         let mut landmark = PerVertex::filled(mesh.n_vertices(), None);
         let mut pushes = Vec::with_capacity(marks[0].landmarks.len());
         for (k, (&from, &to)) in marks[0].landmarks.iter().zip(&marks[1].landmarks).enumerate() {
@@ -123,19 +197,19 @@ impl<'a> Way<'a> {
                 (0..3).find(|&c| place.weights[c] > AT_CORNER && new.cover.mesh.origin(corners[c]) == to);
             let start = match there {
                 Some(c) => Start::There(corners[c]),
-                None => Start::At(Inside::new(&pair.target, place.face, place.weights)),
+                None => Start::At(Inside::new(old[1], place.face, place.weights)),
             };
             pushes.push(Push { start, to, name: format!("landmark {k} (vertices {from} and {to})") });
         }
-        let slits = Slits::new([&pair.target, new], &pushes, &marks[1].loops)?;
-        let rims = Rims::new(surface, (&pair.target, new), marks, (&mut found, &slits))?;
-        let inside = found.iter().map(|f| Inside::new(&pair.target, f.place.face, f.place.weights)).collect();
-        Ok(Way { pair, new, marks, found, landmark, inside, rims, slits })
+        let slits = Slits::new([old[1], new], &pushes, &marks[1].loops, (variant, control))?;
+        let rims = Rims::new(surface, (old[1], new), marks, (&mut found, &slits))?;
+        let inside = found.iter().map(|f| Inside::new(old[1], f.place.face, f.place.weights)).collect();
+        Ok(Way { old, new, marks, found, landmark, inside, rims, slits })
     }
 
     /// The source in the new domain, and where to look for it.
     fn image(&self) -> Result<(Placed, [Seed; 2])> {
-        let mesh = &self.pair.source.cover.mesh;
+        let mesh = &self.old[0].cover.mesh;
         let mut along = PerHalfedge::filled(mesh.n_halfedges(), Motion::identity(Space::H2));
         for e in mesh.edges() {
             let h = e.halfedge();
@@ -170,7 +244,7 @@ impl<'a> Way<'a> {
 
     /// The transformation of the new domain along a half-edge, from the place of its origin to that of its tip.
     fn along(&self, h: HalfedgeId) -> Result<Motion<Twofold>> {
-        let cover = &self.pair.source.cover;
+        let cover = &self.old[0].cover;
         let [u, w] = [cover.mesh.origin(h), cover.mesh.tip(h)];
         let reverse = self.landmark[w].is_some();
         let (from, to, along) = match reverse {

@@ -9,9 +9,12 @@
 
 use super::cover::{Placed, Precise, determinant, logarithm};
 use super::route::{Marks, Router};
+use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::{Motion, Space, Twofold};
+use crate::mesh::shapes::SplitMix64;
 use crate::mesh::{FaceId, HalfedgeId, Mesh, PerEdge, VertexId};
+use crate::topology::shortest_paths;
 use std::collections::HashMap;
 
 /// Least weight of a corner at a point inside a face: points on edges and vertices are taken to lie beside them, so that lines cross edges.
@@ -120,7 +123,12 @@ impl<'a> Slits<'a> {
     ///
     /// # Errors
     /// [`Error::Matching`] for landmarks that coincide or have no way beside each other, named.
-    pub fn new([old, new]: [&'a Placed; 2], pushes: &[Push], loops: &[Vec<HalfedgeId>]) -> Result<Slits<'a>> {
+    pub fn new(
+        [old, new]: [&'a Placed; 2],
+        pushes: &[Push],
+        loops: &[Vec<HalfedgeId>],
+        (variant, control): (u64, &Control),
+    ) -> Result<Slits<'a>> {
         let mut growing = Growing::new(old);
         let add = |push: &Push| match push.start {
             Start::There(_) => Ok(push.to),
@@ -129,7 +137,8 @@ impl<'a> Slits<'a> {
         let starts: Vec<VertexId> = pushes.iter().map(add).collect::<Result<_>>()?;
         let Growing { n_vertices, origin, sides, corners, parts } = growing;
         let mesh = Mesh::assemble(n_vertices, origin, &sides)?;
-        let paths = paths(&mesh, lengths(old.cover.space, &mesh, &corners), pushes, (&starts, loops))?;
+        let lengths = varied(&mesh, lengths(old.cover.space, &mesh, &corners), variant, control)?;
+        let paths = paths(&mesh, lengths, pushes, (&starts, loops))?;
         let mut slits = Slits { old, new, mesh, corners, parts, around: HashMap::new(), exits: Vec::new() };
         for (push, path) in pushes.iter().zip(&paths) {
             let exit = match (push.start, path.first(), path.last()) {
@@ -312,6 +321,29 @@ fn paths(
         paths[k] = router.paths.last().cloned().unwrap_or_default();
     }
     Ok(paths)
+}
+
+/// Hills of a variant.
+const HILLS: usize = 3;
+/// By how much the way over the top of a hill is longer.
+const HEIGHT: f64 = 8.0;
+/// Width of a hill, as a share of the largest distance from its top.
+const WIDTH: f64 = 0.25;
+
+/// Lengths that make other ways the shortest: with hills about random vertices. Those of variant 0 are the given ones.
+fn varied(mesh: &Mesh, lengths: PerEdge<f64>, variant: u64, control: &Control) -> Result<PerEdge<f64>> {
+    let mut random = SplitMix64::new(variant);
+    let mut longer = lengths.clone();
+    for _ in 0..if variant == 0 { 0 } else { HILLS } {
+        let top = VertexId((random.unit() * mesh.n_vertices() as f64) as u32);
+        let far = shortest_paths(mesh, &lengths, vec![top], control)?.distance;
+        let width = WIDTH * far.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+        for e in mesh.edges() {
+            let [a, b] = mesh.ends(e).map(|v| far[v] / width);
+            longer[e] *= 1.0 + HEIGHT * (-a * b).exp();
+        }
+    }
+    Ok(longer)
 }
 
 /// Lengths in the old domain.

@@ -31,6 +31,8 @@ pub struct Split {
     lengths: Vec<f64>,
     positions: Option<Vec<Point>>,
     n_vertices: usize,
+    /// Per edge the one that the line it lies on goes on with, at the tip of its half-edge 2e.
+    ahead: Vec<Option<u32>>,
     /// The ends of the edge that each added vertex has parted, with their weights.
     added: Vec<[(u32, f64); 2]>,
     /// Per face: the given face that it is a part of, and the weights of its corners there.
@@ -64,6 +66,7 @@ impl Split {
             lengths: given.lengths().iter().copied().collect(),
             positions: given.positions().map(|positions| positions.to_vec()),
             n_vertices: mesh.n_vertices(),
+            ahead: vec![None; mesh.n_edges()],
             added: Vec::new(),
             parent: mesh.faces().collect(),
             corners: vec![CORNERS; mesh.n_faces()],
@@ -90,6 +93,23 @@ impl Split {
     pub fn carried<const M: usize>(&self, f: FaceId, weights: [[f64; 3]; M]) -> (FaceId, [[f64; 3]; M]) {
         let (face, corners) = self.place(f);
         (face, weights.map(|w| [0, 1, 2].map(|k| (0..3).map(|c| w[c] * corners[c][k]).sum())))
+    }
+
+    /// The parts of a given half-edge, from its origin to its tip.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for a half-edge that the given mesh has not.
+    pub fn path(&self, h: HalfedgeId) -> Result<Vec<HalfedgeId>> {
+        if h.index() >= self.given.mesh().n_halfedges() {
+            return Err(Error::argument("half-edge", h, "one of the given mesh"));
+        }
+        let parts = std::iter::successors(Some(h.edge().0), |&e| self.ahead[e as usize]);
+        let mut path: Vec<HalfedgeId> = parts.map(|e| EdgeId(e).halfedge()).collect();
+        if h != h.edge().halfedge() {
+            path.reverse();
+            path.iter_mut().for_each(|h| *h = h.twin());
+        }
+        Ok(path)
     }
 
     /// Values at the given vertices (V entries), on the finer triangulation: linear along the edges that were parted.
@@ -160,6 +180,7 @@ impl Split {
         let lines = [(there, near), (there ^ 1, far)].map(|(h, x)| self.line(h, x));
         let other = self.add_edge(middle, to, far);
         self.lengths[e.index()] = near;
+        self.ahead[other] = self.ahead[e.index()].replace(other as u32);
         self.origin[there ^ 1] = middle;
         for (k, line) in lines.into_iter().enumerate() {
             if let Some(length) = line {
@@ -185,7 +206,7 @@ impl Split {
         if !((sum - 1.0).abs() < WEIGHTS && weights.iter().all(|w| *w > -WEIGHTS)) {
             return Err(Error::argument(
                 "weights of a point",
-                sum,
+                format!("{weights:?}"),
                 "three that are not negative, with the sum 1",
             ));
         }
@@ -244,6 +265,7 @@ impl Split {
     fn add_edge(&mut self, from: u32, to: u32, length: f64) -> usize {
         self.origin.extend([from, to]);
         self.face.extend([None, None]);
+        self.ahead.push(None);
         self.lengths.push(length);
         self.lengths.len() - 1
     }

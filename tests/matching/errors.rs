@@ -1,8 +1,9 @@
 //! What cannot be matched is refused by name.
 
 use super::samples::{potato, surface};
-use ricci::matching::{MatchOptions, match_surfaces};
-use ricci::mesh::{VertexId, shapes};
+use ricci::matching::{MatchOptions, Place, SoftLandmark, match_surfaces};
+use ricci::mesh::shapes::SplitMix64;
+use ricci::mesh::{FaceId, Mesh, VertexId, shapes};
 use ricci::{Control, Error, Surface};
 
 fn refused(source: &Surface, target: &Surface, landmarks: &[[u32; 2]], words: &[&str]) {
@@ -34,17 +35,29 @@ fn surfaces_of_different_topology_and_landmarks_in_conflict_are_named() {
 
 #[test]
 fn landmarks_that_bar_the_way_of_another_one_are_named() {
-    let torus = surface(&shapes::torus(2.0, 0.8, 12, 8).unwrap());
-    let mesh = torus.mesh();
-    let n = mesh.n_vertices() as u32;
-    // The goal of the second landmark lies between the goals of others, which come from elsewhere.
-    let goal = VertexId(30);
-    let around: Vec<VertexId> = mesh.outgoing(goal).map(|h| mesh.tip(h)).collect();
-    let mut landmarks = vec![[0, 0], [70, goal.0]];
-    landmarks.extend(around.iter().enumerate().map(|(k, v)| [n - 1 - k as u32, v.0]));
-    let names: Vec<String> = (1..2 + around.len()).map(|k| format!("landmark {k} ")).collect();
-    let names: Vec<&str> = names.iter().map(String::as_str).collect();
-    refused(&torus, &torus, &landmarks, &names);
+    // All vertices of a small torus are landmarks and change places: among their paths there is no room for all.
+    let torus = surface(&shapes::torus(2.0, 0.8, 8, 5).unwrap());
+    let n = torus.mesh().n_vertices();
+    let mut conflicts = 0;
+    for seed in 1..5 {
+        let mut random = SplitMix64::new(seed);
+        let mut goals: Vec<u32> = (0..n as u32).collect();
+        (1..n).for_each(|k| goals.swap(k, (random.unit() * (k + 1) as f64) as usize));
+        let landmarks = goals.iter().enumerate().map(|(k, &to)| [VertexId(k as u32), VertexId(to)]).collect();
+        let options = MatchOptions { landmarks, ..MatchOptions::default() };
+        let Err(error) = match_surfaces(&torus, &torus, &options, &Control::new()) else { continue };
+        let text = error.to_string();
+        assert!(error.code() == 650, "{text}");
+        if let Some((first, others)) = text.split_once(" has no way to its goal: it is in conflict with ") {
+            let (number, vertices) = first.rsplit_once("landmark ").unwrap().1.split_once(' ').unwrap();
+            let k: usize = number.parse().unwrap();
+            // One of the landmarks after the first, which a shift of the torus meets.
+            assert!(vertices.starts_with(&format!("(vertices {k} and {})", goals[k])), "{text}");
+            assert!(others.contains("landmark ") && others.contains("(vertices "), "{text}");
+            conflicts += 1;
+        }
+    }
+    assert!(conflicts > 0);
 }
 
 #[test]
@@ -56,6 +69,69 @@ fn a_landmark_that_is_no_vertex_and_loops_that_are_no_permutation_are_named() {
     let options = MatchOptions { loops: Some(vec![1, 1]), ..MatchOptions::default() };
     let error = match_surfaces(&annulus, &annulus, &options, &Control::new()).unwrap_err();
     assert!(error.to_string().contains("[1, 1]"), "{error}");
+}
+
+/// The text of the error by which a surface is not matched to itself.
+fn why(surface: &Surface, options: &MatchOptions) -> String {
+    match_surfaces(surface, surface, options, &Control::new()).unwrap_err().to_string()
+}
+
+#[test]
+fn points_outside_their_faces_and_soft_landmarks_on_boundaries_are_named() {
+    let disk = surface(&shapes::disk(5).unwrap());
+    let place = |face: u32, weights: [f64; 3]| Place { face: FaceId(face), weights };
+    let inside = place(3, [0.25, 0.25, 0.5]);
+    for (wrong, word) in [
+        (place(9999, [0.25, 0.25, 0.5]), "9999"),
+        (place(3, [0.5, 0.75, -0.25]), "weights of a point"),
+        (place(3, [0.5, 0.5, 0.5]), "weights of a point"),
+        (place(3, [f64::NAN, 0.5, 0.5]), "weights of a point"),
+    ] {
+        for points in [vec![[inside, wrong]], vec![[wrong, inside]]] {
+            let text = why(&disk, &MatchOptions { points, ..MatchOptions::default() });
+            assert!(text.contains(word), "{text}");
+        }
+    }
+    let rim = disk.mesh().vertices().find(|&v| disk.mesh().is_boundary_vertex(v)).unwrap();
+    let soft = |pair, weight| {
+        let soft = vec![SoftLandmark { pair, weight }];
+        why(&disk, &MatchOptions { soft, ..MatchOptions::default() })
+    };
+    let inner = VertexId(0);
+    assert!(
+        soft([inner, rim], 1.0).contains(&format!("soft landmark 0 lies on the boundary, at vertex {rim}"))
+    );
+    assert!(soft([inner, VertexId(9999)], 1.0).contains("9999"));
+    for weight in [-1.0, f64::NAN, f64::INFINITY] {
+        assert!(soft([inner, inner], weight).contains("weight of a landmark"));
+    }
+    // Two points at one place, as a landmark and a point, and as two points.
+    let corner = Place::at_vertex(disk.mesh(), inner).unwrap();
+    let options = MatchOptions {
+        landmarks: vec![[inner, inner]],
+        points: vec![[inside, corner]],
+        ..MatchOptions::default()
+    };
+    assert!(why(&disk, &options).contains("landmarks 0 and 1 conflict"), "{}", why(&disk, &options));
+}
+
+#[test]
+fn curves_that_do_not_correspond_are_named() {
+    let disk = surface(&shapes::disk(5).unwrap());
+    let ring = |mesh: &Mesh| -> Vec<VertexId> { mesh.face_vertices(FaceId(0)).to_vec() };
+    let open = ring(disk.mesh());
+    let closed: Vec<VertexId> = open.iter().chain(&open[..1]).copied().collect();
+    let text = |pair: [Vec<VertexId>; 2]| {
+        why(&disk, &MatchOptions { curves: vec![pair], ..MatchOptions::default() })
+    };
+    assert!(text([open.clone(), closed.clone()]).contains("curve 0 closes on one surface"));
+    assert!(
+        text([open[..1].to_vec(), open.clone()])
+            .contains("curve 0 has fewer than two vertices on the source")
+    );
+    assert!(text([open.clone(), Vec::new()]).contains("curve 0 has fewer than two vertices on the target"));
+    assert!(text([open.clone(), vec![open[0], VertexId(9999)]]).contains("9999"));
+    assert!(Place::at_vertex(disk.mesh(), VertexId(9999)).is_err());
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 use super::corpus::read;
 use super::samples::{check_map, image, moved, potato, surface};
+use ricci::harmonic::{Domain, Prescribed, harmonic_map};
 use ricci::matching::{MatchOptions, Matching, Place, SoftLandmark, map_quality, match_surfaces};
 use ricci::mesh::shapes::{self, SplitMix64};
 use ricci::mesh::{FaceId, Mesh, VertexId};
@@ -212,4 +213,52 @@ fn soft_landmarks_come_nearer_with_their_weights_and_nothing_folds() {
     assert!(off[0] > off[1] && off[1] > off[2] && off[2] > off[3] && off[3] < MISSED, "{off:?}");
     let left = |k: usize| all[k].soft_left[0] / all[0].soft_left[0];
     assert!((left(1) - 1.0 / 1.3).abs() < 1e-12 && (left(2) - 0.25).abs() < 1e-12, "{} {}", left(1), left(2));
+}
+
+/// How far the middle of a plane disk can move along the x axis, in steps of a thousandth, before faces fold, where the boundary stays and the map is harmonic.
+fn folds_from(disk: &Surface) -> f64 {
+    let (mesh, positions) = (disk.mesh(), disk.positions().unwrap());
+    let rim = mesh.vertices().filter(|&v| mesh.is_boundary_vertex(v));
+    let mut values: Vec<_> = rim.map(|v| (v, positions[v.index()])).collect();
+    values.push((VertexId(0), [1.0, 0.0, 0.0]));
+    let domain = Domain::rigid(disk).unwrap();
+    let moved = harmonic_map(&domain, &Prescribed { values, flux: None }, &Control::new()).unwrap().points;
+    // The map is linear in how far the middle moves.
+    let folds = |far: f64| {
+        let at = |v: VertexId| -> [f64; 2] {
+            let [p, q] = [positions[v.index()], moved[v.index()]];
+            [0, 1].map(|k| p[k] + far * (q[k] - p[k]))
+        };
+        mesh.faces().any(|f| {
+            let [[a, b], [c, d], [e, g]] = mesh.face_vertices(f).map(at);
+            (c - a) * (g - b) - (d - b) * (e - a) <= 0.0
+        })
+    };
+    (1..=1000).map(|k| 1e-3 * f64::from(k)).find(|&far| folds(far)).unwrap()
+}
+
+#[test]
+fn a_vertex_that_a_spring_pulls_folds_faces_and_a_soft_landmark_does_not() {
+    // In the Dirichlet energy a point has no capacity: a spring at the middle of a disk, however strong, moves it and little around it. So faces fold once it
+    // has moved by few edges, which is a smaller and smaller share of the disk as the mesh becomes finer.
+    let mut shares = Vec::new();
+    for n in [4, 8, 16, 32] {
+        let disk = surface(&shapes::disk(n).unwrap());
+        let first = folds_from(&disk);
+        eprintln!("disk of {n} rings: faces fold from {first:.3} of its radius on");
+        shares.push(first);
+        let end = disk.mesh().vertices().find(|v| {
+            let [x, y, _] = disk.positions().unwrap()[v.index()];
+            x > 0.6 && y.abs() < 1e-9 && !disk.mesh().is_boundary_vertex(*v)
+        });
+        let soft = vec![SoftLandmark { pair: [VertexId(0), end.unwrap()], weight: 4.0 }];
+        let landmarks = vec![[VertexId(1), VertexId(1)]];
+        let options = MatchOptions { soft, landmarks, ..MatchOptions::default() };
+        let matching = match_surfaces(&disk, &disk, &options, &Control::new()).unwrap();
+        check_map(&matching, &disk, &disk);
+        // It has gone 4/5 of the way.
+        let [x, ..] = image(&matching.forward.places[0], &disk);
+        assert!(x > 0.45, "{x}");
+    }
+    assert!(shares.windows(2).all(|pair| pair[1] < 0.75 * pair[0]), "{shares:?}");
 }

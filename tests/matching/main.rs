@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::print_stderr)]
 
 mod boundary;
+mod class;
 mod corpus;
 mod errors;
 mod known;

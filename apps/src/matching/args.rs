@@ -15,7 +15,7 @@ Example: a torus onto a thicker one, and the first in the shape of the second
 
 The two surfaces have the same genus and the same number of boundary loops. The target gets its metric of constant curvature, with cones at the
 landmarks and straight boundaries, and the source goes into it by a harmonic map with positive weights, which folds no face. Of the homotopy classes that
-landmarks and loops leave open one of low energy is taken. Boundaries slide along each other between landmarks on them, or go to each other by
+landmarks and loops leave open one of low energy is taken, or that which --basis names. Boundaries slide along each other between landmarks on them, or go to each other by
 shares of their length. Spheres without landmarks are
 turned until their conformal factors fit best.
 
@@ -27,6 +27,10 @@ Files
                          way from where the map without it brings it
     --curves K.csv       rows curve,surface,vertex: curves that correspond by shares of their lengths, the surface source or target, the vertices in
                          order along edges; curves are numbered from 0
+    --basis G.csv        rows loop,surface,vertex: loops of surfaces with handles that correspond and so name the homotopy class of the map, which else is
+                         searched. The surface is source or target, the vertices follow each other along edges, the first again at the end; loops
+                         are numbered from 0. They generate the fundamental groups (2g loops; with b boundary loops 2g + b − 1), and all of
+                         one surface start at one vertex, but on tori
     --map M.csv          rows source_vertex,target_face,b0,b1,b2: where each vertex of the source goes, in barycentric coordinates
     --back B.csv         the same from the target to the source
     -o OUT.obj           the source's faces with its vertices where they go, .obj or .glb
@@ -92,6 +96,10 @@ pub struct MatchArgs {
     #[arg(long, value_name = "K.csv")]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub curves: Option<FileName>,
+    /// Loops that name the homotopy class: rows loop,surface,vertex
+    #[arg(long, value_name = "G.csv")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub basis: Option<FileName>,
     /// For each boundary loop of the source the target's that it goes to, numbered from 0 [default: by descending length]
     #[arg(long, value_name = "K,K,…", value_delimiter = ',')]
     #[serde(skip_serializing_if = "Vec::is_empty")]

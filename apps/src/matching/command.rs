@@ -44,6 +44,7 @@ pub fn execute(args: &MatchArgs, control: &Control) -> Result<Done<Found>, Failu
         points: args.points.as_deref().map_or(Ok(Vec::new()), |path| marks::read_points(path, meshes))?,
         soft: args.soft.as_deref().map_or(Ok(Vec::new()), |path| marks::read_soft(path, meshes))?,
         curves: args.curves.as_deref().map_or(Ok(Vec::new()), |path| marks::read_curves(path, meshes))?,
+        basis: args.basis.as_deref().map_or(Ok(Vec::new()), |path| marks::read_basis(path, meshes))?,
         loops: (!args.loops.is_empty()).then(|| args.loops.clone()),
         boundary: args.boundary.into(),
         flow: flow::Options { threads: args.common.threads, ..flow::Options::default() },
@@ -98,6 +99,7 @@ fn check_request(args: &MatchArgs) -> Result<(), Failure> {
         args.points.as_deref(),
         args.soft.as_deref(),
         args.curves.as_deref(),
+        args.basis.as_deref(),
     ];
     check_outputs(&inputs, &files)
 }

@@ -4,7 +4,7 @@ use crate::input::Input;
 use crate::report::{Attempts, Checks, Done, Figures, Seconds};
 use crate::say;
 use ricci::geometry::vector::{diagonal, distance};
-use ricci::matching::{MapQuality, Matching, Place, cycle_error, map_quality, uncovered};
+use ricci::matching::{MapQuality, Matching, cycle_error, map_quality, point_error, uncovered};
 use ricci::mesh::VertexId;
 use ricci::metric::Overlay;
 
@@ -44,12 +44,7 @@ impl Found {
         let quality = map_quality(surfaces, &matching.forward, &landmarks)?;
         let cycle = cycle_error(surfaces, [&matching.forward, &matching.backward])?;
         let positions = target.positions().unwrap_or_default();
-        let place = |place: &Place| {
-            let corners = target.mesh().face_vertices(place.face).map(|v| positions[v.index()]);
-            std::array::from_fn(|i| (0..3).map(|k| place.weights[k] * corners[k][i]).sum())
-        };
-        let apart = matching.points.iter().map(|[image, goal]| distance(place(image), place(goal)));
-        let point_error = apart.fold(0.0, f64::max) / diagonal(positions).max(f64::MIN_POSITIVE);
+        let point_error = point_error(&target.surface, &matching)?;
         let partners = match same_numbering {
             false => None,
             true => {

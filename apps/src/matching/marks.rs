@@ -1,9 +1,9 @@
-//! Points, curves and soft landmarks, from files.
+//! Points, curves, soft landmarks and loops, from files.
 
 use crate::csv::read_rows;
 use crate::failure::Failure;
 use ricci::matching::{Place, SoftLandmark};
-use ricci::mesh::{FaceId, Mesh, VertexId};
+use ricci::mesh::{FaceId, HalfedgeId, Mesh, VertexId};
 use std::path::Path;
 
 /// Rows `source_face,s0,s1,s2,target_face,t0,t1,t2`.
@@ -40,8 +40,37 @@ pub fn read_soft(path: &Path, meshes: [&Mesh; 2]) -> Result<Vec<SoftLandmark>, F
 
 /// Rows `curve,surface,vertex`.
 pub fn read_curves(path: &Path, meshes: [&Mesh; 2]) -> Result<Vec<[Vec<VertexId>; 2]>, Failure> {
+    read_paths(path, meshes, "curve")
+}
+
+/// Rows `loop,surface,vertex`: closed paths along edges.
+pub fn read_basis(path: &Path, meshes: [&Mesh; 2]) -> Result<Vec<[Vec<HalfedgeId>; 2]>, Failure> {
+    let mut all = Vec::new();
+    for (number, pair) in read_paths(path, meshes, "loop")?.into_iter().enumerate() {
+        let along = |s: usize| -> Result<Vec<HalfedgeId>, Failure> {
+            let (mesh, name) = (meshes[s], ["source", "target"][s]);
+            let step = |ends: &[VertexId]| {
+                let edge = mesh.outgoing(ends[0]).find(|&h| mesh.tip(h) == ends[1]);
+                edge.ok_or_else(|| {
+                    let why = format!("no edge joins vertices {} and {}", ends[0], ends[1]);
+                    Failure::Input(format!("{}: loop {number} on the {name}: {why}", path.display()))
+                })
+            };
+            pair[s].windows(2).map(step).collect()
+        };
+        all.push([along(0)?, along(1)?]);
+    }
+    Ok(all)
+}
+
+/// Rows `<name>,surface,vertex`: paths on both surfaces, numbered from 0.
+fn read_paths(
+    path: &Path,
+    meshes: [&Mesh; 2],
+    name: &'static str,
+) -> Result<Vec<[Vec<VertexId>; 2]>, Failure> {
     let mut all: Vec<[Vec<VertexId>; 2]> = Vec::new();
-    for (line, [curve, surface, vertex]) in read_rows(path, ["curve", "surface", "vertex"])? {
+    for (line, [curve, surface, vertex]) in read_rows(path, [name, "surface", "vertex"])? {
         // A curve has one of the numbers up to the number of rows: those before it may come later.
         let curve = number(path, line, &curve, line)? as usize;
         let side = match surface.trim() {

@@ -121,6 +121,46 @@ fn points_curves_and_soft_landmarks_come_from_files() {
 }
 
 #[test]
+fn loops_name_the_class_of_a_map() {
+    let place = Place::new();
+    place.expect(0, "make torus --big 2 --small 0.8 -n 24 -m 12 -o torus.obj");
+    // Around the tube, around the axis, and both one after the other.
+    let tube: Vec<usize> = (0..12).map(|k| 24 * k).chain([0]).collect();
+    let axis: Vec<usize> = (0..24).chain([0]).collect();
+    let both: Vec<usize> = axis.iter().chain(&tube[1..]).copied().collect();
+    let file = |loops: [[&Vec<usize>; 2]; 2]| {
+        let mut text = String::from("loop,surface,vertex\n");
+        for (k, pair) in loops.iter().enumerate() {
+            for (name, path) in ["source", "target"].iter().zip(pair) {
+                path.iter().for_each(|v| text += &format!("{k},{name},{v}\n"));
+            }
+        }
+        text
+    };
+    let result = |loops| {
+        place.put("G.csv", &file(loops));
+        place.expect(0, "match torus.obj torus.obj --basis G.csv --same-numbering --report R.json");
+        let result = place.json("R.json")["result"].clone();
+        assert_eq!(result["markings"], 1);
+        ["partner_max", "energy", "qc_mean"].map(|name| result[name].as_f64().unwrap())
+    };
+    let [off, energy, _] = result([[&tube, &tube], [&axis, &axis]]);
+    assert!(off < 1e-8, "{off}");
+    let [off, twisted, qc] = result([[&tube, &tube], [&axis, &both]]);
+    assert!(off > 0.1 && twisted > 1.05 * energy && qc > 1.2, "{off} {energy} {twisted} {qc}");
+    let refused = |loops, words: &[&str]| {
+        place.put("G.csv", &file(loops));
+        let said = place.expect(3, "match torus.obj torus.obj --basis G.csv");
+        assert!(words.iter().all(|word| said.err.contains(word)), "{}", said.err);
+    };
+    refused([[&tube, &axis], [&axis, &tube]], &["loops 0 and 1", "intersection number"]);
+    refused([[&tube, &tube], [&tube, &tube]], &["generate"]);
+    let [open, jump] = [vec![0, 24], vec![0, 150, 0]];
+    refused([[&tube, &tube], [&axis, &open]], &["loop 1", "not closed on the target"]);
+    refused([[&tube, &tube], [&axis, &jump]], &["G.csv", "loop 1", "no edge joins vertices 0 and 150"]);
+}
+
+#[test]
 fn what_cannot_be_matched_is_refused_by_name() {
     let place = Place::new();
     place.expect(0, "make sphere -n 3 -o ball.obj");
@@ -130,6 +170,28 @@ fn what_cannot_be_matched_is_refused_by_name() {
     place.put("L.csv", "0,1\n3,1\n5,2\n");
     let said = place.expect(3, "match ball.obj ball.obj --landmarks L.csv");
     assert!(said.err.contains("landmarks 0 and 1 conflict"), "{}", said.err);
+    place.expect(0, "make disk -n 5 -o disk.obj");
+    place.expect(0, "make annulus --inner 0.4 -n 4 -m 24 -o annulus.obj");
+    let said = place.expect(3, "match disk.obj annulus.obj");
+    assert!(said.err.contains("1 boundary loops, the target 2"), "{}", said.err);
+    let said = place.expect(3, "match annulus.obj annulus.obj --loops 1,1");
+    assert!(said.err.contains("[1, 1]"), "{}", said.err);
+    // The last vertex of a disk lies on its boundary, the first one inside.
+    let (points, _) = obj(&place.text("disk.obj"));
+    let rim = points.len() - 1;
+    place.put("L.csv", &format!("{rim},0\n"));
+    let said = place.expect(3, "match disk.obj disk.obj --landmarks L.csv");
+    assert!(said.err.contains("landmark 0 lies on the boundary of the source"), "{}", said.err);
+    let [a, b, c] = [rim, rim - 8, rim - 16];
+    place.put("L.csv", &format!("{a},{a}\n{b},{c}\n{c},{b}\n"));
+    let said = place.expect(3, "match disk.obj disk.obj --landmarks L.csv");
+    assert!(said.err.contains("boundary loop 0 of the source conflict"), "{}", said.err);
+    place.put("S.csv", &format!("0,{rim},1\n"));
+    let said = place.expect(3, "match disk.obj disk.obj --soft S.csv");
+    assert!(said.err.contains("soft landmark 0 lies on the boundary"), "{}", said.err);
+    place.put("P.csv", "0,0.5,0.75,-0.25,0,0.5,0.25,0.25\n");
+    let said = place.expect(2, "match disk.obj disk.obj --points P.csv");
+    assert!(said.err.contains("weights of a point is [0.5, 0.75, -0.25]"), "{}", said.err);
     place.put("F.csv", "0,1\n3,100000\n");
     place.expect(3, "match ball.obj ball.obj --landmarks F.csv");
     place.expect(2, "match ball.obj torus.obj --same-numbering");

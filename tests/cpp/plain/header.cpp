@@ -93,6 +93,21 @@ int forms_and_maps() {
     if (matching.faces().size() != disk.summary().n_vertices || matching.summary().n_flipped != 0 ||
         matching.weights(RICCI_MATCH_BACKWARD).size() != round.size())
         return 34;
+    ricci_shape tube = ricci::init<ricci_shape>();
+    tube.shape = RICCI_SHAPE_TORUS, tube.n = 12, tube.m = 8, tube.a = 2, tube.b = 0.8;
+    const auto torus = ricci::mesh::made(tube);
+    const auto own = ricci::homotopy(torus).loops();
+    const ricci::match_basis basis(own, own);
+    const std::uint32_t met[] = {3, 3}, soft[] = {40, 60};
+    const double weights[] = {1, 0, 0, 1, 0, 0}, one = 1;
+    ricci_match_options options = ricci::init<ricci_match_options>();
+    basis.name(options);
+    options.point_faces = met, options.point_weights = weights, options.n_points = 1;
+    options.soft = soft, options.soft_weights = &one, options.n_soft = 1;
+    const ricci::matching marked(torus, torus, options);
+    if (marked.summary().n_markings != 1 || marked.soft_left().size() != 1 || marked.soft_left()[0] <= 0 ||
+        marked.points().size() != 1 || marked.points()[0][1].face != 3)
+        return 36;
     const std::vector<std::uint32_t> at = {0, 1};
     const std::vector<double> places = {0, 0, 2, 0, 0, 2};
     for (std::size_t v = 0; v < round.size() / 3; v++)

@@ -2,6 +2,8 @@
 #include "samples.h"
 #include <math.h>
 #include <ricci/match.h>
+#include <ricci/uniformize.h>
+#include <string.h>
 
 static ricci_matching_summary summary_of(const ricci_matching *matching) {
     ricci_matching_summary s;
@@ -66,6 +68,113 @@ static void check_identity(const ricci_mesh *mesh, const ricci_match_options *op
     ricci_matching_free(matching);
 }
 
+/* Points, curves and soft landmarks come back with where they went. */
+static void check_marks(const ricci_mesh *torus) {
+    ricci_matching *matching = NULL;
+    ricci_match_options options;
+    /* The first vertices of two faces, and the middle of a third face. */
+    const uint32_t point_faces[4] = {10, 10, 50, 52};
+    const double point_weights[12] = {1, 0, 0, 1, 0, 0, 0.25, 0.25, 0.5, 0.25, 0.25, 0.5};
+    const uint32_t soft[2] = {40, 60};
+    double soft_weights[1] = {1}, left[1], half, weights[12];
+    uint32_t faces[4];
+    INIT(options);
+    options.point_faces = point_faces, options.point_weights = point_weights, options.n_points = 2;
+    OK(ricci_match(torus, torus, &options, NULL, &matching));
+    ricci_matching_summary s = summary_of(matching);
+    CHECK(s.n_points == 2 && s.n_soft == 0 && s.point_error < 1e-8);
+    FAILS(ricci_matching_points(matching, faces, 3, weights, 12), RICCI_BUFFER_TOO_SMALL, "faces");
+    FAILS(ricci_matching_points(matching, faces, 4, weights, 11), RICCI_BUFFER_TOO_SMALL, "weights");
+    OK(ricci_matching_points(matching, faces, 4, weights, 12));
+    for (size_t k = 0; k < 2; k++) {
+        CHECK(faces[2 * k + 1] == point_faces[2 * k + 1]);
+        for (size_t i = 0; i < 3; i++) CHECK(weights[6 * k + 3 + i] == point_weights[6 * k + 3 + i]);
+    }
+    ricci_matching_free(matching);
+    INIT(options);
+    options.soft = soft, options.soft_weights = soft_weights, options.n_soft = 1;
+    OK(ricci_match(torus, torus, &options, NULL, &matching));
+    s = summary_of(matching);
+    CHECK(s.n_points == 0 && s.n_soft == 1);
+    FAILS(ricci_matching_soft_left(matching, left, 0), RICCI_BUFFER_TOO_SMALL, "left");
+    OK(ricci_matching_soft_left(matching, left, 1));
+    half = left[0];
+    CHECK(half > 0);
+    ricci_matching_free(matching);
+    soft_weights[0] = 1e15;
+    OK(ricci_match(torus, torus, &options, NULL, &matching));
+    OK(ricci_matching_soft_left(matching, left, 1));
+    CHECK(left[0] < 1e-12 * half);
+    ricci_matching_free(matching);
+    matching = NULL;
+    soft_weights[0] = -1;
+    FAILS(ricci_match(torus, torus, &options, NULL, &matching), RICCI_ARGUMENT, "weight");
+    CHECK(matching == NULL);
+}
+
+/* A curve, and the number of points that its vertices make. */
+static void check_curves(const ricci_mesh *disk) {
+    ricci_matching *matching = NULL;
+    ricci_match_options options;
+    /* From the centre of the disk to a vertex of the first ring, and to another one. */
+    const uint32_t curves[4] = {0, 1, 0, 2}, far[4] = {0, 60, 0, 2}, sizes[2] = {2, 2};
+    INIT(options);
+    options.curves = curves, options.curve_sizes = sizes, options.n_curves = 1;
+    OK(ricci_match(disk, disk, &options, NULL, &matching));
+    const ricci_matching_summary s = summary_of(matching);
+    CHECK(s.n_points == 2 && s.point_error < 1e-8);
+    ricci_matching_free(matching);
+    matching = NULL;
+    options.curves = far;
+    FAILS(ricci_match(disk, disk, &options, NULL, &matching), RICCI_MATCHING, "curve 0");
+    CHECK(matching == NULL);
+}
+
+/* The class that loops name: the identity by the surface's own basis, a twist by a twisted one. */
+static void check_basis(const ricci_mesh *torus) {
+    ricci_matching *matching = NULL;
+    ricci_homotopy *homotopy = NULL;
+    ricci_homotopy_summary h;
+    ricci_match_options options;
+    OK(ricci_homotopy_new(torus, NULL, NULL, &homotopy));
+    OK(ricci_homotopy_summarise(homotopy, &h, sizeof h));
+    CHECK(h.n_generators == 2);
+    int32_t *edges = (int32_t *)room(h.n_loop_edges, sizeof *edges);
+    size_t starts[3];
+    OK(ricci_homotopy_loops(homotopy, edges, h.n_loop_edges, starts, 3));
+    const size_t a = starts[1], b = starts[2] - starts[1];
+    int32_t *basis = (int32_t *)room(4 * (a + b), sizeof *basis);
+    uint32_t sizes[4] = {(uint32_t)a, (uint32_t)a, (uint32_t)b, (uint32_t)b};
+    memcpy(basis, edges, a * sizeof *basis);
+    memcpy(basis + a, edges, a * sizeof *basis);
+    memcpy(basis + 2 * a, edges + a, b * sizeof *basis);
+    memcpy(basis + 2 * a + b, edges + a, b * sizeof *basis);
+    INIT(options);
+    options.basis = basis, options.basis_sizes = sizes, options.n_basis = 2;
+    check_identity(torus, &options);
+    OK(ricci_match(torus, torus, &options, NULL, &matching));
+    const double energy = summary_of(matching).energy;
+    CHECK(summary_of(matching).n_markings == 1);
+    ricci_matching_free(matching);
+    matching = NULL;
+    /* b goes to b a a. */
+    memcpy(basis + 2 * a + 2 * b, edges, a * sizeof *basis);
+    memcpy(basis + 3 * a + 2 * b, edges, a * sizeof *basis);
+    sizes[3] = (uint32_t)(2 * a + b);
+    OK(ricci_match(torus, torus, &options, NULL, &matching));
+    CHECK(summary_of(matching).energy > 1.05 * energy && summary_of(matching).n_flipped == 0);
+    ricci_matching_free(matching);
+    matching = NULL;
+    basis[0] = 0;
+    FAILS(ricci_match(torus, torus, &options, NULL, &matching), RICCI_ARGUMENT, "basis[0]");
+    basis[0] = edges[0];
+    options.n_basis = 1;
+    FAILS(ricci_match(torus, torus, &options, NULL, &matching), RICCI_MATCHING, "generate");
+    CHECK(matching == NULL);
+    free(basis), free(edges);
+    ricci_homotopy_free(homotopy);
+}
+
 int main(void) {
     ricci_mesh *sphere = NULL, *torus = NULL, *disk = NULL;
     ricci_matching *matching = NULL;
@@ -76,6 +185,9 @@ int main(void) {
     OK(make_sized(RICCI_SHAPE_TORUS, 12, 8, 2, 0.8, 0, &torus));
     check_identity(disk, NULL);
     check_identity(torus, NULL);
+    check_marks(torus);
+    check_curves(disk);
+    check_basis(torus);
     INIT(options);
     options.landmarks = pairs, options.n_landmarks = 5, options.threads = 1;
     check_identity(sphere, &options);
