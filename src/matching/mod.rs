@@ -49,6 +49,7 @@ mod pushed;
 mod repair;
 mod rims;
 mod route;
+mod same;
 mod slits;
 mod soft;
 mod sphere;
