@@ -9,7 +9,7 @@ use super::overlay::CommonDomain;
 use super::place::SurfaceMap;
 use super::pushed::pushed;
 use super::route::Marks;
-use super::same::{in_frames_of_faces, is_same};
+use super::same::{cones_of_same, in_frames_of_faces};
 use super::soft::{self, Approach, SoftLandmark};
 use super::sphere::on_sphere;
 use super::walk::locate;
@@ -172,8 +172,8 @@ fn in_one_domain(
     let genus = surfaces[0].mesh().genus();
     let of = |marks: &Marks| (marks.loops.len(), marks.landmarks.len(), marks.corners.len());
     let (loops, landmarks, corners) = of(marks[0]);
-    if is_same(surfaces, marks, options) {
-        return in_frames_of_faces(surfaces, options, control);
+    if let Some(order) = cones_of_same(surfaces, marks, options) {
+        return in_frames_of_faces(surfaces, (&marks[0].landmarks, order), options, control);
     }
     if genus > 0 {
         // One landmark of a torus without boundary is met by a shift; all others are pushed to their goals.

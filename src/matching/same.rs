@@ -7,7 +7,7 @@ use super::balance::{BalanceReport, Freedom, balance};
 use super::canonical::canonical_metric;
 use super::cover::{Cover, Placed, aimed};
 use super::options::{Boundary, MatchOptions};
-use super::orbifold::Pair;
+use super::orbifold::{Pair, shape};
 use super::route::Marks;
 use super::walk::Seed;
 use super::weights::mean_value_weights;
@@ -17,36 +17,54 @@ use crate::error::Result;
 use crate::geometry::{Motion, Space};
 use crate::mesh::{PerHalfedge, PerVertex, VertexId};
 use crate::metric::Surface;
+use std::f64::consts::TAU;
 
-/// Whether two surfaces have one triangulation, one hyperbolic metric each without cones or corners, and boundary loops that go to those of the same
-/// number.
-pub(super) fn is_same(surfaces: [&Surface; 2], marks: [&Marks; 2], options: &MatchOptions) -> bool {
+/// Order of the cones at landmarks on surfaces with handles.
+const ORDER: usize = 2;
+
+/// Where two surfaces have one triangulation, landmarks and boundary loops go to those of the same number, and their metric is hyperbolic with straight
+/// boundaries: the order of the cones at the landmarks in it.
+pub(super) fn cones_of_same(
+    surfaces: [&Surface; 2],
+    marks: [&Marks; 2],
+    options: &MatchOptions,
+) -> Option<usize> {
     let mesh = surfaces[0].mesh();
-    let is_bare = |marks: &Marks| marks.landmarks.is_empty() && marks.corners.is_empty();
     let start = |marks: &Marks| -> Vec<Option<VertexId>> {
         marks.loops.iter().map(|around| around.iter().map(|&h| mesh.origin(h)).min()).collect()
     };
+    let is_same = mesh == surfaces[1].mesh()
+        && marks[0].landmarks == marks[1].landmarks
+        && marks.iter().all(|marks| marks.corners.is_empty())
+        && start(marks[0]) == start(marks[1]);
     let slides = options.boundary == Boundary::Slides || mesh.is_closed();
-    mesh.euler() < 0
-        && slides
-        && marks.iter().all(|marks| is_bare(marks))
-        && mesh == surfaces[1].mesh()
-        && start(marks[0]) == start(marks[1])
+    let is_sphere = mesh.genus() == 0;
+    let shape = shape(marks[0].loops.len(), marks[0].landmarks.len(), 0).filter(|_| is_sphere);
+    let order = match is_sphere {
+        true => shape.filter(|shape| shape.space == Space::H2).map(|shape| shape.order),
+        false => Some(ORDER).filter(|_| mesh.euler() < 0),
+    };
+    order.filter(|_| is_same && slides)
 }
 
-/// Both surfaces in the target's metric, where [`is_same`].
+/// Both surfaces in the target's metric, the source's vertices in the class of those of the same number, with cones of this order at the landmarks
+/// ([`cones_of_same`]).
 ///
 /// # Errors
 /// Those of [`canonical_metric`], [`apart`] and [`balance`].
 pub(super) fn in_frames_of_faces(
     surfaces: [&Surface; 2],
+    (landmarks, order): (&[VertexId], usize),
     options: &MatchOptions,
     control: &Control,
 ) -> Result<Pair> {
-    let own = |s: usize| in_own_metric(surfaces[s], options, control);
+    let mut curvature = PerVertex::filled(surfaces[0].mesh().n_vertices(), 0.0);
+    landmarks.iter().for_each(|&v| curvature[v] = TAU * (1.0 - 1.0 / order as f64));
+    let own = |s: usize| in_own_metric(surfaces[s], &curvature, options, control);
     let (source, target) = rayon::join(|| own(0), || own(1));
     let (source, mut target) = (source?, target?);
-    let freedom = Freedom::of(surfaces[0].mesh(), options.boundary);
+    let mut freedom = Freedom::of(surfaces[0].mesh(), options.boundary);
+    landmarks.iter().for_each(|&v| freedom[v] = Freedom::Held);
     let mut image = target.placed.clone();
     let settled =
         |placed: &mut Placed, weights: &PerHalfedge<f64>| balance(placed, weights, &freedom, control);
@@ -66,10 +84,14 @@ struct Own {
     iterations: usize,
 }
 
-fn in_own_metric(surface: &Surface, options: &MatchOptions, control: &Control) -> Result<Own> {
+fn in_own_metric(
+    surface: &Surface,
+    curvature: &PerVertex<f64>,
+    options: &MatchOptions,
+    control: &Control,
+) -> Result<Own> {
     let (mesh, space) = (surface.mesh(), Space::H2);
-    let curvature = PerVertex::filled(mesh.n_vertices(), 0.0);
-    let (metric, iterations) = canonical_metric(surface, space, curvature, &options.flow, control)?;
+    let (metric, iterations) = canonical_metric(surface, space, curvature.clone(), &options.flow, control)?;
     let faces = apart(&metric, control)?;
     let across = |h| {
         let is_inner = !mesh.is_outside(h) && !mesh.is_outside(h.twin());
