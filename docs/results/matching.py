@@ -236,7 +236,8 @@ def main():
         holes, third = figure_12(folder) if not named or "figure12" in named else ("", [])
         times, fourth = speed(folder) if not named or "cortices" in named else ("", [])
     print("# Surface matching\n")
-    print("Made by `docs/results/matching.py`: `ricci match` with default options. Times are those of one run on a shared machine and say little.\n")
+    print("Made by `docs/results/matching.py`: `ricci match` with default options. Times are those of one run each, on two cores that were shared with other "
+          "work at the same time: they say little.\n")
     print(verdict(bad + more + third + fourth + fifth) + "\n")
     if WHY:
         print(f"No independent program has judged the files: {WHY}.\n")

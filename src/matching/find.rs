@@ -173,7 +173,11 @@ fn in_one_domain(
     let of = |marks: &Marks| (marks.loops.len(), marks.landmarks.len(), marks.corners.len());
     let (loops, landmarks, corners) = of(marks[0]);
     if let Some(order) = cones_of_same(surfaces, marks, options) {
-        return in_frames_of_faces(surfaces, (&marks[0].landmarks, order), options, control);
+        match in_frames_of_faces(surfaces, (&marks[0].landmarks, order), options, control) {
+            // Of another class there may be one.
+            Err(Error::Matching(why)) => log::debug!("in the class of the vertices' numbers: {why}"),
+            found => return found,
+        }
     }
     if genus > 0 {
         // One landmark of a torus without boundary is met by a shift; all others are pushed to their goals.
