@@ -29,14 +29,6 @@ pub fn potato(n: usize) -> Soup {
     })
 }
 
-/// The same surface with its vertices numbered backwards.
-pub fn renumbered(of: &Surface) -> Surface {
-    let last = of.mesh().n_vertices() as u32 - 1;
-    let faces = of.mesh().triangles().into_iter().map(|f| f.map(|v| last - v)).collect();
-    let positions = of.positions().unwrap().iter().rev().copied().collect();
-    surface(&Soup { positions, faces, ..Soup::default() })
-}
-
 pub fn matched(source: &Surface, target: &Surface, landmarks: &[u32]) -> Matching {
     let landmarks = landmarks.iter().map(|&v| [VertexId(v), VertexId(v)]).collect();
     // The loops keep their numbers, whatever their lengths.
