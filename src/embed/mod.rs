@@ -1,6 +1,7 @@
 //! Layouts of metrics: a surface that is opened along a cut and developed into the space of its metric, the isometries between the two
 //! sides of each seam, how much the map distorts, and charts that do not overlap.
 
+pub(crate) mod apart;
 pub mod border;
 mod chart_growth;
 pub mod charts;

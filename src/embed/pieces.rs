@@ -53,7 +53,7 @@ impl Pieces {
     }
 
     /// The half-edge of a face of the input that a half-edge of a piece runs along, if it does.
-    fn input_halfedge(&self, input: &Mesh, h: HalfedgeId) -> Option<HalfedgeId> {
+    pub fn input_halfedge(&self, input: &Mesh, h: HalfedgeId) -> Option<HalfedgeId> {
         let Some(r) = self.refinement() else { return Some(h) };
         let (e, f) = (r.origin[h.edge()].input?, r.mesh.face(h)?);
         let k = r.mesh.face_halfedges(f).iter().position(|&side| side == h)?;

@@ -20,6 +20,8 @@ pub(super) struct Cover {
     pub space: Space,
     /// The deck transformations that are in use; number 0 is the identity.
     motions: Vec<Motion<Twofold>>,
+    /// The identity and those across half-edges, which are the first.
+    n_across: usize,
     /// Per half-edge of a face: the transformation that carries the opened surface onto its neighbour across it.
     across: PerHalfedge<u32>,
     /// Per half-edge of a face: the transformation that carries the vertex to this corner of it.
@@ -46,6 +48,7 @@ impl Cover {
                 motions.push(motion);
             }
         }
+        let n_across = motions.len();
         let mut wished = PerVertex::filled(mesh.n_vertices(), None);
         own.iter().for_each(|&h| wished[mesh.origin(h)] = Some(h));
         let (mut corner, mut own) = (PerHalfedge::filled(n, 0u32), Vec::with_capacity(mesh.n_vertices()));
@@ -71,7 +74,15 @@ impl Cover {
                 corner[pair[1]] = at;
             }
         }
-        Ok(Cover { mesh: mesh.clone(), space, motions, across: across_number, corner, own: own.into() })
+        Ok(Cover {
+            mesh: mesh.clone(),
+            space,
+            motions,
+            n_across,
+            across: across_number,
+            corner,
+            own: own.into(),
+        })
     }
 
     /// The cover of a surface that is opened along a cut: the transformation of each segment carries the opened surface onto its neighbour on the left of the
@@ -104,6 +115,11 @@ impl Cover {
     /// The transformation that carries the opened surface onto its neighbour across a half-edge of a face; `None` for the identity.
     pub fn across(&self, h: HalfedgeId) -> Option<&Motion<Twofold>> {
         Some(self.across[h]).filter(|&k| k != 0).map(|k| &self.motions[k as usize])
+    }
+
+    /// The transformations across the cut.
+    pub fn neighbours(&self) -> &[Motion<Twofold>] {
+        &self.motions[1..self.n_across]
     }
 
     /// The transformation from a vertex to its corner at a half-edge of a face; `None` for the identity.

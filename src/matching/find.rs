@@ -9,6 +9,7 @@ use super::overlay::CommonDomain;
 use super::place::SurfaceMap;
 use super::pushed::pushed;
 use super::route::Marks;
+use super::same::{cones_of_same, in_frames_of_faces};
 use super::soft::{self, Approach, SoftLandmark};
 use super::sphere::on_sphere;
 use super::walk::locate;
@@ -188,6 +189,13 @@ fn in_one_domain(
     let genus = surfaces[0].mesh().genus();
     let of = |marks: &Marks| (marks.loops.len(), marks.landmarks.len(), marks.corners.len());
     let (loops, landmarks, corners) = of(marks[0]);
+    if let Some(order) = cones_of_same(surfaces, marks, options) {
+        match in_frames_of_faces(surfaces, (&marks[0].landmarks, order), options, control) {
+            // Of another class there may be one.
+            Err(Error::Matching(why)) => log::debug!("in the class of the vertices' numbers: {why}"),
+            found => return found,
+        }
+    }
     if genus > 0 {
         // One landmark of a torus without boundary is met by a shift; all others are pushed to their goals.
         let is_flat = surfaces[0].mesh().euler() == 0;

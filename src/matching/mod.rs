@@ -14,7 +14,8 @@
 //!
 //! Which homotopy class is meant is said by a tree of paths between the landmarks and loops of both surfaces, or by bases of their fundamental groups.
 //! Several are compared, and the one whose harmonic map has the least energy is taken. On surfaces with handles the class can be named by pairs of loops
-//! ([`MatchOptions::basis`]).
+//! ([`MatchOptions::basis`]). Two surfaces with one triangulation, the same numbers and landmarks, whose metrics are hyperbolic, say it themselves: it is the
+//! class of the map that keeps numbers. There every face has a frame of its own, and nothing loses digits however far a fundamental domain would reach.
 //!
 //! ```
 //! use ricci::matching::{MatchOptions, map_quality, match_surfaces};
@@ -32,6 +33,7 @@
 
 mod axis;
 mod balance;
+mod boxes;
 mod canonical;
 mod class;
 mod cover;
@@ -52,6 +54,7 @@ mod pushed;
 mod repair;
 mod rims;
 mod route;
+mod same;
 mod slits;
 mod soft;
 mod sphere;

@@ -31,7 +31,7 @@ const ORDERS: [usize; 6] = [2, 3, 4, 5, 6, 7];
 pub(super) struct Shape {
     pub space: Space,
     /// Order of the cones at landmarks.
-    order: usize,
+    pub order: usize,
     /// Curvature of the boundary at its corners, radians.
     corner: f64,
 }

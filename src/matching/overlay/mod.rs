@@ -7,6 +7,7 @@
 //! are treated as such.
 
 mod arcs;
+mod opened;
 mod pieces;
 mod stand;
 mod trace;
@@ -15,12 +16,13 @@ use super::cover::Placed;
 use super::walk::Seed;
 use crate::control::Control;
 use crate::error::Result;
-use crate::geometry::Space;
+use crate::geometry::{Motion, Space};
 use crate::mesh::union_find::UnionFind;
 use crate::mesh::{FaceId, HalfedgeId, VertexId};
 use crate::metric::{Overlay, Split};
 use crate::parallel::within;
 use arcs::Arcs;
+use opened::{Opened, opened};
 use pieces::Given;
 use stand::Settled;
 
@@ -58,22 +60,24 @@ impl CommonDomain {
         self.placed[1].cover.space
     }
 
-    /// The faces of one of the two (0 the source, 1 the target) as they lie in the domain, opened along that one's cut: corners that meet there have the
-    /// same coordinates.
+    /// The faces of one of the two (0 the source, 1 the target) as they lie in the domain, opened along that one's cut, or where it meets
+    /// itself growing about a face: corners that meet there have the same coordinates.
     pub fn triangles(&self, side: usize) -> Vec<DomainTriangle> {
         let placed = &self.placed[side];
         let mesh = &placed.cover.mesh;
+        let Opened { homes, crossed } = opened(placed, self.seeds[1 - side].near);
         let mut one = UnionFind::new(mesh.n_halfedges());
-        for h in mesh.halfedges() {
-            let is_inner = !mesh.is_outside(h) && !mesh.is_outside(h.twin());
-            if is_inner && placed.cover.across(h).is_none() {
-                one.join(h.0, mesh.next(h.twin()).0);
-            }
+        let is_whole = |h: &HalfedgeId| !mesh.is_outside(*h) && !mesh.is_outside(h.twin());
+        let meets = mesh.halfedges().filter(is_whole).filter(|&h| placed.cover.across(h).is_none());
+        for h in meets.chain(crossed) {
+            one.join(h.0, mesh.next(h.twin()).0);
+            one.join(h.twin().0, mesh.next(h).0);
         }
         let mut at: Vec<Option<[f64; 3]>> = vec![None; mesh.n_halfedges()];
         let mut corner = |h: HalfedgeId| {
+            let home = mesh.face(h).map_or(Motion::identity(self.space()), |f| homes[f.index()]);
             let root = one.root(h.0) as usize;
-            *at[root].get_or_insert_with(|| placed.corner(h).map(f64::from))
+            *at[root].get_or_insert_with(|| home.apply(placed.corner(h)).map(f64::from))
         };
         let of = |f: FaceId| DomainTriangle {
             corners: mesh.face_halfedges(f).map(&mut corner),

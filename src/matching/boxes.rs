@@ -1,0 +1,145 @@
+//! Boxes around the faces of an opened surface in one frame: which of them may hold a point.
+
+use super::cover::Placed;
+use crate::geometry::Space;
+use crate::geometry::vector::{Vector, cross, dot, norm, sub};
+use crate::mesh::FaceId;
+use glam::Vec3A;
+use obvhs::BvhBuildParams;
+use obvhs::aabb::Aabb;
+use obvhs::bvh2::Bvh2;
+use obvhs::bvh2::builder::build_bvh2;
+use std::time::Duration;
+
+/// Boxes are widened by this share of the largest coordinate: rounding.
+const SLACK: f64 = 1e-12;
+/// Share of its size by which a determinant of doubles may miss its sign.
+const ROUNDING: f64 = 1e-14;
+
+/// The faces of an opened surface in a tree of boxes.
+pub(super) struct Boxes {
+    tree: Bvh2,
+    /// The corners, in the coordinates of the space.
+    corners: Vec<[Vector; 3]>,
+    space: Space,
+    middle: Vector,
+    /// Half of the largest extent.
+    size: f64,
+}
+
+impl Boxes {
+    /// `None` for a surface whose faces have a frame each.
+    pub fn new(placed: &Placed) -> Option<Boxes> {
+        let (mesh, space) = (&placed.cover.mesh, placed.cover.space);
+        let shares = |f: FaceId| {
+            let beside = |h: &crate::mesh::HalfedgeId| mesh.face(h.twin()).is_some();
+            mesh.face_halfedges(f).into_iter().filter(beside).any(|h| placed.cover.across(h).is_none())
+        };
+        if mesh.n_faces() > 1 && !mesh.faces().any(shares) {
+            return None;
+        }
+        let corners = |f: FaceId| placed.corners(f).map(|p| p.map(f64::from));
+        let corners: Vec<[Vector; 3]> = mesh.faces().map(corners).collect();
+        let bounds: Vec<[Vector; 2]> = corners.iter().map(|face| bounds(space, face)).collect();
+        let end =
+            |k: usize, x: usize, to: fn(f64, f64) -> f64| bounds.iter().map(|b| b[k][x]).fold(f64::NAN, to);
+        let (low, high) = ([0, 1, 2].map(|x| end(0, x, f64::min)), [0, 1, 2].map(|x| end(1, x, f64::max)));
+        let middle = [0, 1, 2].map(|x| 0.5 * (low[x] + high[x]));
+        let size = (0..3).map(|x| 0.5 * (high[x] - low[x])).fold(f64::MIN_POSITIVE, f64::max);
+        // Rounded to single precision away from the box: none is smaller than what it has to contain.
+        let single = |p: Vector, by: f64, round: fn(f32) -> f32| {
+            Vec3A::from([0, 1, 2].map(|x| round(((p[x] - middle[x]) / size + by) as f32)))
+        };
+        let boxed = |&[low, high]: &[Vector; 2]| {
+            Aabb::new(single(low, -SLACK, f32::next_down), single(high, SLACK, f32::next_up))
+        };
+        let boxes: Vec<Aabb> = bounds.iter().map(boxed).collect();
+        let params = BvhBuildParams { max_prims_per_leaf: 1, ..BvhBuildParams::medium_build() };
+        let tree = build_bvh2(&boxes, params, &mut Duration::default());
+        Some(Boxes { tree, corners, space, middle, size })
+    }
+
+    /// The faces that hold a point, as far as doubles tell, of lowest number first.
+    pub fn around(&self, point: Vector) -> Vec<FaceId> {
+        let at = flat(self.space, point);
+        let seen = [0, 1, 2].map(|x| (at[x] - self.middle[x]) / self.size);
+        let (mut found, mut open) = (Vec::new(), vec![0]);
+        while let Some(node) = open.pop() {
+            let of = &self.tree.nodes[node];
+            let Aabb { min, max } = of.aabb();
+            let (low, high) = (min.to_array(), max.to_array());
+            if (0..3).any(|x| seen[x] < f64::from(low[x]) || seen[x] > f64::from(high[x])) {
+                continue;
+            }
+            let first = of.first_index as usize;
+            match of.is_leaf() {
+                false => open.extend([first, first + 1]),
+                true => found.extend(&self.tree.primitive_indices[first..first + of.prim_count as usize]),
+            }
+        }
+        found.retain(|&f| may_hold(&self.corners[f as usize], point));
+        found.sort_unstable();
+        found.into_iter().map(FaceId).collect()
+    }
+}
+
+/// Coordinates in which lines are straight, or nearly so.
+fn flat(space: Space, [x, y, w]: Vector) -> Vector {
+    match space {
+        Space::E2 => [x, y, 0.0],
+        Space::H2 => [x / w, y / w, 0.0],
+        Space::S2 => [x, y, w],
+    }
+}
+
+/// Ends of a box around a face.
+fn bounds(space: Space, corners: &[Vector; 3]) -> [Vector; 2] {
+    let points = corners.map(|p| flat(space, p));
+    // The sphere bulges over a triangle of sides l by no more than l²/2, and by no more than its radius.
+    let bulge = match space {
+        Space::S2 => {
+            let longest = (0..3).map(|k| norm(sub(points[k], points[(k + 1) % 3]))).fold(0.0, f64::max);
+            (0.5 * longest * longest).min(1.0)
+        }
+        _ => 0.0,
+    };
+    let end = |x: usize, to: fn(f64, f64) -> f64| to(to(points[0][x], points[1][x]), points[2][x]);
+    [[0, 1, 2].map(|x| end(x, f64::min) - bulge), [0, 1, 2].map(|x| end(x, f64::max) + bulge)]
+}
+
+/// Whether a point is on the left of all sides, but for rounding.
+fn may_hold(corners: &[Vector; 3], point: Vector) -> bool {
+    let size = norm(point);
+    (0..3).all(|k| {
+        let [a, b] = [sub(corners[k], point), sub(corners[(k + 1) % 3], point)];
+        dot(cross(a, b), point) >= -ROUNDING * size * size * (norm(a) + norm(b))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::cover::Cover;
+    use super::*;
+    use crate::mesh::{PerVertex, VertexId, shapes};
+    use crate::metric::Surface;
+
+    #[test]
+    fn every_face_of_a_sphere_holds_its_middle_and_every_vertex_is_in_all_its_faces() {
+        let soup = shapes::icosphere(6).unwrap();
+        let surface = Surface::from_soup(&soup).unwrap();
+        let mesh = surface.mesh();
+        let cover = Cover::new(mesh, Space::S2, |_| None, &[]).unwrap();
+        let at = PerVertex::from_fn(mesh.n_vertices(), |v: VertexId| {
+            Placed::frame(Space::S2, soup.positions[v.index()])
+        });
+        let boxes = Boxes::new(&Placed { cover, at }).unwrap();
+        for f in mesh.faces() {
+            let corners = mesh.face_vertices(f).map(|v| soup.positions[v.index()]);
+            let sum = [0, 1, 2].map(|x| corners[0][x] + corners[1][x] + corners[2][x]);
+            assert_eq!(boxes.around(sum.map(|x| x / norm(sum))), [f]);
+        }
+        for v in mesh.vertices() {
+            assert_eq!(boxes.around(soup.positions[v.index()]).len(), mesh.fan(v).len());
+        }
+    }
+}

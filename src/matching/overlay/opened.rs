@@ -1,0 +1,56 @@
+//! The faces of a placed surface side by side in one frame, as pictures show them.
+
+use super::super::cover::Placed;
+use crate::geometry::{Motion, Twofold};
+use crate::mesh::{FaceId, HalfedgeId};
+use crate::topology::spanning::Key;
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+/// Where the opened surface of each face lies, and the half-edges at which it was left for a neighbour that is drawn beside it.
+pub(super) struct Opened {
+    pub homes: Vec<Motion<Twofold>>,
+    pub crossed: Vec<HalfedgeId>,
+}
+
+/// From the face of a half-edge: first what shares its frame, then, next to what is there already, the part whose frame is moved least. A surface that is
+/// opened along a cut stays as it is; one whose faces have a frame each grows about the first.
+pub(super) fn opened(placed: &Placed, from: HalfedgeId) -> Opened {
+    let (mesh, cover) = (&placed.cover.mesh, &placed.cover);
+    let mut homes: Vec<Option<Motion<Twofold>>> = vec![None; mesh.n_faces()];
+    let mut crossed = Vec::new();
+    let mut beside = BinaryHeap::new();
+    let mut moved: Vec<(Motion<Twofold>, HalfedgeId)> = Vec::new();
+    let identity = Motion::identity(cover.space);
+    let mut next = mesh.face(from).map(|f| (f, identity));
+    while let Some((first, home)) = next.take() {
+        let mut waiting: Vec<FaceId> = vec![first];
+        homes[first.index()] = Some(home);
+        while let Some(f) = waiting.pop() {
+            for h in mesh.face_halfedges(f) {
+                let Some(g) = mesh.face(h.twin()).filter(|g| homes[g.index()].is_none()) else { continue };
+                match cover.across(h) {
+                    None => {
+                        homes[g.index()] = Some(home);
+                        crossed.push(h);
+                        waiting.push(g);
+                    }
+                    Some(across) => {
+                        let there = home.compose(across).normalised();
+                        beside.push(Reverse((Key(there.displacement()), moved.len())));
+                        moved.push((there, h));
+                    }
+                }
+            }
+        }
+        while let Some(Reverse((_, k))) = beside.pop() {
+            let (there, h) = moved[k];
+            if let Some(g) = mesh.face(h.twin()).filter(|g| homes[g.index()].is_none()) {
+                crossed.push(h);
+                next = Some((g, there));
+                break;
+            }
+        }
+    }
+    Opened { homes: homes.into_iter().map(|home| home.unwrap_or(identity)).collect(), crossed }
+}
