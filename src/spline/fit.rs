@@ -21,8 +21,9 @@ const GRID: usize = 8;
 /// Weight of the bending beside that of its variation: it decides where there are fewer points than quadratic polynomials need.
 const BENDING: f64 = 0.1;
 
-/// Weight of the mean square of the distances between filling and spline on the rings of a hole beside that of its points.
-const RINGS: f64 = 0.03;
+/// Weight, times |m|³, of the mean square of the distances between filling and spline on the rings of a hole beside that of its points: more, and reflection lines
+/// bend less there; but around a vertex of many turns triangles are too few to follow the filling, and points farther away would pay for it.
+const RINGS: f64 = 3.0;
 /// Weight of the mean square of second differences of a filling's coefficients beside the mean square of the distances: decides where there are no points.
 const FILL_FAIRNESS: f64 = 1e-6;
 
@@ -178,7 +179,8 @@ impl<'a> Equations<'a> {
         for (first, hole, fill) in self.fills.clone() {
             let inside = places.iter().filter(|&&at| hole.contains(at)).count().max(1) as f64;
             let rings = hole.rings(self.space);
-            let weight = share * (RINGS * inside / rings.len().max(1) as f64).sqrt();
+            let rings_weight = RINGS / f64::from(hole.turns.abs()).powi(3);
+            let weight = share * (rings_weight * inside / rings.len().max(1) as f64).sqrt();
             let row = self.rows.len();
             self.add(&rings, 0, |_, jet| vec![weight * jet[0]])?;
             for (k, &at) in rings.iter().enumerate() {
