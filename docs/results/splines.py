@@ -23,7 +23,7 @@ DENSER = ["3holes", "genus3", "chair_10k"]
 # Of these many vertices on splines of degree 4 are not exported.
 EXPORTED = 5500
 # Seconds that a command may take, and the outside program, which evaluates every basis function by itself.
-PATIENCE, JUDGING = 100, 100
+PATIENCE, JUDGING = 300, 100
 # Places inside patches where the outside program evaluates the spline, the share of them that lie near a side and how near, and
 # places on sides between two patches. There the outside program counts both of two functions that end at the side.
 INSIDE, BESIDE, NEAR, ASIDE = 30, 10, 1e-4, 30
@@ -115,7 +115,7 @@ def outside(row, path, folder):
     """Largest difference from the outside program's values, its partition of unity, and the largest difference across sides."""
     spline = json.load(open(path))
     inside, pairs = places(spline)
-    pairs, _ = evaluated(folder, path, pairs)
+    pairs, _ = evaluated(folder, path, pairs, "--filled")
     _, out = evaluated(folder, path, inside)
     pairs = [[float(r[x]) for x in "XYZ"] for r in pairs]
     size = max(max(p[x] for p in spline["control_points"]) - min(p[x] for p in spline["control_points"]) for x in range(3))
@@ -275,7 +275,7 @@ the coefficients of fillings included. Wanted: root mean square 1e-3 and largest
 of the vertices, over the diagonal. *normals*: angle between the mesh's normal at a vertex and the spline's at the nearest point, median and 99th percentile; scans are rougher than
 their splines. *continuity*: largest jump of derivatives up to order n − 1 across sides outside the fillings, relative. *unity*: partition of unity, of the report. *folded*: patches in which normals turn by more than 60° over a twelfth of a side.
 *outside*: `check.py spline` at 30 places of the file, of which ten lie near sides, all summed over the charts that reach there: largest difference from `spline eval --at`
-over the size of the surface, and its own partition of unity. *across sides*: largest difference of the values at 30 places on sides, evaluated in the charts of both patches.
+over the size of the surface, and its own partition of unity. *across sides*: largest difference of the surface at 30 places on sides, evaluated in the charts of both patches.
 """,
     "dense": """Surfaces of genus 3 have all of −8π at their one singular vertex, a total angle of five turns; of spheres it lies at infinity of a plane. Fitted with half as many control points as vertices:
 """,

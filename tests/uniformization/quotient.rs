@@ -219,7 +219,9 @@ fn generators_keep_their_digits_on_long_surfaces() {
         let q = surface.uniformized();
         let (deck, radius) = (&q.deck, q.layout.radius);
         println!("genus {genus}, radius {radius:.1}: side pairings within {:.1e}", deck.side_residual);
-        assert!(radius > 16.0 && q.angle_defect < 1e-28 && q.layout.disagreement < 1e-8);
+        // At a distance r the layout's numbers are e^r large, and their products lose e^{2r} of the 1e-32 that twofold numbers keep.
+        let rounding = 1e-13 + 1e-31 * (2.0 * radius).exp();
+        assert!(radius > 16.0 && q.angle_defect < 1e-28 && q.layout.disagreement < rounding);
         assert!(deck.side_residual < residual && deck.relation_residual < 1e-8, "{:e}", deck.side_residual);
         assert!(deck.generators.iter().all(|g| f64::from(g.half_trace()).abs() > 1.0));
         let domain = dirichlet_domain(deck, [0.0, 0.0, 1.0], q.layout.area, &Control::new());
