@@ -152,13 +152,13 @@ static void a_torus_is_a_solid(void) {
     CHECK(memcmp(&s, &t, sizeof s) == 0);
     CHECK(s.n_patches == 3 * of.n_patches && s.n_curves == 6 * of.n_patches);
     CHECK(s.closed == 1 && s.n_open_sides == 0 && s.reserved == 0);
-    CHECK(s.spans_min >= 1 && s.spans_min <= s.spans_max && s.spans_max <= 64 && s.rounds >= 1);
+    CHECK(s.spans_min >= 1 && s.spans_min <= s.spans_max && s.spans_max <= 128 && s.rounds >= 1);
     CHECK(s.n_control_points >= 16 * s.n_patches);
     CHECK(s.distance > 0 && s.distance <= 1e-2 && u.distance <= 3e-3 && u.distance < s.distance);
     CHECK(u.n_control_points > s.n_control_points && u.n_patches == s.n_patches);
     CHECK(0 < s.normal_jump_mean && s.normal_jump_mean <= s.normal_jump_max && s.normal_jump_max < 3);
     /* Half a radian is reached with spans to spare. */
-    CHECK(u.normal_jump_max < 0.5 && u.normal_jump_max < s.normal_jump_max && u.spans_max < 64);
+    CHECK(u.normal_jump_max < 0.5 && u.normal_jump_max < s.normal_jump_max && u.spans_max < 128);
     CHECK(s.normal_jump_of_spline >= 0 && s.normal_jump_of_spline < 1e-6);
     step_files(bicubic, &s);
     json_files(bicubic, &s, of.fit_max + 0.02);
@@ -205,7 +205,7 @@ static void what_cannot_be_is_refused(void) {
     options.tolerance = 1e-3, options.angle = -1;
     FAILS(ricci_bicubic_new(spline, &options, NULL, &bicubic), RICCI_ARGUMENT, "angle");
     options.tolerance = 1e-10, options.angle = 0;
-    FAILS(ricci_bicubic_new(spline, &options, NULL, &bicubic), RICCI_SPLINE, "64 spans");
+    FAILS(ricci_bicubic_new(spline, &options, NULL, &bicubic), RICCI_SPLINE, "128 spans");
     OK(ricci_last_failure(&failure, sizeof failure));
     CHECK(failure.element == RICCI_ELEMENT_FACE && failure.index == 0);
     options.size = sizeof options - 4;
