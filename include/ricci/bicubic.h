@@ -110,7 +110,7 @@ typedef struct ricci_bicubic_summary {
 } ricci_bicubic_summary;
 
 /**
- * Bicubic patches within a tolerance of a spline, with as many spans as that takes, up to 64 along a side.
+ * Bicubic patches within a tolerance of a spline, with as many spans as that takes, up to 128 along a side.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE, RICCI_ARGUMENT (tolerance or angle),
  *         RICCI_SPLINE (a patch that 128 spans do not bring within the tolerance: its number, as that of a
