@@ -32,10 +32,6 @@ REASONS = """Why these do not hold:
 - ember_520644: triangles of down to 0.014° are flipped 34,014 times on the way to the sphere. Drawn there with its own straight edges the surface folds in 83 of its
   7,834 faces, and putting vertices around them at the means of their neighbours does not open them.
 - maze: a long way folded into a disk. In its flat metric edges at the end of the way have length 0 to the range of doubles.
-- human_man → human_woman with 4 landmarks: in the class of the vertices' numbers Newton's method does not come to the balance. The landmarks are far out on arms and legs, at the
-  ends of which faces become very small in the hyperbolic metric; whether that is the cause was not measured. Classes of other paths are tried since; this run was made before that.
-- hemispheres: with 8 landmarks on 163,842 vertices the run was stopped. It shared the cores with many others; the run without landmarks took 7 times as long as on a quiet
-  machine. On an earlier state it had taken 51.6 s.
 """
 # Largest mesh that is matched to itself, and the seconds that one run may take: of a pair, of a mesh and itself.
 LARGEST = 30000
