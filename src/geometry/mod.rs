@@ -1,6 +1,8 @@
 //! Pure formulas, no mesh: spaces, triangles, isometries, predicates.
 
 pub mod barycentre;
+pub(crate) mod bounds;
+pub(crate) mod boxes;
 pub mod circle;
 pub mod complex;
 pub mod conformal;

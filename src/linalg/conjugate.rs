@@ -16,7 +16,7 @@
 //! # Ok::<(), ricci::Error>(())
 //! ```
 
-use super::{Cholesky, Symmetric};
+use super::{Cholesky, Symmetric, dot};
 use crate::control::Control;
 use crate::error::Result;
 
@@ -47,7 +47,7 @@ impl Goal {
 /// last matrix that `near` has factorised. Sums are formed in one order whatever the threads.
 ///
 /// False, and `x` without meaning, where a factorisation of A is the better way: where A is found not to be positive definite, or the
-/// residuals fall more slowly than it takes to be there after [`ITERATIONS`].
+/// residuals fall more slowly than it takes to be there after a few steps.
 ///
 /// # Errors
 ///
@@ -102,10 +102,6 @@ pub fn solve(
         product = next;
     }
     Ok(false)
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 #[cfg(test)]

@@ -8,6 +8,8 @@
 //! assert!(left < 1e-14 && (x[0] - 1.0).abs() < 1e-12 && (x[1] - 2.0).abs() < 1e-12);
 //! ```
 
+use super::dot;
+
 /// Share of the residual before a restart below which the one after it has to be.
 const PROGRESS: f64 = 0.9;
 
@@ -110,10 +112,6 @@ fn cycle(
         x.iter_mut().zip(v).for_each(|(x, v)| *x += share * v);
     }
     n
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 fn norm(a: &[f64]) -> f64 {

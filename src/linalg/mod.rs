@@ -23,3 +23,8 @@ pub mod pattern;
 
 pub use cholesky::Cholesky;
 pub use pattern::{Pattern, Symmetric};
+
+/// The sum of products, in the order of the entries whatever the threads.
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}

@@ -2,14 +2,10 @@
 
 use super::cover::Placed;
 use crate::geometry::Space;
+use crate::geometry::bounds::Bounds;
+use crate::geometry::boxes::{self, Node};
 use crate::geometry::vector::{Vector, cross, dot, norm, sub};
 use crate::mesh::FaceId;
-use glam::Vec3A;
-use obvhs::BvhBuildParams;
-use obvhs::aabb::Aabb;
-use obvhs::bvh2::Bvh2;
-use obvhs::bvh2::builder::build_bvh2;
-use std::time::Duration;
 
 /// Boxes are widened by this share of the largest coordinate: rounding.
 const SLACK: f64 = 1e-12;
@@ -18,13 +14,10 @@ const ROUNDING: f64 = 1e-14;
 
 /// The faces of an opened surface in a tree of boxes.
 pub(super) struct Boxes {
-    tree: Bvh2,
+    tree: boxes::Boxes,
     /// The corners, in the coordinates of the space.
     corners: Vec<[Vector; 3]>,
     space: Space,
-    middle: Vector,
-    /// Half of the largest extent.
-    size: f64,
 }
 
 impl Boxes {
@@ -40,41 +33,24 @@ impl Boxes {
         }
         let corners = |f: FaceId| placed.corners(f).map(|p| p.map(f64::from));
         let corners: Vec<[Vector; 3]> = mesh.faces().map(corners).collect();
-        let bounds: Vec<[Vector; 2]> = corners.iter().map(|face| bounds(space, face)).collect();
-        let end =
-            |k: usize, x: usize, to: fn(f64, f64) -> f64| bounds.iter().map(|b| b[k][x]).fold(f64::NAN, to);
-        let (low, high) = ([0, 1, 2].map(|x| end(0, x, f64::min)), [0, 1, 2].map(|x| end(1, x, f64::max)));
-        let middle = [0, 1, 2].map(|x| 0.5 * (low[x] + high[x]));
-        let size = (0..3).map(|x| 0.5 * (high[x] - low[x])).fold(f64::MIN_POSITIVE, f64::max);
-        // Rounded to single precision away from the box: none is smaller than what it has to contain.
-        let single = |p: Vector, by: f64, round: fn(f32) -> f32| {
-            Vec3A::from([0, 1, 2].map(|x| round(((p[x] - middle[x]) / size + by) as f32)))
-        };
-        let boxed = |&[low, high]: &[Vector; 2]| {
-            Aabb::new(single(low, -SLACK, f32::next_down), single(high, SLACK, f32::next_up))
-        };
-        let boxes: Vec<Aabb> = bounds.iter().map(boxed).collect();
-        let params = BvhBuildParams { max_prims_per_leaf: 1, ..BvhBuildParams::medium_build() };
-        let tree = build_bvh2(&boxes, params, &mut Duration::default());
-        Some(Boxes { tree, corners, space, middle, size })
+        let bounds: Vec<Bounds> = corners.iter().map(|face| bounds(space, face)).collect();
+        let coordinates = bounds.iter().flat_map(|b| b.low.into_iter().chain(b.high));
+        let largest = coordinates.fold(0.0f64, |most, x| most.max(x.abs()));
+        let bounds: Vec<Bounds> = bounds.into_iter().map(|b| b.widened(SLACK * largest)).collect();
+        Some(Boxes { tree: boxes::Boxes::new(&bounds), corners, space })
     }
 
     /// The faces that hold a point, as far as doubles tell, of lowest number first.
     pub fn around(&self, point: Vector) -> Vec<FaceId> {
         let at = flat(self.space, point);
-        let seen = [0, 1, 2].map(|x| (at[x] - self.middle[x]) / self.size);
         let (mut found, mut open) = (Vec::new(), vec![0]);
         while let Some(node) = open.pop() {
-            let of = &self.tree.nodes[node];
-            let Aabb { min, max } = of.aabb();
-            let (low, high) = (min.to_array(), max.to_array());
-            if (0..3).any(|x| seen[x] < f64::from(low[x]) || seen[x] > f64::from(high[x])) {
+            if self.tree.distance(node, at) > 0.0 {
                 continue;
             }
-            let first = of.first_index as usize;
-            match of.is_leaf() {
-                false => open.extend([first, first + 1]),
-                true => found.extend(&self.tree.primitive_indices[first..first + of.prim_count as usize]),
+            match self.tree.node(node) {
+                Node::Inner(children) => open.extend(children),
+                Node::Leaf(faces) => found.extend(faces),
             }
         }
         found.retain(|&f| may_hold(&self.corners[f as usize], point));
@@ -92,8 +68,8 @@ fn flat(space: Space, [x, y, w]: Vector) -> Vector {
     }
 }
 
-/// Ends of a box around a face.
-fn bounds(space: Space, corners: &[Vector; 3]) -> [Vector; 2] {
+/// The box around a face.
+fn bounds(space: Space, corners: &[Vector; 3]) -> Bounds {
     let points = corners.map(|p| flat(space, p));
     // The sphere bulges over a triangle of sides l by no more than l²/2, and by no more than its radius.
     let bulge = match space {
@@ -103,8 +79,7 @@ fn bounds(space: Space, corners: &[Vector; 3]) -> [Vector; 2] {
         }
         _ => 0.0,
     };
-    let end = |x: usize, to: fn(f64, f64) -> f64| to(to(points[0][x], points[1][x]), points[2][x]);
-    [[0, 1, 2].map(|x| end(x, f64::min) - bulge), [0, 1, 2].map(|x| end(x, f64::max) + bulge)]
+    Bounds::of(points).widened(bulge)
 }
 
 /// Whether a point is on the left of all sides, but for rounding.

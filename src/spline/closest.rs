@@ -5,7 +5,6 @@
 //! deviate from flat. In each cell whose box is nearer to a point than what has been found so far, the nearest point is looked for by a
 //! descent.
 
-use super::bounds::Bounds;
 use super::descent::{Reached, descend, is_convex};
 use super::hole::Hole;
 use super::patch::Parameter;
@@ -14,15 +13,11 @@ use super::recurrence::Scratch;
 use super::surface::{LARGEST, Spline, in_batches};
 use crate::control::Control;
 use crate::error::{Error, Result};
+use crate::geometry::bounds::Bounds;
+use crate::geometry::boxes::{Boxes, Node};
 use crate::geometry::complex::{Complex, add, scale};
 use crate::geometry::vector::{self, Vector, distance};
-use glam::Vec3A;
-use obvhs::BvhBuildParams;
-use obvhs::aabb::Aabb;
-use obvhs::bvh2::Bvh2;
-use obvhs::bvh2::builder::build_bvh2;
 use std::f64::consts::TAU;
-use std::time::Duration;
 
 /// How often a patch is halved: at least so that no bend is overlooked, at most so that a wild surface has not too many cells.
 const HALVINGS: [usize; 2] = [2, 5];
@@ -76,11 +71,8 @@ struct Cell {
 pub struct ClosestPoints<'a> {
     spline: &'a Spline,
     cells: Vec<Cell>,
-    /// Boxes around the cells, in coordinates from −1 to 1.
-    tree: Bvh2,
-    middle: Vector,
-    /// Half of the largest extent of the boxes.
-    size: f64,
+    /// Around the cells.
+    boxes: Boxes,
 }
 
 impl Spline {
@@ -110,7 +102,7 @@ impl Spline {
             cells.extend(some);
             boxes.extend(of.into_iter().map(|bounds| bounds.widened(SLACK * largest)));
         }
-        Ok(ClosestPoints::new(self, cells, &boxes))
+        Ok(ClosestPoints { spline: self, cells, boxes: Boxes::new(&boxes) })
     }
 
     /// The corners of a piece in its own coordinates, counterclockwise.
@@ -208,26 +200,6 @@ impl Cutting<'_> {
     }
 }
 
-impl<'a> ClosestPoints<'a> {
-    fn new(spline: &'a Spline, cells: Vec<Cell>, boxes: &[Bounds]) -> ClosestPoints<'a> {
-        let all = boxes.iter().copied().reduce(Bounds::union).unwrap_or(Bounds::of([]));
-        let middle = [0, 1, 2].map(|x| 0.5 * all.low[x] + 0.5 * all.high[x]);
-        let size = (0..3).map(|x| 0.5 * all.high[x] - 0.5 * all.low[x]).fold(0.0, f64::max);
-        let size = if size > 0.0 { size } else { 1.0 };
-        // Rounded to single precision away from the box: none is smaller than what it has to contain.
-        let single = |p: Vector, round: fn(f32) -> f32| {
-            Vec3A::from([0, 1, 2].map(|x| round(((p[x] - middle[x]) / size) as f32)))
-        };
-        let boxes: Vec<Aabb> = boxes
-            .iter()
-            .map(|b| Aabb::new(single(b.low, f32::next_down), single(b.high, f32::next_up)))
-            .collect();
-        let params = BvhBuildParams { max_prims_per_leaf: 1, ..BvhBuildParams::medium_build() };
-        let tree = build_bvh2(&boxes, params, &mut Duration::default());
-        ClosestPoints { spline, cells, tree, middle, size }
-    }
-}
-
 impl ClosestPoints<'_> {
     /// For each point the nearest one of the surface, of several the first that is found; in parallel.
     ///
@@ -242,28 +214,23 @@ impl ClosestPoints<'_> {
     }
 
     fn nearest(&self, target: Vector, scratch: &mut Scratch) -> Result<ClosestPoint> {
-        let seen = [0, 1, 2].map(|x| (target[x] - self.middle[x]) / self.size);
-        let far = |node: usize| {
-            let Aabb { min, max } = self.tree.nodes[node].aabb();
-            let (low, high) = (min.to_array(), max.to_array());
-            let beyond = |x: usize| (f64::from(low[x]) - seen[x]).max(seen[x] - f64::from(high[x])).max(0.0);
-            beyond(0).hypot(beyond(1)).hypot(beyond(2)) * self.size
-        };
+        let far = |node: usize| self.boxes.distance(node, target);
         let (mut best, mut cells, mut steps) = (None, 0, 0);
         let mut open = vec![(far(0), 0)];
         while let Some((least, node)) = open.pop() {
             if best.is_some_and(|(_, Reached { distance, .. })| least >= distance) {
                 continue;
             }
-            let of = &self.tree.nodes[node];
-            let first = of.first_index as usize;
-            if !of.is_leaf() {
-                let mut children = [first, first + 1].map(|child| (far(child), child));
-                children.sort_by(|a, b| b.0.total_cmp(&a.0));
-                open.extend(children);
-                continue;
-            }
-            for &cell in &self.tree.primitive_indices[first..first + of.prim_count as usize] {
+            let found = match self.boxes.node(node) {
+                Node::Inner(children) => {
+                    let mut children = children.map(|child| (far(child), child));
+                    children.sort_by(|a, b| b.0.total_cmp(&a.0));
+                    open.extend(children);
+                    continue;
+                }
+                Node::Leaf(found) => found,
+            };
+            for &cell in found {
                 let cell = &self.cells[cell as usize];
                 let reached = self.descent(cell, target, scratch)?;
                 (cells, steps) = (cells + 1, steps + reached.steps);

@@ -22,7 +22,7 @@ use super::patch::Parameter;
 use super::point::SurfacePoint;
 use super::space::SplineSpace;
 use crate::error::{Error, Result};
-use crate::geometry::complex::{Complex, add, conj, doubled_area, mul, norm, norm2, scale, sub};
+use crate::geometry::complex::{Complex, add, conj, distance, doubled_area, mul, norm, norm2, scale, sub};
 use crate::geometry::vector::Vector;
 use std::f64::consts::{PI, TAU};
 
@@ -185,9 +185,9 @@ impl Hole {
     pub(super) fn spoke(&self, vertex: Parameter, at: Parameter) -> Option<Complex> {
         self.fill.as_ref()?;
         let here = self.sectors.iter().filter(|sector| sector.patch == at.patch);
-        let mut places = here.map(|sector| (sector, [vertex, at].map(|p| sector.local([p.x, p.y]))));
-        let (sector, [_, z]) = places.find(|(_, [v, z])| norm(*v) < AT_VERTEX * norm(*z))?;
-        Some(self.of_sector(sector, z))
+        let [vertex, at] = [vertex, at].map(|p| [p.x, p.y]);
+        let sector = here.into_iter().find(|sector| sector.starts_at(vertex, at))?;
+        Some(self.of_sector(sector, sector.local(at)))
     }
 
     /// w/ρ of a place that a sector gives.
@@ -305,6 +305,12 @@ impl Sector {
     pub fn local(&self, at: Complex) -> Complex {
         let [[.., x], [.., y]] = self.to;
         add(mul(self.turn(), at), [x, y])
+    }
+
+    /// Whether the first of two points of the chart is the vertex.
+    pub fn starts_at(&self, vertex: Complex, other: Complex) -> bool {
+        let [vertex, other] = [vertex, other].map(|p| self.local(p));
+        norm(vertex) < AT_VERTEX * distance(vertex, other)
     }
 
     /// The point of the chart at a place beside the vertex.

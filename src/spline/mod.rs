@@ -2,7 +2,6 @@
 //! with an affine atlas [DMS92; Sei91; GHQ06].
 
 mod bicubic;
-mod bounds;
 mod cap;
 mod closest;
 mod descent;

@@ -5,9 +5,8 @@
 //! the vertex would not be convex in w. Where one is not, all sides at that vertex are divided nearer to it, at the same share of |w|.
 
 use super::patch_quad::{Division, PatchQuad, root};
-use crate::geometry::complex::{Complex, add, conj, distance, mul, norm, scale, sub, unit};
+use crate::geometry::complex::{Complex, add, conj, mul, norm, scale, sub, unit};
 use crate::spline::hole::Hole;
-use crate::spline::space::affine;
 use crate::spline::surface::Spline;
 use std::collections::HashMap;
 
@@ -15,8 +14,6 @@ use std::collections::HashMap;
 const SHARES: [f64; 5] = [0.8, 0.7, 0.6, 0.5, 0.4];
 /// How far on from the middle between the ends of its two sides to the opposite side a quadrilateral has its last corner: at the centroid, where m = 1.
 const ONWARD: f64 = 1.0 / 3.0;
-/// A corner is the vertex of a hole where it is nearer to it than this share of its side: rounding.
-const AT_VERTEX: f64 = 1e-6;
 
 /// Without singular vertices.
 const EVEN: Division = Division { middles: [0.5; 3], centre: [1.0 / 3.0; 3], turns: [1; 3] };
@@ -63,8 +60,7 @@ fn corners(spline: &Spline, hole: &Hole) -> Vec<(usize, usize)> {
     let mut found = Vec::new();
     for sector in &hole.sectors {
         let knots = &spline.space().patches()[sector.patch as usize].knots;
-        let at = [0, 1, 2].map(|k| affine(&sector.to, knots[k][0]));
-        let is_here = |k: &usize| norm(at[*k]) < AT_VERTEX * distance(at[*k], at[(k + 1) % 3]);
+        let is_here = |k: &usize| sector.starts_at(knots[*k][0], knots[(k + 1) % 3][0]);
         found.extend((0..3).find(is_here).map(|k| (sector.patch as usize, k)));
     }
     found

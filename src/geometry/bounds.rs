@@ -1,10 +1,10 @@
 //! Axis-parallel boxes.
 
-use crate::geometry::vector::{self, Vector};
+use super::vector::{self, Vector};
 
 /// An axis-parallel box.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Bounds {
+pub(crate) struct Bounds {
     pub low: Vector,
     pub high: Vector,
 }
