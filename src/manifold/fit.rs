@@ -9,7 +9,9 @@ use crate::error::{Error, Result};
 use crate::geometry::vector::{Vector, diagonal, distance};
 use crate::mesh::VertexId;
 use crate::metric::Surface;
-use crate::spline::{Fill, FitOptions, Hole, Parameter, Spline, SplineSpace, fit_filled};
+use crate::spline::{
+    Fill, FitOptions, Fitted, Hole, Parameter, Spline, SplineSpace, SurfacePoint, fit_filled,
+};
 use std::sync::Arc;
 
 /// Least number of vertices in a hole, and largest share of all vertices.
@@ -23,6 +25,12 @@ const POINTS: f64 = 6.0;
 const RMS: f64 = 0.1;
 /// Factor of the fairness after a round that misses the mean distance asked for.
 const LESS_FAIR: f64 = 0.6;
+/// Corrections that are made although the tolerance is met.
+const CORRECTIONS: usize = 5;
+/// No correction follows one after which the mean distance is still more than this share of what it was.
+const GAIN: f64 = 0.98;
+/// Times that a domain is made again with fewer vertices where it has too many control points.
+const TRIES: usize = 4;
 /// Growth of the hole's radius in the coordinate in which its vertex is a point as any other.
 const GROWTH: f64 = 1.15;
 /// Longest step of a parameter in one correction, over the longest side of its triangle.
@@ -39,13 +47,13 @@ pub struct SurfaceFitOptions {
     pub tolerance: f64,
     /// Times that the triangles' sizes are adapted to the errors. Default 6.
     pub rounds: usize,
-    /// Times that the places of the vertices are moved to where the spline is nearest. Default 5.
+    /// Times at most that the places of the vertices are moved to where the spline is nearest: fewer where the tolerance is met, or little is gained. Default 20.
     pub corrections: usize,
     /// [`FitOptions::fairness`] of the first round; less in later ones while the mean distance is missed. Default 1e-10.
     pub fairness: f64,
     /// [`crate::spline::KnotOptions::spread`]. Default 0.9.
     pub spread: f64,
-    /// Area of a hole over m² mean triangles, for a vertex with a total angle of m turns. Default 1.
+    /// Area of a hole over m² mean triangles, for a vertex with a total angle of m turns. Default 1.5.
     pub hole: f64,
     /// Threads; 0 (default) is one per core. The result does not depend on it.
     pub threads: usize,
@@ -58,10 +66,10 @@ impl Default for SurfaceFitOptions {
             control_points: None,
             tolerance: 0.01,
             rounds: 6,
-            corrections: 5,
+            corrections: 20,
             fairness: 1e-10,
             spread: WIDE,
-            hole: 1.0,
+            hole: 1.5,
             threads: 0,
         }
     }
@@ -111,30 +119,22 @@ pub fn fit_surface(
     }
     let plan = Plan::new(points, options);
     let mut grade = Grade::new(surface, flat, plan.triangles, |turns| plan.inside(turns), control)?;
-    let fills: usize = grade.turns().map(|turns| plan.coefficients(turns)).sum();
-    let most = plan.most_control_points().saturating_sub(fills);
-    let count = vertices_for(most, flat, options.degree).saturating_sub(grade.added());
-    let diagonal = diagonal(points);
     let singular = flat.singular()?;
     let mut best: Option<SurfaceFit> = None;
     let mut fairness = options.fairness;
-    for round in 0..options.rounds.max(1) {
-        let domain = grade.domain(count, control)?;
-        let found = Round::new(domain, &plan, fairness, control);
-        let found = match found {
+    for rounds in 1..=options.rounds.max(1) {
+        let domain = plan.domain(&grade, flat, control)?;
+        let found = match Round::new(domain, &plan, fairness, control) {
             Ok(found) => found,
             // Another round has given a spline: this one cannot do better.
             Err(Error::Spline { .. } | Error::Factorisation { .. }) if best.is_some() => break,
             Err(error) => return Err(error),
         };
-        let misses = found.measure(control)?;
-        grade.adapt(mesh, &found.triangles(&misses), (found.space.patches().len(), options.degree));
-        let squares: f64 = misses.iter().map(|miss| miss * miss).sum();
-        let rms = (squares / points.len().max(1) as f64).sqrt() / diagonal;
-        let max = misses.iter().copied().fold(0.0, f64::max) / diagonal;
-        let rounds = round + 1;
-        let Round { domain, places, spline, folds, .. } = found;
-        let next = SurfaceFit { spline, domain, places, singular: singular.clone(), rms, max, folds, rounds };
+        grade.adapt(mesh, &found.triangles(control)?, (found.space.patches().len(), options.degree));
+        let [rms, max] = plan.relative(&found.fitted);
+        let Round { domain, places, fitted, folds, .. } = found;
+        let (spline, singular) = (fitted.spline, singular.clone());
+        let next = SurfaceFit { spline, domain, places, singular, rms, max, folds, rounds };
         let is_done = next.miss(options.tolerance) <= 1.0 && next.folds.is_empty();
         if best.as_ref().is_none_or(|best| next.cost(options.tolerance) < best.cost(options.tolerance)) {
             best = Some(next);
@@ -152,7 +152,7 @@ pub fn fit_surface(
 impl SurfaceFit {
     /// How far it misses what is asked for, 1 where it just does not.
     fn miss(&self, tolerance: f64) -> f64 {
-        f64::max(self.max, self.rms / RMS) / tolerance
+        miss([self.rms, self.max], tolerance)
     }
 
     /// What is less for a better fit: first to be near, then not to fold, then to be nearer.
@@ -160,6 +160,11 @@ impl SurfaceFit {
         let miss = self.miss(tolerance);
         (if miss <= 1.0 { 0.0 } else { miss }, self.folds.len(), miss)
     }
+}
+
+/// The mean distance over the one asked for, or the largest one, whichever is worse.
+fn miss([rms, max]: [f64; 2], tolerance: f64) -> f64 {
+    f64::max(max, rms / RMS) / tolerance
 }
 
 /// Vertices of a triangulation of this surface, or plane, that has at most so many control points: of V vertices at most n²V − (n² − 1)χ, less for each edge of the boundary.
@@ -173,6 +178,7 @@ fn vertices_for(control_points: usize, flat: &Flat, degree: usize) -> usize {
 /// What all rounds have in common.
 struct Plan<'a> {
     points: &'a [Vector],
+    diagonal: f64,
     options: &'a SurfaceFitOptions,
     /// Those of a closed surface with as many control points as are wanted: n² per two of them.
     triangles: usize,
@@ -180,13 +186,37 @@ struct Plan<'a> {
 
 impl<'a> Plan<'a> {
     fn new(points: &'a [Vector], options: &'a SurfaceFitOptions) -> Plan<'a> {
-        let plan = Plan { points, options, triangles: 0 };
+        let plan = Plan { points, diagonal: diagonal(points), options, triangles: 0 };
         let triangles = 2 * plan.most_control_points() / (options.degree * options.degree).max(1);
         Plan { triangles, ..plan }
     }
 
     fn most_control_points(&self) -> usize {
         self.options.control_points.unwrap_or(self.points.len() / 4)
+    }
+
+    /// A domain whose splines have no more control points than wanted, coefficients of fillings included.
+    fn domain(&self, grade: &Grade<'_>, flat: &Flat, control: &Control) -> Result<SurfaceDomain> {
+        let degree = self.options.degree;
+        let fills: usize = grade.turns().map(|turns| self.coefficients(turns)).sum();
+        let most = self.most_control_points().saturating_sub(fills);
+        let mut count = vertices_for(most, flat, degree).saturating_sub(grade.added());
+        let mut domain = grade.domain(count, control)?;
+        for _ in 0..TRIES {
+            // Vertices may have been added to those that were chosen.
+            let excess = control_points(&domain, degree).saturating_sub(most);
+            if excess == 0 {
+                break;
+            }
+            count = count.saturating_sub(excess.div_ceil(degree * degree).max(1));
+            domain = grade.domain(count, control)?;
+        }
+        Ok(domain)
+    }
+
+    /// Root of the mean square of the distances and the largest one, over the diagonal.
+    fn relative(&self, fitted: &Fitted) -> [f64; 2] {
+        [fitted.rms, fitted.max].map(|distance| distance / self.diagonal)
     }
 
     /// Vertices of the surface that the hole of a singular vertex with this number of turns covers: [`SurfaceFitOptions::hole`] times the area of turns² triangles.
@@ -219,13 +249,22 @@ impl<'a> Plan<'a> {
     }
 }
 
+/// Control points of splines of a degree over a domain: n − 1 on each edge and (n − 1)(n − 2)/2 in each triangle beside those of the vertices.
+fn control_points(domain: &SurfaceDomain, degree: usize) -> usize {
+    let mesh = &domain.coarse().mesh;
+    let inner = degree.saturating_sub(1);
+    mesh.n_vertices() + inner * mesh.n_edges() + inner * degree.saturating_sub(2) / 2 * mesh.n_faces()
+}
+
 /// One domain, and what is fitted on it.
 struct Round<'a> {
     plan: &'a Plan<'a>,
     domain: SurfaceDomain,
     space: Arc<SplineSpace>,
+    /// Without the fillings that the fit finds.
+    holes: Vec<Hole>,
     places: Vec<Parameter>,
-    spline: Spline,
+    fitted: Fitted,
     /// Patches in which the spline folds.
     folds: Vec<usize>,
 }
@@ -245,31 +284,42 @@ impl<'a> Round<'a> {
                 .collect::<Result<_>>()?,
         };
         let fit_options = FitOptions { fairness, threads: options.threads };
-        let fit = |places: &[Parameter]| {
-            fit_filled((&space, &holes), (places, points), &fit_options, control).map(|fitted| fitted.spline)
-        };
-        let spline = fit(&places)?;
-        let mut round = Round { plan, domain, space: space.clone(), places, spline, folds: Vec::new() };
-        for _ in 0..options.corrections {
-            round.correct(control)?;
-            round.spline = fit(&round.places)?;
-        }
-        round.folds = round.domain.folds(&round.spline, options.threads, control)?;
+        let fitted = fit_filled((&space, &holes), (&places, points), &fit_options, control)?;
+        let mut round = Round { plan, domain, space, holes, places, fitted, folds: Vec::new() };
+        round.improve(&fit_options, control)?;
+        round.folds = round.domain.folds(&round.fitted.spline, options.threads, control)?;
         Ok(round)
+    }
+
+    /// Correct the places and fit again, until that is near enough, or gains little.
+    fn improve(&mut self, options: &FitOptions, control: &Control) -> Result<()> {
+        let plan = self.plan;
+        for done in 1..=plan.options.corrections {
+            self.correct(control)?;
+            let holes = (&self.space, &self.holes[..]);
+            let next = fit_filled(holes, (&self.places, plan.points), options, control)?;
+            let is_slow = next.rms > GAIN * self.fitted.rms;
+            self.fitted = next;
+            let is_near = miss(plan.relative(&self.fitted), plan.options.tolerance) <= 1.0;
+            if done >= CORRECTIONS && (is_near || is_slow) {
+                break;
+            }
+        }
+        Ok(())
     }
 
     /// Whether the spline has no weight at a place.
     fn is_covered(&self, at: Parameter) -> bool {
-        self.spline.holes().iter().any(|hole| hole.is_core(at))
+        self.fitted.spline.holes().iter().any(|hole| hole.is_core(at))
     }
 
     /// Move every place to where the spline is nearest to its vertex, by one step of Gauss and Newton.
     fn correct(&mut self, control: &Control) -> Result<()> {
-        let found = self.spline.evaluate(&self.places, 1, self.plan.options.threads, control)?;
+        let found = self.fitted.spline.evaluate(&self.places, 1, self.plan.options.threads, control)?;
         for (k, &point) in self.plan.points.iter().enumerate() {
             let (place, at) = (self.places[k], &found[k]);
             if let Some(inside) =
-                self.spline.holes().iter().find_map(|hole| hole.nearer(&self.space, place, point))
+                self.fitted.spline.holes().iter().find_map(|hole| hole.nearer(&self.space, place, point))
             {
                 self.places[k] = inside;
                 continue;
@@ -285,15 +335,13 @@ impl<'a> Round<'a> {
         Ok(())
     }
 
-    /// Per vertex its distance from its place.
-    fn measure(&self, control: &Control) -> Result<Vec<f64>> {
-        let found = self.spline.evaluate(&self.places, 0, self.plan.options.threads, control)?;
-        Ok(found.iter().zip(self.plan.points).map(|(at, point)| distance(at.point, *point)).collect())
-    }
-
-    /// Per vertex its triangle and its distance, outside what holes take the place of.
-    fn triangles(&self, misses: &[f64]) -> Vec<Miss> {
-        let all = self.places.iter().zip(misses);
-        all.map(|(&at, &miss)| (!self.is_covered(at)).then_some((at.patch as usize, miss))).collect()
+    /// Per vertex its triangle and its distance from its place, outside what holes take the place of.
+    fn triangles(&self, control: &Control) -> Result<Vec<Miss>> {
+        let found = self.fitted.spline.evaluate(&self.places, 0, self.plan.options.threads, control)?;
+        let all = self.places.iter().zip(found.iter().zip(self.plan.points));
+        let miss = |(&at, (found, point)): (&Parameter, (&SurfacePoint, &Vector))| {
+            (!self.is_covered(at)).then(|| (at.patch as usize, distance(found.point, *point)))
+        };
+        Ok(all.map(miss).collect())
     }
 }

@@ -6,7 +6,7 @@ use crate::error::Result;
 use crate::geometry::complex::{Complex, add, scale, sub};
 use crate::geometry::vector::{Vector, cross, dot, norm};
 use crate::mesh::FaceId;
-use crate::spline::{Parameter, Spline};
+use crate::spline::{Hole, Parameter, Spline};
 
 /// Steps of a grid along a side of a patch.
 const STEPS: usize = 12;
@@ -17,29 +17,34 @@ const TURN: f64 = 60.0;
 
 impl SurfaceDomain {
     /// The patches in which a spline over this domain folds: its normals turn by more than 60 degrees from one place of a grid to the next, a twelfth of a side
-    /// apart. At a singular vertex the grid is even in the coordinate in which that is a point as any other.
+    /// apart at most. Around a singular vertex they are as near to each other in the coordinate in which that is a point as any other.
     ///
     /// # Errors
     /// [`crate::Error::Spline`] for a spline over another domain; [`crate::Error::Cancelled`].
     pub fn folds(&self, spline: &Spline, threads: usize, control: &Control) -> Result<Vec<usize>> {
         let mesh = &self.coarse().mesh;
-        let turns = spline.holes().iter().map(|hole| hole.turns);
-        let singular: Vec<_> = self.singular().into_iter().zip(turns).collect();
+        let singular: Vec<_> = self.singular().into_iter().zip(spline.holes()).collect();
         let places = |f: FaceId| {
             let around = mesh.face_vertices(f);
             let at = |k: usize| {
-                let (_, turns) = singular.iter().find(|(v, _)| *v == around[k])?;
-                Some((k, *turns))
+                let (_, hole) = singular.iter().find(|(v, _)| *v == around[k])?;
+                Some((k, Some(*hole)))
             };
-            let (k, power) = (0..3).find_map(at).unwrap_or((0, 1));
+            let (k, hole) = (0..3).find_map(at).unwrap_or((0, None));
             let corners = [0, 1, 2].map(|j| self.corners(f)[(k + j) % 3]);
-            grid(corners, power).map(move |[x, y]| Parameter { patch: f.0, x, y })
+            grid(f.0, corners, hole)
         };
-        let places: Vec<Parameter> = mesh.faces().flat_map(places).collect();
-        let found = spline.evaluate(&places, 1, threads, control)?;
+        let grids: Vec<Vec<Parameter>> = mesh.faces().map(places).collect();
+        let found = spline.evaluate(&grids.concat(), 1, threads, control)?;
         let normals: Vec<Vector> = found.iter().map(|at| cross(at.first[0], at.first[1])).collect();
-        let grids = normals.chunks((STEPS + 1) * (STEPS + 1)).enumerate();
-        Ok(grids.filter(|(_, of)| is_folded(of)).map(|(patch, _)| patch).collect())
+        let mut rest = &normals[..];
+        let is_folded = |grid: &Vec<Parameter>| {
+            let (of, later) = rest.split_at(grid.len());
+            rest = later;
+            is_folded(of)
+        };
+        let folded: Vec<bool> = grids.iter().map(is_folded).collect();
+        Ok((0..folded.len()).filter(|&patch| folded[patch]).collect())
     }
 }
 
@@ -47,19 +52,40 @@ impl SurfaceDomain {
 fn is_folded(normals: &[Vector]) -> bool {
     let (side, limit) = (STEPS + 1, TURN.to_radians());
     let turn = |a: Vector, b: Vector| norm(cross(a, b)).atan2(dot(a, b));
-    let next = |at: usize| [(at % side + 1 < side, at + 1), (at / side + 1 < side, at + side)];
+    let next = |at: usize| [(at % side + 1 < side, at + 1), (at + side < normals.len(), at + side)];
     let turns =
         |at: usize| next(at).iter().any(|&(is_there, to)| is_there && turn(normals[at], normals[to]) > limit);
     (0..normals.len()).any(turns)
 }
 
-/// Places in a triangle: rows from the first corner to the opposite side, farther apart by a power.
-fn grid([a, b, c]: [Complex; 3], power: i32) -> impl Iterator<Item = Complex> {
-    let at = |k: usize| (k as f64 + INSET) / (STEPS as f64 + 2.0 * INSET);
-    (0..=STEPS).flat_map(move |i| {
-        (0..=STEPS).map(move |j| {
-            let end = add(scale(1.0 - at(j), sub(b, a)), scale(at(j), sub(c, a)));
-            add(a, scale(at(i).powi(power), end))
-        })
-    })
+/// Places in a triangle, in rows from its first corner, at which the vertex of a hole may be, to the opposite side. Where the filling alone is the
+/// surface they are in the chart of the hole: beside the coordinates of a corner, differences from it have few digits.
+fn grid(patch: u32, [a, b, c]: [Complex; 3], hole: Option<&Hole>) -> Vec<Parameter> {
+    let place = |[x, y]: Complex| Parameter { patch, x, y };
+    let at = |row: f64, column: usize| {
+        let column = (column as f64 + INSET) / (STEPS as f64 + 2.0 * INSET);
+        let end = add(scale(1.0 - column, sub(b, a)), scale(column, sub(c, a)));
+        let inside = hole.and_then(|hole| hole.near_vertex([place(a), place(add(a, end))], row));
+        let turns = hole.map_or(1, |hole| hole.turns);
+        inside.unwrap_or_else(|| place(add(a, scale(row.powi(turns), end))))
+    };
+    let rows = rows(hole.map_or(1, |hole| hole.turns));
+    rows.into_iter()
+        .flat_map(|row| (0..=STEPS).map(move |column| (row, column)))
+        .map(|(r, c)| at(r, c))
+        .collect()
+}
+
+/// Shares of |w| = |z|^(1/m) at which a triangle with m turns at its first corner has its rows: a step is at most a twelfth of w and of z.
+fn rows(turns: i32) -> Vec<f64> {
+    let step = 1.0 / (STEPS as f64 + 2.0 * INSET);
+    let [first, last] = [INSET * step, 1.0 - INSET * step];
+    let mut rows = vec![first];
+    let mut row = first;
+    while row < last {
+        let of_z = step / (f64::from(turns) * row.powi(turns - 1));
+        row += step.min(of_z);
+        rows.push(row.min(last));
+    }
+    rows
 }

@@ -34,6 +34,8 @@ pub(super) struct Grade<'a> {
     /// How much longer the flat metric is than the surface's.
     stretch: PerVertex<f64>,
     growth: f64,
+    /// Counts from 1: each has its own order of vertices, since whether a spline folds depends on where they happen to lie.
+    round: u64,
     /// The vertices that are not flat.
     always: Vec<VertexId>,
     /// Vertices of the surface but those in the middle of holes.
@@ -81,7 +83,19 @@ impl<'a> Grade<'a> {
         }
         let Around { always, allowed, turns } = around;
         let sizes = PerVertex::from_fn(n, |v| least[v].max(1.0));
-        Ok(Grade { flat, lengths, sizes, least, stretch, growth: 1.0, always, allowed, turns, plane })
+        Ok(Grade {
+            flat,
+            lengths,
+            sizes,
+            least,
+            stretch,
+            growth: 1.0,
+            round: 1,
+            always,
+            allowed,
+            turns,
+            plane,
+        })
     }
 
     /// Of the singular vertices inside the surface, their total angles in turns.
@@ -114,6 +128,7 @@ impl<'a> Grade<'a> {
         let mesh = &self.flat.mesh;
         let sampling = Sampling {
             mesh,
+            seed: self.round,
             lengths: &self.lengths,
             sizes: PerVertex::from_fn(mesh.n_vertices(), size),
             growth: self.growth,
@@ -140,6 +155,7 @@ impl<'a> Grade<'a> {
             self.sizes[v] *= change;
         }
         self.growth *= MORE_GROWTH;
+        self.round += 1;
         smooth(mesh, &mut self.sizes);
         for v in mesh.vertices() {
             self.sizes[v] = self.sizes[v].max(self.least[v]).clamp(SIZES[0], SIZES[1]);

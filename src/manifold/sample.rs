@@ -7,8 +7,6 @@ use crate::mesh::{Mesh, PerEdge, PerVertex, VertexId};
 use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
 
-/// Seed of the order in which vertices are looked at.
-const SEED: u64 = 1;
 /// Halvings of the interval in which the distance is looked for.
 const HALVINGS: usize = 24;
 /// How much smaller than asked for the count may be.
@@ -17,6 +15,8 @@ const NEAR: f64 = 0.02;
 /// Where vertices are taken, and how far apart.
 pub(super) struct Sampling<'a> {
     pub mesh: &'a Mesh,
+    /// Of the order in which vertices are looked at.
+    pub seed: u64,
     pub lengths: &'a PerEdge<f64>,
     /// Distances from neighbours, relative to each other; infinite where only the growth limits them.
     pub sizes: PerVertex<f64>,
@@ -37,7 +37,7 @@ impl Sampling<'_> {
     pub fn spread(&self, count: usize, control: &Control) -> Result<PerVertex<bool>> {
         let mesh = self.mesh;
         let mut order: Vec<VertexId> = mesh.vertices().filter(|&v| self.allowed[v]).collect();
-        let mut random = SplitMix64::new(SEED);
+        let mut random = SplitMix64::new(self.seed);
         for i in (1..order.len()).rev() {
             order.swap(i, (random.bits() % (i as u64 + 1)) as usize);
         }

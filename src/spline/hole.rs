@@ -190,6 +190,13 @@ impl Hole {
         Some(self.of_sector(sector, sector.local(at)))
     }
 
+    /// The place in the chart of the hole at a share of |w| of the way from its vertex, the first of two places of a patch, to the second. None where the
+    /// filling alone is not the surface, and where the first place is not the vertex.
+    pub(crate) fn near_vertex(&self, [vertex, end]: [Parameter; 2], share: f64) -> Option<Parameter> {
+        let w = scale(share, self.spoke(vertex, end)?);
+        (norm(w) <= self.inner).then_some(Parameter { patch: self.chart, x: w[0], y: w[1] })
+    }
+
     /// w/ρ of a place that a sector gives.
     fn of_sector(&self, sector: &Sector, z: Complex) -> Complex {
         let share = 1.0 / f64::from(self.turns);
