@@ -154,7 +154,10 @@ typedef struct ricci_spline_surface_options {
     uint32_t degree;
     /** Times that the sizes of the triangles are adapted to the errors; 0: 6. */
     uint32_t rounds;
-    /** Times that vertices are moved to where the spline is nearest; 0: 2; below 0: none. */
+    /**
+     * Times at most that vertices are moved to where the spline is nearest, fewer where the tolerance is met
+     * or little is gained; 0: 20; below 0: none.
+     */
     int32_t corrections;
     /** 0. */
     uint32_t reserved;

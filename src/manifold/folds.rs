@@ -80,12 +80,48 @@ fn grid(patch: u32, [a, b, c]: [Complex; 3], hole: Option<&Hole>) -> Vec<Paramet
 fn rows(turns: i32) -> Vec<f64> {
     let step = 1.0 / (STEPS as f64 + 2.0 * INSET);
     let [first, last] = [INSET * step, 1.0 - INSET * step];
-    let mut rows = vec![first];
-    let mut row = first;
-    while row < last {
-        let of_z = step / (f64::from(turns) * row.powi(turns - 1));
-        row += step.min(of_z);
-        rows.push(row.min(last));
+    let next = |row: &f64| {
+        let of_z = (row.powi(turns) + step).powf(1.0 / f64::from(turns));
+        (*row < last).then_some(of_z.min(row + step).min(last))
+    };
+    std::iter::successors(Some(first), next).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::spline::Sector;
+
+    /// At a vertex with any number of turns, no two rows are farther apart than a twelfth, in w and in z = wᵐ.
+    #[test]
+    fn rows_are_near_each_other_in_both_coordinates() {
+        for turns in [1, 2, 3, 5, 31] {
+            let rows = rows(turns);
+            let most =
+                |power: i32| rows.windows(2).map(|w| w[1].powi(power) - w[0].powi(power)).fold(0.0, f64::max);
+            let twelfth = 1.0 / STEPS as f64;
+            assert!(most(1) <= twelfth && most(turns) <= twelfth, "{turns}: {rows:?}");
+            assert!(rows[0] > 0.0 && rows[rows.len() - 1] < 1.0 && rows.len() > STEPS, "{turns}: {rows:?}");
+        }
     }
-    rows
+
+    /// Places near a vertex of five turns are in the chart of its hole, those farther away in the patch, and both are where they would be.
+    #[test]
+    fn places_near_a_vertex_are_in_the_chart_of_its_hole() {
+        let corners = [[1.0, 1.0], [2.0, 1.0], [1.5, 2.0]];
+        let sector = Sector { patch: 3, angle: 0.2, to: [[1.0, 0.0, -1.0], [0.0, 1.0, -1.0]] };
+        let hole = Hole::new(7, vec![sector], 5, 0.4).unwrap().blank(25);
+        let places = grid(3, corners, Some(&hole));
+        let inside: Vec<_> = places.iter().filter(|at| at.patch == 7).collect();
+        assert!(!inside.is_empty() && inside.len() < places.len());
+        // |w| = (|z| / 0.4)^(1/5): up to 0.8.
+        assert!(inside.iter().all(|at| at.x.hypot(at.y) <= hole.inner));
+        let beyond = places.iter().filter(|at| at.patch == 3);
+        let far = |at: &Parameter| ((at.x - 1.0).hypot(at.y - 1.0) / 0.4).powf(0.2);
+        assert!(
+            beyond.clone().all(|at| far(at) > hole.inner - 1e-9),
+            "{:?}",
+            beyond.map(far).fold(9.0, f64::min)
+        );
+    }
 }
