@@ -93,7 +93,7 @@ def filled(function: Callable[..., int], *arguments: Any, out: npt.NDArray[Any],
 
 def doubles(function: Callable[..., int], *arguments: Any, shape: tuple[int, ...]) -> Doubles:
     """The numbers of this shape that `function` copies out through its last two arguments."""
-    return filled(function, *arguments, out=np.empty(shape))  # type: ignore[no-any-return]
+    return filled(function, *arguments, out=np.empty(shape))
 
 
 def listed(function: Callable[..., int], *arguments: Any, dtype: Any = np.uint32) -> Any:

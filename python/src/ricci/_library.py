@@ -38,3 +38,4 @@ def _open(found: Path) -> Any:
 
 path: Path = _find()
 lib: Any = _open(path)
+VERSION: str = ffi.string(lib.ricci_version()).decode()

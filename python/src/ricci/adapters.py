@@ -80,7 +80,7 @@ def _of_trimesh(other: Any) -> _Arrays | None:
 
 def _of_nibabel(other: Any) -> _Arrays | None:
     """nibabel.GiftiImage: a surface's pointset and triangles."""
-    return other.agg_data(("pointset", "triangle")) if hasattr(other, "agg_data") else None  # type: ignore[no-any-return]
+    return other.agg_data(("pointset", "triangle")) if hasattr(other, "agg_data") else None
 
 
 def to_trimesh(mesh: Mesh, **fields: Any) -> Any:

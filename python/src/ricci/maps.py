@@ -18,7 +18,7 @@ from ricci.errors import ArgumentError
 from ricci.figures import MapSummary
 from ricci.figures.names import On
 from ricci.mesh import Mesh
-from ricci.metric import Metric
+from ricci.metrics import Metric
 
 __all__ = ["Map"]
 
@@ -54,7 +54,7 @@ class Map(Handle):
     def faces(self, on: On = "input") -> Indices:
         """The face that each of the n_faces faces is part of; on ``"refinement"`` the piece with one projective map."""
         out = np.empty(self.summary.n_faces, np.uint32)
-        return filled(lib.ricci_map_faces, self, constant("ON", on), out=out)  # type: ignore[no-any-return]
+        return filled(lib.ricci_map_faces, self, constant("ON", on), out=out)
 
     def barycentric(self, on: Side = "input") -> Doubles:
         """n_faces x 3 x 3 weights [face, corner, corner of the face that it is part of]."""
@@ -69,7 +69,7 @@ class Map(Handle):
     @cached_property
     def weights(self) -> Doubles:
         """The homogeneous weight q of every vertex: with (x, y) in a layout, (q x, q y, q) is linear on every piece."""
-        return frozen(doubles(lib.ricci_map_weights, self, shape=(self.summary.n_vertices,)))  # type: ignore[no-any-return]
+        return frozen(doubles(lib.ricci_map_weights, self, shape=(self.summary.n_vertices,)))
 
     def carry(self, values: npt.ArrayLike, on: Side = "input", at: Literal["vertices", "corners"] = "vertices") -> Doubles:
         """Values at vertices (n, or n x k) or corners (m x 3, or m x 3 x k), carried to those of the refinement."""

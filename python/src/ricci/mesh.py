@@ -148,17 +148,17 @@ class Mesh(Handle):
     @cached_property
     def F(self) -> Indices:
         """m x 3 vertices of every face."""
-        return frozen(filled(lib.ricci_mesh_faces, self, out=np.empty((self.summary.n_faces, 3), np.uint32)))  # type: ignore[no-any-return]
+        return frozen(filled(lib.ricci_mesh_faces, self, out=np.empty((self.summary.n_faces, 3), np.uint32)))
 
     @cached_property
     def edges(self) -> Indices:
         """n_edges x 2 ends of every edge, in its direction."""
-        return frozen(filled(lib.ricci_mesh_edges, self, out=np.empty((self.summary.n_edges, 2), np.uint32)))  # type: ignore[no-any-return]
+        return frozen(filled(lib.ricci_mesh_edges, self, out=np.empty((self.summary.n_edges, 2), np.uint32)))
 
     @cached_property
     def face_edges(self) -> Signed:
         """m x 3 edges opposite the corners: numbers from 1, negative where the face runs against the edge."""
-        return frozen(filled(lib.ricci_mesh_face_edges, self, out=np.empty((self.summary.n_faces, 3), np.int32)))  # type: ignore[no-any-return]
+        return frozen(filled(lib.ricci_mesh_face_edges, self, out=np.empty((self.summary.n_faces, 3), np.int32)))
 
     @cached_property
     def lengths(self) -> Doubles:

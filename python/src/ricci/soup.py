@@ -118,7 +118,7 @@ class Soup(Handle):
     @cached_property
     def F(self) -> Indices:
         """m x 3 vertices of every face."""
-        return frozen(filled(lib.ricci_soup_faces, self, out=np.empty((self.summary.n_faces, 3), np.uint32)))  # type: ignore[no-any-return]
+        return frozen(filled(lib.ricci_soup_faces, self, out=np.empty((self.summary.n_faces, 3), np.uint32)))
 
     @cached_property
     def normals(self) -> Doubles | None:
@@ -163,8 +163,8 @@ class Soup(Handle):
     def _defect(self, index: int) -> Defect:
         found = ffi.new("ricci_defect *")
         call(lib.ricci_soup_defect, self, index, found, ffi.sizeof("ricci_defect"))
-        texts = [ffi.string(text).decode() for text in (found.code, found.message, found.remedy)]
-        return Defect(*texts, _view(self, found.vertices, found.n_vertices), _view(self, found.faces, found.n_faces))
+        code, message, remedy = (ffi.string(text).decode() for text in (found.code, found.message, found.remedy))
+        return Defect(code, message, remedy, _view(self, found.vertices, found.n_vertices), _view(self, found.faces, found.n_faces))
 
     def _values(self, which: str, *shape: int) -> Any:
         return frozen(doubles(lib.ricci_soup_values, self, getattr(lib, f"RICCI_{which}"), shape=shape))

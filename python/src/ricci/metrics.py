@@ -161,7 +161,7 @@ class Metric(Handle):
             TargetError: no metric has it; the element is the vertex, the amount by how much.
         """
         out = np.empty(self.summary.n_vertices)
-        return filled(lib.ricci_target_fill, self, target_struct(target), CONTROL, out=out, progress=progress)  # type: ignore[no-any-return]
+        return filled(lib.ricci_target_fill, self, target_struct(target), CONTROL, out=out, progress=progress)
 
     @cached_property
     def summary(self) -> MetricSummary:
@@ -225,7 +225,7 @@ class Metric(Handle):
     @cached_property
     def mirror(self) -> Indices:
         """The mirror image of every vertex of `triangulation`: itself, but inside a surface that was doubled."""
-        return frozen(filled(lib.ricci_metric_mirror, self, out=np.empty(self.summary.n_mesh_vertices, np.uint32)))  # type: ignore[no-any-return]
+        return frozen(filled(lib.ricci_metric_mirror, self, out=np.empty(self.summary.n_mesh_vertices, np.uint32)))
 
     def _values(self, which: str, *shape: int) -> Any:
         return frozen(doubles(lib.ricci_metric_values, self, getattr(lib, f"RICCI_METRIC_{which}"), shape=shape))

@@ -33,7 +33,7 @@ from ricci.control import Progress
 from ricci.figures import AtlasSummary, LayoutSummary
 from ricci.figures.names import Model, On
 from ricci.mesh import Mesh
-from ricci.metric import Metric
+from ricci.metrics import Metric
 
 __all__ = ["Atlas", "Layout", "LayoutOptions", "Seam", "atlas", "layout"]
 
@@ -106,7 +106,7 @@ class Layout(Handle):
     def corners(self, on: On = "input") -> Indices:
         """The point of every corner of every face, m x 3."""
         out = np.empty((self._faces(on), 3), np.uint32)
-        return filled(lib.ricci_layout_corners, self, constant("ON", on), out=out)  # type: ignore[no-any-return]
+        return filled(lib.ricci_layout_corners, self, constant("ON", on), out=out)
 
     def uv(self, on: On = "input") -> Doubles:
         """The coordinates of every corner of every face in the layout's model, m x 3 x 2."""
@@ -114,7 +114,7 @@ class Layout(Handle):
 
     def flipped(self, on: On = "input") -> Indices:
         """The faces that are not counterclockwise, ascending."""
-        return listed(lib.ricci_layout_flipped, self, constant("ON", on))  # type: ignore[no-any-return]
+        return listed(lib.ricci_layout_flipped, self, constant("ON", on))
 
     def distortion(self, on: On = "input") -> tuple[Doubles, Doubles]:
         """Quasi-conformal dilatation of every face (1 is conformal), and its share of the area over its share in the input."""
@@ -176,22 +176,22 @@ class Atlas(Handle):
     @cached_property
     def charts(self) -> Indices:
         """The chart of every face of what is laid out; charts with more area come first."""
-        return frozen(filled(lib.ricci_atlas_faces, self, out=np.empty(self.summary.n_faces, np.uint32)))  # type: ignore[no-any-return]
+        return frozen(filled(lib.ricci_atlas_faces, self, out=np.empty(self.summary.n_faces, np.uint32)))
 
     @cached_property
     def points(self) -> Doubles:
         """n_points x 2, from 0 to 1."""
-        return frozen(doubles(lib.ricci_atlas_points, self, shape=(self.summary.n_points, 2)))  # type: ignore[no-any-return]
+        return frozen(doubles(lib.ricci_atlas_points, self, shape=(self.summary.n_points, 2)))
 
     @cached_property
     def corners(self) -> Indices:
         """The point of every corner of every face, n_faces x 3."""
-        return frozen(filled(lib.ricci_atlas_corners, self, out=np.empty((self.summary.n_faces, 3), np.uint32)))  # type: ignore[no-any-return]
+        return frozen(filled(lib.ricci_atlas_corners, self, out=np.empty((self.summary.n_faces, 3), np.uint32)))
 
     @cached_property
     def motions(self) -> Doubles:
         """n_charts x 3: rotation (radians) and translation that carry the layout's points, times `summary.scale`, to the chart's."""
-        return frozen(doubles(lib.ricci_atlas_motions, self, shape=(self.summary.n_charts, 3)))  # type: ignore[no-any-return]
+        return frozen(doubles(lib.ricci_atlas_motions, self, shape=(self.summary.n_charts, 3)))
 
     def write(self, path: str | os.PathLike[str], *, homogeneous: bool = False) -> None:
         """Write what is laid out with its charts as texture coordinates, as OBJ."""
