@@ -126,14 +126,17 @@ def text_of(function: Callable[..., int], *arguments: Any) -> str:
 
 
 def rows(n: int, function: Callable[..., int], *arguments: Any, dtype: Any = np.int32) -> list[Any]:
-    """The n lists of different lengths that `function` copies out: views of one array."""
+    """The n lists of different lengths that `function` copies out: views of one array.
+
+    Asked without room for the entries, it either says how many there are or tells where each list starts and ends.
+    """
     starts = np.zeros(n + 1, np.uintp)
     given = [a._pointer if isinstance(a, Passed) else a for a in arguments]
     status = function(*given, ffi.NULL, 0, pointer(starts), starts.size)
     if status not in (Status.OK, Status.BUFFER_TOO_SMALL):
         raise last_failure(status)
-    entries = np.empty(last_needed() if status else 0, dtype)
-    if status:
+    entries = np.empty(last_needed() if status else int(starts[-1]), dtype)
+    if entries.size:
         call(function, *arguments, pointer(entries), entries.size, pointer(starts), starts.size)
     return [entries[a:b] for a, b in pairwise(starts)]
 

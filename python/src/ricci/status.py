@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from enum import IntEnum
 
+from ricci._library import ffi, lib
+
 __all__ = ["Status"]
 
 
@@ -39,3 +41,8 @@ class Status(IntEnum):
     LAYOUT = 600
     MATCHING = 650
     SPLINE = 700
+
+    @property
+    def text(self) -> str:
+        """One sentence on the status."""
+        return str(ffi.string(lib.ricci_status_text(self)).decode())
