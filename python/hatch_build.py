@@ -81,6 +81,13 @@ class Hook(BuildHookInterface):  # type: ignore[type-arg]
         if strip := shutil.which("strip"):
             subprocess.run([strip, "--strip-unneeded" if source.suffix == ".so" else "-x", str(made)], check=True)
         build_data["force_include"][str(made)] = f"ricci/{made.name}"
+        for licence in ("LICENSE-MIT", "LICENSE-APACHE"):
+            build_data["force_include"][str(HERE.parent / licence)] = f"ricci/{licence}"
         platform = sysconfig.get_platform().replace("-", "_").replace(".", "_")
         build_data["pure_python"] = False
         build_data["tag"] = f"py3-none-{platform}"
+
+    def finalize(self, version: str, build_data: dict[str, Any], artifact_path: str) -> None:
+        """Called when the wheel is there: the copy of the library has been packed."""
+        for made in Path(self.directory).glob("libricci.*"):
+            made.unlink()

@@ -2,9 +2,10 @@
 
 import numpy as np
 import pytest
-import ricci
 from scipy import sparse
 from scipy.sparse.linalg import spsolve
+
+import ricci
 
 
 def laplacian(V, F):

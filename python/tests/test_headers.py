@@ -5,6 +5,7 @@ import re
 from pathlib import Path
 
 import pytest
+
 import ricci
 from ricci import figures
 from ricci._library import ffi, lib

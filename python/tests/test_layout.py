@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+
 import ricci
 
 
@@ -115,7 +116,7 @@ def test_values_are_carried_over_the_refinement(flat, genus2):
     assert way.faces("refinement").max() + 1 == way.summary.n_pieces
     with pytest.raises(ricci.ArgumentError):
         way.carry(np.zeros(3))
-    with pytest.raises(ricci.ArgumentError, match="not finite|finite"):
+    with pytest.raises(ricci.ArgumentError, match="finite"):
         way.carry(np.full(genus2.n_vertices, np.nan))
 
 

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+
 import ricci
 
 TURN = np.array([[0.6, -0.8, 0], [0.8, 0.6, 0], [0, 0, 1]])

@@ -4,6 +4,7 @@ import pickle
 
 import numpy as np
 import pytest
+
 import ricci
 
 FORMATS = ["obj", "off", "ply", "glb"]
@@ -180,8 +181,6 @@ def test_changes_do_what_they_say(torus):
     noisy = ricci.change(torus, "noise", amount=0.1, seed=3)
     assert 0 < np.abs(noisy.V - torus.V).max() < 0.2
     turned = ricci.change(torus, "invert", centre=[0, 0, 5], amount=2)
-    np.testing.assert_allclose(
-        np.linalg.norm(turned.V - [0, 0, 5], axis=1) * np.linalg.norm(torus.V - [0, 0, 5], axis=1), 4, rtol=1e-12
-    )
+    np.testing.assert_allclose(np.linalg.norm(turned.V - [0, 0, 5], axis=1) * np.linalg.norm(torus.V - [0, 0, 5], axis=1), 4, rtol=1e-12)
     with pytest.raises(ricci.ArgumentError, match="torus"):
         ricci.make("tors")

@@ -4,6 +4,7 @@ import json
 
 import numpy as np
 import pytest
+
 import ricci
 
 SQUARE = np.array([[0, 0], [2, 0], [2, 1], [0, 1]], float)

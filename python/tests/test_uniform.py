@@ -4,6 +4,7 @@ from functools import reduce
 
 import numpy as np
 import pytest
+
 import ricci
 from ricci import models
 
@@ -71,7 +72,9 @@ def test_the_dirichlet_domain_has_the_area_of_the_surface(octagon):
     assert found.summary.area == pytest.approx(4 * np.pi, abs=1e-9)
     assert np.array_equal(found.partners[found.partners], np.arange(found.summary.n_sides))
     corners = models.from_hyperboloid(found.corners, "klein")
-    turns = np.cross(np.pad(np.roll(corners, -1, 0) - corners, ((0, 0), (0, 1))), np.pad(np.roll(corners, -2, 0) - corners, ((0, 0), (0, 1))))
+    turns = np.cross(
+        np.pad(np.roll(corners, -1, 0) - corners, ((0, 0), (0, 1))), np.pad(np.roll(corners, -2, 0) - corners, ((0, 0), (0, 1)))
+    )
     assert turns[:, 2].min() > 0
     sides = ricci.deck(octagon, kind="dirichlet_sides", dirichlet=found)
     assert len(sides) == found.summary.n_sides
