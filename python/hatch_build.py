@@ -10,6 +10,7 @@ import os
 import re
 import shutil
 import subprocess
+import sys
 import sysconfig
 from pathlib import Path
 from typing import Any
@@ -64,6 +65,16 @@ def shared_library() -> Path:
     return found[0]
 
 
+def licences(target: Path) -> None:
+    """Write the licences of the crates that the library is linked from, as the C packages carry them; cargo knows them."""
+    cargo = shutil.which("cargo")
+    if cargo is None:
+        raise FileNotFoundError("cargo is needed for the licences of the crates in the library")
+    subprocess.run(
+        [sys.executable, HERE.parent / "cmake" / "licences.py", cargo, HERE.parent, target], check=True, stdout=subprocess.DEVNULL
+    )
+
+
 class Hook(BuildHookInterface):  # type: ignore[type-arg]
     """Adds both files to a wheel, whose tag says the platform but no version of Python."""
 
@@ -81,6 +92,8 @@ class Hook(BuildHookInterface):  # type: ignore[type-arg]
         if strip := shutil.which("strip"):
             subprocess.run([strip, "--strip-unneeded" if source.suffix == ".so" else "-x", str(made)], check=True)
         build_data["force_include"][str(made)] = f"ricci/{made.name}"
+        licences(made.with_name("libricci.licences"))
+        build_data["force_include"][str(made.with_name("libricci.licences"))] = "ricci/LICENSES-CRATES"
         for licence in ("LICENSE-MIT", "LICENSE-APACHE"):
             build_data["force_include"][str(HERE.parent / licence)] = f"ricci/{licence}"
         platform = sysconfig.get_platform().replace("-", "_").replace(".", "_")

@@ -6,6 +6,7 @@ import subprocess
 import sys
 import time
 
+import numpy as np
 import pytest
 
 import cohort_jobs
@@ -75,7 +76,7 @@ def test_engines_give_the_same_file(files, whole, tmp_path, engine):
 
 def test_a_client_of_the_callers_is_used_and_left_open(files, whole, tmp_path):
     distributed = pytest.importorskip("distributed")
-    with distributed.Client(n_workers=1, threads_per_worker=2, processes=False, dashboard_address=None) as client:
+    with distributed.Client(n_workers=1, threads_per_worker=2, processes=False, dashboard_address=":0") as client:
         ricci.cohort(files, Job("flow"), tmp_path, engine=client)
         assert client.submit(sum, [1, 2]).result() == 3
     assert contents(tmp_path) == contents(whole.folder)
@@ -129,6 +130,32 @@ def test_a_worker_that_dies_costs_one_mesh(files, tmp_path, engine):
     assert errors == {"broken.obj": "MeshError", "twice.obj": "MeshError", "genus2.obj": "WorkerDied"}
 
 
+@pytest.mark.parametrize("engine", ["inline", "processes", "dask"])
+def test_results_that_cannot_be_kept_are_failures(files, tmp_path, engine):
+    some = [path for path in files if path.stem in ("torus", "genus2", "genus3")]
+    found = ricci.cohort(some, cohort_jobs.odd_results, tmp_path, engine=engine, workers=1)
+    assert found.results["ok"].to_pylist() == [False, False, True]
+    assert [(row["error"], row["message"][-6:]) for row in found.failures] == [("TypeError", "t lock"), ("TypeError", "object")]
+
+
+@pytest.mark.parametrize("engine", ["inline", "processes"])
+def test_a_run_that_is_stopped_keeps_its_rows(files, whole, tmp_path, engine):
+    def stop(done, total, row):
+        if done == 5:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        ricci.cohort(files, Job("flow"), tmp_path, engine=engine, workers=2, progress=stop)
+    assert len(list((tmp_path / "rows").glob("*.results"))) == 5
+    ricci.cohort(files, Job("flow"), tmp_path, engine=engine, workers=2)
+    assert contents(tmp_path) == contents(whole.folder)
+
+
+def test_jobs_are_told_apart_by_every_number():
+    long = [Job("flow", {"target": np.r_[np.zeros(2000), x]}) for x in (1.0, 2.0)]
+    assert str(long[0]) != str(long[1])
+
+
 def test_failures_are_tried_again_when_that_is_asked(tmp_path):
     path = tmp_path / "later.obj"
     ricci.make("disk", n=3).write(path)
@@ -177,10 +204,16 @@ def test_nothing_is_a_cohort_too(tmp_path):
 
 
 @pytest.mark.corpus
-def test_the_corpus_killed_half_way_and_resumed(corpus, tmp_path):
-    """All good meshes, in one go by Dask, and killed half way and resumed by processes: the same bytes."""
+def test_the_corpus_killed_half_way_and_resumed(corpus, tmp_path, capsys):
+    """All good meshes by one worker and by two of Dask, and killed half way and resumed by processes: the same bytes."""
     names = [str(path) for path in corpus]
-    ricci.cohort(names, Job("flow"), tmp_path / "once", engine="dask", workers=2)
+    for workers in (1, 2):
+        start = time.perf_counter()
+        found = ricci.cohort(names, Job("flow"), tmp_path / str(workers), engine="dask", workers=workers)
+        seconds = time.perf_counter() - start
+        with capsys.disabled():
+            print(f"\n{len(names)} meshes, Dask with {workers} workers: {seconds:.1f} s, {len(found.failures)} failures")
+        assert all(found.results["converged"].to_pylist())
     script = tmp_path / "run.py"
     script.write_text(
         "import ricci\nfrom ricci.cohorts import Job\n"
@@ -192,5 +225,6 @@ def test_the_corpus_killed_half_way_and_resumed(corpus, tmp_path):
         time.sleep(0.05)
     os.killpg(process.pid, signal.SIGKILL)
     process.wait()
+    assert len(names) // 2 <= len(list(rows.glob("*.results"))) < len(names)
     ricci.cohort(names, Job("flow"), tmp_path / "out", workers=2)
-    assert contents(tmp_path / "out") == contents(tmp_path / "once")
+    assert contents(tmp_path / "out") == contents(tmp_path / "1") == contents(tmp_path / "2")

@@ -1,5 +1,6 @@
 """The package against the headers: no function of the C face is left out, no figure is forgotten, every status has its name and class."""
 
+import ast
 import dataclasses
 import re
 from pathlib import Path
@@ -28,6 +29,25 @@ def test_every_function_is_called_somewhere():
     left = [name for name in functions if name not in made and not re.search(rf"\b{name}\b", SOURCES)]
     assert len(functions) > 130
     assert left == []
+
+
+def test_modules_import_in_one_direction():
+    """No module of the package leads back to itself by its imports, those inside functions included."""
+    imports = {}
+    package = Path(ricci.__file__).parent
+    for path in package.rglob("*.py"):
+        name = ".".join(("ricci", *path.relative_to(package).with_suffix("").parts)).removesuffix(".__init__")
+        nodes = [node for node in ast.walk(ast.parse(path.read_text())) if isinstance(node, ast.ImportFrom)]
+        found = {node.module for node in nodes} | {f"{node.module}.{alias.name}" for node in nodes for alias in node.names}
+        imports[name] = {target for target in found if target and target.startswith("ricci.") and target != name}
+    imports = {name: {target for target in found if target in imports} for name, found in imports.items()}
+    assert len(imports) > 35
+    while True:
+        ends = [name for name, found in imports.items() if not found]
+        if not ends:
+            break
+        imports = {name: found - set(ends) for name, found in imports.items() if found}
+    assert imports == {}
 
 
 @pytest.mark.parametrize("kind", [getattr(figures, name) for name in figures.__all__], ids=lambda kind: kind.__name__)

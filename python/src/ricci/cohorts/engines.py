@@ -29,11 +29,21 @@ def _pool(workers: int) -> ProcessPoolExecutor:
     return ProcessPoolExecutor(workers, mp_context=multiprocessing.get_context("spawn"))
 
 
+def _row(future: Future[Row], path: str) -> Row:
+    """What a worker has sent; that it could not be sent is the mesh's error too."""
+    try:
+        return future.result()
+    except BrokenProcessPool:
+        raise
+    except Exception as wrong:
+        return failed(path, wrong)
+
+
 def _alone(work: Work, path: str) -> Row:
     """One mesh in a process of its own."""
     with _pool(1) as pool:
         try:
-            return pool.submit(work, path).result()
+            return _row(pool.submit(work, path), path)
         except BrokenProcessPool:
             return failed(path, WorkerDied("the process that worked on it has died"))
 
@@ -50,7 +60,7 @@ def processes(work: Work, paths: Sequence[str], workers: int) -> Iterator[Row]:
                         running[pool.submit(work, waiting[0])] = waiting[0]
                         waiting.popleft()
                     for future in wait(running, return_when=FIRST_COMPLETED).done:
-                        row = future.result()
+                        row = _row(future, running[future])
                         del running[future]
                         yield row
             except BrokenProcessPool:
@@ -64,11 +74,11 @@ def processes(work: Work, paths: Sequence[str], workers: int) -> Iterator[Row]:
 
 def dask(work: Work, paths: Sequence[str], workers: int, client: Any = None) -> Iterator[Row]:
     """By the workers of a `distributed.Client`, or of a local cluster of processes that is made for it."""
-    from distributed import Client, LocalCluster, as_completed
+    from distributed import Client, KilledWorker, LocalCluster, as_completed
 
     if client is None:
         with (
-            LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=None) as cluster,
+            LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=":0") as cluster,
             Client(cluster) as own,
         ):
             yield from dask(work, paths, workers, own)
@@ -77,7 +87,9 @@ def dask(work: Work, paths: Sequence[str], workers: int, client: Any = None) -> 
     for future in as_completed(list(futures)):
         path = futures.pop(future)
         wrong = future.exception()
-        yield future.result() if wrong is None else failed(path, WorkerDied(str(wrong)))
+        if isinstance(wrong, KilledWorker):
+            wrong = WorkerDied(str(wrong))
+        yield future.result() if wrong is None else failed(path, wrong)
         future.release()
 
 

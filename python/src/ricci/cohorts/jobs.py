@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import threading
 import time
@@ -80,7 +81,12 @@ class Job:
         return Outcome({**_figures(mesh), **figures, **arrays}, report)
 
     def __str__(self) -> str:
-        return f"{self.kind} {dict(self.options)!r} within {self.seconds} s"
+        return f"{self.kind} {json.dumps(dict(self.options), sort_keys=True, default=_spelled)} within {self.seconds} s"
+
+
+def _spelled(value: Any) -> Any:
+    """What JSON does not know, in full: an array's repr would leave numbers out."""
+    return value.tolist() if isinstance(value, np.ndarray | np.generic) else repr(value)
 
 
 @contextmanager
@@ -157,15 +163,23 @@ def repaired(path: str) -> Mesh:
 
 
 def plain(value: Any) -> Any:
-    """A value as Parquet has it: arrays as lists, a complex number as its two parts."""
+    """A value as Parquet has it: arrays as lists, a complex number as its two parts.
+
+    Raises:
+        TypeError: it is nothing that a column can hold.
+    """
     if isinstance(value, np.ndarray):
         array = np.stack([value.real, value.imag], -1) if np.iscomplexobj(value) else value
         return array.tolist()
+    if isinstance(value, np.generic):
+        return plain(value.item())
     if isinstance(value, complex):
         return [value.real, value.imag]
-    if isinstance(value, np.generic):
-        return value.item()
-    return list(value) if isinstance(value, tuple) else value
+    if isinstance(value, list | tuple):
+        return [plain(entry) for entry in value]
+    if value is None or isinstance(value, bool | int | float | str | bytes):
+        return value
+    raise TypeError(f"a job's column holds numbers, texts, arrays or lists of them, not {type(value).__name__}")
 
 
 _NO_ERROR: dict[str, Any] = dict.fromkeys(("error", "status", "element", "index", "amount", "message"))

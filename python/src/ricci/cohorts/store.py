@@ -13,7 +13,8 @@ from typing import Any
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from ricci.cohorts.jobs import Row
+from ricci._library import VERSION
+from ricci.cohorts.jobs import Row, failed
 from ricci.errors import ArgumentError
 
 # Columns that every row has, in this order before all others; those of results and of reports.
@@ -39,6 +40,12 @@ def _write(table: pa.Table, path: Path) -> None:
     os.replace(part, path)
 
 
+def _read(path: Path) -> pa.Table:
+    """A whole file: what `read_table` does for folders of files takes longer than reading one row."""
+    with pq.ParquetFile(path) as file:
+        return file.read()
+
+
 class Store:
     """The folder of a cohort: `results.parquet`, `reports.parquet`, and in `rows` what was done since these were written.
 
@@ -49,21 +56,26 @@ class Store:
     def __init__(self, folder: Path, job: str) -> None:
         self.folder, self.rows = folder, folder / "rows"
         self.rows.mkdir(parents=True, exist_ok=True)
-        note = folder / "job.json"
+        note, own = folder / "job.json", f"{job}, ricci {VERSION}"
         if note.exists():
             known = json.loads(note.read_text(encoding="utf-8"))["job"]
-            if known != job:
-                raise ArgumentError(f"{folder} has the rows of another job: {known}, not {job}")
+            if known != own:
+                raise ArgumentError(f"{folder} has the rows of another job: {known}, not {own}")
         else:
-            note.write_text(json.dumps({"job": job}), encoding="utf-8")
+            note.write_text(json.dumps({"job": own}), encoding="utf-8")
 
     def _place(self, kind: str, path: str) -> Path:
         return self.rows / f"{hashlib.sha256(path.encode()).hexdigest()[:32]}.{kind}"
 
     def add(self, row: Row) -> None:
-        """Keep one row. The result is written last: a row without it is not done."""
-        _write(_table([row.report]), self._place("reports", row.path))
-        _write(_table([row.result]), self._place("results", row.path))
+        """Keep one row. The result is written last: a row without it is not done. What Parquet cannot hold is that row's error."""
+        try:
+            report, result = _table([row.report]), _table([row.result])
+        except pa.ArrowException as wrong:
+            row = failed(row.path, wrong)
+            report, result = _table([row.report]), _table([row.result])
+        _write(report, self._place("reports", row.path))
+        _write(result, self._place("results", row.path))
 
     def done(self) -> dict[str, bool]:
         """The paths that have a row, and whether it is without error."""
@@ -72,10 +84,10 @@ class Store:
 
     def _joined(self, kind: str) -> pa.Table:
         """The table and the rows beside it; of a path that is there twice the row beside it counts."""
-        parts = [pq.read_table(path) for path in sorted(self.rows.glob(f"*.{kind}"))]
+        parts = [_read(path) for path in sorted(self.rows.glob(f"*.{kind}"))]
         whole = self.folder / f"{kind}.parquet"
         if whole.exists():
-            table = pq.read_table(whole)
+            table = _read(whole)
             newer = {path for part in parts for path in part["path"].to_pylist()}
             parts.insert(0, table.filter(pa.array([path not in newer for path in table["path"].to_pylist()], pa.bool_())))
         return _concatenated(parts)
