@@ -61,6 +61,24 @@ def test_ctrl_c_stops_a_call(large):
     assert large.summary.n_vertices == 80_000
 
 
+def test_arrays_of_a_call_that_is_given_up_live_on():
+    """After a second Ctrl-C nobody waits for the call, which may still write: what it was handed keeps its arrays."""
+    import gc
+    import weakref
+
+    from ricci._call import pointer
+
+    array = np.zeros(1000)
+    known, handed = weakref.ref(array), pointer(array)
+    del array
+    gc.collect()
+    assert known() is not None
+    assert len(handed) == 1000
+    del handed
+    gc.collect()
+    assert known() is None
+
+
 def test_threads_run_beside_a_call(large):
     """While one thread is inside the library another one counts: had the call kept the GIL, there would be one long gap."""
     spent = []

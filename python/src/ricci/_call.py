@@ -23,7 +23,7 @@ Indices = npt.NDArray[np.uint32]
 Signed = npt.NDArray[np.int32]
 Longs = npt.NDArray[np.int64]
 
-_POINTERS = {"d": "double *", "I": "uint32_t *", "i": "int32_t *", "l": "int64_t *", "L": "size_t *"}
+_POINTERS = {"d": "double", "I": "uint32_t", "i": "int32_t", "l": "int64_t", "L": "size_t"}
 Figures = TypeVar("Figures")
 
 
@@ -79,10 +79,15 @@ def call(function: Callable[..., int], *arguments: Any, progress: Progress = Non
 
 
 def pointer(array: npt.NDArray[Any] | None) -> Any:
-    """The address of an array's numbers, for cffi; NULL for None. The array must outlive it."""
+    """The address of an array's numbers, for cffi; NULL for None.
+
+    It keeps the array alive, as a call that was given up in haste may still be writing there; but for an array whose rows lie apart, which
+    must outlive it.
+    """
     if array is None:
         return ffi.NULL
-    return ffi.cast(_POINTERS[array.dtype.char], array.ctypes.data)
+    kind = _POINTERS[array.dtype.char]
+    return ffi.from_buffer(f"{kind}[]", array) if array.flags.c_contiguous else ffi.cast(f"{kind} *", array.ctypes.data)
 
 
 def filled(function: Callable[..., int], *arguments: Any, out: npt.NDArray[Any], progress: Progress = None) -> Any:

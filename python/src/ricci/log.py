@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import atexit
 import logging
 from typing import Any, Literal
 
@@ -24,3 +25,7 @@ def _receive(level: int, message: Any, _: Any) -> None:
 def log_to_logging(level: Level = "info") -> None:
     """Send messages up to this level to the logger ``ricci``; ``"off"`` stops that. For the whole process."""
     check(lib.ricci_log_set(ffi.NULL if level == "off" else _receive, ffi.NULL, constant("LOG", level)))
+
+
+# A message that came while the interpreter ends would find no interpreter.
+atexit.register(log_to_logging, "off")

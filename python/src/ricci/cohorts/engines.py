@@ -84,13 +84,20 @@ def dask(work: Work, paths: Sequence[str], workers: int, client: Any = None) -> 
             yield from dask(work, paths, workers, own)
         return
     futures = {client.submit(work, path, pure=False): path for path in paths}
+    suspects = []
     for future in as_completed(list(futures)):
         path = futures.pop(future)
         wrong = future.exception()
         if isinstance(wrong, KilledWorker):
-            wrong = WorkerDied(str(wrong))
-        yield future.result() if wrong is None else failed(path, wrong)
+            suspects.append(path)
+        else:
+            yield future.result() if wrong is None else failed(path, wrong)
         future.release()
+    # Dask blames every mesh that waited at a worker which died. By itself each shows whether it was the one.
+    for path in suspects:
+        future = client.submit(work, path, pure=False)
+        wrong = future.exception()
+        yield future.result() if wrong is None else failed(path, WorkerDied(str(wrong)))
 
 
 def engine_of(engine: Any) -> Callable[[Work, Sequence[str], int], Iterator[Row]]:
