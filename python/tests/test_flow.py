@@ -59,6 +59,17 @@ def test_schemes_all_reach_a_uniform_torus(torus):
         assert ricci.flow(torus, target="uniform", scheme=scheme).converged, scheme
 
 
+def test_edges_that_are_fixed_are_not_flipped(genus2):
+    def rows(mesh, of=slice(None)):
+        return {tuple(sorted(edge)) for edge in mesh.edges[of].tolist()}
+
+    flipped = rows(genus2) - rows(ricci.flow(genus2, target="single:0").triangulation)
+    features = [k for k, edge in enumerate(genus2.edges.tolist()) if tuple(sorted(edge)) in flipped][:5]
+    assert len(features) == 5
+    kept = rows(ricci.flow(genus2, target="single:0", fixed_edges=features).triangulation)
+    assert rows(genus2, features) <= kept
+
+
 def test_a_sphere_in_its_own_space():
     sphere = ricci.make("ellipsoid", n=5, a=1.2, b=1, c=1)
     start = ricci.metric(sphere.with_lengths(0.9 * sphere.lengths / sphere.lengths.max(), "s2"), space="s2")

@@ -74,6 +74,12 @@ def test_zeros_add_up_to_minus_the_euler_characteristic(genus2):
     assert zeros[:, 1].sum() == 2
     form = forms.holomorphic([1.0, 0.3, -0.2, 0.5])
     np.testing.assert_allclose(form.real, [1.0, 0.3, -0.2, 0.5] @ forms.values, atol=1e-12)
+    # As coordinates it lays nearly all triangles out counterclockwise, and their area is that of the form.
+    mesh = forms.mesh
+    sides = form[np.abs(mesh.face_edges) - 1] * np.sign(mesh.face_edges)
+    areas = 0.5 * (sides[:, 0].conj() * sides[:, 1]).imag
+    assert (areas > 0).mean() > 0.95
+    assert areas.sum() > 0.95 * np.abs(areas).sum()
     with pytest.raises(ricci.ArgumentError):
         forms.zeros([1.0])
 

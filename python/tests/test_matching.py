@@ -49,6 +49,10 @@ def test_a_class_is_named_by_loops(torus):
     found = ricci.match(torus, torus, basis=[(loop, loop) for loop in loops])
     assert found.summary.n_markings == 1
     np.testing.assert_allclose(found.carry(torus.V), torus.V, atol=1e-6)
+    a, b = loops
+    twisted = ricci.match(torus, torus, basis=[(a, a), (b, np.concatenate([a, b]))])
+    assert np.linalg.norm(twisted.carry(torus.V) - torus.V, axis=1).max() > 1
+    assert twisted.summary.n_flipped == 0
 
 
 def test_points_curves_and_soft_landmarks(disk):

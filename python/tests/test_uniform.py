@@ -124,6 +124,15 @@ def test_loops_cross_as_the_names_say(genus2):
         basis.path_word([1, 1])
 
 
+def test_words_of_a_surface_with_boundary(pants):
+    """c1 c2 c3 = 1, so that the last counts as minus the others."""
+    basis = ricci.homotopy(pants)
+    assert basis.summary.n_generators == 3
+    assert basis.reduce([1, 2, 3]).tolist() == []
+    assert basis.homology([1, 2, 2]).tolist() == [1, 2]
+    assert basis.homology([3]).tolist() == [-1, -1]
+
+
 def test_a_domain_pairs_its_sides(genus2):
     domain = ricci.homotopy(genus2).domain()
     partners = domain.partners
@@ -142,6 +151,7 @@ def test_straight_sides_and_geodesic_loops(disk, pants):
     assert square.summary.extremal_distance == pytest.approx(1, abs=0.01)
     given = ricci.uniformize(disk, boundary="straight", corners=start[:, 1], corner_angles=[np.pi / 2] * 4)
     np.testing.assert_allclose(np.sort(given.sides[1][:, 0]), np.sort(lengths[:, 0]), rtol=1e-6)
+    assert len(ricci.uniformize(disk, boundary="straight", corners=5).sides[0]) == 5
     hyperbolic = ricci.uniformize(pants)
     assert hyperbolic.summary.space == "h2"
     assert hyperbolic.summary.area == pytest.approx(2 * np.pi, abs=1e-9)

@@ -13,6 +13,7 @@ with the element and the amount (`RicciError`). Results are identical bit for bi
 
 from ricci._library import VERSION as __version__
 from ricci.adapters import as_mesh, to_gifti, to_meshio, to_pyvista, to_trimesh
+from ricci.atlases import Place, Structure, structure, structures
 from ricci.bicubics import Bicubic, bicubic
 from ricci.circle import CircleDomain, circles
 from ricci.cohorts import CohortResult, Job, cohort
@@ -46,7 +47,6 @@ from ricci.shapes import change, hyperelliptic_periods, make
 from ricci.soup import Defect, Soup
 from ricci.splines import Spline, flat_metric, spline, spline_domain
 from ricci.status import Status
-from ricci.structures import Place, Structure, structure, structures
 from ricci.uniform import Uniform, uniformize
 
 read = Mesh.read

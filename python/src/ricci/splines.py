@@ -16,12 +16,12 @@ from ricci._call import CONTROL, Doubles, Handle, Indices, Signed, call, doubles
 from ricci._library import lib
 from ricci._structs import Struct, Write, index_list, number, options, real_list
 from ricci.adapters import MeshLike, as_mesh
+from ricci.atlases import structure
 from ricci.control import Progress
 from ricci.errors import ArgumentError
 from ricci.figures import SplineSummary
 from ricci.mesh import Mesh
 from ricci.metrics import Metric
-from ricci.structures import structure
 from ricci.uniform import uniformize
 
 __all__ = ["PlaneOptions", "Spline", "SurfaceOptions", "flat_metric", "spline", "spline_domain"]

@@ -14,6 +14,7 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
+from ricci.atlases import structure
 from ricci.circle import circles
 from ricci.control import Control
 from ricci.errors import RicciError
@@ -22,7 +23,6 @@ from ricci.mesh import Mesh
 from ricci.metrics import flow
 from ricci.soup import Soup
 from ricci.splines import spline
-from ricci.structures import structure
 from ricci.uniform import uniformize
 
 __all__ = ["Job", "Outcome", "Row", "repaired"]
