@@ -1,10 +1,12 @@
 """Long calls: they show progress, stop when they are told, and leave the interpreter to other threads."""
 
+import gc
 import logging
 import os
 import signal
 import threading
 import time
+import weakref
 
 import numpy as np
 import pytest
@@ -18,6 +20,17 @@ def large():
     return ricci.metric(ricci.change(ricci.make("torus", a=2, b=0.8, n=400, m=200), "noise", amount=0.2, seed=1))
 
 
+def when_it_flows(control, act):
+    """Do `act` from another thread as soon as the call with this control is at its flow."""
+
+    def wait():
+        while control.progress()[0] != "flow":
+            time.sleep(0.001)
+        act()
+
+    threading.Thread(target=wait).start()
+
+
 def test_progress_is_told(large):
     told = []
     flat = large.flow("uniform", lambda stage, fraction: told.append((stage, fraction)))
@@ -28,7 +41,7 @@ def test_progress_is_told(large):
 
 def test_a_control_cancels_from_another_thread(large):
     control = ricci.Control()
-    threading.Timer(0.15, control.cancel).start()
+    when_it_flows(control, control.cancel)
     with pytest.raises(ricci.Cancelled) as stopped:
         large.flow("uniform", control)
     assert stopped.value.status is ricci.Status.CANCELLED
@@ -54,7 +67,7 @@ def test_what_a_callback_raises_stops_the_call(large):
 def test_ctrl_c_stops_a_call(large):
     """The signal of Ctrl-C comes while the library computes; the call ends and its inputs are as they were."""
     before, control = large.u.copy(), ricci.Control()
-    threading.Timer(0.15, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+    when_it_flows(control, lambda: os.kill(os.getpid(), signal.SIGINT))
     with pytest.raises(KeyboardInterrupt):
         large.flow("uniform", control)
     assert control.since_cancel() is not None
@@ -64,9 +77,6 @@ def test_ctrl_c_stops_a_call(large):
 
 def test_arrays_of_a_call_that_is_given_up_live_on():
     """After a second Ctrl-C nobody waits for the call, which may still write: what it was handed keeps its arrays."""
-    import gc
-    import weakref
-
     from ricci._call import pointer
 
     array = np.zeros(1000)
@@ -78,6 +88,24 @@ def test_arrays_of_a_call_that_is_given_up_live_on():
     del handed
     gc.collect()
     assert known() is None
+
+
+def test_handles_are_freed_at_once(genus2):
+    """Without a search for cycles, which knows nothing of the library's memory."""
+    gc.collect()
+    gc.disable()
+    try:
+        flat = ricci.flow(genus2, target="single:0")
+        soup = ricci.Soup([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2], [0, 1, 2]])
+        _ = flat.report.residuals, flat.triangulation.lengths, soup.defects[0].faces
+        start = ricci.metric(genus2)
+        known = [weakref.ref(of) for of in (flat, soup, start)]
+        with pytest.raises(ricci.TargetError):
+            start.flow({0: 7.0})
+        del flat, soup, start, _
+        assert [of() for of in known] == [None, None, None]
+    finally:
+        gc.enable()
 
 
 def test_threads_run_beside_a_call(large):

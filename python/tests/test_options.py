@@ -197,7 +197,7 @@ def test_every_field_is_written(struct, expected):
 
 def test_handles_are_options_too(torus):
     start = ricci.metric(torus)
-    struct = options("uniform_options", {"start": start, "corners": 5}, uniform._UNIFORM)
+    struct = options("uniform_options", {"start": start, "corners": np.int64(5)}, uniform._UNIFORM)
     assert struct._pointer.start == start._pointer
     assert struct._pointer.n_corners == 5
     domain = ricci.dirichlet(ricci.uniformize(torus))
@@ -207,5 +207,7 @@ def test_handles_are_options_too(torus):
 def test_values_of_another_type_are_refused():
     with pytest.raises(ricci.ArgumentError, match="tolerance"):
         ricci.flow(ricci.make("disk", n=3), tolerance="small")
+    with pytest.raises(ricci.ArgumentError, match="1 is none of gradient, newton"):
+        ricci.flow(ricci.make("disk", n=3), method=1)
     with pytest.raises(ricci.ArgumentError, match="threads"):
         ricci.flow(ricci.make("disk", n=3), threads=-1)

@@ -146,7 +146,7 @@ def rows(n: int, function: Callable[..., int], *arguments: Any, dtype: Any = np.
     return [entries[a:b] for a, b in pairwise(starts)]
 
 
-def summary(kind: type[Figures], name: str, handle: Handle) -> Figures:
+def summary(kind: type[Figures], name: str, handle: Passed) -> Figures:
     """The figures that `ricci_<name>_summarise` fills, as the dataclass `kind` with fields of the same names."""
     struct = f"ricci_{name}_summary"
     out = ffi.new(f"{struct} *")
@@ -180,7 +180,7 @@ def constant(prefix: str, name: str) -> int:
     Raises:
         ArgumentError: there is none; the message lists those that there are.
     """
-    found = getattr(lib, f"RICCI_{prefix}_{name.upper()}", None)
+    found = getattr(lib, f"RICCI_{prefix}_{str(name).upper()}", None)
     if found is None:
         head = f"RICCI_{prefix}_"
         known = sorted(n.removeprefix(head).lower() for n in dir(lib) if n.startswith(head))

@@ -7,8 +7,7 @@ from collections.abc import Callable
 from typing import Any, TypeAlias
 
 from ricci._library import ffi, lib
-from ricci.errors import RicciError, last_failure
-from ricci.status import Status
+from ricci.errors import last_failure
 
 __all__ = ["Control", "Progress"]
 
@@ -105,10 +104,10 @@ def run(progress: Progress, work: Callable[[Any], int]) -> None:
         control.cancel()
         running.done.wait()
         raise
-    if running.failure is None:
-        return
     failure = running.failure
-    if isinstance(failure, RicciError) and failure.status == Status.CANCELLED:
-        # Without the frames of the thread that ran it.
-        raise failure.with_traceback(None)
-    raise failure
+    if failure is not None:
+        try:
+            # Without the frames of the thread that ran it; and this frame, which the exception has, lets go of the exception.
+            raise failure.with_traceback(None)
+        finally:
+            del failure, running

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from ricci import _arrays
 from ricci._arrays import frozen
-from ricci._call import CONTROL, Doubles, Handle, Indices, call, constant, doubles, filled, pointer, summary
+from ricci._call import CONTROL, Doubles, Handle, Indices, Passed, call, constant, doubles, filled, pointer, summary
 from ricci._library import ffi, lib
 from ricci._structs import Struct, Write, choice, index_list, number, options
 from ricci.adapters import MeshLike, as_mesh
@@ -78,12 +78,14 @@ def flow_struct(given: Any) -> Struct:
     return options("flow_options", given, _FLOW)
 
 
-class Report:
+class Report(Passed):
     """What the flow did that led to a metric: its figures, the target, the course, and where it is worst."""
 
     def __init__(self, of: Metric) -> None:
-        self._of = of
-        self.summary = summary(ReportSummary, "report", of)
+        # The library's object, not the Python one, which has this report: both are freed at once, without a search for cycles.
+        self._pointer = of._pointer
+        self._n_vertices = of.summary.n_vertices
+        self.summary = summary(ReportSummary, "report", self)
 
     @property
     def converged(self) -> bool:
@@ -93,7 +95,7 @@ class Report:
     @cached_property
     def target(self) -> Doubles:
         """The target, n curvatures in radians; at pinned vertices what came out."""
-        return self._values("TARGET", self._of.summary.n_vertices)
+        return self._values("TARGET", self._n_vertices)
 
     @cached_property
     def residuals(self) -> Doubles:
@@ -122,10 +124,10 @@ class Report:
         return self._vertices("OBSTRUCTION", self.summary.n_obstruction)
 
     def _values(self, which: str, *shape: int) -> Any:
-        return frozen(doubles(lib.ricci_report_values, self._of, getattr(lib, f"RICCI_REPORT_{which}"), shape=shape))
+        return frozen(doubles(lib.ricci_report_values, self, getattr(lib, f"RICCI_REPORT_{which}"), shape=shape))
 
     def _vertices(self, which: str, n: int) -> Any:
-        return frozen(filled(lib.ricci_report_vertices, self._of, getattr(lib, f"RICCI_REPORT_{which}"), out=np.empty(n, np.uint32)))
+        return frozen(filled(lib.ricci_report_vertices, self, getattr(lib, f"RICCI_REPORT_{which}"), out=np.empty(n, np.uint32)))
 
     def __repr__(self) -> str:
         s = self.summary

@@ -55,10 +55,10 @@ class Defect:
 
 
 class _View:
-    """Memory of a handle as an array interface: arrays made of it keep the handle alive."""
+    """Memory of a handle as an array interface: arrays made of it keep the library's object alive, not the Python one that keeps them."""
 
     def __init__(self, owner: Handle, address: Any, n: int) -> None:
-        self._owner = owner
+        self._owner = owner._pointer
         data = (int(ffi.cast("uintptr_t", address)), True)
         self.__array_interface__ = {"data": data, "shape": (n,), "typestr": "<u4", "version": 3}
 

@@ -49,8 +49,8 @@ class UniformOptions(TypedDict, total=False):
 
 def _corners(struct: Any, field: str, value: Any) -> None:
     """Vertices, or their number."""
-    if isinstance(value, int):
-        struct.put("n_corners", value)
+    if isinstance(value, int | np.integer):
+        struct.put("n_corners", int(value))
     else:
         index_list("n_corners")(struct, field, value)
 
