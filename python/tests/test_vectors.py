@@ -11,6 +11,8 @@ from conftest import ROOT
 VECTORS = ROOT / "tests" / "vectors"
 # As the C test has them: of curvature, of weights, and of what a flow ends at.
 CURVATURE, ETA, SOLUTION = 1e-14, 1e-13, 1e-12
+# Of the lengths of a triangle, relative, times what an angle in radians makes of it.
+ROUNDING = 8 * np.finfo(float).eps
 
 
 def hexes(words):
@@ -69,6 +71,24 @@ def test_a_vector_that_is_changed_is_seen(key, change):
         words[at] = (float.fromhex(words[at]) + change).hex()
         with pytest.raises(AssertionError):
             agree({**block, key: words})
+
+
+def test_single_triangles_have_their_angles_and_areas():
+    """A triangle is a surface whose curvature at a corner is pi minus its angle.
+
+    Its lengths go through the variables of the class, whose rounding moves an angle by so many times as the triangle is thin, and the area,
+    a root of the half-perimeter's small differences, by the square of that.
+    """
+    lines = (VECTORS / "triangles.txt").read_text().splitlines()
+    assert len(lines) > 60
+    for line in lines:
+        space, *words = line.split()
+        lengths, angles, area = np.split(hexes(words), [3, 6])
+        mesh = ricci.Mesh.from_gluing([[0, 1, 2]], [[1, 2, 3]], lengths, space)
+        start = ricci.metric(mesh, space=space)
+        thin = 1 / np.sin(angles).min()
+        assert np.abs(np.pi - start.curvature - angles).max() < ROUNDING * thin, line
+        assert start.summary.area == pytest.approx(area[0], rel=ROUNDING * thin**2, abs=0), line
 
 
 @pytest.mark.parametrize("block", list(blocks("splines.txt")), ids=lambda block: "-".join(block[0][1]))
