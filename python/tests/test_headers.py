@@ -11,7 +11,7 @@ import ricci
 from ricci import figures
 from ricci._library import ffi, lib
 from ricci.errors import _FAMILIES, _SINGLE
-from ricci.figures.names import PREFIXES
+from ricci.figures.names import CONSTANTS
 
 SOURCES = "\n".join(path.read_text() for path in Path(ricci.__file__).parent.rglob("*.py") if path.name != "_native.py")
 
@@ -58,7 +58,7 @@ def test_figures_have_the_fields_of_their_structs(kind):
     assert list(ours) == list(theirs)
     types = {"bool": "uint32_t", "complex": "double[2]", "float": "double", "tuple[float, float, float]": "double[3]"}
     for name, told in ours.items():
-        allowed = {"uint32_t"} if told in PREFIXES else {types[told]} if told in types else {"size_t", "uint32_t", "int64_t"}
+        allowed = {"uint32_t"} if told in CONSTANTS else {types[told]} if told in types else {"size_t", "uint32_t", "int64_t"}
         assert theirs[name].cname in allowed, (name, told)
 
 
@@ -81,6 +81,16 @@ def test_names_stand_for_constants():
     assert {lib.RICCI_SPACE_E2, lib.RICCI_SPACE_H2, lib.RICCI_SPACE_S2} == {0, 1, 2}
     flat = ricci.metric(ricci.make("torus", a=2, b=1, n=8, m=6), space="h2", scheme="inversive").summary
     assert (flat.space, flat.input_geometry, flat.scheme) == ("h2", "e2", "inversive")
+
+
+def test_names_are_all_constants_of_their_prefix():
+    """But for those of another list that begin alike."""
+    others = {"STRUCTURE": {"SINGULAR", "EXCLUDED", "FOLDED", "ZEROS", "TRIANGLES"}}
+    for prefix, names in CONSTANTS.values():
+        head = f"RICCI_{prefix}_"
+        theirs = {name.removeprefix(head) for name in dir(lib) if name.startswith(head)} - others.get(prefix, set())
+        assert {name.upper() for name in names} == theirs
+        assert sorted(getattr(lib, head + name.upper()) for name in names) == list(range(len(names)))
 
 
 def test_docstrings_name_every_argument():

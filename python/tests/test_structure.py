@@ -71,7 +71,11 @@ def test_affine_structures_have_one_singular_vertex_or_zeros(genus2):
 
 def test_every_structure_of_a_surface(torus, genus2):
     assert set(ricci.structures(torus)) == {"conformal", "affine"}
-    assert set(ricci.structures(genus2)) == {"conformal", "affine", "hyperbolic", "projective"}
     assert "spherical" in ricci.structures(ricci.make("sphere", n=3))
+    assert set(ricci.structures(genus2)) == {"conformal", "affine", "hyperbolic", "projective"}
+    for kind, found in (ricci.structures(ricci.make("sphere", n=3)) | ricci.structures(genus2)).items():
+        assert found.summary.kind == kind
+    with pytest.raises(ricci.ArgumentError, match="'zeros' is none of conformal, spherical"):
+        ricci.structure(torus, kind="zeros")
     with pytest.raises(ricci.ArgumentError):
         ricci.structure(torus, kind="hyperbolic")

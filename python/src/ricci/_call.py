@@ -14,7 +14,7 @@ import numpy.typing as npt
 from ricci._library import ffi, lib
 from ricci.control import Progress, check, run
 from ricci.errors import ArgumentError, last_failure, last_needed
-from ricci.figures.names import PREFIXES
+from ricci.figures.names import CONSTANTS
 from ricci.status import Status
 
 Doubles = npt.NDArray[np.float64]
@@ -156,8 +156,9 @@ def summary(kind: type[Figures], name: str, handle: Passed) -> Figures:
 
 def _number(value: Any, kind: str) -> Any:
     """A field of a struct as its Python type: flags are bool, constants their names, a modulus is complex, an array a tuple."""
-    if kind in PREFIXES:
-        return constant_name(PREFIXES[kind], value)
+    if kind in CONSTANTS:
+        prefix, names = CONSTANTS[kind]
+        return next(name for name in names if getattr(lib, f"RICCI_{prefix}_{name.upper()}") == value)
     if kind == "bool":
         return bool(value)
     if kind == "str":
@@ -174,21 +175,19 @@ def path_bytes(path: str | os.PathLike[str]) -> bytes:
     return os.fspath(path).encode("utf-8")
 
 
-def constant(prefix: str, name: str) -> int:
+def constant(prefix: str, name: str, among: tuple[str, ...] | None = None) -> int:
     """The constant RICCI_<prefix>_<NAME>.
+
+    Args:
+        prefix: what its like begin with.
+        name: in lower case.
+        among: the names that there are, where constants of several lists have the same prefix.
 
     Raises:
         ArgumentError: there is none; the message lists those that there are.
     """
-    found = getattr(lib, f"RICCI_{prefix}_{str(name).upper()}", None)
-    if found is None:
-        head = f"RICCI_{prefix}_"
-        known = sorted(n.removeprefix(head).lower() for n in dir(lib) if n.startswith(head))
-        raise ArgumentError(f"{name!r} is none of {', '.join(known)}")
-    return int(found)
-
-
-def constant_name(prefix: str, value: int) -> str:
-    """The name of the constant RICCI_<prefix>_... with this value, in lower case."""
     head = f"RICCI_{prefix}_"
-    return next(n for n in dir(lib) if n.startswith(head) and getattr(lib, n) == value).removeprefix(head).lower()
+    known = among or tuple(sorted(n.removeprefix(head).lower() for n in dir(lib) if n.startswith(head)))
+    if name not in known:
+        raise ArgumentError(f"{name!r} is none of {', '.join(known)}")
+    return int(getattr(lib, head + name.upper()))

@@ -56,9 +56,9 @@ def number(struct: Struct, field: str, value: Any) -> None:
     struct.put(field, int(value) if isinstance(value, bool | np.bool_ | np.integer) else value)
 
 
-def choice(prefix: str) -> Write:
+def choice(prefix: str, among: tuple[str, ...] | None = None) -> Write:
     """One of the constants RICCI_<prefix>_..., by its name in lower case."""
-    return lambda struct, field, value: struct.put(field, constant(prefix, value))
+    return lambda struct, field, value: struct.put(field, constant(prefix, value, among))
 
 
 def one_index(struct: Struct, field: str, value: Any) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, ClassVar, Literal, TypedDict, Unpack
+from typing import Any, ClassVar, Literal, TypedDict, Unpack, get_args
 
 import numpy as np
 import numpy.typing as npt
@@ -204,7 +204,9 @@ def structure(
         ArgumentError: a structure that the surface has not, or options that do not belong to it.
     """
     struct = options("structure_options", given, _STRUCTURE)
-    return Structure._made(lib.ricci_structure_new, as_mesh(V, F), constant("STRUCTURE", kind), struct, CONTROL, progress=progress)
+    return Structure._made(
+        lib.ricci_structure_new, as_mesh(V, F), constant("STRUCTURE", kind, get_args(StructureKind)), struct, CONTROL, progress=progress
+    )
 
 
 def structures(V: MeshLike, F: npt.ArrayLike | None = None, progress: Progress = None) -> dict[str, Structure]:

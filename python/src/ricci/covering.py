@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cached_property
-from typing import Any, ClassVar, Literal, TypedDict, Unpack
+from typing import Any, ClassVar, Literal, TypeAlias, TypedDict, Unpack, get_args
 
 import numpy as np
 import numpy.typing as npt
@@ -26,6 +26,9 @@ from ricci.uniform import Uniform, uniformize
 __all__ = ["Cover", "CoverOptions", "Deck", "DeckSpec", "Dirichlet", "cover", "deck", "dirichlet"]
 
 
+Kind: TypeAlias = Literal["generators", "sides", "words", "depth", "within", "dirichlet_sides"]
+
+
 class DeckSpec(TypedDict, total=False):
     """Which deck transformations.
 
@@ -39,7 +42,7 @@ class DeckSpec(TypedDict, total=False):
         limit: most elements that are looked at; 100,000.
     """
 
-    kind: Literal["generators", "sides", "words", "depth", "within", "dirichlet_sides"]
+    kind: Kind
     words: Sequence[npt.ArrayLike]
     dirichlet: Dirichlet
     radius: float
@@ -176,7 +179,7 @@ def deck(uniform: Uniform, progress: Progress = None, **spec: Unpack[DeckSpec]) 
         LayoutError: a sphere.
         ArgumentError: more elements than `limit`.
     """
-    given = {"limit": LIMIT, **spec, "kind": constant("DECK", spec.get("kind", "generators"))}
+    given = {"limit": LIMIT, **spec, "kind": constant("DECK", spec.get("kind", "generators"), get_args(Kind))}
     return Deck._made(lib.ricci_deck_new, uniform, options("deck_spec", given, _DECK), CONTROL, progress=progress)
 
 

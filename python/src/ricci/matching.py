@@ -65,6 +65,10 @@ class MatchOptions(TypedDict, total=False):
     threads: int
 
 
+def _direction(name: Direction) -> int:
+    return constant("MATCH", name, ("forward", "backward"))
+
+
 def _points(struct: Struct, _: str, value: Points) -> None:
     faces, weights = _arrays.indices(value["faces"], 2, "faces"), _arrays.real(value["weights"])
     if weights.shape != (len(faces), 2, 3):
@@ -95,7 +99,7 @@ _MATCH: dict[str, Write] = {
     "curves": _curves,
     "soft": index_list("n_soft", 2),
     "soft_weights": real_list(),
-    "boundary": choice("MATCH"),
+    "boundary": choice("MATCH", ("slides", "arc_length")),
     "basis": _basis,
     "threads": number,
 }
@@ -114,11 +118,11 @@ class Matching(Handle):
     def faces(self, direction: Direction = "forward") -> Indices:
         """The face of the other surface that every vertex goes to."""
         out = np.empty(self._size(direction), np.uint32)
-        return filled(lib.ricci_matching_faces, self, constant("MATCH", direction), out=out)
+        return filled(lib.ricci_matching_faces, self, _direction(direction), out=out)
 
     def weights(self, direction: Direction = "forward") -> Doubles:
         """n x 3 barycentric coordinates of the images in their faces, not negative, with the sum 1."""
-        return doubles(lib.ricci_matching_weights, self, constant("MATCH", direction), shape=(self._size(direction), 3))
+        return doubles(lib.ricci_matching_weights, self, _direction(direction), shape=(self._size(direction), 3))
 
     def carry(self, values: npt.ArrayLike, direction: Direction = "forward") -> Doubles:
         """Values at the vertices of the surface that the map leads to (n, or n x k), brought to those where it comes from.
@@ -130,7 +134,7 @@ class Matching(Handle):
         if array.ndim == 0 or len(array) != other:
             raise ArgumentError(f"values have shape {array.shape}, {other} rows are needed")
         shape = (self._size(direction), *array.shape[1:])
-        return doubles(lib.ricci_matching_carry, self, constant("MATCH", direction), pointer(array), array.size, shape=shape)
+        return doubles(lib.ricci_matching_carry, self, _direction(direction), pointer(array), array.size, shape=shape)
 
     @cached_property
     def points(self) -> tuple[Indices, Doubles]:

@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from ricci import _arrays
 from ricci._arrays import frozen
-from ricci._call import CONTROL, Doubles, Handle, Indices, Signed, call, doubles, filled, path_bytes, pointer, summary, text_of
+from ricci._call import CONTROL, Doubles, Handle, Indices, Signed, call, constant, doubles, filled, path_bytes, pointer, summary, text_of
 from ricci._library import lib
 from ricci._structs import Struct, Write, index_list, number, options, real_list
 from ricci.adapters import MeshLike, as_mesh
@@ -221,9 +221,10 @@ class Spline(Handle):
         Raises:
             SplineError: a place outside; the index is its number.
         """
+        which = constant("SPLINE", what, tuple(_COLUMNS))
         struct = _places(parameters, patches)
         out = np.empty((struct._pointer.n, _COLUMNS[what]))
-        filled(lib.ricci_spline_evaluate, self, struct, getattr(lib, f"RICCI_SPLINE_{what.upper()}"), CONTROL, out=out, progress=progress)
+        filled(lib.ricci_spline_evaluate, self, struct, which, CONTROL, out=out, progress=progress)
         return out.reshape(len(out), -1, 3) if what in ("first", "second") else out
 
     def closest(self, points: npt.ArrayLike, progress: Progress = None) -> tuple[Indices, Doubles, Doubles, Doubles]:

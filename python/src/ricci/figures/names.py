@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Literal, TypeAlias
+from typing import Literal, TypeAlias, get_args
 
 Space: TypeAlias = Literal["e2", "h2", "s2"]
 Scheme: TypeAlias = Literal["yamabe", "inversive", "thurston", "tangential", "virtual"]
@@ -20,5 +20,11 @@ Stop: TypeAlias = Literal[
 StructureKind: TypeAlias = Literal["conformal", "spherical", "affine", "hyperbolic", "projective"]
 On: TypeAlias = Literal["input", "metric", "refinement"]
 
-# The prefix of the constants that a type of field stands for.
-PREFIXES = {"Space": "SPACE", "Scheme": "SCHEME", "Model": "MODEL", "Stop": "STOP", "StructureKind": "STRUCTURE"}
+# For a type of field the prefix of the constants that it stands for, and their names: other constants may have the same prefix.
+CONSTANTS: dict[str, tuple[str, tuple[str, ...]]] = {
+    "Space": ("SPACE", get_args(Space)),
+    "Scheme": ("SCHEME", get_args(Scheme)),
+    "Model": ("MODEL", get_args(Model)),
+    "Stop": ("STOP", get_args(Stop)),
+    "StructureKind": ("STRUCTURE", get_args(StructureKind)),
+}
