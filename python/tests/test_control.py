@@ -141,6 +141,22 @@ def test_two_calls_at_once_give_what_one_gives(genus2):
     assert all(np.array_equal(u, alone) for u in found)
 
 
+def test_threads_take_turns_at_a_solver(genus2):
+    solver = ricci.Solver(ricci.metric(genus2))
+    found = {}
+
+    def solve(vertex):
+        found[vertex] = solver.solve(f"single:{vertex}")
+
+    threads = [threading.Thread(target=solve, args=(v,)) for v in range(6)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert {v: flat.report.cones.tolist() for v, flat in found.items()} == {v: [v] for v in range(6)}
+    assert all(flat.converged for flat in found.values())
+
+
 def test_messages_belong_to_the_thread_of_the_call(genus2):
     """Two threads fail at once, each with its own message."""
     wrong = {}

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import threading
+from collections.abc import Callable
 from functools import cached_property
 from typing import Any, ClassVar, Literal, TypedDict, Unpack
 
@@ -238,7 +240,7 @@ class Metric(Handle):
 
 
 class Solver(Handle):
-    """A solver for many targets on one metric: it keeps its analysis, its threads and the last solution. For one thread at a time.
+    """A solver for many targets on one metric: it keeps its analysis, its threads and the last solution. Threads take turns.
 
     Args:
         start: where the first solve starts.
@@ -249,15 +251,26 @@ class Solver(Handle):
 
     def __init__(self, start: Metric, **given: Unpack[FlowOptions]) -> None:
         self._pointer = Solver._made(lib.ricci_solver_new, start, flow_struct(given))._pointer
+        self._turn = threading.Lock()
 
     def pin(self, vertices: npt.ArrayLike = ()) -> None:
         """Hold u fixed at these vertices in the following solves, whose curvature is then free; none releases all."""
         pinned = _arrays.indices(vertices)
-        call(lib.ricci_solver_pin, self, pointer(pinned) if pinned.size else ffi.NULL, pinned.size)
+        call(self._in_turn(lib.ricci_solver_pin), self, pointer(pinned) if pinned.size else ffi.NULL, pinned.size)
 
     def solve(self, target: TargetLike = None, progress: Progress = None) -> Metric:
         """The metric with this target, from where the last solve ended. After a failure the solver is where it was before."""
-        return Metric._made(lib.ricci_solver_solve, self, target_struct(target), CONTROL, progress=progress)
+        return Metric._made(self._in_turn(lib.ricci_solver_solve), self, target_struct(target), CONTROL, progress=progress)
+
+    def _in_turn(self, function: Callable[..., int]) -> Callable[..., int]:
+        """The function, which the library asks for by one thread at a time; held by the thread that runs it, until it has ended."""
+        turn = self._turn
+
+        def waiting(*arguments: Any) -> int:
+            with turn:
+                return function(*arguments)
+
+        return waiting
 
 
 def metric(V: MeshLike, F: npt.ArrayLike | None = None, *, space: Space = "e2", scheme: Scheme = "yamabe") -> Metric:
