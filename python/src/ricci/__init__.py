@@ -1,0 +1,126 @@
+"""ricci: discrete surface Ricci flow. Metrics of prescribed curvature on triangle meshes, their layouts, and what is built on them.
+
+    import ricci
+
+    flat = ricci.flow(V, F, target="auto:8")          # n x 3 positions, m x 3 faces; eight cones
+    uv = ricci.layout(flat).uv()                      # m x 3 x 2, the coordinates of every corner
+    disk = ricci.uniformize("bunny.obj")              # sphere, plane or hyperbolic plane
+
+Every function takes arrays `V, F`, or in place of `V` alone a `Mesh`, a file's name, a pair `(V, F)`, or a mesh of trimesh, meshio,
+PyVista or nibabel. Long calls release the GIL, show their progress (`progress=callback`) and stop at Ctrl-C. Failures are exceptions
+with the element and the amount (`RicciError`). Results are identical bit for bit for any number of threads.
+"""
+
+from ricci._library import VERSION as __version__
+from ricci.adapters import as_mesh, to_gifti, to_meshio, to_pyvista, to_trimesh
+from ricci.atlases import Place, Structure, structure, structures
+from ricci.bicubics import Bicubic, bicubic
+from ricci.circle import CircleDomain, circles
+from ricci.cohorts import CohortResult, Job, cohort
+from ricci.control import Control
+from ricci.covering import Cover, Deck, Dirichlet, cover, deck, dirichlet
+from ricci.errors import (
+    ArgumentError,
+    Cancelled,
+    FileError,
+    InternalError,
+    LayoutError,
+    MatchingError,
+    MeshError,
+    MetricError,
+    OutOfMemory,
+    ParseError,
+    RicciError,
+    SolverError,
+    SplineError,
+    TargetError,
+)
+from ricci.form import Forms, forms, harmonic
+from ricci.fundamental import Domain, Homotopy, homotopy
+from ricci.layouts import Atlas, Layout, atlas, layout
+from ricci.log import log_to_logging
+from ricci.maps import Map
+from ricci.matching import Matching, match
+from ricci.mesh import Mesh
+from ricci.metrics import Metric, Report, Solver, flow, metric
+from ricci.shapes import change, hyperelliptic_periods, make
+from ricci.soup import Defect, Soup
+from ricci.splines import Spline, flat_metric, spline, spline_domain
+from ricci.status import Status
+from ricci.uniform import Uniform, uniformize
+
+read = Mesh.read
+
+__all__ = [
+    "ArgumentError",
+    "Atlas",
+    "Bicubic",
+    "Cancelled",
+    "CircleDomain",
+    "CohortResult",
+    "Control",
+    "Cover",
+    "Deck",
+    "Defect",
+    "Dirichlet",
+    "Domain",
+    "FileError",
+    "Forms",
+    "Homotopy",
+    "InternalError",
+    "Job",
+    "Layout",
+    "LayoutError",
+    "Map",
+    "Matching",
+    "MatchingError",
+    "Mesh",
+    "MeshError",
+    "Metric",
+    "MetricError",
+    "OutOfMemory",
+    "ParseError",
+    "Place",
+    "Report",
+    "RicciError",
+    "Solver",
+    "SolverError",
+    "Soup",
+    "Spline",
+    "SplineError",
+    "Status",
+    "Structure",
+    "TargetError",
+    "Uniform",
+    "__version__",
+    "as_mesh",
+    "atlas",
+    "bicubic",
+    "change",
+    "circles",
+    "cohort",
+    "cover",
+    "deck",
+    "dirichlet",
+    "flat_metric",
+    "flow",
+    "forms",
+    "harmonic",
+    "homotopy",
+    "hyperelliptic_periods",
+    "layout",
+    "log_to_logging",
+    "make",
+    "match",
+    "metric",
+    "read",
+    "spline",
+    "spline_domain",
+    "structure",
+    "structures",
+    "to_gifti",
+    "to_meshio",
+    "to_pyvista",
+    "to_trimesh",
+    "uniformize",
+]

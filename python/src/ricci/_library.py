@@ -1,0 +1,41 @@
+"""The shared library: where it is, and whether it is of the version that this package was made for."""
+
+from __future__ import annotations
+
+import os
+import sys
+from pathlib import Path
+from typing import Any
+
+from ricci._native import ffi
+
+__all__ = ["ffi", "lib", "path"]
+
+# The version of the headers, whose macros cffi does not read: ricci.h, RICCI_VERSION_*.
+MAJOR, MINOR = 0, 1
+SUFFIX = ".dylib" if sys.platform == "darwin" else ".so"
+
+
+def _find() -> Path:
+    """The library that RICCI_LIBRARY names, else the one beside this file."""
+    given = os.environ.get("RICCI_LIBRARY")
+    found = Path(given) if given else Path(__file__).resolve().parent / f"libricci{SUFFIX}"
+    if not found.exists():
+        origin = "RICCI_LIBRARY names" if given else "this package looks for"
+        raise ImportError(f"the shared library that {origin}, {found}, does not exist")
+    return found
+
+
+def _open(found: Path) -> Any:
+    """The library as cffi's object; an ImportError if it has another binary interface than the headers."""
+    opened = ffi.dlopen(str(found))
+    number = opened.ricci_version_number()
+    major, minor = number // 1_000_000, number // 1_000 % 1_000
+    if (major, minor) != (MAJOR, MINOR):
+        raise ImportError(f"{found} is version {major}.{minor}, this package is made for {MAJOR}.{MINOR}")
+    return opened
+
+
+path: Path = _find()
+lib: Any = _open(path)
+VERSION: str = ffi.string(lib.ricci_version()).decode()

@@ -1,0 +1,80 @@
+"""Bicubic patches near splines, for CAD."""
+
+from __future__ import annotations
+
+import os
+from functools import cached_property
+from typing import Any, ClassVar, Literal, TypedDict, Unpack
+
+from ricci._call import CONTROL, Handle, call, constant, path_bytes, summary, text_of
+from ricci._library import ffi, lib
+from ricci._structs import Struct, Write, choice, number, options
+from ricci.control import Progress
+from ricci.figures import BicubicSummary
+from ricci.splines import Spline
+
+__all__ = ["Bicubic", "BicubicOptions", "StepOptions", "bicubic"]
+
+
+class BicubicOptions(TypedDict, total=False):
+    """How near the patches are to be.
+
+    Attributes:
+        tolerance: largest distance from the spline over the diagonal, 1e-10 to 1; 1e-4.
+        angle: largest angle between the normals of neighbouring patches beyond the spline's own, radians; half a degree.
+        threads: one per core. The result does not depend on it.
+    """
+
+    tolerance: float
+    angle: float
+    threads: int
+
+
+class StepOptions(TypedDict, total=False):
+    """What a STEP file says beside the patches.
+
+    Attributes:
+        name: the name of the part.
+        unit: of the coordinates: ``"millimetre"``, ``"metre"``.
+    """
+
+    name: str
+    unit: Literal["millimetre", "metre"]
+
+
+def _name(struct: Struct, field: str, value: str) -> None:
+    text: Any = ffi.new("char[]", value.encode())
+    struct._kept.append(text)
+    struct.put(field, text)
+
+
+_STEP: dict[str, Write] = {"name": _name, "unit": choice("UNIT")}
+_BICUBIC: dict[str, Write] = dict.fromkeys(BicubicOptions.__annotations__, number)
+
+
+class Bicubic(Handle):
+    """Bicubic B-spline patches near a spline, three for each of its patches; neighbours share the control points of their side."""
+
+    _type: ClassVar[str] = "bicubic"
+
+    @cached_property
+    def summary(self) -> BicubicSummary:
+        """Counts, distance from the spline, jumps of the normals."""
+        return summary(BicubicSummary, "bicubic", self)
+
+    def write(self, path: str | os.PathLike[str], **given: Unpack[StepOptions]) -> None:
+        """Write the patches as .step, .stp (STEP AP242) or .json, whole or not at all."""
+        call(lib.ricci_bicubic_write, self, options("step_options", given, _STEP), path_bytes(path))
+
+    def text(self, kind: Literal["step", "json"] = "json", **given: Unpack[StepOptions]) -> str:
+        """The text of such a file."""
+        return text_of(lib.ricci_bicubic_text, self, constant("BICUBIC", kind), options("step_options", given, _STEP))
+
+
+def bicubic(spline: Spline, progress: Progress = None, **given: Unpack[BicubicOptions]) -> Bicubic:
+    """Bicubic patches within a tolerance of a spline, with as many spans as that takes, up to 128 along a side.
+
+    Raises:
+        SplineError: a patch that 128 spans do not bring within the tolerance; the index is its number.
+    """
+    return Bicubic._made(lib.ricci_bicubic_new, spline, options("bicubic_options", given, _BICUBIC), CONTROL, progress=progress)

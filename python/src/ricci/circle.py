@@ -1,0 +1,111 @@
+"""Circle domains: surfaces with boundary whose loops are circles."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import Any, ClassVar, TypedDict, Unpack
+
+import numpy.typing as npt
+
+from ricci._arrays import frozen
+from ricci._call import CONTROL, Doubles, Handle, constant, doubles, summary
+from ricci._library import lib
+from ricci._structs import Write, index_list, number, one_index, options, real_list
+from ricci.adapters import MeshLike, as_mesh
+from ricci.control import Progress
+from ricci.errors import ArgumentError
+from ricci.figures import CircleDomainSummary
+from ricci.figures.names import Model
+from ricci.layouts import Layout
+from ricci.mesh import Mesh
+from ricci.metrics import FlowOptions, flow_struct
+
+__all__ = ["CircleDomain", "CircleOptions", "circles"]
+
+
+class CircleOptions(TypedDict, total=False):
+    """How a circle domain is found.
+
+    Attributes:
+        flow: tolerance, max_iterations and threads of the flows.
+        outer: genus 0: the boundary loop that becomes the unit circle; the longest.
+        centre: genus 0: the vertex at the centre of the unit disk.
+        three: genus 0: three vertices of the outer loop, counterclockwise, to lie at `angles`.
+        angles: three angles, radians; 0, 2 pi / 3, 4 pi / 3.
+        least_loop: edges of loops with fewer than this are halved; 12.
+    """
+
+    flow: FlowOptions
+    outer: int
+    centre: int
+    three: npt.ArrayLike
+    angles: npt.ArrayLike
+    least_loop: int
+
+
+def _of_three(write: Write) -> Write:
+    """Three entries: the library reads as many."""
+
+    def checked(struct: Any, field: str, value: Any) -> None:
+        if len(value) != 3:
+            raise ArgumentError(f"{field} has {len(value)} entries, 3 are needed")
+        write(struct, field, value)
+
+    return checked
+
+
+_CIRCLES: dict[str, Write] = {
+    "flow": lambda struct, field, value: struct.put(field, flow_struct(value)),
+    "outer": one_index,
+    "centre": one_index,
+    "three": _of_three(index_list()),
+    "angles": _of_three(real_list()),
+    "least_loop": number,
+}
+
+
+class CircleDomain(Handle):
+    """A surface with boundary whose loops are circles: in the unit disk, a flat torus or a hyperbolic surface."""
+
+    _type: ClassVar[str] = "circle_domain"
+
+    @cached_property
+    def summary(self) -> CircleDomainSummary:
+        """Convergence, counts, deviation, modulus."""
+        return summary(CircleDomainSummary, "circle_domain", self)
+
+    @property
+    def converged(self) -> bool:
+        """Whether the curvature is within the tolerance, no circles overlap and no triangle is flipped."""
+        return self.summary.converged
+
+    @cached_property
+    def circles(self) -> Doubles:
+        """One row for each boundary loop: centre x, y, radius, and the largest distance of a vertex from it as a share of that."""
+        return frozen(doubles(lib.ricci_circle_domain_circles, self, shape=(self.summary.n_circles, 4)))
+
+    @cached_property
+    def mesh(self) -> Mesh:
+        """The given mesh with the vertices that were added to its loops; the first are the given ones."""
+        return Mesh._made(lib.ricci_circle_domain_mesh, self)
+
+    def layout(self, model: Model = "poincare") -> Layout:
+        """The layout of the surface without its holes, on the refinement of `mesh`."""
+        return Layout._made(lib.ricci_circle_domain_layout, self, constant("MODEL", model))
+
+
+def circles(V: MeshLike, F: npt.ArrayLike | None = None, progress: Progress = None, **given: Unpack[CircleOptions]) -> CircleDomain:
+    """The conformal map of a surface with boundary to one whose boundary loops are circles.
+
+    Args:
+        V: n x 3 positions with `F`, or a mesh of any kind (`as_mesh`).
+        F: m x 3 vertex indices.
+        progress: a `Control` or a callback.
+        given: outer, centre, three, angles, least_loop, flow (`CircleOptions`).
+
+    Raises:
+        ArgumentError: a closed surface; no such loop or vertex.
+        LayoutError: circles overlap however fine the loops are.
+    """
+    struct = options("circle_domain_options", given, _CIRCLES)
+    return CircleDomain._made(lib.ricci_circle_domain_new, as_mesh(V, F), struct, CONTROL, progress=progress)

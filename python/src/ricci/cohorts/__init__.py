@@ -1,0 +1,99 @@
+"""Thousands of meshes: the same job on each, results and reports to Parquet, one failure spoils nothing."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import Any, Literal, TypedDict, Unpack
+
+from ricci.cohorts.engines import engine_of
+from ricci.cohorts.jobs import Job, Outcome, Row, one, repaired, signature
+from ricci.errors import ArgumentError
+from ricci.mesh import Mesh
+
+__all__ = ["CohortOptions", "CohortResult", "Job", "Outcome", "Row", "cohort", "repaired"]
+
+
+class CohortOptions(TypedDict, total=False):
+    """How a cohort is run.
+
+    Attributes:
+        engine: ``"inline"``, ``"processes"``, ``"dask"`` (a local cluster), or a `distributed.Client`; ``"processes"``.
+        workers: processes; one per core. A client has its own.
+        read: makes of a path what the job is given; `ricci.read`. `ricci.cohorts.repaired` mends what needs no guess.
+        retry: whether meshes that failed in an earlier run are tried again.
+        progress: called as ``progress(done, total, row)`` after each mesh.
+    """
+
+    engine: Literal["inline", "processes", "dask"] | Any
+    workers: int
+    read: Callable[[str], Any]
+    retry: bool
+    progress: Callable[[int, int, Row], object]
+
+
+@dataclass(frozen=True)
+class CohortResult:
+    """The tables of a cohort, as they are in its folder.
+
+    Attributes:
+        folder: with `results.parquet` and `reports.parquet`.
+        results: a `pyarrow.Table`, one row for each mesh: path, ok, error, status, element, index, amount, message, and the job's columns.
+        reports: likewise: path, worker, seconds, and what else differs from run to run.
+    """
+
+    folder: Path
+    results: Any
+    reports: Any
+
+    @property
+    def failures(self) -> list[dict[str, Any]]:
+        """The rows with an error: path, error, status, element, index, amount, message."""
+        names = ["path", "error", "status", "element", "index", "amount", "message"]
+        wrong = [not ok for ok in self.results["ok"].to_pylist()]
+        return self.results.select(names).filter(wrong).to_pylist()
+
+
+def cohort(
+    paths: Iterable[str | os.PathLike[str]],
+    job: Job | Callable[[Any], Outcome | Mapping[str, Any]],
+    out: str | os.PathLike[str] = "cohort",
+    **how: Unpack[CohortOptions],
+) -> CohortResult:
+    """Do one job on many meshes, into tables of the folder `out`.
+
+    Each mesh is one row as soon as it is done; a run that was killed goes on where it stopped when it is called again, and its tables are
+    those of a run in one go, but for the reports' seconds. What fails on one mesh, a worker's death included, is that row's error. That a
+    file has changed since is not noticed: another version of the files wants another folder.
+
+    Args:
+        paths: mesh files, each once.
+        job: a `Job`, or a function that takes what `read` makes and returns columns by name, or an `Outcome`; for other engines than
+            ``"inline"`` one that can be imported by the workers.
+        out: the folder.
+        how: engine, workers, read, retry, progress (`CohortOptions`).
+
+    Raises:
+        ArgumentError: a path that is there twice, a folder with rows of another job, no such engine.
+    """
+    from ricci.cohorts.store import Store
+
+    names = [os.fspath(path) for path in paths]
+    if len(set(names)) != len(names):
+        twice = next(name for at, name in enumerate(names) if name in names[:at])
+        raise ArgumentError(f"{twice} is there twice")
+    engine = engine_of(how.get("engine", "processes"))
+    store = Store(Path(out), signature(job))
+    known = store.done()
+    todo = [name for name in names if name not in known or (how.get("retry", False) and not known[name])]
+    done, tell = len(names) - len(todo), how.get("progress")
+    for row in engine(partial(one, job, how.get("read", Mesh.read)), todo, how.get("workers") or os.cpu_count() or 1):
+        store.add(row)
+        done += 1
+        if tell is not None:
+            tell(done, len(names), row)
+    tables = store.finish(names)
+    return CohortResult(Path(out), tables["results"], tables["reports"])

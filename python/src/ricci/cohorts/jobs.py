@@ -1,0 +1,219 @@
+"""What is done to one mesh of a cohort, and the row that comes out of it."""
+
+from __future__ import annotations
+
+import json
+import os
+import threading
+import time
+from collections.abc import Callable, Mapping
+from contextlib import contextmanager
+from dataclasses import asdict, dataclass, field
+from functools import partial
+from typing import Any, Literal, NamedTuple
+
+import numpy as np
+
+from ricci.atlases import structure
+from ricci.circle import circles
+from ricci.control import Control
+from ricci.errors import RicciError
+from ricci.form import forms
+from ricci.mesh import Mesh
+from ricci.metrics import flow
+from ricci.soup import Soup
+from ricci.splines import spline
+from ricci.uniform import uniformize
+
+__all__ = ["Job", "Outcome", "Row", "repaired"]
+
+
+class Outcome(NamedTuple):
+    """What a job has found on one mesh.
+
+    Attributes:
+        result: numbers, texts and arrays that depend on the mesh alone.
+        report: what differs from run to run, such as seconds.
+    """
+
+    result: Mapping[str, Any]
+    report: Mapping[str, Any]
+
+
+@dataclass(frozen=True)
+class Row:
+    """One mesh of a cohort.
+
+    Attributes:
+        path: its file.
+        result: columns of the table of results, with `ok` and the error's columns.
+        report: columns of the table of reports, with the worker's process and seconds.
+    """
+
+    path: str
+    result: dict[str, Any]
+    report: dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Job:
+    """A function of this package as the job of a cohort: ``Job("flow", {"target": "auto:4"})``.
+
+    The result has the figures of the mesh and of what the function made, and its arrays: of a flow the conformal factor, of circles the
+    circles, of forms the period matrix.
+
+    Attributes:
+        kind: which function; ``"info"`` only counts.
+        options: its arguments by name. One thread is used unless they say otherwise: a cohort has its meshes side by side.
+        seconds: a mesh that takes longer is given up, with the error `Cancelled`.
+    """
+
+    kind: Literal["info", "flow", "uniformize", "circles", "forms", "structure", "spline"]
+    options: Mapping[str, Any] = field(default_factory=dict)
+    seconds: float | None = None
+
+    def __call__(self, mesh: Mesh) -> Outcome:
+        """The outcome on one mesh."""
+        with _limit(self.seconds) as control:
+            found, arrays = _KINDS[self.kind](mesh, self.options, control)
+        figures = {name: value for name, value in found.items() if not name.startswith("seconds")}
+        report = {name: value for name, value in found.items() if name.startswith("seconds")}
+        return Outcome({**_figures(mesh), **figures, **arrays}, report)
+
+    def __str__(self) -> str:
+        return f"{self.kind} {json.dumps(dict(self.options), sort_keys=True, default=_spelled)} within {self.seconds} s"
+
+
+def _spelled(value: Any) -> Any:
+    """What JSON does not know, in full: an array's repr would leave numbers out."""
+    return value.tolist() if isinstance(value, np.ndarray | np.generic) else repr(value)
+
+
+@contextmanager
+def _limit(seconds: float | None) -> Any:
+    """A control that cancels itself after this time."""
+    control = Control()
+    timer = None if seconds is None else threading.Timer(seconds, control.cancel)
+    if timer is not None:
+        timer.start()
+    try:
+        yield control
+    finally:
+        if timer is not None:
+            timer.cancel()
+
+
+def _figures(of: Any) -> dict[str, Any]:
+    """The figures of a mesh or a result as columns."""
+    return asdict(of.summary)
+
+
+_Found = tuple[dict[str, Any], dict[str, Any]]
+_ONE_THREAD = {"threads": 1}
+
+
+def _info(mesh: Mesh, _: Mapping[str, Any], __: Control) -> _Found:
+    return {}, {}
+
+
+def _flow(mesh: Mesh, given: Mapping[str, Any], control: Control) -> _Found:
+    found = flow(mesh, progress=control, **{**_ONE_THREAD, **given})
+    return {**_figures(found.report), "area": found.summary.area}, {"factor": found.factor}
+
+
+def _uniformize(mesh: Mesh, given: Mapping[str, Any], control: Control) -> _Found:
+    found = uniformize(mesh, progress=control, **{**given, "flow": {**_ONE_THREAD, **given.get("flow", {})}})
+    return _figures(found), {}
+
+
+def _circles(mesh: Mesh, given: Mapping[str, Any], control: Control) -> _Found:
+    found = circles(mesh, progress=control, **{**given, "flow": {**_ONE_THREAD, **given.get("flow", {})}})
+    return _figures(found), {"circles": found.circles}
+
+
+def _forms(mesh: Mesh, given: Mapping[str, Any], control: Control) -> _Found:
+    found = forms(mesh, progress=control, **given)
+    closed = mesh.summary.n_boundary_loops == 0 and mesh.genus > 0
+    return _figures(found), {"periods": found.periods} if closed else {}
+
+
+def _structure(mesh: Mesh, given: Mapping[str, Any], control: Control) -> _Found:
+    found = structure(mesh, progress=control, **{**given, "flow": {**_ONE_THREAD, **given.get("flow", {})}})
+    return _figures(found), {"holonomy": found.holonomy}
+
+
+def _spline(mesh: Mesh, given: Mapping[str, Any], control: Control) -> _Found:
+    return _figures(spline(mesh, progress=control, **{**_ONE_THREAD, **given})), {}
+
+
+_KINDS: dict[str, Callable[[Mesh, Mapping[str, Any], Control], _Found]] = {
+    "info": _info,
+    "flow": _flow,
+    "uniformize": _uniformize,
+    "circles": _circles,
+    "forms": _forms,
+    "structure": _structure,
+    "spline": _spline,
+}
+
+
+def repaired(path: str) -> Mesh:
+    """A reader for cohorts of files with defects: what can be mended without a guess is."""
+    return Soup.read(path).repair().mesh()
+
+
+def plain(value: Any) -> Any:
+    """A value as Parquet has it: arrays as lists, a complex number as its two parts.
+
+    Raises:
+        TypeError: it is nothing that a column can hold.
+    """
+    if isinstance(value, np.ndarray):
+        array = np.stack([value.real, value.imag], -1) if np.iscomplexobj(value) else value
+        return array.tolist()
+    if isinstance(value, np.generic):
+        return plain(value.item())
+    if isinstance(value, complex):
+        return [value.real, value.imag]
+    if isinstance(value, list | tuple):
+        return [plain(entry) for entry in value]
+    if value is None or isinstance(value, bool | int | float | str | bytes):
+        return value
+    raise TypeError(f"a job's column holds numbers, texts, arrays or lists of them, not {type(value).__name__}")
+
+
+_NO_ERROR: dict[str, Any] = dict.fromkeys(("error", "status", "element", "index", "amount", "message"))
+
+
+def failed(path: str, wrong: BaseException) -> Row:
+    """The row of a mesh on which the job failed, or whose worker died."""
+    found = {**_NO_ERROR, "error": type(wrong).__name__, "message": str(wrong)}
+    if isinstance(wrong, RicciError):
+        found |= {"status": wrong.status.name, "element": wrong.element, "index": wrong.index, "amount": wrong.amount}
+    return Row(path, {"path": path, "ok": False, **found}, {"path": path, "worker": os.getpid()})
+
+
+def one(job: Callable[[Any], Outcome | Mapping[str, Any]], read: Callable[[str], Any], path: str) -> Row:
+    """Read one mesh and do the job; whatever goes wrong becomes a row."""
+    start = time.perf_counter()
+    try:
+        found = job(read(path))
+        outcome = found if isinstance(found, Outcome) else Outcome(found, {})
+        result = {name: plain(value) for name, value in outcome.result.items()}
+        report = {name: plain(value) for name, value in outcome.report.items()}
+    except Exception as wrong:
+        row = failed(path, wrong)
+    else:
+        head = {"path": path, "ok": True, **_NO_ERROR}
+        row = Row(path, {**result, **head}, {**report, "path": path, "worker": os.getpid()})
+    row.report["seconds"] = time.perf_counter() - start
+    return row
+
+
+def signature(job: Any) -> str:
+    """What identifies a job: two runs that agree in it may share a folder."""
+    if isinstance(job, Job):
+        return str(job)
+    if isinstance(job, partial):
+        return f"{signature(job.func)} {job.args!r} {job.keywords!r}"
+    return f"{job.__module__}.{job.__qualname__}" if hasattr(job, "__qualname__") else repr(job)

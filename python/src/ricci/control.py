@@ -1,0 +1,113 @@
+"""Progress of long calls, and the means to stop them: by Ctrl-C, by a callback that raises, or from another thread."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from typing import Any, TypeAlias
+
+from ricci._library import ffi, lib
+from ricci.errors import last_failure
+
+__all__ = ["Control", "Progress"]
+
+# The names of RICCI_STAGE_*.
+STAGES = ("idle", "read", "build", "flow", "layout", "write")
+# Seconds between two looks at a running call: what a Ctrl-C waits for at most before it is passed on.
+LOOK = 0.05
+
+
+class Control:
+    """Progress of one long call, and the means to cancel it. All methods may be called from any thread.
+
+    A control that was cancelled stays so: every later call with it is stopped as well.
+
+    Args:
+        callback: called as ``callback(stage, fraction)`` from the thread that waits for the call, about every 0.05 s, with the name of
+            a stage (``"flow"``, ``"layout"``, ...) and the part of it that is done, in [0, 1]. What it raises stops the call.
+    """
+
+    def __init__(self, callback: Callable[[str, float], object] | None = None) -> None:
+        made = ffi.new("ricci_control **")
+        status = lib.ricci_control_new(made)
+        if status:
+            raise last_failure(status)
+        self._pointer: Any = ffi.gc(made[0], lib.ricci_control_free)
+        self._callback = callback
+
+    def cancel(self) -> None:
+        """Ask the running call, and every later one with this control, to stop; the call raises `Cancelled`."""
+        lib.ricci_control_cancel(self._pointer)
+
+    def progress(self) -> tuple[str, float]:
+        """What the call is doing, and the part of it that is done, in [0, 1]."""
+        stage, fraction = ffi.new("uint32_t *"), ffi.new("double *")
+        lib.ricci_control_progress(self._pointer, stage, fraction, ffi.NULL)
+        return STAGES[stage[0]], float(fraction[0])
+
+    def since_cancel(self) -> float | None:
+        """Seconds since the first `cancel`, or None if there was none: right after `Cancelled` the latency."""
+        stage, seconds = ffi.new("uint32_t *"), ffi.new("double[2]")
+        lib.ricci_control_progress(self._pointer, stage, seconds, seconds + 1)
+        return float(seconds[1]) if seconds[1] >= 0 else None
+
+    def _report(self) -> None:
+        if self._callback is not None:
+            self._callback(*self.progress())
+
+
+Progress: TypeAlias = "Control | Callable[[str, float], object] | None"
+
+
+class _Running:
+    """A call in a thread of its own, whose failure is read there: messages belong to the thread of the call."""
+
+    def __init__(self, work: Callable[[], int]) -> None:
+        self.failure: BaseException | None = None
+        self.done = threading.Event()
+        self._work = work
+        threading.Thread(target=self._run, daemon=True).start()
+
+    def _run(self) -> None:
+        try:
+            check(self._work())
+        except BaseException as failure:
+            self.failure = failure
+        finally:
+            self.done.set()
+
+
+def check(status: int) -> None:
+    """Raise what `status` says of the call that has just ended on this thread."""
+    if status:
+        raise last_failure(status)
+
+
+def run(progress: Progress, work: Callable[[Any], int]) -> None:
+    """Do `work`, a long call that is handed a control's pointer, so that it can be watched and stopped.
+
+    On the main thread, and where there is a callback, the call runs beside this thread, which looks at it and takes signals. A
+    KeyboardInterrupt, or what the callback raises, cancels the call; it is raised here once the call has ended.
+
+    Raises:
+        RicciError: the call failed.
+    """
+    control = progress if isinstance(progress, Control) else Control(progress)
+    if control._callback is None and threading.current_thread() is not threading.main_thread():
+        check(work(control._pointer))
+        return
+    running = _Running(lambda: work(control._pointer))
+    try:
+        while not running.done.wait(LOOK):
+            control._report()
+    except BaseException:
+        control.cancel()
+        running.done.wait()
+        raise
+    failure = running.failure
+    if failure is not None:
+        try:
+            # Without the frames of the thread that ran it; and this frame, which the exception has, lets go of the exception.
+            raise failure.with_traceback(None)
+        finally:
+            del failure, running

@@ -1,0 +1,209 @@
+"""Deck transformations, Dirichlet domains and pieces of the universal cover."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cached_property
+from typing import Any, ClassVar, Literal, TypeAlias, TypedDict, Unpack, get_args
+
+import numpy as np
+import numpy.typing as npt
+
+from ricci import _arrays
+from ricci._arrays import frozen
+from ricci._call import CONTROL, Complexes, Doubles, Handle, Indices, Signed, constant, doubles, filled, pointer, rows, summary
+from ricci._library import lib
+from ricci._structs import Struct, Write, nested, number, options
+from ricci.adapters import MeshLike
+from ricci.control import Progress
+from ricci.errors import ArgumentError
+from ricci.figures import DeckSummary, DirichletSummary
+from ricci.figures.names import Model
+from ricci.layouts import Layout
+from ricci.models import from_ambient
+from ricci.uniform import Uniform, uniformize
+
+__all__ = ["Cover", "CoverOptions", "Deck", "DeckSpec", "Dirichlet", "cover", "deck", "dirichlet"]
+
+
+Kind: TypeAlias = Literal["generators", "sides", "words", "depth", "within", "dirichlet_sides"]
+
+
+class DeckSpec(TypedDict, total=False):
+    """Which deck transformations.
+
+    Attributes:
+        kind: ``"generators"``, ``"sides"`` of the layout, ``"words"``, all to a ``"depth"``, all ``"within"`` a radius, or
+            ``"dirichlet_sides"``.
+        words: those of ``"words"``, each a list of letters.
+        dirichlet: for ``"within"`` and ``"dirichlet_sides"``, a domain of this surface.
+        radius: for ``"within"``: how far the centre may move.
+        depth: for ``"depth"``: most letters of a word.
+        limit: most elements that are looked at; 100,000.
+    """
+
+    kind: Kind
+    words: Sequence[npt.ArrayLike]
+    dirichlet: Dirichlet
+    radius: float
+    depth: int
+    limit: int
+
+
+def _words(struct: Struct, _: str, value: Any) -> None:
+    letters, starts = _arrays.joined(value)
+    struct.put("letters", letters)
+    struct.put("n_letters", letters.size)
+    struct.put("starts", starts)
+    struct.put("n_words", len(starts) - 1)
+
+
+_DECK: dict[str, Write] = {
+    **dict.fromkeys(("kind", "radius", "depth", "limit"), number),
+    "words": _words,
+    "dirichlet": nested,
+}
+# Elements that are looked at for a piece of the universal cover where the caller names no limit.
+LIMIT = 100_000
+
+
+class Deck(Handle):
+    """Deck transformations of a quotient, each as a word in the generators and as an isometry. They act from the left."""
+
+    _type: ClassVar[str] = "deck"
+
+    @cached_property
+    def summary(self) -> DeckSummary:
+        """Counts."""
+        return summary(DeckSummary, "deck", self)
+
+    def __len__(self) -> int:
+        return self.summary.n_elements
+
+    @cached_property
+    def words(self) -> list[Signed]:
+        """The words of the elements, reduced: letters from 1, negative for inverses."""
+        return rows(len(self), lib.ricci_deck_words, self)
+
+    @cached_property
+    def mobius(self) -> Complexes:
+        """k x 2 x 2 complex matrices of z -> (a z + b)/(c z + d), in the Poincare disk or the plane."""
+        return frozen(self._values("MOBIUS", 2, 2, 2).view(np.complex128)[..., 0])
+
+    @cached_property
+    def matrices(self) -> Doubles:
+        """k x 3 x 3 matrices that act on ambient coordinates."""
+        return frozen(self._values("MATRIX", 3, 3))
+
+    @cached_property
+    def traces(self) -> Doubles:
+        """|trace| of the 2 x 2 matrices of determinant 1: 2 cosh(L/2) for a translation of length L in the hyperbolic plane."""
+        return frozen(self._values("TRACE"))
+
+    @cached_property
+    def lengths(self) -> Doubles:
+        """How far they move along their axes: lengths of the closed geodesics in their free homotopy classes."""
+        return frozen(self._values("LENGTH"))
+
+    def apply(self, element: int, points: npt.ArrayLike) -> Doubles:
+        """k x 3 points in ambient coordinates, moved by one element, with twice the digits of doubles on the way."""
+        array = _arrays.real(points, 3, "points")
+        return doubles(lib.ricci_deck_apply, self, element, pointer(array), len(array), shape=array.shape)
+
+    def _values(self, which: str, *shape: int) -> Any:
+        return doubles(lib.ricci_deck_values, self, getattr(lib, f"RICCI_DECK_{which}"), shape=(len(self), *shape))
+
+
+class Dirichlet(Handle):
+    """The points of the universal cover that are nearer to a centre than to its images: a convex polygon."""
+
+    _type: ClassVar[str] = "dirichlet"
+
+    @cached_property
+    def summary(self) -> DirichletSummary:
+        """Area, radius, number of sides."""
+        return summary(DirichletSummary, "dirichlet", self)
+
+    @cached_property
+    def corners(self) -> Doubles:
+        """k x 3, ambient coordinates, counterclockwise: side k runs from corner k to the next one."""
+        return frozen(doubles(lib.ricci_dirichlet_corners, self, shape=(self.summary.n_sides, 3)))
+
+    @cached_property
+    def partners(self) -> Signed:
+        """The side with the inverse element, for every side."""
+        return frozen(filled(lib.ricci_dirichlet_partners, self, out=np.empty(self.summary.n_sides, np.int32)))
+
+
+class CoverOptions(TypedDict, total=False):
+    """A piece of the universal cover: all copies to a depth, or all within a radius of the base.
+
+    Attributes:
+        depth: most letters of a word.
+        radius: how far the base may move.
+        limit: most elements that are looked at; 100,000.
+    """
+
+    depth: int
+    radius: float
+    limit: int
+
+
+class Cover:
+    """A piece of the universal cover: copies of a layout, moved by deck transformations.
+
+    Attributes:
+        uniform: the surface.
+        layout: the layout on the given surface (``"refinement"``), or on the metric's own triangulation.
+        deck: the deck transformation of every copy; the first is the identity.
+        faces: m x 3 indices of the points of a copy.
+    """
+
+    def __init__(self, uniform: Uniform, layout: Layout, deck: Deck) -> None:
+        self.uniform, self.layout, self.deck = uniform, layout, deck
+        self.faces: Indices = layout.corners("refinement")
+        self._points = layout.points("ambient")
+
+    def __len__(self) -> int:
+        return len(self.deck)
+
+    def points(self, copy: int, model: Model = "poincare") -> Doubles:
+        """The points of one copy, k x 2, or k x 3 in ambient coordinates."""
+        return from_ambient(self.deck.apply(copy, self._points), self.deck.summary.space, model)
+
+
+def deck(uniform: Uniform, progress: Progress = None, **spec: Unpack[DeckSpec]) -> Deck:
+    """Deck transformations of a quotient; by default the generators.
+
+    Raises:
+        LayoutError: a sphere.
+        ArgumentError: more elements than `limit`.
+    """
+    given = {"limit": LIMIT, **spec, "kind": constant("DECK", spec.get("kind", "generators"), get_args(Kind))}
+    return Deck._made(lib.ricci_deck_new, uniform, options("deck_spec", given, _DECK), CONTROL, progress=progress)
+
+
+def dirichlet(uniform: Uniform, centre: npt.ArrayLike | None = None, progress: Progress = None) -> Dirichlet:
+    """The Dirichlet domain of a point in ambient coordinates; of the origin, where the base vertex is, if none is given."""
+    point = None if centre is None else _arrays.real(centre)
+    if point is not None and point.shape != (3,):
+        raise ArgumentError(f"the centre has shape {point.shape}, (3,) is needed")
+    return Dirichlet._made(lib.ricci_dirichlet_new, uniform, pointer(point), CONTROL, progress=progress)
+
+
+def cover(V: MeshLike, F: npt.ArrayLike | None = None, progress: Progress = None, **given: Unpack[CoverOptions]) -> Cover:
+    """A piece of the universal cover of a surface that is no sphere; by default all copies to depth 1.
+
+    Args:
+        V: a `Uniform`, or positions with `F`, or a mesh of any kind (`as_mesh`), which is uniformized first.
+        F: m x 3 vertex indices.
+        progress: a `Control` or a callback.
+        given: depth or radius, and limit (`CoverOptions`).
+    """
+    uniform = V if isinstance(V, Uniform) else uniformize(V, F, progress)
+    limit = given.get("limit", LIMIT)
+    if "radius" in given:
+        found = deck(uniform, progress, kind="within", dirichlet=dirichlet(uniform), radius=given["radius"], limit=limit)
+    else:
+        found = deck(uniform, progress, kind="depth", depth=given.get("depth", 1), limit=limit)
+    return Cover(uniform, uniform.layout("refinement", progress=progress), found)

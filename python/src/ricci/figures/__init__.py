@@ -1,0 +1,27 @@
+"""What the library counts and measures, as dataclasses with the fields of its `ricci_..._summary` structs."""
+
+from ricci.figures.covered import DeckSummary, DirichletSummary, DomainSummary, HomotopySummary, UniformSummary
+from ricci.figures.derived import BicubicSummary, FormsSummary, MatchingSummary, SplineSummary, StructureSummary
+from ricci.figures.placed import AtlasSummary, CircleDomainSummary, LayoutSummary, MapSummary
+from ricci.figures.surface import MeshSummary, MetricSummary, ReportSummary, SoupSummary
+
+__all__ = [
+    "AtlasSummary",
+    "BicubicSummary",
+    "CircleDomainSummary",
+    "DeckSummary",
+    "DirichletSummary",
+    "DomainSummary",
+    "FormsSummary",
+    "HomotopySummary",
+    "LayoutSummary",
+    "MapSummary",
+    "MatchingSummary",
+    "MeshSummary",
+    "MetricSummary",
+    "ReportSummary",
+    "SoupSummary",
+    "SplineSummary",
+    "StructureSummary",
+    "UniformSummary",
+]

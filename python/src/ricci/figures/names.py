@@ -1,0 +1,30 @@
+"""Names that stand for the constants of the headers: RICCI_SPACE_E2 is ``"e2"``."""
+
+from __future__ import annotations
+
+from typing import Literal, TypeAlias, get_args
+
+Space: TypeAlias = Literal["e2", "h2", "s2"]
+Scheme: TypeAlias = Literal["yamabe", "inversive", "thurston", "tangential", "virtual"]
+Model: TypeAlias = Literal["poincare", "klein", "half_plane", "ambient"]
+Stop: TypeAlias = Literal[
+    "converged",
+    "rounding_floor",
+    "broken_triangles",
+    "diverged",
+    "stalled",
+    "iteration_limit",
+    "infeasible",
+    "out_of_reach",
+]
+StructureKind: TypeAlias = Literal["conformal", "spherical", "affine", "hyperbolic", "projective"]
+On: TypeAlias = Literal["input", "metric", "refinement"]
+
+# For a type of field the prefix of the constants that it stands for, and their names: other constants may have the same prefix.
+CONSTANTS: dict[str, tuple[str, tuple[str, ...]]] = {
+    "Space": ("SPACE", get_args(Space)),
+    "Scheme": ("SCHEME", get_args(Scheme)),
+    "Model": ("MODEL", get_args(Model)),
+    "Stop": ("STOP", get_args(Stop)),
+    "StructureKind": ("STRUCTURE", get_args(StructureKind)),
+}

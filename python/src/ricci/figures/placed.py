@@ -1,0 +1,145 @@
+"""What the library counts and measures: layouts, maps, charts, circle domains."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ricci.figures.names import Model, Space, Stop
+
+
+@dataclass(frozen=True)
+class LayoutSummary:
+    """Figures of a layout.
+
+    Attributes:
+        space: the geometry of its space.
+        model: the coordinates of `Layout.uv`.
+        n_vertices: V of what is laid out: those of the mesh, then the crossings.
+        n_edges: E of what is laid out.
+        n_faces: F of what is laid out.
+        n_input_vertices: V of the mesh that the metric was made from: these vertices come first.
+        n_input_faces: F of that mesh.
+        n_points: number of points: vertices count once per piece of their star between cuts.
+        n_seams: number of seams.
+        n_seam_edges: number of edges on all seams, on what is laid out.
+        n_flipped: faces that are not counterclockwise: by exact arithmetic; of a refinement, those that are clockwise by more than
+            rounding.
+        n_flipped_input: faces of the mesh that are not counterclockwise where the map is made linear on them (``"input"``): there it folds.
+        n_degenerate: faces without area in the input or the layout, but for rounding; the distortions below leave them out.
+        consistency: largest disagreement of an edge vector with the placed points: relative to `diameter` in E2, elsewhere a distance.
+        scale: lengths in the layout over lengths in the metric.
+        area: area of the surface in the layout.
+        diameter: diagonal of the bounding box of the points in `model`.
+        radius: largest distance of a point from the origin, in the space.
+        qc_mean: quasi-conformal dilatation of the faces of what is laid out, at least 1: mean over the input's area. NaN, as all below, on
+            the metric's own triangulation.
+        qc_max: largest quasi-conformal dilatation.
+        area_ratio_min: smallest area distortion: share of the layout's area over share of the input's.
+        area_ratio_max: largest area distortion.
+    """
+
+    space: Space
+    model: Model
+    n_vertices: int
+    n_edges: int
+    n_faces: int
+    n_input_vertices: int
+    n_input_faces: int
+    n_points: int
+    n_seams: int
+    n_seam_edges: int
+    n_flipped: int
+    n_flipped_input: int
+    n_degenerate: int
+    consistency: float
+    scale: float
+    area: float
+    diameter: float
+    radius: float
+    qc_mean: float
+    qc_max: float
+    area_ratio_min: float
+    area_ratio_max: float
+
+
+@dataclass(frozen=True)
+class MapSummary:
+    """Figures of a map.
+
+    Attributes:
+        n_vertices: V of the refinement: those of the mesh, then n_crossings.
+        n_edges: E of the refinement.
+        n_faces: F of the refinement.
+        n_crossings: vertices where an edge of the mesh and one of the metric's triangulation cross; 0 if no edge was flipped.
+        n_pieces: number of pieces: a piece is what a face of the mesh and one of the metric's triangulation have in common, cut into
+            triangles.
+    """
+
+    n_vertices: int
+    n_edges: int
+    n_faces: int
+    n_crossings: int
+    n_pieces: int
+
+
+@dataclass(frozen=True)
+class AtlasSummary:
+    """Figures of an atlas.
+
+    Attributes:
+        n_charts: number of charts.
+        n_faces: F of what is laid out.
+        n_points: number of points in the unit square.
+        n_flipped: faces that are clockwise by more than rounding, each a chart of its own.
+        n_degenerate: faces without area beyond rounding, in the layout or in the unit square; they lie in the charts of their neighbours,
+            and are left out where it says that none overlap.
+        scale: lengths in the unit square over lengths in the layout, the same for all charts.
+        efficiency: share of the unit square that is covered.
+        layout_seams: total length of the layout's seams, in its units.
+        chart_seams: total length of the charts' seams, in units of the layout.
+    """
+
+    n_charts: int
+    n_faces: int
+    n_points: int
+    n_flipped: int
+    n_degenerate: int
+    scale: float
+    efficiency: float
+    layout_seams: float
+    chart_seams: float
+
+
+@dataclass(frozen=True)
+class CircleDomainSummary:
+    """Figures of a circle domain.
+
+    Attributes:
+        space: ``"e2"``: the unit disk (genus 0) or a flat torus (1); ``"h2"`` for more.
+        converged: whether the curvature is within the tolerance, no circles overlap and no triangle is flipped.
+        stop_reason: why the flow stopped.
+        outer: genus 0: the loop on the unit circle; else 4294967295.
+        n_circles: circles: one per boundary loop of the mesh.
+        n_overlapping: circles that overlap another one.
+        iterations: Newton steps of all flows.
+        n_flips: edge flips.
+        n_halved: vertices that were added to the mesh before the flow: the last ones of `CircleDomain.mesh`.
+        n_crossed: vertices that flips have added to loops: some of those that the layout has beyond that mesh.
+        max_curvature_error: largest |K| of the metric off the outer loop, radians.
+        deviation: largest distance of a loop's vertex from its circle, a share of the radius.
+        modulus: an annulus: 0 and its height over its circumference. A torus with holes: the modulus of the torus. Else NaN.
+    """
+
+    space: Space
+    converged: bool
+    stop_reason: Stop
+    outer: int
+    n_circles: int
+    n_overlapping: int
+    iterations: int
+    n_flips: int
+    n_halved: int
+    n_crossed: int
+    max_curvature_error: float
+    deviation: float
+    modulus: complex

@@ -1,0 +1,155 @@
+"""Harmonic maps, harmonic and holomorphic 1-forms."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import ClassVar, Literal, TypedDict, Unpack
+
+import numpy as np
+import numpy.typing as npt
+
+from ricci import _arrays
+from ricci._arrays import frozen
+from ricci._call import CONTROL, Complexes, Doubles, Handle, Longs, constant, doubles, filled, pointer, sized_list, summary
+from ricci._library import lib
+from ricci._structs import Struct, Write, choice, one_index, options
+from ricci.adapters import MeshLike, as_mesh
+from ricci.control import Progress
+from ricci.errors import ArgumentError
+from ricci.figures import FormsSummary
+from ricci.mesh import Mesh
+
+__all__ = ["Forms", "FormsOptions", "HarmonicOptions", "forms", "harmonic"]
+
+
+class HarmonicOptions(TypedDict, total=False):
+    """Where a harmonic map goes.
+
+    Attributes:
+        target: a disk to the unit ``"disk"``, the ``"rectangle"`` of its modulus, or a regular ``"polygon"``; a closed surface of
+            genus 0 to the unit ``"sphere"``; ``"values"``: given places for some vertices.
+        b: the vertices that are given, for ``"values"``; the corners of a rectangle or a polygon.
+        bc: the places of the vertices `b`, k x 2 or k x 3, or k numbers.
+        n: number of corners of a polygon; of `b` where that is given.
+    """
+
+    target: Literal["disk", "rectangle", "sphere", "values", "polygon"]
+    b: npt.ArrayLike
+    bc: npt.ArrayLike
+    n: int
+
+
+def _harmonic_struct(given: HarmonicOptions) -> Struct:
+    struct = Struct("harmonic_spec")
+    target = given.get("target", "values" if "bc" in given else "disk")
+    struct.put("target", constant("HARMONIC", target))
+    vertices = _arrays.indices(given.get("b", ()), name="b")
+    struct.put("n", vertices.size or given.get("n", 0))
+    if vertices.size:
+        struct.put("vertices", vertices)
+    if "bc" in given:
+        values = _arrays.real(given["bc"])
+        values = values[:, None] if values.ndim == 1 else values
+        if values.ndim != 2 or len(values) != vertices.size or values.shape[1] > 3:
+            raise ArgumentError(f"bc has shape {values.shape} for {vertices.size} vertices")
+        struct.put("values", np.ascontiguousarray(np.pad(values, ((0, 0), (0, 3 - values.shape[1])))))
+    return struct
+
+
+def harmonic(V: MeshLike, F: npt.ArrayLike | None = None, progress: Progress = None, **given: Unpack[HarmonicOptions]) -> Doubles:
+    """The harmonic map of a surface: by default of a disk to the unit disk, its boundary by length.
+
+    ``harmonic(V, F, b=b, bc=bc)`` has the given places at the vertices `b`.
+
+    Args:
+        V: n x 3 positions with `F`, or a mesh of any kind (`as_mesh`).
+        F: m x 3 vertex indices.
+        progress: a `Control` or a callback.
+        given: where it goes (`HarmonicOptions`).
+
+    Returns:
+        n x 3 points, in the plane with z = 0.
+
+    Raises:
+        LayoutError: a surface of another topology.
+    """
+    mesh = as_mesh(V, F)
+    if given.get("target") == "values" and "bc" not in given:
+        raise ArgumentError("harmonic values need b and bc")
+    out = np.empty((mesh.n_vertices, 3))
+    return filled(lib.ricci_harmonic, mesh, _harmonic_struct(given), CONTROL, out=out, progress=progress)
+
+
+class FormsOptions(TypedDict, total=False):
+    """Which forms.
+
+    Attributes:
+        base: the vertex where the loops meet; one from which they are short.
+        classes: on a surface with boundary, forms that flow along it (``"absolute"``), or are 0 along it (``"relative"``).
+    """
+
+    base: int
+    classes: Literal["absolute", "relative"]
+
+
+_FORMS: dict[str, Write] = {"base": one_index, "classes": choice("CLASSES")}
+
+
+class Forms(Handle):
+    """A basis of the harmonic 1-forms of a surface, on its intrinsic Delaunay triangulation `mesh`. It never changes."""
+
+    _type: ClassVar[str] = "forms"
+
+    @cached_property
+    def summary(self) -> FormsSummary:
+        """Counts, residuals, modulus."""
+        return summary(FormsSummary, "forms", self)
+
+    def __len__(self) -> int:
+        return self.summary.n_forms
+
+    @cached_property
+    def mesh(self) -> Mesh:
+        """The triangulation that the forms live on: `Mesh.edges` has the direction of each edge."""
+        return Mesh._made(lib.ricci_forms_mesh, self)
+
+    @cached_property
+    def values(self) -> Doubles:
+        """n_forms x n_edges integrals over the edges, each in its direction."""
+        out = np.empty((len(self), self.summary.n_edges))
+        for k, row in enumerate(out):
+            filled(lib.ricci_forms_values, self, k, out=row)
+        return frozen(out)
+
+    def holomorphic(self, coefficients: npt.ArrayLike) -> Complexes:
+        """The holomorphic form whose real part is this combination of the harmonic ones: n_edges complex integrals."""
+        given = _arrays.real(coefficients)
+        values = doubles(lib.ricci_forms_holomorphic, self, pointer(given), given.size, shape=(self.summary.n_edges, 2))
+        return values.view(np.complex128)[:, 0]
+
+    def zeros(self, coefficients: npt.ArrayLike) -> Longs:
+        """The zeros of that holomorphic form, k x 2: nearest vertex and multiplicity."""
+        given = _arrays.real(coefficients)
+        return sized_list(lib.ricci_forms_zeros, self, pointer(given), given.size, dtype=np.int64).reshape(-1, 2)
+
+    @cached_property
+    def periods(self) -> Complexes:
+        """The g x g period matrix of a closed surface: symmetric, with positive imaginary part.
+
+        Raises:
+            LayoutError: genus 0, or a boundary.
+        """
+        g = self.summary.genus
+        return frozen(doubles(lib.ricci_forms_periods, self, shape=(g, g, 2)).view(np.complex128)[..., 0])
+
+
+def forms(V: MeshLike, F: npt.ArrayLike | None = None, progress: Progress = None, **given: Unpack[FormsOptions]) -> Forms:
+    """The harmonic 1-forms of a surface: form k has the integral 1 over loop k of a homotopy basis and 0 over the others.
+
+    Args:
+        V: n x 3 positions with `F`, or a mesh of any kind (`as_mesh`).
+        F: m x 3 vertex indices.
+        progress: a `Control` or a callback.
+        given: base and classes (`FormsOptions`).
+    """
+    return Forms._made(lib.ricci_forms_new, as_mesh(V, F), options("forms_options", given, _FORMS), CONTROL, progress=progress)

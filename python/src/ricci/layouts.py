@@ -1,0 +1,212 @@
+"""Layouts: a surface, opened along a cut, in the plane, the hyperbolic plane or on the sphere; and charts of one."""
+
+from __future__ import annotations
+
+import os
+from functools import cached_property
+from typing import Any, ClassVar, Literal, TypedDict, Unpack
+
+import numpy as np
+import numpy.typing as npt
+
+from ricci._arrays import frozen
+from ricci._call import (
+    CONTROL,
+    Complexes,
+    Doubles,
+    Handle,
+    Indices,
+    Signed,
+    call,
+    constant,
+    doubles,
+    filled,
+    listed,
+    path_bytes,
+    pointer,
+    rows,
+    summary,
+)
+from ricci._library import lib
+from ricci._structs import Write, choice, index_list, number, one_index, options
+from ricci.control import Progress
+from ricci.figures import AtlasSummary, LayoutSummary
+from ricci.figures.names import Model, On
+from ricci.mesh import Mesh
+from ricci.metrics import Metric
+
+__all__ = ["Atlas", "Layout", "LayoutOptions", "Seam", "atlas", "layout"]
+
+
+class LayoutOptions(TypedDict, total=False):
+    """How a metric is laid out.
+
+    Attributes:
+        model: coordinates of `Layout.uv` and of files: ``"poincare"``, ``"klein"``, ``"half_plane"``.
+        scale: ``"input_area"``: the area of the surface as it came; ``"as_solved"``: lengths as the metric has them. E2 only.
+        cones: vertices through which the cut goes; those of the flow. An empty list: none.
+        root: the vertex at the origin.
+        threads: as many as the flow had. The result does not depend on it.
+    """
+
+    model: Model
+    scale: Literal["input_area", "as_solved"]
+    cones: npt.ArrayLike
+    root: int
+    threads: int
+
+
+def _cones(struct: Any, field: str, value: Any) -> None:
+    """No cones at all is a pointer with the count 0."""
+    index_list("n_cones")(struct, field, value if np.size(value) else [0])
+    struct.put("n_cones", int(np.size(value)))
+
+
+_LAYOUT: dict[str, Write] = {
+    "model": choice("MODEL"),
+    "scale": choice("SCALE"),
+    "cones": _cones,
+    "root": one_index,
+    "threads": number,
+}
+
+
+class Seam:
+    """One seam of a layout, and the isometry z -> (a z + b)/(c z + d) that carries its left side onto its right side.
+
+    Attributes:
+        mobius: 2 x 2 complex: ((a, b), (c, d)).
+        error: how far the edges of the seam are from it: relative to the diameter in E2, elsewhere a distance.
+    """
+
+    def __init__(self, row: Doubles) -> None:
+        self.mobius: Complexes = np.ascontiguousarray(row[:8]).view(np.complex128).reshape(2, 2)
+        self.error = float(row[8])
+
+
+class Layout(Handle):
+    """A surface, opened along a cut, in the space of its metric.
+
+    If edges were flipped, what is laid out is the common refinement of the mesh and the metric's triangulation: ``on="refinement"``;
+    ``on="input"`` makes the map linear on the faces of the mesh itself. Arrays of properties are read-only.
+    """
+
+    _type: ClassVar[str] = "layout"
+
+    @cached_property
+    def summary(self) -> LayoutSummary:
+        """Counts, consistency and distortion."""
+        return summary(LayoutSummary, "layout", self)
+
+    def points(self, model: Model = "poincare") -> Doubles:
+        """n_points x 2 points, x 3 for ``"ambient"``."""
+        columns = 3 if model == "ambient" else 2
+        return doubles(lib.ricci_layout_points, self, constant("MODEL", model), shape=(self.summary.n_points, columns))
+
+    def corners(self, on: On = "input") -> Indices:
+        """The point of every corner of every face, m x 3."""
+        out = np.empty((self._faces(on), 3), np.uint32)
+        return filled(lib.ricci_layout_corners, self, constant("ON", on), out=out)
+
+    def uv(self, on: On = "input") -> Doubles:
+        """The coordinates of every corner of every face in the layout's model, m x 3 x 2."""
+        return doubles(lib.ricci_layout_uv, self, constant("ON", on), shape=(self._faces(on), 3, 2))
+
+    def flipped(self, on: On = "input") -> Indices:
+        """The faces that are not counterclockwise, ascending."""
+        return listed(lib.ricci_layout_flipped, self, constant("ON", on))
+
+    def distortion(self, on: On = "input") -> tuple[Doubles, Doubles]:
+        """Quasi-conformal dilatation of every face (1 is conformal), and its share of the area over its share in the input."""
+        qc, ratio = np.empty(self._faces(on)), np.empty(self._faces(on))
+        call(lib.ricci_layout_distortion, self, constant("ON", on), pointer(qc), pointer(ratio), qc.size)
+        return qc, ratio
+
+    @cached_property
+    def seams(self) -> list[Seam]:
+        """The seams with their isometries."""
+        return [Seam(row) for row in doubles(lib.ricci_layout_seams, self, shape=(self.summary.n_seams, 9))]
+
+    def seam_edges(self, on: On = "input") -> list[Signed]:
+        """The edges of every seam, in order: numbers from 1, negative where the seam runs against the edge."""
+        return rows(self.summary.n_seams, lib.ricci_layout_seam_edges, self, constant("ON", on))
+
+    @cached_property
+    def mesh(self) -> Mesh:
+        """What is laid out as a mesh: the given mesh, or the refinement, whose first vertices are the given ones."""
+        return Mesh._made(lib.ricci_layout_mesh, self)
+
+    def write(self, path: str | os.PathLike[str], on: On = "input", *, homogeneous: bool = False) -> None:
+        """Write the mesh with the layout as texture coordinates, as OBJ.
+
+        Args:
+            path: the file.
+            on: the mesh, or what is laid out.
+            homogeneous: `vt qx qy q`, in which the projective map of every piece is linear.
+        """
+        call(lib.ricci_layout_write, self, constant("ON", on), int(homogeneous), path_bytes(path))
+
+    def _faces(self, on: On) -> int:
+        return self.summary.n_input_faces if on == "input" else self.summary.n_faces
+
+    def __repr__(self) -> str:
+        s = self.summary
+        return f"<ricci.Layout: {s.space}, {s.n_faces} faces, {s.n_seams} seams, {s.n_flipped} flipped>"
+
+
+class Atlas(Handle):
+    """A layout in charts that do not overlap, packed into the unit square.
+
+    Args:
+        layout: the layout.
+        margin: least distance of two charts, in sides of the unit square.
+        progress: a `Control` or a callback.
+    """
+
+    _type: ClassVar[str] = "atlas"
+
+    def __init__(self, layout: Layout, margin: float = 1 / 256, progress: Progress = None) -> None:
+        self._pointer = Atlas._made(lib.ricci_atlas_new, layout, margin, CONTROL, progress=progress)._pointer
+
+    @cached_property
+    def summary(self) -> AtlasSummary:
+        """Counts, scale, and how much of the square is covered."""
+        return summary(AtlasSummary, "atlas", self)
+
+    @cached_property
+    def charts(self) -> Indices:
+        """The chart of every face of what is laid out; charts with more area come first."""
+        return frozen(filled(lib.ricci_atlas_faces, self, out=np.empty(self.summary.n_faces, np.uint32)))
+
+    @cached_property
+    def points(self) -> Doubles:
+        """n_points x 2, from 0 to 1."""
+        return frozen(doubles(lib.ricci_atlas_points, self, shape=(self.summary.n_points, 2)))
+
+    @cached_property
+    def corners(self) -> Indices:
+        """The point of every corner of every face, n_faces x 3."""
+        return frozen(filled(lib.ricci_atlas_corners, self, out=np.empty((self.summary.n_faces, 3), np.uint32)))
+
+    @cached_property
+    def motions(self) -> Doubles:
+        """n_charts x 3: rotation (radians) and translation that carry the layout's points, times `summary.scale`, to the chart's."""
+        return frozen(doubles(lib.ricci_atlas_motions, self, shape=(self.summary.n_charts, 3)))
+
+    def write(self, path: str | os.PathLike[str], *, homogeneous: bool = False) -> None:
+        """Write what is laid out with its charts as texture coordinates, as OBJ."""
+        call(lib.ricci_atlas_write, self, int(homogeneous), path_bytes(path))
+
+
+def layout(metric: Metric, progress: Progress = None, **given: Unpack[LayoutOptions]) -> Layout:
+    """Lay a metric out in its space, cut open along edges of the mesh through all cones.
+
+    Raises:
+        LayoutError: the metric has no layout.
+    """
+    return Layout._made(lib.ricci_layout_new, metric, options("layout_options", given, _LAYOUT), CONTROL, progress=progress)
+
+
+def atlas(layout: Layout, margin: float = 1 / 256, progress: Progress = None) -> Atlas:
+    """Cut a layout into charts that do not overlap, and pack them into the unit square."""
+    return Atlas(layout, margin, progress)

@@ -1,0 +1,88 @@
+"""Maps: two triangulations of one surface laid over each other, and what is carried over that."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import ClassVar, Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from ricci import _arrays
+from ricci._arrays import frozen
+from ricci._call import CONTROL, Doubles, Handle, Indices, call, constant, doubles, filled, pointer, summary
+from ricci._library import lib
+from ricci._structs import Struct
+from ricci.control import Progress
+from ricci.errors import ArgumentError
+from ricci.figures import MapSummary
+from ricci.figures.names import On
+from ricci.mesh import Mesh
+from ricci.metrics import Metric
+
+__all__ = ["Map"]
+
+Side = Literal["input", "metric"]
+
+
+class Map(Handle):
+    """The common refinement of the mesh that a metric was made from and the metric's triangulation.
+
+    Its faces are parts of faces of both; its vertices are those of the mesh, with their numbers, then the crossings of edges. Of a
+    `Matching`, ``"input"`` means the source and ``"metric"`` the target.
+
+    Args:
+        metric: where a flow has led.
+        progress: a `Control` or a callback.
+    """
+
+    _type: ClassVar[str] = "map"
+
+    def __init__(self, metric: Metric, progress: Progress = None) -> None:
+        self._pointer = Map._made(lib.ricci_map_new, metric, CONTROL, progress=progress)._pointer
+
+    @cached_property
+    def summary(self) -> MapSummary:
+        """Counts."""
+        return summary(MapSummary, "map", self)
+
+    @cached_property
+    def mesh(self) -> Mesh:
+        """The refinement in space: the given vertices where they were, then the crossings."""
+        return Mesh._made(lib.ricci_map_mesh, self)
+
+    def faces(self, on: On = "input") -> Indices:
+        """The face that each of the n_faces faces is part of; on ``"refinement"`` the piece with one projective map."""
+        out = np.empty(self.summary.n_faces, np.uint32)
+        return filled(lib.ricci_map_faces, self, constant("ON", on), out=out)
+
+    def barycentric(self, on: Side = "input") -> Doubles:
+        """n_faces x 3 x 3 weights [face, corner, corner of the face that it is part of]."""
+        return doubles(lib.ricci_map_barycentric, self, constant("ON", on), shape=(self.summary.n_faces, 3, 3))
+
+    def crossings(self, on: Side = "input") -> tuple[Indices, Doubles]:
+        """For each crossing the edge that it lies on (a row of that mesh's `edges`), and how far from its first end, 0 to 1."""
+        edges, fractions = np.empty(self.summary.n_crossings, np.uint32), np.empty(self.summary.n_crossings)
+        call(lib.ricci_map_crossings, self, constant("ON", on), pointer(edges), pointer(fractions), edges.size)
+        return edges, fractions
+
+    @cached_property
+    def weights(self) -> Doubles:
+        """The homogeneous weight q of every vertex: with (x, y) in a layout, (q x, q y, q) is linear on every piece."""
+        return frozen(doubles(lib.ricci_map_weights, self, shape=(self.summary.n_vertices,)))
+
+    def carry(self, values: npt.ArrayLike, on: Side = "input", at: Literal["vertices", "corners"] = "vertices") -> Doubles:
+        """Values at vertices (n, or n x k) or corners (m x 3, or m x 3 x k), carried to those of the refinement."""
+        array = _arrays.real(values)
+        lead = 1 if at == "vertices" else 2
+        if array.ndim < lead or (lead == 2 and array.shape[1] != 3):
+            raise ArgumentError(f"values at {at} have shape {array.shape}")
+        rest = array.shape[lead:]
+        struct = Struct("carried")
+        struct.put("on", constant("ON", on))
+        struct.put("at", constant("AT", at))
+        struct.put("values", array)
+        struct.put("n_values", len(array))
+        struct.put("n_components", int(np.prod(rest, dtype=int)))
+        own = (self.summary.n_vertices,) if lead == 1 else (self.summary.n_faces, 3)
+        return doubles(lib.ricci_map_carry, self, struct, shape=own + rest)

@@ -1,0 +1,181 @@
+"""Maps between two surfaces of the same topology."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cached_property
+from typing import Any, ClassVar, Literal, TypedDict, Unpack
+
+import numpy as np
+import numpy.typing as npt
+
+from ricci import _arrays
+from ricci._arrays import frozen
+from ricci._call import CONTROL, Doubles, Handle, Indices, call, constant, doubles, filled, pointer, summary
+from ricci._library import lib
+from ricci._structs import Struct, Write, choice, index_list, number, options, real_list
+from ricci.adapters import MeshLike, as_mesh
+from ricci.control import Progress
+from ricci.errors import ArgumentError
+from ricci.figures import MatchingSummary
+from ricci.maps import Map
+
+__all__ = ["MatchOptions", "Matching", "Points", "match"]
+
+Direction = Literal["forward", "backward"]
+# Pairs of lists: the first on the source, the second on the target.
+Pairs = Sequence[tuple[npt.ArrayLike, npt.ArrayLike]]
+
+
+class Points(TypedDict):
+    """Pairs of points that correspond.
+
+    Attributes:
+        faces: k x 2, of the source and of the target.
+        weights: k x 2 x 3 barycentric coordinates in these faces, each three with the sum 1.
+    """
+
+    faces: npt.ArrayLike
+    weights: npt.ArrayLike
+
+
+class MatchOptions(TypedDict, total=False):
+    """What a map is to keep.
+
+    Attributes:
+        landmarks: k x 2 vertices, of the source and of the target, that correspond.
+        loops: for each boundary loop of the source that of the target; by descending length.
+        points: pairs of points that correspond as landmarks do.
+        curves: pairs of curves that correspond by shares of their lengths, as lists of vertices joined by edges.
+        soft: k x 2 vertices inside that need not be met.
+        soft_weights: k weights w >= 0: a landmark goes to the share w / (1 + w) of its way.
+        boundary: it ``"slides"`` until the map is harmonic, or goes by ``"arc_length"``.
+        basis: pairs of closed edge paths that name the homotopy class, on surfaces with handles.
+        threads: one per core. The result does not depend on it.
+    """
+
+    landmarks: npt.ArrayLike
+    loops: npt.ArrayLike
+    points: Points
+    curves: Pairs
+    soft: npt.ArrayLike
+    soft_weights: npt.ArrayLike
+    boundary: Literal["slides", "arc_length"]
+    basis: Pairs
+    threads: int
+
+
+def _direction(name: Direction) -> int:
+    return constant("MATCH", name, ("forward", "backward"))
+
+
+def _points(struct: Struct, _: str, value: Points) -> None:
+    faces, weights = _arrays.indices(value["faces"], 2, "faces"), _arrays.real(value["weights"])
+    if weights.shape != (len(faces), 2, 3):
+        raise ArgumentError(f"weights have shape {weights.shape}, ({len(faces)}, 2, 3) is needed")
+    struct.put("point_faces", faces)
+    struct.put("point_weights", weights)
+    struct.put("n_points", len(faces))
+
+
+def _curves(struct: Struct, _: str, value: Pairs) -> None:
+    lists = [_arrays.indices(part, name="curves") for pair in value for part in pair]
+    struct.put("curves", np.concatenate([np.empty(0, np.uint32), *lists]))
+    struct.put("curve_sizes", np.array([part.size for part in lists], np.uint32))
+    struct.put("n_curves", len(value))
+
+
+def _basis(struct: Struct, _: str, value: Pairs) -> None:
+    edges, starts = _arrays.joined(part for pair in value for part in pair)
+    struct.put("basis", edges)
+    struct.put("basis_sizes", np.diff(starts).astype(np.uint32))
+    struct.put("n_basis", len(value))
+
+
+_MATCH: dict[str, Write] = {
+    "landmarks": index_list("n_landmarks", 2),
+    "loops": index_list("n_loops"),
+    "points": _points,
+    "curves": _curves,
+    "soft": index_list("n_soft", 2),
+    "soft_weights": real_list(),
+    "boundary": choice("MATCH", ("slides", "arc_length")),
+    "basis": _basis,
+    "threads": number,
+}
+
+
+class Matching(Handle):
+    """A map between two surfaces and its inverse; no face folds. It never changes."""
+
+    _type: ClassVar[str] = "matching"
+
+    @cached_property
+    def summary(self) -> MatchingSummary:
+        """Distortion, distances, energy."""
+        return summary(MatchingSummary, "matching", self)
+
+    def faces(self, direction: Direction = "forward") -> Indices:
+        """The face of the other surface that every vertex goes to."""
+        out = np.empty(self._size(direction), np.uint32)
+        return filled(lib.ricci_matching_faces, self, _direction(direction), out=out)
+
+    def weights(self, direction: Direction = "forward") -> Doubles:
+        """n x 3 barycentric coordinates of the images in their faces, not negative, with the sum 1."""
+        return doubles(lib.ricci_matching_weights, self, _direction(direction), shape=(self._size(direction), 3))
+
+    def carry(self, values: npt.ArrayLike, direction: Direction = "forward") -> Doubles:
+        """Values at the vertices of the surface that the map leads to (n, or n x k), brought to those where it comes from.
+
+        ``carry(V_target)`` has the image of every vertex of the source.
+        """
+        array = _arrays.real(values)
+        other = self._size("backward" if direction == "forward" else "forward")
+        if array.ndim == 0 or len(array) != other:
+            raise ArgumentError(f"values have shape {array.shape}, {other} rows are needed")
+        shape = (self._size(direction), *array.shape[1:])
+        return doubles(lib.ricci_matching_carry, self, _direction(direction), pointer(array), array.size, shape=shape)
+
+    @cached_property
+    def points(self) -> tuple[Indices, Doubles]:
+        """Where points that correspond went, and where they should go: faces (k x 2) and weights (k x 2 x 3) on the target."""
+        n = self.summary.n_points
+        faces, weights = np.empty((n, 2), np.uint32), np.empty((n, 2, 3))
+        call(lib.ricci_matching_points, self, pointer(faces), faces.size, pointer(weights), weights.size)
+        return frozen(faces), frozen(weights)
+
+    @cached_property
+    def soft_left(self) -> Doubles:
+        """What is left of each soft landmark's way to its partner, a length on the target."""
+        return frozen(doubles(lib.ricci_matching_soft_left, self, shape=(self.summary.n_soft,)))
+
+    def map(self, progress: Progress = None) -> Map:
+        """The two surfaces laid over each other: in its methods ``"input"`` is the source and ``"metric"`` the target."""
+        return Map._made(lib.ricci_matching_map, self, CONTROL, progress=progress)
+
+    def _size(self, direction: Direction) -> int:
+        s = self.summary
+        return s.n_source_vertices if direction == "forward" else s.n_target_vertices
+
+    def __repr__(self) -> str:
+        s = self.summary
+        return f"<ricci.Matching: {s.n_source_vertices} to {s.n_target_vertices} vertices, mean dilatation {s.qc_mean:.3f}>"
+
+
+def match(source: MeshLike, target: MeshLike, progress: Progress = None, **given: Unpack[MatchOptions]) -> Matching:
+    """The map from one surface to another one of the same topology: harmonic into the target's metric of constant curvature.
+
+    Args:
+        source: the surface whose vertices are mapped: a mesh of any kind (`as_mesh`), or a pair (V, F).
+        target: the surface that they are mapped to.
+        progress: a `Control` or a callback.
+        given: landmarks, curves, boundary, homotopy class (`MatchOptions`).
+
+    Raises:
+        MatchingError: surfaces of different topology, landmarks in conflict, no map found.
+    """
+    hard: dict[str, Any] = dict(given.items())
+    if np.size(hard.get("soft", ())) != 2 * np.size(hard.get("soft_weights", ())):
+        raise ArgumentError("soft and soft_weights: one weight for every pair")
+    struct = options("match_options", hard, _MATCH)
+    return Matching._made(lib.ricci_match, as_mesh(source), as_mesh(target), struct, CONTROL, progress=progress)

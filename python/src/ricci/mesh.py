@@ -1,0 +1,222 @@
+"""Meshes: connected oriented triangulated surfaces with the lengths of their edges."""
+
+from __future__ import annotations
+
+import os
+from functools import cached_property
+from typing import Any, ClassVar, Self, TypedDict, Unpack
+
+import numpy as np
+import numpy.typing as npt
+
+from ricci import _arrays
+from ricci._arrays import frozen
+from ricci._call import Doubles, Handle, Indices, Signed, call, constant, doubles, filled, path_bytes, pointer, summary
+from ricci._library import ffi, lib
+from ricci._structs import Struct, choice, number, options, real_list
+from ricci.errors import ArgumentError
+from ricci.figures import MeshSummary
+from ricci.figures.names import Space
+
+__all__ = ["Attributes", "Mesh"]
+
+
+class Attributes(TypedDict, total=False):
+    """What is written beside positions and faces.
+
+    Attributes:
+        normals: n x 3, of the vertices.
+        colors: n x 4, of the vertices: red, green, blue, opacity, from 0 to 1.
+        uv: m x 3 x 2, texture coordinates of every corner.
+        corner_normals: m x 3 x 3, in place of `normals`.
+        png: the bytes of a PNG file, a texture for `uv`; .glb only.
+        wrap: how the texture goes on outside the unit square: ``"repeat"``, ``"mirror"``, ``"clamp"``.
+    """
+
+    normals: npt.ArrayLike
+    colors: npt.ArrayLike
+    uv: npt.ArrayLike
+    corner_normals: npt.ArrayLike
+    png: bytes
+    wrap: str
+
+
+def _png(struct: Struct, field: str, value: bytes) -> None:
+    data = ffi.from_buffer("uint8_t[]", value)
+    struct._kept.append(data)
+    struct.put(field, data)
+    struct.put("png_size", len(value))
+
+
+_ATTRIBUTES = {
+    "normals": real_list(),
+    "colors": real_list(),
+    "uv": real_list(),
+    "corner_normals": real_list(),
+    "png": _png,
+    "wrap": choice("WRAP"),
+}
+
+
+class Mesh(Handle):
+    """A connected oriented triangulated surface with the lengths of its edges. It never changes.
+
+    Arrays are computed once and handed out read-only. Vertices, faces and corners have the order and numbers of the caller's arrays.
+
+    Args:
+        V: n x 3 positions. Rows may lie apart in memory: a view of a wider array is not copied before the library reads it.
+        F: m x 3 vertex indices from 0, consistently oriented; int32 and uint32 arrays are read where they are.
+
+    Raises:
+        MeshError: the faces are no surface (`Soup` lists the defects).
+        ArgumentError: an index that is negative or too large.
+    """
+
+    _type: ClassVar[str] = "mesh"
+
+    def __init__(self, V: npt.ArrayLike, F: npt.ArrayLike) -> None:
+        positions, faces = _arrays.points(V), _arrays.indices(F, 3, "F")
+        made = Mesh._made(lib.ricci_mesh_from_arrays, pointer(positions), positions.strides[0], len(positions), pointer(faces), len(faces))
+        self._pointer = made._pointer
+
+    @classmethod
+    def read(cls, path: str | os.PathLike[str]) -> Self:
+        """The mesh of a file (.obj, .off, .ply, .stl, .glb, .gltf, .gii) with its attributes, in the file's numbers.
+
+        Raises:
+            FileError: it cannot be read, or its ending is not known.
+            ParseError: its content is not what the format says; the index is that of the line or byte.
+            MeshError: the faces are no surface.
+        """
+        return cls._made(lib.ricci_mesh_read, path_bytes(path))
+
+    @classmethod
+    def from_gluing(cls, faces: npt.ArrayLike, face_edges: npt.ArrayLike, lengths: npt.ArrayLike, geometry: Space = "e2") -> Self:
+        """An intrinsic surface: triangles glued along numbered edges. Two vertices may share several edges, an edge may be a loop.
+
+        Args:
+            faces: m x 3 vertices (a, b, c).
+            face_edges: m x 3 edge numbers (bc, ca, ab) from 1, negative where the face runs against the edge.
+            lengths: that of edge number e at e - 1.
+            geometry: in which the lengths are meant.
+        """
+        corners, edges = _arrays.indices(faces, 3, "faces"), _arrays.signed(face_edges, "face_edges")
+        given = {"n_vertices": int(corners.max()) + 1, "n_faces": len(corners), "geometry": constant("SPACE", geometry)}
+        struct = options("gluing", {**given, "lengths": lengths}, {**dict.fromkeys(given, number), "lengths": real_list(count="n_edges")})
+        if edges.shape != corners.shape:
+            raise ArgumentError(f"face_edges has shape {edges.shape}, faces {corners.shape}")
+        struct.put("faces", corners)
+        struct.put("face_edges", edges)
+        return cls._made(lib.ricci_mesh_from_gluing, struct)
+
+    def with_lengths(self, lengths: npt.ArrayLike, geometry: Space = "e2") -> Mesh:
+        """The same mesh with these lengths of its `edges`; positions then serve to draw and write alone."""
+        array = _arrays.real(lengths)
+        return Mesh._made(lib.ricci_mesh_with_lengths, self, pointer(array), array.size, constant("SPACE", geometry))
+
+    def write(self, path: str | os.PathLike[str], **attributes: Unpack[Attributes]) -> None:
+        """Write the mesh as .obj, .off, .ply or .glb, whole or not at all, with the attributes that the format has.
+
+        Args:
+            path: the file.
+            attributes: what to write beside positions and faces; none: what the mesh was read with.
+        """
+        given = options("attributes", attributes, _ATTRIBUTES) if attributes else None
+        if given is not None:
+            self._check_attributes(attributes)
+        call(lib.ricci_mesh_write, self, given if given is not None else ffi.NULL, path_bytes(path))
+
+    def _check_attributes(self, given: Attributes) -> None:
+        """The library takes the sizes of attributes for granted, so they are checked here."""
+        n, m = self.summary.n_vertices, self.summary.n_faces
+        shapes = {"normals": (n, 3), "colors": (n, 4), "uv": (m, 3, 2), "corner_normals": (m, 3, 3)}
+        for name, shape in shapes.items():
+            found = np.shape(given[name]) if name in given else shape  # type: ignore[literal-required]
+            if found != shape:
+                raise ArgumentError(f"{name} has shape {found}, {shape} is needed")
+
+    @cached_property
+    def summary(self) -> MeshSummary:
+        """Counts, Euler characteristic, genus, boundary loops, and which attributes there are."""
+        return summary(MeshSummary, "mesh", self)
+
+    @cached_property
+    def V(self) -> Doubles:
+        """n x 3 positions."""
+        return self._values("POSITIONS", self.summary.n_vertices, 3)
+
+    @cached_property
+    def F(self) -> Indices:
+        """m x 3 vertices of every face."""
+        return frozen(filled(lib.ricci_mesh_faces, self, out=np.empty((self.summary.n_faces, 3), np.uint32)))
+
+    @cached_property
+    def edges(self) -> Indices:
+        """n_edges x 2 ends of every edge, in its direction."""
+        return frozen(filled(lib.ricci_mesh_edges, self, out=np.empty((self.summary.n_edges, 2), np.uint32)))
+
+    @cached_property
+    def face_edges(self) -> Signed:
+        """m x 3 edges opposite the corners: numbers from 1, negative where the face runs against the edge."""
+        return frozen(filled(lib.ricci_mesh_face_edges, self, out=np.empty((self.summary.n_faces, 3), np.int32)))
+
+    @cached_property
+    def lengths(self) -> Doubles:
+        """The length of every edge."""
+        return self._values("LENGTHS", self.summary.n_edges)
+
+    @cached_property
+    def normals(self) -> Doubles | None:
+        """n x 3 normals of the vertices that the file had, or None."""
+        return self._values("NORMALS", self.summary.n_normals, 3) if self.summary.n_normals else None
+
+    @cached_property
+    def colors(self) -> Doubles | None:
+        """n x 4 colours of the vertices that the file had (red, green, blue, opacity), or None."""
+        return self._values("COLORS", self.summary.n_colors, 4) if self.summary.n_colors else None
+
+    @cached_property
+    def uv(self) -> Doubles | None:
+        """m x 3 x 2 texture coordinates of the corners that the file had, or None."""
+        return self._values("UV", self.summary.n_uv, 3, 2) if self.summary.n_uv else None
+
+    @cached_property
+    def corner_normals(self) -> Doubles | None:
+        """m x 3 x 3 normals of the corners that the file had in place of those of the vertices, or None."""
+        n = self.summary.n_corner_normals
+        return self._values("CORNER_NORMALS", n, 3, 3) if n else None
+
+    @cached_property
+    def boundary(self) -> list[Indices]:
+        """The vertices of every boundary loop, with the surface on the left."""
+        vertices = np.empty(self.summary.n_boundary_vertices, np.uint32)
+        starts = np.empty(self.summary.n_boundary_loops + 1, np.uintp)
+        filled(lib.ricci_mesh_boundary, self, pointer(vertices), vertices.size, out=starts)
+        return np.split(frozen(vertices), starts[1:-1].astype(np.intp)) if len(starts) > 1 else []
+
+    @property
+    def n_vertices(self) -> int:
+        """Number of vertices."""
+        return self.summary.n_vertices
+
+    @property
+    def n_faces(self) -> int:
+        """Number of faces."""
+        return self.summary.n_faces
+
+    @property
+    def euler(self) -> int:
+        """V - E + F."""
+        return self.summary.euler
+
+    @property
+    def genus(self) -> int:
+        """Number of handles."""
+        return self.summary.genus
+
+    def _values(self, which: str, *shape: int) -> Any:
+        return frozen(doubles(lib.ricci_mesh_values, self, getattr(lib, f"RICCI_{which}"), shape=shape))
+
+    def __repr__(self) -> str:
+        s = self.summary
+        return f"<ricci.Mesh: {s.n_vertices} vertices, {s.n_faces} faces, genus {s.genus}, {s.n_boundary_loops} boundary loops>"

@@ -1,0 +1,307 @@
+"""Metrics of a surface in a conformal class, and the flows between them."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from functools import cached_property
+from typing import Any, ClassVar, Literal, TypedDict, Unpack
+
+import numpy as np
+import numpy.typing as npt
+
+from ricci import _arrays
+from ricci._arrays import frozen
+from ricci._call import CONTROL, Doubles, Handle, Indices, Passed, call, constant, doubles, filled, pointer, summary
+from ricci._library import ffi, lib
+from ricci._structs import Struct, Write, choice, index_list, number, options
+from ricci.adapters import MeshLike, as_mesh
+from ricci.control import Progress
+from ricci.figures import MetricSummary, ReportSummary
+from ricci.figures.names import Scheme, Space
+from ricci.mesh import Mesh
+from ricci.targets import TargetLike, target_struct
+
+__all__ = ["FlowJob", "FlowOptions", "Metric", "Report", "Solver", "flow", "metric"]
+
+
+class FlowOptions(TypedDict, total=False):
+    """How a flow is solved; what is left out has its default.
+
+    Attributes:
+        method: ``"newton"`` on the convex energy, or ``"gradient"``, the flow du/dt = target - K itself.
+        flips: ``"auto"``: edges are flipped as often as needed, so that every admissible target is reached; ``"never"``.
+        tolerance: largest |K - target| of a converged metric, radians; 1e-10.
+        max_iterations: steps before giving up; 500 for Newton, 200,000 for the gradient flow.
+        threads: of this flow; one per core. The result does not depend on it.
+        max_step: largest change of any u in one Newton step; 3.
+        fixed_edges: rows of `Mesh.edges` that are not flipped, such as feature lines.
+        step: step size of the gradient flow: ``"barzilai_borwein"``, ``"stable"``, ``"fixed"``.
+        step_size: that of ``"fixed"``.
+        area_normalised: whether a gradient flow in E2 keeps the area of the start.
+    """
+
+    method: Literal["newton", "gradient"]
+    flips: Literal["auto", "never"]
+    tolerance: float
+    max_iterations: int
+    threads: int
+    max_step: float
+    fixed_edges: npt.ArrayLike
+    step: Literal["barzilai_borwein", "stable", "fixed"]
+    step_size: float
+    area_normalised: bool
+
+
+class FlowJob(FlowOptions, total=False):
+    """Options of `flow`: how it is solved, and the conformal class.
+
+    Attributes:
+        space: the geometry in which the metric lives: ``"e2"``, ``"h2"``, ``"s2"``; ``"e2"``.
+        scheme: how lengths depend on u: ``"yamabe"`` (vertex scaling), ``"inversive"``, ``"thurston"``, ``"tangential"``,
+            ``"virtual"``; ``"yamabe"``.
+    """
+
+    space: Space
+    scheme: Scheme
+
+
+_FLOW: dict[str, Write] = {
+    **dict.fromkeys(("tolerance", "max_iterations", "threads", "max_step", "step_size", "area_normalised"), number),
+    "method": choice("METHOD"),
+    "flips": choice("FLIPS"),
+    "step": choice("STEP"),
+    "fixed_edges": index_list("n_fixed_edges"),
+}
+
+
+def flow_struct(given: Any) -> Struct:
+    """The struct of options of a flow."""
+    return options("flow_options", given, _FLOW)
+
+
+class Report(Passed):
+    """What the flow did that led to a metric: its figures, the target, the course, and where it is worst."""
+
+    def __init__(self, of: Metric) -> None:
+        # The library's object, not the Python one, which has this report: both are freed at once, without a search for cycles.
+        self._pointer = of._pointer
+        self._n_vertices = of.summary.n_vertices
+        self.summary = summary(ReportSummary, "report", self)
+
+    @property
+    def converged(self) -> bool:
+        """Whether the curvature error is within the tolerance and no triangle is broken."""
+        return self.summary.converged
+
+    @cached_property
+    def target(self) -> Doubles:
+        """The target, n curvatures in radians; at pinned vertices what came out."""
+        return self._values("TARGET", self._n_vertices)
+
+    @cached_property
+    def residuals(self) -> Doubles:
+        """Largest |K - target| at the start and after every Newton step, radians."""
+        return self._values("RESIDUALS", self.summary.n_residuals)
+
+    @cached_property
+    def trace(self) -> Doubles:
+        """Of a gradient flow, k x 5: step, energy, largest |K - target|, area, step size."""
+        return self._values("TRACE", self.summary.n_trace, 5)
+
+    @cached_property
+    def cones(self) -> Indices:
+        """The vertices through which a layout is cut open."""
+        return self._vertices("CONES", self.summary.n_cones)
+
+    @cached_property
+    def worst(self) -> tuple[Indices, Doubles]:
+        """The vertices farthest from their target, farthest first, and K - target there."""
+        n = self.summary.n_worst
+        return self._vertices("WORST", n), self._values("WORST_ERRORS", n)
+
+    @cached_property
+    def obstruction(self) -> Indices:
+        """Vertices that prove that the target cannot be reached, ascending; none unless the flow stopped as infeasible."""
+        return self._vertices("OBSTRUCTION", self.summary.n_obstruction)
+
+    def _values(self, which: str, *shape: int) -> Any:
+        return frozen(doubles(lib.ricci_report_values, self, getattr(lib, f"RICCI_REPORT_{which}"), shape=shape))
+
+    def _vertices(self, which: str, n: int) -> Any:
+        return frozen(filled(lib.ricci_report_vertices, self, getattr(lib, f"RICCI_REPORT_{which}"), out=np.empty(n, np.uint32)))
+
+    def __repr__(self) -> str:
+        s = self.summary
+        return f"<ricci.Report: {s.stop_reason} after {s.iterations} steps, {s.flips} flips, error {s.max_curvature_error:.1e}>"
+
+
+class Metric(Handle):
+    """A metric of a surface in a conformal class, and what led to it. It never changes; a flow makes a new one.
+
+    A flow that flips edges leads to another triangulation, `triangulation`; vertices keep their numbers. Arrays are read-only.
+
+    Args:
+        V: n x 3 positions with `F`, or a mesh of any kind (`as_mesh`).
+        F: m x 3 vertex indices from 0.
+        space: the geometry in which the metric will live.
+        scheme: how lengths depend on u.
+    """
+
+    _type: ClassVar[str] = "metric"
+
+    def __init__(self, V: MeshLike, F: npt.ArrayLike | None = None, *, space: Space = "e2", scheme: Scheme = "yamabe") -> None:
+        made = Metric._made(lib.ricci_metric_new, as_mesh(V, F), constant("SCHEME", scheme), constant("SPACE", space))
+        self._pointer = made._pointer
+
+    def flow(self, target: TargetLike = None, progress: Progress = None, **given: Unpack[FlowOptions]) -> Metric:
+        """The metric of the class with the curvature `target`, as `ricci.flow`; it goes on from where this one is."""
+        return Metric._made(lib.ricci_flow, self, target_struct(target), flow_struct(given), CONTROL, progress=progress)
+
+    def fill(self, target: TargetLike = None, progress: Progress = None) -> Doubles:
+        """The curvature that a target has at every vertex, n numbers in radians.
+
+        Raises:
+            TargetError: no metric has it; the element is the vertex, the amount by how much.
+        """
+        out = np.empty(self.summary.n_vertices)
+        return filled(lib.ricci_target_fill, self, target_struct(target), CONTROL, out=out, progress=progress)
+
+    @cached_property
+    def summary(self) -> MetricSummary:
+        """Kind, counts, area and Gauss-Bonnet residual."""
+        return summary(MetricSummary, "metric", self)
+
+    @cached_property
+    def report(self) -> Report:
+        """What the flow did that led here.
+
+        Raises:
+            ArgumentError: no flow has led here.
+        """
+        return Report(self)
+
+    @property
+    def converged(self) -> bool:
+        """Whether the flow that led here came to its target."""
+        return self.report.converged
+
+    @cached_property
+    def factor(self) -> Doubles:
+        """n conformal factors f against the input: lengths near vertex i change by about exp(f_i)."""
+        return self._values("FACTOR", self.summary.n_vertices)
+
+    @cached_property
+    def curvature(self) -> Doubles:
+        """n curvatures, radians: 2 pi minus the angles at a vertex inside, pi minus them on the boundary."""
+        return self._values("CURVATURE", self.summary.n_vertices)
+
+    @cached_property
+    def u(self) -> Doubles:
+        """n conformal variables."""
+        return self._values("U", self.summary.n_vertices)
+
+    @cached_property
+    def types(self) -> Doubles:
+        """n types epsilon: 1 circle, 0 vertex scaling, -1 imaginary circle."""
+        return self._values("TYPE", self.summary.n_vertices)
+
+    @cached_property
+    def lengths(self) -> Doubles:
+        """The length of every edge of `triangulation`."""
+        return self._values("LENGTH", self.summary.n_edges)
+
+    @cached_property
+    def eta(self) -> Doubles:
+        """The weight of every edge of `triangulation`."""
+        return self._values("ETA", self.summary.n_edges)
+
+    @cached_property
+    def triangulation_u(self) -> Doubles:
+        """The conformal variable of every vertex of `triangulation`, of a double with its mirror images."""
+        return self._values("MESH_U", self.summary.n_mesh_vertices)
+
+    @cached_property
+    def triangulation(self) -> Mesh:
+        """The triangulation that the metric lives on, an intrinsic mesh with the metric's lengths."""
+        return Mesh._made(lib.ricci_metric_mesh, self)
+
+    @cached_property
+    def mirror(self) -> Indices:
+        """The mirror image of every vertex of `triangulation`: itself, but inside a surface that was doubled."""
+        return frozen(filled(lib.ricci_metric_mirror, self, out=np.empty(self.summary.n_mesh_vertices, np.uint32)))
+
+    def _values(self, which: str, *shape: int) -> Any:
+        return frozen(doubles(lib.ricci_metric_values, self, getattr(lib, f"RICCI_METRIC_{which}"), shape=shape))
+
+    def __repr__(self) -> str:
+        s = self.summary
+        return f"<ricci.Metric: {s.scheme} in {s.space}, {s.n_vertices} vertices, {s.n_flips} flips>"
+
+
+class Solver(Handle):
+    """A solver for many targets on one metric: it keeps its analysis, its threads and the last solution. Threads take turns.
+
+    Args:
+        start: where the first solve starts.
+        given: how a flow is solved, as of `flow`.
+    """
+
+    _type: ClassVar[str] = "solver"
+
+    def __init__(self, start: Metric, **given: Unpack[FlowOptions]) -> None:
+        self._pointer = Solver._made(lib.ricci_solver_new, start, flow_struct(given))._pointer
+        self._turn = threading.Lock()
+
+    def pin(self, vertices: npt.ArrayLike = ()) -> None:
+        """Hold u fixed at these vertices in the following solves, whose curvature is then free; none releases all."""
+        pinned = _arrays.indices(vertices)
+        call(self._in_turn(lib.ricci_solver_pin), self, pointer(pinned) if pinned.size else ffi.NULL, pinned.size)
+
+    def solve(self, target: TargetLike = None, progress: Progress = None) -> Metric:
+        """The metric with this target, from where the last solve ended. After a failure the solver is where it was before."""
+        return Metric._made(self._in_turn(lib.ricci_solver_solve), self, target_struct(target), CONTROL, progress=progress)
+
+    def _in_turn(self, function: Callable[..., int]) -> Callable[..., int]:
+        """The function, which the library asks for by one thread at a time; held by the thread that runs it, until it has ended."""
+        turn = self._turn
+
+        def waiting(*arguments: Any) -> int:
+            with turn:
+                return function(*arguments)
+
+        return waiting
+
+
+def metric(V: MeshLike, F: npt.ArrayLike | None = None, *, space: Space = "e2", scheme: Scheme = "yamabe") -> Metric:
+    """The initial metric of a mesh in the conformal class of its lengths, as `Metric`."""
+    return Metric(V, F, space=space, scheme=scheme)
+
+
+def flow(
+    V: MeshLike,
+    F: npt.ArrayLike | None = None,
+    target: TargetLike = None,
+    progress: Progress = None,
+    **given: Unpack[FlowJob],
+) -> Metric:
+    """Deform the metric of a mesh in its conformal class to a prescribed curvature.
+
+    Whether it came that far is in ``result.converged``: a flow that stops early is a result, not an error.
+
+    Args:
+        V: n x 3 positions with `F`, or a mesh of any kind (`as_mesh`).
+        F: m x 3 vertex indices from 0.
+        target: ``"uniform"``, ``"boundary"``, ``"single:V"``, ``"auto:N"``, a mapping of vertices to curvatures (0 elsewhere), or n
+            curvatures in radians. None: uniform on closed surfaces of genus 1 and more and outside E2, on the boundary of open ones.
+        progress: a `Control`, or a callback ``progress(stage, fraction)``.
+        given: space, scheme, and how it is solved (`FlowJob`).
+
+    Raises:
+        TargetError: no metric has the target; the element is the vertex, the amount by how much.
+        MeshError, MetricError: there is no metric to begin with.
+        Cancelled: stopped by its control.
+    """
+    how: dict[str, Any] = dict(given)
+    start = Metric(V, F, space=how.pop("space", "e2"), scheme=how.pop("scheme", "yamabe"))
+    return start.flow(target, progress, **how)

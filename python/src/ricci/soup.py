@@ -1,0 +1,170 @@
+"""Triangle lists that are no surface yet: read, diagnose, repair, write."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, ClassVar, Self, TypedDict, Unpack
+
+import numpy as np
+import numpy.typing as npt
+
+from ricci import _arrays
+from ricci._arrays import frozen
+from ricci._call import Doubles, Handle, Indices, call, doubles, filled, path_bytes, pointer, rows, summary
+from ricci._library import ffi, lib
+from ricci._structs import number, options
+from ricci.figures import SoupSummary
+from ricci.mesh import Mesh
+
+__all__ = ["Defect", "RepairOptions", "Soup"]
+
+
+class RepairOptions(TypedDict, total=False):
+    """What a repair may do beyond what is always done.
+
+    Attributes:
+        weld: vertices within this distance become one; 0: those in exactly the same place; negative: none.
+        component: keep one connected piece: 1 is that with the most faces, 2 the next; 0: all.
+        cut_non_manifold_edges: cut the surface open along edges in which more than two faces meet.
+    """
+
+    weld: float
+    component: int
+    cut_non_manifold_edges: bool
+
+
+@dataclass(frozen=True)
+class Defect:
+    """One defect of a triangle list.
+
+    Attributes:
+        code: stable name of the kind of defect, such as ``"non_manifold_edge"``.
+        message: one sentence with the elements concerned.
+        remedy: what to do about it.
+        vertices: the vertices concerned, a view of the library's own memory.
+        faces: the faces concerned, likewise.
+    """
+
+    code: str
+    message: str
+    remedy: str
+    vertices: Indices
+    faces: Indices
+
+
+class _View:
+    """Memory of a handle as an array interface: arrays made of it keep the library's object alive, not the Python one that keeps them."""
+
+    def __init__(self, owner: Handle, address: Any, n: int) -> None:
+        self._owner = owner._pointer
+        data = (int(ffi.cast("uintptr_t", address)), True)
+        self.__array_interface__ = {"data": data, "shape": (n,), "typestr": "<u4", "version": 3}
+
+
+def _view(owner: Handle, address: Any, n: int) -> Indices:
+    return np.asarray(_View(owner, address, n)) if n else frozen(np.empty(0, np.uint32))
+
+
+class Soup(Handle):
+    """A triangle list with attributes, whatever its defects, and where it came from if it was repaired. It never changes.
+
+    Args:
+        V: n x 3 positions.
+        F: m x 3 vertex indices; nothing is asked of them.
+    """
+
+    _type: ClassVar[str] = "soup"
+
+    def __init__(self, V: npt.ArrayLike, F: npt.ArrayLike) -> None:
+        positions, faces = _arrays.points(V), _arrays.indices(F, 3, "F")
+        made = Soup._made(lib.ricci_soup_from_arrays, pointer(positions), positions.strides[0], len(positions), pointer(faces), len(faces))
+        self._pointer = made._pointer
+
+    @classmethod
+    def read(cls, path: str | os.PathLike[str]) -> Self:
+        """The triangle list of a mesh file with its attributes, in the file's numbers."""
+        return cls._made(lib.ricci_soup_read, path_bytes(path))
+
+    def write(self, path: str | os.PathLike[str]) -> None:
+        """Write the list as .obj, .off, .ply or .glb, whole or not at all, whatever its defects."""
+        call(lib.ricci_soup_write, self, path_bytes(path))
+
+    def repair(self, **given: Unpack[RepairOptions]) -> Soup:
+        """What can be mended without a guess, mended. Defects that are left are a result, not an error."""
+        return Soup._made(
+            lib.ricci_soup_repair, self, options("repair_options", given, dict.fromkeys(RepairOptions.__annotations__, number))
+        )
+
+    def mesh(self) -> Mesh:
+        """The mesh of a list without defects, with its attributes.
+
+        Raises:
+            MeshError: there are defects.
+        """
+        return Mesh._made(lib.ricci_soup_mesh, self)
+
+    @cached_property
+    def summary(self) -> SoupSummary:
+        """Counts, the number of defects, and what a repair did."""
+        return summary(SoupSummary, "soup", self)
+
+    @cached_property
+    def V(self) -> Doubles:
+        """n x 3 positions."""
+        return self._values("POSITIONS", self.summary.n_vertices, 3)
+
+    @cached_property
+    def F(self) -> Indices:
+        """m x 3 vertices of every face."""
+        return frozen(filled(lib.ricci_soup_faces, self, out=np.empty((self.summary.n_faces, 3), np.uint32)))
+
+    @cached_property
+    def normals(self) -> Doubles | None:
+        """n x 3 normals of the vertices, or None."""
+        return self._values("NORMALS", self.summary.n_normals, 3) if self.summary.n_normals else None
+
+    @cached_property
+    def colors(self) -> Doubles | None:
+        """n x 4 colours of the vertices, or None."""
+        return self._values("COLORS", self.summary.n_colors, 4) if self.summary.n_colors else None
+
+    @cached_property
+    def uv(self) -> Doubles | None:
+        """m x 3 x 2 texture coordinates of the corners, or None."""
+        return self._values("UV", self.summary.n_uv, 3, 2) if self.summary.n_uv else None
+
+    @cached_property
+    def corner_normals(self) -> Doubles | None:
+        """m x 3 x 3 normals of the corners, or None."""
+        n = self.summary.n_corner_normals
+        return self._values("CORNER_NORMALS", n, 3, 3) if n else None
+
+    @cached_property
+    def defects(self) -> list[Defect]:
+        """All defects; their arrays are views of the library's memory."""
+        return [self._defect(k) for k in range(self.summary.n_defects)]
+
+    @cached_property
+    def origins(self) -> tuple[Indices, Indices]:
+        """Of a repaired list: the vertex and the face of the original that each vertex and face came from."""
+        vertices, faces = (np.empty(n, np.uint32) for n in (self.summary.n_vertices, self.summary.n_faces))
+        filled(lib.ricci_soup_origins, self, pointer(vertices), vertices.size, out=faces)
+        return frozen(vertices), frozen(faces)
+
+    @cached_property
+    def refused(self) -> tuple[Indices, list[Indices]]:
+        """Of a repaired list: edges that kept vertices from being welded (k x 2), and for each the faces that would meet there."""
+        edges = np.empty((self.summary.refused_edges, 2), np.uint32)
+        faces = rows(len(edges), lib.ricci_soup_refused, self, pointer(edges), edges.size, dtype=np.uint32)
+        return frozen(edges), faces
+
+    def _defect(self, index: int) -> Defect:
+        found = ffi.new("ricci_defect *")
+        call(lib.ricci_soup_defect, self, index, found, ffi.sizeof("ricci_defect"))
+        code, message, remedy = (ffi.string(text).decode() for text in (found.code, found.message, found.remedy))
+        return Defect(code, message, remedy, _view(self, found.vertices, found.n_vertices), _view(self, found.faces, found.n_faces))
+
+    def _values(self, which: str, *shape: int) -> Any:
+        return frozen(doubles(lib.ricci_soup_values, self, getattr(lib, f"RICCI_{which}"), shape=shape))

@@ -1,0 +1,163 @@
+"""Uniformization: surfaces in their metric of constant curvature, on the sphere, in the plane or the hyperbolic plane."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import Any, ClassVar, Literal, TypedDict, Unpack
+
+import numpy as np
+import numpy.typing as npt
+
+from ricci import _arrays
+from ricci._arrays import frozen
+from ricci._call import CONTROL, Doubles, Handle, Indices, call, constant, doubles, pointer, summary
+from ricci._library import lib
+from ricci._structs import Write, choice, index_list, nested, one_index, options, real_list
+from ricci.adapters import MeshLike, as_mesh
+from ricci.control import Progress
+from ricci.figures import UniformSummary
+from ricci.figures.names import Model, On, Scheme
+from ricci.fundamental import Domain, Homotopy
+from ricci.layouts import Layout
+from ricci.mesh import Mesh
+from ricci.metrics import FlowOptions, Metric, flow_struct
+
+__all__ = ["Uniform", "UniformOptions", "uniformize"]
+
+
+class UniformOptions(TypedDict, total=False):
+    """How a surface is uniformized.
+
+    Attributes:
+        flow: how the flow is done; a sphere takes tolerance, max_iterations and threads.
+        start: where the flow starts, such as another flow's result.
+        base: the vertex at a quotient's origin; of a sphere that which is sent to infinity.
+        scheme: spheres have ``"yamabe"``.
+        boundary: what the boundary becomes: ``"geodesic"`` loops, or ``"straight"`` sides between corners.
+        corners: vertices of the boundary, for straight sides; a number of them: as many are chosen.
+        corner_angles: angles inside the corners, radians; 0: those without one share what is left.
+    """
+
+    flow: FlowOptions
+    start: Metric
+    base: int
+    scheme: Scheme
+    boundary: Literal["geodesic", "straight"]
+    corners: npt.ArrayLike | int
+    corner_angles: npt.ArrayLike
+
+
+def _corners(struct: Any, field: str, value: Any) -> None:
+    """Vertices, or their number."""
+    if isinstance(value, int | np.integer):
+        struct.put("n_corners", int(value))
+    else:
+        index_list("n_corners")(struct, field, value)
+
+
+_UNIFORM: dict[str, Write] = {
+    "flow": lambda struct, field, value: struct.put(field, flow_struct(value)),
+    "start": nested,
+    "base": one_index,
+    "scheme": choice("SCHEME"),
+    "boundary": choice("BOUNDARY"),
+    "corners": _corners,
+    "corner_angles": real_list(),
+}
+
+
+class Uniform(Handle):
+    """A surface with its metric of constant curvature.
+
+    Closed of genus 0: a convex polyhedron inscribed in the unit sphere. Others: the quotient of the plane or the hyperbolic plane by a
+    deck group, with a layout about a base vertex. Points there are ambient coordinates (x, y, w); `ricci.models` converts them.
+    """
+
+    _type: ClassVar[str] = "uniform"
+
+    @cached_property
+    def summary(self) -> UniformSummary:
+        """Space, convergence, modulus, residuals."""
+        return summary(UniformSummary, "uniform", self)
+
+    @property
+    def converged(self) -> bool:
+        """Whether the curvature is within the tolerance, and of a sphere every edge Delaunay."""
+        return self.summary.converged
+
+    @cached_property
+    def metric(self) -> Metric:
+        """The metric of constant curvature; of a quotient with the report of its flow."""
+        return Metric._made(lib.ricci_uniform_metric, self)
+
+    @cached_property
+    def homotopy(self) -> Homotopy:
+        """The homotopy basis whose loops generate the deck group."""
+        return Homotopy._made(lib.ricci_uniform_homotopy, self)
+
+    @cached_property
+    def domain(self) -> Domain:
+        """The layout as a fundamental domain."""
+        return Domain._made(lib.ricci_uniform_domain, self)
+
+    def layout(self, on: On = "refinement", model: Model = "poincare", progress: Progress = None) -> Layout:
+        """The layout of a quotient about its base, on the refinement or on ``"metric"``, its own triangulation.
+
+        Raises:
+            LayoutError: a sphere, whose points are `sphere_points`; ``"input"``.
+        """
+        return Layout._made(lib.ricci_uniform_layout, self, constant("ON", on), constant("MODEL", model), CONTROL, progress=progress)
+
+    @cached_property
+    def sides(self) -> tuple[Indices, Doubles]:
+        """The straight sides of the boundary: generator of the loop and first vertex; length and straightness (k x 2 each)."""
+        n = self.summary.n_boundary_sides
+        start, lengths = np.empty((n, 2), np.uint32), np.empty((n, 2))
+        call(lib.ricci_uniform_sides, self, pointer(start), pointer(lengths), n)
+        return frozen(start), frozen(lengths)
+
+    @cached_property
+    def polygon(self) -> tuple[Doubles, Doubles]:
+        """The canonical polygon: k x 3 corners in ambient coordinates, and the angles inside."""
+        n = self.summary.n_polygon
+        corners, angles = np.empty((n, 3)), np.empty(n)
+        call(lib.ricci_uniform_polygon, self, pointer(corners), pointer(angles), n)
+        return frozen(corners), frozen(angles)
+
+    def lift(self, path: npt.ArrayLike) -> Doubles:
+        """The lift of an edge path of the basis's triangulation that starts at the base: (k + 1) x 3 ambient coordinates."""
+        edges = _arrays.signed(path)
+        return doubles(lib.ricci_uniform_lift, self, pointer(edges), edges.size, shape=(edges.size + 1, 3))
+
+    def sphere_points(self, model: Model = "ambient") -> Doubles:
+        """Of a sphere, the vertices as unit vectors (n x 3), or in the plane under it (n x 2), infinite at the base.
+
+        Raises:
+            LayoutError: not a sphere.
+        """
+        shape = (self.metric.summary.n_vertices, 3 if model == "ambient" else 2)
+        return doubles(lib.ricci_sphere_points, self, constant("MODEL", model), shape=shape)
+
+    def sphere_mesh(self, on: On = "metric", progress: Progress = None) -> Mesh:
+        """Of a sphere, the polyhedron as a mesh with unit vectors as positions."""
+        return Mesh._made(lib.ricci_sphere_mesh, self, constant("ON", on), CONTROL, progress=progress)
+
+    def __repr__(self) -> str:
+        s = self.summary
+        return f"<ricci.Uniform: genus {s.genus} in {s.space}, {s.stop_reason}>"
+
+
+def uniformize(V: MeshLike, F: npt.ArrayLike | None = None, progress: Progress = None, **given: Unpack[UniformOptions]) -> Uniform:
+    """The metric of constant curvature in the conformal class of a surface, by its Euler characteristic.
+
+    Args:
+        V: n x 3 positions with `F`, or a mesh of any kind (`as_mesh`).
+        F: m x 3 vertex indices.
+        progress: a `Control` or a callback.
+        given: base, boundary, corners, flow (`UniformOptions`).
+
+    Raises:
+        LayoutError: geodesics around a disk.
+        TargetError: angles of corners that do not add up.
+    """
+    return Uniform._made(lib.ricci_uniformize, as_mesh(V, F), options("uniform_options", given, _UNIFORM), CONTROL, progress=progress)

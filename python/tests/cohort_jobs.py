@@ -1,0 +1,39 @@
+"""Jobs of the cohort tests, in a module of their own so that workers can import them."""
+
+import os
+import signal
+import threading
+import time
+from pathlib import Path
+
+import ricci
+
+
+def counts(mesh):
+    return {"vertices": mesh.n_vertices, "euler": mesh.euler}
+
+
+def slow(mesh):
+    time.sleep(0.15)
+    return ricci.cohorts.Outcome(counts(mesh), {"at": time.time()})
+
+
+def dies_on_genus2(mesh):
+    """The worker is killed as the system kills one that takes too much memory."""
+    if mesh.genus == 2:
+        os.kill(os.getpid(), signal.SIGKILL)
+    return counts(mesh)
+
+
+def fails_once(path):
+    """A reader that fails on `later.obj` until a file beside it exists."""
+    if Path(path).name == "later.obj" and not (Path(path).parent / "now").exists():
+        raise RuntimeError("not yet")
+    return ricci.read(path)
+
+
+def odd_results(mesh):
+    """What cannot be a column, or cannot even be sent."""
+    if mesh.genus == 2:
+        return {"what": threading.Lock()}
+    return {"what": object()} if mesh.genus == 3 else counts(mesh)

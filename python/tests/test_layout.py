@@ -1,0 +1,127 @@
+"""Layouts, charts and maps: laid out triangles have the metric's lengths, charts do not overlap, values are carried."""
+
+import numpy as np
+import pytest
+
+import ricci
+
+
+@pytest.fixture(scope="module")
+def flat(genus2):
+    return ricci.flow(genus2, target="single:0")
+
+
+@pytest.fixture(scope="module")
+def laid(flat):
+    return ricci.layout(flat)
+
+
+def signed_areas(uv):
+    a, b, c = uv[:, 0], uv[:, 1], uv[:, 2]
+    return 0.5 * ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0])
+
+
+def test_triangles_are_counterclockwise_and_have_the_area_of_the_surface(laid, genus2):
+    s = laid.summary
+    assert s.n_flipped == 0
+    areas = signed_areas(laid.uv("refinement"))
+    assert areas.min() > 0
+    sides = genus2.V[genus2.F]
+    area = 0.5 * np.linalg.norm(np.cross(sides[:, 1] - sides[:, 0], sides[:, 2] - sides[:, 0]), axis=1).sum()
+    assert areas.sum() == pytest.approx(area, rel=1e-10)
+    assert laid.flipped("refinement").size == 0
+    assert laid.flipped("input").size == s.n_flipped_input
+
+
+def test_without_flips_edges_have_the_metrics_lengths(torus):
+    flat = ricci.flow(torus, target="uniform", flips="never")
+    uv = ricci.layout(flat, scale="as_solved").uv()
+    for k in range(3):
+        side = np.linalg.norm(uv[:, (k + 1) % 3] - uv[:, (k + 2) % 3], axis=1)
+        np.testing.assert_allclose(side, flat.lengths[np.abs(torus.face_edges[:, k]) - 1], rtol=1e-9)
+
+
+def test_corners_index_points(laid):
+    for on in ("input", "refinement"):
+        uv, points = laid.uv(on), laid.points()
+        if on == "refinement":
+            assert np.array_equal(uv, points[laid.corners(on)])
+    assert laid.points("ambient").shape == (laid.summary.n_points, 3)
+
+
+def test_seams_are_isometries_that_carry_one_side_to_the_other(laid):
+    mesh, edges = laid.mesh, laid.seam_edges("refinement")
+    uv = {}
+    for face, row in zip(mesh.face_edges, laid.uv("refinement"), strict=True):
+        for k in range(3):
+            uv[int(face[k])] = row[(k + 1) % 3], row[(k + 2) % 3]
+    assert len(edges) == len(laid.seams) > 0
+    for seam, path in zip(laid.seams, edges, strict=True):
+        (a, b), (c, d) = seam.mobius
+        assert abs(a) == pytest.approx(1)
+        assert (c, d) == (0, 1)
+        for edge in path.tolist():
+            left = np.array([complex(*p) for p in uv[edge]])
+            right = np.array([complex(*p) for p in uv[-edge]])[::-1]
+            np.testing.assert_allclose(a * left + b, right, atol=1e-10)
+
+
+def test_distortion_of_a_conformal_map_is_small(laid):
+    qc, ratio = laid.distortion("refinement")
+    assert qc.min() >= 1
+    assert laid.summary.qc_mean < 1.2
+    assert ratio.min() > 0
+
+
+def test_layouts_are_written_as_obj(tmp_path, laid, genus2):
+    laid.write(tmp_path / "uv.obj")
+    again = ricci.read(tmp_path / "uv.obj")
+    assert np.array_equal(again.F, genus2.F)
+    assert np.array_equal(again.uv, laid.uv())
+    laid.write(tmp_path / "fine.obj", "refinement")
+    assert ricci.read(tmp_path / "fine.obj").n_faces == laid.summary.n_faces
+
+
+def test_charts_fill_the_unit_square_and_are_moved_copies(laid, tmp_path):
+    atlas = ricci.atlas(laid, margin=0.01)
+    points = atlas.points[atlas.corners]
+    assert points.min() >= 0
+    assert points.max() <= 1
+    angle, x, y = atlas.motions[atlas.charts].T
+    z = laid.uv("refinement") @ [1, 1j]
+    moved = np.exp(1j * angle)[:, None] * (atlas.summary.scale * z) + (x + 1j * y)[:, None]
+    np.testing.assert_allclose(points @ [1, 1j], moved, atol=1e-12)
+    assert signed_areas(points).sum() == pytest.approx(atlas.summary.efficiency, rel=1e-9)
+    atlas.write(tmp_path / "charts.obj")
+    assert ricci.read(tmp_path / "charts.obj").uv is not None
+    with pytest.raises(ricci.ArgumentError):
+        ricci.atlas(laid, margin=2)
+
+
+def test_values_are_carried_over_the_refinement(flat, genus2):
+    way = ricci.Map(flat)
+    fine = way.mesh
+    np.testing.assert_allclose(way.carry(genus2.V), fine.V, atol=1e-12)
+    assert np.array_equal(way.carry(genus2.V[:, 0])[: genus2.n_vertices], genus2.V[:, 0])
+    corners = way.carry(genus2.V[genus2.F], at="corners")
+    np.testing.assert_allclose(corners, fine.V[fine.F], atol=1e-12)
+    spots = np.einsum("fcw,fwx->fcx", way.barycentric(), genus2.V[genus2.F[way.faces()]])
+    np.testing.assert_allclose(spots, fine.V[fine.F], atol=1e-12)
+    edges, fractions = way.crossings()
+    ends = genus2.V[genus2.edges[edges]]
+    np.testing.assert_allclose(
+        ends[:, 0] * (1 - fractions)[:, None] + ends[:, 1] * fractions[:, None], fine.V[genus2.n_vertices :], atol=1e-12
+    )
+    assert way.weights.min() > 0
+    assert way.faces("refinement").max() + 1 == way.summary.n_pieces
+    with pytest.raises(ricci.ArgumentError):
+        way.carry(np.zeros(3))
+    with pytest.raises(ricci.ArgumentError, match="finite"):
+        way.carry(np.full(genus2.n_vertices, np.nan))
+
+
+def test_a_cut_goes_through_chosen_cones(torus):
+    flat = ricci.flow(torus, target="uniform")
+    plain, cut = ricci.layout(flat, cones=[]), ricci.layout(flat, cones=[0, 300], root=5)
+    assert len(cut.seams) > len(plain.seams)
+    assert np.allclose(cut.points()[cut.corners()[torus.F == 5]], 0)

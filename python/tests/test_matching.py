@@ -1,0 +1,92 @@
+"""Maps between surfaces: the identity comes out, landmarks are met, what is carried fits, and conflicts are named."""
+
+import numpy as np
+import pytest
+
+import ricci
+
+TURN = np.array([[0.6, -0.8, 0], [0.8, 0.6, 0], [0, 0, 1]])
+
+
+def test_a_disk_to_a_turned_copy_is_the_identity(disk):
+    bumpy = ricci.Mesh(disk.V + [0, 0, 0.3] * np.cos(3 * disk.V[:, :1]), disk.F)
+    copy = ricci.Mesh(2 * bumpy.V @ TURN.T + [1, 2, 3], disk.F)
+    rim = disk.boundary[0]
+    found = ricci.match(bumpy, copy, landmarks=[[v, v] for v in rim[[0, len(rim) // 3, 2 * len(rim) // 3]]])
+    np.testing.assert_allclose(found.carry(copy.V), copy.V, atol=1e-6)
+    assert found.summary.n_flipped == 0
+    assert found.summary.qc_max == pytest.approx(1, abs=1e-6)
+
+
+def test_landmarks_are_met_and_weights_are_barycentric(disk):
+    target = ricci.Mesh(disk.V * [1.5, 1, 1], disk.F)
+    landmarks = np.array([[5, 9], [100, 103]])
+    found = ricci.match((disk.V, disk.F), target, landmarks=landmarks, boundary="arc_length")
+    image = found.carry(target.V)
+    np.testing.assert_allclose(image[landmarks[:, 0]], target.V[landmarks[:, 1]], atol=1e-8)
+    for direction, n, other in (("forward", disk.n_vertices, target), ("backward", target.n_vertices, disk)):
+        weights, faces = found.weights(direction), found.faces(direction)
+        assert weights.shape == (n, 3)
+        assert weights.min() >= 0
+        np.testing.assert_allclose(weights.sum(1), 1, atol=1e-12)
+        own = np.einsum("nc,ncx->nx", weights, other.V[other.F[faces]])
+        np.testing.assert_allclose(found.carry(other.V, direction), own, atol=1e-12)
+    with pytest.raises(ricci.ArgumentError, match="rows are needed"):
+        found.carry(np.zeros(3))
+
+
+def test_spheres_and_tori(torus):
+    ball = ricci.make("ellipsoid", n=5, a=1.5, b=1, c=1)
+    found = ricci.match(ball, ricci.make("sphere", n=6))
+    assert found.summary.n_flipped == 0
+    assert np.linalg.norm(found.carry(ricci.make("sphere", n=6).V), axis=1).min() > 0.95
+    same = ricci.match(torus, torus)
+    np.testing.assert_allclose(same.carry(torus.V), torus.V, atol=1e-6)
+
+
+def test_a_class_is_named_by_loops(torus):
+    loops = ricci.homotopy(torus).loops
+    found = ricci.match(torus, torus, basis=[(loop, loop) for loop in loops])
+    assert found.summary.n_markings == 1
+    np.testing.assert_allclose(found.carry(torus.V), torus.V, atol=1e-6)
+    a, b = loops
+    twisted = ricci.match(torus, torus, basis=[(a, a), (b, np.concatenate([a, b]))])
+    assert np.linalg.norm(twisted.carry(torus.V) - torus.V, axis=1).max() > 1
+    assert twisted.summary.n_flipped == 0
+
+
+def test_points_curves_and_soft_landmarks(disk):
+    target = ricci.Mesh(disk.V * [1.2, 1, 1], disk.F)
+    points = {"faces": [[30, 30]], "weights": [[[0.2, 0.3, 0.5], [0.3, 0.3, 0.4]]]}
+    found = ricci.match(disk, target, points=points, soft=[[150, 160]], soft_weights=[1.0])
+    faces, weights = found.points
+    spots = np.einsum("kpc,kpcx->kpx", weights, target.V[target.F[faces]])
+    np.testing.assert_allclose(spots[:, 0], spots[:, 1], atol=1e-8)
+    assert found.soft_left.shape == (1,)
+    assert found.soft_left[0] > 0
+    ring = ricci.homotopy(disk)
+    path = ring.tree_path(int(disk.boundary[0][0]))
+    ends = disk.edges[np.abs(path) - 1]
+    curve = [*np.where(path > 0, ends[:, 0], ends[:, 1]), np.where(path[-1] > 0, ends[-1, 1], ends[-1, 0])]
+    curve = [int(v) for v in curve[:4]]
+    along = ricci.match(disk, target, curves=[(curve, curve)])
+    assert along.summary.n_points >= len(curve) - 2
+    with pytest.raises(ricci.ArgumentError, match="one weight for every pair"):
+        ricci.match(disk, target, soft=[[1, 1]])
+
+
+def test_both_surfaces_are_laid_over_each_other(disk):
+    target = ricci.Mesh(disk.V * [1.2, 1, 1], disk.F)
+    way = ricci.match(disk, target).map()
+    spots = way.carry(disk.V)
+    np.testing.assert_allclose(spots, way.mesh.V, atol=1e-9)
+    assert way.faces("metric").max() < target.n_faces
+
+
+def test_conflicts_are_named(disk, torus):
+    with pytest.raises(ricci.MatchingError):
+        ricci.match(disk, torus)
+    with pytest.raises(ricci.RicciError):
+        ricci.match(disk, disk, landmarks=[[5, 9], [5, 11]])
+    with pytest.raises(ricci.ArgumentError):
+        ricci.match(disk, disk, landmarks=[[5, 10**6]])
