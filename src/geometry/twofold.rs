@@ -142,7 +142,7 @@ const SURELY_NORMAL: f64 = 700.0;
 ///
 /// A result that is not a normal number is that of [`f64::exp`], with 0; [`exp_parts`] has no such limit.
 pub(crate) fn exp(x: f64) -> (f64, f64) {
-    if !(x.abs() <= SURELY_NORMAL) {
+    if !(-SURELY_NORMAL..=SURELY_NORMAL).contains(&x) {
         let rounded = x.exp();
         if !rounded.is_normal() {
             return (rounded, 0.0);
