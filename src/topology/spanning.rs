@@ -204,8 +204,11 @@ fn on_cycles(mut edges: Vec<EdgeId>, n: usize, nodes: impl Fn(EdgeId) -> [u32; 2
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests {
-    use super::*;
-    use crate::mesh::shapes;
+    use crate::control::Control;
+    use crate::mesh::union_find::UnionFind;
+    use crate::mesh::{EdgeId, HalfedgeId, VertexId, shapes};
+    use crate::topology::spanning::{Key, leftover, shortest_paths};
+    use std::cmp::Reverse;
 
     /// Closed, open and with walls: what is left over is what it is where all arcs are tried in order.
     #[test]
