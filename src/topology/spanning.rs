@@ -201,34 +201,27 @@ fn on_cycles(mut edges: Vec<EdgeId>, n: usize, nodes: impl Fn(EdgeId) -> [u32; 2
     edges
 }
 
+/// Closed, open and with walls: what is left over is what it is where all arcs are tried in order.
 #[cfg(test)]
+#[test]
 #[allow(clippy::unwrap_used)]
-mod tests {
-    use crate::control::Control;
-    use crate::mesh::union_find::UnionFind;
-    use crate::mesh::{EdgeId, HalfedgeId, VertexId, shapes};
-    use crate::topology::spanning::{Key, leftover, shortest_paths};
-    use std::cmp::Reverse;
-
-    /// Closed, open and with walls: what is left over is what it is where all arcs are tried in order.
-    #[test]
-    fn what_is_left_over_is_found_without_the_edges_of_every_spanning_tree() {
-        let samples =
-            [shapes::flat_torus([0.3, 1.0], 12, 9), shapes::bolza(2), shapes::pants([1.0, 2.0, 3.0], 2)];
-        for sample in samples {
-            let (mesh, lengths) = &sample.unwrap().build().unwrap();
-            let forest = shortest_paths(mesh, lengths, [VertexId(0)], &Control::new()).unwrap();
-            for wall in [|_: EdgeId| false, |e: EdgeId| e.0.is_multiple_of(7)] {
-                let in_forest = |e: EdgeId| forest.parent.iter().flatten().any(|h| h.edge() == e);
-                let mut all: Vec<EdgeId> = mesh.edges().filter(|&e| !in_forest(e) && !wall(e)).collect();
-                all.sort_by_key(|&e| Reverse((Key(forest.arc(mesh, lengths, e)), e)));
-                let node = |h: HalfedgeId| mesh.face(h).map_or(mesh.n_faces() as u32, |f| f.0);
-                let mut joined = UnionFind::new(mesh.n_faces() + 1);
-                all.retain(|e| !joined.join(node(e.halfedge()), node(e.halfedge().twin())));
-                all.reverse();
-                assert_eq!(leftover(mesh, lengths, &forest, wall), all);
-                assert!(wall(EdgeId(0)) || all.len() >= 2 * mesh.genus());
-            }
+fn what_is_left_over_is_found_without_the_edges_of_every_spanning_tree() {
+    use crate::mesh::shapes;
+    let samples =
+        [shapes::flat_torus([0.3, 1.0], 12, 9), shapes::bolza(2), shapes::pants([1.0, 2.0, 3.0], 2)];
+    for sample in samples {
+        let (mesh, lengths) = &sample.unwrap().build().unwrap();
+        let forest = shortest_paths(mesh, lengths, [VertexId(0)], &Control::new()).unwrap();
+        for wall in [|_: EdgeId| false, |e: EdgeId| e.0.is_multiple_of(7)] {
+            let in_forest = |e: EdgeId| forest.parent.iter().flatten().any(|h| h.edge() == e);
+            let mut all: Vec<EdgeId> = mesh.edges().filter(|&e| !in_forest(e) && !wall(e)).collect();
+            all.sort_by_key(|&e| Reverse((Key(forest.arc(mesh, lengths, e)), e)));
+            let node = |h: HalfedgeId| mesh.face(h).map_or(mesh.n_faces() as u32, |f| f.0);
+            let mut joined = UnionFind::new(mesh.n_faces() + 1);
+            all.retain(|e| !joined.join(node(e.halfedge()), node(e.halfedge().twin())));
+            all.reverse();
+            assert_eq!(leftover(mesh, lengths, &forest, wall), all);
+            assert!(wall(EdgeId(0)) || all.len() >= 2 * mesh.genus());
         }
     }
 }
