@@ -132,7 +132,7 @@ pub fn read(file: &MeshArgs, geometry: Option<Space>, control: &Control) -> Resu
                 if let Some(why) = out_of_range(&soup) {
                     return Err(Failure::Input(format!("{}: {why}", path.display())));
                 }
-                let surface = Surface::from_soup(&soup)?;
+                let surface = Surface::in_space(Mesh::from_soup(&soup)?, soup.positions)?;
                 (geometry.into_iter().fold(surface, Surface::read_in), soup.attributes)
             }
         })

@@ -51,6 +51,8 @@ pub fn run(input: &Input, job: Job, control: &Control) -> Result<Outcome, Failur
     let mut start = 0.0;
     let mut flow = timed(&mut start, || Flow::new(input.surface.clone(), class, &job.options, control))?;
     let solution = flow.solve(&rule, control)?;
+    // Its factorisation is most of the memory of a run, and of no use to the layout.
+    drop(flow);
     let (Some(report), target) = (solution.report().cloned(), solution.final_target()?) else {
         return Err(Failure::Failed("the flow has left no report".into()));
     };

@@ -74,11 +74,15 @@ impl<'a> MetricFile<'a> {
 
     fn in_pool(solution: &'a Solution, target: &'a PerVertex<f64>) -> ricci::Result<Self> {
         let (mesh, metric) = (solution.mesh(), solution.metric());
-        let lost = metric.length_remainders(mesh)?;
+        let (lengths, lost) = metric.measured(mesh).and_then(|measured| {
+            let lengths = measured.lengths()?;
+            let lost = measured.remainders(&lengths);
+            Ok((lengths, lost))
+        })?;
         Ok(MetricFile {
             space: metric.space.name(),
             scheme: solution.class().map_or(MIXED, |class| class.scheme.name()),
-            surface: LengthsFile::new(mesh, metric.space, &metric.lengths(mesh)?),
+            surface: LengthsFile::new(mesh, metric.space, &lengths),
             eta: per_face(mesh, &metric.rounded_eta()),
             lengths_lo: lost.iter().any(|&lo| lo != 0.0).then(|| per_face(mesh, &lost)),
             u: Cow::Borrowed(&metric.u),

@@ -47,8 +47,11 @@ impl Solved {
     ) -> Result<Solved, Failure> {
         let failed = |error: ricci::Error| Failure::Failed(error.to_string());
         let (mesh, metric) = (solution.mesh(), solution.metric());
-        let measured = || Ok((metric.lengths(mesh)?, metric.curvature(mesh)?));
-        let (lengths, curvature) = within(solution.threads(), measured).map_err(failed)?;
+        let measure = || {
+            let measured = metric.measured(mesh)?;
+            Ok((measured.lengths()?, measured.curvature()?))
+        };
+        let (lengths, curvature) = within(solution.threads(), measure).map_err(failed)?;
         Ok(Solved {
             lengths,
             scheme: solution.scheme().map_err(failed)?,

@@ -42,8 +42,8 @@ impl<'a> Faces<'a, PlaneFrame> {
         if metric.space != Space::E2 {
             return Err(Error::Layout(format!("a metric in {} has no layout in the plane", metric.space)));
         }
-        let (lengths, differences) = metric.lengths_and_differences(mesh)?;
-        Ok(Self::of_triangles(mesh, lengths, &differences))
+        let measured = metric.measured(mesh)?;
+        Ok(Self::of_triangles(mesh, measured.lengths()?, &measured.differences()))
     }
 
     fn of_triangles(mesh: &'a Mesh, lengths: PerEdge<f64>, differences: &[[f64; 3]]) -> Self {

@@ -314,8 +314,7 @@ impl Layout {
             return (Shape::of(self.face_uv(f)), size);
         }
         let points = self.face_points(f);
-        let far = points.map(|[x, y, _]| x.hypot(y)).into_iter().fold(1.0, f64::max);
-        (Shape::of(self.brought_home(points).map(klein)), far)
+        shape_of(points, self.brought_home(points))
     }
 
     /// Points moved by an isometry that brings the first of them to the origin.
@@ -329,6 +328,12 @@ impl Layout {
         let frame = self.frames.get(*self.patch.get(f.index()).unwrap_or(&u32::MAX) as usize);
         frame.copied().ok_or_else(|| Error::Layout(format!("face {f} has no frame of twice the digits")))
     }
+}
+
+/// [`Layout::shape`] in H² and S² of a triangle with these corners, which are `home` where it has been moved to the origin.
+pub(super) fn shape_of(corners: [[f64; 3]; 3], home: [[f64; 3]; 3]) -> (Shape, f64) {
+    let far = corners.map(|[x, y, _]| x.hypot(y)).into_iter().fold(1.0, f64::max);
+    (Shape::of(home.map(klein)), far)
 }
 
 /// Length, in diameters of the layout, below which the translation of a seam counts as none: the seam then leads to a vertex and back. It is far

@@ -13,7 +13,7 @@
 //! # }
 //! ```
 
-use super::layout::{Layout, distance};
+use super::layout::{Layout, distance, shape_of};
 use super::overlap::Triangle;
 use super::pieces::CORNERS;
 use super::shape::{LEAST_SHARE, Shape, extent};
@@ -70,9 +70,10 @@ impl Layout {
         let place = (|f| self.pieces.input_face(f), |f| self.pieces.input_barycentric(f));
         Given::new(input, lengths)?.quality(self.mesh(), place, |f, from| {
             let to = self.face_uv(f).map(|p| p.map(|x| x / self.diameter));
-            let dilatation =
-                if self.can_compare(f, from, to) { dilatation(from, to) } else { DILATATION_CAP };
-            (dilatation, self.area_of(self.face_points(f), to))
+            let corners = self.face_points(f);
+            let home = self.home(corners);
+            let can_compare = self.can_compare(from, to, (corners, home));
+            (if can_compare { dilatation(from, to) } else { DILATATION_CAP }, self.area_of(to, home))
         })
     }
 
@@ -88,30 +89,37 @@ impl Layout {
             let face = input.face_halfedges(f);
             let points = face.map(|h| on_input.points[on_input.corner_index[h] as usize] as usize);
             let to = points.map(|k| self.coordinates[k].map(|x| x / self.diameter));
-            (dilatation(from, to), self.area_of(points.map(|k| self.points[k]), to))
+            (dilatation(from, to), self.area_of(to, self.home(points.map(|k| self.points[k]))))
         });
         quality.map(Some)
     }
 
+    /// Corners in H² and S² where they are moved to the origin; none in E².
+    fn home(&self, corners: [Point; 3]) -> Option<[Point; 3]> {
+        (self.space != Space::E2).then(|| self.brought_home(corners))
+    }
+
     /// Whether a piece and its image have a shape to compare. The triangles of a mesh always have, as far as doubles go: they come from their
-    /// lengths; the corners of a refinement's pieces are rounded.
-    fn can_compare(&self, f: FaceId, from: Triangle, to: Triangle) -> bool {
-        let is_sound = || match self.space {
-            Space::E2 => !Shape::of(to).is_degenerate(extent(&to).max(1.0)),
-            _ => {
-                let (shape, far) = self.shape(f, 0.0);
+    /// lengths; the corners of a refinement's pieces are rounded. `to`: the image in E², divided by the diameter; `corners`, at home.
+    fn can_compare(
+        &self,
+        from: Triangle,
+        to: Triangle,
+        (corners, home): ([Point; 3], Option<[Point; 3]>),
+    ) -> bool {
+        let is_sound = || match home {
+            None => !Shape::of(to).is_degenerate(extent(&to).max(1.0)),
+            Some(home) => {
+                let (shape, far) = shape_of(corners, home);
                 !shape.is_degenerate(far) && !shape.is_flipped(far)
             }
         };
         self.refinement().is_none() || (Shape::of(from).share > LEAST_SHARE && is_sound())
     }
 
-    /// The area of a triangle with these corners; `to` are their coordinates in E², divided by the diameter.
-    fn area_of(&self, corners: [Point; 3], to: Triangle) -> f64 {
-        if self.space == Space::E2 {
-            return 0.5 * doubled_area(to).abs();
-        }
-        let points = self.brought_home(corners);
+    /// The area of a triangle: in E² of its coordinates, divided by the diameter; elsewhere of its corners at home.
+    fn area_of(&self, to: Triangle, home: Option<[Point; 3]>) -> f64 {
+        let Some(points) = home else { return 0.5 * doubled_area(to).abs() };
         area(self.space, [[1, 2], [2, 0], [0, 1]].map(|[i, j]| distance(self.space, points[i], points[j])))
     }
 }

@@ -26,7 +26,8 @@ impl Flow {
     pub fn flatten(&mut self, control: &Control) -> Result<f64> {
         let pool = self.pool.clone();
         pool.run(|| {
-            let residual = self.defects()?;
+            self.metric.check_domain(&self.mesh)?;
+            let residual = self.defects();
             let error = largest(&residual);
             let mut state = State::new(&self.metric.u, &self.metric.u_low);
             if error <= FLOOR || !state.evaluate(&self.mesh, &self.metric) {
@@ -72,8 +73,9 @@ impl Flow {
             }
             next.set_step(&state, 1.0, &step);
             (self.now.metric.u, self.now.metric.u_low) = (next.u.clone(), next.low.clone());
-            let left = self.defects()?;
+            let left = self.defects();
             let now = largest(&left);
+            // A step out of the domain leaves no numbers, or wild ones, and is taken back here too.
             if now >= error {
                 (self.now.metric.u, self.now.metric.u_low) = (state.u, state.low);
                 break;
@@ -85,8 +87,8 @@ impl Flow {
     }
 
     /// −K at the vertices that are not pinned, 0 at the others.
-    fn defects(&self) -> Result<Vec<f64>> {
-        let curvature = self.metric.angle_defects(&self.mesh)?;
-        Ok(curvature.iter().zip(&self.pinned).map(|(k, &pinned)| if pinned { 0.0 } else { -k }).collect())
+    fn defects(&self) -> Vec<f64> {
+        let curvature = self.metric.angle_defects_inside(&self.mesh);
+        curvature.iter().zip(&self.pinned).map(|(k, &pinned)| if pinned { 0.0 } else { -k }).collect()
     }
 }

@@ -291,10 +291,15 @@ fn lost_gap(a: Vertex, b: Vertex, eta: Twofold, gap: f64) -> f64 {
 pub fn half_chord(space: Space, a: Vertex, b: Vertex, eta: Twofold) -> (Twofold, i32) {
     let [a, b] = if space == Space::E2 { in_unit_of_edge(a, b, eta.high) } else { [a, b] };
     let [x, y] = [a, b].map(Vertex::precise_scale);
-    let square = |v: Vertex, x: Twofold| x * x * v.epsilon.into();
-    let n = x * y * eta * 2.0.into() + square(a, x) + square(b, y);
+    let mut n = (x * y * eta).scaled(1);
+    for (v, x) in [(a, x), (b, y)] {
+        if v.epsilon != 0.0 {
+            n = n + x * x * v.epsilon.into();
+        }
+    }
     let q = match space {
-        Space::E2 => n.sqrt() * 0.5.into(),
+        Space::E2 => n.sqrt().scaled(-1),
+        _ if a.d == 1.0 && b.d == 1.0 => n.sqrt(),
         _ => (n / (Twofold::from(a.d) * b.d.into())).sqrt(),
     };
     (q, a.exponent)
@@ -305,7 +310,7 @@ fn lost_length(a: Vertex, b: Vertex, eta: Twofold, length: f64) -> f64 {
     let (up, lost) = twofold::exp(0.5 * length);
     let up = Twofold::from(up) + (up * lost).into();
     let down = Twofold::from(1.0) / up;
-    let rest = half_chord(Space::H2, a, b, eta).0 - (up - down) * 0.5.into();
+    let rest = half_chord(Space::H2, a, b, eta).0 - (up - down).scaled(-1);
     4.0 * rest.high / (up.high + down.high)
 }
 

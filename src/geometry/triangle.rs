@@ -39,6 +39,12 @@ impl Angles {
     }
 }
 
+/// [`Angles::broken`] from the half-perimeter differences, without the angles.
+#[inline]
+pub fn is_broken(space: Space, r: [f64; 3]) -> bool {
+    r.into_iter().any(|r| r <= 0.0) || (space == Space::S2 && r[0] + r[1] + r[2] >= PI)
+}
+
 /// The differences r_i = s − l_i of the half perimeter s = r_0 + r_1 + r_2.
 ///
 /// The differences are formed from the sorted lengths, largest first (Kahan, "Miscalculating area and angles of

@@ -98,10 +98,10 @@ impl Div for Twofold {
     type Output = Twofold;
     fn div(self, other: Twofold) -> Twofold {
         let first = self.high / other.high;
-        let rest = self - other * first.into();
-        let second = rest.high / other.high;
-        let rest = rest - other * second.into();
-        Twofold::renormalised(first, second) + (rest.high / other.high).into()
+        let (product, lost) = two_product(first, other.high);
+        // The product is within an ulp of the dividend, so that their difference is exact.
+        let rest = ((self.high - product) - lost) + (self.low - first * other.low);
+        Twofold::renormalised(first, rest / other.high)
     }
 }
 
@@ -134,14 +134,19 @@ const HALVINGS: i32 = 6;
 const FACTORIALS: [f64; 7] =
     [1.0 / 24.0, 1.0 / 120.0, 1.0 / 720.0, 1.0 / 5040.0, 1.0 / 40_320.0, 1.0 / 362_880.0, 1.0 / 3_628_800.0];
 
+/// e^x is a normal number for every |x| up to this.
+const SURELY_NORMAL: f64 = 700.0;
+
 /// `e^x` as a double and what that misses of it, relative to it (error below 3e-24): u is known to more digits than a double
 /// holds, and the rounding of e^u would throw them away.
 ///
 /// A result that is not a normal number is that of [`f64::exp`], with 0; [`exp_parts`] has no such limit.
 pub(crate) fn exp(x: f64) -> (f64, f64) {
-    let rounded = x.exp();
-    if !rounded.is_normal() {
-        return (rounded, 0.0);
+    if !(-SURELY_NORMAL..=SURELY_NORMAL).contains(&x) {
+        let rounded = x.exp();
+        if !rounded.is_normal() {
+            return (rounded, 0.0);
+        }
     }
     let (mantissa, low, k) = exp_parts(x);
     (scaled(mantissa, k), low)

@@ -1,11 +1,14 @@
 //! Supernodal Cholesky (faer) with analysis, factorisation and solution as separate steps; the example is in [`crate::linalg`].
 
 use super::pattern::{Pattern, Symmetric};
+use super::substitution;
 use crate::error::{Error, Result};
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::linalg::cholesky::llt::factor::LltRegularization;
+use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::linalg::cholesky::{
-    CholeskySymbolicParams, LltRef, SymbolicCholesky, SymmetricOrdering, factorize_symbolic_cholesky,
+    CholeskySymbolicParams, LltRef, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
+    factorize_symbolic_cholesky,
 };
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, MatMut, Par, Side, Spec};
@@ -20,6 +23,8 @@ pub struct Cholesky {
     symbolic: SymbolicCholesky<u32>,
     factor: Vec<f64>,
     scratch: MemBuffer,
+    /// A right-hand side in the order of elimination, and as much again.
+    ordered: [Vec<f64>; 2],
 }
 
 /// The matrix is not positive definite to working precision.
@@ -44,7 +49,7 @@ impl Cholesky {
     ///
     /// As [`Cholesky::analyse`].
     pub fn analyse_again(self, pattern: &Pattern) -> Result<Cholesky> {
-        let Cholesky { symbolic, factor, scratch } = self;
+        let Cholesky { symbolic, factor, scratch, .. } = self;
         drop((factor, scratch));
         match symbolic.perm() {
             Some(order) if order.len() == pattern.size() => {
@@ -61,7 +66,10 @@ impl Cholesky {
             structure(pattern),
             Side::Lower,
             order,
-            CholeskySymbolicParams::default(),
+            CholeskySymbolicParams {
+                supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
+                ..CholeskySymbolicParams::default()
+            },
         )
         .map_err(|e| failed(format!("analysis: {e}")))?;
         let need = StackReq::any_of(&[
@@ -75,7 +83,7 @@ impl Cholesky {
             .try_reserve_exact(symbolic.len_val())
             .map_err(|_| failed("not enough memory for the factor".into()))?;
         factor.resize(symbolic.len_val(), 0.0);
-        Ok(Cholesky { symbolic, factor, scratch })
+        Ok(Cholesky { symbolic, factor, scratch, ordered: [vec![0.0; size], vec![0.0; size]] })
     }
 
     /// Number of values in the factor.
@@ -110,13 +118,23 @@ impl Cholesky {
     ///
     /// If `x` does not have n entries.
     pub fn solve(&mut self, x: &mut [f64]) {
-        let n = x.len();
-        LltRef::new(&self.symbolic, &self.factor).solve_in_place_with_conj(
-            Conj::No,
-            MatMut::from_column_major_slice_mut(x, n, 1),
-            PARTITION,
-            MemStack::new(&mut self.scratch),
-        );
+        let Cholesky { symbolic, factor, scratch, ordered: [y, below] } = self;
+        let (n, order) = (symbolic.nrows(), symbolic.perm());
+        assert_eq!(x.len(), n, "one entry per row");
+        match (symbolic.raw(), order) {
+            (SymbolicCholeskyRaw::Supernodal(supernodes), Some(order)) => {
+                let (forward, _) = order.arrays();
+                y.iter_mut().zip(forward).for_each(|(y, &i)| *y = x[i as usize]);
+                substitution::solve(supernodes, factor, y, below);
+                forward.iter().zip(&*y).for_each(|(&i, y)| x[i as usize] = *y);
+            }
+            _ => LltRef::new(symbolic, factor).solve_in_place_with_conj(
+                Conj::No,
+                MatMut::from_column_major_slice_mut(x, n, 1),
+                PARTITION,
+                MemStack::new(scratch),
+            ),
+        }
     }
 
     /// Overwrite the columns of `x`, one after the other, with `A⁻¹` times them, A being the matrix factorised last. Several threads may

@@ -20,6 +20,7 @@ pub mod dense;
 pub mod gmres;
 pub mod lu;
 pub mod pattern;
+mod substitution;
 
 pub use cholesky::Cholesky;
 pub use pattern::{Pattern, Symmetric};

@@ -172,7 +172,9 @@ impl NormalCoordinates {
     pub fn leaving(&self, mesh: &Mesh, h: HalfedgeId, turn: i64) -> HalfedgeId {
         let v = mesh.origin(h).index();
         let [begin, end] = [v, v + 1].map(|v| i64::from(self.start[v]));
-        let k = (i64::from(self.first[h.index()]) + turn).rem_euclid(end - begin);
+        let (k, degree) = (i64::from(self.first[h.index()]) + turn, end - begin);
+        // Seldom around: a remainder takes longer than all else here.
+        let k = if (0..degree).contains(&k) { k } else { k.rem_euclid(degree) };
         self.given[(begin + k) as usize]
     }
 

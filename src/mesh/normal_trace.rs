@@ -17,7 +17,7 @@ use super::normal::{NormalCoordinates, Strands};
 use crate::control::Control;
 use crate::error::{Error, Result};
 
-/// Half-edges or curves between two looks at the control: they take less than a millisecond.
+/// Edges or curves between two looks at the control: they take less than a millisecond.
 const PER_STEP: usize = 4096;
 
 /// Where a curve crosses an edge.
@@ -51,23 +51,24 @@ impl Curves {
         let mut along = vec![None; mesh.n_edges()];
         // Per given edge: the corner that it leaves, and how many leave that corner before it.
         let mut source: Vec<Option<(HalfedgeId, i64)>> = vec![None; mesh.n_edges()];
-        for h in mesh.halfedges() {
-            if h.index().is_multiple_of(PER_STEP) {
+        for e in mesh.edges() {
+            if e.index().is_multiple_of(PER_STEP) {
                 control.check()?;
             }
-            if let Some(given) = normal.along(mesh, h)
-                && given == given.edge().halfedge()
-            {
-                along[given.edge().index()] = Some(h);
-            }
-            if mesh.is_outside(h) {
+            let h = e.halfedge();
+            if let Some(given) = normal.along(mesh, h) {
+                let is_even = given == given.edge().halfedge();
+                along[given.edge().index()] = Some(if is_even { h } else { h.twin() });
                 continue;
             }
-            let sides = normal.sides(mesh, h);
-            for k in 0..Strands::new(sides).fan[0] {
-                let given = normal.leaving(mesh, h, i64::from(sides[0] < 0) + k);
-                if given == given.edge().halfedge() {
-                    source[given.edge().index()] = Some((h, k));
+            // A corner that curves leave lies opposite an edge that they cross.
+            for corner in [h, h.twin()].into_iter().filter(|&h| !mesh.is_outside(h)).map(|h| mesh.prev(h)) {
+                let sides = normal.sides(mesh, corner);
+                for k in 0..Strands::new(sides).fan[0] {
+                    let given = normal.leaving(mesh, corner, i64::from(sides[0] < 0) + k);
+                    if given == given.edge().halfedge() {
+                        source[given.edge().index()] = Some((corner, k));
+                    }
                 }
             }
         }
@@ -93,6 +94,12 @@ impl Curves {
     /// The crossings of a given edge, in order.
     pub fn crossings(&self, e: EdgeId) -> &[CurveCrossing] {
         &self.crossings[self.numbers(e)]
+    }
+
+    /// The given edges that cross any, ascending.
+    pub fn that_cross(&self) -> Vec<EdgeId> {
+        let crosses = |w: &(usize, &[u32])| w.1[0] < w.1[1];
+        self.start.windows(2).enumerate().filter(crosses).map(|(e, _)| EdgeId::from(e)).collect()
     }
 
     /// The numbers of a given edge's crossings among all of them.

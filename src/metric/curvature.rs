@@ -8,8 +8,8 @@
 //! # Ok::<(), ricci::Error>(())
 //! ```
 
-use super::lengths::{Metric, face_differences, face_lengths};
-use crate::error::{Error, Result};
+use super::lengths::face_lengths;
+use crate::error::Result;
 use crate::geometry::Space;
 use crate::geometry::scaled::scaled;
 use crate::geometry::triangle::{self, Angles, angles_from, area_from, half_differences};
@@ -35,31 +35,14 @@ pub struct Curvature {
 /// Curvature of the metric with these edge lengths (E entries).
 ///
 /// # Errors
-/// [`Error::Size`]; [`Error::EdgeLength`] for a length that is not positive and finite.
+/// [`crate::Error::Size`]; [`crate::Error::EdgeLength`] for a length that is not positive and finite.
 pub fn curvature(mesh: &Mesh, space: Space, lengths: &PerEdge<f64>) -> Result<Curvature> {
     check_lengths(mesh, lengths)?;
     Ok(curvature_of(mesh, space, |f| (half_differences(face_lengths(mesh, lengths, f)), 0)))
 }
 
-impl Metric {
-    /// Curvature, from the variables themselves: also where lengths are beyond the doubles.
-    ///
-    /// # Errors
-    /// Those of [`Metric::check_domain`]; [`Error::Argument`] where the area is beyond the doubles: u is then to be shifted by a
-    /// constant, which changes neither angles nor curvature.
-    pub fn curvature(&self, mesh: &Mesh) -> Result<Curvature> {
-        let (vertices, edges) = self.vertices_and_edges(mesh)?;
-        let curvature = curvature_of(mesh, self.space, |f| face_differences(mesh, &vertices, &edges, f));
-        if !curvature.area.is_finite() {
-            let value = "so large that the area is beyond doubles".into();
-            return Err(Error::Argument { what: "u", value, need: "smaller: subtract a constant" });
-        }
-        Ok(curvature)
-    }
-}
-
 /// Curvature from the half-perimeter differences of the faces and the exponents of their units.
-fn curvature_of(
+pub(super) fn curvature_of(
     mesh: &Mesh,
     space: Space,
     differences: impl Fn(FaceId) -> ([f64; 3], i32) + Sync,

@@ -18,6 +18,7 @@ use crate::geometry::conformal::{Vertex, radius};
 use crate::geometry::scaled::scaled;
 use crate::geometry::{Space, Twofold, triangle, worse};
 use crate::mesh::{EdgeId, Mesh, PerEdge, PerVertex};
+use crate::parallel;
 use crate::topology::check_lengths;
 use std::f64::consts::PI;
 
@@ -135,11 +136,16 @@ fn represented(
         u_low: PerVertex::filled(n, 0.0),
     };
     let radii = metric.radii()?;
+    let vertices = metric.vertices();
+    let mut weights = vec![Twofold::default(); mesh.n_edges()];
+    parallel::fill(&mut weights, |e| {
+        let e = EdgeId::from(e);
+        weight_of_length(input_geometry, lengths[e], mesh.ends(e).map(|v| vertices[v]))
+    });
     let mut clamped_edges = 0;
     for e in mesh.edges() {
-        let [i, j] = mesh.ends(e);
-        let epsilon = [metric.epsilon[i], metric.epsilon[j]];
-        let eta = weight_of_length(input_geometry, lengths[e], epsilon, [input_u[i], input_u[j]]);
+        let epsilon = mesh.ends(e).map(|v| metric.epsilon[v]);
+        let eta = weights[e.index()];
         metric.eta[e] = match range {
             Range::Clamp(low, _) if (eta - low.into()).high < 0.0 => low.into(),
             Range::Clamp(_, high) if (eta - high.into()).high > 0.0 => high.into(),
@@ -215,8 +221,7 @@ fn log_radius(space: Space, radius: f64) -> f64 {
 }
 
 /// η from a length: the length formulas solved for it. In E² the length that η gives back is the given one, to twice the digits.
-fn weight_of_length(space: Space, length: f64, epsilon: [i8; 2], u: [f64; 2]) -> Twofold {
-    let [a, b] = [0, 1].map(|k| Vertex::precise(space, epsilon[k], u[k], 0.0));
+fn weight_of_length(space: Space, length: f64, [a, b]: [Vertex; 2]) -> Twofold {
     // The unit of length is 2 to the larger exponent of the two circles.
     let unit = a.exponent.max(b.exponent);
     let n = match space {
@@ -286,8 +291,8 @@ pub(super) fn check_triangles(mesh: &Mesh, lengths: &PerEdge<f64>, geometry: Spa
     check_lengths(mesh, lengths)?;
     for f in mesh.faces() {
         let l = face_lengths(mesh, lengths, f);
-        if triangle::angles(geometry, l).broken() {
-            let r = triangle::half_differences(l);
+        let r = triangle::half_differences(l);
+        if triangle::is_broken(geometry, r) {
             let s: f64 = r.iter().sum();
             let worst = r.into_iter().fold(f64::INFINITY, f64::min);
             let longest = l.into_iter().fold(0.0, f64::max);

@@ -12,9 +12,8 @@
 
 use crate::error::{Error, Result, check_size};
 use crate::geometry::conformal::{self, Edge, Vertex, differences, in_one_unit, is_precise, radius};
-use crate::geometry::scaled::scaled;
 use crate::geometry::{Space, Twofold};
-use crate::mesh::{EdgeId, FaceId, Mesh, PerEdge, PerFace, PerVertex, Point, VertexId};
+use crate::mesh::{EdgeId, FaceId, Mesh, PerEdge, PerVertex, Point, VertexId};
 use crate::parallel;
 use crate::topology::check_lengths;
 
@@ -106,63 +105,10 @@ impl Metric {
         self.vertices_and_edges(mesh).map(|_| ())
     }
 
-    /// The edge lengths.
+    /// The quantities of all vertices and edges.
     ///
     /// # Errors
-    /// Those of [`Metric::check_domain`]; [`Error::EdgeWeight`] for the first edge whose length no double holds, below 2e-308
-    /// or above 2e308, which happens in E² alone. Angles, curvature and the flow have no such limit.
-    pub fn lengths(&self, mesh: &Mesh) -> Result<PerEdge<f64>> {
-        self.lengths_of(&self.vertices_and_edges(mesh)?.1)
-    }
-
-    fn lengths_of(&self, edges: &PerEdge<Edge>) -> Result<PerEdge<f64>> {
-        let lengths: PerEdge<f64> = edges.iter().map(|e| e.length(self.space)).collect::<Vec<_>>().into();
-        match lengths.iter().position(|l| !l.is_normal()) {
-            Some(edge) => {
-                let need = "one that gives the edge a length between 2e-308 and 2e308 at this u (angles have no such limit)";
-                Err(Error::EdgeWeight { edge, eta: self.eta[EdgeId::from(edge)].high, need })
-            }
-            None => Ok(lengths),
-        }
-    }
-
-    /// The half-perimeter differences `r_k = s − l_k` of every face, in corner order (F entries, `s = Σ r`).
-    ///
-    /// They have their full relative accuracy also where circles of very different sizes meet. Differences of rounded lengths do not.
-    ///
-    /// # Errors
-    /// As [`Metric::lengths`].
-    pub fn differences(&self, mesh: &Mesh) -> Result<PerFace<[f64; 3]>> {
-        Ok(self.lengths_and_differences(mesh)?.1)
-    }
-
-    /// [`Metric::lengths`] and [`Metric::differences`] of the same edges, which are formed once.
-    pub(crate) fn lengths_and_differences(&self, mesh: &Mesh) -> Result<(PerEdge<f64>, PerFace<[f64; 3]>)> {
-        let (vertices, edges) = self.vertices_and_edges(mesh)?;
-        let lengths = self.lengths_of(&edges)?;
-        let mut differences = vec![[0.0; 3]; mesh.n_faces()];
-        parallel::fill(&mut differences, |f| {
-            let (r, unit) = face_differences(mesh, &vertices, &edges, f.into());
-            r.map(|r| scaled(r, unit))
-        });
-        Ok((lengths, differences.into()))
-    }
-
-    /// What the doubles of [`Metric::lengths`] lose, per edge: `l` to twice the digits is `length + remainder`.
-    ///
-    /// It matters where circles of very different sizes meet, and far out in H². It is 0 in S² on edges with ε = 0 at both ends.
-    ///
-    /// # Errors
-    /// As [`Metric::lengths`].
-    pub fn length_remainders(&self, mesh: &Mesh) -> Result<PerEdge<f64>> {
-        let (vertices, edges) = self.vertices_and_edges(mesh)?;
-        let lengths = self.lengths_of(&edges)?;
-        Ok(PerEdge::from_fn(mesh.n_edges(), |e| {
-            let [a, b] = mesh.ends(e).map(|v| vertices[v]);
-            edges[e].remainder(a, b, lengths[e])
-        }))
-    }
-
+    /// Those of [`Metric::check_domain`].
     pub(super) fn vertices_and_edges(&self, mesh: &Mesh) -> Result<(PerVertex<Vertex>, PerEdge<Edge>)> {
         self.check(mesh)?;
         let vertices = self.vertices();

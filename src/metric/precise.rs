@@ -42,6 +42,11 @@ impl Metric {
     /// Those of [`Metric::check_domain`].
     pub fn angle_defects(&self, mesh: &Mesh) -> Result<PerVertex<f64>> {
         self.check_domain(mesh)?;
+        Ok(self.angle_defects_inside(mesh))
+    }
+
+    /// [`Metric::angle_defects`] of a metric that is known to be in its domain; outside it they mean nothing.
+    pub(crate) fn angle_defects_inside(&self, mesh: &Mesh) -> PerVertex<f64> {
         let half_angles = half_angles(self, mesh, &self.scaled_chords(mesh));
         let mut turn: PerVertex<[Twofold; 2]> =
             PerVertex::filled(mesh.n_vertices(), [1.0.into(), 0.0.into()]);
@@ -51,11 +56,11 @@ impl Metric {
                 turn[v] = [x * c - y * s, x * s + y * c];
             }
         }
-        Ok(PerVertex::from_fn(mesh.n_vertices(), |v| {
+        PerVertex::from_fn(mesh.n_vertices(), |v| {
             // `turn` is the rotation by half of all the angles, which add up to π − K/2, on the boundary to π/2 − K/2.
             let [x, y] = turn[v].map(f64::from);
             2.0 * if mesh.is_boundary_vertex(v) { x.atan2(y) } else { y.atan2(-x) }
-        }))
+        })
     }
 }
 

@@ -154,18 +154,74 @@ pub(crate) fn leftover(
     for h in forest.parent.iter().flatten() {
         in_forest[h.edge()] = true;
     }
-    let free = mesh.edges().filter(|&e| !in_forest[e] && !wall(e));
-    let mut arcs: Vec<(Key, EdgeId)> = free.map(|e| (Key(forest.arc(mesh, lengths, e)), e)).collect();
-    arcs.sort_unstable_by(|a, b| b.cmp(a));
+    let free: Vec<EdgeId> = mesh.edges().filter(|&e| !in_forest[e] && !wall(e)).collect();
     // In the dual graph the outside is one more node.
     let outside = mesh.n_faces() as u32;
-    let node = |h: HalfedgeId| mesh.face(h).map_or(outside, |f| f.0);
+    let nodes =
+        |e: EdgeId| [e.halfedge(), e.halfedge().twin()].map(|h| mesh.face(h).map_or(outside, |f| f.0));
+    let cycles = on_cycles(free, mesh.n_faces() + 1, nodes);
+    let mut arcs: Vec<(Key, EdgeId)> =
+        cycles.into_iter().map(|e| (Key(forest.arc(mesh, lengths, e)), e)).collect();
+    arcs.sort_unstable_by(|a, b| b.cmp(a));
     let mut joined = UnionFind::new(mesh.n_faces() + 1);
-    let mut left: Vec<EdgeId> = arcs
-        .into_iter()
-        .map(|(_, e)| e)
-        .filter(|e| !joined.join(node(e.halfedge()), node(e.halfedge().twin())))
-        .collect();
+    let mut closes = |e: &EdgeId| {
+        let [a, b] = nodes(*e);
+        !joined.join(a, b)
+    };
+    let mut left: Vec<EdgeId> = arcs.into_iter().map(|(_, e)| e).filter(|e| closes(e)).collect();
     left.reverse();
     left
+}
+
+/// The edges of a graph without those that end in a node with no other edge, again and again: all that are on cycles, and those between
+/// cycles. Every spanning tree has the others. `edges`: in ascending order, which stays; `nodes`: the ends of each, below `n`.
+fn on_cycles(mut edges: Vec<EdgeId>, n: usize, nodes: impl Fn(EdgeId) -> [u32; 2]) -> Vec<EdgeId> {
+    // Per node how many edges end there, and the exclusive or of their numbers: where there is one edge, that is its number.
+    let mut ends = vec![(0u32, 0u32); n];
+    let remove = |ends: &mut [(u32, u32)], e: EdgeId, node: u32| {
+        let (degree, sum) = &mut ends[node as usize];
+        (*degree, *sum) = (*degree - 1, *sum ^ e.0);
+        *degree == 1
+    };
+    for &e in &edges {
+        for node in nodes(e) {
+            let (degree, sum) = &mut ends[node as usize];
+            (*degree, *sum) = (*degree + 1, *sum ^ e.0);
+        }
+    }
+    let mut leaves: Vec<u32> = (0..n as u32).filter(|&node| ends[node as usize].0 == 1).collect();
+    let mut is_cut_off = vec![false; edges.last().map_or(0, |e| e.index() + 1)];
+    while let Some(leaf) = leaves.pop() {
+        let (1, e) = ends[leaf as usize] else { continue };
+        is_cut_off[e as usize] = true;
+        let e = EdgeId(e);
+        leaves.extend(nodes(e).into_iter().filter(|&node| remove(&mut ends, e, node) && node != leaf));
+    }
+    edges.retain(|e| !is_cut_off[e.index()]);
+    edges
+}
+
+/// Closed, open and with walls: what is left over is what it is where all arcs are tried in order.
+#[cfg(test)]
+#[test]
+#[allow(clippy::unwrap_used)]
+fn what_is_left_over_is_found_without_the_edges_of_every_spanning_tree() {
+    use crate::mesh::shapes;
+    let samples =
+        [shapes::flat_torus([0.3, 1.0], 12, 9), shapes::bolza(2), shapes::pants([1.0, 2.0, 3.0], 2)];
+    for sample in samples {
+        let (mesh, lengths) = &sample.unwrap().build().unwrap();
+        let forest = shortest_paths(mesh, lengths, [VertexId(0)], &Control::new()).unwrap();
+        for wall in [|_: EdgeId| false, |e: EdgeId| e.0.is_multiple_of(7)] {
+            let in_forest = |e: EdgeId| forest.parent.iter().flatten().any(|h| h.edge() == e);
+            let mut all: Vec<EdgeId> = mesh.edges().filter(|&e| !in_forest(e) && !wall(e)).collect();
+            all.sort_by_key(|&e| Reverse((Key(forest.arc(mesh, lengths, e)), e)));
+            let node = |h: HalfedgeId| mesh.face(h).map_or(mesh.n_faces() as u32, |f| f.0);
+            let mut joined = UnionFind::new(mesh.n_faces() + 1);
+            all.retain(|e| !joined.join(node(e.halfedge()), node(e.halfedge().twin())));
+            all.reverse();
+            assert_eq!(leftover(mesh, lengths, &forest, wall), all);
+            assert!(wall(EdgeId(0)) || all.len() >= 2 * mesh.genus());
+        }
+    }
 }

@@ -2,12 +2,13 @@
 
 use super::budget::Budget;
 use super::polygon::Polygons;
-use super::scan::{Location, Quoted};
+use super::scan::{Location, Quoted, words};
 use super::shortest::Shortest;
 use super::soup::{NO_NORMAL, NO_TEXCOORD, WHITE};
 use super::{Attributes, Soup, Textured, write_atomically};
 use crate::error::Result;
 use crate::mesh::Point;
+use std::borrow::Cow;
 use std::io::Write;
 use std::path::Path;
 
@@ -21,7 +22,7 @@ use std::path::Path;
 ///
 /// [`crate::Error::Parse`] with the line.
 pub fn parse_obj(bytes: &[u8], path: &str) -> Result<Soup> {
-    let text = String::from_utf8_lossy(bytes);
+    let text = std::str::from_utf8(bytes).map_or_else(|_| String::from_utf8_lossy(bytes), Cow::Borrowed);
     let mut file = File::default();
     let mut lines = super::scan::lines(&text);
     let mut joined = String::new();
@@ -38,7 +39,7 @@ pub fn parse_obj(bytes: &[u8], path: &str) -> Result<Soup> {
             joined.push_str(line);
             line = &joined;
         }
-        let mut tokens = line.split_ascii_whitespace();
+        let mut tokens = words(line);
         match tokens.next() {
             Some("v") => {
                 let mut point: Point = [0.0; 3];
@@ -55,6 +56,12 @@ pub fn parse_obj(bytes: &[u8], path: &str) -> Result<Soup> {
             Some("vn") => file.normals.push(numbers(tokens)),
             Some("f") => {
                 for token in tokens {
+                    if let Some(v) = plain(token) {
+                        file.polygons.corners.push(v);
+                        file.corner_texcoords.push(NO_ENTRY);
+                        file.corner_normals.push(NO_ENTRY);
+                        continue;
+                    }
                     file.polygons.corners.push(corner(place, token, file.positions.len())?);
                     let mut parts = token.split('/').skip(1);
                     file.corner_texcoords.push(attribute(parts.next(), file.texcoords.len()));
@@ -158,6 +165,13 @@ fn attribute(number: Option<&str>, count: usize) -> u32 {
         n => u32::try_from(n - 1).ok(),
     };
     number.and_then(entry).unwrap_or(NO_ENTRY)
+}
+
+/// The vertex of a corner that is nothing but a number of up to nine digits, as most are.
+fn plain(token: &str) -> Option<u32> {
+    let digit = |n: u32, b: &u8| b.is_ascii_digit().then(|| 10 * n + u32::from(b - b'0'));
+    let number = if token.len() <= 9 { token.as_bytes().iter().try_fold(0, digit) } else { None };
+    number?.checked_sub(1)
 }
 
 /// The vertex of a corner `v`, `v/vt`, `v//vn`, `v/vt/vn`: 1-based, or negative from the last vertex so far.

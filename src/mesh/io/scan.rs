@@ -9,8 +9,22 @@ pub(super) fn lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     // In a file with LF a CR is a blank at the end of its line.
     let end = if text.contains('\n') { '\n' } else { '\r' };
-    let bare = |line: &'_ str| -> usize { line.find('#').unwrap_or(line.len()) };
+    let bare = |line: &'_ str| line.bytes().position(|b| b == b'#').unwrap_or(line.len());
     text.split(end).enumerate().map(move |(i, line)| (i + 1, line[..bare(line)].trim_end()))
+}
+
+/// The words of a line, between ASCII blanks.
+pub(super) fn words(line: &str) -> impl Iterator<Item = &str> {
+    let is_blank = |b: u8| matches!(b, b' ' | b'\t' | b'\r' | b'\n' | 0x0c);
+    let mut rest = line;
+    std::iter::from_fn(move || {
+        let start = rest.bytes().position(|b| !is_blank(b))?;
+        let length = rest.as_bytes()[start..].iter().position(|&b| is_blank(b));
+        let end = length.map_or(rest.len(), |length| start + length);
+        let word = &rest[start..end];
+        rest = &rest[end..];
+        Some(word)
+    })
 }
 
 /// Where a token stands.

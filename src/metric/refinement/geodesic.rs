@@ -18,7 +18,7 @@
 use super::order::{OnEdge, restore_order, restore_order_across};
 use super::triangulations::Intrinsic;
 use crate::geometry::{Space, triangle};
-use crate::mesh::{Curves, EdgeId, HalfedgeId, PerEdge, PerHalfedge};
+use crate::mesh::{Curves, EdgeId, FaceId, HalfedgeId, PerEdge, PerFace, PerHalfedge};
 use crate::parallel;
 
 /// Smallest weight of an end. A crossing lies strictly between the ends of its edge; where rounding has put it on an end or beyond,
@@ -49,9 +49,10 @@ struct Frames<'a> {
 /// All crossings, in the order of `curves`. Those of each edge of the input are in order along it, and those of each intrinsic edge
 /// along that.
 pub(super) fn straight(intrinsic: &Intrinsic, geometry: Space, curves: &Curves) -> Vec<Straight> {
-    let frames = Frames::new(intrinsic, geometry);
-    let mut found = vec![Vec::new(); intrinsic.mesh.n_edges()];
-    parallel::fill(&mut found, |e| frames.along(curves, EdgeId::from(e)));
+    let frames = Frames::new(intrinsic, geometry, curves);
+    let crossing = curves.that_cross();
+    let mut found = vec![Vec::new(); crossing.len()];
+    parallel::fill(&mut found, |k| frames.along(curves, crossing[k]));
     let mut all = found.concat();
     let crossed = || intrinsic.mesh.edges().flat_map(|e| curves.crossings(e)).map(|at| at.halfedge);
     let turned = |h: HalfedgeId, [x, y]: OnEdge| if h.0 & 1 == 0 { [x, y] } else { [y, x] };
@@ -62,17 +63,22 @@ pub(super) fn straight(intrinsic: &Intrinsic, geometry: Space, curves: &Curves) 
 }
 
 impl<'a> Frames<'a> {
-    fn new(intrinsic: &'a Intrinsic<'a>, geometry: Space) -> Frames<'a> {
+    /// In the faces that these curves run through.
+    fn new(intrinsic: &'a Intrinsic<'a>, geometry: Space, curves: &Curves) -> Frames<'a> {
         let (mesh, lengths) = (intrinsic.mesh, intrinsic.lengths);
-        let mut angles = vec![[0.0; 3]; mesh.n_faces()];
-        parallel::fill(&mut angles, |f| {
-            triangle::angles(geometry, mesh.opposite_edges(f.into()).map(|e| lengths[e])).at
+        let mut is_crossed = PerFace::filled(mesh.n_faces(), false);
+        for h in mesh.edges().flat_map(|e| curves.crossings(e)).map(|at| at.halfedge) {
+            [h, h.twin()].into_iter().filter_map(|h| mesh.face(h)).for_each(|f| is_crossed[f] = true);
+        }
+        let crossed: Vec<FaceId> = mesh.faces().filter(|&f| is_crossed[f]).collect();
+        let mut turns = vec![[[0.0; 2]; 3]; crossed.len()];
+        parallel::fill(&mut turns, |k| {
+            let angles = triangle::angles(geometry, mesh.opposite_edges(crossed[k]).map(|e| lengths[e])).at;
+            angles.map(|angle| [angle.cos(), angle.sin()])
         });
         let mut turn = PerHalfedge::filled(mesh.n_halfedges(), [1.0, 0.0]);
-        for f in mesh.faces() {
-            for (h, angle) in mesh.face_halfedges(f).into_iter().zip(angles[f.index()]) {
-                turn[h] = [angle.cos(), angle.sin()];
-            }
+        for (&f, turns) in crossed.iter().zip(turns) {
+            mesh.face_halfedges(f).into_iter().zip(turns).for_each(|(h, way)| turn[h] = way);
         }
         let shift = PerEdge::from_fn(mesh.n_edges(), |e| {
             let l: f64 = lengths[e];

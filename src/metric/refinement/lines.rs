@@ -60,8 +60,8 @@ impl Scales {
         let log = |space: Space, u: &PerVertex<f64>| -> Result<Vec<f64>> {
             let scale = |v: usize| {
                 let v = VertexId::from(v);
-                let d = Vertex::new(space, metric.epsilon[v], u[v]).d;
-                let s = if space == Space::E2 { u[v] } else { std::f64::consts::LN_2 + u[v] - d.ln() };
+                let d = || Vertex::new(space, metric.epsilon[v], u[v]).d;
+                let s = if space == Space::E2 { u[v] } else { std::f64::consts::LN_2 + u[v] - d().ln() };
                 let need = "inside the metric's domain";
                 if s.is_finite() { Ok(s) } else { Err(Error::Domain { vertex: v.index(), u: u[v], need }) }
             };

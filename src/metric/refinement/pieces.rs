@@ -137,6 +137,9 @@ impl<'a> Pieces<'a> {
     fn cut_face(&mut self, f: FaceId, keep: &dyn Fn(FaceId) -> bool) -> Result<()> {
         let h = self.overlay.result.mesh.face_halfedges(f);
         let n = h.map(|h| self.overlay.result.normal.crossings(h.edge()).max(0));
+        if n == [0; 3] {
+            return self.emit_whole(h, keep);
+        }
         let Strands { arc, fan } = Strands::new(n);
         let next = |k: usize| (k + 1) % 3;
         let mut polygon: Vec<(Spot, Way)> = Vec::with_capacity(6);
@@ -187,6 +190,23 @@ impl<'a> Pieces<'a> {
         }
         around(&mut polygon, next(far));
         self.emit(h, &polygon, keep)
+    }
+
+    /// A final face that no curve crosses, which is a face of the input: what [`Pieces::emit`] makes of it.
+    fn emit_whole(&mut self, h: [HalfedgeId; 3], keep: &dyn Fn(FaceId) -> bool) -> Result<()> {
+        let mut corners = [Corner { vertex: 0, input: h[0], result: h[0] }; 3];
+        for (k, corner) in corners.iter_mut().enumerate() {
+            *corner = self.piece_corner(h, Spot::Corner(k, 0), None)?;
+        }
+        let [a, b, c] = corners.map(|corner| self.overlay.input.face(corner.input));
+        if a.is_none() || a != b || b != c {
+            return Err(torn());
+        }
+        if a.is_some_and(keep) {
+            let sides = [0, 1, 2].map(|k| self.side_part(h[k], 0));
+            self.triangulate(&sides, &corners);
+        }
+        Ok(())
     }
 
     /// Triangulate one piece, if it lies in a face of the input that is kept.

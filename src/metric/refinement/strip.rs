@@ -15,7 +15,7 @@ use super::triangulations::Final;
 use crate::error::{Error, Result};
 use crate::geometry::flip::{Hinge, Meeting};
 use crate::mesh::normal_trace::CurveCrossing;
-use crate::mesh::{Curves, EdgeId, HalfedgeId, PerEdge, VertexId};
+use crate::mesh::{Curves, HalfedgeId, PerEdge, VertexId};
 use crate::parallel;
 
 /// Least η − 1 of two circles in a strip. Across two circles that touch (η = 1) a straight line has no direction, and all lines would
@@ -68,10 +68,11 @@ impl<'a> Strips<'a> {
     /// # Errors
     /// [`Error::EdgeWeight`] at a final edge where an imaginary circle leaves no straight line.
     pub fn crossings(&self, input_ends: &[[VertexId; 2]], curves: &Curves) -> Result<Vec<Raw>> {
-        let mut found = vec![Ok(Vec::new()); input_ends.len()];
-        parallel::fill(&mut found, |e| {
-            let edge = EdgeId::from(e);
-            self.along(input_ends[e], curves.crossings(edge))
+        let crossing = curves.that_cross();
+        let mut found = vec![Ok(Vec::new()); crossing.len()];
+        parallel::fill(&mut found, |k| {
+            let e = crossing[k];
+            self.along(input_ends[e.index()], curves.crossings(e))
         });
         let mut all = Vec::with_capacity(curves.n_crossings());
         for crossings in found {
