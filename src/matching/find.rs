@@ -207,6 +207,7 @@ fn in_best_order(
     options: &MatchOptions,
     control: &Control,
 ) -> Result<([Marks; 2], Pair)> {
+    check_landmarks_beside_circles(surfaces[0], landmarks, options)?;
     let is_open = options.loops.is_none() && options.basis.is_empty() && surfaces[0].mesh().genus() > 0;
     let orders = if is_open {
         loop_orders(surfaces).into_iter().map(Some).collect()
@@ -328,6 +329,23 @@ fn matching(
         markings: pair.markings,
         domain: CommonDomain::new([pair.source, pair.target], pair.seeds, splits),
     })
+}
+
+fn check_landmarks_beside_circles(
+    source: &Surface,
+    landmarks: &[[VertexId; 2]],
+    options: &MatchOptions,
+) -> Result<()> {
+    let mesh = source.mesh();
+    let is_inside =
+        |pair: &&[VertexId; 2]| pair[0].index() < mesh.n_vertices() && !mesh.is_boundary_vertex(pair[0]);
+    let inside = landmarks.iter().filter(is_inside).count();
+    if options.loop_shape == LoopShape::Circles && inside > 0 {
+        return Err(Error::Matching(format!(
+            "{inside} landmarks inside the surfaces and round holes: landmarks inside are met where loops become geodesics"
+        )));
+    }
+    Ok(())
 }
 
 fn check_loop_shape(source: &Surface, options: &MatchOptions) -> Result<()> {

@@ -62,6 +62,7 @@ mod soft;
 mod sphere;
 mod tree;
 mod turn;
+mod untangle;
 mod walk;
 mod weights;
 

@@ -23,7 +23,8 @@ pub enum LoopShape {
     #[default]
     Geodesics,
     /// Circles: the domain is a closed flat torus or hyperbolic surface with round holes. The class, and how boundaries correspond, are those of the map onto geodesics.
-    /// Faces may fold beside a hole, which bends away from them; then the weights of the map are changed there.
+    /// Faces may fold beside a hole, which bends away from them; then the weights of the map are changed there, and where that does not open them it is an error.
+    /// Landmarks inside the surfaces are refused.
     Circles,
 }
 

@@ -3,7 +3,8 @@
 //! The target becomes such a surface ([`crate::canonical::circle_domain()`]), and the source is brought into it in the class of a map that is known, its loops onto
 //! the circles. A hole bends away from the surface around it. So a map that puts every vertex at a mean of its neighbours may fold beside it, whatever
 //! the weights are: faces are looked at, and around those that fold the weights become those by which the known map, carried over through the
-//! target's faces, is in balance.
+//! target's faces, is in balance. That one may fold too
+//! where faces are large; there single vertices are moved first.
 
 use super::balance::{BalanceReport, Freedom, balance};
 use super::canonical::not_found;
@@ -14,7 +15,8 @@ use super::pushed::Way;
 use super::repair::{around, unfold};
 use super::route::Marks;
 use super::shared::Shared;
-use super::walk::located;
+use super::untangle::untangle;
+use super::walk::{Seed, located};
 use super::weights::mean_value_weights;
 use crate::canonical::{CircleDomain, CircleDomainOptions, circle_domain};
 use crate::control::Control;
@@ -53,7 +55,7 @@ const MOST_ROUNDS: usize = 10;
 /// Both surfaces in the target's domain with round holes, in the class of `pair`. On the loops either surface gets the vertices that only the other one has.
 ///
 /// # Errors
-/// [`Error::Matching`] for surfaces without handles or boundary, where the flow does not come to its target, and where faces fold that could not be
+/// [`Error::Matching`] where the flow does not come to its target, and where faces fold that could not be
 /// opened; those of [`circle_domain`]; [`Error::Cancelled`].
 pub(super) fn in_round(
     pair: &Pair,
@@ -62,57 +64,68 @@ pub(super) fn in_round(
     options: &MatchOptions,
     control: &Control,
 ) -> Result<InRound> {
-    let Shared { pair: old, seeds, splits, surfaces: finer, marks } =
-        Shared::new(pair, (surfaces, marks), splits, control)?;
-    let (finer, marks) = ([&finer[0], &finer[1]], [&marks[0], &marks[1]]);
-    let own = |s: usize| in_own_metric(finer[s], &marks[s].loops, options, control);
+    let shared = Shared::new(pair, (surfaces, marks), splits, control)?;
+    let own = |s: usize| in_own_metric(&shared.surfaces[s], &shared.marks[s].loops, options, control);
     let (first, second) = rayon::join(|| own(0), || own(1));
-    let (source, target) = (first?, second?);
-    let weights = mean_value_weights(&source.placed, finer[0]);
-    let freedom = [0, 1].map(|s| {
-        let mut freedom = Freedom::of(finer[s].mesh(), Boundary::ArcLength);
-        marks[s].landmarks.iter().for_each(|&v| freedom[v] = Freedom::Held);
-        freedom
-    });
-    let mut domain = target.placed;
-    let own_weights = mean_value_weights(&domain, finer[1]);
-    unfold(&mut domain, &own_weights, &marks[1].landmarks, control)?;
-    let own_weights = mean_value_weights(&domain, finer[1]);
-    let target_report = balance(&mut domain, &own_weights, &freedom[1], control)?;
-    let (found, _) = located(&old[0], &old[1], seeds[0], control)?;
-    let way = Way::new([&old[0], &old[1]], (&domain, found), (finer[0], marks), (0, control))?;
-    let (carried, seeds) = way.image()?;
-    let (image, source_report) = opened(&carried, (finer[0], weights), &freedom[0], control)?;
-    let steps = [source.iterations, target.iterations];
+    let (source, Own { placed: mut domain, holes, iterations }) = (first?, second?);
+    let second = settled(&mut domain, &shared, control)?;
+    let (image, first, seeds) = image(&shared, &source.placed, &domain, control)?;
+    let steps = [source.iterations, iterations];
     let pair = Pair {
         source: image,
         target: domain,
         seeds,
-        reports: [source_report, target_report],
+        reports: [first, second],
         flow_iterations: [0, 1].map(|s| pair.flow_iterations[s] + steps[s]),
         markings: pair.markings,
     };
-    Ok(InRound { pair, splits, holes: target.holes })
+    Ok(InRound { pair, splits: shared.splits, holes })
 }
 
-/// The source in balance by weights that are its own wherever no face folds.
-fn opened(
-    carried: &Placed,
-    (surface, mut weights): (&Surface, PerHalfedge<f64>),
-    freedom: &PerVertex<Freedom>,
+/// Where the vertices of a surface with round holes may go.
+fn freedom(shared: &Shared, s: usize) -> PerVertex<Freedom> {
+    Freedom::of(shared.surfaces[s].mesh(), Boundary::ArcLength)
+}
+
+/// The target drawn with its own edges, folds opened.
+fn settled(domain: &mut Placed, shared: &Shared, control: &Control) -> Result<BalanceReport> {
+    let weights = mean_value_weights(domain, &shared.surfaces[1]);
+    unfold(domain, &weights, &[], control)?;
+    let weights = mean_value_weights(domain, &shared.surfaces[1]);
+    balance(domain, &weights, &freedom(shared, 1), control)
+}
+
+/// The source in the target's domain, in balance by weights that are those of its own metric wherever no face folds.
+fn image(
+    shared: &Shared,
+    own: &Placed,
+    domain: &Placed,
     control: &Control,
-) -> Result<(Placed, BalanceReport)> {
-    let mesh = &carried.cover.mesh;
+) -> Result<(Placed, BalanceReport, [Seed; 2])> {
+    let old = [&shared.pair[0], &shared.pair[1]];
+    let (found, _) = located(old[0], old[1], shared.seeds[0], control)?;
+    let marks = [&shared.marks[0], &shared.marks[1]];
+    let way = Way::new(old, (domain, found), (&shared.surfaces[0], marks), (0, control))?;
+    let (mut carried, seeds) = way.image()?;
+    let (mesh, freedom) = (carried.cover.mesh.clone(), freedom(shared, 0));
+    let mut weights = mean_value_weights(own, &shared.surfaces[0]);
+    let mut other: Option<PerHalfedge<f64>> = None;
     let (mut rings, mut folded) = (1, Vec::new());
-    let other = mean_value_weights(carried, surface);
     for _ in 0..MOST_ROUNDS {
         let mut image = carried.clone();
-        let report = balance(&mut image, &weights, freedom, control)?;
+        let report = balance(&mut image, &weights, &freedom, control)?;
         folded = image.flipped();
         log::debug!("{} faces fold beside round holes; next {rings} rings", folded.len());
         if folded.is_empty() {
-            return Ok((image, report));
+            return Ok((image, report, seeds));
         }
+        let other = match &other {
+            Some(other) => other,
+            None => {
+                untangle(&mut carried, &freedom, control)?;
+                other.insert(mean_value_weights(&carried, &shared.surfaces[0]))
+            }
+        };
         let is_changed = around(&image, &folded, rings);
         for v in mesh.vertices().filter(|&v| is_changed[v]) {
             mesh.outgoing(v).for_each(|h| weights[h] = other[h]);
@@ -120,9 +133,9 @@ fn opened(
         rings *= 2;
     }
     Err(Error::Matching(format!(
-        "{} faces of the source fold beside round holes and could not be opened, the first face {}: refine the surface there, or let its loops become geodesics",
+        "{} faces of the source fold beside round holes and could not be opened, the first in face {}: refine the surface there, or let its loops become geodesics",
         folded.len(),
-        folded.first().map_or(0, |f| f.index())
+        folded.first().map_or(0, |&f| shared.splits[0].place(f).0.index())
     )))
 }
 
