@@ -181,34 +181,40 @@ fn merged(
         }
         at.push(x);
     }
+    // How far one place lies past another one, around the loop.
+    let past = |x: f64, y: f64| {
+        let off = (x - y).rem_euclid(total);
+        if off > 0.5 * total { off - total } else { off }
+    };
     let gap = |i: usize| if i + 1 < at.len() { at[i + 1] - at[i] } else { at[0] + total - at[i] };
     let mut same = Vec::new();
-    let mut partner: Vec<Option<usize>> = vec![None; own.len()];
-    let mut is_same = vec![false; n];
+    let mut is_same = [vec![false; own.len()], vec![false; n]];
     for i in 0..own.len() {
         let k = nearest(&before, at[i] % total);
-        let off = (at[i] - before[k]).rem_euclid(total);
-        let off = if off > 0.5 * total { off - total } else { off };
+        let off = past(at[i], before[k]);
         let beside = [gap(i), gap((i + own.len() - 1) % own.len()), lengths[k % n], lengths[(k + n - 1) % n]];
         if off.abs() <= ONE * beside.into_iter().fold(f64::INFINITY, f64::min) {
-            (partner[i], is_same[k % n]) = (Some(k % n), true);
+            (is_same[0][i], is_same[1][k % n]) = (true, true);
             same.push([i, k % n]);
         }
     }
-    for &[i, _] in &same {
-        let k = nearest(&before, at[i] % total);
-        at[i] -= {
-            let off = (at[i] - before[k]).rem_euclid(total);
-            if off > 0.5 * total { off - total } else { off }
-        };
+    for &[i, k] in &same {
+        at[i] -= past(at[i], before[k]);
     }
+    Ok(Merged { same, added: missing((&at, &lengths, &before), &is_same) })
+}
+
+/// Where the vertices lie that only the other surface has: what the source gets, and what the target gets. `at`: of the source's vertices along the target's
+/// loop, whose edges have these lengths.
+fn missing((at, lengths, before): (&[f64], &[f64], &[f64]), is_same: &[Vec<bool>; 2]) -> [Vec<Added>; 2] {
+    let total = before[lengths.len()];
     let mut added = [Vec::new(), Vec::new()];
-    for i in (0..own.len()).filter(|&i| partner[i].is_none()) {
+    for i in (0..at.len()).filter(|&i| !is_same[0][i]) {
         let x = at[i] % total;
-        let k = before.partition_point(|y| *y <= x).clamp(1, n) - 1;
+        let k = before.partition_point(|y| *y <= x).clamp(1, lengths.len()) - 1;
         added[1].push((k, (x - before[k]) / lengths[k], i));
     }
-    for k in (0..n).filter(|&k| !is_same[k]) {
+    for k in (0..lengths.len()).filter(|&k| !is_same[1][k]) {
         let x = at[0] + (before[k] - at[0]).rem_euclid(total);
         let i = at.partition_point(|y| *y <= x).max(1) - 1;
         let end = if i + 1 < at.len() { at[i + 1] } else { at[0] + total };
@@ -216,7 +222,7 @@ fn merged(
     }
     let order = |a: &Added, b: &Added| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1));
     added.iter_mut().for_each(|added| added.sort_by(order));
-    Ok(Merged { same, added })
+    added
 }
 
 /// The number of the vertex of a loop that is nearest, its last one being its first.

@@ -177,13 +177,11 @@ static void check_basis(const ricci_mesh *torus) {
 
 /* Loops of a torus become circles where that is asked for. */
 static void check_circles(const ricci_mesh *disk) {
-    ricci_mesh *holes = NULL;
+    ricci_mesh *torus = NULL, *holes = NULL;
     ricci_matching *matching = NULL;
     ricci_match_options options;
-    ricci_shape_options shape;
-    INIT(shape);
-    shape.kind = RICCI_SHAPE_TORUS, shape.holes = 2;
-    OK(ricci_shape(&shape, &holes));
+    OK(make_sized(RICCI_SHAPE_TORUS, 36, 18, 2, 0.8, 0, &torus));
+    OK(change(torus, RICCI_CHANGE_PUNCH, 2, 0, 0, &holes));
     OK(ricci_match(holes, holes, NULL, NULL, &matching));
     CHECK(summary_of(matching).n_circles == 0 && summary_of(matching).roundness == 0);
     ricci_matching_free(matching);
@@ -199,6 +197,7 @@ static void check_circles(const ricci_mesh *disk) {
     FAILS(ricci_match(holes, holes, &options, NULL, &matching), RICCI_ARGUMENT, "shape");
     CHECK(matching == NULL);
     ricci_mesh_free(holes);
+    ricci_mesh_free(torus);
 }
 
 int main(void) {
