@@ -14,8 +14,8 @@ use crate::structs::{self, sized};
 use ricci::Surface;
 use ricci::flow::Options;
 use ricci::matching::{
-    Boundary, MapQuality, MatchOptions, Matching, Place, SoftLandmark, SurfaceMap, cycle_error, map_quality,
-    match_surfaces, point_error,
+    Boundary, LoopShape, MapQuality, MatchOptions, Matching, Place, SoftLandmark, SurfaceMap, cycle_error,
+    map_quality, match_surfaces, point_error,
 };
 use ricci::mesh::{FaceId, HalfedgeId, VertexId};
 
@@ -38,6 +38,11 @@ enum Direction {
 choices!(BOUNDARIES: Boundary = "correspondence of boundaries", [
     RICCI_MATCH_SLIDES => Boundary::Slides,
     RICCI_MATCH_ARC_LENGTH => Boundary::ArcLength,
+]);
+
+choices!(LOOP_SHAPES: LoopShape = "shape of boundary loops", [
+    RICCI_MATCH_GEODESICS => LoopShape::Geodesics,
+    RICCI_MATCH_CIRCLES => LoopShape::Circles,
 ]);
 
 choices!(DIRECTIONS: Direction = "direction of a matching", [
@@ -64,7 +69,7 @@ pub struct ricci_match_options {
     pub soft_weights: *const f64,
     pub n_soft: usize,
     pub boundary: u32,
-    pub reserved: u32,
+    pub loop_shape: u32,
     pub basis: *const i32,
     pub basis_sizes: *const u32,
     pub n_basis: usize,
@@ -98,6 +103,8 @@ pub struct ricci_matching_summary {
     pub n_points: usize,
     pub n_soft: usize,
     pub point_error: f64,
+    pub n_circles: usize,
+    pub roundness: f64,
 }
 // SAFETY: numbers; 8-byte alignment, size first.
 sized!(ricci_matching_summary, "summary");
@@ -135,6 +142,7 @@ pub unsafe extern "C" fn ricci_match(
             landmarks: pairs.into_iter().map(|pair| pair.map(VertexId)).collect(),
             loops: (!loops.is_empty()).then(|| loops.into_iter().map(|k| k as usize).collect()),
             boundary: BOUNDARIES.choose(given.boundary)?,
+            loop_shape: LOOP_SHAPES.choose(given.loop_shape)?,
             flow: Options { threads: given.threads, ..Options::default() },
         };
         let (source, target) = (source.surface()?, target.surface()?);
@@ -232,6 +240,8 @@ pub unsafe extern "C" fn ricci_matching_summarise(
             n_points: matching.points.len(),
             n_soft: matching.soft_left.len(),
             point_error: *point_error,
+            n_circles: matching.holes.len(),
+            roundness: matching.holes.iter().map(|hole| hole.deviation).fold(0.0, f64::max),
         };
         structs::write(figures, summary, size)
     })

@@ -37,6 +37,14 @@ enum {
     RICCI_MATCH_ARC_LENGTH = 1
 };
 
+/** What the boundary loops of surfaces with handles become in the domain. */
+enum {
+    /** Geodesics of a hyperbolic metric: no map onto them folds. */
+    RICCI_MATCH_GEODESICS = 0,
+    /** Circles: the domain is a closed flat or hyperbolic surface with round holes. */
+    RICCI_MATCH_CIRCLES = 1
+};
+
 /** What ricci_match can be asked; zeros are the defaults. */
 typedef struct ricci_match_options {
     /** sizeof(ricci_match_options), by ricci_init. */
@@ -80,8 +88,8 @@ typedef struct ricci_match_options {
     size_t n_soft;
     /** How boundaries go to each other: RICCI_MATCH_SLIDES, RICCI_MATCH_ARC_LENGTH. */
     uint32_t boundary;
-    /** 0. */
-    uint32_t reserved;
+    /** What boundary loops become: RICCI_MATCH_GEODESICS, RICCI_MATCH_CIRCLES. */
+    uint32_t loop_shape;
     /**
      * Pairs of closed edge paths that name the homotopy class of a map of surfaces with handles, which brings
      * each to its partner; of each pair first the edges on the source, then those on the target: 1-based,
@@ -159,6 +167,10 @@ typedef struct ricci_matching_summary {
     size_t n_soft;
     /** Largest distance of such a point's image from its partner, over the diagonal of the target. */
     double point_error;
+    /** Boundary loops that are circles of the domain. */
+    size_t n_circles;
+    /** Largest distance of a vertex of such a loop from its circle, as a share of the radius. */
+    double roundness;
 } ricci_matching_summary;
 
 /**

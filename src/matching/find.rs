@@ -2,12 +2,13 @@
 
 use super::balance::BalanceReport;
 use super::handles::with_handles;
-use super::marks::marks;
-use super::options::MatchOptions;
+use super::marks::{loop_orders, marks};
+use super::options::{LoopShape, MatchOptions};
 use super::orbifold::{Pair, in_orbifold, shape};
 use super::overlay::CommonDomain;
 use super::place::SurfaceMap;
 use super::pushed::pushed;
+use super::round::{InRound, RoundHole, in_round};
 use super::route::Marks;
 use super::same::{cones_of_same, in_frames_of_faces};
 use super::soft::{self, Approach, SoftLandmark};
@@ -36,6 +37,8 @@ pub struct Matching {
     pub soft_left: Vec<f64>,
     /// Where the domain of the target lies.
     pub space: Space,
+    /// The boundary loops as circles of the domain, in the order of the source's; empty where they are none.
+    pub holes: Vec<RoundHole>,
     /// Faces of the source that are not counterclockwise in the domain of the target, from positions with twice the digits of doubles. Without any,
     /// and with [`Matching::target_flipped`] empty, the map is a homeomorphism. Both are empty in what [`match_surfaces`] returns: where it finds such faces,
     /// that is its error. They stand here so that reports say what was counted.
@@ -70,6 +73,7 @@ pub fn match_surfaces(
 ) -> Result<Matching> {
     control.check()?;
     check_topology(source, target)?;
+    check_loop_shape(source, options)?;
     if options.soft.is_empty() {
         return match_hard([source, target], options, control);
     }
@@ -104,6 +108,8 @@ pub fn match_surfaces(
     Ok(first)
 }
 
+/// Share of a triangle by which a vertex may lie outside a domain with round holes: rounding.
+const OUTSIDE: f64 = 1e-6;
 /// Times that the ways of soft landmarks are halved where they are in conflict.
 const MOST_HALVINGS: usize = 4;
 
@@ -121,14 +127,25 @@ fn match_hard(
     let surfaces = [splits[0].surface()?, splits[1].surface()?];
     let surfaces = [&surfaces[0], &surfaces[1]];
     let landmarks: Vec<[VertexId; 2]> = from.into_iter().zip(to).map(|(a, b)| [a, b]).collect();
-    let marks = marks(surfaces, &landmarks, options.loops.as_deref())?;
     let options =
         &MatchOptions { basis: basis([&splits[0], &splits[1]], &options.basis)?, ..options.clone() };
     let added = landmarks[options.landmarks.len()..].iter().map(|pair| pair[0]);
     let points: Vec<(VertexId, Place)> = added.zip(points.iter().map(|pair| pair[1])).collect();
     Pool::new(options.flow.threads)?.run(|| {
-        let pair = in_one_domain(surfaces, [&marks[0], &marks[1]], options, control)?;
-        matching(pair, [&splits[0], &splits[1]], &points, control)
+        let (marks, pair) = in_best_order(surfaces, &landmarks, options, control)?;
+        let (marks, splits) = ([&marks[0], &marks[1]], [&splits[0], &splits[1]]);
+        if options.loop_shape == LoopShape::Geodesics {
+            return matching(pair, splits, &points, control);
+        }
+        let InRound { pair, splits, holes } = in_round(&pair, (surfaces, marks), splits, options, control)?;
+        let matching = matching(pair, [&splits[0], &splits[1]], &points, control)?;
+        if matching.outside > OUTSIDE {
+            return Err(Error::Matching(format!(
+                "a vertex lies outside the other surface's domain with round holes by {:.1e} of a triangle",
+                matching.outside
+            )));
+        }
+        Ok(Matching { holes, ..matching })
     })
 }
 
@@ -178,6 +195,50 @@ fn on_given(place: Place, to: &Split) -> Place {
     let (face, corners) = to.place(place.face);
     let weights = std::array::from_fn(|c| (0..3).map(|k| place.weights[k] * corners[k][c]).sum());
     Place { face, weights }
+}
+
+/// Energy of the source in the target's domain over that of the target itself, below which no other order of loops is looked for.
+const UNTWISTED: f64 = 1.05;
+
+/// What corresponds, and both surfaces in one domain: of the orders of loops that are left open, on surfaces with handles, with the one of least energy.
+fn in_best_order(
+    surfaces: [&Surface; 2],
+    landmarks: &[[VertexId; 2]],
+    options: &MatchOptions,
+    control: &Control,
+) -> Result<([Marks; 2], Pair)> {
+    check_landmarks_beside_circles(surfaces[0], landmarks, options)?;
+    let is_open = options.loops.is_none() && options.basis.is_empty() && surfaces[0].mesh().genus() > 0;
+    let orders = if is_open {
+        loop_orders(surfaces).into_iter().map(Some).collect()
+    } else {
+        vec![options.loops.clone()]
+    };
+    let (mut best, mut failure, mut tried) = (None::<([Marks; 2], Pair)>, None, 0);
+    for order in orders {
+        let found = marks(surfaces, landmarks, order.as_deref()).and_then(|marks| {
+            let pair = in_one_domain(surfaces, [&marks[0], &marks[1]], options, control)?;
+            Ok((marks, pair))
+        });
+        match found {
+            Ok((marks, pair)) => {
+                tried += pair.markings;
+                if best.as_ref().is_none_or(|(_, least)| pair.twist() < least.twist()) {
+                    best = Some((marks, pair));
+                }
+            }
+            Err(why @ Error::Matching(_)) => failure = failure.or(Some(why)),
+            Err(other) => return Err(other),
+        }
+        if best.as_ref().is_some_and(|(_, pair)| pair.twist() < UNTWISTED) {
+            break;
+        }
+    }
+    match (best, failure) {
+        (Some((marks, pair)), _) => Ok((marks, Pair { markings: tried, ..pair })),
+        (None, Some(why)) => Err(why),
+        (None, None) => Err(Error::Matching("no order of the boundary loops".into())),
+    }
 }
 
 fn in_one_domain(
@@ -259,6 +320,7 @@ fn matching(
         points: images,
         soft_left: Vec::new(),
         space: pair.source.cover.space,
+        holes: Vec::new(),
         flipped,
         target_flipped,
         outside: ahead.max(back),
@@ -267,6 +329,34 @@ fn matching(
         markings: pair.markings,
         domain: CommonDomain::new([pair.source, pair.target], pair.seeds, splits),
     })
+}
+
+fn check_landmarks_beside_circles(
+    source: &Surface,
+    landmarks: &[[VertexId; 2]],
+    options: &MatchOptions,
+) -> Result<()> {
+    let mesh = source.mesh();
+    let is_inside =
+        |pair: &&[VertexId; 2]| pair[0].index() < mesh.n_vertices() && !mesh.is_boundary_vertex(pair[0]);
+    let inside = landmarks.iter().filter(is_inside).count();
+    if options.loop_shape == LoopShape::Circles && inside > 0 {
+        return Err(Error::Matching(format!(
+            "{inside} landmarks inside the surfaces and round holes: landmarks inside are met where loops become geodesics"
+        )));
+    }
+    Ok(())
+}
+
+fn check_loop_shape(source: &Surface, options: &MatchOptions) -> Result<()> {
+    let (mesh, loops) = (source.mesh(), source.mesh().boundary_loops().len());
+    if options.loop_shape == LoopShape::Circles && (mesh.genus() == 0 || loops == 0) {
+        return Err(Error::Matching(format!(
+            "loops become circles on surfaces with handles and boundary; these have genus {} and {loops} boundary loops",
+            mesh.genus()
+        )));
+    }
+    Ok(())
 }
 
 fn check_topology(source: &Surface, target: &Surface) -> Result<()> {

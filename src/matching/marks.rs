@@ -19,7 +19,7 @@ pub(super) fn marks(
     check_landmarks(surfaces, landmarks)?;
     let loops = [0, 1].map(|s| loops(surfaces[s]));
     let order = match order {
-        None => by_length(&loops),
+        None => orders(&loops).swap_remove(0),
         Some(order) => {
             let n = loops[0].len();
             let mut seen = vec![false; n];
@@ -103,6 +103,45 @@ fn loops(surface: &Surface) -> Vec<(Vec<HalfedgeId>, f64)> {
         (around.first().map_or(Vec::new(), |h| mesh.boundary_from(h.twin())), length)
     };
     mesh.boundary_loops().into_iter().map(of).collect()
+}
+
+/// Lengths of loops that differ by no more than this share say nothing about which loops correspond.
+const LIKE: f64 = 0.05;
+/// Most orders of loops that are compared.
+const MOST_ORDERS: usize = 6;
+
+/// The target's loop for each of the source's, as lengths leave it open: by descending length, and after that the orders in which loops of like lengths change places;
+/// that alone where there are more than a few.
+pub(super) fn loop_orders(surfaces: [&Surface; 2]) -> Vec<Vec<usize>> {
+    orders(&[loops(surfaces[0]), loops(surfaces[1])])
+}
+
+fn orders(loops: &[Vec<(Vec<HalfedgeId>, f64)>; 2]) -> Vec<Vec<usize>> {
+    let first = by_length(loops);
+    let mut all = vec![first.clone()];
+    let like = |x: f64, y: f64| (x - y).abs() <= LIKE * x.max(y);
+    let mut done = 0;
+    while done < all.len() {
+        let order = all[done].clone();
+        done += 1;
+        for i in 0..order.len() {
+            for j in i + 1..order.len() {
+                let alike = (0..2).all(|s| {
+                    let [a, b] = if s == 0 { [i, j] } else { [order[i], order[j]] };
+                    like(loops[s][a].1, loops[s][b].1)
+                });
+                let mut next = order.clone();
+                next.swap(i, j);
+                if alike && !all.contains(&next) {
+                    all.push(next);
+                }
+                if all.len() > MOST_ORDERS {
+                    return vec![first];
+                }
+            }
+        }
+    }
+    all
 }
 
 /// The target's loop for each of the source's: by descending length.

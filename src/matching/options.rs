@@ -16,6 +16,18 @@ pub enum Boundary {
     ArcLength,
 }
 
+/// What the boundary loops of surfaces with handles become in the domain.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum LoopShape {
+    /// Closed geodesics of a hyperbolic metric, or straight sides between landmarks on them: no map onto them folds.
+    #[default]
+    Geodesics,
+    /// Circles: the domain is a closed flat torus or hyperbolic surface with round holes. The class, and how boundaries correspond, are those of the map onto geodesics.
+    /// Faces may fold beside a hole, which bends away from them; then the weights of the map are changed there, and where that does not open them it is an error.
+    /// Landmarks inside the surfaces are refused.
+    Circles,
+}
+
 /// Options of [`super::match_surfaces`].
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct MatchOptions {
@@ -37,10 +49,13 @@ pub struct MatchOptions {
     /// which they are pushed to their partners. Without any loops, a class of low energy is searched.
     pub basis: Vec<[Vec<HalfedgeId>; 2]>,
     /// Which boundary loop of the target each of the source's goes to, by their places in [`crate::mesh::Mesh::boundary_loops`]. Default: the
-    /// longest to the longest, and so on.
+    /// longest to the longest, and so on; on surfaces with handles also other orders of loops of like lengths, if these leave no more than six orders open, and of
+    /// all the one with the least energy.
     pub loops: Option<Vec<usize>>,
     /// How boundaries correspond.
     pub boundary: Boundary,
+    /// What boundary loops of surfaces with handles become.
+    pub loop_shape: LoopShape,
     /// Tolerance, steps and threads of the flows to the canonical metrics.
     pub flow: Options,
 }

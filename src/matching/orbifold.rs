@@ -62,6 +62,13 @@ pub(super) struct Pair {
     pub markings: usize,
 }
 
+impl Pair {
+    /// Energy of the source in the target's domain over that of the target.
+    pub fn twist(&self) -> f64 {
+        self.reports[0].energy / self.reports[1].energy.max(f64::MIN_POSITIVE)
+    }
+}
+
 /// Both surfaces with their landmarks, loops and corners.
 #[derive(Clone, Copy)]
 struct Problem<'a> {

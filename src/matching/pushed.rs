@@ -164,7 +164,7 @@ fn in_own_orbifold(
 }
 
 /// The source as it lies in the old domain of the target, and the new one.
-struct Way<'a> {
+pub(super) struct Way<'a> {
     /// Source and target in the old domain.
     old: [&'a Placed; 2],
     new: &'a Placed,
@@ -180,7 +180,7 @@ struct Way<'a> {
 }
 
 impl<'a> Way<'a> {
-    fn new(
+    pub fn new(
         old: [&'a Placed; 2],
         (new, mut found): (&'a Placed, Vec<Found>),
         (surface, marks): (&Surface, [&'a Marks; 2]),
@@ -208,9 +208,10 @@ impl<'a> Way<'a> {
     }
 
     /// The source in the new domain, and where to look for it.
-    fn image(&self) -> Result<(Placed, [Seed; 2])> {
+    pub fn image(&self) -> Result<(Placed, [Seed; 2])> {
         let mesh = &self.old[0].cover.mesh;
-        let mut along = PerHalfedge::filled(mesh.n_halfedges(), Motion::identity(Space::H2));
+        let space = self.new.cover.space;
+        let mut along = PerHalfedge::filled(mesh.n_halfedges(), Motion::identity(space));
         for e in mesh.edges() {
             let h = e.halfedge();
             along[h] = self.along(h)?;
@@ -234,7 +235,7 @@ impl<'a> Way<'a> {
             let motion = corners[own].compose(&corners[other].inverse()).normalised();
             (motion.distance_from_identity() > IDENTITY).then_some(motion)
         };
-        let cover = Cover::new(mesh, Space::H2, across, &[start])?;
+        let cover = Cover::new(mesh, space, across, &[start])?;
         let at = PerVertex::from_fn(mesh.n_vertices(), |v: VertexId| {
             corners[cover.own(v)].compose(&at[v]).normalised()
         });
@@ -279,8 +280,11 @@ impl<'a> Way<'a> {
             let place = self.found[v.index()].place;
             let corners = self.new.corners(place.face).map(|p| p.map(f64::from));
             let [x, y, w] = [0, 1, 2].map(|i| (0..3).map(|k| place.weights[k] * corners[k][i]).sum::<f64>());
-            let size = ((w - x) * (w + x) - y * y).max(f64::MIN_POSITIVE).sqrt();
-            Placed::frame(Space::H2, [x / size, y / size, w / size])
+            let size = match self.new.cover.space {
+                Space::H2 => ((w - x) * (w + x) - y * y).max(f64::MIN_POSITIVE).sqrt(),
+                _ => w,
+            };
+            Placed::frame(self.new.cover.space, [x / size, y / size, w / size])
         });
         for (&from, &to) in self.marks[0].landmarks.iter().zip(&self.marks[1].landmarks) {
             at[from] = self.new.at[to];
@@ -299,7 +303,8 @@ impl<'a> Way<'a> {
         along: &PerHalfedge<Motion<Twofold>>,
         (start, at): (HalfedgeId, &PerVertex<Motion<Twofold>>),
     ) -> Result<PerHalfedge<Motion<Twofold>>> {
-        let mut corners = PerHalfedge::filled(mesh.n_halfedges(), Motion::identity(Space::H2));
+        let space = self.new.cover.space;
+        let mut corners = PerHalfedge::filled(mesh.n_halfedges(), Motion::identity(space));
         for f in mesh.faces() {
             let sides = mesh.face_halfedges(f);
             let is_free = |h: &HalfedgeId| self.landmark[mesh.origin(*h)].is_none();

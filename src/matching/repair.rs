@@ -59,7 +59,7 @@ pub(super) fn unfold(
 }
 
 /// The vertices of some faces and of so many rings around them.
-fn around(placed: &Placed, faces: &[FaceId], rings: usize) -> PerVertex<bool> {
+pub(super) fn around(placed: &Placed, faces: &[FaceId], rings: usize) -> PerVertex<bool> {
     let mesh = &placed.cover.mesh;
     let mut inside = PerVertex::filled(mesh.n_vertices(), false);
     let mut last: Vec<VertexId> = Vec::new();

@@ -100,7 +100,7 @@ impl Rims {
             // Counted on around the loop.
             let mut at: Vec<(usize, f64)> = Vec::with_capacity(own.len());
             for &h in &own {
-                let (mut k, share) = target.put(old, &mut found[mesh.origin(h).index()])?;
+                let (mut k, share) = put(around, old, &mut found[mesh.origin(h).index()])?;
                 while at.last().is_some_and(|last| (k, share) < *last) {
                     k += around.len();
                 }
@@ -143,34 +143,34 @@ impl Rims {
     }
 }
 
-impl Loop<'_> {
-    /// Puts a vertex that was found near the boundary onto it: the number of the half-edge of the loop, and the share of that before the vertex.
-    fn put(&self, old: &Placed, found: &mut Found) -> Result<(usize, f64)> {
-        let mesh = &old.cover.mesh;
-        let (sides, weights) = (mesh.face_halfedges(found.place.face), found.place.weights);
-        for c in 0..3 {
-            let (a, b) = (weights[c], weights[(c + 1) % 3]);
-            let number = self.around.iter().position(|h| *h == sides[c]);
-            if let Some(k) = number.filter(|_| weights[(c + 2) % 3] <= ON_SIDE) {
-                return Ok((k, b / (a + b)));
-            }
+/// Puts a vertex that was found near the boundary onto it: the number of the half-edge of the loop, and the share of that before the vertex.
+pub(super) fn put(around: &[HalfedgeId], old: &Placed, found: &mut Found) -> Result<(usize, f64)> {
+    let mesh = &old.cover.mesh;
+    let (sides, weights) = (mesh.face_halfedges(found.place.face), found.place.weights);
+    for c in 0..3 {
+        let (a, b) = (weights[c], weights[(c + 1) % 3]);
+        let number = around.iter().position(|h| *h == sides[c]);
+        if let Some(k) = number.filter(|_| weights[(c + 2) % 3] <= ON_SIDE) {
+            return Ok((k, b / (a + b)));
         }
-        let nearest = (0..3).max_by(|&i, &j| weights[i].total_cmp(&weights[j])).unwrap_or(0);
-        let v = mesh.origin(sides[nearest]);
-        let Some(k) = self.around.iter().position(|&h| mesh.origin(h) == v) else {
-            return Err(Error::Matching(format!(
-                "a vertex of the boundary lies inside face {} of the target",
-                found.place.face
-            )));
-        };
-        let (face, corner) = mesh.corner(self.around[k]).unwrap_or((found.place.face, nearest));
-        if let Some(motion) = old.cover.corner(sides[nearest]) {
-            found.copy = motion.inverse().compose(&found.copy).normalised();
-        }
-        found.place = Place { face, weights: std::array::from_fn(|c| f64::from(c == corner)) };
-        Ok((k, 0.0))
     }
+    let nearest = (0..3).max_by(|&i, &j| weights[i].total_cmp(&weights[j])).unwrap_or(0);
+    let v = mesh.origin(sides[nearest]);
+    let Some(k) = around.iter().position(|&h| mesh.origin(h) == v) else {
+        return Err(Error::Matching(format!(
+            "a vertex of the boundary lies inside face {} of the target",
+            found.place.face
+        )));
+    };
+    let (face, corner) = mesh.corner(around[k]).unwrap_or((found.place.face, nearest));
+    if let Some(motion) = old.cover.corner(sides[nearest]) {
+        found.copy = motion.inverse().compose(&found.copy).normalised();
+    }
+    found.place = Place { face, weights: std::array::from_fn(|c| f64::from(c == corner)) };
+    Ok((k, 0.0))
+}
 
+impl Loop<'_> {
     /// Where the vertices go so that corners go to corners, those between them by their share of the length, on the way along the loop that is shortest for
     /// the corners: the number of a half-edge, counted on around the loop, and the length before the vertex there.
     fn between_corners(

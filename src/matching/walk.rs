@@ -4,7 +4,7 @@
 //! Walks take half as long as boxes for all vertices: 35 ms against 80 ms for 7,207 on a sphere, 77 ms against 120 ms for 10,242.
 
 use super::boxes::Boxes;
-use super::cover::{Placed, determinant, seen_from};
+use super::cover::{Placed, determinant, logarithm, seen_from};
 use crate::control::{Control, Stage};
 use crate::error::{Error, Result};
 use crate::geometry::{Motion, Twofold};
@@ -139,7 +139,7 @@ impl Walker<'_> {
         Ok(worst)
     }
 
-    /// From the face of a half-edge to the face that a point lies in; of a point beyond the boundary, to one at the boundary.
+    /// From the face of a half-edge to the face that a point lies in; of a point beyond the boundary by no more than rounding, to one at the boundary.
     fn walk(&self, near: HalfedgeId, copy: Motion<Twofold>, point: Motion<Twofold>) -> Result<Found> {
         let mut at = Stand { near, copy, point };
         for step in 0..MOST_STEPS {
@@ -150,7 +150,18 @@ impl Walker<'_> {
             let mut out: Vec<usize> = order.into_iter().filter(|&k| parts.is_out(k)).collect();
             out.sort_by(|&i, &j| parts.of[i].total_cmp(&parts.of[j]));
             let leave = out.iter().map(|&k| sides[(k + 1) % 3]).find(|&h| self.goes_on(h));
-            let Some(h) = leave else { return Ok(self.found(&at, &parts)) };
+            let Some(h) = leave else {
+                let found = self.found(&at, &parts);
+                if found.outside <= NEARLY_INSIDE {
+                    return Ok(found);
+                }
+                let rim = out.iter().map(|&k| sides[(k + 1) % 3]).find(|&h| !self.goes_on(h));
+                match rim.and_then(|h| self.past_hole(&at, h)) {
+                    Some(beyond) => at = beyond,
+                    None => return Ok(found),
+                }
+                continue;
+            };
             at = self.across(&at, h);
         }
         let start = Stand { near, copy, point };
@@ -161,6 +172,30 @@ impl Walker<'_> {
             );
             Error::Matching(message)
         })
+    }
+
+    /// The straight way leads through a hole, into it across a half-edge: from where on its rim the point is nearest, the way does not meet it again. `None` where
+    /// that is here.
+    fn past_hole(&self, from: &Stand, rim: HalfedgeId) -> Option<Stand> {
+        let mesh = &self.domain.cover.mesh;
+        let far = |at: &Stand| {
+            let [x, y] = logarithm(at.point.space, seen_from(&self.domain.frame_at(at.near), &at.point));
+            x.hypot(y)
+        };
+        let mut at = Stand { near: rim, ..*from };
+        let ends = [rim, mesh.next(rim)].map(|near| far(&Stand { near, ..at }));
+        let (mut nearest, mut least) = (None, ends[0].min(ends[1]));
+        for _ in 0..mesh.n_halfedges() {
+            let next = mesh.next(at.near);
+            at = if self.goes_on(next) { self.across(&at, next) } else { Stand { near: next, ..at } };
+            if at.near == rim {
+                break;
+            }
+            if !self.goes_on(next) && far(&at) < least {
+                (nearest, least) = (Some(at), far(&at));
+            }
+        }
+        nearest
     }
 
     /// The face that holds a point, of all whose boxes do, in the opened domain and in the copies of it across its sides.

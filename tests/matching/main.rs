@@ -8,4 +8,5 @@ mod errors;
 mod known;
 mod landmarks;
 mod overlay;
+mod round;
 mod samples;

@@ -3,7 +3,7 @@
 use crate::options::{Common, FileName, MeshArgs};
 use crate::picture::PictureArgs;
 use clap::{Args, ValueEnum};
-use ricci::matching::Boundary;
+use ricci::matching::{Boundary, LoopShape};
 use serde::Serialize;
 use std::path::PathBuf;
 
@@ -16,7 +16,7 @@ Example: a torus onto a thicker one, and the first in the shape of the second
 The two surfaces have the same genus and the same number of boundary loops. The target gets its metric of constant curvature, with cones at the
 landmarks and straight boundaries, and the source goes into it by a harmonic map with positive weights, which folds no face. Of the homotopy classes that
 landmarks and loops leave open one of low energy is taken, or that which --basis names. Boundaries slide along each other between landmarks on them, or go to each other by
-shares of their length. Spheres without landmarks are
+shares of their length; with --loop-shape circles they become round holes of a closed surface. Spheres without landmarks are
 turned until their conformal factors fit best.
 
 Files
@@ -74,6 +74,25 @@ impl From<BoundaryName> for Boundary {
     }
 }
 
+/// What boundary loops become in the domain.
+#[derive(ValueEnum, Serialize, Debug, Clone, Copy, PartialEq, Eq)]
+#[serde(rename_all = "lowercase")]
+pub enum LoopShapeName {
+    /// Geodesics of a hyperbolic metric, onto which no map folds
+    Geodesics,
+    /// Circles: the domain is a closed flat or hyperbolic surface with round holes
+    Circles,
+}
+
+impl From<LoopShapeName> for LoopShape {
+    fn from(name: LoopShapeName) -> LoopShape {
+        match name {
+            LoopShapeName::Geodesics => LoopShape::Geodesics,
+            LoopShapeName::Circles => LoopShape::Circles,
+        }
+    }
+}
+
 #[derive(Args, Serialize, Debug)]
 pub struct MatchArgs {
     #[command(flatten)]
@@ -107,6 +126,9 @@ pub struct MatchArgs {
     /// How boundaries correspond between landmarks on them
     #[arg(long, value_enum, default_value = "slides")]
     pub boundary: BoundaryName,
+    /// What boundary loops of surfaces with handles become in the domain
+    #[arg(long, value_enum, default_value = "geodesics")]
+    pub loop_shape: LoopShapeName,
     /// Vertices with the same number correspond: the report says how far from its partner each comes to lie
     #[arg(long)]
     pub same_numbering: bool,

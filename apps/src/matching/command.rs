@@ -47,6 +47,7 @@ pub fn execute(args: &MatchArgs, control: &Control) -> Result<Done<Found>, Failu
         basis: args.basis.as_deref().map_or(Ok(Vec::new()), |path| marks::read_basis(path, meshes))?,
         loops: (!args.loops.is_empty()).then(|| args.loops.clone()),
         boundary: args.boundary.into(),
+        loop_shape: args.loop_shape.into(),
         flow: flow::Options { threads: args.common.threads, ..flow::Options::default() },
     };
     let mut seconds = input.seconds;

@@ -4,14 +4,18 @@ use crate::input::Input;
 use crate::report::{Attempts, Checks, Done, Figures, Seconds};
 use crate::say;
 use ricci::geometry::vector::{diagonal, distance};
-use ricci::matching::{MapQuality, Matching, cycle_error, map_quality, point_error, uncovered};
+use ricci::geometry::{Space, model, worse};
+use ricci::matching::{MapQuality, Matching, RoundHole, cycle_error, map_quality, point_error, uncovered};
 use ricci::mesh::VertexId;
 use ricci::metric::Overlay;
+use serde_json::{Value, json};
 
 /// Distance of a landmark's image from its partner that passes, as a share of the diagonal of the target's bounding box.
 const LANDMARK: f64 = 1e-8;
 /// Share of the area of a surface by which an overlay may miss it.
 const AREA: f64 = 1e-10;
+/// Largest distance of a vertex from the circle of its loop that passes, as a share of the radius.
+const ROUND: f64 = 1e-9;
 /// Sum of the weights of a place that passes, as its difference from 1.
 const WEIGHTS: f64 = 1e-12;
 
@@ -99,6 +103,10 @@ impl Found {
         if self.overlay.is_some() {
             checks.add("overlay_area", self.uncovered[0].max(self.uncovered[1]), AREA);
         }
+        if !self.matching.holes.is_empty() {
+            let off = self.matching.holes.iter().map(|hole| hole.deviation);
+            checks.add("roundness", off.fold(0.0, worse), ROUND);
+        }
         checks.add("weights", off.fold(0.0, f64::max), WEIGHTS);
         checks
     }
@@ -130,6 +138,7 @@ impl Found {
             .if_some("overlay_faces", self.overlay.as_ref().map(|o| o.mesh.n_faces()))
             .if_some("overlay_crossings", self.overlay.as_ref().map(|o| o.crossings.len()))
             .if_some("overlay_uncovered", self.overlay.as_ref().map(|_| self.uncovered.to_vec()))
+            .if_some("circles", circles(m))
             .with("outside", m.outside)
             .with("markings", m.markings)
             .with("energy", first.energy)
@@ -156,6 +165,18 @@ impl Found {
             self.cycle[1],
         )
     }
+}
+
+/// The loops as circles; none where they are geodesics.
+fn circles(matching: &Matching) -> Option<Vec<Value>> {
+    let circle = |hole: &RoundHole| {
+        let center = match matching.space {
+            Space::H2 => model::poincare(hole.center),
+            _ => [hole.center[0], hole.center[1]],
+        };
+        json!({"loop": hole.boundary_loop, "center": center, "radius": hole.radius, "deviation": hole.deviation})
+    };
+    Some(matching.holes.iter().map(circle).collect()).filter(|all: &Vec<Value>| !all.is_empty())
 }
 
 /// What is printed.

@@ -121,6 +121,24 @@ fn points_curves_and_soft_landmarks_come_from_files() {
 }
 
 #[test]
+fn loops_become_circles_and_the_report_says_how_round_they_are() {
+    let place = Place::new();
+    place.expect(0, "make torus --small 0.3 --holes 1 -o thin.obj");
+    place.expect(0, "make torus --small 0.5 --holes 1 -o thick.obj");
+    place.expect(0, "match thin.obj thick.obj --loop-shape circles --domains D.png --report R.json");
+    let report = place.json("R.json");
+    let circles = report["result"]["circles"].as_array().unwrap();
+    assert!(circles.len() == 1 && circles[0]["loop"] == 0);
+    assert!(circles[0]["deviation"].as_f64().unwrap() < 1e-9 && circles[0]["radius"].as_f64().unwrap() > 0.0);
+    assert_eq!(
+        (&report["result"]["space"], &report["result"]["flipped_triangles"]),
+        (&"e2".into(), &0.into())
+    );
+    place.expect(0, "match thin.obj thick.obj --report R.json");
+    assert!(place.json("R.json")["result"].get("circles").is_none());
+}
+
+#[test]
 fn loops_name_the_class_of_a_map() {
     let place = Place::new();
     place.expect(0, "make torus --big 2 --small 0.8 -n 24 -m 12 -o torus.obj");
@@ -192,6 +210,30 @@ fn what_cannot_be_matched_is_refused_by_name() {
     place.put("P.csv", "0,0.5,0.75,-0.25,0,0.5,0.25,0.25\n");
     let said = place.expect(2, "match disk.obj disk.obj --points P.csv");
     assert!(said.err.contains("weights of a point is [0.5, 0.75, -0.25]"), "{}", said.err);
+    // Curves: across no edge, closed on one surface only, in conflict with a landmark.
+    let curve = |rows: &[(&str, &str)]| -> String {
+        let lines = rows.iter().map(|(surface, vertex)| format!("0,{surface},{vertex}\n"));
+        format!("curve,surface,vertex\n{}", lines.collect::<String>())
+    };
+    let short = [("source", "0"), ("source", "1"), ("target", "0"), ("target", "2")];
+    let far = rim.to_string();
+    let jump = [("source", "0"), ("source", &far), ("target", "0"), ("target", "2")];
+    place.put("K.csv", &curve(&jump));
+    let said = place.expect(3, "match disk.obj disk.obj --curves K.csv");
+    assert!(said.err.contains("curve 0"), "{}", said.err);
+    let closed = [&short[..], &[("target", "1"), ("target", "0")]].concat();
+    place.put("K.csv", &curve(&closed));
+    let said = place.expect(3, "match disk.obj disk.obj --curves K.csv");
+    assert!(said.err.contains("curve 0 closes on one surface"), "{}", said.err);
+    place.put("K.csv", &curve(&short));
+    place.put("L.csv", "3,2\n");
+    let said = place.expect(3, "match disk.obj disk.obj --curves K.csv --landmarks L.csv");
+    assert!(said.err.contains("conflict"), "{}", said.err);
+    // Circles for a surface without handles.
+    let said = place.expect(3, "match annulus.obj annulus.obj --loop-shape circles");
+    assert!(said.err.contains("genus 0 and 2 boundary loops"), "{}", said.err);
+    let said = place.expect(2, "match annulus.obj annulus.obj --loop-shape squares");
+    assert!(said.err.contains("squares"), "{}", said.err);
     place.put("F.csv", "0,1\n3,100000\n");
     place.expect(3, "match ball.obj ball.obj --landmarks F.csv");
     place.expect(2, "match ball.obj torus.obj --same-numbering");

@@ -175,6 +175,31 @@ static void check_basis(const ricci_mesh *torus) {
     ricci_homotopy_free(homotopy);
 }
 
+/* Loops of a torus become circles where that is asked for. */
+static void check_circles(const ricci_mesh *disk) {
+    ricci_mesh *torus = NULL, *holes = NULL;
+    ricci_matching *matching = NULL;
+    ricci_match_options options;
+    OK(make_sized(RICCI_SHAPE_TORUS, 36, 18, 2, 0.8, 0, &torus));
+    OK(change(torus, RICCI_CHANGE_PUNCH, 2, 0, 0, &holes));
+    OK(ricci_match(holes, holes, NULL, NULL, &matching));
+    CHECK(summary_of(matching).n_circles == 0 && summary_of(matching).roundness == 0);
+    ricci_matching_free(matching);
+    INIT(options);
+    options.loop_shape = RICCI_MATCH_CIRCLES;
+    OK(ricci_match(holes, holes, &options, NULL, &matching));
+    const ricci_matching_summary s = summary_of(matching);
+    CHECK(s.n_circles == 2 && s.roundness < 1e-9 && s.n_flipped == 0 && s.distance_max < 1e-8);
+    ricci_matching_free(matching);
+    matching = NULL;
+    FAILS(ricci_match(disk, disk, &options, NULL, &matching), RICCI_MATCHING, "circles");
+    options.loop_shape = 2;
+    FAILS(ricci_match(holes, holes, &options, NULL, &matching), RICCI_ARGUMENT, "shape");
+    CHECK(matching == NULL);
+    ricci_mesh_free(holes);
+    ricci_mesh_free(torus);
+}
+
 int main(void) {
     ricci_mesh *sphere = NULL, *torus = NULL, *disk = NULL;
     ricci_matching *matching = NULL;
@@ -188,6 +213,7 @@ int main(void) {
     check_marks(torus);
     check_curves(disk);
     check_basis(torus);
+    check_circles(disk);
     INIT(options);
     options.landmarks = pairs, options.n_landmarks = 5, options.threads = 1;
     check_identity(sphere, &options);
