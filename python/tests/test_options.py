@@ -121,6 +121,7 @@ CASES = [
                 "soft": [[6, 7]],
                 "soft_weights": [0.5],
                 "boundary": "arc_length",
+                "loop_shape": "circles",
                 "basis": [([1, -2], [3])],
             },
             matching._MATCH,
@@ -128,7 +129,7 @@ CASES = [
         {"landmarks": [1, 2], "n_landmarks": 1, "loops": [1, 0], "n_loops": 2, "threads": 2}
         | {"point_faces": [3, 4], "point_weights": [0, 1, 2, 3, 4, 5], "n_points": 1}
         | {"curves": [1, 2, 3, 4, 5], "curve_sizes": [3, 2], "n_curves": 1}
-        | {"soft": [6, 7], "soft_weights": [0.5], "n_soft": 1, "boundary": 1}
+        | {"soft": [6, 7], "soft_weights": [0.5], "n_soft": 1, "boundary": 1, "loop_shape": 1}
         | {"basis": [1, -2, 3], "basis_sizes": [2, 1], "n_basis": 1},
     ),
     (

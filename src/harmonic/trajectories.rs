@@ -50,6 +50,9 @@ const NEAREST: f64 = 0.55;
 const SHORTEST: f64 = 1.5;
 /// Spacings from a zero up to which the lines that run into it do not end near each other.
 const ALONE: f64 = 1.0;
+/// Share of a face's longest side by which a corner may lie below another one and count as on its level: the faces at an edge, each in coordinates of its own,
+/// are to agree on it.
+const SAME_LEVEL: f64 = 1e-12;
 /// A line looks for others after each such share of the spacing.
 const LOOK: f64 = 0.25;
 
@@ -170,7 +173,9 @@ impl Tracer<'_> {
     fn opposite(&self, f: FaceId, k: usize) -> Option<OnHalfedge> {
         let (z, side) = (self.corners[f.index()], (k + 1) % 3);
         let [from, to] = [z[side][1], z[(side + 1) % 3][1]].map(|y| y - z[k][1]);
-        let is_crossed = (from >= 0.0) != (to >= 0.0);
+        let longest = (0..3).map(|j| norm2(sub(z[(j + 1) % 3], z[j]))).fold(0.0, f64::max).sqrt();
+        let is_above = |height: f64| height >= -SAME_LEVEL * longest;
+        let is_crossed = is_above(from) != is_above(to);
         is_crossed.then(|| (self.mesh.face_halfedges(f)[side], (from / (from - to)).clamp(0.0, 1.0)))
     }
 

@@ -50,6 +50,7 @@ class MatchOptions(TypedDict, total=False):
         soft: k x 2 vertices inside that need not be met.
         soft_weights: k weights w >= 0: a landmark goes to the share w / (1 + w) of its way.
         boundary: it ``"slides"`` until the map is harmonic, or goes by ``"arc_length"``.
+        loop_shape: boundary loops of surfaces with handles become ``"geodesics"``, or ``"circles"`` of a closed flat or hyperbolic surface.
         basis: pairs of closed edge paths that name the homotopy class, on surfaces with handles.
         threads: one per core. The result does not depend on it.
     """
@@ -61,6 +62,7 @@ class MatchOptions(TypedDict, total=False):
     soft: npt.ArrayLike
     soft_weights: npt.ArrayLike
     boundary: Literal["slides", "arc_length"]
+    loop_shape: Literal["geodesics", "circles"]
     basis: Pairs
     threads: int
 
@@ -100,6 +102,7 @@ _MATCH: dict[str, Write] = {
     "soft": index_list("n_soft", 2),
     "soft_weights": real_list(),
     "boundary": choice("MATCH", ("slides", "arc_length")),
+    "loop_shape": choice("MATCH", ("geodesics", "circles")),
     "basis": _basis,
     "threads": number,
 }

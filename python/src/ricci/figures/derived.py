@@ -67,6 +67,8 @@ class MatchingSummary:
             landmark.
         n_soft: landmarks that need not be met.
         point_error: largest distance of such a point's image from its partner, over the diagonal of the target.
+        n_circles: boundary loops that are circles of the domain.
+        roundness: largest distance of a vertex of such a loop from its circle, as a share of the radius.
     """
 
     n_source_vertices: int
@@ -91,6 +93,8 @@ class MatchingSummary:
     n_points: int
     n_soft: int
     point_error: float
+    n_circles: int
+    roundness: float
 
 
 @dataclass(frozen=True)
