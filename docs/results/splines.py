@@ -273,7 +273,7 @@ the coefficients of fillings included. Wanted: root mean square 1e-3 and largest
 
 *control points + coefficients*: the second number is of the fillings around singular vertices; *share*: of both, in the vertices of the mesh. *rms*, *max*: distances
 of the vertices, over the diagonal. *normals*: angle between the mesh's normal at a vertex and the spline's at the nearest point, median and 99th percentile; scans are rougher than
-their splines. *continuity*: largest jump of derivatives up to order n − 1 across sides outside the fillings, relative. *unity*: partition of unity, of the report. *folded*: patches in which normals turn by more than 60° over a twelfth of a side.
+their splines. *continuity*: largest jump of derivatives up to order n − 1 across sides outside the fillings, relative. *unity*: partition of unity, of the report. *folded*: patches in which normals turn by more than 60° over a twelfth of a side, at a singular vertex also in the coordinate in which it is a point as any other.
 *outside*: `check.py spline` at 30 places of the file, of which ten lie near sides, all summed over the charts that reach there: largest difference from `spline eval --at`
 over the size of the surface, and its own partition of unity. *across sides*: largest difference of the surface at 30 places on sides, evaluated in the charts of both patches.
 """,

@@ -10,6 +10,8 @@ use crate::mesh::{FaceId, PerVertex, VertexId};
 
 /// Rounds over the vertices of folded faces.
 const MOST_SWEEPS: usize = 200;
+/// Vertices with more neighbours stay where they are: the work grows with the fourth power of their number.
+const MOST_SIDES: usize = 48;
 /// Share of the size of a star by which a constraint may be missed: rounding.
 const SLACK: f64 = 1e-12;
 
@@ -53,9 +55,12 @@ fn star(placed: &Placed, v: VertexId) -> Vec<Complex> {
     placed.cover.mesh.fan(v).into_iter().map(at).collect()
 }
 
-/// The point that lies farthest on the left of all sides of a polygon; `None` where sides have no length.
+/// The point that lies farthest on the left of all sides of a polygon; `None` where sides have no length, or are too many.
 fn innermost(star: &[Complex]) -> Option<Complex> {
     let n = star.len();
+    if n > MOST_SIDES {
+        return None;
+    }
     // Unit normals that point to the left, and offsets.
     let mut lines = Vec::with_capacity(n);
     for k in 0..n {
