@@ -64,6 +64,15 @@ def test_what_a_callback_raises_stops_the_call(large):
     assert control.since_cancel() is not None
 
 
+@pytest.fixture
+def handled():
+    """Python's own way with Ctrl-C, which it leaves out where it is started in the background."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+@pytest.mark.usefixtures("handled")
 def test_ctrl_c_stops_a_call(large):
     """The signal of Ctrl-C comes while the library computes; the call ends and its inputs are as they were."""
     before, control = large.u.copy(), ricci.Control()
