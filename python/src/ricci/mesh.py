@@ -11,9 +11,10 @@ import numpy.typing as npt
 
 from ricci import _arrays
 from ricci._arrays import frozen
-from ricci._call import Doubles, Handle, Indices, Signed, call, constant, doubles, filled, path_bytes, pointer, summary
+from ricci._call import Doubles, Indices, Signed, call, constant, filled, path_bytes, pointer, summary
 from ricci._library import ffi, lib
 from ricci._structs import Struct, choice, number, options, real_list
+from ricci._triangles import Triangles
 from ricci.errors import ArgumentError
 from ricci.figures import MeshSummary
 from ricci.figures.names import Space
@@ -58,7 +59,7 @@ _ATTRIBUTES = {
 }
 
 
-class Mesh(Handle):
+class Mesh(Triangles):
     """A connected oriented triangulated surface with the lengths of its edges. It never changes.
 
     Arrays are computed once and handed out read-only. Vertices, faces and corners have the order and numbers of the caller's arrays.
@@ -73,6 +74,8 @@ class Mesh(Handle):
     """
 
     _type: ClassVar[str] = "mesh"
+    _faces_of: ClassVar[Any] = lib.ricci_mesh_faces
+    _values_of: ClassVar[Any] = lib.ricci_mesh_values
 
     def __init__(self, V: npt.ArrayLike, F: npt.ArrayLike) -> None:
         positions, faces = _arrays.points(V), _arrays.indices(F, 3, "F")
@@ -141,16 +144,6 @@ class Mesh(Handle):
         return summary(MeshSummary, "mesh", self)
 
     @cached_property
-    def V(self) -> Doubles:
-        """n x 3 positions."""
-        return self._values("POSITIONS", self.summary.n_vertices, 3)
-
-    @cached_property
-    def F(self) -> Indices:
-        """m x 3 vertices of every face."""
-        return frozen(filled(lib.ricci_mesh_faces, self, out=np.empty((self.summary.n_faces, 3), np.uint32)))
-
-    @cached_property
     def edges(self) -> Indices:
         """n_edges x 2 ends of every edge, in its direction."""
         return frozen(filled(lib.ricci_mesh_edges, self, out=np.empty((self.summary.n_edges, 2), np.uint32)))
@@ -164,27 +157,6 @@ class Mesh(Handle):
     def lengths(self) -> Doubles:
         """The length of every edge."""
         return self._values("LENGTHS", self.summary.n_edges)
-
-    @cached_property
-    def normals(self) -> Doubles | None:
-        """n x 3 normals of the vertices that the file had, or None."""
-        return self._values("NORMALS", self.summary.n_normals, 3) if self.summary.n_normals else None
-
-    @cached_property
-    def colors(self) -> Doubles | None:
-        """n x 4 colours of the vertices that the file had (red, green, blue, opacity), or None."""
-        return self._values("COLORS", self.summary.n_colors, 4) if self.summary.n_colors else None
-
-    @cached_property
-    def uv(self) -> Doubles | None:
-        """m x 3 x 2 texture coordinates of the corners that the file had, or None."""
-        return self._values("UV", self.summary.n_uv, 3, 2) if self.summary.n_uv else None
-
-    @cached_property
-    def corner_normals(self) -> Doubles | None:
-        """m x 3 x 3 normals of the corners that the file had in place of those of the vertices, or None."""
-        n = self.summary.n_corner_normals
-        return self._values("CORNER_NORMALS", n, 3, 3) if n else None
 
     @cached_property
     def boundary(self) -> list[Indices]:
@@ -213,9 +185,6 @@ class Mesh(Handle):
     def genus(self) -> int:
         """Number of handles."""
         return self.summary.genus
-
-    def _values(self, which: str, *shape: int) -> Any:
-        return frozen(doubles(lib.ricci_mesh_values, self, getattr(lib, f"RICCI_{which}"), shape=shape))
 
     def __repr__(self) -> str:
         s = self.summary

@@ -12,9 +12,10 @@ import numpy.typing as npt
 
 from ricci import _arrays
 from ricci._arrays import frozen
-from ricci._call import Doubles, Handle, Indices, call, doubles, filled, path_bytes, pointer, rows, summary
+from ricci._call import Handle, Indices, call, filled, path_bytes, pointer, rows, summary
 from ricci._library import ffi, lib
 from ricci._structs import number, options
+from ricci._triangles import Triangles
 from ricci.figures import SoupSummary
 from ricci.mesh import Mesh
 
@@ -67,7 +68,7 @@ def _view(owner: Handle, address: Any, n: int) -> Indices:
     return np.asarray(_View(owner, address, n)) if n else frozen(np.empty(0, np.uint32))
 
 
-class Soup(Handle):
+class Soup(Triangles):
     """A triangle list with attributes, whatever its defects, and where it came from if it was repaired. It never changes.
 
     Args:
@@ -76,6 +77,8 @@ class Soup(Handle):
     """
 
     _type: ClassVar[str] = "soup"
+    _faces_of: ClassVar[Any] = lib.ricci_soup_faces
+    _values_of: ClassVar[Any] = lib.ricci_soup_values
 
     def __init__(self, V: npt.ArrayLike, F: npt.ArrayLike) -> None:
         positions, faces = _arrays.points(V), _arrays.indices(F, 3, "F")
@@ -111,37 +114,6 @@ class Soup(Handle):
         return summary(SoupSummary, "soup", self)
 
     @cached_property
-    def V(self) -> Doubles:
-        """n x 3 positions."""
-        return self._values("POSITIONS", self.summary.n_vertices, 3)
-
-    @cached_property
-    def F(self) -> Indices:
-        """m x 3 vertices of every face."""
-        return frozen(filled(lib.ricci_soup_faces, self, out=np.empty((self.summary.n_faces, 3), np.uint32)))
-
-    @cached_property
-    def normals(self) -> Doubles | None:
-        """n x 3 normals of the vertices, or None."""
-        return self._values("NORMALS", self.summary.n_normals, 3) if self.summary.n_normals else None
-
-    @cached_property
-    def colors(self) -> Doubles | None:
-        """n x 4 colours of the vertices, or None."""
-        return self._values("COLORS", self.summary.n_colors, 4) if self.summary.n_colors else None
-
-    @cached_property
-    def uv(self) -> Doubles | None:
-        """m x 3 x 2 texture coordinates of the corners, or None."""
-        return self._values("UV", self.summary.n_uv, 3, 2) if self.summary.n_uv else None
-
-    @cached_property
-    def corner_normals(self) -> Doubles | None:
-        """m x 3 x 3 normals of the corners, or None."""
-        n = self.summary.n_corner_normals
-        return self._values("CORNER_NORMALS", n, 3, 3) if n else None
-
-    @cached_property
     def defects(self) -> list[Defect]:
         """All defects; their arrays are views of the library's memory."""
         return [self._defect(k) for k in range(self.summary.n_defects)]
@@ -165,6 +137,3 @@ class Soup(Handle):
         call(lib.ricci_soup_defect, self, index, found, ffi.sizeof("ricci_defect"))
         code, message, remedy = (ffi.string(text).decode() for text in (found.code, found.message, found.remedy))
         return Defect(code, message, remedy, _view(self, found.vertices, found.n_vertices), _view(self, found.faces, found.n_faces))
-
-    def _values(self, which: str, *shape: int) -> Any:
-        return frozen(doubles(lib.ricci_soup_values, self, getattr(lib, f"RICCI_{which}"), shape=shape))
