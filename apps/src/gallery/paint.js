@@ -15,7 +15,7 @@ void main() {
   gl_Position = vec4(p.xy * scale + shift, -0.1 * p.z, 1.0);
 }`;
 
-// Light from the eye's upper left on both faces of a sheet; checks of the image, blurred where they are finer than pixels.
+// Light from the eye's upper left, on the inside of a sheet weaker; checks of the image, blurred where they are finer than pixels.
 const FRAGMENT = `#version 300 es
 precision highp float;
 in vec3 place;
@@ -40,6 +40,7 @@ void main() {
   if (lit > 0.5) {
     vec3 n = normalize(cross(dFdx(place), dFdy(place)));
     light = 0.35 + 0.65 * abs(dot(n, normalize(vec3(-0.4, 0.5, 0.9))));
+    light *= gl_FrontFacing ? 1.0 : 0.6;
   }
   color = vec4(base * light, 1.0);
 }`;

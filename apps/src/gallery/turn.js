@@ -1,6 +1,7 @@
 // The views: each a canvas with the surface on the left and its image on the right.
 
-const CHECKS = 24; // across the image
+const CHECKS = 24; // across a layout
+const CUBES = 10; // across an image in space
 const TURN = 0.01; // radians a pixel
 const FLAT = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
 
@@ -17,7 +18,7 @@ class View {
     const sides = data.image ? ["surface", "image"] : ["surface"];
     this.sides = sides.map((points) => {
       const flat = points === "image" && data.flat;
-      return { points, flat, azimuth: 0.5, elevation: data.lies && points === "surface" ? 1.1 : 0.35, zoom: 1, move: [0, 0] };
+      return { points, flat, azimuth: -0.5, elevation: data.lies && points === "surface" ? 1.1 : 0.35, zoom: 1, move: [0, 0] };
     });
     canvas.addEventListener("pointerdown", (e) => this.grab(e));
     canvas.addEventListener("pointermove", (e) => this.moved(e));
@@ -109,7 +110,7 @@ class View {
         scale: [(2 * radius) / w, (2 * radius) / h],
         shift: [(2 * x) / w - 1, 1 - (2 * y) / h],
         box: [Math.round(k * part * dense), 0, Math.ceil(part * dense), height],
-        checks: this.data.image ? CHECKS : 0,
+        checks: !this.data.image ? 0 : this.data.flat ? CHECKS : CUBES,
         lit: side.flat ? 0 : this.data.flat || !this.data.image ? 1 : 2,
       });
     });

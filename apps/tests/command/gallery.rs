@@ -1,4 +1,4 @@
-//! The page of the gallery: nothing missing, nothing from elsewhere, data that can be read.
+//! The gallery in small files, and its page: nothing missing, nothing from elsewhere, data that can be read.
 
 use crate::run::Place;
 use serde_json::Value;
@@ -16,27 +16,55 @@ fn elsewhere(page: &str) -> Vec<String> {
     starts.filter(|text| !text.starts_with("data:image/png;base64,") && !text.starts_with('#')).collect()
 }
 
+/// Both pages of one run, for a run takes its time.
 #[test]
-fn the_page_has_every_row_and_needs_nothing_beside_it() {
+fn the_gallery_has_every_generator_in_small_files_and_in_a_page_that_needs_nothing_beside_it() {
     let place = Place::new();
     place.expect(0, "gallery out --quiet");
+    every_picture_is_small(&place);
     let page = place.text("out/index.html");
     assert!(!page.contains("Left out"), "a picture is left out");
     assert_eq!(elsewhere(&page), Vec::<String>::new());
     assert!(!page.contains("http://") && !page.contains("https://"), "the page names an address");
     assert_eq!(elsewhere("<img src=\"a.png\">").len(), 1);
     assert!(page.contains("default-src 'none'"));
+    every_figure_and_row_is_there(&page, &place.text("out/README.md"));
+    every_view_is_whole(&page);
+}
+
+#[test]
+fn a_gallery_needs_a_directory_and_a_corpus_that_is_there() {
+    let place = Place::new();
+    place.put("file", "").expect(2, "gallery file");
+    place.expect(3, "gallery out nowhere --quiet");
+}
+
+fn every_picture_is_small(place: &Place) {
+    let page = place.text("out/README.md");
+    assert!(!page.contains("left out"), "{page}");
+    let names: Vec<&str> = page.split("](").skip(1).map(|s| s.split(')').next().unwrap()).collect();
+    assert!(names.len() >= 15, "{names:?}");
+    for name in names {
+        let bytes = std::fs::metadata(place.path(&format!("out/{name}"))).unwrap().len();
+        assert!((1000..70_000).contains(&bytes), "{name}: {bytes} bytes");
+    }
+}
+
+fn views(page: &str) -> Value {
+    serde_json::from_str(between(page, "id=\"views\">", "</script>")).unwrap()
+}
+
+fn every_figure_and_row_is_there(page: &str, listed: &str) {
     for number in 1..=15 {
         assert!(page.contains(&format!(">Figure {number}. ")), "figure {number}");
     }
-    let listed = place.text("out/README.md");
     let names: Vec<&str> = listed.split("![").skip(1).map(|s| s.split(']').next().unwrap()).collect();
     assert!(names.len() > 40, "{names:?}");
-    let views: Value = serde_json::from_str(between(&page, "id=\"views\">", "</script>")).unwrap();
+    let views = views(page);
     for name in names {
         let start = format!("<article id=\"{name}\">");
         assert_eq!(page.matches(&start).count(), 1, "{name}");
-        let article = between(&page, &start, "</article>");
+        let article = between(page, &start, "</article>");
         assert!(article.contains("<code>ricci "), "{name} has no command");
         let has_view = article.contains("<canvas");
         assert!(has_view || article.contains("class=\"note\">"), "{name} does not say why it has no view");
@@ -47,6 +75,10 @@ fn the_page_has_every_row_and_needs_nothing_beside_it() {
             "{name} has no numbers"
         );
     }
+}
+
+fn every_view_is_whole(page: &str) {
+    let views = views(page);
     for (name, view) in views.as_object().unwrap() {
         // Four characters of base64 for three bytes, two bytes a number, three numbers a vertex or face.
         let characters = |n: u64| (6 * n).div_ceil(3) * 4;
