@@ -76,7 +76,7 @@ pub enum Command {
     /// Flows, a uniformization and a universal cover of small surfaces, with pictures and reports
     #[command(after_help = DEMO_EXAMPLE)]
     Demo(DemoArgs),
-    /// One picture per kind of surface and of picture, with the commands that make them
+    /// One picture per kind of surface and of picture, with the commands that make them, and a page with views that turn
     #[command(after_help = GALLERY_EXAMPLE)]
     Gallery(GalleryArgs),
     /// Completions for a shell, on stdout
@@ -152,7 +152,7 @@ Example
 
 const GALLERY_EXAMPLE: &str = "\
 Example
-    ricci gallery pictures && cat pictures/README.md";
+    ricci gallery pictures && cat pictures/README.md && xdg-open pictures/index.html";
 
 const COMPLETIONS_EXAMPLE: &str = "\
 Example

@@ -1,4 +1,8 @@
-//! `ricci gallery`: one picture per kind of surface and of picture, each by the command line that is written beside it.
+//! `ricci gallery`: one picture per kind of surface and of picture, each by the command line that is written beside it; and all of them, under
+//! the figures of the paper, in a page with views that turn.
+
+mod page;
+mod view;
 
 use crate::cli::{Command, GalleryArgs};
 use crate::csv::read_text;
@@ -7,11 +11,19 @@ use crate::failure::Failure;
 use crate::output::Outputs;
 use crate::report::path_text;
 use crate::{info, make, say, spline};
+use page::{Exhibit, Part};
 use ricci::Control;
-use std::path::Path;
+use ricci::mesh::io;
+use serde_json::Value;
+use std::collections::{BTreeMap, HashMap};
+use std::path::{Path, PathBuf};
+use view::{Beside, View};
 
 /// The pictures, a line each.
 const PICTURES: &str = include_str!("gallery.txt");
+
+/// The figures of the paper, a line each.
+const FIGURES: &str = include_str!("gallery/figures.txt");
 
 /// What other programs' pictures of the same layouts look like; it ends the page where the corpus is at hand.
 const BESIDE: &str = include_str!("gallery_beside.md");
@@ -55,6 +67,19 @@ fn sections() -> Vec<(&'static str, Vec<Row>)> {
     PICTURES.split("\n## ").skip(1).map(section).collect()
 }
 
+/// How a spline is written for its view.
+const TESSELLATED: &str = "--tessellate 8 --out VIEW";
+
+/// Number, what is shown, and the rows that show it.
+fn figures() -> Vec<(&'static str, &'static str, Vec<&'static str>)> {
+    let figure = |line: &'static str| {
+        let mut fields = line.split('|').map(str::trim);
+        let [number, about, rows] = [(); 3].map(|()| fields.next().unwrap_or_default());
+        (number, about, rows.split_whitespace().collect())
+    };
+    FIGURES.lines().filter(|line| !line.starts_with('#') && !line.is_empty()).map(figure).collect()
+}
+
 /// Pixels of the longer side of each panel.
 const SIZE: u32 = 320;
 
@@ -67,40 +92,76 @@ pub fn run(args: &GalleryArgs, control: &Control) -> Result<u8, Failure> {
     let mut exit_code = 0;
     let scratch = tempfile::tempdir().map_err(|e| Failure::Failed(format!("no temporary directory: {e}")))?;
     let studio = Studio { args, scratch: scratch.path(), control };
+    let mut shown_parts = Vec::new();
     for (title, mut rows) in sections() {
         rows.retain(|row| meshes.is_some() || !matches!(row.source, Corpus(_)));
         if rows.is_empty() {
             continue;
         }
         page += &format!("\n## {title}\n\n| picture | what it is | by |\n|---|---|---|\n");
+        let mut exhibits = Vec::new();
         for row in &rows {
             control.check()?;
-            let (Row { name, about, .. }, shown) = (row, row.shown());
-            let image = match studio.draw(row) {
-                Ok(()) => format!("![{name}]({name}.png)"),
-                Err(Failure::Cancelled) => return Err(Failure::Cancelled),
-                Err(failure) => {
+            let exhibit = studio.exhibit(row, &index)?;
+            let Exhibit { name, about, commands, picture, .. } = &exhibit;
+            let image = match picture {
+                Ok(_) => format!("![{name}]({name}.png)"),
+                Err(why) => {
                     exit_code = 1;
-                    format!("left out: {}", failure.to_string().replace(['\n', '|'], " "))
+                    format!("left out: {}", why.replace(['\n', '|'], " "))
                 }
             };
-            let credit = match row.source {
-                Corpus(mesh) => credit(&index, mesh).unwrap_or_default(),
-                _ => String::new(),
-            };
-            page += &format!("| {image} | **{name}**: {about}{credit} | {shown} |\n");
+            let shown = commands.iter().map(|line| format!("`{line}`")).collect::<Vec<_>>().join("<br>");
+            page += &format!("| {image} | **{name}**: {about} | {shown} |\n");
             if !args.common.quiet {
                 say::lines(&format!("{name}: {shown}\n"), say::NO_FILES)?;
             }
+            exhibits.push(exhibit);
         }
+        shown_parts.push((title, exhibits));
     }
     if meshes.is_some() {
         page += BESIDE;
     }
     let mut outputs = Outputs::default();
     outputs.add_bytes(&args.out.join("README.md"), page.as_bytes())?;
+    outputs.add_bytes(&args.out.join("index.html"), page::write(&by_figure(shown_parts))?.as_bytes())?;
     outputs.commit()?;
     Ok(exit_code)
+}
+
+/// First the figures of the paper, then what is in none of them under its own titles; nothing stands there twice.
+fn by_figure(sections: Vec<(&'static str, Vec<Exhibit>)>) -> Vec<Part> {
+    let mut order = Vec::new();
+    let mut open = HashMap::new();
+    let mut known = BTreeMap::new();
+    for (title, exhibits) in sections {
+        for exhibit in exhibits {
+            order.push((title, exhibit.name));
+            known.insert(exhibit.name, ());
+            open.insert(exhibit.name, exhibit);
+        }
+    }
+    let mut parts = Vec::new();
+    for (number, about, rows) in figures() {
+        let mut part =
+            Part { title: format!("Figure {number}. {about}"), exhibits: Vec::new(), earlier: Vec::new() };
+        for name in rows.into_iter().filter(|name| known.contains_key(name)) {
+            match open.remove(name) {
+                Some(exhibit) => part.exhibits.push(exhibit),
+                None => part.earlier.push(name),
+            }
+        }
+        parts.push(part);
+    }
+    for (title, name) in order {
+        let Some(exhibit) = open.remove(name) else { continue };
+        match parts.last_mut().filter(|part| part.title == title) {
+            Some(part) => part.exhibits.push(exhibit),
+            None => parts.push(Part { title: title.into(), exhibits: vec![exhibit], earlier: Vec::new() }),
+        }
+    }
+    parts
 }
 
 /// Where a mesh comes from, by the second and third column after its name.
@@ -140,22 +201,51 @@ impl Row {
     }
 
     /// The command lines as a reader would type them.
-    fn shown(&self) -> String {
+    fn shown(&self) -> Vec<String> {
         let (file, picture) = (self.file(), format!(" --picture {}.png", self.name));
         let make = match self.source {
             Made(line, _) => {
                 let own = if self.draw.is_empty() { picture.as_str() } else { "" };
-                Some(format!("`ricci make {line} -o {file}{own}`"))
+                Some(format!("ricci make {line} -o {file}{own}"))
             }
             Corpus(_) => None,
         };
         let draw = self.draw.replace("{}", &file).replace("{spline}", &format!("{}.json", self.name));
         let draw = draw.replace("{other}", &format!("{}-other.obj", self.name));
         let draw = draw.replace("{=", "").replace('}', ".obj");
-        let draw =
-            (!draw.is_empty()).then(|| format!("`ricci {}{picture}`", draw.replace(" && ", "`<br>`ricci ")));
-        make.into_iter().chain(draw).collect::<Vec<_>>().join("<br>")
+        let last = draw.split(" && ").count() - 1;
+        let picture_of = |k: usize| if k == last { picture.as_str() } else { "" };
+        let lines = draw.split(" && ").enumerate().filter(|(_, line)| !line.is_empty());
+        make.into_iter().chain(lines.map(|(k, line)| format!("ricci {line}{}", picture_of(k)))).collect()
     }
+
+    /// What the view shows beside the surface, and the option by which the last command writes it; or why there is no view.
+    fn beside(&self, surface: &Path) -> Result<(Beside, &'static str), String> {
+        if let Made(_, "json") = self.source {
+            return Err("Given by its edge lengths: there is no surface in space to be turned.".into());
+        }
+        let last = self.draw.rsplit(" && ").next().unwrap_or_default();
+        Ok(match last.split(' ').next().unwrap_or_default() {
+            "uniformize" | "cover" if is_sphere(surface) => (Beside::Image, "--sphere"),
+            "flow" | "uniformize" | "cover" | "circles" | "harmonic" | "forms" => (Beside::Texture, "--uv"),
+            "match" => (Beside::Image, "--output"),
+            _ => (Beside::Alone, ""),
+        })
+    }
+
+    /// The direction that the picture is asked to have up.
+    fn up(&self) -> Option<[f64; 3]> {
+        let words: Vec<&str> = self.draw.split([' ', '=']).collect();
+        let axis = words.windows(2).rfind(|pair| pair[0] == "--up")?[1];
+        let sign = if axis.starts_with('-') { -1.0 } else { 1.0 };
+        let k = ["x", "y", "z"].iter().position(|name| axis.ends_with(name))?;
+        Some([0, 1, 2].map(|j| if j == k { sign } else { 0.0 }))
+    }
+}
+
+/// Whether a file's triangles form a closed surface of genus 0, of all surfaces in one piece the one with the most faces for its vertices.
+fn is_sphere(file: &Path) -> bool {
+    io::read(file).is_ok_and(|soup| soup.faces.len() + 4 == 2 * soup.positions.len())
 }
 
 /// Where pictures are made.
@@ -167,45 +257,100 @@ struct Studio<'a> {
 }
 
 impl Studio<'_> {
-    /// Make the picture of a row.
-    fn draw(&self, row: &Row) -> Result<(), Failure> {
-        let GalleryArgs { out, meshes, common } = self.args;
-        let surface = match (&row.source, meshes) {
+    /// Make the picture of a row, with what is said of it.
+    fn exhibit(&self, row: &Row, index: &str) -> Result<Exhibit, Failure> {
+        let told = |why: String| why.replace(&path_text(self.scratch), "…");
+        let (picture, report, view) = match self.draw(row) {
+            Ok((report, view)) => (self.picture(row), report, view),
+            Err(Failure::Cancelled) => return Err(Failure::Cancelled),
+            Err(failure) => (Err(told(failure.to_string())), None, Err(String::new())),
+        };
+        let credit = match row.source {
+            Corpus(mesh) => credit(index, mesh).unwrap_or_default(),
+            _ => String::new(),
+        };
+        let about = format!("{}{credit}", row.about);
+        Ok(Exhibit {
+            name: row.name,
+            about,
+            commands: row.shown(),
+            picture,
+            report,
+            view: view.map_err(told),
+        })
+    }
+
+    /// The bytes of a row's picture.
+    fn picture(&self, row: &Row) -> Result<Vec<u8>, String> {
+        let file = self.args.out.join(format!("{}.png", row.name));
+        std::fs::read(&file).map_err(|e| format!("{}: {e}", file.display()))
+    }
+
+    /// The file with a row's surface.
+    fn surface(&self, row: &Row) -> PathBuf {
+        match (&row.source, &self.args.meshes) {
             (Corpus(_), Some(folder)) => folder.join("good").join(row.file()),
             _ => self.scratch.join(row.file()),
+        }
+    }
+
+    /// The words of a command line of a row.
+    fn words(&self, row: &Row, line: &str) -> Vec<String> {
+        let own = |suffix: &str| path_text(&self.scratch.join(format!("{}{suffix}", row.name)));
+        let to = |word: &str| match word {
+            "{}" => path_text(&self.surface(row)),
+            "{spline}" => own(".json"),
+            "{other}" => own("-other.obj"),
+            "REPORT" => own("-report.json"),
+            "VIEW" => own("-view.obj"),
+            "PICTURE" => path_text(&self.args.out.join(format!("{}.png", row.name))),
+            word => match (word.strip_prefix("{="), &self.args.meshes) {
+                (Some(name), Some(folder)) => path_text(&folder.join("good").join(name.replace('}', ".obj"))),
+                _ => word.into(),
+            },
         };
-        let words = |line: String| -> Vec<String> {
-            let to = |word: &str| match word {
-                "{}" => path_text(&surface),
-                "{spline}" => path_text(&self.scratch.join(format!("{}.json", row.name))),
-                "{other}" => path_text(&self.scratch.join(format!("{}-other.obj", row.name))),
-                "PICTURE" => path_text(&out.join(format!("{}.png", row.name))),
-                word => match (word.strip_prefix("{="), meshes) {
-                    (Some(name), Some(folder)) => {
-                        path_text(&folder.join("good").join(name.replace('}', ".obj")))
-                    }
-                    _ => word.into(),
-                },
-            };
-            line.split_whitespace().map(to).collect()
-        };
-        let quiet = format!("--quiet --threads={}", common.threads);
+        line.split_whitespace().map(to).collect()
+    }
+
+    /// Make the picture of a row; returned are the report of its last command, and its view or why there is none.
+    fn draw(&self, row: &Row) -> Result<(Option<Value>, Result<View, String>), Failure> {
+        let quiet = format!("--quiet --threads={}", self.args.common.threads);
         let drawing = format!("--picture PICTURE --size={SIZE} --palette {quiet}");
         if let Made(line, _) = row.source {
             let own = if row.draw.is_empty() { &drawing } else { &quiet };
-            if let Command::Make(args) = parse(words(format!("make {line} -o {{}} {own}")))? {
+            if let Command::Make(args) = parse(self.words(row, &format!("make {line} -o {{}} {own}")))? {
                 make::run(&args)?;
             }
         }
-        if row.draw.is_empty() {
-            return Ok(());
+        let (surface, written) = (self.surface(row), self.scratch.join(format!("{}-view.obj", row.name)));
+        let beside = row.beside(&surface);
+        if !row.draw.is_empty() {
+            let view = match &beside {
+                Ok((_, option)) if !option.is_empty() => format!("{option} VIEW"),
+                _ => String::new(),
+            };
+            let commands: Vec<&str> = row.draw.split(" && ").collect();
+            for (i, line) in commands.iter().enumerate() {
+                let options = if i + 1 == commands.len() {
+                    format!("{drawing} {view} --report REPORT")
+                } else {
+                    quiet.clone()
+                };
+                self.run(parse(self.words(row, &format!("{line} {options}")))?)?;
+            }
         }
-        let commands: Vec<&str> = row.draw.split(" && ").collect();
-        for (i, line) in commands.iter().enumerate() {
-            let options = if i + 1 == commands.len() { &drawing } else { &quiet };
-            self.run(parse(words(format!("{line} {options}")))?)?;
-        }
-        Ok(())
+        let report = std::fs::read(self.scratch.join(format!("{}-report.json", row.name)));
+        let report = report.ok().and_then(|bytes| serde_json::from_slice(&bytes).ok());
+        let view = match beside {
+            Err(why) => Err(why),
+            Ok((beside @ Beside::Texture, _)) => View::read(&written, (beside, &written), row.up())?,
+            Ok((Beside::Alone, _)) if row.draw.contains("{spline}") => {
+                self.run(parse(self.words(row, &format!("spline eval {{spline}} {TESSELLATED} {quiet}")))?)?;
+                View::read(&written, (Beside::Alone, &written), row.up())?
+            }
+            Ok((beside, _)) => View::read(&surface, (beside, &written), row.up())?,
+        };
+        Ok((report, view))
     }
 
     /// Run a command, whose checks must hold.
@@ -259,6 +404,36 @@ mod tests {
             .filter_map(|entry| entry.unwrap().file_name().to_str()?.strip_suffix(".png").map(String::from))
             .collect();
         assert_eq!(names.into_iter().map(String::from).collect::<HashSet<_>>(), drawn);
+    }
+
+    #[test]
+    fn each_figure_of_the_paper_has_rows_and_one_on_a_generated_surface() {
+        let rows: HashMap<_, _> =
+            sections().into_iter().flat_map(|(_, rows)| rows).map(|row| (row.name, row)).collect();
+        let figures = figures();
+        let numbers: Vec<_> = figures.iter().map(|figure| figure.0.to_string()).collect();
+        assert_eq!(numbers, (1..=15).map(|n| n.to_string()).collect::<Vec<_>>());
+        let page = include_str!("../../docs/results/gallery.md");
+        for (number, about, names) in figures {
+            assert!(!about.is_empty(), "{number}");
+            assert!(matches!(rows[names[0]].source, Made(..)), "figure {number} needs a corpus");
+            let line = page.lines().find(|line| line.starts_with(&format!("| {number} |"))).unwrap();
+            for name in names {
+                assert!(rows.contains_key(name), "{name}");
+                assert!(
+                    line.contains(&format!("`{name}`")),
+                    "docs/results/gallery.md lacks {name} in figure {number}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_up_is_read_from_the_command() {
+        let up = |draw| Row { name: "m", source: Corpus("m"), draw, about: "" }.up();
+        assert_eq!(up("info {} --up=-z --view 1,2"), Some([0.0, 0.0, -1.0]));
+        assert_eq!(up("flow {} --up x"), Some([1.0, 0.0, 0.0]));
+        assert_eq!(up("flow {}"), None);
     }
 
     #[test]

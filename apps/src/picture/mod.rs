@@ -38,6 +38,7 @@ pub use scene::{Circle, Field, Flat, Focus, Style, Surface};
 pub use texture::{OCTAVE, Texture, Tiles};
 
 pub use raster::doubled_area;
+pub use upright::stance;
 pub use vector::normal;
 
 use crate::failure::Failure;

@@ -13,6 +13,7 @@ mod files;
 mod flips;
 mod flow;
 mod forms;
+mod gallery;
 mod harmonic;
 mod info;
 mod make;

@@ -151,22 +151,6 @@ fn wishes_that_cannot_be_met_are_exit_2() {
     assert!(!place.exists("p.png") && !place.exists("p.svg"));
 }
 
-#[test]
-fn the_gallery_draws_every_generator_in_small_files() {
-    let place = Place::new();
-    place.expect(0, "gallery out --quiet");
-    let page = place.text("out/README.md");
-    assert!(!page.contains("left out"), "{page}");
-    let names: Vec<&str> = page.split("](").skip(1).map(|s| s.split(')').next().unwrap()).collect();
-    assert!(names.len() >= 15, "{names:?}");
-    for name in names {
-        let bytes = std::fs::metadata(place.path(&format!("out/{name}"))).unwrap().len();
-        assert!((1000..70_000).contains(&bytes), "{name}: {bytes} bytes");
-    }
-    place.put("file", "").expect(2, "gallery file");
-    place.expect(3, "gallery out nowhere --quiet");
-}
-
 /// The pixels of an SVG file, drawn by a program of its own.
 fn drawn(place: &Place, name: &str) -> (u32, u32, Vec<u8>) {
     use resvg::{tiny_skia, usvg};

@@ -1,0 +1,202 @@
+//! The gallery as one page that needs nothing beside it: pictures, commands, figures of the reports, and views that turn.
+
+use super::view::{MOST_VERTICES, View, embedded};
+use crate::failure::Failure;
+use serde_json::{Map, Value, json};
+use std::fmt::Write;
+
+const FRAME: &str = include_str!("page.html");
+const STYLE: &str = include_str!("page.css");
+/// What follows uses what stands before it.
+const PROGRAM: [&str; 3] = [include_str!("shape.js"), include_str!("paint.js"), include_str!("turn.js")];
+
+/// Longest list of a report whose entries are shown.
+const LONGEST_LIST: usize = 6;
+
+/// A picture with all that is said of it.
+pub struct Exhibit {
+    pub name: &'static str,
+    pub about: String,
+    /// The commands, a line each.
+    pub commands: Vec<String>,
+    /// Bytes of the picture's file, or why it was left out.
+    pub picture: Result<Vec<u8>, String>,
+    pub report: Option<Value>,
+    /// The view, or why there is none.
+    pub view: Result<View, String>,
+}
+
+/// A part of the page.
+pub struct Part {
+    pub title: String,
+    pub exhibits: Vec<Exhibit>,
+    /// Names of exhibits that stand in an earlier part.
+    pub earlier: Vec<&'static str>,
+}
+
+/// The page.
+pub fn write(parts: &[Part]) -> Result<String, Failure> {
+    let (mut body, mut contents, mut views) = (String::new(), String::new(), Map::new());
+    for (k, Part { title, exhibits, earlier }) in parts.iter().enumerate() {
+        let title = escaped(title);
+        push(&mut contents, format_args!("<a href=\"#part-{k}\">{title}</a>\n"));
+        push(&mut body, format_args!("<h2 id=\"part-{k}\">{title}</h2>\n"));
+        for exhibit in exhibits {
+            push(&mut body, format_args!("{}", article(exhibit)));
+            if let Ok(view) = &exhibit.view {
+                views.insert(exhibit.name.into(), json!(view));
+            }
+        }
+        if !earlier.is_empty() {
+            let links: Vec<_> =
+                earlier.iter().map(|name| format!("<a href=\"#{name}\">{name}</a>")).collect();
+            push(&mut body, format_args!("<p>See also above: {}.</p>\n", links.join(", ")));
+        }
+    }
+    // No end tag can begin inside the data: names and base64 have no `<`, and what could is written as its number.
+    let views = Value::Object(views).to_string().replace('<', "\\u003c");
+    let limit = MOST_VERTICES.to_string();
+    let program = PROGRAM.join("\n");
+    let filled = [
+        ("{style}", STYLE),
+        ("{limit}", &limit),
+        ("{contents}", &contents),
+        ("{body}", &body),
+        ("{views}", &views),
+        ("{program}", &program),
+    ];
+    fill(FRAME, &filled)
+}
+
+/// A text with each of the marks, which come in this order, replaced.
+fn fill(frame: &str, marks: &[(&str, &str)]) -> Result<String, Failure> {
+    let (mut page, mut rest) = (String::new(), frame);
+    for (mark, text) in marks {
+        let (before, after) = rest
+            .split_once(mark)
+            .ok_or_else(|| Failure::Failed(format!("the page has no place for {mark}")))?;
+        page.extend([before, text]);
+        rest = after;
+    }
+    Ok(page + rest)
+}
+
+fn article(exhibit: &Exhibit) -> String {
+    let Exhibit { name, about, commands, picture, report, view } = exhibit;
+    let mut text = format!("<article id=\"{name}\">\n<h3>{name}: {}</h3>\n", escaped(about));
+    match picture {
+        Ok(png) => push(&mut text, format_args!("<img src=\"{}\" alt=\"{name}\">\n", embedded(png))),
+        Err(why) => push(&mut text, format_args!("<p class=\"fails\">Left out: {}</p>\n", escaped(why))),
+    }
+    match view {
+        Ok(_) => push(
+            &mut text,
+            format_args!(
+                "<canvas data-view=\"{name}\" aria-label=\"{name}, to be turned\"></canvas><p class=\"said\"></p>\n"
+            ),
+        ),
+        Err(why) => push(&mut text, format_args!("<p class=\"note\">{}</p>\n", escaped(why))),
+    }
+    let lines: Vec<_> = commands.iter().map(|line| format!("<code>{}</code>", escaped(line))).collect();
+    push(&mut text, format_args!("<p>{}</p>\n", lines.join("<br>\n")));
+    if let Some(report) = report {
+        push(
+            &mut text,
+            format_args!("<details><summary>Numbers of its report</summary>\n{}</details>\n", tables(report)),
+        );
+    }
+    text + "</article>\n"
+}
+
+/// The figures of a report, and its checks with what they are held against.
+fn tables(report: &Value) -> String {
+    let mut text = String::from("<table>\n");
+    for part in ["input", "result"] {
+        for (name, value) in
+            report[part].as_object().into_iter().flatten().filter(|(name, _)| *name != "path")
+        {
+            if let Some(value) = shown(value) {
+                push(&mut text, format_args!("<tr><td>{part}</td><td>{name}</td><td>{value}</td></tr>\n"));
+            }
+        }
+    }
+    for (name, check) in report["checks"].as_object().into_iter().flatten() {
+        let class = if check["holds"] == json!(true) { "" } else { " class=\"fails\"" };
+        let (value, limit) = (&check["value"], &check["limit"]);
+        push(
+            &mut text,
+            format_args!("<tr{class}><td>check</td><td>{name}</td><td>{value} ≤ {limit}</td></tr>\n"),
+        );
+    }
+    if let Some(total) = report["seconds"]["total"].as_f64() {
+        push(&mut text, format_args!("<tr><td>seconds</td><td>total</td><td>{total:.3}</td></tr>\n"));
+    }
+    text + "</table>\n"
+}
+
+/// A number, a word, or a short list of such; nothing for what is longer or empty.
+fn shown(value: &Value) -> Option<String> {
+    match value {
+        Value::Null | Value::Object(_) => None,
+        Value::String(text) => Some(escaped(text)),
+        Value::Array(list) if list.is_empty() || list.len() > LONGEST_LIST => None,
+        Value::Array(list) => list.iter().map(shown).collect::<Option<Vec<_>>>().map(|list| list.join(", ")),
+        value => Some(value.to_string()),
+    }
+}
+
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
+
+fn push(text: &mut String, more: std::fmt::Arguments<'_>) {
+    // Writing to a string does not fail.
+    let _ = text.write_fmt(more);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn exhibit(name: &'static str, picture: Result<Vec<u8>, String>) -> Exhibit {
+        let report = json!({
+            "input": {"path": "/secret/m.obj", "vertices": 7},
+            "result": {"long": [1, 2, 3, 4, 5, 6, 7], "modulus": [0.5, 1.25], "none": null},
+            "checks": {"gauss_bonnet": {"value": 1e-15, "limit": 1e-9, "holds": true}, "bad": {"value": 2, "limit": 1, "holds": false}},
+        });
+        let commands = vec!["ricci make a -o b && ricci flow <b>".into()];
+        Exhibit {
+            name,
+            about: "a < b".into(),
+            commands,
+            picture,
+            report: Some(report),
+            view: Err("no view {body}".into()),
+        }
+    }
+
+    #[test]
+    fn everything_of_an_exhibit_is_on_the_page() {
+        let exhibits = vec![exhibit("one", Ok(vec![1, 2, 3])), exhibit("two", Err("why & wherefore".into()))];
+        let page = write(&[Part { title: "Title".into(), exhibits, earlier: vec!["zero"] }]).ok().unwrap();
+        for text in [
+            "id=\"one\"",
+            "data:image/png;base64,AQID",
+            "a &lt; b",
+            "ricci flow &lt;b&gt;",
+            "why &amp; wherefore",
+            "no view {body}",
+            "<td>vertices</td><td>7</td>",
+            "<td>modulus</td><td>0.5, 1.25</td>",
+            "1e-15 ≤ 1e-9",
+            "class=\"fails\"><td>check</td><td>bad",
+            "href=\"#zero\"",
+            "id=\"views\">{}</script>",
+        ] {
+            assert!(page.contains(text), "{text} is missing");
+        }
+        for text in ["secret", "<td>long</td>", "<td>none</td>"] {
+            assert!(!page.contains(text), "{text} is there");
+        }
+    }
+}
