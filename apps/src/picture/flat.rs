@@ -27,7 +27,7 @@ const SHADE: f64 = 0.17;
 const PALE: f64 = 0.75;
 /// Degrees of opacity of the wire.
 const WIRE_CLASSES: usize = 5;
-/// Draw a layout.
+/// Draw a layout; what reaches beyond the panel is to be cut off.
 pub fn draw(flat: &Flat<'_>, wish: &Wish<'_>, style: &Style) -> Sheet {
     let mut canvas = Canvas::new(fit(flat, style), style);
     if let Some(field) = wish.field {
@@ -40,7 +40,7 @@ pub fn draw(flat: &Flat<'_>, wish: &Wish<'_>, style: &Style) -> Sheet {
     rounds(flat, &mut canvas);
     circles(flat, &mut canvas);
     lines(flat, &mut canvas);
-    canvas.sheet.cut("layout")
+    canvas.sheet
 }
 
 /// The whole layout with its circles, or the part that is to be shown.

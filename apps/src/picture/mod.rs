@@ -96,8 +96,8 @@ impl Picture<'_> {
         let wish = |corner_uv| Wish { tiles, corner_uv, field: self.field };
         let [surface, beside] = [self.surface, self.beside]
             .map(|surface| surface.map(|s| Sheet::of_image(solid::draw(&s, &wish(s.corner_uv), style))));
-        let [flat, second] = [self.flat, self.flat_beside]
-            .map(|flat| flat.map(|f| flat::draw(&f, &wish(Some(f.corner_uv)), style)));
+        let [flat, second] = [(self.flat, "layout"), (self.flat_beside, "second-layout")]
+            .map(|(flat, id)| flat.map(|f| flat::draw(&f, &wish(Some(f.corner_uv)), style).cut(id)));
         let drawing = self.drawing.map(|d| drawing::draw(d, style));
         let panels =
             stack([surface, beside, flat, second, drawing], 0, (BETWEEN * style.size as f64) as usize);

@@ -239,6 +239,20 @@ fn the_paper_stays_white_around_a_shadow() {
 }
 
 #[test]
+fn of_two_layouts_each_is_cut_at_its_own_sides() {
+    let rectangle = |w: f64, h: f64| [[[0.0, 0.0], [w, 0.0], [w, h]], [[0.0, 0.0], [w, h], [0.0, h]]];
+    let [wide, narrow] = [rectangle(1.0, 1.0), rectangle(0.5, 1.0)];
+    for [first, second] in [[&wide, &narrow], [&narrow, &wide]] {
+        let flat = |corner_uv| Some(Flat { corner_uv, ..Flat::default() });
+        let both = Picture { flat: flat(first), flat_beside: flat(second), ..Picture::default() };
+        let image = both.sheet(&style()).unwrap().image().unwrap();
+        let painted = pixels(&image).filter(|p| **p != [255; 3]).count() as f64;
+        let side = (1.0 - 2.0 * fit::MARGIN) * SIZE as f64;
+        assert!((painted / (1.5 * side * side) - 1.0).abs() < 0.03, "{painted} pixels");
+    }
+}
+
+#[test]
 fn drawings_are_well_formed_and_small() {
     let soup = shapes::disk(12).unwrap();
     let flat_of = |v: u32| [soup.positions[v as usize][0], soup.positions[v as usize][1]];
