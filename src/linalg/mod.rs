@@ -19,8 +19,11 @@ pub mod conjugate;
 pub mod dense;
 pub mod gmres;
 pub mod lu;
+mod multifrontal;
+mod order;
 pub mod pattern;
 mod substitution;
+mod tree;
 
 pub use cholesky::Cholesky;
 pub use pattern::{Pattern, Symmetric};
