@@ -7,7 +7,7 @@ use crate::geometry::conformal::{Edge, Vertex, differences};
 use crate::geometry::scaled::scaled;
 use crate::geometry::triangle::{self, Angles};
 use crate::geometry::twofold::two_sum;
-use crate::geometry::weights::weights;
+use crate::geometry::weights::weights_from_sines;
 use crate::geometry::{Space, Twofold, largest, worse};
 use crate::mesh::{EdgeId, FaceId, FixedEdges, Flip, Mesh, PerVertex, VertexId};
 use crate::metric::Metric;
@@ -245,6 +245,8 @@ fn measured_face(
     let (corners, edges, _) = face_parts(mesh, vertices, edges, f);
     let differences = differences(corners, edges);
     let eta = mesh.opposite_edges(f).map(|e| class.eta[e].high);
-    let weights = weights(class.space, differences, edges.map(|e| e.q2), corners, eta);
-    (triangle::angles_from(class.space, differences), weights)
+    let sines = triangle::sines(class.space, differences);
+    let q2 = edges.map(|e| e.q2);
+    let weights = weights_from_sines(class.space, (differences, sines), q2, corners, eta);
+    (triangle::angles_from_sines(class.space, differences, sines), weights)
 }
