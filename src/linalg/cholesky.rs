@@ -1,5 +1,6 @@
 //! Supernodal Cholesky (faer) with analysis, factorisation and solution as separate steps; the example is in [`crate::linalg`].
 
+pub use super::front::NotPositiveDefinite;
 use super::multifrontal::{self, Memory};
 use super::order::postorder;
 use super::pattern::{Pattern, Symmetric};
@@ -30,10 +31,6 @@ pub struct Cholesky {
     /// A right-hand side in the order of elimination, and as much again.
     ordered: [Vec<f64>; 2],
 }
-
-/// The matrix is not positive definite to working precision.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct NotPositiveDefinite;
 
 impl Cholesky {
     /// Analyse a pattern: fill-reducing order (AMD \[ADD96\]), elimination tree, supernodes; memory for the factor.
@@ -105,7 +102,8 @@ impl Cholesky {
         let Cholesky { symbolic, tree, factor, memory, .. } = self;
         match supernodes(symbolic, tree) {
             Some(supernodes) => multifrontal::factor(supernodes, matrix.values, factor, memory),
-            None => Err(NotPositiveDefinite),
+            // A matrix without rows.
+            None => Ok(()),
         }
     }
 
@@ -169,7 +167,9 @@ fn analysis(pattern: &Pattern, order: SymmetricOrdering<'_, u32>) -> Result<Symb
 
 /// The tree of an analysis, if its order is a postorder.
 fn tree(symbolic: &SymbolicCholesky<u32>, pattern: &Pattern) -> Option<Tree> {
-    let SymbolicCholeskyRaw::Supernodal(supernodes) = symbolic.raw() else { return None };
+    let SymbolicCholeskyRaw::Supernodal(supernodes) = symbolic.raw() else {
+        return (pattern.size() == 0).then(Tree::default);
+    };
     Tree::new(supernodes, pattern, symbolic.perm()?.arrays().1)
 }
 
@@ -217,7 +217,7 @@ mod tests {
 
     #[test]
     fn solution_leaves_no_residual() {
-        for k in [1, 7, 40] {
+        for k in [0, 1, 7, 40] {
             let (pattern, values) = grid(k);
             let matrix = Symmetric { pattern: &pattern, values: &values };
             let b: Vec<f64> = (0..k * k).map(|i| (i as f64).sin()).collect();

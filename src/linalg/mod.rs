@@ -17,6 +17,7 @@
 pub mod cholesky;
 pub mod conjugate;
 pub mod dense;
+mod front;
 pub mod gmres;
 pub mod lu;
 mod multifrontal;

@@ -4,30 +4,18 @@
 //! Bundles ([`super::tree`]) are worked through one beside the other, then the heavy supernodes one after the other, each by several
 //! threads. Blocks are of fixed sizes and sums are formed in a fixed order, so that the bits do not depend on the number of threads.
 
-use super::cholesky::NotPositiveDefinite;
+use super::front::{
+    Factored, NotPositiveDefinite, PANEL, eliminate, eliminate_panels, outer, outer_strip, scratch,
+};
 use super::tree::{Segment, Supernodes, packed};
 use crate::parallel::each;
-use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::linalg::cholesky::llt::factor::{LltRegularization, cholesky_in_place, cholesky_in_place_scratch};
-use faer::linalg::matmul::matmul;
-use faer::linalg::matmul::triangular::{self, BlockStructure};
-use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
-use faer::{Accum, MatMut, MatRef, Par, Spec};
+use faer::MatRef;
+use faer::dyn_stack::MemBuffer;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-/// Dense work is divided into blocks here, not by the kernels.
-const PARTITION: Par = Par::Seq;
-/// Columns of a heavy supernode that are eliminated together.
-const PANEL: usize = 96;
-/// Rows of a panel that one thread takes at a time.
-const ROWS: usize = 192;
 /// Columns of what is handed on that one thread takes at a time.
 const STRIP: usize = 96;
-/// Columns up to which a supernode is eliminated by the loops below: the dense kernels take longer to start.
-const NARROW: usize = 16;
-
-pub(super) type Factored = Result<(), NotPositiveDefinite>;
 
 /// Memory of a thread that works through bundles.
 pub(super) struct Arena {
@@ -35,7 +23,9 @@ pub(super) struct Arena {
     pub waiting: Vec<f64>,
     /// The lower triangle that a supernode hands on, in a square.
     pub front: Vec<f64>,
+    /// For diagonal blocks of up to `widest` columns.
     scratch: MemBuffer,
+    widest: usize,
 }
 
 /// Memory that is kept from one factorisation to the next.
@@ -99,6 +89,7 @@ pub(super) fn factor(
             Err(NotPositiveDefinite) => failed.store(true, Ordering::Relaxed),
         }
     });
+    memory.release();
     if failed.into_inner() {
         return Err(NotPositiveDefinite);
     }
@@ -138,7 +129,8 @@ impl Memory {
         matrix: &[f64],
         part: &mut [f64],
     ) -> Result<Vec<f64>, NotPositiveDefinite> {
-        self.lend(supernodes, |arena| {
+        self.lend(|arena| {
+            arena.prepare(supernodes);
             let mut rest = part;
             for s in bundle.supernodes.clone() {
                 let length = supernodes.values_start(s + 1) - supernodes.values_start(s);
@@ -151,26 +143,42 @@ impl Memory {
     }
 
     /// Run `work` with the memory of a thread, in which nothing waits.
-    pub fn lend<R>(&self, supernodes: Supernodes<'_>, work: impl FnOnce(&mut Arena) -> R) -> R {
-        let tree = supernodes.tree;
+    pub fn lend<R>(&self, work: impl FnOnce(&mut Arena) -> R) -> R {
         let kept = lock(&self.arenas).pop();
-        let mut arena = kept.unwrap_or_else(|| Arena {
-            waiting: Vec::with_capacity(tree.most_waiting),
-            front: vec![0.0; tree.most_below * tree.most_below],
-            scratch: scratch(tree.widest),
-        });
+        let mut arena = kept.unwrap_or_else(Arena::new);
         arena.waiting.clear();
         let result = work(&mut arena);
         lock(&self.arenas).push(arena);
         result
     }
-}
 
-fn scratch(widest: usize) -> MemBuffer {
-    MemBuffer::new(cholesky_in_place_scratch::<f64>(widest, PARTITION, Spec::default()))
+    /// Release what large factorisations need beside the factor.
+    fn release(&self) {
+        lock(&self.arenas).clear();
+    }
 }
 
 impl Arena {
+    fn new() -> Arena {
+        Arena { waiting: Vec::new(), front: Vec::new(), scratch: scratch(0), widest: 0 }
+    }
+
+    fn prepare(&mut self, supernodes: Supernodes<'_>) {
+        let tree = supernodes.tree;
+        self.waiting.reserve_exact(tree.most_waiting);
+        self.hold(tree.most_below * tree.most_below);
+        if self.widest < tree.widest {
+            (self.scratch, self.widest) = (scratch(tree.widest), tree.widest);
+        }
+    }
+
+    /// A front of at least so many numbers.
+    pub fn hold(&mut self, numbers: usize) {
+        if self.front.len() < numbers {
+            self.front = vec![0.0; numbers];
+        }
+    }
+
     fn supernode(
         &mut self,
         supernodes: Supernodes<'_>,
@@ -178,7 +186,7 @@ impl Arena {
         matrix: &[f64],
         own: &mut [f64],
     ) -> Factored {
-        let Arena { waiting, front, scratch } = self;
+        let Arena { waiting, front, scratch, .. } = self;
         let (width, m) = (supernodes.columns(s).len(), supernodes.rows(s).len());
         let height = width + m;
         let mut top = waiting.len();
@@ -212,61 +220,6 @@ impl Arena {
     }
 }
 
-/// Cholesky factorisation of the diagonal block, and the rows below it divided by its transpose.
-fn eliminate(own: &mut [f64], width: usize, height: usize, scratch: &mut MemBuffer) -> Factored {
-    if width <= NARROW {
-        return eliminate_narrow(own, width, height);
-    }
-    let own = MatMut::from_column_major_slice_mut(own, height, width);
-    let (mut diagonal, below) = own.split_at_row_mut(width);
-    diagonal_block(diagonal.as_mut(), scratch)?;
-    solve_lower_triangular_in_place(diagonal.as_ref(), below.transpose_mut(), PARTITION);
-    Ok(())
-}
-
-fn diagonal_block(block: MatMut<'_, f64>, scratch: &mut MemBuffer) -> Factored {
-    cholesky_in_place(block, LltRegularization::default(), PARTITION, MemStack::new(scratch), Spec::default())
-        .map(|_| ())
-        .map_err(|_| NotPositiveDefinite)
-}
-
-/// [`eliminate`] column by column.
-fn eliminate_narrow(own: &mut [f64], width: usize, height: usize) -> Factored {
-    for j in 0..width {
-        let (before, column) = own.split_at_mut(j * height);
-        let column = &mut column[j..height];
-        for earlier in before.chunks_exact(height) {
-            let earlier = &earlier[j..];
-            let factor = earlier[0];
-            column.iter_mut().zip(earlier).for_each(|(x, l)| *x -= factor * l);
-        }
-        // False also for what is no number.
-        if !(column[0] > 0.0) {
-            return Err(NotPositiveDefinite);
-        }
-        let inverse = 1.0 / column[0].sqrt();
-        column.iter_mut().for_each(|x| *x *= inverse);
-    }
-    Ok(())
-}
-
-/// The lower triangle of −B Bᵀ into `front`, B being the rows below the diagonal block.
-fn outer(own: &[f64], width: usize, height: usize, front: &mut [f64]) {
-    let m = height - width;
-    let below = MatRef::from_column_major_slice(own, height, width).subrows(width, m);
-    triangular::matmul(
-        MatMut::from_column_major_slice_mut(front, m, m),
-        BlockStructure::TriangularLower,
-        Accum::Replace,
-        below,
-        BlockStructure::Rectangular,
-        below.transpose(),
-        BlockStructure::Rectangular,
-        -1.0,
-        PARTITION,
-    );
-}
-
 /// What a heavy supernode hands on, packed.
 fn heavy_supernode(
     supernodes: Supernodes<'_>,
@@ -292,85 +245,37 @@ fn heavy_supernode(
         children.updates().for_each(|update| update.add(panel, columns.clone(), 0, height));
     });
     eliminate_panels(own, width, height)?;
-    let mut front = vec![0.0; m * m];
+    // Strips one after the other, each from the row of its first column on.
+    let rows = |p: usize| m - p * STRIP;
+    let strips = m.div_ceil(STRIP);
+    let size: usize = (0..strips).map(|p| rows(p) * STRIP.min(rows(p))).sum();
+    let mut front = vec![0.0; size];
     let below = MatRef::from_column_major_slice(&*own, height, width).subrows(width, m);
-    each(front.chunks_mut(STRIP * m.max(1)).enumerate().collect(), |(p, strip)| {
-        let columns = strip.len() / m;
-        let start = p * STRIP;
-        outer_strip(below, start, MatMut::from_column_major_slice_mut(strip, m, columns));
-        let columns = width + start..width + start + columns;
-        children.updates().for_each(|update| update.add(strip, columns.clone(), width, m));
+    let mut parts = Vec::with_capacity(strips);
+    let mut rest = &mut front[..];
+    for p in 0..strips {
+        let (strip, after) = rest.split_at_mut(rows(p) * STRIP.min(rows(p)));
+        parts.push((p * STRIP, strip));
+        rest = after;
+    }
+    each(parts, |(start, strip)| {
+        let columns = strip.len() / (m - start);
+        outer_strip(below.subrows(start, m - start), columns, strip);
+        let first = width + start;
+        children.updates().for_each(|update| update.add(strip, first..first + columns, first, m - start));
     });
     drop(children);
     supernodes.children(s).for_each(|c| release(supernodes, c, handed_on));
-    let mut end = 0;
+    let (mut from, mut end) = (0, 0);
     for j in 0..m {
-        front.copy_within(j * m + j..(j + 1) * m, end);
+        let (start, height) = (j / STRIP * STRIP, m - j / STRIP * STRIP);
+        front.copy_within(from + j - start..from + height, end);
+        from += height;
         end += m - j;
     }
     front.truncate(end);
+    front.shrink_to_fit();
     Ok(front)
-}
-
-/// The lower part of columns `start` and on of −B Bᵀ.
-fn outer_strip(below: MatRef<'_, f64>, start: usize, strip: MatMut<'_, f64>) {
-    let (m, columns) = (strip.nrows(), strip.ncols());
-    let (top, rest) = strip.split_at_row_mut(start).1.split_at_row_mut(columns);
-    let own = below.subrows(start, columns);
-    triangular::matmul(
-        top,
-        BlockStructure::TriangularLower,
-        Accum::Replace,
-        own,
-        BlockStructure::Rectangular,
-        own.transpose(),
-        BlockStructure::Rectangular,
-        -1.0,
-        PARTITION,
-    );
-    let after = start + columns;
-    matmul(rest, Accum::Replace, below.subrows(after, m - after), own.transpose(), -1.0, PARTITION);
-}
-
-/// [`eliminate`] by panels, each by several threads.
-fn eliminate_panels(own: &mut [f64], width: usize, height: usize) -> Factored {
-    let mut scratch = scratch(PANEL);
-    for start in (0..width).step_by(PANEL) {
-        let columns = PANEL.min(width - start);
-        let (done, panel) = own.split_at_mut(start * height);
-        let done = MatRef::from_column_major_slice(&*done, height, start);
-        let panel = MatMut::from_column_major_slice_mut(&mut panel[..columns * height], height, columns);
-        let (mut diagonal, below) = panel.split_at_row_mut(start).1.split_at_row_mut(columns);
-        let factors = done.subrows(start, columns).transpose();
-        let subtract = |block: MatMut<'_, f64>, row: usize| {
-            let rows = done.subrows(row, block.nrows());
-            matmul(block, Accum::Add, rows, factors, -1.0, PARTITION);
-        };
-        if start > 0 {
-            subtract(diagonal.as_mut(), start);
-        }
-        diagonal_block(diagonal.as_mut(), &mut scratch)?;
-        let diagonal = diagonal.as_ref();
-        each(row_blocks(below, start + columns), |(row, mut block)| {
-            if start > 0 {
-                subtract(block.as_mut(), row);
-            }
-            solve_lower_triangular_in_place(diagonal, block.transpose_mut(), PARTITION);
-        });
-    }
-    Ok(())
-}
-
-/// Blocks of [`ROWS`] rows, each with the number of its first row, that of the first being `row`.
-fn row_blocks(mut matrix: MatMut<'_, f64>, mut row: usize) -> Vec<(usize, MatMut<'_, f64>)> {
-    let mut blocks = Vec::new();
-    while matrix.nrows() > 0 {
-        let rows = ROWS.min(matrix.nrows());
-        let (block, rest) = matrix.split_at_row_mut(rows);
-        blocks.push((row, block));
-        (matrix, row) = (rest, row + rows);
-    }
-    blocks
 }
 
 /// What the children of a heavy supernode have handed on, last child first.

@@ -42,7 +42,7 @@ pub(super) fn solve(
     if let [bundle] = &segments[..]
         && !bundle.is_heavy
     {
-        memory.lend(supernodes, |arena| {
+        memory.lend(|arena| {
             factor.forward(bundle, x, arena);
             factor.backward(bundle, x, solved, arena);
         });
@@ -53,7 +53,7 @@ pub(super) fn solve(
         .into_iter()
         .partition(|(_, segment, _)| segment.is_heavy);
     let forward = |(k, segment, part): &mut (usize, &Segment, &mut [f64])| {
-        let below = memory.lend(supernodes, |arena| {
+        let below = memory.lend(|arena| {
             factor.forward(segment, part, arena);
             arena.waiting.clone()
         });
@@ -70,7 +70,7 @@ pub(super) fn solve(
     }
     let solved = &*solved;
     each(bundles, |(_, segment, part)| {
-        memory.lend(supernodes, |arena| factor.backward(segment, part, solved, arena));
+        memory.lend(|arena| factor.backward(segment, part, solved, arena));
     });
 }
 
@@ -90,6 +90,7 @@ impl<'a> Factor<'a> {
     /// Forward substitution in a bundle, of whose rows `x` holds the right-hand side. What its roots subtract from the rows of their
     /// parents waits in the arena.
     fn forward(&self, bundle: &Segment, x: &mut [f64], arena: &mut Arena) {
+        arena.hold(self.supernodes.tree.most_below);
         let Arena { waiting, front, .. } = arena;
         let begin = self.supernodes.column_start(bundle.supernodes.start);
         for s in bundle.supernodes.clone() {
@@ -113,6 +114,7 @@ impl<'a> Factor<'a> {
 
     /// Backward substitution in a bundle; `solved` holds the solution in the rows of heavy supernodes.
     fn backward(&self, bundle: &Segment, x: &mut [f64], solved: &[f64], arena: &mut Arena) {
+        arena.hold(self.supernodes.tree.most_below);
         let begin = self.supernodes.column_start(bundle.supernodes.start);
         for s in bundle.supernodes.clone().rev() {
             let supernode = self.supernode(s);
