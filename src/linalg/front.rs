@@ -56,8 +56,9 @@ fn eliminate_narrow(own: &mut [f64], width: usize, height: usize) -> Factored {
             let factor = earlier[0];
             column.iter_mut().zip(earlier).for_each(|(x, l)| *x -= factor * l);
         }
-        // False also for what is no number.
-        if !(column[0] > 0.0) {
+        // False also where it is no number.
+        let is_positive = column[0] > 0.0;
+        if !is_positive {
             return Err(NotPositiveDefinite);
         }
         let inverse = 1.0 / column[0].sqrt();
