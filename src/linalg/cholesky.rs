@@ -81,9 +81,12 @@ impl Cholesky {
 
     fn with_tree(symbolic: SymbolicCholesky<u32>, tree: Tree) -> Result<Cholesky> {
         let (size, entries) = (symbolic.nrows(), symbolic.len_val());
-        let mut factor = Vec::new();
-        factor.try_reserve_exact(entries).map_err(|_| failed(size, "not enough memory for the factor"))?;
-        factor.resize(entries, 0.0);
+        // Whether there is memory is asked first, since `vec!` ends the process where there is none. It leaves the pages to those who first
+        // write to them, which are the threads that factorise.
+        Vec::<f64>::new()
+            .try_reserve_exact(entries)
+            .map_err(|_| failed(size, "not enough memory for the factor"))?;
+        let factor = vec![0.0; entries];
         let ordered = [vec![0.0; size], vec![0.0; size]];
         Ok(Cholesky { symbolic, tree, factor, memory: Memory::default(), ordered })
     }
