@@ -298,6 +298,50 @@ mod tests {
         }
     }
 
+    /// Pairs of rows: a star, a path, a dense block, separate pieces, and edges all over.
+    fn graphs() -> [(usize, Vec<(u32, u32)>); 5] {
+        let star = (1..30_000).map(|i| (0, i)).collect();
+        let path = (1..30_000).map(|i| (i - 1, i)).collect();
+        let dense = (0..500).flat_map(|i| (0..i).map(move |j| (i, j))).collect();
+        let pieces = (0..20_000).filter(|i| i % 10 > 2).map(|i| (i, i - i % 10)).collect();
+        let all_over =
+            (1..2_000u32).flat_map(|i| [(i, i * 7919 % 2_000), (i, i * i % 1_999), (i, i - 1)]).collect();
+        [(30_000, star), (30_000, path), (500, dense), (20_000, pieces), (2_000, all_over)]
+    }
+
+    #[test]
+    fn matrices_of_every_shape_are_solved_with_the_same_bits_for_any_threads() {
+        let pools = [1, 2].map(|threads| Pool::new(threads).unwrap());
+        for (k, (n, pairs)) in graphs().into_iter().enumerate() {
+            let pattern = Pattern::new(n, &pairs).unwrap();
+            // Each pair counts once, by its place among the entries.
+            let mut values = vec![0.0; pattern.entries()];
+            for (i, j) in pairs.into_iter().map(|(i, j)| (i as usize, j as usize)).filter(|(i, j)| i != j) {
+                let at = pattern.position(i, j).unwrap();
+                if values[at] == 0.0 {
+                    values[at] = -1.0;
+                    [i, j].into_iter().for_each(|i| values[pattern.diagonal(i)] += 1.0);
+                }
+            }
+            (0..n).for_each(|i| values[pattern.diagonal(i)] += 0.5);
+            let matrix = Symmetric { pattern: &pattern, values: &values };
+            let b: Vec<f64> = (0..n).map(|i| (i as f64).sin()).collect();
+            let mut cholesky = Cholesky::analyse(&pattern).unwrap();
+            let [first, second] = [0, 1].map(|p| {
+                let mut x = b.clone();
+                pools[p].run(|| {
+                    cholesky.factor(matrix).unwrap();
+                    cholesky.solve(&mut x);
+                });
+                x
+            });
+            assert!(first == second, "graph {k}");
+            let mut left = b.clone();
+            matrix.residual(&first, &b, &mut left);
+            assert!(left.iter().all(|r| r.abs() < 1e-11), "graph {k}");
+        }
+    }
+
     fn analysis_in(pattern: &Pattern, forward: &[u32]) -> SymbolicCholesky<u32> {
         let mut inverse = vec![0; forward.len()];
         (0..).zip(forward).for_each(|(k, &i)| inverse[i as usize] = k);
