@@ -115,6 +115,15 @@ pub fn fill_both<A: Send, B: Send>(a: &mut [A], b: &mut [B], f: impl Fn(usize) -
     });
 }
 
+/// `work` on each item, in parallel when called inside a pool, one after the other outside.
+pub fn each<T: Send>(items: Vec<T>, work: impl Fn(T) + Sync) {
+    let items: Vec<Mutex<Option<T>>> = items.into_iter().map(|item| Mutex::new(Some(item))).collect();
+    share(items.len(), &|k| {
+        let item = items[k].lock().unwrap_or_else(PoisonError::into_inner).take();
+        item.into_iter().for_each(&work);
+    });
+}
+
 /// Hands each chunk with its number to `work`, which whoever comes to it locks.
 fn in_chunks<C: Send>(chunks: impl Iterator<Item = C>, work: impl Fn(usize, &mut C) + Sync) {
     let chunks: Vec<Mutex<C>> = chunks.map(Mutex::new).collect();

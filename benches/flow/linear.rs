@@ -1,10 +1,19 @@
-//! The linear algebra of one Newton step: the matrix, and what faer needs for it.
+//! The linear algebra of one Newton step: the matrix, and what faer needs for it, and what the flow's own factorisation does.
 
 use crate::common::seconds;
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::cholesky::llt::factor::LltRegularization;
+use faer::sparse::linalg::SupernodalThreshold;
+use faer::sparse::linalg::cholesky::{
+    CholeskySymbolicParams, LltRef, SymmetricOrdering, factorize_symbolic_cholesky,
+};
+use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
+use faer::{Conj, MatMut, Par, Side, Spec};
 use ricci::flow::curvature_derivative;
 use ricci::linalg::{Cholesky, Pattern, Symmetric};
 use ricci::mesh::{Mesh, VertexId};
 use ricci::metric::Metric;
+use ricci::parallel::Pool;
 use std::io::Write;
 
 /// What one solver took for one analysis, factorisation and solve.
@@ -59,31 +68,83 @@ impl Matrix {
         Symmetric { pattern: &self.pattern, values: &self.values }
     }
 
-    /// faer, as the flow uses it. The second factorisation and solve count: their memory is there already, as in all
-    /// steps of Newton but the first. The peers do the same.
+    /// faer on one thread, analysis and numbers: the yardstick. The second factorisation and solve count: their memory is there already,
+    /// as in all steps of Newton but the first. The peers do the same.
     pub fn faer(&self) -> Linear {
+        let n = self.pattern.size();
+        let starts: Vec<u32> = (0..n)
+            .map(|j| self.pattern.diagonal(j))
+            .chain([self.pattern.entries()])
+            .map(|k| k as u32)
+            .collect();
+        let rows: Vec<u32> = self.symmetric().entries().map(|(i, ..)| i as u32).collect();
+        let structure = SymbolicSparseColMatRef::new_checked(n, n, &starts, None, &rows);
+        let params = CholeskySymbolicParams {
+            supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
+            ..CholeskySymbolicParams::default()
+        };
+        let (analyse, symbolic) = seconds(|| {
+            factorize_symbolic_cholesky(structure, Side::Lower, SymmetricOrdering::Amd, params).unwrap()
+        });
+        let need = symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Spec::default());
+        let mut memory = MemBuffer::new(need.or(symbolic.solve_in_place_scratch::<f64>(1, Par::Seq)));
+        let mut values = vec![0.0; symbolic.len_val()];
+        let matrix = SparseColMatRef::new(structure, &self.values[..]);
+        let mut factor = |values: &mut [f64]| {
+            let (regular, stack, spec) =
+                (LltRegularization::default(), MemStack::new(&mut memory), Spec::default());
+            symbolic
+                .factorize_numeric_llt(values, matrix, Side::Lower, regular, Par::Seq, stack, spec)
+                .unwrap();
+        };
+        factor(&mut values);
+        let used = processor_seconds();
+        let factored = seconds(|| factor(&mut values)).0;
+        let cores = (processor_seconds() - used) / factored;
+        let mut x: Vec<f64> = (0..n).map(right_hand_side).collect();
+        let solve = seconds(|| {
+            LltRef::new(&symbolic, &values).solve_in_place_with_conj(
+                Conj::No,
+                MatMut::from_column_major_slice_mut(&mut x, n, 1),
+                Par::Seq,
+                MemStack::new(&mut memory),
+            );
+        });
+        let solver = "faer AMD".into();
+        let (entries, residual) = (values.len(), self.residual(&x));
+        Linear { solver, analyse, factor: factored, solve: solve.0, entries, cores, residual }
+    }
+
+    /// The factorisation of the flow, on so many threads.
+    pub fn own(&self, threads: usize) -> Linear {
         let b: Vec<f64> = (0..self.pattern.size()).map(right_hand_side).collect();
         let (analyse, mut cholesky) = seconds(|| Cholesky::analyse(&self.pattern).unwrap());
         let mut x = b.clone();
-        let [mut factor, mut solve, mut cores] = [0.0; 3];
-        for _ in 0..2 {
-            let used = processor_seconds();
-            factor = seconds(|| cholesky.factor(self.symmetric()).unwrap()).0;
-            cores = (processor_seconds() - used) / factor;
-            x.copy_from_slice(&b);
-            solve = seconds(|| cholesky.solve(&mut x)).0;
-        }
-        let mut residual = vec![0.0; x.len()];
-        self.symmetric().residual(&x, &b, &mut residual);
+        let [mut factor, mut solve] = [0.0; 2];
+        Pool::new(threads).unwrap().run(|| {
+            for _ in 0..2 {
+                factor = seconds(|| cholesky.factor(self.symmetric()).unwrap()).0;
+                x.copy_from_slice(&b);
+                solve = seconds(|| cholesky.solve(&mut x)).0;
+            }
+        });
         Linear {
-            solver: "faer AMD".into(),
+            solver: format!("own, {threads} thread{}", if threads == 1 { "" } else { "s" }),
             analyse,
             factor,
             solve,
             entries: cholesky.factor_entries(),
-            cores,
-            residual: residual.iter().fold(0.0, |m, r| r.abs().max(m)),
+            cores: f64::NAN,
+            residual: self.residual(&x),
         }
+    }
+
+    /// ‖A x − b‖∞
+    fn residual(&self, x: &[f64]) -> f64 {
+        let b: Vec<f64> = (0..x.len()).map(right_hand_side).collect();
+        let mut residual = vec![0.0; x.len()];
+        self.symmetric().residual(x, &b, &mut residual);
+        residual.iter().fold(0.0, |m, r| r.abs().max(m))
     }
 
     /// In the format that benches/peers reads.

@@ -34,6 +34,9 @@ fn rounds(vertices: usize) -> usize {
     if vertices < 100_000 { 9 } else { 3 }
 }
 
+/// Threads of the flow.
+const THREADS: [usize; 2] = [1, 2];
+
 /// Largest ‖A x − b‖∞ of a solver that solved the system: ‖b‖∞ = 1, and what rounding leaves is below 1e-13.
 const SOLVED: f64 = 1e-10;
 
@@ -41,12 +44,13 @@ const SOLVED: f64 = 1e-10;
 struct Row {
     vertices: usize,
     scheme: Scheme,
+    threads: usize,
     rounds: usize,
     /// Of the flow of median time.
     report: Report,
     /// Most bytes of the heap during the flow: surface, start, target and factor together.
     peak: usize,
-    /// faer first, then the peers: medians.
+    /// faer first, then the flow's own factorisation, then the peers: medians.
     linear: Vec<Linear>,
 }
 
@@ -62,26 +66,32 @@ fn medians(rounds: &[Vec<Linear>], solver: usize) -> Linear {
     }
 }
 
-fn measure(vertices: usize, scheme: Scheme, peers: Option<&Program>) -> Row {
+/// A row for each number of threads in [`THREADS`].
+fn measure(vertices: usize, scheme: Scheme, peers: Option<&Program>) -> Vec<Row> {
     let side = (vertices as f64 / 2.0).sqrt();
     let mut soup = shapes::torus(2.0, 0.9, (2.0 * side) as usize, side as usize).unwrap();
     shapes::noise(&mut soup, 0.05, 1).unwrap();
     let (surface, class) = (Surface::from_soup(&soup).unwrap(), Class::new(scheme, Space::E2));
     drop(soup);
-    let (mut reports, mut solvers) = (Vec::new(), Vec::new());
-    let mut peak = 0;
+    let (mut reports, mut solvers) = (THREADS.map(|_| Vec::new()), Vec::new());
+    let mut peak = [0; THREADS.len()];
     let rounds = rounds(vertices);
     for round in 1..=rounds {
         eprintln!("{vertices} {scheme}: round {round} of {rounds}");
-        let options = Options { flips: Flips::Never, ..Options::default() };
-        let run = || flow(surface.clone(), class, &Target::Uniform, &options, &Control::new()).unwrap();
-        let (most, solution) = heap::peak(run);
-        let report = solution.report().unwrap().clone();
-        assert!(report.converged(), "{report:?}");
-        peak = peak.max(most);
-        reports.push(report);
-        let matrix = Matrix::new(solution.mesh(), solution.metric());
+        let mut matrix = None;
+        for (k, threads) in THREADS.into_iter().enumerate() {
+            let options = Options { flips: Flips::Never, threads, ..Options::default() };
+            let run = || flow(surface.clone(), class, &Target::Uniform, &options, &Control::new()).unwrap();
+            let (most, solution) = heap::peak(run);
+            let report = solution.report().unwrap().clone();
+            assert!(report.converged(), "{report:?}");
+            peak[k] = peak[k].max(most);
+            reports[k].push(report);
+            matrix.get_or_insert_with(|| Matrix::new(solution.mesh(), solution.metric()));
+        }
+        let matrix = matrix.unwrap();
         let mut linear = vec![matrix.faer()];
+        linear.extend(THREADS.map(|threads| matrix.own(threads)));
         if let Some(peers) = peers {
             linear.extend(peers::measure(peers, &matrix));
         }
@@ -90,15 +100,19 @@ fn measure(vertices: usize, scheme: Scheme, peers: Option<&Program>) -> Row {
         }
         solvers.push(linear);
     }
-    reports.sort_by(|a, b| a.seconds.total.total_cmp(&b.seconds.total));
-    Row {
-        vertices: surface.mesh().n_vertices(),
-        scheme,
-        report: reports.swap_remove(rounds / 2),
-        peak,
-        linear: (0..solvers[0].len()).map(|solver| medians(&solvers, solver)).collect(),
-        rounds,
-    }
+    let row = |(k, mut reports): (usize, Vec<Report>)| {
+        reports.sort_by(|a, b| a.seconds.total.total_cmp(&b.seconds.total));
+        Row {
+            vertices: surface.mesh().n_vertices(),
+            scheme,
+            threads: THREADS[k],
+            report: reports.swap_remove(rounds / 2),
+            peak: peak[k],
+            linear: (0..solvers[0].len()).map(|solver| medians(&solvers, solver)).collect(),
+            rounds,
+        }
+    };
+    reports.into_iter().enumerate().map(row).collect()
 }
 
 fn main() {
@@ -135,7 +149,7 @@ fn main() {
         eprintln!("no peers: {why}");
     }
     let rows: Vec<Row> =
-        cases.into_iter().map(|(size, scheme)| measure(size, scheme, peers.as_ref().ok())).collect();
+        cases.into_iter().flat_map(|(size, scheme)| measure(size, scheme, peers.as_ref().ok())).collect();
     let disks: Vec<_> = sizes.into_iter().map(conformal::measure).collect();
     println!("{}", page::page((&rows, &disks), peers.map(|p| p.libraries()), [load, machine::load()]));
 }

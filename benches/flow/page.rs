@@ -41,7 +41,7 @@ without flips; medians over the rounds, in seconds. Steps: Newton iterations. By
 vertex; mesh, start, target and solver together. The columns after it are ratios: the flow over steps × (factor + solve) + analyse
 by that solver, measured in the same rounds on the same matrix (next table). Below 1, the whole flow takes less time than its
 linear algebra alone would take with that solver. Factors: numeric factorisations of the flow. Over once: the flow over one analysis and
-one factorisation by faer.
+one factorisation by faer on one thread.
 
 "
     );
@@ -56,7 +56,7 @@ but the first. Cores: processor seconds per second of the factorisation. Residua
 ";
     solvers(&mut page, rows);
     page += "\n## Newton's error\n\nmax |K − K̄| at the start and after each step.\n\n";
-    for row in rows {
+    for row in rows.iter().filter(|row| row.threads == 1) {
         let tail: Vec<String> = row.report.residuals.iter().map(|r| format!("{r:.1e}")).collect();
         put(&mut page, format_args!("- {} {}: {}\n", row.vertices, row.scheme, tail.join(" ")));
     }
@@ -66,18 +66,23 @@ but the first. Cores: processor seconds per second of the factorisation. Residua
 }
 
 fn flows(page: &mut String, rows: &[Row]) {
-    let columns = "| vertices | scheme | rounds | steps | factors | flow | assemble | analyse | factor | solve | rest | bytes | over once |";
+    let columns = "| vertices | scheme | threads | rounds | steps | factors | flow | assemble | analyse | factor | solve | rest | bytes | over once |";
     let solvers = rows.first().map_or(&[][..], |row| &row.linear);
     let names: String = solvers.iter().map(|solver| format!(" {} |", solver.solver)).collect();
-    put(page, format_args!("{columns}{names}\n|{}\n", "---|".repeat(13 + solvers.len())));
+    put(page, format_args!("{columns}{names}\n|{}\n", "---|".repeat(14 + solvers.len())));
     for row in rows {
         let s = row.report.seconds;
         let rest = s.total - s.assemble - s.analyse - s.factor - s.solve;
         put(
             page,
             format_args!(
-                "| {} | {} | {} | {} | {} |",
-                row.vertices, row.scheme, row.rounds, row.report.iterations, row.report.factorisations
+                "| {} | {} | {} | {} | {} | {} |",
+                row.vertices,
+                row.scheme,
+                row.threads,
+                row.rounds,
+                row.report.iterations,
+                row.report.factorisations
             ),
         );
         for seconds in [s.total, s.assemble, s.analyse, s.factor, s.solve, rest] {
@@ -89,8 +94,11 @@ fn flows(page: &mut String, rows: &[Row]) {
     }
     page.push('\n');
     let above = |row: &&Row| row.over_once() > RATIO || row.bytes_per_vertex() > PEAK;
-    let above: Vec<String> =
-        rows.iter().filter(above).map(|row| format!("{} {}", row.vertices, row.scheme)).collect();
+    let above: Vec<String> = rows
+        .iter()
+        .filter(above)
+        .map(|row| format!("{} {}, {} threads", row.vertices, row.scheme, row.threads))
+        .collect();
     let above = if above.is_empty() { "none".into() } else { above.join(", ") };
     let asked = format_args!(
         "Asked at 200,000 vertices: at most {RATIO} × one analysis and factorisation by faer, and {PEAK} bytes per vertex. Rows above: {above}.\n"
@@ -124,7 +132,7 @@ area of the image; the flow leaves none.
 fn solvers(page: &mut String, rows: &[Row]) {
     *page += "| vertices | scheme | solver | analyse | factor | solve | numbers in the factor | cores | residual |\n";
     put(page, format_args!("|{}\n", "---|".repeat(9)));
-    for row in rows {
+    for row in rows.iter().filter(|row| row.threads == 1) {
         for x in &row.linear {
             put(page, format_args!("| {} | {} | {} |", row.vertices, row.scheme, x.solver));
             put(page, format_args!(" {:.4} | {:.4} | {:.4} |", x.analyse, x.factor, x.solve));

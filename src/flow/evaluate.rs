@@ -7,7 +7,7 @@ use crate::geometry::conformal::{Edge, Vertex, differences};
 use crate::geometry::scaled::scaled;
 use crate::geometry::triangle::{self, Angles};
 use crate::geometry::twofold::two_sum;
-use crate::geometry::weights::weights;
+use crate::geometry::weights::weights_from_sines;
 use crate::geometry::{Space, Twofold, largest, worse};
 use crate::mesh::{EdgeId, FaceId, FixedEdges, Flip, Mesh, PerVertex, VertexId};
 use crate::metric::Metric;
@@ -214,7 +214,9 @@ impl State {
 
     /// Total area; infinite as [`State::face_area`].
     pub fn area(&self, mesh: &Mesh, class: &Metric) -> f64 {
-        mesh.faces().map(|f| self.face_area(mesh, class.space, f)).sum()
+        let mut areas = vec![0.0; mesh.n_faces()];
+        fill(&mut areas, |f| self.face_area(mesh, class.space, f.into()));
+        areas.iter().sum()
     }
 
     /// `K̄ − K` into `out`, 0 at pinned vertices; returns its maximum norm.
@@ -245,6 +247,8 @@ fn measured_face(
     let (corners, edges, _) = face_parts(mesh, vertices, edges, f);
     let differences = differences(corners, edges);
     let eta = mesh.opposite_edges(f).map(|e| class.eta[e].high);
-    let weights = weights(class.space, differences, edges.map(|e| e.q2), corners, eta);
-    (triangle::angles_from(class.space, differences), weights)
+    let sines = triangle::sines(class.space, differences);
+    let q2 = edges.map(|e| e.q2);
+    let weights = weights_from_sines(class.space, (differences, sines), q2, corners, eta);
+    (triangle::angles_from_sines(class.space, differences, sines), weights)
 }

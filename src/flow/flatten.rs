@@ -24,13 +24,21 @@ impl Flow {
     /// # Errors
     /// Those of [`crate::metric::Metric::angle_defects`]; [`crate::Error::Cancelled`], [`crate::Error::Factorisation`].
     pub fn flatten(&mut self, control: &Control) -> Result<f64> {
+        self.flatten_at(State::new(&self.metric.u, &self.metric.u_low), control)
+    }
+
+    /// [`Flow::flatten`] of the present metric, of which `state` may hold what has been measured.
+    pub(super) fn flatten_at(&mut self, mut state: State, control: &Control) -> Result<f64> {
         let pool = self.pool.clone();
         pool.run(|| {
-            self.metric.check_domain(&self.mesh)?;
+            let is_measured = state.is_measured() || state.evaluate(&self.mesh, &self.metric);
+            if !is_measured {
+                // It names the first vertex or edge outside the domain.
+                self.metric.check_domain(&self.mesh)?;
+            }
             let residual = self.defects();
             let error = largest(&residual);
-            let mut state = State::new(&self.metric.u, &self.metric.u_low);
-            if error <= FLOOR || !state.evaluate(&self.mesh, &self.metric) {
+            if error <= FLOOR || !is_measured {
                 return Ok(error);
             }
             let mut fixed = self.pinned.clone();

@@ -170,9 +170,9 @@ impl Flow {
         if report.is_reached() {
             (self.start, self.start_low) = (state.u.clone(), state.low.clone());
         }
-        (self.now.metric.u, self.now.metric.u_low) = (state.u, state.low);
+        (self.now.metric.u, self.now.metric.u_low) = (state.u.clone(), state.low.clone());
         if report.is_reached() && self.is_to_be_flattened(target) {
-            report.angle_defect = Some(self.flatten(control)?);
+            report.angle_defect = Some(self.flatten_at(state, control)?);
         }
         Ok((report, left))
     }

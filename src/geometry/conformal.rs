@@ -307,10 +307,16 @@ pub fn half_chord(space: Space, a: Vertex, b: Vertex, eta: Twofold) -> (Twofold,
 
 /// `l − length` in H² where ε = 0, from `sinh²(l/2) = 2 η e^{u_a + u_b}` to twice the digits: `2 (q − sinh(length/2))/cosh(length/2)`.
 fn lost_length(a: Vertex, b: Vertex, eta: Twofold, length: f64) -> f64 {
-    let (up, lost) = twofold::exp(0.5 * length);
+    let chord = half_chord(Space::H2, a, b, eta).0;
+    let half = 0.5 * length;
+    if half <= twofold::MAX_SERIES {
+        let sinh = twofold::sinh(half);
+        return 2.0 * (chord - sinh).high / (1.0 + sinh.high * sinh.high).sqrt();
+    }
+    let (up, lost) = twofold::exp(half);
     let up = Twofold::from(up) + (up * lost).into();
     let down = Twofold::from(1.0) / up;
-    let rest = half_chord(Space::H2, a, b, eta).0 - (up - down).scaled(-1);
+    let rest = chord - (up - down).scaled(-1);
     4.0 * rest.high / (up.high + down.high)
 }
 

@@ -82,16 +82,20 @@ pub fn sine(space: Space, x: f64) -> f64 {
 /// Half perimeter in H² above which quotients of sinh are formed from exponentials of differences: sinh overflows at 710.
 const FAR: f64 = 300.0;
 
+/// f of the half perimeter and of the half-perimeter differences.
+#[inline]
+pub fn sines(space: Space, r: [f64; 3]) -> (f64, [f64; 3]) {
+    (sine(space, r[0] + r[1] + r[2]), r.map(|x| sine(space, x)))
+}
+
 /// `f(r_i)/f(s)`. Products of such ratios neither overflow nor underflow, whatever the size of the lengths.
 #[inline]
-fn ratios(space: Space, s: f64, r: [f64; 3]) -> [f64; 3] {
+fn ratios(space: Space, r: [f64; 3], (whole, sines): (f64, [f64; 3])) -> [f64; 3] {
+    let s = r[0] + r[1] + r[2];
     match space {
         // sinh x = e^x (1 − e^{−2x})/2
         Space::H2 if s > FAR => r.map(|x| (x - s).exp() * (-2.0 * x).exp_m1() / (-2.0 * s).exp_m1()),
-        _ => {
-            let whole = sine(space, s);
-            r.map(|x| sine(space, x) / whole)
-        }
+        _ => sines.map(|x| x / whole),
     }
 }
 
@@ -106,6 +110,12 @@ pub fn angles(space: Space, l: [f64; 3]) -> Angles {
 /// The angles from the half-perimeter differences, which may be known better than the lengths.
 #[inline]
 pub fn angles_from(space: Space, r: [f64; 3]) -> Angles {
+    angles_from_sines(space, r, sines(space, r))
+}
+
+/// [`angles_from`], with the [`sines`] of the differences.
+#[inline]
+pub fn angles_from_sines(space: Space, r: [f64; 3], sines: (f64, [f64; 3])) -> Angles {
     let s = r[0] + r[1] + r[2];
     if let Some(corner) = (0..3).find(|&i| r[i] <= 0.0) {
         return Angles { at: [0, 1, 2].map(|k| if k == corner { PI } else { 0.0 }) };
@@ -114,7 +124,7 @@ pub fn angles_from(space: Space, r: [f64; 3]) -> Angles {
         return Angles { at: [PI; 3] };
     }
     // The roots first: f_i f_j may underflow.
-    let [a, b, c] = ratios(space, s, r).map(f64::sqrt);
+    let [a, b, c] = ratios(space, r, sines).map(f64::sqrt);
     Angles { at: [(b * c, a), (c * a, b), (a * b, c)].map(|(y, x)| 2.0 * y.atan2(x)) }
 }
 

@@ -183,9 +183,44 @@ pub(crate) fn exp_parts(x: f64) -> (f64, f64, i32) {
     (sum, lost / sum, k as i32)
 }
 
+/// Largest |x| of [`sinh`].
+pub(crate) const MAX_SERIES: f64 = 0.25;
+/// 1/3! and 1/5! with what the doubles lose.
+const SIXTH: Twofold = Twofold { high: 1.0 / 6.0, low: 9.251_858_538_542_97e-18 };
+const HUNDRED_TWENTIETH: Twofold = Twofold { high: 1.0 / 120.0, low: 1.156_482_317_317_871_4e-19 };
+/// 1/7!, 1/9!, … up to 1/15!: the next term is below 1e-24 of sinh x.
+const ODD_FACTORIALS: [f64; 5] =
+    [1.0 / 5040.0, 1.0 / 362_880.0, 1.0 / 39_916_800.0, 1.0 / 6_227_020_800.0, 1.0 / 1_307_674_368_000.0];
+
+/// sinh x for |x| up to [`MAX_SERIES`] (error below 1e-23 of it), by its series: without the cancellation and at a third of the cost of
+/// two exponentials.
+pub(crate) fn sinh(x: f64) -> Twofold {
+    let (square, lost) = two_product(x, x);
+    let y = Twofold { high: square, low: lost };
+    let tail = square * ODD_FACTORIALS.iter().rev().fold(0.0, |sum, factor| sum * square + factor);
+    let inner = y * HUNDRED_TWENTIETH.plus(tail);
+    let (sum, lost) = two_sum(SIXTH.high, inner.high);
+    let rest = y * Twofold::renormalised(sum, lost + (SIXTH.low + inner.low));
+    let (product, lost) = two_product(rest.high, x);
+    let (sum, more) = two_sum(x, product);
+    Twofold::renormalised(sum, more + (lost + rest.low * x))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_series_of_sinh_is_half_the_difference_of_exponentials() {
+        for k in 1..=400 {
+            let x = MAX_SERIES * f64::from(k) / 400.0 * if k % 2 == 0 { 1.0 } else { -1.0 };
+            let (up, lost) = exp(x);
+            let up = Twofold::from(up) + (up * lost).into();
+            let expected = (up - Twofold::from(1.0) / up).scaled(-1);
+            // The exponentials are known to 3e-24, of which sinh x is x.
+            assert!((sinh(x) - expected).high.abs() < 1e-23 * x.abs() + 6e-24, "{x}");
+        }
+    }
 
     /// (√2)² = 2, (1/3)·3 = 1 and the like, and what is left of 1 + 2⁻⁷⁰ when 1 is taken away.
     #[test]

@@ -12,7 +12,7 @@
 
 use super::Space;
 use super::conformal::Vertex;
-use super::triangle::sine;
+use super::triangle::sines;
 use std::f64::consts::PI;
 
 /// The weights `w_k = ∂θ_i/∂u_j = ∂θ_j/∂u_i` of the three edges (w_k belongs to edge ij, opposite corner k).
@@ -30,6 +30,18 @@ use std::f64::consts::PI;
 /// centre from edge ij) / l_k. A broken triangle has weights 0: its extended angles are constant.
 #[inline]
 pub fn weights(space: Space, r: [f64; 3], q2: [f64; 3], corners: [Vertex; 3], eta: [f64; 3]) -> [f64; 3] {
+    weights_from_sines(space, (r, sines(space, r)), q2, corners, eta)
+}
+
+/// [`weights`], with the [`sines`] of the differences.
+#[inline]
+pub fn weights_from_sines(
+    space: Space,
+    (r, (whole, sines)): ([f64; 3], (f64, [f64; 3])),
+    q2: [f64; 3],
+    corners: [Vertex; 3],
+    eta: [f64; 3],
+) -> [f64; 3] {
     if r.iter().any(|&x| x <= 0.0) {
         return [0.0; 3];
     }
@@ -38,12 +50,12 @@ pub fn weights(space: Space, r: [f64; 3], q2: [f64; 3], corners: [Vertex; 3], et
     }
     // In units of the longest chord no product under- or overflows.
     let unit = 0.5 / q2.into_iter().fold(0.0, f64::max).sqrt();
-    let f = |x: f64| unit * sine(space, x);
     let s = r[0] + r[1] + r[2];
     if space == Space::S2 && s >= PI {
         return [0.0; 3];
     }
-    let delta = (f(s) * f(r[0])).sqrt() * (f(r[1]) * f(r[2])).sqrt();
+    let [a, b, c] = sines.map(|x| unit * x);
+    let delta = (unit * whole * a).sqrt() * (b * c).sqrt();
     let lambda = space.curvature();
     let c = corners.map(|v| 1.0 - lambda * v.epsilon * v.scale * v.scale);
     let e = corners.map(|v| v.scale * unit);

@@ -1,35 +1,36 @@
 //! Supernodal Cholesky (faer) with analysis, factorisation and solution as separate steps; the example is in [`crate::linalg`].
 
+pub use super::front::NotPositiveDefinite;
+use super::multifrontal::{self, Memory};
+use super::order::postorder;
 use super::pattern::{Pattern, Symmetric};
 use super::substitution;
+use super::tree::{Supernodes, Tree};
 use crate::error::{Error, Result};
-use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
-use faer::linalg::cholesky::llt::factor::LltRegularization;
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::perm::PermRef;
+use faer::sparse::SymbolicSparseColMatRef;
 use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, LltRef, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
     factorize_symbolic_cholesky,
 };
-use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
-use faer::{Conj, MatMut, Par, Side, Spec};
+use faer::{Conj, MatMut, Par, Side};
 
-/// How faer divides the dense work inside a supernode: one fixed number, whatever the pool's size, so that the
-/// rounding (and so every result of the library) does not depend on the number of threads. Two were slower anyway (134k
-/// vertices, 8 factorisations: 1.33 to 1.50 s against 1.02 to 1.06 s).
+/// How faer divides its dense work: not at all. It is divided here, into parts which do not depend on the number of threads, so that the
+/// rounding (and so every result of the library) does not either.
 const PARTITION: Par = Par::Seq;
 
-/// The Cholesky factorisation `A = P L Lᵀ Pᵀ` of matrices with one pattern.
+/// The Cholesky factorisation `A = P L Lᵀ Pᵀ` of matrices with one pattern. Inside a pool ([`crate::parallel`]) its threads share the
+/// work.
 pub struct Cholesky {
     symbolic: SymbolicCholesky<u32>,
+    tree: Tree,
     factor: Vec<f64>,
-    scratch: MemBuffer,
+    memory: Memory,
     /// A right-hand side in the order of elimination, and as much again.
     ordered: [Vec<f64>; 2],
 }
-
-/// The matrix is not positive definite to working precision.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct NotPositiveDefinite;
 
 impl Cholesky {
     /// Analyse a pattern: fill-reducing order (AMD \[ADD96\]), elimination tree, supernodes; memory for the factor.
@@ -38,7 +39,13 @@ impl Cholesky {
     ///
     /// [`Error::Factorisation`] where the analysis fails or memory for the factor is lacking.
     pub fn analyse(pattern: &Pattern) -> Result<Cholesky> {
-        Cholesky::with_order(pattern, SymmetricOrdering::Amd)
+        let symbolic = analysis(pattern, SymmetricOrdering::Amd)?;
+        // The order is a postorder most of the time.
+        match (tree(&symbolic, pattern), symbolic.perm()) {
+            (Some(tree), _) => Cholesky::with_tree(symbolic, tree),
+            (None, Some(order)) => Cholesky::with_postorder(pattern, order.arrays().0),
+            (None, None) => Err(failed(pattern.size(), "analysis: no order")),
+        }
     }
 
     /// Analyse another pattern of the same size with the order found for this one. The order is most of the work of an analysis, and
@@ -49,41 +56,39 @@ impl Cholesky {
     ///
     /// As [`Cholesky::analyse`].
     pub fn analyse_again(self, pattern: &Pattern) -> Result<Cholesky> {
-        let Cholesky { symbolic, factor, scratch, .. } = self;
-        drop((factor, scratch));
+        let Cholesky { symbolic, factor, memory, tree, ordered } = self;
+        drop((factor, memory, tree, ordered));
         match symbolic.perm() {
             Some(order) if order.len() == pattern.size() => {
-                Cholesky::with_order(pattern, SymmetricOrdering::Custom(order))
+                Cholesky::with_postorder(pattern, order.arrays().0)
             }
             _ => Cholesky::analyse(pattern),
         }
     }
 
-    fn with_order(pattern: &Pattern, order: SymmetricOrdering<'_, u32>) -> Result<Cholesky> {
-        let size = pattern.size();
-        let failed = |message: String| Error::Factorisation { size, message };
-        let symbolic = factorize_symbolic_cholesky(
-            structure(pattern),
-            Side::Lower,
-            order,
-            CholeskySymbolicParams {
-                supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
-                ..CholeskySymbolicParams::default()
-            },
-        )
-        .map_err(|e| failed(format!("analysis: {e}")))?;
-        let need = StackReq::any_of(&[
-            symbolic.factorize_numeric_llt_scratch::<f64>(PARTITION, Spec::default()),
-            symbolic.solve_in_place_scratch::<f64>(1, PARTITION),
-        ]);
-        let memory = |_| failed("not enough memory for the factor".into());
-        let scratch = MemBuffer::try_new(need).map_err(memory)?;
-        let mut factor = Vec::new();
-        factor
-            .try_reserve_exact(symbolic.len_val())
-            .map_err(|_| failed("not enough memory for the factor".into()))?;
-        factor.resize(symbolic.len_val(), 0.0);
-        Ok(Cholesky { symbolic, factor, scratch, ordered: [vec![0.0; size], vec![0.0; size]] })
+    /// With the postorder of an order of elimination.
+    fn with_postorder(pattern: &Pattern, forward: &[u32]) -> Result<Cholesky> {
+        let forward = postorder(pattern, forward);
+        let mut inverse = vec![0; forward.len()];
+        (0..).zip(&forward).for_each(|(k, &i)| inverse[i as usize] = k);
+        let order = PermRef::new_checked(&forward, &inverse, forward.len());
+        let symbolic = analysis(pattern, SymmetricOrdering::Custom(order))?;
+        match tree(&symbolic, pattern) {
+            Some(tree) => Cholesky::with_tree(symbolic, tree),
+            None => Err(failed(pattern.size(), "analysis: no tree of supernodes")),
+        }
+    }
+
+    fn with_tree(symbolic: SymbolicCholesky<u32>, tree: Tree) -> Result<Cholesky> {
+        let (size, entries) = (symbolic.nrows(), symbolic.len_val());
+        // Whether there is memory is asked first, since `vec!` ends the process where there is none. It leaves the pages to those who first
+        // write to them, which are the threads that factorise.
+        Vec::<f64>::new()
+            .try_reserve_exact(entries)
+            .map_err(|_| failed(size, "not enough memory for the factor"))?;
+        let factor = vec![0.0; entries];
+        let ordered = [vec![0.0; size], vec![0.0; size]];
+        Ok(Cholesky { symbolic, tree, factor, memory: Memory::default(), ordered })
     }
 
     /// Number of values in the factor.
@@ -97,19 +102,12 @@ impl Cholesky {
     ///
     /// [`NotPositiveDefinite`], after which there is no factor to solve with.
     pub fn factor(&mut self, matrix: Symmetric<'_>) -> std::result::Result<(), NotPositiveDefinite> {
-        let a = SparseColMatRef::new(structure(matrix.pattern), matrix.values);
-        self.symbolic
-            .factorize_numeric_llt(
-                &mut self.factor,
-                a,
-                Side::Lower,
-                LltRegularization::default(),
-                PARTITION,
-                MemStack::new(&mut self.scratch),
-                Spec::default(),
-            )
-            .map(|_| ())
-            .map_err(|_| NotPositiveDefinite)
+        let Cholesky { symbolic, tree, factor, memory, .. } = self;
+        match supernodes(symbolic, tree) {
+            Some(supernodes) => multifrontal::factor(supernodes, matrix.values, factor, memory),
+            // A matrix without rows.
+            None => Ok(()),
+        }
     }
 
     /// Overwrite `x` with `A⁻¹ x`, A being the matrix factorised last.
@@ -118,22 +116,13 @@ impl Cholesky {
     ///
     /// If `x` does not have n entries.
     pub fn solve(&mut self, x: &mut [f64]) {
-        let Cholesky { symbolic, factor, scratch, ordered: [y, below] } = self;
-        let (n, order) = (symbolic.nrows(), symbolic.perm());
-        assert_eq!(x.len(), n, "one entry per row");
-        match (symbolic.raw(), order) {
-            (SymbolicCholeskyRaw::Supernodal(supernodes), Some(order)) => {
-                let (forward, _) = order.arrays();
-                y.iter_mut().zip(forward).for_each(|(y, &i)| *y = x[i as usize]);
-                substitution::solve(supernodes, factor, y, below);
-                forward.iter().zip(&*y).for_each(|(&i, y)| x[i as usize] = *y);
-            }
-            _ => LltRef::new(symbolic, factor).solve_in_place_with_conj(
-                Conj::No,
-                MatMut::from_column_major_slice_mut(x, n, 1),
-                PARTITION,
-                MemStack::new(scratch),
-            ),
+        let Cholesky { symbolic, tree, factor, memory, ordered: [y, solved] } = self;
+        assert_eq!(x.len(), symbolic.nrows(), "one entry per row");
+        if let (Some(supernodes), Some(order)) = (supernodes(symbolic, tree), symbolic.perm()) {
+            let (forward, _) = order.arrays();
+            y.iter_mut().zip(forward).for_each(|(y, &i)| *y = x[i as usize]);
+            substitution::solve(supernodes, factor, [y, solved], memory);
+            forward.iter().zip(&*y).for_each(|(&i, y)| x[i as usize] = *y);
         }
     }
 
@@ -166,6 +155,34 @@ impl Cholesky {
     }
 }
 
+fn failed(size: usize, message: &str) -> Error {
+    Error::Factorisation { size, message: message.into() }
+}
+
+fn analysis(pattern: &Pattern, order: SymmetricOrdering<'_, u32>) -> Result<SymbolicCholesky<u32>> {
+    let params = CholeskySymbolicParams {
+        supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
+        ..CholeskySymbolicParams::default()
+    };
+    factorize_symbolic_cholesky(structure(pattern), Side::Lower, order, params)
+        .map_err(|e| failed(pattern.size(), &format!("analysis: {e}")))
+}
+
+/// The tree of an analysis, if its order is a postorder.
+fn tree(symbolic: &SymbolicCholesky<u32>, pattern: &Pattern) -> Option<Tree> {
+    let SymbolicCholeskyRaw::Supernodal(supernodes) = symbolic.raw() else {
+        return (pattern.size() == 0).then(Tree::default);
+    };
+    Tree::new(supernodes, pattern, symbolic.perm()?.arrays().1)
+}
+
+fn supernodes<'a>(symbolic: &'a SymbolicCholesky<u32>, tree: &'a Tree) -> Option<Supernodes<'a>> {
+    match symbolic.raw() {
+        SymbolicCholeskyRaw::Supernodal(symbolic) => Some(Supernodes { symbolic, tree }),
+        SymbolicCholeskyRaw::Simplicial(_) => None,
+    }
+}
+
 fn structure(pattern: &Pattern) -> SymbolicSparseColMatRef<'_, u32> {
     let n = pattern.size();
     SymbolicSparseColMatRef::new_checked(n, n, &pattern.column_start, None, &pattern.row)
@@ -174,6 +191,7 @@ fn structure(pattern: &Pattern) -> SymbolicSparseColMatRef<'_, u32> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::parallel::Pool;
 
     /// Five-point Laplacian plus the identity on a k×k grid.
     fn grid(k: usize) -> (Pattern, Vec<f64>) {
@@ -202,7 +220,7 @@ mod tests {
 
     #[test]
     fn solution_leaves_no_residual() {
-        for k in [1, 7, 40] {
+        for k in [0, 1, 7, 40] {
             let (pattern, values) = grid(k);
             let matrix = Symmetric { pattern: &pattern, values: &values };
             let b: Vec<f64> = (0..k * k).map(|i| (i as f64).sin()).collect();
@@ -228,6 +246,146 @@ mod tests {
             cholesky.factor(Symmetric { pattern: &pattern, values: &values }),
             Err(NotPositiveDefinite)
         );
+    }
+
+    /// The solution by faer's own factorisation, in its order.
+    fn by_faer(pattern: &Pattern, values: &[f64], b: &[f64]) -> Vec<f64> {
+        use faer::linalg::cholesky::llt::factor::LltRegularization;
+        use faer::sparse::SparseColMatRef;
+        use faer::{Par, Spec};
+        let symbolic = analysis(pattern, SymmetricOrdering::Amd).unwrap();
+        let mut factor = vec![0.0; symbolic.len_val()];
+        let need = symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Spec::default());
+        let matrix = SparseColMatRef::new(structure(pattern), values);
+        let mut memory = MemBuffer::new(need.or(symbolic.solve_in_place_scratch::<f64>(1, Par::Seq)));
+        let stack = MemStack::new(&mut memory);
+        let (regular, spec) = (LltRegularization::default(), Spec::default());
+        symbolic
+            .factorize_numeric_llt(&mut factor, matrix, Side::Lower, regular, Par::Seq, stack, spec)
+            .unwrap();
+        let mut x = b.to_vec();
+        LltRef::new(&symbolic, &factor).solve_in_place_with_conj(
+            Conj::No,
+            MatMut::from_column_major_slice_mut(&mut x, b.len(), 1),
+            Par::Seq,
+            MemStack::new(&mut memory),
+        );
+        x
+    }
+
+    #[test]
+    fn the_solution_is_that_of_faer_and_has_the_same_bits_for_any_threads() {
+        // The larger ones have several bundles and heavy supernodes of several panels.
+        for k in [3, 30, 90, 220] {
+            let (pattern, values) = grid(k);
+            let matrix = Symmetric { pattern: &pattern, values: &values };
+            let b: Vec<f64> = (0..k * k).map(|i| (i as f64).sin()).collect();
+            let expected = by_faer(&pattern, &values, &b);
+            let mut cholesky = Cholesky::analyse(&pattern).unwrap();
+            assert!(k < 90 || cholesky.tree.segments.iter().filter(|s| s.is_heavy).count() > 2);
+            let mut before: Option<(Vec<f64>, Vec<f64>)> = None;
+            for threads in [1, 2, 8, 2] {
+                let mut x = b.clone();
+                Pool::new(threads).unwrap().run(|| {
+                    cholesky.factor(matrix).unwrap();
+                    cholesky.solve(&mut x);
+                });
+                assert!(x.iter().zip(&expected).all(|(x, y)| (x - y).abs() < 1e-13));
+                let now = (cholesky.factor.clone(), x);
+                assert!(before.as_ref().is_none_or(|before| *before == now), "{k}, {threads} threads");
+                before = Some(now);
+            }
+        }
+    }
+
+    /// Pairs of rows: a star, a path, a dense block, separate pieces, and edges all over.
+    fn graphs() -> [(usize, Vec<(u32, u32)>); 5] {
+        let star = (1..30_000).map(|i| (0, i)).collect();
+        let path = (1..30_000).map(|i| (i - 1, i)).collect();
+        let dense = (0..500).flat_map(|i| (0..i).map(move |j| (i, j))).collect();
+        let pieces = (0..20_000).filter(|i| i % 10 > 2).map(|i| (i, i - i % 10)).collect();
+        let all_over =
+            (1..2_000u32).flat_map(|i| [(i, i * 7919 % 2_000), (i, i * i % 1_999), (i, i - 1)]).collect();
+        [(30_000, star), (30_000, path), (500, dense), (20_000, pieces), (2_000, all_over)]
+    }
+
+    #[test]
+    fn matrices_of_every_shape_are_solved_with_the_same_bits_for_any_threads() {
+        let pools = [1, 2].map(|threads| Pool::new(threads).unwrap());
+        for (k, (n, pairs)) in graphs().into_iter().enumerate() {
+            let pattern = Pattern::new(n, &pairs).unwrap();
+            // Each pair counts once, by its place among the entries.
+            let mut values = vec![0.0; pattern.entries()];
+            for (i, j) in pairs.into_iter().map(|(i, j)| (i as usize, j as usize)).filter(|(i, j)| i != j) {
+                let at = pattern.position(i, j).unwrap();
+                if values[at] == 0.0 {
+                    values[at] = -1.0;
+                    [i, j].into_iter().for_each(|i| values[pattern.diagonal(i)] += 1.0);
+                }
+            }
+            (0..n).for_each(|i| values[pattern.diagonal(i)] += 0.5);
+            let matrix = Symmetric { pattern: &pattern, values: &values };
+            let b: Vec<f64> = (0..n).map(|i| (i as f64).sin()).collect();
+            let mut cholesky = Cholesky::analyse(&pattern).unwrap();
+            let [first, second] = [0, 1].map(|p| {
+                let mut x = b.clone();
+                pools[p].run(|| {
+                    cholesky.factor(matrix).unwrap();
+                    cholesky.solve(&mut x);
+                });
+                x
+            });
+            assert!(first == second, "graph {k}");
+            let mut left = b.clone();
+            matrix.residual(&first, &b, &mut left);
+            assert!(left.iter().all(|r| r.abs() < 1e-11), "graph {k}");
+        }
+    }
+
+    fn analysis_in(pattern: &Pattern, forward: &[u32]) -> SymbolicCholesky<u32> {
+        let mut inverse = vec![0; forward.len()];
+        (0..).zip(forward).for_each(|(k, &i)| inverse[i as usize] = k);
+        let order = PermRef::new_checked(forward, &inverse, forward.len());
+        analysis(pattern, SymmetricOrdering::Custom(order)).unwrap()
+    }
+
+    #[test]
+    fn an_order_that_is_no_postorder_serves_as_well() {
+        let k = 40;
+        let (pattern, values) = grid(k);
+        // Steps through the rows that are prime to their number.
+        let mut forward: Vec<u32> = (0..(k * k) as u32).map(|i| i * 997 % (k * k) as u32).collect();
+        forward.reverse();
+        assert!(tree(&analysis_in(&pattern, &forward), &pattern).is_none());
+        let mut cholesky = Cholesky::with_postorder(&pattern, &forward).unwrap();
+        let matrix = Symmetric { pattern: &pattern, values: &values };
+        cholesky.factor(matrix).unwrap();
+        let b: Vec<f64> = (0..k * k).map(|i| (i as f64).cos()).collect();
+        let (mut x, mut left) = (b.clone(), b.clone());
+        cholesky.solve(&mut x);
+        matrix.residual(&x, &b, &mut left);
+        assert!(left.iter().all(|r| r.abs() < 1e-12));
+    }
+
+    #[test]
+    fn a_matrix_is_refused_wherever_it_is_not_positive() {
+        let k = 120;
+        let (pattern, values) = grid(k);
+        let mut cholesky = Cholesky::analyse(&pattern).unwrap();
+        assert!(cholesky.tree.segments.len() > 2);
+        let pool = Pool::new(2).unwrap();
+        let order = cholesky.symbolic.perm().unwrap().arrays().0.to_vec();
+        // From the first that is eliminated to the last.
+        for at in [0, k * k / 3, k * k - 400, k * k - 1] {
+            for bad in [-1.0, f64::NAN] {
+                let mut values = values.clone();
+                values[pattern.diagonal(order[at] as usize)] = bad;
+                let matrix = Symmetric { pattern: &pattern, values: &values };
+                assert_eq!(pool.run(|| cholesky.factor(matrix)), Err(NotPositiveDefinite), "{at}");
+            }
+        }
+        let matrix = Symmetric { pattern: &pattern, values: &values };
+        assert_eq!(pool.run(|| cholesky.factor(matrix)), Ok(()));
     }
 
     #[test]

@@ -17,10 +17,14 @@
 pub mod cholesky;
 pub mod conjugate;
 pub mod dense;
+mod front;
 pub mod gmres;
 pub mod lu;
+mod multifrontal;
+mod order;
 pub mod pattern;
 mod substitution;
+mod tree;
 
 pub use cholesky::Cholesky;
 pub use pattern::{Pattern, Symmetric};

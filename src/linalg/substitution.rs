@@ -1,100 +1,251 @@
 //! Forward and backward substitution with a supernodal factor, for one right-hand side: the dense kernels that serve factorisations spend
 //! more time on the calls for the many small supernodes than on their numbers.
+//!
+//! Bundles ([`super::tree`]) run one beside the other, heavy supernodes one after the other, each by several threads. Every sum is formed
+//! in one order, whatever the threads.
 
-use faer::sparse::linalg::cholesky::supernodal::SymbolicSupernodalCholesky;
+use super::multifrontal::{Arena, Memory, lock, parts};
+use super::tree::{Segment, Supernodes};
+use crate::parallel::each;
+use std::ops::Range;
+use std::sync::Mutex;
 
 /// Columns that are taken together, so that what they are added to, or multiplied by, is read once for all.
 const COLUMNS: usize = 4;
 /// Partial sums of a scalar product, added up at its end in one order.
 const LANES: usize = 4;
+/// Columns of a heavy supernode that are solved for together.
+const PANEL: usize = 128;
+/// Rows below a panel that one thread takes at a time, and columns of a panel, a multiple of [`COLUMNS`].
+const ROWS: usize = 512;
+const PANEL_COLUMNS: usize = 32;
 
 /// Columns of the factor with the same rows below their diagonal block.
+#[derive(Clone, Copy)]
 struct Supernode<'a> {
-    start: usize,
     width: usize,
-    /// Rows below the diagonal block, ascending.
-    rows: &'a [u32],
     /// Column by column: the diagonal block, then the rows below it.
+    values: &'a [f64],
+    height: usize,
+}
+
+/// Overwrite `x`, in the order of elimination, with the solution y of `L Lᵀ y = x`. `values`: those of L. `solved` is memory for as many
+/// numbers.
+pub(super) fn solve(
+    supernodes: Supernodes<'_>,
+    values: &[f64],
+    [x, solved]: [&mut [f64]; 2],
+    memory: &Memory,
+) {
+    let segments = &supernodes.tree.segments;
+    let factor = Factor { supernodes, values };
+    if let [bundle] = &segments[..]
+        && !bundle.is_heavy
+    {
+        memory.lend(|arena| {
+            factor.forward(bundle, x, arena);
+            factor.backward(bundle, x, solved, arena);
+        });
+        return;
+    }
+    let handed_on: Vec<Mutex<Vec<f64>>> = segments.iter().map(|_| Mutex::default()).collect();
+    let (mut heavy, mut bundles): (Vec<_>, Vec<_>) = parts(segments, x, |s| supernodes.column_start(s))
+        .into_iter()
+        .partition(|(_, segment, _)| segment.is_heavy);
+    let forward = |(k, segment, part): &mut (usize, &Segment, &mut [f64])| {
+        let below = memory.lend(|arena| {
+            factor.forward(segment, part, arena);
+            arena.waiting.clone()
+        });
+        *lock(&handed_on[*k]) = below;
+    };
+    each(bundles.iter_mut().collect(), forward);
+    for (k, segment, part) in &mut heavy {
+        let below = factor.forward_heavy(segment.supernodes.start, part, &handed_on);
+        *lock(&handed_on[*k]) = below;
+    }
+    drop(handed_on);
+    for (_, segment, part) in heavy.iter_mut().rev() {
+        factor.backward_heavy(segment.supernodes.start, part, solved);
+    }
+    let solved = &*solved;
+    each(bundles, |(_, segment, part)| {
+        memory.lend(|arena| factor.backward(segment, part, solved, arena));
+    });
+}
+
+#[derive(Clone, Copy)]
+struct Factor<'a> {
+    supernodes: Supernodes<'a>,
     values: &'a [f64],
 }
 
-/// Overwrite `x`, in the order of elimination, with the solution y of `L Lᵀ y = x`. `values`: those of L. `below` is memory for as many
-/// numbers as L has rows.
-pub(super) fn solve(
-    symbolic: &SymbolicSupernodalCholesky<u32>,
-    values: &[f64],
-    x: &mut [f64],
-    below: &mut [f64],
-) {
-    let supernode = |s: usize| {
-        let start = symbolic.supernode_begin()[s] as usize;
-        let [begin, end] = [s, s + 1].map(|s| symbolic.col_ptr_for_val()[s] as usize);
-        Supernode {
-            start,
-            width: symbolic.supernode_end()[s] as usize - start,
-            rows: symbolic.supernode(s).pattern(),
-            values: &values[begin..end],
+impl<'a> Factor<'a> {
+    fn supernode(&self, s: usize) -> Supernode<'a> {
+        let [start, end] = [s, s + 1].map(|s| self.supernodes.values_start(s));
+        let width = self.supernodes.columns(s).len();
+        Supernode { width, values: &self.values[start..end], height: width + self.supernodes.rows(s).len() }
+    }
+
+    /// Forward substitution in a bundle, of whose rows `x` holds the right-hand side. What its roots subtract from the rows of their
+    /// parents waits in the arena.
+    fn forward(&self, bundle: &Segment, x: &mut [f64], arena: &mut Arena) {
+        arena.hold(self.supernodes.tree.most_below);
+        let Arena { waiting, front, .. } = arena;
+        let begin = self.supernodes.column_start(bundle.supernodes.start);
+        for s in bundle.supernodes.clone() {
+            let Range { start, end } = self.supernodes.columns(s);
+            let own = &mut x[start - begin..end - begin];
+            let supernode = self.supernode(s);
+            let below = &mut front[..supernode.height - supernode.width];
+            below.fill(0.0);
+            let mut top = waiting.len();
+            for c in self.supernodes.children(s) {
+                let rows = self.supernodes.relative(c);
+                subtract(rows, &waiting[top - rows.len()..top], own, below);
+                top -= rows.len();
+            }
+            supernode.forward(own);
+            supernode.multiply(own, 0..own.len(), own.len(), below);
+            waiting.truncate(top);
+            waiting.extend_from_slice(below);
         }
-    };
-    let n = symbolic.n_supernodes();
-    (0..n).for_each(|s| supernode(s).forward(x, below));
-    (0..n).rev().for_each(|s| supernode(s).backward(x, below));
+    }
+
+    /// Backward substitution in a bundle; `solved` holds the solution in the rows of heavy supernodes.
+    fn backward(&self, bundle: &Segment, x: &mut [f64], solved: &[f64], arena: &mut Arena) {
+        arena.hold(self.supernodes.tree.most_below);
+        let begin = self.supernodes.column_start(bundle.supernodes.start);
+        for s in bundle.supernodes.clone().rev() {
+            let supernode = self.supernode(s);
+            let below = &mut arena.front[..supernode.height - supernode.width];
+            for (y, &row) in below.iter_mut().zip(self.supernodes.rows(s)) {
+                let row = row as usize;
+                *y = x.get(row - begin).copied().unwrap_or_else(|| solved[row]);
+            }
+            let Range { start, end } = self.supernodes.columns(s);
+            let own = &mut x[start - begin..end - begin];
+            supernode.subtract_products(0..own.len(), own.len(), below, own);
+            supernode.backward(0..own.len(), own);
+        }
+    }
+
+    /// Forward substitution in a heavy supernode; returns what it subtracts from the rows below.
+    fn forward_heavy(&self, s: usize, own: &mut [f64], handed_on: &[Mutex<Vec<f64>>]) -> Vec<f64> {
+        let supernode = self.supernode(s);
+        let Supernode { width, height, .. } = supernode;
+        let mut below = vec![0.0; height - width];
+        for c in self.supernodes.children(s) {
+            let (k, rows) = (self.supernodes.segment_of(c), self.supernodes.relative(c));
+            let start = self.supernodes.tree.segments[k].first_row_of(c);
+            subtract(rows, &lock(&handed_on[k])[start..start + rows.len()], own, &mut below);
+        }
+        for start in (0..width).step_by(PANEL) {
+            let end = width.min(start + PANEL);
+            supernode.forward_block(start..end, own);
+            let (done, rest) = own.split_at_mut(end);
+            // Rows of the diagonal block are subtracted from, those below it added up.
+            let y = &done[start..];
+            let minus: Vec<f64> = y.iter().map(|y| -y).collect();
+            let own_rows = rest.chunks_mut(ROWS).enumerate().map(|(c, out)| (end + c * ROWS, &*minus, out));
+            let rows = below.chunks_mut(ROWS).enumerate().map(|(c, out)| (width + c * ROWS, y, out));
+            each(own_rows.chain(rows).collect(), |(row, y, out)| supernode.multiply(y, start..end, row, out));
+        }
+        below
+    }
+
+    /// Backward substitution in a heavy supernode, into `own` and `solved`.
+    fn backward_heavy(&self, s: usize, own: &mut [f64], solved: &mut [f64]) {
+        let supernode = self.supernode(s);
+        let Supernode { width, height, .. } = supernode;
+        let mut all = vec![0.0; height];
+        all[..width].copy_from_slice(own);
+        all[width..].iter_mut().zip(self.supernodes.rows(s)).for_each(|(y, &row)| *y = solved[row as usize]);
+        for start in (0..width.next_multiple_of(PANEL)).step_by(PANEL).rev() {
+            let end = width.min(start + PANEL);
+            let (own, below) = all.split_at_mut(end);
+            each(own[start..].chunks_mut(PANEL_COLUMNS).enumerate().collect(), |(c, out)| {
+                let from = start + c * PANEL_COLUMNS;
+                supernode.subtract_products(from..from + out.len(), end, below, out);
+            });
+            supernode.backward(start..end, &mut own[start..]);
+        }
+        own.copy_from_slice(&all[..width]);
+        solved[self.supernodes.columns(s)].copy_from_slice(own);
+    }
+}
+
+/// Subtract what a child hands on from the columns of its parent, and add it to what the parent hands on.
+fn subtract(rows: &[u32], values: &[f64], own: &mut [f64], below: &mut [f64]) {
+    let split = rows.partition_point(|&r| (r as usize) < own.len());
+    rows[..split].iter().zip(values).for_each(|(&r, x)| own[r as usize] -= x);
+    let width = own.len();
+    rows[split..].iter().zip(&values[split..]).for_each(|(&r, x)| below[r as usize - width] += x);
 }
 
 impl Supernode<'_> {
     /// Column j, from row `from` of the supernode on.
     fn column(&self, j: usize, from: usize) -> &[f64] {
-        let height = self.width + self.rows.len();
-        &self.values[j * height + from..(j + 1) * height]
+        &self.values[j * self.height + from..(j + 1) * self.height]
     }
 
-    fn forward(&self, x: &mut [f64], below: &mut [f64]) {
-        let own = &mut x[self.start..self.start + self.width];
-        for j in 0..self.width {
-            let column = &self.column(j, j)[..self.width - j];
+    /// Overwrite `own` with the solution of `L own = own`, L the diagonal block.
+    fn forward(&self, own: &mut [f64]) {
+        self.forward_block(0..self.width, own);
+    }
+
+    /// [`Supernode::forward`] for the diagonal block of some columns, those before having been subtracted.
+    fn forward_block(&self, columns: Range<usize>, own: &mut [f64]) {
+        for j in columns.clone() {
+            let column = &self.column(j, j)[..columns.end - j];
             own[j] /= column[0];
             let y = own[j];
-            own[j + 1..].iter_mut().zip(&column[1..]).for_each(|(x, l)| *x -= l * y);
+            own[j + 1..columns.end].iter_mut().zip(&column[1..]).for_each(|(x, l)| *x -= l * y);
         }
-        let below = &mut below[..self.rows.len()];
-        below.fill(0.0);
-        let mut blocks = own.chunks_exact(COLUMNS);
+    }
+
+    /// Overwrite `own` with the solution of `Lᵀ own = own`, L the diagonal block of these columns.
+    fn backward(&self, columns: Range<usize>, own: &mut [f64]) {
+        let start = columns.start;
+        for j in columns.clone().rev() {
+            let column = &self.column(j, j)[..columns.end - j];
+            let (own, after) = own.split_at_mut(j - start + 1);
+            let sum: f64 = column[1..].iter().zip(&*after).map(|(l, y)| l * y).sum();
+            own[j - start] = (own[j - start] - sum) / column[0];
+        }
+    }
+
+    /// Add the rows `from` and on of these columns, times y, to `out`.
+    fn multiply(&self, y: &[f64], columns: Range<usize>, from: usize, out: &mut [f64]) {
+        let mut blocks = y.chunks_exact(COLUMNS);
         for (b, y) in blocks.by_ref().enumerate() {
-            let [l0, l1, l2, l3] = self.block(b);
-            for ((((sum, a), b), c), d) in below.iter_mut().zip(l0).zip(l1).zip(l2).zip(l3) {
+            let [l0, l1, l2, l3] = self.block(columns.start + b * COLUMNS, from);
+            for ((((sum, a), b), c), d) in out.iter_mut().zip(l0).zip(l1).zip(l2).zip(l3) {
                 *sum += (a * y[0] + b * y[1]) + (c * y[2] + d * y[3]);
             }
         }
         let rest = blocks.remainder();
-        for (j, y) in (self.width - rest.len()..).zip(rest) {
-            below.iter_mut().zip(self.column(j, self.width)).for_each(|(sum, l)| *sum += l * y);
+        for (j, y) in (columns.end - rest.len()..).zip(rest) {
+            out.iter_mut().zip(self.column(j, from)).for_each(|(sum, l)| *sum += l * y);
         }
-        self.rows.iter().zip(below).for_each(|(&i, sum)| x[i as usize] -= *sum);
     }
 
-    fn backward(&self, x: &mut [f64], below: &mut [f64]) {
-        let below = &mut below[..self.rows.len()];
-        self.rows.iter().zip(&mut *below).for_each(|(&i, y)| *y = x[i as usize]);
-        let own = &mut x[self.start..self.start + self.width];
-        let whole = self.width / COLUMNS;
+    /// Subtract the scalar products of these columns, from row `from` on, with y.
+    fn subtract_products(&self, columns: Range<usize>, from: usize, y: &[f64], out: &mut [f64]) {
+        let whole = columns.len() / COLUMNS;
         for b in 0..whole {
-            let sums = dots(self.block(b), below);
-            own[b * COLUMNS..].iter_mut().zip(sums).for_each(|(x, sum)| *x -= sum);
+            let sums = dots(self.block(columns.start + b * COLUMNS, from), y);
+            out[b * COLUMNS..].iter_mut().zip(sums).for_each(|(x, sum)| *x -= sum);
         }
-        for j in COLUMNS * whole..self.width {
-            own[j] -= dot(self.column(j, self.width), below);
-        }
-        for j in (0..self.width).rev() {
-            let column = &self.column(j, j)[..self.width - j];
-            let sum: f64 = column[1..].iter().zip(&own[j + 1..]).map(|(l, y)| l * y).sum();
-            own[j] = (own[j] - sum) / column[0];
+        for k in COLUMNS * whole..columns.len() {
+            out[k] -= dot(self.column(columns.start + k, from), y);
         }
     }
 
-    /// What the b-th [`COLUMNS`] columns have below the diagonal block.
-    fn block(&self, b: usize) -> [&[f64]; COLUMNS] {
-        let m = self.rows.len();
-        [0, 1, 2, 3].map(|c| &self.column(b * COLUMNS + c, self.width)[..m])
+    /// [`COLUMNS`] columns, from row `from` on.
+    fn block(&self, j: usize, from: usize) -> [&[f64]; COLUMNS] {
+        let m = self.height - from;
+        [0, 1, 2, 3].map(|c| &self.column(j + c, from)[..m])
     }
 }
 

@@ -1,0 +1,146 @@
+//! Dense elimination of the columns of one supernode, and what it hands on: faer's kernels on blocks of fixed sizes.
+
+use crate::parallel::each;
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::cholesky::llt::factor::{LltRegularization, cholesky_in_place, cholesky_in_place_scratch};
+use faer::linalg::matmul::matmul;
+use faer::linalg::matmul::triangular::{self, BlockStructure};
+use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
+use faer::{Accum, MatMut, MatRef, Par, Spec};
+
+/// Dense work is divided into blocks here, not by the kernels.
+const PARTITION: Par = Par::Seq;
+/// Columns of a heavy supernode that are eliminated together.
+pub(super) const PANEL: usize = 96;
+/// Rows of a panel that one thread takes at a time.
+const ROWS: usize = 192;
+/// Columns up to which a supernode is eliminated by the loops below: the dense kernels take longer to start.
+const NARROW: usize = 16;
+
+/// The matrix is not positive definite to working precision.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct NotPositiveDefinite;
+
+pub(super) type Factored = Result<(), NotPositiveDefinite>;
+
+/// Memory for the factorisation of diagonal blocks of up to so many columns.
+pub(super) fn scratch(widest: usize) -> MemBuffer {
+    MemBuffer::new(cholesky_in_place_scratch::<f64>(widest, PARTITION, Spec::default()))
+}
+
+/// Cholesky factorisation of the diagonal block, and the rows below it divided by its transpose.
+pub(super) fn eliminate(own: &mut [f64], width: usize, height: usize, scratch: &mut MemBuffer) -> Factored {
+    if width <= NARROW {
+        return eliminate_narrow(own, width, height);
+    }
+    let own = MatMut::from_column_major_slice_mut(own, height, width);
+    let (mut diagonal, below) = own.split_at_row_mut(width);
+    diagonal_block(diagonal.as_mut(), scratch)?;
+    solve_lower_triangular_in_place(diagonal.as_ref(), below.transpose_mut(), PARTITION);
+    Ok(())
+}
+
+fn diagonal_block(block: MatMut<'_, f64>, scratch: &mut MemBuffer) -> Factored {
+    cholesky_in_place(block, LltRegularization::default(), PARTITION, MemStack::new(scratch), Spec::default())
+        .map(|_| ())
+        .map_err(|_| NotPositiveDefinite)
+}
+
+/// [`eliminate`] column by column.
+fn eliminate_narrow(own: &mut [f64], width: usize, height: usize) -> Factored {
+    for j in 0..width {
+        let (before, column) = own.split_at_mut(j * height);
+        let column = &mut column[j..height];
+        for earlier in before.chunks_exact(height) {
+            let earlier = &earlier[j..];
+            let factor = earlier[0];
+            column.iter_mut().zip(earlier).for_each(|(x, l)| *x -= factor * l);
+        }
+        // False also where it is no number.
+        let is_positive = column[0] > 0.0;
+        if !is_positive {
+            return Err(NotPositiveDefinite);
+        }
+        let inverse = 1.0 / column[0].sqrt();
+        column.iter_mut().for_each(|x| *x *= inverse);
+    }
+    Ok(())
+}
+
+/// The lower triangle of −B Bᵀ into `front`, B being the rows below the diagonal block.
+pub(super) fn outer(own: &[f64], width: usize, height: usize, front: &mut [f64]) {
+    let m = height - width;
+    let below = MatRef::from_column_major_slice(own, height, width).subrows(width, m);
+    triangular::matmul(
+        MatMut::from_column_major_slice_mut(front, m, m),
+        BlockStructure::TriangularLower,
+        Accum::Replace,
+        below,
+        BlockStructure::Rectangular,
+        below.transpose(),
+        BlockStructure::Rectangular,
+        -1.0,
+        PARTITION,
+    );
+}
+
+/// The lower part of the first columns of −B Bᵀ.
+pub(super) fn outer_strip(below: MatRef<'_, f64>, columns: usize, strip: &mut [f64]) {
+    let m = below.nrows();
+    let strip = MatMut::from_column_major_slice_mut(strip, m, columns);
+    let (top, rest) = strip.split_at_row_mut(columns);
+    let own = below.subrows(0, columns);
+    triangular::matmul(
+        top,
+        BlockStructure::TriangularLower,
+        Accum::Replace,
+        own,
+        BlockStructure::Rectangular,
+        own.transpose(),
+        BlockStructure::Rectangular,
+        -1.0,
+        PARTITION,
+    );
+    matmul(rest, Accum::Replace, below.subrows(columns, m - columns), own.transpose(), -1.0, PARTITION);
+}
+
+/// [`eliminate`] by panels, each by several threads.
+pub(super) fn eliminate_panels(own: &mut [f64], width: usize, height: usize) -> Factored {
+    let mut scratch = scratch(PANEL);
+    for start in (0..width).step_by(PANEL) {
+        let columns = PANEL.min(width - start);
+        let (done, panel) = own.split_at_mut(start * height);
+        let done = MatRef::from_column_major_slice(&*done, height, start);
+        let panel = MatMut::from_column_major_slice_mut(&mut panel[..columns * height], height, columns);
+        let (mut diagonal, below) = panel.split_at_row_mut(start).1.split_at_row_mut(columns);
+        let factors = done.subrows(start, columns).transpose();
+        let subtract = |block: MatMut<'_, f64>, row: usize| {
+            let rows = done.subrows(row, block.nrows());
+            matmul(block, Accum::Add, rows, factors, -1.0, PARTITION);
+        };
+        if start > 0 {
+            subtract(diagonal.as_mut(), start);
+        }
+        diagonal_block(diagonal.as_mut(), &mut scratch)?;
+        let diagonal = diagonal.as_ref();
+        each(row_blocks(below, start + columns), |(row, mut block)| {
+            if start > 0 {
+                subtract(block.as_mut(), row);
+            }
+            solve_lower_triangular_in_place(diagonal, block.transpose_mut(), PARTITION);
+        });
+    }
+    Ok(())
+}
+
+/// Blocks of [`ROWS`] rows, each with the number of its first row, that of the first being `row`.
+fn row_blocks(mut matrix: MatMut<'_, f64>, mut row: usize) -> Vec<(usize, MatMut<'_, f64>)> {
+    let mut blocks = Vec::new();
+    while matrix.nrows() > 0 {
+        let rows = ROWS.min(matrix.nrows());
+        let (block, rest) = matrix.split_at_row_mut(rows);
+        blocks.push((row, block));
+        (matrix, row) = (rest, row + rows);
+    }
+    blocks
+}

@@ -1,0 +1,318 @@
+//! The numbers of a supernodal Cholesky factorisation, by the multifrontal method \[DR83\], \[Liu92\]: each supernode adds what its children
+//! hand on to its entries of the matrix, eliminates its columns and hands the rest, a lower triangle, on to its parent.
+//!
+//! Bundles ([`super::tree`]) are worked through one beside the other, then the heavy supernodes one after the other, each by several
+//! threads. Blocks are of fixed sizes and sums are formed in a fixed order, so that the bits do not depend on the number of threads.
+
+use super::front::{
+    Factored, NotPositiveDefinite, PANEL, eliminate, eliminate_panels, outer, outer_strip, scratch,
+};
+use super::tree::{Segment, Supernodes, packed};
+use crate::parallel::each;
+use faer::MatRef;
+use faer::dyn_stack::MemBuffer;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+/// Columns of what is handed on that one thread takes at a time.
+const STRIP: usize = 96;
+
+/// Memory of a thread that works through bundles.
+pub(super) struct Arena {
+    /// What waits for its parent, packed by columns; the last one on top.
+    pub waiting: Vec<f64>,
+    /// The lower triangle that a supernode hands on, in a square.
+    pub front: Vec<f64>,
+    /// For diagonal blocks of up to `widest` columns.
+    scratch: MemBuffer,
+    widest: usize,
+}
+
+/// Memory that is kept from one factorisation to the next.
+#[derive(Default)]
+pub(super) struct Memory {
+    arenas: Mutex<Vec<Arena>>,
+}
+
+/// What a child hands on: a lower triangle, packed by columns.
+#[derive(Clone, Copy)]
+struct Update<'a> {
+    /// Its rows in the front of the parent, ascending.
+    rows: &'a [u32],
+    values: &'a [f64],
+}
+
+impl Update<'_> {
+    /// Add the columns that are `columns` of the front. `out` holds them, from row `first_row` of the front on, `height` rows each.
+    fn add(&self, out: &mut [f64], columns: std::ops::Range<usize>, first_row: usize, height: usize) {
+        let m = self.rows.len();
+        let from = self.rows.partition_point(|&r| (r as usize) < columns.start);
+        let mut rest = &self.values[packed(m) - packed(m - from)..];
+        for (j, &column) in self.rows.iter().enumerate().skip(from) {
+            let column = column as usize;
+            if column >= columns.end {
+                break;
+            }
+            let (values, after) = rest.split_at(m - j);
+            rest = after;
+            let out = &mut out[(column - columns.start) * height..][..height];
+            for (&row, value) in self.rows[j..].iter().zip(values) {
+                out[row as usize - first_row] += value;
+            }
+        }
+    }
+}
+
+/// Overwrite `factor` with that of the matrix with these values.
+pub(super) fn factor(
+    supernodes: Supernodes<'_>,
+    matrix: &[f64],
+    factor: &mut [f64],
+    memory: &Memory,
+) -> Factored {
+    let segments = &supernodes.tree.segments;
+    if let [bundle] = &segments[..]
+        && !bundle.is_heavy
+    {
+        return memory.bundle(supernodes, bundle, matrix, factor).map(|_| ());
+    }
+    let parts = parts(segments, factor, |s| supernodes.values_start(s));
+    let failed = AtomicBool::new(false);
+    let handed_on: Vec<Mutex<Vec<f64>>> = segments.iter().map(|_| Mutex::default()).collect();
+    let (heavy, bundles): (Vec<_>, Vec<_>) = parts.into_iter().partition(|(_, segment, _)| segment.is_heavy);
+    each(bundles, |(k, segment, part)| {
+        if failed.load(Ordering::Relaxed) {
+            return;
+        }
+        match memory.bundle(supernodes, segment, matrix, part) {
+            Ok(updates) => *lock(&handed_on[k]) = updates,
+            Err(NotPositiveDefinite) => failed.store(true, Ordering::Relaxed),
+        }
+    });
+    memory.release();
+    if failed.into_inner() {
+        return Err(NotPositiveDefinite);
+    }
+    for (k, segment, part) in heavy {
+        let update = heavy_supernode(supernodes, segment, matrix, part, &handed_on)?;
+        *lock(&handed_on[k]) = update;
+    }
+    Ok(())
+}
+
+/// The part of each segment in an array, `start(s)` telling where those of a supernode start.
+pub(super) fn parts<'a>(
+    segments: &'a [Segment],
+    mut rest: &'a mut [f64],
+    start: impl Fn(usize) -> usize,
+) -> Vec<(usize, &'a Segment, &'a mut [f64])> {
+    let mut parts = Vec::with_capacity(segments.len());
+    for (k, segment) in segments.iter().enumerate() {
+        let length = start(segment.supernodes.end) - start(segment.supernodes.start);
+        let (part, after) = rest.split_at_mut(length);
+        parts.push((k, segment, part));
+        rest = after;
+    }
+    parts
+}
+
+pub(super) fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+impl Memory {
+    /// What the roots of a bundle hand on, one after the other.
+    fn bundle(
+        &self,
+        supernodes: Supernodes<'_>,
+        bundle: &Segment,
+        matrix: &[f64],
+        part: &mut [f64],
+    ) -> Result<Vec<f64>, NotPositiveDefinite> {
+        self.lend(|arena| {
+            arena.prepare(supernodes);
+            let mut rest = part;
+            for s in bundle.supernodes.clone() {
+                let length = supernodes.values_start(s + 1) - supernodes.values_start(s);
+                let (own, after) = rest.split_at_mut(length);
+                rest = after;
+                arena.supernode(supernodes, s, matrix, own)?;
+            }
+            Ok(arena.waiting.clone())
+        })
+    }
+
+    /// Run `work` with the memory of a thread, in which nothing waits.
+    pub fn lend<R>(&self, work: impl FnOnce(&mut Arena) -> R) -> R {
+        let kept = lock(&self.arenas).pop();
+        let mut arena = kept.unwrap_or_else(Arena::new);
+        arena.waiting.clear();
+        let result = work(&mut arena);
+        lock(&self.arenas).push(arena);
+        result
+    }
+
+    /// Release what large factorisations need beside the factor.
+    fn release(&self) {
+        lock(&self.arenas).clear();
+    }
+}
+
+impl Arena {
+    fn new() -> Arena {
+        Arena { waiting: Vec::new(), front: Vec::new(), scratch: scratch(0), widest: 0 }
+    }
+
+    fn prepare(&mut self, supernodes: Supernodes<'_>) {
+        let tree = supernodes.tree;
+        self.waiting.reserve_exact(tree.most_waiting);
+        self.hold(tree.most_below * tree.most_below);
+        if self.widest < tree.widest {
+            (self.scratch, self.widest) = (scratch(tree.widest), tree.widest);
+        }
+    }
+
+    /// A front of at least so many numbers.
+    pub fn hold(&mut self, numbers: usize) {
+        if self.front.len() < numbers {
+            self.front = vec![0.0; numbers];
+        }
+    }
+
+    fn supernode(
+        &mut self,
+        supernodes: Supernodes<'_>,
+        s: usize,
+        matrix: &[f64],
+        own: &mut [f64],
+    ) -> Factored {
+        let Arena { waiting, front, scratch, .. } = self;
+        let (width, m) = (supernodes.columns(s).len(), supernodes.rows(s).len());
+        let height = width + m;
+        let mut top = waiting.len();
+        let updates = supernodes.children(s).map(|c| {
+            let rows = supernodes.relative(c);
+            let values = top - packed(rows.len())..top;
+            top = values.start;
+            (rows, values)
+        });
+        own.fill(0.0);
+        let (sources, places) = supernodes.entries(s);
+        sources.iter().zip(places).for_each(|(&k, &at)| own[at as usize] += matrix[k as usize]);
+        for (rows, values) in updates {
+            Update { rows, values: &waiting[values] }.add(own, 0..width, 0, height);
+        }
+        eliminate(own, width, height, scratch)?;
+        if m > 0 {
+            let front = &mut front[..m * m];
+            outer(own, width, height, front);
+            let mut from = waiting.len();
+            for c in supernodes.children(s) {
+                let rows = supernodes.relative(c);
+                let values = &waiting[from - packed(rows.len())..from];
+                from -= values.len();
+                Update { rows, values }.add(front, width..height, width, m);
+            }
+        }
+        waiting.truncate(top);
+        (0..m).for_each(|j| waiting.extend_from_slice(&front[j * m + j..(j + 1) * m]));
+        Ok(())
+    }
+}
+
+/// What a heavy supernode hands on, packed.
+fn heavy_supernode(
+    supernodes: Supernodes<'_>,
+    segment: &Segment,
+    matrix: &[f64],
+    own: &mut [f64],
+    handed_on: &[Mutex<Vec<f64>>],
+) -> Result<Vec<f64>, NotPositiveDefinite> {
+    let s = segment.supernodes.start;
+    let (width, m) = (supernodes.columns(s).len(), supernodes.rows(s).len());
+    let height = width + m;
+    let children = Children::new(supernodes, s, handed_on);
+    let (sources, places) = supernodes.entries(s);
+    each(own.chunks_mut(PANEL * height).enumerate().collect(), |(p, panel)| {
+        let start = p * PANEL * height;
+        panel.fill(0.0);
+        let [from, to] =
+            [start, start + panel.len()].map(|x| places.partition_point(|&at| (at as usize) < x));
+        for k in from..to {
+            panel[places[k] as usize - start] += matrix[sources[k] as usize];
+        }
+        let columns = p * PANEL..p * PANEL + panel.len() / height;
+        children.updates().for_each(|update| update.add(panel, columns.clone(), 0, height));
+    });
+    eliminate_panels(own, width, height)?;
+    // Strips one after the other, each from the row of its first column on.
+    let rows = |p: usize| m - p * STRIP;
+    let strips = m.div_ceil(STRIP);
+    let size: usize = (0..strips).map(|p| rows(p) * STRIP.min(rows(p))).sum();
+    let mut front = vec![0.0; size];
+    let below = MatRef::from_column_major_slice(&*own, height, width).subrows(width, m);
+    let mut parts = Vec::with_capacity(strips);
+    let mut rest = &mut front[..];
+    for p in 0..strips {
+        let (strip, after) = rest.split_at_mut(rows(p) * STRIP.min(rows(p)));
+        parts.push((p * STRIP, strip));
+        rest = after;
+    }
+    each(parts, |(start, strip)| {
+        let columns = strip.len() / (m - start);
+        outer_strip(below.subrows(start, m - start), columns, strip);
+        let first = width + start;
+        children.updates().for_each(|update| update.add(strip, first..first + columns, first, m - start));
+    });
+    drop(children);
+    supernodes.children(s).for_each(|c| release(supernodes, c, handed_on));
+    let (mut from, mut end) = (0, 0);
+    for j in 0..m {
+        let (start, height) = (j / STRIP * STRIP, m - j / STRIP * STRIP);
+        front.copy_within(from + j - start..from + height, end);
+        from += height;
+        end += m - j;
+    }
+    front.truncate(end);
+    front.shrink_to_fit();
+    Ok(front)
+}
+
+/// What the children of a heavy supernode have handed on, last child first.
+struct Children<'a> {
+    supernodes: Supernodes<'a>,
+    /// Child, what holds its update, where it starts there.
+    held: Vec<(usize, std::sync::MutexGuard<'a, Vec<f64>>, Vec<(usize, usize)>)>,
+}
+
+impl<'a> Children<'a> {
+    fn new(supernodes: Supernodes<'a>, s: usize, handed_on: &'a [Mutex<Vec<f64>>]) -> Children<'a> {
+        let mut held: Vec<(usize, std::sync::MutexGuard<'a, Vec<f64>>, Vec<(usize, usize)>)> = Vec::new();
+        for c in supernodes.children(s) {
+            let k = supernodes.segment_of(c);
+            let start = supernodes.tree.segments[k].start_of(c);
+            match held.last_mut() {
+                Some((last, _, children)) if *last == k => children.push((c, start)),
+                _ => held.push((k, lock(&handed_on[k]), vec![(c, start)])),
+            }
+        }
+        Children { supernodes, held }
+    }
+
+    fn updates(&self) -> impl Iterator<Item = Update<'_>> {
+        self.held.iter().flat_map(|(_, values, children)| {
+            children.iter().map(|&(c, start)| {
+                let rows = self.supernodes.relative(c);
+                Update { rows, values: &values[start..start + packed(rows.len())] }
+            })
+        })
+    }
+}
+
+/// Release what holds the update of a child, where it is the last that is needed from there.
+fn release(supernodes: Supernodes<'_>, c: usize, handed_on: &[Mutex<Vec<f64>>]) {
+    let k = supernodes.segment_of(c);
+    if supernodes.tree.segments[k].is_last_needed(c) {
+        *lock(&handed_on[k]) = Vec::new();
+    }
+}
