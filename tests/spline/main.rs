@@ -7,7 +7,6 @@ mod closed;
 mod closest;
 #[path = "../common/mod.rs"]
 mod common;
-mod exact;
 #[cfg(feature = "json")]
 mod files;
 mod fit;
