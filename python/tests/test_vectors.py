@@ -1,4 +1,4 @@
-"""Golden vectors (tests/vectors/README.md): what the package computes agrees with the numbers that Rust, C, C++ and the command are held to."""
+"""Golden vectors (tests/vectors/README.md): what the package computes agrees with the numbers that all languages are held to."""
 
 import json
 import os
@@ -130,7 +130,10 @@ def cross_ratios(points, faces):
     """For the corners of every face: of the edge opposite, i j with k here and l across, |il| |jk| / (|lj| |ki|)."""
     faces = np.array(faces).reshape(-1, 3)
     across = {(a, b): c for f in faces for a, b, c in (f, np.roll(f, -1), np.roll(f, -2))}
-    apart = lambda i, j: np.linalg.norm(points[i] - points[j])
+
+    def apart(i, j):
+        return np.linalg.norm(points[i] - points[j])
+
     return [
         apart(across[j, i], i) * apart(j, k) / (apart(across[j, i], j) * apart(k, i))
         for f in faces
@@ -248,7 +251,7 @@ def agree(case):
         assert error <= expected["tolerance"], f"{case['name']}: {quantity} is off by {error:.2e}, {expected['tolerance']:.2e} is allowed"
 
 
-@pytest.mark.parametrize(("case", "intact"), read())
+@pytest.mark.parametrize(("case", "intact"), list(read()))
 def test_cases_agree(case, intact):
     assert case["because"]
     assert intact, f"{case['name']}: what is written is not what was sealed"

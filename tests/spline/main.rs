@@ -5,8 +5,6 @@
 mod bicubic;
 mod closed;
 mod closest;
-#[path = "../common/mod.rs"]
-mod common;
 #[cfg(feature = "json")]
 mod files;
 mod fit;
