@@ -150,9 +150,10 @@ def group(case):
 
 
 def circles(case):
-    found = ricci.circles(surface(case["mesh"]))
+    found = ricci.circles(surface(case["mesh"]), **case["options"])
     assert found.converged
-    return {"modulus": [found.summary.modulus.imag]}
+    by_radius = np.argsort(-found.circles[:, 2])
+    return {"modulus": [found.summary.modulus.imag], "circles": found.circles[by_radius, :3]}
 
 
 def harmonic(case):
@@ -170,7 +171,7 @@ def forms(case):
 def structure(case):
     kind = case["options"]["kind"]
     found = ricci.structure(surface(case["mesh"]), kind=kind, **flips(case["options"]))
-    model = {"affine": "e2", "hyperbolic": "h2", "projective": "klein"}[kind]
+    model = {"affine": "e2", "hyperbolic": "h2", "projective": "klein", "spherical": "s2", "conformal": "e2"}[kind]
     shown = np.full((len(found.F), 3), np.nan)
     for chart, (faces, corners) in enumerate(zip(found.chart_faces, found.chart_corners, strict=True)):
         points = found.coordinates(chart)

@@ -3,8 +3,8 @@
 use crate::cases::{Case, Found, indices, points};
 use crate::common::hex;
 use ricci::canonical::{
-    Boundary, CircleDomainOptions, Corner, Corners, Quotient, QuotientOptions, Uniformization, circle_domain,
-    uniformize,
+    Boundary, CircleDomainOptions, Corner, Corners, Normalisation, Quotient, QuotientOptions, Uniformization,
+    circle_domain, uniformize,
 };
 use ricci::embed::cover::elements_within;
 use ricci::embed::{UnrollOptions, dirichlet_domain, unroll};
@@ -18,6 +18,7 @@ use ricci::metric::{curvature, initial_metric};
 use ricci::spline::{self, FitOptions, KnotOptions, Parameter, Spline, SplineSpace, basis_size, fit};
 use ricci::structure::{AtlasOptions, Structure, atlas};
 use ricci::{Class, Control, Solution, Surface, Target};
+use std::f64::consts::TAU;
 use std::sync::Arc;
 
 /// The numbers of a case, with so many threads; `None` for a call that is not one of these.
@@ -182,9 +183,17 @@ fn group(case: &Case, threads: usize) -> Found {
 fn circles(case: &Case, threads: usize) -> Found {
     let mut how = CircleDomainOptions::default();
     how.flow.threads = threads;
+    if case.option("three").is_array() {
+        let three: [u32; 3] = case.indices("three").try_into().unwrap();
+        how.normalisation = Normalisation::Three(three.map(VertexId), [0.0, TAU / 3.0, 2.0 * TAU / 3.0]);
+    }
     let domain = circle_domain(&case.surface("mesh"), &how, &Control::new()).unwrap();
     assert!(domain.report.converged);
-    vec![("modulus", domain.modulus.into_iter().collect())]
+    let mut by_radius: Vec<[f64; 3]> =
+        domain.circles.iter().map(|c| [c.center[0], c.center[1], c.radius]).collect();
+    by_radius.sort_by(|a, b| b[2].total_cmp(&a[2]));
+    let circles = by_radius.into_iter().flatten().collect();
+    vec![("modulus", domain.modulus.into_iter().collect()), ("circles", circles)]
 }
 
 fn harmonic(case: &Case) -> Found {
@@ -215,9 +224,10 @@ fn forms(case: &Case) -> Found {
 fn structure(case: &Case, threads: usize) -> Found {
     let structure = Structure::ALL.into_iter().find(|s| s.name() == case.text("kind")).unwrap();
     let model = match structure {
-        Structure::Affine => Model::Plane,
+        Structure::Conformal | Structure::Affine => Model::Plane,
+        Structure::Spherical => Model::UnderSphere,
+        Structure::Hyperbolic => Model::Poincare,
         Structure::Projective => Model::Klein,
-        _ => Model::Poincare,
     };
     let how = AtlasOptions { structure, flow: options(case, threads), ..AtlasOptions::default() };
     let atlas = atlas(&case.surface("mesh"), &how, &Control::new()).unwrap();

@@ -361,6 +361,16 @@ def circle_domains(random):
         moved = [(w + pole) / (1 + pole.conjugate() * w) for w in z]
         points = [(float(w.real), float(w.imag), 0.0) for w in moved]
         made.append(case(name, "circles", embedded(points, surface), {}, {"modulus": ([modulus], 1e-10)}, because))
+    for n in (1, 2):
+        holes = [(0.35, 0.2, 0.2), (-0.35, -0.2, 0.15)][:n]
+        plane, surface, rims = shapes.holed(random, 24, holes, 16, 22)
+        pole = mpc("0.1", "-0.15")
+        moved = [(w + pole) / (1 + pole.conjugate() * w) for w in (mpc(*p) for p in plane)]
+        points = [(float(w.real), float(w.imag), 0.0) for w in moved]
+        where = [(x, y, r) for x, y, r in [(0.0, 0.0, 1.0), *holes]]
+        three = [0, 8, 16]
+        made.append(case(f"holes-{n}", "circles", embedded(points, surface), {"three": three},
+                         {"circles": (flat(sorted(where, key=lambda c: -c[2])), 1e-9)}, because))
     return made
 
 
@@ -485,6 +495,26 @@ def atlases(random):
     return made
 
 
+def round_atlases(random):
+    """A polyhedron inscribed in the sphere that is its own mirror image in the centre, so that it is its own centred form."""
+    half = [(0.9, 0.3, 0.2), (-0.2, 0.8, 0.5), (0.1, -0.5, 0.9), (0.7, -0.6, -0.3)]
+    unit = [tuple(x / sqrt(sum(mpf(y) ** 2 for y in p)) for x in map(mpf, p)) for p in half]
+    points = [tuple(float(s * x) for x in p) for p in unit for s in (1, -1)]
+    surface = shapes.hull(points)
+    lengths = in_space(surface, points)
+    check_delaunay(surface, lengths)
+    arcs = [2 * mp.asin(l / 2) for l in lengths]
+    zero = {"carried": ([0], 1e-9)}
+    because = ("the polyhedron is inscribed and symmetric about the centre, so that it is its own spherical shape: arcs between its vertices; and "
+               "what transitions carry has to arrive, which is 0 by definition; the tolerance is that of a curvature within 1e-10")
+    return [
+        case("polyhedron-spherical", "structure", embedded(points, surface), {"kind": "spherical"},
+             {"sides": (of_faces(surface, arcs), 1e-9), **zero}, because),
+        case("polyhedron-conformal", "structure", embedded(points, surface), {"kind": "conformal"}, zero, "what transitions carry has to "
+             "arrive, which is 0 by definition; charts are determined up to Möbius transformations alone; the tolerance is rounding"),
+    ]
+
+
 # --- splines, matching
 
 def splines():
@@ -533,6 +563,8 @@ def matchings(random):
     add("sphere", points, surface, {"landmarks": [0, 3, 7]}, 1e-9)
     points, surface = shapes.disk(random, 9, 8)
     add("disk", lifted(points, lambda x, y: 0.3 * x * x - 0.2 * y), surface, {"landmarks": [0, 3, 6], "boundary": "arc_length"}, 1e-9)
+    points, surface = shapes.torus(random, 9, 6)
+    add("torus", points, surface, {"landmarks": [0]}, 1e-9)
     return made
 
 
@@ -601,7 +633,7 @@ def main():
         "flow": both, "cones": lambda: cones(Random(3)), "layouts": lambda: layouts(Random(5)),
         "uniformization": lambda: uniformizations(Random(11)), "groups": lambda: groups(Random(13)),
         "circle_domains": lambda: circle_domains(Random(17)), "harmonic": lambda: harmonics(Random(19)),
-        "forms": lambda: form_cases(Random(23)), "atlases": lambda: atlases(Random(29)), "splines": lambda: splines() + surfaces_fitted(),
+        "forms": lambda: form_cases(Random(23)), "atlases": lambda: atlases(Random(29)) + round_atlases(Random(37)), "splines": lambda: splines() + surfaces_fitted(),
         "matching": lambda: matchings(Random(31)), "triangles": triangles, "circle_patterns": lambda: circle_patterns(Random(1985)),
         "derivative": lambda: (flow or flows(Random(2007)))[1],
     }

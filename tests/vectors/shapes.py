@@ -75,6 +75,41 @@ def wheel(around, steps):
     return points + [(0.0, 0.0)], glued("wheel", len(points) + 1, faces)
 
 
+def holed(random, rim, holes, around, inside):
+    """The unit disk without round holes (x, y, radius): points on the rim, on the holes, then inside."""
+    ring = lambda x, y, r, n, turn: [(x + r * cos(2 * pi * (k + turn) / n), y + r * sin(2 * pi * (k + turn) / n)) for k in range(n)]
+    points, sets = ring(0.0, 0.0, 1.0, rim, 0), []
+    for x, y, r in holes:
+        sets.append(set(range(len(points), len(points) + around)))
+        points += ring(x, y, r, around, 0.3)
+    # A second ring beside each circle, so that no edge of a circle lies opposite an obtuse angle.
+    points += ring(0.0, 0.0, exp(-sqrt(3) * pi / rim), rim, 0.5)
+    for x, y, r in holes:
+        points += ring(x, y, r * exp(sqrt(3) * pi / around), around, 0.8)
+    out = lambda p: hypot(*p) < 0.75 and all(hypot(p[0] - x, p[1] - y) > 1.5 * r for x, y, r in holes)
+    for _ in range(inside):
+        tries = []
+        while len(tries) < 300:
+            p = (2 * random.unit() - 1, 2 * random.unit() - 1)
+            if out(p):
+                tries.append((min(hypot(p[0] - q[0], p[1] - q[1]) for q in points), p))
+        points.append(max(tries)[1])
+    return points, glued("holed", len(points), delaunay(points, sets)), sets
+
+
+def torus(random, n, m):
+    """A torus of revolution, its vertices moved a little."""
+    points, faces = [], []
+    at = lambda i, j: (i % n) * m + j % m
+    for i in range(n):
+        for j in range(m):
+            s, t = 2 * pi * i / n, 2 * pi * j / m
+            r = 2 + cos(t)
+            points.append(tuple(float(x + 0.1 * random.unit()) for x in (r * cos(s), r * sin(s), sin(t))))
+            faces += [[at(i, j), at(i + 1, j), at(i + 1, j + 1)], [at(i, j), at(i + 1, j + 1), at(i, j + 1)]]
+    return points, glued("torus", n * m, faces)
+
+
 def inscribed(random, n):
     """A convex polyhedron with `n` vertices on the unit sphere, far from each other; faces counterclockwise from outside."""
     points = []
@@ -85,6 +120,12 @@ def inscribed(random, n):
             p = (sqrt(1 - z * z) * cos(t), sqrt(1 - z * z) * sin(t), z)
             tries.append((min([4.0] + [sum((a - b) ** 2 for a, b in zip(p, q)) for q in points]), p))
         points.append(max(tries)[1])
+    return points, hull(points)
+
+
+def hull(points):
+    """The faces of a convex polyhedron with these vertices."""
+    n = len(points)
     faces = []
     for i in range(n):
         for j in range(n):
@@ -95,7 +136,7 @@ def inscribed(random, n):
                     if all(m in (i, j, k) or sum(w[x] * (points[m][x] - points[i][x]) for x in range(3)) < 0 for m in range(n)):
                         faces.append([i, j, k])
     assert len(faces) == 2 * n - 4
-    return points, glued("polyhedron", n, faces)
+    return glued("polyhedron", n, faces)
 
 
 def turned(points):

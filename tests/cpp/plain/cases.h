@@ -140,6 +140,20 @@ static inline double distance(int model, const double *p, const double *q) {
     return 2 * asin(fmin(1, apart / sqrt((1 + a) * (1 + b))));
 }
 
+static inline uint32_t kind_of(const json *name) {
+    const char *const kinds[] = {"conformal", "spherical", "affine", "hyperbolic", "projective"};
+    for (uint32_t k = 0; k < 5; k++)
+        if (is(name, kinds[k])) return k;
+    CHECK(!"a kind of structure");
+    return 0;
+}
+
+/* What distances in the charts of a structure mean. */
+static inline int model_of(const json *kind) {
+    const int models[] = {IN_PLANE, UNDER_SPHERE, IN_PLANE, IN_POINCARE, IN_KLEIN};
+    return models[kind_of(kind)];
+}
+
 /* The sides opposite the corners of a triangle, x and y of each. */
 static inline void sides_of(int model, const double *corners, double *sides) {
     for (int k = 0; k < 3; k++)
@@ -196,6 +210,19 @@ static inline void torus_agrees(const json *node, const double *points, size_t n
 static inline int by_size(const void *a, const void *b) {
     const double x = *(const double *)a, y = *(const double *)b;
     return (x > y) - (x < y);
+}
+
+static inline int by_radius(const void *a, const void *b) {
+    return by_size((const double *)b + 2, (const double *)a + 2);
+}
+
+/* x, y, radius of every circle, the largest first, from rows of four numbers, which are put into that order.
+ */
+static inline void circles_agree(const json *node, double *rows, size_t n) {
+    double *ours = (double *)keep(3 * n, sizeof *ours);
+    qsort(rows, n, 4 * sizeof *rows, by_radius);
+    for (size_t i = 0; i < n; i++) memcpy(ours + 3 * i, rows + 4 * i, 3 * sizeof *ours);
+    agrees(node, "circles", ours, 3 * n);
 }
 
 /* Points, first and second derivatives, from the 18 numbers of every place. */

@@ -141,10 +141,17 @@ static void circles_case(const json *node) {
     ricci_mesh *mesh = surface(need(node, "mesh"));
     ricci_circle_domain *domain = NULL;
     ricci_circle_domain_summary s;
-    OK(ricci_circle_domain_new(mesh, NULL, NULL, &domain));
+    const json *three = member(need(node, "options"), "three");
+    ricci_circle_domain_options options;
+    INIT(options);
+    options.three = three ? indices(three) : NULL;
+    OK(ricci_circle_domain_new(mesh, &options, NULL, &domain));
     OK(ricci_circle_domain_summarise(domain, &s, sizeof s));
     CHECK(s.converged);
     agrees(node, "modulus", s.modulus + 1, 1);
+    double *circles = room_for(4 * s.n_circles);
+    OK(ricci_circle_domain_circles(domain, circles, 4 * s.n_circles));
+    circles_agree(node, circles, s.n_circles);
     ricci_circle_domain_free(domain), ricci_mesh_free(mesh);
 }
 
@@ -224,12 +231,7 @@ static void structure_case(const json *node) {
     INIT(options);
     INIT(flow);
     flow.flips = flips_of(how), options.flow = &flow;
-    const int flat = is(kind, "affine"), klein = is(kind, "projective");
-    OK(ricci_structure_new(mesh,
-                           flat    ? RICCI_STRUCTURE_AFFINE
-                           : klein ? RICCI_STRUCTURE_PROJECTIVE
-                                   : RICCI_STRUCTURE_HYPERBOLIC,
-                           &options, NULL, &structure));
+    OK(ricci_structure_new(mesh, kind_of(kind), &options, NULL, &structure));
     OK(ricci_structure_summarise(structure, &s, sizeof s));
     const rows faces = rows_of(structure, RICCI_CHART_FACES, s.n_charts);
     const rows corners = rows_of(structure, RICCI_CHART_CORNERS, s.n_charts);
@@ -244,7 +246,7 @@ static void structure_case(const json *node) {
                            *at = corners.entries + corners.starts[c] + 3 * (i - faces.starts[c]);
             if (sides[3 * f] > 0) continue;
             for (int k = 0; k < 3; k++) memcpy(triangle + 2 * k, points + 2 * at[k], 2 * sizeof *points);
-            sides_of(flat ? IN_PLANE : klein ? IN_KLEIN : IN_POINCARE, triangle, sides + 3 * f);
+            sides_of(model_of(kind), triangle, sides + 3 * f);
         }
     }
     for (uint32_t f = 0; f < s.n_faces; f++) worst = fmax(worst, carried(structure, f));

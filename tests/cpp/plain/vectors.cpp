@@ -109,8 +109,13 @@ void group_case(const json *node) {
 }
 
 void circles_case(const json *node) {
-    const ricci::circle_domain domain(mesh_of(need(node, "mesh")));
+    const json *three = member(need(node, "options"), "three");
+    auto options = ricci::init<ricci_circle_domain_options>();
+    options.three = three ? indices(three) : nullptr;
+    const ricci::circle_domain domain(mesh_of(need(node, "mesh")), options);
     CHECK(domain.summary().converged);
+    std::vector<double> circles = domain.circles();
+    circles_agree(node, circles.data(), circles.size() / 4);
     agrees(node, "modulus", {domain.summary().modulus[1]});
 }
 
@@ -141,11 +146,7 @@ void structure_case(const json *node) {
     auto options = ricci::init<ricci_structure_options>();
     auto flow = ricci::init<ricci_flow_options>();
     flow.flips = flips_of(how), options.flow = &flow;
-    const bool flat = is(kind, "affine") != 0, klein = is(kind, "projective") != 0;
-    const std::uint32_t of_kind = flat    ? RICCI_STRUCTURE_AFFINE
-                                  : klein ? RICCI_STRUCTURE_PROJECTIVE
-                                          : RICCI_STRUCTURE_HYPERBOLIC;
-    const ricci::structure structure(mesh_of(need(node, "mesh")), of_kind, options);
+    const ricci::structure structure(mesh_of(need(node, "mesh")), kind_of(kind), options);
     const ricci_structure_summary s = structure.summary();
     const auto faces = structure.rows(RICCI_CHART_FACES), corners = structure.rows(RICCI_CHART_CORNERS);
     std::vector<double> sides(3 * s.n_faces);
@@ -156,7 +157,7 @@ void structure_case(const json *node) {
             double triangle[6], *shown = &sides[3 * in[i]];
             if (shown[0] > 0) continue;
             for (std::size_t k = 0; k < 6; k++) triangle[k] = points[2 * at[3 * i + k / 2] + k % 2];
-            sides_of(flat ? IN_PLANE : klein ? IN_KLEIN : IN_POINCARE, triangle, shown);
+            sides_of(model_of(kind), triangle, shown);
         }
     }
     double worst = 0;
