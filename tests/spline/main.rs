@@ -5,9 +5,6 @@
 mod bicubic;
 mod closed;
 mod closest;
-#[path = "../common/mod.rs"]
-mod common;
-mod exact;
 #[cfg(feature = "json")]
 mod files;
 mod fit;

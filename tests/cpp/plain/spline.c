@@ -1,5 +1,4 @@
-/* Triangular B-splines through the C face: polynomials, fits, creases, files, refusals; and golden vectors of
- * exact arithmetic (tests/vectors/splines.txt). */
+/* Triangular B-splines through the C face: polynomials, fits, creases, files, refusals. */
 #include "check.h"
 #include <math.h>
 #include <ricci/spline.h>
@@ -330,60 +329,7 @@ static void bad_input_has_names(const ricci_mesh *domain) {
     ricci_spline_free(spline), ricci_spline_free(NULL);
 }
 
-static void read_numbers(FILE *file, const char *key, double *x, size_t n) {
-    char found[32];
-    CHECK(fscanf(file, "%31s", found) == 1 && strcmp(found, key) == 0);
-    for (size_t i = 0; i < n; i++) CHECK(fscanf(file, "%lf", x + i) == 1); /* also hexadecimal */
-}
-
-/* One block of golden vectors; 0 at the end of the file. tests/spline/exact.rs says where the tolerances come
- * from. */
-static int agrees_with_exact_arithmetic(FILE *file) {
-    enum { VERTICES = 5, FACES = 4, MOST = 21 };
-    unsigned degree, counts[3];
-    char name[32];
-    if (fscanf(file, " spline %u %31s", &degree, name) != 2) return 0;
-    CHECK(fscanf(file, " counts %u %u %u", counts, counts + 1, counts + 2) == 3);
-    CHECK(counts[0] == VERTICES && counts[1] == FACES && degree <= 5);
-    double vertices[2 * VERTICES], corners[3 * FACES], knots[12 * VERTICES], given[3 * MOST * FACES], row[21];
-    read_numbers(file, "vertices", vertices, 2 * VERTICES);
-    read_numbers(file, "triangles", corners, 3 * FACES);
-    read_numbers(file, "knots", knots, 2 * VERTICES * (degree + 1));
-    double positions[3 * VERTICES] = {0};
-    uint32_t faces[3 * FACES], controls[MOST * FACES];
-    for (int v = 0; v < VERTICES; v++) memcpy(positions + 3 * v, vertices + 2 * v, 2 * sizeof *vertices);
-    for (int i = 0; i < 3 * FACES; i++) faces[i] = (uint32_t)corners[i];
-    ricci_mesh *domain = NULL;
-    ricci_spline *flat = NULL, *spline = NULL;
-    ricci_spline_spec spec;
-    INIT(spec);
-    spec.degree = degree, spec.knots = knots;
-    OK(ricci_mesh_from_arrays(positions, 0, VERTICES, faces, FACES, &domain));
-    OK(ricci_spline_new(domain, &spec, &flat));
-    const ricci_spline_summary s = summary_of(flat);
-    read_numbers(file, "control", given, 3 * s.n_basis * FACES);
-    OK(ricci_spline_controls(flat, controls, s.n_basis * FACES));
-    double points[3 * MOST * FACES];
-    for (size_t i = 0; i < s.n_basis * FACES; i++)
-        memcpy(points + 3 * controls[i], given + 3 * i, 3 * sizeof *points);
-    OK(ricci_spline_with_points(flat, points, s.n_control_points, &spline));
-    for (unsigned k = 0; k < counts[2]; k++) {
-        read_numbers(file, "place", row, 21);
-        const uint32_t patch = (uint32_t)row[0];
-        double values[18];
-        ricci_spline_places places = at(row + 1, 1);
-        places.patches = &patch;
-        OK(ricci_spline_evaluate(spline, &places, RICCI_SPLINE_SECOND, NULL, values, 18));
-        for (int i = 0; i < 18; i++)
-            CHECK(fabs(values[i] - row[3 + i]) < (i < 3 ? 1e-15 : i < 9 ? 5e-15 : 3e-13));
-    }
-    ricci_spline_free(spline), ricci_spline_free(flat);
-    ricci_mesh_free(domain);
-    read_numbers(file, "end", row, 0);
-    return 1;
-}
-
-int main(int argc, char **argv) {
+int main(void) {
     ricci_mesh *domain = square();
     polynomials_are_reproduced(domain);
     fits_come_near_their_points(domain);
@@ -391,11 +337,5 @@ int main(int argc, char **argv) {
     files_and_meshes(domain);
     bad_input_has_names(domain);
     ricci_mesh_free(domain);
-    FILE *file = argc > 1 ? fopen(argv[1], "r") : NULL;
-    CHECK(file != NULL);
-    int blocks = 0;
-    while (agrees_with_exact_arithmetic(file)) blocks++;
-    fclose(file);
-    CHECK(blocks == 10);
     return 0;
 }

@@ -1,20 +1,8 @@
-#!/usr/bin/env python3
-"""Golden vectors of triangular B-splines: random rational knots and places, evaluated in exact rational arithmetic.
-
-usage: tests/vectors/splines.py FILE      (standard library alone; the tests do not need it: they read the file that is committed)
+"""Triangular B-splines in exact rational arithmetic: random rational knots and places.
 
 A basis function is |d| M(u | V), d the area of its last knots, M by Micchelli's recurrence over fractions; derivatives by its formula for
-them. Blocks of `key values…` lines from `spline` to `end`. Numbers are hexadecimal doubles: those given are exact (multiples of 1/64),
-those computed are the nearest doubles.
-  spline DEGREE NAME
-  counts V T N         vertices, triangles, places
-  vertices 2V, triangles 3T
-  knots V(n+1)2        of every vertex, the first of them the vertex
-  control T B 3        of every patch its control points, in the order (n,0,0), (n-1,1,0), (n-1,0,1), …; equal where they are one
-  place PATCH x y X Y Z X_x Y_x Z_x X_y … X_xx … X_xy … X_yy …        N lines
-"""
+them. Standard library alone."""
 import random
-import sys
 from fractions import Fraction as F
 
 PLACES = 6
@@ -77,7 +65,8 @@ def multi_indices(n):
     return [(i, j, n - i - j) for i in range(n, -1, -1) for j in range(n - i, -1, -1)]
 
 
-def block(degree, name, rng, out):
+def block(degree, name, rng):
+    """One spline with its places: a dictionary of lists of fractions and whole numbers."""
     corners = [(0, 0), (4, 0), (4, 4), (0, 4), (F(115, 64), F(141, 64))]
     vertices = [(F(x), F(y)) for x, y in corners]
     triangles = [(0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4)]
@@ -94,12 +83,11 @@ def block(degree, name, rng, out):
             ids.append(frozenset((t[k], beta[k]) for k in range(3) if beta[k]))
             control.setdefault(ids[-1], value())
         patches.append(ids)
-    hexes = lambda numbers: " ".join(float(x).hex() for x in numbers)
     flat = lambda rows: [x for row in rows for x in row]
-    out.write(f"spline {degree} {name}\ncounts {len(vertices)} {len(triangles)} {PLACES}\n")
-    out.write(f"vertices {hexes(flat(vertices))}\ntriangles {' '.join(map(str, flat(triangles)))}\n")
-    out.write(f"knots {hexes(flat(flat(knots)))}\n")
-    out.write(f"control {hexes(flat(control[i] for ids in patches for i in ids))}\n")
+    made = {
+        "degree": degree, "vertices": flat(vertices), "triangles": flat(triangles), "knots": flat(flat(knots)),
+        "control": flat(control[i] for ids in patches for i in ids), "patches": [], "places": [], "point": [], "first": [], "second": [],
+    }
     for _ in range(PLACES):
         patch = rng.randrange(len(triangles))
         r, s = sorted(rng.sample(range(1, 256), 2))
@@ -116,16 +104,26 @@ def block(degree, name, rng, out):
                 for o in order:
                     for x in range(3):
                         sums[o][x] += d * basis[o] * control[i][x]
-        out.write(f"place {patch} {hexes(u)} {hexes(flat(sums[o] for o in order))}\n")
-    out.write("end\n")
+        made["patches"].append(patch)
+        made["places"] += u
+        made["point"] += sums[0, 0]
+        made["first"] += sums[1, 0] + sums[0, 1]
+        made["second"] += sums[2, 0] + sums[1, 1] + sums[0, 2]
+    return made
 
 
-def main():
+def splines():
+    """Every degree with general knots and with knots that coincide at the boundary."""
     rng = random.Random(18)
-    with open(sys.argv[1], "w") as out:
-        for degree in range(1, 6):
-            for name in ("general", "ends"):
-                block(degree, name, rng, out)
+    return [(name, block(degree, name, rng)) for degree in range(1, 6) for name in ("general", "ends")]
 
 
-main()
+def polynomial(degree, rng):
+    """Points of a polynomial surface over the square, and what it has at other places: nothing but sums of powers."""
+    powers = [(d - j, j) for d in range(degree + 1) for j in range(d + 1)]
+    coefficients = [[F(rng.randint(-64, 64), 64) for _ in range(3)] for _ in powers]
+    at = lambda x, y: [sum(c[k] * x**p * y**q for c, (p, q) in zip(coefficients, powers)) for k in range(3)]
+    grid = [(F(i, 4), F(j, 4)) for i in range(17) for j in range(17)]
+    places = [(F(rng.randint(1, 255), 64), F(rng.randint(1, 255), 64)) for _ in range(PLACES)]
+    flat = lambda rows: [x for row in rows for x in row]
+    return {"parameters": flat(grid), "points": flat(at(*u) for u in grid), "places": flat(places), "point": flat(at(*u) for u in places)}
