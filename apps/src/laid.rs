@@ -9,7 +9,7 @@ use ricci::embed::{Charts, Layout, OnInput, Quality, UnrollOptions, unroll};
 use ricci::flow::Solution;
 use ricci::mesh::{FaceId, HalfedgeId, Mesh, PerHalfedge, PerVertex, Point, VertexId};
 use ricci::metric::Refinement;
-use ricci::parallel::within;
+use ricci::parallel::{join, within};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -75,7 +75,9 @@ pub fn lay_out(
 impl Laid {
     /// A layout of a metric of the input.
     pub fn new(input: &Input, solved: &Solved, layout: Layout) -> ricci::Result<Laid> {
-        let quality = layout.quality(input.mesh(), input.surface.lengths())?;
+        let quality = || layout.quality(input.mesh(), input.surface.lengths());
+        let (quality, on_input) = join(quality, || layout.on_input());
+        let quality = quality?;
         let given = input.positions();
         let (weight, positions, degenerate) = match layout.refinement() {
             Some(r) => {
@@ -91,7 +93,7 @@ impl Laid {
         Ok(Laid {
             weight,
             positions,
-            on_input: layout.on_input(),
+            on_input,
             packed: None,
             degenerate,
             modulus: layout.modulus(),
