@@ -124,6 +124,18 @@ pub fn each<T: Send>(items: Vec<T>, work: impl Fn(T) + Sync) {
     });
 }
 
+/// `f(0), f(1), …, f(n − 1)`, each a piece of work of its own, as [`fill`] runs them.
+pub fn map<T: Send>(n: usize, f: impl Fn(usize) -> T + Sync) -> Vec<T> {
+    let mut out: Vec<Option<T>> = (0..n).map(|_| None).collect();
+    in_chunks(out.chunks_mut(1), |k, slot| slot[0] = Some(f(k)));
+    out.into_iter().flatten().collect()
+}
+
+/// Both results, side by side inside a pool, else one after the other.
+pub fn join<A: Send, B: Send>(a: impl FnOnce() -> A + Send, b: impl FnOnce() -> B + Send) -> (A, B) {
+    if rayon::current_thread_index().is_none() { (a(), b()) } else { rayon::join(a, b) }
+}
+
 /// Hands each chunk with its number to `work`, which whoever comes to it locks.
 fn in_chunks<C: Send>(chunks: impl Iterator<Item = C>, work: impl Fn(usize, &mut C) + Sync) {
     let chunks: Vec<Mutex<C>> = chunks.map(Mutex::new).collect();

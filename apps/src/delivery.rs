@@ -31,6 +31,11 @@ impl<'a> Delivery<'a> {
         Ok(Delivery { outputs, control, start, begin: Instant::now(), drawing: 0.0 })
     }
 
+    /// With files that have been written before.
+    pub fn with(self, outputs: Outputs) -> Delivery<'a> {
+        Delivery { outputs, ..self }
+    }
+
     /// Draw a picture and write it, if it is asked for.
     pub fn picture(
         &mut self,

@@ -11,17 +11,19 @@ use crate::flow_summary;
 use crate::input::{self, Input};
 use crate::job::{self, Job, Outcome, default_space};
 use crate::options::{MethodChoice, OnChoice};
-use crate::output::{self, check_extension};
+use crate::output::{self, Outputs, check_extension};
 use crate::picture::ColorChoice;
 use crate::progress::{Progress, doing};
-use crate::report::{Done, Figures, InputSummary, Report};
+use crate::report::{Done, Figures, InputSummary, Report, timed};
 use crate::show;
+use crate::solved::Solved;
 use crate::uv;
 use ricci::Control;
 use ricci::flow::{Gradient, Options};
 use ricci::geometry::Space;
 use ricci::mesh::{Mesh, VertexId};
 use ricci::metric::{Scheme, Target};
+use ricci::parallel::Pool;
 use serde::Serialize;
 use std::path::Path;
 use std::time::Instant;
@@ -39,18 +41,32 @@ pub fn run(args: &FlowArgs, control: &Control) -> Result<u8, Failure> {
 pub fn execute(args: &FlowArgs, control: &Control) -> Result<Done<Outcome>, Failure> {
     let start = Instant::now();
     check_request(args)?;
+    // All that is divided among threads is so in one pool, which starts once.
+    Pool::new(args.to.common.threads)?.run(|| execute_in_pool(args, start, control))
+}
+
+fn execute_in_pool(args: &FlowArgs, start: Instant, control: &Control) -> Result<Done<Outcome>, Failure> {
     let progress = Progress::watch(control, args.to.common.quiet);
     let input = input::surface(&args.to.surface, control)?;
     // Placed cones exist in E² alone.
     let automatic = matches!(args.target, Some(TargetChoice::Auto(_))).then_some(Space::E2);
     let space = args.space.space().or(automatic).unwrap_or_else(|| default_space(input.mesh()));
     check_surface(args, &input, space)?;
-    let mut outcome = job::run(&input, job(args, &input, space, control)?, control)?;
+    let write_metric = |solved: &Solved| {
+        let (mut outputs, mut seconds) = (Outputs::default(), 0.0);
+        let written = timed(&mut seconds, || solved.metric(&mut outputs, args.to.metric.as_deref()));
+        (outputs, written, seconds)
+    };
+    let job = job(args, &input, space, control)?;
+    let (mut outcome, (outputs, written, seconds)) = job::run(&input, job, control, write_metric)?;
+    outcome.solved.seconds.write += seconds;
+    outcome.solved.failed.attempt("metric", written)?;
     if args.charts {
         let cut = doing("cutting", || charts::cut(&mut outcome, args.margin, control));
         outcome.solved.failed.attempt("charts", cut)?;
     }
-    let (files, figures) = write(args, &input, &mut outcome, Delivery::new(control, start)?)?;
+    let delivery = Delivery::new(control, start)?.with(outputs);
+    let (files, figures) = write(args, &input, &mut outcome, delivery)?;
     drop(progress);
     let checks = outcome.checks();
     let exit_code = if outcome.solved.failed.0.is_empty() { checks.exit_code() } else { 1 };
@@ -215,7 +231,7 @@ fn pinned(choice: &PinChoice, mesh: &Mesh) -> Vec<VertexId> {
     }
 }
 
-/// Write every file that was asked for, the report last; returns their names and the figures. One that cannot be made keeps none of the others back.
+/// Write every file that was asked for but the metric, the report last; returns their names and the figures. One that cannot be made keeps none of the others back.
 fn write(
     args: &FlowArgs,
     input: &Input,
@@ -223,7 +239,6 @@ fn write(
     mut delivery: Delivery,
 ) -> Result<(Vec<String>, Figures), Failure> {
     let outputs = &mut delivery.outputs;
-    outcome.solved.write_metric(outputs, args.to.metric.as_deref())?;
     if let Some(path) = &args.trace {
         let written = outputs.add(path, |out| csv::write_trace(out, &outcome.report.trace));
         outcome.solved.failed.attempt("trace", written)?;

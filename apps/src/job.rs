@@ -11,6 +11,7 @@ use ricci::geometry::{Space, worse};
 use ricci::mesh::{Mesh, VertexId};
 use ricci::metric::Scheme;
 use ricci::metric::target::check_vertices;
+use ricci::parallel::join;
 use ricci::{Class, Flow, Target};
 
 /// What to compute.
@@ -45,7 +46,13 @@ pub fn default_space(mesh: &Mesh) -> Space {
     if mesh.is_closed() && mesh.euler() < 0 { Space::H2 } else { Space::E2 }
 }
 
-pub fn run(input: &Input, job: Job, control: &Control) -> Result<Outcome, Failure> {
+/// Run a flow and lay its metric out; `beside`, which needs no layout, is done meanwhile.
+pub fn run<T: Send>(
+    input: &Input,
+    job: Job,
+    control: &Control,
+    beside: impl FnOnce(&Solved) -> T + Send,
+) -> Result<(Outcome, T), Failure> {
     let class = Class::new(job.scheme, job.space);
     let rule = rule(input, &job)?;
     let mut start = 0.0;
@@ -60,12 +67,18 @@ pub fn run(input: &Input, job: Job, control: &Control) -> Result<Outcome, Failur
     seconds.flip += start;
     let mut solved = Solved::new(solution, target, seconds)?;
     solved.may_flip = job.options.flips != flow::Flips::Never;
-    let layout = match no_layout(&solved, job.laid_out) {
-        Some(why) => Err(why),
-        None => told(laid::lay_out(input, &mut solved, control))?,
+    let (layout, other) = match no_layout(&solved, job.laid_out) {
+        Some(why) => (Err(why), beside(&solved)),
+        None => {
+            let mut seconds = solved.seconds;
+            let lay_out = || laid::lay_out(input, &solved, &mut seconds, control);
+            let (layout, other) = join(lay_out, || beside(&solved));
+            solved.seconds = seconds;
+            (told(layout)?, other)
+        }
     };
     let rule_name = job.target_name.unwrap_or_else(|| rule.name().into());
-    Ok(Outcome { rule, rule_name, pinned: job.options.pinned, report, solved, layout })
+    Ok((Outcome { rule, rule_name, pinned: job.options.pinned, report, solved, layout }, other))
 }
 
 /// Why a metric is not laid out; `needed`: by an output.

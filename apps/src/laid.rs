@@ -1,7 +1,7 @@
 //! The layout of a flow's metric with what is said about it.
 
 use crate::input::Input;
-use crate::report::timed;
+use crate::report::{Seconds, timed};
 use crate::solved::Solved;
 use ricci::Control;
 use ricci::control::Stage;
@@ -9,7 +9,7 @@ use ricci::embed::{Charts, Layout, OnInput, Quality, UnrollOptions, unroll};
 use ricci::flow::Solution;
 use ricci::mesh::{FaceId, HalfedgeId, Mesh, PerHalfedge, PerVertex, Point, VertexId};
 use ricci::metric::Refinement;
-use ricci::parallel::within;
+use ricci::parallel::{join, within};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -52,28 +52,32 @@ pub struct Laid {
     pub consistency_limit: f64,
 }
 
-/// Lay the metric of a flow out on the given surface.
-pub fn lay_out(input: &Input, solved: &mut Solved, control: &Control) -> ricci::Result<Laid> {
+/// Lay the metric of a flow out on the given surface; what that takes is added to the seconds.
+pub fn lay_out(
+    input: &Input,
+    solved: &Solved,
+    seconds: &mut Seconds,
+    control: &Control,
+) -> ricci::Result<Laid> {
     control.step(Stage::Layout, 0.0)?;
-    let mut seconds = solved.seconds;
     let solution = &solved.solution;
     let refinement = match solution.is_unflipped() {
         true => None,
         false => Some(Arc::new(timed(&mut seconds.refine, || solution.refinement(control))?)),
     };
-    let laid = timed(&mut seconds.layout, || {
+    timed(&mut seconds.layout, || {
         let options = UnrollOptions { refinement, ..UnrollOptions::default() };
         let layout = unroll(solution, &options, control)?;
         within(solution.threads(), || Laid::new(input, solved, layout))
-    });
-    solved.seconds = seconds;
-    laid
+    })
 }
 
 impl Laid {
     /// A layout of a metric of the input.
     pub fn new(input: &Input, solved: &Solved, layout: Layout) -> ricci::Result<Laid> {
-        let quality = layout.quality(input.mesh(), input.surface.lengths())?;
+        let quality = || layout.quality(input.mesh(), input.surface.lengths());
+        let (quality, on_input) = join(quality, || layout.on_input());
+        let quality = quality?;
         let given = input.positions();
         let (weight, positions, degenerate) = match layout.refinement() {
             Some(r) => {
@@ -89,7 +93,7 @@ impl Laid {
         Ok(Laid {
             weight,
             positions,
-            on_input: layout.on_input(),
+            on_input,
             packed: None,
             degenerate,
             modulus: layout.modulus(),

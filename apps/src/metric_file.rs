@@ -9,11 +9,13 @@ use ricci::flow::Solution;
 use ricci::geometry::Space;
 use ricci::geometry::triangle::angles;
 use ricci::mesh::check::Defect;
+use ricci::mesh::io::text::{Text, write_blocks};
 use ricci::mesh::{Mesh, PerEdge, PerVertex};
 use ricci::parallel::within;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::f64::consts::{PI, TAU};
+use std::io::{self, Write};
 use std::path::Path;
 
 /// The scheme of a metric whose vertices are of several types.
@@ -96,6 +98,36 @@ impl<'a> MetricFile<'a> {
 }
 
 impl MetricFile<'_> {
+    /// Write what serde makes of this as JSON on one line, its numbers formatted side by side inside a pool.
+    pub fn write(&self, out: &mut impl Write) -> io::Result<()> {
+        let LengthsFile { input_geometry, faces, face_edges, lengths } = &self.surface;
+        let triples = |values: &[[f64; 3]], text: &mut Text, k: usize| triple(text, values[k], number);
+        write!(out, "{{\"space\":\"{}\",\"scheme\":\"{}\"", self.space, self.scheme)?;
+        write!(out, ",\"input_geometry\":\"{input_geometry}\"")?;
+        array(out, "faces", faces.len(), |text, f| triple(text, faces[f], |text, v| text.count(v.into())))?;
+        if let Some(edges) = face_edges {
+            array(out, "face_edges", edges.len(), |text, f| triple(text, edges[f], signed))?;
+        }
+        array(out, "lengths", lengths.len(), |text, f| triples(lengths, text, f))?;
+        array(out, "eta", self.eta.len(), |text, f| triples(&self.eta, text, f))?;
+        if let Some(low) = &self.lengths_lo {
+            array(out, "lengths_lo", low.len(), |text, f| triples(low, text, f))?;
+        }
+        array(out, "u", self.u.len(), |text, v| number(text, self.u[v]))?;
+        let factor = &self.conformal_factor;
+        array(out, "conformal_factor", factor.len(), |text, v| number(text, factor[v]))?;
+        array(out, "epsilon", self.epsilon.len(), |text, v| signed(text, self.epsilon[v].into()))?;
+        array(out, "target", self.target.len(), |text, v| number(text, self.target[v]))?;
+        let boundary = &self.boundary;
+        array(out, "boundary", boundary.len(), |text, v| {
+            text.text(if boundary[v] { "true" } else { "false" });
+        })?;
+        if let Some(mirror) = &self.mirror {
+            array(out, "mirror", mirror.len(), |text, v| text.count(mirror[v].into()))?;
+        }
+        writeln!(out, "}}")
+    }
+
     /// Without a vertex and the faces at it, whose other vertices are on the boundary then, with whatever curvature they have there.
     pub fn without(mut self, vertex: usize) -> Self {
         let gone: Vec<bool> = self.surface.faces.iter().map(|f| f.contains(&(vertex as u32))).collect();
@@ -136,6 +168,39 @@ impl MetricFile<'_> {
         }
         curvature
     }
+}
+
+/// A field of a JSON object behind another one, with a list of n items.
+fn array(
+    out: &mut impl Write,
+    name: &str,
+    n: usize,
+    item: impl Fn(&mut Text, usize) + Sync,
+) -> io::Result<()> {
+    write!(out, ",\"{name}\":[")?;
+    write_blocks(out, n, |text, k| {
+        text.text(if k == 0 { "" } else { "," });
+        item(text, k);
+    })?;
+    out.write_all(b"]")
+}
+
+fn triple<T: Copy>(text: &mut Text, values: [T; 3], item: impl Fn(&mut Text, T)) {
+    for (before, value) in ["[", ",", ","].into_iter().zip(values) {
+        text.text(before);
+        item(text, value);
+    }
+    text.text("]");
+}
+
+/// A number of JSON, which has none that is not finite.
+fn number(text: &mut Text, x: f64) {
+    if x.is_finite() { text.number(x) } else { text.text("null") }
+}
+
+fn signed(text: &mut Text, n: i32) {
+    text.text(if n < 0 { "-" } else { "" });
+    text.count(n.unsigned_abs().into());
 }
 
 fn keep<T>(list: &mut Vec<T>, gone: &[bool]) {
@@ -250,4 +315,31 @@ fn edge_lengths(mesh: &Mesh, sides: &[[f64; 3]]) -> Result<PerEdge<f64>, String>
         }
     }
     Ok(lengths)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ricci::mesh::shapes;
+    use ricci::{Class, Surface};
+
+    #[test]
+    fn what_is_written_is_what_serde_makes_of_it() {
+        let (mesh, lengths) = shapes::flat_torus([0.3, 1.0], 1, 1).unwrap().build().unwrap();
+        let glued = Surface::intrinsic(mesh, lengths, Space::E2).unwrap();
+        let torus = Surface::from_soup(&shapes::torus(2.0, 1.0, 90, 60).unwrap()).unwrap();
+        for surface in [glued, torus] {
+            let solution = Solution::initial_of(surface, Class::yamabe(Space::E2)).unwrap();
+            let n = solution.mesh().n_vertices();
+            let target = PerVertex::from_fn(n, |v: ricci::mesh::VertexId| if v.0 == 0 { f64::NAN } else { -1e-300 });
+            let mut file = MetricFile::new(&solution, &target).unwrap();
+            file.mirror = Some((0..n as u32).rev().collect());
+            file.lengths_lo = Some(vec![[0.0, -1e-17, 1e22]; 5]);
+            file.boundary[0] = true;
+            let mut written = Vec::new();
+            file.write(&mut written).unwrap();
+            let expected = serde_json::to_string(&file).unwrap() + "\n";
+            assert!(String::from_utf8(written).unwrap() == expected);
+        }
+    }
 }

@@ -92,9 +92,14 @@ impl Solved {
 
     /// Write the metric, if it is asked for.
     pub fn write_metric(&mut self, outputs: &mut Outputs, path: Option<&Path>) -> Result<(), Failure> {
-        let Some(path) = path else { return Ok(()) };
-        let file = MetricFile::new(&self.solution, &self.target).map_err(Failure::from);
-        let written = file.and_then(|file| outputs.add_json(path, &file));
+        let written = self.metric(outputs, path);
         self.failed.attempt("metric", written).map(drop)
+    }
+
+    /// The same, where the caller keeps what goes wrong.
+    pub fn metric(&self, outputs: &mut Outputs, path: Option<&Path>) -> Result<(), Failure> {
+        let Some(path) = path else { return Ok(()) };
+        let file = MetricFile::new(&self.solution, &self.target)?;
+        outputs.add(path, |out| file.write(out))
     }
 }

@@ -79,7 +79,7 @@ impl Drawn<'_> {
             let texture = Texture { png: &png, wrap: Wrap::Repeat, repeat };
             outputs.add_named(path, |path| io::write_glb(path, &data, Some(texture)).map(drop))
         } else {
-            outputs.add_named(path, |path| io::write_obj(path, &data))
+            outputs.add(path, |out| io::write_obj_to(out, &data).map_err(std::io::Error::other))
         }
     }
 }
@@ -116,14 +116,19 @@ pub fn write_origins(out: &mut impl Write, input: &Input, laid: &Laid, on: OnCho
         input.split.as_ref().map_or((face, corners), |split| split.carried(face, corners))
     };
     let mut place = vec![None; mesh.n_vertices()];
-    writeln!(out, "output_face,source_face")?;
     for f in mesh.faces() {
         let (face, corners) = source(f);
-        writeln!(out, "{f},{face}")?;
         for (v, weights) in mesh.face_vertices(f).into_iter().zip(corners) {
             place[v.index()].get_or_insert((face, weights));
         }
     }
+    writeln!(out, "output_face,source_face")?;
+    io::text::write_blocks(out, mesh.n_faces(), |text, f| {
+        text.count(f as u64);
+        text.text(",");
+        text.count(source(f.into()).0.0.into());
+        text.text("\n");
+    })?;
     writeln!(out, "output_vertex,source_face,b0,b1,b2")?;
     for (v, (face, [a, b, c])) in place.into_iter().enumerate().filter_map(|(v, p)| Some((v, p?))) {
         writeln!(out, "{v},{face},{a},{b},{c}")?;

@@ -8,6 +8,7 @@ use crate::error::{Error, Result};
 use crate::geometry::{Motion, Twofold};
 use crate::mesh::{FaceId, HalfedgeId, PerEdge, PerFace, PerHalfedge, VertexId};
 use crate::metric::Refinement;
+use crate::parallel;
 use crate::topology::check_vertex;
 use crate::topology::spanning::Key;
 use std::cmp::Reverse;
@@ -198,19 +199,26 @@ impl<'a, F: Frame> Development<'a, F> {
         corner: &PerHalfedge<u32>,
         n_corners: usize,
     ) -> (Vec<[f64; 3]>, Vec<[f64; 2]>) {
-        let (mut points, mut remainders) = (vec![[f64::NAN; 3]; n_corners], vec![[0.0; 2]; n_corners]);
-        for (placed, pieces) in (0..self.sides.len()).filter_map(|patch| self.placed(patch)) {
-            for &f in pieces {
-                let halfedges = self.pieces.mesh().face_halfedges(f);
-                for (h, weights) in halfedges.into_iter().zip(self.pieces.final_barycentric(f)) {
-                    let point = &mut points[corner[h] as usize];
-                    if point[0].is_nan() {
-                        *point = placed.point(weights);
-                        remainders[corner[h] as usize] = placed.remainder(weights);
-                    }
-                }
+        let mesh = self.pieces.mesh();
+        // The corner of a piece that each number is taken from: 3f + k.
+        let mut first = vec![NONE; n_corners];
+        for &f in &self.order {
+            for (at, h) in (3 * f.0..).zip(mesh.face_halfedges(f)) {
+                let first = &mut first[corner[h] as usize];
+                *first = if *first == NONE { at } else { *first };
             }
         }
+        let (mut points, mut remainders) = (vec![[f64::NAN; 3]; n_corners], vec![[0.0; 2]; n_corners]);
+        parallel::fill_both(&mut points, &mut remainders, |k| {
+            if first[k] == NONE {
+                return ([f64::NAN; 3], [0.0; 2]);
+            }
+            let (f, k) = (FaceId(first[k] / 3), first[k] as usize % 3);
+            let sides = &self.sides[self.patch[f] as usize];
+            let placed = Placed::new(self.faces, self.pieces.final_face(f), sides);
+            let weights = self.pieces.final_barycentric(f)[k];
+            (placed.point(weights), placed.remainder(weights))
+        });
         (points, remainders)
     }
 
@@ -236,8 +244,8 @@ impl<'a, F: Frame> Development<'a, F> {
 fn start<F: Frame>(pieces: &Pieces, faces: &Faces<F>, root: Option<VertexId>) -> Result<(FaceId, usize)> {
     let mesh = pieces.mesh();
     let Some(root) = root else {
-        let size = |f: &FaceId| faces.longest(pieces.final_face(*f));
-        let smallest = mesh.faces().min_by(|f, g| size(f).total_cmp(&size(g)));
+        let sized = mesh.faces().map(|f| (f, faces.longest(pieces.final_face(f))));
+        let smallest = sized.min_by(|(_, a), (_, b)| a.total_cmp(b)).map(|(f, _)| f);
         return Ok((smallest.ok_or_else(|| Error::Layout("the surface has no face".into()))?, 0));
     };
     check_vertex(faces.mesh, root)?;

@@ -143,7 +143,7 @@ impl Quality {
         Given::new(input, lengths)?.quality(&refinement.mesh, place, |f, from| {
             let [a, b, c] = corners(f);
             let sides = [[b, c], [c, a], [a, b]].map(|[p, q]| vector::distance(p, q));
-            let to = in_plane(sides, &PlaneTriangle::from_sides(sides), CORNERS);
+            let to = in_plane(sides, CORNERS);
             let (before, after) = (Shape::of(from), Shape::of(to));
             let is_sound =
                 before.share.min(after.share) > LEAST_SHARE && after.longest >= LEAST_EDGE_ON_SPHERE;
@@ -167,9 +167,9 @@ impl<'a> Given<'a> {
         Ok(Given { mesh, lengths, unit: lengths.iter().copied().fold(0.0, f64::max) })
     }
 
-    fn triangle(&self, f: FaceId) -> ([f64; 3], PlaneTriangle) {
-        let sides = self.mesh.opposite_edges(f).map(|e| self.lengths[e] / self.unit);
-        (sides, PlaneTriangle::from_sides(sides))
+    /// The sides of a face, in units of the longest edge.
+    fn sides(&self, f: FaceId) -> [f64; 3] {
+        self.mesh.opposite_edges(f).map(|e| self.lengths[e] / self.unit)
     }
 
     /// The quality of a map of pieces. `source`: the face of a piece, and `weights`: those of the piece's corners in it. `image`: the dilatation of a piece that
@@ -184,14 +184,13 @@ impl<'a> Given<'a> {
         check_size("input faces", self.mesh.n_faces().min(need), need)?;
         let (mut qc, mut areas) = (vec![DILATATION_CAP; pieces.n_faces()], vec![[0.0; 2]; pieces.n_faces()]);
         let mut excess = vec![0.0; self.mesh.n_faces()];
-        parallel::fill(&mut excess, |f| self.triangle(f.into()).1.excess);
+        parallel::fill(&mut excess, |f| PlaneTriangle::excess_of(self.sides(f.into())));
         if let Some(face) = pieces.faces().map(&source).find(|f| excess[f.index()] > 0.0) {
             return Err(Error::TriangleInequality { face: face.index(), excess: excess[face.index()] });
         }
         parallel::fill_both(&mut qc, &mut areas, |f| {
             let (face, weights) = (source(f.into()), weights(f.into()));
-            let (sides, triangle) = self.triangle(face);
-            let from = in_plane(sides, &triangle, weights);
+            let from = in_plane(self.sides(face), weights);
             let (dilatation, area) = image(f.into(), from);
             (dilatation, [0.5 * doubled_area(from).abs(), area])
         });
@@ -201,10 +200,10 @@ impl<'a> Given<'a> {
 
 /// Points of a triangle in the plane, by the weights of its corners. The corner opposite the longest side lies at the origin: the edges of a
 /// needle are far from parallel there.
-fn in_plane(sides: [f64; 3], triangle: &PlaneTriangle, weights: [[f64; 3]; 3]) -> Triangle {
+fn in_plane(sides: [f64; 3], weights: [[f64; 3]; 3]) -> Triangle {
     let k = longest_side(sides);
     let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-    let way = triangle.direction[k].map(|x| sides[i] * x);
+    let way = PlaneTriangle::direction_at(sides, k).map(|x| sides[i] * x);
     weights.map(|w| [w[i] * sides[j] + w[j] * way[0], w[j] * way[1]])
 }
 

@@ -25,21 +25,48 @@ impl Triangle {
 
     /// From the half-perimeter differences `r_k = s − l_k`.
     pub(crate) fn from_differences(r: [f64; 3]) -> Triangle {
-        let unit = r[0] + r[1] + r[2] - r.into_iter().fold(f64::INFINITY, f64::min); // the longest side
-        let r = r.map(|x| x / unit);
-        let excess = r.into_iter().fold(0.0, |m, x| f64::max(m, -2.0 * x));
-        let s = r[0] + r[1] + r[2];
-        let r = r.map(|x| x.max(0.0));
-        let root = r.map(f64::sqrt);
-        let area = s.sqrt() * root[0] * root[1] * root[2]; // the roots first: r_i r_j may underflow
-        let direction = std::array::from_fn(|k| {
-            let (far, near) = (s * r[k], r[(k + 1) % 3] * r[(k + 2) % 3]);
-            let (x, y) = (far - near, 2.0 * area);
-            let norm = x.hypot(y);
-            if norm > 0.0 { [x / norm, y / norm] } else { [1.0, 0.0] }
-        });
+        let (r, unit) = in_longest(r);
+        let excess = excess(r);
+        let (s, r) = (r[0] + r[1] + r[2], r.map(|x| x.max(0.0)));
+        let area = area(s, r);
+        let direction = std::array::from_fn(|k| direction(s, r, area, k));
         Triangle { direction, area: area * unit * unit, excess }
     }
+
+    /// `[cos, sin]` of the angle at corner k: [`Triangle::direction`] where the others are not needed.
+    pub(crate) fn direction_at(sides: [f64; 3], k: usize) -> [f64; 2] {
+        let (r, _) = in_longest(half_differences(sides));
+        let (s, r) = (r[0] + r[1] + r[2], r.map(|x| x.max(0.0)));
+        direction(s, r, area(s, r), k)
+    }
+
+    /// [`Triangle::excess`] alone.
+    pub(crate) fn excess_of(sides: [f64; 3]) -> f64 {
+        excess(in_longest(half_differences(sides)).0)
+    }
+}
+
+/// Half-perimeter differences in units of the longest side, and that side.
+fn in_longest(r: [f64; 3]) -> ([f64; 3], f64) {
+    let longest = r[0] + r[1] + r[2] - r.into_iter().fold(f64::INFINITY, f64::min);
+    (r.map(|x| x / longest), longest)
+}
+
+fn excess(r: [f64; 3]) -> f64 {
+    r.into_iter().fold(0.0, |m, x| f64::max(m, -2.0 * x))
+}
+
+/// The area, of half the perimeter and differences that are not negative.
+fn area(s: f64, r: [f64; 3]) -> f64 {
+    let root = r.map(f64::sqrt);
+    s.sqrt() * root[0] * root[1] * root[2] // the roots first: r_i r_j may underflow
+}
+
+fn direction(s: f64, r: [f64; 3], area: f64, k: usize) -> [f64; 2] {
+    let (far, near) = (s * r[k], r[(k + 1) % 3] * r[(k + 2) % 3]);
+    let (x, y) = (far - near, 2.0 * area);
+    let norm = x.hypot(y);
+    if norm > 0.0 { [x / norm, y / norm] } else { [1.0, 0.0] }
 }
 
 #[cfg(test)]

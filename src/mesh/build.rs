@@ -9,7 +9,7 @@
 //! # Ok::<(), ricci::Error>(())
 //! ```
 
-use super::check::{Diagnosis, diagnose_gluing, diagnose_incidence, diagnose_positions};
+use super::check::{Diagnosis, diagnose_gluing, diagnose_incidence, diagnose_positions, is_sound};
 use super::halfedge::Mesh;
 use super::ids::{FaceId, HalfedgeId, VertexId};
 use super::incidence::{Incidence, NONE};
@@ -30,8 +30,10 @@ impl Mesh {
     pub fn from_faces(n_vertices: usize, faces: &[[u32; 3]]) -> Result<Mesh> {
         check_counts(n_vertices, faces.len())?;
         let incidence = Incidence::new(n_vertices, faces);
-        let diagnosis = diagnose_incidence(faces, &incidence);
-        connect(faces, incidence, diagnosis)
+        connect(faces, incidence).or_else(|error| {
+            let incidence = Incidence::new(n_vertices, faces);
+            Err(defects(diagnose_incidence(faces, &incidence)).unwrap_or(error))
+        })
     }
 
     /// The surface of a triangle list in space, diagnosed with its positions (zero-area faces, coordinates
@@ -44,8 +46,12 @@ impl Mesh {
         let Soup { positions, faces, .. } = soup;
         check_counts(positions.len(), faces.len())?;
         let incidence = Incidence::new(positions.len(), faces);
-        let diagnosis = diagnose_positions(positions, faces, &incidence);
-        connect(faces, incidence, diagnosis)
+        let mesh = connect(faces, incidence);
+        if mesh.is_ok() && is_sound(positions, faces) {
+            return mesh;
+        }
+        let incidence = Incidence::new(positions.len(), faces);
+        defects(diagnose_positions(positions, faces, &incidence)).map_or(mesh, Err)
     }
 
     /// The surface of triangles glued along numbered edges: a Δ-complex, whose edges need not be determined
@@ -176,26 +182,40 @@ fn glue(n_vertices: usize, faces: &[[u32; 3]], face_edges: &[[i32; 3]]) -> Resul
     Ok((origin, sides))
 }
 
-/// Number the edges of a list without defects.
-fn connect(faces: &[[u32; 3]], incidence: Incidence, diagnosis: Diagnosis) -> Result<Mesh> {
-    if !diagnosis.defects.is_empty() {
-        return Err(Error::Defects(Box::new(diagnosis)));
+/// The error that a diagnosis is, if it has found something.
+fn defects(diagnosis: Diagnosis) -> Option<Error> {
+    (!diagnosis.defects.is_empty()).then(|| Error::Defects(Box::new(diagnosis)))
+}
+
+/// Number the edges of a list.
+///
+/// # Errors
+///
+/// [`Error::Connectivity`] for every list that has a defect of its indices, without saying which: the diagnosis does.
+fn connect(faces: &[[u32; 3]], incidence: Incidence) -> Result<Mesh> {
+    if !incidence.is_one_surface(faces) {
+        let message = "is no connected oriented surface of triangles";
+        return Err(Error::Connectivity { element: "mesh", index: 0, message });
     }
-    let partner = incidence.partners(faces.len());
+    let (n_vertices, partner) = (incidence.n_vertices, incidence.partners(faces.len()));
+    let n_edges = incidence.edges().len();
     drop(incidence);
-    let mut origin = Vec::with_capacity(2 * diagnosis.edges);
+    let mut origin = Vec::with_capacity(2 * n_edges);
     let mut sides = vec![[NONE; 3]; faces.len()];
-    for side in 0..3 * faces.len() {
-        let (f, k) = (side / 3, side % 3);
-        let other = partner[side] as usize;
-        sides[f][k] = if partner[side] != NONE && other < side {
-            sides[other / 3][other % 3] ^ 1
-        } else {
-            origin.extend([faces[f][k], faces[f][(k + 1) % 3]]);
-            origin.len() as u32 - 2
-        };
+    for (f, corners) in faces.iter().enumerate() {
+        for k in 0..3 {
+            // NONE is larger than every side.
+            let other = partner[3 * f + k] as usize;
+            sides[f][k] = if other < 3 * f + k {
+                sides[other / 3][other % 3] ^ 1
+            } else {
+                origin.extend([corners[k], corners[(k + 1) % 3]]);
+                origin.len() as u32 - 2
+            };
+        }
     }
-    Mesh::assemble(diagnosis.vertices, origin, &sides)
+    drop(partner);
+    Mesh::assemble(n_vertices, origin, &sides)
 }
 
 /// Most isolated vertices that are diagnosed one by one, a million; a list with more is refused as a whole, before memory is taken for

@@ -23,32 +23,53 @@ impl Incidence {
     pub fn new(n_vertices: usize, faces: &[[u32; 3]]) -> Incidence {
         let proper = |f: &[u32; 3]| f.iter().all(|&v| (v as usize) < n_vertices) && distinct(f);
         let triangle: Vec<bool> = faces.iter().map(proper).collect();
-        let all_sides = || {
-            let side = |f: usize, k: usize| {
-                let (a, b) = (faces[f][k], faces[f][(k + 1) % 3]);
-                (a.min(b) as usize, (a.max(b), (3 * f + k) as u32))
-            };
-            (0..faces.len()).filter(|&f| triangle[f]).flat_map(move |f| (0..3).map(move |k| side(f, k)))
-        };
         // Counted out by the smaller end; the few sides of each vertex are then sorted by the larger one.
         let mut start = vec![0u32; n_vertices + 1];
-        all_sides().for_each(|(a, _)| start[a + 1] += 1);
+        each_side(faces, &triangle, |[a, _], _| start[a as usize + 1] += 1);
         (0..n_vertices).for_each(|v| start[v + 1] += start[v]);
-        let mut sorted = vec![(0u32, 0u32); start[n_vertices] as usize];
-        let mut end = start.clone();
-        for (a, side) in all_sides() {
-            sorted[end[a] as usize] = side;
-            end[a] += 1;
-        }
-        let mut group = vec![0];
+        let n_sides = start[n_vertices] as usize;
+        let mut sorted = vec![(0u32, 0u32); n_sides];
+        // Filled from the back of each vertex's part, so that `start` ends as it was.
+        each_side(faces, &triangle, |[a, b], side| {
+            let slot = &mut start[a as usize + 1];
+            *slot -= 1;
+            sorted[*slot as usize] = (b, side);
+        });
+        let mut group = Vec::with_capacity(n_sides / 2 + n_vertices.min(n_sides) + 1);
         for v in 0..n_vertices {
-            let own = &mut sorted[start[v] as usize..end[v] as usize];
+            let (begin, end) = (start[v + 1] as usize, start.get(v + 2).map_or(n_sides, |&next| next as usize));
+            let own = &mut sorted[begin..end];
             own.sort_unstable();
-            for edge in own.chunk_by(|a, b| a.0 == b.0) {
-                group.push(group[group.len() - 1] + edge.len() as u32);
+            let mut before = NONE;
+            for (k, &(b, _)) in own.iter().enumerate() {
+                if b != before {
+                    group.push((begin + k) as u32);
+                }
+                before = b;
             }
         }
+        group.push(n_sides as u32);
         Incidence { n_vertices, triangle, sides: sorted.into_iter().map(|(_, side)| side).collect(), group }
+    }
+
+    /// Whether the faces are one connected surface of triangles, no two with the same vertices, whose edges have one face or two that run along
+    /// them in opposite directions. Vertices may still have several fans, or none.
+    pub fn is_one_surface(&self, faces: &[[u32; 3]]) -> bool {
+        let third = |side: u32| faces[side as usize / 3][(side as usize + 2) % 3];
+        let is_sound = |sides: &[u32]| match *sides {
+            [_] => true,
+            [a, b] => is_forward(faces, a) != is_forward(faces, b) && third(a) != third(b),
+            _ => false,
+        };
+        let is_whole = !faces.is_empty() && self.triangle.iter().all(|&is_triangle| is_triangle);
+        is_whole && self.edges().all(is_sound) && self.hangs_together(faces)
+    }
+
+    /// Whether all vertices are connected through faces.
+    fn hangs_together(&self, faces: &[[u32; 3]]) -> bool {
+        let mut pieces = UnionFind::new(self.n_vertices);
+        let join = |&[a, b, c]: &[u32; 3]| usize::from(pieces.join(a, b)) + usize::from(pieces.join(a, c));
+        faces.iter().map(join).sum::<usize>() + 1 == self.n_vertices
     }
 
     /// Whether the face has three different existing vertices.
@@ -57,7 +78,7 @@ impl Incidence {
     }
 
     /// The sides along each distinct edge.
-    pub fn edges(&self) -> impl Iterator<Item = &[u32]> {
+    pub fn edges(&self) -> impl ExactSizeIterator<Item = &[u32]> {
         self.group.windows(2).map(|w| &self.sides[w[0] as usize..w[1] as usize])
     }
 
@@ -116,6 +137,16 @@ impl Incidence {
             }
         }
         partner
+    }
+}
+
+/// Hand on the sides of triangles, in order, with their smaller and larger ends.
+fn each_side(faces: &[[u32; 3]], is_triangle: &[bool], mut take: impl FnMut([u32; 2], u32)) {
+    for (f, _) in is_triangle.iter().enumerate().filter(|(_, is_triangle)| **is_triangle) {
+        for k in 0..3 {
+            let (a, b) = (faces[f][k], faces[f][(k + 1) % 3]);
+            take([a.min(b), a.max(b)], (3 * f + k) as u32);
+        }
     }
 }
 

@@ -190,7 +190,9 @@ pub fn lengths_from_positions(mesh: &Mesh, positions: &[Point]) -> Result<PerEdg
         }
         scale * d.iter().map(|x| (x / scale) * (x / scale)).sum::<f64>().sqrt()
     };
-    let lengths = PerEdge::from_fn(mesh.n_edges(), length);
+    let mut lengths = vec![0.0; mesh.n_edges()];
+    parallel::fill(&mut lengths, |e| length(e.into()));
+    let lengths = lengths.into();
     check_lengths(mesh, &lengths)?;
     Ok(lengths)
 }

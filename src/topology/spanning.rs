@@ -97,15 +97,12 @@ pub(super) fn shortest_paths_through(
     at_once: impl Fn(VertexId) -> Vec<Reached>,
 ) -> Result<Forest> {
     check_lengths(mesh, lengths)?;
-    let mut distance = PerVertex::filled(mesh.n_vertices(), f64::INFINITY);
-    let mut parent = PerVertex::filled(mesh.n_vertices(), None);
-    let mut settled = PerVertex::filled(mesh.n_vertices(), false);
-    // The path to a vertex stays once the vertex is settled or was returned by `at_once`.
-    let mut is_fixed = PerVertex::filled(mesh.n_vertices(), false);
+    let unreached = Reach { distance: f64::INFINITY, parent: None, is_settled: false, is_fixed: false };
+    let mut reach = PerVertex::filled(mesh.n_vertices(), unreached);
     let mut queue = BinaryHeap::new();
     for v in sources {
         check_vertex(mesh, v)?;
-        distance[v] = 0.0;
+        reach[v].distance = 0.0;
         queue.push(Reverse((Key(0.0), v)));
     }
     let mut roots = mesh.vertices();
@@ -113,28 +110,44 @@ pub(super) fn shortest_paths_through(
     loop {
         while let Some(Reverse((Key(d), v))) = queue.pop() {
             control.check_every(VERTICES_PER_LOOK, &mut steps)?;
-            if d != distance[v] || std::mem::replace(&mut settled[v], true) {
+            let here = &mut reach[v];
+            if d != here.distance || std::mem::replace(&mut here.is_settled, true) {
                 continue;
             }
-            if !std::mem::replace(&mut is_fixed[v], true) {
+            if !std::mem::replace(&mut here.is_fixed, true) {
                 for (w, through, h) in at_once(v) {
-                    (distance[w], parent[w], is_fixed[w]) = (d + through, Some(h), true);
+                    let there = &mut reach[w];
+                    (there.distance, there.parent, there.is_fixed) = (d + through, Some(h), true);
                     queue.push(Reverse((Key(d + through), w)));
                 }
             }
             for h in mesh.outgoing(v) {
                 let (w, through) = (mesh.tip(h), d + lengths[h.edge()]);
-                if !is_fixed[w] && through < distance[w] {
-                    (distance[w], parent[w]) = (through, Some(h));
+                let there = &mut reach[w];
+                if !there.is_fixed && through < there.distance {
+                    (there.distance, there.parent) = (through, Some(h));
                     queue.push(Reverse((Key(through), w)));
                 }
             }
         }
-        let Some(v) = roots.find(|&v| !settled[v]) else { break };
-        distance[v] = 0.0;
+        let Some(v) = roots.find(|&v| !reach[v].is_settled) else { break };
+        reach[v].distance = 0.0;
         queue.push(Reverse((Key(0.0), v)));
     }
-    Ok(Forest { distance, parent })
+    Ok(Forest {
+        distance: PerVertex::from_fn(reach.len(), |v| reach[v].distance),
+        parent: PerVertex::from_fn(reach.len(), |v| reach[v].parent),
+    })
+}
+
+/// What a search knows of a vertex, in one place of memory.
+#[derive(Clone, Copy)]
+struct Reach {
+    distance: f64,
+    parent: Option<HalfedgeId>,
+    is_settled: bool,
+    /// Whether the path to it stays: it is settled, or was returned by `at_once`.
+    is_fixed: bool,
 }
 
 /// The edges left over by a shortest-path forest and a maximum spanning tree of the dual graph, shortest arcs

@@ -161,10 +161,11 @@ fn write_metric(outputs: &mut Outputs, path: &std::path::Path, found: &Found) ->
     let domain = &found.domain;
     let target = PerVertex::filled(domain.metric.mesh().n_vertices(), 0.0);
     let file = MetricFile::new(&domain.metric, &target)?;
-    let Some(outer) = domain.outer else { return outputs.add_json(path, &file) };
+    let Some(outer) = domain.outer else { return outputs.add(path, |out| file.write(out)) };
     let file = file.without(domain.filled.hub(outer).index());
     let curvature = file.curvature();
-    outputs.add_json(path, &file.free_on_boundary(&curvature))
+    let file = file.free_on_boundary(&curvature);
+    outputs.add(path, |out| file.write(out))
 }
 
 /// What was asked, defaults put in: a run with these options is this run.

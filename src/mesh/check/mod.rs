@@ -19,6 +19,8 @@ pub(super) use orientation::{Orientation, Piece};
 use super::Point;
 use super::incidence::{Incidence, boundary_loops, components, ends};
 use crate::geometry::triangle::half_differences;
+use crate::geometry::vector;
+use crate::parallel;
 use orientation::orientation;
 
 /// A face counts as zero-area when its lengths, as computed in doubles, satisfy the triangle inequality by less than this fraction of
@@ -182,6 +184,32 @@ fn duplicates(faces: &[[u32; 3]], incidence: &Incidence, defects: &mut Vec<Defec
     }
     found.sort_unstable();
     defects.extend(found.into_iter().map(|(face, first)| Defect::DuplicateFace { face, first }));
+}
+
+/// Faces that [`is_sound`] looks at in one piece of work.
+const FACES_PER_LOOK: usize = 1 << 14;
+
+/// Whether all positions are finite, and no face, of three different existing vertices, has zero area.
+pub(super) fn is_sound(positions: &[Point], faces: &[[u32; 3]]) -> bool {
+    let is_plane = |corners: &[u32; 3]| {
+        let p = corners.map(|v| positions[v as usize]);
+        has_clear_area(p) || !zero_area(p)
+    };
+    let parts: Vec<_> = faces.chunks(FACES_PER_LOOK).collect();
+    positions.as_flattened().iter().all(|x| x.is_finite())
+        && parallel::map(parts.len(), |k| parts[k].iter().all(is_plane)).into_iter().all(|all| all)
+}
+
+/// Squared area over the fourth power of the longest edge from which on a triangle is far from zero area: its smallest half-perimeter
+/// difference is then above 1e-9 of the longest edge.
+const CLEAR: f64 = 1e-8;
+
+/// Whether a triangle has an area beyond all doubt, by a few products; where these are no doubles it has none.
+fn has_clear_area(p: [Point; 3]) -> bool {
+    let [u, v, w] = [[0, 1], [0, 2], [1, 2]].map(|[i, j]| vector::sub(p[j], p[i]));
+    let norm2 = |u| vector::dot(u, u);
+    let longest = norm2(u).max(norm2(v)).max(norm2(w));
+    norm2(vector::cross(u, v)) > 4.0 * CLEAR * longest * longest
 }
 
 fn zero_area(p: [Point; 3]) -> bool {

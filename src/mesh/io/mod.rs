@@ -28,6 +28,7 @@ mod scan;
 mod shortest;
 mod soup;
 mod stl;
+pub mod text;
 mod textured;
 
 pub use atomic::{destination, write_atomically};
@@ -35,7 +36,7 @@ pub use atomic::{destination, write_atomically};
 pub use gifti::parse_gifti;
 #[cfg(feature = "gltf")]
 pub use gltf::{Texture, Wrap, parse_glb, write_glb};
-pub use obj::{parse_obj, write_obj};
+pub use obj::{parse_obj, write_obj, write_obj_to};
 pub use off::{parse_off, write_off};
 pub use ply::{parse_ply, write_ply};
 pub use soup::{Attributes, Soup};

@@ -2,14 +2,15 @@
 
 use super::budget::Budget;
 use super::polygon::Polygons;
-use super::scan::{Location, Quoted, words};
-use super::shortest::Shortest;
+use super::scan::{BYTE_ORDER_MARK, Location, Quoted, words};
 use super::soup::{NO_NORMAL, NO_TEXCOORD, WHITE};
+use super::text::{Text, write_blocks};
 use super::{Attributes, Soup, Textured, write_atomically};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::mesh::Point;
+use crate::parallel;
 use std::borrow::Cow;
-use std::io::Write;
+use std::io::{self, Write};
 use std::path::Path;
 
 /// Parse OBJ text: `v` (with colours behind the coordinates, if there are any), `vt`, `vn` and `f` (polygons, negative indices,
@@ -22,57 +23,40 @@ use std::path::Path;
 ///
 /// [`crate::Error::Parse`] with the line.
 pub fn parse_obj(bytes: &[u8], path: &str) -> Result<Soup> {
-    let text = std::str::from_utf8(bytes).map_or_else(|_| String::from_utf8_lossy(bytes), Cow::Borrowed);
-    let mut file = File::default();
-    let mut lines = super::scan::lines(&text);
-    let mut joined = String::new();
-    while let Some((number, line)) = lines.next() {
-        let place = Location::line(path, number);
-        let mut line = line;
-        if line.ends_with('\\') {
-            joined.clear();
-            while let Some(head) = line.strip_suffix('\\') {
-                joined.push_str(head);
-                joined.push(' ');
-                line = lines.next().map_or("", |(_, next)| next);
-            }
-            joined.push_str(line);
-            line = &joined;
+    let file = match in_parts(bytes, path) {
+        Some(file) => file,
+        None => {
+            let text = std::str::from_utf8(bytes);
+            File::read(&text.map_or_else(|_| String::from_utf8_lossy(bytes), Cow::Borrowed), path)?
         }
-        let mut tokens = words(line);
-        match tokens.next() {
-            Some("v") => {
-                let mut point: Point = [0.0; 3];
-                for (x, name) in point.iter_mut().zip(["x", "y", "z"]) {
-                    *x = place.number(tokens.next(), format_args!("coordinate {name}"))?;
-                }
-                file.positions.push(point);
-                if let Some(color) = color(tokens) {
-                    file.colors.resize(file.positions.len() - 1, WHITE);
-                    file.colors.push(color);
-                }
-            }
-            Some("vt") => file.texcoords.push(numbers(tokens)),
-            Some("vn") => file.normals.push(numbers(tokens)),
-            Some("f") => {
-                for token in tokens {
-                    if let Some(v) = plain(token) {
-                        file.polygons.corners.push(v);
-                        file.corner_texcoords.push(NO_ENTRY);
-                        file.corner_normals.push(NO_ENTRY);
-                        continue;
-                    }
-                    file.polygons.corners.push(corner(place, token, file.positions.len())?);
-                    let mut parts = token.split('/').skip(1);
-                    file.corner_texcoords.push(attribute(parts.next(), file.texcoords.len()));
-                    file.corner_normals.push(attribute(parts.next(), file.normals.len()));
-                }
-                file.polygons.end();
-            }
-            _ => {}
-        }
-    }
+    };
     file.soup(Budget::of(bytes), Location::whole(path))
+}
+
+/// Least bytes of a part of a file that is read by itself.
+const PART: usize = 1 << 20;
+
+/// A file read in parts that end with lines, side by side inside a pool; `None` where its parts cannot be read each by itself, which is so
+/// if corners count back from the last vertex, a line goes on behind a backslash, or something is wrong, which is then found line by line.
+fn in_parts(bytes: &[u8], path: &str) -> Option<File> {
+    let mut ends = Vec::new();
+    while bytes.len() - ends.last().unwrap_or(&0) > PART {
+        let begin = ends.last().unwrap_or(&0) + PART;
+        ends.push(begin + bytes[begin..].iter().position(|&b| b == b'\n')? + 1);
+    }
+    // So that every part has an end of line.
+    ends.pop();
+    if ends.is_empty() || bytes.contains(&b'\\') {
+        return None;
+    }
+    let starts: Vec<usize> = std::iter::once(0).chain(ends).chain([bytes.len()]).collect();
+    let part = |k: usize| {
+        let text = std::str::from_utf8(&bytes[starts[k]..starts[k + 1]]).ok()?;
+        let is_marked = k > 0 && text.starts_with(BYTE_ORDER_MARK);
+        File::read(text, path).ok().filter(|file| !(is_marked || file.counts_back))
+    };
+    let parts: Option<Vec<File>> = parallel::map(starts.len() - 1, part).into_iter().collect();
+    Some(File::joined(parts?))
 }
 
 /// The entry of a corner that names no texture coordinate or no normal.
@@ -82,20 +66,117 @@ const NO_ENTRY: u32 = u32::MAX;
 #[derive(Default)]
 struct File {
     positions: Vec<Point>,
+    /// Of the first vertices; the others are white.
     colors: Vec<[f64; 4]>,
     texcoords: Vec<[f64; 2]>,
     normals: Vec<Point>,
     polygons: Polygons,
-    /// Per corner, the entry it names, or `NO_ENTRY`.
+    /// Of the first corners, the entry each names, or `NO_ENTRY`, as for all others.
     corner_texcoords: Vec<u32>,
     corner_normals: Vec<u32>,
+    /// Whether a corner may count back from the last entry.
+    counts_back: bool,
 }
 
 impl File {
+    fn read(text: &str, path: &str) -> Result<File> {
+        let mut file = File::default();
+        let mut lines = super::scan::lines(text);
+        let mut joined = String::new();
+        while let Some((number, line)) = lines.next() {
+            let place = Location::line(path, number);
+            let mut line = line;
+            if line.ends_with('\\') {
+                joined.clear();
+                while let Some(head) = line.strip_suffix('\\') {
+                    joined.push_str(head);
+                    joined.push(' ');
+                    line = lines.next().map_or("", |(_, next)| next);
+                }
+                joined.push_str(line);
+                line = &joined;
+            }
+            file.line(place, line)?;
+        }
+        Ok(file)
+    }
+
+    fn line(&mut self, place: Location<'_>, line: &str) -> Result<()> {
+        let mut tokens = words(line);
+        match tokens.next() {
+            Some("v") => {
+                let mut point: Point = [0.0; 3];
+                for (x, name) in point.iter_mut().zip(["x", "y", "z"]) {
+                    *x = place.number(tokens.next(), format_args!("coordinate {name}"))?;
+                }
+                self.positions.push(point);
+                if let Some(color) = color(tokens) {
+                    self.colors.resize(self.positions.len() - 1, WHITE);
+                    self.colors.push(color);
+                }
+            }
+            Some("vt") => self.texcoords.push(numbers(tokens)),
+            Some("vn") => self.normals.push(numbers(tokens)),
+            Some("f") => {
+                for token in tokens {
+                    match plain(token) {
+                        Some(v) => self.polygons.corners.push(v),
+                        None => self.corner(place, token)?,
+                    }
+                }
+                self.polygons.end();
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    /// A corner that names more than a vertex, or counts back.
+    fn corner(&mut self, place: Location<'_>, token: &str) -> Result<()> {
+        let number = self.polygons.corners.len();
+        self.polygons.corners.push(corner(place, token, self.positions.len())?);
+        self.counts_back |= token.contains('-');
+        let mut parts = token.split('/').skip(1);
+        let texcoord = attribute(parts.next(), self.texcoords.len());
+        let normal = attribute(parts.next(), self.normals.len());
+        for (entries, entry) in [(&mut self.corner_texcoords, texcoord), (&mut self.corner_normals, normal)] {
+            if entry != NO_ENTRY {
+                entries.resize(number, NO_ENTRY);
+                entries.push(entry);
+            }
+        }
+        Ok(())
+    }
+
+    /// What the parts of a file hold, one after the other.
+    fn joined(parts: Vec<File>) -> File {
+        let mut all = File::default();
+        all.positions.reserve_exact(parts.iter().map(|part| part.positions.len()).sum());
+        all.polygons.reserve(parts.iter().map(|part| &part.polygons));
+        for part in parts {
+            let (vertices, corners) = (all.positions.len(), all.polygons.corners.len());
+            all.positions.extend(part.positions);
+            append(&mut all.colors, part.colors, (vertices, WHITE));
+            all.texcoords.extend(part.texcoords);
+            all.normals.extend(part.normals);
+            append(&mut all.corner_texcoords, part.corner_texcoords, (corners, NO_ENTRY));
+            append(&mut all.corner_normals, part.corner_normals, (corners, NO_ENTRY));
+            all.polygons.append(&part.polygons);
+        }
+        all
+    }
+
     fn soup(mut self, mut budget: Budget, place: Location<'_>) -> Result<Soup> {
+        if self.corner_texcoords.is_empty()
+            && self.corner_normals.is_empty()
+            && let Some(faces) = self.polygons.all_triangles(&mut budget, place)?
+        {
+            let attributes = Attributes { colors: self.all_colors(), ..Attributes::default() };
+            return Ok(Soup { positions: self.positions, faces, attributes });
+        }
         let triangles = self.polygons.triangles(&self.positions, &mut budget, place)?;
         fn of<const N: usize>(list: &[[f64; N]], entries: &[u32], corner: usize) -> Option<[f64; N]> {
-            let entry = list.get(entries[corner] as usize).copied();
+            let entry = list.get(*entries.get(corner)? as usize).copied();
             entry.filter(|x| x.iter().all(|x| x.is_finite()))
         }
         let texcoord = |corner: usize| of(&self.texcoords, &self.corner_texcoords, corner);
@@ -112,12 +193,17 @@ impl File {
         }
         let normals = normals.filter(|normals| !normals.is_empty());
         let faces = self.polygons.faces(&triangles);
-        let colors = (!self.colors.is_empty()).then(|| {
-            self.colors.resize(self.positions.len(), WHITE);
-            self.colors
-        });
-        let attributes = Attributes { normals, corner_normals, colors, uv };
+        let attributes = Attributes { normals, corner_normals, colors: self.all_colors(), uv };
         Ok(Soup { positions: self.positions, faces, attributes })
+    }
+
+    /// The colours of all vertices, where one has a colour.
+    fn all_colors(&mut self) -> Option<Vec<[f64; 4]>> {
+        let mut colors = std::mem::take(&mut self.colors);
+        (!colors.is_empty()).then(|| {
+            colors.resize(self.positions.len(), WHITE);
+            colors
+        })
     }
 
     /// The normals of the vertices, empty if corners name none; `None` where corners of a vertex name different ones.
@@ -138,6 +224,14 @@ impl File {
             }
         }
         Some(normals.into_iter().map(|n| n.unwrap_or(NO_NORMAL)).collect())
+    }
+}
+
+/// Append `more` behind the first `n` entries of a list, of which those that are missing are filled in.
+fn append<T: Clone>(list: &mut Vec<T>, more: Vec<T>, (n, missing): (usize, T)) {
+    if !more.is_empty() {
+        list.resize(n, missing);
+        list.extend(more);
     }
 }
 
@@ -206,43 +300,71 @@ fn corner(place: Location<'_>, token: &str, vertices: usize) -> Result<u32> {
 /// range, [`crate::Error::Size`], [`crate::Error::Io`].
 pub fn write_obj(path: &Path, data: &Textured<'_>) -> Result<()> {
     data.check()?;
-    write_atomically(path, |out| {
-        if !data.texcoord_weights.is_empty() {
-            writeln!(
-                out,
-                "# vt are homogeneous: (q x, q y, q), linear within each face; the texture is at (x, y)"
-            )?;
+    write_atomically(path, |out| write_text(out, data))
+}
+
+/// [`write_obj`] to anything that can be written to, for callers who put files in place themselves. Lines are formatted side by side
+/// inside a pool.
+///
+/// # Errors
+///
+/// [`crate::Error::Argument`] and [`crate::Error::Size`] before anything is written; [`crate::Error::Io`].
+pub fn write_obj_to(out: &mut impl Write, data: &Textured<'_>) -> Result<()> {
+    data.check()?;
+    write_text(out, data).map_err(|e| Error::Io { path: "OBJ".into(), message: e.to_string() })
+}
+
+fn write_text(out: &mut impl Write, data: &Textured<'_>) -> io::Result<()> {
+    if !data.texcoord_weights.is_empty() {
+        writeln!(out, "# vt are homogeneous: (q x, q y, q), linear within each face; the texture is at (x, y)")?;
+    }
+    write_blocks(out, data.positions.len(), |text, v| {
+        line(text, "v", &data.positions[v]);
+        if let Some([r, g, b, a]) = data.colors.get(v) {
+            let alpha = if *a == 1.0 { String::new() } else { format!(" {a:.6}") };
+            text.text(&format!(" {r:.6} {g:.6} {b:.6}{alpha}"));
         }
-        for (v, [x, y, z]) in data.positions.iter().enumerate() {
-            write!(out, "v {} {} {}", Shortest(*x), Shortest(*y), Shortest(*z))?;
-            if let Some([r, g, b, a]) = data.colors.get(v) {
-                write!(out, " {r:.6} {g:.6} {b:.6}")?;
-                if *a != 1.0 {
-                    write!(out, " {a:.6}")?;
-                }
+        text.text("\n");
+    })?;
+    write_blocks(out, data.texcoords.len(), |text, k| {
+        let [s, t] = data.texcoords[k];
+        match data.texcoord_weights.get(k) {
+            Some(q) => line(text, "vt", &[q * s, q * t, *q]),
+            None => line(text, "vt", &[s, t]),
+        }
+        text.text("\n");
+    })?;
+    write_blocks(out, data.normals.len(), |text, k| {
+        line(text, "vn", &data.normals[k]);
+        text.text("\n");
+    })?;
+    let has_normals = !data.normals.is_empty();
+    write_blocks(out, data.faces.len(), |text, f| {
+        let corners = data.faces[f];
+        let normals = data.face_normals.get(f).unwrap_or(&corners);
+        let texcoords = data.face_texcoords.get(f);
+        text.text("f");
+        for k in 0..3 {
+            text.text(" ");
+            text.count(u64::from(corners[k]) + 1);
+            if let Some(texcoords) = texcoords {
+                text.text("/");
+                text.count(u64::from(texcoords[k]) + 1);
             }
-            writeln!(out)?;
-        }
-        for (k, [s, t]) in data.texcoords.iter().enumerate() {
-            match data.texcoord_weights.get(k) {
-                Some(q) => writeln!(out, "vt {} {} {}", Shortest(q * s), Shortest(q * t), Shortest(*q))?,
-                None => writeln!(out, "vt {} {}", Shortest(*s), Shortest(*t))?,
+            if has_normals {
+                text.text(if texcoords.is_some() { "/" } else { "//" });
+                text.count(u64::from(normals[k]) + 1);
             }
         }
-        for [x, y, z] in data.normals {
-            writeln!(out, "vn {} {} {}", Shortest(*x), Shortest(*y), Shortest(*z))?;
-        }
-        let normals = !data.normals.is_empty();
-        for (f, corners) in data.faces.iter().enumerate() {
-            let [a, b, c] = corners.map(|v| v + 1);
-            let [l, m, n] = data.face_normals.get(f).map_or([a, b, c], |n| n.map(|n| n + 1));
-            match data.face_texcoords.get(f).map(|t| t.map(|t| t + 1)) {
-                Some([s, t, u]) if normals => writeln!(out, "f {a}/{s}/{l} {b}/{t}/{m} {c}/{u}/{n}")?,
-                Some([s, t, u]) => writeln!(out, "f {a}/{s} {b}/{t} {c}/{u}")?,
-                None if normals => writeln!(out, "f {a}//{l} {b}//{m} {c}//{n}")?,
-                None => writeln!(out, "f {a} {b} {c}")?,
-            }
-        }
-        Ok(())
+        text.text("\n");
     })
+}
+
+/// A keyword and its numbers.
+fn line(text: &mut Text, keyword: &str, numbers: &[f64]) {
+    text.text(keyword);
+    for x in numbers {
+        text.text(" ");
+        text.number(*x);
+    }
 }

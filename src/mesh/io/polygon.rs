@@ -15,6 +15,8 @@ pub(super) struct Polygons {
     ends: Vec<usize>,
 }
 
+/// Bytes that a triangle may take: its corners, its vertices and their texture coordinates.
+const PER_TRIANGLE: usize = size_of::<([usize; 3], [u32; 3], [[f64; 2]; 3])>();
 /// Most corners of a polygon that is cut ear by ear. A larger one becomes a fan, since the time to find ears grows with the square of
 /// the number of corners.
 const MOST_CORNERS: usize = 1000;
@@ -34,6 +36,34 @@ impl Polygons {
         self.ends.push(self.corners.len());
     }
 
+    /// Make room for all of these.
+    pub fn reserve<'a>(&mut self, all: impl Iterator<Item = &'a Polygons>) {
+        let add = |[a, b]: [usize; 2], more: &Polygons| [a + more.corners.len(), b + more.ends.len()];
+        let [corners, ends] = all.fold([0; 2], add);
+        self.corners.reserve_exact(corners);
+        self.ends.reserve_exact(ends);
+    }
+
+    /// Append the polygons of another list.
+    pub fn append(&mut self, more: &Polygons) {
+        let before = self.corners.len();
+        self.corners.extend_from_slice(&more.corners);
+        self.ends.extend(more.ends.iter().map(|end| before + end));
+    }
+
+    /// The vertices of each polygon, where all are triangles.
+    ///
+    /// # Errors
+    /// As [`Polygons::triangles`].
+    pub fn all_triangles(&self, budget: &mut Budget, place: Location<'_>) -> Result<Option<Vec<[u32; 3]>>> {
+        let (triangles, []) = self.corners.as_chunks() else { return Ok(None) };
+        if (1..).zip(&self.ends).any(|(k, &end)| end != 3 * k) {
+            return Ok(None);
+        }
+        budget.take(triangles.len(), PER_TRIANGLE, "faces", place)?;
+        Ok(Some(triangles.to_vec()))
+    }
+
     /// The triangles, three flat corner numbers each. Faces of one or two corners occur in the wild and have none.
     ///
     /// A convex polygon is a fan from its first corner; another one is cut ear by ear in the plane of its area vector. The triangles
@@ -46,7 +76,7 @@ impl Polygons {
     ) -> Result<Vec<[usize; 3]>> {
         let starts = std::iter::once(&0).chain(&self.ends);
         let count = starts.zip(&self.ends).map(|(start, end)| (end - start).saturating_sub(2)).sum();
-        budget.take(count, size_of::<([usize; 3], [u32; 3], [[f64; 2]; 3])>(), "faces", place)?;
+        budget.take(count, PER_TRIANGLE, "faces", place)?;
         let mut triangles = Vec::with_capacity(count);
         let mut start = 0;
         for &end in &self.ends {

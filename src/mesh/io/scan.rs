@@ -3,13 +3,16 @@
 use crate::error::{At, Error, Result};
 use std::fmt::{self, Arguments};
 
+/// What a text in Unicode may begin with.
+pub(super) const BYTE_ORDER_MARK: char = '\u{feff}';
+
 /// The lines of a text (ended by LF, CR LF or CR) with their 1-based numbers, without comments, trailing blanks and byte
 /// order mark.
 pub(super) fn lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
-    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let text = text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text);
     // In a file with LF a CR is a blank at the end of its line.
     let end = if text.contains('\n') { '\n' } else { '\r' };
-    let bare = |line: &'_ str| line.bytes().position(|b| b == b'#').unwrap_or(line.len());
+    let bare = |line: &'_ str| line.find('#').unwrap_or(line.len());
     text.split(end).enumerate().map(move |(i, line)| (i + 1, line[..bare(line)].trim_end()))
 }
 

@@ -21,6 +21,9 @@ const NONE: u32 = u32::MAX;
 /// Faces that are cut between two looks at the control: less than a millisecond.
 const FACES_PER_STEP: usize = 1024;
 
+/// Most corners of a piece.
+const MOST_CORNERS: usize = 6;
+
 /// Where in its final triangle a corner of a piece is.
 #[derive(Debug, Clone, Copy)]
 enum Spot {
@@ -100,6 +103,7 @@ impl<'a> Pieces<'a> {
             piece: Vec::new(),
             n_pieces: 0,
         };
+        pieces.reserve(mesh);
         for e in mesh.edges() {
             let along = result.normal.along(mesh, e.halfedge()).map(HalfedgeId::edge);
             pieces.origins.extend((0..=n(e)).map(|_| Origin { input: along, result: Some(e) }));
@@ -127,6 +131,16 @@ impl<'a> Pieces<'a> {
         Ok(pieces)
     }
 
+    /// Make room for the pieces of all faces: each crossing adds three edges and two triangles to those of the final triangulation.
+    fn reserve(&mut self, mesh: &Mesh) {
+        let n = self.slots.len();
+        self.origins.reserve_exact(mesh.n_edges() + 3 * n);
+        let triangles = mesh.n_faces() + 2 * n;
+        self.sides.reserve_exact(triangles);
+        self.corners.reserve_exact(triangles);
+        self.piece.reserve_exact(triangles);
+    }
+
     fn slot(&self, side: HalfedgeId, position: i64) -> usize {
         let e = side.edge();
         let n = self.overlay.result.normal.crossings(e);
@@ -142,7 +156,7 @@ impl<'a> Pieces<'a> {
         }
         let Strands { arc, fan } = Strands::new(n);
         let next = |k: usize| (k + 1) % 3;
-        let mut polygon: Vec<(Spot, Way)> = Vec::with_capacity(6);
+        let mut polygon: Vec<(Spot, Way)> = Vec::with_capacity(MOST_CORNERS);
         for k in 0..3 {
             let before = (k + 2) % 3;
             for m in 0..arc[k] {
@@ -217,32 +231,30 @@ impl<'a> Pieces<'a> {
         keep: &dyn Fn(FaceId) -> bool,
     ) -> Result<()> {
         let size = polygon.len();
-        let mut sides = Vec::with_capacity(size);
+        let mut sides = [NONE; MOST_CORNERS];
         // The half-edge of the input that a curve is part of, per side of the piece.
-        let mut curves = Vec::with_capacity(size);
+        let mut curves = [None; MOST_CORNERS];
         for (i, &(spot, way)) in polygon.iter().enumerate() {
-            let (side, curve) = match way {
+            (sides[i], curves[i]) = match way {
                 Way::Side(k, part) => (self.side_part(h[k], part), None),
                 Way::Curve => {
                     let (side, along) = self.curve_part(h, spot, polygon[(i + 1) % size].0)?;
                     (side, Some(along))
                 }
             };
-            sides.push(side);
-            curves.push(curve);
         }
         let mut face = None;
-        let mut corners = Vec::with_capacity(size);
+        let mut corners = [Corner { vertex: NONE, input: h[0], result: h[0] }; MOST_CORNERS];
         for (i, &(spot, _)) in polygon.iter().enumerate() {
             let corner = self.piece_corner(h, spot, curves[i].or(curves[(i + size - 1) % size]))?;
             let lies_in = self.overlay.input.face(corner.input).ok_or_else(torn)?;
             if *face.get_or_insert(lies_in) != lies_in {
                 return Err(torn());
             }
-            corners.push(corner);
+            corners[i] = corner;
         }
         if face.is_some_and(keep) {
-            self.triangulate(&sides, &corners);
+            self.triangulate(&sides[..size], &corners[..size]);
         }
         Ok(())
     }
