@@ -316,7 +316,10 @@ pub fn write_obj_to(out: &mut impl Write, data: &Textured<'_>) -> Result<()> {
 
 fn write_text(out: &mut impl Write, data: &Textured<'_>) -> io::Result<()> {
     if !data.texcoord_weights.is_empty() {
-        writeln!(out, "# vt are homogeneous: (q x, q y, q), linear within each face; the texture is at (x, y)")?;
+        writeln!(
+            out,
+            "# vt are homogeneous: (q x, q y, q), linear within each face; the texture is at (x, y)"
+        )?;
     }
     write_blocks(out, data.positions.len(), |text, v| {
         line(text, "v", &data.positions[v]);
