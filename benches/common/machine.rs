@@ -26,7 +26,7 @@ pub fn machine(page: &mut String, peers: Option<Result<String, String>>, load: [
     put(
         page,
         format_args!(
-            "\n## Machine\n\n{processor}, {cores} cores. The flow assembles on {cores} threads; faer runs on one.\n"
+            "\n## Machine\n\n{processor}, {cores} cores. Where no number of threads is given the flow runs on {cores}; faer runs on one.\n"
         ),
     );
     match peers {

@@ -32,7 +32,7 @@ fn hill(vertices: usize) -> Surface {
 
 pub fn measure(vertices: usize) -> Row {
     let (surface, class, control) = (hill(vertices), Class::yamabe(Space::E2), Control::new());
-    let options = Options { flips: Flips::Never, ..Options::default() };
+    let options = Options { flips: Flips::Never, threads: 1, ..Options::default() };
     let solution = flow(surface.clone(), class, &Target::Boundary, &options, &control).unwrap();
     let report = solution.report().unwrap().clone();
     assert!(report.converged(), "{report:?}");

@@ -97,11 +97,11 @@ fn flows(page: &mut String, rows: &[Row]) {
     let above: Vec<String> = rows
         .iter()
         .filter(above)
-        .map(|row| format!("{} {}, {} threads", row.vertices, row.scheme, row.threads))
+        .map(|row| format!("{} {} ({})", row.vertices, row.scheme, row.threads))
         .collect();
     let above = if above.is_empty() { "none".into() } else { above.join(", ") };
     let asked = format_args!(
-        "Asked at 200,000 vertices: at most {RATIO} × one analysis and factorisation by faer, and {PEAK} bytes per vertex. Rows above: {above}.\n"
+        "Asked at 200,000 vertices: at most {RATIO} × one analysis and factorisation by faer, and {PEAK} bytes per vertex. Rows above (threads): {above}.\n"
     );
     put(page, asked);
 }
@@ -111,7 +111,7 @@ fn conformal_maps(page: &mut String, disks: &[conformal::Row]) {
 ## Beside a linear conformal map
 
 A disk with a hill becomes flat inside: by the flow (E², yamabe, without flips), and by a least-squares conformal map, which is one linear
-system of twice the size, with the same factoriser. Neither is laid out or written. Energy: what is left of the conformal energy, over the
+system of twice the size, with the same factoriser, both on one thread. Neither is laid out or written. Energy: what is left of the conformal energy, over the
 area of the image; the flow leaves none.
 
 | vertices | flow | its steps | linear map | its assembling | analysis | factorisation | solution | energy | flow over linear map |
@@ -136,7 +136,8 @@ fn solvers(page: &mut String, rows: &[Row]) {
         for x in &row.linear {
             put(page, format_args!("| {} | {} | {} |", row.vertices, row.scheme, x.solver));
             put(page, format_args!(" {:.4} | {:.4} | {:.4} |", x.analyse, x.factor, x.solve));
-            put(page, format_args!(" {} | {:.2} | {:.1e} |\n", x.entries, x.cores, x.residual));
+            let cores = if x.cores.is_nan() { String::new() } else { format!("{:.2}", x.cores) };
+            put(page, format_args!(" {} | {cores} | {:.1e} |\n", x.entries, x.residual));
         }
     }
 }
