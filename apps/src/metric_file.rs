@@ -331,7 +331,8 @@ mod tests {
         for surface in [glued, torus] {
             let solution = Solution::initial_of(surface, Class::yamabe(Space::E2)).unwrap();
             let n = solution.mesh().n_vertices();
-            let target = PerVertex::from_fn(n, |v: ricci::mesh::VertexId| if v.0 == 0 { f64::NAN } else { -1e-300 });
+            let target =
+                PerVertex::from_fn(n, |v: ricci::mesh::VertexId| if v.0 == 0 { f64::NAN } else { -1e-300 });
             let mut file = MetricFile::new(&solution, &target).unwrap();
             file.mirror = Some((0..n as u32).rev().collect());
             file.lengths_lo = Some(vec![[0.0, -1e-17, 1e22]; 5]);

@@ -37,7 +37,8 @@ impl Incidence {
         });
         let mut group = Vec::with_capacity(n_sides / 2 + n_vertices.min(n_sides) + 1);
         for v in 0..n_vertices {
-            let (begin, end) = (start[v + 1] as usize, start.get(v + 2).map_or(n_sides, |&next| next as usize));
+            let (begin, end) =
+                (start[v + 1] as usize, start.get(v + 2).map_or(n_sides, |&next| next as usize));
             let own = &mut sorted[begin..end];
             own.sort_unstable();
             let mut before = NONE;
