@@ -131,9 +131,10 @@ pub fn map<T: Send>(n: usize, f: impl Fn(usize) -> T + Sync) -> Vec<T> {
     out.into_iter().flatten().collect()
 }
 
-/// Both results, side by side inside a pool, else one after the other.
+/// Both results, side by side inside a pool of several threads, else one after the other.
 pub fn join<A: Send, B: Send>(a: impl FnOnce() -> A + Send, b: impl FnOnce() -> B + Send) -> (A, B) {
-    if rayon::current_thread_index().is_none() { (a(), b()) } else { rayon::join(a, b) }
+    let alone = rayon::current_thread_index().is_none() || rayon::current_num_threads() == 1;
+    if alone { (a(), b()) } else { rayon::join(a, b) }
 }
 
 /// Hands each chunk with its number to `work`, which whoever comes to it locks.

@@ -11,7 +11,6 @@ use ricci::geometry::{Space, worse};
 use ricci::mesh::{Mesh, VertexId};
 use ricci::metric::Scheme;
 use ricci::metric::target::check_vertices;
-use ricci::parallel::join;
 use ricci::{Class, Flow, Target};
 
 /// What to compute.
@@ -46,12 +45,12 @@ pub fn default_space(mesh: &Mesh) -> Space {
     if mesh.is_closed() && mesh.euler() < 0 { Space::H2 } else { Space::E2 }
 }
 
-/// Run a flow and lay its metric out; `beside`, which needs no layout, is done meanwhile.
-pub fn run<T: Send>(
+/// Run a flow and lay its metric out. `before`: what is to be done with the metric before, whose memory is free again by then.
+pub fn run<T>(
     input: &Input,
     job: Job,
     control: &Control,
-    beside: impl FnOnce(&Solved) -> T + Send,
+    before: impl FnOnce(&Solved) -> T,
 ) -> Result<(Outcome, T), Failure> {
     let class = Class::new(job.scheme, job.space);
     let rule = rule(input, &job)?;
@@ -67,18 +66,13 @@ pub fn run<T: Send>(
     seconds.flip += start;
     let mut solved = Solved::new(solution, target, seconds)?;
     solved.may_flip = job.options.flips != flow::Flips::Never;
-    let (layout, other) = match no_layout(&solved, job.laid_out) {
-        Some(why) => (Err(why), beside(&solved)),
-        None => {
-            let mut seconds = solved.seconds;
-            let lay_out = || laid::lay_out(input, &solved, &mut seconds, control);
-            let (layout, other) = join(lay_out, || beside(&solved));
-            solved.seconds = seconds;
-            (told(layout)?, other)
-        }
+    let done = before(&solved);
+    let layout = match no_layout(&solved, job.laid_out) {
+        Some(why) => Err(why),
+        None => told(laid::lay_out(input, &mut solved, control))?,
     };
     let rule_name = job.target_name.unwrap_or_else(|| rule.name().into());
-    Ok((Outcome { rule, rule_name, pinned: job.options.pinned, report, solved, layout }, other))
+    Ok((Outcome { rule, rule_name, pinned: job.options.pinned, report, solved, layout }, done))
 }
 
 /// Why a metric is not laid out; `needed`: by an output.

@@ -12,7 +12,7 @@ use crate::geometry::{Motion, Space, Twofold};
 use crate::mesh::{FaceId, HalfedgeId, Mesh, PerEdge, VertexId};
 use crate::metric::curvature::area;
 use crate::metric::{Metric, Refinement};
-use crate::parallel::{self, Pool};
+use crate::parallel::{self, within};
 use crate::topology::{CutGraph, central_vertex, check_vertex, cut_about, cut_graph};
 use std::sync::Arc;
 
@@ -46,7 +46,8 @@ pub struct UnrollOptions {
     pub cut: Option<CutGraph>,
     /// [`Solution::refinement`] of the result, where it has been formed before.
     pub refinement: Option<Arc<Refinement>>,
-    /// Threads, in a pool of the call's own; default 0: as many as the flow had. The result does not depend on it.
+    /// Threads, in a pool of the call's own unless the caller is in one ([`within`]); default 0: as many as the flow had. The result does not
+    /// depend on it.
     pub threads: usize,
 }
 
@@ -85,7 +86,7 @@ pub fn cones_of(mesh: &Mesh, curvature: &[f64], tolerance: f64) -> Result<Vec<Ve
 pub fn unroll(result: &Solution, options: &UnrollOptions, control: &Control) -> Result<Layout> {
     control.check()?;
     let threads = if options.threads == 0 { result.threads() } else { options.threads };
-    Pool::new(threads)?.run(|| unroll_in_pool(result, options, control))
+    within(threads, || unroll_in_pool(result, options, control))
 }
 
 fn unroll_in_pool(result: &Solution, options: &UnrollOptions, control: &Control) -> Result<Layout> {

@@ -371,3 +371,59 @@ fn line(text: &mut Text, keyword: &str, numbers: &[f64]) {
         text.number(*x);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::parallel::Pool;
+    use std::fmt::Write;
+
+    /// A strip of quads and triangles of a few parts, with colours, texture coordinates and normals that begin somewhere.
+    fn large() -> String {
+        let mut text = String::from("\u{feff}# a strip\n");
+        for k in 0..60_000u32 {
+            let x = 0.1 * f64::from(k);
+            write!(text, "v {x} {} {:e}", f64::from(k % 2), -x).unwrap();
+            text.push_str(if k % 5 == 4 { " 0.5 0.25 1\r\n" } else { "  # plain\n" });
+            match k {
+                2.. if k > 40_000 && k % 3 == 0 => {
+                    writeln!(text, "vt {x} 1\nvn 0 0 {}", k % 7).unwrap();
+                    let entry = (k - 40_000).div_ceil(3);
+                    writeln!(text, "f {}/{entry} {}//{entry} {}/9/{entry}", k - 1, k, k + 1).unwrap();
+                }
+                3.. if k % 11 == 0 => writeln!(text, "f {} {} {} {}", k - 2, k - 1, k + 1, k).unwrap(),
+                2.. => writeln!(text, "f {} {} {}", k - 1, k, k + 1).unwrap(),
+                _ => {}
+            }
+        }
+        text
+    }
+
+    #[test]
+    fn parts_read_side_by_side_are_what_lines_read_in_order_are() {
+        let text = large();
+        assert!(text.len() > 3 * PART);
+        let soup = |file: File| file.soup(Budget::of(text.as_bytes()), Location::whole("t")).unwrap();
+        let expected = soup(File::read(&text, "t").unwrap());
+        let Attributes { corner_normals, colors, uv, .. } = &expected.attributes;
+        assert!(corner_normals.is_some() && colors.is_some() && uv.is_some());
+        for threads in [1, 2, 8] {
+            let found = Pool::new(threads).unwrap().run(|| in_parts(text.as_bytes(), "t")).unwrap();
+            assert!(soup(found) == expected, "{threads} threads");
+        }
+    }
+
+    #[test]
+    fn what_parts_cannot_read_is_read_line_by_line() {
+        let text = large();
+        let lines = text.lines().count();
+        let with = |end: &str| text.clone() + end;
+        assert_eq!(
+            parse_obj(with("f -1 -2 -3\n").as_bytes(), "t").unwrap().faces.last(),
+            Some(&[59_999, 59_998, 59_997])
+        );
+        assert_eq!(parse_obj(with("f 1 2 \\\n3").as_bytes(), "t").unwrap().faces.last(), Some(&[0, 1, 2]));
+        let error = parse_obj(with("v 1 2 x\n").as_bytes(), "t").unwrap_err().to_string();
+        assert!(error.contains(&format!("{}", lines + 1)) && error.contains("`x`"), "{error}");
+    }
+}
