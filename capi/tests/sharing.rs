@@ -14,8 +14,7 @@ use ricci_c::metric::{ricci_metric, ricci_metric_free, ricci_metric_new, ricci_m
 use ricci_c::shapes::{ricci_make, ricci_shape};
 use ricci_c::spline::{ricci_spline, ricci_spline_domain, ricci_spline_new};
 use ricci_c::spline_file::ricci_spline_text;
-use ricci_c::structure::{ricci_structure, ricci_structure_new};
-use ricci_c::structure_parts::ricci_structure_holonomy;
+use ricci_c::structure::{ricci_structure, ricci_structure_holonomy, ricci_structure_new};
 use ricci_c::uniformize::{ricci_uniform, ricci_uniformize};
 use std::ffi::CStr;
 use std::ptr::{null, null_mut};

@@ -174,7 +174,9 @@ impl Session<'_> {
 
     /// A struct that is given, with most fields zero.
     fn structure(&mut self, of: &'static Struct) -> u64 {
-        if self.tape.one_in(6) {
+        // The defaults of a fit to a whole surface are seconds of work.
+        let is_long = of.name == "ricci_spline_surface_options";
+        if self.tape.one_in(6) && !is_long {
             return 0;
         }
         let (fields, full) = &layouts()[of.name];
@@ -183,10 +185,14 @@ impl Session<'_> {
             for k in 0..count {
                 // A rectangle and a polygon, a shape and a target need most of their fields; others are left out more often.
                 let used = self.tape.byte() % 4 < if fields.len() < 12 { 3 } else { 1 };
-                if !used && !matches!((of.name, name), ("ricci_shape", "n")) {
+                if !used && !is_long && !matches!((of.name, name), ("ricci_shape", "n")) {
                     continue;
                 }
                 let value = match (of.name, name) {
+                    (_, "rounds") if is_long => 1,
+                    (_, "corrections") if is_long => u64::MAX,
+                    (_, "control_points") if is_long => 1 + self.tape.below(12) as u64,
+                    (_, "degree") if is_long => 1 + self.tape.below(3) as u64,
                     (_, "size" | "reserved" | "reserved_too") => 0,
                     ("ricci_shape", "n") => self.tape.below(4) as u64,
                     ("ricci_match_options" | "ricci_uniform_options", "start") => 0,
