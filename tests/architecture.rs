@@ -232,6 +232,23 @@ fn the_map_lists_every_file_and_no_other() {
     }
 }
 
+/// The C face turns a panic into a status, which it could not where panics abort; `capi/src/guard.rs` does not compile there.
+#[test]
+fn panics_unwind_in_every_profile() {
+    for (manifest, profiles) in [("Cargo.toml", &["dev", "release"][..]), ("fuzz/Cargo.toml", &["release"])] {
+        let text = text(manifest);
+        for profile in profiles {
+            let section = text.split_once(&format!("[profile.{profile}]\n")).unwrap().1;
+            let section = section.split("\n[").next().unwrap();
+            assert!(section.lines().any(|l| l == "panic = \"unwind\""), "{manifest}: {profile}");
+        }
+        assert!(!text.contains("panic = \"abort\""), "{manifest}");
+    }
+    let guard = text("capi/src/guard.rs");
+    assert!(guard.contains("#[cfg(not(panic = \"unwind\"))]\ncompile_error!"));
+    assert!(guard.contains("fn a_panic_is_a_status_and_poisons_what_was_changed"));
+}
+
 #[test]
 fn readme_shows_the_example_that_is_compiled() {
     let example = text("examples/c/readme.c");

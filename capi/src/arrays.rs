@@ -202,3 +202,36 @@ pub fn text<'a>(what: &str, text: *const c_char) -> Outcome<&'a str> {
 pub fn path(name: *const c_char) -> Outcome<PathBuf> {
     text("path", name).map(PathBuf::from)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn arrays_are_read_at_any_address_and_stride() {
+        let numbers: Vec<u8> = (0..9).flat_map(|i| f64::from(i).to_ne_bytes()).collect();
+        let odd = [&[0], &numbers[..]].concat();
+        let at = odd[1..].as_ptr().cast::<f64>();
+        assert_eq!(array("x", at, 9).unwrap(), (0..9).map(f64::from).collect::<Vec<_>>());
+        assert_eq!(points(at, 0, 3).unwrap()[2], [6.0, 7.0, 8.0]);
+        assert_eq!(points(at, 32, 2).unwrap(), [[0.0, 1.0, 2.0], [4.0, 5.0, 6.0]]);
+        assert_eq!(points(at, 23, 2).unwrap_err().status, RICCI_ARGUMENT);
+        assert_eq!(array("x", at, usize::MAX / 2).unwrap_err().status, RICCI_TOO_LARGE);
+        assert_eq!(array("x", std::ptr::null::<f64>(), 1).unwrap_err().status, RICCI_NULL_POINTER);
+        assert!(array("x", std::ptr::null::<f64>(), 0).unwrap().is_empty());
+    }
+
+    #[test]
+    fn results_are_written_whole_or_not_at_all() {
+        let (mut place, rows) = ([0xa5_u8; 33], [[1_u32, 2], [3, 4]]);
+        let at = place[1..].as_mut_ptr().cast::<u32>();
+        let small = copy_out("x", &rows, at, 3).unwrap_err();
+        assert_eq!((small.status, small.needed, small.is_question), (RICCI_BUFFER_TOO_SMALL, 4, false));
+        copy_out("x", &rows, at, 7).unwrap();
+        let written: Vec<u8> = rows.as_flattened().iter().flat_map(|n| n.to_ne_bytes()).collect();
+        assert_eq!(place[1..17], written);
+        assert!(place[17..].iter().all(|&b| b == 0xa5));
+        assert!(copy_out("x", &rows, std::ptr::null_mut(), 0).unwrap_err().is_question);
+        assert_eq!(copy_out("x", &rows, std::ptr::null_mut(), 8).unwrap_err().status, RICCI_NULL_POINTER);
+    }
+}

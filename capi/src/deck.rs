@@ -6,6 +6,7 @@ use crate::control::{self, ricci_control};
 use crate::dirichlet::ricci_dirichlet;
 use crate::failure::{Element, Failure, Outcome, no_such};
 use crate::guard::{self, handle, shared};
+use crate::memory;
 use crate::mesh::SPACES;
 use crate::paths::{letters, word_of};
 use crate::status::ricci_status;
@@ -15,6 +16,9 @@ use ricci::embed::cover::{elements_to_depth, elements_within, moved};
 use ricci::embed::{DeckElement, DeckGroup};
 use ricci::geometry::{Motion, Space};
 use ricci::topology::Letter;
+
+/// Elements that memory is held for at most: a limit only says where to stop, and is rarely reached.
+const MOST_RESERVED: usize = 1 << 16;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Kind {
@@ -118,7 +122,10 @@ pub unsafe extern "C" fn ricci_deck_new(
     guard::make(deck, || {
         let (spec, control) = (structs::read(spec)?, control::of(control));
         let group = &shared(uniform)?.quotient()?.deck;
-        let elements = match KINDS.choose(spec.kind)? {
+        let kind = KINDS.choose(spec.kind)?;
+        let looked_at = if matches!(kind, Kind::Depth | Kind::Within) { spec.limit } else { 0 };
+        let _reserve = memory::work(looked_at.min(MOST_RESERVED), memory::ELEMENT)?;
+        let elements = match kind {
             Kind::Generators => generators(group),
             Kind::Sides => group.sides.clone(),
             Kind::Words => of_words(group, &spec)?,

@@ -13,6 +13,9 @@ use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Once;
 
+#[cfg(not(panic = "unwind"))]
+compile_error!("the C face catches panics, which needs panic = \"unwind\"");
+
 /// What every opaque type has.
 pub trait Handle: Sized {
     /// Its name in messages.

@@ -7,6 +7,7 @@
 use crate::failure::{Failure, Outcome};
 use crate::status::RICCI_NO_MEMORY;
 use std::alloc::{GlobalAlloc, Layout, System};
+use std::path::Path;
 use std::ptr::null_mut;
 use std::sync::atomic::{AtomicPtr, AtomicUsize, Ordering};
 
@@ -19,6 +20,10 @@ const MOST_RESERVES: usize = 32;
 
 /// Bytes per vertex that building a mesh takes at most, or per face of a list: 1,220 on a torus of 38,400 vertices, as below.
 pub const MESH: usize = 1 << 11;
+/// That a byte of a mesh file takes at most while it is read, beside what odd files may unfold to (`tests/mesh_memory.rs`).
+pub const FILE: usize = 20;
+/// That an element of a deck group takes while its neighbours are looked at: words and motions, and the places where they are looked up.
+pub const ELEMENT: usize = 1 << 9;
 /// That a flow with flips takes: 1,990; the factor of its matrix grows with the logarithm of the size.
 pub const FLOW: usize = 1 << 12;
 /// That a layout (580), a refinement (810) or charts (2,780) take.
@@ -182,4 +187,10 @@ pub fn little() -> Outcome {
 /// A reserve for the work on so many elements.
 pub fn work(elements: usize, bytes_each: usize) -> Outcome<Reserve> {
     hold(elements.saturating_mul(bytes_each).saturating_add(WORK), &HELD[1..])
+}
+
+/// A reserve for reading a mesh file of this size. A file that is not there is for its reader to name.
+pub fn file(path: &Path) -> Outcome<Reserve> {
+    let bytes = std::fs::metadata(path).map_or(0, |about| about.len());
+    work(usize::try_from(bytes).unwrap_or(usize::MAX), FILE)
 }

@@ -248,7 +248,13 @@ pub unsafe extern "C" fn ricci_mesh_with_lengths(
 
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ricci_mesh_read(path: *const c_char, mesh: *mut *mut ricci_mesh) -> ricci_status {
-    guard::make(mesh, || ricci_mesh::from_soup(io::read(&arrays::path(path)?)?))
+    guard::make(mesh, || {
+        let path = arrays::path(path)?;
+        let reserve = memory::file(&path)?;
+        let soup = io::read(&path)?;
+        drop(reserve);
+        ricci_mesh::from_soup(soup)
+    })
 }
 
 #[repr(C)]

@@ -4,6 +4,7 @@ use crate::arrays;
 use crate::choice::choices;
 use crate::failure::{Failure, Outcome};
 use crate::guard::{self, shared};
+use crate::memory;
 use crate::mesh::ricci_mesh;
 use crate::status::ricci_status;
 use crate::structs::{self, sized};
@@ -106,9 +107,36 @@ fn branch_points(points: *const f64, n_points: usize) -> Outcome<Vec<Complex64>>
     Ok(points.into_iter().map(|[re, im]| Complex64::new(re, im)).collect())
 }
 
+/// Bytes that an entry of a period matrix takes while it is found.
+const PERIOD: usize = 1 << 8;
+
 fn intrinsic(surface: Intrinsic) -> Outcome<ricci_mesh> {
     let (connectivity, lengths) = surface.build()?;
     Ok(ricci_mesh::intrinsic(Arc::new(connectivity), Arc::new(lengths), surface.geometry))
+}
+
+/// About how many faces a surface will have, as the header counts them.
+fn faces_of(shape: Shape, [n, m, genus]: [usize; 3]) -> usize {
+    let square = n.saturating_mul(n);
+    let cut = |times: usize| 4_usize.saturating_pow(times.min(32) as u32);
+    match shape {
+        Shape::Sphere | Shape::Ellipsoid => square.saturating_mul(20),
+        Shape::Disk => square.saturating_mul(6),
+        Shape::Annulus | Shape::Torus | Shape::Knot | Shape::FlatTorus => {
+            n.saturating_mul(m).saturating_mul(2)
+        }
+        Shape::Genus => genus.saturating_mul(6).saturating_mul(square).saturating_mul(16),
+        Shape::Bolza | Shape::Pants => cut(n).saturating_mul(16),
+        Shape::OneVertex | Shape::TwoVertex => genus.saturating_mul(4),
+        Shape::TwoTriangles => 2,
+        Shape::Hyperelliptic => square.saturating_mul(40),
+    }
+}
+
+/// Memory for a surface that the library does not refuse for its size.
+fn room_for(shape: Shape, sizes: [usize; 3]) -> Outcome<memory::Reserve> {
+    let faces = faces_of(shape, sizes);
+    memory::work(if faces > u32::MAX as usize { 0 } else { faces }, memory::MESH)
 }
 
 #[unsafe(no_mangle)]
@@ -118,7 +146,9 @@ pub unsafe extern "C" fn ricci_make(shape: *const ricci_shape, mesh: *mut *mut r
             return Err(Failure::null("shape"));
         }
         let ricci_shape { shape, genus, n, m, a, b, c, p, q, points, n_points, .. } = structs::read(shape)?;
-        ricci_mesh::from_soup(match SHAPES.choose(shape)? {
+        let shape = SHAPES.choose(shape)?;
+        let _reserve = room_for(shape, [n, m, genus])?;
+        ricci_mesh::from_soup(match shape {
             Shape::Sphere => shapes::icosphere(n)?,
             Shape::Ellipsoid => shapes::ellipsoid([a, b, c], n)?,
             Shape::Disk => shapes::disk(n)?,
@@ -150,7 +180,9 @@ pub unsafe extern "C" fn ricci_change(
             return Err(Failure::null("change"));
         }
         let ricci_change_spec { change, vertex, count, amount, seed, centre, .. } = structs::read(change)?;
-        let Soup { positions, faces, .. } = shared(mesh)?.soup()?;
+        let mesh = shared(mesh)?;
+        let _reserve = memory::work(mesh.connectivity.n_faces(), memory::MESH)?;
+        let Soup { positions, faces, .. } = mesh.soup()?;
         let mut soup = Soup::new(positions, faces);
         match CHANGES.choose(change)? {
             Change::Punch => soup = shapes::punch(&soup, count)?,
@@ -172,7 +204,9 @@ pub unsafe extern "C" fn ricci_hyperelliptic_periods(
     capacity: usize,
 ) -> ricci_status {
     guard::call(|| {
-        let tau = period_matrix(&branch_points(points, n_points)?)?;
+        let points = branch_points(points, n_points)?;
+        let _reserve = memory::work(n_points.saturating_mul(n_points), PERIOD)?;
+        let tau = period_matrix(&points)?;
         let entries: Vec<f64> = tau.iter().flatten().flat_map(|z| [z.re, z.im]).collect();
         arrays::copy_out("periods", &entries, periods, capacity)
     })

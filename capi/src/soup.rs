@@ -138,7 +138,11 @@ pub unsafe extern "C" fn ricci_soup_from_arrays(
 
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ricci_soup_read(path: *const c_char, soup: *mut *mut ricci_soup) -> ricci_status {
-    guard::make(soup, || Ok(ricci_soup::new(io::read(&arrays::path(path)?)?)))
+    guard::make(soup, || {
+        let path = arrays::path(path)?;
+        let _reserve = memory::file(&path)?;
+        Ok(ricci_soup::new(io::read(&path)?))
+    })
 }
 
 #[unsafe(no_mangle)]

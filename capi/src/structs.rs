@@ -87,3 +87,55 @@ pub fn read<S: Sized64>(place: *const S) -> Outcome<S> {
     unsafe { std::ptr::copy_nonoverlapping(place.cast::<u8>(), (&raw mut value).cast::<u8>(), known) };
     Ok(value.with_size(size_of::<S>()))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[repr(C)]
+    #[derive(Debug, Clone, Copy, PartialEq)]
+    struct Options {
+        size: usize,
+        x: f64,
+        n: u32,
+        reserved: u32,
+    }
+    // SAFETY: numbers; 8-byte alignment, size first.
+    sized!(Options, "options");
+
+    const GIVEN: Options = Options { size: 24, x: 2.5, n: 7, reserved: 0 };
+
+    /// The bytes of a struct at an odd address, with more behind it.
+    fn bytes(size: usize, tail: u8) -> Vec<u8> {
+        let fields = [&size.to_ne_bytes()[..], &2.5_f64.to_ne_bytes(), &7_u32.to_ne_bytes(), &[0; 4]];
+        [&[0], &fields.concat()[..], &[tail; 16]].concat()
+    }
+
+    #[test]
+    fn structs_of_any_size_and_alignment_are_read() {
+        let read_at = |bytes: &[u8]| read::<Options>(bytes[1..].as_ptr().cast());
+        assert_eq!(read_at(&bytes(24, 0)).unwrap(), GIVEN);
+        // An older caller's struct ends before n; a newer one's fields are zero, or refused.
+        assert_eq!(read_at(&bytes(16, 0)).unwrap(), Options { n: 0, ..GIVEN });
+        assert_eq!(read_at(&bytes(40, 0)).unwrap(), GIVEN);
+        assert_eq!(read_at(&bytes(40, 1)).unwrap_err().status, RICCI_STRUCT_SIZE);
+        for size in [0, 8, 23, 4104, usize::MAX] {
+            assert_eq!(read_at(&bytes(size, 0)).unwrap_err().status, RICCI_STRUCT_SIZE, "{size}");
+        }
+        let none = read::<Options>(std::ptr::null()).unwrap();
+        assert_eq!(none, Options { size: 0, x: 0.0, n: 0, reserved: 0 });
+    }
+
+    #[test]
+    fn structs_are_written_to_their_size_and_no_further() {
+        for (size, filled) in [(16, 16), (24, 24), (40, 24)] {
+            let mut place = [0xa5_u8; 49];
+            write(GIVEN, place[1..].as_mut_ptr().cast(), size).unwrap();
+            let expected = bytes(filled, 0);
+            assert_eq!(place[1..=filled], expected[1..=filled]);
+            assert!(place[1 + filled..=size].iter().all(|&b| b == 0));
+            assert!(place[1 + size..].iter().all(|&b| b == 0xa5));
+        }
+        assert_eq!(write(GIVEN, std::ptr::null_mut(), 24).unwrap_err().status, RICCI_NULL_POINTER);
+    }
+}

@@ -191,6 +191,35 @@ fn every_function_has_its_comment() {
     }
 }
 
+/// The table of docs/results/fuzz.md names every function and the targets that call it, which exist; no target is left out.
+#[test]
+fn every_function_has_its_fuzz_target() {
+    let page = std::fs::read_to_string(root().join("docs/results/fuzz.md")).unwrap();
+    let (_, table) = page.split_once("| function | targets |\n").unwrap();
+    let rows: BTreeMap<&str, &str> = table
+        .lines()
+        .skip(1)
+        .map_while(|line| line.strip_prefix("| `")?.strip_suffix(" |")?.split_once("` | "))
+        .collect();
+    let all: Vec<String> = HEADERS.iter().flat_map(|(name, _)| functions(name)).collect();
+    let missing: Vec<&String> = all.iter().filter(|f| !rows.contains_key(f.as_str())).collect();
+    assert!(missing.is_empty(), "docs/results/fuzz.md has no row for {missing:#?}");
+    assert_eq!(rows.len(), all.len(), "docs/results/fuzz.md has rows for functions that do not exist");
+    let run = std::fs::read_to_string(root().join("fuzz/run")).unwrap();
+    let targets = run.split("targets=(").nth(2).unwrap().split(')').next().unwrap();
+    let targets: Vec<&str> = targets.split_whitespace().collect();
+    for (function, of) in rows {
+        let named: Vec<&str> = of.split(", ").collect();
+        assert!(named.contains(&"calls"), "{function}: {of}");
+        assert!(named.iter().all(|target| targets.contains(target)), "{function}: {of}");
+    }
+    for entry in std::fs::read_dir(root().join("fuzz/targets")).unwrap().flatten() {
+        let path = entry.path();
+        let name = path.file_stem().unwrap().to_string_lossy();
+        assert!(targets.contains(&&*name) && page.contains(&format!("| {name} |")), "{name}");
+    }
+}
+
 #[test]
 fn every_function_is_called_by_a_test() {
     let mut tests = Vec::new();

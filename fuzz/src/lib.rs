@@ -1,5 +1,8 @@
 //! What must hold of whatever a reader accepts.
 
+pub mod face;
+pub mod surfaces;
+
 use ricci::Error;
 use ricci::mesh::check::diagnose;
 use ricci::mesh::io::{self, Attributes, Format, Soup};

@@ -1,0 +1,226 @@
+//! A sequence of calls, and what must hold of each: an answer that the header knows, words for every failure, results without
+//! a NaN, nothing written where a call has failed, nothing beyond what it was given.
+
+use super::draw::{UNTOUCHED, Watched};
+use super::shared::{self, Handles};
+use super::tape::Tape;
+use super::{Answer, CALLS, Call, Kind, Struct, call, layouts, parameters, word};
+use std::ffi::{CStr, c_char};
+
+/// Calls of one input, at most.
+const MOST_CALLS: usize = 12;
+/// Faces of a mesh that is kept for later calls.
+const MOST_FACES: usize = 300;
+/// Statuses that say that the library is wrong: an internal error, a poisoned handle, broken connectivity.
+const DEFECTS: [u32; 3] = [11, 12, 202];
+const NULL_STATUS: u32 = 10;
+const BUFFER_TOO_SMALL: u32 = 13;
+const WRONG_SIZE: u32 = 1;
+
+/// What the headers say may be NaN: fields of summaries that do not apply to every surface.
+const MAY_BE_NAN: [(&str, &str); 13] = [
+    ("ricci_circle_domain_summary", "modulus"),
+    ("ricci_forms_summary", "asymmetry"),
+    ("ricci_forms_summary", "star_residual"),
+    ("ricci_forms_summary", "least_eigenvalue"),
+    ("ricci_forms_summary", "modulus"),
+    ("ricci_layout_summary", "qc_mean"),
+    ("ricci_layout_summary", "qc_max"),
+    ("ricci_layout_summary", "area_ratio_min"),
+    ("ricci_layout_summary", "area_ratio_max"),
+    ("ricci_spline_summary", "fit_rms"),
+    ("ricci_spline_summary", "fit_max"),
+    ("ricci_uniform_summary", "modulus"),
+    ("ricci_uniform_summary", "extremal_distance"),
+];
+/// Functions whose results may hold a NaN, as the headers say: curvatures where the surface has no tangent plane.
+const MAY_GIVE_NAN: [&str; 1] = ["ricci_spline_evaluate"];
+
+/// The state of one input.
+pub struct Session<'a> {
+    pub tape: Tape<'a>,
+    pub shared: &'static Handles,
+    pub own: Handles,
+    pub kept: Vec<Vec<u8>>,
+    pub watched: Vec<Watched>,
+    /// The capacity or size that goes with the argument before.
+    pub pending: Option<usize>,
+    /// Entries that the last call asked for.
+    pub needed: usize,
+}
+
+fn text(place: *const c_char) -> String {
+    assert!(!place.is_null(), "a text is NULL");
+    // SAFETY: the library's texts are NUL-terminated.
+    unsafe { CStr::from_ptr(place) }.to_str().expect("UTF-8").into()
+}
+
+fn status(answer: Answer) -> u32 {
+    match answer {
+        Answer::Status(status) => status,
+        _ => panic!("no status"),
+    }
+}
+
+/// Make the calls that the bytes say.
+pub fn run(bytes: &[u8]) {
+    let mut session = Session {
+        tape: Tape::new(bytes),
+        shared: shared::handles(),
+        own: Handles::new(),
+        kept: Vec::new(),
+        watched: Vec::new(),
+        pending: None,
+        needed: 0,
+    };
+    for _ in 0..MOST_CALLS {
+        if session.tape.is_empty() {
+            break;
+        }
+        let k = session.tape.below(CALLS.len());
+        session.step(&CALLS[k], &parameters()[k]);
+        session.kept.clear();
+    }
+    // Handles are released in any order.
+    let mut left: Vec<(&str, u64)> =
+        session.own.iter().flat_map(|(of, handles)| handles.iter().map(|&h| (*of, h))).collect();
+    left.sort_unstable();
+    while !left.is_empty() {
+        let k = session.tape.below(left.len());
+        let (of, handle) = left.swap_remove(k);
+        release(of, handle);
+    }
+}
+
+fn release(of: &str, handle: u64) {
+    (call(&format!("{of}_free")).run)(&[handle]);
+}
+
+impl Session<'_> {
+    fn step(&mut self, call: &Call, of: &[(&'static str, Kind)]) {
+        self.tape.wild = false;
+        self.watched.clear();
+        self.pending = None;
+        let releases = call.name.ends_with("_free");
+        let mut words = Vec::new();
+        for (i, &(name, kind)) in of.iter().enumerate() {
+            let next = of.get(i + 1).map_or("", |(next, _)| next);
+            words.push(self.argument(kind, name, next, releases));
+        }
+        if std::env::var_os("RICCI_FUZZ_SAYS").is_some() {
+            eprintln!("{}({words:x?})", call.name);
+        }
+        match (call.run)(&words) {
+            Answer::Status(0) => self.succeeded(call.name),
+            Answer::Status(status) => self.failed(call.name, status),
+            Answer::Text(place) => drop(text(place)),
+            Answer::Nothing | Answer::Number(_) => {}
+        }
+    }
+
+    /// Words for the failure, and nothing written.
+    fn failed(&mut self, name: &str, status: u32) {
+        let sentence = match (call("ricci_status_text").run)(&[status.into()]) {
+            Answer::Text(place) => text(place),
+            _ => panic!("no text"),
+        };
+        let message = match (call("ricci_last_error").run)(&[]) {
+            Answer::Text(place) => text(place),
+            _ => panic!("no text"),
+        };
+        assert!(!DEFECTS.contains(&status), "{name}: {status}, {sentence}: {message}");
+        assert!(!sentence.is_empty() && sentence != "unknown status", "{name}: {status}: {sentence}");
+        assert!(!message.is_empty(), "{name}: {status} without a message");
+        let failure = ricci_c::last_error::ricci_last_failure;
+        // SAFETY: numbers, of which zeros are valid.
+        let mut numbers: ricci_c::last_error::ricci_failure = unsafe { std::mem::zeroed() };
+        assert_eq!(unsafe { failure(&raw mut numbers, size_of_val(&numbers)) }, 0);
+        assert_eq!(numbers.status, status, "{name}");
+        if [BUFFER_TOO_SMALL, WRONG_SIZE].contains(&status) {
+            self.needed = numbers.needed;
+        }
+        for watched in &self.watched {
+            let (Watched::Buffer { kept, .. } | Watched::Struct { kept, .. } | Watched::Made { kept, .. }) =
+                watched;
+            let untouched = self.kept[*kept].iter().all(|&b| b == UNTOUCHED);
+            assert!(untouched, "{name} failed with {status} ({message}) and has written");
+        }
+    }
+
+    /// Results that are what the header says.
+    fn succeeded(&mut self, name: &str) {
+        for watched in std::mem::take(&mut self.watched) {
+            match watched {
+                Watched::Made { kept, of } => {
+                    let handle = u64::from_ne_bytes(self.kept[kept][..8].try_into().unwrap());
+                    let untouched = u64::from_ne_bytes([UNTOUCHED; 8]);
+                    assert!(handle != 0 && handle != untouched, "{name} made no {of}");
+                    if of == "ricci_mesh" && faces(handle) > MOST_FACES {
+                        release(of, handle);
+                    } else {
+                        self.own.entry(of).or_default().push(handle);
+                    }
+                }
+                Watched::Buffer { kept, at, word, bytes, capacity } => {
+                    let written = &self.kept[kept][at..];
+                    let room = capacity.unwrap_or(written.len() / bytes) * bytes;
+                    assert!(
+                        written[room..].iter().all(|&b| b == UNTOUCHED),
+                        "{name}: beyond {capacity:?} {word}"
+                    );
+                    if word == "double" && !self.tape.wild && !MAY_GIVE_NAN.contains(&name) {
+                        let number = |b: &[u8]| f64::from_ne_bytes(b.try_into().unwrap());
+                        let nan = written.chunks_exact(8).position(|b| number(b).is_nan());
+                        assert!(nan.is_none(), "{name}: entry {nan:?} is NaN");
+                    }
+                }
+                Watched::Struct { kept, of, size } => self.summarised(name, kept, of, size),
+            }
+        }
+    }
+
+    fn summarised(&self, name: &str, kept: usize, of: &Struct, size: usize) {
+        let bytes = &self.kept[kept];
+        assert!(bytes[size..].iter().all(|&b| b == UNTOUCHED), "{name}: beyond {size}");
+        let (fields, full) = &layouts()[of.name];
+        let filled = usize::from_ne_bytes(bytes[..8].try_into().unwrap());
+        assert_eq!(filled, size.min(*full), "{name}");
+        for &(field, kind, start, count) in
+            fields.iter().filter(|(_, kind, start, _)| start + kind.size() <= filled)
+        {
+            for at in (0..count).map(|k| start + 8 * k).filter(|at| at + kind.size() <= filled) {
+                match kind {
+                    Kind::F64 if !MAY_BE_NAN.contains(&(of.name, field)) => {
+                        let x = f64::from_ne_bytes(bytes[at..at + 8].try_into().unwrap());
+                        assert!(!x.is_nan(), "{name}: {field} is NaN");
+                    }
+                    Kind::Text => {
+                        let place = u64::from_ne_bytes(bytes[at..at + 8].try_into().unwrap());
+                        assert!(!text(place as *const c_char).is_empty(), "{name}: {field} says nothing");
+                    }
+                    _ => {}
+                }
+            }
+        }
+    }
+}
+
+/// The number of faces of a mesh.
+fn faces(mesh: u64) -> usize {
+    let (fields, full) = &layouts()["ricci_mesh_summary"];
+    let mut bytes = vec![0_u8; *full];
+    let answer = (call("ricci_mesh_summarise").run)(&[mesh, word(bytes.as_mut_ptr()), *full as u64]);
+    assert_eq!(status(answer), 0);
+    let start = fields.iter().find(|(name, ..)| *name == "n_faces").unwrap().2;
+    usize::from_ne_bytes(bytes[start..start + 8].try_into().unwrap())
+}
+
+/// Make the shared handles, and see that every function that takes a handle refuses NULL.
+pub fn prepare() {
+    shared::handles();
+    for (call, of) in CALLS.iter().zip(parameters()) {
+        if matches!(of.first(), Some((_, Kind::Handle(_)))) {
+            assert_eq!(status((call.run)(&vec![0; of.len()])), NULL_STATUS, "{}", call.name);
+        }
+    }
+}

@@ -1,0 +1,158 @@
+//! Handles that every sequence of calls shares: made once, only read from then on, never released.
+
+use super::{CALLS, word};
+use ricci_c::atlas::ricci_atlas_new;
+use ricci_c::bicubic::{ricci_bicubic_new, ricci_bicubic_options};
+use ricci_c::circle_domain::ricci_circle_domain_new;
+use ricci_c::control::{ricci_control_cancel, ricci_control_new};
+use ricci_c::deck::{ricci_deck_new, ricci_deck_spec};
+use ricci_c::dirichlet::ricci_dirichlet_new;
+use ricci_c::domain::ricci_domain_new;
+use ricci_c::flow::ricci_flow;
+use ricci_c::forms::ricci_forms_new;
+use ricci_c::homotopy::ricci_homotopy_new;
+use ricci_c::layout::ricci_layout_new;
+use ricci_c::map::ricci_map_new;
+use ricci_c::matching::ricci_match;
+use ricci_c::mesh::ricci_mesh;
+use ricci_c::metric::{ricci_metric, ricci_metric_new};
+use ricci_c::shapes::{ricci_make, ricci_shape};
+use ricci_c::soup::{ricci_soup_from_arrays, ricci_soup_repair};
+use ricci_c::spline::{ricci_spline_domain, ricci_spline_new, ricci_spline_spec};
+use ricci_c::structure::ricci_structure_new;
+use ricci_c::uniformize::{ricci_uniform, ricci_uniformize};
+use std::collections::HashMap;
+use std::ptr::{null, null_mut};
+use std::sync::OnceLock;
+
+/// Handles by the name of their type.
+pub type Handles = HashMap<&'static str, Vec<u64>>;
+
+/// The handle that a call makes; NULL where this surface has no such thing.
+fn made<T>(call: impl FnOnce(*mut *mut T) -> u32) -> *mut T {
+    let mut place = null_mut();
+    call(&raw mut place);
+    place
+}
+
+/// A struct of zeros with its size, as `ricci_init` leaves it.
+fn zeroed<T>() -> T {
+    // SAFETY: structs of the face are numbers and pointers, of which zeros are valid; the size comes first.
+    unsafe {
+        let mut value: T = std::mem::zeroed();
+        (&raw mut value).cast::<usize>().write(size_of::<T>());
+        value
+    }
+}
+
+/// Number, resolution and genus of a sample surface.
+fn surface(shape: u32, [n, m, genus]: [usize; 3]) -> *mut ricci_mesh {
+    let [a, b, c] = if shape == 3 { [0.5, 1.0, 0.0] } else { [2.0, 1.0, 1.0] };
+    let spec = ricci_shape { shape, n, m, genus, a, b, c, ..zeroed() };
+    made(|place| unsafe { ricci_make(&spec, place) })
+}
+
+struct Shelf(Handles);
+
+impl Shelf {
+    fn put<T>(&mut self, name: &'static str, handle: *mut T) -> *mut T {
+        if !handle.is_null() {
+            self.0.entry(name).or_default().push(word(handle));
+        }
+        handle
+    }
+
+    /// Surfaces of every topology, and what is made of them.
+    fn surfaces(&mut self) {
+        // A sphere, a disk, an annulus, flat tori, surfaces of genus 2 with one and two vertices, a pair of pants.
+        let given = [
+            (11, [0, 0, 0]),
+            (0, [1, 0, 0]),
+            (2, [2, 0, 0]),
+            (3, [2, 6, 0]),
+            (7, [3, 3, 0]),
+            (4, [5, 4, 0]),
+            (9, [0, 0, 2]),
+            (10, [0, 0, 2]),
+            (12, [1, 0, 0]),
+        ];
+        for (shape, sizes) in given {
+            let mesh = self.put("ricci_mesh", surface(shape, sizes));
+            self.class_of(mesh, shape);
+            let homotopy = made(|p| unsafe { ricci_homotopy_new(mesh, null(), null(), p) });
+            self.put("ricci_homotopy", homotopy);
+            self.put("ricci_domain", made(|p| unsafe { ricci_domain_new(homotopy, null(), 0, p) }));
+            self.put("ricci_forms", made(|p| unsafe { ricci_forms_new(mesh, null(), null(), p) }));
+            self.put("ricci_structure", made(|p| unsafe { ricci_structure_new(mesh, 0, null(), null(), p) }));
+        }
+    }
+
+    /// Metrics, layouts and canonical shapes of a surface.
+    fn class_of(&mut self, mesh: *const ricci_mesh, shape: u32) {
+        let metric: *mut ricci_metric = made(|p| unsafe { ricci_metric_new(mesh, 0, 0, p) });
+        self.put("ricci_metric", metric);
+        let uniform: *mut ricci_uniform = made(|p| unsafe { ricci_uniformize(mesh, null(), null(), p) });
+        self.put("ricci_uniform", uniform);
+        if matches!(shape, 2 | 3) {
+            let circles = made(|p| unsafe { ricci_circle_domain_new(mesh, null(), null(), p) });
+            self.put("ricci_circle_domain", circles);
+        }
+        if matches!(shape, 2 | 4 | 7) {
+            let flat = made(|p| unsafe { ricci_flow(metric, null(), null(), null(), p) });
+            self.put("ricci_metric", flat);
+            let layout =
+                self.put("ricci_layout", made(|p| unsafe { ricci_layout_new(flat, null(), null(), p) }));
+            self.put("ricci_atlas", made(|p| unsafe { ricci_atlas_new(layout, 0.01, null(), p) }));
+            self.put("ricci_map", made(|p| unsafe { ricci_map_new(flat, null(), p) }));
+            let own = made(|p| unsafe { ricci_match(mesh, mesh, null(), null(), p) });
+            self.put("ricci_matching", own);
+        }
+        if matches!(shape, 4 | 7 | 9) {
+            let domain = made(|p| unsafe { ricci_dirichlet_new(uniform, null(), null(), p) });
+            self.put("ricci_dirichlet", domain);
+            let deck = made(|p| unsafe { ricci_deck_new(uniform, &zeroed::<ricci_deck_spec>(), null(), p) });
+            self.put("ricci_deck", deck);
+        }
+    }
+
+    /// Splines over a square, patches, triangle lists with defects, a control that is cancelled.
+    fn others(&mut self) {
+        let corners = [0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0];
+        let starts = [0, 4];
+        let square = made(|p| unsafe { ricci_spline_domain(corners.as_ptr(), starts.as_ptr(), 1, 2.0, p) });
+        self.put("ricci_mesh", square);
+        for degree in [1, 2] {
+            let spec = ricci_spline_spec { degree, ..zeroed() };
+            let spline = made(|p| unsafe { ricci_spline_new(square, &spec, p) });
+            self.put("ricci_spline", spline);
+            let options = ricci_bicubic_options { tolerance: 0.1, angle: 1.0, ..zeroed() };
+            self.put("ricci_bicubic", made(|p| unsafe { ricci_bicubic_new(spline, &options, null(), p) }));
+        }
+        let positions = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0];
+        let faces = [0, 2, 1, 0, 1, 3, 1, 2, 3, 4, 3, 2, 1, 2, 3, 0, 0, 1];
+        let soup =
+            made(|p| unsafe { ricci_soup_from_arrays(positions.as_ptr(), 0, 5, faces.as_ptr(), 6, p) });
+        self.put("ricci_soup", soup);
+        self.put("ricci_soup", made(|p| unsafe { ricci_soup_repair(soup, null(), p) }));
+        self.put("ricci_control", made(|p| unsafe { ricci_control_new(p) }));
+        let cancelled = made(|p| unsafe { ricci_control_new(p) });
+        assert_eq!(unsafe { ricci_control_cancel(cancelled) }, 0);
+        self.put("ricci_control", cancelled);
+    }
+}
+
+/// All of them.
+pub fn handles() -> &'static Handles {
+    static ALL: OnceLock<Handles> = OnceLock::new();
+    ALL.get_or_init(|| {
+        let mut shelf = Shelf(Handles::new());
+        shelf.surfaces();
+        shelf.others();
+        let kinds: std::collections::BTreeSet<&str> =
+            CALLS.iter().filter_map(|c| c.name.strip_suffix("_free")).collect();
+        let missing: Vec<&&str> =
+            kinds.iter().filter(|k| **k != "ricci_solver" && !shelf.0.contains_key(**k)).collect();
+        assert!(missing.is_empty(), "no shared {missing:?}");
+        shelf.0
+    })
+}

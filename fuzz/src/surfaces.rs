@@ -1,0 +1,50 @@
+//! Small surfaces of every topology, drawn from bytes.
+
+use ricci::Surface;
+use ricci::geometry::Space;
+use ricci::mesh::io::Soup;
+use ricci::mesh::{Mesh, PerEdge, PerVertex, shapes};
+use ricci::metric::lengths_from_positions;
+use std::sync::OnceLock;
+
+/// Largest change of the logarithm of a length that a byte makes at a vertex.
+const MOST_CHANGE: f64 = 0.5;
+
+fn all() -> &'static [(Mesh, PerEdge<f64>)] {
+    static ALL: OnceLock<Vec<(Mesh, PerEdge<f64>)>> = OnceLock::new();
+    ALL.get_or_init(|| {
+        let in_space = |soup: Soup| {
+            let mesh = Mesh::from_soup(&soup).unwrap();
+            let lengths = lengths_from_positions(&mesh, &soup.positions).unwrap();
+            (mesh, lengths)
+        };
+        vec![
+            shapes::two_triangle_sphere().build().unwrap(),
+            in_space(shapes::icosphere(1).unwrap()),
+            in_space(shapes::disk(1).unwrap()),
+            in_space(shapes::disk(2).unwrap()),
+            in_space(shapes::annulus(0.5, 1.0, 1, 5).unwrap()),
+            in_space(shapes::torus(2.0, 1.0, 4, 3).unwrap()),
+            shapes::flat_torus([0.3, 1.1], 2, 2).unwrap().build().unwrap(),
+            shapes::one_vertex(1).unwrap().build().unwrap(),
+            shapes::one_vertex(2).unwrap().build().unwrap(),
+            shapes::two_vertex(2).unwrap().build().unwrap(),
+            shapes::pants([1.0, 2.0, 1.5], 0).unwrap().build().unwrap(),
+        ]
+    })
+}
+
+/// A surface named by the first byte, its lengths scaled at its vertices by the others; none where that leaves no triangles.
+pub fn surface(bytes: &mut impl Iterator<Item = u8>) -> Option<Surface> {
+    let which = usize::from(bytes.next()?);
+    let (mesh, lengths) = &all()[which % all().len()];
+    let mut draw = || f64::from(bytes.next().unwrap_or(0) as i8) / 128.0 * MOST_CHANGE;
+    let u = PerVertex::from_fn(mesh.n_vertices(), |_: ricci::mesh::VertexId| draw());
+    let ends = |e: ricci::mesh::EdgeId| [e.halfedge(), e.halfedge().twin()].map(|h| u[mesh.origin(h)]);
+    let lengths = PerEdge::from_fn(mesh.n_edges(), |e| lengths[e] * ends(e).iter().sum::<f64>().exp());
+    match Surface::intrinsic(mesh.clone(), lengths, Space::E2) {
+        Ok(surface) => Some(surface),
+        Err(ricci::Error::TriangleInequality { .. }) => None,
+        Err(other) => panic!("{other}"),
+    }
+}
