@@ -1,7 +1,7 @@
 """Discrete surfaces in 60 digits: triangles by plain cosine laws, conformal classes, Newton's method with derivatives by differences.
 
 Nothing here comes from the project but the definition of a class (docs/notation.md, section 2)."""
-from mpmath import acos, acosh, cos, cosh, exp, log, lu_solve, matrix, mp, mpf, pi, sin, sinh, sqrt, tan, tanh
+from mpmath import acos, acosh, cos, cosh, exp, lu_solve, matrix, mp, mpf, pi, sin, sinh, sqrt
 
 mp.dps = 60
 

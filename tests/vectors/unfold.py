@@ -97,7 +97,7 @@ def torus_modulus(surface, lengths):
             rest[2] = x - d * mp.nint(m)
         lattice = rest
     tau = b / a
-    return reduced(tau if tau.imag > 0 else tau.conjugate() * 0 + (-tau))
+    return reduced(tau if tau.imag > 0 else -tau)
 
 
 def mobius(p, q):
