@@ -30,9 +30,9 @@ impl Mesh {
     pub fn from_faces(n_vertices: usize, faces: &[[u32; 3]]) -> Result<Mesh> {
         check_counts(n_vertices, faces.len())?;
         let incidence = Incidence::new(n_vertices, faces);
-        connect(faces, incidence).or_else(|error| {
+        connect(faces, incidence).map_err(|error| {
             let incidence = Incidence::new(n_vertices, faces);
-            Err(defects(diagnose_incidence(faces, &incidence)).unwrap_or(error))
+            defects(diagnose_incidence(faces, &incidence)).unwrap_or(error)
         })
     }
 
