@@ -405,8 +405,8 @@ mod tests {
         assert!(text.len() > 3 * PART);
         let soup = |file: File| file.soup(Budget::of(text.as_bytes()), Location::whole("t")).unwrap();
         let expected = soup(File::read(&text, "t").unwrap());
-        let Attributes { corner_normals, colors, uv, .. } = &expected.attributes;
-        assert!(corner_normals.is_some() && colors.is_some() && uv.is_some());
+        let Attributes { normals, colors, uv, .. } = &expected.attributes;
+        assert!(normals.is_some() && colors.is_some() && uv.is_some());
         for threads in [1, 2, 8] {
             let found = Pool::new(threads).unwrap().run(|| in_parts(text.as_bytes(), "t")).unwrap();
             assert!(soup(found) == expected, "{threads} threads");
