@@ -242,8 +242,8 @@ impl Session<'_> {
 
     /// A buffer for results: with room, with too little, NULL.
     fn buffer(&mut self, of: &'static str, bytes: usize, with_capacity: bool) -> u64 {
-        // Without a capacity of its own it has that of the buffer behind it, in rows.
-        let rows = if with_capacity { 1 } else { 4 };
+        // Some capacities count rows: those of a buffer that has that of the one behind it, and of places in charts.
+        let rows = 4;
         let (capacity, given) = match self.tape.byte() % 8 {
             0 => (0, false),
             1 => (usize::from(self.tape.byte()) % (MOST_ROWS + 1), true),
