@@ -7,6 +7,13 @@
 #include <errno.h>
 #include <malloc.h>
 #include <ricci/bicubic.h>
+#include <ricci/circles.h>
+#include <ricci/harmonic.h>
+#include <ricci/match.h>
+#include <ricci/repair.h>
+#include <ricci/shapes.h>
+#include <ricci/structure.h>
+#include <ricci/uniformize.h>
 #include <stdatomic.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
@@ -61,6 +68,8 @@ int munmap(void *p, size_t size) {
 
 static int refusals;
 enum { SPLINE_PLACES = 25 };
+/* Of longer jobs not every allocation begins a shortage, but as many as this, evenly. */
+enum { MOST_RUNS = 3000 };
 
 /* The answer of a call in a shortage; after RICCI_NO_MEMORY memory is there again, and so is what the call
  * needs. */
@@ -165,6 +174,89 @@ static void patches_job(const torus *t, double *values) {
     ricci_bicubic_free(patches), ricci_spline_free(flat), ricci_mesh_free(domain);
 }
 
+/* Canonical shape, group, forms, charts and a map of a torus; `values` gets numbers of each. */
+static void canonical_job(const torus *t, double *values) {
+    ricci_mesh *mesh = NULL;
+    ricci_uniform *uniform = NULL;
+    ricci_deck *deck = NULL;
+    ricci_dirichlet *dirichlet = NULL;
+    ricci_forms *forms = NULL;
+    ricci_structure *structure = NULL;
+    ricci_matching *matching = NULL;
+    ricci_flow_options flow;
+    ricci_uniform_options uniform_options;
+    ricci_structure_options structure_options;
+    ricci_match_options match_options;
+    ricci_deck_spec spec;
+    ricci_matching_summary summary;
+    INIT(flow), INIT(uniform_options), INIT(structure_options), INIT(match_options), INIT(spec);
+    flow.threads = 1, match_options.threads = 1;
+    uniform_options.flow = &flow, structure_options.flow = &flow;
+    spec.kind = RICCI_DECK_DEPTH, spec.depth = 2, spec.limit = 20;
+    MUST(ricci_mesh_from_arrays(t->positions, 0, t->n_vertices, t->faces, t->n_faces, &mesh));
+    MUST(ricci_uniformize(mesh, &uniform_options, NULL, &uniform));
+    MUST(ricci_deck_new(uniform, &spec, NULL, &deck));
+    MUST(ricci_deck_values(deck, RICCI_DECK_LENGTH, values, 20));
+    MUST(ricci_dirichlet_new(uniform, NULL, NULL, &dirichlet));
+    MUST(ricci_forms_new(mesh, NULL, NULL, &forms));
+    MUST(ricci_forms_periods(forms, values + 20, 2));
+    MUST(ricci_structure_new(mesh, RICCI_STRUCTURE_AFFINE, &structure_options, NULL, &structure));
+    MUST(ricci_structure_holonomy(structure, values + 22, 24));
+    MUST(ricci_match(mesh, mesh, &match_options, NULL, &matching));
+    MUST(ricci_matching_summarise(matching, &summary, sizeof summary));
+    values[46] = summary.energy;
+    ricci_matching_free(matching), ricci_structure_free(structure), ricci_forms_free(forms);
+    ricci_dirichlet_free(dirichlet), ricci_deck_free(deck), ricci_uniform_free(uniform);
+    ricci_mesh_free(mesh);
+}
+
+/* A list that is repaired, written and read again, sample surfaces, and circles. */
+static void files_job(const torus *t, double *values) {
+    ricci_soup *soup = NULL, *repaired = NULL;
+    ricci_mesh *read = NULL, *ring = NULL, *noisy = NULL;
+    ricci_circle_domain *domain = NULL;
+    ricci_circle_domain_options options;
+    ricci_flow_options flow;
+    ricci_shape shape;
+    ricci_change_spec change;
+    INIT(options), INIT(flow), INIT(shape), INIT(change);
+    flow.threads = 1, options.flow = &flow;
+    shape.shape = RICCI_SHAPE_ANNULUS, shape.n = 2, shape.m = 8, shape.a = 0.5, shape.b = 1;
+    change.change = RICCI_CHANGE_NOISE, change.amount = 0.01;
+    MUST(ricci_soup_from_arrays(t->positions, 0, t->n_vertices, t->faces, t->n_faces, &soup));
+    MUST(ricci_soup_repair(soup, NULL, &repaired));
+    MUST(ricci_soup_write(repaired, "shortage.obj"));
+    MUST(ricci_mesh_read("shortage.obj", &read));
+    MUST(ricci_mesh_values(read, RICCI_POSITIONS, values, 3 * t->n_vertices));
+    MUST(ricci_make(&shape, &ring));
+    MUST(ricci_change(ring, &change, &noisy));
+    MUST(ricci_circle_domain_new(noisy, &options, NULL, &domain));
+    MUST(ricci_circle_domain_circles(domain, values + 3 * t->n_vertices, 8));
+    ricci_circle_domain_free(domain), ricci_mesh_free(noisy), ricci_mesh_free(ring);
+    ricci_mesh_free(read), ricci_soup_free(repaired), ricci_soup_free(soup);
+}
+
+/* Sizes that no memory holds are refused before anything is made of them. */
+static void sizes_are_answered(void) {
+    static const uint32_t shapes[] = {RICCI_SHAPE_SPHERE, RICCI_SHAPE_TORUS, RICCI_SHAPE_GENUS,
+                                      RICCI_SHAPE_BOLZA,  RICCI_SHAPE_PANTS, RICCI_SHAPE_FLAT_TORUS};
+    int answered = 0;
+    for (size_t i = 0; i < sizeof shapes / sizeof *shapes; i++) {
+        const int levels = shapes[i] == RICCI_SHAPE_BOLZA || shapes[i] == RICCI_SHAPE_PANTS;
+        ricci_mesh *mesh = NULL;
+        ricci_shape shape;
+        INIT(shape);
+        shape.shape = shapes[i], shape.genus = 2, shape.n = shape.m = levels ? 14 : 12000;
+        shape.a = 2, shape.b = 1, shape.c = 1;
+        const ricci_status status = ricci_make(&shape, &mesh);
+        CHECK(status == RICCI_NO_MEMORY || status == RICCI_TOO_LARGE || status == RICCI_ARGUMENT);
+        CHECK(mesh == NULL);
+        answered += status == RICCI_NO_MEMORY;
+    }
+    printf("%d surfaces are too large for the memory, and it is said\n", answered);
+    CHECK(answered > 0);
+}
+
 static void every_allocation_fails_in_turn(void (*run)(const torus *, double *), const char *name,
                                            long stride) {
     torus t = torus_new(7, 5);
@@ -179,6 +271,7 @@ static void every_allocation_fails_in_turn(void (*run)(const torus *, double *),
     const long n = count;
     const int before = refusals;
     CHECK(n > 300 && memcmp(found, expected, bytes) == 0);
+    if (n / stride > MOST_RUNS) stride = n / MOST_RUNS;
     for (long k = 1; k <= n; k += stride) {
         memset(found, 0, bytes);
         shortage_from(k);
@@ -242,6 +335,19 @@ int main(int argc, char **argv) {
     every_allocation_fails_in_turn(job, "flow and layout", stride);
     every_allocation_fails_in_turn(spline_job, "spline", stride);
     every_allocation_fails_in_turn(patches_job, "patches", stride);
+    every_allocation_fails_in_turn(canonical_job, "canonical shapes, forms, charts and maps", stride);
+    every_allocation_fails_in_turn(files_job, "files, samples and circles", stride);
+    fflush(stdout);
+    const pid_t child = fork();
+    CHECK(child >= 0);
+    if (child == 0) {
+        const struct rlimit limit = {(rlim_t)4 << 30, (rlim_t)4 << 30};
+        CHECK(setrlimit(RLIMIT_AS, &limit) == 0);
+        sizes_are_answered();
+        exit(0);
+    }
+    int ended = 0;
+    CHECK(waitpid(child, &ended, 0) == child && WIFEXITED(ended) && WEXITSTATUS(ended) == 0);
     limits_are_answered();
     return 0;
 }
