@@ -17,6 +17,8 @@ const NULL_STATUS: u32 = 10;
 const BUFFER_TOO_SMALL: u32 = 13;
 const WRONG_SIZE: u32 = 1;
 
+/// Functions whose capacity counts rows of two numbers of the last buffer.
+const IN_PAIRS: [&str; 2] = ["ricci_structure_places", "ricci_uniform_sides"];
 /// What the headers say may be NaN: fields of summaries that do not apply to every surface.
 const MAY_BE_NAN: [(&str, &str); 13] = [
     ("ricci_circle_domain_summary", "modulus"),
@@ -163,7 +165,7 @@ impl Session<'_> {
                 }
                 Watched::Buffer { kept, at, word, bytes, capacity } => {
                     let written = &self.kept[kept][at..];
-                    let row = if name == "ricci_structure_places" { 2 } else { 1 };
+                    let row = if IN_PAIRS.contains(&name) { 2 } else { 1 };
                     let room = capacity.map_or(written.len(), |capacity| row * capacity * bytes);
                     assert!(
                         written[room..].iter().all(|&b| b == UNTOUCHED),
