@@ -5,6 +5,7 @@
 # RICCI_CARGO_TARGET_DIR  where cargo builds: $CARGO_TARGET_DIR or target/ by default
 # RICCI_CARGO_TARGET      the Rust target; default when cross-compiling for Linux or, by MinGW, for Windows: that of CMake's processor;
 #                         else the host
+# RICCI_CARGO_WITH        packages that are built beside it, so that the crates of both are compiled once (tests/run: the command)
 # RICCI_CARGO_OFFLINE     ON: nothing is downloaded, as from the tarball of cmake/tarball.cmake
 
 find_program(CARGO cargo HINTS $ENV{CARGO_HOME}/bin $ENV{HOME}/.cargo/bin)
@@ -38,6 +39,12 @@ if(CMAKE_CROSSCOMPILING)
 endif()
 set(RICCI_CARGO_TARGET "${_target}" CACHE STRING "the Rust target; empty: the host")
 option(RICCI_CARGO_OFFLINE "build without the network" OFF)
+set(RICCI_CARGO_WITH "" CACHE STRING "cargo packages that are built beside ricci-capi")
+set(_cargo_packages --package ricci-capi --lib)
+if(RICCI_CARGO_WITH)
+  list(TRANSFORM RICCI_CARGO_WITH PREPEND "--package=" OUTPUT_VARIABLE _cargo_with)
+  list(APPEND _cargo_packages --bins ${_cargo_with})
+endif()
 set(_cargo_args)
 # Cargo looks for rustc on the path, on which the build may have neither.
 get_filename_component(_cargo_folder ${CARGO} DIRECTORY)
@@ -110,7 +117,7 @@ foreach(_link ${RICCI_SHARED_LINKS})
   list(APPEND _copies COMMAND ${CMAKE_COMMAND} -E create_symlink ${RICCI_SHARED} ${RICCI_LIB_DIR}/${_link})
 endforeach()
 add_custom_target(ricci_cargo ALL
-  COMMAND ${_cargo_env} ${CARGO} build --locked --package ricci-capi --lib --profile ${RICCI_CARGO_PROFILE}
+  COMMAND ${_cargo_env} ${CARGO} build --locked ${_cargo_packages} --profile ${RICCI_CARGO_PROFILE}
           --target-dir ${RICCI_CARGO_TARGET_DIR} ${_cargo_args}
   COMMAND ${CMAKE_COMMAND} -E make_directory ${RICCI_LIB_DIR}
   ${_copies}

@@ -117,6 +117,10 @@ pub fn fill_both<A: Send, B: Send>(a: &mut [A], b: &mut [B], f: impl Fn(usize) -
 
 /// `work` on each item, in parallel when called inside a pool, one after the other outside.
 pub fn each<T: Send>(items: Vec<T>, work: impl Fn(T) + Sync) {
+    if items.len() <= 1 || is_alone() {
+        items.into_iter().for_each(work);
+        return;
+    }
     let items: Vec<Mutex<Option<T>>> = items.into_iter().map(|item| Mutex::new(Some(item))).collect();
     share(items.len(), &|k| {
         let item = items[k].lock().unwrap_or_else(PoisonError::into_inner).take();
@@ -133,19 +137,27 @@ pub fn map<T: Send>(n: usize, f: impl Fn(usize) -> T + Sync) -> Vec<T> {
 
 /// Both results, side by side inside a pool of several threads, else one after the other.
 pub fn join<A: Send, B: Send>(a: impl FnOnce() -> A + Send, b: impl FnOnce() -> B + Send) -> (A, B) {
-    let alone = rayon::current_thread_index().is_none() || rayon::current_num_threads() == 1;
-    if alone { (a(), b()) } else { rayon::join(a, b) }
+    if is_alone() { (a(), b()) } else { rayon::join(a, b) }
+}
+
+/// Whether no other thread can share the work: outside every pool, and in a pool of one thread.
+fn is_alone() -> bool {
+    rayon::current_thread_index().is_none() || rayon::current_num_threads() == 1
 }
 
 /// Hands each chunk with its number to `work`, which whoever comes to it locks.
-fn in_chunks<C: Send>(chunks: impl Iterator<Item = C>, work: impl Fn(usize, &mut C) + Sync) {
+fn in_chunks<C: Send>(chunks: impl ExactSizeIterator<Item = C>, work: impl Fn(usize, &mut C) + Sync) {
+    if chunks.len() <= 1 || is_alone() {
+        chunks.enumerate().for_each(|(c, mut chunk)| work(c, &mut chunk));
+        return;
+    }
     let chunks: Vec<Mutex<C>> = chunks.map(Mutex::new).collect();
     share(chunks.len(), &|c| work(c, &mut chunks[c].lock().unwrap_or_else(PoisonError::into_inner)));
 }
 
 /// `work(c)` for every c below `n`. The machinery of rayon is compiled here, once for all loops.
 fn share(n: usize, work: &(dyn Fn(usize) + Sync)) {
-    if n <= 1 || rayon::current_thread_index().is_none() {
+    if n <= 1 || is_alone() {
         (0..n).for_each(work);
     } else {
         (0..n).into_par_iter().for_each(work);

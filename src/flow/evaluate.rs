@@ -3,7 +3,7 @@
 use super::seconds::{Seconds, timed};
 use crate::control::Control;
 use crate::error::Result;
-use crate::geometry::conformal::{Edge, Vertex, differences};
+use crate::geometry::conformal::{Edge, Vertex, differences, differences_of_lengths};
 use crate::geometry::scaled::scaled;
 use crate::geometry::triangle::{self, Angles};
 use crate::geometry::twofold::two_sum;
@@ -11,7 +11,7 @@ use crate::geometry::weights::weights_from_sines;
 use crate::geometry::{Space, Twofold, largest, worse};
 use crate::mesh::{EdgeId, FaceId, FixedEdges, Flip, Mesh, PerVertex, VertexId};
 use crate::metric::Metric;
-use crate::metric::curvature::curvature_from_angles;
+use crate::metric::curvature::curvature_into;
 use crate::metric::delaunay::{ClassFlips, Queue};
 use crate::metric::lengths::{face_differences, face_parts};
 use crate::parallel::{fill, fill_both};
@@ -20,7 +20,7 @@ use crate::parallel::{fill, fill_both};
 /// that an edge fails the Delaunay condition by more than 1e-12.
 const NEEDLE: f64 = 1e3;
 /// Roundings of the largest weight of a needle that add up in its other weights, at most.
-const ROUNDINGS: f64 = 64.0;
+const ROUNDINGS: f64 = 256.0;
 
 /// The metric at one u: the variables with their curvature, and what was measured on the way, whose memory goes from step to step.
 pub(super) struct State {
@@ -33,6 +33,8 @@ pub(super) struct State {
     /// Per face: ∂θ/∂u weights of the edges opposite its corners, 0 in a broken face.
     pub weights: Vec<[f64; 3]>,
     pub curvature: PerVertex<f64>,
+    /// What the sums of `curvature` lose while they are formed.
+    lost: PerVertex<f64>,
 }
 
 impl State {
@@ -45,7 +47,23 @@ impl State {
             angles: Vec::new(),
             weights: Vec::new(),
             curvature: PerVertex::filled(u.len(), 0.0),
+            lost: PerVertex::filled(u.len(), 0.0),
         }
+    }
+
+    /// [`State::new`] with the memory of this one.
+    pub fn at(mut self, u: &PerVertex<f64>, low: &PerVertex<f64>) -> State {
+        if self.u.len() != u.len() {
+            return State::new(u, low);
+        }
+        self.u.copy_from_slice(u);
+        self.low.copy_from_slice(low);
+        self.curvature.fill(0.0);
+        self.vertices.clear();
+        self.edges.clear();
+        self.angles.clear();
+        self.weights.clear();
+        self
     }
 
     /// Compute everything from `self.u` and `self.low`; false where some edge has no real length (u is outside the domain).
@@ -53,8 +71,14 @@ impl State {
         if !self.measure(mesh, class) {
             return false;
         }
-        self.curvature = curvature_from_angles(mesh, self.angles.iter().map(|a| a.at));
+        self.sum_up(mesh);
         true
+    }
+
+    /// The curvature from the angles.
+    fn sum_up(&mut self, mesh: &Mesh) {
+        let angles = self.angles.iter().map(|a| a.at);
+        curvature_into(mesh, angles, [&mut self.curvature, &mut self.lost]);
     }
 
     /// [`State::evaluate`] after the flips of `surface` inside its class that make it weighted Delaunay at `self.u`, but for
@@ -91,7 +115,7 @@ impl State {
                 _ => self.measure_again(mesh, class, &touched),
             };
             if real {
-                self.curvature = curvature_from_angles(mesh, self.angles.iter().map(|a| a.at));
+                self.sum_up(mesh);
             }
             real
         });
@@ -115,6 +139,15 @@ impl State {
             return false;
         }
         let edges = &self.edges;
+        // With vertex scaling in the plane the lengths are all there is to a face.
+        if space == Space::E2 && class.epsilon.iter().all(|&e| e == 0) {
+            let measured = |f: usize| match plain_face(mesh, edges, FaceId::from(f)) {
+                Some(measured) => measured,
+                None => measured_face(mesh, class, vertices, edges, FaceId::from(f)),
+            };
+            fill_both(&mut self.angles, &mut self.weights, measured);
+            return true;
+        }
         let measured = |f: usize| measured_face(mesh, class, vertices, edges, FaceId::from(f));
         fill_both(&mut self.angles, &mut self.weights, measured);
         true
@@ -251,4 +284,12 @@ fn measured_face(
     let q2 = edges.map(|e| e.q2);
     let weights = weights_from_sines(class.space, (differences, sines), q2, corners, eta);
     (triangle::angles_from_sines(class.space, differences, sines), weights)
+}
+
+/// [`measured_face`] of a face in E² without circles; none where an edge has a unit of its own.
+#[inline]
+fn plain_face(mesh: &Mesh, edges: &[Edge], f: FaceId) -> Option<(Angles, [f64; 3])> {
+    let edges = mesh.opposite_edges(f).map(|e| edges[e.index()]);
+    let is_plain = edges[0].exponent | edges[1].exponent | edges[2].exponent == 0;
+    is_plain.then(|| triangle::plane_angles_with_weights(differences_of_lengths(edges)))
 }

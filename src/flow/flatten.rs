@@ -3,7 +3,7 @@
 use super::Flow;
 use super::evaluate::State;
 use super::solve::center;
-use super::system::System;
+use super::system::{Precision, System};
 use crate::control::Control;
 use crate::error::Result;
 use crate::geometry::largest;
@@ -46,7 +46,9 @@ impl Flow {
             // Mirror images have an unknown each here, since rounding differs between them, and share one in a solve.
             let shared = self.mirror.is_some();
             let mut system = match self.system.take().filter(|_| !shared) {
-                Some(kept) => kept.flipped(&self.mesh, &fixed, None, 0)?.analysed(&self.mesh)?,
+                Some(kept) => {
+                    kept.flipped(&self.mesh, &fixed, None, 0)?.analysed(&self.mesh, Precision::Double)?
+                }
                 None => System::new(&self.mesh, &fixed, None)?,
             };
             system.jacobian.assemble(&self.mesh, &self.metric, &state);

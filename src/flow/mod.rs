@@ -14,12 +14,14 @@
 mod active_set;
 mod cone_angles;
 pub mod cones;
+mod direction;
 mod evaluate;
 mod flatten;
 mod gradient;
 pub(crate) mod hubs;
 mod jacobian;
 mod line_search;
+mod memory;
 mod newton;
 mod obstruction;
 pub mod options;
@@ -47,6 +49,7 @@ use crate::geometry::Twofold;
 use crate::mesh::{FixedEdges, FlipLog, PerVertex};
 use crate::metric::{Class, Surface, Target};
 use crate::parallel::Pool;
+use memory::Memory;
 use std::ops::Deref;
 use std::sync::Arc;
 use system::System;
@@ -87,8 +90,11 @@ pub struct Flow {
     /// The present solve's target per vertex of the present triangulation.
     target: PerVertex<f64>,
     system: Option<System>,
+    /// Whether a factor in single precision has always been precise enough.
+    single_serves: bool,
     /// Flips since `system` was made.
     unseen_flips: usize,
+    memory: Memory,
     pool: Arc<Pool>,
 }
 

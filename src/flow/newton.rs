@@ -7,15 +7,13 @@
 use super::Flow;
 use super::evaluate::State;
 use super::line_search::LineSearch;
+use super::memory::Memory;
 use super::report::{Report, StopReason};
-use super::seconds::timed;
-use super::solve::{End, center};
-use super::system::System;
+use super::solve::End;
 use crate::control::{Control, Stage};
 use crate::error::Result;
 use crate::geometry::twofold::MAX_EXPONENT;
 use crate::geometry::{Space, largest, worse};
-use crate::linalg::conjugate::Goal;
 use crate::metric::delaunay::boundary_fails;
 
 /// Relative change of the residual, at unchanged u, above which a failed line search is repeated: flipping an edge and back rounds η,
@@ -23,12 +21,6 @@ use crate::metric::delaunay::boundary_fails;
 const MOVED_BY_FLIPS: f64 = 1e-3;
 /// Repetitions of that in one solve, at most.
 const RESTARTS: usize = 20;
-/// First shift of a matrix that is not positive definite, relative to its mean diagonal; grows by [`SHIFT_GROWTH`].
-const FIRST_SHIFT: f64 = 1e-12;
-/// Factor from one shift to the next: [`SHIFTS`] of them reach the diagonal's own size and beyond.
-const SHIFT_GROWTH: f64 = 100.0;
-/// Shifts that are tried for one step, at most.
-const SHIFTS: usize = 12;
 /// A stalled residual within this factor of the estimated rounding floor is at the floor: the estimate counts every rounding once.
 const FLOOR_SLACK: f64 = 8.0;
 /// Radians. A larger estimate of the rounding floor comes from a degenerating triangle and is not accepted.
@@ -38,16 +30,6 @@ const MAX_FLOOR: f64 = 1e-7;
 const PATIENCE: usize = 8;
 /// Radians. Below this residual convergence is quadratic.
 const QUADRATIC: f64 = 1e-8;
-/// The linear residual of a step that is solved with the factor of an earlier matrix, as a share of what is left of the error if it falls
-/// quadratically at the rate of the last step \[EW96, choice 2\]: too little to slow that down.
-const FORCING: f64 = 0.1;
-/// Largest share of the right-hand side that such a step leaves.
-const MAX_FORCING: f64 = 0.01;
-/// Radians. No step leaves less than this of a linear residual, a tenth of the rounding of an angle of 1. It is far below the rounding of
-/// the curvature because u magnifies what is left over the whole surface.
-const LEAST_LEFT: f64 = 2e-17;
-/// Radians. Nor less than this at the vertex that is held, where what is left at all the others adds up: the rounding of a curvature.
-const LEAST_SUM: f64 = 4e-16;
 
 /// Steps over which it is seen how fast the steps still proposed become shorter: at needles by a share each, on the way to a far metric by
 /// about the length of those taken.
@@ -60,6 +42,8 @@ pub(super) struct Iterate {
     pub trial: State,
     /// K̄ − K at `state`.
     pub residual: Vec<f64>,
+    /// The same at the end of a step that is tried.
+    next_residual: Vec<f64>,
     pub step: Vec<f64>,
     /// Largest residual.
     pub error: f64,
@@ -71,11 +55,11 @@ pub(super) struct Iterate {
     /// Length of the first in the present row of steps that were all too long for what is left, and their number.
     too_long: (f64, usize),
     /// Flips in this solve when the last direction was found; none before the first one, and where the last one was not found.
-    solved_at: Option<usize>,
+    pub(super) solved_at: Option<usize>,
     /// The error before the last step.
-    last_error: f64,
+    pub(super) last_error: f64,
     /// Steps that an earlier factor has failed to solve in a row, and the iteration from which on it is tried again.
-    misses: (u32, usize),
+    pub(super) misses: (u32, usize),
 }
 
 /// What a solve does next.
@@ -87,16 +71,18 @@ enum Next {
 }
 
 impl Iterate {
-    pub fn new(flow: &Flow, state: State) -> Iterate {
-        let [mut residual, step] = [(); 2].map(|()| vec![0.0; flow.mesh.n_vertices()]);
+    pub fn new(flow: &mut Flow, state: State) -> Iterate {
+        let n = flow.mesh.n_vertices();
+        let [mut residual, next_residual, step] = [(); 3].map(|()| flow.memory.zeros(n));
         let error = state.residual(&flow.target, &flow.pinned, &mut residual);
-        let trial = State::new(&flow.start, &flow.start_low);
+        let trial = flow.memory.state(&flow.start, &flow.start_low);
         let (shift, best, since_best, too_long) = (0.0, error, 0, (0.0, 0));
         let (solved_at, last_error, misses) = (None, error, (0, 0));
         Iterate {
             state,
             trial,
             residual,
+            next_residual,
             step,
             error,
             shift,
@@ -107,6 +93,18 @@ impl Iterate {
             last_error,
             misses,
         }
+    }
+
+    /// The state, when all else has been given back.
+    pub fn end(self, memory: &mut Memory) -> State {
+        memory.take_back(self.trial);
+        memory.take_back_vectors([self.residual, self.next_residual, self.step]);
+        self.state
+    }
+
+    /// Whether the matrix is to be taken as it is.
+    pub(super) fn is_sound(&self) -> bool {
+        self.shift == 0.0 && self.state.broken() == 0
     }
 
     /// Count the step that has led here: whether there have been too many without a better residual.
@@ -126,7 +124,7 @@ impl Flow {
         control.step(Stage::Flow, 0.0)?;
         let Some(reason) = self.iterate(&mut at, report, control)? else {
             report.max_curvature_error = at.error;
-            return Ok(End { state: at.state, left: true });
+            return Ok(End { state: at.end(&mut self.memory), left: true });
         };
         report.stop_reason = reason;
         // A step within bounds may begin where another one has ended, at the tolerance: it has no factor yet to polish with.
@@ -134,11 +132,15 @@ impl Flow {
         if begins_at_end && report.stop_reason == StopReason::Converged {
             self.direction(&mut at, report, control)?;
         }
-        // The matrix of another triangulation has another pattern.
-        let is_solved = at.solved_at == Some(report.flips);
         let far = matches!(report.stop_reason, StopReason::IterationLimit | StopReason::OutOfReach { .. });
-        if is_solved && !far && at.error > self.polished() {
-            let system = self.take_system(report)?;
+        let is_solved = at.solved_at == Some(report.flips);
+        let is_near = is_solved || (at.solved_at.is_some() && at.state.is_measured());
+        if is_near && !far && at.error > self.polished() {
+            let mut system = self.take_system(report)?;
+            if !is_solved {
+                // The last step has led to another triangulation, whose matrix the factor serves too.
+                self.assemble(&mut system, &at.state, report);
+            }
             self.system = Some(self.polish(system, &mut at, report, control)?);
         }
         if !at.state.is_measured() {
@@ -153,7 +155,7 @@ impl Flow {
         if report.stop_reason == StopReason::Stalled {
             report.stop_reason = self.stalled(&mut at, report)?;
         }
-        Ok(End { state: at.state, left: false })
+        Ok(End { state: at.end(&mut self.memory), left: false })
     }
 
     /// Steps until there is a reason to stop, or none where the flow leaves the one copy of a surface with boundary.
@@ -250,18 +252,18 @@ impl Flow {
     /// Take the step of `at` as far as the line search goes; false, and `at.residual` as it was, where it finds nothing.
     fn step(&mut self, at: &mut Iterate, report: &mut Report, control: &Control) -> Result<bool> {
         at.state.hand_on(&mut at.trial);
-        let mut residual = at.residual.clone();
-        let Iterate { state, trial, step, error, .. } = at;
-        let mut search = LineSearch::new(step, &residual, self.options.max_step, *error);
+        let Iterate { state, trial, step, error, residual, next_residual, .. } = at;
+        let mut search = LineSearch::new(step, residual, self.options.max_step, *error);
         while let Some(t) = search.next() {
             control.check()?;
             trial.set_step(state, t, step);
             let real = self.evaluate(trial, report, control)?;
-            let now = real.then(|| trial.residual(&self.target, &self.pinned, &mut residual));
-            if search.accepts(now, &residual) {
+            let now = real.then(|| trial.residual(&self.target, &self.pinned, next_residual));
+            if search.accepts(now, next_residual) {
                 std::mem::swap(state, trial);
+                std::mem::swap(residual, next_residual);
                 at.last_error = at.error;
-                (at.residual, at.error) = (residual, now.unwrap_or(f64::INFINITY));
+                at.error = now.unwrap_or(f64::INFINITY);
                 return Ok(true);
             }
         }
@@ -292,116 +294,6 @@ impl Flow {
         let Some(mirror) = &self.mirror else { return false };
         let even = |(r, &image): (&f64, &u32)| 0.5 * (r + at.residual[image as usize]).abs();
         at.residual.iter().zip(mirror).map(even).fold(0.0, worse) < 0.5 * at.error
-    }
-
-    /// The Newton direction into `at.step`, with the matrix at `at.state`; false where there is none.
-    fn direction(&mut self, at: &mut Iterate, report: &mut Report, control: &Control) -> Result<bool> {
-        let mut system = self.take_system(report)?;
-        self.assemble(&mut system, &at.state, report);
-        let mut found = self.direction_near(&mut system, at, report, control)?;
-        if !found {
-            system = self.analysed(system, report)?;
-            found = self.direction_of(&mut system, at, report, control)?;
-        }
-        self.system = Some(system);
-        at.solved_at = found.then_some(report.flips);
-        Ok(found)
-    }
-
-    /// The Newton direction of a matrix that has been assembled, by the factor that an earlier step of this solve has left. False where that
-    /// does not pay; it is then not tried again for some steps, more and more of them.
-    fn direction_near(
-        &self,
-        system: &mut System,
-        at: &mut Iterate,
-        report: &mut Report,
-        control: &Control,
-    ) -> Result<bool> {
-        let (misses, from) = at.misses;
-        let is_sound = at.shift == 0.0 && at.state.broken() == 0;
-        if at.solved_at.is_none() || report.iterations < from || !is_sound {
-            return Ok(false);
-        }
-        let forcing = f64::min(FORCING * (at.error / at.last_error).powi(2), MAX_FORCING);
-        let found = self.solve_near(system, at, forcing, (report, control))?;
-        at.misses = if found { (0, 0) } else { (misses + 1, report.iterations + (2 << misses.min(8))) };
-        Ok(found)
-    }
-
-    /// `at.step` from `at.residual` with an earlier factor, up to this share of the error; false where that does not pay.
-    pub(super) fn solve_near(
-        &self,
-        system: &mut System,
-        at: &mut Iterate,
-        share: f64,
-        (report, control): (&mut Report, &Control),
-    ) -> Result<bool> {
-        let [left, sum] = [LEAST_LEFT, LEAST_SUM].map(|least| f64::max(share * at.error, least));
-        let goal = Goal { left, sum: if self.free_scale() { sum } else { f64::INFINITY } };
-        let Iterate { residual, step, .. } = at;
-        let seconds = &mut report.seconds.solve;
-        let found = timed(seconds, || system.solve_near(residual, goal, step, control))?;
-        if found && self.free_scale() {
-            center(step);
-        }
-        Ok(found)
-    }
-
-    /// The Newton direction of a matrix that has been assembled.
-    ///
-    /// A vertex whose triangles all break has a zero row, and rounding can make the matrix indefinite. Where the matrix has
-    /// no factor, its diagonal is raised at the vertices of broken triangles (at all, where none is broken), so far that no
-    /// u moves further than `max_step`: capping the step instead would hold back the sound vertices for the loose ones.
-    /// `at.shift` remembers by how much, for the next iteration.
-    fn direction_of(
-        &self,
-        system: &mut System,
-        at: &mut Iterate,
-        report: &mut Report,
-        control: &Control,
-    ) -> Result<bool> {
-        let mut loose = vec![false; at.residual.len()];
-        for f in self.mesh.faces().filter(|f| at.state.angles[f.index()].broken()) {
-            self.mesh.face_vertices(f).into_iter().for_each(|v| loose[v.index()] = true);
-        }
-        if !loose.contains(&true) {
-            loose.fill(true);
-            at.shift = 0.0;
-        }
-        let first = FIRST_SHIFT * system.jacobian.mean_diagonal();
-        let mut added = if at.shift > SHIFT_GROWTH * first { at.shift / SHIFT_GROWTH } else { 0.0 };
-        system.jacobian.add_diagonal(|v| if loose[v] { added } else { 0.0 });
-        let mut last = f64::INFINITY;
-        for _ in 0..SHIFTS {
-            control.check()?;
-            report.factorisations += 1;
-            let factored = timed(&mut report.seconds.factor, || system.factor()).is_ok();
-            if factored && self.solve_step(system, at, report) {
-                // A step that more shift does not shorten is not the loose vertices': the line search will cap it.
-                let now = largest(&at.step);
-                let settled = now > 0.5 * last;
-                last = now;
-                if added == 0.0 || now <= self.options.max_step || settled {
-                    at.shift = added;
-                    report.shifted += usize::from(added > 0.0);
-                    return Ok(true);
-                }
-            }
-            let more = if added == 0.0 { first } else { added * SHIFT_GROWTH };
-            system.jacobian.add_diagonal(|v| if loose[v] { more } else { 0.0 });
-            added += more;
-        }
-        Ok(false)
-    }
-
-    /// `at.step` from `at.residual` with the last factor; false where it is not finite.
-    pub(super) fn solve_step(&self, system: &mut System, at: &mut Iterate, report: &mut Report) -> bool {
-        let solved =
-            timed(&mut report.seconds.solve, || system.solve(&at.residual, self.enough(), &mut at.step));
-        if solved && self.free_scale() {
-            center(&mut at.step);
-        }
-        solved
     }
 }
 

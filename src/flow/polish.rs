@@ -4,7 +4,7 @@ use super::Flow;
 use super::newton::Iterate;
 use super::report::Report;
 use super::seconds::timed;
-use super::system::System;
+use super::system::{Precision, System};
 use crate::control::Control;
 use crate::error::Result;
 use crate::geometry::Space;
@@ -38,7 +38,7 @@ impl Flow {
             control.check()?;
             at.state.residual(&self.target, &self.pinned, &mut at.residual);
             if !self.solve_near(&mut system, at, POLISH_FORCING, (report, control))? {
-                system = self.analysed(system, report)?;
+                system = self.analysed(system, Precision::Double, report)?;
                 report.factorisations += 1;
                 let factored = timed(&mut report.seconds.factor, || system.factor()).is_ok();
                 if !(factored && self.solve_step(&mut system, at, report)) {

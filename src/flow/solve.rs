@@ -6,7 +6,7 @@ use super::options::Method;
 use super::report::{Report, StopReason, WORST};
 use super::seconds::timed;
 use super::solution::{Reached, Solution};
-use super::system::System;
+use super::system::{Precision, System};
 use crate::control::Control;
 use crate::error::{Error, Result, check_size};
 use crate::geometry::Space;
@@ -168,18 +168,22 @@ impl Flow {
             state.shift(-sum / n);
         }
         if report.is_reached() {
-            (self.start, self.start_low) = (state.u.clone(), state.low.clone());
+            self.start.copy_from_slice(&state.u);
+            self.start_low.copy_from_slice(&state.low);
         }
-        (self.now.metric.u, self.now.metric.u_low) = (state.u.clone(), state.low.clone());
+        self.now.metric.u.copy_from_slice(&state.u);
+        self.now.metric.u_low.copy_from_slice(&state.low);
         if report.is_reached() && self.is_to_be_flattened(target) {
             report.angle_defect = Some(self.flatten_at(state, control)?);
+        } else {
+            self.memory.take_back(state);
         }
         Ok((report, left))
     }
 
     /// The flow by its method, from the start to the end that the report tells.
     pub(super) fn flow(&mut self, report: &mut Report, control: &Control) -> Result<End> {
-        let mut state = State::new(&self.start, &self.start_low);
+        let mut state = self.memory.state(&self.start, &self.start_low);
         let keeps_area = self.options.method == Method::Gradient && self.options.gradient.area_normalised;
         if self.free_scale() && !keeps_area {
             state.center();
@@ -302,12 +306,17 @@ impl Flow {
         Ok(system)
     }
 
-    /// A system that can be factorised.
-    pub(super) fn analysed(&self, system: System, report: &mut Report) -> Result<System> {
-        if system.is_analysed() {
+    /// A system that can be factorised in this precision.
+    pub(super) fn analysed(
+        &self,
+        system: System,
+        precision: Precision,
+        report: &mut Report,
+    ) -> Result<System> {
+        if system.is_ready(precision) {
             return Ok(system);
         }
-        let system = timed(&mut report.seconds.analyse, || system.analysed(&self.mesh))?;
+        let system = timed(&mut report.seconds.analyse, || system.analysed(&self.mesh, precision))?;
         report.factor_entries = system.factor_entries();
         Ok(system)
     }

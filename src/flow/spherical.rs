@@ -9,7 +9,7 @@ use super::evaluate::State;
 use super::newton::{Iterate, progress};
 use super::report::{Report, StopReason};
 use super::seconds::timed;
-use super::system::System;
+use super::system::{Precision, System};
 use crate::control::{Control, Stage};
 use crate::error::Result;
 use crate::geometry::largest;
@@ -43,7 +43,7 @@ impl Flow {
         at.shift = MIN_DAMPING;
         report.residuals.push(at.error);
         let system = self.take_system(report)?;
-        let mut system = self.analysed(system, report)?;
+        let mut system = self.analysed(system, Precision::Double, report)?;
         report.stop_reason = loop {
             if at.error <= report.tolerance {
                 break StopReason::Converged;
@@ -66,7 +66,7 @@ impl Flow {
         };
         self.system = Some(system);
         report.max_curvature_error = at.error;
-        Ok(at.state)
+        Ok(at.end(&mut self.memory))
     }
 
     /// One step with the damping μ = `at.shift`, at the total area `area` if there is one; false, and `at.state` as it was, where that

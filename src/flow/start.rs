@@ -1,6 +1,7 @@
 //! Making a flow: on a surface, from a solution, from a bare metric; going to the double, and pins.
 
 use super::Flow;
+use super::memory::Memory;
 use super::options::{Flips, Method, Options};
 use super::origin::Origin;
 use super::solution::Solution;
@@ -104,7 +105,9 @@ impl Flow {
             one_copy: false,
             target: PerVertex::filled(mesh.n_vertices(), 0.0),
             system: None,
+            single_serves: true,
             unseen_flips: 0,
+            memory: Memory::default(),
             pool,
         };
         flow.hold(&options.pinned)?;

@@ -4,9 +4,10 @@ use super::jacobian::Jacobian;
 use crate::control::Control;
 use crate::error::Result;
 use crate::geometry::largest;
-use crate::linalg::Cholesky;
 use crate::linalg::cholesky::NotPositiveDefinite;
-use crate::linalg::conjugate::{self, Goal};
+use crate::linalg::conjugate::{Conjugate, Goal, Problem};
+use crate::linalg::{Cholesky, Pattern};
+
 use crate::mesh::Mesh;
 
 /// Residual of the linear solution at which its refinement stops, relative to the right-hand side: near the rounding of doubles.
@@ -18,10 +19,60 @@ const REFINE_STEPS: usize = 2;
 /// know the pattern: flips of 0.5 % of the edges make a factor of 400,000 rows so much larger that it takes ten times as long.
 const FEW_FLIPS: f64 = 5e-4;
 
+/// What a factor is held in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Precision {
+    /// For [`System::solve_near`]: half the memory, and solutions in half the time.
+    Single,
+    /// For [`System::solve`] too.
+    Double,
+}
+
+/// A factorisation, or memory for it.
+enum Factor {
+    Single(Cholesky<f32>),
+    Double(Cholesky),
+}
+
+impl Factor {
+    /// The same analysis, for a factor in this precision.
+    fn held_in(self, precision: Precision) -> Result<Factor> {
+        Ok(match (self, precision) {
+            (Factor::Single(factor), Precision::Double) => Factor::Double(factor.held_in()?),
+            (Factor::Double(factor), Precision::Single) => Factor::Single(factor.held_in()?),
+            (same, _) => same,
+        })
+    }
+
+    fn is_in(&self, precision: Precision) -> bool {
+        matches!(self, Factor::Single(_)) == (precision == Precision::Single)
+    }
+
+    /// For another pattern, with the order of this one where that is to be kept; one factor at a time: this one is released before there
+    /// is memory for the new.
+    fn analysed(self, pattern: &Pattern, keep_order: bool) -> Result<Factor> {
+        if !keep_order {
+            drop(self);
+            return Ok(Factor::Double(Cholesky::analyse(pattern)?));
+        }
+        Ok(Factor::Double(match self {
+            Factor::Single(factor) => factor.analyse_again(pattern)?,
+            Factor::Double(factor) => factor.analyse_again(pattern)?,
+        }))
+    }
+
+    fn entries(&self) -> usize {
+        match self {
+            Factor::Single(factor) => factor.factor_entries(),
+            Factor::Double(factor) => factor.factor_entries(),
+        }
+    }
+}
+
 /// The matrix with the last factorisation, which may be that of an earlier one, and the vectors of a solution, whose memory is kept.
 pub(super) struct System {
     pub jacobian: Jacobian,
-    cholesky: Cholesky,
+    held: Factor,
     /// Whether the factorisation knows the present pattern.
     is_analysed: bool,
     /// Whether there is a factor.
@@ -31,24 +82,26 @@ pub(super) struct System {
     rhs: Vec<f64>,
     solution: Vec<f64>,
     correction: Vec<f64>,
+    conjugate: Conjugate,
 }
 
 impl System {
     /// Order and analyse for the unknowns of [`Jacobian::new`].
     pub fn new(mesh: &Mesh, fixed: &[bool], mirror: Option<&[u32]>) -> Result<System> {
         let jacobian = Jacobian::new(mesh, fixed, mirror)?;
-        let cholesky = Cholesky::analyse(&jacobian.pattern)?;
+        let held = Factor::Double(Cholesky::analyse(&jacobian.pattern)?);
         let n = jacobian.pattern.size();
         let zeros = vec![0.0; n];
         Ok(System {
             jacobian,
-            cholesky,
+            held,
             is_analysed: true,
             is_factored: false,
             age: 0,
             rhs: zeros.clone(),
             solution: zeros.clone(),
             correction: zeros,
+            conjugate: Conjugate::default(),
         })
     }
 
@@ -66,31 +119,24 @@ impl System {
         Ok(System { jacobian, is_analysed, age: self.age + flips, ..self })
     }
 
-    /// Ready for [`System::factor`]: analysed, where the pattern has changed since the last analysis. The order is kept while few edges
-    /// have been flipped since it was made.
-    pub fn analysed(self, mesh: &Mesh) -> Result<System> {
-        if self.is_analysed {
+    /// Ready for [`System::factor`] in this precision: analysed, where the pattern has changed since the last analysis. The order is kept
+    /// while few edges have been flipped since it was made.
+    pub fn analysed(mut self, mesh: &Mesh, precision: Precision) -> Result<System> {
+        if self.is_ready(precision) {
             return Ok(self);
         }
-        let System { jacobian, cholesky, age, rhs, solution, correction, .. } = self;
-        let keep = age as f64 <= FEW_FLIPS * mesh.n_edges() as f64;
-        // One factor at a time: the old one is released before there is memory for the new.
-        let cholesky = if keep {
-            cholesky.analyse_again(&jacobian.pattern)?
-        } else {
-            drop(cholesky);
-            Cholesky::analyse(&jacobian.pattern)?
-        };
-        let age = if keep { age } else { 0 };
+        let System { held, is_analysed, jacobian, .. } = self;
+        self.is_factored = false;
+        let keep = self.age as f64 <= FEW_FLIPS * mesh.n_edges() as f64;
+        let held = if is_analysed { held } else { held.analysed(&jacobian.pattern, keep)? };
+        let age = if keep || is_analysed { self.age } else { 0 };
         Ok(System {
-            jacobian,
-            cholesky,
+            held: held.held_in(precision)?,
             is_analysed: true,
             is_factored: false,
+            jacobian,
             age,
-            rhs,
-            solution,
-            correction,
+            ..self
         })
     }
 
@@ -99,17 +145,21 @@ impl System {
     }
 
     pub fn factor_entries(&self) -> usize {
-        self.cholesky.factor_entries()
+        self.held.entries()
     }
 
-    pub fn is_analysed(&self) -> bool {
-        self.is_analysed
+    /// Whether the matrix can be factorised in this precision.
+    pub fn is_ready(&self, precision: Precision) -> bool {
+        self.is_analysed && self.held.is_in(precision)
     }
 
-    /// Factorise the matrix, whose pattern has been analysed.
+    /// Factorise the matrix, whose pattern has been analysed, in the precision that this was made ready for.
     pub fn factor(&mut self) -> std::result::Result<(), NotPositiveDefinite> {
         self.is_factored = false;
-        self.cholesky.factor(self.jacobian.matrix())?;
+        match &mut self.held {
+            Factor::Single(factor) => factor.factor(self.jacobian.matrix())?,
+            Factor::Double(factor) => factor.factor(self.jacobian.matrix())?,
+        }
         self.is_factored = true;
         Ok(())
     }
@@ -131,18 +181,23 @@ impl System {
         }
         self.gather(residual);
         self.solution.copy_from_slice(&self.rhs);
-        let (matrix, near) = (self.jacobian.matrix(), &mut self.cholesky);
-        let found = conjugate::solve(matrix, near, &mut self.solution, goal, control)?;
+        let System { jacobian, held, solution, conjugate, .. } = self;
+        let problem = Problem { matrix: jacobian.matrix(), goal };
+        let found = match held {
+            Factor::Single(near) => conjugate.solve(problem, near, solution, control)?,
+            Factor::Double(near) => conjugate.solve(problem, near, solution, control)?,
+        };
         Ok(found && self.scatter(step))
     }
 
     /// Solve `(∂K/∂u) step = residual` (both per vertex, 0 at fixed vertices) with the last factor, refined where
     /// the linear residual asks for it: what it leaves of the curvature error stays below `REFINE_TO` of that error, or below
-    /// `enough` (radians). False when the solution is not finite.
+    /// `enough` (radians). False when the solution is not finite, and for a factor in single precision.
     pub fn solve(&mut self, residual: &[f64], enough: f64, step: &mut [f64]) -> bool {
         self.gather(residual);
+        let Factor::Double(factor) = &mut self.held else { return false };
         self.solution.copy_from_slice(&self.rhs);
-        self.cholesky.solve(&mut self.solution);
+        factor.solve(&mut self.solution);
         let (scale, mut last) = (largest(&self.rhs), f64::INFINITY);
         for _ in 0..REFINE_STEPS {
             self.jacobian.matrix().residual(&self.solution, &self.rhs, &mut self.correction);
@@ -153,7 +208,7 @@ impl System {
                 break;
             }
             last = now;
-            self.cholesky.solve(&mut self.correction);
+            factor.solve(&mut self.correction);
             self.solution.iter_mut().zip(&self.correction).for_each(|(x, c)| *x += c);
         }
         self.scatter(step)

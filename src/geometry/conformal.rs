@@ -375,14 +375,20 @@ fn circle_gap(space: Space, [a, b]: [Vertex; 2], eta: Twofold, total: f64) -> f6
     }
 }
 
+/// [`differences`] of a triangle without circles, whose gaps are its lengths.
+#[inline]
+pub fn differences_of_lengths(edges: [Edge; 3]) -> [f64; 3] {
+    let (rest, low) = (half_differences(edges.map(|e| e.gap)), edges.map(|e| 0.5 * e.low));
+    [0, 1, 2].map(|k| rest[k] + (low[(k + 1) % 3] + low[(k + 2) % 3] - low[k]))
+}
+
 /// Half-perimeter differences `r_k` of a triangle, given its corners and the edges opposite them, all in one unit ([`in_one_unit`]).
 #[inline]
 pub fn differences(corners: [Vertex; 3], edges: [Edge; 3]) -> [f64; 3] {
-    let gap = edges.map(|e| e.gap);
     if corners.iter().all(|v| v.radius == 0.0) {
-        let (rest, low) = (half_differences(gap), edges.map(|e| 0.5 * e.low));
-        return [0, 1, 2].map(|k| rest[k] + (low[(k + 1) % 3] + low[(k + 2) % 3] - low[k]));
+        return differences_of_lengths(edges);
     }
+    let gap = edges.map(|e| e.gap);
     // Near a broken triangle of circles 2γ_k and the gaps cancel: what each sum loses is kept.
     [0, 1, 2].map(|k| {
         let (i, j) = ((k + 1) % 3, (k + 2) % 3);

@@ -7,6 +7,7 @@ pub mod circle;
 pub mod complex;
 pub mod conformal;
 pub mod disk_barycentre;
+mod exponentials;
 pub mod flip;
 pub mod hyperelliptic;
 pub mod isometry;

@@ -51,22 +51,14 @@ pub fn is_broken(space: Space, r: [f64; 3]) -> bool {
 /// a needle-like triangle"): each is accurate to a few ulp however thin the triangle.
 #[inline]
 pub fn half_differences(l: [f64; 3]) -> [f64; 3] {
-    let mut order = [0, 1, 2];
-    if l[order[0]] < l[order[1]] {
-        order.swap(0, 1);
-    }
-    if l[order[1]] < l[order[2]] {
-        order.swap(1, 2);
-    }
-    if l[order[0]] < l[order[1]] {
-        order.swap(0, 1);
-    }
-    let [a, b, c] = order.map(|i| l[i]);
-    let mut r = [0.0; 3];
-    r[order[0]] = 0.5 * (c - (a - b));
-    r[order[1]] = 0.5 * (c + (a - b));
-    r[order[2]] = 0.5 * (a + (b - c));
-    r
+    // Without branches: the order of the lengths is chance, and a processor guesses it wrong half of the time.
+    let [first, second, third] = [l[0] >= l[1], l[0] >= l[2], l[1] >= l[2]].map(usize::from);
+    let rank = [2 - first - second, 1 + first - third, second + third];
+    let mut sorted = [0.0; 3];
+    (0..3).for_each(|i| sorted[rank[i]] = l[i]);
+    let [a, b, c] = sorted;
+    let by_rank = [0.5 * (c - (a - b)), 0.5 * (c + (a - b)), 0.5 * (a + (b - c))];
+    rank.map(|k| by_rank[k])
 }
 
 /// f(x) = x, sinh x, sin x in E², H², S².
@@ -126,6 +118,23 @@ pub fn angles_from_sines(space: Space, r: [f64; 3], sines: (f64, [f64; 3])) -> A
     // The roots first: f_i f_j may underflow.
     let [a, b, c] = ratios(space, r, sines).map(f64::sqrt);
     Angles { at: [(b * c, a), (c * a, b), (a * b, c)].map(|(y, x)| 2.0 * y.atan2(x)) }
+}
+
+/// [`angles_from`] in E², with the halves of the cotangents of the angles (0 where the triangle is broken, or so thin that they are no
+/// numbers): the roots serve both.
+#[inline]
+pub fn plane_angles_with_weights(r: [f64; 3]) -> (Angles, [f64; 3]) {
+    if r.iter().any(|&x| x <= 0.0) {
+        return (angles_from(Space::E2, r), [0.0; 3]);
+    }
+    // In units of the half-perimeter, which is 1 then, no product over- or underflows.
+    let s = r[0] + r[1] + r[2];
+    let r = r.map(|x| x / s);
+    let [a, b, c] = r.map(f64::sqrt);
+    let angles = Angles { at: [(b * c, a), (c * a, b), (a * b, c)].map(|(y, x)| 2.0 * y.atan2(x)) };
+    let area = a * b * c;
+    let weights = [0, 1, 2].map(|k| 0.5 * ((r[k] - r[(k + 1) % 3] * r[(k + 2) % 3]) / (2.0 * area)));
+    (angles, if weights.iter().all(|x| x.is_finite()) { weights } else { [0.0; 3] })
 }
 
 /// `[cos, sin]` of half the angle at each corner, from the half chords q of the sides (l/2, sinh(l/2), sin(l/2)), with twice the digits.

@@ -6,6 +6,7 @@
 //! assert!(f64::from(third * 3.0.into() - 1.0.into()).abs() < 1e-31);
 //! ```
 
+use super::exponentials::{EXPONENTIALS, MOST, STEPS};
 use super::scaled::scaled;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -128,8 +129,6 @@ pub(crate) fn two_product(a: f64, b: f64) -> (f64, f64) {
 pub(crate) const MAX_EXPONENT: f64 = 5e5;
 /// log 2 in three parts; the first has 33 binary digits, so that its products with integers below 2^20 are exact.
 const LN_2: [f64; 3] = [0.693_147_180_369_123_8, 1.908_214_929_270_587_7e-10, 1.161_222_722_936_253_2e-26];
-/// e^x − 1 is formed at x/2^6 and squared six times: there all but three terms of its series are below 1e-10 and need no second part.
-const HALVINGS: i32 = 6;
 /// 1/k! from k = 4 on: at the end of the series its terms are below 1e-29.
 const FACTORIALS: [f64; 7] =
     [1.0 / 24.0, 1.0 / 120.0, 1.0 / 720.0, 1.0 / 5040.0, 1.0 / 40_320.0, 1.0 / 362_880.0, 1.0 / 3_628_800.0];
@@ -154,13 +153,15 @@ pub(crate) fn exp(x: f64) -> (f64, f64) {
 
 /// `e^x = mantissa (1 + low) 2^k` as (mantissa, low, k), the mantissa between 0.7 and 1.5; for |x| up to [`MAX_EXPONENT`].
 pub(crate) fn exp_parts(x: f64) -> (f64, f64, i32) {
-    let k = (x * std::f64::consts::LOG2_E).round();
+    let k = nearest_integer(x * std::f64::consts::LOG2_E);
     let (rest, lost) = two_sum(x, -k * LN_2[0]);
     let (middle, middle_low) = two_product(k, LN_2[1]);
     let (rest, more) = two_sum(rest, -middle);
-    let (mut x, mut low) = two_sum(rest, (lost + more) - (middle_low + k * LN_2[2]));
-    let small = 0.5f64.powi(HALVINGS);
-    (x, low) = (small * x, small * low);
+    let (x, low) = two_sum(rest, (lost + more) - (middle_low + k * LN_2[2]));
+    // To a multiple of 1/64, whose exponential is known; what is left is exact.
+    let step = nearest_integer(STEPS * x);
+    let [known, known_low] = EXPONENTIALS[(step as i32 + MOST) as usize];
+    let x = x - step / STEPS;
     // e^x − 1 = x + x²/2 + x³/6 + …, and e^(x + low) is that and low e^x.
     let (square, square_low) = two_product(0.5 * x, x);
     let (thrice, thrice_low) = two_product(square, x);
@@ -170,17 +171,20 @@ pub(crate) fn exp_parts(x: f64) -> (f64, f64, i32) {
     let tail = FACTORIALS.iter().rev().fold(0.0, |sum, factor| sum * x + factor) * (x * x) * (x * x);
     let (sum, first) = two_sum(x, square);
     let (sum, second) = two_sum(sum, cube);
-    let (mut p, mut p_low) = two_sum(sum, tail);
-    p_low += first + second + (low + low * p) + (square_low + cube_low);
-    for _ in 0..HALVINGS {
-        // (1 + p)² − 1
-        let (square, square_low) = two_product(p, p);
-        let (sum, lost) = two_sum(2.0 * p, square);
-        (p, p_low) = two_sum(sum, lost + (square_low + 2.0 * p * p_low + 2.0 * p_low));
-    }
-    let (sum, lost) = two_sum(1.0, p);
-    let (sum, lost) = two_sum(sum, lost + p_low);
+    let (p, third) = two_sum(sum, tail);
+    let p_low = first + second + third + (low + low * p) + (square_low + cube_low);
+    // known (1 + p)
+    let (product, product_low) = two_product(known, p);
+    let (sum, lost) = two_sum(known, product);
+    let (sum, lost) = two_sum(sum, lost + (product_low + known * p_low + known_low * (1.0 + p)));
     (sum, lost / sum, k as i32)
+}
+
+/// The integer next to a number whose size is below 2^51; of two, the even one.
+fn nearest_integer(x: f64) -> f64 {
+    /// Numbers of this size have no digits after the point.
+    const WHOLE: f64 = 6_755_399_441_055_744.0;
+    (x + WHOLE) - WHOLE
 }
 
 /// Largest |x| of [`sinh`].

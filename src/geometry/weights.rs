@@ -12,7 +12,7 @@
 
 use super::Space;
 use super::conformal::Vertex;
-use super::triangle::sines;
+use super::triangle::{plane_angles_with_weights, sines};
 use std::f64::consts::PI;
 
 /// The weights `w_k = ∂θ_i/∂u_j = ∂θ_j/∂u_i` of the three edges (w_k belongs to edge ij, opposite corner k).
@@ -46,7 +46,7 @@ pub fn weights_from_sines(
         return [0.0; 3];
     }
     if space == Space::E2 && corners.iter().all(|v| v.epsilon == 0.0) {
-        return cotangents(r).map(|cotangent| 0.5 * cotangent);
+        return plane_angles_with_weights(r).1;
     }
     // In units of the longest chord no product under- or overflows.
     let unit = 0.5 / q2.into_iter().fold(0.0, f64::max).sqrt();
@@ -82,15 +82,4 @@ pub fn weights_from_sines(
     let w = [weight(0), weight(1), weight(2)];
     // Where a triangle is so thin that its area underflows, the quotients are no numbers: it is treated as a broken one.
     if w.iter().all(|w| w.is_finite()) { w } else { [0.0; 3] }
-}
-
-/// The cotangents of the angles of a triangle in E² with half-perimeter differences r, from `tan²(θ_k/2) = r_i r_j/(s r_k)`; 0 where the
-/// triangle is so thin that they are no numbers.
-fn cotangents(r: [f64; 3]) -> [f64; 3] {
-    // In units of the half-perimeter, which is 1 then, no product over- or underflows.
-    let s = r[0] + r[1] + r[2];
-    let r = r.map(|x| x / s);
-    let area = r[0].sqrt() * r[1].sqrt() * r[2].sqrt();
-    let all = [0, 1, 2].map(|k| (r[k] - r[(k + 1) % 3] * r[(k + 2) % 3]) / (2.0 * area));
-    if all.iter().all(|x| x.is_finite()) { all } else { [0.0; 3] }
 }

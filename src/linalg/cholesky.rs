@@ -1,10 +1,12 @@
 //! Supernodal Cholesky (faer) with analysis, factorisation and solution as separate steps; the example is in [`crate::linalg`].
 
 pub use super::front::NotPositiveDefinite;
-use super::multifrontal::{self, Memory};
+use super::multifrontal::{self, Arena};
+use super::number::Number;
 use super::order::postorder;
 use super::pattern::{Pattern, Symmetric};
-use super::substitution;
+use super::pool::Shelf;
+use super::substitution::{self, Desk};
 use super::tree::{Supernodes, Tree};
 use crate::error::{Error, Result};
 use faer::dyn_stack::{MemBuffer, MemStack};
@@ -22,14 +24,15 @@ use faer::{Conj, MatMut, Par, Side};
 const PARTITION: Par = Par::Seq;
 
 /// The Cholesky factorisation `A = P L Lᵀ Pᵀ` of matrices with one pattern. Inside a pool ([`crate::parallel`]) its threads share the
-/// work.
-pub struct Cholesky {
+/// work. The factor is computed in doubles; held in single precision, it is a preconditioner ([`super::conjugate`]).
+pub struct Cholesky<T = f64> {
     symbolic: SymbolicCholesky<u32>,
     tree: Tree,
-    factor: Vec<f64>,
-    memory: Memory,
+    factor: Vec<T>,
+    arenas: Shelf<Arena>,
+    desks: Shelf<Desk<T>>,
     /// A right-hand side in the order of elimination, and as much again.
-    ordered: [Vec<f64>; 2],
+    ordered: [Vec<T>; 2],
 }
 
 impl Cholesky {
@@ -48,24 +51,6 @@ impl Cholesky {
         }
     }
 
-    /// Analyse another pattern of the same size with the order found for this one. The order is most of the work of an analysis, and
-    /// stays good where few entries differ. The factor of this pattern is released first. A pattern of another size is analysed from
-    /// scratch.
-    ///
-    /// # Errors
-    ///
-    /// As [`Cholesky::analyse`].
-    pub fn analyse_again(self, pattern: &Pattern) -> Result<Cholesky> {
-        let Cholesky { symbolic, factor, memory, tree, ordered } = self;
-        drop((factor, memory, tree, ordered));
-        match symbolic.perm() {
-            Some(order) if order.len() == pattern.size() => {
-                Cholesky::with_postorder(pattern, order.arrays().0)
-            }
-            _ => Cholesky::analyse(pattern),
-        }
-    }
-
     /// With the postorder of an order of elimination.
     fn with_postorder(pattern: &Pattern, forward: &[u32]) -> Result<Cholesky> {
         let forward = postorder(pattern, forward);
@@ -76,53 +61,6 @@ impl Cholesky {
         match tree(&symbolic, pattern) {
             Some(tree) => Cholesky::with_tree(symbolic, tree),
             None => Err(failed(pattern.size(), "analysis: no tree of supernodes")),
-        }
-    }
-
-    fn with_tree(symbolic: SymbolicCholesky<u32>, tree: Tree) -> Result<Cholesky> {
-        let (size, entries) = (symbolic.nrows(), symbolic.len_val());
-        // Whether there is memory is asked first, since `vec!` ends the process where there is none. It leaves the pages to those who first
-        // write to them, which are the threads that factorise.
-        Vec::<f64>::new()
-            .try_reserve_exact(entries)
-            .map_err(|_| failed(size, "not enough memory for the factor"))?;
-        let factor = vec![0.0; entries];
-        let ordered = [vec![0.0; size], vec![0.0; size]];
-        Ok(Cholesky { symbolic, tree, factor, memory: Memory::default(), ordered })
-    }
-
-    /// Number of values in the factor.
-    pub fn factor_entries(&self) -> usize {
-        self.symbolic.len_val()
-    }
-
-    /// Factorise a matrix with the analysed pattern.
-    ///
-    /// # Errors
-    ///
-    /// [`NotPositiveDefinite`], after which there is no factor to solve with.
-    pub fn factor(&mut self, matrix: Symmetric<'_>) -> std::result::Result<(), NotPositiveDefinite> {
-        let Cholesky { symbolic, tree, factor, memory, .. } = self;
-        match supernodes(symbolic, tree) {
-            Some(supernodes) => multifrontal::factor(supernodes, matrix.values, factor, memory),
-            // A matrix without rows.
-            None => Ok(()),
-        }
-    }
-
-    /// Overwrite `x` with `A⁻¹ x`, A being the matrix factorised last.
-    ///
-    /// # Panics
-    ///
-    /// If `x` does not have n entries.
-    pub fn solve(&mut self, x: &mut [f64]) {
-        let Cholesky { symbolic, tree, factor, memory, ordered: [y, solved] } = self;
-        assert_eq!(x.len(), symbolic.nrows(), "one entry per row");
-        if let (Some(supernodes), Some(order)) = (supernodes(symbolic, tree), symbolic.perm()) {
-            let (forward, _) = order.arrays();
-            y.iter_mut().zip(forward).for_each(|(y, &i)| *y = x[i as usize]);
-            substitution::solve(supernodes, factor, [y, solved], memory);
-            forward.iter().zip(&*y).for_each(|(&i, y)| x[i as usize] = *y);
         }
     }
 
@@ -152,6 +90,87 @@ impl Cholesky {
             MemStack::new(&mut scratch),
         );
         Ok(())
+    }
+}
+
+impl<T: Number> Cholesky<T> {
+    /// Analyse another pattern of the same size with the order found for this one. The order is most of the work of an analysis, and
+    /// stays good where few entries differ. The factor of this pattern is released first. A pattern of another size is analysed from
+    /// scratch.
+    ///
+    /// # Errors
+    ///
+    /// As [`Cholesky::analyse`].
+    pub fn analyse_again(self, pattern: &Pattern) -> Result<Cholesky> {
+        let symbolic = self.into_symbolic();
+        match symbolic.perm() {
+            Some(order) if order.len() == pattern.size() => {
+                Cholesky::with_postorder(pattern, order.arrays().0)
+            }
+            _ => Cholesky::analyse(pattern),
+        }
+    }
+
+    fn with_tree(symbolic: SymbolicCholesky<u32>, tree: Tree) -> Result<Cholesky<T>> {
+        let (size, entries) = (symbolic.nrows(), symbolic.len_val());
+        // Whether there is memory is asked first, since `vec!` ends the process where there is none. It leaves the pages to those who first
+        // write to them, which are the threads that factorise.
+        Vec::<T>::new()
+            .try_reserve_exact(entries)
+            .map_err(|_| failed(size, "not enough memory for the factor"))?;
+        let factor = vec![T::ZERO; entries];
+        let ordered = [vec![T::ZERO; size], vec![T::ZERO; size]];
+        Ok(Cholesky { symbolic, tree, factor, arenas: Shelf::default(), desks: Shelf::default(), ordered })
+    }
+
+    /// The same analysis for a factor that is held in other numbers; this factor is released first.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Factorisation`] where memory for the factor is lacking.
+    pub fn held_in<U: Number>(self) -> Result<Cholesky<U>> {
+        let Cholesky { symbolic, tree, factor, arenas, desks, ordered } = self;
+        drop((factor, arenas, desks, ordered));
+        Cholesky::with_tree(symbolic, tree)
+    }
+
+    fn into_symbolic(self) -> SymbolicCholesky<u32> {
+        self.symbolic
+    }
+
+    /// Number of values in the factor.
+    pub fn factor_entries(&self) -> usize {
+        self.symbolic.len_val()
+    }
+
+    /// Factorise a matrix with the analysed pattern.
+    ///
+    /// # Errors
+    ///
+    /// [`NotPositiveDefinite`], after which there is no factor to solve with.
+    pub fn factor(&mut self, matrix: Symmetric<'_>) -> std::result::Result<(), NotPositiveDefinite> {
+        let Cholesky { symbolic, tree, factor, arenas, .. } = self;
+        match supernodes(symbolic, tree) {
+            Some(supernodes) => multifrontal::factor(supernodes, matrix.values, factor, arenas),
+            // A matrix without rows.
+            None => Ok(()),
+        }
+    }
+
+    /// Overwrite `x` with `A⁻¹ x`, A being the matrix factorised last.
+    ///
+    /// # Panics
+    ///
+    /// If `x` does not have n entries.
+    pub fn solve(&mut self, x: &mut [f64]) {
+        let Cholesky { symbolic, tree, factor, desks, ordered: [y, solved], .. } = self;
+        assert_eq!(x.len(), symbolic.nrows(), "one entry per row");
+        if let (Some(supernodes), Some(order)) = (supernodes(symbolic, tree), symbolic.perm()) {
+            let (forward, _) = order.arrays();
+            y.iter_mut().zip(forward).for_each(|(y, &i)| *y = T::nearest(x[i as usize]));
+            substitution::solve(supernodes, factor, [y, solved], desks);
+            forward.iter().zip(&*y).for_each(|(&i, y)| x[i as usize] = y.double());
+        }
     }
 }
 

@@ -2,7 +2,7 @@
 //!
 //! ```
 //! use ricci::Control;
-//! use ricci::linalg::conjugate::{Goal, solve};
+//! use ricci::linalg::conjugate::{Conjugate, Goal, Problem};
 //! use ricci::linalg::{Cholesky, Pattern, Symmetric};
 //! let pattern = Pattern::new(2, &[(0, 1)])?;
 //! let mut factor = Cholesky::analyse(&pattern)?;
@@ -11,12 +11,12 @@
 //! let mut x = [3.0, 4.0];
 //! let goal = Goal { left: 1e-14, sum: f64::INFINITY };
 //! let matrix = Symmetric { pattern: &pattern, values: &[2.0, 1.0, 3.0] };
-//! assert!(solve(matrix, &mut factor, &mut x, goal, &Control::new())?);
+//! assert!(Conjugate::default().solve(Problem { matrix, goal }, &mut factor, &mut x, &Control::new())?);
 //! assert!(x.iter().all(|x| (x - 1.0).abs() < 1e-14));
 //! # Ok::<(), ricci::Error>(())
 //! ```
 
-use super::{Cholesky, Symmetric, dot};
+use super::{Cholesky, Number, Symmetric, dot};
 use crate::control::Control;
 use crate::error::Result;
 
@@ -43,65 +43,89 @@ impl Goal {
     }
 }
 
-/// Overwrite `x`, which holds b, with a solution of `A x = b`, found by conjugate gradients \[HS52\] that are preconditioned by the
-/// last matrix that `near` has factorised. Sums are formed in one order whatever the threads.
-///
-/// False, and `x` without meaning, where a factorisation of A is the better way: where A is found not to be positive definite, or the
-/// residuals fall more slowly than it takes to be there after a few steps.
-///
-/// # Errors
-///
-/// [`crate::Error::Cancelled`].
-///
-/// # Panics
-///
-/// If `x` or the preconditioner has not as many entries as A has rows.
-pub fn solve(
-    matrix: Symmetric<'_>,
-    near: &mut Cholesky,
-    x: &mut [f64],
-    goal: Goal,
-    control: &Control,
-) -> Result<bool> {
-    let mut residual = x.to_vec();
-    x.fill(0.0);
-    let first = goal.excess(&residual);
-    if first <= 1.0 {
-        return Ok(true);
-    }
-    let mut direction = residual.clone();
-    near.solve(&mut direction);
-    let mut product = dot(&residual, &direction);
-    let [mut image, mut corrected] = [(); 2].map(|()| vec![0.0; x.len()]);
-    for iteration in 1..=ITERATIONS {
-        control.check()?;
-        matrix.product(&direction, &mut image);
-        let curvature = dot(&direction, &image);
-        // The comparisons are false where something is no number.
-        if !(curvature > 0.0 && product > 0.0) {
-            return Ok(false);
+/// A matrix with what is asked of a solution.
+#[derive(Debug, Clone, Copy)]
+pub struct Problem<'a> {
+    /// The matrix.
+    pub matrix: Symmetric<'a>,
+    /// What is asked.
+    pub goal: Goal,
+}
+
+/// The vectors of a solution, whose memory is kept from one to the next.
+#[derive(Default)]
+pub struct Conjugate {
+    residual: Vec<f64>,
+    direction: Vec<f64>,
+    image: Vec<f64>,
+    corrected: Vec<f64>,
+}
+
+impl Conjugate {
+    /// Overwrite `x`, which holds b, with a solution of `A x = b`, found by conjugate gradients \[HS52\] that are preconditioned by the
+    /// last matrix that `near` has factorised. Sums are formed in one order whatever the threads.
+    ///
+    /// False, and `x` without meaning, where a factorisation of A is the better way: where A is found not to be positive definite, or the
+    /// residuals fall more slowly than it takes to be there after a few steps.
+    ///
+    /// # Errors
+    ///
+    /// [`crate::Error::Cancelled`].
+    ///
+    /// # Panics
+    ///
+    /// If `x` or the preconditioner has not as many entries as A has rows.
+    pub fn solve<T: Number>(
+        &mut self,
+        Problem { matrix, goal }: Problem<'_>,
+        near: &mut Cholesky<T>,
+        x: &mut [f64],
+        control: &Control,
+    ) -> Result<bool> {
+        let Conjugate { residual, direction, image, corrected } = self;
+        for vector in [&mut *residual, &mut *direction] {
+            vector.clear();
+            vector.extend_from_slice(x);
         }
-        let length = product / curvature;
-        for (i, x) in x.iter_mut().enumerate() {
-            *x += length * direction[i];
-            residual[i] -= length * image[i];
-        }
-        let now = goal.excess(&residual);
-        if now <= 1.0 {
+        image.resize(x.len(), 0.0);
+        corrected.resize(x.len(), 0.0);
+        x.fill(0.0);
+        let first = goal.excess(residual);
+        if first <= 1.0 {
             return Ok(true);
         }
-        let in_time = first.powf(1.0 - f64::from(iteration) / f64::from(ITERATIONS));
-        if !(iteration == 1 || now <= in_time) {
-            return Ok(false);
+        near.solve(direction);
+        let mut product = dot(residual, direction);
+        for iteration in 1..=ITERATIONS {
+            control.check()?;
+            matrix.product(direction, image);
+            let curvature = dot(direction, image);
+            // The comparisons are false where something is no number.
+            if !(curvature > 0.0 && product > 0.0) {
+                return Ok(false);
+            }
+            let length = product / curvature;
+            for (i, x) in x.iter_mut().enumerate() {
+                *x += length * direction[i];
+                residual[i] -= length * image[i];
+            }
+            let now = goal.excess(residual);
+            if now <= 1.0 {
+                return Ok(true);
+            }
+            let in_time = first.powf(1.0 - f64::from(iteration) / f64::from(ITERATIONS));
+            if !(iteration == 1 || now <= in_time) {
+                return Ok(false);
+            }
+            corrected.copy_from_slice(residual);
+            near.solve(corrected);
+            let next = dot(residual, corrected);
+            let keep = next / product;
+            direction.iter_mut().zip(&*corrected).for_each(|(d, c)| *d = c + keep * *d);
+            product = next;
         }
-        corrected.copy_from_slice(&residual);
-        near.solve(&mut corrected);
-        let next = dot(&residual, &corrected);
-        let keep = next / product;
-        direction.iter_mut().zip(&corrected).for_each(|(d, c)| *d = c + keep * *d);
-        product = next;
+        Ok(false)
     }
-    Ok(false)
 }
 
 #[cfg(test)]
@@ -135,7 +159,8 @@ mod tests {
         let mut solved = |values: &[f64], left: f64| {
             let mut x = b.clone();
             let (matrix, goal) = (Symmetric { pattern: &pattern, values }, Goal { left, sum: left });
-            let found = solve(matrix, &mut near, &mut x, goal, &Control::new()).unwrap();
+            let problem = Problem { matrix, goal };
+            let found = Conjugate::default().solve(problem, &mut near, &mut x, &Control::new()).unwrap();
             let mut residual = b.clone();
             matrix.residual(&x, &b, &mut residual);
             (found, goal.excess(&residual))
@@ -152,6 +177,7 @@ mod tests {
             (Symmetric { pattern: &pattern, values: &values }, Goal { left: 1e-11, sum: 1e-11 });
         let cancelled = Control::new();
         cancelled.cancel();
-        assert!(solve(matrix, &mut near, &mut b.clone(), goal, &cancelled).is_err());
+        let problem = Problem { matrix, goal };
+        assert!(Conjugate::default().solve(problem, &mut near, &mut b.clone(), &cancelled).is_err());
     }
 }

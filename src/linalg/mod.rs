@@ -21,12 +21,15 @@ mod front;
 pub mod gmres;
 pub mod lu;
 mod multifrontal;
+pub mod number;
 mod order;
 pub mod pattern;
+mod pool;
 mod substitution;
 mod tree;
 
 pub use cholesky::Cholesky;
+pub use number::Number;
 pub use pattern::{Pattern, Symmetric};
 
 /// The sum of products, in the order of the entries whatever the threads.

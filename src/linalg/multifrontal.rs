@@ -7,12 +7,14 @@
 use super::front::{
     Factored, NotPositiveDefinite, PANEL, eliminate, eliminate_panels, outer, outer_strip, scratch,
 };
+use super::number::Number;
+use super::pool::{Shelf, lock};
 use super::tree::{Segment, Supernodes, packed};
 use crate::parallel::each;
 use faer::MatRef;
 use faer::dyn_stack::MemBuffer;
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Mutex, PoisonError};
 
 /// Columns of what is handed on that one thread takes at a time.
 const STRIP: usize = 96;
@@ -20,18 +22,14 @@ const STRIP: usize = 96;
 /// Memory of a thread that works through bundles.
 pub(super) struct Arena {
     /// What waits for its parent, packed by columns; the last one on top.
-    pub waiting: Vec<f64>,
+    waiting: Vec<f64>,
+    /// Columns of a supernode, in doubles whatever the factor is held in.
+    own: Vec<f64>,
     /// The lower triangle that a supernode hands on, in a square.
-    pub front: Vec<f64>,
+    front: Vec<f64>,
     /// For diagonal blocks of up to `widest` columns.
     scratch: MemBuffer,
     widest: usize,
-}
-
-/// Memory that is kept from one factorisation to the next.
-#[derive(Default)]
-pub(super) struct Memory {
-    arenas: Mutex<Vec<Arena>>,
 }
 
 /// What a child hands on: a lower triangle, packed by columns.
@@ -63,18 +61,18 @@ impl Update<'_> {
     }
 }
 
-/// Overwrite `factor` with that of the matrix with these values.
-pub(super) fn factor(
+/// Overwrite `factor` with that of the matrix with these values. It is computed in doubles.
+pub(super) fn factor<T: Number>(
     supernodes: Supernodes<'_>,
     matrix: &[f64],
-    factor: &mut [f64],
-    memory: &Memory,
+    factor: &mut [T],
+    memory: &Shelf<Arena>,
 ) -> Factored {
     let segments = &supernodes.tree.segments;
     if let [bundle] = &segments[..]
         && !bundle.is_heavy
     {
-        return memory.bundle(supernodes, bundle, matrix, factor).map(|_| ());
+        return memory.lend(|arena| arena.bundle(supernodes, bundle, matrix, factor));
     }
     let parts = parts(segments, factor, |s| supernodes.values_start(s));
     let failed = AtomicBool::new(false);
@@ -84,10 +82,10 @@ pub(super) fn factor(
         if failed.load(Ordering::Relaxed) {
             return;
         }
-        match memory.bundle(supernodes, segment, matrix, part) {
-            Ok(updates) => *lock(&handed_on[k]) = updates,
+        memory.lend(|arena| match arena.bundle(supernodes, segment, matrix, part) {
+            Ok(()) => *lock(&handed_on[k]) = arena.waiting.clone(),
             Err(NotPositiveDefinite) => failed.store(true, Ordering::Relaxed),
-        }
+        });
     });
     memory.release();
     if failed.into_inner() {
@@ -101,11 +99,11 @@ pub(super) fn factor(
 }
 
 /// The part of each segment in an array, `start(s)` telling where those of a supernode start.
-pub(super) fn parts<'a>(
+pub(super) fn parts<'a, T>(
     segments: &'a [Segment],
-    mut rest: &'a mut [f64],
+    mut rest: &'a mut [T],
     start: impl Fn(usize) -> usize,
-) -> Vec<(usize, &'a Segment, &'a mut [f64])> {
+) -> Vec<(usize, &'a Segment, &'a mut [T])> {
     let mut parts = Vec::with_capacity(segments.len());
     for (k, segment) in segments.iter().enumerate() {
         let length = start(segment.supernodes.end) - start(segment.supernodes.start);
@@ -116,77 +114,54 @@ pub(super) fn parts<'a>(
     parts
 }
 
-pub(super) fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
-impl Memory {
-    /// What the roots of a bundle hand on, one after the other.
-    fn bundle(
-        &self,
-        supernodes: Supernodes<'_>,
-        bundle: &Segment,
-        matrix: &[f64],
-        part: &mut [f64],
-    ) -> Result<Vec<f64>, NotPositiveDefinite> {
-        self.lend(|arena| {
-            arena.prepare(supernodes);
-            let mut rest = part;
-            for s in bundle.supernodes.clone() {
-                let length = supernodes.values_start(s + 1) - supernodes.values_start(s);
-                let (own, after) = rest.split_at_mut(length);
-                rest = after;
-                arena.supernode(supernodes, s, matrix, own)?;
-            }
-            Ok(arena.waiting.clone())
-        })
-    }
-
-    /// Run `work` with the memory of a thread, in which nothing waits.
-    pub fn lend<R>(&self, work: impl FnOnce(&mut Arena) -> R) -> R {
-        let kept = lock(&self.arenas).pop();
-        let mut arena = kept.unwrap_or_else(Arena::new);
-        arena.waiting.clear();
-        let result = work(&mut arena);
-        lock(&self.arenas).push(arena);
-        result
-    }
-
-    /// Release what large factorisations need beside the factor.
-    fn release(&self) {
-        lock(&self.arenas).clear();
+impl Default for Arena {
+    fn default() -> Arena {
+        let [waiting, own, front] = [(); 3].map(|()| Vec::new());
+        Arena { waiting, own, front, scratch: scratch(0), widest: 0 }
     }
 }
 
 impl Arena {
-    fn new() -> Arena {
-        Arena { waiting: Vec::new(), front: Vec::new(), scratch: scratch(0), widest: 0 }
+    /// The factor of a bundle into its part; what its roots hand on waits, one after the other.
+    fn bundle<T: Number>(
+        &mut self,
+        supernodes: Supernodes<'_>,
+        bundle: &Segment,
+        matrix: &[f64],
+        part: &mut [T],
+    ) -> Factored {
+        self.prepare(supernodes);
+        let mut rest = part;
+        for s in bundle.supernodes.clone() {
+            let length = supernodes.values_start(s + 1) - supernodes.values_start(s);
+            let (part, after) = rest.split_at_mut(length);
+            rest = after;
+            self.supernode(supernodes, s, matrix, length)?;
+            part.iter_mut().zip(&self.own).for_each(|(to, &x)| *to = T::nearest(x));
+        }
+        Ok(())
     }
 
     fn prepare(&mut self, supernodes: Supernodes<'_>) {
         let tree = supernodes.tree;
+        self.waiting.clear();
         self.waiting.reserve_exact(tree.most_waiting);
-        self.hold(tree.most_below * tree.most_below);
+        let hold = |kept: &mut Vec<f64>, numbers: usize| {
+            if kept.len() < numbers {
+                *kept = vec![0.0; numbers];
+            }
+        };
+        hold(&mut self.front, tree.most_below * tree.most_below);
+        hold(&mut self.own, tree.most_values);
         if self.widest < tree.widest {
             (self.scratch, self.widest) = (scratch(tree.widest), tree.widest);
         }
     }
 
-    /// A front of at least so many numbers.
-    pub fn hold(&mut self, numbers: usize) {
-        if self.front.len() < numbers {
-            self.front = vec![0.0; numbers];
-        }
-    }
-
-    fn supernode(
-        &mut self,
-        supernodes: Supernodes<'_>,
-        s: usize,
-        matrix: &[f64],
-        own: &mut [f64],
-    ) -> Factored {
-        let Arena { waiting, front, scratch, .. } = self;
+    /// The columns of one supernode, `length` numbers, into `own`.
+    fn supernode(&mut self, supernodes: Supernodes<'_>, s: usize, matrix: &[f64], length: usize) -> Factored {
+        let Arena { waiting, own, front, scratch, .. } = self;
+        let own = &mut own[..length];
         let (width, m) = (supernodes.columns(s).len(), supernodes.rows(s).len());
         let height = width + m;
         let mut top = waiting.len();
@@ -220,12 +195,12 @@ impl Arena {
     }
 }
 
-/// What a heavy supernode hands on, packed.
-fn heavy_supernode(
+/// The factor of a heavy supernode into its part; returns what it hands on, packed.
+fn heavy_supernode<T: Number>(
     supernodes: Supernodes<'_>,
     segment: &Segment,
     matrix: &[f64],
-    own: &mut [f64],
+    part: &mut [T],
     handed_on: &[Mutex<Vec<f64>>],
 ) -> Result<Vec<f64>, NotPositiveDefinite> {
     let s = segment.supernodes.start;
@@ -233,9 +208,9 @@ fn heavy_supernode(
     let height = width + m;
     let children = Children::new(supernodes, s, handed_on);
     let (sources, places) = supernodes.entries(s);
+    let mut own = vec![0.0; part.len()];
     each(own.chunks_mut(PANEL * height).enumerate().collect(), |(p, panel)| {
         let start = p * PANEL * height;
-        panel.fill(0.0);
         let [from, to] =
             [start, start + panel.len()].map(|x| places.partition_point(|&at| (at as usize) < x));
         for k in from..to {
@@ -244,13 +219,15 @@ fn heavy_supernode(
         let columns = p * PANEL..p * PANEL + panel.len() / height;
         children.updates().for_each(|update| update.add(panel, columns.clone(), 0, height));
     });
-    eliminate_panels(own, width, height)?;
+    eliminate_panels(&mut own, width, height)?;
+    let panels = part.chunks_mut(PANEL * height).zip(own.chunks(PANEL * height)).collect();
+    each(panels, |(to, panel)| to.iter_mut().zip(panel).for_each(|(to, &x)| *to = T::nearest(x)));
     // Strips one after the other, each from the row of its first column on.
     let rows = |p: usize| m - p * STRIP;
     let strips = m.div_ceil(STRIP);
     let size: usize = (0..strips).map(|p| rows(p) * STRIP.min(rows(p))).sum();
     let mut front = vec![0.0; size];
-    let below = MatRef::from_column_major_slice(&*own, height, width).subrows(width, m);
+    let below = MatRef::from_column_major_slice(&own, height, width).subrows(width, m);
     let mut parts = Vec::with_capacity(strips);
     let mut rest = &mut front[..];
     for p in 0..strips {

@@ -74,9 +74,21 @@ const PI_LOW: f64 = 1.224_646_799_147_353_2e-16;
 /// K from the corner angles of each face, in face order. What each sum loses to rounding is added up too and put back at the end, so
 /// that a vertex of a thousand triangles is as exact as one of six.
 pub fn curvature_from_angles(mesh: &Mesh, angles: impl Iterator<Item = [f64; 3]>) -> PerVertex<f64> {
-    let halves = |v| if mesh.is_boundary_vertex(v) { 1.0 } else { 2.0 };
-    let mut at = PerVertex::from_fn(mesh.n_vertices(), |v| halves(v) * PI);
-    let mut low = PerVertex::from_fn(mesh.n_vertices(), |v| halves(v) * PI_LOW);
+    let [mut at, mut low] = [(); 2].map(|()| PerVertex::filled(mesh.n_vertices(), 0.0));
+    curvature_into(mesh, angles, [&mut at, &mut low]);
+    at
+}
+
+/// [`curvature_from_angles`] into the first of two arrays of V entries; the second is memory for what its sums lose.
+pub(crate) fn curvature_into(
+    mesh: &Mesh,
+    angles: impl Iterator<Item = [f64; 3]>,
+    [at, low]: [&mut PerVertex<f64>; 2],
+) {
+    for v in mesh.vertices() {
+        let halves = if mesh.is_boundary_vertex(v) { 1.0 } else { 2.0 };
+        (at[v], low[v]) = (halves * PI, halves * PI_LOW);
+    }
     for (f, angles) in angles.enumerate() {
         for (v, angle) in mesh.face_vertices(FaceId::from(f)).into_iter().zip(angles) {
             let (sum, lost) = two_sum(at[v], -angle);
@@ -84,7 +96,6 @@ pub fn curvature_from_angles(mesh: &Mesh, angles: impl Iterator<Item = [f64; 3]>
         }
     }
     mesh.vertices().for_each(|v| at[v] += low[v]);
-    at
 }
 
 /// Total area of the metric with these edge lengths (E entries).
