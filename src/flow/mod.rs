@@ -90,7 +90,7 @@ pub struct Flow {
     /// The present solve's target per vertex of the present triangulation.
     target: PerVertex<f64>,
     system: Option<System>,
-    /// Whether a factor in single precision has always been precise enough.
+    /// Whether a factor in single precision has been precise enough in this solve.
     single_serves: bool,
     /// Flips since `system` was made.
     unseen_flips: usize,

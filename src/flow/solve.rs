@@ -148,9 +148,11 @@ impl Flow {
         report.double_double = precise && self.options.method == Method::Newton;
         let mut seconds = 0.0;
         self.log.clear();
+        let single_serves = self.single_serves;
         let mirror = self.mirror.clone();
         let pool = self.pool.clone();
         let end = timed(&mut seconds, || pool.run(|| self.flow(&mut report, control)));
+        self.single_serves = single_serves;
         if self.mirror.is_some() != mirror.is_some() {
             (self.mirror, self.system) = (mirror, None);
         }
