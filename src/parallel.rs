@@ -1,7 +1,7 @@
 //! The thread pool of one call, and loops whose result does not depend on how many threads run them.
 //!
 //! The library never touches rayon's global pool: each solver owns its own, and everything parallel runs
-//! inside [`Pool::run`]. A loop writes each element from one fixed computation, so results are bit-identical
+//! inside [`Pool::run`], through the loops of this module. A pool of one thread is the caller's own: none is started. A loop writes each element from one fixed computation, so results are bit-identical
 //! for any thread count.
 //!
 //! ```
@@ -14,6 +14,7 @@
 
 use crate::error::{Error, Result};
 use rayon::prelude::*;
+use std::cell::Cell;
 use std::sync::{Mutex, PoisonError};
 use std::thread::JoinHandle;
 
@@ -24,17 +25,23 @@ const CHUNK: usize = 1024;
 /// Most threads of a pool. No step of the library is divided finely enough for more to be of use.
 pub const MAX_THREADS: usize = 256;
 
+thread_local! {
+    /// This thread runs the work of a pool that has no other.
+    static ALONE: Cell<bool> = const { Cell::new(false) };
+}
+
 /// Thread pool of one solver or call. Its threads have ended when it is dropped: a host that unloads the
 /// library then leaves nothing behind.
 pub struct Pool {
-    /// `None` only while the pool is dropped.
+    /// `None` for a pool of one thread, and while the pool is dropped.
     pool: Option<rayon::ThreadPool>,
     workers: Vec<JoinHandle<()>>,
     threads: usize,
 }
 
 impl Pool {
-    /// A pool of `threads` threads; 0 means one per available core, more than [`MAX_THREADS`] means that many.
+    /// A pool of `threads` threads; 0 means one per available core, more than [`MAX_THREADS`] means that many. One thread is that
+    /// which calls [`Pool::run`].
     ///
     /// # Errors
     ///
@@ -42,6 +49,9 @@ impl Pool {
     pub fn new(threads: usize) -> Result<Pool> {
         let cores = std::thread::available_parallelism().map_or(1, |n| n.get());
         let threads = if threads == 0 { cores } else { threads.min(MAX_THREADS) };
+        if threads == 1 {
+            return Ok(Pool { pool: None, workers: Vec::new(), threads });
+        }
         let mut workers = Vec::new();
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(threads)
@@ -64,9 +74,26 @@ impl Pool {
     pub fn run<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
         match &self.pool {
             Some(pool) => pool.install(work),
-            None => work(),
+            None => alone(work),
         }
     }
+}
+
+/// Run `work` on this thread, nothing of it on others.
+fn alone<R>(work: impl FnOnce() -> R) -> R {
+    struct Before(bool);
+    impl Drop for Before {
+        fn drop(&mut self) {
+            ALONE.set(self.0);
+        }
+    }
+    let _before = Before(ALONE.replace(true));
+    work()
+}
+
+/// Whether other threads may take part of the work of this one.
+fn is_shared() -> bool {
+    !ALONE.get() && rayon::current_thread_index().is_some()
 }
 
 /// Run `work` inside a pool: the one that the caller is in, else one of `threads` threads ([`Pool::new`]) for this call alone.
@@ -75,7 +102,7 @@ impl Pool {
 ///
 /// Those of `work` and [`Pool::new`].
 pub fn within<R: Send>(threads: usize, work: impl FnOnce() -> Result<R> + Send) -> Result<R> {
-    if rayon::current_thread_index().is_some() { work() } else { Pool::new(threads)?.run(work) }
+    if ALONE.get() || is_shared() { work() } else { Pool::new(threads)?.run(work) }
 }
 
 impl Drop for Pool {
@@ -117,7 +144,7 @@ pub fn fill_both<A: Send, B: Send>(a: &mut [A], b: &mut [B], f: impl Fn(usize) -
 
 /// `work` on each item, in parallel when called inside a pool, one after the other outside.
 pub fn each<T: Send>(items: Vec<T>, work: impl Fn(T) + Sync) {
-    if items.len() <= 1 || is_alone() {
+    if items.len() <= 1 || !is_shared() {
         items.into_iter().for_each(work);
         return;
     }
@@ -137,17 +164,12 @@ pub fn map<T: Send>(n: usize, f: impl Fn(usize) -> T + Sync) -> Vec<T> {
 
 /// Both results, side by side inside a pool of several threads, else one after the other.
 pub fn join<A: Send, B: Send>(a: impl FnOnce() -> A + Send, b: impl FnOnce() -> B + Send) -> (A, B) {
-    if is_alone() { (a(), b()) } else { rayon::join(a, b) }
-}
-
-/// Whether no other thread can share the work: outside every pool, and in a pool of one thread.
-fn is_alone() -> bool {
-    rayon::current_thread_index().is_none() || rayon::current_num_threads() == 1
+    if is_shared() { rayon::join(a, b) } else { (a(), b()) }
 }
 
 /// Hands each chunk with its number to `work`, which whoever comes to it locks.
 fn in_chunks<C: Send>(chunks: impl ExactSizeIterator<Item = C>, work: impl Fn(usize, &mut C) + Sync) {
-    if chunks.len() <= 1 || is_alone() {
+    if chunks.len() <= 1 || !is_shared() {
         chunks.enumerate().for_each(|(c, mut chunk)| work(c, &mut chunk));
         return;
     }
@@ -157,16 +179,39 @@ fn in_chunks<C: Send>(chunks: impl ExactSizeIterator<Item = C>, work: impl Fn(us
 
 /// `work(c)` for every c below `n`. The machinery of rayon is compiled here, once for all loops.
 fn share(n: usize, work: &(dyn Fn(usize) + Sync)) {
-    if n <= 1 || is_alone() {
-        (0..n).for_each(work);
-    } else {
+    if n > 1 && is_shared() {
         (0..n).into_par_iter().for_each(work);
+    } else {
+        (0..n).for_each(work);
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::thread;
+
+    #[test]
+    fn one_thread_is_that_of_the_caller_and_shares_nothing() {
+        let (here, one, two) = (thread::current().id(), Pool::new(1).unwrap(), Pool::new(2).unwrap());
+        let threads = || map(100, |_| thread::current().id());
+        assert!(one.run(threads).iter().all(|id| *id == here));
+        assert!(one.run(|| within(3, || Ok(threads()))).unwrap().iter().all(|id| *id == here));
+        let ids = one.run(|| join(|| thread::current().id(), || thread::current().id()));
+        assert_eq!(ids, (here, here));
+        // Inside a pool of two threads as well, which is shared again afterwards.
+        two.run(|| {
+            let worker = thread::current().id();
+            assert!(worker != here && one.run(threads).iter().all(|id| *id == worker));
+            assert!(is_shared());
+        });
+        // A panic leaves the thread as it was.
+        assert!(
+            std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| one.run(|| panic!("on purpose"))))
+                .is_err()
+        );
+        assert!(within(2, || Ok(thread::current().id())).unwrap() != here);
+    }
 
     #[test]
     fn fill_reaches_every_element_once_for_any_thread_count() {

@@ -11,6 +11,13 @@ use ricci::mesh::{Mesh, Point};
 use std::path::PathBuf;
 use std::sync::OnceLock;
 
+/// Whether this input is one of the few that make long work, one in so many: all of its bytes decide. What comes of changing such an input is none
+/// mostly, so that long work does not take most of the time once it is in the corpus.
+pub fn is_rare(input: &[u8], one_in: u32) -> bool {
+    let sum = input.iter().fold(0_u32, |sum, &b| sum.wrapping_mul(31).wrapping_add(b.into()));
+    (sum ^ (sum >> 15)).is_multiple_of(one_in)
+}
+
 /// A position for a vertex on a lattice of 27 places: many are alike.
 pub fn lattice(v: u32) -> Point {
     [f64::from(v % 3), f64::from(v / 3 % 3), f64::from(v / 9 % 3)]

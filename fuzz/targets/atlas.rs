@@ -10,6 +10,9 @@ use ricci::structure::{AffineSource, AtlasOptions, Charts, Structure, atlas};
 use ricci::{Control, Error, flow};
 use serde_json::Value;
 
+/// Steps of a flow, at most: one to a target that it reaches takes fewer.
+const MOST_STEPS: u8 = 24;
+
 const STRUCTURES: [Structure; 5] = [
     Structure::Conformal,
     Structure::Spherical,
@@ -32,14 +35,18 @@ libfuzzer_sys::fuzz_target!(|data: &[u8]| {
     let mut bytes = data.iter().copied();
     let (Some(how), Some(steps)) = (bytes.next(), bytes.next()) else { return };
     let singular = bytes.next().filter(|b| *b > 200).map(|b| VertexId::from(usize::from(b - 200)));
-    let Some(surface) = ricci_fuzz::surfaces::surface(&mut bytes) else { return };
+    let Some(surface) = ricci_fuzz::surfaces::surface(data, &mut bytes) else { return };
     let options = AtlasOptions {
         structure: STRUCTURES[usize::from(how) % 5],
         charts: if how & 32 == 0 { Charts::Stars } else { Charts::Patches },
         source: if how & 64 == 0 { AffineSource::Flow } else { AffineSource::Form },
         radius: (how & 128 != 0).then_some(0.5),
         singular,
-        flow: flow::Options { max_iterations: usize::from(steps), threads: 1, ..flow::Options::default() },
+        flow: flow::Options {
+            max_iterations: usize::from(steps % MOST_STEPS),
+            threads: 1,
+            ..flow::Options::default()
+        },
     };
     let atlas = match atlas(&surface, &options, &Control::new()) {
         Ok(atlas) => atlas,

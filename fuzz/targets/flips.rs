@@ -14,9 +14,14 @@ const ROUNDING: f64 = 1e-6;
 libfuzzer_sys::fuzz_target!(|data: &[u8]| {
     let mut bytes = data.iter().copied();
     let Some(how) = bytes.next() else { return };
-    let Some(surface) = ricci_fuzz::surfaces::surface(&mut bytes) else { return };
-    if how & 1 == 0 { by_hand(surface.mesh(), bytes) } else { in_a_flow(surface, how, bytes) }
+    let Some(surface) = ricci_fuzz::surfaces::surface(data, &mut bytes) else { return };
+    if how & 1 == 0 { by_hand(surface.mesh(), how, bytes) } else { in_a_flow(surface, how, bytes) }
 });
+
+/// Steps of a flow: few are enough for targets that are reached at all.
+const MOST_STEPS: usize = 16;
+/// Flips of one input, and of one in 32.
+const FLIPS: [usize; 2] = [16, 200];
 
 /// Where every half-edge starts, and the faces beside it.
 fn shape(mesh: &Mesh) -> Vec<(VertexId, Option<FaceId>)> {
@@ -27,10 +32,11 @@ fn shape(mesh: &Mesh) -> Vec<(VertexId, Option<FaceId>)> {
 }
 
 /// Any flips leave a surface of the same topology; four of one edge leave it as it was; curves are followed.
-fn by_hand(given: &Mesh, bytes: impl Iterator<Item = u8>) {
+fn by_hand(given: &Mesh, how: u8, bytes: impl Iterator<Item = u8>) {
     let mut mesh = given.clone();
     let mut curves = NormalCoordinates::new(&mesh);
-    for b in bytes.take(200) {
+    let most = FLIPS[usize::from(how & 0x3e == 0x3e)];
+    for b in bytes.take(most) {
         let e = EdgeId::from(usize::from(b) % mesh.n_edges());
         let before = shape(&mesh);
         let mut turned = mesh.clone();
@@ -66,7 +72,8 @@ fn target(surface: &Surface, bytes: &mut impl Iterator<Item = u8>) -> PerVertex<
 fn in_a_flow(surface: Surface, how: u8, mut bytes: impl Iterator<Item = u8>) {
     let scheme = if how & 2 == 0 { Scheme::Yamabe } else { Scheme::Inversive };
     let target = Target::All(target(&surface, &mut bytes));
-    let options = Options { max_iterations: usize::from(how >> 2), threads: 1, ..Options::default() };
+    let options =
+        Options { max_iterations: usize::from(how >> 2) % MOST_STEPS, threads: 1, ..Options::default() };
     let given = surface.mesh().clone();
     let control = Control::new();
     let solution = match flow::flow(surface, Class::new(scheme, Space::E2), &target, &options, &control) {

@@ -21,6 +21,7 @@ impl Flow {
     /// [`Error::Cancelled`].
     pub fn new(surface: Surface, class: Class, options: &Options, control: &Control) -> Result<Flow> {
         control.check()?;
+        let pool = Arc::new(Pool::new(options.threads)?);
         let origin = match is_rigid(surface.geometry(), class, options) {
             true => Origin::rigid(surface, class)?,
             false => {
@@ -32,10 +33,10 @@ impl Flow {
                     let fits = surface.mesh().is_closed() || !options.pinned.is_empty() || one_copy.is_half;
                     if fits { Ok(one_copy) } else { start(true) }
                 };
-                Pool::new(options.threads)?.run(begin)?
+                pool.run(begin)?
             }
         };
-        Flow::go_on(Solution::start(origin), options)
+        Flow::go_on(Solution::start(origin), options, pool)
     }
 
     /// Go on from a metric of the surface: on its triangulation, from its u.
@@ -55,7 +56,7 @@ impl Flow {
             Some(class) if !fits && !is_rigid(from.surface().geometry(), class, options) => {
                 Flow::new(from.surface().clone(), class, options, control)
             }
-            _ => Flow::go_on(from.clone(), options),
+            _ => Flow::go_on(from.clone(), options, Arc::new(Pool::new(options.threads)?)),
         }
     }
 
@@ -68,10 +69,11 @@ impl Flow {
     /// Those of [`Metric::lengths`]; options out of their range.
     pub fn from_metric(mesh: Mesh, metric: Metric, options: &Options) -> Result<Flow> {
         let follows = may_flip(options, metric.space);
-        Flow::go_on(Solution::start(Origin::of_metric(mesh, &metric, follows)?), options)
+        let pool = Arc::new(Pool::new(options.threads)?);
+        Flow::go_on(Solution::start(Origin::of_metric(mesh, &metric, follows)?), options, pool)
     }
 
-    fn go_on(mut now: Solution, options: &Options) -> Result<Flow> {
+    fn go_on(mut now: Solution, options: &Options, pool: Arc<Pool>) -> Result<Flow> {
         options.check()?;
         let (origin, mesh) = (now.origin.clone(), now.mesh.clone());
         let rigid = origin.class.map_or(!may_flip(options, now.metric.space), |class| {
@@ -89,7 +91,6 @@ impl Flow {
             }
         }
         now.threads = options.threads;
-        let pool = Arc::new(Pool::new(options.threads)?);
         pool.run(|| now.metric.check_domain(&mesh))?;
         let mut flow = Flow {
             start: now.metric.u.clone(),
@@ -179,7 +180,8 @@ impl Flow {
         };
         let fixed = &self.options.fixed_edges;
         let double = || Origin::delaunay(surface.clone(), *class, true, fixed, control);
-        let mut flow = Flow::go_on(Solution::start(self.pool.run(double)?), &self.options)?;
+        let mut flow =
+            Flow::go_on(Solution::start(self.pool.run(double)?), &self.options, self.pool.clone())?;
         if let Some(double) = flow.now.double() {
             // Edges between imaginary circles may have no length there before they are flipped: then it begins from its own start.
             let u = double.spread_vertices(&self.metric.u)?;

@@ -303,9 +303,9 @@ impl SurfaceDomain {
                 let knots: Vec<Complex> =
                     patches[g.index()].knots.iter().flatten().map(|&p| to.of(p)).collect();
                 let at = |to: &Similarity| self.corners[g].map(|p| to.of(p));
+                let here = at(&to);
                 let is_same = |other: &Way| {
-                    let pairs = at(&other.to).into_iter().zip(at(&to));
-                    other.face == g && pairs.into_iter().all(|(p, q)| distance(p, q) < SAME)
+                    other.face == g && at(&other.to).into_iter().zip(here).all(|(p, q)| distance(p, q) < SAME)
                 };
                 if overlaps(&knots, self.corners[f], -REACH) && !found.iter().any(is_same) {
                     found.push(Way { face: g, to, around: around.or(way.around) });

@@ -20,6 +20,7 @@ use crate::error::{Error, Result};
 use crate::geometry::{Motion, Space, Twofold};
 use crate::mesh::{HalfedgeId, Mesh, PerHalfedge, PerVertex, VertexId};
 use crate::metric::Surface;
+use crate::parallel::join;
 use crate::topology::{CutGraph, FundamentalDomain, HomotopyBasis, crossed_halfedges, homotopy_basis};
 use std::sync::Arc;
 
@@ -67,7 +68,7 @@ pub(super) fn with_handles(
     let space = if flat { Space::E2 } else { Space::H2 };
     let own =
         |s: usize| in_own_metric(surfaces[s], marks[s].landmarks.first().copied(), space, options, control);
-    let (source, target) = rayon::join(|| own(0), || own(1));
+    let (source, target) = join(|| own(0), || own(1));
     let (source, target) = (source?, target?);
     let order = loop_order(surfaces, marks, [&source, &target]);
     let named = named(surfaces, [&source, &target], (&options.basis, &order))?;
@@ -91,7 +92,7 @@ pub(super) fn with_handles(
             _ => {}
         }
     }
-    let (first, second) = rayon::join(
+    let (first, second) = join(
         || settle(&mut image, &source.weights, &freedom[0], first, control),
         || settle(&mut domain, &target.weights, &freedom[1], second, control),
     );

@@ -19,6 +19,7 @@ use crate::flow::Solution;
 use crate::geometry::{Motion, Space, Twofold};
 use crate::mesh::{HalfedgeId, PerHalfedge, PerVertex, VertexId};
 use crate::metric::{Refinement, Surface};
+use crate::parallel::join;
 use crate::topology::central_vertex;
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::sync::Arc;
@@ -134,11 +135,11 @@ pub(super) fn in_orbifold(
     let (boundary, threads) = (options.boundary, options.flow.threads);
     let problem = Problem { surfaces, marks, shape, boundary, threads };
     let canonical = |s: usize| canonical(surfaces[s], marks[s], shape, options, control);
-    let (first, second) = rayon::join(|| canonical(0), || canonical(1));
+    let (first, second) = join(|| canonical(0), || canonical(1));
     let metrics = [first?, second?];
     let (mut marked, markings) = best_marking(problem, &metrics, control)?;
     let Marked { image, domain, weights, freedom, relaxed, .. } = &mut marked;
-    let (first, second) = rayon::join(
+    let (first, second) = join(
         || settle(image, &weights[0], &freedom[0], relaxed[0], control),
         || settle(domain, &weights[1], &freedom[1], relaxed[1], control),
     );
@@ -204,7 +205,7 @@ fn marking(
 ) -> Result<Marked> {
     let Problem { surfaces, marks, .. } = problem;
     let own = |s: usize| opened(problem, s, &trees[s], &metrics[s], control);
-    let (source, target) = rayon::join(|| own(0), || own(1));
+    let (source, target) = join(|| own(0), || own(1));
     let (source, target) = (source?, target?);
     let weights =
         [mean_value_weights(&source.placed, surfaces[0]), mean_value_weights(&target.placed, surfaces[1])];
@@ -221,7 +222,7 @@ fn marking(
         image.at[from] = target.placed.at[to];
     }
     slide(&mut image, &trees[0], &lines[1], &along[0]);
-    let (first, second) = rayon::join(
+    let (first, second) = join(
         || relax(&mut image, &weights[0], &freedom[0], control),
         || relax(&mut domain, &weights[1], &freedom[1], control),
     );

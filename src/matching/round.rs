@@ -25,6 +25,7 @@ use crate::error::{Error, Result};
 use crate::geometry::{conformal, worse};
 use crate::mesh::{EdgeId, HalfedgeId, PerHalfedge, PerVertex, VertexId};
 use crate::metric::{Split, Surface};
+use crate::parallel::join;
 use crate::topology::{central_vertex, cut_about_joined};
 use std::sync::Arc;
 
@@ -66,7 +67,7 @@ pub(super) fn in_round(
 ) -> Result<InRound> {
     let shared = Shared::new(pair, (surfaces, marks), splits, control)?;
     let own = |s: usize| in_own_metric(&shared.surfaces[s], &shared.marks[s].loops, options, control);
-    let (first, second) = rayon::join(|| own(0), || own(1));
+    let (first, second) = join(|| own(0), || own(1));
     let (source, Own { placed: mut domain, holes, iterations }) = (first?, second?);
     let second = settled(&mut domain, &shared, control)?;
     let (image, first, seeds) = image(&shared, &source.placed, &domain, control)?;

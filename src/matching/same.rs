@@ -17,6 +17,7 @@ use crate::error::Result;
 use crate::geometry::{Motion, Space};
 use crate::mesh::{PerHalfedge, PerVertex, VertexId};
 use crate::metric::Surface;
+use crate::parallel::join;
 use std::f64::consts::TAU;
 
 /// Order of the cones at landmarks on surfaces with handles.
@@ -62,7 +63,7 @@ pub(super) fn in_frames_of_faces(
     let mut curvature = PerVertex::filled(surfaces[0].mesh().n_vertices(), 0.0);
     landmarks.iter().for_each(|&v| curvature[v] = TAU * (1.0 - 1.0 / order as f64));
     let own = |s: usize| in_own_metric(surfaces[s], &curvature, options, control);
-    let (source, target) = rayon::join(|| own(0), || own(1));
+    let (source, target) = join(|| own(0), || own(1));
     let (source, mut target) = (source?, target?);
     let mut freedom = Freedom::of(surfaces[0].mesh(), options.boundary);
     landmarks.iter().for_each(|&v| freedom[v] = Freedom::Held);
@@ -70,7 +71,7 @@ pub(super) fn in_frames_of_faces(
     let settled =
         |placed: &mut Placed, weights: &PerHalfedge<f64>| balance(placed, weights, &freedom, control);
     let (first, second) =
-        rayon::join(|| settled(&mut image, &source.weights), || settled(&mut target.placed, &target.weights));
+        join(|| settled(&mut image, &source.weights), || settled(&mut target.placed, &target.weights));
     let reports: [BalanceReport; 2] = [first?, second?];
     // The own corner of a vertex lies in the same face in both, whose frame they share.
     let start = VertexId(0);

@@ -21,6 +21,7 @@ use crate::geometry::complex::{Complex, conj, mul, norm2, scale};
 use crate::geometry::vector::{Vector, cross, dot, norm, normalised, sub, triangle_normal};
 use crate::mesh::{HalfedgeId, PerVertex, VertexId};
 use crate::metric::Surface;
+use crate::parallel::join;
 
 /// Both triangulations on one unit sphere: harmonic maps of spheres are Möbius transformations, and both are centred, so that a rotation is left to
 /// find.
@@ -34,7 +35,7 @@ pub(super) fn on_sphere(
     control: &Control,
 ) -> Result<Pair> {
     let own = |s: usize| in_own_sphere(surfaces[s], options, control);
-    let (source, target) = rayon::join(|| own(0), || own(1));
+    let (source, target) = join(|| own(0), || own(1));
     let ((mut source, first), (target, second)) = (source?, target?);
     if !marks[0].landmarks.is_empty() {
         let source = about_landmarks(surfaces, marks, [&source, &target], control)?;

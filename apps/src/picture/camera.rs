@@ -3,7 +3,7 @@
 use super::raster::{Hit, Samples, Shape};
 use super::upright::{Stance, stance};
 use super::vector::{V3, add, bounding_ball, cross, dot, normal, scaled, sub, unit};
-use rayon::prelude::*;
+use ricci::parallel::map;
 
 /// The view that a caller wants; what is left open is chosen.
 #[derive(Clone, Copy, Debug, Default)]
@@ -71,7 +71,7 @@ impl Camera {
             let camera = Camera::new(up, front, azimuth, elevation);
             (camera, (1.0 + FRONT * azimuth.cos()) * camera.shows(points, faces, ball))
         };
-        let candidates: Vec<_> = AROUND.into_par_iter().map(candidate).collect();
+        let candidates = map(AROUND.len(), |k| candidate(AROUND[k]));
         let first = candidates[0];
         candidates.into_iter().fold(first, |best, c| if c.1 > best.1 { c } else { best }).0
     }

@@ -4,7 +4,7 @@
 
 use super::raster::{Hit, Samples, Shape, scan};
 use super::vector::{V3, add, at, bounding_ball, complement, dot, scaled, sphere_point, sub};
-use rayon::prelude::*;
+use ricci::parallel::{each, map};
 
 /// Lights of the sky, half of them opposite to the others, and of the key light, of which single ones cannot be told apart on a surface.
 const SKY_LIGHTS: usize = 64;
@@ -125,10 +125,10 @@ impl Caster {
             let [x, y, z] = sphere_point(i, KEY_SPHERE);
             add(scaled(key, z), add(scaled(a, x), scaled(b, y)))
         };
-        let map = |towards: V3, size: usize| DepthMap::new(points, faces, towards, ball, size);
-        let sky = (0..SKY_LIGHTS / 2).into_par_iter().map(|i| map(sphere_point(i, SKY_LIGHTS), SKY_MAP));
-        let key_maps = (0..KEY_LIGHTS).into_par_iter().map(|i| map(around_key(i), KEY_MAP));
-        Caster { sky: sky.collect(), key: key_maps.collect(), towards_key: key }
+        let depth = |towards: V3, size: usize| DepthMap::new(points, faces, towards, ball, size);
+        let sky = map(SKY_LIGHTS / 2, |i| depth(sphere_point(i, SKY_LIGHTS), SKY_MAP));
+        let key_maps = map(KEY_LIGHTS, |i| depth(around_key(i), KEY_MAP));
+        Caster { sky, key: key_maps, towards_key: key }
     }
 
     /// The shares of the light that reach a point.
@@ -175,7 +175,7 @@ impl Field {
     ) -> Field {
         let samples = Samples::new(shapes, [width, 0, height], DENSITY);
         let mut field = Field { width: samples.width, seen: vec![None; samples.len()] };
-        field.seen.par_chunks_mut(field.width.max(1)).enumerate().for_each(|(row, out)| {
+        each(field.seen.chunks_mut(field.width.max(1)).enumerate().collect(), |(row, out)| {
             for (out, (at, hit)) in out.iter_mut().zip(samples.row(shapes, row)) {
                 *out = describe(at, hit.as_ref()).map(|point| (point, caster.open(&point)));
             }
@@ -189,7 +189,7 @@ impl Field {
         let (mut means, height) = (self.seen.clone(), self.seen.len() / self.width.max(1));
         let near =
             |c: usize, n: usize| (0..=2 * SOFT).map(move |k| (c + 2 * k).saturating_sub(2 * SOFT).min(n - 1));
-        means.par_chunks_mut(self.width.max(1)).enumerate().for_each(|(y, out)| {
+        each(means.chunks_mut(self.width.max(1)).enumerate().collect(), |(y, out)| {
             for (x, (point, open)) in out.iter_mut().enumerate().filter_map(|(x, p)| Some((x, p.as_mut()?))) {
                 if point.on_ground {
                     let taps = near(y, height).flat_map(|j| near(x, self.width).map(move |i| (j, i)));

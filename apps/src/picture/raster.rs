@@ -2,7 +2,7 @@
 
 use super::color::{Rgb, encode};
 use super::vector::{V3, ends};
-use rayon::prelude::*;
+use ricci::parallel::each;
 
 /// Samples per pixel side of a finished picture.
 pub const SAMPLES: usize = 4;
@@ -62,8 +62,8 @@ pub fn render(
 ) -> Image {
     let mut image = Image::white(width, height);
     let codes: Vec<u8> = (0..=CODES as usize).map(|k| encode((k as f64 + 0.5) / CODES)).collect();
-    let bands = image.rgba.par_chunks_mut((4 * width * BAND).max(1));
-    bands.enumerate().for_each(|(band, pixels)| {
+    let bands = image.rgba.chunks_mut((4 * width * BAND).max(1));
+    each(bands.enumerate().collect(), |(band, pixels)| {
         let rows = [width, band * BAND, pixels.len() / (4 * width)];
         let samples = Samples::new(shapes, rows, SAMPLES as f64);
         for (pixel, out) in pixels.chunks_exact_mut(4).enumerate() {

@@ -6,11 +6,10 @@ use super::quotient::Uniformized;
 use crate::failure::Failure;
 use crate::options::Common;
 use crate::uv::corners;
-use rayon::prelude::*;
 use ricci::Control;
 use ricci::embed::DeckElement;
 use ricci::embed::cover::moved;
-use ricci::parallel::Pool;
+use ricci::parallel::{Pool, map};
 use std::fmt::Write as _;
 use std::io::{self, Write};
 
@@ -75,8 +74,8 @@ impl<'a> Copies<'a> {
         let pool = Pool::new(self.threads).map_err(io::Error::other)?;
         for first in (0..n).step_by(pool.threads()) {
             self.control.check().map_err(io::Error::other)?;
-            let batch = (first..n.min(first + pool.threads())).into_par_iter();
-            let made: Vec<T> = pool.run(|| batch.map(&work).collect());
+            let batch = pool.threads().min(n - first);
+            let made = pool.run(|| map(batch, |k| work(first + k)));
             made.into_iter().try_for_each(&mut take)?;
         }
         Ok(())

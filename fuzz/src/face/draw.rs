@@ -8,9 +8,13 @@ use std::path::PathBuf;
 use std::sync::OnceLock;
 
 /// Entries that a buffer has room for.
-pub const CAPACITY: usize = 4096;
+const CAPACITY: usize = 1024;
+/// Entries of arrays and of buffers whose number is not given: more than any handle here has.
+const UNCOUNTED: usize = 4096;
 /// What fills a buffer before a call.
 pub const UNTOUCHED: u8 = 0xa5;
+/// Options whose defaults are seconds of work: all of their fields are drawn.
+const LONG: [&str; 2] = ["ricci_spline_surface_options", "ricci_bicubic_options"];
 /// Bytes of the largest struct, and some more.
 const STRUCT_BYTES: usize = 4096;
 
@@ -145,11 +149,14 @@ impl Session<'_> {
     fn size(&mut self, name: &str) -> usize {
         match name {
             "stride" => [0, 24, 32, 25, 8][self.tape.below(5)],
-            "threads" => [1, 1, 2][self.tape.below(3)],
+            // Most on the thread of the call: starting others takes longer than most calls.
+            "threads" => [1, 2][usize::from(self.tape.one_in(32))],
             "max_iterations" => self.tape.below(40),
             "sides" | "count" | "depth" | "least_loop" => self.tape.below(5),
             "genus" | "n_components" => self.tape.below(4),
             "m" => self.tape.below(9),
+            // Of a curve, whose genus is half of it.
+            "n_points" => self.tape.below(20),
             "limit" => 1 + self.tape.below(200),
             "n_curves" | "n_basis" => self.tape.below(9),
             "control_points" => 1 + self.tape.below(60),
@@ -172,27 +179,46 @@ impl Session<'_> {
         }
     }
 
+    /// A tolerance that little work meets, or half of it, or one that is refused.
+    fn coarse(&mut self, all: f64) -> f64 {
+        let x = self.tape.double();
+        if self.tape.one_in(64) {
+            0.5 * all
+        } else if x >= 0.0 {
+            all
+        } else {
+            x
+        }
+    }
+
     /// A struct that is given, with most fields zero.
     fn structure(&mut self, of: &'static Struct) -> u64 {
-        // The defaults of a fit to a whole surface are seconds of work.
-        let is_long = of.name == "ricci_spline_surface_options";
-        if self.tape.one_in(6) && !is_long {
+        let is_long = LONG.contains(&of.name);
+        let (fields, full) = &layouts()[of.name];
+        // What is left out asks for a thread for each core.
+        let has_threads = fields.iter().any(|(name, ..)| *name == "threads");
+        if self.tape.one_in(if has_threads { 24 } else { 6 }) && !is_long {
             return 0;
         }
-        let (fields, full) = &layouts()[of.name];
         let mut bytes = vec![0; STRUCT_BYTES];
         for &(name, kind, start, count) in fields {
             for k in 0..count {
                 // A rectangle and a polygon, a shape and a target need most of their fields; others are left out more often.
                 let used = self.tape.byte() % 4 < if fields.len() < 12 { 3 } else { 1 };
-                if !used && !is_long && !matches!((of.name, name), ("ricci_shape", "n")) {
+                if !used && !is_long && !matches!((of.name, name), ("ricci_shape", "n") | (_, "threads")) {
                     continue;
                 }
                 let value = match (of.name, name) {
                     (_, "rounds") if is_long => 1,
                     (_, "corrections") if is_long => u64::MAX,
                     (_, "control_points") if is_long => 1 + self.tape.below(12) as u64,
-                    (_, "degree") if is_long => 1 + self.tape.below(3) as u64,
+                    (_, "degree") if is_long => {
+                        1 + u64::from(self.tape.one_in(8)) * self.tape.below(3) as u64
+                    }
+                    // Of knots that reach far, patches of a small surface reach themselves again and again.
+                    (_, "spread") if is_long && !self.tape.one_in(32) => 0.2_f64.to_bits(),
+                    ("ricci_bicubic_options", "tolerance") => self.coarse(1.0).to_bits(),
+                    ("ricci_bicubic_options", "angle") => self.coarse(std::f64::consts::PI).to_bits(),
                     (_, "size" | "reserved" | "reserved_too") => 0,
                     ("ricci_shape", "n") => self.tape.below(4) as u64,
                     ("ricci_match_options" | "ricci_uniform_options", "start") => 0,
@@ -222,6 +248,7 @@ impl Session<'_> {
     fn value(&mut self, kind: Kind, name: &str) -> u64 {
         match kind {
             Kind::F64 => self.double(name).to_bits(),
+            Kind::U32 if name == "degree" && !self.tape.one_in(16) => self.tape.below(4) as u64,
             Kind::U32 if name == "rounds" || name == "p" || name == "q" => self.tape.below(4) as u64,
             Kind::U32 | Kind::I32 | Kind::U64 => self.tape.number().into(),
             Kind::Size => self.size(name) as u64,
@@ -229,8 +256,8 @@ impl Session<'_> {
             Kind::Given(of) => self.structure(of),
             // Their number of entries is not given, but follows from the mesh: more than other arrays have.
             Kind::In(..) if matches!(name, "normals" | "colors" | "uv" | "corner_normals") => {
-                let kept = self.keep(0.5_f64.to_ne_bytes().repeat(8 * CAPACITY));
-                self.place(kept, 0)
+                static HALVES: [f64; 8 * UNCOUNTED] = [0.5; 8 * UNCOUNTED];
+                word(HALVES.as_ptr())
             }
             Kind::In(of, _) => self.array(of, name),
             Kind::Text => self.text(name),
@@ -256,7 +283,8 @@ impl Session<'_> {
             return 0;
         }
         let at = if self.tape.one_in(8) { 1 } else { 0 };
-        let kept = self.keep(vec![UNTOUCHED; at + rows * (CAPACITY + MOST_ROWS) * bytes]);
+        let room = if with_capacity { capacity } else { UNCOUNTED };
+        let kept = self.keep(vec![UNTOUCHED; at + rows * (room + MOST_ROWS) * bytes]);
         let capacity = with_capacity.then_some(capacity);
         self.watched.push(Watched::Buffer { kept, at, word: of, bytes, capacity });
         self.place(kept, at)

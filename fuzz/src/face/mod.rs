@@ -148,7 +148,9 @@ pub fn parameters() -> &'static [Vec<(&'static str, Kind)>] {
 
 /// The call of a function by its name.
 pub fn call(name: &str) -> &'static Call {
-    CALLS.iter().find(|call| call.name == name).unwrap_or_else(|| panic!("no {name} in the headers"))
+    static ALL: OnceLock<HashMap<&'static str, &'static Call>> = OnceLock::new();
+    let all = ALL.get_or_init(|| CALLS.iter().map(|call| (call.name, call)).collect());
+    all.get(name).unwrap_or_else(|| panic!("no {name} in the headers"))
 }
 
 /// A pointer as the word that passes it.

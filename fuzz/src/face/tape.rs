@@ -2,6 +2,8 @@
 
 /// Entries of an array that is given: more than any call reads, whose counts [`Tape::count`] draws.
 const ENTRIES: usize = 4096;
+/// Entries of an array that are drawn: three for each row that a count names. They come again and again.
+const DRAWN: usize = 12 * MOST_ROWS;
 /// Largest count of entries or rows.
 pub const MOST_ROWS: usize = 64;
 
@@ -73,18 +75,29 @@ impl<'a> Tape<'a> {
         (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb) >> 11
     }
 
+    /// The bytes of an array of the words that are drawn, repeated.
+    fn repeated<const N: usize>(drawn: impl IntoIterator<Item = [u8; N]>) -> Vec<u8> {
+        let mut bytes = Vec::with_capacity(N * (ENTRIES + DRAWN));
+        drawn.into_iter().for_each(|word| bytes.extend(word));
+        let once = bytes.len();
+        while bytes.len() < N * ENTRIES {
+            bytes.extend_from_within(..once);
+        }
+        bytes
+    }
+
     fn doubles(&mut self) -> Vec<f64> {
         let (style, mut seed) = (self.byte() % 8, u64::from(self.byte()));
         let mut unit = move || Tape::mixed(&mut seed) as f64 / (1_u64 << 53) as f64;
         match style {
-            0 => vec![1.0; ENTRIES],
-            1 => vec![0.0; ENTRIES],
-            2 => (0..ENTRIES).map(|i| 0.1 * i as f64).collect(),
-            3 => (0..ENTRIES).map(|_| unit()).collect(),
-            4 => (0..ENTRIES).map(|_| 20.0 * unit() - 10.0).collect(),
-            5 => (0..ENTRIES).map(|i| [0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0][i % 8]).collect(),
-            6 => (0..ENTRIES).map(|i| if i < 24 { self.double() } else { 0.25 }).collect(),
-            _ => (0..ENTRIES).map(|_| (8.0 * unit()).floor()).collect(),
+            0 => vec![1.0; DRAWN],
+            1 => vec![0.0; DRAWN],
+            2 => (0..DRAWN).map(|i| 0.1 * i as f64).collect(),
+            3 => (0..DRAWN).map(|_| unit()).collect(),
+            4 => (0..DRAWN).map(|_| 20.0 * unit() - 10.0).collect(),
+            5 => (0..DRAWN).map(|i| [0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0][i % 8]).collect(),
+            6 => (0..DRAWN).map(|i| if i < 24 { self.double() } else { 0.25 }).collect(),
+            _ => (0..DRAWN).map(|_| (8.0 * unit()).floor()).collect(),
         }
     }
 
@@ -92,34 +105,34 @@ impl<'a> Tape<'a> {
         let (style, mut seed) = (self.byte() % 8, u64::from(self.byte()));
         let mut draw = move |n: u64| (Tape::mixed(&mut seed) % n) as i64;
         match style {
-            0 => (0..ENTRIES as i64).collect(),
-            1 => vec![0; ENTRIES],
-            2 => (0..ENTRIES).map(|_| draw(8)).collect(),
-            3 => (0..ENTRIES).map(|_| draw(64)).collect(),
-            4 => (0..ENTRIES as i64).map(|i| i + 1).collect(),
-            5 => (0..ENTRIES).map(|_| draw(9) - 4).collect(),
-            6 => (0..ENTRIES).map(|i| if i < 24 { i64::from(self.byte() as i8) } else { 1 }).collect(),
-            _ => (0..ENTRIES).map(|_| [i64::MAX, 0, 1, i64::from(i32::MIN), -1][draw(5) as usize]).collect(),
+            0 => (0..DRAWN as i64).collect(),
+            1 => vec![0; DRAWN],
+            2 => (0..DRAWN).map(|_| draw(8)).collect(),
+            3 => (0..DRAWN).map(|_| draw(64)).collect(),
+            4 => (0..DRAWN as i64).map(|i| i + 1).collect(),
+            5 => (0..DRAWN).map(|_| draw(9) - 4).collect(),
+            6 => (0..DRAWN).map(|i| if i < 24 { i64::from(self.byte() as i8) } else { 1 }).collect(),
+            _ => (0..DRAWN).map(|_| [i64::MAX, 0, 1, i64::from(i32::MIN), -1][draw(5) as usize]).collect(),
         }
     }
 
     /// The bytes of an array of these words; offsets and sizes of rows, which say how much of other arrays is read, are small.
     pub fn array(&mut self, word: &str, name: &str) -> Vec<u8> {
         match word {
-            "double" => self.doubles().iter().flat_map(|x| x.to_ne_bytes()).collect(),
+            "double" => Tape::repeated(self.doubles().into_iter().map(f64::to_ne_bytes)),
             "size_t" => {
                 let step = self.byte() % 8;
                 let offsets = self.integers().into_iter().enumerate().map(|(i, n)| match step {
                     0 => n.rem_euclid(MOST_ROWS as i64) as usize,
                     step => (i * usize::from(step)).min(MOST_ROWS),
                 });
-                offsets.flat_map(usize::to_ne_bytes).collect()
+                Tape::repeated(offsets.map(usize::to_ne_bytes))
             }
-            "uint8_t" | "char" => (0..ENTRIES).map(|_| self.byte()).collect(),
+            "uint8_t" | "char" => Tape::repeated((0..MOST_ROWS).map(|_| [self.byte()])),
             _ if name.ends_with("_sizes") => {
-                self.integers().into_iter().flat_map(|n| (n.rem_euclid(8) as u32).to_ne_bytes()).collect()
+                Tape::repeated(self.integers().into_iter().map(|n| (n.rem_euclid(8) as u32).to_ne_bytes()))
             }
-            _ => self.integers().into_iter().flat_map(|n| (n as u32).to_ne_bytes()).collect(),
+            _ => Tape::repeated(self.integers().into_iter().map(|n| (n as u32).to_ne_bytes())),
         }
     }
 
