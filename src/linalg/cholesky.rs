@@ -257,6 +257,37 @@ mod tests {
     }
 
     #[test]
+    fn a_factor_in_single_precision_solves_to_seven_digits_with_the_same_bits_for_any_threads() {
+        let k = 150;
+        let (pattern, values) = grid(k);
+        let matrix = Symmetric { pattern: &pattern, values: &values };
+        let b: Vec<f64> = (0..k * k).map(|i| (i as f64).sin()).collect();
+        let mut double = Cholesky::analyse(&pattern).unwrap();
+        double.factor(matrix).unwrap();
+        let mut exact = b.clone();
+        double.solve(&mut exact);
+        let mut single: Cholesky<f32> = double.held_in().unwrap();
+        let mut solved = |threads| {
+            let mut x = b.clone();
+            Pool::new(threads).unwrap().run(|| {
+                single.factor(matrix).unwrap();
+                single.solve(&mut x);
+            });
+            x
+        };
+        let first = solved(1);
+        let apart = first.iter().zip(&exact).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max);
+        assert!(apart > 0.0 && apart < 1e-6, "{apart:e}");
+        assert!(solved(2) == first && solved(8) == first);
+        // And back.
+        let mut double: Cholesky = single.held_in().unwrap();
+        double.factor(matrix).unwrap();
+        let mut x = b.clone();
+        double.solve(&mut x);
+        assert!(x == exact);
+    }
+
+    #[test]
     fn an_indefinite_matrix_is_refused() {
         let (pattern, mut values) = grid(9);
         values[pattern.diagonal(40)] = -1.0;

@@ -180,4 +180,20 @@ mod tests {
         let problem = Problem { matrix, goal };
         assert!(Conjugate::default().solve(problem, &mut near, &mut b.clone(), &cancelled).is_err());
     }
+
+    #[test]
+    fn a_factor_beyond_single_precision_is_given_up() {
+        let n = 50;
+        let (pattern, values) = chain(n, 0.0);
+        for (scale, serves) in [(1.0, true), (1e90, false)] {
+            let values: Vec<f64> = values.iter().map(|x| scale * x).collect();
+            let matrix = Symmetric { pattern: &pattern, values: &values };
+            let mut near = Cholesky::analyse(&pattern).unwrap().held_in::<f32>().unwrap();
+            near.factor(matrix).unwrap();
+            let mut x: Vec<f64> = (0..n).map(|i| (0.1 * i as f64).cos()).collect();
+            let problem = Problem { matrix, goal: Goal { left: 1e-12, sum: 1e-12 } };
+            let found = Conjugate::default().solve(problem, &mut near, &mut x, &Control::new()).unwrap();
+            assert_eq!(found, serves, "{scale:e}");
+        }
+    }
 }
