@@ -1,5 +1,5 @@
 //! Many solves of one flow do not ask for their memory again and again: what a later one allocates is the solution that it returns.
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 use ricci::flow::{Flips, Flow, Options};
 use ricci::geometry::Space;
