@@ -117,7 +117,7 @@ impl<'a, F: Frame> Faces<'a, F> {
 
     /// The corners of a face as its first half-edge has them at the origin, along the x axis: ambient coordinates.
     pub fn local(&self, f: FaceId) -> [[f64; 3]; 3] {
-        self.around(f, 0, F::identity(self.space)).map(|frame| frame.origin())
+        self.all(f, F::identity(self.space)).map(|frame| frame.origin())
     }
 
     /// The sides of a face, in the order of its half-edges.
@@ -129,16 +129,39 @@ impl<'a, F: Frame> Faces<'a, F> {
     /// The frames of the half-edges of a face, in order, from that of its half-edge number `k`.
     #[inline]
     pub fn around<W: Walk<Side = F::Side, Angle = F::Angle>>(&self, f: FaceId, k: usize, frame: W) -> [W; 3] {
-        let (sides, angles) = (self.sides(f), &self.angles[f]);
-        let (next, last) = ((k + 1) % 3, (k + 2) % 3);
-        let mut frames = [frame; 3];
-        frames[next] = frame.forward(sides[k]).turned_onwards(angles[next]);
-        frames[last] = frames[next].forward(sides[next]).turned_onwards(angles[last]);
-        // The last corner is placed from its nearer neighbour, since a step is rounded to doubles of its size.
-        if W::size(sides[last]) < W::size(sides[next]) {
-            frames[last] = frames[last].ending_at(&frame, sides[last]);
+        match k {
+            0 => self.all(f, frame),
+            1 => {
+                let [p, q, r] = self.onwards::<W, 1>(f, frame);
+                [r, p, q]
+            }
+            _ => {
+                let [p, q, r] = self.onwards::<W, 2>(f, frame);
+                [q, r, p]
+            }
         }
-        frames
+    }
+
+    /// [`Faces::around`] from the first half-edge.
+    #[inline]
+    pub fn all<W: Walk<Side = F::Side, Angle = F::Angle>>(&self, f: FaceId, first: W) -> [W; 3] {
+        self.onwards::<W, 0>(f, first)
+    }
+
+    /// The frames of the half-edges of a face, one after the other from that of its half-edge number `K`.
+    #[inline]
+    fn onwards<W: Walk<Side = F::Side, Angle = F::Angle>, const K: usize>(
+        &self,
+        f: FaceId,
+        frame: W,
+    ) -> [W; 3] {
+        let (sides, angles) = (self.sides(f), &self.angles[f]);
+        let [here, next, last] = [K, (K + 1) % 3, (K + 2) % 3];
+        let second = frame.forward(sides[here]).turned_onwards(angles[next]);
+        let third = second.forward(sides[next]).turned_onwards(angles[last]);
+        // The last corner is placed from its nearer neighbour, since a step is rounded to doubles of its size.
+        let nearer = W::size(sides[last]) < W::size(sides[next]);
+        [frame, second, if nearer { third.ending_at(&frame, sides[last]) } else { third }]
     }
 
     /// The frame of half-edge number `k` of a face, from that of its first one.
@@ -150,7 +173,7 @@ impl<'a, F: Frame> Faces<'a, F> {
                 let [h, ..] = self.mesh.face_halfedges(f);
                 first.forward(self.sides[h.edge()]).turned_onwards(self.angles[f][1])
             }
-            _ => self.around(f, 0, first)[2],
+            _ => self.all(f, first)[2],
         }
     }
 
@@ -238,7 +261,7 @@ impl<'a, F: Frame> Placed<'a, F> {
 
     /// The frames of its half-edges.
     pub fn sides(&self) -> [F; 3] {
-        self.faces.around(self.face, 0, self.first)
+        self.faces.all(self.face, self.first)
     }
 
     /// The length of the face's longest side, or a number that grows with it: [`Faces::longest`].

@@ -258,7 +258,7 @@ impl Frame for Motion<Twofold> {
         let [dx, dy] = [x.plus(-point[0]), y.plus(-point[1])].map(|d| -d.high);
         let [x, y] = [x.high, y.high];
         let dw = match self.space {
-            Space::E2 => 0.0,
+            Space::E2 => return [dx, dy],
             Space::H2 => {
                 let [w, u] = [[x, y], [point[0], point[1]]].map(|z| (1.0 + norm2(z)).sqrt());
                 ((x + point[0]) * dx + (y + point[1]) * dy) / (w + u)
@@ -349,6 +349,26 @@ mod tests {
             let other = [p[0] + 3.0, p[1] - 4.0, 1.0];
             for off in [plane.miss(other, local), motion.miss(other, local)] {
                 assert!((off[0] - 3.0).hypot(off[1] + 4.0) < 1e-12, "{k}: {off:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn misses_of_an_origin_are_those_of_any_point_to_first_order() {
+        for space in [Space::E2, Space::H2, Space::S2] {
+            let mut motion = <Motion<Twofold>>::identity(space);
+            for k in 1..6 {
+                let (half, chord) = ((0.3 * f64::from(k)).sin_cos(), Twofold::from(0.9));
+                let side = [Motion::translation_of_chord(chord, space).a[0], chord];
+                motion = motion.forward(side).turned_onwards([half.1, half.0].map(Twofold::from));
+                let small = Motion::translation(1e-9, space).precise();
+                let near = motion.turned_onwards([0.6, 0.8].map(Twofold::from)).compose(&small);
+                let point = Frame::origin(&near);
+                let (known, off) = (motion.miss(point, ORIGIN), motion.miss_of_origin(point));
+                let scale = point.iter().fold(1.0, |m: f64, x| m.max(x.abs()));
+                let error = (known[0] - off[0]).hypot(known[1] - off[1]);
+                assert!(known[0].hypot(known[1]) > 0.9e-9, "{space} {k}: {known:?}");
+                assert!(error < 1e-15 * scale * scale, "{space} {k}: {known:?} {off:?}");
             }
         }
     }

@@ -275,3 +275,26 @@ fn dilatation(from: Triangle, to: Triangle) -> f64 {
     let dilatation = sum * sum / (4.0 * (cross(p, q) * cross(p_image, q_image)).abs());
     if dilatation.is_finite() { dilatation.clamp(1.0, DILATATION_CAP) } else { DILATATION_CAP }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::model::from_poincare;
+
+    #[test]
+    fn areas_near_the_origin_are_those_of_the_sides() {
+        for [p, q, r] in [
+            [[0.0, 0.0], [0.3, 0.1], [0.1, 0.4]],
+            [[0.8, 0.1], [0.81, 0.1], [0.8, 0.12]],
+            [[0.9, 0.0], [-0.5, 0.7], [-0.5, -0.7]],
+        ] {
+            let corners = [p, q, r].map(from_poincare);
+            assert!(corners.iter().all(|p| p[2] < NEAR));
+            let sides = [[1, 2], [2, 0], [0, 1]].map(|[i, j]| distance(Space::H2, corners[i], corners[j]));
+            let known = area(Space::H2, sides);
+            let [p, q, r] = corners;
+            assert!((area_near([p, q, r]) / known - 1.0).abs() < 1e-11, "{corners:?}");
+            assert_eq!(area_near([p, r, q]), area_near([p, q, r]));
+        }
+    }
+}
