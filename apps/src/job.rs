@@ -11,6 +11,7 @@ use ricci::geometry::{Space, worse};
 use ricci::mesh::{Mesh, VertexId};
 use ricci::metric::Scheme;
 use ricci::metric::target::check_vertices;
+use ricci::parallel::join;
 use ricci::{Class, Flow, Target};
 
 /// What to compute.
@@ -45,12 +46,13 @@ pub fn default_space(mesh: &Mesh) -> Space {
     if mesh.is_closed() && mesh.euler() < 0 { Space::H2 } else { Space::E2 }
 }
 
-/// Run a flow and lay its metric out. `before`: what is to be done with the metric before, whose memory is free again by then.
-pub fn run<T>(
+/// Run a flow and lay its metric out. `beside`: what else is to be done with the metric; on one thread before it is laid out, so that its
+/// memory is free again by then.
+pub fn run<T: Send>(
     input: &Input,
     job: Job,
     control: &Control,
-    before: impl FnOnce(&Solved) -> T,
+    beside: impl FnOnce(&Solved) -> T + Send,
 ) -> Result<(Outcome, T), Failure> {
     let class = Class::new(job.scheme, job.space);
     let rule = rule(input, &job)?;
@@ -66,11 +68,16 @@ pub fn run<T>(
     seconds.flip += start;
     let mut solved = Solved::new(solution, target, seconds)?;
     solved.may_flip = job.options.flips != flow::Flips::Never;
-    let done = before(&solved);
-    let layout = match no_layout(&solved, job.laid_out) {
-        Some(why) => Err(why),
-        None => told(laid::lay_out(input, &mut solved, control))?,
+    let lay_out = || match no_layout(&solved, job.laid_out) {
+        Some(why) => Ok((Err(why), solved.seconds)),
+        None => {
+            let mut seconds = solved.seconds;
+            told(laid::lay_out(input, &solved, &mut seconds, control)).map(|laid| (laid, seconds))
+        }
     };
+    let (done, laid) = join(|| beside(&solved), lay_out);
+    let (layout, seconds) = laid?;
+    solved.seconds = seconds;
     let rule_name = job.target_name.unwrap_or_else(|| rule.name().into());
     Ok((Outcome { rule, rule_name, pinned: job.options.pinned, report, solved, layout }, done))
 }

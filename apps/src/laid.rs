@@ -1,7 +1,7 @@
 //! The layout of a flow's metric with what is said about it.
 
 use crate::input::Input;
-use crate::report::timed;
+use crate::report::{Seconds, timed};
 use crate::solved::Solved;
 use ricci::Control;
 use ricci::control::Stage;
@@ -53,21 +53,23 @@ pub struct Laid {
 }
 
 /// Lay the metric of a flow out on the given surface.
-pub fn lay_out(input: &Input, solved: &mut Solved, control: &Control) -> ricci::Result<Laid> {
+pub fn lay_out(
+    input: &Input,
+    solved: &Solved,
+    seconds: &mut Seconds,
+    control: &Control,
+) -> ricci::Result<Laid> {
     control.step(Stage::Layout, 0.0)?;
-    let mut seconds = solved.seconds;
     let solution = &solved.solution;
     let refinement = match solution.is_unflipped() {
         true => None,
         false => Some(Arc::new(timed(&mut seconds.refine, || solution.refinement(control))?)),
     };
-    let laid = timed(&mut seconds.layout, || {
+    timed(&mut seconds.layout, || {
         let options = UnrollOptions { refinement, ..UnrollOptions::default() };
         let layout = unroll(solution, &options, control)?;
         within(solution.threads(), || Laid::new(input, solved, layout))
-    });
-    solved.seconds = seconds;
-    laid
+    })
 }
 
 impl Laid {

@@ -1,7 +1,7 @@
 //! Developing an opened surface into the space of its metric: face after face, outwards from the origin.
 
 use super::faces::{Faces, Placed, corner_at, corner_of};
-use super::frame::Frame;
+use super::frame::{Frame, Walk};
 use super::pieces::Pieces;
 use crate::control::{Control, Stage};
 use crate::error::{Error, Result};
@@ -9,10 +9,7 @@ use crate::geometry::{Motion, Twofold};
 use crate::mesh::{FaceId, HalfedgeId, PerEdge, PerFace, PerHalfedge, VertexId};
 use crate::metric::Refinement;
 use crate::parallel;
-use crate::topology::check_vertex;
-use crate::topology::spanning::Key;
-use std::cmp::Reverse;
-use std::collections::BinaryHeap;
+use crate::topology::{Nearest, check_vertex};
 use std::sync::Arc;
 
 /// The patch number of a piece that no patch has yet.
@@ -20,22 +17,12 @@ const NONE: u32 = u32::MAX;
 /// Patches between two looks at the control.
 const PATCHES_PER_STEP: usize = 4096;
 
-/// Half-edges through which a development can go on, the one with the nearest far corner first.
-type Queue = BinaryHeap<Reverse<(Key, HalfedgeId)>>;
-
-/// How a final face is added: by one of its pieces, and the frame of its half-edge with this number.
-struct Entry<F> {
-    piece: FaceId,
-    side: usize,
-    frame: F,
-}
-
 /// Where every piece lies. A *patch* is a part of a final face that no cut divides: its pieces lie in one copy of the face.
 pub(super) struct Development<'a, F: Frame> {
     pub pieces: Pieces,
     pub faces: &'a Faces<'a, F>,
-    /// Per patch, in the order in which patches were added, the frames of the half-edges of its final face.
-    pub sides: Vec<[F; 3]>,
+    /// Per patch, in the order in which patches were added, the frame of the first half-edge of its final face.
+    pub frames: Vec<F>,
     /// The patch of each piece; `u32::MAX` for a piece that was not reached.
     pub patch: PerFace<u32>,
     /// The pieces, patch by patch.
@@ -44,6 +31,23 @@ pub(super) struct Development<'a, F: Frame> {
     starts: Vec<u32>,
     /// Edges of the pieces through which a patch grew or was entered; empty where a cut was given.
     pub crossed: PerEdge<bool>,
+}
+
+/// A development in the making: the order in which patches are added.
+struct Growth<'a, F: Frame> {
+    pieces: &'a Pieces,
+    faces: &'a Faces<'a, F>,
+    is_cut: Option<&'a PerEdge<bool>>,
+    /// Per patch a frame of the first half-edge of its final face.
+    frames: Vec<F::Rough>,
+    /// Per patch but the first the half-edge of a piece through which it was entered.
+    entries: Vec<HalfedgeId>,
+    patch: PerFace<u32>,
+    order: Vec<FaceId>,
+    starts: Vec<u32>,
+    crossed: PerEdge<bool>,
+    /// Half-edges through which the development can go on, by the distance of the far corner.
+    queue: Nearest<HalfedgeId>,
 }
 
 impl<'a, F: Frame> Development<'a, F> {
@@ -67,101 +71,68 @@ impl<'a, F: Frame> Development<'a, F> {
         control: &Control,
     ) -> Result<Self> {
         let (piece, side) = start(&pieces, faces, root)?;
-        let (n_pieces, n_edges) = (pieces.mesh().n_faces(), pieces.mesh().n_edges());
-        let mut grown = Development {
-            pieces,
+        let (n_pieces, n_final, n_edges) =
+            (pieces.mesh().n_faces(), faces.mesh.n_faces(), pieces.mesh().n_edges());
+        let mut growth = Growth {
+            pieces: &pieces,
             faces,
-            sides: Vec::with_capacity(faces.mesh.n_faces()),
+            is_cut,
+            frames: Vec::with_capacity(n_final),
+            entries: Vec::with_capacity(if F::IS_PRECISE { n_final } else { 0 }),
             patch: PerFace::filled(n_pieces, NONE),
             order: Vec::with_capacity(n_pieces),
-            starts: Vec::with_capacity(faces.mesh.n_faces() + 1),
+            starts: Vec::with_capacity(n_final + 1),
             crossed: PerEdge::filled(if is_cut.is_none() { n_edges } else { 0 }, false),
+            queue: Nearest::new((faces.area() / n_final as f64).sqrt()),
         };
-        let mut queue = Queue::new();
-        let mut next = Some(Entry { piece, side, frame: F::identity(faces.space) });
-        while let Some(entry) = next {
-            if grown.sides.len().is_multiple_of(PATCHES_PER_STEP) {
-                control.step(Stage::Layout, grown.order.len() as f64 / n_pieces as f64)?;
+        control.step(Stage::Layout, 0.0)?;
+        growth.add(piece, side, Walk::identity(faces.space))?;
+        while let Some((_, h)) = growth.queue.pop() {
+            if growth.enter(h)? && growth.frames.len().is_multiple_of(PATCHES_PER_STEP) {
+                control.step(Stage::Layout, growth.order.len() as f64 / n_pieces as f64)?;
             }
-            grown.add(entry, is_cut, &mut queue)?;
-            next = loop {
-                let Some(Reverse((_, h))) = queue.pop() else { break None };
-                if let Some(entry) = grown.enter(h)? {
-                    break Some(entry);
-                }
-            };
         }
-        grown.starts.push(grown.order.len() as u32);
+        growth.starts.push(growth.order.len() as u32);
+        let Growth { frames, entries, patch, order, starts, crossed, .. } = growth;
+        let known: Option<Vec<F>> = frames.into_iter().map(F::of_rough).collect();
+        let mut grown = Development { pieces, faces, frames: Vec::new(), patch, order, starts, crossed };
+        grown.frames = match known {
+            Some(frames) => frames,
+            None => grown.walked((piece, side), &entries, control)?,
+        };
         Ok(grown)
     }
 
-    /// Adds a patch: the piece of an entry and all that hang together with it in its final face.
-    fn add(&mut self, entry: Entry<F>, is_cut: Option<&PerEdge<bool>>, queue: &mut Queue) -> Result<()> {
-        let (mesh, faces) = (self.pieces.mesh(), self.faces);
-        let (number, face) = (self.sides.len() as u32, self.pieces.final_face(entry.piece));
-        let sides = faces.around(face, entry.side, entry.frame);
-        // Formed from the first half-edge, whose frame is all that a layout keeps of a face.
-        self.sides.push(if entry.side == 0 { sides } else { faces.around(face, 0, sides[0]) });
-        let (mut done, mut distance) = (self.order.len(), [None; 3]);
-        self.starts.push(done as u32);
-        self.patch[entry.piece] = number;
-        self.order.push(entry.piece);
-        // Pieces are appended to `order` while it is walked through.
-        while let Some(&piece) = self.order.get(done) {
-            done += 1;
-            for h in mesh.face_halfedges(piece) {
-                let Some(beside) = mesh.face(h.twin()) else { continue };
-                if is_cut.is_some_and(|is_cut| is_cut[h.edge()]) {
-                    continue;
-                }
-                match self.pieces.final_halfedge(h) {
-                    None => {
-                        if self.patch[beside] == NONE {
-                            self.patch[beside] = number;
-                            self.order.push(beside);
-                        }
-                        if is_cut.is_none() {
-                            self.crossed[h.edge()] |= self.patch[beside] == number;
-                        }
-                    }
-                    Some(_) if self.patch[beside] != NONE => {}
-                    Some(along) => {
-                        let (_, k) = corner_of(faces.mesh, along)?;
-                        let far = match distance[k] {
-                            Some(far) => far,
-                            None => *distance[k].insert(distance_beyond(faces, sides[k], along)?),
-                        };
-                        queue.push(Reverse((Key(far), h.twin())));
-                    }
-                }
-            }
+    /// The frames of the patches, each from that of the patch that it was entered from.
+    fn walked(
+        &self,
+        (piece, side): (FaceId, usize),
+        entries: &[HalfedgeId],
+        control: &Control,
+    ) -> Result<Vec<F>> {
+        let mut looked_at = 0;
+        let (faces, mesh) = (self.faces, self.pieces.mesh());
+        let mut frames = Vec::with_capacity(entries.len() + 1);
+        frames.push(faces.first(self.pieces.final_face(piece), side, F::identity(faces.space)));
+        for &h in entries {
+            control.check_every(PATCHES_PER_STEP, &mut looked_at)?;
+            let ((from, _), along) = (corner_of(mesh, h.twin())?, final_side(&self.pieces, h.twin())?);
+            let ((face, k), (next, side)) =
+                (corner_of(faces.mesh, along)?, corner_of(faces.mesh, along.twin())?);
+            let beyond = faces.beyond(face, k, frames[self.patch[from] as usize]);
+            frames.push(faces.first(next, side, beyond));
         }
-        Ok(())
-    }
-
-    /// The piece that a half-edge leads into, unless it has its place, with the frame of the half-edge's final one.
-    fn enter(&mut self, h: HalfedgeId) -> Result<Option<Entry<F>>> {
-        let unplaced = self.pieces.mesh().face(h).filter(|&f| self.patch[f] == NONE);
-        let Some(piece) = unplaced else { return Ok(None) };
-        let (from, _) = corner_of(self.pieces.mesh(), h.twin())?;
-        let inside =
-            || Error::Layout(format!("edge {} lies inside a face of the metric's triangulation", h.edge()));
-        let along = self.pieces.final_halfedge(h.twin()).ok_or_else(inside)?;
-        if !self.crossed.is_empty() {
-            self.crossed[h.edge()] = true;
-        }
-        let (_, side) = corner_of(self.faces.mesh, along.twin())?;
-        Ok(Some(Entry { piece, side, frame: self.faces.across(self.side(from, along)?, along) }))
+        Ok(frames)
     }
 
     /// The frame of the final half-edge `along`, of the final face of a piece, where that piece lies.
     fn side(&self, piece: FaceId, along: HalfedgeId) -> Result<F> {
-        let (_, k) = corner_of(self.faces.mesh, along)?;
-        Ok(self.sides[self.patch[piece] as usize][k])
+        let (face, k) = corner_of(self.faces.mesh, along)?;
+        Ok(self.faces.side(face, k, self.frames[self.patch[piece] as usize]))
     }
 
     /// The development of a refinement all of whose final faces have their first half-edges where these frames are.
-    pub fn of_frames(r: &Arc<Refinement>, faces: &'a Faces<'a, F>, frames: &[F]) -> Self {
+    pub fn of_frames(r: &Arc<Refinement>, faces: &'a Faces<'a, F>, frames: Vec<F>) -> Self {
         let mut order: Vec<FaceId> = r.mesh.faces().collect();
         order.sort_by_key(|&f| r.final_face[f]);
         let first = |k: usize| order.partition_point(|&f| r.final_face[f].index() < k) as u32;
@@ -170,7 +141,7 @@ impl<'a, F: Frame> Development<'a, F> {
             faces,
             starts: (0..=frames.len()).map(first).collect(),
             patch: r.final_face.iter().map(|f| f.0).collect::<Vec<_>>().into(),
-            sides: frames.iter().enumerate().map(|(f, &frame)| faces.around(f.into(), 0, frame)).collect(),
+            frames,
             order,
             crossed: Vec::new().into(),
         }
@@ -185,7 +156,7 @@ impl<'a, F: Frame> Development<'a, F> {
     pub fn placed(&self, patch: usize) -> Option<(Placed<'_, F>, &[FaceId])> {
         let pieces = &self.order[self.starts[patch] as usize..self.starts[patch + 1] as usize];
         let face = self.pieces.final_face(*pieces.first()?);
-        Some((Placed::new(self.faces, face, &self.sides[patch]), pieces))
+        Some((Placed::new(self.faces, face, self.frames[patch]), pieces))
     }
 
     /// Ambient coordinates per number of a corner: each from the first patch that has it; NaN for what was not reached.
@@ -214,10 +185,9 @@ impl<'a, F: Frame> Development<'a, F> {
                 return ([f64::NAN; 3], [0.0; 2]);
             }
             let (f, k) = (FaceId(first[k] / 3), first[k] as usize % 3);
-            let sides = &self.sides[self.patch[f] as usize];
-            let placed = Placed::new(self.faces, self.pieces.final_face(f), sides);
-            let weights = self.pieces.final_barycentric(f)[k];
-            (placed.point(weights), placed.remainder(weights))
+            let frame = self.frames[self.patch[f] as usize];
+            Placed::new(self.faces, self.pieces.final_face(f), frame)
+                .point(self.pieces.final_barycentric(f)[k])
         });
         (points, remainders)
     }
@@ -233,10 +203,84 @@ impl<'a, F: Frame> Development<'a, F> {
                 [self.side(left, along)?, self.faces.across(self.side(right, twin)?, twin)]
             }
             // Two copies of one final face.
-            None => [left, right].map(|f| self.sides[self.patch[f] as usize][0]),
+            None => [left, right].map(|f| self.frames[self.patch[f] as usize]),
         };
         Ok(both.map(|frame| frame.motion()))
     }
+}
+
+impl<F: Frame> Growth<'_, F> {
+    /// Adds a patch: a piece, whose final face has the frame of its half-edge number `k`, and all that hang together with it in that face.
+    fn add(&mut self, piece: FaceId, k: usize, frame: F::Rough) -> Result<()> {
+        let (mesh, faces, pieces) = (self.pieces.mesh(), self.faces, self.pieces);
+        let (number, face) = (self.frames.len() as u32, pieces.final_face(piece));
+        let is_refined = pieces.refinement().is_some();
+        let sides = faces.around(face, k, frame);
+        self.frames.push(sides[0]);
+        let (mut done, mut distance) = (self.order.len(), [None; 3]);
+        self.starts.push(done as u32);
+        self.patch[piece] = number;
+        self.order.push(piece);
+        // Pieces are appended to `order` while it is walked through.
+        while let Some(&piece) = self.order.get(done) {
+            done += 1;
+            for (number_in_piece, h) in mesh.face_halfedges(piece).into_iter().enumerate() {
+                let Some(beside) = mesh.face(h.twin()) else { continue };
+                if self.is_cut.is_some_and(|is_cut| is_cut[h.edge()]) {
+                    continue;
+                }
+                match pieces.final_halfedge(h) {
+                    None => {
+                        if self.patch[beside] == NONE {
+                            self.patch[beside] = number;
+                            self.order.push(beside);
+                        }
+                        if self.is_cut.is_none() {
+                            self.crossed[h.edge()] |= self.patch[beside] == number;
+                        }
+                    }
+                    Some(_) if self.patch[beside] != NONE => {}
+                    Some(along) => {
+                        let k = match is_refined {
+                            true => corner_of(faces.mesh, along)?.1,
+                            false => number_in_piece,
+                        };
+                        let far = match distance[k] {
+                            Some(far) => far,
+                            None => *distance[k].insert(distance_beyond(faces, sides[k], along)?),
+                        };
+                        self.queue.push(far, h.twin());
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds the patch that a half-edge leads into, unless the half-edge's piece has its place; whether it did.
+    fn enter(&mut self, h: HalfedgeId) -> Result<bool> {
+        let unplaced = self.pieces.mesh().face(h).filter(|&f| self.patch[f] == NONE);
+        let Some(piece) = unplaced else { return Ok(false) };
+        let (from, _) = corner_of(self.pieces.mesh(), h.twin())?;
+        let along = final_side(self.pieces, h.twin())?;
+        if !self.crossed.is_empty() {
+            self.crossed[h.edge()] = true;
+        }
+        if F::IS_PRECISE {
+            self.entries.push(h);
+        }
+        let ((face, k), (_, side)) =
+            (corner_of(self.faces.mesh, along)?, corner_of(self.faces.mesh, along.twin())?);
+        let frame = self.faces.beyond(face, k, self.frames[self.patch[from] as usize]);
+        self.add(piece, side, frame).map(|()| true)
+    }
+}
+
+/// The half-edge of a final face that a half-edge of a piece, through which a development goes on, runs along.
+fn final_side(pieces: &Pieces, h: HalfedgeId) -> Result<HalfedgeId> {
+    let inside =
+        || Error::Layout(format!("edge {} lies inside a face of the metric's triangulation", h.edge()));
+    pieces.final_halfedge(h).ok_or_else(inside)
 }
 
 /// The piece to begin with, and the number of the half-edge of its final face that is to lie along the x axis from the origin: one that
@@ -266,11 +310,9 @@ fn start<F: Frame>(pieces: &Pieces, faces: &Faces<F>, root: Option<VertexId>) ->
 }
 
 /// The distance from the origin of the far corner of the face beyond a final half-edge with this frame.
-fn distance_beyond<F: Frame>(faces: &Faces<F>, frame: F, along: HalfedgeId) -> Result<f64> {
-    let (face, k) = corner_of(faces.mesh, along.twin())?;
-    let far = faces.distance_of_apex(faces.across(frame, along), face, k);
-    if !far.is_finite() {
-        return Err(Error::Layout(format!("edge {} lies beyond the range of doubles", along.edge())));
+fn distance_beyond<F: Frame>(faces: &Faces<F>, frame: F::Rough, along: HalfedgeId) -> Result<f64> {
+    match faces.distance_beyond(frame, along) {
+        Some(far) if far.is_finite() => Ok(far),
+        _ => Err(Error::Layout(format!("edge {} lies beyond the range of doubles", along.edge()))),
     }
-    Ok(far)
 }

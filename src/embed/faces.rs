@@ -1,14 +1,14 @@
 //! The triangles of a metric, each by itself.
 
-use super::frame::{Frame, ORIGIN, PlaneFrame};
+use super::frame::{Frame, PlaneFrame, Walk};
 use super::triangle::Triangle;
 use crate::error::{Error, Result};
 use crate::geometry::model::distance;
-use crate::geometry::triangle::{area_from, half_differences};
+use crate::geometry::triangle::half_differences;
 use crate::geometry::{Motion, Space, Twofold};
 use crate::mesh::{EdgeId, FaceId, HalfedgeId, Mesh, PerEdge, PerFace};
 use crate::metric::Metric;
-use crate::metric::precise::half_angles;
+use crate::metric::precise::shapes;
 use crate::parallel;
 use std::cell::OnceCell;
 
@@ -19,18 +19,18 @@ pub(super) struct Faces<'a, F: Frame> {
     sides: PerEdge<F::Side>,
     /// At each corner, in corner order.
     angles: PerFace<[F::Angle; 3]>,
-    /// Per face: its area, by formulas without angles; whether its lengths break the triangle inequality.
-    areas: PerFace<(f64, bool)>,
+    /// The sum of the faces' areas, by formulas without angles.
+    area: f64,
+    /// Faces whose lengths break the triangle inequality, ascending.
+    broken: Vec<FaceId>,
 }
 
 impl<'a> Faces<'a, PlaneFrame> {
     /// Of lengths in E² (E entries), by doubles.
     pub fn of_lengths(mesh: &'a Mesh, lengths: PerEdge<f64>) -> Self {
-        let mut differences = vec![[0.0; 3]; mesh.n_faces()];
-        parallel::fill(&mut differences, |f| {
-            half_differences(mesh.opposite_edges(f.into()).map(|e| lengths[e]))
-        });
-        Self::of_triangles(mesh, lengths, &differences)
+        Self::of_triangles(mesh, lengths, |lengths, f| {
+            half_differences(mesh.opposite_edges(f).map(|e| lengths[e]))
+        })
     }
 
     /// Of a metric in E², by doubles. Triangles keep their shape where circles of very different sizes meet, since they come from
@@ -43,17 +43,21 @@ impl<'a> Faces<'a, PlaneFrame> {
             return Err(Error::Layout(format!("a metric in {} has no layout in the plane", metric.space)));
         }
         let measured = metric.measured(mesh)?;
-        Ok(Self::of_triangles(mesh, measured.lengths()?, &measured.differences()))
+        Ok(Self::of_triangles(mesh, measured.lengths()?, |_, f| measured.differences_of(f)))
     }
 
-    fn of_triangles(mesh: &'a Mesh, lengths: PerEdge<f64>, differences: &[[f64; 3]]) -> Self {
+    fn of_triangles(
+        mesh: &'a Mesh,
+        lengths: PerEdge<f64>,
+        differences: impl Fn(&PerEdge<f64>, FaceId) -> [f64; 3] + Sync,
+    ) -> Self {
         let (mut angles, mut areas) =
             (vec![[[0.0; 2]; 3]; mesh.n_faces()], vec![(0.0, false); mesh.n_faces()]);
         parallel::fill_both(&mut angles, &mut areas, |f| {
-            let triangle = Triangle::from_differences(differences[f]);
+            let triangle = Triangle::from_differences(differences(&lengths, f.into()));
             (triangle.direction, (triangle.area, triangle.excess > 0.0))
         });
-        Faces { mesh, space: Space::E2, sides: lengths, angles: angles.into(), areas: areas.into() }
+        Faces { mesh, space: Space::E2, sides: lengths, angles: angles.into(), ..Faces::summed(mesh, &areas) }
     }
 }
 
@@ -63,73 +67,157 @@ impl<'a> Faces<'a, Motion<Twofold>> {
     /// # Errors
     /// Those of [`Metric::lengths`].
     pub fn precise(mesh: &'a Mesh, metric: &Metric) -> Result<Self> {
-        let differences = metric.differences(mesh)?;
-        let chords = metric.scaled_chords(mesh);
-        let angles = half_angles(metric, mesh, &chords);
+        let (chords, angles, areas) = shapes(metric, mesh)?;
         let mut sides = vec![[Twofold::default(); 2]; mesh.n_edges()];
         parallel::fill(&mut sides, |e| {
             let (chord, unit) = chords[EdgeId::from(e)];
             let chord = chord.scaled(unit);
             [Motion::translation_of_chord(chord, metric.space).a[0], chord]
         });
-        let area = |f: FaceId| {
-            let broken = angles[f].iter().all(|[cos, sin]| cos.high == 0.0 || sin.high == 0.0);
-            (area_from(metric.space, differences[f]), broken)
-        };
-        Ok(Faces {
-            mesh,
-            space: metric.space,
-            sides: sides.into(),
-            areas: PerFace::from_fn(mesh.n_faces(), area),
-            angles,
-        })
+        Ok(Faces { mesh, space: metric.space, sides: sides.into(), angles, ..Faces::summed(mesh, &areas) })
     }
 }
 
-impl<F: Frame> Faces<'_, F> {
+impl<'a, F: Frame> Faces<'a, F> {
+    /// What is known of faces with these areas, broken ones marked.
+    fn summed(mesh: &'a Mesh, areas: &[(f64, bool)]) -> Self {
+        let sum = areas.iter().fold(Twofold::default(), |sum, (area, _)| sum.plus(*area));
+        Faces {
+            mesh,
+            space: Space::E2,
+            sides: Vec::new().into(),
+            angles: Vec::new().into(),
+            area: sum.high,
+            broken: mesh.faces().filter(|f| areas[f.index()].1).collect(),
+        }
+    }
+
     /// Whether the lengths of a face break the triangle inequality.
     pub fn is_broken(&self, f: FaceId) -> bool {
-        self.areas[f].1
+        !self.broken.is_empty() && self.broken.binary_search(&f).is_ok()
+    }
+
+    /// The lengths of the edges.
+    pub fn lengths(&self) -> PerEdge<f64> {
+        let mut lengths = vec![0.0; self.sides.len()];
+        parallel::fill(&mut lengths, |e| F::length(self.space, self.sides[EdgeId::from(e)]));
+        lengths.into()
     }
 
     /// A number that grows with the length of a face's longest side; in E² by [`PlaneFrame`]s that length.
+    #[inline]
     pub fn longest(&self, f: FaceId) -> f64 {
         self.mesh.opposite_edges(f).map(|e| F::size(self.sides[e])).into_iter().fold(0.0, f64::max)
     }
 
     /// The sum of the faces' areas.
     pub fn area(&self) -> f64 {
-        self.areas.iter().fold(Twofold::default(), |sum, (area, _)| sum.plus(*area)).high
-    }
-
-    /// The frames of the half-edges of a face, in order, from that of its half-edge number `k`.
-    pub fn around(&self, f: FaceId, k: usize, frame: F) -> [F; 3] {
-        let (sides, angles) = (self.mesh.face_halfedges(f).map(|h| self.sides[h.edge()]), &self.angles[f]);
-        let (next, last) = ((k + 1) % 3, (k + 2) % 3);
-        let mut frames = [frame; 3];
-        frames[next] = frame.forward(sides[k]).turned_onwards(angles[next]);
-        frames[last] = frames[next].forward(sides[next]).turned_onwards(angles[last]);
-        // The last corner is placed from its nearer neighbour, since a step is rounded to doubles of its size.
-        if F::size(sides[last]) < F::size(sides[next]) {
-            frames[last] = frames[last].ending_at(&frame, sides[last]);
-        }
-        frames
+        self.area
     }
 
     /// The corners of a face as its first half-edge has them at the origin, along the x axis: ambient coordinates.
     pub fn local(&self, f: FaceId) -> [[f64; 3]; 3] {
-        self.around(f, 0, F::identity(self.space)).map(|frame| frame.origin())
+        self.all(f, F::identity(self.space)).map(|frame| frame.origin())
+    }
+
+    /// The sides of a face, in the order of its half-edges.
+    #[inline]
+    fn sides(&self, f: FaceId) -> [F::Side; 3] {
+        self.mesh.face_halfedges(f).map(|h| self.sides[h.edge()])
+    }
+
+    /// The frames of the half-edges of a face, in order, from that of its half-edge number `k`.
+    #[inline]
+    pub fn around<W: Walk<Side = F::Side, Angle = F::Angle>>(&self, f: FaceId, k: usize, frame: W) -> [W; 3] {
+        match k {
+            0 => self.all(f, frame),
+            1 => {
+                let [p, q, r] = self.onwards::<W, 1>(f, frame);
+                [r, p, q]
+            }
+            _ => {
+                let [p, q, r] = self.onwards::<W, 2>(f, frame);
+                [q, r, p]
+            }
+        }
+    }
+
+    /// [`Faces::around`] from the first half-edge.
+    #[inline]
+    pub fn all<W: Walk<Side = F::Side, Angle = F::Angle>>(&self, f: FaceId, first: W) -> [W; 3] {
+        self.onwards::<W, 0>(f, first)
+    }
+
+    /// The frames of the half-edges of a face, one after the other from that of its half-edge number `K`.
+    #[inline]
+    fn onwards<W: Walk<Side = F::Side, Angle = F::Angle>, const K: usize>(
+        &self,
+        f: FaceId,
+        frame: W,
+    ) -> [W; 3] {
+        let (sides, angles) = (self.sides(f), &self.angles[f]);
+        let [here, next, last] = [K, (K + 1) % 3, (K + 2) % 3];
+        let second = frame.forward(sides[here]).turned_onwards(angles[next]);
+        let third = second.forward(sides[next]).turned_onwards(angles[last]);
+        // The last corner is placed from its nearer neighbour, since a step is rounded to doubles of its size.
+        let nearer = W::size(sides[last]) < W::size(sides[next]);
+        [frame, second, if nearer { third.ending_at(&frame, sides[last]) } else { third }]
+    }
+
+    /// The frame of half-edge number `k` of a face, from that of its first one.
+    #[inline]
+    pub fn side<W: Walk<Side = F::Side, Angle = F::Angle>>(&self, f: FaceId, k: usize, first: W) -> W {
+        match k {
+            0 => first,
+            1 => {
+                let [h, ..] = self.mesh.face_halfedges(f);
+                first.forward(self.sides[h.edge()]).turned_onwards(self.angles[f][1])
+            }
+            _ => self.all(f, first)[2],
+        }
+    }
+
+    /// The frame of the first half-edge of a face, from that of its half-edge number `k`.
+    #[inline]
+    pub fn first<W: Walk<Side = F::Side, Angle = F::Angle>>(&self, f: FaceId, k: usize, frame: W) -> W {
+        match k {
+            0 => frame,
+            1 => {
+                let [h, ..] = self.mesh.face_halfedges(f);
+                let back = frame.backwards(self.sides[h.edge()], self.angles[f][1]);
+                back.unwrap_or_else(|| self.around(f, 1, frame)[0])
+            }
+            _ => {
+                let [.., h] = self.mesh.face_halfedges(f);
+                frame.forward(self.sides[h.edge()]).turned_onwards(self.angles[f][0])
+            }
+        }
+    }
+
+    /// The frame of the twin of half-edge number `k` of a face, from that of the face's first one.
+    #[inline]
+    pub fn beyond<W: Walk<Side = F::Side, Angle = F::Angle>>(&self, f: FaceId, k: usize, first: W) -> W {
+        let inwards = if k == 2 { first.turned_inwards(self.angles[f][0]) } else { None };
+        inwards.unwrap_or_else(|| self.across(self.side(f, k, first), self.mesh.face_halfedges(f)[k]))
     }
 
     /// The frame of the twin of the half-edge with this frame.
-    pub fn across(&self, frame: F, h: HalfedgeId) -> F {
+    #[inline]
+    pub fn across<W: Walk<Side = F::Side, Angle = F::Angle>>(&self, frame: W, h: HalfedgeId) -> W {
         frame.forward(self.sides[h.edge()]).turned_round()
     }
 
-    /// The distance from the origin of the corner opposite `h` in its face (corner number `k` starts it), from its frame.
-    pub fn distance_of_apex(&self, frame: F, f: FaceId, k: usize) -> f64 {
-        let last = self.mesh.face_halfedges(f)[(k + 2) % 3];
-        frame.distance_of_apex(self.angles[f][k], self.sides[last.edge()])
+    /// The distance from the origin of the corner opposite the twin of a half-edge with this frame, or a number that grows with it; none where
+    /// no face is beyond.
+    #[inline]
+    pub fn distance_beyond<W: Walk<Side = F::Side, Angle = F::Angle>>(
+        &self,
+        frame: W,
+        h: HalfedgeId,
+    ) -> Option<f64> {
+        let (f, k) = self.mesh.corner(h.twin())?;
+        let last = self.mesh.prev(h.twin());
+        Some(self.across(frame, h).distance_of_apex(self.angles[f][k], self.sides[last.edge()]))
     }
 }
 
@@ -137,15 +225,15 @@ impl<F: Frame> Faces<'_, F> {
 pub(super) struct Placed<'a, F: Frame> {
     faces: &'a Faces<'a, F>,
     face: FaceId,
-    /// The frames of its half-edges.
-    sides: &'a [F; 3],
+    /// The frame of its first half-edge.
+    first: F,
     /// [`Faces::local`], formed where a piece has a point elsewhere than at a corner of the face.
     local: OnceCell<[[f64; 3]; 3]>,
 }
 
 impl<'a, F: Frame> Placed<'a, F> {
-    pub fn new(faces: &'a Faces<'a, F>, face: FaceId, sides: &'a [F; 3]) -> Self {
-        Placed { faces, face, sides, local: OnceCell::new() }
+    pub fn new(faces: &'a Faces<'a, F>, face: FaceId, first: F) -> Self {
+        Placed { faces, face, first, local: OnceCell::new() }
     }
 
     /// The point with these weights of the face's corners, as the face's first half-edge has it at the origin.
@@ -153,26 +241,27 @@ impl<'a, F: Frame> Placed<'a, F> {
         combination(self.faces.space, *self.local.get_or_init(|| self.faces.local(self.face)), weights)
     }
 
-    /// The point of the face with these weights of its corners, where it lies.
-    pub fn point(&self, weights: [f64; 3]) -> [f64; 3] {
+    /// The point of the face with these weights of its corners, where it lies, and what its doubles miss of x and y: nothing is known of that
+    /// elsewhere than at a corner.
+    pub fn point(&self, weights: [f64; 3]) -> ([f64; 3], [f64; 2]) {
         match corner_at(weights) {
-            Some(corner) => self.sides[corner].origin(),
-            None => self.sides[0].apply(self.local(weights)),
+            Some(corner) => self.faces.side(self.face, corner, self.first).point(),
+            None => (self.first.apply(self.local(weights)), [0.0; 2]),
         }
     }
 
-    /// What the doubles of [`Placed::point`] miss of x and y at a corner; elsewhere nothing more is known.
-    pub fn remainder(&self, weights: [f64; 3]) -> [f64; 2] {
-        corner_at(weights).map_or([0.0; 2], |corner| self.sides[corner].remainder())
-    }
-
-    /// By how much a point misses the one with these weights, as [`Frame::miss`] has it: at a corner about the corner itself, since seen
+    /// By how much points miss those with these weights, as [`Frame::miss`] has it: at a corner about the corner itself, since seen
     /// from elsewhere in a large face of H² the difference would be magnified.
-    pub fn miss(&self, point: [f64; 3], weights: [f64; 3]) -> [f64; 2] {
-        match corner_at(weights) {
-            Some(corner) => self.sides[corner].miss(point, ORIGIN),
-            None => self.sides[0].miss(point, self.local(weights)),
-        }
+    pub fn misses(&self, points: [[f64; 3]; 3], weights: [[f64; 3]; 3], sides: &[F; 3]) -> [[f64; 2]; 3] {
+        [0, 1, 2].map(|k| match corner_at(weights[k]) {
+            Some(corner) => sides[corner].miss_of_origin(points[k]),
+            None => self.first.miss(points[k], self.local(weights[k])),
+        })
+    }
+
+    /// The frames of its half-edges.
+    pub fn sides(&self) -> [F; 3] {
+        self.faces.all(self.face, self.first)
     }
 
     /// The length of the face's longest side, or a number that grows with it: [`Faces::longest`].
@@ -182,6 +271,7 @@ impl<'a, F: Frame> Placed<'a, F> {
 }
 
 /// The corner of a face at which a point with these weights lies, if it is one.
+#[inline]
 pub(super) fn corner_at(weights: [f64; 3]) -> Option<usize> {
     weights.iter().position(|&w| w == 1.0)
 }
@@ -215,6 +305,7 @@ pub(super) fn combination(space: Space, corners: [[f64; 3]; 3], weights: [f64; 3
 ///
 /// # Errors
 /// [`Error::Layout`] outside the surface.
+#[inline]
 pub(super) fn corner_of(mesh: &Mesh, h: HalfedgeId) -> Result<(FaceId, usize)> {
     mesh.corner(h).ok_or_else(|| Error::Layout(format!("half-edge {h} belongs to no face")))
 }

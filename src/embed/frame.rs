@@ -1,6 +1,6 @@
 //! Where a half-edge lies: its origin and its direction there.
 
-use crate::geometry::complex::{mul, norm2, sub};
+use crate::geometry::complex::{add, conj, mul, norm2, quick_norm, scale, sub};
 use crate::geometry::motion::precise_point;
 use crate::geometry::{Motion, Space, Twofold};
 
@@ -12,17 +12,40 @@ pub(super) const ORIGIN: [f64; 3] = [0.0, 0.0, 1.0];
 ///
 /// Frames of H² and S² are [`Motion`]s with twice the digits of doubles, since their errors are magnified by e^distance in H². In E² a
 /// [`PlaneFrame`] of doubles is enough, and takes a tenth of the time.
-pub(super) trait Frame: Copy + Send + Sync {
+pub(super) trait Frame: Walk {
+    /// The frames by which it is found out in which order faces are added.
+    type Rough: Walk<Side = Self::Side, Angle = Self::Angle>;
+    /// Whether it has twice the digits of doubles.
+    const IS_PRECISE: bool;
+
+    /// The length of a side.
+    fn length(space: Space, side: Self::Side) -> f64;
+    /// The frame itself, where frames that find the order are as good as any.
+    fn of_rough(rough: Self::Rough) -> Option<Self>;
+    /// Where the half-edge starts, in ambient coordinates.
+    fn origin(&self) -> [f64; 3];
+    /// [`Frame::origin`], and what its doubles miss of x and y.
+    fn point(&self) -> ([f64; 3], [f64; 2]);
+    /// Where it carries a point in ambient coordinates.
+    fn apply(&self, p: [f64; 3]) -> [f64; 3];
+    /// By how much a point misses the place where the frame carries `local`: a vector of the plane in E², elsewhere one at the frame's
+    /// origin.
+    fn miss(&self, point: [f64; 3], local: [f64; 3]) -> [f64; 2];
+    /// [`Frame::miss`] of where the half-edge starts, to first order.
+    fn miss_of_origin(&self, point: [f64; 3]) -> [f64; 2];
+    /// The isometry.
+    fn motion(&self) -> Motion<Twofold>;
+}
+
+/// What walks from face to face.
+pub(super) trait Walk: Copy + Send + Sync {
     /// The length of a side, as walks along it take it.
     type Side: Copy + Send + Sync;
     /// The angle at a corner, as turns by it take it.
     type Angle: Copy + Send + Sync;
-    /// Whether it has twice the digits of doubles.
-    const IS_PRECISE: bool;
 
     /// A number that grows with the length of a side.
     fn size(side: Self::Side) -> f64;
-
     /// The frame at the origin, along the x axis.
     fn identity(space: Space) -> Self;
     /// After a step along the half-edge: at its tip, in the same direction.
@@ -31,23 +54,18 @@ pub(super) trait Frame: Copy + Send + Sync {
     fn turned_onwards(&self, angle: Self::Angle) -> Self;
     /// After a turn by π.
     fn turned_round(&self) -> Self;
+    /// After a turn by the angle: from one side of a triangle, at its start, to where the one before it comes from; where that is as good as going
+    /// around the triangle.
+    fn turned_inwards(&self, angle: Self::Angle) -> Option<Self>;
+    /// The frame of the side before, of this length, which makes this angle with the half-edge; where that is as good as going around the
+    /// triangle.
+    fn backwards(&self, side: Self::Side, angle: Self::Angle) -> Option<Self>;
     /// In the same direction, but moved so that the half-edge, of this length, ends at the place of another frame. A frame of twice the digits
     /// stays as it is: it ends there to all digits that a layout has.
     fn ending_at(&self, end: &Self, side: Self::Side) -> Self;
     /// The distance from the origin of the third corner of a triangle on this half-edge, by its angle here and its last side; or a number that
     /// grows with that distance. Doubles are enough, since it only decides the order of faces.
     fn distance_of_apex(&self, angle: Self::Angle, last: Self::Side) -> f64;
-    /// Where the half-edge starts, in ambient coordinates.
-    fn origin(&self) -> [f64; 3];
-    /// What the doubles of that miss of x and y.
-    fn remainder(&self) -> [f64; 2];
-    /// Where it carries a point in ambient coordinates.
-    fn apply(&self, p: [f64; 3]) -> [f64; 3];
-    /// By how much a point misses the place where the frame carries `local`: a vector of the plane in E², elsewhere one at the frame's
-    /// origin.
-    fn miss(&self, point: [f64; 3], local: [f64; 3]) -> [f64; 2];
-    /// The isometry.
-    fn motion(&self) -> Motion<Twofold>;
 }
 
 /// A frame in the plane. The direction is passed on from face to face and loses a rounding each time; the place is summed up with twice
@@ -59,11 +77,10 @@ pub(super) struct PlaneFrame {
     place: [Twofold; 2],
 }
 
-impl Frame for PlaneFrame {
+impl Walk for PlaneFrame {
     type Side = f64;
     /// `[cos, sin]`.
     type Angle = [f64; 2];
-    const IS_PRECISE: bool = false;
 
     fn size(side: f64) -> f64 {
         side
@@ -89,22 +106,43 @@ impl Frame for PlaneFrame {
         PlaneFrame { direction: self.direction.map(|x| -x), place: self.place }
     }
 
+    /// None: places are rounded, so that the way to a corner matters ([`Walk::ending_at`]).
+    fn turned_inwards(&self, _: [f64; 2]) -> Option<Self> {
+        None
+    }
+
+    fn backwards(&self, _: f64, _: [f64; 2]) -> Option<Self> {
+        None
+    }
+
     fn ending_at(&self, end: &Self, side: f64) -> Self {
         PlaneFrame { direction: self.direction, place: end.place }.forward(-side)
     }
 
     fn distance_of_apex(&self, angle: [f64; 2], last: f64) -> f64 {
         let way = mul(self.direction, angle);
-        let [x, y] = [0, 1].map(|k| self.place[k].high + last * way[k]);
-        x.hypot(y)
+        quick_norm([0, 1].map(|k| self.place[k].high + last * way[k]))
+    }
+}
+
+impl Frame for PlaneFrame {
+    type Rough = PlaneFrame;
+    const IS_PRECISE: bool = false;
+
+    fn length(_: Space, side: f64) -> f64 {
+        side
+    }
+
+    fn of_rough(rough: PlaneFrame) -> Option<Self> {
+        Some(rough)
     }
 
     fn origin(&self) -> [f64; 3] {
         [self.place[0].high, self.place[1].high, 1.0]
     }
 
-    fn remainder(&self) -> [f64; 2] {
-        self.place.map(|x| x.low)
+    fn point(&self) -> ([f64; 3], [f64; 2]) {
+        (self.origin(), self.place.map(|x| x.low))
     }
 
     fn apply(&self, [x, y, _]: [f64; 3]) -> [f64; 3] {
@@ -117,17 +155,132 @@ impl Frame for PlaneFrame {
         sub(from, mul(self.direction, [local[0], local[1]]))
     }
 
+    fn miss_of_origin(&self, [x, y, _]: [f64; 3]) -> [f64; 2] {
+        [self.place[0].plus(-x), self.place[1].plus(-y)].map(|d| -d.high)
+    }
+
     fn motion(&self) -> Motion<Twofold> {
         Motion::in_plane(self.direction.map(Twofold::from), self.place)
     }
 }
 
+/// A motion in doubles. Its errors grow with each step, but it shows well enough which faces are near.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct RoughMotion(Motion);
+
+impl Walk for RoughMotion {
+    type Side = [Twofold; 2];
+    type Angle = [Twofold; 2];
+
+    fn size([_, half_chord]: [Twofold; 2]) -> f64 {
+        half_chord.high
+    }
+
+    fn identity(space: Space) -> Self {
+        RoughMotion(Motion::identity(space))
+    }
+
+    fn forward(&self, side: [Twofold; 2]) -> Self {
+        RoughMotion(self.0.after_translation(side.map(f64::from)))
+    }
+
+    fn turned_onwards(&self, [cos, sin]: [Twofold; 2]) -> Self {
+        RoughMotion(self.0.after_rotation([sin.high, cos.high]))
+    }
+
+    fn turned_round(&self) -> Self {
+        RoughMotion(self.0.after_half_turn())
+    }
+
+    fn turned_inwards(&self, angle: [Twofold; 2]) -> Option<Self> {
+        Some(RoughMotion(self.0.after_rotation(angle.map(f64::from))))
+    }
+
+    fn backwards(&self, [cos, chord]: [Twofold; 2], [half_cos, half_sin]: [Twofold; 2]) -> Option<Self> {
+        let turned = self.0.after_rotation([half_sin.high, -half_cos.high]);
+        Some(RoughMotion(turned.after_translation([cos.high, -chord.high])))
+    }
+
+    fn ending_at(&self, _: &Self, _: [Twofold; 2]) -> Self {
+        *self
+    }
+
+    fn distance_of_apex(&self, half_angle: [Twofold; 2], last: [Twofold; 2]) -> f64 {
+        // |b| is half the distance in E², its hyperbolic sine in H², its sine in S².
+        let far = self.0.after_rotation(half_angle.map(f64::from)).after_translation(last.map(f64::from));
+        quick_norm(far.b)
+    }
+}
+
 impl Frame for Motion<Twofold> {
+    type Rough = RoughMotion;
+    const IS_PRECISE: bool = true;
+
+    fn length(space: Space, [_, half_chord]: [Twofold; 2]) -> f64 {
+        2.0 * match space {
+            Space::E2 => half_chord.high,
+            Space::H2 => half_chord.high.asinh(),
+            Space::S2 => half_chord.high.min(1.0).asin(),
+        }
+    }
+
+    fn of_rough(_: RoughMotion) -> Option<Self> {
+        None
+    }
+
+    fn origin(&self) -> [f64; 3] {
+        Motion::origin(self).map(f64::from)
+    }
+
+    fn point(&self) -> ([f64; 3], [f64; 2]) {
+        let [x, y, w] = Motion::origin(self);
+        ([x.high, y.high, w.high], [x.low, y.low])
+    }
+
+    fn apply(&self, p: [f64; 3]) -> [f64; 3] {
+        Motion::apply(self, precise_point(self.space, p)).map(f64::from)
+    }
+
+    fn miss(&self, point: [f64; 3], local: [f64; 3]) -> [f64; 2] {
+        let point = precise_point(self.space, point);
+        if self.space == Space::E2 {
+            let place = Motion::apply(self, precise_point(self.space, local));
+            return [0, 1].map(|k| f64::from(point[k] - place[k]));
+        }
+        let [x, y, _] = Motion::apply(&self.inverse(), point).map(f64::from);
+        sub([x, y], [local[0], local[1]])
+    }
+
+    fn miss_of_origin(&self, point: [f64; 3]) -> [f64; 2] {
+        // What is left of the difference is small, so that doubles are enough for how the inverse carries it:
+        // X ↦ ā² X − κ b² X̄ − 2 ā b w.
+        let (near, [x, y]) = (self.rounded(), self.place());
+        let [dx, dy] = [x.plus(-point[0]), y.plus(-point[1])].map(|d| -d.high);
+        let [x, y] = [x.high, y.high];
+        let dw = match self.space {
+            Space::E2 => return [dx, dy],
+            Space::H2 => {
+                let [w, u] = [[x, y], [point[0], point[1]]].map(|z| (1.0 + norm2(z)).sqrt());
+                ((x + point[0]) * dx + (y + point[1]) * dy) / (w + u)
+            }
+            Space::S2 => point[2] - (norm2(near.a) - norm2(near.b)),
+        };
+        let back = mul(conj(near.a), conj(near.a));
+        let off =
+            add(mul(back, [dx, dy]), scale(-self.space.curvature(), mul(mul(near.b, near.b), [dx, -dy])));
+        sub(off, scale(2.0 * dw, mul(conj(near.a), near.b)))
+    }
+
+    fn motion(&self) -> Motion<Twofold> {
+        *self
+    }
+}
+
+impl Walk for Motion<Twofold> {
     /// a and b of the translation along the side ([`Motion::translation_of_chord`]).
     type Side = [Twofold; 2];
     /// `[cos, sin]` of half the angle.
     type Angle = [Twofold; 2];
-    const IS_PRECISE: bool = true;
 
     fn size([_, half_chord]: [Twofold; 2]) -> f64 {
         half_chord.high
@@ -146,7 +299,15 @@ impl Frame for Motion<Twofold> {
     }
 
     fn turned_round(&self) -> Self {
-        self.after_rotation([0.0, 1.0].map(Twofold::from))
+        self.after_half_turn()
+    }
+
+    fn turned_inwards(&self, angle: [Twofold; 2]) -> Option<Self> {
+        Some(self.after_rotation(angle))
+    }
+
+    fn backwards(&self, [cos, chord]: [Twofold; 2], [half_cos, half_sin]: [Twofold; 2]) -> Option<Self> {
+        Some(self.after_rotation([half_sin, -half_cos]).after_translation([cos, -chord]))
     }
 
     fn ending_at(&self, _: &Self, _: [Twofold; 2]) -> Self {
@@ -154,37 +315,7 @@ impl Frame for Motion<Twofold> {
     }
 
     fn distance_of_apex(&self, half_angle: [Twofold; 2], last: [Twofold; 2]) -> f64 {
-        // |b| is half the distance in E², its hyperbolic sine in H², its sine in S².
-        let far =
-            self.rounded().after_rotation(half_angle.map(f64::from)).after_translation(last.map(f64::from));
-        far.b[0].hypot(far.b[1])
-    }
-
-    fn origin(&self) -> [f64; 3] {
-        Motion::origin(self).map(f64::from)
-    }
-
-    fn remainder(&self) -> [f64; 2] {
-        let [x, y, _] = Motion::origin(self);
-        [x.low, y.low]
-    }
-
-    fn apply(&self, p: [f64; 3]) -> [f64; 3] {
-        Motion::apply(self, precise_point(self.space, p)).map(f64::from)
-    }
-
-    fn miss(&self, point: [f64; 3], local: [f64; 3]) -> [f64; 2] {
-        let point = precise_point(self.space, point);
-        if self.space == Space::E2 {
-            let place = Motion::apply(self, precise_point(self.space, local));
-            return [0, 1].map(|k| f64::from(point[k] - place[k]));
-        }
-        let [x, y, _] = Motion::apply(&self.inverse(), point).map(f64::from);
-        sub([x, y], [local[0], local[1]])
-    }
-
-    fn motion(&self) -> Motion<Twofold> {
-        *self
+        RoughMotion(self.rounded()).distance_of_apex(half_angle, last)
     }
 }
 
@@ -218,6 +349,26 @@ mod tests {
             let other = [p[0] + 3.0, p[1] - 4.0, 1.0];
             for off in [plane.miss(other, local), motion.miss(other, local)] {
                 assert!((off[0] - 3.0).hypot(off[1] + 4.0) < 1e-12, "{k}: {off:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn misses_of_an_origin_are_those_of_any_point_to_first_order() {
+        for space in [Space::E2, Space::H2, Space::S2] {
+            let mut motion = <Motion<Twofold>>::identity(space);
+            for k in 1..6 {
+                let (half, chord) = ((0.3 * f64::from(k)).sin_cos(), Twofold::from(0.9));
+                let side = [Motion::translation_of_chord(chord, space).a[0], chord];
+                motion = motion.forward(side).turned_onwards([half.1, half.0].map(Twofold::from));
+                let small = Motion::translation(1e-9, space).precise();
+                let near = motion.turned_onwards([0.6, 0.8].map(Twofold::from)).compose(&small);
+                let point = Frame::origin(&near);
+                let (known, off) = (motion.miss(point, ORIGIN), motion.miss_of_origin(point));
+                let scale = point.iter().fold(1.0, |m: f64, x| m.max(x.abs()));
+                let error = (known[0] - off[0]).hypot(known[1] - off[1]);
+                assert!(known[0].hypot(known[1]) > 0.9e-9, "{space} {k}: {known:?}");
+                assert!(error < 1e-15 * scale * scale, "{space} {k}: {known:?} {off:?}");
             }
         }
     }

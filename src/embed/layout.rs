@@ -169,6 +169,23 @@ impl Layout {
     /// The layout on the faces of the surface as it came; `None` where the cut does not run along its edges.
     pub fn on_input(&self) -> Option<OnInput> {
         let (input, cut) = self.input.as_ref()?;
+        let flipped = |uv: &(dyn Fn(HalfedgeId) -> [f64; 2] + Sync)| {
+            faces_where(input, |f| !is_left_turn(input.face_halfedges(f).map(uv)))
+        };
+        // The input itself is laid out: its corners are those of the layout.
+        if std::ptr::eq(&**input, self.mesh()) && cut.is_cut == self.cut.is_cut {
+            return Some(OnInput {
+                corner_index: self.corner_index.clone(),
+                points: (0..self.points.len() as u32).collect(),
+                coordinates: self.coordinates.clone(),
+                flipped: if self.space == Space::E2 {
+                    self.flipped.clone()
+                } else {
+                    flipped(&|h| self.uv(h))
+                },
+                cut: cut.clone(),
+            });
+        }
         let (corner_index, n) = number_corners(input, &cut.is_cut);
         let mut points = vec![0; n];
         for f in self.mesh().faces() {
@@ -181,8 +198,7 @@ impl Layout {
             }
         }
         let coordinates: Vec<_> = points.iter().map(|&k| self.coordinates[k as usize]).collect();
-        let uv = |f| input.face_halfedges(f).map(|h| coordinates[corner_index[h] as usize]);
-        let flipped = faces_where(input, |f| !is_left_turn(uv(f)));
+        let flipped = flipped(&|h| coordinates[corner_index[h] as usize]);
         Some(OnInput { corner_index, points, coordinates, flipped, cut: cut.clone() })
     }
 

@@ -68,13 +68,14 @@ impl Layout {
             return;
         }
         self.coordinates.as_flattened_mut().iter_mut().for_each(|x| *x *= factor);
-        let scaled = |k: usize| {
-            let [x, y, w] = self.precise_point(k);
-            [x * factor.into(), y * factor.into(), w]
-        };
-        let scaled: Vec<[Twofold; 3]> = (0..self.points.len()).map(scaled).collect();
-        self.points.iter_mut().for_each(|[x, y, _]| (*x, *y) = (factor * *x, factor * *y));
-        self.set_remainders(&scaled);
+        self.remainders.resize(self.points.len(), [0.0; 2]);
+        for (p, rest) in self.points.iter_mut().zip(&mut self.remainders) {
+            for k in 0..2 {
+                let precise = Twofold::from(p[k]).plus(rest[k]) * factor.into();
+                p[k] *= factor;
+                rest[k] = precise.plus(-p[k]).high;
+            }
+        }
         let pairings = self.seams.iter_mut().map(|seam| &mut seam.pairing);
         pairings.chain(&mut self.frames).for_each(|m| m.b = m.b.map(|x| x * factor.into()));
         self.disagreement *= factor;

@@ -120,7 +120,7 @@ impl<F: Frame> Development<'_, F> {
             ));
         }
         control.check()?;
-        let mut misses = vec![[0.0; 2]; self.sides.len()];
+        let mut misses = vec![[0.0; 2]; self.frames.len()];
         parallel::fill(&mut misses, |patch| self.misses(patch, |h| points[corner_index[h] as usize]));
         let [apart, local_consistency] =
             misses.iter().fold([0.0; 2], |[a, b], m| [worse(a, m[0]), worse(b, m[1])]);
@@ -146,9 +146,9 @@ impl<F: Frame> Development<'_, F> {
             scale: 1.0,
             input: None,
             side: seam_sides(mesh, &cut),
-            n_steps: self.sides.len(),
+            n_steps: self.frames.len(),
             frames: if F::IS_PRECISE {
-                self.sides.iter().map(|s| s[0].motion()).collect()
+                self.frames.into_iter().map(|frame| frame.motion()).collect()
             } else {
                 Vec::new()
             },
@@ -166,18 +166,18 @@ impl<F: Frame> Development<'_, F> {
     /// relative to the face's longest side.
     fn misses(&self, patch: usize, point: impl Fn(HalfedgeId) -> [f64; 3]) -> [f64; 2] {
         let Some((placed, pieces)) = self.placed(patch) else { return [0.0; 2] };
-        let longest = placed.longest();
+        let (sides, over) = (placed.sides(), 1.0 / placed.longest());
         let (mut worst, mut worst_edge) = (0.0, 0.0);
         for &f in pieces {
-            let (halfedges, weights) =
-                (self.pieces.mesh().face_halfedges(f), self.pieces.final_barycentric(f));
-            let off = [0, 1, 2].map(|k| placed.miss(point(halfedges[k]), weights[k]).map(|x| x / longest));
+            let points = self.pieces.mesh().face_halfedges(f).map(&point);
+            let off = placed.misses(points, self.pieces.final_barycentric(f), &sides);
+            let off = off.map(|off| off.map(|x| x * over));
             for k in 0..3 {
                 worst = worse(worst, norm2(off[k]));
                 worst_edge = worse(worst_edge, norm2(sub(off[(k + 1) % 3], off[k])));
             }
         }
-        [longest * worst.sqrt(), worst_edge.sqrt()]
+        [worst.sqrt() / over, worst_edge.sqrt()]
     }
 
     /// The isometry of a segment's edge that is nearest to the origin, and how far those of the others are from it: a distance.
@@ -222,7 +222,7 @@ impl Layout {
             frame
         };
         let frames: Vec<_> = mesh.faces().map(frame).collect();
-        let grown = Development::of_frames(r, &faces, &frames);
+        let grown = Development::of_frames(r, &faces, frames);
         let cut = grown.pieces.cut_of_final(mesh, &self.cut)?.inside(&r.mesh);
         let mut layout = grown.layout(cut, control)?;
         layout.scale_by(self.scale);

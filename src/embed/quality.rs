@@ -19,7 +19,7 @@ use super::pieces::CORNERS;
 use super::shape::{LEAST_SHARE, Shape, extent};
 use super::triangle::Triangle as PlaneTriangle;
 use crate::error::{Error, Result, check_size};
-use crate::geometry::complex::{conj, cross, doubled_area, mul, norm, norm2, sub};
+use crate::geometry::complex::{conj, cross, doubled_area, mul, norm2, quick_norm, sub};
 use crate::geometry::triangle::area;
 use crate::geometry::{Space, vector};
 use crate::mesh::{FaceId, Mesh, PerEdge, PerFace, Point};
@@ -71,9 +71,8 @@ impl Layout {
         Given::new(input, lengths)?.quality(self.mesh(), place, |f, from| {
             let to = self.face_uv(f).map(|p| p.map(|x| x / self.diameter));
             let corners = self.face_points(f);
-            let home = self.home(corners);
-            let can_compare = self.can_compare(from, to, (corners, home));
-            (if can_compare { dilatation(from, to) } else { DILATATION_CAP }, self.area_of(to, home))
+            let can_compare = self.can_compare(from, to, corners);
+            (if can_compare { dilatation(from, to) } else { DILATATION_CAP }, self.area_of(to, corners))
         })
     }
 
@@ -89,38 +88,35 @@ impl Layout {
             let face = input.face_halfedges(f);
             let points = face.map(|h| on_input.points[on_input.corner_index[h] as usize] as usize);
             let to = points.map(|k| self.coordinates[k].map(|x| x / self.diameter));
-            (dilatation(from, to), self.area_of(to, self.home(points.map(|k| self.points[k]))))
+            (dilatation(from, to), self.area_of(to, points.map(|k| self.points[k])))
         });
         quality.map(Some)
     }
 
-    /// Corners in H² and S² where they are moved to the origin; none in E².
-    fn home(&self, corners: [Point; 3]) -> Option<[Point; 3]> {
-        (self.space != Space::E2).then(|| self.brought_home(corners))
-    }
-
     /// Whether a piece and its image have a shape to compare. The triangles of a mesh always have, as far as doubles go: they come from their
-    /// lengths; the corners of a refinement's pieces are rounded. `to`: the image in E², divided by the diameter; `corners`, at home.
-    fn can_compare(
-        &self,
-        from: Triangle,
-        to: Triangle,
-        (corners, home): ([Point; 3], Option<[Point; 3]>),
-    ) -> bool {
-        let is_sound = || match home {
-            None => !Shape::of(to).is_degenerate(extent(&to).max(1.0)),
-            Some(home) => {
-                let (shape, far) = shape_of(corners, home);
+    /// lengths; the corners of a refinement's pieces are rounded. `to`: the image in E², divided by the diameter; `corners`: in ambient
+    /// coordinates.
+    fn can_compare(&self, from: Triangle, to: Triangle, corners: [Point; 3]) -> bool {
+        let is_sound = || match self.space {
+            Space::E2 => !Shape::of(to).is_degenerate(extent(&to).max(1.0)),
+            _ => {
+                let (shape, far) = shape_of(corners, self.brought_home(corners));
                 !shape.is_degenerate(far) && !shape.is_flipped(far)
             }
         };
         self.refinement().is_none() || (Shape::of(from).share > LEAST_SHARE && is_sound())
     }
 
-    /// The area of a triangle: in E² of its coordinates, divided by the diameter; elsewhere of its corners at home.
-    fn area_of(&self, to: Triangle, home: Option<[Point; 3]>) -> f64 {
-        let Some(points) = home else { return 0.5 * doubled_area(to).abs() };
-        area(self.space, [[1, 2], [2, 0], [0, 1]].map(|[i, j]| distance(self.space, points[i], points[j])))
+    /// The area of a triangle: in E² of its coordinates, divided by the diameter; elsewhere of its corners in ambient coordinates.
+    fn area_of(&self, to: Triangle, corners: [Point; 3]) -> f64 {
+        match self.space {
+            Space::E2 => 0.5 * doubled_area(to).abs(),
+            Space::H2 if corners.iter().all(|p| p[2] < NEAR) => area_near(corners),
+            space => {
+                let p = self.brought_home(corners);
+                area(space, [[1, 2], [2, 0], [0, 1]].map(|[i, j]| distance(space, p[i], p[j])))
+            }
+        }
     }
 }
 
@@ -143,7 +139,7 @@ impl Quality {
         Given::new(input, lengths)?.quality(&refinement.mesh, place, |f, from| {
             let [a, b, c] = corners(f);
             let sides = [[b, c], [c, a], [a, b]].map(|[p, q]| vector::distance(p, q));
-            let to = in_plane(sides, CORNERS);
+            let (to, _) = in_plane(sides, CORNERS);
             let (before, after) = (Shape::of(from), Shape::of(to));
             let is_sound =
                 before.share.min(after.share) > LEAST_SHARE && after.longest >= LEAST_EDGE_ON_SPHERE;
@@ -151,6 +147,18 @@ impl Quality {
             (dilatation, 0.5 * doubled_area(to).abs())
         })
     }
+}
+
+/// cosh of the distance from the origin up to which areas in H² are formed where triangles lie: products of three coordinates then lose at
+/// most 4 digits to those of the triangle's sides.
+const NEAR: f64 = 16.0;
+
+/// The area of a triangle in H² by its corners p, q, r on the hyperboloid: `tan(area/2) = |det(p, q, r)| / (1 − ⟨p, q⟩ − ⟨q, r⟩ − ⟨r, p⟩)`.
+fn area_near([p, q, r]: [Point; 3]) -> f64 {
+    let (a, b) = (vector::sub(q, p), vector::sub(r, p));
+    let form = |p: Point, q: Point| p[2] * q[2] - p[0] * q[0] - p[1] * q[1];
+    let det = vector::dot(p, vector::cross(a, b)).abs();
+    2.0 * det.atan2(1.0 + form(p, q) + form(q, r) + form(r, p))
 }
 
 /// The surface as it came: triangles by their lengths.
@@ -183,28 +191,31 @@ impl<'a> Given<'a> {
         let need = pieces.faces().map(|f| source(f).index() + 1).fold(0, usize::max);
         check_size("input faces", self.mesh.n_faces().min(need), need)?;
         let (mut qc, mut areas) = (vec![DILATATION_CAP; pieces.n_faces()], vec![[0.0; 2]; pieces.n_faces()]);
-        let mut excess = vec![0.0; self.mesh.n_faces()];
-        parallel::fill(&mut excess, |f| PlaneTriangle::excess_of(self.sides(f.into())));
-        if let Some(face) = pieces.faces().map(&source).find(|f| excess[f.index()] > 0.0) {
-            return Err(Error::TriangleInequality { face: face.index(), excess: excess[face.index()] });
-        }
+        // No dilatation is negative: where one is, it says by how much the triangle inequality is broken.
         parallel::fill_both(&mut qc, &mut areas, |f| {
             let (face, weights) = (source(f.into()), weights(f.into()));
-            let from = in_plane(self.sides(face), weights);
+            let (from, excess) = in_plane(self.sides(face), weights);
+            if excess > 0.0 {
+                return (-excess, [0.0; 2]);
+            }
             let (dilatation, area) = image(f.into(), from);
             (dilatation, [0.5 * doubled_area(from).abs(), area])
         });
-        Ok(summary(pieces, qc.into(), &areas.into()))
+        if let Some(f) = qc.iter().position(|&qc| qc < 0.0) {
+            return Err(Error::TriangleInequality { face: source(f.into()).index(), excess: -qc[f] });
+        }
+        Ok(summary(qc.into(), &areas.into()))
     }
 }
 
 /// Points of a triangle in the plane, by the weights of its corners. The corner opposite the longest side lies at the origin: the edges of a
-/// needle are far from parallel there.
-fn in_plane(sides: [f64; 3], weights: [[f64; 3]; 3]) -> Triangle {
+/// needle are far from parallel there. Also by how much the longest side exceeds the others ([`PlaneTriangle::excess`]).
+fn in_plane(sides: [f64; 3], weights: [[f64; 3]; 3]) -> (Triangle, f64) {
     let k = longest_side(sides);
     let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-    let way = PlaneTriangle::direction_at(sides, k).map(|x| sides[i] * x);
-    weights.map(|w| [w[i] * sides[j] + w[j] * way[0], w[j] * way[1]])
+    let (direction, excess) = PlaneTriangle::direction_at(sides, k);
+    let way = direction.map(|x| sides[i] * x);
+    (weights.map(|w| [w[i] * sides[j] + w[j] * way[0], w[j] * way[1]]), excess)
 }
 
 fn longest_side(sides: [f64; 3]) -> usize {
@@ -212,26 +223,33 @@ fn longest_side(sides: [f64; 3]) -> usize {
 }
 
 /// The statistics of dilatations and of areas `[input, layout]` per face.
-fn summary(mesh: &Mesh, qc: PerFace<f64>, areas: &PerFace<[f64; 2]>) -> Quality {
+fn summary(qc: PerFace<f64>, areas: &PerFace<[f64; 2]>) -> Quality {
     let total = areas.iter().fold([0.0; 2], |t, a| [t[0] + a[0], t[1] + a[1]]);
-    let ratio = |&[a, b]: &[f64; 2]| {
+    let mut area_ratio = vec![1.0; areas.len()];
+    parallel::fill(&mut area_ratio, |f| {
+        let [a, b] = areas[FaceId::from(f)];
         let r = (b / total[1]) / (a / total[0]);
         if r.is_finite() { r } else { 1.0 }
-    };
-    let area_ratio: PerFace<f64> = areas.iter().map(ratio).collect::<Vec<_>>().into();
-
-    let (degenerate, sound): (Vec<_>, Vec<_>) = mesh.faces().partition(|&f| qc[f] >= DILATATION_CAP);
-    let weight: f64 = sound.iter().map(|&f| areas[f][0]).sum();
-    let sum: f64 = sound.iter().map(|&f| areas[f][0] * qc[f]).sum();
-    let most = |values: &PerFace<f64>| sound.iter().map(|&f| values[f]).reduce(f64::max).unwrap_or(1.0);
-    let least = |values: &PerFace<f64>| sound.iter().map(|&f| values[f]).reduce(f64::min).unwrap_or(1.0);
+    });
+    let (mut weight, mut sum, mut most, mut ratios) = (0.0, 0.0, f64::NEG_INFINITY, [f64::INFINITY, 0.0]);
+    let mut degenerate = Vec::new();
+    for (f, (&qc, (area, &ratio))) in qc.iter().zip(areas.iter().zip(&area_ratio)).enumerate() {
+        if qc >= DILATATION_CAP {
+            degenerate.push(FaceId::from(f));
+            continue;
+        }
+        (weight, sum) = (weight + area[0], sum + area[0] * qc);
+        (most, ratios) = (most.max(qc), [ratios[0].min(ratio), ratios[1].max(ratio)]);
+    }
+    let is_any = degenerate.len() < qc.len();
+    let or_one = |x: f64| if is_any { x } else { 1.0 };
     Quality {
         qc_mean: if weight > 0.0 { sum / weight } else { 1.0 },
-        qc_max: most(&qc),
-        area_ratio_min: least(&area_ratio),
-        area_ratio_max: most(&area_ratio),
+        qc_max: or_one(most),
+        area_ratio_min: or_one(ratios[0]),
+        area_ratio_max: or_one(ratios[1]),
         qc,
-        area_ratio,
+        area_ratio: area_ratio.into(),
         degenerate,
     }
 }
@@ -248,12 +266,35 @@ fn dilatation(from: Triangle, to: Triangle) -> f64 {
     let vectors = |t: Triangle| [sub(t[i], t[k]), sub(t[j], t[k])];
     let ([p, q], [p_image, q_image]) = (vectors(from), vectors(to));
     // Scaled by their lengths: sides of very different lengths pass.
-    let (n, m) = (norm(p), norm(q));
+    let (n, m) = (quick_norm(p), quick_norm(q));
     let [p, q] = [p.map(|x| x / n), q.map(|x| x / m)];
     let [p_image, q_image] = [p_image.map(|x| x / n), q_image.map(|x| x / m)];
     let alpha = sub(mul(p_image, conj(q)), mul(q_image, conj(p)));
     let beta = sub(mul(p_image, q), mul(q_image, p));
-    let sum = norm(alpha) + norm(beta);
+    let sum = quick_norm(alpha) + quick_norm(beta);
     let dilatation = sum * sum / (4.0 * (cross(p, q) * cross(p_image, q_image)).abs());
     if dilatation.is_finite() { dilatation.clamp(1.0, DILATATION_CAP) } else { DILATATION_CAP }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::model::from_poincare;
+
+    #[test]
+    fn areas_near_the_origin_are_those_of_the_sides() {
+        for [p, q, r] in [
+            [[0.0, 0.0], [0.3, 0.1], [0.1, 0.4]],
+            [[0.8, 0.1], [0.81, 0.1], [0.8, 0.12]],
+            [[0.9, 0.0], [-0.5, 0.7], [-0.5, -0.7]],
+        ] {
+            let corners = [p, q, r].map(from_poincare);
+            assert!(corners.iter().all(|p| p[2] < NEAR));
+            let sides = [[1, 2], [2, 0], [0, 1]].map(|[i, j]| distance(Space::H2, corners[i], corners[j]));
+            let known = area(Space::H2, sides);
+            let [p, q, r] = corners;
+            assert!((area_near([p, q, r]) / known - 1.0).abs() < 1e-11, "{corners:?}");
+            assert_eq!(area_near([p, r, q]), area_near([p, q, r]));
+        }
+    }
 }

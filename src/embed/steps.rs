@@ -1,7 +1,7 @@
 //! How the neighbouring triangles of a metric lie to each other, without a layout.
 
 use super::faces::{Faces, combination, corner_of};
-use super::frame::Frame;
+use super::frame::Walk;
 use super::pieces::Pieces;
 use crate::error::Result;
 use crate::flow::Solution;
@@ -70,6 +70,7 @@ pub fn steps(metric: &Solution, refinement: Option<&Arc<Refinement>>) -> Result<
 fn step(faces: &Faces<Motion<Twofold>>, along: HalfedgeId) -> Result<Motion<Twofold>> {
     let (face, side) = corner_of(faces.mesh, along)?;
     let (next, k) = corner_of(faces.mesh, along.twin())?;
-    let frame = faces.around(face, 0, Frame::identity(faces.space))[side];
+    let identity: Motion<Twofold> = Walk::identity(faces.space);
+    let frame = faces.side(face, side, identity);
     Ok(faces.around(next, k, faces.across(frame, along))[0].normalised())
 }

@@ -1,5 +1,6 @@
 //! A plane triangle from its side lengths.
 
+use crate::geometry::complex::quick_norm;
 use crate::geometry::triangle::half_differences;
 
 /// Angles and area of the triangle with given sides; corner k lies opposite side k.
@@ -33,16 +34,12 @@ impl Triangle {
         Triangle { direction, area: area * unit * unit, excess }
     }
 
-    /// `[cos, sin]` of the angle at corner k: [`Triangle::direction`] where the others are not needed.
-    pub(crate) fn direction_at(sides: [f64; 3], k: usize) -> [f64; 2] {
+    /// `[cos, sin]` of the angle at corner k, and the excess: [`Triangle::direction`] where the others are not needed.
+    pub(crate) fn direction_at(sides: [f64; 3], k: usize) -> ([f64; 2], f64) {
         let (r, _) = in_longest(half_differences(sides));
+        let excess = excess(r);
         let (s, r) = (r[0] + r[1] + r[2], r.map(|x| x.max(0.0)));
-        direction(s, r, area(s, r), k)
-    }
-
-    /// [`Triangle::excess`] alone.
-    pub(crate) fn excess_of(sides: [f64; 3]) -> f64 {
-        excess(in_longest(half_differences(sides)).0)
+        (direction(s, r, area(s, r), k), excess)
     }
 }
 
@@ -65,7 +62,7 @@ fn area(s: f64, r: [f64; 3]) -> f64 {
 fn direction(s: f64, r: [f64; 3], area: f64, k: usize) -> [f64; 2] {
     let (far, near) = (s * r[k], r[(k + 1) % 3] * r[(k + 2) % 3]);
     let (x, y) = (far - near, 2.0 * area);
-    let norm = x.hypot(y);
+    let norm = quick_norm([x, y]);
     if norm > 0.0 { [x / norm, y / norm] } else { [1.0, 0.0] }
 }
 

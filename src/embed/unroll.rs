@@ -161,7 +161,7 @@ fn by<F: Frame>(
     };
     let needs_lengths = options.cut.is_none() || (options.root.is_none() && space != Space::E2);
     let lengths = match needs_lengths {
-        true => lengths_of_input(&pieces, &lengths_of_pieces(&pieces, faces), given),
+        true => lengths_of_input(&pieces, lengths_of_pieces(&pieces, faces), given),
         false => Vec::new().into(),
     };
     control.check()?;
@@ -211,13 +211,13 @@ pub fn layout_about(result: &Solution, base: Option<VertexId>, control: &Control
     };
     let parts = lengths_of_pieces(&pieces, &faces);
     let lengths = match pieces.refinement() {
-        None => result.metric().lengths(result.mesh())?,
+        None => parts.clone(),
         Some(_) => with_least(parts.clone()),
     };
     let base = match base {
         Some(base) => base,
         None if pieces.refinement().is_none() => central_vertex(centre, &lengths, control)?,
-        None => central_vertex(centre, &lengths_of_input(&pieces, &parts, centre), control)?,
+        None => central_vertex(centre, &lengths_of_input(&pieces, parts, centre), control)?,
     };
     let mut layout = lay_out(pieces, &faces, Some(base), None, control)?;
     layout.find_flat();
@@ -227,6 +227,9 @@ pub fn layout_about(result: &Solution, base: Option<VertexId>, control: &Control
 /// Lengths of the edges of the pieces in the metric.
 fn lengths_of_pieces<F: Frame>(pieces: &Pieces, faces: &Faces<F>) -> PerEdge<f64> {
     let mesh = pieces.mesh();
+    if pieces.refinement().is_none() {
+        return faces.lengths();
+    }
     let mut parts = vec![[0.0; 3]; mesh.n_faces()];
     parallel::fill(&mut parts, |f| {
         let f = FaceId::from(f);
@@ -245,7 +248,10 @@ fn lengths_of_pieces<F: Frame>(pieces: &Pieces, faces: &Faces<F>) -> PerEdge<f64
 }
 
 /// Lengths of the input's edges, each along itself: sums over those of the pieces.
-fn lengths_of_input(pieces: &Pieces, parts: &PerEdge<f64>, given: &Mesh) -> PerEdge<f64> {
+fn lengths_of_input(pieces: &Pieces, parts: PerEdge<f64>, given: &Mesh) -> PerEdge<f64> {
+    if pieces.refinement().is_none() {
+        return with_least(parts);
+    }
     let mut lengths = PerEdge::filled(given.n_edges(), 0.0);
     for part in pieces.mesh().edges() {
         if let Some(e) = pieces.input_edge(part) {

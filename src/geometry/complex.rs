@@ -83,6 +83,16 @@ pub fn norm([a, b]: Complex) -> f64 {
     a.hypot(b)
 }
 
+/// Squares within these bounds lost nothing to under- or overflow.
+const SURE_SQUARES: [f64; 2] = [1e-280, 1e280];
+
+/// [`norm`] to two roundings, at a third of the price.
+#[inline]
+pub(crate) fn quick_norm(z: Complex) -> f64 {
+    let square = norm2(z);
+    if square > SURE_SQUARES[0] && square < SURE_SQUARES[1] { square.sqrt() } else { norm(z) }
+}
+
 /// The distance of two points.
 pub fn distance(z: Complex, w: Complex) -> f64 {
     norm(sub(z, w))

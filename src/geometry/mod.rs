@@ -16,6 +16,7 @@ pub mod model;
 pub mod modulus;
 pub mod motion;
 pub mod predicates;
+mod real;
 pub(crate) mod scaled;
 pub mod space;
 pub mod sphere;

@@ -18,38 +18,10 @@
 //! assert!((there.precise().displacement() - 3.0).abs() < 1e-14);
 //! ```
 
-use super::complex::{Complex, Number, add, conj, mul, norm2, scale};
-use super::scaled::scaled;
+use super::complex::{Complex, add, conj, mul, norm2, scale};
+pub use super::real::Real;
+use super::real::product;
 use super::{Space, Twofold};
-use std::ops::Div;
-
-/// What the entries of a [`Motion`] and of a [`super::flip::Hinge`] may be: doubles, or numbers with twice the digits of doubles.
-pub trait Real: Number + From<f64> + Into<f64> + Div<Output = Self> {
-    /// The square root of a number that is not negative.
-    fn root(self) -> Self;
-    /// This number times 2^k: exact while the result is a normal number.
-    fn times_two_to(self, k: i32) -> Self;
-}
-
-impl Real for f64 {
-    fn root(self) -> f64 {
-        self.sqrt()
-    }
-
-    fn times_two_to(self, k: i32) -> f64 {
-        scaled(self, k)
-    }
-}
-
-impl Real for Twofold {
-    fn root(self) -> Twofold {
-        self.sqrt()
-    }
-
-    fn times_two_to(self, k: i32) -> Twofold {
-        self.scaled(k)
-    }
-}
 
 /// An orientation-preserving isometry of E², H² or S².
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -103,15 +75,31 @@ impl<T: Real> Motion<T> {
 
     /// `self` after the rotation about the origin whose half angle has this `[cos, sin]`: [`Motion::rotation`], at a quarter of the price.
     pub fn after_rotation(&self, half_angle: [T; 2]) -> Self {
-        Motion { space: self.space, a: mul(self.a, half_angle), b: mul(self.b, conj(half_angle)) }
+        Motion { space: self.space, a: product(self.a, half_angle), b: product(self.b, conj(half_angle)) }
     }
 
     /// `self` after the translation along the x axis with these a and b: [`Motion::translation_of_chord`], at a quarter of the price.
     pub fn after_translation(&self, [cos, chord]: [T; 2]) -> Self {
-        let sign = self.sign();
-        let a = add(scale(cos, self.a), scale(-sign * chord, self.b));
-        let b = add(scale(chord, self.a), scale(cos, self.b));
-        Motion { space: self.space, a, b }
+        let bent = match self.space {
+            Space::E2 => T::from(0.0),
+            Space::H2 => chord,
+            Space::S2 => -chord,
+        };
+        let (a, b) = (self.a, self.b);
+        let part = |k: usize| T::two_products(cos, a[k], bent, b[k]);
+        let moved = |k: usize| T::two_products(chord, a[k], cos, b[k]);
+        Motion { space: self.space, a: [part(0), part(1)], b: [moved(0), moved(1)] }
+    }
+
+    /// `self` after the rotation about the origin by π: numbers change places and signs.
+    pub(crate) fn after_half_turn(&self) -> Self {
+        let ([a, b], [c, d]) = (self.a, self.b);
+        Motion { space: self.space, a: [-b, a], b: [d, -c] }
+    }
+
+    /// x and y of [`Motion::origin`].
+    pub(crate) fn place(&self) -> Complex<T> {
+        product(self.a, self.b).map(|x| x + x)
     }
 
     /// The inverse.
@@ -139,9 +127,9 @@ impl<T: Real> Motion<T> {
 
     /// The image of the origin (the plane's origin, the hyperboloid's and the sphere's pole), in ambient coordinates.
     pub fn origin(&self) -> [T; 3] {
-        let [x, y] = mul(self.a, self.b);
-        let two = T::from(2.0);
-        [two * x, two * y, norm2(self.a) - self.sign() * norm2(self.b)]
+        let ([x, y], sign) = (self.place(), self.sign());
+        let square = |[x, y]: Complex<T>| T::two_products(x, x, y, y);
+        [x, y, square(self.a) - sign * square(self.b)]
     }
 
     /// The matrix of [`Motion::apply`], by rows: in SE(2) (homogeneous), SO⁺(2,1) or SO(3).

@@ -21,18 +21,21 @@ pub struct Twofold {
 
 impl Twofold {
     /// The sum of a number and a much smaller one.
+    #[inline]
     fn renormalised(high: f64, low: f64) -> Twofold {
         let sum = high + low;
         Twofold { high: sum, low: low - (sum - high) }
     }
 
     /// The sum with a double.
+    #[inline]
     pub fn plus(self, x: f64) -> Twofold {
         let (high, lost) = two_sum(self.high, x);
         Twofold::renormalised(high, lost + self.low)
     }
 
     /// The square root of a number that is not negative (0 for one that is).
+    #[inline]
     pub fn sqrt(self) -> Twofold {
         if self.high <= 0.0 {
             return Twofold::default();
@@ -44,6 +47,16 @@ impl Twofold {
         Twofold::renormalised(root, rest / (2.0 * root))
     }
 
+    /// `a b + c d`: each product is exact but for its last digits, and their sum is rounded once.
+    #[inline]
+    pub(crate) fn two_products(a: Twofold, b: Twofold, c: Twofold, d: Twofold) -> Twofold {
+        let ((p, p_low), (q, q_low)) = (two_product(a.high, b.high), two_product(c.high, d.high));
+        let p_low = p_low + (a.high * b.low + a.low * b.high);
+        let q_low = q_low + (c.high * d.low + c.low * d.high);
+        let (sum, lost) = two_sum(p, q);
+        Twofold::renormalised(sum, lost + (p_low + q_low))
+    }
+
     /// This number times 2^k: exact while both parts stay normal numbers.
     pub(crate) fn scaled(self, k: i32) -> Twofold {
         Twofold { high: scaled(self.high, k), low: scaled(self.low, k) }
@@ -51,12 +64,14 @@ impl Twofold {
 }
 
 impl From<f64> for Twofold {
+    #[inline]
     fn from(x: f64) -> Twofold {
         Twofold { high: x, low: 0.0 }
     }
 }
 
 impl From<Twofold> for f64 {
+    #[inline]
     fn from(x: Twofold) -> f64 {
         x.high
     }
@@ -64,6 +79,7 @@ impl From<Twofold> for f64 {
 
 impl Neg for Twofold {
     type Output = Twofold;
+    #[inline]
     fn neg(self) -> Twofold {
         Twofold { high: -self.high, low: -self.low }
     }
@@ -71,6 +87,7 @@ impl Neg for Twofold {
 
 impl Add for Twofold {
     type Output = Twofold;
+    #[inline]
     fn add(self, other: Twofold) -> Twofold {
         // Both parts are added exactly: where the high parts cancel, the result consists of the low ones.
         let (high, lost) = two_sum(self.high, other.high);
@@ -82,6 +99,7 @@ impl Add for Twofold {
 
 impl Sub for Twofold {
     type Output = Twofold;
+    #[inline]
     fn sub(self, other: Twofold) -> Twofold {
         self + -other
     }
@@ -89,6 +107,7 @@ impl Sub for Twofold {
 
 impl Mul for Twofold {
     type Output = Twofold;
+    #[inline]
     fn mul(self, other: Twofold) -> Twofold {
         let (product, lost) = two_product(self.high, other.high);
         Twofold::renormalised(product, lost + (self.high * other.low + self.low * other.high))
@@ -97,6 +116,7 @@ impl Mul for Twofold {
 
 impl Div for Twofold {
     type Output = Twofold;
+    #[inline]
     fn div(self, other: Twofold) -> Twofold {
         let first = self.high / other.high;
         let (product, lost) = two_product(first, other.high);
@@ -107,6 +127,7 @@ impl Div for Twofold {
 }
 
 /// The sum of two doubles and what it loses, exactly (Knuth).
+#[inline]
 pub(crate) fn two_sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
     let part = sum - a;
@@ -114,6 +135,7 @@ pub(crate) fn two_sum(a: f64, b: f64) -> (f64, f64) {
 }
 
 /// The product of two doubles and what it loses (Dekker; exact unless it over- or underflows).
+#[inline]
 pub(crate) fn two_product(a: f64, b: f64) -> (f64, f64) {
     let split = |x: f64| {
         let high = 134_217_729.0 * x;

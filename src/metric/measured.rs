@@ -98,11 +98,14 @@ impl Measured<'_> {
     /// [`Metric::differences`].
     pub(crate) fn differences(&self) -> PerFace<[f64; 3]> {
         let mut differences = vec![[0.0; 3]; self.mesh.n_faces()];
-        parallel::fill(&mut differences, |f| {
-            let (r, unit) = self.face_differences(f.into());
-            r.map(|r| scaled(r, unit))
-        });
+        parallel::fill(&mut differences, |f| self.differences_of(f.into()));
         differences.into()
+    }
+
+    /// [`Metric::differences`] of one face.
+    pub(crate) fn differences_of(&self, f: FaceId) -> [f64; 3] {
+        let (r, unit) = self.face_differences(f);
+        r.map(|r| scaled(r, unit))
     }
 
     /// [`Metric::length_remainders`] of these lengths.

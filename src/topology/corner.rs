@@ -24,12 +24,16 @@ pub(crate) fn number_corners(mesh: &Mesh, is_cut: &PerEdge<bool>) -> (PerHalfedg
         if number[corner] != UNSET {
             continue;
         }
-        for turn in [&clockwise as &dyn Fn(HalfedgeId) -> Option<HalfedgeId>, &counterclockwise] {
-            let mut at = Some(corner);
-            while let Some(h) = at {
-                number[h] = n;
-                at = turn(h).filter(|&next| number[next] != n);
-            }
+        number[corner] = n;
+        let mut at = clockwise(corner);
+        while let Some(h) = at.filter(|&h| number[h] != n) {
+            number[h] = n;
+            at = clockwise(h);
+        }
+        let mut at = counterclockwise(corner);
+        while let Some(h) = at.filter(|&h| number[h] != n) {
+            number[h] = n;
+            at = counterclockwise(h);
         }
         n += 1;
     }

@@ -1,12 +1,11 @@
 //! The cut where a growing disk meets itself.
 
 use super::cut::CutGraph;
-use super::spanning::{Key, shortest_paths};
+use super::nearest::Nearest;
+use super::spanning::shortest_paths;
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::mesh::{EdgeId, FaceId, HalfedgeId, Mesh, PerEdge, PerFace, VertexId};
-use std::cmp::Reverse;
-use std::collections::BinaryHeap;
 
 /// Faces that the disk takes in between two looks at the control: they take a fraction of a millisecond.
 const FACES_PER_LOOK: usize = 1024;
@@ -43,7 +42,7 @@ pub(crate) fn cut_about_joined(
     let distance = shortest_paths(mesh, lengths, [root], control)?.distance;
     let mut reached = PerFace::filled(mesh.n_faces(), false);
     let mut closed = PerEdge::filled(mesh.n_edges(), false);
-    let mut queue = BinaryHeap::new();
+    let mut queue = Nearest::new(lengths.iter().sum::<f64>() / lengths.len() as f64);
     let far = |f: FaceId| mesh.face_vertices(f).map(|v| distance[v]).into_iter().fold(0.0, f64::max);
     let mut next = mesh.outgoing(root).find(|&h| !mesh.is_outside(h));
     let (mut n_reached, mut is_first) = (0, true);
@@ -57,11 +56,11 @@ pub(crate) fn cut_about_joined(
                         0 => far(g),
                         urgency => -f64::from(urgency),
                     };
-                    queue.push(Reverse((Key(key), h)));
+                    queue.push(key, h);
                 }
             }
         }
-        next = queue.pop().map(|Reverse((_, h))| h);
+        next = queue.pop().map(|(_, h)| h);
     }
     if n_reached < mesh.n_faces() {
         let message = "the surface is empty or has several components: lay out each alone";

@@ -9,13 +9,13 @@
 //! # Ok::<(), ricci::Error>(())
 //! ```
 
+use super::nearest::Nearest;
 use super::{check_lengths, check_vertex};
 use crate::control::Control;
 use crate::error::Result;
 use crate::mesh::union_find::UnionFind;
 use crate::mesh::{EdgeId, HalfedgeId, Mesh, PerEdge, PerVertex, VertexId};
-use std::cmp::{Ordering, Reverse};
-use std::collections::BinaryHeap;
+use std::cmp::Ordering;
 
 /// Vertices settled between two looks at the control: they take a fraction of a millisecond.
 const VERTICES_PER_LOOK: usize = 4096;
@@ -97,18 +97,18 @@ pub(super) fn shortest_paths_through(
     at_once: impl Fn(VertexId) -> Vec<Reached>,
 ) -> Result<Forest> {
     check_lengths(mesh, lengths)?;
-    let unreached = Reach { distance: f64::INFINITY, parent: None, is_settled: false, is_fixed: false };
+    let unreached = Reach { distance: f64::INFINITY, parent: NONE, is_settled: false, is_fixed: false };
     let mut reach = PerVertex::filled(mesh.n_vertices(), unreached);
-    let mut queue = BinaryHeap::new();
+    let mut queue = Nearest::new(lengths.iter().sum::<f64>() / lengths.len() as f64);
     for v in sources {
         check_vertex(mesh, v)?;
         reach[v].distance = 0.0;
-        queue.push(Reverse((Key(0.0), v)));
+        queue.push(0.0, v);
     }
     let mut roots = mesh.vertices();
     let mut steps = 0;
     loop {
-        while let Some(Reverse((Key(d), v))) = queue.pop() {
+        while let Some((d, v)) = queue.pop() {
             control.check_every(VERTICES_PER_LOOK, &mut steps)?;
             let here = &mut reach[v];
             if d != here.distance || std::mem::replace(&mut here.is_settled, true) {
@@ -117,34 +117,37 @@ pub(super) fn shortest_paths_through(
             if !std::mem::replace(&mut here.is_fixed, true) {
                 for (w, through, h) in at_once(v) {
                     let there = &mut reach[w];
-                    (there.distance, there.parent, there.is_fixed) = (d + through, Some(h), true);
-                    queue.push(Reverse((Key(d + through), w)));
+                    (there.distance, there.parent, there.is_fixed) = (d + through, h, true);
+                    queue.push(d + through, w);
                 }
             }
             for h in mesh.outgoing(v) {
                 let (w, through) = (mesh.tip(h), d + lengths[h.edge()]);
                 let there = &mut reach[w];
                 if !there.is_fixed && through < there.distance {
-                    (there.distance, there.parent) = (through, Some(h));
-                    queue.push(Reverse((Key(through), w)));
+                    (there.distance, there.parent) = (through, h);
+                    queue.push(through, w);
                 }
             }
         }
         let Some(v) = roots.find(|&v| !reach[v].is_settled) else { break };
         reach[v].distance = 0.0;
-        queue.push(Reverse((Key(0.0), v)));
+        queue.push(0.0, v);
     }
     Ok(Forest {
         distance: PerVertex::from_fn(reach.len(), |v| reach[v].distance),
-        parent: PerVertex::from_fn(reach.len(), |v| reach[v].parent),
+        parent: PerVertex::from_fn(reach.len(), |v| Some(reach[v].parent).filter(|&h| h != NONE)),
     })
 }
+
+/// No half-edge.
+const NONE: HalfedgeId = HalfedgeId(u32::MAX);
 
 /// What a search knows of a vertex, in one place of memory.
 #[derive(Clone, Copy)]
 struct Reach {
     distance: f64,
-    parent: Option<HalfedgeId>,
+    parent: HalfedgeId,
     is_settled: bool,
     /// Whether the path to it stays: it is settled, or was returned by `at_once`.
     is_fixed: bool,
@@ -220,6 +223,7 @@ fn on_cycles(mut edges: Vec<EdgeId>, n: usize, nodes: impl Fn(EdgeId) -> [u32; 2
 #[allow(clippy::unwrap_used)]
 fn what_is_left_over_is_found_without_the_edges_of_every_spanning_tree() {
     use crate::mesh::shapes;
+    use std::cmp::Reverse;
     let samples =
         [shapes::flat_torus([0.3, 1.0], 12, 9), shapes::bolza(2), shapes::pants([1.0, 2.0, 3.0], 2)];
     for sample in samples {

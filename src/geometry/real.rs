@@ -1,0 +1,52 @@
+//! Numbers that motions are made of.
+
+use super::Twofold;
+use super::complex::{Complex, Number};
+use super::scaled::scaled;
+use std::ops::Div;
+
+/// What the entries of a [`super::Motion`] and of a [`super::flip::Hinge`] may be: doubles, or numbers with twice the digits of doubles.
+pub trait Real: Number + From<f64> + Into<f64> + Div<Output = Self> {
+    /// The square root of a number that is not negative.
+    fn root(self) -> Self;
+    /// This number times 2^k: exact while the result is a normal number.
+    fn times_two_to(self, k: i32) -> Self;
+    /// `a b + c d`, rounded as one.
+    fn two_products(a: Self, b: Self, c: Self, d: Self) -> Self;
+}
+
+impl Real for f64 {
+    fn root(self) -> f64 {
+        self.sqrt()
+    }
+
+    fn times_two_to(self, k: i32) -> f64 {
+        scaled(self, k)
+    }
+
+    #[inline]
+    fn two_products(a: f64, b: f64, c: f64, d: f64) -> f64 {
+        a * b + c * d
+    }
+}
+
+impl Real for Twofold {
+    fn root(self) -> Twofold {
+        self.sqrt()
+    }
+
+    fn times_two_to(self, k: i32) -> Twofold {
+        self.scaled(k)
+    }
+
+    #[inline]
+    fn two_products(a: Twofold, b: Twofold, c: Twofold, d: Twofold) -> Twofold {
+        Twofold::two_products(a, b, c, d)
+    }
+}
+
+/// [`super::complex::mul`], each part rounded once.
+#[inline]
+pub(super) fn product<T: Real>([a, b]: Complex<T>, [c, d]: Complex<T>) -> Complex<T> {
+    [T::two_products(a, c, -b, d), T::two_products(a, d, b, c)]
+}
