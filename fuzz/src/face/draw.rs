@@ -151,7 +151,8 @@ impl Session<'_> {
             "stride" => [0, 24, 32, 25, 8][self.tape.below(5)],
             // Most on the thread of the call: starting others takes longer than most calls.
             "threads" => [1, 2][usize::from(self.tape.one_in(32))],
-            "max_iterations" => self.tape.below(40),
+            // By default, which is 0, the gradient flow makes thousands of steps.
+            "max_iterations" => 1 + self.tape.below(40),
             "sides" | "count" | "depth" | "least_loop" => self.tape.below(5),
             "genus" | "n_components" => self.tape.below(4),
             "m" => self.tape.below(9),
@@ -205,7 +206,10 @@ impl Session<'_> {
             for k in 0..count {
                 // A rectangle and a polygon, a shape and a target need most of their fields; others are left out more often.
                 let used = self.tape.byte() % 4 < if fields.len() < 12 { 3 } else { 1 };
-                if !used && !is_long && !matches!((of.name, name), ("ricci_shape", "n") | (_, "threads")) {
+                if !used
+                    && !is_long
+                    && !matches!((of.name, name), ("ricci_shape", "n") | (_, "threads" | "max_iterations"))
+                {
                     continue;
                 }
                 let value = match (of.name, name) {
@@ -230,7 +234,10 @@ impl Session<'_> {
         }
         let size = match self.tape.byte() {
             255 => {
-                [0, 8, 17, full - 8, full + 8, STRUCT_BYTES, STRUCT_BYTES + 8, usize::MAX][self.tape.below(8)]
+                // What a shorter struct does not have is as it is by default: too long for some.
+                let shorter = if is_long { [0, 4, 7, 0] } else { [0, 8, 17, full - 8] };
+                let larger = [full + 8, STRUCT_BYTES, STRUCT_BYTES + 8, usize::MAX];
+                [shorter, larger].concat()[self.tape.below(8)]
             }
             254 => {
                 // A field that this version does not know.
