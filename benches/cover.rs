@@ -1,8 +1,9 @@
 //! Layouts, deck groups and covers, against a yardstick that is linear up to a logarithm: shortest paths along the
 //! edges of the same triangulation, in the same round.
 //!
-//! `cargo bench --bench cover [-- VERTICES…] > docs/results/bench-cover.md` (default: 10000 50000 200000 800000). The surface has
-//! genus 3, in H² and, with one cone, in E²; a round is one of each job, one after the other, so that what else the machine does hits all alike; medians of five rounds.
+//! `cargo bench --bench cover [-- VERTICES…] > docs/results/bench-cover.md` (default: 10000 50000 200000 800000). The surface has genus 3,
+//! in H² and, with one cone, in E²; a round is one of each job, one after the other, so that what else the machine does hits all alike;
+//! medians of five rounds.
 #![allow(clippy::unwrap_used, clippy::print_stdout, clippy::print_stderr)]
 
 use ricci::canonical::{Quotient, QuotientOptions, uniformize_quotient};

@@ -1,9 +1,8 @@
 //! Evaluation of splines, over the plane and over surfaces: points per second on one core, beside the bare recurrence.
 //!
-//! `cargo bench --bench spline`; its table is in `docs/results/bench-spline.md`. The yardstick evaluates each basis function by itself, by the recurrence
-//! of its definition ([`ricci::spline::simplex_spline`]), for the patches in whose knots' hull the point lies; both evaluate the same
-//! points in the same round, and the medians of five rounds are given. *Nearest points* are those
-//! to vertices of the mesh.
+//! `cargo bench --bench spline`; its table is in `docs/results/bench-spline.md`. The yardstick evaluates each basis function by itself, by
+//! the recurrence of its definition ([`ricci::spline::simplex_spline`]), for the patches in whose knots' hull the point lies; both evaluate
+//! the same points in the same round, and the medians of five rounds are given. *Nearest points* are those to vertices of the mesh.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 use ricci::manifold::{Flat, FlatOptions, SurfaceFitOptions, fit_surface};

@@ -64,8 +64,8 @@ fn check(mesh: &Mesh, layout: &Layout, what: &str) {
     );
 }
 
-/// With K the dilatation of a linear map of triangles, K + 1/K is the squared norm of its derivative over the determinant; both from squared
-/// lengths and areas.
+/// With K the dilatation of a linear map of triangles, K + 1/K is the squared norm of its derivative over the determinant; both from
+/// squared lengths and areas.
 fn check_quality((mesh, lengths): &(Mesh, PerEdge<f64>), corners: &[[[f64; 2]; 3]], quality: &Quality) {
     let [mut areas, mut images] = [Vec::new(), Vec::new()];
     for f in mesh.faces() {

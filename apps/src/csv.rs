@@ -63,8 +63,8 @@ pub fn read_places(path: &Path, n_vertices: usize) -> Result<Vec<(VertexId, [f64
     Ok(rows)
 }
 
-/// Read `source_vertex,target_vertex` rows: landmarks of two surfaces with so many vertices. Lines as in [`read_curvatures`], but for the names of a
-/// header.
+/// Read `source_vertex,target_vertex` rows: landmarks of two surfaces with so many vertices. Lines as in [`read_curvatures`], but for the
+/// names of a header.
 pub fn read_landmarks(path: &Path, n_vertices: [usize; 2]) -> Result<Vec<[VertexId; 2]>, Failure> {
     let mut rows = Vec::new();
     for (i, ends) in pairs(path, ["source_vertex", "target_vertex"])? {

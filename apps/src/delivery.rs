@@ -60,8 +60,8 @@ impl<'a> Delivery<'a> {
         seconds.total = self.start.elapsed().as_secs_f64();
     }
 
-    /// Write the report, if it is asked for, and put every file in place; returns their names. A report that cannot be written keeps none of the
-    /// others back.
+    /// Write the report, if it is asked for, and put every file in place; returns their names. A report that cannot be written keeps none
+    /// of the others back.
     pub fn commit<O: Serialize>(
         mut self,
         path: Option<&Path>,

@@ -231,7 +231,8 @@ fn pinned(choice: &PinChoice, mesh: &Mesh) -> Vec<VertexId> {
     }
 }
 
-/// Write every file that was asked for but the metric, the report last; returns their names and the figures. One that cannot be made keeps none of the others back.
+/// Write every file that was asked for but the metric, the report last; returns their names and the figures. One that cannot be made keeps
+/// none of the others back.
 fn write(
     args: &FlowArgs,
     input: &Input,

@@ -1,5 +1,5 @@
-//! `ricci gallery`: one picture per kind of surface and of picture, each by the command line that is written beside it; and all of them, under
-//! the figures of the paper, in a page with views that turn.
+//! `ricci gallery`: one picture per kind of surface and of picture, each by the command line that is written beside it; and all of them,
+//! under the figures of the paper, in a page with views that turn.
 
 mod page;
 mod rows;

@@ -11,8 +11,8 @@ use ricci::mesh::{Mesh, Point};
 use std::path::PathBuf;
 use std::sync::OnceLock;
 
-/// Whether this input is one of the few that make long work, one in so many: all of its bytes decide. What comes of changing such an input is none
-/// mostly, so that long work does not take most of the time once it is in the corpus.
+/// Whether this input is one of the few that make long work, one in so many: all of its bytes decide. What comes of changing such an input
+/// is none mostly, so that long work does not take most of the time once it is in the corpus.
 pub fn is_rare(input: &[u8], one_in: u32) -> bool {
     let sum = input.iter().fold(0_u32, |sum, &b| sum.wrapping_mul(31).wrapping_add(b.into()));
     (sum ^ (sum >> 15)).is_multiple_of(one_in)

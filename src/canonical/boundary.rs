@@ -35,8 +35,8 @@ pub enum Corners {
     /// 4|χ| corners that turn by a quarter each: four right angles on a disk, none on an annulus; placed as [`Corners::Count`] does.
     #[default]
     Default,
-    /// As many corners with equal angles: the vertices where the boundary turns by more than π/4 if there are just as many, from that of the
-    /// lowest number on, else at equal distances along the longest boundary loop, from the vertex where that turns most.
+    /// As many corners with equal angles: the vertices where the boundary turns by more than π/4 if there are just as many, from that of
+    /// the lowest number on, else at equal distances along the longest boundary loop, from the vertex where that turns most.
     Count(usize),
     /// These.
     At(Vec<Corner>),
@@ -162,8 +162,8 @@ fn placed(surface: &Surface, n: usize) -> Result<Vec<Corner>> {
         .collect())
 }
 
-/// Of the places 0, 1, … with these distances to the next one, around a loop: `n` of them at nearly equal distances, the first one included,
-/// ascending.
+/// Of the places 0, 1, … with these distances to the next one, around a loop: `n` of them at nearly equal distances, the first one
+/// included, ascending.
 fn evenly(steps: &[f64], n: usize) -> Vec<usize> {
     let total: f64 = steps.iter().sum();
     let positions: Vec<f64> = steps

@@ -26,8 +26,8 @@ use std::ops::RangeInclusive;
 
 /// Difference from a right angle, radians, up to which a corner has one.
 const RIGHT: f64 = 1e-9;
-/// How far the farthest vertex of a flat surface may be from its base. The third powers of these numbers are doubles, and so is what a double
-/// loses of their squares.
+/// How far the farthest vertex of a flat surface may be from its base. The third powers of these numbers are doubles, and so is what a
+/// double loses of their squares.
 const SIZES: RangeInclusive<f64> = 1e-100..=1e100;
 
 /// What the uniformization of a surface can be asked.
@@ -62,9 +62,10 @@ pub struct Quotient {
     pub angle_defect: f64,
     /// The metric, on the triangulation that flips have led to, with the way back. Of a surface with boundary perhaps on its double.
     pub metric: Solution,
-    /// Its layout about the base vertex; in E² scaled to the area of the given surface. It lies on the metric's triangulation, or where that is
-    /// one of a double on the common refinement of it and the given surface ([`layout_about`]). With boundary in E² it is moved: the first
-    /// corner to the origin and its side along the x axis, or the first loop of an annulus along the x axis, the surface above it.
+    /// Its layout about the base vertex; in E² scaled to the area of the given surface. It lies on the metric's triangulation, or where
+    /// that is one of a double on the common refinement of it and the given surface ([`layout_about`]). With boundary in E² it is moved:
+    /// the first corner to the origin and its side along the x axis, or the first loop of an annulus along the x axis, the surface above
+    /// it.
     pub layout: Layout,
     /// How it is moved, where it is.
     pub placement: Motion<Twofold>,
@@ -81,9 +82,9 @@ pub struct Quotient {
 }
 
 impl Quotient {
-    /// Of an annulus in E² with straight loops, and of a disk with four right angles, height over base: the distance of the two loops over the
-    /// length of one; the length of the second side over that of the first one, which starts at the first corner. It is the extremal distance of
-    /// the loops, of the first and the third side \[PS10\]; `None` for other surfaces.
+    /// Of an annulus in E² with straight loops, and of a disk with four right angles, height over base: the distance of the two loops over
+    /// the length of one; the length of the second side over that of the first one, which starts at the first corner. It is the extremal
+    /// distance of the loops, of the first and the third side \[PS10\]; `None` for other surfaces.
     pub fn extremal_distance(&self) -> Option<f64> {
         match (&self.boundary[..], &self.corners[..]) {
             _ if self.layout.space != Space::E2 => None,
@@ -122,7 +123,8 @@ pub fn uniformize_quotient(
     finish(Flow::new(surface.clone(), class, &options.flow, control)?, corners, options, control)
 }
 
-/// [`uniformize_quotient`] from a metric of the surface, such as another flow's result: in its scheme and the space that the options ask for.
+/// [`uniformize_quotient`] from a metric of the surface, such as another flow's result: in its scheme and the space that the options ask
+/// for.
 ///
 /// # Errors
 ///
@@ -228,8 +230,8 @@ fn check_size(layout: &Layout) -> Result<()> {
     )))
 }
 
-/// The isometry that turns the direction of the first side of a boundary loop into that of the x axis; with corners it brings its start to the
-/// origin, without it leaves the base there.
+/// The isometry that turns the direction of the first side of a boundary loop into that of the x axis; with corners it brings its start to
+/// the origin, without it leaves the base there.
 fn upright(layout: &Layout, first: &BoundaryLoop) -> Result<Motion<Twofold>> {
     let (mesh, end) = (layout.mesh(), first.sides.get(1).map(|side| side.from));
     let mut path = mesh.boundary_from(first.start);

@@ -295,8 +295,8 @@ impl Punctured {
         Ok(self.side_angles(f)?[(corner + 2) % 3])
     }
 
-    /// Send another vertex v, no circle, to infinity, by the inversion at its place in the `plane`: `u_i − log(|z_i − z_v|² − ε_i e^{2 u_i})`,
-    /// up to a constant.
+    /// Send another vertex v, no circle, to infinity, by the inversion at its place in the `plane`:
+    /// `u_i − log(|z_i − z_v|² − ε_i e^{2 u_i})`, up to a constant.
     pub fn puncture(&mut self, v: VertexId, plane: &PerVertex<[f64; 2]>) {
         let u = self.seen_from(v, plane);
         (self.metric.u, self.at) = (u, v);

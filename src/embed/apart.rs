@@ -1,7 +1,7 @@
 //! The faces of a surface in the metric of a flow, each laid out by itself, and the motions from face to face.
 //!
-//! Nothing here lies farther from its origin than a face reaches. So no error grows, however far the surface's fundamental domain would reach: in
-//! H² a layout in one frame loses e^distance of its digits.
+//! Nothing here lies farther from its origin than a face reaches. So no error grows, however far the surface's fundamental domain would
+//! reach: in H² a layout in one frame loses e^distance of its digits.
 
 use super::faces::{Faces, combination, corner_at, corner_of};
 use super::pieces::Pieces;
@@ -17,13 +17,13 @@ use std::sync::Arc;
 pub(crate) struct Apart {
     /// Per half-edge of a face: its origin in the frame of the face.
     pub corner: PerHalfedge<[Twofold; 3]>,
-    /// Per half-edge between two faces: the motion that carries the frame of the face on its right to where that lies beside the face on its left. The
-    /// identity elsewhere.
+    /// Per half-edge between two faces: the motion that carries the frame of the face on its right to where that lies beside the face on
+    /// its left. The identity elsewhere.
     pub across: PerHalfedge<Motion<Twofold>>,
 }
 
-/// Lays the faces of the surface as it came out, each in a frame of its own, in the metric of a flow; where edges were flipped, by the parts of the
-/// flow's triangles that a face consists of.
+/// Lays the faces of the surface as it came out, each in a frame of its own, in the metric of a flow; where edges were flipped, by the
+/// parts of the flow's triangles that a face consists of.
 ///
 /// # Errors
 /// [`Error::Layout`] for a face that does not hang together; those of [`Solution::refinement`] and [`crate::metric::Metric::lengths`];

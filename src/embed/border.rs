@@ -24,7 +24,8 @@ pub struct Border {
 }
 
 impl Border {
-    /// The lift of a boundary loop that the layout has at a half-edge on the boundary, whose origin is the lift by the element `copy` there.
+    /// The lift of a boundary loop that the layout has at a half-edge on the boundary, whose origin is the lift by the element `copy`
+    /// there.
     pub(super) fn new(
         walks: &Walks<'_>,
         basis: &HomotopyBasis,

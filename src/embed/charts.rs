@@ -38,8 +38,8 @@ use crate::topology::number_corners;
 use std::cmp::Ordering;
 use std::f64::consts::FRAC_PI_2;
 
-/// Coordinates in the unit square are multiples of the inverse of this number: of the spacing of doubles between 1/2 and 1. So no difference of
-/// two coordinates is rounded.
+/// Coordinates in the unit square are multiples of the inverse of this number: of the spacing of doubles between 1/2 and 1. So no
+/// difference of two coordinates is rounded.
 const GRID: f64 = (1u64 << 53) as f64;
 /// Least distance of two charts, in sides of the unit square: so many steps of the grid that rounding lets no chart touch another.
 const ROOM: f64 = 64.0 / GRID;
@@ -80,9 +80,9 @@ pub struct Charts {
     /// Faces whose image is clockwise, by more than what makes it degenerate. Each is a chart of its own: no motion of the plane
     /// mends it.
     pub flipped: Vec<FaceId>,
-    /// Faces with an area that rounding can explain, in the layout or in the unit square: within [`super::shape::LEAST_SHARE`] · longest edge² of zero,
-    /// or lower than two steps of the coordinates. They lie in the charts of their neighbours, and may overlap what is around them
-    /// by as much as their own size.
+    /// Faces with an area that rounding can explain, in the layout or in the unit square: within [`super::shape::LEAST_SHARE`] · longest
+    /// edge² of zero, or lower than two steps of the coordinates. They lie in the charts of their neighbours, and may overlap what is
+    /// around them by as much as their own size.
     pub degenerate: Vec<FaceId>,
 }
 

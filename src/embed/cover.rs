@@ -27,8 +27,8 @@ use std::collections::HashMap;
 
 /// Elements between two looks at the control.
 const ELEMENTS_PER_STEP: usize = 256;
-/// Difference of displacements, in H² a length and in E² in units of the longest generator, up to which two elements are compared as words. One
-/// element along two words differs by far less; a larger value would only cost comparisons.
+/// Difference of displacements, in H² a length and in E² in units of the longest generator, up to which two elements are compared as words.
+/// One element along two words differs by far less; a larger value would only cost comparisons.
 const SAME: f64 = 1e-6;
 
 /// All deck elements of word length at most `depth` in the canonical generators, each once, shortest first, the identity to begin with.

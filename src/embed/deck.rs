@@ -42,8 +42,8 @@ pub struct DeckGroup {
     pub generators: Vec<Motion<Twofold>>,
     /// Sides of the layout's fundamental domain: the elements that carry it onto its neighbours, counterclockwise.
     pub sides: Vec<DeckElement>,
-    /// The lines along which the layout's domain has the boundary of the surface, counterclockwise. Where the boundary is straight they bound
-    /// the universal cover.
+    /// The lines along which the layout's domain has the boundary of the surface, counterclockwise. Where the boundary is straight they
+    /// bound the universal cover.
     pub borders: Vec<Border>,
     /// The corner of the layout that is the base lift: a half-edge of a face at the base vertex.
     pub corner: HalfedgeId,
@@ -57,8 +57,8 @@ pub struct DeckGroup {
 }
 
 impl DeckGroup {
-    /// The deck group of a layout without cones of this metric ([`super::layout_about`]), with the generators of a homotopy basis of the mesh
-    /// that is laid out.
+    /// The deck group of a layout without cones of this metric ([`super::layout_about`]), with the generators of a homotopy basis of the
+    /// mesh that is laid out.
     ///
     /// # Errors
     /// [`Error::Layout`], [`Error::Size`] for a metric or basis of another mesh, or where the opened surface is no disk;

@@ -32,19 +32,19 @@ use std::f64::consts::PI;
 const TOLERANCES: [f64; 4] = [1e-12, 1e-10, 1e-8, 1e-6];
 /// Products that one search forms at most, which takes some seconds: wrong elements would make ever new products.
 const MOST_PRODUCTS: usize = 5_000_000;
-/// Displacement of the centre, in H² a length and in E² in units of the longest factor, below which an element is the identity. It is far above the
-/// errors of elements and far below the shortest loop of a surface that can be resolved.
+/// Displacement of the centre, in H² a length and in E² in units of the longest factor, below which an element is the identity. It is far
+/// above the errors of elements and far below the shortest loop of a surface that can be resolved.
 const SAME: f64 = 1e-6;
-/// Relative difference of the polygon's area and the surface's up to which the polygon is the domain. A missing or wrong side changes the area by
-/// more.
+/// Relative difference of the polygon's area and the surface's up to which the polygon is the domain. A missing or wrong side changes the
+/// area by more.
 const AREA: f64 = 1e-6;
 
-/// Largest rotation of a deck transformation of a flat surface, radians, with which a polygon is looked for: translations alone have copies that
-/// tile a part of the plane.
+/// Largest rotation of a deck transformation of a flat surface, radians, with which a polygon is looked for: translations alone have copies
+/// that tile a part of the plane.
 const TURNING: f64 = 1e-6;
 
-/// Largest [`DeckGroup::side_residual`] with which a polygon is looked for: pairings farther from their words have lost half of their digits, and
-/// bound no polygon.
+/// Largest [`DeckGroup::side_residual`] with which a polygon is looked for: pairings farther from their words have lost half of their
+/// digits, and bound no polygon.
 const PAIRED: f64 = 1e-8;
 
 fn none(why: &str) -> Error {
@@ -52,14 +52,15 @@ fn none(why: &str) -> Error {
     Error::Layout(format!("no Dirichlet domain: {why} ({advice})"))
 }
 
-/// The Dirichlet domain of the base point `centre` (ambient coordinates) of a surface with this area, in E² or H²: a closed one, or one with
-/// straight boundary, whose lines bound the domain too.
+/// The Dirichlet domain of the base point `centre` (ambient coordinates) of a surface with this area, in E² or H²: a closed one, or one
+/// with straight boundary, whose lines bound the domain too.
 ///
 /// Bisectors of the side pairings of the layout cut a first polygon; then those of products of the elements of its sides are tried, until
 /// none cuts anything off, every side has its partner, and the area is the surface's.
 ///
 /// # Errors
-/// [`Error::Layout`] for a group without elements, in S², or in E² with rotations, and where no such polygon is found; [`Error::Cancelled`].
+/// [`Error::Layout`] for a group without elements, in S², or in E² with rotations, and where no such polygon is found;
+/// [`Error::Cancelled`].
 pub fn dirichlet_domain(
     deck: &DeckGroup,
     centre: [f64; 3],
@@ -84,8 +85,8 @@ pub fn dirichlet_domain(
     // The base point is carried to the origin, and everything with it.
     let home = Motion::to_origin(deck.space, precise_point(deck.space, centre));
     let sides = deck.sides.iter().map(|g| g.conjugated_by(&home));
-    // The images of the centre under the side pairings lie within the sum of their distances: no point that is nearest to the centre, and on this
-    // side of the borders, is farther out.
+    // The images of the centre under the side pairings lie within the sum of their distances: no point that is nearest to the centre, and
+    // on this side of the borders, is farther out.
     let borders: Vec<Border> = deck.borders.iter().map(|border| border.conjugated_by(&home)).collect();
     let centre_of_all = precise_point(deck.space, ORIGIN);
     let to_border = |border: &Border| border.line().distance(deck.space, &centre_of_all).abs();

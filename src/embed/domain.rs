@@ -13,7 +13,8 @@ pub struct DirichletDomain {
     pub centre: [f64; 3],
     /// Corners counterclockwise, in ambient coordinates; side k runs from corner k to the next one.
     pub corners: Vec<[f64; 3]>,
-    /// The element of each side; of one on the boundary, that which moves the boundary along itself by its loop once, a conjugate of some c_j.
+    /// The element of each side; of one on the boundary, that which moves the boundary along itself by its loop once, a conjugate of some
+    /// c_j.
     pub sides: Vec<DeckElement>,
     /// Per side, the one with the inverse element; none on the boundary.
     pub partner: Vec<Option<usize>>,

@@ -207,8 +207,8 @@ impl<'a, F: Frame> Faces<'a, F> {
         frame.forward(self.sides[h.edge()]).turned_round()
     }
 
-    /// The distance from the origin of the corner opposite the twin of a half-edge with this frame, or a number that grows with it; none where
-    /// no face is beyond.
+    /// The distance from the origin of the corner opposite the twin of a half-edge with this frame, or a number that grows with it; none
+    /// where no face is beyond.
     #[inline]
     pub fn distance_beyond<W: Walk<Side = F::Side, Angle = F::Angle>>(
         &self,
@@ -241,8 +241,8 @@ impl<'a, F: Frame> Placed<'a, F> {
         combination(self.faces.space, *self.local.get_or_init(|| self.faces.local(self.face)), weights)
     }
 
-    /// The point of the face with these weights of its corners, where it lies, and what its doubles miss of x and y: nothing is known of that
-    /// elsewhere than at a corner.
+    /// The point of the face with these weights of its corners, where it lies, and what its doubles miss of x and y: nothing is known of
+    /// that elsewhere than at a corner.
     pub fn point(&self, weights: [f64; 3]) -> ([f64; 3], [f64; 2]) {
         match corner_at(weights) {
             Some(corner) => self.faces.side(self.face, corner, self.first).point(),

@@ -54,17 +54,17 @@ pub(super) trait Walk: Copy + Send + Sync {
     fn turned_onwards(&self, angle: Self::Angle) -> Self;
     /// After a turn by π.
     fn turned_round(&self) -> Self;
-    /// After a turn by the angle: from one side of a triangle, at its start, to where the one before it comes from; where that is as good as going
-    /// around the triangle.
+    /// After a turn by the angle: from one side of a triangle, at its start, to where the one before it comes from; where that is as good
+    /// as going around the triangle.
     fn turned_inwards(&self, angle: Self::Angle) -> Option<Self>;
     /// The frame of the side before, of this length, which makes this angle with the half-edge; where that is as good as going around the
     /// triangle.
     fn backwards(&self, side: Self::Side, angle: Self::Angle) -> Option<Self>;
-    /// In the same direction, but moved so that the half-edge, of this length, ends at the place of another frame. A frame of twice the digits
-    /// stays as it is: it ends there to all digits that a layout has.
+    /// In the same direction, but moved so that the half-edge, of this length, ends at the place of another frame. A frame of twice the
+    /// digits stays as it is: it ends there to all digits that a layout has.
     fn ending_at(&self, end: &Self, side: Self::Side) -> Self;
-    /// The distance from the origin of the third corner of a triangle on this half-edge, by its angle here and its last side; or a number that
-    /// grows with that distance. Doubles are enough, since it only decides the order of faces.
+    /// The distance from the origin of the third corner of a triangle on this half-edge, by its angle here and its last side; or a number
+    /// that grows with that distance. Doubles are enough, since it only decides the order of faces.
     fn distance_of_apex(&self, angle: Self::Angle, last: Self::Side) -> f64;
 }
 

@@ -25,8 +25,8 @@ impl Line {
         Line { form: [x, y, -height], norm }
     }
 
-    /// The line along which an isometry translates, the right of its direction beyond it. In the plane translations have no line of their own,
-    /// and it is that through `point`.
+    /// The line along which an isometry translates, the right of its direction beyond it. In the plane translations have no line of their
+    /// own, and it is that through `point`.
     pub fn along(g: &Motion<Twofold>, point: [Twofold; 3]) -> Line {
         match g.space {
             // Of the translation along the x axis, a real and b = sinh(L/2): conjugates have the axis that the form says.
@@ -42,8 +42,8 @@ impl Line {
         }
     }
 
-    /// How far a point `[x, y, 1]` lies beyond the line: the distance, in H² (the Klein disk) its hyperbolic sine; for a point outside the disk
-    /// some number of the same sign.
+    /// How far a point `[x, y, 1]` lies beyond the line: the distance, in H² (the Klein disk) its hyperbolic sine; for a point outside the
+    /// disk some number of the same sign.
     pub fn beyond(&self, space: Space, p: &[Twofold; 3]) -> f64 {
         let size = match space {
             Space::H2 => {

@@ -22,7 +22,8 @@ impl Layout {
     /// Scales a layout in E² so that its area is `area` (finite, positive); returns the factor on lengths.
     ///
     /// # Errors
-    /// [`Error::Argument`] for an area that is not finite and positive; [`Error::Layout`] in another space, whose curvature fixes the scale.
+    /// [`Error::Argument`] for an area that is not finite and positive; [`Error::Layout`] in another space, whose curvature fixes the
+    /// scale.
     pub fn scale_to_area(&mut self, area: f64) -> Result<f64> {
         if self.space != Space::E2 {
             return Err(Error::Layout(format!("a layout in {} has the scale of its space", self.space)));

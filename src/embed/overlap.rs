@@ -34,9 +34,9 @@ pub fn interiors_meet(a: &Triangle, b: &Triangle) -> bool {
 
 /// Triangles, some of which are *present*, in a tree of bounding boxes.
 ///
-/// The tree is built once over all triangles, by halving along the longer side of the box of their centres. Each node counts the
-/// present triangles below it, and a search only enters nodes that have some. Triangles may differ in size by any factor, which a grid would
-/// not stand. Adding and removing take O(log n), a search O(log n) and the number of boxes that it meets.
+/// The tree is built once over all triangles, by halving along the longer side of the box of their centres. Each node counts the present
+/// triangles below it, and a search only enters nodes that have some. Triangles may differ in size by any factor, which a grid would not
+/// stand. Adding and removing take O(log n), a search O(log n) and the number of boxes that it meets.
 pub struct BoxTree<'a> {
     triangles: &'a [Triangle],
     /// Number of leaves, a power of two; leaf k is node `leaves + k`, the children of node i are 2i and 2i + 1.

@@ -9,14 +9,15 @@ use crate::control::Control;
 use crate::error::Result;
 use crate::geometry::{Motion, Space, Twofold, triangle};
 
-/// Rounds of products of side elements, at most. Each round at least doubles the word length that is reached; two or three rounds are usual.
+/// Rounds of products of side elements, at most. Each round at least doubles the word length that is reached; two or three rounds are
+/// usual.
 const ROUNDS: usize = 12;
 fn product(deck: &DeckGroup, g: &DeckElement, h: &DeckElement, motion: Motion<Twofold>) -> DeckElement {
     DeckElement { word: deck.group.reduce(&g.word.times(&h.word)), motion }
 }
 
-/// Largest number of products that are added to factors whose bisectors do not bound the polygon. Finding them takes the square of this number
-/// of compositions, below a second.
+/// Largest number of products that are added to factors whose bisectors do not bound the polygon. Finding them takes the square of this
+/// number of compositions, below a second.
 const MOST_FACTORS: usize = 600;
 
 /// Of some elements and their products by twos, other than the identity, those that move the origin least: twice as many as were given.
@@ -106,9 +107,9 @@ impl Polygon {
         Polygon { space, corners, sides, radius: f64::INFINITY, tolerance, same }
     }
 
-    /// Cuts by the bisectors of the given factors and of their inverses, then of products of the elements of its sides, and by the images of the
-    /// given borders under these, until none cuts anything off. Where the factors move the centre so far that their bisectors do not bound the
-    /// polygon, short products are added to them. It ends early at the `limits`, which wrong elements bring about.
+    /// Cuts by the bisectors of the given factors and of their inverses, then of products of the elements of its sides, and by the images
+    /// of the given borders under these, until none cuts anything off. Where the factors move the centre so far that their bisectors do not
+    /// bound the polygon, short products are added to them. It ends early at the `limits`, which wrong elements bring about.
     pub fn close(&mut self, all: &Given<'_>, limits: &mut Limits, control: &Control) -> Result<()> {
         // These generate the group, so that they stay among the factors.
         let given: Vec<_> = all.factors.iter().flat_map(|g| [g.clone(), g.inverse()]).collect();
@@ -166,8 +167,8 @@ impl Polygon {
         }));
         let mut elements: Vec<DeckElement> =
             std::iter::once(&one).chain(self.elements()).chain(factors).cloned().collect();
-        // The shortest first: once the polygon is bounded, elements that move the given borders too far to touch it need not be tried, which
-        // would be known to few digits.
+        // The shortest first: once the polygon is bounded, elements that move the given borders too far to touch it need not be tried,
+        // which would be known to few digits.
         elements.sort_by(|g, h| g.motion.displacement().total_cmp(&h.motion.displacement()));
         let mut changed = false;
         for h in &elements {

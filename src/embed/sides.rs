@@ -28,8 +28,8 @@ pub struct BoundarySide {
     pub from: VertexId,
     /// Distance of its ends in the universal cover, as the layout has lengths.
     pub length: f64,
-    /// Largest distance of a vertex of the boundary from the line through the ends of the side: in H² a length, in E² in units of the side's
-    /// length.
+    /// Largest distance of a vertex of the boundary from the line through the ends of the side: in H² a length, in E² in units of the
+    /// side's length.
     pub straightness: f64,
 }
 
@@ -40,7 +40,8 @@ impl BoundaryLoop {
     }
 }
 
-/// The boundary loops of a surface, in the order of [`crate::mesh::Mesh::boundary_loops`] on the surface as it came, with sides from corner to corner.
+/// The boundary loops of a surface, in the order of [`crate::mesh::Mesh::boundary_loops`] on the surface as it came, with sides from corner
+/// to corner.
 ///
 /// `layout`, `basis`: of this metric ([`super::layout_about`]). `corners`: in the order in which loops are to start with them.
 ///

@@ -36,9 +36,11 @@ pub enum Scale {
 #[derive(Debug, Clone, Default)]
 pub struct UnrollOptions {
     /// Vertices of the surface through which the cut has to go; those on the boundary change nothing. Default: those of the flow
-    /// ([`Solution::cones`]); of a metric that no flow has led to, those inside whose curvature is more than [`CONE_TOLERANCE`] off flat ([`cones_of`]).
+    /// ([`Solution::cones`]); of a metric that no flow has led to, those inside whose curvature is more than [`CONE_TOLERANCE`] off flat
+    /// ([`cones_of`]).
     pub cones: Option<Vec<VertexId>>,
-    /// The vertex of the surface at the origin. Default: in E² a corner of the smallest triangle, elsewhere a vertex from which none is far.
+    /// The vertex of the surface at the origin. Default: in E² a corner of the smallest triangle, elsewhere a vertex from which none is
+    /// far.
     pub root: Option<VertexId>,
     /// Default: [`Scale::InputArea`].
     pub scale: Scale,
@@ -46,8 +48,8 @@ pub struct UnrollOptions {
     pub cut: Option<CutGraph>,
     /// [`Solution::refinement`] of the result, where it has been formed before.
     pub refinement: Option<Arc<Refinement>>,
-    /// Threads, in a pool of the call's own unless the caller is in one ([`within`]); default 0: as many as the flow had. The result does not
-    /// depend on it.
+    /// Threads, in a pool of the call's own unless the caller is in one ([`within`]); default 0: as many as the flow had. The result does
+    /// not depend on it.
     pub threads: usize,
 }
 
@@ -68,8 +70,8 @@ pub fn cones_of(mesh: &Mesh, curvature: &[f64], tolerance: f64) -> Result<Vec<Ve
 /// grows about the root meets itself, so that nothing lies farther out than it has to.
 ///
 /// # Errors
-/// [`crate::Error::Argument`] for a cone or root that is no vertex; [`crate::Error::Layout`] for a sphere in E² with fewer than two cones, a cut
-/// that does not leave a disk, several components, lengths beyond what doubles can place; those of [`Solution::refinement`] and
+/// [`crate::Error::Argument`] for a cone or root that is no vertex; [`crate::Error::Layout`] for a sphere in E² with fewer than two cones,
+/// a cut that does not leave a disk, several components, lengths beyond what doubles can place; those of [`Solution::refinement`] and
 /// [`crate::metric::Metric::lengths`]; [`crate::Error::Cancelled`].
 ///
 /// ```
@@ -195,11 +197,11 @@ pub struct About {
     pub lengths: PerEdge<f64>,
 }
 
-/// Lays a metric without cones out about a base vertex of the surface, with twice the digits of doubles, as deck groups need them: where the
-/// disk that grows about the base meets itself the surface is opened ([`super::layout_of`]).
+/// Lays a metric without cones out about a base vertex of the surface, with twice the digits of doubles, as deck groups need them: where
+/// the disk that grows about the base meets itself the surface is opened ([`super::layout_of`]).
 ///
-/// What is laid out is the metric's triangulation; of one on a double, the refinement of that and the surface as it came, on the given half.
-/// `base`: default, a vertex from which none is far.
+/// What is laid out is the metric's triangulation; of one on a double, the refinement of that and the surface as it came, on the given
+/// half. `base`: default, a vertex from which none is far.
 ///
 /// # Errors
 /// Those of [`super::layout_of`] and [`Solution::refinement`].

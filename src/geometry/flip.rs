@@ -231,8 +231,8 @@ impl Hinge {
 }
 
 impl Hinge<Twofold> {
-    /// Whether the edge fails the weighted Delaunay condition and can be flipped, where [`Hinge::verdict`] cannot tell: the angles α, β that
-    /// the condition compares add up to more than π, `sin(α + β) < 0`, by more than [`TOLERANCE`] of `sin α + sin β`.
+    /// Whether the edge fails the weighted Delaunay condition and can be flipped, where [`Hinge::verdict`] cannot tell: the angles α, β
+    /// that the condition compares add up to more than π, `sin(α + β) < 0`, by more than [`TOLERANCE`] of `sin α + sin β`.
     pub fn wants_flip(&self) -> bool {
         let Some(Heights { cosines: [k, l], .. }) = self.heights() else { return false };
         // 0 in a broken triangle, whose angles are 0 and π.

@@ -29,8 +29,8 @@ pub fn unevenness(domain: &Domain, form: &OneForm) -> f64 {
     Evenness::new(domain, form).ratio
 }
 
-/// Coefficients of a harmonic form whose drawing distorts areas less than those of the basis: a local minimum of [`unevenness`], found by descent
-/// from the best form of the basis. The energy of the form is 1.
+/// Coefficients of a harmonic form whose drawing distorts areas less than those of the basis: a local minimum of [`unevenness`], found by
+/// descent from the best form of the basis. The energy of the form is 1.
 ///
 /// # Errors
 /// [`crate::Error::Factorisation`]; [`crate::Error::Cancelled`].

@@ -29,8 +29,8 @@ use crate::mesh::{PerVertex, VertexId};
 use crate::metric::lengths::face_lengths;
 
 /// How far a conformal factor (λ, V entries) from the metric of a domain to one with these integrals of curvature around its vertices
-/// ([`curvature_integrals`]; V entries) is from the weak equation above: the norm of the residual dual to `‖∇φ‖`, over that of `K̄ − K`. It is
-/// `‖∇(λ − μ)‖ / ‖∇μ‖` with the solution μ of the equation. 0 if λ is constant and both curvatures are the same.
+/// ([`curvature_integrals`]; V entries) is from the weak equation above: the norm of the residual dual to `‖∇φ‖`, over that of `K̄ − K`. It
+/// is `‖∇(λ − μ)‖ / ‖∇μ‖` with the solution μ of the equation. 0 if λ is constant and both curvatures are the same.
 ///
 /// Falls as h² for the factor of smooth metrics.
 ///
@@ -59,8 +59,8 @@ pub fn solution_residual(solution: &Solution, control: &Control) -> Result<f64> 
     factor_residual(&domain, &solution.conformal_factor()?, &curvature_integrals(solution)?, control)
 }
 
-/// The integral of curvature around every vertex of the given surface: the discrete curvature, and in H² and S² a third of what every face around it
-/// holds. They add up to 2πχ.
+/// The integral of curvature around every vertex of the given surface: the discrete curvature, and in H² and S² a third of what every face
+/// around it holds. They add up to 2πχ.
 ///
 /// # Errors
 /// Those of [`crate::metric::Metric::lengths`].

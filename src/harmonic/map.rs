@@ -38,8 +38,8 @@ pub struct HarmonicMap<const N: usize> {
     pub points: Vec<[f64; N]>,
     /// `½ Σ w_ij |f_i − f_j|²`.
     pub energy: f64,
-    /// Largest distance of a vertex from the mean of its neighbours by weight (after its flux), over the size of the image, at vertices without
-    /// a given value: the mean-value property of harmonic maps.
+    /// Largest distance of a vertex from the mean of its neighbours by weight (after its flux), over the size of the image, at vertices
+    /// without a given value: the mean-value property of harmonic maps.
     pub mean_value_residual: f64,
 }
 

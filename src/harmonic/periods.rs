@@ -7,7 +7,8 @@
 //!     Re Π = −Q R⁻¹,        Im Π = P − Q R⁻¹ Qᵀ.
 //! ```
 //!
-//! Im Π is symmetric and positive definite on every mesh, as a Schur complement of G; Re Π is symmetric, and `J² = −1`, up to O(h²) \[BS16\].
+//! Im Π is symmetric and positive definite on every mesh, as a Schur complement of G; Re Π is symmetric, and `J² = −1`, up to O(h²)
+//! \[BS16\].
 //!
 //! ```
 //! use ricci::harmonic::{Domain, FormsOptions, HarmonicForms, PeriodMatrix};

@@ -54,8 +54,8 @@ fn with_values(
     harmonic_map(domain, &Prescribed { values, flux: None }, control)
 }
 
-/// The harmonic map of a disk onto the unit disk with the boundary by its length: injective on a Delaunay triangulation, by the theorem of Tutte
-/// and Floater \[Flo03\], since the weights are at least 0, where no two edges have the same ends ([`super::simple_domain`]).
+/// The harmonic map of a disk onto the unit disk with the boundary by its length: injective on a Delaunay triangulation, by the theorem of
+/// Tutte and Floater \[Flo03\], since the weights are at least 0, where no two edges have the same ends ([`super::simple_domain`]).
 ///
 /// # Errors
 /// [`Error::Layout`] for a surface that is no disk; those of [`harmonic_map`].
@@ -64,8 +64,9 @@ pub fn to_disk(domain: &Domain, control: &Control) -> Result<HarmonicMap<2>> {
     with_values(domain, boundary(domain)?.into_iter().map(on_circle).collect(), control)
 }
 
-/// The harmonic map of a disk onto a convex polygon, with the boundary by its length from corner to corner. `corners`: the vertices that go to the
-/// polygon's, in the boundary's order with the surface on the left; without them the shares of length are those of the polygon's sides.
+/// The harmonic map of a disk onto a convex polygon, with the boundary by its length from corner to corner. `corners`: the vertices that go
+/// to the polygon's, in the boundary's order with the surface on the left; without them the shares of length are those of the polygon's
+/// sides.
 ///
 /// # Errors
 /// [`Error::Argument`] for a polygon that is not strictly convex and counterclockwise, and corners that do not follow each other on the
@@ -163,11 +164,11 @@ fn corner_shares(around: &[(VertexId, f64)], corners: &[VertexId], n: usize) -> 
     Ok(shares)
 }
 
-/// The map of a disk with four corners onto the rectangle of its modulus, `[0, width] × [0, 1]`: each coordinate is harmonic with two sides given and no flux
-/// through the others, so the map is conformal up to O(h²). The first side, from corner 0 to corner 1, is the bottom.
+/// The map of a disk with four corners onto the rectangle of its modulus, `[0, width] × [0, 1]`: each coordinate is harmonic with two sides
+/// given and no flux through the others, so the map is conformal up to O(h²). The first side, from corner 0 to corner 1, is the bottom.
 ///
-/// `corners`: four vertices of the boundary in its order with the surface on the left; without them [`corners_by_length`]. Returned with the
-/// corners.
+/// `corners`: four vertices of the boundary in its order with the surface on the left; without them [`corners_by_length`]. Returned with
+/// the corners.
 ///
 /// # Errors
 /// As [`to_polygon`].

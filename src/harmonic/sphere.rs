@@ -103,8 +103,8 @@ pub fn sphere_map(domain: &Domain, options: &SphereMapOptions, control: &Control
     Ok(SphereMap { points, energies, converged, flipped })
 }
 
-/// A triangle of the surface goes to an equilateral one in the plane, all else harmonically into it; then everything is put on the sphere and
-/// centred.
+/// A triangle of the surface goes to an equilateral one in the plane, all else harmonically into it; then everything is put on the sphere
+/// and centred.
 fn start(domain: &Domain, control: &Control) -> Result<Vec<Vector>> {
     let (mesh, areas) = (domain.mesh(), domain.face_areas());
     let is_triangle = |f: &FaceId| {

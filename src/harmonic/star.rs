@@ -37,8 +37,8 @@ impl HarmonicForms {
     }
 }
 
-/// The form `ω + i *ω` for the combination ω of forms with these coefficients, holomorphic up to O(h²); `dual`: the forms of the dual classes
-/// on the same domain, on a closed surface the same.
+/// The form `ω + i *ω` for the combination ω of forms with these coefficients, holomorphic up to O(h²); `dual`: the forms of the dual
+/// classes on the same domain, on a closed surface the same.
 ///
 /// # Errors
 /// [`Error::Size`]; [`Error::Argument`] for classes that are not dual.

@@ -50,15 +50,16 @@ const NEAREST: f64 = 0.55;
 const SHORTEST: f64 = 1.5;
 /// Spacings from a zero up to which the lines that run into it do not end near each other.
 const ALONE: f64 = 1.0;
-/// Share of a face's longest side by which a corner may lie below another one and count as on its level: the faces at an edge, each in coordinates of its own,
-/// are to agree on it.
+/// Share of a face's longest side by which a corner may lie below another one and count as on its level: the faces at an edge, each in
+/// coordinates of its own, are to agree on it.
 const SAME_LEVEL: f64 = 1e-12;
 /// A line looks for others after each such share of the spacing.
 const LOOK: f64 = 0.25;
 
-/// Evenly placed trajectories of a form's drawing, each as the points where it crosses edges of [`FormLayout::mesh`], which it joins straight.
-/// Lines through zeros come first. Others begin in faces from which no line is nearer than the spacing and end where they come nearer than about half of it to another or
-/// to themselves, at the boundary, or at their longest \[JL97\]. `areas`: of the faces on the surface (F entries, positive).
+/// Evenly placed trajectories of a form's drawing, each as the points where it crosses edges of [`FormLayout::mesh`], which it joins
+/// straight. Lines through zeros come first. Others begin in faces from which no line is nearer than the spacing and end where they come
+/// nearer than about half of it to another or to themselves, at the boundary, or at their longest \[JL97\]. `areas`: of the faces on the
+/// surface (F entries, positive).
 ///
 /// # Errors
 /// [`Error::Size`]; [`Error::Argument`] for a spacing below 1e-4 or a length that is not positive; [`Error::Cancelled`].
@@ -201,8 +202,8 @@ impl Tracer<'_> {
         (back + length > SHORTEST * self.spacing).then_some(points)
     }
 
-    /// The points after `from`, where the line leaves a face, and the length that they add. For the length `alone` the line does not look for
-    /// others.
+    /// The points after `from`, where the line leaves a face, and the length that they add. For the length `alone` the line does not look
+    /// for others.
     fn follow(&mut self, from: OnHalfedge, line: usize, alone: f64) -> (Vec<OnHalfedge>, f64) {
         let (mut points, mut length, mut unseen) = (Vec::new(), 0.0, 0.0);
         let mut at = from;

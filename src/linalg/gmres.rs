@@ -34,8 +34,9 @@ impl Limits {
     }
 }
 
-/// Solves `A x = b` from the x given, n numbers; the norm of the residual that is left, as a share of that of b (0 for b = 0). `apply(x, y)`
-/// sets y to A x. It ends without reaching the tolerance where the products are used up, a restart brings no progress, or a number is not finite.
+/// Solves `A x = b` from the x given, n numbers; the norm of the residual that is left, as a share of that of b (0 for b = 0).
+/// `apply(x, y)` sets y to A x. It ends without reaching the tolerance where the products are used up, a restart brings no progress, or a
+/// number is not finite.
 pub fn solve(mut apply: impl FnMut(&[f64], &mut [f64]), b: &[f64], x: &mut [f64], limits: Limits) -> f64 {
     let (size, mut products) = (norm(b), 0);
     if size == 0.0 {

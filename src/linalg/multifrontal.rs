@@ -1,5 +1,5 @@
-//! The numbers of a supernodal Cholesky factorisation, by the multifrontal method \[DR83\], \[Liu92\]: each supernode adds what its children
-//! hand on to its entries of the matrix, eliminates its columns and hands the rest, a lower triangle, on to its parent.
+//! The numbers of a supernodal Cholesky factorisation, by the multifrontal method \[DR83\], \[Liu92\]: each supernode adds what its
+//! children hand on to its entries of the matrix, eliminates its columns and hands the rest, a lower triangle, on to its parent.
 //!
 //! Bundles ([`super::tree`]) are worked through one beside the other, then the heavy supernodes one after the other, each by several
 //! threads. Blocks are of fixed sizes and sums are formed in a fixed order, so that the bits do not depend on the number of threads.

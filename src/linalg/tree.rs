@@ -9,7 +9,8 @@ use super::Pattern;
 use faer::sparse::linalg::cholesky::supernodal::SymbolicSupernodalCholesky;
 use std::ops::Range;
 
-/// Bundles have about this share of the work: two threads then wait little for each other, and few triangles wait for their parents at a time.
+/// Bundles have about this share of the work: two threads then wait little for each other, and few triangles wait for their parents at a
+/// time.
 const SHARE: f64 = 1.0 / 16.0;
 /// Work below which dividing costs more than it saves, in floating-point operations; about two milliseconds of one processor.
 const LEAST_WORK: f64 = 4e6;

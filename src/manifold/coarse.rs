@@ -35,8 +35,8 @@ pub struct Coarse {
 }
 
 impl Coarse {
-    /// The triangulation of a flat metric by the vertices that `keep` names, and those that are not flat: its cones, and corners of its boundary. Inner vertices
-    /// next to a corner go even so, where it had several triangles with them.
+    /// The triangulation of a flat metric by the vertices that `keep` names, and those that are not flat: its cones, and corners of its
+    /// boundary. Inner vertices next to a corner go even so, where it had several triangles with them.
     ///
     /// # Errors
     /// [`crate::Error::Size`]; [`crate::Error::Cancelled`].
@@ -170,8 +170,8 @@ impl Work {
         around.as_flattened().iter().for_each(|h| self.enqueue(h.edge()));
     }
 
-    /// Remove a vertex, after flips of its edges that leave it as few as a removal needs, and make the triangulation Delaunay again. A vertex stays where there is
-    /// no triangulation without it, such as the last one of a torus.
+    /// Remove a vertex, after flips of its edges that leave it as few as a removal needs, and make the triangulation Delaunay again. A
+    /// vertex stays where there is no triangulation without it, such as the last one of a torus.
     fn remove(&mut self, v: VertexId) {
         let few = if self.mesh().is_boundary_vertex(v) { 2 } else { 3 };
         loop {
@@ -201,8 +201,8 @@ impl Work {
         self.make_delaunay();
     }
 
-    /// Flip the edges at a corner of the boundary, as far as triangles stay fat, so that one triangle alone has it: a spline is less smooth across edges
-    /// that end at a corner. Where one is left, the vertex at its other end that would have to go, if `is_free` allows it.
+    /// Flip the edges at a corner of the boundary, as far as triangles stay fat, so that one triangle alone has it: a spline is less smooth
+    /// across edges that end at a corner. Where one is left, the vertex at its other end that would have to go, if `is_free` allows it.
     fn cut_ear(&mut self, v: VertexId, is_free: impl Fn(VertexId) -> bool) -> Option<VertexId> {
         loop {
             let fan = self.mesh().fan(v);

@@ -20,10 +20,11 @@ use std::f64::consts::TAU;
 const FLAT: f64 = 1e-6;
 /// Share of a triangle by which the knots of another must reach into it for its basis functions to count: rounding.
 const REACH: f64 = 1e-12;
-/// Around a singular vertex the angle between two triangles there, in radians, from which on no basis function reaches from one to the other outside the core.
+/// Around a singular vertex the angle between two triangles there, in radians, from which on no basis function reaches from one to the
+/// other outside the core.
 const APART: f64 = std::f64::consts::FRAC_PI_2;
-/// Largest angle, in radians, that two triangles at a singular vertex and those between them may have together: others overlap each other in the plane without
-/// doing so on the surface.
+/// Largest angle, in radians, that two triangles at a singular vertex and those between them may have together: others overlap each other
+/// in the plane without doing so on the surface.
 const MOST_TOGETHER: f64 = TAU - std::f64::consts::FRAC_PI_6;
 /// Factors by which the knots of a vertex are moved away, the first that every triangle at it allows.
 const WIDER: [f64; 4] = [2.5, 2.0, 1.5, 1.2];
@@ -151,7 +152,8 @@ impl SurfaceDomain {
         (0..count as u32).map(|v| place(VertexId(v))).collect()
     }
 
-    /// The place at the end of a straight line from another one, in its chart; on the boundary and after 16 triangles the nearest one in the last triangle.
+    /// The place at the end of a straight line from another one, in its chart; on the boundary and after 16 triangles the nearest one in
+    /// the last triangle.
     pub fn walk(&self, from: Parameter, by: Complex) -> Parameter {
         let mesh = &self.coarse.mesh;
         let (mut f, mut at) = (FaceId(from.patch), add([from.x, from.y], by));
@@ -175,12 +177,13 @@ impl SurfaceDomain {
         Parameter { patch: f.0, x: at[0], y: at[1] }
     }
 
-    /// The triangular B-splines of a degree on this domain: their knots are in general position around flat vertices, along straight boundaries, and
-    /// coincide at corners of the boundary. `spread` as in [`crate::spline::KnotOptions`]; knots of flat vertices are farther away where every triangle there
-    /// keeps a region Ω.
+    /// The triangular B-splines of a degree on this domain: their knots are in general position around flat vertices, along straight
+    /// boundaries, and coincide at corners of the boundary. `spread` as in [`crate::spline::KnotOptions`]; knots of flat vertices are
+    /// farther away where every triangle there keeps a region Ω.
     ///
-    /// Around infinity knots of the boundary lie as others do: the spline ends in the middle of the hole. A singular vertex whose total angle is a multiple of 2π has directions as any other, and its knots lie in general position in the core of its
-    /// hole: outside that core every flat region is as in the plane, and the splines are as smooth there. At another one knots coincide.
+    /// Around infinity knots of the boundary lie as others do: the spline ends in the middle of the hole. A singular vertex whose total
+    /// angle is a multiple of 2π has directions as any other, and its knots lie in general position in the core of its hole: outside that
+    /// core every flat region is as in the plane, and the splines are as smooth there. At another one knots coincide.
     ///
     /// # Errors
     /// Those of [`SplineSpace::new`].
@@ -214,8 +217,8 @@ impl SurfaceDomain {
         SplineSpace::new(degree, patches, supports)
     }
 
-    /// Move the knots of flat vertices farther away, as long as every triangle keeps a region Ω: not all vertices need be as near as the smallest triangle
-    /// asks all its corners to be.
+    /// Move the knots of flat vertices farther away, as long as every triangle keeps a region Ω: not all vertices need be as near as the
+    /// smallest triangle asks all its corners to be.
     fn widen(&self, around: &mut PerVertex<Vec<Complex>>) {
         let mesh = &self.coarse.mesh;
         for v in mesh.vertices().filter(|&v| self.is_flat[v]) {
@@ -364,7 +367,8 @@ struct Way {
     around: Option<Fan>,
 }
 
-/// What owns a basis function: the vertex, edge or triangle whose knots its polar arguments are. Functions with the same owner and counts are one.
+/// What owns a basis function: the vertex, edge or triangle whose knots its polar arguments are. Functions with the same owner and counts
+/// are one.
 fn owner(mesh: &Mesh, f: FaceId, beta: [usize; 3]) -> (u8, u32, [usize; 3]) {
     let zero: Vec<usize> = (0..3).filter(|&k| beta[k] == 0).collect();
     match zero[..] {

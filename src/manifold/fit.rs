@@ -43,11 +43,13 @@ pub struct SurfaceFitOptions {
     pub degree: usize,
     /// Number of control points at most; default a quarter of the vertices.
     pub control_points: Option<usize>,
-    /// Largest distance of a vertex from the spline that is asked for, over the diagonal of the bounding box; that of the root of the mean square is a tenth of it. Default 0.01.
+    /// Largest distance of a vertex from the spline that is asked for, over the diagonal of the bounding box; that of the root of the mean
+    /// square is a tenth of it. Default 0.01.
     pub tolerance: f64,
     /// Times that the triangles' sizes are adapted to the errors. Default 6.
     pub rounds: usize,
-    /// Times at most that the places of the vertices are moved to where the spline is nearest: fewer where the tolerance is met, or little is gained. Default 20.
+    /// Times at most that the places of the vertices are moved to where the spline is nearest: fewer where the tolerance is met, or little
+    /// is gained. Default 20.
     pub corrections: usize,
     /// [`FitOptions::fairness`] of the first round; less in later ones while the mean distance is missed. Default 1e-10.
     pub fairness: f64,
@@ -96,13 +98,12 @@ pub struct SurfaceFit {
     pub rounds: usize,
 }
 
-/// A spline fitted to the vertices of a surface in space, on a flat metric of it: triangles of the domain about as long on the surface, and smaller where
-/// the fit is worse. The best of all rounds; they end early where the tolerance is met and
-/// the spline does not fold.
+/// A spline fitted to the vertices of a surface in space, on a flat metric of it: triangles of the domain about as long on the surface, and
+/// smaller where the fit is worse. The best of all rounds; they end early where the tolerance is met and the spline does not fold.
 ///
 /// # Errors
-/// [`Error::Argument`] for a surface without positions, a metric that is not flat or lives on a double; [`Error::Spline`]; [`Error::Factorisation`];
-/// [`Error::Cancelled`].
+/// [`Error::Argument`] for a surface without positions, a metric that is not flat or lives on a double; [`Error::Spline`];
+/// [`Error::Factorisation`]; [`Error::Cancelled`].
 pub fn fit_surface(
     surface: &Surface,
     flat: &Flat,
@@ -167,7 +168,8 @@ fn miss([rms, max]: [f64; 2], tolerance: f64) -> f64 {
     f64::max(max, rms / RMS) / tolerance
 }
 
-/// Vertices of a triangulation of this surface, or plane, that has at most so many control points: of V vertices at most n²V − (n² − 1)χ, less for each edge of the boundary.
+/// Vertices of a triangulation of this surface, or plane, that has at most so many control points: of V vertices at most n²V − (n² − 1)χ,
+/// less for each edge of the boundary.
 fn vertices_for(control_points: usize, flat: &Flat, degree: usize) -> usize {
     let square = (degree * degree).max(1) as i64;
     let euler = if flat.plane.is_some() { 1 } else { flat.mesh.euler() };
@@ -219,7 +221,8 @@ impl<'a> Plan<'a> {
         [fitted.rms, fitted.max].map(|distance| distance / self.diagonal)
     }
 
-    /// Vertices of the surface that the hole of a singular vertex with this number of turns covers: [`SurfaceFitOptions::hole`] times the area of turns² triangles.
+    /// Vertices of the surface that the hole of a singular vertex with this number of turns covers: [`SurfaceFitOptions::hole`] times the
+    /// area of turns² triangles.
     fn inside(&self, turns: u32) -> usize {
         let vertices = self.points.len() as f64;
         let wanted = self.options.hole * f64::from(turns * turns) * vertices / self.triangles.max(1) as f64;
@@ -231,7 +234,8 @@ impl<'a> Plan<'a> {
         Fill::blank((self.inside(turns) as f64 / POINTS) as usize).coefficients().len()
     }
 
-    /// The hole around a singular vertex: the widest with no more vertices than wanted, so that triangles beyond it are small beside their distance from the vertex.
+    /// The hole around a singular vertex: the widest with no more vertices than wanted, so that triangles beyond it are small beside their
+    /// distance from the vertex.
     fn hole(&self, domain: &SurfaceDomain, places: &[Parameter], v: VertexId) -> Result<Hole> {
         let mut hole = domain.hole(v)?;
         let wanted = self.inside(hole.turns.unsigned_abs());
@@ -249,7 +253,8 @@ impl<'a> Plan<'a> {
     }
 }
 
-/// Control points of splines of a degree over a domain: n − 1 on each edge and (n − 1)(n − 2)/2 in each triangle beside those of the vertices.
+/// Control points of splines of a degree over a domain: n − 1 on each edge and (n − 1)(n − 2)/2 in each triangle beside those of the
+/// vertices.
 fn control_points(domain: &SurfaceDomain, degree: usize) -> usize {
     let mesh = &domain.coarse().mesh;
     let inner = degree.saturating_sub(1);

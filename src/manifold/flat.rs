@@ -25,7 +25,8 @@ pub(super) const FLAT: f64 = 1e-7;
 pub struct FlatOptions {
     /// The flow, to curvature at one vertex alone, or a holomorphic 1-form with its 2g − 2 zeros. Default the flow.
     pub source: AffineSource,
-    /// The vertex with the curvature. Default: where areas are distorted least; of a sphere, where the factor between it and its conformal image varies least.
+    /// The vertex with the curvature. Default: where areas are distorted least; of a sphere, where the factor between it and its conformal
+    /// image varies least.
     pub singular: Option<VertexId>,
     /// Corners of the boundary of a disk. Default four right angles.
     pub corners: Corners,
@@ -47,13 +48,15 @@ pub struct Flat {
 impl Flat {
     /// A flat metric in the conformal class of a surface.
     ///
-    /// A sphere has 4π at one vertex, which lies at infinity of a plane. By the flow, a closed surface of genus 1 is flat everywhere; others have their whole curvature 2πχ at one vertex. A boundary is straight, but for
-    /// the corners of a disk, which has no singular vertex. By a holomorphic 1-form ω, for closed surfaces of genus 1 and more, lengths are
+    /// A sphere has 4π at one vertex, which lies at infinity of a plane. By the flow, a closed surface of genus 1 is flat everywhere;
+    /// others have their whole curvature 2πχ at one vertex. A boundary is straight, but for the corners of a disk, which has no singular
+    /// vertex. By a holomorphic 1-form ω, for closed surfaces of genus 1 and more, lengths are
     /// |ω|, on the intrinsic Delaunay triangulation, and the vertices at zeros of order k have the curvature −2πk.
     ///
     /// # Errors
-    /// [`Error::Argument`] for a form on a closed surface of genus 0, a singular vertex where there is none, or on the boundary; [`Error::Layout`] for a form that turns triangles over,
-    /// or a flow that does not converge; those of [`flow()`], [`uniformize_sphere`] and [`HarmonicForms::new`]; [`Error::Cancelled`].
+    /// [`Error::Argument`] for a form on a closed surface of genus 0, a singular vertex where there is none, or on the boundary;
+    /// [`Error::Layout`] for a form that turns triangles over, or a flow that does not converge; those of [`flow()`], [`uniformize_sphere`]
+    /// and [`HarmonicForms::new`]; [`Error::Cancelled`].
     pub fn new(surface: &Surface, options: &FlatOptions, control: &Control) -> Result<Flat> {
         let mesh = surface.mesh();
         if mesh.is_closed() && mesh.euler() > 0 {
@@ -126,7 +129,8 @@ impl Flat {
         Ok(Flat { mesh, lengths, plane: Some(plane) })
     }
 
-    /// Lengths of the edges that are comparable everywhere: the flat ones, of a plane with a vertex at infinity those of the chords of the unit sphere over it.
+    /// Lengths of the edges that are comparable everywhere: the flat ones, of a plane with a vertex at infinity those of the chords of the
+    /// unit sphere over it.
     pub(super) fn finite_lengths(&self) -> PerEdge<f64> {
         let Some(plane) = &self.plane else { return self.lengths.clone() };
         let shrink = |z: Complex| 2.0 / (1.0 + norm2(z)).sqrt();

@@ -12,12 +12,14 @@ use crate::spline::{Hole, Parameter, Spline};
 const STEPS: usize = 12;
 /// How far the grid stays from the sides and corners, in steps: a place is inside its patch, and not at its singular vertex.
 const INSET: f64 = 0.01;
-/// Largest angle, in degrees, by which normals may turn from a place of the grid to the next: at sharp ridges of scanned surfaces up to 45 were measured.
+/// Largest angle, in degrees, by which normals may turn from a place of the grid to the next: at sharp ridges of scanned surfaces up to 45
+/// were measured.
 const TURN: f64 = 60.0;
 
 impl SurfaceDomain {
-    /// The patches in which a spline over this domain folds: its normals turn by more than 60 degrees from one place of a grid to the next, a twelfth of a side
-    /// apart at most. Around a singular vertex they are as near to each other in the coordinate in which that is a point as any other.
+    /// The patches in which a spline over this domain folds: its normals turn by more than 60 degrees from one place of a grid to the next,
+    /// a twelfth of a side apart at most. Around a singular vertex they are as near to each other in the coordinate in which that is a
+    /// point as any other.
     ///
     /// # Errors
     /// [`crate::Error::Spline`] for a spline over another domain; [`crate::Error::Cancelled`].
@@ -58,8 +60,8 @@ fn is_folded(normals: &[Vector]) -> bool {
     (0..normals.len()).any(turns)
 }
 
-/// Places in a triangle, in rows from its first corner, at which the vertex of a hole may be, to the opposite side. Where the filling alone is the
-/// surface they are in the chart of the hole: beside the coordinates of a corner, differences from it have few digits.
+/// Places in a triangle, in rows from its first corner, at which the vertex of a hole may be, to the opposite side. Where the filling alone
+/// is the surface they are in the chart of the hole: beside the coordinates of a corner, differences from it have few digits.
 fn grid(patch: u32, [a, b, c]: [Complex; 3], hole: Option<&Hole>) -> Vec<Parameter> {
     let place = |[x, y]: Complex| Parameter { patch, x, y };
     let at = |row: f64, column: usize| {

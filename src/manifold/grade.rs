@@ -19,7 +19,8 @@ const CHANGE: [f64; 2] = [0.6, 1.4];
 const SIZES: [f64; 2] = [0.1, 3.0];
 /// Vertices of the surface that a triangle has at least: fewer do not tell a cubic polynomial from one that folds.
 const LEAST_POINTS: f64 = 8.0;
-/// The part of a hole's radius, in the coordinate in which its vertex is a point as any other, where no other vertex lies: there the hole is filled.
+/// The part of a hole's radius, in the coordinate in which its vertex is a point as any other, where no other vertex lies: there the hole
+/// is filled.
 const BARE: f64 = 0.6;
 /// In each round sizes may grow by so much more per length: fat triangles around a vertex of many turns, or on thin limbs, may be too many.
 const MORE_GROWTH: f64 = 1.15;
@@ -138,8 +139,8 @@ impl<'a> Grade<'a> {
         sampling.spread(count, control)
     }
 
-    /// Sizes for triangles whose errors would be alike: a polynomial of degree n misses by the power n + 1 of the size. `misses`: per vertex its triangle and
-    /// its error.
+    /// Sizes for triangles whose errors would be alike: a polynomial of degree n misses by the power n + 1 of the size. `misses`: per
+    /// vertex its triangle and its error.
     pub fn adapt(&mut self, mesh: &Mesh, misses: &[Miss], (triangles, degree): (usize, usize)) {
         let mut worst = vec![0.0f64; triangles];
         for &(triangle, miss) in misses.iter().flatten() {

@@ -24,7 +24,8 @@ impl SurfaceDomain {
         Hole::new(self.chart(v), self.around(v, radius).sectors, self.turns(v)?, radius)
     }
 
-    /// A hole of this radius, or the widest that meets neither itself, another singular vertex nor the boundary; at least that of [`SurfaceDomain::hole`].
+    /// A hole of this radius, or the widest that meets neither itself, another singular vertex nor the boundary; at least that of
+    /// [`SurfaceDomain::hole`].
     ///
     /// # Errors
     /// Those of [`SurfaceDomain::hole`].

@@ -1,8 +1,8 @@
 //! Spheres as the plane with a vertex at infinity.
 //!
-//! Around infinity the surface is a function of w = ρ/z, which fills the hole |w| < 1. Triangles of the plane end where the filling alone is the
-//! surface, at a ring of vertices that no vertices of the surface are. The spline near the hole is a polynomial of z where the surface is one of w, so that
-//! triangles there are to be small beside their distance from infinity.
+//! Around infinity the surface is a function of w = ρ/z, which fills the hole |w| < 1. Triangles of the plane end where the filling alone
+//! is the surface, at a ring of vertices that no vertices of the surface are. The spline near the hole is a polynomial of z where the
+//! surface is one of w, so that triangles there are to be small beside their distance from infinity.
 
 use super::coarse::{Coarse, weights};
 use super::domain::SurfaceDomain;
@@ -24,7 +24,8 @@ pub(super) const RING: usize = 8;
 const RIM: f64 = 0.55;
 /// Largest |w| in which no vertex of the surface is one of the triangulation.
 const BARE: f64 = 0.85;
-/// The hole is as large as that of a vertex with so many turns: of a smaller one the triangles around it would be large beside their distance from infinity.
+/// The hole is as large as that of a vertex with so many turns: of a smaller one the triangles around it would be large beside their
+/// distance from infinity.
 pub(super) const TURNS: u32 = 4;
 
 /// The plane, and the disk outside of which the hole lies.

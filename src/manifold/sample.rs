@@ -29,8 +29,8 @@ pub(super) struct Sampling<'a> {
 }
 
 impl Sampling<'_> {
-    /// Up to `count` vertices, and few less: no two are nearer along edges than the mean of their distances, all sizes times one factor, but for those that are
-    /// always taken.
+    /// Up to `count` vertices, and few less: no two are nearer along edges than the mean of their distances, all sizes times one factor,
+    /// but for those that are always taken.
     ///
     /// # Errors
     /// [`crate::Error::Cancelled`].

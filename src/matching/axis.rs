@@ -14,8 +14,8 @@ const ANGLES: usize = 256;
 /// Newton steps from the best of them.
 const STEPS: usize = 20;
 
-/// The angle by which the first measure is turned so that its correlation with the second one, ring by ring and in the first waves around the axis, is
-/// the largest. For a copy that is turned it is the angle between the two up to rounding.
+/// The angle by which the first measure is turned so that its correlation with the second one, ring by ring and in the first waves around
+/// the axis, is the largest. For a copy that is turned it is the angle between the two up to rounding.
 pub(super) fn best_turn(from: &[Around], to: &[Around]) -> f64 {
     let [first, second] = [from, to].map(waves);
     // The correlation is Σ Re(c_m e^{imα}) with these coefficients.

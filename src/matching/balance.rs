@@ -29,8 +29,8 @@ const MOST_STEPS: usize = 60;
 const LEAST_DECREASE: f64 = 1e-4;
 /// Halvings of a step before it counts as one that leads nowhere.
 const MOST_HALVINGS: usize = 40;
-/// The energy is near its minimum where a step would lower it by no more than this share: the balance by weights without symmetry starts there, and
-/// needs no better place. Half the step's slope more and the minimum itself is known to about the square of this.
+/// The energy is near its minimum where a step would lower it by no more than this share: the balance by weights without symmetry starts
+/// there, and needs no better place. Half the step's slope more and the minimum itself is known to about the square of this.
 const ENERGY_TOLERANCE: f64 = 1e-4;
 /// The same where the balance was not found from there.
 const LEAST_ENERGY_TOLERANCE: f64 = 1e-12;
@@ -40,8 +40,8 @@ const BALANCED: f64 = 1e-12;
 const NEARLY_BALANCED: f64 = 1e-7;
 /// Energy over the least one up to which the start of a map may be nearer to the balance than what has the least energy.
 const NEAR: f64 = 2.0;
-/// Residual of a linear solution, as a share of the right hand side, with the first Newton step to the balance, and the share of the vertices' own
-/// residual that later ones ask for.
+/// Residual of a linear solution, as a share of the right hand side, with the first Newton step to the balance, and the share of the
+/// vertices' own residual that later ones ask for.
 const LINEAR: [f64; 2] = [1e-2, 0.1];
 /// Residual of a linear solution that counts as one at all.
 const SOLVED: f64 = 0.5;
@@ -89,8 +89,8 @@ pub(super) fn balance(
     settle(placed, weights, freedom, relaxed, control)
 }
 
-/// Brings the energy `½ Σ w r²` with the weights made symmetric to its minimum: on lifts into the plane or the hyperbolic plane it is convex
-/// \[GLM19\], so that Newton's method with a line search leads there from anywhere. The number of steps, and the energy.
+/// Brings the energy `½ Σ w r²` with the weights made symmetric to its minimum: on lifts into the plane or the hyperbolic plane it is
+/// convex \[GLM19\], so that Newton's method with a line search leads there from anywhere. The number of steps, and the energy.
 ///
 /// # Errors
 /// [`Error::Factorisation`]; [`Error::Cancelled`].
@@ -114,8 +114,8 @@ pub(super) fn relax(
     Ok(relaxed)
 }
 
-/// From near the balance, where [`relax`] left it, to it by the weights themselves. With positive weights, in the class of a homeomorphism, the
-/// result is an embedding \[LWZ23\].
+/// From near the balance, where [`relax`] left it, to it by the weights themselves. With positive weights, in the class of a homeomorphism,
+/// the result is an embedding \[LWZ23\].
 ///
 /// # Errors
 /// [`Error::Matching`] where no balance is found; [`Error::Factorisation`]; [`Error::Cancelled`].
@@ -425,8 +425,8 @@ fn dimension(freedom: Freedom) -> usize {
     }
 }
 
-/// `[r coth r, r/sinh r]` in H² and what corresponds to it: how the logarithm of a point at distance r changes across its direction when its own foot
-/// moves, and when the point does.
+/// `[r coth r, r/sinh r]` in H² and what corresponds to it: how the logarithm of a point at distance r changes across its direction when
+/// its own foot moves, and when the point does.
 fn growth(space: Space, r: f64) -> [f64; 2] {
     match space {
         Space::E2 => [1.0; 2],

@@ -1,8 +1,9 @@
 //! The homotopy class of a map that is named by pairs of loops: where it brings the letters of the source's fundamental group.
 //!
-//! The loops generate the groups of both surfaces, and the map brings the one of each pair to the other. So each letter of the source has to be written as a
-//! product of its loops. Products are compared by how far they move the base in the source's own metric: first the generators are made short, then products
-//! of few are collected, and a letter is reduced by them to the identity. What is found is checked in the groups, exactly.
+//! The loops generate the groups of both surfaces, and the map brings the one of each pair to the other. So each letter of the source has
+//! to be written as a product of its loops. Products are compared by how far they move the base in the source's own metric: first the
+//! generators are made short, then products of few are collected, and a letter is reduced by them to the identity. What is found is checked
+//! in the groups, exactly.
 
 use super::generators::Generators;
 use crate::error::{Error, Result};
@@ -44,8 +45,9 @@ pub(super) struct Class {
 /// The class in which each loop of the source goes to its partner.
 ///
 /// # Errors
-/// [`Error::Matching`] for paths that are not closed, loops that do not start at one vertex (but on a torus), that cross differently on the two surfaces,
-/// that do not generate the fundamental group, or that no homeomorphism brings to each other; [`Error::Argument`] for half-edges that are no path.
+/// [`Error::Matching`] for paths that are not closed, loops that do not start at one vertex (but on a torus), that cross differently on the
+/// two surfaces, that do not generate the fundamental group, or that no homeomorphism brings to each other; [`Error::Argument`] for
+/// half-edges that are no path.
 pub(super) fn class_of(sides: [&Looped; 2]) -> Result<Class> {
     let mut words = [Vec::new(), Vec::new()];
     for (s, side) in sides.iter().enumerate() {

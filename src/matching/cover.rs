@@ -12,8 +12,8 @@ use std::sync::Arc;
 
 /// A surface that is opened along a cut, and the deck transformations across the cut.
 ///
-/// Every vertex has an *own corner*: the corner of the opened surface whose position is that of the vertex. Its other corners lie at the images
-/// of this position under deck transformations.
+/// Every vertex has an *own corner*: the corner of the opened surface whose position is that of the vertex. Its other corners lie at the
+/// images of this position under deck transformations.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Cover {
     pub mesh: Arc<Mesh>,
@@ -31,8 +31,8 @@ pub(super) struct Cover {
 }
 
 impl Cover {
-    /// A cover whose transformations across half-edges are given, the identity where `None`. `own`: own corners that are not free to choose;
-    /// a vertex on the boundary has the corner at the boundary edge that leaves it, with the surface on its left.
+    /// A cover whose transformations across half-edges are given, the identity where `None`. `own`: own corners that are not free to
+    /// choose; a vertex on the boundary has the corner at the boundary edge that leaves it, with the surface on its left.
     pub fn new(
         mesh: &Arc<Mesh>,
         space: Space,
@@ -85,8 +85,8 @@ impl Cover {
         })
     }
 
-    /// The cover of a surface that is opened along a cut: the transformation of each segment carries the opened surface onto its neighbour on the left of the
-    /// segment.
+    /// The cover of a surface that is opened along a cut: the transformation of each segment carries the opened surface onto its neighbour
+    /// on the left of the segment.
     pub fn along_cut(
         mesh: &Arc<Mesh>,
         space: Space,
@@ -127,8 +127,8 @@ impl Cover {
         Some(self.corner[h]).filter(|&k| k != 0).map(|k| &self.motions[k as usize])
     }
 
-    /// The transformation that carries the vertex at a half-edge's tip to the end of the lift of the half-edge that starts at the vertex at its
-    /// origin; `None` for the identity.
+    /// The transformation that carries the vertex at a half-edge's tip to the end of the lift of the half-edge that starts at the vertex at
+    /// its origin; `None` for the identity.
     pub fn along(&self, h: HalfedgeId) -> Option<Motion<Twofold>> {
         let (inside, is_turned) = if self.mesh.is_outside(h) { (h.twin(), true) } else { (h, false) };
         let [from, to] = [inside, self.mesh.next(inside)].map(|h| self.corner[h]);
@@ -175,7 +175,8 @@ impl Placed {
     pub fn frame(space: Space, point: [f64; 3]) -> Motion<Twofold> {
         let [x, y, w] = point;
         if space == Space::S2 && w < 0.0 {
-            // Half a turn of the sphere, after which the point is nearer to the origin than to its antipode, where frames are not determined.
+            // Half a turn of the sphere, after which the point is nearer to the origin than to its antipode, where frames are not
+            // determined.
             let (zero, one) = (Twofold::from(0.0), Twofold::from(1.0));
             let half_turn = Motion { space, a: [zero; 2], b: [one, zero] };
             return half_turn.compose(&Placed::frame(space, [-x, y, -w]));
@@ -231,8 +232,8 @@ impl Placed {
     }
 }
 
-/// The point of one frame in another one. At the distance d from the origin of H² it loses a factor e^d of the digits; coordinates of the point
-/// itself, carried back, would lose e^{2d}.
+/// The point of one frame in another one. At the distance d from the origin of H² it loses a factor e^d of the digits; coordinates of the
+/// point itself, carried back, would lose e^{2d}.
 pub(super) fn seen_from(home: &Motion<Twofold>, frame: &Motion<Twofold>) -> Precise {
     home.inverse().compose(frame).origin()
 }

@@ -9,11 +9,12 @@ use std::collections::HashSet;
 /// Share of an edge within which a point on it counts as its end.
 const AT_END: f64 = 1e-9;
 
-/// Per vertex of the source's curves that is no landmark the pair of it and the point of the target's curve at the same share of the length.
+/// Per vertex of the source's curves that is no landmark the pair of it and the point of the target's curve at the same share of the
+/// length.
 ///
 /// # Errors
-/// [`Error::Matching`] for a curve of fewer than two vertices, of which one follows another without an edge between them, or of which one closes and the
-/// other does not; [`Error::Argument`] for a vertex that does not exist.
+/// [`Error::Matching`] for a curve of fewer than two vertices, of which one follows another without an edge between them, or of which one
+/// closes and the other does not; [`Error::Argument`] for a vertex that does not exist.
 pub(super) fn points(
     surfaces: [&Surface; 2],
     curves: &[[Vec<VertexId>; 2]],

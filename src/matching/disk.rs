@@ -1,5 +1,5 @@
-//! Corners for disks of whose boundary no more than two vertices are marked: both go to the unit disk, a landmark inside to its centre, two marked
-//! corners to opposite points. What turn is left is chosen so that the conformal factors fit best.
+//! Corners for disks of whose boundary no more than two vertices are marked: both go to the unit disk, a landmark inside to its centre, two
+//! marked corners to opposite points. What turn is left is chosen so that the conformal factors fit best.
 
 use super::axis::{Around, best_turn, centre};
 use super::density::{Factors, factors};
@@ -20,7 +20,8 @@ const CORNERS: usize = 4;
 const RINGS: usize = 8;
 /// Sectors of a ring.
 const SECTORS: usize = 128;
-/// A rotation by the moments of the area, which is exact for copies of one surface, is taken unless another one fits better by more than this share.
+/// A rotation by the moments of the area, which is exact for copies of one surface, is taken unless another one fits better by more than
+/// this share.
 const BETTER: f64 = 0.9;
 /// Least distance from a corner, in the unit disk, that enters a barycentre.
 const NEAR_CORNER: f64 = 1e-12;
@@ -34,10 +35,10 @@ struct Disk {
     raster: Vec<Option<(f64, f64)>>,
 }
 
-/// Both surfaces' corners, in corresponding order: those that are marked, and others that they lack. The boundaries go conformally to unit circles.
-/// Without marks the corners are where these meet two axes through the barycentres of the area. With a landmark inside, which goes to the centre, one
-/// corner is enough: the pair of vertices whose directions differ least. With marked corners they are a quarter of the circle from each other, and
-/// between two marked ones lies the area in the middle.
+/// Both surfaces' corners, in corresponding order: those that are marked, and others that they lack. The boundaries go conformally to unit
+/// circles. Without marks the corners are where these meet two axes through the barycentres of the area. With a landmark inside, which goes
+/// to the centre, one corner is enough: the pair of vertices whose directions differ least. With marked corners they are a quarter of the
+/// circle from each other, and between two marked ones lies the area in the middle.
 ///
 /// # Errors
 /// [`Error::Matching`] for a boundary of fewer than four vertices; those of [`circle_domain`].

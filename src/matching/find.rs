@@ -30,8 +30,8 @@ pub struct Matching {
     pub forward: SurfaceMap,
     /// From the vertices of the target to the source: the inverse of the map that is linear, in the domain, on the faces of the source.
     pub backward: SurfaceMap,
-    /// Where the source's points of [`MatchOptions::points`], and after them the vertices of its curves that are no landmarks, go on the target, and where
-    /// they should go.
+    /// Where the source's points of [`MatchOptions::points`], and after them the vertices of its curves that are no landmarks, go on the
+    /// target, and where they should go.
     pub points: Vec<[Place; 2]>,
     /// Per soft landmark the length that is left of its way on the target to its partner.
     pub soft_left: Vec<f64>,
@@ -39,14 +39,14 @@ pub struct Matching {
     pub space: Space,
     /// The boundary loops as circles of the domain, in the order of the source's; empty where they are none.
     pub holes: Vec<RoundHole>,
-    /// Faces of the source that are not counterclockwise in the domain of the target, from positions with twice the digits of doubles. Without any,
-    /// and with [`Matching::target_flipped`] empty, the map is a homeomorphism. Both are empty in what [`match_surfaces`] returns: where it finds such faces,
-    /// that is its error. They stand here so that reports say what was counted.
+    /// Faces of the source that are not counterclockwise in the domain of the target, from positions with twice the digits of doubles.
+    /// Without any, and with [`Matching::target_flipped`] empty, the map is a homeomorphism. Both are empty in what [`match_surfaces`]
+    /// returns: where it finds such faces, that is its error. They stand here so that reports say what was counted.
     pub flipped: Vec<FaceId>,
     /// Faces of the target that are not counterclockwise in its own domain: as [`Matching::flipped`].
     pub target_flipped: Vec<FaceId>,
-    /// Largest distance by which a vertex lies outside the other surface's domain, or by which two ways to it across a cut differ, as a share of the nearest
-    /// triangle: rounding.
+    /// Largest distance by which a vertex lies outside the other surface's domain, or by which two ways to it across a cut differ, as a
+    /// share of the nearest triangle: rounding.
     pub outside: f64,
     /// How the source, and the target, came into the domain.
     pub balance: [BalanceReport; 2],
@@ -63,8 +63,8 @@ pub struct Matching {
 /// The result is the same for any number of threads.
 ///
 /// # Errors
-/// [`Error::Matching`] for surfaces of different topology, landmarks that are no pairs of different vertices inside the surfaces, loops that are no
-/// permutation, and where no map is found, with the reason; those of [`crate::flow::Flow::new`]; [`Error::Cancelled`].
+/// [`Error::Matching`] for surfaces of different topology, landmarks that are no pairs of different vertices inside the surfaces, loops
+/// that are no permutation, and where no map is found, with the reason; those of [`crate::flow::Flow::new`]; [`Error::Cancelled`].
 pub fn match_surfaces(
     source: &Surface,
     target: &Surface,
@@ -149,8 +149,9 @@ fn match_hard(
     })
 }
 
-/// A surface with its landmarks, those inside faces as vertices that are added, and a vertex added on every inner edge that joins two vertices of the
-/// boundary: where that is straight, such an edge would lie on it. On surfaces with handles, also on every edge that joins two landmarks, which hold it.
+/// A surface with its landmarks, those inside faces as vertices that are added, and a vertex added on every inner edge that joins two
+/// vertices of the boundary: where that is straight, such an edge would lie on it. On surfaces with handles, also on every edge that joins
+/// two landmarks, which hold it.
 fn split(
     surface: &Surface,
     (landmarks, points): (&[[VertexId; 2]], &[[Place; 2]]),
@@ -200,7 +201,8 @@ fn on_given(place: Place, to: &Split) -> Place {
 /// Energy of the source in the target's domain over that of the target itself, below which no other order of loops is looked for.
 const UNTWISTED: f64 = 1.05;
 
-/// What corresponds, and both surfaces in one domain: of the orders of loops that are left open, on surfaces with handles, with the one of least energy.
+/// What corresponds, and both surfaces in one domain: of the orders of loops that are left open, on surfaces with handles, with the one of
+/// least energy.
 fn in_best_order(
     surfaces: [&Surface; 2],
     landmarks: &[[VertexId; 2]],

@@ -36,11 +36,11 @@ const CLOSED: f64 = 1e-12;
 const CLOSINGS: usize = 8;
 
 impl Generators {
-    /// These motions, changed as little as their relator asks for to be the identity; `None` where they are so long that it stays off by more than
-    /// [`CLOSED`].
+    /// These motions, changed as little as their relator asks for to be the identity; `None` where they are so long that it stays off by
+    /// more than [`CLOSED`].
     ///
-    /// The metric that they come from has curvature 0 at its vertices up to rounding, which what lies between them and the base magnifies. Lifts of a surface
-    /// fit together only where the relator holds.
+    /// The metric that they come from has curvature 0 at its vertices up to rounding, which what lies between them and the base magnifies.
+    /// Lifts of a surface fit together only where the relator holds.
     pub fn closed(mut self) -> Option<Generators> {
         if self.space == Space::E2 {
             // Translations commute.
@@ -66,8 +66,8 @@ impl Generators {
         (size(self.relator().0) <= CLOSED).then_some(self)
     }
 
-    /// How far the relator is from the identity, Im a and b, and the derivative of these by the same numbers of small motions that act before each
-    /// generator, by rows.
+    /// How far the relator is from the identity, Im a and b, and the derivative of these by the same numbers of small motions that act
+    /// before each generator, by rows.
     fn relator(&self) -> ([Twofold; 3], [Vec<Twofold>; 3]) {
         let mut letters = Vec::new();
         for k in 0..self.genus {
@@ -162,9 +162,9 @@ impl Generators {
         next
     }
 
-    /// The images after symmetries that surfaces often have, and that single moves do not lead to at once: half a turn of all handles (of a torus x → −x, of genus 2 the
-    /// hyperelliptic involution), two neighbouring handles that change places, as they are or each turned by half a turn one way or the other, and these with the
-    /// half turn of all.
+    /// The images after symmetries that surfaces often have, and that single moves do not lead to at once: half a turn of all handles (of a
+    /// torus x → −x, of genus 2 the hyperelliptic involution), two neighbouring handles that change places, as they are or each turned by
+    /// half a turn one way or the other, and these with the half turn of all.
     pub fn symmetric(&self) -> Vec<Generators> {
         let half = |of: &Generators, k: usize, back: bool| {
             let by = if back { Move::QuarterBack(k) } else { Move::Quarter(k) };
@@ -182,7 +182,8 @@ impl Generators {
         all
     }
 
-    /// The images of c_1 … c_b in another order, the product as before: in `order` stand the numbers of those that are to be first, second, ….
+    /// The images of c_1 … c_b in another order, the product as before: in `order` stand the numbers of those that are to be first, second,
+    /// ….
     pub fn reordered(mut self, order: &[usize]) -> Generators {
         let first = 2 * self.genus;
         let mut now: Vec<usize> = (0..order.len()).collect();

@@ -1,8 +1,9 @@
-//! Surfaces with handles: both in the flat or hyperbolic metric of the target, the homotopy class of the map given by bases of the fundamental groups.
+//! Surfaces with handles: both in the flat or hyperbolic metric of the target, the homotopy class of the map given by bases of the
+//! fundamental groups.
 //!
-//! A homotopy basis of each surface has the same relator, and the map brings letter to letter. Which bases correspond is not canonical: from the two that
-//! are found, twists and turns of the handles are tried as long as they lower the energy of the harmonic map. A class that pairs of loops name
-//! ([`super::class`]) is taken as it is.
+//! A homotopy basis of each surface has the same relator, and the map brings letter to letter. Which bases correspond is not canonical:
+//! from the two that are found, twists and turns of the handles are tried as long as they lower the energy of the harmonic map. A class
+//! that pairs of loops name ([`super::class`]) is taken as it is.
 
 use super::balance::{Freedom, Relaxed, relax, settle};
 use super::canonical::canonical_metric;
@@ -45,12 +46,12 @@ struct Own {
 /// Energy of another class over the least, up to which the map of it may be the better one for landmarks.
 const SIMILAR: f64 = 1.5;
 
-/// Both surfaces in the target's metric, and, where `more` marks are to be brought to their partners, the source in other classes of about the same
-/// energy.
+/// Both surfaces in the target's metric, and, where `more` marks are to be brought to their partners, the source in other classes of about
+/// the same energy.
 ///
 /// # Errors
-/// [`Error::Matching`] for landmarks other than one on a torus, where a flow does not come to its target, and where no harmonic map is found; those of
-/// [`homotopy_basis`], [`canonical_metric`] and [`unroll`]; [`Error::Cancelled`].
+/// [`Error::Matching`] for landmarks other than one on a torus, where a flow does not come to its target, and where no harmonic map is
+/// found; those of [`homotopy_basis`], [`canonical_metric`] and [`unroll`]; [`Error::Cancelled`].
 pub(super) fn with_handles(
     surfaces: [&Surface; 2],
     (marks, more): ([&Marks; 2], bool),
@@ -271,8 +272,8 @@ impl Search<'_> {
         freedom
     }
 
-    /// The boundary loops of a surface as they are run through from the tips of their rims, each vertex with where it lies along its line: in the
-    /// surface's own metric, or by the share of the length.
+    /// The boundary loops of a surface as they are run through from the tips of their rims, each vertex with where it lies along its line:
+    /// in the surface's own metric, or by the share of the length.
     fn loops(&self, s: usize) -> Result<Vec<Vec<(VertexId, f64)>>> {
         let (mesh, Own { basis, placed, .. }, own) =
             (self.surfaces[s].mesh(), self.own(s), &self.own(s).generators);

@@ -9,8 +9,8 @@ use crate::topology::check_vertex;
 /// Landmarks, corners and loops of both surfaces, in the same order.
 ///
 /// # Errors
-/// [`Error::Matching`] for landmarks that are no pairs of different vertices both inside or both on corresponding loops in the same order, and for loops
-/// that are no permutation; [`Error::Argument`] for a landmark that is no vertex.
+/// [`Error::Matching`] for landmarks that are no pairs of different vertices both inside or both on corresponding loops in the same order,
+/// and for loops that are no permutation; [`Error::Argument`] for a landmark that is no vertex.
 pub(super) fn marks(
     surfaces: [&Surface; 2],
     landmarks: &[[VertexId; 2]],
@@ -110,8 +110,8 @@ const LIKE: f64 = 0.05;
 /// Most orders of loops that are compared.
 const MOST_ORDERS: usize = 6;
 
-/// The target's loop for each of the source's, as lengths leave it open: by descending length, and after that the orders in which loops of like lengths change places;
-/// that alone where there are more than a few.
+/// The target's loop for each of the source's, as lengths leave it open: by descending length, and after that the orders in which loops of
+/// like lengths change places; that alone where there are more than a few.
 pub(super) fn loop_orders(surfaces: [&Surface; 2]) -> Vec<Vec<usize>> {
     orders(&[loops(surfaces[0]), loops(surfaces[1])])
 }

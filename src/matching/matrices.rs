@@ -6,8 +6,8 @@ use crate::parallel;
 
 /// How steps to the balance are found.
 pub(super) enum Solver {
-    /// By products with the matrix; the factors of the one with symmetric weights at the first step stand in for its inverse. At 160,000 vertices a step took 3
-    /// to 11 s in place of 16 s by factors of the matrix itself.
+    /// By products with the matrix; the factors of the one with symmetric weights at the first step stand in for its inverse. At 160,000
+    /// vertices a step took 3 to 11 s in place of 16 s by factors of the matrix itself.
     Products(Option<Box<Factors>>),
     /// By factors of the matrix.
     Factors,

@@ -8,8 +8,8 @@ use crate::geometry::vector::{cross, diagonal, distance, dot, norm, sub, triangl
 use crate::mesh::{PerFace, Point, VertexId};
 use crate::metric::{Overlay, Surface};
 
-/// Figures of a map, of its linear extension from the source's faces to space. Every number is finite; distances are shares of the diagonal of
-/// the target's bounding box.
+/// Figures of a map, of its linear extension from the source's faces to space. Every number is finite; distances are shares of the diagonal
+/// of the target's bounding box.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MapQuality {
     /// Quasi-conformal dilatation of the faces, largest over smallest singular value: the mean by area, and the largest.
@@ -134,8 +134,8 @@ fn dilatation(from: [Point; 3], to: [Point; 3]) -> f64 {
     if ratio.is_finite() { ratio.clamp(1.0, DILATATION_CAP) } else { DILATATION_CAP }
 }
 
-/// The mean and the largest distance of the vertices of a surface from where a map and one back bring them, as shares of the diagonal of its
-/// bounding box.
+/// The mean and the largest distance of the vertices of a surface from where a map and one back bring them, as shares of the diagonal of
+/// its bounding box.
 ///
 /// # Errors
 /// As [`map_quality`].
@@ -152,7 +152,8 @@ pub fn cycle_error(
     Ok([off.iter().sum::<f64>() / off.len().max(1) as f64, off.iter().copied().fold(0.0, f64::max)])
 }
 
-/// The largest distance of a point of [`Matching::points`] from where it should go, as a share of the diagonal of the target's bounding box.
+/// The largest distance of a point of [`Matching::points`] from where it should go, as a share of the diagonal of the target's bounding
+/// box.
 ///
 /// # Errors
 /// [`Error::Argument`] for a surface without positions, and for points on another one.

@@ -1,21 +1,24 @@
-//! Maps between two surfaces of the same topology: both go to one canonical domain, the source by a harmonic map, and the one map is followed by the
-//! inverse of the other \[JKLLG08, Eqn 18\].
+//! Maps between two surfaces of the same topology: both go to one canonical domain, the source by a harmonic map, and the one map is
+//! followed by the inverse of the other \[JKLLG08, Eqn 18\].
 //!
-//! The domain is the target in its metric of constant curvature. Landmarks become cones of angle 2π/n in it, boundary loops become geodesics or, between
-//! corners, straight sides. So wherever the Euler characteristic of this orbifold is not positive the domain is covered by the plane or the hyperbolic
-//! plane without cones, and a map that puts every vertex at the mean of its neighbours, with positive weights, is an embedding \[LWZ23\], \[AL16\]: landmarks
-//! are met exactly and no face folds. The weights are those with which the source is harmonic in its own canonical metric, so that an isometry or a discretely conformal
-//! map is found as it is. A sphere with fewer than three landmarks has no such metric: it goes to the other one by a rotation or a Möbius transformation that meets
-//! its landmarks, and by which the conformal factors fit.
+//! The domain is the target in its metric of constant curvature. Landmarks become cones of angle 2π/n in it, boundary loops become
+//! geodesics or, between corners, straight sides. So wherever the Euler characteristic of this orbifold is not positive the domain is
+//! covered by the plane or the hyperbolic plane without cones, and a map that puts every vertex at the mean of its neighbours, with
+//! positive weights, is an embedding \[LWZ23\], \[AL16\]: landmarks are met exactly and no face folds. The weights are those with which the
+//! source is harmonic in its own canonical metric, so that an isometry or a discretely conformal map is found as it is. A sphere with fewer
+//! than three landmarks has no such metric: it goes to the other one by a rotation or a Möbius transformation that meets its landmarks, and
+//! by which the conformal factors fit.
 //!
-//! On surfaces with handles the map without landmarks is found first. Each landmark is then pushed along a short path to its partner, beside the paths
-//! of the others; that chooses the class of the map, and in the orbifold with cones at the landmarks the map of this class is an embedding again. Several sets of
-//! paths are compared by the energies of these maps, also from the maps without landmarks that differ by a symmetry of about the same energy.
+//! On surfaces with handles the map without landmarks is found first. Each landmark is then pushed along a short path to its partner,
+//! beside the paths of the others; that chooses the class of the map, and in the orbifold with cones at the landmarks the map of this class
+//! is an embedding again. Several sets of paths are compared by the energies of these maps, also from the maps without landmarks that
+//! differ by a symmetry of about the same energy.
 //!
-//! Which homotopy class is meant is said by a tree of paths between the landmarks and loops of both surfaces, or by bases of their fundamental groups.
-//! Several are compared, and the one whose harmonic map has the least energy is taken. On surfaces with handles the class can be named by pairs of loops
-//! ([`MatchOptions::basis`]). Two surfaces with one triangulation, the same numbers and landmarks, whose metrics are hyperbolic, say it themselves: it is the
-//! class of the map that keeps numbers. There every face has a frame of its own, and nothing loses digits however far a fundamental domain would reach.
+//! Which homotopy class is meant is said by a tree of paths between the landmarks and loops of both surfaces, or by bases of their
+//! fundamental groups. Several are compared, and the one whose harmonic map has the least energy is taken. On surfaces with handles the
+//! class can be named by pairs of loops ([`MatchOptions::basis`]). Two surfaces with one triangulation, the same numbers and landmarks,
+//! whose metrics are hyperbolic, say it themselves: it is the class of the map that keeps numbers. There every face has a frame of its own,
+//! and nothing loses digits however far a fundamental domain would reach.
 //!
 //! ```
 //! use ricci::matching::{MatchOptions, map_quality, match_surfaces};

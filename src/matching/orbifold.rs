@@ -1,8 +1,9 @@
-//! Surfaces of genus 0 with landmarks and boundary loops, as hyperbolic or flat surfaces with cones at the landmarks and straight boundaries.
+//! Surfaces of genus 0 with landmarks and boundary loops, as hyperbolic or flat surfaces with cones at the landmarks and straight
+//! boundaries.
 //!
-//! The target gets the metric of constant curvature in its conformal class that has cones of angle 2π/n at the landmarks and a geodesic boundary: an
-//! orbifold, covered by a surface without cones. Both triangulations are put into it by a harmonic map with positive weights, which is an
-//! embedding [`super::balance`], and the map from one surface to the other is the one after the inverse of the other.
+//! The target gets the metric of constant curvature in its conformal class that has cones of angle 2π/n at the landmarks and a geodesic
+//! boundary: an orbifold, covered by a surface without cones. Both triangulations are put into it by a harmonic map with positive weights,
+//! which is an embedding [`super::balance`], and the map from one surface to the other is the one after the inverse of the other.
 
 use super::balance::{BalanceReport, Freedom, Relaxed, relax, settle};
 use super::canonical::canonical_metric;
@@ -117,8 +118,8 @@ impl Marked {
 /// Of several ways to mark the map the one with the least energy is taken.
 ///
 /// # Errors
-/// [`Error::Matching`] where a flow does not come to its target, paths have no room or no harmonic map is found; those of [`canonical_metric`]
-/// and [`unroll`]; [`Error::Cancelled`].
+/// [`Error::Matching`] where a flow does not come to its target, paths have no room or no harmonic map is found; those of
+/// [`canonical_metric`] and [`unroll`]; [`Error::Cancelled`].
 pub(super) fn in_orbifold(
     surfaces: [&Surface; 2],
     marks: [&Marks; 2],
@@ -161,8 +162,8 @@ pub(super) fn in_orbifold(
 const RIGID: usize = 3;
 /// Most ways to mark a map that are compared.
 const MOST_MARKINGS: u64 = 10;
-/// Energy of the source in the target's domain over that of the target itself, below which no other way to mark the map is looked for: without a twist it
-/// is near 1 for surfaces of similar shape.
+/// Energy of the source in the target's domain over that of the target itself, below which no other way to mark the map is looked for:
+/// without a twist it is near 1 for surfaces of similar shape.
 const UNTWISTED: f64 = 1.1;
 
 fn best_marking(problem: Problem, metrics: &[Canonical; 2], control: &Control) -> Result<(Marked, usize)> {
@@ -306,7 +307,8 @@ fn lines(target: &Placed, tree: &Tree) -> Vec<Line> {
     tree.arcs.iter().map(line).collect()
 }
 
-/// Where the vertices of each arc go on its line in the target: by their share of the arc's length where the surface lies in its own metric.
+/// Where the vertices of each arc go on its line in the target: by their share of the arc's length where the surface lies in its own
+/// metric.
 fn own_shares(own: &Own, tree: &Tree, lines: &[Line], target: &[Line]) -> Vec<Vec<f64>> {
     let space = own.placed.cover.space;
     let of = |((arc, (start, length)), to): ((&Vec<HalfedgeId>, &Line), &Line)| {
@@ -322,7 +324,8 @@ fn own_shares(own: &Own, tree: &Tree, lines: &[Line], target: &[Line]) -> Vec<Ve
     tree.arcs.iter().zip(lines).zip(target).map(of).collect()
 }
 
-/// The same by shares of the length in the surface as it came: from corner to corner, around a loop without any from the start of its first arc.
+/// The same by shares of the length in the surface as it came: from corner to corner, around a loop without any from the start of its first
+/// arc.
 fn length_shares(surface: &Surface, marks: &Marks, tree: &Tree, lines: &[Line]) -> Vec<Vec<f64>> {
     let (mesh, lengths) = (surface.mesh(), surface.lengths());
     let start = |k: usize| tree.arcs[k].first().map(|&h| mesh.origin(h));

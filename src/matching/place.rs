@@ -20,8 +20,8 @@ pub struct SurfaceMap {
 }
 
 impl SurfaceMap {
-    /// Values at the vertices of the surface that the map leads to (V entries), brought to those of the surface that it comes from: positions,
-    /// texture coordinates without seams, colours.
+    /// Values at the vertices of the surface that the map leads to (V entries), brought to those of the surface that it comes from:
+    /// positions, texture coordinates without seams, colours.
     ///
     /// # Errors
     /// [`Error::Size`]; [`Error::Argument`] for a place in a face that the mesh has not.

@@ -1,8 +1,8 @@
-//! Landmarks on surfaces with handles: the harmonic map without them is found first, then they are pushed to their goals, which fixes the class of the
-//! map, and the map of that class is found in the target's metric with cones of angle π at the landmarks.
+//! Landmarks on surfaces with handles: the harmonic map without them is found first, then they are pushed to their goals, which fixes the
+//! class of the map, and the map of that class is found in the target's metric with cones of angle π at the landmarks.
 //!
-//! As on surfaces of genus 0 ([`super::orbifold`]) this orbifold is covered by the hyperbolic plane without cones, and a map with positive weights
-//! that holds the landmarks is an embedding.
+//! As on surfaces of genus 0 ([`super::orbifold`]) this orbifold is covered by the hyperbolic plane without cones, and a map with positive
+//! weights that holds the landmarks is an embedding.
 
 use super::balance::{Freedom, Relaxed, relax, settle};
 use super::canonical::canonical_metric;
@@ -29,14 +29,16 @@ const AT_CORNER: f64 = 1.0 - 1e-9;
 const CLOSED: f64 = 1e-6;
 /// Distance from the identity below which a transformation is the identity up to rounding.
 const IDENTITY: f64 = 1e-12;
-/// Distance between two deck transformations below which they are the same up to rounding: others are farther apart by the size of the surface.
+/// Distance between two deck transformations below which they are the same up to rounding: others are farther apart by the size of the
+/// surface.
 const SAME: f64 = 1e-6;
 
-/// The pair of a map without landmarks, with all landmarks where they should be. `others`: the source in other classes, which may be nearer to the landmarks.
+/// The pair of a map without landmarks, with all landmarks where they should be. `others`: the source in other classes, which may be nearer
+/// to the landmarks.
 ///
 /// # Errors
-/// [`Error::Matching`] for landmarks in conflict, named, and where a flow does not come to its target or no harmonic map is found; those of [`unroll`];
-/// [`Error::Cancelled`].
+/// [`Error::Matching`] for landmarks in conflict, named, and where a flow does not come to its target or no harmonic map is found; those of
+/// [`unroll`]; [`Error::Cancelled`].
 pub(super) fn pushed(
     (pair, others): (&Pair, &[Placed]),
     surfaces: [&Surface; 2],
@@ -92,7 +94,8 @@ struct Image {
     relaxed: Relaxed,
 }
 
-/// The map with the least energy, and how many there were: from each of the maps without landmarks by the shortest paths, and from the best of these by others.
+/// The map with the least energy, and how many there were: from each of the maps without landmarks by the shortest paths, and from the best
+/// of these by others.
 fn least(
     sources: usize,
     mut image: impl FnMut(usize, u64) -> Result<Option<Image>>,
@@ -295,8 +298,8 @@ impl<'a> Way<'a> {
         at
     }
 
-    /// Per half-edge of a face the transformation from the place of its origin to where it lies in the face, as the source is opened: face by face, every one seen
-    /// from one of its corners that is no landmark. In the face of `start` a landmark lies at its place.
+    /// Per half-edge of a face the transformation from the place of its origin to where it lies in the face, as the source is opened: face
+    /// by face, every one seen from one of its corners that is no landmark. In the face of `start` a landmark lies at its place.
     fn corners(
         &self,
         mesh: &Mesh,

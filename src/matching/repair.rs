@@ -11,8 +11,8 @@ use crate::mesh::{FaceId, PerHalfedge, PerVertex, VertexId};
 /// Rings of faces around a fold that may move, round by round; each twice the last.
 const MOST_ROUNDS: usize = 9;
 
-/// Puts the vertices around folded faces at the means of their neighbours by positive weights, first those of the faces alone, then more and
-/// more rings, until no face is folded; those that are held stay. The number of vertices that were moved.
+/// Puts the vertices around folded faces at the means of their neighbours by positive weights, first those of the faces alone, then more
+/// and more rings, until no face is folded; those that are held stay. The number of vertices that were moved.
 ///
 /// # Errors
 /// [`Error::Matching`] where folds stay; those of [`balance`].

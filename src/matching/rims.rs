@@ -1,4 +1,5 @@
-//! Boundary loops of a map that goes over from one domain of the target to another one: straight lines between corners, and the vertices on them.
+//! Boundary loops of a map that goes over from one domain of the target to another one: straight lines between corners, and the vertices on
+//! them.
 
 use super::cover::{Placed, aimed, logarithm, moved};
 use super::route::Marks;
@@ -21,7 +22,8 @@ pub(super) struct Rims {
     pub places: Vec<(VertexId, (VertexId, f64))>,
 }
 
-/// Puts the boundary exactly on straight lines between its corners, around a loop without corners on one closed line, with frames along them.
+/// Puts the boundary exactly on straight lines between its corners, around a loop without corners on one closed line, with frames along
+/// them.
 pub(super) fn straighten(placed: &mut Placed, marks: &Marks) {
     let (mesh, space) = (placed.cover.mesh.clone(), placed.cover.space);
     for arc in marks.loops.iter().flat_map(|around| arcs(&mesh, around, &marks.corners)) {
@@ -127,7 +129,8 @@ impl Rims {
         self.ways.get(&v)
     }
 
-    /// A vertex that goes from one half-edge of a loop to another, counted on around it, and there to this length from the start of the loop.
+    /// A vertex that goes from one half-edge of a loop to another, counted on around it, and there to this length from the start of the
+    /// loop.
     fn push(&mut self, target: &Loop, new: &Placed, (v, from, (to, length)): (VertexId, i64, (i64, f64))) {
         let n = target.around.len() as i64;
         let mut way = Motion::identity(new.cover.space);
@@ -143,7 +146,8 @@ impl Rims {
     }
 }
 
-/// Puts a vertex that was found near the boundary onto it: the number of the half-edge of the loop, and the share of that before the vertex.
+/// Puts a vertex that was found near the boundary onto it: the number of the half-edge of the loop, and the share of that before the
+/// vertex.
 pub(super) fn put(around: &[HalfedgeId], old: &Placed, found: &mut Found) -> Result<(usize, f64)> {
     let mesh = &old.cover.mesh;
     let (sides, weights) = (mesh.face_halfedges(found.place.face), found.place.weights);
@@ -171,8 +175,8 @@ pub(super) fn put(around: &[HalfedgeId], old: &Placed, found: &mut Found) -> Res
 }
 
 impl Loop<'_> {
-    /// Where the vertices go so that corners go to corners, those between them by their share of the length, on the way along the loop that is shortest for
-    /// the corners: the number of a half-edge, counted on around the loop, and the length before the vertex there.
+    /// Where the vertices go so that corners go to corners, those between them by their share of the length, on the way along the loop that
+    /// is shortest for the corners: the number of a half-edge, counted on around the loop, and the length before the vertex there.
     fn between_corners(
         &self,
         source: &Surface,

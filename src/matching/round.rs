@@ -1,10 +1,10 @@
 //! Surfaces with handles and boundary as closed flat or hyperbolic surfaces with round holes \[JKLLG08, Fig. 12\].
 //!
-//! The target becomes such a surface ([`crate::canonical::circle_domain()`]), and the source is brought into it in the class of a map that is known, its loops onto
-//! the circles. A hole bends away from the surface around it. So a map that puts every vertex at a mean of its neighbours may fold beside it, whatever
-//! the weights are: faces are looked at, and around those that fold the weights become those by which the known map, carried over through the
-//! target's faces, is in balance. That one may fold too
-//! where faces are large; there single vertices are moved first.
+//! The target becomes such a surface ([`crate::canonical::circle_domain()`]), and the source is brought into it in the class of a map that
+//! is known, its loops onto the circles. A hole bends away from the surface around it. So a map that puts every vertex at a mean of its
+//! neighbours may fold beside it, whatever the weights are: faces are looked at, and around those that fold the weights become those by
+//! which the known map, carried over through the target's faces, is in balance. That one may fold too where faces are large; there single
+//! vertices are moved first.
 
 use super::balance::{BalanceReport, Freedom, balance};
 use super::canonical::not_found;
@@ -38,7 +38,8 @@ pub struct RoundHole {
     pub center: [f64; 3],
     /// Radius in the metric of the domain.
     pub radius: f64,
-    /// Largest difference between the radius and the distance of a vertex of the loop, of either surface, from the centre, as a share of the radius.
+    /// Largest difference between the radius and the distance of a vertex of the loop, of either surface, from the centre, as a share of
+    /// the radius.
     pub deviation: f64,
 }
 
@@ -53,7 +54,8 @@ pub(super) struct InRound {
 /// Times that the weights around folds are changed, each time on twice as many rings of faces.
 const MOST_ROUNDS: usize = 10;
 
-/// Both surfaces in the target's domain with round holes, in the class of `pair`. On the loops either surface gets the vertices that only the other one has.
+/// Both surfaces in the target's domain with round holes, in the class of `pair`. On the loops either surface gets the vertices that only
+/// the other one has.
 ///
 /// # Errors
 /// [`Error::Matching`] where the flow does not come to its target, and where faces fold that could not be

@@ -43,7 +43,8 @@ pub(super) struct Router<'a> {
     mesh: &'a Mesh,
     lengths: &'a PerEdge<f64>,
     marks: &'a Marks,
-    /// Per mark the half-edges that leave it, in their cyclic order: counterclockwise around a landmark, along a loop with the surface on the left.
+    /// Per mark the half-edges that leave it, in their cyclic order: counterclockwise around a landmark, along a loop with the surface on
+    /// the left.
     exits: Vec<Vec<HalfedgeId>>,
     /// Per vertex of a mark: the mark.
     mark_of: PerVertex<Option<u32>>,
@@ -86,8 +87,8 @@ impl<'a> Router<'a> {
         ends.into_iter().map(|end| end.1).collect()
     }
 
-    /// The next path, the shortest from mark to mark that meets no other. `orders`: for each of the two marks the cyclic order in which the paths
-    /// have to end there in the end, numbered as they are found; without them any.
+    /// The next path, the shortest from mark to mark that meets no other. `orders`: for each of the two marks the cyclic order in which the
+    /// paths have to end there in the end, numbered as they are found; without them any.
     ///
     /// # Errors
     /// [`Error::Matching`] where there is none, naming the marks.

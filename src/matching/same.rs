@@ -1,7 +1,7 @@
 //! Hyperbolic surfaces with one triangulation: the class of the map is that in which every vertex goes to the one of the same number.
 //!
-//! Every face has a frame of its own, and the motions from face to face say which class is meant. No fundamental domain is laid out and no word is
-//! multiplied, so that nothing loses digits, however far the domain would reach: only neighbours are ever seen from each other.
+//! Every face has a frame of its own, and the motions from face to face say which class is meant. No fundamental domain is laid out and no
+//! word is multiplied, so that nothing loses digits, however far the domain would reach: only neighbours are ever seen from each other.
 
 use super::balance::{BalanceReport, Freedom, balance};
 use super::canonical::canonical_metric;
@@ -23,8 +23,8 @@ use std::f64::consts::TAU;
 /// Order of the cones at landmarks on surfaces with handles.
 const ORDER: usize = 2;
 
-/// Where two surfaces have one triangulation, landmarks and boundary loops go to those of the same number, and their metric is hyperbolic with straight
-/// boundaries, and no class is named by loops: the order of the cones at the landmarks in it.
+/// Where two surfaces have one triangulation, landmarks and boundary loops go to those of the same number, and their metric is hyperbolic
+/// with straight boundaries, and no class is named by loops: the order of the cones at the landmarks in it.
 pub(super) fn cones_of_same(
     surfaces: [&Surface; 2],
     marks: [&Marks; 2],
@@ -49,8 +49,8 @@ pub(super) fn cones_of_same(
     order.filter(|_| is_same && slides)
 }
 
-/// Both surfaces in the target's metric, the source's vertices in the class of those of the same number, with cones of this order at the landmarks
-/// ([`cones_of_same`]).
+/// Both surfaces in the target's metric, the source's vertices in the class of those of the same number, with cones of this order at the
+/// landmarks ([`cones_of_same`]).
 ///
 /// # Errors
 /// Those of [`canonical_metric`], [`apart`] and [`balance`].

@@ -13,7 +13,8 @@ use crate::geometry::{Motion, Space, Twofold};
 use crate::mesh::{HalfedgeId, Mesh, PerVertex, VertexId};
 use crate::metric::{Split, Surface};
 
-/// Distance of two vertices of the two surfaces on a loop up to which they are taken as one: share of the shortest of the edges beside them.
+/// Distance of two vertices of the two surfaces on a loop up to which they are taken as one: share of the shortest of the edges beside
+/// them.
 const ONE: f64 = 1e-3;
 
 /// Two surfaces with the same vertices on their loops.
@@ -28,7 +29,8 @@ pub(super) struct Shared {
     pub marks: [Marks; 2],
 }
 
-/// A vertex to be added on the half-edge of this number of a loop, at this share of it, for the other surface's vertex of this number on the loop.
+/// A vertex to be added on the half-edge of this number of a loop, at this share of it, for the other surface's vertex of this number on
+/// the loop.
 type Added = (usize, f64, usize);
 
 /// The vertices of corresponding loops.
@@ -204,8 +206,8 @@ fn merged(
     Ok(Merged { same, added: missing((&at, &lengths, &before), &is_same) })
 }
 
-/// Where the vertices lie that only the other surface has: what the source gets, and what the target gets. `at`: of the source's vertices along the target's
-/// loop, whose edges have these lengths.
+/// Where the vertices lie that only the other surface has: what the source gets, and what the target gets. `at`: of the source's vertices
+/// along the target's loop, whose edges have these lengths.
 fn missing((at, lengths, before): (&[f64], &[f64], &[f64]), is_same: &[Vec<bool>; 2]) -> [Vec<Added>; 2] {
     let total = before[lengths.len()];
     let mut added = [Vec::new(), Vec::new()];

@@ -1,11 +1,11 @@
-//! Slits along which landmarks are pushed: how the deck transformations of one domain go over into those of another one in which the landmarks are
-//! somewhere else.
+//! Slits along which landmarks are pushed: how the deck transformations of one domain go over into those of another one in which the
+//! landmarks are somewhere else.
 //!
-//! A surface lies in the opened *old* domain of the target, some of its points not yet where they should be. From each of these points a path along edges
-//! leads to the vertex that it is to go to; no two paths meet. A point that is pushed along its path pushes ahead of itself what crosses the path: a line
-//! that crossed it goes around the end of the path afterwards. So a line that is straight in the old domain is known, up to homotopy in the surface
-//! without its landmarks, by the edges of the target that it crosses, and with them the deck transformation of any *new* domain of the target along
-//! it. Nothing is moved and nothing can fold.
+//! A surface lies in the opened *old* domain of the target, some of its points not yet where they should be. From each of these points a
+//! path along edges leads to the vertex that it is to go to; no two paths meet. A point that is pushed along its path pushes ahead of
+//! itself what crosses the path: a line that crossed it goes around the end of the path afterwards. So a line that is straight in the old
+//! domain is known, up to homotopy in the surface without its landmarks, by the edges of the target that it crosses, and with them the deck
+//! transformation of any *new* domain of the target along it. Nothing is moved and nothing can fold.
 
 use super::cover::{Placed, Precise, determinant, logarithm};
 use super::route::{Marks, Router};
@@ -213,8 +213,8 @@ impl<'a> Slits<'a> {
         (0..around.len()).map(step).collect()
     }
 
-    /// The transformation of the new domain along the straight line of the old one from one point to another, from face to face; `to.point` is where the
-    /// lift lies that is meant.
+    /// The transformation of the new domain along the straight line of the old one from one point to another, from face to face; `to.point`
+    /// is where the lift lies that is meant.
     ///
     /// # Errors
     /// [`Error::Matching`] where the line does not arrive.
@@ -227,7 +227,8 @@ impl<'a> Slits<'a> {
         self.walk((start, Motion::identity(self.new.cover.space)), [from.point, to])
     }
 
-    /// As [`Slits::between`] from a landmark: from its place in the new domain. The point is seen from the face in which the landmark started.
+    /// As [`Slits::between`] from a landmark: from its place in the new domain. The point is seen from the face in which the landmark
+    /// started.
     ///
     /// # Errors
     /// As [`Slits::between`].

@@ -1,13 +1,13 @@
 //! Landmarks that draw the map near their partners: where they go instead.
 //!
-//! The map without them stands for the minimum of an energy ½ r² of the distance r that each is moved from there, and the landmark adds ½ w s² of the
-//! distance s to its partner. Both distances are taken along a shortest path of edges on the target, so that the sum is least at the share w/(1 + w) of
-//! the way. There the landmark is met exactly, by a map without folds.
+//! The map without them stands for the minimum of an energy ½ r² of the distance r that each is moved from there, and the landmark adds ½ w
+//! s² of the distance s to its partner. Both distances are taken along a shortest path of edges on the target, so that the sum is least at
+//! the share w/(1 + w) of the way. There the landmark is met exactly, by a map without folds.
 //!
-//! A spring in the energy of the map itself would not do that. A point has no capacity in the Dirichlet energy: the spring moves its vertex and little
-//! around it, and a vertex that is pulled is no mean of its neighbours, so that nothing keeps faces from folding. In a plane disk of 4, 8, 16 and 32 rings whose middle
-//! is pulled, faces fold once it has moved by 0.44, 0.27, 0.16 and 0.09 of the radius (`tests/matching/landmarks.rs`): the finer the mesh, the less a spring
-//! could do before it had to be weakened.
+//! A spring in the energy of the map itself would not do that. A point has no capacity in the Dirichlet energy: the spring moves its vertex
+//! and little around it, and a vertex that is pulled is no mean of its neighbours, so that nothing keeps faces from folding. In a plane
+//! disk of 4, 8, 16 and 32 rings whose middle is pulled, faces fold once it has moved by 0.44, 0.27, 0.16 and 0.09 of the radius
+//! (`tests/matching/landmarks.rs`): the finer the mesh, the less a spring could do before it had to be weakened.
 
 use crate::control::Control;
 use crate::error::{Error, Result};
@@ -27,7 +27,8 @@ pub struct SoftLandmark {
 /// Checks soft landmarks.
 ///
 /// # Errors
-/// [`Error::Argument`] for a vertex that does not exist and a weight that is negative or not finite; [`Error::Matching`] for a landmark on a boundary.
+/// [`Error::Argument`] for a vertex that does not exist and a weight that is negative or not finite; [`Error::Matching`] for a landmark on
+/// a boundary.
 pub(super) fn check(surfaces: [&Surface; 2], all: &[SoftLandmark]) -> Result<()> {
     for (k, soft) in all.iter().enumerate() {
         if !(soft.weight >= 0.0 && soft.weight.is_finite()) {

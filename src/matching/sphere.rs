@@ -1,5 +1,5 @@
-//! Spheres with fewer than three landmarks: both go to the unit sphere. Without landmarks one is turned until its conformal factor fits the other's best;
-//! with one it is turned about that, and with two it goes by a Möbius transformation that brings both to their partners.
+//! Spheres with fewer than three landmarks: both go to the unit sphere. Without landmarks one is turned until its conformal factor fits the
+//! other's best; with one it is turned about that, and with two it goes by a Möbius transformation that brings both to their partners.
 
 use super::axis::{Around, best_turn, centre};
 use super::balance::BalanceReport;
@@ -23,11 +23,12 @@ use crate::mesh::{HalfedgeId, PerVertex, VertexId};
 use crate::metric::Surface;
 use crate::parallel::join;
 
-/// Both triangulations on one unit sphere: harmonic maps of spheres are Möbius transformations, and both are centred, so that a rotation is left to
-/// find.
+/// Both triangulations on one unit sphere: harmonic maps of spheres are Möbius transformations, and both are centred, so that a rotation is
+/// left to find.
 ///
 /// # Errors
-/// [`Error::Matching`] where a flow does not come to its target or a fold cannot be opened; those of [`uniformize_sphere`]; [`Error::Cancelled`].
+/// [`Error::Matching`] where a flow does not come to its target or a fold cannot be opened; those of [`uniformize_sphere`];
+/// [`Error::Cancelled`].
 pub(super) fn on_sphere(
     surfaces: [&Surface; 2],
     marks: [&Marks; 2],
@@ -83,8 +84,8 @@ fn pair([source, target]: [Placed; 2], flow_iterations: [usize; 2]) -> Pair {
     Pair { source, target, seeds, reports, flow_iterations, markings: 1 }
 }
 
-/// The sphere seen from a landmark: this at the pole, the second one, if there is one, at infinity of the plane into which the sphere is projected from the
-/// other pole.
+/// The sphere seen from a landmark: this at the pole, the second one, if there is one, at infinity of the plane into which the sphere is
+/// projected from the other pole.
 struct View {
     /// By rows: two axes of the plane, and the landmark.
     axes: [Vector; 3],
@@ -142,8 +143,8 @@ impl View {
     }
 }
 
-/// The source on the sphere with its one or two landmarks at their partners. Two leave a change of size about them, which centres the area between
-/// them; both leave a turn, by which the areas fit best.
+/// The source on the sphere with its one or two landmarks at their partners. Two leave a change of size about them, which centres the area
+/// between them; both leave a turn, by which the areas fit best.
 ///
 /// # Errors
 /// [`Error::Matching`] where a fold cannot be opened.

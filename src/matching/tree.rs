@@ -19,14 +19,15 @@ pub(super) struct Tree {
     pub cut: CutGraph,
     /// Per landmark, the half-edge of its own corner: that of the path of lowest number there, which leaves the landmark.
     pub landmark_corners: Vec<HalfedgeId>,
-    /// The arcs between the ends of paths and corners on boundary loops, in the same order on both surfaces: half-edges of faces, the surface on the left.
+    /// The arcs between the ends of paths and corners on boundary loops, in the same order on both surfaces: half-edges of faces, the
+    /// surface on the left.
     pub arcs: Vec<Vec<HalfedgeId>>,
 }
 
-/// The trees of two surfaces with the same numbers of landmarks and loops, of variant 0: of all trees on the marks that of the least length, by
-/// distances on both, its paths drawn as short as the order around the marks leaves them. Variants may mark other maps: where a path passes a third
-/// mark on one side on one surface and on the other side on the other one, the map is twisted there. In 1 and 2 the distances of one
-/// surface count, in others they are changed at random, and in odd ones it is the target whose paths are drawn first.
+/// The trees of two surfaces with the same numbers of landmarks and loops, of variant 0: of all trees on the marks that of the least
+/// length, by distances on both, its paths drawn as short as the order around the marks leaves them. Variants may mark other maps: where a
+/// path passes a third mark on one side on one surface and on the other side on the other one, the map is twisted there. In 1 and 2 the
+/// distances of one surface count, in others they are changed at random, and in odd ones it is the target whose paths are drawn first.
 ///
 /// # Errors
 /// [`crate::Error::Matching`] where paths have no room, naming the marks; [`crate::Error::Cancelled`].

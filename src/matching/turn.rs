@@ -23,8 +23,9 @@ const REFINED: usize = 3;
 /// Halvings of the step of the refinement.
 const HALVINGS: usize = 8;
 
-/// Rotations of the first function that are candidates for fitting it to the second one: none at all, those that bring the axes of inertia of its measure to those
-/// of the other one (exact for copies of one surface), and the best of a search by the difference of the two functions on a raster.
+/// Rotations of the first function that are candidates for fitting it to the second one: none at all, those that bring the axes of inertia
+/// of its measure to those of the other one (exact for copies of one surface), and the best of a search by the difference of the two
+/// functions on a raster.
 ///
 /// # Errors
 /// Those of [`symmetric_eigenvectors`].

@@ -8,8 +8,8 @@ use crate::metric::Surface;
 use crate::metric::lengths::face_lengths;
 use std::f64::consts::{PI, TAU};
 
-/// By how much, radians, the angles around a vertex may differ from a full turn (half of one on a straight boundary) where they are those of
-/// the canonical metric: it is laid out with the rounding errors of doubles, magnified by the distance from the root.
+/// By how much, radians, the angles around a vertex may differ from a full turn (half of one on a straight boundary) where they are those
+/// of the canonical metric: it is laid out with the rounding errors of doubles, magnified by the distance from the root.
 const FULL_TURN: f64 = 1e-3;
 /// Largest angle that enters a weight, radians: the tangent of its half is then below 2e9.
 const LARGEST_ANGLE: f64 = PI - 1e-9;
@@ -24,12 +24,13 @@ struct Shape {
     is_left: bool,
 }
 
-/// Per half-edge from i to j of a surface, the weight of j at i: `(tan(α/2) + tan(β/2))/r` with the angles α and β at i beside the edge and its
-/// length r \[Flo03\]. The logarithms of the neighbours, weighted with them, add up to 0 at every vertex where the surface is flat or
-/// hyperbolic, in the geometry in which angles and lengths are taken; along a straight boundary they do so together with their mirror images.
+/// Per half-edge from i to j of a surface, the weight of j at i: `(tan(α/2) + tan(β/2))/r` with the angles α and β at i beside the edge and
+/// its length r \[Flo03\]. The logarithms of the neighbours, weighted with them, add up to 0 at every vertex where the surface is flat or
+/// hyperbolic, in the geometry in which angles and lengths are taken; along a straight boundary they do so together with their mirror
+/// images.
 ///
-/// Taken in the metric of `placed`, the triangulation as it lies in its own canonical domain; at vertices where this folds, in the metric of
-/// the surface, where the weights are positive too. Each vertex has them times the mean length of its edges.
+/// Taken in the metric of `placed`, the triangulation as it lies in its own canonical domain; at vertices where this folds, in the metric
+/// of the surface, where the weights are positive too. Each vertex has them times the mean length of its edges.
 pub(super) fn mean_value_weights(placed: &Placed, surface: &Surface) -> PerHalfedge<f64> {
     let mesh = &placed.cover.mesh;
     let canonical: Vec<Shape> = mesh.faces().map(|f| shape_in_place(placed, f)).collect();

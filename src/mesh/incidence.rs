@@ -53,8 +53,8 @@ impl Incidence {
         Incidence { n_vertices, triangle, sides: sorted.into_iter().map(|(_, side)| side).collect(), group }
     }
 
-    /// Whether the faces are one connected surface of triangles, no two with the same vertices, whose edges have one face or two that run along
-    /// them in opposite directions. Vertices may still have several fans, or none.
+    /// Whether the faces are one connected surface of triangles, no two with the same vertices, whose edges have one face or two that run
+    /// along them in opposite directions. Vertices may still have several fans, or none.
     pub fn is_one_surface(&self, faces: &[[u32; 3]]) -> bool {
         let third = |side: u32| faces[side as usize / 3][(side as usize + 2) % 3];
         let is_sound = |sides: &[u32]| match *sides {

@@ -33,12 +33,12 @@ pub use super::isometric::{IntrinsicOptions, Triangulated, intrinsic_delaunay};
 /// other diagonal has more is not flipped.
 const MAX_ETA: f64 = 1e289;
 
-/// An edge is not flipped into one between two circles that touch, with η this near 1. Such an edge cannot be flipped back. It comes up where a
-/// circle meets itself around a point on it that has one other edge: only that edge knows the point's size.
+/// An edge is not flipped into one between two circles that touch, with η this near 1. Such an edge cannot be flipped back. It comes up
+/// where a circle meets itself around a point on it that has one other edge: only that edge knows the point's size.
 const TOUCHING: f64 = 1e-12;
 
-/// The four vertices of the hinge of half-edge h (origin, tip, left, right), and its five half-edges: h, then those of the left and the right
-/// face at the origin and at the tip of h.
+/// The four vertices of the hinge of half-edge h (origin, tip, left, right), and its five half-edges: h, then those of the left and the
+/// right face at the origin and at the tip of h.
 fn hinge_of(mesh: &Mesh, h: HalfedgeId) -> ([VertexId; 4], [HalfedgeId; 5]) {
     let [jk, ki, il, lj] = mesh.quadrilateral(h);
     ([h, h.twin(), ki, lj].map(|h| mesh.origin(h)), [h, ki, jk, il, lj])

@@ -1,7 +1,7 @@
 //! The common refinement of two triangulations of one surface that have different vertices.
 //!
-//! It says the same as [`super::Refinement`], whose two triangulations have the same vertices and are told apart by flips: pieces, each in one face of
-//! either, and on every piece a projective map.
+//! It says the same as [`super::Refinement`], whose two triangulations have the same vertices and are told apart by flips: pieces, each in
+//! one face of either, and on every piece a projective map.
 
 use crate::error::{Result, check_size};
 use crate::mesh::{EdgeId, FaceId, Mesh, PerFace, PerVertex, VertexId};
@@ -12,8 +12,8 @@ pub type Meeting = [(EdgeId, f64); 2];
 /// Triangles that are parts of one face of a *source* and of one face of a *target*. Everything that is there twice is the source's first.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Overlay {
-    /// The pieces, triangulated: a surface of the same topology. Its vertices are those of the source with their numbers, then the crossings, then
-    /// the others of the target.
+    /// The pieces, triangulated: a surface of the same topology. Its vertices are those of the source with their numbers, then the
+    /// crossings, then the others of the target.
     pub mesh: Mesh,
     /// Vertices of the source, and of the target.
     pub n_vertices: [usize; 2],
@@ -25,8 +25,8 @@ pub struct Overlay {
     pub faces: [PerFace<FaceId>; 2],
     /// Per triangle: the barycentric coordinates of its corners in its face, `[corner of the triangle][corner of the face]`.
     pub barycentric: [PerFace<[[f64; 3]; 3]>; 2],
-    /// Per vertex, positive: in a piece, the barycentric coordinates in the target are those in the source times these weights, up to their sum. All are 1 in
-    /// the plane.
+    /// Per vertex, positive: in a piece, the barycentric coordinates in the target are those in the source times these weights, up to their
+    /// sum. All are 1 in the plane.
     pub weight: PerVertex<f64>,
 }
 

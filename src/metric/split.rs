@@ -193,11 +193,12 @@ impl Split {
         Ok(EdgeId::from(other))
     }
 
-    /// Add a point of a given face, with barycentric weights: on the line from a corner of the part that it lies in to the side across, at shares of
-    /// lengths. The vertex there; none is added where there is one.
+    /// Add a point of a given face, with barycentric weights: on the line from a corner of the part that it lies in to the side across, at
+    /// shares of lengths. The vertex there; none is added where there is one.
     ///
     /// # Errors
-    /// [`Error::Argument`] for a face that does not exist, and for weights that are negative or not finite or have not the sum 1; those of [`Split::part`].
+    /// [`Error::Argument`] for a face that does not exist, and for weights that are negative or not finite or have not the sum 1; those of
+    /// [`Split::part`].
     pub fn insert(&mut self, face: FaceId, weights: [f64; 3]) -> Result<VertexId> {
         if face.index() >= self.given.mesh().n_faces() {
             return Err(Error::argument("face of a point", face, "an existing face"));
@@ -239,7 +240,8 @@ impl Split {
         VertexId::from(self.n_vertices - 1)
     }
 
-    /// Part an edge at this share of its length from the origin of a half-edge of a face; the edge that cuts this face, from the point to the corner.
+    /// Part an edge at this share of its length from the origin of a half-edge of a face; the edge that cuts this face, from the point to
+    /// the corner.
     fn part_from(&mut self, h: usize, share: f64) -> Result<EdgeId> {
         let is_first = h & 1 == 0 || self.face[h ^ 1].is_none();
         let other = self.part(EdgeId::from(h / 2), if h & 1 == 0 { share } else { 1.0 - share })?;
@@ -270,8 +272,8 @@ impl Split {
         self.lengths.len() - 1
     }
 
-    /// Cut the face of half-edge `h`, whose two parts are `parts` in its direction at the point with these weights of its ends, by a line of this
-    /// length.
+    /// Cut the face of half-edge `h`, whose two parts are `parts` in its direction at the point with these weights of its ends, by a line
+    /// of this length.
     fn cut_face(&mut self, h: usize, (parts, [p, q]): ([usize; 2], [f64; 2]), length: f64) {
         let Some((f, k)) = self.corner(h) else { return };
         let [next, prev] = [1, 2].map(|turn| self.sides[f][(k + turn) % 3]);

@@ -1,14 +1,15 @@
 //! The triangles that close a surface around a vertex at infinity.
 //!
 //! Patches end where the filling of the hole around infinity is the surface. From each side of the last of them, on the rim of the plane's
-//! triangulation, a triangle leads to the vertex. In the coordinate w of the hole a straight side of the plane is an arc; with barycentric weights
-//! l₀ of the vertex, l₁ and l₂ of the ends of the side,
+//! triangulation, a triangle leads to the vertex. In the coordinate w of the hole a straight side of the plane is an arc; with barycentric
+//! weights l₀ of the vertex, l₁ and l₂ of the ends of the side,
 //!
 //! ```text
 //!     w = l₁ w₁ + l₂ w₂ + (l₁ + l₂)³ c(l₂/(l₁ + l₂)),
 //! ```
 //!
-//! where c is the distance of the arc from its chord: on the side that is the arc, and at the vertex the map has two continuous derivatives.
+//! where c is the distance of the arc from its chord: on the side that is the arc, and at the vertex the map has two continuous
+//! derivatives.
 
 use super::hole::Hole;
 use super::patch::{Parameter, Patch};
@@ -27,8 +28,8 @@ pub(super) enum Triangle<'a> {
 }
 
 impl Triangle<'_> {
-    /// What side k, from corner k to the next, has in common with that side of the triangle beyond, where it comes in the opposite order: its control
-    /// points; of a side at the vertex at infinity that of its other end.
+    /// What side k, from corner k to the next, has in common with that side of the triangle beyond, where it comes in the opposite order:
+    /// its control points; of a side at the vertex at infinity that of its other end.
     pub fn along(&self, k: usize, spline: &Spline) -> Vec<u32> {
         let cap = match self {
             Triangle::Patch(patch) => return patch.along(k),

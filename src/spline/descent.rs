@@ -88,8 +88,9 @@ impl Model {
     }
 }
 
-/// From a start in a counterclockwise triangle, with the surface there, to a place where the distance of the surface from a point is least nearby, in the triangle:
-/// `surface` gives the point at a place with first and second derivatives. But for rounding, the distance is not larger than at the start.
+/// From a start in a counterclockwise triangle, with the surface there, to a place where the distance of the surface from a point is least
+/// nearby, in the triangle: `surface` gives the point at a place with first and second derivatives. But for rounding, the distance is not
+/// larger than at the start.
 pub(super) fn descend(
     corners: [Complex; 3],
     (mut at, mut here): (Complex, SurfacePoint),

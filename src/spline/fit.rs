@@ -16,22 +16,26 @@ use sprs::{CsMat, TriMat};
 use std::f64::consts::SQRT_2;
 use std::sync::Arc;
 
-/// Points of a patch per side at which its second derivatives are measured: enough that some lie in the strips between the knots of two vertices.
+/// Points of a patch per side at which its second derivatives are measured: enough that some lie in the strips between the knots of two
+/// vertices.
 const GRID: usize = 8;
 /// Weight of the bending beside that of its variation: it decides where there are fewer points than quadratic polynomials need.
 const BENDING: f64 = 0.1;
 
-/// Weight, times |m|³, of the mean square of the distances between filling and spline on the rings of a hole beside that of its points: more, and reflection lines
-/// bend less there; but around a vertex of many turns triangles are too few to follow the filling, and points farther away would pay for it.
+/// Weight, times |m|³, of the mean square of the distances between filling and spline on the rings of a hole beside that of its points:
+/// more, and reflection lines bend less there; but around a vertex of many turns triangles are too few to follow the filling, and points
+/// farther away would pay for it.
 const RINGS: f64 = 3.0;
-/// Weight of the mean square of second differences of a filling's coefficients beside the mean square of the distances: decides where there are no points.
+/// Weight of the mean square of second differences of a filling's coefficients beside the mean square of the distances: decides where there
+/// are no points.
 const FILL_FAIRNESS: f64 = 1e-6;
 
 /// What a fit can be asked.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FitOptions {
-    /// Weight of the variation of bending ∫ h² |D³F|² + 0.1 |D²F|², where h is the mean side of a triangle, times the area of the domain, beside the mean of
-    /// the squared distances; of splines of degree 1 ∫ |DF|² takes its place. Default 1e-12: it decides where there are few points, and hardly changes a fit to many.
+    /// Weight of the variation of bending ∫ h² |D³F|² + 0.1 |D²F|², where h is the mean side of a triangle, times the area of the domain,
+    /// beside the mean of the squared distances; of splines of degree 1 ∫ |DF|² takes its place. Default 1e-12: it decides where there are
+    /// few points, and hardly changes a fit to many.
     pub fairness: f64,
     /// Threads; 0 (default) is one per core. The result does not depend on it.
     pub threads: usize,
@@ -70,8 +74,8 @@ pub fn fit(
     fit_filled((space, &[]), (places, points), options, control)
 }
 
-/// The spline with holes whose filled surface is nearest to points at given places: control points and the coefficients of fillings together. Holes come with
-/// fillings of the sizes wanted, as [`Hole::blank`] gives them; others stay empty.
+/// The spline with holes whose filled surface is nearest to points at given places: control points and the coefficients of fillings
+/// together. Holes come with fillings of the sizes wanted, as [`Hole::blank`] gives them; others stay empty.
 ///
 /// # Errors
 /// Those of [`fit`].
@@ -151,7 +155,8 @@ impl<'a> Equations<'a> {
         fill.factors(w).map(move |(k, x)| ((first + k) as u32, factor * x))
     }
 
-    /// The filling that has a part in the surface at a place, with the number of its first coefficient, the parts of the spline and its own, and its coordinate.
+    /// The filling that has a part in the surface at a place, with the number of its first coefficient, the parts of the spline and its
+    /// own, and its coordinate.
     fn filling(&self, at: Parameter) -> Option<(usize, &'a Fill, [f64; 2], Complex)> {
         self.fills.iter().find_map(|&(first, hole, fill)| {
             let (parts, w) = hole.parts(at)?;
@@ -278,7 +283,8 @@ impl<'a> Equations<'a> {
     }
 }
 
-/// Points of a patch at which its second derivatives are measured: the centres of those of its GRID² equal triangles that lie as the patch does.
+/// Points of a patch at which its second derivatives are measured: the centres of those of its GRID² equal triangles that lie as the patch
+/// does.
 struct Grid {
     corners: [Complex; 3],
     area: f64,

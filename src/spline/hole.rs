@@ -1,8 +1,8 @@
 //! The surface around a singular vertex.
 //!
-//! Around a vertex with a total angle of 2πm the sum of the basis functions of a spline over the flat metric is not 1: in the core of the hole, the disk
-//! of its knots. There the surface is a function G of the coordinate w = z^{1/m}, in which the vertex is a point as any other, and goes over
-//! into the spline by a weight that is 1 for |w| ≤ τρ, 0 for |w| ≥ ρ, and has two continuous derivatives:
+//! Around a vertex with a total angle of 2πm the sum of the basis functions of a spline over the flat metric is not 1: in the core of the
+//! hole, the disk of its knots. There the surface is a function G of the coordinate w = z^{1/m}, in which the vertex is a point as any
+//! other, and goes over into the spline by a weight that is 1 for |w| ≤ τρ, 0 for |w| ≥ ρ, and has two continuous derivatives:
 //!
 //! ```text
 //!     F̃ = F + φ(|w|/ρ) (G(w) − F),        φ = 1 for t ≤ τ,  1 − (10 s³ − 15 s⁴ + 6 s⁵), s = (t − τ)/(1 − τ), for τ ≤ t ≤ 1.
@@ -12,9 +12,9 @@
 //!
 //! So F̃ has as many continuous derivatives as F, up to two, on all of the hole.
 //!
-//! A sphere is a plane with a vertex at infinity, where the same holds of w = 1/z: m = −1. There |w| ≤ τρ⁻¹ and the hole is what lies outside a
-//! disk of radius ρ. Patches cover the plane as far as the filling alone is the surface; the rest, and the vertex itself, have places only
-//! in the chart of the hole, whose coordinates are those of w over its value at the rim.
+//! A sphere is a plane with a vertex at infinity, where the same holds of w = 1/z: m = −1. There |w| ≤ τρ⁻¹ and the hole is what lies
+//! outside a disk of radius ρ. Patches cover the plane as far as the filling alone is the surface; the rest, and the vertex itself, have
+//! places only in the chart of the hole, whose coordinates are those of w over its value at the rim.
 
 use super::fill::Fill;
 use super::jet::Jet;
@@ -26,14 +26,15 @@ use crate::geometry::complex::{Complex, add, conj, distance, doubled_area, mul, 
 use crate::geometry::vector::Vector;
 use std::f64::consts::{PI, TAU};
 
-/// Radius of the core over that of the smallest hole, the one inside the triangles at the vertex: large enough that the spline does not bend sharply along the sides at the vertex, small enough that the core is a
-/// small part of the triangles there.
+/// Radius of the core over that of the smallest hole, the one inside the triangles at the vertex: large enough that the spline does not
+/// bend sharply along the sides at the vertex, small enough that the core is a small part of the triangles there.
 const CORE: f64 = 0.05;
 /// How much wider than the core the disk is in which the spline has no weight.
 const CLEAR: f64 = 1.1;
 /// Least τ.
 const LEAST_INNER: f64 = 0.8;
-/// Circles around the vertex, and places on each per turn, at which filling and spline are to be near each other: where the weight goes from 1 to 0.
+/// Circles around the vertex, and places on each per turn, at which filling and spline are to be near each other: where the weight goes
+/// from 1 to 0.
 const RINGS: [usize; 2] = [6, 48];
 /// Nearer to the vertex, in the unit of the metric, a place is the vertex: derivatives by the chart's coordinates would overflow.
 const VERTEX: f64 = 1e-50;
@@ -55,16 +56,16 @@ pub struct Sector {
     pub patch: u32,
     /// The direction of its middle: an angle around the vertex, from a fixed direction, counterclockwise.
     pub angle: f64,
-    /// The map of its chart to the plane in which the vertex is 0, the direction of the patch's middle that of the x axis, and the unit that of the
-    /// flat metric: a motion and a change of scale, as the rows `[a, −b, x]`, `[b, a, y]`.
+    /// The map of its chart to the plane in which the vertex is 0, the direction of the patch's middle that of the x axis, and the unit
+    /// that of the flat metric: a motion and a change of scale, as the rows `[a, −b, x]`, `[b, a, y]`.
     pub to: [[f64; 3]; 2],
 }
 
 /// The hole around a singular vertex, and what fills it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Hole {
-    /// The number that its own chart has as the patch of a [`Parameter`]: the count of patches for the first hole, and so on. Coordinates x + iy of
-    /// places there are w over its size at the rim, |x + iy| ≤ τ.
+    /// The number that its own chart has as the patch of a [`Parameter`]: the count of patches for the first hole, and so on. Coordinates x
+    /// + iy of places there are w over its size at the rim, |x + iy| ≤ τ.
     pub chart: u32,
     /// The patches that the hole meets, in the order of their numbers. A patch that meets it in several ways is there as often.
     pub sectors: Vec<Sector>,
@@ -163,7 +164,8 @@ impl Hole {
         (0..circles).flat_map(|k| (0..each).filter_map(move |j| place(k, j))).collect()
     }
 
-    /// The place at a distance from the vertex, in the unit of the metric, in a direction: an angle as those of the sectors. None beyond the patches.
+    /// The place at a distance from the vertex, in the unit of the metric, in a direction: an angle as those of the sectors. None beyond
+    /// the patches.
     pub fn place(&self, space: &SplineSpace, far: f64, angle: f64) -> Option<Parameter> {
         let whole = TAU * f64::from(self.turns.abs());
         let inside = |sector: &Sector| {
@@ -180,8 +182,8 @@ impl Hole {
         all.filter_map(inside).max_by(|(a, _), (b, _)| a.total_cmp(b)).map(|(_, found)| found)
     }
 
-    /// w/ρ of the second of two places of a patch, the first of which is the vertex. None for an empty hole, in patches that it does not meet, and where the first
-    /// place is another one.
+    /// w/ρ of the second of two places of a patch, the first of which is the vertex. None for an empty hole, in patches that it does not
+    /// meet, and where the first place is another one.
     pub(super) fn spoke(&self, vertex: Parameter, at: Parameter) -> Option<Complex> {
         self.fill.as_ref()?;
         let here = self.sectors.iter().filter(|sector| sector.patch == at.patch);
@@ -190,8 +192,8 @@ impl Hole {
         Some(self.of_sector(sector, sector.local(at)))
     }
 
-    /// The place in the chart of the hole at a share of |w| of the way from its vertex, the first of two places of a patch, to the second. None where the
-    /// filling alone is not the surface, and where the first place is not the vertex.
+    /// The place in the chart of the hole at a share of |w| of the way from its vertex, the first of two places of a patch, to the second.
+    /// None where the filling alone is not the surface, and where the first place is not the vertex.
     pub(crate) fn near_vertex(&self, [vertex, end]: [Parameter; 2], share: f64) -> Option<Parameter> {
         let w = scale(share, self.spoke(vertex, end)?);
         (norm(w) <= self.inner).then_some(Parameter { patch: self.chart, x: w[0], y: w[1] })
@@ -204,8 +206,8 @@ impl Hole {
         scale((norm(z) / self.radius).powf(share), [angle.cos(), angle.sin()])
     }
 
-    /// w/ρ of a place in the chart of its patch, with first and second derivative there; at the vertex, where w has none, those of w/ρ itself.
-    /// None in patches that the hole does not meet, and in charts of others.
+    /// w/ρ of a place in the chart of its patch, with first and second derivative there; at the vertex, where w has none, those of w/ρ
+    /// itself. None in patches that the hole does not meet, and in charts of others.
     fn coordinate(&self, at: Parameter) -> Option<[Complex; 3]> {
         if at.patch == self.chart {
             return Some([[at.x, at.y], [1.0, 0.0], [0.0; 2]]);
@@ -261,15 +263,15 @@ impl Hole {
             .ok_or_else(|| refuse("it is the chart of a hole that nothing fills".into()))
     }
 
-    /// G without the spline around it, with derivatives by p and q where p + iq = w/ρ. For |w| ≤ τρ that is the surface. None before the hole
-    /// is filled.
+    /// G without the spline around it, with derivatives by p and q where p + iq = w/ρ. For |w| ≤ τρ that is the surface. None before the
+    /// hole is filled.
     pub(super) fn filling(&self, w: Complex) -> Option<SurfacePoint> {
         let w = Jet::of_holomorphic([w, [1.0, 0.0], [0.0; 2]]);
         Some(surface_point(self.fill.as_ref()?.at(w)))
     }
 
-    /// The place in the hole at which G is nearest to a point, by one step of Gauss and Newton from another place there; none outside the disk in which
-    /// the surface is G.
+    /// The place in the hole at which G is nearest to a point, by one step of Gauss and Newton from another place there; none outside the
+    /// disk in which the surface is G.
     pub(crate) fn nearer(&self, space: &SplineSpace, from: Parameter, point: Vector) -> Option<Parameter> {
         let w = self.coordinate(from)?[0];
         if norm(w) > self.inner {

@@ -24,8 +24,8 @@ const ON_LINE: f64 = 1e-9;
 
 /// Places less far apart than this share of a side are the same: rounding of the maps between charts.
 const SAME_PLACE: f64 = 1e-9;
-/// Least size of derivatives of order k to which jumps are compared, as a share of the surface's extent over h^k, with the height h of the thinnest
-/// patch: rounding leaves jumps of up to 2e-12 of that, in a plane too.
+/// Least size of derivatives of order k to which jumps are compared, as a share of the surface's extent over h^k, with the height h of the
+/// thinnest patch: rounding leaves jumps of up to 2e-12 of that, in a plane too.
 const FLAT: f64 = 1e-3;
 
 /// Largest deviations from what holds in exact arithmetic.
@@ -36,15 +36,16 @@ pub struct Identities {
     /// Of the polynomial (x + y)^n, in coordinates from −1 to 1 over each chart, relative to the largest value; none where patches lie in
     /// several charts, which have no polynomials in common.
     pub polynomial_reproduction: Option<f64>,
-    /// Jump of the derivatives of order min(n − 1, 2) across sides of patches, of the control points' own surface in one chart of both, over the largest
-    /// such derivative there, or what counts as flat; across sides on whose line no more than two knots of the ends lie.
+    /// Jump of the derivatives of order min(n − 1, 2) across sides of patches, of the control points' own surface in one chart of both,
+    /// over the largest such derivative there, or what counts as flat; across sides on whose line no more than two knots of the ends lie.
     pub continuity: f64,
     /// How many sides between patches have more knots on their line: the spline is less smooth there.
     pub rough_sides: usize,
 }
 
 impl Spline {
-    /// The identities, measured at seven places of each patch, but for the cores of holes, and at the middle of each side between two patches.
+    /// The identities, measured at seven places of each patch, but for the cores of holes, and at the middle of each side between two
+    /// patches.
     ///
     /// # Errors
     /// Those of [`Spline::evaluate`].

@@ -46,8 +46,8 @@ fn touches(reaching: &Patch, of: &Patch) -> bool {
     overlaps(&reaching.knots.concat(), [0, 1, 2].map(|k| of.knots[k][0]), 0.0)
 }
 
-/// Whether the convex hull of some points overlaps a triangle: no side of either separates them. What counts as separated is outside by more than `slack`
-/// (a doubled area) inwards; with 0, what touches overlaps.
+/// Whether the convex hull of some points overlaps a triangle: no side of either separates them. What counts as separated is outside by
+/// more than `slack` (a doubled area) inwards; with 0, what touches overlaps.
 pub(crate) fn overlaps(knots: &[[f64; 2]], corners: [[f64; 2]; 3], slack: f64) -> bool {
     let is_beyond = |a: [f64; 2], b: [f64; 2], points: &[[f64; 2]]| {
         points.iter().all(|&p| doubled_area([p, a, b]) < slack)

@@ -34,7 +34,8 @@ impl SurfacePoint {
         (length > 0.0).then(|| across.map(|x| x / length))
     }
 
-    /// The change of the coordinates to where the tangent plane is nearest to a point: one step of Gauss and Newton. None where the first derivatives are parallel.
+    /// The change of the coordinates to where the tangent plane is nearest to a point: one step of Gauss and Newton. None where the first
+    /// derivatives are parallel.
     pub fn step_towards(&self, point: Vector) -> Option<[f64; 2]> {
         let [x, y] = self.first;
         let miss = vector::sub(point, self.point);

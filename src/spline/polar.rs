@@ -42,7 +42,8 @@ impl<const D: usize> Polynomial<D> {
     pub fn polar(&self, arguments: &[[f64; 2]]) -> [f64; D] {
         let n = self.degree;
         assert_eq!(arguments.len(), n, "a polar form has as many arguments as the degree");
-        // e[p][q]: the sum, over p arguments and q other ones, of the product of the abscissas of the former and the ordinates of the latter.
+        // e[p][q]: the sum, over p arguments and q other ones, of the product of the abscissas of the former and the ordinates of the
+        // latter.
         let mut e = [[0.0; MAX_DEGREE + 1]; MAX_DEGREE + 1];
         e[0][0] = 1.0;
         for (count, &[x, y]) in arguments.iter().enumerate() {

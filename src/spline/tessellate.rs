@@ -15,9 +15,9 @@ use std::collections::hash_map::Entry;
 const MOST_VERTICES: usize = 100_000_000;
 
 impl Spline {
-    /// n² triangles per patch, and per triangle at a vertex at infinity after these, counterclockwise as the charts are; with normals per vertex (0 where there is none), and the
-    /// coordinates of each corner in its patch's chart, or the hole's, as texture coordinates. Patches with a common side, which have its control points in
-    /// common, share its vertices.
+    /// n² triangles per patch, and per triangle at a vertex at infinity after these, counterclockwise as the charts are; with normals per
+    /// vertex (0 where there is none), and the coordinates of each corner in its patch's chart, or the hole's, as texture coordinates.
+    /// Patches with a common side, which have its control points in common, share its vertices.
     ///
     /// # Errors
     /// [`Error::Argument`] for n = 0; [`Error::TooLarge`] for more than a hundred million vertices; [`Error::Cancelled`].
@@ -60,8 +60,8 @@ impl Spline {
         Ok(Soup { positions: found.iter().map(|at| at.point).collect(), faces, attributes })
     }
 
-    /// What a point on a side has in common with the same point of the triangle beyond: what the side has, in an order that does not depend on its direction, with the weights of
-    /// its ends; of a corner its own. None inside.
+    /// What a point on a side has in common with the same point of the triangle beyond: what the side has, in an order that does not depend
+    /// on its direction, with the weights of its ends; of a corner its own. None inside.
     fn shared(&self, triangle: &Triangle<'_>, weights: [usize; 3]) -> Option<(Vec<u32>, [usize; 2])> {
         let k = (0..3).find(|&k| weights[(k + 2) % 3] == 0)?;
         let mut along = triangle.along(k, self);

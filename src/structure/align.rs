@@ -7,8 +7,8 @@ use crate::geometry::Motion;
 use crate::geometry::complex::norm2;
 use std::collections::VecDeque;
 
-/// Turns charts about their origins so that transitions along a tree of overlaps are translations; in E² then all are, where the holonomy has no
-/// rotation.
+/// Turns charts about their origins so that transitions along a tree of overlaps are translations; in E² then all are, where the holonomy
+/// has no rotation.
 pub(super) fn align(drafts: &mut [Draft], overlaps: &[Overlap], sheet: &Sheet) {
     let mut beside: Vec<Vec<(usize, usize)>> = vec![Vec::new(); drafts.len()];
     for (k, overlap) in overlaps.iter().enumerate() {

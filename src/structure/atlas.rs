@@ -41,9 +41,9 @@ pub struct ChartPoint {
 
 /// A geometric structure of a surface by charts and transitions.
 ///
-/// Charts cover the surface without the singular vertices and the faces that are excluded; none has a singular vertex inside. The triangles of charts
-/// are those of [`Atlas::mesh`]: geodesics of the structure's metric, between whose corners points are by weights of their ambient
-/// coordinates (linear in the plane and in the Klein disk up to a factor).
+/// Charts cover the surface without the singular vertices and the faces that are excluded; none has a singular vertex inside. The triangles
+/// of charts are those of [`Atlas::mesh`]: geodesics of the structure's metric, between whose corners points are by weights of their
+/// ambient coordinates (linear in the plane and in the Klein disk up to a factor).
 #[derive(Debug, Clone)]
 pub struct Atlas {
     /// The kind.
@@ -62,8 +62,8 @@ pub struct Atlas {
     pub charts: Vec<Chart>,
     /// One transition per connected overlap, from the chart of the lower number to the other.
     pub transitions: Vec<Transition>,
-    /// Vertices that no chart has inside, ascending: cone points of the flat metric, vertices of the boundary whose angle there is a full turn or
-    /// more, or the vertices at the zeros of the form.
+    /// Vertices that no chart has inside, ascending: cone points of the flat metric, vertices of the boundary whose angle there is a full
+    /// turn or more, or the vertices at the zeros of the form.
     pub singular_vertices: Vec<VertexId>,
     /// Faces of no chart: those at the vertex at infinity of a sphere in the plane, or those that a form does not draw counterclockwise,
     /// each of which holds one of its zeros.

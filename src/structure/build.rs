@@ -19,9 +19,9 @@ use crate::parallel::{self, Pool};
 /// The atlas of a structure on a surface. The same for any number of threads.
 ///
 /// # Errors
-/// [`Error::Argument`] for a structure that the surface has not, options that do not belong to the structure, a singular vertex that does not
-/// exist or on a surface that needs none, a radius that is not positive; [`Error::Layout`] for a surface without a regular vertex; those of
-/// [`crate::canonical::uniformize()`], [`crate::flow::flow()`] and [`crate::harmonic::HarmonicForms::new`]; [`Error::Cancelled`].
+/// [`Error::Argument`] for a structure that the surface has not, options that do not belong to the structure, a singular vertex that does
+/// not exist or on a surface that needs none, a radius that is not positive; [`Error::Layout`] for a surface without a regular vertex;
+/// those of [`crate::canonical::uniformize()`], [`crate::flow::flow()`] and [`crate::harmonic::HarmonicForms::new`]; [`Error::Cancelled`].
 pub fn atlas(surface: &Surface, options: &AtlasOptions, control: &Control) -> Result<Atlas> {
     if let Some(radius) = options.radius.filter(|r| r.is_nan() || *r <= 0.0) {
         return Err(Error::argument("radius", radius, "positive"));

@@ -13,11 +13,11 @@ use crate::mesh::{FaceId, VertexId};
 /// The number of a face that a chart has not.
 pub(super) const NONE: u32 = u32::MAX;
 
-/// Area of a triangle over the square of its longest side below which overlaps with others are not looked for: rounding moves its corners by a good
-/// part of its height.
+/// Area of a triangle over the square of its longest side below which overlaps with others are not looked for: rounding moves its corners
+/// by a good part of its height.
 const LOW: f64 = 1e-9;
-/// By which share triangles are shrunk about their middles before overlaps are looked for. Those whose corners rounding may move by as much are left
-/// out.
+/// By which share triangles are shrunk about their middles before overlaps are looked for. Those whose corners rounding may move by as much
+/// are left out.
 const ROUNDING: f64 = 1e-6;
 
 /// Lifts of faces, each beside one of those before it.
@@ -172,8 +172,8 @@ impl Draft {
         })
     }
 
-    /// Whether its faces lie counterclockwise beside each other, but for faces that are nearly flat ([`LOW`]) and overlaps that rounding can explain
-    /// ([`ROUNDING`]).
+    /// Whether its faces lie counterclockwise beside each other, but for faces that are nearly flat ([`LOW`]) and overlaps that rounding
+    /// can explain ([`ROUNDING`]).
     pub fn is_embedded(&self, sheet: &Sheet, control: &Control) -> Result<bool> {
         // Geodesic triangles about a common corner that close up do not overlap on the sphere either, whatever its size.
         let Some(mut triangles) = self.triangles(sheet) else { return Ok(self.is_oriented()) };

@@ -12,8 +12,8 @@ use crate::topology::{HomotopyBasis, SurfaceGroup, crossed_halfedges};
 
 /// The homomorphism from the fundamental group into the group of a structure, by its values at the generators of a canonical basis.
 ///
-/// On a surface with singular vertices the loops go round them, on whichever side. The holonomy around one is the identity: its cone angle is a
-/// multiple of 2π.
+/// On a surface with singular vertices the loops go round them, on whichever side. The holonomy around one is the identity: its cone angle
+/// is a multiple of 2π.
 #[derive(Debug, Clone)]
 pub struct Holonomy {
     /// The fundamental group of the surface, with names and relator.

@@ -33,9 +33,9 @@ pub struct AtlasOptions {
     pub structure: Structure,
     /// Its charts. Default [`Charts::Stars`].
     pub charts: Charts,
-    /// How far the core of a patch reaches at most, on the unit sphere or in the hyperbolic plane; only its first face may reach
-    /// farther. Default: three times the median of the longest sides of the triangles, but from 0.5 to 0.8 on the sphere, to 3 in the hyperbolic plane,
-    /// so that coordinates keep their digits.
+    /// How far the core of a patch reaches at most, on the unit sphere or in the hyperbolic plane; only its first face may reach farther.
+    /// Default: three times the median of the longest sides of the triangles, but from 0.5 to 0.8 on the sphere, to 3 in the hyperbolic
+    /// plane, so that coordinates keep their digits.
     pub radius: Option<f64>,
     /// Where an affine structure comes from. Default [`AffineSource::Flow`].
     pub source: AffineSource,

@@ -46,7 +46,8 @@ impl<'a> Patches<'a> {
         Patches { sheet, radius, taken: sheet.excluded.clone(), control }
     }
 
-    /// Charts whose cores are the faces not taken: every face in one core. Then the stars of those regular vertices that no chart has inside.
+    /// Charts whose cores are the faces not taken: every face in one core. Then the stars of those regular vertices that no chart has
+    /// inside.
     pub fn cover(mut self) -> Result<Vec<Draft>> {
         let (mesh, mut drafts) = (self.sheet.mesh(), Vec::new());
         for f in mesh.faces() {

@@ -182,7 +182,8 @@ fn of_flow(
     })
 }
 
-/// Marks the vertices of the boundary whose angle is at least a full turn: no chart in the plane can have such a vertex with all of its faces.
+/// Marks the vertices of the boundary whose angle is at least a full turn: no chart in the plane can have such a vertex with all of its
+/// faces.
 fn mark_wide_corners(sheet: &mut Sheet) {
     let mesh = sheet.steps.mesh.clone();
     let mut angle = PerVertex::filled(mesh.n_vertices(), 0.0);

@@ -4,8 +4,8 @@ use super::draft::Draft;
 use super::sheet::Sheet;
 use crate::mesh::{HalfedgeId, VertexId};
 
-/// The star of a vertex in the universal cover, the vertex at the origin; none where a face of it is excluded. Two lifts of one face are two
-/// faces of it.
+/// The star of a vertex in the universal cover, the vertex at the origin; none where a face of it is excluded. Two lifts of one face are
+/// two faces of it.
 pub(super) fn star(sheet: &Sheet, v: VertexId) -> Option<Draft> {
     let mesh = sheet.mesh();
     let corner = |h: HalfedgeId| mesh.corner(h).filter(|(f, _)| !sheet.excluded[*f]);

@@ -19,7 +19,8 @@ fn at(corners: &[(u32, Option<f64>)]) -> Corners {
     Corners::At(corners.iter().map(corner).collect())
 }
 
-/// A part of the square lattice of this step, cut into triangles along alternating diagonals, and the number of the vertex at a point of it.
+/// A part of the square lattice of this step, cut into triangles along alternating diagonals, and the number of the vertex at a point of
+/// it.
 fn lattice(
     size: [usize; 2],
     step: f64,
@@ -112,9 +113,9 @@ fn elliptic(k: f64) -> f64 {
 
 #[test]
 fn the_modulus_of_an_l_shape_converges_to_the_exact_one() {
-    // ∫ z^{−1/2} (z² − k²)^{−1/2} (z² − 1)^{−1/2} dz maps the upper half-plane onto an L, symmetric about its diagonal, with the outer corner at 0
-    // and the inner one at ∞. For k = √3/2 its arms are as long and as wide as those of three squares: a quadrature gives 2 for the quotient of
-    // the integrals from 0 to k and from k to 1. The quadrilateral with corners ±k, ±1 has modulus K(k')/2K(k).
+    // ∫ z^{−1/2} (z² − k²)^{−1/2} (z² − 1)^{−1/2} dz maps the upper half-plane onto an L, symmetric about its diagonal, with the outer
+    // corner at 0 and the inner one at ∞. For k = √3/2 its arms are as long and as wide as those of three squares: a quadrature gives 2 for
+    // the quotient of the integrals from 0 to k and from k to 1. The quadrilateral with corners ±k, ±1 has modulus K(k')/2K(k).
     let k = 0.75f64.sqrt();
     let exact = elliptic(0.5) / (2.0 * elliptic(k));
     let off = [8, 16, 32].map(|n| {

@@ -89,7 +89,8 @@ pub fn check(d: &CircleDomain, name: &str, tolerance: f64) {
     }
 }
 
-/// The triangles of a planar domain's metric that lie in its disk, none of them at a hub, with their vertices in the disk; all counterclockwise.
+/// The triangles of a planar domain's metric that lie in its disk, none of them at a hub, with their vertices in the disk; all
+/// counterclockwise.
 pub fn triangles(d: &CircleDomain) -> (Vec<[u32; 3]>, PerVertex<[f64; 2]>) {
     let n = d.split.surface().unwrap().mesh().n_vertices();
     let mut places = PerVertex::filled(n, [0.0; 2]);

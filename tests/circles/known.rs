@@ -56,8 +56,8 @@ fn annuli_have_their_modulus() {
     });
 }
 
-/// Conformal maps of a rectangle to the disk: the cross ratio of its corners is that of −1, 1, 1/k, −1/k, where K'/K is twice the height over the
-/// width.
+/// Conformal maps of a rectangle to the disk: the cross ratio of its corners is that of −1, 1, 1/k, −1/k, where K'/K is twice the height
+/// over the width.
 #[test]
 fn corners_of_a_rectangle_have_their_cross_ratio() {
     let q = (-PI * 2.0 * 0.5f64).exp();

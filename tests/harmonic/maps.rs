@@ -103,7 +103,8 @@ fn maps_to_the_disk_flip_no_triangle() {
     assert!(check_disk("spike", &spike) > 0);
 }
 
-/// The small disks of the corpus, one whose Delaunay triangulation needs vertices, and the largest; all of them are in docs/results/maps.md.
+/// The small disks of the corpus, one whose Delaunay triangulation needs vertices, and the largest; all of them are in
+/// docs/results/maps.md.
 #[test]
 fn maps_of_the_corpus_to_the_disk_flip_no_triangle() {
     let Some((folder, rows)) = common::index("good") else { return };
@@ -213,8 +214,8 @@ fn maps_of_the_round_sphere_are_moebius_up_to_the_square_of_the_edges() {
     assert!(errors.windows(2).all(|pair| 3.2 * pair[1] <= pair[0]), "{errors:?}");
 }
 
-/// The paper's flow and implicit steps end at one map, up to a rotation and to O(h²): the energy of a mesh is that far from invariant under the
-/// Möbius transformations that centre every step.
+/// The paper's flow and implicit steps end at one map, up to a rotation and to O(h²): the energy of a mesh is that far from invariant under
+/// the Möbius transformations that centre every step.
 #[test]
 fn both_flows_to_the_sphere_agree() {
     let difference = |n: usize| {

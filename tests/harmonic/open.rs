@@ -70,7 +70,8 @@ fn absolute_and_relative_classes_are_dual() {
     }
 }
 
-/// The forms of the double that its mirror symmetry keeps restrict to those with absolute classes, where both triangulations are mirror images.
+/// The forms of the double that its mirror symmetry keeps restrict to those with absolute classes, where both triangulations are mirror
+/// images.
 #[test]
 fn absolute_forms_are_the_symmetric_ones_of_the_double() {
     let (_, surface) = samples().swap_remove(0);

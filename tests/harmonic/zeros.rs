@@ -50,8 +50,8 @@ fn zeros_of_holomorphic_forms_number_twice_the_genus_less_two() {
     }
 }
 
-/// On the Bolza surface the forms x dx/y and dx/y have double zeros at fixed points of the hyperelliptic involution, all others two zeros that it
-/// exchanges; no pole appears on a fine mesh.
+/// On the Bolza surface the forms x dx/y and dx/y have double zeros at fixed points of the hyperelliptic involution, all others two zeros
+/// that it exchanges; no pole appears on a fine mesh.
 #[test]
 fn holomorphic_forms_of_the_bolza_surface_have_no_poles() {
     let forms = forms_of(&intrinsic(&shapes::bolza(4).unwrap(), Space::H2));

@@ -1,4 +1,5 @@
-//! The homotopy class that pairs of loops name: the map brings each loop to its partner, whatever its energy, or the error says why none does.
+//! The homotopy class that pairs of loops name: the map brings each loop to its partner, whatever its energy, or the error says why none
+//! does.
 
 use super::samples::{apart, apart_from, check_map, moved, surface};
 use ricci::matching::{MatchOptions, Matching, match_surfaces};

@@ -46,7 +46,8 @@ fn no_face_folds_between_two_meshes_of_genus_2() {
 
 #[test]
 fn surfaces_with_far_and_with_tiny_parts_go_to_themselves_by_the_identity() {
-    // Disks of H² of radius 18 and 22, a torus with a part 1e-14 of its size, a long one with thin faces; long words, and disks of radius 51 and 73.
+    // Disks of H² of radius 18 and 22, a torus with a part 1e-14 of its size, a long one with thin faces; long words, and disks of radius
+    // 51 and 73.
     let far = ["couplingdown", "airplane_27b", "cow_oded_low", "trim_star", "plate_holes", "tray_bottom"];
     for name in far.into_iter().chain(["derived_fertility_3disks", "b9_mesh", "elephant_with_holes"]) {
         let Some(surface) = read(name) else { return };

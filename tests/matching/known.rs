@@ -1,4 +1,5 @@
-//! Maps that are known: of a surface to itself, to a copy that is moved, to a copy that is conformal to it, and to one that is another mesh.
+//! Maps that are known: of a surface to itself, to a copy that is moved, to a copy that is conformal to it, and to one that is another
+//! mesh.
 
 use super::samples::{apart, apart_from, check_map, distance, matched, moved, potato, similar, surface};
 use ricci::matching::{MatchOptions, match_surfaces};
@@ -65,15 +66,15 @@ fn a_surface_goes_to_a_similar_one_by_the_similarity() {
 
 #[test]
 fn a_surface_goes_to_its_image_under_an_inversion_vertex_to_vertex() {
-    // An inversion in a sphere multiplies lengths by factors at their ends: the two surfaces are in one conformal class. With a reflection it keeps
-    // orientations.
+    // An inversion in a sphere multiplies lengths by factors at their ends: the two surfaces are in one conformal class. With a reflection
+    // it keeps orientations.
     let invert = |[x, y, z]: Point| {
         let d = [x - 4.0, y - 1.0, z - 0.5];
         let square: f64 = d.iter().map(|c| c * c).sum();
         [-10.0 * d[0] / square, 10.0 * d[1] / square, 10.0 * d[2] / square]
     };
-    // Without landmarks spheres, disks and annuli have conformal maps to themselves, of which areas choose one; an inversion changes those. A
-    // torus has one that turns it about the landmark, which sends every loop to its inverse. Tori with holes come to within 2.5e-3 only.
+    // Without landmarks spheres, disks and annuli have conformal maps to themselves, of which areas choose one; an inversion changes those.
+    // A torus has one that turns it about the landmark, which sends every loop to its inverse. Tori with holes come to within 2.5e-3 only.
     let open = [
         "sphere",
         "sphere, 1",
@@ -91,8 +92,8 @@ fn a_surface_goes_to_its_image_under_an_inversion_vertex_to_vertex() {
         let matching = matched(&source, &target, &landmarks);
         check_map(&matching, &source, &target);
         let apart = apart(&matching, &target);
-        // Around holes that are punched the triangulation is not Delaunay, of the image in other places than of the surface: the flows start from
-        // isometric flips, and so in classes that differ a little.
+        // Around holes that are punched the triangulation is not Delaunay, of the image in other places than of the surface: the flows
+        // start from isometric flips, and so in classes that differ a little.
         let limit = if name.contains("holes") { 1e-4 } else { 1e-6 };
         assert!(apart < limit, "{name}: {apart:e}");
     }
@@ -138,8 +139,8 @@ fn another_mesh_of_the_same_surface_is_met_to_second_order_but_at_landmarks() {
         };
         let now = [largest(0.0), largest(0.5), all.iter().sum::<f64>() / all.len() as f64];
         eprintln!("frequency {n}: {now:?}");
-        // A landmark is a cone: about it, at the distance r, the map to the canonical metric is like a root of r, which straight faces follow to the order
-        // h^{3/2}.
+        // A landmark is a cone: about it, at the distance r, the map to the canonical metric is like a root of r, which straight faces
+        // follow to the order h^{3/2}.
         if let Some(before) = before {
             let falls = [0, 1, 2].map(|k| before[k] / now[k]);
             assert!(falls[0] > 2.7 && falls[1] > 3.4 && falls[2] > 3.6, "{n}: {falls:?}");

@@ -84,7 +84,8 @@ fn any_landmarks_of_surfaces_with_handles_are_met() {
 
 #[test]
 fn landmarks_that_a_map_brings_together_do_not_change_it() {
-    // The map of a torus to another one with one landmark, and the vertices that it brings near vertices as further landmarks: these move little.
+    // The map of a torus to another one with one landmark, and the vertices that it brings near vertices as further landmarks: these move
+    // little.
     let source = surface(&shapes::torus(2.0, 0.8, 24, 12).unwrap());
     let target =
         surface(&moved(&shapes::torus(2.0, 0.8, 48, 24).unwrap(), |[x, y, z]| [x, y * (1.0 + 0.1 * x), z]));
@@ -215,7 +216,8 @@ fn soft_landmarks_come_nearer_with_their_weights_and_nothing_folds() {
     assert!((left(1) - 1.0 / 1.3).abs() < 1e-12 && (left(2) - 0.25).abs() < 1e-12, "{} {}", left(1), left(2));
 }
 
-/// How far the middle of a plane disk can move along the x axis, in steps of a thousandth, before faces fold, where the boundary stays and the map is harmonic.
+/// How far the middle of a plane disk can move along the x axis, in steps of a thousandth, before faces fold, where the boundary stays and
+/// the map is harmonic.
 fn folds_from(disk: &Surface) -> f64 {
     let (mesh, positions) = (disk.mesh(), disk.positions().unwrap());
     let rim = mesh.vertices().filter(|&v| mesh.is_boundary_vertex(v));
@@ -239,8 +241,8 @@ fn folds_from(disk: &Surface) -> f64 {
 
 #[test]
 fn a_vertex_that_a_spring_pulls_folds_faces_and_a_soft_landmark_does_not() {
-    // In the Dirichlet energy a point has no capacity: a spring at the middle of a disk, however strong, moves it and little around it. So faces fold once it
-    // has moved by few edges, which is a smaller and smaller share of the disk as the mesh becomes finer.
+    // In the Dirichlet energy a point has no capacity: a spring at the middle of a disk, however strong, moves it and little around it. So
+    // faces fold once it has moved by few edges, which is a smaller and smaller share of the disk as the mesh becomes finer.
     let mut shares = Vec::new();
     for n in [4, 8, 16, 32] {
         let disk = surface(&shapes::disk(n).unwrap());

@@ -13,7 +13,8 @@ fn in_circles(source: &Surface, target: &Surface, boundary: Boundary) -> Result<
     match_surfaces(source, target, &options, &Control::new())
 }
 
-/// The boundary loops of a triangulation in the plane, as the steps along their edges; the domain is flat, and its deck transformations change no step.
+/// The boundary loops of a triangulation in the plane, as the steps along their edges; the domain is flat, and its deck transformations
+/// change no step.
 fn steps(matching: &Matching, side: usize) -> Vec<Vec<[f64; 2]>> {
     let mut along: HashMap<(VertexId, VertexId), [f64; 2]> = HashMap::new();
     for triangle in matching.domain.triangles(side) {
@@ -44,7 +45,8 @@ fn steps(matching: &Matching, side: usize) -> Vec<Vec<[f64; 2]>> {
     loops
 }
 
-/// The radius of the circle through points a third of a closed polygon apart, and the largest distance of a corner from it as a share of that.
+/// The radius of the circle through points a third of a closed polygon apart, and the largest distance of a corner from it as a share of
+/// that.
 fn circle(steps: &[[f64; 2]]) -> [f64; 2] {
     let mut points = vec![[0.0; 2]];
     for step in steps {

@@ -134,8 +134,8 @@ fn files_of_patches_are_read_as_they_were_and_tampering_is_named() {
     assert!(moved.check().unwrap_err().to_string().contains("does not end at the points"));
 }
 
-/// The exact way, three patches of bidegree (n, n) to a triangle, asks that the spline is one polynomial on each of its triangles. It is not:
-/// knot lines cross the triangles, and the polynomial of the middle misses the spline outside of it.
+/// The exact way, three patches of bidegree (n, n) to a triangle, asks that the spline is one polynomial on each of its triangles. It is
+/// not: knot lines cross the triangles, and the polynomial of the middle misses the spline outside of it.
 #[test]
 fn a_triangle_is_not_one_polynomial() {
     for degree in [3, 4] {
@@ -145,8 +145,8 @@ fn a_triangle_is_not_one_polynomial() {
     }
 }
 
-/// The share of places of a spline that lie in the middle of their triangles, where the spline is one polynomial, and the largest distance of
-/// these polynomials from the spline on all of their triangles, over the size of the spline.
+/// The share of places of a spline that lie in the middle of their triangles, where the spline is one polynomial, and the largest distance
+/// of these polynomials from the spline on all of their triangles, over the size of the spline.
 pub fn polynomials(spline: &Spline) -> [f64; 2] {
     let (mut worst, mut largest, mut inside, mut all) = (0.0f64, 0.0f64, 0, 0);
     let degree = spline.space().degree();

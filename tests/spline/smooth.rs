@@ -4,8 +4,8 @@ use crate::{along, random_surface, square};
 use ricci::spline::{KnotOptions, MAX_DEGREE, Parameter, Spline, SplineSpace};
 use std::sync::Arc;
 
-/// Shortest piece of a segment between two lines of knots that is looked at, in a square of side 1 with 4 × 4 cells: derivatives that are taken from values on
-/// a shorter one lose digits.
+/// Shortest piece of a segment between two lines of knots that is looked at, in a square of side 1 with 4 × 4 cells: derivatives that are
+/// taken from values on a shorter one lose digits.
 const SHORTEST: f64 = 4e-4;
 
 /// The derivatives at s = 0, by s, of the polynomial with these values, by Newton's divided differences.
@@ -33,8 +33,8 @@ fn derivatives(nodes: &[f64], values: &[f64]) -> Vec<f64> {
     powers
 }
 
-/// Derivatives at the end of a segment from a place on an edge into a patch, by its length: from the order min(n − 1, 2) up to n. None where
-/// another line of knots is too near.
+/// Derivatives at the end of a segment from a place on an edge into a patch, by its length: from the order min(n − 1, 2) up to n. None
+/// where another line of knots is too near.
 fn at_edge(surface: &Spline, patch: usize, from: [f64; 2], direction: [f64; 2]) -> Option<Vec<[f64; 3]>> {
     let space = surface.space();
     let cross = |a: [f64; 2], b: [f64; 2]| a[0] * b[1] - a[1] * b[0];

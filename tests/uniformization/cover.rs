@@ -73,10 +73,10 @@ fn copies_within_a_radius_are_those_of_any_word_length() {
     }
 }
 
-/// Copies γ D and γ s D, s the element of a side, share that side: vertex for vertex, the two placed independently of each other, the one by
-/// γ's word, the other by that of γ s. In the Poincaré disk, where copies are drawn; and by hyperbolic distance as far as
-/// isometries of twice the digits tell points apart there (up to e^33 from the base, 1e-8 is 1e-30 of the products). A wrong corner
-/// of the side's triangle is far away by that distance.
+/// Copies γ D and γ s D, s the element of a side, share that side: vertex for vertex, the two placed independently of each other, the one
+/// by γ's word, the other by that of γ s. In the Poincaré disk, where copies are drawn; and by hyperbolic distance as far as isometries of
+/// twice the digits tell points apart there (up to e^33 from the base, 1e-8 is 1e-30 of the products). A wrong corner of the side's
+/// triangle is far away by that distance.
 #[test]
 fn shared_sides_coincide() {
     let mut random = Random::new(9);

@@ -39,8 +39,8 @@ fn the_modulus_of_the_torus_of_revolution_converges() {
     assert!(errors[0] / errors[1] > 3.5 && errors[1] / errors[2] > 3.5 && errors[2] < 3e-3, "{errors:?}");
 }
 
-/// The Bolza surface: the Dirichlet domain of the octagon's centre is the octagon, whose side pairings have |tr| = 2(1 + √2), the systole's;
-/// every trace is 2(m + n√2) with whole m, n.
+/// The Bolza surface: the Dirichlet domain of the octagon's centre is the octagon, whose side pairings have |tr| = 2(1 + √2), the
+/// systole's; every trace is 2(m + n√2) with whole m, n.
 #[test]
 fn the_bolza_surface_has_its_octagon_and_its_traces() {
     for level in [0, 2, 3] {

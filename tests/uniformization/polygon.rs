@@ -61,8 +61,8 @@ fn dirichlet_domains_meet_the_conditions_of_the_polygon_theorem() {
     }
 }
 
-/// Interior angle at corner k, between the lines of the sides that meet there: bisectors of the centre and its images (corners as doubles say
-/// little of the direction of a short side).
+/// Interior angle at corner k, between the lines of the sides that meet there: bisectors of the centre and its images (corners as doubles
+/// say little of the direction of a short side).
 fn corner_angle(space: Space, d: &DirichletDomain, k: usize) -> f64 {
     let dot = |a: [Twofold; 3], b: [Twofold; 3]| match space {
         Space::E2 => a[0] * b[0] + a[1] * b[1],

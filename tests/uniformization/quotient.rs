@@ -284,8 +284,8 @@ fn refinements_lie_in_the_layout() {
     }
 }
 
-/// A surface with geodesic boundary is laid out from its double: the given half alone, every piece the right way round, closed where it is not
-/// cut; and the boundary is straight: at each of its vertices the pieces' angles add up to π.
+/// A surface with geodesic boundary is laid out from its double: the given half alone, every piece the right way round, closed where it is
+/// not cut; and the boundary is straight: at each of its vertices the pieces' angles add up to π.
 #[test]
 fn the_given_half_of_a_double_is_laid_out() {
     let torus = ricci::mesh::shapes::torus(2.0, 0.8, 24, 14).unwrap();

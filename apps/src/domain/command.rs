@@ -117,7 +117,8 @@ fn options(args: &CirclesArgs) -> CircleDomainOptions {
     CircleDomainOptions { outer: args.outer, normalisation, least_loop: args.least_loop, flow }
 }
 
-/// Write every file that was asked for, the report last; returns their names and the figures. One that cannot be made keeps none of the others back.
+/// Write every file that was asked for, the report last; returns their names and the figures. One that cannot be made keeps none of the
+/// others back.
 fn write(
     args: &CirclesArgs,
     input: &Input,

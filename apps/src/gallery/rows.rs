@@ -11,13 +11,13 @@ const PICTURES: &str = include_str!("rows.txt");
 /// The figures of the paper, a line each.
 const FIGURES: &str = include_str!("figures.txt");
 
-/// One picture. In the command lines `{}` stands for the surface's file, `{spline}` for a spline's, `{other}` for a second surface's and `{=NAME}` for that of a
-/// mesh of the corpus.
+/// One picture. In the command lines `{}` stands for the surface's file, `{spline}` for a spline's, `{other}` for a second surface's and
+/// `{=NAME}` for that of a mesh of the corpus.
 pub struct Row {
     pub name: &'static str,
     pub source: Source,
-    /// `flow …`, `uniformize …`, `cover …`, `circles …`, `harmonic …`, `forms …`, `structure …`, `match …`, `spline …` or `info …`, or such commands with ` && ` between them, of which the last one draws; for
-    /// what `make` draws itself nothing.
+    /// `flow …`, `uniformize …`, `cover …`, `circles …`, `harmonic …`, `forms …`, `structure …`, `match …`, `spline …` or `info …`, or such
+    /// commands with ` && ` between them, of which the last one draws; for what `make` draws itself nothing.
     pub draw: &'static str,
     pub about: &'static str,
 }

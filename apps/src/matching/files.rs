@@ -31,7 +31,8 @@ pub fn write_moved(outputs: &mut Outputs, path: &Path, input: &Input, found: &Fo
     write_textured(outputs, path, &data)
 }
 
-/// The source with the target's texture coordinates. Where these have seams, each vertex takes those of the face of the target that it lies in.
+/// The source with the target's texture coordinates. Where these have seams, each vertex takes those of the face of the target that it lies
+/// in.
 pub fn write_carried(
     outputs: &mut Outputs,
     path: &Path,

@@ -137,8 +137,8 @@ fn in_plane(space: Space, triangles: &[DomainTriangle]) -> Vec<[[f64; 2]; 3]> {
     triangles.iter().map(|t| t.corners.map(plane)).collect()
 }
 
-/// The source in colours: the distance of every vertex's image from the vertex of the same number where numbers correspond, else how much the
-/// map distorts every face.
+/// The source in colours: the distance of every vertex's image from the vertex of the same number where numbers correspond, else how much
+/// the map distorts every face.
 fn heat(input: &Input, found: &Found, args: &MatchArgs) -> Result<Vec<u8>, Failure> {
     let Some(positions) = input.positions() else { return Err(no_positions()) };
     let mesh = input.mesh();

@@ -52,8 +52,8 @@ pub struct CanonicalArgs {
     #[command(flatten)]
     #[serde(flatten)]
     pub to: MetricArgs,
-    /// The vertex (numbered from 0) at the origin, where the loops of the generators meet [default: one from which no vertex is far]; of a sphere, the one
-    /// that is sent to infinity on the way [default: one from which sizes differ least]
+    /// The vertex (numbered from 0) at the origin, where the loops of the generators meet [default: one from which no vertex is far]; of a
+    /// sphere, the one that is sent to infinity on the way [default: one from which sizes differ least]
     #[arg(long, value_name = "VERTEX")]
     #[serde(skip)]
     pub base: Option<u32>,
@@ -91,7 +91,8 @@ pub struct UniformizeArgs {
 pub struct CoverArgs {
     #[command(flatten)]
     pub canonical: CanonicalArgs,
-    /// Copies of word length N at most, which leave gaps beside the first where words are longer [default: every copy that touches the domain]
+    /// Copies of word length N at most, which leave gaps beside the first where words are longer [default: every copy that touches the
+    /// domain]
     #[arg(long, value_name = "N", conflicts_with = "radius", value_parser = clap::value_parser!(u16).range(0..=64))]
     pub depth: Option<u16>,
     /// Instead: copies whose base point is this far from the base point at most

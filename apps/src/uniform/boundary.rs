@@ -12,13 +12,13 @@ use std::str::FromStr;
 /// What the boundary becomes, and which closed geodesics are measured.
 #[derive(Args, Serialize, Debug, Clone)]
 pub struct BoundaryArgs {
-    /// What the boundary becomes: closed geodesics in the hyperbolic plane (χ < 0) or the plane (an annulus), or straight sides with corners in the
-    /// plane [default: geodesic; straight with --corners]
+    /// What the boundary becomes: closed geodesics in the hyperbolic plane (χ < 0) or the plane (an annulus), or straight sides with
+    /// corners in the plane [default: geodesic; straight with --corners]
     #[arg(long, value_enum)]
     #[serde(skip)]
     pub boundary: Option<BoundaryChoice>,
-    /// Corners of a straight boundary, vertices V,V,… (numbered from 0), the angle inside in degrees as V:ANGLE; or how many, placed where the
-    /// boundary turns [default: 4 on a disk, none on an annulus]
+    /// Corners of a straight boundary, vertices V,V,… (numbered from 0), the angle inside in degrees as V:ANGLE; or how many, placed where
+    /// the boundary turns [default: 4 on a disk, none on an annulus]
     #[arg(long, value_name = "CORNERS", long_help = CORNERS_HELP)]
     #[serde(skip)]
     pub corners: Option<CornersChoice>,

@@ -4,7 +4,8 @@ use crate::files::parse_obj;
 use crate::run::Place;
 use crate::surfaces::{genus_two, hill};
 
-/// With `--on input` the file has the input's own vertices and faces, in order; the faces around an edge that is no seam share their points.
+/// With `--on input` the file has the input's own vertices and faces, in order; the faces around an edge that is no seam share their
+/// points.
 #[test]
 fn the_inputs_own_faces_are_written_on_request() {
     let place = Place::new();

@@ -14,7 +14,8 @@ pub(super) struct HubEdge {
     pub eta: f64,
     /// Whether the ends are hubs.
     pub is_hub: [bool; 2],
-    /// The position of each end is this times its vector: `e^u` in E², negative for a hub whose circle has the surface inside; `2 e^u/d` in H².
+    /// The position of each end is this times its vector: `e^u` in E², negative for a hub whose circle has the surface inside; `2 e^u/d` in
+    /// H².
     pub scale: [f64; 2],
 }
 

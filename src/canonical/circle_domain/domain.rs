@@ -32,7 +32,8 @@ pub struct CircleReport {
     pub iterations: usize,
     /// Flips on the way to the result, isometric ones before the flow included.
     pub flips: usize,
-    /// Largest |K| over hubs and vertices of the flow's last metric, radians; in the plane seen from the puncture without that and its link.
+    /// Largest |K| over hubs and vertices of the flow's last metric, radians; in the plane seen from the puncture without that and its
+    /// link.
     pub max_curvature_error: f64,
     /// Largest |K| of [`CircleDomain::metric`], measured from its variables, at all vertices but those of the outer loop, radians.
     pub domain_curvature_error: f64,
@@ -55,11 +56,12 @@ pub struct CircleDomain {
     pub split: Split,
     /// That surface with a hub in each loop.
     pub filled: Filled,
-    /// The metric on the filled surface, flat or hyperbolic, and the way back. Of a planar domain in the unit disk, that of the disk: the outer
-    /// hub has its circle from outside, so that the faces at it do not lie in the plane as they should, and K at its loop means nothing.
+    /// The metric on the filled surface, flat or hyperbolic, and the way back. Of a planar domain in the unit disk, that of the disk: the
+    /// outer hub has its circle from outside, so that the faces at it do not lie in the plane as they should, and K at its loop means
+    /// nothing.
     pub metric: Solution,
-    /// The surface without its holes, on the common refinement of the surface of `split` and the metric's triangulation. In E² of a torus it has the area of the
-    /// given surface.
+    /// The surface without its holes, on the common refinement of the surface of `split` and the metric's triangulation. In E² of a torus
+    /// it has the area of the given surface.
     pub layout: Layout,
     /// The circles, loop by loop.
     pub circles: Vec<DomainCircle>,
@@ -74,8 +76,8 @@ pub struct CircleDomain {
 }
 
 impl CircleDomain {
-    /// The loops whose circles overlap another one, ascending: between two hubs of the triangulation η is 1 or less. Where two disks overlap there is such
-    /// an edge, because the union of the disks has the shape of the part of the triangulation whose disks meet.
+    /// The loops whose circles overlap another one, ascending: between two hubs of the triangulation η is 1 or less. Where two disks
+    /// overlap there is such an edge, because the union of the disks has the shape of the part of the triangulation whose disks meet.
     pub fn overlapping(&self) -> Vec<usize> {
         let (mesh, eta) = (self.metric.mesh(), &self.metric.metric().eta);
         let mut all: Vec<usize> = hub_pairs(mesh, &self.filled)

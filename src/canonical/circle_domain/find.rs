@@ -12,8 +12,8 @@ use crate::parallel::Pool;
 /// How often loops whose circles overlap are halved edge by edge.
 const ROUNDS: usize = 4;
 
-/// A surface with boundary as a circle domain: of genus 0 in the unit disk, whose circle is one of the loops; of genus 1 in a flat torus; of
-/// more in a hyperbolic surface.
+/// A surface with boundary as a circle domain: of genus 0 in the unit disk, whose circle is one of the loops; of genus 1 in a flat torus;
+/// of more in a hyperbolic surface.
 ///
 /// Where circles overlap, because loops with few edges lie close together, the edges of these loops are halved and all is done again.
 /// The result is the same for any number of threads.

@@ -11,8 +11,8 @@ pub const LEAST_LOOP: usize = 12;
 /// How the unit disk of a planar domain is moved onto itself at the end.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub enum Normalisation {
-    /// Two loops: both circles about 0. Else, the barycentre of the area at 0 ([`crate::geometry::disk_barycentre`]), in weights of one third of
-    /// the area of the given faces at each vertex. The first vertex of the outer loop lies at 1.
+    /// Two loops: both circles about 0. Else, the barycentre of the area at 0 ([`crate::geometry::disk_barycentre`]), in weights of one
+    /// third of the area of the given faces at each vertex. The first vertex of the outer loop lies at 1.
     #[default]
     Centred,
     /// This vertex of the given surface at 0, and the first vertex of the outer loop at 1; a vertex of the outer loop cannot lie at 0.
@@ -24,7 +24,8 @@ pub enum Normalisation {
 /// Options of [`super::circle_domain()`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct CircleDomainOptions {
-    /// Of a surface of genus 0, the loop that becomes the unit circle, by its place in [`crate::mesh::Mesh::boundary_loops`]. Default: the longest.
+    /// Of a surface of genus 0, the loop that becomes the unit circle, by its place in [`crate::mesh::Mesh::boundary_loops`]. Default: the
+    /// longest.
     pub outer: Option<usize>,
     /// Of a surface of genus 0.
     pub normalisation: Normalisation,

@@ -1,4 +1,5 @@
-//! Both triangulations as one planar graph on the surface: vertices of either, crossings, the parts of edges between them, and their order around every vertex.
+//! Both triangulations as one planar graph on the surface: vertices of either, crossings, the parts of edges between them, and their order
+//! around every vertex.
 
 use super::super::cover::Placed;
 use super::stand::{At, Settled};

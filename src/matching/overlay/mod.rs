@@ -1,10 +1,10 @@
 //! The common refinement of source and target in the domain where they were matched.
 //!
-//! Edges of both are straight in the domain, so a face of the source and one of the target have convex pieces in common. The edges of the source are
-//! traced through the target, the vertices of both, the crossings and the parts of edges make a planar graph, and the faces of this graph are the
-//! pieces. All decisions are signs of determinants with twice the digits of doubles. So that none of these is 0, or smaller than the gaps that rounding leaves
-//! between copies of the domain, vertices of the source are first moved aside by next to nothing; boundaries, which lie on each other, and common vertices
-//! are treated as such.
+//! Edges of both are straight in the domain, so a face of the source and one of the target have convex pieces in common. The edges of the
+//! source are traced through the target, the vertices of both, the crossings and the parts of edges make a planar graph, and the faces of
+//! this graph are the pieces. All decisions are signs of determinants with twice the digits of doubles. So that none of these is 0, or
+//! smaller than the gaps that rounding leaves between copies of the domain, vertices of the source are first moved aside by next to
+//! nothing; boundaries, which lie on each other, and common vertices are treated as such.
 
 mod arcs;
 mod opened;
@@ -87,12 +87,13 @@ impl CommonDomain {
         mesh.faces().map(of).collect()
     }
 
-    /// The triangulations laid over each other: the map is projective on every triangle of it. The source's vertices come to lie where the matching has
-    /// them, but for less than 1e-5, mostly 1e-11, of the height of the triangles there. `threads`: 0 for one per core; the result does not depend on it.
+    /// The triangulations laid over each other: the map is projective on every triangle of it. The source's vertices come to lie where the
+    /// matching has them, but for less than 1e-5, mostly 1e-11, of the height of the triangles there. `threads`: 0 for one per core; the
+    /// result does not depend on it.
     ///
     /// # Errors
-    /// [`crate::Error::Matching`] where triangles are so thin that what lies on which side of what cannot be told; [`crate::Error::TooLarge`];
-    /// [`crate::Error::Cancelled`].
+    /// [`crate::Error::Matching`] where triangles are so thin that what lies on which side of what cannot be told;
+    /// [`crate::Error::TooLarge`]; [`crate::Error::Cancelled`].
     pub fn overlay(&self, threads: usize, control: &Control) -> Result<Overlay> {
         control.check()?;
         within(threads, || {

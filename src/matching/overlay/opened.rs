@@ -13,8 +13,8 @@ pub(super) struct Opened {
     pub crossed: Vec<HalfedgeId>,
 }
 
-/// From the face of a half-edge: first what shares its frame, then, next to what is there already, the part whose frame is moved least. A surface that is
-/// opened along a cut stays as it is; one whose faces have a frame each grows about the first.
+/// From the face of a half-edge: first what shares its frame, then, next to what is there already, the part whose frame is moved least. A
+/// surface that is opened along a cut stays as it is; one whose faces have a frame each grows about the first.
 pub(super) fn opened(placed: &Placed, from: HalfedgeId) -> Opened {
     let (mesh, cover) = (&placed.cover.mesh, &placed.cover);
     let mut homes: Vec<Option<Motion<Twofold>>> = vec![None; mesh.n_faces()];

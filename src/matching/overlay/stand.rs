@@ -1,4 +1,5 @@
-//! Where the vertices of one triangulation stand in another one, exactly as far as digits go: inside a face, on a side at the boundary or at a vertex.
+//! Where the vertices of one triangulation stand in another one, exactly as far as digits go: inside a face, on a side at the boundary or
+//! at a vertex.
 
 use super::super::cover::{Placed, Precise, aimed, determinant, logarithm, moved};
 use super::super::walk::{Found, Seed, located};
@@ -8,7 +9,8 @@ use crate::error::{Error, Result};
 use crate::geometry::{Motion, Twofold};
 use crate::mesh::{FaceId, HalfedgeId, PerVertex, Place, VertexId};
 
-/// Share of the least height of its triangles by which a vertex is moved aside at least, so that no three points that are told apart lie on one line.
+/// Share of the least height of its triangles by which a vertex is moved aside at least, so that no three points that are told apart lie on
+/// one line.
 const ASIDE: f64 = 1e-12;
 /// The same as a multiple of the largest gap between copies of the domain: what is told by one copy then holds for the others.
 const GAPS: f64 = 1e3;
@@ -123,8 +125,8 @@ fn gap(placed: &Placed) -> f64 {
     inner.filter_map(of).fold(0.0, f64::max)
 }
 
-/// Both triangulations with their vertices in each other. The source's vertices are moved aside by next to nothing, or to vertices of the target
-/// that they are next to nothing away from; those of the target that have one there have no standing.
+/// Both triangulations with their vertices in each other. The source's vertices are moved aside by next to nothing, or to vertices of the
+/// target that they are next to nothing away from; those of the target that have one there have no standing.
 pub(super) struct Settled {
     pub source: Placed,
     pub forward: Vec<Standing>,

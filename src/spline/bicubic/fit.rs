@@ -10,8 +10,8 @@ use crate::spline::surface::Spline;
 const LEAST_TOLERANCE: f64 = 1e-10;
 
 impl Spline {
-    /// Bicubic patches that are within a tolerance of the spline and meet without gaps, three per patch of the spline, with as many spans as
-    /// that takes.
+    /// Bicubic patches that are within a tolerance of the spline and meet without gaps, three per patch of the spline, with as many spans
+    /// as that takes.
     ///
     /// # Errors
     /// [`Error::Argument`] for options out of range; [`Error::Spline`] for a patch that 128 spans along each side do not bring within the

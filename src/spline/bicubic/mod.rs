@@ -5,8 +5,8 @@
 //! difference quotients of the spline, turned into tangent planes that neighbours have in common. A side's curve is made once, from the
 //! side's own points, and both neighbours have its control points; corners likewise.
 //!
-//! Spans go on across opposite sides of quadrilaterals, and so around one vertex of the triangles: quadrilaterals between the vertices a and
-//! b of a side have as many spans along it near a as b asks for. So every vertex has a number of its own, and the patches are refined
+//! Spans go on across opposite sides of quadrilaterals, and so around one vertex of the triangles: quadrilaterals between the vertices a
+//! and b of a side have as many spans along it near a as b asks for. So every vertex has a number of its own, and the patches are refined
 //! where they miss the spline without a seam anywhere.
 //!
 //! The exact way, three patches of bidegree (n, n) for each polynomial, is open to Bézier triangles alone: `docs/results/splines-step.md`.

@@ -1,6 +1,7 @@
 //! The three quadrilaterals of a patch, and their coordinates.
 //!
-//! What stands below as s and t is a function of the grid's coordinates σ and τ, s = σ (1 + 3 σ)/4 and t likewise, but along sides at a singular vertex.
+//! What stands below as s and t is a function of the grid's coordinates σ and τ, s = σ (1 + 3 σ)/4 and t likewise, but along sides at a
+//! singular vertex.
 //!
 //! ```text
 //!              C₂                 Quadrilateral k has the corners C_k, the middle of side k, the centroid, and the
@@ -11,10 +12,10 @@
 //!        C₀----M₀---C₁                u = s a(t) + t b(s) − s t D,   a(t) from M_k to G, b(s) from M_{k−1} to G, D = u(G)
 //! ```
 //!
-//! [Coo67], and bilinear in the chart. Around a singular vertex with the total angle 2πm the surface is smooth in w = z^{1/m}: there
-//! u = w, so that the sides at the vertex are rays on which |w| grows linearly, and a(t), b(s) are the images of straight segments. Where that patch
-//! turns over or leaves the triangle, M and G are chosen nearer to the vertex ([`super::split`]); where no choice helps, the place is the bilinear one
-//! times (s + t − s t)^{m−1}: the same on all four sides.
+//! [Coo67], and bilinear in the chart. Around a singular vertex with the total angle 2πm the surface is smooth in w = z^{1/m}: there u = w,
+//! so that the sides at the vertex are rays on which |w| grows linearly, and a(t), b(s) are the images of straight segments. Where that
+//! patch turns over or leaves the triangle, M and G are chosen nearer to the vertex ([`super::split`]); where no choice helps, the place is
+//! the bilinear one times (s + t − s t)^{m−1}: the same on all four sides.
 
 use crate::geometry::complex::{Complex, add, conj, cross, mul, norm, norm2, scale, sub, unit};
 use crate::spline::patch::Parameter;
@@ -97,8 +98,8 @@ impl PatchQuad {
         self.is_coons
     }
 
-    /// The place of (s, t): in the chart of the filling around a singular vertex, as far as that alone is the surface. There z = wᵐ is so small that its
-    /// digits would be lost beside the coordinates of the corner.
+    /// The place of (s, t): in the chart of the filling around a singular vertex, as far as that alone is the surface. There z = wᵐ is so
+    /// small that its digits would be lost beside the coordinates of the corner.
     pub fn place(&self, at: [f64; 2]) -> Parameter {
         let local = self.local(at);
         let in_filling = self.filled.map(|filled| (filled, mul(filled.scale, root(local, self.turns))));
@@ -146,7 +147,8 @@ impl PatchQuad {
         (0..CELLS).all(|i| (0..CELLS).all(|j| is_upright(i, j) && is_inside(at(i + 1, j + 1))))
     }
 
-    /// The grid's coordinates in the quadrilateral. Sides at a singular vertex stay even: no knots lie near it, its filling is as smooth as elsewhere.
+    /// The grid's coordinates in the quadrilateral. Sides at a singular vertex stay even: no knots lie near it, its filling is as smooth as
+    /// elsewhere.
     fn dense(&self, [s, t]: [f64; 2]) -> [f64; 2] {
         if self.turns == 1 {
             return [dense(s), dense(t)];

@@ -16,8 +16,8 @@ use crate::spline::patch::Parameter;
 use crate::spline::point::SurfacePoint;
 use crate::spline::surface::Spline;
 
-/// Most spans along a side: a spline that needs more is rough or the tolerance is near its rounding errors. A distance that needs more is an error, an angle is
-/// reported.
+/// Most spans along a side: a spline that needs more is rough or the tolerance is near its rounding errors. A distance that needs more is
+/// an error, an angle is reported.
 const MOST_SPANS: usize = 128;
 /// Share of the tolerance that is used up: between the places of measurement distances were up to 15 % larger.
 const SHARE: f64 = 0.8;

@@ -1,8 +1,9 @@
 //! Where triangles of a spline are divided into quadrilaterals.
 //!
-//! Sides have their middle there, and triangles their centroid, but around singular vertices. There the surface is smooth in w = z^{1/m}, in which
-//! the middle of a side lies far out, and a triangle with a wide angle at the vertex has its opposite side bent towards it: the quadrilateral at
-//! the vertex would not be convex in w. Where one is not, all sides at that vertex are divided nearer to it, at the same share of |w|.
+//! Sides have their middle there, and triangles their centroid, but around singular vertices. There the surface is smooth in w = z^{1/m},
+//! in which the middle of a side lies far out, and a triangle with a wide angle at the vertex has its opposite side bent towards it: the
+//! quadrilateral at the vertex would not be convex in w. Where one is not, all sides at that vertex are divided nearer to it, at the same
+//! share of |w|.
 
 use super::patch_quad::{Division, PatchQuad, root};
 use crate::geometry::complex::{Complex, add, conj, mul, norm, scale, sub, unit};
@@ -10,9 +11,11 @@ use crate::spline::hole::Hole;
 use crate::spline::surface::Spline;
 use std::collections::HashMap;
 
-/// Shares of |w| at which sides at a singular vertex are divided where quadrilaterals from their middles are not sound, the first with which all are.
+/// Shares of |w| at which sides at a singular vertex are divided where quadrilaterals from their middles are not sound, the first with
+/// which all are.
 const SHARES: [f64; 5] = [0.8, 0.7, 0.6, 0.5, 0.4];
-/// How far on from the middle between the ends of its two sides to the opposite side a quadrilateral has its last corner: at the centroid, where m = 1.
+/// How far on from the middle between the ends of its two sides to the opposite side a quadrilateral has its last corner: at the centroid,
+/// where m = 1.
 const ONWARD: f64 = 1.0 / 3.0;
 
 /// Without singular vertices.
@@ -66,7 +69,8 @@ fn corners(spline: &Spline, hole: &Hole) -> Vec<(usize, usize)> {
     found
 }
 
-/// The division of a patch with a singular vertex at corner k; none where its opposite side comes nearer to this than the ends of the quadrilateral's sides.
+/// The division of a patch with a singular vertex at corner k; none where its opposite side comes nearer to this than the ends of the
+/// quadrilateral's sides.
 fn at_vertex(spline: &Spline, (patch, k): (usize, usize), share: f64, turns: i32) -> Option<Division> {
     let knots = &spline.space().patches()[patch].knots;
     let [a, b, c] = [0, 1, 2].map(|j| knots[(k + j) % 3][0]);

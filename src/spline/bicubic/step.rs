@@ -36,8 +36,8 @@ pub struct StepOptions {
 }
 
 impl BicubicSurface {
-    /// Write the patches as STEP AP242: each part that closes up as a solid, with normals outwards, the others as shells of one surface model.
-    /// The same patches give the same bytes.
+    /// Write the patches as STEP AP242: each part that closes up as a solid, with normals outwards, the others as shells of one surface
+    /// model. The same patches give the same bytes.
     ///
     /// # Errors
     /// Those of [`BicubicSurface::check`]; [`Error::Io`], without a path, where `out` takes no more.

@@ -29,7 +29,8 @@ pub struct PatchSide {
 /// A bicubic B-spline patch over [0, 1]²; its normal is ∂s × ∂t.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BicubicPatch {
-    /// The patch of the spline that it is a third of, and at which corner; numbers after those of the patches are the triangles around a vertex at infinity.
+    /// The patch of the spline that it is a third of, and at which corner; numbers after those of the patches are the triangles around a
+    /// vertex at infinity.
     pub source: (u32, usize),
     /// Clamped knots in s and in t.
     pub knots: [Vec<f64>; 2],
