@@ -6,29 +6,10 @@ use ricci::geometry::Space;
 use ricci::mesh::VertexId;
 use ricci::mesh::shapes;
 use ricci::{Class, Control, Surface, Target};
-use std::alloc::{GlobalAlloc, Layout, System};
-use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Counts bytes that are asked for.
-struct Counting;
-
-static BYTES: AtomicUsize = AtomicUsize::new(0);
-
-// SAFETY: forwards to the system allocator; the counter does not allocate.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        BYTES.fetch_add(layout.size(), Ordering::Relaxed);
-        // SAFETY: the caller's contract is the same.
-        unsafe { System.alloc(layout) }
-    }
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        // SAFETY: the caller's contract is the same.
-        unsafe { System.dealloc(pointer, layout) }
-    }
-}
-
-#[global_allocator]
-static ALLOCATOR: Counting = Counting;
+#[allow(dead_code)]
+#[path = "../benches/common/heap.rs"]
+mod heap;
 
 /// Bytes per vertex that a later solve may ask for: a solution with its target and triangulation has about 400 (and 1,000 more were asked
 /// for when the states and vectors of a solve were new each time).
@@ -46,11 +27,9 @@ fn later_solves_allocate_little_but_what_they_return() {
     let taken: Vec<usize> = (0..4)
         .map(|k| {
             let target = Target::Cones(vec![(VertexId(k), 0.3), (VertexId(k + 40), -0.3)]);
-            let before = BYTES.load(Ordering::Relaxed);
-            let solution = flow.solve(&target, &control).unwrap();
-            let taken = (BYTES.load(Ordering::Relaxed) - before) / n;
+            let (taken, solution) = heap::asked(|| flow.solve(&target, &control).unwrap());
             assert!(solution.report().unwrap().converged());
-            taken
+            taken / n
         })
         .collect();
     println!("bytes per vertex: {taken:?}");

@@ -1,13 +1,14 @@
-//! Peak of the heap during some work.
+//! What some work asks of the heap: its peak, and bytes.
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Counts live and peak bytes.
+/// Counts bytes: live ones, their peak, and all that are asked for.
 struct Counting;
 
 static LIVE: AtomicUsize = AtomicUsize::new(0);
 static PEAK: AtomicUsize = AtomicUsize::new(0);
+static ASKED: AtomicUsize = AtomicUsize::new(0);
 /// Not counted: the matrix products under the factorisation reserve 960 MiB of address space once per thread, of which
 /// they touch a few (resident memory shows it).
 const RESERVATION: usize = 960 << 20;
@@ -17,6 +18,7 @@ impl Counting {
         if size < RESERVATION {
             let live = LIVE.fetch_add(size, Ordering::Relaxed) + size;
             PEAK.fetch_max(live, Ordering::Relaxed);
+            ASKED.fetch_add(size, Ordering::Relaxed);
         }
     }
 }
@@ -48,6 +50,13 @@ static ALLOCATOR: Counting = Counting;
 /// Bytes that are live.
 pub fn live() -> usize {
     LIVE.load(Ordering::Relaxed)
+}
+
+/// The result of `work` and the bytes that it asks for, whether they are given back or not.
+pub fn asked<R>(work: impl FnOnce() -> R) -> (usize, R) {
+    let before = ASKED.load(Ordering::Relaxed);
+    let result = work();
+    (ASKED.load(Ordering::Relaxed) - before, result)
 }
 
 /// The result of `work` and the most bytes that were live meanwhile, those that were live before included.
