@@ -1,8 +1,9 @@
 //! The thread pool of one call, and loops whose result does not depend on how many threads run them.
 //!
 //! The library never touches rayon's global pool: each solver owns its own, and everything parallel runs
-//! inside [`Pool::run`], through the loops of this module. A pool of one thread is the caller's own: none is started. A loop writes each element from one fixed computation, so results are bit-identical
-//! for any thread count.
+//! inside [`Pool::run`], through the loops of this module. A pool of one thread is the caller's own: none is
+//! started. A loop writes each element from one fixed computation, so results are bit-identical for any thread
+//! count.
 //!
 //! ```
 //! use ricci::parallel::{Pool, fill};
@@ -24,6 +25,9 @@ const CHUNK: usize = 1024;
 
 /// Most threads of a pool. No step of the library is divided finely enough for more to be of use.
 pub const MAX_THREADS: usize = 256;
+
+/// Bytes that a thread takes to start: its stack of 2 MiB, and what the C library notes about it, for which it may take 1 MiB at once.
+const THREAD: usize = 3 << 20;
 
 thread_local! {
     /// This thread runs the work of a pool that has no other.
@@ -52,6 +56,10 @@ impl Pool {
         if threads == 1 {
             return Ok(Pool { pool: None, workers: Vec::new(), threads });
         }
+        let refused = || Error::argument("threads", threads, "as many as the system can start");
+        if !is_room_for(threads * THREAD) {
+            return Err(refused());
+        }
         let mut workers = Vec::new();
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(threads)
@@ -61,7 +69,7 @@ impl Pool {
                 Ok(())
             })
             .build()
-            .map_err(|_| Error::argument("threads", threads, "as many as the system can start"))?;
+            .map_err(|_| refused())?;
         Ok(Pool { threads: pool.current_num_threads(), pool: Some(pool), workers })
     }
 
@@ -77,6 +85,15 @@ impl Pool {
             None => alone(work),
         }
     }
+}
+
+/// Whether the allocator has so many bytes. One that holds memory in reserve, as that of the C face does, then gives it back: the C
+/// library, which ends the process if it finds no memory for a new thread's notes, does not ask for it.
+fn is_room_for(bytes: usize) -> bool {
+    let mut room = Vec::<u8>::new();
+    let is_there = room.try_reserve_exact(bytes).is_ok();
+    std::hint::black_box(&room);
+    is_there
 }
 
 /// Run `work` on this thread, nothing of it on others.
@@ -177,13 +194,10 @@ fn in_chunks<C: Send>(chunks: impl ExactSizeIterator<Item = C>, work: impl Fn(us
     share(chunks.len(), &|c| work(c, &mut chunks[c].lock().unwrap_or_else(PoisonError::into_inner)));
 }
 
-/// `work(c)` for every c below `n`. The machinery of rayon is compiled here, once for all loops.
+/// `work(c)` for every c below `n`, by all threads of the pool that this one belongs to. The machinery of rayon is compiled here, once for
+/// all loops.
 fn share(n: usize, work: &(dyn Fn(usize) + Sync)) {
-    if n > 1 && is_shared() {
-        (0..n).into_par_iter().for_each(work);
-    } else {
-        (0..n).for_each(work);
-    }
+    (0..n).into_par_iter().for_each(work);
 }
 
 #[cfg(test)]
