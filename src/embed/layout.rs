@@ -15,7 +15,7 @@
 //! ```
 
 use super::pieces::Pieces;
-use super::shape::{Shape, extent};
+use super::shape::{Shape, Standing, extent, is_surely_upright};
 use crate::error::{Error, Result};
 use crate::geometry::complex::norm;
 use crate::geometry::model::{distance as hyperbolic_distance, klein, poincare};
@@ -32,18 +32,18 @@ use std::sync::Arc;
 
 /// Relative rounding error of one step of a development: a direction is turned by an angle and made a unit vector again, a few ulp.
 const STEP_ROUNDING: f64 = 4.0 * f64::EPSILON;
-/// Distance in H² by which the two sides of a seam may differ however exact the metric is: copies of the layout need to meet no better, in a
-/// cover that is drawn or written in doubles.
+/// Distance in H² by which the two sides of a seam may differ however exact the metric is: copies of the layout need to meet no better, in
+/// a cover that is drawn or written in doubles.
 pub const MEETING: f64 = 1e-8;
 
 /// A surface, opened along a cut, in the model space of its metric: E², H² or S². Orientation is the surface's (of a sphere seen from
 /// outside).
 ///
-/// What is laid out is [`Layout::mesh`]: the metric's own triangulation, or a common refinement of it with the surface as it came. Then
-/// a *piece*, a triangle of the refinement, lies in its *final face*, a triangle of the metric's: its corners are the combinations of the
-/// face's corners, as vectors, that the refinement names, brought back to the plane, the hyperboloid or the sphere. So the map from the input
-/// is projective on every piece: with the homogeneous weights q of its corners ([`Refinement::weight`]) and their ambient coordinates P it
-/// is q P that is linear.
+/// What is laid out is [`Layout::mesh`]: the metric's own triangulation, or a common refinement of it with the surface as it came. Then a
+/// *piece*, a triangle of the refinement, lies in its *final face*, a triangle of the metric's: its corners are the combinations of the
+/// face's corners, as vectors, that the refinement names, brought back to the plane, the hyperboloid or the sphere. So the map from the
+/// input is projective on every piece: with the homogeneous weights q of its corners ([`Refinement::weight`]) and their ambient coordinates
+/// P it is q P that is linear.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layout {
     /// The space.
@@ -57,7 +57,8 @@ pub struct Layout {
     /// Ambient coordinates `[x, y, w]` of the vertices of the opened surface: of the plane `w = 1`, of the hyperboloid
     /// `w² = 1 + x² + y²` ([`crate::geometry::model`] has other models), of the unit sphere `x² + y² + w² = 1`.
     pub points: Vec<[f64; 3]>,
-    /// Plane coordinates of these vertices: in E² their own, in H² of the Poincaré disk, in S² by stereographic projection from the south pole.
+    /// Plane coordinates of these vertices: in E² their own, in H² of the Poincaré disk, in S² by stereographic projection from the south
+    /// pole.
     pub coordinates: Vec<[f64; 2]>,
     /// One seam per segment of the cut, in the same order.
     pub seams: Vec<Seam>,
@@ -66,11 +67,11 @@ pub struct Layout {
     pub flipped: Vec<FaceId>,
     /// Triangles of a refinement whose area differs from zero by no more than this.
     pub degenerate: Vec<FaceId>,
-    /// Triangles in final faces whose lengths break the triangle inequality, ascending: they are laid out with angles (π, 0, 0), and the layout
-    /// does not represent the metric there.
+    /// Triangles in final faces whose lengths break the triangle inequality, ascending: they are laid out with angles (π, 0, 0), and the
+    /// layout does not represent the metric there.
     pub broken: Vec<FaceId>,
-    /// Largest distance between where a face has its corner and where the corner lies, also across the cut by the seams' pairings: how far the
-    /// metric is from constant curvature off the cones, and rounding, both magnified by e^radius in H². See [`Layout::consistency`].
+    /// Largest distance between where a face has its corner and where the corner lies, also across the cut by the seams' pairings: how far
+    /// the metric is from constant curvature off the cones, and rounding, both magnified by e^radius in H². See [`Layout::consistency`].
     pub disagreement: f64,
     /// Largest difference between an edge as its face has it and as it lies, relative to the longest side of the final face.
     pub local_consistency: f64,
@@ -100,15 +101,16 @@ pub struct Layout {
 /// How the two sides of a segment of the cut lie to each other.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Seam {
-    /// The isometry that carries the opened surface onto its neighbour across the left side of the segment: the image of its right side onto
-    /// that of its left side.
+    /// The isometry that carries the opened surface onto its neighbour across the left side of the segment: the image of its right side
+    /// onto that of its left side.
     pub pairing: Motion<Twofold>,
-    /// The largest distance, at an edge of the segment, between this isometry and the edge's own: relative to the layout's diameter in E², a distance elsewhere.
+    /// The largest distance, at an edge of the segment, between this isometry and the edge's own: relative to the layout's diameter in E²,
+    /// a distance elsewhere.
     pub residual: f64,
 }
 
-/// Rotation in radians below which an isometry counts as a translation. Rounding of numbers with twice the digits leaves about 1e-30 on flat
-/// tori, whose sides are paired by translations, and positions in doubles show no rotation below 1e-16.
+/// Rotation in radians below which an isometry counts as a translation. Rounding of numbers with twice the digits leaves about 1e-30 on
+/// flat tori, whose sides are paired by translations, and positions in doubles show no rotation below 1e-16.
 const LEAST_ROTATION: f64 = 1e-24;
 
 impl Seam {
@@ -273,11 +275,11 @@ impl Layout {
         if self.space == Space::E2 { self.disagreement / self.diameter } else { self.disagreement }
     }
 
-    /// The largest [`Layout::consistency`] that rounding and curvature errors explain; these are given by the sum of their absolute values over
-    /// the vertices.
+    /// The largest [`Layout::consistency`] that rounding and curvature errors explain; these are given by the sum of their absolute values
+    /// over the vertices.
     pub fn consistency_limit(&self, curvature_errors: f64) -> f64 {
-        // A vertex with curvature error δ turns what lies beyond it by δ: in E² that moves it by at most δ of the diameter, in H² a point at
-        // distance r by sinh(r) δ.
+        // A vertex with curvature error δ turns what lies beyond it by δ: in E² that moves it by at most δ of the diameter, in H² a point
+        // at distance r by sinh(r) δ.
         let off = curvature_errors + STEP_ROUNDING * self.n_steps as f64;
         if self.space == Space::H2 { MEETING.max(self.radius.sinh() * off) } else { off }
     }
@@ -315,12 +317,19 @@ impl Layout {
             return;
         }
         let size = extent(&self.coordinates);
-        let mut shapes = vec![(Shape::default(), 0.0); mesh.n_faces()];
-        parallel::fill(&mut shapes, |f| self.shape(f.into(), size));
-        let faces =
-            |pick: fn(&(Shape, f64)) -> bool| mesh.faces().filter(|f| pick(&shapes[f.index()])).collect();
-        self.flipped = faces(|(shape, extent)| shape.is_flipped(*extent));
-        self.degenerate = faces(|(shape, extent)| shape.is_degenerate(*extent));
+        let mut standing = vec![Standing::Upright; mesh.n_faces()];
+        parallel::fill(&mut standing, |f| self.standing(f.into(), size));
+        let faces = |so: Standing| mesh.faces().filter(|f| standing[f.index()] == so).collect();
+        (self.flipped, self.degenerate) = (faces(Standing::Flipped), faces(Standing::Degenerate));
+    }
+
+    /// How a triangle lies; `size`: as [`Layout::shape`] has it.
+    fn standing(&self, f: FaceId, size: f64) -> Standing {
+        if self.space == Space::H2 && is_surely_upright(self.face_points(f)) {
+            return Standing::Upright;
+        }
+        let (shape, extent) = self.shape(f, size);
+        Standing::of(&shape, extent)
     }
 
     /// The shape of a triangle, and the size of the coordinates at which its corners have been rounded: in E² `size`, the one of the whole
@@ -352,11 +361,11 @@ pub(super) fn shape_of(corners: [[f64; 3]; 3], home: [[f64; 3]; 3]) -> (Shape, f
     (Shape::of(home.map(klein)), far)
 }
 
-/// Length, in diameters of the layout, below which the translation of a seam counts as none: the seam then leads to a vertex and back. It is far
-/// above the rounding of coordinates and far below an edge.
+/// Length, in diameters of the layout, below which the translation of a seam counts as none: the seam then leads to a vertex and back. It
+/// is far above the rounding of coordinates and far below an edge.
 const LEAST_PERIOD: f64 = 1e-9;
-/// Rotation in radians above which a side pairing shows that the surface has cones. It is far above the tolerance of a flow to curvature 0 and far
-/// below the curvature of a cone that somebody asked for.
+/// Rotation in radians above which a side pairing shows that the surface has cones. It is far above the tolerance of a flow to curvature 0
+/// and far below the curvature of a cone that somebody asked for.
 const TURNS: f64 = 1e-6;
 
 fn faces_where(mesh: &Mesh, is_so: impl Fn(FaceId) -> bool + Sync) -> Vec<FaceId> {

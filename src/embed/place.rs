@@ -46,9 +46,9 @@ pub fn layout(mesh: &Arc<Mesh>, lengths: &PerEdge<f64>, cut: &CutGraph, control:
 /// Lays a metric of constant curvature out in its space, outwards from `root` (default: a corner of the smallest triangle), with
 /// twice the digits of doubles, as deck groups need them: O(E log E).
 ///
-/// `cut`: where to open the surface; cones inside have to lie on it. `None`, for a surface without cones: faces are added by the distance of
-/// their far corner from the root, and the surface is opened where this growing disk meets itself. It is nearly a Dirichlet domain: small, and
-/// round about the root. A sphere is then not cut at all.
+/// `cut`: where to open the surface; cones inside have to lie on it. `None`, for a surface without cones: faces are added by the distance
+/// of their far corner from the root, and the surface is opened where this growing disk meets itself. It is nearly a Dirichlet domain:
+/// small, and round about the root. A sphere is then not cut at all.
 ///
 /// # Errors
 /// [`Error::Argument`] for a root that is no vertex; [`Error::Layout`] for a cut that does not leave a disk, a surface of several
@@ -104,8 +104,8 @@ pub(super) fn lay_out<F: Frame>(
 }
 
 impl<F: Frame> Development<'_, F> {
-    /// The layout of a development in which every piece was reached, opened along a cut of the pieces. Its flipped and degenerate triangles are not
-    /// found yet.
+    /// The layout of a development in which every piece was reached, opened along a cut of the pieces. Its flipped and degenerate triangles
+    /// are not found yet.
     fn layout(self, cut: CutGraph, control: &Control) -> Result<Layout> {
         let (mesh, faces, space) = (self.pieces.mesh(), self.faces, self.faces.space);
         let (corner_index, n_corners) = number_corners(mesh, &cut.is_cut);
@@ -120,10 +120,7 @@ impl<F: Frame> Development<'_, F> {
             ));
         }
         control.check()?;
-        let mut misses = vec![[0.0; 2]; self.frames.len()];
-        parallel::fill(&mut misses, |patch| self.misses(patch, |h| points[corner_index[h] as usize]));
-        let [apart, local_consistency] =
-            misses.iter().fold([0.0; 2], |[a, b], m| [worse(a, m[0]), worse(b, m[1])]);
+        let [apart, local_consistency] = self.most_misses(|h| points[corner_index[h] as usize]);
         let mut seams = cut.segments.iter().map(|s| self.seam(s)).collect::<Result<Vec<_>>>()?;
         let disagreement = seams.iter().fold(apart, |far, seam| worse(far, seam.residual));
         if space == Space::E2 {
@@ -160,6 +157,18 @@ impl<F: Frame> Development<'_, F> {
             remainders,
             coordinates,
         })
+    }
+
+    /// The largest of [`Development::misses`].
+    fn most_misses(&self, point: impl Fn(HalfedgeId) -> [f64; 3] + Sync) -> [f64; 2] {
+        let mut misses = vec![[0.0; 2]; self.frames.len()];
+        if self.pieces.refinement().is_some() {
+            parallel::fill(&mut misses, |patch| self.misses(patch, &point));
+        } else {
+            // Each face is a patch: their own order is that of the memory.
+            parallel::fill(&mut misses, |f| self.misses(self.patch[FaceId::from(f)] as usize, &point));
+        }
+        misses.iter().fold([0.0; 2], |[a, b], m| [worse(a, m[0]), worse(b, m[1])])
     }
 
     /// Of one patch: the largest distance between where its face has a corner and where that lies, and the largest difference of an edge

@@ -16,7 +16,7 @@
 use super::layout::{Layout, distance, shape_of};
 use super::overlap::Triangle;
 use super::pieces::CORNERS;
-use super::shape::{LEAST_SHARE, Shape, extent};
+use super::shape::{LEAST_SHARE, Shape, Standing, extent, is_surely_upright};
 use super::triangle::Triangle as PlaneTriangle;
 use crate::error::{Error, Result, check_size};
 use crate::geometry::complex::{conj, cross, doubled_area, mul, norm2, quick_norm, sub};
@@ -57,9 +57,9 @@ pub struct Quality {
 }
 
 impl Layout {
-    /// How the linear maps from the input's triangles, or their pieces, to those of the layout's plane coordinates distort; areas are those of
-    /// the space. `input`: the triangulation of the surface as it came (of a double: that or the surface's own) with the `lengths` of its
-    /// edges in E².
+    /// How the linear maps from the input's triangles, or their pieces, to those of the layout's plane coordinates distort; areas are those
+    /// of the space. `input`: the triangulation of the surface as it came (of a double: that or the surface's own) with the `lengths` of
+    /// its edges in E².
     ///
     /// A flipped face counts with the dilatation of its mirror image. Triangles that are degenerate on either side are named, and
     /// left out of the mean and the extremes.
@@ -76,8 +76,8 @@ impl Layout {
         })
     }
 
-    /// [`Layout::quality`] of the map that is linear on the faces of the surface as it came ([`Layout::on_input`]); `None` where the cut does
-    /// not run along its edges. `lengths`: of its edges in E².
+    /// [`Layout::quality`] of the map that is linear on the faces of the surface as it came ([`Layout::on_input`]); `None` where the cut
+    /// does not run along its edges. `lengths`: of its edges in E².
     ///
     /// # Errors
     /// [`Error::Size`], [`Error::EdgeLength`], [`Error::TriangleInequality`] of the lengths.
@@ -93,15 +93,16 @@ impl Layout {
         quality.map(Some)
     }
 
-    /// Whether a piece and its image have a shape to compare. The triangles of a mesh always have, as far as doubles go: they come from their
-    /// lengths; the corners of a refinement's pieces are rounded. `to`: the image in E², divided by the diameter; `corners`: in ambient
-    /// coordinates.
+    /// Whether a piece and its image have a shape to compare. The triangles of a mesh always have, as far as doubles go: they come from
+    /// their lengths; the corners of a refinement's pieces are rounded. `to`: the image in E², divided by the diameter; `corners`: in
+    /// ambient coordinates.
     fn can_compare(&self, from: Triangle, to: Triangle, corners: [Point; 3]) -> bool {
         let is_sound = || match self.space {
             Space::E2 => !Shape::of(to).is_degenerate(extent(&to).max(1.0)),
+            Space::H2 if is_surely_upright(corners) => true,
             _ => {
                 let (shape, far) = shape_of(corners, self.brought_home(corners));
-                !shape.is_degenerate(far) && !shape.is_flipped(far)
+                Standing::of(&shape, far) == Standing::Upright
             }
         };
         self.refinement().is_none() || (Shape::of(from).share > LEAST_SHARE && is_sound())
@@ -121,11 +122,11 @@ impl Layout {
 }
 
 impl Quality {
-    /// How the linear maps from the pieces of a refinement of the `input`, with the `lengths` of its edges in E², to triangles in space with
-    /// corners on the unit sphere distort. `corners`: those of a piece, in its corner order.
+    /// How the linear maps from the pieces of a refinement of the `input`, with the `lengths` of its edges in E², to triangles in space
+    /// with corners on the unit sphere distort. `corners`: those of a piece, in its corner order.
     ///
-    /// Degenerate pieces are those within [`LEAST_SHARE`] of no area on either side, and those whose image is so small that rounding of positions
-    /// shows in its shape.
+    /// Degenerate pieces are those within [`LEAST_SHARE`] of no area on either side, and those whose image is so small that rounding of
+    /// positions shows in its shape.
     ///
     /// # Errors
     /// [`Error::Size`], [`Error::EdgeLength`], [`Error::TriangleInequality`] of the input lengths.
@@ -180,8 +181,8 @@ impl<'a> Given<'a> {
         self.mesh.opposite_edges(f).map(|e| self.lengths[e] / self.unit)
     }
 
-    /// The quality of a map of pieces. `source`: the face of a piece, and `weights`: those of the piece's corners in it. `image`: the dilatation of a piece that
-    /// lies so in the plane, and the area of its image.
+    /// The quality of a map of pieces. `source`: the face of a piece, and `weights`: those of the piece's corners in it. `image`: the
+    /// dilatation of a piece that lies so in the plane, and the area of its image.
     fn quality(
         &self,
         pieces: &Mesh,
@@ -208,8 +209,8 @@ impl<'a> Given<'a> {
     }
 }
 
-/// Points of a triangle in the plane, by the weights of its corners. The corner opposite the longest side lies at the origin: the edges of a
-/// needle are far from parallel there. Also by how much the longest side exceeds the others ([`PlaneTriangle::excess`]).
+/// Points of a triangle in the plane, by the weights of its corners. The corner opposite the longest side lies at the origin: the edges of
+/// a needle are far from parallel there. Also by how much the longest side exceeds the others ([`PlaneTriangle::excess`]).
 fn in_plane(sides: [f64; 3], weights: [[f64; 3]; 3]) -> (Triangle, f64) {
     let k = longest_side(sides);
     let (i, j) = ((k + 1) % 3, (k + 2) % 3);

@@ -150,7 +150,7 @@ struct Placing<'a> {
 impl<'a> Placing<'a> {
     fn new(mesh: &Mesh, lengths: &PerEdge<f64>, control: &'a Control) -> Result<Self> {
         let (mesh, metric, state) = measured(mesh, lengths, control)?;
-        let mass = state.vertex_areas(&mesh, Space::E2, state.area(&mesh, &metric));
+        let mass = state.vertex_areas(&mesh, &metric, state.area(&mesh, &metric));
         let closed = mesh.is_closed();
         let fixed: Vec<bool> = mesh
             .vertices()

@@ -59,8 +59,8 @@ impl Flow {
         Ok(found)
     }
 
-    /// The Newton direction of a matrix that has been assembled, by the factor that an earlier step of this solve has left. False where that
-    /// does not pay; it is then not tried again for some steps, more and more of them.
+    /// The Newton direction of a matrix that has been assembled, by the factor that an earlier step of this solve has left. False where
+    /// that does not pay; it is then not tried again for some steps, more and more of them.
     fn direction_near(
         &self,
         system: &mut System,
@@ -102,10 +102,36 @@ impl Flow {
     ) -> Result<bool> {
         let [left, sum] = [LEAST_LEFT, LEAST_SUM].map(|least| f64::max(share * at.error, least));
         let goal = Goal { left, sum: if self.free_scale() { sum } else { f64::INFINITY } };
-        self.level(&mut at.residual);
-        let Iterate { residual, step, .. } = at;
         let seconds = &mut report.seconds.solve;
-        let found = timed(seconds, || system.solve_near(residual, goal, step, control))?;
+        self.solve_by(at, |residual, step| {
+            timed(seconds, || system.solve_near(residual, goal, step, control))
+        })
+    }
+
+    /// `at.step` from `at.residual` with the last factor; false where it is not finite.
+    pub(super) fn solve_step(
+        &self,
+        system: &mut System,
+        at: &mut Iterate,
+        report: &mut Report,
+    ) -> Result<bool> {
+        let seconds = &mut report.seconds.solve;
+        self.solve_by(at, |residual, step| Ok(timed(seconds, || system.solve(residual, self.enough(), step))))
+    }
+
+    /// `at.step` by a solution of the system for `at.residual`; false where `solve` finds none.
+    ///
+    /// Where no step changes the total curvature, its rounding is spread over all vertices first, else the one that is held has all of it;
+    /// the step is the one that leaves the mean of u.
+    fn solve_by(
+        &self,
+        Iterate { residual, step, .. }: &mut Iterate,
+        solve: impl FnOnce(&[f64], &mut [f64]) -> Result<bool>,
+    ) -> Result<bool> {
+        if self.free_scale() {
+            center(residual);
+        }
+        let found = solve(residual, step)?;
         if found && self.free_scale() {
             center(step);
         }
@@ -141,7 +167,7 @@ impl Flow {
             control.check()?;
             report.factorisations += 1;
             let factored = timed(&mut report.seconds.factor, || system.factor()).is_ok();
-            if factored && self.solve_step(system, at, report) {
+            if factored && self.solve_step(system, at, report)? {
                 // A step that more shift does not shorten is not the loose vertices': the line search will cap it.
                 let now = largest(&at.step);
                 let settled = now > 0.5 * last;
@@ -157,24 +183,6 @@ impl Flow {
             added += more;
         }
         Ok(false)
-    }
-
-    /// Where no step changes the total curvature, its rounding is spread over all vertices; else the one that is held has all of it.
-    fn level(&self, residual: &mut [f64]) {
-        if self.free_scale() {
-            center(residual);
-        }
-    }
-
-    /// `at.step` from `at.residual` with the last factor; false where it is not finite.
-    pub(super) fn solve_step(&self, system: &mut System, at: &mut Iterate, report: &mut Report) -> bool {
-        self.level(&mut at.residual);
-        let solved =
-            timed(&mut report.seconds.solve, || system.solve(&at.residual, self.enough(), &mut at.step));
-        if solved && self.free_scale() {
-            center(&mut at.step);
-        }
-        solved
     }
 }
 

@@ -1,19 +1,17 @@
 //! Lengths, angles and curvature at given variables: the right-hand side of the flow.
 
+use super::measure::{Parts, chord, needs_chords_alone};
 use super::seconds::{Seconds, timed};
 use crate::control::Control;
 use crate::error::Result;
-use crate::geometry::conformal::{Edge, Vertex, differences, differences_of_lengths};
-use crate::geometry::scaled::scaled;
-use crate::geometry::triangle::{self, Angles};
+use crate::geometry::conformal::{Edge, Vertex};
+use crate::geometry::triangle::Angles;
 use crate::geometry::twofold::two_sum;
-use crate::geometry::weights::weights_from_sines;
 use crate::geometry::{Space, Twofold, largest, worse};
-use crate::mesh::{EdgeId, FaceId, FixedEdges, Flip, Mesh, PerVertex, VertexId};
+use crate::mesh::{EdgeId, FixedEdges, Flip, Mesh, PerVertex, VertexId};
 use crate::metric::Metric;
 use crate::metric::curvature::curvature_into;
 use crate::metric::delaunay::{ClassFlips, Queue};
-use crate::metric::lengths::{face_differences, face_parts};
 use crate::parallel::{fill, fill_both};
 
 /// A face with a weight above this is a needle, whose other weights are differences of numbers of this size: their rounding may hide
@@ -28,7 +26,10 @@ pub(super) struct State {
     /// What the doubles `u` lose: u is kept to twice the digits.
     pub low: PerVertex<f64>,
     pub vertices: Vec<Vertex>,
-    pub edges: Vec<Edge>,
+    /// Empty where half chords are enough.
+    edges: Vec<Edge>,
+    /// Their half chords, where these are enough.
+    chords: Vec<Twofold>,
     pub angles: Vec<Angles>,
     /// Per face: ∂θ/∂u weights of the edges opposite its corners, 0 in a broken face.
     pub weights: Vec<[f64; 3]>,
@@ -44,6 +45,7 @@ impl State {
             low: low.clone(),
             vertices: Vec::new(),
             edges: Vec::new(),
+            chords: Vec::new(),
             angles: Vec::new(),
             weights: Vec::new(),
             curvature: PerVertex::filled(u.len(), 0.0),
@@ -61,6 +63,7 @@ impl State {
         self.curvature.fill(0.0);
         self.vertices.clear();
         self.edges.clear();
+        self.chords.clear();
         self.angles.clear();
         self.weights.clear();
         self
@@ -126,47 +129,77 @@ impl State {
     fn measure(&mut self, mesh: &Mesh, class: &Metric) -> bool {
         let (space, u, low) = (class.space, &self.u, &self.low);
         self.vertices.resize(mesh.n_vertices(), Vertex::default());
-        self.edges.resize(mesh.n_edges(), Edge::default());
         self.angles.resize(mesh.n_faces(), Angles { at: [0.0; 3] });
         self.weights.resize(mesh.n_faces(), [0.0; 3]);
         fill(&mut self.vertices, |v| {
             let v = VertexId::from(v);
             Vertex::precise(space, class.epsilon[v], u[v], low[v])
         });
-        let vertices = &self.vertices;
-        fill(&mut self.edges, |e| class.edge(mesh, vertices, e.into()));
-        if self.edges.iter().any(|e| e.q2 == 0.0) {
-            return false;
+        let is_known =
+            (needs_chords_alone(class) && self.find_chords(mesh, class)) || self.find_edges(mesh, class);
+        if is_known {
+            let State { vertices, edges, chords, angles, weights, .. } = self;
+            let parts = Parts { mesh, class, vertices, edges, chords };
+            fill_both(angles, weights, |f| parts.measured(f.into()));
         }
-        let edges = &self.edges;
-        // With vertex scaling in the plane the lengths are all there is to a face.
-        if space == Space::E2 && class.epsilon.iter().all(|&e| e == 0) {
-            let measured = |f: usize| match plain_face(mesh, edges, FaceId::from(f)) {
-                Some(measured) => measured,
-                None => measured_face(mesh, class, vertices, edges, FaceId::from(f)),
-            };
-            fill_both(&mut self.angles, &mut self.weights, measured);
-            return true;
+        is_known
+    }
+
+    /// The half chords of the edges; false where some have no length, or need units of their own.
+    fn find_chords(&mut self, mesh: &Mesh, class: &Metric) -> bool {
+        let State { vertices, edges, chords, .. } = self;
+        edges.clear();
+        chords.resize(mesh.n_edges(), Twofold::default());
+        fill(chords, |e| chord(mesh, class, vertices, e.into()));
+        let is_known = chords.iter().all(|chord| chord.high > 0.0);
+        if !is_known {
+            chords.clear();
         }
-        let measured = |f: usize| measured_face(mesh, class, vertices, edges, FaceId::from(f));
-        fill_both(&mut self.angles, &mut self.weights, measured);
-        true
+        is_known
+    }
+
+    /// The edges; false where some have no length.
+    fn find_edges(&mut self, mesh: &Mesh, class: &Metric) -> bool {
+        let State { vertices, edges, chords, .. } = self;
+        chords.clear();
+        edges.resize(mesh.n_edges(), Edge::default());
+        fill(edges, |e| class.edge(mesh, vertices, e.into()));
+        edges.iter().all(|e| e.q2 != 0.0)
+    }
+
+    /// What faces are measured from.
+    fn parts<'a>(&'a self, mesh: &'a Mesh, class: &'a Metric) -> Parts<'a> {
+        let State { vertices, edges, chords, .. } = self;
+        Parts { mesh, class, vertices, edges, chords }
     }
 
     /// Measure flipped edges, and the faces at them.
     fn measure_again(&mut self, mesh: &Mesh, class: &Metric, flipped: &[EdgeId]) -> bool {
         for &e in flipped {
-            self.edges[e.index()] = class.edge(mesh, &self.vertices, e);
+            match self.chords.get_mut(e.index()) {
+                Some(known) => *known = chord(mesh, class, &self.vertices, e),
+                None => self.edges[e.index()] = class.edge(mesh, &self.vertices, e),
+            }
         }
-        if flipped.iter().any(|e| self.edges[e.index()].q2 == 0.0) {
-            return false;
+        if flipped.iter().any(|&e| self.squared_chord(e) == 0.0) {
+            return !self.chords.is_empty() && self.measure(mesh, class);
         }
+        let State { vertices, edges, chords, angles, weights, .. } = self;
+        let parts = Parts { mesh, class, vertices, edges, chords };
         for f in flipped.iter().flat_map(|e| [e.halfedge(), e.halfedge().twin()]).filter_map(|h| mesh.face(h))
         {
-            let (angles, weights) = measured_face(mesh, class, &self.vertices, &self.edges, f);
-            (self.angles[f.index()], self.weights[f.index()]) = (angles, weights);
+            (angles[f.index()], weights[f.index()]) = parts.measured(f);
         }
         true
+    }
+
+    /// The squared half chord of an edge ([`Edge::q2`]).
+    #[inline]
+    pub fn squared_chord(&self, e: EdgeId) -> f64 {
+        match self.chords.get(e.index()) {
+            Some(chord) => chord.high * chord.high,
+            None => self.edges[e.index()].q2,
+        }
     }
 
     /// The only edges that may fail the Delaunay condition: those of negative weight, as far as rounding lets that be known, and those of
@@ -194,6 +227,7 @@ impl State {
         if self.is_measured() {
             next.vertices = std::mem::take(&mut self.vertices);
             next.edges = std::mem::take(&mut self.edges);
+            next.chords = std::mem::take(&mut self.chords);
             next.angles = std::mem::take(&mut self.angles);
             next.weights = std::mem::take(&mut self.weights);
         }
@@ -224,17 +258,11 @@ impl State {
         self.shift(-(self.u.iter().sum::<f64>() / self.u.len() as f64));
     }
 
-    /// Area of a face; infinite where doubles end, which takes lengths of 1e154.
-    pub fn face_area(&self, mesh: &Mesh, space: Space, f: FaceId) -> f64 {
-        let (r, unit) = face_differences(mesh, &self.vertices, &self.edges, f);
-        scaled(triangle::area_from(space, r), 2 * unit)
-    }
-
     /// Per vertex a third of the area of the faces around it, divided by `unit`.
-    pub fn vertex_areas(&self, mesh: &Mesh, space: Space, unit: f64) -> Vec<f64> {
-        let mut areas = vec![0.0; mesh.n_vertices()];
+    pub fn vertex_areas(&self, mesh: &Mesh, class: &Metric, unit: f64) -> Vec<f64> {
+        let (parts, mut areas) = (self.parts(mesh, class), vec![0.0; mesh.n_vertices()]);
         for f in mesh.faces() {
-            let third = self.face_area(mesh, space, f) / (3.0 * unit);
+            let third = parts.area(f) / (3.0 * unit);
             mesh.face_vertices(f).into_iter().for_each(|v| areas[v.index()] += third);
         }
         areas
@@ -245,10 +273,18 @@ impl State {
         self.angles.iter().filter(|a| a.broken()).count()
     }
 
-    /// Total area; infinite as [`State::face_area`].
+    /// Whether doubles hold the total area. A face in H² and S² has at most π and 2π, and edges in E² without units of their own are short: those of which half chords are known.
+    pub fn has_finite_area(&self, mesh: &Mesh, class: &Metric) -> bool {
+        class.space != Space::E2
+            || !self.chords.is_empty()
+            || self.edges.iter().all(|e| e.exponent == 0)
+            || self.area(mesh, class).is_finite()
+    }
+
+    /// Total area; infinite where doubles end.
     pub fn area(&self, mesh: &Mesh, class: &Metric) -> f64 {
-        let mut areas = vec![0.0; mesh.n_faces()];
-        fill(&mut areas, |f| self.face_area(mesh, class.space, f.into()));
+        let (parts, mut areas) = (self.parts(mesh, class), vec![0.0; mesh.n_faces()]);
+        fill(&mut areas, |f| parts.area(f.into()));
         areas.iter().sum()
     }
 
@@ -267,29 +303,4 @@ impl State {
 fn add(u: f64, low: f64, x: f64) -> (f64, f64) {
     let (sum, lost) = two_sum(u, x);
     two_sum(sum, lost + low)
-}
-
-/// Angles and derivative weights of a face.
-fn measured_face(
-    mesh: &Mesh,
-    class: &Metric,
-    vertices: &[Vertex],
-    edges: &[Edge],
-    f: FaceId,
-) -> (Angles, [f64; 3]) {
-    let (corners, edges, _) = face_parts(mesh, vertices, edges, f);
-    let differences = differences(corners, edges);
-    let eta = mesh.opposite_edges(f).map(|e| class.eta[e].high);
-    let sines = triangle::sines(class.space, differences);
-    let q2 = edges.map(|e| e.q2);
-    let weights = weights_from_sines(class.space, (differences, sines), q2, corners, eta);
-    (triangle::angles_from_sines(class.space, differences, sines), weights)
-}
-
-/// [`measured_face`] of a face in E² without circles; none where an edge has a unit of its own.
-#[inline]
-fn plain_face(mesh: &Mesh, edges: &[Edge], f: FaceId) -> Option<(Angles, [f64; 3])> {
-    let edges = mesh.opposite_edges(f).map(|e| edges[e.index()]);
-    let is_plain = edges[0].exponent | edges[1].exponent | edges[2].exponent == 0;
-    is_plain.then(|| triangle::plane_angles_with_weights(differences_of_lengths(edges)))
 }

@@ -108,7 +108,7 @@ impl Flow {
             let weights = state.weights[f.index()];
             for (h, w) in self.mesh.face_halfedges(f).into_iter().zip(weights) {
                 let side = self.mesh.next(h);
-                let c = 1.0 - 2.0 * space.curvature() * state.edges[side.edge().index()].q2;
+                let c = 1.0 - 2.0 * space.curvature() * state.squared_chord(side.edge());
                 row[self.mesh.origin(side).index()] += w.abs() * c;
                 row[self.mesh.tip(side).index()] += w.abs() * c;
             }
@@ -124,7 +124,7 @@ impl Flow {
         if !state.evaluate(&self.mesh, &self.metric) {
             return false;
         }
-        let Some(area) = area else { return state.area(&self.mesh, &self.metric).is_finite() };
+        let Some(area) = area else { return state.has_finite_area(&self.mesh, &self.metric) };
         // Area grows as e^{2u} (exactly in E²): a fixed point that contracts fast on the sphere too.
         let missing = |state: &State| 0.5 * (area / state.area(&self.mesh, &self.metric)).ln();
         for _ in 0..RESCALINGS {

@@ -66,7 +66,7 @@ impl Jacobian {
                 let (e, w) = (opposite[k].index(), state.weights[f.index()][k]);
                 let (i, j) = (rows[(k + 1) % 3], rows[(k + 2) % 3]);
                 // c(l) = 1 − 2 λ q²
-                let diagonal = w * (1.0 - 2.0 * class.space.curvature() * state.edges[e].q2);
+                let diagonal = w * (1.0 - 2.0 * class.space.curvature() * state.squared_chord(opposite[k]));
                 for row in [i, j].into_iter().filter(|&row| row != NONE) {
                     self.values[self.pattern.diagonal(row as usize)] += diagonal;
                 }
@@ -123,7 +123,7 @@ impl Jacobian {
             for k in 0..3 {
                 let (i, j) = (corners[(k + 1) % 3], corners[(k + 2) % 3]);
                 let w = state.weights[f.index()][k].abs();
-                let c = (1.0 - 2.0 * class.space.curvature() * state.edges[edges[k].index()].q2).abs();
+                let c = (1.0 - 2.0 * class.space.curvature() * state.squared_chord(edges[k])).abs();
                 floor[i.index()] += w * (1.0 + c) * moved + 2.0 * f64::EPSILON;
                 floor[j.index()] += w * (1.0 + c) * moved + 2.0 * f64::EPSILON;
             }

@@ -21,6 +21,7 @@ mod gradient;
 pub(crate) mod hubs;
 mod jacobian;
 mod line_search;
+mod measure;
 mod memory;
 mod newton;
 mod obstruction;

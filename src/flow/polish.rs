@@ -41,7 +41,7 @@ impl Flow {
                 system = self.analysed(system, Precision::Double, report)?;
                 report.factorisations += 1;
                 let factored = timed(&mut report.seconds.factor, || system.factor()).is_ok();
-                if !(factored && self.solve_step(&mut system, at, report)) {
+                if !(factored && self.solve_step(&mut system, at, report)?) {
                     return Ok(system);
                 }
             }

@@ -218,7 +218,8 @@ impl Flow {
     /// What the report says of the last state.
     fn judge(&self, state: &State, report: &mut Report) {
         report.broken_triangles = state.broken();
-        let area = state.area(&self.mesh, &self.metric);
+        // In E² the area has no part in it.
+        let area = if self.metric.space == Space::E2 { 0.0 } else { state.area(&self.mesh, &self.metric) };
         report.gauss_bonnet = gauss_bonnet(&self.mesh, self.metric.space, &state.curvature, area);
         report.worst = self.worst(state);
         if report.is_reached() && report.broken_triangles > 0 {

@@ -79,7 +79,7 @@ impl Flow {
         report: &mut Report,
     ) -> bool {
         timed(&mut report.seconds.assemble, || {
-            let mass = at.state.vertex_areas(&self.mesh, self.metric.space, 1.0);
+            let mass = at.state.vertex_areas(&self.mesh, &self.metric, 1.0);
             system.jacobian.assemble(&self.mesh, &self.metric, &at.state);
             system.jacobian.add_diagonal(|v| at.shift * mass[v]);
         });

@@ -76,6 +76,8 @@ pub const MAX_HYPERBOLIC_CHORD: f64 = 1e129;
 /// Smallest squared half chord of an edge in H²: its length is above 2e-140, and what its square loses (2^-106 of it) is still a
 /// normal number.
 pub const MIN_HYPERBOLIC_CHORD: f64 = 1e-280;
+/// Squared half chords of edges in H².
+const HYPERBOLIC_CHORDS: std::ops::RangeInclusive<f64> = MIN_HYPERBOLIC_CHORD..=MAX_HYPERBOLIC_CHORD;
 /// Largest |u| in E² whose e^u is kept without an exponent, 256 log 2: its square has the size of 2^±512, which leaves as much room
 /// again for η.
 const MAX_PLAIN_U: f64 = 177.0;
@@ -107,15 +109,15 @@ impl Vertex {
         if space == Space::E2 {
             return Vertex::in_plane(epsilon, u, low);
         }
-        let rounded = Vertex::new(space, epsilon, u);
         if is_precise(space, epsilon) {
             let (scale, lost) = twofold::exp(u);
             // A subnormal e^u has not the digits that this promises.
             return match scale.is_normal() {
-                true => Vertex { scale, low: lost + low, ..rounded },
-                false => Vertex { scale: f64::NAN, d: f64::NAN, ..rounded },
+                true => Vertex { scale, low: lost + low, d: 1.0, ..Vertex::default() },
+                false => Vertex { scale: f64::NAN, d: f64::NAN, ..Vertex::default() },
             };
         }
+        let rounded = Vertex::new(space, epsilon, u);
         let lambda = space.curvature() * f64::from(epsilon);
         // dγ/du = γ, sinh γ, sin γ
         let slope = match epsilon {
@@ -194,11 +196,7 @@ pub fn edge(space: Space, a: Vertex, b: Vertex, eta: impl Into<Twofold>) -> Opti
         return plane_edge(a, b, eta);
     }
     let q2 = squared_chord(a, b, eta.high) / (a.d * b.d);
-    let range = if space == Space::H2 {
-        MIN_HYPERBOLIC_CHORD..=MAX_HYPERBOLIC_CHORD
-    } else {
-        f64::MIN_POSITIVE..=f64::MAX
-    };
+    let range = if space == Space::H2 { HYPERBOLIC_CHORDS } else { f64::MIN_POSITIVE..=f64::MAX };
     if !range.contains(&q2) {
         return None;
     }
@@ -269,21 +267,48 @@ pub fn in_one_unit(corners: &mut [Vertex; 3], edges: &mut [Edge; 3]) -> i32 {
 
 /// `l − γ_a − γ_b − gap` in E², to twice the digits: the angles of needles and of triangles in metrics of wide range turn on it.
 fn lost_gap(a: Vertex, b: Vertex, eta: Twofold, gap: f64) -> f64 {
-    let (x, y) = (a.scale, b.scale);
-    let (xy, xy_low) = two_product(x, y);
-    let (mut n, mut n_low) = two_product(2.0 * eta.high, xy);
-    n_low += 2.0 * (eta.high * xy_low + eta.low * xy) + n * (a.low + b.low);
+    let (mut n, mut n_low) = doubled_product(a, b, eta);
     for v in [a, b].into_iter().filter(|v| v.epsilon != 0.0) {
         let (square, square_low) = two_product(v.scale, v.scale);
         let (sum, lost) = two_sum(n, v.epsilon * square);
         (n, n_low) = (sum, n_low + lost + v.epsilon * (square_low + 2.0 * square * v.low));
     }
-    let length = n.sqrt();
-    let (square, square_low) = two_product(length, length);
-    let length_low = ((n - square) - square_low + n_low) / (2.0 * length);
-    let (rest, first) = two_sum(length, -a.radius);
+    let length = root(n, n_low);
+    let (rest, first) = two_sum(length.high, -a.radius);
     let (rest, second) = two_sum(rest, -b.radius);
-    (rest - gap) + (first + second + length_low)
+    (rest - gap) + (first + second + length.low)
+}
+
+/// `2 η e_a e_b` and what it loses.
+#[inline]
+fn doubled_product(a: Vertex, b: Vertex, eta: Twofold) -> (f64, f64) {
+    let (xy, xy_low) = two_product(a.scale, b.scale);
+    let (n, n_low) = two_product(2.0 * eta.high, xy);
+    (n, n_low + (2.0 * (eta.high * xy_low + eta.low * xy) + n * (a.low + b.low)))
+}
+
+/// The square root of `n + low`.
+#[inline]
+fn root(n: f64, low: f64) -> Twofold {
+    let root = n.sqrt();
+    let (square, square_low) = two_product(root, root);
+    Twofold { high: root, low: ((n - square) - square_low + low) / (2.0 * root) }
+}
+
+/// [`half_chord`] with ε = 0 at both ends, in E² and H², of what needs no unit of its own; 0 of other edges.
+#[inline]
+pub fn plain_chord(space: Space, a: Vertex, b: Vertex, eta: Twofold) -> Twofold {
+    let (n, low) = doubled_product(a, b, eta);
+    let is_plain = match space {
+        Space::E2 => a.exponent | b.exponent == 0 && n > 0.0 && PLAIN_SQUARES.contains(&exponent(n)),
+        _ => HYPERBOLIC_CHORDS.contains(&n),
+    };
+    match (is_plain, space) {
+        (false, _) => Twofold::default(),
+        // l² = n
+        (_, Space::E2) => root(0.25 * n, 0.25 * low),
+        _ => root(n, low),
+    }
 }
 
 /// The half chord of an edge (l/2, sinh(l/2), sin(l/2) in E², H², S²) with twice the digits, as far as its ends have them
@@ -375,10 +400,10 @@ fn circle_gap(space: Space, [a, b]: [Vertex; 2], eta: Twofold, total: f64) -> f6
     }
 }
 
-/// [`differences`] of a triangle without circles, whose gaps are its lengths.
+/// [`half_differences`] of lengths to twice the digits.
 #[inline]
-pub fn differences_of_lengths(edges: [Edge; 3]) -> [f64; 3] {
-    let (rest, low) = (half_differences(edges.map(|e| e.gap)), edges.map(|e| 0.5 * e.low));
+pub fn differences_of_lengths(lengths: [Twofold; 3]) -> [f64; 3] {
+    let (rest, low) = (half_differences(lengths.map(|l| l.high)), lengths.map(|l| 0.5 * l.low));
     [0, 1, 2].map(|k| rest[k] + (low[(k + 1) % 3] + low[(k + 2) % 3] - low[k]))
 }
 
@@ -386,7 +411,8 @@ pub fn differences_of_lengths(edges: [Edge; 3]) -> [f64; 3] {
 #[inline]
 pub fn differences(corners: [Vertex; 3], edges: [Edge; 3]) -> [f64; 3] {
     if corners.iter().all(|v| v.radius == 0.0) {
-        return differences_of_lengths(edges);
+        // The gaps are the lengths.
+        return differences_of_lengths(edges.map(|e| Twofold { high: e.gap, low: e.low }));
     }
     let gap = edges.map(|e| e.gap);
     // Near a broken triangle of circles 2γ_k and the gaps cancel: what each sum loses is kept.

@@ -3,6 +3,7 @@
 pub mod barycentre;
 pub(crate) mod bounds;
 pub(crate) mod boxes;
+pub(crate) mod chords;
 pub mod circle;
 pub mod complex;
 pub mod conformal;

@@ -131,7 +131,7 @@ fn represented(
     let mut metric = Metric {
         space: input_geometry,
         epsilon,
-        eta: PerEdge::filled(mesh.n_edges(), Twofold::default()),
+        eta: Vec::new().into(),
         u: input_u.clone(),
         u_low: PerVertex::filled(n, 0.0),
     };
@@ -143,37 +143,41 @@ fn represented(
         weight_of_length(input_geometry, lengths[e], mesh.ends(e).map(|v| vertices[v]))
     });
     let mut clamped_edges = 0;
-    for e in mesh.edges() {
-        let epsilon = mesh.ends(e).map(|v| metric.epsilon[v]);
-        let eta = weights[e.index()];
-        metric.eta[e] = match range {
-            Range::Clamp(low, _) if (eta - low.into()).high < 0.0 => low.into(),
-            Range::Clamp(_, high) if (eta - high.into()).high > 0.0 => high.into(),
-            Range::Clamp(..) => eta,
-            Range::Refuse => allowed_weight(epsilon, e, eta)?,
-        };
-        clamped_edges += usize::from(metric.eta[e] != eta);
-    }
-    let mut max_length_change = 0.0f64;
-    let mut start = lengths.clone();
-    if clamped_edges > 0 {
-        start = metric.lengths(mesh)?;
-        for e in mesh.edges() {
-            max_length_change = worse(max_length_change, (start[e] / lengths[e] - 1.0).abs());
+    match range {
+        Range::Refuse => mesh
+            .edges()
+            .try_for_each(|e| check_weight(mesh.ends(e).map(|v| metric.epsilon[v]), e, weights[e.index()]))?,
+        Range::Clamp(low, high) => {
+            for eta in &mut weights {
+                let clamped = match *eta {
+                    x if (x - low.into()).high < 0.0 => low.into(),
+                    x if (x - high.into()).high > 0.0 => high.into(),
+                    x => x,
+                };
+                clamped_edges += usize::from(clamped != *eta);
+                *eta = clamped;
+            }
         }
     }
-    let shift = start_shift(mesh, &start, &metric, space)?;
+    metric.eta = weights.into();
+    let clamped = if clamped_edges > 0 { Some(metric.lengths(mesh)?) } else { None };
+    let start = clamped.as_ref().unwrap_or(lengths);
+    let change = |e: EdgeId| (start[e] / lengths[e] - 1.0).abs();
+    let max_length_change = if clamped.is_some() { mesh.edges().map(change).fold(0.0, worse) } else { 0.0 };
+    let shift = start_shift(mesh, start, &metric, space)?;
     metric.space = space;
     metric.u.iter_mut().for_each(|u| *u += shift);
     Ok(Initial { metric, input_geometry, radii, input_u, clamped_edges, max_length_change })
 }
-/// η, if two vertices of these types can have it.
-fn allowed_weight(epsilon: [i8; 2], edge: EdgeId, eta: Twofold) -> Result<Twofold> {
+
+/// Check that two vertices of these types can have this η.
+#[inline]
+fn check_weight(epsilon: [i8; 2], edge: EdgeId, eta: Twofold) -> Result<()> {
     let need = match epsilon {
         [1, 1] if eta.high <= -1.0 => "above −1: the circles would contain each other; use smaller radii",
         [-1, -1] if eta.high <= 1.0 => "above 1 between imaginary circles",
         _ if !eta.high.is_finite() => "finite",
-        _ => return Ok(eta),
+        _ => return Ok(()),
     };
     Err(Error::EdgeWeight { edge: edge.index(), eta: eta.high, need })
 }

@@ -12,6 +12,7 @@
 
 use crate::error::{Error, Result, check_size};
 use crate::geometry::conformal::{self, Edge, Vertex, differences, in_one_unit, is_precise, radius};
+use crate::geometry::twofold::MAX_EXPONENT;
 use crate::geometry::{Space, Twofold};
 use crate::mesh::{EdgeId, FaceId, Mesh, PerEdge, PerVertex, Point, VertexId};
 use crate::parallel;
@@ -102,7 +103,16 @@ impl Metric {
     /// Those of [`Metric::check`]; [`Error::Domain`] where u is outside the domain of its vertex type (in E² beyond ±5e5),
     /// [`Error::EdgeWeight`] for the first edge without a length (in H² without one between 2e-140 and 300).
     pub fn check_domain(&self, mesh: &Mesh) -> Result<()> {
-        self.vertices_and_edges(mesh).map(|_| ())
+        self.check(mesh)?;
+        if self.is_surely_inside() { Ok(()) } else { self.vertices_and_edges(mesh).map(|_| ()) }
+    }
+
+    /// Whether this is vertex scaling in E² with numbers of which each triple gives an edge a length.
+    fn is_surely_inside(&self) -> bool {
+        self.space == Space::E2
+            && self.epsilon.iter().all(|&e| e == 0)
+            && self.u.iter().all(|u| u.abs() <= MAX_EXPONENT)
+            && self.eta.iter().all(|eta| eta.high > 0.0 && eta.high.is_normal())
     }
 
     /// The quantities of all vertices and edges.
@@ -150,19 +160,6 @@ impl Metric {
     }
 }
 
-/// The corners of a face and the edges opposite them, in one unit of length, and the exponent of that unit.
-pub(crate) fn face_parts(
-    mesh: &Mesh,
-    vertices: &[Vertex],
-    edges: &[Edge],
-    f: FaceId,
-) -> ([Vertex; 3], [Edge; 3], i32) {
-    let mut corners = mesh.face_vertices(f).map(|v| vertices[v.index()]);
-    let mut sides = mesh.opposite_edges(f).map(|e| edges[e.index()]);
-    let unit = in_one_unit(&mut corners, &mut sides);
-    (corners, sides, unit)
-}
-
 /// The half-perimeter differences of a face, and the exponent of their unit.
 pub(crate) fn face_differences(
     mesh: &Mesh,
@@ -170,7 +167,9 @@ pub(crate) fn face_differences(
     edges: &[Edge],
     f: FaceId,
 ) -> ([f64; 3], i32) {
-    let (corners, sides, unit) = face_parts(mesh, vertices, edges, f);
+    let mut corners = mesh.face_vertices(f).map(|v| vertices[v.index()]);
+    let mut sides = mesh.opposite_edges(f).map(|e| edges[e.index()]);
+    let unit = in_one_unit(&mut corners, &mut sides);
     (differences(corners, sides), unit)
 }
 

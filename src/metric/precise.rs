@@ -11,6 +11,7 @@
 
 use super::lengths::Metric;
 use crate::error::Result;
+use crate::geometry::chords::products;
 use crate::geometry::conformal::half_chord;
 use crate::geometry::scaled::exponent;
 use crate::geometry::triangle::{area_from, half_angles_of_chords};
@@ -20,9 +21,9 @@ use crate::parallel;
 use std::ops::RangeInclusive;
 
 impl Metric {
-    /// The half chords of the edges, l/2, sinh(l/2), sin(l/2) in E², H², S², in units of their own, with the exponents of these. To 20 digits where
-    /// lengths are precise ([`crate::geometry::conformal::is_precise`]), else to those of doubles. It needs a metric in its domain:
-    /// [`Metric::check_domain`].
+    /// The half chords of the edges, l/2, sinh(l/2), sin(l/2) in E², H², S², in units of their own, with the exponents of these. To 20
+    /// digits where lengths are precise ([`crate::geometry::conformal::is_precise`]), else to those of doubles. It needs a metric in its
+    /// domain: [`Metric::check_domain`].
     pub(crate) fn scaled_chords(&self, mesh: &Mesh) -> PerEdge<(Twofold, i32)> {
         let vertices = self.vertices();
         let mut chords = vec![(Twofold::default(), 0); mesh.n_edges()];
@@ -70,8 +71,14 @@ type Chords = PerEdge<(Twofold, i32)>;
 
 /// `[cos, sin]` of half the angle at each corner, from the half chords and the exponents of their units.
 fn half_angles(metric: &Metric, mesh: &Mesh, chords: &Chords) -> PerFace<[[Twofold; 2]; 3]> {
-    let mut angles = vec![[[Twofold::default(); 2]; 3]; mesh.n_faces()];
-    parallel::fill(&mut angles, |f| half_angles_at(metric, mesh, chords, f.into()));
+    let (mut angles, sides) =
+        (vec![[[Twofold::default(); 2]; 3]; mesh.n_faces()], usual_sides(metric, chords));
+    parallel::fill(&mut angles, |f| {
+        let f = FaceId::from(f);
+        let found =
+            sides.as_ref().and_then(|sides| hyperbolic_shape(mesh.opposite_edges(f).map(|e| sides[e])));
+        found.map_or_else(|| half_angles_at(metric, mesh, chords, f), |(angles, _)| angles)
+    });
     angles.into()
 }
 
@@ -84,8 +91,8 @@ fn half_angles_at(metric: &Metric, mesh: &Mesh, chords: &Chords, f: FaceId) -> [
     half_angles_of_chords(metric.space, sides.map(|(q, own)| q.scaled(own - unit)))
 }
 
-/// The half chords of the edges as [`Metric::scaled_chords`] has them, `[cos, sin]` of half the angle at each corner, and per face its area, by
-/// formulas without angles, and whether its lengths break the triangle inequality.
+/// The half chords of the edges as [`Metric::scaled_chords`] has them, `[cos, sin]` of half the angle at each corner, and per face its
+/// area, by formulas without angles, and whether its lengths break the triangle inequality.
 ///
 /// # Errors
 /// Those of [`Metric::lengths`].
@@ -97,13 +104,10 @@ pub(crate) fn shapes(
     let chords = metric.scaled_chords(mesh);
     let mut angles = vec![[[Twofold::default(); 2]; 3]; mesh.n_faces()];
     let mut areas = vec![(0.0, false); mesh.n_faces()];
-    let is_usual = |(q, unit): &(Twofold, i32)| *unit == 0 && USUAL_CHORDS.contains(&q.high);
-    if metric.space == Space::H2 && chords.iter().all(is_usual) {
-        let mut sides = vec![Side::default(); mesh.n_edges()];
-        parallel::fill(&mut sides, |e| Side::of_chord(chords[EdgeId::from(e)].0));
+    if let Some(sides) = usual_sides(metric, &chords) {
         parallel::fill_both(&mut angles, &mut areas, |f| {
             let f = FaceId::from(f);
-            let found = hyperbolic_shape(mesh.opposite_edges(f).map(|e| sides[e.index()]));
+            let found = hyperbolic_shape(mesh.opposite_edges(f).map(|e| sides[e]));
             found.unwrap_or_else(|| {
                 let angles = half_angles_at(metric, mesh, &chords, f);
                 (angles, (0.0, is_flat(&angles)))
@@ -119,6 +123,16 @@ pub(crate) fn shapes(
         });
     }
     Ok((chords, angles.into(), areas))
+}
+
+/// The sides of the triangles in H², where all have [`USUAL_CHORDS`].
+fn usual_sides(metric: &Metric, chords: &Chords) -> Option<PerEdge<Side>> {
+    let is_usual = |(q, unit): &(Twofold, i32)| *unit == 0 && USUAL_CHORDS.contains(&q.high);
+    (metric.space == Space::H2 && chords.iter().all(is_usual)).then(|| {
+        let mut sides = vec![Side::default(); chords.len()];
+        parallel::fill(&mut sides, |e| Side::of_chord(chords[EdgeId::from(e)].0));
+        sides.into()
+    })
 }
 
 /// Whether half angles are those of (π, 0, 0), which broken triangles have.
@@ -156,16 +170,15 @@ impl Side {
 /// by `tan(area/2) = 2 x_i x_j x_k / (sinh s (1 + Σ cosh l))`.
 fn hyperbolic_shape(sides: [Side; 3]) -> Option<([[Twofold; 2]; 3], (f64, bool))> {
     let (q, c) = (sides.map(|s| s.chord), sides.map(|s| s.cosh));
-    let p = [0, 1, 2].map(|k| {
+    let d = [0, 1, 2].map(|k| {
         let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-        q[i] * c[j] + q[j] * c[i]
+        q[i] * c[j] + q[j] * c[i] - q[k]
     });
-    let product = [0, 1, 2].map(|k| (p[k] - q[k]) * (p[k] + q[k]));
+    let (product, whole) = products(q, c, d);
     if product.iter().any(|x| x.high <= 0.0) {
         return None;
     }
     let x = product.map(Twofold::sqrt);
-    let whole = p[2] * c[2] + (c[0] * c[1] + q[0] * q[1]) * q[2];
     let over = Twofold::from(1.0) / whole;
     let angles = [0, 1, 2].map(|k| {
         let (i, j) = ((k + 1) % 3, (k + 2) % 3);

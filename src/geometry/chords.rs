@@ -1,0 +1,153 @@
+//! A triangle in H² by the half chords `q = sinh(l/2)` of its sides, without their lengths.
+//!
+//! With `c = cosh(l/2)`, half the perimeter s, `r_k = s − l_k` and `d_k = sinh((l_i + l_j)/2) − q_k`
+//!
+//! ```text
+//! d_k = q_i c_j + q_j c_i − q_k        sinh s sinh r_k = d_k (d_k + 2 q_k)        sinh s = (d_k + q_k) c_k + (c_i c_j + q_i q_j) q_k
+//! ```
+//!
+//! With these products P_k and `h = √(P_i P_j P_k)` the half-angle law reads `tan(θ_k/2) = h / (P_k sinh s)`, and the derivatives
+//! ([`super::weights::weights`] with ε = 0) are `w_k = (q_i² + q_j² − q_k²) sinh s / (2 h c_k²)`.
+
+use super::Twofold;
+use super::conformal::differences_of_lengths;
+use super::real::Real;
+use super::triangle::Angles;
+use std::ops::RangeInclusive;
+
+/// Half chords of which products of twelve are normal numbers.
+const USUAL: RangeInclusive<f64> = 1e-25..=1e25;
+/// d is a sum of what it is in the plane and of what the curvature adds. The first is negative where a long triangle is nearly flat, and the
+/// sum then loses digits: it may be this share of the second.
+const LEAST_FLAT: f64 = -0.5;
+
+/// `sinh s sinh r_k` per corner, and `sinh s`.
+#[inline]
+pub(crate) fn products<R: Real>(q: [R; 3], c: [R; 3], d: [R; 3]) -> ([R; 3], R) {
+    let each = [0, 1, 2].map(|k| d[k] * (d[k] + q[k] + q[k]));
+    (each, (d[2] + q[2]) * c[2] + (c[0] * c[1] + q[0] * q[1]) * q[2])
+}
+
+/// What angles, derivatives and area come from.
+struct Parts {
+    /// q²
+    square: [f64; 3],
+    /// P
+    product: [f64; 3],
+    /// sinh s
+    whole: f64,
+    /// h
+    root: f64,
+}
+
+impl Parts {
+    /// Of a triangle that is neither broken nor, for its size, so thin that doubles would lose digits; `None` of another one.
+    #[inline]
+    fn of(chords: [Twofold; 3]) -> Option<Parts> {
+        let q = chords.map(|q| q.high);
+        if !(USUAL.contains(&q[0]) && USUAL.contains(&q[1]) && USUAL.contains(&q[2])) {
+            return None;
+        }
+        let square = q.map(|q| q * q);
+        let c = square.map(|x| (1.0 + x).sqrt());
+        // c − 1
+        let more = [0, 1, 2].map(|k| square[k] / (1.0 + c[k]));
+        let flat = differences_of_lengths(chords);
+        let mut d = [0.0; 3];
+        for k in 0..3 {
+            let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+            let in_plane = 2.0 * flat[k];
+            let by_curvature = q[i] * more[j] + q[j] * more[i];
+            if in_plane <= LEAST_FLAT * by_curvature {
+                return None;
+            }
+            d[k] = in_plane + by_curvature;
+        }
+        let (product, whole) = products(q, c, d);
+        let root = (product[0] * product[1] * product[2]).sqrt();
+        // Where it is 0, quotients are no numbers.
+        (root > 0.0).then_some(Parts { square, product, whole, root })
+    }
+}
+
+/// Angles and derivatives of a triangle; `None` of one that is broken or, for its size, so thin that doubles would lose digits. `chords`:
+/// half chords to twice the digits, opposite the corners.
+#[inline]
+pub fn angles_with_weights(chords: [Twofold; 3]) -> Option<(Angles, [f64; 3])> {
+    let Parts { square, product, whole, root } = Parts::of(chords)?;
+    let angle = |k: usize| 2.0 * root.atan2(whole * product[k]);
+    let scale = 0.5 * whole / root;
+    let weight = |k: usize| {
+        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+        scale * ((square[i] - square[k]) + square[j]) / (1.0 + square[k])
+    };
+    let weights = [weight(0), weight(1), weight(2)];
+    let is_sound = weights.iter().all(|w| w.is_finite());
+    is_sound.then(|| (Angles { at: [angle(0), angle(1), angle(2)] }, weights))
+}
+
+/// Area of a triangle, by `tan(area/2) = 2 h / (sinh s (1 + Σ cosh l))`; `None` where [`angles_with_weights`] has none.
+pub fn area(chords: [Twofold; 3]) -> Option<f64> {
+    let Parts { square, whole, root, .. } = Parts::of(chords)?;
+    let cosh: f64 = square.iter().map(|x| 1.0 + 2.0 * x).sum();
+    Some(2.0 * (2.0 * root).atan2(whole * (1.0 + cosh)))
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::geometry::Space;
+    use crate::geometry::conformal::{Vertex, differences, edge, plain_chord};
+    use crate::geometry::triangle::{angles_from, area_from, half_angles_of_chords};
+    use crate::geometry::weights::weights;
+
+    /// Triangles with these u and η, by their chords and by the way that serves all classes.
+    #[test]
+    fn angles_and_derivatives_are_those_of_the_formulas_for_all_spaces() {
+        let mut found = 0;
+        for u in
+            [[0.0, 0.1, -0.2], [-3.0, -3.1, -2.9], [2.0, 2.5, 1.8], [-20.0, -19.0, -19.5], [4.0, -4.0, -4.0]]
+        {
+            for eta in [[1.0, 1.1, 0.9], [1.0, 1.0, 1.9], [0.3, 0.25, 0.26], [1.0, 1.0, 3.99]] {
+                let corners = u.map(|u| Vertex::precise(Space::H2, 0, u, 0.0));
+                let ends = |k: usize| [corners[(k + 1) % 3], corners[(k + 2) % 3]];
+                let edges = [0, 1, 2].map(|k| edge(Space::H2, ends(k)[0], ends(k)[1], eta[k]).unwrap());
+                let chords = [0, 1, 2].map(|k| {
+                    let [a, b] = ends(k);
+                    plain_chord(Space::H2, a, b, eta[k].into())
+                });
+                let r = differences(corners, edges);
+                let Some((angles, derived)) = angles_with_weights(chords) else { continue };
+                found += 1;
+                let exact = area_from(Space::H2, r);
+                assert!((area(chords).unwrap() / exact - 1.0).abs() < 1e-13, "{u:?} {eta:?}: {exact}");
+                let known = half_angles_of_chords(Space::H2, chords);
+                let rough = angles_from(Space::H2, r).at;
+                let known_weights = weights(Space::H2, r, edges.map(|e| e.q2), corners, eta);
+                let most = known_weights.iter().fold(1.0, |most: f64, w| most.max(w.abs()));
+                for k in 0..3 {
+                    let exact = 2.0 * known[k][1].high.atan2(known[k][0].high);
+                    assert!(
+                        (angles.at[k] - exact).abs() < 2e-15 * exact,
+                        "{u:?} {eta:?}: {exact} {angles:?}"
+                    );
+                    assert!((angles.at[k] - rough[k]).abs() < 1e-14, "{u:?} {eta:?}: {rough:?} {angles:?}");
+                    let off = (derived[k] - known_weights[k]).abs();
+                    assert!(off < 1e-13 * most, "{u:?} {eta:?}: {known_weights:?} {derived:?}");
+                }
+            }
+        }
+        assert!(found >= 10, "{found}");
+    }
+
+    #[test]
+    fn thin_and_broken_triangles_are_left_to_others() {
+        let of = |lengths: [f64; 3]| angles_with_weights(lengths.map(|l| Twofold::from((0.5 * l).sinh())));
+        assert!(of([1.0, 0.3, 0.4]).is_none() && of([20.0, 10.0, 10.000_001]).is_none());
+        assert!(of([1e-60, 1e-60, 1e-60]).is_none() && of([600.0, 600.0, 600.0]).is_none());
+        // Thin but small: as good as in the plane.
+        let (thin, _) = of([1e-3, 1.0, 1.0]).unwrap();
+        assert!(thin.at[0] > 0.0);
+    }
+}
