@@ -6,15 +6,20 @@
 
 use crate::failure::{Failure, Outcome};
 use crate::status::RICCI_NO_MEMORY;
+use ricci::parallel::MAX_THREADS;
 use std::alloc::{GlobalAlloc, Layout, System};
+use std::num::NonZero;
 use std::path::Path;
 use std::ptr::null_mut;
+use std::sync::OnceLock;
 use std::sync::atomic::{AtomicPtr, AtomicUsize, Ordering};
 
 /// Bytes that calls without a reserve of their own may take: messages, handles, the lists of a few elements.
 const LITTLE: usize = 1 << 18;
-/// Bytes that a call with work to do may take beside what it takes per element: threads and their stacks, files.
+/// Bytes that a call with work to do may take beside what it takes per element and per thread: files, tables.
 const WORK: usize = 1 << 22;
+/// Bytes that a thread of a call may take: its stack of 2 MiB, and 4 MiB in which dense products lay out their factors.
+const THREAD: usize = 6 << 20;
 /// Reserves that are held at one time; calls beyond them only ask whether they could have one.
 const MOST_RESERVES: usize = 32;
 
@@ -184,9 +189,16 @@ pub fn little() -> Outcome {
     Ok(())
 }
 
+/// Bytes that the threads of a call may take, one on each core.
+fn threads() -> usize {
+    static CORES: OnceLock<usize> = OnceLock::new();
+    let cores = *CORES.get_or_init(|| std::thread::available_parallelism().map_or(1, NonZero::get));
+    cores.min(MAX_THREADS) * THREAD
+}
+
 /// A reserve for the work on so many elements.
 pub fn work(elements: usize, bytes_each: usize) -> Outcome<Reserve> {
-    hold(elements.saturating_mul(bytes_each).saturating_add(WORK), &HELD[1..])
+    hold(elements.saturating_mul(bytes_each).saturating_add(WORK + threads()), &HELD[1..])
 }
 
 /// A reserve for reading a mesh file of this size. A file that is not there is for its reader to name.

@@ -46,8 +46,8 @@
  *   - Memory is asked for before the work, as much as the work is known to take: if the system refuses it,
  *     RICCI_NO_MEMORY, and handles are as they were. It is held in reserve and released when the system
  *     refuses anything later. What cannot be caught ends the program (abort, with a line on stderr): work
- *     that takes more than the reserve while memory stays refused; the 48 bytes of a thread's handle; a
- *     stack that cannot grow.
+ *     that takes more than the reserve while memory stays refused, as more threads than cores may; the 48
+ *     bytes of a thread's handle; a stack that cannot grow.
  *   - Calls compute under the default floating-point environment and give the caller its own back: the
  *     host's floating-point traps, rounding mode and flush-to-zero neither disturb a call nor change its
  *     result.

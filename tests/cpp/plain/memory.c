@@ -286,14 +286,14 @@ static void every_allocation_fails_in_turn(void (*run)(const torus *, double *),
     torus_free(&t);
 }
 
-/* No job ends by a signal, however little address space there is for it. */
+/* No job ends by a signal, however little address space there is for it and its threads. */
 static void limits_are_answered(void) {
     torus t = torus_new(120, 80);
     double *uv = (double *)room(6 * t.n_faces, sizeof *uv);
     int answered = 0, done = 0;
     ricci_mesh *first = torus_mesh(&t); /* threads and code are there */
     ricci_mesh_free(first);
-    for (size_t megabytes = 8; megabytes <= 512; megabytes += megabytes < 64 ? 4 : 64) {
+    for (size_t megabytes = 8; megabytes <= 512; megabytes += megabytes < 64 ? 1 : 64) {
         fflush(stdout);
         const pid_t child = fork();
         CHECK(child >= 0);
