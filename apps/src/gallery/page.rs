@@ -7,8 +7,13 @@ use std::fmt::Write;
 
 const FRAME: &str = include_str!("page.html");
 const STYLE: &str = include_str!("page.css");
-/// What follows uses what stands before it.
-const PROGRAM: [&str; 3] = [include_str!("shape.js"), include_str!("paint.js"), include_str!("turn.js")];
+/// What follows uses what stands before it; first a library (MIT, its licence at its head).
+const PROGRAM: [&str; 4] = [
+    include_str!("picogl.min.js"),
+    include_str!("shape.js"),
+    include_str!("paint.js"),
+    include_str!("turn.js"),
+];
 
 /// Longest list of a report whose entries are shown.
 const LONGEST_LIST: usize = 6;

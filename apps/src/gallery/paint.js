@@ -1,8 +1,8 @@
-// Drawing by WebGL 2. A browser allows few contexts, so that all views share one, whose picture is copied to the canvas of each.
+// Drawing by WebGL 2 through PicoGL. A browser allows few contexts, so that all views share one, whose picture is copied to the canvas of each.
 
 const VERTEX = `#version 300 es
-in vec3 point;
-in vec3 image;
+layout(location = 0) in vec3 point;
+layout(location = 1) in vec3 image;
 uniform mat3 turn;
 uniform vec2 scale;
 uniform vec2 shift;
@@ -50,68 +50,34 @@ class Painter {
     this.canvas = document.createElement("canvas");
     const gl = this.canvas.getContext("webgl2", { antialias: true, preserveDrawingBuffer: true });
     if (!gl) throw new Error("This browser has no WebGL 2: the pictures are here, the views that turn are not.");
-    this.gl = gl;
-    this.program = gl.createProgram();
-    for (const [kind, text] of [[gl.VERTEX_SHADER, VERTEX], [gl.FRAGMENT_SHADER, FRAGMENT]]) {
-      const shader = gl.createShader(kind);
-      gl.shaderSource(shader, text);
-      gl.compileShader(shader);
-      if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS)) throw new Error(gl.getShaderInfoLog(shader));
-      gl.attachShader(this.program, shader);
-    }
-    gl.linkProgram(this.program);
-    if (!gl.getProgramParameter(this.program, gl.LINK_STATUS)) throw new Error(gl.getProgramInfoLog(this.program));
-    gl.useProgram(this.program);
-    gl.enable(gl.DEPTH_TEST);
-    gl.clearColor(1, 1, 1, 1);
+    this.app = PicoGL.createApp(gl).clearColor(1, 1, 1, 1).enable(PicoGL.DEPTH_TEST);
+    this.program = this.app.createProgram(VERTEX, FRAGMENT);
+    if (!gl.getProgramParameter(this.program.program, gl.LINK_STATUS)) throw new Error("The shaders of the views do not compile here.");
   }
 
-  // An array on the graphics card.
-  buffer(target, data) {
-    const { gl } = this;
-    const buffer = gl.createBuffer();
-    gl.bindBuffer(target, buffer);
-    gl.bufferData(target, data, gl.STATIC_DRAW);
-    return buffer;
-  }
-
-  load(shape) {
-    const { gl } = this;
-    return {
-      surface: this.buffer(gl.ARRAY_BUFFER, shape.surface),
-      image: this.buffer(gl.ARRAY_BUFFER, shape.image || shape.surface),
-      corners: this.buffer(gl.ELEMENT_ARRAY_BUFFER, shape.corners),
-      count: shape.corners.length,
+  // What draws each side of a shape.
+  load({ surface, image, corners }) {
+    const { app } = this;
+    const points = (data) => app.createVertexBuffer(PicoGL.FLOAT, 3, data);
+    const sides = { surface: points(surface), image: points(image || surface) };
+    const faces = app.createIndexBuffer(PicoGL.UNSIGNED_SHORT, corners);
+    const call = (side) => {
+      const arrays = app.createVertexArray().vertexAttributeBuffer(0, side).vertexAttributeBuffer(1, sides.image);
+      return app.createDrawCall(this.program, arrays.indexBuffer(faces));
     };
+    return { surface: call(sides.surface), image: call(sides.image) };
   }
 
   begin(width, height) {
-    const { gl } = this;
-    this.canvas.width = width;
-    this.canvas.height = height;
-    gl.viewport(0, 0, width, height);
-    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+    this.app.resize(width, height).clear();
   }
 
   // One side: `points` is "surface" or "image".
-  draw(loaded, points, side) {
-    const { gl, program } = this;
-    const uniform = (name) => gl.getUniformLocation(program, name);
-    for (const [name, buffer] of [["point", loaded[points]], ["image", loaded.image]]) {
-      const at = gl.getAttribLocation(program, name);
-      gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
-      gl.enableVertexAttribArray(at);
-      gl.vertexAttribPointer(at, 3, gl.FLOAT, false, 0, 0);
-    }
-    gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, loaded.corners);
-    gl.uniformMatrix3fv(uniform("turn"), true, side.rows.flat());
-    gl.uniform2fv(uniform("scale"), side.scale);
-    gl.uniform2fv(uniform("shift"), side.shift);
-    gl.uniform1f(uniform("checks"), side.checks);
-    gl.uniform1f(uniform("lit"), side.lit);
-    gl.enable(gl.SCISSOR_TEST);
-    gl.scissor(...side.box);
-    gl.drawElements(gl.TRIANGLES, loaded.count, gl.UNSIGNED_SHORT, 0);
-    gl.disable(gl.SCISSOR_TEST);
+  draw(loaded, points, { rows, scale, shift, box, checks, lit }) {
+    const columns = [0, 1, 2].flatMap((k) => rows.map((row) => row[k]));
+    this.app.enable(PicoGL.SCISSOR_TEST).scissor(...box);
+    loaded[points].uniform("turn", new Float32Array(columns)).uniform("scale", new Float32Array(scale))
+      .uniform("shift", new Float32Array(shift)).uniform("checks", checks).uniform("lit", lit).draw();
+    this.app.disable(PicoGL.SCISSOR_TEST);
   }
 }
