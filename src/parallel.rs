@@ -29,6 +29,14 @@ pub const MAX_THREADS: usize = 256;
 /// Bytes that a thread takes to start: its stack of 2 MiB, and what the C library notes about it, for which it may take 1 MiB at once.
 const THREAD: usize = 3 << 20;
 
+/// Bytes of address space from which the C library serves the small allocations of one thread, and to which it aligns them. Where glibc
+/// cannot have them, each allocation of that thread becomes a page of its own: 4 KiB for 16 bytes.
+const HEAP: usize = if cfg!(all(target_os = "linux", target_env = "gnu", target_pointer_width = "64")) {
+    64 << 20
+} else {
+    0
+};
+
 thread_local! {
     /// This thread runs the work of a pool that has no other.
     static ALONE: Cell<bool> = const { Cell::new(false) };
@@ -45,21 +53,21 @@ pub struct Pool {
 
 impl Pool {
     /// A pool of `threads` threads; 0 means one per available core, more than [`MAX_THREADS`] means that many. One thread is that
-    /// which calls [`Pool::run`].
+    /// which calls [`Pool::run`]. Where memory does not suffice for so many, there are as many as it suffices for.
     ///
     /// # Errors
     ///
     /// [`Error::Argument`] if the system cannot start that many threads.
     pub fn new(threads: usize) -> Result<Pool> {
         let cores = std::thread::available_parallelism().map_or(1, |n| n.get());
-        let threads = if threads == 0 { cores } else { threads.min(MAX_THREADS) };
+        let mut threads = if threads == 0 { cores } else { threads.min(MAX_THREADS) };
+        while threads > 1 && !is_room_for(threads * (THREAD + HEAP) + HEAP) {
+            threads /= 2;
+        }
         if threads == 1 {
             return Ok(Pool { pool: None, workers: Vec::new(), threads });
         }
         let refused = || Error::argument("threads", threads, "as many as the system can start");
-        if !is_room_for(threads * THREAD) {
-            return Err(refused());
-        }
         let mut workers = Vec::new();
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(threads)

@@ -293,7 +293,7 @@ static void limits_are_answered(void) {
     int answered = 0, done = 0;
     ricci_mesh *first = torus_mesh(&t); /* threads and code are there */
     ricci_mesh_free(first);
-    for (size_t megabytes = 8; megabytes <= 512; megabytes += megabytes < 64 ? 1 : 64) {
+    for (size_t megabytes = 8; megabytes <= 512; megabytes += megabytes < 64 ? 1 : 8) {
         fflush(stdout);
         const pid_t child = fork();
         CHECK(child >= 0);
