@@ -25,6 +25,7 @@ use crate::metric::lengths::face_lengths;
 use crate::metric::{Class, Curvature, Metric, Surface};
 use crate::parallel::Pool;
 use crate::topology::check_vertex;
+use std::sync::Arc;
 
 /// Radians. The angles opposite an edge of a result may exceed π by this, and its outline may turn the wrong way by this: it is far above
 /// rounding, and far below the excess at a wrong edge.
@@ -146,7 +147,7 @@ fn uniformize(surface: &Surface, options: &SphereOptions, control: &Control) -> 
     let n = mesh.n_vertices();
     let mut metric = Metric { space: Space::E2, u: PerVertex::filled(n, 0.0), ..metric };
     let unit = unit(&metric);
-    metric.eta.iter_mut().for_each(|eta| *eta = scaled_by(*eta, 1.0 / unit));
+    Arc::make_mut(&mut metric.eta).iter_mut().for_each(|eta| *eta = scaled_by(*eta, 1.0 / unit));
     let weights = vertex_areas(surface, unit);
     let begin = Punctured { mesh, metric, at: VertexId(0), followed, flips: 0 };
     let flow = flow(options);
@@ -207,7 +208,7 @@ fn raised(flat: Flat, from: Solution, unit: f64, tried: &mut Tried) -> Result<Sp
         nonconvexity: nonconvexity(&surface.mesh, &positions),
         centring: off_centre(&positions, tried.weights),
     };
-    metric.eta.iter_mut().for_each(|eta| *eta = scaled_by(*eta, unit));
+    Arc::make_mut(&mut metric.eta).iter_mut().for_each(|eta| *eta = scaled_by(*eta, unit));
     for (u, low) in metric.u.iter_mut().zip(metric.u_low.iter_mut()) {
         let (sum, lost) = two_sum(*u, -unit.ln());
         (*u, *low) = two_sum(sum, lost + *low);

@@ -34,8 +34,10 @@ pub(super) struct State {
     /// Per face: ∂θ/∂u weights of the edges opposite its corners, 0 in a broken face.
     pub weights: Vec<[f64; 3]>,
     pub curvature: PerVertex<f64>,
+    /// Whether all edges had a length at the last measurement.
+    is_real: bool,
     /// What the sums of `curvature` lose while they are formed.
-    lost: PerVertex<f64>,
+    lost: Vec<f64>,
 }
 
 impl State {
@@ -49,7 +51,8 @@ impl State {
             angles: Vec::new(),
             weights: Vec::new(),
             curvature: PerVertex::filled(u.len(), 0.0),
-            lost: PerVertex::filled(u.len(), 0.0),
+            is_real: false,
+            lost: Vec::new(),
         }
     }
 
@@ -71,25 +74,30 @@ impl State {
 
     /// Compute everything from `self.u` and `self.low`; false where some edge has no real length (u is outside the domain).
     pub fn evaluate(&mut self, mesh: &Mesh, class: &Metric) -> bool {
-        if !self.measure(mesh, class) {
-            return false;
+        self.measure(mesh, class);
+        self.finish(mesh)
+    }
+
+    /// The curvature of what has been measured; false where some edge had no real length.
+    pub fn finish(&mut self, mesh: &Mesh) -> bool {
+        if self.is_real {
+            self.sum_up(mesh);
         }
-        self.sum_up(mesh);
-        true
+        self.is_real
     }
 
     /// The curvature from the angles.
     fn sum_up(&mut self, mesh: &Mesh) {
         let angles = self.angles.iter().map(|a| a.at);
-        curvature_into(mesh, angles, [&mut self.curvature, &mut self.lost]);
+        curvature_into(mesh, angles, &mut self.curvature, &mut self.lost);
     }
 
-    /// [`State::evaluate`] after the flips of `surface` inside its class that make it weighted Delaunay at `self.u`, but for
-    /// `fixed` edges. Returns also the number of flips.
+    /// [`State::evaluate`] of what has been measured, after the flips of `surface` inside its class that make it weighted Delaunay at
+    /// `self.u`, but for `fixed` edges. Returns also the number of flips.
     ///
     /// An edge is Delaunay where its Laplacian weight, which Newton needs anyway, is not negative. So the flips start at the
     /// edges of negative weight and at broken faces, and only what they touch is measured again.
-    pub fn evaluate_delaunay(
+    pub fn flip_to_delaunay(
         &mut self,
         surface: ClassFlips,
         fixed: &FixedEdges,
@@ -97,7 +105,7 @@ impl State {
         control: &Control,
     ) -> Result<(bool, usize)> {
         let ClassFlips { mesh, metric: class, record } = surface;
-        let real = timed(&mut seconds.assemble, || self.measure(mesh, class));
+        let real = self.is_real;
         let mut touched = Vec::new();
         let flips = timed(&mut seconds.flip, || {
             let mut queue = if real { self.suspects(mesh, fixed) } else { Queue::all(mesh, fixed) };
@@ -112,21 +120,18 @@ impl State {
             )
         })?;
         let real = timed(&mut seconds.assemble, || {
-            let real = match flips {
-                0 => real,
+            match flips {
+                0 => (),
                 _ if !real => self.measure(mesh, class),
                 _ => self.measure_again(mesh, class, &touched),
-            };
-            if real {
-                self.sum_up(mesh);
             }
-            real
+            self.finish(mesh)
         });
         Ok((real, flips))
     }
 
     /// Everything but the curvature.
-    fn measure(&mut self, mesh: &Mesh, class: &Metric) -> bool {
+    pub fn measure(&mut self, mesh: &Mesh, class: &Metric) {
         let (space, u, low) = (class.space, &self.u, &self.low);
         self.vertices.resize(mesh.n_vertices(), Vertex::default());
         self.angles.resize(mesh.n_faces(), Angles { at: [0.0; 3] });
@@ -135,14 +140,13 @@ impl State {
             let v = VertexId::from(v);
             Vertex::precise(space, class.epsilon[v], u[v], low[v])
         });
-        let is_known =
+        self.is_real =
             (needs_chords_alone(class) && self.find_chords(mesh, class)) || self.find_edges(mesh, class);
-        if is_known {
+        if self.is_real {
             let State { vertices, edges, chords, angles, weights, .. } = self;
             let parts = Parts { mesh, class, vertices, edges, chords };
             fill_both(angles, weights, |f| parts.measured(f.into()));
         }
-        is_known
     }
 
     /// The half chords of the edges; false where some have no length, or need units of their own.
@@ -174,7 +178,7 @@ impl State {
     }
 
     /// Measure flipped edges, and the faces at them.
-    fn measure_again(&mut self, mesh: &Mesh, class: &Metric, flipped: &[EdgeId]) -> bool {
+    fn measure_again(&mut self, mesh: &Mesh, class: &Metric, flipped: &[EdgeId]) {
         for &e in flipped {
             match self.chords.get_mut(e.index()) {
                 Some(known) => *known = chord(mesh, class, &self.vertices, e),
@@ -182,7 +186,11 @@ impl State {
             }
         }
         if flipped.iter().any(|&e| self.squared_chord(e) == 0.0) {
-            return !self.chords.is_empty() && self.measure(mesh, class);
+            self.is_real = false;
+            if !self.chords.is_empty() {
+                self.measure(mesh, class);
+            }
+            return;
         }
         let State { vertices, edges, chords, angles, weights, .. } = self;
         let parts = Parts { mesh, class, vertices, edges, chords };
@@ -190,7 +198,6 @@ impl State {
         {
             (angles[f.index()], weights[f.index()]) = parts.measured(f);
         }
-        true
     }
 
     /// The squared half chord of an edge ([`Edge::q2`]).
@@ -230,6 +237,7 @@ impl State {
             next.chords = std::mem::take(&mut self.chords);
             next.angles = std::mem::take(&mut self.angles);
             next.weights = std::mem::take(&mut self.weights);
+            next.lost = std::mem::take(&mut self.lost);
         }
     }
 

@@ -14,6 +14,7 @@ use crate::mesh::{EdgeId, Filled, HalfedgeId, Mesh, PerEdge, VertexId};
 use crate::metric::lengths::face_lengths;
 use crate::metric::{Class, Metric, Surface};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::sync::Arc;
 
 /// Least radius that a circle starts with, in units of the longest edge of its loop. Chords of a circle are at most twice its radius.
 const LEAST_START: f64 = 0.6;
@@ -99,5 +100,6 @@ impl Solution {
 
 fn make_hub(mesh: &Mesh, metric: &mut Metric, hub: VertexId) {
     metric.epsilon[hub] = 1;
-    mesh.outgoing(hub).for_each(|h| metric.eta[h.edge()] = Twofold::default());
+    let eta = Arc::make_mut(&mut metric.eta);
+    mesh.outgoing(hub).for_each(|h| eta[h.edge()] = Twofold::default());
 }

@@ -16,6 +16,7 @@ use crate::metric::curvature::gauss_bonnet;
 use crate::metric::delaunay::ClassFlips;
 use crate::metric::target::{check_total, check_upper, settle_total};
 use crate::metric::{Metric, Target};
+use crate::parallel::join;
 use std::sync::Arc;
 
 /// The end of a method.
@@ -85,13 +86,16 @@ impl Flow {
 
     /// A solve, on the double where it leads there; the flow is as before where that is an error.
     fn advance(&mut self, target: &PerVertex<f64>, control: &Control) -> Result<Report> {
+        // What comes after `run` can fail too, when u and the start are those of its end.
+        let goes_on = self.one_copy || self.is_to_be_flattened(target);
         let Metric { u, u_low, .. } = &self.metric;
-        let before = [u, u_low, &self.start, &self.start_low].map(PerVertex::clone);
+        let before = goes_on.then(|| [u, u_low, &self.start, &self.start_low].map(PerVertex::clone));
         let flips = self.flips;
-        let start = [&before[2], &before[3]];
-        let outcome = self.run(target, control).and_then(|(report, left)| match left {
-            true => self.run_doubled(report, target, start, control),
-            false => Ok((report, None)),
+        let outcome = self.run(target, control).and_then(|(report, left)| match &before {
+            Some([_, _, start, start_low]) if left => {
+                self.run_doubled(report, target, [start, start_low], control)
+            }
+            _ => Ok((report, None)),
         });
         match outcome {
             Ok((report, doubled)) => {
@@ -104,10 +108,13 @@ impl Flow {
                 // The triangulation from before, whose system is to be made anew.
                 self.system = None;
                 let Flow { now, log, start, start_low, .. } = self;
-                log.undo(Arc::make_mut(&mut now.mesh), &mut now.metric.eta, &mut now.followed)?;
+                let eta = Arc::make_mut(&mut now.metric.eta);
+                log.undo(Arc::make_mut(&mut now.mesh), eta, &mut now.followed)?;
                 now.share_given();
                 now.flips = flips;
-                [now.metric.u, now.metric.u_low, *start, *start_low] = before;
+                if let Some(before) = before {
+                    [now.metric.u, now.metric.u_low, *start, *start_low] = before;
+                }
                 Err(error)
             }
         }
@@ -190,7 +197,7 @@ impl Flow {
         if self.free_scale() && !keeps_area {
             state.center();
         }
-        if !self.evaluate(&mut state, report, control)? {
+        if !self.begin(&mut state, report, control)? {
             return Err(Error::Argument { what: "u", value: "start".into(), need: "in the metric's domain" });
         }
         // A target that is infeasible on one triangulation can be feasible after flips, so obstructions are only searched where flips
@@ -276,13 +283,38 @@ impl Flow {
         report: &mut Report,
         control: &Control,
     ) -> Result<bool> {
+        timed(&mut report.seconds.assemble, || state.measure(&self.mesh, &self.metric));
+        self.after_measuring(state, report, control)
+    }
+
+    /// [`Flow::evaluate`] at the start, beside the analysis of the triangulation for Newton's method, whose order one thread has to find.
+    fn begin(&mut self, state: &mut State, report: &mut Report, control: &Control) -> Result<bool> {
+        let is_newton = self.options.method == Method::Newton;
+        if !is_newton || self.system.is_some() || self.pool.threads() == 1 {
+            return self.evaluate(state, report, control);
+        }
+        let (mut measuring, mut both) = (0.0, 0.0);
+        let measure = || timed(&mut measuring, || state.measure(&self.mesh, &self.metric));
+        let (system, ()) = timed(&mut both, || join(|| self.new_system(), measure));
+        report.seconds.assemble += measuring;
+        report.seconds.analyse += both - measuring;
+        let is_real = self.after_measuring(state, report, control)?;
+        if report.flips == 0 {
+            // Where it has failed it is tried again when it is needed, and the error is that of then.
+            self.system = system.ok();
+        }
+        Ok(is_real)
+    }
+
+    /// What is left of [`Flow::evaluate`] where a state has been measured.
+    fn after_measuring(&mut self, state: &mut State, report: &mut Report, control: &Control) -> Result<bool> {
         if !self.flips_allowed {
-            return Ok(timed(&mut report.seconds.assemble, || state.evaluate(&self.mesh, &self.metric)));
+            return Ok(timed(&mut report.seconds.assemble, || state.finish(&self.mesh)));
         }
         let Flow { now: Solution { mesh, metric, followed, .. }, log, fixed, .. } = self;
         let mut record = |mesh: &Mesh, flip| log.record(mesh, flip, followed);
         let surface = ClassFlips { mesh: Arc::make_mut(mesh), metric, record: &mut record };
-        let (real, flips) = state.evaluate_delaunay(surface, fixed, &mut report.seconds, control)?;
+        let (real, flips) = state.flip_to_delaunay(surface, fixed, &mut report.seconds, control)?;
         report.flips += flips;
         self.unseen_flips += flips;
         Ok(real)
@@ -294,19 +326,26 @@ impl Flow {
         let flips = std::mem::take(&mut self.unseen_flips);
         let system = match self.system.take() {
             Some(kept) if flips == 0 => kept,
-            kept => timed(&mut report.seconds.analyse, || {
-                let mut fixed =
-                    if self.is_bounded { vec![false; self.pinned.len()] } else { self.pinned.clone() };
-                fixed[0] |= self.free_scale();
-                match kept {
-                    Some(kept) => kept.flipped(&self.mesh, &fixed, self.mirror.as_deref(), flips),
-                    None => System::new(&self.mesh, &fixed, self.mirror.as_deref()),
-                }
+            Some(kept) => timed(&mut report.seconds.analyse, || {
+                kept.flipped(&self.mesh, &self.held_by_system(), self.mirror.as_deref(), flips)
             })?,
+            None => timed(&mut report.seconds.analyse, || self.new_system())?,
         };
         report.unknowns = system.unknowns();
         report.factor_entries = system.factor_entries();
         Ok(system)
+    }
+
+    /// An analysed system of the present unknowns and triangulation.
+    fn new_system(&self) -> Result<System> {
+        System::new(&self.mesh, &self.held_by_system(), self.mirror.as_deref())
+    }
+
+    /// The vertices at which the system has no unknown.
+    fn held_by_system(&self) -> Vec<bool> {
+        let mut held = if self.is_bounded { vec![false; self.pinned.len()] } else { self.pinned.clone() };
+        held[0] |= self.free_scale();
+        held
     }
 
     /// A system that can be factorised in this precision.

@@ -74,28 +74,31 @@ const PI_LOW: f64 = 1.224_646_799_147_353_2e-16;
 /// K from the corner angles of each face, in face order. What each sum loses to rounding is added up too and put back at the end, so
 /// that a vertex of a thousand triangles is as exact as one of six.
 pub fn curvature_from_angles(mesh: &Mesh, angles: impl Iterator<Item = [f64; 3]>) -> PerVertex<f64> {
-    let [mut at, mut low] = [(); 2].map(|()| PerVertex::filled(mesh.n_vertices(), 0.0));
-    curvature_into(mesh, angles, [&mut at, &mut low]);
+    let mut at = PerVertex::filled(mesh.n_vertices(), 0.0);
+    curvature_into(mesh, angles, &mut at, &mut Vec::new());
     at
 }
 
-/// [`curvature_from_angles`] into the first of two arrays of V entries; the second is memory for what its sums lose.
+/// [`curvature_from_angles`] into `at` (V entries); `lost` is memory for what its sums lose.
 pub(crate) fn curvature_into(
     mesh: &Mesh,
     angles: impl Iterator<Item = [f64; 3]>,
-    [at, low]: [&mut PerVertex<f64>; 2],
+    at: &mut PerVertex<f64>,
+    lost: &mut Vec<f64>,
 ) {
+    lost.resize(mesh.n_vertices(), 0.0);
     for v in mesh.vertices() {
         let halves = if mesh.is_boundary_vertex(v) { 1.0 } else { 2.0 };
-        (at[v], low[v]) = (halves * PI, halves * PI_LOW);
+        (at[v], lost[v.index()]) = (halves * PI, halves * PI_LOW);
     }
     for (f, angles) in angles.enumerate() {
         for (v, angle) in mesh.face_vertices(FaceId::from(f)).into_iter().zip(angles) {
-            let (sum, lost) = two_sum(at[v], -angle);
-            (at[v], low[v]) = (sum, low[v] + lost);
+            let (sum, error) = two_sum(at[v], -angle);
+            at[v] = sum;
+            lost[v.index()] += error;
         }
     }
-    mesh.vertices().for_each(|v| at[v] += low[v]);
+    mesh.vertices().for_each(|v| at[v] += lost[v.index()]);
 }
 
 /// Total area of the metric with these edge lengths (E entries).

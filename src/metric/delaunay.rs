@@ -25,6 +25,7 @@ use crate::geometry::conformal::Vertex;
 use crate::geometry::flip::{Hinge, precise_weight, weight};
 use crate::geometry::{Space, Twofold};
 use crate::mesh::{EdgeId, FixedEdges, Flip, HalfedgeId, Mesh, PerEdge, PerVertex, VertexId};
+use std::sync::Arc;
 
 pub use super::flip_queue::Queue;
 pub use super::isometric::{IntrinsicOptions, Triangulated, intrinsic_delaunay};
@@ -71,6 +72,9 @@ impl ClassFlips<'_> {
     ) -> Result<usize> {
         let ClassFlips { mesh, metric, record } = self;
         check_size("vertices", vertices.len(), mesh.n_vertices())?;
+        if queue.is_empty() {
+            return Ok(0);
+        }
         let (space, is_precise) = (metric.space, metric.is_precise());
         let decide = |mesh: &Mesh, eta: &PerEdge<Twofold>, h: HalfedgeId| {
             let hinge = VertexHinge::new(space, mesh, h, |v| vertices[v.index()]);
@@ -79,7 +83,7 @@ impl ClassFlips<'_> {
         let most = allowance(mesh.n_edges());
         let flips = queue.flip_until_empty(
             most,
-            &mut Flippable { mesh, values: &mut metric.eta, decide, record },
+            &mut Flippable { mesh, values: Arc::make_mut(&mut metric.eta), decide, record },
             control,
         )?;
         if queue.is_empty() {
@@ -98,7 +102,7 @@ impl ClassFlips<'_> {
         let hinge = VertexHinge::new(metric.space, self.mesh, h, |v| metric.vertex(v));
         let Some(eta) = hinge.other_diagonal(&metric.eta) else { return false };
         (self.record)(self.mesh, Flip { edge, value: metric.eta[edge] });
-        metric.eta[edge] = eta;
+        Arc::make_mut(&mut metric.eta)[edge] = eta;
         self.mesh.flip(edge)
     }
 }

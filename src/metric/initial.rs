@@ -21,6 +21,7 @@ use crate::mesh::{EdgeId, Mesh, PerEdge, PerVertex};
 use crate::parallel;
 use crate::topology::check_lengths;
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 /// The initial metric with what is needed to read the result of a flow against it.
 #[derive(Debug, Clone, PartialEq)]
@@ -131,7 +132,7 @@ fn represented(
     let mut metric = Metric {
         space: input_geometry,
         epsilon,
-        eta: Vec::new().into(),
+        eta: Arc::new(Vec::new().into()),
         u: input_u.clone(),
         u_low: PerVertex::filled(n, 0.0),
     };
@@ -159,7 +160,7 @@ fn represented(
             }
         }
     }
-    metric.eta = weights.into();
+    metric.eta = Arc::new(weights.into());
     let clamped = if clamped_edges > 0 { Some(metric.lengths(mesh)?) } else { None };
     let start = clamped.as_ref().unwrap_or(lengths);
     let change = |e: EdgeId| (start[e] / lengths[e] - 1.0).abs();

@@ -17,6 +17,7 @@ use crate::geometry::{Space, Twofold};
 use crate::mesh::{EdgeId, FaceId, Mesh, PerEdge, PerVertex, Point, VertexId};
 use crate::parallel;
 use crate::topology::check_lengths;
+use std::sync::Arc;
 
 /// A metric of the conformal class (ε, η) in a background geometry.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,7 +28,8 @@ pub struct Metric {
     pub epsilon: PerVertex<i8>,
     /// Edge weight η; E entries, fixed in the class (up to flips). It has twice the digits, since flips add up their rounding, and the
     /// angles of a needle magnify it by the needle's length over its width.
-    pub eta: PerEdge<Twofold>,
+    /// Metrics that differ in u alone share it.
+    pub eta: Arc<PerEdge<Twofold>>,
     /// Conformal variable u; V entries. ε ≠ 0: `log γ`, `log tanh(γ/2)`, `log tan(γ/2)` in E², H², S².
     pub u: PerVertex<f64>,
     /// What the doubles u lose; V entries, at most half an ulp of them. 0 in a metric that no flow has made.

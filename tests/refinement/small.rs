@@ -11,6 +11,7 @@ use ricci::mesh::{EdgeId, FaceId, Mesh, NormalCoordinates, PerEdge, PerVertex, V
 use ricci::metric::refinement::{Final, Input, Triangulations};
 use ricci::metric::{Class, Metric, Refinement, Scheme, initial_metric, lengths_from_positions};
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 #[test]
 fn without_flips_the_refinement_is_the_input() {
@@ -56,8 +57,8 @@ fn ptolemy(mesh: &mut Mesh, metric: &mut Metric, normal: &mut NormalCoordinates,
         return false;
     }
     let sides = [h, mesh.prev(h), mesh.next(h), mesh.next(h.twin()), mesh.prev(h.twin())];
-    metric.eta[e] =
-        Hinge::from_products([Twofold::default(); 4], sides.map(|h| metric.eta[h.edge()])).flipped().unwrap();
+    let eta = Arc::make_mut(&mut metric.eta);
+    eta[e] = Hinge::from_products([Twofold::default(); 4], sides.map(|h| eta[h.edge()])).flipped().unwrap();
     normal.record(mesh, e);
     mesh.flip(e)
 }
@@ -78,7 +79,7 @@ fn refined_from_either_side_the_crossings_are_the_same() {
         let class = Metric {
             space: Space::E2,
             epsilon: PerVertex::filled(before.n_vertices(), 0),
-            eta: PerEdge::from_fn(before.n_edges(), |_| (3.0 * random.symmetric()).exp().into()),
+            eta: Arc::new(PerEdge::from_fn(before.n_edges(), |_| (3.0 * random.symmetric()).exp().into())),
             u: PerVertex::from_fn(before.n_vertices(), |_| random.symmetric()),
             u_low: PerVertex::filled(before.n_vertices(), 0.0),
         };
@@ -194,7 +195,7 @@ fn edges_across_a_cocircular_quadrilateral_stay_straight() {
         let metric = Metric {
             space,
             epsilon: PerVertex::filled(4, epsilon),
-            eta: PerEdge::from_fn(5, |e| eta(&mesh, e).into()),
+            eta: Arc::new(PerEdge::from_fn(5, |e| eta(&mesh, e).into())),
             u: u.clone(),
             u_low: PerVertex::filled(4, 0.0),
         };

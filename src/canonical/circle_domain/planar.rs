@@ -123,10 +123,12 @@ fn unit(metric: &Metric) -> f64 {
 
 /// η with the vectors of points divided by `unit`, a power of two.
 fn in_units(mesh: &Mesh, metric: &mut Metric, unit: f64) {
+    let Metric { epsilon, eta, .. } = metric;
+    let eta = Arc::make_mut(eta);
     for e in mesh.edges() {
-        let points = mesh.ends(e).into_iter().filter(|&v| metric.epsilon[v] == 0).count();
+        let points = mesh.ends(e).into_iter().filter(|&v| epsilon[v] == 0).count();
         let factor = unit.powi(-(points as i32));
-        metric.eta[e] = Twofold { high: metric.eta[e].high * factor, low: metric.eta[e].low * factor };
+        eta[e] = Twofold { high: eta[e].high * factor, low: eta[e].low * factor };
     }
 }
 
