@@ -78,8 +78,8 @@ def main():
     print(f"""# A cohort over the corpus
 
 Made by `docs/results/cohort.py`: `ricci.cohort(paths, Job("flow"), out, engine="dask", workers=N)` on all {len(names)} good meshes, one thread in each
-worker, on {platform.machine()} with {os.cpu_count()} cores. The load average of the minute before it began was {busy:.1f}: what else ran there is in the first
-column of seconds, and hardly in those of the processor.
+worker, on {platform.machine()} with {os.cpu_count()} cores. The load average of the minute before it began was {busy:.1f}: what else ran there is in the first two
+columns of seconds, and hardly in those of the processor.
 
 | workers | s | s in meshes | s of the processor | failures | converged | SHA-256 of `results.parquet` |
 |---|---|---|---|---|---|---|
