@@ -91,8 +91,10 @@ if __name__ == "__main__":
 """
 
 
-@pytest.mark.parametrize("engine", ["inline", "processes"])
+@pytest.mark.parametrize("engine", ["inline", "processes", "dask"])
 def test_a_run_that_was_killed_goes_on_to_the_same_table(files, tmp_path, engine):
+    if engine == "dask":
+        pytest.importorskip("distributed")
     names = [str(path) for path in files]
     script = tmp_path / "run.py"
     script.write_text(KILLED.format(tests=os.path.dirname(cohort_jobs.__file__), files=names, out=str(tmp_path / "out"), engine=engine))

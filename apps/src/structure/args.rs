@@ -1,6 +1,6 @@
 //! The options of `ricci structure`.
 
-use crate::options::{Common, FileName, SurfaceArgs, choices, positive};
+use crate::options::{Common, FileName, FlipsChoice, SurfaceArgs, choices, positive};
 use crate::picture::PictureArgs;
 use clap::Args;
 use ricci::structure::{AffineSource, Charts, Structure};
@@ -19,9 +19,10 @@ Kinds
     projective   negative Euler characteristic: charts in the Klein disk, SO(2,1)
 
 Files
-    --atlas A.json             charts (vertices, faces, coordinates), transitions (one for each connected overlap: matrix and shared
-                               vertices), singular vertices. A vertex may be in a chart more than once. Faces are those of the metric's
-                               triangulation, whose first vertices are the input's";
+    --atlas A.json             charts (vertices, coordinates, faces, and for each corner of these its place among the vertices),
+                               transitions (one for each connected overlap: matrix and shared vertices), singular vertices. A
+                               vertex may be in a chart more than once. Faces are those of the metric's triangulation, whose first
+                               vertices are the input's";
 
 #[derive(Args, Serialize, Debug)]
 pub struct StructureArgs {
@@ -38,6 +39,9 @@ pub struct StructureArgs {
     #[arg(long, value_name = "VERTEX")]
     #[serde(skip)]
     pub singular: Option<u32>,
+    /// Edge flips of the flow: as needed, or never, so that the faces of the atlas are the input's
+    #[arg(long, value_enum, default_value_t = FlipsChoice::Auto)]
+    pub flips: FlipsChoice,
     /// The charts: stars of vertices, or patches that grow until they would overlap themselves
     #[arg(long, value_enum, default_value_t = ChartsChoice::Stars)]
     pub charts: ChartsChoice,

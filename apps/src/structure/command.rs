@@ -40,7 +40,11 @@ pub fn execute(args: &StructureArgs, control: &Control) -> Result<Done<Found>, F
         radius: args.radius,
         source: args.from.into(),
         singular: args.singular.map(VertexId),
-        flow: flow::Options { threads: args.common.threads, ..flow::Options::default() },
+        flow: flow::Options {
+            threads: args.common.threads,
+            flips: args.flips.into(),
+            ..flow::Options::default()
+        },
     };
     let found = timed(&mut seconds.solve, || doing("atlas", || atlas(&input.surface, &options, control)))?;
     input.seconds = seconds;

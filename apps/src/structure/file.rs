@@ -21,6 +21,8 @@ pub struct AtlasFile<'a> {
 struct ChartFile<'a> {
     vertices: Vec<u32>,
     faces: Vec<u32>,
+    /// Per face the places of its corners among the vertices, one of which may be there more than once.
+    corners: &'a [[u32; 3]],
     coordinates: &'a [[f64; 2]],
 }
 
@@ -60,6 +62,7 @@ impl<'a> AtlasFile<'a> {
         let charts = atlas.charts.iter().map(|chart| ChartFile {
             vertices: chart.vertices.iter().map(|v| v.0).collect(),
             faces: chart.faces.iter().map(|f| f.0).collect(),
+            corners: &chart.corners,
             coordinates: &chart.coordinates,
         });
         let transitions = atlas.transitions.iter().map(|t| TransitionFile {

@@ -54,6 +54,35 @@ fn miss(file: &Value) -> f64 {
     most
 }
 
+/// Corners of the faces of every chart name vertices of that face, where the atlas keeps the triangles of the mesh.
+fn corners_are_those_of(file: &Value, triangles: &[[u64; 3]]) -> bool {
+    file["charts"].as_array().unwrap().iter().all(|chart| {
+        let rows = chart["faces"].as_array().unwrap().iter().zip(chart["corners"].as_array().unwrap());
+        rows.into_iter().all(|(face, corners)| {
+            let vertex =
+                |k: usize| chart["vertices"][corners[k].as_u64().unwrap() as usize].as_u64().unwrap();
+            triangles[face.as_u64().unwrap() as usize] == [0, 1, 2].map(vertex)
+        })
+    })
+}
+
+#[test]
+fn without_flips_the_faces_of_an_atlas_are_those_of_the_mesh() {
+    let place = Place::new();
+    place.expect(0, "make genus -o two.obj");
+    let text = std::fs::read_to_string(place.path("two.obj")).unwrap();
+    let corner = |word: &str| word.split('/').next().unwrap().parse::<u64>().unwrap() - 1;
+    let triangles: Vec<[u64; 3]> = text
+        .lines()
+        .filter_map(|line| line.strip_prefix("f "))
+        .map(|line| line.split_whitespace().map(corner).collect::<Vec<_>>().try_into().unwrap())
+        .collect();
+    place.expect(0, "structure two.obj --kind hyperbolic --flips never --atlas A.json");
+    assert!(corners_are_those_of(&place.json("A.json"), &triangles));
+    place.expect(0, "structure two.obj --kind hyperbolic --atlas A.json");
+    assert!(!corners_are_those_of(&place.json("A.json"), &triangles), "the flow flips edges");
+}
+
 #[test]
 fn files_hold_atlases_of_every_kind_and_reports_their_figures() {
     let place = Place::new();

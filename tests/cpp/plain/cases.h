@@ -26,16 +26,21 @@ static inline int asks(const json *node, const char *quantity) {
     return member(need(node, "expect"), quantity) != NULL;
 }
 
-/* Holds n numbers against the case, if it has this quantity. */
-static inline void agrees(const json *node, const char *quantity, const double *ours, size_t n) {
-    const json *expected = member(need(node, "expect"), quantity);
-    if (!expected) return;
-    const json *values = need(expected, "values");
-    const double tolerance = number(need(expected, "tolerance")), *exact = numbers(values);
+/* Holds n numbers against those of the case: none is off by more than the tolerance. */
+static inline void agrees_within(const json *node, const char *quantity, const double *ours, size_t n,
+                                 double tolerance) {
+    const json *values = need(need(need(node, "expect"), quantity), "values");
+    const double *exact = numbers(values);
     double error = values->n == n ? 0 : INFINITY;
     for (size_t i = 0; i < n && i < values->n; i++)
         if (!(fabs(ours[i] - exact[i]) <= error)) error = fabs(ours[i] - exact[i]);
     if (!(error <= tolerance)) fails(node, quantity, error, tolerance);
+}
+
+/* Holds n numbers against the case, if it has this quantity. */
+static inline void agrees(const json *node, const char *quantity, const double *ours, size_t n) {
+    const json *expected = member(need(node, "expect"), quantity);
+    if (expected) agrees_within(node, quantity, ours, n, number(need(expected, "tolerance")));
 }
 
 /* FNV-1a of the text of a case up to its seal. */
@@ -126,6 +131,39 @@ static inline ricci_mesh *surface(const json *given) {
     gluing.geometry = space_of(need(given, "geometry"));
     OK(ricci_mesh_from_gluing(&gluing, &mesh));
     return mesh;
+}
+
+/* The triangle of a case as a surface of one face. */
+static inline ricci_mesh *triangle_surface(const json *how) {
+    static const uint32_t corners[] = {0, 1, 2};
+    static const int32_t edges[] = {1, 2, 3};
+    ricci_mesh *mesh = NULL;
+    ricci_gluing gluing;
+    INIT(gluing);
+    gluing.n_vertices = 3, gluing.n_faces = 1, gluing.faces = corners, gluing.face_edges = edges;
+    gluing.lengths = numbers(need(how, "lengths")), gluing.n_edges = 3;
+    gluing.geometry = space_of(need(how, "space"));
+    OK(ricci_mesh_from_gluing(&gluing, &mesh));
+    return mesh;
+}
+
+/* Holds the curvatures at the corners, pi minus the angles, and the area of a triangle's surface against the
+ * case. In the hyperbolic plane its lengths go through the variables of the class, whose rounding weighs the
+ * more the less the two shorter sides have over the longest: by the root of that at angles, by itself in the
+ * area. The tolerances are other ones than those of the formulas. */
+static inline void triangle_agrees(const json *node, const double *curvature, double area) {
+    const json *how = need(node, "options"), *expected = need(need(node, "expect"), "area");
+    const double *l = numbers(need(how, "lengths")), exact = numbers(need(expected, "values"))[0];
+    const double rounding = 8 * 2.220446049250313e-16, pi = acos(-1);
+    double angles[3], spare = 1;
+    for (int k = 0; k < 3; k++) {
+        const double a = l[k], b = l[(k + 1) % 3], c = l[(k + 2) % 3];
+        angles[k] = pi - curvature[k];
+        if (a >= b && a >= c && is(need(how, "space"), "h2"))
+            spare = fmin(1, 2 * (fmin(b, c) - (a - fmax(b, c))) / a);
+    }
+    agrees_within(node, "angles", angles, 3, rounding / sqrt(spare));
+    agrees_within(node, "area", &area, 1, rounding / spare * exact);
 }
 
 /* Where the numbers of a layout or chart mean distances. */

@@ -50,6 +50,19 @@ static void metric_case(const json *node) {
     ricci_metric_free(metric), ricci_mesh_free(mesh);
 }
 
+static void triangle_case(const json *node) {
+    const json *how = need(node, "options");
+    ricci_mesh *mesh = triangle_surface(how);
+    ricci_metric *metric = NULL;
+    ricci_metric_summary s;
+    double curvature[3];
+    OK(ricci_metric_new(mesh, RICCI_SCHEME_YAMABE, space_of(need(how, "space")), &metric));
+    OK(ricci_metric_summarise(metric, &s, sizeof s));
+    OK(ricci_metric_values(metric, RICCI_METRIC_CURVATURE, curvature, 3));
+    triangle_agrees(node, curvature, s.area);
+    ricci_metric_free(metric), ricci_mesh_free(mesh);
+}
+
 static void flow_case(const json *node) {
     metric_case(node);
     ricci_mesh *mesh = surface(need(node, "mesh"));
@@ -366,8 +379,8 @@ static const struct {
              {"fit", fit_case},
              {"surface_fit", surface_fit_case},
              {"match", match_case},
+             {"triangle", triangle_case},
              /* Formulas below the C face, which the Rust test calls: their seals alone are held here. */
-             {"triangle", NULL},
              {"circle_pattern", NULL},
              {"derivative", NULL}};
 

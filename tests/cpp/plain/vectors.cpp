@@ -53,6 +53,13 @@ void metric_case(const json *node) {
     agrees(node, "curvature", start.curvature());
 }
 
+void triangle_case(const json *node) {
+    const json *how = need(node, "options");
+    const ricci::metric start(ricci::mesh(triangle_surface(how)), std::uint32_t(RICCI_SCHEME_YAMABE),
+                              space_of(need(how, "space")));
+    triangle_agrees(node, start.curvature().data(), start.summary().area);
+}
+
 void flow_case(const json *node) {
     metric_case(node);
     const ricci::mesh mesh = mesh_of(need(node, "mesh"));
@@ -240,8 +247,8 @@ const struct {
              {"fit", fit_case},
              {"surface_fit", surface_fit_case},
              {"match", match_case},
+             {"triangle", triangle_case},
              // Formulas below the C face, which the Rust test calls: their seals alone are held here.
-             {"triangle", nullptr},
              {"circle_pattern", nullptr},
              {"derivative", nullptr}};
 
