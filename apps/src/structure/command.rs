@@ -1,12 +1,13 @@
 //! The command from beginning to end.
 
-use super::args::StructureArgs;
+use super::args::{SourceChoice, StructureArgs};
 use super::drawn;
 use super::figures::{self, Found};
 use super::file::AtlasFile;
 use crate::delivery::Delivery;
 use crate::failure::Failure;
 use crate::input::{self, Input};
+use crate::options::FlipsChoice;
 use crate::output::{check_extension, check_outputs};
 use crate::progress::{Progress, doing};
 use crate::report::{Attempts, Done, Figures, InputSummary, Report, timed};
@@ -59,6 +60,10 @@ pub fn execute(args: &StructureArgs, control: &Control) -> Result<Done<Found>, F
 
 /// What can be refused before anything is read.
 fn check_request(args: &StructureArgs) -> Result<(), Failure> {
+    if matches!((args.from, args.flips), (SourceChoice::Form, FlipsChoice::Never)) {
+        let why = "--flips is for the flow, and a structure from a 1-form has none: leave it out";
+        return Err(Failure::Usage(why.into()));
+    }
     let picture = args.picture.picture.as_deref();
     check_extension("--picture", picture, &["png"])?;
     let files = [args.atlas.as_deref(), picture, args.common.report.as_deref()];

@@ -128,6 +128,7 @@ fn structures_that_a_surface_has_not_are_refused() {
         ("torus.obj --kind affine --singular 7", "genus other than 1"),
         ("bolza.json --kind affine --singular 100000", "no such vertex"),
         ("bolza.json --kind hyperbolic --from form", "affine"),
+        ("bolza.json --kind affine --from form --flips never", "leave it out"),
         ("bolza.json --kind hyperbolic --radius 0", "positive"),
         ("bolza.json --kind hyperbolic --picture p.png", "no positions"),
         ("bolza.json", "--kind"),
