@@ -16,6 +16,8 @@
 use crate::error::{Error, Result};
 use rayon::prelude::*;
 use std::cell::Cell;
+use std::fs::File;
+use std::io::Read;
 use std::sync::{Mutex, PoisonError};
 use std::thread::JoinHandle;
 
@@ -61,7 +63,8 @@ impl Pool {
     pub fn new(threads: usize) -> Result<Pool> {
         let cores = std::thread::available_parallelism().map_or(1, |n| n.get());
         let mut threads = if threads == 0 { cores } else { threads.min(MAX_THREADS) };
-        while threads > 1 && !is_room_for(threads * (THREAD + HEAP) + HEAP) {
+        let heap = if is_address_space_limited() { HEAP } else { 0 };
+        while threads > 1 && !is_room_for(threads * (THREAD + heap) + heap) {
             threads /= 2;
         }
         if threads == 1 {
@@ -102,6 +105,15 @@ fn is_room_for(bytes: usize) -> bool {
     let is_there = room.try_reserve_exact(bytes).is_ok();
     std::hint::black_box(&room);
     is_there
+}
+
+/// Whether the system limits the addresses of this process, as far as Linux tells. Nothing is allocated to find out.
+fn is_address_space_limited() -> bool {
+    let mut bytes = [0; 2048];
+    let read = File::open("/proc/self/limits").and_then(|mut file| file.read(&mut bytes));
+    let text = read.ok().and_then(|n| std::str::from_utf8(&bytes[..n]).ok());
+    let limit = text.and_then(|text| text.lines().find_map(|line| line.strip_prefix("Max address space")));
+    limit.is_some_and(|limit| !limit.trim_start().starts_with("unlimited"))
 }
 
 /// Run `work` on this thread, nothing of it on others.
