@@ -307,5 +307,19 @@ pub(super) fn combination(space: Space, corners: [[f64; 3]; 3], weights: [f64; 3
 /// [`Error::Layout`] outside the surface.
 #[inline]
 pub(super) fn corner_of(mesh: &Mesh, h: HalfedgeId) -> Result<(FaceId, usize)> {
-    mesh.corner(h).ok_or_else(|| Error::Layout(format!("half-edge {h} belongs to no face")))
+    mesh.corner(h).ok_or_else(|| outside(h))
+}
+
+/// The face of a half-edge.
+///
+/// # Errors
+/// [`Error::Layout`] outside the surface.
+#[inline]
+pub(super) fn face_of(mesh: &Mesh, h: HalfedgeId) -> Result<FaceId> {
+    mesh.face(h).ok_or_else(|| outside(h))
+}
+
+#[cold]
+fn outside(h: HalfedgeId) -> Error {
+    Error::Layout(format!("half-edge {h} belongs to no face"))
 }
