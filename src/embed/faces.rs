@@ -104,6 +104,11 @@ impl<'a, F: Frame> Faces<'a, F> {
         lengths.into()
     }
 
+    /// The length of the side opposite a corner.
+    pub fn length(&self, f: FaceId, corner: usize) -> f64 {
+        F::length(self.space, self.sides[self.mesh.opposite_edges(f)[corner]])
+    }
+
     /// A number that grows with the length of a face's longest side; in E² by [`PlaneFrame`]s that length.
     #[inline]
     pub fn longest(&self, f: FaceId) -> f64 {
