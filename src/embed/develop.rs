@@ -1,6 +1,6 @@
 //! Developing an opened surface into the space of its metric: face after face, outwards from the origin.
 
-use super::faces::{Faces, Placed, corner_at, corner_of};
+use super::faces::{Faces, Placed, corner_at, corner_of, face_of};
 use super::frame::{Frame, Walk};
 use super::pieces::Pieces;
 use crate::control::{Control, Stage};
@@ -21,14 +21,17 @@ const PATCHES_PER_STEP: usize = 4096;
 pub(super) struct Development<'a, F: Frame> {
     pub pieces: Pieces,
     pub faces: &'a Faces<'a, F>,
-    /// Per patch, in the order in which patches were added, the frame of the first half-edge of its final face.
+    /// Per patch the frame of the first half-edge of its final face. The first patch in a final face has the number of that face, so that
+    /// patches stand in memory as the faces do; where a cut divides faces, their other patches follow.
     pub frames: Vec<F>,
     /// The patch of each piece; `u32::MAX` for a piece that was not reached.
     pub patch: PerFace<u32>,
-    /// The pieces, patch by patch.
+    /// Number of patches that were reached.
+    pub n_patches: usize,
+    /// The pieces in the order in which they were added, patch by patch.
     order: Vec<FaceId>,
-    /// The pieces of patch k are `order[starts[k]..starts[k + 1]]`.
-    starts: Vec<u32>,
+    /// The pieces of patch k are `order[spans[k][0]..spans[k][1]]`; empty for a mesh, each of whose faces is a patch.
+    spans: Vec<[u32; 2]>,
     /// Edges of the pieces through which a patch grew or was entered; empty where a cut was given.
     pub crossed: PerEdge<bool>,
 }
@@ -40,11 +43,12 @@ struct Growth<'a, F: Frame> {
     is_cut: Option<&'a PerEdge<bool>>,
     /// Per patch a frame of the first half-edge of its final face.
     frames: Vec<F::Rough>,
-    /// Per patch but the first the half-edge of a piece through which it was entered.
+    /// For every patch but the first, in the order in which they were added, the half-edge of a piece through which it was entered.
     entries: Vec<HalfedgeId>,
     patch: PerFace<u32>,
+    n_patches: usize,
     order: Vec<FaceId>,
-    starts: Vec<u32>,
+    spans: Vec<[u32; 2]>,
     crossed: PerEdge<bool>,
     /// Half-edges through which the development can go on, by the distance of the far corner.
     queue: Nearest<HalfedgeId>,
@@ -77,52 +81,55 @@ impl<'a, F: Frame> Development<'a, F> {
             pieces: &pieces,
             faces,
             is_cut,
-            frames: Vec::with_capacity(n_final),
+            frames: vec![Walk::identity(faces.space); n_final],
             entries: Vec::with_capacity(if F::IS_PRECISE { n_final } else { 0 }),
             patch: PerFace::filled(n_pieces, NONE),
+            n_patches: 0,
             order: Vec::with_capacity(n_pieces),
-            starts: Vec::with_capacity(n_final + 1),
+            spans: vec![[0; 2]; if pieces.refinement().is_some() { n_final } else { 0 }],
             crossed: PerEdge::filled(if is_cut.is_none() { n_edges } else { 0 }, false),
             queue: Nearest::new((faces.area() / n_final as f64).sqrt()),
         };
         control.step(Stage::Layout, 0.0)?;
         growth.add(piece, side, Walk::identity(faces.space))?;
         while let Some((_, h)) = growth.queue.pop() {
-            if growth.enter(h)? && growth.frames.len().is_multiple_of(PATCHES_PER_STEP) {
+            if growth.enter(h)? && growth.n_patches.is_multiple_of(PATCHES_PER_STEP) {
                 control.step(Stage::Layout, growth.order.len() as f64 / n_pieces as f64)?;
             }
         }
-        growth.starts.push(growth.order.len() as u32);
-        let Growth { frames, entries, patch, order, starts, crossed, .. } = growth;
+        let Growth { frames, entries, patch, n_patches, order, spans, crossed, .. } = growth;
+        let n_frames = frames.len();
         let known: Option<Vec<F>> = frames.into_iter().map(F::of_rough).collect();
-        let mut grown = Development { pieces, faces, frames: Vec::new(), patch, order, starts, crossed };
-        grown.frames = match known {
-            Some(frames) => frames,
-            None => grown.walked((piece, side), &entries, control)?,
-        };
+        let is_known = known.is_some();
+        let frames = known.unwrap_or_else(|| vec![F::identity(faces.space); n_frames]);
+        let mut grown = Development { pieces, faces, frames, patch, n_patches, order, spans, crossed };
+        if !is_known {
+            grown.walk((piece, side), &entries, control)?;
+        }
         Ok(grown)
     }
 
-    /// The frames of the patches, each from that of the patch that it was entered from.
-    fn walked(
-        &self,
+    /// Forms the frames of the patches, each from that of the patch that it was entered from.
+    fn walk(
+        &mut self,
         (piece, side): (FaceId, usize),
         entries: &[HalfedgeId],
         control: &Control,
-    ) -> Result<Vec<F>> {
+    ) -> Result<()> {
         let mut looked_at = 0;
         let (faces, mesh) = (self.faces, self.pieces.mesh());
-        let mut frames = Vec::with_capacity(entries.len() + 1);
-        frames.push(faces.first(self.pieces.final_face(piece), side, F::identity(faces.space)));
+        self.frames[self.patch[piece] as usize] =
+            faces.first(self.pieces.final_face(piece), side, F::identity(faces.space));
         for &h in entries {
             control.check_every(PATCHES_PER_STEP, &mut looked_at)?;
-            let ((from, _), along) = (corner_of(mesh, h.twin())?, final_side(&self.pieces, h.twin())?);
+            let ([from, to], along) =
+                ([face_of(mesh, h.twin())?, face_of(mesh, h)?], final_side(&self.pieces, h.twin())?);
             let ((face, k), (next, side)) =
                 (corner_of(faces.mesh, along)?, corner_of(faces.mesh, along.twin())?);
-            let beyond = faces.beyond(face, k, frames[self.patch[from] as usize]);
-            frames.push(faces.first(next, side, beyond));
+            let beyond = faces.beyond(face, k, self.frames[self.patch[from] as usize]);
+            self.frames[self.patch[to] as usize] = faces.first(next, side, beyond);
         }
-        Ok(frames)
+        Ok(())
     }
 
     /// The frame of the final half-edge `along`, of the final face of a piece, where that piece lies.
@@ -139,7 +146,8 @@ impl<'a, F: Frame> Development<'a, F> {
         Development {
             pieces: Pieces::Refinement(r.clone()),
             faces,
-            starts: (0..=frames.len()).map(first).collect(),
+            spans: (0..frames.len()).map(|k| [first(k), first(k + 1)]).collect(),
+            n_patches: frames.len(),
             patch: r.final_face.iter().map(|f| f.0).collect::<Vec<_>>().into(),
             frames,
             order,
@@ -152,11 +160,16 @@ impl<'a, F: Frame> Development<'a, F> {
         self.order.len()
     }
 
-    /// The final face of a patch where it lies, with its pieces; none for a patch without pieces.
-    pub fn placed(&self, patch: usize) -> Option<(Placed<'_, F>, &[FaceId])> {
-        let pieces = &self.order[self.starts[patch] as usize..self.starts[patch + 1] as usize];
-        let face = self.pieces.final_face(*pieces.first()?);
-        Some((Placed::new(self.faces, face, self.frames[patch]), pieces))
+    /// The pieces of a patch; of a refinement none where its final face was not reached.
+    pub fn pieces_of(&self, patch: usize) -> impl Iterator<Item = FaceId> + '_ {
+        let of_mesh = self.spans.is_empty().then(|| FaceId::from(patch));
+        let [begin, end] = self.spans.get(patch).map_or([0; 2], |span| span.map(|k| k as usize));
+        of_mesh.into_iter().chain(self.order[begin..end].iter().copied())
+    }
+
+    /// The final face of a piece where it lies.
+    pub fn placed(&self, piece: FaceId) -> Placed<'_, F> {
+        Placed::new(self.faces, self.pieces.final_face(piece), self.frames[self.patch[piece] as usize])
     }
 
     /// Ambient coordinates per number of a corner: each from the first patch that has it; NaN for what was not reached.
@@ -185,9 +198,7 @@ impl<'a, F: Frame> Development<'a, F> {
                 return ([f64::NAN; 3], [0.0; 2]);
             }
             let (f, k) = (FaceId(first[k] / 3), first[k] as usize % 3);
-            let frame = self.frames[self.patch[f] as usize];
-            Placed::new(self.faces, self.pieces.final_face(f), frame)
-                .point(self.pieces.final_barycentric(f)[k])
+            self.placed(f).point(self.pieces.final_barycentric(f)[k])
         });
         (points, remainders)
     }
@@ -213,12 +224,12 @@ impl<F: Frame> Growth<'_, F> {
     /// Adds a patch: a piece, whose final face has the frame of its half-edge number `k`, and all that hang together with it in that face.
     fn add(&mut self, piece: FaceId, k: usize, frame: F::Rough) -> Result<()> {
         let (mesh, faces, pieces) = (self.pieces.mesh(), self.faces, self.pieces);
-        let (number, face) = (self.frames.len() as u32, pieces.final_face(piece));
+        let face = pieces.final_face(piece);
         let is_refined = pieces.refinement().is_some();
         let sides = faces.around(face, k, frame);
-        self.frames.push(sides[0]);
-        let (mut done, mut distance) = (self.order.len(), [None; 3]);
-        self.starts.push(done as u32);
+        let number = self.new_patch(face, sides[0]);
+        let (begin, mut distance) = (self.order.len(), [None; 3]);
+        let mut done = begin;
         self.patch[piece] = number;
         self.order.push(piece);
         // Pieces are appended to `order` while it is walked through.
@@ -254,14 +265,30 @@ impl<F: Frame> Growth<'_, F> {
                 }
             }
         }
+        if is_refined {
+            self.spans[number as usize] = [begin as u32, self.order.len() as u32];
+        }
         Ok(())
+    }
+
+    /// The number of a new patch in a final face with this frame.
+    fn new_patch(&mut self, face: FaceId, frame: F::Rough) -> u32 {
+        self.n_patches += 1;
+        let is_first = self.spans.get(face.index()).is_none_or(|[begin, end]| begin == end);
+        if is_first {
+            self.frames[face.index()] = frame;
+            return face.0;
+        }
+        self.frames.push(frame);
+        self.spans.push([0; 2]);
+        self.frames.len() as u32 - 1
     }
 
     /// Adds the patch that a half-edge leads into, unless the half-edge's piece has its place; whether it did.
     fn enter(&mut self, h: HalfedgeId) -> Result<bool> {
         let unplaced = self.pieces.mesh().face(h).filter(|&f| self.patch[f] == NONE);
         let Some(piece) = unplaced else { return Ok(false) };
-        let (from, _) = corner_of(self.pieces.mesh(), h.twin())?;
+        let from = face_of(self.pieces.mesh(), h.twin())?;
         let along = final_side(self.pieces, h.twin())?;
         if !self.crossed.is_empty() {
             self.crossed[h.edge()] = true;

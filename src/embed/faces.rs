@@ -104,6 +104,11 @@ impl<'a, F: Frame> Faces<'a, F> {
         lengths.into()
     }
 
+    /// The length of the side opposite a corner.
+    pub fn length(&self, f: FaceId, corner: usize) -> f64 {
+        F::length(self.space, self.sides[self.mesh.opposite_edges(f)[corner]])
+    }
+
     /// A number that grows with the length of a face's longest side; in E² by [`PlaneFrame`]s that length.
     #[inline]
     pub fn longest(&self, f: FaceId) -> f64 {
@@ -307,5 +312,19 @@ pub(super) fn combination(space: Space, corners: [[f64; 3]; 3], weights: [f64; 3
 /// [`Error::Layout`] outside the surface.
 #[inline]
 pub(super) fn corner_of(mesh: &Mesh, h: HalfedgeId) -> Result<(FaceId, usize)> {
-    mesh.corner(h).ok_or_else(|| Error::Layout(format!("half-edge {h} belongs to no face")))
+    mesh.corner(h).ok_or_else(|| outside(h))
+}
+
+/// The face of a half-edge.
+///
+/// # Errors
+/// [`Error::Layout`] outside the surface.
+#[inline]
+pub(super) fn face_of(mesh: &Mesh, h: HalfedgeId) -> Result<FaceId> {
+    mesh.face(h).ok_or_else(|| outside(h))
+}
+
+#[cold]
+fn outside(h: HalfedgeId) -> Error {
+    Error::Layout(format!("half-edge {h} belongs to no face"))
 }

@@ -17,7 +17,7 @@
 use super::pieces::Pieces;
 use super::shape::{Shape, Standing, extent, is_surely_upright};
 use crate::error::{Error, Result};
-use crate::geometry::complex::norm;
+use crate::geometry::complex::{norm, quick_norm};
 use crate::geometry::model::{distance as hyperbolic_distance, klein, poincare};
 use crate::geometry::modulus::modulus;
 use crate::geometry::motion::precise_point;
@@ -386,6 +386,17 @@ pub fn distance_from_origin(space: Space, [x, y, w]: [f64; 3]) -> f64 {
         Space::H2 => r.asinh(),
         Space::S2 => r.atan2(w),
     }
+}
+
+/// The largest distance of points in ambient coordinates from the origin.
+pub(super) fn radius(space: Space, points: &[[f64; 3]]) -> f64 {
+    let far = points.iter().map(|&p| match space {
+        // It grows with the distance in the plane of x and y.
+        Space::E2 | Space::H2 => quick_norm([p[0], p[1]]),
+        Space::S2 => distance_from_origin(space, p),
+    });
+    let far = far.fold(0.0, f64::max);
+    if space == Space::H2 { far.asinh() } else { far }
 }
 
 /// Distance of two points in ambient coordinates, near the origin in H².

@@ -1,6 +1,6 @@
 //! Layouts that are scaled and moved, and their points with twice the digits.
 
-use super::layout::{Layout, bounding_diagonal, distance_from_origin, flat};
+use super::layout::{Layout, bounding_diagonal, flat, radius};
 use crate::error::{Error, Result};
 use crate::geometry::motion::precise_point;
 use crate::geometry::{Motion, Space, Twofold};
@@ -59,7 +59,7 @@ impl Layout {
         let diameter = bounding_diagonal(&self.coordinates);
         self.seams.iter_mut().for_each(|seam| seam.residual *= self.diameter / diameter);
         self.diameter = diameter;
-        self.radius = self.points.iter().map(|&p| distance_from_origin(Space::E2, p)).fold(0.0, f64::max);
+        self.radius = radius(Space::E2, &self.points);
         self.find_flat();
         Ok(())
     }

@@ -15,7 +15,7 @@
 use super::develop::Development;
 use super::faces::Faces;
 use super::frame::Frame;
-use super::layout::{Layout, Seam, bounding_diagonal, distance_from_origin, flat};
+use super::layout::{Layout, Seam, bounding_diagonal, flat, radius};
 use super::pieces::Pieces;
 use crate::control::Control;
 use crate::error::{Error, Result, check_size};
@@ -137,13 +137,13 @@ impl<F: Frame> Development<'_, F> {
             broken: mesh.faces().filter(|&f| faces.is_broken(self.pieces.final_face(f))).collect(),
             disagreement,
             local_consistency,
-            radius: points.iter().map(|&p| distance_from_origin(space, p)).fold(0.0, f64::max),
+            radius: radius(space, &points),
             diameter,
             area: if is_half { 0.5 } else { 1.0 } * faces.area(),
             scale: 1.0,
             input: None,
             side: seam_sides(mesh, &cut),
-            n_steps: self.frames.len(),
+            n_steps: self.n_patches,
             frames: if F::IS_PRECISE {
                 self.frames.into_iter().map(|frame| frame.motion()).collect()
             } else {
@@ -162,22 +162,18 @@ impl<F: Frame> Development<'_, F> {
     /// The largest of [`Development::misses`].
     fn most_misses(&self, point: impl Fn(HalfedgeId) -> [f64; 3] + Sync) -> [f64; 2] {
         let mut misses = vec![[0.0; 2]; self.frames.len()];
-        if self.pieces.refinement().is_some() {
-            parallel::fill(&mut misses, |patch| self.misses(patch, &point));
-        } else {
-            // Each face is a patch: their own order is that of the memory.
-            parallel::fill(&mut misses, |f| self.misses(self.patch[FaceId::from(f)] as usize, &point));
-        }
+        parallel::fill(&mut misses, |patch| self.misses(patch, &point));
         misses.iter().fold([0.0; 2], |[a, b], m| [worse(a, m[0]), worse(b, m[1])])
     }
 
     /// Of one patch: the largest distance between where its face has a corner and where that lies, and the largest difference of an edge
     /// relative to the face's longest side.
     fn misses(&self, patch: usize, point: impl Fn(HalfedgeId) -> [f64; 3]) -> [f64; 2] {
-        let Some((placed, pieces)) = self.placed(patch) else { return [0.0; 2] };
+        let mut pieces = self.pieces_of(patch).peekable();
+        let Some(placed) = pieces.peek().map(|&f| self.placed(f)) else { return [0.0; 2] };
         let (sides, over) = (placed.sides(), 1.0 / placed.longest());
         let (mut worst, mut worst_edge) = (0.0, 0.0);
-        for &f in pieces {
+        for f in pieces {
             let points = self.pieces.mesh().face_halfedges(f).map(&point);
             let off = placed.misses(points, self.pieces.final_barycentric(f), &sides);
             let off = off.map(|off| off.map(|x| x * over));

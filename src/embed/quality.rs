@@ -19,13 +19,14 @@ use super::pieces::CORNERS;
 use super::shape::{LEAST_SHARE, Shape, Standing, extent, is_surely_upright};
 use super::triangle::Triangle as PlaneTriangle;
 use crate::error::{Error, Result, check_size};
-use crate::geometry::complex::{conj, cross, doubled_area, mul, norm2, quick_norm, sub};
+use crate::geometry::complex::{Complex, conj, cross, doubled_area, mul, norm2, quick_norm, sub};
 use crate::geometry::triangle::area;
 use crate::geometry::{Space, vector};
 use crate::mesh::{FaceId, Mesh, PerEdge, PerFace, Point};
 use crate::metric::Refinement;
 use crate::parallel;
 use crate::topology::check_lengths;
+use std::ops::RangeInclusive;
 
 /// The dilatation of a face whose image or original has no area. It is 1/ε, since doubles resolve no larger one.
 pub const DILATATION_CAP: f64 = 1.0 / f64::EPSILON;
@@ -68,8 +69,9 @@ impl Layout {
     /// [`Error::Size`], [`Error::EdgeLength`], [`Error::TriangleInequality`] of the input lengths.
     pub fn quality(&self, input: &Mesh, lengths: &PerEdge<f64>) -> Result<Quality> {
         let place = (|f| self.pieces.input_face(f), |f| self.pieces.input_barycentric(f));
+        let over = 1.0 / self.diameter;
         Given::new(input, lengths)?.quality(self.mesh(), place, |f, from| {
-            let to = self.face_uv(f).map(|p| p.map(|x| x / self.diameter));
+            let to = self.face_uv(f).map(|p| p.map(|x| x * over));
             let corners = self.face_points(f);
             let can_compare = self.can_compare(from, to, corners);
             (if can_compare { dilatation(from, to) } else { DILATATION_CAP }, self.area_of(to, corners))
@@ -84,10 +86,11 @@ impl Layout {
     pub fn quality_on_input(&self, lengths: &PerEdge<f64>) -> Result<Option<Quality>> {
         let (Some((input, _)), Some(on_input)) = (&self.input, self.on_input()) else { return Ok(None) };
         let place = (|f| f, |_| CORNERS);
+        let over = 1.0 / self.diameter;
         let quality = Given::new(input, lengths)?.quality(input, place, |f, from| {
             let face = input.face_halfedges(f);
             let points = face.map(|h| on_input.points[on_input.corner_index[h] as usize] as usize);
-            let to = points.map(|k| self.coordinates[k].map(|x| x / self.diameter));
+            let to = points.map(|k| self.coordinates[k].map(|x| x * over));
             (dilatation(from, to), self.area_of(to, points.map(|k| self.points[k])))
         });
         quality.map(Some)
@@ -226,10 +229,11 @@ fn longest_side(sides: [f64; 3]) -> usize {
 /// The statistics of dilatations and of areas `[input, layout]` per face.
 fn summary(qc: PerFace<f64>, areas: &PerFace<[f64; 2]>) -> Quality {
     let total = areas.iter().fold([0.0; 2], |t, a| [t[0] + a[0], t[1] + a[1]]);
+    let scale = total[0] / total[1];
     let mut area_ratio = vec![1.0; areas.len()];
     parallel::fill(&mut area_ratio, |f| {
         let [a, b] = areas[FaceId::from(f)];
-        let r = (b / total[1]) / (a / total[0]);
+        let r = b * scale / a;
         if r.is_finite() { r } else { 1.0 }
     });
     let (mut weight, mut sum, mut most, mut ratios) = (0.0, 0.0, f64::NEG_INFINITY, [f64::INFINITY, 0.0]);
@@ -266,15 +270,26 @@ fn dilatation(from: Triangle, to: Triangle) -> f64 {
     let (i, j) = ((k + 1) % 3, (k + 2) % 3);
     let vectors = |t: Triangle| [sub(t[i], t[k]), sub(t[j], t[k])];
     let ([p, q], [p_image, q_image]) = (vectors(from), vectors(to));
-    // Scaled by their lengths: sides of very different lengths pass.
-    let (n, m) = (quick_norm(p), quick_norm(q));
-    let [p, q] = [p.map(|x| x / n), q.map(|x| x / m)];
-    let [p_image, q_image] = [p_image.map(|x| x / n), q_image.map(|x| x / m)];
+    let found = if [p, q, p_image, q_image].iter().all(|&z| USUAL_SQUARES.contains(&norm2(z))) {
+        dilatation_of_sides([p, q], [p_image, q_image])
+    } else {
+        // Scaled by their lengths: sides of very different lengths pass.
+        let size = [p, q].map(quick_norm);
+        let scaled = |sides: [Complex; 2]| [0, 1].map(|k| sides[k].map(|x| x / size[k]));
+        dilatation_of_sides(scaled([p, q]), scaled([p_image, q_image]))
+    };
+    if found.is_finite() { found.clamp(1.0, DILATATION_CAP) } else { DILATATION_CAP }
+}
+
+/// Squares of lengths of which no product of four lengths is beyond doubles.
+const USUAL_SQUARES: RangeInclusive<f64> = 1e-60..=1e60;
+
+/// The dilatation of the linear map that takes two sides to their images, not a finite number where a triangle has no area.
+fn dilatation_of_sides([p, q]: [Complex; 2], [p_image, q_image]: [Complex; 2]) -> f64 {
     let alpha = sub(mul(p_image, conj(q)), mul(q_image, conj(p)));
     let beta = sub(mul(p_image, q), mul(q_image, p));
     let sum = quick_norm(alpha) + quick_norm(beta);
-    let dilatation = sum * sum / (4.0 * (cross(p, q) * cross(p_image, q_image)).abs());
-    if dilatation.is_finite() { dilatation.clamp(1.0, DILATATION_CAP) } else { DILATATION_CAP }
+    sum * sum / (4.0 * (cross(p, q) * cross(p_image, q_image)).abs())
 }
 
 #[cfg(test)]

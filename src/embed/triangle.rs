@@ -1,6 +1,5 @@
 //! A plane triangle from its side lengths.
 
-use crate::geometry::complex::quick_norm;
 use crate::geometry::triangle::half_differences;
 
 /// Angles and area of the triangle with given sides; corner k lies opposite side k.
@@ -19,7 +18,7 @@ impl Triangle {
     /// 0), area 0.
     ///
     /// With `s` and `r_k = s − l_k` formed without cancellation ([`half_differences`]), `cos θ_k ∝ s r_k −
-    /// r_i r_j` and `sin θ_k ∝ 2·area` with the same factor `1/(l_i l_j)` (half-angle law).
+    /// r_i r_j` and `sin θ_k ∝ 2·area` with the same factor `1/(s r_k + r_i r_j) = 1/(l_i l_j)` (half-angle law).
     pub(crate) fn from_sides(sides: [f64; 3]) -> Triangle {
         Triangle::from_differences(half_differences(sides))
     }
@@ -55,15 +54,21 @@ fn excess(r: [f64; 3]) -> f64 {
 
 /// The area, of half the perimeter and differences that are not negative.
 fn area(s: f64, r: [f64; 3]) -> f64 {
+    let square = s * r[0] * r[1] * r[2];
+    if square > LEAST_SQUARE {
+        return square.sqrt();
+    }
     let root = r.map(f64::sqrt);
     s.sqrt() * root[0] * root[1] * root[2] // the roots first: r_i r_j may underflow
 }
 
+/// A product of differences, in units of the longest side, of which no partial product has lost digits.
+const LEAST_SQUARE: f64 = 1e-280;
+
 fn direction(s: f64, r: [f64; 3], area: f64, k: usize) -> [f64; 2] {
     let (far, near) = (s * r[k], r[(k + 1) % 3] * r[(k + 2) % 3]);
-    let (x, y) = (far - near, 2.0 * area);
-    let norm = quick_norm([x, y]);
-    if norm > 0.0 { [x / norm, y / norm] } else { [1.0, 0.0] }
+    let norm = far + near;
+    if norm > 0.0 { [(far - near) / norm, 2.0 * area / norm] } else { [1.0, 0.0] }
 }
 
 #[cfg(test)]

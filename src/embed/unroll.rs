@@ -1,6 +1,6 @@
 //! The layout of a flow's result on the surface as it came.
 
-use super::faces::{Faces, combination};
+use super::faces::{Faces, combination, corner_at};
 use super::frame::{Frame, PlaneFrame};
 use super::layout::{Layout, distance};
 use super::pieces::Pieces;
@@ -13,7 +13,8 @@ use crate::mesh::{FaceId, HalfedgeId, Mesh, PerEdge, VertexId};
 use crate::metric::curvature::area;
 use crate::metric::{Metric, Refinement};
 use crate::parallel::{self, within};
-use crate::topology::{CutGraph, central_vertex, check_vertex, cut_about, cut_graph};
+use crate::topology::{CutGraph, central_vertex, check_vertex, cut_about, cut_about_centre, cut_graph};
+use std::cell::OnceCell;
 use std::sync::Arc;
 
 /// Curvature up to this, in radians, is no cone: what a flow with the default tolerance leaves.
@@ -167,16 +168,20 @@ fn by<F: Frame>(
         false => Vec::new().into(),
     };
     control.check()?;
-    let root = match options.root {
-        None if space != Space::E2 => Some(central_vertex(given, &lengths, control)?),
-        root => root,
+    let cut_through_cones = || match &options.cut {
+        Some(cut) => Ok(cut.clone()),
+        None => cut_graph(given, &lengths, &cones, control),
     };
-    let cut = match (&options.cut, root) {
-        (Some(cut), _) => cut.clone(),
-        (None, Some(root)) if space != Space::E2 && cones.is_empty() => {
-            cut_about(given, &lengths, root, control)?
+    let is_curved = space != Space::E2;
+    let is_about = is_curved && options.cut.is_none() && cones.is_empty();
+    let (root, cut) = match options.root {
+        None if is_about => {
+            let (centre, cut) = cut_about_centre(given, &lengths, control)?;
+            (Some(centre), cut)
         }
-        _ => cut_graph(given, &lengths, &cones, control)?,
+        Some(root) if is_about => (Some(root), cut_about(given, &lengths, root, control)?),
+        None if is_curved => (Some(central_vertex(given, &lengths, control)?), cut_through_cones()?),
+        root => (root, cut_through_cones()?),
     };
     // A sphere without cones needs no cut.
     let is_whole = cut.segments.is_empty() && given.is_closed();
@@ -232,16 +237,24 @@ fn lengths_of_pieces<F: Frame>(pieces: &Pieces, faces: &Faces<F>) -> PerEdge<f64
     if pieces.refinement().is_none() {
         return faces.lengths();
     }
+    // Of the two sides of an edge inside, the one with the even half-edge counts.
+    let counts = |h: HalfedgeId| h.0 & 1 == 0 || mesh.is_outside(h.twin());
     let mut parts = vec![[0.0; 3]; mesh.n_faces()];
     parallel::fill(&mut parts, |f| {
         let f = FaceId::from(f);
-        let corners = faces.local(pieces.final_face(f));
-        let points = pieces.final_barycentric(f).map(|w| combination(faces.space, corners, w));
-        [0, 1, 2].map(|k| distance(faces.space, points[k], points[(k + 1) % 3]))
+        let (face, weights, sides) =
+            (pieces.final_face(f), pieces.final_barycentric(f), mesh.face_halfedges(f));
+        let corners = OnceCell::new();
+        let point =
+            |k: usize| combination(faces.space, *corners.get_or_init(|| faces.local(face)), weights[k]);
+        [0, 1, 2].map(|k| match [weights[k], weights[(k + 1) % 3]].map(corner_at) {
+            _ if !counts(sides[k]) => 0.0,
+            // A whole side of the final face.
+            [Some(from), Some(to)] if from != to => faces.length(face, 3 - from - to),
+            _ => distance(faces.space, point(k), point((k + 1) % 3)),
+        })
     });
     let mut lengths = PerEdge::filled(mesh.n_edges(), 0.0);
-    // Of the two sides of an edge inside, the one with the even half-edge counts.
-    let counts = |h: HalfedgeId| h.0 & 1 == 0 || mesh.is_outside(h.twin());
     for f in mesh.faces() {
         let sides = mesh.face_halfedges(f).into_iter().zip(parts[f.index()]);
         sides.filter(|(h, _)| counts(*h)).for_each(|(h, part)| lengths[h.edge()] = part);

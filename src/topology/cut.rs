@@ -12,7 +12,7 @@
 
 use super::check_lengths;
 use super::shorten::{LEAST_SAVING, MOVES_PER_FACE, fan};
-use super::spanning::{leftover, shortest_paths};
+use super::spanning::{Roads, leftover};
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::mesh::union_find::UnionFind;
@@ -87,9 +87,10 @@ pub fn cut_graph(
     control.check()?;
     let fixed = fixed_vertices(mesh, lengths, cones)?;
     let sources: Vec<_> = mesh.vertices().filter(|&v| fixed[v]).collect();
+    let roads = Roads::new(mesh, lengths)?;
     let open = |sources: &[VertexId]| -> Result<_> {
         let mut cut = Cut::new(mesh, fixed.clone());
-        let shortest_arc = cut.tree_cotree(lengths, sources, control)?;
+        let shortest_arc = cut.tree_cotree(&roads, sources, control)?;
         cut.shorten(lengths, control)?;
         Ok((cut, shortest_arc))
     };
@@ -97,12 +98,12 @@ pub fn cut_graph(
         // Any vertex may be the source: go on from the shortest loop through the last one while that helps.
         let (mut cut, mut arc) = open(&[VertexId(0)])?;
         for _ in 0..MAX_ROOTS {
-            let Some(e) = arc else { break };
+            let Some((e, length)) = arc else { break };
             let (next, next_arc) = open(&[mesh.tip(e.halfedge())])?;
             if next.length(lengths) >= cut.length(lengths) {
                 break;
             }
-            (cut, arc) = (next, next_arc);
+            (cut, arc) = (next, next_arc.filter(|(_, next)| *next < LEAST_GAIN * length));
         }
         cut
     } else {
@@ -119,6 +120,10 @@ const VERTICES_PER_LOOK: usize = 1024;
 /// Most sources that are tried on a closed surface without cones, besides the first. Usually the second or third is not better than
 /// the one before it and ends the search.
 const MAX_ROOTS: usize = 8;
+
+/// The length of the shortest loop through a source over that through the one before it, from which on no other source is tried. On flat
+/// tori all sources are alike, and only the zigzag of their paths along edges differs.
+const LEAST_GAIN: f64 = 0.99;
 
 /// Whether the surface opened along the marked edges is a disk: connected with Euler characteristic 1. O(E).
 pub fn is_disk(mesh: &Mesh, is_cut: &PerEdge<bool>) -> bool {
@@ -221,16 +226,16 @@ impl<'a> Cut<'a> {
     }
 
     /// Mark the edges that the forest of the sources and its dual tree leave over, with the paths from their ends to the sources;
-    /// returns the one of those edges with the shortest arc.
+    /// returns the one of those edges with the shortest arc, and the length of that.
     fn tree_cotree(
         &mut self,
-        lengths: &PerEdge<f64>,
+        roads: &Roads,
         sources: &[VertexId],
         control: &Control,
-    ) -> Result<Option<EdgeId>> {
+    ) -> Result<Option<(EdgeId, f64)>> {
         let mesh = self.mesh;
-        let forest = shortest_paths(mesh, lengths, sources.iter().copied(), control)?;
-        let arcs = leftover(mesh, lengths, &forest, |e| mesh.is_boundary_edge(e));
+        let forest = roads.shortest_paths(sources, control)?;
+        let arcs = leftover(mesh, roads.lengths, &forest, |e| mesh.is_boundary_edge(e));
         control.check()?;
         for &e in &arcs {
             self.set(e, true);
@@ -244,7 +249,7 @@ impl<'a> Cut<'a> {
             }
         }
         self.prune();
-        Ok(arcs.first().copied())
+        Ok(arcs.first().map(|&e| (e, forest.arc(mesh, roads.lengths, e))))
     }
 
     /// Close the branches that end at a vertex which is neither a cone nor on the boundary.
@@ -381,7 +386,7 @@ mod tests {
             let fixed = fixed_vertices(&mesh, &lengths, &cones).unwrap();
             let sources = if cones.is_empty() { &[VertexId(0)] } else { &cones[..] };
             let mut cut = Cut::new(&mesh, fixed);
-            cut.tree_cotree(&lengths, sources, &Control::new()).unwrap();
+            cut.tree_cotree(&Roads::new(&mesh, &lengths).unwrap(), sources, &Control::new()).unwrap();
             assert!(is_disk(&mesh, &cut.is_cut));
             let before = cut.length(&lengths);
             cut.shorten(&lengths, &Control::new()).unwrap();

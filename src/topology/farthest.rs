@@ -10,7 +10,7 @@
 //! ```
 
 use super::check_vertex;
-use super::spanning::{Forest, shortest_paths};
+use super::spanning::{Forest, Roads};
 use crate::control::Control;
 use crate::error::Result;
 use crate::mesh::{HalfedgeId, Mesh, PerEdge, PerVertex, VertexId};
@@ -20,7 +20,7 @@ use crate::mesh::{HalfedgeId, Mesh, PerEdge, PerVertex, VertexId};
 ///
 /// # Errors
 ///
-/// As [`shortest_paths`].
+/// As [`super::shortest_paths`].
 pub fn farthest_vertices(
     mesh: &Mesh,
     lengths: &PerEdge<f64>,
@@ -29,11 +29,12 @@ pub fn farthest_vertices(
     control: &Control,
 ) -> Result<Vec<VertexId>> {
     check_vertex(mesh, first)?;
+    let roads = Roads::new(mesh, lengths)?;
     let mut chosen = Vec::new();
     let mut next = first;
     while chosen.len() < count.min(mesh.n_vertices()) {
         chosen.push(next);
-        let distance = shortest_paths(mesh, lengths, chosen.iter().copied(), control)?.distance;
+        let distance = roads.shortest_paths(&chosen, control)?.distance;
         next = farthest(mesh, &distance, VertexId(0));
     }
     Ok(chosen)
@@ -52,20 +53,33 @@ const MAX_MOVES: usize = 6;
 ///
 /// # Errors
 ///
-/// As [`shortest_paths`].
+/// As [`super::shortest_paths`].
 pub fn central_vertex(mesh: &Mesh, lengths: &PerEdge<f64>, control: &Control) -> Result<VertexId> {
-    let (mut best, mut at) = ((f64::INFINITY, VertexId(0)), VertexId(0));
+    central(mesh, lengths, control).map(|(v, _)| v)
+}
+
+/// [`central_vertex`], and how far along edges each vertex is from it.
+pub(super) fn central(
+    mesh: &Mesh,
+    lengths: &PerEdge<f64>,
+    control: &Control,
+) -> Result<(VertexId, PerVertex<f64>)> {
+    let roads = Roads::new(mesh, lengths)?;
+    let (mut least, mut at) = (f64::INFINITY, VertexId(0));
+    let mut best = (at, PerVertex::filled(0, 0.0));
     for _ in 0..MAX_MOVES {
-        let Forest { distance, parent } = shortest_paths(mesh, lengths, [at], control)?;
+        let Forest { distance, parent } = roads.shortest_paths(&[at], control)?;
         let far = farthest(mesh, &distance, at);
-        if distance[far] >= best.0 {
+        if distance[far] >= least {
             break;
         }
-        best = (distance[far], at);
+        least = distance[far];
+        let from = at;
         let before = |v: VertexId| parent[v].map(|h: HalfedgeId| mesh.origin(h));
         let path = std::iter::successors(Some(far), |&v| before(v));
         let off = |v: VertexId| (distance[v] - 0.5 * distance[far]).abs();
         at = path.fold(far, |middle, v| if off(v) < off(middle) { v } else { middle });
+        best = (from, distance);
     }
-    Ok(best.1)
+    Ok(best)
 }

@@ -1,11 +1,12 @@
 //! The cut where a growing disk meets itself.
 
 use super::cut::CutGraph;
+use super::farthest::central;
 use super::nearest::Nearest;
-use super::spanning::shortest_paths;
+use super::spanning::{mean, shortest_paths};
 use crate::control::Control;
 use crate::error::{Error, Result};
-use crate::mesh::{EdgeId, FaceId, HalfedgeId, Mesh, PerEdge, PerFace, VertexId};
+use crate::mesh::{EdgeId, FaceId, HalfedgeId, Mesh, PerEdge, PerFace, PerVertex, VertexId};
 
 /// Faces that the disk takes in between two looks at the control: they take a fraction of a millisecond.
 const FACES_PER_LOOK: usize = 1024;
@@ -26,6 +27,21 @@ pub(crate) fn cut_about(
     cut_about_joined(mesh, lengths, root, &|_| 0, control)
 }
 
+/// [`cut_about`] the [central vertex](super::central_vertex), with that vertex.
+///
+/// # Errors
+///
+/// Those of [`cut_about`].
+pub(crate) fn cut_about_centre(
+    mesh: &Mesh,
+    lengths: &PerEdge<f64>,
+    control: &Control,
+) -> Result<(VertexId, CutGraph)> {
+    let (root, distance) = central(mesh, lengths, control)?;
+    let disk = Disk { mesh, root, distance, unit: mean(lengths) };
+    Ok((root, disk.grown(&|_| 0, control)?))
+}
+
 /// [`cut_about`] where the disk goes on at once across edges that are `joined`, first across those where this number is larger. So the cut
 /// keeps away from vertices all of whose edges are joined, unless a chain of them leads around the surface.
 ///
@@ -40,33 +56,51 @@ pub(crate) fn cut_about_joined(
     control: &Control,
 ) -> Result<CutGraph> {
     let distance = shortest_paths(mesh, lengths, [root], control)?.distance;
-    let mut reached = PerFace::filled(mesh.n_faces(), false);
-    let mut closed = PerEdge::filled(mesh.n_edges(), false);
-    let mut queue = Nearest::new(lengths.iter().sum::<f64>() / lengths.len() as f64);
-    let far = |f: FaceId| mesh.face_vertices(f).map(|v| distance[v]).into_iter().fold(0.0, f64::max);
-    let mut next = mesh.outgoing(root).find(|&h| !mesh.is_outside(h));
-    let (mut n_reached, mut is_first) = (0, true);
-    while let Some(entry) = next {
-        if let Some(f) = mesh.face(entry).filter(|&f| !std::mem::replace(&mut reached[f], true)) {
-            control.check_every(FACES_PER_LOOK, &mut n_reached)?;
-            closed[entry.edge()] |= !std::mem::replace(&mut is_first, false);
-            for h in mesh.face_halfedges(f).map(HalfedgeId::twin) {
-                if let Some(g) = mesh.face(h).filter(|&g| !reached[g]) {
-                    let key = match joined(h.edge()) {
-                        0 => far(g),
-                        urgency => -f64::from(urgency),
-                    };
-                    queue.push(key, h);
+    Disk { mesh, root, distance, unit: mean(lengths) }.grown(joined, control)
+}
+
+/// A disk that grows about a vertex.
+struct Disk<'a> {
+    mesh: &'a Mesh,
+    root: VertexId,
+    /// How far along edges each vertex is from the root.
+    distance: PerVertex<f64>,
+    /// About the length of an edge: [`Nearest::new`].
+    unit: f64,
+}
+
+impl Disk<'_> {
+    /// Where the disk meets itself: [`cut_about_joined`].
+    fn grown(&self, joined: &dyn Fn(EdgeId) -> u8, control: &Control) -> Result<CutGraph> {
+        let Disk { mesh, root, ref distance, unit } = *self;
+        let mut reached = PerFace::filled(mesh.n_faces(), false);
+        let mut closed = PerEdge::filled(mesh.n_edges(), false);
+        let mut queue = Nearest::new(unit);
+        let far = |f: FaceId| mesh.face_vertices(f).map(|v| distance[v]).into_iter().fold(0.0, f64::max);
+        let mut next = mesh.outgoing(root).find(|&h| !mesh.is_outside(h));
+        let (mut n_reached, mut is_first) = (0, true);
+        while let Some(entry) = next {
+            if let Some(f) = mesh.face(entry).filter(|&f| !std::mem::replace(&mut reached[f], true)) {
+                control.check_every(FACES_PER_LOOK, &mut n_reached)?;
+                closed[entry.edge()] |= !std::mem::replace(&mut is_first, false);
+                for h in mesh.face_halfedges(f).map(HalfedgeId::twin) {
+                    if let Some(g) = mesh.face(h).filter(|&g| !reached[g]) {
+                        let key = match joined(h.edge()) {
+                            0 => far(g),
+                            urgency => -f64::from(urgency),
+                        };
+                        queue.push(key, h);
+                    }
                 }
             }
+            next = queue.pop().map(|(_, h)| h);
         }
-        next = queue.pop().map(|(_, h)| h);
+        if n_reached < mesh.n_faces() {
+            let message = "the surface is empty or has several components: lay out each alone";
+            return Err(Error::Layout(message.into()));
+        }
+        Ok(CutGraph::around(mesh, PerEdge::from_fn(mesh.n_edges(), |e| !closed[e])))
     }
-    if n_reached < mesh.n_faces() {
-        let message = "the surface is empty or has several components: lay out each alone";
-        return Err(Error::Layout(message.into()));
-    }
-    Ok(CutGraph::around(mesh, PerEdge::from_fn(mesh.n_edges(), |e| !closed[e])))
 }
 
 #[cfg(test)]

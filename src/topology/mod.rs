@@ -49,7 +49,7 @@ pub use cut::{CutGraph, cut_graph};
 pub use domain::{FundamentalDomain, Side};
 pub use farthest::{central_vertex, farthest_vertices};
 pub use group::SurfaceGroup;
-pub(crate) use growing::{cut_about, cut_about_joined};
+pub(crate) use growing::{cut_about, cut_about_centre, cut_about_joined};
 pub use homology::homology_generators;
 pub use homotopy::{HomotopyBasis, homotopy_basis};
 pub use intersection::{intersection_matrix, intersection_number};

@@ -97,47 +97,128 @@ pub(super) fn shortest_paths_through(
     at_once: impl Fn(VertexId) -> Vec<Reached>,
 ) -> Result<Forest> {
     check_lengths(mesh, lengths)?;
-    let unreached = Reach { distance: f64::INFINITY, parent: NONE, is_settled: false, is_fixed: false };
-    let mut reach = PerVertex::filled(mesh.n_vertices(), unreached);
-    let mut queue = Nearest::new(lengths.iter().sum::<f64>() / lengths.len() as f64);
-    for v in sources {
-        check_vertex(mesh, v)?;
-        reach[v].distance = 0.0;
-        queue.push(0.0, v);
+    let roads = |v: VertexId| mesh.outgoing(v).map(|h| Road::along(mesh, lengths, h));
+    Search { mesh, unit: mean(lengths), roads, at_once }.run(sources, control)
+}
+
+/// A half-edge that leaves a vertex.
+#[derive(Clone, Copy)]
+struct Road {
+    length: f64,
+    tip: VertexId,
+    along: HalfedgeId,
+}
+
+impl Road {
+    #[inline]
+    fn along(mesh: &Mesh, lengths: &PerEdge<f64>, h: HalfedgeId) -> Road {
+        Road { length: lengths[h.edge()], tip: mesh.tip(h), along: h }
     }
-    let mut roots = mesh.vertices();
-    let mut steps = 0;
-    loop {
-        while let Some((d, v)) = queue.pop() {
-            control.check_every(VERTICES_PER_LOOK, &mut steps)?;
-            let here = &mut reach[v];
-            if d != here.distance || std::mem::replace(&mut here.is_settled, true) {
-                continue;
-            }
-            if !std::mem::replace(&mut here.is_fixed, true) {
-                for (w, through, h) in at_once(v) {
-                    let there = &mut reach[w];
-                    (there.distance, there.parent, there.is_fixed) = (d + through, h, true);
-                    queue.push(d + through, w);
-                }
-            }
-            for h in mesh.outgoing(v) {
-                let (w, through) = (mesh.tip(h), d + lengths[h.edge()]);
-                let there = &mut reach[w];
-                if !there.is_fixed && through < there.distance {
-                    (there.distance, there.parent) = (through, h);
-                    queue.push(through, w);
-                }
-            }
+}
+
+/// The edges that leave each vertex side by side in memory, for several searches on the same mesh: the second one pays for them.
+pub(super) struct Roads<'a> {
+    mesh: &'a Mesh,
+    pub lengths: &'a PerEdge<f64>,
+    /// Those of vertex v are `roads[starts[v]..starts[v + 1]]`.
+    starts: Vec<u32>,
+    roads: Vec<Road>,
+}
+
+impl<'a> Roads<'a> {
+    /// # Errors
+    /// As [`shortest_paths`].
+    pub fn new(mesh: &'a Mesh, lengths: &'a PerEdge<f64>) -> Result<Self> {
+        check_lengths(mesh, lengths)?;
+        let (mut starts, mut roads) =
+            (Vec::with_capacity(mesh.n_vertices() + 1), Vec::with_capacity(mesh.n_halfedges()));
+        for v in mesh.vertices() {
+            starts.push(roads.len() as u32);
+            roads.extend(mesh.outgoing(v).map(|h| Road::along(mesh, lengths, h)));
         }
-        let Some(v) = roots.find(|&v| !reach[v].is_settled) else { break };
-        reach[v].distance = 0.0;
-        queue.push(0.0, v);
+        starts.push(roads.len() as u32);
+        Ok(Roads { mesh, lengths, starts, roads })
     }
-    Ok(Forest {
-        distance: PerVertex::from_fn(reach.len(), |v| reach[v].distance),
-        parent: PerVertex::from_fn(reach.len(), |v| Some(reach[v].parent).filter(|&h| h != NONE)),
-    })
+
+    /// [`shortest_paths`] from these sources.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn shortest_paths(&self, sources: &[VertexId], control: &Control) -> Result<Forest> {
+        let roads = |v: VertexId| {
+            let [begin, end] = [v.index(), v.index() + 1].map(|k| self.starts[k] as usize);
+            self.roads[begin..end].iter().copied()
+        };
+        let search = Search { mesh: self.mesh, unit: mean(self.lengths), roads, at_once: |_| Vec::new() };
+        search.run(sources.iter().copied(), control)
+    }
+}
+
+/// The mean of lengths.
+pub(super) fn mean(lengths: &PerEdge<f64>) -> f64 {
+    lengths.iter().sum::<f64>() / lengths.len() as f64
+}
+
+/// A search for shortest paths.
+struct Search<'a, R, A> {
+    mesh: &'a Mesh,
+    /// About the length of an edge: [`Nearest::new`].
+    unit: f64,
+    /// The [`Road`]s that leave a vertex.
+    roads: R,
+    /// [`shortest_paths_through`] has it.
+    at_once: A,
+}
+
+impl<R, I, A> Search<'_, R, A>
+where
+    R: Fn(VertexId) -> I,
+    I: Iterator<Item = Road>,
+    A: Fn(VertexId) -> Vec<Reached>,
+{
+    fn run(&self, sources: impl IntoIterator<Item = VertexId>, control: &Control) -> Result<Forest> {
+        let Search { mesh, unit, .. } = *self;
+        let unreached = Reach { distance: f64::INFINITY, parent: NONE, is_settled: false, is_fixed: false };
+        let mut reach = PerVertex::filled(mesh.n_vertices(), unreached);
+        let mut queue = Nearest::new(unit);
+        for v in sources {
+            check_vertex(mesh, v)?;
+            reach[v].distance = 0.0;
+            queue.push(0.0, v);
+        }
+        let mut roots = mesh.vertices();
+        let mut steps = 0;
+        loop {
+            while let Some((d, v)) = queue.pop() {
+                control.check_every(VERTICES_PER_LOOK, &mut steps)?;
+                let here = &mut reach[v];
+                if d != here.distance || std::mem::replace(&mut here.is_settled, true) {
+                    continue;
+                }
+                if !std::mem::replace(&mut here.is_fixed, true) {
+                    for (w, through, h) in (self.at_once)(v) {
+                        let there = &mut reach[w];
+                        (there.distance, there.parent, there.is_fixed) = (d + through, h, true);
+                        queue.push(d + through, w);
+                    }
+                }
+                for Road { length, tip, along } in (self.roads)(v) {
+                    let (there, through) = (&mut reach[tip], d + length);
+                    if !there.is_fixed && through < there.distance {
+                        (there.distance, there.parent) = (through, along);
+                        queue.push(through, tip);
+                    }
+                }
+            }
+            let Some(v) = roots.find(|&v| !reach[v].is_settled) else { break };
+            reach[v].distance = 0.0;
+            queue.push(0.0, v);
+        }
+        Ok(Forest {
+            distance: PerVertex::from_fn(reach.len(), |v| reach[v].distance),
+            parent: PerVertex::from_fn(reach.len(), |v| Some(reach[v].parent).filter(|&h| h != NONE)),
+        })
+    }
 }
 
 /// No half-edge.
