@@ -9,7 +9,7 @@ use ricci::embed::{Charts, Layout, OnInput, Quality, UnrollOptions, unroll};
 use ricci::flow::Solution;
 use ricci::mesh::{FaceId, HalfedgeId, Mesh, PerHalfedge, PerVertex, Point, VertexId};
 use ricci::metric::Refinement;
-use ricci::parallel::{join, within};
+use ricci::parallel::{fill, join, within};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -86,8 +86,9 @@ impl Laid {
             }
             None => {
                 let (before, after) = (&solved.solution.initial().input_u, &solved.solution.metric().u);
-                let weight = PerVertex::from_fn(after.len(), |v: VertexId| (before[v] - after[v]).exp());
-                (weight, given.map(<[Point]>::to_vec), quality.degenerate.clone())
+                let mut weight = vec![0.0; after.len()];
+                fill(&mut weight, |v| (before[VertexId::from(v)] - after[VertexId::from(v)]).exp());
+                (weight.into(), given.map(<[Point]>::to_vec), quality.degenerate.clone())
             }
         };
         Ok(Laid {

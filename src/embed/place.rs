@@ -92,25 +92,56 @@ pub(super) fn lay_out<F: Frame>(
     cut: Option<CutGraph>,
     control: &Control,
 ) -> Result<Layout> {
-    cut.as_ref().map_or(Ok(()), |cut| check_cut(pieces.mesh(), cut))?;
-    let grown = Development::grow(pieces, faces, root, cut.as_ref().map(|cut| &cut.is_cut), control)?;
-    let mesh = grown.pieces.mesh();
-    if grown.n_reached() < mesh.n_faces() {
-        return Err(Error::Layout("the surface has several components: lay out each alone".into()));
+    let grow = |cut: Option<&CutGraph>| {
+        let grown = Development::grow(pieces.clone(), faces, root, cut.map(|cut| &cut.is_cut), control)?;
+        if grown.n_reached() < pieces.mesh().n_faces() {
+            return Err(Error::Layout("the surface has several components: lay out each alone".into()));
+        }
+        Ok(grown)
+    };
+    match cut {
+        Some(cut) => {
+            check_size("is_cut", cut.is_cut.len(), pieces.mesh().n_edges())?;
+            // One thread alone can grow.
+            let check = || check_cut(pieces.mesh(), &cut).map(|()| Opened::new(pieces.mesh(), &cut));
+            let (grown, opened) = parallel::join(|| grow(Some(&cut)), check);
+            let opened = opened?;
+            grown?.layout(cut, opened, control)
+        }
+        None => {
+            let (grown, mesh) = (grow(None)?, pieces.mesh());
+            let cut = CutGraph::around(mesh, PerEdge::from_fn(mesh.n_edges(), |e| !grown.crossed[e]));
+            let opened = Opened::new(mesh, &cut);
+            grown.layout(cut, opened, control)
+        }
     }
-    let where_it_meets = || CutGraph::around(mesh, PerEdge::from_fn(mesh.n_edges(), |e| !grown.crossed[e]));
-    let cut = cut.unwrap_or_else(where_it_meets);
-    grown.layout(cut, control)
+}
+
+/// What follows from a cut alone.
+struct Opened {
+    /// [`Layout::corner_index`].
+    corner_index: PerHalfedge<u32>,
+    n_corners: usize,
+    /// [`Layout::side`].
+    side: PerHalfedge<i32>,
+}
+
+impl Opened {
+    fn new(mesh: &Mesh, cut: &CutGraph) -> Opened {
+        let (corner_index, n_corners) = number_corners(mesh, &cut.is_cut);
+        Opened { corner_index, n_corners, side: seam_sides(mesh, cut) }
+    }
 }
 
 impl<F: Frame> Development<'_, F> {
     /// The layout of a development in which every piece was reached, opened along a cut of the pieces. Its flipped and degenerate triangles
     /// are not found yet.
-    fn layout(self, cut: CutGraph, control: &Control) -> Result<Layout> {
+    fn layout(self, cut: CutGraph, opened: Opened, control: &Control) -> Result<Layout> {
         let (mesh, faces, space) = (self.pieces.mesh(), self.faces, self.faces.space);
-        let (corner_index, n_corners) = number_corners(mesh, &cut.is_cut);
+        let Opened { corner_index, n_corners, side } = opened;
         let (points, remainders) = self.points_and_remainders(&corner_index, n_corners);
-        let coordinates: Vec<[f64; 2]> = points.iter().map(|&p| flat(space, p)).collect();
+        let mut coordinates = vec![[0.0; 2]; n_corners];
+        parallel::fill(&mut coordinates, |k| flat(space, points[k]));
         let diameter = bounding_diagonal(&coordinates);
         // The south pole of a sphere has no plane coordinates.
         let is_placed = points.as_flattened().iter().all(|x| x.is_finite()) && diameter > 0.0;
@@ -142,7 +173,7 @@ impl<F: Frame> Development<'_, F> {
             area: if is_half { 0.5 } else { 1.0 } * faces.area(),
             scale: 1.0,
             input: None,
-            side: seam_sides(mesh, &cut),
+            side,
             n_steps: self.n_patches,
             frames: if F::IS_PRECISE {
                 self.frames.into_iter().map(|frame| frame.motion()).collect()
@@ -229,7 +260,8 @@ impl Layout {
         let frames: Vec<_> = mesh.faces().map(frame).collect();
         let grown = Development::of_frames(r, &faces, frames);
         let cut = grown.pieces.cut_of_final(mesh, &self.cut)?.inside(&r.mesh);
-        let mut layout = grown.layout(cut, control)?;
+        let opened = Opened::new(grown.pieces.mesh(), &cut);
+        let mut layout = grown.layout(cut, opened, control)?;
         layout.scale_by(self.scale);
         layout.find_flat();
         Ok(layout)
@@ -247,9 +279,9 @@ fn seam_sides(mesh: &Mesh, cut: &CutGraph) -> PerHalfedge<i32> {
     side
 }
 
-/// Checks that a cut opens the surface into a disk, and that every cut edge lies inside the surface and in exactly one segment, once.
-pub(super) fn check_cut(mesh: &Mesh, cut: &CutGraph) -> Result<()> {
-    check_size("is_cut", cut.is_cut.len(), mesh.n_edges())?;
+/// Checks that a cut, which has an entry per edge, opens the surface into a disk, and that every cut edge lies inside the surface and in
+/// exactly one segment, once.
+fn check_cut(mesh: &Mesh, cut: &CutGraph) -> Result<()> {
     if !cut::is_disk(mesh, &cut.is_cut) {
         return Err(Error::Layout("the cut does not open the surface into a disk".into()));
     }

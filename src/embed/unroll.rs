@@ -102,11 +102,17 @@ fn unroll_in_pool(result: &Solution, options: &UnrollOptions, control: &Control)
     let source = Source { given, mesh: result.mesh(), metric: result.metric(), refinement };
     let known = result.report().map(|_| result.cones().to_vec());
     let cones = options.cones.clone().or(known);
-    let mut layout = laid_out(source, &UnrollOptions { cones, ..options.clone() }, control)?;
-    if options.scale == Scale::AsSolved || layout.space != Space::E2 {
-        layout.find_flat();
-    } else {
-        layout.scale_to_area(area(given, result.initial().input_geometry, result.surface().lengths())?)?;
+    let options = UnrollOptions { cones, ..options.clone() };
+    let is_scaled = options.scale != Scale::AsSolved && result.metric().space == Space::E2;
+    let given_area =
+        || is_scaled.then(|| area(given, result.initial().input_geometry, result.surface().lengths()));
+    let (layout, given_area) = parallel::join(|| laid_out(source, &options, control), given_area);
+    let mut layout = layout?;
+    match given_area {
+        Some(area) => {
+            layout.scale_to_area(area?)?;
+        }
+        None => layout.find_flat(),
     }
     Ok(layout)
 }
