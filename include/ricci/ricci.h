@@ -52,7 +52,8 @@
  *     host's floating-point traps, rounding mode and flush-to-zero neither disturb a call nor change its
  *     result.
  *   - Results are identical bit for bit for any number of threads. Threads are the call's own and have
- *     ended when it returns (a ricci_solver keeps its threads until it is freed). Nothing is printed.
+ *     ended when it returns (a ricci_solver keeps its threads until it is freed). Where memory does not
+ *     suffice for as many as are asked for, there are fewer. Nothing is printed.
  *   - Platforms: 64-bit Linux (tested on x86-64, glibc); written for macOS and Windows, not tested there.
  */
 

@@ -65,21 +65,24 @@ pub(super) fn central(
     control: &Control,
 ) -> Result<(VertexId, PerVertex<f64>)> {
     let roads = Roads::new(mesh, lengths)?;
-    let (mut least, mut at) = (f64::INFINITY, VertexId(0));
-    let mut best = (at, PerVertex::filled(0, 0.0));
-    for _ in 0..MAX_MOVES {
-        let Forest { distance, parent } = roads.shortest_paths(&[at], control)?;
-        let far = farthest(mesh, &distance, at);
-        if distance[far] >= least {
+    let search = |at: VertexId| -> Result<_> {
+        let forest = roads.shortest_paths(&[at], control)?;
+        let far = farthest(mesh, &forest.distance, at);
+        Ok((at, far, forest))
+    };
+    let mut best = search(VertexId(0))?;
+    for _ in 1..MAX_MOVES {
+        let (_, far, Forest { distance, parent }) = &best;
+        let before = |v: VertexId| parent[v].map(|h: HalfedgeId| mesh.origin(h));
+        let path = std::iter::successors(Some(*far), |&v| before(v));
+        let off = |v: VertexId| (distance[v] - 0.5 * distance[*far]).abs();
+        let middle = path.fold(*far, |middle, v| if off(v) < off(middle) { v } else { middle });
+        let next = search(middle)?;
+        if next.2.distance[next.1] >= distance[*far] {
             break;
         }
-        least = distance[far];
-        let from = at;
-        let before = |v: VertexId| parent[v].map(|h: HalfedgeId| mesh.origin(h));
-        let path = std::iter::successors(Some(far), |&v| before(v));
-        let off = |v: VertexId| (distance[v] - 0.5 * distance[far]).abs();
-        at = path.fold(far, |middle, v| if off(v) < off(middle) { v } else { middle });
-        best = (from, distance);
+        best = next;
     }
-    Ok(best)
+    let (centre, _, Forest { distance, .. }) = best;
+    Ok((centre, distance))
 }
