@@ -16,12 +16,12 @@ use crate::picture::ColorChoice;
 use crate::progress::{Progress, doing};
 use crate::report::{Done, Figures, InputSummary, Report, timed};
 use crate::show;
-use crate::solved::Solved;
+use crate::solved::write_metric;
 use crate::uv;
 use ricci::Control;
-use ricci::flow::{Gradient, Options};
+use ricci::flow::{Gradient, Options, Solution};
 use ricci::geometry::Space;
-use ricci::mesh::{Mesh, VertexId};
+use ricci::mesh::{Mesh, PerVertex, VertexId};
 use ricci::metric::{Scheme, Target};
 use ricci::parallel::Pool;
 use serde::Serialize;
@@ -52,9 +52,10 @@ fn execute_in_pool(args: &FlowArgs, start: Instant, control: &Control) -> Result
     let automatic = matches!(args.target, Some(TargetChoice::Auto(_))).then_some(Space::E2);
     let space = args.space.space().or(automatic).unwrap_or_else(|| default_space(input.mesh()));
     check_surface(args, &input, space)?;
-    let write_metric = |solved: &Solved| {
+    let write_metric = |solution: &Solution, target: &PerVertex<f64>| {
         let (mut outputs, mut seconds) = (Outputs::default(), 0.0);
-        let written = timed(&mut seconds, || solved.metric(&mut outputs, args.to.metric.as_deref()));
+        let path = args.to.metric.as_deref();
+        let written = timed(&mut seconds, || write_metric(solution, target, &mut outputs, path));
         (outputs, written, seconds)
     };
     let job = job(args, &input, space, control)?;

@@ -4,11 +4,11 @@ use crate::failure::{Failure, told};
 use crate::input::Input;
 use crate::laid::{self, Laid, is_carried_back};
 use crate::report::{Checks, Seconds, timed};
-use crate::solved::Solved;
+use crate::solved::{Measures, Solved};
 use ricci::Control;
-use ricci::flow;
+use ricci::flow::{self, Solution};
 use ricci::geometry::{Space, worse};
-use ricci::mesh::{Mesh, VertexId};
+use ricci::mesh::{Mesh, PerVertex, VertexId};
 use ricci::metric::Scheme;
 use ricci::metric::target::check_vertices;
 use ricci::parallel::join;
@@ -46,13 +46,13 @@ pub fn default_space(mesh: &Mesh) -> Space {
     if mesh.is_closed() && mesh.euler() < 0 { Space::H2 } else { Space::E2 }
 }
 
-/// Run a flow and lay its metric out. `beside`: what else is to be done with the metric; on one thread before it is laid out, so that its
-/// memory is free again by then.
+/// Run a flow and lay its metric out. `beside`: what else is to be done with the metric and the curvature that was asked for; on one thread
+/// before it is laid out, so that its memory is free again by then.
 pub fn run<T: Send>(
     input: &Input,
     job: Job,
     control: &Control,
-    beside: impl FnOnce(&Solved) -> T + Send,
+    beside: impl FnOnce(&Solution, &PerVertex<f64>) -> T + Send,
 ) -> Result<(Outcome, T), Failure> {
     let class = Class::new(job.scheme, job.space);
     let rule = rule(input, &job)?;
@@ -61,40 +61,51 @@ pub fn run<T: Send>(
     let solution = flow.solve(&rule, control)?;
     // Its factorisation is most of the memory of a run, and of no use to the layout.
     drop(flow);
-    let (Some(report), target) = (solution.report().cloned(), solution.final_target()?) else {
+    let (Some(report), Some(target)) = (solution.report().cloned(), solution.final_target()?) else {
         return Err(Failure::Failed("the flow has left no report".into()));
     };
     let mut seconds = Seconds::new(input, &report.seconds);
     seconds.flip += start;
-    let mut solved = Solved::new(solution, target, seconds)?;
-    solved.may_flip = job.options.flips != flow::Flips::Never;
-    let lay_out = || match no_layout(&solved, job.laid_out) {
-        Some(why) => Ok((Err(why), solved.seconds)),
+    let lay_out = || match no_layout(&solution, job.laid_out) {
+        Some(why) => Ok((Err(why), seconds)),
         None => {
-            let mut seconds = solved.seconds;
-            told(laid::lay_out(input, &solved, &mut seconds, control)).map(|laid| (laid, seconds))
+            let mut seconds = seconds;
+            told(laid::lay_out(input, &solution, &mut seconds, control)).map(|laid| (laid, seconds))
         }
     };
-    let (done, laid) = join(|| beside(&solved), lay_out);
-    let (layout, seconds) = laid?;
-    solved.seconds = seconds;
+    let is_sound = report.broken_triangles == 0;
+    let ((done, measures), laid) = join(
+        || (beside(&solution, &target), Measures::of(&solution)),
+        || if is_sound { Some(lay_out()) } else { None },
+    );
+    let measures = measures?;
+    let (layout, seconds) = match broken(&solution, &measures) {
+        Some(why) => (Err(why), seconds),
+        None => laid.unwrap_or_else(lay_out)?,
+    };
+    let mut solved = Solved::measured(solution, measures, target, seconds)?;
+    solved.may_flip = job.options.flips != flow::Flips::Never;
     let rule_name = job.target_name.unwrap_or_else(|| rule.name().into());
     Ok((Outcome { rule, rule_name, pinned: job.options.pinned, report, solved, layout }, done))
 }
 
-/// Why a metric is not laid out; `needed`: by an output.
-fn no_layout(solved: &Solved, needed: bool) -> Option<String> {
-    let broken = &solved.curvature.broken;
-    if solved.solution.metric().space == Space::S2 {
+/// Why a metric is not laid out, whatever its triangles; `needed`: by an output.
+fn no_layout(solution: &Solution, needed: bool) -> Option<String> {
+    if solution.metric().space == Space::S2 {
         Some("ricci uniformize lays spheres out".into())
-    } else if let Some(first) = broken.first() {
-        let n = broken.len();
-        Some(format!("{n} triangles break the triangle inequality (the first is face {first})"))
-    } else if !is_carried_back(&solved.solution, needed) {
+    } else if !is_carried_back(solution, needed) {
         Some("edge flips led far away, and no output needs the way back to the given triangulation".into())
     } else {
         None
     }
+}
+
+/// Why a metric with broken triangles is not laid out.
+fn broken(solution: &Solution, measures: &Measures) -> Option<String> {
+    let broken = &measures.curvature.broken;
+    let first = broken.first().filter(|_| solution.metric().space != Space::S2)?;
+    let n = broken.len();
+    Some(format!("{n} triangles break the triangle inequality (the first is face {first})"))
 }
 
 /// The target that was asked for, or the default of the surface. A target that was asked for is refused where the scheme cannot reach it
@@ -139,7 +150,8 @@ impl Outcome {
             checks.add("mirror_symmetry", solution.mesh().vertices().map(differs).fold(0.0, worse), MIRROR);
         }
         if let Ok(laid) = &self.layout {
-            checks.add("layout_consistency", laid.layout.consistency(), laid.consistency_limit);
+            let limit = laid.layout.consistency_limit(self.solved.total_error());
+            checks.add("layout_consistency", laid.layout.consistency(), limit);
             if let Some(packed) = &laid.packed {
                 checks.add("overlapping_in_charts", packed.overlapping as f64, 0.0);
             }

@@ -2,7 +2,6 @@
 
 use crate::input::Input;
 use crate::report::{Seconds, timed};
-use crate::solved::Solved;
 use ricci::Control;
 use ricci::control::Stage;
 use ricci::embed::{Charts, Layout, OnInput, Quality, UnrollOptions, unroll};
@@ -48,19 +47,16 @@ pub struct Laid {
     pub degenerate: Vec<FaceId>,
     /// τ of a flat torus.
     pub modulus: Option<[f64; 2]>,
-    /// What [`Layout::consistency`] may be.
-    pub consistency_limit: f64,
 }
 
 /// Lay the metric of a flow out on the given surface.
 pub fn lay_out(
     input: &Input,
-    solved: &Solved,
+    solution: &Solution,
     seconds: &mut Seconds,
     control: &Control,
 ) -> ricci::Result<Laid> {
     control.step(Stage::Layout, 0.0)?;
-    let solution = &solved.solution;
     let refinement = match solution.is_unflipped() {
         true => None,
         false => Some(Arc::new(timed(&mut seconds.refine, || solution.refinement(control))?)),
@@ -68,13 +64,13 @@ pub fn lay_out(
     timed(&mut seconds.layout, || {
         let options = UnrollOptions { refinement, ..UnrollOptions::default() };
         let layout = unroll(solution, &options, control)?;
-        within(solution.threads(), || Laid::new(input, solved, layout))
+        within(solution.threads(), || Laid::new(input, solution, layout))
     })
 }
 
 impl Laid {
     /// A layout of a metric of the input.
-    pub fn new(input: &Input, solved: &Solved, layout: Layout) -> ricci::Result<Laid> {
+    pub fn new(input: &Input, solution: &Solution, layout: Layout) -> ricci::Result<Laid> {
         let quality = || layout.quality(input.mesh(), input.surface.lengths());
         let (quality, on_input) = join(quality, || layout.on_input());
         let quality = quality?;
@@ -85,7 +81,7 @@ impl Laid {
                 (r.weight.clone(), positions, layout.degenerate.clone())
             }
             None => {
-                let (before, after) = (&solved.solution.initial().input_u, &solved.solution.metric().u);
+                let (before, after) = (&solution.initial().input_u, &solution.metric().u);
                 let mut weight = vec![0.0; after.len()];
                 fill(&mut weight, |v| (before[VertexId::from(v)] - after[VertexId::from(v)]).exp());
                 (weight.into(), given.map(<[Point]>::to_vec), quality.degenerate.clone())
@@ -98,7 +94,6 @@ impl Laid {
             packed: None,
             degenerate,
             modulus: layout.modulus(),
-            consistency_limit: layout.consistency_limit(solved.total_error()),
             quality,
             layout,
         })

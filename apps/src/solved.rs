@@ -35,6 +35,28 @@ pub struct Solved {
     pub seconds: Seconds,
 }
 
+/// What a metric measures, on the triangulation of its solution.
+pub struct Measures {
+    lengths: PerEdge<f64>,
+    pub curvature: Curvature,
+}
+
+impl Measures {
+    /// # Errors
+    /// [`Failure::Failed`]: what goes wrong once the flow has ended is no fault of the input.
+    pub fn of(solution: &Solution) -> Result<Measures, Failure> {
+        let measure = || {
+            let measured = solution.metric().measured(solution.mesh())?;
+            Ok(Measures { lengths: measured.lengths()?, curvature: measured.curvature()? })
+        };
+        within(solution.threads(), measure).map_err(failed)
+    }
+}
+
+fn failed(error: ricci::Error) -> Failure {
+    Failure::Failed(error.to_string())
+}
+
 impl Solved {
     /// Without a target the curvature asked for is 0.
     ///
@@ -45,18 +67,27 @@ impl Solved {
         target: Option<PerVertex<f64>>,
         seconds: Seconds,
     ) -> Result<Solved, Failure> {
-        let failed = |error: ricci::Error| Failure::Failed(error.to_string());
-        let (mesh, metric) = (solution.mesh(), solution.metric());
-        let measure = || {
-            let measured = metric.measured(mesh)?;
-            Ok((measured.lengths()?, measured.curvature()?))
-        };
-        let (lengths, curvature) = within(solution.threads(), measure).map_err(failed)?;
+        let zeros = || PerVertex::filled(solution.mesh().n_vertices(), 0.0);
+        let measures = Measures::of(&solution)?;
+        let target = target.unwrap_or_else(zeros);
+        Solved::measured(solution, measures, target, seconds)
+    }
+
+    /// [`Solved::new`] of what has been measured.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn measured(
+        solution: Solution,
+        Measures { lengths, curvature }: Measures,
+        target: PerVertex<f64>,
+        seconds: Seconds,
+    ) -> Result<Solved, Failure> {
         Ok(Solved {
             lengths,
             scheme: solution.scheme().map_err(failed)?,
             curvature,
-            target: target.unwrap_or_else(|| PerVertex::filled(mesh.n_vertices(), 0.0)),
+            target,
             solution,
             failed: Attempts::default(),
             may_flip: true,
@@ -92,14 +123,19 @@ impl Solved {
 
     /// Write the metric, if it is asked for.
     pub fn write_metric(&mut self, outputs: &mut Outputs, path: Option<&Path>) -> Result<(), Failure> {
-        let written = self.metric(outputs, path);
+        let written = write_metric(&self.solution, &self.target, outputs, path);
         self.failed.attempt("metric", written).map(drop)
     }
+}
 
-    /// The same, where the caller keeps what goes wrong.
-    pub fn metric(&self, outputs: &mut Outputs, path: Option<&Path>) -> Result<(), Failure> {
-        let Some(path) = path else { return Ok(()) };
-        let file = MetricFile::new(&self.solution, &self.target)?;
-        outputs.add(path, |out| file.write(out))
-    }
+/// Write a metric, whose curvature was to be this, if it is asked for.
+pub fn write_metric(
+    solution: &Solution,
+    target: &PerVertex<f64>,
+    outputs: &mut Outputs,
+    path: Option<&Path>,
+) -> Result<(), Failure> {
+    let Some(path) = path else { return Ok(()) };
+    let file = MetricFile::new(solution, target)?;
+    outputs.add(path, |out| file.write(out))
 }

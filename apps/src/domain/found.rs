@@ -47,7 +47,8 @@ impl Found {
         checks.add("max_curvature_error", domain.report.domain_curvature_error, tolerance);
         checks.add("roundness", domain.circles.iter().map(|c| c.deviation).fold(0.0, worse), ROUND);
         checks.add("overlapping_circles", domain.overlapping().len() as f64, 0.0);
-        checks.add("layout_consistency", layout.consistency(), self.laid.consistency_limit);
+        let errors = domain.report.domain_curvature_error * domain.metric.mesh().n_vertices() as f64;
+        checks.add("layout_consistency", layout.consistency(), layout.consistency_limit(errors));
         checks.add("flipped_triangles", layout.flipped.len() as f64, 0.0);
         checks.add("unconverged", f64::from(u8::from(!domain.report.converged)), 0.0);
         checks
@@ -63,7 +64,6 @@ fn laid(halved: &Input, domain: &CircleDomain) -> ricci::Result<Laid> {
         (Some(r), Some(positions)) => Some(r.from_input_vertices(positions)?),
         _ => None,
     };
-    let errors = domain.report.domain_curvature_error * domain.metric.mesh().n_vertices() as f64;
     Ok(Laid {
         weight: refinement.map_or_else(|| PerVertex::from(Vec::new()), |r| r.weight.clone()),
         positions,
@@ -71,7 +71,6 @@ fn laid(halved: &Input, domain: &CircleDomain) -> ricci::Result<Laid> {
         packed: None,
         degenerate: layout.degenerate.clone(),
         modulus: domain.torus_modulus,
-        consistency_limit: layout.consistency_limit(errors),
         quality,
         layout,
     })

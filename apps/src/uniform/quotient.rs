@@ -220,7 +220,7 @@ fn on_surface(
             Some(_) => layout.clone(),
             None => layout.refined(&refinement, solution.metric(), control)?,
         };
-        let mut laid = Laid::new(task.input, solved, refined)?;
+        let mut laid = Laid::new(task.input, &solved.solution, refined)?;
         if task.needs.on_input {
             let (cones, root) = (Some(Vec::new()), Some(base));
             let refinement = Some(refinement);
