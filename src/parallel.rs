@@ -63,9 +63,11 @@ impl Pool {
     pub fn new(threads: usize) -> Result<Pool> {
         let cores = std::thread::available_parallelism().map_or(1, |n| n.get());
         let mut threads = if threads == 0 { cores } else { threads.min(MAX_THREADS) };
-        let heap = if is_address_space_limited() { HEAP } else { 0 };
-        while threads > 1 && !is_room_for(threads * (THREAD + heap) + heap) {
-            threads /= 2;
+        if threads > 1 {
+            let heap = if is_address_space_limited() { HEAP } else { 0 };
+            while threads > 1 && !is_room_for(threads * (THREAD + heap) + heap) {
+                threads /= 2;
+            }
         }
         if threads == 1 {
             return Ok(Pool { pool: None, workers: Vec::new(), threads });

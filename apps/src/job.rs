@@ -74,10 +74,8 @@ pub fn run<T: Send>(
         }
     };
     let is_sound = report.broken_triangles == 0;
-    let ((done, measures), laid) = join(
-        || (beside(&solution, &target), Measures::of(&solution)),
-        || if is_sound { Some(lay_out()) } else { None },
-    );
+    let ((done, measures), laid) =
+        join(|| (beside(&solution, &target), Measures::of(&solution)), || is_sound.then(&lay_out));
     let measures = measures?;
     let (layout, seconds) = match broken(&solution, &measures) {
         Some(why) => (Err(why), seconds),

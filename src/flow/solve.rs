@@ -159,6 +159,8 @@ impl Flow {
         let mirror = self.mirror.clone();
         let pool = self.pool.clone();
         let end = timed(&mut seconds, || pool.run(|| self.flow(&mut report, control)));
+        // Whether one that no step has needed is there depends on the number of threads, and the next solve must not.
+        self.system = self.system.take().filter(System::has_factor);
         self.single_serves = single_serves;
         if self.mirror.is_some() != mirror.is_some() {
             (self.mirror, self.system) = (mirror, None);
@@ -302,6 +304,8 @@ impl Flow {
         if report.flips == 0 {
             // Where it has failed it is tried again when it is needed, and the error is that of then.
             self.system = system.ok();
+            // It knows the flips of earlier solves.
+            self.unseen_flips = 0;
         }
         Ok(is_real)
     }

@@ -148,6 +148,11 @@ impl System {
         self.held.entries()
     }
 
+    /// Whether a matrix has been factorised.
+    pub fn has_factor(&self) -> bool {
+        self.is_factored
+    }
+
     /// Whether the matrix can be factorised in this precision.
     pub fn is_ready(&self, precision: Precision) -> bool {
         self.is_analysed && self.held.is_in(precision)

@@ -73,6 +73,7 @@ impl ClassFlips<'_> {
         let ClassFlips { mesh, metric, record } = self;
         check_size("vertices", vertices.len(), mesh.n_vertices())?;
         if queue.is_empty() {
+            // Weights that other metrics share stay shared.
             return Ok(0);
         }
         let (space, is_precise) = (metric.space, metric.is_precise());
