@@ -63,11 +63,9 @@ impl Pool {
     pub fn new(threads: usize) -> Result<Pool> {
         let cores = std::thread::available_parallelism().map_or(1, |n| n.get());
         let mut threads = if threads == 0 { cores } else { threads.min(MAX_THREADS) };
-        if threads > 1 {
-            let heap = if is_address_space_limited() { HEAP } else { 0 };
-            while threads > 1 && !is_room_for(threads * (THREAD + heap) + heap) {
-                threads /= 2;
-            }
+        let heap = if threads > 1 && is_address_space_limited() { HEAP } else { 0 };
+        while threads > 1 && !is_room_for(threads * (THREAD + heap) + heap) {
+            threads /= 2;
         }
         if threads == 1 {
             return Ok(Pool { pool: None, workers: Vec::new(), threads });
@@ -179,6 +177,15 @@ pub fn fill_both<A: Send, B: Send>(a: &mut [A], b: &mut [B], f: impl Fn(usize) -
     in_chunks(a.chunks_mut(CHUNK).zip(b.chunks_mut(CHUNK)), |c, (a, b)| {
         a.iter_mut().zip(b.iter_mut()).enumerate().for_each(|(i, (a, b))| (*a, *b) = f(c * CHUNK + i));
     });
+}
+
+/// `work` on parts of two arrays of the same length, `work(i, …)` on those that begin with element i, as [`fill`].
+pub fn in_parts_of_both<A: Send, B: Send>(
+    a: &mut [A],
+    b: &mut [B],
+    work: impl Fn(usize, &mut [A], &mut [B]) + Sync,
+) {
+    in_chunks(a.chunks_mut(CHUNK).zip(b.chunks_mut(CHUNK)), |c, (a, b)| work(c * CHUNK, a, b));
 }
 
 /// `work` on each item, in parallel when called inside a pool, one after the other outside.

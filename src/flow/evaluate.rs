@@ -12,7 +12,7 @@ use crate::mesh::{EdgeId, FixedEdges, Flip, Mesh, PerVertex, VertexId};
 use crate::metric::Metric;
 use crate::metric::curvature::curvature_into;
 use crate::metric::delaunay::{ClassFlips, Queue};
-use crate::parallel::{fill, fill_both};
+use crate::parallel::fill;
 
 /// A face with a weight above this is a needle, whose other weights are differences of numbers of this size: their rounding may hide
 /// that an edge fails the Delaunay condition by more than 1e-12.
@@ -145,7 +145,7 @@ impl State {
         if self.is_real {
             let State { vertices, edges, chords, angles, weights, .. } = self;
             let parts = Parts { mesh, class, vertices, edges, chords };
-            fill_both(angles, weights, |f| parts.measured(f.into()));
+            parts.measure(angles, weights);
         }
     }
 

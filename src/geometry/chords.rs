@@ -10,9 +10,11 @@
 //! ([`super::weights::weights`] with ε = 0) are `w_k = (q_i² + q_j² − q_k²) sinh s / (2 h c_k²)`.
 
 use super::Twofold;
-use super::conformal::differences_of_lengths;
-use super::real::Real;
-use super::triangle::Angles;
+use super::arctangent::angle;
+use super::complex::Number;
+use super::conformal::differences_of;
+use super::lanes::Lanes;
+use super::triangle::{Angles, is_finite};
 use std::ops::RangeInclusive;
 
 /// Half chords of which products of twelve are normal numbers.
@@ -22,51 +24,56 @@ const USUAL: RangeInclusive<f64> = 1e-25..=1e25;
 const LEAST_FLAT: f64 = -0.5;
 
 /// `sinh s sinh r_k` per corner, and `sinh s`.
-#[inline]
-pub(crate) fn products<R: Real>(q: [R; 3], c: [R; 3], d: [R; 3]) -> ([R; 3], R) {
+#[inline(always)]
+pub(crate) fn products<R: Number>(q: [R; 3], c: [R; 3], d: [R; 3]) -> ([R; 3], R) {
     let each = [0, 1, 2].map(|k| d[k] * (d[k] + q[k] + q[k]));
     (each, (d[2] + q[2]) * c[2] + (c[0] * c[1] + q[0] * q[1]) * q[2])
 }
 
 /// What angles, derivatives and area come from.
-struct Parts {
+struct Parts<L> {
     /// q²
-    square: [f64; 3],
+    square: [L; 3],
     /// P
-    product: [f64; 3],
+    product: [L; 3],
     /// sinh s
-    whole: f64,
+    whole: L,
     /// h
-    root: f64,
+    root: L,
+    /// 1 for a triangle that is neither broken nor, for its size, so thin that doubles would lose digits; 0 for another one, whose parts
+    /// mean nothing.
+    is_sound: L,
 }
 
-impl Parts {
-    /// Of a triangle that is neither broken nor, for its size, so thin that doubles would lose digits; `None` of another one.
-    #[inline]
-    fn of(chords: [Twofold; 3]) -> Option<Parts> {
-        let q = chords.map(|q| q.high);
-        if !(USUAL.contains(&q[0]) && USUAL.contains(&q[1]) && USUAL.contains(&q[2])) {
-            return None;
+impl<L: Lanes> Parts<L> {
+    /// Of one or several triangles, from half chords to twice the digits.
+    #[inline(always)]
+    fn of([q, low]: [[L; 3]; 2]) -> Parts<L> {
+        let of = |x: f64| q[0].constant(x);
+        let (zero, one) = (of(0.0), of(1.0));
+        let [least, most] = [USUAL.start(), USUAL.end()].map(|&x| of(x));
+        let mut is_sound = one;
+        for q in q {
+            is_sound = q.where_at_least(least, most.where_at_least(q, is_sound, zero), zero);
         }
         let square = q.map(|q| q * q);
-        let c = square.map(|x| (1.0 + x).sqrt());
+        let c = square.map(|x| (one + x).root());
         // c − 1
-        let more = [0, 1, 2].map(|k| square[k] / (1.0 + c[k]));
-        let flat = differences_of_lengths(chords);
-        let mut d = [0.0; 3];
+        let more = [0, 1, 2].map(|k| square[k] / (one + c[k]));
+        let flat = differences_of(q, low);
+        let mut d = [zero; 3];
         for k in 0..3 {
             let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-            let in_plane = 2.0 * flat[k];
+            let in_plane = of(2.0) * flat[k];
             let by_curvature = q[i] * more[j] + q[j] * more[i];
-            if in_plane <= LEAST_FLAT * by_curvature {
-                return None;
-            }
+            is_sound = (of(LEAST_FLAT) * by_curvature).where_at_least(in_plane, zero, is_sound);
             d[k] = in_plane + by_curvature;
         }
         let (product, whole) = products(q, c, d);
-        let root = (product[0] * product[1] * product[2]).sqrt();
+        let root = (product[0] * product[1] * product[2]).root();
         // Where it is 0, quotients are no numbers.
-        (root > 0.0).then_some(Parts { square, product, whole, root })
+        let is_sound = root.where_at_least(of(f64::MIN_POSITIVE), is_sound, zero);
+        Parts { square, product, whole, root, is_sound }
     }
 }
 
@@ -74,23 +81,37 @@ impl Parts {
 /// half chords to twice the digits, opposite the corners.
 #[inline]
 pub fn angles_with_weights(chords: [Twofold; 3]) -> Option<(Angles, [f64; 3])> {
-    let Parts { square, product, whole, root } = Parts::of(chords)?;
-    let angle = |k: usize| 2.0 * root.atan2(whole * product[k]);
-    let scale = 0.5 * whole / root;
-    let weight = |k: usize| {
+    match sound_angles_with_weights([chords.map(|q| q.high), chords.map(|q| q.low)]) {
+        (at, weights, 1.0) => Some((Angles { at }, weights)),
+        _ => None,
+    }
+}
+
+/// [`angles_with_weights`] of one or several triangles, with 1 for each that has them, and 0 for another one.
+#[inline(always)]
+pub(crate) fn sound_angles_with_weights<L: Lanes>(chords: [[L; 3]; 2]) -> ([L; 3], [L; 3], L) {
+    let Parts { square, product, whole, root, is_sound } = Parts::of(chords);
+    let of = |x: f64| root.constant(x);
+    let two = of(2.0);
+    let angles = [
+        two * angle(root, whole * product[0]),
+        two * angle(root, whole * product[1]),
+        two * angle(root, whole * product[2]),
+    ];
+    let scale = of(0.5) * whole / root;
+    let weights = [0, 1, 2].map(|k| {
         let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-        scale * ((square[i] - square[k]) + square[j]) / (1.0 + square[k])
-    };
-    let weights = [weight(0), weight(1), weight(2)];
-    let is_sound = weights.iter().all(|w| w.is_finite());
-    is_sound.then(|| (Angles { at: [angle(0), angle(1), angle(2)] }, weights))
+        scale * ((square[i] - square[k]) + square[j]) / (of(1.0) + square[k])
+    });
+    (angles, weights, is_finite(weights, is_sound))
 }
 
 /// Area of a triangle, by `tan(area/2) = 2 h / (sinh s (1 + Σ cosh l))`; `None` where [`angles_with_weights`] has none.
 pub fn area(chords: [Twofold; 3]) -> Option<f64> {
-    let Parts { square, whole, root, .. } = Parts::of(chords)?;
+    let Parts { square, whole, root, is_sound, .. } =
+        Parts::of([chords.map(|q| q.high), chords.map(|q| q.low)]);
     let cosh: f64 = square.iter().map(|x| 1.0 + 2.0 * x).sum();
-    Some(2.0 * (2.0 * root).atan2(whole * (1.0 + cosh)))
+    (is_sound == 1.0).then(|| 2.0 * (2.0 * root).atan2(whole * (1.0 + cosh)))
 }
 
 #[cfg(test)]

@@ -34,6 +34,7 @@
 //! ```
 
 use super::Space;
+use super::lanes::Lanes;
 use super::scaled::{exponent, scaled};
 use super::triangle::half_differences;
 use super::twofold::{self, MAX_EXPONENT, Twofold, two_product, two_sum};
@@ -403,7 +404,13 @@ fn circle_gap(space: Space, [a, b]: [Vertex; 2], eta: Twofold, total: f64) -> f6
 /// [`half_differences`] of lengths to twice the digits.
 #[inline]
 pub fn differences_of_lengths(lengths: [Twofold; 3]) -> [f64; 3] {
-    let (rest, low) = (half_differences(lengths.map(|l| l.high)), lengths.map(|l| 0.5 * l.low));
+    differences_of(lengths.map(|l| l.high), lengths.map(|l| l.low))
+}
+
+/// [`differences_of_lengths`] of one or several triangles.
+#[inline(always)]
+pub(crate) fn differences_of<L: Lanes>(high: [L; 3], low: [L; 3]) -> [L; 3] {
+    let (rest, low) = (half_differences(high), low.map(|x| x.constant(0.5) * x));
     [0, 1, 2].map(|k| rest[k] + (low[(k + 1) % 3] + low[(k + 2) % 3] - low[k]))
 }
 

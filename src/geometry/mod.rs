@@ -1,5 +1,6 @@
 //! Pure formulas, no mesh: spaces, triangles, isometries, predicates.
 
+mod arctangent;
 pub mod barycentre;
 pub(crate) mod bounds;
 pub(crate) mod boxes;
@@ -12,6 +13,7 @@ mod exponentials;
 pub mod flip;
 pub mod hyperelliptic;
 pub mod isometry;
+pub mod lanes;
 pub mod mobius;
 pub mod model;
 pub mod modulus;

@@ -19,6 +19,8 @@
 //! assert!((area(Space::E2, [5.0, 4.0, 3.0]) - 6.0).abs() < 1e-14);
 //! ```
 
+use super::arctangent::angle;
+use super::lanes::Lanes;
 use super::{Space, Twofold};
 use std::f64::consts::PI;
 
@@ -49,16 +51,16 @@ pub fn is_broken(space: Space, r: [f64; 3]) -> bool {
 ///
 /// The differences are formed from the sorted lengths, largest first (Kahan, "Miscalculating area and angles of
 /// a needle-like triangle"): each is accurate to a few ulp however thin the triangle.
-#[inline]
-pub fn half_differences(l: [f64; 3]) -> [f64; 3] {
+#[inline(always)]
+pub fn half_differences<L: Lanes>(l: [L; 3]) -> [L; 3] {
     // Without branches: the order of the lengths is chance, and a processor guesses it wrong half of the time.
-    let [first, second, third] = [l[0] >= l[1], l[0] >= l[2], l[1] >= l[2]].map(usize::from);
-    let rank = [2 - first - second, 1 + first - third, second + third];
-    let mut sorted = [0.0; 3];
-    (0..3).for_each(|i| sorted[rank[i]] = l[i]);
-    let [a, b, c] = sorted;
-    let by_rank = [0.5 * (c - (a - b)), 0.5 * (c + (a - b)), 0.5 * (a + (b - c))];
-    rank.map(|k| by_rank[k])
+    let (larger, smaller) = (l[0].larger(l[1]), l[0].smaller(l[1]));
+    let (a, c) = (larger.larger(l[2]), smaller.smaller(l[2]));
+    let b = smaller.larger(larger.smaller(l[2]));
+    let half = a.constant(0.5);
+    let [first, second, third] = [half * (c - (a - b)), half * (c + (a - b)), half * (a + (b - c))];
+    let other = l.map(|l| l.where_at_least(b, second, third));
+    [0, 1, 2].map(|k| l[k].where_at_least(a, first, other[k]))
 }
 
 /// f(x) = x, sinh x, sin x in E², H², S².
@@ -117,24 +119,44 @@ pub fn angles_from_sines(space: Space, r: [f64; 3], sines: (f64, [f64; 3])) -> A
     }
     // The roots first: f_i f_j may underflow.
     let [a, b, c] = ratios(space, r, sines).map(f64::sqrt);
-    Angles { at: [(b * c, a), (c * a, b), (a * b, c)].map(|(y, x)| 2.0 * y.atan2(x)) }
+    Angles { at: [(b * c, a), (c * a, b), (a * b, c)].map(|(y, x)| 2.0 * angle(y, x)) }
 }
 
 /// [`angles_from`] in E², with the halves of the cotangents of the angles (0 where the triangle is broken, or so thin that they are no
 /// numbers): the roots serve both.
 #[inline]
 pub fn plane_angles_with_weights(r: [f64; 3]) -> (Angles, [f64; 3]) {
-    if r.iter().any(|&x| x <= 0.0) {
-        return (angles_from(Space::E2, r), [0.0; 3]);
+    match sound_plane_angles_with_weights(r) {
+        (at, weights, 1.0) => (Angles { at }, weights),
+        _ => (angles_from(Space::E2, r), [0.0; 3]),
     }
+}
+
+/// [`plane_angles_with_weights`] of one or several triangles, with 1 for each that is neither broken nor too thin, and 0 for another one,
+/// whose angles and weights mean nothing.
+#[inline(always)]
+pub(crate) fn sound_plane_angles_with_weights<L: Lanes>(r: [L; 3]) -> ([L; 3], [L; 3], L) {
+    let of = |x: f64| r[0].constant(x);
+    let [zero, one, half] = [0.0, 1.0, 0.5].map(of);
     // In units of the half-perimeter, which is 1 then, no product over- or underflows.
     let s = r[0] + r[1] + r[2];
-    let r = r.map(|x| x / s);
-    let [a, b, c] = r.map(f64::sqrt);
-    let angles = Angles { at: [(b * c, a), (c * a, b), (a * b, c)].map(|(y, x)| 2.0 * y.atan2(x)) };
+    let q = r.map(|x| x / s);
+    let [a, b, c] = q.map(L::root);
+    let two = of(2.0);
+    let angles = [two * angle(b * c, a), two * angle(c * a, b), two * angle(a * b, c)];
     let area = a * b * c;
-    let weights = [0, 1, 2].map(|k| 0.5 * ((r[k] - r[(k + 1) % 3] * r[(k + 2) % 3]) / (2.0 * area)));
-    (angles, if weights.iter().all(|x| x.is_finite()) { weights } else { [0.0; 3] })
+    let weights = [0, 1, 2].map(|k| half * ((q[k] - q[(k + 1) % 3] * q[(k + 2) % 3]) / (two * area)));
+    let least = r[0].smaller(r[1]).smaller(r[2]);
+    let is_whole = least.where_at_least(of(f64::MIN_POSITIVE), one, zero);
+    (angles, weights, is_finite(weights, is_whole))
+}
+
+/// `yes` where three numbers are finite, else 0.
+#[inline(always)]
+pub(crate) fn is_finite<L: Lanes>(x: [L; 3], yes: L) -> L {
+    let ([a, b, c], zero) = (x, yes.constant(0.0));
+    // 0 times what is not finite is no number.
+    (a * zero + (b * zero + c * zero)).where_at_least(zero, yes, zero)
 }
 
 /// `[cos, sin]` of half the angle at each corner, from the half chords q of the sides (l/2, sinh(l/2), sin(l/2)), with twice the digits.

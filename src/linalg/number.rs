@@ -1,5 +1,6 @@
 //! The numbers that a factor is held in.
 
+use pulp::Simd;
 use std::ops::{Add, AddAssign, Div, DivAssign, Mul, Neg, Sub, SubAssign};
 
 /// Doubles, or single precision: half the memory and half the time of a solution, for preconditioners.
@@ -16,7 +17,7 @@ pub trait Number:
     + AddAssign
     + SubAssign
     + DivAssign
-    + sealed::Sealed
+    + vectors::Vectors
 {
     /// 0.
     const ZERO: Self;
@@ -53,9 +54,107 @@ impl Number for f32 {
     }
 }
 
-mod sealed {
-    /// No other numbers.
-    pub trait Sealed {}
-    impl Sealed for f64 {}
-    impl Sealed for f32 {}
+mod vectors {
+    use super::Simd;
+
+    /// Several numbers at a time, in the vectors of the processor. No other numbers than those here have them.
+    pub trait Vectors: Sized {
+        type Vector<S: Simd>: Copy;
+
+        /// As vectors, and what is left.
+        fn vectors<S: Simd>(simd: S, x: &[Self]) -> (&[Self::Vector<S>], &[Self]);
+
+        /// [`Vectors::vectors`] to write to.
+        fn vectors_mut<S: Simd>(simd: S, x: &mut [Self]) -> (&mut [Self::Vector<S>], &mut [Self]);
+
+        /// Fewer numbers than a vector has; 0 after them.
+        fn some<S: Simd>(simd: S, x: &[Self]) -> Self::Vector<S>;
+
+        /// The first numbers of a vector.
+        fn store_some<S: Simd>(simd: S, x: Self::Vector<S>, out: &mut [Self]);
+
+        /// The same number everywhere.
+        fn everywhere<S: Simd>(simd: S, x: Self) -> Self::Vector<S>;
+
+        /// `a b + c`, rounded once where the processor does so.
+        fn multiply_add<S: Simd>(
+            simd: S,
+            a: Self::Vector<S>,
+            b: Self::Vector<S>,
+            c: Self::Vector<S>,
+        ) -> Self::Vector<S>;
+
+        /// The sum of the numbers of a vector.
+        fn sum<S: Simd>(simd: S, x: Self::Vector<S>) -> Self;
+    }
+
+    macro_rules! vectors {
+        ($number:ty, $vector:ident, $vectors:ident, $vectors_mut:ident, $some:ident, $store:ident, $splat:ident, $fma:ident, $sum:ident) => {
+            impl Vectors for $number {
+                type Vector<S: Simd> = S::$vector;
+
+                #[inline(always)]
+                fn vectors<S: Simd>(_: S, x: &[Self]) -> (&[Self::Vector<S>], &[Self]) {
+                    S::$vectors(x)
+                }
+
+                #[inline(always)]
+                fn vectors_mut<S: Simd>(_: S, x: &mut [Self]) -> (&mut [Self::Vector<S>], &mut [Self]) {
+                    S::$vectors_mut(x)
+                }
+
+                #[inline(always)]
+                fn some<S: Simd>(simd: S, x: &[Self]) -> Self::Vector<S> {
+                    simd.$some(x)
+                }
+
+                #[inline(always)]
+                fn store_some<S: Simd>(simd: S, x: Self::Vector<S>, out: &mut [Self]) {
+                    simd.$store(out, x);
+                }
+
+                #[inline(always)]
+                fn everywhere<S: Simd>(simd: S, x: Self) -> Self::Vector<S> {
+                    simd.$splat(x)
+                }
+
+                #[inline(always)]
+                fn multiply_add<S: Simd>(
+                    simd: S,
+                    a: Self::Vector<S>,
+                    b: Self::Vector<S>,
+                    c: Self::Vector<S>,
+                ) -> Self::Vector<S> {
+                    simd.$fma(a, b, c)
+                }
+
+                #[inline(always)]
+                fn sum<S: Simd>(simd: S, x: Self::Vector<S>) -> Self {
+                    simd.$sum(x)
+                }
+            }
+        };
+    }
+    vectors!(
+        f64,
+        f64s,
+        as_simd_f64s,
+        as_mut_simd_f64s,
+        partial_load_f64s,
+        partial_store_f64s,
+        splat_f64s,
+        mul_add_e_f64s,
+        reduce_sum_f64s
+    );
+    vectors!(
+        f32,
+        f32s,
+        as_simd_f32s,
+        as_mut_simd_f32s,
+        partial_load_f32s,
+        partial_store_f32s,
+        splat_f32s,
+        mul_add_e_f32s,
+        reduce_sum_f32s
+    );
 }

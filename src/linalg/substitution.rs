@@ -9,13 +9,12 @@ use super::number::Number;
 use super::pool::{Shelf, lock};
 use super::tree::{Segment, Supernodes};
 use crate::parallel::each;
+use pulp::{Arch, Simd, WithSimd};
 use std::ops::Range;
 use std::sync::Mutex;
 
 /// Columns that are taken together, so that what they are added to, or multiplied by, is read once for all.
 const COLUMNS: usize = 4;
-/// Partial sums of a scalar product, added up at its end in one order.
-const LANES: usize = 4;
 /// Columns of a heavy supernode that are solved for together.
 const PANEL: usize = 128;
 /// Rows below a panel that one thread takes at a time, and columns of a panel, a multiple of [`COLUMNS`].
@@ -27,8 +26,8 @@ const PANEL_COLUMNS: usize = 32;
 pub(super) struct Desk<T> {
     /// What waits for its parent; the last one on top.
     waiting: Vec<T>,
-    /// What the rows below one supernode hold.
-    below: Vec<T>,
+    /// What the columns and the rows below one supernode hold.
+    front: Vec<T>,
 }
 
 /// Columns of the factor with the same rows below their diagonal block.
@@ -54,8 +53,8 @@ pub(super) fn solve<T: Number>(
         && !bundle.is_heavy
     {
         memory.lend(|desk| {
-            factor.forward(bundle, x, desk);
-            factor.backward(bundle, x, solved, desk);
+            Arch::new().dispatch(Forward { factor, bundle, x, desk });
+            Arch::new().dispatch(Backward { factor, bundle, x, solved, desk });
         });
         return;
     }
@@ -65,7 +64,7 @@ pub(super) fn solve<T: Number>(
         .partition(|(_, segment, _)| segment.is_heavy);
     let forward = |(k, segment, part): &mut (usize, &Segment, &mut [T])| {
         let below = memory.lend(|desk| {
-            factor.forward(segment, part, desk);
+            Arch::new().dispatch(Forward { factor, bundle: segment, x: part, desk });
             desk.waiting.clone()
         });
         *lock(&handed_on[*k]) = below;
@@ -81,7 +80,7 @@ pub(super) fn solve<T: Number>(
     }
     let solved = &*solved;
     each(bundles, |(_, segment, part)| {
-        memory.lend(|desk| factor.backward(segment, part, solved, desk));
+        memory.lend(|desk| Arch::new().dispatch(Backward { factor, bundle: segment, x: part, solved, desk }));
     });
 }
 
@@ -98,60 +97,18 @@ impl<'a, T: Number> Factor<'a, T> {
         Supernode { width, values: &self.values[start..end], height: width + self.supernodes.rows(s).len() }
     }
 
-    /// Forward substitution in a bundle, of whose rows `x` holds the right-hand side. What its roots subtract from the rows of their
-    /// parents waits on the desk.
-    fn forward(&self, bundle: &Segment, x: &mut [T], desk: &mut Desk<T>) {
-        desk.hold(self.supernodes.tree.most_below);
-        let Desk { waiting, below } = desk;
-        waiting.clear();
-        let begin = self.supernodes.column_start(bundle.supernodes.start);
-        for s in bundle.supernodes.clone() {
-            let Range { start, end } = self.supernodes.columns(s);
-            let own = &mut x[start - begin..end - begin];
-            let supernode = self.supernode(s);
-            let below = &mut below[..supernode.height - supernode.width];
-            below.fill(T::ZERO);
-            let mut top = waiting.len();
-            for c in self.supernodes.children(s) {
-                let rows = self.supernodes.relative(c);
-                subtract(rows, &waiting[top - rows.len()..top], own, below);
-                top -= rows.len();
-            }
-            supernode.forward(own);
-            supernode.multiply(own, 0..own.len(), own.len(), below);
-            waiting.truncate(top);
-            waiting.extend_from_slice(below);
-        }
-    }
-
-    /// Backward substitution in a bundle; `solved` holds the solution in the rows of heavy supernodes.
-    fn backward(&self, bundle: &Segment, x: &mut [T], solved: &[T], desk: &mut Desk<T>) {
-        desk.hold(self.supernodes.tree.most_below);
-        let begin = self.supernodes.column_start(bundle.supernodes.start);
-        for s in bundle.supernodes.clone().rev() {
-            let supernode = self.supernode(s);
-            let below = &mut desk.below[..supernode.height - supernode.width];
-            for (y, &row) in below.iter_mut().zip(self.supernodes.rows(s)) {
-                let row = row as usize;
-                *y = x.get(row - begin).copied().unwrap_or_else(|| solved[row]);
-            }
-            let Range { start, end } = self.supernodes.columns(s);
-            let own = &mut x[start - begin..end - begin];
-            supernode.subtract_products(0..own.len(), own.len(), below, own);
-            supernode.backward(0..own.len(), own);
-        }
-    }
-
     /// Forward substitution in a heavy supernode; returns what it subtracts from the rows below.
     fn forward_heavy(&self, s: usize, own: &mut [T], handed_on: &[Mutex<Vec<T>>]) -> Vec<T> {
         let supernode = self.supernode(s);
         let Supernode { width, height, .. } = supernode;
-        let mut below = vec![T::ZERO; height - width];
+        let mut front = vec![T::ZERO; height];
         for c in self.supernodes.children(s) {
             let (k, rows) = (self.supernodes.segment_of(c), self.supernodes.relative(c));
             let start = self.supernodes.tree.segments[k].first_row_of(c);
-            subtract(rows, &lock(&handed_on[k])[start..start + rows.len()], own, &mut below);
+            add(rows, &lock(&handed_on[k])[start..start + rows.len()], &mut front);
         }
+        own.iter_mut().zip(&front).for_each(|(x, &y)| *x -= y);
+        let mut below = front.split_off(width);
         for start in (0..width).step_by(PANEL) {
             let end = width.min(start + PANEL);
             supernode.forward_block(start..end, own);
@@ -161,7 +118,9 @@ impl<'a, T: Number> Factor<'a, T> {
             let minus: Vec<T> = y.iter().map(|&y| -y).collect();
             let own_rows = rest.chunks_mut(ROWS).enumerate().map(|(c, out)| (end + c * ROWS, &*minus, out));
             let rows = below.chunks_mut(ROWS).enumerate().map(|(c, out)| (width + c * ROWS, y, out));
-            each(own_rows.chain(rows).collect(), |(row, y, out)| supernode.multiply(y, start..end, row, out));
+            each(own_rows.chain(rows).collect(), |(row, y, out)| {
+                Arch::new().dispatch(Multiply { supernode, y, columns: start..end, from: row, out });
+            });
         }
         below
     }
@@ -178,7 +137,8 @@ impl<'a, T: Number> Factor<'a, T> {
             let (own, below) = all.split_at_mut(end);
             each(own[start..].chunks_mut(PANEL_COLUMNS).enumerate().collect(), |(c, out)| {
                 let from = start + c * PANEL_COLUMNS;
-                supernode.subtract_products(from..from + out.len(), end, below, out);
+                let columns = from..from + out.len();
+                Arch::new().dispatch(SubtractProducts { supernode, columns, from: end, y: below, out });
             });
             supernode.backward(start..end, &mut own[start..]);
         }
@@ -187,35 +147,170 @@ impl<'a, T: Number> Factor<'a, T> {
     }
 }
 
-/// Subtract what a child hands on from the columns of its parent, and add it to what the parent hands on.
-fn subtract<T: Number>(rows: &[u32], values: &[T], own: &mut [T], below: &mut [T]) {
-    let split = rows.partition_point(|&r| (r as usize) < own.len());
-    rows[..split].iter().zip(values).for_each(|(&r, &x)| own[r as usize] -= x);
-    let width = own.len();
-    rows[split..].iter().zip(&values[split..]).for_each(|(&r, &x)| below[r as usize - width] += x);
+/// Add what a child hands on to the columns and rows of its parent.
+fn add<T: Number>(rows: &[u32], values: &[T], front: &mut [T]) {
+    rows.iter().zip(values).for_each(|(&r, &x)| front[r as usize] += x);
 }
 
 impl<T: Number> Desk<T> {
-    /// Rows below a supernode, at most.
+    /// Columns and rows of a supernode, at most.
     fn hold(&mut self, rows: usize) {
-        if self.below.len() < rows {
-            self.below.resize(rows, T::ZERO);
+        if self.front.len() < rows {
+            self.front.resize(rows, T::ZERO);
         }
     }
 }
 
-impl<T: Number> Supernode<'_, T> {
+/// Forward substitution in a bundle, of whose rows `x` holds the right-hand side. What its roots subtract from the rows of their
+/// parents waits on the desk.
+struct Forward<'a, T> {
+    factor: Factor<'a, T>,
+    bundle: &'a Segment,
+    x: &'a mut [T],
+    desk: &'a mut Desk<T>,
+}
+
+impl<T: Number> WithSimd for Forward<'_, T> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Forward { factor, bundle, x, desk } = self;
+        let supernodes = factor.supernodes;
+        desk.hold(supernodes.tree.widest + supernodes.tree.most_below);
+        let Desk { waiting, front } = desk;
+        waiting.clear();
+        let begin = supernodes.column_start(bundle.supernodes.start);
+        for s in bundle.supernodes.clone() {
+            let Range { start, end } = supernodes.columns(s);
+            let own = &mut x[start - begin..end - begin];
+            let supernode = factor.supernode(s);
+            let front = &mut front[..supernode.height];
+            front.fill(T::ZERO);
+            let mut top = waiting.len();
+            for c in supernodes.children(s) {
+                let rows = supernodes.relative(c);
+                add(rows, &waiting[top - rows.len()..top], front);
+                top -= rows.len();
+            }
+            waiting.truncate(top);
+            own.iter_mut().zip(&*front).for_each(|(x, &y)| *x -= y);
+            supernode.forward_block(0..own.len(), own);
+            let below = &mut front[own.len()..];
+            Multiply { supernode, y: own, columns: 0..own.len(), from: own.len(), out: below }
+                .with_simd(simd);
+            waiting.extend_from_slice(below);
+        }
+    }
+}
+
+/// Backward substitution in a bundle; `solved` holds the solution in the rows of heavy supernodes.
+struct Backward<'a, T> {
+    factor: Factor<'a, T>,
+    bundle: &'a Segment,
+    x: &'a mut [T],
+    solved: &'a [T],
+    desk: &'a mut Desk<T>,
+}
+
+impl<T: Number> WithSimd for Backward<'_, T> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Backward { factor, bundle, x, solved, desk } = self;
+        let supernodes = factor.supernodes;
+        desk.hold(supernodes.tree.most_below);
+        let begin = supernodes.column_start(bundle.supernodes.start);
+        for s in bundle.supernodes.clone().rev() {
+            let supernode = factor.supernode(s);
+            let below = &mut desk.front[..supernode.height - supernode.width];
+            for (y, &row) in below.iter_mut().zip(supernodes.rows(s)) {
+                let row = row as usize;
+                *y = x.get(row - begin).copied().unwrap_or_else(|| solved[row]);
+            }
+            let Range { start, end } = supernodes.columns(s);
+            let own = &mut x[start - begin..end - begin];
+            SubtractProducts { supernode, columns: 0..own.len(), from: own.len(), y: below, out: own }
+                .with_simd(simd);
+            supernode.backward(0..own.len(), own);
+        }
+    }
+}
+
+/// Add the rows `from` and on of these columns, times y, to `out`.
+struct Multiply<'a, T> {
+    supernode: Supernode<'a, T>,
+    y: &'a [T],
+    columns: Range<usize>,
+    from: usize,
+    out: &'a mut [T],
+}
+
+impl<T: Number> WithSimd for Multiply<'_, T> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Multiply { supernode, y, columns, from, out } = self;
+        let blocks = columns.step_by(COLUMNS).zip(y.chunks(COLUMNS));
+        for (j, y) in blocks {
+            match *y {
+                [a] => multiply(simd, supernode.block(j, from), [a], out),
+                [a, b] => multiply(simd, supernode.block(j, from), [a, b], out),
+                [a, b, c] => multiply(simd, supernode.block(j, from), [a, b, c], out),
+                [a, b, c, d] => multiply(simd, supernode.block(j, from), [a, b, c, d], out),
+                _ => (),
+            }
+        }
+    }
+}
+
+/// Subtract the scalar products of these columns, from row `from` on, with y from `out`.
+struct SubtractProducts<'a, T> {
+    supernode: Supernode<'a, T>,
+    columns: Range<usize>,
+    from: usize,
+    y: &'a [T],
+    out: &'a mut [T],
+}
+
+impl<T: Number> WithSimd for SubtractProducts<'_, T> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let SubtractProducts { supernode, columns, from, y, out } = self;
+        for (j, out) in columns.step_by(COLUMNS).zip(out.chunks_mut(COLUMNS)) {
+            match out.len() {
+                1 => subtract(out, products(simd, supernode.block::<1>(j, from), y)),
+                2 => subtract(out, products(simd, supernode.block::<2>(j, from), y)),
+                3 => subtract(out, products(simd, supernode.block::<3>(j, from), y)),
+                _ => subtract(out, products(simd, supernode.block::<COLUMNS>(j, from), y)),
+            }
+        }
+    }
+}
+
+fn subtract<T: Number, const N: usize>(from: &mut [T], what: [T; N]) {
+    from.iter_mut().zip(what).for_each(|(x, y)| *x -= y);
+}
+
+impl<'a, T: Number> Supernode<'a, T> {
     /// Column j, from row `from` of the supernode on.
-    fn column(&self, j: usize, from: usize) -> &[T] {
+    #[inline(always)]
+    fn column(&self, j: usize, from: usize) -> &'a [T] {
         &self.values[j * self.height + from..(j + 1) * self.height]
     }
 
-    /// Overwrite `own` with the solution of `L own = own`, L the diagonal block.
-    fn forward(&self, own: &mut [T]) {
-        self.forward_block(0..self.width, own);
+    /// Columns from the j-th on, from row `from` on.
+    #[inline(always)]
+    fn block<const N: usize>(&self, j: usize, from: usize) -> [&'a [T]; N] {
+        std::array::from_fn(|c| self.column(j + c, from))
     }
 
-    /// [`Supernode::forward`] for the diagonal block of some columns, those before having been subtracted.
+    /// Overwrite `own` with the solution of `L own = own`, L the diagonal block of these columns, those before having been subtracted.
+    #[inline(always)]
     fn forward_block(&self, columns: Range<usize>, own: &mut [T]) {
         for j in columns.clone() {
             let column = &self.column(j, j)[..columns.end - j];
@@ -226,81 +321,49 @@ impl<T: Number> Supernode<'_, T> {
     }
 
     /// Overwrite `own` with the solution of `Lᵀ own = own`, L the diagonal block of these columns.
+    #[inline(always)]
     fn backward(&self, columns: Range<usize>, own: &mut [T]) {
         let start = columns.start;
         for j in columns.clone().rev() {
             let column = &self.column(j, j)[..columns.end - j];
             let (own, after) = own.split_at_mut(j - start + 1);
-            let sum = in_order(&column[1..], after);
+            let sum = column[1..].iter().zip(&*after).fold(T::ZERO, |sum, (&l, &x)| sum + l * x);
             own[j - start] = (own[j - start] - sum) / column[0];
         }
     }
+}
 
-    /// Add the rows `from` and on of these columns, times y, to `out`.
-    fn multiply(&self, y: &[T], columns: Range<usize>, from: usize, out: &mut [T]) {
-        let mut blocks = y.chunks_exact(COLUMNS);
-        for (b, y) in blocks.by_ref().enumerate() {
-            let [l0, l1, l2, l3] = self.block(columns.start + b * COLUMNS, from);
-            for ((((sum, &a), &b), &c), &d) in out.iter_mut().zip(l0).zip(l1).zip(l2).zip(l3) {
-                *sum += (a * y[0] + b * y[1]) + (c * y[2] + d * y[3]);
-            }
-        }
-        let rest = blocks.remainder();
-        for (j, &y) in (columns.end - rest.len()..).zip(rest) {
-            out.iter_mut().zip(self.column(j, from)).for_each(|(sum, &l)| *sum += l * y);
-        }
+/// Add columns, each times its y, to `out`.
+#[inline(always)]
+fn multiply<T: Number, S: Simd, const N: usize>(simd: S, columns: [&[T]; N], y: [T; N], out: &mut [T]) {
+    let y = y.map(|y| T::everywhere(simd, y));
+    let columns = columns.map(|column| T::vectors(simd, &column[..out.len()]));
+    let (whole, rest) = T::vectors_mut(simd, out);
+    let columns_whole = columns.map(|(vectors, _)| &vectors[..whole.len()]);
+    for (i, out) in whole.iter_mut().enumerate() {
+        *out = (0..N).fold(*out, |sum, c| T::multiply_add(simd, columns_whole[c][i], y[c], sum));
     }
-
-    /// Subtract the scalar products of these columns, from row `from` on, with y.
-    fn subtract_products(&self, columns: Range<usize>, from: usize, y: &[T], out: &mut [T]) {
-        let whole = columns.len() / COLUMNS;
-        for b in 0..whole {
-            let sums = dots(self.block(columns.start + b * COLUMNS, from), y);
-            out[b * COLUMNS..].iter_mut().zip(sums).for_each(|(x, sum)| *x -= sum);
-        }
-        for k in COLUMNS * whole..columns.len() {
-            out[k] -= dot(self.column(columns.start + k, from), y);
-        }
-    }
-
-    /// [`COLUMNS`] columns, from row `from` on.
-    fn block(&self, j: usize, from: usize) -> [&[T]; COLUMNS] {
-        let m = self.height - from;
-        [0, 1, 2, 3].map(|c| &self.column(j + c, from)[..m])
+    if !rest.is_empty() {
+        let sum = (0..N).fold(T::some(simd, rest), |sum, c| {
+            T::multiply_add(simd, T::some(simd, columns[c].1), y[c], sum)
+        });
+        T::store_some(simd, sum, rest);
     }
 }
 
-/// The sum of products, one after the other.
-fn in_order<T: Number>(a: &[T], b: &[T]) -> T {
-    a.iter().zip(b).fold(T::ZERO, |sum, (&a, &b)| sum + a * b)
-}
-
-fn dot<T: Number>(a: &[T], b: &[T]) -> T {
-    let mut lanes = [T::ZERO; LANES];
-    let whole = a.len() / LANES * LANES;
-    for (a, b) in a.chunks_exact(LANES).zip(b.chunks_exact(LANES)) {
-        (0..LANES).for_each(|k| lanes[k] += a[k] * b[k]);
+/// The scalar products of columns with y, which is read once.
+#[inline(always)]
+fn products<T: Number, S: Simd, const N: usize>(simd: S, columns: [&[T]; N], y: &[T]) -> [T; N] {
+    let columns = columns.map(|column| T::vectors(simd, &column[..y.len()]));
+    let (whole, rest) = T::vectors(simd, y);
+    let columns_whole = columns.map(|(vectors, _)| &vectors[..whole.len()]);
+    let mut sums = [T::everywhere(simd, T::ZERO); N];
+    for (i, &y) in whole.iter().enumerate() {
+        (0..N).for_each(|c| sums[c] = T::multiply_add(simd, columns_whole[c][i], y, sums[c]));
     }
-    let tail = in_order(&a[whole..], &b[whole..]);
-    (lanes[0] + lanes[2]) + (lanes[1] + lanes[3]) + tail
-}
-
-/// [`dot`] of each column with y, which is read once.
-fn dots<T: Number>(columns: [&[T]; COLUMNS], y: &[T]) -> [T; COLUMNS] {
-    let mut lanes = [[T::ZERO; LANES]; COLUMNS];
-    let whole = y.len() / LANES * LANES;
-    let [a, b, c, d] = columns.map(|column| column[..whole].chunks_exact(LANES));
-    for ((((y, a), b), c), d) in y.chunks_exact(LANES).zip(a).zip(b).zip(c).zip(d) {
-        for k in 0..LANES {
-            lanes[0][k] += a[k] * y[k];
-            lanes[1][k] += b[k] * y[k];
-            lanes[2][k] += c[k] * y[k];
-            lanes[3][k] += d[k] * y[k];
-        }
+    if !rest.is_empty() {
+        let y = T::some(simd, rest);
+        (0..N).for_each(|c| sums[c] = T::multiply_add(simd, T::some(simd, columns[c].1), y, sums[c]));
     }
-    let mut sums = lanes.map(|lane| (lane[0] + lane[2]) + (lane[1] + lane[3]));
-    for (sum, column) in sums.iter_mut().zip(columns) {
-        *sum += in_order(&column[whole..], &y[whole..]);
-    }
-    sums
+    sums.map(|sum| T::sum(simd, sum))
 }
