@@ -124,4 +124,6 @@ def test_a_cut_goes_through_chosen_cones(torus):
     flat = ricci.flow(torus, target="uniform")
     plain, cut = ricci.layout(flat, cones=[]), ricci.layout(flat, cones=[0, 300], root=5)
     assert len(cut.seams) > len(plain.seams)
-    assert np.allclose(cut.points()[cut.corners()[torus.F == 5]], 0)
+    # Paths of equal lengths may lead the cut through the root, which has several copies then: one is the origin.
+    copies = cut.points()[cut.corners()[torus.F == 5]]
+    assert np.isclose(copies, 0).all(axis=1).any()
