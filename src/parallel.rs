@@ -174,8 +174,8 @@ pub fn fill_with<T: Send, M>(
 
 /// `(a[i], b[i]) = f(i)` for every i of two arrays of the same length, as [`fill`].
 pub fn fill_both<A: Send, B: Send>(a: &mut [A], b: &mut [B], f: impl Fn(usize) -> (A, B) + Sync) {
-    in_chunks(a.chunks_mut(CHUNK).zip(b.chunks_mut(CHUNK)), |c, (a, b)| {
-        a.iter_mut().zip(b.iter_mut()).enumerate().for_each(|(i, (a, b))| (*a, *b) = f(c * CHUNK + i));
+    in_parts_of_both(a, b, |start, a, b| {
+        a.iter_mut().zip(b).enumerate().for_each(|(i, (a, b))| (*a, *b) = f(start + i));
     });
 }
 
