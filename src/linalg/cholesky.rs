@@ -24,12 +24,12 @@ use faer::{Conj, MatMut, Par, Side};
 const PARTITION: Par = Par::Seq;
 
 /// The Cholesky factorisation `A = P L Lᵀ Pᵀ` of matrices with one pattern. Inside a pool ([`crate::parallel`]) its threads share the
-/// work. The factor is computed in doubles; held in single precision, it is a preconditioner ([`super::conjugate`]).
+/// work. In single precision a factor is a preconditioner ([`super::conjugate`]).
 pub struct Cholesky<T = f64> {
     symbolic: SymbolicCholesky<u32>,
     tree: Tree,
     factor: Vec<T>,
-    arenas: Shelf<Arena>,
+    arenas: Shelf<Arena<T>>,
     desks: Shelf<Desk<T>>,
     /// A right-hand side in the order of elimination, and as much again.
     ordered: [Vec<T>; 2],

@@ -1,5 +1,6 @@
 //! Dense elimination of the columns of one supernode, and what it hands on: faer's kernels on blocks of fixed sizes.
 
+use super::number::Number;
 use crate::parallel::each;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::{LltRegularization, cholesky_in_place, cholesky_in_place_scratch};
@@ -24,12 +25,17 @@ pub struct NotPositiveDefinite;
 pub(super) type Factored = Result<(), NotPositiveDefinite>;
 
 /// Memory for the factorisation of diagonal blocks of up to so many columns.
-pub(super) fn scratch(widest: usize) -> MemBuffer {
-    MemBuffer::new(cholesky_in_place_scratch::<f64>(widest, PARTITION, Spec::default()))
+pub(super) fn scratch<T: Number>(widest: usize) -> MemBuffer {
+    MemBuffer::new(cholesky_in_place_scratch::<T>(widest, PARTITION, Spec::default()))
 }
 
 /// Cholesky factorisation of the diagonal block, and the rows below it divided by its transpose.
-pub(super) fn eliminate(own: &mut [f64], width: usize, height: usize, scratch: &mut MemBuffer) -> Factored {
+pub(super) fn eliminate<T: Number>(
+    own: &mut [T],
+    width: usize,
+    height: usize,
+    scratch: &mut MemBuffer,
+) -> Factored {
     if width <= NARROW {
         return eliminate_narrow(own, width, height);
     }
@@ -40,35 +46,35 @@ pub(super) fn eliminate(own: &mut [f64], width: usize, height: usize, scratch: &
     Ok(())
 }
 
-fn diagonal_block(block: MatMut<'_, f64>, scratch: &mut MemBuffer) -> Factored {
+fn diagonal_block<T: Number>(block: MatMut<'_, T>, scratch: &mut MemBuffer) -> Factored {
     cholesky_in_place(block, LltRegularization::default(), PARTITION, MemStack::new(scratch), Spec::default())
         .map(|_| ())
         .map_err(|_| NotPositiveDefinite)
 }
 
 /// [`eliminate`] column by column.
-fn eliminate_narrow(own: &mut [f64], width: usize, height: usize) -> Factored {
+fn eliminate_narrow<T: Number>(own: &mut [T], width: usize, height: usize) -> Factored {
     for j in 0..width {
         let (before, column) = own.split_at_mut(j * height);
         let column = &mut column[j..height];
         for earlier in before.chunks_exact(height) {
             let earlier = &earlier[j..];
             let factor = earlier[0];
-            column.iter_mut().zip(earlier).for_each(|(x, l)| *x -= factor * l);
+            column.iter_mut().zip(earlier).for_each(|(x, &l)| *x -= factor * l);
         }
         // False also where it is no number.
-        let is_positive = column[0] > 0.0;
+        let is_positive = column[0] > T::ZERO;
         if !is_positive {
             return Err(NotPositiveDefinite);
         }
-        let inverse = 1.0 / column[0].sqrt();
+        let inverse = T::ONE / column[0].root();
         column.iter_mut().for_each(|x| *x *= inverse);
     }
     Ok(())
 }
 
 /// The lower triangle of −B Bᵀ into `front`, B being the rows below the diagonal block.
-pub(super) fn outer(own: &[f64], width: usize, height: usize, front: &mut [f64]) {
+pub(super) fn outer<T: Number>(own: &[T], width: usize, height: usize, front: &mut [T]) {
     let m = height - width;
     let below = MatRef::from_column_major_slice(own, height, width).subrows(width, m);
     triangular::matmul(
@@ -79,13 +85,13 @@ pub(super) fn outer(own: &[f64], width: usize, height: usize, front: &mut [f64])
         BlockStructure::Rectangular,
         below.transpose(),
         BlockStructure::Rectangular,
-        -1.0,
+        -T::ONE,
         PARTITION,
     );
 }
 
 /// The lower part of the first columns of −B Bᵀ.
-pub(super) fn outer_strip(below: MatRef<'_, f64>, columns: usize, strip: &mut [f64]) {
+pub(super) fn outer_strip<T: Number>(below: MatRef<'_, T>, columns: usize, strip: &mut [T]) {
     let m = below.nrows();
     let strip = MatMut::from_column_major_slice_mut(strip, m, columns);
     let (top, rest) = strip.split_at_row_mut(columns);
@@ -98,15 +104,15 @@ pub(super) fn outer_strip(below: MatRef<'_, f64>, columns: usize, strip: &mut [f
         BlockStructure::Rectangular,
         own.transpose(),
         BlockStructure::Rectangular,
-        -1.0,
+        -T::ONE,
         PARTITION,
     );
-    matmul(rest, Accum::Replace, below.subrows(columns, m - columns), own.transpose(), -1.0, PARTITION);
+    matmul(rest, Accum::Replace, below.subrows(columns, m - columns), own.transpose(), -T::ONE, PARTITION);
 }
 
 /// [`eliminate`] by panels, each by several threads.
-pub(super) fn eliminate_panels(own: &mut [f64], width: usize, height: usize) -> Factored {
-    let mut scratch = scratch(PANEL);
+pub(super) fn eliminate_panels<T: Number>(own: &mut [T], width: usize, height: usize) -> Factored {
+    let mut scratch = scratch::<T>(PANEL);
     for start in (0..width).step_by(PANEL) {
         let columns = PANEL.min(width - start);
         let (done, panel) = own.split_at_mut(start * height);
@@ -114,9 +120,9 @@ pub(super) fn eliminate_panels(own: &mut [f64], width: usize, height: usize) -> 
         let panel = MatMut::from_column_major_slice_mut(&mut panel[..columns * height], height, columns);
         let (mut diagonal, below) = panel.split_at_row_mut(start).1.split_at_row_mut(columns);
         let factors = done.subrows(start, columns).transpose();
-        let subtract = |block: MatMut<'_, f64>, row: usize| {
+        let subtract = |block: MatMut<'_, T>, row: usize| {
             let rows = done.subrows(row, block.nrows());
-            matmul(block, Accum::Add, rows, factors, -1.0, PARTITION);
+            matmul(block, Accum::Add, rows, factors, -T::ONE, PARTITION);
         };
         if start > 0 {
             subtract(diagonal.as_mut(), start);
@@ -134,7 +140,7 @@ pub(super) fn eliminate_panels(own: &mut [f64], width: usize, height: usize) -> 
 }
 
 /// Blocks of [`ROWS`] rows, each with the number of its first row, that of the first being `row`.
-fn row_blocks(mut matrix: MatMut<'_, f64>, mut row: usize) -> Vec<(usize, MatMut<'_, f64>)> {
+fn row_blocks<T>(mut matrix: MatMut<'_, T>, mut row: usize) -> Vec<(usize, MatMut<'_, T>)> {
     let mut blocks = Vec::new();
     while matrix.nrows() > 0 {
         let rows = ROWS.min(matrix.nrows());

@@ -20,13 +20,11 @@ use std::sync::atomic::{AtomicBool, Ordering};
 const STRIP: usize = 96;
 
 /// Memory of a thread that works through bundles.
-pub(super) struct Arena {
+pub(super) struct Arena<T> {
     /// What waits for its parent, packed by columns; the last one on top.
-    waiting: Vec<f64>,
-    /// Columns of a supernode, in doubles whatever the factor is held in.
-    own: Vec<f64>,
+    waiting: Vec<T>,
     /// The lower triangle that a supernode hands on, in a square.
-    front: Vec<f64>,
+    front: Vec<T>,
     /// For diagonal blocks of up to `widest` columns.
     scratch: MemBuffer,
     widest: usize,
@@ -34,15 +32,15 @@ pub(super) struct Arena {
 
 /// What a child hands on: a lower triangle, packed by columns.
 #[derive(Clone, Copy)]
-struct Update<'a> {
+struct Update<'a, T> {
     /// Its rows in the front of the parent, ascending.
     rows: &'a [u32],
-    values: &'a [f64],
+    values: &'a [T],
 }
 
-impl Update<'_> {
+impl<T: Number> Update<'_, T> {
     /// Add the columns that are `columns` of the front. `out` holds them, from row `first_row` of the front on, `height` rows each.
-    fn add(&self, out: &mut [f64], columns: std::ops::Range<usize>, first_row: usize, height: usize) {
+    fn add(&self, out: &mut [T], columns: std::ops::Range<usize>, first_row: usize, height: usize) {
         let m = self.rows.len();
         let from = self.rows.partition_point(|&r| (r as usize) < columns.start);
         let mut rest = &self.values[packed(m) - packed(m - from)..];
@@ -54,19 +52,19 @@ impl Update<'_> {
             let (values, after) = rest.split_at(m - j);
             rest = after;
             let out = &mut out[(column - columns.start) * height..][..height];
-            for (&row, value) in self.rows[j..].iter().zip(values) {
+            for (&row, &value) in self.rows[j..].iter().zip(values) {
                 out[row as usize - first_row] += value;
             }
         }
     }
 }
 
-/// Overwrite `factor` with that of the matrix with these values. It is computed in doubles.
+/// Overwrite `factor` with that of the matrix with these values.
 pub(super) fn factor<T: Number>(
     supernodes: Supernodes<'_>,
     matrix: &[f64],
     factor: &mut [T],
-    memory: &Shelf<Arena>,
+    memory: &Shelf<Arena<T>>,
 ) -> Factored {
     let segments = &supernodes.tree.segments;
     if let [bundle] = &segments[..]
@@ -76,7 +74,7 @@ pub(super) fn factor<T: Number>(
     }
     let parts = parts(segments, factor, |s| supernodes.values_start(s));
     let failed = AtomicBool::new(false);
-    let handed_on: Vec<Mutex<Vec<f64>>> = segments.iter().map(|_| Mutex::default()).collect();
+    let handed_on: Vec<Mutex<Vec<T>>> = segments.iter().map(|_| Mutex::default()).collect();
     let (heavy, bundles): (Vec<_>, Vec<_>) = parts.into_iter().partition(|(_, segment, _)| segment.is_heavy);
     each(bundles, |(k, segment, part)| {
         if failed.load(Ordering::Relaxed) {
@@ -114,16 +112,15 @@ pub(super) fn parts<'a, T>(
     parts
 }
 
-impl Default for Arena {
-    fn default() -> Arena {
-        let [waiting, own, front] = [(); 3].map(|()| Vec::new());
-        Arena { waiting, own, front, scratch: scratch(0), widest: 0 }
+impl<T: Number> Default for Arena<T> {
+    fn default() -> Arena<T> {
+        Arena { waiting: Vec::new(), front: Vec::new(), scratch: scratch::<T>(0), widest: 0 }
     }
 }
 
-impl Arena {
+impl<T: Number> Arena<T> {
     /// The factor of a bundle into its part; what its roots hand on waits, one after the other.
-    fn bundle<T: Number>(
+    fn bundle(
         &mut self,
         supernodes: Supernodes<'_>,
         bundle: &Segment,
@@ -136,8 +133,7 @@ impl Arena {
             let length = supernodes.values_start(s + 1) - supernodes.values_start(s);
             let (part, after) = rest.split_at_mut(length);
             rest = after;
-            self.supernode(supernodes, s, matrix, length)?;
-            part.iter_mut().zip(&self.own).for_each(|(to, &x)| *to = T::nearest(x));
+            self.supernode(supernodes, s, matrix, part)?;
         }
         Ok(())
     }
@@ -146,22 +142,17 @@ impl Arena {
         let tree = supernodes.tree;
         self.waiting.clear();
         self.waiting.reserve_exact(tree.most_waiting);
-        let hold = |kept: &mut Vec<f64>, numbers: usize| {
-            if kept.len() < numbers {
-                *kept = vec![0.0; numbers];
-            }
-        };
-        hold(&mut self.front, tree.most_below * tree.most_below);
-        hold(&mut self.own, tree.most_values);
+        if self.front.len() < tree.most_below * tree.most_below {
+            self.front = vec![T::ZERO; tree.most_below * tree.most_below];
+        }
         if self.widest < tree.widest {
-            (self.scratch, self.widest) = (scratch(tree.widest), tree.widest);
+            (self.scratch, self.widest) = (scratch::<T>(tree.widest), tree.widest);
         }
     }
 
-    /// The columns of one supernode, `length` numbers, into `own`.
-    fn supernode(&mut self, supernodes: Supernodes<'_>, s: usize, matrix: &[f64], length: usize) -> Factored {
-        let Arena { waiting, own, front, scratch, .. } = self;
-        let own = &mut own[..length];
+    /// The columns of one supernode into `own`.
+    fn supernode(&mut self, supernodes: Supernodes<'_>, s: usize, matrix: &[f64], own: &mut [T]) -> Factored {
+        let Arena { waiting, front, scratch, .. } = self;
         let (width, m) = (supernodes.columns(s).len(), supernodes.rows(s).len());
         let height = width + m;
         let mut top = waiting.len();
@@ -171,9 +162,9 @@ impl Arena {
             top = values.start;
             (rows, values)
         });
-        own.fill(0.0);
+        own.fill(T::ZERO);
         let (sources, places) = supernodes.entries(s);
-        sources.iter().zip(places).for_each(|(&k, &at)| own[at as usize] += matrix[k as usize]);
+        sources.iter().zip(places).for_each(|(&k, &at)| own[at as usize] = T::nearest(matrix[k as usize]));
         for (rows, values) in updates {
             Update { rows, values: &waiting[values] }.add(own, 0..width, 0, height);
         }
@@ -200,34 +191,32 @@ fn heavy_supernode<T: Number>(
     supernodes: Supernodes<'_>,
     segment: &Segment,
     matrix: &[f64],
-    part: &mut [T],
-    handed_on: &[Mutex<Vec<f64>>],
-) -> Result<Vec<f64>, NotPositiveDefinite> {
+    own: &mut [T],
+    handed_on: &[Mutex<Vec<T>>],
+) -> Result<Vec<T>, NotPositiveDefinite> {
     let s = segment.supernodes.start;
     let (width, m) = (supernodes.columns(s).len(), supernodes.rows(s).len());
     let height = width + m;
     let children = Children::new(supernodes, s, handed_on);
     let (sources, places) = supernodes.entries(s);
-    let mut own = vec![0.0; part.len()];
+    own.fill(T::ZERO);
     each(own.chunks_mut(PANEL * height).enumerate().collect(), |(p, panel)| {
         let start = p * PANEL * height;
         let [from, to] =
             [start, start + panel.len()].map(|x| places.partition_point(|&at| (at as usize) < x));
         for k in from..to {
-            panel[places[k] as usize - start] += matrix[sources[k] as usize];
+            panel[places[k] as usize - start] = T::nearest(matrix[sources[k] as usize]);
         }
         let columns = p * PANEL..p * PANEL + panel.len() / height;
         children.updates().for_each(|update| update.add(panel, columns.clone(), 0, height));
     });
-    eliminate_panels(&mut own, width, height)?;
-    let panels = part.chunks_mut(PANEL * height).zip(own.chunks(PANEL * height)).collect();
-    each(panels, |(to, panel)| to.iter_mut().zip(panel).for_each(|(to, &x)| *to = T::nearest(x)));
+    eliminate_panels(own, width, height)?;
     // Strips one after the other, each from the row of its first column on.
     let rows = |p: usize| m - p * STRIP;
     let strips = m.div_ceil(STRIP);
     let size: usize = (0..strips).map(|p| rows(p) * STRIP.min(rows(p))).sum();
-    let mut front = vec![0.0; size];
-    let below = MatRef::from_column_major_slice(&own, height, width).subrows(width, m);
+    let mut front = vec![T::ZERO; size];
+    let below = MatRef::from_column_major_slice(&*own, height, width).subrows(width, m);
     let mut parts = Vec::with_capacity(strips);
     let mut rest = &mut front[..];
     for p in 0..strips {
@@ -256,15 +245,15 @@ fn heavy_supernode<T: Number>(
 }
 
 /// What the children of a heavy supernode have handed on, last child first.
-struct Children<'a> {
+struct Children<'a, T> {
     supernodes: Supernodes<'a>,
     /// Child, what holds its update, where it starts there.
-    held: Vec<(usize, std::sync::MutexGuard<'a, Vec<f64>>, Vec<(usize, usize)>)>,
+    held: Vec<(usize, std::sync::MutexGuard<'a, Vec<T>>, Vec<(usize, usize)>)>,
 }
 
-impl<'a> Children<'a> {
-    fn new(supernodes: Supernodes<'a>, s: usize, handed_on: &'a [Mutex<Vec<f64>>]) -> Children<'a> {
-        let mut held: Vec<(usize, std::sync::MutexGuard<'a, Vec<f64>>, Vec<(usize, usize)>)> = Vec::new();
+impl<'a, T: Number> Children<'a, T> {
+    fn new(supernodes: Supernodes<'a>, s: usize, handed_on: &'a [Mutex<Vec<T>>]) -> Children<'a, T> {
+        let mut held: Vec<(usize, std::sync::MutexGuard<'a, Vec<T>>, Vec<(usize, usize)>)> = Vec::new();
         for c in supernodes.children(s) {
             let k = supernodes.segment_of(c);
             let start = supernodes.tree.segments[k].start_of(c);
@@ -276,7 +265,7 @@ impl<'a> Children<'a> {
         Children { supernodes, held }
     }
 
-    fn updates(&self) -> impl Iterator<Item = Update<'_>> {
+    fn updates(&self) -> impl Iterator<Item = Update<'_, T>> {
         self.held.iter().flat_map(|(_, values, children)| {
             children.iter().map(|&(c, start)| {
                 let rows = self.supernodes.relative(c);
@@ -287,7 +276,7 @@ impl<'a> Children<'a> {
 }
 
 /// Release what holds the update of a child, where it is the last that is needed from there.
-fn release(supernodes: Supernodes<'_>, c: usize, handed_on: &[Mutex<Vec<f64>>]) {
+fn release<T>(supernodes: Supernodes<'_>, c: usize, handed_on: &[Mutex<Vec<T>>]) {
     let k = supernodes.segment_of(c);
     if supernodes.tree.segments[k].is_last_needed(c) {
         *lock(&handed_on[k]) = Vec::new();

@@ -1,9 +1,10 @@
 //! The numbers that a factor is held in.
 
+use faer::traits::ComplexField;
 use pulp::Simd;
-use std::ops::{Add, AddAssign, Div, DivAssign, Mul, Neg, Sub, SubAssign};
+use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
-/// Doubles, or single precision: half the memory and half the time of a solution, for preconditioners.
+/// Doubles, or single precision: half the memory and little more than half the time, for preconditioners.
 pub trait Number:
     Copy
     + Default
@@ -17,20 +18,30 @@ pub trait Number:
     + AddAssign
     + SubAssign
     + DivAssign
+    + MulAssign
+    + PartialOrd
+    + ComplexField
     + vectors::Vectors
 {
     /// 0.
     const ZERO: Self;
+
+    /// 1.
+    const ONE: Self;
 
     /// The nearest one to a double.
     fn nearest(x: f64) -> Self;
 
     /// As a double, which has the same value.
     fn double(self) -> f64;
+
+    /// The square root.
+    fn root(self) -> Self;
 }
 
 impl Number for f64 {
     const ZERO: f64 = 0.0;
+    const ONE: f64 = 1.0;
 
     fn nearest(x: f64) -> f64 {
         x
@@ -39,10 +50,15 @@ impl Number for f64 {
     fn double(self) -> f64 {
         self
     }
+
+    fn root(self) -> f64 {
+        self.sqrt()
+    }
 }
 
 impl Number for f32 {
     const ZERO: f32 = 0.0;
+    const ONE: f32 = 1.0;
 
     #[allow(clippy::cast_possible_truncation)]
     fn nearest(x: f64) -> f32 {
@@ -51,6 +67,10 @@ impl Number for f32 {
 
     fn double(self) -> f64 {
         f64::from(self)
+    }
+
+    fn root(self) -> f32 {
+        self.sqrt()
     }
 }
 

@@ -33,8 +33,6 @@ pub(super) struct Tree {
     /// Most numbers that wait for their parents inside a bundle, and the largest of their rows below a diagonal block.
     pub most_waiting: usize,
     pub most_below: usize,
-    /// Most numbers in the columns of one supernode of a bundle.
-    pub most_values: usize,
     /// Columns of the widest supernode.
     pub widest: usize,
 }
@@ -165,7 +163,6 @@ impl Tree {
             segments,
             most_waiting: 0,
             most_below: 0,
-            most_values: 0,
             widest: 0,
         };
         tree.count(symbolic);
@@ -175,7 +172,7 @@ impl Tree {
     fn count(&mut self, symbolic: &SymbolicSupernodalCholesky<u32>) {
         let below = |s: usize| symbolic.supernode(s).pattern().len();
         let supernodes = Supernodes { symbolic, tree: self };
-        let [mut most_waiting, mut most_below, mut most_values, mut widest] = [0; 4];
+        let [mut most_waiting, mut most_below, mut widest] = [0; 3];
         for segment in &self.segments {
             let mut waiting = 0;
             for s in segment.supernodes.clone() {
@@ -184,13 +181,10 @@ impl Tree {
                     waiting -= supernodes.children(s).map(|c| packed(below(c))).sum::<usize>();
                     waiting += packed(below(s));
                     (most_waiting, most_below) = (most_waiting.max(waiting), most_below.max(below(s)));
-                    let values = supernodes.values_start(s + 1) - supernodes.values_start(s);
-                    most_values = most_values.max(values);
                 }
             }
         }
-        (self.most_waiting, self.most_below) = (most_waiting, most_below);
-        (self.most_values, self.widest) = (most_values, widest);
+        (self.most_waiting, self.most_below, self.widest) = (most_waiting, most_below, widest);
     }
 }
 
