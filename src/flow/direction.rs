@@ -20,10 +20,8 @@ const SHIFTS: usize = 12;
 /// The linear residual of a step that is solved with the factor of an earlier matrix, as a share of what is left of the error if it falls
 /// quadratically at the rate of the last step \[EW96, choice 2\]: too little to slow that down.
 const FORCING: f64 = 0.1;
-/// Largest share of the right-hand side that such a step leaves.
+/// Largest share of the right-hand side that a step leaves which is solved with a factor of another matrix or in single precision.
 const MAX_FORCING: f64 = 0.01;
-/// And one whose own matrix has a factor in single precision, which gains that much at once.
-const FIRST_FORCING: f64 = 1e-4;
 /// Radians. No step leaves less than this of a linear residual, a tenth of the rounding of an angle of 1. It is far below the rounding of
 /// the curvature because u magnifies what is left over the whole surface.
 const LEAST_LEFT: f64 = 2e-17;
@@ -88,7 +86,7 @@ impl Flow {
     ) -> Result<bool> {
         report.factorisations += 1;
         let factored = timed(&mut report.seconds.factor, || system.factor()).is_ok();
-        let forcing = f64::min(FORCING * at.error, FIRST_FORCING);
+        let forcing = f64::min(FORCING * at.error, MAX_FORCING);
         Ok(factored && self.solve_near(system, at, forcing, (report, control))?)
     }
 

@@ -141,9 +141,9 @@ impl WithSimd for ByChords<'_> {
             for i in 0..out_0.len() {
                 let at = |k: usize| Wide::new(simd, sides[k][i]);
                 let chords = [[at(0), at(1), at(2)], [at(3), at(4), at(5)]];
-                let (angles, weights, is_sound) = measured(parts.class.space, chords);
-                [out_0[i], out_1[i], out_2[i]] = angles.map(|x| x.at);
-                [out_3[i], out_4[i], out_5[i]] = weights.map(|x| x.at);
+                let ([a, b, c], [u, v, w], is_sound) = measured(parts.class.space, chords);
+                (out_0[i], out_1[i], out_2[i]) = (a.at, b.at, c.at);
+                (out_3[i], out_4[i], out_5[i]) = (u.at, v.at, w.at);
                 out_6[i] = is_sound.at;
             }
             for (i, (angles, weights)) in angles.iter_mut().zip(weights.iter_mut()).enumerate() {

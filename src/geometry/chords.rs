@@ -26,7 +26,10 @@ const LEAST_FLAT: f64 = -0.5;
 /// `sinh s sinh r_k` per corner, and `sinh s`.
 #[inline(always)]
 pub(crate) fn products<R: Number>(q: [R; 3], c: [R; 3], d: [R; 3]) -> ([R; 3], R) {
-    let each = [0, 1, 2].map(|k| d[k] * (d[k] + q[k] + q[k]));
+    let mut each = d;
+    for k in 0..3 {
+        each[k] = d[k] * (d[k] + q[k] + q[k]);
+    }
     (each, (d[2] + q[2]) * c[2] + (c[0] * c[1] + q[0] * q[1]) * q[2])
 }
 
@@ -56,12 +59,14 @@ impl<L: Lanes> Parts<L> {
         for q in q {
             is_sound = q.where_at_least(least, most.where_at_least(q, is_sound, zero), zero);
         }
-        let square = q.map(|q| q * q);
-        let c = square.map(|x| (one + x).root());
-        // c − 1
-        let more = [0, 1, 2].map(|k| square[k] / (one + c[k]));
         let flat = differences_of(q, low);
-        let mut d = [zero; 3];
+        // `more`: c − 1
+        let [mut square, mut c, mut more, mut d] = [[zero; 3]; 4];
+        for k in 0..3 {
+            square[k] = q[k] * q[k];
+            c[k] = (one + square[k]).root();
+            more[k] = square[k] / (one + c[k]);
+        }
         for k in 0..3 {
             let (i, j) = ((k + 1) % 3, (k + 2) % 3);
             let in_plane = of(2.0) * flat[k];
@@ -99,10 +104,11 @@ pub(crate) fn sound_angles_with_weights<L: Lanes>(chords: [[L; 3]; 2]) -> ([L; 3
         two * angle(root, whole * product[2]),
     ];
     let scale = of(0.5) * whole / root;
-    let weights = [0, 1, 2].map(|k| {
+    let mut weights = [scale; 3];
+    for k in 0..3 {
         let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-        scale * ((square[i] - square[k]) + square[j]) / (of(1.0) + square[k])
-    });
+        weights[k] = scale * ((square[i] - square[k]) + square[j]) / (of(1.0) + square[k]);
+    }
     (angles, weights, is_finite(weights, is_sound))
 }
 

@@ -410,8 +410,12 @@ pub fn differences_of_lengths(lengths: [Twofold; 3]) -> [f64; 3] {
 /// [`differences_of_lengths`] of one or several triangles.
 #[inline(always)]
 pub(crate) fn differences_of<L: Lanes>(high: [L; 3], low: [L; 3]) -> [L; 3] {
-    let (rest, low) = (half_differences(high), low.map(|x| x.constant(0.5) * x));
-    [0, 1, 2].map(|k| rest[k] + (low[(k + 1) % 3] + low[(k + 2) % 3] - low[k]))
+    let (mut r, half) = (half_differences(high), low[0].constant(0.5));
+    let low = [half * low[0], half * low[1], half * low[2]];
+    for k in 0..3 {
+        r[k] = r[k] + (low[(k + 1) % 3] + low[(k + 2) % 3] - low[k]);
+    }
+    r
 }
 
 /// Half-perimeter differences `r_k` of a triangle, given its corners and the edges opposite them, all in one unit ([`in_one_unit`]).

@@ -59,8 +59,11 @@ pub fn half_differences<L: Lanes>(l: [L; 3]) -> [L; 3] {
     let b = smaller.larger(larger.smaller(l[2]));
     let half = a.constant(0.5);
     let [first, second, third] = [half * (c - (a - b)), half * (c + (a - b)), half * (a + (b - c))];
-    let other = l.map(|l| l.where_at_least(b, second, third));
-    [0, 1, 2].map(|k| l[k].where_at_least(a, first, other[k]))
+    let mut r = l;
+    for l in &mut r {
+        *l = l.where_at_least(a, first, l.where_at_least(b, second, third));
+    }
+    r
 }
 
 /// f(x) = x, sinh x, sin x in E², H², S².
@@ -140,12 +143,15 @@ pub(crate) fn sound_plane_angles_with_weights<L: Lanes>(r: [L; 3]) -> ([L; 3], [
     let [zero, one, half] = [0.0, 1.0, 0.5].map(of);
     // In units of the half-perimeter, which is 1 then, no product over- or underflows.
     let s = r[0] + r[1] + r[2];
-    let q = r.map(|x| x / s);
-    let [a, b, c] = q.map(L::root);
+    let q = [r[0] / s, r[1] / s, r[2] / s];
+    let [a, b, c] = [q[0].root(), q[1].root(), q[2].root()];
     let two = of(2.0);
     let angles = [two * angle(b * c, a), two * angle(c * a, b), two * angle(a * b, c)];
     let area = a * b * c;
-    let weights = [0, 1, 2].map(|k| half * ((q[k] - q[(k + 1) % 3] * q[(k + 2) % 3]) / (two * area)));
+    let mut weights = [zero; 3];
+    for k in 0..3 {
+        weights[k] = half * ((q[k] - q[(k + 1) % 3] * q[(k + 2) % 3]) / (two * area));
+    }
     let least = r[0].smaller(r[1]).smaller(r[2]);
     let is_whole = least.where_at_least(of(f64::MIN_POSITIVE), one, zero);
     (angles, weights, is_finite(weights, is_whole))

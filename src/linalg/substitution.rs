@@ -341,12 +341,15 @@ fn multiply<T: Number, S: Simd, const N: usize>(simd: S, columns: [&[T]; N], y: 
     let (whole, rest) = T::vectors_mut(simd, out);
     let columns_whole = columns.map(|(vectors, _)| &vectors[..whole.len()]);
     for (i, out) in whole.iter_mut().enumerate() {
-        *out = (0..N).fold(*out, |sum, c| T::multiply_add(simd, columns_whole[c][i], y[c], sum));
+        for c in 0..N {
+            *out = T::multiply_add(simd, columns_whole[c][i], y[c], *out);
+        }
     }
     if !rest.is_empty() {
-        let sum = (0..N).fold(T::some(simd, rest), |sum, c| {
-            T::multiply_add(simd, T::some(simd, columns[c].1), y[c], sum)
-        });
+        let mut sum = T::some(simd, rest);
+        for c in 0..N {
+            sum = T::multiply_add(simd, T::some(simd, columns[c].1), y[c], sum);
+        }
         T::store_some(simd, sum, rest);
     }
 }
@@ -359,11 +362,19 @@ fn products<T: Number, S: Simd, const N: usize>(simd: S, columns: [&[T]; N], y: 
     let columns_whole = columns.map(|(vectors, _)| &vectors[..whole.len()]);
     let mut sums = [T::everywhere(simd, T::ZERO); N];
     for (i, &y) in whole.iter().enumerate() {
-        (0..N).for_each(|c| sums[c] = T::multiply_add(simd, columns_whole[c][i], y, sums[c]));
+        for c in 0..N {
+            sums[c] = T::multiply_add(simd, columns_whole[c][i], y, sums[c]);
+        }
     }
     if !rest.is_empty() {
         let y = T::some(simd, rest);
-        (0..N).for_each(|c| sums[c] = T::multiply_add(simd, T::some(simd, columns[c].1), y, sums[c]));
+        for c in 0..N {
+            sums[c] = T::multiply_add(simd, T::some(simd, columns[c].1), y, sums[c]);
+        }
     }
-    sums.map(|sum| T::sum(simd, sum))
+    let mut products = [T::ZERO; N];
+    for c in 0..N {
+        products[c] = T::sum(simd, sums[c]);
+    }
+    products
 }
