@@ -155,8 +155,8 @@ impl Drop for Pool {
 /// `out[i] = f(i)` for every i, in parallel when called inside a pool, one after the other outside: rayon
 /// would start its global pool there.
 pub fn fill<T: Send>(out: &mut [T], f: impl Fn(usize) -> T + Sync) {
-    in_chunks(out.chunks_mut(CHUNK), |c, chunk| {
-        chunk.iter_mut().enumerate().for_each(|(i, x)| *x = f(c * CHUNK + i));
+    in_parts(out, |start, part| {
+        part.iter_mut().enumerate().for_each(|(i, x)| *x = f(start + i));
     });
 }
 
@@ -177,6 +177,11 @@ pub fn fill_both<A: Send, B: Send>(a: &mut [A], b: &mut [B], f: impl Fn(usize) -
     in_parts_of_both(a, b, |start, a, b| {
         a.iter_mut().zip(b).enumerate().for_each(|(i, (a, b))| (*a, *b) = f(start + i));
     });
+}
+
+/// `work` on parts of an array, `work(i, …)` on the one that begins with element i, as [`fill`].
+pub fn in_parts<T: Send>(out: &mut [T], work: impl Fn(usize, &mut [T]) + Sync) {
+    in_chunks(out.chunks_mut(CHUNK), |c, part| work(c * CHUNK, part));
 }
 
 /// `work` on parts of two arrays of the same length, `work(i, …)` on those that begin with element i, as [`fill`].

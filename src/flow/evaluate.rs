@@ -1,10 +1,11 @@
 //! Lengths, angles and curvature at given variables: the right-hand side of the flow.
 
-use super::measure::{Parts, chord, needs_chords_alone};
+use super::measure::{Parts, chord, ends_and_eta, needs_chords_alone};
 use super::seconds::{Seconds, timed};
 use crate::control::Control;
 use crate::error::Result;
 use crate::geometry::conformal::{Edge, Vertex};
+use crate::geometry::scaling::{fill_chords, fill_vertices};
 use crate::geometry::triangle::Angles;
 use crate::geometry::twofold::two_sum;
 use crate::geometry::{Space, Twofold, largest, worse};
@@ -136,9 +137,9 @@ impl State {
         self.vertices.resize(mesh.n_vertices(), Vertex::default());
         self.angles.resize(mesh.n_faces(), Angles { at: [0.0; 3] });
         self.weights.resize(mesh.n_faces(), [0.0; 3]);
-        fill(&mut self.vertices, |v| {
+        fill_vertices(space, &mut self.vertices, |v| {
             let v = VertexId::from(v);
-            Vertex::precise(space, class.epsilon[v], u[v], low[v])
+            (class.epsilon[v], u[v], low[v])
         });
         self.is_real =
             (needs_chords_alone(class) && self.find_chords(mesh, class)) || self.find_edges(mesh, class);
@@ -154,7 +155,7 @@ impl State {
         let State { vertices, edges, chords, .. } = self;
         edges.clear();
         chords.resize(mesh.n_edges(), Twofold::default());
-        fill(chords, |e| chord(mesh, class, vertices, e.into()));
+        fill_chords(class.space, chords, |e| ends_and_eta(mesh, class, vertices, e.into()));
         let is_known = chords.iter().all(|chord| chord.high > 0.0);
         if !is_known {
             chords.clear();

@@ -3,7 +3,7 @@
 use crate::geometry::conformal::{
     Edge, Vertex, differences, differences_of, differences_of_lengths, in_one_unit, plain_chord,
 };
-use crate::geometry::lanes::{Lanes, Wide};
+use crate::geometry::lanes::{Formula, Lanes, work_out};
 use crate::geometry::scaled::scaled;
 use crate::geometry::triangle::{self, Angles, plane_angles_with_weights, sound_plane_angles_with_weights};
 use crate::geometry::weights::weights_from_sines;
@@ -11,10 +11,6 @@ use crate::geometry::{Space, Twofold, chords};
 use crate::mesh::{EdgeId, FaceId, Mesh};
 use crate::metric::Metric;
 use crate::parallel::{fill_both, in_parts_of_both};
-use pulp::{Arch, Simd, WithSimd};
-
-/// Faces that are measured together, a multiple of the doubles in a vector of any processor.
-const BLOCK: usize = 64;
 
 /// Whether half chords are all that faces need: for vertex scaling in E² and H².
 pub(super) fn needs_chords_alone(class: &Metric) -> bool {
@@ -24,8 +20,19 @@ pub(super) fn needs_chords_alone(class: &Metric) -> bool {
 /// The half chord of an edge, for vertex scaling; 0 where it has no length, and where that needs a unit of its own.
 #[inline]
 pub(super) fn chord(mesh: &Mesh, class: &Metric, vertices: &[Vertex], e: EdgeId) -> Twofold {
-    let [a, b] = mesh.ends(e).map(|v| vertices[v.index()]);
-    plain_chord(class.space, a, b, class.eta[e])
+    let ([a, b], eta) = ends_and_eta(mesh, class, vertices, e);
+    plain_chord(class.space, a, b, eta)
+}
+
+/// What the half chord of an edge comes from.
+#[inline]
+pub(super) fn ends_and_eta(
+    mesh: &Mesh,
+    class: &Metric,
+    vertices: &[Vertex],
+    e: EdgeId,
+) -> ([Vertex; 2], Twofold) {
+    (mesh.ends(e).map(|v| vertices[v.index()]), class.eta[e])
 }
 
 /// What faces are measured from.
@@ -46,8 +53,18 @@ impl Parts<'_> {
             fill_both(angles, weights, |f| self.measured(f.into()));
             return;
         }
+        let formula = ByChords { space: self.class.space };
         in_parts_of_both(angles, weights, |start, angles, weights| {
-            Arch::new().dispatch(ByChords { parts: self, start, angles, weights });
+            let given = |i: usize| {
+                let [a, b, c] = self.chords_at((start + i).into());
+                [a.high, b.high, c.high, a.low, b.low, c.low]
+            };
+            work_out(formula, angles.len(), given, |i, [a, b, c, u, v, w, is_sound]| {
+                (angles[i], weights[i]) = match is_sound {
+                    1.0 => (Angles { at: [a, b, c] }, [u, v, w]),
+                    _ => self.measured((start + i).into()),
+                };
+            });
         });
     }
 
@@ -110,59 +127,23 @@ impl Parts<'_> {
     }
 }
 
-/// [`Parts::measured`] of the faces from `start` on, several at a time, where chords are known.
-struct ByChords<'a> {
-    parts: Parts<'a>,
-    start: usize,
-    angles: &'a mut [Angles],
-    weights: &'a mut [[f64; 3]],
+/// Angles and derivative weights of triangles of vertex scaling in E² or H², with 1 for each whose are sound. Given are the half chords
+/// opposite the corners, and what these miss.
+#[derive(Clone, Copy)]
+struct ByChords {
+    space: Space,
 }
 
-impl WithSimd for ByChords<'_> {
-    type Output = ();
-
+impl Formula<6, 7> for ByChords {
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) {
-        let ByChords { parts, start, angles, weights } = self;
-        // Opposite each corner: a double of the half chord, and what it misses.
-        let mut chords = [[1.0; BLOCK]; 6];
-        // Angles, weights, and whether these may be used.
-        let mut found = [[0.0; BLOCK]; 7];
-        for (b, (angles, weights)) in angles.chunks_mut(BLOCK).zip(weights.chunks_mut(BLOCK)).enumerate() {
-            let first = start + b * BLOCK;
-            for i in 0..angles.len() {
-                for (k, chord) in parts.chords_at((first + i).into()).into_iter().enumerate() {
-                    (chords[k][i], chords[3 + k][i]) = (chord.high, chord.low);
-                }
-            }
-            let sides = chords.each_ref().map(|x| S::as_simd_f64s(x).0);
-            let out = found.each_mut().map(|x| S::as_mut_simd_f64s(x).0);
-            let [out_0, out_1, out_2, out_3, out_4, out_5, out_6] = out;
-            for i in 0..out_0.len() {
-                let at = |k: usize| Wide::new(simd, sides[k][i]);
-                let chords = [[at(0), at(1), at(2)], [at(3), at(4), at(5)]];
-                let ([a, b, c], [u, v, w], is_sound) = measured(parts.class.space, chords);
-                (out_0[i], out_1[i], out_2[i]) = (a.at, b.at, c.at);
-                (out_3[i], out_4[i], out_5[i]) = (u.at, v.at, w.at);
-                out_6[i] = is_sound.at;
-            }
-            for (i, (angles, weights)) in angles.iter_mut().zip(weights.iter_mut()).enumerate() {
-                (angles.at, *weights) = ([0, 1, 2].map(|k| found[k][i]), [3, 4, 5].map(|k| found[k][i]));
-                if found[6][i] != 1.0 {
-                    (*angles, *weights) = parts.measured((first + i).into());
-                }
-            }
-        }
-    }
-}
-
-/// Angles and derivative weights of triangles of vertex scaling in E² or H², with 1 for each whose are sound.
-#[inline(always)]
-fn measured<L: Lanes>(space: Space, chords: [[L; 3]; 2]) -> ([L; 3], [L; 3], L) {
-    let [high, low] = chords;
-    match space {
-        Space::E2 => sound_plane_angles_with_weights(differences_of(high, low)),
-        _ => chords::sound_angles_with_weights(chords),
+    fn of<L: Lanes>(self, [a, b, c, a_low, b_low, c_low]: [L; 6]) -> [L; 7] {
+        let (high, low) = ([a, b, c], [a_low, b_low, c_low]);
+        let (angles, weights, is_sound) = match self.space {
+            Space::E2 => sound_plane_angles_with_weights(differences_of(high, low)),
+            _ => chords::sound_angles_with_weights([high, low]),
+        };
+        let ([a, b, c], [u, v, w]) = (angles, weights);
+        [a, b, c, u, v, w, is_sound]
     }
 }
 

@@ -37,7 +37,7 @@ use super::Space;
 use super::lanes::Lanes;
 use super::scaled::{exponent, scaled};
 use super::triangle::half_differences;
-use super::twofold::{self, MAX_EXPONENT, Twofold, two_product, two_sum};
+use super::twofold::{self, MAX_EXPONENT, SURELY_NORMAL, Twofold, exp_parts, two_product, two_sum};
 use std::f64::consts::PI;
 
 /// A vertex at its current u.
@@ -84,6 +84,8 @@ const HYPERBOLIC_CHORDS: std::ops::RangeInclusive<f64> = MIN_HYPERBOLIC_CHORD..=
 const MAX_PLAIN_U: f64 = 177.0;
 /// Binary exponents of squared lengths that need no unit of their own: what they lose, and products of two of them, are normal numbers.
 const PLAIN_SQUARES: std::ops::RangeInclusive<i32> = -500..=500;
+/// Squared lengths with such exponents: 2^−500 to 2^500.
+const PLAIN_LENGTHS: std::ops::RangeInclusive<f64> = 3.054_936_363_499_605e-151..=3.273_390_607_896_142e150;
 /// Above this u, e^u is so near 1 that `2 artanh e^u` cancels, and its second form `−log tanh(−u/2)` is used.
 const NEAR_HOROCYCLE: f64 = -1.0;
 
@@ -103,6 +105,16 @@ pub fn is_precise(space: Space, epsilon: i8) -> bool {
     space == Space::E2 || (space == Space::H2 && epsilon == 0)
 }
 
+/// Whether e^u is all there is to a vertex [`is_precise`] of, and a normal number in no unit of its own.
+#[inline]
+pub(super) fn is_plain(space: Space, epsilon: i8, u: f64) -> bool {
+    match space {
+        Space::E2 => u.abs() <= MAX_PLAIN_U,
+        Space::H2 => epsilon == 0 && u.abs() <= SURELY_NORMAL,
+        Space::S2 => false,
+    }
+}
+
 impl Vertex {
     /// The quantities of a vertex of type ε with variable `u + low`, where `low` is what the double u loses (half an ulp of it at
     /// most): e^u has 16 digits also where u is large.
@@ -111,6 +123,9 @@ impl Vertex {
             return Vertex::in_plane(epsilon, u, low);
         }
         if is_precise(space, epsilon) {
+            if is_plain(space, epsilon, u) {
+                return Vertex::of_exponential(epsilon, exp_parts(u), low);
+            }
             let (scale, lost) = twofold::exp(u);
             // A subnormal e^u has not the digits that this promises.
             return match scale.is_normal() {
@@ -134,17 +149,22 @@ impl Vertex {
     }
 
     fn in_plane(epsilon: i8, u: f64, low: f64) -> Vertex {
-        let (scale, lost, exponent) = match u.abs() {
-            x if x <= MAX_PLAIN_U => {
-                let (scale, lost) = twofold::exp(u);
-                (scale, lost, 0)
-            }
-            x if x <= MAX_EXPONENT => twofold::exp_parts(u),
-            _ => (f64::NAN, 0.0, 0),
-        };
+        if is_plain(Space::E2, epsilon, u) {
+            return Vertex::of_exponential(epsilon, exp_parts(u), low);
+        }
+        let [scale, lost, exponent] =
+            if u.abs() <= MAX_EXPONENT { exp_parts(u) } else { [f64::NAN, 0.0, 0.0] };
         let d = if scale.is_nan() { scale } else { 1.0 };
         let radius = if epsilon == 1 { scale } else { 0.0 };
-        Vertex { epsilon: f64::from(epsilon), scale, low: lost + low, d, radius, exponent }
+        Vertex { epsilon: f64::from(epsilon), scale, low: lost + low, d, radius, exponent: exponent as i32 }
+    }
+
+    /// [`Vertex::precise`] where u [`is_plain`], from its [`exp_parts`].
+    #[inline]
+    pub(super) fn of_exponential(epsilon: i8, [mantissa, lost, power]: [f64; 3], low: f64) -> Vertex {
+        let scale = scaled(mantissa, power as i32);
+        let radius = if epsilon == 1 { scale } else { 0.0 };
+        Vertex { epsilon: f64::from(epsilon), scale, low: lost + low, d: 1.0, radius, exponent: 0 }
     }
 
     /// The quantities of a vertex of type ε with variable u.
@@ -268,7 +288,7 @@ pub fn in_one_unit(corners: &mut [Vertex; 3], edges: &mut [Edge; 3]) -> i32 {
 
 /// `l − γ_a − γ_b − gap` in E², to twice the digits: the angles of needles and of triangles in metrics of wide range turn on it.
 fn lost_gap(a: Vertex, b: Vertex, eta: Twofold, gap: f64) -> f64 {
-    let (mut n, mut n_low) = doubled_product(a, b, eta);
+    let (mut n, mut n_low) = doubled_product([a.scale, a.low], [b.scale, b.low], [eta.high, eta.low]);
     for v in [a, b].into_iter().filter(|v| v.epsilon != 0.0) {
         let (square, square_low) = two_product(v.scale, v.scale);
         let (sum, lost) = two_sum(n, v.epsilon * square);
@@ -280,36 +300,60 @@ fn lost_gap(a: Vertex, b: Vertex, eta: Twofold, gap: f64) -> f64 {
     (rest - gap) + (first + second + length.low)
 }
 
-/// `2 η e_a e_b` and what it loses.
-#[inline]
-fn doubled_product(a: Vertex, b: Vertex, eta: Twofold) -> (f64, f64) {
-    let (xy, xy_low) = two_product(a.scale, b.scale);
-    let (n, n_low) = two_product(2.0 * eta.high, xy);
-    (n, n_low + (2.0 * (eta.high * xy_low + eta.low * xy) + n * (a.low + b.low)))
+/// `2 η e_a e_b` and what it loses, from e and what it misses, relative to it, and from η and what it misses.
+#[inline(always)]
+fn doubled_product<L: Lanes>([a, a_low]: [L; 2], [b, b_low]: [L; 2], [eta, eta_low]: [L; 2]) -> (L, L) {
+    let (xy, xy_low) = two_product(a, b);
+    let (n, n_low) = two_product(eta + eta, xy);
+    let half = eta * xy_low + eta_low * xy;
+    (n, n_low + ((half + half) + n * (a_low + b_low)))
 }
 
 /// The square root of `n + low`.
-#[inline]
-fn root(n: f64, low: f64) -> Twofold {
-    let root = n.sqrt();
+#[inline(always)]
+fn root<L: Lanes>(n: L, low: L) -> Twofold<L> {
+    let root = n.root();
     let (square, square_low) = two_product(root, root);
-    Twofold { high: root, low: ((n - square) - square_low + low) / (2.0 * root) }
+    Twofold { high: root, low: ((n - square) - square_low + low) / (root + root) }
 }
 
 /// [`half_chord`] with ε = 0 at both ends, in E² and H², of what needs no unit of its own; 0 of other edges.
 #[inline]
 pub fn plain_chord(space: Space, a: Vertex, b: Vertex, eta: Twofold) -> Twofold {
-    let (n, low) = doubled_product(a, b, eta);
-    let is_plain = match space {
-        Space::E2 => a.exponent | b.exponent == 0 && n > 0.0 && PLAIN_SQUARES.contains(&exponent(n)),
-        _ => HYPERBOLIC_CHORDS.contains(&n),
-    };
-    match (is_plain, space) {
-        (false, _) => Twofold::default(),
-        // l² = n
-        (_, Space::E2) => root(0.25 * n, 0.25 * low),
-        _ => root(n, low),
+    if a.exponent | b.exponent != 0 {
+        return Twofold::default();
     }
+    plain_chord_of(space, [a.scale, a.low], [b.scale, b.low], [eta.high, eta.low])
+}
+
+/// [`plain_chord`] of one or several edges, from what [`doubled_product`] takes.
+#[inline(always)]
+pub(super) fn plain_chord_of<L: Lanes>(space: Space, a: [L; 2], b: [L; 2], eta: [L; 2]) -> Twofold<L> {
+    let (n, low) = doubled_product(a, b, eta);
+    let (range, share) = match space {
+        // l² = n
+        Space::E2 => (&PLAIN_LENGTHS, 0.25),
+        _ => (&HYPERBOLIC_CHORDS, 1.0),
+    };
+    let (zero, share) = (n.constant(0.0), n.constant(share));
+    let Twofold { high, low } = root(share * n, share * low);
+    let [least, most] = [n.constant(*range.start()), n.constant(*range.end())];
+    Twofold {
+        high: n.where_at_least(least, most.where_at_least(n, high, zero), zero),
+        low: n.where_at_least(least, most.where_at_least(n, low, zero), zero),
+    }
+}
+
+/// [`half_chord`] by [`plain_chord`], where ε = 0 at both ends and that serves.
+#[inline]
+pub(crate) fn precise_chord(space: Space, a: Vertex, b: Vertex, eta: Twofold) -> (Twofold, i32) {
+    if a.epsilon == 0.0 && b.epsilon == 0.0 && space != Space::S2 {
+        let plain = plain_chord(space, a, b, eta);
+        if plain.high > 0.0 {
+            return (plain, 0);
+        }
+    }
+    half_chord(space, a, b, eta)
 }
 
 /// The half chord of an edge (l/2, sinh(l/2), sin(l/2) in E², H², S²) with twice the digits, as far as its ends have them
@@ -333,7 +377,7 @@ pub fn half_chord(space: Space, a: Vertex, b: Vertex, eta: Twofold) -> (Twofold,
 
 /// `l − length` in H² where ε = 0, from `sinh²(l/2) = 2 η e^{u_a + u_b}` to twice the digits: `2 (q − sinh(length/2))/cosh(length/2)`.
 fn lost_length(a: Vertex, b: Vertex, eta: Twofold, length: f64) -> f64 {
-    let chord = half_chord(Space::H2, a, b, eta).0;
+    let chord = precise_chord(Space::H2, a, b, eta).0;
     let half = 0.5 * length;
     if half <= twofold::MAX_SERIES {
         let sinh = twofold::sinh(half);

@@ -3,7 +3,7 @@
 /// Parts of 1 that the table's steps are.
 pub(super) const STEPS: f64 = 64.0;
 /// The table begins and ends at ± this many steps: |x| ≤ (log 2)/2 is within half a step of one of them.
-pub(super) const MOST: i32 = 23;
+pub(super) const MOST: f64 = 23.0;
 
 /// e^(k/64) for k = −23, …, 23: the nearest double, and the nearest one to the rest (computed with 90 decimal digits).
 pub(super) const EXPONENTIALS: [[f64; 2]; 47] = [

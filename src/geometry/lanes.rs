@@ -2,8 +2,11 @@
 //! triangle has the same bits either way.
 
 use super::complex::Number;
-use pulp::Simd;
+use pulp::{Arch, Simd, WithSimd};
 use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// Triangles, edges or vertices that are worked on together: a multiple of the doubles in a vector of any processor.
+const BLOCK: usize = 64;
 
 /// A double, or several.
 pub trait Lanes: Number + Div<Output = Self> {
@@ -13,6 +16,10 @@ pub trait Lanes: Number + Div<Output = Self> {
     fn root(self) -> Self;
     /// `then` where `self ≥ bound`, else `other`, also where one of them is no number.
     fn where_at_least(self, bound: Self, then: Self, other: Self) -> Self;
+    /// What `product`, the rounded product with `other`, loses: exact where nothing over- or underflows.
+    fn lost_of_product(self, other: Self, product: Self) -> Self;
+    /// The entries of a table, of which this is a whole number.
+    fn look_up(self, table: &[[f64; 2]]) -> [Self; 2];
 
     /// The larger one of two numbers.
     #[inline(always)]
@@ -42,18 +49,38 @@ impl Lanes for f64 {
     fn where_at_least(self, bound: f64, then: f64, other: f64) -> f64 {
         if self >= bound { then } else { other }
     }
+
+    /// By Dekker's splitting.
+    #[inline(always)]
+    fn lost_of_product(self, other: f64, product: f64) -> f64 {
+        let ([a, a_low], [b, b_low]) = (split(self), split(other));
+        ((a * b - product) + a * b_low + a_low * b) + a_low * b_low
+    }
+
+    #[inline(always)]
+    fn look_up(self, table: &[[f64; 2]]) -> [f64; 2] {
+        table[self as usize]
+    }
+}
+
+/// A double as the sum of two with half as many digits.
+#[inline(always)]
+fn split(x: f64) -> [f64; 2] {
+    let high = 134_217_729.0 * x;
+    let high = high - (high - x);
+    [high, x - high]
 }
 
 /// As many doubles as a vector of the processor holds.
 #[derive(Clone, Copy)]
-pub(crate) struct Wide<S: Simd> {
+struct Wide<S: Simd> {
     simd: S,
-    pub at: S::f64s,
+    at: S::f64s,
 }
 
 impl<S: Simd> Wide<S> {
     #[inline(always)]
-    pub fn new(simd: S, at: S::f64s) -> Wide<S> {
+    fn new(simd: S, at: S::f64s) -> Wide<S> {
         Wide { simd, at }
     }
 
@@ -118,5 +145,86 @@ impl<S: Simd> Lanes for Wide<S> {
     fn where_at_least(self, bound: Wide<S>, then: Wide<S>, other: Wide<S>) -> Wide<S> {
         let mask = self.simd.greater_than_or_equal_f64s(self.at, bound.at);
         self.by(self.simd.select_f64s(mask, then.at, other.at))
+    }
+
+    #[inline(always)]
+    fn lost_of_product(self, other: Wide<S>, product: Wide<S>) -> Wide<S> {
+        self.by(self.simd.mul_add_f64s(self.at, other.at, self.simd.neg_f64s(product.at)))
+    }
+
+    #[inline(always)]
+    fn look_up(self, table: &[[f64; 2]]) -> [Wide<S>; 2] {
+        let [mut high, mut low] = [[0.0; BLOCK]; 2];
+        S::as_mut_simd_f64s(&mut high).0[0] = self.at;
+        for k in 0..S::F64_LANES {
+            [high[k], low[k]] = table[high[k] as usize];
+        }
+        [self.by(S::as_simd_f64s(&high).0[0]), self.by(S::as_simd_f64s(&low).0[0])]
+    }
+}
+
+/// A formula with `IN` numbers given and `OUT` found. What is called from it must be `#[inline(always)]`, and no closure: else the vectors go
+/// through memory at each operation.
+pub(crate) trait Formula<const IN: usize, const OUT: usize>: Copy {
+    fn of<L: Lanes>(self, given: [L; IN]) -> [L; OUT];
+}
+
+/// Work out a formula n times, several at a time: `given(i)` is given, and `take(i, found)` has what is found.
+pub(crate) fn work_out<const IN: usize, const OUT: usize>(
+    formula: impl Formula<IN, OUT>,
+    n: usize,
+    given: impl Fn(usize) -> [f64; IN],
+    take: impl FnMut(usize, [f64; OUT]),
+) {
+    Arch::new().dispatch(Blocks { formula, n, given, take });
+}
+
+/// The work of [`work_out`].
+struct Blocks<F, G, T, const IN: usize, const OUT: usize> {
+    formula: F,
+    n: usize,
+    given: G,
+    take: T,
+}
+
+impl<F, G, T, const IN: usize, const OUT: usize> WithSimd for Blocks<F, G, T, IN, OUT>
+where
+    F: Formula<IN, OUT>,
+    G: Fn(usize) -> [f64; IN],
+    T: FnMut(usize, [f64; OUT]),
+{
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Blocks { formula, n, given, mut take } = self;
+        // By numbers given, and by numbers found. What a block leaves free has those of the one before.
+        let (mut from, mut to) = ([[1.0; BLOCK]; IN], [[0.0; BLOCK]; OUT]);
+        for start in (0..n).step_by(BLOCK) {
+            let count = BLOCK.min(n - start);
+            for i in 0..count {
+                let given = given(start + i);
+                for k in 0..IN {
+                    from[k][i] = given[k];
+                }
+            }
+            for i in 0..count.div_ceil(S::F64_LANES) {
+                let mut given = [Wide::new(simd, simd.splat_f64s(0.0)); IN];
+                for k in 0..IN {
+                    given[k].at = S::as_simd_f64s(&from[k]).0[i];
+                }
+                let found = formula.of(given);
+                for k in 0..OUT {
+                    S::as_mut_simd_f64s(&mut to[k]).0[i] = found[k].at;
+                }
+            }
+            for i in 0..count {
+                let mut found = [0.0; OUT];
+                for k in 0..OUT {
+                    found[k] = to[k][i];
+                }
+                take(start + i, found);
+            }
+        }
     }
 }

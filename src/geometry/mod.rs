@@ -1,6 +1,6 @@
 //! Pure formulas, no mesh: spaces, triangles, isometries, predicates.
 
-mod arctangent;
+pub(crate) mod arctangent;
 pub mod barycentre;
 pub(crate) mod bounds;
 pub(crate) mod boxes;
@@ -21,6 +21,7 @@ pub mod motion;
 pub mod predicates;
 mod real;
 pub(crate) mod scaled;
+pub(crate) mod scaling;
 pub mod space;
 pub mod sphere;
 pub mod symplectic;

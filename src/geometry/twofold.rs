@@ -7,56 +7,73 @@
 //! ```
 
 use super::exponentials::{EXPONENTIALS, MOST, STEPS};
+use super::lanes::Lanes;
 use super::scaled::scaled;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A number of about 32 digits: the unevaluated sum of two doubles, the second at most half an ulp of the first \[Dek71\].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Twofold {
+pub struct Twofold<T = f64> {
     /// The nearest double.
-    pub high: f64,
+    pub high: T,
     /// What that misses.
-    pub low: f64,
+    pub low: T,
 }
 
-impl Twofold {
+impl<L: Lanes> Twofold<L> {
+    /// A number with the digits of doubles.
+    #[inline(always)]
+    pub(crate) fn plain(high: L) -> Twofold<L> {
+        Twofold { high, low: high.constant(0.0) }
+    }
+
     /// The sum of a number and a much smaller one.
-    #[inline]
-    fn renormalised(high: f64, low: f64) -> Twofold {
+    #[inline(always)]
+    fn renormalised(high: L, low: L) -> Twofold<L> {
         let sum = high + low;
         Twofold { high: sum, low: low - (sum - high) }
     }
 
     /// The sum with a double.
-    #[inline]
-    pub fn plus(self, x: f64) -> Twofold {
+    #[inline(always)]
+    pub fn plus(self, x: L) -> Twofold<L> {
         let (high, lost) = two_sum(self.high, x);
         Twofold::renormalised(high, lost + self.low)
     }
 
     /// The square root of a number that is not negative (0 for one that is).
-    #[inline]
-    pub fn sqrt(self) -> Twofold {
-        if self.high <= 0.0 {
-            return Twofold::default();
-        }
+    #[inline(always)]
+    pub fn sqrt(self) -> Twofold<L> {
+        let zero = self.high.constant(0.0);
         // One step of Newton's method for a double root.
-        let root = self.high.sqrt();
+        let root = self.high.root();
         let (square, lost) = two_product(root, root);
         let rest = ((self.high - square) - lost) + self.low;
-        Twofold::renormalised(root, rest / (2.0 * root))
+        let Twofold { high, low } = Twofold::renormalised(root, rest / (root + root));
+        Twofold {
+            high: zero.where_at_least(self.high, zero, high),
+            low: zero.where_at_least(self.high, zero, low),
+        }
+    }
+
+    /// Twice this number.
+    #[inline(always)]
+    pub(crate) fn twice(self) -> Twofold<L> {
+        Twofold { high: self.high + self.high, low: self.low + self.low }
     }
 
     /// `a b + c d`: each product is exact but for its last digits, and their sum is rounded once.
-    #[inline]
-    pub(crate) fn two_products(a: Twofold, b: Twofold, c: Twofold, d: Twofold) -> Twofold {
+    #[inline(always)]
+    pub(crate) fn two_products(a: Twofold<L>, b: Twofold<L>, c: Twofold<L>, d: Twofold<L>) -> Twofold<L> {
         let ((p, p_low), (q, q_low)) = (two_product(a.high, b.high), two_product(c.high, d.high));
         let p_low = p_low + (a.high * b.low + a.low * b.high);
         let q_low = q_low + (c.high * d.low + c.low * d.high);
         let (sum, lost) = two_sum(p, q);
         Twofold::renormalised(sum, lost + (p_low + q_low))
     }
+}
 
+impl Twofold {
     /// This number times 2^k: exact while both parts stay normal numbers.
     pub(crate) fn scaled(self, k: i32) -> Twofold {
         Twofold { high: scaled(self.high, k), low: scaled(self.low, k) }
@@ -77,18 +94,18 @@ impl From<Twofold> for f64 {
     }
 }
 
-impl Neg for Twofold {
-    type Output = Twofold;
-    #[inline]
-    fn neg(self) -> Twofold {
+impl<L: Lanes> Neg for Twofold<L> {
+    type Output = Twofold<L>;
+    #[inline(always)]
+    fn neg(self) -> Twofold<L> {
         Twofold { high: -self.high, low: -self.low }
     }
 }
 
-impl Add for Twofold {
-    type Output = Twofold;
-    #[inline]
-    fn add(self, other: Twofold) -> Twofold {
+impl<L: Lanes> Add for Twofold<L> {
+    type Output = Twofold<L>;
+    #[inline(always)]
+    fn add(self, other: Twofold<L>) -> Twofold<L> {
         // Both parts are added exactly: where the high parts cancel, the result consists of the low ones.
         let (high, lost) = two_sum(self.high, other.high);
         let (low, more) = two_sum(self.low, other.low);
@@ -97,27 +114,27 @@ impl Add for Twofold {
     }
 }
 
-impl Sub for Twofold {
-    type Output = Twofold;
-    #[inline]
-    fn sub(self, other: Twofold) -> Twofold {
+impl<L: Lanes> Sub for Twofold<L> {
+    type Output = Twofold<L>;
+    #[inline(always)]
+    fn sub(self, other: Twofold<L>) -> Twofold<L> {
         self + -other
     }
 }
 
-impl Mul for Twofold {
-    type Output = Twofold;
-    #[inline]
-    fn mul(self, other: Twofold) -> Twofold {
+impl<L: Lanes> Mul for Twofold<L> {
+    type Output = Twofold<L>;
+    #[inline(always)]
+    fn mul(self, other: Twofold<L>) -> Twofold<L> {
         let (product, lost) = two_product(self.high, other.high);
         Twofold::renormalised(product, lost + (self.high * other.low + self.low * other.high))
     }
 }
 
-impl Div for Twofold {
-    type Output = Twofold;
-    #[inline]
-    fn div(self, other: Twofold) -> Twofold {
+impl<L: Lanes> Div for Twofold<L> {
+    type Output = Twofold<L>;
+    #[inline(always)]
+    fn div(self, other: Twofold<L>) -> Twofold<L> {
         let first = self.high / other.high;
         let (product, lost) = two_product(first, other.high);
         // The product is within an ulp of the dividend, so that their difference is exact.
@@ -127,24 +144,18 @@ impl Div for Twofold {
 }
 
 /// The sum of two doubles and what it loses, exactly (Knuth).
-#[inline]
-pub(crate) fn two_sum(a: f64, b: f64) -> (f64, f64) {
+#[inline(always)]
+pub(crate) fn two_sum<L: Lanes>(a: L, b: L) -> (L, L) {
     let sum = a + b;
     let part = sum - a;
     (sum, (a - (sum - part)) + (b - part))
 }
 
-/// The product of two doubles and what it loses (Dekker; exact unless it over- or underflows).
-#[inline]
-pub(crate) fn two_product(a: f64, b: f64) -> (f64, f64) {
-    let split = |x: f64| {
-        let high = 134_217_729.0 * x;
-        let high = high - (high - x);
-        (high, x - high)
-    };
+/// The product of two doubles and what it loses (exact unless it over- or underflows).
+#[inline(always)]
+pub(crate) fn two_product<L: Lanes>(a: L, b: L) -> (L, L) {
     let product = a * b;
-    let ((a, a_low), (b, b_low)) = (split(a), split(b));
-    (product, ((a * b - product) + a * b_low + a_low * b) + a_low * b_low)
+    (product, a.lost_of_product(b, product))
 }
 
 /// Largest |x| of [`exp_parts`]: e^x lies 2^(7e5) from 1 there, and the multiples of log 2 that are taken off x are still exact.
@@ -156,7 +167,7 @@ const FACTORIALS: [f64; 7] =
     [1.0 / 24.0, 1.0 / 120.0, 1.0 / 720.0, 1.0 / 5040.0, 1.0 / 40_320.0, 1.0 / 362_880.0, 1.0 / 3_628_800.0];
 
 /// e^x is a normal number for every |x| up to this.
-const SURELY_NORMAL: f64 = 700.0;
+pub(super) const SURELY_NORMAL: f64 = 700.0;
 
 /// `e^x` as a double and what that misses of it, relative to it (error below 3e-24): u is known to more digits than a double
 /// holds, and the rounding of e^u would throw them away.
@@ -169,28 +180,35 @@ pub(crate) fn exp(x: f64) -> (f64, f64) {
             return (rounded, 0.0);
         }
     }
-    let (mantissa, low, k) = exp_parts(x);
-    (scaled(mantissa, k), low)
+    let [mantissa, low, k] = exp_parts(x);
+    (scaled(mantissa, k as i32), low)
 }
 
-/// `e^x = mantissa (1 + low) 2^k` as (mantissa, low, k), the mantissa between 0.7 and 1.5; for |x| up to [`MAX_EXPONENT`].
-pub(crate) fn exp_parts(x: f64) -> (f64, f64, i32) {
-    let k = nearest_integer(x * std::f64::consts::LOG2_E);
-    let (rest, lost) = two_sum(x, -k * LN_2[0]);
-    let (middle, middle_low) = two_product(k, LN_2[1]);
+/// `e^x = mantissa (1 + low) 2^k` as [mantissa, low, k], the mantissa between 0.7 and 1.5 and k a whole number; for |x| up to
+/// [`MAX_EXPONENT`].
+#[inline(always)]
+pub(crate) fn exp_parts<L: Lanes>(x: L) -> [L; 3] {
+    let (first, k) = (x, nearest_integer(x * x.constant(std::f64::consts::LOG2_E)));
+    let of = |x: f64| first.constant(x);
+    let (rest, lost) = two_sum(x, -k * of(LN_2[0]));
+    let (middle, middle_low) = two_product(k, of(LN_2[1]));
     let (rest, more) = two_sum(rest, -middle);
-    let (x, low) = two_sum(rest, (lost + more) - (middle_low + k * LN_2[2]));
+    let (x, low) = two_sum(rest, (lost + more) - (middle_low + k * of(LN_2[2])));
     // To a multiple of 1/64, whose exponential is known; what is left is exact.
-    let step = nearest_integer(STEPS * x);
-    let [known, known_low] = EXPONENTIALS[(step as i32 + MOST) as usize];
-    let x = x - step / STEPS;
+    let step = nearest_integer(of(STEPS) * x);
+    let [known, known_low] = (step + of(MOST)).look_up(&EXPONENTIALS);
+    let x = x - step / of(STEPS);
     // e^x − 1 = x + x²/2 + x³/6 + …, and e^(x + low) is that and low e^x.
-    let (square, square_low) = two_product(0.5 * x, x);
+    let (square, square_low) = two_product(of(0.5) * x, x);
     let (thrice, thrice_low) = two_product(square, x);
-    let cube = thrice / 3.0;
-    let (back, back_low) = two_product(3.0, cube);
-    let cube_low = ((thrice - back) + (thrice_low - back_low) + square_low * x) / 3.0;
-    let tail = FACTORIALS.iter().rev().fold(0.0, |sum, factor| sum * x + factor) * (x * x) * (x * x);
+    let cube = thrice / of(3.0);
+    let (back, back_low) = two_product(of(3.0), cube);
+    let cube_low = ((thrice - back) + (thrice_low - back_low) + square_low * x) / of(3.0);
+    let mut tail = of(0.0);
+    for &factor in FACTORIALS.iter().rev() {
+        tail = tail * x + of(factor);
+    }
+    let tail = tail * (x * x) * (x * x);
     let (sum, first) = two_sum(x, square);
     let (sum, second) = two_sum(sum, cube);
     let (p, third) = two_sum(sum, tail);
@@ -198,15 +216,16 @@ pub(crate) fn exp_parts(x: f64) -> (f64, f64, i32) {
     // known (1 + p)
     let (product, product_low) = two_product(known, p);
     let (sum, lost) = two_sum(known, product);
-    let (sum, lost) = two_sum(sum, lost + (product_low + known * p_low + known_low * (1.0 + p)));
-    (sum, lost / sum, k as i32)
+    let (sum, lost) = two_sum(sum, lost + (product_low + known * p_low + known_low * (of(1.0) + p)));
+    [sum, lost / sum, k]
 }
 
 /// The integer next to a number whose size is below 2^51; of two, the even one.
-fn nearest_integer(x: f64) -> f64 {
+#[inline(always)]
+fn nearest_integer<L: Lanes>(x: L) -> L {
     /// Numbers of this size have no digits after the point.
     const WHOLE: f64 = 6_755_399_441_055_744.0;
-    (x + WHOLE) - WHOLE
+    (x + x.constant(WHOLE)) - x.constant(WHOLE)
 }
 
 /// Largest |x| of [`sinh`].
@@ -299,15 +318,16 @@ mod tests {
     fn exponentials_beyond_doubles_keep_their_digits() {
         for i in 1..500 {
             let a = f64::from(i) * 1000.0;
-            let [(x, x_low, k), (y, y_low, l)] = [a, -a].map(exp_parts);
+            let [[x, x_low, k], [y, y_low, l]] = [a, -a].map(exp_parts);
             assert_eq!(k, -l);
             let (product, low) = two_product(x, y);
             let error = (product - 1.0) + (low + x_low + y_low);
             assert!(error.abs() < 1e-23, "{a}: {error:e}");
-            let (z, z_low, m) = exp_parts(a + 0.5);
+            let [z, z_low, m] = exp_parts(a + 0.5);
             let (root, root_low) = exp(0.5);
             let (product, low) = two_product(x, root);
-            let error = (product - scaled(z, m - k)) / product + (low / product + x_low + root_low - z_low);
+            let error =
+                (product - scaled(z, (m - k) as i32)) / product + (low / product + x_low + root_low - z_low);
             assert!(error.abs() < 1e-23, "{a}: {error:e}");
         }
     }

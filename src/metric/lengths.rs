@@ -12,6 +12,7 @@
 
 use crate::error::{Error, Result, check_size};
 use crate::geometry::conformal::{self, Edge, Vertex, differences, in_one_unit, is_precise, radius};
+use crate::geometry::scaling::{fill_chords, fill_vertices};
 use crate::geometry::twofold::MAX_EXPONENT;
 use crate::geometry::{Space, Twofold};
 use crate::mesh::{EdgeId, FaceId, Mesh, PerEdge, PerVertex, Point, VertexId};
@@ -90,7 +91,10 @@ impl Metric {
     /// The quantities of all vertices (V entries).
     pub fn vertices(&self) -> PerVertex<Vertex> {
         let mut vertices = vec![Vertex::default(); self.u.len()];
-        parallel::fill(&mut vertices, |v| self.vertex(v.into()));
+        fill_vertices(self.space, &mut vertices, |v| {
+            let v = VertexId::from(v);
+            (self.epsilon[v], self.u[v], self.u_low[v])
+        });
         vertices.into()
     }
 
@@ -106,7 +110,10 @@ impl Metric {
     /// [`Error::EdgeWeight`] for the first edge without a length (in H² without one between 2e-140 and 300).
     pub fn check_domain(&self, mesh: &Mesh) -> Result<()> {
         self.check(mesh)?;
-        if self.is_surely_inside() { Ok(()) } else { self.vertices_and_edges(mesh).map(|_| ()) }
+        if self.is_surely_inside() || self.has_plain_chords(mesh) {
+            return Ok(());
+        }
+        self.vertices_and_edges(mesh).map(|_| ())
     }
 
     /// Whether this is vertex scaling in E² with numbers of which each triple gives an edge a length.
@@ -115,6 +122,20 @@ impl Metric {
             && self.epsilon.iter().all(|&e| e == 0)
             && self.u.iter().all(|u| u.abs() <= MAX_EXPONENT)
             && self.eta.iter().all(|eta| eta.high > 0.0 && eta.high.is_normal())
+    }
+
+    /// Whether this is vertex scaling in H² with a [`plain_chord`](conformal::plain_chord) at each edge.
+    fn has_plain_chords(&self, mesh: &Mesh) -> bool {
+        if self.space != Space::H2 || self.epsilon.iter().any(|&e| e != 0) {
+            return false;
+        }
+        let vertices = self.vertices();
+        let mut chords = vec![Twofold::default(); mesh.n_edges()];
+        fill_chords(self.space, &mut chords, |e| {
+            let e = EdgeId::from(e);
+            (mesh.ends(e).map(|v| vertices[v]), self.eta[e])
+        });
+        chords.iter().all(|q| q.high > 0.0)
     }
 
     /// The quantities of all vertices and edges.

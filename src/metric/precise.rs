@@ -11,14 +11,16 @@
 
 use super::lengths::Metric;
 use crate::error::Result;
+use crate::geometry::arctangent::angle;
 use crate::geometry::chords::products;
-use crate::geometry::conformal::half_chord;
+use crate::geometry::conformal::precise_chord;
+use crate::geometry::lanes::{Formula, Lanes, work_out};
 use crate::geometry::scaled::exponent;
 use crate::geometry::triangle::{area_from, half_angles_of_chords};
 use crate::geometry::{Space, Twofold};
 use crate::mesh::{EdgeId, FaceId, Mesh, PerEdge, PerFace, PerVertex};
 use crate::parallel;
-use std::ops::RangeInclusive;
+use std::ops::{Range, RangeInclusive};
 
 impl Metric {
     /// The half chords of the edges, l/2, sinh(l/2), sin(l/2) in E², H², S², in units of their own, with the exponents of these. To 20
@@ -30,7 +32,7 @@ impl Metric {
         parallel::fill(&mut chords, |e| {
             let e = EdgeId::from(e);
             let [a, b] = mesh.ends(e).map(|v| vertices[v]);
-            half_chord(self.space, a, b, self.eta[e])
+            precise_chord(self.space, a, b, self.eta[e])
         });
         chords.into()
     }
@@ -68,21 +70,26 @@ impl Metric {
 
 /// Per edge its half chord and the exponent of that one's unit ([`Metric::scaled_chords`]).
 type Chords = PerEdge<(Twofold, i32)>;
+/// `[cos, sin]` of half the angle at each corner of a face.
+type HalfAngles = [[Twofold; 2]; 3];
 
 /// `[cos, sin]` of half the angle at each corner, from the half chords and the exponents of their units.
-fn half_angles(metric: &Metric, mesh: &Mesh, chords: &Chords) -> PerFace<[[Twofold; 2]; 3]> {
-    let (mut angles, sides) =
-        (vec![[[Twofold::default(); 2]; 3]; mesh.n_faces()], usual_sides(metric, chords));
-    parallel::fill(&mut angles, |f| {
-        let f = FaceId::from(f);
-        let found =
-            sides.as_ref().and_then(|sides| hyperbolic_shape(mesh.opposite_edges(f).map(|e| sides[e])));
-        found.map_or_else(|| half_angles_at(metric, mesh, chords, f), |(angles, _)| angles)
-    });
+fn half_angles(metric: &Metric, mesh: &Mesh, chords: &Chords) -> PerFace<HalfAngles> {
+    let mut angles = vec![HalfAngles::default(); mesh.n_faces()];
+    if are_usual(metric, chords) {
+        parallel::in_parts(&mut angles, |start, angles| {
+            hyperbolic_shapes(mesh, chords, start..start + angles.len(), |f, shape| {
+                angles[f.index() - start] =
+                    shape.map_or_else(|| half_angles_at(metric, mesh, chords, f), |(angles, _)| angles);
+            });
+        });
+    } else {
+        parallel::fill(&mut angles, |f| half_angles_at(metric, mesh, chords, f.into()));
+    }
     angles.into()
 }
 
-fn half_angles_at(metric: &Metric, mesh: &Mesh, chords: &Chords, f: FaceId) -> [[Twofold; 2]; 3] {
+fn half_angles_at(metric: &Metric, mesh: &Mesh, chords: &Chords, f: FaceId) -> HalfAngles {
     let sides = mesh.opposite_edges(f).map(|e| chords[e]);
     // In E² the unit of the longest side is used, so that its chord is about 1. In H² and S² lengths have no unit but 1.
     let size = |(q, unit): (Twofold, i32)| unit + exponent(q.high);
@@ -99,19 +106,23 @@ fn half_angles_at(metric: &Metric, mesh: &Mesh, chords: &Chords, f: FaceId) -> [
 pub(crate) fn shapes(
     metric: &Metric,
     mesh: &Mesh,
-) -> Result<(Chords, PerFace<[[Twofold; 2]; 3]>, Vec<(f64, bool)>)> {
+) -> Result<(Chords, PerFace<HalfAngles>, Vec<(f64, bool)>)> {
     metric.check(mesh)?;
     let chords = metric.scaled_chords(mesh);
-    let mut angles = vec![[[Twofold::default(); 2]; 3]; mesh.n_faces()];
+    let mut angles = vec![HalfAngles::default(); mesh.n_faces()];
     let mut areas = vec![(0.0, false); mesh.n_faces()];
-    if let Some(sides) = usual_sides(metric, &chords) {
-        parallel::fill_both(&mut angles, &mut areas, |f| {
-            let f = FaceId::from(f);
-            let found = hyperbolic_shape(mesh.opposite_edges(f).map(|e| sides[e]));
-            found.unwrap_or_else(|| {
-                let angles = half_angles_at(metric, mesh, &chords, f);
-                (angles, (0.0, is_flat(&angles)))
-            })
+    if are_usual(metric, &chords) {
+        parallel::in_parts_of_both(&mut angles, &mut areas, |start, angles, areas| {
+            hyperbolic_shapes(mesh, &chords, start..start + angles.len(), |f, shape| {
+                let at = f.index() - start;
+                (angles[at], areas[at]) = match shape {
+                    Some((angles, area)) => (angles, (area, false)),
+                    None => {
+                        let angles = half_angles_at(metric, mesh, &chords, f);
+                        (angles, (0.0, is_flat(&angles)))
+                    }
+                };
+            });
         });
     } else {
         let measured = metric.measured(mesh)?;
@@ -125,69 +136,96 @@ pub(crate) fn shapes(
     Ok((chords, angles.into(), areas))
 }
 
-/// The sides of the triangles in H², where all have [`USUAL_CHORDS`].
-fn usual_sides(metric: &Metric, chords: &Chords) -> Option<PerEdge<Side>> {
+/// Whether these are half chords in H² and all [`USUAL_CHORDS`].
+fn are_usual(metric: &Metric, chords: &Chords) -> bool {
     let is_usual = |(q, unit): &(Twofold, i32)| *unit == 0 && USUAL_CHORDS.contains(&q.high);
-    (metric.space == Space::H2 && chords.iter().all(is_usual)).then(|| {
-        let mut sides = vec![Side::default(); chords.len()];
-        parallel::fill(&mut sides, |e| Side::of_chord(chords[EdgeId::from(e)].0));
-        sides.into()
-    })
+    metric.space == Space::H2 && chords.iter().all(is_usual)
 }
 
 /// Whether half angles are those of (π, 0, 0), which broken triangles have.
-fn is_flat(half_angles: &[[Twofold; 2]; 3]) -> bool {
+fn is_flat(half_angles: &HalfAngles) -> bool {
     half_angles.iter().all(|[cos, sin]| cos.high == 0.0 || sin.high == 0.0)
 }
 
 /// Half chords in H² of edges that surely are in the domain of metrics ([`Metric::check_domain`]), and products of which doubles hold.
 const USUAL_CHORDS: RangeInclusive<f64> = 1e-60..=1e60;
 
-/// A side of triangles in H², of length l.
-#[derive(Clone, Copy, Default)]
-struct Side {
-    /// sinh(l/2)
-    chord: Twofold,
-    /// cosh(l/2)
-    cosh: Twofold,
-    /// 1/√(sinh l)
-    inverse_root: Twofold,
+/// `take` has the half angles and the area of each of these faces in H², none of one that may be broken.
+fn hyperbolic_shapes(
+    mesh: &Mesh,
+    chords: &Chords,
+    faces: Range<usize>,
+    mut take: impl FnMut(FaceId, Option<(HalfAngles, f64)>),
+) {
+    let given = |i: usize| {
+        let [a, b, c] = mesh.opposite_edges((faces.start + i).into()).map(|e| chords[e].0);
+        [a.high, b.high, c.high, a.low, b.low, c.low]
+    };
+    work_out(
+        HyperbolicShape,
+        faces.len(),
+        given,
+        |i, [a, b, c, d, e, f, g, h, i_, j, k, l, area, is_known]| {
+            let two = |high, low| Twofold { high, low };
+            let angles = [[two(a, b), two(c, d)], [two(e, f), two(g, h)], [two(i_, j), two(k, l)]];
+            take((faces.start + i).into(), (is_known == 1.0).then_some((angles, area)));
+        },
+    );
 }
 
-impl Side {
-    fn of_chord(chord: Twofold) -> Side {
-        let one = Twofold::from(1.0);
-        let cosh = (one + chord * chord).sqrt();
-        Side { chord, cosh, inverse_root: one / (chord * cosh).scaled(1).sqrt() }
-    }
-}
-
-/// `[cos, sin]` of half the angles of a triangle in H², and its area, with the remark that it is not broken; `None` of one that may be.
+/// `[cos, sin]` of half the angles of a triangle in H², each with what its double misses, its area, and 1; 0 for one that may be broken,
+/// whose numbers mean nothing. Given are the half chords of its sides, and what these miss.
 ///
 /// With half the perimeter s and `r_k = s − l_k` the half-angle law reads `cos²(θ_k/2) = sinh s sinh r_k / (sinh l_i sinh l_j)` and
 /// `sin²(θ_k/2) = sinh r_i sinh r_j / (sinh l_i sinh l_j)`, where `sinh s sinh r_k = (p − q_k)(p + q_k)` with the half chords q and
 /// `p = sinh((l_i + l_j)/2)`. The roots `x_k` of these products give all, since `√(sinh r_i sinh r_j) = x_i x_j / sinh s`; also the area,
 /// by `tan(area/2) = 2 x_i x_j x_k / (sinh s (1 + Σ cosh l))`.
-fn hyperbolic_shape(sides: [Side; 3]) -> Option<([[Twofold; 2]; 3], (f64, bool))> {
-    let (q, c) = (sides.map(|s| s.chord), sides.map(|s| s.cosh));
-    let d = [0, 1, 2].map(|k| {
-        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-        q[i] * c[j] + q[j] * c[i] - q[k]
-    });
-    let (product, whole) = products(q, c, d);
-    if product.iter().any(|x| x.high <= 0.0) {
-        return None;
+#[derive(Clone, Copy)]
+struct HyperbolicShape;
+
+impl Formula<6, 14> for HyperbolicShape {
+    #[inline(always)]
+    fn of<L: Lanes>(self, [a, b, c, a_low, b_low, c_low]: [L; 6]) -> [L; 14] {
+        let q = [
+            Twofold { high: a, low: a_low },
+            Twofold { high: b, low: b_low },
+            Twofold { high: c, low: c_low },
+        ];
+        let one = Twofold::plain(a.constant(1.0));
+        // cosh(l/2), 1/√(sinh l), p − q
+        let [mut cosh, mut inverse_root, mut d] = [[one; 3]; 3];
+        for k in 0..3 {
+            cosh[k] = (one + q[k] * q[k]).sqrt();
+            inverse_root[k] = one / (q[k] * cosh[k]).twice().sqrt();
+        }
+        for k in 0..3 {
+            let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+            d[k] = q[i] * cosh[j] + q[j] * cosh[i] - q[k];
+        }
+        let (product, whole) = products(q, cosh, d);
+        let over = one / whole;
+        let mut x = product;
+        let mut is_known = one.high;
+        for k in 0..3 {
+            x[k] = product[k].sqrt();
+            is_known = one.low.where_at_least(product[k].high, one.low, is_known);
+        }
+        let mut angles = [[one; 2]; 3];
+        for k in 0..3 {
+            let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+            let scale = inverse_root[i] * inverse_root[j];
+            angles[k] = [x[k] * scale, x[i] * x[j] * (over * scale)];
+        }
+        let heron = x[0].high * x[1].high * (x[2].high * over.high);
+        let squares = a * a + b * b + c * c;
+        let area = angle(heron + heron, a.constant(4.0) + (squares + squares));
+        let [[u, v], [w, x], [y, z]] = angles;
+        let area = area + area;
+        [
+            u.high, u.low, v.high, v.low, w.high, w.low, x.high, x.low, y.high, y.low, z.high, z.low, area,
+            is_known,
+        ]
     }
-    let x = product.map(Twofold::sqrt);
-    let over = Twofold::from(1.0) / whole;
-    let angles = [0, 1, 2].map(|k| {
-        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-        let scale = sides[i].inverse_root * sides[j].inverse_root;
-        [x[k] * scale, x[i] * x[j] * (over * scale)]
-    });
-    let heron = x[0].high * x[1].high * (x[2].high * over.high);
-    let cosh: f64 = q.iter().map(|q| 1.0 + 2.0 * q.high * q.high).sum();
-    Some((angles, (2.0 * (2.0 * heron).atan2(1.0 + cosh), false)))
 }
 
 #[cfg(test)]
@@ -206,20 +244,27 @@ mod tests {
             ([1.0, 1.0, 1.999_999], 1e-23),
         ] {
             let q = lengths.map(|l: f64| Twofold::from((0.5 * l).sinh()));
-            let (angles, (area, broken)) = hyperbolic_shape(q.map(Side::of_chord)).unwrap();
+            let [a, b, c] = q.map(|q| q.high);
+            let found = HyperbolicShape.of([a, b, c, 0.0, 0.0, 0.0]);
+            let [area, is_known] = [found[12], found[13]];
+            let angles: Vec<Twofold> =
+                found[..12].chunks(2).map(|x| Twofold { high: x[0], low: x[1] }).collect();
             let known = half_angles_of_chords(Space::H2, q);
-            for (angle, known) in angles.as_flattened().iter().zip(known.as_flattened()) {
+            for (angle, known) in angles.iter().zip(known.as_flattened()) {
                 assert!(
                     (*angle - *known).high.abs() <= lost * known.high,
                     "{lengths:?}: {angle:?} {known:?}"
                 );
             }
             let known = area_from(Space::H2, half_differences(q.map(|q| 2.0 * q.high.asinh())));
-            assert!(!broken && (area / known - 1.0).abs() < 1e5 * lost.sqrt(), "{lengths:?}: {area} {known}");
+            assert!(
+                is_known == 1.0 && (area / known - 1.0).abs() < 1e5 * lost.sqrt(),
+                "{lengths:?}: {area} {known}"
+            );
         }
         for lengths in [[1.0, 0.3, 0.4], [2.0, 1.0, 0.5]] {
-            let q = lengths.map(|l: f64| Twofold::from((0.5 * l).sinh()));
-            assert!(hyperbolic_shape(q.map(Side::of_chord)).is_none());
+            let [a, b, c] = lengths.map(|l: f64| (0.5 * l).sinh());
+            assert!(HyperbolicShape.of([a, b, c, 0.0, 0.0, 0.0])[13] == 0.0);
         }
     }
 }

@@ -1,0 +1,107 @@
+//! Vertex scaling (ε = 0) in E² and H², many vertices or edges at a time: e^u and half chords, to twice the digits.
+
+use super::conformal::{Vertex, is_plain, plain_chord_of};
+use super::lanes::{Formula, Lanes, work_out};
+use super::twofold::exp_parts;
+use super::{Space, Twofold};
+use crate::parallel::in_parts;
+
+/// A vertex of a class: ε, u, and what its double loses.
+pub(crate) type Variable = (i8, f64, f64);
+
+/// [`Vertex::precise`] of all vertices.
+pub(crate) fn fill_vertices(space: Space, out: &mut [Vertex], given: impl Fn(usize) -> Variable + Sync) {
+    in_parts(out, |start, out| {
+        let u = |i| match given(start + i) {
+            (epsilon, u, _) if is_plain(space, epsilon, u) => [u],
+            _ => [0.0],
+        };
+        work_out(Exponential, out.len(), u, |i, exponential| {
+            let (epsilon, u, low) = given(start + i);
+            out[i] = match is_plain(space, epsilon, u) {
+                true => Vertex::of_exponential(epsilon, exponential, low),
+                false => Vertex::precise(space, epsilon, u, low),
+            };
+        });
+    });
+}
+
+/// The half chords of edges between vertices with ε = 0, of which `given` has the ends and η: see
+/// [`super::conformal::plain_chord`], which is 0 where it does not serve.
+pub(crate) fn fill_chords(
+    space: Space,
+    out: &mut [Twofold],
+    given: impl Fn(usize) -> ([Vertex; 2], Twofold) + Sync,
+) {
+    in_parts(out, |start, out| {
+        let parts = |i| {
+            let ([a, b], eta) = given(start + i);
+            // A unit of its own: no plain chord.
+            let scale = if a.exponent | b.exponent == 0 { a.scale } else { 0.0 };
+            [scale, a.low, b.scale, b.low, eta.high, eta.low]
+        };
+        work_out(Chord { space }, out.len(), parts, |i, [high, low]| out[i] = Twofold { high, low });
+    });
+}
+
+/// e^u as [`exp_parts`] has it.
+#[derive(Clone, Copy)]
+struct Exponential;
+
+impl Formula<1, 3> for Exponential {
+    #[inline(always)]
+    fn of<L: Lanes>(self, [u]: [L; 1]) -> [L; 3] {
+        exp_parts(u)
+    }
+}
+
+/// A half chord from the e^u of the ends and η, each with what it misses.
+#[derive(Clone, Copy)]
+struct Chord {
+    space: Space,
+}
+
+impl Formula<6, 2> for Chord {
+    #[inline(always)]
+    fn of<L: Lanes>(self, [a, a_low, b, b_low, eta, eta_low]: [L; 6]) -> [L; 2] {
+        let Twofold { high, low } = plain_chord_of(self.space, [a, a_low], [b, b_low], [eta, eta_low]);
+        [high, low]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::conformal::plain_chord;
+
+    #[test]
+    fn vertices_and_chords_have_the_bits_that_they_have_alone() {
+        let u: Vec<f64> = (0..200)
+            .map(|i| {
+                [0.37 * f64::from(i) - 40.0, -300.0, 650.0, 2e5, f64::NAN]
+                    [usize::from(i % 9 == 0) * (i as usize / 9 % 5)]
+            })
+            .collect();
+        for space in [Space::E2, Space::H2, Space::S2] {
+            for epsilon in [0, 1, -1] {
+                let mut vertices = vec![Vertex::default(); u.len()];
+                fill_vertices(space, &mut vertices, |i| (epsilon, u[i], 1e-18));
+                for (vertex, &u) in vertices.iter().zip(&u) {
+                    let alone = Vertex::precise(space, epsilon, u, 1e-18);
+                    assert_eq!(format!("{vertex:?}"), format!("{alone:?}"), "{space} {epsilon} {u}");
+                }
+                if epsilon != 0 || space == Space::S2 {
+                    continue;
+                }
+                let mut chords = vec![Twofold::default(); u.len() - 7];
+                let given = |i: usize| ([vertices[i], vertices[i + 7]], Twofold { high: 0.7, low: 1e-17 });
+                fill_chords(space, &mut chords, given);
+                for (i, chord) in chords.iter().enumerate() {
+                    let ([a, b], eta) = given(i);
+                    assert_eq!(*chord, plain_chord(space, a, b, eta), "{space} {i}");
+                }
+                assert!(chords.iter().any(|q| q.high > 0.0) && chords.iter().any(|q| q.high == 0.0));
+            }
+        }
+    }
+}
