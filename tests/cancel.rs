@@ -165,8 +165,8 @@ fn work_ends_soon_after_it_is_cancelled_from_another_thread() {
     let uniform = Target::Uniform;
     let measured = flow(&given, &free).unwrap().solve(&uniform, &free).unwrap();
     let report = measured.report().unwrap();
-    let one = Duration::from_secs_f64(report.seconds.factor / report.iterations as f64);
-    println!("one of {} factorisations: {one:?}", report.iterations);
+    let one = Duration::from_secs_f64(report.seconds.factor / report.factorisations as f64);
+    println!("one of {} factorisations: {one:?}", report.factorisations);
     let surface = Triangulated { mesh: mesh.clone(), lengths: lengths.clone(), geometry: Space::E2 };
     interrupt("Flow::new", one, |c| flow(&given, c).map(drop));
     interrupt("intrinsic_delaunay", one, |c| {

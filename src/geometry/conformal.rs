@@ -37,27 +37,9 @@ use super::Space;
 use super::lanes::Lanes;
 use super::scaled::{exponent, scaled};
 use super::triangle::half_differences;
-use super::twofold::{self, MAX_EXPONENT, SURELY_NORMAL, Twofold, exp_parts, two_product, two_sum};
+use super::twofold::{self, Twofold, two_product, two_sum};
+pub use super::vertex::{Vertex, is_precise, radius};
 use std::f64::consts::PI;
-
-/// A vertex at its current u.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Vertex {
-    /// ε.
-    pub epsilon: f64,
-    /// e^u, in units of 2^`exponent`.
-    pub scale: f64,
-    /// What `scale` misses of e^u, relative to it, where the vertex [`is_precise`]; else 0, and `scale`, `d` and `radius` are those of u
-    /// with the part that its double loses.
-    pub low: f64,
-    /// d = 1 + λ ε e^{2u}; NaN outside the metric's domain: where d ≤ 0; where |u| > 5e5 in E²; where e^u is no normal number in H² with
-    /// ε = 0.
-    pub d: f64,
-    /// γ where ε = 1, else 0; in units of 2^`exponent`.
-    pub radius: f64,
-    /// The unit of `scale` and `radius` is 2 to this power: not 0 only in E², where |u| is above 177.
-    pub exponent: i32,
-}
 
 /// An edge at the current u of its ends. Lengths are in units of 2^`exponent`, squares in units of 4^`exponent`.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -79,125 +61,10 @@ pub const MAX_HYPERBOLIC_CHORD: f64 = 1e129;
 pub const MIN_HYPERBOLIC_CHORD: f64 = 1e-280;
 /// Squared half chords of edges in H².
 const HYPERBOLIC_CHORDS: std::ops::RangeInclusive<f64> = MIN_HYPERBOLIC_CHORD..=MAX_HYPERBOLIC_CHORD;
-/// Largest |u| in E² whose e^u is kept without an exponent, 256 log 2: its square has the size of 2^±512, which leaves as much room
-/// again for η.
-const MAX_PLAIN_U: f64 = 177.0;
 /// Binary exponents of squared lengths that need no unit of their own: what they lose, and products of two of them, are normal numbers.
 const PLAIN_SQUARES: std::ops::RangeInclusive<i32> = -500..=500;
 /// Squared lengths with such exponents: 2^−500 to 2^500.
 const PLAIN_LENGTHS: std::ops::RangeInclusive<f64> = 3.054_936_363_499_605e-151..=3.273_390_607_896_142e150;
-/// Above this u, e^u is so near 1 that `2 artanh e^u` cancels, and its second form `−log tanh(−u/2)` is used.
-const NEAR_HOROCYCLE: f64 = -1.0;
-
-/// Radius γ of a vertex of type ε with variable u: `u = log γ` in E²; where λε = −1 (circles in H², imaginary ones in S²)
-/// `u = log tanh(γ/2)`; where λε = 1 `u = log tan(γ/2)`. ε = 0: e^u.
-pub fn radius(space: Space, epsilon: i8, u: f64) -> f64 {
-    match space.curvature() * f64::from(epsilon) {
-        0.0 => u.exp(),
-        x if x > 0.0 => 2.0 * u.exp().atan(),
-        _ if u > NEAR_HOROCYCLE => -(-0.5 * u).tanh().ln(),
-        _ => 2.0 * u.exp().atanh(),
-    }
-}
-
-/// Whether lengths between vertices of type ε are formed to twice the digits: in E², and in H² where ε = 0.
-pub fn is_precise(space: Space, epsilon: i8) -> bool {
-    space == Space::E2 || (space == Space::H2 && epsilon == 0)
-}
-
-/// Whether e^u is all there is to a vertex [`is_precise`] of, and a normal number in no unit of its own.
-#[inline]
-pub(super) fn is_plain(space: Space, epsilon: i8, u: f64) -> bool {
-    match space {
-        Space::E2 => u.abs() <= MAX_PLAIN_U,
-        Space::H2 => epsilon == 0 && u.abs() <= SURELY_NORMAL,
-        Space::S2 => false,
-    }
-}
-
-impl Vertex {
-    /// The quantities of a vertex of type ε with variable `u + low`, where `low` is what the double u loses (half an ulp of it at
-    /// most): e^u has 16 digits also where u is large.
-    pub fn precise(space: Space, epsilon: i8, u: f64, low: f64) -> Vertex {
-        if space == Space::E2 {
-            return Vertex::in_plane(epsilon, u, low);
-        }
-        if is_precise(space, epsilon) {
-            if is_plain(space, epsilon, u) {
-                return Vertex::of_exponential(epsilon, exp_parts(u), low);
-            }
-            let (scale, lost) = twofold::exp(u);
-            // A subnormal e^u has not the digits that this promises.
-            return match scale.is_normal() {
-                true => Vertex { scale, low: lost + low, d: 1.0, ..Vertex::default() },
-                false => Vertex { scale: f64::NAN, d: f64::NAN, ..Vertex::default() },
-            };
-        }
-        let rounded = Vertex::new(space, epsilon, u);
-        let lambda = space.curvature() * f64::from(epsilon);
-        // dγ/du = γ, sinh γ, sin γ
-        let slope = match epsilon {
-            1 => super::triangle::sine(space, rounded.radius),
-            _ => 0.0,
-        };
-        Vertex {
-            scale: rounded.scale + rounded.scale * low,
-            d: rounded.d + 2.0 * lambda * rounded.scale * rounded.scale * low,
-            radius: rounded.radius + slope * low,
-            ..rounded
-        }
-    }
-
-    fn in_plane(epsilon: i8, u: f64, low: f64) -> Vertex {
-        if is_plain(Space::E2, epsilon, u) {
-            return Vertex::of_exponential(epsilon, exp_parts(u), low);
-        }
-        let [scale, lost, exponent] =
-            if u.abs() <= MAX_EXPONENT { exp_parts(u) } else { [f64::NAN, 0.0, 0.0] };
-        let d = if scale.is_nan() { scale } else { 1.0 };
-        let radius = if epsilon == 1 { scale } else { 0.0 };
-        Vertex { epsilon: f64::from(epsilon), scale, low: lost + low, d, radius, exponent: exponent as i32 }
-    }
-
-    /// [`Vertex::precise`] where u [`is_plain`], from its [`exp_parts`].
-    #[inline]
-    pub(super) fn of_exponential(epsilon: i8, [mantissa, lost, power]: [f64; 3], low: f64) -> Vertex {
-        let scale = scaled(mantissa, power as i32);
-        let radius = if epsilon == 1 { scale } else { 0.0 };
-        Vertex { epsilon: f64::from(epsilon), scale, low: lost + low, d: 1.0, radius, exponent: 0 }
-    }
-
-    /// The quantities of a vertex of type ε with variable u.
-    pub fn new(space: Space, epsilon: i8, u: f64) -> Vertex {
-        if space == Space::E2 && u.abs() > MAX_PLAIN_U {
-            return Vertex { low: 0.0, ..Vertex::in_plane(epsilon, u, 0.0) };
-        }
-        let d = match space.curvature() * f64::from(epsilon) {
-            0.0 => 1.0,
-            x if x < 0.0 => -(2.0 * u).exp_m1(),
-            _ => 1.0 + (2.0 * u).exp(),
-        };
-        Vertex {
-            epsilon: f64::from(epsilon),
-            scale: u.exp(),
-            low: 0.0,
-            d: if d > 0.0 { d } else { f64::NAN },
-            radius: if epsilon == 1 { radius(space, epsilon, u) } else { 0.0 },
-            exponent: 0,
-        }
-    }
-
-    /// e^u in the vertex's unit, with the digits that `low` adds.
-    pub fn precise_scale(self) -> Twofold {
-        Twofold::from(self.scale) + (self.scale * self.low).into()
-    }
-
-    /// The same vertex in units of 2^`unit`.
-    fn in_unit(self, unit: i32) -> Vertex {
-        let by = self.exponent - unit;
-        Vertex { scale: scaled(self.scale, by), radius: scaled(self.radius, by), exponent: unit, ..self }
-    }
-}
 
 /// Binary exponent of a unit of length in which `2 η e_a e_b`, `ε e_a²` and `ε e_b²` stay in the middle of the doubles, from the e (as
 /// number and exponent) of two vertices with these ε.

@@ -28,6 +28,7 @@ pub mod symplectic;
 pub mod triangle;
 pub mod twofold;
 pub mod vector;
+mod vertex;
 pub mod weights;
 pub mod worst;
 

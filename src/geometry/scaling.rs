@@ -1,8 +1,9 @@
 //! Vertex scaling (ε = 0) in E² and H², many vertices or edges at a time: e^u and half chords, to twice the digits.
 
-use super::conformal::{Vertex, is_plain, plain_chord_of};
+use super::conformal::plain_chord_of;
 use super::lanes::{Formula, Lanes, work_out};
 use super::twofold::exp_parts;
+use super::vertex::{Vertex, is_plain};
 use super::{Space, Twofold};
 use crate::parallel::in_parts;
 
