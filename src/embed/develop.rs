@@ -237,12 +237,13 @@ impl<F: Frame> Growth<'_, F> {
             done += 1;
             for (number_in_piece, h) in mesh.face_halfedges(piece).into_iter().enumerate() {
                 let Some(beside) = mesh.face(h.twin()) else { continue };
-                if self.is_cut.is_some_and(|is_cut| is_cut[h.edge()]) {
+                let is_placed = self.patch[beside] != NONE;
+                if self.is_cut.is_some_and(|is_cut| is_placed || is_cut[h.edge()]) {
                     continue;
                 }
                 match pieces.final_halfedge(h) {
                     None => {
-                        if self.patch[beside] == NONE {
+                        if !is_placed {
                             self.patch[beside] = number;
                             self.order.push(beside);
                         }
@@ -250,7 +251,7 @@ impl<F: Frame> Growth<'_, F> {
                             self.crossed[h.edge()] |= self.patch[beside] == number;
                         }
                     }
-                    Some(_) if self.patch[beside] != NONE => {}
+                    Some(_) if is_placed => {}
                     Some(along) => {
                         let k = match is_refined {
                             true => corner_of(faces.mesh, along)?.1,

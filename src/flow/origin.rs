@@ -87,10 +87,10 @@ impl Origin {
             None => (Mesh::clone(given), PerEdge::clone(surface.lengths()), fixed.to_vec()),
         };
         let all_fixed = FixedEdges::new(&mesh, &all_fixed)?;
-        let mut normal = NormalCoordinates::new(&mesh);
-        let mut flips = 0;
+        // Made where there is a first flip, before which the triangulation is still the given one.
+        let (mut normal, mut flips) = (None, 0);
         let mut record = |mesh: &Mesh, flip: Flip| {
-            normal.record(mesh, flip.edge);
+            normal.get_or_insert_with(|| NormalCoordinates::new(mesh)).record(mesh, flip.edge);
             flips += 1;
         };
         let mut triangulated = Triangulated { mesh, lengths, geometry: surface.geometry() };
@@ -100,7 +100,7 @@ impl Origin {
         let metric = &initial.metric;
         let is_half = double.is_none() && !boundary_fails(&mesh, metric, &metric.u, &all_fixed);
         let fixed = FixedEdges::new(given, fixed)?;
-        let flipped = (flips > 0).then(|| Flipped { mesh: Arc::new(mesh), lengths, given: normal });
+        let flipped = normal.map(|given| Flipped { mesh: Arc::new(mesh), lengths, given });
         let class = Some(class);
         Ok(Origin { surface, class, double, initial, flips, flipped, fixed, follows: true, is_half })
     }

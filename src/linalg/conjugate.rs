@@ -24,6 +24,10 @@ use crate::error::Result;
 /// unknowns) to 12 (850,000) take as long as a factorisation.
 const ITERATIONS: u32 = 8;
 
+/// Iterations whose residuals say little of the speed: with one unknown held the vector of ones is nearly in the kernel of A, and a factor
+/// in single precision hardly knows how much of it belongs to a solution. The first iteration leaves that, the second finds it.
+const FREE: u32 = 2;
+
 /// What the residual `b − A x` of a solution may be.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Goal {
@@ -59,52 +63,11 @@ pub struct Conjugate {
     direction: Vec<f64>,
     image: Vec<f64>,
     corrected: Vec<f64>,
-    level: Level,
-}
-
-/// What vectors are made A-orthogonal to the vector of ones by.
-#[derive(Default)]
-struct Level {
-    /// A times the vector of ones.
-    row_sums: Vec<f64>,
-    /// The sum of these; 0 where vectors are left as they are.
-    total: f64,
-}
-
-impl Level {
-    /// For this matrix; whether it may be positive definite.
-    fn set(&mut self, matrix: Symmetric<'_>) -> bool {
-        self.row_sums.resize(matrix.pattern.size(), 0.0);
-        matrix.row_sums(&mut self.row_sums);
-        self.total = self.row_sums.iter().sum();
-        self.total > 0.0
-    }
-
-    /// Add to x as much of the vector of ones as makes the residual add up to 0: rounding leaves a little of that to each iteration.
-    fn settle(&self, x: &mut [f64], residual: &mut [f64]) {
-        if self.total > 0.0 {
-            let mean = residual.iter().sum::<f64>() / self.total;
-            x.iter_mut().for_each(|x| *x += mean);
-            residual.iter_mut().zip(&self.row_sums).for_each(|(r, sum)| *r -= mean * sum);
-        }
-    }
-
-    /// Subtract from x what is not A-orthogonal to the vector of ones.
-    fn take_off(&self, x: &mut [f64]) {
-        if self.total > 0.0 {
-            let mean = dot(&self.row_sums, x) / self.total;
-            x.iter_mut().for_each(|x| *x -= mean);
-        }
-    }
 }
 
 impl Conjugate {
     /// Overwrite `x`, which holds b, with a solution of `A x = b`, found by conjugate gradients \[HS52\] that are preconditioned by the
     /// last matrix that `near` has factorised. Sums are formed in one order whatever the threads.
-    ///
-    /// Where the goal limits the sum of the residual, the vector of ones is deflated \[Nic87\]: what of it the solution has is found first,
-    /// and all directions are A-orthogonal to it. With one unknown held it is nearly in the kernel of A, so that a factor in single
-    /// precision hardly knows how much of it belongs to a solution.
     ///
     /// False, and `x` without meaning, where a factorisation of A is the better way: where A is found not to be positive definite, or the
     /// residuals fall more slowly than it takes to be there after a few steps.
@@ -123,25 +86,19 @@ impl Conjugate {
         x: &mut [f64],
         control: &Control,
     ) -> Result<bool> {
-        let Conjugate { residual, direction, image, corrected, level } = self;
-        residual.clear();
-        residual.extend_from_slice(x);
-        [&mut *direction, image, corrected].into_iter().for_each(|vector| vector.resize(x.len(), 0.0));
+        let Conjugate { residual, direction, image, corrected } = self;
+        for vector in [&mut *residual, &mut *direction] {
+            vector.clear();
+            vector.extend_from_slice(x);
+        }
+        image.resize(x.len(), 0.0);
+        corrected.resize(x.len(), 0.0);
         x.fill(0.0);
         let first = goal.excess(residual);
         if first <= 1.0 {
             return Ok(true);
         }
-        level.total = 0.0;
-        if goal.sum.is_finite() {
-            if !level.set(matrix) {
-                return Ok(false);
-            }
-            level.settle(x, residual);
-        }
-        direction.copy_from_slice(residual);
         near.solve(direction);
-        level.take_off(direction);
         let mut product = dot(residual, direction);
         for iteration in 1..=ITERATIONS {
             control.check()?;
@@ -156,18 +113,16 @@ impl Conjugate {
                 *x += length * direction[i];
                 residual[i] -= length * image[i];
             }
-            level.settle(x, residual);
             let now = goal.excess(residual);
             if now <= 1.0 {
                 return Ok(true);
             }
             let in_time = first.powf(1.0 - f64::from(iteration) / f64::from(ITERATIONS));
-            if !(iteration == 1 || now <= in_time) {
+            if !(iteration <= FREE || now <= in_time) {
                 return Ok(false);
             }
             corrected.copy_from_slice(residual);
             near.solve(corrected);
-            level.take_off(corrected);
             let next = dot(residual, corrected);
             let keep = next / product;
             direction.iter_mut().zip(&*corrected).for_each(|(d, c)| *d = c + keep * *d);

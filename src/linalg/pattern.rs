@@ -132,27 +132,6 @@ impl Symmetric<'_> {
         }
     }
 
-    /// The sum of the entries of each row, `A` times the vector of ones.
-    ///
-    /// # Panics
-    ///
-    /// If the array does not have n entries.
-    pub fn row_sums(&self, sums: &mut [f64]) {
-        assert!(sums.len() == self.pattern.size(), "one sum per row");
-        sums.fill(0.0);
-        for j in 0..sums.len() {
-            let column = self.pattern.column_start[j] as usize..self.pattern.column_start[j + 1] as usize;
-            let (rows, values) = (&self.pattern.row[column.clone()], &self.values[column]);
-            // The diagonal comes first.
-            let mut sum = values[0];
-            for (&i, a) in rows.iter().zip(values).skip(1) {
-                sums[i as usize] += a;
-                sum += a;
-            }
-            sums[j] += sum;
-        }
-    }
-
     /// `y = b − A x`.
     ///
     /// # Panics

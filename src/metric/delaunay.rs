@@ -72,13 +72,15 @@ impl ClassFlips<'_> {
     ) -> Result<usize> {
         let ClassFlips { mesh, metric, record } = self;
         check_size("vertices", vertices.len(), mesh.n_vertices())?;
+        let (space, is_precise) = (metric.space, metric.is_precise());
+        let hinge = |mesh: &Mesh, h| VertexHinge::new(space, mesh, h, |v| vertices[v.index()]);
+        queue.keep_where(|h| between_faces(mesh, h) && hinge(mesh, h).wants_flip(&metric.eta, is_precise));
         if queue.is_empty() {
             // Weights that other metrics share stay shared.
             return Ok(0);
         }
-        let (space, is_precise) = (metric.space, metric.is_precise());
         let decide = |mesh: &Mesh, eta: &PerEdge<Twofold>, h: HalfedgeId| {
-            let hinge = VertexHinge::new(space, mesh, h, |v| vertices[v.index()]);
+            let hinge = hinge(mesh, h);
             if hinge.wants_flip(eta, is_precise) { hinge.other_diagonal(eta) } else { None }
         };
         let most = allowance(mesh.n_edges());

@@ -53,6 +53,19 @@ impl Queue {
         }
     }
 
+    /// Let only those edges wait on whose half-edge this holds.
+    pub(super) fn keep_where(&mut self, holds: impl Fn(HalfedgeId) -> bool + Sync) {
+        let waiting = std::mem::take(&mut self.waiting);
+        let mut held = vec![false; waiting.len()];
+        parallel::fill(&mut held, |k| holds(waiting[k].halfedge()));
+        for (e, held) in waiting.into_iter().zip(held) {
+            match held {
+                true => self.waiting.push_back(e),
+                false => self.queued[e] = false,
+            }
+        }
+    }
+
     /// Whether no edge waits.
     pub fn is_empty(&self) -> bool {
         self.waiting.is_empty()
