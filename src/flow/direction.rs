@@ -22,6 +22,9 @@ const SHIFTS: usize = 12;
 const FORCING: f64 = 0.1;
 /// Largest share of the right-hand side that a step leaves which is solved with a factor of another matrix or in single precision.
 const MAX_FORCING: f64 = 0.01;
+/// Radians. While edges may be flipped, a step by a factor of its own leaves no more than this: a residual of that size tells which one of
+/// two diagonals of a quadrilateral on a circle is flipped to, and a symmetric surface has thousands of those.
+const TIES: f64 = 1e-10;
 /// Radians. No step leaves less than this of a linear residual, a tenth of the rounding of an angle of 1. It is far below the rounding of
 /// the curvature because u magnifies what is left over the whole surface.
 const LEAST_LEFT: f64 = 2e-17;
@@ -86,7 +89,8 @@ impl Flow {
     ) -> Result<bool> {
         report.factorisations += 1;
         let factored = timed(&mut report.seconds.factor, || system.factor()).is_ok();
-        let forcing = f64::min(FORCING * at.error, MAX_FORCING);
+        let most = if self.flips_allowed { TIES / at.error } else { MAX_FORCING };
+        let forcing = f64::min(FORCING * at.error, f64::min(most, MAX_FORCING));
         Ok(factored && self.solve_near(system, at, forcing, (report, control))?)
     }
 

@@ -24,10 +24,6 @@ use crate::error::Result;
 /// unknowns) to 12 (850,000) take as long as a factorisation.
 const ITERATIONS: u32 = 8;
 
-/// Iterations whose residuals say little of the speed: with one unknown held the vector of ones is nearly in the kernel of A, and a factor
-/// in single precision hardly knows how much of it belongs to a solution. The first iteration leaves that, the second finds it.
-const FREE: u32 = 2;
-
 /// What the residual `b − A x` of a solution may be.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Goal {
@@ -39,6 +35,13 @@ pub struct Goal {
 }
 
 impl Goal {
+    /// Iterations whose residuals say little of the speed. Where the sum matters, one unknown is held, so that the vector of ones is nearly
+    /// in the kernel of A, and a factor in single precision hardly knows how much of it belongs to a solution: the first iteration leaves
+    /// that, the second finds it.
+    fn free_iterations(self) -> u32 {
+        if self.sum.is_finite() { 2 } else { 1 }
+    }
+
     /// How many times larger a residual is, at most 1 where the goal is reached; NaN where it is no number.
     fn excess(self, residual: &[f64]) -> f64 {
         let largest = residual.iter().fold(0.0, |most: f64, r| if r.abs() <= most { most } else { r.abs() });
@@ -118,7 +121,7 @@ impl Conjugate {
                 return Ok(true);
             }
             let in_time = first.powf(1.0 - f64::from(iteration) / f64::from(ITERATIONS));
-            if !(iteration <= FREE || now <= in_time) {
+            if !(iteration <= goal.free_iterations() || now <= in_time) {
                 return Ok(false);
             }
             corrected.copy_from_slice(residual);
