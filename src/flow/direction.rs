@@ -22,8 +22,8 @@ const SHIFTS: usize = 12;
 const FORCING: f64 = 0.1;
 /// Largest share of the right-hand side that a step leaves which is solved with a factor of another matrix or in single precision.
 const MAX_FORCING: f64 = 0.01;
-/// Radians. While edges may be flipped, a step by a factor of its own leaves no more than this: a residual of that size tells which one of
-/// two diagonals of a quadrilateral on a circle is flipped to, and a symmetric surface has thousands of those.
+/// Radians. While edges may be flipped, a step by the factor of its own matrix leaves no more than this: what it leaves decides which
+/// diagonal a quadrilateral on a circle is flipped to, and a symmetric surface has thousands of those. Later steps leave less anyway.
 const TIES: f64 = 1e-10;
 /// Radians. No step leaves less than this of a linear residual, a tenth of the rounding of an angle of 1. It is far below the rounding of
 /// the curvature because u magnifies what is left over the whole surface.

@@ -63,8 +63,12 @@ pub const MIN_HYPERBOLIC_CHORD: f64 = 1e-280;
 const HYPERBOLIC_CHORDS: std::ops::RangeInclusive<f64> = MIN_HYPERBOLIC_CHORD..=MAX_HYPERBOLIC_CHORD;
 /// Binary exponents of squared lengths that need no unit of their own: what they lose, and products of two of them, are normal numbers.
 const PLAIN_SQUARES: std::ops::RangeInclusive<i32> = -500..=500;
-/// Squared lengths with such exponents: 2^−500 to 2^500.
+/// Squared lengths of edges that have plain chords, 2^−500 to 2^500: all have such exponents.
 const PLAIN_LENGTHS: std::ops::RangeInclusive<f64> = 3.054_936_363_499_605e-151..=3.273_390_607_896_142e150;
+/// The e^u of their ends, 2^−480 to 2^480: what the products lose is a normal number too.
+const PLAIN_SCALES: std::ops::RangeInclusive<f64> = 3.203_333_952_292_962e-145..=3.121_748_550_315_992e144;
+/// Largest η of such an edge, 2^900: its parts do not overflow when a product with it is split.
+const MOST_PLAIN_ETA: f64 = 8.452_712_498_170_644e270;
 
 /// Binary exponent of a unit of length in which `2 η e_a e_b`, `ε e_a²` and `ε e_b²` stay in the middle of the doubles, from the e (as
 /// number and exponent) of two vertices with these ε.
@@ -202,13 +206,18 @@ pub(super) fn plain_chord_of<L: Lanes>(space: Space, a: [L; 2], b: [L; 2], eta: 
         Space::E2 => (&PLAIN_LENGTHS, 0.25),
         _ => (&HYPERBOLIC_CHORDS, 1.0),
     };
-    let (zero, share) = (n.constant(0.0), n.constant(share));
+    let (zero, one, share) = (n.constant(0.0), n.constant(1.0), n.constant(share));
     let Twofold { high, low } = root(share * n, share * low);
-    let [least, most] = [n.constant(*range.start()), n.constant(*range.end())];
-    Twofold {
-        high: n.where_at_least(least, most.where_at_least(n, high, zero), zero),
-        low: n.where_at_least(least, most.where_at_least(n, low, zero), zero),
-    }
+    let is_small = n.constant(MOST_PLAIN_ETA).where_at_least(eta[0], one, zero);
+    let is_plain = within(n, range, within(a[0], &PLAIN_SCALES, within(b[0], &PLAIN_SCALES, is_small)));
+    Twofold { high: is_plain.where_at_least(one, high, zero), low: is_plain.where_at_least(one, low, zero) }
+}
+
+/// `yes` where x is in a range, else 0.
+#[inline(always)]
+fn within<L: Lanes>(x: L, range: &std::ops::RangeInclusive<f64>, yes: L) -> L {
+    let [least, most, zero] = [x.constant(*range.start()), x.constant(*range.end()), x.constant(0.0)];
+    x.where_at_least(least, most.where_at_least(x, yes, zero), zero)
 }
 
 /// [`half_chord`] by [`plain_chord`], where ε = 0 at both ends and that serves.
@@ -217,7 +226,8 @@ pub(crate) fn precise_chord(space: Space, a: Vertex, b: Vertex, eta: Twofold) ->
     if a.epsilon == 0.0 && b.epsilon == 0.0 && space != Space::S2 {
         let plain = plain_chord(space, a, b, eta);
         if plain.high > 0.0 {
-            return (plain, 0);
+            // What u loses may be more than half an ulp of the chord.
+            return (Twofold::renormalised(plain.high, plain.low), 0);
         }
     }
     half_chord(space, a, b, eta)

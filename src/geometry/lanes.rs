@@ -1,5 +1,5 @@
-//! Formulas for one triangle, or for several at a time in the vectors of the processor: the same operations in the same order, so that a
-//! triangle has the same bits either way.
+//! Formulas for one triangle, edge or vertex, or for several at a time in the vectors of the processor: the same operations in the same
+//! order, so that each has the same bits either way.
 
 use super::complex::Number;
 use pulp::{Arch, Simd, WithSimd};
@@ -18,7 +18,7 @@ pub trait Lanes: Number + Div<Output = Self> {
     fn where_at_least(self, bound: Self, then: Self, other: Self) -> Self;
     /// What `product`, the rounded product with `other`, loses: exact where nothing over- or underflows.
     fn lost_of_product(self, other: Self, product: Self) -> Self;
-    /// The entries of a table, of which this is a whole number.
+    /// The entry of a table at this index, a whole number.
     fn look_up(self, table: &[[f64; 2]]) -> [Self; 2];
 
     /// The larger one of two numbers.
@@ -163,8 +163,8 @@ impl<S: Simd> Lanes for Wide<S> {
     }
 }
 
-/// A formula with `IN` numbers given and `OUT` found. What is called from it must be `#[inline(always)]`, and no closure: else the vectors go
-/// through memory at each operation.
+/// A formula with `IN` numbers given and `OUT` found. What it calls must be `#[inline(always)]`, and a closure in it no longer than a line:
+/// else the compiler makes calls of single operations on vectors.
 pub(crate) trait Formula<const IN: usize, const OUT: usize>: Copy {
     fn of<L: Lanes>(self, given: [L; IN]) -> [L; OUT];
 }
@@ -198,7 +198,8 @@ where
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
         let Blocks { formula, n, given, mut take } = self;
-        // By numbers given, and by numbers found. What a block leaves free has those of the one before.
+        // One row per number given, and one per number found. Places that a short last block leaves free keep older numbers, which nobody
+        // reads.
         let (mut from, mut to) = ([[1.0; BLOCK]; IN], [[0.0; BLOCK]; OUT]);
         for start in (0..n).step_by(BLOCK) {
             let count = BLOCK.min(n - start);

@@ -73,16 +73,24 @@ impl Formula<6, 2> for Chord {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::conformal::plain_chord;
+    use crate::geometry::conformal::{edge, plain_chord};
 
     #[test]
     fn vertices_and_chords_have_the_bits_that_they_have_alone() {
-        let u: Vec<f64> = (0..200)
+        let mut u: Vec<f64> = (0..200)
             .map(|i| {
                 [0.37 * f64::from(i) - 40.0, -300.0, 650.0, 2e5, f64::NAN]
                     [usize::from(i % 9 == 0) * (i as usize / 9 % 5)]
             })
             .collect();
+        // Ends of edges, some at the ends of the range.
+        for (i, [a, b]) in
+            [[695.0, -695.0], [330.0, -330.0], [690.0, -690.0], [-330.0, -330.0], [332.0, 10.0]]
+                .into_iter()
+                .enumerate()
+        {
+            (u[10 * i], u[10 * i + 7]) = (a, b);
+        }
         for space in [Space::E2, Space::H2, Space::S2] {
             for epsilon in [0, 1, -1] {
                 let mut vertices = vec![Vertex::default(); u.len()];
@@ -95,11 +103,14 @@ mod tests {
                     continue;
                 }
                 let mut chords = vec![Twofold::default(); u.len() - 7];
-                let given = |i: usize| ([vertices[i], vertices[i + 7]], Twofold { high: 0.7, low: 1e-17 });
+                let given = |i: usize| {
+                    ([vertices[i], vertices[i + 7]], Twofold { high: [0.7, 1e20][i % 20 / 10], low: 1e-17 })
+                };
                 fill_chords(space, &mut chords, given);
                 for (i, chord) in chords.iter().enumerate() {
                     let ([a, b], eta) = given(i);
                     assert_eq!(*chord, plain_chord(space, a, b, eta), "{space} {i}");
+                    assert!(chord.high == 0.0 || edge(space, a, b, eta).is_some(), "{space} {i}");
                 }
                 assert!(chords.iter().any(|q| q.high > 0.0) && chords.iter().any(|q| q.high == 0.0));
             }

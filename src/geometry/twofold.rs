@@ -29,7 +29,7 @@ impl<L: Lanes> Twofold<L> {
 
     /// The sum of a number and a much smaller one.
     #[inline(always)]
-    fn renormalised(high: L, low: L) -> Twofold<L> {
+    pub(super) fn renormalised(high: L, low: L) -> Twofold<L> {
         let sum = high + low;
         Twofold { high: sum, low: low - (sum - high) }
     }

@@ -35,9 +35,9 @@ pub struct Goal {
 }
 
 impl Goal {
-    /// Iterations whose residuals say little of the speed. Where the sum matters, one unknown is held, so that the vector of ones is nearly
-    /// in the kernel of A, and a factor in single precision hardly knows how much of it belongs to a solution: the first iteration leaves
-    /// that, the second finds it.
+    /// Iterations whose residuals say little of the speed: the largest entry may grow in the first one, while the error falls. Where the sum
+    /// matters, one unknown is held, so that the vector of ones is nearly in the kernel of A, and a factor in single precision hardly knows
+    /// how much of it belongs to a solution: the second iteration finds that.
     fn free_iterations(self) -> u32 {
         if self.sum.is_finite() { 2 } else { 1 }
     }

@@ -199,9 +199,9 @@ fn heavy_supernode<T: Number>(
     let height = width + m;
     let children = Children::new(supernodes, s, handed_on);
     let (sources, places) = supernodes.entries(s);
-    own.fill(T::ZERO);
     each(own.chunks_mut(PANEL * height).enumerate().collect(), |(p, panel)| {
         let start = p * PANEL * height;
+        panel.fill(T::ZERO);
         let [from, to] =
             [start, start + panel.len()].map(|x| places.partition_point(|&at| (at as usize) < x));
         for k in from..to {

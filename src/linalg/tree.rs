@@ -17,7 +17,7 @@ const LEAST_WORK: f64 = 4e6;
 /// What a supernode costs beside its arithmetic, in the same unit.
 const WORK_PER_SUPERNODE: f64 = 2e3;
 
-/// A supernode's part in the tree, and the entries of the matrix that are added to it.
+/// A supernode's part in the tree, and the entries of the matrix that belong to it.
 #[derive(Default)]
 pub(super) struct Tree {
     /// Per supernode the first one of its subtree.

@@ -72,6 +72,7 @@ impl ClassFlips<'_> {
     ) -> Result<usize> {
         let ClassFlips { mesh, metric, record } = self;
         check_size("vertices", vertices.len(), mesh.n_vertices())?;
+        control.check()?;
         let (space, is_precise) = (metric.space, metric.is_precise());
         let hinge = |mesh: &Mesh, h| VertexHinge::new(space, mesh, h, |v| vertices[v.index()]);
         queue.keep_where(|h| between_faces(mesh, h) && hinge(mesh, h).wants_flip(&metric.eta, is_precise));

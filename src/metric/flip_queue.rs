@@ -53,7 +53,7 @@ impl Queue {
         }
     }
 
-    /// Let only those edges wait on whose half-edge this holds.
+    /// Drop the waiting edges for which `holds`, asked in parallel, is false of the half-edge `2e`. They may be pushed again.
     pub(super) fn keep_where(&mut self, holds: impl Fn(HalfedgeId) -> bool + Sync) {
         let waiting = std::mem::take(&mut self.waiting);
         let mut held = vec![false; waiting.len()];
