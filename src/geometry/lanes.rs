@@ -51,7 +51,7 @@ impl Lanes for f64 {
     }
 
     /// By Dekker's splitting.
-    #[inline(always)]
+    #[inline]
     fn lost_of_product(self, other: f64, product: f64) -> f64 {
         let ([a, a_low], [b, b_low]) = (split(self), split(other));
         ((a * b - product) + a * b_low + a_low * b) + a_low * b_low
@@ -64,7 +64,7 @@ impl Lanes for f64 {
 }
 
 /// A double as the sum of two with half as many digits.
-#[inline(always)]
+#[inline]
 fn split(x: f64) -> [f64; 2] {
     let high = 134_217_729.0 * x;
     let high = high - (high - x);
