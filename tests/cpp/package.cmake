@@ -50,10 +50,10 @@ foreach(_shared ON OFF)
   execute_process(COMMAND ${WORK}/part_${_shared}/part COMMAND_ERROR_IS_FATAL ANY)
 endforeach()
 
-# Without debug information, with licences, and of the size that one expects: 11.35 MB, of which the paths of the build are a few KB. 2.3 MB of
-# these are kernels for products of matrices in faer, 0.3 MB of them in single precision, in which factors are computed; 2.3 MB came with the writer of STEP, whose
-# crate has code for each of the entities of AP242, of which our files have a few dozen; 2.6 MB came with matching, whose Newton steps solve
-# systems without symmetry by faer's sparse LU.
+# Without debug information, with licences, and of the size that one expects: 11.35 MB, of which the paths of the build are a few KB. 2.3
+# MB of these are kernels for products of matrices in faer, 0.3 MB of them in single precision, in which factors are computed; 2.3 MB came
+# with the writer of STEP, whose crate has code for each of the entities of AP242, of which our files have a few dozen; 2.6 MB came with
+# matching, whose Newton steps solve systems without symmetry by faer's sparse LU.
 file(GLOB _shared ${_prefix}/${LIBDIR}/libricci.so.*.*.*)
 file(SIZE ${_shared} _shared_size)
 file(SIZE ${_prefix}/${LIBDIR}/libricci.a _static_size)
