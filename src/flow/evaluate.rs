@@ -1,6 +1,6 @@
 //! Lengths, angles and curvature at given variables: the right-hand side of the flow.
 
-use super::measure::{Parts, chord, ends_and_eta, needs_chords_alone};
+use super::measure::{Parts, chord, needs_chords_alone};
 use super::seconds::{Seconds, timed};
 use crate::control::Control;
 use crate::error::Result;
@@ -155,7 +155,7 @@ impl State {
         let State { vertices, edges, chords, .. } = self;
         edges.clear();
         chords.resize(mesh.n_edges(), Twofold::default());
-        fill_chords(class.space, chords, |e| ends_and_eta(mesh, class, vertices, e.into()));
+        fill_chords(class.space, chords, |e| class.ends_and_eta(mesh, vertices, e.into()));
         let is_known = chords.iter().all(|chord| chord.high > 0.0);
         if !is_known {
             chords.clear();

@@ -20,19 +20,8 @@ pub(super) fn needs_chords_alone(class: &Metric) -> bool {
 /// The half chord of an edge, for vertex scaling; 0 where it has no length, and where that needs a unit of its own.
 #[inline]
 pub(super) fn chord(mesh: &Mesh, class: &Metric, vertices: &[Vertex], e: EdgeId) -> Twofold {
-    let ([a, b], eta) = ends_and_eta(mesh, class, vertices, e);
+    let ([a, b], eta) = class.ends_and_eta(mesh, vertices, e);
     plain_chord(class.space, a, b, eta)
-}
-
-/// What the half chord of an edge comes from.
-#[inline]
-pub(super) fn ends_and_eta(
-    mesh: &Mesh,
-    class: &Metric,
-    vertices: &[Vertex],
-    e: EdgeId,
-) -> ([Vertex; 2], Twofold) {
-    (mesh.ends(e).map(|v| vertices[v.index()]), class.eta[e])
 }
 
 /// What faces are measured from.

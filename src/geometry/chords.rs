@@ -54,10 +54,9 @@ impl<L: Lanes> Parts<L> {
     fn of([q, low]: [[L; 3]; 2]) -> Parts<L> {
         let of = |x: f64| q[0].constant(x);
         let (zero, one) = (of(0.0), of(1.0));
-        let [least, most] = [USUAL.start(), USUAL.end()].map(|&x| of(x));
         let mut is_sound = one;
         for q in q {
-            is_sound = q.where_at_least(least, most.where_at_least(q, is_sound, zero), zero);
+            is_sound = q.where_within(&USUAL, is_sound);
         }
         let flat = differences_of(q, low);
         // `more`: c − 1

@@ -209,15 +209,9 @@ pub(super) fn plain_chord_of<L: Lanes>(space: Space, a: [L; 2], b: [L; 2], eta: 
     let (zero, one, share) = (n.constant(0.0), n.constant(1.0), n.constant(share));
     let Twofold { high, low } = root(share * n, share * low);
     let is_small = n.constant(MOST_PLAIN_ETA).where_at_least(eta[0], one, zero);
-    let is_plain = within(n, range, within(a[0], &PLAIN_SCALES, within(b[0], &PLAIN_SCALES, is_small)));
+    let is_plain = a[0].where_within(&PLAIN_SCALES, b[0].where_within(&PLAIN_SCALES, is_small));
+    let is_plain = n.where_within(range, is_plain);
     Twofold { high: is_plain.where_at_least(one, high, zero), low: is_plain.where_at_least(one, low, zero) }
-}
-
-/// `yes` where x is in a range, else 0.
-#[inline(always)]
-fn within<L: Lanes>(x: L, range: &std::ops::RangeInclusive<f64>, yes: L) -> L {
-    let [least, most, zero] = [x.constant(*range.start()), x.constant(*range.end()), x.constant(0.0)];
-    x.where_at_least(least, most.where_at_least(x, yes, zero), zero)
 }
 
 /// [`half_chord`] by [`plain_chord`], where ε = 0 at both ends and that serves.

@@ -3,7 +3,7 @@
 
 use super::complex::Number;
 use pulp::{Arch, Simd, WithSimd};
-use std::ops::{Add, Div, Mul, Neg, Sub};
+use std::ops::{Add, Div, Mul, Neg, RangeInclusive, Sub};
 
 /// Triangles, edges or vertices that are worked on together: a multiple of the doubles in a vector of any processor.
 const BLOCK: usize = 64;
@@ -20,6 +20,14 @@ pub trait Lanes: Number + Div<Output = Self> {
     fn lost_of_product(self, other: Self, product: Self) -> Self;
     /// The entry of a table at this index, a whole number.
     fn look_up(self, table: &[[f64; 2]]) -> [Self; 2];
+
+    /// `then` where `self` lies in a range, else 0, also where it is no number.
+    #[inline(always)]
+    fn where_within(self, range: &RangeInclusive<f64>, then: Self) -> Self {
+        let [least, most] = [self.constant(*range.start()), self.constant(*range.end())];
+        let zero = self.constant(0.0);
+        self.where_at_least(least, most.where_at_least(self, then, zero), zero)
+    }
 
     /// The larger one of two numbers.
     #[inline(always)]

@@ -131,10 +131,7 @@ impl Metric {
         }
         let vertices = self.vertices();
         let mut chords = vec![Twofold::default(); mesh.n_edges()];
-        fill_chords(self.space, &mut chords, |e| {
-            let e = EdgeId::from(e);
-            (mesh.ends(e).map(|v| vertices[v]), self.eta[e])
-        });
+        fill_chords(self.space, &mut chords, |e| self.ends_and_eta(mesh, &vertices, e.into()));
         chords.iter().all(|q| q.high > 0.0)
     }
 
@@ -162,8 +159,14 @@ impl Metric {
 
     /// An edge from the vertex quantities; one without a real length is the default, whose `q2` is 0.
     pub(crate) fn edge(&self, mesh: &Mesh, vertices: &[Vertex], e: EdgeId) -> Edge {
-        let [a, b] = mesh.ends(e).map(|v| vertices[v.index()]);
-        conformal::edge(self.space, a, b, self.eta[e]).unwrap_or_default()
+        let ([a, b], eta) = self.ends_and_eta(mesh, vertices, e);
+        conformal::edge(self.space, a, b, eta).unwrap_or_default()
+    }
+
+    /// What the length of an edge comes from: its ends, and η.
+    #[inline]
+    pub(crate) fn ends_and_eta(&self, mesh: &Mesh, vertices: &[Vertex], e: EdgeId) -> ([Vertex; 2], Twofold) {
+        (mesh.ends(e).map(|v| vertices[v.index()]), self.eta[e])
     }
 
     /// Circle radii γ from u (ε = 0: e^u): [`radius`].

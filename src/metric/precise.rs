@@ -18,7 +18,7 @@ use crate::geometry::lanes::{Formula, Lanes, work_out};
 use crate::geometry::scaled::exponent;
 use crate::geometry::triangle::{area_from, half_angles_of_chords};
 use crate::geometry::{Space, Twofold};
-use crate::mesh::{EdgeId, FaceId, Mesh, PerEdge, PerFace, PerVertex};
+use crate::mesh::{FaceId, Mesh, PerEdge, PerFace, PerVertex};
 use crate::parallel;
 use std::ops::{Range, RangeInclusive};
 
@@ -30,9 +30,8 @@ impl Metric {
         let vertices = self.vertices();
         let mut chords = vec![(Twofold::default(), 0); mesh.n_edges()];
         parallel::fill(&mut chords, |e| {
-            let e = EdgeId::from(e);
-            let [a, b] = mesh.ends(e).map(|v| vertices[v]);
-            precise_chord(self.space, a, b, self.eta[e])
+            let ([a, b], eta) = self.ends_and_eta(mesh, &vertices, e.into());
+            precise_chord(self.space, a, b, eta)
         });
         chords.into()
     }
