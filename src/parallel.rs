@@ -218,6 +218,13 @@ pub fn join<A: Send, B: Send>(a: impl FnOnce() -> A + Send, b: impl FnOnce() -> 
     if is_shared() { rayon::join(a, b) } else { (a(), b()) }
 }
 
+/// Lets other work of the pool that waits for a thread go first: for work that nothing waits for, between two pieces of it.
+pub fn give_way() {
+    if is_shared() {
+        rayon::yield_now();
+    }
+}
+
 /// Hands each chunk with its number to `work`, which whoever comes to it locks.
 fn in_chunks<C: Send>(chunks: impl ExactSizeIterator<Item = C>, work: impl Fn(usize, &mut C) + Sync) {
     if chunks.len() <= 1 || !is_shared() {

@@ -10,19 +10,19 @@ use crate::flow_args::{FlowArgs, PinChoice, TargetChoice};
 use crate::flow_summary;
 use crate::input::{self, Input};
 use crate::job::{self, Job, Outcome, default_space};
+use crate::metric_file::MetricFile;
 use crate::options::{MethodChoice, OnChoice};
 use crate::output::{self, Outputs, check_extension};
 use crate::picture::ColorChoice;
 use crate::progress::{Progress, doing};
 use crate::report::{Done, Figures, InputSummary, Report, timed};
 use crate::show;
-use crate::solved::write_metric;
 use crate::uv;
 use ricci::Control;
 use ricci::flow::{Gradient, Options, Solution};
 use ricci::geometry::Space;
 use ricci::mesh::{Mesh, PerVertex, VertexId};
-use ricci::metric::{Scheme, Target};
+use ricci::metric::{Measured, Scheme, Target};
 use ricci::parallel::Pool;
 use serde::Serialize;
 use std::path::Path;
@@ -52,10 +52,13 @@ fn execute_in_pool(args: &FlowArgs, start: Instant, control: &Control) -> Result
     let automatic = matches!(args.target, Some(TargetChoice::Auto(_))).then_some(Space::E2);
     let space = args.space.space().or(automatic).unwrap_or_else(|| default_space(input.mesh()));
     check_surface(args, &input, space)?;
-    let write_metric = |solution: &Solution, target: &PerVertex<f64>| {
+    let write_metric = |solution: &Solution, measured: &Measured, target: &PerVertex<f64>| {
         let (mut outputs, mut seconds) = (Outputs::default(), 0.0);
-        let path = args.to.metric.as_deref();
-        let written = timed(&mut seconds, || write_metric(solution, target, &mut outputs, path));
+        let write = |path| {
+            let file = MetricFile::of(solution, measured, target)?;
+            outputs.add(path, |out| file.write(out))
+        };
+        let written = timed(&mut seconds, || args.to.metric.as_deref().map_or(Ok(()), write));
         (outputs, written, seconds)
     };
     let job = job(args, &input, space, control)?;

@@ -9,8 +9,8 @@ use ricci::Control;
 use ricci::flow::{self, Solution};
 use ricci::geometry::{Space, worse};
 use ricci::mesh::{Mesh, PerVertex, VertexId};
-use ricci::metric::Scheme;
 use ricci::metric::target::check_vertices;
+use ricci::metric::{Measured, Scheme};
 use ricci::parallel::join;
 use ricci::{Class, Flow, Target};
 
@@ -46,13 +46,13 @@ pub fn default_space(mesh: &Mesh) -> Space {
     if mesh.is_closed() && mesh.euler() < 0 { Space::H2 } else { Space::E2 }
 }
 
-/// Run a flow and lay its metric out. `beside`: what else is to be done with the metric and the curvature that was asked for; on one thread
-/// before it is laid out, so that its memory is free again by then.
+/// Run a flow and lay its metric out. `beside`: what else is to be done with the metric; on one thread before it is laid out, so that its
+/// memory is free again by then.
 pub fn run<T: Send>(
     input: &Input,
     job: Job,
     control: &Control,
-    beside: impl FnOnce(&Solution, &PerVertex<f64>) -> T + Send,
+    beside: impl FnOnce(&Solution, &Measured, &PerVertex<f64>) -> T + Send,
 ) -> Result<(Outcome, T), Failure> {
     let class = Class::new(job.scheme, job.space);
     let rule = rule(input, &job)?;
@@ -74,9 +74,9 @@ pub fn run<T: Send>(
         }
     };
     let is_sound = report.broken_triangles == 0;
-    let ((done, measures), laid) =
-        join(|| (beside(&solution, &target), Measures::of(&solution)), || is_sound.then(&lay_out));
-    let measures = measures?;
+    let do_beside = |measured: &Measured| beside(&solution, measured, &target);
+    let (measured, laid) = join(|| Measures::after(&solution, do_beside), || is_sound.then(&lay_out));
+    let (done, measures) = measured?;
     let (layout, seconds) = match broken(&solution, &measures) {
         Some(why) => (Err(why), seconds),
         None => laid.unwrap_or_else(lay_out)?,

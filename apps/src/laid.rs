@@ -4,13 +4,12 @@ use crate::input::Input;
 use crate::report::{Seconds, timed};
 use ricci::Control;
 use ricci::control::Stage;
-use ricci::embed::{Charts, Layout, OnInput, Quality, UnrollOptions, unroll};
+use ricci::embed::{Charts, Layout, OnInput, Quality, UnrollOptions, refinement_of, unroll_by};
 use ricci::flow::Solution;
 use ricci::mesh::{FaceId, HalfedgeId, Mesh, PerHalfedge, PerVertex, Point, VertexId};
 use ricci::metric::Refinement;
 use ricci::parallel::{fill, join, within};
 use std::collections::BTreeMap;
-use std::sync::Arc;
 
 /// Crossings per edge up to which the common refinement is formed even where only the summary shows it: it then costs no more time
 /// than the flow.
@@ -57,15 +56,15 @@ pub fn lay_out(
     control: &Control,
 ) -> ricci::Result<Laid> {
     control.step(Stage::Layout, 0.0)?;
-    let refinement = match solution.is_unflipped() {
-        true => None,
-        false => Some(Arc::new(timed(&mut seconds.refine, || solution.refinement(control))?)),
-    };
-    timed(&mut seconds.layout, || {
-        let options = UnrollOptions { refinement, ..UnrollOptions::default() };
-        let layout = unroll(solution, &options, control)?;
+    let (mut refine, mut both) = (0.0, 0.0);
+    let laid = timed(&mut both, || {
+        let refine = || timed(&mut refine, || refinement_of(solution, control));
+        let layout = unroll_by(solution, &UnrollOptions::default(), refine, control)?;
         within(solution.threads(), || Laid::new(input, solution, layout))
-    })
+    });
+    seconds.refine += refine;
+    seconds.layout += both - refine;
+    laid
 }
 
 impl Laid {

@@ -11,6 +11,7 @@ use ricci::geometry::triangle::angles;
 use ricci::mesh::check::Defect;
 use ricci::mesh::io::text::{Text, write_blocks};
 use ricci::mesh::{Mesh, PerEdge, PerVertex};
+use ricci::metric::Measured;
 use ricci::parallel::within;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -71,16 +72,20 @@ pub struct MetricFile<'a> {
 impl<'a> MetricFile<'a> {
     /// `target`: per vertex of the solution's triangulation.
     pub fn new(solution: &'a Solution, target: &'a PerVertex<f64>) -> ricci::Result<Self> {
-        within(solution.threads(), || MetricFile::in_pool(solution, target))
+        within(solution.threads(), || {
+            MetricFile::of(solution, &solution.metric().measured(solution.mesh())?, target)
+        })
     }
 
-    fn in_pool(solution: &'a Solution, target: &'a PerVertex<f64>) -> ricci::Result<Self> {
+    /// [`MetricFile::new`] of a solution whose metric has been measured.
+    pub fn of(
+        solution: &'a Solution,
+        measured: &Measured,
+        target: &'a PerVertex<f64>,
+    ) -> ricci::Result<Self> {
         let (mesh, metric) = (solution.mesh(), solution.metric());
-        let (lengths, lost) = metric.measured(mesh).and_then(|measured| {
-            let lengths = measured.lengths()?;
-            let lost = measured.remainders(&lengths);
-            Ok((lengths, lost))
-        })?;
+        let lengths = measured.lengths()?;
+        let lost = measured.remainders(&lengths);
         Ok(MetricFile {
             space: metric.space.name(),
             scheme: solution.class().map_or(MIXED, |class| class.scheme.name()),

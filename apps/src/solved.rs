@@ -7,7 +7,7 @@ use crate::report::{Attempts, Checks, Seconds};
 use ricci::flow::Solution;
 use ricci::geometry::worse;
 use ricci::mesh::{PerEdge, PerVertex};
-use ricci::metric::{Curvature, Scheme};
+use ricci::metric::{Curvature, Measured, Scheme};
 use ricci::parallel::within;
 use std::path::Path;
 
@@ -45,9 +45,21 @@ impl Measures {
     /// # Errors
     /// [`Failure::Failed`]: what goes wrong once the flow has ended is no fault of the input.
     pub fn of(solution: &Solution) -> Result<Measures, Failure> {
+        Measures::after(solution, |_| ()).map(|((), measures)| measures)
+    }
+
+    /// [`Measures::of`], after something else that is to be done with what the metric says of its edges.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn after<T: Send>(
+        solution: &Solution,
+        first: impl FnOnce(&Measured) -> T + Send,
+    ) -> Result<(T, Measures), Failure> {
         let measure = || {
             let measured = solution.metric().measured(solution.mesh())?;
-            Ok(Measures { lengths: measured.lengths()?, curvature: measured.curvature()? })
+            let done = first(&measured);
+            Ok((done, Measures { lengths: measured.lengths()?, curvature: measured.curvature()? }))
         };
         within(solution.threads(), measure).map_err(failed)
     }
@@ -123,19 +135,9 @@ impl Solved {
 
     /// Write the metric, if it is asked for.
     pub fn write_metric(&mut self, outputs: &mut Outputs, path: Option<&Path>) -> Result<(), Failure> {
-        let written = write_metric(&self.solution, &self.target, outputs, path);
+        let Some(path) = path else { return Ok(()) };
+        let file = MetricFile::new(&self.solution, &self.target).map_err(Failure::from);
+        let written = file.and_then(|file| outputs.add(path, |out| file.write(out)));
         self.failed.attempt("metric", written).map(drop)
     }
-}
-
-/// Write a metric, whose curvature was to be this, if it is asked for.
-pub fn write_metric(
-    solution: &Solution,
-    target: &PerVertex<f64>,
-    outputs: &mut Outputs,
-    path: Option<&Path>,
-) -> Result<(), Failure> {
-    let Some(path) = path else { return Ok(()) };
-    let file = MetricFile::new(solution, target)?;
-    outputs.add(path, |out| file.write(out))
 }

@@ -1,6 +1,6 @@
 //! Developing an opened surface into the space of its metric: face after face, outwards from the origin.
 
-use super::faces::{Faces, Placed, corner_at, corner_of, face_of};
+use super::faces::{Faces, Placed, corner_of, face_of};
 use super::frame::{Frame, Walk};
 use super::pieces::Pieces;
 use crate::control::{Control, Stage};
@@ -10,6 +10,7 @@ use crate::mesh::{FaceId, HalfedgeId, PerEdge, PerFace, PerHalfedge, VertexId};
 use crate::metric::Refinement;
 use crate::parallel;
 use crate::topology::{Nearest, check_vertex};
+use std::hint::black_box;
 use std::sync::Arc;
 
 /// The patch number of a piece that no patch has yet.
@@ -50,19 +51,20 @@ struct Growth<'a, F: Frame> {
     order: Vec<FaceId>,
     spans: Vec<[u32; 2]>,
     crossed: PerEdge<bool>,
-    /// Half-edges through which the development can go on, by the distance of the far corner.
+    /// Half-edges through which the development can go on, by [`Growth::distance`].
     queue: Nearest<HalfedgeId>,
 }
 
 impl<'a, F: Frame> Development<'a, F> {
-    /// Adds face after face, next the one whose far corner is nearest to the origin, over no edge that `is_cut`. The vertex `root`, or
+    /// Adds face after face, next the one behind the edge that is nearest to the origin, over no edge that `is_cut`. The vertex `root`, or
     /// a corner of the smallest final face, lies at the origin.
     ///
-    /// This order keeps the largest coordinate on the way to every face as small as it can be. Accuracy needs that: in H² the error of a
-    /// frame is magnified by e^distance, in E² a position is rounded to the spacing of doubles there. Frames are passed on between whole
-    /// final faces, and pieces are placed in these: a small piece never decides where its neighbours lie.
+    /// This order keeps the largest coordinate on the way to every face small. Accuracy needs that: in H² the error of a frame is
+    /// magnified by e^distance, in E² a position is rounded to the spacing of doubles there. Frames are passed on between whole final
+    /// faces, and pieces are placed in these: a small piece never decides where its neighbours lie.
     ///
-    /// Without a cut every face is added once, and the edges that are not [`Development::crossed`] are where the growing disk meets itself.
+    /// Without a cut every face is added once, next the one whose far corner is nearest, and the edges that are not
+    /// [`Development::crossed`] are where the growing disk meets itself.
     ///
     /// # Errors
     /// [`Error::Argument`] for a root that is no vertex; [`Error::Layout`] for a root without a face and for lengths beyond what doubles
@@ -92,7 +94,7 @@ impl<'a, F: Frame> Development<'a, F> {
         };
         control.step(Stage::Layout, 0.0)?;
         growth.add(piece, side, Walk::identity(faces.space))?;
-        while let Some((_, h)) = growth.queue.pop() {
+        while let Some(h) = growth.next() {
             if growth.enter(h)? && growth.n_patches.is_multiple_of(PATCHES_PER_STEP) {
                 control.step(Stage::Layout, growth.order.len() as f64 / n_pieces as f64)?;
             }
@@ -198,7 +200,7 @@ impl<'a, F: Frame> Development<'a, F> {
                 return ([f64::NAN; 3], [0.0; 2]);
             }
             let (f, k) = (FaceId(first[k] / 3), first[k] as usize % 3);
-            self.placed(f).point(self.pieces.final_barycentric(f)[k])
+            self.placed(f).point(self.pieces.final_place((f, k), mesh.face_halfedges(f)[k]))
         });
         (points, remainders)
     }
@@ -226,7 +228,7 @@ impl<F: Frame> Growth<'_, F> {
         let (mesh, faces, pieces) = (self.pieces.mesh(), self.faces, self.pieces);
         let face = pieces.final_face(piece);
         let is_refined = pieces.refinement().is_some();
-        let sides = faces.around(face, k, frame);
+        let (own, sides) = (faces.mesh.face_halfedges(face), faces.around(face, k, frame));
         let number = self.new_patch(face, sides[0]);
         let (begin, mut distance) = (self.order.len(), [None; 3]);
         let mut done = begin;
@@ -254,12 +256,12 @@ impl<F: Frame> Growth<'_, F> {
                     Some(_) if is_placed => {}
                     Some(along) => {
                         let k = match is_refined {
-                            true => corner_of(faces.mesh, along)?.1,
+                            true => own.iter().position(|&side| side == along).ok_or_else(torn)?,
                             false => number_in_piece,
                         };
                         let far = match distance[k] {
                             Some(far) => far,
-                            None => *distance[k].insert(distance_beyond(faces, sides[k], along)?),
+                            None => *distance[k].insert(self.distance(&sides, k, along)?),
                         };
                         self.queue.push(far, h.twin());
                     }
@@ -270,6 +272,17 @@ impl<F: Frame> Growth<'_, F> {
             self.spans[number as usize] = [begin as u32, self.order.len() as u32];
         }
         Ok(())
+    }
+
+    /// By which distance the face beyond side `k` of a final face, whose sides have these frames, is to be added: with a cut by how far the
+    /// ends of the side are from the origin, on the average, without one by the distance of its far corner.
+    fn distance(&self, sides: &[F::Rough; 3], k: usize, along: HalfedgeId) -> Result<f64> {
+        let distance = match self.is_cut {
+            Some(_) => Some(0.5 * (sides[k].distance() + sides[(k + 1) % 3].distance())),
+            None => self.faces.distance_beyond(sides[k], along),
+        };
+        let beyond = || Error::Layout(format!("edge {} lies beyond the range of doubles", along.edge()));
+        distance.filter(|far| far.is_finite()).ok_or_else(beyond)
     }
 
     /// The number of a new patch in a final face with this frame.
@@ -283,6 +296,20 @@ impl<F: Frame> Growth<'_, F> {
         self.frames.push(frame);
         self.spans.push([0; 2]);
         self.frames.len() as u32 - 1
+    }
+
+    /// The next half-edge through which the development may go on.
+    fn next(&mut self) -> Option<HalfedgeId> {
+        let Growth { queue, faces, pieces, patch, frames, spans, .. } = self;
+        let mesh = pieces.mesh();
+        let read = |h: HalfedgeId| {
+            let Some(piece) = mesh.face(h).filter(|&f| patch[f] == NONE) else { return };
+            let face = pieces.final_face(piece);
+            faces.read(face);
+            black_box((frames[face.index()], spans.get(face.index()).copied()));
+            black_box(mesh.face_halfedges(piece).map(|h| (mesh.face(h.twin()), pieces.final_halfedge(h))));
+        };
+        queue.pop_looking_ahead(read).map(|(_, h)| h)
     }
 
     /// Adds the patch that a half-edge leads into, unless the half-edge's piece has its place; whether it did.
@@ -302,6 +329,11 @@ impl<F: Frame> Growth<'_, F> {
         let frame = self.faces.beyond(face, k, self.frames[self.patch[from] as usize]);
         self.add(piece, side, frame).map(|()| true)
     }
+}
+
+/// The error of a piece whose sides run along those of another final face than its own.
+fn torn() -> Error {
+    Error::Layout("a piece of the refinement does not lie in its face".into())
 }
 
 /// The half-edge of a final face that a half-edge of a piece, through which a development goes on, runs along.
@@ -327,20 +359,12 @@ fn start<F: Frame>(pieces: &Pieces, faces: &Faces<F>, root: Option<VertexId>) ->
     let first = faces.mesh.outgoing(root).find(|&h| !faces.mesh.is_outside(h));
     let mut any = None;
     for h in mesh.outgoing(root).filter(|&h| !mesh.is_outside(h)) {
-        let (piece, k) = corner_of(mesh, h)?;
-        let Some(side) = corner_at(pieces.final_barycentric(piece)[k]) else { continue };
+        let corner = corner_of(mesh, h)?;
+        let (piece, Some(side)) = (corner.0, pieces.final_place(corner, h).corner()) else { continue };
         if first == Some(faces.mesh.face_halfedges(pieces.final_face(piece))[side]) {
             return Ok((piece, side));
         }
         any = any.or(Some((piece, side)));
     }
     any.ok_or_else(|| Error::Layout(format!("vertex {root} has no face")))
-}
-
-/// The distance from the origin of the far corner of the face beyond a final half-edge with this frame.
-fn distance_beyond<F: Frame>(faces: &Faces<F>, frame: F::Rough, along: HalfedgeId) -> Result<f64> {
-    match faces.distance_beyond(frame, along) {
-        Some(far) if far.is_finite() => Ok(far),
-        _ => Err(Error::Layout(format!("edge {} lies beyond the range of doubles", along.edge()))),
-    }
 }

@@ -1,6 +1,7 @@
 //! The triangles of a metric, each by itself.
 
 use super::frame::{Frame, PlaneFrame, Walk};
+use super::pieces::Place;
 use super::triangle::Triangle;
 use crate::error::{Error, Result};
 use crate::geometry::model::distance;
@@ -11,6 +12,7 @@ use crate::metric::Metric;
 use crate::metric::precise::shapes;
 use crate::parallel;
 use std::cell::OnceCell;
+use std::hint::black_box;
 
 /// The triangles of a metric as frames walk along and about them.
 pub(super) struct Faces<'a, F: Frame> {
@@ -90,6 +92,12 @@ impl<'a, F: Frame> Faces<'a, F> {
             area: sum.high,
             broken: mesh.faces().filter(|f| areas[f.index()].1).collect(),
         }
+    }
+
+    /// Reads what a walk around a face reads, so that it is near when the walk comes.
+    #[inline]
+    pub fn read(&self, f: FaceId) {
+        black_box((self.angles[f][0], self.sides(f)));
     }
 
     /// Whether the lengths of a face break the triangle inequality.
@@ -246,21 +254,20 @@ impl<'a, F: Frame> Placed<'a, F> {
         combination(self.faces.space, *self.local.get_or_init(|| self.faces.local(self.face)), weights)
     }
 
-    /// The point of the face with these weights of its corners, where it lies, and what its doubles miss of x and y: nothing is known of
-    /// that elsewhere than at a corner.
-    pub fn point(&self, weights: [f64; 3]) -> ([f64; 3], [f64; 2]) {
-        match corner_at(weights) {
+    /// A point of the face where it lies, and what its doubles miss of x and y: nothing is known of that elsewhere than at a corner.
+    pub fn point(&self, place: Place) -> ([f64; 3], [f64; 2]) {
+        match place.rounded() {
             Some(corner) => self.faces.side(self.face, corner, self.first).point(),
-            None => (self.first.apply(self.local(weights)), [0.0; 2]),
+            None => (self.first.apply(self.local(place.weights())), [0.0; 2]),
         }
     }
 
-    /// By how much points miss those with these weights, as [`Frame::miss`] has it: at a corner about the corner itself, since seen
+    /// By how much points miss these of the face, as [`Frame::miss`] has it: at a corner about the corner itself, since seen
     /// from elsewhere in a large face of H² the difference would be magnified.
-    pub fn misses(&self, points: [[f64; 3]; 3], weights: [[f64; 3]; 3], sides: &[F; 3]) -> [[f64; 2]; 3] {
-        [0, 1, 2].map(|k| match corner_at(weights[k]) {
+    pub fn misses(&self, points: [[f64; 3]; 3], places: [Place; 3], sides: &[F; 3]) -> [[f64; 2]; 3] {
+        [0, 1, 2].map(|k| match places[k].rounded() {
             Some(corner) => sides[corner].miss_of_origin(points[k]),
-            None => self.first.miss(points[k], self.local(weights[k])),
+            None => self.first.miss(points[k], self.local(places[k].weights())),
         })
     }
 

@@ -63,6 +63,8 @@ pub(super) trait Walk: Copy + Send + Sync {
     /// In the same direction, but moved so that the half-edge, of this length, ends at the place of another frame. A frame of twice the
     /// digits stays as it is: it ends there to all digits that a layout has.
     fn ending_at(&self, end: &Self, side: Self::Side) -> Self;
+    /// The distance of the half-edge's start from the origin, as [`Walk::distance_of_apex`] tells it.
+    fn distance(&self) -> f64;
     /// The distance from the origin of the third corner of a triangle on this half-edge, by its angle here and its last side; or a number
     /// that grows with that distance. Doubles are enough, since it only decides the order of faces.
     fn distance_of_apex(&self, angle: Self::Angle, last: Self::Side) -> f64;
@@ -117,6 +119,10 @@ impl Walk for PlaneFrame {
 
     fn ending_at(&self, end: &Self, side: f64) -> Self {
         PlaneFrame { direction: self.direction, place: end.place }.forward(-side)
+    }
+
+    fn distance(&self) -> f64 {
+        quick_norm(self.place.map(|x| x.high))
     }
 
     fn distance_of_apex(&self, angle: [f64; 2], last: f64) -> f64 {
@@ -205,10 +211,14 @@ impl Walk for RoughMotion {
         *self
     }
 
-    fn distance_of_apex(&self, half_angle: [Twofold; 2], last: [Twofold; 2]) -> f64 {
+    fn distance(&self) -> f64 {
         // |b| is half the distance in E², its hyperbolic sine in H², its sine in S².
-        let far = self.0.after_rotation(half_angle.map(f64::from)).after_translation(last.map(f64::from));
-        quick_norm(far.b)
+        quick_norm(self.0.b)
+    }
+
+    fn distance_of_apex(&self, half_angle: [Twofold; 2], last: [Twofold; 2]) -> f64 {
+        let turned = self.0.after_rotation(half_angle.map(f64::from));
+        RoughMotion(turned.after_translation(last.map(f64::from))).distance()
     }
 }
 
@@ -312,6 +322,10 @@ impl Walk for Motion<Twofold> {
 
     fn ending_at(&self, _: &Self, _: [Twofold; 2]) -> Self {
         *self
+    }
+
+    fn distance(&self) -> f64 {
+        RoughMotion(self.rounded()).distance()
     }
 
     fn distance_of_apex(&self, half_angle: [Twofold; 2], last: [Twofold; 2]) -> f64 {

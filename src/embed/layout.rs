@@ -192,9 +192,8 @@ impl Layout {
         let mut points = vec![0; n];
         for f in self.mesh().faces() {
             let face = input.face_halfedges(self.pieces.input_face(f));
-            for (h, place) in self.mesh().face_halfedges(f).into_iter().zip(self.pieces.input_barycentric(f))
-            {
-                if let Some(corner) = place.iter().position(|&w| w == 1.0) {
+            for (k, h) in self.mesh().face_halfedges(f).into_iter().enumerate() {
+                if let Some(corner) = self.pieces.input_place((f, k), h).corner() {
                     points[corner_index[face[corner]] as usize] = self.corner_index[h];
                 }
             }

@@ -42,4 +42,7 @@ pub use place::{layout, layout_of};
 pub use quality::Quality;
 pub use sides::{BoundaryLoop, BoundarySide, boundary_sides};
 pub use steps::{Steps, steps};
-pub use unroll::{About, Scale, Source, UnrollOptions, cones_of, layout_about, unroll, unroll_source};
+pub use unroll::{
+    About, Scale, Source, UnrollOptions, cones_of, layout_about, refinement_of, unroll, unroll_by,
+    unroll_source,
+};

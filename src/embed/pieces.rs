@@ -3,6 +3,7 @@
 use crate::error::{Error, Result};
 use crate::mesh::{EdgeId, FaceId, HalfedgeId, Mesh, PerEdge, VertexId};
 use crate::metric::Refinement;
+pub(super) use crate::metric::refinement::{CORNERS, Place};
 use crate::topology::CutGraph;
 use std::sync::Arc;
 
@@ -14,9 +15,6 @@ pub(super) enum Pieces {
     /// The triangles of a common refinement.
     Refinement(Arc<Refinement>),
 }
-
-/// Weights of a triangle's corners in that triangle.
-pub(super) const CORNERS: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 impl Pieces {
     pub fn mesh(&self) -> &Mesh {
@@ -71,6 +69,16 @@ impl Pieces {
     /// Weights of a piece's corners in its final face.
     pub fn final_barycentric(&self, f: FaceId) -> [[f64; 3]; 3] {
         self.refinement().map_or(CORNERS, |r| r.final_barycentric(f))
+    }
+
+    /// Where in its face of the input a corner of a piece lies, at the origin of this half-edge.
+    pub fn input_place(&self, corner: (FaceId, usize), h: HalfedgeId) -> Place {
+        self.refinement().map_or(Place::Corner(corner.1), |r| r.input_place(corner, h))
+    }
+
+    /// Where in its final face a corner of a piece lies, at the origin of this half-edge.
+    pub fn final_place(&self, corner: (FaceId, usize), h: HalfedgeId) -> Place {
+        self.refinement().map_or(Place::Corner(corner.1), |r| r.final_place(corner, h))
     }
 
     /// A cut of the input on the pieces: the same segments, edge by edge.

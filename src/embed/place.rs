@@ -205,8 +205,9 @@ impl<F: Frame> Development<'_, F> {
         let (sides, over) = (placed.sides(), 1.0 / placed.longest());
         let (mut worst, mut worst_edge) = (0.0, 0.0);
         for f in pieces {
-            let points = self.pieces.mesh().face_halfedges(f).map(&point);
-            let off = placed.misses(points, self.pieces.final_barycentric(f), &sides);
+            let corners = self.pieces.mesh().face_halfedges(f);
+            let places = [0, 1, 2].map(|k| self.pieces.final_place((f, k), corners[k]));
+            let off = placed.misses(corners.map(&point), places, &sides);
             let off = off.map(|off| off.map(|x| x * over));
             for k in 0..3 {
                 worst = worse(worst, norm2(off[k]));

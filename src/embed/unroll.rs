@@ -1,9 +1,9 @@
 //! The layout of a flow's result on the surface as it came.
 
-use super::faces::{Faces, combination, corner_at};
+use super::faces::{Faces, combination};
 use super::frame::{Frame, PlaneFrame};
 use super::layout::{Layout, distance};
-use super::pieces::Pieces;
+use super::pieces::{Pieces, Place};
 use super::place::lay_out;
 use crate::control::Control;
 use crate::error::{Result, check_size};
@@ -87,26 +87,52 @@ pub fn cones_of(mesh: &Mesh, curvature: &[f64], tolerance: f64) -> Result<Vec<Ve
 /// # }
 /// ```
 pub fn unroll(result: &Solution, options: &UnrollOptions, control: &Control) -> Result<Layout> {
-    control.check()?;
-    let threads = if options.threads == 0 { result.threads() } else { options.threads };
-    within(threads, || unroll_in_pool(result, options, control))
+    let refine = || match &options.refinement {
+        Some(refinement) => Ok(Some(refinement.clone())),
+        None => refinement_of(result, control),
+    };
+    unroll_by(result, options, refine, control)
 }
 
-fn unroll_in_pool(result: &Solution, options: &UnrollOptions, control: &Control) -> Result<Layout> {
+/// [`Solution::refinement`] where edges were flipped.
+///
+/// # Errors
+/// As there.
+pub fn refinement_of(result: &Solution, control: &Control) -> Result<Option<Arc<Refinement>>> {
+    if result.is_unflipped() { Ok(None) } else { result.refinement(control).map(|r| Some(Arc::new(r))) }
+}
+
+/// [`unroll`] with what `refine` makes, which is to be [`refinement_of`] the result, beside the triangles of the metric: who calls can measure
+/// its time, or keep it. [`UnrollOptions::refinement`] has no part in it.
+///
+/// # Errors
+/// Those of [`unroll`] and of `refine`.
+pub fn unroll_by(
+    result: &Solution,
+    options: &UnrollOptions,
+    refine: impl FnOnce() -> Result<Option<Arc<Refinement>>> + Send,
+    control: &Control,
+) -> Result<Layout> {
+    control.check()?;
+    let threads = if options.threads == 0 { result.threads() } else { options.threads };
+    within(threads, || unroll_in_pool(result, options, refine, control))
+}
+
+fn unroll_in_pool(
+    result: &Solution,
+    options: &UnrollOptions,
+    refine: impl FnOnce() -> Result<Option<Arc<Refinement>>> + Send,
+    control: &Control,
+) -> Result<Layout> {
     let given = result.given();
-    let refinement = match &options.refinement {
-        Some(refinement) => Some(refinement.clone()),
-        None if result.is_unflipped() => None,
-        None => Some(Arc::new(result.refinement(control)?)),
-    };
-    let source = Source { given, mesh: result.mesh(), metric: result.metric(), refinement };
+    let source = Source { given, mesh: result.mesh(), metric: result.metric(), refinement: None };
     let known = result.report().map(|_| result.cones().to_vec());
     let cones = options.cones.clone().or(known);
     let options = UnrollOptions { cones, ..options.clone() };
     let is_scaled = options.scale != Scale::AsSolved && result.metric().space == Space::E2;
     let given_area =
         || is_scaled.then(|| area(given, result.initial().input_geometry, result.surface().lengths()));
-    let (layout, given_area) = parallel::join(|| laid_out(source, &options, control), given_area);
+    let (layout, given_area) = parallel::join(|| laid_out(source, refine, &options, control), given_area);
     let mut layout = layout?;
     match given_area {
         Some(area) => {
@@ -135,18 +161,29 @@ pub struct Source<'a> {
 /// # Errors
 /// Those of [`unroll`].
 pub fn unroll_source(source: Source, options: &UnrollOptions, control: &Control) -> Result<Layout> {
-    let mut layout = laid_out(source, options, control)?;
+    let refinement = source.refinement.clone();
+    let mut layout = laid_out(source, || Ok(refinement), options, control)?;
     layout.find_flat();
     Ok(layout)
 }
 
-fn laid_out(source: Source, options: &UnrollOptions, control: &Control) -> Result<Layout> {
+/// The layout of a source with the refinement that `refine` makes.
+fn laid_out(
+    source: Source,
+    refine: impl FnOnce() -> Result<Option<Arc<Refinement>>> + Send,
+    options: &UnrollOptions,
+    control: &Control,
+) -> Result<Layout> {
     control.check()?;
     let Source { mesh, metric, .. } = source;
-    match metric.space {
-        Space::E2 => by::<PlaneFrame>(&Faces::in_plane(mesh, metric)?, source, options, control),
-        _ => by::<Motion<Twofold>>(&Faces::precise(mesh, metric)?, source, options, control),
+    let refined = |refinement| Source { refinement, ..source };
+    // One thread alone forms most of a refinement.
+    if metric.space == Space::E2 {
+        let (refinement, faces) = parallel::join(refine, || Faces::in_plane(mesh, metric));
+        return by::<PlaneFrame>(&faces?, refined(refinement?), options, control);
     }
+    let (refinement, faces) = parallel::join(refine, || Faces::precise(mesh, metric));
+    by::<Motion<Twofold>>(&faces?, refined(refinement?), options, control)
 }
 
 fn by<F: Frame>(
@@ -248,12 +285,14 @@ fn lengths_of_pieces<F: Frame>(pieces: &Pieces, faces: &Faces<F>) -> PerEdge<f64
     let mut parts = vec![[0.0; 3]; mesh.n_faces()];
     parallel::fill(&mut parts, |f| {
         let f = FaceId::from(f);
-        let (face, weights, sides) =
-            (pieces.final_face(f), pieces.final_barycentric(f), mesh.face_halfedges(f));
+        let (face, sides) = (pieces.final_face(f), mesh.face_halfedges(f));
+        let places = [0, 1, 2].map(|k| pieces.final_place((f, k), sides[k]));
         let corners = OnceCell::new();
-        let point =
-            |k: usize| combination(faces.space, *corners.get_or_init(|| faces.local(face)), weights[k]);
-        [0, 1, 2].map(|k| match [weights[k], weights[(k + 1) % 3]].map(corner_at) {
+        let point = |k: usize| {
+            let corners = *corners.get_or_init(|| faces.local(face));
+            combination(faces.space, corners, places[k].weights())
+        };
+        [0, 1, 2].map(|k| match [places[k], places[(k + 1) % 3]].map(Place::rounded) {
             _ if !counts(sides[k]) => 0.0,
             // A whole side of the final face.
             [Some(from), Some(to)] if from != to => faces.length(face, 3 - from - to),

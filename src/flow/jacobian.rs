@@ -13,6 +13,7 @@ use crate::error::{Error, Result};
 use crate::linalg::{Pattern, Symmetric};
 use crate::mesh::{EdgeId, Mesh, VertexId};
 use crate::metric::Metric;
+use crate::parallel::fill;
 
 /// Stands where there is no unknown or no entry.
 const NONE: u32 = u32::MAX;
@@ -42,18 +43,19 @@ impl Jacobian {
                 n += 1;
             }
         }
-        let ends = |e| mesh.ends(e).map(|v| unknown[v.index()]);
+        let ends = |e: EdgeId| mesh.ends(e).map(|v| unknown[v.index()]);
         let pair = |[i, j]: [u32; 2]| (i != NONE && j != NONE && i != j).then_some((i, j));
         let pairs: Vec<(u32, u32)> = mesh.edges().map(ends).filter_map(pair).collect();
         let pattern = Pattern::new(n as usize, &pairs)?;
         let position = |(i, j): (u32, u32)| pattern.position(i as usize, j as usize);
-        let entry = |e| pair(ends(e)).and_then(position).map_or(NONE, |p| p as u32);
-        Ok(Jacobian {
-            entry: mesh.edges().map(entry).collect(),
-            values: vec![0.0; pattern.entries()],
-            unknown,
-            pattern,
-        })
+        let mut entry = vec![NONE; mesh.n_edges()];
+        fill(&mut entry, |e| pair(ends(e.into())).and_then(position).map_or(NONE, |p| p as u32));
+        Ok(Jacobian { entry, values: vec![0.0; pattern.entries()], unknown, pattern })
+    }
+
+    /// Give back the memory of all but the pattern, which another one is to be compared with.
+    pub fn forget_values(&mut self) {
+        (self.unknown, self.entry, self.values) = (Vec::new(), Vec::new(), Vec::new());
     }
 
     /// Fill the matrix with the derivative at a state.

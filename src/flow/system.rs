@@ -108,12 +108,13 @@ impl System {
     /// The same unknowns after `flips` more edge flips. The factor stays that of the last matrix; [`System::analysed`] makes ready for
     /// another one.
     pub fn flipped(
-        self,
+        mut self,
         mesh: &Mesh,
         fixed: &[bool],
         mirror: Option<&[u32]>,
         flips: usize,
     ) -> Result<System> {
+        self.jacobian.forget_values();
         let jacobian = Jacobian::new(mesh, fixed, mirror)?;
         let is_analysed = self.is_analysed && jacobian.pattern == self.jacobian.pattern;
         Ok(System { jacobian, is_analysed, age: self.age + flips, ..self })

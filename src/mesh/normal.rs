@@ -28,26 +28,47 @@
 //! ```
 
 use super::halfedge::Mesh;
-use super::ids::{EdgeId, HalfedgeId};
+use super::ids::{EdgeId, HalfedgeId, VertexId};
 use crate::error::{Error, Result, check_size};
+use std::sync::Arc;
 
 /// Largest coordinate that is kept, 6e17; beyond it the coordinates are marked as out of range. Sums of up to 16 coordinates stay in the
 /// range of i64, and a curve with so many crossings could not be traced anyway.
 const MOST: i64 = i64::MAX / 16;
 
-/// The given triangulation as curves on the current one.
+/// The given triangulation as curves on the current one. Clones share their arrays until one of them follows another flip.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NormalCoordinates {
+    now: Arc<Coordinates>,
+    given: Arc<Given>,
+    /// The first edge whose coordinate left the range.
+    overflow: Option<EdgeId>,
+}
+
+/// What flips change.
+#[derive(Debug, Clone, PartialEq)]
+struct Coordinates {
     /// Per edge: n.
     crossings: Vec<i64>,
     /// Per half-edge: the roundabout, below the given degree of its origin.
     first: Vec<u32>,
-    /// Per vertex: where its given half-edges start in `given`, and the end of the last.
+}
+
+/// The given triangulation, of which the curves are told apart by the order in which they leave the vertices.
+#[derive(Debug, PartialEq)]
+struct Given {
+    /// Per vertex: where its half-edges start in `halfedges`, and the end of the last.
     start: Vec<u32>,
-    /// The half-edges of the given triangulation, counterclockwise around each vertex; on the boundary the one outside is last.
-    given: Vec<HalfedgeId>,
-    /// The first edge whose coordinate left the range.
-    overflow: Option<EdgeId>,
+    /// Counterclockwise around each vertex; on the boundary the one outside is last.
+    halfedges: Vec<HalfedgeId>,
+}
+
+impl Given {
+    /// Where the half-edges of a vertex begin and end.
+    #[inline]
+    fn around(&self, v: VertexId) -> [i64; 2] {
+        [v.index(), v.index() + 1].map(|v| i64::from(self.start[v]))
+    }
 }
 
 /// What one flip changes of [`NormalCoordinates`], to undo it.
@@ -96,7 +117,11 @@ impl NormalCoordinates {
             }
         }
         start.push(given.len() as u32);
-        NormalCoordinates { crossings: vec![-1; mesh.n_edges()], first, start, given, overflow: None }
+        NormalCoordinates {
+            now: Arc::new(Coordinates { crossings: vec![-1; mesh.n_edges()], first }),
+            given: Arc::new(Given { start, halfedges: given }),
+            overflow: None,
+        }
     }
 
     /// Follow one flip: to be called with the triangulation as it is just before [`Mesh::flip`] of this edge. O(1).
@@ -111,7 +136,8 @@ impl NormalCoordinates {
             return;
         }
         let [bc, ca, ad, db] = mesh.quadrilateral(h);
-        let n = |h: HalfedgeId| self.crossings[h.edge().index()];
+        let Coordinates { crossings, first } = Arc::make_mut(&mut self.now);
+        let n = |h: HalfedgeId| crossings[h.edge().index()];
         let ab = n(h);
         let Strands { arc: [a, b, c], fan: [from_a, from_b, from_c] } = Strands::new([ab, n(bc), n(ca)]);
         let Strands { arc: [b_below, a_below, d], fan: [also_b, also_a, from_d] } =
@@ -127,23 +153,23 @@ impl NormalCoordinates {
         if dc > MOST {
             self.overflow.get_or_insert(e);
         }
-        let at_c = i64::from(self.first[ca.index()]) + i64::from(n(ca) < 0) + left_of_c;
-        let at_d = i64::from(self.first[db.index()]) + i64::from(n(db) < 0) + right_of_d;
+        let at_c = i64::from(first[ca.index()]) + i64::from(n(ca) < 0) + left_of_c;
+        let at_d = i64::from(first[db.index()]) + i64::from(n(db) < 0) + right_of_d;
         let degree = |h: HalfedgeId| {
-            let v = mesh.origin(h).index();
-            i64::from(self.start[v + 1] - self.start[v])
+            let [begin, end] = self.given.around(mesh.origin(h));
+            end - begin
         };
         let (cd, dc_first) = (at_c % degree(ca), at_d % degree(db));
-        self.crossings[e.index()] = dc.min(MOST);
-        (self.first[h.index()], self.first[t.index()]) = (dc_first as u32, cd as u32);
+        crossings[e.index()] = dc.min(MOST);
+        (first[h.index()], first[t.index()]) = (dc_first as u32, cd as u32);
     }
 
     /// All that a flip of this edge will change.
     pub(super) fn coordinates(&self, e: EdgeId) -> EdgeCoordinates {
         let h = e.halfedge();
         EdgeCoordinates {
-            crossings: self.crossings[e.index()],
-            first: [h, h.twin()].map(|h| self.first[h.index()]),
+            crossings: self.crossings(e),
+            first: [h, h.twin()].map(|h| self.now.first[h.index()]),
             overflow: self.overflow,
         }
     }
@@ -151,15 +177,16 @@ impl NormalCoordinates {
     /// Undo the last flip recorded, which was one of this edge, from the coordinates before it.
     pub(super) fn restore(&mut self, e: EdgeId, before: EdgeCoordinates) {
         let h = e.halfedge();
-        self.crossings[e.index()] = before.crossings;
-        [self.first[h.index()], self.first[h.twin().index()]] = before.first;
+        let now = Arc::make_mut(&mut self.now);
+        now.crossings[e.index()] = before.crossings;
+        [now.first[h.index()], now.first[h.twin().index()]] = before.first;
         self.overflow = before.overflow;
     }
 
     /// n of an edge: how many curves cross it, −1 if it is a curve itself. Never 0: inside a triangle of the given triangulation
     /// there is no other edge.
     pub fn crossings(&self, e: EdgeId) -> i64 {
-        self.crossings[e.index()]
+        self.now.crossings[e.index()]
     }
 
     /// n of the sides of the face of `h`, from `h` on.
@@ -170,12 +197,11 @@ impl NormalCoordinates {
     /// The given half-edge that leaves the origin of `h` as the `turn`-th counterclockwise from `h` (0: along `h`, or the first
     /// after it; −1: the last before it).
     pub fn leaving(&self, mesh: &Mesh, h: HalfedgeId, turn: i64) -> HalfedgeId {
-        let v = mesh.origin(h).index();
-        let [begin, end] = [v, v + 1].map(|v| i64::from(self.start[v]));
-        let (k, degree) = (i64::from(self.first[h.index()]) + turn, end - begin);
+        let [begin, end] = self.given.around(mesh.origin(h));
+        let (k, degree) = (i64::from(self.now.first[h.index()]) + turn, end - begin);
         // Seldom around: a remainder takes longer than all else here.
         let k = if (0..degree).contains(&k) { k } else { k.rem_euclid(degree) };
-        self.given[(begin + k) as usize]
+        self.given.halfedges[(begin + k) as usize]
     }
 
     /// The given half-edge that `h` runs along, if it does.
@@ -189,10 +215,10 @@ impl NormalCoordinates {
     /// [`Error::Size`] if these are not the coordinates of this mesh; [`Error::TooLarge`] if coordinates have left the range, or if there
     /// are more crossings than can be numbered.
     pub fn check(&self, mesh: &Mesh) -> Result<usize> {
-        check_size("normal coordinates", self.crossings.len(), mesh.n_edges())?;
-        check_size("roundabouts", self.start.len(), mesh.n_vertices() + 1)?;
+        check_size("normal coordinates", self.now.crossings.len(), mesh.n_edges())?;
+        check_size("roundabouts", self.given.start.len(), mesh.n_vertices() + 1)?;
         let what = "crossings of the input's edges with those of the final triangulation";
-        let total = self.crossings.iter().try_fold(0i64, |sum, &n| sum.checked_add(n.max(0)));
+        let total = self.now.crossings.iter().try_fold(0i64, |sum, &n| sum.checked_add(n.max(0)));
         match total {
             Some(total) if self.overflow.is_none() && total < i64::from(i32::MAX) => Ok(total as usize),
             _ => Err(Error::TooLarge { what, count: total.map_or(usize::MAX, |n| n as usize) }),

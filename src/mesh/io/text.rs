@@ -85,6 +85,8 @@ pub fn write_blocks(
 ) -> io::Result<()> {
     let block = |b: usize| {
         let items = b * ITEMS..((b + 1) * ITEMS).min(n);
+        // A file is seldom what others wait for.
+        parallel::give_way();
         let mut text = Text { bytes: Vec::with_capacity(BYTES_PER_ITEM * items.len()) };
         items.for_each(|k| item(&mut text, k));
         text

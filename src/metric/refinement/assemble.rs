@@ -4,6 +4,7 @@ use super::parts::{Crossing, OnFace, Refinement, torn};
 use super::pieces::{Corner, Pieces};
 use crate::error::Result;
 use crate::mesh::{FaceId, HalfedgeId, Mesh, PerFace};
+use crate::parallel;
 
 /// Marks a vertex or edge that is in no piece that is kept.
 const UNUSED: u32 = u32::MAX;
@@ -32,16 +33,20 @@ pub(super) fn assemble(pieces: Pieces, crossings: Vec<Crossing>, weight: Vec<f64
     }
     let (vertex, n_vertices) = numbered(vertex);
     let (edge, n_edges) = numbered(edge);
-    let mut origin = vec![0; 2 * n_edges];
     let mut sides = pieces.sides;
-    for (sides, corners) in sides.iter_mut().zip(&pieces.corners) {
-        for k in 0..3 {
-            sides[k] = 2 * edge[(sides[k] >> 1) as usize] + (sides[k] & 1);
-            origin[sides[k] as usize] = vertex[corners[k].vertex as usize];
-            origin[sides[k] as usize ^ 1] = vertex[corners[(k + 1) % 3].vertex as usize];
+    let connected = || {
+        let mut origin = vec![0; 2 * n_edges];
+        for (sides, corners) in sides.iter_mut().zip(&pieces.corners) {
+            for k in 0..3 {
+                sides[k] = 2 * edge[(sides[k] >> 1) as usize] + (sides[k] & 1);
+                origin[sides[k] as usize] = vertex[corners[k].vertex as usize];
+                origin[sides[k] as usize ^ 1] = vertex[corners[(k + 1) % 3].vertex as usize];
+            }
         }
-    }
-    let (places, [input_face, final_face]) = faces_of(&pieces.corners, [input, result])?;
+        Mesh::assemble(n_vertices, origin, &sides)
+    };
+    let (mesh, faces) = parallel::join(connected, || faces_of(&pieces.corners, [input, result]));
+    let (mesh, (places, [input_face, final_face])) = (mesh?, faces?);
     let n = input.n_vertices();
     let is_kept = |v: &usize| vertex[*v] != UNUSED;
     let kept_edges = (0..edge.len()).filter(|&e| edge[e] != UNUSED);
@@ -54,7 +59,7 @@ pub(super) fn assemble(pieces: Pieces, crossings: Vec<Crossing>, weight: Vec<f64
         places,
         piece: pieces.piece.into(),
         origin: kept_edges.map(|e| pieces.origins[e]).collect::<Vec<_>>().into(),
-        mesh: Mesh::assemble(n_vertices, origin, &sides)?,
+        mesh,
     })
 }
 

@@ -56,6 +56,41 @@ pub(super) struct OnFace {
     pub backward: bool,
 }
 
+/// Where in a face a corner of a triangle of the refinement lies.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Place {
+    /// At this corner.
+    Corner(usize),
+    /// On a side, with these weights of the corners; one of them may be rounded to 1.
+    Side([f64; 3]),
+}
+
+/// Weights of a triangle's corners in that triangle.
+pub(crate) const CORNERS: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
+impl Place {
+    /// The corner, if it lies at one.
+    pub fn corner(self) -> Option<usize> {
+        if let Place::Corner(corner) = self { Some(corner) } else { None }
+    }
+
+    /// The corner at which it lies as far as doubles tell.
+    pub fn rounded(self) -> Option<usize> {
+        match self {
+            Place::Corner(corner) => Some(corner),
+            Place::Side(weights) => weights.iter().position(|&w| w == 1.0),
+        }
+    }
+
+    /// Weights of the corners.
+    pub fn weights(self) -> [f64; 3] {
+        match self {
+            Place::Corner(corner) => CORNERS[corner],
+            Place::Side(weights) => weights,
+        }
+    }
+}
+
 /// The common refinement. Its vertices are those of the input, in order, then the crossings.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Refinement {
@@ -101,21 +136,29 @@ impl Refinement {
     }
 
     pub(super) fn barycentric(&self, f: FaceId, side: Side) -> [[f64; 3]; 3] {
-        let vertices = self.mesh.face_vertices(f);
-        [0, 1, 2].map(|k| {
-            let OnFace { corner, backward } = self.places[f.index()][k][side as usize];
-            let corner = usize::from(corner);
-            let mut all = [0.0; 3];
-            match self.crossing(vertices[k]) {
-                None => all[corner] = 1.0,
-                Some(crossing) => {
-                    let [from, to] = crossing.on(side).1;
-                    let tip = (corner + 1) % 3;
-                    (all[corner], all[tip]) = if backward { (to, from) } else { (from, to) };
-                }
-            }
-            all
-        })
+        let halfedges = self.mesh.face_halfedges(f);
+        [0, 1, 2].map(|k| self.place((f, k), halfedges[k], side).weights())
+    }
+
+    /// Where in its face of the input a corner of a triangle lies, at the origin of this half-edge.
+    pub(crate) fn input_place(&self, corner: (FaceId, usize), h: HalfedgeId) -> Place {
+        self.place(corner, h, Side::Input)
+    }
+
+    /// Where in its final face a corner of a triangle lies, at the origin of this half-edge.
+    pub(crate) fn final_place(&self, corner: (FaceId, usize), h: HalfedgeId) -> Place {
+        self.place(corner, h, Side::Final)
+    }
+
+    #[inline]
+    fn place(&self, (f, k): (FaceId, usize), h: HalfedgeId, side: Side) -> Place {
+        let OnFace { corner, backward } = self.places[f.index()][k][side as usize];
+        let corner = usize::from(corner);
+        let Some(crossing) = self.crossing(self.mesh.origin(h)) else { return Place::Corner(corner) };
+        let [from, to] = crossing.on(side).1;
+        let (mut all, tip) = ([0.0; 3], (corner + 1) % 3);
+        (all[corner], all[tip]) = if backward { (to, from) } else { (from, to) };
+        Place::Side(all)
     }
 
     /// The crossing that a vertex is, if it is none of the input's.
