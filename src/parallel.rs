@@ -129,7 +129,7 @@ fn alone<R>(work: impl FnOnce() -> R) -> R {
 }
 
 /// Whether other threads may take part of the work of this one.
-fn is_shared() -> bool {
+pub(crate) fn is_shared() -> bool {
     !ALONE.get() && rayon::current_thread_index().is_some()
 }
 

@@ -184,18 +184,20 @@ fn array(
 ) -> io::Result<()> {
     write!(out, ",\"{name}\":[")?;
     write_blocks(out, n, |text, k| {
-        text.text(if k == 0 { "" } else { "," });
+        if k > 0 {
+            text.character(',');
+        }
         item(text, k);
     })?;
     out.write_all(b"]")
 }
 
 fn triple<T: Copy>(text: &mut Text, values: [T; 3], item: impl Fn(&mut Text, T)) {
-    for (before, value) in ["[", ",", ","].into_iter().zip(values) {
-        text.text(before);
+    for (before, value) in ['[', ',', ','].into_iter().zip(values) {
+        text.character(before);
         item(text, value);
     }
-    text.text("]");
+    text.character(']');
 }
 
 /// A number of JSON, which has none that is not finite.
@@ -204,7 +206,9 @@ fn number(text: &mut Text, x: f64) {
 }
 
 fn signed(text: &mut Text, n: i32) {
-    text.text(if n < 0 { "-" } else { "" });
+    if n < 0 {
+        text.character('-');
+    }
     text.count(n.unsigned_abs().into());
 }
 

@@ -125,9 +125,9 @@ pub fn write_origins(out: &mut impl Write, input: &Input, laid: &Laid, on: OnCho
     writeln!(out, "output_face,source_face")?;
     io::text::write_blocks(out, mesh.n_faces(), |text, f| {
         text.count(f as u64);
-        text.text(",");
+        text.character(',');
         text.count(source(f.into()).0.0.into());
-        text.text("\n");
+        text.character('\n');
     })?;
     writeln!(out, "output_vertex,source_face,b0,b1,b2")?;
     for (v, (face, [a, b, c])) in place.into_iter().enumerate().filter_map(|(v, p)| Some((v, p?))) {

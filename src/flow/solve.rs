@@ -289,15 +289,19 @@ impl Flow {
         self.after_measuring(state, report, control)
     }
 
-    /// [`Flow::evaluate`] at the start, beside the analysis of the triangulation for Newton's method, whose order one thread has to find.
+    /// [`Flow::evaluate`] at the start, beside the analysis of the triangulation for Newton's method, whose order one thread has to find,
+    /// unless it has been made with the flow.
     fn begin(&mut self, state: &mut State, report: &mut Report, control: &Control) -> Result<bool> {
         let is_newton = self.options.method == Method::Newton;
-        if !is_newton || self.system.is_some() || self.pool.threads() == 1 {
+        let is_at_work = self.system.as_ref().is_some_and(System::has_factor);
+        if !is_newton || is_at_work || self.pool.threads() == 1 {
             return self.evaluate(state, report, control);
         }
+        let early = self.system.take();
         let (mut measuring, mut both) = (0.0, 0.0);
         let measure = || timed(&mut measuring, || state.measure(&self.mesh, &self.metric));
-        let (system, ()) = timed(&mut both, || join(|| self.new_system(), measure));
+        let analyse = || early.map_or_else(|| self.new_system(), Ok);
+        let (system, ()) = timed(&mut both, || join(analyse, measure));
         report.seconds.assemble += measuring;
         report.seconds.analyse += both - measuring;
         let is_real = self.after_measuring(state, report, control)?;

@@ -3,14 +3,15 @@
 use super::Flow;
 use super::memory::Memory;
 use super::options::{Flips, Method, Options};
-use super::origin::Origin;
+use super::origin::{Delaunay, Origin};
 use super::solution::Solution;
+use super::system::System;
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::Space;
-use crate::mesh::{FixedEdges, FlipLog, Mesh, PerVertex, VertexId};
+use crate::mesh::{Double, FixedEdges, FlipLog, Mesh, PerVertex, VertexId};
 use crate::metric::{Class, Metric, Surface};
-use crate::parallel::Pool;
+use crate::parallel::{Pool, is_shared, join};
 use std::sync::Arc;
 
 impl Flow {
@@ -22,21 +23,30 @@ impl Flow {
     pub fn new(surface: Surface, class: Class, options: &Options, control: &Control) -> Result<Flow> {
         control.check()?;
         let pool = Arc::new(Pool::new(options.threads)?);
-        let origin = match is_rigid(surface.geometry(), class, options) {
-            true => Origin::rigid(surface, class)?,
-            false => {
-                let start = |doubled| {
-                    Origin::delaunay(surface.clone(), class, doubled, &options.fixed_edges, control)
-                };
-                let begin = || {
-                    let one_copy = start(false)?;
-                    let fits = surface.mesh().is_closed() || !options.pinned.is_empty() || one_copy.is_half;
-                    if fits { Ok(one_copy) } else { start(true) }
-                };
-                pool.run(begin)?
+        let early = |mesh: &Mesh, double: Option<&Double>| early_system(mesh, double, class, options);
+        let begin = || {
+            if is_rigid(surface.geometry(), class, options) {
+                let (origin, system) =
+                    join(|| Origin::rigid(surface.clone(), class), || early(surface.mesh(), None));
+                return Ok((origin?, system));
             }
+            let start =
+                |doubled| Delaunay::new(surface.clone(), class, doubled, &options.fixed_edges, control);
+            if surface.mesh().is_closed() || !options.pinned.is_empty() {
+                return start(false)?.origin_beside(|mesh| early(mesh, None));
+            }
+            let (one_copy, ()) = start(false)?.origin_beside(|_| ())?;
+            if one_copy.is_half {
+                return Ok((one_copy, None));
+            }
+            let doubled = start(true)?;
+            let double = doubled.double.clone();
+            doubled.origin_beside(|mesh| early(mesh, double.as_ref()))
         };
-        Flow::go_on(Solution::start(origin), options, pool)
+        let (origin, system) = pool.run(begin)?;
+        let mut flow = Flow::go_on(Solution::start(origin), options, pool)?;
+        flow.system = system;
+        Ok(flow)
     }
 
     /// Go on from a metric of the surface: on its triangulation, from its u.
@@ -82,7 +92,7 @@ impl Flow {
         let (mut fixed, mut mirror) = (FixedEdges::new(now.given(), &options.fixed_edges)?, None);
         if let Some(double) = &origin.double {
             fixed = FixedEdges::new(&mesh, &double.with_images(&options.fixed_edges)?)?;
-            mirror = Some(mesh.vertices().map(|v| double.mirror(v).0).collect());
+            mirror = Some(mirror_of(double));
             // Rounding has told mirror images apart: they must be the same to begin with.
             let Metric { u, u_low, .. } = &mut now.metric;
             for v in mesh.vertices().skip(double.n_half_vertices()) {
@@ -194,6 +204,23 @@ impl Flow {
     pub fn solution(&self) -> Solution {
         self.now.clone()
     }
+}
+
+/// The analysed system of a flow by Newton's method without pins, made while another thread forms the initial metric: one thread alone
+/// finds its order. None where nobody else works, and where none can be made: the error is then that of later.
+fn early_system(mesh: &Mesh, double: Option<&Double>, class: Class, options: &Options) -> Option<System> {
+    let is_plain = options.method == Method::Newton && class.space != Space::S2 && options.pinned.is_empty();
+    if !is_plain || !is_shared() {
+        return None;
+    }
+    let mut held = vec![false; mesh.n_vertices()];
+    *held.first_mut()? = class.space == Space::E2;
+    System::new(mesh, &held, double.map(mirror_of).as_deref()).ok()
+}
+
+/// Per vertex of a double its mirror image.
+fn mirror_of(double: &Double) -> Vec<u32> {
+    double.mesh.vertices().map(|v| double.mirror(v).0).collect()
 }
 
 /// Whether these options let edges flip at all.

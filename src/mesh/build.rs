@@ -12,9 +12,10 @@
 use super::check::{Diagnosis, diagnose_gluing, diagnose_incidence, diagnose_positions, is_sound};
 use super::halfedge::Mesh;
 use super::ids::{FaceId, HalfedgeId, VertexId};
-use super::incidence::{Incidence, NONE};
+use super::incidence::{Incidence, NONE, hangs_together};
 use super::io::Soup;
 use crate::error::{Error, Result, check_size};
+use crate::parallel;
 use std::cmp::Reverse;
 
 impl Mesh {
@@ -193,12 +194,22 @@ fn defects(diagnosis: Diagnosis) -> Option<Error> {
 ///
 /// [`Error::Connectivity`] for every list that has a defect of its indices, without saying which: the diagnosis does.
 fn connect(faces: &[[u32; 3]], incidence: Incidence) -> Result<Mesh> {
-    if !incidence.is_one_surface(faces) {
+    let n_vertices = incidence.n_vertices;
+    let (hangs_together, numbered) =
+        parallel::join(|| hangs_together(n_vertices, faces), || numbered(faces, incidence));
+    let (true, Some((origin, sides))) = (hangs_together, numbered) else {
         let message = "is no connected oriented surface of triangles";
         return Err(Error::Connectivity { element: "mesh", index: 0, message });
+    };
+    Mesh::assemble(n_vertices, origin, &sides)
+}
+
+/// The origins of the half-edges, and the half-edges of each face, of oriented triangles.
+fn numbered(faces: &[[u32; 3]], incidence: Incidence) -> Option<(Vec<u32>, Vec<[u32; 3]>)> {
+    if !incidence.is_oriented(faces) {
+        return None;
     }
-    let (n_vertices, partner) = (incidence.n_vertices, incidence.partners(faces.len()));
-    let n_edges = incidence.edges().len();
+    let (partner, n_edges) = (incidence.partners(faces.len()), incidence.edges().len());
     drop(incidence);
     let mut origin = Vec::with_capacity(2 * n_edges);
     let mut sides = vec![[NONE; 3]; faces.len()];
@@ -214,8 +225,7 @@ fn connect(faces: &[[u32; 3]], incidence: Incidence) -> Result<Mesh> {
             };
         }
     }
-    drop(partner);
-    Mesh::assemble(n_vertices, origin, &sides)
+    Some((origin, sides))
 }
 
 /// Most isolated vertices that are diagnosed one by one, a million; a list with more is refused as a whole, before memory is taken for

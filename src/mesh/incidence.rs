@@ -53,9 +53,9 @@ impl Incidence {
         Incidence { n_vertices, triangle, sides: sorted.into_iter().map(|(_, side)| side).collect(), group }
     }
 
-    /// Whether the faces are one connected surface of triangles, no two with the same vertices, whose edges have one face or two that run
-    /// along them in opposite directions. Vertices may still have several fans, or none.
-    pub fn is_one_surface(&self, faces: &[[u32; 3]]) -> bool {
+    /// Whether the faces are triangles, no two with the same vertices, whose edges have one face or two that run along them in opposite
+    /// directions. Vertices may still have several fans, or none.
+    pub fn is_oriented(&self, faces: &[[u32; 3]]) -> bool {
         let third = |side: u32| faces[side as usize / 3][(side as usize + 2) % 3];
         let is_sound = |sides: &[u32]| match *sides {
             [_] => true,
@@ -63,14 +63,7 @@ impl Incidence {
             _ => false,
         };
         let is_whole = !faces.is_empty() && self.triangle.iter().all(|&is_triangle| is_triangle);
-        is_whole && self.edges().all(is_sound) && self.hangs_together(faces)
-    }
-
-    /// Whether all vertices are connected through faces.
-    fn hangs_together(&self, faces: &[[u32; 3]]) -> bool {
-        let mut pieces = UnionFind::new(self.n_vertices);
-        let join = |&[a, b, c]: &[u32; 3]| usize::from(pieces.join(a, b)) + usize::from(pieces.join(a, c));
-        faces.iter().map(join).sum::<usize>() + 1 == self.n_vertices
+        is_whole && self.edges().all(is_sound)
     }
 
     /// Whether the face has three different existing vertices.
@@ -149,6 +142,16 @@ fn each_side(faces: &[[u32; 3]], is_triangle: &[bool], mut take: impl FnMut([u32
             take([a.min(b), a.max(b)], (3 * f + k) as u32);
         }
     }
+}
+
+/// Whether all vertices are there and connected through faces.
+pub(super) fn hangs_together(n_vertices: usize, faces: &[[u32; 3]]) -> bool {
+    if faces.as_flattened().iter().any(|&v| v as usize >= n_vertices) {
+        return false;
+    }
+    let mut pieces = UnionFind::new(n_vertices);
+    let join = |&[a, b, c]: &[u32; 3]| usize::from(pieces.join(a, b)) + usize::from(pieces.join(a, c));
+    faces.iter().map(join).sum::<usize>() + 1 == n_vertices
 }
 
 /// The vertices in sets: those of one piece of the surface, connected through faces.

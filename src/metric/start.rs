@@ -63,13 +63,27 @@ pub fn delaunay_start(
     record: &mut dyn FnMut(&Mesh, Flip),
     control: &Control,
 ) -> Result<Initial> {
-    let StartOptions { class: Class { scheme, space }, double, fixed } = options;
+    let radii = make_delaunay(surface, options, record, control)?;
+    initial_on(surface, options.class, radii)
+}
+
+/// The flips of [`delaunay_start`]; returns the radii of virtual circles and of inversive distance.
+///
+/// # Errors
+/// As there.
+pub(crate) fn make_delaunay(
+    surface: &mut Triangulated,
+    options: StartOptions,
+    record: &mut dyn FnMut(&Mesh, Flip),
+    control: &Control,
+) -> Result<Option<PerVertex<f64>>> {
+    let StartOptions { class: Class { scheme, .. }, double, fixed } = options;
     if !scheme.is_packing() {
         let plain = IntrinsicOptions { circles: None, fixed };
         intrinsic_delaunay(surface, plain, record, control)?;
     }
     if scheme.is_packing() || scheme == Scheme::Yamabe {
-        return initial_metric(&surface.mesh, &surface.lengths, surface.geometry, options.class);
+        return Ok(None);
     }
     check_triangles(&surface.mesh, &surface.lengths, surface.geometry)?;
     let [_, mut radii] = corner_radii(&surface.mesh, &surface.lengths);
@@ -82,7 +96,20 @@ pub fn delaunay_start(
         let weighted = IntrinsicOptions { circles: Some(&radii), fixed };
         intrinsic_delaunay(surface, weighted, record, control)?;
     }
-    let epsilon = PerVertex::filled(surface.mesh.n_vertices(), scheme.epsilon());
-    let circles = MixedClass { epsilon, radii, space };
-    initial_mixed(&surface.mesh, &surface.lengths, surface.geometry, circles)
+    Ok(Some(radii))
+}
+
+/// The metric of [`delaunay_start`] on the triangulation, with the radii that [`make_delaunay`] has led to.
+///
+/// # Errors
+/// As there.
+pub(crate) fn initial_on(
+    surface: &Triangulated,
+    class: Class,
+    radii: Option<PerVertex<f64>>,
+) -> Result<Initial> {
+    let Triangulated { mesh, lengths, geometry } = surface;
+    let Some(radii) = radii else { return initial_metric(mesh, lengths, *geometry, class) };
+    let epsilon = PerVertex::filled(mesh.n_vertices(), class.scheme.epsilon());
+    initial_mixed(mesh, lengths, *geometry, MixedClass { epsilon, radii, space: class.space })
 }

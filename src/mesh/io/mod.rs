@@ -11,6 +11,7 @@ mod atomic;
 #[cfg(any(feature = "gltf", feature = "gifti"))]
 mod base64;
 mod budget;
+mod content;
 #[cfg(feature = "gifti")]
 mod gifti;
 #[cfg(feature = "gifti")]
@@ -32,6 +33,7 @@ pub mod text;
 mod textured;
 
 pub use atomic::{destination, write_atomically};
+use content::content;
 #[cfg(feature = "gifti")]
 pub use gifti::parse_gifti;
 #[cfg(feature = "gltf")]
@@ -115,10 +117,6 @@ pub fn read(path: &Path) -> Result<Soup> {
 /// Those of [`parse_stl_welded`]; [`Error::Io`].
 pub fn read_stl(path: &Path, weld: f64) -> Result<Soup> {
     parse_stl_welded(&content(path)?, &path.display().to_string(), weld)
-}
-
-fn content(path: &Path) -> Result<Vec<u8>> {
-    std::fs::read(path).map_err(|e| Error::Io { path: path.display().to_string(), message: e.to_string() })
 }
 
 /// A format that can be written.

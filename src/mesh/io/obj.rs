@@ -327,7 +327,7 @@ fn write_text(out: &mut impl Write, data: &Textured<'_>) -> io::Result<()> {
             let alpha = if *a == 1.0 { String::new() } else { format!(" {a:.6}") };
             text.text(&format!(" {r:.6} {g:.6} {b:.6}{alpha}"));
         }
-        text.text("\n");
+        text.character('\n');
     })?;
     write_blocks(out, data.texcoords.len(), |text, k| {
         let [s, t] = data.texcoords[k];
@@ -335,23 +335,23 @@ fn write_text(out: &mut impl Write, data: &Textured<'_>) -> io::Result<()> {
             Some(q) => line(text, "vt", &[q * s, q * t, *q]),
             None => line(text, "vt", &[s, t]),
         }
-        text.text("\n");
+        text.character('\n');
     })?;
     write_blocks(out, data.normals.len(), |text, k| {
         line(text, "vn", &data.normals[k]);
-        text.text("\n");
+        text.character('\n');
     })?;
     let has_normals = !data.normals.is_empty();
     write_blocks(out, data.faces.len(), |text, f| {
         let corners = data.faces[f];
         let normals = data.face_normals.get(f).unwrap_or(&corners);
         let texcoords = data.face_texcoords.get(f);
-        text.text("f");
+        text.character('f');
         for k in 0..3 {
-            text.text(" ");
+            text.character(' ');
             text.count(u64::from(corners[k]) + 1);
             if let Some(texcoords) = texcoords {
-                text.text("/");
+                text.character('/');
                 text.count(u64::from(texcoords[k]) + 1);
             }
             if has_normals {
@@ -359,7 +359,7 @@ fn write_text(out: &mut impl Write, data: &Textured<'_>) -> io::Result<()> {
                 text.count(u64::from(normals[k]) + 1);
             }
         }
-        text.text("\n");
+        text.character('\n');
     })
 }
 
@@ -367,7 +367,7 @@ fn write_text(out: &mut impl Write, data: &Textured<'_>) -> io::Result<()> {
 fn line(text: &mut Text, keyword: &str, numbers: &[f64]) {
     text.text(keyword);
     for x in numbers {
-        text.text(" ");
+        text.character(' ');
         text.number(*x);
     }
 }

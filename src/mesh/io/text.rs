@@ -25,6 +25,9 @@ const BYTES_PER_ITEM: usize = 64;
 /// Most digits of a whole number.
 const MOST_DIGITS: usize = 20;
 
+/// Half of the bytes in which every double has room: 24 at most. Most numbers have more than half.
+const HALF: usize = 16;
+
 /// Text in the making.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Text {
@@ -38,26 +41,42 @@ impl Text {
         self.bytes.extend_from_slice(words.as_bytes());
     }
 
+    /// Append one character.
+    #[inline]
+    pub fn character(&mut self, c: char) {
+        match u8::try_from(c) {
+            Ok(byte) if byte.is_ascii() => self.bytes.push(byte),
+            _ => self.text(c.encode_utf8(&mut [0; 4])),
+        }
+    }
+
     /// Append a finite number with the fewest digits that read back to the same double.
     #[inline]
     pub fn number(&mut self, x: f64) {
-        self.text(zmij::Buffer::new().format_finite(x));
+        let mut buffer = zmij::Buffer::new();
+        let digits = buffer.format_finite(x).as_bytes();
+        let (Some(first), Some(last)) = (digits.first_chunk::<HALF>(), digits.last_chunk::<HALF>()) else {
+            self.bytes.extend_from_slice(digits);
+            return;
+        };
+        // Two halves of a fixed size, which overlap, are copied without a call.
+        let (begin, end) = (self.bytes.len(), self.bytes.len() + digits.len());
+        self.bytes.extend_from_slice(&[0; 2 * HALF]);
+        self.bytes[begin..begin + HALF].copy_from_slice(first);
+        self.bytes[end - HALF..end].copy_from_slice(last);
+        self.bytes.truncate(end);
     }
 
     /// Append a whole number.
     #[inline]
     pub fn count(&mut self, mut n: u64) {
-        let mut digits = [0; MOST_DIGITS];
-        let mut at = MOST_DIGITS;
-        loop {
-            at -= 1;
-            digits[at] = b'0' + (n % 10) as u8;
+        let (begin, digits) = (self.bytes.len(), n.checked_ilog10().unwrap_or(0) as usize + 1);
+        self.bytes.extend_from_slice(&[0; MOST_DIGITS]);
+        self.bytes.truncate(begin + digits);
+        for digit in self.bytes[begin..].iter_mut().rev() {
+            *digit = b'0' + (n % 10) as u8;
             n /= 10;
-            if n == 0 {
-                break;
-            }
         }
-        self.bytes.extend_from_slice(&digits[at..]);
     }
 
     /// What there is so far.
@@ -103,6 +122,23 @@ pub fn write_blocks(
 mod tests {
     use super::*;
     use crate::parallel::Pool;
+
+    #[test]
+    fn numbers_and_characters_are_written_as_display_does() {
+        let mut random = crate::mesh::shapes::SplitMix64::new(3);
+        let mut numbers = vec![0.0, -0.0, 1.0, -2.5, 0.1, -f64::MIN_POSITIVE, f64::MAX, 5e-324, 1.0 / 3.0];
+        numbers.extend((0..2000).map(|_| f64::from_bits(random.bits())).filter(|x| x.is_finite()));
+        for x in numbers {
+            let mut text = Text::default();
+            text.character('[');
+            text.number(x);
+            text.character('²');
+            let written = std::str::from_utf8(text.as_bytes()).unwrap();
+            let digits = written.strip_prefix('[').and_then(|rest| rest.strip_suffix('²')).unwrap();
+            assert_eq!(digits, zmij::Buffer::new().format_finite(x));
+            assert_eq!(digits.parse::<f64>().unwrap().to_bits(), x.to_bits());
+        }
+    }
 
     #[test]
     fn whole_numbers_are_written_as_format_does() {
