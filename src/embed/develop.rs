@@ -53,6 +53,8 @@ struct Growth<'a, F: Frame> {
     crossed: PerEdge<bool>,
     /// Half-edges through which the development can go on, by [`Growth::distance`].
     queue: Nearest<HalfedgeId>,
+    /// Memory of [`Growth::next`].
+    coming: Vec<FaceId>,
 }
 
 impl<'a, F: Frame> Development<'a, F> {
@@ -91,6 +93,7 @@ impl<'a, F: Frame> Development<'a, F> {
             spans: vec![[0; 2]; if pieces.refinement().is_some() { n_final } else { 0 }],
             crossed: PerEdge::filled(if is_cut.is_none() { n_edges } else { 0 }, false),
             queue: Nearest::new((faces.area() / n_final as f64).sqrt()),
+            coming: Vec::new(),
         };
         control.step(Stage::Layout, 0.0)?;
         growth.add(piece, side, Walk::identity(faces.space))?;
@@ -256,7 +259,7 @@ impl<F: Frame> Growth<'_, F> {
                     Some(_) if is_placed => {}
                     Some(along) => {
                         let k = match is_refined {
-                            true => own.iter().position(|&side| side == along).ok_or_else(torn)?,
+                            true => number_in(own, along)?,
                             false => number_in_piece,
                         };
                         let far = match distance[k] {
@@ -300,14 +303,22 @@ impl<F: Frame> Growth<'_, F> {
 
     /// The next half-edge through which the development may go on.
     fn next(&mut self) -> Option<HalfedgeId> {
-        let Growth { queue, faces, pieces, patch, frames, spans, .. } = self;
+        let Growth { queue, faces, pieces, patch, frames, spans, coming, .. } = self;
         let mesh = pieces.mesh();
-        let read = |h: HalfedgeId| {
-            let Some(piece) = mesh.face(h).filter(|&f| patch[f] == NONE) else { return };
-            let face = pieces.final_face(piece);
-            faces.read(face);
-            black_box((frames[face.index()], spans.get(face.index()).copied()));
-            black_box(mesh.face_halfedges(piece).map(|h| (mesh.face(h.twin()), pieces.final_halfedge(h))));
+        // One array after the other, so that no read waits for one of the same half-edge.
+        let read = |ahead: &[(i64, HalfedgeId)]| {
+            coming.clear();
+            coming.extend(ahead.iter().filter_map(|&(_, h)| mesh.face(h)));
+            coming.retain(|&piece| patch[piece] == NONE);
+            for &piece in &*coming {
+                let sides = mesh.face_halfedges(piece);
+                black_box(sides.map(|h| (mesh.face(h.twin()), pieces.final_halfedge(h))));
+            }
+            for piece in coming.iter_mut() {
+                *piece = pieces.final_face(*piece);
+                faces.read(*piece);
+                black_box((frames[piece.index()], spans.get(piece.index()).copied()));
+            }
         };
         queue.pop_looking_ahead(read).map(|(_, h)| h)
     }
@@ -324,16 +335,18 @@ impl<F: Frame> Growth<'_, F> {
         if F::IS_PRECISE {
             self.entries.push(h);
         }
-        let ((face, k), (_, side)) =
-            (corner_of(self.faces.mesh, along)?, corner_of(self.faces.mesh, along.twin())?);
+        let (face, mesh) = (self.pieces.final_face(from), self.faces.mesh);
+        let k = number_in(mesh.face_halfedges(face), along)?;
+        let side = number_in(mesh.face_halfedges(self.pieces.final_face(piece)), along.twin())?;
         let frame = self.faces.beyond(face, k, self.frames[self.patch[from] as usize]);
         self.add(piece, side, frame).map(|()| true)
     }
 }
 
-/// The error of a piece whose sides run along those of another final face than its own.
-fn torn() -> Error {
-    Error::Layout("a piece of the refinement does not lie in its face".into())
+/// The number of a half-edge among those of the final face of a piece that has it as a side.
+fn number_in(sides: [HalfedgeId; 3], along: HalfedgeId) -> Result<usize> {
+    let torn = || Error::Layout("a piece of the refinement does not lie in its face".into());
+    sides.iter().position(|&side| side == along).ok_or_else(torn)
 }
 
 /// The half-edge of a final face that a half-edge of a piece, through which a development goes on, runs along.

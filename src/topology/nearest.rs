@@ -66,10 +66,10 @@ impl<T: Ord + Copy> Nearest<T> {
         self.pop_looking_ahead(|_| ())
     }
 
-    /// [`Nearest::pop`]. `ahead` is told most items a little before they come, many at a time: what it reads of far apart places is fetched
-    /// from memory at once, where each item would have to wait for its own.
+    /// [`Nearest::pop`]. `ahead` is told most items, with keys, a little before they come, many at a time: what it reads of far apart places
+    /// is fetched from memory at once, where each item would have to wait for its own.
     #[inline]
-    pub fn pop_looking_ahead(&mut self, mut ahead: impl FnMut(T)) -> Option<(f64, T)> {
+    pub fn pop_looking_ahead(&mut self, mut ahead: impl FnMut(&[(i64, T)])) -> Option<(f64, T)> {
         loop {
             if let Some(Reverse((key, item))) = self.near.pop() {
                 return Some((distance(key), item));
@@ -86,7 +86,7 @@ impl<T: Ord + Copy> Nearest<T> {
             }
             let ring = &mut self.rings[(self.innermost % RINGS) as usize];
             self.n_in_rings -= ring.len();
-            ring.iter().for_each(|&(_, item)| ahead(item));
+            ahead(ring);
             self.near.extend(ring.drain(..).map(Reverse));
         }
     }

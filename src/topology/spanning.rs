@@ -189,8 +189,10 @@ where
         }
         let mut roots = mesh.vertices();
         let mut steps = 0;
-        let read = |v: VertexId| {
-            black_box((self.roads)(v).next().map(|road| road.length));
+        let read = |coming: &[(i64, VertexId)]| {
+            for &(_, v) in coming {
+                black_box((self.roads)(v).next().map(|road| road.length));
+            }
         };
         loop {
             while let Some((d, v)) = queue.pop_looking_ahead(read) {
