@@ -18,7 +18,7 @@ use rayon::prelude::*;
 use std::cell::Cell;
 use std::fs::File;
 use std::io::Read;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, OnceLock, PoisonError};
 use std::thread::JoinHandle;
 
 /// Elements that a thread takes at a time: enough that handing them over costs little. The number is fixed, so that the division of an
@@ -47,15 +47,22 @@ thread_local! {
 /// Thread pool of one solver or call. Its threads have ended when it is dropped: a host that unloads the
 /// library then leaves nothing behind.
 pub struct Pool {
-    /// `None` for a pool of one thread, and while the pool is dropped.
+    threads: usize,
+    /// Those that it has started, or none where the system refused; unset while the pools of its callers have done its work.
+    own: OnceLock<Option<Threads>>,
+}
+
+/// Threads that have been started.
+struct Threads {
+    /// `None` while they are ended.
     pool: Option<rayon::ThreadPool>,
     workers: Vec<JoinHandle<()>>,
-    threads: usize,
 }
 
 impl Pool {
     /// A pool of `threads` threads; 0 means one per available core, more than [`MAX_THREADS`] means that many. One thread is that
-    /// which calls [`Pool::run`]. Where memory does not suffice for so many, there are as many as it suffices for.
+    /// which calls [`Pool::run`]. Where memory does not suffice for so many, there are as many as it suffices for. Inside a pool none is
+    /// started before work comes from outside.
     ///
     /// # Errors
     ///
@@ -67,21 +74,13 @@ impl Pool {
         while threads > 1 && !is_room_for(threads * (THREAD + heap) + heap) {
             threads /= 2;
         }
-        if threads == 1 {
-            return Ok(Pool { pool: None, workers: Vec::new(), threads });
+        let own = OnceLock::new();
+        if threads > 1 && !is_shared() {
+            let started = Threads::start(threads)
+                .ok_or_else(|| Error::argument("threads", threads, "as many as the system can start"))?;
+            let _ = own.set(Some(started));
         }
-        let refused = || Error::argument("threads", threads, "as many as the system can start");
-        let mut workers = Vec::new();
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .spawn_handler(|worker| {
-                let name = format!("ricci-{}", worker.index());
-                workers.push(std::thread::Builder::new().name(name).spawn(|| worker.run())?);
-                Ok(())
-            })
-            .build()
-            .map_err(|_| refused())?;
-        Ok(Pool { threads: pool.current_num_threads(), pool: Some(pool), workers })
+        Ok(Pool { threads, own })
     }
 
     /// Number of threads.
@@ -89,12 +88,37 @@ impl Pool {
         self.threads
     }
 
-    /// Run `work` inside the pool.
+    /// Run `work` inside the pool; one of several threads leaves it to the pool that the caller is in, if any.
     pub fn run<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
-        match &self.pool {
+        if self.threads == 1 {
+            return alone(work);
+        }
+        if is_shared() {
+            return work();
+        }
+        // The result is the same on any number of threads.
+        match self.own.get_or_init(|| Threads::start(self.threads)).as_ref().and_then(|own| own.pool.as_ref())
+        {
             Some(pool) => pool.install(work),
             None => alone(work),
         }
+    }
+}
+
+impl Threads {
+    /// `None` where the system refuses.
+    fn start(n: usize) -> Option<Threads> {
+        let mut workers = Vec::new();
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(n)
+            .spawn_handler(|worker| {
+                let name = format!("ricci-{}", worker.index());
+                workers.push(std::thread::Builder::new().name(name).spawn(|| worker.run())?);
+                Ok(())
+            })
+            .build()
+            .ok()?;
+        Some(Threads { pool: Some(pool), workers })
     }
 }
 
@@ -142,7 +166,7 @@ pub fn within<R: Send>(threads: usize, work: impl FnOnce() -> Result<R> + Send) 
     if ALONE.get() || is_shared() { work() } else { Pool::new(threads)?.run(work) }
 }
 
-impl Drop for Pool {
+impl Drop for Threads {
     fn drop(&mut self) {
         self.pool = None;
         for worker in self.workers.drain(..) {
@@ -266,6 +290,25 @@ mod tests {
                 .is_err()
         );
         assert!(within(2, || Ok(thread::current().id())).unwrap() != here);
+    }
+
+    #[test]
+    fn a_pool_leaves_work_to_that_of_the_caller_and_starts_its_own_outside() {
+        let two = Pool::new(2).unwrap();
+        let ids = || map(1000, |_| thread::current().id());
+        let (inner, worker) = two.run(|| {
+            let (inner, worker) = (Pool::new(3).unwrap(), thread::current().id());
+            assert_eq!(inner.run(|| thread::current().id()), worker);
+            assert!(inner.own.get().is_none());
+            (inner, worker)
+        });
+        let others = inner.run(ids);
+        assert!(
+            inner.own.get().is_some()
+                && !others.contains(&worker)
+                && !others.contains(&thread::current().id())
+        );
+        assert_eq!(inner.threads(), 3);
     }
 
     #[test]

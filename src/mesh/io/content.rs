@@ -50,7 +50,6 @@ fn read_part(path: &Path, start: u64, part: &mut [u8]) -> io::Result<()> {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
     use crate::parallel::Pool;

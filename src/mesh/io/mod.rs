@@ -33,7 +33,6 @@ pub mod text;
 mod textured;
 
 pub use atomic::{destination, write_atomically};
-use content::content;
 #[cfg(feature = "gifti")]
 pub use gifti::parse_gifti;
 #[cfg(feature = "gltf")]
@@ -107,7 +106,7 @@ fn by_extension<T: Copy>(path: &Path, table: &[(&str, T)], features: &[(&str, &s
 /// line or byte where the file is not what its format says.
 pub fn read(path: &Path) -> Result<Soup> {
     let parse = by_extension(path, READERS, READER_FEATURES)?;
-    parse(&content(path)?, &path.display().to_string())
+    parse(&content::content(path)?, &path.display().to_string())
 }
 
 /// Read an STL file, whatever its name, and weld it within a distance.
@@ -116,7 +115,7 @@ pub fn read(path: &Path) -> Result<Soup> {
 ///
 /// Those of [`parse_stl_welded`]; [`Error::Io`].
 pub fn read_stl(path: &Path, weld: f64) -> Result<Soup> {
-    parse_stl_welded(&content(path)?, &path.display().to_string(), weld)
+    parse_stl_welded(&content::content(path)?, &path.display().to_string(), weld)
 }
 
 /// A format that can be written.
