@@ -1,9 +1,8 @@
 //! The thread pool of one call, and loops whose result does not depend on how many threads run them.
 //!
-//! The library never touches rayon's global pool: each solver owns its own, and everything parallel runs
-//! inside [`Pool::run`], through the loops of this module. A pool of one thread is the caller's own: none is
-//! started. A loop writes each element from one fixed computation, so results are bit-identical for any thread
-//! count.
+//! The library never starts rayon's global pool: each solver has one of its own, or works in that of its caller, and everything parallel
+//! runs inside [`Pool::run`], through the loops of this module. A pool of one thread is the caller's own: none is started. A loop writes
+//! each element from one fixed computation, so results are bit-identical for any thread count.
 //!
 //! ```
 //! use ricci::parallel::{Pool, fill};
@@ -70,15 +69,13 @@ impl Pool {
     pub fn new(threads: usize) -> Result<Pool> {
         let cores = std::thread::available_parallelism().map_or(1, |n| n.get());
         let mut threads = if threads == 0 { cores } else { threads.min(MAX_THREADS) };
-        let heap = if threads > 1 && is_address_space_limited() { HEAP } else { 0 };
-        while threads > 1 && !is_room_for(threads * (THREAD + heap) + heap) {
-            threads /= 2;
-        }
         let own = OnceLock::new();
-        if threads > 1 && !is_shared() {
-            let started = Threads::start(threads)
-                .ok_or_else(|| Error::argument("threads", threads, "as many as the system can start"))?;
-            let _ = own.set(Some(started));
+        if !is_shared() {
+            threads = affordable(threads);
+            if threads > 1 {
+                let refused = || Error::argument("threads", threads, "as many as the system can start");
+                let _ = own.set(Some(Threads::start(threads).ok_or_else(refused)?));
+            }
         }
         Ok(Pool { threads, own })
     }
@@ -97,8 +94,8 @@ impl Pool {
             return work();
         }
         // The result is the same on any number of threads.
-        match self.own.get_or_init(|| Threads::start(self.threads)).as_ref().and_then(|own| own.pool.as_ref())
-        {
+        let own = self.own.get_or_init(|| Threads::start(affordable(self.threads)));
+        match own.as_ref().and_then(|own| own.pool.as_ref()) {
             Some(pool) => pool.install(work),
             None => alone(work),
         }
@@ -106,8 +103,11 @@ impl Pool {
 }
 
 impl Threads {
-    /// `None` where the system refuses.
+    /// `None` where the system refuses, and for one thread, which is that of the caller.
     fn start(n: usize) -> Option<Threads> {
+        if n == 1 {
+            return None;
+        }
         let mut workers = Vec::new();
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(n)
@@ -122,9 +122,18 @@ impl Threads {
     }
 }
 
+/// Of so many threads as many as memory suffices for.
+fn affordable(mut threads: usize) -> usize {
+    let heap = if threads > 1 && is_address_space_limited() { HEAP } else { 0 };
+    while threads > 1 && !is_room_for(threads * (THREAD + heap) + heap) {
+        threads /= 2;
+    }
+    threads
+}
+
 /// Whether the allocator has so many bytes. One that holds memory in reserve, as that of the C face does, then gives it back: the C
 /// library, which ends the process if it finds no memory for a new thread's notes, does not ask for it.
-fn is_room_for(bytes: usize) -> bool {
+pub(crate) fn is_room_for(bytes: usize) -> bool {
     let mut room = Vec::<u8>::new();
     let is_there = room.try_reserve_exact(bytes).is_ok();
     std::hint::black_box(&room);

@@ -94,7 +94,7 @@ pub fn unroll(result: &Solution, options: &UnrollOptions, control: &Control) -> 
     unroll_by(result, options, refine, control)
 }
 
-/// [`Solution::refinement`] where edges were flipped.
+/// [`Solution::refinement`] where edges were flipped; `None` where the metric lives on the given triangulation.
 ///
 /// # Errors
 /// As there.

@@ -9,6 +9,7 @@
 //! the triangulation, whichever vertices are held, so one analysis serves all steps, also those on other surfaces of that pattern.
 
 use super::seconds::timed;
+use super::system::System;
 use super::{Flow, Options, Report};
 use crate::control::Control;
 use crate::error::{Error, Result};
@@ -81,6 +82,8 @@ impl Flow {
         self.fixed = FixedEdges::new(&self.mesh, &active.fixed_edges)?;
         self.log.clear();
         self.options.max_step = max_step;
+        // Whether one that no step has needed is there depends on the number of threads.
+        self.system = self.system.take().filter(System::has_factor);
         // Edges that were flipped outside this flow make the system's pattern out of date too.
         self.unseen_flips =
             self.system.as_ref().map_or(0, |system| system.jacobian.changed_edges(&self.mesh));

@@ -57,7 +57,7 @@ impl Flow {
                 Ok(()) => self.correct(&mut system, state, residual, control)?,
                 Err(_) => error,
             };
-            self.system = if shared { None } else { Some(system) };
+            self.system = Some(system).filter(|system| !shared && system.has_factor());
             Ok(left)
         })
     }

@@ -53,8 +53,8 @@ impl Jacobian {
         Ok(Jacobian { entry, values: vec![0.0; pattern.entries()], unknown, pattern })
     }
 
-    /// Give back the memory of all but the pattern, which another one is to be compared with.
-    pub fn forget_values(&mut self) {
+    /// Give back the memory of all but the pattern, which that of another matrix is to be compared with.
+    pub fn keep_pattern_alone(&mut self) {
         (self.unknown, self.entry, self.values) = (Vec::new(), Vec::new(), Vec::new());
     }
 

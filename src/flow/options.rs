@@ -70,7 +70,8 @@ pub struct Options {
     /// Vertices of the given surface that hold their u; their curvature is then free. Default none. They keep a surface with boundary
     /// from being doubled.
     pub pinned: Vec<VertexId>,
-    /// Threads of this flow's own pool; 0 (default) is one per core. The result does not depend on it.
+    /// Threads of this flow's own pool; 0 (default) is one per core. Several are those of the pool that the caller is in, if any. The result
+    /// does not depend on it.
     pub threads: usize,
     /// Options of [`Method::Gradient`].
     pub gradient: Gradient,

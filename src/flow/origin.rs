@@ -45,7 +45,7 @@ pub(super) struct Flipped {
 pub(super) struct Delaunay {
     surface: Surface,
     class: Class,
-    pub double: Option<Double>,
+    double: Option<Double>,
     triangulated: Triangulated,
     radii: Option<PerVertex<f64>>,
     /// The given edges on it, where isometric flips have made it.
@@ -88,9 +88,13 @@ impl Delaunay {
     }
 
     /// The initial metric there, and what else is made of the triangulation beside it.
-    pub fn origin_beside<T: Send>(self, beside: impl FnOnce(&Mesh) -> T + Send) -> Result<(Origin, T)> {
+    pub fn origin_beside<T: Send>(
+        self,
+        beside: impl FnOnce(&Mesh, Option<&Double>) -> T + Send,
+    ) -> Result<(Origin, T)> {
         let Delaunay { surface, class, double, triangulated, radii, normal, flips, fixed } = self;
-        let (initial, made) = join(|| initial_on(&triangulated, class, radii), || beside(&triangulated.mesh));
+        let (initial, made) =
+            join(|| initial_on(&triangulated, class, radii), || beside(&triangulated.mesh, double.as_ref()));
         let (initial, Triangulated { mesh, lengths, .. }, [fixed, all_fixed]) =
             (initial?, triangulated, fixed);
         let metric = &initial.metric;
@@ -142,7 +146,7 @@ impl Origin {
         control: &Control,
     ) -> Result<Origin> {
         Delaunay::new(surface, class, doubled, fixed, control)?
-            .origin_beside(|_| ())
+            .origin_beside(|_, _| ())
             .map(|(origin, ())| origin)
     }
 

@@ -7,7 +7,7 @@ use std::time::Instant;
 pub struct Seconds {
     /// Lengths, angles, curvature, derivative.
     pub assemble: f64,
-    /// Ordering and symbolic analysis.
+    /// Ordering and symbolic analysis; on several threads some of it is done when the flow is made, and counts in its first solve.
     pub analyse: f64,
     /// Numeric factorisations.
     pub factor: f64,
@@ -15,7 +15,7 @@ pub struct Seconds {
     pub solve: f64,
     /// Edge flips.
     pub flip: f64,
-    /// The whole call.
+    /// The whole call, and what was done for it when the flow was made.
     pub total: f64,
 }
 

@@ -1,6 +1,7 @@
 //! One solve: from a target to a solution, by the method of the options, and back to where it was if it fails.
 
 use super::Flow;
+use super::early::Early;
 use super::evaluate::State;
 use super::options::Method;
 use super::report::{Report, StopReason, WORST};
@@ -166,7 +167,7 @@ impl Flow {
             (self.mirror, self.system) = (mirror, None);
         }
         let End { mut state, left } = end?;
-        report.seconds.total = seconds;
+        report.seconds.total += seconds;
         self.now.flips += report.flips;
         self.now.share_given();
         if self.one_copy && self.free_scale() {
@@ -290,17 +291,20 @@ impl Flow {
     }
 
     /// [`Flow::evaluate`] at the start, beside the analysis of the triangulation for Newton's method, whose order one thread has to find,
-    /// unless it has been made with the flow.
+    /// unless it was made with the flow.
     fn begin(&mut self, state: &mut State, report: &mut Report, control: &Control) -> Result<bool> {
         let is_newton = self.options.method == Method::Newton;
-        let is_at_work = self.system.as_ref().is_some_and(System::has_factor);
-        if !is_newton || is_at_work || self.pool.threads() == 1 {
+        let early = self.early.take();
+        if !is_newton || self.system.is_some() || self.pool.threads() == 1 {
             return self.evaluate(state, report, control);
         }
-        let early = self.system.take();
+        if let Some(Early { seconds, .. }) = early {
+            report.seconds.analyse += seconds;
+            report.seconds.total += seconds;
+        }
         let (mut measuring, mut both) = (0.0, 0.0);
         let measure = || timed(&mut measuring, || state.measure(&self.mesh, &self.metric));
-        let analyse = || early.map_or_else(|| self.new_system(), Ok);
+        let analyse = || early.map_or_else(|| self.new_system(), |early| Ok(early.system));
         let (system, ()) = timed(&mut both, || join(analyse, measure));
         report.seconds.assemble += measuring;
         report.seconds.analyse += both - measuring;

@@ -1,17 +1,17 @@
 //! Making a flow: on a surface, from a solution, from a bare metric; going to the double, and pins.
 
 use super::Flow;
+use super::early::{Early, mirror_of};
 use super::memory::Memory;
 use super::options::{Flips, Method, Options};
 use super::origin::{Delaunay, Origin};
 use super::solution::Solution;
-use super::system::System;
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::Space;
 use crate::mesh::{Double, FixedEdges, FlipLog, Mesh, PerVertex, VertexId};
 use crate::metric::{Class, Metric, Surface};
-use crate::parallel::{Pool, is_shared, join};
+use crate::parallel::{Pool, join};
 use std::sync::Arc;
 
 impl Flow {
@@ -23,30 +23,23 @@ impl Flow {
     pub fn new(surface: Surface, class: Class, options: &Options, control: &Control) -> Result<Flow> {
         control.check()?;
         let pool = Arc::new(Pool::new(options.threads)?);
-        let early = |mesh: &Mesh, double: Option<&Double>| early_system(mesh, double, class, options);
+        let early = |mesh: &Mesh, double: Option<&Double>| Early::new(mesh, double, class, options);
         let begin = || {
             if is_rigid(surface.geometry(), class, options) {
-                let (origin, system) =
+                let (origin, early) =
                     join(|| Origin::rigid(surface.clone(), class), || early(surface.mesh(), None));
-                return Ok((origin?, system));
+                return Ok((origin?, early));
             }
             let start =
                 |doubled| Delaunay::new(surface.clone(), class, doubled, &options.fixed_edges, control);
             if surface.mesh().is_closed() || !options.pinned.is_empty() {
-                return start(false)?.origin_beside(|mesh| early(mesh, None));
+                return start(false)?.origin_beside(early);
             }
-            let (one_copy, ()) = start(false)?.origin_beside(|_| ())?;
-            if one_copy.is_half {
-                return Ok((one_copy, None));
-            }
-            let doubled = start(true)?;
-            let double = doubled.double.clone();
-            doubled.origin_beside(|mesh| early(mesh, double.as_ref()))
+            let (one_copy, ()) = start(false)?.origin_beside(|_, _| ())?;
+            if one_copy.is_half { Ok((one_copy, None)) } else { start(true)?.origin_beside(early) }
         };
-        let (origin, system) = pool.run(begin)?;
-        let mut flow = Flow::go_on(Solution::start(origin), options, pool)?;
-        flow.system = system;
-        Ok(flow)
+        let (origin, early) = pool.run(begin)?;
+        Ok(Flow { early, ..Flow::go_on(Solution::start(origin), options, pool)? })
     }
 
     /// Go on from a metric of the surface: on its triangulation, from its u.
@@ -116,6 +109,7 @@ impl Flow {
             one_copy: false,
             target: PerVertex::filled(mesh.n_vertices(), 0.0),
             system: None,
+            early: None,
             single_serves: true,
             unseen_flips: 0,
             memory: Memory::default(),
@@ -160,7 +154,7 @@ impl Flow {
                 held[double.mirror(v).index()] = true;
             }
         }
-        self.system = None;
+        (self.system, self.early) = (None, None);
         Ok(())
     }
 
@@ -204,23 +198,6 @@ impl Flow {
     pub fn solution(&self) -> Solution {
         self.now.clone()
     }
-}
-
-/// The analysed system of a flow by Newton's method without pins, made while another thread forms the initial metric: one thread alone
-/// finds its order. None where nobody else works, and where none can be made: the error is then that of later.
-fn early_system(mesh: &Mesh, double: Option<&Double>, class: Class, options: &Options) -> Option<System> {
-    let is_plain = options.method == Method::Newton && class.space != Space::S2 && options.pinned.is_empty();
-    if !is_plain || !is_shared() {
-        return None;
-    }
-    let mut held = vec![false; mesh.n_vertices()];
-    *held.first_mut()? = class.space == Space::E2;
-    System::new(mesh, &held, double.map(mirror_of).as_deref()).ok()
-}
-
-/// Per vertex of a double its mirror image.
-fn mirror_of(double: &Double) -> Vec<u32> {
-    double.mesh.vertices().map(|v| double.mirror(v).0).collect()
 }
 
 /// Whether these options let edges flip at all.

@@ -114,7 +114,7 @@ impl System {
         mirror: Option<&[u32]>,
         flips: usize,
     ) -> Result<System> {
-        self.jacobian.forget_values();
+        self.jacobian.keep_pattern_alone();
         let jacobian = Jacobian::new(mesh, fixed, mirror)?;
         let is_analysed = self.is_analysed && jacobian.pattern == self.jacobian.pattern;
         Ok(System { jacobian, is_analysed, age: self.age + flips, ..self })

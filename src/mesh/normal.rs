@@ -124,7 +124,8 @@ impl NormalCoordinates {
         }
     }
 
-    /// Follow one flip: to be called with the triangulation as it is just before [`Mesh::flip`] of this edge. O(1).
+    /// Follow one flip: to be called with the triangulation as it is just before [`Mesh::flip`] of this edge. O(1), but for the first flip of
+    /// a clone, which then has arrays of its own.
     ///
     /// Does nothing for an edge that [`Mesh::flip`] leaves as it is. A coordinate that leaves the range is reported by
     /// [`NormalCoordinates::check`].

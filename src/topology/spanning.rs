@@ -189,6 +189,7 @@ where
         }
         let mut roots = mesh.vertices();
         let mut steps = 0;
+        // The roads of vertices that come next are fetched from memory side by side.
         let read = |coming: &[(i64, VertexId)]| {
             for &(_, v) in coming {
                 black_box((self.roads)(v).next().map(|road| road.length));

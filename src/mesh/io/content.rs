@@ -1,56 +1,66 @@
 //! The bytes of a file.
 
 use crate::error::{Error, Result};
-use crate::parallel;
-use std::fs::{self, File};
-use std::io::{self, Read, Seek, SeekFrom};
+use std::fs;
 use std::path::Path;
-use std::sync::{Mutex, PoisonError};
 
-/// Bytes that a thread reads at a time: about 1 ms, most of which goes to memory that is touched for the first time.
-const PART: usize = 1 << 20;
-
-/// All bytes of a file. Inside a pool parts of a large one are read side by side.
+/// All bytes of a file. Inside a pool parts of a large one are read side by side, where the system can read a file at a place.
 ///
 /// # Errors
 /// [`Error::Io`].
 pub(super) fn content(path: &Path) -> Result<Vec<u8>> {
-    let length = fs::metadata(path).ok().filter(|found| found.is_file()).map(|found| found.len());
-    let large = length.and_then(|n| usize::try_from(n).ok()).filter(|&n| n > 2 * PART && is_room_for(n));
-    let bytes = match large {
-        // What has become shorter meanwhile is read as it is now.
-        Some(n) => in_parts(path, n).or_else(|_| fs::read(path)),
-        None => fs::read(path),
-    };
-    bytes.map_err(|e| Error::Io { path: path.display().to_string(), message: e.to_string() })
+    #[cfg(unix)]
+    if let Some(bytes) = parts::content(path) {
+        return Ok(bytes);
+    }
+    fs::read(path).map_err(|e| Error::Io { path: path.display().to_string(), message: e.to_string() })
 }
 
-/// Whether there is memory for so many bytes, which would be missed as an error if they were asked for at once.
-fn is_room_for(bytes: usize) -> bool {
-    Vec::<u8>::new().try_reserve_exact(bytes).is_ok()
-}
+#[cfg(unix)]
+mod parts {
+    use crate::parallel::{each, is_room_for, is_shared};
+    use std::fs::File;
+    use std::io;
+    use std::os::unix::fs::FileExt;
+    use std::path::Path;
+    use std::sync::{Mutex, PoisonError};
 
-/// The first bytes of a file that has as many.
-fn in_parts(path: &Path, length: usize) -> io::Result<Vec<u8>> {
-    let mut bytes = vec![0; length];
-    let failed = Mutex::new(None);
-    let parts = bytes.chunks_mut(PART).enumerate().collect();
-    parallel::each(parts, |(k, part): (usize, &mut [u8])| {
-        if let Err(error) = read_part(path, (k * PART) as u64, part) {
-            *failed.lock().unwrap_or_else(PoisonError::into_inner) = Some(error);
+    /// Bytes that a thread reads at a time: about 1 ms, most of which goes to memory that is touched for the first time.
+    pub const PART: usize = 1 << 20;
+
+    /// The bytes of a large file; none of one that is not, and where it is to be read in one piece: alone, for want of memory, and where
+    /// it becomes longer or shorter meanwhile.
+    pub fn content(path: &Path) -> Option<Vec<u8>> {
+        if !is_shared() {
+            return None;
         }
-    });
-    failed.into_inner().unwrap_or_else(PoisonError::into_inner).map_or(Ok(bytes), Err)
-}
+        let file = File::open(path).ok()?;
+        let length = || file.metadata().ok().filter(|found| found.is_file()).map(|found| found.len());
+        let before = length()?;
+        let n = usize::try_from(before).ok().filter(|&n| n > 2 * PART && is_room_for(n))?;
+        let bytes = first_bytes(&file, n).ok()?;
+        (length()? == before).then_some(bytes)
+    }
 
-fn read_part(path: &Path, start: u64, part: &mut [u8]) -> io::Result<()> {
-    let mut file = File::open(path)?;
-    file.seek(SeekFrom::Start(start))?;
-    file.read_exact(part)
+    /// The first bytes of a file that has as many.
+    pub fn first_bytes(file: &File, n: usize) -> io::Result<Vec<u8>> {
+        let mut bytes = vec![0; n];
+        let failed = Mutex::new(None);
+        let parts = bytes.chunks_mut(PART).enumerate().collect();
+        each(parts, |(k, part): (usize, &mut [u8])| {
+            if let Err(error) = file.read_exact_at(part, (k * PART) as u64) {
+                *failed.lock().unwrap_or_else(PoisonError::into_inner) = Some(error);
+            }
+        });
+        failed.into_inner().unwrap_or_else(PoisonError::into_inner).map_or(Ok(bytes), Err)
+    }
 }
 
 #[cfg(test)]
 mod tests {
+    #![cfg(unix)]
+
+    use super::parts::{PART, first_bytes};
     use super::*;
     use crate::parallel::Pool;
 
@@ -62,13 +72,24 @@ mod tests {
             let written: Vec<u8> = (0..length).map(|k| (k % 251) as u8).collect();
             fs::write(&path, &written).unwrap();
             for threads in [1, 2, 8] {
-                assert!(
-                    Pool::new(threads).unwrap().run(|| content(&path)).unwrap() == written,
-                    "{length} {threads}"
-                );
+                let read = Pool::new(threads).unwrap().run(|| content(&path)).unwrap();
+                assert!(read == written, "{length} {threads}");
             }
-            assert!(in_parts(&path, length + 1).is_err());
+            assert!(first_bytes(&fs::File::open(&path).unwrap(), length + 1).is_err());
         }
         assert!(matches!(content(&directory.path().join("missing")), Err(Error::Io { .. })));
+    }
+
+    /// A length that no memory suffices for is an error, as if the file were read in one piece.
+    #[test]
+    fn a_file_that_is_longer_than_memory_is_an_error() {
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join("sparse");
+        let file = fs::File::create(&path).unwrap();
+        // Some file systems have no files of this length: then there is nothing to read.
+        if file.set_len(1 << 46).is_ok() {
+            let read = Pool::new(2).unwrap().run(|| content(&path));
+            assert!(matches!(read, Err(Error::Io { .. })));
+        }
     }
 }
