@@ -65,7 +65,7 @@ Made by `docs/results/command.py > docs/results/command.md` with the command of 
 of the minute before it ended was {os.getloadavg()[0]:.1f}.
 
 `ricci flow MESH --metric M.json --report R.json --threads N`, medians of {RUNS} runs, seconds as the reports say them. `flow` is the sum of {", ".join(FLOW)}; flip has the
-flow's start. `whole` is the whole command without the report itself; it is more than the sum, since the measurements that the report asks for and the making
+flow's start; on two threads the analysis is made beside that and counts in both. `whole` is the whole command without the report itself; it is more than the sum, since the measurements that the report asks for and the making
 of the target belong to no phase, and less with two threads, where the metric is written and measured beside the layout. Bytes are the most memory that the process
 had, the program's own 11 MB among them.
 
