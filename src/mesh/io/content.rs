@@ -58,14 +58,13 @@ mod parts {
 
 #[cfg(test)]
 mod tests {
-    #![cfg(unix)]
-
-    use super::parts::{PART, first_bytes};
     use super::*;
     use crate::parallel::Pool;
 
+    #[cfg(unix)]
     #[test]
     fn parts_are_the_whole_for_any_number_of_threads() {
+        use super::parts::{PART, first_bytes};
         let directory = tempfile::tempdir().unwrap();
         for length in [0, 5, 2 * PART, 2 * PART + 1, 3 * PART + 17] {
             let path = directory.path().join("bytes");
