@@ -3,12 +3,11 @@
 //! Nothing here lies farther from its origin than a face reaches. So no error grows, however far the surface's fundamental domain would
 //! reach: in H² a layout in one frame loses e^distance of its digits.
 
-use super::faces::{Faces, combination, corner_at, corner_of};
+use super::faces::{Faces, corner_of};
 use super::pieces::Pieces;
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::flow::Solution;
-use crate::geometry::motion::precise_point;
 use crate::geometry::{Motion, Twofold};
 use crate::mesh::{FaceId, HalfedgeId, PerFace, PerHalfedge};
 use std::sync::Arc;
@@ -43,11 +42,11 @@ pub(crate) fn apart(result: &Solution, control: &Control) -> Result<Apart> {
         Apart { corner: PerHalfedge::filled(n, identity.origin()), across: PerHalfedge::filled(n, identity) };
     for piece in pieces.mesh().faces() {
         let sides = pieces.mesh().face_halfedges(piece);
-        let (places, final_places) = (pieces.input_barycentric(piece), pieces.final_barycentric(piece));
         for k in 0..3 {
-            if let Some(corner) = corner_at(places[k]) {
+            if let Some(corner) = pieces.input_place((piece, k), sides[k]).rounded() {
                 let h = given.face_halfedges(pieces.input_face(piece))[corner];
-                apart.corner[h] = point(&faces, (pieces.final_face(piece), frames[piece]), final_places[k]);
+                let place = pieces.final_place((piece, k), sides[k]);
+                apart.corner[h] = faces.point((pieces.final_face(piece), frames[piece]), place);
             }
             let beside = pieces.mesh().face(sides[k].twin());
             if let (Some(h), Some(beside)) = (pieces.input_halfedge(given, sides[k]), beside) {
@@ -96,16 +95,4 @@ fn through(
     let (next, k) = corner_of(faces.mesh, along.twin())?;
     let across = faces.across(faces.around(face, 0, frame)[side], along);
     Ok(faces.around(next, k, across)[0])
-}
-
-/// The point with these weights of a final face with this frame.
-fn point(
-    faces: &Faces<Motion<Twofold>>,
-    (face, frame): (FaceId, Motion<Twofold>),
-    weights: [f64; 3],
-) -> [Twofold; 3] {
-    match corner_at(weights) {
-        Some(corner) => faces.around(face, 0, frame)[corner].origin(),
-        None => frame.apply(precise_point(faces.space, combination(faces.space, faces.local(face), weights))),
-    }
 }

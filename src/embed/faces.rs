@@ -5,11 +5,13 @@ use super::pieces::Place;
 use super::triangle::Triangle;
 use crate::error::{Error, Result};
 use crate::geometry::model::distance;
+use crate::geometry::motion::precise_point;
 use crate::geometry::triangle::half_differences;
 use crate::geometry::{Motion, Space, Twofold};
 use crate::mesh::{EdgeId, FaceId, HalfedgeId, Mesh, PerEdge, PerFace};
 use crate::metric::Metric;
 use crate::metric::precise::shapes;
+use crate::metric::refinement::corner_at;
 use crate::parallel;
 use std::cell::OnceCell;
 use std::hint::black_box;
@@ -77,6 +79,19 @@ impl<'a> Faces<'a, Motion<Twofold>> {
             [Motion::translation_of_chord(chord, metric.space).a[0], chord]
         });
         Ok(Faces { mesh, space: metric.space, sides: sides.into(), angles, ..Faces::summed(mesh, &areas) })
+    }
+}
+
+impl Faces<'_, Motion<Twofold>> {
+    /// A point of a face, the first half-edge of which has this frame, to twice the digits at a corner.
+    pub fn point(&self, (face, first): (FaceId, Motion<Twofold>), place: Place) -> [Twofold; 3] {
+        match place.rounded() {
+            Some(corner) => self.around(face, 0, first)[corner].origin(),
+            None => {
+                let local = combination(self.space, self.local(face), place.weights());
+                first.apply(precise_point(self.space, local))
+            }
+        }
     }
 }
 
@@ -280,12 +295,6 @@ impl<'a, F: Frame> Placed<'a, F> {
     pub fn longest(&self) -> f64 {
         self.faces.longest(self.face)
     }
-}
-
-/// The corner of a face at which a point with these weights lies, if it is one.
-#[inline]
-pub(super) fn corner_at(weights: [f64; 3]) -> Option<usize> {
-    weights.iter().position(|&w| w == 1.0)
 }
 
 /// The point of the plane, hyperboloid or sphere in the direction of a combination of points; at a corner, the corner itself.

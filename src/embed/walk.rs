@@ -1,11 +1,10 @@
 //! Walks along edge paths of what a layout shows, in the universal cover: face after face, whatever the copies of the layout.
 
-use super::faces::{Faces, combination, corner_at, corner_of};
+use super::faces::{Faces, corner_of};
 use super::layout::Layout;
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::flow::Solution;
-use crate::geometry::motion::precise_point;
 use crate::geometry::{Motion, Space, Twofold};
 use crate::mesh::{FaceId, HalfedgeId};
 use crate::topology::{corner_walk, crossed_halfedges};
@@ -99,14 +98,7 @@ impl<'a> Walks<'a> {
 
     /// The origin of a half-edge of the piece that a walk is in.
     fn point(&self, at: &Place, h: HalfedgeId) -> Result<[Twofold; 3]> {
-        let (piece, k) = corner_of(self.layout.mesh(), h)?;
-        let weights = self.layout.pieces.final_barycentric(piece)[k];
-        Ok(match corner_at(weights) {
-            Some(corner) => self.faces.around(at.face, 0, at.frame)[corner].origin(),
-            None => {
-                let local = combination(self.faces.space, self.faces.local(at.face), weights);
-                at.frame.apply(precise_point(self.faces.space, local))
-            }
-        })
+        let corner = corner_of(self.layout.mesh(), h)?;
+        Ok(self.faces.point((at.face, at.frame), self.layout.pieces.final_place(corner, h)))
     }
 }

@@ -11,6 +11,7 @@
 //! # Ok::<(), ricci::Error>(())
 //! ```
 
+use super::refinement::CORNERS;
 use super::surface::Surface;
 use crate::error::{Error, Result, check_size};
 use crate::geometry::flip::diagonal;
@@ -39,9 +40,6 @@ pub struct Split {
     parent: Vec<FaceId>,
     corners: Vec<[[f64; 3]; 3]>,
 }
-
-/// Weights of a triangle's corners in that triangle.
-const CORNERS: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 /// By how much weights may be negative or their sum may differ from 1.
 const WEIGHTS: f64 = 1e-9;

@@ -43,7 +43,7 @@ mod strip;
 mod triangulations;
 
 pub use maps::{PointMap, Values};
-pub(crate) use parts::{CORNERS, Place};
+pub(crate) use parts::{CORNERS, Place, corner_at};
 pub use parts::{Crossing, Origin, Refinement};
 pub use triangulations::{Final, Input, Intrinsic, Triangulations};
 

@@ -78,7 +78,7 @@ impl Place {
     pub fn rounded(self) -> Option<usize> {
         match self {
             Place::Corner(corner) => Some(corner),
-            Place::Side(weights) => weights.iter().position(|&w| w == 1.0),
+            Place::Side(weights) => corner_at(weights),
         }
     }
 
@@ -89,6 +89,12 @@ impl Place {
             Place::Side(weights) => weights,
         }
     }
+}
+
+/// The corner of a face at which a point with these weights lies, if it is one.
+#[inline]
+pub(crate) fn corner_at(weights: [f64; 3]) -> Option<usize> {
+    weights.iter().position(|&w| w == 1.0)
 }
 
 /// The common refinement. Its vertices are those of the input, in order, then the crossings.
