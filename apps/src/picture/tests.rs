@@ -1,3 +1,5 @@
+//! Tests of the renderer: views, normals, hits and shade.
+
 use super::camera::{Camera, View};
 use super::normals::corner_normals;
 use super::occlusion::{Caster, Ground, Point};

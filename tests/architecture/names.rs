@@ -1,0 +1,132 @@
+//! One word per idea: every type of the library, the C face and the command has a name of its own, and no parameter
+//! is a tuple that is taken apart in the signature.
+
+use super::{rust_files, text};
+use std::collections::BTreeMap;
+
+/// The crates whose types share one vocabulary.
+const CRATES: &[&str] = &["src", "capi/src", "apps/src"];
+
+/// Names that more than one type bears on purpose, each with its reason.
+const SHARED: &[(&str, &str)] = &[];
+
+/// Names that more than one type still bears and that are to be renamed.
+const TO_BE_RENAMED: &str = "\
+    Accessor Angles Around Asked At Before Border Boundary Boxes Canonical Canvas Charts Chords \
+    Class Corner Cover Crossing Delaunay Disk Document Domain Drawn Element Encoding End Factor \
+    Factors Failure Field File Filled Flat Flow Format Found Frame Given Goal Growth Handle Header \
+    Image Input Intrinsic Jet Kind Lift Limits Line Lines Meeting Mesh Mobius Model Node Number \
+    Numbers On Opened Options Origin Outcome Overlay Own Part Parts Patch PatchEntry Path Pattern \
+    Pieces Place Placed Plan Plane Point Polygon Problem Quad Quantity Reached Report Round Row \
+    Rows Scale Scene Search Seconds Seen Shape Shared Sheet ShowChoice Side Similarity Solver \
+    Source Split Spot Stage Standing Start State Steps Surface System Target Text Texture Tracer \
+    Tree Triangle Values Vertices View Way Wish Work \
+    ";
+
+/// Parameters with a tuple as pattern that remain in signatures.
+const TUPLE_PARAMETERS: usize = 80;
+
+/// The name of the type that a line declares. An alias counts only where it begins the line: further in it is the
+/// associated type of a trait.
+fn declared(line: &str) -> Option<&str> {
+    let item = line.trim_start();
+    let item = match item.strip_prefix("pub") {
+        Some(rest) => match rest.strip_prefix('(') {
+            Some(path) => path.split_once(')')?.1.trim_start(),
+            None => rest.trim_start(),
+        },
+        None => item,
+    };
+    let (keyword, rest) = item.split_once(' ')?;
+    let declares = ["struct", "enum", "union", "trait"].contains(&keyword)
+        || keyword == "type" && !line.starts_with(char::is_whitespace);
+    let end = rest.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(rest.len());
+    (declares && rest.starts_with(char::is_alphabetic)).then(|| &rest[..end])
+}
+
+/// The parameters of the functions that `code` declares, each with the name of its function.
+fn parameters(code: &str) -> Vec<(&str, &str)> {
+    let mut found = Vec::new();
+    for (at, _) in code.match_indices("fn ") {
+        let rest = &code[at + 3..];
+        let end = rest.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(rest.len());
+        let name = &rest[..end];
+        if name.is_empty() || code[..at].ends_with(|c: char| c.is_alphanumeric() || c == '_') {
+            continue;
+        }
+        // The list opens at the first bracket outside the generic parameters, and commas part it at depth one.
+        let (mut generic, mut depth, mut start, mut before) = (0, 0, 0, ' ');
+        for (i, c) in rest[end..].char_indices().map(|(i, c)| (end + i, c)) {
+            match c {
+                '<' => generic += 1,
+                '>' if !"-=".contains(before) => generic -= 1,
+                '(' | '[' | '{' if depth > 0 || generic == 0 => {
+                    depth += 1;
+                    start = if depth == 1 { i + 1 } else { start };
+                }
+                ')' | ']' | '}' if depth > 0 => depth -= 1,
+                _ => {}
+            }
+            let parts = depth == 1 && generic == 0 && c == ',';
+            let closes = depth == 0 && c == ')' && generic == 0;
+            if parts || closes {
+                found.push((name, rest[start..i].trim()));
+                start = i + 1;
+            }
+            before = c;
+            if closes || depth == 0 && c == ';' {
+                break;
+            }
+        }
+    }
+    found
+}
+
+fn is_tuple(parameter: &str) -> bool {
+    parameter.trim_start_matches('&').trim_start_matches("mut ").starts_with('(')
+}
+
+#[test]
+fn a_name_is_borne_by_one_type() {
+    let mut places: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    for file in CRATES.iter().flat_map(|folder| rust_files(folder)) {
+        for (number, line) in text(&file).lines().enumerate() {
+            if let Some(name) = declared(line) {
+                places.entry(name.to_string()).or_default().push(format!("{file}:{}", number + 1));
+            }
+        }
+    }
+    places.retain(|_, at| at.len() > 1);
+    let to_be_renamed: Vec<&str> = TO_BE_RENAMED.split_whitespace().collect();
+    let listed = |name: &str| SHARED.iter().any(|(shared, _)| *shared == name) || to_be_renamed.contains(&name);
+    let wrong: Vec<_> = places.iter().filter(|(name, _)| !listed(name)).collect();
+    assert!(wrong.is_empty(), "names that several types bear: {wrong:#?}");
+    let gone: Vec<_> = SHARED.iter().filter(|(name, _)| !places.contains_key(*name)).collect();
+    assert!(gone.is_empty(), "names that are shared no longer: {gone:?}");
+}
+
+#[test]
+fn no_parameter_is_a_tuple() {
+    let mut wrong = Vec::new();
+    for file in CRATES.iter().flat_map(|folder| rust_files(folder)) {
+        let code: Vec<String> =
+            text(&file).lines().map(|line| line.split("//").next().unwrap_or("").to_string()).collect();
+        let code = code.join("\n");
+        let tuples = parameters(&code).into_iter().filter(|(_, parameter)| is_tuple(parameter));
+        wrong.extend(tuples.map(|(name, parameter)| format!("{file}: {name}: {parameter}")));
+    }
+    assert!(wrong.len() <= TUPLE_PARAMETERS, "{} parameters are tuples: {wrong:#?}", wrong.len());
+}
+
+#[test]
+fn declarations_and_tuples_are_seen() {
+    assert_eq!(declared("    pub(in crate::flow) struct Step<'a> {"), Some("Step"));
+    assert_eq!(declared("pub type Pair = (u32, u32);"), Some("Pair"));
+    assert_eq!(declared("    type Output = f64;"), None);
+    assert_eq!(declared("union(a, b);"), None);
+    let code = "fn f<T: Fn(u8) -> u8, const N: usize>(&self, (a, b): (A, B), c: [(u8, u8); 2]) -> (A, B) {\n g((1, 2)) }";
+    let found = parameters(code);
+    assert_eq!(found, [("f", "&self"), ("f", "(a, b): (A, B)"), ("f", "c: [(u8, u8); 2]")]);
+    assert_eq!(found.iter().filter(|(_, parameter)| is_tuple(parameter)).count(), 1);
+    assert_eq!(parameters("fn f(g: impl Fn(A, B) -> C, x: &mut Vec<(A, B)>)").len(), 2);
+}
