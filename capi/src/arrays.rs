@@ -1,6 +1,6 @@
 //! Arrays from and to C. Nothing here trusts alignment; counts are checked before they are multiplied.
 
-use crate::failure::{Element, Failure, Outcome};
+use crate::failure::{FailureElement, Failure, Outcome};
 use crate::guard::output;
 use crate::status::*;
 use ricci::mesh::Point;
@@ -78,7 +78,7 @@ pub fn faces(data: *const u32, n: usize) -> Outcome<Vec<[u32; 3]>> {
         if let Some(k) = face.iter().position(|&v| (v as i32) < 0) {
             let v = face[k] as i32;
             let message = format!("face {f}, corner {k}: vertex {v} is negative; indices are 0-based");
-            return Err(Failure::argument(message).at(Element::Face, f));
+            return Err(Failure::argument(message).at(FailureElement::Face, f));
         }
     }
     Ok(faces)
@@ -95,14 +95,14 @@ pub fn check_buffer<T>(what: &str, needed: usize, buffer: *mut T, capacity: usiz
 }
 
 /// What results consist of: numbers, or rows of them, which are copied one after the other.
-pub trait Row: Copy {
+pub trait CopiedRow: Copy {
     type Entry: Copy;
     fn entries(rows: &[Self]) -> &[Self::Entry];
 }
 
 macro_rules! entries {
     ($($number:ty)+) => {$(
-        impl Row for $number {
+        impl CopiedRow for $number {
             type Entry = $number;
             fn entries(rows: &[$number]) -> &[$number] {
                 rows
@@ -112,7 +112,7 @@ macro_rules! entries {
 }
 entries!(f64 u8 i32 u32 i64 usize);
 
-impl<T: Row, const N: usize> Row for [T; N] {
+impl<T: CopiedRow, const N: usize> CopiedRow for [T; N] {
     type Entry = T::Entry;
     fn entries(rows: &[[T; N]]) -> &[T::Entry] {
         T::entries(rows.as_flattened())
@@ -120,7 +120,7 @@ impl<T: Row, const N: usize> Row for [T; N] {
 }
 
 /// Copy results into the caller's buffer of `capacity` entries.
-pub fn copy_out<T: Row>(what: &str, values: &[T], buffer: *mut T::Entry, capacity: usize) -> Outcome {
+pub fn copy_out<T: CopiedRow>(what: &str, values: &[T], buffer: *mut T::Entry, capacity: usize) -> Outcome {
     let values = T::entries(values);
     check_buffer(what, values.len(), buffer, capacity)?;
     if !values.is_empty() {
@@ -132,7 +132,7 @@ pub fn copy_out<T: Row>(what: &str, values: &[T], buffer: *mut T::Entry, capacit
 }
 
 /// Copy values that are made one by one, `n` of them.
-pub fn copy_each<T: Row>(
+pub fn copy_each<T: CopiedRow>(
     what: &str,
     n: usize,
     values: impl IntoIterator<Item = T>,
@@ -147,7 +147,7 @@ pub fn copy_each<T: Row>(
 
 /// Copy rows of different lengths: their entries one after the other, and where each row starts and the last one ends.
 /// A buffer is given with its capacity in entries.
-pub fn copy_rows<T: Row<Entry = T>>(
+pub fn copy_rows<T: CopiedRow<Entry = T>>(
     what: &str,
     rows: impl IntoIterator<Item = impl IntoIterator<Item = T>>,
     buffer: (*mut T, usize),
@@ -164,7 +164,7 @@ pub fn copy_rows<T: Row<Entry = T>>(
 }
 
 /// Copy results whose number the caller cannot know before, with that number; for no buffer of no entries the number alone.
-pub fn copy_counted<T: Row<Entry = T>>(
+pub fn copy_counted<T: CopiedRow<Entry = T>>(
     what: &str,
     values: &[T],
     buffer: *mut T,
@@ -183,7 +183,7 @@ pub fn copy_counted<T: Row<Entry = T>>(
 pub fn ambient(what: &str, data: *const f64, n: usize) -> Outcome<Vec<[f64; 3]>> {
     let points: Vec<[f64; 3]> = array(what, data.cast(), n)?;
     match points.iter().position(|p| p.iter().any(|x| !x.is_finite())) {
-        Some(i) => Err(Failure::argument(format!("{what}: row {i} is not finite")).at(Element::Entry, i)),
+        Some(i) => Err(Failure::argument(format!("{what}: row {i} is not finite")).at(FailureElement::Entry, i)),
         None => Ok(points),
     }
 }

@@ -6,10 +6,10 @@ use crate::failure::Failure;
 use crate::guard::{self, handle, shared};
 use crate::layout::{corners_of, ricci_layout};
 use crate::memory;
-use crate::metric::State;
+use crate::metric::MetricState;
 use crate::status::*;
 use crate::structs::{self, sized};
-use crate::texture::File;
+use crate::texture::TextureFile;
 use ricci::embed::{ChartOptions, Charts, Layout, charts};
 use ricci::geometry::Space;
 use ricci::mesh::Point;
@@ -17,7 +17,7 @@ use std::ffi::c_char;
 use std::sync::Arc;
 
 pub struct ricci_atlas {
-    state: Arc<State>,
+    state: Arc<MetricState>,
     /// What was cut into charts, and the positions of its vertices.
     layout: Arc<Layout>,
     positions: Option<Arc<Vec<Point>>>,
@@ -147,7 +147,7 @@ pub unsafe extern "C" fn ricci_atlas_write(
             _ => return Err(not_projective()),
         };
         let (corners, positions) = (atlas.corners(), positions.clone());
-        File { mesh: layout.mesh(), positions, points: &charts.coordinates, corners }
+        TextureFile { mesh: layout.mesh(), positions, points: &charts.coordinates, corners }
             .write(&arrays::path(path)?, weights)
     })
 }

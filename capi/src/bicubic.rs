@@ -22,14 +22,14 @@ handle!(ricci_bicubic, "bicubic patches");
 const BATCH: usize = 1 << 16;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Format {
+enum BicubicFormat {
     Step,
     Json,
 }
 
-choices!(FORMATS: Format = "format", [
-    RICCI_BICUBIC_STEP => Format::Step,
-    RICCI_BICUBIC_JSON => Format::Json,
+choices!(FORMATS: BicubicFormat = "format", [
+    RICCI_BICUBIC_STEP => BicubicFormat::Step,
+    RICCI_BICUBIC_JSON => BicubicFormat::Json,
 ]);
 
 choices!(UNITS: LengthUnit = "unit", [
@@ -100,11 +100,11 @@ impl ricci_step_options {
 }
 
 /// The format that a file's name asks for.
-fn format_of(path: &Path) -> Outcome<Format> {
+fn format_of(path: &Path) -> Outcome<BicubicFormat> {
     let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
     match extension.as_deref() {
-        Some("step" | "stp") => Ok(Format::Step),
-        Some("json") => Ok(Format::Json),
+        Some("step" | "stp") => Ok(BicubicFormat::Step),
+        Some("json") => Ok(BicubicFormat::Json),
         _ => {
             let message = format!("{}: unknown format; known are .step, .stp, .json", path.display());
             Err(Failure::new(RICCI_UNKNOWN_FORMAT, message))
@@ -113,13 +113,13 @@ fn format_of(path: &Path) -> Outcome<Format> {
 }
 
 /// The bytes of a file of patches.
-fn bytes(surface: &BicubicSurface, format: Format, options: *const ricci_step_options) -> Outcome<Vec<u8>> {
+fn bytes(surface: &BicubicSurface, format: BicubicFormat, options: *const ricci_step_options) -> Outcome<Vec<u8>> {
     let options = structs::read(options)?.read()?;
     let _reserve = memory::work(surface.n_control_points(), memory::BICUBIC_TEXT)?;
     let mut bytes = Vec::new();
     match format {
-        Format::Step => surface.write_step(&options, &mut bytes)?,
-        Format::Json => {
+        BicubicFormat::Step => surface.write_step(&options, &mut bytes)?,
+        BicubicFormat::Json => {
             surface.write_json(&mut bytes).map_err(|why| Failure::new(RICCI_IO, why.to_string()))?;
         }
     }

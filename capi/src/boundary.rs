@@ -7,19 +7,19 @@ use ricci::canonical::{Boundary, Corner, Corners};
 use ricci::mesh::VertexId;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Kind {
+enum BoundaryKind {
     Geodesic,
     Straight,
 }
 
-choices!(KINDS: Kind = "boundary", [
-    RICCI_BOUNDARY_GEODESIC => Kind::Geodesic,
-    RICCI_BOUNDARY_STRAIGHT => Kind::Straight,
+choices!(KINDS: BoundaryKind = "boundary", [
+    RICCI_BOUNDARY_GEODESIC => BoundaryKind::Geodesic,
+    RICCI_BOUNDARY_STRAIGHT => BoundaryKind::Straight,
 ]);
 
 /// The boundary of this kind, with `n` corners: vertices and angles, either of which may be NULL.
 pub fn read(kind: u32, (corners, angles): (*const u32, *const f64), n: usize) -> Outcome<Boundary> {
-    if KINDS.choose(kind)? == Kind::Geodesic {
+    if KINDS.choose(kind)? == BoundaryKind::Geodesic {
         return Ok(Boundary::Geodesic);
     }
     if corners.is_null() {

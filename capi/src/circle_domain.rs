@@ -8,7 +8,7 @@ use crate::guard::{self, handle, shared};
 use crate::layout::{MODELS, ricci_layout};
 use crate::memory;
 use crate::mesh::{SPACES, ricci_mesh};
-use crate::metric::{State, ricci_metric};
+use crate::metric::{MetricState, ricci_metric};
 use crate::paths::vertex_or_none;
 use crate::report::stop_reason;
 use crate::status::*;
@@ -26,7 +26,7 @@ pub struct ricci_circle_domain {
     /// The surface with the vertices that were added to its loops.
     surface: Surface,
     /// What layouts ask of that surface.
-    state: Arc<State>,
+    state: Arc<MetricState>,
 }
 handle!(ricci_circle_domain, "circle domain");
 

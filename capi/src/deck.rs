@@ -4,7 +4,7 @@ use crate::arrays::{ambient, array, copy_each, copy_out, copy_rows};
 use crate::choice::choices;
 use crate::control::{self, ricci_control};
 use crate::dirichlet::ricci_dirichlet;
-use crate::failure::{Element, Failure, Outcome, no_such};
+use crate::failure::{FailureElement, Failure, Outcome, no_such};
 use crate::guard::{self, handle, shared};
 use crate::memory;
 use crate::mesh::SPACES;
@@ -21,7 +21,7 @@ use ricci::topology::Letter;
 const MOST_RESERVED: usize = 1 << 16;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Kind {
+enum DeckKind {
     Generators,
     Sides,
     Words,
@@ -30,28 +30,28 @@ enum Kind {
     DirichletSides,
 }
 
-choices!(KINDS: Kind = "kind", [
-    RICCI_DECK_GENERATORS => Kind::Generators,
-    RICCI_DECK_SIDES => Kind::Sides,
-    RICCI_DECK_WORDS => Kind::Words,
-    RICCI_DECK_DEPTH => Kind::Depth,
-    RICCI_DECK_WITHIN => Kind::Within,
-    RICCI_DECK_DIRICHLET_SIDES => Kind::DirichletSides,
+choices!(KINDS: DeckKind = "kind", [
+    RICCI_DECK_GENERATORS => DeckKind::Generators,
+    RICCI_DECK_SIDES => DeckKind::Sides,
+    RICCI_DECK_WORDS => DeckKind::Words,
+    RICCI_DECK_DEPTH => DeckKind::Depth,
+    RICCI_DECK_WITHIN => DeckKind::Within,
+    RICCI_DECK_DIRICHLET_SIDES => DeckKind::DirichletSides,
 ]);
 
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Values {
+enum DeckValues {
     Mobius,
     Matrices,
     Traces,
     Lengths,
 }
 
-choices!(VALUES: Values = "which", [
-    RICCI_DECK_MOBIUS => Values::Mobius,
-    RICCI_DECK_MATRIX => Values::Matrices,
-    RICCI_DECK_TRACE => Values::Traces,
-    RICCI_DECK_LENGTH => Values::Lengths,
+choices!(VALUES: DeckValues = "which", [
+    RICCI_DECK_MOBIUS => DeckValues::Mobius,
+    RICCI_DECK_MATRIX => DeckValues::Matrices,
+    RICCI_DECK_TRACE => DeckValues::Traces,
+    RICCI_DECK_LENGTH => DeckValues::Lengths,
 ]);
 
 pub struct ricci_deck {
@@ -123,20 +123,20 @@ pub unsafe extern "C" fn ricci_deck_new(
         let (spec, control) = (structs::read(spec)?, control::of(control));
         let group = &shared(uniform)?.quotient()?.deck;
         let kind = KINDS.choose(spec.kind)?;
-        let looked_at = if matches!(kind, Kind::Depth | Kind::Within) { spec.limit } else { 0 };
+        let looked_at = if matches!(kind, DeckKind::Depth | DeckKind::Within) { spec.limit } else { 0 };
         let _reserve = memory::work(looked_at.min(MOST_RESERVED), memory::ELEMENT)?;
         let elements = match kind {
-            Kind::Generators => generators(group),
-            Kind::Sides => group.sides.clone(),
-            Kind::Words => of_words(group, &spec)?,
-            Kind::Depth => elements_to_depth(group, spec.depth, spec.limit, &control)?,
-            Kind::Within if spec.radius.is_nan() => {
+            DeckKind::Generators => generators(group),
+            DeckKind::Sides => group.sides.clone(),
+            DeckKind::Words => of_words(group, &spec)?,
+            DeckKind::Depth => elements_to_depth(group, spec.depth, spec.limit, &control)?,
+            DeckKind::Within if spec.radius.is_nan() => {
                 return Err(Failure::argument("radius is not a number"));
             }
-            Kind::Within => {
+            DeckKind::Within => {
                 elements_within(group, shared(spec.dirichlet)?.of(group)?, spec.radius, spec.limit, &control)?
             }
-            Kind::DirichletSides => shared(spec.dirichlet)?.of(group)?.sides.clone(),
+            DeckKind::DirichletSides => shared(spec.dirichlet)?.of(group)?.sides.clone(),
         };
         Ok(ricci_deck { space: group.space, elements })
     })
@@ -190,16 +190,16 @@ pub unsafe extern "C" fn ricci_deck_values(
     guard::with(deck, |deck| {
         let (n, motions) = (deck.elements.len(), deck.elements.iter().map(|g| &g.motion));
         match VALUES.choose(which)? {
-            Values::Mobius => copy_each("values", n, motions.map(|g| g.mobius()), values, capacity),
-            Values::Matrices => {
+            DeckValues::Mobius => copy_each("values", n, motions.map(|g| g.mobius()), values, capacity),
+            DeckValues::Matrices => {
                 let rows = motions.map(|g| g.matrix().map(|row| row.map(f64::from)));
                 copy_each("values", n, rows, values, capacity)
             }
-            Values::Traces => {
+            DeckValues::Traces => {
                 let traces = motions.map(|g| 2.0 * f64::from(g.half_trace()).abs());
                 copy_each("values", n, traces, values, capacity)
             }
-            Values::Lengths => {
+            DeckValues::Lengths => {
                 copy_each("values", n, motions.map(Motion::translation_length), values, capacity)
             }
         }
@@ -218,7 +218,7 @@ pub unsafe extern "C" fn ricci_deck_apply(
     guard::with(deck, |deck| {
         let count = deck.elements.len();
         let g = deck.elements.get(element);
-        let g = g.ok_or_else(|| no_such(Element::Entry, "element", element, count))?;
+        let g = g.ok_or_else(|| no_such(FailureElement::Entry, "element", element, count))?;
         copy_out("moved", &self::moved(&ambient("points", points, n_points)?, &g.motion), moved, capacity)
     })
 }

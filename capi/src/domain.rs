@@ -1,7 +1,7 @@
 //! Fundamental domains: a surface opened along a cut.
 
 use crate::arrays::{array, check_buffer, copy_each, copy_rows};
-use crate::failure::{Element, no_such};
+use crate::failure::{FailureElement, no_such};
 use crate::guard::{self, handle, shared};
 use crate::homotopy::ricci_homotopy;
 use crate::paths::{copy_paths, letters, signed_edge};
@@ -41,7 +41,7 @@ pub unsafe extern "C" fn ricci_domain_new(
             let mut is_cut = PerEdge::filled(mesh.n_edges(), false);
             for e in array("cut", cut, n_cut)? {
                 if e as usize >= mesh.n_edges() {
-                    return Err(no_such(Element::Edge, "edge", e as usize, mesh.n_edges()));
+                    return Err(no_such(FailureElement::Edge, "edge", e as usize, mesh.n_edges()));
                 }
                 is_cut[EdgeId(e)] = true;
             }

@@ -9,7 +9,7 @@ pub type Outcome<T = ()> = Result<T, Failure>;
 
 /// What an element number counts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Element {
+pub enum FailureElement {
     #[default]
     None,
     Vertex,
@@ -28,7 +28,7 @@ pub enum Element {
 pub struct Failure {
     pub status: ricci_status,
     pub message: Cow<'static, str>,
-    pub at: (Element, usize),
+    pub at: (FailureElement, usize),
     pub amount: f64,
     pub needed: usize,
     /// The caller asked for a size with NULL and capacity 0: that is no event to be logged.
@@ -49,7 +49,7 @@ impl Failure {
     }
 
     /// The same, at an element.
-    pub fn at(self, element: Element, index: usize) -> Failure {
+    pub fn at(self, element: FailureElement, index: usize) -> Failure {
         Failure { at: (element, index), ..self }
     }
 
@@ -60,7 +60,7 @@ impl Failure {
 }
 
 /// An element that does not exist.
-pub fn no_such(element: Element, what: &str, index: usize, count: usize) -> Failure {
+pub fn no_such(element: FailureElement, what: &str, index: usize, count: usize) -> Failure {
     Failure::argument(format!("{what} {index} does not exist: there are {count}")).at(element, index)
 }
 
@@ -73,20 +73,20 @@ impl From<Error> for Failure {
             Error::Argument { what: "threads", .. } => {
                 return Failure { status: RICCI_NO_MEMORY, ..failure };
             }
-            Error::Parse { at: At::Line(line), .. } => ((Element::Line, *line), 0.0),
-            Error::Parse { at: At::Byte(byte), .. } => ((Element::Byte, *byte), 0.0),
-            Error::TooLarge { count, .. } => ((Element::None, 0), *count as f64),
-            Error::Gluing { face, .. } => ((Element::Face, *face), 0.0),
-            Error::EdgeLength { edge, length } => ((Element::Edge, *edge), *length),
-            Error::TriangleInequality { face, excess } => ((Element::Face, *face), *excess),
-            Error::EdgeWeight { edge, eta, .. } => ((Element::Edge, *edge), *eta),
-            Error::Domain { vertex, u, .. } => ((Element::Vertex, *vertex), *u),
-            Error::TargetAtVertex { vertex, excess, .. } => ((Element::Vertex, *vertex), *excess),
-            Error::TargetBelow { vertex, excess, .. } => ((Element::Vertex, *vertex), *excess),
-            Error::Spline { what: "patch" | "triangle", index, .. } => ((Element::Face, *index), 0.0),
-            Error::Spline { what: "vertex", index, .. } => ((Element::Vertex, *index), 0.0),
-            Error::Spline { index, .. } => ((Element::Entry, *index), 0.0),
-            Error::TargetTotal { miss, .. } => ((Element::None, 0), *miss),
+            Error::Parse { at: At::Line(line), .. } => ((FailureElement::Line, *line), 0.0),
+            Error::Parse { at: At::Byte(byte), .. } => ((FailureElement::Byte, *byte), 0.0),
+            Error::TooLarge { count, .. } => ((FailureElement::None, 0), *count as f64),
+            Error::Gluing { face, .. } => ((FailureElement::Face, *face), 0.0),
+            Error::EdgeLength { edge, length } => ((FailureElement::Edge, *edge), *length),
+            Error::TriangleInequality { face, excess } => ((FailureElement::Face, *face), *excess),
+            Error::EdgeWeight { edge, eta, .. } => ((FailureElement::Edge, *edge), *eta),
+            Error::Domain { vertex, u, .. } => ((FailureElement::Vertex, *vertex), *u),
+            Error::TargetAtVertex { vertex, excess, .. } => ((FailureElement::Vertex, *vertex), *excess),
+            Error::TargetBelow { vertex, excess, .. } => ((FailureElement::Vertex, *vertex), *excess),
+            Error::Spline { what: "patch" | "triangle", index, .. } => ((FailureElement::Face, *index), 0.0),
+            Error::Spline { what: "vertex", index, .. } => ((FailureElement::Vertex, *index), 0.0),
+            Error::Spline { index, .. } => ((FailureElement::Entry, *index), 0.0),
+            Error::TargetTotal { miss, .. } => ((FailureElement::None, 0), *miss),
             _ => return failure,
         };
         Failure { at, amount, ..failure }

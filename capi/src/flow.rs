@@ -4,7 +4,7 @@ use crate::arrays;
 use crate::choice::choices;
 use crate::control::{self, ricci_control};
 use crate::failure::Outcome;
-use crate::guard::{self, Mutable, handle, shared};
+use crate::guard::{self, MutableHandle, handle, shared};
 use crate::memory;
 use crate::metric::ricci_metric;
 use crate::status::ricci_status;
@@ -112,7 +112,7 @@ pub struct ricci_solver {
 }
 handle!(ricci_solver, "solver");
 
-impl Mutable for ricci_solver {
+impl MutableHandle for ricci_solver {
     fn poisoned(&mut self) -> &mut bool {
         &mut self.poisoned
     }

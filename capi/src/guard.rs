@@ -17,14 +17,14 @@ use std::sync::Once;
 compile_error!("the C face catches panics, which needs panic = \"unwind\"");
 
 /// What every opaque type has.
-pub trait Handle: Sized {
+pub trait OpaqueHandle: Sized {
     /// Its name in messages.
     const NAME: &'static str;
 }
 
 macro_rules! handle {
     ($type:ty, $name:literal) => {
-        impl $crate::guard::Handle for $type {
+        impl $crate::guard::OpaqueHandle for $type {
             const NAME: &'static str = $name;
         }
     };
@@ -32,7 +32,7 @@ macro_rules! handle {
 pub(crate) use handle;
 
 /// A handle that is only read.
-pub fn shared<'a, H: Handle>(handle: *const H) -> Outcome<&'a H> {
+pub fn shared<'a, H: OpaqueHandle>(handle: *const H) -> Outcome<&'a H> {
     // SAFETY: NULL, or from this library and alive (contract of the header).
     unsafe { handle.as_ref() }.ok_or_else(|| Failure::null(H::NAME))
 }
@@ -80,12 +80,12 @@ fn run(body: &mut dyn FnMut() -> Outcome) -> ricci_status {
 }
 
 /// Run the body of an entry point that reads one handle.
-pub fn with<H: Handle>(handle: *const H, body: impl FnOnce(&H) -> Outcome) -> ricci_status {
+pub fn with<H: OpaqueHandle>(handle: *const H, body: impl FnOnce(&H) -> Outcome) -> ricci_status {
     call(|| body(shared(handle)?))
 }
 
 /// Run the body of an entry point that makes a handle, whose place is checked before any work is done.
-pub fn make<H: Handle>(place: *mut *mut H, body: impl FnOnce() -> Outcome<H>) -> ricci_status {
+pub fn make<H: OpaqueHandle>(place: *mut *mut H, body: impl FnOnce() -> Outcome<H>) -> ricci_status {
     call(|| {
         let place = output(H::NAME, place)?;
         place.set(Box::into_raw(Box::new(body()?)));
@@ -94,13 +94,13 @@ pub fn make<H: Handle>(place: *mut *mut H, body: impl FnOnce() -> Outcome<H>) ->
 }
 
 /// A handle that calls change.
-pub trait Mutable: Handle {
+pub trait MutableHandle: OpaqueHandle {
     /// Whether a call was changing it and did not come to its end.
     fn poisoned(&mut self) -> &mut bool;
 }
 
 /// The result of a body that changes a handle: a panic leaves it poisoned.
-pub fn change<H: Mutable, T>(handle: *mut H, body: impl FnOnce(&mut H) -> Outcome<T>) -> Outcome<T> {
+pub fn change<H: MutableHandle, T>(handle: *mut H, body: impl FnOnce(&mut H) -> Outcome<T>) -> Outcome<T> {
     // SAFETY: NULL, or from this library, alive and used by this thread only (contract of the header).
     let handle = unsafe { handle.as_mut() }.ok_or_else(|| Failure::null(H::NAME))?;
     if std::mem::replace(handle.poisoned(), true) {
@@ -183,7 +183,7 @@ mod tests {
         value: i32,
     }
     handle!(Box2, "box");
-    impl Mutable for Box2 {
+    impl MutableHandle for Box2 {
         fn poisoned(&mut self) -> &mut bool {
             &mut self.poisoned
         }

@@ -16,7 +16,7 @@ use ricci::harmonic::{
 use ricci::mesh::VertexId;
 
 #[derive(Clone, Copy, PartialEq)]
-enum Target {
+enum HarmonicTarget {
     Disk,
     Rectangle,
     Sphere,
@@ -24,12 +24,12 @@ enum Target {
     Polygon,
 }
 
-choices!(TARGETS: Target = "target of a harmonic map", [
-    RICCI_HARMONIC_DISK => Target::Disk,
-    RICCI_HARMONIC_RECTANGLE => Target::Rectangle,
-    RICCI_HARMONIC_SPHERE => Target::Sphere,
-    RICCI_HARMONIC_VALUES => Target::Values,
-    RICCI_HARMONIC_POLYGON => Target::Polygon,
+choices!(TARGETS: HarmonicTarget = "target of a harmonic map", [
+    RICCI_HARMONIC_DISK => HarmonicTarget::Disk,
+    RICCI_HARMONIC_RECTANGLE => HarmonicTarget::Rectangle,
+    RICCI_HARMONIC_SPHERE => HarmonicTarget::Sphere,
+    RICCI_HARMONIC_VALUES => HarmonicTarget::Values,
+    RICCI_HARMONIC_POLYGON => HarmonicTarget::Polygon,
 ]);
 
 #[repr(C)]
@@ -59,13 +59,13 @@ pub unsafe extern "C" fn ricci_harmonic(
         let _reserve = memory::work(mesh.connectivity.n_vertices(), memory::UNIFORM)?;
         let surface = mesh.surface()?;
         let found: Vec<[f64; 3]> = match target {
-            Target::Sphere => {
+            HarmonicTarget::Sphere => {
                 let domain = Domain::new(surface, &control)?;
                 sphere_map(&domain, &SphereMapOptions::default(), &control)?.points
             }
-            Target::Values => given(&Domain::new(surface, &control)?, &spec, &control)?,
-            Target::Disk | Target::Polygon | Target::Rectangle => {
-                let (_, domain) = simple_domain(surface, target == Target::Polygon, &control)?;
+            HarmonicTarget::Values => given(&Domain::new(surface, &control)?, &spec, &control)?,
+            HarmonicTarget::Disk | HarmonicTarget::Polygon | HarmonicTarget::Rectangle => {
+                let (_, domain) = simple_domain(surface, target == HarmonicTarget::Polygon, &control)?;
                 let map = plane(&domain, target, &spec, &control)?;
                 // Vertices that the domain had to be given come behind those of the mesh.
                 let own = map.points.into_iter().take(mesh.connectivity.n_vertices());
@@ -78,12 +78,12 @@ pub unsafe extern "C" fn ricci_harmonic(
 
 fn plane(
     domain: &Domain,
-    target: Target,
+    target: HarmonicTarget,
     spec: &ricci_harmonic_spec,
     control: &Control,
 ) -> Outcome<HarmonicMap<2>> {
     Ok(match target {
-        Target::Polygon => {
+        HarmonicTarget::Polygon => {
             let corners = if spec.vertices.is_null() {
                 planar::corners_by_length(domain, spec.n)?
             } else {
@@ -91,7 +91,7 @@ fn plane(
             };
             planar::to_polygon(domain, &planar::regular_polygon(spec.n), Some(&corners), control)?
         }
-        Target::Rectangle => planar::to_rectangle(domain, corners(spec)?, control)?.0,
+        HarmonicTarget::Rectangle => planar::to_rectangle(domain, corners(spec)?, control)?.0,
         _ => planar::to_disk(domain, control)?,
     })
 }

@@ -1,6 +1,6 @@
 //! The last failure of every thread.
 
-use crate::failure::{Element, Failure};
+use crate::failure::{FailureElement, Failure};
 use crate::status::*;
 use std::cell::{Cell, UnsafeCell};
 use std::ffi::c_char;
@@ -10,9 +10,9 @@ const TEXT_BYTES: usize = 1024;
 
 /// The numbers of a failure.
 #[derive(Clone, Copy)]
-pub struct Numbers {
+pub struct FailureNumbers {
     pub status: ricci_status,
-    pub at: (Element, usize),
+    pub at: (FailureElement, usize),
     pub amount: f64,
     pub needed: usize,
 }
@@ -20,10 +20,10 @@ pub struct Numbers {
 thread_local! {
     /// The message: a buffer without a destructor, whose address stays until the thread ends.
     static TEXT: UnsafeCell<[u8; TEXT_BYTES]> = const { UnsafeCell::new([0; TEXT_BYTES]) };
-    static NUMBERS: Cell<Numbers> = const { Cell::new(NOTHING) };
+    static NUMBERS: Cell<FailureNumbers> = const { Cell::new(NOTHING) };
 }
 
-const NOTHING: Numbers = Numbers { status: RICCI_OK, at: (Element::None, 0), amount: 0.0, needed: 0 };
+const NOTHING: FailureNumbers = FailureNumbers { status: RICCI_OK, at: (FailureElement::None, 0), amount: 0.0, needed: 0 };
 
 /// Keep a failure for this thread. A NUL inside the message, from a caller's path, would cut it short, so it becomes a question mark.
 pub fn keep(failure: &Failure) {
@@ -37,7 +37,7 @@ pub fn keep(failure: &Failure) {
         buffer.iter_mut().zip(kept.chain([0])).for_each(|(place, byte)| *place = byte);
     });
     let &Failure { status, at, amount, needed, .. } = failure;
-    let _ = NUMBERS.try_with(|last| last.set(Numbers { status, at, amount, needed }));
+    let _ = NUMBERS.try_with(|last| last.set(FailureNumbers { status, at, amount, needed }));
 }
 
 /// The message of the last failure of this thread, NUL-terminated.
@@ -46,6 +46,6 @@ pub fn text() -> *const c_char {
 }
 
 /// Its numbers.
-pub fn numbers() -> Numbers {
+pub fn numbers() -> FailureNumbers {
     NUMBERS.try_with(Cell::get).unwrap_or(NOTHING)
 }

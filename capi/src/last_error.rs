@@ -1,21 +1,21 @@
 //! What a caller asks about the last failure of its thread.
 
 use crate::choice::choices;
-use crate::failure::Element;
+use crate::failure::FailureElement;
 use crate::guard;
-use crate::kept::{self, Numbers};
+use crate::kept::{self, FailureNumbers};
 use crate::status::ricci_status;
 use crate::structs::{self, sized};
 use std::ffi::c_char;
 
-choices!(ELEMENTS: Element = "element", [
-    RICCI_ELEMENT_NONE => Element::None,
-    RICCI_ELEMENT_VERTEX => Element::Vertex,
-    RICCI_ELEMENT_EDGE => Element::Edge,
-    RICCI_ELEMENT_FACE => Element::Face,
-    RICCI_ELEMENT_ENTRY => Element::Entry,
-    RICCI_ELEMENT_LINE => Element::Line,
-    RICCI_ELEMENT_BYTE => Element::Byte,
+choices!(ELEMENTS: FailureElement = "element", [
+    RICCI_ELEMENT_NONE => FailureElement::None,
+    RICCI_ELEMENT_VERTEX => FailureElement::Vertex,
+    RICCI_ELEMENT_EDGE => FailureElement::Edge,
+    RICCI_ELEMENT_FACE => FailureElement::Face,
+    RICCI_ELEMENT_ENTRY => FailureElement::Entry,
+    RICCI_ELEMENT_LINE => FailureElement::Line,
+    RICCI_ELEMENT_BYTE => FailureElement::Byte,
 ]);
 
 #[repr(C)]
@@ -39,8 +39,8 @@ pub extern "C" fn ricci_last_error() -> *const c_char {
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ricci_last_failure(failure: *mut ricci_failure, size: usize) -> ricci_status {
     guard::call(|| {
-        let Numbers { status, at: (element, index), amount, needed } = kept::numbers();
-        let index = if element == Element::None { -1 } else { index as i64 };
+        let FailureNumbers { status, at: (element, index), amount, needed } = kept::numbers();
+        let index = if element == FailureElement::None { -1 } else { index as i64 };
         let element = ELEMENTS.number(element)?;
         structs::write(ricci_failure { size, status, element, index, amount, needed }, failure, size)
     })

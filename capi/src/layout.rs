@@ -7,12 +7,12 @@ use crate::failure::{Failure, Outcome};
 use crate::guard::{self, handle, shared};
 use crate::memory;
 use crate::mesh::{SPACES, ricci_mesh};
-use crate::metric::{ON, On, State, ricci_metric};
+use crate::metric::{ON, Triangulation, MetricState, ricci_metric};
 use crate::paths::{copy_paths, vertex_or_none};
 use crate::status::*;
 use crate::structs::{self, sized};
 use crate::target::vertices;
-use crate::texture::File;
+use crate::texture::TextureFile;
 use ricci::embed::layout::{bounding_diagonal, distance};
 use ricci::embed::{Layout, OnInput, Quality, Scale, Seam, UnrollOptions, unroll};
 use ricci::geometry::{Model, PlaneIsometry, Space};
@@ -34,7 +34,7 @@ choices!(SCALES: Scale = "scale", [
 ]);
 
 pub struct ricci_layout {
-    pub(crate) state: Arc<State>,
+    pub(crate) state: Arc<MetricState>,
     pub(crate) layout: Arc<Layout>,
     /// The coordinates of `points`.
     pub(crate) model: Model,
@@ -118,7 +118,7 @@ pub(crate) fn corners_of(mesh: &Mesh, index: &PerHalfedge<u32>) -> Vec<[u32; 3]>
 }
 
 impl ricci_layout {
-    pub(crate) fn new(state: Arc<State>, layout: Layout, model: Model) -> Outcome<ricci_layout> {
+    pub(crate) fn new(state: Arc<MetricState>, layout: Layout, model: Model) -> Outcome<ricci_layout> {
         if model == Model::Hyperboloid {
             return Err(Failure::argument("the points of a layout need a model with two coordinates"));
         }
@@ -141,9 +141,9 @@ impl ricci_layout {
     }
 
     /// The point of every corner of every face, of the input or of what is laid out.
-    pub(crate) fn corners(&self, on: On) -> Outcome<Vec<[u32; 3]>> {
+    pub(crate) fn corners(&self, on: Triangulation) -> Outcome<Vec<[u32; 3]>> {
         Ok(match on {
-            On::Input => {
+            Triangulation::Input => {
                 let on_input = self.on_input()?;
                 let corners = corners_of(self.state.solution.given(), &on_input.corner_index);
                 corners.into_iter().map(|face| face.map(|k| on_input.points[k as usize])).collect()
@@ -324,7 +324,7 @@ pub unsafe extern "C" fn ricci_layout_seam_edges(
 ) -> ricci_status {
     guard::with(layout, |layout| {
         let cut = match ON.choose(on)? {
-            On::Input => &layout.on_input()?.cut,
+            Triangulation::Input => &layout.on_input()?.cut,
             _ => &layout.layout.cut,
         };
         copy_paths(&cut.segments, (edges, edges_capacity), (starts, starts_capacity))
@@ -340,7 +340,7 @@ pub unsafe extern "C" fn ricci_layout_flipped(
 ) -> ricci_status {
     guard::with(layout, |layout| {
         let flipped: &[FaceId] = match ON.choose(on)? {
-            On::Input => &layout.on_input()?.flipped,
+            Triangulation::Input => &layout.on_input()?.flipped,
             _ => &layout.layout.flipped,
         };
         copy_each("faces", flipped.len(), flipped.iter().map(|f| f.0), faces, capacity)
@@ -357,7 +357,7 @@ pub unsafe extern "C" fn ricci_layout_distortion(
 ) -> ricci_status {
     guard::with(layout, |layout| {
         let quality = match ON.choose(on)? {
-            On::Input => Cow::Owned(layout.quality_on_input()?),
+            Triangulation::Input => Cow::Owned(layout.quality_on_input()?),
             _ => Cow::Borrowed(layout.quality()?),
         };
         check_buffer("area_ratio", quality.area_ratio.len(), area_ratio, capacity)?;
@@ -397,19 +397,19 @@ pub unsafe extern "C" fn ricci_layout_write(
     guard::with(layout, |layout| {
         let (on, solution) = (ON.choose(on)?, &layout.state.solution);
         let (mesh, positions) = match on {
-            On::Input => (&**solution.given(), solution.surface().positions().cloned()),
+            Triangulation::Input => (&**solution.given(), solution.surface().positions().cloned()),
             _ => (layout.layout.mesh(), layout.positions()?),
         };
         let weights = match (homogeneous, on) {
             (0, _) => None,
-            (_, On::Input) => {
+            (_, Triangulation::Input) => {
                 return Err(Failure::argument(
                     "on the input's own faces the map is linear: take homogeneous 0",
                 ));
             }
             _ => Some((crate::map::weights(&layout.state, layout.layout.refinement())?, layout.heights()?)),
         };
-        File { mesh, positions, points: &layout.points, corners: layout.corners(on)? }
+        TextureFile { mesh, positions, points: &layout.points, corners: layout.corners(on)? }
             .write(&arrays::path(path)?, weights)
     })
 }

@@ -19,20 +19,20 @@ choices!(LEVELS: LevelFilter = "level", [
 pub type ricci_log_callback =
     Option<unsafe extern "C" fn(level: u32, message: *const c_char, user_data: *mut c_void)>;
 
-struct Sink {
+struct LogSink {
     callback: unsafe extern "C" fn(u32, *const c_char, *mut c_void),
     user_data: *mut c_void,
 }
 
 // SAFETY: the header asks for a callback, and data, that may be used from any thread.
-unsafe impl Send for Sink {}
-unsafe impl Sync for Sink {}
+unsafe impl Send for LogSink {}
+unsafe impl Sync for LogSink {}
 
-static SINK: RwLock<Option<Sink>> = RwLock::new(None);
+static SINK: RwLock<Option<LogSink>> = RwLock::new(None);
 
-struct ToSink;
+struct SinkLogger;
 
-impl Log for ToSink {
+impl Log for SinkLogger {
     fn enabled(&self, _: &Metadata<'_>) -> bool {
         true
     }
@@ -57,11 +57,11 @@ pub unsafe extern "C" fn ricci_log_set(
 ) -> ricci_status {
     guard::call(|| {
         let level = LEVELS.choose(level)?;
-        let sink = callback.map(|callback| Sink { callback, user_data });
+        let sink = callback.map(|callback| LogSink { callback, user_data });
         let level = if sink.is_some() { level } else { LevelFilter::Off };
         *SINK.write().unwrap_or_else(PoisonError::into_inner) = sink;
         // Already set by an earlier call: the sink behind it is what changes.
-        let _ = log::set_logger(&ToSink);
+        let _ = log::set_logger(&SinkLogger);
         log::set_max_level(level);
         Ok(())
     })

@@ -3,11 +3,11 @@
 use crate::arrays::{array, check_buffer, copy_each, copy_out};
 use crate::choice::choices;
 use crate::control::{self, ricci_control};
-use crate::failure::{Element, Failure, Outcome};
+use crate::failure::{FailureElement, Failure, Outcome};
 use crate::guard::{self, handle, shared};
 use crate::memory;
 use crate::mesh::ricci_mesh;
-use crate::metric::{ON, On, State, ricci_metric};
+use crate::metric::{ON, Triangulation, MetricState, ricci_metric};
 use crate::status::*;
 use crate::structs::{self, sized};
 use ricci::mesh::{FaceId, Mesh, PerVertex};
@@ -32,7 +32,7 @@ pub struct ricci_map(Kind);
 /// Which two triangulations a map is between.
 enum Kind {
     /// Of a metric: no refinement where both are one.
-    Flow(Arc<State>, Option<Arc<Refinement>>),
+    Flow(Arc<MetricState>, Option<Arc<Refinement>>),
     /// Of two surfaces.
     Matching(Box<([Surface; 2], Overlay)>),
 }
@@ -65,7 +65,7 @@ pub struct ricci_carried {
 sized!(ricci_carried, "carried");
 
 /// Homogeneous weight of every vertex of a refinement, or of the mesh where that is none.
-pub(crate) fn weights(state: &State, refinement: Option<&Arc<Refinement>>) -> Outcome<PerVertex<f64>> {
+pub(crate) fn weights(state: &MetricState, refinement: Option<&Arc<Refinement>>) -> Outcome<PerVertex<f64>> {
     Ok(match refinement {
         Some(refinement) => refinement.weight.clone(),
         None => state.solution.refinement(&Control::new())?.weight,
@@ -73,9 +73,9 @@ pub(crate) fn weights(state: &State, refinement: Option<&Arc<Refinement>>) -> Ou
 }
 
 /// A side of the map: the input or the metric's triangulation.
-fn side(on: u32) -> Outcome<On> {
+fn side(on: u32) -> Outcome<Triangulation> {
     match ON.choose(on)? {
-        On::Refinement => {
+        Triangulation::Refinement => {
             Err(Failure::argument("on is RICCI_ON_REFINEMENT: known are the input and the metric"))
         }
         side => Ok(side),
@@ -96,9 +96,9 @@ impl ricci_map {
     }
 
     /// Per crossing, its edge on a side and the weight of that edge's second end.
-    fn crossings(&self, on: On) -> Vec<(u32, f64)> {
+    fn crossings(&self, on: Triangulation) -> Vec<(u32, f64)> {
         let of = |c: &Crossing| match on {
-            On::Input => (c.input_edge.0, c.input_weights[1]),
+            Triangulation::Input => (c.input_edge.0, c.input_weights[1]),
             _ => (c.final_edge.0, c.final_weights[1]),
         };
         match &self.0 {
@@ -112,29 +112,29 @@ impl ricci_map {
     }
 
     /// Triangulations as they were given on a side.
-    fn given(&self, on: On) -> &Mesh {
+    fn given(&self, on: Triangulation) -> &Mesh {
         match (&self.0, on) {
-            (Kind::Flow(state, _), On::Input) => state.solution.given(),
+            (Kind::Flow(state, _), Triangulation::Input) => state.solution.given(),
             (Kind::Flow(state, _), _) => state.solution.mesh(),
             (Kind::Matching(both), on) => both.0[number(on)].mesh(),
         }
     }
 
     /// Values at the vertices of a side, at those of the refinement.
-    fn at_vertices(&self, on: On, column: &[[f64; 1]]) -> ricci::Result<Vec<[f64; 1]>> {
+    fn at_vertices(&self, on: Triangulation, column: &[[f64; 1]]) -> ricci::Result<Vec<[f64; 1]>> {
         match &self.0 {
             Kind::Flow(_, None) => Ok(column.to_vec()),
-            Kind::Flow(_, Some(r)) if on == On::Input => r.from_input_vertices(column),
+            Kind::Flow(_, Some(r)) if on == Triangulation::Input => r.from_input_vertices(column),
             Kind::Flow(_, Some(r)) => r.from_final_vertices(column),
             Kind::Matching(both) => both.1.from_vertices(number(on), self.given(on), column),
         }
     }
 
     /// Values at the corners of a side's faces, at those of the refinement.
-    fn at_corners(&self, on: On, column: &[[[f64; 1]; 3]]) -> ricci::Result<Vec<[[f64; 1]; 3]>> {
+    fn at_corners(&self, on: Triangulation, column: &[[[f64; 1]; 3]]) -> ricci::Result<Vec<[[f64; 1]; 3]>> {
         match &self.0 {
             Kind::Flow(_, None) => Ok(column.to_vec()),
-            Kind::Flow(_, Some(r)) if on == On::Input => r.from_input_corners(column),
+            Kind::Flow(_, Some(r)) if on == Triangulation::Input => r.from_input_corners(column),
             Kind::Flow(_, Some(r)) => r.from_final_corners(column),
             Kind::Matching(both) => both.1.from_corners(number(on), column),
         }
@@ -142,8 +142,8 @@ impl ricci_map {
 }
 
 /// The number of a side of an overlay: the source, or the target.
-fn number(on: On) -> usize {
-    usize::from(on != On::Input)
+fn number(on: Triangulation) -> usize {
+    usize::from(on != Triangulation::Input)
 }
 
 #[unsafe(no_mangle)]
@@ -182,7 +182,7 @@ pub unsafe extern "C" fn ricci_map_summarise(
             n_vertices: mesh.n_vertices(),
             n_edges: mesh.n_edges(),
             n_faces: mesh.n_faces(),
-            n_crossings: map.crossings(On::Input).len(),
+            n_crossings: map.crossings(Triangulation::Input).len(),
             n_pieces: pieces.map_or(mesh.n_faces(), |last| last.map_or(0, |&last| last as usize + 1)),
         };
         structs::write(figures, summary, size)
@@ -225,10 +225,10 @@ pub unsafe extern "C" fn ricci_map_faces(
         let on = ON.choose(on)?;
         let of = |f: FaceId| match (&map.0, on) {
             (Kind::Flow(_, None), _) => f.0,
-            (Kind::Flow(_, Some(refinement)), On::Input) => refinement.input_face[f].0,
-            (Kind::Flow(_, Some(refinement)), On::Metric) => refinement.final_face[f].0,
-            (Kind::Flow(_, Some(refinement)), On::Refinement) => refinement.piece[f],
-            (Kind::Matching(both), On::Refinement) => both.1.piece[f],
+            (Kind::Flow(_, Some(refinement)), Triangulation::Input) => refinement.input_face[f].0,
+            (Kind::Flow(_, Some(refinement)), Triangulation::Metric) => refinement.final_face[f].0,
+            (Kind::Flow(_, Some(refinement)), Triangulation::Refinement) => refinement.piece[f],
+            (Kind::Matching(both), Triangulation::Refinement) => both.1.piece[f],
             (Kind::Matching(both), on) => both.1.faces[number(on)][f].0,
         };
         copy_each("faces", map.mesh().n_faces(), map.mesh().faces().map(of), faces, capacity)
@@ -245,7 +245,7 @@ pub unsafe extern "C" fn ricci_map_barycentric(
     guard::with(map, |map| {
         let on = side(on)?;
         let of = |f: FaceId| match (&map.0, on) {
-            (Kind::Flow(_, Some(refinement)), On::Input) => refinement.input_barycentric(f),
+            (Kind::Flow(_, Some(refinement)), Triangulation::Input) => refinement.input_barycentric(f),
             (Kind::Flow(_, Some(refinement)), _) => refinement.final_barycentric(f),
             (Kind::Flow(_, None), _) => [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
             (Kind::Matching(both), on) => both.1.barycentric[number(on)][f],
@@ -339,7 +339,7 @@ impl<const K: usize> Values<K> {
         match all.iter().position(|x| !x.is_finite()) {
             Some(i) => {
                 let message = format!("values[{i}] is {}: values must be finite", all[i]);
-                Err(Failure::argument(message).at(Element::Entry, i))
+                Err(Failure::argument(message).at(FailureElement::Entry, i))
             }
             None => Ok(Values { all, n_components }),
         }

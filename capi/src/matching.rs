@@ -30,7 +30,7 @@ pub struct ricci_matching {
 handle!(ricci_matching, "matching");
 
 #[derive(Clone, Copy, PartialEq)]
-enum Direction {
+enum MapDirection {
     Forward,
     Backward,
 }
@@ -45,9 +45,9 @@ choices!(LOOP_SHAPES: LoopShape = "shape of boundary loops", [
     RICCI_MATCH_CIRCLES => LoopShape::Circles,
 ]);
 
-choices!(DIRECTIONS: Direction = "direction of a matching", [
-    RICCI_MATCH_FORWARD => Direction::Forward,
-    RICCI_MATCH_BACKWARD => Direction::Backward,
+choices!(DIRECTIONS: MapDirection = "direction of a matching", [
+    RICCI_MATCH_FORWARD => MapDirection::Forward,
+    RICCI_MATCH_BACKWARD => MapDirection::Backward,
 ]);
 
 #[repr(C)]
@@ -113,8 +113,8 @@ impl ricci_matching {
     /// A map, and the surface that it leads to.
     fn map(&self, direction: u32) -> Outcome<(&SurfaceMap, &Surface)> {
         Ok(match DIRECTIONS.choose(direction)? {
-            Direction::Forward => (&self.matching.forward, &self.target),
-            Direction::Backward => (&self.matching.backward, &self.source),
+            MapDirection::Forward => (&self.matching.forward, &self.target),
+            MapDirection::Backward => (&self.matching.backward, &self.source),
         })
     }
 }

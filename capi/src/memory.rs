@@ -53,14 +53,14 @@ pub fn patch(degree: usize) -> usize {
     1 << (12 + degree.min(ricci::spline::MAX_DEGREE))
 }
 
-struct Slot {
+struct ReserveSlot {
     place: AtomicPtr<u8>,
     bytes: AtomicUsize,
 }
 
 /// What is held; the first is the little that any call may take.
-static HELD: [Slot; MOST_RESERVES] =
-    [const { Slot { place: AtomicPtr::new(null_mut()), bytes: AtomicUsize::new(0) } }; MOST_RESERVES];
+static HELD: [ReserveSlot; MOST_RESERVES] =
+    [const { ReserveSlot { place: AtomicPtr::new(null_mut()), bytes: AtomicUsize::new(0) } }; MOST_RESERVES];
 
 /// Address space of the process's own, beside every heap, so that what is given back serves any thread; NULL if there is none.
 #[cfg(unix)]
@@ -102,7 +102,7 @@ unsafe fn unmap(place: *mut u8, bytes: usize) {
     }
 }
 
-impl Slot {
+impl ReserveSlot {
     /// Hold memory here, if the place is free. Its size is written before the memory can be found.
     fn fill(&self, place: *mut u8, bytes: usize) -> bool {
         self.bytes.compare_exchange(0, bytes, Ordering::AcqRel, Ordering::Relaxed).is_ok() && {
@@ -124,10 +124,10 @@ impl Slot {
 }
 
 /// The allocator of the C face: the system's, which is asked again once reserves have been released.
-struct Patient;
+struct RetryingAllocator;
 
 #[global_allocator]
-static ALLOCATOR: Patient = Patient;
+static ALLOCATOR: RetryingAllocator = RetryingAllocator;
 
 /// What `ask` gives; if that is nothing, what it gives once the reserves are released.
 fn again(ask: impl Fn() -> *mut u8) -> *mut u8 {
@@ -137,7 +137,7 @@ fn again(ask: impl Fn() -> *mut u8) -> *mut u8 {
 }
 
 // SAFETY: the system's allocator, with its contract; nothing here unwinds or allocates by itself.
-unsafe impl GlobalAlloc for Patient {
+unsafe impl GlobalAlloc for RetryingAllocator {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         again(|| unsafe { System.alloc(layout) })
     }
@@ -157,7 +157,7 @@ unsafe impl GlobalAlloc for Patient {
 
 /// Memory for the work of one call, given back at its end if it was not needed before.
 #[must_use]
-pub struct Reserve(Option<&'static Slot>);
+pub struct Reserve(Option<&'static ReserveSlot>);
 
 impl Drop for Reserve {
     fn drop(&mut self) {
@@ -167,7 +167,7 @@ impl Drop for Reserve {
     }
 }
 
-fn hold(bytes: usize, slots: &'static [Slot]) -> Outcome<Reserve> {
+fn hold(bytes: usize, slots: &'static [ReserveSlot]) -> Outcome<Reserve> {
     let place = if bytes > isize::MAX as usize { null_mut() } else { map(bytes) };
     if place.is_null() {
         let failure = Failure::new(RICCI_NO_MEMORY, "the system has no memory for the work of this call");

@@ -23,7 +23,7 @@ choices!(pub(crate) SPACES: Space = "space", [
 
 /// What the elements of a mesh or a triangle list have.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Value {
+pub(crate) enum MeshValue {
     Positions,
     Lengths,
     Normals,
@@ -32,13 +32,13 @@ pub(crate) enum Value {
     CornerNormals,
 }
 
-choices!(pub(crate) VALUES: Value = "which", [
-    RICCI_POSITIONS => Value::Positions,
-    RICCI_LENGTHS => Value::Lengths,
-    RICCI_NORMALS => Value::Normals,
-    RICCI_COLORS => Value::Colors,
-    RICCI_UV => Value::Uv,
-    RICCI_CORNER_NORMALS => Value::CornerNormals,
+choices!(pub(crate) VALUES: MeshValue = "which", [
+    RICCI_POSITIONS => MeshValue::Positions,
+    RICCI_LENGTHS => MeshValue::Lengths,
+    RICCI_NORMALS => MeshValue::Normals,
+    RICCI_COLORS => MeshValue::Colors,
+    RICCI_UV => MeshValue::Uv,
+    RICCI_CORNER_NORMALS => MeshValue::CornerNormals,
 ]);
 
 choices!(WRAPS: Wrap = "wrap", [
@@ -144,12 +144,12 @@ pub(crate) fn count(attributes: &Attributes) -> [usize; 4] {
 
 /// Copy one of the attributes out.
 pub(crate) fn copy_attribute(
-    which: Value,
+    which: MeshValue,
     attributes: &Attributes,
     values: *mut f64,
     capacity: usize,
 ) -> Outcome {
-    fn copy<T: arrays::Row<Entry = f64>>(
+    fn copy<T: arrays::CopiedRow<Entry = f64>>(
         what: &str,
         list: &Option<Vec<T>>,
         to: (*mut f64, usize),
@@ -160,11 +160,11 @@ pub(crate) fn copy_attribute(
     }
     let to = (values, capacity);
     match which {
-        Value::Normals => copy("normals", &attributes.normals, to),
-        Value::Colors => copy("colors", &attributes.colors, to),
-        Value::Uv => copy("uv", &attributes.uv, to),
-        Value::CornerNormals => copy("corner normals", &attributes.corner_normals, to),
-        Value::Positions | Value::Lengths => Err(Failure::argument("a triangle list has no lengths")),
+        MeshValue::Normals => copy("normals", &attributes.normals, to),
+        MeshValue::Colors => copy("colors", &attributes.colors, to),
+        MeshValue::Uv => copy("uv", &attributes.uv, to),
+        MeshValue::CornerNormals => copy("corner normals", &attributes.corner_normals, to),
+        MeshValue::Positions | MeshValue::Lengths => Err(Failure::argument("a triangle list has no lengths")),
     }
 }
 
@@ -361,8 +361,8 @@ pub unsafe extern "C" fn ricci_mesh_values(
     capacity: usize,
 ) -> ricci_status {
     guard::with(mesh, |mesh| match VALUES.choose(which)? {
-        Value::Positions => copy_out("positions", mesh.positions()?, values, capacity),
-        Value::Lengths => copy_out("lengths", mesh.surface()?.lengths(), values, capacity),
+        MeshValue::Positions => copy_out("positions", mesh.positions()?, values, capacity),
+        MeshValue::Lengths => copy_out("lengths", mesh.surface()?.lengths(), values, capacity),
         which => copy_attribute(which, &mesh.attributes, values, capacity),
     })
 }

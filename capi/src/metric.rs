@@ -26,7 +26,7 @@ choices!(pub(crate) SCHEMES: Scheme = "scheme", [
 
 /// Where what is asked about lies.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum On {
+pub(crate) enum Triangulation {
     /// The caller's mesh.
     Input,
     /// The metric's own triangulation.
@@ -35,15 +35,15 @@ pub(crate) enum On {
     Refinement,
 }
 
-choices!(pub(crate) ON: On = "on", [
-    RICCI_ON_INPUT => On::Input,
-    RICCI_ON_METRIC => On::Metric,
-    RICCI_ON_REFINEMENT => On::Refinement,
+choices!(pub(crate) ON: Triangulation = "on", [
+    RICCI_ON_INPUT => Triangulation::Input,
+    RICCI_ON_METRIC => Triangulation::Metric,
+    RICCI_ON_REFINEMENT => Triangulation::Refinement,
 ]);
 
 /// Numbers of a metric.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Quantity {
+enum MetricQuantity {
     Factor,
     Curvature,
     U,
@@ -53,18 +53,18 @@ enum Quantity {
     MeshU,
 }
 
-choices!(QUANTITIES: Quantity = "which", [
-    RICCI_METRIC_FACTOR => Quantity::Factor,
-    RICCI_METRIC_CURVATURE => Quantity::Curvature,
-    RICCI_METRIC_U => Quantity::U,
-    RICCI_METRIC_TYPE => Quantity::Type,
-    RICCI_METRIC_LENGTH => Quantity::Lengths,
-    RICCI_METRIC_ETA => Quantity::Eta,
-    RICCI_METRIC_MESH_U => Quantity::MeshU,
+choices!(QUANTITIES: MetricQuantity = "which", [
+    RICCI_METRIC_FACTOR => MetricQuantity::Factor,
+    RICCI_METRIC_CURVATURE => MetricQuantity::Curvature,
+    RICCI_METRIC_U => MetricQuantity::U,
+    RICCI_METRIC_TYPE => MetricQuantity::Type,
+    RICCI_METRIC_LENGTH => MetricQuantity::Lengths,
+    RICCI_METRIC_ETA => MetricQuantity::Eta,
+    RICCI_METRIC_MESH_U => MetricQuantity::MeshU,
 ]);
 
 /// A metric of a surface, shared by the handles that were made from it, with what is asked of it more than once.
-pub(crate) struct State {
+pub(crate) struct MetricState {
     pub solution: Solution,
     /// Of the flow that led here, if one did.
     pub report: Option<Report>,
@@ -74,7 +74,7 @@ pub(crate) struct State {
     refinement: OnceLock<Arc<Refinement>>,
 }
 
-pub struct ricci_metric(pub(crate) Arc<State>);
+pub struct ricci_metric(pub(crate) Arc<MetricState>);
 handle!(ricci_metric, "metric");
 
 /// The value of a cell, made at the first question.
@@ -88,7 +88,7 @@ fn kept<T>(cell: &OnceLock<T>, make: impl FnOnce() -> ricci::Result<T>) -> Outco
     }
 }
 
-impl State {
+impl MetricState {
     fn curvature(&self) -> Outcome<&Curvature> {
         kept(&self.curvature, || self.solution.curvature())
     }
@@ -108,7 +108,7 @@ impl ricci_metric {
         let lengths = Arc::new(solution.metric().lengths(solution.mesh())?);
         let report = solution.report().cloned().or(report);
         let (curvature, refinement) = (OnceLock::new(), OnceLock::new());
-        Ok(ricci_metric(Arc::new(State { solution, report, lengths, curvature, refinement })))
+        Ok(ricci_metric(Arc::new(MetricState { solution, report, lengths, curvature, refinement })))
     }
 }
 
@@ -172,7 +172,7 @@ pub unsafe extern "C" fn ricci_metric_summarise(
     size: usize,
 ) -> ricci_status {
     guard::with(metric, |ricci_metric(state)| {
-        let State { solution, .. } = &**state;
+        let MetricState { solution, .. } = &**state;
         let (curvature, initial, mesh) = (state.curvature()?, solution.initial(), solution.mesh());
         let figures = ricci_metric_summary {
             size,
@@ -204,20 +204,20 @@ pub unsafe extern "C" fn ricci_metric_values(
     capacity: usize,
 ) -> ricci_status {
     guard::with(metric, |ricci_metric(state)| {
-        let State { solution, lengths, .. } = &**state;
+        let MetricState { solution, lengths, .. } = &**state;
         let (metric, n) = (solution.metric(), solution.given().n_vertices());
         let copy = |all: &[f64]| copy_out("values", all, values, capacity);
         match QUANTITIES.choose(which)? {
-            Quantity::Factor => copy(&solution.conformal_factor()?),
-            Quantity::Curvature => copy(&state.curvature()?.at),
-            Quantity::U => copy(metric.u.split_at(n).0),
-            Quantity::Type => {
+            MetricQuantity::Factor => copy(&solution.conformal_factor()?),
+            MetricQuantity::Curvature => copy(&state.curvature()?.at),
+            MetricQuantity::U => copy(metric.u.split_at(n).0),
+            MetricQuantity::Type => {
                 let types = metric.epsilon.iter().take(n).map(|&e| f64::from(e));
                 copy_each("values", n, types, values, capacity)
             }
-            Quantity::Lengths => copy(lengths),
-            Quantity::Eta => copy(&metric.rounded_eta()),
-            Quantity::MeshU => copy(&metric.u),
+            MetricQuantity::Lengths => copy(lengths),
+            MetricQuantity::Eta => copy(&metric.rounded_eta()),
+            MetricQuantity::MeshU => copy(&metric.u),
         }
     })
 }
@@ -228,7 +228,7 @@ pub unsafe extern "C" fn ricci_metric_mesh(
     mesh: *mut *mut ricci_mesh,
 ) -> ricci_status {
     guard::make(mesh, || {
-        let State { solution, lengths, .. } = &*shared(metric)?.0;
+        let MetricState { solution, lengths, .. } = &*shared(metric)?.0;
         Ok(ricci_mesh::intrinsic(solution.mesh().clone(), lengths.clone(), solution.metric().space))
     })
 }
@@ -247,6 +247,6 @@ pub unsafe extern "C" fn ricci_metric_mirror(
 }
 
 /// What the flow did that led to a metric.
-pub(crate) fn report_of(state: &State) -> Outcome<&Report> {
+pub(crate) fn report_of(state: &MetricState) -> Outcome<&Report> {
     state.report.as_ref().ok_or_else(|| Failure::argument("no flow has led to this metric: it has no report"))
 }

@@ -1,7 +1,7 @@
 //! Edge paths and words as C has them: 1-based numbers, negative for what runs backwards.
 
 use crate::arrays::{array, copy_counted, copy_rows};
-use crate::failure::{Element, Failure, Outcome};
+use crate::failure::{FailureElement, Failure, Outcome};
 use ricci::mesh::{EdgeId, HalfedgeId, Mesh, VertexId};
 use ricci::topology::SurfaceGroup;
 use ricci::topology::word::{Letter, Word};
@@ -16,7 +16,7 @@ pub fn signed_edge(h: HalfedgeId) -> i32 {
 fn not_numbered(what: &str, i: usize, number: i32, elements: &str, count: usize) -> Failure {
     let message =
         format!("{what}[{i}] is {number}: {elements} are numbered 1 to {count}, -1 to -{count} backwards");
-    Failure::argument(message).at(Element::Entry, i)
+    Failure::argument(message).at(FailureElement::Entry, i)
 }
 
 /// Half-edges as signed edge numbers of a mesh.

@@ -29,31 +29,31 @@ pub(crate) fn stop_reason(reason: StopReason) -> Outcome<(u32, *const c_char)> {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Values {
+enum ReportValues {
     Target,
     Residuals,
     Trace,
     Worst,
 }
 
-choices!(VALUES: Values = "which", [
-    RICCI_REPORT_TARGET => Values::Target,
-    RICCI_REPORT_RESIDUALS => Values::Residuals,
-    RICCI_REPORT_TRACE => Values::Trace,
-    RICCI_REPORT_WORST_ERRORS => Values::Worst,
+choices!(VALUES: ReportValues = "which", [
+    RICCI_REPORT_TARGET => ReportValues::Target,
+    RICCI_REPORT_RESIDUALS => ReportValues::Residuals,
+    RICCI_REPORT_TRACE => ReportValues::Trace,
+    RICCI_REPORT_WORST_ERRORS => ReportValues::Worst,
 ]);
 
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Vertices {
+enum ReportVertices {
     Cones,
     Worst,
     Obstruction,
 }
 
-choices!(VERTICES: Vertices = "which", [
-    RICCI_REPORT_CONES => Vertices::Cones,
-    RICCI_REPORT_WORST => Vertices::Worst,
-    RICCI_REPORT_OBSTRUCTION => Vertices::Obstruction,
+choices!(VERTICES: ReportVertices = "which", [
+    RICCI_REPORT_CONES => ReportVertices::Cones,
+    RICCI_REPORT_WORST => ReportVertices::Worst,
+    RICCI_REPORT_OBSTRUCTION => ReportVertices::Obstruction,
 ]);
 
 #[repr(C)]
@@ -147,18 +147,18 @@ pub unsafe extern "C" fn ricci_report_values(
     guard::with(metric, |ricci_metric(state)| {
         let report = report_of(state)?;
         match VALUES.choose(which)? {
-            Values::Target => {
+            ReportValues::Target => {
                 let target = state.solution.target().map_or(&[][..], |target| target);
                 copy_out("values", target, values, capacity)
             }
-            Values::Residuals => copy_out("values", &report.residuals, values, capacity),
-            Values::Trace => {
+            ReportValues::Residuals => copy_out("values", &report.residuals, values, capacity),
+            ReportValues::Trace => {
                 let rows = report.trace.iter().map(|row| {
                     [row.step as f64, row.energy, row.max_curvature_error, row.area, row.step_size]
                 });
                 copy_each("values", report.trace.len(), rows, values, capacity)
             }
-            Values::Worst => {
+            ReportValues::Worst => {
                 let errors = report.worst.iter().map(|&(_, error)| error);
                 copy_each("values", report.worst.len(), errors, values, capacity)
             }
@@ -176,9 +176,9 @@ pub unsafe extern "C" fn ricci_report_vertices(
     guard::with(metric, |ricci_metric(state)| {
         let report = report_of(state)?;
         let names: Vec<u32> = match VERTICES.choose(which)? {
-            Vertices::Cones => state.solution.cones().iter().map(|v| v.0).collect(),
-            Vertices::Worst => report.worst.iter().map(|(v, _)| v.0).collect(),
-            Vertices::Obstruction => obstruction(report).0.iter().map(|v| v.0).collect(),
+            ReportVertices::Cones => state.solution.cones().iter().map(|v| v.0).collect(),
+            ReportVertices::Worst => report.worst.iter().map(|(v, _)| v.0).collect(),
+            ReportVertices::Obstruction => obstruction(report).0.iter().map(|v| v.0).collect(),
         };
         copy_out("vertices", &names, vertices, capacity)
     })

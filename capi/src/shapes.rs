@@ -15,7 +15,7 @@ use ricci::mesh::shapes::{self, Intrinsic, Sliver, TorusKnot};
 use std::sync::Arc;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Shape {
+enum SampleShape {
     Sphere,
     Ellipsoid,
     Disk,
@@ -32,25 +32,25 @@ enum Shape {
     Hyperelliptic,
 }
 
-choices!(SHAPES: Shape = "shape", [
-    RICCI_SHAPE_SPHERE => Shape::Sphere,
-    RICCI_SHAPE_ELLIPSOID => Shape::Ellipsoid,
-    RICCI_SHAPE_DISK => Shape::Disk,
-    RICCI_SHAPE_ANNULUS => Shape::Annulus,
-    RICCI_SHAPE_TORUS => Shape::Torus,
-    RICCI_SHAPE_GENUS => Shape::Genus,
-    RICCI_SHAPE_KNOT => Shape::Knot,
-    RICCI_SHAPE_FLAT_TORUS => Shape::FlatTorus,
-    RICCI_SHAPE_BOLZA => Shape::Bolza,
-    RICCI_SHAPE_ONE_VERTEX => Shape::OneVertex,
-    RICCI_SHAPE_TWO_VERTEX => Shape::TwoVertex,
-    RICCI_SHAPE_TWO_TRIANGLES => Shape::TwoTriangles,
-    RICCI_SHAPE_PANTS => Shape::Pants,
-    RICCI_SHAPE_HYPERELLIPTIC => Shape::Hyperelliptic,
+choices!(SHAPES: SampleShape = "shape", [
+    RICCI_SHAPE_SPHERE => SampleShape::Sphere,
+    RICCI_SHAPE_ELLIPSOID => SampleShape::Ellipsoid,
+    RICCI_SHAPE_DISK => SampleShape::Disk,
+    RICCI_SHAPE_ANNULUS => SampleShape::Annulus,
+    RICCI_SHAPE_TORUS => SampleShape::Torus,
+    RICCI_SHAPE_GENUS => SampleShape::Genus,
+    RICCI_SHAPE_KNOT => SampleShape::Knot,
+    RICCI_SHAPE_FLAT_TORUS => SampleShape::FlatTorus,
+    RICCI_SHAPE_BOLZA => SampleShape::Bolza,
+    RICCI_SHAPE_ONE_VERTEX => SampleShape::OneVertex,
+    RICCI_SHAPE_TWO_VERTEX => SampleShape::TwoVertex,
+    RICCI_SHAPE_TWO_TRIANGLES => SampleShape::TwoTriangles,
+    RICCI_SHAPE_PANTS => SampleShape::Pants,
+    RICCI_SHAPE_HYPERELLIPTIC => SampleShape::Hyperelliptic,
 ]);
 
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Change {
+enum ShapeChange {
     Punch,
     Grade,
     Caps,
@@ -59,13 +59,13 @@ enum Change {
     Invert,
 }
 
-choices!(CHANGES: Change = "change", [
-    RICCI_CHANGE_PUNCH => Change::Punch,
-    RICCI_CHANGE_GRADE => Change::Grade,
-    RICCI_CHANGE_CAPS => Change::Caps,
-    RICCI_CHANGE_NEEDLES => Change::Needles,
-    RICCI_CHANGE_NOISE => Change::Noise,
-    RICCI_CHANGE_INVERT => Change::Invert,
+choices!(CHANGES: ShapeChange = "change", [
+    RICCI_CHANGE_PUNCH => ShapeChange::Punch,
+    RICCI_CHANGE_GRADE => ShapeChange::Grade,
+    RICCI_CHANGE_CAPS => ShapeChange::Caps,
+    RICCI_CHANGE_NEEDLES => ShapeChange::Needles,
+    RICCI_CHANGE_NOISE => ShapeChange::Noise,
+    RICCI_CHANGE_INVERT => ShapeChange::Invert,
 ]);
 
 #[repr(C)]
@@ -116,25 +116,25 @@ fn intrinsic(surface: Intrinsic) -> Outcome<ricci_mesh> {
 }
 
 /// About how many faces a surface will have, as the header counts them.
-fn faces_of(shape: Shape, [n, m, genus]: [usize; 3]) -> usize {
+fn faces_of(shape: SampleShape, [n, m, genus]: [usize; 3]) -> usize {
     let square = n.saturating_mul(n);
     let cut = |times: usize| 4_usize.saturating_pow(times.min(32) as u32);
     match shape {
-        Shape::Sphere | Shape::Ellipsoid => square.saturating_mul(20),
-        Shape::Disk => square.saturating_mul(6),
-        Shape::Annulus | Shape::Torus | Shape::Knot | Shape::FlatTorus => {
+        SampleShape::Sphere | SampleShape::Ellipsoid => square.saturating_mul(20),
+        SampleShape::Disk => square.saturating_mul(6),
+        SampleShape::Annulus | SampleShape::Torus | SampleShape::Knot | SampleShape::FlatTorus => {
             n.saturating_mul(m).saturating_mul(2)
         }
-        Shape::Genus => genus.saturating_mul(6).saturating_mul(square).saturating_mul(16),
-        Shape::Bolza | Shape::Pants => cut(n).saturating_mul(16),
-        Shape::OneVertex | Shape::TwoVertex => genus.saturating_mul(4),
-        Shape::TwoTriangles => 2,
-        Shape::Hyperelliptic => square.saturating_mul(40),
+        SampleShape::Genus => genus.saturating_mul(6).saturating_mul(square).saturating_mul(16),
+        SampleShape::Bolza | SampleShape::Pants => cut(n).saturating_mul(16),
+        SampleShape::OneVertex | SampleShape::TwoVertex => genus.saturating_mul(4),
+        SampleShape::TwoTriangles => 2,
+        SampleShape::Hyperelliptic => square.saturating_mul(40),
     }
 }
 
 /// Memory for a surface that the library does not refuse for its size.
-fn room_for(shape: Shape, sizes: [usize; 3]) -> Outcome<memory::Reserve> {
+fn room_for(shape: SampleShape, sizes: [usize; 3]) -> Outcome<memory::Reserve> {
     let faces = faces_of(shape, sizes);
     memory::work(if faces > u32::MAX as usize { 0 } else { faces }, memory::MESH)
 }
@@ -149,20 +149,20 @@ pub unsafe extern "C" fn ricci_make(shape: *const ricci_shape, mesh: *mut *mut r
         let shape = SHAPES.choose(shape)?;
         let _reserve = room_for(shape, [n, m, genus])?;
         ricci_mesh::from_soup(match shape {
-            Shape::Sphere => shapes::icosphere(n)?,
-            Shape::Ellipsoid => shapes::ellipsoid([a, b, c], n)?,
-            Shape::Disk => shapes::disk(n)?,
-            Shape::Annulus => shapes::annulus(a, b, n, m)?,
-            Shape::Torus => shapes::torus(a, b, n, m)?,
-            Shape::Genus => shapes::tapered_genus(genus, n, if a == 0.0 { 1.0 } else { a })?,
-            Shape::Knot => TorusKnot { p, q, big: a, small: b }.torus(c, n, m)?,
-            Shape::FlatTorus => return intrinsic(shapes::flat_torus([a, b], n, m)?),
-            Shape::Bolza => return intrinsic(shapes::bolza(n)?),
-            Shape::OneVertex => return intrinsic(shapes::one_vertex(genus)?),
-            Shape::TwoVertex => return intrinsic(shapes::two_vertex(genus)?),
-            Shape::TwoTriangles => return intrinsic(shapes::two_triangle_sphere()),
-            Shape::Pants => return intrinsic(shapes::pants([a, b, c], n)?),
-            Shape::Hyperelliptic => {
+            SampleShape::Sphere => shapes::icosphere(n)?,
+            SampleShape::Ellipsoid => shapes::ellipsoid([a, b, c], n)?,
+            SampleShape::Disk => shapes::disk(n)?,
+            SampleShape::Annulus => shapes::annulus(a, b, n, m)?,
+            SampleShape::Torus => shapes::torus(a, b, n, m)?,
+            SampleShape::Genus => shapes::tapered_genus(genus, n, if a == 0.0 { 1.0 } else { a })?,
+            SampleShape::Knot => TorusKnot { p, q, big: a, small: b }.torus(c, n, m)?,
+            SampleShape::FlatTorus => return intrinsic(shapes::flat_torus([a, b], n, m)?),
+            SampleShape::Bolza => return intrinsic(shapes::bolza(n)?),
+            SampleShape::OneVertex => return intrinsic(shapes::one_vertex(genus)?),
+            SampleShape::TwoVertex => return intrinsic(shapes::two_vertex(genus)?),
+            SampleShape::TwoTriangles => return intrinsic(shapes::two_triangle_sphere()),
+            SampleShape::Pants => return intrinsic(shapes::pants([a, b, c], n)?),
+            SampleShape::Hyperelliptic => {
                 return intrinsic(shapes::hyperelliptic(&branch_points(points, n_points)?, n)?);
             }
         })
@@ -185,12 +185,12 @@ pub unsafe extern "C" fn ricci_change(
         let Soup { positions, faces, .. } = mesh.soup()?;
         let mut soup = Soup::new(positions, faces);
         match CHANGES.choose(change)? {
-            Change::Punch => soup = shapes::punch(&soup, count)?,
-            Change::Grade => shapes::grade(&mut soup, vertex, count)?,
-            Change::Caps => shapes::slivers(&mut soup, Sliver::Cap, count, amount, seed)?,
-            Change::Needles => shapes::slivers(&mut soup, Sliver::Needle, count, amount, seed)?,
-            Change::Noise => shapes::noise(&mut soup, amount, seed)?,
-            Change::Invert => shapes::invert(&mut soup, centre, amount)?,
+            ShapeChange::Punch => soup = shapes::punch(&soup, count)?,
+            ShapeChange::Grade => shapes::grade(&mut soup, vertex, count)?,
+            ShapeChange::Caps => shapes::slivers(&mut soup, Sliver::Cap, count, amount, seed)?,
+            ShapeChange::Needles => shapes::slivers(&mut soup, Sliver::Needle, count, amount, seed)?,
+            ShapeChange::Noise => shapes::noise(&mut soup, amount, seed)?,
+            ShapeChange::Invert => shapes::invert(&mut soup, centre, amount)?,
         }
         ricci_mesh::from_soup(soup)
     })

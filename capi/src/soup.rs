@@ -1,10 +1,10 @@
 //! Triangle lists, whatever their defects: read, diagnosed, repaired, written.
 
 use crate::arrays::{self, check_buffer, copy_out, copy_rows};
-use crate::failure::{Element, Failure, Outcome, no_such};
+use crate::failure::{FailureElement, Failure, Outcome, no_such};
 use crate::guard::{self, handle, shared};
 use crate::memory;
-use crate::mesh::{VALUES, Value, copy_attribute, count, ricci_mesh, write_soup};
+use crate::mesh::{VALUES, MeshValue, copy_attribute, count, ricci_mesh, write_soup};
 use crate::status::ricci_status;
 use crate::structs::{self, sized};
 use ricci::mesh::check::{Diagnosis, diagnose};
@@ -17,17 +17,17 @@ pub struct ricci_soup {
     soup: Soup,
     /// Of a repaired list: where its elements came from and what was done; `soup` is empty there.
     origin: Option<Repaired>,
-    found: OnceLock<Found>,
+    found: OnceLock<DiagnosisTexts>,
 }
 handle!(ricci_soup, "soup");
 
 /// The defects, with their texts as C strings.
-struct Found {
+struct DiagnosisTexts {
     diagnosis: Diagnosis,
-    defects: Vec<Record>,
+    defects: Vec<DefectTexts>,
 }
 
-struct Record {
+struct DefectTexts {
     code: CString,
     message: CString,
     remedy: CString,
@@ -40,14 +40,14 @@ impl ricci_soup {
         ricci_soup { soup, origin: None, found: OnceLock::new() }
     }
 
-    fn found(&self) -> &Found {
+    fn found(&self) -> &DiagnosisTexts {
         self.found.get_or_init(|| {
             let diagnosis = match &self.origin {
                 Some(done) => done.diagnosis.clone(),
                 None => diagnose(&self.soup.positions, &self.soup.faces),
             };
             let text = |words: String| CString::new(words.replace('\0', "\u{fffd}")).unwrap_or_default();
-            let record = |defect: &ricci::mesh::check::Defect| Record {
+            let record = |defect: &ricci::mesh::check::Defect| DefectTexts {
                 code: text(defect.code().to_string()),
                 message: text(defect.to_string()),
                 remedy: text(defect.remedy().to_string()),
@@ -55,7 +55,7 @@ impl ricci_soup {
                 faces: defect.faces(),
             };
             let defects = diagnosis.defects.iter().map(record).collect();
-            Found { diagnosis, defects }
+            DiagnosisTexts { diagnosis, defects }
         })
     }
 
@@ -199,7 +199,7 @@ pub unsafe extern "C" fn ricci_soup_values(
     capacity: usize,
 ) -> ricci_status {
     guard::with(soup, |list| match VALUES.choose(which)? {
-        Value::Positions => copy_out("positions", &list.soup.positions, values, capacity),
+        MeshValue::Positions => copy_out("positions", &list.soup.positions, values, capacity),
         which => copy_attribute(which, &list.soup.attributes, values, capacity),
     })
 }
@@ -223,7 +223,7 @@ pub unsafe extern "C" fn ricci_soup_defect(
     guard::with(soup, |list| {
         let defects = &list.found().defects;
         let record =
-            defects.get(index).ok_or_else(|| no_such(Element::Entry, "defect", index, defects.len()))?;
+            defects.get(index).ok_or_else(|| no_such(FailureElement::Entry, "defect", index, defects.len()))?;
         let view = ricci_defect {
             size,
             code: record.code.as_ptr(),

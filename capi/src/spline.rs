@@ -3,7 +3,7 @@
 use crate::arrays::{array, array_of, copy_out, optional};
 use crate::choice::choices;
 use crate::control::{self, ricci_control};
-use crate::failure::{Element, Failure, Outcome};
+use crate::failure::{FailureElement, Failure, Outcome};
 use crate::guard::{self, handle, shared};
 use crate::memory;
 use crate::mesh::ricci_mesh;
@@ -27,18 +27,18 @@ impl From<Spline> for ricci_spline {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Part {
+enum SplinePart {
     ControlPoints,
     Knots,
     Abscissas,
     Holes,
 }
 
-choices!(PARTS: Part = "which", [
-    RICCI_SPLINE_CONTROL_POINTS => Part::ControlPoints,
-    RICCI_SPLINE_KNOTS => Part::Knots,
-    RICCI_SPLINE_ABSCISSAS => Part::Abscissas,
-    RICCI_SPLINE_HOLES => Part::Holes,
+choices!(PARTS: SplinePart = "which", [
+    RICCI_SPLINE_CONTROL_POINTS => SplinePart::ControlPoints,
+    RICCI_SPLINE_KNOTS => SplinePart::Knots,
+    RICCI_SPLINE_ABSCISSAS => SplinePart::Abscissas,
+    RICCI_SPLINE_HOLES => SplinePart::Holes,
 ]);
 
 #[repr(C)]
@@ -115,7 +115,7 @@ pub unsafe extern "C" fn ricci_spline_domain(
         let starts = array("starts", starts, n_polygons.saturating_add(1))?;
         if let Some(i) = (0..n_polygons).find(|&i| starts[i] > starts[i + 1]) {
             let message = format!("starts[{}] is below starts[{i}]: offsets ascend", i + 1);
-            return Err(Failure::argument(message).at(Element::Entry, i + 1));
+            return Err(Failure::argument(message).at(FailureElement::Entry, i + 1));
         }
         let all: Vec<[f64; 2]> = array("corners", corners.cast(), starts[n_polygons])?;
         let polygons: Vec<Vec<[f64; 2]>> =
@@ -211,13 +211,13 @@ pub unsafe extern "C" fn ricci_spline_values(
     guard::with(spline, |ricci_spline { spline, .. }| {
         let space = spline.space();
         match PARTS.choose(which)? {
-            Part::ControlPoints => copy_out("control points", spline.control_points(), values, capacity),
-            Part::Abscissas => copy_out("abscissas", &space.abscissas(), values, capacity),
-            Part::Holes => {
+            SplinePart::ControlPoints => copy_out("control points", spline.control_points(), values, capacity),
+            SplinePart::Abscissas => copy_out("abscissas", &space.abscissas(), values, capacity),
+            SplinePart::Holes => {
                 let holes = spline.holes().iter().map(|hole| [f64::from(hole.turns), hole.radius]);
                 copy_out("holes", &holes.collect::<Vec<_>>(), values, capacity)
             }
-            Part::Knots => {
+            SplinePart::Knots => {
                 let knots = space.patches().iter().flat_map(|patch| patch.knots.concat());
                 copy_out("knots", &knots.collect::<Vec<_>>(), values, capacity)
             }

@@ -3,7 +3,7 @@
 use crate::arrays::{array, array_of, check_buffer, copy_each, copy_out};
 use crate::choice::choices;
 use crate::control::{self, ricci_control};
-use crate::failure::{Element, Failure, Outcome};
+use crate::failure::{FailureElement, Failure, Outcome};
 use crate::guard;
 use crate::memory;
 use crate::spline::ricci_spline;
@@ -12,33 +12,33 @@ use crate::structs::{self, sized};
 use ricci::spline::{Locator, Parameter, SplineSpace, SurfacePoint};
 
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Quantity {
+enum SplineQuantity {
     Point,
     First,
     Second,
     Shape,
 }
 
-choices!(QUANTITIES: Quantity = "which", [
-    RICCI_SPLINE_POINT => Quantity::Point,
-    RICCI_SPLINE_FIRST => Quantity::First,
-    RICCI_SPLINE_SECOND => Quantity::Second,
-    RICCI_SPLINE_SHAPE => Quantity::Shape,
+choices!(QUANTITIES: SplineQuantity = "which", [
+    RICCI_SPLINE_POINT => SplineQuantity::Point,
+    RICCI_SPLINE_FIRST => SplineQuantity::First,
+    RICCI_SPLINE_SECOND => SplineQuantity::Second,
+    RICCI_SPLINE_SHAPE => SplineQuantity::Shape,
 ]);
 
-impl Quantity {
+impl SplineQuantity {
     /// How many derivatives it takes, and how many numbers it has.
     fn sizes(self) -> (usize, usize) {
         match self {
-            Quantity::Point => (0, 3),
-            Quantity::First => (1, 9),
-            Quantity::Second => (2, 18),
-            Quantity::Shape => (2, 5),
+            SplineQuantity::Point => (0, 3),
+            SplineQuantity::First => (1, 9),
+            SplineQuantity::Second => (2, 18),
+            SplineQuantity::Shape => (2, 5),
         }
     }
 
     fn add(self, at: &SurfacePoint, row: &mut Vec<f64>) {
-        if self == Quantity::Shape {
+        if self == SplineQuantity::Shape {
             row.extend(at.normal().unwrap_or([f64::NAN; 3]));
             row.extend(at.principal_curvatures().unwrap_or([f64::NAN; 2]));
             return;
@@ -79,7 +79,7 @@ pub(crate) fn located(space: &SplineSpace, points: &[[f64; 2]]) -> Outcome<Vec<P
     let place = |(i, &[x, y]): (usize, &[f64; 2])| {
         locator.locate([x, y]).ok_or_else(|| {
             let message = format!("point {i}: ({x}, {y}) lies outside the domain");
-            Failure::new(RICCI_SPLINE, message).at(Element::Entry, i)
+            Failure::new(RICCI_SPLINE, message).at(FailureElement::Entry, i)
         })
     };
     points.iter().enumerate().map(place).collect()

@@ -94,16 +94,16 @@ mod tests {
 
     #[repr(C)]
     #[derive(Debug, Clone, Copy, PartialEq)]
-    struct Options {
+    struct SampleOptions {
         size: usize,
         x: f64,
         n: u32,
         reserved: u32,
     }
     // SAFETY: numbers; 8-byte alignment, size first.
-    sized!(Options, "options");
+    sized!(SampleOptions, "options");
 
-    const GIVEN: Options = Options { size: 24, x: 2.5, n: 7, reserved: 0 };
+    const GIVEN: SampleOptions = SampleOptions { size: 24, x: 2.5, n: 7, reserved: 0 };
 
     /// The bytes of a struct at an odd address, with more behind it.
     fn bytes(size: usize, tail: u8) -> Vec<u8> {
@@ -113,17 +113,17 @@ mod tests {
 
     #[test]
     fn structs_of_any_size_and_alignment_are_read() {
-        let read_at = |bytes: &[u8]| read::<Options>(bytes[1..].as_ptr().cast());
+        let read_at = |bytes: &[u8]| read::<SampleOptions>(bytes[1..].as_ptr().cast());
         assert_eq!(read_at(&bytes(24, 0)).unwrap(), GIVEN);
         // An older caller's struct ends before n; a newer one's fields are zero, or refused.
-        assert_eq!(read_at(&bytes(16, 0)).unwrap(), Options { n: 0, ..GIVEN });
+        assert_eq!(read_at(&bytes(16, 0)).unwrap(), SampleOptions { n: 0, ..GIVEN });
         assert_eq!(read_at(&bytes(40, 0)).unwrap(), GIVEN);
         assert_eq!(read_at(&bytes(40, 1)).unwrap_err().status, RICCI_STRUCT_SIZE);
         for size in [0, 8, 23, 4104, usize::MAX] {
             assert_eq!(read_at(&bytes(size, 0)).unwrap_err().status, RICCI_STRUCT_SIZE, "{size}");
         }
-        let none = read::<Options>(std::ptr::null()).unwrap();
-        assert_eq!(none, Options { size: 0, x: 0.0, n: 0, reserved: 0 });
+        let none = read::<SampleOptions>(std::ptr::null()).unwrap();
+        assert_eq!(none, SampleOptions { size: 0, x: 0.0, n: 0, reserved: 0 });
     }
 
     #[test]

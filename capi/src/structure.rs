@@ -3,7 +3,7 @@
 use crate::arrays::{check_buffer, copy_out};
 use crate::choice::choices;
 use crate::control::{self, ricci_control};
-use crate::failure::{Element as Place, no_such};
+use crate::failure::{FailureElement, no_such};
 use crate::flow::{read_options, ricci_flow_options};
 use crate::guard::{self, handle, shared};
 use crate::memory;
@@ -187,6 +187,6 @@ pub unsafe extern "C" fn ricci_structure_coordinates(
 ) -> ricci_status {
     guard::with(structure, |ricci_structure { atlas }| match atlas.charts.get(chart) {
         Some(chart) => copy_out("coordinates", &chart.coordinates, coordinates, capacity),
-        None => Err(no_such(Place::Entry, "chart", chart, atlas.charts.len())),
+        None => Err(no_such(FailureElement::Entry, "chart", chart, atlas.charts.len())),
     })
 }

@@ -10,35 +10,35 @@ use ricci::mesh::FaceId;
 use ricci::structure::{Atlas, Chart, Lift};
 
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Rows {
+enum ChartRows {
     Faces,
     Corners,
     Vertices,
     Pairs,
 }
 
-choices!(ROWS: Rows = "which", [
-    RICCI_CHART_FACES => Rows::Faces,
-    RICCI_CHART_CORNERS => Rows::Corners,
-    RICCI_CHART_VERTICES => Rows::Vertices,
-    RICCI_TRANSITION_PAIRS => Rows::Pairs,
+choices!(ROWS: ChartRows = "which", [
+    RICCI_CHART_FACES => ChartRows::Faces,
+    RICCI_CHART_CORNERS => ChartRows::Corners,
+    RICCI_CHART_VERTICES => ChartRows::Vertices,
+    RICCI_TRANSITION_PAIRS => ChartRows::Pairs,
 ]);
 
-impl Rows {
+impl ChartRows {
     fn of(self, atlas: &Atlas) -> Vec<Vec<u32>> {
         let faces = |chart: &Chart| chart.faces.iter().map(|f| f.0).collect();
         let vertices = |chart: &Chart| chart.vertices.iter().map(|v| v.0).collect();
         match self {
-            Rows::Faces => atlas.charts.iter().map(faces).collect(),
-            Rows::Vertices => atlas.charts.iter().map(vertices).collect(),
-            Rows::Corners => atlas.charts.iter().map(|chart| chart.corners.concat()).collect(),
-            Rows::Pairs => atlas.transitions.iter().map(|t| t.pairs.concat()).collect(),
+            ChartRows::Faces => atlas.charts.iter().map(faces).collect(),
+            ChartRows::Vertices => atlas.charts.iter().map(vertices).collect(),
+            ChartRows::Corners => atlas.charts.iter().map(|chart| chart.corners.concat()).collect(),
+            ChartRows::Pairs => atlas.transitions.iter().map(|t| t.pairs.concat()).collect(),
         }
     }
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum List {
+enum StructureList {
     Singular,
     Excluded,
     Folded,
@@ -46,22 +46,22 @@ enum List {
     Triangles,
 }
 
-choices!(LISTS: List = "which", [
-    RICCI_STRUCTURE_SINGULAR => List::Singular,
-    RICCI_STRUCTURE_EXCLUDED => List::Excluded,
-    RICCI_STRUCTURE_FOLDED => List::Folded,
-    RICCI_STRUCTURE_ZEROS => List::Zeros,
-    RICCI_STRUCTURE_TRIANGLES => List::Triangles,
+choices!(LISTS: StructureList = "which", [
+    RICCI_STRUCTURE_SINGULAR => StructureList::Singular,
+    RICCI_STRUCTURE_EXCLUDED => StructureList::Excluded,
+    RICCI_STRUCTURE_FOLDED => StructureList::Folded,
+    RICCI_STRUCTURE_ZEROS => StructureList::Zeros,
+    RICCI_STRUCTURE_TRIANGLES => StructureList::Triangles,
 ]);
 
-impl List {
+impl StructureList {
     fn of(self, atlas: &Atlas) -> Vec<u32> {
         match self {
-            List::Singular => atlas.singular_vertices.iter().map(|v| v.0).collect(),
-            List::Excluded => atlas.excluded.iter().map(|f| f.0).collect(),
-            List::Folded => atlas.folded.clone(),
-            List::Zeros => atlas.zeros.iter().flat_map(|z| [z.vertex.0, z.multiplicity as u32]).collect(),
-            List::Triangles => atlas.mesh.triangles().concat(),
+            StructureList::Singular => atlas.singular_vertices.iter().map(|v| v.0).collect(),
+            StructureList::Excluded => atlas.excluded.iter().map(|f| f.0).collect(),
+            StructureList::Folded => atlas.folded.clone(),
+            StructureList::Zeros => atlas.zeros.iter().flat_map(|z| [z.vertex.0, z.multiplicity as u32]).collect(),
+            StructureList::Triangles => atlas.mesh.triangles().concat(),
         }
     }
 }

@@ -3,7 +3,7 @@
 use crate::arrays::{self, copy_out};
 use crate::choice::choices;
 use crate::control::{self, ricci_control};
-use crate::failure::{Element, Failure, Outcome, no_such};
+use crate::failure::{FailureElement, Failure, Outcome, no_such};
 use crate::guard::{self, shared};
 use crate::metric::ricci_metric;
 use crate::status::*;
@@ -14,7 +14,7 @@ use ricci::mesh::VertexId;
 use ricci::{Class, Control, Surface, Target};
 
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Kind {
+enum TargetKind {
     Default,
     Uniform,
     Boundary,
@@ -24,14 +24,14 @@ enum Kind {
     Given,
 }
 
-choices!(KINDS: Kind = "kind", [
-    RICCI_TARGET_DEFAULT => Kind::Default,
-    RICCI_TARGET_UNIFORM => Kind::Uniform,
-    RICCI_TARGET_BOUNDARY => Kind::Boundary,
-    RICCI_TARGET_SINGLE => Kind::Single,
-    RICCI_TARGET_CONES => Kind::Cones,
-    RICCI_TARGET_AUTO => Kind::Auto,
-    RICCI_TARGET_GIVEN => Kind::Given,
+choices!(KINDS: TargetKind = "kind", [
+    RICCI_TARGET_DEFAULT => TargetKind::Default,
+    RICCI_TARGET_UNIFORM => TargetKind::Uniform,
+    RICCI_TARGET_BOUNDARY => TargetKind::Boundary,
+    RICCI_TARGET_SINGLE => TargetKind::Single,
+    RICCI_TARGET_CONES => TargetKind::Cones,
+    RICCI_TARGET_AUTO => TargetKind::Auto,
+    RICCI_TARGET_GIVEN => TargetKind::Given,
 ]);
 
 #[repr(C)]
@@ -52,7 +52,7 @@ pub(crate) fn vertices(surface: &Surface, data: *const u32, n: usize) -> Outcome
     let count = surface.mesh().n_vertices();
     let vertices = arrays::array("vertices", data, n)?;
     match vertices.iter().find(|&&v| v as usize >= count) {
-        Some(&v) => Err(no_such(Element::Vertex, "vertex", v as usize, count)),
+        Some(&v) => Err(no_such(FailureElement::Vertex, "vertex", v as usize, count)),
         None => Ok(vertices.into_iter().map(VertexId).collect()),
     }
 }
@@ -67,27 +67,27 @@ pub(crate) fn target_of(
     let given = structs::read(target)?;
     let (n, count) = (given.n, surface.mesh().n_vertices());
     Ok(match KINDS.choose(given.kind)? {
-        Kind::Default => Target::default_for(surface, space)?,
-        Kind::Uniform => Target::Uniform,
-        Kind::Boundary => Target::Boundary,
-        Kind::Single => match vertices(surface, given.vertices, n)?[..] {
+        TargetKind::Default => Target::default_for(surface, space)?,
+        TargetKind::Uniform => Target::Uniform,
+        TargetKind::Boundary => Target::Boundary,
+        TargetKind::Single => match vertices(surface, given.vertices, n)?[..] {
             [v] => Target::Single(v),
             _ => {
                 let message = format!("a single cone has n = 1 vertex, not {n}");
                 return Err(Failure::new(RICCI_WRONG_SIZE, message).needs(1));
             }
         },
-        Kind::Cones => {
+        TargetKind::Cones => {
             let vertices = vertices(surface, given.vertices, n)?;
             let curvatures = arrays::array("curvatures", given.curvatures, n)?;
             Target::Cones(vertices.into_iter().zip(curvatures).collect())
         }
-        Kind::Auto if [space, surface.geometry()] != [Space::E2; 2] => {
+        TargetKind::Auto if [space, surface.geometry()] != [Space::E2; 2] => {
             let message = "cones are placed in e2, by Euclidean lengths";
             return Err(Failure::new(RICCI_TARGET_KIND, message));
         }
-        Kind::Auto => Target::All(auto_cones(surface.mesh(), surface.lengths(), n, control)?.target),
-        Kind::Given => Target::All(arrays::array_of("curvatures", given.curvatures, n, count)?.into()),
+        TargetKind::Auto => Target::All(auto_cones(surface.mesh(), surface.lengths(), n, control)?.target),
+        TargetKind::Given => Target::All(arrays::array_of("curvatures", given.curvatures, n, count)?.into()),
     })
 }
 

@@ -6,14 +6,14 @@ use std::path::Path;
 use std::sync::Arc;
 
 /// A mesh with points of the plane at the corners of its faces.
-pub(crate) struct File<'a> {
+pub(crate) struct TextureFile<'a> {
     pub mesh: &'a Mesh,
     pub positions: Option<Arc<Vec<Point>>>,
     pub points: &'a [[f64; 2]],
     pub corners: Vec<[u32; 3]>,
 }
 
-impl File<'_> {
+impl TextureFile<'_> {
     /// Write OBJ; with the homogeneous weights of the vertices and what these are multiplied with at the points (nothing: 1), if given.
     pub fn write(self, path: &Path, weights: Option<(PerVertex<f64>, Vec<f64>)>) -> Outcome {
         let positions = self.positions.ok_or_else(|| {

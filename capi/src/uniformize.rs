@@ -11,7 +11,7 @@ use crate::homotopy::ricci_homotopy;
 use crate::layout::{MODELS, ricci_layout};
 use crate::memory;
 use crate::mesh::{SPACES, ricci_mesh};
-use crate::metric::{ON, On, SCHEMES, ricci_metric};
+use crate::metric::{ON, Triangulation, SCHEMES, ricci_metric};
 use crate::paths::{halfedges, vertex_or_none};
 use crate::report::stop_reason;
 use crate::status::*;
@@ -25,13 +25,13 @@ use std::ffi::c_char;
 use std::sync::Arc;
 
 pub struct ricci_uniform {
-    pub(crate) shape: Canonical,
+    pub(crate) shape: CanonicalShape,
     metric: ricci_metric,
 }
 handle!(ricci_uniform, "uniform");
 
 #[derive(Clone)]
-pub(crate) enum Canonical {
+pub(crate) enum CanonicalShape {
     Sphere(Arc<Sphere>),
     Quotient(Arc<Quotient>),
 }
@@ -39,14 +39,14 @@ pub(crate) enum Canonical {
 impl ricci_uniform {
     fn sphere(&self) -> Outcome<&Arc<Sphere>> {
         match &self.shape {
-            Canonical::Sphere(sphere) => Ok(sphere),
+            CanonicalShape::Sphere(sphere) => Ok(sphere),
             _ => Err(Failure::new(RICCI_LAYOUT, "this surface is no sphere, but the quotient of a plane")),
         }
     }
 
     pub(crate) fn quotient(&self) -> Outcome<&Arc<Quotient>> {
         match &self.shape {
-            Canonical::Quotient(quotient) => Ok(quotient),
+            CanonicalShape::Quotient(quotient) => Ok(quotient),
             _ => Err(Failure::new(RICCI_LAYOUT, "this surface is a sphere, not the quotient of a plane")),
         }
     }
@@ -143,7 +143,7 @@ pub unsafe extern "C" fn ricci_uniformize(
                     report.spherical_curvature_error
                 );
                 let metric = ricci_metric::at(sphere.metric.clone(), None)?;
-                Ok(ricci_uniform { shape: Canonical::Sphere(Arc::new(*sphere)), metric })
+                Ok(ricci_uniform { shape: CanonicalShape::Sphere(Arc::new(*sphere)), metric })
             }
         }
     })
@@ -159,7 +159,7 @@ fn of_quotient(quotient: Quotient) -> Outcome<ricci_uniform> {
         quotient.deck.relation_residual
     );
     let metric = ricci_metric::at(quotient.metric.clone(), Some(quotient.report.clone()))?;
-    Ok(ricci_uniform { shape: Canonical::Quotient(Arc::new(quotient)), metric })
+    Ok(ricci_uniform { shape: CanonicalShape::Quotient(Arc::new(quotient)), metric })
 }
 
 #[unsafe(no_mangle)]
@@ -180,11 +180,11 @@ pub unsafe extern "C" fn ricci_uniform_summarise(
         let mut figures: ricci_uniform_summary = unsafe { std::mem::zeroed() };
         (figures.modulus, figures.extremal_distance) = ([f64::NAN; 2], f64::NAN);
         let stop = match &uniform.shape {
-            Canonical::Sphere(sphere) => {
+            CanonicalShape::Sphere(sphere) => {
                 sphere_figures(sphere, &mut figures);
                 sphere.report.stop_reason
             }
-            Canonical::Quotient(quotient) => {
+            CanonicalShape::Quotient(quotient) => {
                 quotient_figures(quotient, &mut figures);
                 quotient.report.stop_reason
             }
@@ -319,20 +319,20 @@ pub unsafe extern "C" fn ricci_uniform_layout(
         let _reserve = memory::work(uniform.metric.0.solution.mesh().n_vertices(), memory::LAYOUT)?;
         let (quotient, state) = (uniform.quotient()?, &uniform.metric.0);
         let laid = match ON.choose(on)? {
-            On::Metric if quotient.layout.refinement().is_some() => {
+            Triangulation::Metric if quotient.layout.refinement().is_some() => {
                 let message = "the metric lives on the double of the surface: take RICCI_ON_REFINEMENT";
                 return Err(Failure::new(RICCI_LAYOUT, message));
             }
-            On::Refinement if quotient.layout.refinement().is_some() => quotient.layout.clone(),
-            On::Metric => quotient.layout.clone(),
-            On::Refinement => {
+            Triangulation::Refinement if quotient.layout.refinement().is_some() => quotient.layout.clone(),
+            Triangulation::Metric => quotient.layout.clone(),
+            Triangulation::Refinement => {
                 let refinement = match state.refinement(&control)? {
                     Some(refinement) => refinement.clone(),
                     None => Arc::new(state.solution.refinement(&control)?),
                 };
                 quotient.layout.refined(&refinement, quotient.metric.metric(), &control)?
             }
-            On::Input => {
+            Triangulation::Input => {
                 let message = "a quotient is opened along edges of the metric's triangulation: take RICCI_ON_REFINEMENT";
                 return Err(Failure::new(RICCI_LAYOUT, message));
             }
@@ -401,13 +401,13 @@ pub unsafe extern "C" fn ricci_sphere_mesh(
         let (sphere, state) = (uniform.sphere()?, &uniform.metric.0);
         let on = ON.choose(on)?;
         let own = || ricci_mesh::in_space(state.solution.mesh().clone(), Arc::new(sphere.positions.to_vec()));
-        if on == On::Input {
+        if on == Triangulation::Input {
             return Err(Failure::new(
                 RICCI_LAYOUT,
                 "the polyhedron has the metric's faces: take RICCI_ON_METRIC",
             ));
         }
-        Ok(match state.refinement(&control::of(control))?.filter(|_| on == On::Refinement) {
+        Ok(match state.refinement(&control::of(control))?.filter(|_| on == Triangulation::Refinement) {
             Some(refinement) => {
                 // A combination of the ends of an edge, as vectors, has the direction of its point on the arc between them.
                 let mut points = refinement.from_final_vertices(&sphere.positions)?;
