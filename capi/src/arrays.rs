@@ -1,4 +1,4 @@
-//! Arrays from and to C. Nothing here trusts alignment; counts are checked before they are multiplied.
+//! Arrays from and to C. A caller's array may be unaligned; counts are checked before they are multiplied.
 
 use crate::failure::{FailureElement, Failure, Outcome};
 use crate::guard::output;
@@ -7,7 +7,7 @@ use ricci::mesh::Point;
 use std::ffi::{CStr, c_char};
 use std::path::PathBuf;
 
-/// Room for `n` entries, or that there is no memory for them.
+/// An empty list with room for `n` entries.
 pub fn room<T>(what: &str, n: usize) -> Outcome<Vec<T>> {
     let mut items = Vec::new();
     match items.try_reserve_exact(n) {
@@ -16,7 +16,7 @@ pub fn room<T>(what: &str, n: usize) -> Outcome<Vec<T>> {
     }
 }
 
-/// Copy `n` items that lie `stride` bytes apart.
+/// Copies `n` items that lie `stride` bytes apart in a caller's array.
 fn gather<T: Copy>(what: &str, data: *const T, n: usize, stride: usize) -> Outcome<Vec<T>> {
     if n == 0 {
         return Ok(Vec::new());
@@ -30,18 +30,18 @@ fn gather<T: Copy>(what: &str, data: *const T, n: usize, stride: usize) -> Outco
         return Err(Failure::new(RICCI_TOO_LARGE, message).needs(n));
     }
     let mut items = room(what, n)?;
-    // SAFETY: the caller's array has n items, stride bytes apart (contract of the header); nothing is
-    // aligned.
+    // SAFETY: the caller's array has n items, stride bytes apart (contract of the header); they are read
+    // without regard to alignment.
     items.extend((0..n).map(|i| unsafe { data.cast::<u8>().add(i * stride).cast::<T>().read_unaligned() }));
     Ok(items)
 }
 
-/// An array of `n` items, copied.
+/// A copy of a caller's array of `n` items.
 pub fn array<T: Copy>(what: &str, data: *const T, n: usize) -> Outcome<Vec<T>> {
     gather(what, data, n, size_of::<T>())
 }
 
-/// An array that must have `needed` entries.
+/// A copy of a caller's array, which must have `needed` entries.
 pub fn array_of<T: Copy>(what: &str, data: *const T, n: usize, needed: usize) -> Outcome<Vec<T>> {
     if n != needed {
         let message = format!("{what} has {n} entries, {needed} are needed");
@@ -50,17 +50,17 @@ pub fn array_of<T: Copy>(what: &str, data: *const T, n: usize, needed: usize) ->
     array(what, data, n)
 }
 
-/// An array that may be left out by NULL.
+/// A copy of a caller's array; NULL means that the caller leaves it out.
 pub fn optional<T: Copy>(what: &str, data: *const f64, n: usize) -> Outcome<Option<Vec<T>>> {
     if data.is_null() { Ok(None) } else { array(what, data.cast(), n).map(Some) }
 }
 
-/// One entry that may be left out by NULL.
+/// A caller's single value; NULL means that the caller leaves it out.
 pub fn one<T: Copy>(data: *const T) -> Outcome<Option<T>> {
     Ok(array("value", data, usize::from(!data.is_null()))?.pop())
 }
 
-/// `n` points whose coordinates x, y, z start `stride` bytes apart; 0 means tightly packed.
+/// Copies `n` points; the coordinates x, y, z of successive points start `stride` bytes apart, 0 meaning tightly packed.
 pub fn points(data: *const f64, stride: usize, n: usize) -> Outcome<Vec<Point>> {
     let stride = if stride == 0 { size_of::<Point>() } else { stride };
     if stride < size_of::<Point>() {
@@ -71,7 +71,8 @@ pub fn points(data: *const f64, stride: usize, n: usize) -> Outcome<Vec<Point>> 
     gather("positions", data.cast::<Point>(), n, stride)
 }
 
-/// `n` faces. Indices of 2^31 and more are negative ones of a caller whose faces are `int32_t`: no mesh has so many vertices.
+/// Copies `n` faces. An index of 2^31 or more is refused as a negative one: no mesh has so many vertices, and a caller may have
+/// cast faces of `int32_t`.
 pub fn faces(data: *const u32, n: usize) -> Outcome<Vec<[u32; 3]>> {
     let faces: Vec<[u32; 3]> = array("faces", data.cast(), n)?;
     for (f, face) in faces.iter().enumerate() {
@@ -84,7 +85,7 @@ pub fn faces(data: *const u32, n: usize) -> Outcome<Vec<[u32; 3]>> {
     Ok(faces)
 }
 
-/// Refuse a buffer that cannot take `needed` entries.
+/// Refuses a buffer that cannot take `needed` entries.
 pub fn check_buffer<T>(what: &str, needed: usize, buffer: *mut T, capacity: usize) -> Outcome {
     if capacity < needed {
         let message = format!("{what}: {needed} entries are needed, the buffer has room for {capacity}");
@@ -94,7 +95,7 @@ pub fn check_buffer<T>(what: &str, needed: usize, buffer: *mut T, capacity: usiz
     if buffer.is_null() && needed > 0 { Err(Failure::null(what)) } else { Ok(()) }
 }
 
-/// What results consist of: numbers, or rows of them, which are copied one after the other.
+/// An entry of a result: a number, or a row of numbers, which are copied to the caller one after the other.
 pub trait CopiedRow: Copy {
     type Entry: Copy;
     fn entries(rows: &[Self]) -> &[Self::Entry];
@@ -119,7 +120,7 @@ impl<T: CopiedRow, const N: usize> CopiedRow for [T; N] {
     }
 }
 
-/// Copy results into the caller's buffer of `capacity` entries.
+/// Copies results into the caller's buffer of `capacity` entries.
 pub fn copy_out<T: CopiedRow>(what: &str, values: &[T], buffer: *mut T::Entry, capacity: usize) -> Outcome {
     let values = T::entries(values);
     check_buffer(what, values.len(), buffer, capacity)?;
@@ -131,7 +132,7 @@ pub fn copy_out<T: CopiedRow>(what: &str, values: &[T], buffer: *mut T::Entry, c
     Ok(())
 }
 
-/// Copy values that are made one by one, `n` of them.
+/// Copies the `n` values of an iterator into the caller's buffer.
 pub fn copy_each<T: CopiedRow>(
     what: &str,
     n: usize,
@@ -145,25 +146,28 @@ pub fn copy_each<T: CopiedRow>(
     copy_out(what, &all, buffer, capacity)
 }
 
-/// Copy rows of different lengths: their entries one after the other, and where each row starts and the last one ends.
-/// A buffer is given with its capacity in entries.
+/// Copies rows of different lengths into two buffers: the entries of all rows one after the other, and the offsets at which each
+/// row starts and the last one ends.
 pub fn copy_rows<T: CopiedRow<Entry = T>>(
     what: &str,
     rows: impl IntoIterator<Item = impl IntoIterator<Item = T>>,
-    buffer: (*mut T, usize),
-    starts_buffer: (*mut usize, usize),
+    buffer: *mut T,
+    capacity: usize,
+    starts_buffer: *mut usize,
+    starts_capacity: usize,
 ) -> Outcome {
     let (mut entries, mut starts) = (Vec::new(), vec![0]);
     for row in rows {
         entries.extend(row);
         starts.push(entries.len());
     }
-    check_buffer(what, entries.len(), buffer.0, buffer.1)?;
-    copy_out("starts", &starts, starts_buffer.0, starts_buffer.1)?;
-    copy_out(what, &entries, buffer.0, buffer.1)
+    check_buffer(what, entries.len(), buffer, capacity)?;
+    copy_out("starts", &starts, starts_buffer, starts_capacity)?;
+    copy_out(what, &entries, buffer, capacity)
 }
 
-/// Copy results whose number the caller cannot know before, with that number; for no buffer of no entries the number alone.
+/// Copies results whose number the caller cannot know before, and writes that number to `count`. NULL with capacity 0 asks for the
+/// number alone.
 pub fn copy_counted<T: CopiedRow<Entry = T>>(
     what: &str,
     values: &[T],
@@ -179,7 +183,7 @@ pub fn copy_counted<T: CopiedRow<Entry = T>>(
     Ok(())
 }
 
-/// Finite points in ambient coordinates.
+/// Copies `n` points in ambient coordinates, which must be finite.
 pub fn ambient(what: &str, data: *const f64, n: usize) -> Outcome<Vec<[f64; 3]>> {
     let points: Vec<[f64; 3]> = array(what, data.cast(), n)?;
     match points.iter().position(|p| p.iter().any(|x| !x.is_finite())) {
@@ -188,7 +192,7 @@ pub fn ambient(what: &str, data: *const f64, n: usize) -> Outcome<Vec<[f64; 3]>>
     }
 }
 
-/// A text in UTF-8.
+/// A caller's text, which must be UTF-8.
 pub fn text<'a>(what: &str, text: *const c_char) -> Outcome<&'a str> {
     if text.is_null() {
         return Err(Failure::null(what));
@@ -198,7 +202,7 @@ pub fn text<'a>(what: &str, text: *const c_char) -> Outcome<&'a str> {
     text.to_str().map_err(|_| Failure::argument(format!("{what} is not UTF-8")))
 }
 
-/// A file name.
+/// A caller's file name.
 pub fn path(name: *const c_char) -> Outcome<PathBuf> {
     text("path", name).map(PathBuf::from)
 }

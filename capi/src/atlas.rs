@@ -18,14 +18,16 @@ use std::sync::Arc;
 
 pub struct ricci_atlas {
     state: Arc<MetricState>,
-    /// What was cut into charts, and the positions of its vertices.
+    /// The layout that was cut into charts.
     layout: Arc<Layout>,
+    /// The positions of its vertices; none of an intrinsic surface.
     positions: Option<Arc<Vec<Point>>>,
     charts: Charts,
 }
 handle!(ricci_atlas, "atlas");
 
 impl ricci_atlas {
+    /// The point of every corner of every face.
     fn corners(&self) -> Vec<[u32; 3]> {
         corners_of(self.layout.mesh(), &self.charts.corner_index)
     }

@@ -1,4 +1,4 @@
-//! Bicubic patches near splines, and their files for CAD.
+//! Bicubic patches that approximate a spline, and their files for CAD.
 
 use crate::arrays::{self, copy_counted};
 use crate::choice::choices;
@@ -18,7 +18,7 @@ use std::path::Path;
 pub struct ricci_bicubic(Bicubic);
 handle!(ricci_bicubic, "bicubic patches");
 
-/// Places of a spline that are evaluated at a time while patches are made.
+/// Number of places of a spline that are evaluated at a time while patches are made.
 const BATCH: usize = 1 << 16;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -99,7 +99,7 @@ impl ricci_step_options {
     }
 }
 
-/// The format that a file's name asks for.
+/// The format that belongs to the extension of a file's name.
 fn format_of(path: &Path) -> Outcome<BicubicFormat> {
     let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
     match extension.as_deref() {
@@ -112,7 +112,7 @@ fn format_of(path: &Path) -> Outcome<BicubicFormat> {
     }
 }
 
-/// The bytes of a file of patches.
+/// The content of a file of patches.
 fn bytes(surface: &BicubicSurface, format: BicubicFormat, options: *const ricci_step_options) -> Outcome<Vec<u8>> {
     let options = structs::read(options)?.read()?;
     let _reserve = memory::work(surface.n_control_points(), memory::BICUBIC_TEXT)?;

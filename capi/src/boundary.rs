@@ -1,4 +1,4 @@
-//! What the boundary of a surface becomes.
+//! The shape that the boundary of a surface is given: closed geodesics, or straight sides with corners.
 
 use crate::arrays::array;
 use crate::choice::choices;
@@ -17,8 +17,8 @@ choices!(KINDS: BoundaryKind = "boundary", [
     RICCI_BOUNDARY_STRAIGHT => BoundaryKind::Straight,
 ]);
 
-/// The boundary of this kind, with `n` corners: vertices and angles, either of which may be NULL.
-pub fn read(kind: u32, (corners, angles): (*const u32, *const f64), n: usize) -> Outcome<Boundary> {
+/// The boundary of this kind with `n` corners, given by their vertices and their angles, either of which may be NULL.
+pub fn read(kind: u32, corners: *const u32, angles: *const f64, n: usize) -> Outcome<Boundary> {
     if KINDS.choose(kind)? == BoundaryKind::Geodesic {
         return Ok(Boundary::Geodesic);
     }

@@ -1,10 +1,10 @@
-//! Enum values that come from C as `uint32_t`: any integer may come, and an unknown one is refused by name.
+//! Enum values, which come from C as `uint32_t`: an integer that is no value is refused with the names of all values.
 
 use crate::failure::{Failure, Outcome};
 
-/// The constants of an enum in the order of their numbers from 0, each with what it stands for.
+/// The constants of an enum in the order of their numbers from 0, each with the value that it stands for.
 pub struct Choices<T: 'static> {
-    /// What the number is called in messages.
+    /// The name of the enum in messages.
     pub what: &'static str,
     pub values: &'static [(&'static str, T)],
 }
@@ -18,7 +18,7 @@ macro_rules! choices {
 pub(crate) use choices;
 
 impl<T: Copy + PartialEq> Choices<T> {
-    /// What a number stands for.
+    /// The value that a number stands for.
     pub fn choose(&self, number: u32) -> Outcome<T> {
         self.values.get(number as usize).map(|&(_, value)| value).ok_or_else(|| {
             let names: Vec<&str> = self.values.iter().map(|(name, _)| *name).collect();

@@ -1,4 +1,4 @@
-//! Circle domains: surfaces with boundary whose loops are circles.
+//! Circle domains: surfaces with boundary whose boundary loops are circles.
 
 use crate::arrays::{array, copy_out};
 use crate::control::{self, ricci_control};
@@ -23,9 +23,9 @@ use std::sync::Arc;
 
 pub struct ricci_circle_domain {
     domain: CircleDomain,
-    /// The surface with the vertices that were added to its loops.
+    /// The surface with the vertices that were added to its boundary loops.
     surface: Surface,
-    /// What layouts ask of that surface.
+    /// The initial metric of that surface, which layouts need.
     state: Arc<MetricState>,
 }
 handle!(ricci_circle_domain, "circle domain");

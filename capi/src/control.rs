@@ -18,7 +18,7 @@ choices!(STAGES: Stage = "stage", [
     RICCI_STAGE_WRITE => Stage::Write,
 ]);
 
-/// The library's handle; a fresh one for NULL.
+/// The library's control of a handle; a new one for NULL.
 pub(crate) fn of(control: *const ricci_control) -> Control {
     // SAFETY: NULL, or from this library and alive (contract of the header).
     unsafe { control.as_ref() }.map_or_else(Control::new, |control| control.0.clone())

@@ -1,4 +1,4 @@
-//! Deck transformations: words with their isometries.
+//! Deck transformations: elements of the deck group as words with their isometries.
 
 use crate::arrays::{ambient, array, copy_each, copy_out, copy_rows};
 use crate::choice::choices;
@@ -17,7 +17,7 @@ use ricci::embed::{DeckElement, DeckGroup};
 use ricci::geometry::{Motion, Space};
 use ricci::topology::Letter;
 
-/// Elements that memory is held for at most: a limit only says where to stop, and is rarely reached.
+/// Most elements that memory is reserved for: the caller's limit only says where to stop, and is rarely reached.
 const MOST_RESERVED: usize = 1 << 16;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -90,7 +90,7 @@ pub struct ricci_deck_summary {
 // SAFETY: numbers; 8-byte alignment, size first.
 sized!(ricci_deck_summary, "summary");
 
-/// The elements of words, given one after the other with where each starts.
+/// The elements of the caller's words, whose letters come one after the other with the offset at which each word starts.
 fn of_words(group: &DeckGroup, spec: &ricci_deck_spec) -> Outcome<Vec<DeckElement>> {
     let &ricci_deck_spec { n_letters, starts, n_words, .. } = spec;
     let starts = array("starts", starts, n_words.saturating_add(1))?;
@@ -176,7 +176,7 @@ pub unsafe extern "C" fn ricci_deck_words(
 ) -> ricci_status {
     guard::with(deck, |deck| {
         let rows = deck.elements.iter().map(|g| letters(&g.word));
-        copy_rows("words", rows, (words, words_capacity), (starts, starts_capacity))
+        copy_rows("words", rows, words, words_capacity, starts, starts_capacity)
     })
 }
 

@@ -1,4 +1,4 @@
-//! Dirichlet domains of points in the universal cover.
+//! Dirichlet domains: the points of the universal cover that are nearest to a centre among its images.
 
 use crate::arrays::{ambient, copy_each, copy_out};
 use crate::control::{self, ricci_control};
@@ -20,7 +20,7 @@ pub struct ricci_dirichlet {
 handle!(ricci_dirichlet, "dirichlet");
 
 impl ricci_dirichlet {
-    /// The domain, which must be one of this group.
+    /// The domain, which must belong to this deck group.
     pub(crate) fn of(&self, group: &DeckGroup) -> Outcome<&DirichletDomain> {
         if std::ptr::eq(group, &self.quotient.deck) {
             return Ok(&self.domain);
@@ -42,7 +42,7 @@ pub struct ricci_dirichlet_summary {
 // SAFETY: numbers; 8-byte alignment, size first.
 sized!(ricci_dirichlet_summary, "summary");
 
-/// A point of the space, from x and y.
+/// The point of the space with the caller's coordinates x and y; the origin for NULL.
 fn centre_point(space: Space, centre: *const f64) -> Outcome<[f64; 3]> {
     let [x, y] = match ambient("centre", centre, usize::from(!centre.is_null()))?.first() {
         Some(&[x, y, _]) => [x, y],

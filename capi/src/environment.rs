@@ -1,8 +1,7 @@
-//! The floating-point environment: the default one inside a call, the host's own outside.
+//! The floating-point environment: the default one during a call, the host's own again after it.
 //!
-//! A host may run with traps enabled, another rounding mode or flush-to-zero. A numerical kernel meets benign
-//! 0/0 and inexact everywhere, and its results must not depend on the host. Threads started inside a call
-//! inherit the environment that is in force there.
+//! A host may run with traps enabled, another rounding mode or flush-to-zero. The library's results must not depend on that, and
+//! its harmless 0/0 and inexact operations must not trap. Threads that a call starts inherit the environment of the call.
 
 use std::ffi::c_int;
 
@@ -19,14 +18,14 @@ unsafe extern "C" {
 /// `FE_TONEAREST`, 0 on every platform that has it.
 const TO_NEAREST: c_int = 0;
 
-/// The host's environment, put back when dropped.
+/// The host's environment, which is put back when this is dropped.
 pub struct Environment(Fenv);
 
 impl Environment {
-    /// Save the host's environment and go over to the default one.
+    /// Saves the host's environment and sets the default one.
     pub fn enter() -> Environment {
         let mut host = Environment(Fenv([0; 256]));
-        // Elsewhere than on Linux flush-to-zero stays as the host has it.
+        // On other systems than Linux the host's flush-to-zero stays in force.
         // SAFETY: the buffer is large enough and aligned for `fenv_t`; `FE_DFL_ENV` is the pointer −1 in
         // glibc and musl, whose `fesetenv` also clears flush-to-zero.
         unsafe {

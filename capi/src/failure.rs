@@ -1,13 +1,13 @@
-//! Why a call fails: a status, a message, and the element and amount as numbers.
+//! The reason why a call fails: a status, a message, and the element and the amount as numbers.
 
 use crate::status::*;
 use ricci::{At, Error};
 use std::borrow::Cow;
 
-/// What the body of an entry point returns.
+/// The result of the body of an entry point.
 pub type Outcome<T = ()> = Result<T, Failure>;
 
-/// What an element number counts.
+/// The kind of element at which a call fails, which its number counts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum FailureElement {
     #[default]
@@ -23,7 +23,7 @@ pub enum FailureElement {
     Byte,
 }
 
-/// Why a call fails.
+/// The reason why a call fails.
 #[derive(Debug, Default)]
 pub struct Failure {
     pub status: ricci_status,
@@ -31,7 +31,7 @@ pub struct Failure {
     pub at: (FailureElement, usize),
     pub amount: f64,
     pub needed: usize,
-    /// The caller asked for a size with NULL and capacity 0: that is no event to be logged.
+    /// True if the caller asked for a size, by NULL with capacity 0: that is not logged.
     pub is_question: bool,
 }
 
@@ -48,18 +48,18 @@ impl Failure {
         Failure::new(RICCI_ARGUMENT, message)
     }
 
-    /// The same, at an element.
+    /// The same failure, at an element.
     pub fn at(self, element: FailureElement, index: usize) -> Failure {
         Failure { at: (element, index), ..self }
     }
 
-    /// The same, with the number of entries that are needed.
+    /// The same failure, with the number of entries that are needed.
     pub fn needs(self, needed: usize) -> Failure {
         Failure { needed, ..self }
     }
 }
 
-/// An element that does not exist.
+/// The failure of a call that names an element which does not exist.
 pub fn no_such(element: FailureElement, what: &str, index: usize, count: usize) -> Failure {
     Failure::argument(format!("{what} {index} does not exist: there are {count}")).at(element, index)
 }
@@ -69,7 +69,7 @@ impl From<Error> for Failure {
         let failure = Failure::new(error.code(), error.to_string());
         let (at, amount) = match &error {
             Error::Size { expected, .. } => return failure.needs(*expected),
-            // Threads that the system cannot start.
+            // The system cannot start as many threads.
             Error::Argument { what: "threads", .. } => {
                 return Failure { status: RICCI_NO_MEMORY, ..failure };
             }

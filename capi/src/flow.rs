@@ -1,4 +1,4 @@
-//! The flow, once or repeatedly.
+//! The flow to a target curvature, in one call or by a solver that is used repeatedly.
 
 use crate::arrays;
 use crate::choice::choices;
@@ -49,7 +49,7 @@ pub struct ricci_flow_options {
 // SAFETY: numbers and raw pointers; 8-byte alignment, size first.
 sized!(ricci_flow_options, "options");
 
-/// The library's options; NULL gives the defaults.
+/// The library's options of a caller's; the defaults for NULL.
 pub(crate) fn read_options(options: *const ricci_flow_options) -> Outcome<Options> {
     let given = structs::read(options)?;
     let step = match STEPS.choose(given.step)? {
@@ -71,7 +71,7 @@ pub(crate) fn read_options(options: *const ricci_flow_options) -> Outcome<Option
     })
 }
 
-/// Solve, and the metric that the flow has come to.
+/// Flows to the target and returns the metric at the end.
 fn advance(flow: &mut Flow, target: &Target, control: &Control) -> Outcome<ricci_metric> {
     let end = flow.solve(target, control)?;
     if let Some(report) = end.report() {

@@ -18,7 +18,7 @@ use std::sync::Arc;
 
 pub struct ricci_forms {
     forms: HarmonicForms,
-    /// Forms of the dual classes, of a surface with boundary.
+    /// The harmonic forms of the dual classes; none on a closed surface, whose classes are their own duals.
     dual: Option<HarmonicForms>,
     periods: Option<PeriodMatrix>,
 }

@@ -1,11 +1,11 @@
-//! The one door: every entry point runs its body through [`call`] or [`free`].
+//! The guard of the C boundary: every entry point runs its body through [`call`] or [`free`].
 //!
-//! The body runs under the default floating-point environment, and a panic ends in `RICCI_PANIC`. A handle that the body was
-//! changing is poisoned by it; handles that are only read are as they were.
+//! The body runs in the default floating-point environment, and a panic becomes `RICCI_PANIC`. It poisons a handle that the body
+//! was changing; handles that the body only reads stay valid.
 
 use crate::environment::Environment;
 use crate::failure::{Failure, Outcome};
-use crate::kept;
+use crate::thread_failure;
 use crate::memory;
 use crate::status::*;
 use std::any::Any;
@@ -16,9 +16,9 @@ use std::sync::Once;
 #[cfg(not(panic = "unwind"))]
 compile_error!("the C face catches panics, which needs panic = \"unwind\"");
 
-/// What every opaque type has.
+/// An opaque type of the C face.
 pub trait OpaqueHandle: Sized {
-    /// Its name in messages.
+    /// The name of the type in messages.
     const NAME: &'static str;
 }
 
@@ -31,35 +31,35 @@ macro_rules! handle {
 }
 pub(crate) use handle;
 
-/// A handle that is only read.
+/// The object of a handle that is only read.
 pub fn shared<'a, H: OpaqueHandle>(handle: *const H) -> Outcome<&'a H> {
     // SAFETY: NULL, or from this library and alive (contract of the header).
     unsafe { handle.as_ref() }.ok_or_else(|| Failure::null(H::NAME))
 }
 
-/// Where a result goes.
+/// The place in the caller's memory to which a result is written.
 pub struct Output<T>(*mut T);
 
 impl<T> Output<T> {
-    /// Write it. Only called when nothing can fail any more.
+    /// Writes the result. It is called when nothing can fail any more.
     pub fn set(self, value: T) {
         // SAFETY: not NULL, and the caller's memory for one `T` (contract of the header).
         unsafe { self.0.write_unaligned(value) }
     }
 }
 
-/// The place for a result, checked before any work is done.
+/// The place for a result, which is checked before any work is done.
 pub fn output<T>(what: &str, place: *mut T) -> Outcome<Output<T>> {
     if place.is_null() { Err(Failure::null(what)) } else { Ok(Output(place)) }
 }
 
-/// Run the body of an entry point.
+/// Runs the body of an entry point.
 pub fn call(body: impl FnOnce() -> Outcome) -> ricci_status {
     let mut body = Some(body);
     run(&mut || body.take().map_or(Ok(()), |body| body()))
 }
 
-/// [`call`], once in the library for all bodies: what stands here a hundred times is a fifth of a megabyte.
+/// Runs a body for [`call`]. This function is not generic: a copy for each entry point would take a fifth of a megabyte.
 fn run(body: &mut dyn FnMut() -> Outcome) -> ricci_status {
     let _host = Environment::enter();
     let failure = match guarded(&mut || memory::little().and_then(|()| body())) {
@@ -75,16 +75,16 @@ fn run(body: &mut dyn FnMut() -> Outcome) -> ricci_status {
             Failure::new(RICCI_PANIC, message)
         }
     };
-    kept::keep(&failure);
+    thread_failure::keep(&failure);
     failure.status
 }
 
-/// Run the body of an entry point that reads one handle.
+/// Runs the body of an entry point that reads one handle.
 pub fn with<H: OpaqueHandle>(handle: *const H, body: impl FnOnce(&H) -> Outcome) -> ricci_status {
     call(|| body(shared(handle)?))
 }
 
-/// Run the body of an entry point that makes a handle, whose place is checked before any work is done.
+/// Runs the body of an entry point that makes a handle. The place for the handle is checked before any work is done.
 pub fn make<H: OpaqueHandle>(place: *mut *mut H, body: impl FnOnce() -> Outcome<H>) -> ricci_status {
     call(|| {
         let place = output(H::NAME, place)?;
@@ -95,11 +95,11 @@ pub fn make<H: OpaqueHandle>(place: *mut *mut H, body: impl FnOnce() -> Outcome<
 
 /// A handle that calls change.
 pub trait MutableHandle: OpaqueHandle {
-    /// Whether a call was changing it and did not come to its end.
+    /// True while a call changes the handle, and for ever if that call panics.
     fn poisoned(&mut self) -> &mut bool;
 }
 
-/// The result of a body that changes a handle: a panic leaves it poisoned.
+/// Runs a body that changes a handle. A panic leaves the handle poisoned.
 pub fn change<H: MutableHandle, T>(handle: *mut H, body: impl FnOnce(&mut H) -> Outcome<T>) -> Outcome<T> {
     // SAFETY: NULL, or from this library, alive and used by this thread only (contract of the header).
     let handle = unsafe { handle.as_mut() }.ok_or_else(|| Failure::null(H::NAME))?;
@@ -112,7 +112,7 @@ pub fn change<H: MutableHandle, T>(handle: *mut H, body: impl FnOnce(&mut H) -> 
     result
 }
 
-/// Release a handle; NULL is fine, and so is a poisoned one.
+/// Releases a handle, which may be NULL or poisoned.
 pub fn free<H>(handle: *mut H) {
     if handle.is_null() {
         return;
@@ -124,11 +124,11 @@ pub fn free<H>(handle: *mut H) {
         Ok(())
     };
     if let Err(message) = guarded(&mut release) {
-        kept::keep(&Failure::new(RICCI_PANIC, message));
+        thread_failure::keep(&Failure::new(RICCI_PANIC, message));
     }
 }
 
-/// Run `body` and turn a panic into its message. Never inlined: no arithmetic of the body may move before the
+/// Runs `body` and turns a panic into its message. It is never inlined, so that no arithmetic of the body is moved before the
 /// change of the floating-point environment.
 #[inline(never)]
 fn guarded(body: &mut dyn FnMut() -> Outcome) -> Result<Outcome, String> {
@@ -143,8 +143,8 @@ thread_local! {
     static INSIDE: Cell<bool> = const { Cell::new(false) };
 }
 
-/// A panic inside a call becomes a status, so nothing is printed about it. Everybody else's panics go to the
-/// hook that was there before.
+/// Installs a panic hook that prints nothing about panics inside a call, which become a status. Other panics of the process go to
+/// the previous hook.
 fn keep_panics_quiet() {
     static ONCE: Once = Once::new();
     ONCE.call_once(|| {
@@ -158,7 +158,7 @@ fn keep_panics_quiet() {
     });
 }
 
-/// What a panic said. A payload of another type is leaked: its destructor is not ours to trust.
+/// The message of a panic. A payload that is no text is leaked, because its destructor could panic again.
 fn words(payload: Box<dyn Any + Send>) -> String {
     match payload.downcast::<String>() {
         Ok(text) => *text,
@@ -191,10 +191,10 @@ mod tests {
 
     fn last() -> String {
         // SAFETY: NUL-terminated, of this thread.
-        unsafe { CStr::from_ptr(kept::text()) }.to_string_lossy().into_owned()
+        unsafe { CStr::from_ptr(thread_failure::text()) }.to_string_lossy().into_owned()
     }
 
-    /// On a thread of the library, too.
+    /// The panic happens on a thread of the library's pool, whose panics must become a status too.
     #[test]
     fn a_panic_is_a_status_and_poisons_what_was_changed() {
         let mut changed = Box2 { poisoned: false, value: 1 };

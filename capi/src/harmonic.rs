@@ -67,7 +67,7 @@ pub unsafe extern "C" fn ricci_harmonic(
             HarmonicTarget::Disk | HarmonicTarget::Polygon | HarmonicTarget::Rectangle => {
                 let (_, domain) = simple_domain(surface, target == HarmonicTarget::Polygon, &control)?;
                 let map = plane(&domain, target, &spec, &control)?;
-                // Vertices that the domain had to be given come behind those of the mesh.
+                // Vertices that were added to make the domain simple come after those of the mesh.
                 let own = map.points.into_iter().take(mesh.connectivity.n_vertices());
                 own.map(|[x, y]| [x, y, 0.0]).collect()
             }

@@ -84,7 +84,7 @@ pub unsafe extern "C" fn ricci_homotopy_loops(
     starts_capacity: usize,
 ) -> ricci_status {
     guard::with(homotopy, |ricci_homotopy { basis, .. }| {
-        copy_paths(&basis.loops, (edges, edges_capacity), (starts, starts_capacity))
+        copy_paths(&basis.loops, edges, edges_capacity, starts, starts_capacity)
     })
 }
 
@@ -215,7 +215,7 @@ pub unsafe extern "C" fn ricci_homotopy_lift(
         let element = read_word(&basis.group, "element", given.element, given.n_element)?;
         let start = Lift { vertex: VertexId(given.vertex), element };
         let path = halfedges(mesh, given.path, given.n_path)?;
-        // Twice over, so that the words are only kept where the caller has room for them.
+        // The lift is computed twice: first for the lengths of the words, which may be too many to keep before the caller has room.
         let mut offsets = vec![0];
         for lift in basis.lift(mesh, &start, &path)? {
             offsets.push(offsets.last().copied().unwrap_or(0) + lift.element.len());

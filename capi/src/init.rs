@@ -1,4 +1,4 @@
-//! Zeroes a caller's struct.
+//! `ricci_init`, which zeroes a caller's struct and writes its size.
 
 use crate::failure::Failure;
 use crate::guard;

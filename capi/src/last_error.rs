@@ -1,9 +1,9 @@
-//! What a caller asks about the last failure of its thread.
+//! Queries of the last failure of the calling thread.
 
 use crate::choice::choices;
 use crate::failure::FailureElement;
 use crate::guard;
-use crate::kept::{self, FailureNumbers};
+use crate::thread_failure::{self, FailureNumbers};
 use crate::status::ricci_status;
 use crate::structs::{self, sized};
 use std::ffi::c_char;
@@ -33,13 +33,13 @@ sized!(ricci_failure, "failure");
 
 #[unsafe(no_mangle)]
 pub extern "C" fn ricci_last_error() -> *const c_char {
-    kept::text()
+    thread_failure::text()
 }
 
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ricci_last_failure(failure: *mut ricci_failure, size: usize) -> ricci_status {
     guard::call(|| {
-        let FailureNumbers { status, at: (element, index), amount, needed } = kept::numbers();
+        let FailureNumbers { status, at: (element, index), amount, needed } = thread_failure::numbers();
         let index = if element == FailureElement::None { -1 } else { index as i64 };
         let element = ELEMENTS.number(element)?;
         structs::write(ricci_failure { size, status, element, index, amount, needed }, failure, size)

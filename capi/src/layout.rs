@@ -1,4 +1,4 @@
-//! Layouts: a surface opened along a cut, in the space of its metric.
+//! Layouts: the coordinates of a surface that is opened along a cut and unfolded in the space of its metric.
 
 use crate::arrays::{self, check_buffer, copy_each, copy_out};
 use crate::choice::choices;
@@ -36,12 +36,12 @@ choices!(SCALES: Scale = "scale", [
 pub struct ricci_layout {
     pub(crate) state: Arc<MetricState>,
     pub(crate) layout: Arc<Layout>,
-    /// The coordinates of `points`.
+    /// The model of the hyperbolic plane in which `points` are given.
     pub(crate) model: Model,
     pub(crate) points: Vec<[f64; 2]>,
-    /// On the mesh as it came, where the layout is cut along edges of that.
+    /// The layout on the caller's mesh; none if the layout is cut along edges of another triangulation.
     on_input: Option<OnInput>,
-    /// Against the mesh as it came: not of a metric's own triangulation after flips.
+    /// The distortion against the caller's mesh; none of a layout of the metric's own triangulation after flips.
     quality: Option<Quality>,
 }
 handle!(ricci_layout, "layout");
@@ -97,7 +97,7 @@ fn not_here(message: &'static str) -> Failure {
     Failure::new(RICCI_LAYOUT, message)
 }
 
-/// Coordinates of a layout's points: two in a model, three in ambient ones.
+/// The coordinates of a layout's points: two each in a model, three in ambient space.
 pub(crate) fn coordinates(layout: &Layout, model: Model) -> Vec<f64> {
     match (layout.space, model) {
         (_, Model::Hyperboloid) => layout.points.as_flattened().to_vec(),
@@ -140,7 +140,7 @@ impl ricci_layout {
         self.layout.quality_on_input(surface.lengths())?.ok_or_else(|| not_here(NOT_ON_INPUT))
     }
 
-    /// The point of every corner of every face, of the input or of what is laid out.
+    /// The point of every corner of every face, of the caller's mesh or of the mesh of the layout.
     pub(crate) fn corners(&self, on: Triangulation) -> Outcome<Vec<[u32; 3]>> {
         Ok(match on {
             Triangulation::Input => {
@@ -152,7 +152,7 @@ impl ricci_layout {
         })
     }
 
-    /// Positions of the vertices of what is laid out; none of an intrinsic surface.
+    /// The positions of the vertices of the layout's mesh; none of an intrinsic surface.
     pub(crate) fn positions(&self) -> Outcome<Option<Arc<Vec<Point>>>> {
         let solution = &self.state.solution;
         Ok(match (solution.surface().positions(), self.layout.refinement()) {
@@ -161,7 +161,7 @@ impl ricci_layout {
         })
     }
 
-    /// What homogeneous weights of vertices are multiplied with at every point; nothing in the plane.
+    /// The factor of the homogeneous weight at every point of the layout; empty in the plane, where it is 1.
     pub(crate) fn heights(&self) -> Outcome<Vec<f64>> {
         match (self.layout.space, self.model) {
             (Space::E2, _) => Ok(Vec::new()),
@@ -192,9 +192,10 @@ pub unsafe extern "C" fn ricci_layout_new(
         let given = structs::read(options)?;
         let _reserve = memory::work(state.solution.mesh().n_vertices(), memory::LAYOUT)?;
         let surface = state.solution.surface();
-        let cones = match given.cones.is_null() && given.n_cones == 0 {
-            true => None,
-            false => Some(vertices(surface, given.cones, given.n_cones)?),
+        let cones = if given.cones.is_null() && given.n_cones == 0 {
+            None
+        } else {
+            Some(vertices(surface, given.cones, given.n_cones)?)
         };
         let options = UnrollOptions {
             cones,
@@ -327,7 +328,7 @@ pub unsafe extern "C" fn ricci_layout_seam_edges(
             Triangulation::Input => &layout.on_input()?.cut,
             _ => &layout.layout.cut,
         };
-        copy_paths(&cut.segments, (edges, edges_capacity), (starts, starts_capacity))
+        copy_paths(&cut.segments, edges, edges_capacity, starts, starts_capacity)
     })
 }
 

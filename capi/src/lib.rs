@@ -1,16 +1,16 @@
-//! The C face of `ricci`. All `unsafe` of the project is here.
+//! The C face of `ricci`. All `unsafe` code of the project is in this crate.
 //!
-//! Names are those of C. What functions do is said once, in the headers of `include/ricci`, which are written by hand;
-//! `tests/header.rs` holds their declarations, structs and constants against this crate. One file per concept of the library;
-//! underneath them:
+//! The names are those of C. The documentation of a function is its comment in the headers of `include/ricci`, which are
+//! written by hand; `tests/header.rs` compares their declarations, structs and constants with this crate. Each concept of the
+//! library has a file. The other files are shared by all of them:
 //!
-//! | file | what it keeps |
+//! | file | purpose |
 //! |---|---|
-//! | `guard` | nothing unwinds into C; a handle that was being changed is poisoned by a panic |
-//! | `environment` | the host's floating-point environment |
-//! | `memory` | what the system refuses is asked for before the work |
-//! | `arrays`, `structs`, `choice`, `paths` | arrays, structs, enum values, edge paths and words from and to C |
-//! | `failure`, `kept`, `status` | what went wrong, last on every thread |
+//! | `guard` | runs the body of every entry point, so that nothing unwinds into C; a panic poisons the handle that was being changed |
+//! | `environment` | sets the floating-point environment, and puts the host's back |
+//! | `memory` | asks the system for memory before the work, so that a refusal becomes a status |
+//! | `arrays`, `structs`, `choice`, `paths` | move arrays, structs, enum values, edge paths and words from and to C |
+//! | `failure`, `thread_failure`, `status` | describe an error, and keep the last one of every thread |
 //!
 //! # Safety
 //! Every function here is called from C, so each has the same contract, which the header states and no
@@ -18,7 +18,7 @@
 //! library and was not freed, and a `T *` is in use by one thread only.
 
 #![allow(non_camel_case_types)]
-// The headers document what C sees.
+// The headers document everything that C sees.
 #![allow(missing_docs)]
 #![allow(clippy::missing_safety_doc)]
 #![warn(clippy::too_many_lines)]
@@ -29,7 +29,7 @@ mod choice;
 mod environment;
 mod failure;
 mod guard;
-mod kept;
+mod thread_failure;
 mod memory;
 mod paths;
 mod structs;

@@ -1,4 +1,4 @@
-//! Log messages of the library, handed to a callback of the host.
+//! Log messages of the library, which go to a callback of the host.
 
 use crate::choice::choices;
 use crate::guard;
@@ -19,6 +19,7 @@ choices!(LEVELS: LevelFilter = "level", [
 pub type ricci_log_callback =
     Option<unsafe extern "C" fn(level: u32, message: *const c_char, user_data: *mut c_void)>;
 
+/// The host's callback, with the data that it is called with.
 struct LogSink {
     callback: unsafe extern "C" fn(u32, *const c_char, *mut c_void),
     user_data: *mut c_void,
@@ -30,6 +31,7 @@ unsafe impl Sync for LogSink {}
 
 static SINK: RwLock<Option<LogSink>> = RwLock::new(None);
 
+/// The logger of the process, which hands every message to the callback that is in force.
 struct SinkLogger;
 
 impl Log for SinkLogger {
@@ -60,7 +62,7 @@ pub unsafe extern "C" fn ricci_log_set(
         let sink = callback.map(|callback| LogSink { callback, user_data });
         let level = if sink.is_some() { level } else { LevelFilter::Off };
         *SINK.write().unwrap_or_else(PoisonError::into_inner) = sink;
-        // Already set by an earlier call: the sink behind it is what changes.
+        // An error says that an earlier call has set the logger; then only the callback changes.
         let _ = log::set_logger(&SinkLogger);
         log::set_max_level(level);
         Ok(())

@@ -110,7 +110,7 @@ pub struct ricci_matching_summary {
 sized!(ricci_matching_summary, "summary");
 
 impl ricci_matching {
-    /// A map, and the surface that it leads to.
+    /// The map of a direction, and the surface that it leads to.
     fn map(&self, direction: u32) -> Outcome<(&SurfaceMap, &Surface)> {
         Ok(match DIRECTIONS.choose(direction)? {
             MapDirection::Forward => (&self.matching.forward, &self.target),
@@ -147,7 +147,7 @@ pub unsafe extern "C" fn ricci_match(
         };
         let (source, target) = (source.surface()?, target.surface()?);
         let matching = match_surfaces(source, target, &options, &control)?;
-        // Of an intrinsic surface nothing is measured in space.
+        // Quality and errors are distances in space, which intrinsic surfaces do not have.
         let both = [source, target];
         let (mut quality, mut missed) = (None, 0.0);
         if both.iter().all(|s| s.positions().is_some()) {
@@ -160,7 +160,7 @@ pub unsafe extern "C" fn ricci_match(
     })
 }
 
-/// Pairs of points by their faces and weights.
+/// The caller's pairs of points, each given by its face and barycentric weights.
 fn points(given: &ricci_match_options) -> Outcome<Vec<[Place; 2]>> {
     let n = given.n_points;
     let faces: Vec<[u32; 2]> = array("point_faces", given.point_faces.cast(), n)?;
@@ -170,7 +170,7 @@ fn points(given: &ricci_match_options) -> Outcome<Vec<[Place; 2]>> {
     Ok(faces.into_iter().zip(weights).map(pair).collect())
 }
 
-/// Pairs of loops, their edges one after the other.
+/// The caller's pairs of loops, whose edges come one after the other.
 fn basis(meshes: [&ricci_mesh; 2], given: &ricci_match_options) -> Outcome<Vec<[Vec<HalfedgeId>; 2]>> {
     let sizes: Vec<[u32; 2]> = array("basis_sizes", given.basis_sizes.cast(), given.n_basis)?;
     let total = sizes.iter().flatten().fold(0usize, |sum, &n| sum.saturating_add(n as usize));
@@ -185,7 +185,7 @@ fn basis(meshes: [&ricci_mesh; 2], given: &ricci_match_options) -> Outcome<Vec<[
     sizes.into_iter().map(|[n, m]| Ok([next(0, n)?, next(1, m)?])).collect()
 }
 
-/// Landmarks with weights.
+/// The caller's pairs of landmarks that attract with a weight.
 fn soft(given: &ricci_match_options) -> Outcome<Vec<SoftLandmark>> {
     let pairs: Vec<[u32; 2]> = array("soft", given.soft.cast(), given.n_soft)?;
     let weights: Vec<f64> = array("soft_weights", given.soft_weights, given.n_soft)?;
@@ -193,7 +193,7 @@ fn soft(given: &ricci_match_options) -> Outcome<Vec<SoftLandmark>> {
     Ok(pairs.into_iter().zip(weights).map(soft).collect())
 }
 
-/// Pairs of curves, their vertices one after the other.
+/// The caller's pairs of curves, whose vertices come one after the other.
 fn curves(given: &ricci_match_options) -> Outcome<Vec<[Vec<VertexId>; 2]>> {
     let sizes: Vec<[u32; 2]> = array("curve_sizes", given.curve_sizes.cast(), given.n_curves)?;
     let total = sizes.iter().flatten().fold(0usize, |sum, &n| sum.saturating_add(n as usize));

@@ -1,8 +1,8 @@
-//! Memory that the system refuses: asked for before the work, and given back when it is needed.
+//! Reserves of memory, by which a call returns a status where the system has no memory.
 //!
-//! Rust ends the program where a small allocation fails, so the C face holds memory in reserve: a little for every call, and for long
-//! calls as much as their work is known to take. A call that cannot have its reserve fails before it has changed anything. When
-//! the system refuses memory later, all reserves are released and it is asked once more.
+//! Rust ends the program where a small allocation fails. Therefore every call holds a small reserve, and a long call holds as much as
+//! its work is known to take. A call that cannot have its reserve fails before it has changed anything. When the system refuses
+//! memory later, all reserves are released and the allocation is tried once more.
 
 use crate::failure::{Failure, Outcome};
 use crate::status::RICCI_NO_MEMORY;
@@ -14,51 +14,53 @@ use std::ptr::null_mut;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicPtr, AtomicUsize, Ordering};
 
-/// Bytes that calls without a reserve of their own may take: messages, handles, the lists of a few elements.
+/// Bytes that a call without a reserve of its own may take, for messages, handles and short lists.
 const LITTLE: usize = 1 << 18;
-/// Bytes that a call with work to do may take beside what it takes per element and per thread: files, tables.
+/// Bytes that a long call may take for files and tables, beside the bytes per element and per thread.
 const WORK: usize = 1 << 22;
-/// Bytes that a thread of a call may take: its stack of 2 MiB, and 4 MiB in which dense products lay out their factors.
+/// Bytes that a thread of a call may take: 2 MiB for its stack, and 4 MiB in which dense matrix products copy their factors.
 const THREAD: usize = 6 << 20;
-/// Reserves that are held at one time; calls beyond them only ask whether they could have one.
+/// Most reserves that are held at one time; further calls only try whether the system has the memory.
 const MOST_RESERVES: usize = 32;
 
-/// Bytes per vertex that building a mesh takes at most, or per face of a list: 1,220 on a torus of 38,400 vertices, as below.
+/// Most bytes per vertex, or per face of a list, for building a mesh: 1,220 were measured on a torus of 38,400 vertices. The numbers
+/// below were measured on the same torus.
 pub const MESH: usize = 1 << 11;
-/// That a byte of a mesh file takes at most while it is read, beside what odd files may unfold to (`tests/mesh_memory.rs`).
+/// Most bytes per byte of a mesh file while it is read; `tests/mesh_memory.rs` bounds the files that expand to more.
 pub const FILE: usize = 20;
-/// That an element of a deck group takes while its neighbours are looked at: words and motions, and the places where they are looked up.
+/// Most bytes per element of a deck group while its neighbours are searched: words, motions, and the table of those that are known.
 pub const ELEMENT: usize = 1 << 9;
-/// That a flow with flips takes: 1,990; the factor of its matrix grows with the logarithm of the size.
+/// Most bytes per vertex for a flow with flips: 1,990 were measured; the factor of its matrix grows with the logarithm of the size.
 pub const FLOW: usize = 1 << 12;
-/// That a layout (580), a refinement (810) or charts (2,780) take.
+/// Most bytes per vertex for a layout (580), a common subdivision (810) or charts (2,780).
 pub const LAYOUT: usize = 1 << 12;
-/// That a uniformization takes: 2,930 on a sphere.
+/// Most bytes per vertex for a uniformization: 2,930 on a sphere.
 pub const UNIFORM: usize = 1 << 13;
-/// That a point of a spline takes: 448 with its derivatives; a face of a tessellation 340.
+/// Most bytes per evaluated point of a spline (448 with its derivatives) or per face of a tessellation (340).
 pub const POINT: usize = 1 << 9;
-/// That a point or a control point of a fit takes: 2,980 of degree 5.
+/// Most bytes per point and per control point of a fit: 2,980 of degree 5.
 pub const FIT: usize = 1 << 12;
-/// That a byte of a spline's file takes: 29 of degree 5.
+/// Most bytes per byte of a spline's file while it is read: 29 of degree 5.
 pub const TEXT: usize = 1 << 5;
-/// That a patch takes while the text of its spline is made: 8,430 of degree 5.
+/// Most bytes per patch while the text of a spline is made: 8,430 of degree 5.
 pub const SPLINE_TEXT: usize = 1 << 14;
-/// That a patch of a spline takes while bicubic patches are made, beside the points of a batch: 13,400 with 8 spans a side.
+/// Most bytes per patch of a spline while bicubic patches are made, beside the evaluated points: 13,400 with 8 spans a side.
 pub const BICUBIC: usize = 1 << 14;
-/// That a control point of bicubic patches takes while their text is made: 520 as STEP.
+/// Most bytes per control point of bicubic patches while their text is made: 520 as STEP.
 pub const BICUBIC_TEXT: usize = 1 << 10;
 
-/// That a patch of a spline takes: 4,700 bytes of degree 1 to 68,800 of degree 5.
+/// Most bytes per patch of a spline of this degree: 4,700 of degree 1 to 68,800 of degree 5 were measured.
 pub fn patch(degree: usize) -> usize {
     1 << (12 + degree.min(ricci::spline::MAX_DEGREE))
 }
 
+/// A place for one reserve: its address and its size, both 0 while the slot is free.
 struct ReserveSlot {
     place: AtomicPtr<u8>,
     bytes: AtomicUsize,
 }
 
-/// What is held; the first is the little that any call may take.
+/// The reserves that are held. The first is the small one that every call may use.
 static HELD: [ReserveSlot; MOST_RESERVES] =
     [const { ReserveSlot { place: AtomicPtr::new(null_mut()), bytes: AtomicUsize::new(0) } }; MOST_RESERVES];
 
@@ -103,7 +105,7 @@ unsafe fn unmap(place: *mut u8, bytes: usize) {
 }
 
 impl ReserveSlot {
-    /// Hold memory here, if the place is free. Its size is written before the memory can be found.
+    /// Holds memory in this slot if the slot is free. The size is written before the address, by which others find the memory.
     fn fill(&self, place: *mut u8, bytes: usize) -> bool {
         self.bytes.compare_exchange(0, bytes, Ordering::AcqRel, Ordering::Relaxed).is_ok() && {
             self.place.store(place, Ordering::Release);
@@ -111,7 +113,7 @@ impl ReserveSlot {
         }
     }
 
-    /// Give back what is held here; whether there was any.
+    /// Gives back the memory of this slot; false if there was none.
     fn release(&self) -> bool {
         let place = self.place.swap(null_mut(), Ordering::AcqRel);
         if place.is_null() {
@@ -123,16 +125,16 @@ impl ReserveSlot {
     }
 }
 
-/// The allocator of the C face: the system's, which is asked again once reserves have been released.
+/// The allocator of the C face: the system's, which is asked a second time after the reserves have been released.
 struct RetryingAllocator;
 
 #[global_allocator]
 static ALLOCATOR: RetryingAllocator = RetryingAllocator;
 
-/// What `ask` gives; if that is nothing, what it gives once the reserves are released.
+/// The memory that `ask` gives; if it gives none, all reserves are released and it is asked again.
 fn again(ask: impl Fn() -> *mut u8) -> *mut u8 {
     let first = ask();
-    // Every reserve counts, so there is no stopping at the first.
+    // `count` releases every reserve, where `any` would stop at the first.
     if first.is_null() && HELD.iter().filter(|slot| slot.release()).count() > 0 { ask() } else { first }
 }
 
@@ -155,7 +157,7 @@ unsafe impl GlobalAlloc for RetryingAllocator {
     }
 }
 
-/// Memory for the work of one call, given back at its end if it was not needed before.
+/// Memory for the work of one call, which is given back at the end of the call if it was not released before.
 #[must_use]
 pub struct Reserve(Option<&'static ReserveSlot>);
 
@@ -181,7 +183,7 @@ fn hold(bytes: usize, slots: &'static [ReserveSlot]) -> Outcome<Reserve> {
     Ok(Reserve(slot))
 }
 
-/// The little that any call may take is there, or taken now. It stays for the calls to come.
+/// Makes sure that the small reserve of every call is held. It stays for later calls.
 pub fn little() -> Outcome {
     if HELD[0].bytes.load(Ordering::Acquire) == 0 {
         std::mem::forget(hold(LITTLE, &HELD[..1])?);
@@ -189,19 +191,19 @@ pub fn little() -> Outcome {
     Ok(())
 }
 
-/// Bytes that the threads of a call may take, one on each core.
+/// Bytes that the threads of a call may take, with one thread on each core.
 fn threads() -> usize {
     static CORES: OnceLock<usize> = OnceLock::new();
     let cores = *CORES.get_or_init(|| std::thread::available_parallelism().map_or(1, NonZero::get));
     cores.min(MAX_THREADS) * THREAD
 }
 
-/// A reserve for the work on so many elements.
+/// A reserve for work on this number of elements.
 pub fn work(elements: usize, bytes_each: usize) -> Outcome<Reserve> {
     hold(elements.saturating_mul(bytes_each).saturating_add(WORK + threads()), &HELD[1..])
 }
 
-/// A reserve for reading a mesh file of this size. A file that is not there is for its reader to name.
+/// A reserve for reading this mesh file. If the file does not exist, its reader reports that.
 pub fn file(path: &Path) -> Outcome<Reserve> {
     let bytes = std::fs::metadata(path).map_or(0, |about| about.len());
     work(usize::try_from(bytes).unwrap_or(usize::MAX), FILE)

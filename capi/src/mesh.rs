@@ -1,4 +1,4 @@
-//! Meshes: connectivity with positions in space, or with edge lengths, or both.
+//! Meshes: connectivity with positions in space, with edge lengths, or with both.
 
 use crate::arrays::{self, copy_each, copy_out, copy_rows};
 use crate::choice::choices;
@@ -21,7 +21,7 @@ choices!(pub(crate) SPACES: Space = "space", [
     RICCI_SPACE_S2 => Space::S2,
 ]);
 
-/// What the elements of a mesh or a triangle list have.
+/// A kind of numbers that the elements of a mesh or of a triangle list have.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum MeshValue {
     Positions,
@@ -50,9 +50,9 @@ choices!(WRAPS: Wrap = "wrap", [
 pub struct ricci_mesh {
     pub(crate) connectivity: Arc<Mesh>,
     positions: Option<Arc<Vec<Point>>>,
-    /// Given ones, in this geometry; else they are measured in space.
+    /// The caller's edge lengths with their geometry; without them lengths are measured in space.
     lengths: Option<(Arc<PerEdge<f64>>, Space)>,
-    /// What the file had beside positions and faces.
+    /// The attributes that the file had beside positions and faces.
     attributes: Attributes,
     surface: OnceLock<Surface>,
     summary: OnceLock<ricci_mesh_summary>,
@@ -83,7 +83,7 @@ impl ricci_mesh {
         Ok(ricci_mesh { attributes, ..ricci_mesh::in_space(connectivity, Arc::new(positions)) })
     }
 
-    /// The triangle list that the mesh is, with what it was read with.
+    /// The mesh as a triangle list, with the attributes that it was read with.
     pub(crate) fn soup(&self) -> Outcome<Soup> {
         let positions = self.positions()?.to_vec();
         let faces = self.connectivity.triangles();
@@ -95,7 +95,7 @@ impl ricci_mesh {
         positions.ok_or_else(|| Failure::argument("this mesh is intrinsic: it has lengths, no positions"))
     }
 
-    /// The surface with the lengths that were given, or are measured in space.
+    /// The surface with the lengths that the caller gave, or that are measured in space.
     pub(crate) fn surface(&self) -> Outcome<&Surface> {
         if let Some(surface) = self.surface.get() {
             return Ok(surface);
@@ -133,7 +133,7 @@ pub struct ricci_mesh_summary {
 // SAFETY: numbers; 8-byte alignment, size first.
 sized!(ricci_mesh_summary, "summary");
 
-/// How many normals, colours, faces with texture coordinates and with normals of their corners there are.
+/// The numbers of normals, of colours, of faces with texture coordinates, and of faces with normals at their corners.
 pub(crate) fn count(attributes: &Attributes) -> [usize; 4] {
     let Attributes { normals, colors, uv, corner_normals } = attributes;
     fn n<T>(list: &Option<Vec<T>>) -> usize {
@@ -142,7 +142,7 @@ pub(crate) fn count(attributes: &Attributes) -> [usize; 4] {
     [n(normals), n(colors), n(uv), n(corner_normals)]
 }
 
-/// Copy one of the attributes out.
+/// Copies one of the attributes to the caller.
 pub(crate) fn copy_attribute(
     which: MeshValue,
     attributes: &Attributes,
@@ -152,18 +152,18 @@ pub(crate) fn copy_attribute(
     fn copy<T: arrays::CopiedRow<Entry = f64>>(
         what: &str,
         list: &Option<Vec<T>>,
-        to: (*mut f64, usize),
+        values: *mut f64,
+        capacity: usize,
     ) -> Outcome {
         let list =
             list.as_deref().ok_or_else(|| Failure::argument(format!("there are no {what} to be had")))?;
-        copy_out("values", list, to.0, to.1)
+        copy_out("values", list, values, capacity)
     }
-    let to = (values, capacity);
     match which {
-        MeshValue::Normals => copy("normals", &attributes.normals, to),
-        MeshValue::Colors => copy("colors", &attributes.colors, to),
-        MeshValue::Uv => copy("uv", &attributes.uv, to),
-        MeshValue::CornerNormals => copy("corner normals", &attributes.corner_normals, to),
+        MeshValue::Normals => copy("normals", &attributes.normals, values, capacity),
+        MeshValue::Colors => copy("colors", &attributes.colors, values, capacity),
+        MeshValue::Uv => copy("uv", &attributes.uv, values, capacity),
+        MeshValue::CornerNormals => copy("corner normals", &attributes.corner_normals, values, capacity),
         MeshValue::Positions | MeshValue::Lengths => Err(Failure::argument("a triangle list has no lengths")),
     }
 }
@@ -199,7 +199,7 @@ pub struct ricci_gluing {
 // SAFETY: numbers and raw pointers; 8-byte alignment, size first.
 sized!(ricci_gluing, "gluing");
 
-/// Finite positive lengths of the edges of a mesh.
+/// The caller's lengths of the edges of a mesh, which must be finite and positive.
 fn lengths_of(mesh: &Mesh, lengths: *const f64, n: usize) -> Outcome<Arc<PerEdge<f64>>> {
     let lengths = arrays::array_of("lengths", lengths, n, mesh.n_edges())?;
     for (edge, &length) in lengths.iter().enumerate() {
@@ -310,7 +310,7 @@ pub unsafe extern "C" fn ricci_mesh_write(
     })
 }
 
-/// Write a triangle list in the format that the file's name says.
+/// Writes a triangle list in the format of the file's extension.
 pub(crate) fn write_soup(path: &std::path::Path, soup: &Soup) -> Outcome {
     for what in io::write(path, soup)? {
         log::warn!("{}: the format has no place for {what}: left out", path.display());
@@ -417,6 +417,6 @@ pub unsafe extern "C" fn ricci_mesh_boundary(
         let mesh = &mesh.connectivity;
         let loops = mesh.boundary_loops();
         let rows = loops.iter().map(|walk| walk.iter().rev().map(|&h| mesh.origin(h).0));
-        copy_rows("vertices", rows, (vertices, vertices_capacity), (starts, starts_capacity))
+        copy_rows("vertices", rows, vertices, vertices_capacity, starts, starts_capacity)
     })
 }

@@ -1,4 +1,4 @@
-//! Metrics: a point (ε, η, u) of a conformal class on a mesh, with what it says about lengths and curvature, and what led there.
+//! Metrics: a point (ε, η, u) of a conformal class on a mesh, with its lengths and curvature, and the report of the flow that led there.
 
 use crate::arrays::{copy_each, copy_out};
 use crate::choice::choices;
@@ -24,14 +24,14 @@ choices!(pub(crate) SCHEMES: Scheme = "scheme", [
     RICCI_SCHEME_VIRTUAL => Scheme::Virtual,
 ]);
 
-/// Where what is asked about lies.
+/// The triangulation that a question is about.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Triangulation {
     /// The caller's mesh.
     Input,
     /// The metric's own triangulation.
     Metric,
-    /// Both laid over each other.
+    /// The common subdivision of both.
     Refinement,
 }
 
@@ -41,7 +41,7 @@ choices!(pub(crate) ON: Triangulation = "on", [
     RICCI_ON_REFINEMENT => Triangulation::Refinement,
 ]);
 
-/// Numbers of a metric.
+/// A kind of numbers that a metric has.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum MetricQuantity {
     Factor,
@@ -63,12 +63,12 @@ choices!(QUANTITIES: MetricQuantity = "which", [
     RICCI_METRIC_MESH_U => MetricQuantity::MeshU,
 ]);
 
-/// A metric of a surface, shared by the handles that were made from it, with what is asked of it more than once.
+/// A metric of a surface, which the handles that are made from it share, with values that are computed once, when they are first needed.
 pub(crate) struct MetricState {
     pub solution: Solution,
-    /// Of the flow that led here, if one did.
+    /// The report of the flow that led to the metric; none of an initial metric.
     pub report: Option<Report>,
-    /// Of the edges of its triangulation.
+    /// The lengths of the edges of the metric's triangulation.
     pub lengths: Arc<PerEdge<f64>>,
     curvature: OnceLock<Curvature>,
     refinement: OnceLock<Arc<Refinement>>,
@@ -77,8 +77,8 @@ pub(crate) struct MetricState {
 pub struct ricci_metric(pub(crate) Arc<MetricState>);
 handle!(ricci_metric, "metric");
 
-/// The value of a cell, made at the first question.
-fn kept<T>(cell: &OnceLock<T>, make: impl FnOnce() -> ricci::Result<T>) -> Outcome<&T> {
+/// The value of a cell, which is computed at the first question.
+fn computed_once<T>(cell: &OnceLock<T>, make: impl FnOnce() -> ricci::Result<T>) -> Outcome<&T> {
     match cell.get() {
         Some(value) => Ok(value),
         None => {
@@ -90,20 +90,20 @@ fn kept<T>(cell: &OnceLock<T>, make: impl FnOnce() -> ricci::Result<T>) -> Outco
 
 impl MetricState {
     fn curvature(&self) -> Outcome<&Curvature> {
-        kept(&self.curvature, || self.solution.curvature())
+        computed_once(&self.curvature, || self.solution.curvature())
     }
 
-    /// The common refinement of the given mesh and the metric's triangulation; none where they are one.
+    /// The common subdivision of the caller's mesh and the metric's triangulation; none if they are the same triangulation.
     pub fn refinement(&self, control: &Control) -> Outcome<Option<&Arc<Refinement>>> {
         if self.solution.is_unflipped() {
             return Ok(None);
         }
-        kept(&self.refinement, || Ok(Arc::new(self.solution.refinement(control)?))).map(Some)
+        computed_once(&self.refinement, || Ok(Arc::new(self.solution.refinement(control)?))).map(Some)
     }
 }
 
 impl ricci_metric {
-    /// The metric that a flow has led to; `report`: where the solution itself has none.
+    /// The handle of a metric. `report` is used where the solution has no report of its own.
     pub(crate) fn at(solution: Solution, report: Option<Report>) -> Outcome<ricci_metric> {
         let lengths = Arc::new(solution.metric().lengths(solution.mesh())?);
         let report = solution.report().cloned().or(report);
@@ -246,7 +246,7 @@ pub unsafe extern "C" fn ricci_metric_mirror(
     })
 }
 
-/// What the flow did that led to a metric.
+/// The report of the flow that led to a metric.
 pub(crate) fn report_of(state: &MetricState) -> Outcome<&Report> {
     state.report.as_ref().ok_or_else(|| Failure::argument("no flow has led to this metric: it has no report"))
 }

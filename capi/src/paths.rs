@@ -1,4 +1,4 @@
-//! Edge paths and words as C has them: 1-based numbers, negative for what runs backwards.
+//! Edge paths and words in their form for C: 1-based numbers, negative for an edge that is run backwards or an inverse generator.
 
 use crate::arrays::{array, copy_counted, copy_rows};
 use crate::failure::{FailureElement, Failure, Outcome};
@@ -6,25 +6,25 @@ use ricci::mesh::{EdgeId, HalfedgeId, Mesh, VertexId};
 use ricci::topology::SurfaceGroup;
 use ricci::topology::word::{Letter, Word};
 
-/// The 1-based number of an edge, negative against its direction.
+/// The 1-based number of a half-edge's edge, negative if the half-edge runs against the edge.
 pub fn signed_edge(h: HalfedgeId) -> i32 {
     let number = h.edge().0 as i32 + 1;
     if h == h.edge().halfedge() { number } else { -number }
 }
 
-/// An entry of an array that numbers `count` elements from 1, by sign.
+/// The failure of a call whose array has, at entry `i`, a number outside ±1 to ±`count`.
 fn not_numbered(what: &str, i: usize, number: i32, elements: &str, count: usize) -> Failure {
     let message =
         format!("{what}[{i}] is {number}: {elements} are numbered 1 to {count}, -1 to -{count} backwards");
     Failure::argument(message).at(FailureElement::Entry, i)
 }
 
-/// Half-edges as signed edge numbers of a mesh.
+/// The half-edges of a caller's array of signed edge numbers.
 pub fn halfedges(mesh: &Mesh, data: *const i32, n: usize) -> Outcome<Vec<HalfedgeId>> {
     halfedges_of(mesh, "path", &array("path", data, n)?, 0)
 }
 
-/// The half-edges of these signed edge numbers, which are those of `what` from number `first` on.
+/// The half-edges of signed edge numbers, which are the entries of the array `what` from index `first` on.
 pub fn halfedges_of(mesh: &Mesh, what: &str, edges: &[i32], first: usize) -> Outcome<Vec<HalfedgeId>> {
     let known = |(i, &number): (usize, &i32)| {
         let e = number.unsigned_abs().checked_sub(1).filter(|&e| (e as usize) < mesh.n_edges());
@@ -35,13 +35,16 @@ pub fn halfedges_of(mesh: &Mesh, what: &str, edges: &[i32], first: usize) -> Out
     edges.iter().enumerate().map(known).collect()
 }
 
-/// Copy edge paths, one after the other, and where each starts and the last one ends.
+/// Copies edge paths one after the other, and the offsets at which each starts and the last one ends.
 pub fn copy_paths<'a>(
     paths: impl IntoIterator<Item = &'a Vec<HalfedgeId>>,
-    edges: (*mut i32, usize),
-    starts: (*mut usize, usize),
+    edges: *mut i32,
+    edges_capacity: usize,
+    starts: *mut usize,
+    starts_capacity: usize,
 ) -> Outcome {
-    copy_rows("edges", paths.into_iter().map(|path| path.iter().map(|&h| signed_edge(h))), edges, starts)
+    let rows = paths.into_iter().map(|path| path.iter().map(|&h| signed_edge(h)));
+    copy_rows("edges", rows, edges, edges_capacity, starts, starts_capacity)
 }
 
 /// The letters of a word: k for generator k (1-based), -k for its inverse.
@@ -52,12 +55,12 @@ pub fn letters(word: &Word) -> impl Iterator<Item = i32> + '_ {
     })
 }
 
-/// A caller's word, freely reduced.
+/// A caller's word, which is freely reduced.
 pub fn read_word(group: &SurfaceGroup, what: &str, data: *const i32, n: usize) -> Outcome<Word> {
     word_of(group, what, &array(what, data, n)?, 0)
 }
 
-/// The word of these letters, which are those of `what` from number `first` on.
+/// The word of signed letters, which are the entries of the array `what` from index `first` on.
 pub fn word_of(group: &SurfaceGroup, what: &str, letters: &[i32], first: usize) -> Outcome<Word> {
     let count = group.n_generators();
     let letter = |(i, &number): (usize, &i32)| {
@@ -69,12 +72,12 @@ pub fn word_of(group: &SurfaceGroup, what: &str, letters: &[i32], first: usize) 
     letters.iter().enumerate().map(letter).collect()
 }
 
-/// Hand a word out.
+/// Copies the letters of a word to the caller.
 pub fn copy_word(word: &Word, buffer: *mut i32, capacity: usize, n_letters: *mut usize) -> Outcome {
     copy_counted("letters", &letters(word).collect::<Vec<_>>(), buffer, capacity, n_letters)
 }
 
-/// A vertex that may be left to the library by NULL.
+/// A caller's vertex; NULL leaves the choice to the library.
 pub fn vertex_or_none(vertex: *const u32) -> Outcome<Option<VertexId>> {
     Ok(crate::arrays::one(vertex)?.map(VertexId))
 }

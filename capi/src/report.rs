@@ -1,4 +1,4 @@
-//! What a flow did.
+//! Reports of flows: the stop reason, the residuals, the seconds, and the vertices with the largest errors.
 
 use crate::arrays::{copy_each, copy_out};
 use crate::choice::choices;
@@ -89,7 +89,8 @@ pub struct ricci_report_summary {
 // SAFETY: numbers and a raw pointer; 8-byte alignment, size first.
 sized!(ricci_report_summary, "summary");
 
-/// The vertices of the obstruction, their curvature in the target, and what every metric of the class has more than.
+/// The vertices of the obstruction, their total curvature in the target, and the bound that it violates: every metric of the class has
+/// more curvature there.
 fn obstruction(report: &Report) -> (&[ricci::mesh::VertexId], f64, f64) {
     report.obstruction.as_ref().map_or((&[], 0.0, 0.0), |o| (&o.vertices, o.curvature, o.least))
 }

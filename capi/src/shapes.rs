@@ -1,4 +1,4 @@
-//! Sample surfaces, and what can be done to a surface in space.
+//! Sample surfaces, and changes of a surface in space: holes, slivers, noise, inversion.
 
 use crate::arrays;
 use crate::choice::choices;
@@ -107,7 +107,7 @@ fn branch_points(points: *const f64, n_points: usize) -> Outcome<Vec<Complex64>>
     Ok(points.into_iter().map(|[re, im]| Complex64::new(re, im)).collect())
 }
 
-/// Bytes that an entry of a period matrix takes while it is found.
+/// Most bytes per entry of a period matrix while it is computed.
 const PERIOD: usize = 1 << 8;
 
 fn intrinsic(surface: Intrinsic) -> Outcome<ricci_mesh> {
@@ -115,7 +115,7 @@ fn intrinsic(surface: Intrinsic) -> Outcome<ricci_mesh> {
     Ok(ricci_mesh::intrinsic(Arc::new(connectivity), Arc::new(lengths), surface.geometry))
 }
 
-/// About how many faces a surface will have, as the header counts them.
+/// The approximate number of faces of a sample surface, by the formulas of the header.
 fn faces_of(shape: SampleShape, [n, m, genus]: [usize; 3]) -> usize {
     let square = n.saturating_mul(n);
     let cut = |times: usize| 4_usize.saturating_pow(times.min(32) as u32);
@@ -133,7 +133,7 @@ fn faces_of(shape: SampleShape, [n, m, genus]: [usize; 3]) -> usize {
     }
 }
 
-/// Memory for a surface that the library does not refuse for its size.
+/// A reserve for a sample surface. One with more faces than an index can count gets none: the library refuses it.
 fn room_for(shape: SampleShape, sizes: [usize; 3]) -> Outcome<memory::Reserve> {
     let faces = faces_of(shape, sizes);
     memory::work(if faces > u32::MAX as usize { 0 } else { faces }, memory::MESH)

@@ -1,4 +1,4 @@
-//! Triangle lists, whatever their defects: read, diagnosed, repaired, written.
+//! Triangle lists, which may have defects: reading, diagnosis, repair, writing.
 
 use crate::arrays::{self, check_buffer, copy_out, copy_rows};
 use crate::failure::{FailureElement, Failure, Outcome, no_such};
@@ -15,18 +15,19 @@ use std::sync::OnceLock;
 
 pub struct ricci_soup {
     soup: Soup,
-    /// Of a repaired list: where its elements came from and what was done; `soup` is empty there.
+    /// The record of the repair, if this list was repaired: origins of its elements and counts of the steps. Its own `soup` is empty.
     origin: Option<Repaired>,
-    found: OnceLock<DiagnosisTexts>,
+    diagnosis: OnceLock<DiagnosisTexts>,
 }
 handle!(ricci_soup, "soup");
 
-/// The defects, with their texts as C strings.
+/// The diagnosis of a triangle list, with the texts of the defects as C strings.
 struct DiagnosisTexts {
     diagnosis: Diagnosis,
     defects: Vec<DefectTexts>,
 }
 
+/// A defect, with its texts as C strings.
 struct DefectTexts {
     code: CString,
     message: CString,
@@ -37,11 +38,11 @@ struct DefectTexts {
 
 impl ricci_soup {
     fn new(soup: Soup) -> ricci_soup {
-        ricci_soup { soup, origin: None, found: OnceLock::new() }
+        ricci_soup { soup, origin: None, diagnosis: OnceLock::new() }
     }
 
-    fn found(&self) -> &DiagnosisTexts {
-        self.found.get_or_init(|| {
+    fn diagnosis(&self) -> &DiagnosisTexts {
+        self.diagnosis.get_or_init(|| {
             let diagnosis = match &self.origin {
                 Some(done) => done.diagnosis.clone(),
                 None => diagnose(&self.soup.positions, &self.soup.faces),
@@ -158,7 +159,7 @@ pub unsafe extern "C" fn ricci_soup_summarise(
 ) -> ricci_status {
     guard::with(soup, |list| {
         let Diagnosis { components, euler, boundary_loops, genus, edges, defects, .. } =
-            &list.found().diagnosis;
+            &list.diagnosis().diagnosis;
         let [n_normals, n_colors, n_uv, n_corner_normals] = count(&list.soup.attributes);
         let steps = list.origin.as_ref().map_or_else(Steps::default, |done| done.steps);
         let refused = list.origin.as_ref().map_or(&[][..], |done| &done.weld_refused);
@@ -221,7 +222,7 @@ pub unsafe extern "C" fn ricci_soup_defect(
     size: usize,
 ) -> ricci_status {
     guard::with(soup, |list| {
-        let defects = &list.found().defects;
+        let defects = &list.diagnosis().defects;
         let record =
             defects.get(index).ok_or_else(|| no_such(FailureElement::Entry, "defect", index, defects.len()))?;
         let view = ricci_defect {
@@ -264,7 +265,7 @@ pub unsafe extern "C" fn ricci_soup_repair(
             1 => true,
             other => return Err(Failure::argument(format!("cut_non_manifold_edges is {other}: 0 or 1"))),
         };
-        // NaN is no tolerance, which the library says.
+        // The library refuses NaN as a tolerance, with a message.
         let weld = (given.weld.is_nan() || given.weld >= 0.0).then_some(given.weld);
         let component = given.component.checked_sub(1);
         let soup = &shared(soup)?.soup;
@@ -306,7 +307,7 @@ pub unsafe extern "C" fn ricci_soup_refused(
         let ends: Vec<u32> = refused.iter().flat_map(|edge| edge.vertices).collect();
         check_buffer("vertices", ends.len(), vertices, vertices_capacity)?;
         let rows = refused.iter().map(|edge| edge.faces.iter().copied());
-        copy_rows("faces", rows, (faces, faces_capacity), (starts, starts_capacity))?;
+        copy_rows("faces", rows, faces, faces_capacity, starts, starts_capacity)?;
         copy_out("vertices", &ends, vertices, vertices_capacity)
     })
 }

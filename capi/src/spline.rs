@@ -1,4 +1,4 @@
-//! Triangular B-splines over the plane: made, their parts handed out.
+//! Triangular B-splines: construction over the plane, and access to control points, knots and patches.
 
 use crate::arrays::{array, array_of, copy_out, optional};
 use crate::choice::choices;
@@ -15,7 +15,7 @@ use std::sync::Arc;
 
 pub struct ricci_spline {
     pub(crate) spline: Spline,
-    /// Of one that was fitted: root mean square and largest distance.
+    /// The root mean square and the largest distance to the points that the spline was fitted to; none if it was not fitted.
     pub(crate) fitted: Option<[f64; 2]>,
 }
 handle!(ricci_spline, "spline");
@@ -72,7 +72,7 @@ pub struct ricci_spline_summary {
 // SAFETY: numbers; 8-byte alignment, size first.
 sized!(ricci_spline_summary, "summary");
 
-/// The degree of a spline whose spec says none.
+/// The degree of a spline whose spec has degree 0.
 const USUAL_DEGREE: usize = 3;
 
 impl ricci_spline_spec {
@@ -80,7 +80,7 @@ impl ricci_spline_spec {
         if self.degree == 0 { USUAL_DEGREE } else { self.degree as usize }
     }
 
-    /// The knots of each vertex of a domain: given ones, or by the rules.
+    /// The knots of each vertex of a domain: the caller's, or else those that the spec's options lead to.
     fn knots(&self, domain: &Domain) -> Outcome<Vec<Vec<[f64; 2]>>> {
         let per_vertex = self.degree().saturating_add(1);
         let n = domain.vertices.len().saturating_mul(per_vertex);
@@ -97,7 +97,7 @@ impl ricci_spline_spec {
     }
 }
 
-/// The places of the control points over the plane z = 0.
+/// The spline of a space that is the plane z = 0: its control points are the abscissas.
 fn flat(space: SplineSpace) -> Outcome<ricci_spline> {
     let points = space.abscissas().into_iter().map(|[x, y]| [x, y, 0.0]).collect();
     Ok(Spline::new(Arc::new(space), points)?.into())

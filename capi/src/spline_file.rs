@@ -1,4 +1,4 @@
-//! Spline files, on disk and in memory.
+//! Splines as files and as text in memory.
 
 use crate::arrays::{self, copy_counted};
 use crate::failure::Outcome;
@@ -9,10 +9,10 @@ use crate::status::ricci_status;
 use ricci::spline::Spline;
 use std::ffi::c_char;
 
-/// What messages call a text that was given in memory.
+/// The name of a text in memory, for messages.
 const TEXT_NAME: &str = "text";
 
-/// A spline, with memory in reserve for a text of so many bytes.
+/// The spline that `make` reads, with a reserve for a text of this number of bytes.
 fn made(bytes: usize, make: impl FnOnce() -> ricci::Result<Spline>) -> Outcome<ricci_spline> {
     let _reserve = memory::work(bytes, memory::TEXT)?;
     Ok(make()?.into())
@@ -25,7 +25,7 @@ pub unsafe extern "C" fn ricci_spline_read(
 ) -> ricci_status {
     guard::make(spline, || {
         let path = arrays::path(path)?;
-        // A file that cannot be looked at cannot be read either, and that error has its name.
+        // If the file does not exist, reading it fails with its name in the message.
         let bytes = std::fs::metadata(&path).map_or(0, |file| file.len() as usize);
         made(bytes, || Spline::read(&path))
     })

@@ -1,4 +1,4 @@
-//! Splines fitted to points.
+//! Fits of splines over the plane to points.
 
 use crate::arrays::array;
 use crate::control::{self, ricci_control};
@@ -43,7 +43,7 @@ pub unsafe extern "C" fn ricci_spline_fit(
         };
         let usual = FitOptions::default();
         let fairness = or(given.fairness, usual.fairness);
-        // Below 0 stands for none; NaN is no weight, which the library says.
+        // A negative weight stands for none; the library refuses NaN, with a message.
         let fairness = if fairness < 0.0 { 0.0 } else { fairness };
         let options = FitOptions { fairness, threads: given.threads };
         let found = fit(space, &places, &points, &options, &control::of(control))?;

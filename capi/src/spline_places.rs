@@ -1,4 +1,4 @@
-//! Points of splines, and where they lie in them.
+//! Evaluation of splines, and the search for the patches in which points of the domain lie.
 
 use crate::arrays::{array, array_of, check_buffer, copy_each, copy_out};
 use crate::choice::choices;
@@ -27,7 +27,7 @@ choices!(QUANTITIES: SplineQuantity = "which", [
 ]);
 
 impl SplineQuantity {
-    /// How many derivatives it takes, and how many numbers it has.
+    /// The number of derivatives that are needed, and the count of numbers per point.
     fn sizes(self) -> (usize, usize) {
         match self {
             SplineQuantity::Point => (0, 3),
@@ -37,6 +37,7 @@ impl SplineQuantity {
         }
     }
 
+    /// Appends the numbers of this quantity at a point.
     fn add(self, at: &SurfacePoint, row: &mut Vec<f64>) {
         if self == SplineQuantity::Shape {
             row.extend(at.normal().unwrap_or([f64::NAN; 3]));
@@ -72,7 +73,7 @@ impl ricci_spline_places {
     }
 }
 
-/// The patches in which points lie.
+/// The places of points of the domain: the patch in which each lies.
 pub(crate) fn located(space: &SplineSpace, points: &[[f64; 2]]) -> Outcome<Vec<Parameter>> {
     let domain = space.domain()?;
     let locator = Locator::new(&domain);

@@ -1,4 +1,4 @@
-//! Splines over whole surfaces: fits on flat metrics, and nearest points.
+//! Splines over whole surfaces: fits on a flat metric, and closest points.
 
 use crate::arrays::{array, check_buffer, copy_out};
 use crate::control::{self, ricci_control};
@@ -29,7 +29,7 @@ pub struct ricci_spline_surface_options {
 sized!(ricci_spline_surface_options, "options");
 
 impl ricci_spline_surface_options {
-    /// What C has no field for keeps its default.
+    /// The library's options of the caller's. Options without a field in C keep their defaults.
     #[allow(clippy::needless_update)]
     fn read(&self) -> SurfaceFitOptions {
         let usual = SurfaceFitOptions::default();

@@ -1,4 +1,4 @@
-//! What a call returns.
+//! The status that every fallible call returns, as a number and as a sentence.
 
 use std::ffi::{CStr, c_char};
 
@@ -54,8 +54,8 @@ pub extern "C" fn ricci_status_text(status: ricci_status) -> *const c_char {
 mod tests {
     use super::*;
 
-    /// The numbers in the body of `Error::code`, read from the source: the enum is non-exhaustive, and a
-    /// variant added there must be added here.
+    /// The numbers are read from the source of `Error::code`, because the enum is non-exhaustive: every variant of it must have a
+    /// status here.
     #[test]
     fn every_error_of_the_library_has_a_status() {
         let source = include_str!("../../src/error.rs");

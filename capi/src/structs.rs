@@ -1,5 +1,5 @@
-//! Structs that cross the boundary with their size, so that later versions can add fields at their end. Zero is the default of
-//! every field.
+//! Structs that cross the boundary with their size, so that later versions of the library can add fields at their end. Zero is the
+//! default of every field.
 //!
 //! Every such struct has 8-byte alignment in all versions, so a size is a multiple of 8 and never splits a
 //! field.
@@ -7,23 +7,21 @@
 use crate::failure::{Failure, Outcome};
 use crate::status::*;
 
-/// Most bytes that a struct of any version has.
+/// Most bytes of a struct of any version.
 const MOST_BYTES: usize = 4096;
 
-/// A `repr(C)` struct of 8-byte alignment whose first member is its size, `usize`, and that any bytes
-/// written by C make valid, zeros among them.
+/// A `repr(C)` struct of 8-byte alignment whose first member is its size, a `usize`.
 ///
 /// # Safety
-/// As it says: numbers and raw pointers.
+/// All fields are numbers and raw pointers, so that any bytes are a valid value, zeros among them.
 pub unsafe trait Sized64: Copy {
-    /// Its name in messages.
+    /// The name of the struct in messages.
     const NAME: &'static str;
-    /// Set the first member.
+    /// The struct with another size in its first member.
     fn with_size(self, size: usize) -> Self;
 }
 
-/// Makes a struct whose first member is `size: usize` one that crosses the boundary with its size. Whoever calls this says why the
-/// contract of [`Sized64`] holds.
+/// Implements [`Sized64`] for a struct whose first member is `size: usize`. A comment at each use says why its contract holds.
 macro_rules! sized {
     ($type:ty, $name:literal) => {
         unsafe impl $crate::structs::Sized64 for $type {
@@ -36,7 +34,7 @@ macro_rules! sized {
 }
 pub(crate) use sized;
 
-/// A size that a struct can have.
+/// Refuses a size that no struct can have.
 pub fn check(name: &str, size: usize) -> Outcome {
     if !(16..=MOST_BYTES).contains(&size) || !size.is_multiple_of(8) {
         let message = format!("{name} has size {size}: pass sizeof, and let ricci_init write it");
@@ -45,7 +43,7 @@ pub fn check(name: &str, size: usize) -> Outcome {
     Ok(())
 }
 
-/// Write `value` to a caller whose struct has `size` bytes: the fields it knows, and zeros behind those that we know.
+/// Writes `value` to a caller's struct of `size` bytes: the fields that both know, and zeros in those that only the caller knows.
 pub fn write<S: Sized64>(value: S, place: *mut S, size: usize) -> Outcome {
     const { assert!(align_of::<S>() == 8 && size_of::<usize>() == 8) };
     if place.is_null() {
@@ -62,12 +60,12 @@ pub fn write<S: Sized64>(value: S, place: *mut S, size: usize) -> Outcome {
     Ok(())
 }
 
-/// A number whose zero stands for the default.
+/// The caller's number, or the usual one if the caller's is zero.
 pub fn or<T: Default + PartialEq>(given: T, usual: T) -> T {
     if given == T::default() { usual } else { given }
 }
 
-/// Read a caller's struct: fields it does not have are zero, and for NULL all are.
+/// Reads a caller's struct. Fields that an older caller's struct does not have are zero; all are for NULL.
 pub fn read<S: Sized64>(place: *const S) -> Outcome<S> {
     // SAFETY: zeros are valid (`Sized64`).
     let mut value: S = unsafe { std::mem::zeroed() };
@@ -77,13 +75,13 @@ pub fn read<S: Sized64>(place: *const S) -> Outcome<S> {
     // SAFETY: the first member of the struct is its size.
     let size = unsafe { place.cast::<usize>().read_unaligned() };
     check(S::NAME, size)?;
-    // SAFETY: the caller's struct has `size` bytes; fields beyond ours are newer than this library and must be 0.
+    // SAFETY: the caller's struct has `size` bytes; fields that this library does not know must be 0.
     if (size_of::<S>()..size).any(|i| unsafe { place.cast::<u8>().add(i).read() } != 0) {
         let message = format!("{} has fields that this version of the library does not know", S::NAME);
         return Err(Failure::new(RICCI_STRUCT_SIZE, message));
     }
     let known = size.min(size_of::<S>());
-    // SAFETY: both have `known` bytes, and any bytes are valid (`Sized64`).
+    // SAFETY: both structs have at least `known` bytes, and any bytes are valid (`Sized64`).
     unsafe { std::ptr::copy_nonoverlapping(place.cast::<u8>(), (&raw mut value).cast::<u8>(), known) };
     Ok(value.with_size(size_of::<S>()))
 }
@@ -105,7 +103,7 @@ mod tests {
 
     const GIVEN: SampleOptions = SampleOptions { size: 24, x: 2.5, n: 7, reserved: 0 };
 
-    /// The bytes of a struct at an odd address, with more behind it.
+    /// The bytes of a struct at an odd address, followed by bytes of another value.
     fn bytes(size: usize, tail: u8) -> Vec<u8> {
         let fields = [&size.to_ne_bytes()[..], &2.5_f64.to_ne_bytes(), &7_u32.to_ne_bytes(), &[0; 4]];
         [&[0], &fields.concat()[..], &[tail; 16]].concat()
@@ -115,7 +113,7 @@ mod tests {
     fn structs_of_any_size_and_alignment_are_read() {
         let read_at = |bytes: &[u8]| read::<SampleOptions>(bytes[1..].as_ptr().cast());
         assert_eq!(read_at(&bytes(24, 0)).unwrap(), GIVEN);
-        // An older caller's struct ends before n; a newer one's fields are zero, or refused.
+        // The struct of an older caller ends before n. The additional fields of a newer one must be zero.
         assert_eq!(read_at(&bytes(16, 0)).unwrap(), SampleOptions { n: 0, ..GIVEN });
         assert_eq!(read_at(&bytes(40, 0)).unwrap(), GIVEN);
         assert_eq!(read_at(&bytes(40, 1)).unwrap_err().status, RICCI_STRUCT_SIZE);

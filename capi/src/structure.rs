@@ -1,4 +1,4 @@
-//! Geometric structures of surfaces, by charts and transitions.
+//! Geometric structures of surfaces: atlases of charts with transitions.
 
 use crate::arrays::{check_buffer, copy_out};
 use crate::choice::choices;
@@ -75,12 +75,12 @@ pub struct ricci_structure_summary {
 // SAFETY: numbers; 8-byte alignment, size first.
 sized!(ricci_structure_summary, "summary");
 
-/// Numbers of a matrix: of 2 × 2 complex ones, or of 3 × 3 real ones.
+/// The count of numbers of a transition's matrix, which is complex 2 × 2 or real 3 × 3.
 fn matrix_size(structure: Structure) -> usize {
     if structure.is_complex() { 8 } else { 9 }
 }
 
-/// A matrix by rows; of complex numbers both parts.
+/// The entries of a matrix by rows, complex ones as real and imaginary part.
 fn entries(element: &Element) -> impl Iterator<Item = f64> + use<> {
     let parts = if matches!(element, Element::Mobius(_)) { 2 } else { 1 };
     element.rows().into_iter().flatten().flat_map(move |entry| entry.into_iter().take(parts))

@@ -1,4 +1,4 @@
-//! The charts of a structure as lists, and points in them.
+//! The charts of a structure as lists, and the points of the surface in the charts.
 
 use crate::arrays::{array, check_buffer, copy_each, copy_out, copy_rows};
 use crate::choice::choices;
@@ -81,7 +81,7 @@ pub unsafe extern "C" fn ricci_structure_rows(
     starts_capacity: usize,
 ) -> ricci_status {
     guard::with(structure, |ricci_structure { atlas }| {
-        copy_rows("entries", ROWS.choose(which)?.of(atlas), (entries, capacity), (starts, starts_capacity))
+        copy_rows("entries", ROWS.choose(which)?.of(atlas), entries, capacity, starts, starts_capacity)
     })
 }
 

@@ -1,4 +1,4 @@
-//! Targets: the prescribed curvature of every vertex, by rule or by value.
+//! Targets: the curvature that is prescribed at every vertex, by a rule or by values.
 
 use crate::arrays::{self, copy_out};
 use crate::choice::choices;
@@ -47,7 +47,7 @@ pub struct ricci_target {
 // SAFETY: numbers and raw pointers; 8-byte alignment, size first.
 sized!(ricci_target, "target");
 
-/// Vertices of the surface, from a caller's array.
+/// The vertices of a caller's array, which must be vertices of the surface.
 pub(crate) fn vertices(surface: &Surface, data: *const u32, n: usize) -> Outcome<Vec<VertexId>> {
     let count = surface.mesh().n_vertices();
     let vertices = arrays::array("vertices", data, n)?;

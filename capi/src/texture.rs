@@ -1,4 +1,4 @@
-//! Layouts and charts as files: meshes with texture coordinates.
+//! Files of layouts and charts: OBJ meshes with texture coordinates.
 
 use crate::failure::{Failure, Outcome};
 use ricci::mesh::{Mesh, PerVertex, Point, io};
@@ -14,7 +14,8 @@ pub(crate) struct TextureFile<'a> {
 }
 
 impl TextureFile<'_> {
-    /// Write OBJ; with the homogeneous weights of the vertices and what these are multiplied with at the points (nothing: 1), if given.
+    /// Writes an OBJ file. `weights`: the homogeneous weights of the vertices, and the factors by which they are multiplied at the
+    /// points (all 1 if empty).
     pub fn write(self, path: &Path, weights: Option<(PerVertex<f64>, Vec<f64>)>) -> Outcome {
         let positions = self.positions.ok_or_else(|| {
             Failure::argument("the layout is of an intrinsic mesh: it has no positions to write")

@@ -1,4 +1,4 @@
-//! Surfaces in their canonical shape: on the sphere, or as quotients of the plane or the hyperbolic plane.
+//! Surfaces in their canonical shape: the round sphere, or a quotient of the Euclidean or the hyperbolic plane.
 
 use crate::arrays::{check_buffer, copy_out};
 use crate::boundary;
@@ -122,7 +122,7 @@ pub unsafe extern "C" fn ricci_uniformize(
         let options = QuotientOptions {
             scheme: SCHEMES.choose(given.scheme)?,
             base: vertex_or_none(given.base)?,
-            boundary: boundary::read(given.boundary, (given.corners, given.corner_angles), given.n_corners)?,
+            boundary: boundary::read(given.boundary, given.corners, given.corner_angles, given.n_corners)?,
             flow: read_options(given.flow)?,
         };
         if !given.start.is_null() {
@@ -276,8 +276,8 @@ pub unsafe extern "C" fn ricci_uniform_sides(
     })
 }
 
-/// What the basis of a quotient lives on.
-fn laid_out(quotient: &Quotient) -> Arc<Mesh> {
+/// The mesh that the homotopy basis of a quotient lies on.
+fn mesh_of(quotient: &Quotient) -> Arc<Mesh> {
     match quotient.layout.refinement() {
         Some(refinement) => Arc::new(refinement.mesh.clone()),
         None => quotient.metric.mesh().clone(),
@@ -291,7 +291,7 @@ pub unsafe extern "C" fn ricci_uniform_homotopy(
 ) -> ricci_status {
     guard::make(homotopy, || {
         let quotient = shared(uniform)?.quotient()?;
-        Ok(ricci_homotopy { mesh: laid_out(quotient), basis: quotient.basis.clone() })
+        Ok(ricci_homotopy { mesh: mesh_of(quotient), basis: quotient.basis.clone() })
     })
 }
 

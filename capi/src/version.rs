@@ -1,4 +1,4 @@
-//! The version, for the loader.
+//! The version of the library at run time, as text and as a number.
 
 use std::ffi::{CString, c_char};
 use std::sync::OnceLock;

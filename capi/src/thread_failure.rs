@@ -1,11 +1,11 @@
-//! The last failure of every thread.
+//! The last failure of every thread, kept until the thread's next one.
 
 use crate::failure::{FailureElement, Failure};
 use crate::status::*;
 use std::cell::{Cell, UnsafeCell};
 use std::ffi::c_char;
 
-/// Bytes of a message that are kept, with the NUL behind them.
+/// Bytes of the buffer for a message, with its final NUL.
 const TEXT_BYTES: usize = 1024;
 
 /// The numbers of a failure.
@@ -18,14 +18,14 @@ pub struct FailureNumbers {
 }
 
 thread_local! {
-    /// The message: a buffer without a destructor, whose address stays until the thread ends.
+    /// The message, in a buffer that has no destructor, so that its address is valid until the thread ends.
     static TEXT: UnsafeCell<[u8; TEXT_BYTES]> = const { UnsafeCell::new([0; TEXT_BYTES]) };
     static NUMBERS: Cell<FailureNumbers> = const { Cell::new(NOTHING) };
 }
 
 const NOTHING: FailureNumbers = FailureNumbers { status: RICCI_OK, at: (FailureElement::None, 0), amount: 0.0, needed: 0 };
 
-/// Keep a failure for this thread. A NUL inside the message, from a caller's path, would cut it short, so it becomes a question mark.
+/// Keeps a failure for this thread. A NUL inside the message, which may come from a caller's path, becomes a question mark.
 pub fn keep(failure: &Failure) {
     let text = &failure.message;
     let most = text.len().min(TEXT_BYTES - 1);
@@ -45,7 +45,7 @@ pub fn text() -> *const c_char {
     TEXT.try_with(|buffer| buffer.get().cast_const().cast()).unwrap_or(c"".as_ptr())
 }
 
-/// Its numbers.
+/// The numbers of the last failure of this thread.
 pub fn numbers() -> FailureNumbers {
     NUMBERS.try_with(Cell::get).unwrap_or(NOTHING)
 }
