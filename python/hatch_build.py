@@ -1,4 +1,4 @@
-"""What the wheel has beside the Python files: the shared library, and the declarations of its headers for cffi.
+"""Adds to the wheel the shared library, and the declarations of its headers for cffi.
 
 The library is the one that RICCI_LIBRARY names, or that of the release build. A copy without its debug information goes beside the
 package's files, so that the wheel needs neither a compiler nor a library path where it is installed.

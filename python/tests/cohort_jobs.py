@@ -33,7 +33,7 @@ def fails_once(path):
 
 
 def odd_results(mesh):
-    """What cannot be a column, or cannot even be sent."""
+    """A result that cannot be a column, or that cannot be sent between processes."""
     if mesh.genus == 2:
         return {"what": threading.Lock()}
     return {"what": object()} if mesh.genus == 3 else counts(mesh)

@@ -1,4 +1,4 @@
-"""What the tests share: surfaces, where the repository is, and whether its meshes are there."""
+"""Fixtures of the tests: surfaces, the folder of the repository, and the mesh corpus if it is there."""
 
 import os
 from pathlib import Path

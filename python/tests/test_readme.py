@@ -1,4 +1,4 @@
-"""What the pages say is so: their examples run, and the package is what it says it is."""
+"""The examples of the pages run, and the package has the metadata that it should have."""
 
 from importlib import metadata
 

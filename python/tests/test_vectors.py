@@ -79,7 +79,7 @@ def lengths_in(model, p, q):
 
 
 def sides(model, uv):
-    """Of triangles, m x 3 x 2, the lengths opposite their corners."""
+    """The lengths opposite the corners of triangles, m x 3 x 2."""
     return lengths_in(model, np.roll(uv, -1, axis=1), np.roll(uv, -2, axis=1))
 
 

@@ -1,4 +1,4 @@
-"""Calls of the library with numpy arrays: what goes in is checked and handed over where it lies, what comes out is written in place."""
+"""Calls of the library with numpy arrays. Arguments are checked and passed without a copy; results are written into new arrays."""
 
 from __future__ import annotations
 
@@ -28,20 +28,20 @@ Figures = TypeVar("Figures")
 
 
 class _Watched:
-    """Stands in a list of arguments where the call takes its control."""
+    """The type of `CONTROL`, which stands in a list of arguments at the place of the call's control."""
 
 
 CONTROL = _Watched()
 
 
 class Passed:
-    """What is passed to the library as a pointer and keeps alive what that points to."""
+    """An object that is passed to the library as a pointer, and that keeps the memory behind the pointer alive."""
 
     _pointer: Any
 
 
 class Handle(Passed):
-    """An object of the library, freed with the Python object. It keeps alive whatever it was made from."""
+    """An object of the library, freed with the Python object. The library keeps alive the objects that it was made from."""
 
     _type: ClassVar[str]
 
@@ -50,7 +50,7 @@ class Handle(Passed):
 
     @classmethod
     def _made(cls, function: Callable[..., int], *arguments: Any, progress: Progress = None) -> Self:
-        """What `function` hands out through its last argument."""
+        """The handle that `function` returns through its last argument."""
         out = ffi.new(f"ricci_{cls._type} **")
         call(function, *arguments, out, progress=progress)
         made = cls.__new__(cls)
@@ -71,7 +71,7 @@ def call(function: Callable[..., int], *arguments: Any, progress: Progress = Non
     at = given.index(CONTROL)
 
     def work(control: Any) -> int:
-        # A closure: it keeps what is handed over alive as long as the call runs, whatever becomes of the caller.
+        # This closure keeps the arguments alive as long as the call runs, even if the caller is gone.
         _ = arguments
         return function(*given[:at], control, *given[at + 1 :])
 
@@ -81,8 +81,8 @@ def call(function: Callable[..., int], *arguments: Any, progress: Progress = Non
 def pointer(array: npt.NDArray[Any] | None) -> Any:
     """The address of an array's numbers, for cffi; NULL for None.
 
-    It keeps the array alive, as a call that was given up in haste may still be writing there; but for an array whose rows lie apart, which
-    must outlive it.
+    It keeps the array alive, because a call that was abandoned may still be writing there. An array whose rows lie apart is not kept
+    alive: the caller must do that.
     """
     if array is None:
         return ffi.NULL
@@ -102,7 +102,7 @@ def doubles(function: Callable[..., int], *arguments: Any, shape: tuple[int, ...
 
 
 def listed(function: Callable[..., int], *arguments: Any, dtype: Any = np.uint32) -> Any:
-    """A list whose length the call itself tells: it is asked for first."""
+    """A list whose length the call reports: a first call asks for the length."""
     given = [a._pointer if isinstance(a, Passed) else a for a in arguments]
     status = function(*given, ffi.NULL, 0)
     if status == Status.OK:
@@ -113,7 +113,7 @@ def listed(function: Callable[..., int], *arguments: Any, dtype: Any = np.uint32
 
 
 def sized_list(function: Callable[..., int], *arguments: Any, dtype: Any = np.int32) -> Any:
-    """A list whose length the call tells through its last argument."""
+    """A list whose length the call writes to its last argument."""
     n = ffi.new("size_t *")
     call(function, *arguments, ffi.NULL, 0, n)
     out = np.empty(n[0], dtype)
@@ -122,7 +122,7 @@ def sized_list(function: Callable[..., int], *arguments: Any, dtype: Any = np.in
 
 
 def text_of(function: Callable[..., int], *arguments: Any) -> str:
-    """A text whose length the call tells through its last argument."""
+    """A text whose length the call writes to its last argument."""
     n = ffi.new("size_t *")
     call(function, *arguments, ffi.NULL, 0, n)
     out = ffi.new("char[]", n[0])
@@ -133,7 +133,7 @@ def text_of(function: Callable[..., int], *arguments: Any) -> str:
 def rows(n: int, function: Callable[..., int], *arguments: Any, dtype: Any = np.int32) -> list[Any]:
     """The n lists of different lengths that `function` copies out: views of one array.
 
-    Asked without room for the entries, it either says how many there are or tells where each list starts and ends.
+    A first call without room for the entries either reports their number or writes the offsets at which each list starts and ends.
     """
     starts = np.zeros(n + 1, np.uintp)
     given = [a._pointer if isinstance(a, Passed) else a for a in arguments]
@@ -179,12 +179,12 @@ def constant(prefix: str, name: str, among: tuple[str, ...] | None = None) -> in
     """The constant RICCI_<prefix>_<NAME>.
 
     Args:
-        prefix: what its like begin with.
-        name: in lower case.
-        among: the names that there are, where constants of several lists have the same prefix.
+        prefix: the common prefix of the constants of its list.
+        name: the rest of its name, in lower case.
+        among: the names of the list, where several lists have the same prefix.
 
     Raises:
-        ArgumentError: there is none; the message lists those that there are.
+        ArgumentError: there is no such constant; the message lists the known names.
     """
     head = f"RICCI_{prefix}_"
     known = among or tuple(sorted(n.removeprefix(head).lower() for n in dir(lib) if n.startswith(head)))

@@ -1,4 +1,4 @@
-"""What meshes and triangle lists have in common: positions, faces, and the attributes of a file."""
+"""The common part of meshes and triangle lists: positions, faces, and the attributes of a file."""
 
 from __future__ import annotations
 

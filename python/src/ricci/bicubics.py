@@ -17,7 +17,7 @@ __all__ = ["Bicubic", "BicubicOptions", "StepOptions", "bicubic"]
 
 
 class BicubicOptions(TypedDict, total=False):
-    """How near the patches are to be.
+    """Options of bicubic patches: how near they are to the spline.
 
     Attributes:
         tolerance: largest distance from the spline over the diagonal, 1e-10 to 1; 1e-4.
@@ -31,7 +31,7 @@ class BicubicOptions(TypedDict, total=False):
 
 
 class StepOptions(TypedDict, total=False):
-    """What a STEP file says beside the patches.
+    """Entries of a STEP file beside the patches.
 
     Attributes:
         name: the name of the part.

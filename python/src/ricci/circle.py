@@ -24,7 +24,7 @@ __all__ = ["CircleDomain", "CircleOptions", "circles"]
 
 
 class CircleOptions(TypedDict, total=False):
-    """How a circle domain is found.
+    """Options of a circle domain.
 
     Attributes:
         flow: tolerance, max_iterations and threads of the flows.
@@ -76,7 +76,7 @@ class CircleDomain(Handle):
 
     @property
     def converged(self) -> bool:
-        """Whether the curvature is within the tolerance, no circles overlap and no triangle is flipped."""
+        """True if the curvature is within the tolerance, no circles overlap and no triangle is flipped."""
         return self.summary.converged
 
     @cached_property
@@ -90,7 +90,7 @@ class CircleDomain(Handle):
         return Mesh._made(lib.ricci_circle_domain_mesh, self)
 
     def layout(self, model: Model = "poincare") -> Layout:
-        """The layout of the surface without its holes, on the refinement of `mesh`."""
+        """The layout of the surface without its holes, on a subdivision of `mesh`."""
         return Layout._made(lib.ricci_circle_domain_layout, self, constant("MODEL", model))
 
 

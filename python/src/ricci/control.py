@@ -13,7 +13,7 @@ __all__ = ["Control", "Progress"]
 
 # The names of RICCI_STAGE_*.
 STAGES = ("idle", "read", "build", "flow", "layout", "write")
-# Seconds between two looks at a running call: what a Ctrl-C waits for at most before it is passed on.
+# Seconds between two looks at a running call: the longest time before a Ctrl-C is passed on.
 LOOK = 0.05
 
 
@@ -40,7 +40,7 @@ class Control:
         lib.ricci_control_cancel(self._pointer)
 
     def progress(self) -> tuple[str, float]:
-        """What the call is doing, and the part of it that is done, in [0, 1]."""
+        """The stage that the call is in, and the part of it that is done, in [0, 1]."""
         stage, fraction = ffi.new("uint32_t *"), ffi.new("double *")
         lib.ricci_control_progress(self._pointer, stage, fraction, ffi.NULL)
         return STAGES[stage[0]], float(fraction[0])
@@ -60,7 +60,7 @@ Progress: TypeAlias = "Control | Callable[[str, float], object] | None"
 
 
 class _Running:
-    """A call in a thread of its own, whose failure is read there: messages belong to the thread of the call."""
+    """A call in a thread of its own. Its failure is read on that thread, because the library keeps the message for that thread."""
 
     def __init__(self, work: Callable[[], int]) -> None:
         self.failure: BaseException | None = None
@@ -78,7 +78,7 @@ class _Running:
 
 
 def check(status: int) -> None:
-    """Raise what `status` says of the call that has just ended on this thread."""
+    """Raise the exception for the call that has just ended on this thread with `status`, unless that is OK."""
     if status:
         raise last_failure(status)
 

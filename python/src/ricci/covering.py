@@ -30,7 +30,7 @@ Kind: TypeAlias = Literal["generators", "sides", "words", "depth", "within", "di
 
 
 class DeckSpec(TypedDict, total=False):
-    """Which deck transformations.
+    """The deck transformations that are asked for.
 
     Attributes:
         kind: ``"generators"``, ``"sides"`` of the layout, ``"words"``, all to a ``"depth"``, all ``"within"`` a radius, or
@@ -102,11 +102,11 @@ class Deck(Handle):
 
     @cached_property
     def lengths(self) -> Doubles:
-        """How far they move along their axes: lengths of the closed geodesics in their free homotopy classes."""
+        """The translation lengths of the elements: lengths of the closed geodesics in their free homotopy classes."""
         return frozen(self._values("LENGTH"))
 
     def apply(self, element: int, points: npt.ArrayLike) -> Doubles:
-        """k x 3 points in ambient coordinates, moved by one element, with twice the digits of doubles on the way."""
+        """k x 3 points in ambient coordinates, moved by one element, computed in double-double precision."""
         array = _arrays.real(points, 3, "points")
         return doubles(lib.ricci_deck_apply, self, element, pointer(array), len(array), shape=array.shape)
 

@@ -1,4 +1,4 @@
-"""What a failed call raises: one class for each family of statuses, with the element and the amount as numbers.
+"""Exceptions of failed calls: one class for each family of statuses, with the element and the amount as numbers.
 
 Every exception of the library is a `RicciError`. Those of arguments are also a `ValueError`, those of files an `OSError`, and a refusal
 of memory is a `MemoryError`, so that code which knows nothing of this package treats them rightly.
@@ -100,15 +100,15 @@ class SolverError(RicciError, ArithmeticError):
 
 
 class LayoutError(RicciError, ValueError):
-    """What was asked for has no layout."""
+    """The metric or the surface has no layout of the kind that was asked for."""
 
 
 class MatchingError(RicciError, ValueError):
-    """There is no map between two surfaces as it was asked for."""
+    """There is no map of the kind that was asked for between two surfaces."""
 
 
 class SplineError(RicciError, ValueError):
-    """A spline, or what one is made from, is not what it must be."""
+    """A spline, or an argument that one is made from, is not what it must be."""
 
 
 _SINGLE: dict[int, type[RicciError]] = {
@@ -142,7 +142,7 @@ def last_failure(status: int) -> RicciError:
 
 
 def last_needed() -> int:
-    """How many entries the array needs for which the last failed call of this thread had no room."""
+    """The number of entries that the last failed call of this thread needs room for."""
     failure = ffi.new("ricci_failure *")
     lib.ricci_last_failure(failure, ffi.sizeof("ricci_failure"))
     return int(failure.needed)

@@ -23,7 +23,7 @@ __all__ = ["Forms", "FormsOptions", "HarmonicOptions", "forms", "harmonic"]
 
 
 class HarmonicOptions(TypedDict, total=False):
-    """Where a harmonic map goes.
+    """The target of a harmonic map, and the vertices whose images are given.
 
     Attributes:
         target: a disk to the unit ``"disk"``, the ``"rectangle"`` of its modulus, or a regular ``"polygon"``; a closed surface of

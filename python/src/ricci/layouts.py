@@ -39,7 +39,7 @@ __all__ = ["Atlas", "Layout", "LayoutOptions", "Seam", "atlas", "layout"]
 
 
 class LayoutOptions(TypedDict, total=False):
-    """How a metric is laid out.
+    """Options of a layout.
 
     Attributes:
         model: coordinates of `Layout.uv` and of files: ``"poincare"``, ``"klein"``, ``"half_plane"``.
@@ -87,7 +87,7 @@ class Seam:
 class Layout(Handle):
     """A surface, opened along a cut, in the space of its metric.
 
-    If edges were flipped, what is laid out is the common refinement of the mesh and the metric's triangulation: ``on="refinement"``;
+    If edges were flipped, the mesh of the layout is the common subdivision of the mesh and the metric's triangulation: ``on="refinement"``;
     ``on="input"`` makes the map linear on the faces of the mesh itself. Arrays of properties are read-only.
     """
 
@@ -133,7 +133,7 @@ class Layout(Handle):
 
     @cached_property
     def mesh(self) -> Mesh:
-        """What is laid out as a mesh: the given mesh, or the refinement, whose first vertices are the given ones."""
+        """The mesh of the layout: the given mesh, or the common subdivision, whose first vertices are the given ones."""
         return Mesh._made(lib.ricci_layout_mesh, self)
 
     def write(self, path: str | os.PathLike[str], on: On = "input", *, homogeneous: bool = False) -> None:

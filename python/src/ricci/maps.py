@@ -1,4 +1,4 @@
-"""Maps: two triangulations of one surface laid over each other, and what is carried over that."""
+"""Maps: common subdivisions of two triangulations, and values that are carried from one triangulation to the other."""
 
 from __future__ import annotations
 
@@ -26,13 +26,13 @@ Side = Literal["input", "metric"]
 
 
 class Map(Handle):
-    """The common refinement of the mesh that a metric was made from and the metric's triangulation.
+    """The common subdivision of the mesh that a metric was made from and the metric's triangulation.
 
     Its faces are parts of faces of both; its vertices are those of the mesh, with their numbers, then the crossings of edges. Of a
     `Matching`, ``"input"`` means the source and ``"metric"`` the target.
 
     Args:
-        metric: where a flow has led.
+        metric: the result of a flow.
         progress: a `Control` or a callback.
     """
 
@@ -48,7 +48,7 @@ class Map(Handle):
 
     @cached_property
     def mesh(self) -> Mesh:
-        """The refinement in space: the given vertices where they were, then the crossings."""
+        """The common subdivision in space: the given vertices where they were, then the crossings."""
         return Mesh._made(lib.ricci_map_mesh, self)
 
     def faces(self, on: On = "input") -> Indices:
@@ -72,7 +72,7 @@ class Map(Handle):
         return frozen(doubles(lib.ricci_map_weights, self, shape=(self.summary.n_vertices,)))
 
     def carry(self, values: npt.ArrayLike, on: Side = "input", at: Literal["vertices", "corners"] = "vertices") -> Doubles:
-        """Values at vertices (n, or n x k) or corners (m x 3, or m x 3 x k), carried to those of the refinement."""
+        """Values at vertices (n, or n x k) or corners (m x 3, or m x 3 x k), carried to those of the subdivision."""
         array = _arrays.real(values)
         lead = 1 if at == "vertices" else 2
         if array.ndim < lead or (lead == 2 and array.shape[1] != 3):

@@ -40,7 +40,7 @@ class Points(TypedDict):
 
 
 class MatchOptions(TypedDict, total=False):
-    """What a map is to keep.
+    """Options of a map between surfaces: the points and curves that correspond, and the boundary.
 
     Attributes:
         landmarks: k x 2 vertices, of the source and of the target, that correspond.
@@ -141,7 +141,7 @@ class Matching(Handle):
 
     @cached_property
     def points(self) -> tuple[Indices, Doubles]:
-        """Where points that correspond went, and where they should go: faces (k x 2) and weights (k x 2 x 3) on the target."""
+        """The images of points that correspond, and their given partners: faces (k x 2) and weights (k x 2 x 3) on the target."""
         n = self.summary.n_points
         faces, weights = np.empty((n, 2), np.uint32), np.empty((n, 2, 3))
         call(lib.ricci_matching_points, self, pointer(faces), faces.size, pointer(weights), weights.size)
@@ -149,11 +149,11 @@ class Matching(Handle):
 
     @cached_property
     def soft_left(self) -> Doubles:
-        """What is left of each soft landmark's way to its partner, a length on the target."""
+        """The distance of each soft landmark's image from its partner, a length on the target."""
         return frozen(doubles(lib.ricci_matching_soft_left, self, shape=(self.summary.n_soft,)))
 
     def map(self, progress: Progress = None) -> Map:
-        """The two surfaces laid over each other: in its methods ``"input"`` is the source and ``"metric"`` the target."""
+        """The common subdivision of the two surfaces: in its methods ``"input"`` is the source and ``"metric"`` the target."""
         return Map._made(lib.ricci_matching_map, self, CONTROL, progress=progress)
 
     def _size(self, direction: Direction) -> int:

@@ -23,7 +23,7 @@ __all__ = ["Attributes", "Mesh"]
 
 
 class Attributes(TypedDict, total=False):
-    """What is written beside positions and faces.
+    """Attributes that are written beside positions and faces.
 
     Attributes:
         normals: n x 3, of the vertices.

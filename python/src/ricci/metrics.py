@@ -26,7 +26,7 @@ __all__ = ["FlowJob", "FlowOptions", "Metric", "Report", "Solver", "flow", "metr
 
 
 class FlowOptions(TypedDict, total=False):
-    """How a flow is solved; what is left out has its default.
+    """Options of a flow; those that are left out have their defaults.
 
     Attributes:
         method: ``"newton"`` on the convex energy, or ``"gradient"``, the flow du/dt = target - K itself.
@@ -38,7 +38,7 @@ class FlowOptions(TypedDict, total=False):
         fixed_edges: rows of `Mesh.edges` that are not flipped, such as feature lines.
         step: step size of the gradient flow: ``"barzilai_borwein"``, ``"stable"``, ``"fixed"``.
         step_size: that of ``"fixed"``.
-        area_normalised: whether a gradient flow in E2 keeps the area of the start.
+        area_normalised: true if a gradient flow in E2 keeps the area of the start.
     """
 
     method: Literal["newton", "gradient"]
@@ -81,7 +81,7 @@ def flow_struct(given: Any) -> Struct:
 
 
 class Report(Passed):
-    """What the flow did that led to a metric: its figures, the target, the course, and where it is worst."""
+    """The report of the flow that led to a metric: figures, target, residuals, and the vertices with the largest errors."""
 
     def __init__(self, of: Metric) -> None:
         # The library's object, not the Python one, which has this report: both are freed at once, without a search for cycles.
@@ -91,7 +91,7 @@ class Report(Passed):
 
     @property
     def converged(self) -> bool:
-        """Whether the curvature error is within the tolerance and no triangle is broken."""
+        """True if the curvature error is within the tolerance and no triangle is broken."""
         return self.summary.converged
 
     @cached_property
@@ -106,7 +106,7 @@ class Report(Passed):
 
     @cached_property
     def trace(self) -> Doubles:
-        """Of a gradient flow, k x 5: step, energy, largest |K - target|, area, step size."""
+        """The course of a gradient flow, k x 5: step, energy, largest |K - target|, area, step size."""
         return self._values("TRACE", self.summary.n_trace, 5)
 
     @cached_property
@@ -137,7 +137,7 @@ class Report(Passed):
 
 
 class Metric(Handle):
-    """A metric of a surface in a conformal class, and what led to it. It never changes; a flow makes a new one.
+    """A metric of a surface in a conformal class, with the report of the flow that led to it. It never changes; a flow makes a new one.
 
     A flow that flips edges leads to another triangulation, `triangulation`; vertices keep their numbers. Arrays are read-only.
 
@@ -174,7 +174,7 @@ class Metric(Handle):
 
     @cached_property
     def report(self) -> Report:
-        """What the flow did that led here.
+        """The report of the flow that led to this metric.
 
         Raises:
             ArgumentError: no flow has led here.
@@ -183,7 +183,7 @@ class Metric(Handle):
 
     @property
     def converged(self) -> bool:
-        """Whether the flow that led here came to its target."""
+        """True if the flow that led to this metric came to its target."""
         return self.report.converged
 
     @cached_property

@@ -61,7 +61,7 @@ class ShapeOptions(TypedDict, total=False):
 
 
 class ChangeOptions(TypedDict, total=False):
-    """What a change uses; `shapes.h` says for each what they mean.
+    """Arguments of a change; `shapes.h` describes them for each change.
 
     Attributes:
         vertex: a vertex.

@@ -23,7 +23,7 @@ __all__ = ["Defect", "RepairOptions", "Soup"]
 
 
 class RepairOptions(TypedDict, total=False):
-    """What a repair may do beyond what is always done.
+    """Steps of a repair that are done on request only.
 
     Attributes:
         weld: vertices within this distance become one; 0: those in exactly the same place; negative: none.
@@ -95,7 +95,7 @@ class Soup(Triangles):
         call(lib.ricci_soup_write, self, path_bytes(path))
 
     def repair(self, **given: Unpack[RepairOptions]) -> Soup:
-        """What can be mended without a guess, mended. Defects that are left are a result, not an error."""
+        """The list after every repair that takes no guess. Defects that are left are a result, not an error."""
         return Soup._made(
             lib.ricci_soup_repair, self, options("repair_options", given, dict.fromkeys(RepairOptions.__annotations__, number))
         )
@@ -120,14 +120,14 @@ class Soup(Triangles):
 
     @cached_property
     def origins(self) -> tuple[Indices, Indices]:
-        """Of a repaired list: the vertex and the face of the original that each vertex and face came from."""
+        """The vertex and the face of the original that each vertex and face of a repaired list came from."""
         vertices, faces = (np.empty(n, np.uint32) for n in (self.summary.n_vertices, self.summary.n_faces))
         filled(lib.ricci_soup_origins, self, pointer(vertices), vertices.size, out=faces)
         return frozen(vertices), frozen(faces)
 
     @cached_property
     def refused(self) -> tuple[Indices, list[Indices]]:
-        """Of a repaired list: edges that kept vertices from being welded (k x 2), and for each the faces that would meet there."""
+        """The edges that kept vertices of a repaired list from being welded (k x 2), and for each the faces that would meet there."""
         edges = np.empty((self.summary.refused_edges, 2), np.uint32)
         faces = rows(len(edges), lib.ricci_soup_refused, self, pointer(edges), edges.size, dtype=np.uint32)
         return frozen(edges), faces

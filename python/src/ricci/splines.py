@@ -49,7 +49,7 @@ class PlaneOptions(TypedDict, total=False):
 
 
 class SurfaceOptions(TypedDict, total=False):
-    """How a spline is fitted to a whole surface.
+    """Options of a fit of a spline to a whole surface.
 
     Attributes:
         degree: 1 to 5; 3.

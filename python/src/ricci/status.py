@@ -1,4 +1,4 @@
-"""What a call of the library can return: the numbers of `ricci_status` in `ricci.h`."""
+"""The statuses that a call of the library can return: the numbers of `ricci_status` in `ricci.h`."""
 
 from __future__ import annotations
 

@@ -26,14 +26,14 @@ __all__ = ["Uniform", "UniformOptions", "uniformize"]
 
 
 class UniformOptions(TypedDict, total=False):
-    """How a surface is uniformized.
+    """Options of a uniformization.
 
     Attributes:
         flow: how the flow is done; a sphere takes tolerance, max_iterations and threads.
         start: where the flow starts, such as another flow's result.
         base: the vertex at a quotient's origin; of a sphere that which is sent to infinity.
         scheme: spheres have ``"yamabe"``.
-        boundary: what the boundary becomes: ``"geodesic"`` loops, or ``"straight"`` sides between corners.
+        boundary: the shape that the boundary is given: ``"geodesic"`` loops, or ``"straight"`` sides between corners.
         corners: vertices of the boundary, for straight sides; a number of them: as many are chosen.
         corner_angles: angles inside the corners, radians; 0: those without one share what is left.
     """
@@ -82,7 +82,7 @@ class Uniform(Handle):
 
     @property
     def converged(self) -> bool:
-        """Whether the curvature is within the tolerance, and of a sphere every edge Delaunay."""
+        """True if the curvature is within the tolerance and, on a sphere, every edge is Delaunay."""
         return self.summary.converged
 
     @cached_property
@@ -101,7 +101,7 @@ class Uniform(Handle):
         return Domain._made(lib.ricci_uniform_domain, self)
 
     def layout(self, on: On = "refinement", model: Model = "poincare", progress: Progress = None) -> Layout:
-        """The layout of a quotient about its base, on the refinement or on ``"metric"``, its own triangulation.
+        """The layout of a quotient about its base, on the common subdivision or on ``"metric"``, its own triangulation.
 
         Raises:
             LayoutError: a sphere, whose points are `sphere_points`; ``"input"``.
@@ -130,7 +130,7 @@ class Uniform(Handle):
         return doubles(lib.ricci_uniform_lift, self, pointer(edges), edges.size, shape=(edges.size + 1, 3))
 
     def sphere_points(self, model: Model = "ambient") -> Doubles:
-        """Of a sphere, the vertices as unit vectors (n x 3), or in the plane under it (n x 2), infinite at the base.
+        """The vertices of a sphere as unit vectors (n x 3), or in the plane under it (n x 2), infinite at the base.
 
         Raises:
             LayoutError: not a sphere.
@@ -139,7 +139,7 @@ class Uniform(Handle):
         return doubles(lib.ricci_sphere_points, self, constant("MODEL", model), shape=shape)
 
     def sphere_mesh(self, on: On = "metric", progress: Progress = None) -> Mesh:
-        """Of a sphere, the polyhedron as a mesh with unit vectors as positions."""
+        """The polyhedron of a sphere as a mesh with unit vectors as positions."""
         return Mesh._made(lib.ricci_sphere_mesh, self, constant("ON", on), CONTROL, progress=progress)
 
     def __repr__(self) -> str:

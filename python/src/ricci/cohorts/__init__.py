@@ -18,7 +18,7 @@ __all__ = ["CohortOptions", "CohortResult", "Job", "Outcome", "Row", "cohort", "
 
 
 class CohortOptions(TypedDict, total=False):
-    """How a cohort is run.
+    """Options of the run of a cohort.
 
     Attributes:
         engine: ``"inline"``, ``"processes"``, ``"dask"`` (a local cluster), or a `distributed.Client`; ``"processes"``.

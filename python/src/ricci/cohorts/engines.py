@@ -1,4 +1,4 @@
-"""Where the work of a cohort is done: in this process, in several, or by Dask. A worker that dies costs the one mesh it was at."""
+"""Engines that do the work of a cohort: this process, several processes, or Dask. If a worker dies, only its current mesh fails."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def _pool(workers: int) -> ProcessPoolExecutor:
 
 
 def _row(future: Future[Row], path: str) -> Row:
-    """What a worker has sent; that it could not be sent is the mesh's error too."""
+    """The row that a worker has sent. If the row could not be sent, that is the error of the mesh."""
     try:
         return future.result()
     except BrokenProcessPool:

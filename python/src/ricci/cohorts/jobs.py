@@ -1,4 +1,4 @@
-"""What is done to one mesh of a cohort, and the row that comes out of it."""
+"""The job that is done on each mesh of a cohort, and the row of results that comes out of it."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ __all__ = ["Job", "Outcome", "Row", "repaired"]
 
 
 class Outcome(NamedTuple):
-    """What a job has found on one mesh.
+    """The results of a job on one mesh.
 
     Attributes:
         result: numbers, texts and arrays that depend on the mesh alone.
@@ -85,7 +85,7 @@ class Job:
 
 
 def _spelled(value: Any) -> Any:
-    """What JSON does not know, in full: an array's repr would leave numbers out."""
+    """The text of a value that JSON has no type for. Arrays become lists, because an array's repr would leave numbers out."""
     return value.tolist() if isinstance(value, np.ndarray | np.generic) else repr(value)
 
 
@@ -158,7 +158,7 @@ _KINDS: dict[str, Callable[[Mesh, Mapping[str, Any], Control], _Found]] = {
 
 
 def repaired(path: str) -> Mesh:
-    """A reader for cohorts of files with defects: what can be mended without a guess is."""
+    """A reader for cohorts of files with defects, which are repaired where that takes no guess."""
     return Soup.read(path).repair().mesh()
 
 
@@ -211,7 +211,7 @@ def one(job: Callable[[Any], Outcome | Mapping[str, Any]], read: Callable[[str],
 
 
 def signature(job: Any) -> str:
-    """What identifies a job: two runs that agree in it may share a folder."""
+    """The text that identifies a job: two runs with the same text may share a folder."""
     if isinstance(job, Job):
         return str(job)
     if isinstance(job, partial):

@@ -1,4 +1,4 @@
-"""What the library counts and measures, as dataclasses with the fields of its `ricci_..._summary` structs."""
+"""Counts and measured figures of the library's objects, as dataclasses with the fields of the `ricci_..._summary` structs."""
 
 from ricci.figures.covered import DeckSummary, DirichletSummary, DomainSummary, HomotopySummary, UniformSummary
 from ricci.figures.derived import BicubicSummary, FormsSummary, MatchingSummary, SplineSummary, StructureSummary

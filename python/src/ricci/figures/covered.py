@@ -1,4 +1,4 @@
-"""What the library counts and measures: uniformization and the universal cover."""
+"""Counts and measured figures of uniformization and the universal cover."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ class UniformSummary:
     Attributes:
         space: ``"s2"``, ``"e2"``, ``"h2"`` for chi > 0, = 0, < 0; ``"e2"`` with straight sides.
         base: the base vertex: at the origin of a quotient, at infinity of the plane under a sphere.
-        converged: whether the curvature is within the tolerance and no triangle is broken; of a sphere also every edge Delaunay and the
+        converged: true if the curvature is within the tolerance and no triangle is broken; of a sphere also every edge Delaunay and the
             plane's outline convex to 1e-9.
         stop_reason: why the flow stopped.
         genus: g.
@@ -22,7 +22,7 @@ class UniformSummary:
         n_flips: edge flips inside the conformal class.
         n_start_flips: edge flips before them, which change no distance on the surface.
         max_curvature_error: largest |K| that the flow has left, of a sphere in the plane under it, radians.
-        angle_defect: largest |K| of the metric, of a quotient after corrections with twice the digits of doubles, radians.
+        angle_defect: largest |K| of the metric, of a quotient after corrections in double-double precision, radians.
         gauss_bonnet: |sum of curvatures + lambda area - 2 pi chi| of the metric.
         area: area: in the plane that of the given surface, else 2 pi |chi|; by a formula without angles.
         n_generators: quotients: number of generators, 2 g and one per boundary loop.

@@ -1,4 +1,4 @@
-"""What the library counts and measures: forms, matchings, structures, splines."""
+"""Counts and measured figures of forms, matchings, structures, splines."""
 
 from __future__ import annotations
 

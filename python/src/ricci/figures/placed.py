@@ -1,4 +1,4 @@
-"""What the library counts and measures: layouts, maps, charts, circle domains."""
+"""Counts and measured figures of layouts, maps, charts, circle domains."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class LayoutSummary:
         n_points: number of points: vertices count once per piece of their star between cuts.
         n_seams: number of seams.
         n_seam_edges: number of edges on all seams, on what is laid out.
-        n_flipped: faces that are not counterclockwise: by exact arithmetic; of a refinement, those that are clockwise by more than
+        n_flipped: faces that are not counterclockwise: by exact arithmetic; of a common subdivision, those that are clockwise by more than
             rounding.
         n_flipped_input: faces of the mesh that are not counterclockwise where the map is made linear on them (``"input"``): there it folds.
         n_degenerate: faces without area in the input or the layout, but for rounding; the distortions below leave them out.
@@ -67,9 +67,9 @@ class MapSummary:
     """Figures of a map.
 
     Attributes:
-        n_vertices: V of the refinement: those of the mesh, then n_crossings.
-        n_edges: E of the refinement.
-        n_faces: F of the refinement.
+        n_vertices: V of the common subdivision: those of the mesh, then n_crossings.
+        n_edges: E of the common subdivision.
+        n_faces: F of the common subdivision.
         n_crossings: vertices where an edge of the mesh and one of the metric's triangulation cross; 0 if no edge was flipped.
         n_pieces: number of pieces: a piece is what a face of the mesh and one of the metric's triangulation have in common, cut into
             triangles.

@@ -1,4 +1,4 @@
-"""What the library counts and measures: meshes, triangle lists, metrics, flows."""
+"""Counts and measured figures of meshes, triangle lists, metrics, flows."""
 
 from __future__ import annotations
 
