@@ -7,7 +7,7 @@
  *     ricci_bicubic_write(patches, NULL, "surface.step");
  *
  * The conventions are those of ricci/ricci.h. A patch of the spline becomes three bicubic B-spline patches;
- * neighbours have the control points of their common side, so that nothing gapes.
+ * neighbours share the control points of their common side, so that there are no gaps.
  */
 
 #ifndef RICCI_BICUBIC_H
@@ -33,7 +33,7 @@ enum {
     RICCI_BICUBIC_JSON = 1
 };
 
-/** What STEP files say the unit of the coordinates is. */
+/** The unit of the coordinates in STEP files. */
 enum {
     /** Millimetres. */
     RICCI_UNIT_MILLIMETRE = 0,
@@ -41,7 +41,7 @@ enum {
     RICCI_UNIT_METRE = 1
 };
 
-/** How near the patches are to be; zeros are the defaults. */
+/** Options of bicubic patches: how near they are to the spline; zeros are the defaults. */
 typedef struct ricci_bicubic_options {
     /** sizeof(ricci_bicubic_options), by ricci_init. */
     size_t size;
@@ -49,7 +49,7 @@ typedef struct ricci_bicubic_options {
     double tolerance;
     /**
      * Largest angle between the normals of neighbouring patches beyond that between the spline's own. Patches
-     * are refined for it, but never to more than 128 spans along a side: see normal_jump_max. 0: half a
+     * get more spans for it, but never to more than 128 spans along a side: see normal_jump_max. 0: half a
      * degree.
      */
     double angle;
@@ -57,7 +57,7 @@ typedef struct ricci_bicubic_options {
     size_t threads;
 } ricci_bicubic_options;
 
-/** What a STEP file says beside the patches. Zeroed by ricci_init: no name, millimetres. */
+/** Entries of a STEP file beside the patches. Zeroed by ricci_init: no name, millimetres. */
 typedef struct ricci_step_options {
     /** sizeof(ricci_step_options), by ricci_init. */
     size_t size;
@@ -144,7 +144,7 @@ RICCI_API ricci_status ricci_bicubic_summarise(const ricci_bicubic *bicubic, ric
                                                size_t size);
 
 /**
- * Write the patches in the format that the file's name says, whole or not at all.
+ * Write the patches in the format of the file's extension, whole or not at all.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE, RICCI_ARGUMENT (not UTF-8, no such unit),
  * RICCI_IO, RICCI_UNKNOWN_FORMAT, RICCI_NO_MEMORY.

@@ -22,7 +22,7 @@ public:
                      const control *watched = nullptr)
         : bicubic_handle(make<ricci_bicubic>(ricci_bicubic_new, surface.get(), &options, of(watched))) {}
     ricci_bicubic_summary summary() const { return ricci::summary(ricci_bicubic_summarise, get()); }
-    // In the format that the file's name says: .step, .stp or .json.
+    // Writes the patches in the format of the file's extension: .step, .stp or .json.
     void write(const std::string &path,
                const ricci_step_options &options = init<ricci_step_options>()) const {
         check(ricci_bicubic_write(handle_, &options, path.c_str()));

@@ -22,7 +22,7 @@ extern "C" {
 /** A surface with boundary whose loops are circles. */
 typedef struct ricci_circle_domain ricci_circle_domain;
 
-/** How a circle domain is found. Zeroed by ricci_init: the defaults. */
+/** Options of a circle domain. Zeroed by ricci_init: the defaults. */
 typedef struct ricci_circle_domain_options {
     /** sizeof(ricci_circle_domain_options). */
     size_t size;
@@ -95,7 +95,7 @@ typedef struct ricci_circle_domain_summary {
  * RICCI_NO_MEMORY, RICCI_FACTORISATION, RICCI_CANCELLED.
  *
  * @param mesh     the mesh.
- * @param options  how; NULL for the defaults.
+ * @param options  the options; NULL for the defaults.
  * @param control  progress and cancellation; NULL for neither.
  * @param domain   out: the new handle, to be released by ricci_circle_domain_free.
  */
@@ -104,7 +104,7 @@ RICCI_API ricci_status ricci_circle_domain_new(const ricci_mesh *mesh,
                                                const ricci_control *control, ricci_circle_domain **domain);
 
 /**
- * Release a circle domain. What it has handed out lives on.
+ * Release a circle domain. Handles that were made from it live on.
  *
  * @param domain  the handle, or NULL.
  */

@@ -32,7 +32,7 @@ enum {
     RICCI_CLASSES_RELATIVE = 1
 };
 
-/** Where a harmonic map goes. */
+/** The target of a harmonic map. */
 enum {
     /** A disk to the unit disk, the boundary by its length. */
     RICCI_HARMONIC_DISK = 0,
@@ -46,7 +46,7 @@ enum {
     RICCI_HARMONIC_POLYGON = 4
 };
 
-/** What ricci_forms_new can be asked; zeros are the defaults. */
+/** Options of ricci_forms_new; zeros are the defaults. */
 typedef struct ricci_forms_options {
     /** sizeof(ricci_forms_options), by ricci_init. */
     size_t size;
@@ -107,16 +107,17 @@ typedef struct ricci_harmonic_spec {
 /**
  * The harmonic map of a surface with given boundary values, to a disk, a rectangle, a polygon or the sphere.
  *
- * On the Delaunay triangulation of a disk the maps to the unit disk and to polygons flip no triangle that is
- * not too thin for coordinates in doubles. Where two edges of that triangulation have the same ends, or for a
- * polygon an edge inside joins two boundary vertices, vertices are added to it, which `points` leaves out.
+ * On the Delaunay triangulation of a disk the maps to the unit disk and to polygons flip no triangle, unless
+ * it is too thin for coordinates in double precision. Where two edges of that triangulation have the same
+ * ends, or for a polygon an edge inside joins two boundary vertices, vertices are added to it, which `points`
+ * leaves out.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT, RICCI_LAYOUT (a surface of
  *         another topology), RICCI_TRIANGLE_INEQUALITY, RICCI_FACTORISATION, RICCI_NO_MEMORY,
  * RICCI_CANCELLED.
  *
  * @param mesh      the surface.
- * @param spec      where it goes; NULL for the unit disk.
+ * @param spec      the target; NULL for the unit disk.
  * @param control   progress and cancellation, or NULL.
  * @param points    out: n_vertices x 3, in the plane with z = 0.
  * @param capacity  entries of `points`.
@@ -175,7 +176,7 @@ RICCI_API ricci_status ricci_forms_mesh(const ricci_forms *forms, ricci_mesh **m
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (no such form).
  *
  * @param forms     the forms.
- * @param form      which, below n_forms.
+ * @param form      the number of the form, below n_forms.
  * @param values    out: n_edges values.
  * @param capacity  entries of `values`.
  */
@@ -183,9 +184,10 @@ RICCI_API ricci_status ricci_forms_values(const ricci_forms *forms, size_t form,
                                           size_t capacity);
 
 /**
- * The holomorphic form whose real part is a combination of the harmonic ones: that with its conjugate.
+ * The holomorphic form whose real part is a combination of the harmonic forms: the combination plus i times
+ * its conjugate.
  *
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_SIZE.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_WRONG_SIZE.
  *
  * @param forms           the forms.
  * @param coefficients    a coefficient for every form.
@@ -197,9 +199,10 @@ RICCI_API ricci_status ricci_forms_holomorphic(const ricci_forms *forms, const d
                                                size_t n_coefficients, double *values, size_t capacity);
 
 /**
- * The zeros of that holomorphic form: 2 genus - 2 of them on a closed surface, with multiplicity.
+ * The zeros of the form of ricci_forms_holomorphic: 2 genus - 2 of them on a closed surface, with
+ * multiplicity.
  *
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_SIZE.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_WRONG_SIZE.
  *
  * @param forms           the forms.
  * @param coefficients    a coefficient for every form.

@@ -21,7 +21,7 @@ extern "C" {
 /** A map between two surfaces and its inverse. It never changes. */
 typedef struct ricci_matching ricci_matching;
 
-/** Which of the two maps. */
+/** The direction of a map: from the source to the target, or back. */
 enum {
     /** From the vertices of the source to the target. */
     RICCI_MATCH_FORWARD = 0,
@@ -29,7 +29,7 @@ enum {
     RICCI_MATCH_BACKWARD = 1
 };
 
-/** How boundaries go to each other, between landmarks on them. */
+/** The correspondence of boundaries between landmarks on them. */
 enum {
     /** They slide along each other until the map is harmonic. */
     RICCI_MATCH_SLIDES = 0,
@@ -80,15 +80,15 @@ typedef struct ricci_match_options {
     /** n_soft x 2 vertices inside the source and the target: landmarks that need not be met. */
     const uint32_t *soft;
     /**
-     * n_soft weights w, not negative: a landmark goes to the share w / (1 + w) of the way from where the map
-     * without it brings it.
+     * n_soft weights w, not negative: a landmark goes to the share w / (1 + w) of the way from its image
+     * under the map without it to its partner.
      */
     const double *soft_weights;
     /** Number of these landmarks. */
     size_t n_soft;
-    /** How boundaries go to each other: RICCI_MATCH_SLIDES, RICCI_MATCH_ARC_LENGTH. */
+    /** The correspondence of boundaries: RICCI_MATCH_SLIDES, RICCI_MATCH_ARC_LENGTH. */
     uint32_t boundary;
-    /** What boundary loops become: RICCI_MATCH_GEODESICS, RICCI_MATCH_CIRCLES. */
+    /** The shape of boundary loops: RICCI_MATCH_GEODESICS, RICCI_MATCH_CIRCLES. */
     uint32_t loop_shape;
     /**
      * Pairs of closed edge paths that name the homotopy class of a map of surfaces with handles, which brings
@@ -128,8 +128,8 @@ typedef struct ricci_matching_summary {
     /** Largest distance of a vertex from the mean of its neighbours, over their mean distance. */
     double residual;
     /**
-     * What follows is measured in space, 0 where a surface has no positions. Quasi-conformal dilatation from
-     * face to image: the mean by area, and the largest.
+     * This figure and those below are measured in space, and 0 where a surface has no positions.
+     * Quasi-conformal dilatation from face to image: the mean by area, and the largest.
      */
     double qc_mean;
     /** The largest. */
@@ -152,8 +152,8 @@ typedef struct ricci_matching_summary {
     /** The largest distance of a landmark's image from its partner, over that diagonal. */
     double landmark_error;
     /**
-     * Distance of a vertex from where the map and its inverse bring it, over the diagonal of the source's
-     * bounding box: the mean.
+     * Distance of a vertex from its image under the map and then the inverse map, over the diagonal of the
+     * source's bounding box: the mean.
      */
     double cycle_mean;
     /** The largest. */
@@ -254,7 +254,7 @@ RICCI_API ricci_status ricci_matching_carry(const ricci_matching *matching, uint
                                             size_t capacity);
 
 /**
- * Where points that correspond went, and where they should go: both on the target.
+ * The images of points that correspond, and their given partners, both on the target.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
  *
@@ -268,26 +268,26 @@ RICCI_API ricci_status ricci_matching_points(const ricci_matching *matching, uin
                                              size_t faces_capacity, double *weights, size_t weights_capacity);
 
 /**
- * How far landmarks that need not be met are from their partners.
+ * The distances of the images of landmarks that need not be met from their partners.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
  *
  * @param matching  the matching.
- * @param left      out: n_soft lengths on the target, what is left of each landmark's way to its partner.
+ * @param left      out: n_soft lengths on the target.
  * @param capacity  entries of `left`.
  */
 RICCI_API ricci_status ricci_matching_soft_left(const ricci_matching *matching, double *left,
                                                 size_t capacity);
 
 /**
- * The two surfaces laid over each other in the domain where they were matched: their common refinement.
+ * The common subdivision of the two surfaces, in the domain where they were matched.
  *
  * In the functions of the map RICCI_ON_INPUT means the source and RICCI_ON_METRIC the target. Its vertices
  * are those of the source, with their numbers, then the crossings, then the target's others, each with the
  * place that ricci_map_barycentric tells. ricci_map_mesh has them on the source.
  *
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_MATCHING (triangles so thin that it cannot be told which line
- * lies where), RICCI_TOO_LARGE, RICCI_NO_MEMORY, RICCI_CANCELLED.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_MATCHING (triangles so thin that the order of their lines
+ * cannot be decided), RICCI_TOO_LARGE, RICCI_NO_MEMORY, RICCI_CANCELLED.
  *
  * @param matching  the matching.
  * @param control   progress and cancellation, or NULL.

@@ -66,7 +66,7 @@ public:
         check(ricci_matching_weights(get(), direction, all.data(), all.size()));
         return all;
     }
-    // Per pair of points that correspond, where it went and where it should go.
+    // For each pair of points that correspond, the image of the first and the given partner.
     std::vector<std::array<matched_point, 2>> points() const {
         const std::size_t n = summary().n_points;
         std::vector<std::uint32_t> faces(2 * n);
@@ -77,13 +77,13 @@ public:
             all[k / 2][k % 2] = {faces[k], {weights[3 * k], weights[3 * k + 1], weights[3 * k + 2]}};
         return all;
     }
-    // What is left of the ways of landmarks that need not be met.
+    // The distances of the images of landmarks that need not be met from their partners.
     std::vector<double> soft_left() const {
         std::vector<double> left(summary().n_soft);
         check(ricci_matching_soft_left(get(), left.data(), left.size()));
         return left;
     }
-    // The two surfaces laid over each other: RICCI_ON_INPUT is the source, RICCI_ON_METRIC the target.
+    // The common subdivision of the two surfaces: RICCI_ON_INPUT is the source, RICCI_ON_METRIC the target.
     ricci::map map(const control *watched = nullptr) const {
         return ricci::map(make<ricci_map>(ricci_matching_map, get(), of(watched)));
     }

@@ -87,7 +87,7 @@ typedef struct ricci_defect {
     const char *code;
     /** One sentence with the elements concerned. */
     const char *message;
-    /** What to do about it. */
+    /** Advice what to do about it. */
     const char *remedy;
     /** The vertices concerned: n_vertices 0-based indices. */
     const uint32_t *vertices;
@@ -100,9 +100,9 @@ typedef struct ricci_defect {
 } ricci_defect;
 
 /**
- * What a repair may do beyond what is always done: dropping faces that use a vertex twice or repeat a face,
- * giving each fan of faces a vertex of its own, turning faces until neighbours agree, dropping isolated
- * vertices. Zeroed by ricci_init: the defaults.
+ * Steps of a repair that are done on request only. These are always done: dropping faces that use a vertex
+ * twice or repeat a face, giving each fan of faces a vertex of its own, turning faces until neighbours agree,
+ * dropping isolated vertices. Zeroed by ricci_init: the defaults.
  */
 typedef struct ricci_repair_options {
     /** sizeof(ricci_repair_options). */
@@ -122,7 +122,7 @@ typedef struct ricci_repair_options {
 } ricci_repair_options;
 
 /**
- * A triangle list from arrays, which are copied. Nothing is asked of it.
+ * A triangle list from arrays, which are copied. It may have any defects.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (stride), RICCI_TOO_LARGE, RICCI_NO_MEMORY.
  *
@@ -155,8 +155,8 @@ RICCI_API ricci_status ricci_soup_read(const char *path, ricci_soup **soup);
 RICCI_API_VOID void ricci_soup_free(ricci_soup *soup);
 
 /**
- * Counts of the triangle list, the number of its defects, and what a repair did. The first question
- * diagnoses it.
+ * Counts of the triangle list, the number of its defects, and the steps of a repair. The first call diagnoses
+ * it.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE.
  *
@@ -173,7 +173,7 @@ RICCI_API ricci_status ricci_soup_summarise(const ricci_soup *soup, ricci_soup_s
  *
  * @param soup      the triangle list.
  * @param which     RICCI_POSITIONS, RICCI_NORMALS, RICCI_COLORS, RICCI_UV or RICCI_CORNER_NORMALS.
- * @param values    out: the numbers, in the shape that the constant says.
+ * @param values    out: the numbers, in the shape that is documented at the constant.
  * @param capacity  entries of `values`.
  */
 RICCI_API ricci_status ricci_soup_values(const ricci_soup *soup, uint32_t which, double *values,
@@ -214,9 +214,8 @@ RICCI_API ricci_status ricci_soup_defect(const ricci_soup *soup, size_t index, r
 RICCI_API ricci_status ricci_soup_mesh(const ricci_soup *soup, ricci_mesh **mesh);
 
 /**
- * Write a triangle list, whatever defects it has, in the format that the file's name says, with its
- * attributes; what the format has no place for is left out, with a warning to the callback of
- * ricci_log_set.
+ * Write a triangle list, which may have defects, in the format of the file's extension, with its attributes;
+ * those that the format has no place for are left out, with a warning to the callback of ricci_log_set.
  *
  * A file of that name is replaced only once the new one is complete.
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_UNKNOWN_FORMAT, RICCI_ARGUMENT (an attribute is not
@@ -228,25 +227,25 @@ RICCI_API ricci_status ricci_soup_mesh(const ricci_soup *soup, ricci_mesh **mesh
 RICCI_API ricci_status ricci_soup_write(const ricci_soup *soup, const char *path);
 
 /**
- * Mend what can be mended without a guess. Defects that are left are a result, not an error.
+ * Repair every defect that takes no guess. Defects that are left are a result, not an error.
  *
  * Elements keep their order, and attributes stay with their elements.
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (options, no such component), RICCI_TOO_LARGE,
  * RICCI_STRUCT_SIZE, RICCI_DEFECTS (a face that names no vertex or one without finite coordinates).
  *
  * @param soup      the triangle list.
- * @param options   what may be done, or NULL for the defaults.
+ * @param options   the steps on request, or NULL for the defaults.
  * @param repaired  out: the new handle, to be released by ricci_soup_free.
  */
 RICCI_API ricci_status ricci_soup_repair(const ricci_soup *soup, const ricci_repair_options *options,
                                          ricci_soup **repaired);
 
 /**
- * Where the elements of a repaired list came from.
+ * The origins of the elements of a repaired list.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (it was not repaired).
  *
- * @param repaired           what ricci_soup_repair has made.
+ * @param repaired           a list of ricci_soup_repair.
  * @param vertices           out: n_vertices vertices of the list that was repaired.
  * @param vertices_capacity  entries of `vertices`.
  * @param faces              out: n_faces faces of that list.
@@ -260,14 +259,14 @@ RICCI_API ricci_status ricci_soup_origins(const ricci_soup *repaired, uint32_t *
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (it was not repaired).
  *
- * @param repaired           what ricci_soup_repair has made.
+ * @param repaired           a list of ricci_soup_repair.
  * @param vertices           out: refused_edges x 2 vertices of the list that was repaired: the first in the
  *                           place of either end.
  * @param vertices_capacity  entries of `vertices`.
  * @param faces              out: the refused_faces faces of that list that would meet, edge by edge.
  * @param faces_capacity     entries of `faces`.
- * @param starts             out: refused_edges + 1 entries: where each edge's faces start in `faces`, and
- *                           their end.
+ * @param starts             out: refused_edges + 1 entries: the offsets at which each edge's faces start in
+ *                           `faces`, and the end of the last.
  * @param starts_capacity    entries of `starts`.
  */
 RICCI_API ricci_status ricci_soup_refused(const ricci_soup *repaired, uint32_t *vertices,

@@ -11,7 +11,7 @@ namespace ricci {
 
 using soup_handle = owned<ricci_soup, ricci_soup_free>;
 
-// A triangle list, whatever its defects.
+// A triangle list, which may have defects.
 class soup : public soup_handle {
 public:
     using soup_handle::soup_handle;
@@ -35,7 +35,7 @@ public:
     soup repaired(const ricci_repair_options &options = init<ricci_repair_options>()) const {
         return soup(make<ricci_soup>(ricci_soup_repair, get(), &options));
     }
-    // Vertices and faces of the list that was repaired.
+    // The vertices and faces of the original list that those of a repaired list come from.
     std::pair<std::vector<std::uint32_t>, std::vector<std::uint32_t>> origins() const {
         const ricci_soup_summary n = summary();
         std::pair<std::vector<std::uint32_t>, std::vector<std::uint32_t>> both{

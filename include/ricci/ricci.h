@@ -24,33 +24,32 @@
  *   - Every fallible call returns a ricci_status. ricci_last_error() has this thread's message,
  *     ricci_last_failure the element and the amount as numbers. Outputs are written only on success. A NULL
  *     that a call does not allow is RICCI_NULL_POINTER.
- *   - Handles are opaque: what a call hands out is released by the _free of its type; _free(NULL) does
- *     nothing. A `const T *` may be used by several threads at once, a `T *` is exclusive to one. A handle
- *     keeps alive whatever it was made from: handles may be freed in any order.
+ *   - Handles are opaque: a handle that a call returns is released by the _free of its type; _free(NULL)
+ *     does nothing. A `const T *` may be used by several threads at once, a `T *` is exclusive to one. A
+ *     handle keeps alive the objects that it was made from, so handles may be freed in any order.
  *   - Indices are 0-based uint32_t; faces are m x 3, positions n x 3, plane points n x 2, row by row. Faces
  *     of int32_t may be cast: a negative index is refused by face and corner. Counts are numbers of rows.
  *   - An output array is given with its capacity, in entries: too small is RICCI_BUFFER_TOO_SMALL. NULL
  *     with capacity 0 asks for the number of entries: it is `needed` of ricci_last_failure, or comes in a
  *     last size_t * where there is one.
  *   - Vertices keep their numbers through flows with edge flips and their layouts; new ones come behind.
- *     Edges and faces are those of what `on` names: RICCI_ON_INPUT the caller's mesh, RICCI_ON_METRIC the
- *     metric's triangulation, RICCI_ON_REFINEMENT both laid over each other.
+ *     Edges and faces are those of the triangulation that `on` names: RICCI_ON_INPUT the caller's mesh,
+ *     RICCI_ON_METRIC the metric's triangulation, RICCI_ON_REFINEMENT the common subdivision of both.
  *   - An edge path is an int32_t array of 1-based edge numbers, negative against the edge.
  *   - Structs begin with their size. ricci_init zeroes one and writes its size; zero is the default of
  *     every field. Summaries are given with sizeof, and their `size` says how many bytes were filled.
  *   - Angles are radians; a curvature is the angle defect of a vertex: 2 pi minus its angles inside, pi
  *     minus them on the boundary.
  *   - Paths and texts are UTF-8, NUL-terminated.
- *   - No call unwinds into C: an internal error is RICCI_PANIC. What was read stays good; a ricci_solver
- *     that was being changed answers RICCI_POISONED from then on, and can only be freed.
- *   - Memory is asked for before the work, as much as the work is known to take: if the system refuses it,
- *     RICCI_NO_MEMORY, and handles are as they were. It is held in reserve and released when the system
- *     refuses anything later. What cannot be caught ends the program (abort, with a line on stderr): work
- *     that takes more than the reserve while memory stays refused, as more threads than cores may; the 48
- *     bytes of a thread's handle; a stack that cannot grow.
- *   - Calls compute under the default floating-point environment and give the caller its own back: the
- *     host's floating-point traps, rounding mode and flush-to-zero neither disturb a call nor change its
- *     result.
+ *   - No call unwinds into C: an internal error is RICCI_PANIC. Handles that the call only read stay valid;
+ *     a ricci_solver that it was changing answers RICCI_POISONED from then on, and can only be freed.
+ *   - A call reserves memory before the work, as much as the work is known to take. If the system refuses
+ *     it, the call returns RICCI_NO_MEMORY and handles are unchanged. The reserve is released when the
+ *     system refuses memory later. Three cases cannot be caught and end the program (abort, with a line on
+ *     stderr): work that takes more than the reserve while the system has no memory, as with more threads
+ *     than cores; the 48 bytes of a thread's handle; a stack that cannot grow.
+ *   - Calls compute in the default floating-point environment and restore that of the caller: the host's
+ *     floating-point traps, rounding mode and flush-to-zero neither disturb a call nor change its result.
  *   - Results are identical bit for bit for any number of threads. Threads are the call's own and have
  *     ended when it returns (a ricci_solver keeps its threads until it is freed). Where memory does not
  *     suffice for as many as are asked for, there are fewer. Nothing is printed.
@@ -98,9 +97,9 @@ extern "C" {
 #define RICCI_VERSION (1000000 * RICCI_VERSION_MAJOR + 1000 * RICCI_VERSION_MINOR + RICCI_VERSION_PATCH)
 
 /**
- * What a call returns. 1-9 are errors of the call, 10-99 of the C face, 100s of files, 200s of meshes, 300s
- * of metrics, 400s of targets, 500s of solvers, 600s of layouts and matchings, 700s of splines. A number is
- * never given out again.
+ * The status that a call returns. 1-9 are errors of the call, 10-99 of the C face, 100s of files, 200s of
+ * meshes, 300s of metrics, 400s of targets, 500s of solvers, 600s of layouts and matchings, 700s of splines.
+ * A number is never given out again.
  */
 typedef uint32_t ricci_status;
 enum {
@@ -156,7 +155,7 @@ enum {
     RICCI_TARGET_AT_VERTEX = 400,
     /** The target curvatures do not add up to what Gauss-Bonnet asks for; amount: by how much, radians. */
     RICCI_TARGET_TOTAL = 401,
-    /** This kind of target does not exist here. */
+    /** This kind of target does not exist for this surface and space. */
     RICCI_TARGET_KIND = 402,
     /** A target curvature is too small at a vertex; amount: by how much, radians. */
     RICCI_TARGET_BELOW = 403,
@@ -164,13 +163,13 @@ enum {
     RICCI_FACTORISATION = 500,
     /** The metric has no layout in this space. */
     RICCI_LAYOUT = 600,
-    /** There is no map between two surfaces as it was asked for. */
+    /** There is no map of the kind that was asked for between two surfaces. */
     RICCI_MATCHING = 650,
-    /** A spline, or what one is made from, is not what it must be. */
+    /** A spline, or an argument that one is made from, is not what it must be. */
     RICCI_SPLINE = 700
 };
 
-/** What the index of a ricci_failure counts. */
+/** The kind of element that the index of a ricci_failure counts. */
 enum {
     /** Nothing. */
     RICCI_ELEMENT_NONE = 0,
@@ -192,15 +191,15 @@ enum {
 typedef struct ricci_failure {
     /** Bytes of this struct that are filled. */
     size_t size;
-    /** What it returned. */
+    /** The status that it returned. */
     ricci_status status;
-    /** A RICCI_ELEMENT_*: what `index` counts. */
+    /** A RICCI_ELEMENT_*: the kind of element that `index` counts. */
     uint32_t element;
     /** The element concerned, 0-based (lines from 1); -1 where the failure has no number of one. */
     int64_t index;
     /** By how much, as the status says; 0 where it says nothing. */
     double amount;
-    /** Entries that a buffer or an array needs; 0 where that was not the trouble. */
+    /** Entries that a buffer or an array needs; 0 if the call did not fail for a size. */
     size_t needed;
 } ricci_failure;
 
@@ -226,16 +225,16 @@ RICCI_API uint32_t ricci_version_number(void);
  * Never fails: a number that is no status gives "unknown status".
  * @return a NUL-terminated UTF-8 string; not to be freed.
  *
- * @param status  what a call returned.
+ * @param status  the status that a call returned.
  */
 RICCI_API const char *ricci_status_text(ricci_status status);
 
 /**
  * The message of the last call of this thread that failed: which element, by how much, what to do.
  *
- * The address is the same for the whole life of the thread, so that it may stand beside the call in one
- * expression, whatever is evaluated first; the next failure of this thread writes over the text. Empty if
- * no call has failed. At most 1023 bytes.
+ * The address is the same for the whole life of the thread, so that it may be used in one expression with the
+ * call, in either order of evaluation; the next failure of this thread writes over the text. Empty if no call
+ * has failed. At most 1023 bytes.
  * @return a NUL-terminated UTF-8 string; not to be freed.
  */
 RICCI_API const char *ricci_last_error(void);
@@ -271,9 +270,9 @@ enum {
     RICCI_LOG_ERROR = 1,
     /** Calls that fail, with their message. */
     RICCI_LOG_WARN = 2,
-    /** What was done: how each flow ended. */
+    /** Results: how each flow ended. */
     RICCI_LOG_INFO = 3,
-    /** Steps on the way. */
+    /** Single steps of a call. */
     RICCI_LOG_DEBUG = 4,
     /** Everything. */
     RICCI_LOG_TRACE = 5
@@ -308,7 +307,7 @@ RICCI_API ricci_status ricci_log_set(ricci_log_callback callback, void *user_dat
  */
 typedef struct ricci_control ricci_control;
 
-/** What a long call is doing. */
+/** The stage that a long call is in. */
 enum {
     /** Nothing has started. */
     RICCI_STAGE_IDLE = 0,
@@ -352,12 +351,12 @@ RICCI_API_VOID void ricci_control_free(ricci_control *control);
 RICCI_API ricci_status ricci_control_cancel(const ricci_control *control);
 
 /**
- * What the call is doing and how far it is.
+ * The stage that the call is in, and the part of it that is done.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER.
  *
  * @param control       the handle the call was given.
- * @param stage         out: RICCI_STAGE_*, what it is doing.
+ * @param stage         out: RICCI_STAGE_*, the current stage.
  * @param fraction      out: the part of this stage that is done, in [0, 1].
  * @param since_cancel  out: seconds since the first ricci_control_cancel, -1 if there was none; NULL if not
  *                      wanted. Asked right after a call has returned RICCI_CANCELLED it is the latency.
@@ -455,7 +454,9 @@ typedef struct ricci_gluing {
     uint32_t reserved;
 } ricci_gluing;
 
-/** What is written beside positions and faces; NULL where there is none. Zeroed by ricci_init. */
+/**
+ * Attributes that are written beside positions and faces; NULL where there are none. Zeroed by ricci_init.
+ */
 typedef struct ricci_attributes {
     /** sizeof(ricci_attributes). */
     size_t size;
@@ -548,19 +549,20 @@ RICCI_API ricci_status ricci_mesh_with_lengths(const ricci_mesh *mesh, const dou
 RICCI_API ricci_status ricci_mesh_read(const char *path, ricci_mesh **mesh);
 
 /**
- * Write a mesh in the format that the file's name says, with the attributes that the format has.
+ * Write a mesh in the format of the file's extension, with the attributes that the format has.
  *
  * OBJ and OFF are text with as many digits as are needed, PLY is binary, and positions read back as they are;
  * GLB has 24 bits of the distance from the centre of the mesh, and writes a vertex with several texture
- * coordinates once for each. What the format has no place for (in PLY and OFF, several normals at a vertex;
- * in OFF, several texture coordinates) is left out, with a warning to the callback of ricci_log_set. A file
- * of that name is replaced only once the new one is complete.
+ * coordinates once for each. Attributes that the format has no place for (in PLY and OFF, several normals at
+ * a vertex; in OFF, several texture coordinates) are left out, with a warning to the callback of
+ * ricci_log_set. A file of that name is replaced only once the new one is complete.
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_UNKNOWN_FORMAT, RICCI_STRUCT_SIZE, RICCI_ARGUMENT
  * (the mesh is intrinsic, a number is not finite, the texture is no PNG file or has no uv),
  * RICCI_TOO_LARGE, RICCI_NO_MEMORY.
  *
  * @param mesh        the mesh.
- * @param attributes  what to write beside positions and faces, or NULL for what the mesh was read with.
+ * @param attributes  the attributes to write beside positions and faces, or NULL for those that the mesh was
+ *                    read with.
  * @param path        file name in UTF-8, ending in .obj, .off, .ply or .glb.
  */
 RICCI_API ricci_status ricci_mesh_write(const ricci_mesh *mesh, const ricci_attributes *attributes,
@@ -594,7 +596,7 @@ RICCI_API ricci_status ricci_mesh_summarise(const ricci_mesh *mesh, ricci_mesh_s
  * @param mesh      the mesh.
  * @param which     RICCI_POSITIONS, RICCI_LENGTHS, RICCI_NORMALS, RICCI_COLORS, RICCI_UV or
  *                  RICCI_CORNER_NORMALS.
- * @param values    out: the numbers, in the shape that the constant says.
+ * @param values    out: the numbers, in the shape that is documented at the constant.
  * @param capacity  entries of `values`.
  */
 RICCI_API ricci_status ricci_mesh_values(const ricci_mesh *mesh, uint32_t which, double *values,
@@ -623,8 +625,8 @@ RICCI_API ricci_status ricci_mesh_faces(const ricci_mesh *mesh, uint32_t *faces,
 RICCI_API ricci_status ricci_mesh_edges(const ricci_mesh *mesh, uint32_t *edges, size_t capacity);
 
 /**
- * The edges opposite the corners of every face: how the triangles are glued, and where in a per-edge array
- * a face finds its sides.
+ * The edges opposite the corners of every face: how the triangles are glued, and the indices of a face's
+ * sides in per-edge arrays.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
  *
@@ -662,8 +664,8 @@ RICCI_API ricci_status ricci_mesh_boundary(const ricci_mesh *mesh, uint32_t *ver
  */
 
 /**
- * A metric of a surface in a conformal class, and what led to it. It never changes; the flow makes a new
- * one.
+ * A metric of a surface in a conformal class, with the report of the flow that led to it. It never changes; a
+ * flow makes a new one.
  *
  * A flow that flips edges leads to another triangulation, on which edges and faces have numbers of their
  * own (ricci_metric_mesh), and of a surface with boundary to one of its double; layouts and maps lead back.
@@ -687,15 +689,15 @@ enum {
     RICCI_SCHEME_VIRTUAL = 4
 };
 
-/** Where what is asked about lies. */
+/** The triangulation that a question is about. */
 enum {
     /** The caller's mesh, as it was given: its own vertices, edges, faces and corners, in its order. */
     RICCI_ON_INPUT = 0,
     /** The triangulation that the metric lives on (ricci_metric_mesh). */
     RICCI_ON_METRIC = 1,
     /**
-     * Their common refinement: faces that are parts of faces of both (ricci_map). Both are one if no edge
-     * was flipped.
+     * Their common subdivision: faces that are parts of faces of both (ricci_map). If no edge was flipped,
+     * all three are the same.
      */
     RICCI_ON_REFINEMENT = 2
 };
@@ -754,7 +756,7 @@ typedef struct ricci_metric_summary {
     size_t broken_triangles;
     /** Edges whose initial weight the scheme had to change (Thurston). */
     size_t clamped_edges;
-    /** Largest relative change of an edge length by going over to the scheme. */
+    /** Largest relative change of an edge length by the change to the scheme. */
     double max_length_change;
     /** Edge flips from the mesh it was made from to its triangulation. */
     size_t n_flips;
@@ -802,7 +804,7 @@ RICCI_API ricci_status ricci_metric_summarise(const ricci_metric *metric, ricci_
  *
  * @param metric    the metric.
  * @param which     RICCI_METRIC_*.
- * @param values    out: the numbers, as many as the constant says.
+ * @param values    out: the numbers, as many as documented at the constant.
  * @param capacity  entries of `values`.
  */
 RICCI_API ricci_status ricci_metric_values(const ricci_metric *metric, uint32_t which, double *values,
@@ -887,7 +889,7 @@ enum {
     RICCI_METHOD_GRADIENT = 1
 };
 
-/** Whether edges may be flipped while the metric flows. */
+/** The rule for edge flips while the metric flows. */
 enum {
     /**
      * As often as needed, so that every admissible target is reached: the flow starts from the intrinsic
@@ -943,13 +945,13 @@ typedef struct ricci_flow_options {
 } ricci_flow_options;
 
 /**
- * A solver for many targets on one metric: it keeps its analysis, its threads and the last solution, from
- * which the next solve starts.
+ * A solver for many targets on one metric. It keeps its symbolic analysis, its threads and the last solution,
+ * from which the next solve starts.
  */
 typedef struct ricci_solver ricci_solver;
 
 /**
- * The curvature that a target has at every vertex, admissible or refused.
+ * The curvature that a target prescribes at every vertex. An inadmissible target is refused.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_STRUCT_SIZE, RICCI_ARGUMENT (kind, no
  * such vertex), RICCI_WRONG_SIZE, RICCI_TARGET_KIND, RICCI_TARGET_AT_VERTEX, RICCI_TARGET_BELOW,
@@ -972,17 +974,17 @@ RICCI_API ricci_status ricci_target_fill(const ricci_metric *metric, const ricci
  * on from where it is; if it came of a flow without flips, or with other fixed edges, and edges may be
  * flipped now, it begins at the given lengths.
  *
- * Whether it came that far is in the report: a flow that stops early is RICCI_OK and `converged` is 0.
- * Inputs are never changed.
+ * The report says whether the flow came to the target: a flow that stops early returns RICCI_OK, and its
+ * `converged` is 0. Inputs are never changed.
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT, RICCI_STRUCT_SIZE, RICCI_NO_MEMORY,
  * RICCI_FACTORISATION, RICCI_CANCELLED, and those of ricci_target_fill.
  *
  * @param metric   where the flow starts.
  * @param target   the target; NULL for the default.
- * @param options  how; NULL for the defaults.
+ * @param options  the options; NULL for the defaults.
  * @param control  progress and cancellation; NULL for neither.
- * @param result   out: the metric at the end, to be released by ricci_metric_free; its report says how it
- *                 went.
+ * @param result   out: the metric at the end, to be released by ricci_metric_free; its report says how the
+ *                 flow ended.
  */
 RICCI_API ricci_status ricci_flow(const ricci_metric *metric, const ricci_target *target,
                                   const ricci_flow_options *options, const ricci_control *control,
@@ -995,7 +997,7 @@ RICCI_API ricci_status ricci_flow(const ricci_metric *metric, const ricci_target
  * RICCI_FACTORISATION.
  *
  * @param metric   where the first solve starts; it is copied.
- * @param options  how; NULL for the defaults.
+ * @param options  the options; NULL for the defaults.
  * @param solver   out: the new handle, to be released by ricci_solver_free.
  */
 RICCI_API ricci_status ricci_solver_new(const ricci_metric *metric, const ricci_flow_options *options,
@@ -1023,7 +1025,7 @@ RICCI_API_VOID void ricci_solver_free(ricci_solver *solver);
 RICCI_API ricci_status ricci_solver_pin(ricci_solver *solver, const uint32_t *pinned, size_t n_pinned);
 
 /**
- * ricci_flow from where the last solve ended, reusing what the solver has kept.
+ * ricci_flow from the last solution, with the analysis that the solver keeps.
  *
  * After RICCI_CANCELLED or another failure the solver is where it was before the call.
  * @return as ricci_flow; RICCI_POISONED.
@@ -1037,7 +1039,7 @@ RICCI_API ricci_status ricci_solver_solve(ricci_solver *solver, const ricci_targ
                                           const ricci_control *control, ricci_metric **result);
 
 /* ---------------------------------------------------------------------------------------------------------
- * Reports: what the flow did that led to a metric
+ * Reports of the flows that led to metrics
  *
  * Errors at boundary vertices of a surface that was doubled count both copies: they are twice those of the
  * surface.
@@ -1071,7 +1073,7 @@ enum {
 
 /** Numbers of a report. */
 enum {
-    /** n_vertices: the target, curvatures in radians; at pinned vertices what came out. */
+    /** n_vertices: the target, curvatures in radians; at pinned vertices the curvature at the end. */
     RICCI_REPORT_TARGET = 0,
     /** n_residuals: largest |K - target| at the start and after every Newton step, radians. */
     RICCI_REPORT_RESIDUALS = 1,
@@ -1153,7 +1155,7 @@ typedef struct ricci_report_summary {
      * the obstruction, radians.
      */
     double obstruction_above;
-    /** 1 if u, lengths and curvature were carried to twice the digits of a double (Newton in E2), else 0. */
+    /** 1 if u, lengths and curvature were computed in double-double precision (Newton in E2), else 0. */
     uint32_t double_double;
     /** 0. */
     uint32_t reserved;
@@ -1164,7 +1166,7 @@ typedef struct ricci_report_summary {
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE, RICCI_ARGUMENT (no flow has led to it).
  *
- * @param metric   what a flow, a solver or ricci_uniform_metric has made.
+ * @param metric   a metric of a flow, a solver or ricci_uniform_metric.
  * @param summary  out: the figures.
  * @param size     sizeof *summary.
  */
@@ -1178,20 +1180,20 @@ RICCI_API ricci_status ricci_report_summarise(const ricci_metric *metric, ricci_
  *
  * @param metric    the metric.
  * @param which     RICCI_REPORT_TARGET, _RESIDUALS, _TRACE or _WORST_ERRORS.
- * @param values    out: the numbers, in the shape that the constant says.
+ * @param values    out: the numbers, in the shape that is documented at the constant.
  * @param capacity  entries of `values`.
  */
 RICCI_API ricci_status ricci_report_values(const ricci_metric *metric, uint32_t which, double *values,
                                            size_t capacity);
 
 /**
- * The cones, or the vertices where it is worst.
+ * The cones, the vertices with the largest errors, or those of the obstruction.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT.
  *
  * @param metric    the metric.
  * @param which     RICCI_REPORT_CONES, _WORST or _OBSTRUCTION.
- * @param vertices  out: the vertices, as many as the constant says.
+ * @param vertices  out: the vertices, as many as documented at the constant.
  * @param capacity  entries of `vertices`.
  */
 RICCI_API ricci_status ricci_report_vertices(const ricci_metric *metric, uint32_t which, uint32_t *vertices,
@@ -1202,11 +1204,11 @@ RICCI_API ricci_status ricci_report_vertices(const ricci_metric *metric, uint32_
  */
 
 /**
- * A surface, opened along a cut, in the space of its metric.
+ * The coordinates of a surface that is opened along a cut and unfolded in the space of its metric.
  *
- * What is laid out is the mesh that the metric was made from. If edges were flipped its faces are cut by
- * the edges of the metric's triangulation: the common refinement, whose faces are parts of faces of both,
- * and whose vertices are those of the mesh, with their numbers, then the crossings of edges of both
+ * The mesh of a layout is the mesh that the metric was made from. If edges were flipped, its faces are cut by
+ * the edges of the metric's triangulation: it is the common subdivision, whose faces are parts of faces of
+ * both, and whose vertices are those of the mesh, with their numbers, then the crossings of edges of both
  * (ricci_map says where they lie). The map is projective on every piece; RICCI_ON_INPUT makes it linear on
  * the faces of the mesh itself.
  */
@@ -1238,7 +1240,7 @@ enum {
     RICCI_SCALE_AS_SOLVED = 1
 };
 
-/** How a metric is laid out. Zeroed by ricci_init: the defaults. */
+/** Options of a layout. Zeroed by ricci_init: the defaults. */
 typedef struct ricci_layout_options {
     /** sizeof(ricci_layout_options). */
     size_t size;
@@ -1271,11 +1273,11 @@ typedef struct ricci_layout_summary {
     uint32_t space;
     /** RICCI_MODEL_*: the coordinates of ricci_layout_uv. */
     uint32_t model;
-    /** V of what is laid out: those of the mesh, then the crossings. */
+    /** V of the layout's mesh: those of the given mesh, then the crossings. */
     size_t n_vertices;
-    /** E of what is laid out. */
+    /** E of the layout's mesh. */
     size_t n_edges;
-    /** F of what is laid out. */
+    /** F of the layout's mesh. */
     size_t n_faces;
     /** V of the mesh that the metric was made from: these vertices come first. */
     size_t n_input_vertices;
@@ -1285,11 +1287,11 @@ typedef struct ricci_layout_summary {
     size_t n_points;
     /** Number of seams. */
     size_t n_seams;
-    /** Number of edges on all seams, on what is laid out. */
+    /** Number of edges on all seams, on the layout's mesh. */
     size_t n_seam_edges;
     /**
-     * Faces that are not counterclockwise: by exact arithmetic; of a refinement, those that are clockwise
-     * by more than rounding.
+     * Faces that are not counterclockwise: by exact arithmetic; of a common subdivision, those that are
+     * clockwise by more than rounding.
      */
     size_t n_flipped;
     /**
@@ -1316,7 +1318,7 @@ typedef struct ricci_layout_summary {
     /** Largest distance of a point from the origin, in the space. */
     double radius;
     /**
-     * Quasi-conformal dilatation of the faces of what is laid out, at least 1: mean over the input's area.
+     * Quasi-conformal dilatation of the faces of the layout's mesh, at least 1: mean over the input's area.
      * NaN, as all below, on the metric's own triangulation.
      */
     double qc_mean;
@@ -1337,11 +1339,11 @@ typedef struct ricci_layout_summary {
  * with its deck group: ricci/uniformize.h.
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE, RICCI_ARGUMENT (no such vertex;
  * RICCI_MODEL_AMBIENT), RICCI_TRIANGLE_INEQUALITY, RICCI_LAYOUT (a sphere in E2 with fewer than two cones;
- * points beyond the reach of doubles), RICCI_DOMAIN, RICCI_EDGE_WEIGHT, RICCI_TOO_LARGE (the refinement),
- * RICCI_NO_MEMORY, RICCI_CANCELLED.
+ * points too far out for double precision), RICCI_DOMAIN, RICCI_EDGE_WEIGHT, RICCI_TOO_LARGE (the common
+ * subdivision), RICCI_NO_MEMORY, RICCI_CANCELLED.
  *
  * @param metric   the metric.
- * @param options  how; NULL for the defaults.
+ * @param options  the options; NULL for the defaults.
  * @param control  progress and cancellation; NULL for neither.
  * @param layout   out: the new handle, to be released by ricci_layout_free.
  */
@@ -1387,7 +1389,7 @@ RICCI_API ricci_status ricci_layout_points(const ricci_layout *layout, uint32_t 
  * (RICCI_ON_INPUT of ricci_uniform_layout, which is cut along edges of the metric's triangulation).
  *
  * @param layout    the layout.
- * @param on        RICCI_ON_INPUT: the faces of the mesh; else those of what is laid out.
+ * @param on        RICCI_ON_INPUT: the faces of the given mesh; else those of the layout's mesh.
  * @param corners   out: n_input_faces x 3 or n_faces x 3 indices of points.
  * @param capacity  entries of `corners`.
  */
@@ -1403,8 +1405,8 @@ RICCI_API ricci_status ricci_layout_corners(const ricci_layout *layout, uint32_t
  * ricci_layout_corners).
  *
  * @param layout    the layout.
- * @param on        RICCI_ON_INPUT: the corners of the mesh, in the order of its faces; else those of what
- *                  is laid out.
+ * @param on        RICCI_ON_INPUT: the corners of the mesh, in the order of its faces; else those of the
+ *                  layout's mesh.
  * @param uv        out: n_input_faces x 3 x 2 or n_faces x 3 x 2.
  * @param capacity  entries of `uv`.
  */
@@ -1431,9 +1433,9 @@ RICCI_API ricci_status ricci_layout_seams(const ricci_layout *layout, double *se
  * ricci_layout_corners).
  *
  * @param layout           the layout.
- * @param on               RICCI_ON_INPUT: edges of the mesh; else of what is laid out.
+ * @param on               RICCI_ON_INPUT: edges of the given mesh; else of the layout's mesh.
  * @param edges            out: edge numbers, 1-based, negative where the seam runs against the edge's
- *                         direction; seam after seam. On what is laid out n_seam_edges.
+ *                         direction; seam after seam. On the layout's mesh there are n_seam_edges.
  * @param edges_capacity   entries of `edges`.
  * @param starts           out: n_seams + 1 offsets: seam i is edges[starts[i] .. starts[i + 1]).
  * @param starts_capacity  entries of `starts`.
@@ -1448,7 +1450,7 @@ RICCI_API ricci_status ricci_layout_seam_edges(const ricci_layout *layout, uint3
  * ricci_layout_corners).
  *
  * @param layout    the layout.
- * @param on        RICCI_ON_INPUT: faces of the mesh; else of what is laid out.
+ * @param on        RICCI_ON_INPUT: faces of the given mesh; else of the layout's mesh.
  * @param faces     out: face indices, ascending.
  * @param capacity  entries of `faces`.
  */
@@ -1456,7 +1458,7 @@ RICCI_API ricci_status ricci_layout_flipped(const ricci_layout *layout, uint32_t
                                             size_t capacity);
 
 /**
- * How every face is distorted.
+ * The distortion of every face.
  *
  * On the input it is the map that is linear on each face of the mesh, whose coordinates ricci_layout_uv
  * gives there; a face that folds has the dilatation of its mirror image. Shares are of the sum over all
@@ -1466,7 +1468,7 @@ RICCI_API ricci_status ricci_layout_flipped(const ricci_layout *layout, uint32_t
  * flips).
  *
  * @param layout      the layout.
- * @param on          RICCI_ON_INPUT: the faces of the mesh; else those of what is laid out.
+ * @param on          RICCI_ON_INPUT: the faces of the given mesh; else those of the layout's mesh.
  * @param qc          out: n_input_faces or n_faces quasi-conformal dilatations, at least 1: 1 is conformal.
  * @param area_ratio  out: as many shares of the layout's area over shares of the input's.
  * @param capacity    entries of `qc` and of `area_ratio`.
@@ -1475,7 +1477,7 @@ RICCI_API ricci_status ricci_layout_distortion(const ricci_layout *layout, uint3
                                                double *area_ratio, size_t capacity);
 
 /**
- * What is laid out as a mesh: the mesh that the metric was made from, or the common refinement.
+ * The mesh of the layout: the mesh that the metric was made from, or the common subdivision.
  *
  * The given vertices come first, where they were bit for bit; crossings lie on the edges of the given mesh.
  * Of an intrinsic surface the mesh has the lengths of the layout. Crossings may be so near to others that
@@ -1490,14 +1492,14 @@ RICCI_API ricci_status ricci_layout_mesh(const ricci_layout *layout, ricci_mesh 
 /**
  * Write a mesh with the layout as texture coordinates (`f v/vt`), as OBJ whose numbers read back as they are.
  *
- * On the input: its own vertices and faces, in order; seams run along its edges only. On the refinement the
- * `v` of the mesh come first, unchanged, then the crossings. A file of that name is replaced only once the
- * new one is complete.
+ * On the input: its own vertices and faces, in order; seams run along its edges only. On the common
+ * subdivision the `v` of the mesh come first, unchanged, then the crossings. A file of that name is replaced
+ * only once the new one is complete.
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_ARGUMENT (the mesh is intrinsic), RICCI_DOMAIN,
  * RICCI_LAYOUT (as of ricci_layout_corners; a model that is not projective).
  *
  * @param layout       the layout.
- * @param on           RICCI_ON_INPUT: the mesh; else what is laid out.
+ * @param on           RICCI_ON_INPUT: the given mesh; else the layout's mesh.
  * @param homogeneous  1: `vt qx qy q` with the q of ricci_map_weights: the projective map of every piece is
  *                     linear in these three, and divided by the third; in H2 in the Klein disk alone, not
  *                     on the input. 0: `vt x y`.
@@ -1507,12 +1509,13 @@ RICCI_API ricci_status ricci_layout_write(const ricci_layout *layout, uint32_t o
                                           const char *path);
 
 /* ---------------------------------------------------------------------------------------------------------
- * Maps: the common refinement of the mesh and the metric's triangulation, and what is carried over it
+ * Maps: the common subdivision of the mesh and the metric's triangulation, which carries values from one to
+ * the other
  */
 
 /**
- * The way between the mesh that a metric was made from and the metric's triangulation, as their common
- * refinement; or between two surfaces that were matched (ricci_matching_map in ricci/match.h).
+ * The map between the mesh that a metric was made from and the metric's triangulation, given by their common
+ * subdivision; or between two surfaces that were matched (ricci_matching_map in ricci/match.h).
  *
  * Its faces are parts of faces of both; its vertices are those of the mesh, with their numbers, then the
  * crossings of edges. If no edge was flipped it is the mesh itself. Layouts of the metric have its vertices
@@ -1520,7 +1523,7 @@ RICCI_API ricci_status ricci_layout_write(const ricci_layout *layout, uint32_t o
  */
 typedef struct ricci_map ricci_map;
 
-/** Where values are carried from. */
+/** The places at which values are given. */
 enum {
     /** One row per vertex; linear along edges. */
     RICCI_AT_VERTICES = 0,
@@ -1535,11 +1538,11 @@ enum {
 typedef struct ricci_map_summary {
     /** Bytes of this struct that are filled. */
     size_t size;
-    /** V of the refinement: those of the mesh, then n_crossings. */
+    /** V of the common subdivision: those of the mesh, then n_crossings. */
     size_t n_vertices;
-    /** E of the refinement. */
+    /** E of the common subdivision. */
     size_t n_edges;
-    /** F of the refinement. */
+    /** F of the common subdivision. */
     size_t n_faces;
     /**
      * Vertices where an edge of the mesh and one of the metric's triangulation cross; 0 if no edge was
@@ -1547,13 +1550,13 @@ typedef struct ricci_map_summary {
      */
     size_t n_crossings;
     /**
-     * Number of pieces: a piece is what a face of the mesh and one of the metric's triangulation have in
-     * common, cut into triangles.
+     * Number of pieces: a piece is the intersection of a face of the mesh and one of the metric's
+     * triangulation, cut into triangles.
      */
     size_t n_pieces;
 } ricci_map_summary;
 
-/** Values of the caller's that a map carries. Zeroed by ricci_init. */
+/** Values of the caller that a map carries. Zeroed by ricci_init. */
 typedef struct ricci_carried {
     /** sizeof(ricci_carried). */
     size_t size;
@@ -1601,8 +1604,8 @@ RICCI_API_VOID void ricci_map_free(ricci_map *map);
 RICCI_API ricci_status ricci_map_summarise(const ricci_map *map, ricci_map_summary *summary, size_t size);
 
 /**
- * The refinement in space: the given vertices first, where they were, then the crossings on the edges of
- * the given mesh.
+ * The common subdivision in space: the given vertices first, where they were, then the crossings on the edges
+ * of the given mesh.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (the given mesh is intrinsic: ricci_layout_mesh).
  *
@@ -1612,7 +1615,7 @@ RICCI_API ricci_status ricci_map_summarise(const ricci_map *map, ricci_map_summa
 RICCI_API ricci_status ricci_map_mesh(const ricci_map *map, ricci_mesh **mesh);
 
 /**
- * The face that every face of the refinement is part of.
+ * The face that every face of the common subdivision is part of.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT.
  *
@@ -1626,8 +1629,8 @@ RICCI_API ricci_status ricci_map_mesh(const ricci_map *map, ricci_mesh **mesh);
 RICCI_API ricci_status ricci_map_faces(const ricci_map *map, uint32_t on, uint32_t *faces, size_t capacity);
 
 /**
- * Where the corners of every face of the refinement lie in its face: values at the corners of that face,
- * added up with these weights, are the values there.
+ * The barycentric coordinates of the corners of every face of the common subdivision in the face that it is
+ * part of: values at the corners of that face, added up with these weights, are the values there.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT.
  *
@@ -1641,7 +1644,7 @@ RICCI_API ricci_status ricci_map_barycentric(const ricci_map *map, uint32_t on, 
                                              size_t capacity);
 
 /**
- * Where the crossings lie: vertex n_vertices of the mesh + k lies at end 0 (1 - t) + end 1 t of its edge.
+ * The places of the crossings: vertex n_vertices of the mesh + k lies at end 0 (1 - t) + end 1 t of its edge.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT.
  *
@@ -1656,9 +1659,9 @@ RICCI_API ricci_status ricci_map_crossings(const ricci_map *map, uint32_t on, ui
                                            double *fractions, size_t capacity);
 
 /**
- * The homogeneous weight q of every vertex of the refinement. In a piece the map from the mesh to a layout
- * in the plane is projective, and with (x, y) the point of a corner it is (q x, q y, q) that is linear: as
- * texture coordinates of three components.
+ * The homogeneous weight q of every vertex of the common subdivision. In a piece the map from the mesh to a
+ * layout in the plane is projective, and with (x, y) the point of a corner it is (q x, q y, q) that is
+ * linear: as texture coordinates of three components.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_DOMAIN.
  *
@@ -1670,8 +1673,8 @@ RICCI_API ricci_status ricci_map_crossings(const ricci_map *map, uint32_t on, ui
 RICCI_API ricci_status ricci_map_weights(const ricci_map *map, double *weights, size_t capacity);
 
 /**
- * Carry values at vertices or corners, of the mesh or of the metric's triangulation, to those of the
- * refinement. At given vertices they stay as they are.
+ * Carry values at vertices or corners, of the mesh or of the metric's triangulation, to those of the common
+ * subdivision. At given vertices they stay as they are.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE, RICCI_WRONG_SIZE, RICCI_ARGUMENT (a value is not
  * finite), RICCI_TOO_LARGE, RICCI_NO_MEMORY, RICCI_BUFFER_TOO_SMALL.

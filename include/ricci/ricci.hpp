@@ -7,9 +7,9 @@
 //     const std::vector<double> uv = layout.uv(), factor = flat.factor();
 //
 // C++11; nothing is hidden: every function of the C headers takes the handles by .get(), and ricci::make,
-// ricci::values and ricci::rows call those that have no method here. Objects are moved, not copied. What
-// ricci/uniformize.h, circles.h, harmonic.h, spline.h and repair.h have is in headers of the same names,
-// .hpp.
+// ricci::values and ricci::rows call those that have no method here. Objects are moved, not copied. The
+// classes for ricci/uniformize.h, circles.h, harmonic.h, spline.h and repair.h are in headers of the same
+// names with the extension .hpp.
 //
 // SPDX-License-Identifier: MIT OR Apache-2.0
 #ifndef RICCI_HPP
@@ -29,7 +29,7 @@
 
 namespace ricci {
 
-// A call that failed: as what() the message, and its numbers.
+// The exception of a call that failed: its message is what(), with the numbers of the failure.
 class error : public std::runtime_error {
 public:
     error() : std::runtime_error(ricci_last_error()), failure_() {
@@ -52,13 +52,13 @@ inline void check(ricci_status status) {
     if (status != RICCI_OK) throw error();
 }
 
-// Numbers that lie one after the other, whoever owns them.
+// A view of numbers that lie one after the other and that somebody else owns.
 template <class Value> class span {
 public:
     span() : data_(nullptr), size_(0) {}
     span(const Value *data, std::size_t size) : data_(data), size_(size) {}
     template <std::size_t N> span(const Value (&values)[N]) : data_(values), size_(N) {}
-    // std::vector, std::array, std::span and what else has data() and size().
+    // From std::vector, std::array, std::span and other containers with data() and size().
     template <class List, class = decltype(std::declval<const List &>().data())>
     span(const List &list) : data_(list.data()), size_(list.size()) {}
     const Value *data() const { return data_; }
@@ -69,14 +69,14 @@ private:
     std::size_t size_;
 };
 
-// A struct with its size, and zeros: the defaults.
+// A struct that ricci_init has zeroed, which means the defaults.
 template <class Options> Options init() {
     Options options;
     check(ricci_init(&options, sizeof options));
     return options;
 }
 
-// A handle of its own.
+// A handle that is freed with its owner.
 template <class Handle, void (*Free)(Handle *)> class owned {
 public:
     owned() : handle_(nullptr) {}
@@ -104,7 +104,7 @@ protected:
     Handle *handle_;
 };
 
-// The handle that a function hands out through its last parameter.
+// The handle that a function returns through its last parameter.
 template <class Handle, class Function, class... Arguments>
 Handle *make(Function function, Arguments... arguments) {
     Handle *handle = nullptr;
@@ -184,7 +184,7 @@ public:
     }
 };
 
-// What a call is told of: nothing by default.
+// The pointer that a call takes for a control; NULL without one.
 inline const ricci_control *of(const control *watched) { return watched ? watched->get() : nullptr; }
 
 using mesh_handle = owned<ricci_mesh, ricci_mesh_free>;
@@ -295,7 +295,7 @@ public:
         const ricci_target all = asked.get();
         return ricci::values<double>(ricci_target_fill, get(), &all, of(watched));
     }
-    // Of the flow that led here.
+    // The report of the flow that led to this metric.
     ricci_report_summary report() const { return ricci::summary(ricci_report_summarise, get()); }
     std::vector<double> report_values(std::uint32_t which) const {
         return ricci::values<double>(ricci_report_values, get(), which);

@@ -149,11 +149,11 @@ typedef struct ricci_change_spec {
     uint32_t change;
     /** A vertex. */
     uint32_t vertex;
-    /** How many, or how often. */
+    /** A number of elements, or of repetitions. */
     size_t count;
-    /** How much. */
+    /** A size. */
     double amount;
-    /** Chooses what is random. */
+    /** Seed of the random numbers. */
     uint64_t seed;
     /** A point in space. */
     double centre[3];
@@ -163,9 +163,9 @@ typedef struct ricci_change_spec {
  * A sample surface.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE, RICCI_ARGUMENT, RICCI_TOO_LARGE,
- * RICCI_TRIANGLE_INEQUALITY (triangles too thin for doubles).
+ * RICCI_TRIANGLE_INEQUALITY (triangles too thin for double precision).
  *
- * @param shape  which one.
+ * @param shape  the surface and its sizes.
  * @param mesh   out: the new handle, to be released by ricci_mesh_free.
  */
 RICCI_API ricci_status ricci_make(const ricci_shape *shape, ricci_mesh **mesh);
@@ -177,7 +177,7 @@ RICCI_API ricci_status ricci_make(const ricci_shape *shape, ricci_mesh **mesh);
  * RICCI_TOO_LARGE.
  *
  * @param mesh    the surface.
- * @param change  what is done.
+ * @param change  the change and its arguments.
  * @param result  out: the new handle, to be released by ricci_mesh_free.
  */
 RICCI_API ricci_status ricci_change(const ricci_mesh *mesh, const ricci_change_spec *change,

@@ -30,7 +30,7 @@ enum {
     RICCI_SPLINE_CONTROL_POINTS = 0,
     /** n_patches x 3 x (degree + 1) x 2: for each corner of a patch its knots, the corner first. */
     RICCI_SPLINE_KNOTS = 1,
-    /** n_control_points x 2: over which points of the plane the control points of a height field lie. */
+    /** n_control_points x 2: the points of the plane over which the control points of a height field lie. */
     RICCI_SPLINE_ABSCISSAS = 2,
     /**
      * n_holes x 2: of each hole around a singular vertex, with a filling in place of the spline, the total
@@ -40,7 +40,7 @@ enum {
     RICCI_SPLINE_HOLES = 3
 };
 
-/** What a spline has at a place. */
+/** The quantities of a spline at a place. */
 enum {
     /** 3 numbers: the point. */
     RICCI_SPLINE_POINT = 0,
@@ -98,11 +98,11 @@ typedef struct ricci_spline_places {
     size_t threads;
 } ricci_spline_places;
 
-/** What ricci_spline_fit can be asked; zeros are the defaults. */
+/** Options of ricci_spline_fit; zeros are the defaults. */
 typedef struct ricci_spline_fit_options {
     /** sizeof(ricci_spline_fit_options), by ricci_init. */
     size_t size;
-    /** Where in the spline the points belong, one place each; NULL: over their own x and y. */
+    /** The place in the spline of each point; NULL: at its own x and y. */
     const ricci_spline_places *places;
     /**
      * Weight of the variation of bending, times the area of the domain, beside the mean squared distance; 0:
@@ -133,7 +133,7 @@ typedef struct ricci_spline_summary {
     size_t n_holes;
 } ricci_spline_summary;
 
-/** What ricci_spline_fit_surface can be asked; zeros are the defaults. */
+/** Options of ricci_spline_fit_surface; zeros are the defaults. */
 typedef struct ricci_spline_surface_options {
     /** sizeof(ricci_spline_surface_options), by ricci_init. */
     size_t size;
@@ -173,8 +173,8 @@ typedef struct ricci_spline_surface_options {
  *         RICCI_SPLINE (a polygon that crosses itself or another one), RICCI_DEFECTS (two parts),
  * RICCI_NO_MEMORY.
  *
- * @param corners     x and y of the corners of all polygons, n x 2; the inside is what an odd number of them
- *                    winds around.
+ * @param corners     x and y of the corners of all polygons, n x 2; points that an odd number of them winds
+ *                    around are inside.
  * @param starts      n_polygons + 1 offsets: polygon i has the corners starts[i] to starts[i + 1] - 1.
  * @param n_polygons  number of polygons.
  * @param edge        triangles are about as large as equilateral ones with this edge.
@@ -284,13 +284,13 @@ RICCI_API ricci_status ricci_spline_summarise(const ricci_spline *spline, ricci_
                                               size_t size);
 
 /**
- * Control points, knots, or where the control points lie.
+ * Control points, knots, or the abscissas of the control points.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (no such part).
  *
  * @param spline    the spline.
  * @param which     RICCI_SPLINE_CONTROL_POINTS, RICCI_SPLINE_KNOTS or RICCI_SPLINE_ABSCISSAS.
- * @param values    out: as said there.
+ * @param values    out: the numbers, in the shape that is documented at the constant.
  * @param capacity  entries of `values`.
  */
 RICCI_API ricci_status ricci_spline_values(const ricci_spline *spline, uint32_t which, double *values,
@@ -331,10 +331,10 @@ RICCI_API ricci_status ricci_spline_locate(const ricci_spline *spline, const dou
  *         RICCI_SPLINE (a place outside its patch, or outside the domain), RICCI_NO_MEMORY, RICCI_CANCELLED.
  *
  * @param spline    the spline.
- * @param places    where.
+ * @param places    the places.
  * @param which     RICCI_SPLINE_POINT, RICCI_SPLINE_FIRST, RICCI_SPLINE_SECOND or RICCI_SPLINE_SHAPE.
  * @param control   progress and cancellation, or NULL.
- * @param values    out: for each place the numbers that are said there.
+ * @param values    out: for each place the numbers that are documented at the constant.
  * @param capacity  entries of `values`.
  */
 RICCI_API ricci_status ricci_spline_evaluate(const ricci_spline *spline, const ricci_spline_places *places,
@@ -352,7 +352,7 @@ RICCI_API ricci_status ricci_spline_evaluate(const ricci_spline *spline, const r
  * @param n         number of points.
  * @param control   progress and cancellation, or NULL.
  * @param patches   out: for each point the patch of the nearest one, n of them.
- * @param values    out: n x 6: x and y in the patch's chart, the nearest point, and how far it is.
+ * @param values    out: n x 6: x and y in the patch's chart, the nearest point, and its distance.
  * @param capacity  entries of `values`.
  */
 RICCI_API ricci_status ricci_spline_closest(const ricci_spline *spline, const double *points, size_t n,

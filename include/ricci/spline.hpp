@@ -21,7 +21,7 @@ inline mesh spline_domain(span<double> corners, double edge) {
     return mesh(make<ricci_mesh>(ricci_spline_domain, corners.data(), starts, std::size_t(1), edge));
 }
 
-// The same inside several polygons: what an odd number of them winds around.
+// Triangles inside several polygons: points that an odd number of them winds around are inside.
 inline mesh spline_domain(const lists<double> &corners, double edge) {
     std::vector<std::size_t> starts;
     for (std::size_t start : corners.starts) starts.push_back(start / 2);
@@ -32,7 +32,7 @@ inline mesh spline_domain(const lists<double> &corners, double edge) {
 // The nearest points of a spline to points in space.
 struct closest_points {
     std::vector<std::uint32_t> patches;
-    // For each point x and y in the patch's chart, the nearest point, and how far it is.
+    // For each point x and y in the patch's chart, the nearest point, and its distance.
     std::vector<double> values;
 };
 
@@ -90,7 +90,7 @@ public:
     std::vector<std::int32_t> locate(span<double> points) const {
         return ricci::values<std::int32_t>(ricci_spline_locate, get(), points.data(), points.size() / 2);
     }
-    // What the surface has at places, x and y each, in whatever patch they lie.
+    // The quantities of the surface at places, x and y each; their patches are searched.
     std::vector<double> evaluate(span<double> parameters, std::uint32_t which = RICCI_SPLINE_POINT,
                                  const control *watched = nullptr) const {
         return evaluate(span<std::uint32_t>(), parameters, which, watched);

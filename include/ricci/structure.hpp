@@ -53,7 +53,7 @@ public:
         return both;
     }
     std::vector<double> holonomy() const { return values<double>(ricci_structure_holonomy, get()); }
-    // RICCI_STRUCTURE_SINGULAR and its like.
+    // The list of a constant RICCI_STRUCTURE_SINGULAR, _EXCLUDED, _FOLDED, _ZEROS or _TRIANGLES.
     std::vector<std::uint32_t> list(std::uint32_t which) const {
         return values<std::uint32_t>(ricci_structure_list, get(), which);
     }

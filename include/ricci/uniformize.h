@@ -59,22 +59,22 @@ typedef struct ricci_domain ricci_domain;
  * Deck transformations of a quotient, each as a word in the generators and as an isometry. They act from
  * the left: M(g h) = M(g) M(h).
  *
- * Isometries are kept to twice the digits of doubles; ricci_deck_apply uses them.
+ * Isometries are kept in double-double precision, which ricci_deck_apply uses.
  */
 typedef struct ricci_deck ricci_deck;
 
 /**
- * The Dirichlet domain of a point in the universal cover: what is nearer to it than to its images under the
- * deck group. A convex polygon; each side lies on the bisector of the centre and its image under the side's
- * element, which carries the domain onto its neighbour there, or on the straight boundary of the surface,
- * which the side's element moves along itself.
+ * The Dirichlet domain of a point in the universal cover: the points that are nearer to it than to its images
+ * under the deck group. A convex polygon; each side lies on the bisector of the centre and its image under
+ * the side's element, which carries the domain onto its neighbour there, or on the straight boundary of the
+ * surface, which the side's element moves along itself.
  */
 typedef struct ricci_dirichlet ricci_dirichlet;
 
 /** A layout in charts that do not overlap, packed into the unit square. */
 typedef struct ricci_atlas ricci_atlas;
 
-/** What the boundary of a surface becomes. */
+/** The shape that the boundary of a surface is given. */
 enum {
     /**
      * Closed geodesics: in the hyperbolic plane where chi < 0, in the plane around an annulus. A disk has
@@ -85,7 +85,7 @@ enum {
     RICCI_BOUNDARY_STRAIGHT = 1
 };
 
-/** How a surface is uniformized. Zeroed by ricci_init: the defaults. */
+/** Options of a uniformization. Zeroed by ricci_init: the defaults. */
 typedef struct ricci_uniform_options {
     /** sizeof(ricci_uniform_options). */
     size_t size;
@@ -116,19 +116,19 @@ typedef struct ricci_uniform_options {
      */
     const uint32_t *corners;
     /**
-     * n_corners angles inside the corners, radians; 0: those without one share what is left. NULL: all are
+     * n_corners angles inside the corners, radians; 0: corners without an angle share the rest. NULL: all are
      * equal.
      */
     const double *corner_angles;
     /** Number of corners. */
     size_t n_corners;
-    /** RICCI_BOUNDARY_*: what the boundary becomes. */
+    /** RICCI_BOUNDARY_*: the shape that the boundary is given. */
     uint32_t boundary;
     /** 0. */
     uint32_t reserved_too;
 } ricci_uniform_options;
 
-/** Figures of a uniformization. What a kind of surface does not have is 0. */
+/** Figures of a uniformization. Figures that a kind of surface does not have are 0. */
 typedef struct ricci_uniform_summary {
     /** Bytes of this struct that are filled. */
     size_t size;
@@ -159,7 +159,7 @@ typedef struct ricci_uniform_summary {
     /** Largest |K| that the flow has left, of a sphere in the plane under it, radians. */
     double max_curvature_error;
     /**
-     * Largest |K| of the metric, of a quotient after corrections with twice the digits of doubles, radians.
+     * Largest |K| of the metric, of a quotient after corrections in double-double precision, radians.
      */
     double angle_defect;
     /** |sum of curvatures + lambda area - 2 pi chi| of the metric. */
@@ -199,8 +199,8 @@ typedef struct ricci_uniform_summary {
     /** Spheres: flows that were started. */
     size_t n_tried;
     /**
-     * Spheres: largest minus smallest u in the plane. Beyond about 30 positions run out of digits, where
-     * the metric does not.
+     * Spheres: largest minus smallest u in the plane. Beyond about 30 the positions are not accurate in
+     * double precision, though the metric is.
      */
     double u_range;
     /** Spheres: length of the shortest edge. */
@@ -237,13 +237,13 @@ typedef struct ricci_uniform_summary {
 
 /**
  * The metric of constant curvature in the conformal class of a surface: on the sphere, in the plane or in the
- * hyperbolic plane, by its Euler characteristic and what its boundary is to become.
+ * hyperbolic plane, by its Euler characteristic and the shape of its boundary.
  *
  * Genus 0: the polyhedron whose edges, after flips, are chords with lengths in the conformal class of the
  * surface; its vertices are moved by the Moebius transformation after which their mean is the centre, each
- * weighed with one third of the area of the given faces at it: they are determined up to a rotation. Genus
- * 1: flat, with the area of the given surface; more: hyperbolic. Where it has not converged the rest is as
- * good as the metric is. Deterministic.
+ * weighed with one third of the area of the given faces at it: they are determined up to a rotation. Genus 1:
+ * flat, with the area of the given surface; more: hyperbolic. If the flow has not converged, the other
+ * results are as accurate as the metric. Deterministic.
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE, RICCI_ARGUMENT (no such vertex; a sphere of less
  * than four vertices or in another scheme; a corner that is not on the boundary), RICCI_LAYOUT (geodesics
  * around a disk; `start` in another space; a vertex of a sphere has half of its area, or all lie on one
@@ -252,7 +252,7 @@ typedef struct ricci_uniform_summary {
  * RICCI_CANCELLED.
  *
  * @param mesh     the mesh; may be NULL if the options have a `start`.
- * @param options  how; NULL for the defaults.
+ * @param options  the options; NULL for the defaults.
  * @param control  progress and cancellation; NULL for neither.
  * @param uniform  out: the new handle, to be released by ricci_uniform_free.
  */
@@ -260,7 +260,7 @@ RICCI_API ricci_status ricci_uniformize(const ricci_mesh *mesh, const ricci_unif
                                         const ricci_control *control, ricci_uniform **uniform);
 
 /**
- * Release a uniformization. What it has handed out lives on.
+ * Release a uniformization. Handles that were made from it live on.
  *
  * @param uniform  the handle, or NULL.
  */
@@ -305,8 +305,8 @@ RICCI_API ricci_status ricci_uniform_sides(const ricci_uniform *uniform, uint32_
                                            size_t capacity);
 
 /**
- * The homotopy basis whose loops generate the deck group: on the triangulation of the metric, short in it;
- * where that is one of the double of the mesh, on the refinement.
+ * The homotopy basis whose loops generate the deck group: on the triangulation of the metric, short in it; if
+ * the metric lives on the double of the mesh, on the common subdivision.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_LAYOUT (a sphere).
  *
@@ -333,9 +333,8 @@ RICCI_API ricci_status ricci_uniform_domain(const ricci_uniform *uniform, ricci_
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (RICCI_MODEL_AMBIENT), RICCI_LAYOUT (a sphere, whose
  * points are ricci_sphere_points; RICCI_ON_INPUT: the cut does not run along edges of the mesh;
- * RICCI_ON_METRIC: the metric lives on the double of the mesh),
- * RICCI_TRIANGLE_INEQUALITY, RICCI_DOMAIN, RICCI_EDGE_WEIGHT, RICCI_TOO_LARGE (the refinement),
- * RICCI_NO_MEMORY, RICCI_CANCELLED.
+ * RICCI_ON_METRIC: the metric lives on the double of the mesh), RICCI_TRIANGLE_INEQUALITY, RICCI_DOMAIN,
+ * RICCI_EDGE_WEIGHT, RICCI_TOO_LARGE (the common subdivision), RICCI_NO_MEMORY, RICCI_CANCELLED.
  *
  * @param uniform  the uniformization, of a quotient.
  * @param on       RICCI_ON_METRIC: the metric's own triangulation; RICCI_ON_REFINEMENT: on the given
@@ -382,8 +381,8 @@ RICCI_API ricci_status ricci_uniform_lift(const ricci_uniform *uniform, const in
                                           double *points, size_t capacity);
 
 /**
- * The vertices of the given mesh on the unit sphere, or in the plane under it, in which far more digits are
- * left near (0, 0, 1).
+ * The vertices of the given mesh on the unit sphere, or in the plane under it, where coordinates near (0, 0,
+ * 1) have far more digits.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT, RICCI_LAYOUT (not a
  * sphere).
@@ -404,7 +403,7 @@ RICCI_API ricci_status ricci_sphere_points(const ricci_uniform *uniform, uint32_
  * RICCI_DOMAIN, RICCI_EDGE_WEIGHT, RICCI_TOO_LARGE, RICCI_NO_MEMORY, RICCI_CANCELLED.
  *
  * @param uniform  the uniformization, of a sphere.
- * @param on       RICCI_ON_METRIC: the metric's triangulation; RICCI_ON_REFINEMENT: the common refinement
+ * @param on       RICCI_ON_METRIC: the metric's triangulation; RICCI_ON_REFINEMENT: the common subdivision
  *                 with the mesh, whose faces are those of ricci_map_mesh on the given surface.
  * @param control  progress and cancellation; NULL for neither.
  * @param mesh     out: the new handle, to be released by ricci_mesh_free.
@@ -461,13 +460,13 @@ enum {
      */
     RICCI_DECK_TRACE = 2,
     /**
-     * n_elements: how far they move along their axes: lengths of the closed geodesics in their free
-     * homotopy classes.
+     * n_elements: the translation lengths along their axes, which are the lengths of the closed geodesics in
+     * their free homotopy classes.
      */
     RICCI_DECK_LENGTH = 3
 };
 
-/** Which deck transformations are wanted. Zeroed by ricci_init: the generators. */
+/** A set of deck transformations. Zeroed by ricci_init: the generators. */
 typedef struct ricci_deck_spec {
     /** sizeof(ricci_deck_spec). */
     size_t size;
@@ -485,7 +484,7 @@ typedef struct ricci_deck_spec {
     size_t n_words;
     /** WITHIN, DIRICHLET_SIDES: a domain of this surface. */
     const ricci_dirichlet *dirichlet;
-    /** WITHIN: largest distance. */
+    /** WITHIN: largest distance that the centre moves. */
     double radius;
     /** DEPTH: most letters of a word. */
     size_t depth;
@@ -531,7 +530,7 @@ typedef struct ricci_dirichlet_summary {
  * surface), RICCI_TOO_LARGE (more than `limit`), RICCI_CANCELLED.
  *
  * @param uniform  the uniformization, of a quotient.
- * @param spec     which ones; NULL for the generators.
+ * @param spec     the set of transformations; NULL for the generators.
  * @param control  cancellation; NULL for none.
  * @param deck     out: the new handle, to be released by ricci_deck_free.
  */
@@ -578,15 +577,15 @@ RICCI_API ricci_status ricci_deck_words(const ricci_deck *deck, int32_t *words, 
  *
  * @param deck      the elements.
  * @param which     RICCI_DECK_MOBIUS, _MATRIX, _TRACE or _LENGTH.
- * @param values    out: the numbers, in the shape that the constant says.
+ * @param values    out: the numbers, in the shape that is documented at the constant.
  * @param capacity  entries of `values`.
  */
 RICCI_API ricci_status ricci_deck_values(const ricci_deck *deck, uint32_t which, double *values,
                                          size_t capacity);
 
 /**
- * Move points by an element, with twice the digits of doubles on the way: one copy of a layout in the
- * universal cover.
+ * Move points by an element, computed in double-double precision: one copy of a layout in the universal
+ * cover.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (no such element, a row is
  * not finite), RICCI_NO_MEMORY.
@@ -861,7 +860,7 @@ RICCI_API ricci_status ricci_homotopy_word_text(const ricci_homotopy *homotopy, 
                                                 size_t n_word, char *text, size_t capacity, size_t *n_bytes);
 
 /**
- * The word that a text like `a1 b1 a1^-1` means, freely reduced; `1` stands for the identity.
+ * The word of a text like `a1 b1 a1^-1`, freely reduced; `1` stands for the identity.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (what is no letter).
  *
@@ -1000,7 +999,7 @@ typedef struct ricci_atlas_summary {
     size_t size;
     /** Number of charts. */
     size_t n_charts;
-    /** F of what is laid out. */
+    /** F of the layout's mesh. */
     size_t n_faces;
     /** Number of points in the unit square. */
     size_t n_points;
@@ -1008,7 +1007,7 @@ typedef struct ricci_atlas_summary {
     size_t n_flipped;
     /**
      * Faces without area beyond rounding, in the layout or in the unit square; they lie in the charts of
-     * their neighbours, and are left out where it says that none overlap.
+     * their neighbours, and are exempt from the guarantee that no faces overlap.
      */
     size_t n_degenerate;
     /** Lengths in the unit square over lengths in the layout, the same for all charts. */
@@ -1058,7 +1057,7 @@ RICCI_API ricci_status ricci_atlas_summarise(const ricci_atlas *atlas, ricci_atl
                                              size_t size);
 
 /**
- * The chart of every face of what is laid out, from 0; charts with more area come first.
+ * The chart of every face of the layout's mesh, from 0; charts with more area come first.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
  *
@@ -1080,7 +1079,7 @@ RICCI_API ricci_status ricci_atlas_faces(const ricci_atlas *atlas, uint32_t *cha
 RICCI_API ricci_status ricci_atlas_points(const ricci_atlas *atlas, double *points, size_t capacity);
 
 /**
- * The point of every corner of every face of what is laid out: as OBJ's `vt` indices, but 0-based.
+ * The point of every corner of every face of the layout's mesh: as OBJ's `vt` indices, but 0-based.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
  *
@@ -1091,9 +1090,9 @@ RICCI_API ricci_status ricci_atlas_points(const ricci_atlas *atlas, double *poin
 RICCI_API ricci_status ricci_atlas_corners(const ricci_atlas *atlas, uint32_t *corners, size_t capacity);
 
 /**
- * How the charts lie to the layout: the motion of chart k carries the layout's points, times `scale` of the
- * summary, to those of the chart, z -> exp(i rotation) z + translation. From chart j to chart k leads the
- * inverse of the one and then the other.
+ * The motions from the layout to the charts: the motion of chart k carries the layout's points, times `scale`
+ * of the summary, to those of the chart, z -> exp(i rotation) z + translation. The inverse of the motion of
+ * chart j, followed by the motion of chart k, leads from chart j to chart k.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
  *
@@ -1104,7 +1103,7 @@ RICCI_API ricci_status ricci_atlas_corners(const ricci_atlas *atlas, uint32_t *c
 RICCI_API ricci_status ricci_atlas_motions(const ricci_atlas *atlas, double *motions, size_t capacity);
 
 /**
- * Write what is laid out with its charts as texture coordinates (`f v/vt`), as OBJ whose numbers read back
+ * Write the layout's mesh with its charts as texture coordinates (`f v/vt`), as OBJ whose numbers read back
  * as they are.
  *
  * A file of that name is replaced only once the new one is complete.
@@ -1118,8 +1117,8 @@ RICCI_API ricci_status ricci_atlas_motions(const ricci_atlas *atlas, double *mot
 RICCI_API ricci_status ricci_atlas_write(const ricci_atlas *atlas, uint32_t homogeneous, const char *path);
 
 /* ---------------------------------------------------------------------------------------------------------
- * Points in other coordinates. Inline, without a check: rows that are no points of their model give what
- * the formulas give.
+ * Points in other coordinates. Inline, without a check: rows that are no points of their model give
+ * meaningless numbers.
  */
 
 /**

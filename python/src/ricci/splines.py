@@ -58,7 +58,7 @@ class SurfaceOptions(TypedDict, total=False):
         fairness: weight of the variation of bending in the first round; 1e-10.
         spread: least distance of knots from their vertex; 0.9.
         rounds: times that the sizes of the triangles are adapted to the errors; 6.
-        corrections: times that vertices are moved to where the spline is nearest; 2, negative: none.
+        corrections: times at most that vertices are moved to the nearest points of the spline; 20, negative: none.
         threads: one per core. The result does not depend on it.
     """
 
