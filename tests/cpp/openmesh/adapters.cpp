@@ -44,7 +44,7 @@ template <class Kernel> Kernel openmesh() {
     return mesh;
 }
 
-// What the C face says of a mesh: of every corner the vertex and its point, and the factors.
+// The results of the C face for a mesh: the vertex and the point of every corner, and the factors.
 struct Expected {
     ricci::metric flat;
     ricci::layout layout;

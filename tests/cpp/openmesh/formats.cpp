@@ -11,7 +11,7 @@ namespace {
 using OpenMesh::IO::Options;
 using Triangles = std::vector<std::array<uint32_t, 3>>;
 
-// What a mesh is in numbers: empty lists for attributes that it does not have.
+// The numbers of a mesh: lists are empty for attributes that it does not have.
 struct Content {
     std::vector<std::array<double, 3>> positions, normals;
     std::vector<std::array<double, 4>> colors;
@@ -98,7 +98,7 @@ double extent(const Content &content) {
     return most;
 }
 
-// What was found is what is expected, within `off`: positions relative to the size of the mesh.
+// Checks that a mesh equals the expected one within `off`, positions relative to the size of the mesh.
 void compare(const std::string &what, Content expected, Content found, double off) {
     canonical(expected);
     canonical(found);

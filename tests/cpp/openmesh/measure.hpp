@@ -1,4 +1,4 @@
-// What the OpenMesh tests share: the kernels, lengths, angles and curvature in long double, and grids.
+// Common parts of the OpenMesh tests: the kernels, lengths, angles and curvature in long double, and grids.
 #ifndef MEASURE_HPP
 #define MEASURE_HPP
 

@@ -1,4 +1,4 @@
-// A mesh as OpenMesh holds it goes to ricci as it lies in memory. What ricci says about it is then checked
+// A mesh of OpenMesh goes to ricci without a copy. The results of ricci are then checked
 // against OpenMesh (counts, loops), CGAL (angles, areas, exact orientation) and formulas in long double on
 // the numbers that ricci returns: curvature before and after the flow, conformality, layout.
 //

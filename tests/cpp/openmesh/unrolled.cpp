@@ -1,4 +1,4 @@
-// The file that ricci writes of a flow with edge flips is the surface that went in, cut into pieces: read by
+// The file that ricci writes of a flow with edge flips is the given surface, cut into pieces: read by
 // OpenMesh it has the same area, Euler characteristic and boundary loops, and the given vertices; in the
 // plane CGAL calls its faces counterclockwise.
 //

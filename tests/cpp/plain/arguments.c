@@ -1,4 +1,4 @@
-/* Whatever a caller passes, a call answers with a status: it does not crash, and it leaves its outputs alone.
+/* A call with any arguments returns a status: it does not crash, and if it fails it leaves its outputs alone.
  * Writes arguments.obj, which other tests read. */
 #include "torus.h"
 #include <ricci/repair.h>

@@ -21,7 +21,7 @@ static inline void fails(const json *node, const char *what, double error, doubl
     n_failed++;
 }
 
-/* Whether a quantity is asked for. */
+/* 1 if the case has this quantity. */
 static inline int asks(const json *node, const char *quantity) {
     return member(need(node, "expect"), quantity) != NULL;
 }
@@ -166,7 +166,7 @@ static inline void triangle_agrees(const json *node, const double *curvature, do
     agrees_within(node, "area", &area, 1, rounding / spare * exact);
 }
 
-/* Where the numbers of a layout or chart mean distances. */
+/* The space and the model by which the numbers of a layout or chart become distances. */
 enum { IN_PLANE, IN_POINCARE, UNDER_SPHERE, IN_KLEIN };
 
 static inline double distance(int model, const double *p, const double *q) {
@@ -186,7 +186,7 @@ static inline uint32_t kind_of(const json *name) {
     return 0;
 }
 
-/* What distances in the charts of a structure mean. */
+/* The space and the model of the charts of a structure. */
 static inline int model_of(const json *kind) {
     const int models[] = {IN_PLANE, UNDER_SPHERE, IN_PLANE, IN_POINCARE, IN_KLEIN};
     return models[kind_of(kind)];
@@ -198,7 +198,7 @@ static inline void sides_of(int model, const double *corners, double *sides) {
         sides[k] = distance(model, corners + 2 * ((k + 1) % 3), corners + 2 * ((k + 2) % 3));
 }
 
-/* What is known of a layout wherever it lies, from its corners in the plane. */
+/* The quantities of a layout that do not depend on its position, from its corners in the plane. */
 static inline void layout_agrees(const json *node, const double *uv, size_t n_faces) {
     const int models[] = {IN_PLANE, IN_POINCARE, UNDER_SPHERE};
     const int model = models[space_of(need(need(node, "options"), "space"))];
@@ -233,7 +233,7 @@ static inline void cross_ratios_agree(const json *node, const double *points) {
     agrees(node, "cross_ratios", ratios, list->n);
 }
 
-/* How far points in space are from the torus of revolution of the case. */
+/* The distances of points in space from the torus of revolution of the case. */
 static inline void torus_agrees(const json *node, const double *points, size_t n) {
     const json *torus = need(node, "mesh");
     const double a = number(need(torus, "a")), b = number(need(torus, "b"));

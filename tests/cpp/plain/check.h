@@ -39,7 +39,7 @@ static inline ricci_status fill(const ricci_metric *metric, ricci_target target,
     return ricci_target_fill(metric, &target, NULL, curvatures, n_vertices);
 }
 
-/* Whether curvatures are admissible. */
+/* 1 if curvatures are admissible. */
 static inline ricci_status check_target(const ricci_metric *metric, const double *curvatures, size_t n) {
     double *filled = (double *)room(n, sizeof *filled);
     const ricci_status status = fill(metric, target_of(RICCI_TARGET_GIVEN, NULL, curvatures, n), filled, n);

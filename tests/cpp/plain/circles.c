@@ -75,7 +75,7 @@ static void holes_of_a_sphere_become_round(void) {
     CHECK(circles[8] == 0 && circles[9] == 0 && circles[10] == 1);
     lies_on_circles(domain, 4);
     ricci_circle_domain_free(domain);
-    /* What is not there is refused. */
+    /* Loops and vertices that do not exist are refused. */
     options.outer = &beyond;
     CHECK(ricci_circle_domain_new(mesh, &options, NULL, &domain) == RICCI_ARGUMENT);
     CHECK(ricci_circle_domain_new(sphere, NULL, NULL, &domain) == RICCI_ARGUMENT);

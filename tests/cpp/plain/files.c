@@ -33,7 +33,7 @@ static void compare(const char *path, double positions_off, int uv_kept) {
     } else {
         FAILS(ricci_mesh_values(mesh, RICCI_UV, numbers, 6 * t.n_faces), RICCI_ARGUMENT, "uv");
     }
-    /* What was read is written again as it is. */
+    /* A mesh that was read is written unchanged. */
     OK(ricci_mesh_write(mesh, NULL, "again.ply"));
     ricci_mesh_free(mesh);
     mesh = NULL;

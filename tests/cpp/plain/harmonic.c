@@ -1,4 +1,4 @@
-/* Harmonic forms and maps through the C face: sums around faces, known moduli, zeros, and where maps go. */
+/* Harmonic forms and maps through the C face: sums around faces, known moduli, zeros, and images of maps. */
 #include "samples.h"
 #include <math.h>
 #include <ricci/harmonic.h>

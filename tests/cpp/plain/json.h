@@ -30,9 +30,9 @@ static inline void json_forget(void) {
 /* A value; `kind` is its first character: { [ " or a digit. */
 typedef struct json {
     char kind;
-    /* Of a member of an object. */
+    /* The name, if this is a member of an object. */
     const char *key;
-    /* Of a string or number. */
+    /* The text of a string or number. */
     const char *text;
     struct json *first, *next;
     size_t n;

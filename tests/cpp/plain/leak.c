@@ -1,5 +1,5 @@
-/* A mesh that is never freed. valgrind has to say so, and to name the function of the library that made it:
- * its verdict on the other programs is worth no more than that. */
+/* A mesh that is never freed. valgrind has to report it, with the function of the library that made it:
+ * this shows that valgrind would find leaks in the other programs. */
 #include "torus.h"
 
 static ricci_mesh *make(void) {

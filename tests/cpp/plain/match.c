@@ -1,4 +1,4 @@
-/* Maps between two surfaces through the C face: identities, landmarks, what is carried, what is refused. */
+/* Maps between two surfaces through the C face: identities, landmarks, carried values, refusals. */
 #include "samples.h"
 #include <math.h>
 #include <ricci/match.h>

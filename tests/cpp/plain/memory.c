@@ -68,7 +68,7 @@ int munmap(void *p, size_t size) {
 
 static int refusals;
 enum { SPLINE_PLACES = 25 };
-/* Of longer jobs not every allocation begins a shortage, but as many as this, evenly. */
+/* Number of allocations of a longer job that begin a shortage, evenly distributed. */
 enum { MOST_RUNS = 3000 };
 
 /* The answer of a call in a shortage; after RICCI_NO_MEMORY memory is there again, and so is what the call

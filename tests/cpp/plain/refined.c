@@ -1,5 +1,5 @@
-/* Layouts of metrics whose edges were flipped: the common refinement, and the maps between it, the given mesh
- * and the metric's triangulation, against formulas written here. */
+/* Layouts of metrics whose edges were flipped: the common subdivision, and the maps between it, the given
+ * mesh and the metric's triangulation, against formulas written here. */
 #include "arrays.h"
 #include "samples.h"
 

@@ -1,4 +1,4 @@
-/* What a report says about a target that no circle packing of the surface can have. */
+/* The report of a flow to a target that no circle packing of the surface can have. */
 #include "torus.h"
 
 int main(void) {

@@ -1,4 +1,4 @@
-/* Sample surfaces through the C face: topology, known figures, and what is refused. Writes cones.obj, which
+/* Sample surfaces through the C face: topology, known figures, refusals. Writes cones.obj, which
  * other tests read. */
 #include "samples.h"
 #include <math.h>

@@ -1,5 +1,5 @@
-/* Closed surfaces of genus 0 on the unit sphere: the round sphere comes back, inversions change nothing, the
- * way back. */
+/* Closed surfaces of genus 0 on the unit sphere: the round sphere comes back, inversions change nothing, and
+ * maps lead back to the mesh. */
 #include "arrays.h"
 #include "samples.h"
 #include <ricci/uniformize.h>

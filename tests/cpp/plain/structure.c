@@ -109,7 +109,7 @@ static void multiply(const double *a, const double *b, double *c) {
         c[i] = a[i - i % 3] * b[i % 3] + a[i - i % 3 + 1] * b[3 + i % 3] + a[i - i % 3 + 2] * b[6 + i % 3];
 }
 
-/* Of SO(2,1) the inverse is J M^T J, J = diag(1, 1, -1). */
+/* The inverse of a matrix M of SO(2,1): J M^T J, J = diag(1, 1, -1). */
 static void inverse_of(const double *m, double *inverse) {
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) inverse[3 * i + j] = ((i == 2) == (j == 2) ? 1 : -1) * m[3 * j + i];

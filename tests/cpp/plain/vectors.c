@@ -1,5 +1,5 @@
-/* Golden vectors (tests/vectors/README.md): what a host sees through the C face agrees with the numbers that
- * all languages are held to. Usage: vectors FOLDER. */
+/* Golden vectors (tests/vectors/README.md): the results of the C face agree with the numbers that all
+ * languages are held to. Usage: vectors FOLDER. */
 #include "cases.h"
 #include <ricci/circles.h>
 #include <ricci/harmonic.h>
@@ -218,7 +218,8 @@ static rows rows_of(const ricci_structure *structure, uint32_t which, size_t n) 
     return r;
 }
 
-/* How far what is carried from the first chart of a face arrives from its place in the others. */
+/* The largest distance between a point that is carried from the first chart of a face to another one, and its
+ * place there. */
 static double carried(const ricci_structure *structure, uint32_t face) {
     const double weights[3] = {0.5, 0.25, 0.25};
     double worst = 0, moved[2];
