@@ -1,4 +1,4 @@
-//! The rules of ARCHITECTURE.md, read off the tree.
+//! Checks the rules of ARCHITECTURE.md against the files of the repository.
 #![allow(clippy::unwrap_used)]
 
 #[path = "architecture/modules.rs"]
@@ -10,7 +10,7 @@ use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::process::Command;
 
-/// Floors from the ground up; those of one line are siblings that do not import each other.
+/// The floors from the lowest up. Floors of one line do not import each other.
 const FLOORS: &[&[&str]] = &[
     &["error", "control", "parallel"],
     &["geometry", "linalg"],
@@ -25,9 +25,9 @@ const FLOORS: &[&[&str]] = &[
     &["spline"],
     &["manifold"],
 ];
-/// The one arrow that points up: the error type carries a mesh's diagnosis.
+/// The one import that points up: the error type contains a mesh's diagnosis.
 const EXCEPTION: (&str, &str) = ("error", "mesh::check::Diagnosis");
-/// Longest file that may still hold one idea.
+/// Most lines of a file.
 const MOST_LINES: usize = 450;
 
 fn root() -> PathBuf {
@@ -38,7 +38,7 @@ fn text(file: &str) -> String {
     std::fs::read_to_string(root().join(file)).unwrap()
 }
 
-/// Files below a folder, as paths from the root.
+/// The files below a folder, as paths from the root.
 fn files(folder: &str) -> Vec<String> {
     let mut found = Vec::new();
     let mut open = vec![root().join(folder)];
@@ -64,8 +64,8 @@ fn level(floor: &str) -> Option<usize> {
     FLOORS.iter().position(|names| names.contains(&floor))
 }
 
-/// Adds the paths at the head of `text` behind `prefix`, groups opened: `a::{B, c::D}` gives `a::B` and `a::c::D`.
-/// Returns what follows them.
+/// Adds the paths at the head of `text` to `found`, with `prefix` in front, groups expanded: `a::{B, c::D}` gives `a::B` and
+/// `a::c::D`. Returns the rest of the text.
 fn open<'a>(text: &'a str, prefix: &str, found: &mut BTreeSet<String>) -> &'a str {
     let text = text.trim_start();
     if let Some(mut inside) = text.strip_prefix('{') {
@@ -90,8 +90,8 @@ fn open<'a>(text: &'a str, prefix: &str, found: &mut BTreeSet<String>) -> &'a st
     }
 }
 
-/// Paths into floors that a source text names from the crate's root, comments aside: by `crate::`, by `ricci::`, or
-/// by as many `super::` as lead out of a module `depth` below the root.
+/// The paths into floors that a source text names from the crate's root, comments left out: by `crate::`, by `ricci::`, or by as
+/// many `super::` as lead out of a module `depth` below the root.
 fn imports(source: &str, depth: usize) -> BTreeSet<String> {
     let code: String =
         source.lines().map(|l| l.split("//").next().unwrap_or("")).collect::<Vec<_>>().join("\n");
@@ -120,7 +120,7 @@ fn floor_of(path: &str) -> &str {
     path.split("::").next().unwrap_or("")
 }
 
-/// The paths among `names` that lead to where `floor` may not import.
+/// The paths among `names` that `floor` may not import.
 fn upward(floor: &str, names: &BTreeSet<String>) -> Vec<String> {
     let own = level(floor).unwrap();
     let allowed = |path: &String| {
@@ -258,7 +258,7 @@ const PERMISSIVE: &[&str] = &[
     "MIT-0",
 ];
 
-/// Whether an SPDX expression can be met by permissive licences alone. An exception (`WITH`) only adds permissions.
+/// True if an SPDX expression can be met by permissive licences alone. An exception (`WITH`) only adds permissions.
 fn permissive(licence: &str) -> bool {
     let spaced = licence.replace('/', " OR ").replace('(', " ( ").replace(')', " ) ");
     let words: Vec<&str> = spaced.split_whitespace().collect();
@@ -266,7 +266,7 @@ fn permissive(licence: &str) -> bool {
     any_of(&mut rest) && rest.is_empty()
 }
 
-/// `A OR B …`, where each is `a AND b …` and AND binds closer.
+/// True if an alternative of `A OR B …` is permissive. Each alternative is `a AND b …`, because AND binds closer.
 fn any_of(words: &mut &[&str]) -> bool {
     let mut any = all_of(words);
     while let ["OR", rest @ ..] = *words {
@@ -285,7 +285,7 @@ fn all_of(words: &mut &[&str]) -> bool {
     all
 }
 
-/// A licence, with its exception or without, or an expression in brackets.
+/// True if a single licence, with or without an exception, or an expression in brackets is permissive.
 fn one(words: &mut &[&str]) -> bool {
     match *words {
         ["(", rest @ ..] => {

@@ -1,4 +1,4 @@
-//! The graph of modules of a crate, read off its source, and its cycles.
+//! The graph of the modules of a crate, which is read from its source, and the cycles of the graph.
 
 use super::{open, root, rust_files, text};
 use std::collections::{BTreeMap, BTreeSet};
@@ -6,16 +6,16 @@ use std::collections::{BTreeMap, BTreeSet};
 /// A module as the names that lead to it from the crate's root.
 type Path = Vec<String>;
 
-/// How a module gives on what another one holds.
+/// The beginnings of statements by which a module re-exports items of another one.
 const GIVING_ON: &[&str] = &["pub use ", "pub(crate) use ", "pub(super) use "];
 
 /// The modules of one crate.
 pub struct Modules {
     /// Source of each module without comments, strings of `use` in order, and without unit tests.
     code: BTreeMap<Path, String>,
-    /// What a module has from others by `use`, as (name, path): whoever names it there means those.
+    /// The items that each module imports by `use`, as (name, path).
     used: BTreeMap<Path, Vec<(String, Path)>>,
-    /// The part of this that it gives on by `pub use`.
+    /// Those of them that it re-exports by `pub use`.
     given_on: BTreeMap<Path, Vec<(String, Path)>>,
 }
 
@@ -33,14 +33,14 @@ fn module_of(file: &str, folder: &str) -> Path {
         .collect()
 }
 
-/// Source without comments and without what stands behind the first `#[cfg(test)]` that opens a module.
+/// The source without comments and without its unit tests.
 fn code_of(source: &str) -> String {
     let code: Vec<&str> = source.lines().map(|line| line.split("//").next().unwrap_or("")).collect();
     let code = code.join("\n");
     code.split("#[cfg(test)]\nmod tests {").next().unwrap_or("").to_string()
 }
 
-/// The statements of `code` that begin with one of these words, as (what follows the words, all of it to the semicolon).
+/// The statements of `code` that begin with one of these words: the text between the words and the semicolon.
 fn statements<'a>(code: &'a str, words: &[&str]) -> Vec<&'a str> {
     let starts = words.iter().flat_map(|word| code.match_indices(word));
     let alone = |at: usize| code[..at].ends_with(['\n', '{', '}', ';']) || at == 0;
@@ -80,7 +80,7 @@ impl Modules {
         Modules { used, given_on: items(GIVING_ON), code }
     }
 
-    /// The module that holds what `names` leads to as written in the module `from`; nothing if it is not of this crate.
+    /// The module that holds the item of the path `names`, as written in the module `from`; none if it is of another crate.
     fn holder(&self, from: &Path, names: &[String]) -> Option<Path> {
         let (mut at, mut names) = match names.first()?.as_str() {
             "crate" => (Path::new(), &names[1..]),
@@ -111,8 +111,8 @@ impl Modules {
         Some(at)
     }
 
-    /// The modules that each module names. A `pub use` is no arrow of its own: whoever uses the name, also the module that gives it
-    /// on, has one to where it stands.
+    /// The modules that each module names. A `pub use` by itself is no arrow: modules that use the name, among them possibly the one
+    /// that re-exports it, have an arrow to the module that holds the item.
     pub fn arrows(&self) -> BTreeMap<Path, BTreeSet<Path>> {
         let mut arrows = BTreeMap::new();
         for (module, code) in &self.code {
