@@ -7,11 +7,8 @@ use ricci::topology::farthest_vertices;
 use ricci::{Control, Surface};
 
 pub fn read(name: &str) -> Option<Surface> {
-    let Ok(folder) = std::env::var("RICCI_MESHES") else {
-        eprintln!("RICCI_MESHES is not set: no real surfaces are matched");
-        return None;
-    };
-    Some(Surface::read(format!("{folder}/good/{name}.obj")).unwrap())
+    let folder = super::common::corpus("good")?;
+    Some(Surface::read(folder.join(format!("{name}.obj"))).unwrap())
 }
 
 #[test]

@@ -3,6 +3,8 @@
 
 mod boundary;
 mod class;
+#[path = "../common/mod.rs"]
+mod common;
 mod corpus;
 mod errors;
 mod known;
