@@ -21,15 +21,9 @@ handle!(ricci_bicubic, "bicubic patches");
 /// Number of places of a spline that are evaluated at a time while patches are made.
 const BATCH: usize = 1 << 16;
 
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum BicubicFormat {
-    Step,
-    Json,
-}
-
-choices!(FORMATS: BicubicFormat = "format", [
-    RICCI_BICUBIC_STEP => BicubicFormat::Step,
-    RICCI_BICUBIC_JSON => BicubicFormat::Json,
+choices!(enum BicubicFormat, FORMATS = "format", [
+    RICCI_BICUBIC_STEP => Step,
+    RICCI_BICUBIC_JSON => Json,
 ]);
 
 choices!(UNITS: LengthUnit = "unit", [

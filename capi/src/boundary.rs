@@ -6,15 +6,9 @@ use crate::failure::Outcome;
 use ricci::canonical::{Boundary, Corner, Corners};
 use ricci::mesh::VertexId;
 
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum BoundaryKind {
-    Geodesic,
-    Straight,
-}
-
-choices!(KINDS: BoundaryKind = "boundary", [
-    RICCI_BOUNDARY_GEODESIC => BoundaryKind::Geodesic,
-    RICCI_BOUNDARY_STRAIGHT => BoundaryKind::Straight,
+choices!(enum BoundaryKind, KINDS = "boundary", [
+    RICCI_BOUNDARY_GEODESIC => Geodesic,
+    RICCI_BOUNDARY_STRAIGHT => Straight,
 ]);
 
 /// The boundary of this kind with `n` corners, given by their vertices and their angles, either of which may be NULL.

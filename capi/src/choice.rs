@@ -9,7 +9,15 @@ pub struct Choices<T: 'static> {
     pub values: &'static [(&'static str, T)],
 }
 
+/// Makes the table of an enum of the library, or of an enum that it declares with the values of the table.
 macro_rules! choices {
+    ($vis:vis enum $type:ident, $table:ident = $what:literal, [$($name:ident => $value:ident),+ $(,)?]) => {
+        #[derive(Debug, Clone, Copy, PartialEq)]
+        $vis enum $type {
+            $($value),+
+        }
+        $crate::choice::choices!($vis $table: $type = $what, [$($name => $type::$value),+]);
+    };
     ($vis:vis $table:ident: $type:ty = $what:literal, [$($name:ident => $value:expr),+ $(,)?]) => {
         $vis const $table: $crate::choice::Choices<$type> =
             $crate::choice::Choices { what: $what, values: &[$((stringify!($name), $value)),+] };

@@ -20,38 +20,20 @@ use ricci::topology::Letter;
 /// Most elements that memory is reserved for: the caller's limit only says where to stop, and is rarely reached.
 const MOST_RESERVED: usize = 1 << 16;
 
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum DeckKind {
-    Generators,
-    Sides,
-    Words,
-    Depth,
-    Within,
-    DirichletSides,
-}
-
-choices!(KINDS: DeckKind = "kind", [
-    RICCI_DECK_GENERATORS => DeckKind::Generators,
-    RICCI_DECK_SIDES => DeckKind::Sides,
-    RICCI_DECK_WORDS => DeckKind::Words,
-    RICCI_DECK_DEPTH => DeckKind::Depth,
-    RICCI_DECK_WITHIN => DeckKind::Within,
-    RICCI_DECK_DIRICHLET_SIDES => DeckKind::DirichletSides,
+choices!(enum DeckKind, KINDS = "kind", [
+    RICCI_DECK_GENERATORS => Generators,
+    RICCI_DECK_SIDES => Sides,
+    RICCI_DECK_WORDS => Words,
+    RICCI_DECK_DEPTH => Depth,
+    RICCI_DECK_WITHIN => Within,
+    RICCI_DECK_DIRICHLET_SIDES => DirichletSides,
 ]);
 
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum DeckValues {
-    Mobius,
-    Matrices,
-    Traces,
-    Lengths,
-}
-
-choices!(VALUES: DeckValues = "which", [
-    RICCI_DECK_MOBIUS => DeckValues::Mobius,
-    RICCI_DECK_MATRIX => DeckValues::Matrices,
-    RICCI_DECK_TRACE => DeckValues::Traces,
-    RICCI_DECK_LENGTH => DeckValues::Lengths,
+choices!(enum DeckValues, VALUES = "which", [
+    RICCI_DECK_MOBIUS => Mobius,
+    RICCI_DECK_MATRIX => Matrices,
+    RICCI_DECK_TRACE => Traces,
+    RICCI_DECK_LENGTH => Lengths,
 ]);
 
 pub struct ricci_deck {

@@ -15,21 +15,12 @@ use ricci::harmonic::{
 };
 use ricci::mesh::VertexId;
 
-#[derive(Clone, Copy, PartialEq)]
-enum HarmonicTarget {
-    Disk,
-    Rectangle,
-    Sphere,
-    Values,
-    Polygon,
-}
-
-choices!(TARGETS: HarmonicTarget = "target of a harmonic map", [
-    RICCI_HARMONIC_DISK => HarmonicTarget::Disk,
-    RICCI_HARMONIC_RECTANGLE => HarmonicTarget::Rectangle,
-    RICCI_HARMONIC_SPHERE => HarmonicTarget::Sphere,
-    RICCI_HARMONIC_VALUES => HarmonicTarget::Values,
-    RICCI_HARMONIC_POLYGON => HarmonicTarget::Polygon,
+choices!(enum HarmonicTarget, TARGETS = "target of a harmonic map", [
+    RICCI_HARMONIC_DISK => Disk,
+    RICCI_HARMONIC_RECTANGLE => Rectangle,
+    RICCI_HARMONIC_SPHERE => Sphere,
+    RICCI_HARMONIC_VALUES => Values,
+    RICCI_HARMONIC_POLYGON => Polygon,
 ]);
 
 #[repr(C)]

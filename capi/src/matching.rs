@@ -29,12 +29,6 @@ pub struct ricci_matching {
 }
 handle!(ricci_matching, "matching");
 
-#[derive(Clone, Copy, PartialEq)]
-enum MapDirection {
-    Forward,
-    Backward,
-}
-
 choices!(BOUNDARIES: Boundary = "correspondence of boundaries", [
     RICCI_MATCH_SLIDES => Boundary::Slides,
     RICCI_MATCH_ARC_LENGTH => Boundary::ArcLength,
@@ -45,9 +39,9 @@ choices!(LOOP_SHAPES: LoopShape = "shape of boundary loops", [
     RICCI_MATCH_CIRCLES => LoopShape::Circles,
 ]);
 
-choices!(DIRECTIONS: MapDirection = "direction of a matching", [
-    RICCI_MATCH_FORWARD => MapDirection::Forward,
-    RICCI_MATCH_BACKWARD => MapDirection::Backward,
+choices!(enum MapDirection, DIRECTIONS = "direction of a matching", [
+    RICCI_MATCH_FORWARD => Forward,
+    RICCI_MATCH_BACKWARD => Backward,
 ]);
 
 #[repr(C)]

@@ -21,24 +21,14 @@ choices!(pub(crate) SPACES: Space = "space", [
     RICCI_SPACE_S2 => Space::S2,
 ]);
 
-/// A kind of numbers that the elements of a mesh or of a triangle list have.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum MeshValue {
-    Positions,
-    Lengths,
-    Normals,
-    Colors,
-    Uv,
-    CornerNormals,
-}
-
-choices!(pub(crate) VALUES: MeshValue = "which", [
-    RICCI_POSITIONS => MeshValue::Positions,
-    RICCI_LENGTHS => MeshValue::Lengths,
-    RICCI_NORMALS => MeshValue::Normals,
-    RICCI_COLORS => MeshValue::Colors,
-    RICCI_UV => MeshValue::Uv,
-    RICCI_CORNER_NORMALS => MeshValue::CornerNormals,
+// A kind of numbers that the elements of a mesh or of a triangle list have.
+choices!(pub(crate) enum MeshValue, VALUES = "which", [
+    RICCI_POSITIONS => Positions,
+    RICCI_LENGTHS => Lengths,
+    RICCI_NORMALS => Normals,
+    RICCI_COLORS => Colors,
+    RICCI_UV => Uv,
+    RICCI_CORNER_NORMALS => CornerNormals,
 ]);
 
 choices!(WRAPS: Wrap = "wrap", [

@@ -41,26 +41,15 @@ choices!(pub(crate) ON: Triangulation = "on", [
     RICCI_ON_REFINEMENT => Triangulation::Refinement,
 ]);
 
-/// A kind of numbers that a metric has.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum MetricQuantity {
-    Factor,
-    Curvature,
-    U,
-    Type,
-    Lengths,
-    Eta,
-    MeshU,
-}
-
-choices!(QUANTITIES: MetricQuantity = "which", [
-    RICCI_METRIC_FACTOR => MetricQuantity::Factor,
-    RICCI_METRIC_CURVATURE => MetricQuantity::Curvature,
-    RICCI_METRIC_U => MetricQuantity::U,
-    RICCI_METRIC_TYPE => MetricQuantity::Type,
-    RICCI_METRIC_LENGTH => MetricQuantity::Lengths,
-    RICCI_METRIC_ETA => MetricQuantity::Eta,
-    RICCI_METRIC_MESH_U => MetricQuantity::MeshU,
+// A kind of numbers that a metric has.
+choices!(enum MetricQuantity, QUANTITIES = "which", [
+    RICCI_METRIC_FACTOR => Factor,
+    RICCI_METRIC_CURVATURE => Curvature,
+    RICCI_METRIC_U => U,
+    RICCI_METRIC_TYPE => Type,
+    RICCI_METRIC_LENGTH => Lengths,
+    RICCI_METRIC_ETA => Eta,
+    RICCI_METRIC_MESH_U => MeshU,
 ]);
 
 /// A metric of a surface, which the handles that are made from it share, with values that are computed once, when they are first needed.

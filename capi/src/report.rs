@@ -28,32 +28,17 @@ pub(crate) fn stop_reason(reason: StopReason) -> Outcome<(u32, *const c_char)> {
     Ok((STOP_REASONS.number(text)?, text.as_ptr()))
 }
 
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum ReportValues {
-    Target,
-    Residuals,
-    Trace,
-    Worst,
-}
-
-choices!(VALUES: ReportValues = "which", [
-    RICCI_REPORT_TARGET => ReportValues::Target,
-    RICCI_REPORT_RESIDUALS => ReportValues::Residuals,
-    RICCI_REPORT_TRACE => ReportValues::Trace,
-    RICCI_REPORT_WORST_ERRORS => ReportValues::Worst,
+choices!(enum ReportValues, VALUES = "which", [
+    RICCI_REPORT_TARGET => Target,
+    RICCI_REPORT_RESIDUALS => Residuals,
+    RICCI_REPORT_TRACE => Trace,
+    RICCI_REPORT_WORST_ERRORS => Worst,
 ]);
 
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum ReportVertices {
-    Cones,
-    Worst,
-    Obstruction,
-}
-
-choices!(VERTICES: ReportVertices = "which", [
-    RICCI_REPORT_CONES => ReportVertices::Cones,
-    RICCI_REPORT_WORST => ReportVertices::Worst,
-    RICCI_REPORT_OBSTRUCTION => ReportVertices::Obstruction,
+choices!(enum ReportVertices, VERTICES = "which", [
+    RICCI_REPORT_CONES => Cones,
+    RICCI_REPORT_WORST => Worst,
+    RICCI_REPORT_OBSTRUCTION => Obstruction,
 ]);
 
 #[repr(C)]

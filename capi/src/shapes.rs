@@ -14,58 +14,30 @@ use ricci::mesh::io::Soup;
 use ricci::mesh::shapes::{self, Intrinsic, Sliver, TorusKnot};
 use std::sync::Arc;
 
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum SampleShape {
-    Sphere,
-    Ellipsoid,
-    Disk,
-    Annulus,
-    Torus,
-    Genus,
-    Knot,
-    FlatTorus,
-    Bolza,
-    OneVertex,
-    TwoVertex,
-    TwoTriangles,
-    Pants,
-    Hyperelliptic,
-}
-
-choices!(SHAPES: SampleShape = "shape", [
-    RICCI_SHAPE_SPHERE => SampleShape::Sphere,
-    RICCI_SHAPE_ELLIPSOID => SampleShape::Ellipsoid,
-    RICCI_SHAPE_DISK => SampleShape::Disk,
-    RICCI_SHAPE_ANNULUS => SampleShape::Annulus,
-    RICCI_SHAPE_TORUS => SampleShape::Torus,
-    RICCI_SHAPE_GENUS => SampleShape::Genus,
-    RICCI_SHAPE_KNOT => SampleShape::Knot,
-    RICCI_SHAPE_FLAT_TORUS => SampleShape::FlatTorus,
-    RICCI_SHAPE_BOLZA => SampleShape::Bolza,
-    RICCI_SHAPE_ONE_VERTEX => SampleShape::OneVertex,
-    RICCI_SHAPE_TWO_VERTEX => SampleShape::TwoVertex,
-    RICCI_SHAPE_TWO_TRIANGLES => SampleShape::TwoTriangles,
-    RICCI_SHAPE_PANTS => SampleShape::Pants,
-    RICCI_SHAPE_HYPERELLIPTIC => SampleShape::Hyperelliptic,
+choices!(enum SampleShape, SHAPES = "shape", [
+    RICCI_SHAPE_SPHERE => Sphere,
+    RICCI_SHAPE_ELLIPSOID => Ellipsoid,
+    RICCI_SHAPE_DISK => Disk,
+    RICCI_SHAPE_ANNULUS => Annulus,
+    RICCI_SHAPE_TORUS => Torus,
+    RICCI_SHAPE_GENUS => Genus,
+    RICCI_SHAPE_KNOT => Knot,
+    RICCI_SHAPE_FLAT_TORUS => FlatTorus,
+    RICCI_SHAPE_BOLZA => Bolza,
+    RICCI_SHAPE_ONE_VERTEX => OneVertex,
+    RICCI_SHAPE_TWO_VERTEX => TwoVertex,
+    RICCI_SHAPE_TWO_TRIANGLES => TwoTriangles,
+    RICCI_SHAPE_PANTS => Pants,
+    RICCI_SHAPE_HYPERELLIPTIC => Hyperelliptic,
 ]);
 
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum ShapeChange {
-    Punch,
-    Grade,
-    Caps,
-    Needles,
-    Noise,
-    Invert,
-}
-
-choices!(CHANGES: ShapeChange = "change", [
-    RICCI_CHANGE_PUNCH => ShapeChange::Punch,
-    RICCI_CHANGE_GRADE => ShapeChange::Grade,
-    RICCI_CHANGE_CAPS => ShapeChange::Caps,
-    RICCI_CHANGE_NEEDLES => ShapeChange::Needles,
-    RICCI_CHANGE_NOISE => ShapeChange::Noise,
-    RICCI_CHANGE_INVERT => ShapeChange::Invert,
+choices!(enum ShapeChange, CHANGES = "change", [
+    RICCI_CHANGE_PUNCH => Punch,
+    RICCI_CHANGE_GRADE => Grade,
+    RICCI_CHANGE_CAPS => Caps,
+    RICCI_CHANGE_NEEDLES => Needles,
+    RICCI_CHANGE_NOISE => Noise,
+    RICCI_CHANGE_INVERT => Invert,
 ]);
 
 #[repr(C)]

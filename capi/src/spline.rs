@@ -26,19 +26,11 @@ impl From<Spline> for ricci_spline {
     }
 }
 
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum SplinePart {
-    ControlPoints,
-    Knots,
-    Abscissas,
-    Holes,
-}
-
-choices!(PARTS: SplinePart = "which", [
-    RICCI_SPLINE_CONTROL_POINTS => SplinePart::ControlPoints,
-    RICCI_SPLINE_KNOTS => SplinePart::Knots,
-    RICCI_SPLINE_ABSCISSAS => SplinePart::Abscissas,
-    RICCI_SPLINE_HOLES => SplinePart::Holes,
+choices!(enum SplinePart, PARTS = "which", [
+    RICCI_SPLINE_CONTROL_POINTS => ControlPoints,
+    RICCI_SPLINE_KNOTS => Knots,
+    RICCI_SPLINE_ABSCISSAS => Abscissas,
+    RICCI_SPLINE_HOLES => Holes,
 ]);
 
 #[repr(C)]

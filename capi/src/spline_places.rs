@@ -11,19 +11,11 @@ use crate::status::*;
 use crate::structs::{self, sized};
 use ricci::spline::{Locator, Parameter, SplineSpace, SurfacePoint};
 
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum SplineQuantity {
-    Point,
-    First,
-    Second,
-    Shape,
-}
-
-choices!(QUANTITIES: SplineQuantity = "which", [
-    RICCI_SPLINE_POINT => SplineQuantity::Point,
-    RICCI_SPLINE_FIRST => SplineQuantity::First,
-    RICCI_SPLINE_SECOND => SplineQuantity::Second,
-    RICCI_SPLINE_SHAPE => SplineQuantity::Shape,
+choices!(enum SplineQuantity, QUANTITIES = "which", [
+    RICCI_SPLINE_POINT => Point,
+    RICCI_SPLINE_FIRST => First,
+    RICCI_SPLINE_SECOND => Second,
+    RICCI_SPLINE_SHAPE => Shape,
 ]);
 
 impl SplineQuantity {

@@ -9,19 +9,11 @@ use crate::structure::ricci_structure;
 use ricci::mesh::FaceId;
 use ricci::structure::{Atlas, Chart, Lift};
 
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum ChartRows {
-    Faces,
-    Corners,
-    Vertices,
-    Pairs,
-}
-
-choices!(ROWS: ChartRows = "which", [
-    RICCI_CHART_FACES => ChartRows::Faces,
-    RICCI_CHART_CORNERS => ChartRows::Corners,
-    RICCI_CHART_VERTICES => ChartRows::Vertices,
-    RICCI_TRANSITION_PAIRS => ChartRows::Pairs,
+choices!(enum ChartRows, ROWS = "which", [
+    RICCI_CHART_FACES => Faces,
+    RICCI_CHART_CORNERS => Corners,
+    RICCI_CHART_VERTICES => Vertices,
+    RICCI_TRANSITION_PAIRS => Pairs,
 ]);
 
 impl ChartRows {
@@ -37,21 +29,12 @@ impl ChartRows {
     }
 }
 
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum StructureList {
-    Singular,
-    Excluded,
-    Folded,
-    Zeros,
-    Triangles,
-}
-
-choices!(LISTS: StructureList = "which", [
-    RICCI_STRUCTURE_SINGULAR => StructureList::Singular,
-    RICCI_STRUCTURE_EXCLUDED => StructureList::Excluded,
-    RICCI_STRUCTURE_FOLDED => StructureList::Folded,
-    RICCI_STRUCTURE_ZEROS => StructureList::Zeros,
-    RICCI_STRUCTURE_TRIANGLES => StructureList::Triangles,
+choices!(enum StructureList, LISTS = "which", [
+    RICCI_STRUCTURE_SINGULAR => Singular,
+    RICCI_STRUCTURE_EXCLUDED => Excluded,
+    RICCI_STRUCTURE_FOLDED => Folded,
+    RICCI_STRUCTURE_ZEROS => Zeros,
+    RICCI_STRUCTURE_TRIANGLES => Triangles,
 ]);
 
 impl StructureList {

@@ -13,25 +13,14 @@ use ricci::geometry::Space;
 use ricci::mesh::VertexId;
 use ricci::{Class, Control, Surface, Target};
 
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum TargetKind {
-    Default,
-    Uniform,
-    Boundary,
-    Single,
-    Cones,
-    Auto,
-    Given,
-}
-
-choices!(KINDS: TargetKind = "kind", [
-    RICCI_TARGET_DEFAULT => TargetKind::Default,
-    RICCI_TARGET_UNIFORM => TargetKind::Uniform,
-    RICCI_TARGET_BOUNDARY => TargetKind::Boundary,
-    RICCI_TARGET_SINGLE => TargetKind::Single,
-    RICCI_TARGET_CONES => TargetKind::Cones,
-    RICCI_TARGET_AUTO => TargetKind::Auto,
-    RICCI_TARGET_GIVEN => TargetKind::Given,
+choices!(enum TargetKind, KINDS = "kind", [
+    RICCI_TARGET_DEFAULT => Default,
+    RICCI_TARGET_UNIFORM => Uniform,
+    RICCI_TARGET_BOUNDARY => Boundary,
+    RICCI_TARGET_SINGLE => Single,
+    RICCI_TARGET_CONES => Cones,
+    RICCI_TARGET_AUTO => Auto,
+    RICCI_TARGET_GIVEN => Given,
 ]);
 
 #[repr(C)]

@@ -29,7 +29,8 @@ const TUPLE_PARAMETERS: usize = 80;
 /// The name of the type that a line declares. An alias counts only where it begins the line: further in it is the
 /// associated type of a trait.
 fn declared(line: &str) -> Option<&str> {
-    let item = line.trim_start();
+    // The C face declares enums by a macro.
+    let item = line.trim_start().trim_start_matches("choices!(");
     let item = match item.strip_prefix("pub") {
         Some(rest) => match rest.strip_prefix('(') {
             Some(path) => path.split_once(')')?.1.trim_start(),
@@ -124,6 +125,7 @@ fn declarations_and_tuples_are_seen() {
     assert_eq!(declared("pub type Pair = (u32, u32);"), Some("Pair"));
     assert_eq!(declared("    type Output = f64;"), None);
     assert_eq!(declared("union(a, b);"), None);
+    assert_eq!(declared("choices!(pub(crate) enum Kind, KINDS = \"kind\", ["), Some("Kind"));
     let code = "fn f<T: Fn(u8) -> u8, const N: usize>(&self, (a, b): (A, B), c: [(u8, u8); 2]) -> (A, B) {\n g((1, 2)) }";
     let found = parameters(code);
     assert_eq!(found, [("f", "&self"), ("f", "(a, b): (A, B)"), ("f", "c: [(u8, u8); 2]")]);
