@@ -1,6 +1,6 @@
 //! Arrays from and to C. A caller's array may be unaligned; counts are checked before they are multiplied.
 
-use crate::failure::{FailureElement, Failure, Outcome};
+use crate::failure::{Failure, FailureElement, Outcome};
 use crate::guard::output;
 use crate::status::*;
 use ricci::mesh::Point;
@@ -187,7 +187,9 @@ pub fn copy_counted<T: CopiedRow<Entry = T>>(
 pub fn ambient(what: &str, data: *const f64, n: usize) -> Outcome<Vec<[f64; 3]>> {
     let points: Vec<[f64; 3]> = array(what, data.cast(), n)?;
     match points.iter().position(|p| p.iter().any(|x| !x.is_finite())) {
-        Some(i) => Err(Failure::argument(format!("{what}: row {i} is not finite")).at(FailureElement::Entry, i)),
+        Some(i) => {
+            Err(Failure::argument(format!("{what}: row {i} is not finite")).at(FailureElement::Entry, i))
+        }
         None => Ok(points),
     }
 }

@@ -107,7 +107,11 @@ fn format_of(path: &Path) -> Outcome<BicubicFormat> {
 }
 
 /// The content of a file of patches.
-fn bytes(surface: &BicubicSurface, format: BicubicFormat, options: *const ricci_step_options) -> Outcome<Vec<u8>> {
+fn bytes(
+    surface: &BicubicSurface,
+    format: BicubicFormat,
+    options: *const ricci_step_options,
+) -> Outcome<Vec<u8>> {
     let options = structs::read(options)?.read()?;
     let _reserve = memory::work(surface.n_control_points(), memory::BICUBIC_TEXT)?;
     let mut bytes = Vec::new();

@@ -4,7 +4,7 @@ use crate::arrays::{ambient, array, copy_each, copy_out, copy_rows};
 use crate::choice::choices;
 use crate::control::{self, ricci_control};
 use crate::dirichlet::ricci_dirichlet;
-use crate::failure::{FailureElement, Failure, Outcome, no_such};
+use crate::failure::{Failure, FailureElement, Outcome, no_such};
 use crate::guard::{self, handle, shared};
 use crate::memory;
 use crate::mesh::SPACES;

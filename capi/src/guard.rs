@@ -5,9 +5,9 @@
 
 use crate::environment::Environment;
 use crate::failure::{Failure, Outcome};
-use crate::thread_failure;
 use crate::memory;
 use crate::status::*;
+use crate::thread_failure;
 use std::any::Any;
 use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};

@@ -3,9 +3,9 @@
 use crate::choice::choices;
 use crate::failure::FailureElement;
 use crate::guard;
-use crate::thread_failure::{self, FailureNumbers};
 use crate::status::ricci_status;
 use crate::structs::{self, sized};
+use crate::thread_failure::{self, FailureNumbers};
 use std::ffi::c_char;
 
 choices!(ELEMENTS: FailureElement = "element", [

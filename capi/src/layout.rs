@@ -7,7 +7,7 @@ use crate::failure::{Failure, Outcome};
 use crate::guard::{self, handle, shared};
 use crate::memory;
 use crate::mesh::{SPACES, ricci_mesh};
-use crate::metric::{ON, Triangulation, MetricState, ricci_metric};
+use crate::metric::{MetricState, ON, Triangulation, ricci_metric};
 use crate::paths::{copy_paths, vertex_or_none};
 use crate::status::*;
 use crate::structs::{self, sized};

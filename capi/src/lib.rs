@@ -29,11 +29,11 @@ mod choice;
 mod environment;
 mod failure;
 mod guard;
-mod thread_failure;
 mod memory;
 mod paths;
 mod structs;
 mod texture;
+mod thread_failure;
 
 pub mod atlas;
 pub mod bicubic;

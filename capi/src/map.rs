@@ -3,11 +3,11 @@
 use crate::arrays::{array, check_buffer, copy_each, copy_out};
 use crate::choice::choices;
 use crate::control::{self, ricci_control};
-use crate::failure::{FailureElement, Failure, Outcome};
+use crate::failure::{Failure, FailureElement, Outcome};
 use crate::guard::{self, handle, shared};
 use crate::memory;
 use crate::mesh::ricci_mesh;
-use crate::metric::{ON, Triangulation, MetricState, ricci_metric};
+use crate::metric::{MetricState, ON, Triangulation, ricci_metric};
 use crate::status::*;
 use crate::structs::{self, sized};
 use ricci::mesh::{FaceId, Mesh, PerVertex};

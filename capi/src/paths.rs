@@ -1,7 +1,7 @@
 //! Edge paths and words in their form for C: 1-based numbers, negative for an edge that is run backwards or an inverse generator.
 
 use crate::arrays::{array, copy_counted, copy_rows};
-use crate::failure::{FailureElement, Failure, Outcome};
+use crate::failure::{Failure, FailureElement, Outcome};
 use ricci::mesh::{EdgeId, HalfedgeId, Mesh, VertexId};
 use ricci::topology::SurfaceGroup;
 use ricci::topology::word::{Letter, Word};

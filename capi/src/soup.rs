@@ -1,10 +1,10 @@
 //! Triangle lists, which may have defects: reading, diagnosis, repair, writing.
 
 use crate::arrays::{self, check_buffer, copy_out, copy_rows};
-use crate::failure::{FailureElement, Failure, Outcome, no_such};
+use crate::failure::{Failure, FailureElement, Outcome, no_such};
 use crate::guard::{self, handle, shared};
 use crate::memory;
-use crate::mesh::{VALUES, MeshValue, copy_attribute, count, ricci_mesh, write_soup};
+use crate::mesh::{MeshValue, VALUES, copy_attribute, count, ricci_mesh, write_soup};
 use crate::status::ricci_status;
 use crate::structs::{self, sized};
 use ricci::mesh::check::{Diagnosis, diagnose};
@@ -223,8 +223,9 @@ pub unsafe extern "C" fn ricci_soup_defect(
 ) -> ricci_status {
     guard::with(soup, |list| {
         let defects = &list.diagnosis().defects;
-        let record =
-            defects.get(index).ok_or_else(|| no_such(FailureElement::Entry, "defect", index, defects.len()))?;
+        let record = defects
+            .get(index)
+            .ok_or_else(|| no_such(FailureElement::Entry, "defect", index, defects.len()))?;
         let view = ricci_defect {
             size,
             code: record.code.as_ptr(),

@@ -3,7 +3,7 @@
 use crate::arrays::{array, array_of, copy_out, optional};
 use crate::choice::choices;
 use crate::control::{self, ricci_control};
-use crate::failure::{FailureElement, Failure, Outcome};
+use crate::failure::{Failure, FailureElement, Outcome};
 use crate::guard::{self, handle, shared};
 use crate::memory;
 use crate::mesh::ricci_mesh;
@@ -203,7 +203,9 @@ pub unsafe extern "C" fn ricci_spline_values(
     guard::with(spline, |ricci_spline { spline, .. }| {
         let space = spline.space();
         match PARTS.choose(which)? {
-            SplinePart::ControlPoints => copy_out("control points", spline.control_points(), values, capacity),
+            SplinePart::ControlPoints => {
+                copy_out("control points", spline.control_points(), values, capacity)
+            }
             SplinePart::Abscissas => copy_out("abscissas", &space.abscissas(), values, capacity),
             SplinePart::Holes => {
                 let holes = spline.holes().iter().map(|hole| [f64::from(hole.turns), hole.radius]);

@@ -3,7 +3,7 @@
 use crate::arrays::{array, array_of, check_buffer, copy_each, copy_out};
 use crate::choice::choices;
 use crate::control::{self, ricci_control};
-use crate::failure::{FailureElement, Failure, Outcome};
+use crate::failure::{Failure, FailureElement, Outcome};
 use crate::guard;
 use crate::memory;
 use crate::spline::ricci_spline;

@@ -43,7 +43,9 @@ impl StructureList {
             StructureList::Singular => atlas.singular_vertices.iter().map(|v| v.0).collect(),
             StructureList::Excluded => atlas.excluded.iter().map(|f| f.0).collect(),
             StructureList::Folded => atlas.folded.clone(),
-            StructureList::Zeros => atlas.zeros.iter().flat_map(|z| [z.vertex.0, z.multiplicity as u32]).collect(),
+            StructureList::Zeros => {
+                atlas.zeros.iter().flat_map(|z| [z.vertex.0, z.multiplicity as u32]).collect()
+            }
             StructureList::Triangles => atlas.mesh.triangles().concat(),
         }
     }

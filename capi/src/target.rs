@@ -3,7 +3,7 @@
 use crate::arrays::{self, copy_out};
 use crate::choice::choices;
 use crate::control::{self, ricci_control};
-use crate::failure::{FailureElement, Failure, Outcome, no_such};
+use crate::failure::{Failure, FailureElement, Outcome, no_such};
 use crate::guard::{self, shared};
 use crate::metric::ricci_metric;
 use crate::status::*;

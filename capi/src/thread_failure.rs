@@ -1,6 +1,6 @@
 //! The last failure of every thread, kept until the thread's next one.
 
-use crate::failure::{FailureElement, Failure};
+use crate::failure::{Failure, FailureElement};
 use crate::status::*;
 use std::cell::{Cell, UnsafeCell};
 use std::ffi::c_char;
@@ -23,7 +23,8 @@ thread_local! {
     static NUMBERS: Cell<FailureNumbers> = const { Cell::new(NOTHING) };
 }
 
-const NOTHING: FailureNumbers = FailureNumbers { status: RICCI_OK, at: (FailureElement::None, 0), amount: 0.0, needed: 0 };
+const NOTHING: FailureNumbers =
+    FailureNumbers { status: RICCI_OK, at: (FailureElement::None, 0), amount: 0.0, needed: 0 };
 
 /// Keeps a failure for this thread. A NUL inside the message, which may come from a caller's path, becomes a question mark.
 pub fn keep(failure: &Failure) {

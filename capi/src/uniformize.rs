@@ -11,7 +11,7 @@ use crate::homotopy::ricci_homotopy;
 use crate::layout::{MODELS, ricci_layout};
 use crate::memory;
 use crate::mesh::{SPACES, ricci_mesh};
-use crate::metric::{ON, Triangulation, SCHEMES, ricci_metric};
+use crate::metric::{ON, SCHEMES, Triangulation, ricci_metric};
 use crate::paths::{halfedges, vertex_or_none};
 use crate::report::stop_reason;
 use crate::status::*;

@@ -99,7 +99,8 @@ fn a_name_is_borne_by_one_type() {
     }
     places.retain(|_, at| at.len() > 1);
     let to_be_renamed: Vec<&str> = TO_BE_RENAMED.split_whitespace().collect();
-    let listed = |name: &str| SHARED.iter().any(|(shared, _)| *shared == name) || to_be_renamed.contains(&name);
+    let listed =
+        |name: &str| SHARED.iter().any(|(shared, _)| *shared == name) || to_be_renamed.contains(&name);
     let wrong: Vec<_> = places.iter().filter(|(name, _)| !listed(name)).collect();
     assert!(wrong.is_empty(), "names that several types bear: {wrong:#?}");
     let gone: Vec<_> = SHARED.iter().filter(|(name, _)| !places.contains_key(*name)).collect();
