@@ -146,24 +146,25 @@ pub fn copy_each<T: CopiedRow>(
     copy_out(what, &all, buffer, capacity)
 }
 
+/// A caller's buffer, and its capacity in entries.
+pub struct CallerBuffer<T>(pub *mut T, pub usize);
+
 /// Copies rows of different lengths into two buffers: the entries of all rows one after the other, and the offsets at which each
 /// row starts and the last one ends.
 pub fn copy_rows<T: CopiedRow<Entry = T>>(
     what: &str,
     rows: impl IntoIterator<Item = impl IntoIterator<Item = T>>,
-    buffer: *mut T,
-    capacity: usize,
-    starts_buffer: *mut usize,
-    starts_capacity: usize,
+    to: CallerBuffer<T>,
+    starts_to: CallerBuffer<usize>,
 ) -> Outcome {
     let (mut entries, mut starts) = (Vec::new(), vec![0]);
     for row in rows {
         entries.extend(row);
         starts.push(entries.len());
     }
-    check_buffer(what, entries.len(), buffer, capacity)?;
-    copy_out("starts", &starts, starts_buffer, starts_capacity)?;
-    copy_out(what, &entries, buffer, capacity)
+    check_buffer(what, entries.len(), to.0, to.1)?;
+    copy_out("starts", &starts, starts_to.0, starts_to.1)?;
+    copy_out(what, &entries, to.0, to.1)
 }
 
 /// Copies results whose number the caller cannot know before, and writes that number to `count`. NULL with capacity 0 asks for the

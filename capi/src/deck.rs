@@ -1,6 +1,6 @@
 //! Deck transformations: elements of the deck group as words with their isometries.
 
-use crate::arrays::{ambient, array, copy_each, copy_out, copy_rows};
+use crate::arrays::{CallerBuffer, ambient, array, copy_each, copy_out, copy_rows};
 use crate::choice::choices;
 use crate::control::{self, ricci_control};
 use crate::dirichlet::ricci_dirichlet;
@@ -158,7 +158,7 @@ pub unsafe extern "C" fn ricci_deck_words(
 ) -> ricci_status {
     guard::with(deck, |deck| {
         let rows = deck.elements.iter().map(|g| letters(&g.word));
-        copy_rows("words", rows, words, words_capacity, starts, starts_capacity)
+        copy_rows("words", rows, CallerBuffer(words, words_capacity), CallerBuffer(starts, starts_capacity))
     })
 }
 

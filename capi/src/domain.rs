@@ -1,6 +1,6 @@
 //! Fundamental domains: a surface opened along a cut to a disk.
 
-use crate::arrays::{array, check_buffer, copy_each, copy_rows};
+use crate::arrays::{CallerBuffer, array, check_buffer, copy_each, copy_rows};
 use crate::failure::{FailureElement, no_such};
 use crate::guard::{self, handle, shared};
 use crate::homotopy::ricci_homotopy;
@@ -85,7 +85,7 @@ pub unsafe extern "C" fn ricci_domain_sides(
 ) -> ricci_status {
     guard::with(domain, |ricci_domain(domain)| {
         let sides = domain.sides.iter().map(|side| &side.halfedges);
-        copy_paths(sides, edges, edges_capacity, starts, starts_capacity)
+        copy_paths(sides, CallerBuffer(edges, edges_capacity), CallerBuffer(starts, starts_capacity))
     })
 }
 
@@ -111,7 +111,7 @@ pub unsafe extern "C" fn ricci_domain_elements(
 ) -> ricci_status {
     guard::with(domain, |ricci_domain(domain)| {
         let rows = domain.sides.iter().map(|side| letters(&side.element));
-        copy_rows("words", rows, words, words_capacity, starts, starts_capacity)
+        copy_rows("words", rows, CallerBuffer(words, words_capacity), CallerBuffer(starts, starts_capacity))
     })
 }
 
@@ -129,7 +129,7 @@ pub unsafe extern "C" fn ricci_domain_corners(
         let corners = &domain.corners;
         check_buffer("vertices", corners.len(), vertices, vertices_capacity)?;
         let rows = corners.iter().map(|corner| letters(&corner.element));
-        copy_rows("words", rows, words, words_capacity, starts, starts_capacity)?;
+        copy_rows("words", rows, CallerBuffer(words, words_capacity), CallerBuffer(starts, starts_capacity))?;
         let names = corners.iter().map(|corner| corner.vertex.0);
         copy_each("vertices", corners.len(), names, vertices, vertices_capacity)
     })

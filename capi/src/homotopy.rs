@@ -1,6 +1,6 @@
 //! Canonical homotopy bases, and words in their generators.
 
-use crate::arrays::{check_buffer, copy_counted, copy_out, text};
+use crate::arrays::{CallerBuffer, check_buffer, copy_counted, copy_out, text};
 use crate::control::{self, ricci_control};
 use crate::guard::{self, handle, shared};
 use crate::memory;
@@ -84,7 +84,7 @@ pub unsafe extern "C" fn ricci_homotopy_loops(
     starts_capacity: usize,
 ) -> ricci_status {
     guard::with(homotopy, |ricci_homotopy { basis, .. }| {
-        copy_paths(&basis.loops, edges, edges_capacity, starts, starts_capacity)
+        copy_paths(&basis.loops, CallerBuffer(edges, edges_capacity), CallerBuffer(starts, starts_capacity))
     })
 }
 

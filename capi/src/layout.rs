@@ -1,6 +1,6 @@
 //! Layouts: the coordinates of a surface that is opened along a cut and unfolded in the space of its metric.
 
-use crate::arrays::{self, check_buffer, copy_each, copy_out};
+use crate::arrays::{self, CallerBuffer, check_buffer, copy_each, copy_out};
 use crate::choice::choices;
 use crate::control::{self, ricci_control};
 use crate::failure::{Failure, Outcome};
@@ -328,7 +328,7 @@ pub unsafe extern "C" fn ricci_layout_seam_edges(
             Triangulation::Input => &layout.on_input()?.cut,
             _ => &layout.layout.cut,
         };
-        copy_paths(&cut.segments, edges, edges_capacity, starts, starts_capacity)
+        copy_paths(&cut.segments, CallerBuffer(edges, edges_capacity), CallerBuffer(starts, starts_capacity))
     })
 }
 

@@ -1,6 +1,6 @@
 //! Meshes: connectivity with positions in space, with edge lengths, or with both.
 
-use crate::arrays::{self, copy_each, copy_out, copy_rows};
+use crate::arrays::{self, CallerBuffer, copy_each, copy_out, copy_rows};
 use crate::choice::choices;
 use crate::failure::{Failure, Outcome};
 use crate::guard::{self, handle, shared};
@@ -407,6 +407,11 @@ pub unsafe extern "C" fn ricci_mesh_boundary(
         let mesh = &mesh.connectivity;
         let loops = mesh.boundary_loops();
         let rows = loops.iter().map(|walk| walk.iter().rev().map(|&h| mesh.origin(h).0));
-        copy_rows("vertices", rows, vertices, vertices_capacity, starts, starts_capacity)
+        copy_rows(
+            "vertices",
+            rows,
+            CallerBuffer(vertices, vertices_capacity),
+            CallerBuffer(starts, starts_capacity),
+        )
     })
 }

@@ -1,6 +1,6 @@
 //! Edge paths and words in their form for C: 1-based numbers, negative for an edge that is run backwards or an inverse generator.
 
-use crate::arrays::{array, copy_counted, copy_rows};
+use crate::arrays::{CallerBuffer, array, copy_counted, copy_rows};
 use crate::failure::{Failure, FailureElement, Outcome};
 use ricci::mesh::{EdgeId, HalfedgeId, Mesh, VertexId};
 use ricci::topology::SurfaceGroup;
@@ -38,13 +38,11 @@ pub fn halfedges_of(mesh: &Mesh, what: &str, edges: &[i32], first: usize) -> Out
 /// Copies edge paths one after the other, and the offsets at which each starts and the last one ends.
 pub fn copy_paths<'a>(
     paths: impl IntoIterator<Item = &'a Vec<HalfedgeId>>,
-    edges: *mut i32,
-    edges_capacity: usize,
-    starts: *mut usize,
-    starts_capacity: usize,
+    edges: CallerBuffer<i32>,
+    starts: CallerBuffer<usize>,
 ) -> Outcome {
     let rows = paths.into_iter().map(|path| path.iter().map(|&h| signed_edge(h)));
-    copy_rows("edges", rows, edges, edges_capacity, starts, starts_capacity)
+    copy_rows("edges", rows, edges, starts)
 }
 
 /// The letters of a word: k for generator k (1-based), -k for its inverse.

@@ -1,6 +1,6 @@
 //! Triangle lists, which may have defects: reading, diagnosis, repair, writing.
 
-use crate::arrays::{self, check_buffer, copy_out, copy_rows};
+use crate::arrays::{self, CallerBuffer, check_buffer, copy_out, copy_rows};
 use crate::failure::{Failure, FailureElement, Outcome, no_such};
 use crate::guard::{self, handle, shared};
 use crate::memory;
@@ -308,7 +308,7 @@ pub unsafe extern "C" fn ricci_soup_refused(
         let ends: Vec<u32> = refused.iter().flat_map(|edge| edge.vertices).collect();
         check_buffer("vertices", ends.len(), vertices, vertices_capacity)?;
         let rows = refused.iter().map(|edge| edge.faces.iter().copied());
-        copy_rows("faces", rows, faces, faces_capacity, starts, starts_capacity)?;
+        copy_rows("faces", rows, CallerBuffer(faces, faces_capacity), CallerBuffer(starts, starts_capacity))?;
         copy_out("vertices", &ends, vertices, vertices_capacity)
     })
 }

@@ -1,6 +1,6 @@
 //! The charts of a structure as lists, and the points of the surface in the charts.
 
-use crate::arrays::{array, check_buffer, copy_each, copy_out, copy_rows};
+use crate::arrays::{CallerBuffer, array, check_buffer, copy_each, copy_out, copy_rows};
 use crate::choice::choices;
 use crate::failure::Outcome;
 use crate::guard::{self, output};
@@ -66,7 +66,12 @@ pub unsafe extern "C" fn ricci_structure_rows(
     starts_capacity: usize,
 ) -> ricci_status {
     guard::with(structure, |ricci_structure { atlas }| {
-        copy_rows("entries", ROWS.choose(which)?.of(atlas), entries, capacity, starts, starts_capacity)
+        copy_rows(
+            "entries",
+            ROWS.choose(which)?.of(atlas),
+            CallerBuffer(entries, capacity),
+            CallerBuffer(starts, starts_capacity),
+        )
     })
 }
 

@@ -17,7 +17,7 @@ const TO_BE_RENAMED: &str = "\
     Factors Failure Field File Filled Flat Flow Format Found Frame Given Goal Growth Handle Header \
     Image Input Intrinsic Jet Kind Lift Limits Line Lines Meeting Mesh Mobius Model Node Number \
     Numbers On Opened Options Origin Outcome Overlay Own Part Parts Patch PatchEntry Path Pattern \
-    Pieces Place Placed Plan Plane Point Polygon Problem Quad Quantity Reached Report Round Row \
+    Piece Pieces Place Placed Plan Plane Point Polygon Problem Quad Quantity Reached Report Round Row \
     Rows Scale Scene Search Seconds Seen Shape Shared Sheet ShowChoice Side Similarity Solver \
     Source Split Spot Stage Standing Start State Steps Surface System Target Text Texture Tracer \
     Tree Triangle Values Vertices View Way Wish Work \
