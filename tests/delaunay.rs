@@ -7,7 +7,7 @@ use common::Random;
 use common::flow::surface;
 use ricci::geometry::conformal::Vertex;
 use ricci::geometry::flip::diagonal;
-use ricci::geometry::{Space, Twofold};
+use ricci::geometry::{Space, DoubleDouble};
 use ricci::mesh::{EdgeId, FixedEdges, Mesh, PerEdge, PerVertex, shapes};
 use ricci::metric::delaunay::{ClassFlips, IntrinsicOptions, Queue, failing, intrinsic_delaunay};
 use ricci::metric::{Class, Initial, Scheme, StartOptions, Triangulated, delaunay_start};
@@ -31,11 +31,11 @@ fn start(given: &(Mesh, PerEdge<f64>), geometry: Space, scheme: Scheme) -> (Tria
 /// η of two real circles of radii a, b whose centres are l apart, to 30 digits for lengths below 1e-3: with x = t(a/2), y = t(b/2)
 /// (t = tanh, tan) it is `(s(l/2)² (1 + λx²) (1 + λy²) − x² − y²)/(2xy)` (s = sinh, sin).
 fn exact_weight(curvature: f64, [l, a, b]: [f64; 3]) -> f64 {
-    let two = Twofold::from;
+    let two = DoubleDouble::from;
     let (one, lambda) = (two(1.0), two(curvature));
     let half = |x: f64| two(0.5) * two(x);
     // t² = h²(1 + 2λh²/3 + 17h⁴/45 + …), s² = h²(1 − λh²/3 + 2h⁴/45 + …)
-    let squared = |h: Twofold, first: f64, second: f64| {
+    let squared = |h: DoubleDouble, first: f64, second: f64| {
         let z = h * h;
         z * (one + lambda * z * two(first) / two(3.0) + z * z * two(second) / two(45.0))
     };

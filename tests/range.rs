@@ -8,7 +8,7 @@ use common::flips::{SCHEMES, exp, in_the_middle, measure, reach, scaled_sides, s
 use common::flow::surface;
 use ricci::Error;
 use ricci::flow::{Options, curvature_derivative};
-use ricci::geometry::{Space, Twofold};
+use ricci::geometry::{Space, DoubleDouble};
 use ricci::mesh::{EdgeId, VertexId, shapes};
 use ricci::metric::{Class, Scheme, initial_metric};
 
@@ -85,12 +85,12 @@ fn lengths_keep_both_halves_of_u() {
             for f in mesh.faces() {
                 let (sides, top) = scaled_sides(&mesh, &metric, f);
                 let own = exp(top.into());
-                let exact = sides.map(|(high, low)| (Twofold::from(high) + low.into()) * own);
+                let exact = sides.map(|(high, low)| (DoubleDouble::from(high) + low.into()) * own);
                 for (k, e) in mesh.opposite_edges(f).into_iter().enumerate() {
-                    let ours = Twofold::from(found[e.index()]) + low[e.index()].into();
+                    let ours = DoubleDouble::from(found[e.index()]) + low[e.index()].into();
                     let (i, j) = ((k + 1) % 3, (k + 2) % 3);
                     let half = (exact[i] + exact[j] - exact[k]) * 0.5.into();
-                    let miss = (Twofold::from(r[3 * f.index() + k]) - half).high.abs();
+                    let miss = (DoubleDouble::from(r[3 * f.index() + k]) - half).high.abs();
                     worst[0] = worst[0].max(((ours - exact[k]) / exact[k]).high.abs());
                     worst[1] = worst[1].max((miss - 1e-20 * exact[k].high) / half.high.abs());
                 }

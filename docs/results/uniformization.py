@@ -71,7 +71,7 @@ def quotients(folder, genus_one):
         row += [small(r["relation_residual"]), small(r["disagreement"]), f"{r['radius']:.1f}", str(r["domain"]["sides"]), f"{r['qc_mean']:.3f}",
                 verdicts, seconds(report)]
         rows.append(row)
-    head = ["mesh", "V"] + ([] if genus_one else ["genus"]) + ["steps", "flips", "max \\|K\\|", "the same, twofold"]
+    head = ["mesh", "V"] + ([] if genus_one else ["genus"]) + ["steps", "flips", "max \\|K\\|", "the same, double-double"]
     head += ["modulus", "rotation"] if genus_one else ["area off", "translation lengths"]
     head += ["relation", "disagreement", "radius", "Dirichlet sides", "mean dilatation", "outside: \\|K\\|, relative relation, flipped", "s"]
     return table(head, rows), bad
@@ -200,7 +200,7 @@ def main():
           "digits to tell.\n")
     print(ball)
     print("\n## Genus 1: flat tori\n")
-    print("*the same, twofold*: |K| by products of rotations with twice the digits of doubles. *rotation*: the largest of a generator, radians. "
+    print("*the same, double-double*: |K| by products of rotations with twice the digits of doubles. *rotation*: the largest of a generator, radians. "
           "*disagreement*: largest distance between the two images of a vertex along the cut, brought together by the side pairings.\n")
     print(flat)
     print("\n## Genus 2 and more: hyperbolic surfaces\n")

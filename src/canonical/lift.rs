@@ -6,7 +6,7 @@ use crate::embed::place::unroll_part;
 use crate::error::{Error, Result};
 use crate::geometry::barycentre::conformal_barycentre;
 use crate::geometry::sphere::{SOUTH, Similarity, lift, log_density};
-use crate::geometry::twofold::two_sum;
+use crate::geometry::double_double::two_sum;
 use crate::geometry::vector::{add, cross, dot, norm, scale, sub};
 use crate::geometry::{Space, worse};
 use crate::mesh::{Mesh, PerEdge, PerVertex, Point, VertexId};

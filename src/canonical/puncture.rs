@@ -12,7 +12,7 @@ use super::star::{FLAT_POLYHEDRON, Punctured};
 use crate::control::Control;
 use crate::error::Result;
 use crate::flow::{ActiveSet, Flow, Lent, Options, Report, Seconds, StopReason};
-use crate::geometry::twofold::two_sum;
+use crate::geometry::double_double::two_sum;
 use crate::geometry::worse;
 use crate::mesh::{HalfedgeId, PerVertex};
 

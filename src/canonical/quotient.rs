@@ -15,7 +15,7 @@ use crate::embed::{About, BoundaryLoop, DeckGroup, Layout, boundary_sides, layou
 use crate::error::{Error, Result};
 use crate::flow::{Flow, Options, Report, Solution};
 use crate::geometry::motion::precise_point;
-use crate::geometry::{Motion, Space, Twofold, largest};
+use crate::geometry::{Motion, Space, DoubleDouble, largest};
 use crate::mesh::{Mesh, PerEdge, VertexId};
 use crate::metric::target::{check_upper, settle_total};
 use crate::metric::{Class, Scheme, Surface};
@@ -68,7 +68,7 @@ pub struct Quotient {
     /// it.
     pub layout: Layout,
     /// How it is moved, where it is.
-    pub placement: Motion<Twofold>,
+    pub placement: Motion<DoubleDouble>,
     /// Lengths of the edges of what is laid out, in the metric's own scale.
     pub lengths: PerEdge<f64>,
     /// A canonical homotopy basis on what is laid out ([`Layout::mesh`]), short in the metric.
@@ -232,7 +232,7 @@ fn check_size(layout: &Layout) -> Result<()> {
 
 /// The isometry that turns the direction of the first side of a boundary loop into that of the x axis; with corners it brings its start to
 /// the origin, without it leaves the base there.
-fn upright(layout: &Layout, first: &BoundaryLoop) -> Result<Motion<Twofold>> {
+fn upright(layout: &Layout, first: &BoundaryLoop) -> Result<Motion<DoubleDouble>> {
     let (mesh, end) = (layout.mesh(), first.sides.get(1).map(|side| side.from));
     let mut path = mesh.boundary_from(first.start);
     if let Some(n) = path.iter().position(|&h| Some(mesh.tip(h)) == end) {
@@ -242,7 +242,7 @@ fn upright(layout: &Layout, first: &BoundaryLoop) -> Result<Motion<Twofold>> {
     let (start, end) = (points[0], points[points.len() - 1]);
     let [x, y] = [end[0] - start[0], end[1] - start[1]];
     let length = x.hypot(y);
-    let turn = Motion::in_plane([x / length, -y / length].map(Twofold::from), [Twofold::from(0.0); 2]);
+    let turn = Motion::in_plane([x / length, -y / length].map(DoubleDouble::from), [DoubleDouble::from(0.0); 2]);
     let home = match first.sides.len() {
         1 => Motion::identity(Space::E2),
         _ => Motion::to_origin(Space::E2, precise_point(Space::E2, start)),

@@ -18,8 +18,8 @@ use super::tries::{Flat, Tried, on_a_circle, said};
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::flow::{Flow, Options, Seconds, Solution, StopReason};
-use crate::geometry::twofold::two_sum;
-use crate::geometry::{Space, Twofold, largest, triangle};
+use crate::geometry::double_double::two_sum;
+use crate::geometry::{Space, DoubleDouble, largest, triangle};
 use crate::mesh::{Mesh, PerVertex, Point, VertexId};
 use crate::metric::lengths::face_lengths;
 use crate::metric::{Class, Curvature, Metric, Surface};
@@ -243,8 +243,8 @@ fn unit(metric: &Metric) -> f64 {
 }
 
 /// η times the square of a unit, which is a power of two.
-fn scaled_by(eta: Twofold, unit: f64) -> Twofold {
-    Twofold { high: eta.high * unit * unit, low: eta.low * unit * unit }
+fn scaled_by(eta: DoubleDouble, unit: f64) -> DoubleDouble {
+    DoubleDouble { high: eta.high * unit * unit, low: eta.low * unit * unit }
 }
 
 /// One third of the area of the faces at each vertex; in E² in units of `unit²`.

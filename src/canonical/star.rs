@@ -15,7 +15,7 @@ use crate::geometry::conformal::{Edge, Vertex, differences, edge, in_one_unit};
 use crate::geometry::scaled::scaled;
 use crate::geometry::triangle::angles_from;
 use crate::geometry::weights::weights;
-use crate::geometry::{Space, Twofold};
+use crate::geometry::{Space, DoubleDouble};
 use crate::mesh::{EdgeId, FaceId, Flip, HalfedgeId, Mesh, NormalCoordinates, PerEdge, PerVertex, VertexId};
 use crate::metric::Metric;
 use crate::metric::delaunay::ClassFlips;
@@ -207,7 +207,7 @@ impl Punctured {
     /// Flip an edge inside the class.
     pub fn flip(&mut self, e: EdgeId) -> bool {
         let followed = &mut self.followed;
-        let mut record = |mesh: &Mesh, flip: Flip<Twofold>| {
+        let mut record = |mesh: &Mesh, flip: Flip<DoubleDouble>| {
             followed.iter_mut().for_each(|normal| normal.record(mesh, flip.edge))
         };
         let flipped =

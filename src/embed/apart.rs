@@ -8,17 +8,17 @@ use super::pieces::Pieces;
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::flow::Solution;
-use crate::geometry::{Motion, Twofold};
+use crate::geometry::{Motion, DoubleDouble};
 use crate::mesh::{FaceId, HalfedgeId, PerFace, PerHalfedge};
 use std::sync::Arc;
 
 /// Faces with a frame each.
 pub(crate) struct Apart {
     /// Per half-edge of a face: its origin in the frame of the face.
-    pub corner: PerHalfedge<[Twofold; 3]>,
+    pub corner: PerHalfedge<[DoubleDouble; 3]>,
     /// Per half-edge between two faces: the motion that carries the frame of the face on its right to where that lies beside the face on
     /// its left. The identity elsewhere.
-    pub across: PerHalfedge<Motion<Twofold>>,
+    pub across: PerHalfedge<Motion<DoubleDouble>>,
 }
 
 /// Lays the faces of the surface as it came out, each in a frame of its own, in the metric of a flow; where edges were flipped, by the
@@ -59,12 +59,12 @@ pub(crate) fn apart(result: &Solution, control: &Control) -> Result<Apart> {
 }
 
 /// Per piece the frame of the first half-edge of its final face, in the frame of its face of the input: that of the face's first piece.
-fn frames(pieces: &Pieces, faces: &Faces<Motion<Twofold>>) -> Result<PerFace<Motion<Twofold>>> {
+fn frames(pieces: &Pieces, faces: &Faces<Motion<DoubleDouble>>) -> Result<PerFace<Motion<DoubleDouble>>> {
     let mesh = pieces.mesh();
     let mut first = vec![None; mesh.n_faces()];
     mesh.faces()
         .for_each(|p| first[pieces.input_face(p).index()] = first[pieces.input_face(p).index()].or(Some(p)));
-    let mut frames: Vec<Option<Motion<Twofold>>> = vec![None; mesh.n_faces()];
+    let mut frames: Vec<Option<Motion<DoubleDouble>>> = vec![None; mesh.n_faces()];
     let mut waiting: Vec<FaceId> = first.into_iter().flatten().collect();
     waiting.iter().for_each(|p| frames[p.index()] = Some(Motion::identity(faces.space)));
     while let Some(piece) = waiting.pop() {
@@ -86,10 +86,10 @@ fn frames(pieces: &Pieces, faces: &Faces<Motion<Twofold>>) -> Result<PerFace<Mot
 /// The frame of the final face of the piece across a half-edge, from that of the piece on its left.
 fn through(
     pieces: &Pieces,
-    faces: &Faces<Motion<Twofold>>,
-    frame: Motion<Twofold>,
+    faces: &Faces<Motion<DoubleDouble>>,
+    frame: Motion<DoubleDouble>,
     h: HalfedgeId,
-) -> Result<Motion<Twofold>> {
+) -> Result<Motion<DoubleDouble>> {
     let Some(along) = pieces.final_halfedge(h) else { return Ok(frame) };
     let (face, side) = corner_of(faces.mesh, along)?;
     let (next, k) = corner_of(faces.mesh, along.twin())?;

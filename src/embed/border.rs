@@ -7,7 +7,7 @@ use super::walk::Walks;
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::motion::precise_point;
-use crate::geometry::{Motion, Twofold};
+use crate::geometry::{Motion, DoubleDouble};
 use crate::mesh::HalfedgeId;
 use crate::topology::word::Word;
 use crate::topology::{HomotopyBasis, SurfaceGroup};
@@ -46,7 +46,7 @@ impl Border {
     }
 
     /// Its conjugate: the image of the lift under `to`, under the same word.
-    pub(super) fn conjugated_by(&self, to: &Motion<Twofold>) -> Border {
+    pub(super) fn conjugated_by(&self, to: &Motion<DoubleDouble>) -> Border {
         let point = to.apply(precise_point(to.space, self.point)).map(f64::from);
         Border { point, element: self.element.conjugated_by(to), generator: self.generator }
     }

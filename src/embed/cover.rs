@@ -19,7 +19,7 @@ use super::element::DeckElement;
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::motion::precise_point;
-use crate::geometry::{Motion, Space, Twofold};
+use crate::geometry::{Motion, Space, DoubleDouble};
 use crate::parallel;
 use crate::topology::SurfaceGroup;
 use crate::topology::word::Letter;
@@ -73,10 +73,10 @@ pub fn elements_within(
     control: &Control,
 ) -> Result<Vec<DeckElement>> {
     let home = Motion::to_origin(deck.space, precise_point(deck.space, domain.centre));
-    let moved = |g: &Motion<Twofold>| g.conjugated_by(&home).displacement();
+    let moved = |g: &Motion<DoubleDouble>| g.conjugated_by(&home).displacement();
     // The centre is as far from γ D as γ⁻¹ of the centre is from D.
     let lines = domain.lines();
-    let meets = |g: &Motion<Twofold>| {
+    let meets = |g: &Motion<DoubleDouble>| {
         let centre = g.inverse().conjugated_by(&home).origin();
         !lines.keep_off(deck.space, centre, radius)
     };
@@ -97,7 +97,7 @@ pub fn elements_within(
 pub fn elements_reached(
     deck: &DeckGroup,
     sides: &[DeckElement],
-    wanted: impl Fn(&Motion<Twofold>) -> bool,
+    wanted: impl Fn(&Motion<DoubleDouble>) -> bool,
     limit: usize,
     control: &Control,
 ) -> Result<Vec<DeckElement>> {
@@ -142,7 +142,7 @@ impl Found {
         &mut self,
         k: usize,
         factors: &[DeckElement],
-        wanted: impl Fn(&Motion<Twofold>) -> bool,
+        wanted: impl Fn(&Motion<DoubleDouble>) -> bool,
         control: &Control,
     ) -> Result<()> {
         if k.is_multiple_of(ELEMENTS_PER_STEP) {
@@ -191,7 +191,7 @@ impl Found {
 }
 
 /// Points in ambient coordinates moved by an isometry, with twice the digits on the way: parallel inside a pool.
-pub fn moved(points: &[[f64; 3]], motion: &Motion<Twofold>) -> Vec<[f64; 3]> {
+pub fn moved(points: &[[f64; 3]], motion: &Motion<DoubleDouble>) -> Vec<[f64; 3]> {
     let mut out = vec![[0.0; 3]; points.len()];
     parallel::fill(&mut out, |k| motion.apply(precise_point(motion.space, points[k])).map(f64::from));
     out

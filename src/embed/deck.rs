@@ -22,7 +22,7 @@ use crate::error::{Error, Result};
 use crate::flow::Solution;
 use crate::geometry::modulus::modulus;
 use crate::geometry::motion::precise_point;
-use crate::geometry::{Motion, Space, Twofold, worse};
+use crate::geometry::{Motion, Space, DoubleDouble, worse};
 use crate::mesh::HalfedgeId;
 use crate::topology::word::{Letter, Word};
 use crate::topology::{FundamentalDomain, HomotopyBasis, Side, SurfaceGroup};
@@ -39,7 +39,7 @@ pub struct DeckGroup {
     /// The group with its names and relator.
     pub group: SurfaceGroup,
     /// The isometries of the canonical generators a1, b1, …, ag, bg, c1, …, cb.
-    pub generators: Vec<Motion<Twofold>>,
+    pub generators: Vec<Motion<DoubleDouble>>,
     /// Sides of the layout's fundamental domain: the elements that carry it onto its neighbours, counterclockwise.
     pub sides: Vec<DeckElement>,
     /// The lines along which the layout's domain has the boundary of the surface, counterclockwise. Where the boundary is straight they
@@ -128,7 +128,7 @@ impl DeckGroup {
     ///
     /// # Errors
     /// [`Error::Argument`] for a generator that the group has not.
-    pub fn letter(&self, letter: Letter) -> Result<Motion<Twofold>> {
+    pub fn letter(&self, letter: Letter) -> Result<Motion<DoubleDouble>> {
         match self.generators.get(letter.index()) {
             Some(g) if letter.is_inverse() => Ok(g.inverse()),
             Some(g) => Ok(*g),
@@ -143,13 +143,13 @@ impl DeckGroup {
     ///
     /// # Errors
     /// As [`DeckGroup::letter`].
-    pub fn motion(&self, word: &Word) -> Result<Motion<Twofold>> {
+    pub fn motion(&self, word: &Word) -> Result<Motion<DoubleDouble>> {
         let letters = word.letters().iter();
         letters.map(|&l| self.letter(l)).try_fold(Motion::identity(self.space), |m, g| Ok(m.compose(&g?)))
     }
 
     /// How far `rest` is from the identity, relative to the largest ‖P‖² of the partial products of a word.
-    fn residual(&self, word: &Word, rest: &Motion<Twofold>) -> Result<f64> {
+    fn residual(&self, word: &Word, rest: &Motion<DoubleDouble>) -> Result<f64> {
         let mut product = Motion::identity(self.space);
         let mut largest = product.norm_square();
         for &letter in word.letters() {
@@ -211,7 +211,7 @@ impl DeckGroup {
     /// As [`DeckGroup::letter`].
     pub fn canonical_angles(&self, base: [f64; 3]) -> Result<Vec<f64>> {
         let home = Motion::to_origin(self.space, precise_point(self.space, base));
-        let direction = |g: Motion<Twofold>| {
+        let direction = |g: Motion<DoubleDouble>| {
             let [x, y, _] = g.conjugated_by(&home).origin().map(f64::from);
             y.atan2(x)
         };

@@ -5,7 +5,7 @@ use super::frame::{Frame, Walk};
 use super::pieces::Pieces;
 use crate::control::{Control, Stage};
 use crate::error::{Error, Result};
-use crate::geometry::{Motion, Twofold};
+use crate::geometry::{Motion, DoubleDouble};
 use crate::mesh::{FaceId, HalfedgeId, PerEdge, PerFace, PerHalfedge, VertexId};
 use crate::metric::Refinement;
 use crate::parallel;
@@ -210,7 +210,7 @@ impl<'a, F: Frame> Development<'a, F> {
 
     /// The two places of one frame, of a half-edge `h` on the cut: as the face on its left and as the face on its right has it. The
     /// isometry that carries the second onto the first pairs the sides of the cut.
-    pub fn on_both_sides(&self, h: HalfedgeId) -> Result<[Motion<Twofold>; 2]> {
+    pub fn on_both_sides(&self, h: HalfedgeId) -> Result<[Motion<DoubleDouble>; 2]> {
         let mesh = self.pieces.mesh();
         let ((left, _), (right, _)) = (corner_of(mesh, h)?, corner_of(mesh, h.twin())?);
         let both = match self.pieces.final_halfedge(h) {

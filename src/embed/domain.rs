@@ -3,7 +3,7 @@
 use super::element::DeckElement;
 use super::line::Line;
 use crate::geometry::motion::precise_point;
-use crate::geometry::{Motion, Space, Twofold};
+use crate::geometry::{Motion, Space, DoubleDouble};
 
 /// The Dirichlet domain of a base point: a convex polygon with geodesic sides, each on the bisector of the base point and its image
 /// under the side's element, which carries the domain onto its neighbour across that side, or on the straight boundary of the surface.
@@ -44,7 +44,7 @@ impl DirichletDomain {
 
 impl Lines {
     /// Whether a point is surely farther than `radius` from the domain: it lies farther beyond the line of a side.
-    pub fn keep_off(&self, space: Space, p: [Twofold; 3], radius: f64) -> bool {
+    pub fn keep_off(&self, space: Space, p: [DoubleDouble; 3], radius: f64) -> bool {
         let most = if space == Space::H2 { radius.sinh() } else { radius };
         self.0.iter().any(|line| line.value(&p).high > most * line.norm)
     }

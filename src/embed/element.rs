@@ -1,6 +1,6 @@
 //! Elements of deck groups.
 
-use crate::geometry::{Motion, Space, Twofold};
+use crate::geometry::{Motion, Space, DoubleDouble};
 use crate::topology::word::Word;
 
 /// An element of the deck group.
@@ -9,7 +9,7 @@ pub struct DeckElement {
     /// As a word in the canonical generators.
     pub word: Word,
     /// As an isometry.
-    pub motion: Motion<Twofold>,
+    pub motion: Motion<DoubleDouble>,
 }
 
 impl DeckElement {
@@ -24,7 +24,7 @@ impl DeckElement {
     }
 
     /// The conjugate `to ∘ self ∘ to⁻¹` as an isometry, under the same word.
-    pub(super) fn conjugated_by(&self, to: &Motion<Twofold>) -> DeckElement {
+    pub(super) fn conjugated_by(&self, to: &Motion<DoubleDouble>) -> DeckElement {
         DeckElement { word: self.word.clone(), motion: self.motion.conjugated_by(to) }
     }
 }

@@ -7,7 +7,7 @@ use crate::error::{Error, Result};
 use crate::geometry::model::distance;
 use crate::geometry::motion::precise_point;
 use crate::geometry::triangle::half_differences;
-use crate::geometry::{Motion, Space, Twofold};
+use crate::geometry::{Motion, Space, DoubleDouble};
 use crate::mesh::{EdgeId, FaceId, HalfedgeId, Mesh, PerEdge, PerFace};
 use crate::metric::Metric;
 use crate::metric::precise::shapes;
@@ -65,14 +65,14 @@ impl<'a> Faces<'a, PlaneFrame> {
     }
 }
 
-impl<'a> Faces<'a, Motion<Twofold>> {
+impl<'a> Faces<'a, Motion<DoubleDouble>> {
     /// Of a metric in any space, with twice the digits of doubles.
     ///
     /// # Errors
     /// Those of [`Metric::lengths`].
     pub fn precise(mesh: &'a Mesh, metric: &Metric) -> Result<Self> {
         let (chords, angles, areas) = shapes(metric, mesh)?;
-        let mut sides = vec![[Twofold::default(); 2]; mesh.n_edges()];
+        let mut sides = vec![[DoubleDouble::default(); 2]; mesh.n_edges()];
         parallel::fill(&mut sides, |e| {
             let (chord, unit) = chords[EdgeId::from(e)];
             let chord = chord.scaled(unit);
@@ -82,9 +82,9 @@ impl<'a> Faces<'a, Motion<Twofold>> {
     }
 }
 
-impl Faces<'_, Motion<Twofold>> {
+impl Faces<'_, Motion<DoubleDouble>> {
     /// A point of a face, the first half-edge of which has this frame, to twice the digits at a corner.
-    pub fn point(&self, (face, first): (FaceId, Motion<Twofold>), place: Place) -> [Twofold; 3] {
+    pub fn point(&self, (face, first): (FaceId, Motion<DoubleDouble>), place: Place) -> [DoubleDouble; 3] {
         match place.rounded() {
             Some(corner) => self.around(face, 0, first)[corner].origin(),
             None => {
@@ -98,7 +98,7 @@ impl Faces<'_, Motion<Twofold>> {
 impl<'a, F: Frame> Faces<'a, F> {
     /// What is known of faces with these areas, broken ones marked.
     fn summed(mesh: &'a Mesh, areas: &[(f64, bool)]) -> Self {
-        let sum = areas.iter().fold(Twofold::default(), |sum, (area, _)| sum.plus(*area));
+        let sum = areas.iter().fold(DoubleDouble::default(), |sum, (area, _)| sum.plus(*area));
         Faces {
             mesh,
             space: Space::E2,

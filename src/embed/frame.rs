@@ -2,7 +2,7 @@
 
 use crate::geometry::complex::{add, conj, mul, norm2, quick_norm, scale, sub};
 use crate::geometry::motion::precise_point;
-use crate::geometry::{Motion, Space, Twofold};
+use crate::geometry::{Motion, Space, DoubleDouble};
 
 /// The origin in ambient coordinates.
 pub(super) const ORIGIN: [f64; 3] = [0.0, 0.0, 1.0];
@@ -34,7 +34,7 @@ pub(super) trait Frame: Walk {
     /// [`Frame::miss`] of where the half-edge starts, to first order.
     fn miss_of_origin(&self, point: [f64; 3]) -> [f64; 2];
     /// The isometry.
-    fn motion(&self) -> Motion<Twofold>;
+    fn motion(&self) -> Motion<DoubleDouble>;
 }
 
 /// What walks from face to face.
@@ -76,7 +76,7 @@ pub(super) trait Walk: Copy + Send + Sync {
 pub(super) struct PlaneFrame {
     /// Of length 1.
     direction: [f64; 2],
-    place: [Twofold; 2],
+    place: [DoubleDouble; 2],
 }
 
 impl Walk for PlaneFrame {
@@ -89,7 +89,7 @@ impl Walk for PlaneFrame {
     }
 
     fn identity(_: Space) -> Self {
-        PlaneFrame { direction: [1.0, 0.0], place: [Twofold::default(); 2] }
+        PlaneFrame { direction: [1.0, 0.0], place: [DoubleDouble::default(); 2] }
     }
 
     fn forward(&self, side: f64) -> Self {
@@ -165,8 +165,8 @@ impl Frame for PlaneFrame {
         [self.place[0].plus(-x), self.place[1].plus(-y)].map(|d| -d.high)
     }
 
-    fn motion(&self) -> Motion<Twofold> {
-        Motion::in_plane(self.direction.map(Twofold::from), self.place)
+    fn motion(&self) -> Motion<DoubleDouble> {
+        Motion::in_plane(self.direction.map(DoubleDouble::from), self.place)
     }
 }
 
@@ -175,10 +175,10 @@ impl Frame for PlaneFrame {
 pub(super) struct RoughMotion(Motion);
 
 impl Walk for RoughMotion {
-    type Side = [Twofold; 2];
-    type Angle = [Twofold; 2];
+    type Side = [DoubleDouble; 2];
+    type Angle = [DoubleDouble; 2];
 
-    fn size([_, half_chord]: [Twofold; 2]) -> f64 {
+    fn size([_, half_chord]: [DoubleDouble; 2]) -> f64 {
         half_chord.high
     }
 
@@ -186,11 +186,11 @@ impl Walk for RoughMotion {
         RoughMotion(Motion::identity(space))
     }
 
-    fn forward(&self, side: [Twofold; 2]) -> Self {
+    fn forward(&self, side: [DoubleDouble; 2]) -> Self {
         RoughMotion(self.0.after_translation(side.map(f64::from)))
     }
 
-    fn turned_onwards(&self, [cos, sin]: [Twofold; 2]) -> Self {
+    fn turned_onwards(&self, [cos, sin]: [DoubleDouble; 2]) -> Self {
         RoughMotion(self.0.after_rotation([sin.high, cos.high]))
     }
 
@@ -198,16 +198,16 @@ impl Walk for RoughMotion {
         RoughMotion(self.0.after_half_turn())
     }
 
-    fn turned_inwards(&self, angle: [Twofold; 2]) -> Option<Self> {
+    fn turned_inwards(&self, angle: [DoubleDouble; 2]) -> Option<Self> {
         Some(RoughMotion(self.0.after_rotation(angle.map(f64::from))))
     }
 
-    fn backwards(&self, [cos, chord]: [Twofold; 2], [half_cos, half_sin]: [Twofold; 2]) -> Option<Self> {
+    fn backwards(&self, [cos, chord]: [DoubleDouble; 2], [half_cos, half_sin]: [DoubleDouble; 2]) -> Option<Self> {
         let turned = self.0.after_rotation([half_sin.high, -half_cos.high]);
         Some(RoughMotion(turned.after_translation([cos.high, -chord.high])))
     }
 
-    fn ending_at(&self, _: &Self, _: [Twofold; 2]) -> Self {
+    fn ending_at(&self, _: &Self, _: [DoubleDouble; 2]) -> Self {
         *self
     }
 
@@ -216,17 +216,17 @@ impl Walk for RoughMotion {
         quick_norm(self.0.b)
     }
 
-    fn distance_of_apex(&self, half_angle: [Twofold; 2], last: [Twofold; 2]) -> f64 {
+    fn distance_of_apex(&self, half_angle: [DoubleDouble; 2], last: [DoubleDouble; 2]) -> f64 {
         let turned = self.0.after_rotation(half_angle.map(f64::from));
         RoughMotion(turned.after_translation(last.map(f64::from))).distance()
     }
 }
 
-impl Frame for Motion<Twofold> {
+impl Frame for Motion<DoubleDouble> {
     type Rough = RoughMotion;
     const IS_PRECISE: bool = true;
 
-    fn length(space: Space, [_, half_chord]: [Twofold; 2]) -> f64 {
+    fn length(space: Space, [_, half_chord]: [DoubleDouble; 2]) -> f64 {
         2.0 * match space {
             Space::E2 => half_chord.high,
             Space::H2 => half_chord.high.asinh(),
@@ -281,18 +281,18 @@ impl Frame for Motion<Twofold> {
         sub(off, scale(2.0 * dw, mul(conj(near.a), near.b)))
     }
 
-    fn motion(&self) -> Motion<Twofold> {
+    fn motion(&self) -> Motion<DoubleDouble> {
         *self
     }
 }
 
-impl Walk for Motion<Twofold> {
+impl Walk for Motion<DoubleDouble> {
     /// a and b of the translation along the side ([`Motion::translation_of_chord`]).
-    type Side = [Twofold; 2];
+    type Side = [DoubleDouble; 2];
     /// `[cos, sin]` of half the angle.
-    type Angle = [Twofold; 2];
+    type Angle = [DoubleDouble; 2];
 
-    fn size([_, half_chord]: [Twofold; 2]) -> f64 {
+    fn size([_, half_chord]: [DoubleDouble; 2]) -> f64 {
         half_chord.high
     }
 
@@ -300,11 +300,11 @@ impl Walk for Motion<Twofold> {
         Motion::identity(space)
     }
 
-    fn forward(&self, side: [Twofold; 2]) -> Self {
+    fn forward(&self, side: [DoubleDouble; 2]) -> Self {
         self.after_translation(side)
     }
 
-    fn turned_onwards(&self, [cos, sin]: [Twofold; 2]) -> Self {
+    fn turned_onwards(&self, [cos, sin]: [DoubleDouble; 2]) -> Self {
         self.after_rotation([sin, cos])
     }
 
@@ -312,15 +312,15 @@ impl Walk for Motion<Twofold> {
         self.after_half_turn()
     }
 
-    fn turned_inwards(&self, angle: [Twofold; 2]) -> Option<Self> {
+    fn turned_inwards(&self, angle: [DoubleDouble; 2]) -> Option<Self> {
         Some(self.after_rotation(angle))
     }
 
-    fn backwards(&self, [cos, chord]: [Twofold; 2], [half_cos, half_sin]: [Twofold; 2]) -> Option<Self> {
+    fn backwards(&self, [cos, chord]: [DoubleDouble; 2], [half_cos, half_sin]: [DoubleDouble; 2]) -> Option<Self> {
         Some(self.after_rotation([half_sin, -half_cos]).after_translation([cos, -chord]))
     }
 
-    fn ending_at(&self, _: &Self, _: [Twofold; 2]) -> Self {
+    fn ending_at(&self, _: &Self, _: [DoubleDouble; 2]) -> Self {
         *self
     }
 
@@ -328,7 +328,7 @@ impl Walk for Motion<Twofold> {
         RoughMotion(self.rounded()).distance()
     }
 
-    fn distance_of_apex(&self, half_angle: [Twofold; 2], last: [Twofold; 2]) -> f64 {
+    fn distance_of_apex(&self, half_angle: [DoubleDouble; 2], last: [DoubleDouble; 2]) -> f64 {
         RoughMotion(self.rounded()).distance_of_apex(half_angle, last)
     }
 }
@@ -341,13 +341,13 @@ mod tests {
     #[test]
     fn plane_frames_walk_as_motions_do() {
         let (mut plane, mut motion) =
-            (PlaneFrame::identity(Space::E2), <Motion<Twofold>>::identity(Space::E2));
+            (PlaneFrame::identity(Space::E2), <Motion<DoubleDouble>>::identity(Space::E2));
         for k in 1..60 {
             let (length, angle) = (f64::from(k), 0.1 * f64::from(k));
             let (half, full) = ((0.5 * angle).sin_cos(), angle.sin_cos());
             plane = plane.forward(length).turned_onwards([full.1, full.0]);
-            let step = [1.0, 0.5 * length].map(Twofold::from);
-            motion = motion.forward(step).turned_onwards([half.1, half.0].map(Twofold::from));
+            let step = [1.0, 0.5 * length].map(DoubleDouble::from);
+            motion = motion.forward(step).turned_onwards([half.1, half.0].map(DoubleDouble::from));
             if k % 7 == 0 {
                 (plane, motion) = (plane.turned_round(), motion.turned_round());
             }
@@ -370,13 +370,13 @@ mod tests {
     #[test]
     fn misses_of_an_origin_are_those_of_any_point_to_first_order() {
         for space in [Space::E2, Space::H2, Space::S2] {
-            let mut motion = <Motion<Twofold>>::identity(space);
+            let mut motion = <Motion<DoubleDouble>>::identity(space);
             for k in 1..6 {
-                let (half, chord) = ((0.3 * f64::from(k)).sin_cos(), Twofold::from(0.9));
+                let (half, chord) = ((0.3 * f64::from(k)).sin_cos(), DoubleDouble::from(0.9));
                 let side = [Motion::translation_of_chord(chord, space).a[0], chord];
-                motion = motion.forward(side).turned_onwards([half.1, half.0].map(Twofold::from));
+                motion = motion.forward(side).turned_onwards([half.1, half.0].map(DoubleDouble::from));
                 let small = Motion::translation(1e-9, space).precise();
-                let near = motion.turned_onwards([0.6, 0.8].map(Twofold::from)).compose(&small);
+                let near = motion.turned_onwards([0.6, 0.8].map(DoubleDouble::from)).compose(&small);
                 let point = Frame::origin(&near);
                 let (known, off) = (motion.miss(point, ORIGIN), motion.miss_of_origin(point));
                 let scale = point.iter().fold(1.0, |m: f64, x| m.max(x.abs()));

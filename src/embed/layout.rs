@@ -22,7 +22,7 @@ use crate::geometry::model::{distance as hyperbolic_distance, klein, poincare};
 use crate::geometry::modulus::modulus;
 use crate::geometry::motion::precise_point;
 use crate::geometry::predicates::{orientation, winding};
-use crate::geometry::{Motion, PlaneIsometry, Space, Twofold};
+use crate::geometry::{Motion, PlaneIsometry, Space, DoubleDouble};
 use crate::mesh::{FaceId, HalfedgeId, Mesh, PerFace, PerHalfedge, VertexId};
 use crate::metric::Refinement;
 use crate::parallel;
@@ -93,7 +93,7 @@ pub struct Layout {
     /// Number of final faces between the origin and the farthest piece, at most.
     pub(super) n_steps: usize,
     /// The frames of the final faces' first half-edges, with twice the digits; none where doubles were enough.
-    pub(super) frames: Vec<Motion<Twofold>>,
+    pub(super) frames: Vec<Motion<DoubleDouble>>,
     /// Per triangle, the number of its final face's frame in `frames`.
     pub(super) patch: PerFace<u32>,
 }
@@ -103,7 +103,7 @@ pub struct Layout {
 pub struct Seam {
     /// The isometry that carries the opened surface onto its neighbour across the left side of the segment: the image of its right side
     /// onto that of its left side.
-    pub pairing: Motion<Twofold>,
+    pub pairing: Motion<DoubleDouble>,
     /// The largest distance, at an edge of the segment, between this isometry and the edge's own: relative to the layout's diameter in E²,
     /// a distance elsewhere.
     pub residual: f64,
@@ -216,7 +216,7 @@ impl Layout {
     }
 
     /// The isometry that carries the opened surface onto its neighbour across `h`; the identity unless the edge is cut.
-    pub fn neighbour(&self, h: HalfedgeId) -> Motion<Twofold> {
+    pub fn neighbour(&self, h: HalfedgeId) -> Motion<DoubleDouble> {
         let side = self.side[h];
         match self.seams.get((side.unsigned_abs() as usize).wrapping_sub(1)) {
             Some(seam) if side > 0 => seam.pairing,
@@ -227,20 +227,20 @@ impl Layout {
 
     /// Change of frame from the face of `h` to the face across: carries the image of `h` in the one onto its image in the other. The
     /// inverse of [`Layout::neighbour`].
-    pub fn transition(&self, h: HalfedgeId) -> Motion<Twofold> {
+    pub fn transition(&self, h: HalfedgeId) -> Motion<DoubleDouble> {
         self.neighbour(h.twin())
     }
 
     /// Holonomy of a walk from face to face: the composition of the transitions across `crossed`, first one first. Each half-edge
     /// lies in the face that the walk leaves.
-    pub fn holonomy(&self, crossed: impl IntoIterator<Item = HalfedgeId>) -> Motion<Twofold> {
+    pub fn holonomy(&self, crossed: impl IntoIterator<Item = HalfedgeId>) -> Motion<DoubleDouble> {
         let cut = crossed.into_iter().filter(|&h| self.side[h] != 0);
         cut.fold(Motion::identity(self.space), |total, h| self.transition(h).compose(&total))
     }
 
     /// Holonomy of one counterclockwise turn around an interior vertex; its rotation is the curvature there mod 2π. `None` on the
     /// boundary.
-    pub fn vertex_holonomy(&self, v: VertexId) -> Option<Motion<Twofold>> {
+    pub fn vertex_holonomy(&self, v: VertexId) -> Option<Motion<DoubleDouble>> {
         let mesh = self.mesh();
         let mut turn: Vec<_> = mesh.outgoing(v).collect();
         turn.reverse();
@@ -256,7 +256,7 @@ impl Layout {
     /// [`Error::Argument`] for edges that do not follow one another, or a path that does not start at that corner.
     pub fn lift(&self, corner: HalfedgeId, path: &[HalfedgeId]) -> Result<Vec<[f64; 3]>> {
         let mut copy = Motion::identity(self.space);
-        let place = |copy: &Motion<Twofold>, at: HalfedgeId| {
+        let place = |copy: &Motion<DoubleDouble>, at: HalfedgeId| {
             copy.apply(precise_point(self.space, self.corner(at))).map(f64::from)
         };
         let walk = corner_walk(self.mesh(), corner, path)?;
@@ -348,7 +348,7 @@ impl Layout {
     }
 
     /// The frame of the first half-edge of a triangle's final face, of a layout with frames of twice the digits ([`super::layout_about`]).
-    pub(super) fn frame(&self, f: FaceId) -> Result<Motion<Twofold>> {
+    pub(super) fn frame(&self, f: FaceId) -> Result<Motion<DoubleDouble>> {
         let frame = self.frames.get(*self.patch.get(f.index()).unwrap_or(&u32::MAX) as usize);
         frame.copied().ok_or_else(|| Error::Layout(format!("face {f} has no frame of twice the digits")))
     }

@@ -3,19 +3,19 @@
 use super::layout::{Layout, bounding_diagonal, flat, radius};
 use crate::error::{Error, Result};
 use crate::geometry::motion::precise_point;
-use crate::geometry::{Motion, Space, Twofold};
+use crate::geometry::{Motion, Space, DoubleDouble};
 
 impl Layout {
     /// [`Layout::points`] number k with twice the digits, as far as the layout has them: in H² rounding to doubles moves a point by
     /// e^distance ulp.
-    pub(crate) fn precise_point(&self, k: usize) -> [Twofold; 3] {
+    pub(crate) fn precise_point(&self, k: usize) -> [DoubleDouble; 3] {
         let [x, y] = self.remainders.get(k).copied().unwrap_or([0.0; 2]);
         let point = precise_point(self.space, self.points[k]);
         if [x, y] == [0.0; 2] || self.space == Space::S2 {
             return point;
         }
         let [x, y] = [point[0].plus(x), point[1].plus(y)];
-        let one = Twofold::from(1.0);
+        let one = DoubleDouble::from(1.0);
         [x, y, if self.space == Space::H2 { (one + x * x + y * y).sqrt() } else { one }]
     }
 
@@ -43,12 +43,12 @@ impl Layout {
     ///
     /// # Errors
     /// [`Error::Layout`] in another space.
-    pub fn move_by(&mut self, motion: &Motion<Twofold>) -> Result<()> {
+    pub fn move_by(&mut self, motion: &Motion<DoubleDouble>) -> Result<()> {
         if self.space != Space::E2 || motion.space != Space::E2 {
             return Err(Error::Layout(format!("a layout in {} stays about its base", self.space)));
         }
         let moved = |k| motion.apply(self.precise_point(k));
-        let moved: Vec<[Twofold; 3]> = (0..self.points.len()).map(moved).collect();
+        let moved: Vec<[DoubleDouble; 3]> = (0..self.points.len()).map(moved).collect();
         let place = |p: &[f64; 3]| motion.apply(precise_point(Space::E2, *p)).map(f64::from);
         self.points = self.points.iter().map(place).collect();
         self.set_remainders(&moved);
@@ -72,7 +72,7 @@ impl Layout {
         self.remainders.resize(self.points.len(), [0.0; 2]);
         for (p, rest) in self.points.iter_mut().zip(&mut self.remainders) {
             for k in 0..2 {
-                let precise = Twofold::from(p[k]).plus(rest[k]) * factor.into();
+                let precise = DoubleDouble::from(p[k]).plus(rest[k]) * factor.into();
                 p[k] *= factor;
                 rest[k] = precise.plus(-p[k]).high;
             }
@@ -87,8 +87,8 @@ impl Layout {
     }
 
     /// What the points miss of these ones.
-    fn set_remainders(&mut self, precise: &[[Twofold; 3]]) {
-        let rest = |(p, q): (&[Twofold; 3], &[f64; 3])| [0, 1].map(|k| p[k].plus(-q[k]).high);
+    fn set_remainders(&mut self, precise: &[[DoubleDouble; 3]]) {
+        let rest = |(p, q): (&[DoubleDouble; 3], &[f64; 3])| [0, 1].map(|k| p[k].plus(-q[k]).high);
         self.remainders = precise.iter().zip(&self.points).map(rest).collect();
     }
 }

@@ -7,12 +7,12 @@ use super::element::DeckElement;
 use super::line::Line;
 use crate::control::Control;
 use crate::error::Result;
-use crate::geometry::{Motion, Space, Twofold, triangle};
+use crate::geometry::{Motion, Space, DoubleDouble, triangle};
 
 /// Rounds of products of side elements, at most. Each round at least doubles the word length that is reached; two or three rounds are
 /// usual.
 const ROUNDS: usize = 12;
-fn product(deck: &DeckGroup, g: &DeckElement, h: &DeckElement, motion: Motion<Twofold>) -> DeckElement {
+fn product(deck: &DeckGroup, g: &DeckElement, h: &DeckElement, motion: Motion<DoubleDouble>) -> DeckElement {
     DeckElement { word: deck.group.reduce(&g.word.times(&h.word)), motion }
 }
 
@@ -88,7 +88,7 @@ enum Side {
 /// at distance d the Klein disk's border is e^{−2d} away.
 pub(super) struct Polygon {
     space: Space,
-    corners: Vec<[Twofold; 3]>,
+    corners: Vec<[DoubleDouble; 3]>,
     sides: Vec<Side>,
     /// Largest distance of a corner from the origin.
     pub radius: f64,
@@ -102,7 +102,7 @@ impl Polygon {
     pub fn around(space: Space, reach: f64, [tolerance, same]: [f64; 2]) -> Polygon {
         let far = if space == Space::H2 { 2.0 } else { 2.0 * reach };
         let corners = [[far, far], [-far, far], [-far, -far], [far, -far]];
-        let corners = corners.map(|[x, y]| [x, y, 1.0].map(Twofold::from)).to_vec();
+        let corners = corners.map(|[x, y]| [x, y, 1.0].map(DoubleDouble::from)).to_vec();
         let sides = corners.iter().map(|_| Side::Start).collect();
         Polygon { space, corners, sides, radius: f64::INFINITY, tolerance, same }
     }
@@ -208,7 +208,7 @@ impl Polygon {
     }
 
     /// Whether the bisector of `g` cuts a corner off.
-    fn is_cut_by(&self, g: &Motion<Twofold>) -> bool {
+    fn is_cut_by(&self, g: &Motion<DoubleDouble>) -> bool {
         let moved = g.displacement();
         if moved <= self.same || moved > 2.0 * self.radius + self.tolerance {
             return false;
@@ -259,11 +259,11 @@ impl Polygon {
     }
 
     /// Distance of a corner from the origin; infinite outside the Klein disk.
-    fn distance(&self, [x, y, _]: &[Twofold; 3]) -> f64 {
+    fn distance(&self, [x, y, _]: &[DoubleDouble; 3]) -> f64 {
         let square = *x * *x + *y * *y;
         match self.space {
             Space::H2 => {
-                let rest = f64::from(Twofold::from(1.0) - square);
+                let rest = f64::from(DoubleDouble::from(1.0) - square);
                 // sinh² d = r²/(1 − r²)
                 if rest > 0.0 { (square.high / rest).sqrt().asinh() } else { f64::INFINITY }
             }
@@ -286,14 +286,14 @@ impl Polygon {
         self,
         all: &Given<'_>,
         centre: [f64; 3],
-        back: &Motion<Twofold>,
+        back: &Motion<DoubleDouble>,
     ) -> Option<DirichletDomain> {
         if !self.is_bounded() {
             return None;
         }
         let (space, radius) = (self.space, self.radius);
         let partner = (0..self.sides.len()).map(|k| self.partner(k)).collect::<Option<Vec<_>>>()?;
-        let points: Vec<[Twofold; 3]> = self.corners.iter().map(|&p| on_hyperboloid(space, p)).collect();
+        let points: Vec<[DoubleDouble; 3]> = self.corners.iter().map(|&p| on_hyperboloid(space, p)).collect();
         let n = points.len();
         let ray = |k: usize| self.distance(&self.corners[k]);
         let side = |k: usize| {
@@ -336,17 +336,17 @@ impl Given<'_> {
 }
 
 /// Where the side between two corners crosses a line, at height 1.
-fn meeting(line: &Line, p: &[Twofold; 3], q: &[Twofold; 3]) -> [Twofold; 3] {
+fn meeting(line: &Line, p: &[DoubleDouble; 3], q: &[DoubleDouble; 3]) -> [DoubleDouble; 3] {
     let (a, b) = (line.value(p), line.value(q));
     let sum = [0, 1, 2].map(|i| b * p[i] - a * q[i]);
     sum.map(|x| x / sum[2])
 }
 
 /// The point of the hyperboloid (the plane) over a vector of height 1.
-fn on_hyperboloid(space: Space, [x, y, w]: [Twofold; 3]) -> [Twofold; 3] {
+fn on_hyperboloid(space: Space, [x, y, w]: [DoubleDouble; 3]) -> [DoubleDouble; 3] {
     if space != Space::H2 {
         return [x, y, w];
     }
-    let scale = Twofold::from(1.0) / (Twofold::from(1.0) - x * x - y * y).sqrt();
+    let scale = DoubleDouble::from(1.0) / (DoubleDouble::from(1.0) - x * x - y * y).sqrt();
     [x * scale, y * scale, scale]
 }

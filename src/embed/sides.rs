@@ -6,7 +6,7 @@ use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::flow::Solution;
 use crate::geometry::complex::{cross, norm2};
-use crate::geometry::{Motion, Space, Twofold, worse};
+use crate::geometry::{Motion, Space, DoubleDouble, worse};
 use crate::mesh::{HalfedgeId, VertexId};
 use crate::topology::HomotopyBasis;
 
@@ -85,15 +85,15 @@ pub fn boundary_sides(
 }
 
 /// The side through points, in the metric's own lengths.
-fn straight(layout: &Layout, from: VertexId, points: &[[Twofold; 3]]) -> BoundarySide {
+fn straight(layout: &Layout, from: VertexId, points: &[[DoubleDouble; 3]]) -> BoundarySide {
     let home = Motion::to_origin(layout.space, points[0]);
-    let moved: Vec<[Twofold; 3]> = points.iter().map(|&p| home.apply(p)).collect();
+    let moved: Vec<[DoubleDouble; 3]> = points.iter().map(|&p| home.apply(p)).collect();
     let [x, y, w] = moved[moved.len() - 1];
     let along = [x, y];
     let length = distance_from_origin(layout.space, [x, y, w].map(f64::from));
     let unit = f64::from(norm2(along).sqrt());
     // The distance of a point from the line through the origin, in H² its hyperbolic sine.
-    let off = |p: &[Twofold; 3]| f64::from(cross(along, [p[0], p[1]])).abs() / unit;
+    let off = |p: &[DoubleDouble; 3]| f64::from(cross(along, [p[0], p[1]])).abs() / unit;
     let farthest = moved.iter().map(off).fold(0.0, worse);
     let (length, straightness) = match layout.space {
         Space::H2 => (length, farthest.asinh()),

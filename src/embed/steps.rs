@@ -5,7 +5,7 @@ use super::frame::Walk;
 use super::pieces::Pieces;
 use crate::error::Result;
 use crate::flow::Solution;
-use crate::geometry::{Motion, Space, Twofold};
+use crate::geometry::{Motion, Space, DoubleDouble};
 use crate::mesh::{FaceId, HalfedgeId, Mesh, PerFace, PerHalfedge};
 use crate::metric::Refinement;
 use crate::parallel;
@@ -23,7 +23,7 @@ pub struct Steps {
     pub corners: PerFace<[[f64; 3]; 3]>,
     /// Per half-edge of a face, the isometry that brings the face beyond it from its own place to where it lies beside this one; the
     /// identity on the boundary and outside.
-    pub across: PerHalfedge<Motion<Twofold>>,
+    pub across: PerHalfedge<Motion<DoubleDouble>>,
     /// The sum of the faces' areas.
     pub area: f64,
 }
@@ -47,7 +47,7 @@ pub fn steps(metric: &Solution, refinement: Option<&Arc<Refinement>>) -> Result<
         pieces.final_barycentric(f).map(|weights| combination(faces.space, local, weights))
     });
     let still = Motion::identity(faces.space);
-    let mut across: Vec<Result<Motion<Twofold>>> = (0..mesh.n_halfedges()).map(|_| Ok(still)).collect();
+    let mut across: Vec<Result<Motion<DoubleDouble>>> = (0..mesh.n_halfedges()).map(|_| Ok(still)).collect();
     parallel::fill(&mut across, |h| {
         let h = HalfedgeId::from(h);
         let inside = !mesh.is_boundary_edge(h.edge());
@@ -67,10 +67,10 @@ pub fn steps(metric: &Solution, refinement: Option<&Arc<Refinement>>) -> Result<
 }
 
 /// The isometry from the place of the face beyond a half-edge to that of the face on its left.
-fn step(faces: &Faces<Motion<Twofold>>, along: HalfedgeId) -> Result<Motion<Twofold>> {
+fn step(faces: &Faces<Motion<DoubleDouble>>, along: HalfedgeId) -> Result<Motion<DoubleDouble>> {
     let (face, side) = corner_of(faces.mesh, along)?;
     let (next, k) = corner_of(faces.mesh, along.twin())?;
-    let identity: Motion<Twofold> = Walk::identity(faces.space);
+    let identity: Motion<DoubleDouble> = Walk::identity(faces.space);
     let frame = faces.side(face, side, identity);
     Ok(faces.around(next, k, faces.across(frame, along))[0].normalised())
 }

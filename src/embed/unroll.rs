@@ -8,7 +8,7 @@ use super::place::lay_out;
 use crate::control::Control;
 use crate::error::{Result, check_size};
 use crate::flow::Solution;
-use crate::geometry::{Motion, Space, Twofold};
+use crate::geometry::{Motion, Space, DoubleDouble};
 use crate::mesh::{FaceId, HalfedgeId, Mesh, PerEdge, VertexId};
 use crate::metric::curvature::area;
 use crate::metric::{Metric, Refinement};
@@ -183,7 +183,7 @@ fn laid_out(
         return by::<PlaneFrame>(&faces?, refined(refinement?), options, control);
     }
     let (refinement, faces) = parallel::join(refine, || Faces::precise(mesh, metric));
-    by::<Motion<Twofold>>(&faces?, refined(refinement?), options, control)
+    by::<Motion<DoubleDouble>>(&faces?, refined(refinement?), options, control)
 }
 
 fn by<F: Frame>(

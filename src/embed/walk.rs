@@ -5,7 +5,7 @@ use super::layout::Layout;
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::flow::Solution;
-use crate::geometry::{Motion, Space, Twofold};
+use crate::geometry::{Motion, Space, DoubleDouble};
 use crate::mesh::{FaceId, HalfedgeId};
 use crate::topology::{corner_walk, crossed_halfedges};
 
@@ -15,7 +15,7 @@ use crate::topology::{corner_walk, crossed_halfedges};
 /// e^{3 radius} of the digits; from face to face nothing leads farther than the path. In E², where the layout has a scale of its own, the
 /// products cost none.
 pub(super) struct Walks<'a> {
-    faces: Faces<'a, Motion<Twofold>>,
+    faces: Faces<'a, Motion<DoubleDouble>>,
     layout: &'a Layout,
 }
 
@@ -24,7 +24,7 @@ pub(super) struct Walks<'a> {
 struct Place {
     piece: FaceId,
     face: FaceId,
-    frame: Motion<Twofold>,
+    frame: Motion<DoubleDouble>,
 }
 
 impl<'a> Walks<'a> {
@@ -42,13 +42,13 @@ impl<'a> Walks<'a> {
         corner: HalfedgeId,
         path: &[HalfedgeId],
         control: &Control,
-    ) -> Result<Motion<Twofold>> {
+    ) -> Result<Motion<DoubleDouble>> {
         control.check()?;
         let crossed = crossed_halfedges(self.layout.mesh(), corner, path)?;
         if self.layout.space != Space::H2 {
             let steps = crossed.iter().filter(|h| self.layout.side(**h) != 0);
             let step =
-                |m: Motion<Twofold>, &h: &HalfedgeId| m.compose(&self.layout.neighbour(h).normalised());
+                |m: Motion<DoubleDouble>, &h: &HalfedgeId| m.compose(&self.layout.neighbour(h).normalised());
             return Ok(steps.fold(Motion::identity(self.layout.space), step).normalised());
         }
         let end = self.through(self.start(corner)?, &crossed)?;
@@ -58,7 +58,7 @@ impl<'a> Walks<'a> {
 
     /// The vertices of the lift of a path that starts at a corner, in the metric's own lengths: the final face of the corner lies with its
     /// first half-edge at the origin, along the x axis.
-    pub fn points(&self, corner: HalfedgeId, path: &[HalfedgeId]) -> Result<Vec<[Twofold; 3]>> {
+    pub fn points(&self, corner: HalfedgeId, path: &[HalfedgeId]) -> Result<Vec<[DoubleDouble; 3]>> {
         let mut place = self.start(corner)?;
         let mut points = vec![self.point(&place, corner)?];
         for (crossed, at) in corner_walk(self.layout.mesh(), corner, path)? {
@@ -97,7 +97,7 @@ impl<'a> Walks<'a> {
     }
 
     /// The origin of a half-edge of the piece that a walk is in.
-    fn point(&self, at: &Place, h: HalfedgeId) -> Result<[Twofold; 3]> {
+    fn point(&self, at: &Place, h: HalfedgeId) -> Result<[DoubleDouble; 3]> {
         let corner = corner_of(self.layout.mesh(), h)?;
         Ok(self.faces.point((at.face, at.frame), self.layout.pieces.final_place(corner, h)))
     }

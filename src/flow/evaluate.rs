@@ -7,8 +7,8 @@ use crate::error::Result;
 use crate::geometry::conformal::{Edge, Vertex};
 use crate::geometry::scaling::{fill_chords, fill_vertices};
 use crate::geometry::triangle::Angles;
-use crate::geometry::twofold::two_sum;
-use crate::geometry::{Space, Twofold, largest, worse};
+use crate::geometry::double_double::two_sum;
+use crate::geometry::{Space, DoubleDouble, largest, worse};
 use crate::mesh::{EdgeId, FixedEdges, Flip, Mesh, PerVertex, VertexId};
 use crate::metric::Metric;
 use crate::metric::curvature::curvature_into;
@@ -30,7 +30,7 @@ pub(super) struct State {
     /// Empty where half chords are enough.
     edges: Vec<Edge>,
     /// Their half chords, where these are enough.
-    chords: Vec<Twofold>,
+    chords: Vec<DoubleDouble>,
     pub angles: Vec<Angles>,
     /// Per face: ∂θ/∂u weights of the edges opposite its corners, 0 in a broken face.
     pub weights: Vec<[f64; 3]>,
@@ -110,7 +110,7 @@ impl State {
         let mut touched = Vec::new();
         let flips = timed(&mut seconds.flip, || {
             let mut queue = if real { self.suspects(mesh, fixed) } else { Queue::all(mesh, fixed) };
-            let mut record = |mesh: &Mesh, flip: Flip<Twofold>| {
+            let mut record = |mesh: &Mesh, flip: Flip<DoubleDouble>| {
                 touched.push(flip.edge);
                 record(mesh, flip);
             };
@@ -154,7 +154,7 @@ impl State {
     fn find_chords(&mut self, mesh: &Mesh, class: &Metric) -> bool {
         let State { vertices, edges, chords, .. } = self;
         edges.clear();
-        chords.resize(mesh.n_edges(), Twofold::default());
+        chords.resize(mesh.n_edges(), DoubleDouble::default());
         fill_chords(class.space, chords, |e| class.ends_and_eta(mesh, vertices, e.into()));
         let is_known = chords.iter().all(|chord| chord.high > 0.0);
         if !is_known {

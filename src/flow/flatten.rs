@@ -10,7 +10,7 @@ use crate::geometry::largest;
 
 /// Corrections at most. Each brings the curvature down by the accuracy of a linear solution, 1e-12 and better.
 const STEPS: usize = 4;
-/// No correction is made below this: angles have 31 digits or so. That `twofold::exp` has 20 does not matter: it is a function
+/// No correction is made below this: angles have 31 digits or so. That `double_double::exp` has 20 does not matter: it is a function
 /// of u that is smooth where corrections of u below 1e-16 are concerned, so they make up for it.
 const FLOOR: f64 = 1e-29;
 

@@ -9,7 +9,7 @@ use super::solution::Solution;
 use crate::control::Control;
 use crate::error::Result;
 use crate::geometry::triangle::angles;
-use crate::geometry::{Space, Twofold};
+use crate::geometry::{Space, DoubleDouble};
 use crate::mesh::{EdgeId, Filled, HalfedgeId, Mesh, PerEdge, VertexId};
 use crate::metric::lengths::face_lengths;
 use crate::metric::{Class, Metric, Surface};
@@ -101,5 +101,5 @@ impl Solution {
 fn make_hub(mesh: &Mesh, metric: &mut Metric, hub: VertexId) {
     metric.epsilon[hub] = 1;
     let eta = Arc::make_mut(&mut metric.eta);
-    mesh.outgoing(hub).for_each(|h| eta[h.edge()] = Twofold::default());
+    mesh.outgoing(hub).for_each(|h| eta[h.edge()] = DoubleDouble::default());
 }

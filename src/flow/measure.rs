@@ -7,7 +7,7 @@ use crate::geometry::lanes::{Formula, Lanes, work_out};
 use crate::geometry::scaled::scaled;
 use crate::geometry::triangle::{self, Angles, plane_angles_with_weights, sound_plane_angles_with_weights};
 use crate::geometry::weights::weights_from_sines;
-use crate::geometry::{Space, Twofold, chords};
+use crate::geometry::{Space, DoubleDouble, chords};
 use crate::mesh::{EdgeId, FaceId, Mesh};
 use crate::metric::Metric;
 use crate::parallel::{fill_both, in_parts_of_both};
@@ -19,7 +19,7 @@ pub(super) fn needs_chords_alone(class: &Metric) -> bool {
 
 /// The half chord of an edge, for vertex scaling; 0 where it has no length, and where that needs a unit of its own.
 #[inline]
-pub(super) fn chord(mesh: &Mesh, class: &Metric, vertices: &[Vertex], e: EdgeId) -> Twofold {
+pub(super) fn chord(mesh: &Mesh, class: &Metric, vertices: &[Vertex], e: EdgeId) -> DoubleDouble {
     let ([a, b], eta) = class.ends_and_eta(mesh, vertices, e);
     plain_chord(class.space, a, b, eta)
 }
@@ -32,7 +32,7 @@ pub(super) struct Parts<'a> {
     pub vertices: &'a [Vertex],
     /// None where the chords are known instead.
     pub edges: &'a [Edge],
-    pub chords: &'a [Twofold],
+    pub chords: &'a [DoubleDouble],
 }
 
 impl Parts<'_> {
@@ -76,7 +76,7 @@ impl Parts<'_> {
     }
 
     #[inline]
-    fn chords_at(self, f: FaceId) -> [Twofold; 3] {
+    fn chords_at(self, f: FaceId) -> [DoubleDouble; 3] {
         self.mesh.opposite_edges(f).map(|e| self.chords[e.index()])
     }
 
@@ -158,7 +158,7 @@ mod tests {
             let vertices: Vec<Vertex> = (0..mesh.n_vertices())
                 .map(|v| Vertex::precise(space, 0, class.u[VertexId::from(v)], 0.0))
                 .collect();
-            let chords: Vec<Twofold> =
+            let chords: Vec<DoubleDouble> =
                 (0..mesh.n_edges()).map(|e| chord(mesh, &class, &vertices, e.into())).collect();
             assert!(chords.iter().all(|chord| chord.high > 0.0));
             let parts = Parts { mesh, class: &class, vertices: &vertices, edges: &[], chords: &chords };

@@ -47,7 +47,7 @@ pub use solution::Solution;
 
 use crate::control::Control;
 use crate::error::Result;
-use crate::geometry::Twofold;
+use crate::geometry::DoubleDouble;
 use crate::mesh::{FixedEdges, FlipLog, PerVertex};
 use crate::metric::{Class, Surface, Target};
 use crate::parallel::Pool;
@@ -87,7 +87,7 @@ pub struct Flow {
     /// Per vertex its mirror image on a double, where the metric is kept symmetric.
     mirror: Option<Vec<u32>>,
     /// The flips of the present solve, by which it is undone.
-    log: FlipLog<Twofold>,
+    log: FlipLog<DoubleDouble>,
     /// On one copy of a surface with boundary, as long as nothing is flipped across its boundary.
     one_copy: bool,
     /// The present solve's target per vertex of the present triangulation.

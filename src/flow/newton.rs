@@ -12,7 +12,7 @@ use super::report::{Report, StopReason};
 use super::solve::End;
 use crate::control::{Control, Stage};
 use crate::error::Result;
-use crate::geometry::twofold::MAX_EXPONENT;
+use crate::geometry::double_double::MAX_EXPONENT;
 use crate::geometry::{Space, largest, worse};
 use crate::metric::delaunay::boundary_fails;
 

@@ -9,7 +9,7 @@
 //! With these products P_k and `h = √(P_i P_j P_k)` the half-angle law reads `tan(θ_k/2) = h / (P_k sinh s)`, and the derivatives
 //! ([`super::weights::weights`] with ε = 0) are `w_k = (q_i² + q_j² − q_k²) sinh s / (2 h c_k²)`.
 
-use super::Twofold;
+use super::DoubleDouble;
 use super::arctangent::angle;
 use super::complex::Number;
 use super::conformal::differences_of;
@@ -84,7 +84,7 @@ impl<L: Lanes> Parts<L> {
 /// Angles and derivatives of a triangle; `None` of one that is broken or, for its size, so thin that doubles would lose digits. `chords`:
 /// half chords to twice the digits, opposite the corners.
 #[inline]
-pub fn angles_with_weights(chords: [Twofold; 3]) -> Option<(Angles, [f64; 3])> {
+pub fn angles_with_weights(chords: [DoubleDouble; 3]) -> Option<(Angles, [f64; 3])> {
     match sound_angles_with_weights([chords.map(|q| q.high), chords.map(|q| q.low)]) {
         (at, weights, 1.0) => Some((Angles { at }, weights)),
         _ => None,
@@ -112,7 +112,7 @@ pub(crate) fn sound_angles_with_weights<L: Lanes>(chords: [[L; 3]; 2]) -> ([L; 3
 }
 
 /// Area of a triangle, by `tan(area/2) = 2 h / (sinh s (1 + Σ cosh l))`; `None` where [`angles_with_weights`] has none.
-pub fn area(chords: [Twofold; 3]) -> Option<f64> {
+pub fn area(chords: [DoubleDouble; 3]) -> Option<f64> {
     let Parts { square, whole, root, is_sound, .. } =
         Parts::of([chords.map(|q| q.high), chords.map(|q| q.low)]);
     let cosh: f64 = square.iter().map(|x| 1.0 + 2.0 * x).sum();
@@ -169,7 +169,7 @@ mod tests {
 
     #[test]
     fn thin_and_broken_triangles_are_left_to_others() {
-        let of = |lengths: [f64; 3]| angles_with_weights(lengths.map(|l| Twofold::from((0.5 * l).sinh())));
+        let of = |lengths: [f64; 3]| angles_with_weights(lengths.map(|l| DoubleDouble::from((0.5 * l).sinh())));
         assert!(of([1.0, 0.3, 0.4]).is_none() && of([20.0, 10.0, 10.000_001]).is_none());
         assert!(of([1e-60, 1e-60, 1e-60]).is_none() && of([600.0, 600.0, 600.0]).is_none());
         // Thin but small: as good as in the plane.

@@ -1,7 +1,7 @@
 //! Points and vectors of the plane, which are also complex numbers: `[x, y]` is x + iy.
 //!
 //! They are plain arrays like all positions and coordinates of the library, of doubles or of another [`Number`] such as
-//! [`super::Twofold`].
+//! [`super::DoubleDouble`].
 //!
 //! ```
 //! use ricci::geometry::complex::{conj, cross, mul, unit};
@@ -107,7 +107,7 @@ pub fn unit(z: Complex) -> Complex {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Twofold;
+    use crate::geometry::DoubleDouble;
     use num_complex::Complex64;
 
     /// An independent implementation of complex numbers, on points whose products are exact in doubles.
@@ -124,7 +124,7 @@ mod tests {
             same(sub(z, w), p - q);
             same(scale(0.5, z), 0.5 * p);
             assert_eq!((norm2(z), norm(z)), (p.norm_sqr(), p.norm()));
-            assert_eq!(mul(z.map(Twofold::from), w.map(Twofold::from)).map(f64::from), mul(z, w));
+            assert_eq!(mul(z.map(DoubleDouble::from), w.map(DoubleDouble::from)).map(f64::from), mul(z, w));
         }
         assert_eq!(doubled_area([[1.0, 1.0], [4.0, 1.0], [1.0, 3.0]]), 6.0);
         assert_eq!(distance([1.0, 1.0], [4.0, 5.0]), 5.0);

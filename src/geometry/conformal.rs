@@ -37,7 +37,7 @@ use super::Space;
 use super::lanes::Lanes;
 use super::scaled::{exponent, scaled};
 use super::triangle::half_differences;
-use super::twofold::{self, Twofold, two_product, two_sum};
+use super::double_double::{self, DoubleDouble, two_product, two_sum};
 pub use super::vertex::{Vertex, is_precise, radius};
 use std::f64::consts::PI;
 
@@ -82,7 +82,7 @@ pub(super) fn unit_of_products(e: [(f64, i32); 2], epsilon: [f64; 2], eta: f64) 
 
 /// An edge; `None` when (ε, η, u) give no real positive finite length (in H² none in the range of lengths).
 #[inline]
-pub fn edge(space: Space, a: Vertex, b: Vertex, eta: impl Into<Twofold>) -> Option<Edge> {
+pub fn edge(space: Space, a: Vertex, b: Vertex, eta: impl Into<DoubleDouble>) -> Option<Edge> {
     let eta = eta.into();
     if space == Space::E2 {
         return plane_edge(a, b, eta);
@@ -106,7 +106,7 @@ pub fn edge(space: Space, a: Vertex, b: Vertex, eta: impl Into<Twofold>) -> Opti
 }
 
 /// An edge in E², in a unit in which its length is neither tiny nor huge.
-fn plane_edge(a: Vertex, b: Vertex, eta: Twofold) -> Option<Edge> {
+fn plane_edge(a: Vertex, b: Vertex, eta: DoubleDouble) -> Option<Edge> {
     let plain = if a.exponent | b.exponent == 0 { squared_chord(a, b, eta.high) } else { f64::NAN };
     let ([a, b], n) = if PLAIN_SQUARES.contains(&exponent(plain)) {
         ([a, b], plain)
@@ -158,7 +158,7 @@ pub fn in_one_unit(corners: &mut [Vertex; 3], edges: &mut [Edge; 3]) -> i32 {
 }
 
 /// `l − γ_a − γ_b − gap` in E², to twice the digits: the angles of needles and of triangles in metrics of wide range turn on it.
-fn lost_gap(a: Vertex, b: Vertex, eta: Twofold, gap: f64) -> f64 {
+fn lost_gap(a: Vertex, b: Vertex, eta: DoubleDouble, gap: f64) -> f64 {
     let (mut n, mut n_low) = doubled_product([a.scale, a.low], [b.scale, b.low], [eta.high, eta.low]);
     for v in [a, b].into_iter().filter(|v| v.epsilon != 0.0) {
         let (square, square_low) = two_product(v.scale, v.scale);
@@ -182,24 +182,24 @@ fn doubled_product<L: Lanes>([a, a_low]: [L; 2], [b, b_low]: [L; 2], [eta, eta_l
 
 /// The square root of `n + low`.
 #[inline(always)]
-fn root<L: Lanes>(n: L, low: L) -> Twofold<L> {
+fn root<L: Lanes>(n: L, low: L) -> DoubleDouble<L> {
     let root = n.root();
     let (square, square_low) = two_product(root, root);
-    Twofold { high: root, low: ((n - square) - square_low + low) / (root + root) }
+    DoubleDouble { high: root, low: ((n - square) - square_low + low) / (root + root) }
 }
 
 /// [`half_chord`] with ε = 0 at both ends, in E² and H², of what needs no unit of its own; 0 of other edges.
 #[inline]
-pub fn plain_chord(space: Space, a: Vertex, b: Vertex, eta: Twofold) -> Twofold {
+pub fn plain_chord(space: Space, a: Vertex, b: Vertex, eta: DoubleDouble) -> DoubleDouble {
     if a.exponent | b.exponent != 0 {
-        return Twofold::default();
+        return DoubleDouble::default();
     }
     plain_chord_of(space, [a.scale, a.low], [b.scale, b.low], [eta.high, eta.low])
 }
 
 /// [`plain_chord`] of one or several edges, from what [`doubled_product`] takes.
 #[inline(always)]
-pub(super) fn plain_chord_of<L: Lanes>(space: Space, a: [L; 2], b: [L; 2], eta: [L; 2]) -> Twofold<L> {
+pub(super) fn plain_chord_of<L: Lanes>(space: Space, a: [L; 2], b: [L; 2], eta: [L; 2]) -> DoubleDouble<L> {
     let (n, low) = doubled_product(a, b, eta);
     let (range, share) = match space {
         // l² = n
@@ -207,21 +207,21 @@ pub(super) fn plain_chord_of<L: Lanes>(space: Space, a: [L; 2], b: [L; 2], eta: 
         _ => (&HYPERBOLIC_CHORDS, 1.0),
     };
     let (zero, one, share) = (n.constant(0.0), n.constant(1.0), n.constant(share));
-    let Twofold { high, low } = root(share * n, share * low);
+    let DoubleDouble { high, low } = root(share * n, share * low);
     let is_small = n.constant(MOST_PLAIN_ETA).where_at_least(eta[0], one, zero);
     let is_plain = a[0].where_within(&PLAIN_SCALES, b[0].where_within(&PLAIN_SCALES, is_small));
     let is_plain = n.where_within(range, is_plain);
-    Twofold { high: is_plain.where_at_least(one, high, zero), low: is_plain.where_at_least(one, low, zero) }
+    DoubleDouble { high: is_plain.where_at_least(one, high, zero), low: is_plain.where_at_least(one, low, zero) }
 }
 
 /// [`half_chord`] by [`plain_chord`], where ε = 0 at both ends and that serves.
 #[inline]
-pub(crate) fn precise_chord(space: Space, a: Vertex, b: Vertex, eta: Twofold) -> (Twofold, i32) {
+pub(crate) fn precise_chord(space: Space, a: Vertex, b: Vertex, eta: DoubleDouble) -> (DoubleDouble, i32) {
     if a.epsilon == 0.0 && b.epsilon == 0.0 && space != Space::S2 {
         let plain = plain_chord(space, a, b, eta);
         if plain.high > 0.0 {
             // What u loses may be more than half an ulp of the chord.
-            return (Twofold::renormalised(plain.high, plain.low), 0);
+            return (DoubleDouble::renormalised(plain.high, plain.low), 0);
         }
     }
     half_chord(space, a, b, eta)
@@ -229,7 +229,7 @@ pub(crate) fn precise_chord(space: Space, a: Vertex, b: Vertex, eta: Twofold) ->
 
 /// The half chord of an edge (l/2, sinh(l/2), sin(l/2) in E², H², S²) with twice the digits, as far as its ends have them
 /// ([`is_precise`]), and the exponent of its unit; 0 for an edge without a real length.
-pub fn half_chord(space: Space, a: Vertex, b: Vertex, eta: Twofold) -> (Twofold, i32) {
+pub fn half_chord(space: Space, a: Vertex, b: Vertex, eta: DoubleDouble) -> (DoubleDouble, i32) {
     let [a, b] = if space == Space::E2 { in_unit_of_edge(a, b, eta.high) } else { [a, b] };
     let [x, y] = [a, b].map(Vertex::precise_scale);
     let mut n = (x * y * eta).scaled(1);
@@ -241,22 +241,22 @@ pub fn half_chord(space: Space, a: Vertex, b: Vertex, eta: Twofold) -> (Twofold,
     let q = match space {
         Space::E2 => n.sqrt().scaled(-1),
         _ if a.d == 1.0 && b.d == 1.0 => n.sqrt(),
-        _ => (n / (Twofold::from(a.d) * b.d.into())).sqrt(),
+        _ => (n / (DoubleDouble::from(a.d) * b.d.into())).sqrt(),
     };
     (q, a.exponent)
 }
 
 /// `l − length` in H² where ε = 0, from `sinh²(l/2) = 2 η e^{u_a + u_b}` to twice the digits: `2 (q − sinh(length/2))/cosh(length/2)`.
-fn lost_length(a: Vertex, b: Vertex, eta: Twofold, length: f64) -> f64 {
+fn lost_length(a: Vertex, b: Vertex, eta: DoubleDouble, length: f64) -> f64 {
     let chord = precise_chord(Space::H2, a, b, eta).0;
     let half = 0.5 * length;
-    if half <= twofold::MAX_SERIES {
-        let sinh = twofold::sinh(half);
+    if half <= double_double::MAX_SERIES {
+        let sinh = double_double::sinh(half);
         return 2.0 * (chord - sinh).high / (1.0 + sinh.high * sinh.high).sqrt();
     }
-    let (up, lost) = twofold::exp(half);
-    let up = Twofold::from(up) + (up * lost).into();
-    let down = Twofold::from(1.0) / up;
+    let (up, lost) = double_double::exp(half);
+    let up = DoubleDouble::from(up) + (up * lost).into();
+    let down = DoubleDouble::from(1.0) / up;
     let rest = chord - (up - down).scaled(-1);
     4.0 * rest.high / (up.high + down.high)
 }
@@ -305,7 +305,7 @@ fn squared_chord(a: Vertex, b: Vertex, eta: f64) -> f64 {
 
 /// `l − γ_a − γ_b` of two circles, given `total = l + γ_a + γ_b`.
 #[inline]
-fn circle_gap(space: Space, [a, b]: [Vertex; 2], eta: Twofold, total: f64) -> f64 {
+fn circle_gap(space: Space, [a, b]: [Vertex; 2], eta: DoubleDouble, total: f64) -> f64 {
     let product = 2.0 * ((eta.high - 1.0) + eta.low) * (a.scale * b.scale);
     match space {
         Space::E2 => product / total,
@@ -318,7 +318,7 @@ fn circle_gap(space: Space, [a, b]: [Vertex; 2], eta: Twofold, total: f64) -> f6
 
 /// [`half_differences`] of lengths to twice the digits.
 #[inline]
-pub fn differences_of_lengths(lengths: [Twofold; 3]) -> [f64; 3] {
+pub fn differences_of_lengths(lengths: [DoubleDouble; 3]) -> [f64; 3] {
     differences_of(lengths.map(|l| l.high), lengths.map(|l| l.low))
 }
 
@@ -338,7 +338,7 @@ pub(crate) fn differences_of<L: Lanes>(high: [L; 3], low: [L; 3]) -> [L; 3] {
 pub fn differences(corners: [Vertex; 3], edges: [Edge; 3]) -> [f64; 3] {
     if corners.iter().all(|v| v.radius == 0.0) {
         // The gaps are the lengths.
-        return differences_of_lengths(edges.map(|e| Twofold { high: e.gap, low: e.low }));
+        return differences_of_lengths(edges.map(|e| DoubleDouble { high: e.gap, low: e.low }));
     }
     let gap = edges.map(|e| e.gap);
     // Near a broken triangle of circles 2γ_k and the gaps cancel: what each sum loses is kept.

@@ -29,7 +29,7 @@
 
 use super::conformal::{Vertex, unit_of_products};
 use super::motion::Real;
-use super::{Space, Twofold};
+use super::{Space, DoubleDouble};
 
 /// Least `D/η_ij²` of an edge that can be flipped. Where it is smaller, the circles i and j touch within the rounding of η (1e-16; the
 /// factor of 1000 leaves room), and nothing is perpendicular to the plane of their vectors.
@@ -82,9 +82,9 @@ pub fn weight(space: Space, v: Vertex) -> Weight {
 }
 
 /// [`weight`] with twice the digits, of a vertex that has them ([`super::conformal::is_precise`]): there it is `e^u` or `2 e^u`.
-pub fn precise_weight(space: Space, v: Vertex) -> Weight<Twofold> {
+pub fn precise_weight(space: Space, v: Vertex) -> Weight<DoubleDouble> {
     let Weight { value, exponent } = weight(space, v);
-    Weight { value: Twofold::from(value) + (value * v.low).into(), exponent }
+    Weight { value: DoubleDouble::from(value) + (value * v.low).into(), exponent }
 }
 
 /// The absolute value, as a double.
@@ -230,13 +230,13 @@ impl Hinge {
     }
 }
 
-impl Hinge<Twofold> {
+impl Hinge<DoubleDouble> {
     /// Whether the edge fails the weighted Delaunay condition and can be flipped, where [`Hinge::verdict`] cannot tell: the angles α, β
     /// that the condition compares add up to more than π, `sin(α + β) < 0`, by more than [`TOLERANCE`] of `sin α + sin β`.
     pub fn wants_flip(&self) -> bool {
         let Some(Heights { cosines: [k, l], .. }) = self.heights() else { return false };
         // 0 in a broken triangle, whose angles are 0 and π.
-        let [sin_k, sin_l] = [k, l].map(|cosine| (Twofold::from(1.0) - cosine * cosine).sqrt());
+        let [sin_k, sin_l] = [k, l].map(|cosine| (DoubleDouble::from(1.0) - cosine * cosine).sqrt());
         let sines = (sin_k + sin_l).high;
         if sines == 0.0 { (k + l).high < 0.0 } else { (sin_k * l + k * sin_l).high < -TOLERANCE * sines }
     }

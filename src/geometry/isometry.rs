@@ -8,7 +8,7 @@
 //! ```
 
 use super::complex::{add, cross, dot, mul, sub};
-use super::{Motion, Twofold};
+use super::{Motion, DoubleDouble};
 use std::f64::consts::{PI, TAU};
 
 /// `z ↦ e^{iθ} z + t`.
@@ -66,9 +66,9 @@ impl PlaneIsometry {
     }
 }
 
-impl From<Motion<Twofold>> for PlaneIsometry {
+impl From<Motion<DoubleDouble>> for PlaneIsometry {
     /// A motion of E².
-    fn from(g: Motion<Twofold>) -> PlaneIsometry {
+    fn from(g: Motion<DoubleDouble>) -> PlaneIsometry {
         let [x, y, _] = g.origin().map(f64::from);
         let [cos, sin] = g.a.map(f64::from);
         PlaneIsometry::new(2.0 * sin.atan2(cos), [x, y])
@@ -99,8 +99,8 @@ mod tests {
     fn isometries_are_those_of_the_motions_that_they_come_from() {
         let place = [0.3, -1.0];
         let g = PlaneIsometry::new(2.5, place);
-        let direction = [g.rotation.cos(), g.rotation.sin()].map(Twofold::from);
-        let from = PlaneIsometry::from(Motion::in_plane(direction, place.map(Twofold::from)));
+        let direction = [g.rotation.cos(), g.rotation.sin()].map(DoubleDouble::from);
+        let from = PlaneIsometry::from(Motion::in_plane(direction, place.map(DoubleDouble::from)));
         assert!((from.rotation - g.rotation).abs() < 1e-15 && close(from.translation, g.translation));
         assert!(close(from.apply([0.7, -0.2]), g.apply([0.7, -0.2])));
     }

@@ -21,7 +21,7 @@
 use super::complex::{Complex, add, conj, mul, norm2, scale};
 pub use super::real::Real;
 use super::real::product;
-use super::{Space, Twofold};
+use super::{Space, DoubleDouble};
 
 /// An orientation-preserving isometry of E², H² or S².
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -166,15 +166,15 @@ impl<T: Real> Motion<T> {
 
 impl Motion<f64> {
     /// The motion with twice the digits, scaled so that `|a|² + κ|b|² = 1` holds to all of them.
-    pub fn precise(&self) -> Motion<Twofold> {
-        Motion { space: self.space, a: self.a.map(Twofold::from), b: self.b.map(Twofold::from) }.normalised()
+    pub fn precise(&self) -> Motion<DoubleDouble> {
+        Motion { space: self.space, a: self.a.map(DoubleDouble::from), b: self.b.map(DoubleDouble::from) }.normalised()
     }
 }
 
-impl Motion<Twofold> {
+impl Motion<DoubleDouble> {
     /// The isometry `z ↦ direction · z + place` of the plane; `direction` has length 1.
-    pub fn in_plane(direction: [Twofold; 2], place: [Twofold; 2]) -> Self {
-        let ([cos, sin], one) = (direction, Twofold::from(1.0));
+    pub fn in_plane(direction: [DoubleDouble; 2], place: [DoubleDouble; 2]) -> Self {
+        let ([cos, sin], one) = (direction, DoubleDouble::from(1.0));
         // Half the angle, from the larger of 1 ± cos.
         let half = match (cos.high >= 0.0, sin.high >= 0.0) {
             (true, _) => [one + cos, sin],
@@ -186,12 +186,12 @@ impl Motion<Twofold> {
     }
 
     /// The translation, without a rotation, that brings the point with these ambient coordinates to the origin.
-    pub fn to_origin(space: Space, [x, y, w]: [Twofold; 3]) -> Self {
-        let (one, two) = (Twofold::from(1.0), Twofold::from(2.0));
+    pub fn to_origin(space: Space, [x, y, w]: [DoubleDouble; 3]) -> Self {
+        let (one, two) = (DoubleDouble::from(1.0), DoubleDouble::from(2.0));
         // 2ab is x + iy, with b in that direction and a real: 2a² = 1 + w.
         let a = if space == Space::E2 { one } else { ((w + one) / two).sqrt() };
         let b = [x, y].map(|x| x / (two * a));
-        Motion { space, a: [a, Twofold::from(0.0)], b }.normalised().inverse()
+        Motion { space, a: [a, DoubleDouble::from(0.0)], b }.normalised().inverse()
     }
 
     /// The motion rounded to doubles.
@@ -245,7 +245,7 @@ impl Motion<Twofold> {
         let near = self.positive();
         let rest = near.a[0] - 1.0.into();
         let square = rest * rest + near.a[1] * near.a[1] + norm2(near.b);
-        f64::from((Twofold::from(2.0) * square).sqrt())
+        f64::from((DoubleDouble::from(2.0) * square).sqrt())
     }
 
     /// The square of the Frobenius norm of its 2×2 matrix, `2(|a|² + |b|²)`.
@@ -256,21 +256,21 @@ impl Motion<Twofold> {
     /// The 2×2 complex matrix of the Möbius transformation in the plane (E²: `[[e^{iθ}, t], [0, 1]]`), the Poincaré disk or the
     /// stereographic plane of the sphere: determinant 1 (E²: e^{iθ}).
     pub fn mobius(&self) -> [[[f64; 2]; 2]; 2] {
-        self.mobius_twofold().map(|row| row.map(|z| z.map(f64::from)))
+        self.mobius_double_double().map(|row| row.map(|z| z.map(f64::from)))
     }
 
     /// What the doubles of [`Motion::mobius`] lose: together they have twice the digits. Far translations need them, since |a|² − |b|² = 1
     /// is the difference of numbers of the size e^length.
     pub fn mobius_remainder(&self) -> [[[f64; 2]; 2]; 2] {
-        self.mobius_twofold().map(|row| row.map(|z| z.map(|x| x.low)))
+        self.mobius_double_double().map(|row| row.map(|z| z.map(|x| x.low)))
     }
 
-    fn mobius_twofold(&self) -> [[Complex<Twofold>; 2]; 2] {
+    fn mobius_double_double(&self) -> [[Complex<DoubleDouble>; 2]; 2] {
         let near = self.positive();
         let (a, b) = (near.a, near.b);
-        let real = |x: f64| [Twofold::from(x), Twofold::from(0.0)];
+        let real = |x: f64| [DoubleDouble::from(x), DoubleDouble::from(0.0)];
         match self.space {
-            Space::E2 => [[mul(a, a), scale(Twofold::from(2.0), mul(a, b))], [real(0.0), real(1.0)]],
+            Space::E2 => [[mul(a, a), scale(DoubleDouble::from(2.0), mul(a, b))], [real(0.0), real(1.0)]],
             _ => [[a, b], [scale(-self.sign(), conj(b)), conj(a)]],
         }
     }
@@ -278,9 +278,9 @@ impl Motion<Twofold> {
 
 /// The point with twice the digits that ambient coordinates in doubles stand for: on the hyperboloid and in the plane x and y say where,
 /// and w is computed from them (far out its rounding would throw the point off by e^{2d} ulp); a unit vector in S².
-pub fn precise_point(space: Space, p: [f64; 3]) -> [Twofold; 3] {
-    let [x, y, w] = p.map(Twofold::from);
-    let one = Twofold::from(1.0);
+pub fn precise_point(space: Space, p: [f64; 3]) -> [DoubleDouble; 3] {
+    let [x, y, w] = p.map(DoubleDouble::from);
+    let one = DoubleDouble::from(1.0);
     match space {
         Space::E2 => [x, y, one],
         Space::H2 => [x, y, (one + x * x + y * y).sqrt()],
@@ -394,11 +394,11 @@ mod tests {
 
     /// Sixty there and sixty back: entries of e^30, which doubles cannot take apart again.
     #[test]
-    fn twofold_motions_come_back_from_far_out() {
+    fn double_double_motions_come_back_from_far_out() {
         let go = turn(0.3, Space::H2).compose(&Motion::translation(1.5, Space::H2)).precise();
-        let mut there = Motion::<Twofold>::identity(Space::H2);
+        let mut there = Motion::<DoubleDouble>::identity(Space::H2);
         let mut back = there;
-        let straight = Motion::<Twofold>::translation(1.5, Space::H2);
+        let straight = Motion::<DoubleDouble>::translation(1.5, Space::H2);
         for _ in 0..40 {
             there = there.compose(&straight);
             back = straight.inverse().compose(&back);

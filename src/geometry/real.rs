@@ -1,6 +1,6 @@
 //! Numbers that motions are made of.
 
-use super::Twofold;
+use super::DoubleDouble;
 use super::complex::{Complex, Number};
 use super::scaled::scaled;
 use std::ops::Div;
@@ -30,18 +30,18 @@ impl Real for f64 {
     }
 }
 
-impl Real for Twofold {
-    fn root(self) -> Twofold {
+impl Real for DoubleDouble {
+    fn root(self) -> DoubleDouble {
         self.sqrt()
     }
 
-    fn times_two_to(self, k: i32) -> Twofold {
+    fn times_two_to(self, k: i32) -> DoubleDouble {
         self.scaled(k)
     }
 
     #[inline]
-    fn two_products(a: Twofold, b: Twofold, c: Twofold, d: Twofold) -> Twofold {
-        Twofold::two_products(a, b, c, d)
+    fn two_products(a: DoubleDouble, b: DoubleDouble, c: DoubleDouble, d: DoubleDouble) -> DoubleDouble {
+        DoubleDouble::two_products(a, b, c, d)
     }
 }
 

@@ -2,9 +2,9 @@
 
 use super::conformal::plain_chord_of;
 use super::lanes::{Formula, Lanes, work_out};
-use super::twofold::exp_parts;
+use super::double_double::exp_parts;
 use super::vertex::{Vertex, is_plain};
-use super::{Space, Twofold};
+use super::{Space, DoubleDouble};
 use crate::parallel::in_parts;
 
 /// A vertex of a class: ε, u, and what its double loses.
@@ -31,8 +31,8 @@ pub(crate) fn fill_vertices(space: Space, out: &mut [Vertex], given: impl Fn(usi
 /// [`super::conformal::plain_chord`], which is 0 where it does not serve.
 pub(crate) fn fill_chords(
     space: Space,
-    out: &mut [Twofold],
-    given: impl Fn(usize) -> ([Vertex; 2], Twofold) + Sync,
+    out: &mut [DoubleDouble],
+    given: impl Fn(usize) -> ([Vertex; 2], DoubleDouble) + Sync,
 ) {
     in_parts(out, |start, out| {
         let parts = |i| {
@@ -41,7 +41,7 @@ pub(crate) fn fill_chords(
             let scale = if a.exponent | b.exponent == 0 { a.scale } else { 0.0 };
             [scale, a.low, b.scale, b.low, eta.high, eta.low]
         };
-        work_out(Chord { space }, out.len(), parts, |i, [high, low]| out[i] = Twofold { high, low });
+        work_out(Chord { space }, out.len(), parts, |i, [high, low]| out[i] = DoubleDouble { high, low });
     });
 }
 
@@ -65,7 +65,7 @@ struct Chord {
 impl Formula<6, 2> for Chord {
     #[inline(always)]
     fn of<L: Lanes>(self, [a, a_low, b, b_low, eta, eta_low]: [L; 6]) -> [L; 2] {
-        let Twofold { high, low } = plain_chord_of(self.space, [a, a_low], [b, b_low], [eta, eta_low]);
+        let DoubleDouble { high, low } = plain_chord_of(self.space, [a, a_low], [b, b_low], [eta, eta_low]);
         [high, low]
     }
 }
@@ -102,9 +102,9 @@ mod tests {
                 if epsilon != 0 || space == Space::S2 {
                     continue;
                 }
-                let mut chords = vec![Twofold::default(); u.len() - 7];
+                let mut chords = vec![DoubleDouble::default(); u.len() - 7];
                 let given = |i: usize| {
-                    ([vertices[i], vertices[i + 7]], Twofold { high: [0.7, 1e20][i % 20 / 10], low: 1e-17 })
+                    ([vertices[i], vertices[i + 7]], DoubleDouble { high: [0.7, 1e20][i % 20 / 10], low: 1e-17 })
                 };
                 fill_chords(space, &mut chords, given);
                 for (i, chord) in chords.iter().enumerate() {

@@ -18,7 +18,7 @@
 //! ```
 
 use super::complex::{self, Complex};
-use super::twofold::{self, two_product, two_sum};
+use super::double_double::{self, two_product, two_sum};
 use super::vector::Vector;
 
 /// The point of the sphere over a point of the plane, to full relative accuracy in x and y and in the distance from either pole;
@@ -54,7 +54,7 @@ pub fn log_density([x, y]: [f64; 2]) -> (f64, f64) {
     let ((xx, xx_low), (yy, yy_low)) = (two_product(x, x), two_product(y, y));
     let (square, lost) = two_sum(xx, yy);
     let (sum, rest) = two_sum(1.0, square);
-    let (e, e_low) = twofold::exp(log);
+    let (e, e_low) = double_double::exp(log);
     let low = ((sum - e) + (rest + lost + xx_low + yy_low - e * e_low)) / e;
     (log, if low.is_finite() { low } else { 0.0 })
 }

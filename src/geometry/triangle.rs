@@ -21,7 +21,7 @@
 
 use super::arctangent::angle;
 use super::lanes::Lanes;
-use super::{Space, Twofold};
+use super::{Space, DoubleDouble};
 use std::f64::consts::PI;
 
 /// Angles and validity of a triangle.
@@ -170,8 +170,8 @@ pub(crate) fn is_finite<L: Lanes>(x: [L; 3], yes: L) -> L {
 ///
 /// With `c = C(l/2)`, `d = q_i c_j − q_j c_i`, `p = q_i c_j + q_j c_i` the half-angle law reads
 /// `tan²(θ_k/2) = (q_k − d)(q_k + d) / ((p − q_k)(p + q_k))`: no function but the root.
-pub fn half_angles_of_chords(space: Space, q: [Twofold; 3]) -> [[Twofold; 2]; 3] {
-    let (one, curvature) = (Twofold::from(1.0), Twofold::from(space.curvature()));
+pub fn half_angles_of_chords(space: Space, q: [DoubleDouble; 3]) -> [[DoubleDouble; 2]; 3] {
+    let (one, curvature) = (DoubleDouble::from(1.0), DoubleDouble::from(space.curvature()));
     let c = q.map(|q| (one - curvature * q * q).sqrt());
     [0, 1, 2].map(|k| {
         let (i, j) = ((k + 1) % 3, (k + 2) % 3);

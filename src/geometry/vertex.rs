@@ -2,7 +2,7 @@
 
 use super::Space;
 use super::scaled::scaled;
-use super::twofold::{self, MAX_EXPONENT, SURELY_NORMAL, Twofold, exp_parts};
+use super::double_double::{self, MAX_EXPONENT, SURELY_NORMAL, DoubleDouble, exp_parts};
 
 /// Largest |u| in E² whose e^u is kept without an exponent, 256 log 2: its square has the size of 2^±512, which leaves as much room
 /// again for η.
@@ -66,7 +66,7 @@ impl Vertex {
             if is_plain(space, epsilon, u) {
                 return Vertex::of_exponential(epsilon, exp_parts(u), low);
             }
-            let (scale, lost) = twofold::exp(u);
+            let (scale, lost) = double_double::exp(u);
             // A subnormal e^u has not the digits that this promises.
             return match scale.is_normal() {
                 true => Vertex { scale, low: lost + low, d: 1.0, ..Vertex::default() },
@@ -128,8 +128,8 @@ impl Vertex {
     }
 
     /// e^u in the vertex's unit, with the digits that `low` adds.
-    pub fn precise_scale(self) -> Twofold {
-        Twofold::from(self.scale) + (self.scale * self.low).into()
+    pub fn precise_scale(self) -> DoubleDouble {
+        DoubleDouble::from(self.scale) + (self.scale * self.low).into()
     }
 
     /// The same vertex in units of 2^`unit`.

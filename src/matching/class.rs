@@ -7,7 +7,7 @@
 
 use super::generators::Generators;
 use crate::error::{Error, Result};
-use crate::geometry::{Motion, Twofold};
+use crate::geometry::{Motion, DoubleDouble};
 use crate::mesh::{HalfedgeId, Mesh};
 use crate::topology::spanning::Key;
 use crate::topology::{HomotopyBasis, Letter, SurfaceGroup, Word, check_path, intersection_matrix};
@@ -29,7 +29,7 @@ pub(super) struct Looped<'a> {
     pub basis: &'a HomotopyBasis,
     pub generators: &'a Generators,
     /// The frame at the base.
-    pub at_base: Motion<Twofold>,
+    pub at_base: Motion<DoubleDouble>,
     pub loops: Vec<&'a [HalfedgeId]>,
 }
 
@@ -138,7 +138,7 @@ fn check_crossings(sides: [&Looped; 2]) -> Result<()> {
 struct Element {
     word: Word,
     image: Word,
-    motion: Motion<Twofold>,
+    motion: Motion<DoubleDouble>,
     /// How far it moves the base.
     far: f64,
 }
@@ -146,11 +146,11 @@ struct Element {
 struct Group<'a> {
     own: SurfaceGroup,
     other: SurfaceGroup,
-    at_base: &'a Motion<Twofold>,
+    at_base: &'a Motion<DoubleDouble>,
 }
 
 impl Group<'_> {
-    fn element(&self, word: Word, image: Word, motion: Motion<Twofold>) -> Element {
+    fn element(&self, word: Word, image: Word, motion: Motion<DoubleDouble>) -> Element {
         let motion = motion.normalised();
         let far = motion.conjugated_by(&self.at_base.inverse()).displacement();
         Element { word: self.own.reduce(&word), image: self.other.reduce(&image), motion, far }

@@ -4,7 +4,7 @@
 use crate::embed::Layout;
 use crate::error::{Error, Result};
 use crate::geometry::motion::precise_point;
-use crate::geometry::{Motion, Space, Twofold};
+use crate::geometry::{Motion, Space, DoubleDouble};
 use crate::mesh::{FaceId, HalfedgeId, Mesh, PerHalfedge, PerVertex, VertexId};
 use crate::parallel;
 use crate::topology::CutGraph;
@@ -19,7 +19,7 @@ pub(super) struct Cover {
     pub mesh: Arc<Mesh>,
     pub space: Space,
     /// The deck transformations that are in use; number 0 is the identity.
-    motions: Vec<Motion<Twofold>>,
+    motions: Vec<Motion<DoubleDouble>>,
     /// The identity and those across half-edges, which are the first.
     n_across: usize,
     /// Per half-edge of a face: the transformation that carries the opened surface onto its neighbour across it.
@@ -36,7 +36,7 @@ impl Cover {
     pub fn new(
         mesh: &Arc<Mesh>,
         space: Space,
-        across: impl Fn(HalfedgeId) -> Option<Motion<Twofold>>,
+        across: impl Fn(HalfedgeId) -> Option<Motion<DoubleDouble>>,
         own: &[HalfedgeId],
     ) -> Result<Cover> {
         let n = mesh.n_halfedges();
@@ -90,7 +90,7 @@ impl Cover {
     pub fn along_cut(
         mesh: &Arc<Mesh>,
         space: Space,
-        (cut, pairings): (&CutGraph, &[Motion<Twofold>]),
+        (cut, pairings): (&CutGraph, &[Motion<DoubleDouble>]),
         own: &[HalfedgeId],
     ) -> Result<Cover> {
         // Per half-edge the segment that it lies on: positive on its left side.
@@ -113,23 +113,23 @@ impl Cover {
     }
 
     /// The transformation that carries the opened surface onto its neighbour across a half-edge of a face; `None` for the identity.
-    pub fn across(&self, h: HalfedgeId) -> Option<&Motion<Twofold>> {
+    pub fn across(&self, h: HalfedgeId) -> Option<&Motion<DoubleDouble>> {
         Some(self.across[h]).filter(|&k| k != 0).map(|k| &self.motions[k as usize])
     }
 
     /// The transformations across the cut.
-    pub fn neighbours(&self) -> &[Motion<Twofold>] {
+    pub fn neighbours(&self) -> &[Motion<DoubleDouble>] {
         &self.motions[1..self.n_across]
     }
 
     /// The transformation from a vertex to its corner at a half-edge of a face; `None` for the identity.
-    pub fn corner(&self, h: HalfedgeId) -> Option<&Motion<Twofold>> {
+    pub fn corner(&self, h: HalfedgeId) -> Option<&Motion<DoubleDouble>> {
         Some(self.corner[h]).filter(|&k| k != 0).map(|k| &self.motions[k as usize])
     }
 
     /// The transformation that carries the vertex at a half-edge's tip to the end of the lift of the half-edge that starts at the vertex at
     /// its origin; `None` for the identity.
-    pub fn along(&self, h: HalfedgeId) -> Option<Motion<Twofold>> {
+    pub fn along(&self, h: HalfedgeId) -> Option<Motion<DoubleDouble>> {
         let (inside, is_turned) = if self.mesh.is_outside(h) { (h.twin(), true) } else { (h, false) };
         let [from, to] = [inside, self.mesh.next(inside)].map(|h| self.corner[h]);
         if from == to {
@@ -144,11 +144,11 @@ impl Cover {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Placed {
     pub cover: Cover,
-    pub at: PerVertex<Motion<Twofold>>,
+    pub at: PerVertex<Motion<DoubleDouble>>,
 }
 
 /// Position with twice the digits.
-pub(super) type Precise = [Twofold; 3];
+pub(super) type Precise = [DoubleDouble; 3];
 
 impl Placed {
     /// The vertices where a layout puts their own corners.
@@ -172,12 +172,12 @@ impl Placed {
     }
 
     /// The frame of a point, turned as the space's frame at the origin.
-    pub fn frame(space: Space, point: [f64; 3]) -> Motion<Twofold> {
+    pub fn frame(space: Space, point: [f64; 3]) -> Motion<DoubleDouble> {
         let [x, y, w] = point;
         if space == Space::S2 && w < 0.0 {
             // Half a turn of the sphere, after which the point is nearer to the origin than to its antipode, where frames are not
             // determined.
-            let (zero, one) = (Twofold::from(0.0), Twofold::from(1.0));
+            let (zero, one) = (DoubleDouble::from(0.0), DoubleDouble::from(1.0));
             let half_turn = Motion { space, a: [zero; 2], b: [one, zero] };
             return half_turn.compose(&Placed::frame(space, [-x, y, -w]));
         }
@@ -191,13 +191,13 @@ impl Placed {
     }
 
     /// The frame at the corner of a half-edge of a face in the opened surface.
-    pub fn frame_at(&self, h: HalfedgeId) -> Motion<Twofold> {
+    pub fn frame_at(&self, h: HalfedgeId) -> Motion<DoubleDouble> {
         let frame = self.at[self.cover.mesh.origin(h)];
         self.cover.corner(h).map_or(frame, |motion| motion.compose(&frame))
     }
 
     /// The frames at the corners of a face in the opened surface.
-    pub fn face(&self, f: FaceId) -> [Motion<Twofold>; 3] {
+    pub fn face(&self, f: FaceId) -> [Motion<DoubleDouble>; 3] {
         self.cover.mesh.face_halfedges(f).map(|h| self.frame_at(h))
     }
 
@@ -234,12 +234,12 @@ impl Placed {
 
 /// The point of one frame in another one. At the distance d from the origin of H² it loses a factor e^d of the digits; coordinates of the
 /// point itself, carried back, would lose e^{2d}.
-pub(super) fn seen_from(home: &Motion<Twofold>, frame: &Motion<Twofold>) -> Precise {
+pub(super) fn seen_from(home: &Motion<DoubleDouble>, frame: &Motion<DoubleDouble>) -> Precise {
     home.inverse().compose(frame).origin()
 }
 
 /// `det(p, q, r)`: positive for a counterclockwise triangle.
-pub(super) fn determinant([p, q, r]: [Precise; 3]) -> Twofold {
+pub(super) fn determinant([p, q, r]: [Precise; 3]) -> DoubleDouble {
     let minor = |i: usize, j: usize| q[i] * r[j] - q[j] * r[i];
     p[0] * minor(1, 2) + p[1] * minor(2, 0) + p[2] * minor(0, 1)
 }
@@ -260,22 +260,22 @@ pub(super) fn logarithm(space: Space, [x, y, w]: Precise) -> [f64; 2] {
 const AXIS_STEPS: usize = 3;
 
 /// The rotation about the origin that brings the x axis to a direction.
-pub(super) fn turn_to(space: Space, [x, y]: [f64; 2]) -> Motion<Twofold> {
+pub(super) fn turn_to(space: Space, [x, y]: [f64; 2]) -> Motion<DoubleDouble> {
     let half = 0.5 * y.atan2(x);
     Motion::rotation([half.cos(), half.sin()], space).precise()
 }
 
 /// The frame at a point whose x axis leads to another one, and how far that is.
-pub(super) fn aimed(space: Space, [from, to]: [Precise; 2]) -> (Motion<Twofold>, f64) {
+pub(super) fn aimed(space: Space, [from, to]: [Precise; 2]) -> (Motion<DoubleDouble>, f64) {
     let frame = Motion::to_origin(space, from).inverse();
     let ahead = logarithm(space, frame.inverse().apply(to));
     (frame.compose(&turn_to(space, ahead)), ahead[0].hypot(ahead[1]))
 }
 
 /// The frame on the axis of a translation of H² that is nearest to another frame, its x axis along the axis.
-pub(super) fn on_axis(translation: &Motion<Twofold>, near: &Motion<Twofold>) -> Motion<Twofold> {
+pub(super) fn on_axis(translation: &Motion<DoubleDouble>, near: &Motion<DoubleDouble>) -> Motion<DoubleDouble> {
     // Seen from a point at the distance d from the axis, Im a is ± sinh(d) sinh(l/2), and |b|² − (Im a)² is sinh²(l/2).
-    let seen = |frame: &Motion<Twofold>| {
+    let seen = |frame: &Motion<DoubleDouble>| {
         let seen = translation.conjugated_by(&frame.inverse()).positive();
         (f64::from(seen.a[1]), seen.b.map(f64::from))
     };
@@ -293,7 +293,7 @@ pub(super) fn on_axis(translation: &Motion<Twofold>, near: &Motion<Twofold>) -> 
 }
 
 /// A frame moved along a vector in it, and carried along parallel.
-pub(super) fn moved(frame: &Motion<Twofold>, [x, y]: [f64; 2]) -> Motion<Twofold> {
+pub(super) fn moved(frame: &Motion<DoubleDouble>, [x, y]: [f64; 2]) -> Motion<DoubleDouble> {
     let length = x.hypot(y);
     if length == 0.0 {
         return *frame;
@@ -321,7 +321,7 @@ mod tests {
         for space in [Space::E2, Space::H2, Space::S2] {
             let from = moved(&Motion::identity(space), [0.7, -0.4]);
             let to = moved(&from, [0.3, 0.2]);
-            let [ahead, back] = [(from, to), (to, from)].map(|(a, b): (Motion<Twofold>, Motion<Twofold>)| {
+            let [ahead, back] = [(from, to), (to, from)].map(|(a, b): (Motion<DoubleDouble>, Motion<DoubleDouble>)| {
                 logarithm(space, a.inverse().apply(b.origin()))
             });
             assert!((0..2).all(|k| (ahead[k] + back[k]).abs() < 1e-15), "{space:?}: {ahead:?} {back:?}");

@@ -2,7 +2,7 @@
 
 use crate::error::{Error, Result};
 use crate::geometry::complex::mul;
-use crate::geometry::{Motion, Space, Twofold};
+use crate::geometry::{Motion, Space, DoubleDouble};
 use crate::topology::Word;
 
 /// Where the letters a1, b1, …, ag, bg, c1, …, cb go: motions that fulfil the relator `[a1, b1] … [ag, bg] c1 … cb = 1`.
@@ -10,9 +10,9 @@ use crate::topology::Word;
 pub(super) struct Generators {
     pub space: Space,
     pub genus: usize,
-    pub motions: Vec<Motion<Twofold>>,
+    pub motions: Vec<Motion<DoubleDouble>>,
     /// Per c_j the line along which it moves: the frame at a point of it, with the x axis along it.
-    pub lines: Vec<Motion<Twofold>>,
+    pub lines: Vec<Motion<DoubleDouble>>,
 }
 
 /// A change of the images of one or two handles that keeps the product of their commutators.
@@ -68,15 +68,15 @@ impl Generators {
 
     /// How far the relator is from the identity, Im a and b, and the derivative of these by the same numbers of small motions that act
     /// before each generator, by rows.
-    fn relator(&self) -> ([Twofold; 3], [Vec<Twofold>; 3]) {
+    fn relator(&self) -> ([DoubleDouble; 3], [Vec<DoubleDouble>; 3]) {
         let mut letters = Vec::new();
         for k in 0..self.genus {
             let [a, b] = [2 * k, 2 * k + 1];
             letters.extend([(a, false), (b, false), (a, true), (b, true)]);
         }
         letters.extend((2 * self.genus..self.motions.len()).map(|c| (c, false)));
-        let zero = Twofold::default();
-        let mut rows: [Vec<Twofold>; 3] = std::array::from_fn(|_| vec![zero; 3 * self.motions.len()]);
+        let zero = DoubleDouble::default();
+        let mut rows: [Vec<DoubleDouble>; 3] = std::array::from_fn(|_| vec![zero; 3 * self.motions.len()]);
         let mut product = Motion::identity(self.space);
         for (k, is_inverse) in letters {
             let motion = self.motions[k];
@@ -86,7 +86,7 @@ impl Generators {
                 true => (product, product.compose(&motion.inverse())),
             };
             for j in 0..3 {
-                let one = |i: usize| Twofold::from(f64::from(u8::from(i == j)));
+                let one = |i: usize| DoubleDouble::from(f64::from(u8::from(i == j)));
                 let unit = Motion { space: self.space, a: [zero, one(0)], b: [one(1), one(2)] };
                 let moved = before.compose(&unit).compose(&before.inverse());
                 for (row, value) in rows.iter_mut().zip([moved.a[1], moved.b[0], moved.b[1]]) {
@@ -103,7 +103,7 @@ impl Generators {
     ///
     /// # Errors
     /// [`Error::Argument`] for a letter beyond the generators.
-    pub fn motion(&self, word: &Word) -> Result<Motion<Twofold>> {
+    pub fn motion(&self, word: &Word) -> Result<Motion<DoubleDouble>> {
         let mut product = Motion::identity(self.space);
         for letter in word.letters() {
             let Some(motion) = self.motions.get(letter.index()) else {
@@ -138,7 +138,7 @@ impl Generators {
     pub fn moved(&self, by: Move) -> Generators {
         let mut next = self.clone();
         let m = &mut next.motions;
-        let power = |x: Motion<Twofold>, is_positive: bool| if is_positive { x } else { x.inverse() };
+        let power = |x: Motion<DoubleDouble>, is_positive: bool| if is_positive { x } else { x.inverse() };
         match by {
             Move::TwistA(k, sign) => m[2 * k] = m[2 * k].compose(&power(m[2 * k + 1], sign)),
             Move::TwistB(k, sign) => m[2 * k + 1] = m[2 * k + 1].compose(&power(m[2 * k], sign)),
@@ -206,16 +206,16 @@ impl Generators {
     }
 }
 
-fn size(rest: [Twofold; 3]) -> f64 {
+fn size(rest: [DoubleDouble; 3]) -> f64 {
     rest.iter().map(|x| f64::from(*x).abs()).fold(0.0, f64::max)
 }
 
 /// The shortest solution of three equations, by orthogonalising their rows; `None` for rows that depend on each other.
-fn least_solution(rows: &mut [Vec<Twofold>; 3], mut side: [Twofold; 3]) -> Option<Vec<Twofold>> {
+fn least_solution(rows: &mut [Vec<DoubleDouble>; 3], mut side: [DoubleDouble; 3]) -> Option<Vec<DoubleDouble>> {
     let dot =
-        |a: &[Twofold], b: &[Twofold]| a.iter().zip(b).fold(Twofold::default(), |sum, (x, y)| sum + *x * *y);
+        |a: &[DoubleDouble], b: &[DoubleDouble]| a.iter().zip(b).fold(DoubleDouble::default(), |sum, (x, y)| sum + *x * *y);
     let n = rows[0].len();
-    let mut solution = vec![Twofold::default(); n];
+    let mut solution = vec![DoubleDouble::default(); n];
     for k in 0..3 {
         let (done, rest) = rows.split_at_mut(k);
         for (row, known) in done.iter().zip(side) {
@@ -239,7 +239,7 @@ mod tests {
     use super::super::cover::moved;
     use super::*;
 
-    fn relator(of: &Generators) -> Motion<Twofold> {
+    fn relator(of: &Generators) -> Motion<DoubleDouble> {
         let mut product = Motion::identity(of.space);
         for k in 0..of.genus {
             let (a, b) = (of.motions[2 * k], of.motions[2 * k + 1]);
@@ -265,7 +265,7 @@ mod tests {
         }
         for k in 0..2 {
             let there_and_back = all.moved(Move::Quarter(k)).moved(Move::QuarterBack(k));
-            let apart = |(a, b): (&Motion<Twofold>, &Motion<Twofold>)| {
+            let apart = |(a, b): (&Motion<DoubleDouble>, &Motion<DoubleDouble>)| {
                 a.compose(&b.inverse()).distance_from_identity()
             };
             assert!(there_and_back.motions.iter().zip(&all.motions).map(apart).all(|d| d < 1e-14));

@@ -18,7 +18,7 @@ use super::weights::mean_value_weights;
 use crate::control::Control;
 use crate::embed::{UnrollOptions, unroll};
 use crate::error::{Error, Result};
-use crate::geometry::{Motion, Space, Twofold};
+use crate::geometry::{Motion, Space, DoubleDouble};
 use crate::mesh::{HalfedgeId, Mesh, PerHalfedge, PerVertex, VertexId};
 use crate::metric::Surface;
 use crate::parallel::join;
@@ -145,7 +145,7 @@ fn cover_by_words(
     (basis, domain): (&HomotopyBasis, &FundamentalDomain),
     generators: &Generators,
 ) -> Result<Cover> {
-    let mut words: Vec<Option<Motion<Twofold>>> = vec![None; mesh.n_halfedges()];
+    let mut words: Vec<Option<Motion<DoubleDouble>>> = vec![None; mesh.n_halfedges()];
     for h in mesh.halfedges().filter(|&h| !mesh.is_outside(h)) {
         let word = basis.transition(mesh, h);
         if !word.is_empty() {
@@ -168,7 +168,7 @@ fn generators(
         let through = crossed.into_iter().filter_map(|h| cover.across(h));
         Ok(through.fold(Motion::identity(cover.space), |all, step| all.compose(step)).normalised())
     };
-    let motions: Vec<Motion<Twofold>> = basis.loops.iter().map(motion).collect::<Result<_>>()?;
+    let motions: Vec<Motion<DoubleDouble>> = basis.loops.iter().map(motion).collect::<Result<_>>()?;
     Ok(Generators { space: cover.space, genus: basis.group.genus, motions, lines: Vec::new() })
 }
 

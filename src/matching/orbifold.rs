@@ -17,7 +17,7 @@ use crate::control::Control;
 use crate::embed::{UnrollOptions, unroll};
 use crate::error::{Error, Result};
 use crate::flow::Solution;
-use crate::geometry::{Motion, Space, Twofold};
+use crate::geometry::{Motion, Space, DoubleDouble};
 use crate::mesh::{HalfedgeId, PerHalfedge, PerVertex, VertexId};
 use crate::metric::{Refinement, Surface};
 use crate::parallel::join;
@@ -92,7 +92,7 @@ struct Canonical {
 /// A surface in its own metric, opened along its tree.
 struct Own {
     placed: Placed,
-    pairings: Vec<Motion<Twofold>>,
+    pairings: Vec<Motion<DoubleDouble>>,
 }
 
 /// One way to mark the map: the trees, the target's domain and the source in it.
@@ -269,7 +269,7 @@ fn opened(problem: Problem, s: usize, tree: &Tree, canonical: &Canonical, contro
 }
 
 /// The cover of a surface that is opened along its tree, with these transformations across the paths.
-fn tree_cover(surface: &Surface, space: Space, tree: &Tree, pairings: &[Motion<Twofold>]) -> Result<Cover> {
+fn tree_cover(surface: &Surface, space: Space, tree: &Tree, pairings: &[Motion<DoubleDouble>]) -> Result<Cover> {
     Cover::along_cut(surface.mesh(), space, (&tree.cut, pairings), &tree.landmark_corners)
 }
 
@@ -292,7 +292,7 @@ fn brought(surface: &Surface, source: &Placed, target: &Own, trees: [&Tree; 2]) 
 }
 
 /// The frame at the start of an arc of the boundary, with the x axis along it, and the arc's length.
-type Line = (Motion<Twofold>, f64);
+type Line = (Motion<DoubleDouble>, f64);
 
 /// The straight line of each arc of the boundary: the frame at its start, with the x axis along it, and its length.
 fn lines(target: &Placed, tree: &Tree) -> Vec<Line> {
@@ -302,7 +302,7 @@ fn lines(target: &Placed, tree: &Tree) -> Vec<Line> {
             .first()
             .zip(arc.last())
             .map(|(&h, &last)| [target.corner(h), target.corner(target.cover.mesh.next(last))]);
-        aimed(space, ends.unwrap_or_else(|| [Motion::<Twofold>::identity(space).origin(); 2]))
+        aimed(space, ends.unwrap_or_else(|| [Motion::<DoubleDouble>::identity(space).origin(); 2]))
     };
     tree.arcs.iter().map(line).collect()
 }

@@ -17,7 +17,7 @@ use super::weights::mean_value_weights;
 use crate::control::Control;
 use crate::embed::{UnrollOptions, unroll};
 use crate::error::{Error, Result};
-use crate::geometry::{Motion, Space, Twofold};
+use crate::geometry::{Motion, Space, DoubleDouble};
 use crate::mesh::{HalfedgeId, Mesh, PerHalfedge, PerVertex, VertexId};
 use crate::metric::Surface;
 use crate::topology::{central_vertex, cut_graph};
@@ -247,7 +247,7 @@ impl<'a> Way<'a> {
     }
 
     /// The transformation of the new domain along a half-edge, from the place of its origin to that of its tip.
-    fn along(&self, h: HalfedgeId) -> Result<Motion<Twofold>> {
+    fn along(&self, h: HalfedgeId) -> Result<Motion<DoubleDouble>> {
         let cover = &self.old[0].cover;
         let [u, w] = [cover.mesh.origin(h), cover.mesh.tip(h)];
         let reverse = self.landmark[w].is_some();
@@ -278,7 +278,7 @@ impl<'a> Way<'a> {
     }
 
     /// Frames at the places of the vertices in the opened new domain: where they were in their faces.
-    fn places(&self) -> PerVertex<Motion<Twofold>> {
+    fn places(&self) -> PerVertex<Motion<DoubleDouble>> {
         let mut at = PerVertex::from_fn(self.found.len(), |v: VertexId| {
             let place = self.found[v.index()].place;
             let corners = self.new.corners(place.face).map(|p| p.map(f64::from));
@@ -303,9 +303,9 @@ impl<'a> Way<'a> {
     fn corners(
         &self,
         mesh: &Mesh,
-        along: &PerHalfedge<Motion<Twofold>>,
-        (start, at): (HalfedgeId, &PerVertex<Motion<Twofold>>),
-    ) -> Result<PerHalfedge<Motion<Twofold>>> {
+        along: &PerHalfedge<Motion<DoubleDouble>>,
+        (start, at): (HalfedgeId, &PerVertex<Motion<DoubleDouble>>),
+    ) -> Result<PerHalfedge<Motion<DoubleDouble>>> {
         let space = self.new.cover.space;
         let mut corners = PerHalfedge::filled(mesh.n_halfedges(), Motion::identity(space));
         for f in mesh.faces() {

@@ -6,7 +6,7 @@ use super::route::Marks;
 use super::slits::Slits;
 use super::walk::Found;
 use crate::error::{Error, Result};
-use crate::geometry::{Motion, Twofold};
+use crate::geometry::{Motion, DoubleDouble};
 use crate::mesh::{HalfedgeId, Mesh, Place, VertexId};
 use crate::metric::Surface;
 use std::collections::HashMap;
@@ -17,7 +17,7 @@ const ON_SIDE: f64 = 1e-9;
 /// The vertices of the source's boundary in the new domain.
 pub(super) struct Rims {
     /// Of vertices that go to another face than they were in: the transformation of the new domain from the face where they were.
-    ways: HashMap<VertexId, Motion<Twofold>>,
+    ways: HashMap<VertexId, Motion<DoubleDouble>>,
     /// The vertex of the target's boundary before each vertex, and the distance from there in the new domain.
     pub places: Vec<(VertexId, (VertexId, f64))>,
 }
@@ -69,7 +69,7 @@ struct Loop<'a> {
     /// Lengths in the new domain before each half-edge, and of the whole loop.
     before: Vec<f64>,
     /// The transformations of the new domain from the face of each half-edge to that of the next.
-    steps: Vec<Motion<Twofold>>,
+    steps: Vec<Motion<DoubleDouble>>,
 }
 
 impl Rims {
@@ -125,7 +125,7 @@ impl Rims {
     }
 
     /// The transformation of the new domain from the face where a vertex was found to that in which it has its place.
-    pub fn way(&self, v: VertexId) -> Option<&Motion<Twofold>> {
+    pub fn way(&self, v: VertexId) -> Option<&Motion<DoubleDouble>> {
         self.ways.get(&v)
     }
 

@@ -9,7 +9,7 @@ use super::route::Marks;
 use super::walk::{Found, Seed, located};
 use crate::control::Control;
 use crate::error::Result;
-use crate::geometry::{Motion, Space, Twofold};
+use crate::geometry::{Motion, Space, DoubleDouble};
 use crate::mesh::{HalfedgeId, Mesh, PerVertex, VertexId};
 use crate::metric::{Split, Surface};
 
@@ -140,14 +140,14 @@ impl Parted {
     /// The surface in its domain with the added vertices on its straight boundary.
     fn refined(&self, placed: &Placed, finer: &std::sync::Arc<Mesh>) -> Result<Placed> {
         let (mesh, space) = (&placed.cover.mesh, placed.cover.space);
-        let mut across: Vec<Option<Motion<Twofold>>> = vec![None; finer.n_halfedges()];
+        let mut across: Vec<Option<Motion<DoubleDouble>>> = vec![None; finer.n_halfedges()];
         for h in mesh.halfedges().filter(|&h| !mesh.is_outside(h)) {
             across[h.index()] = placed.cover.across(h).copied();
         }
         let own = mesh.vertices().map(|v| self.first(placed.cover.own(v)));
         let own: Vec<HalfedgeId> = own.collect::<Result<_>>()?;
         let cover = Cover::new(finer, space, |h| across[h.index()], &own)?;
-        let mut at: Vec<Motion<Twofold>> = placed.at.iter().copied().collect();
+        let mut at: Vec<Motion<DoubleDouble>> = placed.at.iter().copied().collect();
         for &(h, share) in &self.added {
             let (line, far) = aimed(space, [placed.corner(h), placed.corner(mesh.next(h))]);
             at.push(moved(&line, [share * far, 0.0]));

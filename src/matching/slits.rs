@@ -11,7 +11,7 @@ use super::cover::{Placed, Precise, determinant, logarithm};
 use super::route::{Marks, Router};
 use crate::control::Control;
 use crate::error::{Error, Result};
-use crate::geometry::{Motion, Space, Twofold};
+use crate::geometry::{Motion, Space, DoubleDouble};
 use crate::mesh::shapes::SplitMix64;
 use crate::mesh::{FaceId, HalfedgeId, Mesh, PerEdge, VertexId};
 use crate::topology::shortest_paths;
@@ -33,10 +33,10 @@ pub(super) struct Inside {
 impl Inside {
     /// The point of a face with these weights, or near it where it lies on a side of the face.
     pub fn new(old: &Placed, face: FaceId, weights: [f64; 3]) -> Inside {
-        let weights = weights.map(|w| Twofold::from(w.max(LEAST_WEIGHT)));
+        let weights = weights.map(|w| DoubleDouble::from(w.max(LEAST_WEIGHT)));
         let total = weights[0] + weights[1] + weights[2];
         let corners = old.corners(face);
-        let point = [0, 1, 2].map(|i| (0..3).fold(Twofold::from(0.0), |p, k| p + weights[k] * corners[k][i]));
+        let point = [0, 1, 2].map(|i| (0..3).fold(DoubleDouble::from(0.0), |p, k| p + weights[k] * corners[k][i]));
         Inside { face, point: point.map(|x| x / total) }
     }
 }
@@ -68,9 +68,9 @@ pub(super) struct Slits<'a> {
     /// Faces with added points: their parts.
     parts: HashMap<FaceId, Vec<FaceId>>,
     /// Per half-edge on a slit: the transformation of the new domain from its face around the end of the slit to the face across.
-    around: HashMap<HalfedgeId, Motion<Twofold>>,
+    around: HashMap<HalfedgeId, Motion<DoubleDouble>>,
     /// Per landmark: a half-edge that leaves it, and the transformation from the landmark's place in the new domain to the face of that.
-    exits: Vec<(HalfedgeId, Motion<Twofold>)>,
+    exits: Vec<(HalfedgeId, Motion<DoubleDouble>)>,
 }
 
 /// A triangulation that points are added to.
@@ -178,12 +178,12 @@ impl<'a> Slits<'a> {
     }
 
     /// The transformation of the new domain across a half-edge that lies on no slit.
-    fn across(&self, h: HalfedgeId) -> Option<&Motion<Twofold>> {
+    fn across(&self, h: HalfedgeId) -> Option<&Motion<DoubleDouble>> {
         if h.index() < self.new.cover.mesh.n_halfedges() { self.new.cover.across(h) } else { None }
     }
 
     /// The transformation of the new domain from the face of a half-edge to that of another one with the same origin, counterclockwise.
-    fn turn(&self, from: HalfedgeId, to: HalfedgeId) -> Result<Motion<Twofold>> {
+    fn turn(&self, from: HalfedgeId, to: HalfedgeId) -> Result<Motion<DoubleDouble>> {
         let (mut h, mut total) = (from, Motion::identity(self.new.cover.space));
         for _ in 0..self.mesh.n_halfedges() {
             if h == to {
@@ -199,13 +199,13 @@ impl<'a> Slits<'a> {
     }
 
     /// From the place of a vertex of the target in the new domain to the face of a half-edge that leaves it.
-    fn vertex_to(&self, h: HalfedgeId) -> Result<Motion<Twofold>> {
+    fn vertex_to(&self, h: HalfedgeId) -> Result<Motion<DoubleDouble>> {
         let own = self.new.cover.own(self.mesh.origin(h));
         self.turn(own, h)
     }
 
     /// The faces of the loop's half-edges one after the other: the transformation of the new domain from each to the next.
-    pub fn along_loop(&self, around: &[HalfedgeId]) -> Result<Vec<Motion<Twofold>>> {
+    pub fn along_loop(&self, around: &[HalfedgeId]) -> Result<Vec<Motion<DoubleDouble>>> {
         let step = |k: usize| {
             let ahead = around[(k + 1) % around.len()];
             Ok(self.turn(ahead, self.mesh.next(around[k]))?.inverse())
@@ -218,7 +218,7 @@ impl<'a> Slits<'a> {
     ///
     /// # Errors
     /// [`Error::Matching`] where the line does not arrive.
-    pub fn between(&self, from: Inside, to: Precise) -> Result<Motion<Twofold>> {
+    pub fn between(&self, from: Inside, to: Precise) -> Result<Motion<DoubleDouble>> {
         let start = match self.parts.get(&from.face) {
             None => Some(from.face),
             Some(parts) => parts.iter().copied().find(|f| is_inside(&self.corners[f.index()], from.point)),
@@ -232,7 +232,7 @@ impl<'a> Slits<'a> {
     ///
     /// # Errors
     /// As [`Slits::between`].
-    pub fn landmark_to(&self, k: usize, mut to: Precise) -> Result<Motion<Twofold>> {
+    pub fn landmark_to(&self, k: usize, mut to: Precise) -> Result<Motion<DoubleDouble>> {
         let (mut h, mut total) = self.exits[k];
         let first = h;
         loop {
@@ -256,15 +256,15 @@ impl<'a> Slits<'a> {
         }
     }
 
-    fn old_across(&self, h: HalfedgeId) -> Option<&Motion<Twofold>> {
+    fn old_across(&self, h: HalfedgeId) -> Option<&Motion<DoubleDouble>> {
         if h.index() < self.old.cover.mesh.n_halfedges() { self.old.cover.across(h) } else { None }
     }
 
     fn walk(
         &self,
-        (mut f, mut total): (FaceId, Motion<Twofold>),
+        (mut f, mut total): (FaceId, Motion<DoubleDouble>),
         [mut from, mut to]: [Precise; 2],
-    ) -> Result<Motion<Twofold>> {
+    ) -> Result<Motion<DoubleDouble>> {
         for _ in 0..MOST_CROSSED {
             let corners = &self.corners[f.index()];
             if is_inside(corners, to) {

@@ -7,7 +7,7 @@ use super::boxes::Boxes;
 use super::cover::{Placed, determinant, logarithm, seen_from};
 use crate::control::{Control, Stage};
 use crate::error::{Error, Result};
-use crate::geometry::{Motion, Twofold};
+use crate::geometry::{Motion, DoubleDouble};
 use crate::mesh::{FaceId, HalfedgeId, Mesh, Place, VertexId};
 use std::collections::{HashSet, VecDeque};
 use std::sync::OnceLock;
@@ -103,7 +103,7 @@ pub(super) struct Found {
     /// A half-edge of the face.
     pub near: HalfedgeId,
     /// The transformation that carries the vertex's own position into the opened domain.
-    pub copy: Motion<Twofold>,
+    pub copy: Motion<DoubleDouble>,
     outside: f64,
 }
 
@@ -142,7 +142,7 @@ impl Walker<'_> {
 
     /// From the face of a half-edge to the face that a point lies in; of a point beyond the boundary by no more than rounding, to one at
     /// the boundary.
-    fn walk(&self, near: HalfedgeId, copy: Motion<Twofold>, point: Motion<Twofold>) -> Result<Found> {
+    fn walk(&self, near: HalfedgeId, copy: Motion<DoubleDouble>, point: Motion<DoubleDouble>) -> Result<Found> {
         let mut at = Stand { near, copy, point };
         for step in 0..MOST_STEPS {
             let parts = self.parts(&at);
@@ -203,7 +203,7 @@ impl Walker<'_> {
     /// The face that holds a point, of all whose boxes do, in the opened domain and in the copies of it across its sides.
     fn boxed(&self, from: &Stand) -> Option<Found> {
         let boxes = self.boxes.get_or_init(|| Boxes::new(self.domain)).as_ref()?;
-        let moved = |back: Motion<Twofold>| Stand {
+        let moved = |back: Motion<DoubleDouble>| Stand {
             near: from.near,
             copy: back.compose(&from.copy),
             point: back.compose(&from.point),
@@ -300,8 +300,8 @@ impl Walker<'_> {
 #[derive(Clone, Copy)]
 struct Stand {
     near: HalfedgeId,
-    copy: Motion<Twofold>,
-    point: Motion<Twofold>,
+    copy: Motion<DoubleDouble>,
+    point: Motion<DoubleDouble>,
 }
 
 /// A point in a face: what is opposite each corner, positive inside.

@@ -23,7 +23,7 @@ use crate::control::Control;
 use crate::error::{Result, check_size};
 use crate::geometry::conformal::Vertex;
 use crate::geometry::flip::{Hinge, precise_weight, weight};
-use crate::geometry::{Space, Twofold};
+use crate::geometry::{Space, DoubleDouble};
 use crate::mesh::{EdgeId, FixedEdges, Flip, HalfedgeId, Mesh, PerEdge, PerVertex, VertexId};
 use std::sync::Arc;
 
@@ -52,7 +52,7 @@ pub struct ClassFlips<'a> {
     /// The metric on it.
     pub metric: &'a mut Metric,
     /// Told each flip (the edge with its η) just before it is made.
-    pub record: &'a mut dyn FnMut(&Mesh, Flip<Twofold>),
+    pub record: &'a mut dyn FnMut(&Mesh, Flip<DoubleDouble>),
 }
 
 impl ClassFlips<'_> {
@@ -80,7 +80,7 @@ impl ClassFlips<'_> {
             // Weights that other metrics share stay shared.
             return Ok(0);
         }
-        let decide = |mesh: &Mesh, eta: &PerEdge<Twofold>, h: HalfedgeId| {
+        let decide = |mesh: &Mesh, eta: &PerEdge<DoubleDouble>, h: HalfedgeId| {
             let hinge = hinge(mesh, h);
             if hinge.wants_flip(eta, is_precise) { hinge.other_diagonal(eta) } else { None }
         };
@@ -129,24 +129,24 @@ impl VertexHinge {
     }
 
     /// Whether the edge fails the weighted Delaunay condition and can be flipped. `is_precise`: that of the metric, [`Metric::is_precise`].
-    fn wants_flip(&self, eta: &PerEdge<Twofold>, is_precise: bool) -> bool {
+    fn wants_flip(&self, eta: &PerEdge<DoubleDouble>, is_precise: bool) -> bool {
         let w = self.vertices.map(|v| weight(self.space, v));
         let rounded = Hinge::of_weights(self.epsilon(), w, self.sides.map(|h| eta[h.edge()].high)).0;
         rounded.verdict().unwrap_or_else(|| is_precise && self.precise(eta).0.wants_flip())
     }
 
     /// The hinge to twice the digits, and the product of the `w` of its left and right vertex in the hinge's unit.
-    fn precise(&self, eta: &PerEdge<Twofold>) -> (Hinge<Twofold>, Twofold) {
+    fn precise(&self, eta: &PerEdge<DoubleDouble>) -> (Hinge<DoubleDouble>, DoubleDouble) {
         let w = self.vertices.map(|v| precise_weight(self.space, v));
         Hinge::of_weights(self.epsilon(), w, self.sides.map(|h| eta[h.edge()]))
     }
 
     /// η of the other diagonal, to twice the digits whatever the digits of w, on which it does not depend; `None` where there is no other
     /// diagonal, where its η is above [`MAX_ETA`], or where it would join circles that touch.
-    fn other_diagonal(&self, eta: &PerEdge<Twofold>) -> Option<Twofold> {
+    fn other_diagonal(&self, eta: &PerEdge<DoubleDouble>) -> Option<DoubleDouble> {
         let (hinge, scale) = self.precise(eta);
         let [.., k, l] = self.vertices;
-        let touch = |eta: Twofold| k.epsilon * l.epsilon > 0.0 && (eta - 1.0.into()).high.abs() <= TOUCHING;
+        let touch = |eta: DoubleDouble| k.epsilon * l.epsilon > 0.0 && (eta - 1.0.into()).high.abs() <= TOUCHING;
         let flipped = hinge.flipped().map(|product| product / scale);
         flipped.filter(|&eta| eta.high.abs() <= MAX_ETA && !touch(eta))
     }

@@ -16,7 +16,7 @@ use super::scheme::Scheme;
 use crate::error::{Error, Result, check_size};
 use crate::geometry::conformal::{Vertex, radius};
 use crate::geometry::scaled::scaled;
-use crate::geometry::{Space, Twofold, triangle, worse};
+use crate::geometry::{Space, DoubleDouble, triangle, worse};
 use crate::mesh::{EdgeId, Mesh, PerEdge, PerVertex};
 use crate::parallel;
 use crate::topology::check_lengths;
@@ -138,7 +138,7 @@ fn represented(
     };
     let radii = metric.radii()?;
     let vertices = metric.vertices();
-    let mut weights = vec![Twofold::default(); mesh.n_edges()];
+    let mut weights = vec![DoubleDouble::default(); mesh.n_edges()];
     parallel::fill(&mut weights, |e| {
         let e = EdgeId::from(e);
         weight_of_length(input_geometry, lengths[e], mesh.ends(e).map(|v| vertices[v]))
@@ -173,7 +173,7 @@ fn represented(
 
 /// Check that two vertices of these types can have this η.
 #[inline]
-fn check_weight(epsilon: [i8; 2], edge: EdgeId, eta: Twofold) -> Result<()> {
+fn check_weight(epsilon: [i8; 2], edge: EdgeId, eta: DoubleDouble) -> Result<()> {
     let need = match epsilon {
         [1, 1] if eta.high <= -1.0 => "above −1: the circles would contain each other; use smaller radii",
         [-1, -1] if eta.high <= 1.0 => "above 1 between imaginary circles",
@@ -226,19 +226,19 @@ fn log_radius(space: Space, radius: f64) -> f64 {
 }
 
 /// η from a length: the length formulas solved for it. In E² the length that η gives back is the given one, to twice the digits.
-fn weight_of_length(space: Space, length: f64, [a, b]: [Vertex; 2]) -> Twofold {
+fn weight_of_length(space: Space, length: f64, [a, b]: [Vertex; 2]) -> DoubleDouble {
     // The unit of length is 2 to the larger exponent of the two circles.
     let unit = a.exponent.max(b.exponent);
     let n = match space {
         Space::E2 => {
-            let length = Twofold::from(scaled(length, -unit));
+            let length = DoubleDouble::from(scaled(length, -unit));
             length * length
         }
         Space::H2 => ((0.5 * length).sinh().powi(2) * a.d * b.d).into(),
         Space::S2 => ((0.5 * length).sin().powi(2) * a.d * b.d).into(),
     };
     let [x, y] = [a, b].map(|v| v.precise_scale().scaled(v.exponent - unit));
-    let own = |v: Vertex, x: Twofold| x * x * v.epsilon.into();
+    let own = |v: Vertex, x: DoubleDouble| x * x * v.epsilon.into();
     (n - own(a, x) - own(b, y)) / (x * y * 2.0.into())
 }
 

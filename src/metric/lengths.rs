@@ -13,8 +13,8 @@
 use crate::error::{Error, Result, check_size};
 use crate::geometry::conformal::{self, Edge, Vertex, differences, in_one_unit, is_precise, radius};
 use crate::geometry::scaling::{fill_chords, fill_vertices};
-use crate::geometry::twofold::MAX_EXPONENT;
-use crate::geometry::{Space, Twofold};
+use crate::geometry::double_double::MAX_EXPONENT;
+use crate::geometry::{Space, DoubleDouble};
 use crate::mesh::{EdgeId, FaceId, Mesh, PerEdge, PerVertex, Point, VertexId};
 use crate::parallel;
 use crate::topology::check_lengths;
@@ -30,7 +30,7 @@ pub struct Metric {
     /// Edge weight η; E entries, fixed in the class (up to flips). It has twice the digits, since flips add up their rounding, and the
     /// angles of a needle magnify it by the needle's length over its width.
     /// Metrics that differ in u alone share it.
-    pub eta: Arc<PerEdge<Twofold>>,
+    pub eta: Arc<PerEdge<DoubleDouble>>,
     /// Conformal variable u; V entries. ε ≠ 0: `log γ`, `log tanh(γ/2)`, `log tan(γ/2)` in E², H², S².
     pub u: PerVertex<f64>,
     /// What the doubles u lose; V entries, at most half an ulp of them. 0 in a metric that no flow has made.
@@ -65,7 +65,7 @@ impl Metric {
             });
         }
         let is_sound = |e: EdgeId| {
-            let Twofold { high, low } = self.eta[e];
+            let DoubleDouble { high, low } = self.eta[e];
             high.is_finite() && low.abs() <= f64::EPSILON * high.abs()
         };
         match mesh.edges().find(|&e| !is_sound(e)) {
@@ -130,7 +130,7 @@ impl Metric {
             return false;
         }
         let vertices = self.vertices();
-        let mut chords = vec![Twofold::default(); mesh.n_edges()];
+        let mut chords = vec![DoubleDouble::default(); mesh.n_edges()];
         fill_chords(self.space, &mut chords, |e| self.ends_and_eta(mesh, &vertices, e.into()));
         chords.iter().all(|q| q.high > 0.0)
     }
@@ -165,7 +165,7 @@ impl Metric {
 
     /// What the length of an edge comes from: its ends, and η.
     #[inline]
-    pub(crate) fn ends_and_eta(&self, mesh: &Mesh, vertices: &[Vertex], e: EdgeId) -> ([Vertex; 2], Twofold) {
+    pub(crate) fn ends_and_eta(&self, mesh: &Mesh, vertices: &[Vertex], e: EdgeId) -> ([Vertex; 2], DoubleDouble) {
         (mesh.ends(e).map(|v| vertices[v.index()]), self.eta[e])
     }
 

@@ -17,7 +17,7 @@ use crate::geometry::conformal::precise_chord;
 use crate::geometry::lanes::{Formula, Lanes, work_out};
 use crate::geometry::scaled::exponent;
 use crate::geometry::triangle::{area_from, half_angles_of_chords};
-use crate::geometry::{Space, Twofold};
+use crate::geometry::{Space, DoubleDouble};
 use crate::mesh::{FaceId, Mesh, PerEdge, PerFace, PerVertex};
 use crate::parallel;
 use std::ops::{Range, RangeInclusive};
@@ -26,9 +26,9 @@ impl Metric {
     /// The half chords of the edges, l/2, sinh(l/2), sin(l/2) in E², H², S², in units of their own, with the exponents of these. To 20
     /// digits where lengths are precise ([`crate::geometry::conformal::is_precise`]), else to those of doubles. It needs a metric in its
     /// domain: [`Metric::check_domain`].
-    pub(crate) fn scaled_chords(&self, mesh: &Mesh) -> PerEdge<(Twofold, i32)> {
+    pub(crate) fn scaled_chords(&self, mesh: &Mesh) -> PerEdge<(DoubleDouble, i32)> {
         let vertices = self.vertices();
-        let mut chords = vec![(Twofold::default(), 0); mesh.n_edges()];
+        let mut chords = vec![(DoubleDouble::default(), 0); mesh.n_edges()];
         parallel::fill(&mut chords, |e| {
             let ([a, b], eta) = self.ends_and_eta(mesh, &vertices, e.into());
             precise_chord(self.space, a, b, eta)
@@ -51,7 +51,7 @@ impl Metric {
     /// [`Metric::angle_defects`] of a metric that is known to be in its domain; outside it they mean nothing.
     pub(crate) fn angle_defects_inside(&self, mesh: &Mesh) -> PerVertex<f64> {
         let half_angles = half_angles(self, mesh, &self.scaled_chords(mesh));
-        let mut turn: PerVertex<[Twofold; 2]> =
+        let mut turn: PerVertex<[DoubleDouble; 2]> =
             PerVertex::filled(mesh.n_vertices(), [1.0.into(), 0.0.into()]);
         for f in mesh.faces() {
             for (v, [c, s]) in mesh.face_vertices(f).into_iter().zip(half_angles[f]) {
@@ -68,9 +68,9 @@ impl Metric {
 }
 
 /// Per edge its half chord and the exponent of that one's unit ([`Metric::scaled_chords`]).
-type Chords = PerEdge<(Twofold, i32)>;
+type Chords = PerEdge<(DoubleDouble, i32)>;
 /// `[cos, sin]` of half the angle at each corner of a face.
-type HalfAngles = [[Twofold; 2]; 3];
+type HalfAngles = [[DoubleDouble; 2]; 3];
 
 /// `[cos, sin]` of half the angle at each corner, from the half chords and the exponents of their units.
 fn half_angles(metric: &Metric, mesh: &Mesh, chords: &Chords) -> PerFace<HalfAngles> {
@@ -91,7 +91,7 @@ fn half_angles(metric: &Metric, mesh: &Mesh, chords: &Chords) -> PerFace<HalfAng
 fn half_angles_at(metric: &Metric, mesh: &Mesh, chords: &Chords, f: FaceId) -> HalfAngles {
     let sides = mesh.opposite_edges(f).map(|e| chords[e]);
     // In E² the unit of the longest side is used, so that its chord is about 1. In H² and S² lengths have no unit but 1.
-    let size = |(q, unit): (Twofold, i32)| unit + exponent(q.high);
+    let size = |(q, unit): (DoubleDouble, i32)| unit + exponent(q.high);
     let unit =
         if metric.space == Space::E2 { sides.map(size).into_iter().fold(i32::MIN, i32::max) } else { 0 };
     half_angles_of_chords(metric.space, sides.map(|(q, own)| q.scaled(own - unit)))
@@ -137,7 +137,7 @@ pub(crate) fn shapes(
 
 /// Whether these are half chords in H² and all [`USUAL_CHORDS`].
 fn are_usual(metric: &Metric, chords: &Chords) -> bool {
-    let is_usual = |(q, unit): &(Twofold, i32)| *unit == 0 && USUAL_CHORDS.contains(&q.high);
+    let is_usual = |(q, unit): &(DoubleDouble, i32)| *unit == 0 && USUAL_CHORDS.contains(&q.high);
     metric.space == Space::H2 && chords.iter().all(is_usual)
 }
 
@@ -161,7 +161,7 @@ fn hyperbolic_shapes(
         [a.high, b.high, c.high, a.low, b.low, c.low]
     };
     work_out(HyperbolicShape, faces.len(), given, |i, found| {
-        let number = |n: usize| Twofold { high: found[2 * n], low: found[2 * n + 1] };
+        let number = |n: usize| DoubleDouble { high: found[2 * n], low: found[2 * n + 1] };
         let angles = [0, 2, 4].map(|n| [number(n), number(n + 1)]);
         let [area, is_known] = [found[12], found[13]];
         take((faces.start + i).into(), (is_known == 1.0).then_some((angles, area)));
@@ -182,11 +182,11 @@ impl Formula<6, 14> for HyperbolicShape {
     #[inline(always)]
     fn of<L: Lanes>(self, [a, b, c, a_low, b_low, c_low]: [L; 6]) -> [L; 14] {
         let q = [
-            Twofold { high: a, low: a_low },
-            Twofold { high: b, low: b_low },
-            Twofold { high: c, low: c_low },
+            DoubleDouble { high: a, low: a_low },
+            DoubleDouble { high: b, low: b_low },
+            DoubleDouble { high: c, low: c_low },
         ];
-        let one = Twofold::plain(a.constant(1.0));
+        let one = DoubleDouble::plain(a.constant(1.0));
         // cosh(l/2), 1/√(sinh l), p − q
         let [mut cosh, mut inverse_root, mut d] = [[one; 3]; 3];
         for k in 0..3 {
@@ -259,12 +259,12 @@ mod tests {
             ([6.0, 5.9, 0.3], 1e-26),
             ([1.0, 1.0, 1.999_999], 1e-23),
         ] {
-            let q = lengths.map(|l: f64| Twofold::from((0.5 * l).sinh()));
+            let q = lengths.map(|l: f64| DoubleDouble::from((0.5 * l).sinh()));
             let [a, b, c] = q.map(|q| q.high);
             let found = HyperbolicShape.of([a, b, c, 0.0, 0.0, 0.0]);
             let [area, is_known] = [found[12], found[13]];
-            let angles: Vec<Twofold> =
-                found[..12].chunks(2).map(|x| Twofold { high: x[0], low: x[1] }).collect();
+            let angles: Vec<DoubleDouble> =
+                found[..12].chunks(2).map(|x| DoubleDouble { high: x[0], low: x[1] }).collect();
             let known = half_angles_of_chords(Space::H2, q);
             for (angle, known) in angles.iter().zip(known.as_flattened()) {
                 assert!(

@@ -6,7 +6,7 @@ use crate::embed::overlap::{Triangle, overlapping};
 use crate::embed::shape::{Shape, extent};
 use crate::error::Result;
 use crate::geometry::vector::{cross, dot};
-use crate::geometry::{Motion, Twofold};
+use crate::geometry::{Motion, DoubleDouble};
 use crate::mesh::union_find::UnionFind;
 use crate::mesh::{FaceId, VertexId};
 
@@ -24,7 +24,7 @@ const ROUNDING: f64 = 1e-6;
 #[derive(Default)]
 pub(super) struct Draft {
     pub faces: Vec<FaceId>,
-    pub places: Vec<Motion<Twofold>>,
+    pub places: Vec<Motion<DoubleDouble>>,
     /// Across each side of each face, in the order of its half-edges, the lift of the chart that lies there.
     pub neighbours: Vec<[u32; 3]>,
     /// The first so many faces are no other chart's.
@@ -37,7 +37,7 @@ pub(super) struct Draft {
 }
 
 impl Draft {
-    pub fn push(&mut self, f: FaceId, place: Motion<Twofold>) -> u32 {
+    pub fn push(&mut self, f: FaceId, place: Motion<DoubleDouble>) -> u32 {
         self.faces.push(f);
         self.places.push(place);
         self.neighbours.push([NONE; 3]);
@@ -143,7 +143,7 @@ impl Draft {
     }
 
     /// Turns the chart about its origin.
-    pub fn turn(&mut self, sheet: &Sheet, by: &Motion<Twofold>) {
+    pub fn turn(&mut self, sheet: &Sheet, by: &Motion<DoubleDouble>) {
         self.places.iter_mut().for_each(|place| *place = by.compose(place));
         let mut fresh = vec![true; self.vertices.len()];
         for i in 0..self.faces.len() {

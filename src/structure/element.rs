@@ -1,7 +1,7 @@
 //! Elements of the groups in which the transitions of atlases lie.
 
 use super::kind::Structure;
-use crate::geometry::{Motion, Twofold};
+use crate::geometry::{Motion, DoubleDouble};
 use nalgebra::{Complex, Matrix2, Matrix3, SMatrix, Vector2, Vector3};
 
 /// An element of the group of a structure, acting on the coordinates of its charts.
@@ -15,7 +15,7 @@ pub enum Element {
 
 impl Element {
     /// An isometry as the charts of a structure see it.
-    pub fn of_motion(structure: Structure, motion: &Motion<Twofold>) -> Element {
+    pub fn of_motion(structure: Structure, motion: &Motion<DoubleDouble>) -> Element {
         if structure.is_complex() {
             let [[a, b], [c, d]] = motion.mobius().map(|row| row.map(|[re, im]| Complex::new(re, im)));
             return Element::Mobius(Matrix2::new(a, b, c, d));

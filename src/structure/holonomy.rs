@@ -7,7 +7,7 @@ use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::complex::norm2;
 use crate::geometry::motion::Real;
-use crate::geometry::{Motion, Space, Twofold};
+use crate::geometry::{Motion, Space, DoubleDouble};
 use crate::topology::{HomotopyBasis, SurfaceGroup, crossed_halfedges};
 
 /// The homomorphism from the fundamental group into the group of a structure, by its values at the generators of a canonical basis.
@@ -19,7 +19,7 @@ pub struct Holonomy {
     /// The fundamental group of the surface, with names and relator.
     pub group: SurfaceGroup,
     /// The values at a1, b1, …, ag, bg, c1, …, cb, in coordinates about the base: `M(γδ) = M(γ) M(δ)`.
-    pub generators: Vec<Motion<Twofold>>,
+    pub generators: Vec<Motion<DoubleDouble>>,
     /// `‖R − I‖_F / max_k ‖P_k‖²` of the relator's matrix R over its partial products P_k (Frobenius norms of 2×2 matrices, of flat
     /// structures with lengths in units of the longest translation, or of the root of the area if that is more). 0 without generators.
     pub relation_residual: f64,
@@ -54,14 +54,14 @@ impl Holonomy {
 const FAR: i32 = 120;
 
 /// `unit`: a length that the surface is about as large as.
-fn residual(group: SurfaceGroup, generators: &[Motion<Twofold>], unit: f64) -> f64 {
+fn residual(group: SurfaceGroup, generators: &[Motion<DoubleDouble>], unit: f64) -> f64 {
     let Some(first) = generators.first() else { return 0.0 };
     let longest = generators.iter().map(|g| f64::from(norm2(g.b)).sqrt()).fold(unit, f64::max);
     let unit = if first.space == Space::E2 { longest } else { 1.0 };
-    let in_units = |g: &Motion<Twofold>| Motion { b: g.b.map(|x| x / unit.into()), ..*g };
+    let in_units = |g: &Motion<DoubleDouble>| Motion { b: g.b.map(|x| x / unit.into()), ..*g };
     // The product is `product · 2^power`, of a size near 1: products of many far translations are beyond the range of doubles.
-    let (mut product, mut power) = (Motion::<Twofold>::identity(first.space), 0);
-    let size = |m: &Motion<Twofold>, power: i32| 0.5 * m.norm_square().log2() + f64::from(power);
+    let (mut product, mut power) = (Motion::<DoubleDouble>::identity(first.space), 0);
+    let size = |m: &Motion<DoubleDouble>, power: i32| 0.5 * m.norm_square().log2() + f64::from(power);
     let mut largest = size(&product, power);
     for letter in group.relator().letters() {
         let g = in_units(&generators[letter.index()]);
@@ -80,6 +80,6 @@ fn residual(group: SurfaceGroup, generators: &[Motion<Twofold>], unit: f64) -> f
 }
 
 /// Both parameters times 2^k.
-fn scaled(m: &Motion<Twofold>, k: i32) -> Motion<Twofold> {
+fn scaled(m: &Motion<DoubleDouble>, k: i32) -> Motion<DoubleDouble> {
     Motion { a: m.a.map(|x| x.times_two_to(k)), b: m.b.map(|x| x.times_two_to(k)), ..*m }
 }

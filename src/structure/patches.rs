@@ -9,7 +9,7 @@ use crate::embed::shape::{Shape, extent};
 use crate::error::Result;
 use crate::geometry::model::distance;
 use crate::geometry::vector::{norm, sub};
-use crate::geometry::{Motion, Space, Twofold};
+use crate::geometry::{Motion, Space, DoubleDouble};
 use crate::mesh::{FaceId, HalfedgeId, PerFace, PerVertex, VertexId};
 use crate::topology::spanning::Key;
 use std::cmp::Reverse;
@@ -25,7 +25,7 @@ const RANGE: f64 = 1e3;
 /// A face with the place where it would lie, and the chart's face and side that it lies across.
 struct Candidate {
     face: FaceId,
-    place: Motion<Twofold>,
+    place: Motion<DoubleDouble>,
     parent: Option<(u32, usize, usize)>,
 }
 

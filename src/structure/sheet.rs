@@ -5,7 +5,7 @@ use crate::embed::Steps;
 use crate::embed::overlap::Triangle;
 use crate::error::{Error, Result};
 use crate::geometry::motion::precise_point;
-use crate::geometry::{Motion, Space, Twofold};
+use crate::geometry::{Motion, Space, DoubleDouble};
 use crate::harmonic::ComplexForm;
 use crate::mesh::{FaceId, HalfedgeId, Mesh, PerFace, PerHalfedge, PerVertex};
 use std::sync::Arc;
@@ -52,14 +52,14 @@ impl Sheet {
             Ok([x, y])
         };
         let still = Motion::identity(Space::E2);
-        let step = |h: HalfedgeId| -> Result<Motion<Twofold>> {
+        let step = |h: HalfedgeId| -> Result<Motion<DoubleDouble>> {
             if mesh.is_boundary_edge(h.edge()) {
                 return Ok(still);
             }
             // The origin of h in the place of its face, and in that of the face beyond.
             let (here, beyond) = (place(h)?, place(mesh.next(h.twin()))?);
-            let by = [0, 1].map(|i| Twofold::from(here[i]) - Twofold::from(beyond[i]));
-            Ok(Motion::in_plane([1.0, 0.0].map(Twofold::from), by))
+            let by = [0, 1].map(|i| DoubleDouble::from(here[i]) - DoubleDouble::from(beyond[i]));
+            Ok(Motion::in_plane([1.0, 0.0].map(DoubleDouble::from), by))
         };
         let across = mesh.halfedges().map(step).collect::<Result<Vec<_>>>()?.into();
         let clockwise = |f: FaceId| {
@@ -89,13 +89,13 @@ impl Sheet {
     }
 
     /// Ambient coordinates of the corners of a face that lies at a place.
-    pub fn corners(&self, f: FaceId, place: &Motion<Twofold>) -> [[f64; 3]; 3] {
+    pub fn corners(&self, f: FaceId, place: &Motion<DoubleDouble>) -> [[f64; 3]; 3] {
         let space = self.steps.space;
         self.steps.corners[f].map(|p| place.apply(precise_point(space, p)).map(f64::from))
     }
 
     /// The place of a face that has its corner `k` at the origin, or its middle where that is none.
-    pub fn place_about(&self, f: FaceId, k: Option<usize>) -> Motion<Twofold> {
+    pub fn place_about(&self, f: FaceId, k: Option<usize>) -> Motion<DoubleDouble> {
         let (space, corners) = (self.steps.space, self.steps.corners[f]);
         let at = match k {
             Some(k) => precise_point(space, corners[k]),
@@ -103,7 +103,7 @@ impl Sheet {
         };
         if space == Space::S2 && f64::from(at[2]) < 0.0 {
             // From the lower half of the sphere by way of the half turn about the x axis, since the pole's antipode has no shortest way.
-            let [zero, one] = [0.0, 1.0].map(Twofold::from);
+            let [zero, one] = [0.0, 1.0].map(DoubleDouble::from);
             let over = Motion { space, a: [zero; 2], b: [zero, one] };
             return Motion::to_origin(space, over.apply(at)).compose(&over);
         }
@@ -124,7 +124,7 @@ impl Sheet {
 }
 
 /// The point of a space in the direction of the sum of three points.
-fn middle(space: Space, corners: [[f64; 3]; 3]) -> [Twofold; 3] {
+fn middle(space: Space, corners: [[f64; 3]; 3]) -> [DoubleDouble; 3] {
     let [x, y, w] = [0, 1, 2].map(|i| corners[0][i] + corners[1][i] + corners[2][i]);
     let norm = match space {
         Space::E2 => w,

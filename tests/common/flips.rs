@@ -4,7 +4,7 @@
 use super::Random;
 use super::flow::{attempt, euclidean};
 use ricci::flow::{Options, Report, StopReason};
-use ricci::geometry::{Space, Twofold};
+use ricci::geometry::{Space, DoubleDouble};
 use ricci::mesh::{EdgeId, FaceId, Mesh, PerEdge, PerVertex, VertexId, shapes};
 use ricci::metric::delaunay::failing;
 use ricci::metric::{Metric, Scheme};
@@ -40,9 +40,9 @@ pub struct Measured {
 }
 
 /// `e^x` to twice the digits: the power series at x/1024, squared ten times.
-pub fn exp(x: Twofold) -> Twofold {
+pub fn exp(x: DoubleDouble) -> DoubleDouble {
     let x = x * (0.5f64.powi(10)).into();
-    let (mut sum, mut term) = (Twofold::from(1.0), Twofold::from(1.0));
+    let (mut sum, mut term) = (DoubleDouble::from(1.0), DoubleDouble::from(1.0));
     for k in 1..16 {
         term = term * x / f64::from(k).into();
         sum = sum + term;
@@ -54,7 +54,7 @@ pub fn exp(x: Twofold) -> Twofold {
 pub fn scaled_sides(mesh: &Mesh, metric: &Metric, face: FaceId) -> ([(f64, f64); 3], f64) {
     let corners = mesh.face_vertices(face);
     let top = corners.map(|v| metric.u[v]).into_iter().fold(f64::NEG_INFINITY, f64::max);
-    let e = corners.map(|v| exp(Twofold::from(metric.u[v]) - top.into() + metric.u_low[v].into()));
+    let e = corners.map(|v| exp(DoubleDouble::from(metric.u[v]) - top.into() + metric.u_low[v].into()));
     let edges = mesh.opposite_edges(face);
     let sides = [0, 1, 2].map(|k| {
         let (i, j) = ((k + 1) % 3, (k + 2) % 3);

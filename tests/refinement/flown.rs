@@ -2,7 +2,7 @@
 
 use crate::common::flow::attempt;
 use ricci::flow::Options;
-use ricci::geometry::{Space, Twofold};
+use ricci::geometry::{Space, DoubleDouble};
 use ricci::mesh::{Double, FixedEdges, Flip, Mesh, NormalCoordinates, PerEdge, PerVertex, VertexId};
 use ricci::metric::delaunay::{ClassFlips, Queue, failing};
 use ricci::metric::refinement::{Final, Input, Intrinsic, Triangulations};
@@ -34,7 +34,7 @@ pub fn flow(
 ) -> Option<Flown> {
     let mut flown = Flown::start(input, lengths, kind, double);
     let Flown { mesh, metric, normal, flips, start, .. } = &mut flown;
-    let mut record = |mesh: &Mesh, flip: Flip<Twofold>| {
+    let mut record = |mesh: &Mesh, flip: Flip<DoubleDouble>| {
         *flips += 1;
         normal.record(mesh, flip.edge);
         if let Some((.., its_own)) = start {

@@ -8,7 +8,7 @@ use ricci::embed::{DeckElement, dirichlet_domain};
 use ricci::geometry::model::klein;
 use ricci::geometry::motion::precise_point;
 use ricci::geometry::predicates::orientation;
-use ricci::geometry::{Motion, Space, Twofold};
+use ricci::geometry::{Motion, Space, DoubleDouble};
 use ricci::mesh::{HalfedgeId, shapes};
 use ricci::topology::word::{Letter, Word};
 use ricci::{Control, Error};
@@ -182,7 +182,7 @@ fn triangle_area(space: Space, corners: [[f64; 3]; 3]) -> f64 {
     if space == Space::E2 {
         return 0.5 * det;
     }
-    let cosh = |p: [Twofold; 3], q: [Twofold; 3]| f64::from(p[2] * q[2] - p[0] * q[0] - p[1] * q[1]);
+    let cosh = |p: [DoubleDouble; 3], q: [DoubleDouble; 3]| f64::from(p[2] * q[2] - p[0] * q[0] - p[1] * q[1]);
     2.0 * (det / (1.0 + cosh(a, b) + cosh(b, c) + cosh(c, a))).atan()
 }
 
@@ -207,7 +207,7 @@ fn no_two_copies_overlap() {
                 let t = mesh.faces().nth(random.below(mesh.n_faces())).unwrap();
                 let corners = q.layout.face_points(t);
                 let centre = [0, 1, 2].map(|i| corners.iter().map(|p| p[i]).sum::<f64>() / 3.0);
-                let p = flat(g.motion.apply(centre.map(Twofold::from)).map(f64::from));
+                let p = flat(g.motion.apply(centre.map(DoubleDouble::from)).map(f64::from));
                 let hits = triangles.iter().filter(|t| inside(p, t)).count();
                 let expected = usize::from(g.word.is_empty());
                 assert_eq!(hits, expected, "{}: copy {}", surface.name, q.deck.group.text(&g.word));

@@ -4,7 +4,7 @@ use crate::surfaces::{corpus, generated};
 use ricci::Control;
 use ricci::embed::{DeckElement, DirichletDomain, dirichlet_domain};
 use ricci::geometry::motion::precise_point;
-use ricci::geometry::{Space, Twofold};
+use ricci::geometry::{Space, DoubleDouble};
 use std::f64::consts::{PI, TAU};
 
 /// Poincaré's conditions for the Dirichlet domain: sides paired by isometries that carry one onto the other, corners cycle with angles that
@@ -64,7 +64,7 @@ fn dirichlet_domains_meet_the_conditions_of_the_polygon_theorem() {
 /// Interior angle at corner k, between the lines of the sides that meet there: bisectors of the centre and its images (corners as doubles
 /// say little of the direction of a short side).
 fn corner_angle(space: Space, d: &DirichletDomain, k: usize) -> f64 {
-    let dot = |a: [Twofold; 3], b: [Twofold; 3]| match space {
+    let dot = |a: [DoubleDouble; 3], b: [DoubleDouble; 3]| match space {
         Space::E2 => a[0] * b[0] + a[1] * b[1],
         _ => a[0] * b[0] + a[1] * b[1] - a[2] * b[2],
     };
@@ -76,7 +76,7 @@ fn corner_angle(space: Space, d: &DirichletDomain, k: usize) -> f64 {
     };
     let n = d.sides.len();
     let cos = dot(normal(&d.sides[(k + n - 1) % n]), normal(&d.sides[k]));
-    let sin = (Twofold::from(1.0) - cos * cos).sqrt();
+    let sin = (DoubleDouble::from(1.0) - cos * cos).sqrt();
     PI - f64::from(sin).atan2(cos.into())
 }
 

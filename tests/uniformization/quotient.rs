@@ -5,7 +5,7 @@ use crate::surfaces::{Surface, corpus, generated};
 use ricci::canonical::{Quotient, QuotientOptions, uniformize_quotient};
 use ricci::embed::{UnrollOptions, dirichlet_domain, unroll};
 use ricci::flow::{Options, flow};
-use ricci::geometry::{Motion, Space, Twofold};
+use ricci::geometry::{Motion, Space, DoubleDouble};
 use ricci::mesh::{FaceId, HalfedgeId, Mesh, PerEdge, PerVertex, VertexId};
 use ricci::metric::Scheme;
 use ricci::topology::word::{Letter, Word};
@@ -134,7 +134,7 @@ fn the_lift_of_a_loop_ends_where_its_word_says() {
 
 /// The isometry along a closed path at the base, from the corner of the base lift: turning by angles of the cosine law, stepping by
 /// lengths.
-fn walk(mesh: &Mesh, lengths: &PerEdge<f64>, q: &Quotient, path: &[HalfedgeId]) -> Motion<Twofold> {
+fn walk(mesh: &Mesh, lengths: &PerEdge<f64>, q: &Quotient, path: &[HalfedgeId]) -> Motion<DoubleDouble> {
     let space = q.layout.space;
     let scale = match space {
         Space::E2 => (q.layout.area / q.metric.metric().curvature(mesh).unwrap().area).sqrt(),
@@ -149,7 +149,7 @@ fn walk(mesh: &Mesh, lengths: &PerEdge<f64>, q: &Quotient, path: &[HalfedgeId]) 
     };
     let turn = |angle: f64| {
         let (s, c) = (0.5 * angle).sin_cos();
-        Motion::<Twofold>::rotation([c.into(), s.into()], space)
+        Motion::<DoubleDouble>::rotation([c.into(), s.into()], space)
     };
     // Direction of a half-edge, from another one at the same origin: the angles between, counterclockwise.
     let between = |from: HalfedgeId, to: HalfedgeId| {
@@ -174,7 +174,7 @@ fn walk(mesh: &Mesh, lengths: &PerEdge<f64>, q: &Quotient, path: &[HalfedgeId]) 
 }
 
 /// The isometry from the origin and the x axis to a half-edge of the layout, from its two ends.
-fn start_frame(mesh: &Mesh, q: &Quotient, h: HalfedgeId) -> Motion<Twofold> {
+fn start_frame(mesh: &Mesh, q: &Quotient, h: HalfedgeId) -> Motion<DoubleDouble> {
     let (p, tip) = (q.layout.corner(h), q.layout.corner(mesh.next(h)));
     assert!(p[0].hypot(p[1]) < 1e-15, "the base lies at the origin");
     let half = 0.5 * tip[1].atan2(tip[0]);
@@ -219,7 +219,7 @@ fn generators_keep_their_digits_on_long_surfaces() {
         let q = surface.uniformized();
         let (deck, radius) = (&q.deck, q.layout.radius);
         println!("genus {genus}, radius {radius:.1}: side pairings within {:.1e}", deck.side_residual);
-        // At a distance r the layout's numbers are e^r large, and their products lose e^{2r} of the 1e-32 that twofold numbers keep.
+        // At a distance r the layout's numbers are e^r large, and their products lose e^{2r} of the 1e-32 of double-double precision.
         let rounding = 1e-13 + 1e-31 * (2.0 * radius).exp();
         assert!(radius > 16.0 && q.angle_defect < 1e-28 && q.layout.disagreement < rounding);
         assert!(deck.side_residual < residual && deck.relation_residual < 1e-8, "{:e}", deck.side_residual);

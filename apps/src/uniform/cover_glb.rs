@@ -5,7 +5,7 @@ use super::copies::Copies;
 use super::tiling::tint;
 use crate::checkerboard;
 use crate::picture::{TINTS, tint_color};
-use ricci::geometry::{Motion, Space, Twofold};
+use ricci::geometry::{Motion, Space, DoubleDouble};
 use serde_json::{Value, json};
 use std::io::{self, Seek, SeekFrom, Write};
 
@@ -187,7 +187,7 @@ impl Document<'_> {
 }
 
 /// The node of a copy that is moved in the plane: by the mesh of its tint.
-fn placed(name: &str, tint: u8, motion: &Motion<Twofold>) -> String {
+fn placed(name: &str, tint: u8, motion: &Motion<DoubleDouble>) -> String {
     let [[[cos, sin], [x, y]], _] = motion.mobius();
     let half = 0.5 * sin.atan2(cos);
     let (translation, rotation) = ([x, y, 0.0], [0.0, 0.0, half.sin(), half.cos()]);

@@ -9,7 +9,7 @@ use crate::laid::Laid;
 use crate::uv;
 use ricci::embed::DirichletDomain;
 use ricci::geometry::vector::dot;
-use ricci::geometry::{Motion, Space, Twofold};
+use ricci::geometry::{Motion, Space, DoubleDouble};
 
 /// A point lies on a side if it misses it by less than this share of the terms that its distance is the sum of: elements are known to
 /// this much.
@@ -79,7 +79,7 @@ struct Folding {
     space: Space,
     /// Linear functions of ambient coordinates: positive across the side.
     across: Vec<[f64; 3]>,
-    back: Vec<Motion<Twofold>>,
+    back: Vec<Motion<DoubleDouble>>,
 }
 
 impl Folding {
@@ -87,7 +87,7 @@ impl Folding {
         let c = domain.centre;
         // Nearer to the image of the centre than to the centre: by cosh of the distances, or by their squares.
         let across = domain.neighbours().map(|side| {
-            let i = side.motion.apply(c.map(Twofold::from)).map(f64::from);
+            let i = side.motion.apply(c.map(DoubleDouble::from)).map(f64::from);
             let square = |p: [f64; 3]| p[0] * p[0] + p[1] * p[1];
             match space {
                 Space::H2 => [i[0] - c[0], i[1] - c[1], c[2] - i[2]],
@@ -124,7 +124,7 @@ impl Folding {
             cuts += 1;
             let [near, mut beyond] = split(&piece, self.space, |p| self.beyond(side, p));
             for (p, _) in &mut beyond {
-                *p = self.back[side].apply(p.map(Twofold::from)).map(f64::from);
+                *p = self.back[side].apply(p.map(DoubleDouble::from)).map(f64::from);
             }
             waiting.extend([near, beyond].into_iter().filter(|part| !part.is_empty()));
         }

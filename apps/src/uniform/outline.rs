@@ -4,7 +4,7 @@ use super::quotient::Uniformized;
 use ricci::Control;
 use ricci::embed::cover::elements_reached;
 use ricci::embed::{DeckElement, Layout};
-use ricci::geometry::{Motion, Twofold};
+use ricci::geometry::{Motion, DoubleDouble};
 use ricci::mesh::{HalfedgeId, Mesh};
 use ricci::topology::FundamentalDomain;
 
@@ -56,14 +56,14 @@ pub fn touching(u: &Uniformized, limit: usize, control: &Control) -> ricci::Resu
     let dirichlet = domain.map_or(&[][..], |domain| &domain.corners);
     // In the plane the third coordinate is 1, and lengths have the size of the surface.
     let scale = opened.iter().chain(dirichlet).map(|p| p[0].hypot(p[1])).fold(0.0, f64::max);
-    let meets = |g: &Motion<Twofold>, corners: &[[f64; 3]]| {
+    let meets = |g: &Motion<DoubleDouble>, corners: &[[f64; 3]]| {
         corners.iter().any(|p| {
-            let p = g.apply(p.map(Twofold::from)).map(f64::from);
+            let p = g.apply(p.map(DoubleDouble::from)).map(f64::from);
             let same = |q: &[f64; 3]| (0..2).all(|k| (p[k] - q[k]).abs() <= SAME * scale.max(q[2]));
             corners.iter().any(same)
         })
     };
-    let touches = |g: &Motion<Twofold>| meets(g, &opened) || meets(g, dirichlet);
+    let touches = |g: &Motion<DoubleDouble>| meets(g, &opened) || meets(g, dirichlet);
     let across: Vec<DeckElement> =
         u.deck.sides.iter().chain(domain.iter().flat_map(|d| d.neighbours())).cloned().collect();
     elements_reached(&u.deck, &across, touches, limit, control)

@@ -13,7 +13,7 @@ use ricci::embed::layout::distance_from_origin;
 use ricci::embed::{DeckElement, DirichletDomain};
 use ricci::geometry::model::Model;
 use ricci::geometry::motion::precise_point;
-use ricci::geometry::{Motion, Space, Twofold};
+use ricci::geometry::{Motion, Space, DoubleDouble};
 use ricci::topology::word::Word;
 use std::f64::consts::PI;
 
@@ -133,7 +133,7 @@ fn polygon(u: &Uniformized, canvas: &Canvas, shape: &Stamp) -> Result<Tiling, Fa
     let given = u.deck.canonical_polygon(ORIGIN)?;
     let middle = middle(u.deck.space, &given);
     let home = translation_to(u.deck.space, middle).inverse();
-    let moved = |p: &[f64; 3]| home.apply(p.map(Twofold::from)).map(f64::from);
+    let moved = |p: &[f64; 3]| home.apply(p.map(DoubleDouble::from)).map(f64::from);
     let corners: Vec<[f64; 3]> = given.iter().map(moved).collect();
     let around = if canvas.at == ModelPlace::Plane { corners.clone() } else { shape.border.clone() };
     let mut tiling = Tiling::new(canvas.at, frame(canvas.at, &around), canvas.style.size);
@@ -153,7 +153,7 @@ fn polygon(u: &Uniformized, canvas: &Canvas, shape: &Stamp) -> Result<Tiling, Fa
 }
 
 /// The translation that carries the origin to a point.
-fn translation_to(space: Space, p: [f64; 3]) -> Motion<Twofold> {
+fn translation_to(space: Space, p: [f64; 3]) -> Motion<DoubleDouble> {
     let half = 0.5 * p[1].atan2(p[0]);
     let turn: Motion = Motion::rotation([half.cos(), half.sin()], space);
     let along = Motion::translation(distance_from_origin(space, p), space);
@@ -162,9 +162,9 @@ fn translation_to(space: Space, p: [f64; 3]) -> Motion<Twofold> {
 
 /// Copies of the layout around the origin that the group has been moved to by `home`, nearest first, as many as a picture shows.
 /// `start`: a word that leads near there.
-fn background(u: &Uniformized, home: &Motion<Twofold>, start: &Word) -> ricci::Result<Vec<Motion<Twofold>>> {
+fn background(u: &Uniformized, home: &Motion<DoubleDouble>, start: &Word) -> ricci::Result<Vec<Motion<DoubleDouble>>> {
     let Ok(domain) = u.domain() else { return Ok(Vec::new()) };
-    let place = |g: &Motion<Twofold>| g.origin().map(f64::from);
+    let place = |g: &Motion<DoubleDouble>| g.origin().map(f64::from);
     let mut waiting = vec![home.compose(&u.deck.motion(start)?)];
     let mut known: Vec<[f64; 3]> = waiting.iter().map(place).collect();
     let mut found = Vec::new();
@@ -218,7 +218,7 @@ fn outline(u: &Uniformized, tiling: &mut Tiling, domain: &DirichletDomain, named
 }
 
 /// The sides of a copy of the Dirichlet domain that lie on the boundary.
-fn borders(tiling: &mut Tiling, domain: &DirichletDomain, motion: &Motion<Twofold>) {
+fn borders(tiling: &mut Tiling, domain: &DirichletDomain, motion: &Motion<DoubleDouble>) {
     let n = domain.sides.len();
     let moved = |k: usize| motion.apply(precise_point(motion.space, domain.corners[k])).map(f64::from);
     for k in (0..n).filter(|&k| domain.partner[k].is_none()) {

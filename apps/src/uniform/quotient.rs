@@ -11,7 +11,7 @@ use ricci::embed::{
     BoundaryLoop, DeckElement, DeckGroup, DirichletDomain, Layout, UnrollOptions, dirichlet_domain, unroll,
 };
 use ricci::flow::Report;
-use ricci::geometry::{Motion, Space, Twofold, worse};
+use ricci::geometry::{Motion, Space, DoubleDouble, worse};
 use ricci::mesh::{FaceId, PerEdge, VertexId};
 use ricci::topology::{HomotopyBasis, Word};
 use std::cmp::Ordering;
@@ -208,7 +208,7 @@ fn on_surface(
     task: &Task<'_>,
     solved: &mut Solved,
     layout: &Layout,
-    (base, placement): (VertexId, Motion<Twofold>),
+    (base, placement): (VertexId, Motion<DoubleDouble>),
 ) -> ricci::Result<Laid> {
     let (mut seconds, solution, control) = (solved.seconds, &solved.solution, task.control);
     let refinement = match layout.refinement() {

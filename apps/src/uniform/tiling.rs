@@ -7,7 +7,7 @@ use crate::picture::{
 };
 use ricci::embed::{DeckElement, DeckGroup};
 use ricci::geometry::model::{Model, from_poincare};
-use ricci::geometry::{Motion, Space, Twofold};
+use ricci::geometry::{Motion, Space, DoubleDouble};
 use std::f64::consts::PI;
 
 /// Radius in pixels below which a copy is left out.
@@ -102,8 +102,8 @@ impl Tiling {
     }
 
     /// Add a copy in one tint; `border`: draw that too, in this width.
-    pub fn copy(&mut self, stamp: &Stamp, motion: &Motion<Twofold>, tint: u8, border: Option<f64>) {
-        let moved = |p: &[f64; 3]| self.at.flat(motion.apply(p.map(Twofold::from)).map(f64::from));
+    pub fn copy(&mut self, stamp: &Stamp, motion: &Motion<DoubleDouble>, tint: u8, border: Option<f64>) {
+        let moved = |p: &[f64; 3]| self.at.flat(motion.apply(p.map(DoubleDouble::from)).map(f64::from));
         let middle = moved(&stamp.centre);
         let coarse: Vec<[f64; 2]> =
             stamp.border.iter().step_by(stamp.border.len().div_ceil(COARSE).max(1)).map(moved).collect();

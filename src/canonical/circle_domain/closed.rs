@@ -11,7 +11,7 @@ use crate::error::Result;
 use crate::flow::{Flow, Solution};
 use crate::geometry::motion::precise_point;
 use crate::geometry::triangle::sine;
-use crate::geometry::{Motion, Twofold};
+use crate::geometry::{Motion, DoubleDouble};
 use crate::geometry::{Space, conformal};
 use crate::mesh::{EdgeId, Filled, HalfedgeId, PerVertex, VertexId};
 use crate::metric::Refinement;
@@ -135,7 +135,7 @@ fn circles(whole: &Layout, layout: &Layout, metric: &Solution, filled: &Filled) 
 }
 
 /// [`Layout::neighbour`] of a layout of which lengths become `factor` times as long.
-fn pairing(whole: &Layout, h: HalfedgeId, factor: f64) -> Motion<Twofold> {
+fn pairing(whole: &Layout, h: HalfedgeId, factor: f64) -> Motion<DoubleDouble> {
     let mut motion = whole.neighbour(h);
     if whole.space == Space::E2 {
         motion.b = motion.b.map(|x| x * factor.into());

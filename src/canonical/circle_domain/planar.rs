@@ -16,8 +16,8 @@ use crate::error::Result;
 use crate::flow::Solution;
 use crate::geometry::complex::{Complex, add, norm, scale, sub};
 use crate::geometry::mobius::PlaneCircle;
-use crate::geometry::twofold::two_sum;
-use crate::geometry::{Space, Twofold, triangle, worse};
+use crate::geometry::double_double::two_sum;
+use crate::geometry::{Space, DoubleDouble, triangle, worse};
 use crate::mesh::{EdgeId, Filled, Mesh, PerEdge, PerVertex, VertexId};
 use crate::metric::lengths::face_lengths;
 use crate::metric::{Metric, Refinement, Surface};
@@ -128,7 +128,7 @@ fn in_units(mesh: &Mesh, metric: &mut Metric, unit: f64) {
     for e in mesh.edges() {
         let points = mesh.ends(e).into_iter().filter(|&v| epsilon[v] == 0).count();
         let factor = unit.powi(-(points as i32));
-        eta[e] = Twofold { high: eta[e].high * factor, low: eta[e].low * factor };
+        eta[e] = DoubleDouble { high: eta[e].high * factor, low: eta[e].low * factor };
     }
 }
 

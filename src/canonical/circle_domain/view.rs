@@ -4,7 +4,7 @@ use super::super::star::Punctured;
 use crate::geometry::Mobius;
 use crate::geometry::complex::{Complex, add, norm, scale, sub};
 use crate::geometry::mobius::PlaneCircle;
-use crate::geometry::twofold::two_sum;
+use crate::geometry::double_double::two_sum;
 use crate::mesh::{Filled, PerVertex, VertexId};
 use crate::metric::Metric;
 

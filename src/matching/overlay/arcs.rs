@@ -6,7 +6,7 @@ use super::stand::{At, Settled};
 use super::trace::{Crossing, Leaving, Path, Tracer};
 use crate::control::{Control, Stage};
 use crate::error::{Error, Result};
-use crate::geometry::Twofold;
+use crate::geometry::DoubleDouble;
 use crate::mesh::{EdgeId, HalfedgeId, Mesh, VertexId};
 use crate::parallel;
 
@@ -129,7 +129,7 @@ impl Arcs {
         target: &Mesh,
         (paths, first): (&[Option<Path>], Vec<u32>),
     ) -> Result<Parts> {
-        let mut points: Vec<Vec<(Twofold, u32)>> = vec![Vec::new(); target.n_edges()];
+        let mut points: Vec<Vec<(DoubleDouble, u32)>> = vec![Vec::new(); target.n_edges()];
         let crossing_at = (self.n[0] + self.n[1]) as u32;
         for (k, crossing) in self.crossings.iter().enumerate() {
             points[crossing.halfedge.edge().index()].push((crossing.across, crossing_at + k as u32));
@@ -227,7 +227,7 @@ impl Arcs {
     /// The order around every vertex.
     fn turn(&mut self, settled: &Settled, target: &Mesh, (paths, parts): (&[Option<Path>], &Parts)) {
         let source = &settled.source.cover.mesh;
-        let mut shared: Vec<Vec<(HalfedgeId, [Twofold; 2], u32)>> = vec![Vec::new(); self.n[0]];
+        let mut shared: Vec<Vec<(HalfedgeId, [DoubleDouble; 2], u32)>> = vec![Vec::new(); self.n[0]];
         for (e, path) in source.edges().zip(paths) {
             let Some(Path::Through(leaving, _)) = path else { continue };
             for (h, leaving) in [e.halfedge(), e.halfedge().twin()].into_iter().zip(leaving) {
@@ -267,16 +267,16 @@ fn around_target(
     target: &Mesh,
     b: VertexId,
     parts: &Parts,
-    shared: &[(HalfedgeId, [Twofold; 2], u32)],
+    shared: &[(HalfedgeId, [DoubleDouble; 2], u32)],
 ) -> Vec<u32> {
     let fan = target.fan(b);
     let mut around = Vec::with_capacity(fan.len() + shared.len() + 1);
     for &h in &fan {
         around.push(parts.leaving(h));
         // Inside one corner, which is less than a half turn, from right to left.
-        let mut inside: Vec<([Twofold; 2], u32)> = Vec::new();
+        let mut inside: Vec<([DoubleDouble; 2], u32)> = Vec::new();
         for (_, y, arc) in shared.iter().filter(|(corner, ..)| *corner == h) {
-            let is_right = |(x, _): &([Twofold; 2], u32)| f64::from(x[0] * y[1] - x[1] * y[0]) > 0.0;
+            let is_right = |(x, _): &([DoubleDouble; 2], u32)| f64::from(x[0] * y[1] - x[1] * y[0]) > 0.0;
             let at = inside.iter().position(|x| !is_right(x)).unwrap_or(inside.len());
             inside.insert(at, (*y, *arc));
         }

@@ -1,7 +1,7 @@
 //! The faces of a placed surface side by side in one frame, as pictures show them.
 
 use super::super::cover::Placed;
-use crate::geometry::{Motion, Twofold};
+use crate::geometry::{Motion, DoubleDouble};
 use crate::mesh::{FaceId, HalfedgeId};
 use crate::topology::spanning::Key;
 use std::cmp::Reverse;
@@ -9,7 +9,7 @@ use std::collections::BinaryHeap;
 
 /// Where the opened surface of each face lies, and the half-edges at which it was left for a neighbour that is drawn beside it.
 pub(super) struct Opened {
-    pub homes: Vec<Motion<Twofold>>,
+    pub homes: Vec<Motion<DoubleDouble>>,
     pub crossed: Vec<HalfedgeId>,
 }
 
@@ -17,10 +17,10 @@ pub(super) struct Opened {
 /// surface that is opened along a cut stays as it is; one whose faces have a frame each grows about the first.
 pub(super) fn opened(placed: &Placed, from: HalfedgeId) -> Opened {
     let (mesh, cover) = (&placed.cover.mesh, &placed.cover);
-    let mut homes: Vec<Option<Motion<Twofold>>> = vec![None; mesh.n_faces()];
+    let mut homes: Vec<Option<Motion<DoubleDouble>>> = vec![None; mesh.n_faces()];
     let mut crossed = Vec::new();
     let mut beside = BinaryHeap::new();
-    let mut moved: Vec<(Motion<Twofold>, HalfedgeId)> = Vec::new();
+    let mut moved: Vec<(Motion<DoubleDouble>, HalfedgeId)> = Vec::new();
     let identity = Motion::identity(cover.space);
     let mut next = mesh.face(from).map(|f| (f, identity));
     while let Some((first, home)) = next.take() {

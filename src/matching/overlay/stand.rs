@@ -6,7 +6,7 @@ use super::super::walk::{Found, Seed, located};
 use crate::control::Control;
 use crate::embed::triangle::Triangle;
 use crate::error::{Error, Result};
-use crate::geometry::{Motion, Twofold};
+use crate::geometry::{Motion, DoubleDouble};
 use crate::mesh::{FaceId, HalfedgeId, PerVertex, Place, VertexId};
 
 /// Share of the least height of its triangles by which a vertex is moved aside at least, so that no three points that are told apart lie on
@@ -29,7 +29,7 @@ pub(super) struct Standing {
     /// A half-edge of the face that it is in; the side of the domain that it is on; one that leaves the vertex that it is at.
     pub near: HalfedgeId,
     /// The transformation that carries the vertex's own position into the opened domain.
-    pub copy: Motion<Twofold>,
+    pub copy: Motion<DoubleDouble>,
     pub at: At,
 }
 
@@ -50,7 +50,7 @@ pub(super) struct Spot {
 
 /// A face of a domain as it is seen from one of its corners: coordinates of small triangles then differ in all their digits.
 pub(super) struct View {
-    pub home: Motion<Twofold>,
+    pub home: Motion<DoubleDouble>,
     /// From the half-edge from which it is seen.
     pub sides: [HalfedgeId; 3],
     pub corners: [Precise; 3],
@@ -84,7 +84,7 @@ impl View {
 #[derive(Clone, Copy)]
 struct Seen {
     near: HalfedgeId,
-    copy: Motion<Twofold>,
+    copy: Motion<DoubleDouble>,
 }
 
 impl Seen {

@@ -3,7 +3,7 @@
 use super::super::cover::{Placed, Precise, determinant, logarithm};
 use super::stand::{At, Settled, View};
 use crate::error::{Error, Result};
-use crate::geometry::Twofold;
+use crate::geometry::DoubleDouble;
 use crate::mesh::{HalfedgeId, VertexId};
 
 /// Faces that an edge crosses at most.
@@ -21,13 +21,13 @@ pub(super) struct Crossing {
     /// Weight of the tip, along the source's half-edge 2e.
     pub along: f64,
     /// Weight of the tip, along the half-edge 2e that is crossed.
-    pub across: Twofold,
+    pub across: DoubleDouble,
     /// Sum of the weights of the vectors of the target's edge over that of the source's.
     pub weight: f64,
 }
 
 /// Which corner of the target an edge of the source leaves a common vertex in: the half-edge there, and the direction, in its frame.
-pub(super) type Leaving = Option<(HalfedgeId, [Twofold; 2])>;
+pub(super) type Leaving = Option<(HalfedgeId, [DoubleDouble; 2])>;
 
 /// An edge of the source on the target.
 #[derive(Debug, Clone)]
@@ -199,7 +199,7 @@ impl Tracer<'_> {
     }
 
     /// The corner of a half-edge of the face, and the direction from there to an end of the line.
-    fn direction(&self, line: &Line, h: HalfedgeId, end: usize) -> (HalfedgeId, [Twofold; 2]) {
+    fn direction(&self, line: &Line, h: HalfedgeId, end: usize) -> (HalfedgeId, [DoubleDouble; 2]) {
         let [x, y, _] = self.target.frame_at(h).inverse().apply(line.ends[end]);
         (h, [x, y])
     }
@@ -209,14 +209,14 @@ impl Tracer<'_> {
 fn crossing(view: &View, line: &Line, side: HalfedgeId) -> Crossing {
     let [a, b] = line.ends.map(|p| view.home.apply(p));
     let [c, d, _] = view.corners;
-    let zero = Twofold::from(0.0);
-    let positive = |x: Twofold| if f64::from(x) > 0.0 { x } else { zero };
+    let zero = DoubleDouble::from(0.0);
+    let positive = |x: DoubleDouble| if f64::from(x) > 0.0 { x } else { zero };
     // (a × b) × (c × d) = |c d a| b − |c d b| a = |a b d| c − |a b c| d, the point as a vector.
     let (from, to) = (positive(-determinant([c, d, b])), positive(determinant([c, d, a])));
     let (first, second) = (positive(determinant([a, b, d])), positive(-determinant([a, b, c])));
-    let share = |x: Twofold, y: Twofold| {
+    let share = |x: DoubleDouble, y: DoubleDouble| {
         let sum = x + y;
-        if f64::from(sum) > 0.0 { y / sum } else { Twofold::from(0.5) }
+        if f64::from(sum) > 0.0 { y / sum } else { DoubleDouble::from(0.5) }
     };
     let across = if side.0 & 1 == 0 { share(first, second) } else { share(second, first) };
     let weight = f64::from(first + second) / f64::from(from + to);

@@ -1,8 +1,8 @@
 //! Numbers with twice the digits of doubles, and the rounding errors of sums, products and e^x.
 //!
 //! ```
-//! use ricci::geometry::Twofold;
-//! let third = Twofold::from(1.0) / 3.0.into();
+//! use ricci::geometry::DoubleDouble;
+//! let third = DoubleDouble::from(1.0) / 3.0.into();
 //! assert!(f64::from(third * 3.0.into() - 1.0.into()).abs() < 1e-31);
 //! ```
 
@@ -13,44 +13,44 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A number of about 32 digits: the unevaluated sum of two doubles, the second at most half an ulp of the first \[Dek71\].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Twofold<T = f64> {
+pub struct DoubleDouble<T = f64> {
     /// The nearest double.
     pub high: T,
     /// What that misses.
     pub low: T,
 }
 
-impl<L: Lanes> Twofold<L> {
+impl<L: Lanes> DoubleDouble<L> {
     /// A number with the digits of doubles.
     #[inline(always)]
-    pub(crate) fn plain(high: L) -> Twofold<L> {
-        Twofold { high, low: high.constant(0.0) }
+    pub(crate) fn plain(high: L) -> DoubleDouble<L> {
+        DoubleDouble { high, low: high.constant(0.0) }
     }
 
     /// The sum of a number and a much smaller one.
     #[inline(always)]
-    pub(super) fn renormalised(high: L, low: L) -> Twofold<L> {
+    pub(super) fn renormalised(high: L, low: L) -> DoubleDouble<L> {
         let sum = high + low;
-        Twofold { high: sum, low: low - (sum - high) }
+        DoubleDouble { high: sum, low: low - (sum - high) }
     }
 
     /// The sum with a double.
     #[inline(always)]
-    pub fn plus(self, x: L) -> Twofold<L> {
+    pub fn plus(self, x: L) -> DoubleDouble<L> {
         let (high, lost) = two_sum(self.high, x);
-        Twofold::renormalised(high, lost + self.low)
+        DoubleDouble::renormalised(high, lost + self.low)
     }
 
     /// The square root of a number that is not negative (0 for one that is).
     #[inline(always)]
-    pub fn sqrt(self) -> Twofold<L> {
+    pub fn sqrt(self) -> DoubleDouble<L> {
         let zero = self.high.constant(0.0);
         // One step of Newton's method for a double root.
         let root = self.high.root();
         let (square, lost) = two_product(root, root);
         let rest = ((self.high - square) - lost) + self.low;
-        let Twofold { high, low } = Twofold::renormalised(root, rest / (root + root));
-        Twofold {
+        let DoubleDouble { high, low } = DoubleDouble::renormalised(root, rest / (root + root));
+        DoubleDouble {
             high: zero.where_at_least(self.high, zero, high),
             low: zero.where_at_least(self.high, zero, low),
         }
@@ -58,88 +58,88 @@ impl<L: Lanes> Twofold<L> {
 
     /// Twice this number.
     #[inline(always)]
-    pub(crate) fn twice(self) -> Twofold<L> {
-        Twofold { high: self.high + self.high, low: self.low + self.low }
+    pub(crate) fn twice(self) -> DoubleDouble<L> {
+        DoubleDouble { high: self.high + self.high, low: self.low + self.low }
     }
 
     /// `a b + c d`: each product is exact but for its last digits, and their sum is rounded once.
     #[inline(always)]
-    pub(crate) fn two_products(a: Twofold<L>, b: Twofold<L>, c: Twofold<L>, d: Twofold<L>) -> Twofold<L> {
+    pub(crate) fn two_products(a: DoubleDouble<L>, b: DoubleDouble<L>, c: DoubleDouble<L>, d: DoubleDouble<L>) -> DoubleDouble<L> {
         let ((p, p_low), (q, q_low)) = (two_product(a.high, b.high), two_product(c.high, d.high));
         let p_low = p_low + (a.high * b.low + a.low * b.high);
         let q_low = q_low + (c.high * d.low + c.low * d.high);
         let (sum, lost) = two_sum(p, q);
-        Twofold::renormalised(sum, lost + (p_low + q_low))
+        DoubleDouble::renormalised(sum, lost + (p_low + q_low))
     }
 }
 
-impl Twofold {
+impl DoubleDouble {
     /// This number times 2^k: exact while both parts stay normal numbers.
-    pub(crate) fn scaled(self, k: i32) -> Twofold {
-        Twofold { high: scaled(self.high, k), low: scaled(self.low, k) }
+    pub(crate) fn scaled(self, k: i32) -> DoubleDouble {
+        DoubleDouble { high: scaled(self.high, k), low: scaled(self.low, k) }
     }
 }
 
-impl From<f64> for Twofold {
+impl From<f64> for DoubleDouble {
     #[inline]
-    fn from(x: f64) -> Twofold {
-        Twofold { high: x, low: 0.0 }
+    fn from(x: f64) -> DoubleDouble {
+        DoubleDouble { high: x, low: 0.0 }
     }
 }
 
-impl From<Twofold> for f64 {
+impl From<DoubleDouble> for f64 {
     #[inline]
-    fn from(x: Twofold) -> f64 {
+    fn from(x: DoubleDouble) -> f64 {
         x.high
     }
 }
 
-impl<L: Lanes> Neg for Twofold<L> {
-    type Output = Twofold<L>;
+impl<L: Lanes> Neg for DoubleDouble<L> {
+    type Output = DoubleDouble<L>;
     #[inline(always)]
-    fn neg(self) -> Twofold<L> {
-        Twofold { high: -self.high, low: -self.low }
+    fn neg(self) -> DoubleDouble<L> {
+        DoubleDouble { high: -self.high, low: -self.low }
     }
 }
 
-impl<L: Lanes> Add for Twofold<L> {
-    type Output = Twofold<L>;
+impl<L: Lanes> Add for DoubleDouble<L> {
+    type Output = DoubleDouble<L>;
     #[inline(always)]
-    fn add(self, other: Twofold<L>) -> Twofold<L> {
+    fn add(self, other: DoubleDouble<L>) -> DoubleDouble<L> {
         // Both parts are added exactly: where the high parts cancel, the result consists of the low ones.
         let (high, lost) = two_sum(self.high, other.high);
         let (low, more) = two_sum(self.low, other.low);
-        let first = Twofold::renormalised(high, lost + low);
-        Twofold::renormalised(first.high, first.low + more)
+        let first = DoubleDouble::renormalised(high, lost + low);
+        DoubleDouble::renormalised(first.high, first.low + more)
     }
 }
 
-impl<L: Lanes> Sub for Twofold<L> {
-    type Output = Twofold<L>;
+impl<L: Lanes> Sub for DoubleDouble<L> {
+    type Output = DoubleDouble<L>;
     #[inline(always)]
-    fn sub(self, other: Twofold<L>) -> Twofold<L> {
+    fn sub(self, other: DoubleDouble<L>) -> DoubleDouble<L> {
         self + -other
     }
 }
 
-impl<L: Lanes> Mul for Twofold<L> {
-    type Output = Twofold<L>;
+impl<L: Lanes> Mul for DoubleDouble<L> {
+    type Output = DoubleDouble<L>;
     #[inline(always)]
-    fn mul(self, other: Twofold<L>) -> Twofold<L> {
+    fn mul(self, other: DoubleDouble<L>) -> DoubleDouble<L> {
         let (product, lost) = two_product(self.high, other.high);
-        Twofold::renormalised(product, lost + (self.high * other.low + self.low * other.high))
+        DoubleDouble::renormalised(product, lost + (self.high * other.low + self.low * other.high))
     }
 }
 
-impl<L: Lanes> Div for Twofold<L> {
-    type Output = Twofold<L>;
+impl<L: Lanes> Div for DoubleDouble<L> {
+    type Output = DoubleDouble<L>;
     #[inline(always)]
-    fn div(self, other: Twofold<L>) -> Twofold<L> {
+    fn div(self, other: DoubleDouble<L>) -> DoubleDouble<L> {
         let first = self.high / other.high;
         let (product, lost) = two_product(first, other.high);
         // The product is within an ulp of the dividend, so that their difference is exact.
         let rest = ((self.high - product) - lost) + (self.low - first * other.low);
-        Twofold::renormalised(first, rest / other.high)
+        DoubleDouble::renormalised(first, rest / other.high)
     }
 }
 
@@ -231,24 +231,24 @@ fn nearest_integer<L: Lanes>(x: L) -> L {
 /// Largest |x| of [`sinh`].
 pub(crate) const MAX_SERIES: f64 = 0.25;
 /// 1/3! and 1/5! with what the doubles lose.
-const SIXTH: Twofold = Twofold { high: 1.0 / 6.0, low: 9.251_858_538_542_97e-18 };
-const HUNDRED_TWENTIETH: Twofold = Twofold { high: 1.0 / 120.0, low: 1.156_482_317_317_871_4e-19 };
+const SIXTH: DoubleDouble = DoubleDouble { high: 1.0 / 6.0, low: 9.251_858_538_542_97e-18 };
+const HUNDRED_TWENTIETH: DoubleDouble = DoubleDouble { high: 1.0 / 120.0, low: 1.156_482_317_317_871_4e-19 };
 /// 1/7!, 1/9!, … up to 1/15!: the next term is below 1e-24 of sinh x.
 const ODD_FACTORIALS: [f64; 5] =
     [1.0 / 5040.0, 1.0 / 362_880.0, 1.0 / 39_916_800.0, 1.0 / 6_227_020_800.0, 1.0 / 1_307_674_368_000.0];
 
 /// sinh x for |x| up to [`MAX_SERIES`] (error below 1e-23 of it), by its series: without the cancellation and at a third of the cost of
 /// two exponentials.
-pub(crate) fn sinh(x: f64) -> Twofold {
+pub(crate) fn sinh(x: f64) -> DoubleDouble {
     let (square, lost) = two_product(x, x);
-    let y = Twofold { high: square, low: lost };
+    let y = DoubleDouble { high: square, low: lost };
     let tail = square * ODD_FACTORIALS.iter().rev().fold(0.0, |sum, factor| sum * square + factor);
     let inner = y * HUNDRED_TWENTIETH.plus(tail);
     let (sum, lost) = two_sum(SIXTH.high, inner.high);
-    let rest = y * Twofold::renormalised(sum, lost + (SIXTH.low + inner.low));
+    let rest = y * DoubleDouble::renormalised(sum, lost + (SIXTH.low + inner.low));
     let (product, lost) = two_product(rest.high, x);
     let (sum, more) = two_sum(x, product);
-    Twofold::renormalised(sum, more + (lost + rest.low * x))
+    DoubleDouble::renormalised(sum, more + (lost + rest.low * x))
 }
 
 #[cfg(test)]
@@ -260,8 +260,8 @@ mod tests {
         for k in 1..=400 {
             let x = MAX_SERIES * f64::from(k) / 400.0 * if k % 2 == 0 { 1.0 } else { -1.0 };
             let (up, lost) = exp(x);
-            let up = Twofold::from(up) + (up * lost).into();
-            let expected = (up - Twofold::from(1.0) / up).scaled(-1);
+            let up = DoubleDouble::from(up) + (up * lost).into();
+            let expected = (up - DoubleDouble::from(1.0) / up).scaled(-1);
             // The exponentials are known to 3e-24, of which sinh x is x.
             assert!((sinh(x) - expected).high.abs() < 1e-23 * x.abs() + 6e-24, "{x}");
         }
@@ -269,17 +269,17 @@ mod tests {
 
     /// (√2)² = 2, (1/3)·3 = 1 and the like, and what is left of 1 + 2⁻⁷⁰ when 1 is taken away.
     #[test]
-    fn twofold_arithmetic_keeps_thirty_digits() {
+    fn double_double_arithmetic_keeps_thirty_digits() {
         for i in 1..200 {
-            let (x, y) = (Twofold::from(f64::from(i)), Twofold::from(1.0 / f64::from(7 * i + 1)));
-            let error = |a: Twofold, b: Twofold| ((a - b).high / b.high).abs();
+            let (x, y) = (DoubleDouble::from(f64::from(i)), DoubleDouble::from(1.0 / f64::from(7 * i + 1)));
+            let error = |a: DoubleDouble, b: DoubleDouble| ((a - b).high / b.high).abs();
             assert!(error(x.sqrt() * x.sqrt(), x) < 1e-31, "{i}");
             assert!(error(x / y * y, x) < 1e-30, "{i}");
             let (sum, difference) = (x.sqrt() + y, x.sqrt() - y);
             assert!(error(sum * difference, x - y * y) < 1e-30, "{i}");
         }
         let tiny = 0.5f64.powi(70);
-        let almost = Twofold::from(1.0) + tiny.into();
+        let almost = DoubleDouble::from(1.0) + tiny.into();
         assert_eq!((almost - 1.0.into()).high, tiny);
         assert_eq!((almost * almost - 1.0.into()).high, 2.0 * tiny);
     }
