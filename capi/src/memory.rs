@@ -64,30 +64,21 @@ struct ReserveSlot {
 static HELD: [ReserveSlot; MOST_RESERVES] =
     [const { ReserveSlot { place: AtomicPtr::new(null_mut()), bytes: AtomicUsize::new(0) } }; MOST_RESERVES];
 
-/// Address space of the process's own, beside every heap, so that what is given back serves any thread; NULL if there is none.
+/// Maps pages of the process's own, apart from every heap, so that any thread can use what is given back. NULL if there are none.
 #[cfg(unix)]
 fn map(bytes: usize) -> *mut u8 {
-    use std::ffi::{c_int, c_void};
-    unsafe extern "C" {
-        fn mmap(near: *mut c_void, n: usize, allow: c_int, how: c_int, file: c_int, at: isize)
-        -> *mut c_void;
-    }
-    const READ_WRITE: c_int = 3;
-    const PRIVATE_ANONYMOUS: c_int = if cfg!(target_os = "linux") { 0x22 } else { 0x1002 };
+    use libc::{MAP_ANON, MAP_FAILED, MAP_PRIVATE, PROT_READ, PROT_WRITE};
     // SAFETY: new pages, of no file.
-    let place = unsafe { mmap(null_mut(), bytes, READ_WRITE, PRIVATE_ANONYMOUS, -1, 0) };
-    if place.addr() == usize::MAX { null_mut() } else { place.cast() }
+    let place =
+        unsafe { libc::mmap(null_mut(), bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANON, -1, 0) };
+    if place == MAP_FAILED { null_mut() } else { place.cast() }
 }
 
-/// Give back what [`map`] gave.
+/// Unmaps what [`map`] gave.
 #[cfg(unix)]
 unsafe fn unmap(place: *mut u8, bytes: usize) {
-    use std::ffi::{c_int, c_void};
-    unsafe extern "C" {
-        fn munmap(place: *mut c_void, n: usize) -> c_int;
-    }
     // SAFETY: mapped with this size (contract).
-    unsafe { munmap(place.cast(), bytes) };
+    unsafe { libc::munmap(place.cast(), bytes) };
 }
 
 #[cfg(not(unix))]
