@@ -1,12 +1,12 @@
-//! The angle of a point of the first quadrant, without branches and the same with every C library.
+//! The angle of a point of the first quadrant, computed without branches and independently of the C library.
 
 use super::lanes::Lanes;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, SQRT_2};
 
-/// What the doubles of π/2 and π/4 lose.
+/// The parts that the f64 nearest to π/2 and π/4 miss.
 const LOST: [f64; 2] = [6.123_233_995_736_766e-17, 3.061_616_997_868_383e-17];
-/// `(arctan q / q − 1)/q²` as a polynomial in q², for |q| up to tan(π/8): q times that and 1 misses arctan q by 7e-18 of it (computed with
-/// 60 decimal digits, equal at the roots of a Chebyshev polynomial).
+/// `(arctan q / q − 1)/q²` as a polynomial in q², for |q| up to tan(π/8): the resulting arctan q has a relative error of 7e-18 (computed
+/// with 60 decimal digits, interpolating at the roots of a Chebyshev polynomial).
 const SERIES: [f64; 11] = [
     -0.333_333_333_333_333_3,
     0.199_999_999_999_955_2,
@@ -21,12 +21,12 @@ const SERIES: [f64; 11] = [
     -0.019_176_887_119_062_26,
 ];
 
-/// `atan2(y, x)` for x and y that are not negative, to two roundings of it; π/2 where both are 0.
+/// `atan2(y, x)` for x and y that are not negative, with an error of at most two roundings; π/2 where both are 0.
 #[inline(always)]
 pub(crate) fn angle<L: Lanes>(y: L, x: L) -> L {
     let (steep, flat) = (x * y.constant(SQRT_2 + 1.0), x * y.constant(SQRT_2 - 1.0));
     let third = |of: [L; 3]| choose(y, [steep, flat], of);
-    // π/2 − arctan(x/y), π/4 + arctan((y − x)/(y + x)), arctan(y/x)
+    // π/2 − arctan(x/y), π/4 + arctan((y − x)/(y + x)) or arctan(y/x)
     let below = third([y, y + x, x]);
     let below = below.where_at_least(y.constant(f64::MIN_POSITIVE), below, y.constant(1.0));
     let q = third([-x, y - x, y]) / below;
@@ -37,7 +37,7 @@ pub(crate) fn angle<L: Lanes>(y: L, x: L) -> L {
     }
     let base = third([y.constant(FRAC_PI_2), y.constant(FRAC_PI_4), y.constant(0.0)]);
     let lost = third([y.constant(LOST[0]), y.constant(LOST[1]), y.constant(0.0)]);
-    // What the sum loses is kept: π/4 loses half an ulp of what q has, and would round all angles of near 60° the same way.
+    // The rounding error of the sum is kept: π/4 misses half an ulp of q, and would round all angles near 60° the same way.
     let sum = base + q;
     sum + ((q - (sum - base)) + (q * (square * series) + lost))
 }
@@ -66,7 +66,7 @@ mod tests {
         assert!(worst < 2.0, "{worst}");
     }
 
-    /// Sums of the angles of a million faces hold the theorem of Gauss and Bonnet to 1e-11: roundings may not lean to one side.
+    /// The angles of a million faces satisfy the theorem of Gauss and Bonnet to 1e-11, so roundings must not be biased to one side.
     #[test]
     fn roundings_cancel_over_many_angles() {
         for (from, to) in [(0.05, 0.39), (0.45, 0.6), (0.6, 1.0), (1.0, 1.17), (1.2, 1.5)] {

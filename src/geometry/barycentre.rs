@@ -1,9 +1,9 @@
 //! The conformal barycentre of weighted points of the sphere, and the Möbius transformation that moves it to the centre.
 //!
-//! A point y of hyperbolic 3-space sees the points of its sphere at infinity in directions x_i(y) of the unit sphere. The *conformal
-//! barycentre* is where `Σ w_i x_i(y) = 0` [DE86; Spr05]: the lowest point of `Σ w_i b_i`, with b_i the Busemann function of point
-//! i, which is convex: its gradient is −x_i, its Hessian `1 − x_i x_iᵀ`. It exists and is unique where no point has half of the weight
-//! or more. In the upper half-space y = (p, t) and x_i is the lift of `(z_i − p)/t`.
+//! From a point y of hyperbolic 3-space the points of its sphere at infinity are seen in directions x_i(y) of the unit sphere. The
+//! *conformal barycentre* is the y with `Σ w_i x_i(y) = 0` [DE86; Spr05]: the lowest point of `Σ w_i b_i`, with b_i the Busemann function
+//! of point i, which is convex with gradient −x_i and Hessian `1 − x_i x_iᵀ`. It exists and is unique where no point has half of the
+//! weight or more. In the upper half-space y = (p, t), and x_i is the lift of `(z_i − p)/t`.
 //!
 //! ```
 //! use ricci::geometry::barycentre::conformal_barycentre;
@@ -19,13 +19,13 @@ use super::sphere::{SOUTH, Similarity, lift, project};
 use super::vector::{Vector, add, dot, norm, scale};
 use crate::error::{Error, Result, check_size};
 
-/// Longest Newton step, a hyperbolic distance: over a distance of 1 the directions, and with them the Hessian, change moderately.
+/// Longest Newton step, a hyperbolic distance: within a distance of 1 the directions, and so the Hessian, change moderately.
 const LONGEST_STEP: f64 = 1.0;
-/// Most Newton steps. Steps of length 1 reach everything in fewer: coordinates in doubles lie within a hyperbolic distance of 1500.
+/// Most Newton steps. Steps of length 1 reach every point in fewer: coordinates in f64 lie within a hyperbolic distance of 1500.
 const MAX_STEPS: usize = 2000;
 /// Most halvings of a step: 2⁻³⁰ of it changes the directions by little more than their rounding.
 const MAX_HALVINGS: usize = 30;
-/// A residual that cannot be lowered further counts as rounding if it is at most this many times the rounding of its sum.
+/// A residual that cannot be lowered further is taken for rounding if it is at most this many times the rounding of its sum.
 const ROUNDING_UNITS: f64 = 8.0;
 /// `|Σ w x|/Σ w` at which the points count as balanced, and least length of a step: a few roundings of 1.
 const BALANCED: f64 = 1e-15;
@@ -35,8 +35,8 @@ const BALANCED: f64 = 1e-15;
 ///
 /// # Errors
 ///
-/// [`Error::Size`]; [`Error::Argument`] for a weight that is negative or not finite, and for a point with half of the weight or more
-/// or points that have it together and nearly coincide: then there is no such transformation.
+/// [`Error::Size`]; [`Error::Argument`] for a weight that is negative or not finite, and where no such transformation exists because half
+/// of the weight or more lies at one point, or at points that nearly coincide.
 pub fn conformal_barycentre(points: &[[f64; 2]], weights: &[f64], at_infinity: f64) -> Result<Similarity> {
     check_size("weights", weights.len(), points.len())?;
     let total = weights.iter().sum::<f64>() + at_infinity;
@@ -65,7 +65,7 @@ pub fn conformal_barycentre(points: &[[f64; 2]], weights: &[f64], at_infinity: f
         let Some(next) = cloud.step(&y, seen) else { break };
         (y, seen) = next;
     }
-    // The sum of that many terms is rounded, and so is p in units of t.
+    // The sum has this many terms that are rounded, and p is rounded in units of t.
     let terms = points.len() as f64 + complex::norm(y.centre) / y.scale;
     if norm(seen.mean) <= ROUNDING_UNITS * f64::EPSILON * terms { Ok(y) } else { Err(heavy()) }
 }
@@ -78,7 +78,7 @@ struct Cloud<'a> {
     total: f64,
 }
 
-/// The directions x in which a point of hyperbolic space sees a cloud.
+/// The mean and the second moments of the directions x in which a point of hyperbolic space sees a cloud.
 #[derive(Clone, Copy)]
 struct Moments {
     /// `Σ w x/Σ w`.
@@ -102,7 +102,7 @@ impl Cloud<'_> {
         Moments { mean: scale(share, mean), square: square.map(|row| scale(share, row)) }
     }
 
-    /// A Newton step from `y`, halved until it leads to a lower or better balanced point; `None` where it is all rounding.
+    /// A Newton step from `y`, halved until it leads to a lower or better balanced point; `None` where only rounding is left.
     fn step(&self, y: &Similarity, seen: Moments) -> Option<(Similarity, Moments)> {
         let step = newton(seen);
         let length = norm(step);
@@ -114,7 +114,7 @@ impl Cloud<'_> {
         for _ in 0..MAX_HALVINGS {
             let next = y.towards(to, distance);
             let there = self.moments(&next);
-            // The function still falls at the end of the step if the mean there points ahead, on along the step.
+            // The function still falls at the end of the step if the mean there points on along the step.
             let ahead = project(to).map_or(SOUTH, |z| lift(next.apply(y.before(z))));
             if dot(there.mean, ahead) >= 0.0 || norm(there.mean) < norm(seen.mean) {
                 return Some((next, there));
@@ -125,7 +125,7 @@ impl Cloud<'_> {
     }
 }
 
-/// `(1 − square)⁻¹ mean`; `mean` itself where that matrix is singular to rounding because all points are seen in one direction.
+/// `(1 − square)⁻¹ mean`, or `mean` itself where the matrix is singular to rounding because all points are seen in one direction.
 fn newton(Moments { mean, square }: Moments) -> Vector {
     let mut m = square.map(|row| row.map(|x| -x));
     (0..3).for_each(|k| m[k][k] += 1.0);
@@ -161,8 +161,8 @@ mod tests {
         }
     }
 
-    /// Three points and ∞ with equal weights: the centre of their regular ideal tetrahedron, where they are for an equilateral
-    /// triangle with centre 0 and vertices at distance r: at height (1 − r²/t²)/(1 + r²/t²) = 1/3, t = √2 r.
+    /// Three points and ∞ with equal weights form a regular ideal tetrahedron. Its centre is where, for an equilateral triangle with
+    /// centre 0 and vertices at distance r, the lifts are at height (1 − r²/t²)/(1 + r²/t²) = 1/3: t = √2 r.
     #[test]
     fn an_equilateral_triangle_and_infinity() {
         let r = 5.0;

@@ -1,4 +1,4 @@
-//! Axis-parallel boxes.
+//! Axis-parallel boxes around points of space.
 
 use super::vector::{self, Vector};
 
@@ -10,19 +10,19 @@ pub(crate) struct Bounds {
 }
 
 impl Bounds {
-    /// Of points; without points it has no inside.
+    /// The least box that contains the points; without points it is empty.
     pub fn of(points: impl IntoIterator<Item = Vector>) -> Bounds {
         let none = Bounds { low: [f64::INFINITY; 3], high: [f64::NEG_INFINITY; 3] };
         points.into_iter().fold(none, |bounds, p| bounds.union(Bounds { low: p, high: p }))
     }
 
-    /// The least box around two.
+    /// The least box that contains both.
     pub fn union(self, other: Bounds) -> Bounds {
         let low = std::array::from_fn(|x| self.low[x].min(other.low[x]));
         Bounds { low, high: std::array::from_fn(|x| self.high[x].max(other.high[x])) }
     }
 
-    /// Wider by this much on every side.
+    /// The box with each side moved outwards by `by`.
     pub fn widened(self, by: f64) -> Bounds {
         Bounds { low: vector::sub(self.low, [by; 3]), high: vector::add(self.high, [by; 3]) }
     }

@@ -1,4 +1,4 @@
-//! Trees of axis-parallel boxes, in single precision: none is smaller than what it has to contain.
+//! Trees of axis-parallel boxes in single precision, rounded outwards so that each contains its f64 box.
 
 use super::bounds::Bounds;
 use super::vector::Vector;
@@ -9,26 +9,26 @@ use obvhs::bvh2::Bvh2;
 use obvhs::bvh2::builder::build_bvh2;
 use std::time::Duration;
 
-/// Boxes in a tree, whose root is node 0.
+/// A tree of boxes, whose root is node 0.
 #[derive(Clone)]
-pub(crate) struct Boxes {
-    /// In coordinates from −1 to 1.
+pub(crate) struct BoundsTree {
+    /// The tree, in coordinates from −1 to 1.
     tree: Bvh2,
     middle: Vector,
     /// Half of the largest extent.
     size: f64,
 }
 
-/// What lies below a node.
-pub(crate) enum Node<'a> {
+/// The children of a node.
+pub(crate) enum BoundsNode<'a> {
     Inner([usize; 2]),
-    /// Numbers of boxes.
+    /// The numbers of the boxes of a leaf.
     Leaf(&'a [u32]),
 }
 
-impl Boxes {
-    /// Of boxes, which keep their order.
-    pub fn new(boxes: &[Bounds]) -> Boxes {
+impl BoundsTree {
+    /// The tree of these boxes, which keep their numbers.
+    pub fn new(boxes: &[Bounds]) -> BoundsTree {
         let all = boxes.iter().copied().reduce(Bounds::union).unwrap_or(Bounds::of([]));
         let middle = [0, 1, 2].map(|x| 0.5 * all.low[x] + 0.5 * all.high[x]);
         let size = (0..3).map(|x| 0.5 * all.high[x] - 0.5 * all.low[x]).fold(0.0, f64::max);
@@ -43,10 +43,10 @@ impl Boxes {
             .collect();
         let params = BvhBuildParams { max_prims_per_leaf: 1, ..BvhBuildParams::medium_build() };
         let tree = build_bvh2(&boxes, params, &mut Duration::default());
-        Boxes { tree, middle, size }
+        BoundsTree { tree, middle, size }
     }
 
-    /// How far a point is from the box of a node at least: 0 in it.
+    /// A lower bound of the distance from a point to the boxes of a node: 0 inside.
     pub fn distance(&self, node: usize, point: Vector) -> f64 {
         let Aabb { min, max } = self.tree.nodes[node].aabb();
         let (low, high) = (min.to_array(), max.to_array());
@@ -57,12 +57,13 @@ impl Boxes {
         beyond(0).hypot(beyond(1)).hypot(beyond(2)) * self.size
     }
 
-    pub fn node(&self, node: usize) -> Node<'_> {
+    pub fn node(&self, node: usize) -> BoundsNode<'_> {
         let of = &self.tree.nodes[node];
         let first = of.first_index as usize;
-        match of.is_leaf() {
-            false => Node::Inner([first, first + 1]),
-            true => Node::Leaf(&self.tree.primitive_indices[first..first + of.prim_count as usize]),
+        if of.is_leaf() {
+            BoundsNode::Leaf(&self.tree.primitive_indices[first..first + of.prim_count as usize])
+        } else {
+            BoundsNode::Inner([first, first + 1])
         }
     }
 }

@@ -1,4 +1,4 @@
-//! A triangle in H² by the half chords `q = sinh(l/2)` of its sides, without their lengths.
+//! Angles, their derivatives and the area of a triangle in H², from the half chords `q = sinh(l/2)` of its sides.
 //!
 //! With `c = cosh(l/2)`, half the perimeter s, `r_k = s − l_k` and `d_k = sinh((l_i + l_j)/2) − q_k`
 //!
@@ -17,13 +17,13 @@ use super::lanes::Lanes;
 use super::triangle::{Angles, is_finite};
 use std::ops::RangeInclusive;
 
-/// Half chords of which products of twelve are normal numbers.
+/// Half chords for which products of twelve are normal numbers.
 const USUAL: RangeInclusive<f64> = 1e-25..=1e25;
-/// d is a sum of what it is in the plane and of what the curvature adds. The first is negative where a long triangle is nearly flat, and the
-/// sum then loses digits: it may be this share of the second.
+/// d is the sum of its value in the plane and a term of the curvature. The first is negative where a long triangle is nearly flat, and
+/// the sum then loses digits. This is the smallest quotient of the two that is accepted.
 const LEAST_FLAT: f64 = -0.5;
 
-/// `sinh s sinh r_k` per corner, and `sinh s`.
+/// `sinh s sinh r_k` for each corner, and `sinh s`.
 #[inline(always)]
 pub(crate) fn products<R: Number>(q: [R; 3], c: [R; 3], d: [R; 3]) -> ([R; 3], R) {
     let mut each = d;
@@ -33,8 +33,8 @@ pub(crate) fn products<R: Number>(q: [R; 3], c: [R; 3], d: [R; 3]) -> ([R; 3], R
     (each, (d[2] + q[2]) * c[2] + (c[0] * c[1] + q[0] * q[1]) * q[2])
 }
 
-/// What angles, derivatives and area come from.
-struct Parts<L> {
+/// The intermediate values from which angles, derivatives and area are computed.
+struct AngleParts<L> {
     /// q²
     square: [L; 3],
     /// P
@@ -43,15 +43,14 @@ struct Parts<L> {
     whole: L,
     /// h
     root: L,
-    /// 1 for a triangle that is neither broken nor, for its size, so thin that doubles would lose digits; 0 for another one, whose parts
-    /// mean nothing.
+    /// 1 for a triangle that is valid and not too thin for its size to be computed in f64; 0 for others, whose values are meaningless.
     is_sound: L,
 }
 
-impl<L: Lanes> Parts<L> {
-    /// Of one or several triangles, from half chords to twice the digits.
+impl<L: Lanes> AngleParts<L> {
+    /// The intermediate values of one triangle or several, from half chords in double-double precision.
     #[inline(always)]
-    fn of([q, low]: [[L; 3]; 2]) -> Parts<L> {
+    fn of([q, low]: [[L; 3]; 2]) -> AngleParts<L> {
         let of = |x: f64| q[0].constant(x);
         let (zero, one) = (of(0.0), of(1.0));
         let mut is_sound = one;
@@ -59,7 +58,7 @@ impl<L: Lanes> Parts<L> {
             is_sound = q.where_within(&USUAL, is_sound);
         }
         let flat = differences_of(q, low);
-        // `more`: c − 1
+        // `more` is c − 1.
         let [mut square, mut c, mut more, mut d] = [[zero; 3]; 4];
         for k in 0..3 {
             square[k] = q[k] * q[k];
@@ -75,14 +74,14 @@ impl<L: Lanes> Parts<L> {
         }
         let (product, whole) = products(q, c, d);
         let root = (product[0] * product[1] * product[2]).root();
-        // Where it is 0, quotients are no numbers.
+        // Where the root is 0, quotients are not finite.
         let is_sound = root.where_at_least(of(f64::MIN_POSITIVE), is_sound, zero);
-        Parts { square, product, whole, root, is_sound }
+        AngleParts { square, product, whole, root, is_sound }
     }
 }
 
-/// Angles and derivatives of a triangle; `None` of one that is broken or, for its size, so thin that doubles would lose digits. `chords`:
-/// half chords to twice the digits, opposite the corners.
+/// Angles and derivatives of a triangle from the half chords opposite its corners, in double-double precision. `None` for a triangle that
+/// is broken or too thin for its size to be computed in f64.
 #[inline]
 pub fn angles_with_weights(chords: [DoubleDouble; 3]) -> Option<(Angles, [f64; 3])> {
     match sound_angles_with_weights([chords.map(|q| q.high), chords.map(|q| q.low)]) {
@@ -91,10 +90,10 @@ pub fn angles_with_weights(chords: [DoubleDouble; 3]) -> Option<(Angles, [f64; 3
     }
 }
 
-/// [`angles_with_weights`] of one or several triangles, with 1 for each that has them, and 0 for another one.
+/// [`angles_with_weights`] for one triangle or several at a time. The last number is 1 for triangles that have them, and 0 for others.
 #[inline(always)]
 pub(crate) fn sound_angles_with_weights<L: Lanes>(chords: [[L; 3]; 2]) -> ([L; 3], [L; 3], L) {
-    let Parts { square, product, whole, root, is_sound } = Parts::of(chords);
+    let AngleParts { square, product, whole, root, is_sound } = AngleParts::of(chords);
     let of = |x: f64| root.constant(x);
     let two = of(2.0);
     let angles = [
@@ -111,10 +110,10 @@ pub(crate) fn sound_angles_with_weights<L: Lanes>(chords: [[L; 3]; 2]) -> ([L; 3
     (angles, weights, is_finite(weights, is_sound))
 }
 
-/// Area of a triangle, by `tan(area/2) = 2 h / (sinh s (1 + Σ cosh l))`; `None` where [`angles_with_weights`] has none.
+/// Area of a triangle, by `tan(area/2) = 2 h / (sinh s (1 + Σ cosh l))`; `None` where [`angles_with_weights`] is `None`.
 pub fn area(chords: [DoubleDouble; 3]) -> Option<f64> {
-    let Parts { square, whole, root, is_sound, .. } =
-        Parts::of([chords.map(|q| q.high), chords.map(|q| q.low)]);
+    let AngleParts { square, whole, root, is_sound, .. } =
+        AngleParts::of([chords.map(|q| q.high), chords.map(|q| q.low)]);
     let cosh: f64 = square.iter().map(|x| 1.0 + 2.0 * x).sum();
     (is_sound == 1.0).then(|| 2.0 * (2.0 * root).atan2(whole * (1.0 + cosh)))
 }
@@ -128,7 +127,7 @@ mod tests {
     use crate::geometry::triangle::{angles_from, area_from, half_angles_of_chords};
     use crate::geometry::weights::weights;
 
-    /// Triangles with these u and η, by their chords and by the way that serves all classes.
+    /// Triangles with these u and η, by their chords and by the formulas for all classes.
     #[test]
     fn angles_and_derivatives_are_those_of_the_formulas_for_all_spaces() {
         let mut found = 0;
@@ -172,7 +171,7 @@ mod tests {
         let of = |lengths: [f64; 3]| angles_with_weights(lengths.map(|l| DoubleDouble::from((0.5 * l).sinh())));
         assert!(of([1.0, 0.3, 0.4]).is_none() && of([20.0, 10.0, 10.000_001]).is_none());
         assert!(of([1e-60, 1e-60, 1e-60]).is_none() && of([600.0, 600.0, 600.0]).is_none());
-        // Thin but small: as good as in the plane.
+        // A thin but small triangle is as precise as in the plane.
         let (thin, _) = of([1e-3, 1.0, 1.0]).unwrap();
         assert!(thin.at[0] > 0.0);
     }

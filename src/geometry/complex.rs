@@ -1,6 +1,6 @@
 //! Points and vectors of the plane, which are also complex numbers: `[x, y]` is x + iy.
 //!
-//! They are plain arrays like all positions and coordinates of the library, of doubles or of another [`Number`] such as
+//! They are plain arrays like all positions and coordinates of the library, of f64 or of another [`Number`] such as
 //! [`super::DoubleDouble`].
 //!
 //! ```
@@ -17,7 +17,7 @@ use std::ops::{Add, Mul, Neg, Sub};
 /// A complex number, a point or a vector of the plane: `[Re, Im]`.
 pub type Complex<T = f64> = [T; 2];
 
-/// What real and imaginary parts may be: every type that can be added, subtracted, multiplied and negated.
+/// The type of real and imaginary parts: any type with addition, subtraction, multiplication and negation.
 pub trait Number:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
 {
@@ -83,10 +83,10 @@ pub fn norm([a, b]: Complex) -> f64 {
     a.hypot(b)
 }
 
-/// Squares within these bounds lost nothing to under- or overflow.
+/// Range of squares that lost nothing to under- or overflow.
 const SURE_SQUARES: [f64; 2] = [1e-280, 1e280];
 
-/// [`norm`] to two roundings, at a third of the price.
+/// [`norm`] with an error of at most two roundings, at a third of the cost.
 #[inline]
 pub(crate) fn quick_norm(z: Complex) -> f64 {
     let square = norm2(z);
@@ -110,7 +110,7 @@ mod tests {
     use crate::geometry::DoubleDouble;
     use num_complex::Complex64;
 
-    /// An independent implementation of complex numbers, on points whose products are exact in doubles.
+    /// Compares with an independent implementation of complex numbers, on points whose products are exact in f64.
     #[test]
     fn products_are_those_of_complex_numbers() {
         let numbers = [[3.0, -1.5], [-0.25, 7.0], [0.0, 2.0]];

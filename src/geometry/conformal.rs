@@ -1,4 +1,4 @@
-//! A conformal class (ε, η, u) on one edge and one triangle: lengths and half-perimeter differences.
+//! Edges of a conformal class (ε, η, u): their lengths, and the half-perimeter differences of triangles.
 //!
 //! With `e_i = e^{u_i}` and `d_i = 1 + λ ε_i e_i²`
 //!
@@ -9,19 +9,19 @@
 //!
 //! (the length formulas of notation.md §2 solved for the half length, free of the cancellation in `cosh l − 1`).
 //!
-//! Circles of very different sizes nearly fill their triangle. What decides its angles is then not the lengths but what the
-//! radii leave of them, formed from `g((l − γ_i − γ_j)/2) g((l + γ_i + γ_j)/2) = 2 (η − 1) e_i e_j / (d_i d_j)` with
-//! `g = sinh, sin` (E²: `gap (l + γ_i + γ_j) = 2 (η − 1) e_i e_j`):
+//! Circles of very different sizes nearly fill their triangle. Its angles then depend on the differences between lengths and radii, which
+//! are formed from `g((l − γ_i − γ_j)/2) g((l + γ_i + γ_j)/2) = 2 (η − 1) e_i e_j / (d_i d_j)` with `g = sinh, sin` (E²: `gap (l + γ_i +
+//! γ_j) = 2 (η − 1) e_i e_j`):
 //!
 //! ```text
 //! gap_k = l_k − γ_i − γ_j          r_k = s − l_k = γ_k + (gap_i + gap_j − gap_k)/2
 //! ```
 //!
-//! In E² everything is homogeneous, and only ratios within one triangle matter. A vertex or an edge whose size is far from 1 is kept in
-//! a unit of its own, a power of two ([`Vertex::exponent`], [`Edge::exponent`]), and [`in_one_unit`] brings those of a triangle
-//! together: so the lengths of one metric may range over e^±5e5. Powers of two are exact: where nothing over- or underflows, the digits
-//! are those of plain doubles. H² and S² have a size of their own, and no such units: lengths in H² lie between
-//! [`MIN_HYPERBOLIC_CHORD`] and [`MAX_HYPERBOLIC_CHORD`].
+//! In E² all formulas are homogeneous, and only ratios within one triangle matter. A vertex or an edge whose size is far from 1 has a
+//! unit of its own, a power of two ([`Vertex::exponent`], [`Edge::exponent`]), and [`in_one_unit`] brings those of a triangle to a common
+//! unit: so the lengths of one metric may range over e^±5e5. Powers of two are exact: where nothing over- or underflows, the digits are
+//! those without units. H² and S² are not homogeneous and have no such units: lengths in H² lie between [`MIN_HYPERBOLIC_CHORD`] and
+//! [`MAX_HYPERBOLIC_CHORD`].
 //!
 //! ```
 //! use ricci::geometry::Space;
@@ -46,7 +46,7 @@ use std::f64::consts::PI;
 pub struct Edge {
     /// l − γ_i − γ_j with the radii of [`Vertex::radius`].
     pub gap: f64,
-    /// What the double `gap` loses: known where both ends are [`is_precise`], else 0.
+    /// The part that `gap` misses: known where both ends are [`is_precise`], else 0.
     pub low: f64,
     /// Squared half chord: l²/4, sinh²(l/2), sin²(l/2) in E², H², S².
     pub q2: f64,
@@ -56,26 +56,27 @@ pub struct Edge {
 
 /// Largest squared half chord of an edge in H²: its length is below 300, and no product of such lengths overflows.
 pub const MAX_HYPERBOLIC_CHORD: f64 = 1e129;
-/// Smallest squared half chord of an edge in H²: its length is above 2e-140, and what its square loses (2^-106 of it) is still a
-/// normal number.
+/// Smallest squared half chord of an edge in H²: its length is above 2e-140, and the rounding error of its square (2^-106 of it) is still
+/// a normal number.
 pub const MIN_HYPERBOLIC_CHORD: f64 = 1e-280;
-/// Squared half chords of edges in H².
+/// The range of squared half chords of edges in H².
 const HYPERBOLIC_CHORDS: std::ops::RangeInclusive<f64> = MIN_HYPERBOLIC_CHORD..=MAX_HYPERBOLIC_CHORD;
-/// Binary exponents of squared lengths that need no unit of their own: what they lose, and products of two of them, are normal numbers.
+/// Binary exponents of squared lengths that need no unit of their own: their rounding errors, and products of two of them, are normal
+/// numbers.
 const PLAIN_SQUARES: std::ops::RangeInclusive<i32> = -500..=500;
-/// Squared lengths of edges that have plain chords, 2^−500 to 2^500: all have such exponents.
+/// Squared lengths of edges that have plain chords, 2^−500 to 2^500: their exponents are in [`PLAIN_SQUARES`].
 const PLAIN_LENGTHS: std::ops::RangeInclusive<f64> = 3.054_936_363_499_605e-151..=3.273_390_607_896_142e150;
-/// The e^u of their ends, 2^−480 to 2^480: what the products lose is a normal number too.
+/// e^u of the ends of edges that have plain chords, 2^−480 to 2^480: rounding errors of products are normal numbers too.
 const PLAIN_SCALES: std::ops::RangeInclusive<f64> = 3.203_333_952_292_962e-145..=3.121_748_550_315_992e144;
 /// Largest η of such an edge, 2^900: its parts do not overflow when a product with it is split.
 const MOST_PLAIN_ETA: f64 = 8.452_712_498_170_644e270;
 
-/// Binary exponent of a unit of length in which `2 η e_a e_b`, `ε e_a²` and `ε e_b²` stay in the middle of the doubles, from the e (as
-/// number and exponent) of two vertices with these ε.
+/// Binary exponent of a unit of length in which `2 η e_a e_b`, `ε e_a²` and `ε e_b²` are in the middle of the range of f64. `e` holds e^u
+/// of two vertices with these ε, each as a number and an exponent.
 pub(super) fn unit_of_products(e: [(f64, i32); 2], epsilon: [f64; 2], eta: f64) -> i32 {
     let [x, y] = e.map(|(scale, power)| power + exponent(scale));
     let own = [x, y].into_iter().zip(epsilon).filter(|(_, epsilon)| *epsilon != 0.0).map(|(x, _)| x);
-    // With half of η taken off, neither η nor what is left of the product leaves the doubles.
+    // With half of η's exponent taken off, neither η nor the product leaves the range of f64.
     let cross = if eta == 0.0 { i32::MIN } else { (x + y).div_euclid(2) + exponent(eta).div_euclid(4) };
     own.fold(cross, i32::max)
 }
@@ -120,7 +121,7 @@ fn plane_edge(a: Vertex, b: Vertex, eta: DoubleDouble) -> Option<Edge> {
     let (q2, exponent) = (0.25 * n, a.exponent);
     let circles = a.epsilon > 0.0 && b.epsilon > 0.0;
     if circles && eta == 1.0.into() {
-        // The circles touch: l is the sum of their radii, and what it loses that of what they lose.
+        // The circles touch: l is the sum of their radii, and its low part is the sum of theirs.
         let low = a.radius * a.low + b.radius * b.low;
         return Some(Edge { gap: 0.0, low, q2, exponent });
     }
@@ -131,16 +132,16 @@ fn plane_edge(a: Vertex, b: Vertex, eta: DoubleDouble) -> Option<Edge> {
     (gap.is_finite() && low.is_finite()).then_some(Edge { gap, low, q2, exponent })
 }
 
-/// The ends of an edge in E² in one unit, in which its length is neither tiny nor huge.
+/// The ends of an edge in E² in a common unit in which its length is neither tiny nor huge.
 fn in_unit_of_edge(a: Vertex, b: Vertex, eta: f64) -> [Vertex; 2] {
     let unit = unit_of_products([a, b].map(|v| (v.scale, v.exponent)), [a.epsilon, b.epsilon], eta);
     [a, b].map(|v| v.in_unit(unit))
 }
 
-/// Bring the corners of a triangle and the edges opposite them to one unit of length, and return its exponent: 0 where nothing is far
-/// from 1, and in H² and S².
+/// Brings the corners of a triangle and the edges opposite them to one unit of length, and returns its exponent: 0 in H² and S², and
+/// where no size is far from 1.
 ///
-/// Else the longest edge is about 1. What is smaller than it by more than 2^500 may become 0.
+/// Otherwise the longest edge is about 1, and sizes below 2^-500 of it may become 0.
 #[inline]
 pub fn in_one_unit(corners: &mut [Vertex; 3], edges: &mut [Edge; 3]) -> i32 {
     let plain = |k: usize| corners[k].exponent | edges[k].exponent == 0;
@@ -157,7 +158,8 @@ pub fn in_one_unit(corners: &mut [Vertex; 3], edges: &mut [Edge; 3]) -> i32 {
     unit
 }
 
-/// `l − γ_a − γ_b − gap` in E², to twice the digits: the angles of needles and of triangles in metrics of wide range turn on it.
+/// `l − γ_a − γ_b − gap` in E², in double-double precision. The angles of needles, and of triangles in metrics of wide range, depend on
+/// it.
 fn lost_gap(a: Vertex, b: Vertex, eta: DoubleDouble, gap: f64) -> f64 {
     let (mut n, mut n_low) = doubled_product([a.scale, a.low], [b.scale, b.low], [eta.high, eta.low]);
     for v in [a, b].into_iter().filter(|v| v.epsilon != 0.0) {
@@ -171,7 +173,7 @@ fn lost_gap(a: Vertex, b: Vertex, eta: DoubleDouble, gap: f64) -> f64 {
     (rest - gap) + (first + second + length.low)
 }
 
-/// `2 η e_a e_b` and what it loses, from e and what it misses, relative to it, and from η and what it misses.
+/// `2 η e_a e_b` and its rounding error, from e with relative errors and η with its low part.
 #[inline(always)]
 fn doubled_product<L: Lanes>([a, a_low]: [L; 2], [b, b_low]: [L; 2], [eta, eta_low]: [L; 2]) -> (L, L) {
     let (xy, xy_low) = two_product(a, b);
@@ -188,7 +190,7 @@ fn root<L: Lanes>(n: L, low: L) -> DoubleDouble<L> {
     DoubleDouble { high: root, low: ((n - square) - square_low + low) / (root + root) }
 }
 
-/// [`half_chord`] with ε = 0 at both ends, in E² and H², of what needs no unit of its own; 0 of other edges.
+/// [`half_chord`] with ε = 0 at both ends, in E² and H², for an edge without a unit of its own; 0 for other edges.
 #[inline]
 pub fn plain_chord(space: Space, a: Vertex, b: Vertex, eta: DoubleDouble) -> DoubleDouble {
     if a.exponent | b.exponent != 0 {
@@ -197,7 +199,7 @@ pub fn plain_chord(space: Space, a: Vertex, b: Vertex, eta: DoubleDouble) -> Dou
     plain_chord_of(space, [a.scale, a.low], [b.scale, b.low], [eta.high, eta.low])
 }
 
-/// [`plain_chord`] of one or several edges, from what [`doubled_product`] takes.
+/// [`plain_chord`] for one edge or several, from the arguments of [`doubled_product`].
 #[inline(always)]
 pub(super) fn plain_chord_of<L: Lanes>(space: Space, a: [L; 2], b: [L; 2], eta: [L; 2]) -> DoubleDouble<L> {
     let (n, low) = doubled_product(a, b, eta);
@@ -214,20 +216,20 @@ pub(super) fn plain_chord_of<L: Lanes>(space: Space, a: [L; 2], b: [L; 2], eta: 
     DoubleDouble { high: is_plain.where_at_least(one, high, zero), low: is_plain.where_at_least(one, low, zero) }
 }
 
-/// [`half_chord`] by [`plain_chord`], where ε = 0 at both ends and that serves.
+/// [`half_chord`], by [`plain_chord`] where that is not 0.
 #[inline]
 pub(crate) fn precise_chord(space: Space, a: Vertex, b: Vertex, eta: DoubleDouble) -> (DoubleDouble, i32) {
     if a.epsilon == 0.0 && b.epsilon == 0.0 && space != Space::S2 {
         let plain = plain_chord(space, a, b, eta);
         if plain.high > 0.0 {
-            // What u loses may be more than half an ulp of the chord.
+            // The low part of u may be more than half an ulp of the chord.
             return (DoubleDouble::renormalised(plain.high, plain.low), 0);
         }
     }
     half_chord(space, a, b, eta)
 }
 
-/// The half chord of an edge (l/2, sinh(l/2), sin(l/2) in E², H², S²) with twice the digits, as far as its ends have them
+/// The half chord of an edge (l/2, sinh(l/2), sin(l/2) in E², H², S²) in double-double precision as far as its ends have it
 /// ([`is_precise`]), and the exponent of its unit; 0 for an edge without a real length.
 pub fn half_chord(space: Space, a: Vertex, b: Vertex, eta: DoubleDouble) -> (DoubleDouble, i32) {
     let [a, b] = if space == Space::E2 { in_unit_of_edge(a, b, eta.high) } else { [a, b] };
@@ -246,7 +248,8 @@ pub fn half_chord(space: Space, a: Vertex, b: Vertex, eta: DoubleDouble) -> (Dou
     (q, a.exponent)
 }
 
-/// `l − length` in H² where ε = 0, from `sinh²(l/2) = 2 η e^{u_a + u_b}` to twice the digits: `2 (q − sinh(length/2))/cosh(length/2)`.
+/// `l − length` in H² where ε = 0, from `sinh²(l/2) = 2 η e^{u_a + u_b}` in double-double precision: `2 (q −
+/// sinh(length/2))/cosh(length/2)`.
 fn lost_length(a: Vertex, b: Vertex, eta: DoubleDouble, length: f64) -> f64 {
     let chord = precise_chord(Space::H2, a, b, eta).0;
     let half = 0.5 * length;
@@ -262,12 +265,12 @@ fn lost_length(a: Vertex, b: Vertex, eta: DoubleDouble, length: f64) -> f64 {
 }
 
 impl Edge {
-    /// The length: 0 or infinite where it is beyond the doubles (in E²), NaN in S² where q² > 1.
+    /// The length: 0 or infinite where it leaves the range of f64 (in E²), NaN in S² where q² > 1.
     pub fn length(self, space: Space) -> f64 {
         scaled(length(space, self.q2), self.exponent)
     }
 
-    /// What a double `length` of the edge from `a` to `b` loses: `γ_a + γ_b + gap + low − length`, to twice the digits.
+    /// The part that `length`, an f64, misses for the edge from `a` to `b`: `γ_a + γ_b + gap + low − length` in double-double precision.
     pub fn remainder(self, a: Vertex, b: Vertex, length: f64) -> f64 {
         let [a, b] = [a, b].map(|v| v.in_unit(self.exponent));
         let (sum, lost) = two_sum(a.radius, b.radius);
@@ -286,7 +289,7 @@ pub fn length(space: Space, q2: f64) -> f64 {
     }
 }
 
-/// `N`. Where its terms have different signs the squares are completed, so that nothing cancels.
+/// `N` of the head of this file. Where its terms have different signs the squares are completed, so that nothing cancels.
 #[inline]
 fn squared_chord(a: Vertex, b: Vertex, eta: f64) -> f64 {
     let (x, y) = (a.scale, b.scale);
@@ -316,13 +319,13 @@ fn circle_gap(space: Space, [a, b]: [Vertex; 2], eta: DoubleDouble, total: f64) 
     }
 }
 
-/// [`half_differences`] of lengths to twice the digits.
+/// [`half_differences`] of lengths in double-double precision.
 #[inline]
 pub fn differences_of_lengths(lengths: [DoubleDouble; 3]) -> [f64; 3] {
     differences_of(lengths.map(|l| l.high), lengths.map(|l| l.low))
 }
 
-/// [`differences_of_lengths`] of one or several triangles.
+/// [`differences_of_lengths`] for one triangle or several.
 #[inline(always)]
 pub(crate) fn differences_of<L: Lanes>(high: [L; 3], low: [L; 3]) -> [L; 3] {
     let (mut r, half) = (half_differences(high), low[0].constant(0.5));
@@ -337,11 +340,11 @@ pub(crate) fn differences_of<L: Lanes>(high: [L; 3], low: [L; 3]) -> [L; 3] {
 #[inline]
 pub fn differences(corners: [Vertex; 3], edges: [Edge; 3]) -> [f64; 3] {
     if corners.iter().all(|v| v.radius == 0.0) {
-        // The gaps are the lengths.
+        // Without circles the gaps are the lengths.
         return differences_of_lengths(edges.map(|e| DoubleDouble { high: e.gap, low: e.low }));
     }
     let gap = edges.map(|e| e.gap);
-    // Near a broken triangle of circles 2γ_k and the gaps cancel: what each sum loses is kept.
+    // Near a broken triangle of circles 2γ_k and the gaps cancel: the rounding error of each sum is kept.
     [0, 1, 2].map(|k| {
         let (i, j) = ((k + 1) % 3, (k + 2) % 3);
         let (sum, first) = two_sum(gap[i], gap[j]);

@@ -1,9 +1,8 @@
 //! The barycentre of weighted points of the unit disk, and the Möbius transformation that moves it to the centre.
 //!
-//! With z moved to `A z` by the transformation that brings p to 0, p is the barycentre where `Σ w A z = 0`: the lowest point of
-//! `Σ w 2 log cosh(d(p, z)/2)`, d the hyperbolic distance, which is convex. At 0 its gradient is `−Σ w z`, and its Hessian is
-//! `½ Σ w ((1 + |z|²) − 2 z zᵀ)`. It is the same wherever a Möbius transformation of the disk has moved the points before, unlike the
-//! mean.
+//! Let A_p be the Möbius transformation that moves p to 0. The barycentre of points z is the p with `Σ w A_p z = 0`: the lowest point of
+//! `Σ w 2 log cosh(d(p, z)/2)`, d the hyperbolic distance, which is convex. At p = 0 its gradient is `−Σ w z`, its Hessian `½ Σ w ((1 +
+//! |z|²) − 2 z zᵀ)`. Unlike the mean, it moves with the points under Möbius transformations of the disk.
 //!
 //! ```
 //! use ricci::geometry::disk_barycentre::disk_barycentre;
@@ -19,7 +18,7 @@ use crate::error::{Error, Result, check_size};
 
 /// Longest Newton step, a hyperbolic distance: over a distance of 1 the Hessian changes moderately.
 const LONGEST_STEP: f64 = 1.0;
-/// Most Newton steps. Points of the open disk in doubles lie within a hyperbolic distance of 40.
+/// Most Newton steps. Points of the open disk with f64 coordinates lie within a hyperbolic distance of 40.
 const MAX_STEPS: usize = 200;
 /// `|Σ w z|/Σ w` below which the points count as balanced: a few roundings of 1.
 const BALANCED: f64 = 4e-16;

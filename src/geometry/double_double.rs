@@ -1,4 +1,4 @@
-//! Numbers with twice the digits of doubles, and the rounding errors of sums, products and e^x.
+//! Numbers in double-double precision, the rounding errors of sums and products, and e^x together with its error.
 //!
 //! ```
 //! use ricci::geometry::DoubleDouble;
@@ -11,17 +11,17 @@ use super::lanes::Lanes;
 use super::scaled::scaled;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// A number of about 32 digits: the unevaluated sum of two doubles, the second at most half an ulp of the first \[Dek71\].
+/// A number with about 32 digits: the unevaluated sum of two f64, the second at most half an ulp of the first \[Dek71\].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct DoubleDouble<T = f64> {
-    /// The nearest double.
+    /// The nearest f64.
     pub high: T,
-    /// What that misses.
+    /// The difference between the number and `high`.
     pub low: T,
 }
 
 impl<L: Lanes> DoubleDouble<L> {
-    /// A number with the digits of doubles.
+    /// An f64 as a double-double number.
     #[inline(always)]
     pub(crate) fn plain(high: L) -> DoubleDouble<L> {
         DoubleDouble { high, low: high.constant(0.0) }
@@ -34,7 +34,7 @@ impl<L: Lanes> DoubleDouble<L> {
         DoubleDouble { high: sum, low: low - (sum - high) }
     }
 
-    /// The sum with a double.
+    /// The sum with an f64.
     #[inline(always)]
     pub fn plus(self, x: L) -> DoubleDouble<L> {
         let (high, lost) = two_sum(self.high, x);
@@ -45,7 +45,7 @@ impl<L: Lanes> DoubleDouble<L> {
     #[inline(always)]
     pub fn sqrt(self) -> DoubleDouble<L> {
         let zero = self.high.constant(0.0);
-        // One step of Newton's method for a double root.
+        // One step of Newton's method from the f64 root.
         let root = self.high.root();
         let (square, lost) = two_product(root, root);
         let rest = ((self.high - square) - lost) + self.low;
@@ -62,7 +62,7 @@ impl<L: Lanes> DoubleDouble<L> {
         DoubleDouble { high: self.high + self.high, low: self.low + self.low }
     }
 
-    /// `a b + c d`: each product is exact but for its last digits, and their sum is rounded once.
+    /// `a b + c d`: each product is exact except for its last digits, and their sum is rounded once.
     #[inline(always)]
     pub(crate) fn two_products(a: DoubleDouble<L>, b: DoubleDouble<L>, c: DoubleDouble<L>, d: DoubleDouble<L>) -> DoubleDouble<L> {
         let ((p, p_low), (q, q_low)) = (two_product(a.high, b.high), two_product(c.high, d.high));
@@ -106,7 +106,7 @@ impl<L: Lanes> Add for DoubleDouble<L> {
     type Output = DoubleDouble<L>;
     #[inline(always)]
     fn add(self, other: DoubleDouble<L>) -> DoubleDouble<L> {
-        // Both parts are added exactly: where the high parts cancel, the result consists of the low ones.
+        // Both parts are added exactly: where the high parts cancel, the low ones determine the result.
         let (high, lost) = two_sum(self.high, other.high);
         let (low, more) = two_sum(self.low, other.low);
         let first = DoubleDouble::renormalised(high, lost + low);
@@ -143,7 +143,7 @@ impl<L: Lanes> Div for DoubleDouble<L> {
     }
 }
 
-/// The sum of two doubles and what it loses, exactly (Knuth).
+/// The sum of two f64 and its rounding error, which is exact (Knuth).
 #[inline(always)]
 pub(crate) fn two_sum<L: Lanes>(a: L, b: L) -> (L, L) {
     let sum = a + b;
@@ -151,14 +151,14 @@ pub(crate) fn two_sum<L: Lanes>(a: L, b: L) -> (L, L) {
     (sum, (a - (sum - part)) + (b - part))
 }
 
-/// The product of two doubles and what it loses (exact unless it over- or underflows).
+/// The product of two f64 and its rounding error, which is exact unless something over- or underflows.
 #[inline(always)]
 pub(crate) fn two_product<L: Lanes>(a: L, b: L) -> (L, L) {
     let product = a * b;
     (product, a.lost_of_product(b, product))
 }
 
-/// Largest |x| of [`exp_parts`]: e^x lies 2^(7e5) from 1 there, and the multiples of log 2 that are taken off x are still exact.
+/// Largest |x| for [`exp_parts`]: e^x is then 2^(±7e5), and the multiples of log 2 that are subtracted from x are still exact.
 pub(crate) const MAX_EXPONENT: f64 = 5e5;
 /// log 2 in three parts; the first has 33 binary digits, so that its products with integers below 2^20 are exact.
 const LN_2: [f64; 3] = [0.693_147_180_369_123_8, 1.908_214_929_270_587_7e-10, 1.161_222_722_936_253_2e-26];
@@ -166,13 +166,13 @@ const LN_2: [f64; 3] = [0.693_147_180_369_123_8, 1.908_214_929_270_587_7e-10, 1.
 const FACTORIALS: [f64; 7] =
     [1.0 / 24.0, 1.0 / 120.0, 1.0 / 720.0, 1.0 / 5040.0, 1.0 / 40_320.0, 1.0 / 362_880.0, 1.0 / 3_628_800.0];
 
-/// e^x is a normal number for every |x| up to this.
+/// Largest |x| for which e^x is certainly a normal number.
 pub(super) const SURELY_NORMAL: f64 = 700.0;
 
-/// `e^x` as a double and what that misses of it, relative to it (error below 3e-24): u is known to more digits than a double
-/// holds, and the rounding of e^u would throw them away.
+/// `e^x` as an f64, and its relative error (known to 3e-24). u is known to more digits than an f64 holds, and the rounding of e^u would
+/// lose them.
 ///
-/// A result that is not a normal number is that of [`f64::exp`], with 0; [`exp_parts`] has no such limit.
+/// A result that is not a normal number is that of [`f64::exp`], with error 0; [`exp_parts`] has no such limit.
 pub(crate) fn exp(x: f64) -> (f64, f64) {
     if !(-SURELY_NORMAL..=SURELY_NORMAL).contains(&x) {
         let rounded = x.exp();
@@ -184,7 +184,7 @@ pub(crate) fn exp(x: f64) -> (f64, f64) {
     (scaled(mantissa, k as i32), low)
 }
 
-/// `e^x = mantissa (1 + low) 2^k` as [mantissa, low, k], the mantissa between 0.7 and 1.5 and k a whole number; for |x| up to
+/// `e^x = mantissa (1 + low) 2^k` as [mantissa, low, k], with a mantissa between 0.7 and 1.5 and a whole number k, for |x| up to
 /// [`MAX_EXPONENT`].
 #[inline(always)]
 pub(crate) fn exp_parts<L: Lanes>(x: L) -> [L; 3] {
@@ -194,11 +194,11 @@ pub(crate) fn exp_parts<L: Lanes>(x: L) -> [L; 3] {
     let (middle, middle_low) = two_product(k, of(LN_2[1]));
     let (rest, more) = two_sum(rest, -middle);
     let (x, low) = two_sum(rest, (lost + more) - (middle_low + k * of(LN_2[2])));
-    // To a multiple of 1/64, whose exponential is known; what is left is exact.
+    // x is reduced by a multiple of 1/64, whose exponential is in the table; the difference is exact.
     let step = nearest_integer(of(STEPS) * x);
     let [known, known_low] = (step + of(MOST)).look_up(&EXPONENTIALS);
     let x = x - step / of(STEPS);
-    // e^x − 1 = x + x²/2 + x³/6 + …, and e^(x + low) is that and low e^x.
+    // e^x − 1 = x + x²/2 + x³/6 + …, and e^(x + low) is e^x + low e^x.
     let (square, square_low) = two_product(of(0.5) * x, x);
     let (thrice, thrice_low) = two_product(square, x);
     let cube = thrice / of(3.0);
@@ -220,25 +220,25 @@ pub(crate) fn exp_parts<L: Lanes>(x: L) -> [L; 3] {
     [sum, lost / sum, k]
 }
 
-/// The integer next to a number whose size is below 2^51; of two, the even one.
+/// The integer nearest to a number whose size is below 2^51, the even one of two.
 #[inline(always)]
 fn nearest_integer<L: Lanes>(x: L) -> L {
-    /// Numbers of this size have no digits after the point.
+    /// A number so large that f64 of its size are whole numbers.
     const WHOLE: f64 = 6_755_399_441_055_744.0;
     (x + x.constant(WHOLE)) - x.constant(WHOLE)
 }
 
-/// Largest |x| of [`sinh`].
+/// Largest |x| for [`sinh`].
 pub(crate) const MAX_SERIES: f64 = 0.25;
-/// 1/3! and 1/5! with what the doubles lose.
+/// 1/3! and 1/5! in double-double precision.
 const SIXTH: DoubleDouble = DoubleDouble { high: 1.0 / 6.0, low: 9.251_858_538_542_97e-18 };
 const HUNDRED_TWENTIETH: DoubleDouble = DoubleDouble { high: 1.0 / 120.0, low: 1.156_482_317_317_871_4e-19 };
 /// 1/7!, 1/9!, … up to 1/15!: the next term is below 1e-24 of sinh x.
 const ODD_FACTORIALS: [f64; 5] =
     [1.0 / 5040.0, 1.0 / 362_880.0, 1.0 / 39_916_800.0, 1.0 / 6_227_020_800.0, 1.0 / 1_307_674_368_000.0];
 
-/// sinh x for |x| up to [`MAX_SERIES`] (error below 1e-23 of it), by its series: without the cancellation and at a third of the cost of
-/// two exponentials.
+/// sinh x for |x| up to [`MAX_SERIES`] (relative error below 1e-23), by its series: it does not cancel, and costs a third of two
+/// exponentials.
 pub(crate) fn sinh(x: f64) -> DoubleDouble {
     let (square, lost) = two_product(x, x);
     let y = DoubleDouble { high: square, low: lost };
@@ -262,12 +262,12 @@ mod tests {
             let (up, lost) = exp(x);
             let up = DoubleDouble::from(up) + (up * lost).into();
             let expected = (up - DoubleDouble::from(1.0) / up).scaled(-1);
-            // The exponentials are known to 3e-24, of which sinh x is x.
+            // The exponentials have errors of 3e-24, and sinh x is about x times their size.
             assert!((sinh(x) - expected).high.abs() < 1e-23 * x.abs() + 6e-24, "{x}");
         }
     }
 
-    /// (√2)² = 2, (1/3)·3 = 1 and the like, and what is left of 1 + 2⁻⁷⁰ when 1 is taken away.
+    /// (√2)² = 2, (1/3)·3 = 1 and the like, and the remainder of 1 + 2⁻⁷⁰ when 1 is subtracted.
     #[test]
     fn double_double_arithmetic_keeps_thirty_digits() {
         for i in 1..200 {
@@ -284,7 +284,7 @@ mod tests {
         assert_eq!((almost * almost - 1.0.into()).high, 2.0 * tiny);
     }
 
-    /// e^(a + b) = e^a e^b where a + b is a double.
+    /// e^(a + b) = e^a e^b where a + b is an f64.
     #[test]
     fn exponentials_multiply() {
         let mut worst = 0.0f64;
@@ -299,7 +299,7 @@ mod tests {
         assert!(worst < 3e-24, "{worst:e}");
     }
 
-    /// d/dx e^x = e^x: differences far below an ulp of x's exponential are right.
+    /// d/dx e^x = e^x: differences far below an ulp of e^x are right.
     #[test]
     fn exponentials_are_smooth() {
         for i in 0..1000 {
@@ -313,7 +313,7 @@ mod tests {
         }
     }
 
-    /// e^x beyond the range of doubles: e^a e^−a = 1, and e^(a + log 2) = 2 e^a to the digits of log 2.
+    /// e^x beyond the range of f64: e^a e^−a = 1, and e^(a + log 2) = 2 e^a to the digits of log 2.
     #[test]
     fn exponentials_beyond_doubles_keep_their_digits() {
         for i in 1..500 {
@@ -339,7 +339,7 @@ mod tests {
         assert_eq!(e, std::f64::consts::E);
         assert!((low * e - 1.445_646_891_729_250_2e-16).abs() < 1e-20);
         let (two, low) = exp(std::f64::consts::LN_2);
-        // log 2 is its double plus 2.319…e-17
+        // log 2 is its f64 plus 2.319…e-17
         assert!(((two - 2.0) / 2.0 + low + 2.319_046_813_846_299_6e-17).abs() < 1e-21);
         assert_eq!(exp(0.0), (1.0, 0.0));
         assert_eq!(exp(-800.0), ((-800.0f64).exp(), 0.0));

@@ -1,6 +1,6 @@
-//! The exponentials of the multiples of 1/64, with what their doubles miss.
+//! A table of the exponentials of the multiples of 1/64, in double-double precision.
 
-/// Parts of 1 that the table's steps are.
+/// Number of the table's steps in the unit interval.
 pub(super) const STEPS: f64 = 64.0;
 /// The table begins and ends at ± this many steps: |x| ≤ (log 2)/2 is within half a step of one of them.
 pub(super) const MOST: f64 = 23.0;

@@ -1,8 +1,8 @@
 //! Period matrices of hyperelliptic curves.
 //!
-//! The curve `y² = Π (x − e_j)` of genus g over its N = 2g + 1 or 2g + 2 finite branch points. A segment from e_p to e_q
-//! lifts to a closed curve: there on one sheet, back on the other. The 2g edges of a tree on 2g + 1 branch points give a
-//! basis of the homology [MN19, §3]; two of them meet only over a branch point that they share.
+//! The curve `y² = Π (x − e_j)` of genus g has N = 2g + 1 or 2g + 2 finite branch points. A segment from e_p to e_q lifts to a closed
+//! curve: there on one sheet, back on the other. The 2g edges of a tree on 2g + 1 branch points give a basis of the homology [MN19, §3];
+//! two of them meet only over a branch point that they share.
 //!
 //! ```
 //! use num_complex::Complex64;
@@ -24,28 +24,28 @@ use std::f64::consts::PI;
 const ACCURACY: f64 = 1e-15;
 /// Most nodes of the quadrature: enough for branch points that are 1e-8 apart ([`NEAREST`]) while the others are 1 apart.
 const MOST_NODES: usize = 1 << 20;
-/// Largest asymmetry of a matrix that is returned, relative to its largest entry. A period matrix is symmetric, so the asymmetry
-/// shows what rounding has done.
+/// Largest asymmetry of a matrix that is returned, relative to its largest entry. A period matrix is symmetric, so its asymmetry measures
+/// the rounding errors.
 const ASYMMETRY: f64 = 1e-9;
 
-/// The period matrix τ (g × g, symmetric, positive definite imaginary part) of `y² = Π (x − e_j)`: with a basis of
-/// cycles a_i, b_i, `a_i·b_j = δ_ij` and all other intersections 0, and the holomorphic forms ω_i with `∮_{a_j} ω_i =
-/// δ_ij`, `τ_ij = ∮_{b_j} ω_i`. Another basis gives another matrix of the same Sp(2g, ℤ) orbit.
+/// The period matrix τ (g × g, symmetric, positive definite imaginary part) of `y² = Π (x − e_j)`: with a basis of cycles a_i, b_i,
+/// `a_i·b_j = δ_ij` and all other intersections 0, and the holomorphic forms ω_i with `∮_{a_j} ω_i = δ_ij`, `τ_ij = ∮_{b_j} ω_i`. Another
+/// basis gives another matrix of the same Sp(2g, ℤ) orbit.
 ///
-/// `branch_points`: the finite ones, 2g + 1 (then ∞ is one more) or 2g + 2, g ≥ 1, all different. Integrals of
-/// `x^k dx/y` along the edges by Gauss–Chebyshev quadrature, which converges geometrically.
+/// `branch_points`: the finite ones, 2g + 1 (then ∞ is one more) or 2g + 2, g ≥ 1, all different. The integrals of `x^k dx/y` along the
+/// edges are computed by Gauss–Chebyshev quadrature, which converges geometrically.
 ///
 /// # Errors
 ///
-/// [`Error::Argument`] for fewer than three points, points that are not finite or too close to each other for
-/// doubles, and so many of them that the forms x^k dx/y are dependent in doubles (about 2g = 30).
+/// [`Error::Argument`] for fewer than three points, points that are not finite or too close to each other for f64, and so many points
+/// that the forms x^k dx/y are linearly dependent in f64 (about 2g = 30).
 pub fn period_matrix(branch_points: &[Complex64]) -> Result<Vec<Vec<Complex64>>> {
     let points = normalised(branch_points)?;
     let genus = (points.len() - 1) / 2;
     let edges = tree(&points);
     let mut cycles = Vec::with_capacity(edges.len());
     for &ends in &edges {
-        cycles.push(Cycle::new(&points, ends, genus)?);
+        cycles.push(LiftedSegment::new(&points, ends, genus)?);
     }
     let intersections: Vec<Vec<i64>> =
         cycles.iter().map(|c| cycles.iter().map(|d| c.intersection(d)).collect()).collect();
@@ -92,7 +92,7 @@ fn solve(mut a: Vec<Vec<Complex64>>, mut b: Vec<Vec<Complex64>>) -> Vec<Vec<Comp
     b
 }
 
-/// The points moved and scaled so that their mean is 0 and their mean square 1: an affine map of x keeps the curve.
+/// The points, moved and scaled so that their mean is 0 and their mean square 1. The curve is the same, since x is mapped affinely.
 ///
 /// # Errors
 ///
@@ -122,8 +122,8 @@ pub fn normalised(points: &[Complex64]) -> Result<Vec<Complex64>> {
 /// Least distance of two branch points, in units of their spread: their difference keeps eight digits.
 const NEAREST: f64 = 1e-8;
 
-/// Edges of the shortest spanning tree, without a leaf if the number of points is even (that point is the one that
-/// lies "at infinity"). No other branch point lies in the disk over an edge, which keeps the quadrature fast.
+/// The edges of the shortest spanning tree. If the number of points is even, one leaf is left out (it plays the role of the point at
+/// infinity). No other branch point lies in the disk over an edge, which keeps the quadrature fast.
 fn tree(points: &[Complex64]) -> Vec<[usize; 2]> {
     let mut edges = Vec::with_capacity(points.len() - 1);
     // Nearest point of the tree, per point outside (Prim).
@@ -151,26 +151,26 @@ fn tree(points: &[Complex64]) -> Vec<[usize; 2]> {
 }
 
 /// The lift of a segment from one branch point to another.
-struct Cycle {
+struct LiftedSegment {
     ends: [usize; 2],
-    /// Direction in which it passes through each end, in the coordinate `√(x − e)` there, up to a common factor of all
-    /// cycles through that branch point.
+    /// The direction in which the cycle passes through each end, in the coordinate `√(x − e)` there, up to a factor that all cycles
+    /// through that branch point share.
     directions: [Complex64; 2],
     /// `∮ x^k dx/y` for k = 0 … g − 1.
     periods: Vec<Complex64>,
 }
 
-impl Cycle {
+impl LiftedSegment {
     /// With `x = m + h t`, t from −1 to 1: `y = i h √(1 − t²) G(t)`, `G = Π √(x − e_i)` over the other branch points,
     /// continued along the segment.
-    fn new(points: &[Complex64], ends: [usize; 2], genus: usize) -> Result<Cycle> {
+    fn new(points: &[Complex64], ends: [usize; 2], genus: usize) -> Result<LiftedSegment> {
         let [p, q] = ends.map(|j| points[j]);
         let (middle, half) = (0.5 * (p + q), 0.5 * (q - p));
         let others: Vec<Complex64> =
             (0..points.len()).filter(|j| !ends.contains(j)).map(|j| points[j]).collect();
         let root = |t: f64| -> Complex64 {
             let x = middle + half * t;
-            // Seen from another point the half segment turns by less than a straight angle: no sign is lost.
+            // Seen from another point, the half segment turns by less than a straight angle, so no sign is lost.
             others.iter().map(|e| (middle - e).sqrt() * ((x - e) / (middle - e)).sqrt()).product()
         };
         let sum = |nodes: usize| -> Vec<Complex64> {
@@ -193,17 +193,17 @@ impl Cycle {
             let size = finer.iter().map(|z| z.norm()).fold(0.0, f64::max);
             let change = finer.iter().zip(&periods).map(|(a, b)| (a - b).norm()).fold(0.0, worse);
             periods = finer;
-            // Convergence is geometric: when a doubling changes little, the next changes its square.
+            // Convergence is geometric: when doubling the nodes changes little, the next doubling changes its square.
             if change <= ACCURACY.sqrt() * 1e-2 * size || nodes >= MOST_NODES {
                 break;
             }
         }
         let along = Complex64::I * half;
-        Ok(Cycle { ends, directions: [along * root(-1.0), -along * root(1.0)], periods })
+        Ok(LiftedSegment { ends, directions: [along * root(-1.0), -along * root(1.0)], periods })
     }
 
-    /// Intersection number: +1 if the other one crosses from right to left.
-    fn intersection(&self, other: &Cycle) -> i64 {
+    /// The intersection number: +1 if the other cycle crosses from right to left.
+    fn intersection(&self, other: &LiftedSegment) -> i64 {
         let mut sum = 0;
         for (j, d) in self.ends.iter().zip(self.directions) {
             for (k, e) in other.ends.iter().zip(other.directions) {
@@ -229,7 +229,7 @@ mod tests {
         modulus([[1.0, 0.0], [tau.re, tau.im]]).unwrap()
     }
 
-    /// Arithmetic–geometric mean.
+    /// The arithmetic–geometric mean.
     fn agm(mut a: f64, mut b: f64) -> f64 {
         while (a - b).abs() > 1e-15 * a {
             (a, b) = (0.5 * (a + b), (a * b).sqrt());
@@ -278,7 +278,7 @@ mod tests {
 
     #[test]
     fn riemann_relations_hold_for_every_genus() {
-        // The asymmetry is checked inside; two ways to lay the tree give equivalent, not equal matrices.
+        // The asymmetry is checked inside; two spanning trees give equivalent matrices, not equal ones.
         for n in 3..=14usize {
             let spiral = |j: usize| Complex64::from_polar(0.5 + 0.2 * j as f64, 2.4 * j as f64);
             let points: Vec<_> = (0..n).map(spiral).collect();

@@ -1,4 +1,4 @@
-//! Orientation-preserving isometries of the plane.
+//! Orientation-preserving isometries of the Euclidean plane, as a rotation angle and a translation.
 //!
 //! ```
 //! use ricci::geometry::PlaneIsometry;
@@ -34,13 +34,13 @@ impl PlaneIsometry {
         add(self.apply_vector(p), self.translation)
     }
 
-    /// The image of a direction: the rotation alone.
+    /// The image of a direction, which is only rotated.
     pub fn apply_vector(&self, direction: [f64; 2]) -> [f64; 2] {
         let (sin, cos) = self.rotation.sin_cos();
         mul([cos, sin], direction)
     }
 
-    /// The isometry that best carries each `p` to its `q`.
+    /// The isometry that maps each `p` to its `q` as well as possible.
     ///
     /// `vectors`: pairs of corresponding directions; the rotation maximises Σ ⟨R p, q⟩, so each pair counts
     /// with the product of its norms. `points`: pairs of corresponding points; the translation is the
@@ -67,7 +67,7 @@ impl PlaneIsometry {
 }
 
 impl From<Motion<DoubleDouble>> for PlaneIsometry {
-    /// A motion of E².
+    /// The isometry of a motion of E².
     fn from(g: Motion<DoubleDouble>) -> PlaneIsometry {
         let [x, y, _] = g.origin().map(f64::from);
         let [cos, sin] = g.a.map(f64::from);
@@ -75,7 +75,7 @@ impl From<Motion<DoubleDouble>> for PlaneIsometry {
     }
 }
 
-/// The same angle in (−π, π].
+/// The angle in (−π, π] that differs from `angle` by a multiple of 2π.
 pub fn principal_angle(angle: f64) -> f64 {
     let r = angle % TAU;
     if r > PI {

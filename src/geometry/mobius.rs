@@ -36,27 +36,27 @@ fn quotient(z: Complex, w: Complex) -> Complex {
 }
 
 impl Mobius {
-    /// z.
+    /// The identity, `z ↦ z`.
     pub const IDENTITY: Mobius = Mobius { matrix: [[ONE, ZERO], [ZERO, ONE]] };
 
-    /// The rotation by the angle of a unit vector.
+    /// The rotation about 0 by the angle of the unit vector `by`.
     pub fn rotation(by: Complex) -> Mobius {
         Mobius { matrix: [[by, ZERO], [ZERO, ONE]] }
     }
 
-    /// `r/(z − p)`: the outside of a circle on the inside of the unit circle, ∞ at 0.
+    /// `r/(z − p)`, which maps the outside of a circle to the inside of the unit circle, and ∞ to 0.
     pub fn outside(circle: PlaneCircle) -> Mobius {
         Mobius { matrix: [[ZERO, [circle.radius, 0.0]], [ONE, neg(circle.center)]] }
     }
 
-    /// `(z − p)/(1 − p̄ z)`: the unit disk on itself, p (inside it) at 0.
+    /// `(z − p)/(1 − p̄ z)`, which maps the unit disk to itself and p, a point inside it, to 0.
     pub fn to_origin(p: Complex) -> Mobius {
         Mobius { matrix: [[ONE, neg(p)], [neg(conj(p)), ONE]] }
     }
 
-    /// The transformation that carries three points to three others; `None` where two of either coincide.
+    /// The transformation that maps three points to three others; `None` where two points of a triple coincide.
     pub fn of_triples(from: [Complex; 3], to: [Complex; 3]) -> Option<Mobius> {
-        // To 0, 1, ∞: (z − z0)(z1 − z2) / ((z − z2)(z1 − z0)).
+        // The map to 0, 1, ∞: (z − z0)(z1 − z2) / ((z − z2)(z1 − z0)).
         let standard = |[p, q, r]: [Complex; 3]| {
             let [high, low] = [sub(q, r), sub(q, p)];
             Mobius { matrix: [[high, neg(mul(high, p))], [low, neg(mul(low, r))]] }
@@ -71,14 +71,14 @@ impl Mobius {
         sub(mul(a, d), mul(b, c))
     }
 
-    /// The composition: `first`, then this one.
+    /// The composition that applies `first` and then this transformation.
     pub fn after(&self, first: &Mobius) -> Mobius {
         let ([[a, b], [c, d]], [[e, f], [g, h]]) = (self.matrix, first.matrix);
         let matrix = [
             [add(mul(a, e), mul(b, g)), add(mul(a, f), mul(b, h))],
             [add(mul(c, e), mul(d, g)), add(mul(c, f), mul(d, h))],
         ];
-        // A matrix stands for its multiples too: the largest entry is brought to size 1.
+        // A matrix and its multiples are the same map: the largest entry is scaled to size 1.
         let size = matrix.iter().flatten().map(|&z| norm(z)).fold(0.0, f64::max);
         Mobius { matrix: matrix.map(|row| row.map(|z| z.map(|x| x / size))) }
     }
@@ -101,22 +101,22 @@ impl Mobius {
         quotient(a, c)
     }
 
-    /// log of the factor by which lengths near z grow: `|a d − b c|/|c z + d|²`.
+    /// The logarithm of the factor by which lengths near z grow: `|a d − b c|/|c z + d|²`.
     pub fn log_scale(&self, z: Complex) -> f64 {
         let [_, [c, d]] = self.matrix;
         norm(self.determinant()).ln() - 2.0 * norm(add(mul(c, z), d)).ln()
     }
 
-    /// The same at ∞, of lengths measured after `1/z`: `|a d − b c|/|c|²`.
+    /// The logarithm of the same factor at ∞, for lengths measured after `1/z`: `|a d − b c|/|c|²`.
     pub fn log_scale_at_infinity(&self) -> f64 {
         let [_, [c, _]] = self.matrix;
         norm(self.determinant()).ln() - 2.0 * norm(c).ln()
     }
 
-    /// The image of a circle; a line, where the pole lies on the circle, comes as a circle of infinite radius.
+    /// The image of a circle. Where the pole lies on the circle the image is a line, returned as a circle of infinite radius.
     ///
-    /// With c p + d = s: the image of the inside or of the outside, whichever does not hold the pole, has centre
-    /// `(s̄ (a p + b) − r² a c̄)/(|s|² − r² |c|²)` and radius `r |a d − b c|/||s|² − r² |c|²|`.
+    /// With c p + d = s, the inside or the outside of the circle is mapped to a disk, whichever does not contain the pole. Its centre is
+    /// `(s̄ (a p + b) − r² a c̄)/(|s|² − r² |c|²)`, its radius `r |a d − b c|/||s|² − r² |c|²|`.
     pub fn apply_to_circle(&self, circle: PlaneCircle) -> PlaneCircle {
         let [[a, b], [c, d]] = self.matrix;
         let PlaneCircle { center: p, radius: r } = circle;
@@ -129,9 +129,9 @@ impl Mobius {
 }
 
 impl PlaneCircle {
-    /// The transformation of the unit disk onto itself after which a circle inside it has its centre at 0.
+    /// The transformation of the unit disk to itself that maps a circle inside it to one with centre 0.
     ///
-    /// The ends of the diameter through 0 are brought to opposite numbers: p is their hyperbolic midpoint.
+    /// The ends of the diameter through 0 are mapped to opposite numbers: p is their hyperbolic midpoint.
     pub fn to_centre(&self) -> Mobius {
         let far = norm(self.center);
         if far == 0.0 {

@@ -1,4 +1,4 @@
-//! Pure formulas, no mesh: spaces, triangles, isometries, predicates.
+//! Pure formulas without a mesh: the three spaces, triangles, isometries, predicates, numbers of higher precision.
 
 pub(crate) mod arctangent;
 pub mod barycentre;

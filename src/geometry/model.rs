@@ -1,4 +1,4 @@
-//! Models of the hyperbolic plane, from and to the hyperboloid `x² + y² − w² = −1`, `w ≥ 1`.
+//! Models of the hyperbolic plane, and maps between them and the hyperboloid `x² + y² − w² = −1`, `w ≥ 1`.
 //!
 //! ```text
 //! Poincaré disk  z = (x + iy)/(1 + w)        Klein disk  β(z) = (x + iy)/w = 2z/(1 + z z̄)
@@ -53,21 +53,10 @@ impl Model {
         }
     }
 
-    /// The first two coordinates of a point of the hyperboloid, all that a plane model has.
+    /// The first two coordinates of [`Model::from_hyperboloid`]; a plane model has only these.
     pub fn plane(self, p: [f64; 3]) -> [f64; 2] {
         let [x, y, _] = self.from_hyperboloid(p);
         [x, y]
-    }
-
-    /// The point of the hyperboloid whose first two coordinates in the model are these, if there is one within the range of doubles.
-    pub fn to_hyperboloid(self, [x, y]: [f64; 2]) -> Option<[f64; 3]> {
-        let (inside, p) = match self {
-            Model::Poincare => (x.hypot(y) < 1.0, from_poincare([x, y])),
-            Model::Klein => (x.hypot(y) < 1.0, from_klein([x, y])),
-            Model::HalfPlane => (y > 0.0, from_half_plane([x, y])),
-            Model::Hyperboloid => (true, [x, y, x.hypot(y).hypot(1.0)]),
-        };
-        (inside && p.iter().all(|x| x.is_finite())).then_some(p)
     }
 }
 
@@ -82,17 +71,17 @@ impl std::str::FromStr for Model {
     }
 }
 
-/// The Poincaré disk's point.
+/// The point of the Poincaré disk.
 pub fn poincare([x, y, w]: [f64; 3]) -> [f64; 2] {
     [x / (1.0 + w), y / (1.0 + w)]
 }
 
-/// The Klein disk's point.
+/// The point of the Klein disk.
 pub fn klein([x, y, w]: [f64; 3]) -> [f64; 2] {
     [x / w, y / w]
 }
 
-/// The half-plane's point; the disk's centre is i.
+/// The point of the half-plane; the centre of the disks is mapped to i.
 pub fn half_plane([x, y, w]: [f64; 3]) -> [f64; 2] {
     // w − x = (1 + y²)/(w + x) on the hyperboloid: the second form does not cancel for positive x.
     let rest = if x > 0.0 { (1.0 + y * y) / (w + x) } else { w - x };
@@ -127,8 +116,8 @@ pub fn distance(p: [f64; 3], q: [f64; 3]) -> f64 {
     2.0 * (0.25 * square).max(0.0).sqrt().asinh()
 }
 
-/// The point of the hyperboloid that is the share `t` of the way from p to q along their geodesic, `sinh` of the parts over that of the
-/// whole being the weights of the ends.
+/// The point of the hyperboloid at the share `t` of the geodesic from p to q. The weights of p and q are `sinh((1 − t) l)/sinh l` and
+/// `sinh(t l)/sinh l`.
 pub fn between(p: [f64; 3], q: [f64; 3], t: f64) -> [f64; 3] {
     let length = distance(p, q);
     let whole = length.sinh();
@@ -157,7 +146,7 @@ mod tests {
     fn models_and_hyperboloid_are_inverse_to_each_other() {
         for p in points() {
             let close = |q: [f64; 3], digits: f64| (0..3).all(|k| (p[k] - q[k]).abs() <= digits * p[2]);
-            // What a disk's coordinates can tell apart out there.
+            // The accuracy that coordinates of a disk have so far out.
             assert!(close(from_poincare(poincare(p)), 4.0 * f64::EPSILON * p[2]));
             assert!(close(from_klein(klein(p)), 4.0 * f64::EPSILON * p[2] * p[2]));
             assert!(close(from_half_plane(half_plane(p)), 1e-14));

@@ -8,9 +8,8 @@
 
 use super::complex::{cross, dot, norm2, scale, sub};
 
-/// Relative error of the periods that is allowed for: periods with an angle of a smaller sine count as parallel, and a modulus
-/// within this distance of the border of the fundamental domain counts as on it. Periods that were developed over thousands
-/// of triangles have about this error.
+/// Relative error that the periods may have: periods with an angle of a smaller sine count as parallel, and a modulus within this
+/// distance of the border of the fundamental domain counts as on it. Periods developed over thousands of triangles have about this error.
 const ROUNDING: f64 = 1e-12;
 
 /// The modulus `τ = ω₂/ω₁` `[Re τ, Im τ]` of the lattice spanned by two periods, reduced under SL(2, ℤ).
@@ -60,8 +59,8 @@ pub fn modulus(periods: [[f64; 2]; 2]) -> Option<[f64; 2]> {
     Some([if on_border { re.abs() } else { re }, im])
 }
 
-/// Bound on the rounds of the reduction, which no lattice reaches: squared lengths halve in each round, and those of doubles span
-/// a ratio of 2²⁰⁹⁸ at most.
+/// Bound on the rounds of the reduction, which no lattice reaches: squared lengths halve in each round, and those in f64 span a ratio of
+/// 2²⁰⁹⁸ at most.
 const MAX_ROUNDS: usize = 4096;
 
 #[cfg(test)]

@@ -8,7 +8,7 @@
 //! translation by l along the x axis: a = cos, cosh, 1 of l/2,  b = sin, sinh, identity of l/2       rotation by θ: a = e^{iθ/2}
 //! ```
 //!
-//! that is, unit quaternions in S² (SU(2)), SU(1,1) in H². The same formulas serve the three spaces, and the entries keep their
+//! These are the unit quaternions SU(2) in S² and SU(1,1) in H². The same formulas serve the three spaces, and the entries keep their
 //! *relative* accuracy far from the origin, where coordinates in the disk run out of digits.
 //!
 //! ```
@@ -30,7 +30,7 @@ pub struct Motion<T = f64> {
     pub space: Space,
     /// a, as `[Re, Im]`.
     pub a: Complex<T>,
-    /// b, as `[Re, Im]`; |b| is half the distance by which the origin moves, its hyperbolic sine, its sine.
+    /// b, as `[Re, Im]`. The origin moves by a distance whose half chord (its half, or hyperbolic sine or sine of its half) is |b|.
     pub b: Complex<T>,
 }
 
@@ -53,7 +53,7 @@ impl<T: Real> Motion<T> {
         Motion { space, a: [a, zero], b: [chord, zero] }
     }
 
-    /// Translation by `length` along the x axis. Lengths of H² beyond 1400 overflow.
+    /// Translation by `length` along the x axis. Lengths in H² beyond 1400 overflow.
     pub fn translation(length: f64, space: Space) -> Self {
         let half = 0.5 * length;
         let (a, b) = match space {
@@ -65,7 +65,7 @@ impl<T: Real> Motion<T> {
         Motion { space, a: [a.into(), zero], b: [b.into(), zero] }
     }
 
-    /// `self ∘ first`: `first` acts first.
+    /// The composition `self ∘ first`, which applies `first` first.
     pub fn compose(&self, first: &Self) -> Self {
         let sign = self.sign();
         let a = add(mul(self.a, first.a), scale(-sign, mul(self.b, conj(first.b))));
@@ -73,12 +73,14 @@ impl<T: Real> Motion<T> {
         Motion { space: self.space, a, b }
     }
 
-    /// `self` after the rotation about the origin whose half angle has this `[cos, sin]`: [`Motion::rotation`], at a quarter of the price.
+    /// `self` after the rotation about the origin whose half angle has this `[cos, sin]`. It costs a quarter of composing with
+    /// [`Motion::rotation`].
     pub fn after_rotation(&self, half_angle: [T; 2]) -> Self {
         Motion { space: self.space, a: product(self.a, half_angle), b: product(self.b, conj(half_angle)) }
     }
 
-    /// `self` after the translation along the x axis with these a and b: [`Motion::translation_of_chord`], at a quarter of the price.
+    /// `self` after the translation along the x axis with these a and b. It costs a quarter of composing with
+    /// [`Motion::translation_of_chord`].
     pub fn after_translation(&self, [cos, chord]: [T; 2]) -> Self {
         let bent = match self.space {
             Space::E2 => T::from(0.0),
@@ -91,7 +93,7 @@ impl<T: Real> Motion<T> {
         Motion { space: self.space, a: [part(0), part(1)], b: [moved(0), moved(1)] }
     }
 
-    /// `self` after the rotation about the origin by π: numbers change places and signs.
+    /// `self` after the rotation about the origin by π, which only permutes entries and changes signs.
     pub(crate) fn after_half_turn(&self) -> Self {
         let ([a, b], [c, d]) = (self.a, self.b);
         Motion { space: self.space, a: [-b, a], b: [d, -c] }
@@ -107,13 +109,13 @@ impl<T: Real> Motion<T> {
         Motion { space: self.space, a: conj(self.a), b: self.b.map(|x| -x) }
     }
 
-    /// Its conjugate `to ∘ self ∘ to⁻¹`: what it is after `to` has moved everything.
+    /// The conjugate `to ∘ self ∘ to⁻¹`: this motion as it appears after `to` has moved the space.
     pub fn conjugated_by(&self, to: &Self) -> Self {
         to.compose(self).compose(&to.inverse())
     }
 
-    /// The image of the point with these ambient coordinates `[x, y, w]`: of the plane `w = 1`, of the hyperboloid
-    /// `w² = 1 + x² + y²`, of the unit sphere.
+    /// The image of a point, in ambient coordinates `[x, y, w]`: of the plane `w = 1`, of the hyperboloid `w² = 1 + x² + y²`, of the unit
+    /// sphere.
     pub fn apply(&self, [x, y, w]: [T; 3]) -> [T; 3] {
         let (a, b, sign) = (self.a, self.b, self.sign());
         let p = [x, y];
@@ -139,12 +141,13 @@ impl<T: Real> Motion<T> {
         [0, 1, 2].map(|row| columns.map(|column| column[row]))
     }
 
-    /// Half the trace: Re a, of either sign. H²: cosh(L/2) for a translation of length L, above 1 in absolute value.
+    /// Half the trace, Re a, of either sign. For a translation of H² by the length L its absolute value is cosh(L/2), above 1.
     pub fn half_trace(&self) -> T {
         self.a[0]
     }
 
-    /// The same map with `|a|² + κ|b|² = 1` to the last digit: b is kept (in S² its direction), which says how far the origin moves.
+    /// The same map, with `|a|² + κ|b|² = 1` to the last digit. b is kept (in S² its direction), which determines how far the origin
+    /// moves.
     pub fn normalised(&self) -> Self {
         let (square, moved) = (norm2(self.a), norm2(self.b));
         let one = T::from(1.0);
@@ -165,7 +168,7 @@ impl<T: Real> Motion<T> {
 }
 
 impl Motion<f64> {
-    /// The motion with twice the digits, scaled so that `|a|² + κ|b|² = 1` holds to all of them.
+    /// The motion in double-double precision, scaled so that `|a|² + κ|b|² = 1` holds to that precision.
     pub fn precise(&self) -> Motion<DoubleDouble> {
         Motion { space: self.space, a: self.a.map(DoubleDouble::from), b: self.b.map(DoubleDouble::from) }.normalised()
     }
@@ -185,7 +188,7 @@ impl Motion<DoubleDouble> {
         Motion { space: Space::E2, a, b: scale(0.5.into(), mul(place, conj(a))) }
     }
 
-    /// The translation, without a rotation, that brings the point with these ambient coordinates to the origin.
+    /// The translation that moves the point with these ambient coordinates to the origin.
     pub fn to_origin(space: Space, [x, y, w]: [DoubleDouble; 3]) -> Self {
         let (one, two) = (DoubleDouble::from(1.0), DoubleDouble::from(2.0));
         // 2ab is x + iy, with b in that direction and a real: 2a² = 1 + w.
@@ -194,7 +197,7 @@ impl Motion<DoubleDouble> {
         Motion { space, a: [a, DoubleDouble::from(0.0)], b }.normalised().inverse()
     }
 
-    /// The motion rounded to doubles.
+    /// The motion rounded to f64.
     pub fn rounded(&self) -> Motion {
         Motion { space: self.space, a: self.a.map(f64::from), b: self.b.map(f64::from) }
     }
@@ -209,7 +212,7 @@ impl Motion<DoubleDouble> {
         }
     }
 
-    /// The angle θ ∈ [0, π] of the rotation that it is or contains: 2 acos |Re a| (0 for the hyperbolic ones).
+    /// The angle θ ∈ [0, π] of the rotation that it is or contains: 2 acos |Re a|, and 0 for a translation of H².
     pub fn rotation_angle(&self) -> f64 {
         let imaginary = f64::from(self.a[1]).abs();
         let real = f64::from(self.a[0]).abs();
@@ -223,8 +226,8 @@ impl Motion<DoubleDouble> {
         }
     }
 
-    /// How far a translation moves along its axis. H²: L with `cosh(L/2) = |Re a|`, 0 for what is no translation; E²: |t| (with
-    /// [`Motion::rotation_angle`] 0); S²: 0.
+    /// The distance by which a translation moves points of its axis: L with `cosh(L/2) = |Re a|` in H², 0 for other motions; |t| in E²
+    /// (where [`Motion::rotation_angle`] is 0); 0 in S².
     pub fn translation_length(&self) -> f64 {
         match self.space {
             Space::E2 => self.displacement(),
@@ -240,7 +243,7 @@ impl Motion<DoubleDouble> {
         if negative { Motion { a: self.a.map(|x| -x), b: self.b.map(|x| -x), ..*self } } else { *self }
     }
 
-    /// How far it is from the identity: the Frobenius norm of `±M − I` for its 2×2 matrix M, with the nearer sign.
+    /// The distance from the identity: the Frobenius norm of `±M − I` for the 2×2 matrix M, with the sign that makes it smaller.
     pub fn distance_from_identity(&self) -> f64 {
         let near = self.positive();
         let rest = near.a[0] - 1.0.into();
@@ -259,8 +262,8 @@ impl Motion<DoubleDouble> {
         self.mobius_double_double().map(|row| row.map(|z| z.map(f64::from)))
     }
 
-    /// What the doubles of [`Motion::mobius`] lose: together they have twice the digits. Far translations need them, since |a|² − |b|² = 1
-    /// is the difference of numbers of the size e^length.
+    /// The parts that the entries of [`Motion::mobius`] miss; together they are in double-double precision. Far translations need this,
+    /// since |a|² − |b|² = 1 is a difference of numbers of the size e^length.
     pub fn mobius_remainder(&self) -> [[[f64; 2]; 2]; 2] {
         self.mobius_double_double().map(|row| row.map(|z| z.map(|x| x.low)))
     }
@@ -276,8 +279,8 @@ impl Motion<DoubleDouble> {
     }
 }
 
-/// The point with twice the digits that ambient coordinates in doubles stand for: on the hyperboloid and in the plane x and y say where,
-/// and w is computed from them (far out its rounding would throw the point off by e^{2d} ulp); a unit vector in S².
+/// The point in double-double precision that ambient coordinates in f64 stand for. In the plane and on the hyperboloid w is recomputed
+/// from x and y, since its rounding far out would move the point by e^{2d} ulp; in S² the vector gets length 1.
 pub fn precise_point(space: Space, p: [f64; 3]) -> [DoubleDouble; 3] {
     let [x, y, w] = p.map(DoubleDouble::from);
     let one = DoubleDouble::from(1.0);
@@ -311,7 +314,7 @@ mod tests {
         (1..8).map(one).collect()
     }
 
-    /// The form that each space's ambient coordinates keep: w = 1, x² + y² − w², x² + y² + w².
+    /// The bilinear form that is invariant in each space's ambient coordinates: w = 1, x² + y² − w², x² + y² + w².
     fn form(space: Space, p: [f64; 3], q: [f64; 3]) -> f64 {
         let plane = p[0] * q[0] + p[1] * q[1];
         match space {
@@ -392,7 +395,7 @@ mod tests {
         assert!((Motion::translation(3.0, Space::H2).precise().displacement() - 3.0).abs() < 1e-15);
     }
 
-    /// Sixty there and sixty back: entries of e^30, which doubles cannot take apart again.
+    /// Sixty steps there and sixty back: entries reach e^30, which f64 cannot resolve.
     #[test]
     fn double_double_motions_come_back_from_far_out() {
         let go = turn(0.3, Space::H2).compose(&Motion::translation(1.5, Space::H2)).precise();

@@ -10,17 +10,17 @@
 use robust::{Coord, Coord3D, orient2d, orient3d};
 use std::cmp::Ordering;
 
-/// Largest coordinate of triangles that are multiplied by [`LIFT`] first: products of their coordinates, below 1e-240, could lose
-/// digits to underflow.
+/// Largest coordinate of triangles that are first multiplied by [`LIFT`]: products of their coordinates, below 1e-240, could lose digits
+/// to underflow.
 const TINY: f64 = 1.0e-120;
 /// 2⁵¹² = 1.3e154, which brings such coordinates back near 1; multiplying by a power of two is exact.
 const LIFT: f64 = f64::from_bits((1023 + 512) << 52);
 
-/// Relative error that a determinant of two rows of doubles cannot have: (3 + 16 ε) ε with ε = 2⁻⁵³ in \[She97, ccwerrboundA\], and more.
+/// Bound on the relative error of a determinant of two rows of f64: above (3 + 16 ε) ε with ε = 2⁻⁵³ of \[She97, ccwerrboundA\].
 const SURE: f64 = 4.0 * f64::EPSILON;
 
-/// On which side of the directed line ab the point c lies: `Greater` left (a, b, c counterclockwise), `Equal`
-/// on the line, `Less` right [She97, ORIENT2D].
+/// The side of the directed line ab on which the point c lies: `Greater` left (a, b, c counterclockwise), `Equal` on the line, `Less`
+/// right [She97, ORIENT2D].
 ///
 /// Exact for finite coordinates as long as products of coordinate differences neither overflow nor underflow;
 /// triangles that are tiny as a whole (all coordinates below 1e-120) are scaled by a power of two first.
@@ -42,7 +42,7 @@ pub fn orientation(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Ordering {
     }
 }
 
-/// The sign of the determinant of three vectors: `Greater` if they run counterclockwise about the origin, seen from where they point
+/// The sign of the determinant of three vectors: `Greater` if they run counterclockwise about the origin for a viewer at their ends
 /// [She97, ORIENT3D]. Exact for finite coordinates whose products neither overflow nor underflow.
 pub fn winding(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> Ordering {
     let [a, b, c, o] = [a, b, c, [0.0; 3]].map(|[x, y, z]| Coord3D { x, y, z });

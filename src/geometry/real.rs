@@ -1,17 +1,17 @@
-//! Numbers that motions are made of.
+//! The trait of the numbers that motions and hinges are made of: f64 and double-double.
 
 use super::DoubleDouble;
 use super::complex::{Complex, Number};
 use super::scaled::scaled;
 use std::ops::Div;
 
-/// What the entries of a [`super::Motion`] and of a [`super::flip::Hinge`] may be: doubles, or numbers with twice the digits of doubles.
+/// The type of the entries of a [`super::Motion`] and of a [`super::flip::Hinge`]: f64, or [`super::DoubleDouble`].
 pub trait Real: Number + From<f64> + Into<f64> + Div<Output = Self> {
     /// The square root of a number that is not negative.
     fn root(self) -> Self;
     /// This number times 2^k: exact while the result is a normal number.
     fn times_two_to(self, k: i32) -> Self;
-    /// `a b + c d`, rounded as one.
+    /// `a b + c d`, rounded once.
     fn two_products(a: Self, b: Self, c: Self, d: Self) -> Self;
 }
 
@@ -45,7 +45,7 @@ impl Real for DoubleDouble {
     }
 }
 
-/// [`super::complex::mul`], each part rounded once.
+/// The product of complex numbers, like [`super::complex::mul`], with each part rounded once.
 #[inline]
 pub(super) fn product<T: Real>([a, b]: Complex<T>, [c, d]: Complex<T>) -> Complex<T> {
     [T::two_products(a, c, -b, d), T::two_products(a, d, b, c)]

@@ -1,15 +1,15 @@
-//! Numbers times powers of two, also beyond the range of doubles. Multiplying by a power of two rounds nothing.
+//! Products of numbers with powers of two that f64 need not hold. Such products are exact.
 
-/// Largest |k| that makes a difference: a double lies between 2^−1074 and 2^1024, so that beyond 2098 all results are 0 or infinite.
+/// Largest |k| that changes a result: an f64 lies between 2^−1074 and 2^1024, so that beyond 2098 all results are 0 or infinite.
 const BEYOND: i32 = 2100;
 
-/// `x 2^k`: exact where the result is a normal number, else 0, subnormal or infinite as doubles have it.
+/// `x 2^k`: exact where the result is a normal number, else 0, subnormal or infinite, as for any f64.
 #[inline]
 pub(crate) fn scaled(x: f64, k: i32) -> f64 {
     if k == 0 {
         return x;
     }
-    // Three factors, each a normal number, so that no intermediate product overflows or underflows unless the result does.
+    // Three factors, each a normal number, so that no intermediate product over- or underflows unless the result does.
     let k = k.clamp(-BEYOND, BEYOND);
     let first = k / 3;
     let second = (k - first) / 2;

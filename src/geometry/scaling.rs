@@ -1,4 +1,4 @@
-//! Vertex scaling (ε = 0) in E² and H², many vertices or edges at a time: e^u and half chords, to twice the digits.
+//! e^u of many vertices and half chords of many edges at a time, for vertex scaling (ε = 0) in E² and H², in double-double precision.
 
 use super::conformal::plain_chord_of;
 use super::lanes::{Formula, Lanes, work_out};
@@ -7,10 +7,10 @@ use super::vertex::{Vertex, is_plain};
 use super::{Space, DoubleDouble};
 use crate::parallel::in_parts;
 
-/// A vertex of a class: ε, u, and what its double loses.
+/// The variables of a vertex: ε, u, and the part that u misses of its value.
 pub(crate) type Variable = (i8, f64, f64);
 
-/// [`Vertex::precise`] of all vertices.
+/// Fills `out` with [`Vertex::precise`] of all vertices.
 pub(crate) fn fill_vertices(space: Space, out: &mut [Vertex], given: impl Fn(usize) -> Variable + Sync) {
     in_parts(out, |start, out| {
         let u = |i| match given(start + i) {
@@ -19,16 +19,17 @@ pub(crate) fn fill_vertices(space: Space, out: &mut [Vertex], given: impl Fn(usi
         };
         work_out(Exponential, out.len(), u, |i, exponential| {
             let (epsilon, u, low) = given(start + i);
-            out[i] = match is_plain(space, epsilon, u) {
-                true => Vertex::of_exponential(epsilon, exponential, low),
-                false => Vertex::precise(space, epsilon, u, low),
+            out[i] = if is_plain(space, epsilon, u) {
+                Vertex::of_exponential(epsilon, exponential, low)
+            } else {
+                Vertex::precise(space, epsilon, u, low)
             };
         });
     });
 }
 
-/// The half chords of edges between vertices with ε = 0, of which `given` has the ends and η: see
-/// [`super::conformal::plain_chord`], which is 0 where it does not serve.
+/// Fills `out` with the half chords of edges between vertices with ε = 0; `given` returns the ends and η of an edge. A half chord is 0
+/// where [`super::conformal::plain_chord`] is 0.
 pub(crate) fn fill_chords(
     space: Space,
     out: &mut [DoubleDouble],
@@ -37,7 +38,7 @@ pub(crate) fn fill_chords(
     in_parts(out, |start, out| {
         let parts = |i| {
             let ([a, b], eta) = given(start + i);
-            // A unit of its own: no plain chord.
+            // An end with a unit of its own has no plain chord.
             let scale = if a.exponent | b.exponent == 0 { a.scale } else { 0.0 };
             [scale, a.low, b.scale, b.low, eta.high, eta.low]
         };
@@ -45,7 +46,7 @@ pub(crate) fn fill_chords(
     });
 }
 
-/// e^u as [`exp_parts`] has it.
+/// The formula [`exp_parts`].
 #[derive(Clone, Copy)]
 struct Exponential;
 
@@ -56,7 +57,7 @@ impl Formula<1, 3> for Exponential {
     }
 }
 
-/// A half chord from the e^u of the ends and η, each with what it misses.
+/// The half chord of an edge, from e^u of the ends and η, each with its low part.
 #[derive(Clone, Copy)]
 struct Chord {
     space: Space,

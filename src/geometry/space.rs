@@ -10,7 +10,7 @@
 use crate::error::Error;
 use std::ops::RangeInclusive;
 
-/// Lengths that the library accepts, in any space: the squares of smaller and larger ones leave the range of doubles.
+/// Range of the lengths that the library accepts, in any space: the squares of smaller and larger ones leave the range of f64.
 pub const USABLE_LENGTHS: RangeInclusive<f64> = 1e-150..=1e150;
 
 /// Background geometry of constant curvature.

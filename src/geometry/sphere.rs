@@ -1,4 +1,4 @@
-//! The unit sphere and the plane: stereographic projection.
+//! Stereographic projection between the unit sphere and the plane, and similarities of the plane.
 //!
 //! ```text
 //! lift:     z ↦ (2 Re z, 2 Im z, 1 − |z|²)/(1 + |z|²)        0 ↦ (0, 0, 1),  ∞ ↦ (0, 0, −1)
@@ -6,10 +6,9 @@
 //! chord:    |lift(a) − lift(b)| = 2 |a − b| / √((1 + |a|²)(1 + |b|²))
 //! ```
 //!
-//! The projection is from the south pole, so that what is counterclockwise in the plane is counterclockwise on the sphere seen from
-//! outside. Similarities of the plane, `z ↦ (z − p)/t` with t > 0, are half of the Möbius transformations of the sphere; the
-//! other half are its rotations, and each Möbius transformation is a rotation after a similarity. So a similarity is also a
-//! point (p, t) of hyperbolic space in the upper half-space.
+//! The projection is from the south pole, so that counterclockwise in the plane is counterclockwise on the sphere seen from outside. Each
+//! Möbius transformation of the sphere is a similarity of the plane, `z ↦ (z − p)/t` with t > 0, followed by a rotation of the sphere. A
+//! similarity is also a point (p, t) of hyperbolic space in the upper half-space model.
 //!
 //! ```
 //! use ricci::geometry::sphere::{lift, project};
@@ -21,8 +20,8 @@ use super::complex::{self, Complex};
 use super::double_double::{self, two_product, two_sum};
 use super::vector::Vector;
 
-/// The point of the sphere over a point of the plane, to full relative accuracy in x and y and in the distance from either pole;
-/// coordinates of any size.
+/// The point of the sphere over a point of the plane, for coordinates of any size. x, y and the distance from either pole are computed to
+/// full relative accuracy.
 pub fn lift([x, y]: [f64; 2]) -> Vector {
     let r = x.hypot(y);
     if r <= 1.0 {
@@ -47,7 +46,7 @@ pub fn project([x, y, w]: Vector) -> Option<[f64; 2]> {
     (d > 0.0).then(|| [x / d, y / d]).filter(|z| z.iter().all(|x| x.is_finite()))
 }
 
-/// `log(1 + |z|²)`, as a double and what that double loses. The lift multiplies small lengths at z by `2/(1 + |z|²)`.
+/// `log(1 + |z|²)` as an f64, and the part that it misses. The lift multiplies small lengths at z by `2/(1 + |z|²)`.
 pub fn log_density([x, y]: [f64; 2]) -> (f64, f64) {
     let r = x.hypot(y);
     let log = if r <= 1.0 { (r * r).ln_1p() } else { 2.0 * r.ln() + (1.0 / r / r).ln_1p() };
@@ -62,9 +61,9 @@ pub fn log_density([x, y]: [f64; 2]) -> (f64, f64) {
 /// `z ↦ (z − centre)/scale`; also the point (centre, scale) of the upper half-space model of hyperbolic space.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Similarity {
-    /// p.
+    /// The point p that is mapped to 0.
     pub centre: [f64; 2],
-    /// t > 0.
+    /// The length t > 0 that is mapped to 1.
     pub scale: f64,
 }
 
@@ -77,13 +76,13 @@ impl Similarity {
         complex::sub(z, self.centre).map(|x| x / self.scale)
     }
 
-    /// The point whose image is this one.
+    /// The point whose image is `z`.
     pub fn before(&self, z: Complex) -> Complex {
         complex::add(complex::scale(self.scale, z), self.centre)
     }
 
-    /// The point of hyperbolic space at `distance` from this one, in the direction of the unit vector `to` of the unit sphere: towards
-    /// the point of the plane that this similarity and [`lift`] carry there.
+    /// The point of hyperbolic space at `distance` from this one, in the direction of the unit vector `to`: towards the point of the
+    /// plane whose image under this similarity and [`lift`] is `to`.
     ///
     /// From (0, 1): `t = 1/(cosh s + w sinh s)`, `p = (x, y) t sinh s`.
     pub fn towards(&self, to: Vector, distance: f64) -> Similarity {
@@ -131,7 +130,7 @@ mod tests {
         }
     }
 
-    /// `1 + |(5 a/4, 3/4)|² = 25/16 (1 + a²)`, and so for 5a/4 that are doubles.
+    /// `1 + |(5 a/4, 3/4)|² = 25/16 (1 + a²)`, for a and 5a/4 that are both f64.
     #[test]
     fn densities_have_more_digits_than_a_double() {
         let (factor, factor_low) = log_density([0.75, 0.0]);
@@ -151,7 +150,7 @@ mod tests {
         assert!(dot(cross(sub(b, a), sub(c, a)), a) > 0.0);
     }
 
-    /// cosh d = 1 + (|p − q|² + (t − s)²)/(2 t s), and the end of the ray is where it was sent.
+    /// cosh d = 1 + (|p − q|² + (t − s)²)/(2 t s), and the far end of the ray is the given direction.
     #[test]
     fn geodesics_have_their_length_and_their_end() {
         let from = Similarity { centre: [0.4, -1.3], scale: 0.2 };

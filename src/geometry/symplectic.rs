@@ -10,7 +10,7 @@
 /// A basis a_1 … a_g, b_1 … b_g of ℤ^{2g} with `a_i·b_j = δ_ij` and all other products 0, for the antisymmetric form
 /// with this matrix (2g × 2g). Rows are the basis vectors in terms of the old ones.
 ///
-/// Integer elimination: a vector, the one that pairs with it to 1 (Euclid's algorithm among the rest), the others made
+/// Integer elimination: take a vector, find one that pairs with it to 1 (by Euclid's algorithm among the others), and make the rest
 /// orthogonal to both. `None` if the matrix is not square, antisymmetric and unimodular.
 pub fn symplectic_basis(form: &[Vec<i64>]) -> Option<Vec<Vec<i64>>> {
     let n = form.len();
@@ -28,7 +28,8 @@ pub fn symplectic_basis(form: &[Vec<i64>]) -> Option<Vec<Vec<i64>>> {
     let (mut first, mut second) = (Vec::new(), Vec::new());
     while !rest.is_empty() {
         let a = rest.swap_remove(0);
-        // Euclid's algorithm: the others are reduced by the vector that pairs least with a, until that one alone pairs with it.
+        // Euclid's algorithm: the others are reduced by the vector with the smallest product with a, until only that one has a product
+        // that is not 0.
         let b = loop {
             let paired = (0..rest.len()).filter(|&i| pair(&a, &rest[i]) != 0);
             let smallest = paired.min_by_key(|&i| pair(&a, &rest[i]).abs())?;

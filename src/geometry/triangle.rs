@@ -24,7 +24,7 @@ use super::lanes::Lanes;
 use super::{Space, DoubleDouble};
 use std::f64::consts::PI;
 
-/// Angles and validity of a triangle.
+/// The angles of a triangle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Angles {
     /// The angle at each corner, radians, opposite the length of the same index.
@@ -32,8 +32,8 @@ pub struct Angles {
 }
 
 impl Angles {
-    /// Whether the lengths break the triangle inequality (or, in S², have a perimeter of 2π or more): the angles are then the
-    /// continuous extension (π, 0, 0) \[Luo11\], or (π, π, π) for the perimeter. No triangle of doubles has two angles 0.
+    /// True if the lengths break the triangle inequality (or, in S², have a perimeter of 2π or more). The angles are then the continuous
+    /// extension (π, 0, 0) \[Luo11\], or (π, π, π) for the perimeter. No triangle with f64 lengths has two angles 0.
     #[inline]
     pub fn broken(&self) -> bool {
         let zeros = self.at.into_iter().filter(|&x| x == 0.0).count();
@@ -41,7 +41,7 @@ impl Angles {
     }
 }
 
-/// [`Angles::broken`] from the half-perimeter differences, without the angles.
+/// [`Angles::broken`], from the half-perimeter differences and without computing the angles.
 #[inline]
 pub fn is_broken(space: Space, r: [f64; 3]) -> bool {
     r.into_iter().any(|r| r <= 0.0) || (space == Space::S2 && r[0] + r[1] + r[2] >= PI)
@@ -53,7 +53,7 @@ pub fn is_broken(space: Space, r: [f64; 3]) -> bool {
 /// a needle-like triangle"): each is accurate to a few ulp however thin the triangle.
 #[inline(always)]
 pub fn half_differences<L: Lanes>(l: [L; 3]) -> [L; 3] {
-    // Without branches: the order of the lengths is chance, and a processor guesses it wrong half of the time.
+    // No branches: the order of the lengths is random, so a branch would be predicted wrongly half of the time.
     let (larger, smaller) = (l[0].larger(l[1]), l[0].smaller(l[1]));
     let (a, c) = (larger.larger(l[2]), smaller.smaller(l[2]));
     let b = smaller.larger(larger.smaller(l[2]));
@@ -104,7 +104,7 @@ pub fn angles(space: Space, l: [f64; 3]) -> Angles {
     angles_from(space, half_differences(l))
 }
 
-/// The angles from the half-perimeter differences, which may be known better than the lengths.
+/// The angles from the half-perimeter differences, which may be known more precisely than the lengths.
 #[inline]
 pub fn angles_from(space: Space, r: [f64; 3]) -> Angles {
     angles_from_sines(space, r, sines(space, r))
@@ -120,13 +120,13 @@ pub fn angles_from_sines(space: Space, r: [f64; 3], sines: (f64, [f64; 3])) -> A
     if space == Space::S2 && s >= PI {
         return Angles { at: [PI; 3] };
     }
-    // The roots first: f_i f_j may underflow.
+    // Roots are taken before products: f_i f_j may underflow.
     let [a, b, c] = ratios(space, r, sines).map(f64::sqrt);
     Angles { at: [(b * c, a), (c * a, b), (a * b, c)].map(|(y, x)| 2.0 * angle(y, x)) }
 }
 
-/// [`angles_from`] in E², with the halves of the cotangents of the angles (0 where the triangle is broken, or so thin that they are no
-/// numbers): the roots serve both.
+/// [`angles_from`] in E² together with half the cotangents of the angles; both come from the same roots. The cotangents are 0 where the
+/// triangle is broken, or so thin that they are not finite.
 #[inline]
 pub fn plane_angles_with_weights(r: [f64; 3]) -> (Angles, [f64; 3]) {
     match sound_plane_angles_with_weights(r) {
@@ -135,13 +135,13 @@ pub fn plane_angles_with_weights(r: [f64; 3]) -> (Angles, [f64; 3]) {
     }
 }
 
-/// [`plane_angles_with_weights`] of one or several triangles, with 1 for each that is neither broken nor too thin, and 0 for another one,
-/// whose angles and weights mean nothing.
+/// [`plane_angles_with_weights`] for one triangle or several at a time. The last number is 1 for a triangle with finite weights, and 0
+/// for a broken or too thin one, whose angles and weights are meaningless.
 #[inline(always)]
 pub(crate) fn sound_plane_angles_with_weights<L: Lanes>(r: [L; 3]) -> ([L; 3], [L; 3], L) {
     let of = |x: f64| r[0].constant(x);
     let [zero, one, half] = [0.0, 1.0, 0.5].map(of);
-    // In units of the half-perimeter, which is 1 then, no product over- or underflows.
+    // Divided by the half perimeter, which becomes 1, so that no product over- or underflows.
     let s = r[0] + r[1] + r[2];
     let q = [r[0] / s, r[1] / s, r[2] / s];
     let [a, b, c] = [q[0].root(), q[1].root(), q[2].root()];
@@ -157,19 +157,19 @@ pub(crate) fn sound_plane_angles_with_weights<L: Lanes>(r: [L; 3]) -> ([L; 3], [
     (angles, weights, is_finite(weights, is_whole))
 }
 
-/// `yes` where three numbers are finite, else 0.
+/// `yes` where all three numbers are finite, else 0.
 #[inline(always)]
 pub(crate) fn is_finite<L: Lanes>(x: [L; 3], yes: L) -> L {
     let ([a, b, c], zero) = (x, yes.constant(0.0));
-    // 0 times what is not finite is no number.
+    // 0 times a number that is not finite is NaN.
     (a * zero + (b * zero + c * zero)).where_at_least(zero, yes, zero)
 }
 
-/// `[cos, sin]` of half the angle at each corner, from the half chords q of the sides (l/2, sinh(l/2), sin(l/2)), with twice the digits.
-/// A broken triangle has those of (π, 0, 0).
+/// `[cos, sin]` of half the angle at each corner in double-double precision, from the half chords q of the sides (l/2, sinh(l/2),
+/// sin(l/2)). A broken triangle has those of (π, 0, 0).
 ///
-/// With `c = C(l/2)`, `d = q_i c_j − q_j c_i`, `p = q_i c_j + q_j c_i` the half-angle law reads
-/// `tan²(θ_k/2) = (q_k − d)(q_k + d) / ((p − q_k)(p + q_k))`: no function but the root.
+/// With `c = C(l/2)`, `d = q_i c_j − q_j c_i`, `p = q_i c_j + q_j c_i` the half-angle law reads `tan²(θ_k/2) = (q_k − d)(q_k + d) / ((p −
+/// q_k)(p + q_k))`, which needs no function except the square root.
 pub fn half_angles_of_chords(space: Space, q: [DoubleDouble; 3]) -> [[DoubleDouble; 2]; 3] {
     let (one, curvature) = (DoubleDouble::from(1.0), DoubleDouble::from(space.curvature()));
     let c = q.map(|q| (one - curvature * q * q).sqrt());
@@ -184,8 +184,8 @@ pub fn half_angles_of_chords(space: Space, q: [DoubleDouble; 3]) -> [[DoubleDoub
     })
 }
 
-/// Area: Heron in E²; in H² and S² by l'Huilier's formula
-/// `tan(area/4) = sqrt(t(s/2) t(r_i/2) t(r_j/2) t(r_k/2))`, t = tanh, tan: no angle sum, no cancellation.
+/// Area by Heron's formula in E², by l'Huilier's in H² and S²: `tan(area/4) = sqrt(t(s/2) t(r_i/2) t(r_j/2) t(r_k/2))`, t = tanh, tan.
+/// Neither sums angles, so nothing cancels.
 ///
 /// A broken triangle has area 0; one whose perimeter reaches 2π in S² has 2π.
 pub fn area(space: Space, l: [f64; 3]) -> f64 {
@@ -198,7 +198,7 @@ pub fn area_from(space: Space, r: [f64; 3]) -> f64 {
     if r.iter().any(|&x| x <= 0.0) {
         return 0.0;
     }
-    // t(s/2)² times a root of ratios: no product underflows before the area does.
+    // A product of t(s/2)² and a root of ratios: no factor underflows before the area does.
     let heron = |t: fn(f64) -> f64| {
         let whole = t(0.5 * s);
         let [a, b, c] = r.map(|x| t(0.5 * x) / whole);

@@ -1,13 +1,13 @@
-//! The quantities of one vertex at its current u, and how u and the radius of its circle belong together.
+//! The quantities of one vertex that formulas need: e^u, the radius of its circle, and the factor d of its type.
 
 use super::Space;
 use super::scaled::scaled;
 use super::double_double::{self, MAX_EXPONENT, SURELY_NORMAL, DoubleDouble, exp_parts};
 
-/// Largest |u| in E² whose e^u is kept without an exponent, 256 log 2: its square has the size of 2^±512, which leaves as much room
-/// again for η.
+/// Largest |u| in E² for which e^u is kept without an exponent, 256 log 2: its square is about 2^±512, which leaves as much of the range
+/// of f64 for η.
 const MAX_PLAIN_U: f64 = 177.0;
-/// Above this u, e^u is so near 1 that `2 artanh e^u` cancels, and its second form `−log tanh(−u/2)` is used.
+/// Largest u for which the radius is `2 artanh e^u`; above it e^u is so near 1 that this cancels, and `−log tanh(−u/2)` is used.
 const NEAR_HOROCYCLE: f64 = -1.0;
 
 /// A vertex at its current u.
@@ -17,20 +17,20 @@ pub struct Vertex {
     pub epsilon: f64,
     /// e^u, in units of 2^`exponent`.
     pub scale: f64,
-    /// What `scale` misses of e^u, relative to it, where the vertex [`is_precise`]; else 0, and `scale`, `d` and `radius` are those of u
-    /// with the part that its double loses.
+    /// The relative error of `scale` as e^u, where the vertex [`is_precise`]. Elsewhere 0, and `scale`, `d` and `radius` already contain
+    /// the low part of u.
     pub low: f64,
-    /// d = 1 + λ ε e^{2u}; NaN outside the metric's domain: where d ≤ 0; where |u| > 5e5 in E²; where e^u is no normal number in H² with
-    /// ε = 0.
+    /// d = 1 + λ ε e^{2u}. NaN outside the metric's domain: where d ≤ 0; where |u| > 5e5 in E²; where e^u is not a normal number in H²
+    /// with ε = 0.
     pub d: f64,
     /// γ where ε = 1, else 0; in units of 2^`exponent`.
     pub radius: f64,
-    /// The unit of `scale` and `radius` is 2 to this power: not 0 only in E², where |u| is above 177.
+    /// The unit of `scale` and `radius` is 2 to this power; 0 except in E² where |u| is above 177.
     pub exponent: i32,
 }
 
-/// Radius γ of a vertex of type ε with variable u: `u = log γ` in E²; where λε = −1 (circles in H², imaginary ones in S²)
-/// `u = log tanh(γ/2)`; where λε = 1 `u = log tan(γ/2)`. ε = 0: e^u.
+/// Radius γ of a vertex of type ε with variable u: `u = log γ` in E², `u = log tanh(γ/2)` where λε = −1 (circles in H², imaginary ones in
+/// S²), `u = log tan(γ/2)` where λε = 1. For ε = 0 it is e^u.
 pub fn radius(space: Space, epsilon: i8, u: f64) -> f64 {
     match space.curvature() * f64::from(epsilon) {
         0.0 => u.exp(),
@@ -40,12 +40,12 @@ pub fn radius(space: Space, epsilon: i8, u: f64) -> f64 {
     }
 }
 
-/// Whether lengths between vertices of type ε are formed to twice the digits: in E², and in H² where ε = 0.
+/// True if lengths between vertices of type ε are computed in double-double precision: in E², and in H² where ε = 0.
 pub fn is_precise(space: Space, epsilon: i8) -> bool {
     space == Space::E2 || (space == Space::H2 && epsilon == 0)
 }
 
-/// Whether e^u, a normal number in no unit of its own, is all that a vertex with this u is made of.
+/// True if e^u is a normal number with exponent 0 and all other quantities of the vertex follow from it.
 #[inline]
 pub(super) fn is_plain(space: Space, epsilon: i8, u: f64) -> bool {
     match space {
@@ -56,8 +56,8 @@ pub(super) fn is_plain(space: Space, epsilon: i8, u: f64) -> bool {
 }
 
 impl Vertex {
-    /// The quantities of a vertex of type ε with variable `u + low`, where `low` is what the double u loses (half an ulp of it at
-    /// most): e^u has 16 digits also where u is large.
+    /// The quantities of a vertex of type ε with variable `u + low`, where `low` is the part that u misses (at most half an ulp): e^u has
+    /// 16 digits also where u is large.
     pub fn precise(space: Space, epsilon: i8, u: f64, low: f64) -> Vertex {
         if space == Space::E2 {
             return Vertex::in_plane(epsilon, u, low);
@@ -67,10 +67,11 @@ impl Vertex {
                 return Vertex::of_exponential(epsilon, exp_parts(u), low);
             }
             let (scale, lost) = double_double::exp(u);
-            // A subnormal e^u has not the digits that this promises.
-            return match scale.is_normal() {
-                true => Vertex { scale, low: lost + low, d: 1.0, ..Vertex::default() },
-                false => Vertex { scale: f64::NAN, d: f64::NAN, ..Vertex::default() },
+            // A subnormal e^u has too few digits for this type.
+            return if scale.is_normal() {
+                Vertex { scale, low: lost + low, d: 1.0, ..Vertex::default() }
+            } else {
+                Vertex { scale: f64::NAN, d: f64::NAN, ..Vertex::default() }
             };
         }
         let rounded = Vertex::new(space, epsilon, u);
@@ -99,7 +100,7 @@ impl Vertex {
         Vertex { epsilon: f64::from(epsilon), scale, low: lost + low, d, radius, exponent: exponent as i32 }
     }
 
-    /// [`Vertex::precise`] where u [`is_plain`], from its [`exp_parts`].
+    /// [`Vertex::precise`] from the [`exp_parts`] of u, where u [`is_plain`].
     #[inline]
     pub(super) fn of_exponential(epsilon: i8, [mantissa, lost, power]: [f64; 3], low: f64) -> Vertex {
         let scale = scaled(mantissa, power as i32);
@@ -127,7 +128,7 @@ impl Vertex {
         }
     }
 
-    /// e^u in the vertex's unit, with the digits that `low` adds.
+    /// e^u in the vertex's unit, including `low`.
     pub fn precise_scale(self) -> DoubleDouble {
         DoubleDouble::from(self.scale) + (self.scale * self.low).into()
     }

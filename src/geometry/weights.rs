@@ -48,7 +48,7 @@ pub fn weights_from_sines(
     if space == Space::E2 && corners.iter().all(|v| v.epsilon == 0.0) {
         return plane_angles_with_weights(r).1;
     }
-    // In units of the longest chord no product under- or overflows.
+    // Divided by the longest chord, so that no product under- or overflows.
     let unit = 0.5 / q2.into_iter().fold(0.0, f64::max).sqrt();
     let s = r[0] + r[1] + r[2];
     if space == Space::S2 && s >= PI {
@@ -80,6 +80,6 @@ pub fn weights_from_sines(
         scale * sum / (delta * chord)
     };
     let w = [weight(0), weight(1), weight(2)];
-    // Where a triangle is so thin that its area underflows, the quotients are no numbers: it is treated as a broken one.
+    // Where a triangle is so thin that its area underflows, the quotients are not finite; it is treated as a broken one.
     if w.iter().all(|w| w.is_finite()) { w } else { [0.0; 3] }
 }

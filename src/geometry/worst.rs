@@ -1,5 +1,5 @@
-//! The largest of many errors, where NaN counts as infinite: [`f64::max`] ignores NaN, so that an error that could not be computed
-//! would not be seen.
+//! The largest of many errors, where NaN counts as infinite. [`f64::max`] ignores NaN, and would hide an error that could not be
+//! computed.
 //!
 //! ```
 //! use ricci::geometry::largest;
@@ -7,12 +7,12 @@
 //! assert_eq!(largest(&[1.0, f64::NAN]), f64::INFINITY);
 //! ```
 
-/// The larger of two; ∞ where one is NaN.
+/// The larger of two numbers; ∞ where one is NaN.
 pub fn worse(a: f64, b: f64) -> f64 {
     if a.is_nan() || b.is_nan() { f64::INFINITY } else { a.max(b) }
 }
 
-/// Largest magnitude, 0 of none; ∞ where one is NaN.
+/// The largest absolute value, 0 without values; ∞ where one is NaN.
 pub fn largest<'a>(values: impl IntoIterator<Item = &'a f64>) -> f64 {
     values.into_iter().fold(0.0, |worst, x| worse(worst, x.abs()))
 }

@@ -141,11 +141,6 @@ impl<'a> Laplace<'a> {
         self.mass.as_deref()
     }
 
-    /// Number of vertices that are not held.
-    pub fn n_free(&self) -> usize {
-        self.free.len()
-    }
-
     /// Number of values in the factor.
     pub fn factor_entries(&self) -> usize {
         self.cholesky.factor_entries()

@@ -49,11 +49,6 @@ impl Domain {
         diagonal(self.weights())
     }
 
-    /// The Hodge star of 2-forms: F×F, diagonal, positive; one over the area.
-    pub fn star2(&self) -> CsMat<f64> {
-        diagonal(&self.face_areas().iter().map(|area| 1.0 / area).collect::<Vec<_>>())
-    }
-
     /// The cotangent Laplacian `L = d0ᵀ ⋆1 d0` \[PP93\]: V×V, symmetric, positive semidefinite, rows add up to 0; off the diagonal
     /// minus the weights of the edges between the two vertices. `uᵀ L u / 2` is the Dirichlet energy. Without area: `⋆0⁻¹ L` is the
     /// Laplacian of a point.

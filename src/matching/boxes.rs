@@ -3,7 +3,7 @@
 use super::cover::Placed;
 use crate::geometry::Space;
 use crate::geometry::bounds::Bounds;
-use crate::geometry::boxes::{self, Node};
+use crate::geometry::boxes::{self, BoundsNode};
 use crate::geometry::vector::{Vector, cross, dot, norm, sub};
 use crate::mesh::FaceId;
 
@@ -14,7 +14,7 @@ const ROUNDING: f64 = 1e-14;
 
 /// The faces of an opened surface in a tree of boxes.
 pub(super) struct Boxes {
-    tree: boxes::Boxes,
+    tree: boxes::BoundsTree,
     /// The corners, in the coordinates of the space.
     corners: Vec<[Vector; 3]>,
     space: Space,
@@ -37,7 +37,7 @@ impl Boxes {
         let coordinates = bounds.iter().flat_map(|b| b.low.into_iter().chain(b.high));
         let largest = coordinates.fold(0.0f64, |most, x| most.max(x.abs()));
         let bounds: Vec<Bounds> = bounds.into_iter().map(|b| b.widened(SLACK * largest)).collect();
-        Some(Boxes { tree: boxes::Boxes::new(&bounds), corners, space })
+        Some(Boxes { tree: boxes::BoundsTree::new(&bounds), corners, space })
     }
 
     /// The faces that hold a point, as far as doubles tell, of lowest number first.
@@ -49,8 +49,8 @@ impl Boxes {
                 continue;
             }
             match self.tree.node(node) {
-                Node::Inner(children) => open.extend(children),
-                Node::Leaf(faces) => found.extend(faces),
+                BoundsNode::Inner(children) => open.extend(children),
+                BoundsNode::Leaf(faces) => found.extend(faces),
             }
         }
         found.retain(|&f| may_hold(&self.corners[f as usize], point));

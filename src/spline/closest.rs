@@ -14,7 +14,7 @@ use super::surface::{LARGEST, Spline, in_batches};
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::bounds::Bounds;
-use crate::geometry::boxes::{Boxes, Node};
+use crate::geometry::boxes::{BoundsTree, BoundsNode};
 use crate::geometry::complex::{Complex, add, scale};
 use crate::geometry::vector::{self, Vector, distance};
 use std::f64::consts::TAU;
@@ -72,7 +72,7 @@ pub struct ClosestPoints<'a> {
     spline: &'a Spline,
     cells: Vec<Cell>,
     /// Around the cells.
-    boxes: Boxes,
+    boxes: BoundsTree,
 }
 
 impl Spline {
@@ -102,7 +102,7 @@ impl Spline {
             cells.extend(some);
             boxes.extend(of.into_iter().map(|bounds| bounds.widened(SLACK * largest)));
         }
-        Ok(ClosestPoints { spline: self, cells, boxes: Boxes::new(&boxes) })
+        Ok(ClosestPoints { spline: self, cells, boxes: BoundsTree::new(&boxes) })
     }
 
     /// The corners of a piece in its own coordinates, counterclockwise.
@@ -222,13 +222,13 @@ impl ClosestPoints<'_> {
                 continue;
             }
             let found = match self.boxes.node(node) {
-                Node::Inner(children) => {
+                BoundsNode::Inner(children) => {
                     let mut children = children.map(|child| (far(child), child));
                     children.sort_by(|a, b| b.0.total_cmp(&a.0));
                     open.extend(children);
                     continue;
                 }
-                Node::Leaf(found) => found,
+                BoundsNode::Leaf(found) => found,
             };
             for &cell in found {
                 let cell = &self.cells[cell as usize];

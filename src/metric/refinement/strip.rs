@@ -13,7 +13,7 @@
 
 use super::triangulations::Final;
 use crate::error::{Error, Result};
-use crate::geometry::flip::{Hinge, Meeting};
+use crate::geometry::flip::{Hinge, DiagonalCrossing};
 use crate::mesh::normal_trace::CurveCrossing;
 use crate::mesh::{Curves, HalfedgeId, PerEdge, VertexId};
 use crate::parallel;
@@ -38,7 +38,7 @@ struct Seen {
 /// ends of the final edge.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Raw {
-    pub meeting: Meeting,
+    pub meeting: DiagonalCrossing,
     pub exponent: [i32; 2],
 }
 
