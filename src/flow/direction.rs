@@ -9,7 +9,7 @@ use super::system::{Precision, System};
 use crate::control::Control;
 use crate::error::Result;
 use crate::geometry::largest;
-use crate::linalg::conjugate::Goal;
+use crate::linalg::conjugate::ResidualBound;
 
 /// First shift of a matrix that is not positive definite, relative to its mean diagonal; grows by [`SHIFT_GROWTH`].
 const FIRST_SHIFT: f64 = 1e-12;
@@ -102,11 +102,11 @@ impl Flow {
         share: f64,
         (report, control): (&mut Report, &Control),
     ) -> Result<bool> {
-        let [left, sum] = [LEAST_LEFT, LEAST_SUM].map(|least| f64::max(share * at.error, least));
-        let goal = Goal { left, sum: if self.free_scale() { sum } else { f64::INFINITY } };
+        let [largest, sum] = [LEAST_LEFT, LEAST_SUM].map(|least| f64::max(share * at.error, least));
+        let bound = ResidualBound { largest, sum: if self.free_scale() { sum } else { f64::INFINITY } };
         let seconds = &mut report.seconds.solve;
         self.solve_by(at, |residual, step| {
-            timed(seconds, || system.solve_near(residual, goal, step, control))
+            timed(seconds, || system.solve_near(residual, bound, step, control))
         })
     }
 

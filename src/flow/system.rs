@@ -5,7 +5,7 @@ use crate::control::Control;
 use crate::error::Result;
 use crate::geometry::largest;
 use crate::linalg::cholesky::NotPositiveDefinite;
-use crate::linalg::conjugate::{Conjugate, Goal, Problem};
+use crate::linalg::conjugate::{ConjugateGradients, ResidualBound};
 use crate::linalg::{Cholesky, Pattern};
 
 use crate::mesh::Mesh;
@@ -82,7 +82,7 @@ pub(super) struct System {
     rhs: Vec<f64>,
     solution: Vec<f64>,
     correction: Vec<f64>,
-    conjugate: Conjugate,
+    conjugate: ConjugateGradients,
 }
 
 impl System {
@@ -101,7 +101,7 @@ impl System {
             rhs: zeros.clone(),
             solution: zeros.clone(),
             correction: zeros,
-            conjugate: Conjugate::default(),
+            conjugate: ConjugateGradients::default(),
         })
     }
 
@@ -170,7 +170,7 @@ impl System {
         Ok(())
     }
 
-    /// [`System::solve`] as far as `goal` says, with the factor of an earlier matrix. False where there is none, and where a factor of the
+    /// [`System::solve`] within `bound`, with the factor of an earlier matrix. False where there is none, and where a factor of the
     /// matrix itself is the better way.
     ///
     /// # Errors
@@ -178,7 +178,7 @@ impl System {
     pub fn solve_near(
         &mut self,
         residual: &[f64],
-        goal: Goal,
+        bound: ResidualBound,
         step: &mut [f64],
         control: &Control,
     ) -> Result<bool> {
@@ -188,10 +188,10 @@ impl System {
         self.gather(residual);
         self.solution.copy_from_slice(&self.rhs);
         let System { jacobian, held, solution, conjugate, .. } = self;
-        let problem = Problem { matrix: jacobian.matrix(), goal };
+        let matrix = jacobian.matrix();
         let found = match held {
-            Factor::Single(near) => conjugate.solve(problem, near, solution, control)?,
-            Factor::Double(near) => conjugate.solve(problem, near, solution, control)?,
+            Factor::Single(near) => conjugate.solve(matrix, bound, near, solution, control)?,
+            Factor::Double(near) => conjugate.solve(matrix, bound, near, solution, control)?,
         };
         Ok(found && self.scatter(step))
     }

@@ -1,13 +1,13 @@
 //! Supernodal Cholesky (faer) with analysis, factorisation and solution as separate steps; the example is in [`crate::linalg`].
 
 pub use super::front::NotPositiveDefinite;
-use super::multifrontal::{self, Arena};
-use super::number::Number;
+use super::multifrontal::{self, FrontMemory};
+use super::number::FactorNumber;
 use super::order::postorder;
 use super::pattern::{Pattern, Symmetric};
-use super::pool::Shelf;
-use super::substitution::{self, Desk};
-use super::tree::{Supernodes, Tree};
+use super::pool::MemoryPool;
+use super::substitution::{self, SubstitutionMemory};
+use super::tree::{Supernodes, SupernodeTree};
 use crate::error::{Error, Result};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::perm::PermRef;
@@ -19,31 +19,31 @@ use faer::sparse::linalg::cholesky::{
 };
 use faer::{Conj, MatMut, Par, Side};
 
-/// How faer divides its dense work: not at all. It is divided here, into parts which do not depend on the number of threads, so that the
-/// rounding (and so every result of the library) does not either.
+/// Kernels of faer run on one thread: dense work is divided here, into parts that do not depend on the number of threads, so that the
+/// rounding (and so every result of the library) does not depend on it either.
 const PARTITION: Par = Par::Seq;
 
 /// The Cholesky factorisation `A = P L Lᵀ Pᵀ` of matrices with one pattern. Inside a pool ([`crate::parallel`]) its threads share the
 /// work. In single precision a factor is a preconditioner ([`super::conjugate`]).
 pub struct Cholesky<T = f64> {
     symbolic: SymbolicCholesky<u32>,
-    tree: Tree,
+    tree: SupernodeTree,
     factor: Vec<T>,
-    arenas: Shelf<Arena<T>>,
-    desks: Shelf<Desk<T>>,
-    /// A right-hand side in the order of elimination, and as much again.
+    arenas: MemoryPool<FrontMemory<T>>,
+    desks: MemoryPool<SubstitutionMemory<T>>,
+    /// A right-hand side in the order of elimination, and memory for another one.
     ordered: [Vec<T>; 2],
 }
 
 impl Cholesky {
-    /// Analyse a pattern: fill-reducing order (AMD \[ADD96\]), elimination tree, supernodes; memory for the factor.
+    /// Analyses a pattern: fill-reducing order (AMD \[ADD96\]), elimination tree, supernodes. Allocates the factor.
     ///
     /// # Errors
     ///
     /// [`Error::Factorisation`] where the analysis fails or memory for the factor is lacking.
     pub fn analyse(pattern: &Pattern) -> Result<Cholesky> {
         let symbolic = analysis(pattern, SymmetricOrdering::Amd)?;
-        // The order is a postorder most of the time.
+        // The order is nearly always a postorder.
         match (tree(&symbolic, pattern), symbolic.perm()) {
             (Some(tree), _) => Cholesky::with_tree(symbolic, tree),
             (None, Some(order)) => Cholesky::with_postorder(pattern, order.arrays().0),
@@ -51,7 +51,7 @@ impl Cholesky {
         }
     }
 
-    /// With the postorder of an order of elimination.
+    /// The analysis with the postorder of an order of elimination.
     fn with_postorder(pattern: &Pattern, forward: &[u32]) -> Result<Cholesky> {
         let forward = postorder(pattern, forward);
         let mut inverse = vec![0; forward.len()];
@@ -64,8 +64,8 @@ impl Cholesky {
         }
     }
 
-    /// Overwrite the columns of `x`, one after the other, with `A⁻¹` times them, A being the matrix factorised last. Several threads may
-    /// do so at the same time; each needs memory for its columns.
+    /// Overwrites each column of `x` with `A⁻¹` times it, A being the matrix factorised last. Several threads may do so at the same time;
+    /// each allocates memory for its columns.
     ///
     /// # Errors
     ///
@@ -73,7 +73,7 @@ impl Cholesky {
     ///
     /// # Panics
     ///
-    /// If `x` is no whole number of columns of n entries.
+    /// If the length of `x` is not a multiple of n.
     pub fn solve_columns(&self, x: &mut [f64]) -> Result<()> {
         let n = self.symbolic.nrows();
         let columns = x.len() / n.max(1);
@@ -93,10 +93,10 @@ impl Cholesky {
     }
 }
 
-impl<T: Number> Cholesky<T> {
-    /// Analyse another pattern of the same size with the order found for this one. The order is most of the work of an analysis, and
-    /// stays good where few entries differ. The factor of this pattern is released first. A pattern of another size is analysed from
-    /// scratch.
+impl<T: FactorNumber> Cholesky<T> {
+    /// Analyses another pattern of the same size with the order found for this one. Finding the order is most of the work of an analysis,
+    /// and it stays good where few entries differ. The factor of this pattern is released first. A pattern of another size is analysed
+    /// from scratch.
     ///
     /// # Errors
     ///
@@ -111,24 +111,24 @@ impl<T: Number> Cholesky<T> {
         }
     }
 
-    fn with_tree(symbolic: SymbolicCholesky<u32>, tree: Tree) -> Result<Cholesky<T>> {
+    fn with_tree(symbolic: SymbolicCholesky<u32>, tree: SupernodeTree) -> Result<Cholesky<T>> {
         let (size, entries) = (symbolic.nrows(), symbolic.len_val());
-        // Whether there is memory is asked first, since `vec!` ends the process where there is none. It leaves the pages to those who first
-        // write to them, which are the threads that factorise.
+        // The allocation is tried first, since `vec!` ends the process where memory is lacking. Nothing is written: pages belong to the
+        // threads that write to them first, which are those that factorise.
         Vec::<T>::new()
             .try_reserve_exact(entries)
             .map_err(|_| failed(size, "not enough memory for the factor"))?;
         let factor = vec![T::ZERO; entries];
         let ordered = [vec![T::ZERO; size], vec![T::ZERO; size]];
-        Ok(Cholesky { symbolic, tree, factor, arenas: Shelf::default(), desks: Shelf::default(), ordered })
+        Ok(Cholesky { symbolic, tree, factor, arenas: MemoryPool::default(), desks: MemoryPool::default(), ordered })
     }
 
-    /// The same analysis for a factor that is held in other numbers; this factor is released first.
+    /// The same analysis for a factor in another type of number; this factor is released first.
     ///
     /// # Errors
     ///
     /// [`Error::Factorisation`] where memory for the factor is lacking.
-    pub fn held_in<U: Number>(self) -> Result<Cholesky<U>> {
+    pub fn held_in<U: FactorNumber>(self) -> Result<Cholesky<U>> {
         let Cholesky { symbolic, tree, factor, arenas, desks, ordered } = self;
         drop((factor, arenas, desks, ordered));
         Cholesky::with_tree(symbolic, tree)
@@ -143,21 +143,21 @@ impl<T: Number> Cholesky<T> {
         self.symbolic.len_val()
     }
 
-    /// Factorise a matrix with the analysed pattern.
+    /// Factorises a matrix with the analysed pattern.
     ///
     /// # Errors
     ///
-    /// [`NotPositiveDefinite`], after which there is no factor to solve with.
+    /// [`NotPositiveDefinite`]; there is then no factor to solve with.
     pub fn factor(&mut self, matrix: Symmetric<'_>) -> std::result::Result<(), NotPositiveDefinite> {
         let Cholesky { symbolic, tree, factor, arenas, .. } = self;
         match supernodes(symbolic, tree) {
             Some(supernodes) => multifrontal::factor(supernodes, matrix.values, factor, arenas),
-            // A matrix without rows.
+            // The matrix has no rows.
             None => Ok(()),
         }
     }
 
-    /// Overwrite `x` with `A⁻¹ x`, A being the matrix factorised last.
+    /// Overwrites `x` with `A⁻¹ x`, A being the matrix factorised last.
     ///
     /// # Panics
     ///
@@ -169,7 +169,7 @@ impl<T: Number> Cholesky<T> {
             let (forward, _) = order.arrays();
             y.iter_mut().zip(forward).for_each(|(y, &i)| *y = T::nearest(x[i as usize]));
             substitution::solve(supernodes, factor, [y, solved], desks);
-            forward.iter().zip(&*y).for_each(|(&i, y)| x[i as usize] = y.double());
+            forward.iter().zip(&*y).for_each(|(&i, y)| x[i as usize] = y.to_f64());
         }
     }
 }
@@ -188,14 +188,14 @@ fn analysis(pattern: &Pattern, order: SymmetricOrdering<'_, u32>) -> Result<Symb
 }
 
 /// The tree of an analysis, if its order is a postorder.
-fn tree(symbolic: &SymbolicCholesky<u32>, pattern: &Pattern) -> Option<Tree> {
+fn tree(symbolic: &SymbolicCholesky<u32>, pattern: &Pattern) -> Option<SupernodeTree> {
     let SymbolicCholeskyRaw::Supernodal(supernodes) = symbolic.raw() else {
-        return (pattern.size() == 0).then(Tree::default);
+        return (pattern.size() == 0).then(SupernodeTree::default);
     };
-    Tree::new(supernodes, pattern, symbolic.perm()?.arrays().1)
+    SupernodeTree::new(supernodes, pattern, symbolic.perm()?.arrays().1)
 }
 
-fn supernodes<'a>(symbolic: &'a SymbolicCholesky<u32>, tree: &'a Tree) -> Option<Supernodes<'a>> {
+fn supernodes<'a>(symbolic: &'a SymbolicCholesky<u32>, tree: &'a SupernodeTree) -> Option<Supernodes<'a>> {
     match symbolic.raw() {
         SymbolicCholeskyRaw::Supernodal(symbolic) => Some(Supernodes { symbolic, tree }),
         SymbolicCholeskyRaw::Simplicial(_) => None,
@@ -279,7 +279,7 @@ mod tests {
         let apart = first.iter().zip(&exact).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max);
         assert!(apart > 0.0 && apart < 1e-6, "{apart:e}");
         assert!(solved(2) == first && solved(8) == first);
-        // And back.
+        // And back to f64.
         let mut double: Cholesky = single.held_in().unwrap();
         double.factor(matrix).unwrap();
         let mut x = b.clone();
@@ -403,7 +403,7 @@ mod tests {
     fn an_order_that_is_no_postorder_serves_as_well() {
         let k = 40;
         let (pattern, values) = grid(k);
-        // Steps through the rows that are prime to their number.
+        // Every row once, by steps that have no divisor in common with their number.
         let mut forward: Vec<u32> = (0..(k * k) as u32).map(|i| i * 997 % (k * k) as u32).collect();
         forward.reverse();
         assert!(tree(&analysis_in(&pattern, &forward), &pattern).is_none());
@@ -425,7 +425,7 @@ mod tests {
         assert!(cholesky.tree.segments.len() > 2);
         let pool = Pool::new(2).unwrap();
         let order = cholesky.symbolic.perm().unwrap().arrays().0.to_vec();
-        // From the first that is eliminated to the last.
+        // From the first row that is eliminated to the last.
         for at in [0, k * k / 3, k * k - 400, k * k - 1] {
             for bad in [-1.0, f64::NAN] {
                 let mut values = values.clone();

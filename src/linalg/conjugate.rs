@@ -1,79 +1,70 @@
-//! Definite systems by conjugate gradients, with the factor of a matrix nearby as preconditioner.
+//! Symmetric positive definite systems, solved by conjugate gradients with the factor of a similar matrix as preconditioner.
 //!
 //! ```
 //! use ricci::Control;
-//! use ricci::linalg::conjugate::{Conjugate, Goal, Problem};
+//! use ricci::linalg::conjugate::{ConjugateGradients, ResidualBound};
 //! use ricci::linalg::{Cholesky, Pattern, Symmetric};
 //! let pattern = Pattern::new(2, &[(0, 1)])?;
 //! let mut factor = Cholesky::analyse(&pattern)?;
 //! // [[2, 1], [1, 2]] is factorised, and [[2, 1], [1, 3]] x = [3, 4] is solved.
 //! factor.factor(Symmetric { pattern: &pattern, values: &[2.0, 1.0, 2.0] }).unwrap();
 //! let mut x = [3.0, 4.0];
-//! let goal = Goal { left: 1e-14, sum: f64::INFINITY };
+//! let bound = ResidualBound { largest: 1e-14, sum: f64::INFINITY };
 //! let matrix = Symmetric { pattern: &pattern, values: &[2.0, 1.0, 3.0] };
-//! assert!(Conjugate::default().solve(Problem { matrix, goal }, &mut factor, &mut x, &Control::new())?);
+//! assert!(ConjugateGradients::default().solve(matrix, bound, &mut factor, &mut x, &Control::new())?);
 //! assert!(x.iter().all(|x| (x - 1.0).abs() < 1e-14));
 //! # Ok::<(), ricci::Error>(())
 //! ```
 
-use super::{Cholesky, Number, Symmetric, dot};
+use super::{Cholesky, FactorNumber, Symmetric, dot};
 use crate::control::Control;
 use crate::error::Result;
 
-/// Iterations after which a factor of the matrix itself is the cheaper way: each costs a solution with the factor, of which 5 (50,000
-/// unknowns) to 12 (850,000) take as long as a factorisation.
+/// Most iterations. Each costs one solution with the factor, and 5 (50,000 unknowns) to 12 (850,000) solutions take as long as a
+/// factorisation, so that beyond this number factorising the matrix itself is faster.
 const ITERATIONS: u32 = 8;
 
-/// What the residual `b − A x` of a solution may be.
+/// Bounds on the residual `b − A x` of a solution.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Goal {
-    /// Its largest entry; positive.
-    pub left: f64,
-    /// Size of the sum of its entries; positive, infinite for any. Where the equations of all unknowns add up to 0 and one unknown is
-    /// held, it is what is left of the equation of that one.
+pub struct ResidualBound {
+    /// Bound on the size of its largest entry; positive.
+    pub largest: f64,
+    /// Bound on the size of the sum of its entries; positive, infinite for none. Where the equations of all unknowns add up to 0 and one
+    /// unknown is held at its value, this bounds the residual of that one's equation.
     pub sum: f64,
 }
 
-impl Goal {
-    /// Iterations whose residuals say little of the speed: the largest entry may grow in the first one, while the error falls. Where the sum
-    /// matters, one unknown is held, so that the vector of ones is nearly in the kernel of A, and a factor in single precision hardly knows
-    /// how much of it belongs to a solution: the second iteration finds that.
+impl ResidualBound {
+    /// Number of first iterations whose residuals do not show the speed of convergence. The largest entry may grow in the first one while
+    /// the error falls. Where the sum is bounded, one unknown is held, so that the vector of ones is nearly in the kernel of A, and a
+    /// factor in single precision hardly determines its share of a solution: the second iteration finds that.
     fn free_iterations(self) -> u32 {
         if self.sum.is_finite() { 2 } else { 1 }
     }
 
-    /// How many times larger a residual is, at most 1 where the goal is reached; NaN where it is no number.
+    /// The quotient of a residual by its bounds: at most 1 where they hold, NaN where an entry is NaN.
     fn excess(self, residual: &[f64]) -> f64 {
         let largest = residual.iter().fold(0.0, |most: f64, r| if r.abs() <= most { most } else { r.abs() });
-        let (largest, sum) = (largest / self.left, residual.iter().sum::<f64>().abs() / self.sum);
+        let (largest, sum) = (largest / self.largest, residual.iter().sum::<f64>().abs() / self.sum);
         if sum <= largest { largest } else { sum }
     }
 }
 
-/// A matrix with what is asked of a solution.
-#[derive(Debug, Clone, Copy)]
-pub struct Problem<'a> {
-    /// The matrix.
-    pub matrix: Symmetric<'a>,
-    /// What is asked.
-    pub goal: Goal,
-}
-
-/// The vectors of a solution, whose memory is kept from one to the next.
+/// The vectors of a solution; their memory is reused from one solution to the next.
 #[derive(Default)]
-pub struct Conjugate {
+pub struct ConjugateGradients {
     residual: Vec<f64>,
     direction: Vec<f64>,
     image: Vec<f64>,
     corrected: Vec<f64>,
 }
 
-impl Conjugate {
-    /// Overwrite `x`, which holds b, with a solution of `A x = b`, found by conjugate gradients \[HS52\] that are preconditioned by the
-    /// last matrix that `near` has factorised. Sums are formed in one order whatever the threads.
+impl ConjugateGradients {
+    /// Overwrites `x`, which holds b, with a solution of `A x = b`, found by conjugate gradients \[HS52\] that are preconditioned by the
+    /// matrix that `near` has factorised last. Sums are formed in a fixed order for any number of threads.
     ///
-    /// False, and `x` without meaning, where a factorisation of A is the better way: where A is found not to be positive definite, or the
-    /// residuals fall more slowly than it takes to be there after a few steps.
+    /// Returns false, with meaningless `x`, where factorising A is faster or needed: A is found not to be positive definite, or after a
+    /// few steps the residuals fall too slowly for [`ITERATIONS`].
     ///
     /// # Errors
     ///
@@ -81,15 +72,16 @@ impl Conjugate {
     ///
     /// # Panics
     ///
-    /// If `x` or the preconditioner has not as many entries as A has rows.
-    pub fn solve<T: Number>(
+    /// If `x` or the preconditioner does not have as many entries as A has rows.
+    pub fn solve<T: FactorNumber>(
         &mut self,
-        Problem { matrix, goal }: Problem<'_>,
+        matrix: Symmetric<'_>,
+        bound: ResidualBound,
         near: &mut Cholesky<T>,
         x: &mut [f64],
         control: &Control,
     ) -> Result<bool> {
-        let Conjugate { residual, direction, image, corrected } = self;
+        let ConjugateGradients { residual, direction, image, corrected } = self;
         for vector in [&mut *residual, &mut *direction] {
             vector.clear();
             vector.extend_from_slice(x);
@@ -97,7 +89,7 @@ impl Conjugate {
         image.resize(x.len(), 0.0);
         corrected.resize(x.len(), 0.0);
         x.fill(0.0);
-        let first = goal.excess(residual);
+        let first = bound.excess(residual);
         if first <= 1.0 {
             return Ok(true);
         }
@@ -107,7 +99,7 @@ impl Conjugate {
             control.check()?;
             matrix.product(direction, image);
             let curvature = dot(direction, image);
-            // The comparisons are false where something is no number.
+            // The comparisons are false for NaN.
             if !(curvature > 0.0 && product > 0.0) {
                 return Ok(false);
             }
@@ -116,12 +108,12 @@ impl Conjugate {
                 *x += length * direction[i];
                 residual[i] -= length * image[i];
             }
-            let now = goal.excess(residual);
+            let now = bound.excess(residual);
             if now <= 1.0 {
                 return Ok(true);
             }
             let in_time = first.powf(1.0 - f64::from(iteration) / f64::from(ITERATIONS));
-            if !(iteration <= goal.free_iterations() || now <= in_time) {
+            if !(iteration <= bound.free_iterations() || now <= in_time) {
                 return Ok(false);
             }
             corrected.copy_from_slice(residual);
@@ -163,29 +155,28 @@ mod tests {
         let mut near = Cholesky::analyse(&pattern).unwrap();
         near.factor(Symmetric { pattern: &pattern, values: &values }).unwrap();
         let b: Vec<f64> = (0..n).map(|i| (0.1 * i as f64).cos()).collect();
-        let mut solved = |values: &[f64], left: f64| {
+        let mut solved = |values: &[f64], largest: f64| {
             let mut x = b.clone();
-            let (matrix, goal) = (Symmetric { pattern: &pattern, values }, Goal { left, sum: left });
-            let problem = Problem { matrix, goal };
-            let found = Conjugate::default().solve(problem, &mut near, &mut x, &Control::new()).unwrap();
+            let (matrix, bound) = (Symmetric { pattern: &pattern, values }, ResidualBound { largest, sum: largest });
+            let found = ConjugateGradients::default().solve(matrix, bound, &mut near, &mut x, &Control::new());
             let mut residual = b.clone();
             matrix.residual(&x, &b, &mut residual);
-            (found, goal.excess(&residual))
+            (found.unwrap(), bound.excess(&residual))
         };
-        for (bend, goal) in [(0.0, 1e-11), (1e-3, 1e-6)] {
-            let (found, left) = solved(&chain(n, bend).1, goal);
-            assert!(found && left <= 2.0, "{bend}: {left:e}");
+        for (bend, largest) in [(0.0, 1e-11), (1e-3, 1e-6)] {
+            let (found, excess) = solved(&chain(n, bend).1, largest);
+            assert!(found && excess <= 2.0, "{bend}: {excess:e}");
         }
-        // Too slow.
+        // Convergence is too slow.
         assert!(!solved(&chain(n, 0.1).1, 1e-13).0 && !solved(&chain(n, 0.9).1, 1e-6).0);
         let negative: Vec<f64> = values.iter().map(|x| -x).collect();
         assert!(!solved(&negative, 1e-6).0);
-        let (matrix, goal) =
-            (Symmetric { pattern: &pattern, values: &values }, Goal { left: 1e-11, sum: 1e-11 });
+        let matrix = Symmetric { pattern: &pattern, values: &values };
+        let bound = ResidualBound { largest: 1e-11, sum: 1e-11 };
         let cancelled = Control::new();
         cancelled.cancel();
-        let problem = Problem { matrix, goal };
-        assert!(Conjugate::default().solve(problem, &mut near, &mut b.clone(), &cancelled).is_err());
+        let mut gradients = ConjugateGradients::default();
+        assert!(gradients.solve(matrix, bound, &mut near, &mut b.clone(), &cancelled).is_err());
     }
 
     #[test]
@@ -198,12 +189,12 @@ mod tests {
             let matrix = Symmetric { pattern: &pattern, values: &values };
             let mut near = Cholesky::analyse(&pattern).unwrap().held_in::<f32>().unwrap();
             let mut x: Vec<f64> = (0..n).map(|i| (0.1 * i as f64).cos()).collect();
-            let problem = Problem { matrix, goal: Goal { left: 1e-12, sum: 1e-12 } };
+            let bound = ResidualBound { largest: 1e-12, sum: 1e-12 };
             let factored = near.factor(matrix);
             assert_eq!(factored.is_ok(), found.is_some(), "{scale:e}");
             if let Some(found) = found {
-                let mut conjugate = Conjugate::default();
-                assert_eq!(conjugate.solve(problem, &mut near, &mut x, &Control::new()).unwrap(), found);
+                let mut conjugate = ConjugateGradients::default();
+                assert_eq!(conjugate.solve(matrix, bound, &mut near, &mut x, &Control::new()).unwrap(), found);
             }
         }
     }

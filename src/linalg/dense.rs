@@ -30,7 +30,7 @@ pub fn solve_definite(a: &[Vec<f64>], b: &[Vec<f64>]) -> Result<Vec<Vec<f64>>> {
 /// The eigenvalues of a symmetric matrix (n×n), whose lower triangle is read, ascending.
 ///
 /// # Errors
-/// [`Error::Factorisation`] where the iteration does not end, as for entries that are not finite.
+/// [`Error::Factorisation`] where the iteration does not converge, as for entries that are not finite.
 ///
 /// # Panics
 /// If rows have different lengths.

@@ -1,6 +1,6 @@
-//! Dense elimination of the columns of one supernode, and what it hands on: faer's kernels on blocks of fixed sizes.
+//! Dense elimination of the columns of one supernode and its update of the parent, by faer's kernels on blocks of fixed sizes.
 
-use super::number::Number;
+use super::number::FactorNumber;
 use crate::parallel::each;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::{LltRegularization, cholesky_in_place, cholesky_in_place_scratch};
@@ -9,7 +9,7 @@ use faer::linalg::matmul::triangular::{self, BlockStructure};
 use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
 use faer::{Accum, MatMut, MatRef, Par, Spec};
 
-/// Dense work is divided into blocks here, not by the kernels.
+/// Kernels of faer run on one thread: dense work is divided into blocks here.
 const PARTITION: Par = Par::Seq;
 /// Columns of a heavy supernode that are eliminated together.
 pub(super) const PANEL: usize = 96;
@@ -25,12 +25,12 @@ pub struct NotPositiveDefinite;
 pub(super) type Factored = Result<(), NotPositiveDefinite>;
 
 /// Memory for the factorisation of diagonal blocks of up to so many columns.
-pub(super) fn scratch<T: Number>(widest: usize) -> MemBuffer {
+pub(super) fn scratch<T: FactorNumber>(widest: usize) -> MemBuffer {
     MemBuffer::new(cholesky_in_place_scratch::<T>(widest, PARTITION, Spec::default()))
 }
 
-/// Cholesky factorisation of the diagonal block, and the rows below it divided by its transpose.
-pub(super) fn eliminate<T: Number>(
+/// Cholesky factorisation of the diagonal block; the rows below it are divided by its transpose.
+pub(super) fn eliminate<T: FactorNumber>(
     own: &mut [T],
     width: usize,
     height: usize,
@@ -46,14 +46,14 @@ pub(super) fn eliminate<T: Number>(
     Ok(())
 }
 
-fn diagonal_block<T: Number>(block: MatMut<'_, T>, scratch: &mut MemBuffer) -> Factored {
+fn diagonal_block<T: FactorNumber>(block: MatMut<'_, T>, scratch: &mut MemBuffer) -> Factored {
     cholesky_in_place(block, LltRegularization::default(), PARTITION, MemStack::new(scratch), Spec::default())
         .map(|_| ())
         .map_err(|_| NotPositiveDefinite)
 }
 
-/// [`eliminate`] column by column.
-fn eliminate_narrow<T: Number>(own: &mut [T], width: usize, height: usize) -> Factored {
+/// [`eliminate`] column by column, for narrow supernodes.
+fn eliminate_narrow<T: FactorNumber>(own: &mut [T], width: usize, height: usize) -> Factored {
     for j in 0..width {
         let (before, column) = own.split_at_mut(j * height);
         let column = &mut column[j..height];
@@ -62,7 +62,7 @@ fn eliminate_narrow<T: Number>(own: &mut [T], width: usize, height: usize) -> Fa
             let factor = earlier[0];
             column.iter_mut().zip(earlier).for_each(|(x, &l)| *x -= factor * l);
         }
-        // False also where it is no number.
+        // False also for NaN.
         let is_positive = column[0] > T::ZERO;
         if !is_positive {
             return Err(NotPositiveDefinite);
@@ -73,8 +73,8 @@ fn eliminate_narrow<T: Number>(own: &mut [T], width: usize, height: usize) -> Fa
     Ok(())
 }
 
-/// The lower triangle of −B Bᵀ into `front`, B being the rows below the diagonal block.
-pub(super) fn outer<T: Number>(own: &[T], width: usize, height: usize, front: &mut [T]) {
+/// Writes the lower triangle of −B Bᵀ to `front`, B being the rows below the diagonal block.
+pub(super) fn outer<T: FactorNumber>(own: &[T], width: usize, height: usize, front: &mut [T]) {
     let m = height - width;
     let below = MatRef::from_column_major_slice(own, height, width).subrows(width, m);
     triangular::matmul(
@@ -91,7 +91,7 @@ pub(super) fn outer<T: Number>(own: &[T], width: usize, height: usize, front: &m
 }
 
 /// The lower part of the first columns of −B Bᵀ.
-pub(super) fn outer_strip<T: Number>(below: MatRef<'_, T>, columns: usize, strip: &mut [T]) {
+pub(super) fn outer_strip<T: FactorNumber>(below: MatRef<'_, T>, columns: usize, strip: &mut [T]) {
     let m = below.nrows();
     let strip = MatMut::from_column_major_slice_mut(strip, m, columns);
     let (top, rest) = strip.split_at_row_mut(columns);
@@ -110,8 +110,8 @@ pub(super) fn outer_strip<T: Number>(below: MatRef<'_, T>, columns: usize, strip
     matmul(rest, Accum::Replace, below.subrows(columns, m - columns), own.transpose(), -T::ONE, PARTITION);
 }
 
-/// [`eliminate`] by panels, each by several threads.
-pub(super) fn eliminate_panels<T: Number>(own: &mut [T], width: usize, height: usize) -> Factored {
+/// [`eliminate`] by panels, each of which several threads share.
+pub(super) fn eliminate_panels<T: FactorNumber>(own: &mut [T], width: usize, height: usize) -> Factored {
     let mut scratch = scratch::<T>(PANEL);
     for start in (0..width).step_by(PANEL) {
         let columns = PANEL.min(width - start);
@@ -139,7 +139,7 @@ pub(super) fn eliminate_panels<T: Number>(own: &mut [T], width: usize, height: u
     Ok(())
 }
 
-/// Blocks of [`ROWS`] rows, each with the number of its first row, that of the first being `row`.
+/// The blocks of [`ROWS`] rows, each with the number of its first row; the first one starts at `row`.
 fn row_blocks<T>(mut matrix: MatMut<'_, T>, mut row: usize) -> Vec<(usize, MatMut<'_, T>)> {
     let mut blocks = Vec::new();
     while matrix.nrows() > 0 {

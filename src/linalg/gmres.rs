@@ -4,7 +4,7 @@
 //! // [[2, 1], [0, 4]] x = [4, 8]
 //! let apply = |x: &[f64], y: &mut [f64]| (y[0], y[1]) = (2.0 * x[0] + x[1], 4.0 * x[1]);
 //! let mut x = [0.0; 2];
-//! let left = ricci::linalg::gmres::solve(apply, &[4.0, 8.0], &mut x, ricci::linalg::gmres::Limits::to(1e-14));
+//! let left = ricci::linalg::gmres::solve(apply, &[4.0, 8.0], &mut x, ricci::linalg::gmres::GmresLimits::to(1e-14));
 //! assert!(left < 1e-14 && (x[0] - 1.0).abs() < 1e-12 && (x[1] - 2.0).abs() < 1e-12);
 //! ```
 
@@ -18,7 +18,7 @@ const ROUNDING: f64 = 1e-14;
 
 /// When to stop.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Limits {
+pub struct GmresLimits {
     /// Norm of the residual that is enough, as a share of that of the right hand side.
     pub tolerance: f64,
     /// Products with the matrix between two restarts: so many vectors are kept.
@@ -27,17 +27,17 @@ pub struct Limits {
     pub products: usize,
 }
 
-impl Limits {
+impl GmresLimits {
     /// Up to a share of the right hand side, with 50 vectors and 400 products.
-    pub fn to(tolerance: f64) -> Limits {
-        Limits { tolerance, kept: 50, products: 400 }
+    pub fn to(tolerance: f64) -> GmresLimits {
+        GmresLimits { tolerance, kept: 50, products: 400 }
     }
 }
 
 /// Solves `A x = b` from the x given, n numbers; the norm of the residual that is left, as a share of that of b (0 for b = 0).
 /// `apply(x, y)` sets y to A x. It ends without reaching the tolerance where the products are used up, a restart brings no progress, or a
 /// number is not finite.
-pub fn solve(mut apply: impl FnMut(&[f64], &mut [f64]), b: &[f64], x: &mut [f64], limits: Limits) -> f64 {
+pub fn solve(mut apply: impl FnMut(&[f64], &mut [f64]), b: &[f64], x: &mut [f64], limits: GmresLimits) -> f64 {
     let (size, mut products) = (norm(b), 0);
     if size == 0.0 {
         x.fill(0.0);
@@ -137,7 +137,7 @@ mod tests {
         let b: Vec<f64> = (0..n).map(|i| (i as f64).cos()).collect();
         for kept in [5, 50] {
             let mut x = vec![0.0; n];
-            let limits = Limits { kept, ..Limits::to(1e-13) };
+            let limits = GmresLimits { kept, ..GmresLimits::to(1e-13) };
             assert!(solve(product(n), &b, &mut x, limits) <= 1e-13);
             let mut y = vec![0.0; n];
             product(n)(&x, &mut y);
@@ -149,7 +149,7 @@ mod tests {
     fn a_matrix_without_an_inverse_leaves_what_it_cannot_reach() {
         let apply = |x: &[f64], y: &mut [f64]| (y[0], y[1]) = (x[0] + x[1], x[0] + x[1]);
         let mut x = [0.0; 2];
-        let left = solve(apply, &[1.0, 0.0], &mut x, Limits::to(1e-12));
+        let left = solve(apply, &[1.0, 0.0], &mut x, GmresLimits::to(1e-12));
         assert!((left - 0.5f64.sqrt()).abs() < 1e-9, "{left}");
     }
 }

@@ -14,7 +14,7 @@ use faer::sparse::linalg::lu::{LuSymbolicParams, NumericLu, factorize_symbolic_l
 use faer::sparse::{SparseColMat, Triplet};
 use faer::{Conj, MatMut, Par, Spec};
 
-/// How faer divides dense work: one fixed way, so that the rounding does not depend on the number of threads.
+/// Kernels of faer run on one thread, so that the rounding does not depend on the number of threads.
 const PARTITION: Par = Par::Seq;
 
 /// Overwrites `x`, n numbers, with `A⁻¹ x`. `entries`: (row, column, value) of the n×n matrix A; values at the same place add up.
@@ -52,9 +52,10 @@ pub fn solve(entries: &[(u32, u32, f64)], x: &mut [f64]) -> Result<()> {
         .map_err(|e| failed(format!("{e:?}")))?;
     let column = MatMut::from_column_major_slice_mut(x, size, 1);
     factors.solve_in_place_with_conj(Conj::No, column, PARTITION, MemStack::new(&mut scratch));
-    match x.iter().all(|x| x.is_finite()) {
-        true => Ok(()),
-        false => Err(failed("the matrix is singular to working precision".into())),
+    if x.iter().all(|x| x.is_finite()) {
+        Ok(())
+    } else {
+        Err(failed("the matrix is singular to working precision".into()))
     }
 }
 

@@ -1,45 +1,47 @@
-//! The numbers of a supernodal Cholesky factorisation, by the multifrontal method \[DR83\], \[Liu92\]: each supernode adds what its
-//! children hand on to its entries of the matrix, eliminates its columns and hands the rest, a lower triangle, on to its parent.
+//! The numeric phase of a supernodal Cholesky factorisation, by the multifrontal method \[DR83\], \[Liu92\]: each supernode adds the
+//! updates of its children to its entries of the matrix, eliminates its columns, and leaves a lower triangle, its own update, for its
+//! parent.
 //!
-//! Bundles ([`super::tree`]) are worked through one beside the other, then the heavy supernodes one after the other, each by several
-//! threads. Blocks are of fixed sizes and sums are formed in a fixed order, so that the bits do not depend on the number of threads.
+//! Bundles ([`super::tree`]) are factorised in parallel, then the heavy supernodes one after the other, each by several threads. Blocks
+//! have fixed sizes and sums a fixed order, so that the bits do not depend on the number of threads.
 
 use super::front::{
     Factored, NotPositiveDefinite, PANEL, eliminate, eliminate_panels, outer, outer_strip, scratch,
 };
-use super::number::Number;
-use super::pool::{Shelf, lock};
-use super::tree::{Segment, Supernodes, packed};
+use super::number::FactorNumber;
+use super::pool::{MemoryPool, lock};
+use super::tree::{TreeSegment, Supernodes, packed};
 use crate::parallel::each;
 use faer::MatRef;
 use faer::dyn_stack::MemBuffer;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Columns of what is handed on that one thread takes at a time.
+/// Columns of an update that one thread computes at a time.
 const STRIP: usize = 96;
 
-/// Memory of a thread that works through bundles.
-pub(super) struct Arena<T> {
-    /// What waits for its parent, packed by columns; the last one on top.
+/// Memory of one thread for factorising bundles.
+pub(super) struct FrontMemory<T> {
+    /// The updates that wait for their parents, packed by columns; the last one on top.
     waiting: Vec<T>,
-    /// The lower triangle that a supernode hands on, in a square.
+    /// The update of one supernode as a full square, of which the lower triangle is used.
     front: Vec<T>,
-    /// For diagonal blocks of up to `widest` columns.
+    /// Memory of the dense kernels, for diagonal blocks of up to `widest` columns.
     scratch: MemBuffer,
     widest: usize,
 }
 
-/// What a child hands on: a lower triangle, packed by columns.
+/// The update of a child: a lower triangle, packed by columns.
 #[derive(Clone, Copy)]
-struct Update<'a, T> {
+struct FrontUpdate<'a, T> {
     /// Its rows in the front of the parent, ascending.
     rows: &'a [u32],
     values: &'a [T],
 }
 
-impl<T: Number> Update<'_, T> {
-    /// Add the columns that are `columns` of the front. `out` holds them, from row `first_row` of the front on, `height` rows each.
+impl<T: FactorNumber> FrontUpdate<'_, T> {
+    /// Adds those columns of the update that are `columns` of the front. `out` holds them, from row `first_row` of the front on, with
+    /// `height` rows each.
     fn add(&self, out: &mut [T], columns: std::ops::Range<usize>, first_row: usize, height: usize) {
         let m = self.rows.len();
         let from = self.rows.partition_point(|&r| (r as usize) < columns.start);
@@ -59,12 +61,12 @@ impl<T: Number> Update<'_, T> {
     }
 }
 
-/// Overwrite `factor` with that of the matrix with these values.
-pub(super) fn factor<T: Number>(
+/// Overwrites `factor` with the factor of the matrix with these values.
+pub(super) fn factor<T: FactorNumber>(
     supernodes: Supernodes<'_>,
     matrix: &[f64],
     factor: &mut [T],
-    memory: &Shelf<Arena<T>>,
+    memory: &MemoryPool<FrontMemory<T>>,
 ) -> Factored {
     let segments = &supernodes.tree.segments;
     if let [bundle] = &segments[..]
@@ -96,12 +98,12 @@ pub(super) fn factor<T: Number>(
     Ok(())
 }
 
-/// The part of each segment in an array, `start(s)` telling where those of a supernode start.
+/// The parts of an array that belong to the segments; `start(s)` is the position of supernode s in it.
 pub(super) fn parts<'a, T>(
-    segments: &'a [Segment],
+    segments: &'a [TreeSegment],
     mut rest: &'a mut [T],
     start: impl Fn(usize) -> usize,
-) -> Vec<(usize, &'a Segment, &'a mut [T])> {
+) -> Vec<(usize, &'a TreeSegment, &'a mut [T])> {
     let mut parts = Vec::with_capacity(segments.len());
     for (k, segment) in segments.iter().enumerate() {
         let length = start(segment.supernodes.end) - start(segment.supernodes.start);
@@ -112,18 +114,18 @@ pub(super) fn parts<'a, T>(
     parts
 }
 
-impl<T: Number> Default for Arena<T> {
-    fn default() -> Arena<T> {
-        Arena { waiting: Vec::new(), front: Vec::new(), scratch: scratch::<T>(0), widest: 0 }
+impl<T: FactorNumber> Default for FrontMemory<T> {
+    fn default() -> FrontMemory<T> {
+        FrontMemory { waiting: Vec::new(), front: Vec::new(), scratch: scratch::<T>(0), widest: 0 }
     }
 }
 
-impl<T: Number> Arena<T> {
-    /// The factor of a bundle into its part; what its roots hand on waits, one after the other.
+impl<T: FactorNumber> FrontMemory<T> {
+    /// Factorises a bundle into its part of the factor; the updates of its roots are left in order.
     fn bundle(
         &mut self,
         supernodes: Supernodes<'_>,
-        bundle: &Segment,
+        bundle: &TreeSegment,
         matrix: &[f64],
         part: &mut [T],
     ) -> Factored {
@@ -150,9 +152,9 @@ impl<T: Number> Arena<T> {
         }
     }
 
-    /// The columns of one supernode into `own`.
+    /// Factorises one supernode into `own`.
     fn supernode(&mut self, supernodes: Supernodes<'_>, s: usize, matrix: &[f64], own: &mut [T]) -> Factored {
-        let Arena { waiting, front, scratch, .. } = self;
+        let FrontMemory { waiting, front, scratch, .. } = self;
         let (width, m) = (supernodes.columns(s).len(), supernodes.rows(s).len());
         let height = width + m;
         let mut top = waiting.len();
@@ -166,7 +168,7 @@ impl<T: Number> Arena<T> {
         let (sources, places) = supernodes.entries(s);
         sources.iter().zip(places).for_each(|(&k, &at)| own[at as usize] = T::nearest(matrix[k as usize]));
         for (rows, values) in updates {
-            Update { rows, values: &waiting[values] }.add(own, 0..width, 0, height);
+            FrontUpdate { rows, values: &waiting[values] }.add(own, 0..width, 0, height);
         }
         eliminate(own, width, height, scratch)?;
         if m > 0 {
@@ -177,7 +179,7 @@ impl<T: Number> Arena<T> {
                 let rows = supernodes.relative(c);
                 let values = &waiting[from - packed(rows.len())..from];
                 from -= values.len();
-                Update { rows, values }.add(front, width..height, width, m);
+                FrontUpdate { rows, values }.add(front, width..height, width, m);
             }
         }
         waiting.truncate(top);
@@ -186,10 +188,10 @@ impl<T: Number> Arena<T> {
     }
 }
 
-/// The factor of a heavy supernode into its part; returns what it hands on, packed.
-fn heavy_supernode<T: Number>(
+/// Factorises a heavy supernode into its part of the factor, and returns its update, packed.
+fn heavy_supernode<T: FactorNumber>(
     supernodes: Supernodes<'_>,
-    segment: &Segment,
+    segment: &TreeSegment,
     matrix: &[f64],
     own: &mut [T],
     handed_on: &[Mutex<Vec<T>>],
@@ -197,7 +199,7 @@ fn heavy_supernode<T: Number>(
     let s = segment.supernodes.start;
     let (width, m) = (supernodes.columns(s).len(), supernodes.rows(s).len());
     let height = width + m;
-    let children = Children::new(supernodes, s, handed_on);
+    let children = ChildUpdates::new(supernodes, s, handed_on);
     let (sources, places) = supernodes.entries(s);
     each(own.chunks_mut(PANEL * height).enumerate().collect(), |(p, panel)| {
         let start = p * PANEL * height;
@@ -244,15 +246,15 @@ fn heavy_supernode<T: Number>(
     Ok(front)
 }
 
-/// What the children of a heavy supernode have handed on, last child first.
-struct Children<'a, T> {
+/// The updates of the children of a heavy supernode, last child first.
+struct ChildUpdates<'a, T> {
     supernodes: Supernodes<'a>,
-    /// Child, what holds its update, where it starts there.
+    /// The child, the updates of its segment, and where its own starts there.
     held: Vec<(usize, std::sync::MutexGuard<'a, Vec<T>>, Vec<(usize, usize)>)>,
 }
 
-impl<'a, T: Number> Children<'a, T> {
-    fn new(supernodes: Supernodes<'a>, s: usize, handed_on: &'a [Mutex<Vec<T>>]) -> Children<'a, T> {
+impl<'a, T: FactorNumber> ChildUpdates<'a, T> {
+    fn new(supernodes: Supernodes<'a>, s: usize, handed_on: &'a [Mutex<Vec<T>>]) -> ChildUpdates<'a, T> {
         let mut held: Vec<(usize, std::sync::MutexGuard<'a, Vec<T>>, Vec<(usize, usize)>)> = Vec::new();
         for c in supernodes.children(s) {
             let k = supernodes.segment_of(c);
@@ -262,20 +264,20 @@ impl<'a, T: Number> Children<'a, T> {
                 _ => held.push((k, lock(&handed_on[k]), vec![(c, start)])),
             }
         }
-        Children { supernodes, held }
+        ChildUpdates { supernodes, held }
     }
 
-    fn updates(&self) -> impl Iterator<Item = Update<'_, T>> {
+    fn updates(&self) -> impl Iterator<Item = FrontUpdate<'_, T>> {
         self.held.iter().flat_map(|(_, values, children)| {
             children.iter().map(|&(c, start)| {
                 let rows = self.supernodes.relative(c);
-                Update { rows, values: &values[start..start + packed(rows.len())] }
+                FrontUpdate { rows, values: &values[start..start + packed(rows.len())] }
             })
         })
     }
 }
 
-/// Release what holds the update of a child, where it is the last that is needed from there.
+/// Frees the updates of a child's segment, if this is the last one that is needed.
 fn release<T>(supernodes: Supernodes<'_>, c: usize, handed_on: &[Mutex<Vec<T>>]) {
     let k = supernodes.segment_of(c);
     if supernodes.tree.segments[k].is_last_needed(c) {

@@ -1,11 +1,11 @@
-//! The numbers that a factor is held in.
+//! The types of the numbers of a factor: f64 and f32.
 
 use faer::traits::ComplexField;
 use pulp::Simd;
 use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
-/// Doubles, or single precision: half the memory and little more than half the time, for preconditioners.
-pub trait Number:
+/// The type of the numbers of a factor: f64, or f32 for preconditioners, with half the memory and little more than half the time.
+pub trait FactorNumber:
     Copy
     + Default
     + Send
@@ -29,17 +29,17 @@ pub trait Number:
     /// 1.
     const ONE: Self;
 
-    /// The nearest one to a double.
+    /// The nearest number to an f64.
     fn nearest(x: f64) -> Self;
 
-    /// As a double, which has the same value.
-    fn double(self) -> f64;
+    /// The same number as an f64.
+    fn to_f64(self) -> f64;
 
     /// The square root.
     fn root(self) -> Self;
 }
 
-impl Number for f64 {
+impl FactorNumber for f64 {
     const ZERO: f64 = 0.0;
     const ONE: f64 = 1.0;
 
@@ -47,7 +47,7 @@ impl Number for f64 {
         x
     }
 
-    fn double(self) -> f64 {
+    fn to_f64(self) -> f64 {
         self
     }
 
@@ -56,7 +56,7 @@ impl Number for f64 {
     }
 }
 
-impl Number for f32 {
+impl FactorNumber for f32 {
     const ZERO: f32 = 0.0;
     const ONE: f32 = 1.0;
 
@@ -65,7 +65,7 @@ impl Number for f32 {
         x as f32
     }
 
-    fn double(self) -> f64 {
+    fn to_f64(self) -> f64 {
         f64::from(self)
     }
 
@@ -77,26 +77,26 @@ impl Number for f32 {
 mod vectors {
     use super::Simd;
 
-    /// Several numbers at a time, in the vectors of the processor. No other numbers than those here have them.
+    /// SIMD vectors of a type of numbers. The trait is private, so that f64 and f32 are the only types that implement it.
     pub trait Vectors: Sized {
         type Vector<S: Simd>: Copy;
 
-        /// As vectors, and what is left.
+        /// A slice as vectors, and the rest.
         fn vectors<S: Simd>(simd: S, x: &[Self]) -> (&[Self::Vector<S>], &[Self]);
 
         /// [`Vectors::vectors`] to write to.
         fn vectors_mut<S: Simd>(simd: S, x: &mut [Self]) -> (&mut [Self::Vector<S>], &mut [Self]);
 
-        /// Fewer numbers than a vector has; 0 after them.
+        /// Fewer numbers than a vector has, followed by 0.
         fn some<S: Simd>(simd: S, x: &[Self]) -> Self::Vector<S>;
 
-        /// The first numbers of a vector.
+        /// Writes the first numbers of a vector to `out`.
         fn store_some<S: Simd>(simd: S, x: Self::Vector<S>, out: &mut [Self]);
 
-        /// The same number everywhere.
+        /// A vector with the same number everywhere.
         fn everywhere<S: Simd>(simd: S, x: Self) -> Self::Vector<S>;
 
-        /// `a b + c`, rounded once where the processor does so.
+        /// `a b + c`, with one rounding where the processor has such an instruction.
         fn multiply_add<S: Simd>(
             simd: S,
             a: Self::Vector<S>,

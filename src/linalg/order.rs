@@ -1,22 +1,22 @@
-//! Postorder of an order of elimination: an equivalent one, with the same factor but for the order of its rows, in which the columns of
-//! every subtree of the elimination tree follow each other.
+//! The postorder of an order of elimination: an equivalent order, whose factor differs only in the order of its rows, and in which the
+//! columns of every subtree of the elimination tree follow each other.
 
 use super::Pattern;
 
 const NONE: u32 = u32::MAX;
 
-/// The postorder of an order of elimination, `forward[k]` being the row that is eliminated k-th.
+/// The postorder of an order of elimination; `forward[k]` is the row that is eliminated k-th.
 pub(super) fn postorder(pattern: &Pattern, forward: &[u32]) -> Vec<u32> {
     let parent = elimination_tree(pattern, forward);
     let n = parent.len();
-    // Per column the number of columns below it: the largest subtree comes last, so that it can share a supernode with its parent.
+    // The number of columns in each subtree: the largest one comes last, so that it can share a supernode with its parent.
     let mut size = vec![1u32; n];
     for j in 0..n {
         if parent[j] != NONE {
             size[parent[j] as usize] += size[j];
         }
     }
-    // Children as lists, the head the child to be visited first.
+    // Linked lists of children; the head is visited first.
     let [mut head, mut next, mut largest] = [(); 3].map(|()| vec![NONE; n]);
     for j in (0..n as u32).rev() {
         let p = parent[j as usize];
@@ -58,7 +58,7 @@ pub(super) fn postorder(pattern: &Pattern, forward: &[u32]) -> Vec<u32> {
     order
 }
 
-/// The parent of each column in the elimination tree \[Liu90\], columns being numbered in the order of elimination.
+/// The parent of each column in the elimination tree \[Liu90\]; columns are numbered in the order of elimination.
 fn elimination_tree(pattern: &Pattern, forward: &[u32]) -> Vec<u32> {
     let n = forward.len();
     let mut inverse = vec![0u32; n];

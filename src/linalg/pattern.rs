@@ -1,4 +1,4 @@
-//! Symmetric sparse matrices as their lower triangle, with a pattern that outlives the values.
+//! Symmetric sparse matrices as their lower triangle, with a pattern that is kept while values change.
 //!
 //! ```
 //! # use ricci::linalg::Pattern;

@@ -1,15 +1,15 @@
-//! Memory that threads share: each takes one piece, and lays it back.
+//! Memory that is reused by threads: each takes a piece from the pool and puts it back.
 
 use std::sync::{Mutex, PoisonError};
 
-/// Pieces of memory that no thread has at the moment.
+/// The pieces of memory that no thread uses at the moment.
 #[derive(Default)]
-pub(super) struct Shelf<M> {
+pub(super) struct MemoryPool<M> {
     free: Mutex<Vec<M>>,
 }
 
-impl<M: Default> Shelf<M> {
-    /// Run `work` with a piece, as whoever had it last has left it.
+impl<M: Default> MemoryPool<M> {
+    /// Runs `work` with a piece of memory, which still has the contents of its last use.
     pub fn lend<R>(&self, work: impl FnOnce(&mut M) -> R) -> R {
         let kept = lock(&self.free).pop();
         let mut piece = kept.unwrap_or_default();
@@ -18,7 +18,7 @@ impl<M: Default> Shelf<M> {
         result
     }
 
-    /// Release what lies here.
+    /// Frees all pieces.
     pub fn release(&self) {
         lock(&self.free).clear();
     }

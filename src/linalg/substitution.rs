@@ -1,60 +1,60 @@
-//! Forward and backward substitution with a supernodal factor, for one right-hand side: the dense kernels that serve factorisations spend
-//! more time on the calls for the many small supernodes than on their numbers.
+//! ForwardBundle and backward substitution with a supernodal factor, for one right-hand side. Dense kernels made for factorisations would spend
+//! more time on being called for the many small supernodes than on arithmetic.
 //!
-//! Bundles ([`super::tree`]) run one beside the other, heavy supernodes one after the other, each by several threads. Every sum is formed
-//! in one order, whatever the threads.
+//! Bundles ([`super::tree`]) run in parallel, heavy supernodes one after the other, each by several threads. Every sum is formed in a
+//! fixed order for any number of threads.
 
 use super::multifrontal::parts;
-use super::number::Number;
-use super::pool::{Shelf, lock};
-use super::tree::{Segment, Supernodes};
+use super::number::FactorNumber;
+use super::pool::{MemoryPool, lock};
+use super::tree::{TreeSegment, Supernodes};
 use crate::parallel::each;
 use pulp::{Arch, Simd, WithSimd};
 use std::ops::Range;
 use std::sync::Mutex;
 
-/// Columns that are taken together, so that what they are added to, or multiplied by, is read once for all.
+/// Columns that are processed together, so that the other operand is read once for all of them.
 const COLUMNS: usize = 4;
 /// Columns of a heavy supernode that are solved for together.
 const PANEL: usize = 128;
-/// Rows below a panel that one thread takes at a time, and columns of a panel, a multiple of [`COLUMNS`].
+/// Rows below a panel, and columns of a panel, that one thread processes at a time; a multiple of [`COLUMNS`].
 const ROWS: usize = 512;
 const PANEL_COLUMNS: usize = 32;
 
-/// Memory of a thread that works through bundles.
+/// Memory of one thread for substitution in bundles.
 #[derive(Default)]
-pub(super) struct Desk<T> {
-    /// What waits for its parent; the last one on top.
+pub(super) struct SubstitutionMemory<T> {
+    /// The updates that wait for their parents; the last one on top.
     waiting: Vec<T>,
-    /// What the columns and the rows below one supernode hold.
+    /// The values at the columns of one supernode and at the rows below them.
     front: Vec<T>,
 }
 
-/// Columns of the factor with the same rows below their diagonal block.
+/// The columns of one supernode of the factor, all with the same rows below their diagonal block.
 #[derive(Clone, Copy)]
 struct Supernode<'a, T> {
     width: usize,
-    /// Column by column: the diagonal block, then the rows below it.
+    /// The values column by column: the diagonal block, then the rows below it.
     values: &'a [T],
     height: usize,
 }
 
-/// Overwrite `x`, in the order of elimination, with the solution y of `L Lᵀ y = x`. `values`: those of L. `solved` is memory for as many
-/// numbers.
-pub(super) fn solve<T: Number>(
+/// Overwrites `x`, in the order of elimination, with the solution y of `L Lᵀ y = x`. `values` are those of L, and `solved` is memory for
+/// as many numbers as `x` has.
+pub(super) fn solve<T: FactorNumber>(
     supernodes: Supernodes<'_>,
     values: &[T],
     [x, solved]: [&mut [T]; 2],
-    memory: &Shelf<Desk<T>>,
+    memory: &MemoryPool<SubstitutionMemory<T>>,
 ) {
     let segments = &supernodes.tree.segments;
-    let factor = Factor { supernodes, values };
+    let factor = SupernodalFactor { supernodes, values };
     if let [bundle] = &segments[..]
         && !bundle.is_heavy
     {
         memory.lend(|desk| {
-            Arch::new().dispatch(Forward { factor, bundle, x, desk });
-            Arch::new().dispatch(Backward { factor, bundle, x, solved, desk });
+            Arch::new().dispatch(ForwardBundle { factor, bundle, x, desk });
+            Arch::new().dispatch(BackwardBundle { factor, bundle, x, solved, desk });
         });
         return;
     }
@@ -62,9 +62,9 @@ pub(super) fn solve<T: Number>(
     let (mut heavy, mut bundles): (Vec<_>, Vec<_>) = parts(segments, x, |s| supernodes.column_start(s))
         .into_iter()
         .partition(|(_, segment, _)| segment.is_heavy);
-    let forward = |(k, segment, part): &mut (usize, &Segment, &mut [T])| {
+    let forward = |(k, segment, part): &mut (usize, &TreeSegment, &mut [T])| {
         let below = memory.lend(|desk| {
-            Arch::new().dispatch(Forward { factor, bundle: segment, x: part, desk });
+            Arch::new().dispatch(ForwardBundle { factor, bundle: segment, x: part, desk });
             desk.waiting.clone()
         });
         *lock(&handed_on[*k]) = below;
@@ -80,24 +80,24 @@ pub(super) fn solve<T: Number>(
     }
     let solved = &*solved;
     each(bundles, |(_, segment, part)| {
-        memory.lend(|desk| Arch::new().dispatch(Backward { factor, bundle: segment, x: part, solved, desk }));
+        memory.lend(|desk| Arch::new().dispatch(BackwardBundle { factor, bundle: segment, x: part, solved, desk }));
     });
 }
 
 #[derive(Clone, Copy)]
-struct Factor<'a, T> {
+struct SupernodalFactor<'a, T> {
     supernodes: Supernodes<'a>,
     values: &'a [T],
 }
 
-impl<'a, T: Number> Factor<'a, T> {
+impl<'a, T: FactorNumber> SupernodalFactor<'a, T> {
     fn supernode(&self, s: usize) -> Supernode<'a, T> {
         let [start, end] = [s, s + 1].map(|s| self.supernodes.values_start(s));
         let width = self.supernodes.columns(s).len();
         Supernode { width, values: &self.values[start..end], height: width + self.supernodes.rows(s).len() }
     }
 
-    /// Forward substitution in a heavy supernode; returns what it subtracts from the rows below.
+    /// ForwardBundle substitution in a heavy supernode; returns the sum to be subtracted from the rows below.
     fn forward_heavy(&self, s: usize, own: &mut [T], handed_on: &[Mutex<Vec<T>>]) -> Vec<T> {
         let supernode = self.supernode(s);
         let Supernode { width, height, .. } = supernode;
@@ -113,7 +113,7 @@ impl<'a, T: Number> Factor<'a, T> {
             let end = width.min(start + PANEL);
             supernode.forward_block(start..end, own);
             let (done, rest) = own.split_at_mut(end);
-            // Rows of the diagonal block are subtracted from, those below it added up.
+            // Rows of the diagonal block are updated in place; for those below it, the products are added up.
             let y = &done[start..];
             let minus: Vec<T> = y.iter().map(|&y| -y).collect();
             let own_rows = rest.chunks_mut(ROWS).enumerate().map(|(c, out)| (end + c * ROWS, &*minus, out));
@@ -125,7 +125,7 @@ impl<'a, T: Number> Factor<'a, T> {
         below
     }
 
-    /// Backward substitution in a heavy supernode, into `own` and `solved`.
+    /// BackwardBundle substitution in a heavy supernode, into `own` and `solved`.
     fn backward_heavy(&self, s: usize, own: &mut [T], solved: &mut [T]) {
         let supernode = self.supernode(s);
         let Supernode { width, height, .. } = supernode;
@@ -147,13 +147,13 @@ impl<'a, T: Number> Factor<'a, T> {
     }
 }
 
-/// Add what a child hands on to the columns and rows of its parent.
-fn add<T: Number>(rows: &[u32], values: &[T], front: &mut [T]) {
+/// Adds the update of a child to the columns and rows of its parent.
+fn add<T: FactorNumber>(rows: &[u32], values: &[T], front: &mut [T]) {
     rows.iter().zip(values).for_each(|(&r, &x)| front[r as usize] += x);
 }
 
-impl<T: Number> Desk<T> {
-    /// Columns and rows of a supernode, at most.
+impl<T: FactorNumber> SubstitutionMemory<T> {
+    /// Makes room for this many columns and rows of a supernode.
     fn hold(&mut self, rows: usize) {
         if self.front.len() < rows {
             self.front.resize(rows, T::ZERO);
@@ -161,24 +161,24 @@ impl<T: Number> Desk<T> {
     }
 }
 
-/// Forward substitution in a bundle, of whose rows `x` holds the right-hand side. What its roots subtract from the rows of their
-/// parents waits on the desk.
-struct Forward<'a, T> {
-    factor: Factor<'a, T>,
-    bundle: &'a Segment,
+/// ForwardBundle substitution in a bundle; `x` holds the right-hand side at its rows. The updates of its roots are left in the memory of the
+/// thread.
+struct ForwardBundle<'a, T> {
+    factor: SupernodalFactor<'a, T>,
+    bundle: &'a TreeSegment,
     x: &'a mut [T],
-    desk: &'a mut Desk<T>,
+    desk: &'a mut SubstitutionMemory<T>,
 }
 
-impl<T: Number> WithSimd for Forward<'_, T> {
+impl<T: FactorNumber> WithSimd for ForwardBundle<'_, T> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let Forward { factor, bundle, x, desk } = self;
+        let ForwardBundle { factor, bundle, x, desk } = self;
         let supernodes = factor.supernodes;
         desk.hold(supernodes.tree.widest + supernodes.tree.most_below);
-        let Desk { waiting, front } = desk;
+        let SubstitutionMemory { waiting, front } = desk;
         waiting.clear();
         let begin = supernodes.column_start(bundle.supernodes.start);
         for s in bundle.supernodes.clone() {
@@ -204,21 +204,21 @@ impl<T: Number> WithSimd for Forward<'_, T> {
     }
 }
 
-/// Backward substitution in a bundle; `solved` holds the solution in the rows of heavy supernodes.
-struct Backward<'a, T> {
-    factor: Factor<'a, T>,
-    bundle: &'a Segment,
+/// BackwardBundle substitution in a bundle; `solved` holds the solution at the rows of heavy supernodes.
+struct BackwardBundle<'a, T> {
+    factor: SupernodalFactor<'a, T>,
+    bundle: &'a TreeSegment,
     x: &'a mut [T],
     solved: &'a [T],
-    desk: &'a mut Desk<T>,
+    desk: &'a mut SubstitutionMemory<T>,
 }
 
-impl<T: Number> WithSimd for Backward<'_, T> {
+impl<T: FactorNumber> WithSimd for BackwardBundle<'_, T> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let Backward { factor, bundle, x, solved, desk } = self;
+        let BackwardBundle { factor, bundle, x, solved, desk } = self;
         let supernodes = factor.supernodes;
         desk.hold(supernodes.tree.most_below);
         let begin = supernodes.column_start(bundle.supernodes.start);
@@ -238,7 +238,7 @@ impl<T: Number> WithSimd for Backward<'_, T> {
     }
 }
 
-/// Add the rows `from` and on of these columns, times y, to `out`.
+/// Adds the rows of these columns from `from` on, times y, to `out`.
 struct Multiply<'a, T> {
     supernode: Supernode<'a, T>,
     y: &'a [T],
@@ -247,7 +247,7 @@ struct Multiply<'a, T> {
     out: &'a mut [T],
 }
 
-impl<T: Number> WithSimd for Multiply<'_, T> {
+impl<T: FactorNumber> WithSimd for Multiply<'_, T> {
     type Output = ();
 
     #[inline(always)]
@@ -266,7 +266,7 @@ impl<T: Number> WithSimd for Multiply<'_, T> {
     }
 }
 
-/// Subtract the scalar products of these columns, from row `from` on, with y from `out`.
+/// Subtracts the scalar products of these columns, from row `from` on, with y from `out`.
 struct SubtractProducts<'a, T> {
     supernode: Supernode<'a, T>,
     columns: Range<usize>,
@@ -275,7 +275,7 @@ struct SubtractProducts<'a, T> {
     out: &'a mut [T],
 }
 
-impl<T: Number> WithSimd for SubtractProducts<'_, T> {
+impl<T: FactorNumber> WithSimd for SubtractProducts<'_, T> {
     type Output = ();
 
     #[inline(always)]
@@ -292,24 +292,25 @@ impl<T: Number> WithSimd for SubtractProducts<'_, T> {
     }
 }
 
-fn subtract<T: Number, const N: usize>(from: &mut [T], what: [T; N]) {
+fn subtract<T: FactorNumber, const N: usize>(from: &mut [T], what: [T; N]) {
     from.iter_mut().zip(what).for_each(|(x, y)| *x -= y);
 }
 
-impl<'a, T: Number> Supernode<'a, T> {
+impl<'a, T: FactorNumber> Supernode<'a, T> {
     /// Column j, from row `from` of the supernode on.
     #[inline(always)]
     fn column(&self, j: usize, from: usize) -> &'a [T] {
         &self.values[j * self.height + from..(j + 1) * self.height]
     }
 
-    /// Columns from the j-th on, from row `from` on.
+    /// N columns from the j-th on, from row `from` on.
     #[inline(always)]
     fn block<const N: usize>(&self, j: usize, from: usize) -> [&'a [T]; N] {
         std::array::from_fn(|c| self.column(j + c, from))
     }
 
-    /// Overwrite `own` with the solution of `L own = own`, L the diagonal block of these columns, those before having been subtracted.
+    /// Overwrites `own` with the solution of `L own = own`, L the diagonal block of these columns; the columns before them have been
+    /// subtracted.
     #[inline(always)]
     fn forward_block(&self, columns: Range<usize>, own: &mut [T]) {
         for j in columns.clone() {
@@ -320,7 +321,7 @@ impl<'a, T: Number> Supernode<'a, T> {
         }
     }
 
-    /// Overwrite `own` with the solution of `Lᵀ own = own`, L the diagonal block of these columns.
+    /// Overwrites `own` with the solution of `Lᵀ own = own`, L the diagonal block of these columns.
     #[inline(always)]
     fn backward(&self, columns: Range<usize>, own: &mut [T]) {
         let start = columns.start;
@@ -333,9 +334,9 @@ impl<'a, T: Number> Supernode<'a, T> {
     }
 }
 
-/// Add columns, each times its y, to `out`.
+/// Adds columns, each times its entry of y, to `out`.
 #[inline(always)]
-fn multiply<T: Number, S: Simd, const N: usize>(simd: S, columns: [&[T]; N], y: [T; N], out: &mut [T]) {
+fn multiply<T: FactorNumber, S: Simd, const N: usize>(simd: S, columns: [&[T]; N], y: [T; N], out: &mut [T]) {
     let y = y.map(|y| T::everywhere(simd, y));
     let columns = columns.map(|column| T::vectors(simd, &column[..out.len()]));
     let (whole, rest) = T::vectors_mut(simd, out);
@@ -354,9 +355,9 @@ fn multiply<T: Number, S: Simd, const N: usize>(simd: S, columns: [&[T]; N], y: 
     }
 }
 
-/// The scalar products of columns with y, which is read once.
+/// The scalar products of several columns with y, which is read once.
 #[inline(always)]
-fn products<T: Number, S: Simd, const N: usize>(simd: S, columns: [&[T]; N], y: &[T]) -> [T; N] {
+fn products<T: FactorNumber, S: Simd, const N: usize>(simd: S, columns: [&[T]; N], y: &[T]) -> [T; N] {
     let columns = columns.map(|column| T::vectors(simd, &column[..y.len()]));
     let (whole, rest) = T::vectors(simd, y);
     let columns_whole = columns.map(|(vectors, _)| &vectors[..whole.len()]);

@@ -1,36 +1,36 @@
-//! The tree of supernodes, along which a factorisation and the solutions with it run: what one supernode hands to its parent, and which
-//! subtrees are worked through one beside the other.
+//! The tree of supernodes, along which factorisation and substitution run: the updates that a supernode leaves for its parent, and the
+//! division into subtrees that are processed in parallel.
 //!
-//! Supernodes are numbered in postorder: all below s have the numbers from `first(s)` to s − 1. Where the work below a supernode is more
-//! than a share of the whole, it is *heavy*; the subtrees below the heavy ones make *bundles*, each a row of whole subtrees. Bundles do
-//! not depend on each other. The division is made from the pattern alone, whatever the threads.
+//! Supernodes are numbered in postorder: the subtree of s has the numbers from `first(s)` to s. A supernode is *heavy* where the work in
+//! its subtree is more than a share of the whole; the subtrees below heavy supernodes are joined to *bundles*, which are independent of
+//! each other. The division depends on the pattern alone, not on the number of threads.
 
 use super::Pattern;
 use faer::sparse::linalg::cholesky::supernodal::SymbolicSupernodalCholesky;
 use std::ops::Range;
 
-/// Bundles have about this share of the work: two threads then wait little for each other, and few triangles wait for their parents at a
-/// time.
+/// Share of the whole work in one bundle: with bundles of this size two threads wait little for each other, and few updates wait for
+/// their parents at a time.
 const SHARE: f64 = 1.0 / 16.0;
 /// Work below which dividing costs more than it saves, in floating-point operations; about two milliseconds of one processor.
 const LEAST_WORK: f64 = 4e6;
-/// What a supernode costs beside its arithmetic, in the same unit.
+/// Cost of a supernode beside its arithmetic, in the same unit.
 const WORK_PER_SUPERNODE: f64 = 2e3;
 
-/// A supernode's part in the tree, and the entries of the matrix that belong to it.
+/// The tree of supernodes, and for each the entries of the matrix that belong to it.
 #[derive(Default)]
-pub(super) struct Tree {
-    /// Per supernode the first one of its subtree.
+pub(super) struct SupernodeTree {
+    /// For each supernode the first one of its subtree.
     first: Vec<u32>,
-    /// Per row below a diagonal block: its place among the columns and rows of the parent.
+    /// For each row below a diagonal block its position among the columns and rows of the parent.
     relative: Vec<u32>,
-    /// Entries of the matrix by supernodes, each with its place among the supernode's values.
+    /// The entries of the matrix by supernodes, each with its position among the supernode's values.
     entry_start: Vec<u32>,
     source: Vec<u32>,
     place: Vec<u32>,
-    /// In the order of the supernodes.
-    pub segments: Vec<Segment>,
-    /// Most numbers that wait for their parents inside a bundle, and the largest of their rows below a diagonal block.
+    /// The heavy supernodes and bundles, in the order of the supernodes.
+    pub segments: Vec<TreeSegment>,
+    /// The largest number of values in waiting updates inside a bundle, and the largest number of rows below a diagonal block there.
     pub most_waiting: usize,
     pub most_below: usize,
     /// Columns of the widest supernode.
@@ -38,20 +38,20 @@ pub(super) struct Tree {
 }
 
 /// A heavy supernode, or a bundle.
-pub(super) struct Segment {
+pub(super) struct TreeSegment {
     pub supernodes: Range<usize>,
     pub is_heavy: bool,
-    /// Its highest supernodes, ascending, each with the triangles and the rows that those before it hand on: numbers of all.
+    /// The roots of its subtrees, ascending, each with the number of values and of rows in the updates of the roots before it.
     roots: Vec<(u32, [usize; 2])>,
 }
 
-impl Segment {
-    /// Where the triangle that this root hands on starts among those of the segment.
+impl TreeSegment {
+    /// The position of this root's update among those of the segment.
     pub fn start_of(&self, root: usize) -> usize {
         self.before(root)[0]
     }
 
-    /// Where the row that this root hands on in a substitution starts among those of the segment.
+    /// The position of this root's update of a right-hand side among those of the segment.
     pub fn first_row_of(&self, root: usize) -> usize {
         self.before(root)[1]
     }
@@ -61,13 +61,14 @@ impl Segment {
         self.roots.get(k).map_or([0; 2], |&(_, before)| before)
     }
 
-    /// Parents come in the order of their first children: the first root is the last one whose parent comes.
+    /// True if the updates of the segment are not needed after that of this root. Parents come in the order of their first children, so
+    /// the first root is the last one whose parent comes.
     pub fn is_last_needed(&self, root: usize) -> bool {
         self.roots.first().is_some_and(|&(r, _)| r as usize == root)
     }
 }
 
-/// Size of a lower triangle.
+/// The number of entries of a lower triangle with m rows.
 pub(super) fn packed(m: usize) -> usize {
     m * (m + 1) / 2
 }
@@ -76,7 +77,7 @@ pub(super) fn packed(m: usize) -> usize {
 #[derive(Clone, Copy)]
 pub(super) struct Supernodes<'a> {
     pub symbolic: &'a SymbolicSupernodalCholesky<u32>,
-    pub tree: &'a Tree,
+    pub tree: &'a SupernodeTree,
 }
 
 impl<'a> Supernodes<'a> {
@@ -89,18 +90,18 @@ impl<'a> Supernodes<'a> {
         self.symbolic.supernode(s).pattern()
     }
 
-    /// The place of each of these rows among the columns and rows of the parent, ascending.
+    /// For each of these rows its position among the columns and rows of the parent, ascending.
     pub fn relative(&self, s: usize) -> &'a [u32] {
         let start = self.symbolic.col_ptr_for_row_idx()[s] as usize;
         &self.tree.relative[start..start + self.rows(s).len()]
     }
 
-    /// Where the values of the supernodes start.
+    /// The position of the values of a supernode in the factor.
     pub fn values_start(&self, s: usize) -> usize {
         self.symbolic.col_ptr_for_val()[s] as usize
     }
 
-    /// Where the columns of the supernodes start; their number for the one after the last.
+    /// The first column of a supernode; the number of columns for the one after the last.
     pub fn column_start(&self, s: usize) -> usize {
         if s == 0 { 0 } else { self.symbolic.supernode_end()[s - 1] as usize }
     }
@@ -117,21 +118,21 @@ impl<'a> Supernodes<'a> {
         self.tree.segments.partition_point(|segment| segment.supernodes.end <= s)
     }
 
-    /// Entries of the matrix in a supernode: (number in the matrix, place among the supernode's values), ascending by places.
+    /// The entries of the matrix in a supernode, as (number in the matrix, position among the supernode's values), ascending by position.
     pub fn entries(&self, s: usize) -> (&'a [u32], &'a [u32]) {
         let range = self.tree.entry_start[s] as usize..self.tree.entry_start[s + 1] as usize;
         (&self.tree.source[range.clone()], &self.tree.place[range])
     }
 }
 
-impl Tree {
-    /// The tree of a factorisation of matrices with this pattern, `inverse` giving each row its place in the order of elimination. None
-    /// where the supernodes are not in postorder.
+impl SupernodeTree {
+    /// The tree of a factorisation of matrices with this pattern; `inverse` is the position of each row in the order of elimination.
+    /// `None` where the supernodes are not in postorder.
     pub fn new(
         symbolic: &SymbolicSupernodalCholesky<u32>,
         pattern: &Pattern,
         inverse: &[u32],
-    ) -> Option<Tree> {
+    ) -> Option<SupernodeTree> {
         let n = symbolic.n_supernodes();
         let [begin, end] = [symbolic.supernode_begin(), symbolic.supernode_end()];
         let mut supernode_of = vec![0u32; pattern.size()];
@@ -154,7 +155,7 @@ impl Tree {
         let relative = relative(symbolic, &parents);
         let (entry_start, source, place) = entries(symbolic, pattern, inverse, &supernode_of);
         let segments = segments(symbolic, &parents, &first);
-        let mut tree = Tree {
+        let mut tree = SupernodeTree {
             first,
             relative,
             entry_start,
@@ -210,7 +211,7 @@ fn relative(symbolic: &SymbolicSupernodalCholesky<u32>, parents: &[Option<usize>
     relative
 }
 
-/// [`Supernodes::entries`] of all supernodes: where they start, numbers in the matrix, places.
+/// [`Supernodes::entries`] of all supernodes: their starts, the numbers in the matrix, the positions.
 fn entries(
     symbolic: &SymbolicSupernodalCholesky<u32>,
     pattern: &Pattern,
@@ -218,7 +219,7 @@ fn entries(
     supernode_of: &[u32],
 ) -> (Vec<u32>, Vec<u32>, Vec<u32>) {
     let n = symbolic.n_supernodes();
-    // By columns of the factor first, then by rows inside each.
+    // Sorted by columns of the factor, then by rows in each column.
     let mut column_end = vec![0u32; pattern.size() + 1];
     let pairs = || {
         (0..pattern.size()).flat_map(|j| {
@@ -240,7 +241,7 @@ fn entries(
         keyed[*at as usize] = (i, k);
         *at += 1;
     }
-    // `column_end[j]` is now where column j ends.
+    // `column_end[j]` is now the end of column j.
     let (mut source, mut place) = (Vec::with_capacity(keyed.len()), Vec::with_capacity(keyed.len()));
     let mut start = 0;
     for (j, &s) in supernode_of.iter().enumerate() {
@@ -267,12 +268,12 @@ fn entries(
     (entry_start, source, place)
 }
 
-/// Heavy supernodes and bundles, in order.
+/// The heavy supernodes and bundles, in order.
 fn segments(
     symbolic: &SymbolicSupernodalCholesky<u32>,
     parents: &[Option<usize>],
     first: &[u32],
-) -> Vec<Segment> {
+) -> Vec<TreeSegment> {
     let n = parents.len();
     let mut work: Vec<f64> = (0..n).map(|s| work_of(symbolic, s)).collect();
     for s in 0..n {
@@ -282,17 +283,17 @@ fn segments(
     }
     let total: f64 = (0..n).filter(|&s| parents[s].is_none()).map(|s| work[s]).sum();
     let most = (SHARE * total).max(LEAST_WORK);
-    let mut segments: Vec<Segment> = Vec::new();
+    let mut segments: Vec<TreeSegment> = Vec::new();
     let (mut in_bundle, mut handed_on) = (f64::INFINITY, [0; 2]);
     let mut s = 0;
     while s < n {
         if work[s] > most {
-            segments.push(Segment { supernodes: s..s + 1, is_heavy: true, roots: vec![(s as u32, [0; 2])] });
+            segments.push(TreeSegment { supernodes: s..s + 1, is_heavy: true, roots: vec![(s as u32, [0; 2])] });
             in_bundle = f64::INFINITY;
             s += 1;
             continue;
         }
-        // The largest subtree of at most this work that begins here: the supernodes between begin in their turn.
+        // The largest subtree of at most this work that begins here; the supernodes in it begin in their turn.
         let mut root = s;
         while let Some(p) = parents[root].filter(|&p| work[p] <= most && first[p] as usize <= s) {
             root = p;
@@ -304,7 +305,7 @@ fn segments(
             }
             _ => {
                 let roots = vec![(root as u32, [0; 2])];
-                segments.push(Segment { supernodes: s..root + 1, is_heavy: false, roots });
+                segments.push(TreeSegment { supernodes: s..root + 1, is_heavy: false, roots });
                 (in_bundle, handed_on) = (0.0, [0; 2]);
             }
         }
@@ -316,7 +317,7 @@ fn segments(
     segments
 }
 
-/// Floating-point operations at one supernode.
+/// The number of floating-point operations at one supernode.
 fn work_of(symbolic: &SymbolicSupernodalCholesky<u32>, s: usize) -> f64 {
     let width = symbolic.supernode_end()[s] - symbolic.supernode_begin()[s];
     let (w, m) = (f64::from(width), symbolic.supernode(s).pattern().len() as f64);

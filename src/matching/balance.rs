@@ -7,7 +7,7 @@ use crate::control::{Control, Stage};
 use crate::error::{Error, Result};
 use crate::geometry::Space;
 use crate::geometry::complex::{Complex, dot, scale};
-use crate::linalg::gmres::{self, Limits};
+use crate::linalg::gmres::{self, GmresLimits};
 use crate::linalg::lu;
 use crate::mesh::{HalfedgeId, Mesh, PerHalfedge, PerVertex, VertexId};
 use std::f64::consts::FRAC_1_SQRT_2;
@@ -338,7 +338,7 @@ impl<'a> System<'a> {
             factors.solve(y);
             y.iter_mut().zip(&sizes).for_each(|(y, size)| *y /= -size);
         };
-        let left = gmres::solve(apply, &side, &mut step, Limits::to(tolerance));
+        let left = gmres::solve(apply, &side, &mut step, GmresLimits::to(tolerance));
         log::debug!("linear residual {left:.1e} of {tolerance:.1e}");
         if left > SOLVED {
             return None;
