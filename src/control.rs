@@ -17,7 +17,7 @@ use std::sync::atomic::{AtomicBool, AtomicU8, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-/// What a long call is doing.
+/// The stage of a long call.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(u8)]
 pub enum Stage {
@@ -41,7 +41,7 @@ impl Stage {
 }
 
 #[derive(Default)]
-struct Shared {
+struct ControlState {
     cancelled: AtomicBool,
     cancelled_at: Mutex<Option<Instant>>,
     stage: AtomicU8,
@@ -53,7 +53,7 @@ struct Shared {
 /// A cancelled call returns [`Error::Cancelled`] at its next check and leaves its inputs unchanged; a sparse
 /// factorisation under way finishes first.
 #[derive(Clone, Default)]
-pub struct Control(Arc<Shared>);
+pub struct Control(Arc<ControlState>);
 
 impl Control {
     /// A fresh handle: no progress, not cancelled.
@@ -68,7 +68,7 @@ impl Control {
         self.0.cancelled.store(true, Ordering::Release);
     }
 
-    /// Whether [`Control::cancel`] was called.
+    /// True if [`Control::cancel`] was called.
     pub fn is_cancelled(&self) -> bool {
         self.0.cancelled.load(Ordering::Acquire)
     }
@@ -85,7 +85,7 @@ impl Control {
         (stage, f64::from_bits(self.0.fraction.load(Ordering::Relaxed)))
     }
 
-    /// Report the stage and its fraction that is done. Long calls do this again and again, and end where it fails.
+    /// Reports the stage and the fraction of it that is done. Long calls repeat this, and end where it fails.
     ///
     /// # Errors
     ///
@@ -96,7 +96,7 @@ impl Control {
         self.check()
     }
 
-    /// As [`Control::step`] without a report.
+    /// Like [`Control::step`], without a report.
     ///
     /// # Errors
     ///
@@ -105,8 +105,8 @@ impl Control {
         if self.is_cancelled() { Err(Error::Cancelled) } else { Ok(()) }
     }
 
-    /// [`Control::check`] before the first of `steps` and then before every `every`-th one; counts the step. For loops whose single
-    /// steps take less time than looking at the handle.
+    /// [`Control::check`] before the first step and then before every `every`-th one; counts the step in `steps`. For loops whose steps
+    /// take less time than reading the handle.
     pub(crate) fn check_every(&self, every: usize, steps: &mut usize) -> Result<()> {
         *steps += 1;
         if (*steps - 1).is_multiple_of(every) { self.check() } else { Ok(()) }

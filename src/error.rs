@@ -13,29 +13,29 @@ use crate::mesh::check::Diagnosis;
 /// Result of every fallible call of the library.
 pub type Result<T> = std::result::Result<T, Error>;
 
-/// A place in a file.
+/// A position in a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum At {
-    /// This line of a text, from 1.
+pub enum FilePosition {
+    /// The number of a line of text, from 1.
     Line(usize),
-    /// This byte, from 0: where what is wrong begins, or the file's size if it is what is missing.
+    /// The number of a byte, from 0: the start of what is wrong, or the file's size if something is missing at its end.
     Byte(usize),
-    /// The file as a whole: something is missing from it, or there is too much of it.
+    /// The file as a whole: something is missing from it, or it has too much of something.
     Whole,
 }
 
-/// The place as text that follows the file's name: `:12`, `, byte 40`, or nothing.
-impl std::fmt::Display for At {
+/// The position as text that follows the file's name: `:12`, `, byte 40`, or nothing.
+impl std::fmt::Display for FilePosition {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            At::Line(line) => write!(f, ":{line}"),
-            At::Byte(byte) => write!(f, ", byte {byte}"),
-            At::Whole => Ok(()),
+            FilePosition::Line(line) => write!(f, ":{line}"),
+            FilePosition::Byte(byte) => write!(f, ", byte {byte}"),
+            FilePosition::Whole => Ok(()),
         }
     }
 }
 
-/// What went wrong, where, and what to do. Every variant that concerns an element carries its index (0-based).
+/// An error: its kind, the element or argument concerned, and advice. Every variant that concerns an element carries its index (0-based).
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -76,7 +76,7 @@ pub enum Error {
     Io {
         /// The file.
         path: String,
-        /// The system's words.
+        /// The message of the system.
         message: String,
     },
     /// A file's content is not what its format says.
@@ -84,8 +84,8 @@ pub enum Error {
     Parse {
         /// The file.
         path: String,
-        /// Where in it.
-        at: At,
+        /// The position in the file.
+        at: FilePosition,
         /// What is wrong.
         message: String,
     },
@@ -94,7 +94,7 @@ pub enum Error {
     UnknownFormat {
         /// The file.
         path: String,
-        /// Which extensions it knows, or which cargo feature it lacks.
+        /// The extensions that it knows, or the cargo feature that it lacks.
         message: String,
     },
 
@@ -199,7 +199,7 @@ pub enum Error {
     TargetKind {
         /// The target's name.
         target: &'static str,
-        /// Why not, and what to use.
+        /// The reason, and what to use instead.
         message: String,
     },
 
@@ -208,7 +208,7 @@ pub enum Error {
     Factorisation {
         /// Number of unknowns.
         size: usize,
-        /// Why.
+        /// The reason.
         message: String,
     },
 
@@ -220,7 +220,7 @@ pub enum Error {
     #[error("matching: {0}")]
     Matching(String),
 
-    /// A spline, or what one is to be made from, is not what it must be.
+    /// A spline, or the data to make one from, is invalid.
     #[error("{what} {index}: {message}")]
     Spline {
         /// The kind of element: patch, triangle, vertex, control point.
@@ -273,17 +273,17 @@ impl Error {
     }
 }
 
-/// A number as text: with an exponent where the plain notation would be a long row of zeros.
+/// A number as text, with an exponent where plain notation would need many zeros.
 fn number(x: f64) -> String {
     if x == 0.0 || (1e-4..1e9).contains(&x.abs()) { x.to_string() } else { format!("{x:e}") }
 }
 
-/// `too large by 1.5e-1`; for an amount of 0 the text says that the bound is strict.
+/// A text like `too large by 1.5e-1`; for an amount of 0 it says that the bound is strict.
 fn amount(how: &str, by: f64) -> String {
     if by == 0.0 { "equality is not enough".into() } else { format!("{how} by {:.4e}", by.abs()) }
 }
 
-/// Compare the size of an array with the size that a call needs.
+/// Compares the size of an array with the size that a call needs.
 ///
 /// # Errors
 ///

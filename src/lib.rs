@@ -13,10 +13,12 @@
 //! | [`metric`] | conformal classes (ε, η), lengths, angles, curvature, targets |
 //! | [`flow`] | Newton and gradient flow, cones |
 //! | [`embed`] | layouts, their quality, charts; deck groups, universal covers |
-//! | [`canonical`] | closed surfaces in their canonical shape |
+//! | [`harmonic`] | Laplacian, harmonic maps and 1-forms, period matrices, trajectories |
+//! | [`canonical`] | canonical shapes: uniformization, spheres, circle domains, straight boundaries |
 //! | [`matching`] | maps between two surfaces |
 //! | [`structure`] | atlases: conformal, spherical, affine, hyperbolic, projective |
-//! | [`spline`] | triangular B-splines |
+//! | [`spline`] | triangular B-splines, bicubic patches |
+//! | [`manifold`] | smooth surfaces of class C² on atlases |
 //!
 //! Three cargo features, on by default, add file formats and the crates that they need: `gltf` reads and writes .glb and reads .gltf,
 //! `gifti` reads .gii, `json` reads and writes splines.
@@ -42,7 +44,7 @@ pub mod structure;
 pub mod topology;
 
 pub use control::Control;
-pub use error::{At, Error, Result};
+pub use error::{FilePosition, Error, Result};
 pub use flow::{Flow, Solution};
 pub use metric::{Class, Surface, Target};
 

@@ -1,8 +1,8 @@
-//! The thread pool of one call, and loops whose result does not depend on how many threads run them.
+//! The thread pool of one call, and parallel loops whose results do not depend on the number of threads.
 //!
-//! The library never starts rayon's global pool: each solver has one of its own, or works in that of its caller, and everything parallel
-//! runs inside [`Pool::run`], through the loops of this module. A pool of one thread is the caller's own: none is started. A loop writes
-//! each element from one fixed computation, so results are bit-identical for any thread count.
+//! The library never starts rayon's global pool: each solver has a pool of its own or works in that of its caller, and everything
+//! parallel runs inside [`Pool::run`], through the loops of this module. A pool of one thread is the caller's thread, and starts none. A
+//! loop writes each element from one fixed computation, so results are bit-identical for any number of threads.
 //!
 //! ```
 //! use ricci::parallel::{Pool, fill};
@@ -20,18 +20,18 @@ use std::io::Read;
 use std::sync::{Mutex, OnceLock, PoisonError};
 use std::thread::JoinHandle;
 
-/// Elements that a thread takes at a time: enough that handing them over costs little. The number is fixed, so that the division of an
-/// array does not depend on the number of threads.
+/// Elements that a thread takes at a time, so many that taking them costs little. The number is fixed, so that the division of an array
+/// does not depend on the number of threads.
 const CHUNK: usize = 1024;
 
-/// Most threads of a pool. No step of the library is divided finely enough for more to be of use.
+/// Most threads of a pool. No step of the library is divided into enough parts for more to be of use.
 pub const MAX_THREADS: usize = 256;
 
-/// Bytes that a thread takes to start: its stack of 2 MiB, and what the C library notes about it, for which it may take 1 MiB at once.
+/// Bytes that starting a thread takes: its stack of 2 MiB, and the records of the C library about it, up to 1 MiB at once.
 const THREAD: usize = 3 << 20;
 
-/// Bytes of address space from which the C library serves the small allocations of one thread, and to which it aligns them. Where glibc
-/// cannot have them, each allocation of that thread becomes a page of its own: 4 KiB for 16 bytes.
+/// Bytes of address space that glibc reserves per thread for small allocations, and aligns them to. Where it cannot have them, each
+/// allocation of that thread becomes a page of its own: 4 KiB for 16 bytes.
 const HEAP: usize = if cfg!(all(target_os = "linux", target_env = "gnu", target_pointer_width = "64")) {
     64 << 20
 } else {
@@ -39,29 +39,30 @@ const HEAP: usize = if cfg!(all(target_os = "linux", target_env = "gnu", target_
 };
 
 thread_local! {
-    /// This thread runs the work of a pool that has no other.
+    /// True while this thread runs the work of a pool of one thread.
     static ALONE: Cell<bool> = const { Cell::new(false) };
 }
 
-/// Thread pool of one solver or call. Its threads have ended when it is dropped: a host that unloads the
-/// library then leaves nothing behind.
+/// The thread pool of one solver or call. Its threads have ended when it is dropped, so that a host that unloads the library is left with
+/// none.
 pub struct Pool {
     threads: usize,
-    /// Those that it has started, or none where the system refused; unset while the pools of its callers have done its work.
-    own: OnceLock<Option<Threads>>,
+    /// The threads that it has started, `None` inside where the system refused. Unset as long as its work has run in the pools of its
+    /// callers.
+    own: OnceLock<Option<StartedThreads>>,
 }
 
-/// Threads that have been started.
-struct Threads {
-    /// `None` while they are ended.
+/// Started threads.
+struct StartedThreads {
+    /// `None` while the threads are ending.
     pool: Option<rayon::ThreadPool>,
     workers: Vec<JoinHandle<()>>,
 }
 
 impl Pool {
-    /// A pool of `threads` threads; 0 means one per available core, more than [`MAX_THREADS`] means that many. One thread is that
-    /// which calls [`Pool::run`]. Where memory does not suffice for so many, there are as many as it suffices for. Inside a pool none is
-    /// started before work comes from outside.
+    /// A pool of `threads` threads; 0 means one per available core, and at most [`MAX_THREADS`] are used. A pool of one thread uses the
+    /// thread that calls [`Pool::run`]. Where memory is short, there are as many threads as it suffices for. A pool made inside another
+    /// pool starts its threads when it is first used outside.
     ///
     /// # Errors
     ///
@@ -74,7 +75,7 @@ impl Pool {
             threads = affordable(threads);
             if threads > 1 {
                 let refused = || Error::argument("threads", threads, "as many as the system can start");
-                let _ = own.set(Some(Threads::start(threads).ok_or_else(refused)?));
+                let _ = own.set(Some(StartedThreads::start(threads).ok_or_else(refused)?));
             }
         }
         Ok(Pool { threads, own })
@@ -85,7 +86,7 @@ impl Pool {
         self.threads
     }
 
-    /// Run `work` inside the pool; one of several threads leaves it to the pool that the caller is in, if any.
+    /// Runs `work` inside the pool, or, if the pool has several threads and the caller is in a pool already, inside the caller's.
     pub fn run<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
         if self.threads == 1 {
             return alone(work);
@@ -93,8 +94,8 @@ impl Pool {
         if is_shared() {
             return work();
         }
-        // The result is the same on any number of threads.
-        let own = self.own.get_or_init(|| Threads::start(affordable(self.threads)));
+        // The caller may be in another pool than when this one was made; the result is the same on any number of threads.
+        let own = self.own.get_or_init(|| StartedThreads::start(affordable(self.threads)));
         match own.as_ref().and_then(|own| own.pool.as_ref()) {
             Some(pool) => pool.install(work),
             None => alone(work),
@@ -102,9 +103,9 @@ impl Pool {
     }
 }
 
-impl Threads {
-    /// `None` where the system refuses, and for one thread, which is that of the caller.
-    fn start(n: usize) -> Option<Threads> {
+impl StartedThreads {
+    /// Starts n threads; `None` where the system refuses, and for n = 1, which is the caller's thread.
+    fn start(n: usize) -> Option<StartedThreads> {
         if n == 1 {
             return None;
         }
@@ -118,11 +119,11 @@ impl Threads {
             })
             .build()
             .ok()?;
-        Some(Threads { pool: Some(pool), workers })
+        Some(StartedThreads { pool: Some(pool), workers })
     }
 }
 
-/// Of so many threads as many as memory suffices for.
+/// The number of threads, halved until memory suffices for them.
 fn affordable(mut threads: usize) -> usize {
     let heap = if threads > 1 && is_address_space_limited() { HEAP } else { 0 };
     while threads > 1 && !is_room_for(threads * (THREAD + heap) + heap) {
@@ -131,8 +132,8 @@ fn affordable(mut threads: usize) -> usize {
     threads
 }
 
-/// Whether the allocator has so many bytes. One that holds memory in reserve, as that of the C face does, then gives it back: the C
-/// library, which ends the process if it finds no memory for a new thread's notes, does not ask for it.
+/// True if the allocator has this many bytes. The allocator of the C face then releases its reserves. This is asked before a thread
+/// starts, since the C library ends the process if it has no memory for the records of a new thread.
 pub(crate) fn is_room_for(bytes: usize) -> bool {
     let mut room = Vec::<u8>::new();
     let is_there = room.try_reserve_exact(bytes).is_ok();
@@ -140,7 +141,7 @@ pub(crate) fn is_room_for(bytes: usize) -> bool {
     is_there
 }
 
-/// Whether the system limits the addresses of this process, as far as Linux tells. Nothing is allocated to find out.
+/// True if the system limits the address space of this process, as far as Linux tells. Nothing is allocated to find out.
 fn is_address_space_limited() -> bool {
     let mut bytes = [0; 2048];
     let read = File::open("/proc/self/limits").and_then(|mut file| file.read(&mut bytes));
@@ -149,24 +150,24 @@ fn is_address_space_limited() -> bool {
     limit.is_some_and(|limit| !limit.trim_start().starts_with("unlimited"))
 }
 
-/// Run `work` on this thread, nothing of it on others.
+/// Runs `work` on this thread, without any help of others.
 fn alone<R>(work: impl FnOnce() -> R) -> R {
-    struct Before(bool);
-    impl Drop for Before {
+    struct RestoreAlone(bool);
+    impl Drop for RestoreAlone {
         fn drop(&mut self) {
             ALONE.set(self.0);
         }
     }
-    let _before = Before(ALONE.replace(true));
+    let _before = RestoreAlone(ALONE.replace(true));
     work()
 }
 
-/// Whether other threads may take part of the work of this one.
+/// True if other threads may take part in the work of this one.
 pub(crate) fn is_shared() -> bool {
     !ALONE.get() && rayon::current_thread_index().is_some()
 }
 
-/// Run `work` inside a pool: the one that the caller is in, else one of `threads` threads ([`Pool::new`]) for this call alone.
+/// Runs `work` inside a pool: the one that the caller is in, else one of `threads` threads ([`Pool::new`]) for this call alone.
 ///
 /// # Errors
 ///
@@ -175,7 +176,7 @@ pub fn within<R: Send>(threads: usize, work: impl FnOnce() -> Result<R> + Send) 
     if ALONE.get() || is_shared() { work() } else { Pool::new(threads)?.run(work) }
 }
 
-impl Drop for Threads {
+impl Drop for StartedThreads {
     fn drop(&mut self) {
         self.pool = None;
         for worker in self.workers.drain(..) {
@@ -185,15 +186,14 @@ impl Drop for Threads {
     }
 }
 
-/// `out[i] = f(i)` for every i, in parallel when called inside a pool, one after the other outside: rayon
-/// would start its global pool there.
+/// `out[i] = f(i)` for every i: in parallel inside a pool, one after the other outside, where rayon would start its global pool.
 pub fn fill<T: Send>(out: &mut [T], f: impl Fn(usize) -> T + Sync) {
     in_parts(out, |start, part| {
         part.iter_mut().enumerate().for_each(|(i, x)| *x = f(start + i));
     });
 }
 
-/// [`fill`] with memory that is made once for many elements: `out[i] = f(&mut memory, i)`.
+/// [`fill`] with memory that is allocated once for many elements: `out[i] = f(&mut memory, i)`.
 pub fn fill_with<T: Send, M>(
     out: &mut [T],
     new: impl Fn() -> M + Sync,
@@ -205,19 +205,20 @@ pub fn fill_with<T: Send, M>(
     });
 }
 
-/// `(a[i], b[i]) = f(i)` for every i of two arrays of the same length, as [`fill`].
+/// `(a[i], b[i]) = f(i)` for every i of two arrays of the same length, run like [`fill`].
 pub fn fill_both<A: Send, B: Send>(a: &mut [A], b: &mut [B], f: impl Fn(usize) -> (A, B) + Sync) {
     in_parts_of_both(a, b, |start, a, b| {
         a.iter_mut().zip(b).enumerate().for_each(|(i, (a, b))| (*a, *b) = f(start + i));
     });
 }
 
-/// `work` on parts of an array, `work(i, …)` on the one that begins with element i, as [`fill`].
+/// Calls `work(i, part)` for parts of an array, i being the index of the part's first element; run like [`fill`].
 pub fn in_parts<T: Send>(out: &mut [T], work: impl Fn(usize, &mut [T]) + Sync) {
     in_chunks(out.chunks_mut(CHUNK), |c, part| work(c * CHUNK, part));
 }
 
-/// `work` on parts of two arrays of the same length, `work(i, …)` on those that begin with element i, as [`fill`].
+/// Calls `work(i, part_a, part_b)` for parts of two arrays of the same length, i being the index of their first elements; run like
+/// [`fill`].
 pub fn in_parts_of_both<A: Send, B: Send>(
     a: &mut [A],
     b: &mut [B],
@@ -226,7 +227,7 @@ pub fn in_parts_of_both<A: Send, B: Send>(
     in_chunks(a.chunks_mut(CHUNK).zip(b.chunks_mut(CHUNK)), |c, (a, b)| work(c * CHUNK, a, b));
 }
 
-/// `work` on each item, in parallel when called inside a pool, one after the other outside.
+/// Calls `work` for each item: in parallel inside a pool, one after the other outside.
 pub fn each<T: Send>(items: Vec<T>, work: impl Fn(T) + Sync) {
     if items.len() <= 1 || !is_shared() {
         items.into_iter().for_each(work);
@@ -239,26 +240,26 @@ pub fn each<T: Send>(items: Vec<T>, work: impl Fn(T) + Sync) {
     });
 }
 
-/// `f(0), f(1), …, f(n − 1)`, each a piece of work of its own, as [`fill`] runs them.
+/// The results `f(0), f(1), …, f(n − 1)`, each computed as a task of its own, run like [`fill`].
 pub fn map<T: Send>(n: usize, f: impl Fn(usize) -> T + Sync) -> Vec<T> {
     let mut out: Vec<Option<T>> = (0..n).map(|_| None).collect();
     in_chunks(out.chunks_mut(1), |k, slot| slot[0] = Some(f(k)));
     out.into_iter().flatten().collect()
 }
 
-/// Both results, side by side inside a pool of several threads, else one after the other.
+/// Both results, computed in parallel inside a pool of several threads, else one after the other.
 pub fn join<A: Send, B: Send>(a: impl FnOnce() -> A + Send, b: impl FnOnce() -> B + Send) -> (A, B) {
     if is_shared() { rayon::join(a, b) } else { (a(), b()) }
 }
 
-/// Lets other work of the pool that waits for a thread go first: for work that nothing waits for, between two pieces of it.
+/// Lets other tasks of the pool run first. To be called between two parts of a task that no thread waits for.
 pub fn give_way() {
     if is_shared() {
         rayon::yield_now();
     }
 }
 
-/// Hands each chunk with its number to `work`, which whoever comes to it locks.
+/// Passes each chunk and its number to `work`; the thread that takes a chunk locks it.
 fn in_chunks<C: Send>(chunks: impl ExactSizeIterator<Item = C>, work: impl Fn(usize, &mut C) + Sync) {
     if chunks.len() <= 1 || !is_shared() {
         chunks.enumerate().for_each(|(c, mut chunk)| work(c, &mut chunk));
@@ -268,8 +269,7 @@ fn in_chunks<C: Send>(chunks: impl ExactSizeIterator<Item = C>, work: impl Fn(us
     share(chunks.len(), &|c| work(c, &mut chunks[c].lock().unwrap_or_else(PoisonError::into_inner)));
 }
 
-/// `work(c)` for every c below `n`, by all threads of the pool that this one belongs to. The machinery of rayon is compiled here, once for
-/// all loops.
+/// Calls `work(c)` for every c below `n`, on all threads of the current pool. rayon's loop is compiled only here, once for all loops.
 fn share(n: usize, work: &(dyn Fn(usize) + Sync)) {
     (0..n).into_par_iter().for_each(work);
 }
@@ -287,13 +287,13 @@ mod tests {
         assert!(one.run(|| within(3, || Ok(threads()))).unwrap().iter().all(|id| *id == here));
         let ids = one.run(|| join(|| thread::current().id(), || thread::current().id()));
         assert_eq!(ids, (here, here));
-        // Inside a pool of two threads as well, which is shared again afterwards.
+        // The same holds inside a pool of two threads, which is shared again afterwards.
         two.run(|| {
             let worker = thread::current().id();
             assert!(worker != here && one.run(threads).iter().all(|id| *id == worker));
             assert!(is_shared());
         });
-        // A panic leaves the thread as it was.
+        // A panic leaves the state of the thread unchanged.
         assert!(
             std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| one.run(|| panic!("on purpose"))))
                 .is_err()

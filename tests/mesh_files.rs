@@ -8,7 +8,7 @@ use ricci::mesh::Mesh;
 use ricci::mesh::check::{Defect, diagnose};
 use ricci::mesh::io::{self, Soup, Textured};
 use ricci::mesh::shapes;
-use ricci::{At, Error, Result};
+use ricci::{FilePosition, Error, Result};
 use std::collections::HashMap;
 use std::io::Write;
 
@@ -308,7 +308,7 @@ fn a_syntax_error_names_its_line_and_what_is_wrong() {
         (read_off, "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n99999999999 0 1 2\n", Some(6), "corner 3 of face 0"),
     ];
     for (read, text, place, words) in cases {
-        let place = place.map_or(At::Whole, At::Line);
+        let place = place.map_or(FilePosition::Whole, FilePosition::Line);
         let Err(Error::Parse { at, message, .. }) = read(text) else { panic!("{text:?} was read") };
         assert!(at == place && message.contains(words), "{text:?}{at}: {message}");
     }
@@ -373,7 +373,7 @@ fn binary_off_is_the_text_off_of_the_same_mesh() {
                 let Err(Error::Parse { message, at, .. }) = io::parse_off(&bytes[..end], "t.off") else {
                     panic!("{header}: {end} bytes were read")
                 };
-                assert!(message.contains("the file ends in ") && at == At::Byte(end), "{header}: {message}");
+                assert!(message.contains("the file ends in ") && at == FilePosition::Byte(end), "{header}: {message}");
             }
             let longer = io::parse_off(&[&bytes[..], b"more"].concat(), "t.off").unwrap_err().to_string();
             assert!(

@@ -8,7 +8,7 @@ use proptest::prelude::{any, prop, proptest};
 use ricci::mesh::io::{self, Attributes, Soup};
 use ricci::mesh::repair::{Repair, repair};
 use ricci::mesh::{Mesh, shapes};
-use ricci::{At, Error};
+use ricci::{FilePosition, Error};
 use std::path::Path;
 
 /// A tetrahedron with an isolated vertex, and an attribute of each kind.
@@ -288,17 +288,17 @@ fn stl_is_welded_within_a_distance_on_request() {
 fn stl_that_is_cut_off_or_garbled_names_the_place() {
     let triangle = [[0.0f32; 3]; 3];
     for (bytes, place, says) in [
-        (Vec::new(), At::Whole, "no STL file"),
-        (b"plain text".to_vec(), At::Line(1), "no STL file"),
-        (binary_stl(b"x", &[triangle], 2), At::Byte(134), "in triangle 1 of the 2"),
-        (binary_stl(b"x", &[triangle], u32::MAX), At::Byte(134), "in triangle 1 of the 4294967295"),
+        (Vec::new(), FilePosition::Whole, "no STL file"),
+        (b"plain text".to_vec(), FilePosition::Line(1), "no STL file"),
+        (binary_stl(b"x", &[triangle], 2), FilePosition::Byte(134), "in triangle 1 of the 2"),
+        (binary_stl(b"x", &[triangle], u32::MAX), FilePosition::Byte(134), "in triangle 1 of the 4294967295"),
         (
             ASCII_STL.replace("1 1 0\n  endloop", "1 one 0\n  endloop").into_bytes(),
-            At::Line(6),
+            FilePosition::Line(6),
             "`one` is not a number",
         ),
-        (ASCII_STL.replacen("vertex", "vortex", 1).into_bytes(), At::Line(4), "`vortex` has no place"),
-        (ASCII_STL.split("  endloop").next().unwrap().as_bytes().to_vec(), At::Line(6), "ends inside a loop"),
+        (ASCII_STL.replacen("vertex", "vortex", 1).into_bytes(), FilePosition::Line(4), "`vortex` has no place"),
+        (ASCII_STL.split("  endloop").next().unwrap().as_bytes().to_vec(), FilePosition::Line(6), "ends inside a loop"),
     ] {
         let Err(Error::Parse { message, at, .. }) = io::parse_stl(&bytes, "t.stl") else { panic!("{says}") };
         assert!(message.contains(says) && at == place, "{at}: {message}");

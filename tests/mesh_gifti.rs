@@ -7,7 +7,7 @@ use flate2::Compression;
 use flate2::write::{GzEncoder, ZlibEncoder};
 use ricci::mesh::Mesh;
 use ricci::mesh::io::{self, Soup};
-use ricci::{At, Error};
+use ricci::{FilePosition, Error};
 use std::io::Write;
 
 const POINTS: [[f64; 3]; 4] = [[0.0, 0.0, 0.0], [1.5, 0.0, 0.0], [0.0, -2.25, 0.0], [0.1, 0.0, 3e-3]];
@@ -185,7 +185,7 @@ fn what_cannot_be_read_is_refused_by_line() {
         (base64("GZipBase64Binary", ""), 7, "cannot hold"),
     ] {
         // 0: the file as a whole.
-        let place = if line == 0 { At::Whole } else { At::Line(line) };
+        let place = if line == 0 { FilePosition::Whole } else { FilePosition::Line(line) };
         let Err(Error::Parse { at, message, .. }) = parse(&text) else { panic!("{says}: read\n{text}") };
         assert!(message.contains(says) && at == place, "{at}, not {place}: {message}");
     }

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use ricci::mesh::io::{self, Soup};
-use ricci::{At, Error, Result};
+use ricci::{FilePosition, Error, Result};
 use std::time::Instant;
 
 const TRIANGLE: [[f64; 3]; 3] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.5, 0.0]];
@@ -15,7 +15,7 @@ fn ply(text: &str) -> Result<Soup> {
     io::parse_ply(text.as_bytes(), "t.ply")
 }
 
-fn place(result: Result<Soup>) -> (At, String) {
+fn place(result: Result<Soup>) -> (FilePosition, String) {
     match result {
         Err(Error::Parse { at, message, .. }) => (at, message),
         other => panic!("{other:?}"),
@@ -67,24 +67,24 @@ fn ascii_ply_of_other_programs_is_read() {
 fn ply_errors_name_the_line_or_the_byte_and_quote_little() {
     let plain = HEADER.to_string() + BODY;
     for (text, at, says) in [
-        (plain.replace("1 0 0\n", "1 0\n"), At::Line(11), "row 1 of element `vertex` ends before `z`"),
-        (plain.replace("1 0 0\n", "1 0 x\n"), At::Line(11), "`z` of row 1 of element `vertex`: `x` is not"),
-        (plain.replace("3 0 1 2", "3 0 1 -2"), At::Line(13), "face 0 names vertex -2"),
-        (plain.replace("3 0 1 2", "3 0 1 1.5"), At::Line(13), "face 0 names vertex 1.5"),
-        (plain.replace("3 0 1 2", "-3 0 1 2"), At::Line(13), "list `vertex_indices` of row 0 has -3 entries"),
+        (plain.replace("1 0 0\n", "1 0\n"), FilePosition::Line(11), "row 1 of element `vertex` ends before `z`"),
+        (plain.replace("1 0 0\n", "1 0 x\n"), FilePosition::Line(11), "`z` of row 1 of element `vertex`: `x` is not"),
+        (plain.replace("3 0 1 2", "3 0 1 -2"), FilePosition::Line(13), "face 0 names vertex -2"),
+        (plain.replace("3 0 1 2", "3 0 1 1.5"), FilePosition::Line(13), "face 0 names vertex 1.5"),
+        (plain.replace("3 0 1 2", "-3 0 1 2"), FilePosition::Line(13), "list `vertex_indices` of row 0 has -3 entries"),
         // Two vertices on a line are no two rows.
-        (plain.replace("0 0 0\n1", "0 0 0 1"), At::Line(12), "ends inside element `face`"),
-        (plain.replace("element face", "element vertex"), At::Line(7), "a second element `vertex`"),
-        (plain.replace("property list uchar int vertex_indices\n", ""), At::Line(7), "no list property"),
-        (plain.replace("float y", "flout y"), At::Line(5), "`flout` is no type"),
-        (plain.replace("format ascii 1.0\n", ""), At::Line(8), "no line `format`"),
-        (plain.replace("element vertex 3", "element vertex -3"), At::Line(3), "`-3` is not a count"),
+        (plain.replace("0 0 0\n1", "0 0 0 1"), FilePosition::Line(12), "ends inside element `face`"),
+        (plain.replace("element face", "element vertex"), FilePosition::Line(7), "a second element `vertex`"),
+        (plain.replace("property list uchar int vertex_indices\n", ""), FilePosition::Line(7), "no list property"),
+        (plain.replace("float y", "flout y"), FilePosition::Line(5), "`flout` is no type"),
+        (plain.replace("format ascii 1.0\n", ""), FilePosition::Line(8), "no line `format`"),
+        (plain.replace("element vertex 3", "element vertex -3"), FilePosition::Line(3), "`-3` is not a count"),
     ] {
         let (found, message) = place(ply(&text));
         assert!(found == at && message.contains(says), "{found}: {message}");
     }
     let (at, message) = place(ply(&plain.replace("1 0 0\n", &format!("1 0 {}\n", "x".repeat(3_000_000)))));
-    assert!(at == At::Line(11) && message.len() < 200, "{} bytes", message.len());
+    assert!(at == FilePosition::Line(11) && message.len() < 200, "{} bytes", message.len());
     // A binary file: corner 2 of face 1 is −7, and cut off in its second face.
     let header = HEADER.replace("ascii", "binary_little_endian").replace("face 1", "face 2");
     let mut bytes = header.clone().into_bytes();
@@ -97,7 +97,7 @@ fn ply_errors_name_the_line_or_the_byte_and_quote_little() {
     let error = io::parse_ply(&bytes, "t.ply").unwrap_err().to_string();
     assert_eq!(error, format!("t.ply, byte {second}: face 1 names vertex -7, which cannot be"));
     let (at, message) = place(io::parse_ply(&bytes[..second + 6], "t.ply"));
-    assert!(at == At::Byte(second + 6) && message.contains("ends inside element `face` of 2"), "{message}");
+    assert!(at == FilePosition::Byte(second + 6) && message.contains("ends inside element `face` of 2"), "{message}");
 }
 
 #[test]
@@ -154,11 +154,11 @@ fn ascii_stl_is_read_by_its_words() {
         assert_eq!(stl(empty.as_bytes()).unwrap(), Soup::default());
     }
     for (text, at, says) in [
-        ("solid a\n".into(), At::Line(1), "neither a facet"),
-        (format!("solid a\n{FACET}facet normal"), At::Line(9), "inside a facet"),
-        (plain.replace("outer loop", "outer\nlop"), At::Line(4), "`lop` has no place"),
-        (plain.replace("outer loop\n", ""), At::Line(8), "ends inside a facet"),
-        (plain.replace("vertex 1 0 0", "vertex 1 0"), At::Line(6), "`vertex` is not a number"),
+        ("solid a\n".into(), FilePosition::Line(1), "neither a facet"),
+        (format!("solid a\n{FACET}facet normal"), FilePosition::Line(9), "inside a facet"),
+        (plain.replace("outer loop", "outer\nlop"), FilePosition::Line(4), "`lop` has no place"),
+        (plain.replace("outer loop\n", ""), FilePosition::Line(8), "ends inside a facet"),
+        (plain.replace("vertex 1 0 0", "vertex 1 0"), FilePosition::Line(6), "`vertex` is not a number"),
     ] {
         let (found, message) = place(stl(text.as_bytes()));
         assert!(found == at && message.contains(says), "{found}: {message}");
@@ -193,7 +193,7 @@ fn binary_stl_is_binary_whatever_its_header_says() {
             (0, 7, 80, "promises 0 triangles, behind it are 4 and 7 bytes"),
         ] {
             let (found, message) = place(stl(&file(header, 4, count, more)));
-            assert!(found == At::Byte(at) && message.contains(says), "{found}: {message}");
+            assert!(found == FilePosition::Byte(at) && message.contains(says), "{found}: {message}");
         }
     }
 }
@@ -216,7 +216,7 @@ fn vertices_of_off_may_share_a_line_and_its_header_be_small() {
     }
     // The first reading is the one whose error is told.
     let (at, message) = place(off(&plain.replace("1 0 0\n", "1 0\n")));
-    assert!(at == At::Line(6) && message.contains("size of face 0 (of 1) is missing"), "{at}: {message}");
+    assert!(at == FilePosition::Line(6) && message.contains("size of face 0 (of 1) is missing"), "{at}: {message}");
 }
 
 /// A star of `n` corners, every other of which turns inwards.

@@ -1,7 +1,7 @@
 //! The reason why a call fails: a status, a message, and the element and the amount as numbers.
 
 use crate::status::*;
-use ricci::{At, Error};
+use ricci::{FilePosition, Error};
 use std::borrow::Cow;
 
 /// The result of the body of an entry point.
@@ -73,8 +73,8 @@ impl From<Error> for Failure {
             Error::Argument { what: "threads", .. } => {
                 return Failure { status: RICCI_NO_MEMORY, ..failure };
             }
-            Error::Parse { at: At::Line(line), .. } => ((FailureElement::Line, *line), 0.0),
-            Error::Parse { at: At::Byte(byte), .. } => ((FailureElement::Byte, *byte), 0.0),
+            Error::Parse { at: FilePosition::Line(line), .. } => ((FailureElement::Line, *line), 0.0),
+            Error::Parse { at: FilePosition::Byte(byte), .. } => ((FailureElement::Byte, *byte), 0.0),
             Error::TooLarge { count, .. } => ((FailureElement::None, 0), *count as f64),
             Error::Gluing { face, .. } => ((FailureElement::Face, *face), 0.0),
             Error::EdgeLength { edge, length } => ((FailureElement::Edge, *edge), *length),

@@ -10,7 +10,7 @@ use super::hole::{Hole, Sector};
 use super::patch::{Patch, Support};
 use super::space::SplineSpace;
 use super::surface::Spline;
-use crate::error::{At, Error, Result};
+use crate::error::{FilePosition, Error, Result};
 use crate::geometry::vector::Vector;
 use crate::mesh::io::write_atomically;
 use serde::Deserialize;
@@ -97,12 +97,12 @@ impl Spline {
     /// [`Error::Parse`] for a text that is not such a file, or one of a version that this library does not know; those of
     /// [`SplineSpace::new`] and [`Spline::new`].
     pub fn from_json(text: &str, name: &str) -> Result<Spline> {
-        let parse = |at: At, message: String| Error::Parse { path: name.into(), at, message };
+        let parse = |at: FilePosition, message: String| Error::Parse { path: name.into(), at, message };
         let document: Document =
-            serde_json::from_str(text).map_err(|why| parse(At::Line(why.line()), why.to_string()))?;
+            serde_json::from_str(text).map_err(|why| parse(FilePosition::Line(why.line()), why.to_string()))?;
         if document.format != FORMAT {
             let message = format!("format is {:?}, this version reads {FORMAT:?}", document.format);
-            return Err(parse(At::Whole, message));
+            return Err(parse(FilePosition::Whole, message));
         }
         let patch = |p: PatchEntry| Patch { chart: p.chart, knots: p.knots, control: p.control };
         let support = |s: SupportEntry| Support { patch: s.patch, to: s.to };

@@ -4,7 +4,7 @@ use super::base64;
 use super::budget::Budget;
 use super::kind::Kind;
 use super::scan::{Location, Quoted};
-use crate::error::{At, Result};
+use crate::error::{FilePosition, Result};
 use flate2::read::{GzDecoder, ZlibDecoder};
 use quick_xml::events::BytesStart;
 use std::io::Read;
@@ -175,7 +175,7 @@ fn ascii(data: &Text<'_>, count: usize) -> Result<Vec<f64>> {
     let mut numbers = Vec::new();
     let mut last = place;
     for (i, line) in text.split('\n').enumerate() {
-        if let At::Line(first) = place.at {
+        if let FilePosition::Line(first) = place.at {
             last = Location::line(place.path, first + i);
         }
         for token in line.split_ascii_whitespace() {

@@ -1,6 +1,6 @@
 //! Tokens and numbers out of text lines, with errors that name the place.
 
-use crate::error::{At, Error, Result};
+use crate::error::{FilePosition, Error, Result};
 use std::fmt::{self, Arguments};
 
 /// What a text in Unicode may begin with.
@@ -34,22 +34,22 @@ pub(super) fn words(line: &str) -> impl Iterator<Item = &str> {
 #[derive(Clone, Copy)]
 pub(super) struct Location<'a> {
     pub path: &'a str,
-    pub at: At,
+    pub at: FilePosition,
 }
 
 impl<'a> Location<'a> {
     /// Lines count from 1.
     pub fn line(path: &'a str, line: usize) -> Self {
-        Location { path, at: At::Line(line) }
+        Location { path, at: FilePosition::Line(line) }
     }
 
     /// Bytes count from 0.
     pub fn byte(path: &'a str, byte: usize) -> Self {
-        Location { path, at: At::Byte(byte) }
+        Location { path, at: FilePosition::Byte(byte) }
     }
 
     pub fn whole(path: &'a str) -> Self {
-        Location { path, at: At::Whole }
+        Location { path, at: FilePosition::Whole }
     }
 
     pub fn error<T>(self, message: String) -> Result<T> {

@@ -5,7 +5,7 @@
 //! and its corner.
 
 use super::surface::{BicubicPatch, BicubicSurface, PatchCurve, PatchSide};
-use crate::error::{At, Error, Result};
+use crate::error::{FilePosition, Error, Result};
 use crate::geometry::vector::Vector;
 use crate::mesh::io::write_atomically;
 use serde::Deserialize;
@@ -76,12 +76,12 @@ impl BicubicSurface {
     /// [`Error::Parse`] for a text that is not such a file, or one of a version that this library does not know; those of
     /// [`BicubicSurface::check`].
     pub fn from_json(text: &str, name: &str) -> Result<BicubicSurface> {
-        let parse = |at: At, message: String| Error::Parse { path: name.into(), at, message };
+        let parse = |at: FilePosition, message: String| Error::Parse { path: name.into(), at, message };
         let document: Document =
-            serde_json::from_str(text).map_err(|why| parse(At::Line(why.line()), why.to_string()))?;
+            serde_json::from_str(text).map_err(|why| parse(FilePosition::Line(why.line()), why.to_string()))?;
         if document.format != FORMAT {
             let message = format!("format is {:?}, this version reads {FORMAT:?}", document.format);
-            return Err(parse(At::Whole, message));
+            return Err(parse(FilePosition::Whole, message));
         }
         let curve = |c: CurveEntry| PatchCurve { ends: c.ends, knots: c.knots, control: c.control };
         let side = |s: SideEntry| PatchSide { curve: s.curve, reversed: s.reversed };
