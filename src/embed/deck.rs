@@ -25,7 +25,7 @@ use crate::geometry::motion::precise_point;
 use crate::geometry::{Motion, Space, DoubleDouble, worse};
 use crate::mesh::HalfedgeId;
 use crate::topology::word::{Letter, Word};
-use crate::topology::{FundamentalDomain, HomotopyBasis, Side, SurfaceGroup};
+use crate::topology::{DomainSide, FundamentalDomain, HomotopyBasis, SurfaceGroup};
 use std::f64::consts::TAU;
 
 /// The group of deck transformations of the universal cover of a layout, acting from the left: M(γ) carries the base lift to the end of
@@ -89,7 +89,7 @@ impl DeckGroup {
         }
         let domain = FundamentalDomain::new(mesh, &layout.cut.is_cut, basis)?;
         deck.corner = domain.base_corner;
-        let pairing = |side: &Side| match side.halfedges.first() {
+        let pairing = |side: &DomainSide| match side.halfedges.first() {
             Some(&h) => Ok(layout.neighbour(h).normalised()),
             None => Err(Error::Layout("a side of the fundamental domain has no edges".into())),
         };

@@ -9,7 +9,7 @@ use crate::geometry::{Motion, DoubleDouble};
 use crate::mesh::{FaceId, HalfedgeId, PerEdge, PerFace, PerHalfedge, VertexId};
 use crate::metric::Refinement;
 use crate::parallel;
-use crate::topology::{Nearest, check_vertex};
+use crate::topology::{NearestQueue, check_vertex};
 use std::hint::black_box;
 use std::sync::Arc;
 
@@ -52,7 +52,7 @@ struct Growth<'a, F: Frame> {
     spans: Vec<[u32; 2]>,
     crossed: PerEdge<bool>,
     /// Half-edges through which the development can go on, by [`Growth::distance`].
-    queue: Nearest<HalfedgeId>,
+    queue: NearestQueue<HalfedgeId>,
     /// Memory of [`Growth::next`].
     coming: Vec<FaceId>,
 }
@@ -92,7 +92,7 @@ impl<'a, F: Frame> Development<'a, F> {
             order: Vec::with_capacity(n_pieces),
             spans: vec![[0; 2]; if pieces.refinement().is_some() { n_final } else { 0 }],
             crossed: PerEdge::filled(if is_cut.is_none() { n_edges } else { 0 }, false),
-            queue: Nearest::new((faces.area() / n_final as f64).sqrt()),
+            queue: NearestQueue::new((faces.area() / n_final as f64).sqrt()),
             coming: Vec::new(),
         };
         control.step(Stage::Layout, 0.0)?;

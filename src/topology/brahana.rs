@@ -1,39 +1,38 @@
-//! Polygon words in Brahana's normal form: handles first, then boundary letters.
+//! Brahana's normal form of the boundary word of a polygon: first one commutator per handle, then boundary letters.
 
 use super::word::{Letter, Word, inverse};
 
-/// One handle taken out of a polygon's word.
-pub(super) struct Handle {
-    /// The handle's two loops, as words in the polygon's letters.
+/// The two loops of one handle, as words in the polygon's letters.
+pub(super) struct HandleWords {
+    /// The word of the loop a.
     pub a: Word,
     pub b: Word,
 }
 
-/// A polygon's word W, from some start, as a product of commutators and boundary letters, in the free group
-/// of its letters.
+/// The word W of a polygon, read from one of its places, as a product of commutators and boundary letters in the free group of its
+/// letters.
 pub(super) struct NormalForm {
     /// `W = [a1, b1] … [ag, bg] z1 … zb`.
-    pub handles: Vec<Handle>,
+    pub handles: Vec<HandleWords>,
     /// The boundary letters z1, …, zb.
     pub ends: Vec<Letter>,
-    /// Per place of the polygon (before letter k): the letters of W from its start to there are the product
-    /// over the handles of the first `digits` letters of `a b a⁻¹ b⁻¹`, times `z1 … zr`.
+    /// For each place of the polygon (before letter k): the letters of W up to there are the product over the handles of the first
+    /// `digits` letters of `a b a⁻¹ b⁻¹`, times `z1 … zr`.
     pub prefixes: Vec<Prefix>,
 }
 
-/// See [`NormalForm::prefixes`].
+/// A prefix of the word, see [`NormalForm::prefixes`].
 #[derive(Debug, Clone)]
 pub(super) struct Prefix {
     pub digits: Vec<u8>,
     pub n_ends: usize,
 }
 
-/// Most places of the word from which it is read. A surface of genus 32 has 128 places, so that up to there all are tried.
+/// Most places from which the word is read. A surface of genus 32 has 128 places, so that up to this genus all are tried.
 const MAX_STARTS: usize = 128;
 
-/// The places of a polygon's word from which to start to read it, those with the shortest handles first: a
-/// handle is as long as the loops of the letters of its words together. O(g²) per start in general, O(g³) at
-/// worst.
+/// The places from which to read a polygon's word, those with the shortest handles first. The length of a handle is that of the loops of
+/// all letters of its words. O(g²) per place in general, O(g³) at worst.
 pub(super) fn best_starts(word: &[Letter], cost: &[f64]) -> Vec<usize> {
     let length = |start: usize| {
         let handles = normal_form(word, cost, start).handles;
@@ -46,8 +45,8 @@ pub(super) fn best_starts(word: &[Letter], cost: &[f64]) -> Vec<usize> {
     starts.into_iter().map(|(_, start)| start).collect()
 }
 
-/// The normal form of a polygon's word, read from a place on. `word`: of a polygon that is glued to an
-/// oriented connected surface. `cost`: the length of each letter's loop.
+/// The normal form of a polygon's word, read from the place `start`. `word`: of a polygon that is glued to an oriented connected surface.
+/// `cost`: the length of each letter's loop.
 pub(super) fn normal_form(word: &[Letter], cost: &[f64], start: usize) -> NormalForm {
     let mut turned = word.to_vec();
     turned.rotate_left(start);
@@ -56,7 +55,7 @@ pub(super) fn normal_form(word: &[Letter], cost: &[f64], start: usize) -> Normal
     form
 }
 
-/// Brahana's normalisation \[Bra21\], \[Sti93\], exactly in the free group.
+/// Brahana's normalisation \[Bra21\], \[Sti93\], exact in the free group.
 ///
 /// Two letters whose occurrences are linked, `W = U x A y B x⁻¹ C y⁻¹ D`, make a handle:
 ///
@@ -64,9 +63,8 @@ pub(super) fn normal_form(word: &[Letter], cost: &[f64], start: usize) -> Normal
 ///     a = U x B⁻¹ C⁻¹ U⁻¹,    b = U C B A y C⁻¹ U⁻¹,    W = [a, b] · U C B A D.
 /// ```
 ///
-/// What is left is a word in the same letters, so words do not grow. A prefix of W is the product of a prefix
-/// of `a b a⁻¹ b⁻¹` and one of the word that is left (primes: beginnings; the equations above, multiplied
-/// out):
+/// The rest is a word in the same letters, so words do not grow. A prefix of W is the product of a prefix of `a b a⁻¹ b⁻¹` and a prefix
+/// of the rest (primed letters are prefixes; these are the equations above, multiplied out):
 ///
 /// ```text
 ///     U′                                  = 1 · U′
@@ -76,11 +74,11 @@ pub(super) fn normal_form(word: &[Letter], cost: &[f64], start: usize) -> Normal
 ///     U x A y B x⁻¹ C y⁻¹ D′              = a b a⁻¹ b⁻¹ · U C B A D′
 /// ```
 ///
-/// so by induction every prefix of W has at most four letters of each handle and one of each end.
+/// so by induction every prefix of W has at most four letters of each handle and one of each boundary loop.
 ///
-/// The pair whose handle has the shortest words goes first. In the end no letter occurs twice: what is left
-/// over of two trees are 2g interior edges; each handle takes two of them and one off the genus; and letters
-/// of which no two are linked glue a polygon to a surface of genus 0.
+/// The pair whose handle has the shortest words is taken first. At the end no letter occurs twice: the edges left over by the two trees
+/// are 2g interior edges; each handle uses two of them and lowers the genus by one; and letters of which no two are linked glue a polygon
+/// to a surface of genus 0.
 fn normalise(word: &[Letter], cost: &[f64]) -> NormalForm {
     let mut word = word.to_vec();
     let mut place: Vec<usize> = (0..word.len().max(1)).collect();
@@ -92,7 +90,7 @@ fn normalise(word: &[Letter], cost: &[f64]) -> NormalForm {
         let back = || inverse(c).chain(inverse(u));
         let there = || [u, c, b, a].into_iter().flatten().copied();
         let first = u.iter().copied().chain([x]).chain(inverse(b)).chain(back());
-        handles.push(Handle { a: first.collect(), b: there().chain([y]).chain(back()).collect() });
+        handles.push(HandleWords { a: first.collect(), b: there().chain([y]).chain(back()).collect() });
         for (place, digits) in place.iter_mut().zip(&mut digits) {
             let (digit, before) = match *place {
                 q if q <= i => (0, q),

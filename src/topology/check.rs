@@ -1,10 +1,10 @@
-//! What is checked of arguments: elements that exist, paths that are connected, lengths that doubles can work with.
+//! Checks of arguments: elements exist, paths are connected, lengths are in the range of f64 formulas.
 
 use crate::error::{Error, Result, check_size};
 use crate::geometry::space::USABLE_LENGTHS;
 use crate::mesh::{HalfedgeId, Mesh, PerEdge, VertexId};
 
-/// Check that a vertex exists.
+/// Checks that a vertex exists.
 pub(crate) fn check_vertex(mesh: &Mesh, v: VertexId) -> Result<()> {
     if v.index() < mesh.n_vertices() {
         return Ok(());
@@ -12,7 +12,7 @@ pub(crate) fn check_vertex(mesh: &Mesh, v: VertexId) -> Result<()> {
     Err(Error::argument("vertex", v, "an existing vertex"))
 }
 
-/// Check that the half-edges exist and that each starts where the one before it ends.
+/// Checks that the half-edges exist and that each starts at the end of the one before it.
 pub(crate) fn check_path(mesh: &Mesh, path: &[HalfedgeId]) -> Result<()> {
     let known = |h: &HalfedgeId| h.index() < mesh.n_halfedges();
     let wrong = path.iter().find(|h| !known(h)).or_else(|| {
@@ -25,15 +25,13 @@ pub(crate) fn check_path(mesh: &Mesh, path: &[HalfedgeId]) -> Result<()> {
 
 const PATH: &str = "half-edge of a path";
 
-/// The corners at the start and the end of a half-edge, as half-edges of its face; outside the surface, of the face of its twin.
+/// The corners at the start and the end of a half-edge, as half-edges of its face; for a half-edge outside the surface, of the face of
+/// its twin.
 pub(super) fn corners_along(mesh: &Mesh, h: HalfedgeId) -> [HalfedgeId; 2] {
-    match mesh.is_outside(h) {
-        false => [h, mesh.next(h)],
-        true => [mesh.next(h.twin()), h.twin()],
-    }
+    if mesh.is_outside(h) { [mesh.next(h.twin()), h.twin()] } else { [h, mesh.next(h)] }
 }
 
-/// Check that a path ends where it starts.
+/// Checks that a path ends at its start.
 pub(super) fn check_loop(mesh: &Mesh, path: &[HalfedgeId]) -> Result<()> {
     check_path(mesh, path)?;
     match (path.first(), path.last()) {
@@ -44,7 +42,7 @@ pub(super) fn check_loop(mesh: &Mesh, path: &[HalfedgeId]) -> Result<()> {
     }
 }
 
-/// There is one length per edge, each within [`USABLE_LENGTHS`]; the error names the first edge of another length.
+/// Checks that there is one length per edge, each within [`USABLE_LENGTHS`]; the error names the first edge with another length.
 pub(crate) fn check_lengths(mesh: &Mesh, lengths: &PerEdge<f64>) -> Result<()> {
     check_size("lengths", lengths.len(), mesh.n_edges())?;
     match lengths.iter().enumerate().find(|(_, l)| !USABLE_LENGTHS.contains(*l)) {

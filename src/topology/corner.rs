@@ -1,9 +1,9 @@
-//! Corners of the surface opened along a cut.
+//! The vertices of a surface opened along a cut, as numbers of corners.
 
 use crate::mesh::{HalfedgeId, Mesh, PerEdge, PerHalfedge};
 
-/// Numbers the vertices of the opened surface: corners around a vertex with no cut or boundary edge between
-/// them get one number. Returns the number per half-edge (of the corner at its origin) and how many numbers there are.
+/// Numbers the vertices of the opened surface: corners around a vertex with no cut or boundary edge between them have the same number.
+/// Returns the number for each half-edge (of the corner at its origin), and how many numbers there are.
 ///
 /// Numbers follow the first corner in face order. A half-edge outside the surface has the number of the
 /// corner at its origin in the face across the edge.
@@ -11,7 +11,7 @@ pub(crate) fn number_corners(mesh: &Mesh, is_cut: &PerEdge<bool>) -> (PerHalfedg
     const UNSET: u32 = u32::MAX;
     let mut number = PerHalfedge::filled(mesh.n_halfedges(), UNSET);
     let mut n = 0;
-    // The next outgoing half-edges at the same origin on either side, unless an open edge lies between.
+    // The neighbouring outgoing half-edge at the same origin, unless an open edge lies between.
     let clockwise = |h: HalfedgeId| {
         let across = h.twin();
         (!is_cut[h.edge()] && !mesh.is_outside(across)).then(|| mesh.next(across))

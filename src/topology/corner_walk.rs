@@ -1,23 +1,22 @@
-//! Edge paths from corner to corner of an opened surface, and the half-edges through which they leave faces on
-//! the way.
+//! Edge paths from corner to corner of an opened surface, and the half-edges through which such a path leaves faces.
 
 use super::{check_path, corners_along};
 use crate::error::{Error, Result};
 use crate::mesh::{HalfedgeId, Mesh};
 
-/// A walk along an edge path through corners (half-edges of faces, each at its origin). See [`corner_walk`].
+/// A walk along an edge path through corners (half-edges of faces, each standing for the corner at its origin). See [`corner_walk`].
 pub(crate) struct CornerWalk<'a> {
     mesh: &'a Mesh,
     at: HalfedgeId,
     path: &'a [HalfedgeId],
 }
 
-/// Walk an edge path from the corner at the origin of `corner`, a half-edge of a face. Every step turns about
-/// the vertex to a side of the next edge, and runs along that side to its corner at the edge's end.
+/// Walks along an edge path from the corner at the origin of `corner`, a half-edge of a face. Every step turns about the vertex to a side
+/// of the next edge, and follows that side to its corner at the edge's end.
 ///
 /// # Errors
 ///
-/// [`Error::Argument`] for a path that is none, or does not start at that corner.
+/// [`Error::Argument`] for half-edges that form no path, or a path that does not start at that corner.
 pub(crate) fn corner_walk<'a>(
     mesh: &'a Mesh,
     corner: HalfedgeId,
@@ -33,8 +32,8 @@ pub(crate) fn corner_walk<'a>(
     Ok(CornerWalk { mesh, at: corner, path })
 }
 
-/// The half-edges one crosses, turning about a vertex from one of its corners to another: counterclockwise,
-/// unless the boundary is in the way.
+/// The half-edges crossed by turning about a vertex from one of its corners to another: counterclockwise, unless the boundary is in the
+/// way.
 fn turn(mesh: &Mesh, from: HalfedgeId, to: HalfedgeId) -> Vec<HalfedgeId> {
     let (mut h, mut crossed) = (from, Vec::new());
     while h != to && !mesh.is_boundary_edge(mesh.prev(h).edge()) {
@@ -53,7 +52,7 @@ fn turn(mesh: &Mesh, from: HalfedgeId, to: HalfedgeId) -> Vec<HalfedgeId> {
     crossed
 }
 
-/// All half-edges that such a walk crosses, of a closed path also in the last turn, back to `corner`.
+/// All half-edges that such a walk crosses. On a closed path the last turn, back to `corner`, counts too.
 ///
 /// # Errors
 ///
@@ -75,7 +74,7 @@ pub(crate) fn crossed_halfedges(
 }
 
 impl Iterator for CornerWalk<'_> {
-    /// The half-edges crossed in the turn, and the corner at the end of the edge.
+    /// The half-edges crossed in a turn, and the corner at the end of the next edge.
     type Item = (Vec<HalfedgeId>, HalfedgeId);
 
     fn next(&mut self) -> Option<Self::Item> {

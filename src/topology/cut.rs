@@ -12,19 +12,19 @@
 
 use super::check_lengths;
 use super::shorten::{LEAST_SAVING, MOVES_PER_FACE, fan};
-use super::spanning::{Roads, leftover};
+use super::spanning::{OutgoingEdges, leftover};
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::mesh::union_find::UnionFind;
 use crate::mesh::{EdgeId, HalfedgeId, Mesh, PerEdge, PerVertex, VertexId};
 use std::collections::VecDeque;
 
-/// Interior edges whose removal leaves a disk, as chains between nodes.
+/// Interior edges along which the surface opens into a disk, as chains between nodes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CutGraph {
-    /// Whether an edge is cut. Boundary edges are open anyway and never marked.
+    /// True for cut edges. Boundary edges are open anyway and never marked.
     pub is_cut: PerEdge<bool>,
-    /// Where segments end, ascending: cones, boundary vertices that the cut reaches, and branch points.
+    /// The ends of segments, ascending: cones, boundary vertices that the cut reaches, and branch points.
     pub nodes: Vec<VertexId>,
     /// The cut as directed chains of half-edges from node to node that pass no other node; each cut edge is
     /// in exactly one.
@@ -32,10 +32,10 @@ pub struct CutGraph {
 }
 
 impl CutGraph {
-    /// The marked interior edges without the branches whose end is neither a branch point nor on the boundary.
+    /// The cut of the marked interior edges, without branches that end neither at a branch point nor on the boundary.
     pub(crate) fn around(mesh: &Mesh, marked: PerEdge<bool>) -> CutGraph {
         let fixed = PerVertex::from_fn(mesh.n_vertices(), |v| mesh.is_boundary_vertex(v));
-        let mut cut = Cut::new(mesh, fixed);
+        let mut cut = EditableCut::new(mesh, fixed);
         for e in mesh.edges().filter(|&e| marked[e] && !mesh.is_boundary_edge(e)) {
             cut.set(e, true);
         }
@@ -43,7 +43,7 @@ impl CutGraph {
         cut.into_graph()
     }
 
-    /// The cut without edges on the boundary of the surface, which part its segments.
+    /// The cut without edges on the boundary of the surface, which split its segments.
     pub(crate) fn inside(self, mesh: &Mesh) -> CutGraph {
         let is_inside = |h: &HalfedgeId| !mesh.is_boundary_edge(h.edge());
         let runs = |segment: &Vec<HalfedgeId>| -> Vec<Vec<HalfedgeId>> {
@@ -65,19 +65,18 @@ impl CutGraph {
 
 /// A cut graph through all cones: a short set of interior edges that opens the surface into a disk.
 ///
-/// The boundary and the cones together are the sources of a shortest-path forest; the edges that the forest
-/// and a maximum spanning tree of the dual graph leave over, with their paths to the sources, are the cut
-/// (tree–cotree, \[EW05\]). So cones are joined to each other, to the boundary and to the handles by short
-/// arcs. Then segments are pulled and their ends slid across triangles while that makes the cut shorter.
+/// The boundary and the cones together are the sources of a shortest-path forest. The cut consists of the edges that are neither in the
+/// forest nor in a maximum spanning tree of the dual graph, with their paths to the sources (tree–cotree, \[EW05\]). So cones are joined
+/// to each other, to the boundary and to the handles by short arcs. Then segments are pulled straight and their ends slid across
+/// triangles as long as that makes the cut shorter.
 ///
 /// `lengths`: finite and positive, one per edge. `cones`: vertices that have to lie on the cut, in any order;
 /// those on the boundary change nothing. A disk without interior cones has an empty cut.
 ///
 /// # Errors
 ///
-/// [`Error::EdgeLength`]; [`Error::Argument`] for a cone that is no vertex; [`Error::Layout`] for a
-/// closed surface of genus 0 with fewer than two cones (a sphere has no plane layout) and for a surface of
-/// several components; [`Error::Cancelled`].
+/// [`Error::EdgeLength`]; [`Error::Argument`] for a cone that is no vertex; [`Error::Layout`] for a closed surface of genus 0 with fewer
+/// than two cones (a sphere has no plane layout) and for a surface of several components; [`Error::Cancelled`].
 pub fn cut_graph(
     mesh: &Mesh,
     lengths: &PerEdge<f64>,
@@ -87,15 +86,15 @@ pub fn cut_graph(
     control.check()?;
     let fixed = fixed_vertices(mesh, lengths, cones)?;
     let sources: Vec<_> = mesh.vertices().filter(|&v| fixed[v]).collect();
-    let roads = Roads::new(mesh, lengths)?;
+    let outgoing = OutgoingEdges::new(mesh, lengths)?;
     let open = |sources: &[VertexId]| -> Result<_> {
-        let mut cut = Cut::new(mesh, fixed.clone());
-        let shortest_arc = cut.tree_cotree(&roads, sources, control)?;
+        let mut cut = EditableCut::new(mesh, fixed.clone());
+        let shortest_arc = cut.tree_cotree(&outgoing, sources, control)?;
         cut.shorten(lengths, control)?;
         Ok((cut, shortest_arc))
     };
     let cut = if sources.is_empty() {
-        // Any vertex may be the source: go on from the shortest loop through the last one while that helps.
+        // Any vertex may be the source: the search continues from the shortest loop through the last one as long as that helps.
         let (mut cut, mut arc) = open(&[VertexId(0)])?;
         for _ in 0..MAX_ROOTS {
             let Some((e, length)) = arc else { break };
@@ -113,22 +112,22 @@ pub fn cut_graph(
     Ok(cut.into_graph())
 }
 
-/// Vertices of the cut between two looks at the control. At each a few fans of triangles are measured, so that these take a fraction
-/// of a millisecond.
+/// Vertices of the cut between two checks of the control. A few fans of triangles are measured at each, so that these take a fraction of
+/// a millisecond.
 const VERTICES_PER_LOOK: usize = 1024;
 
 /// Most sources that are tried on a closed surface without cones, besides the first. Usually the second or third is not better than
 /// the one before it and ends the search.
 const MAX_ROOTS: usize = 8;
 
-/// The length of the shortest loop through a source over that through the one before it, from which on no other source is tried. On flat
-/// tori all sources are alike, and only the zigzag of their paths along edges differs.
+/// Another source is tried only while the shortest loop through a source is shorter than this share of that through the one before it. On
+/// flat tori all sources are alike, and only the zigzag of paths along edges differs.
 const LEAST_GAIN: f64 = 0.99;
 
-/// Whether the surface opened along the marked edges is a disk: connected with Euler characteristic 1. O(E).
+/// True if the surface opened along the marked edges is a disk: connected with Euler characteristic 1. O(E).
 pub fn is_disk(mesh: &Mesh, is_cut: &PerEdge<bool>) -> bool {
     let n_cut = is_cut.iter().filter(|&&c| c).count();
-    // A vertex opens into as many as it has cut edges, and one more on the boundary.
+    // A vertex opens into as many vertices as it has cut edges, and one more on the boundary.
     let sectors: usize = mesh
         .vertices()
         .map(|v| {
@@ -140,7 +139,7 @@ pub fn is_disk(mesh: &Mesh, is_cut: &PerEdge<bool>) -> bool {
     euler == 1 && is_connected(mesh, |e| is_cut[e])
 }
 
-/// Check that the surface is connected and not empty; `advice` says what to do with each component of another.
+/// Checks that the surface is connected and not empty; `advice` tells the user what to do with the components of another surface.
 pub(super) fn check_connected(mesh: &Mesh, advice: &str) -> Result<()> {
     if is_connected(mesh, |_| false) {
         return Ok(());
@@ -148,7 +147,7 @@ pub(super) fn check_connected(mesh: &Mesh, advice: &str) -> Result<()> {
     Err(Error::Layout(format!("the surface is empty or has several components: {advice} each alone")))
 }
 
-/// Whether all faces hang together through interior edges that are not walls.
+/// True if all faces are connected through interior edges that are not walls.
 pub(super) fn is_connected(mesh: &Mesh, wall: impl Fn(EdgeId) -> bool) -> bool {
     let mut joined = UnionFind::new(mesh.n_faces());
     let mut components = mesh.n_faces();
@@ -160,20 +159,20 @@ pub(super) fn is_connected(mesh: &Mesh, wall: impl Fn(EdgeId) -> bool) -> bool {
     components == 1
 }
 
-/// A cut in the making: marked edges, and per vertex how many half-edges of marked edges leave it.
-struct Cut<'a> {
+/// A cut while it is changed: the marked edges, and for each vertex the number of half-edges of marked edges that leave it.
+struct EditableCut<'a> {
     mesh: &'a Mesh,
     is_cut: PerEdge<bool>,
     degree: PerVertex<u32>,
-    /// Vertices a segment may not be pulled away from or across: cones and the boundary.
+    /// Vertices that segments may not be pulled away from or across: cones and the boundary.
     fixed: PerVertex<bool>,
-    /// Scratch of [`Cut::link`], all false between its calls.
+    /// Memory of [`EditableCut::link`], all false between its calls.
     seen: PerVertex<bool>,
 }
 
-impl<'a> Cut<'a> {
-    fn new(mesh: &'a Mesh, fixed: PerVertex<bool>) -> Cut<'a> {
-        Cut {
+impl<'a> EditableCut<'a> {
+    fn new(mesh: &'a Mesh, fixed: PerVertex<bool>) -> EditableCut<'a> {
+        EditableCut {
             mesh,
             is_cut: PerEdge::filled(mesh.n_edges(), false),
             degree: PerVertex::filled(mesh.n_vertices(), 0),
@@ -195,7 +194,7 @@ impl<'a> Cut<'a> {
         cut.fold(0.0, |sum, (_, l)| sum + l)
     }
 
-    /// Whether a segment passes through `v`.
+    /// True if a segment passes through `v`.
     fn is_inner(&self, v: VertexId) -> bool {
         self.degree[v] == 2 && !self.fixed[v]
     }
@@ -225,17 +224,17 @@ impl<'a> Cut<'a> {
         CutGraph { is_cut: self.is_cut, nodes, segments }
     }
 
-    /// Mark the edges that the forest of the sources and its dual tree leave over, with the paths from their ends to the sources;
-    /// returns the one of those edges with the shortest arc, and the length of that.
+    /// Marks the edges that are neither in the forest of the sources nor in its dual tree, with the paths from their ends to the sources.
+    /// Returns the one of those edges with the shortest arc, and the length of that arc.
     fn tree_cotree(
         &mut self,
-        roads: &Roads,
+        outgoing: &OutgoingEdges,
         sources: &[VertexId],
         control: &Control,
     ) -> Result<Option<(EdgeId, f64)>> {
         let mesh = self.mesh;
-        let forest = roads.shortest_paths(sources, control)?;
-        let arcs = leftover(mesh, roads.lengths, &forest, |e| mesh.is_boundary_edge(e));
+        let forest = outgoing.shortest_paths(sources, control)?;
+        let arcs = leftover(mesh, outgoing.lengths, &forest, |e| mesh.is_boundary_edge(e));
         control.check()?;
         for &e in &arcs {
             self.set(e, true);
@@ -249,10 +248,10 @@ impl<'a> Cut<'a> {
             }
         }
         self.prune();
-        Ok(arcs.first().map(|&e| (e, forest.arc(mesh, roads.lengths, e))))
+        Ok(arcs.first().map(|&e| (e, forest.arc(mesh, outgoing.lengths, e))))
     }
 
-    /// Close the branches that end at a vertex which is neither a cone nor on the boundary.
+    /// Unmarks branches that end at a vertex which is neither a cone nor on the boundary.
     fn prune(&mut self) {
         for mut v in self.mesh.vertices() {
             while self.degree[v] == 1 && !self.fixed[v] {
@@ -263,7 +262,7 @@ impl<'a> Cut<'a> {
         }
     }
 
-    /// Shorten the cut by sliding edges across fans of triangles.
+    /// Shortens the cut by sliding edges across fans of triangles.
     ///
     /// ```text
     ///      x1 --- x2         triangles at v between two neighbouring cut edges vu and vw: the end of vu
@@ -292,7 +291,7 @@ impl<'a> Cut<'a> {
         Ok(())
     }
 
-    /// The slide at `v` that saves most: the cut edges it closes and those it opens.
+    /// The slide at `v` that saves most: the cut edges to unmark and those to mark.
     fn best_slide(
         &mut self,
         lengths: &PerEdge<f64>,
@@ -323,8 +322,8 @@ impl<'a> Cut<'a> {
         best
     }
 
-    /// The edges opposite v in the fan counterclockwise between two outgoing half-edges, with their length;
-    /// `None` if that reaches `limit` or the fan cannot be swept.
+    /// The edges opposite v in the fan counterclockwise between two outgoing half-edges, with their length; `None` if the length reaches
+    /// `limit` or a segment may not be slid across the fan.
     fn link(
         &mut self,
         lengths: &PerEdge<f64>,
@@ -345,7 +344,7 @@ impl<'a> Cut<'a> {
     }
 }
 
-/// The vertices that stay where they are: cones and the boundary. Checks the input of [`cut_graph`].
+/// The vertices that stay on the cut, cones and the boundary. Checks the input of [`cut_graph`].
 fn fixed_vertices(mesh: &Mesh, lengths: &PerEdge<f64>, cones: &[VertexId]) -> Result<PerVertex<bool>> {
     check_lengths(mesh, lengths)?;
     if let Some(v) = cones.iter().find(|v| v.index() >= mesh.n_vertices()) {
@@ -385,8 +384,8 @@ mod tests {
             let cones: Vec<_> = (0..seed % 4).map(|k| VertexId::from(k * 37 % mesh.n_vertices())).collect();
             let fixed = fixed_vertices(&mesh, &lengths, &cones).unwrap();
             let sources = if cones.is_empty() { &[VertexId(0)] } else { &cones[..] };
-            let mut cut = Cut::new(&mesh, fixed);
-            cut.tree_cotree(&Roads::new(&mesh, &lengths).unwrap(), sources, &Control::new()).unwrap();
+            let mut cut = EditableCut::new(&mesh, fixed);
+            cut.tree_cotree(&OutgoingEdges::new(&mesh, &lengths).unwrap(), sources, &Control::new()).unwrap();
             assert!(is_disk(&mesh, &cut.is_cut));
             let before = cut.length(&lengths);
             cut.shorten(&lengths, &Control::new()).unwrap();
@@ -399,7 +398,7 @@ mod tests {
 
     #[test]
     fn a_detour_is_pulled_straight() {
-        // Row 0 is shorter than the others, and the cut leaves it for a stretch of row 1.
+        // Row 0 is shorter than the others, but the cut leaves it for a stretch of row 1.
         let n = 8;
         let mesh = torus(n);
         let lengths =
@@ -409,7 +408,7 @@ mod tests {
                 _ => 1.0,
             });
         let edge = |kind: usize, i: usize, j: usize| EdgeId::from(3 * (i + n * j) + kind);
-        let mut cut = Cut::new(&mesh, PerVertex::filled(mesh.n_vertices(), false));
+        let mut cut = EditableCut::new(&mesh, PerVertex::filled(mesh.n_vertices(), false));
         let column = (0..n).map(|j| edge(1, 0, j));
         let row = (0..n).filter(|i| ![3, 4].contains(i)).map(|i| edge(0, i, 0));
         let detour = [edge(1, 3, 0), edge(0, 3, 1), edge(0, 4, 1), edge(1, 5, 0)];

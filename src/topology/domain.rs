@@ -1,5 +1,4 @@
-//! Fundamental domains: a surface opened along a cut, as a polygon whose sides are paired by deck
-//! transformations.
+//! Fundamental domains: a surface opened along a cut, as a polygon whose sides are paired by deck transformations.
 //!
 //! ```
 //! use ricci::topology::{FundamentalDomain, homotopy_basis};
@@ -24,14 +23,13 @@ use std::collections::VecDeque;
 
 /// A side of a fundamental domain.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Side {
+pub struct DomainSide {
     /// Its half-edges in order, each of a face of the domain.
     pub halfedges: Vec<HalfedgeId>,
-    /// The side with the same edges, run through the other way; `None` on the boundary of the surface.
+    /// The side with the same edges in the opposite direction; `None` on the boundary of the surface.
     pub partner: Option<usize>,
-    /// The deck transformation that carries the partner onto this side, so it carries the domain D to its
-    /// neighbour across this side. The partner's is the inverse. Reduced; the identity on the boundary of the
-    /// surface.
+    /// The deck transformation that maps the partner to this side, and so the domain D to its neighbour across this side. The partner's
+    /// is its inverse. Reduced; the identity on the boundary of the surface.
     pub element: Word,
 }
 
@@ -40,24 +38,24 @@ pub struct Side {
 pub struct FundamentalDomain {
     /// The half-edge of a face whose origin, in D, is the base lift p̃.
     pub base_corner: HalfedgeId,
-    /// The sides of D, counterclockwise: D lies on the left of their half-edges. They end where the cut
-    /// branches or ends (cones), or meets the boundary.
-    pub sides: Vec<Side>,
+    /// The sides of D, counterclockwise: D lies on the left of their half-edges. They end where the cut branches, ends (at cones), or
+    /// meets the boundary.
+    pub sides: Vec<DomainSide>,
     /// `corners[k]`: the lift at which side k starts.
     pub corners: Vec<Lift>,
     side_of: PerHalfedge<Option<u32>>,
 }
 
 impl FundamentalDomain {
-    /// The domain of a cut that opens the surface into a disk, as [`super::cut_graph`] and
-    /// [`HomotopyBasis::cut`] do, with elements of the group of `basis` (of the same mesh).
+    /// The domain of a cut that opens the surface into a disk, such as [`super::cut_graph`] and [`HomotopyBasis::cut`] make. Its elements
+    /// are of the group of `basis`, which belongs to the same mesh.
     ///
-    /// Of the lifts with a corner at p̃ it is the one with the same corner there as the polygon of the basis;
-    /// for [`HomotopyBasis::cut`] D is that polygon. O(E + g · length of the cut).
+    /// Of the lifts with a corner at p̃, D is the one with the same corner there as the polygon of the basis; for [`HomotopyBasis::cut`]
+    /// D is that polygon. O(E + g · length of the cut).
     ///
     /// # Errors
     ///
-    /// [`Error::Size`]; [`Error::Layout`] where the opened surface is no disk.
+    /// [`Error::Size`]; [`Error::Layout`] where the opened surface is not a disk.
     pub fn new(mesh: &Mesh, is_cut: &PerEdge<bool>, basis: &HomotopyBasis) -> Result<FundamentalDomain> {
         check_size("cut marks", is_cut.len(), mesh.n_edges())?;
         basis.check_fits(mesh)?;
@@ -67,7 +65,7 @@ impl FundamentalDomain {
             let message = "the cut does not open the surface into a disk: take one of `cut_graph`";
             return Err(Error::Layout(message.into()));
         }
-        // Where sides end: a vertex that the cut does not just pass.
+        // Sides end at vertices that the cut does not just pass through.
         let is_node = |v: VertexId| {
             let degree = mesh.outgoing(v).filter(|h| inner[h.edge()]).count();
             degree > 0 && (degree != 2 || mesh.is_boundary_vertex(v))
@@ -102,34 +100,32 @@ impl FundamentalDomain {
         let n = chains.len();
         let pair = |(k, halfedges): (usize, Vec<HalfedgeId>)| {
             let partner = halfedges.last().and_then(|h| side_of[h.twin()]).map(|j| j as usize);
-            // Side k starts where its partner ends.
+            // DomainSide k starts at the end of its partner.
             let element = partner.map_or_else(Word::identity, |j| {
                 let end = &corners[(j + 1) % n].element;
                 basis.group.reduce(&corners[k].element.times(&end.inverse()))
             });
-            Side { halfedges, partner, element }
+            DomainSide { halfedges, partner, element }
         };
         let sides = chains.into_iter().enumerate().map(pair).collect();
         Ok(FundamentalDomain { base_corner, sides, corners, side_of })
     }
 
-    /// The sides that an edge path crosses out of the copies of D it runs through, one after the other. The
-    /// path starts at the corner of D at the origin of `corner` (a half-edge of a face); a closed path ends
-    /// at the same corner of the copy `γ D`, where γ is the product of the crossed sides' elements, left to
-    /// right. From `base_corner`, γ is the element of the loop. So the isometries of the side pairings of any
-    /// layout of D, multiplied along the crossings of the loops of the basis, are the generators of its deck
-    /// group.
+    /// The sides through which an edge path leaves the copies of D that it visits, in order. The path starts at the corner of D at the
+    /// origin of `corner` (a half-edge of a face); a closed path ends at the same corner of the copy `γ D`, where γ is the product of the
+    /// crossed sides' elements, left to right. From `base_corner`, γ is the element of the loop. So the isometries of the side pairings
+    /// of any layout of D, multiplied along the crossings of the loops of the basis, are the generators of its deck group.
     ///
     /// # Errors
     ///
-    /// [`Error::Argument`] for a path that is none, or does not start at that corner.
+    /// [`Error::Argument`] for half-edges that form no path, or a path that does not start at that corner.
     pub fn crossings(&self, mesh: &Mesh, corner: HalfedgeId, path: &[HalfedgeId]) -> Result<Vec<usize>> {
         let crossed = crossed_halfedges(mesh, corner, path)?;
         Ok(crossed.into_iter().filter_map(|h| self.side_of[h]).map(|k| k as usize).collect())
     }
 }
 
-/// The wall after `h` around the opened surface.
+/// The next wall after `h` around the opened surface.
 fn next_side(mesh: &Mesh, wall: &PerEdge<bool>, h: HalfedgeId) -> HalfedgeId {
     let mut next = mesh.next(h);
     while !wall[next.edge()] {
@@ -138,16 +134,15 @@ fn next_side(mesh: &Mesh, wall: &PerEdge<bool>, h: HalfedgeId) -> HalfedgeId {
     next
 }
 
-/// A half-edge of a face on a wall, leaving a node if there is one.
+/// A half-edge of a face on a wall; it starts at a node if there is one.
 fn first_side(mesh: &Mesh, wall: &PerEdge<bool>, is_node: impl Fn(VertexId) -> bool) -> Option<HalfedgeId> {
     let leaving = |v: VertexId| mesh.outgoing(v).find(|h| wall[h.edge()] && !mesh.is_outside(*h));
     mesh.vertices().filter(|&v| is_node(v)).chain(mesh.vertices()).find_map(leaving)
 }
 
-/// An edge path inside the opened surface from one of its corners to another, along the sides of a chain of
-/// faces.
+/// An edge path inside the opened surface from one of its corners to another, along the sides of a chain of faces.
 fn path_within(mesh: &Mesh, wall: &PerEdge<bool>, from: HalfedgeId, to: HalfedgeId) -> Vec<HalfedgeId> {
-    // Per face, the half-edge through which one goes on towards the face of `to`, found from there.
+    // For each face the half-edge that leads towards the face of `to`, by a search from that face.
     let mut exit = PerFace::filled(mesh.n_faces(), None);
     let goal = mesh.face(to);
     let mut waiting: VecDeque<_> = goal.into_iter().collect();

@@ -10,13 +10,13 @@
 //! ```
 
 use super::check_vertex;
-use super::spanning::{Forest, Roads};
+use super::spanning::{Forest, OutgoingEdges};
 use crate::control::Control;
 use crate::error::Result;
 use crate::mesh::{HalfedgeId, Mesh, PerEdge, PerVertex, VertexId};
 
-/// `count` vertices (at most V): `first`, then again and again the vertex farthest along edges from those
-/// chosen (the smallest index among equals). Deterministic; O(count · E log V).
+/// `count` vertices (at most V): `first`, then repeatedly the vertex that is farthest along edges from those chosen (of equal ones the
+/// lowest index). Deterministic; O(count · E log V).
 ///
 /// # Errors
 ///
@@ -29,18 +29,18 @@ pub fn farthest_vertices(
     control: &Control,
 ) -> Result<Vec<VertexId>> {
     check_vertex(mesh, first)?;
-    let roads = Roads::new(mesh, lengths)?;
+    let outgoing = OutgoingEdges::new(mesh, lengths)?;
     let mut chosen = Vec::new();
     let mut next = first;
     while chosen.len() < count.min(mesh.n_vertices()) {
         chosen.push(next);
-        let distance = roads.shortest_paths(&chosen, control)?.distance;
+        let distance = outgoing.shortest_paths(&chosen, control)?.distance;
         next = farthest(mesh, &distance, VertexId(0));
     }
     Ok(chosen)
 }
 
-/// The vertex of largest distance; of equal ones `start` if it is among them, else the one of lowest index.
+/// The vertex with the largest distance; of equal ones `start` if it is among them, else the one of lowest index.
 pub(super) fn farthest(mesh: &Mesh, distance: &PerVertex<f64>, start: VertexId) -> VertexId {
     mesh.vertices().fold(start, |far, v| if distance[v] > distance[far] { v } else { far })
 }
@@ -48,8 +48,8 @@ pub(super) fn farthest(mesh: &Mesh, distance: &PerVertex<f64>, start: VertexId) 
 /// Most moves of the search for a central vertex. On the closed meshes of the corpus the distance changes little after three.
 const MAX_MOVES: usize = 6;
 
-/// A vertex from which no other is far along edges. The search goes on from the middle of the path to the farthest vertex as long as
-/// that makes the largest distance smaller. Deterministic; O(E log V).
+/// A vertex from which no other is far along edges. The search moves to the middle of the path to the farthest vertex as long as that
+/// makes the largest distance smaller. Deterministic; O(E log V).
 ///
 /// # Errors
 ///
@@ -58,15 +58,15 @@ pub fn central_vertex(mesh: &Mesh, lengths: &PerEdge<f64>, control: &Control) ->
     central(mesh, lengths, control).map(|(v, _)| v)
 }
 
-/// [`central_vertex`], and how far along edges each vertex is from it.
+/// [`central_vertex`], and the distance along edges from it to each vertex.
 pub(super) fn central(
     mesh: &Mesh,
     lengths: &PerEdge<f64>,
     control: &Control,
 ) -> Result<(VertexId, PerVertex<f64>)> {
-    let roads = Roads::new(mesh, lengths)?;
+    let outgoing = OutgoingEdges::new(mesh, lengths)?;
     let search = |at: VertexId| -> Result<_> {
-        let forest = roads.shortest_paths(&[at], control)?;
+        let forest = outgoing.shortest_paths(&[at], control)?;
         let far = farthest(mesh, &forest.distance, at);
         Ok((at, far, forest))
     };

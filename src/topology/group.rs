@@ -17,8 +17,8 @@ use crate::error::{Error, Result};
 ///     ⟨ a1, b1, …, ag, bg, c1, …, cb | a1 b1 a1⁻¹ b1⁻¹ … ag bg ag⁻¹ bg⁻¹ c1 … cb ⟩.
 /// ```
 ///
-/// Generators are numbered in this order: `a_i` is `2i − 2`, `b_i` is `2i − 1`, `c_j` is `2g + j − 1`. In
-/// words given to its methods, letters of other numbers count as the identity.
+/// Generators are numbered in this order: `a_i` is `2i − 2`, `b_i` is `2i − 1`, `c_j` is `2g + j − 1`. Methods treat letters with other
+/// numbers as the identity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct SurfaceGroup {
     /// Genus g.
@@ -49,17 +49,14 @@ impl SurfaceGroup {
     /// A word as text: letters with spaces between them, inverses marked `^-1`; the empty word is `1`.
     pub fn text(&self, word: &Word) -> String {
         let letter = |l: &Letter| self.name(l.index()) + if l.is_inverse() { "^-1" } else { "" };
-        match word.is_empty() {
-            true => "1".into(),
-            false => word.letters().iter().map(letter).collect::<Vec<_>>().join(" "),
-        }
+        if word.is_empty() { "1".into() } else { word.letters().iter().map(letter).collect::<Vec<_>>().join(" ") }
     }
 
     /// The word that a text like `a1 b1 a1^-1` means, freely reduced; `1` stands for the identity.
     ///
     /// # Errors
     ///
-    /// [`Error::Argument`] for a token that is no letter.
+    /// [`Error::Argument`] for a token that is not a letter.
     pub fn parse(&self, text: &str) -> Result<Word> {
         let mut word = Word::identity();
         for token in text.split_whitespace().filter(|&token| token != "1") {

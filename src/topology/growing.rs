@@ -1,18 +1,18 @@
-//! The cut where a growing disk meets itself.
+//! The cut along which a growing disk meets itself.
 
 use super::cut::CutGraph;
 use super::farthest::central;
-use super::nearest::Nearest;
+use super::nearest::NearestQueue;
 use super::spanning::{mean, shortest_paths};
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::mesh::{EdgeId, FaceId, HalfedgeId, Mesh, PerEdge, PerFace, PerVertex, VertexId};
 
-/// Faces that the disk takes in between two looks at the control: they take a fraction of a millisecond.
+/// Faces added between two checks of the control: they take a fraction of a millisecond.
 const FACES_PER_LOOK: usize = 1024;
 
-/// The cut where a disk that grows about `root` meets itself. The disk takes in one face after the other, next the one whose far corner
-/// is nearest to the root along edges, so that paths inside the disk to the root are short. Empty on a sphere.
+/// The cut along which a disk that grows about `root` meets itself. The disk adds one face after the other, each time the one whose far
+/// corner is nearest to the root along edges, so that paths inside the disk to the root are short. Empty on a sphere.
 ///
 /// # Errors
 ///
@@ -38,12 +38,12 @@ pub(crate) fn cut_about_centre(
     control: &Control,
 ) -> Result<(VertexId, CutGraph)> {
     let (root, distance) = central(mesh, lengths, control)?;
-    let disk = Disk { mesh, root, distance, unit: mean(lengths) };
+    let disk = GrowingDisk { mesh, root, distance, unit: mean(lengths) };
     Ok((root, disk.grown(&|_| 0, control)?))
 }
 
-/// [`cut_about`] where the disk goes on at once across edges that are `joined`, first across those where this number is larger. So the cut
-/// keeps away from vertices all of whose edges are joined, unless a chain of them leads around the surface.
+/// Like [`cut_about`], but the disk grows first across edges whose `joined` is not 0, the largest ones first. So the cut avoids vertices
+/// all of whose edges are joined, unless a chain of them leads around the surface.
 ///
 /// # Errors
 ///
@@ -56,26 +56,26 @@ pub(crate) fn cut_about_joined(
     control: &Control,
 ) -> Result<CutGraph> {
     let distance = shortest_paths(mesh, lengths, [root], control)?.distance;
-    Disk { mesh, root, distance, unit: mean(lengths) }.grown(joined, control)
+    GrowingDisk { mesh, root, distance, unit: mean(lengths) }.grown(joined, control)
 }
 
 /// A disk that grows about a vertex.
-struct Disk<'a> {
+struct GrowingDisk<'a> {
     mesh: &'a Mesh,
     root: VertexId,
-    /// How far along edges each vertex is from the root.
+    /// The distance along edges from the root to each vertex.
     distance: PerVertex<f64>,
-    /// About the length of an edge: [`Nearest::new`].
+    /// About the length of an edge, see [`NearestQueue::new`].
     unit: f64,
 }
 
-impl Disk<'_> {
-    /// Where the disk meets itself: [`cut_about_joined`].
+impl GrowingDisk<'_> {
+    /// The cut along which the disk meets itself, see [`cut_about_joined`].
     fn grown(&self, joined: &dyn Fn(EdgeId) -> u8, control: &Control) -> Result<CutGraph> {
-        let Disk { mesh, root, ref distance, unit } = *self;
+        let GrowingDisk { mesh, root, ref distance, unit } = *self;
         let mut reached = PerFace::filled(mesh.n_faces(), false);
         let mut closed = PerEdge::filled(mesh.n_edges(), false);
-        let mut queue = Nearest::new(unit);
+        let mut queue = NearestQueue::new(unit);
         let far = |f: FaceId| mesh.face_vertices(f).map(|v| distance[v]).into_iter().fold(0.0, f64::max);
         let mut next = mesh.outgoing(root).find(|&h| !mesh.is_outside(h));
         let (mut n_reached, mut is_first) = (0, true);
@@ -120,7 +120,7 @@ mod tests {
             assert!((2..=3).contains(&cut.segments.len()), "{n}, {m}: {}", cut.segments.len());
             let edges: usize = cut.segments.iter().map(Vec::len).sum();
             assert_eq!(edges, cut.is_cut.iter().filter(|&&c| c).count());
-            // It stays away from the vertex.
+            // The cut stays away from the vertex.
             let near = shortest_paths(&mesh, &lengths, [VertexId(0)], &Control::new()).unwrap().distance;
             let ends = |e: EdgeId| mesh.ends(e).map(|v| near[v]);
             let least = mesh.edges().filter(|&e| cut.is_cut[e]).flat_map(ends).fold(f64::INFINITY, f64::min);

@@ -12,10 +12,10 @@ const MAX_TWISTS: usize = 32;
 /// The loops a and b of a handle.
 pub(super) type LoopPair = [Vec<HalfedgeId>; 2];
 
-/// Loops a and b of a handle that are being made shorter, and what they were in terms of what they are.
+/// Loops a and b of a handle that are made shorter, and the words of the original loops in the present ones.
 pub(super) struct HandleLoops {
     pub loops: LoopPair,
-    /// The first loops a and b as words in the present ones (generators 0 and 1).
+    /// The original loops a and b as words in the present ones (generators 0 and 1).
     first: [Word; 2],
 }
 
@@ -24,10 +24,9 @@ impl HandleLoops {
         HandleLoops { loops, first: [0, 1].map(|k| Word::from_iter([Letter::generator(k)])) }
     }
 
-    /// Replace a by `a b^±1` or b by `b a^±1`, the one that saves most, as long as that makes a loop shorter.
+    /// Replaces a by `a b^±1` or b by `b a^±1`, whichever saves more, as long as that makes a loop shorter.
     ///
-    /// Both leave the commutator: `[a bᵏ, b] = a bᵏ b b⁻ᵏ a⁻¹ b⁻¹ = [a, b]`, and `[a, b aᵏ] = a b aᵏ a⁻¹ a⁻ᵏ
-    /// b⁻¹ = [a, b]`.
+    /// Both keep the commutator: `[a bᵏ, b] = a bᵏ b b⁻ᵏ a⁻¹ b⁻¹ = [a, b]` and `[a, b aᵏ] = a b aᵏ a⁻¹ a⁻ᵏ b⁻¹ = [a, b]`.
     pub fn twist(&mut self, mesh: &Mesh, lengths: &PerEdge<f64>, control: &Control) -> Result<()> {
         for _ in 0..MAX_TWISTS {
             let (mut best, mut saving) = (None, 0.0_f64);
@@ -36,13 +35,10 @@ impl HandleLoops {
                 for back in [false, true] {
                     let along = self.loops[k].iter().copied();
                     let other = &self.loops[1 - k];
-                    let twisted = match back {
-                        false => shorten(mesh, lengths, along.chain(other.iter().copied()), control)?,
-                        true => {
+                    let twisted = if back { 
                             let inverse = other.iter().rev().map(|h| h.twin());
                             shorten(mesh, lengths, along.chain(inverse), control)?
-                        }
-                    };
+                         } else { shorten(mesh, lengths, along.chain(other.iter().copied()), control)? };
                     let saved = old - path_length(lengths, &twisted);
                     if saved > saving.max(1e-12 * old) {
                         (best, saving) = (Some((k, back, twisted)), saved);
@@ -60,8 +56,7 @@ impl HandleLoops {
         Ok(())
     }
 
-    /// The beginnings 1, a, a b, a b a⁻¹, a b a⁻¹ b⁻¹ of the first loops' commutator, in the present loops as
-    /// generators 2i and 2i + 1.
+    /// The prefixes 1, a, a b, a b a⁻¹, a b a⁻¹ b⁻¹ of the original loops' commutator, in the present loops as generators 2i and 2i + 1.
     pub fn prefixes(&self, i: usize) -> [Word; 5] {
         let [a, b] =
             [0, 1].map(|j| self.first[j].substitute(|g| Word::from_iter([Letter::generator(2 * i + g)])));

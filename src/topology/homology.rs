@@ -7,12 +7,11 @@ use crate::mesh::{HalfedgeId, Mesh, PerEdge, VertexId};
 
 /// A basis of the first homology: closed loops of half-edges, each starting where the one before it ends.
 ///
-/// There are 2g loops on a closed surface of genus g and 2g + b − 1 on one with b > 0 boundary loops. Let T
-/// be the shortest-path tree of vertex 0 and C a maximum spanning tree of the dual graph, weighed by the
-/// length of an edge's loop through vertex 0 \[EW05\]; the edges in neither of them close the loops. With
-/// a boundary the outside is a node of the dual graph, so the surface collapses onto T and those edges. The
-/// way to vertex 0 and back that a loop starts and ends with is removed. Shortest loops come first. O(E log E
-/// + total length).
+/// There are 2g loops on a closed surface of genus g and 2g + b − 1 on one with b > 0 boundary loops. Let T be the shortest-path tree of
+/// vertex 0 and C a maximum spanning tree of the dual graph, weighted by the length of an edge's loop through vertex 0 \[EW05\]; each
+/// edge in neither of them closes a loop. With a boundary the outside is a node of the dual graph, so the surface collapses onto T and
+/// those edges. The path to vertex 0 and back that a loop starts and ends with is removed. Shortest loops come first. O(E log E + total
+/// length).
 ///
 /// `lengths`: finite and positive, one per edge.
 ///

@@ -1,4 +1,4 @@
-//! Canonical homotopy bases, and the group element of any edge path.
+//! Canonical homotopy bases, and the group elements of edge paths.
 //!
 //! ```
 //! use ricci::topology::homotopy_basis;
@@ -13,8 +13,8 @@
 use super::brahana::{NormalForm, best_starts, normal_form};
 use super::group::SurfaceGroup;
 use super::handle::{HandleLoops, LoopPair};
-use super::places::Places;
-use super::polygon::Polygon;
+use super::places::PlaceWords;
+use super::polygon::OpenedPolygon;
 use super::reduction::Reduction;
 use super::rooted::RootedTree;
 use super::shorten::{path_length, shorten};
@@ -31,45 +31,42 @@ use crate::mesh::{EdgeId, HalfedgeId, Mesh, PerEdge, PerHalfedge, VertexId};
 ///     a1 b1 a1⁻¹ b1⁻¹ … ag bg ag⁻¹ bg⁻¹ c1 … cb = 1,
 /// ```
 ///
-/// and what it takes to name places of the universal cover. Letters compose left to right, as paths do. `b_i`
-/// crosses `a_i` once, from right to left (intersection number +1); `c_j` is freely homotopic to a boundary
-/// loop that has the surface on its left.
+/// and the data that name points of the universal cover. Letters compose left to right, as paths do. `b_i` crosses `a_i` once, from right
+/// to left (intersection number +1); `c_j` is freely homotopic to a boundary loop that has the surface on its left.
 ///
-/// **Lifts.** One lift p̃ of the base is chosen. A group element γ acts on the cover by the deck
-/// transformation that carries p̃ to the end of the lift of γ that starts there. Every vertex v has a tree
-/// path from p, and ṽ is the end of its lift from p̃; the lifts of v are `γ ṽ`, each for one γ.
+/// **Lifts.** One lift p̃ of the base is chosen. A group element γ acts on the cover by the deck transformation that maps p̃ to the end
+/// of the lift of γ that starts there. Every vertex v has a tree path from p, and ṽ is the end of its lift from p̃; the lifts of v are `γ
+/// ṽ`, one for each γ.
 ///
-/// **Polygon.** The surface opened along the tree and the edges left over is a disk. Its lift D with a corner
-/// at p̃ is a fundamental domain; γ D are its copies. The corner of D at the origin of h is the lift
-/// `corner_word(h) ṽ`.
+/// **Polygon.** The surface opened along the tree and the edges left over is a disk. Its lift D with a corner at p̃ is a fundamental
+/// domain; γ D are its copies. The corner of D at the origin of h is the lift `corner_word(h) ṽ`.
 #[derive(Debug, Clone)]
 pub struct HomotopyBasis {
     /// The base vertex p.
     pub base: VertexId,
     /// The group, with its names and relator.
     pub group: SurfaceGroup,
-    /// Per generator (a1, b1, …, ag, bg, c1, …, cb) its loop: half-edges that start and end at the base.
+    /// For each generator (a1, b1, …, ag, bg, c1, …, cb) its loop: half-edges that start and end at the base.
     pub loops: Vec<Vec<HalfedgeId>>,
-    /// Per c_j the half-edge of a face on its boundary loop that the tree leaves out: along the tree to its
-    /// tip, once around the boundary with the surface on the left, and back is c_j.
+    /// For each c_j the half-edge of a face on its boundary loop that is not in the tree: c_j runs along the tree to its tip, once around
+    /// the boundary with the surface on the left, and back.
     pub rims: Vec<HalfedgeId>,
     tree: Forest,
     place: PerHalfedge<u32>,
-    places: Places,
+    places: PlaceWords,
 }
 
-/// The polygon's word is read from several starts, whose loops are pulled straight and compared, until these loops have had this number
-/// of edges together per edge of the mesh, which bounds the time.
+/// The polygon's word is read from several places, whose loops are pulled straight and compared, until these loops have had this number
+/// of edges in total per edge of the mesh. This bounds the time.
 const WORK_PER_EDGE: usize = 8;
 
 /// A canonical homotopy basis of a connected surface, with short loops.
 ///
-/// `lengths`: finite and positive, one per edge. `base`: the base vertex; `None` takes one from which the
-/// loops are short. The edges that a shortest-path tree and a dual tree leave over generate the group
-/// \[EW05\]; the disk's boundary word in them is brought into normal form \[Bra21\], \[LPVV01\]; the loops of
-/// each handle are then changed by Dehn twists along one another (`a → a b^±1`, `b → b a^±1`, which leave the
-/// commutator) and pulled straight across triangles, as long as they become shorter. O(E log E) for a fixed
-/// genus; O(g³) at worst for the words.
+/// `lengths`: finite and positive, one per edge. `base`: the base vertex; with `None` one is chosen from which the loops are short. The
+/// edges that are neither in a shortest-path tree nor in a dual tree generate the group \[EW05\]; the disk's boundary word in them is
+/// brought into normal form \[Bra21\], \[LPVV01\]; the loops of each handle are then changed by Dehn twists along one another (`a → a
+/// b^±1`, `b → b a^±1`, which keep the commutator) and pulled straight across triangles, as long as they become shorter. O(E log E) for a
+/// fixed genus; O(g³) at worst for the words.
 ///
 /// # Errors
 ///
@@ -91,7 +88,7 @@ pub fn homotopy_basis(
         }
         None => RootedTree::central(mesh, lengths, control)?,
     };
-    let polygon = Polygon::new(mesh, rooted);
+    let polygon = OpenedPolygon::new(mesh, rooted);
     let (NormalForm { ends, prefixes, .. }, pairs) = shortest_handles(mesh, lengths, &polygon, control)?;
     let mut loops = Vec::with_capacity(2 * pairs.len() + ends.len());
     let mut products = Vec::with_capacity(pairs.len());
@@ -112,16 +109,16 @@ pub fn homotopy_basis(
         rims: ends.iter().map(|end| polygon.halfedges[end.index()]).collect(),
         tree: polygon.rooted.tree,
         place: polygon.place,
-        places: Places { prefixes, products },
+        places: PlaceWords { prefixes, products },
     })
 }
 
-/// The normal form of the polygon's word, among those of several starts of reading, whose handles have the
-/// shortest loops once these are pulled straight; with these loops.
+/// The normal form whose handles have the shortest loops after these are pulled straight, among those of the polygon's word read from
+/// several places; with these loops.
 fn shortest_handles(
     mesh: &Mesh,
     lengths: &PerEdge<f64>,
-    polygon: &Polygon,
+    polygon: &OpenedPolygon,
     control: &Control,
 ) -> Result<(NormalForm, Vec<LoopPair>)> {
     let cost: Vec<_> =
@@ -164,23 +161,22 @@ impl HomotopyBasis {
     ///
     /// # Errors
     ///
-    /// [`crate::Error::Argument`] for what is no vertex.
+    /// [`crate::Error::Argument`] for a vertex that does not exist.
     pub fn tree_path(&self, mesh: &Mesh, v: VertexId) -> Result<Vec<HalfedgeId>> {
         self.check_fits(mesh)?;
         check_vertex(mesh, v)?;
         Ok(self.tree.path_down(mesh, v))
     }
 
-    /// The lift of a face's corner: the corner at the origin v of `h`, a half-edge of a face, is the place `γ
-    /// ṽ` of the polygon D with γ = this word, of at most 8g + 2b letters (more where a handle has been
-    /// twisted).
+    /// The lift of a face's corner: the corner at the origin v of `h`, a half-edge of a face, is the vertex `γ ṽ` of the polygon D, where
+    /// γ is this word, of at most 8g + 2b letters (more where a handle has been twisted).
     pub fn corner_word(&self, h: HalfedgeId) -> Word {
         // The first place has a corner at the base.
         self.places.between(0, self.place[h]).collect()
     }
 
-    /// The element of a half-edge from u to v: of the loop along the tree to u, along `h`, and back along the
-    /// tree. The lift of `h` that starts at ũ ends at `γ ṽ`. Freely reduced; empty on the tree.
+    /// The element of a half-edge from u to v, that is of the loop along the tree to u, along `h`, and back along the tree. The lift of
+    /// `h` that starts at ũ ends at `γ ṽ`. Freely reduced; empty on the tree.
     pub fn halfedge_word(&self, mesh: &Mesh, h: HalfedgeId) -> Word {
         self.halfedge_letters(mesh, h).collect()
     }
@@ -191,9 +187,9 @@ impl HomotopyBasis {
         self.places.between(self.place[from], self.place[to])
     }
 
-    /// The element of an edge path from u to v: of the loop along the tree to u, along the path, and back
-    /// along the tree; for a loop at the base, of the loop itself. Reduced in the group
-    /// ([`SurfaceGroup::reduce`]). The lift of the path that starts at ũ ends at `γ ṽ`.
+    /// The element of an edge path from u to v, that is of the loop along the tree to u, along the path, and back along the tree; for a
+    /// loop at the base, of the loop itself. Reduced in the group ([`SurfaceGroup::reduce`]). The lift of the path that starts at ũ ends
+    /// at `γ ṽ`.
     ///
     /// # Errors
     ///
@@ -206,23 +202,19 @@ impl HomotopyBasis {
         Ok(reduction.word())
     }
 
-    /// Which copy of the polygon D lies across a half-edge of a face: crossing `h` out of the copy γ D leads
-    /// into `γ · transition(h) D`. Freely reduced; empty where the polygon is not cut, and outside the
-    /// surface.
+    /// The copy of the polygon D across a half-edge of a face: crossing `h` out of the copy γ D leads to `γ · transition(h) D`. Freely
+    /// reduced; empty where the polygon is not cut, and outside the surface.
     pub fn transition(&self, mesh: &Mesh, h: HalfedgeId) -> Word {
         if mesh.is_boundary_edge(h.edge()) {
             return Word::identity();
         }
         // The lift of h's origin is a corner of both copies.
         let across = mesh.next(h.twin());
-        match self.place[h] == self.place[across] {
-            true => Word::identity(),
-            false => self.corner_word(h).times(&self.corner_word(across).inverse()),
-        }
+        if self.place[h] == self.place[across] { Word::identity() } else { self.corner_word(h).times(&self.corner_word(across).inverse()) }
     }
 
-    /// The interior edges along which the polygon D is cut: those that [`HomotopyBasis::transition`] does not
-    /// cross trivially. They open the surface into a disk (a closed surface of genus 0 has none).
+    /// The interior edges along which the polygon D is cut: those with a non-trivial [`HomotopyBasis::transition`]. They open the surface
+    /// into a disk (a closed surface of genus 0 has none).
     pub fn cut(&self, mesh: &Mesh) -> PerEdge<bool> {
         PerEdge::from_fn(mesh.n_edges(), |e: EdgeId| {
             let h = e.halfedge();
@@ -230,13 +222,13 @@ impl HomotopyBasis {
         })
     }
 
-    /// The mesh has as many elements as that of the basis.
+    /// Checks that the mesh has as many elements as that of the basis.
     pub(super) fn check_fits(&self, mesh: &Mesh) -> Result<()> {
         check_size("half-edges of the basis", self.place.len(), mesh.n_halfedges())?;
         check_size("vertices of the basis", self.tree.parent.len(), mesh.n_vertices())
     }
 
-    /// Multiply a product by the element of `h` from the right.
+    /// Multiplies a product by the element of `h` from the right.
     pub(super) fn advance(&self, mesh: &Mesh, reduction: &mut Reduction, h: HalfedgeId) {
         reduction.extend(self.halfedge_letters(mesh, h));
     }

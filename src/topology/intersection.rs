@@ -13,16 +13,16 @@ use super::check_loop;
 use crate::error::Result;
 use crate::mesh::{HalfedgeId, Mesh, PerHalfedge};
 
-/// The intersection number a · b of two closed edge paths: how often b crosses a from right to left, minus
-/// how often it crosses from left to right.
+/// The intersection number a · b of two closed edge paths: the number of times that b crosses a from right to left, minus the number of
+/// times that it crosses from left to right.
 ///
-/// It is antisymmetric, depends on the homology classes alone, and loops that bound (also those around a
-/// boundary loop of the surface) have 0 with every other. `a · b = +1` where the directions of a and b, in
-/// this order, are a positively oriented frame. Vertices and edges may be common, loops, or repeated.
+/// It is antisymmetric and depends on the homology classes alone; loops that bound (also those around a boundary loop of the surface)
+/// have 0 with every other. `a · b = +1` where the directions of a and b, in this order, are a positively oriented frame. The paths may
+/// share vertices and edges, and repeat them.
 ///
 /// # Errors
 ///
-/// [`crate::Error::Argument`] for half-edges that form no closed path.
+/// [`crate::Error::Argument`] for half-edges that do not form a closed path.
 pub fn intersection_number(mesh: &Mesh, a: &[HalfedgeId], b: &[HalfedgeId]) -> Result<i64> {
     check_loop(mesh, a)?;
     check_loop(mesh, b)?;
@@ -55,12 +55,12 @@ fn total(path: &[HalfedgeId], crossing: &PerHalfedge<i64>) -> i64 {
     path.iter().map(|&h| crossing[h]).sum()
 }
 
-/// Add `sign` to each half-edge that crosses the loop, pushed a little to its left, from right to left, once
-/// per crossing, and subtract it from its twin: the Poincaré dual cochain of the loop.
+/// Adds `sign` to each half-edge that crosses the loop, pushed a little to its left, from right to left, once per crossing, and subtracts
+/// it from its twin: the Poincaré dual cochain of the loop.
 ///
-/// The pushed loop crosses what leaves its vertices in the wedge on its left, turning clockwise from the edge
-/// after the one by which it enters to the one by which it leaves. Outside the surface the wedge goes on as
-/// if the boundary loop were filled by a disk.
+/// The pushed loop crosses the half-edges that leave its vertices in the wedge on its left, turning clockwise from the edge after the one
+/// by which it enters to the one by which it leaves. Outside the surface the wedge continues as if the boundary loop were filled by a
+/// disk.
 fn push_left(mesh: &Mesh, path: &[HalfedgeId], sign: i64, crossing: &mut PerHalfedge<i64>) {
     for (k, &enter) in path.iter().enumerate() {
         let leave = path[(k + 1) % path.len()];

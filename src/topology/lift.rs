@@ -23,13 +23,12 @@ use crate::mesh::{HalfedgeId, Mesh, VertexId};
 pub struct Lift {
     /// The vertex v below it.
     pub vertex: VertexId,
-    /// The deck transformation γ that carries ṽ there, reduced in the group. On a closed surface of genus ≥ 2
-    /// another word may mean the same: compare with [`super::SurfaceGroup::equal`].
+    /// The deck transformation γ that maps ṽ to it, reduced in the group. On a closed surface of genus ≥ 2 another word may be the same
+    /// element: compare with [`super::SurfaceGroup::equal`].
     pub element: Word,
 }
 
-/// The lifts that the lift of a path passes: its start, then the end of each of its edges. See
-/// [`HomotopyBasis::lift`].
+/// The lifts along the lift of a path: its start, then the end of each of its edges. See [`HomotopyBasis::lift`].
 pub struct LiftedPath<'a> {
     mesh: &'a Mesh,
     basis: &'a HomotopyBasis,
@@ -48,7 +47,7 @@ impl HomotopyBasis {
     ///
     /// # Errors
     ///
-    /// [`Error::Size`] for another mesh; [`Error::Argument`] for half-edges that are no path, or a path that does not start at the
+    /// [`Error::Size`] for another mesh; [`Error::Argument`] for half-edges that form no path, or a path that does not start at the
     /// vertex below `start`.
     pub fn lift<'a>(
         &'a self,

@@ -1,6 +1,6 @@
 //! Spanning trees, homology generators, cut graphs, homotopy bases and lifts to the universal cover.
 //!
-//! All paths are sequences of half-edges, so that edges which are loops or have the same ends, as a Δ-complex may have, need no special
+//! All paths are sequences of half-edges, so that edges which are loops or have the same ends, as in a Δ-complex, need no special
 //! treatment. Calls that take long have a [`crate::Control`] and can be cancelled.
 //!
 //! ```
@@ -46,7 +46,7 @@ pub(crate) use corner::number_corners;
 pub(crate) use corner_walk::{corner_walk, crossed_halfedges};
 use cut::check_connected;
 pub use cut::{CutGraph, cut_graph};
-pub use domain::{FundamentalDomain, Side};
+pub use domain::{DomainSide, FundamentalDomain};
 pub use farthest::{central_vertex, farthest_vertices};
 pub use group::SurfaceGroup;
 pub(crate) use growing::{cut_about, cut_about_centre, cut_about_joined};
@@ -54,7 +54,7 @@ pub use homology::homology_generators;
 pub use homotopy::{HomotopyBasis, homotopy_basis};
 pub use intersection::{intersection_matrix, intersection_number};
 pub use lift::{Lift, LiftedPath};
-pub(crate) use nearest::Nearest;
+pub(crate) use nearest::NearestQueue;
 pub use reduction::Reduction;
 pub use spanning::{Forest, shortest_paths};
 pub use word::{Letter, Word};

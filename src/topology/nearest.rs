@@ -1,4 +1,4 @@
-//! A queue from which the nearest comes first, for searches that grow outwards.
+//! A priority queue that returns the nearest item first, for searches that grow outwards.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -8,30 +8,30 @@ const RINGS_PER_UNIT: f64 = 32.0;
 /// Rings that are kept apart.
 const RINGS: u64 = 1024;
 
-/// A queue of items by distance: the nearest first, of equally near ones the least. What comes out is what a heap of all items gives.
+/// A queue of items by distance: the nearest is returned first, of equally near ones the least. The order is that of a heap of all items.
 ///
-/// A search that grows outwards adds items that are hardly nearer than the last one that it took. So they are dropped into rings of equal
-/// width, and only the items of the innermost ring are put in order, in a heap that stays small.
-pub(crate) struct Nearest<T> {
+/// A search that grows outwards adds hardly any items nearer than the last one that it took. So items are sorted into rings of equal
+/// width, and only those of the innermost ring are in a heap, which stays small.
+pub(crate) struct NearestQueue<T> {
     rings_per_distance: f64,
     /// The innermost ring.
     innermost: u64,
-    /// Its items, and nearer ones.
+    /// The items of the innermost ring, and nearer ones.
     near: BinaryHeap<Reverse<(i64, T)>>,
-    /// The items of ring r stand at r modulo [`RINGS`], for the rings less than that farther out than the innermost one.
+    /// The items of ring r are at r modulo [`RINGS`], for less than so many rings beyond the innermost one.
     rings: Vec<Vec<(i64, T)>>,
     n_in_rings: usize,
-    /// Those of rings farther out. They are dropped into rings when the innermost one is a multiple of [`RINGS`].
+    /// The items of rings farther out. They are sorted into rings when the innermost one is a multiple of [`RINGS`].
     beyond: Vec<(i64, T)>,
 }
 
-impl<T: Ord + Copy> Nearest<T> {
-    /// An empty queue. `unit`: by about how much the items are farther out than those that were taken when they were added; it changes
-    /// nothing but the time.
-    pub fn new(unit: f64) -> Nearest<T> {
+impl<T: Ord + Copy> NearestQueue<T> {
+    /// An empty queue. `unit` is about the distance by which added items are farther than the last one taken; it affects nothing but the
+    /// time.
+    pub fn new(unit: f64) -> NearestQueue<T> {
         let rings_per_distance = RINGS_PER_UNIT / unit;
         let is_sound = rings_per_distance.is_finite() && rings_per_distance > 0.0;
-        Nearest {
+        NearestQueue {
             rings_per_distance: if is_sound { rings_per_distance } else { 0.0 },
             innermost: 0,
             near: BinaryHeap::new(),
@@ -41,7 +41,7 @@ impl<T: Ord + Copy> Nearest<T> {
         }
     }
 
-    /// The ring of a distance, which grows with it.
+    /// The ring of a distance, which grows with the distance.
     fn ring(&self, distance: f64) -> u64 {
         (distance * self.rings_per_distance) as u64
     }
@@ -61,13 +61,13 @@ impl<T: Ord + Copy> Nearest<T> {
         }
     }
 
-    /// The nearest item with its distance.
+    /// Takes the nearest item, with its distance.
     pub fn pop(&mut self) -> Option<(f64, T)> {
         self.pop_looking_ahead(|_| ())
     }
 
-    /// [`Nearest::pop`]. `ahead` is told most items, with keys, a little before they come, many at a time: what it reads of far apart places
-    /// is fetched from memory at once, where each item would have to wait for its own.
+    /// [`NearestQueue::pop`]. Most items are passed to `ahead`, with keys, a little before they are returned, many at a time: memory that
+    /// `ahead` reads for them is then fetched together, instead of for each item on its own.
     #[inline]
     pub fn pop_looking_ahead(&mut self, mut ahead: impl FnMut(&[(i64, T)])) -> Option<(f64, T)> {
         loop {
@@ -98,13 +98,13 @@ impl<T: Ord + Copy> Nearest<T> {
     }
 }
 
-/// A number whose order as an integer is that of [`f64::total_cmp`].
+/// The number whose order as an integer is that of [`f64::total_cmp`].
 fn ordered(x: f64) -> i64 {
     let bits = x.to_bits() as i64;
     bits ^ (((bits >> 63) as u64) >> 1) as i64
 }
 
-/// What [`ordered`] is the number of.
+/// The inverse of [`ordered`].
 fn distance(key: i64) -> f64 {
     f64::from_bits((key ^ (((key >> 63) as u64) >> 1) as i64) as u64)
 }
@@ -117,7 +117,7 @@ mod tests {
     #[test]
     fn items_come_in_the_order_of_a_heap() {
         for unit in [1.0, 1e-3, 1e3, 0.0, f64::NAN, f64::INFINITY, 1e-308] {
-            let (mut queue, mut heap) = (Nearest::new(unit), BinaryHeap::new());
+            let (mut queue, mut heap) = (NearestQueue::new(unit), BinaryHeap::new());
             let mut state = 1_u64;
             let mut random = move || {
                 state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);

@@ -1,29 +1,26 @@
-//! Words of the places of a polygon, which are composed on demand.
+//! The words between places on the boundary of a polygon, composed on demand.
 
 use super::brahana::Prefix;
 use super::word::{Letter, Word};
 
-/// What it takes to spell the way along a polygon's boundary from one place to another.
+/// The data from which the word of the boundary of a polygon from one place to another is composed.
 ///
-/// There are 4g + b places, and a word has as many letters (twice as many between two places). Only a number per handle is stored for
+/// There are 4g + b places, and a word has as many letters (twice as many between two places). Only one number per handle is stored for
 /// each place, so that the memory is O(g (g + b)).
 #[derive(Debug, Clone)]
-pub(super) struct Places {
-    /// Per place of the polygon.
+pub(super) struct PlaceWords {
+    /// The prefix at each place of the polygon.
     pub prefixes: Vec<Prefix>,
-    /// Per handle the first k letters of `a b a⁻¹ b⁻¹`, k = 0 … 4, spelled in the generators.
+    /// For each handle the first k letters of `a b a⁻¹ b⁻¹`, k = 0 … 4, as words in the generators.
     pub products: Vec<[Word; 5]>,
 }
 
-impl Places {
-    /// The word of the boundary between two places: `P(from)⁻¹ P(to)`, with what the two have in common left out.
+impl PlaceWords {
+    /// The word of the boundary between two places: `P(from)⁻¹ P(to)`, without the factors that the two have in common.
     pub fn between(&self, from: u32, to: u32) -> impl Iterator<Item = Letter> + '_ {
         let [from, to] = [from, to].map(|place| &self.prefixes[place as usize]);
         let common = from.digits.iter().zip(&to.digits).take_while(|(k, l)| k == l).count();
-        let n_common_ends = match common == self.products.len() {
-            true => from.n_ends.min(to.n_ends),
-            false => 0,
-        };
+        let n_common_ends = if common == self.products.len() { from.n_ends.min(to.n_ends) } else { 0 };
         let letters = move |prefix: &'_ Prefix| {
             let n_ends = prefix.n_ends;
             let handles = prefix.digits.iter().zip(&self.products).skip(common);

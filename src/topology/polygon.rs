@@ -4,26 +4,24 @@ use super::rooted::RootedTree;
 use super::word::Letter;
 use crate::mesh::{HalfedgeId, Mesh, PerEdge, PerHalfedge};
 
-/// The boundary of the opened surface, read counterclockwise, with a letter where a side is an edge left
-/// over.
+/// The boundary of the opened surface, read counterclockwise. Sides on edges left over have letters.
 ///
-/// Sides on tree edges have no letter. Every vertex of the mesh lies on the boundary of the polygon, so every
-/// corner of a face is a place there: the polygon's corners between letter k − 1 and letter k have place k.
-pub(super) struct Polygon {
+/// Sides on tree edges have no letter. Every vertex of the mesh lies on the boundary of the polygon, so every corner of a face is at a
+/// place there: the polygon's corners between letter k − 1 and letter k have place k.
+pub(super) struct OpenedPolygon {
     /// The tree along which the surface was opened.
     pub rooted: RootedTree,
-    /// Each generator of an interior edge twice, once as its inverse; each of a boundary edge once, not
-    /// inverted.
+    /// Each generator of an interior edge occurs twice, once as its inverse; each of a boundary edge once, not inverted.
     pub letters: Vec<Letter>,
-    /// Per generator, the half-edge in whose direction the letter runs.
+    /// For each generator the half-edge in whose direction the letter runs.
     pub halfedges: Vec<HalfedgeId>,
-    /// Per half-edge of a face, the place of the corner at its origin (0 outside the surface).
+    /// For each half-edge of a face the place of the corner at its origin (0 outside the surface).
     pub place: PerHalfedge<u32>,
 }
 
-impl Polygon {
-    /// Reading starts at a corner of the root. O(E).
-    pub fn new(mesh: &Mesh, rooted: RootedTree) -> Polygon {
+impl OpenedPolygon {
+    /// The polygon, read from a corner of the root. O(E).
+    pub fn new(mesh: &Mesh, rooted: RootedTree) -> OpenedPolygon {
         let mut letter_of = vec![None; mesh.n_halfedges()];
         let mut open = PerEdge::from_fn(mesh.n_edges(), |e| mesh.is_boundary_edge(e));
         rooted.tree.parent.iter().flatten().for_each(|h| open[h.edge()] = true);
@@ -43,7 +41,7 @@ impl Polygon {
         let mut at = start;
         while let Some(side) = at {
             letters.extend(letter_of[side.index()]);
-            // Behind the last letter the polygon closes.
+            // After the last letter the polygon closes.
             let here = if letters.len() == n_letters { 0 } else { letters.len() as u32 };
             let mut h = mesh.next(side);
             place[h] = here;
@@ -53,7 +51,7 @@ impl Polygon {
             }
             at = Some(h).filter(|&h| Some(h) != start);
         }
-        Polygon { rooted, letters, halfedges, place }
+        OpenedPolygon { rooted, letters, halfedges, place }
     }
 
     /// The loop of a letter: from the root to its edge, along the edge, and back to the root.

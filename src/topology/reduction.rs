@@ -13,24 +13,23 @@ use super::word::{Letter, Word, inverse};
 
 /// The word problem.
 impl SurfaceGroup {
-    /// A word of the same element, never longer than the word on a closed surface; empty exactly for the
-    /// identity.
+    /// A word for the same element, on a closed surface never longer than the given one; empty exactly for the identity.
     ///
-    /// Closed surfaces of genus ≥ 2: Dehn's algorithm \[Deh12\]; what is left need not be the only such word.
-    /// Genus 1: `a1^p b1^q`. With boundary: freely reduced without `cb`, which the relator expresses by the
-    /// others. These two are normal forms: equal elements, equal words. O(g · length).
+    /// On closed surfaces of genus ≥ 2 by Dehn's algorithm \[Deh12\]; an element can have several such words. In genus 1, `a1^p b1^q`.
+    /// With boundary, the freely reduced word without `cb`, which the relator expresses by the others. The last two are normal forms:
+    /// equal elements have equal words. O(g · length).
     pub fn reduce(&self, word: &Word) -> Word {
         let mut reduction = Reduction::new(*self);
         reduction.extend(word.letters().iter().copied());
         reduction.word()
     }
 
-    /// Whether a word is the identity of the group.
+    /// True if a word is the identity of the group.
     pub fn is_trivial(&self, word: &Word) -> bool {
         self.reduce(word).is_empty()
     }
 
-    /// Whether two words are the same element of the group.
+    /// True if two words are the same element of the group.
     pub fn equal(&self, u: &Word, v: &Word) -> bool {
         self.is_trivial(&u.inverse().times(v))
     }
@@ -41,18 +40,17 @@ impl SurfaceGroup {
 #[derive(Debug, Clone)]
 pub struct Reduction {
     group: SurfaceGroup,
-    /// The reduced word (genus 1 without boundary: empty, see `exponents`).
-    stack: Vec<Entry>,
-    /// Genus 1 without boundary: the exponents of a1 and b1.
+    /// The reduced word (empty in genus 1 without boundary, see `exponents`).
+    stack: Vec<StackEntry>,
+    /// The exponents of a1 and b1, in genus 1 without boundary.
     exponents: [i64; 2],
     /// Letters still to be pushed, last one first; empty between calls.
     ahead: Vec<Letter>,
 }
 
-/// A letter, and the lengths of the longest stretches of the cyclic relator and of its inverse that end with
-/// it.
+/// A letter, and the lengths of the longest subwords of the cyclic relator and of its inverse that end with it.
 #[derive(Debug, Clone, Copy)]
-struct Entry {
+struct StackEntry {
     letter: Letter,
     along: usize,
     against: usize,
@@ -74,12 +72,12 @@ impl Reduction {
         self.stack.iter().map(|entry| entry.letter).chain((0..2).flat_map(power)).collect()
     }
 
-    /// Multiply by letters from the right, one after the other.
+    /// Multiplies by letters from the right, one after the other.
     pub fn extend(&mut self, letters: impl IntoIterator<Item = Letter>) {
         letters.into_iter().for_each(|letter| self.push(letter));
     }
 
-    /// Multiply by a letter from the right. A letter of no generator is the identity.
+    /// Multiplies by a letter from the right. A letter without a generator is the identity.
     pub fn push(&mut self, letter: Letter) {
         let SurfaceGroup { genus, boundaries } = self.group;
         if letter.index() >= self.group.n_generators() {
@@ -92,10 +90,7 @@ impl Reduction {
                 // The relator is R cb, so cb is the inverse of R.
                 let relator = self.group.relator();
                 let rest = &relator.letters()[..relator.len() - 1];
-                match letter.is_inverse() {
-                    true => rest.iter().for_each(|&letter| self.push_free(letter)),
-                    false => inverse(rest).for_each(|letter| self.push_free(letter)),
-                }
+                if letter.is_inverse() { rest.iter().for_each(|&letter| self.push_free(letter)) } else { inverse(rest).for_each(|letter| self.push_free(letter)) }
             }
             _ => self.push_free(letter),
         }
@@ -104,15 +99,14 @@ impl Reduction {
     fn push_free(&mut self, letter: Letter) {
         match self.stack.last() {
             Some(top) if top.letter == letter.inverse() => drop(self.stack.pop()),
-            _ => self.stack.push(Entry { letter, along: 1, against: 1 }),
+            _ => self.stack.push(StackEntry { letter, along: 1, against: 1 }),
         }
     }
 
-    /// Dehn's algorithm. A non-empty freely reduced word that is the identity of a closed surface's group of
-    /// genus ≥ 2 contains more than half of the cyclic relator or of its inverse \[Deh12\]. Every letter
-    /// stands once in either of them, so a stretch is known by its last letter and its length, and the stack,
-    /// on which no stretch of 2g + 1 letters stays, is looked at only at its top. Each replacement shortens
-    /// the word by two letters: O(g) per letter.
+    /// Dehn's algorithm. A non-empty freely reduced word that is the identity in a closed surface's group of genus ≥ 2 contains more than
+    /// half of the cyclic relator or of its inverse \[Deh12\]. Every letter occurs once in either of them, so a subword of them is known
+    /// by its last letter and its length. The stack contains no such subword of 2g + 1 letters, so that only its top is examined. Each
+    /// replacement shortens the word by two letters: O(g) per letter.
     fn push_closed(&mut self, letter: Letter) {
         let half = 2 * self.group.genus;
         self.ahead.push(letter);
@@ -130,10 +124,9 @@ impl Reduction {
                     against += top.against;
                 }
             }
-            self.stack.push(Entry { letter, along, against });
+            self.stack.push(StackEntry { letter, along, against });
             if along.max(against) > half {
-                // The relator is s t with the stretch s: it is replaced by the inverse of t, last letter of t
-                // first.
+                // The relator is s t with the subword s, which is replaced by the inverse of t, last letter of t first.
                 self.stack.truncate(self.stack.len() - (half + 1));
                 let mut t = letter;
                 for _ in 1..half {
@@ -144,7 +137,7 @@ impl Reduction {
         }
     }
 
-    /// The letter after a letter in the cyclic relator … a b a⁻¹ b⁻¹ a′ ….
+    /// The letter that follows a letter in the cyclic relator … a b a⁻¹ b⁻¹ a′ ….
     fn after(&self, letter: Letter) -> Letter {
         let (handle, is_b) = (letter.index() / 2, letter.index() % 2 == 1);
         match (is_b, letter.is_inverse()) {
@@ -155,8 +148,7 @@ impl Reduction {
         }
     }
 
-    /// The letter after a letter in the inverse of the cyclic relator, … b a b⁻¹ a⁻¹ b′ …, where b′ is of the
-    /// handle before.
+    /// The letter that follows a letter in the inverse of the cyclic relator, … b a b⁻¹ a⁻¹ b′ …, where b′ is of the handle before.
     fn after_against(&self, letter: Letter) -> Letter {
         let (handle, is_b) = (letter.index() / 2, letter.index() % 2 == 1);
         let genus = self.group.genus;

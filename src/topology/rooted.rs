@@ -1,7 +1,7 @@
-//! Shortest-path trees that contain every boundary loop but one edge of it, and where to root them.
+//! Shortest-path trees that contain all but one edge of every boundary loop, and the choice of their roots.
 
 use super::farthest::farthest;
-use super::spanning::{Forest, Key, Reached, leftover, shortest_paths_through};
+use super::spanning::{Forest, Key, ReachedVertex, leftover, shortest_paths_through};
 use crate::control::Control;
 use crate::error::Result;
 use crate::mesh::{EdgeId, HalfedgeId, Mesh, PerEdge, VertexId};
@@ -12,7 +12,7 @@ const SAMPLED_ROOTS: usize = 8;
 /// Moves of the root towards shorter loops.
 const MAX_MOVES: usize = 4;
 
-/// A spanning tree T with the edges that T and a dual tree leave over.
+/// A spanning tree T, and the edges that are neither in T nor in a dual tree.
 #[derive(Debug, Clone)]
 pub(super) struct RootedTree {
     pub root: VertexId,
@@ -22,12 +22,12 @@ pub(super) struct RootedTree {
 }
 
 impl RootedTree {
-    /// The shortest-path tree of `root` on a connected surface, except that a boundary loop, once reached, is walked around from there
-    /// to both sides until one edge of it is left.
+    /// The shortest-path tree of `root` on a connected surface, except that the vertices of a boundary loop, once it is reached, are
+    /// added along the loop from there to both sides until one edge of it is left.
     ///
-    /// The interior edges left over are those of \[EW05\], whose loops through the root are short: their dual
-    /// tree is a maximum spanning tree. The dual graph of the faces is connected without the edges of T: it would be if a disk were
-    /// glued into each boundary loop, and each disk then is a leaf, since T has all edges of its loop but one.
+    /// The interior edges left over are those of \[EW05\], whose loops through the root are short: their dual tree is a maximum spanning
+    /// tree. The dual graph of the faces is connected without the edges of T: it would be if a disk were glued into each boundary loop,
+    /// and each disk then is a leaf, since T has all edges of its loop but one.
     pub fn new(mesh: &Mesh, lengths: &PerEdge<f64>, root: VertexId, control: &Control) -> Result<RootedTree> {
         let around =
             |v| if mesh.is_boundary_vertex(v) { around_boundary(mesh, lengths, v) } else { Vec::new() };
@@ -40,10 +40,10 @@ impl RootedTree {
         Ok(RootedTree { root, tree, left })
     }
 
-    /// A tree with a root from which the loops of the edges left over are short together.
+    /// A tree with a root from which the loops of the edges left over are short in total.
     ///
-    /// Roots are sampled far from each other; from the best, the search goes on at the far end of the
-    /// shortest loop as long as that helps.
+    /// Roots are sampled far from each other; from the best one, the search moves to the far end of the shortest loop as long as that
+    /// helps.
     pub fn central(mesh: &Mesh, lengths: &PerEdge<f64>, control: &Control) -> Result<RootedTree> {
         let mut best = RootedTree::new(mesh, lengths, VertexId(0), control)?;
         let mut nearest = best.tree.distance.clone();
@@ -66,14 +66,14 @@ impl RootedTree {
         Ok(best)
     }
 
-    /// Total length of the loops of the edges left over.
+    /// The total length of the loops of the edges left over.
     fn total(&self, mesh: &Mesh, lengths: &PerEdge<f64>) -> f64 {
         self.left.iter().fold(0.0, |sum, &e| sum + self.tree.arc(mesh, lengths, e))
     }
 }
 
 /// The other vertices of the boundary loop through `v`, reached along the loop from both sides until one edge of it is left.
-fn around_boundary(mesh: &Mesh, lengths: &PerEdge<f64>, v: VertexId) -> Vec<Reached> {
+fn around_boundary(mesh: &Mesh, lengths: &PerEdge<f64>, v: VertexId) -> Vec<ReachedVertex> {
     let start = mesh.out(v);
     let onwards = |&h: &HalfedgeId| Some(mesh.next(h)).filter(|&next| next != start);
     let boundary: Vec<_> = std::iter::successors(Some(start), onwards).collect();

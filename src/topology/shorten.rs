@@ -1,18 +1,18 @@
-//! Edge paths pulled straight across triangles.
+//! Shortening of edge paths by pulling them across triangles.
 
 use crate::control::Control;
 use crate::error::Result;
 use crate::mesh::{HalfedgeId, Mesh, PerEdge};
 
-/// The fraction of the length it replaces that a move of a path or a cut must save. It is far above the
-/// rounding of a sum of lengths, so that no sequence of moves comes back to where it was.
+/// The share of the length it replaces that a move of a path or a cut must save. It is far above the rounding of a sum of lengths, so
+/// that no sequence of moves returns to an earlier state.
 pub(super) const LEAST_SAVING: f64 = 1e-12;
 
-/// Most moves of one path or cut, per face of the mesh; taking a spur out of a path does not count. Paths and cuts made of shortest
-/// paths need far fewer moves; the bound keeps the worst case linear.
+/// Most moves of one path or cut, per face of the mesh; removing a spur does not count. Paths and cuts made of shortest paths need far
+/// fewer moves; the bound keeps the worst case linear.
 pub(super) const MOVES_PER_FACE: usize = 8;
 
-/// Half-edges of a path that are looked at between two looks at the control: they take a fraction of a millisecond.
+/// Half-edges of a path that are processed between two checks of the control: they take a fraction of a millisecond.
 const STEPS_PER_LOOK: usize = 4096;
 
 /// A path with the same ends, homotopic to `path` and no longer.
@@ -24,8 +24,8 @@ const STEPS_PER_LOOK: usize = 4096;
 ///   u ---- v --- w
 /// ```
 ///
-/// At the end no vertex of the path allows another move: every vertex was looked at again after its edges had changed. A path may
-/// pass a vertex or an edge several times.
+/// At the end no vertex of the path allows another move: every vertex is visited again after its edges have changed. A path may pass a
+/// vertex or an edge several times.
 pub(super) fn shorten(
     mesh: &Mesh,
     lengths: &PerEdge<f64>,
@@ -54,7 +54,7 @@ pub(super) fn shorten(
     Ok(behind)
 }
 
-/// The shorter of the two ways around the vertex between two edges, if it is shorter than they are.
+/// The shorter of the two paths around the vertex between two edges, if it is shorter than they are.
 fn shorter_side(
     mesh: &Mesh,
     lengths: &PerEdge<f64>,

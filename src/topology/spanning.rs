@@ -1,4 +1,4 @@
-//! Shortest-path forests, and the edges that a tree and a dual tree leave over.
+//! Shortest-path forests, and the edges that are in neither a tree nor a dual tree.
 //!
 //! ```
 //! use ricci::mesh::{VertexId, shapes};
@@ -9,7 +9,7 @@
 //! # Ok::<(), ricci::Error>(())
 //! ```
 
-use super::nearest::Nearest;
+use super::nearest::NearestQueue;
 use super::{check_lengths, check_vertex};
 use crate::control::Control;
 use crate::error::Result;
@@ -18,7 +18,7 @@ use crate::mesh::{EdgeId, HalfedgeId, Mesh, PerEdge, PerVertex, VertexId};
 use std::cmp::Ordering;
 use std::hint::black_box;
 
-/// Vertices settled between two looks at the control: they take a fraction of a millisecond.
+/// Vertices settled between two checks of the control: they take a fraction of a millisecond.
 const VERTICES_PER_LOOK: usize = 4096;
 
 /// A number as a key of a priority queue, in the total order of `f64`.
@@ -40,19 +40,19 @@ impl PartialOrd for Key {
 /// Shortest paths along edges from a set of sources.
 #[derive(Debug, Clone)]
 pub struct Forest {
-    /// Distance to the nearest source.
+    /// The distance to the nearest source.
     pub distance: PerVertex<f64>,
     /// The half-edge that enters the vertex on its path from the source; `None` at a source.
     pub parent: PerVertex<Option<HalfedgeId>>,
 }
 
 impl Forest {
-    /// The path from `v` up to its source, as the half-edges that lead down: the last one leaves the source.
+    /// The path from `v` up to its source, as half-edges that lead downwards: the last one leaves the source.
     pub fn path<'a>(&'a self, mesh: &'a Mesh, v: VertexId) -> impl Iterator<Item = HalfedgeId> + 'a {
         std::iter::successors(self.parent[v], |&h| self.parent[mesh.origin(h)])
     }
 
-    /// Length of an edge's arc: from a source to one end, along the edge, and from the other end to a source.
+    /// The length of an edge's arc: from a source to one end, along the edge, and from the other end to a source.
     pub(super) fn arc(&self, mesh: &Mesh, lengths: &PerEdge<f64>, e: EdgeId) -> f64 {
         let [u, v] = mesh.ends(e);
         self.distance[u] + self.distance[v] + lengths[e]
@@ -68,9 +68,8 @@ impl Forest {
 
 /// Shortest-path forest along edges (Dijkstra), O(E log V).
 ///
-/// `lengths` are positive, one per edge. Equal distances are settled in order of vertex id and the first path
-/// found stays, so the forest depends on the input alone. A component without a source gets one: its vertex
-/// of lowest id.
+/// `lengths` are positive, one per edge. Equal distances are settled in the order of vertex ids and the first path found stays, so the
+/// forest depends on the input alone. In a component without a source, the vertex of lowest id becomes one.
 ///
 /// # Errors
 ///
@@ -85,103 +84,103 @@ pub fn shortest_paths(
     shortest_paths_through(mesh, lengths, sources, control, |_| Vec::new())
 }
 
-/// A vertex that is reached by a path of this length from another vertex, and the half-edge that enters it.
-pub(super) type Reached = (VertexId, f64, HalfedgeId);
+/// A vertex, the length of a path to it from another vertex, and the half-edge that enters it.
+pub(super) type ReachedVertex = (VertexId, f64, HalfedgeId);
 
-/// [`shortest_paths`], where the vertices that `at_once` returns for a settled vertex keep the paths from there that it returns, even
-/// if there are shorter ones.
+/// Like [`shortest_paths`], but when a vertex is settled, the vertices that `at_once` returns for it keep the paths from there that it
+/// returns, even if there are shorter ones.
 pub(super) fn shortest_paths_through(
     mesh: &Mesh,
     lengths: &PerEdge<f64>,
     sources: impl IntoIterator<Item = VertexId>,
     control: &Control,
-    at_once: impl Fn(VertexId) -> Vec<Reached>,
+    at_once: impl Fn(VertexId) -> Vec<ReachedVertex>,
 ) -> Result<Forest> {
     check_lengths(mesh, lengths)?;
-    let roads = |v: VertexId| mesh.outgoing(v).map(|h| Road::along(mesh, lengths, h));
-    Search { mesh, unit: mean(lengths), roads, at_once }.run(sources, control)
+    let edges = |v: VertexId| mesh.outgoing(v).map(|h| OutgoingEdge::along(mesh, lengths, h));
+    PathSearch { mesh, unit: mean(lengths), edges, at_once }.run(sources, control)
 }
 
 /// A half-edge that leaves a vertex.
 #[derive(Clone, Copy)]
-struct Road {
+struct OutgoingEdge {
     length: f64,
     tip: VertexId,
     along: HalfedgeId,
 }
 
-impl Road {
+impl OutgoingEdge {
     #[inline]
-    fn along(mesh: &Mesh, lengths: &PerEdge<f64>, h: HalfedgeId) -> Road {
-        Road { length: lengths[h.edge()], tip: mesh.tip(h), along: h }
+    fn along(mesh: &Mesh, lengths: &PerEdge<f64>, h: HalfedgeId) -> OutgoingEdge {
+        OutgoingEdge { length: lengths[h.edge()], tip: mesh.tip(h), along: h }
     }
 }
 
-/// The edges that leave each vertex side by side in memory, for several searches on the same mesh: the second one pays for them.
-pub(super) struct Roads<'a> {
+/// The edges that leave each vertex, next to each other in memory. This pays when there are several searches on the same mesh.
+pub(super) struct OutgoingEdges<'a> {
     mesh: &'a Mesh,
     pub lengths: &'a PerEdge<f64>,
-    /// Those of vertex v are `roads[starts[v]..starts[v + 1]]`.
+    /// The edges that leave vertex v are `edges[starts[v]..starts[v + 1]]`.
     starts: Vec<u32>,
-    roads: Vec<Road>,
+    edges: Vec<OutgoingEdge>,
 }
 
-impl<'a> Roads<'a> {
+impl<'a> OutgoingEdges<'a> {
     /// # Errors
     /// As [`shortest_paths`].
     pub fn new(mesh: &'a Mesh, lengths: &'a PerEdge<f64>) -> Result<Self> {
         check_lengths(mesh, lengths)?;
-        let (mut starts, mut roads) =
+        let (mut starts, mut edges) =
             (Vec::with_capacity(mesh.n_vertices() + 1), Vec::with_capacity(mesh.n_halfedges()));
         for v in mesh.vertices() {
-            starts.push(roads.len() as u32);
-            roads.extend(mesh.outgoing(v).map(|h| Road::along(mesh, lengths, h)));
+            starts.push(edges.len() as u32);
+            edges.extend(mesh.outgoing(v).map(|h| OutgoingEdge::along(mesh, lengths, h)));
         }
-        starts.push(roads.len() as u32);
-        Ok(Roads { mesh, lengths, starts, roads })
+        starts.push(edges.len() as u32);
+        Ok(OutgoingEdges { mesh, lengths, starts, edges })
     }
 
     /// [`shortest_paths`] from these sources.
     ///
     /// # Errors
-    /// As there.
+    /// Those of [`shortest_paths`].
     pub fn shortest_paths(&self, sources: &[VertexId], control: &Control) -> Result<Forest> {
-        let roads = |v: VertexId| {
+        let edges = |v: VertexId| {
             let [begin, end] = [v.index(), v.index() + 1].map(|k| self.starts[k] as usize);
-            self.roads[begin..end].iter().copied()
+            self.edges[begin..end].iter().copied()
         };
-        let search = Search { mesh: self.mesh, unit: mean(self.lengths), roads, at_once: |_| Vec::new() };
+        let search = PathSearch { mesh: self.mesh, unit: mean(self.lengths), edges, at_once: |_| Vec::new() };
         search.run(sources.iter().copied(), control)
     }
 }
 
-/// The mean of lengths.
+/// The mean of the lengths.
 pub(super) fn mean(lengths: &PerEdge<f64>) -> f64 {
     lengths.iter().sum::<f64>() / lengths.len() as f64
 }
 
-/// A search for shortest paths.
-struct Search<'a, R, A> {
+/// A running search for shortest paths.
+struct PathSearch<'a, R, A> {
     mesh: &'a Mesh,
-    /// About the length of an edge: [`Nearest::new`].
+    /// About the length of an edge, see [`NearestQueue::new`].
     unit: f64,
-    /// The [`Road`]s that leave a vertex.
-    roads: R,
-    /// [`shortest_paths_through`] has it.
+    /// Returns the edges that leave a vertex.
+    edges: R,
+    /// See [`shortest_paths_through`].
     at_once: A,
 }
 
-impl<R, I, A> Search<'_, R, A>
+impl<R, I, A> PathSearch<'_, R, A>
 where
     R: Fn(VertexId) -> I,
-    I: Iterator<Item = Road>,
-    A: Fn(VertexId) -> Vec<Reached>,
+    I: Iterator<Item = OutgoingEdge>,
+    A: Fn(VertexId) -> Vec<ReachedVertex>,
 {
     fn run(&self, sources: impl IntoIterator<Item = VertexId>, control: &Control) -> Result<Forest> {
-        let Search { mesh, unit, .. } = *self;
-        let unreached = Reach { distance: f64::INFINITY, parent: NONE, is_settled: false, is_fixed: false };
+        let PathSearch { mesh, unit, .. } = *self;
+        let unreached = VertexState { distance: f64::INFINITY, parent: NONE, is_settled: false, is_fixed: false };
         let mut reach = PerVertex::filled(mesh.n_vertices(), unreached);
-        let mut queue = Nearest::new(unit);
+        let mut queue = NearestQueue::new(unit);
         for v in sources {
             check_vertex(mesh, v)?;
             reach[v].distance = 0.0;
@@ -189,10 +188,10 @@ where
         }
         let mut roots = mesh.vertices();
         let mut steps = 0;
-        // The roads of vertices that come next are fetched from memory side by side.
+        // Touches the edges of the vertices that come next, so that they are fetched from memory together.
         let read = |coming: &[(i64, VertexId)]| {
             for &(_, v) in coming {
-                black_box((self.roads)(v).next().map(|road| road.length));
+                black_box((self.edges)(v).next().map(|edge| edge.length));
             }
         };
         loop {
@@ -209,7 +208,7 @@ where
                         queue.push(d + through, w);
                     }
                 }
-                for Road { length, tip, along } in (self.roads)(v) {
+                for OutgoingEdge { length, tip, along } in (self.edges)(v) {
                     let (there, through) = (&mut reach[tip], d + length);
                     if !there.is_fixed && through < there.distance {
                         (there.distance, there.parent) = (through, along);
@@ -228,26 +227,25 @@ where
     }
 }
 
-/// No half-edge.
+/// Stands for no half-edge.
 const NONE: HalfedgeId = HalfedgeId(u32::MAX);
 
-/// What a search knows of a vertex, in one place of memory.
+/// The state of a vertex in a search, in one place of memory.
 #[derive(Clone, Copy)]
-struct Reach {
+struct VertexState {
     distance: f64,
     parent: HalfedgeId,
     is_settled: bool,
-    /// Whether the path to it stays: it is settled, or was returned by `at_once`.
+    /// True if the path to it is final: it is settled, or was returned by `at_once`.
     is_fixed: bool,
 }
 
-/// The edges left over by a shortest-path forest and a maximum spanning tree of the dual graph, shortest arcs
-/// first.
+/// The edges that are neither in a shortest-path forest nor in a maximum spanning tree of the dual graph, shortest arcs first.
 ///
-/// The arc of an edge `e = uv` runs from a source to u, along e, and from v to a source; its length `σ(e) =
-/// d(u) + d(v) + |e|` is the weight in the dual tree, so what is left over are the shortest arcs [EW05,
-/// §3.4]. Edges of the forest and those with `wall` are in neither the dual tree nor the result; a boundary
-/// edge that is no wall joins its face to the outside, which is one node of the dual graph.
+/// The arc of an edge `e = uv` runs from a source to u, along e, and from v to a source; its length `σ(e) = d(u) + d(v) + |e|` is the
+/// weight in the dual tree, so the edges left over have the shortest arcs [EW05, §3.4]. Edges of the forest and those with `wall` are in
+/// neither the dual tree nor the result; a boundary edge that is no wall joins its face to the outside, which is one node of the dual
+/// graph.
 pub(crate) fn leftover(
     mesh: &Mesh,
     lengths: &PerEdge<f64>,
@@ -277,10 +275,10 @@ pub(crate) fn leftover(
     left
 }
 
-/// The edges of a graph without those that end in a node with no other edge, again and again: all that are on cycles, and those between
-/// cycles. Every spanning tree has the others. `edges`: in ascending order, which stays; `nodes`: the ends of each, below `n`.
+/// The edges of a graph that remain after repeatedly removing edges to a node with no other edge: those on cycles and between cycles.
+/// Every spanning tree contains the removed ones. `edges` are ascending and stay so; `nodes` returns the ends of each, below `n`.
 fn on_cycles(mut edges: Vec<EdgeId>, n: usize, nodes: impl Fn(EdgeId) -> [u32; 2]) -> Vec<EdgeId> {
-    // Per node how many edges end there, and the exclusive or of their numbers: where there is one edge, that is its number.
+    // For each node the number of its edges and the exclusive or of their ids, which is the id of the last one when one is left.
     let mut ends = vec![(0u32, 0u32); n];
     let remove = |ends: &mut [(u32, u32)], e: EdgeId, node: u32| {
         let (degree, sum) = &mut ends[node as usize];
@@ -305,7 +303,7 @@ fn on_cycles(mut edges: Vec<EdgeId>, n: usize, nodes: impl Fn(EdgeId) -> [u32; 2
     edges
 }
 
-/// Closed, open and with walls: what is left over is what it is where all arcs are tried in order.
+/// On closed and open surfaces and with walls, the result is the same as when all arcs are tried in order.
 #[cfg(test)]
 #[test]
 #[allow(clippy::unwrap_used)]

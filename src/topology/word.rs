@@ -8,7 +8,7 @@
 //! assert!(word.times(&word.inverse()).is_empty());
 //! ```
 
-/// A generator or its inverse: generator k is letter `2k`, its inverse `2k + 1` (as edges and half-edges).
+/// A generator or its inverse: generator k is letter `2k`, its inverse `2k + 1` (like edges and half-edges).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Letter(pub u32);
 
@@ -25,7 +25,7 @@ impl Letter {
         (self.0 >> 1) as usize
     }
 
-    /// Whether it is the inverse of a generator.
+    /// True for the inverse of a generator.
     #[inline]
     pub fn is_inverse(self) -> bool {
         self.0 & 1 == 1
@@ -59,12 +59,12 @@ impl Word {
         self.0.len()
     }
 
-    /// Whether it is the empty word.
+    /// True for the empty word.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
-    /// Multiply by a letter from the right.
+    /// Multiplies by a letter from the right.
     pub fn push(&mut self, letter: Letter) {
         if self.0.last() == Some(&letter.inverse()) {
             self.0.pop();
@@ -73,7 +73,7 @@ impl Word {
         }
     }
 
-    /// Multiply by letters from the right, one after the other.
+    /// Multiplies by letters from the right, one after the other.
     pub fn extend(&mut self, letters: impl IntoIterator<Item = Letter>) {
         letters.into_iter().for_each(|letter| self.push(letter));
     }
@@ -95,15 +95,12 @@ impl Word {
         self.times(other).times(&self.inverse()).times(&other.inverse())
     }
 
-    /// The image under the homomorphism that sends each generator to a word.
+    /// The image under the homomorphism that maps each generator to a word.
     pub fn substitute(&self, image: impl Fn(usize) -> Word) -> Word {
         let mut word = Word::identity();
         for letter in &self.0 {
             let image = image(letter.index());
-            match letter.is_inverse() {
-                true => word.extend(inverse(&image.0)),
-                false => word.extend(image.0),
-            }
+            if letter.is_inverse() { word.extend(inverse(&image.0)) } else { word.extend(image.0) }
         }
         word
     }
