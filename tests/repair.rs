@@ -7,7 +7,7 @@ use common::Random;
 use ricci::Error;
 use ricci::mesh::check::{Defect, diagnose};
 use ricci::mesh::io::{self, Attributes, Soup};
-use ricci::mesh::repair::{Repair, Repaired, Steps, repair};
+use ricci::mesh::repair::{Repair, Repaired, RepairSteps, repair};
 use ricci::mesh::{Mesh, shapes};
 
 fn mend(soup: &Soup) -> Repaired {
@@ -46,7 +46,7 @@ fn check(soup: &Soup, options: &Repair) -> Repaired {
     }
     // What is repaired stays as it is. (Welding looks at the whole: what was dropped may allow more of it now.)
     let again = repair(&done.soup, &Repair { weld: None, component: None, ..*options }).unwrap();
-    assert_eq!(again.steps, Steps::default());
+    assert_eq!(again.steps, RepairSteps::default());
     assert!(again.soup.positions == done.soup.positions && again.soup.faces == done.soup.faces);
     done
 }
@@ -117,7 +117,7 @@ fn a_fin_in_a_torn_surface_stays_apart_and_is_reported() {
     let back = |k: f64| [[0.0, 0.0, 0.0], [0.0, 0.0, 1.0], [k.cos(), k.sin(), 0.0]];
     let pages = beside(&[0.0, 2.0, 4.0].map(|k| Soup::new(back(k).to_vec(), vec![[0, 1, 2]])));
     let done = check(&pages, &Repair::default());
-    assert_eq!((done.soup.faces.len(), done.steps, done.weld_refused.len()), (3, Steps::default(), 1));
+    assert_eq!((done.soup.faces.len(), done.steps, done.weld_refused.len()), (3, RepairSteps::default(), 1));
 }
 
 #[test]
@@ -127,7 +127,7 @@ fn closed_surfaces_that_touch_stay_what_they_are() {
         let both = beside(&[cube([0.0; 3]), cube(at)]);
         let done = check(&both, &Repair::default());
         assert_eq!(shape(&done), (4, 0, 2, vec!["several_components"]));
-        assert!(done.soup.faces == both.faces && done.steps == Steps::default(), "{:?}", done.steps);
+        assert!(done.soup.faces == both.faces && done.steps == RepairSteps::default(), "{:?}", done.steps);
         assert_eq!(done.weld_refused.len(), refused);
     }
     // As loose triangles: a point is no matter; along an edge the neighbours say who belongs to whom.
@@ -179,7 +179,7 @@ fn position_of(place: u32) -> [f64; 3] {
 fn a_sound_surface_is_left_alone() {
     for soup in [shapes::genus(2, 2).unwrap(), shapes::disk(3).unwrap(), shapes::icosphere(3).unwrap()] {
         let done = mend(&soup);
-        assert_eq!(done.steps, Steps::default());
+        assert_eq!(done.steps, RepairSteps::default());
         assert!(done.soup == soup);
     }
 }

@@ -9,7 +9,7 @@ use crate::status::ricci_status;
 use crate::structs::{self, sized};
 use ricci::mesh::check::{Diagnosis, diagnose};
 use ricci::mesh::io::{self, Soup};
-use ricci::mesh::repair::{Repair, Repaired, Steps, repair};
+use ricci::mesh::repair::{Repair, Repaired, RepairSteps, repair};
 use std::ffi::{CString, c_char};
 use std::sync::OnceLock;
 
@@ -161,7 +161,7 @@ pub unsafe extern "C" fn ricci_soup_summarise(
         let Diagnosis { components, euler, boundary_loops, genus, edges, defects, .. } =
             &list.diagnosis().diagnosis;
         let [n_normals, n_colors, n_uv, n_corner_normals] = count(&list.soup.attributes);
-        let steps = list.origin.as_ref().map_or_else(Steps::default, |done| done.steps);
+        let steps = list.origin.as_ref().map_or_else(RepairSteps::default, |done| done.steps);
         let refused = list.origin.as_ref().map_or(&[][..], |done| &done.weld_refused);
         let figures = ricci_soup_summary {
             size,

@@ -6,7 +6,7 @@ pub mod surfaces;
 use ricci::Error;
 use ricci::mesh::check::diagnose;
 use ricci::mesh::io::{self, Attributes, Format, Soup};
-use ricci::mesh::repair::{Repair, Steps, repair};
+use ricci::mesh::repair::{Repair, RepairSteps, repair};
 use ricci::mesh::{Mesh, Point};
 use std::path::PathBuf;
 use std::sync::OnceLock;
@@ -140,7 +140,7 @@ pub fn mend(soup: &Soup, options: &Repair) {
     }
     let again = Repair { weld: None, component: None, ..*options };
     let again = repair(&mended.soup, &again).unwrap();
-    assert!(again.soup.faces == mended.soup.faces && again.steps == Steps::default(), "repaired twice");
+    assert!(again.soup.faces == mended.soup.faces && again.steps == RepairSteps::default(), "repaired twice");
 }
 
 /// Options of a repair, one for each number.

@@ -10,7 +10,7 @@ use crate::control::Control;
 use crate::error::Result;
 use crate::geometry::triangle::angles;
 use crate::geometry::{Space, DoubleDouble};
-use crate::mesh::{EdgeId, Filled, HalfedgeId, Mesh, PerEdge, VertexId};
+use crate::mesh::{EdgeId, FilledMesh, HalfedgeId, Mesh, PerEdge, VertexId};
 use crate::metric::lengths::face_lengths;
 use crate::metric::{Class, Metric, Surface};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -20,7 +20,7 @@ use std::sync::Arc;
 const LEAST_START: f64 = 0.6;
 
 /// The radius with which the circle about a hub starts: that of a circle as long as the loop, or more where one edge is long.
-pub(crate) fn start_radius(lengths: &PerEdge<f64>, filled: &Filled, k: usize) -> f64 {
+pub(crate) fn start_radius(lengths: &PerEdge<f64>, filled: &FilledMesh, k: usize) -> f64 {
     let edges = filled.loops[k].iter().map(|h| lengths[h.edge()]);
     let (sum, longest) = edges.fold((0.0, 0.0), |(sum, longest), l| (sum + l, f64::max(longest, l)));
     (sum / TAU).max(LEAST_START * longest)
@@ -34,7 +34,7 @@ impl Solution {
     /// Those of [`crate::metric::delaunay_start`].
     pub(crate) fn with_hubs(
         surface: Surface,
-        filled: &Filled,
+        filled: &FilledMesh,
         space: Space,
         control: &Control,
     ) -> Result<Solution> {
@@ -67,7 +67,7 @@ impl Solution {
     ///
     /// An angle θ opposite an edge of a circle is Delaunay where `θ ≤ π/2 ∓ ψ/2`, ψ the angle of the edge at the centre, with + where the
     /// surface lies inside the circle. It counts as obtuse where it is above both bounds, ψ that of the edge's share of its loop.
-    pub(crate) fn obtuse_rims(&self, filled: &Filled) -> Vec<(EdgeId, f64)> {
+    pub(crate) fn obtuse_rims(&self, filled: &FilledMesh) -> Vec<(EdgeId, f64)> {
         let surface = self.surface();
         let (mesh, lengths) = match &self.origin.flipped {
             Some(flipped) => (&flipped.mesh, &flipped.lengths),

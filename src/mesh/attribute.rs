@@ -46,7 +46,7 @@ impl<I, T> PerElement<I, T> {
         (0..n).map(I::from).map(f).collect::<Vec<_>>().into()
     }
 
-    /// The plain vector.
+    /// The entries as a plain vector.
     pub fn into_vec(self) -> Vec<T> {
         self.values
     }

@@ -21,13 +21,12 @@ use std::cmp::Reverse;
 impl Mesh {
     /// The surface of an indexed triangle list (0-based, counterclockwise).
     ///
-    /// Vertices, faces and corners keep their numbers; edges are numbered in the order in which the faces'
-    /// sides (first to second corner, second to third, third to first) first name them, and half-edge `2e`
-    /// runs in the direction of that first side.
+    /// Vertices, faces and corners keep their numbers. Edges are numbered in the order in which the faces' sides (first to second corner,
+    /// second to third, third to first) first name them, and half-edge `2e` runs in the direction of that first side.
     ///
     /// # Errors
     ///
-    /// [`Error::Defects`] with every defect; [`Error::TooLarge`]; [`Error::Argument`] for far more vertices than faces can use.
+    /// [`Error::Defects`] with all defects; [`Error::TooLarge`]; [`Error::Argument`] for far more vertices than faces can use.
     pub fn from_faces(n_vertices: usize, faces: &[[u32; 3]]) -> Result<Mesh> {
         check_counts(n_vertices, faces.len())?;
         let incidence = Incidence::new(n_vertices, faces);
@@ -37,8 +36,7 @@ impl Mesh {
         })
     }
 
-    /// The surface of a triangle list in space, diagnosed with its positions (zero-area faces, coordinates
-    /// that are not finite).
+    /// The surface of a triangle list in space. Its diagnosis includes the positions (zero-area faces, coordinates that are not finite).
     ///
     /// # Errors
     ///
@@ -55,19 +53,16 @@ impl Mesh {
         defects(diagnose_positions(positions, faces, &incidence)).map_or(mesh, Err)
     }
 
-    /// The surface of triangles glued along numbered edges: a Δ-complex, whose edges need not be determined
-    /// by their ends.
+    /// The surface of triangles glued along numbered edges: a Δ-complex, in which several edges may have the same ends.
     ///
-    /// `face_edges[f] = [±e_bc, ±e_ca, ±e_ab]` for the face (a, b, c): edges are numbered from 1 without
-    /// gaps, the sign says whether the side (b to c, c to a, a to b) runs along the edge's direction;
-    /// half-edge `2(e − 1)` is that direction. Each edge is named once (boundary) or twice, with opposite
-    /// signs.
+    /// `face_edges[f] = [±e_bc, ±e_ca, ±e_ab]` for the face (a, b, c). Edges are numbered from 1 without gaps; the sign is positive if
+    /// the side (b to c, c to a, a to b) has the edge's direction, that of half-edge `2(e − 1)`. Each edge is named once (boundary) or
+    /// twice, with opposite signs.
     ///
     /// # Errors
     ///
-    /// [`Error::Gluing`] for edge numbers that break these rules or glue different vertices,
-    /// [`Error::Defects`] for a consistent gluing that is not one surface in which every vertex is the centre
-    /// of one fan.
+    /// [`Error::Gluing`] for edge numbers that break these rules or glue different vertices, [`Error::Defects`] for a consistent gluing
+    /// that is not a surface in which every vertex is the centre of one fan.
     pub fn from_gluing(n_vertices: usize, faces: &[[u32; 3]], face_edges: &[[i32; 3]]) -> Result<Mesh> {
         check_counts(n_vertices, faces.len())?;
         check_size("face_edges", face_edges.len(), faces.len())?;
@@ -79,23 +74,23 @@ impl Mesh {
         Mesh::assemble(n_vertices, origin, &sides)
     }
 
-    /// `[±e_bc, ±e_ca, ±e_ab]` of a face, as [`Mesh::from_gluing`] takes them.
+    /// `[±e_bc, ±e_ca, ±e_ab]` of a face, in the format of [`Mesh::from_gluing`].
     pub fn face_edges(&self, f: FaceId) -> [i32; 3] {
         let number = |h: HalfedgeId| (h.edge().0 as i32 + 1) * if h.0 & 1 == 0 { 1 } else { -1 };
         let [ab, bc, ca] = self.face_halfedges(f).map(number);
         [bc, ca, ab]
     }
 
-    /// Whether every edge is determined by its two different ends.
+    /// True if every edge has two different ends and no other edge has the same two.
     pub fn is_simplicial(&self) -> bool {
-        // Per vertex, the last one that was found beside it.
+        // For each vertex the last one that was found to be its neighbour.
         let mut beside = vec![NONE; self.n_vertices()];
         let mut is_new =
             |v: VertexId, tip: VertexId| tip != v && std::mem::replace(&mut beside[tip.index()], v.0) != v.0;
         self.vertices().all(|v| self.outgoing(v).all(|h| is_new(v, self.tip(h))))
     }
 
-    /// Whether the faces' vertices alone give the surface: [`Mesh::from_faces`] accepts them. Edges are then determined by their ends,
+    /// True if the faces' vertices determine the surface, so that [`Mesh::from_faces`] accepts them: edges are determined by their ends,
     /// and no two faces have the same vertices.
     pub fn is_given_by_faces(&self) -> bool {
         // In a simplicial surface, faces with the same vertices have the same edges.
@@ -117,7 +112,7 @@ fn numbers(face_edges: &[[i32; 3]]) -> impl Iterator<Item = (usize, usize)> {
     face_edges.iter().enumerate().flat_map(of_face)
 }
 
-/// The highest edge number; there cannot be more edges than sides.
+/// The highest edge number, which is at most the number of sides.
 fn count_edges(face_edges: &[[i32; 3]]) -> Result<usize> {
     let highest = numbers(face_edges).map(|(e, f)| (e, Reverse(f))).max();
     match highest {
@@ -129,7 +124,7 @@ fn count_edges(face_edges: &[[i32; 3]]) -> Result<usize> {
     }
 }
 
-/// Check that some face names each of the numbers from 1 to `n_edges`, the highest.
+/// Checks that each of the numbers from 1 to `n_edges`, the highest, occurs in some face.
 fn check_gaps(face_edges: &[[i32; 3]], n_edges: usize) -> Result<()> {
     let mut is_named = vec![false; n_edges + 1];
     numbers(face_edges).for_each(|(e, _)| is_named[e] = true);
@@ -143,7 +138,7 @@ fn check_gaps(face_edges: &[[i32; 3]], n_edges: usize) -> Result<()> {
     }
 }
 
-/// The origin of each half-edge, and the three half-edges of each face, of a gluing as [`Mesh::from_gluing`] takes it.
+/// The origin of each half-edge, and the three half-edges of each face, of a gluing in the format of [`Mesh::from_gluing`].
 fn glue(n_vertices: usize, faces: &[[u32; 3]], face_edges: &[[i32; 3]]) -> Result<(Vec<u32>, Vec<[u32; 3]>)> {
     let n_edges = count_edges(face_edges)?;
     let mut origin = vec![NONE; 2 * n_edges];
@@ -183,16 +178,16 @@ fn glue(n_vertices: usize, faces: &[[u32; 3]], face_edges: &[[i32; 3]]) -> Resul
     Ok((origin, sides))
 }
 
-/// The error that a diagnosis is, if it has found something.
+/// The error of a diagnosis that has found defects.
 fn defects(diagnosis: Diagnosis) -> Option<Error> {
     (!diagnosis.defects.is_empty()).then(|| Error::Defects(Box::new(diagnosis)))
 }
 
-/// Number the edges of a list.
+/// Numbers the edges of a triangle list.
 ///
 /// # Errors
 ///
-/// [`Error::Connectivity`] for every list that has a defect of its indices, without saying which: the diagnosis does.
+/// [`Error::Connectivity`] for a list with any defect of its indices; only the diagnosis tells which.
 fn connect(faces: &[[u32; 3]], incidence: Incidence) -> Result<Mesh> {
     let n_vertices = incidence.n_vertices;
     let (hangs_together, numbered) =
@@ -228,8 +223,8 @@ fn numbered(faces: &[[u32; 3]], incidence: Incidence) -> Option<(Vec<u32>, Vec<[
     Some((origin, sides))
 }
 
-/// Most isolated vertices that are diagnosed one by one, a million; a list with more is refused as a whole, before memory is taken for
-/// each of them.
+/// Most isolated vertices that are diagnosed one by one, a million. A list with more is refused as a whole, before memory is allocated
+/// for each of them.
 const SPARE_VERTICES: usize = 1 << 20;
 
 fn check_counts(n_vertices: usize, n_faces: usize) -> Result<()> {
@@ -239,7 +234,7 @@ fn check_counts(n_vertices: usize, n_faces: usize) -> Result<()> {
             return Err(Error::TooLarge { what, count });
         }
     }
-    // A count of vertices is only a claim of the caller's, for which no memory should be taken.
+    // The number of vertices is only a claim of the caller, for which no memory should be allocated.
     if n_vertices > n_faces.saturating_mul(3).saturating_add(SPARE_VERTICES) {
         return Err(Error::argument("number of vertices", n_vertices, "three per face or fewer"));
     }

@@ -1,4 +1,4 @@
-//! The double of a surface with boundary.
+//! The double of a surface with boundary: two copies of it, glued along the boundary.
 //!
 //! ```
 //! use ricci::mesh::{Double, Mesh, shapes};
@@ -15,25 +15,25 @@ use crate::error::{Error, Result, check_size};
 
 /// Two copies of a surface, the second mirrored, glued along the boundary: a closed surface with a mirror symmetry.
 ///
-/// Vertices 0 … V − 1, edges 0 … E − 1 and faces 0 … F − 1 are those of the surface; then come the mirror images of the interior
-/// vertices, of the interior edges and of the faces, in the same order.
+/// Vertices 0 … V − 1, edges 0 … E − 1 and faces 0 … F − 1 are those of the surface; they are followed by the mirror images of the
+/// interior vertices, of the interior edges and of the faces, in the same order.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Double {
     /// The closed surface.
     pub mesh: Mesh,
-    /// Vertices, edges and faces of the surface that was doubled.
+    /// The numbers of vertices, edges and faces of the surface that was doubled.
     counts: [usize; 3],
-    /// Per vertex of the double: its mirror image; itself on the boundary of the surface.
+    /// For each vertex of the double its mirror image, which is the vertex itself on the boundary of the surface.
     mirror: Vec<u32>,
-    /// Per edge of the double: the edge of the surface that it is or mirrors.
+    /// For each edge of the double the edge of the surface that it is or mirrors.
     edge_origin: Vec<u32>,
 }
 
 impl Double {
-    /// Double a surface.
+    /// The double of a surface.
     ///
     /// # Errors
-    /// [`Error::Argument`] for a closed one; [`Error::TooLarge`].
+    /// [`Error::Argument`] for a closed surface; [`Error::TooLarge`].
     pub fn new(half: &Mesh) -> Result<Double> {
         if half.is_closed() {
             return Err(Error::argument("surface", "closed", "one with boundary: there is nothing to glue"));
@@ -55,7 +55,7 @@ impl Double {
             image[edge.index()] = (e + k) as u32;
             edge_origin.push(edge.0);
         }
-        // The mirror image of a half-edge runs the same way, with the mirrored face on its right: its twin is a side of it. A
+        // The mirror image of a half-edge runs the same way, with the mirrored face on its right: its twin is a side of that face. A
         // boundary edge is its own image.
         let turned = |h: HalfedgeId| 2 * image[h.edge().index()] + (h.0 & 1 ^ 1);
         let mut origin = vec![0; n_halfedges];
@@ -72,7 +72,7 @@ impl Double {
         Ok(Double { mesh, counts: [n, e, f], mirror, edge_origin })
     }
 
-    /// The mirror image of a vertex: itself on the boundary of the surface.
+    /// The mirror image of a vertex, which is the vertex itself on the boundary of the surface.
     pub fn mirror(&self, v: VertexId) -> VertexId {
         VertexId(self.mirror[v.index()])
     }
@@ -82,12 +82,12 @@ impl Double {
         self.counts[0]
     }
 
-    /// Whether a face of the double, before any flip, belongs to the surface itself.
+    /// True for faces of the double, before any flip, that belong to the surface itself.
     pub fn is_original(&self, f: FaceId) -> bool {
         f.index() < self.counts[2]
     }
 
-    /// Per edge of the double, before any flip, the value of the edge that it is or mirrors.
+    /// For each edge of the double, before any flip, the value of the edge that it is or mirrors.
     ///
     /// # Errors
     /// [`Error::Size`] unless there is one value per edge of the surface.
@@ -96,7 +96,7 @@ impl Double {
         Ok(self.edge_origin.iter().map(|&e| values[e as usize]).collect())
     }
 
-    /// These edges of the surface, and their mirror images, ascending.
+    /// The given edges of the surface and their mirror images, ascending.
     ///
     /// # Errors
     /// [`Error::Argument`] for an edge that the surface does not have.
@@ -106,7 +106,7 @@ impl Double {
         Ok(all.map(EdgeId::from).collect())
     }
 
-    /// Per vertex of the double, the value of the vertex that it is or mirrors.
+    /// For each vertex of the double the value of the vertex that it is or mirrors.
     ///
     /// # Errors
     /// [`Error::Size`] unless there is one value per vertex of the surface.
@@ -116,8 +116,8 @@ impl Double {
         Ok((0..self.mirror.len()).map(|v| values[if v < n { v } else { self.mirror[v] as usize }]).collect())
     }
 
-    /// The target on the double of a target on the surface (curvature per vertex, radians): the same at mirror images; on the boundary
-    /// of the surface, where both halves meet, twice as much.
+    /// The target on the double for a target on the surface (curvature per vertex, radians): the same at mirror images, and twice as much
+    /// on the boundary of the surface, where both halves meet.
     ///
     /// # Errors
     /// [`Error::Size`] unless there is one value per vertex of the surface.

@@ -14,7 +14,7 @@ use super::halfedge::Mesh;
 use super::ids::{EdgeId, HalfedgeId};
 use crate::error::{Error, Result};
 
-/// A flip of an edge that carries a value: its length, or its weight η. Callbacks that follow flips receive it just before the flip.
+/// A flip of an edge that has a value, its length or its weight η. Callbacks that follow flips receive it just before the flip.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Flip<T = f64> {
     /// The edge. The other diagonal keeps its number.
@@ -23,20 +23,20 @@ pub struct Flip<T = f64> {
     pub value: T,
 }
 
-/// A set of edges of one surface that are not to be flipped. The default is the empty set, which fits every surface.
+/// A set of edges of one surface that must not be flipped. The default is the empty set, which fits every surface.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct FixedEdges {
-    /// Per edge, whether it is in the set; empty if none is.
+    /// For each edge, true if it is in the set; empty for the empty set.
     is_fixed: Vec<bool>,
 }
 
 impl FixedEdges {
-    /// No edge at all.
+    /// The empty set.
     pub const fn none() -> FixedEdges {
         FixedEdges { is_fixed: Vec::new() }
     }
 
-    /// The set of these edges of `mesh`, in any order. O(E).
+    /// The set of the given edges of `mesh`, in any order. O(E).
     ///
     /// # Errors
     /// [`Error::Argument`] for an edge that the mesh does not have.
@@ -47,14 +47,14 @@ impl FixedEdges {
         Ok(FixedEdges { is_fixed: marked("fixed edge", mesh.n_edges(), edges)? })
     }
 
-    /// Whether the edge is in the set. O(1).
+    /// True if the edge is in the set. O(1).
     #[inline]
     pub fn contains(&self, e: EdgeId) -> bool {
         self.is_fixed.get(e.index()).is_some_and(|&fixed| fixed)
     }
 }
 
-/// Per edge of a surface with `n_edges`, whether it is one of these; [`Error::Argument`] names one that does not exist.
+/// For each edge of a surface with `n_edges`, true if it is among `edges`; [`Error::Argument`] names one that does not exist.
 pub(super) fn marked(what: &'static str, n_edges: usize, edges: &[EdgeId]) -> Result<Vec<bool>> {
     let mut is_marked = vec![false; n_edges];
     for e in edges {
@@ -64,18 +64,18 @@ pub(super) fn marked(what: &'static str, n_edges: usize, edges: &[EdgeId]) -> Re
     Ok(is_marked)
 }
 
-/// Which half-edges were the first of their faces and vertices before a flip. [`Mesh::unflip`] restores a mesh bit for bit with them;
-/// three more flips would turn the edge back, but leave other first half-edges.
+/// The first half-edges of the faces and vertices at an edge before a flip. With them [`Mesh::unflip`] restores a mesh bit for bit; three
+/// more flips would also turn the edge back, but leave other first half-edges.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Unflip {
-    /// Which of the sides of the left and the right face, counted from the edge, is at the face's first corner.
+pub(super) struct FlipUndo {
+    /// The position, counted from the edge, of the first corner's side in the left and the right face.
     first: [u8; 2],
-    /// Whether the outgoing half-edge of the origin, of the tip, is the edge itself.
+    /// True where the first outgoing half-edge of the origin, of the tip, is the edge itself.
     is_out: [bool; 2],
 }
 
 impl Mesh {
-    /// Replace an edge by the other diagonal of the quadrilateral of its two faces.
+    /// Replaces an edge by the other diagonal of the quadrilateral of its two faces.
     ///
     /// ```text
     ///        c                  c        before: h = 2e = a → b, its face f = (a, b, c), its twin's g = (b, a, d)
@@ -87,8 +87,8 @@ impl Mesh {
     ///        d                  d
     /// ```
     ///
-    /// Any of the four vertices may be the same, as may the quadrilateral's sides. False, and nothing done, for an edge on
-    /// the boundary and for one with the same face on both sides: it has no other diagonal.
+    /// Some of the four vertices may be the same, and some of the quadrilateral's sides. Returns false and does nothing for an edge on
+    /// the boundary and for one with the same face on both sides, which have no other diagonal.
     pub fn flip(&mut self, e: EdgeId) -> bool {
         let h = e.halfedge();
         let t = h.twin();
@@ -111,8 +111,8 @@ impl Mesh {
         true
     }
 
-    /// What [`Mesh::unflip`] needs to know of the mesh before a flip of an edge between two faces.
-    pub(super) fn before_flip(&self, e: EdgeId) -> Unflip {
+    /// The state around an edge between two faces that [`Mesh::unflip`] needs, to be taken before the flip.
+    pub(super) fn before_flip(&self, e: EdgeId) -> FlipUndo {
         let sides = [e.halfedge(), e.halfedge().twin()];
         let first = sides.map(|h| {
             let is_first = |h: HalfedgeId| self.face(h).is_some_and(|f| self.face_halfedge(f) == h);
@@ -124,12 +124,12 @@ impl Mesh {
                 2
             }
         });
-        Unflip { first, is_out: sides.map(|h| self.out(self.origin(h)) == h) }
+        FlipUndo { first, is_out: sides.map(|h| self.out(self.origin(h)) == h) }
     }
 
-    /// Undo the last flip, which was one of this edge. `before` is what [`Mesh::before_flip`] gave; the mesh is then bit for bit what
-    /// it was. Does nothing for an edge without two faces, which no flip leaves.
-    pub(super) fn unflip(&mut self, e: EdgeId, before: Unflip) {
+    /// Undoes the last flip, which must have been one of this edge. `before` is from [`Mesh::before_flip`]; the mesh is then bit for bit
+    /// what it was. Does nothing for an edge without two faces, which no flip leaves.
+    pub(super) fn unflip(&mut self, e: EdgeId, before: FlipUndo) {
         let h = e.halfedge();
         let t = h.twin();
         let (Some(f), Some(g)) = (self.face(h), self.face(t)) else { return };
@@ -149,8 +149,8 @@ impl Mesh {
         }
     }
 
-    /// The sides of the quadrilateral around an interior edge h = a → b with opposite vertices c (left) and d (right): `[b → c,
-    /// c → a, a → d, d → b]`.
+    /// The sides of the quadrilateral around an interior edge h = a → b with opposite vertices c (left) and d (right): `[b → c, c → a, a
+    /// → d, d → b]`.
     pub(crate) fn quadrilateral(&self, h: HalfedgeId) -> [HalfedgeId; 4] {
         let t = h.twin();
         [self.next(h), self.prev(h), self.next(t), self.prev(t)]
@@ -163,7 +163,7 @@ mod tests {
     use crate::mesh::shapes;
     use crate::mesh::shapes::SplitMix64;
 
-    /// Faces as sets of corners, whatever their order and number.
+    /// The faces as sets of corners, in an order that does not depend on their numbers.
     fn triangles(mesh: &Mesh) -> Vec<[u32; 3]> {
         let mut all: Vec<[u32; 3]> = mesh
             .faces()

@@ -1,16 +1,16 @@
-//! A log of flips, by which they are undone.
+//! A log of flips that allows to undo them.
 //!
-//! A solve that fails must leave its surface as it was. A log takes 16 bytes per flip of a length, 24 per flip of an η, and 24 for each set
-//! of curves that follows the flips; a copy of the surface would take as much for every edge, whether it is flipped or not.
+//! A solve that fails must leave its surface as it was. A log takes 16 bytes per flip of a length, 24 per flip of an η, and 24 for each
+//! set of curves that follows the flips; a copy of the surface would take as much for every edge, flipped or not.
 
 use super::attribute::PerEdge;
-use super::flip::{Flip, Unflip};
+use super::flip::{Flip, FlipUndo};
 use super::halfedge::Mesh;
 use super::ids::EdgeId;
 use super::normal::{EdgeCoordinates, NormalCoordinates};
 use crate::error::{Result, check_size};
 
-/// The flips since some state of a triangulation, in order, with everything that they have changed.
+/// The flips since some state of a triangulation, in order, with all values that they have changed.
 ///
 /// ```
 /// # use ricci::mesh::{EdgeId, Flip, FlipLog, Mesh, PerEdge, shapes};
@@ -29,17 +29,17 @@ use crate::error::{Result, check_size};
 /// ```
 #[derive(Debug, Clone)]
 pub struct FlipLog<T = f64> {
-    flips: Vec<Before<T>>,
-    /// For every flip in order, the coordinates of its edge in all sets of curves that follow.
+    flips: Vec<LoggedFlip<T>>,
+    /// For each flip in order, the coordinates of its edge in all sets of curves that follow the flips.
     coordinates: Vec<EdgeCoordinates>,
 }
 
 /// The state of an edge before its flip.
 #[derive(Debug, Clone, Copy)]
-struct Before<T> {
+struct LoggedFlip<T> {
     value: T,
     edge: EdgeId,
-    names: Unflip,
+    names: FlipUndo,
 }
 
 impl<T> Default for FlipLog<T> {
@@ -49,38 +49,37 @@ impl<T> Default for FlipLog<T> {
 }
 
 impl<T: Copy> FlipLog<T> {
-    /// Note a flip, and tell it to the sets of curves that follow ([`NormalCoordinates::record`]), always the same ones. To be called
-    /// just before the flip, with the mesh as it is then; only for an edge that will be flipped.
+    /// Records a flip, also in the sets of curves that follow the flips ([`NormalCoordinates::record`]), which must always be the same
+    /// ones. To be called just before the flip with the mesh of that moment, and only for an edge that will be flipped.
     pub fn record(&mut self, mesh: &Mesh, flip: Flip<T>, followed: &mut [NormalCoordinates]) {
         let Flip { edge, value } = flip;
-        self.flips.push(Before { value, edge, names: mesh.before_flip(edge) });
+        self.flips.push(LoggedFlip { value, edge, names: mesh.before_flip(edge) });
         for normal in followed {
             self.coordinates.push(normal.coordinates(edge));
             normal.record(mesh, edge);
         }
     }
 
-    /// Number of flips that an [`FlipLog::undo`] would take back.
+    /// Number of flips that [`FlipLog::undo`] would undo.
     pub fn len(&self) -> usize {
         self.flips.len()
     }
 
-    /// Whether there is nothing to undo.
+    /// True if there is nothing to undo.
     pub fn is_empty(&self) -> bool {
         self.flips.is_empty()
     }
 
-    /// Forget all flips: the present state is the one that later flips are undone to.
+    /// Forgets all flips, so that [`FlipLog::undo`] returns to the present state.
     pub fn clear(&mut self) {
         self.flips.clear();
         self.coordinates.clear();
     }
 
-    /// Undo all flips, the last one first: mesh, edge values and the curves that followed are then bit for bit what they were, and
-    /// the log is empty.
+    /// Undoes all flips, the last one first: mesh, edge values and curves are then bit for bit what they were, and the log is empty.
     ///
     /// # Errors
-    /// [`crate::Error::Size`] if `values` has not one entry per edge, or if the sets of curves are not as many as were told the flips;
+    /// [`crate::Error::Size`] if `values` does not have one entry per edge, or if the number of sets of curves is not the one recorded;
     /// nothing is changed then.
     pub fn undo(
         &mut self,
@@ -90,7 +89,7 @@ impl<T: Copy> FlipLog<T> {
     ) -> Result<()> {
         check_size("values of the edges", values.len(), mesh.n_edges())?;
         check_size("followed coordinates", followed.len() * self.flips.len(), self.coordinates.len())?;
-        while let Some(Before { value, edge, names }) = self.flips.pop() {
+        while let Some(LoggedFlip { value, edge, names }) = self.flips.pop() {
             mesh.unflip(edge, names);
             values[edge] = value;
             let last = self.coordinates.len() - followed.len();
@@ -123,7 +122,7 @@ mod tests {
             Mesh::from_soup(&shapes::genus(2, 3).unwrap()).unwrap(),
         ];
         for mut mesh in surfaces {
-            // Two triangulations are followed, and flips have been made before the log begins.
+            // Two triangulations are followed, and there are flips before the log begins.
             let mut values = PerEdge::from_fn(mesh.n_edges(), |e: EdgeId| value(u64::from(e.0)));
             let mut followed = vec![NormalCoordinates::new(&mesh)];
             let mut log = FlipLog::default();

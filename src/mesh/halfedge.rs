@@ -9,9 +9,8 @@
 //!            h
 //! ```
 //!
-//! Two vertices may share several edges, an edge may be a loop, a face may touch itself: nothing here looks an
-//! edge up by its end vertices. Half-edges outside the surface have no face and are chained by `next` into
-//! boundary loops (which run with the surface on their right).
+//! Two vertices may share several edges, an edge may be a loop, a face may touch itself: edges are never looked up by their end vertices.
+//! Half-edges outside the surface have no face and are linked by `next` to boundary loops (which run with the surface on their right).
 //!
 //! ```
 //! use ricci::mesh::{Mesh, VertexId};
@@ -26,25 +25,25 @@ use super::ids::{EdgeId, FaceId, HalfedgeId, VertexId};
 use crate::error::{Error, Result};
 use crate::parallel;
 
-/// The face of a half-edge outside the surface; in arrays that are being filled, the entry that has not been filled yet.
+/// The face of half-edges outside the surface; also marks entries of arrays that are not filled yet.
 const OUTSIDE: u32 = u32::MAX;
 
-/// Connectivity of a triangulated surface; knows no position and no length.
+/// Connectivity of a triangulated surface, without positions and lengths.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Mesh {
-    /// Per half-edge: the next one around its face or boundary loop.
+    /// For each half-edge the next one around its face or boundary loop.
     next: Vec<u32>,
-    /// Per half-edge: the vertex it starts at.
+    /// For each half-edge the vertex at which it starts.
     origin: Vec<u32>,
-    /// Per half-edge: its face, or `OUTSIDE`.
+    /// For each half-edge its face, or `OUTSIDE`.
     face: Vec<u32>,
-    /// Per vertex: an outgoing half-edge; the one outside the surface if the vertex is on the boundary.
+    /// For each vertex an outgoing half-edge; on the boundary the one outside the surface.
     out: Vec<u32>,
-    /// Per face: the half-edge of its first corner.
+    /// For each face the half-edge of its first corner.
     first: Vec<u32>,
 }
 
-/// In parallel when called inside a pool: most of the time goes to memory that is touched for the first time.
+/// Runs in parallel inside a pool: most of the time is spent on memory that is touched for the first time.
 impl Clone for Mesh {
     fn clone(&self) -> Mesh {
         let around_faces = || (self.next.clone(), self.out.clone(), self.first.clone());
@@ -55,12 +54,11 @@ impl Clone for Mesh {
 }
 
 impl Mesh {
-    /// Assemble from one triple of half-edges per face (corner order) and the origin of every half-edge.
+    /// Assembles a mesh from three half-edges per face (in corner order) and the origin of every half-edge.
     ///
-    /// `sides[f]` are the half-edges of face f in order, `n_edges` edges own the half-edges `2e`, `2e + 1`, and
-    /// `origin[h]` is a vertex below `n_vertices` for all `2·n_edges` half-edges. Half-edges in no face become
-    /// boundary. The callers (`build`) have diagnosed their input; a rule broken all the same is an
-    /// [`Error::Connectivity`].
+    /// `sides[f]` are the half-edges of face f in order, `n_edges` edges own the half-edges `2e`, `2e + 1`, and `origin[h]` is a vertex
+    /// below `n_vertices` for all `2·n_edges` half-edges. Half-edges without a face become boundary. The callers (`build`) have diagnosed
+    /// their input; a rule that is still broken is an [`Error::Connectivity`].
     pub(crate) fn assemble(n_vertices: usize, origin: Vec<u32>, sides: &[[u32; 3]]) -> Result<Mesh> {
         let n = origin.len();
         let (mut next, mut face) = (vec![OUTSIDE; n], vec![OUTSIDE; n]);
@@ -73,8 +71,8 @@ impl Mesh {
                 next[s[k] as usize] = s[(k + 1) % 3];
             }
         }
-        // Outside: after the boundary half-edge h comes the outside half-edge leaving its tip, found by turning
-        // around the tip through its faces.
+        // A boundary half-edge h is followed by the outside half-edge that leaves its tip, which is found by turning around the tip
+        // through its faces.
         for h in (0..n).filter(|&h| face[h] == OUTSIDE) {
             let mut around = h ^ 1;
             while face[around] != OUTSIDE {
@@ -140,12 +138,12 @@ impl Mesh {
     pub fn prev(&self, h: HalfedgeId) -> HalfedgeId {
         self.next(self.next(h))
     }
-    /// The vertex it starts at.
+    /// The vertex at which it starts.
     #[inline]
     pub fn origin(&self, h: HalfedgeId) -> VertexId {
         VertexId(self.origin[h.index()])
     }
-    /// The vertex it ends at.
+    /// The vertex at which it ends.
     #[inline]
     pub fn tip(&self, h: HalfedgeId) -> VertexId {
         self.origin(h.twin())
@@ -167,7 +165,7 @@ impl Mesh {
         let h = self.face_halfedge(f);
         [h, self.next(h), self.prev(h)]
     }
-    /// The face of a half-edge, and which of the face's corners is at its origin; `None` outside the surface.
+    /// The face of a half-edge, and the number of the face's corner at its origin; `None` outside the surface.
     #[inline]
     pub fn corner(&self, h: HalfedgeId) -> Option<(FaceId, usize)> {
         let f = self.face(h)?;
@@ -179,7 +177,7 @@ impl Mesh {
     pub fn face_vertices(&self, f: FaceId) -> [VertexId; 3] {
         self.face_halfedges(f).map(|h| self.origin(h))
     }
-    /// The vertices of every face in corner order: the mesh as a triangle list.
+    /// The vertices of every face in corner order, which is the mesh as a triangle list.
     pub fn triangles(&self) -> Vec<[u32; 3]> {
         self.faces().map(|f| self.face_vertices(f).map(|v| v.0)).collect()
     }
@@ -194,7 +192,7 @@ impl Mesh {
     pub fn ends(&self, e: EdgeId) -> [VertexId; 2] {
         [self.origin(e.halfedge()), self.tip(e.halfedge())]
     }
-    /// An outgoing half-edge: the one outside the surface if `v` is on the boundary.
+    /// An outgoing half-edge; the one outside the surface if `v` is on the boundary.
     #[inline]
     pub fn out(&self, v: VertexId) -> HalfedgeId {
         HalfedgeId(self.out[v.index()])
@@ -206,29 +204,29 @@ impl Mesh {
         std::iter::successors(Some(start), turn)
     }
 
-    /// The outgoing half-edges that have a face, counterclockwise; on the boundary from one boundary edge to the last before the other.
+    /// The outgoing half-edges that have a face, counterclockwise; at a boundary vertex from one boundary edge on, without the other.
     pub fn fan(&self, v: VertexId) -> Vec<HalfedgeId> {
         let mut fan: Vec<HalfedgeId> = self.outgoing(v).filter(|&h| !self.is_outside(h)).collect();
         fan.reverse();
         fan
     }
 
-    /// Whether the half-edge lies outside the surface.
+    /// True if the half-edge lies outside the surface.
     #[inline]
     pub fn is_outside(&self, h: HalfedgeId) -> bool {
         self.face[h.index()] == OUTSIDE
     }
-    /// Whether the edge has a face on one side only.
+    /// True if the edge has a face on one side only.
     #[inline]
     pub fn is_boundary_edge(&self, e: EdgeId) -> bool {
         self.is_outside(e.halfedge()) || self.is_outside(e.halfedge().twin())
     }
-    /// Whether the vertex lies on the boundary.
+    /// True if the vertex lies on the boundary.
     #[inline]
     pub fn is_boundary_vertex(&self, v: VertexId) -> bool {
         self.is_outside(self.out(v))
     }
-    /// Whether the surface has no boundary.
+    /// True if the surface has no boundary.
     pub fn is_closed(&self) -> bool {
         !self.face.contains(&OUTSIDE)
     }
@@ -252,7 +250,7 @@ impl Mesh {
         loops
     }
 
-    /// The boundary loop of a half-edge of a face on the boundary, from there on: half-edges of faces, the surface on their left.
+    /// The boundary loop from a half-edge of a face on the boundary on: half-edges of faces, with the surface on their left.
     pub fn boundary_from(&self, h: HalfedgeId) -> Vec<HalfedgeId> {
         if !self.is_outside(h.twin()) {
             return Vec::new();
@@ -273,7 +271,7 @@ impl Mesh {
         ((2 - self.euler() - self.boundary_loops().len() as i64) / 2).max(0) as usize
     }
 
-    /// Make three half-edges, in this order, the sides of a face.
+    /// Makes three half-edges, in this order, the sides of a face.
     pub(super) fn set_triangle(&mut self, f: FaceId, sides: [HalfedgeId; 3]) {
         for k in 0..3 {
             self.next[sides[k].index()] = sides[(k + 1) % 3].0;
@@ -282,22 +280,22 @@ impl Mesh {
         self.first[f.index()] = sides[0].0;
     }
 
-    /// Let a half-edge of a boundary loop be followed by another one.
+    /// Sets the half-edge that follows a half-edge of a boundary loop.
     pub(super) fn set_next(&mut self, h: HalfedgeId, next: HalfedgeId) {
         self.next[h.index()] = next.0;
     }
 
-    /// Let a half-edge start elsewhere.
+    /// Sets the origin of a half-edge.
     pub(super) fn set_origin(&mut self, h: HalfedgeId, v: VertexId) {
         self.origin[h.index()] = v.0;
     }
 
-    /// Name the half-edge from which turning around a vertex starts.
+    /// Sets the half-edge from which turning around a vertex starts.
     pub(super) fn set_out(&mut self, v: VertexId, h: HalfedgeId) {
         self.out[v.index()] = h.0;
     }
 
-    /// Check every rule of the structure. O(V + E + F).
+    /// Checks every rule of the structure. O(V + E + F).
     ///
     /// # Errors
     ///
@@ -308,7 +306,7 @@ impl Mesh {
         self.validate_vertices()
     }
 
-    /// Array sizes, and what holds between a half-edge, its twin and the next one.
+    /// Checks array sizes, and the relations between a half-edge, its twin and the next one.
     fn validate_halfedges(&self) -> Result<()> {
         let n = self.n_halfedges();
         if !n.is_multiple_of(2) || self.origin.len() != n || self.face.len() != n {
@@ -336,7 +334,7 @@ impl Mesh {
         Ok(())
     }
 
-    /// Faces are triangles, and all half-edges that name a face are sides of one.
+    /// Checks that faces are triangles, and that all half-edges with a face are sides of it.
     fn validate_faces(&self) -> Result<()> {
         let n = self.n_halfedges();
         for (f, &h) in self.first.iter().enumerate() {
@@ -355,7 +353,7 @@ impl Mesh {
         Ok(())
     }
 
-    /// Turning around each vertex meets each half-edge once, and at most one boundary.
+    /// Checks that turning around each vertex meets each half-edge once, and at most one boundary.
     fn validate_vertices(&self) -> Result<()> {
         let n = self.n_halfedges();
         let mut reached = 0;

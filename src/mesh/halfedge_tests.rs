@@ -1,9 +1,9 @@
-//! The rules of the half-edge structure on small surfaces, and that `validate` notices each broken one.
+//! Tests of the rules of the half-edge structure on small surfaces; `validate` finds each broken one.
 use super::{Mesh, OUTSIDE};
 use crate::mesh::VertexId;
 
-/// A disk of four faces around vertex 0, an annulus, a tetrahedron, the one-vertex torus and a cone whose
-/// face is glued to itself along one edge and whose boundary is a loop edge.
+/// A disk of four faces around vertex 0, an annulus, a tetrahedron, the one-vertex torus, and a cone whose face is glued to itself along
+/// one edge and whose boundary is a loop edge.
 fn surfaces() -> Vec<Mesh> {
     let fan = Mesh::from_faces(5, &[[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 1]]);
     let annulus = Mesh::from_faces(6, &[[0, 1, 3], [1, 4, 3], [1, 2, 4], [2, 5, 4], [2, 0, 5], [0, 3, 5]]);

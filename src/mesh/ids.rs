@@ -1,4 +1,4 @@
-//! Typed element indices: a vertex id cannot index an edge array.
+//! Typed indices of elements, so that a vertex id cannot index an array of edges.
 //!
 //! ```
 //! use ricci::mesh::EdgeId;
@@ -70,7 +70,7 @@ impl HalfedgeId {
 }
 
 impl EdgeId {
-    /// The half-edge `2e`: the edge's own direction.
+    /// The half-edge `2e`, which has the edge's own direction.
     #[inline]
     pub fn halfedge(self) -> HalfedgeId {
         HalfedgeId(self.0 << 1)

@@ -1,21 +1,21 @@
-//! Which faces meet in which edge of a triangle list that may have any defect.
+//! The edges of a triangle list that may have any defect, with the faces that meet in each.
 //!
-//! Side `3f + k` is the side of face f from its corner k to corner k + 1. Faces that name a missing vertex or
-//! a vertex twice have no sides.
+//! Side `3f + k` is the side of face f from its corner k to corner k + 1. Faces that name a missing vertex or the same vertex twice have
+//! no sides.
 
 use super::union_find::UnionFind;
 use std::cmp::Reverse;
 
-/// The entry of an array of faces, sides or vertices where there is none.
+/// Marks the lack of a face, side or vertex in an array of them.
 pub(super) const NONE: u32 = u32::MAX;
 
 pub(super) struct Incidence {
     pub n_vertices: usize,
-    /// Per face, whether it has three different existing vertices.
+    /// For each face, true if it has three different existing vertices.
     triangle: Vec<bool>,
     /// Sides sorted by their unordered end vertices, then by number.
     sides: Vec<u32>,
-    /// Where in `sides` each edge begins, and the end of the last.
+    /// The start of each edge in `sides`, and the end of the last.
     group: Vec<u32>,
 }
 
@@ -23,13 +23,13 @@ impl Incidence {
     pub fn new(n_vertices: usize, faces: &[[u32; 3]]) -> Incidence {
         let proper = |f: &[u32; 3]| f.iter().all(|&v| (v as usize) < n_vertices) && distinct(f);
         let triangle: Vec<bool> = faces.iter().map(proper).collect();
-        // Counted out by the smaller end; the few sides of each vertex are then sorted by the larger one.
+        // Counting sort by the smaller end; the few sides of each vertex are then sorted by the larger one.
         let mut start = vec![0u32; n_vertices + 1];
         each_side(faces, &triangle, |[a, _], _| start[a as usize + 1] += 1);
         (0..n_vertices).for_each(|v| start[v + 1] += start[v]);
         let n_sides = start[n_vertices] as usize;
         let mut sorted = vec![(0u32, 0u32); n_sides];
-        // Filled from the back of each vertex's part, so that `start` ends as it was.
+        // Each vertex's part is filled from the back, so that `start` ends as it was.
         each_side(faces, &triangle, |[a, b], side| {
             let slot = &mut start[a as usize + 1];
             *slot -= 1;
@@ -53,7 +53,7 @@ impl Incidence {
         Incidence { n_vertices, triangle, sides: sorted.into_iter().map(|(_, side)| side).collect(), group }
     }
 
-    /// Whether the faces are triangles, no two with the same vertices, whose edges have one face or two that run along them in opposite
+    /// True if the faces are triangles, no two with the same vertices, and each edge has one face, or two that run along it in opposite
     /// directions. Vertices may still have several fans, or none.
     pub fn is_oriented(&self, faces: &[[u32; 3]]) -> bool {
         let third = |side: u32| faces[side as usize / 3][(side as usize + 2) % 3];
@@ -66,7 +66,7 @@ impl Incidence {
         is_whole && self.edges().all(is_sound)
     }
 
-    /// Whether the face has three different existing vertices.
+    /// True if the face has three different existing vertices.
     pub fn is_triangle(&self, f: usize) -> bool {
         self.triangle[f]
     }
@@ -76,21 +76,21 @@ impl Incidence {
         self.group.windows(2).map(|w| &self.sides[w[0] as usize..w[1] as usize])
     }
 
-    /// The corners in sets: those of one fan of faces around a vertex, connected through edges with at most `most` faces.
+    /// The corners as sets, one for each fan of faces around a vertex that is connected through edges with at most `most` faces.
     pub fn fans(&self, faces: &[[u32; 3]], most: usize) -> UnionFind {
         let mut corners = UnionFind::new(3 * faces.len());
         self.join_fans(faces, |sides| sides.len() <= most, &mut corners);
         corners
     }
 
-    /// Join the corners on both sides of each edge for whose sides `through` is true.
+    /// Joins the corners on both sides of each edge for whose sides `through` is true.
     pub fn join_fans(
         &self,
         faces: &[[u32; 3]],
         mut through: impl FnMut(&[u32]) -> bool,
         corners: &mut UnionFind,
     ) {
-        // Corner 3f + k is where side 3f + k starts; the next corner is where it ends.
+        // Corner 3f + k is at the start of side 3f + k, the next corner at its end.
         let corners_of = |s: u32| {
             let (start, end) = (s, 3 * (s / 3) + (s % 3 + 1) % 3);
             if is_forward(faces, s) { (start, end) } else { (end, start) }
@@ -104,7 +104,7 @@ impl Incidence {
         }
     }
 
-    /// Per vertex: how many fans of edge-connected faces touch it.
+    /// For each vertex the number of fans of edge-connected faces that touch it.
     pub fn sheets(&self, faces: &[[u32; 3]]) -> Vec<u32> {
         let mut corners = self.fans(faces, usize::MAX);
         let mut sheets = vec![0; self.n_vertices];
@@ -121,7 +121,7 @@ impl Incidence {
         (0u32..).zip(faces).filter(|(f, _)| self.triangle[*f as usize])
     }
 
-    /// Per side: the other side along its edge, `NONE` where the edge has one face or more than two.
+    /// For each side the other side along its edge; `NONE` where the edge has one face or more than two.
     pub fn partners(&self, n_faces: usize) -> Vec<u32> {
         let mut partner = vec![NONE; 3 * n_faces];
         for sides in self.edges() {
@@ -134,7 +134,7 @@ impl Incidence {
     }
 }
 
-/// Hand on the sides of triangles, in order, with their smaller and larger ends.
+/// Passes the sides of triangles to `take`, in order, with their smaller and larger ends.
 fn each_side(faces: &[[u32; 3]], is_triangle: &[bool], mut take: impl FnMut([u32; 2], u32)) {
     for (f, _) in is_triangle.iter().enumerate().filter(|(_, is_triangle)| **is_triangle) {
         for k in 0..3 {
@@ -144,7 +144,7 @@ fn each_side(faces: &[[u32; 3]], is_triangle: &[bool], mut take: impl FnMut([u32
     }
 }
 
-/// Whether all vertices are there and connected through faces.
+/// True if all vertices exist and are connected through faces.
 pub(super) fn hangs_together(n_vertices: usize, faces: &[[u32; 3]]) -> bool {
     if faces.as_flattened().iter().any(|&v| v as usize >= n_vertices) {
         return false;
@@ -154,7 +154,7 @@ pub(super) fn hangs_together(n_vertices: usize, faces: &[[u32; 3]]) -> bool {
     faces.iter().map(join).sum::<usize>() + 1 == n_vertices
 }
 
-/// The vertices in sets: those of one piece of the surface, connected through faces.
+/// The vertices as sets, one for each piece of the surface that is connected through faces.
 pub(super) fn connected<'a>(
     n_vertices: usize,
     triangles: impl Iterator<Item = (u32, &'a [u32; 3])>,
@@ -167,7 +167,7 @@ pub(super) fn connected<'a>(
     pieces
 }
 
-/// First face and number of faces of each piece connected through vertices, the pieces with the most faces first.
+/// The first face and the number of faces of each piece connected through vertices, pieces with the most faces first.
 pub(super) fn components<'a>(
     n_vertices: usize,
     triangles: impl Iterator<Item = (u32, &'a [u32; 3])> + Clone,
@@ -196,7 +196,7 @@ pub(super) fn boundary_loops(n_vertices: usize, boundary: impl Iterator<Item = [
     (0..n_vertices as u32).filter(|&v| on_boundary[v as usize] && pieces.root(v) == v).count()
 }
 
-/// Number the vertices that faces use from 0, in their order, and leave out the others; returns the vertices that are used.
+/// Renumbers the vertices that faces use from 0, in their order, and leaves out the others; returns the used vertices.
 pub(super) fn drop_unused(n_vertices: usize, faces: &mut [[u32; 3]]) -> Vec<u32> {
     let mut number = vec![NONE; n_vertices];
     faces.as_flattened().iter().for_each(|&v| number[v as usize] = 0);
@@ -206,19 +206,19 @@ pub(super) fn drop_unused(n_vertices: usize, faces: &mut [[u32; 3]]) -> Vec<u32>
     used
 }
 
-/// Where a side starts and ends.
+/// The vertices at which a side starts and ends.
 pub(super) fn ends(faces: &[[u32; 3]], side: u32) -> [u32; 2] {
     let (face, k) = (faces[side as usize / 3], side as usize % 3);
     [face[k], face[(k + 1) % 3]]
 }
 
-/// Whether a side runs from the smaller to the larger vertex.
+/// True if a side runs from the smaller to the larger vertex.
 pub(super) fn is_forward(faces: &[[u32; 3]], side: u32) -> bool {
     let [start, end] = ends(faces, side);
     start < end
 }
 
-/// Whether a face has three different vertices.
+/// True if a face has three different vertices.
 pub(super) fn distinct([a, b, c]: &[u32; 3]) -> bool {
     a != b && b != c && c != a
 }

@@ -1,22 +1,22 @@
-//! Joining vertices in the same place without making edges of more than two faces.
+//! Joining of vertices with the same position, without making edges of more than two faces.
 
 use super::incidence::{Incidence, ends};
 use super::union_find::UnionFind;
 use std::collections::HashSet;
 
-/// An edge in which more than two faces would meet if all vertices in its ends' places were joined.
+/// An edge in which more than two faces would meet if all vertices at the positions of its ends were joined.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct RefusedWeld {
-    /// The input's vertices in its ends' places: the first in each.
+    /// The input's vertices at the positions of its ends, the first of each.
     pub vertices: [u32; 2],
     /// The input's faces that would meet there.
     pub faces: Vec<u32>,
 }
 
-/// Faces with their corners at the `first` vertex in the same place, and where that is refused.
+/// The faces with their corners at the `first` vertex of the same position, and the edges that prevented this.
 ///
-/// Vertices become one where their faces are connected through edges; faces that meet in a point only stay apart. A cluster is a set of
-/// places connected by *crowded* edges, in which joining would make more than two faces meet, or by faces that joining would make
+/// Vertices are joined where their faces are then connected through edges; faces that meet in a point only stay apart. A cluster is a set
+/// of positions connected by *crowded* edges, in which joining would make more than two faces meet, or by faces that joining would make
 /// collapse or repeat another. In a cluster with a crowded edge, faces are connected through edges of two faces only; if an edge is
 /// crowded even so, nothing in the cluster is joined. Edges that had more than two faces before joining are not counted.
 pub(super) fn join(faces: &[[u32; 3]], first: &[u32]) -> (Vec<[u32; 3]>, Vec<RefusedWeld>) {
@@ -38,7 +38,7 @@ pub(super) fn join(faces: &[[u32; 3]], first: &[u32]) -> (Vec<[u32; 3]>, Vec<Ref
     crowds.iter().for_each(|crowd| refused[clusters.root(crowd.vertices[0]) as usize] = true);
 
     let mut corners = Incidence::new(n, faces).fans(faces, usize::MAX);
-    // Both ends of an edge with more than two faces lie in one cluster: some of its faces repeat others, or it is crowded.
+    // Both ends of an edge with more than two faces are in one cluster: some of its faces repeat others, or it is crowded.
     let through =
         |sides: &[u32]| sides.len() <= 2 || !refused[clusters.root(ends(&joined, sides[0])[0]) as usize];
     whole.join_fans(&joined, through, &mut corners);
@@ -66,7 +66,7 @@ pub(super) fn join(faces: &[[u32; 3]], first: &[u32]) -> (Vec<[u32; 3]>, Vec<Ref
     (welded, crowds)
 }
 
-/// The edges of `joined` with more than two faces, repeated ones counted once, that were not one edge of these before.
+/// The edges of `joined` with more than two faces, where repeated faces count once, that come from several edges of `before`.
 fn crowds(before: &[[u32; 3]], joined: &[[u32; 3]], incidence: &Incidence) -> Vec<RefusedWeld> {
     let again = repeats(joined);
     let mut found = Vec::new();
@@ -85,7 +85,7 @@ fn crowds(before: &[[u32; 3]], joined: &[[u32; 3]], incidence: &Incidence) -> Ve
     found
 }
 
-/// Per face, whether an earlier one has its vertices.
+/// For each face, true if an earlier one has the same vertices.
 pub(super) fn repeats(faces: &[[u32; 3]]) -> Vec<bool> {
     let mut seen = HashSet::with_capacity(faces.len());
     let mut again = |mut face: [u32; 3]| {

@@ -1,4 +1,4 @@
-//! Connectivity, building from index buffers, diagnosis, files and generators. Nothing here knows a metric.
+//! Triangle meshes: connectivity, building from index buffers, diagnosis, files and generators. Nothing here knows a metric.
 //!
 //! ```
 //! use ricci::mesh::{Mesh, VertexId};
@@ -32,7 +32,7 @@ mod weld;
 
 pub use attribute::{PerEdge, PerFace, PerHalfedge, PerVertex};
 pub use double::Double;
-pub use fill::Filled;
+pub use fill::FilledMesh;
 pub use flip::{FixedEdges, Flip};
 pub use flip_log::FlipLog;
 pub use halfedge::Mesh;

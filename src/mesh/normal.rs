@@ -1,7 +1,7 @@
-//! Normal coordinates: the triangulation that a surface came with, as curves on the one that edge flips have made of it.
+//! Normal coordinates: the given triangulation of a surface as curves on the triangulation that edge flips have made of it.
 //!
-//! Every edge of the given triangulation is a curve from vertex to vertex, pulled tight between the vertices. On a triangulation
-//! of the same vertices the curves are determined, up to sliding, by how often they cross each of its edges [GiSC21, §3]:
+//! Every edge of the given triangulation is a curve from vertex to vertex, pulled tight between the vertices. On another triangulation of
+//! the same vertices the curves are determined, up to sliding, by the number of times that they cross each of its edges [GiSC21, §3]:
 //!
 //! ```text
 //!            k           n_e ≥ 0: crossings of edge e;  n_e = −1: e is itself one of the curves;  below, n⁺ = max(n, 0)
@@ -12,10 +12,10 @@
 //!       i —————— j
 //! ```
 //!
-//! *Roundabouts* tell the curves apart: per half-edge h the first curve, counterclockwise from h (h included), that leaves its
-//! origin, as a number in the given triangulation's order around that vertex. No flip changes the order in which curves leave a vertex.
+//! *Roundabouts* identify the curves: for each half-edge h, the first curve counterclockwise from h (h included) that leaves its origin,
+//! as a number in the given triangulation's order around that vertex. Flips do not change the order in which curves leave a vertex.
 //!
-//! A flip changes one coordinate and two roundabouts. All of these are integers, so nothing is rounded.
+//! A flip changes one coordinate and two roundabouts. All are integers, so nothing is rounded.
 //!
 //! ```
 //! use ricci::mesh::{EdgeId, Mesh, NormalCoordinates};
@@ -32,46 +32,46 @@ use super::ids::{EdgeId, HalfedgeId, VertexId};
 use crate::error::{Error, Result, check_size};
 use std::sync::Arc;
 
-/// Largest coordinate that is kept, 6e17; beyond it the coordinates are marked as out of range. Sums of up to 16 coordinates stay in the
-/// range of i64, and a curve with so many crossings could not be traced anyway.
+/// Largest coordinate that is stored, 6e17; beyond it the coordinates are marked as out of range. Sums of up to 16 coordinates then fit
+/// in an i64, and a curve with so many crossings could not be traced anyway.
 const MOST: i64 = i64::MAX / 16;
 
 /// The given triangulation as curves on the current one. Clones share their arrays until one of them follows another flip.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NormalCoordinates {
-    now: Arc<Coordinates>,
-    given: Arc<Given>,
+    now: Arc<CurveCoordinates>,
+    given: Arc<GivenOrder>,
     /// The first edge whose coordinate left the range.
     overflow: Option<EdgeId>,
 }
 
-/// What flips change.
+/// The part of the coordinates that flips change.
 #[derive(Debug, Clone, PartialEq)]
-struct Coordinates {
-    /// Per edge: n.
+struct CurveCoordinates {
+    /// For each edge its coordinate n.
     crossings: Vec<i64>,
-    /// Per half-edge: the roundabout, below the given degree of its origin.
+    /// For each half-edge its roundabout, below the given degree of its origin.
     first: Vec<u32>,
 }
 
-/// The given triangulation, of which the curves are told apart by the order in which they leave the vertices.
+/// The given triangulation's half-edges in order around the vertices, which identify the curves.
 #[derive(Debug, PartialEq)]
-struct Given {
-    /// Per vertex: where its half-edges start in `halfedges`, and the end of the last.
+struct GivenOrder {
+    /// For each vertex the start of its half-edges in `halfedges`, and the end of the last.
     start: Vec<u32>,
-    /// Counterclockwise around each vertex; on the boundary the one outside is last.
+    /// The half-edges counterclockwise around each vertex; on the boundary the one outside is last.
     halfedges: Vec<HalfedgeId>,
 }
 
-impl Given {
-    /// Where the half-edges of a vertex begin and end.
+impl GivenOrder {
+    /// The start and the end of a vertex's half-edges.
     #[inline]
     fn around(&self, v: VertexId) -> [i64; 2] {
         [v.index(), v.index() + 1].map(|v| i64::from(self.start[v]))
     }
 }
 
-/// What one flip changes of [`NormalCoordinates`], to undo it.
+/// The values of [`NormalCoordinates`] that one flip changes, for undoing it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct EdgeCoordinates {
     crossings: i64,
@@ -79,20 +79,20 @@ pub(super) struct EdgeCoordinates {
     overflow: Option<EdgeId>,
 }
 
-/// How curves run through a triangle with these crossings of the sides k → k + 1.
+/// The numbers of curves that pass through a triangle in each way, given the crossings of the sides k → k + 1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Strands {
-    /// Curves that cut off corner k.
+    /// The curves that cut off corner k.
     pub arc: [i64; 3],
-    /// Curves that leave corner k through the opposite side.
+    /// The curves that leave corner k through the opposite side.
     pub fan: [i64; 3],
 }
 
 impl Strands {
-    /// From the normal coordinates of the sides k → k + 1.
+    /// The strands for the normal coordinates of the sides k → k + 1.
     pub fn new(sides: [i64; 3]) -> Strands {
         let n = sides.map(|n| n.max(0));
-        // Corner k: sides k → k + 1 and k + 2 → k meet there, side k + 1 → k + 2 is opposite.
+        // Sides k → k + 1 and k + 2 → k meet at corner k, and side k + 1 → k + 2 is opposite.
         let near = |k: usize| n[k] + n[(k + 2) % 3];
         let fan = [0, 1, 2].map(|k| (n[(k + 1) % 3] - near(k)).max(0));
         let arc =
@@ -102,7 +102,7 @@ impl Strands {
 }
 
 impl NormalCoordinates {
-    /// The triangulation on itself: every edge is a curve.
+    /// The coordinates of a triangulation on itself: every edge is a curve.
     pub fn new(mesh: &Mesh) -> NormalCoordinates {
         let mut first = vec![0; mesh.n_halfedges()];
         let mut start = Vec::with_capacity(mesh.n_vertices() + 1);
@@ -118,33 +118,33 @@ impl NormalCoordinates {
         }
         start.push(given.len() as u32);
         NormalCoordinates {
-            now: Arc::new(Coordinates { crossings: vec![-1; mesh.n_edges()], first }),
-            given: Arc::new(Given { start, halfedges: given }),
+            now: Arc::new(CurveCoordinates { crossings: vec![-1; mesh.n_edges()], first }),
+            given: Arc::new(GivenOrder { start, halfedges: given }),
             overflow: None,
         }
     }
 
-    /// Follow one flip: to be called with the triangulation as it is just before [`Mesh::flip`] of this edge. O(1), but for the first flip of
-    /// a clone, which then has arrays of its own.
+    /// Follows one flip; to be called with the triangulation just before [`Mesh::flip`] of this edge. O(1), except for the first flip of
+    /// a clone, which then gets arrays of its own.
     ///
-    /// Does nothing for an edge that [`Mesh::flip`] leaves as it is. A coordinate that leaves the range is reported by
+    /// Does nothing for an edge that [`Mesh::flip`] cannot flip. A coordinate that leaves the range is reported by
     /// [`NormalCoordinates::check`].
     pub fn record(&mut self, mesh: &Mesh, e: EdgeId) {
-        // Names as at Mesh::flip: h = a → b, faces (a, b, c) and (b, a, d); afterwards h = d → c.
+        // Names as in Mesh::flip: h = a → b, faces (a, b, c) and (b, a, d); afterwards h = d → c.
         let h = e.halfedge();
         let t = h.twin();
         if mesh.face(h).is_none() || mesh.face(t).is_none() || mesh.face(h) == mesh.face(t) {
             return;
         }
         let [bc, ca, ad, db] = mesh.quadrilateral(h);
-        let Coordinates { crossings, first } = Arc::make_mut(&mut self.now);
+        let CurveCoordinates { crossings, first } = Arc::make_mut(&mut self.now);
         let n = |h: HalfedgeId| crossings[h.edge().index()];
         let ab = n(h);
         let Strands { arc: [a, b, c], fan: [from_a, from_b, from_c] } = Strands::new([ab, n(bc), n(ca)]);
         let Strands { arc: [b_below, a_below, d], fan: [also_b, also_a, from_d] } =
             Strands::new([ab, n(ad), n(db)]);
 
-        // Along ab the curves go, above: a to side ca, from_c to c, b to bc; below: a_below to ad, from_d to d, b_below to db.
+        // Along ab, above: a curves to side ca, from_c to c, b to bc; below: a_below to ad, from_d to d, b_below to db.
         let left_of_c = (a_below - a).clamp(0, from_c);
         let right_of_d = (b - b_below).clamp(0, from_d);
         let joined = (a + from_c).min(a_below + from_d) > a.max(a_below);
@@ -165,7 +165,7 @@ impl NormalCoordinates {
         (first[h.index()], first[t.index()]) = (dc_first as u32, cd as u32);
     }
 
-    /// All that a flip of this edge will change.
+    /// The values that a flip of this edge will change.
     pub(super) fn coordinates(&self, e: EdgeId) -> EdgeCoordinates {
         let h = e.halfedge();
         EdgeCoordinates {
@@ -175,7 +175,7 @@ impl NormalCoordinates {
         }
     }
 
-    /// Undo the last flip recorded, which was one of this edge, from the coordinates before it.
+    /// Undoes the last recorded flip, which was one of this edge, with the coordinates before it.
     pub(super) fn restore(&mut self, e: EdgeId, before: EdgeCoordinates) {
         let h = e.halfedge();
         let now = Arc::make_mut(&mut self.now);
@@ -184,33 +184,33 @@ impl NormalCoordinates {
         self.overflow = before.overflow;
     }
 
-    /// n of an edge: how many curves cross it, −1 if it is a curve itself. Never 0: inside a triangle of the given triangulation
-    /// there is no other edge.
+    /// The coordinate n of an edge: the number of curves that cross it, −1 if it is a curve itself. Never 0: inside a triangle of the
+    /// given triangulation there is no other edge.
     pub fn crossings(&self, e: EdgeId) -> i64 {
         self.now.crossings[e.index()]
     }
 
-    /// n of the sides of the face of `h`, from `h` on.
+    /// The coordinates of the sides of the face of `h`, from `h` on.
     pub fn sides(&self, mesh: &Mesh, h: HalfedgeId) -> [i64; 3] {
         [h, mesh.next(h), mesh.prev(h)].map(|h| self.crossings(h.edge()))
     }
 
-    /// The given half-edge that leaves the origin of `h` as the `turn`-th counterclockwise from `h` (0: along `h`, or the first
-    /// after it; −1: the last before it).
+    /// The given half-edge that leaves the origin of `h` as the `turn`-th counterclockwise from `h` (0: along `h`, or the first after it;
+    /// −1: the last before it).
     pub fn leaving(&self, mesh: &Mesh, h: HalfedgeId, turn: i64) -> HalfedgeId {
         let [begin, end] = self.given.around(mesh.origin(h));
         let (k, degree) = (i64::from(self.now.first[h.index()]) + turn, end - begin);
-        // Seldom around: a remainder takes longer than all else here.
+        // A full turn is rare, and a remainder takes longer than everything else here.
         let k = if (0..degree).contains(&k) { k } else { k.rem_euclid(degree) };
         self.given.halfedges[(begin + k) as usize]
     }
 
-    /// The given half-edge that `h` runs along, if it does.
+    /// The given half-edge that `h` runs along, if any.
     pub fn along(&self, mesh: &Mesh, h: HalfedgeId) -> Option<HalfedgeId> {
         (self.crossings(h.edge()) < 0).then(|| self.leaving(mesh, h, 0))
     }
 
-    /// Number of crossings of all curves with all edges.
+    /// The number of crossings of all curves with all edges.
     ///
     /// # Errors
     /// [`Error::Size`] if these are not the coordinates of this mesh; [`Error::TooLarge`] if coordinates have left the range, or if there

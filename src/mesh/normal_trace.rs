@@ -1,4 +1,4 @@
-//! The curves of normal coordinates, one by one.
+//! The curves of normal coordinates, traced one by one through the triangulation.
 //!
 //! ```
 //! use ricci::mesh::{Curves, EdgeId, Mesh, NormalCoordinates};
@@ -17,30 +17,30 @@ use super::normal::{NormalCoordinates, Strands};
 use crate::control::Control;
 use crate::error::{Error, Result};
 
-/// Edges or curves between two looks at the control: they take less than a millisecond.
+/// Edges or curves between two checks of the control: they take less than a millisecond.
 const PER_STEP: usize = 4096;
 
-/// Where a curve crosses an edge.
+/// A crossing of a curve with an edge.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct CurveCrossing {
-    /// The half-edge crossed, from its left to its right.
+    /// The half-edge that the curve crosses from its left to its right.
     pub halfedge: HalfedgeId,
-    /// How many curves cross the half-edge nearer to its origin.
+    /// The number of curves that cross the half-edge nearer to its origin.
     pub position: u32,
 }
 
 /// The edges of the given triangulation on the current one, each from the origin of its half-edge `2e` to its tip.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Curves {
-    /// Per given edge: where its crossings start; and the end of the last.
+    /// For each given edge the start of its crossings, and the end of the last.
     start: Vec<u32>,
     crossings: Vec<CurveCrossing>,
-    /// Per given edge: the half-edge it runs along.
+    /// For each given edge the half-edge along which it runs, if it crosses nothing.
     along: Vec<Option<HalfedgeId>>,
 }
 
 impl Curves {
-    /// Follow every curve, O(edges + crossings).
+    /// Traces every curve, O(edges + crossings).
     ///
     /// # Errors
     /// Those of [`NormalCoordinates::check`]; [`Error::Connectivity`] if the coordinates are not those of this triangulation;
@@ -49,7 +49,7 @@ impl Curves {
         control.check()?;
         let total = normal.check(mesh)?;
         let mut along = vec![None; mesh.n_edges()];
-        // Per given edge: the corner that it leaves, and how many leave that corner before it.
+        // For each given edge the corner that it leaves, and the number of curves that leave that corner before it.
         let mut source: Vec<Option<(HalfedgeId, i64)>> = vec![None; mesh.n_edges()];
         for e in mesh.edges() {
             if e.index().is_multiple_of(PER_STEP) {
@@ -61,7 +61,7 @@ impl Curves {
                 along[given.edge().index()] = Some(if is_even { h } else { h.twin() });
                 continue;
             }
-            // A corner that curves leave lies opposite an edge that they cross.
+            // A corner that curves leave is opposite an edge that they cross.
             for corner in [h, h.twin()].into_iter().filter(|&h| !mesh.is_outside(h)).map(|h| mesh.prev(h)) {
                 let sides = normal.sides(mesh, corner);
                 for k in 0..Strands::new(sides).fan[0] {
@@ -73,7 +73,7 @@ impl Curves {
             }
         }
         let mut start = vec![0];
-        let mut trace = Trace { mesh, normal, total, crossings: Vec::with_capacity(total) };
+        let mut trace = CurveTrace { mesh, normal, total, crossings: Vec::with_capacity(total) };
         for e in 0..mesh.n_edges() {
             if e.is_multiple_of(PER_STEP) {
                 control.check()?;
@@ -96,18 +96,18 @@ impl Curves {
         &self.crossings[self.numbers(e)]
     }
 
-    /// The given edges that cross any, ascending.
+    /// The given edges that cross other edges, ascending.
     pub fn that_cross(&self) -> Vec<EdgeId> {
         let crosses = |w: &(usize, &[u32])| w.1[0] < w.1[1];
         self.start.windows(2).enumerate().filter(crosses).map(|(e, _)| EdgeId::from(e)).collect()
     }
 
-    /// The numbers of a given edge's crossings among all of them.
+    /// The numbers of a given edge's crossings among all crossings.
     pub fn numbers(&self, e: EdgeId) -> std::ops::Range<usize> {
         self.start[e.index()] as usize..self.start[e.index() + 1] as usize
     }
 
-    /// The half-edge that a given edge runs along, in its direction, if it crosses nothing.
+    /// The half-edge along which a given edge runs, in its direction, if it crosses nothing.
     pub fn along(&self, e: EdgeId) -> Option<HalfedgeId> {
         self.along[e.index()]
     }
@@ -118,16 +118,16 @@ impl Curves {
     }
 }
 
-/// The crossings of the curves that have been followed so far, of `total`.
-struct Trace<'a> {
+/// The crossings of the curves traced so far, of `total`.
+struct CurveTrace<'a> {
     mesh: &'a Mesh,
     normal: &'a NormalCoordinates,
     total: usize,
     crossings: Vec<CurveCrossing>,
 }
 
-impl Trace<'_> {
-    /// Append the crossings of the k-th curve out of a corner.
+impl CurveTrace<'_> {
+    /// Appends the crossings of the k-th curve out of a corner.
     fn follow(&mut self, corner: HalfedgeId, k: i64) -> Result<()> {
         let (mesh, normal) = (self.mesh, self.normal);
         let n = |h: HalfedgeId| normal.crossings(h.edge());
@@ -137,7 +137,7 @@ impl Trace<'_> {
                 return Err(lost(at.edge().index()));
             }
             self.crossings.push(CurveCrossing { halfedge: at, position: position as u32 });
-            // The curve enters the next face through t, where `entry` curves cross nearer to the first end of t.
+            // The curve enters the next face through t; `entry` curves cross nearer to the first end of t.
             let t = at.twin();
             let entry = n(t) - 1 - position;
             let strands = Strands::new(normal.sides(mesh, t));

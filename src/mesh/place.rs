@@ -1,4 +1,4 @@
-//! Points of surfaces, as places in their faces.
+//! Points of surfaces, given by a face and barycentric coordinates.
 
 use super::halfedge::Mesh;
 use super::ids::{FaceId, VertexId};
@@ -7,9 +7,9 @@ use crate::error::{Error, Result};
 /// A point of a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Place {
-    /// Its face.
+    /// The face that contains it.
     pub face: FaceId,
-    /// Its barycentric coordinates in the face: not negative, with the sum 1.
+    /// Its barycentric coordinates in the face: not negative, with sum 1.
     pub weights: [f64; 3],
 }
 

@@ -1,4 +1,4 @@
-//! Removal of vertices from a triangulation, one at a time, with the triangles around each replaced by fewer.
+//! Removal of vertices from a triangulation, one at a time, by replacing the triangles around each by fewer.
 //!
 //! ```
 //! use ricci::mesh::{Mesh, Thinning, VertexId};
@@ -14,7 +14,7 @@ use super::halfedge::Mesh;
 use super::ids::{EdgeId, FaceId, HalfedgeId, VertexId};
 use crate::error::Result;
 
-/// A mesh from which vertices are being removed. What is left keeps its numbers until [`Thinning::finish`].
+/// A mesh from which vertices are removed. The other elements keep their numbers until [`Thinning::finish`].
 #[derive(Debug, Clone)]
 pub struct Thinning {
     mesh: Mesh,
@@ -23,16 +23,16 @@ pub struct Thinning {
     has_face: Vec<bool>,
 }
 
-/// What is left, with the numbers that its elements had before.
+/// The mesh that is left, with the former numbers of its elements.
 #[derive(Debug, Clone)]
 pub struct Thinned {
-    /// Connectivity, numbered anew in the same order.
+    /// The connectivity, renumbered in the same order.
     pub mesh: Mesh,
-    /// Per vertex its number before.
+    /// For each vertex its former number.
     pub vertices: Vec<VertexId>,
-    /// Per edge its number before. Directions are the same.
+    /// For each edge its former number. Directions are the same.
     pub edges: Vec<EdgeId>,
-    /// Per face its number before. First corners are the same.
+    /// For each face its former number. First corners are the same.
     pub faces: Vec<FaceId>,
 }
 
@@ -47,30 +47,31 @@ impl Thinning {
         }
     }
 
-    /// The connectivity: elements that have gone still have numbers and are not to be asked.
+    /// The connectivity. Removed elements still have numbers, which must not be used.
     pub fn mesh(&self) -> &Mesh {
         &self.mesh
     }
 
-    /// [`Mesh::flip`].
+    /// Flips an edge, see [`Mesh::flip`].
     pub fn flip(&mut self, e: EdgeId) -> bool {
         self.has_edge[e.index()] && self.mesh.flip(e)
     }
 
-    /// Whether a vertex is left.
+    /// True if a vertex has not been removed.
     pub fn has_vertex(&self, v: VertexId) -> bool {
         self.has_vertex[v.index()]
     }
 
-    /// Whether an edge is left.
+    /// True if an edge has not been removed.
     pub fn has_edge(&self, e: EdgeId) -> bool {
         self.has_edge[e.index()]
     }
 
-    /// Remove a vertex with three different faces around it, or on the boundary with two. None, and nothing done, for another vertex.
+    /// Removes a vertex with three different faces around it, or with two on the boundary. Returns `None` and does nothing for other
+    /// vertices.
     ///
-    /// Face i of [`Mesh::fan`] is (v, p_i, p_(i+1)). The face that is left has the number of face 0 and the corners (p_0, p_1, p_2), on the
-    /// boundary (p_2, p_0, p_1), with the edge from v to p_0 as its side from p_2 to p_0:
+    /// Face i of [`Mesh::fan`] is (v, p_i, p_(i+1)). The face that is left has the number of face 0 and the corners (p_0, p_1, p_2), on
+    /// the boundary (p_2, p_0, p_1); the edge from v to p_0 becomes its side from p_2 to p_0:
     ///
     /// ```text
     ///           p2                    p2                  p1                  p1
@@ -104,7 +105,7 @@ impl Thinning {
         faces.first().copied()
     }
 
-    /// The face with the sides `rim` in the place of some around a vertex, which goes with its edges `spokes`.
+    /// Replaces faces around a vertex by the one with the sides `rim`, and removes the vertex and its edges `spokes`.
     fn replace(&mut self, v: VertexId, spokes: &[HalfedgeId], faces: &[FaceId], rim: [HalfedgeId; 3]) {
         for &spoke in spokes {
             let tip = self.mesh.tip(spoke);
@@ -120,10 +121,10 @@ impl Thinning {
         self.has_vertex[v.index()] = false;
     }
 
-    /// What is left as a mesh of its own.
+    /// The rest as a mesh of its own.
     ///
     /// # Errors
-    /// [`crate::Error::Connectivity`] where a rule of the structure is broken, which no removal does.
+    /// [`crate::Error::Connectivity`] where a rule of the structure is broken, which removals never do.
     pub fn finish(self) -> Result<Thinned> {
         let Thinning { mesh, has_vertex, has_edge, has_face } = self;
         let kept =

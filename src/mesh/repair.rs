@@ -1,4 +1,4 @@
-//! Repair of triangle lists, as far as it needs no guess.
+//! Repair of triangle lists, where it needs no guess.
 //!
 //! ```
 //! use ricci::mesh::io::Soup;
@@ -23,14 +23,14 @@ use std::collections::HashSet;
 /// its own, turns faces until neighbours agree, and drops isolated vertices.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Repair {
-    /// Vertices within this distance become one (transitively; the first one's position stays); 0: those in exactly the same
-    /// place, where their faces are then connected through edges; in edges in which more than two faces would meet it is refused
-    /// ([`Repaired::weld_refused`]); `None`: no welding. Default 0.
+    /// Vertices within this distance are joined (transitively; the position of the first one stays). 0 joins vertices at exactly the same
+    /// position where their faces are then connected through edges, except in edges in which more than two faces would meet
+    /// ([`Repaired::weld_refused`]). `None` joins none. Default 0.
     pub weld: Option<f64>,
-    /// Cut the surface open along edges in which more than two faces meet. Default no: which faces belong together would be a
+    /// True to cut the surface open along edges in which more than two faces meet. Default false: which faces belong together would be a
     /// guess.
     pub cut_non_manifold_edges: bool,
-    /// Keep one connected piece only: 0 is that with the most faces, and so on. Default all.
+    /// The connected piece to keep; 0 is the one with the most faces, and so on. Default all.
     pub component: Option<usize>,
 }
 
@@ -40,9 +40,9 @@ impl Default for Repair {
     }
 }
 
-/// How often each repair was made.
+/// The number of times that each kind of repair was made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Steps {
+pub struct RepairSteps {
     /// Vertices that became one with an earlier vertex.
     pub welded_vertices: usize,
     /// Faces dropped because they used a vertex twice (after welding).
@@ -51,47 +51,47 @@ pub struct Steps {
     pub duplicate_faces: usize,
     /// Edges along which the surface was cut open.
     pub cut_edges: usize,
-    /// Vertices made for further fans of faces.
+    /// Vertices added for further fans of faces.
     pub split_vertices: usize,
     /// Faces turned around.
     pub turned_faces: usize,
-    /// Faces of other components than the one that was asked for.
+    /// Faces dropped because they belong to other components than the one to keep.
     pub faces_of_other_components: usize,
     /// Vertices dropped because no face uses them.
     pub isolated_vertices: usize,
 }
 
-/// A repaired triangle list, with the way back.
+/// A repaired triangle list, with the input's elements that its elements come from.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Repaired {
-    /// The result; its elements keep the order of the input's.
+    /// The list; its elements keep the order of the input's.
     pub soup: Soup,
-    /// For each vertex of the result, the input's vertex that it was.
+    /// For each vertex of the list its number in the input.
     pub vertex_origin: Vec<u32>,
-    /// For each face of the result, the input's face that it was.
+    /// For each face of the list its number in the input.
     pub face_origin: Vec<u32>,
-    /// What was done.
-    pub steps: Steps,
-    /// The edges that kept vertices in exactly the same place from being welded throughout.
+    /// The repairs that were made.
+    pub steps: RepairSteps,
+    /// The edges because of which vertices at the same position were not all joined.
     pub weld_refused: Vec<RefusedWeld>,
-    /// What is left: defects that cannot be mended without a guess.
+    /// The remaining defects, which cannot be repaired without a guess.
     pub diagnosis: Diagnosis,
 }
 
-/// Repair a triangle list. Attributes stay with their elements.
+/// Repairs a triangle list. Attributes stay with their elements.
 ///
 /// # Errors
 ///
-/// [`Error::Defects`] for faces that name missing vertices and used vertices without finite coordinates, which nothing
-/// can mend; [`Error::Argument`] for a tolerance that is negative or not finite and a component that does not exist.
+/// [`Error::Defects`] for faces that name missing vertices and used vertices without finite coordinates, which cannot be repaired;
+/// [`Error::Argument`] for a tolerance that is negative or not finite and a component that does not exist.
 pub fn repair(soup: &Soup, options: &Repair) -> Result<Repaired> {
     refuse_garbage(soup)?;
-    let mut work = Work {
+    let mut work = RepairState {
         faces: soup.faces.clone(),
         origin: (0..soup.faces.len() as u32).collect(),
         turned: vec![false; soup.faces.len()],
         vertex_origin: (0..soup.positions.len() as u32).collect(),
-        steps: Steps::default(),
+        steps: RepairSteps::default(),
         weld_refused: Vec::new(),
     };
     work.drop_bad_faces();
@@ -120,19 +120,19 @@ fn refuse_garbage(soup: &Soup) -> Result<()> {
     Err(Error::Defects(Box::new(diagnosis)))
 }
 
-/// The list under repair.
-struct Work {
+/// A triangle list while it is repaired.
+struct RepairState {
     faces: Vec<[u32; 3]>,
-    /// Per face: the input's face, and whether it was turned.
+    /// For each face its number in the input, and whether it was turned.
     origin: Vec<u32>,
     turned: Vec<bool>,
-    /// Per vertex: the input's vertex.
+    /// For each vertex its number in the input.
     vertex_origin: Vec<u32>,
-    steps: Steps,
+    steps: RepairSteps,
     weld_refused: Vec<RefusedWeld>,
 }
 
-impl Work {
+impl RepairState {
     fn incidence(&self) -> Incidence {
         Incidence::new(self.vertex_origin.len(), &self.faces)
     }
@@ -156,7 +156,7 @@ impl Work {
         Ok(())
     }
 
-    /// Drop the faces for which `keep` is false; returns their number.
+    /// Drops the faces for which `keep` is false; returns their number.
     fn retain(&mut self, keep: &[bool]) -> usize {
         let before = self.faces.len();
         fn chosen<T: Copy>(list: &mut Vec<T>, keep: &[bool]) {
@@ -176,7 +176,7 @@ impl Work {
         self.steps.duplicate_faces += self.retain(&first);
     }
 
-    /// A vertex of its own for every fan of faces. With `cut`, edges with more than two faces hold no fan together.
+    /// Gives every fan of faces a vertex of its own. With `cut`, edges with more than two faces do not connect a fan.
     fn separate(&mut self, cut: bool) {
         let incidence = self.incidence();
         if cut {
@@ -201,7 +201,7 @@ impl Work {
         }
     }
 
-    /// Turn the smaller part of each piece, so that neighbours agree; one-sided pieces stay as they are.
+    /// Turns the smaller part of each piece, so that neighbours agree; one-sided pieces stay as they are.
     fn orient(&mut self) {
         let Orientation { turned, pieces, .. } = Orientation::new(&self.faces, &self.incidence());
         for Piece { faces, .. } in pieces.into_iter().filter(|piece| piece.clash.is_none()) {
@@ -232,7 +232,7 @@ impl Work {
         Ok(())
     }
 
-    /// Drop unused vertices and carry the attributes over.
+    /// Drops unused vertices and takes over the attributes.
     fn finish(mut self, soup: &Soup) -> Repaired {
         let n_before = soup.positions.len();
         let mut faces = std::mem::take(&mut self.faces);
@@ -245,7 +245,7 @@ impl Work {
             list.as_ref()?.first()?;
             list.as_ref().map(|list| origin.iter().map(|&v| list[v as usize]).collect())
         }
-        fn at_corners<T: Copy>(list: &Option<Vec<[T; 3]>>, work: &Work) -> Option<Vec<[T; 3]>> {
+        fn at_corners<T: Copy>(list: &Option<Vec<[T; 3]>>, work: &RepairState) -> Option<Vec<[T; 3]>> {
             let mut list = picked(list, &work.origin);
             for (corners, _) in list.iter_mut().flatten().zip(&work.turned).filter(|(_, turned)| **turned) {
                 corners.swap(1, 2);

@@ -4,7 +4,7 @@
 pub(crate) struct UnionFind(Vec<u32>);
 
 impl UnionFind {
-    /// Every number is a set of its own.
+    /// The sets of one number each.
     pub fn new(n: usize) -> UnionFind {
         UnionFind((0..n as u32).collect())
     }
@@ -19,7 +19,7 @@ impl UnionFind {
         i
     }
 
-    /// Make one set of those of `a` and `b`; false if they were one already.
+    /// Joins the sets of `a` and `b`; false if they were one set already.
     pub fn join(&mut self, a: u32, b: u32) -> bool {
         let (a, b) = (self.root(a), self.root(b));
         self.0[a.max(b) as usize] = a.min(b);

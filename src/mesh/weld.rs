@@ -1,11 +1,11 @@
-//! Which points coincide.
+//! Sets of points that coincide, exactly or within a distance.
 
 use super::Point;
 use super::union_find::UnionFind;
 use crate::error::{Error, Result};
 use std::collections::HashMap;
 
-/// Check that a distance is finite and not negative.
+/// Checks that a distance is finite and not negative.
 pub(super) fn check_tolerance(weld: f64) -> Result<()> {
     if weld >= 0.0 && weld.is_finite() {
         return Ok(());
@@ -13,16 +13,16 @@ pub(super) fn check_tolerance(weld: f64) -> Result<()> {
     Err(Error::argument("weld", weld, "a distance that is not negative"))
 }
 
-/// Per point, the first point that it coincides with: in exactly the same place for `tolerance` 0, else within that distance
-/// by a chain of such points. Points that are not finite coincide with none.
+/// For each point the first point that it coincides with: at exactly the same position for `tolerance` 0, else within that distance by a
+/// chain of such points. Points that are not finite coincide with none.
 ///
-/// O(n) for tolerance 0. Else a tree of boxes is walked against itself: what is too far apart, near enough as a whole, or
-/// joined already is not looked into. O(n log n) for points of a surface, whatever the tolerance.
+/// O(n) for tolerance 0. Otherwise a tree of boxes is compared with itself; pairs of boxes that are too far apart, near enough as a
+/// whole, or joined already are not divided. O(n log n) for points of a surface, for any tolerance.
 pub(super) fn coincident(positions: &[Point], tolerance: f64) -> Vec<u32> {
     if tolerance == 0.0 {
         return same_place(positions);
     }
-    let mut tree = Tree::new(positions, tolerance);
+    let mut tree = PointTree::new(positions, tolerance);
     if !tree.order.is_empty() {
         tree.build(0, tree.order.len());
         tree.join_within(0);
@@ -30,7 +30,7 @@ pub(super) fn coincident(positions: &[Point], tolerance: f64) -> Vec<u32> {
     (0..positions.len() as u32).map(|v| tree.sets.root(v)).collect()
 }
 
-/// A place as a key; −0 is 0.
+/// A position as a key, with −0 as 0.
 pub(super) fn place_key(p: Point) -> [u64; 3] {
     p.map(|x| if x == 0.0 { 0 } else { x.to_bits() })
 }
@@ -46,29 +46,29 @@ fn same_place(positions: &[Point]) -> Vec<u32> {
     (0u32..).zip(positions).map(first).collect()
 }
 
-/// Most points of a leaf: comparing the pairs of so few takes no longer than descending further.
+/// Most points of a leaf: comparing the pairs of so few takes no longer than dividing further.
 const LEAF: usize = 8;
 
 /// A tree of boxes, each halved at the median of its longest side.
-struct Tree<'a> {
+struct PointTree<'a> {
     positions: &'a [Point],
     tolerance: f64,
-    /// The finite points, those of a node in a row.
+    /// The finite points, those of a node next to each other.
     order: Vec<u32>,
-    nodes: Vec<Node>,
+    nodes: Vec<PointNode>,
     sets: UnionFind,
     #[cfg(test)]
     visits: usize,
 }
 
-struct Node {
+struct PointNode {
     low: Point,
     high: Point,
     start: usize,
     end: usize,
-    /// The second half; the first is the next node. 0: a leaf.
+    /// The node of the second half; the first half is the next node. 0 in a leaf.
     second: usize,
-    /// All its points are one set.
+    /// True if all its points are in one set.
     one: bool,
 }
 
@@ -76,10 +76,10 @@ fn length(d: Point) -> f64 {
     d[0].hypot(d[1]).hypot(d[2])
 }
 
-impl<'a> Tree<'a> {
-    fn new(positions: &'a [Point], tolerance: f64) -> Tree<'a> {
+impl<'a> PointTree<'a> {
+    fn new(positions: &'a [Point], tolerance: f64) -> PointTree<'a> {
         let finite = |v: &u32| positions[*v as usize].iter().all(|x| x.is_finite());
-        Tree {
+        PointTree {
             positions,
             tolerance,
             order: (0..positions.len() as u32).filter(finite).collect(),
@@ -90,7 +90,7 @@ impl<'a> Tree<'a> {
         }
     }
 
-    /// As deep as the logarithm of the number of points.
+    /// Builds the node of these points. The recursion is as deep as the logarithm of their number.
     fn build(&mut self, start: usize, end: usize) -> usize {
         let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
         for &v in &self.order[start..end] {
@@ -99,7 +99,7 @@ impl<'a> Tree<'a> {
             high = [0, 1, 2].map(|k| high[k].max(p[k]));
         }
         let node = self.nodes.len();
-        self.nodes.push(Node { low, high, start, end, second: 0, one: false });
+        self.nodes.push(PointNode { low, high, start, end, second: 0, one: false });
         if end - start > LEAF {
             let side = |k: &usize| high[*k] - low[*k];
             let axis = [1, 2].into_iter().fold(0, |best, k| if side(&k) > side(&best) { k } else { best });
@@ -128,15 +128,15 @@ impl<'a> Tree<'a> {
     }
 
     fn join_all(&mut self, node: usize) {
-        let Node { start, end, .. } = self.nodes[node];
+        let PointNode { start, end, .. } = self.nodes[node];
         for i in start + 1..end {
             self.sets.join(self.order[start], self.order[i]);
         }
     }
 
-    /// Join what is near enough in a node.
+    /// Joins the points of a node that are near enough.
     fn join_within(&mut self, node: usize) {
-        let Node { start, end, second, .. } = self.nodes[node];
+        let PointNode { start, end, second, .. } = self.nodes[node];
         if self.widest(node, node) <= self.tolerance {
             self.join_all(node);
             self.nodes[node].one = true;
@@ -151,7 +151,7 @@ impl<'a> Tree<'a> {
         }
     }
 
-    /// Join what is near enough in two nodes, each known to be one set or not.
+    /// Joins the points of two nodes that are near enough; `known` is true for a node of one set.
     fn join_between(&mut self, pair: [usize; 2], known: [bool; 2]) {
         #[cfg(test)]
         {
@@ -163,7 +163,7 @@ impl<'a> Tree<'a> {
             return;
         }
         if self.widest(a, b) <= self.tolerance {
-            // Each alone is near enough, so it is one set.
+            // Each node alone is near enough, so it is one set.
             self.sets.join(self.order[self.nodes[a].start], self.order[self.nodes[b].start]);
             return;
         }
@@ -177,7 +177,7 @@ impl<'a> Tree<'a> {
             _ if self.widest(a, a) >= self.widest(b, b) => [0, 1],
             _ => [1, 0],
         };
-        // The nearer half comes first: if it joins everything, the other need not be searched.
+        // The nearer half comes first: if it joins everything, the other one need not be searched.
         let (first, second) = (pair[large] + 1, self.nodes[pair[large]].second);
         let nearer = self.gap(first, pair[small]) <= self.gap(second, pair[small]);
         for half in if nearer { [first, second] } else { [second, first] } {
@@ -203,9 +203,9 @@ mod tests {
     use super::*;
     use crate::mesh::shapes;
 
-    /// Pairs of boxes looked at, per point, and the number of sets.
+    /// The number of pairs of boxes compared, per point, and the number of sets.
     fn effort(points: &[Point], tolerance: f64) -> (f64, usize) {
-        let mut tree = Tree::new(points, tolerance);
+        let mut tree = PointTree::new(points, tolerance);
         tree.build(0, points.len());
         tree.join_within(0);
         let sets = (0..points.len() as u32).filter(|&v| tree.sets.root(v) == v).count();
@@ -214,7 +214,7 @@ mod tests {
 
     #[test]
     fn no_tolerance_takes_more_than_a_few_boxes_per_point() {
-        // Dense surfaces in several pieces, curved and flat, at some distance of each other.
+        // Dense surfaces in several pieces, curved and flat, at some distance from each other.
         let shell = |radius: f64, n| {
             shapes::icosphere(n).unwrap().positions.into_iter().map(move |p| p.map(|x| radius * x))
         };

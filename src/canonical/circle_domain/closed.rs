@@ -13,7 +13,7 @@ use crate::geometry::motion::precise_point;
 use crate::geometry::triangle::sine;
 use crate::geometry::{Motion, DoubleDouble};
 use crate::geometry::{Space, conformal};
-use crate::mesh::{EdgeId, Filled, HalfedgeId, PerVertex, VertexId};
+use crate::mesh::{EdgeId, FilledMesh, HalfedgeId, PerVertex, VertexId};
 use crate::metric::Refinement;
 use crate::topology::{central_vertex, cut_about_joined};
 use std::sync::Arc;
@@ -68,7 +68,7 @@ pub(super) fn solve(
 }
 
 /// The closed surface laid out, opened along a cut that keeps away from the disks.
-fn whole_layout(metric: &Solution, filled: &Filled, control: &Control) -> Result<Layout> {
+fn whole_layout(metric: &Solution, filled: &FilledMesh, control: &Control) -> Result<Layout> {
     let mesh = metric.mesh();
     let lengths = metric.metric().lengths(mesh)?;
     // A disk is taken in as a whole once it is reached, then the faces around it.
@@ -84,7 +84,7 @@ fn whole_layout(metric: &Solution, filled: &Filled, control: &Control) -> Result
 }
 
 /// Move the crossings on edges at hubs so that those of loops lie on their circles.
-fn round_off(refinement: &mut Refinement, metric: &Solution, filled: &Filled) -> Result<()> {
+fn round_off(refinement: &mut Refinement, metric: &Solution, filled: &FilledMesh) -> Result<()> {
     let (mesh, space) = (metric.mesh(), metric.metric().space);
     let lengths = metric.metric().lengths(mesh)?;
     let loops = loops_of_edges(filled);
@@ -109,7 +109,7 @@ fn round_off(refinement: &mut Refinement, metric: &Solution, filled: &Filled) ->
 }
 
 /// The circles as they lie in the layout, one lift of each.
-fn circles(whole: &Layout, layout: &Layout, metric: &Solution, filled: &Filled) -> Vec<DomainCircle> {
+fn circles(whole: &Layout, layout: &Layout, metric: &Solution, filled: &FilledMesh) -> Vec<DomainCircle> {
     let Some(refinement) = layout.refinement() else { return Vec::new() };
     let space = layout.space;
     let factor = layout.scale / whole.scale;

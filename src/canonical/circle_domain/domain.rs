@@ -3,7 +3,7 @@
 use super::place::hub_pairs;
 use crate::embed::Layout;
 use crate::flow::{Seconds, Solution, StopReason};
-use crate::mesh::{Filled, VertexId};
+use crate::mesh::{FilledMesh, VertexId};
 use crate::metric::Split;
 
 /// A boundary loop as a circle.
@@ -55,7 +55,7 @@ pub struct CircleDomain {
     /// The given surface, with the vertices that were added to its loops before the flow.
     pub split: Split,
     /// That surface with a hub in each loop.
-    pub filled: Filled,
+    pub filled: FilledMesh,
     /// The metric on the filled surface, flat or hyperbolic, and the way back. Of a planar domain in the unit disk, that of the disk: the
     /// outer hub has its circle from outside, so that the faces at it do not lie in the plane as they should, and K at its loop means
     /// nothing.

@@ -3,14 +3,14 @@
 use super::anchors::HubEdge;
 use crate::geometry::Space;
 use crate::geometry::worse;
-use crate::mesh::{EdgeId, Filled, HalfedgeId, Mesh};
+use crate::mesh::{EdgeId, FilledMesh, HalfedgeId, Mesh};
 use crate::metric::{Metric, Refinement};
 use std::collections::BTreeMap;
 
 /// The edges of the final triangulation between two hubs, with their loops.
 pub(super) fn hub_pairs<'a>(
     mesh: &'a Mesh,
-    filled: &'a Filled,
+    filled: &'a FilledMesh,
 ) -> impl Iterator<Item = (EdgeId, [usize; 2])> + 'a {
     mesh.edges().filter_map(|e| match mesh.ends(e).map(|v| filled.loop_of(v)) {
         [Some(a), Some(b)] => Some((e, [a, b])),
@@ -23,7 +23,7 @@ pub(super) fn hub_pairs<'a>(
 pub(super) fn hub_edge(
     mesh: &Mesh,
     metric: &Metric,
-    filled: &Filled,
+    filled: &FilledMesh,
     (e, outer): (EdgeId, Option<usize>),
 ) -> Option<HubEdge> {
     let ends = mesh.ends(e);
@@ -53,13 +53,13 @@ pub(super) fn anchor_weights(
 }
 
 /// The loop of each edge of a loop, in the numbering of the surface that was filled.
-pub(super) fn loops_of_edges(filled: &Filled) -> BTreeMap<EdgeId, usize> {
+pub(super) fn loops_of_edges(filled: &FilledMesh) -> BTreeMap<EdgeId, usize> {
     let along = filled.loops.iter().enumerate();
     along.flat_map(|(k, rim)| rim.iter().map(move |h| (h.edge(), k))).collect()
 }
 
 /// Per loop the half-edges of the refinement along it, in its faces.
-pub(super) fn rims(refinement: &Refinement, filled: &Filled) -> Vec<Vec<HalfedgeId>> {
+pub(super) fn rims(refinement: &Refinement, filled: &FilledMesh) -> Vec<Vec<HalfedgeId>> {
     let (mesh, loops) = (&refinement.mesh, loops_of_edges(filled));
     let mut rims = vec![Vec::new(); filled.loops.len()];
     for rim in mesh.boundary_loops() {
@@ -77,6 +77,6 @@ pub(super) fn deviation(n: usize, radius: f64, distance: impl Fn(usize) -> f64) 
 }
 
 /// Least `η − 1` over the edges between two hubs; infinite where there are none.
-pub(super) fn least_gap(mesh: &Mesh, metric: &Metric, filled: &Filled) -> f64 {
+pub(super) fn least_gap(mesh: &Mesh, metric: &Metric, filled: &FilledMesh) -> f64 {
     hub_pairs(mesh, filled).map(|(e, _)| metric.eta[e].high - 1.0).fold(f64::INFINITY, f64::min)
 }

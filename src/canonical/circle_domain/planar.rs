@@ -18,7 +18,7 @@ use crate::geometry::complex::{Complex, add, norm, scale, sub};
 use crate::geometry::mobius::PlaneCircle;
 use crate::geometry::double_double::two_sum;
 use crate::geometry::{Space, DoubleDouble, triangle, worse};
-use crate::mesh::{EdgeId, Filled, Mesh, PerEdge, PerVertex, VertexId};
+use crate::mesh::{EdgeId, FilledMesh, Mesh, PerEdge, PerVertex, VertexId};
 use crate::metric::lengths::face_lengths;
 use crate::metric::{Metric, Refinement, Surface};
 use std::f64::consts::TAU;
@@ -89,13 +89,13 @@ pub(super) fn solve(
 }
 
 /// The loop with the longest edges together.
-fn longest_loop(surface: &Surface, filled: &Filled) -> usize {
+fn longest_loop(surface: &Surface, filled: &FilledMesh) -> usize {
     let length = |k: usize| filled.loops[k].iter().map(|h| surface.lengths()[h.edge()]).sum::<f64>();
     (0..filled.loops.len()).fold((0, 0.0), |best, k| if length(k) > best.1 { (k, length(k)) } else { best }).0
 }
 
 /// One third of the area of the given faces at each vertex, in units of the whole; 0 at hubs.
-fn vertex_areas(surface: &Surface, filled: &Filled) -> PerVertex<f64> {
+fn vertex_areas(surface: &Surface, filled: &FilledMesh) -> PerVertex<f64> {
     let (mesh, space) = (surface.mesh(), surface.geometry());
     let longest = surface.lengths().iter().fold(0.0, |m: f64, &l| m.max(l));
     let unit = if space == Space::E2 { longest } else { 1.0 };
@@ -108,7 +108,7 @@ fn vertex_areas(surface: &Surface, filled: &Filled) -> PerVertex<f64> {
 }
 
 /// The vertices that may be sent to infinity: inside the surface, and not next to a loop if there are such.
-fn inside(mesh: &Mesh, open: &Mesh, filled: &Filled) -> PerVertex<bool> {
+fn inside(mesh: &Mesh, open: &Mesh, filled: &FilledMesh) -> PerVertex<bool> {
     let is_inside = |v: VertexId| filled.loop_of(v).is_none() && !open.is_boundary_vertex(v);
     let is_far = |v: VertexId| is_inside(v) && mesh.outgoing(v).all(|h| is_inside(mesh.tip(h)));
     let far = PerVertex::from_fn(mesh.n_vertices(), is_far);
@@ -154,7 +154,7 @@ struct Domain<'a> {
     view: View,
     plane: &'a PerVertex<Complex>,
     solution: &'a Solution,
-    filled: &'a Filled,
+    filled: &'a FilledMesh,
     outer: usize,
 }
 

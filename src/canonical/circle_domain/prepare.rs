@@ -6,7 +6,7 @@ use crate::error::{Error, Result};
 use crate::flow::Solution;
 use crate::flow::hubs::start_radius;
 use crate::geometry::Space;
-use crate::mesh::{EdgeId, Filled, HalfedgeId, PerEdge};
+use crate::mesh::{EdgeId, FilledMesh, HalfedgeId, PerEdge};
 use crate::metric::{Split, Surface};
 
 /// A surface that is ready to flow.
@@ -14,7 +14,7 @@ pub(super) struct Prepared {
     pub split: Split,
     /// The surface of `split`.
     pub surface: Surface,
-    pub filled: Filled,
+    pub filled: FilledMesh,
     /// The metric of mixed types that the flow starts from.
     pub start: Solution,
 }
@@ -75,7 +75,7 @@ impl Prepared {
 
     fn as_it_is(split: Split, options: &CircleDomainOptions, control: &Control) -> Result<Prepared> {
         let surface = split.surface()?;
-        let filled = Filled::new(surface.mesh())?;
+        let filled = FilledMesh::new(surface.mesh())?;
         let space = if surface.mesh().genus() < 2 { Space::E2 } else { Space::H2 };
         let closed = closed_surface(&surface, &filled)?;
         let start = Solution::with_hubs(closed, &filled, space, control)?.on_threads(options.flow.threads);
@@ -84,7 +84,7 @@ impl Prepared {
 }
 
 /// The filled surface. The edges at hubs have a length because a surface has lengths everywhere: nothing is measured with it.
-fn closed_surface(surface: &Surface, filled: &Filled) -> Result<Surface> {
+fn closed_surface(surface: &Surface, filled: &FilledMesh) -> Result<Surface> {
     let mut lengths: Vec<f64> = surface.lengths().iter().copied().collect();
     let rims: Vec<f64> =
         (0..filled.loops.len()).map(|k| start_radius(surface.lengths(), filled, k)).collect();

@@ -5,7 +5,7 @@ use crate::geometry::Mobius;
 use crate::geometry::complex::{Complex, add, norm, scale, sub};
 use crate::geometry::mobius::PlaneCircle;
 use crate::geometry::double_double::two_sum;
-use crate::mesh::{Filled, PerVertex, VertexId};
+use crate::mesh::{FilledMesh, PerVertex, VertexId};
 use crate::metric::Metric;
 
 /// A point of the unit disk that is moved to its centre before anchors are placed. Without it the vertex that was sent to infinity and
@@ -26,7 +26,7 @@ pub(super) struct View {
 
 impl View {
     /// The outside of the outer circle on the unit disk.
-    pub fn new(on: &Punctured, plane: &PerVertex<Complex>, filled: &Filled, outer: usize) -> View {
+    pub fn new(on: &Punctured, plane: &PerVertex<Complex>, filled: &FilledMesh, outer: usize) -> View {
         let hubs = filled.hubs();
         let circle = |&v: &VertexId| PlaneCircle { center: plane[v], radius: on.metric.u[v].exp() };
         let circles: Vec<PlaneCircle> = hubs.iter().map(circle).collect();
