@@ -3,7 +3,7 @@
 
 use ricci::geometry::{Space, triangle};
 use ricci::mesh::io::Soup;
-use ricci::mesh::shapes::{self, Intrinsic};
+use ricci::mesh::shapes::{self, IntrinsicSurface};
 use ricci::mesh::{HalfedgeId, Mesh, Point};
 use ricci::metric::{curvature, lengths_from_positions};
 use ricci::topology::homology_generators;
@@ -134,7 +134,7 @@ fn area_of_the_icosphere_tends_to_four_pi_quadratically() {
     }
 }
 
-fn check_flat(surface: &Intrinsic, genus: usize, area: f64) {
+fn check_flat(surface: &IntrinsicSurface, genus: usize, area: f64) {
     let (mesh, lengths) = surface.build().unwrap();
     assert!(mesh.is_closed());
     assert_eq!(mesh.genus(), genus);
@@ -239,13 +239,13 @@ fn side_pairings_of_the_octagon_generate_a_surface_group_with_the_bolza_systole(
 fn subdivision_refuses_lengths_without_triangles() {
     let with = |geometry, lengths: [f64; 3]| {
         let lengths = lengths.to_vec();
-        Intrinsic { lengths, geometry, ..shapes::two_triangle_sphere() }.subdivide()
+        IntrinsicSurface { lengths, geometry, ..shapes::two_triangle_sphere() }.subdivide()
     };
     for bad in [f64::NAN, f64::INFINITY, -1.0, 0.0, 1e-160, 1e160] {
         let error = with(Space::E2, [1.0, bad, 1.0]).unwrap_err();
         assert!(matches!(error, Error::EdgeLength { edge: 1, .. }), "{bad}: {error}");
     }
-    let excess = |surface: ricci::Result<Intrinsic>| match surface {
+    let excess = |surface: ricci::Result<IntrinsicSurface>| match surface {
         Err(Error::TriangleInequality { face: 0, excess }) => excess,
         other => panic!("{other:?}"),
     };

@@ -13,7 +13,7 @@ use clap::Args;
 use ricci::Surface;
 use ricci::geometry::hyperelliptic::period_matrix;
 use ricci::mesh::io::{self, Soup};
-use ricci::mesh::shapes::{self, Intrinsic, TorusKnot};
+use ricci::mesh::shapes::{self, IntrinsicSurface, TorusKnot};
 use serde::Serialize;
 use std::path::Path;
 use std::time::Instant;
@@ -118,7 +118,7 @@ fn write_mesh(soup: ricci::Result<Soup>, to: &ToMesh, shape: &Shape, start: Inst
 }
 
 fn write_metric(
-    surface: ricci::Result<Intrinsic>,
+    surface: ricci::Result<IntrinsicSurface>,
     to: &ToMetric,
     shape: &Shape,
     start: Instant,

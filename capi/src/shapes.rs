@@ -11,7 +11,7 @@ use crate::structs::{self, sized};
 use num_complex::Complex64;
 use ricci::geometry::hyperelliptic::period_matrix;
 use ricci::mesh::io::Soup;
-use ricci::mesh::shapes::{self, Intrinsic, Sliver, TorusKnot};
+use ricci::mesh::shapes::{self, IntrinsicSurface, Sliver, TorusKnot};
 use std::sync::Arc;
 
 choices!(enum SampleShape, SHAPES = "shape", [
@@ -82,7 +82,7 @@ fn branch_points(points: *const f64, n_points: usize) -> Outcome<Vec<Complex64>>
 /// Most bytes per entry of a period matrix while it is computed.
 const PERIOD: usize = 1 << 8;
 
-fn intrinsic(surface: Intrinsic) -> Outcome<ricci_mesh> {
+fn intrinsic(surface: IntrinsicSurface) -> Outcome<ricci_mesh> {
     let (connectivity, lengths) = surface.build()?;
     Ok(ricci_mesh::intrinsic(Arc::new(connectivity), Arc::new(lengths), surface.geometry))
 }

@@ -3,14 +3,14 @@
 use ricci::geometry::Space;
 use ricci::harmonic::{Domain, FormsOptions, HarmonicForms};
 use ricci::mesh::io::Soup;
-use ricci::mesh::shapes::{self, Intrinsic};
+use ricci::mesh::shapes::{self, IntrinsicSurface};
 use ricci::{Control, Surface};
 
 pub fn in_space(soup: &Soup) -> Surface {
     Surface::from_soup(soup).unwrap()
 }
 
-pub fn intrinsic(shape: &Intrinsic, geometry: Space) -> Surface {
+pub fn intrinsic(shape: &IntrinsicSurface, geometry: Space) -> Surface {
     let (mesh, lengths) = shape.build().unwrap();
     Surface::intrinsic(mesh, lengths, geometry).unwrap()
 }

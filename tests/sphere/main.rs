@@ -15,7 +15,7 @@ use ricci::canonical::{Sphere, SphereOptions, SphereReport, uniformize_sphere};
 use ricci::flow::{Seconds, StopReason};
 use ricci::geometry::Space;
 use ricci::geometry::vector::dot;
-use ricci::mesh::shapes::{self, Intrinsic};
+use ricci::mesh::shapes::{self, IntrinsicSurface};
 use ricci::mesh::{Mesh, PerEdge, VertexId, io};
 use ricci::metric::lengths_from_positions;
 use ricci::{Control, Error, Surface};
@@ -201,7 +201,7 @@ fn cancelling_from_another_thread_stops_it() {
     assert!(matches!(worker.join().unwrap(), Err(Error::Cancelled)));
 }
 
-fn refused(intrinsic: &Intrinsic) -> String {
+fn refused(intrinsic: &IntrinsicSurface) -> String {
     let (mesh, lengths) = intrinsic.build().unwrap();
     run(&mesh, &lengths, &SphereOptions::default()).unwrap_err().to_string()
 }

@@ -7,7 +7,7 @@ mod known;
 mod points;
 
 use ricci::mesh::io::Soup;
-use ricci::mesh::shapes::{self, Intrinsic};
+use ricci::mesh::shapes::{self, IntrinsicSurface};
 use ricci::mesh::{Mesh, PerVertex, VertexId};
 use ricci::structure::{AffineSource, Atlas, AtlasOptions, Charts, Structure, atlas};
 use ricci::{Control, Error, Surface};
@@ -19,7 +19,7 @@ fn of(soup: ricci::Result<Soup>) -> Surface {
     Surface::from_soup(&soup.unwrap()).unwrap()
 }
 
-fn glued(shape: ricci::Result<Intrinsic>) -> Surface {
+fn glued(shape: ricci::Result<IntrinsicSurface>) -> Surface {
     let shape = shape.unwrap();
     let (mesh, lengths) = shape.build().unwrap();
     Surface::intrinsic(mesh, lengths, shape.geometry).unwrap()

@@ -5,7 +5,7 @@ use ricci::Control;
 use ricci::canonical::{Quotient, QuotientOptions, uniformize_quotient};
 use ricci::geometry::Space;
 use ricci::mesh::io::{Soup, read};
-use ricci::mesh::shapes::{self, Intrinsic};
+use ricci::mesh::shapes::{self, IntrinsicSurface};
 use ricci::mesh::{Mesh, PerEdge};
 use ricci::metric::lengths_from_positions;
 
@@ -26,7 +26,7 @@ impl Surface {
         Surface { name: name.into(), mesh, lengths, geometry: Space::E2 }
     }
 
-    pub fn intrinsic(name: &str, surface: &Intrinsic) -> Surface {
+    pub fn intrinsic(name: &str, surface: &IntrinsicSurface) -> Surface {
         let (mesh, lengths) = surface.build().unwrap();
         Surface { name: name.into(), mesh, lengths, geometry: surface.geometry }
     }

@@ -1,4 +1,4 @@
-//! The defects of a triangle list: stable codes, elements, remedies.
+//! The defects of a triangle list, with stable codes, the elements concerned, and remedies.
 
 /// One defect with the elements it concerns (0-based input indices).
 #[derive(Debug, Clone, PartialEq)]
@@ -6,7 +6,7 @@
 pub enum Defect {
     /// There is no face.
     Empty {
-        /// Faces that were given to a repair and collapsed, all of them; 0 where there were none.
+        /// The number of faces that were given to a repair and all collapsed; 0 where there were none.
         collapsed: usize,
     },
     /// A face names a vertex that does not exist.
@@ -40,31 +40,29 @@ pub enum Defect {
         /// All its faces.
         faces: Vec<u32>,
     },
-    /// The faces at a vertex do not form one fan (several sheets touch there, or an edge there is
-    /// non-manifold).
+    /// The faces at a vertex do not form one fan: several sheets touch there, or an edge there is non-manifold.
     NonManifoldVertex {
         /// The vertex.
         vertex: u32,
-        /// Number of sheets; 1 where the only fault is a non-manifold edge that ends there.
+        /// The number of sheets; 1 where the only fault is a non-manifold edge that ends there.
         sheets: u32,
     },
-    /// Faces run along their common edge in the same direction. Two faces that meet in an edge of a one-sided
-    /// piece are not listed, since no turning of faces makes all of them agree there.
+    /// Faces run along their common edge in the same direction. Two faces that meet in an edge of a one-sided piece are not listed, since
+    /// turning faces cannot make all of them agree there.
     InconsistentOrientation {
-        /// Where the edge starts and where it ends, as these faces run along it.
+        /// The start and the end of the edge in the direction of these faces.
         vertices: [u32; 2],
-        /// The faces that run so, two or more.
+        /// The faces that run in this direction, two or more.
         faces: Vec<u32>,
-        /// Number of faces in the edge, of either direction; with more than two it is also non-manifold.
+        /// The number of faces in the edge, of either direction; with more than two it is also non-manifold.
         meeting: u32,
     },
     /// A piece of the surface is one-sided.
     NonOrientable {
-        /// A Möbius band in it: faces of which each shares an edge with the next, and the last with the
-        /// first.
+        /// A Möbius band in it: faces each of which shares an edge with the next, and the last with the first.
         strip: Vec<u32>,
     },
-    /// The corners of a face lie on a line to working precision.
+    /// The corners of a face are collinear to working precision.
     ZeroAreaFace {
         /// The face.
         face: u32,
@@ -74,7 +72,7 @@ pub enum Defect {
         /// The vertex.
         vertex: u32,
     },
-    /// The surface is in several pieces.
+    /// The surface has several pieces.
     SeveralComponents {
         /// Number of faces of each, largest first.
         sizes: Vec<u32>,
@@ -102,7 +100,7 @@ impl Defect {
         }
     }
 
-    /// What can be done about it.
+    /// The advice how to mend it.
     pub fn remedy(&self) -> &'static str {
         match self {
             Defect::Empty { collapsed: 0 } => "give a file with triangles (a point cloud has no surface)",
@@ -209,7 +207,7 @@ impl std::fmt::Display for Defect {
     }
 }
 
-/// The first eight numbers of a list, and how many there are in all.
+/// The first eight numbers of a list, and its length.
 fn few(numbers: &[u32]) -> String {
     const SHOWN: usize = 8;
     let mut text = numbers.iter().take(SHOWN).map(u32::to_string).collect::<Vec<_>>().join(", ");

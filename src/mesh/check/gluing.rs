@@ -1,11 +1,11 @@
-//! Defects of triangles that are glued consistently along numbered edges, whatever surface they form.
+//! Diagnosis of triangles that are glued consistently along numbered edges.
 
 use super::{Defect, Diagnosis, genus, several_components};
 use crate::mesh::incidence::{boundary_loops, components};
 use crate::mesh::union_find::UnionFind;
 
-/// Diagnose faces whose side k is the half-edge `sides[f][k]`; half-edge h starts at `origin[h]`, its twin is
-/// `h ^ 1`, and no half-edge is in two faces.
+/// Diagnoses faces whose side k is the half-edge `sides[f][k]`; half-edge h starts at `origin[h]`, its twin is `h ^ 1`, and no half-edge
+/// is in two faces.
 pub(in crate::mesh) fn diagnose_gluing(
     n_vertices: usize,
     faces: &[[u32; 3]],
@@ -16,8 +16,8 @@ pub(in crate::mesh) fn diagnose_gluing(
     if faces.is_empty() {
         defects.push(Defect::Empty { collapsed: 0 });
     }
-    // Half-edges leaving a vertex are in one fan when a corner or a gluing joins them: h and the half-edge
-    // opposite the previous one of its face.
+    // Half-edges that leave a vertex are in one fan when a corner or a gluing joins them: h and the half-edge opposite the previous one
+    // of its face.
     let mut fans = UnionFind::new(origin.len());
     let mut inside = vec![false; origin.len()];
     for s in sides {

@@ -1,4 +1,4 @@
-//! Diagnosis of triangle lists: every defect, its elements and its remedy.
+//! Diagnosis of triangle lists: all defects, with their elements and remedies.
 //!
 //! ```
 //! use ricci::mesh::check::diagnose;
@@ -23,28 +23,28 @@ use crate::geometry::vector;
 use crate::parallel;
 use orientation::orientation;
 
-/// A face counts as zero-area when its lengths, as computed in doubles, satisfy the triangle inequality by less than this fraction of
-/// the longest side. It is four roundings of a length: below it rounding decides whether the inequality holds.
+/// Share of its longest side by which a face must satisfy the triangle inequality, with lengths computed in f64; below it the face counts
+/// as zero-area. It is four roundings of a length, which decide whether the inequality holds.
 pub const ZERO_AREA: f64 = 4.0 * f64::EPSILON;
 
-/// Every defect of a triangle list, or of a gluing, and its counts. All defects keep a metric from being
-/// defined on it, so an input is admissible exactly when `defects` is empty.
+/// All defects of a triangle list, or of a gluing, and its counts. No metric can be defined on an input with a defect, so an input is
+/// admissible exactly when `defects` is empty.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Diagnosis {
-    /// Vertices given.
+    /// The number of vertices given.
     pub vertices: usize,
-    /// Distinct edges of the faces that are triangles.
+    /// The number of distinct edges of the faces that are triangles.
     pub edges: usize,
-    /// Faces given.
+    /// The number of faces given.
     pub faces: usize,
-    /// Connected pieces (faces that share a vertex are connected).
+    /// The number of connected pieces (faces that share a vertex are connected).
     pub components: usize,
-    /// V − E + F over the vertices in use.
+    /// V − E + F over the used vertices.
     pub euler: i64,
-    /// Boundary loops, counted as connected pieces of the edges with one face: loops that touch at a
-    /// non-manifold vertex count as one.
+    /// The number of boundary loops, counted as connected pieces of the edges with one face: loops that touch at a non-manifold vertex
+    /// count as one.
     pub boundary_loops: usize,
-    /// Genus of a connected, orientable manifold (its faces need not be oriented yet).
+    /// The genus of a connected, orientable manifold (its faces need not be oriented yet).
     pub genus: Option<usize>,
     /// The defects, grouped by kind: first those of the faces' indices, then those of the positions.
     pub defects: Vec<Defect>,
@@ -65,7 +65,7 @@ impl Diagnosis {
 }
 
 impl std::fmt::Display for Diagnosis {
-    /// The first defect of each kind and remedy, and how many more there are; numbers count from 0.
+    /// Writes the first defect of each kind and its remedy, and how many more there are; numbers count from 0.
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let mut kinds: Vec<(&Defect, usize)> = Vec::new();
         for defect in &self.defects {
@@ -85,7 +85,7 @@ impl std::fmt::Display for Diagnosis {
     }
 }
 
-/// Diagnose an indexed triangle list. O(F log F).
+/// Diagnoses an indexed triangle list. O(F log F).
 pub fn diagnose(positions: &[Point], faces: &[[u32; 3]]) -> Diagnosis {
     diagnose_positions(positions, faces, &Incidence::new(positions.len(), faces))
 }
@@ -149,7 +149,7 @@ pub(super) fn diagnose_incidence(faces: &[[u32; 3]], incidence: &Incidence) -> D
     Diagnosis { vertices: n, edges, faces: faces.len(), components, euler, boundary_loops, genus, defects }
 }
 
-/// Number of pieces; several are a defect, which is added.
+/// The number of pieces; if there are several, this adds a defect.
 fn several_components(pieces: Vec<(u32, u32)>, defects: &mut Vec<Defect>) -> usize {
     let n = pieces.len();
     if n > 1 {
@@ -159,12 +159,12 @@ fn several_components(pieces: Vec<(u32, u32)>, defects: &mut Vec<Defect>) -> usi
     n
 }
 
-/// From χ = 2 − 2g − b.
+/// The genus by χ = 2 − 2g − b.
 fn genus(euler: i64, boundary_loops: usize) -> Option<usize> {
     usize::try_from((2 - euler - boundary_loops as i64) / 2).ok()
 }
 
-/// Faces with the same set of vertices as an earlier one.
+/// Adds the faces with the same set of vertices as an earlier one to the defects.
 fn duplicates(faces: &[[u32; 3]], incidence: &Incidence, defects: &mut Vec<Defect>) {
     // Such faces meet in the edge of their two smaller vertices.
     let (mut beyond, mut found) = (Vec::new(), Vec::new());
@@ -186,10 +186,10 @@ fn duplicates(faces: &[[u32; 3]], incidence: &Incidence, defects: &mut Vec<Defec
     defects.extend(found.into_iter().map(|(face, first)| Defect::DuplicateFace { face, first }));
 }
 
-/// Faces that [`is_sound`] looks at in one piece of work.
+/// Number of faces that one thread of [`is_sound`] takes at a time.
 const FACES_PER_LOOK: usize = 1 << 14;
 
-/// Whether all positions are finite, and no face, of three different existing vertices, has zero area.
+/// True if all positions are finite and no face, of three different existing vertices, has zero area.
 pub(super) fn is_sound(positions: &[Point], faces: &[[u32; 3]]) -> bool {
     let is_plane = |corners: &[u32; 3]| {
         let p = corners.map(|v| positions[v as usize]);
@@ -204,7 +204,7 @@ pub(super) fn is_sound(positions: &[Point], faces: &[[u32; 3]]) -> bool {
 /// difference is then above 1e-9 of the longest edge.
 const CLEAR: f64 = 1e-8;
 
-/// Whether a triangle has an area beyond all doubt, by a few products; where these are no doubles it has none.
+/// True if a triangle certainly has an area, by a few products; false where these are not finite.
 fn has_clear_area(p: [Point; 3]) -> bool {
     let [u, v, w] = [[0, 1], [0, 2], [1, 2]].map(|[i, j]| vector::sub(p[j], p[i]));
     let norm2 = |u| vector::dot(u, u);

@@ -1,9 +1,9 @@
-//! Whether a triangle list is oriented, or can be.
+//! Orientation of triangle lists: finds faces that disagree with their neighbours, and one-sided pieces.
 
 use super::defect::Defect;
 use crate::mesh::incidence::{Incidence, NONE, ends, is_forward};
-/// Add the edges along which faces run in the same direction, and a Möbius band of each one-sided piece (pieces are connected through
-/// edges of two faces). Returns whether all pieces are two-sided.
+/// Adds the edges along which faces run in the same direction, and a Möbius band of each one-sided piece, to the defects (pieces are
+/// connected through edges of two faces). Returns true if all pieces are two-sided.
 pub(super) fn orientation(faces: &[[u32; 3]], incidence: &Incidence, defects: &mut Vec<Defect>) -> bool {
     let forward = |sides: &[u32]| sides.iter().filter(|&&s| is_forward(faces, s)).count();
     let clashes =
@@ -14,7 +14,7 @@ pub(super) fn orientation(faces: &[[u32; 3]], incidence: &Incidence, defects: &m
     let Orientation { parent, pieces, .. } = Orientation::new(faces, incidence);
     let mut one_sided = vec![false; faces.len()];
     let mut strips = Vec::new();
-    for Piece { faces, clash } in pieces {
+    for OrientedPiece { faces, clash } in pieces {
         if let Some([f, g]) = clash {
             faces.into_iter().for_each(|f| one_sided[f as usize] = true);
             strips.push(tree_path(&parent, f, g));
@@ -41,20 +41,20 @@ pub(super) fn orientation(faces: &[[u32; 3]], incidence: &Incidence, defects: &m
     orientable
 }
 
-/// Faces turned until neighbours agree, where that can be: each piece is searched breadth first from its first face.
+/// The faces to turn so that neighbours agree, where possible: each piece is searched breadth first from its first face.
 pub(in crate::mesh) struct Orientation {
-    /// Per face, whether it has to be turned to agree with the first face of its piece.
+    /// For each face, true if it has to be turned to agree with the first face of its piece.
     pub turned: Vec<bool>,
-    pub pieces: Vec<Piece>,
-    /// Per face, the face from which it was reached; itself for the first of a piece.
+    pub pieces: Vec<OrientedPiece>,
+    /// For each face the face from which it was reached; for the first of a piece itself.
     parent: Vec<u32>,
 }
 
-/// Faces that are connected through edges of two faces.
-pub(in crate::mesh) struct Piece {
+/// A piece: faces that are connected through edges of two faces.
+pub(in crate::mesh) struct OrientedPiece {
     pub faces: Vec<u32>,
-    /// The first two neighbours found that turning does not make agree. With the ways by which they were reached they close a Möbius
-    /// band: the piece is one-sided.
+    /// The first two neighbours found that turning cannot make agree. Together with the paths by which they were reached they close a
+    /// Möbius band: the piece is one-sided.
     pub clash: Option<[u32; 2]>,
 }
 
@@ -69,7 +69,7 @@ impl Orientation {
                 continue;
             }
             parent[first as usize] = first;
-            let mut piece = Piece { faces: vec![first], clash: None };
+            let mut piece = OrientedPiece { faces: vec![first], clash: None };
             let mut next = 0;
             while let Some(&f) = piece.faces.get(next) {
                 next += 1;
@@ -92,14 +92,14 @@ impl Orientation {
     }
 }
 
-/// The faces on the way from `f` to `g` in the search tree.
+/// The faces on the path from `f` to `g` in the search tree.
 fn tree_path(parent: &[u32], f: u32, g: u32) -> Vec<u32> {
     let to_root = |f: u32| {
         let up = |&f: &u32| Some(parent[f as usize]).filter(|&p| p != f);
         std::iter::successors(Some(f), up).collect::<Vec<_>>()
     };
     let (mut there, mut back) = (to_root(f), to_root(g));
-    // The two ways to the root share their ends, from the last common ancestor on.
+    // The two paths to the root share their ends, from the last common ancestor on.
     while let ([.., a, _], [.., b, _]) = (&there[..], &back[..])
         && a == b
     {

@@ -22,11 +22,10 @@ const TUBE: f64 = 0.35;
 pub(super) const RIM: f64 = HOLE + 2.0 * TUBE;
 /// Half the distance of neighbouring holes.
 pub(super) const HALF_STEP: f64 = HOLE + TUBE;
-/// Temperature of the smooth union of the rim's disks, in squared lengths: the larger it is, the more the waists between the holes are
-/// filled.
+/// Temperature of the smooth union of the rim's disks, in squared lengths: the larger, the more the waists between the holes are filled.
 const BLEND: f64 = 2.0;
-/// Number of disks on each side of the nearest one that are summed over. The weight of all others is below rounding: at most
-/// `exp(−((2·REACH + 1)² − 1) HALF_STEP² / BLEND)` ≈ 1e−19 of the nearest one's.
+/// Number of disks on each side of the nearest one that are summed. The weight of all others is below rounding: at most `exp(−((2·REACH +
+/// 1)² − 1) HALF_STEP² / BLEND)` ≈ 1e−19 of the nearest one's.
 const REACH: usize = 3;
 
 type Point2 = [f64; 2];
@@ -45,12 +44,11 @@ type Point2 = [f64; 2];
 /// The rim is a smooth union of disks of radius 1.7, and `f` the harmonic mean that makes a tube of radius
 /// about 0.35 between two parallel walls. Every vertex lies on the surface to rounding.
 ///
-/// `n` ≥ 1 is the number of layers over a quarter of the tube: `8(5g + 1)n² + 2 − 2g` vertices, no angle
-/// below 27°. Vertex order: the medial graph above, the same below, then ring by ring (hole 0, …, hole g − 1,
-/// rim), layer by layer downwards. For g ≥ 2 vertex 0 is the lower end of the first bridge between two holes,
-/// where ten triangles meet: room for a cone of negative curvature.
+/// `n` ≥ 1 is the number of layers over a quarter of the tube: `8(5g + 1)n² + 2 − 2g` vertices, no angle below 27°. Vertex order: the
+/// medial graph above, the same below, then ring by ring (hole 0, …, hole g − 1, rim), layer by layer downwards. For g ≥ 2 vertex 0 is
+/// the lower end of the first bridge between two holes, where ten triangles meet, which leaves room for a cone of negative curvature.
 ///
-/// Every height sums over all holes: the time grows with n² g².
+/// Each height is a sum over all holes, so the time grows with n² g².
 ///
 /// # Errors
 ///
@@ -67,13 +65,13 @@ pub fn genus(genus: usize, n: usize) -> Result<Soup> {
         sheets.positions.extend(points.iter().zip(&heights).map(|(p, z)| [p[0], p[1], side * z]));
     }
     for (k, ring) in holes.iter().enumerate() {
-        sheets.ring(ring, |p| plate.foot_on_hole(k, p), Side::Hole);
+        sheets.ring(ring, |p| plate.foot_on_hole(k, p), PlateBorder::Hole);
     }
-    sheets.ring(&rim, |p| plate.foot_on_rim(p), Side::Rim);
+    sheets.ring(&rim, |p| plate.foot_on_rim(p), PlateBorder::Rim);
     Ok(Soup::new(sheets.positions, sheets.faces))
 }
 
-/// The plate: rim, holes and height over the plane.
+/// The plate, given by its number of holes: rim, holes and height over the plane.
 #[derive(Clone, Copy)]
 struct Plate {
     genus: usize,
@@ -97,12 +95,12 @@ impl Plate {
         (x - self.centre(k)).powi(2) + y * y
     }
 
-    /// `p_k`: zero on hole k, with slope 1 there.
+    /// `p_k`, which is 0 on hole k and has slope 1 there.
     fn hole_distance(self, k: usize, p: Point2) -> f64 {
         (self.square(k, p) - HOLE * HOLE) / (2.0 * HOLE)
     }
 
-    /// `p`: zero on the rim.
+    /// `p`, which is 0 on the rim.
     fn rim_distance(self, p: Point2) -> f64 {
         let nearest = ((p[0] - self.centre(0)) / (2.0 * HALF_STEP))
             .round()
@@ -125,7 +123,7 @@ impl Plate {
         [self.centre(k) + HOLE * dx / r, HOLE * p[1] / r]
     }
 
-    /// The rim beyond `p`: away from the centre of the first or last hole in the caps, along y between them.
+    /// The point of the rim outside of `p`: in the direction from the centre of the first or last hole in the caps, along y between them.
     fn foot_on_rim(self, p: Point2) -> Point2 {
         let x = p[0].clamp(self.centre(0), self.centre(self.genus - 1));
         let r = (p[0] - x).hypot(p[1]);
@@ -133,15 +131,14 @@ impl Plate {
         along(root(0.0, 2.0 * RIM, |t| self.rim_distance(along(t))))
     }
 
-    /// Half-way between hole k and the rim, in direction `angle` from the hole's centre.
+    /// The point half-way between hole k and the rim, in direction `angle` from the hole's centre.
     fn medial(self, k: usize, angle: f64) -> Point2 {
         let (sin, cos) = angle.sin_cos();
         let along = |t: f64| [self.centre(k) + t * cos, t * sin];
         along(root(HOLE, 2.0 * RIM, |t| self.rim_distance(along(t)) - self.hole_distance(k, along(t))))
     }
 
-    /// The medial graph: 2n steps on a bridge, 4n between the bridges of a hole, 10n around an end, 12n in
-    /// all around a single hole.
+    /// The medial graph, with 2n steps on a bridge, 4n between the bridges of a hole, 10n around an end, 12n around a single hole.
     fn skeleton(self, n: usize) -> Skeleton {
         let mut points = Vec::new();
         let last = self.genus - 1;
@@ -150,7 +147,7 @@ impl Plate {
             points.extend(ring.iter().map(|&i| self.medial(0, TAU * i as f64 / ring.len() as f64)));
             return Skeleton { points, holes: vec![ring.clone()], rim: ring };
         }
-        // Bridge k, between the holes k and k + 1, ends at the directions ±tilt[k] from hole k.
+        // Bridge k, between the holes k and k + 1, ends in the directions ±tilt[k] from hole k.
         let mut tilt = Vec::with_capacity(last);
         for k in 0..last {
             let x = self.centre(k) + HALF_STEP;
@@ -161,7 +158,7 @@ impl Plate {
         }
         let bottom = |k: usize| k * (2 * n + 1);
         let top = |k: usize| bottom(k) + 2 * n;
-        // Half-open paths: each ends where the next begins.
+        // Half-open paths: each ends at the start of the next.
         let up = |k: usize| bottom(k)..top(k);
         let down = |k: usize| (bottom(k) + 1..=top(k)).rev();
         let mut arc = |k: usize, start: usize, from: f64, to: f64, steps: usize| {
@@ -190,9 +187,9 @@ impl Plate {
     }
 }
 
-/// What a ring of quads leads around.
+/// The part of the plate's border that a ring of quads leads around.
 #[derive(Clone, Copy, PartialEq)]
-enum Side {
+enum PlateBorder {
     Hole,
     Rim,
 }
@@ -208,8 +205,8 @@ struct Sheets<'a> {
 }
 
 impl Sheets<'_> {
-    /// Add the quads from the medial loop above, around the tube through `foot`, to the medial loop below.
-    fn ring(&mut self, ring: &[usize], foot: impl Fn(Point2) -> Point2, side: Side) {
+    /// Adds the quads from the medial loop above, around the tube through `foot`, to the medial loop below.
+    fn ring(&mut self, ring: &[usize], foot: impl Fn(Point2) -> Point2, side: PlateBorder) {
         let points = self.points;
         let feet: Vec<Point2> = ring.iter().map(|&v| foot(points[v])).collect();
         let mut above = ring.to_vec();
@@ -220,7 +217,7 @@ impl Sheets<'_> {
                 (self.positions.len()..self.positions.len() + ring.len()).collect()
             };
             if layer < 2 * self.layers {
-                // A round tube in cross-section: sin of the angle from its crest, towards the foot.
+                // A round tube in cross-section: the sine of the angle from its crest, towards the foot.
                 let t = (FRAC_PI_2 * layer as f64 / self.layers as f64).sin();
                 for (&v, foot) in ring.iter().zip(&feet) {
                     let p = [0, 1].map(|d| (1.0 - t) * points[v][d] + t * foot[d]);
@@ -240,10 +237,10 @@ impl Sheets<'_> {
         }
     }
 
-    /// Split a quad (counter-clockwise from outside around a hole, clockwise around the rim) along its
-    /// shorter diagonal; those between vertex 0 and a hole along the diagonal through it.
-    fn split(&mut self, mut quad: [usize; 4], side: Side) {
-        if side == Side::Rim {
+    /// Splits a quad (counter-clockwise from outside around a hole, clockwise around the rim) along its shorter diagonal; quads between
+    /// vertex 0 and a hole are split along the diagonal through vertex 0.
+    fn split(&mut self, mut quad: [usize; 4], side: PlateBorder) {
+        if side == PlateBorder::Rim {
             quad.reverse();
         }
         let square = |i: usize, j: usize| {
@@ -251,7 +248,7 @@ impl Sheets<'_> {
             (0..3).map(|d| (p[d] - q[d]).powi(2)).sum::<f64>()
         };
         let swap = match quad.iter().position(|&v| v == 0) {
-            Some(corner) if side == Side::Hole => corner % 2 == 1,
+            Some(corner) if side == PlateBorder::Hole => corner % 2 == 1,
             _ => square(1, 3) < square(0, 2),
         };
         let [a, b, c, d] = quad.map(|v| v as u32);
@@ -259,7 +256,7 @@ impl Sheets<'_> {
     }
 }
 
-/// Where `f` falls through zero between `low` and `high`, by bisection to rounding.
+/// The point between `low` and `high` where `f` falls through zero, by bisection to rounding.
 fn root(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
     loop {
         let middle = 0.5 * (low + high);

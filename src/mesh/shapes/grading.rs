@@ -1,4 +1,4 @@
-//! Bad triangles on demand: grading towards a vertex, and slivers.
+//! Bad triangles on demand: meshes graded towards a vertex, and slivers.
 
 use super::check_corners;
 use super::noise::SplitMix64;
@@ -7,8 +7,8 @@ use crate::geometry::vector::{add, cross, distance, lerp, norm, normalised, scal
 use crate::mesh::Point;
 use crate::mesh::io::Soup;
 
-/// Halve the edges around `vertex`, then those of the smaller triangles around it, `levels` times: edge lengths fall
-/// like 2^−levels towards it, and no new shape of triangle appears but halves of trapezia.
+/// Halves the edges around `vertex`, then those of the smaller triangles around it, `levels` times: edge lengths fall like 2^−levels
+/// towards it. All new triangles are similar to old ones or are halves of trapezia.
 ///
 /// ```text
 ///          v                 Each triangle (v, a, b) becomes (v, a', b') and the trapezium (a', a, b, b'), cut
@@ -20,9 +20,9 @@ use crate::mesh::io::Soup;
 ///
 /// # Errors
 ///
-/// [`Error::Argument`] for a vertex that does not exist or is in no face, or for too many levels; [`Error::TooLarge`].
-/// The error for levels names the largest number: 100 for a vertex at the origin, and elsewhere as many as leave the edges
-/// at it 1024 times what doubles resolve at its coordinates (about 40 on the unit sphere), so that angles keep three digits.
+/// [`Error::Argument`] for a vertex that does not exist or is in no face, or for too many levels; [`Error::TooLarge`]. The error for
+/// levels names the largest number: 100 for a vertex at the origin, and elsewhere as many as leave the edges at it 1024 times as long as
+/// the rounding of its coordinates (about 40 on the unit sphere), so that angles keep three digits.
 pub fn grade(soup: &mut Soup, vertex: u32, levels: usize) -> Result<()> {
     let star: Vec<usize> = (0..soup.faces.len()).filter(|&f| soup.faces[f].contains(&vertex)).collect();
     check_corners(soup)?;
@@ -62,10 +62,9 @@ pub fn grade(soup: &mut Soup, vertex: u32, levels: usize) -> Result<()> {
     Ok(())
 }
 
-/// Most levels of grading. Around the origin doubles resolve even shorter edges, but edges of 2⁻¹⁰⁰ of their first length are of no
-/// use.
+/// Most levels of grading. Around the origin f64 resolves even shorter edges, but edges of 2⁻¹⁰⁰ of their first length are of no use.
 const MOST_LEVELS: usize = 100;
-/// Least length of the edges at the graded vertex, in units of its largest coordinate: 1024 roundings of that.
+/// Least length of the edges at the graded vertex, in units of its largest coordinate: 1024 roundings of it.
 const RESOLVED: f64 = 1024.0 * f64::EPSILON;
 
 fn most_levels(soup: &Soup, vertex: u32, star: &[usize]) -> usize {
@@ -81,17 +80,17 @@ fn most_levels(soup: &Soup, vertex: u32, star: &[usize]) -> usize {
 /// The kind of a sliver.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Sliver {
-    /// A vertex close to the middle of a side: one angle near π, two small ones.
+    /// A vertex close to the middle of a side, with one angle near π and two small ones.
     Cap,
-    /// A vertex close to a corner: a short edge, one small angle.
+    /// A vertex close to a corner, with a short edge and one small angle.
     Needle,
 }
 
-/// Cut `count` faces, chosen by `seed`, into three by a new vertex so placed that the smallest angle is about `angle`
-/// (radians, up to 0.1): the vertex lies near the middle of the first side, or near the first corner, where the
-/// farther ones see it under `angle`; never farther in than a third of the face. The surface stays as it is.
+/// Cuts `count` faces, chosen by `seed`, into three by a new vertex, placed so that the smallest angle is about `angle` (radians, up to
+/// 0.1): near the middle of the first side, whose ends see it under this angle, or near the first corner, where the farther of the other
+/// two sees it so; never farther in than a third of the face. The shape of the surface does not change.
 ///
-/// The new vertices come last; of each face cut, the first third keeps its number and the others come last.
+/// The new vertices come last; the first third of each cut face keeps its number and the others come last.
 ///
 /// # Errors
 ///
@@ -130,17 +129,17 @@ pub fn slivers(soup: &mut Soup, kind: Sliver, count: usize, angle: f64, seed: u6
 }
 
 /// Least angle of a sliver, radians. Two sides of a cap with this angle together exceed its base by `2 (1 − cos 1e-7) = 1e-14` of it, a
-/// few ulps; by its lengths in doubles a thinner cap may have no area.
+/// few ulps; by its lengths in f64 a thinner cap may have no area.
 const THINNEST: f64 = 1e-7;
 
-/// Above the middle of pq, seen from p and q under `angle`.
+/// The point above the middle of pq that is seen from p and q under `angle`.
 fn cap([p, q, r]: [Point; 3], angle: f64) -> Point {
     let side = distance(p, q);
     let height = norm(triangle_normal([p, q, r])) / side;
     lerp(lerp(p, q, 0.5), r, (0.5 * side * angle.tan() / height).min(1.0 / 3.0))
 }
 
-/// On the bisector at p, seen from the farther one of q and r under `angle`.
+/// The point on the bisector at p that is seen from the farther one of q and r under `angle`.
 fn needle([p, q, r]: [Point; 3], angle: f64) -> Point {
     let (to_q, to_r) = (sub(q, p), sub(r, p));
     let bisector = normalised(add(normalised(to_q), normalised(to_r)));
@@ -149,13 +148,13 @@ fn needle([p, q, r]: [Point; 3], angle: f64) -> Point {
     add(p, scale((far * angle / sine).min(near / 3.0), bisector))
 }
 
-/// Check that the half-edges of that many more faces, three to a face, can be numbered in u32.
+/// Checks that the half-edges of this many more faces, three per face, can be numbered in u32.
 fn check_room(soup: &Soup, new_faces: usize) -> Result<()> {
     let count = soup.faces.len() + new_faces;
     if count > u32::MAX as usize / 3 { Err(Error::TooLarge { what: "faces", count }) } else { Ok(()) }
 }
 
-/// Drop the attributes: those of new vertices and faces are not known.
+/// Drops the attributes, which are unknown for new vertices and faces.
 fn forget_attributes(soup: &mut Soup) {
     soup.attributes = Default::default();
 }

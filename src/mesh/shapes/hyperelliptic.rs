@@ -1,7 +1,7 @@
-//! Hyperelliptic surfaces over given branch points.
+//! Hyperelliptic surfaces, double covers of the sphere over given branch points.
 
 use super::check_count;
-use super::intrinsic::Intrinsic;
+use super::intrinsic::IntrinsicSurface;
 use super::sphere::icosphere;
 use crate::error::{Error, Result};
 use crate::geometry::vector::{Vector, add, cross, distance, dot, norm, normalised, scale, sub};
@@ -10,39 +10,37 @@ use crate::mesh::io::Soup;
 use crate::mesh::{HalfedgeId, Mesh, PerEdge, PerHalfedge, PerVertex, VertexId};
 use num_complex::Complex64;
 
-/// Rounds of smoothing after vertices have been moved onto the branch points. Each spreads the dent of a move to one more ring of
-/// vertices.
+/// Rounds of smoothing after vertices have been moved to the branch points. Each spreads the dent of a move to one more ring of vertices.
 const SMOOTHING_ROUNDS: usize = 10;
 
 /// The Riemann surface of `y² = Π (x − e_j)` as the double cover of the round sphere, branched over the points `e_j` and,
 /// if their number is odd, over ∞: genus g for 2g + 1 or 2g + 2 points, g ≥ 1. Its period matrix is known:
 /// [`crate::geometry::hyperelliptic::period_matrix`].
 ///
-/// The plane is moved and scaled so that the points' mean is 0 and their mean square 1, then put on the unit sphere by
-/// stereographic projection from the south pole, which keeps the orientation as seen from outside. The sphere is an
-/// icosphere of frequency `n` whose nearest vertices sit on the points and whose other ones are smoothed: 20 n² faces
-/// below, 40 n² above. Triangles are spherical, edge lengths arcs of great circles; a branch point has the angle 4π,
-/// curvature −2π, every other vertex curvature 0.
+/// The plane is moved and scaled so that the points' mean is 0 and their mean square 1, then mapped to the unit sphere by stereographic
+/// projection from the south pole, which keeps the orientation as seen from outside. The sphere is an icosphere of frequency `n` whose
+/// nearest vertices are moved to the points and whose other ones are smoothed: 20 n² faces below, 40 n² above. Triangles are spherical,
+/// edge lengths arcs of great circles; a branch point has the angle 4π, curvature −2π, every other vertex curvature 0.
 ///
-/// Vertex j is the one over e_j, the one over ∞ follows if there is one, then the pairs over the other vertices.
+/// Vertex j lies over e_j, then comes the one over ∞ if there is one, then the pairs over the other vertices.
 ///
 /// # Errors
 ///
-/// [`Error::Argument`] for fewer than three points, points that are not finite, and points so close to each
-/// other on the sphere that the vertices there are the same or neighbours (raise n).
-pub fn hyperelliptic(branch_points: &[Complex64], n: usize) -> Result<Intrinsic> {
+/// [`Error::Argument`] for fewer than three points, points that are not finite, and points so close to each other on the sphere that
+/// their nearest vertices are the same or neighbours (raise n).
+pub fn hyperelliptic(branch_points: &[Complex64], n: usize) -> Result<IntrinsicSurface> {
     hyperelliptic_graded(branch_points, n, 1.0)
 }
 
-/// [`hyperelliptic()`] with edges that shorten towards the branch points: around each, up to half of the distance R from the nearest other
-/// one, a vertex at distance r is moved to `R (r/R)^grading`. Edges at distance r are then about `r^(1 − 1/grading)` as long as
-/// elsewhere. Holomorphic forms are as large as `r^(−1/2)` there, so that linear elements have rate 1 for grading 1, rate 2 but for a
-/// logarithm for 2, which makes triangles even in the chart √(x − e), and rate 2 beyond.
+/// [`hyperelliptic()`] with edges that shorten towards the branch points: around each, up to half of the distance R from the nearest
+/// other one, a vertex at distance r is moved to `R (r/R)^grading`. The length of edges at distance r is then about `r^(1 − 1/grading)`
+/// times that elsewhere. Holomorphic forms grow like `r^(−1/2)` there, so that linear elements have rate 1 for grading 1; rate 2 up to a
+/// logarithm for grading 2, which makes triangles even in the chart √(x − e); and rate 2 beyond.
 ///
 /// # Errors
 ///
 /// Those of [`hyperelliptic()`]; [`Error::Argument`] for a grading outside 1 … 4, and one that turns a triangle over (raise n).
-pub fn hyperelliptic_graded(branch_points: &[Complex64], n: usize, grading: f64) -> Result<Intrinsic> {
+pub fn hyperelliptic_graded(branch_points: &[Complex64], n: usize, grading: f64) -> Result<IntrinsicSurface> {
     check_count("branch points", branch_points.len(), 3, 20.0 * (n as f64).powi(2))?;
     check_count("frequency", n, 1, 20.0 * (n as f64).powi(2))?;
     if !(1.0..=4.0).contains(&grading) {
@@ -55,7 +53,7 @@ pub fn hyperelliptic_graded(branch_points: &[Complex64], n: usize, grading: f64)
     }
     let mesh = Mesh::from_soup(&sphere)?;
     let is_branch = PerVertex::from_fn(mesh.n_vertices(), |v: VertexId| branch.contains(&v.0));
-    let cover = Cover { crossing: crossings(&mesh, &is_branch), mesh: &mesh, branch: &branch };
+    let cover = BranchedCover { crossing: crossings(&mesh, &is_branch), mesh: &mesh, branch: &branch };
     let lengths = PerEdge::from_fn(mesh.n_edges(), |e| {
         let [p, q] = mesh.ends(e).map(|v| sphere.positions[v.index()]);
         arc(p, q)
@@ -68,7 +66,7 @@ fn arc(p: Vector, q: Vector) -> f64 {
     norm(cross(p, q)).atan2(dot(p, q))
 }
 
-/// Draw the vertices of the sphere in towards the branch points.
+/// Moves the vertices of the sphere towards the branch points.
 fn grade(sphere: &mut Soup, points: &[Vector], grading: f64) -> Result<()> {
     let others = |j: usize| (0..points.len()).filter(move |&k| k != j);
     let reach = |j: usize| others(j).map(|k| 0.5 * arc(points[j], points[k])).fold(f64::INFINITY, f64::min);
@@ -95,8 +93,8 @@ fn grade(sphere: &mut Soup, points: &[Vector], grading: f64) -> Result<()> {
     }
 }
 
-/// Stereographic projection of the normalised points from the south pole, which keeps orientation as seen from outside;
-/// with that pole if the number of points is odd.
+/// Stereographic projection of the normalised points from the south pole, which keeps the orientation as seen from outside; with that
+/// pole itself if the number of points is odd.
 fn on_the_sphere(branch_points: &[Complex64]) -> Result<Vec<Vector>> {
     let place = |z: &Complex64| {
         let r = z.norm_sqr();
@@ -109,7 +107,7 @@ fn on_the_sphere(branch_points: &[Complex64]) -> Result<Vec<Vector>> {
     Ok(points)
 }
 
-/// The sphere with a vertex at each point, and those vertices.
+/// The sphere with a vertex at each point, and these vertices.
 fn sphere(points: &[Vector], n: usize) -> Result<(Soup, Vec<u32>)> {
     let mut soup = icosphere(n)?;
     let mesh = Mesh::from_faces(soup.positions.len(), &soup.faces)?;
@@ -137,8 +135,8 @@ fn sphere(points: &[Vector], n: usize) -> Result<(Soup, Vec<u32>)> {
     Ok((soup, branch))
 }
 
-/// Edges across which the sheets change: a set of edges with an odd number at each branch point and an even one
-/// elsewhere. Of a spanning tree, those edges that part the branch points into two odd sets.
+/// Edges across which the sheets change: a set of edges with an odd number at each branch point and an even one elsewhere. It consists of
+/// the edges of a spanning tree that split the branch points into two odd sets.
 fn crossings(mesh: &Mesh, is_branch: &PerVertex<bool>) -> PerEdge<bool> {
     let mut crossing = PerEdge::filled(mesh.n_edges(), false);
     let mut reached_by = PerVertex::filled(mesh.n_vertices(), None);
@@ -165,19 +163,19 @@ fn crossings(mesh: &Mesh, is_branch: &PerVertex<bool>) -> PerEdge<bool> {
     crossing
 }
 
-/// Two copies of a closed surface, glued crosswise.
-struct Cover<'a> {
+/// Two copies of a closed surface, glued crosswise along edges.
+struct BranchedCover<'a> {
     mesh: &'a Mesh,
     branch: &'a [u32],
     crossing: PerEdge<bool>,
 }
 
-impl Cover<'_> {
-    /// Face 2f + s is face f on sheet s; edge 2e + s that whose left face (along half-edge 2e) is on sheet s.
-    fn surface(&self, lengths: &PerEdge<f64>) -> Intrinsic {
+impl BranchedCover<'_> {
+    /// The surface. Face 2f + s is face f on sheet s; edge 2e + s is the one whose left face (along half-edge 2e) is on sheet s.
+    fn surface(&self, lengths: &PerEdge<f64>) -> IntrinsicSurface {
         let mesh = self.mesh;
         let (lifted, n_vertices) = self.corners();
-        let mut surface = Intrinsic {
+        let mut surface = IntrinsicSurface {
             n_vertices,
             faces: Vec::with_capacity(2 * mesh.n_faces()),
             face_edges: Vec::with_capacity(2 * mesh.n_faces()),
@@ -200,7 +198,7 @@ impl Cover<'_> {
         surface
     }
 
-    /// The vertex above each corner (named by the half-edge that leaves it) on each sheet, and how many there are.
+    /// The vertex above each corner (given by the half-edge that leaves it) on each sheet, and the number of vertices.
     fn corners(&self) -> (PerHalfedge<[u32; 2]>, usize) {
         let mesh = self.mesh;
         let mut lifted = PerHalfedge::filled(mesh.n_halfedges(), [0; 2]);
@@ -213,7 +211,7 @@ impl Cover<'_> {
                     [count - 2, count - 1]
                 }
             };
-            // Once around, counterclockwise: `sheet` of the corner that continues sheet 0 of the first.
+            // Once around, counterclockwise; `sheet` belongs to the corner that continues sheet 0 of the first corner.
             let (start, mut sheet) = (mesh.out(v), 0);
             let mut h = start;
             loop {

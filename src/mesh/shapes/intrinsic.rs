@@ -1,4 +1,4 @@
-//! Surfaces given by glued triangles and edge lengths alone.
+//! Surfaces given by glued triangles and edge lengths, without positions.
 
 use super::{THIN, check_count};
 use crate::error::{Error, Result};
@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 
 /// Triangles of one geometry, glued along numbered edges (see [`Mesh::from_gluing`]).
 #[derive(Debug, Clone, PartialEq)]
-pub struct Intrinsic {
+pub struct IntrinsicSurface {
     /// Number of vertices.
     pub n_vertices: usize,
     /// Vertices (a, b, c) of each face.
@@ -23,7 +23,7 @@ pub struct Intrinsic {
     pub geometry: Space,
 }
 
-impl Intrinsic {
+impl IntrinsicSurface {
     /// Connectivity and edge lengths.
     ///
     /// # Errors
@@ -35,8 +35,8 @@ impl Intrinsic {
         Ok((mesh, self.lengths.clone().into()))
     }
 
-    /// The surface after `level` rounds of [`Intrinsic::subdivide`]; it has about 8 faces.
-    pub(super) fn subdivided(mut self, level: usize) -> Result<Intrinsic> {
+    /// The surface after `level` rounds of [`IntrinsicSurface::subdivide`]; it has about 8 faces.
+    pub(super) fn subdivided(mut self, level: usize) -> Result<IntrinsicSurface> {
         check_count("level", level, 0, 8.0 * 4f64.powi(level.min(60) as i32))?;
         for _ in 0..level {
             self = self.subdivide()?;
@@ -44,17 +44,15 @@ impl Intrinsic {
         Ok(self)
     }
 
-    /// Each triangle cut into four at the midpoints of its sides, in its own geometry.
+    /// Cuts each triangle into four at the midpoints of its sides, in its own geometry.
     ///
-    /// Edge e becomes 2e − 1 and 2e, in its direction; vertex V + e − 1 is its midpoint; then come three
-    /// edges per face.
+    /// Edge e becomes 2e − 1 and 2e, in its direction; vertex V + e − 1 is its midpoint; three edges per face follow.
     ///
     /// # Errors
     ///
-    /// A gluing that is no surface (see [`Mesh::from_gluing`]); [`Error::EdgeLength`] and
-    /// [`Error::TriangleInequality`] for lengths without such triangles; [`Error::Argument`] for sides in H²
-    /// beyond 700; more edges than i32 can number.
-    pub fn subdivide(&self) -> Result<Intrinsic> {
+    /// Those of [`Mesh::from_gluing`] for a gluing that is not a surface; [`Error::EdgeLength`] and [`Error::TriangleInequality`] for
+    /// lengths without such triangles; [`Error::Argument`] for sides in H² beyond 700; more edges than i32 can number.
+    pub fn subdivide(&self) -> Result<IntrinsicSurface> {
         self.build()?;
         self.check_triangles()?;
         let after = 2 * self.lengths.len() + 3 * self.faces.len();
@@ -62,7 +60,7 @@ impl Intrinsic {
             return Err(Error::TooLarge { what: "edges", count: after });
         }
         let (n, edges) = (self.n_vertices as u32, self.lengths.len());
-        let mut fine = Intrinsic {
+        let mut fine = IntrinsicSurface {
             n_vertices: self.n_vertices + edges,
             faces: Vec::with_capacity(4 * self.faces.len()),
             face_edges: Vec::with_capacity(4 * self.faces.len()),
@@ -84,7 +82,7 @@ impl Intrinsic {
             // The inner edge near corner k, from the middle of side k to the middle of side k + 2.
             let inner = |k: usize| (2 * edges + 3 * f + k % 3 + 1) as i32;
             for k in 0..3 {
-                // Midpoints are joined by the third side of a triangle with half of the two sides.
+                // The segment between two midpoints is the third side of a triangle with half of the two sides.
                 fine.lengths.push(match self.geometry {
                     Space::E2 => 0.5 * l[k],
                     space => diagonal(space, 0.5 * l[(k + 1) % 3], 0.5 * l[(k + 2) % 3], angles[k]),
@@ -98,7 +96,7 @@ impl Intrinsic {
         Ok(fine)
     }
 
-    /// Every length usable, every face a triangle of the geometry.
+    /// Checks that every length is usable, and every face a triangle of the geometry.
     pub(super) fn check_triangles(&self) -> Result<()> {
         if let Some((edge, &length)) =
             self.lengths.iter().enumerate().find(|(_, l)| !USABLE_LENGTHS.contains(*l))
@@ -124,18 +122,17 @@ impl Intrinsic {
     }
 }
 
-/// Longest side in H² of a triangle that is subdivided: the square of the half chord of a midline grows like e^l, and doubles end at
-/// e^709.
+/// Longest side in H² of a triangle that is subdivided: the squared half chord of a midline grows like e^l, and f64 ends at e^709.
 const LONGEST_HYPERBOLIC_SIDE: f64 = 700.0;
 
-/// The flat torus ℂ/(ℤ + τℤ), Im τ > 0, as an n × m grid of parallelograms, each halved by its diagonal from
-/// z to z + 1/n + τ/m; legal down to 1 × 1 (one vertex). Vertex (i, j) is i + n j.
+/// The flat torus ℂ/(ℤ + τℤ), Im τ > 0, as an n × m grid of parallelograms, each halved by its diagonal from z to z + 1/n + τ/m; n = m =
+/// 1 (one vertex) is allowed. Vertex (i, j) is i + n j.
 ///
 /// # Errors
 ///
 /// [`Error::Argument`] for τ outside the upper half plane or not finite, triangles flatter than 1e-12
 /// (twice the area over the longest side squared), or counts out of range.
-pub fn flat_torus(tau: [f64; 2], n: usize, m: usize) -> Result<Intrinsic> {
+pub fn flat_torus(tau: [f64; 2], n: usize, m: usize) -> Result<IntrinsicSurface> {
     if !(tau[0].is_finite() && tau[1].is_finite() && tau[1] > 0.0) {
         let value = format!("{} + {} i", tau[0], tau[1]);
         return Err(Error::argument("τ", value, "in the upper half plane"));
@@ -164,40 +161,38 @@ pub fn flat_torus(tau: [f64; 2], n: usize, m: usize) -> Result<Intrinsic> {
             lengths.extend(sides);
         }
     }
-    Ok(Intrinsic { n_vertices: n * m, faces, face_edges, lengths, geometry: Space::E2 })
+    Ok(IntrinsicSurface { n_vertices: n * m, faces, face_edges, lengths, geometry: Space::E2 })
 }
 
-/// The Bolza surface: the regular hyperbolic octagon with angles π/4, opposite sides identified, as eight
-/// triangles around its centre, subdivided `level` times. Every vertex has curvature 0; the area is 4π.
+/// The Bolza surface: the regular hyperbolic octagon with angles π/4 and opposite sides identified, as eight triangles around its centre,
+/// subdivided `level` times. Every vertex has curvature 0; the area is 4π.
 ///
 /// # Errors
 ///
 /// [`Error::Argument`] for too many levels.
-pub fn bolza(level: usize) -> Result<Intrinsic> {
-    // Side i and side i + 4 are the same edge, run through in opposite directions.
+pub fn bolza(level: usize) -> Result<IntrinsicSurface> {
+    // Side i and side i + 4 are the same edge in opposite directions.
     let sides: Vec<i32> = (1..=4).chain((1..=4).map(|e| -e)).collect();
     centre_fan(&sides, 2).subdivided(level)
 }
 
-/// The regular 4g-gon with sides `a1 b1 a1⁻¹ b1⁻¹ …` glued (all corners are one vertex of curvature 0), as a
-/// fan around its centre: two vertices, 6g edges. Hyperbolic with angles 2π/4g for g ≥ 2, the unit square for
-/// g = 1.
+/// The regular 4g-gon with sides `a1 b1 a1⁻¹ b1⁻¹ …` glued (all corners are one vertex of curvature 0), as a fan around its centre: two
+/// vertices, 6g edges. It is hyperbolic with angles 2π/4g for g ≥ 2, the unit square for g = 1.
 ///
 /// # Errors
 ///
-/// [`Error::Argument`] for genus 0, or one that is too large to number the vertices.
-pub fn two_vertex(genus: usize) -> Result<Intrinsic> {
+/// [`Error::Argument`] for genus 0, or one too large to number the vertices.
+pub fn two_vertex(genus: usize) -> Result<IntrinsicSurface> {
     check_count("genus", genus, 1, 8.0 * genus as f64)?;
     Ok(centre_fan(&commutators(genus), genus))
 }
 
-/// The polygon of [`two_vertex`] as a fan of diagonals from one corner: one vertex, 6g − 3 edges, every edge
-/// a loop.
+/// The polygon of [`two_vertex`] as a fan of diagonals from one corner: one vertex, 6g − 3 edges, all of them loops.
 ///
 /// # Errors
 ///
 /// As [`two_vertex`].
-pub fn one_vertex(genus: usize) -> Result<Intrinsic> {
+pub fn one_vertex(genus: usize) -> Result<IntrinsicSurface> {
     check_count("genus", genus, 1, 8.0 * genus as f64)?;
     let sides = commutators(genus);
     let n = sides.len();
@@ -212,7 +207,7 @@ pub fn one_vertex(genus: usize) -> Result<Intrinsic> {
     let face_edges = (1..n - 1).map(|k| [sides[k], -from_corner(k + 1), from_corner(k)]).collect();
     let mut lengths = vec![chord(1); n / 2];
     lengths.extend((2..n - 1).map(chord));
-    Ok(Intrinsic {
+    Ok(IntrinsicSurface {
         n_vertices: 1,
         faces: vec![[0; 3]; n - 2],
         face_edges,
@@ -222,8 +217,8 @@ pub fn one_vertex(genus: usize) -> Result<Intrinsic> {
 }
 
 /// Two equilateral triangles of side 1 glued along their boundary: a flat sphere with three cones of 4π/3.
-pub fn two_triangle_sphere() -> Intrinsic {
-    Intrinsic {
+pub fn two_triangle_sphere() -> IntrinsicSurface {
+    IntrinsicSurface {
         n_vertices: 3,
         faces: vec![[0, 1, 2], [0, 2, 1]],
         face_edges: vec![[2, 3, 1], [-2, -1, -3]],
@@ -232,7 +227,7 @@ pub fn two_triangle_sphere() -> Intrinsic {
     }
 }
 
-/// Signed edge numbers of the sides `a1 b1 a1⁻¹ b1⁻¹ a2 …`.
+/// The signed edge numbers of the sides `a1 b1 a1⁻¹ b1⁻¹ a2 …`.
 fn commutators(genus: usize) -> Vec<i32> {
     (0..genus as i32).flat_map(|k| [2 * k + 1, 2 * k + 2, -(2 * k + 1), -(2 * k + 2)]).collect()
 }
@@ -247,7 +242,7 @@ fn polygon_radius(genus: usize, n: usize) -> f64 {
     if genus == 1 { 0.5f64.sqrt() } else { (cot * cot).acosh() }
 }
 
-/// Distance of corners k apart: `sinh(d/2) = sinh ρ sin(πk/n)`.
+/// Distance of corners that are k steps apart: `sinh(d/2) = sinh ρ sin(πk/n)`.
 fn polygon_chord(genus: usize, n: usize) -> impl Fn(usize) -> f64 {
     let radius = polygon_radius(genus, n);
     move |k| {
@@ -257,14 +252,14 @@ fn polygon_chord(genus: usize, n: usize) -> impl Fn(usize) -> f64 {
 }
 
 /// The polygon with these glued sides as a fan around its centre (vertex 0; the corners are vertex 1).
-fn centre_fan(sides: &[i32], genus: usize) -> Intrinsic {
+fn centre_fan(sides: &[i32], genus: usize) -> IntrinsicSurface {
     let n = sides.len();
     let n_sides = n as i32 / 2;
     let spoke = |k: usize| n_sides + (k % n) as i32 + 1;
     let face_edges = (0..n).map(|k| [sides[k], -spoke(k + 1), spoke(k)]).collect();
     let mut lengths = vec![polygon_chord(genus, n)(1); n / 2];
     lengths.extend(vec![polygon_radius(genus, n); n]);
-    Intrinsic {
+    IntrinsicSurface {
         n_vertices: 2,
         faces: vec![[0, 1, 1]; n],
         face_edges,

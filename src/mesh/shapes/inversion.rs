@@ -1,4 +1,4 @@
-//! Inversion in a sphere: a conformal map of space, and with it of every surface.
+//! Inversion of a surface in a sphere, which is a conformal map of space.
 
 use super::check_size;
 use super::genus::{HALF_STEP, HOLE, RIM, genus};
@@ -6,12 +6,11 @@ use crate::error::{Error, Result};
 use crate::geometry::vector::{Vector, add, dot, scale, sub};
 use crate::mesh::io::Soup;
 
-/// Map each vertex to its mirror image in the sphere about `centre` with this `radius`:
-/// `x ↦ c + R² (x − c)/|x − c|²`; faces are turned, so that orientation is kept.
+/// Maps each vertex to its mirror image in the sphere about `centre` with this `radius`: `x ↦ c + R² (x − c)/|x − c|²`. Faces are turned,
+/// so that the orientation is kept.
 ///
-/// The map is conformal: the surfaces before and after have the same conformal structure (moduli, period matrix),
-/// their triangulations the same one in the limit of fine meshes. A closed surface that does not contain the centre
-/// keeps its outside.
+/// The map is conformal: the smooth surfaces before and after have the same conformal structure (moduli, period matrix), their
+/// triangulations in the limit of fine meshes. A closed surface that does not contain the centre keeps its outside.
 ///
 /// # Errors
 ///
@@ -34,24 +33,22 @@ pub fn invert(soup: &mut Soup, centre: Vector, radius: f64) -> Result<()> {
     Ok(())
 }
 
-/// Least distance of the inversion's centre from the middle of the last handle, in radii of its rim: as it approaches the rim, the
-/// image of the rim grows without bound.
+/// Least distance of the inversion's centre from the middle of the last handle, in radii of its rim: as it approaches the rim, the image
+/// of the rim grows without bound.
 const CLEARANCE: f64 = 1.2;
 
-/// [`genus`] with handles of different size: the first hole is `ratio` ≥ 1 times as wide as the last, the others fall
-/// in size between them.
+/// [`genus`] with handles of different size: the first hole is `ratio` ≥ 1 times as wide as the last, the others are between them.
 ///
-/// The row of equal handles is inverted in a sphere about a point of its axis, which leaves all angles as they are up
-/// to the mesh's fineness, and so the conformal structure. The scale is 1 at the middle of the row.
+/// The row of equal handles is inverted in a sphere about a point of its axis, which keeps all angles up to the mesh's fineness, and so
+/// the conformal structure. The scale is 1 at the middle of the row.
 ///
-/// One inversion maps all of space, so that the ratio determines the sizes of all handles. Since the centre of the inversion lies
-/// beyond the last rim, the ratio is bounded: by 6.8 for two handles, 17 for three, 32 for four, in proportion to the square of their
-/// number.
+/// The ratio determines the sizes of all handles. The centre of the inversion lies beyond the last rim, so the ratio is bounded: by 6.8
+/// for two handles, 17 for three, 32 for four, in proportion to the square of their number.
 ///
 /// # Errors
 ///
-/// Those of [`genus`]; [`Error::Argument`] for a ratio below 1, another one than 1 for a single handle, and
-/// one too large for so few handles.
+/// Those of [`genus`]; [`Error::Argument`] for a ratio below 1, a ratio other than 1 for a single handle, and one too large for so few
+/// handles.
 pub fn tapered_genus(handles: usize, n: usize, ratio: f64) -> Result<Soup> {
     let mut soup = genus(handles, n)?;
     let refuse = |need| Err(Error::argument("ratio of the handles", ratio, need));
@@ -61,8 +58,8 @@ pub fn tapered_genus(handles: usize, n: usize, ratio: f64) -> Result<Soup> {
     if ratio == 1.0 {
         return Ok(soup);
     }
-    // A hole of radius 1 at distance d from the centre becomes one of radius R²/(d² − 1). Those of the first and last,
-    // at ∓c, have the ratio asked for where ((C + c)² − 1) = ratio ((C − c)² − 1).
+    // A hole of radius 1 at distance d from the centre becomes one of radius R²/(d² − 1). The first and last hole, at ∓c, have the given
+    // ratio where ((C + c)² − 1) = ratio ((C − c)² − 1).
     let c = HALF_STEP * (handles as f64 - 1.0);
     let k = c * (ratio + 1.0) / (ratio - 1.0);
     let centre = k + (k * k - c * c + HOLE * HOLE).sqrt();

@@ -1,4 +1,4 @@
-//! Knotted tori.
+//! Knotted tori, tubes around torus knots.
 
 use super::{THIN, check_count, check_size, torus_grid};
 use crate::error::{Error, Result};
@@ -7,8 +7,8 @@ use crate::mesh::Point;
 use crate::mesh::io::Soup;
 use std::f64::consts::{PI, TAU};
 
-/// Points of the core curve, per turn around the axis or the tube, at which the room for a tube is measured: neighbours are less than
-/// 3° of a turn apart.
+/// Points of the core curve, per turn around the axis or the tube, at which the room for a tube is measured: neighbours are less than 3°
+/// of a turn apart.
 const SAMPLES_PER_ROUND: usize = 128;
 
 /// Largest angle, in radians, by which the curve turns from one cross-section to the next.
@@ -45,13 +45,13 @@ impl TorusKnot {
         [change * cos_u - radius * p * sin_u, change * sin_u + radius * p * cos_u, self.small * q * cos_v]
     }
 
-    /// The largest radius of a tube that does not meet itself, as far as samples show: half the least distance of
-    /// points that are further apart along the curve than the tube's half turn, and the least radius of curvature.
+    /// The largest radius of a tube that does not meet itself, according to samples: the smaller of the least radius of curvature and
+    /// half the least distance of points that are farther apart along the curve than the tube's half turn.
     fn room(&self) -> f64 {
         let n = SAMPLES_PER_ROUND * (self.p + self.q) as usize;
         let points: Vec<Point> = (0..n).map(|i| self.at(i as f64 / n as f64)).collect();
         let step = |i: usize| distance(points[i % n], points[(i + 1) % n]);
-        // Radius of the circle through three successive points.
+        // The radius of the circle through three successive points.
         let radius = |i: usize| {
             let [a, b, c] = [points[i], points[(i + 1) % n], points[(i + 2) % n]];
             let twice_area = norm(cross(sub(b, a), sub(c, a)));
@@ -74,11 +74,10 @@ impl TorusKnot {
 
     /// The tube of radius `tube` around the curve: a torus, knotted unless p or q is 1.
     ///
-    /// A grid of `n` cross-sections, which are circles of `m` ≥ 3 vertices, each cell halved by a diagonal.
-    /// `n` must be such that the curve turns by at most π/4 from one section to the next, and that chords leave it by less
-    /// than the room around the tube: fewer sections do not make this knot (about 40 for a trefoil).
-    /// Vertex (i, j) is `i + n j`. From one section to the next the circle is carried along with as little rotation
-    /// as possible, and what is missing to close up after one round is shared out evenly.
+    /// A grid of `n` cross-sections, which are circles of `m` ≥ 3 vertices, each cell halved by a diagonal. `n` must be so large that the
+    /// curve turns by at most π/4 from one section to the next, and that its chords are nearer to it than the room around the tube (about
+    /// 40 for a trefoil); fewer sections would not make this knot. Vertex (i, j) is `i + n j`. From one section to the next the circle
+    /// moves with as little rotation as possible, and the angle that is missing after one round is distributed evenly.
     ///
     /// # Errors
     ///
@@ -113,8 +112,8 @@ impl TorusKnot {
         Ok(self.sweep(tube, n, m))
     }
 
-    /// The least number of equal steps in t after which the tangent has turned by at most [`MOST_TURN`], and whose chords are
-    /// within `slack` of the curve: an arc of length s that turns by θ leaves its chord by s θ/8 at most.
+    /// The least number of equal steps in t between which the tangent turns by at most [`MOST_TURN`], and whose chords are within `slack`
+    /// of the curve: an arc of length s that turns by θ leaves its chord by s θ/8 at most.
     fn least_sections(&self, slack: f64) -> usize {
         let n = SAMPLES_PER_ROUND * (self.p + self.q) as usize;
         let velocity = |i: usize| self.velocity(i as f64 / n as f64);
@@ -129,7 +128,7 @@ impl TorusKnot {
 
     fn sweep(&self, tube: f64, n: usize, m: usize) -> Soup {
         let tangent = |i: usize| normalised(self.velocity(i as f64 / n as f64));
-        // The first direction across the tube: away from the axis, made normal to the curve.
+        // The first direction across the tube points away from the axis, made normal to the curve.
         let mut across = Vec::with_capacity(n + 1);
         across.push(normalised(reject(self.at(0.0), tangent(0))));
         for i in 0..n {
@@ -152,14 +151,14 @@ fn gcd(a: u32, b: u32) -> u32 {
     if b == 0 { a } else { gcd(b, a % b) }
 }
 
-/// The part of `a` across the unit vector `t`.
+/// The part of `a` that is normal to the unit vector `t`.
 fn reject(a: Vector, t: Vector) -> Vector {
     sub(a, scale(dot(a, t), t))
 }
 
-/// `a` under the rotation of least angle that takes the unit vector `s` to `t`, as two reflections.
+/// `a` under the rotation of least angle that maps the unit vector `s` to `t`, as two reflections.
 fn transport(a: Vector, s: Vector, t: Vector) -> Vector {
-    // The first takes s to −t, the second −t to t.
+    // The first reflection maps s to −t, the second −t to t.
     reflect(reflect(a, add(s, t)), t)
 }
 
@@ -168,7 +167,7 @@ fn reflect(a: Vector, n: Vector) -> Vector {
     sub(a, scale(2.0 * dot(a, n) / dot(n, n), n))
 }
 
-/// Angle from `a` to `b`, both across the unit vector `t`, counterclockwise seen from its tip.
+/// The angle from `a` to `b`, both normal to the unit vector `t`, counterclockwise seen from its tip.
 fn signed_angle(a: Vector, b: Vector, t: Vector) -> f64 {
     dot(cross(a, b), t).atan2(dot(a, b))
 }

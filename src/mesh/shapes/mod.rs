@@ -24,7 +24,7 @@ pub use genus::genus;
 pub use grading::{Sliver, grade, slivers};
 pub use holes::punch;
 pub use hyperelliptic::{hyperelliptic, hyperelliptic_graded};
-pub use intrinsic::{Intrinsic, bolza, flat_torus, one_vertex, two_triangle_sphere, two_vertex};
+pub use intrinsic::{IntrinsicSurface, bolza, flat_torus, one_vertex, two_triangle_sphere, two_vertex};
 pub use inversion::{invert, tapered_genus};
 pub use knot::TorusKnot;
 pub use noise::{SplitMix64, noise};
@@ -41,7 +41,7 @@ use crate::mesh::io::Soup;
 /// Largest number of vertices of a sample surface: a vertex has about six half-edges, and these are numbered in u32.
 const MAX_VERTICES: f64 = 5e8;
 
-/// Check that a count is at least `least`, and that its shape, of about `vertices` vertices, is not too large.
+/// Checks that a count is at least `least`, and that its shape, of about `vertices` vertices, is not too large.
 fn check_count(what: &'static str, count: usize, least: usize, vertices: f64) -> Result<()> {
     if count < least {
         return Err(Error::argument(what, count, "larger: the surface would be degenerate"));
@@ -52,7 +52,7 @@ fn check_count(what: &'static str, count: usize, least: usize, vertices: f64) ->
     Ok(())
 }
 
-/// Check that the corners of all faces are vertices of the list.
+/// Checks that the corners of all faces are vertices of the list.
 fn check_corners(soup: &Soup) -> Result<()> {
     match soup.faces.iter().flatten().find(|&&v| v as usize >= soup.positions.len()) {
         Some(v) => Err(Error::argument("vertex of a face", v, "an existing vertex")),
@@ -73,11 +73,10 @@ fn torus_grid(n: usize, m: usize, at: impl Fn(usize, usize) -> Point) -> Soup {
     soup
 }
 
-/// Least ratio of two sizes of a shape: the coordinates of points that are the smaller size apart then differ in their last four
-/// digits.
+/// Least ratio of two sizes of a shape: the coordinates of points that are the smaller size apart then differ in their last four digits.
 const THIN: f64 = 1e-12;
 
-/// Check that a size is one of [`USABLE_LENGTHS`].
+/// Checks that a size is within [`USABLE_LENGTHS`].
 fn check_size(what: &'static str, size: f64) -> Result<()> {
     if USABLE_LENGTHS.contains(&size) {
         return Ok(());

@@ -1,11 +1,11 @@
-//! Seeded noise, the same on every machine.
+//! Seeded noise on vertex positions, the same on every machine.
 
 use super::check_corners;
 use crate::error::{Error, Result};
 use crate::geometry::vector::distance;
 use crate::mesh::io::Soup;
 
-/// SplitMix64 \[SLF14\]: a small generator whose sequence is part of its definition.
+/// SplitMix64 \[SLF14\], a small generator whose sequence is part of its definition.
 #[derive(Debug, Clone)]
 pub struct SplitMix64(u64);
 
@@ -29,7 +29,7 @@ impl SplitMix64 {
     }
 }
 
-/// Move every vertex by up to `amplitude` × the mean edge length in each coordinate, uniformly.
+/// Moves every vertex by up to `amplitude` times the mean edge length in each coordinate, uniformly.
 ///
 /// # Errors
 ///

@@ -1,12 +1,12 @@
-//! Pairs of pants with prescribed boundary lengths.
+//! Hyperbolic pairs of pants with prescribed boundary lengths.
 
-use super::intrinsic::Intrinsic;
+use super::intrinsic::IntrinsicSurface;
 use crate::error::{Error, Result};
 use crate::geometry::Space;
 use std::ops::RangeInclusive;
 
-/// Boundary lengths that are allowed. The seams next to a boundary of length l are about log(4/l) long, 15 for the shortest; half of
-/// the longest is far below the sides at which subdivision ends.
+/// Range of the boundary lengths. The seams next to a boundary of length l are about log(4/l) long, 15 for the shortest; half of the
+/// longest is far below the sides at which subdivision ends.
 const BOUNDARY_LENGTHS: RangeInclusive<f64> = 1e-6..=200.0;
 
 /// The hyperbolic pair of pants whose three boundary loops are geodesics of these `lengths` l₁, l₂, l₃: a sphere with
@@ -21,15 +21,15 @@ const BOUNDARY_LENGTHS: RangeInclusive<f64> = 1e-6..=200.0;
 ///       3   s₂₃    2
 /// ```
 ///
-/// The triangle of its corners 0, 2, 4 and the right-angled ones beside it make a hexagon; each triangle is subdivided
-/// `level` times ([`Intrinsic::subdivide`]): 8 · 4^level faces. Vertices 0 … 5 are the corners: boundary 1 passes
-/// through 5 and 0, boundary 2 through 1 and 2, boundary 3 through 3 and 4.
+/// The triangle of its corners 0, 2, 4 and the three right-angled triangles beside it make a hexagon; each triangle is subdivided `level`
+/// times ([`IntrinsicSurface::subdivide`]): 8 · 4^level faces. Vertices 0 … 5 are the corners: boundary 1 passes through 5 and 0,
+/// boundary 2 through 1 and 2, boundary 3 through 3 and 4.
 ///
 /// # Errors
 ///
-/// [`Error::Argument`] for a length outside 1e-6 … 200, or too many levels; [`Error::TriangleInequality`] where
-/// subdivided triangles next to a very long or short boundary are too thin for doubles.
-pub fn pants(lengths: [f64; 3], level: usize) -> Result<Intrinsic> {
+/// [`Error::Argument`] for a length outside 1e-6 … 200, or too many levels; [`Error::TriangleInequality`] where subdivided triangles next
+/// to a very long or short boundary are too thin for f64.
+pub fn pants(lengths: [f64; 3], level: usize) -> Result<IntrinsicSurface> {
     if let Some(l) = lengths.iter().find(|l| !BOUNDARY_LENGTHS.contains(*l)) {
         return Err(Error::argument("boundary length", l, "between 1e-6 and 200"));
     }
@@ -44,12 +44,12 @@ pub fn pants(lengths: [f64; 3], level: usize) -> Result<Intrinsic> {
     let sides = [seam(0), half[1], seam(1), half[2], seam(2), half[0]];
     // Diagonal k runs from corner 2k to corner 2k + 2, opposite the right angle at corner 2k + 1.
     let diagonals = [0, 1, 2].map(|k| hypotenuse(sides[2 * k], sides[2 * k + 1]));
-    let mut surface = Intrinsic {
+    let mut surface = IntrinsicSurface {
         n_vertices: 6,
         faces: Vec::with_capacity(8),
         face_edges: Vec::with_capacity(8),
-        // Edges 1 … 6: the front's sides, seams included; 7 … 9: its diagonals; 10 … 12: the back's halves of the
-        // boundaries 2, 3, 1; 13 … 15: its diagonals.
+        // Edges 1 … 6: the front's sides, seams included; 7 … 9: its diagonals; 10 … 12: the back's halves of the boundaries 2, 3, 1; 13
+        // … 15: its diagonals.
         lengths: [&sides[..], &diagonals, &[half[1], half[2], half[0]], &diagonals].concat(),
         geometry: Space::H2,
     };

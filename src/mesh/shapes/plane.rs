@@ -1,4 +1,4 @@
-//! Pieces of the plane z = 0.
+//! Disks and annuli in the plane z = 0.
 
 use super::{THIN, check_count, check_size};
 use crate::error::{Error, Result};
@@ -14,7 +14,7 @@ use std::f64::consts::TAU;
 pub fn disk(n: usize) -> Result<Soup> {
     check_count("rings", n, 1, 3.0 * (n as f64).powi(2))?;
     let mut soup = Soup::new(vec![[0.0; 3]], Vec::new());
-    // First vertex of ring k.
+    // The first vertex of ring k.
     let start = |k: usize| if k == 0 { 0 } else { 3 * k * (k - 1) + 1 };
     for k in 1..=n {
         let radius = k as f64 / n as f64;
@@ -37,14 +37,13 @@ pub fn disk(n: usize) -> Result<Soup> {
     Ok(soup)
 }
 
-/// The annulus between the radii `inner` < `outer`: `n_radial` ≥ 1 steps in geometric progression, `n_around`
-/// ≥ 3 steps, alternate rings turned by half a step. (n_radial + 1)·n_around vertices, ring by ring from
-/// inside.
+/// The annulus between the radii `inner` < `outer`: `n_radial` ≥ 1 steps in geometric progression, `n_around` ≥ 3 steps, alternate rings
+/// turned by half a step. (n_radial + 1)·n_around vertices, ring by ring from inside.
 ///
 /// # Errors
 ///
-/// [`Error::Argument`] for radii outside 1e-150 … 1e150 or not increasing, counts out of range, and
-/// rings so close or so far apart that no triangle between them has an area in doubles.
+/// [`Error::Argument`] for radii outside 1e-150 … 1e150 or not increasing, counts out of range, and rings so close or so far apart that
+/// no triangle between them has an area in f64.
 pub fn annulus(inner: f64, outer: f64, n_radial: usize, n_around: usize) -> Result<Soup> {
     check_size("inner radius", inner)?;
     check_size("outer radius", outer)?;
@@ -54,7 +53,7 @@ pub fn annulus(inner: f64, outer: f64, n_radial: usize, n_around: usize) -> Resu
     let vertices = n_radial as f64 * n_around as f64;
     check_count("radial steps", n_radial, 1, vertices)?;
     check_count("steps around", n_around, 3, vertices)?;
-    // Logarithm of the ratio of neighbouring rings.
+    // The logarithm of the ratio of neighbouring rings.
     let step = (outer / inner).ln() / n_radial as f64;
     if !(THIN..=-THIN.ln()).contains(&step) {
         let need = if step < THIN {

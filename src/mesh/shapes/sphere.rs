@@ -21,8 +21,7 @@ pub fn icosphere(n: usize) -> Result<Soup> {
         positions.extend([[0.0, a, b], [a, b, 0.0], [b, 0.0, a]]);
     }
     let corners = icosahedron_faces(&positions);
-    // A point of an edge or face by its weights at the corners, smallest corner first: shared by all its
-    // faces.
+    // A point of an edge or face by its weights at the corners, smallest corner first; all its faces find the same entry.
     let mut known: HashMap<[(u32, u32); 3], u32> = HashMap::new();
     let base = positions.clone();
     let mut vertex = |face: [u32; 3], weights: [u32; 3]| {
@@ -61,7 +60,7 @@ pub fn icosphere(n: usize) -> Result<Soup> {
     Ok(Soup::new(positions, faces))
 }
 
-/// The ellipsoid with half axes a, b, c along x, y, z: the icosphere, scaled.
+/// The ellipsoid with half axes a, b, c along x, y, z: a scaled icosphere.
 ///
 /// # Errors
 ///

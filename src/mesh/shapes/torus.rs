@@ -1,4 +1,4 @@
-//! The torus of revolution.
+//! The torus of revolution on a regular grid.
 
 use super::{THIN, check_count, check_size, torus_grid};
 use crate::error::{Error, Result};
