@@ -6,7 +6,7 @@ mod common;
 use proptest::prelude::*;
 use ricci::mesh::Mesh;
 use ricci::mesh::check::{Defect, diagnose};
-use ricci::mesh::io::{self, Soup, Textured};
+use ricci::mesh::io::{self, Soup, TexturedMesh};
 use ricci::mesh::shapes;
 use ricci::{FilePosition, Error, Result};
 use std::collections::HashMap;
@@ -165,7 +165,7 @@ fn a_written_obj_reads_back_bit_for_bit() {
     let mut soup = tetrahedron();
     soup.positions[1] = [1.0 / 3.0, -0.0, 1e-310];
     soup.positions[2] = [f64::MAX, std::f64::consts::PI, -1.0 - f64::EPSILON];
-    let data = Textured { positions: &soup.positions, faces: &soup.faces, ..Textured::default() };
+    let data = TexturedMesh { positions: &soup.positions, faces: &soup.faces, ..TexturedMesh::default() };
     io::write_obj(&path, &data).unwrap();
     let back = io::read(&path).unwrap();
     let bits = |s: &Soup| s.positions.iter().flatten().map(|x| x.to_bits()).collect::<Vec<_>>();
@@ -174,7 +174,7 @@ fn a_written_obj_reads_back_bit_for_bit() {
 
     // A failed write leaves the old file and no temporary.
     let refused = |soup: &Soup, words: &str| {
-        let data = Textured { positions: &soup.positions, faces: &soup.faces, ..Textured::default() };
+        let data = TexturedMesh { positions: &soup.positions, faces: &soup.faces, ..TexturedMesh::default() };
         let error = io::write_obj(&path, &data).unwrap_err();
         assert!(matches!(error, Error::Argument { .. }) && error.to_string().contains(words), "{error}");
         assert_eq!(io::read(&path).unwrap(), back);
@@ -192,19 +192,19 @@ fn a_written_obj_reads_back_bit_for_bit() {
     assert_eq!(io::read(&path).unwrap(), back);
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1, "a temporary was left behind");
     let missing = folder.path().join("no/such/folder/t.obj");
-    assert!(matches!(io::write_obj(&missing, &Textured::default()), Err(Error::Io { .. })));
+    assert!(matches!(io::write_obj(&missing, &TexturedMesh::default()), Err(Error::Io { .. })));
 }
 
 #[test]
 fn texture_coordinates_are_written_per_corner() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("uv.obj");
-    let data = Textured {
+    let data = TexturedMesh {
         positions: &[[0.0; 3], [1.0, 0.0, 0.0], [0.0, 0.5, 0.0]],
         texcoords: &[[0.5, -0.25], [0.0, 1.0]],
         faces: &[[2, 0, 1]],
         face_texcoords: &[[1, 0, 1]],
-        ..Textured::default()
+        ..TexturedMesh::default()
     };
     io::write_obj(&path, &data).unwrap();
     let text = std::fs::read_to_string(&path).unwrap();

@@ -3,7 +3,7 @@
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use ricci::mesh::io::{self, Attributes, Soup, Texture, Textured, Wrap};
+use ricci::mesh::io::{self, Attributes, Soup, Texture, TexturedMesh, Wrap};
 use ricci::mesh::{Mesh, shapes};
 use ricci::{Error, Result};
 use serde_json::{Value, json};
@@ -327,13 +327,13 @@ fn a_vertex_is_given_again_for_each_further_pair_of_texture_coordinates() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("m.glb");
     let png = b"\x89PNG and so on".as_slice();
-    let data = Textured {
+    let data = TexturedMesh {
         positions: &[[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0]],
         normals: &[[0.0, 0.0, 3.0]; 4],
         texcoords: &[[0.0, 0.0], [0.25, 0.0], [0.0, 0.25], [0.5, 0.5], [0.25, 0.0]],
         faces: &[[0, 1, 2], [1, 3, 2]],
         face_texcoords: &[[0, 1, 2], [4, 3, 3]],
-        ..Textured::default()
+        ..TexturedMesh::default()
     };
     let origin = io::write_glb(&path, &data, Some(Texture { png, wrap: Wrap::Clamp, repeat: 1.0 })).unwrap();
     // Vertex 2 has two places in the texture; entries 1 and 4 are the same place.

@@ -9,7 +9,7 @@ use ricci::flow::Solution;
 use ricci::geometry::Space;
 use ricci::geometry::triangle::angles;
 use ricci::mesh::check::Defect;
-use ricci::mesh::io::text::{Text, write_blocks};
+use ricci::mesh::io::text::{TextBuilder, write_blocks};
 use ricci::mesh::{Mesh, PerEdge, PerVertex};
 use ricci::metric::Measured;
 use ricci::parallel::within;
@@ -106,7 +106,7 @@ impl MetricFile<'_> {
     /// Write what serde makes of this as JSON on one line, its numbers formatted side by side inside a pool.
     pub fn write(&self, out: &mut impl Write) -> io::Result<()> {
         let LengthsFile { input_geometry, faces, face_edges, lengths } = &self.surface;
-        let triples = |values: &[[f64; 3]], text: &mut Text, k: usize| triple(text, values[k], number);
+        let triples = |values: &[[f64; 3]], text: &mut TextBuilder, k: usize| triple(text, values[k], number);
         write!(out, "{{\"space\":\"{}\",\"scheme\":\"{}\"", self.space, self.scheme)?;
         write!(out, ",\"input_geometry\":\"{input_geometry}\"")?;
         array(out, "faces", faces.len(), |text, f| triple(text, faces[f], |text, v| text.count(v.into())))?;
@@ -180,7 +180,7 @@ fn array(
     out: &mut impl Write,
     name: &str,
     n: usize,
-    item: impl Fn(&mut Text, usize) + Sync,
+    item: impl Fn(&mut TextBuilder, usize) + Sync,
 ) -> io::Result<()> {
     write!(out, ",\"{name}\":[")?;
     write_blocks(out, n, |text, k| {
@@ -192,7 +192,7 @@ fn array(
     out.write_all(b"]")
 }
 
-fn triple<T: Copy>(text: &mut Text, values: [T; 3], item: impl Fn(&mut Text, T)) {
+fn triple<T: Copy>(text: &mut TextBuilder, values: [T; 3], item: impl Fn(&mut TextBuilder, T)) {
     for (before, value) in ['[', ',', ','].into_iter().zip(values) {
         text.character(before);
         item(text, value);
@@ -201,11 +201,11 @@ fn triple<T: Copy>(text: &mut Text, values: [T; 3], item: impl Fn(&mut Text, T))
 }
 
 /// A number of JSON, which has none that is not finite.
-fn number(text: &mut Text, x: f64) {
+fn number(text: &mut TextBuilder, x: f64) {
     if x.is_finite() { text.number(x) } else { text.text("null") }
 }
 
-fn signed(text: &mut Text, n: i32) {
+fn signed(text: &mut TextBuilder, n: i32) {
     if n < 0 {
         text.character('-');
     }

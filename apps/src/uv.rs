@@ -8,7 +8,7 @@ use crate::laid::Laid;
 use crate::options::{MetricArgs, OnChoice};
 use crate::output::{Outputs, extension};
 use crate::solved::Solved;
-use ricci::mesh::io::{self, Texture, Textured, Wrap};
+use ricci::mesh::io::{self, Texture, TexturedMesh, Wrap};
 use ricci::mesh::{Mesh, PerHalfedge, Point};
 use ricci::metric::Refinement;
 use std::io::Write;
@@ -63,7 +63,7 @@ impl Drawn<'_> {
     pub fn write(&self, outputs: &mut Outputs, path: &Path, input: &Input) -> Result<(), Failure> {
         let faces = self.mesh.triangles();
         let carried = carry(input, self.refinement)?;
-        let data = Textured {
+        let data = TexturedMesh {
             positions: self.positions,
             colors: &carried.colors,
             normals: &carried.normals,

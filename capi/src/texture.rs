@@ -30,13 +30,13 @@ impl TextureFile<'_> {
             }
             of_points.iter_mut().zip(&heights).for_each(|(weight, height)| *weight *= height);
         }
-        let data = io::Textured {
+        let data = io::TexturedMesh {
             positions: &positions,
             faces: &faces,
             texcoords: self.points,
             texcoord_weights: &of_points,
             face_texcoords: &self.corners,
-            ..io::Textured::default()
+            ..io::TexturedMesh::default()
         };
         Ok(io::write_obj(path, &data)?)
     }

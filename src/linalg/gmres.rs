@@ -1,4 +1,4 @@
-//! Linear systems without symmetry, by generalised minimal residuals (GMRES, \[SS86\]), which ask only for products with the matrix.
+//! Linear systems without symmetry, by generalised minimal residuals (GMRES, \[SS86\]), which need only products with the matrix.
 //!
 //! ```
 //! // [[2, 1], [0, 4]] x = [4, 8]
@@ -10,32 +10,32 @@
 
 use super::dot;
 
-/// Share of the residual before a restart below which the one after it has to be.
+/// Factor by which the residual must fall between two restarts for the iteration to go on.
 const PROGRESS: f64 = 0.9;
 
-/// Share of a product below which what is new in it is rounding.
+/// Share of a product below which its part outside the space spanned before is rounding.
 const ROUNDING: f64 = 1e-14;
 
-/// When to stop.
+/// The conditions under which the iteration stops.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GmresLimits {
-    /// Norm of the residual that is enough, as a share of that of the right hand side.
+    /// Norm of the residual to reach, relative to that of the right-hand side.
     pub tolerance: f64,
-    /// Products with the matrix between two restarts: so many vectors are kept.
+    /// Products with the matrix between two restarts, which is the number of vectors kept.
     pub kept: usize,
     /// Most products with the matrix.
     pub products: usize,
 }
 
 impl GmresLimits {
-    /// Up to a share of the right hand side, with 50 vectors and 400 products.
+    /// The limits for this tolerance, with 50 vectors and 400 products.
     pub fn to(tolerance: f64) -> GmresLimits {
         GmresLimits { tolerance, kept: 50, products: 400 }
     }
 }
 
-/// Solves `A x = b` from the x given, n numbers; the norm of the residual that is left, as a share of that of b (0 for b = 0).
-/// `apply(x, y)` sets y to A x. It ends without reaching the tolerance where the products are used up, a restart brings no progress, or a
+/// Solves `A x = b`, starting from the x given (n numbers), and returns the norm of the remaining residual relative to that of b (0 for
+/// b = 0). `apply(x, y)` sets y to A x. The tolerance is not reached if the products are used up, a restart brings no progress, or a
 /// number is not finite.
 pub fn solve(mut apply: impl FnMut(&[f64], &mut [f64]), b: &[f64], x: &mut [f64], limits: GmresLimits) -> f64 {
     let (size, mut products) = (norm(b), 0);
@@ -57,20 +57,21 @@ pub fn solve(mut apply: impl FnMut(&[f64], &mut [f64]), b: &[f64], x: &mut [f64]
         }
         before = left;
         let most = limits.kept.min(limits.products - products);
-        products += cycle(&mut apply, &rest, x, (most, limits.tolerance * size)).max(1);
+        products += cycle(&mut apply, &rest, x, most, limits.tolerance * size).max(1);
     }
 }
 
-/// The best correction in the space spanned by at most so many products, for a residual; how many there were.
+/// Adds to x the best correction for the residual `rest` in the space spanned by at most `most` products, and returns their number.
 fn cycle(
     apply: &mut impl FnMut(&[f64], &mut [f64]),
     rest: &[f64],
     x: &mut [f64],
-    (most, enough): (usize, f64),
+    most: usize,
+    enough: f64,
 ) -> usize {
     let first = norm(rest);
     let mut basis = vec![rest.iter().map(|r| r / first).collect::<Vec<f64>>()];
-    // The upper triangular matrix by columns, the rotations that made it, and the right hand side under them.
+    // The upper triangular matrix by columns, the rotations that made it, and the right-hand side after these rotations.
     let (mut columns, mut rotations, mut side) =
         (Vec::<Vec<f64>>::new(), Vec::<[f64; 2]>::new(), vec![first]);
     for k in 0..most {

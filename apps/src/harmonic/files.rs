@@ -8,7 +8,7 @@ use crate::output::{Outputs, write_textured};
 use crate::picture::{self, Flat, Picture, Surface, Texture};
 use crate::uv::Drawn;
 use ricci::harmonic::SphereMap;
-use ricci::mesh::io::Textured;
+use ricci::mesh::io::TexturedMesh;
 use ricci::mesh::{Mesh, PerHalfedge, Point, VertexId};
 use std::path::Path;
 
@@ -73,7 +73,7 @@ pub fn write_sphere(
     map: &SphereMap,
 ) -> Result<(), Failure> {
     let faces = found.domain.mesh().triangles();
-    let data = Textured { positions: &map.points, faces: &faces, ..Textured::default() };
+    let data = TexturedMesh { positions: &map.points, faces: &faces, ..TexturedMesh::default() };
     write_textured(outputs, path, &data)
 }
 

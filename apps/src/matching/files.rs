@@ -6,7 +6,7 @@ use crate::failure::Failure;
 use crate::input::Input;
 use crate::output::{Outputs, write_textured};
 use ricci::matching::SurfaceMap;
-use ricci::mesh::io::Textured;
+use ricci::mesh::io::TexturedMesh;
 use ricci::metric::Overlay;
 use std::fmt::Write;
 use std::path::Path;
@@ -27,7 +27,7 @@ pub fn write_moved(outputs: &mut Outputs, path: &Path, input: &Input, found: &Fo
     let Some(positions) = found.target.positions() else { return Err(no_positions()) };
     let images = found.matching.forward.carry(found.target.mesh(), positions)?;
     let faces = input.mesh().triangles();
-    let data = Textured { positions: &images, faces: &faces, ..Textured::default() };
+    let data = TexturedMesh { positions: &images, faces: &faces, ..TexturedMesh::default() };
     write_textured(outputs, path, &data)
 }
 
@@ -45,12 +45,12 @@ pub fn write_carried(
     let Some(positions) = input.positions() else { return Err(no_positions()) };
     let texcoords = found.matching.forward.carry_corners(found.target.mesh(), uv)?;
     let faces = input.mesh().triangles();
-    let data = Textured {
+    let data = TexturedMesh {
         positions,
         faces: &faces,
         texcoords: &texcoords,
         face_texcoords: &faces,
-        ..Textured::default()
+        ..TexturedMesh::default()
     };
     write_textured(outputs, path, &data)
 }
@@ -70,12 +70,12 @@ pub fn write_overlay(
         None => Vec::new(),
     };
     let apart: Vec<[u32; 3]> = (0..carried.len() as u32).map(|f| [3 * f, 3 * f + 1, 3 * f + 2]).collect();
-    let data = Textured {
+    let data = TexturedMesh {
         positions: &positions,
         faces: &faces,
         texcoords: carried.as_flattened(),
         face_texcoords: &apart,
-        ..Textured::default()
+        ..TexturedMesh::default()
     };
     write_textured(outputs, path, &data)
 }

@@ -21,7 +21,7 @@ use crate::picture::{Style, Texture};
 use crate::report::{Figures, InputSummary, Report};
 use crate::uv;
 use ricci::control::Stage;
-use ricci::mesh::io::Textured;
+use ricci::mesh::io::TexturedMesh;
 use std::io::Write;
 use std::path::Path;
 
@@ -152,11 +152,11 @@ fn write_copies(outputs: &mut Outputs, path: &Path, copies: &Copies<'_>) -> Resu
 /// The final triangulation on the unit sphere, with the input's colours.
 fn write_on_sphere(outputs: &mut Outputs, path: &Path, input: &Input, s: &Round) -> Result<(), Failure> {
     let faces = s.mesh().triangles();
-    let data = Textured {
+    let data = TexturedMesh {
         positions: &s.positions,
         colors: input.attributes.colors.as_deref().unwrap_or_default(),
         faces: &faces,
-        ..Textured::default()
+        ..TexturedMesh::default()
     };
     write_textured(outputs, path, &data)
 }

@@ -1,4 +1,4 @@
-//! Files appear whole or not at all.
+//! Writing of files so that they appear whole or not at all.
 
 use crate::error::{Error, Result};
 use std::fs::{self, File, Permissions};
@@ -6,9 +6,8 @@ use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Write a file through `write` into a temporary beside it, then rename. On any error the temporary is removed and
-/// an existing file stays as it was. A symbolic link stays one, and its file is replaced; permissions stay those of the
-/// file that was there.
+/// Writes a file through `write` to a temporary file beside it, which is then renamed. On any error the temporary file is removed and an
+/// existing file stays as it was. A symbolic link is kept and its target replaced; the permissions of an existing file are kept.
 ///
 /// # Errors
 ///
@@ -36,8 +35,8 @@ pub fn write_atomically(
     })
 }
 
-/// The file that a path names once symbolic links are followed, and the permissions that it has if it is there: what a
-/// program needs to replace it by renaming.
+/// The file that a path names after following symbolic links, and the permissions that it has if it exists: the data for replacing it by
+/// renaming.
 pub fn destination(path: &Path) -> (PathBuf, Option<Permissions>) {
     if let Ok(target) = fs::canonicalize(path) {
         let permissions = fs::metadata(&target).ok().filter(fs::Metadata::is_file);

@@ -9,7 +9,7 @@ const LENIENT: GeneralPurpose = GeneralPurpose::new(
     GeneralPurposeConfig::new().with_decode_padding_mode(DecodePaddingMode::Indifferent),
 );
 
-/// The bytes, or what is wrong.
+/// The decoded bytes, or a message about what is wrong.
 pub(super) fn decode(text: &[u8]) -> Result<Vec<u8>, String> {
     let plain: Vec<u8> = text.iter().copied().filter(|b| !b.is_ascii_whitespace()).collect();
     LENIENT.decode(plain).map_err(|e| format!("the base64 text is damaged: {e}"))

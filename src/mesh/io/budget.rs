@@ -1,16 +1,16 @@
-//! A bound on the memory that reading a file takes. Without one, compression, instances and polygons could make a small file a mesh of
-//! any size.
+//! A bound on the memory that reading a file takes. Without it, compression, instances and polygons could turn a small file into a mesh
+//! of any size.
 
 use super::scan::Location;
 use crate::error::Result;
 
-/// Bytes that the data of any file may take in memory, 32 MB. With [`PER_BYTE`] more for each byte of the file, real files stay below
-/// the bound, and a reader takes at most 64 MB and 20 times its file, scratch included.
+/// Bytes of memory that the data of any file may take, 32 MB. With [`PER_BYTE`] more for each byte of the file, real files stay below the
+/// bound, and a reader takes at most 64 MB and 20 times its file, temporary memory included.
 const ANY_FILE: usize = 32 << 20;
 /// Further bytes for each byte of the file.
 const PER_BYTE: usize = 8;
 
-/// What is left of the bytes that a reader may hold for one file.
+/// The number of bytes that a reader may still allocate for one file.
 #[derive(Default)]
 pub(super) struct Budget {
     left: usize,
@@ -21,7 +21,7 @@ impl Budget {
         Budget { left: ANY_FILE.saturating_add(PER_BYTE.saturating_mul(file.len())) }
     }
 
-    /// Account for `count` items of `size` bytes, before they are allocated.
+    /// Subtracts `count` items of `size` bytes, before they are allocated.
     pub fn take(&mut self, count: usize, size: usize, what: &str, place: Location<'_>) -> Result<()> {
         match count.checked_mul(size).and_then(|bytes| self.left.checked_sub(bytes)) {
             Some(left) => {

@@ -1,10 +1,10 @@
-//! The bytes of a file.
+//! Reading the bytes of a file, by several threads where it is large.
 
 use crate::error::{Error, Result};
 use std::fs;
 use std::path::Path;
 
-/// All bytes of a file. Inside a pool parts of a large one are read side by side, where the system can read a file at a place.
+/// All bytes of a file. Inside a pool, parts of a large one are read in parallel, if the system can read a file from a given position.
 ///
 /// # Errors
 /// [`Error::Io`].
@@ -25,11 +25,11 @@ mod parts {
     use std::path::Path;
     use std::sync::{Mutex, PoisonError};
 
-    /// Bytes that a thread reads at a time: about 1 ms, most of which goes to memory that is touched for the first time.
+    /// Bytes that a thread reads at a time: about 1 ms, most of it for memory that is touched for the first time.
     pub const PART: usize = 1 << 20;
 
-    /// The bytes of a large file; none of one that is not, and where it is to be read in one piece: alone, for want of memory, and where
-    /// it becomes longer or shorter meanwhile.
+    /// The bytes of a large file. `None` for others, and where the file has to be read by one thread: without a pool, with too little
+    /// memory, and if its length changes meanwhile.
     pub fn content(path: &Path) -> Option<Vec<u8>> {
         if !is_shared() {
             return None;
@@ -42,7 +42,7 @@ mod parts {
         (length()? == before).then_some(bytes)
     }
 
-    /// The first bytes of a file that has as many.
+    /// The first n bytes of a file, which has as many.
     pub fn first_bytes(file: &File, n: usize) -> io::Result<Vec<u8>> {
         let mut bytes = vec![0; n];
         let failed = Mutex::new(None);
@@ -79,7 +79,7 @@ mod tests {
         assert!(matches!(content(&directory.path().join("missing")), Err(Error::Io { .. })));
     }
 
-    /// A length that no memory suffices for is an error, as if the file were read in one piece.
+    /// A length for which memory does not suffice is an error, as when the file is read by one thread.
     #[test]
     fn a_file_that_is_longer_than_memory_is_an_error() {
         let directory = tempfile::tempdir().unwrap();

@@ -1,8 +1,8 @@
-//! GIFTI surfaces (`.surf.gii`), as brain imaging writes them. The format is that of
-//! <https://www.nitrc.org/projects/gifti>, version 1.0.
+//! Reader of GIFTI surfaces (`.surf.gii`), which brain imaging uses. The format is that of <https://www.nitrc.org/projects/gifti>,
+//! version 1.0.
 
 use super::budget::Budget;
-use super::gifti_data::{Header, Table, Text};
+use super::gifti_data::{ArrayHeader, VectorTable, ArrayText};
 use super::scan::Location;
 use super::{Attributes, Soup};
 use crate::error::Result;
@@ -10,11 +10,11 @@ use crate::mesh::Point;
 use quick_xml::Reader;
 use quick_xml::events::Event;
 
-/// Parse a GIFTI surface: its `NIFTI_INTENT_POINTSET`, its `NIFTI_INTENT_TRIANGLE` and, as normals, an array
-/// `NIFTI_INTENT_VECTOR` of one vector per vertex; other arrays are skipped. Data are ASCII, base64 or compressed base64, in
-/// either byte order and either array order; those in another file are refused by name.
+/// Parses a GIFTI surface: its `NIFTI_INTENT_POINTSET`, its `NIFTI_INTENT_TRIANGLE` and, as normals, an array `NIFTI_INTENT_VECTOR` of
+/// one vector per vertex; other arrays are skipped. Data are ASCII, base64 or compressed base64, in either byte order and either array
+/// order; data in another file are refused with its name.
 ///
-/// Positions are as stored: `CoordinateSystemTransformMatrix`, which leads to the coordinates of another space, is not applied.
+/// Positions are as stored: `CoordinateSystemTransformMatrix`, which maps them to the coordinates of another space, is not applied.
 /// Entities are not expanded. `path` is used in errors.
 ///
 /// # Errors
@@ -23,10 +23,10 @@ use quick_xml::events::Event;
 pub fn parse_gifti(bytes: &[u8], path: &str) -> Result<Soup> {
     let mut reader = Reader::from_reader(bytes);
     reader.config_mut().expand_empty_elements = true;
-    let mut lines = Lines { bytes, at: 0, line: 1 };
-    let mut arrays = Arrays { budget: Budget::of(bytes), ..Arrays::default() };
-    // The array in which the reader is.
-    let mut inside: Option<Header> = None;
+    let mut lines = LineCounter { bytes, at: 0, line: 1 };
+    let mut arrays = GiftiArrays { budget: Budget::of(bytes), ..GiftiArrays::default() };
+    // The array that is being read.
+    let mut inside: Option<ArrayHeader> = None;
     let mut root = false;
     loop {
         let event = reader.read_event();
@@ -39,7 +39,7 @@ pub fn parse_gifti(bytes: &[u8], path: &str) -> Result<Soup> {
                 root = true;
             }
             Ok(Event::Start(tag)) => match (tag.name().0, &inside) {
-                ("DataArray", None) => inside = Some(Header::new(&tag, place)?),
+                ("DataArray", None) => inside = Some(ArrayHeader::new(&tag, place)?),
                 ("DataArray", Some(_)) => return place.error("a DataArray inside another".into()),
                 ("Data", Some(array)) => match reader.read_text(tag.name()) {
                     Ok(text) => arrays.take(array, &text, place)?,
@@ -58,14 +58,14 @@ pub fn parse_gifti(bytes: &[u8], path: &str) -> Result<Soup> {
     arrays.soup(Location::whole(path))
 }
 
-/// Line numbers of positions that grow.
-struct Lines<'a> {
+/// Line numbers of ascending byte positions.
+struct LineCounter<'a> {
     bytes: &'a [u8],
     at: usize,
     line: usize,
 }
 
-impl Lines<'_> {
+impl LineCounter<'_> {
     fn until(&mut self, position: u64) -> usize {
         let to = usize::try_from(position).map_or(self.bytes.len(), |p| p.min(self.bytes.len())).max(self.at);
         self.line += self.bytes[self.at..to].iter().filter(|&&b| b == b'\n').count();
@@ -74,20 +74,20 @@ impl Lines<'_> {
     }
 }
 
-/// The arrays of interest that have been read so far.
+/// The arrays of interest that have been read.
 #[derive(Default)]
-struct Arrays {
+struct GiftiArrays {
     budget: Budget,
     points: Option<Vec<Point>>,
     faces: Option<Vec<[u32; 3]>>,
     vectors: Vec<Vec<Point>>,
 }
 
-impl Arrays {
-    fn take(&mut self, header: &Header, text: &str, place: Location<'_>) -> Result<()> {
+impl GiftiArrays {
+    fn take(&mut self, header: &ArrayHeader, text: &str, place: Location<'_>) -> Result<()> {
         let budget = &mut self.budget;
-        let mut rows = |what| header.table(&Text { what, text, place }, budget);
-        let points = |table: Table| (0..table.rows).map(|i| table.row(i)).collect();
+        let mut rows = |what| header.table(&ArrayText { what, text, place }, budget);
+        let points = |table: VectorTable| (0..table.rows).map(|i| table.row(i)).collect();
         match header.intent.as_str() {
             "NIFTI_INTENT_POINTSET" if self.points.is_none() => self.points = Some(points(rows("points")?)),
             "NIFTI_INTENT_TRIANGLE" if self.faces.is_none() => {

@@ -1,40 +1,40 @@
-//! The tables of a GIFTI file: what its attributes say, and the numbers out of its text.
+//! The arrays of a GIFTI file: their attributes, and the numbers of their text.
 
 use super::base64;
 use super::budget::Budget;
-use super::kind::Kind;
+use super::kind::NumberType;
 use super::scan::{Location, Quoted};
 use crate::error::{FilePosition, Result};
 use flate2::read::{GzDecoder, ZlibDecoder};
 use quick_xml::events::BytesStart;
 use std::io::Read;
 
-/// Most bytes that deflate makes out of one, by the definition of its format.
+/// Most bytes that deflate makes of one byte, by the definition of its format.
 const MOST_INFLATION: usize = 1032;
 
-/// The text of an array, `what` it holds, and where it begins.
-pub(super) struct Text<'a> {
+/// The text of an array, a description of the array, and the position at which the text begins.
+pub(super) struct ArrayText<'a> {
     pub what: &'static str,
     pub text: &'a str,
     pub place: Location<'a>,
 }
 
-impl Text<'_> {
+impl ArrayText<'_> {
     fn error<T>(&self, message: impl std::fmt::Display) -> Result<T> {
         self.place.error(format!("{}: {message}", self.what))
     }
 }
 
 #[derive(Clone, Copy, PartialEq)]
-enum Encoding {
+enum DataEncoding {
     Ascii,
     Base64,
     Compressed,
 }
 
-/// The attributes of an array; words are empty where the file does not say.
+/// The attributes of an array; words are empty where the file has none.
 #[derive(Default)]
-pub(super) struct Header {
+pub(super) struct ArrayHeader {
     pub intent: String,
     data_type: String,
     encoding: String,
@@ -46,9 +46,9 @@ pub(super) struct Header {
     dimensionality: i64,
 }
 
-impl Header {
-    pub fn new(tag: &BytesStart<'_>, place: Location<'_>) -> Result<Header> {
-        let mut header = Header { dims: [-1; 2], dimensionality: -1, ..Header::default() };
+impl ArrayHeader {
+    pub fn new(tag: &BytesStart<'_>, place: Location<'_>) -> Result<ArrayHeader> {
+        let mut header = ArrayHeader { dims: [-1; 2], dimensionality: -1, ..ArrayHeader::default() };
         for attribute in tag.attributes().with_checks(false) {
             let attribute = match attribute {
                 Ok(attribute) => attribute,
@@ -77,16 +77,16 @@ impl Header {
         Ok(header)
     }
 
-    /// Whether the array has rows of three floating-point numbers.
+    /// True if the array has rows of three floating-point numbers.
     pub fn is_vectors(&self) -> bool {
         self.dimensionality == 2 && self.dims[1] == 3 && self.data_type.starts_with("NIFTI_TYPE_FLOAT")
     }
 
-    /// The rows of three numbers that a text holds.
-    pub fn table(&self, data: &Text<'_>, budget: &mut Budget) -> Result<Table> {
-        let &Text { what, text, place } = data;
+    /// The rows of three numbers in a text.
+    pub fn table(&self, data: &ArrayText<'_>, budget: &mut Budget) -> Result<VectorTable> {
+        let &ArrayText { what, text, place } = data;
         let name = self.data_type.strip_prefix("NIFTI_TYPE_").map(str::to_ascii_lowercase);
-        let Some(kind) = name.and_then(|name| Kind::named(&name)) else {
+        let Some(kind) = name.and_then(|name| NumberType::named(&name)) else {
             return place.error(format!("{what} of DataType=\"{}\" are not known", self.data_type));
         };
         if what == "triangles" && !kind.is_integer() {
@@ -102,9 +102,9 @@ impl Header {
             return place.error(format!("{rows} {what} are more than can be numbered"));
         }
         let encoding = match self.encoding.as_str() {
-            "ASCII" => Encoding::Ascii,
-            "Base64Binary" => Encoding::Base64,
-            "GZipBase64Binary" => Encoding::Compressed,
+            "ASCII" => DataEncoding::Ascii,
+            "Base64Binary" => DataEncoding::Base64,
+            "GZipBase64Binary" => DataEncoding::Compressed,
             "ExternalFileBinary" => {
                 return place.error(format!(
                     "the {what} are in another file, `{}`; convert the surface to one file",
@@ -116,31 +116,31 @@ impl Header {
         if text.contains(['<', '&']) {
             return place.error(format!("the {what} have markup among their data"));
         }
-        let stored = if encoding == Encoding::Ascii { size_of::<f64>() } else { kind.size() };
+        let stored = if encoding == DataEncoding::Ascii { size_of::<f64>() } else { kind.size() };
         let kept = if what == "triangles" { size_of::<[u32; 3]>() } else { size_of::<[f64; 3]>() };
         budget.take(rows, 3 * stored + kept, what, place)?;
         let numbers = match encoding {
-            Encoding::Ascii => Numbers::Text(ascii(data, 3 * rows)?),
-            _ => Numbers::Binary(binary(data, encoding, 3 * rows * stored)?, kind),
+            DataEncoding::Ascii => ArrayNumbers::Text(ascii(data, 3 * rows)?),
+            _ => ArrayNumbers::Binary(binary(data, encoding, 3 * rows * stored)?, kind),
         };
-        Ok(Table { rows, numbers, big_endian: self.big_endian, column_major: self.column_major })
+        Ok(VectorTable { rows, numbers, big_endian: self.big_endian, column_major: self.column_major })
     }
 }
 
-/// The `size` bytes that a text in base64 stands for, plain or compressed.
-fn binary(data: &Text<'_>, encoding: Encoding, size: usize) -> Result<Vec<u8>> {
+/// The `size` bytes that a base64 text encodes, plain or compressed.
+fn binary(data: &ArrayText<'_>, encoding: DataEncoding, size: usize) -> Result<Vec<u8>> {
     let mut bytes = match base64::decode(data.text.as_bytes()) {
         Ok(bytes) => bytes,
         Err(message) => return data.error(message),
     };
-    if encoding == Encoding::Compressed {
+    if encoding == DataEncoding::Compressed {
         let n = bytes.len();
         if size > MOST_INFLATION.saturating_mul(n) {
             return data.error(format!("{n} compressed bytes cannot hold the {size} of the table"));
         }
         let mut plain = Vec::with_capacity(size);
-        // One byte more than the table has shows that there are too many. The format says zlib; some programs write gzip, which the
-        // name of the encoding says.
+        // One byte more than the table has shows that there are too many. The format says zlib; some programs write gzip and say so in
+        // the name of the encoding.
         let most = size as u64 + 1;
         let inflated = if bytes.starts_with(&[0x1f, 0x8b]) {
             GzDecoder::new(bytes.as_slice()).take(most).read_to_end(&mut plain)
@@ -159,7 +159,8 @@ fn binary(data: &Text<'_>, encoding: Encoding, size: usize) -> Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// Which of two words is in the value of an attribute: files say `LittleEndian` and `GIFTI_ENDIAN_LITTLE`.
+/// True if the attribute's value contains the second of two words, false for the first: files say `LittleEndian` and
+/// `GIFTI_ENDIAN_LITTLE`.
 fn choice(name: &str, value: &str, [first, second]: [&str; 2], place: Location<'_>) -> Result<bool> {
     let lower = value.to_ascii_lowercase();
     match (lower.contains(first), lower.contains(second)) {
@@ -170,8 +171,8 @@ fn choice(name: &str, value: &str, [first, second]: [&str; 2], place: Location<'
 }
 
 /// The `count` numbers of a text.
-fn ascii(data: &Text<'_>, count: usize) -> Result<Vec<f64>> {
-    let &Text { what, text, place } = data;
+fn ascii(data: &ArrayText<'_>, count: usize) -> Result<Vec<f64>> {
+    let &ArrayText { what, text, place } = data;
     let mut numbers = Vec::new();
     let mut last = place;
     for (i, line) in text.split('\n').enumerate() {
@@ -192,20 +193,20 @@ fn ascii(data: &Text<'_>, count: usize) -> Result<Vec<f64>> {
     Ok(numbers)
 }
 
-enum Numbers {
+enum ArrayNumbers {
     Text(Vec<f64>),
-    Binary(Vec<u8>, Kind),
+    Binary(Vec<u8>, NumberType),
 }
 
 /// Rows of three numbers.
-pub(super) struct Table {
+pub(super) struct VectorTable {
     pub rows: usize,
-    numbers: Numbers,
+    numbers: ArrayNumbers,
     big_endian: bool,
     column_major: bool,
 }
 
-impl Table {
+impl VectorTable {
     /// Row i, below `rows`.
     pub fn row(&self, i: usize) -> [f64; 3] {
         std::array::from_fn(|j| self.number(if self.column_major { j * self.rows + i } else { 3 * i + j }))
@@ -213,8 +214,8 @@ impl Table {
 
     fn number(&self, at: usize) -> f64 {
         match &self.numbers {
-            Numbers::Text(numbers) => numbers[at],
-            Numbers::Binary(bytes, kind) => kind.read(&bytes[kind.size() * at..], self.big_endian),
+            ArrayNumbers::Text(numbers) => numbers[at],
+            ArrayNumbers::Binary(bytes, kind) => kind.read(&bytes[kind.size() * at..], self.big_endian),
         }
     }
 }

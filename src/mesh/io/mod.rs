@@ -1,4 +1,4 @@
-//! Mesh files: triangles and positions, as the file numbers them.
+//! Mesh files: readers and writers of triangles and positions, with the file's numbering.
 //!
 //! ```
 //! use ricci::mesh::io::parse_obj;
@@ -42,12 +42,12 @@ pub use off::{parse_off, write_off};
 pub use ply::{parse_ply, write_ply};
 pub use soup::{Attributes, Soup};
 pub use stl::{parse_stl, parse_stl_welded};
-pub use textured::Textured;
+pub use textured::TexturedMesh;
 
 use crate::error::{Error, Result};
 use std::path::Path;
 
-/// The reader of files of each extension, which takes the bytes and, for errors, the path.
+/// The reader for each extension; its arguments are the bytes and, for errors, the path.
 const READERS: &[(&str, fn(&[u8], &str) -> Result<Soup>)] = &[
     ("obj", parse_obj),
     ("off", parse_off),
@@ -61,7 +61,7 @@ const READERS: &[(&str, fn(&[u8], &str) -> Result<Soup>)] = &[
     ("gii", parse_gifti),
 ];
 
-/// The format that each extension names where a file is written.
+/// The format to write for each extension.
 const WRITERS: &[(&str, Format)] = &[
     ("obj", Format::Obj),
     ("off", Format::Off),
@@ -75,8 +75,8 @@ const READER_FEATURES: &[(&str, &str)] = &[("glb", "gltf"), ("gltf", "gltf"), ("
 /// Extensions whose writers need a cargo feature, with its name.
 const WRITER_FEATURES: &[(&str, &str)] = &[("glb", "gltf")];
 
-/// The entry of `table` for the extension of a path (case does not matter), or the error that names the extensions of the table or
-/// the cargo feature that this build lacks.
+/// The entry of `table` for the extension of a path (case does not matter). The error lists the extensions of the table or names the
+/// cargo feature that this build lacks.
 fn by_extension<T: Copy>(path: &Path, table: &[(&str, T)], features: &[(&str, &str)]) -> Result<T> {
     let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
     let is_this = |known: &str| extension.as_deref() == Some(known);
@@ -97,19 +97,19 @@ fn by_extension<T: Copy>(path: &Path, table: &[(&str, T)], features: &[(&str, &s
     Err(Error::UnknownFormat { path: path.display().to_string(), message })
 }
 
-/// Read a mesh file by its extension (case does not matter): .obj, .off, .ply, .stl; with the cargo feature `gltf` .glb and .gltf,
-/// with `gifti` .gii.
+/// Reads a mesh file by its extension (case does not matter): .obj, .off, .ply, .stl; with the cargo feature `gltf` .glb and .gltf, with
+/// `gifti` .gii.
 ///
 /// # Errors
 ///
-/// [`Error::UnknownFormat`] for another extension, or one whose feature this build lacks; [`Error::Io`]; [`Error::Parse`] with the
-/// line or byte where the file is not what its format says.
+/// [`Error::UnknownFormat`] for another extension, or one whose feature this build lacks; [`Error::Io`]; [`Error::Parse`] with the line
+/// or byte where the file violates its format.
 pub fn read(path: &Path) -> Result<Soup> {
     let parse = by_extension(path, READERS, READER_FEATURES)?;
     parse(&content::content(path)?, &path.display().to_string())
 }
 
-/// Read an STL file, whatever its name, and weld it within a distance.
+/// Reads an STL file with any name, and welds vertices within a distance.
 ///
 /// # Errors
 ///
@@ -118,7 +118,7 @@ pub fn read_stl(path: &Path, weld: f64) -> Result<Soup> {
     parse_stl_welded(&content::content(path)?, &path.display().to_string(), weld)
 }
 
-/// A format that can be written.
+/// A file format that can be written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Format {
     /// Wavefront OBJ.
@@ -133,7 +133,7 @@ pub enum Format {
 }
 
 impl Format {
-    /// The format that a file's extension names (case does not matter): .obj, .off, .ply, .glb.
+    /// The format for a file's extension (case does not matter): .obj, .off, .ply, .glb.
     ///
     /// # Errors
     ///
@@ -143,7 +143,7 @@ impl Format {
     }
 }
 
-/// Write a mesh file in the format that its extension names.
+/// Writes a mesh file in the format for its extension.
 ///
 /// # Errors
 ///
@@ -152,7 +152,7 @@ pub fn write(path: &Path, soup: &Soup) -> Result<Vec<&'static str>> {
     write_as(path, Format::of(path)?, soup)
 }
 
-/// Write binary glTF with a texture over the texture coordinates of a mesh.
+/// Writes binary glTF with a texture over the texture coordinates of a mesh.
 ///
 /// # Errors
 ///
@@ -162,9 +162,9 @@ pub fn write_glb_textured(path: &Path, soup: &Soup, texture: Texture<'_>) -> Res
     textured::with_textured(soup, |data| write_glb(path, data, Some(texture))).map(drop)
 }
 
-/// Write a mesh file, atomically, with the attributes that the format has: text with the fewest digits that read back, PLY binary, so that
-/// positions read back as they are; GLB has 24 bits, see [`write_glb`]. Returned is what was left out because the format has no
-/// place for it, by name: normals and texture coordinates with more than one value at a vertex, in PLY and OFF.
+/// Writes a mesh file, atomically, with the attributes that the format has: text with the fewest digits that read back, PLY binary, so
+/// that positions read back unchanged; GLB has 24 bits, see [`write_glb`]. Returns the names of the attributes that were left out because
+/// the format cannot hold them: normals and texture coordinates with more than one value at a vertex, in PLY and OFF.
 ///
 /// # Errors
 ///

@@ -1,11 +1,11 @@
-//! Wavefront OBJ. This reader keeps the file's vertex numbering, which the readers of other crates replace by one of their own.
+//! Reader and writer of Wavefront OBJ. The reader keeps the file's vertex numbering, which the readers of other crates replace.
 
 use super::budget::Budget;
 use super::polygon::Polygons;
 use super::scan::{BYTE_ORDER_MARK, Location, Quoted, words};
 use super::soup::{NO_NORMAL, NO_TEXCOORD, WHITE};
-use super::text::{Text, write_blocks};
-use super::{Attributes, Soup, Textured, write_atomically};
+use super::text::{TextBuilder, write_blocks};
+use super::{Attributes, Soup, TexturedMesh, write_atomically};
 use crate::error::{Error, Result};
 use crate::mesh::Point;
 use crate::parallel;
@@ -13,11 +13,11 @@ use std::borrow::Cow;
 use std::io::{self, Write};
 use std::path::Path;
 
-/// Parse OBJ text: `v` (with colours behind the coordinates, if there are any), `vt`, `vn` and `f` (polygons, negative indices,
-/// `v/vt/vn` corners), line continuations; everything else is skipped. `path` is used in errors.
+/// Parses OBJ text: `v` (with colours after the coordinates, if there are any), `vt`, `vn` and `f` (polygons, negative indices, `v/vt/vn`
+/// corners), line continuations; everything else is skipped. `path` is used in errors.
 ///
-/// Normals are those of the vertices where all corners of each vertex name equal ones, else those of the corners. What is missing,
-/// or no number, has the default of [`Attributes`].
+/// Normals belong to the vertices if all corners of each vertex name equal ones, else to the corners. Missing or invalid values have the
+/// defaults of [`Attributes`].
 ///
 /// # Errors
 ///
@@ -27,24 +27,24 @@ pub fn parse_obj(bytes: &[u8], path: &str) -> Result<Soup> {
         Some(file) => file,
         None => {
             let text = std::str::from_utf8(bytes);
-            File::read(&text.map_or_else(|_| String::from_utf8_lossy(bytes), Cow::Borrowed), path)?
+            ObjFile::read(&text.map_or_else(|_| String::from_utf8_lossy(bytes), Cow::Borrowed), path)?
         }
     };
     file.soup(Budget::of(bytes), Location::whole(path))
 }
 
-/// Least bytes of a part of a file that is read by itself.
+/// Least bytes of a part of a file that is read on its own.
 const PART: usize = 1 << 20;
 
-/// A file read in parts that end with lines, side by side inside a pool; `None` where its parts cannot be read each by itself, which is so
-/// if corners count back from the last vertex, a line goes on behind a backslash, or something is wrong, which is then found line by line.
-fn in_parts(bytes: &[u8], path: &str) -> Option<File> {
+/// A file read in parts that end with lines, in parallel inside a pool. `None` where its parts cannot be read independently: if corners
+/// count back from the last vertex, a line continues after a backslash, or there is an error, which is then searched line by line.
+fn in_parts(bytes: &[u8], path: &str) -> Option<ObjFile> {
     let mut ends = Vec::new();
     while bytes.len() - ends.last().unwrap_or(&0) > PART {
         let begin = ends.last().unwrap_or(&0) + PART;
         ends.push(begin + bytes[begin..].iter().position(|&b| b == b'\n')? + 1);
     }
-    // So that every part has an end of line.
+    // The last part ends with the file, so that every part ends with a line.
     ends.pop();
     if ends.is_empty() || bytes.contains(&b'\\') {
         return None;
@@ -53,34 +53,34 @@ fn in_parts(bytes: &[u8], path: &str) -> Option<File> {
     let part = |k: usize| {
         let text = std::str::from_utf8(&bytes[starts[k]..starts[k + 1]]).ok()?;
         let is_marked = k > 0 && text.starts_with(BYTE_ORDER_MARK);
-        File::read(text, path).ok().filter(|file| !(is_marked || file.counts_back))
+        ObjFile::read(text, path).ok().filter(|file| !(is_marked || file.counts_back))
     };
-    let parts: Option<Vec<File>> = parallel::map(starts.len() - 1, part).into_iter().collect();
-    Some(File::joined(parts?))
+    let parts: Option<Vec<ObjFile>> = parallel::map(starts.len() - 1, part).into_iter().collect();
+    Some(ObjFile::joined(parts?))
 }
 
 /// The entry of a corner that names no texture coordinate or no normal.
 const NO_ENTRY: u32 = u32::MAX;
 
-/// What has been read so far.
+/// The lines that have been read.
 #[derive(Default)]
-struct File {
+struct ObjFile {
     positions: Vec<Point>,
-    /// Of the first vertices; the others are white.
+    /// Colours of the first vertices; the others are white.
     colors: Vec<[f64; 4]>,
     texcoords: Vec<[f64; 2]>,
     normals: Vec<Point>,
     polygons: Polygons,
-    /// Of the first corners, the entry each names, or `NO_ENTRY`, as for all others.
+    /// The entry that each of the first corners names, or `NO_ENTRY`, which also holds for all others.
     corner_texcoords: Vec<u32>,
     corner_normals: Vec<u32>,
-    /// Whether a corner may count back from the last entry.
+    /// True if a corner may count back from the last entry.
     counts_back: bool,
 }
 
-impl File {
-    fn read(text: &str, path: &str) -> Result<File> {
-        let mut file = File::default();
+impl ObjFile {
+    fn read(text: &str, path: &str) -> Result<ObjFile> {
+        let mut file = ObjFile::default();
         let mut lines = super::scan::lines(text);
         let mut joined = String::new();
         while let Some((number, line)) = lines.next() {
@@ -131,7 +131,7 @@ impl File {
         Ok(())
     }
 
-    /// A corner that names more than a vertex, or counts back.
+    /// Reads a corner that names more than a vertex, or counts back.
     fn corner(&mut self, place: Location<'_>, token: &str) -> Result<()> {
         let number = self.polygons.corners.len();
         self.polygons.corners.push(corner(place, token, self.positions.len())?);
@@ -148,19 +148,19 @@ impl File {
         Ok(())
     }
 
-    /// What the parts of a file hold, one after the other.
-    fn joined(parts: Vec<File>) -> File {
-        let mut all = File::default();
+    /// The contents of the parts of a file, one after the other.
+    fn joined(parts: Vec<ObjFile>) -> ObjFile {
+        let mut all = ObjFile::default();
         all.positions.reserve_exact(parts.iter().map(|part| part.positions.len()).sum());
         all.polygons.reserve(parts.iter().map(|part| &part.polygons));
         for part in parts {
             let (vertices, corners) = (all.positions.len(), all.polygons.corners.len());
             all.positions.extend(part.positions);
-            append(&mut all.colors, part.colors, (vertices, WHITE));
+            append(&mut all.colors, part.colors, vertices, WHITE);
             all.texcoords.extend(part.texcoords);
             all.normals.extend(part.normals);
-            append(&mut all.corner_texcoords, part.corner_texcoords, (corners, NO_ENTRY));
-            append(&mut all.corner_normals, part.corner_normals, (corners, NO_ENTRY));
+            append(&mut all.corner_texcoords, part.corner_texcoords, corners, NO_ENTRY);
+            append(&mut all.corner_normals, part.corner_normals, corners, NO_ENTRY);
             all.polygons.append(&part.polygons);
         }
         all
@@ -197,7 +197,7 @@ impl File {
         Ok(Soup { positions: self.positions, faces, attributes })
     }
 
-    /// The colours of all vertices, where one has a colour.
+    /// The colours of all vertices, if one has a colour.
     fn all_colors(&mut self) -> Option<Vec<[f64; 4]>> {
         let mut colors = std::mem::take(&mut self.colors);
         (!colors.is_empty()).then(|| {
@@ -227,16 +227,16 @@ impl File {
     }
 }
 
-/// Append `more` behind the first `n` entries of a list, of which those that are missing are filled in.
-fn append<T: Clone>(list: &mut Vec<T>, more: Vec<T>, (n, missing): (usize, T)) {
+/// Appends `more` after the first `n` entries of a list; entries that are missing before are filled in.
+fn append<T: Clone>(list: &mut Vec<T>, more: Vec<T>, n: usize, missing: T) {
     if !more.is_empty() {
         list.resize(n, missing);
         list.extend(more);
     }
 }
 
-/// The colour behind the three coordinates of a vertex: red, green, blue and perhaps opacity (a fourth coordinate alone is a
-/// weight). `None` where it is none.
+/// The colour after the three coordinates of a vertex: red, green, blue and perhaps opacity (a fourth coordinate alone is a weight).
+/// `None` where there is none.
 fn color<'a>(tokens: impl Iterator<Item = &'a str>) -> Option<[f64; 4]> {
     let x: Option<Vec<f64>> = tokens.map(|t| t.parse().ok().filter(|x: &f64| x.is_finite())).collect();
     match x?.as_slice() {
@@ -246,12 +246,12 @@ fn color<'a>(tokens: impl Iterator<Item = &'a str>) -> Option<[f64; 4]> {
     }
 }
 
-/// The first N numbers; NaN for those that are missing.
+/// The first N numbers; NaN for missing ones.
 fn numbers<'a, const N: usize>(mut tokens: impl Iterator<Item = &'a str>) -> [f64; N] {
     std::array::from_fn(|_| tokens.next().and_then(|t| t.parse().ok()).unwrap_or(f64::NAN))
 }
 
-/// The entry (0-based) that the second or third number of a corner names among `count` so far; a wrong one names none.
+/// The entry (0-based) that the second or third number of a corner names among `count` so far; a wrong number names none.
 fn attribute(number: Option<&str>, count: usize) -> u32 {
     let entry = |number: &str| match number.parse::<i64>().ok()? {
         0 => None,
@@ -261,7 +261,7 @@ fn attribute(number: Option<&str>, count: usize) -> u32 {
     number.and_then(entry).unwrap_or(NO_ENTRY)
 }
 
-/// The vertex of a corner that is nothing but a number of up to nine digits, as most are.
+/// The vertex of a corner that is only a number of up to nine digits, as most are.
 fn plain(token: &str) -> Option<u32> {
     let digit = |n: u32, b: &u8| b.is_ascii_digit().then(|| 10 * n + u32::from(b - b'0'));
     let number = if token.len() <= 9 { token.as_bytes().iter().try_fold(0, digit) } else { None };
@@ -291,30 +291,30 @@ fn corner(place: Location<'_>, token: &str, vertices: usize) -> Result<u32> {
     }
 }
 
-/// Write an OBJ file, its numbers with the fewest digits that read back to the same doubles, atomically. With
-/// [`Textured::texcoord_weights`] a comment on the first line says that the `vt` are homogeneous.
+/// Writes an OBJ file, atomically, with the fewest digits that read back to the same numbers. With [`TexturedMesh::texcoord_weights`] a
+/// comment on the first line says that the `vt` are homogeneous.
 ///
 /// # Errors
 ///
 /// With the file untouched: [`crate::Error::Argument`] for numbers that are not finite and corners out of
 /// range, [`crate::Error::Size`], [`crate::Error::Io`].
-pub fn write_obj(path: &Path, data: &Textured<'_>) -> Result<()> {
+pub fn write_obj(path: &Path, data: &TexturedMesh<'_>) -> Result<()> {
     data.check()?;
     write_atomically(path, |out| write_text(out, data))
 }
 
-/// [`write_obj`] to anything that can be written to, for callers who put files in place themselves. Lines are formatted side by side
+/// [`write_obj`] to anything that can be written to, for callers who put files in place themselves. Lines are formatted in parallel
 /// inside a pool.
 ///
 /// # Errors
 ///
 /// [`crate::Error::Argument`] and [`crate::Error::Size`] before anything is written; [`crate::Error::Io`].
-pub fn write_obj_to(out: &mut impl Write, data: &Textured<'_>) -> Result<()> {
+pub fn write_obj_to(out: &mut impl Write, data: &TexturedMesh<'_>) -> Result<()> {
     data.check()?;
     write_text(out, data).map_err(|e| Error::Io { path: "OBJ".into(), message: e.to_string() })
 }
 
-fn write_text(out: &mut impl Write, data: &Textured<'_>) -> io::Result<()> {
+fn write_text(out: &mut impl Write, data: &TexturedMesh<'_>) -> io::Result<()> {
     if !data.texcoord_weights.is_empty() {
         writeln!(
             out,
@@ -363,8 +363,8 @@ fn write_text(out: &mut impl Write, data: &Textured<'_>) -> io::Result<()> {
     })
 }
 
-/// A keyword and its numbers.
-fn line(text: &mut Text, keyword: &str, numbers: &[f64]) {
+/// Appends a keyword and its numbers.
+fn line(text: &mut TextBuilder, keyword: &str, numbers: &[f64]) {
     text.text(keyword);
     for x in numbers {
         text.character(' ');
@@ -378,7 +378,7 @@ mod tests {
     use crate::parallel::Pool;
     use std::fmt::Write;
 
-    /// A strip of quads and triangles of a few parts, with colours, texture coordinates and normals that begin somewhere.
+    /// A strip of quads and triangles of a few parts, with colours, texture coordinates and normals that begin somewhere inside.
     fn large() -> String {
         let mut text = String::from("\u{feff}# a strip\n");
         for k in 0..60_000u32 {
@@ -403,8 +403,8 @@ mod tests {
     fn parts_read_side_by_side_are_what_lines_read_in_order_are() {
         let text = large();
         assert!(text.len() > 3 * PART);
-        let soup = |file: File| file.soup(Budget::of(text.as_bytes()), Location::whole("t")).unwrap();
-        let expected = soup(File::read(&text, "t").unwrap());
+        let soup = |file: ObjFile| file.soup(Budget::of(text.as_bytes()), Location::whole("t")).unwrap();
+        let expected = soup(ObjFile::read(&text, "t").unwrap());
         let Attributes { normals, colors, uv, .. } = &expected.attributes;
         assert!(normals.is_some() && colors.is_some() && uv.is_some());
         for threads in [1, 2, 8] {

@@ -1,5 +1,5 @@
-//! OFF, text and binary: plain, COFF, NOFF, STOFF and their combinations (colours of faces are skipped). The format is
-//! Geomview's, <http://www.geomview.org/docs/html/OFF.html>.
+//! Reader and writer of OFF, text and binary: plain, COFF, NOFF, STOFF and their combinations (colours of faces are skipped). The format
+//! is Geomview's, <http://www.geomview.org/docs/html/OFF.html>.
 
 use super::budget::Budget;
 use super::off_binary::parse_off_binary;
@@ -14,7 +14,7 @@ use crate::mesh::Point;
 use std::io::Write;
 use std::path::Path;
 
-/// Parse an OFF file, text or binary. Indices count from 0. `path` is used in errors.
+/// Parses an OFF file, text or binary. Indices count from 0. `path` is used in errors.
 ///
 /// # Errors
 ///
@@ -26,7 +26,7 @@ pub fn parse_off(bytes: &[u8], path: &str) -> Result<Soup> {
     }
 }
 
-/// What each vertex has, where the data begin and the place of the header, if that says `BINARY`.
+/// The columns of each vertex, the byte at which the data begin and the position of the header, if that says `BINARY`.
 fn binary<'a>(bytes: &[u8], path: &'a str) -> Result<Option<(Columns, usize, Location<'a>)>> {
     let mut end = 0;
     for (i, line) in bytes.split_inclusive(|&b| b == b'\n').enumerate() {
@@ -47,13 +47,13 @@ fn binary<'a>(bytes: &[u8], path: &'a str) -> Result<Option<(Columns, usize, Loc
     Ok(None)
 }
 
-/// What is before and behind `OFF`. Some programs write the header in lower case; its letters then mean the same as the capitals.
+/// The text before and after `OFF`. Some programs write the header in lower case; its letters then mean the same as capitals.
 fn split_header(word: &str) -> Option<(String, &str)> {
     let upper = word.split_once("OFF").map(|(prefix, rest)| (prefix.to_string(), rest));
     upper.or_else(|| word.split_once("off").map(|(prefix, rest)| (prefix.to_ascii_uppercase(), rest)))
 }
 
-/// What the letters before `OFF` name, in any order.
+/// The columns that the letters before `OFF` name, in any order.
 fn columns(prefix: &str, place: Location<'_>) -> Result<Columns> {
     let prefix = prefix.trim_start_matches('\u{feff}');
     let mut rest = prefix;
@@ -78,9 +78,9 @@ fn columns(prefix: &str, place: Location<'_>) -> Result<Columns> {
     }
 }
 
-/// Read a text file. Without letters before `OFF` a vertex has three numbers, and what follows them on the line is either columns that
-/// the header does not announce, or the next vertex: the reading is taken with which the counts of the header come out. Where vertices
-/// share a line each stands on one line as a whole, so that a file in which a number is missing is not read in this way.
+/// Reads a text file. Without letters before `OFF` a vertex has three numbers, and further numbers on its line are either columns that
+/// the header does not announce, or the next vertex: the interpretation is chosen that agrees with the counts of the header. Where
+/// vertices share a line, each has to be on one line as a whole, so that a file with a missing number is not read in this way.
 fn parse_off_text(text: &str, path: &str) -> Result<Soup> {
     let header = tokens(text, "").next().and_then(split_header);
     let has_letters = header.is_some_and(|(prefix, _)| !prefix.trim_start_matches('\u{feff}').is_empty());
@@ -90,14 +90,14 @@ fn parse_off_text(text: &str, path: &str) -> Result<Soup> {
     }
 }
 
-/// Read the header: what vertices have, their number and that of the faces.
+/// Reads the header: the columns of vertices, their number and that of the faces.
 fn header<'a>(
     tokens: &mut Tokens<'a, impl Iterator<Item = (usize, &'a str)>>,
 ) -> Result<(Columns, usize, usize)> {
     let Some(header) = tokens.next() else {
         return tokens.place().error("the file is empty; OFF begins with `OFF` and its counts".into());
     };
-    // The header word is optional, and the first count may stick to it.
+    // The header word is optional, and the first count may follow it without a space.
     let mut has = Columns::default();
     let first = match split_header(header) {
         Some((prefix, count)) => {
@@ -122,7 +122,7 @@ fn header<'a>(
     Ok((has, n_vertices, n_faces))
 }
 
-/// Read the text; `by_line`: each vertex has a line of its own, perhaps with further columns.
+/// Reads the text; with `by_line` each vertex has a line of its own, perhaps with further columns.
 fn read_text(text: &str, path: &str, by_line: bool) -> Result<Soup> {
     let mut tokens = tokens(text, path);
     let (has, n_vertices, n_faces) = header(&mut tokens)?;
@@ -159,7 +159,7 @@ fn read_text(text: &str, path: &str, by_line: bool) -> Result<Soup> {
             corners.push(v);
         }
         tokens.end_line();
-        // Points and segments are legal in OFF and no part of the surface.
+        // Points and segments are legal in OFF but not part of the surface.
         polygons.push(corners.iter().copied());
     }
     match tokens.next() {
@@ -171,9 +171,9 @@ fn read_text(text: &str, path: &str, by_line: bool) -> Result<Soup> {
     }
 }
 
-/// Write text OFF, its numbers with the fewest digits that read back to the same doubles, with normals, colours (0 to 255) where there
-/// are any, and texture coordinates where each vertex has a single pair; atomically. Returned is what was left out, by name: normals
-/// and texture coordinates that differ between the corners of a vertex.
+/// Writes text OFF, atomically, with the fewest digits that read back to the same numbers, with normals, colours (0 to 255) if there are
+/// any, and texture coordinates if each vertex has a single pair. Returns the names of the attributes that were left out: normals and
+/// texture coordinates that differ between the corners of a vertex.
 ///
 /// # Errors
 ///

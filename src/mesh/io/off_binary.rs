@@ -1,4 +1,4 @@
-//! Binary OFF: what Geomview reads and writes, and what other programs write under the same header.
+//! Reader of binary OFF, in Geomview's layout and in those that other programs write with the same header.
 
 use super::budget::Budget;
 use super::off_extras::{Columns, Extras};
@@ -8,24 +8,24 @@ use super::soup::{Soup, in_range};
 use crate::error::Result;
 use crate::mesh::Point;
 
-/// How the data behind `OFF BINARY` are laid out. The file does not say which it is.
+/// The layout of the data after `OFF BINARY`. The file does not say which it is.
 #[derive(Clone, Copy, PartialEq)]
 struct Dialect {
     big_endian: bool,
     /// Each face ends with the number of its colour components (which may be 0) and these components.
     face_colors: bool,
-    /// Components of a vertex's colour.
+    /// The number of components of a vertex's colour.
     color: usize,
 }
 
 /// The layout that Geomview's manual defines.
 const GEOMVIEW: Dialect = Dialect { big_endian: true, face_colors: true, color: 4 };
-/// The layout that programs write by copying their memory to the file.
+/// The layout of programs that copy their memory to the file.
 const COPIED: Dialect = Dialect { big_endian: false, face_colors: false, color: 4 };
 
-/// Parse the data that begin at `start`: three `i32` counts, `columns` `f32` per vertex of which the first
-/// three are the position, and per face the `i32` number of its corners and these, 0-based. The dialect is
-/// the one in which the file ends where its last face does; colours may also be integers up to 255.
+/// Parses the data that begin at `start`: three `i32` counts, `columns` `f32` per vertex of which the first three are the position, and
+/// per face the `i32` number of its corners and their 0-based vertices. The dialect is the one in which the file ends at the end of its
+/// last face; colours may also be integers up to 255.
 pub(super) fn parse_off_binary(
     bytes: &[u8],
     start: usize,
@@ -41,8 +41,8 @@ pub(super) fn parse_off_binary(
     if second.is_ok() {
         return second;
     }
-    // OpenMesh writes either byte order, and colours of three components. The rest of a file that is cut off may end where one of
-    // these dialects does, but its corners then name vertices that do not exist.
+    // OpenMesh writes either byte order, and colours of three components. A truncated file may end at the end of a face in one of these
+    // dialects, but its corners then name vertices that do not exist.
     let opaque = Dialect { color: 3, ..COPIED };
     let others = [Dialect { big_endian: true, ..COPIED }, opaque, Dialect { big_endian: true, ..opaque }];
     let known = others.into_iter().filter(|dialect| has.color || dialect.color == 4);
@@ -50,12 +50,12 @@ pub(super) fn parse_off_binary(
     if let Some(soup) = known.filter_map(|dialect| read(dialect).ok()).find(sound) {
         return Ok(soup);
     }
-    // The error is that of the likelier byte order: a number of vertices below 2¹⁶ is above 2¹⁶ in the other order.
+    // The error is that of the more likely byte order: a number of vertices below 2¹⁶ is above 2¹⁶ in the other order.
     let count = bytes[start..].first_chunk::<4>().copied().unwrap_or([0; 4]);
     if u32::from_le_bytes(count) < u32::from_be_bytes(count) { second } else { first }
 }
 
-/// The file as words of four bytes, from byte `at`.
+/// The file as words of four bytes, from byte `at` on.
 struct Words<'a> {
     bytes: &'a [u8],
     at: usize,
@@ -98,7 +98,7 @@ impl Words<'_> {
                     self.word(what)?;
                 }
             }
-            // Points and segments are legal in OFF and no part of the surface.
+            // Points and segments are legal in OFF but not part of the surface.
             polygons.push(corners.iter().copied());
         }
         let left = self.bytes[self.at..].trim_ascii().len();
@@ -125,7 +125,7 @@ impl Words<'_> {
         Ok(if self.dialect.big_endian { u32::from_be_bytes(word) } else { u32::from_le_bytes(word) })
     }
 
-    /// A word that is not negative as a signed number.
+    /// Reads a word that is not negative as a signed number.
     fn count(&mut self, what: impl Fn() -> String) -> Result<u32> {
         let word = self.word(&what)?;
         if word > i32::MAX as u32 {

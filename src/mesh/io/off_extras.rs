@@ -1,4 +1,4 @@
-//! What the vertices of an OFF file have beside their places.
+//! The attributes of the vertices of an OFF file.
 
 use super::budget::Budget;
 use super::polygon::Polygons;
@@ -7,7 +7,7 @@ use super::soup::{Attributes, NO_NORMAL, NO_TEXCOORD, Soup};
 use crate::error::Result;
 use crate::mesh::Point;
 
-/// What each vertex has besides its coordinates, in this order.
+/// The attributes of each vertex after its coordinates, in this order.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Columns {
     pub normal: bool,
@@ -18,7 +18,7 @@ pub(super) struct Columns {
 /// The attributes of the vertices read so far.
 pub(super) struct Extras {
     has: Columns,
-    /// What at least one vertex has.
+    /// The attributes that at least one vertex has.
     any: Columns,
     normals: Vec<Point>,
     colors: Vec<[f64; 4]>,
@@ -30,7 +30,7 @@ impl Extras {
         Extras { has, any: Columns::default(), normals: Vec::new(), colors: Vec::new(), texture: Vec::new() }
     }
 
-    /// The numbers behind the coordinates of a vertex. A colour is what the others leave over, three numbers or four.
+    /// Adds the numbers after the coordinates of a vertex. The colour is what the other columns leave, three numbers or four.
     pub fn push(&mut self, rest: &[f64]) {
         let (normal, rest) = rest.split_at(if self.has.normal { rest.len().min(3) } else { 0 });
         let (color, texture) = rest.split_at(rest.len().saturating_sub(if self.has.texture { 2 } else { 0 }));

@@ -1,4 +1,4 @@
-//! Polygons of a file, and their triangles.
+//! The polygons of a file, and their division into triangles.
 
 use super::budget::Budget;
 use super::scan::Location;
@@ -11,14 +11,14 @@ use std::cmp::Ordering;
 #[derive(Default)]
 pub(super) struct Polygons {
     pub corners: Vec<u32>,
-    /// Where each polygon ends in `corners`.
+    /// The end of each polygon in `corners`.
     ends: Vec<usize>,
 }
 
 /// Bytes that a triangle may take: its corners, its vertices and their texture coordinates.
 const PER_TRIANGLE: usize = size_of::<([usize; 3], [u32; 3], [[f64; 2]; 3])>();
-/// Most corners of a polygon that is cut ear by ear. A larger one becomes a fan, since the time to find ears grows with the square of
-/// the number of corners.
+/// Most corners of a polygon that is cut ear by ear. A larger one becomes a fan, since the time to find ears grows with the square of the
+/// number of corners.
 const MOST_CORNERS: usize = 1000;
 
 impl Polygons {
@@ -31,12 +31,12 @@ impl Polygons {
         self.ends.is_empty()
     }
 
-    /// End a polygon: its corners are those pushed onto `corners` since the last one ended.
+    /// Ends a polygon: its corners are those pushed to `corners` since the end of the last one.
     pub fn end(&mut self) {
         self.ends.push(self.corners.len());
     }
 
-    /// Make room for all of these.
+    /// Reserves memory for all of these.
     pub fn reserve<'a>(&mut self, all: impl Iterator<Item = &'a Polygons>) {
         let add = |[a, b]: [usize; 2], more: &Polygons| [a + more.corners.len(), b + more.ends.len()];
         let [corners, ends] = all.fold([0; 2], add);
@@ -44,14 +44,14 @@ impl Polygons {
         self.ends.reserve_exact(ends);
     }
 
-    /// Append the polygons of another list.
+    /// Appends the polygons of another list.
     pub fn append(&mut self, more: &Polygons) {
         let before = self.corners.len();
         self.corners.extend_from_slice(&more.corners);
         self.ends.extend(more.ends.iter().map(|end| before + end));
     }
 
-    /// The vertices of each polygon, where all are triangles.
+    /// The vertices of each polygon, if all are triangles.
     ///
     /// # Errors
     /// As [`Polygons::triangles`].
@@ -64,10 +64,10 @@ impl Polygons {
         Ok(Some(triangles.to_vec()))
     }
 
-    /// The triangles, three flat corner numbers each. Faces of one or two corners occur in the wild and have none.
+    /// The triangles, as three flat corner numbers each. Faces of one or two corners occur in files and have no triangles.
     ///
-    /// A convex polygon is a fan from its first corner; another one is cut ear by ear in the plane of its area vector. The triangles
-    /// are charged to the budget first, since a corner that takes one byte of a file becomes a triangle of many.
+    /// A convex polygon becomes a fan from its first corner; another one is cut ear by ear in the plane of its area vector. The triangles
+    /// are charged to the budget first, since a corner that takes one byte of a file becomes a triangle of many bytes.
     pub fn triangles(
         &self,
         positions: &[Point],
@@ -102,14 +102,14 @@ impl Polygons {
     }
 }
 
-/// Whether a corner of a polygon is an ear, as far as it is known while ears are cut off.
+/// The knowledge about a corner of a polygon while ears are cut off.
 #[derive(Clone, Copy)]
-enum Corner {
-    /// Not known, since a neighbour was cut off.
+enum EarState {
+    /// Unknown, because a neighbour was cut off.
     New,
-    /// It turns inwards.
+    /// The corner turns inwards.
     Reflex,
-    /// The triangle with its neighbours has this corner in it.
+    /// The triangle with its neighbours contains this corner.
     Blocked(usize),
 }
 
@@ -122,30 +122,30 @@ fn polygon(corners: &[u32], start: usize, positions: &[Point], triangles: &mut V
             [left[(k + n - 1) % n], left[k], left[(k + 1) % n]]
         };
         let convex = (0..left.len()).all(|k| turn(around(&left, k)) != Ordering::Less);
-        let mut known = vec![Corner::New; corners.len()];
+        let mut known = vec![EarState::New; corners.len()];
         let mut gone = vec![false; corners.len()];
         while !convex && left.len() > 3 {
-            // The first ear in the polygon's order. What blocks a corner does so until it is cut off itself.
+            // The first ear in the polygon's order. A corner stays blocked until the one that blocks it is cut off.
             let ear = (0..left.len()).find(|&k| {
                 let ear = around(&left, k);
                 match known[ear[1]] {
-                    Corner::Reflex => return false,
-                    Corner::Blocked(p) if !gone[p] => return false,
+                    EarState::Reflex => return false,
+                    EarState::Blocked(p) if !gone[p] => return false,
                     _ => {}
                 }
                 if turn(ear) != Ordering::Greater {
-                    known[ear[1]] = Corner::Reflex;
+                    known[ear[1]] = EarState::Reflex;
                     return false;
                 }
                 let blocking = blocking(ear, &left, corners, &plane);
-                blocking.inspect(|&p| known[ear[1]] = Corner::Blocked(p)).is_none()
+                blocking.inspect(|&p| known[ear[1]] = EarState::Blocked(p)).is_none()
             });
-            // A polygon that crosses itself has no ears at some point: what is left becomes a fan.
+            // A polygon that crosses itself has no ears at some point: the rest becomes a fan.
             let Some(k) = ear else { break };
             let ear = around(&left, k);
             triangles.push(ear.map(|k| start + k));
             gone[ear[1]] = true;
-            (known[ear[0]], known[ear[2]]) = (Corner::New, Corner::New);
+            (known[ear[0]], known[ear[2]]) = (EarState::New, EarState::New);
             left.remove(k);
         }
     }
@@ -153,7 +153,7 @@ fn polygon(corners: &[u32], start: usize, positions: &[Point], triangles: &mut V
     triangles.extend(fan);
 }
 
-/// The first corner that is left and in this counter-clockwise triangle, at its edge included, but not one of its vertices.
+/// The first remaining corner in this counter-clockwise triangle, on its edges included, that is none of its vertices.
 fn blocking(ear: [usize; 3], left: &[usize], corners: &[u32], plane: &[[f64; 2]]) -> Option<usize> {
     let [a, b, c] = ear.map(|k| plane[k]);
     let low: [f64; 2] = std::array::from_fn(|i| a[i].min(b[i]).min(c[i]));
@@ -166,8 +166,8 @@ fn blocking(ear: [usize; 3], left: &[usize], corners: &[u32], plane: &[[f64; 2]]
     })
 }
 
-/// The corners in the coordinate plane onto which the area vector projects largest, counter-clockwise. `None` for corners
-/// without a finite position.
+/// The corners in the coordinate plane on which the area vector is largest, counter-clockwise. `None` for corners without a finite
+/// position.
 fn in_plane(corners: &[u32], positions: &[Point]) -> Option<Vec<[f64; 2]>> {
     let points: Option<Vec<Point>> = corners.iter().map(|&v| positions.get(v as usize).copied()).collect();
     let points = points?;

@@ -1,13 +1,12 @@
-//! Tokens and numbers out of text lines, with errors that name the place.
+//! Tokens and numbers of text lines, with errors that give the position in the file.
 
 use crate::error::{FilePosition, Error, Result};
 use std::fmt::{self, Arguments};
 
-/// What a text in Unicode may begin with.
+/// The character with which a text in Unicode may begin.
 pub(super) const BYTE_ORDER_MARK: char = '\u{feff}';
 
-/// The lines of a text (ended by LF, CR LF or CR) with their 1-based numbers, without comments, trailing blanks and byte
-/// order mark.
+/// The lines of a text (ended by LF, CR LF or CR) with their numbers from 1, without comments, trailing blanks and byte order mark.
 pub(super) fn lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
     let text = text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text);
     // In a file with LF a CR is a blank at the end of its line.
@@ -30,7 +29,7 @@ pub(super) fn words(line: &str) -> impl Iterator<Item = &str> {
     })
 }
 
-/// Where a token stands.
+/// The position of a token in a file.
 #[derive(Clone, Copy)]
 pub(super) struct Location<'a> {
     pub path: &'a str,
@@ -38,12 +37,12 @@ pub(super) struct Location<'a> {
 }
 
 impl<'a> Location<'a> {
-    /// Lines count from 1.
+    /// A line, counted from 1.
     pub fn line(path: &'a str, line: usize) -> Self {
         Location { path, at: FilePosition::Line(line) }
     }
 
-    /// Bytes count from 0.
+    /// A byte, counted from 0.
     pub fn byte(path: &'a str, byte: usize) -> Self {
         Location { path, at: FilePosition::Byte(byte) }
     }
@@ -56,7 +55,7 @@ impl<'a> Location<'a> {
         Err(Error::Parse { path: self.path.into(), at: self.at, message })
     }
 
-    /// A coordinate. `nan` and `inf` are accepted here; the diagnosis names their vertices.
+    /// Reads a coordinate. `nan` and `inf` are accepted here; the diagnosis names their vertices.
     pub fn number(self, token: Option<&str>, what: Arguments<'_>) -> Result<f64> {
         match token {
             Some(t) => t.parse().or_else(|_| self.error(format!("{what} {} is not a number", Quoted(t)))),
@@ -64,7 +63,8 @@ impl<'a> Location<'a> {
         }
     }
 
-    /// A number that `what` gives as that of a vertex: a whole one that is not negative. Whether the vertex exists the diagnosis finds.
+    /// The vertex with this number, which must be whole and not negative; `what` describes it in errors. The diagnosis checks whether the
+    /// vertex exists.
     pub fn vertex(self, number: f64, what: Arguments<'_>) -> Result<u32> {
         if number >= 0.0 && number <= f64::from(u32::MAX) && number.fract() == 0.0 {
             return Ok(number as u32);
@@ -80,7 +80,7 @@ impl<'a> Location<'a> {
     }
 }
 
-/// Text of a file inside a message: between quotes, and cut after 80 characters.
+/// Text of a file inside a message, between quotes and cut after 80 characters.
 pub(super) struct Quoted<'a>(pub &'a str);
 
 impl fmt::Display for Quoted<'_> {
@@ -93,7 +93,7 @@ impl fmt::Display for Quoted<'_> {
     }
 }
 
-/// Tokens over line ends, without comments, and the line they stand on.
+/// Tokens across line ends, without comments, and the line of the last one.
 pub(super) struct Tokens<'a, L> {
     lines: L,
     path: &'a str,
@@ -110,12 +110,12 @@ pub(super) fn tokens<'a>(
 }
 
 impl<'a, L: Iterator<Item = (usize, &'a str)>> Tokens<'a, L> {
-    /// Where the last token stands.
+    /// The position of the last token.
     pub fn place(&self) -> Location<'a> {
         if self.line == 0 { Location::whole(self.path) } else { Location::line(self.path, self.line) }
     }
 
-    /// Skip what is left of the current line.
+    /// Skips the rest of the current line.
     pub fn end_line(&mut self) {
         self.rest = "";
     }
@@ -130,8 +130,7 @@ impl<'a, L: Iterator<Item = (usize, &'a str)>> Tokens<'a, L> {
                 return Some(token);
             }
             let (line, text) = self.lines.next()?;
-            // Blank lines do not count as the place of an error: at the end of the file that is its last
-            // word.
+            // Blank lines are not reported as the position of an error: at the end of the file that is its last word.
             self.line = if text.is_empty() { self.line } else { line };
             self.rest = text;
         }

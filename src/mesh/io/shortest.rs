@@ -1,8 +1,8 @@
-//! Numbers in text files.
+//! Formatting of numbers in text files.
 
 use std::fmt::{Display, Formatter, Result};
 
-/// A finite number with the fewest digits that read back to the same double.
+/// A finite number, displayed with the fewest digits that read back to the same number.
 pub(super) struct Shortest(pub f64);
 
 impl Display for Shortest {

@@ -1,27 +1,27 @@
-//! An indexed triangle list with its attributes, and what a writer asks of one.
+//! An indexed triangle list with its attributes, and the checks before it is written.
 
 use crate::error::{Error, Result, check_size};
 use crate::mesh::Point;
 
-/// An indexed triangle list as a file gives it. Polygons are triangulated: convex ones as fans from their first corner, others
-/// ear by ear. Vertices keep the file's numbering, isolated ones included.
+/// An indexed triangle list as read from a file. Polygons are triangulated: convex ones as fans from their first corner, others ear by
+/// ear. Vertices keep the file's numbering, isolated ones included.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Soup {
-    /// Vertex positions; coordinates may be non-finite, [`crate::mesh::check::diagnose`] finds that.
+    /// Vertex positions; coordinates that are not finite are found by [`crate::mesh::check::diagnose`].
     pub positions: Vec<Point>,
-    /// Corners of each triangle, 0-based. Indices may be out of range, the diagnosis finds that too.
+    /// Corners of each triangle, 0-based. Indices out of range are found by the diagnosis, too.
     pub faces: Vec<[u32; 3]>,
-    /// What else there is at vertices and corners.
+    /// The attributes of vertices and corners.
     pub attributes: Attributes,
 }
 
-/// What a file says beside positions and faces. Where it gives an attribute to some elements only, the others have the default.
+/// The data of a file beside positions and faces. Elements for which the file has no value have the default.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Attributes {
     /// Normal of each vertex (V entries), of any length; by default 0.
     pub normals: Option<Vec<Point>>,
-    /// Normals of each face's corners (F entries), of any length, by default 0: in place of those of the vertices where the corners
-    /// of a vertex have different ones, as at hard edges. Formats that have both write these.
+    /// Normals of each face's corners (F entries), of any length; by default 0. They replace those of the vertices where the corners of a
+    /// vertex have different ones, as at hard edges. Formats that have both write these.
     pub corner_normals: Option<Vec<[Point; 3]>>,
     /// Colour of each vertex (V entries): red, green, blue, opacity, from 0 to 1; by default opaque white.
     pub colors: Option<Vec<[f64; 4]>>,
@@ -35,8 +35,8 @@ pub(super) const WHITE: [f64; 4] = [1.0; 4];
 pub(super) const NO_TEXCOORD: [f64; 2] = [0.0; 2];
 
 impl Attributes {
-    /// The names of the attributes that are left out of a format with one normal per vertex and, unless `corner_uv`, with one pair of
-    /// texture coordinates per vertex.
+    /// The names of the attributes that are left out of a format with one normal per vertex and, unless `corner_uv`, one pair of texture
+    /// coordinates per vertex.
     pub(super) fn left_out(&self, corner_uv: bool) -> Vec<&'static str> {
         let corner_normals = self.corner_normals.as_ref().map(|_| "normals at hard edges");
         let seams =
@@ -64,7 +64,7 @@ impl Soup {
         Soup { positions, faces, attributes: Attributes::default() }
     }
 
-    /// Numbers are finite, corners name vertices, attributes have an entry for each element.
+    /// Checks that numbers are finite, corners name vertices, and attributes have an entry for each element.
     pub(crate) fn check_writable(&self) -> Result<()> {
         let Soup { positions, faces, attributes } = self;
         let Attributes { normals, corner_normals, colors, uv } = attributes;

@@ -1,5 +1,5 @@
-//! STL, ascii and binary. This reader takes a file that begins with `solid` for a binary one where its bytes say so, notices wrong
-//! counts in headers, and its errors name the line or the byte.
+//! Reader of STL, ascii and binary. It recognises a binary file that begins with `solid` by its bytes, notices wrong counts in headers,
+//! and its errors give the line or the byte.
 
 use super::Soup;
 use super::budget::Budget;
@@ -16,12 +16,12 @@ const HEADER: usize = 80;
 /// Bytes of a triangle in a binary file: its normal and corners, twelve `f32`, and two bytes of attributes.
 const TRIANGLE: usize = 50;
 
-/// Parse an STL file. Corners in exactly the same place are one vertex, numbered in order of appearance; normals, which the
-/// corners determine, are skipped. `path` is used in errors.
+/// Parses an STL file. Corners with exactly the same position are one vertex, numbered in order of appearance; normals, which the corners
+/// determine, are skipped. `path` is used in errors.
 ///
-/// A file is binary if its size is that of the triangles it promises, or if it begins with bytes that no text has: what its
-/// first word is says nothing. A binary file may end in less than another triangle, and promise none at all as programs do that
-/// write the number last; any other disagreement is an error that names both numbers.
+/// A file is binary if its size is that of the triangles it announces, or if it begins with bytes that no text has; the first word is not
+/// used. A binary file may end with part of a triangle, or announce none at all, since some programs write the number last; any other
+/// disagreement is an error that gives both numbers.
 ///
 /// # Errors
 ///
@@ -36,17 +36,17 @@ pub fn parse_stl(bytes: &[u8], path: &str) -> Result<Soup> {
     }
 }
 
-/// Whether the beginning has no control characters but those of text. A binary file has others in the filling of its first 80 bytes, in
-/// the number of triangles or in the first coordinates.
+/// True if the beginning has no control characters except those of text. A binary file has others in the filling of its first 80 bytes,
+/// in the number of triangles or in the first coordinates.
 fn is_text(bytes: &[u8]) -> bool {
     const BEGINNING: usize = 1024;
     let of_text = |b: &u8| *b >= b' ' || b.is_ascii_whitespace() || matches!(*b, 0x0b | 0x1a);
     bytes.iter().take(BEGINNING).all(of_text)
 }
 
-/// [`parse_stl`], where corners within the distance `weld` of each other, also by a chain of such corners, are one vertex: that
-/// of the first of them. Faces keep their number; those that collapse use a vertex twice, which the diagnosis finds and
-/// [`crate::mesh::repair`] drops.
+/// [`parse_stl`], but corners within the distance `weld` of each other, also by a chain of such corners, are one vertex at the position
+/// of the first. Faces keep their numbers; those that collapse use a vertex twice, which the diagnosis finds and [`crate::mesh::repair`]
+/// drops.
 ///
 /// # Errors
 ///
@@ -60,14 +60,14 @@ pub fn parse_stl_welded(bytes: &[u8], path: &str, weld: f64) -> Result<Soup> {
     Ok(Soup::new(kept.into_iter().map(|v| positions[v as usize]).collect(), faces))
 }
 
-/// Corners that are in the same place become one vertex.
+/// The vertices, one for all corners with the same position.
 #[derive(Default)]
-struct Weld {
+struct CornerWeld {
     soup: Soup,
     known: HashMap<[u64; 3], u32>,
 }
 
-impl Weld {
+impl CornerWeld {
     fn vertex(&mut self, point: Point) -> u32 {
         // Coordinates that are NaN make a vertex, which the diagnosis names.
         *self.known.entry(place_key(point)).or_insert_with(|| {
@@ -91,7 +91,7 @@ fn binary(bytes: &[u8], count: u32, path: &str) -> Result<Soup> {
             "the header promises {count} triangles, behind it are {whole} and {more} bytes; export it again"
         ));
     }
-    let mut weld = Weld::default();
+    let mut weld = CornerWeld::default();
     for triangle in body.chunks_exact(TRIANGLE) {
         let number = |k: usize| {
             let at = 12 + 4 * k; // behind the normal
@@ -103,61 +103,61 @@ fn binary(bytes: &[u8], count: u32, path: &str) -> Result<Soup> {
     Ok(weld.soup)
 }
 
-/// What the next word of a text file can be.
-enum Expect {
+/// The words that may come next in a text file.
+enum ExpectedWord {
     /// The beginning or end of a solid, a facet or a loop.
     Part,
-    /// Anything up to a facet or the end of this line, the name of a solid; no facet is in the one behind `endsolid`.
+    /// Anything up to a facet or the end of this line, for the name of a solid; after `endsolid` no facet may follow in it.
     Name { line: usize, last: bool },
-    /// Anything up to a loop: the normal, for which programs write all sorts of things.
+    /// Anything up to a loop, for the normal, which programs write in various ways.
     Normal,
-    /// `loop`, behind `outer`.
+    /// `loop`, after `outer`.
     Loop,
     /// A corner, or the end of the loop of these corners.
     Corner(Vec<u32>),
 }
 
-/// Read the text word by word. Line ends mean nothing, except that one ends the name of a solid.
+/// Reads the text word by word. Line ends have no meaning, except that one ends the name of a solid.
 fn ascii(text: &str, path: &str) -> Result<Soup> {
     let mut words = tokens(text, path);
-    let (mut weld, mut polygons) = (Weld::default(), Polygons::default());
-    let (mut expect, mut begun, mut ended) = (Expect::Part, false, false);
+    let (mut weld, mut polygons) = (CornerWeld::default(), Polygons::default());
+    let (mut expect, mut begun, mut ended) = (ExpectedWord::Part, false, false);
     while let Some(word) = words.next() {
         let place = words.place();
         let lower = if word.len() <= 8 { word.to_ascii_lowercase() } else { String::new() };
-        if let Expect::Name { line, .. } = expect
+        if let ExpectedWord::Name { line, .. } = expect
             && line != words.line
         {
-            expect = Expect::Part;
+            expect = ExpectedWord::Part;
         }
         expect = match (lower.as_str(), expect) {
-            ("solid", Expect::Part | Expect::Name { .. }) => Expect::Name { line: words.line, last: false },
-            ("endsolid", Expect::Part | Expect::Name { last: false, .. }) => {
+            ("solid", ExpectedWord::Part | ExpectedWord::Name { .. }) => ExpectedWord::Name { line: words.line, last: false },
+            ("endsolid", ExpectedWord::Part | ExpectedWord::Name { last: false, .. }) => {
                 ended = true;
-                Expect::Name { line: words.line, last: true }
+                ExpectedWord::Name { line: words.line, last: true }
             }
-            ("facet", Expect::Part | Expect::Name { last: false, .. }) => Expect::Normal,
-            ("endfacet", Expect::Part) => Expect::Part,
-            ("outer", Expect::Part | Expect::Normal) => Expect::Loop,
-            ("loop", Expect::Loop) => Expect::Corner(Vec::new()),
-            ("vertex", Expect::Corner(mut corners)) => {
+            ("facet", ExpectedWord::Part | ExpectedWord::Name { last: false, .. }) => ExpectedWord::Normal,
+            ("endfacet", ExpectedWord::Part) => ExpectedWord::Part,
+            ("outer", ExpectedWord::Part | ExpectedWord::Normal) => ExpectedWord::Loop,
+            ("loop", ExpectedWord::Loop) => ExpectedWord::Corner(Vec::new()),
+            ("vertex", ExpectedWord::Corner(mut corners)) => {
                 let mut point: Point = [0.0; 3];
                 for (x, name) in point.iter_mut().zip(["x", "y", "z"]) {
                     let token = words.next();
                     *x = words.place().number(token, format_args!("coordinate {name}"))?;
                 }
                 corners.push(weld.vertex(point));
-                Expect::Corner(corners)
+                ExpectedWord::Corner(corners)
             }
-            ("endloop", Expect::Corner(corners)) if corners.len() >= 3 => {
+            ("endloop", ExpectedWord::Corner(corners)) if corners.len() >= 3 => {
                 polygons.push(corners);
-                Expect::Part
+                ExpectedWord::Part
             }
-            ("endloop", Expect::Corner(corners)) => {
+            ("endloop", ExpectedWord::Corner(corners)) => {
                 return place.error(format!("a loop of {} corners; a face has three", corners.len()));
             }
-            (_, name @ Expect::Name { .. }) => name,
-            (_, Expect::Normal) => Expect::Normal,
+            (_, name @ ExpectedWord::Name { .. }) => name,
+            (_, ExpectedWord::Normal) => ExpectedWord::Normal,
             _ if !begun => return place.error(NO_STL.into()),
             _ => return place.error(format!("{} has no place here in an STL file", Quoted(word))),
         };
@@ -165,8 +165,8 @@ fn ascii(text: &str, path: &str) -> Result<Soup> {
     }
     let place = words.place();
     match expect {
-        Expect::Corner(_) | Expect::Loop => return place.error("the file ends inside a loop".into()),
-        Expect::Normal => return place.error("the file ends inside a facet".into()),
+        ExpectedWord::Corner(_) | ExpectedWord::Loop => return place.error("the file ends inside a loop".into()),
+        ExpectedWord::Normal => return place.error("the file ends inside a facet".into()),
         _ if !begun => return Location::whole(path).error(NO_STL.into()),
         _ if polygons.is_empty() && !ended => {
             return place.error("the file has neither a facet nor the word `endsolid`".into());

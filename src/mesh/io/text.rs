@@ -1,7 +1,7 @@
-//! Text made of many numbers, formatted in blocks side by side.
+//! Text that consists of many numbers, formatted in blocks by several threads.
 //!
 //! ```
-//! use ricci::mesh::io::text::{Text, write_blocks};
+//! use ricci::mesh::io::text::{TextBuilder, write_blocks};
 //! let mut file = Vec::new();
 //! write_blocks(&mut file, 3, |text, k| {
 //!     text.count(k as u64);
@@ -16,32 +16,32 @@
 use crate::parallel;
 use std::io::{self, Write};
 
-/// Items that are formatted in one piece of work.
+/// Items that one thread formats at a time.
 const ITEMS: usize = 4096;
-/// Blocks that are held before they are written: what is in memory at a time.
+/// Blocks that are held before they are written; this bounds the memory.
 const BLOCKS: usize = 16;
 /// Bytes for which a block has room at first; most items have up to three numbers.
 const BYTES_PER_ITEM: usize = 64;
 /// Most digits of a whole number.
 const MOST_DIGITS: usize = 20;
 
-/// Half of the bytes in which every double has room: 24 at most. Most numbers have more than half.
+/// Half of the bytes in which every f64 has room, which needs 24 at most. Most numbers need more than half.
 const HALF: usize = 16;
 
-/// Text in the making.
+/// A text while it is written.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Text {
+pub struct TextBuilder {
     bytes: Vec<u8>,
 }
 
-impl Text {
-    /// Append words.
+impl TextBuilder {
+    /// Appends words.
     #[inline]
     pub fn text(&mut self, words: &str) {
         self.bytes.extend_from_slice(words.as_bytes());
     }
 
-    /// Append one character.
+    /// Appends one character.
     #[inline]
     pub fn character(&mut self, c: char) {
         match u8::try_from(c) {
@@ -50,7 +50,7 @@ impl Text {
         }
     }
 
-    /// Append a finite number with the fewest digits that read back to the same double.
+    /// Appends a finite number with the fewest digits that read back to the same number.
     #[inline]
     pub fn number(&mut self, x: f64) {
         let mut buffer = zmij::Buffer::new();
@@ -67,7 +67,7 @@ impl Text {
         self.bytes.truncate(end);
     }
 
-    /// Append a whole number.
+    /// Appends a whole number.
     #[inline]
     pub fn count(&mut self, mut n: u64) {
         let (begin, digits) = (self.bytes.len(), n.checked_ilog10().unwrap_or(0) as usize + 1);
@@ -79,34 +79,34 @@ impl Text {
         }
     }
 
-    /// What there is so far.
+    /// The bytes so far.
     pub fn as_bytes(&self) -> &[u8] {
         &self.bytes
     }
 }
 
-/// What is formatted by `format!` and its like is appended.
-impl std::fmt::Write for Text {
+/// The text of `format!` and the like is appended.
+impl std::fmt::Write for TextBuilder {
     fn write_str(&mut self, words: &str) -> std::fmt::Result {
         self.text(words);
         Ok(())
     }
 }
 
-/// Writes the text of items 0 to n − 1, one after the other. Inside a pool they are formatted side by side.
+/// Writes the text of items 0 to n − 1, one after the other. Inside a pool they are formatted in parallel.
 ///
 /// # Errors
 /// Those of writing.
 pub fn write_blocks(
     out: &mut impl Write,
     n: usize,
-    item: impl Fn(&mut Text, usize) + Sync,
+    item: impl Fn(&mut TextBuilder, usize) + Sync,
 ) -> io::Result<()> {
     let block = |b: usize| {
         let items = b * ITEMS..((b + 1) * ITEMS).min(n);
-        // A file is seldom what others wait for.
+        // Other tasks seldom wait for a file.
         parallel::give_way();
-        let mut text = Text { bytes: Vec::with_capacity(BYTES_PER_ITEM * items.len()) };
+        let mut text = TextBuilder { bytes: Vec::with_capacity(BYTES_PER_ITEM * items.len()) };
         items.for_each(|k| item(&mut text, k));
         text
     };
@@ -129,7 +129,7 @@ mod tests {
         let mut numbers = vec![0.0, -0.0, 1.0, -2.5, 0.1, -f64::MIN_POSITIVE, f64::MAX, 5e-324, 1.0 / 3.0];
         numbers.extend((0..2000).map(|_| f64::from_bits(random.bits())).filter(|x| x.is_finite()));
         for x in numbers {
-            let mut text = Text::default();
+            let mut text = TextBuilder::default();
             text.character('[');
             text.number(x);
             text.character('²');
@@ -143,7 +143,7 @@ mod tests {
     #[test]
     fn whole_numbers_are_written_as_format_does() {
         for n in [0, 7, 10, 99, 100, 4_294_967_295, u64::MAX] {
-            let mut text = Text::default();
+            let mut text = TextBuilder::default();
             text.count(n);
             assert_eq!(text.as_bytes(), n.to_string().as_bytes());
         }
@@ -155,7 +155,7 @@ mod tests {
         let expected: String = (0..n).map(|k| format!("{k};")).collect();
         for threads in [1, 2, 8] {
             let mut written = Vec::new();
-            let item = |text: &mut Text, k: usize| {
+            let item = |text: &mut TextBuilder, k: usize| {
                 text.count(k as u64);
                 text.text(";");
             };

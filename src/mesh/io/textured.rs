@@ -1,23 +1,23 @@
-//! Triangle lists whose corners number positions and texture coordinates apart, as OBJ has them.
+//! Triangle lists whose corners have separate numbers for positions and texture coordinates, as in OBJ.
 
 use super::soup::{Attributes, Soup, finite, in_range};
 use crate::error::{Error, Result, check_size};
 use crate::mesh::Point;
 use std::collections::HashMap;
 
-/// What [`super::write_obj`] and [`super::write_glb`] write.
+/// The data for [`super::write_obj`] and [`super::write_glb`].
 #[derive(Debug, Clone, Copy, Default)]
-pub struct Textured<'a> {
+pub struct TexturedMesh<'a> {
     /// Vertex positions.
     pub positions: &'a [Point],
     /// Colours of the vertices: red, green, blue, opacity, from 0 to 1; empty for none.
     pub colors: &'a [[f64; 4]],
-    /// Normals, of the vertices unless `face_normals` says whose; empty for none.
+    /// Normals, of the vertices unless `face_normals` says otherwise; empty for none.
     pub normals: &'a [Point],
     /// Texture coordinates; empty for none.
     pub texcoords: &'a [[f64; 2]],
     /// Homogeneous weights q of the texture coordinates, one for each; empty for none. OBJ then has `vt qs qt q`: within a triangle the
-    /// map to the texture is linear in these three, and divided by the third. Other formats have no place for them.
+    /// map to the texture is linear in these three, and divided by the third. Other formats cannot hold them.
     pub texcoord_weights: &'a [f64],
     /// Corners of the faces, 0-based into `positions`.
     pub faces: &'a [[u32; 3]],
@@ -27,8 +27,8 @@ pub struct Textured<'a> {
     pub face_normals: &'a [[u32; 3]],
 }
 
-impl Textured<'_> {
-    /// Numbers are finite, corners name entries, attributes have an entry for each element.
+impl TexturedMesh<'_> {
+    /// Checks that numbers are finite, corners name entries, and attributes have an entry for each element.
     pub(super) fn check(&self) -> Result<()> {
         let (n, f) = (self.positions.len(), self.faces.len());
         let vertex_normals = if self.face_normals.is_empty() { self.normals.len() } else { 0 };
@@ -53,13 +53,13 @@ impl Textured<'_> {
     }
 }
 
-/// Call `write` with the triangle list that a soup is; equal texture coordinates are one entry, and so are equal normals of corners.
-pub(super) fn with_textured<T>(soup: &Soup, write: impl FnOnce(&Textured<'_>) -> Result<T>) -> Result<T> {
+/// Calls `write` with a soup; equal texture coordinates become one entry, and so do equal normals of corners.
+pub(super) fn with_textured<T>(soup: &Soup, write: impl FnOnce(&TexturedMesh<'_>) -> Result<T>) -> Result<T> {
     soup.check_writable()?;
     let Attributes { normals, corner_normals, colors, uv } = &soup.attributes;
     let (texcoords, face_texcoords) = indexed("texture coordinates", uv.as_deref().unwrap_or_default())?;
     let (of_corners, face_normals) = indexed("normals", corner_normals.as_deref().unwrap_or_default())?;
-    write(&Textured {
+    write(&TexturedMesh {
         positions: &soup.positions,
         faces: &soup.faces,
         colors: colors.as_deref().unwrap_or_default(),
@@ -71,7 +71,7 @@ pub(super) fn with_textured<T>(soup: &Soup, write: impl FnOnce(&Textured<'_>) ->
     })
 }
 
-/// The different values in order of appearance, and which of them the corners have.
+/// The different values in order of appearance, and the number of the value at each corner.
 fn indexed<const N: usize>(
     what: &'static str,
     corners: &[[[f64; N]; 3]],

@@ -1,53 +1,53 @@
-//! Numbers of a glTF file where they lie [glTF 2.0, section 3.6]. Every range is checked against its buffer before anything is
-//! read or allocated.
+//! Access to the numbers of a glTF file [glTF 2.0, section 3.6]. Every range is checked against its buffer before anything is read or
+//! allocated.
 
 use super::super::budget::Budget;
-use super::super::kind::Kind;
+use super::super::kind::NumberType;
 use super::super::scan::Location;
-use super::document::{Document, Shape, Sparse};
+use super::document::{GltfDocument, ElementShape, Sparse};
 use super::locate::locate;
 use crate::error::Result;
 use std::borrow::Cow;
 
 /// A document with the bytes of its buffers.
-pub(super) struct File<'a> {
-    pub document: &'a Document,
-    pub buffers: Vec<Stored<'a>>,
+pub(super) struct GltfFile<'a> {
+    pub document: &'a GltfDocument,
+    pub buffers: Vec<StoredBytes<'a>>,
     pub path: &'a str,
-    /// The text of the document, and the byte of the file at which it begins.
+    /// The text of the document, and its first byte in the file.
     pub json: &'a [u8],
     pub json_start: usize,
 }
 
-/// The bytes of a buffer, and the byte of the file at which they begin unless they were encoded as text.
-pub(super) struct Stored<'a> {
+/// The bytes of a buffer, and their first byte in the file unless they were encoded as text.
+pub(super) struct StoredBytes<'a> {
     pub bytes: Cow<'a, [u8]>,
     pub start: Option<usize>,
 }
 
 /// The type of components with this code.
-fn component(code: u32) -> Option<Kind> {
+fn component(code: u32) -> Option<NumberType> {
     Some(match code {
-        5120 => Kind::I8,
-        5121 => Kind::U8,
-        5122 => Kind::I16,
-        5123 => Kind::U16,
-        5125 => Kind::U32,
-        5126 => Kind::F32,
+        5120 => NumberType::I8,
+        5121 => NumberType::U8,
+        5122 => NumberType::I16,
+        5123 => NumberType::U16,
+        5125 => NumberType::U32,
+        5126 => NumberType::F32,
         _ => return None,
     })
 }
 
-/// The type of whole numbers that are not negative, with this code.
-fn unsigned(code: u32) -> Option<Kind> {
-    component(code).filter(|kind| matches!(kind, Kind::U8 | Kind::U16 | Kind::U32))
+/// The type with this code, if it is an unsigned integer.
+fn unsigned(code: u32) -> Option<NumberType> {
+    component(code).filter(|kind| matches!(kind, NumberType::U8 | NumberType::U16 | NumberType::U32))
 }
 
-/// Elements as the document names them: `count` of `width` components each, from byte `offset` of a buffer view.
-struct Run {
+/// Elements as the document describes them: `count` of `width` components each, from byte `offset` of a buffer view.
+struct ElementRun {
     view: u32,
     offset: usize,
-    kind: Kind,
+    kind: NumberType,
     width: usize,
     count: usize,
 }
@@ -56,16 +56,16 @@ struct Run {
 #[derive(Clone, Copy)]
 struct Elements<'a> {
     bytes: &'a [u8],
-    /// The byte of the file at which they begin, unless they were encoded as text.
+    /// Their first byte in the file, unless they were encoded as text.
     start: Option<usize>,
-    kind: Kind,
+    kind: NumberType,
     width: usize,
     stride: usize,
     count: usize,
 }
 
 impl Elements<'_> {
-    /// Where element `i` stands, or the place of what names it.
+    /// The position of element `i`, or of the part of the document that describes it.
     fn place<'p>(&self, i: usize, else_at: Location<'p>) -> Location<'p> {
         self.start.map_or(else_at, |start| Location::byte(else_at.path, start + i * self.stride))
     }
@@ -75,24 +75,24 @@ impl Elements<'_> {
     }
 }
 
-/// Numbers of one accessor.
+/// The numbers of one accessor.
 pub(super) struct Accessor<'a> {
     index: u32,
-    /// What it is used for.
+    /// Its use, for errors.
     what: &'static str,
     pub count: usize,
     width: usize,
-    /// What numbers are divided by where they stand for fractions.
+    /// The divisor of numbers that stand for fractions.
     full: Option<f64>,
     is_unsigned: bool,
-    /// `None`: zeros.
+    /// `None` for zeros.
     dense: Option<Elements<'a>>,
-    /// Elements that differ, and what they are.
+    /// The indices of the elements that differ, and their values.
     sparse: Option<(Elements<'a>, Elements<'a>)>,
 }
 
-impl<'a> File<'a> {
-    /// Where entry `index` of an array of the document stands.
+impl<'a> GltfFile<'a> {
+    /// The position of entry `index` of an array of the document.
     pub fn place_of(&self, array: &str, index: usize) -> Location<'a> {
         match locate(self.json, array, index) {
             Some(at) => Location::byte(self.path, self.json_start + at),
@@ -104,8 +104,8 @@ impl<'a> File<'a> {
         Location::whole(self.path)
     }
 
-    /// The accessor that `what` names; it holds one of these shapes.
-    pub fn accessor(&'a self, index: u32, what: &'static str, shapes: &[Shape]) -> Result<Accessor<'a>> {
+    /// The accessor with this index, which must hold one of these shapes; `what` describes it in errors.
+    pub fn accessor(&'a self, index: u32, what: &'static str, shapes: &[ElementShape]) -> Result<Accessor<'a>> {
         let Some(text) = self.document.accessors.get(index as usize) else {
             return self.whole().error(format!("{what} names accessor {index}, which does not exist"));
         };
@@ -117,15 +117,15 @@ impl<'a> File<'a> {
         };
         let width = match text.shape {
             shape if !shapes.contains(&shape) => return fail(format!("{shape:?} has no meaning there")),
-            Shape::Scalar => 1,
-            Shape::Vec2 => 2,
-            Shape::Vec3 => 3,
-            Shape::Vec4 | Shape::Mat2 => 4,
-            Shape::Mat3 => 9,
-            Shape::Mat4 => 16,
+            ElementShape::Scalar => 1,
+            ElementShape::Vec2 => 2,
+            ElementShape::Vec3 => 3,
+            ElementShape::Vec4 | ElementShape::Mat2 => 4,
+            ElementShape::Mat3 => 9,
+            ElementShape::Mat4 => 16,
         };
         let count = text.count;
-        let dense = text.buffer_view.map(|view| Run { view, offset: text.byte_offset, kind, width, count });
+        let dense = text.buffer_view.map(|view| ElementRun { view, offset: text.byte_offset, kind, width, count });
         let dense = dense.map(|run| self.elements(run)).transpose();
         let sparse = text.sparse.as_deref().map(|sparse| self.sparse(sparse, kind, width)).transpose();
         match (dense, sparse) {
@@ -144,11 +144,11 @@ impl<'a> File<'a> {
         }
     }
 
-    /// Which elements differ from the others, and what they are; the error says what is wrong.
+    /// The indices of the elements that differ, and their values; the error is a message.
     fn sparse(
         &'a self,
         text: &Sparse,
-        kind: Kind,
+        kind: NumberType,
         width: usize,
     ) -> std::result::Result<(Elements<'a>, Elements<'a>), String> {
         let Some(index) = unsigned(text.indices.component_type) else {
@@ -156,14 +156,14 @@ impl<'a> File<'a> {
         };
         let (count, indices, values) = (text.count, &text.indices, &text.values);
         let indices =
-            Run { view: indices.buffer_view, offset: indices.byte_offset, kind: index, width: 1, count };
-        let values = Run { view: values.buffer_view, offset: values.byte_offset, kind, width, count };
+            ElementRun { view: indices.buffer_view, offset: indices.byte_offset, kind: index, width: 1, count };
+        let values = ElementRun { view: values.buffer_view, offset: values.byte_offset, kind, width, count };
         Ok((self.elements(indices)?, self.elements(values)?))
     }
 
-    /// The bytes of a run of elements; the error says what is wrong.
-    fn elements(&'a self, run: Run) -> std::result::Result<Elements<'a>, String> {
-        let Run { view, offset, kind, width, count } = run;
+    /// The bytes of a run of elements; the error is a message.
+    fn elements(&'a self, run: ElementRun) -> std::result::Result<Elements<'a>, String> {
+        let ElementRun { view, offset, kind, width, count } = run;
         let Some(text) = self.document.buffer_views.get(view as usize) else {
             return Err(format!("buffer view {view} does not exist"));
         };
@@ -198,8 +198,8 @@ impl<'a> File<'a> {
 }
 
 impl Accessor<'_> {
-    /// Where the document describes it.
-    pub fn place<'p>(&self, file: &File<'p>) -> Location<'p> {
+    /// The position of its description in the document.
+    pub fn place<'p>(&self, file: &GltfFile<'p>) -> Location<'p> {
         file.place_of("accessors", self.index as usize)
     }
 
@@ -208,7 +208,7 @@ impl Accessor<'_> {
         &self,
         fill: f64,
         budget: &mut Budget,
-        file: &File<'_>,
+        file: &GltfFile<'_>,
     ) -> Result<Vec<[f64; N]>> {
         budget.take(self.count, size_of::<[f64; N]>(), self.what, file.whole())?;
         let value = |x: f64| self.full.map_or(x, |full| (x / full).max(-1.0));
@@ -238,7 +238,7 @@ impl Accessor<'_> {
     }
 
     /// All elements as vertex numbers below `n`.
-    pub fn indices(&self, n: usize, budget: &mut Budget, file: &File<'_>) -> Result<Vec<u32>> {
+    pub fn indices(&self, n: usize, budget: &mut Budget, file: &GltfFile<'_>) -> Result<Vec<u32>> {
         if !self.is_unsigned {
             return self.place(file).error("indices are no unsigned integers".into());
         }

@@ -1,24 +1,24 @@
-//! The parts of a glTF 2.0 document that are read. All others are skipped without being stored, and those that are read take little
-//! more memory than their text, so that a document cannot take many times its size.
+//! The parts of a glTF 2.0 document that are read. All others are skipped without being stored, and those that are read take little more
+//! memory than their text, so that a document cannot take many times its size.
 
 use serde::Deserialize;
 
 /// The JSON document [glTF 2.0, section 5].
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
-pub(super) struct Document {
+pub(super) struct GltfDocument {
     pub asset: Asset,
     #[serde(default)]
     pub extensions_required: Vec<String>,
     pub scene: Option<usize>,
     #[serde(default)]
-    pub scenes: Vec<Scene>,
+    pub scenes: Vec<GltfScene>,
     #[serde(default)]
-    pub nodes: Vec<Node>,
+    pub nodes: Vec<GltfNode>,
     #[serde(default)]
-    pub meshes: Vec<Mesh>,
+    pub meshes: Vec<GltfMesh>,
     #[serde(default)]
-    pub accessors: Vec<Accessor>,
+    pub accessors: Vec<AccessorEntry>,
     #[serde(default)]
     pub buffer_views: Vec<BufferView>,
     #[serde(default)]
@@ -31,17 +31,17 @@ pub(super) struct Asset {
 }
 
 #[derive(Deserialize)]
-pub(super) struct Scene {
+pub(super) struct GltfScene {
     #[serde(default)]
     pub nodes: Vec<u32>,
 }
 
-/// A node; its transform, if it has one, as one affine map.
+/// A node; its transform, if it has one, as an affine map.
 #[derive(Deserialize)]
 #[serde(from = "NodeText")]
-pub(super) struct Node {
+pub(super) struct GltfNode {
     pub mesh: Option<u32>,
-    /// Whether the mesh has a skin: its place is then that of its joints, not that of this node.
+    /// True if the mesh has a skin: its position is then that of its joints, not of this node.
     pub skinned: bool,
     pub children: Box<[u32]>,
     pub transform: Option<Box<Affine>>,
@@ -59,8 +59,8 @@ struct NodeText {
     scale: Option<[f64; 3]>,
 }
 
-impl From<NodeText> for Node {
-    fn from(text: NodeText) -> Node {
+impl From<NodeText> for GltfNode {
+    fn from(text: NodeText) -> GltfNode {
         let NodeText { mesh, skin, children, matrix, translation, rotation, scale } = text;
         let transform = match matrix {
             Some(m) => Some(Affine::from_columns(&m)),
@@ -71,7 +71,7 @@ impl From<NodeText> for Node {
                 scale.unwrap_or([1.0; 3]),
             )),
         };
-        Node { mesh, skinned: skin.is_some(), children, transform: transform.map(Box::new) }
+        GltfNode { mesh, skinned: skin.is_some(), children, transform: transform.map(Box::new) }
     }
 }
 
@@ -95,7 +95,7 @@ impl Affine {
         }
     }
 
-    /// First scale, then rotate by the quaternion (x, y, z, w), then translate.
+    /// The map that scales, then rotates by the quaternion (x, y, z, w), then translates.
     fn from_parts(translation: [f64; 3], [x, y, z, w]: [f64; 4], scale: [f64; 3]) -> Affine {
         let square = x * x + y * y + z * z + w * w;
         let s = if square > 0.0 { 2.0 / square } else { 0.0 };
@@ -108,7 +108,7 @@ impl Affine {
         Affine { linear, translation }
     }
 
-    /// First `inner`, then this.
+    /// The composition that applies `inner` first, then this map.
     pub fn after(&self, inner: &Affine) -> Affine {
         let column = |j: usize| self.turn(std::array::from_fn(|i| inner.linear[i][j]));
         let columns = [column(0), column(1), column(2)];
@@ -127,10 +127,10 @@ impl Affine {
         self.linear.map(|row| row[0] * x[0] + row[1] * x[1] + row[2] * x[2])
     }
 
-    /// The map of normals up to a positive factor, the cofactors of the linear part turned with the orientation; and whether that
-    /// is turned around.
+    /// The map of normals up to a positive factor, which consists of the cofactors of the linear part times the sign of its determinant;
+    /// and true if that is negative.
     pub fn of_normals(&self) -> (Affine, bool) {
-        // At size 1, so that no product leaves the range of doubles.
+        // Scaled to size 1, so that no product leaves the range of f64.
         let size = self.linear.as_flattened().iter().fold(0.0f64, |most, x| most.max(x.abs()));
         let m = if size > 0.0 { self.linear.map(|row| row.map(|x| x / size)) } else { self.linear };
         let cofactor = |i: usize, j: usize| {
@@ -145,20 +145,20 @@ impl Affine {
 }
 
 #[derive(Deserialize)]
-pub(super) struct Mesh {
+pub(super) struct GltfMesh {
     pub primitives: Vec<Primitive>,
 }
 
 #[derive(Deserialize)]
 pub(super) struct Primitive {
-    pub attributes: Named,
+    pub attributes: AttributeAccessors,
     pub indices: Option<u32>,
     pub mode: Option<u32>,
 }
 
 /// The accessors of the attributes that are read.
 #[derive(Deserialize)]
-pub(super) struct Named {
+pub(super) struct AttributeAccessors {
     #[serde(rename = "POSITION")]
     pub position: Option<u32>,
     #[serde(rename = "NORMAL")]
@@ -173,7 +173,7 @@ pub(super) struct Named {
 
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
-pub(super) struct Accessor {
+pub(super) struct AccessorEntry {
     pub buffer_view: Option<u32>,
     #[serde(default)]
     pub byte_offset: usize,
@@ -182,13 +182,13 @@ pub(super) struct Accessor {
     pub normalized: bool,
     pub count: usize,
     #[serde(rename = "type")]
-    pub shape: Shape,
+    pub shape: ElementShape,
     pub sparse: Option<Box<Sparse>>,
 }
 
 #[derive(Deserialize, Clone, Copy, PartialEq, Debug)]
 #[serde(rename_all = "UPPERCASE")]
-pub(super) enum Shape {
+pub(super) enum ElementShape {
     Scalar,
     Vec2,
     Vec3,

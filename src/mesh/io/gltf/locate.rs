@@ -1,9 +1,9 @@
-//! Where a part of a JSON document stands: the parser does not say it, so that it is searched for when an error names the place.
+//! Search for the position of a part of a JSON document, which the parser does not report, for error messages.
 
-/// The byte at which entry `index` begins in the array `key` of the outermost object of a sound document.
+/// The first byte of entry `index` in the array `key` of the outermost object of a valid document.
 pub(super) fn locate(json: &[u8], key: &str, index: usize) -> Option<usize> {
     let (mut at, mut depth, mut left) = (0, 0usize, index);
-    // The last string of the outermost object, and whether we are in the array that it names.
+    // The last string of the outermost object, and true inside the array with this name.
     let (mut name, mut inside): (&[u8], bool) = (b"", false);
     while let Some(&byte) = json.get(at) {
         if inside && depth == 2 && left == 0 && !byte.is_ascii_whitespace() && byte != b',' {
@@ -43,7 +43,7 @@ fn end_of_string(json: &[u8], start: usize) -> Option<usize> {
     }
 }
 
-/// The byte of a line and column as the JSON parser counts them, both from 1.
+/// The byte at a line and column as the JSON parser counts them, both from 1.
 pub(super) fn byte_of(json: &[u8], line: usize, column: usize) -> usize {
     let start: usize =
         json.split_inclusive(|&b| b == b'\n').take(line.saturating_sub(1)).map(<[u8]>::len).sum();

@@ -1,4 +1,4 @@
-//! glTF 2.0: binary files (.glb), and .gltf files that carry their buffers with them. The format is Khronos',
+//! Reader and writer of glTF 2.0: binary files (.glb), and .gltf files that contain their buffers. The format is Khronos',
 //! <https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html>.
 
 mod accessor;
@@ -14,25 +14,25 @@ use super::budget::Budget;
 use super::scan::{Location, Quoted};
 use super::{Soup, base64};
 use crate::error::Result;
-use accessor::{File, Stored};
-use document::{Buffer, Document};
+use accessor::{GltfFile, StoredBytes};
+use document::{Buffer, GltfDocument};
 use locate::byte_of;
 use std::borrow::Cow;
 
-/// Beginnings of the names of extensions that a file may require: they change no triangle, or allow integers as positions.
+/// Prefixes of the extensions that a file may require: they change no triangle, or allow integers as positions.
 const KNOWN_EXTENSIONS: [&str; 5] =
     ["KHR_mesh_quantization", "KHR_materials_", "KHR_texture_", "KHR_lights_", "EXT_texture_"];
 
-/// Parse a glTF 2.0 file, binary or, if it begins with `{`, text: the meshes of its scene in space, one after the other.
+/// Parses a glTF 2.0 file, binary or, if it begins with `{`, text: the meshes of its scene in space, one after the other.
 ///
-/// Nodes are applied (mirrors turn faces around). A vertex of glTF has one normal and one pair of texture coordinates, so that files
-/// give those along seams and hard edges more than once: vertices of a mesh in exactly the same place become one, which keeps the
-/// number of the first, its colour, and the normals and texture coordinates of all at their corners; our own files say in the
-/// attribute `_RICCI_VERTEX` where that would be one too many. Triangles, strips and fans are faces; the vertices of
-/// points and lines have none. Attributes are `NORMAL`, `COLOR_0` (linear, as they stand) and `TEXCOORD_0`, with v upwards as
-/// everywhere else here: glTF counts it downwards. What a primitive
-/// lacks and another has is filled up with the defaults of [`super::Attributes`]. Skins and morph targets are left as stored. Buffers are
-/// the binary chunk and base64 data; other files are refused by name, and so is what an extension compresses. `path` is used in errors.
+/// The transforms of nodes are applied (mirrors turn faces around). A vertex of glTF has one normal and one pair of texture coordinates,
+/// so files repeat vertices along seams and hard edges: vertices of a mesh with exactly the same position become one, which keeps the
+/// number of the first, its colour, and the normals and texture coordinates of all at their corners. Files of this library mark vertices
+/// that must not be joined by the attribute `_RICCI_VERTEX`. Triangles, strips and fans are faces; the vertices of points and lines have
+/// none. Attributes are `NORMAL`, `COLOR_0` (linear, as stored) and `TEXCOORD_0`, whose v is turned upwards as everywhere in this
+/// library. Attributes that only some primitives have are filled up with the defaults of [`super::Attributes`]. Skins and morph targets
+/// are not applied. Buffers are the binary chunk and base64 data; other files are refused with their names, and so are compressed
+/// buffers. `path` is used in errors.
 ///
 /// # Errors
 ///
@@ -46,7 +46,7 @@ pub fn parse_glb(bytes: &[u8], path: &str) -> Result<Soup> {
         chunks(bytes, path)?
     };
     let text = &bytes[json.start..json.end];
-    let document: Document = match serde_json::from_slice(text) {
+    let document: GltfDocument = match serde_json::from_slice(text) {
         Ok(document) => document,
         Err(e) => {
             let said = e.to_string();
@@ -64,7 +64,7 @@ pub fn parse_glb(bytes: &[u8], path: &str) -> Result<Soup> {
         return place.error(format!("the file needs the extension {name}; export it without"));
     }
     let mut file =
-        File { document: &document, buffers: Vec::new(), path, json: text, json_start: json.start };
+        GltfFile { document: &document, buffers: Vec::new(), path, json: text, json_start: json.start };
     for (i, text) in document.buffers.iter().enumerate() {
         match buffer(i, text, bytes, binary) {
             Ok(found) => file.buffers.push(found),
@@ -115,26 +115,26 @@ fn chunks(bytes: &[u8], path: &str) -> Result<(Chunk, Option<Chunk>)> {
     }
 }
 
-/// The bytes of buffer `i`; the error says what is wrong with it.
+/// The bytes of buffer `i`; the error is a message.
 fn buffer<'a>(
     i: usize,
     buffer: &Buffer,
     file: &'a [u8],
     binary: Option<Chunk>,
-) -> std::result::Result<Stored<'a>, String> {
+) -> std::result::Result<StoredBytes<'a>, String> {
     let stored = match (&buffer.uri, binary) {
         (Some(uri), _) => match uri.strip_prefix("data:").and_then(|data| data.split_once(";base64,")) {
             Some((_, text)) => {
                 let bytes =
                     base64::decode(text.as_bytes()).map_err(|message| format!("is damaged: {message}"))?;
-                Stored { bytes: Cow::Owned(bytes), start: None }
+                StoredBytes { bytes: Cow::Owned(bytes), start: None }
             }
             None => {
                 return Err(format!("is in another file, {}; export it as a single .glb file", Quoted(uri)));
             }
         },
         (None, Some(Chunk { start, end })) if i == 0 => {
-            Stored { bytes: Cow::Borrowed(&file[start..end]), start: Some(start) }
+            StoredBytes { bytes: Cow::Borrowed(&file[start..end]), start: Some(start) }
         }
         (None, _) => return Err("has no data in the file".into()),
     };

@@ -1,9 +1,9 @@
-//! The meshes of a scene, in space.
+//! Assembly of the meshes of a glTF scene in space.
 
 use super::super::budget::Budget;
 use super::super::scan::Location;
-use super::accessor::File;
-use super::document::{Affine, Primitive, Shape};
+use super::accessor::GltfFile;
+use super::document::{Affine, Primitive, ElementShape};
 use super::seams::first_alike;
 use crate::error::{Error, Result};
 use crate::mesh::Point;
@@ -15,13 +15,13 @@ use crate::mesh::weld::place_key;
 const TRIANGLES: u32 = 4;
 const STRIP: u32 = 5;
 const FAN: u32 = 6;
-/// Bytes that each primitive takes off the budget, an empty one too: nodes may show one mesh often, and each time takes a while.
+/// Bytes that each primitive takes off the budget, even an empty one: nodes may use one mesh often, and each use takes time.
 const PRIMITIVE: usize = 64;
 
-/// All meshes below the roots of the scene: the default one, else the first, else every mesh where it stands.
-pub(super) fn soup(file: &File<'_>, budget: Budget) -> Result<Soup> {
+/// All meshes below the roots of the scene: the default one, else the first, else every mesh where it is.
+pub(super) fn soup(file: &GltfFile<'_>, budget: Budget) -> Result<Soup> {
     let document = file.document;
-    let mut out = Collected {
+    let mut out = CollectedMeshes {
         file,
         budget,
         soup: Soup::default(),
@@ -67,39 +67,39 @@ pub(super) fn soup(file: &File<'_>, budget: Budget) -> Result<Soup> {
     out.finish()
 }
 
-/// What has been read so far. The list of an attribute ends with the last primitive that has it.
-struct Collected<'a> {
-    file: &'a File<'a>,
+/// The primitives that have been read. The list of an attribute ends with the last primitive that has it.
+struct CollectedMeshes<'a> {
+    file: &'a GltfFile<'a>,
     budget: Budget,
     soup: Soup,
     normals: Vec<Point>,
     colors: Vec<[f64; 4]>,
     uv: Vec<[[f64; 2]; 3]>,
-    /// Per vertex of the file, the number that our writer gave it, or `NO_NUMBER`.
+    /// For each vertex of the file the number that this library's writer gave it, or `NO_NUMBER`.
     given: Vec<u32>,
-    /// Per vertex of the file, the first vertex of its mesh that is the same vertex of the surface.
+    /// For each vertex of the file the first vertex of its mesh that is the same vertex of the surface.
     first: Vec<u32>,
 }
 
 /// The number of a vertex that another program wrote.
 const NO_NUMBER: u32 = u32::MAX;
 
-/// How an attribute is read: its name, the shapes that it may have, and what components are filled up with.
-struct Read<'a> {
+/// The name of an attribute, the shapes that it may have, and the value with which components are filled up.
+struct AttributeReader<'a> {
     what: &'static str,
-    shapes: &'a [Shape],
+    shapes: &'a [ElementShape],
     fill: f64,
 }
 
-/// Appends the elements of a primitive to a list in which `first` elements of earlier primitives come before them. If these lacked the
-/// attribute, the list is filled up with defaults.
-struct Append<'a> {
+/// Appends the elements of a primitive to a list, after `first` elements of earlier primitives. If these lack the attribute, the list is
+/// filled up with defaults.
+struct ListAppender<'a> {
     budget: &'a mut Budget,
     place: Location<'a>,
     first: usize,
 }
 
-impl Append<'_> {
+impl ListAppender<'_> {
     fn to<T: Copy>(&mut self, list: &mut Vec<T>, mut elements: Vec<T>, default: T) -> Result<()> {
         if !elements.is_empty() {
             self.budget.take(self.first - list.len(), size_of::<T>(), "attributes", self.place)?;
@@ -110,7 +110,7 @@ impl Append<'_> {
     }
 }
 
-impl Collected<'_> {
+impl CollectedMeshes<'_> {
     fn mesh(&mut self, index: u32, map: &Affine) -> Result<()> {
         let Some(mesh) = self.file.document.meshes.get(index as usize) else {
             return self.file.whole().error(format!("mesh {index} does not exist"));
@@ -122,7 +122,7 @@ impl Collected<'_> {
         self.weld()
     }
 
-    /// In the mesh that was read last, vertices in the same place become one unless our writer gave them different numbers.
+    /// Joins vertices of the last mesh with the same position, unless this library's writer gave them different numbers.
     fn weld(&mut self) -> Result<()> {
         let (start, end) = (self.first.len() as u32, self.soup.positions.len() as u32);
         self.budget.take((end - start) as usize, 2 * size_of::<u32>(), "vertices", self.file.whole())?;
@@ -137,12 +137,12 @@ impl Collected<'_> {
         let file = self.file;
         let named = &primitive.attributes;
         let Some(position) = named.position else { return Ok(()) };
-        let n = file.accessor(position, "POSITION", &[Shape::Vec3])?.count;
+        let n = file.accessor(position, "POSITION", &[ElementShape::Vec3])?.count;
         let first = self.soup.positions.len();
         if first.checked_add(n).is_none_or(|end| end > u32::MAX as usize) {
             return Err(Error::TooLarge { what: "vertices", count: first.saturating_add(n) });
         }
-        let three = |what| Read { what, shapes: &[Shape::Vec3], fill: 0.0 };
+        let three = |what| AttributeReader { what, shapes: &[ElementShape::Vec3], fill: 0.0 };
         let mut positions: Vec<Point> = self.attribute(named.position, n, three("POSITION"))?;
         if *map != Affine::IDENTITY {
             positions.iter_mut().for_each(|p| *p = map.apply(*p));
@@ -152,13 +152,13 @@ impl Collected<'_> {
         if map.linear != Affine::IDENTITY.linear {
             normals.iter_mut().for_each(|x| *x = unit(turn.apply(*x)));
         }
-        let either = &[Shape::Vec3, Shape::Vec4];
-        let colors = self.attribute(named.color, n, Read { what: "COLOR_0", shapes: either, fill: 1.0 })?;
-        let pair = |what| Read { what, shapes: &[Shape::Vec2], fill: 0.0 };
+        let either = &[ElementShape::Vec3, ElementShape::Vec4];
+        let colors = self.attribute(named.color, n, AttributeReader { what: "COLOR_0", shapes: either, fill: 1.0 })?;
+        let pair = |what| AttributeReader { what, shapes: &[ElementShape::Vec2], fill: 0.0 };
         let texcoords: Vec<[f64; 2]> = self.attribute(named.texcoord, n, pair("TEXCOORD_0"))?;
         let halves: Vec<[f64; 2]> = self.attribute(named.vertex, n, pair("_RICCI_VERTEX"))?;
         let numbers = halves.into_iter().map(|[low, high]| low as u32 | (high as u32) << 16).collect();
-        let mut append = Append { budget: &mut self.budget, place: file.whole(), first };
+        let mut append = ListAppender { budget: &mut self.budget, place: file.whole(), first };
         append.to(&mut self.normals, normals, NO_NORMAL)?;
         append.to(&mut self.colors, colors, WHITE)?;
         append.to(&mut self.given, numbers, NO_NUMBER)?;
@@ -173,19 +173,19 @@ impl Collected<'_> {
             let at = |v: u32| [texcoords[v as usize][0], 1.0 - texcoords[v as usize][1]];
             let uv = faces.iter().map(|face| face.map(at)).collect();
             let first = self.soup.faces.len();
-            let mut append = Append { budget: &mut self.budget, place: file.whole(), first };
+            let mut append = ListAppender { budget: &mut self.budget, place: file.whole(), first };
             append.to(&mut self.uv, uv, [NO_TEXCOORD; 3])?;
         }
         self.soup.faces.extend(faces.into_iter().map(|face| face.map(|v| first as u32 + v)));
         Ok(())
     }
 
-    /// The elements of an attribute, one for each of the `n` vertices of a primitive; none if it has no such attribute.
+    /// The elements of an attribute, one for each of the `n` vertices of a primitive; none if it does not have the attribute.
     fn attribute<const N: usize>(
         &mut self,
         index: Option<u32>,
         n: usize,
-        read: Read<'_>,
+        read: AttributeReader<'_>,
     ) -> Result<Vec<[f64; N]>> {
         let Some(index) = index else { return Ok(Vec::new()) };
         let accessor = self.file.accessor(index, read.what, read.shapes)?;
@@ -204,7 +204,7 @@ impl Collected<'_> {
             return Ok(Vec::new());
         }
         let at = match primitive.indices {
-            Some(index) => file.accessor(index, "indices", &[Shape::Scalar])?.indices(n, budget, file)?,
+            Some(index) => file.accessor(index, "indices", &[ElementShape::Scalar])?.indices(n, budget, file)?,
             None => {
                 budget.take(n, size_of::<u32>(), "indices", place)?;
                 (0..n as u32).collect()
@@ -218,13 +218,13 @@ impl Collected<'_> {
             STRIP => [at[f + 1], at[f], at[f + 2]],
             _ => [at[0], at[f + 1], at[f + 2]],
         };
-        // A repeated vertex stitches strips together.
+        // A repeated vertex joins strips together.
         Ok((0..count).map(face).filter(|face| mode != STRIP || distinct(face)).collect())
     }
 
-    /// Attributes that some primitives lack are filled up, and vertices renumbered.
+    /// Fills up attributes that some primitives lack, and renumbers vertices.
     fn finish(mut self) -> Result<Soup> {
-        let Collected { mut soup, mut normals, mut colors, mut uv, mut first, .. } = self;
+        let CollectedMeshes { mut soup, mut normals, mut colors, mut uv, mut first, .. } = self;
         let (whole, n) = (self.file.whole(), soup.positions.len());
         let budget = &mut self.budget;
         let mut fill = |have: usize, wanted: usize, size: usize| match have {
@@ -243,7 +243,7 @@ impl Collected<'_> {
             corner_normals = Some(soup.faces.iter().map(|f| f.map(|v| normals[v as usize])).collect());
             normals.clear();
         }
-        // `first` becomes the final number of each vertex: that of a first vertex is the number of first vertices before it.
+        // `first` becomes the final number of each vertex: for a first vertex, the number of first vertices before it.
         let mut kept = 0;
         for v in 0..n {
             if first[v] as usize == v {
@@ -269,7 +269,7 @@ impl Collected<'_> {
     }
 }
 
-/// A vector of length 1 in the same direction; a vector of length 0, or of one that is not finite, stays as it is.
+/// The vector of length 1 in the same direction; a vector of length 0, or one that is not finite, is returned unchanged.
 pub(super) fn unit(x: Point) -> Point {
     let length = x[0].hypot(x[1]).hypot(x[2]);
     if length > 0.0 && length.is_finite() { x.map(|x| x / length) } else { x }

@@ -1,7 +1,7 @@
-//! Vertices that glTF gives more than once: one for each pair of texture coordinates and each normal that its corners have.
+//! Identification of vertices that glTF repeats for each pair of texture coordinates and each normal of their corners.
 
-/// For each of these vertices, the first of them with the same key. Sorting takes 8 bytes of scratch per vertex, where a hash table
-/// would take more memory than the vertices.
+/// For each of these vertices the first of them with the same key. Sorting takes 8 bytes of temporary memory per vertex, where a hash
+/// table would take more memory than the vertices.
 pub(super) fn first_alike<K: Ord>(vertices: std::ops::Range<u32>, key: impl Fn(u32) -> K) -> Vec<u32> {
     let mut order: Vec<u32> = vertices.clone().collect();
     order.sort_unstable_by_key(|&v| (key(v), v));

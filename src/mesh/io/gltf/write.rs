@@ -1,10 +1,10 @@
-//! Binary glTF 2.0 from a triangle list, with texture.
+//! Writer of binary glTF 2.0 with textures.
 
 use super::scene::unit;
 use super::seams::first_alike;
 use crate::error::{Error, Result};
 use crate::mesh::Point;
-use crate::mesh::io::{Textured, write_atomically};
+use crate::mesh::io::{TexturedMesh, write_atomically};
 use crate::mesh::weld::place_key;
 use serde_json::{Value, json};
 use std::collections::HashMap;
@@ -14,24 +14,24 @@ use std::path::Path;
 /// A picture over the texture coordinates.
 #[derive(Debug, Clone, Copy)]
 pub struct Texture<'a> {
-    /// A PNG file's bytes.
+    /// The bytes of a PNG file.
     pub png: &'a [u8],
-    /// What is outside the unit square.
+    /// The continuation of the picture outside the unit square.
     pub wrap: Wrap,
-    /// How often the picture is there along a unit of the texture coordinates: 1 but where the file is to say another number, by the
-    /// extension KHR_texture_transform.
+    /// The number of copies of the picture along a unit of the texture coordinates. Numbers other than 1 are written with the extension
+    /// KHR_texture_transform.
     pub repeat: f64,
 }
 
-/// How a texture goes on outside the unit square.
+/// The continuation of a texture outside the unit square.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Wrap {
-    /// Periodically.
+    /// Periodic.
     #[default]
     Repeat,
-    /// Periodically, every other time mirrored.
+    /// Periodic, every other copy mirrored.
     Mirror,
-    /// With the colours of its border.
+    /// The colours of its border.
     Clamp,
 }
 
@@ -45,32 +45,32 @@ impl Wrap {
     }
 }
 
-/// Extents of a mesh whose coordinates are stored unscaled. Others are scaled to about 1, since an `f32` ends at 2¹²⁸ = 3e38 and loses
+/// Extents of meshes whose coordinates are stored unscaled. Others are scaled to about 1, since an `f32` ends at 2¹²⁸ = 3e38 and loses
 /// digits below 2⁻¹²⁶ = 1e-38.
 const PLAIN: std::ops::RangeInclusive<f64> = 1e-25..=1e30;
 
-/// Write binary glTF 2.0 (.glb): one mesh, its attributes as `f32`, normals at length 1, and a texture if there is one;
-/// atomically. Texture coordinates have v upwards, as in OBJ.
+/// Writes binary glTF 2.0 (.glb), atomically: one mesh, its attributes as `f32`, normals of length 1, and a texture if there is one.
+/// Texture coordinates have v upwards, as in OBJ.
 ///
-/// Positions are exact where all of them are `f32` numbers. Others are stored from the centre of their bounding box, which is
-/// the translation of the mesh's node in doubles: each coordinate is right to 2⁻²⁴ of its largest distance from the centre, far
-/// from the origin too.
+/// Positions are exact if all of them are `f32` numbers. Others are stored relative to the centre of their bounding box, which is the
+/// translation of the mesh's node in 64-bit numbers: each coordinate has an error of at most 2⁻²⁴ of its largest distance from the
+/// centre, also far from the origin.
 ///
-/// A vertex of glTF has one normal and one pair of texture coordinates. Vertices keep their numbers with those of their first
-/// corner; one with others is given again for each of these, behind all others, in the order of the corners. Returned is the
-/// input's vertex of each vertex of the file: 0, 1, …, V − 1 and those that were given again. Faces keep order and corners. Where
-/// the places of the vertices do not tell which of them are one, the file says so in an attribute of ours, `_RICCI_VERTEX`: the
-/// number as two of 16 bits, the lower one first.
+/// A vertex of glTF has one normal and one pair of texture coordinates. Vertices keep their numbers with those of their first corner; a
+/// vertex with others is repeated for each of these after all vertices, in the order of the corners. Returned is the input's vertex for
+/// each vertex of the file: 0, 1, …, V − 1 and those of the repeated ones. Faces keep order and corners. Where the positions do not tell
+/// which vertices are repeated, the file says so in an attribute of this library, `_RICCI_VERTEX`: the number as two of 16 bits, the
+/// lower one first.
 ///
 /// # Errors
 ///
 /// With the file untouched: [`Error::Argument`] for numbers that are not finite and corners out of range,
 /// [`Error::Size`], [`Error::TooLarge`] for more than the 4 GB that glTF can count, [`Error::Io`].
-pub fn write_glb(path: &Path, data: &Textured<'_>, texture: Option<Texture<'_>>) -> Result<Vec<u32>> {
+pub fn write_glb(path: &Path, data: &TexturedMesh<'_>, texture: Option<Texture<'_>>) -> Result<Vec<u32>> {
     data.check()?;
-    let split = Split::new(data);
-    let placed = Placed::new(data.positions);
-    let mut parts = Parts::default();
+    let split = SplitVertices::new(data);
+    let placed = NodePlacement::new(data.positions);
+    let mut parts = GlbParts::default();
     let vertices = split.origin.iter().map(|&v| v as usize);
     if !data.positions.is_empty() {
         let stored: Vec<[f32; 3]> = vertices.clone().map(|v| placed.stored(data.positions[v])).collect();
@@ -118,17 +118,17 @@ pub fn write_glb(path: &Path, data: &Textured<'_>, texture: Option<Texture<'_>>)
 }
 
 /// Vertices with one normal and one pair of texture coordinates each.
-struct Split {
-    /// Per vertex, that of the input.
+struct SplitVertices {
+    /// For each vertex the vertex of the input.
     origin: Vec<u32>,
-    /// Per vertex, with v downwards.
+    /// For each vertex the texture coordinates with v downwards.
     texcoords: Vec<[f32; 2]>,
     normals: Vec<[f32; 3]>,
     faces: Vec<[u32; 3]>,
 }
 
-impl Split {
-    fn new(data: &Textured<'_>) -> Split {
+impl SplitVertices {
+    fn new(data: &TexturedMesh<'_>) -> SplitVertices {
         let n = data.positions.len();
         let texcoord = |corner: usize| match data.face_texcoords.as_flattened().get(corner) {
             Some(&t) => {
@@ -142,7 +142,7 @@ impl Split {
             None => [0.0; 3],
         };
         let at_vertices = data.face_normals.is_empty() && !data.normals.is_empty();
-        let mut split = Split {
+        let mut split = SplitVertices {
             origin: (0..n as u32).collect(),
             texcoords: vec![[0.0; 2]; n],
             normals: if at_vertices {
@@ -175,8 +175,8 @@ impl Split {
     }
 }
 
-/// Where the node puts the mesh: a stored number x is center + scale · x.
-struct Placed {
+/// The transform of the node: a stored number x stands for center + scale · x.
+struct NodePlacement {
     center: Point,
     /// A power of two.
     scale: f64,
@@ -184,28 +184,28 @@ struct Placed {
     high: Point,
 }
 
-impl Placed {
-    fn new(positions: &[Point]) -> Placed {
+impl NodePlacement {
+    fn new(positions: &[Point]) -> NodePlacement {
         let bound = |pick: fn(f64, f64) -> f64, start: f64| -> Point {
             std::array::from_fn(|k| positions.iter().map(|p| p[k]).fold(start, pick))
         };
         let (low, high) = (bound(f64::min, f64::INFINITY), bound(f64::max, f64::NEG_INFINITY));
         let narrow = |x: &f64| f64::from(*x as f32) == *x;
         if positions.as_flattened().iter().all(narrow) {
-            return Placed { center: [0.0; 3], scale: 1.0, low, high };
+            return NodePlacement { center: [0.0; 3], scale: 1.0, low, high };
         }
         let center = std::array::from_fn(|k| 0.5 * low[k] + 0.5 * high[k]);
         let extent = (0..3).map(|k| (high[k] - center[k]).max(center[k] - low[k])).fold(0.0, f64::max);
         let plain = extent == 0.0 || PLAIN.contains(&extent);
         let scale = if plain { 1.0 } else { extent.log2().floor().clamp(-1000.0, 1000.0).exp2() };
-        Placed { center, scale, low, high }
+        NodePlacement { center, scale, low, high }
     }
 
     fn stored(&self, p: Point) -> [f32; 3] {
         std::array::from_fn(|k| ((p[k] - self.center[k]) / self.scale) as f32)
     }
 
-    /// What is read back for a stored number.
+    /// The point that is read back for stored numbers.
     fn read(&self, stored: [f32; 3]) -> Point {
         std::array::from_fn(|k| self.center[k] + self.scale * f64::from(stored[k]))
     }
@@ -226,9 +226,9 @@ impl Placed {
     }
 }
 
-/// The binary chunk, and the parts of the document that name its bytes.
+/// The binary chunk, and the parts of the document that refer to its bytes.
 #[derive(Default)]
-struct Parts {
+struct GlbParts {
     binary: Vec<u8>,
     views: Vec<Value>,
     accessors: Vec<Value>,
@@ -238,14 +238,14 @@ struct Parts {
     texture: Option<(Value, usize, f64)>,
 }
 
-impl Parts {
+impl GlbParts {
     const VERTICES: u32 = 34962;
     const INDICES: u32 = 34963;
     const FLOAT: u32 = 5126;
     const UNSIGNED_SHORT: u32 = 5123;
     const UNSIGNED_INT: u32 = 5125;
 
-    /// A buffer view of these bytes.
+    /// Adds a buffer view of these bytes; returns its number.
     fn view(&mut self, bytes: impl Iterator<Item = u8>, target: Option<u32>) -> usize {
         let start = self.binary.len();
         self.binary.extend(bytes);
@@ -260,30 +260,30 @@ impl Parts {
 
     fn attribute<const N: usize>(&mut self, name: &str, values: Vec<[f32; N]>) -> &mut Value {
         let bytes = values.as_flattened().iter().flat_map(|x| x.to_le_bytes());
-        let view = self.view(bytes, Some(Parts::VERTICES));
+        let view = self.view(bytes, Some(GlbParts::VERTICES));
         self.attributes.insert(name.into(), json!(self.accessors.len()));
         let kind = format!("VEC{N}");
         self.accessors.push(
-            json!({"bufferView": view, "componentType": Parts::FLOAT, "count": values.len(), "type": kind}),
+            json!({"bufferView": view, "componentType": GlbParts::FLOAT, "count": values.len(), "type": kind}),
         );
         let last = self.accessors.len() - 1;
         &mut self.accessors[last]
     }
 
     fn vertex_numbers(&mut self, numbers: &[u32]) {
-        let view = self.view(numbers.iter().flat_map(|v| v.to_le_bytes()), Some(Parts::VERTICES));
+        let view = self.view(numbers.iter().flat_map(|v| v.to_le_bytes()), Some(GlbParts::VERTICES));
         self.attributes.insert("_RICCI_VERTEX".into(), json!(self.accessors.len()));
         self.accessors.push(json!({
-            "bufferView": view, "componentType": Parts::UNSIGNED_SHORT, "count": numbers.len(), "type": "VEC2"
+            "bufferView": view, "componentType": GlbParts::UNSIGNED_SHORT, "count": numbers.len(), "type": "VEC2"
         }));
     }
 
     fn indices(&mut self, faces: &[[u32; 3]]) {
         let corners = faces.as_flattened();
-        let view = self.view(corners.iter().flat_map(|v| v.to_le_bytes()), Some(Parts::INDICES));
+        let view = self.view(corners.iter().flat_map(|v| v.to_le_bytes()), Some(GlbParts::INDICES));
         self.indices = Some(self.accessors.len());
         self.accessors.push(json!({
-            "bufferView": view, "componentType": Parts::UNSIGNED_INT, "count": corners.len(), "type": "SCALAR"
+            "bufferView": view, "componentType": GlbParts::UNSIGNED_INT, "count": corners.len(), "type": "SCALAR"
         }));
     }
 
@@ -338,7 +338,7 @@ impl Parts {
     }
 }
 
-/// A normal of length 1, as glTF wants it.
+/// A normal of length 1, as glTF requires.
 fn normal(x: Point) -> [f32; 3] {
     unit(x).map(|x| x as f32)
 }

@@ -1,23 +1,22 @@
-//! The rows of a PLY file, one number after the other.
+//! The rows of a PLY file, read number by number.
 
-use super::super::kind::Kind;
+use super::super::kind::NumberType;
 use super::super::scan::{Location, Quoted};
-use super::header::{Element, Encoding, Header};
+use super::header::{PlyElement, PlyEncoding, PlyHeader};
 use crate::error::Result;
 use std::iter::Peekable;
 
-/// The part of the body that has not been read yet. In text each row is a line: further numbers on it are skipped, and so are blank
-/// lines.
-pub(super) struct Body<'a> {
+/// The part of the body that has not been read. In text each row is a line: further numbers on it are skipped, and so are blank lines.
+pub(super) struct PlyBody<'a> {
     path: &'a str,
     bytes: &'a [u8],
-    source: Source<'a>,
+    source: BodySource<'a>,
 }
 
-enum Source<'a> {
+enum BodySource<'a> {
     Text {
         lines: Peekable<Box<dyn Iterator<Item = (usize, &'a [u8])> + 'a>>,
-        /// What is left of the line, and its number.
+        /// The rest of the line, and its number.
         rest: &'a [u8],
         line: usize,
     },
@@ -27,52 +26,52 @@ enum Source<'a> {
     },
 }
 
-/// What a row has of interest: the values of some properties.
-pub(super) struct Row {
-    /// Per property with one number, that number; otherwise 0.
+/// The values of the properties of interest in one row.
+pub(super) struct PlyRow {
+    /// For each property with one number that number; otherwise 0.
     pub numbers: Vec<f64>,
     /// The lists that were asked for.
     pub lists: Vec<Vec<f64>>,
 }
 
-impl<'a> Body<'a> {
-    pub fn new(bytes: &'a [u8], header: &Header<'_>, path: &'a str) -> Body<'a> {
+impl<'a> PlyBody<'a> {
+    pub fn new(bytes: &'a [u8], header: &PlyHeader<'_>, path: &'a str) -> PlyBody<'a> {
         let source = match header.encoding {
-            Encoding::Ascii => {
+            PlyEncoding::Ascii => {
                 let (body, first) = (&bytes[header.body..], header.line);
                 // In a file with LF a CR is a blank at the end of its line.
                 let end = if body.contains(&b'\n') { b'\n' } else { b'\r' };
                 let lines = body.split(move |&b| b == end).map(<[u8]>::trim_ascii);
                 let lines = lines.enumerate().map(move |(i, line)| (first + i, line));
                 let lines: Box<dyn Iterator<Item = _>> = Box::new(lines.filter(|(_, line)| !line.is_empty()));
-                Source::Text { lines: lines.peekable(), rest: &[], line: first }
+                BodySource::Text { lines: lines.peekable(), rest: &[], line: first }
             }
-            encoding => Source::Binary { at: header.body, big_endian: encoding == Encoding::Big },
+            encoding => BodySource::Binary { at: header.body, big_endian: encoding == PlyEncoding::Big },
         };
-        Body { path, bytes, source }
+        PlyBody { path, bytes, source }
     }
 
-    /// The row that was read last, or the byte behind it.
+    /// The position of the last row, or of the byte after it.
     pub fn place(&self) -> Location<'a> {
         match self.source {
-            Source::Text { line, .. } => Location::line(self.path, line),
-            Source::Binary { at, .. } => Location::byte(self.path, at),
+            BodySource::Text { line, .. } => Location::line(self.path, line),
+            BodySource::Binary { at, .. } => Location::byte(self.path, at),
         }
     }
 
-    /// Hand on each row of an element with its number and its place, with the lists of these properties. A row takes a byte of
-    /// the file at least: one without properties is none.
+    /// Passes each row of an element, with its number and position and with the lists of these properties, to a function. A row takes at
+    /// least a byte of the file: elements without properties have no rows.
     pub fn each(
         &mut self,
-        element: &Element<'_>,
+        element: &PlyElement<'_>,
         lists: &[Option<usize>],
-        mut take: impl FnMut(usize, &Row, Location<'a>) -> Result<()>,
+        mut take: impl FnMut(usize, &PlyRow, Location<'a>) -> Result<()>,
     ) -> Result<()> {
         if element.properties.is_empty() {
             return Ok(());
         }
         let mut row =
-            Row { numbers: vec![0.0; element.properties.len()], lists: vec![Vec::new(); lists.len()] };
+            PlyRow { numbers: vec![0.0; element.properties.len()], lists: vec![Vec::new(); lists.len()] };
         for number in 0..element.count {
             let place = self.row(element, number, lists, &mut row)?;
             take(number, &row, place)?;
@@ -80,20 +79,20 @@ impl<'a> Body<'a> {
         Ok(())
     }
 
-    /// Skip all rows of an element.
-    pub fn skip(&mut self, element: &Element<'_>) -> Result<()> {
+    /// Skips all rows of an element.
+    pub fn skip(&mut self, element: &PlyElement<'_>) -> Result<()> {
         self.each(element, &[], |_, _, _| Ok(()))
     }
 
-    /// Read a row; where it begins.
+    /// Reads a row; returns its position.
     fn row(
         &mut self,
-        element: &Element<'_>,
+        element: &PlyElement<'_>,
         number: usize,
         lists: &[Option<usize>],
-        row: &mut Row,
+        row: &mut PlyRow,
     ) -> Result<Location<'a>> {
-        if let Source::Text { lines, rest, line } = &mut self.source {
+        if let BodySource::Text { lines, rest, line } = &mut self.source {
             let Some((next, text)) = lines.next() else { return self.ended(element) };
             (*rest, *line) = (text, next);
         }
@@ -122,23 +121,23 @@ impl<'a> Body<'a> {
         Ok(place)
     }
 
-    /// The next number, of property `k`.
-    fn number(&mut self, kind: Kind, element: &Element<'_>, row: usize, k: usize) -> Result<f64> {
+    /// Reads the next number, of property `k`.
+    fn number(&mut self, kind: NumberType, element: &PlyElement<'_>, row: usize, k: usize) -> Result<f64> {
         match &mut self.source {
-            Source::Binary { at, big_endian } => {
+            BodySource::Binary { at, big_endian } => {
                 let Some(bytes) = self.bytes.get(*at..*at + kind.size()) else { return self.ended(element) };
                 *at += kind.size();
                 Ok(kind.read(bytes, *big_endian))
             }
-            Source::Text { lines, rest, line } => {
+            BodySource::Text { lines, rest, line } => {
                 let place = Location::line(self.path, *line);
                 let end = rest.iter().position(u8::is_ascii_whitespace).unwrap_or(rest.len());
                 let (token, behind) = rest.split_at(end);
                 *rest = behind.trim_ascii_start();
                 let token = std::str::from_utf8(token).ok();
                 let number = match kind {
-                    // The file says that the number has 32 bits: it is rounded to these.
-                    Kind::F32 => token.and_then(|t| t.parse::<f32>().ok()).map(f64::from),
+                    // The file says that the number has 32 bits, so it is rounded to these.
+                    NumberType::F32 => token.and_then(|t| t.parse::<f32>().ok()).map(f64::from),
                     _ => token.and_then(|t| t.parse::<f64>().ok()),
                 };
                 if let Some(number) = number {
@@ -158,15 +157,15 @@ impl<'a> Body<'a> {
         }
     }
 
-    fn ended<T>(&self, element: &Element<'_>) -> Result<T> {
+    fn ended<T>(&self, element: &PlyElement<'_>) -> Result<T> {
         let place = match self.source {
-            Source::Text { line, .. } => Location::line(self.path, line),
-            Source::Binary { .. } => Location::byte(self.path, self.bytes.len()),
+            BodySource::Text { line, .. } => Location::line(self.path, line),
+            BodySource::Binary { .. } => Location::byte(self.path, self.bytes.len()),
         };
         place.error(format!("the file ends inside {} of {} rows", said(element), element.count))
     }
 }
 
-fn said(element: &Element<'_>) -> String {
+fn said(element: &PlyElement<'_>) -> String {
     format!("element `{}`", String::from_utf8_lossy(element.name))
 }

@@ -1,72 +1,72 @@
-//! The header of a PLY file: what its body holds, and where that begins.
+//! The header of a PLY file: the elements in its body, and where the body begins.
 
-use super::super::kind::Kind;
+use super::super::kind::NumberType;
 use super::super::scan::{Location, Quoted};
 use crate::error::Result;
 
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Encoding {
+pub(super) enum PlyEncoding {
     Ascii,
     Little,
     Big,
 }
 
-/// One number of each row, or a list of them behind their count.
-pub(super) struct Property<'a> {
+/// A property: one number of each row, or a list of numbers after their count.
+pub(super) struct PlyProperty<'a> {
     pub name: &'a [u8],
     /// The type of a list's count.
-    pub count: Option<Kind>,
-    pub kind: Kind,
+    pub count: Option<NumberType>,
+    pub kind: NumberType,
 }
 
-/// Rows of the same properties.
-pub(super) struct Element<'a> {
+/// An element: rows of the same properties.
+pub(super) struct PlyElement<'a> {
     pub name: &'a [u8],
     pub count: usize,
-    pub properties: Vec<Property<'a>>,
-    /// The line that names it.
+    pub properties: Vec<PlyProperty<'a>>,
+    /// The line that declares it.
     line: usize,
 }
 
-impl<'a> Element<'a> {
-    /// The number of the property with one number per row of this name (case does not matter).
+impl<'a> PlyElement<'a> {
+    /// The index of the property with one number per row and this name (case does not matter).
     pub fn column(&self, name: &str) -> Option<usize> {
         self.property(|p| p.count.is_none() && p.name.eq_ignore_ascii_case(name.as_bytes()))
     }
 
-    /// The number of the property with a list per row of one of these names.
+    /// The index of the property with a list per row and one of these names.
     pub fn list(&self, names: &[&str]) -> Option<usize> {
         self.property(|p| p.count.is_some() && names.iter().any(|name| p.name == name.as_bytes()))
     }
 
-    fn property(&self, is: impl FnMut(&Property<'a>) -> bool) -> Option<usize> {
+    fn property(&self, is: impl FnMut(&PlyProperty<'a>) -> bool) -> Option<usize> {
         self.properties.iter().position(is)
     }
 
-    /// The header's line of this element.
+    /// The position of this element in the header.
     pub fn place<'p>(&self, path: &'p str) -> Location<'p> {
         Location::line(path, self.line)
     }
 }
 
-pub(super) struct Header<'a> {
-    pub encoding: Encoding,
-    pub elements: Vec<Element<'a>>,
-    /// Where the body begins: its first byte and its first line, from 1.
+pub(super) struct PlyHeader<'a> {
+    pub encoding: PlyEncoding,
+    pub elements: Vec<PlyElement<'a>>,
+    /// The start of the body: its first byte and its first line, from 1.
     pub body: usize,
     pub line: usize,
 }
 
-/// The lines of a header with the byte behind each. Lone carriage returns end a line too, wherever they occur: only a file whose
-/// first line they end has no line feeds behind them, for there one belongs to a binary body.
-struct Lines<'a> {
+/// The lines of a header, each with the byte after it. A lone carriage return ends a line too: if one ends the first line, line feeds
+/// after others are not skipped, since they belong to a binary body.
+struct HeaderLines<'a> {
     bytes: &'a [u8],
     at: usize,
     number: usize,
     only_returns: bool,
 }
 
-impl<'a> Lines<'a> {
+impl<'a> HeaderLines<'a> {
     fn next(&mut self) -> Option<&'a [u8]> {
         let rest = self.bytes.get(self.at..).filter(|rest| !rest.is_empty())?;
         let end = rest.iter().position(|b| matches!(b, b'\n' | b'\r')).unwrap_or(rest.len());
@@ -80,16 +80,16 @@ impl<'a> Lines<'a> {
     }
 }
 
-/// Parse the header. Blank lines, indentation and any names are accepted; each element has a name of its own.
-pub(super) fn header<'a>(bytes: &'a [u8], path: &str) -> Result<Header<'a>> {
+/// Parses the header. Blank lines, indentation and any names are accepted; elements that are read have different names.
+pub(super) fn header<'a>(bytes: &'a [u8], path: &str) -> Result<PlyHeader<'a>> {
     let start = if bytes.starts_with(b"\xef\xbb\xbf") { 3 } else { 0 };
-    let mut lines = Lines { bytes, at: start, number: 0, only_returns: false };
+    let mut lines = HeaderLines { bytes, at: start, number: 0, only_returns: false };
     if lines.next() != Some(b"ply") {
         let what = "this is no PLY file: that begins with the line `ply`";
         return Location::line(path, 1).error(what.into());
     }
     let mut encoding = None;
-    let mut elements: Vec<Element<'a>> = Vec::new();
+    let mut elements: Vec<PlyElement<'a>> = Vec::new();
     while let Some(line) = lines.next() {
         let place = Location::line(path, lines.number);
         let mut words = line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
@@ -104,7 +104,7 @@ pub(super) fn header<'a>(bytes: &'a [u8], path: &str) -> Result<Header<'a>> {
                 if READ.contains(&name) && elements.iter().any(|e| e.name == name) {
                     return place.error(format!("a second element `{}`", text(name)));
                 }
-                elements.push(Element { name, count, properties: Vec::new(), line: lines.number });
+                elements.push(PlyElement { name, count, properties: Vec::new(), line: lines.number });
             }
             Some(b"property") => match elements.last_mut() {
                 Some(element) => element.properties.push(property(words, place)?),
@@ -114,7 +114,7 @@ pub(super) fn header<'a>(bytes: &'a [u8], path: &str) -> Result<Header<'a>> {
                 let Some(encoding) = encoding else {
                     return place.error("the header has no line `format`".into());
                 };
-                return Ok(Header { encoding, elements, body: lines.at, line: lines.number + 1 });
+                return Ok(PlyHeader { encoding, elements, body: lines.at, line: lines.number + 1 });
             }
             Some(word) => {
                 return place.error(format!("{} begins no line of a PLY header", Quoted(&text(word))));
@@ -131,11 +131,11 @@ fn text(word: &[u8]) -> String {
     String::from_utf8_lossy(word).into_owned()
 }
 
-fn format(word: Option<&[u8]>, place: Location<'_>) -> Result<Encoding> {
+fn format(word: Option<&[u8]>, place: Location<'_>) -> Result<PlyEncoding> {
     match word {
-        Some(b"ascii") => Ok(Encoding::Ascii),
-        Some(b"binary_little_endian") => Ok(Encoding::Little),
-        Some(b"binary_big_endian") => Ok(Encoding::Big),
+        Some(b"ascii") => Ok(PlyEncoding::Ascii),
+        Some(b"binary_little_endian") => Ok(PlyEncoding::Little),
+        Some(b"binary_big_endian") => Ok(PlyEncoding::Big),
         _ => place.error(format!(
             "format {} is not ascii, binary_little_endian or binary_big_endian",
             Quoted(&text(word.unwrap_or_default()))
@@ -143,10 +143,10 @@ fn format(word: Option<&[u8]>, place: Location<'_>) -> Result<Encoding> {
     }
 }
 
-fn property<'a>(mut words: impl Iterator<Item = &'a [u8]>, place: Location<'_>) -> Result<Property<'a>> {
+fn property<'a>(mut words: impl Iterator<Item = &'a [u8]>, place: Location<'_>) -> Result<PlyProperty<'a>> {
     let kind = |word: Option<&[u8]>| {
         let name = text(word.unwrap_or_default());
-        match Kind::named(&name) {
+        match NumberType::named(&name) {
             Some(kind) => Ok(kind),
             None => place.error(format!("{} is no type of a property", Quoted(&name))),
         }
@@ -160,7 +160,7 @@ fn property<'a>(mut words: impl Iterator<Item = &'a [u8]>, place: Location<'_>) 
         return place.error("the count of a list is no integer".into());
     }
     match words.next() {
-        Some(name) => Ok(Property { name, count, kind }),
+        Some(name) => Ok(PlyProperty { name, count, kind }),
         None => place.error("a property without a name".into()),
     }
 }

@@ -1,5 +1,5 @@
-//! PLY, ascii and both binary byte orders. This reader accepts numbers, names and blank lines of existing files that the grammars of
-//! the PLY crates refuse, and its errors name the line or the byte. The format is Greg Turk's,
+//! Reader and writer of PLY, ascii and both binary byte orders. The reader accepts numbers, names and blank lines of existing files that
+//! the grammars of the PLY crates refuse, and its errors give the line or the byte. The format is Greg Turk's,
 //! <https://paulbourke.net/dataformats/ply/>.
 
 mod body;
@@ -15,14 +15,13 @@ use super::{Attributes, Soup};
 use crate::error::Result;
 use crate::mesh::Point;
 use crate::mesh::incidence::distinct;
-use body::{Body, Row};
-use header::{Element, header};
+use body::{PlyBody, PlyRow};
+use header::{PlyElement, header};
 
-/// Parse a PLY file: elements `vertex` (x, y, z; nx, ny, nz; red, green, blue, alpha, also as diffuse_red, …; s, t or u, v or
-/// texture_u, texture_v), `face` (vertex_indices or vertex_index, texcoord) and `tristrips`; everything else is skipped. `path` is
-/// used in errors.
+/// Parses a PLY file: elements `vertex` (x, y, z; nx, ny, nz; red, green, blue, alpha, also as diffuse_red, …; s, t or u, v or texture_u,
+/// texture_v), `face` (vertex_indices or vertex_index, texcoord) and `tristrips`; everything else is skipped. `path` is used in errors.
 ///
-/// Colours of integers are divided by the largest of their type (of 255, from 32 bits on).
+/// Integer colours are divided by the largest value of their type (by 255 from 32 bits on).
 ///
 /// # Errors
 ///
@@ -32,10 +31,10 @@ pub fn parse_ply(bytes: &[u8], path: &str) -> Result<Soup> {
     let Some(vertex) = header.elements.iter().find(|e| e.name == b"vertex") else {
         return Location::line(path, header.line - 1).error("the header has no element `vertex`".into());
     };
-    let mut vertices = Vertices::new(vertex, path)?;
+    let mut vertices = VertexColumns::new(vertex, path)?;
     let (mut polygons, mut corner_uv) = (Polygons::default(), Vec::new());
     let mut budget = Budget::of(bytes);
-    let mut body = Body::new(bytes, &header, path);
+    let mut body = PlyBody::new(bytes, &header, path);
     for element in &header.elements {
         match element.name {
             b"vertex" => body.each(element, &[], |_, row, _| {
@@ -70,8 +69,8 @@ pub fn parse_ply(bytes: &[u8], path: &str) -> Result<Soup> {
     Ok(vertices.soup(&polygons, &triangles, &corner_uv))
 }
 
-/// The list of corners that the rows of an element have, if it has rows.
-fn corners_of(element: &Element<'_>, path: &str) -> Result<Option<usize>> {
+/// The list of corners in the rows of an element, if it has rows.
+fn corners_of(element: &PlyElement<'_>, path: &str) -> Result<Option<usize>> {
     match element.list(&["vertex_indices", "vertex_index"]) {
         None if element.count > 0 => element.place(path).error(format!(
             "element `{}` has no list property `vertex_indices`",
@@ -81,15 +80,15 @@ fn corners_of(element: &Element<'_>, path: &str) -> Result<Option<usize>> {
     }
 }
 
-/// What has been read of the element `vertex`.
-struct Vertices {
-    /// The properties of each.
+/// The columns and values of the element `vertex` that have been read.
+struct VertexColumns {
+    /// The indices of the properties of each attribute.
     position: [usize; 3],
     normal: Option<[usize; 3]>,
     color: Option<[usize; 3]>,
     opacity: Option<[usize; 1]>,
     texture: Option<[usize; 2]>,
-    /// Per property, the value of a colour of full strength.
+    /// For each property, the value of a colour of full strength.
     full: Vec<f64>,
     positions: Vec<Point>,
     normals: Vec<Point>,
@@ -97,8 +96,8 @@ struct Vertices {
     uv: Vec<[f64; 2]>,
 }
 
-/// The properties of these names: of the first alternative that is there as a whole.
-fn columns<const N: usize>(element: &Element<'_>, alternatives: &[[&str; N]]) -> Option<[usize; N]> {
+/// The properties with these names, of the first alternative that exists completely.
+fn columns<const N: usize>(element: &PlyElement<'_>, alternatives: &[[&str; N]]) -> Option<[usize; N]> {
     alternatives.iter().find_map(|names| {
         let mut columns = [0; N];
         for (column, name) in columns.iter_mut().zip(names) {
@@ -108,14 +107,14 @@ fn columns<const N: usize>(element: &Element<'_>, alternatives: &[[&str; N]]) ->
     })
 }
 
-impl Vertices {
-    fn new(element: &Element<'_>, path: &str) -> Result<Vertices> {
+impl VertexColumns {
+    fn new(element: &PlyElement<'_>, path: &str) -> Result<VertexColumns> {
         let Some(position) = columns(element, &[["x", "y", "z"]]) else {
             let missing = ["x", "y", "z"].into_iter().find(|name| element.column(name).is_none());
             let missing = missing.unwrap_or_default();
             return element.place(path).error(format!("element `vertex` has no property `{missing}`"));
         };
-        Ok(Vertices {
+        Ok(VertexColumns {
             position,
             normal: columns(element, &[["nx", "ny", "nz"]]),
             color: columns(
@@ -132,7 +131,7 @@ impl Vertices {
         })
     }
 
-    fn push(&mut self, row: &Row) {
+    fn push(&mut self, row: &PlyRow) {
         let value = |k: usize| row.numbers[k];
         let color = |k: usize| row.numbers[k] / self.full[k];
         self.positions.push(self.position.map(value));
@@ -162,7 +161,7 @@ impl Vertices {
     }
 }
 
-/// Triangles of the strips of one list, which −1 separates; every other triangle of a strip is turned around.
+/// Adds the triangles of the strips of one list, separated by −1; every other triangle of a strip is turned around.
 fn strips(list: &[f64], row: usize, place: Location<'_>, polygons: &mut Polygons) -> Result<()> {
     for strip in list.split(|&v| v == -1.0) {
         let vertex = |v: f64| place.vertex(v, format_args!("face {row}"));
@@ -171,7 +170,7 @@ fn strips(list: &[f64], row: usize, place: Location<'_>, polygons: &mut Polygons
             if k % 2 == 1 {
                 face.swap(0, 1);
             }
-            // A repeated vertex stitches strips together.
+            // A repeated vertex joins strips together.
             if distinct(&face) {
                 polygons.push(face);
             }

@@ -1,13 +1,13 @@
-//! Binary PLY from a triangle list.
+//! Writer of binary PLY.
 
 use crate::error::Result;
 use crate::mesh::io::{Attributes, Soup, write_atomically};
 use std::io::Write;
 use std::path::Path;
 
-/// Write binary PLY (little-endian, positions as doubles, so that they read back as they are), with normals, colours (8 bits)
-/// and texture coordinates where there are any: at the vertices (s, t) if each has a single pair, else at the corners of the faces
-/// (texcoord); atomically. Returned is what was left out, by name: normals that differ between the corners of a vertex.
+/// Writes binary PLY, atomically (little-endian, positions as 64-bit numbers, so that they read back unchanged), with normals, colours (8
+/// bits) and texture coordinates if there are any: at the vertices (s, t) if each has a single pair, else at the corners of the faces
+/// (texcoord). Returns the names of the attributes that were left out: normals that differ between the corners of a vertex.
 ///
 /// # Errors
 ///
