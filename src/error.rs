@@ -56,7 +56,7 @@ pub enum Error {
         what: &'static str,
         /// Its value, as text.
         value: String,
-        /// What it must be.
+        /// The condition that it must meet.
         need: &'static str,
     },
     /// More elements than a `u32` index can number.
@@ -64,7 +64,7 @@ pub enum Error {
     TooLarge {
         /// The kind of element.
         what: &'static str,
-        /// How many there are.
+        /// The number of elements.
         count: usize,
     },
     /// The caller cancelled through its `Control`.
@@ -86,7 +86,7 @@ pub enum Error {
         path: String,
         /// The position in the file.
         at: FilePosition,
-        /// What is wrong.
+        /// The violation of the format.
         message: String,
     },
     /// This build has no reader or no writer for this file name.
@@ -106,7 +106,7 @@ pub enum Error {
     Gluing {
         /// The face (0-based).
         face: usize,
-        /// What is wrong and what to do.
+        /// The fault, and how to mend it.
         message: String,
     },
     /// A connectivity invariant does not hold (an error of the library or of a caller that built its own arrays).
@@ -169,7 +169,7 @@ pub enum Error {
         curvature: f64,
         /// 2π inside, π on the boundary.
         limit: f64,
-        /// How much it is too large.
+        /// The amount by which it is too large.
         excess: f64,
     },
     /// A prescribed curvature is too small for the angles that the vertex can have.
@@ -227,7 +227,7 @@ pub enum Error {
         what: &'static str,
         /// Its number.
         index: usize,
-        /// What is wrong and what to do.
+        /// The fault, and how to mend it.
         message: String,
     },
 }

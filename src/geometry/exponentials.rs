@@ -5,7 +5,7 @@ pub(super) const STEPS: f64 = 64.0;
 /// The table begins and ends at ± this many steps: |x| ≤ (log 2)/2 is within half a step of one of them.
 pub(super) const MOST: f64 = 23.0;
 
-/// e^(k/64) for k = −23, …, 23: the nearest double, and the nearest one to the rest (computed with 90 decimal digits).
+/// e^(k/64) for k = −23, …, 23: the nearest f64, and the nearest one to the rest (computed with 90 decimal digits).
 pub(super) const EXPONENTIALS: [[f64; 2]; 47] = [
     [0.6981125100681258, 4.379112262891346e-17],
     [0.7091061824373984, -1.2868055655346304e-17],

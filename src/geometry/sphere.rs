@@ -132,7 +132,7 @@ mod tests {
 
     /// `1 + |(5 a/4, 3/4)|² = 25/16 (1 + a²)`, for a and 5a/4 that are both f64.
     #[test]
-    fn densities_have_more_digits_than_a_double() {
+    fn densities_have_more_digits_than_f64() {
         let (factor, factor_low) = log_density([0.75, 0.0]);
         for k in 0..4000 {
             let a = f64::from(k) * 2f64.powi(k % 40 - 20);

@@ -262,11 +262,11 @@ mod tests {
         let (pattern, values) = grid(k);
         let matrix = Symmetric { pattern: &pattern, values: &values };
         let b: Vec<f64> = (0..k * k).map(|i| (i as f64).sin()).collect();
-        let mut double = Cholesky::analyse(&pattern).unwrap();
-        double.factor(matrix).unwrap();
+        let mut in_f64 = Cholesky::analyse(&pattern).unwrap();
+        in_f64.factor(matrix).unwrap();
         let mut exact = b.clone();
-        double.solve(&mut exact);
-        let mut single: Cholesky<f32> = double.held_in().unwrap();
+        in_f64.solve(&mut exact);
+        let mut single: Cholesky<f32> = in_f64.held_in().unwrap();
         let mut solved = |threads| {
             let mut x = b.clone();
             Pool::new(threads).unwrap().run(|| {
@@ -280,10 +280,10 @@ mod tests {
         assert!(apart > 0.0 && apart < 1e-6, "{apart:e}");
         assert!(solved(2) == first && solved(8) == first);
         // And back to f64.
-        let mut double: Cholesky = single.held_in().unwrap();
-        double.factor(matrix).unwrap();
+        let mut in_f64: Cholesky = single.held_in().unwrap();
+        in_f64.factor(matrix).unwrap();
         let mut x = b.clone();
-        double.solve(&mut x);
+        in_f64.solve(&mut x);
         assert!(x == exact);
     }
 

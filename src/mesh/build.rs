@@ -94,11 +94,11 @@ impl Mesh {
     /// and no two faces have the same vertices.
     pub fn is_given_by_faces(&self) -> bool {
         // In a simplicial surface, faces with the same vertices have the same edges.
-        let has_double = |f: FaceId| {
+        let is_repeated = |f: FaceId| {
             let [h, _, ca] = self.face_halfedges(f);
             self.face(h.twin()).is_some_and(|g| g != f) && self.origin(self.prev(h.twin())) == self.origin(ca)
         };
-        self.is_simplicial() && !self.faces().any(has_double)
+        self.is_simplicial() && !self.faces().any(is_repeated)
     }
 }
 

@@ -14,7 +14,7 @@ mod orientation;
 
 pub use defect::Defect;
 pub(super) use gluing::diagnose_gluing;
-pub(super) use orientation::{Orientation, Piece};
+pub(super) use orientation::{Orientation, OrientedPiece};
 
 use super::Point;
 use super::incidence::{Incidence, boundary_loops, components, ends};

@@ -106,7 +106,7 @@ impl IntrinsicSurface {
         if let Some(l) =
             self.lengths.iter().find(|&&l| self.geometry == Space::H2 && l > LONGEST_HYPERBOLIC_SIDE)
         {
-            let need = "at most 700: its triangles' midlines are beyond doubles";
+            let need = "at most 700: its triangles' midlines are beyond the range of f64";
             return Err(Error::argument("length in H²", l, need));
         }
         for (face, edge) in self.face_edges.iter().enumerate() {
@@ -148,7 +148,7 @@ pub fn flat_torus(tau: [f64; 2], n: usize, m: usize) -> Result<IntrinsicSurface>
     let longest = sides.into_iter().fold(0.0, f64::max);
     if (x[0] / longest) * (y[1] / longest) <= THIN {
         let value = format!("{} + {} i", tau[0], tau[1]);
-        return Err(Error::argument("τ", value, "such that its triangles have an area in doubles"));
+        return Err(Error::argument("τ", value, "such that its triangles have an area in f64"));
     }
     let (mut faces, mut face_edges, mut lengths) = (Vec::new(), Vec::new(), Vec::new());
     for j in 0..m {

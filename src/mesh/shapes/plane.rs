@@ -59,7 +59,7 @@ pub fn annulus(inner: f64, outer: f64, n_radial: usize, n_around: usize) -> Resu
         let need = if step < THIN {
             "fewer: the rings would coincide"
         } else {
-            "more: a step has no area in doubles"
+            "more: a step has no area in f64"
         };
         return Err(Error::argument("radial steps", n_radial, need));
     }
