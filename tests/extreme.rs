@@ -1,5 +1,5 @@
-//! Extreme input: it is reached, or to the stated rounding floor, or refused by name; nothing is NaN and nothing is claimed that
-//! does not hold.
+//! Extreme input: the flow reaches its target, or its stated rounding floor, or refuses it by name. No result is NaN, and no report
+//! claims what does not hold.
 #![allow(clippy::unwrap_used, clippy::print_stdout, clippy::print_stderr)]
 
 mod common;
@@ -19,7 +19,7 @@ use std::f64::consts::PI;
 
 type Surface = (Mesh, PerEdge<f64>);
 
-/// One flow, judged and said. Refusals are errors of the start.
+/// Runs one flow, checks it and prints a line. Errors at the start count as refusals.
 fn flow(
     (mesh, lengths): &Surface,
     geometry: Space,
@@ -47,7 +47,7 @@ fn flow(
     Ok(report)
 }
 
-/// Flat (four cones on a sphere), and of constant curvature −1 where there is such a metric.
+/// The flat metric (four cones on a sphere), and the one of constant curvature −1 where it exists.
 fn default_targets(surface: &Surface) -> Vec<(Space, PerVertex<f64>)> {
     let given = euclidean(&surface.0, &surface.1);
     let curved = (given.mesh().euler() < 0).then_some(Space::H2);
@@ -115,8 +115,8 @@ fn a_sphere_a_million_times_as_long_as_wide() {
     for scheme in SCHEMES {
         let kind = (Space::E2, scheme);
         flow(&surface, Space::E2, kind, &balanced(&surface.0, &ends), "cones at the ends").unwrap();
-        // The metric with four in the middle has triangles with angles of 1e-24, and ∂K/∂u entries of 1e24 beside entries of 1, of which
-        // doubles keep nothing: the flow stalls, and claims nothing that does not hold.
+        // The metric with four cones in the middle has triangles with angles of 1e-24, and ∂K/∂u entries of 1e24 beside entries of 1, of
+        // which f64 keeps nothing: the flow stalls, and its report says so.
         let target = in_the_middle(&surface.0, &by_height);
         let mut flow = started(&surface, kind, &Options { max_iterations: 150, ..Options::default() });
         let report = attempt(&mut flow, &target);
@@ -126,8 +126,8 @@ fn a_sphere_a_million_times_as_long_as_wide() {
     }
 }
 
-/// Needles with angles of 1e-12 on the way and at the end. They magnify the rounding of η by 1e12, which flips add up: with η in doubles
-/// the flow stalls at an error of 1e-3.
+/// Needles with angles of 1e-12 on the way and at the end. They magnify the rounding of η by 1e12, and flips add it up: with η in f64 the
+/// flow stalls at an error of 1e-3.
 #[test]
 fn needles_of_a_millionth_of_a_millionth_of_a_radian() {
     let (surface, by_height) = stretched(6, 1e5);
@@ -182,7 +182,7 @@ fn hyperbolic_targets_near_a_metric_without_area() {
             flow(&surface, Space::E2, (Space::H2, scheme), &target, &format!("area {area:e}")).unwrap();
         }
     }
-    // And cusps, nearly.
+    // And vertices that are nearly cusps.
     for short in [1e-3, 1e-6] {
         let mut target = PerVertex::filled(n, 0.0);
         target[0usize.into()] = 2.0 * PI - short;
@@ -274,7 +274,7 @@ fn what_cannot_be_is_refused_by_name() {
     over[5usize.into()] += 1e-3;
     assert!(matches!(check(&over, Space::E2), Err(Error::TargetTotal { .. })));
     assert!(matches!(check(&at(3, 1.0), Space::H2), Err(Error::TargetTotal { .. })));
-    // A flow refuses them with the same errors, and is where it was.
+    // A flow refuses them with the same errors, and keeps its state.
     let mut nan = at(3, 1.0);
     nan[7usize.into()] = f64::NAN;
     let small: PerVertex<f64> = at(3, 1.0).iter().map(|k| k - 0.01).collect::<Vec<_>>().into();
@@ -295,7 +295,7 @@ fn what_cannot_be_is_refused_by_name() {
         assert!(matches!(refused(Space::H2, &small), Error::TargetTotal { .. }));
         assert!(matches!(refused(Space::E2, &nan), Error::Argument { what: "target curvature", .. }));
     }
-    // A triangle inequality that fails, a length that is none.
+    // A broken triangle inequality, and lengths that are invalid.
     for (edge, length) in [(0usize, 10.0), (1, f64::NAN), (2, 0.0)] {
         let mut lengths = sphere.1.clone();
         lengths[edge.into()] = length;
@@ -307,7 +307,7 @@ fn what_cannot_be_is_refused_by_name() {
     }
 }
 
-/// 73 handles behind one loop of a few short edges: the steps to the metric are found to be too many after twenty of them.
+/// 73 handles behind one loop of a few short edges: after twenty steps the flow finds that it would need too many.
 #[test]
 fn curvature_that_lengths_cannot_carry_is_refused_soon() {
     let given = ricci::Surface::from_soup(&shapes::punch(&shapes::genus(73, 2).unwrap(), 1).unwrap());
@@ -325,7 +325,7 @@ fn to_delaunay(surface: &mut Triangulated) -> usize {
     intrinsic_delaunay(surface, IntrinsicOptions::default(), &mut |_, _| (), &Control::new()).unwrap()
 }
 
-/// The flat torus with periods 1 and k + τ is that with periods 1 and τ, sheared k times: it takes k flips to see it.
+/// The flat torus with periods 1 and k + τ is the one with periods 1 and τ, sheared k times: unwinding it takes k flips.
 #[test]
 fn sheared_tori_are_unwound() {
     let tau = [0.3, 0.9];
@@ -341,12 +341,12 @@ fn sheared_tori_are_unwound() {
         let worst = (0..3).map(|i| (found[i] - reduced[i]).abs()).fold(0.0, f64::max);
         println!("sheared {k:.0} times: {flips} flips, lengths off by {worst:.1e}");
         assert!((flips as f64 - k).abs() <= 2.0, "{k}: {flips}");
-        // Two sides of a triangle sheared j times exceed the third by 1/j² and say so to j³ ulp, anew for each j.
+        // Two sides of a triangle sheared j times exceed the third by 1/j², which is accurate to j³ ulp, and errors add up over j.
         assert!(worst < 4.0 * f64::EPSILON * k.powf(3.5), "{k}: {worst:e}");
     }
 }
 
-/// Angles near π and near 0 opposite one edge: their cosines add up to nothing in doubles, and the edge is Delaunay or not all the same.
+/// Angles near π and near 0 opposite one edge: their cosines cancel in f64, and still it is decided whether the edge is Delaunay.
 #[test]
 fn needles_beside_caps_are_told_from_delaunay_edges() {
     let positions = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];

@@ -1,4 +1,4 @@
-//! Generators of surfaces with holes, knots, unequal handles, given boundary lengths or branch points, and bad triangles.
+//! Tests of the generators of surfaces with holes, knots, unequal handles, given boundary lengths or branch points, and bad triangles.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 use ricci::Error;
@@ -58,7 +58,7 @@ fn holes_are_boundary_loops_and_nothing_else_changes() {
             assert!(angle > 0.4 * smallest_angle(soup).to_degrees().min(30.0), "{angle}");
         }
     }
-    // Where a round hole has no room, the faces around a vertex are one: loops share no vertex.
+    // Where a round hole has no room, it consists of the faces around a vertex; loops share no vertex.
     for (soup, most) in [
         (shapes::disk(3).unwrap(), 1),
         (shapes::disk(8).unwrap(), 5),
@@ -106,7 +106,7 @@ fn knotted_torus_is_a_tube_around_its_knot() {
         let soup = knot.torus(tube, n, m).unwrap();
         let mesh = build(&soup);
         assert_eq!((mesh.genus(), mesh.boundary_loops().len()), (1, 0));
-        // The core, point by point; the tube's area and volume by Pappus.
+        // The core is compared point by point; the tube's area and volume are known by Pappus.
         let core = |t: f64| {
             let (u, v) = (TAU * f64::from(p) * t, TAU * f64::from(q) * t);
             let r = 2.0 + 0.9 * v.cos();
@@ -121,7 +121,7 @@ fn knotted_torus_is_a_tube_around_its_knot() {
         let known = PI * tube * tube * length;
         let got = volume(&soup);
         assert!((got / known - 1.0).abs() < 0.02, "({p}, {q}): {got} {known}");
-        // A tube twice as thick as there is room for is refused.
+        // A tube twice as thick as the room for it is refused.
         assert!(knot.torus(2.5, n, m).is_err());
     }
     for (p, q) in [(2, 4), (0, 1), (2, 0), (1001, 1)] {
@@ -145,12 +145,12 @@ fn knots_have_no_fewer_sections_than_make_them() {
         let knot = TorusKnot { p, q, big: 2.0, small: 0.9 };
         let n = least(knot, tube);
         assert!(knot.torus(tube, n - 1, 12).is_err());
-        // At the bound the surface is right side out, with the volume of a much finer one but for what the chords cut off.
+        // At the bound the surface is oriented outwards, with the volume of a much finer one except for what the chords cut off.
         let (coarse, fine) = (knot.torus(tube, n, 12).unwrap(), knot.torus(tube, 20 * n, 12).unwrap());
         let ratio = volume(&coarse) / volume(&fine);
         println!("({p}, {q}), tube {tube}: {n} sections, volume {ratio:.3} of the limit");
         assert!(build(&coarse).genus() == 1 && (0.85..1.0).contains(&ratio));
-        // No two sections meet: the core of each is further from every other's than in the tube.
+        // No two sections meet: the core of each is farther from every other's than within the tube.
         let centre = |i: usize| {
             let sum = (0..12)
                 .fold([0.0; 3], |s: Point, j| [0, 1, 2].map(|k| s[k] + coarse.positions[i + n * j][k]));
@@ -243,7 +243,7 @@ fn pants_have_geodesic_boundaries_of_the_given_lengths() {
             assert_eq!(mesh.n_faces(), 8 * 4usize.pow(level as u32));
             let k = curvature(&mesh, Space::H2, &edges).unwrap();
             let worst = k.at.iter().map(|k| k.abs()).fold(0.0, f64::max);
-            // A length is rounded to half an ulp; the angles feel that in proportion to the shortest one.
+            // A length is rounded to half an ulp, which changes angles in proportion to the shortest length.
             let longest = edges.iter().copied().fold(0.0, f64::max);
             let shortest = edges.iter().copied().fold(f64::INFINITY, f64::min);
             let bound = 32.0 * f64::EPSILON * longest / shortest;
@@ -291,7 +291,7 @@ fn hyperelliptic_surfaces_are_double_covers_of_the_round_sphere() {
             assert!((k.at[v] - known).abs() < 1e-12);
         }
     }
-    // Drawn in towards the branch points it is the same surface.
+    // Graded towards the branch points it is the same surface.
     let points = [0.0, 1.0, -1.3, 2.1].map(|x| num_complex::Complex64::new(x, 0.3 * x * x));
     for grading in [2.0, 3.0] {
         let (mesh, lengths) = shapes::hyperelliptic_graded(&points, 16, grading).unwrap().build().unwrap();
@@ -320,7 +320,7 @@ fn grading_halves_edges_towards_a_vertex() {
     assert!((total_area(&soup) / area - 1.0).abs() < 1e-13);
     assert!(smallest_angle(&soup) > 0.45 * least);
     assert!(shapes::grade(&mut soup, 100_000, 1).is_err() && shapes::grade(&mut soup, 5, 101).is_err());
-    // As many levels as are allowed make triangles, away from the origin and at it.
+    // The largest allowed number of levels gives valid triangles, at the origin and elsewhere.
     for (mut soup, vertex) in
         [(shapes::icosphere(4).unwrap(), 0), (shapes::disk(3).unwrap(), 0), (shapes::disk(3).unwrap(), 20)]
     {
@@ -333,7 +333,7 @@ fn grading_halves_edges_towards_a_vertex() {
         shapes::grade(&mut soup, vertex, most).unwrap();
         assert!(smallest_angle(&soup) > 0.45 * least);
     }
-    // A boundary vertex too.
+    // The same at a boundary vertex.
     let mut disk = shapes::disk(3).unwrap();
     shapes::grade(&mut disk, 20, 3).unwrap();
     assert_eq!(build(&disk).boundary_loops().len(), 1);

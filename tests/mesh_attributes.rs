@@ -1,4 +1,4 @@
-//! Normals, colours and texture coordinates through every format, with hard edges, seams and gaps.
+//! Tests that normals, colours and texture coordinates survive every format, with hard edges, seams and gaps.
 #![allow(clippy::unwrap_used, clippy::print_stderr)]
 
 mod common;
@@ -9,7 +9,7 @@ use ricci::mesh::repair::{Repair, repair};
 use ricci::mesh::{Mesh, shapes};
 use std::path::Path;
 
-/// Written under this name and read back, with what was left out.
+/// The soup after it was written under this name and read back, and the attributes that were left out.
 fn through(name: &str, soup: &Soup) -> (Soup, Vec<&'static str>) {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join(name);
@@ -43,7 +43,7 @@ fn hard_edges_keep_a_normal_for_each_corner() {
     assert!(back == cube && left_out.is_empty());
     let (back, left_out) = through("m.glb", &cube);
     assert!(back == cube && left_out.is_empty());
-    // Repair keeps them with their corners, also where it turns a face around.
+    // Repair keeps them at their corners, also where it turns a face around.
     let mut torn = cube.clone();
     torn.faces[3].swap(1, 2);
     torn.attributes.corner_normals.as_mut().unwrap()[3].swap(1, 2);
@@ -139,7 +139,7 @@ fn surfaces_with_seams_and_hard_edges_keep_their_connectivity() {
 
 #[test]
 fn vertices_in_one_place_stay_two_in_our_glb_and_become_one_in_that_of_others() {
-    // Two triangles that meet in an edge whose vertices both have of their own: a slit.
+    // Two triangles that meet in an edge, each with vertices of its own there: a slit.
     let (a, b, c, d) = ([0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0]);
     let slit = Soup::new(vec![a, b, c, b, d, c], vec![[0, 1, 2], [3, 4, 5]]);
     for hard in [false, true] {
@@ -157,14 +157,14 @@ fn vertices_in_one_place_stay_two_in_our_glb_and_become_one_in_that_of_others() 
         );
         assert_eq!(theirs.attributes.uv, slit.attributes.uv);
     }
-    // Places that 32 bits do not tell apart.
+    // Positions that 32 bits do not distinguish.
     let mut close =
         Soup::new(vec![a, b, [0.1, 1.0, 0.0], [0.1 + 1e-16, 1.0, 0.0]], vec![[0, 1, 2], [1, 0, 3]]);
     close.positions[3][0] = 0.1f64.next_up();
     assert_eq!(through("m.glb", &close).0.faces, close.faces);
 }
 
-/// The file without the attribute that is ours: its name is another, of the same length.
+/// The file without this library's attribute, whose name is replaced by another of the same length.
 fn anonymous(path: &Path) -> Soup {
     let bytes = std::fs::read(path).unwrap();
     let name = b"_RICCI_VERTEX";
@@ -190,7 +190,7 @@ fn what_some_elements_lack_is_filled_up() {
     assert_eq!(normals.unwrap(), [[0.0, 0.0, 1.0], zero, [0.0, 1.0, 0.0]]);
     assert_eq!(colors.unwrap(), [[1.0, 0.0, 0.2, 1.0], white, [0.0, 1.0, 0.0, 1.0]]);
     assert_eq!(uv.unwrap(), [[[0.5, 0.25], [0.0; 2], [1.0; 2]]]);
-    // Nothing at all is nothing.
+    // A file without attributes.
     let none = "COFF\n3 1 0\n0 0 0\n1 0 0\n1 1 0\n3 0 1 2\n";
     assert_eq!(io::parse_off(none.as_bytes(), "t.off").unwrap().attributes, Attributes::default());
 }

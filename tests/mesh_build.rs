@@ -95,7 +95,7 @@ fn three_faces_at_an_edge_are_non_manifold_and_two_of_them_run_the_same_way() {
     let end = |vertex| Defect::NonManifoldVertex { vertex, sheets: 1 };
     let clash = Defect::InconsistentOrientation { vertices: [0, 1], faces: vec![0, 2], meeting: 3 };
     assert_eq!(defects(5, &faces), [edge, end(0), end(1), clash.clone()]);
-    // Turning faces over mends two faces at an edge, never three.
+    // Turning faces over mends two faces at an edge, but never three.
     assert!(
         clash.remedy().contains("first: ricci repair --cut-edges")
             && clash.remedy().contains("non-manifold edge")
@@ -106,10 +106,10 @@ fn three_faces_at_an_edge_are_non_manifold_and_two_of_them_run_the_same_way() {
         [Defect::InconsistentOrientation { vertices: [0, 1], faces: vec![0, 1], meeting: 2 }]
     );
     assert!(two.remedy().contains("ricci repair"));
-    // Both remedies are said where both kinds occur.
+    // Both remedies are given where both kinds occur.
     let text = diagnose(&positions(7), &[[0, 1, 2], [1, 0, 3], [0, 1, 4], [4, 5, 6], [4, 5, 2]]).to_string();
     assert!(text.contains(clash.remedy()) && text.contains(two.remedy()), "{text}");
-    // Two faces each way: no order of the edge's faces is consistent, and both pairs are named.
+    // Two faces in each direction: no order of the edge's faces is consistent, and both pairs are named.
     let four = [[0, 1, 2], [1, 0, 3], [0, 1, 4], [1, 0, 5]];
     let pairs: Vec<_> =
         defects(6, &four).into_iter().filter(|d| d.code() == "inconsistent_orientation").collect();
@@ -148,7 +148,7 @@ fn odd_strip_is_non_orientable_with_the_band_as_witness() {
         let [Defect::NonOrientable { strip }] = &defects(n as usize, &faces)[..] else {
             panic!("one defect expected")
         };
-        // The witness proves it: count the sides passed the same way around the band.
+        // The strip is a proof of one-sidedness: count the sides passed in the same direction around the band.
         let side = |f: u32, v: u32, w: u32| {
             let face = faces[f as usize];
             (0..3).any(|k| face[k] == v && face[(k + 1) % 3] == w)
@@ -214,7 +214,7 @@ fn faces_without_area() {
     assert!(flat([[0.0; 3], [0.0; 3], [1.0, 0.0, 0.0]]));
     assert!(flat([[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1e-9, 0.0]]));
     assert!(!flat([[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1e-7, 0.0]]));
-    // A needle keeps its angles at any scale that doubles hold.
+    // A needle keeps its angles at any scale within the range of f64.
     for s in [1e-300, 1e-160, 1.0, 1e160, 1e308] {
         assert!(!flat([[0.0, -s * 1e-6, 0.0], [0.0, s * 1e-6, 0.0], [s, 0.0, 0.0]]), "scale {s:e}");
     }
@@ -377,7 +377,7 @@ proptest! {
         }
     }
 
-    /// The derivation of the flatness tolerance: what passes has lengths that satisfy the strict inequality.
+    /// Derives the flatness tolerance: faces that pass have lengths that satisfy the strict inequality.
     #[test]
     fn faces_that_are_not_flat_have_strict_triangle_inequalities(
         p in [-1.0f64..1.0, -1.0f64..1.0, -1.0f64..1.0],

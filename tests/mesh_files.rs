@@ -1,4 +1,4 @@
-//! Mesh files: the corpus against the topology that its index states, dialects, broken files, writing.
+//! Tests of mesh files: the corpus against the topology in its index, dialects, broken files, writing.
 #![allow(clippy::unwrap_used, clippy::print_stdout, clippy::print_stderr)]
 
 mod common;
@@ -30,7 +30,7 @@ fn every_good_mesh_has_the_topology_of_the_index() {
             [mesh.n_vertices(), mesh.n_edges(), mesh.n_faces(), mesh.genus(), mesh.boundary_loops().len()];
         let theirs = ["V", "E", "F", "genus", "boundary_loops"].map(|c| count(row, c).unwrap());
         assert_eq!(ours, theirs, "{}", row["name"]);
-        // No defect is what the rest of the index says.
+        // The rest of the index says that there are no defects.
         let sound = ["edge_manifold", "vertex_manifold", "oriented", "orientable"];
         assert!(sound.iter().all(|&column| row[column] == "True"), "{}", row["name"]);
         assert_eq!([count(row, "components"), count(row, "degenerate")], [Some(1), Some(0)]);
@@ -46,15 +46,14 @@ fn noted(note: &str, words: &str) -> usize {
     part.and_then(|p| p.split(' ').next()).and_then(|n| n.parse().ok()).unwrap_or(0)
 }
 
-/// Where the index and we differ, and why: (file, column, ours).
+/// The differences between the index and this library, with their reasons: (file, column, this library's value).
 const DIFFERENCES: [(&str, &str, usize); 3] = [
-    // Faces along an edge of a one-sided piece run the same way through nobody's fault: it is the band that
-    // is listed.
+    // Faces along an edge of a one-sided piece run the same way without a mistake: the band is listed instead.
     ("moebius.obj", "inconsistent orientation", 0),
-    // The index counts heights below 1e-12 of the longest side; face 2302 is a needle of 0.0011 × 153.5 ×
-    // 153.5 whose lengths in doubles bear no angle.
+    // The index counts heights below 1e-12 of the longest side; face 2302 is a needle of 0.0011 × 153.5 × 153.5 whose lengths in f64 give
+    // no angle.
     ("offset1.obj", "degenerate", 5),
-    // Polygons with corners in a line: ears leave one triangle without area, the index's fan two.
+    // Polygons with collinear corners: ears leave one triangle without area, the index's fan two.
     ("mpi.off", "degenerate", 1),
 ];
 
@@ -74,8 +73,7 @@ fn every_bad_mesh_gets_the_diagnosis_of_the_index() {
         // The index leaves isolated vertices out where its reader numbered the vertices itself.
         let counts_isolated = row["file"].ends_with("ply");
         let noted = |words: &str| noted(&row["note"], words);
-        // A pair of faces at an edge of their own; where more meet, the index counts the non-manifold edge
-        // only.
+        // A pair of faces at an edge of their own; where more meet, the index counts only the non-manifold edge.
         let pair = |d: &&Defect| matches!(d, Defect::InconsistentOrientation { meeting: 2, .. });
         let same_way = ours("inconsistent_orientation") + ours("non_orientable");
         for (what, ours, theirs) in [
@@ -215,7 +213,7 @@ fn texture_coordinates_are_written_per_corner() {
     assert_eq!(io::read(&path).unwrap().faces, data.faces);
 }
 
-/// tobj numbers vertices anew, so what the corners of the faces have is compared.
+/// tobj renumbers vertices, so the data at the corners of faces are compared.
 #[test]
 fn another_reader_of_obj_finds_what_was_written() {
     let folder = tempfile::tempdir().unwrap();
@@ -303,7 +301,7 @@ fn a_syntax_error_names_its_line_and_what_is_wrong() {
         (read_off, "OFF 1 1 0\n0 0 0\n3 0 0 -1\n", Some(3), "corner 2 of face 0 `-1`"),
         (read_off, "OFF 1 1 0\n0 0 0\n3 0 0 4294967296\n", Some(3), "more than can be numbered"),
         (read_off, "OFF 1 1 0\n0 0 0\n3 0 0 0\n3 0 0 0\n", Some(4), "after the last face"),
-        // A header that promises more than the file holds is an error, not an allocation.
+        // A header that announces more than the file has is an error, not an allocation.
         (read_off, "OFF\n99999999999 1 0\n0 0 0\n", Some(3), "vertex 1 (of 99999999999)"),
         (read_off, "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n99999999999 0 1 2\n", Some(6), "corner 3 of face 0"),
     ];
@@ -315,9 +313,8 @@ fn a_syntax_error_names_its_line_and_what_is_wrong() {
     assert!(matches!(io::read("mesh.xyz".as_ref()), Err(Error::UnknownFormat { .. })));
 }
 
-/// Binary OFF after Geomview's manual, written here: big-endian counts, `f32` per vertex, and per face its
-/// size, corners and colour. `little`: the other byte order and no colours, as programs write that copy their
-/// memory.
+/// Binary OFF according to Geomview's manual: big-endian counts, `f32` per vertex, and per face its size, corners and colour. With
+/// `little`, the other byte order and no colours, as programs write that copy their memory.
 fn binary(header: &str, vertices: &[&[f32]], faces: &[(&[i32], &[f32])], little: bool) -> Vec<u8> {
     let mut out = header.as_bytes().to_vec();
     let mut word = |bits: u32| out.extend(if little { bits.to_le_bytes() } else { bits.to_be_bytes() });
@@ -368,7 +365,7 @@ fn binary_off_is_the_text_off_of_the_same_mesh() {
             let bytes = binary(header, &rows, &faces, little);
             same(&bytes, header);
             same(&[&bytes[..], b"\n"].concat(), header);
-            // Cut anywhere, it is an error that names the last byte; with more behind it, one that says so.
+            // Truncated anywhere, it is an error that names the last byte; with more bytes after it, another error.
             for end in header.len()..bytes.len() {
                 let Err(Error::Parse { message, at, .. }) = io::parse_off(&bytes[..end], "t.off") else {
                     panic!("{header}: {end} bytes were read")
@@ -390,7 +387,7 @@ fn binary_off_with_impossible_numbers_names_them() {
         let bytes: Vec<u8> = words.iter().flat_map(|w| w.to_be_bytes()).collect();
         io::parse_off(&[b"OFF BINARY\n", &bytes[..]].concat(), "t.off").unwrap_err().to_string()
     };
-    // Counts beyond the file are not believed: nothing is allocated for them.
+    // Counts beyond the file's size cause no allocation.
     assert!(message(&[i32::MAX, i32::MAX, 0, 0, 0, 0]).contains("in vertex 1 (of 2147483647)"));
     assert!(message(&[0, i32::MAX, 0]).contains("in the size of face 0 (of 2147483647)"));
     assert!(message(&[0, 1, 0, i32::MAX, 1, 2]).contains("in corner 2 of face 0"));

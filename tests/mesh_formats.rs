@@ -1,4 +1,4 @@
-//! Every format: what is written reads back the same, dialects are understood, and what is cut off or absurd is refused.
+//! Tests of every format: files read back as written, dialects are understood, truncated and absurd files are refused.
 #![allow(clippy::unwrap_used, clippy::print_stderr)]
 
 mod common;
@@ -182,7 +182,7 @@ fn ply_is_read_in_all_its_encodings() {
         assert_eq!(soup.faces, [[0, 1, 2], [0, 2, 3]], "{encoding}");
         assert_eq!(soup.attributes.colors.unwrap()[2], [1.0, 0.0, 0.2, 1.0]);
         assert_eq!((soup.attributes.normals, soup.attributes.uv), (None, None));
-        // Cut off anywhere it is an error, never a panic and never a smaller mesh.
+        // Truncated anywhere it is an error, never a panic and never a smaller mesh.
         for end in 0..bytes.len() - 2 {
             assert!(io::parse_ply(&bytes[..end], "t.ply").is_err(), "{encoding} cut at {end}");
         }
@@ -218,7 +218,7 @@ fn ply_headers_are_not_trusted() {
         };
         assert!(message.contains(says), "{message}");
     }
-    // An element of nothing, 10¹⁸ times.
+    // An empty element with 10¹⁸ rows.
     let empty = "ply\nformat binary_big_endian 1.0\nelement void 1000000000000000000\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
     assert_eq!(io::parse_ply(empty.as_bytes(), "t.ply").unwrap(), Soup::default());
 }
@@ -313,7 +313,7 @@ fn obj_and_off_attributes_are_kept() {
     assert_eq!(normals, Some(vec![[0.0, 0.0, 2.0]; 3]));
     assert_eq!(colors.unwrap()[1], [0.0, 1.0, 0.0, 1.0]);
     assert_eq!(uv, Some(vec![[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]]]));
-    // What is missing, out of range or no number has the default; the rest is kept.
+    // Missing, invalid and out-of-range values get the default; the rest is kept.
     let poor = "v 0 0 0 1 0 0\nv 1 0 0\nv 1 1 0 nan 0 0\nvt 0 0\nvn 0 0 1\nvn 0 1 0\nf 1/1/1 2/7/1 3//1\nf 1//2 3//1 2//1\n";
     let soup = io::parse_obj(poor.as_bytes(), "t.obj").unwrap();
     let Attributes { normals, corner_normals, colors, uv } = soup.attributes;
@@ -350,8 +350,8 @@ fn binary_off_has_colours_of_bytes_too() {
     }
 }
 
-/// Whatever was accepted must hold together: it builds a valid mesh or names its defects, it is repaired or refused, and it
-/// reads back as it was written.
+/// An accepted file must be consistent: it builds a valid mesh or names its defects, it is repaired or refused, and it reads back as it
+/// was written.
 fn accepted(soup: &Soup) {
     if let Ok(mesh) = Mesh::from_soup(soup) {
         mesh.validate().unwrap();
@@ -368,7 +368,7 @@ fn accepted(soup: &Soup) {
     }
 }
 
-/// A small file with attributes, as our writer makes it.
+/// A small file with attributes, made by this library's writer.
 fn glb() -> Vec<u8> {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("m.glb");
@@ -387,7 +387,7 @@ fn gifti(encoding: &str, points: &str, triangle: &str) -> Vec<u8> {
     format!("<GIFTI>{arrays}</GIFTI>").into_bytes()
 }
 
-/// A sound file of each kind.
+/// A valid file of each kind.
 fn sample(which: usize) -> Vec<u8> {
     let (a, b, c) = ([0.0f32, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0]);
     match which {

@@ -1,4 +1,4 @@
-//! GIFTI: every encoding, byte order and array order of a surface is the same surface; what is damaged is refused by line.
+//! Tests of GIFTI: every encoding, byte order and array order gives the same surface; damaged files are refused with the line.
 #![allow(clippy::unwrap_used)]
 
 use base64::Engine;
@@ -90,7 +90,7 @@ fn all_encodings_and_orders_are_one_surface() {
                 if big { "Big" } else { "Little" },
                 if column_major { "Column" } else { "Row" }
             );
-            // Broken into lines, as some write it.
+            // Broken into lines, as some programs do.
             let text = |bytes: &[u8]| format!("\n{}\n", STANDARD.encode(pack(bytes)).replace('A', "A\r\n "));
             let (float, int) = if wide { ("FLOAT64", "INT64") } else { ("FLOAT32", "UINT32") };
             let soup = parse(&file(&[
@@ -118,7 +118,7 @@ fn all_encodings_and_orders_are_one_surface() {
     assert_eq!(parse(&file(&[points.into(), small])).unwrap(), tetrahedron());
 }
 
-/// What nibabel 5.4 writes.
+/// A file written by nibabel 5.4.
 const NIBABEL: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
 <!DOCTYPE GIFTI SYSTEM "http://www.nitrc.org/frs/download.php/115/gifti.dtd">
 <GIFTI Version="1.0" NumberOfDataArrays="2"><MetaData /><LabelTable /><DataArray Intent="NIFTI_INTENT_POINTSET" DataType="NIFTI_TYPE_FLOAT32" ArrayIndexingOrder="RowMajorOrder" Dimensionality="2" Encoding="GZipBase64Binary" Endian="LittleEndian" ExternalFileName="" ExternalFileOffset="0" Dim0="4" Dim1="3"><MetaData /><CoordinateSystemTransformMatrix><DataSpace>NIFTI_XFORM_UNKNOWN</DataSpace><TransformedSpace>NIFTI_XFORM_UNKNOWN</TransformedSpace><MatrixData>  1.000000   0.000000   0.000000   0.000000
@@ -189,7 +189,7 @@ fn what_cannot_be_read_is_refused_by_line() {
         let Err(Error::Parse { at, message, .. }) = parse(&text) else { panic!("{says}: read\n{text}") };
         assert!(message.contains(says) && at == place, "{at}, not {place}: {message}");
     }
-    // Cut anywhere it is refused.
+    // Truncated anywhere it is refused.
     for end in 0..text.trim_end().len() {
         assert!(parse(&text[..end]).is_err(), "cut at {end}");
     }

@@ -1,4 +1,4 @@
-//! glTF: files built here byte by byte against the specification, and what the writer writes.
+//! Tests of glTF: files built here byte by byte from the specification, and the output of the writer.
 #![allow(clippy::unwrap_used)]
 
 use base64::Engine;
@@ -75,10 +75,10 @@ fn modes_of_a_primitive_are_read_as_the_specification_draws_them() {
         document["meshes"][0]["primitives"][0]["mode"] = mode.clone();
         assert_eq!(parse(&document, &binary).unwrap(), Soup::new(corners(), faces), "{mode}");
     }
-    // Without indices the vertices count themselves.
+    // Without indices the vertices are numbered in order.
     document["meshes"][0]["primitives"] = json!([{"attributes": {"POSITION": 0}, "mode": 6}]);
     assert_eq!(parse(&document, &binary).unwrap().faces, [[0, 1, 2], [0, 2, 3]]);
-    // A strip that turns back on itself by a repeated vertex.
+    // A strip that turns back by a repeated vertex.
     let (mut document, mut binary) = square();
     document["meshes"][0]["primitives"][0]["mode"] = json!(5);
     document["accessors"][1]["count"] = json!(5);
@@ -108,7 +108,7 @@ fn buffers_may_be_data_uris_and_the_document_plain_text() {
 fn nodes_place_their_meshes() {
     let (mut document, binary) = square();
     let at = |document: &Value| parse(document, &binary).unwrap();
-    // A quarter turn about z, then twice as large, then moved: by parts and by the matrix of the same.
+    // A quarter turn about z, then a scale of 2, then a translation: by parts, and by the corresponding matrix.
     let (h, s) = (0.5f64.sqrt(), 2.0);
     document["nodes"] = json!([
         {"children": [1], "translation": [10.0, 0.0, 0.0]},
@@ -124,10 +124,10 @@ fn nodes_place_their_meshes() {
         json!([{"mesh": 0, "matrix": [0, 2, 0, 0, -2, 0, 0, 0, 0, 0, 2, 0, 10, 0, 0, 1]}, {"mesh": 0}]);
     assert!(close(&at(&document)));
     assert_eq!(at(&document).faces, [[0, 1, 2], [0, 2, 3]]);
-    // A mirror keeps the outside outside.
+    // A mirror keeps the orientation outwards.
     document["nodes"] = json!([{"mesh": 0, "scale": [1, 1, -1]}]);
     assert_eq!(at(&document).faces, [[0, 2, 1], [0, 3, 2]]);
-    // Normals stay normal to a surface that is stretched or mirrored, and of length 1.
+    // Normals stay normal to a surface that is stretched or mirrored, and keep length 1.
     let mut leaning = document.clone();
     let push = |list: &mut Value, item: Value| list.as_array_mut().unwrap().push(item);
     push(
@@ -172,7 +172,7 @@ fn nodes_place_their_meshes() {
         let error = parse(&document, &binary).unwrap_err().to_string();
         assert!(error.contains(says), "{error}");
     }
-    // A long chain of nodes is no recursion.
+    // A long chain of nodes does not recurse.
     let mut chain: Vec<Value> = (1..100_000).map(|k| json!({"children": [k]})).collect();
     chain.push(json!({"mesh": 0}));
     document["nodes"] = json!(chain);
@@ -227,7 +227,7 @@ fn all_component_types_strides_and_sparse_accessors_are_read() {
     assert_eq!(colors.unwrap()[2], [1.0, 0.2, 0.0, 0.4]);
     assert_eq!(normals.unwrap()[0], [0.0, -1.0, 1.0]);
     assert_eq!(uv.unwrap(), [[[1.0, 1.0], [1.0, 1.0 - 0.2], [1.0, 1.0 - 0.4]]]);
-    // No buffer view: zeros but for the sparse ones. Colours without opacity are opaque.
+    // No buffer view: zeros except for the sparse ones. Colours without opacity are opaque.
     let mut zeros = document.clone();
     zeros["accessors"][0].as_object_mut().unwrap().remove("bufferView");
     zeros["accessors"][1]["type"] = json!("VEC3");
@@ -367,12 +367,12 @@ fn positions_keep_their_digits_far_from_the_origin_and_at_any_size() {
         assert_eq!(back.faces, sphere.faces);
         let off = back.positions.iter().flatten().zip(placed.as_flattened()).map(|(a, b)| (a - b).abs());
         let off = off.fold(0.0, f64::max);
-        // Rounding to 24 bits in a box of half its size, and of the sum in doubles.
+        // Rounding to 24 bits in a box of half its size, and of the sum in f64.
         let allowed = size * 2f64.powi(-24) + away * 2f64.powi(-52);
         assert!(off <= allowed, "{size} at {away}: {off} > {allowed}");
         assert!(Mesh::from_soup(&back).is_ok());
     }
-    // What 32 bits hold comes back bit for bit.
+    // Numbers that fit in 32 bits come back bit for bit.
     let narrow = Soup::new(
         sphere.positions.iter().map(|p| p.map(|x| f64::from(x as f32 + 77.0))).collect(),
         sphere.faces,

@@ -1,4 +1,4 @@
-//! No file, however it is made, takes more memory to read than 64 MB and 20 times its size.
+//! Tests that reading any file, however it is made, takes at most 64 MB and 20 times its size in memory.
 #![allow(clippy::unwrap_used, clippy::print_stderr)]
 
 use base64::Engine;
@@ -28,7 +28,7 @@ struct Case {
     what: String,
     make: Box<dyn Fn() -> Vec<u8>>,
     parse: Parse,
-    /// Whether it is read, where that is not left open.
+    /// The expected result of reading; `None` where both are allowed.
     read: Option<bool>,
 }
 
@@ -42,10 +42,10 @@ impl Case {
         Case { what: what.into(), make: Box::new(make), parse, read }
     }
 
-    /// Read, with the memory that it takes at most.
+    /// Reads the file, and checks the memory that this takes.
     fn check(&self) {
         let bytes = (self.make)();
-        // Sets the high-water mark to what is used now.
+        // Resets the high-water mark to the memory that is used now.
         std::fs::write("/proc/self/clear_refs", "5").unwrap();
         let before = status("VmRSS:");
         let result = (self.parse)(&bytes, "t");
@@ -247,7 +247,7 @@ fn dense_ply(cases: &mut Vec<Case>) {
     );
 }
 
-/// A large mesh with everything in every format, and a GIFTI file as dense as they come.
+/// A large mesh with all attributes in every format, and a dense GIFTI file.
 fn honest(cases: &mut Vec<Case>) {
     let parsers: [(&str, Parse); 4] =
         [("obj", io::parse_obj), ("off", io::parse_off), ("ply", io::parse_ply), ("glb", io::parse_glb)];
@@ -282,7 +282,7 @@ fn written(soup: &Soup, extension: &str) -> Vec<u8> {
     std::fs::read(&path).unwrap()
 }
 
-/// Names the case to a process that reads only that one: memory that an earlier case has freed would hide some.
+/// Names the case to a process that reads only this one: memory freed by an earlier case would hide some.
 const CASE: &str = "RICCI_MEMORY_CASE";
 
 #[test]

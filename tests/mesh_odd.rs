@@ -1,4 +1,4 @@
-//! Odd and ordinary files of other programs are read, and what is refused is refused with its place.
+//! Tests of odd and ordinary files of other programs: they are read, or refused with the position of the fault.
 #![allow(clippy::unwrap_used)]
 
 use ricci::mesh::io::{self, Soup};
@@ -50,7 +50,7 @@ fn ascii_ply_of_other_programs_is_read() {
         let soup = ply(&text).unwrap_or_else(|e| panic!("{text}: {e}"));
         assert_eq!((&soup.positions[..], &soup.faces[..]), (&TRIANGLE[..], &[[0, 1, 2]][..]), "{text}");
     }
-    // What is no number to geometry is one to the reader: the diagnosis finds it.
+    // The reader accepts `nan` as a number; the diagnosis finds it.
     for word in ["nan", "inf", "-inf", "NaN"] {
         assert!(!ply(&plain.replace("1 0 0", &format!("1 {word} 0"))).unwrap().positions[1][1].is_finite());
     }
@@ -72,7 +72,7 @@ fn ply_errors_name_the_line_or_the_byte_and_quote_little() {
         (plain.replace("3 0 1 2", "3 0 1 -2"), FilePosition::Line(13), "face 0 names vertex -2"),
         (plain.replace("3 0 1 2", "3 0 1 1.5"), FilePosition::Line(13), "face 0 names vertex 1.5"),
         (plain.replace("3 0 1 2", "-3 0 1 2"), FilePosition::Line(13), "list `vertex_indices` of row 0 has -3 entries"),
-        // Two vertices on a line are no two rows.
+        // Two vertices on one line are not two rows.
         (plain.replace("0 0 0\n1", "0 0 0 1"), FilePosition::Line(12), "ends inside element `face`"),
         (plain.replace("element face", "element vertex"), FilePosition::Line(7), "a second element `vertex`"),
         (plain.replace("property list uchar int vertex_indices\n", ""), FilePosition::Line(7), "no list property"),
@@ -113,7 +113,7 @@ fn elements_without_properties_take_no_time() {
         }
         assert_eq!(ply(&header.replace("face 1", &format!("{name} 0"))).unwrap(), Soup::default());
     }
-    // One would take minutes.
+    // The time of one such file would be minutes.
     assert!(start.elapsed().as_secs() < 5);
 }
 
@@ -181,7 +181,7 @@ fn binary_stl_is_binary_whatever_its_header_says() {
         bytes
     };
     for header in ["by hand", "solid x", "solid facet"] {
-        // As promised, with less than a triangle behind it, and with a number that nobody filled in.
+        // The announced number, with part of a triangle after it, and a number that was never filled in.
         for (count, more) in [(4, 0), (4, 2), (4, 49), (0, 0)] {
             assert_eq!(stl(&file(header, 4, count, more)).unwrap().faces.len(), 4, "{header} {count} {more}");
         }
@@ -214,7 +214,7 @@ fn vertices_of_off_may_share_a_line_and_its_header_be_small() {
         let soup = off(&text).unwrap_or_else(|e| panic!("{text}: {e}"));
         assert_eq!((&soup.positions[..], &soup.faces[..]), (&TRIANGLE[..], &[[0, 1, 2]][..]), "{text}");
     }
-    // The first reading is the one whose error is told.
+    // The error of the first reading is reported.
     let (at, message) = place(off(&plain.replace("1 0 0\n", "1 0\n")));
     assert!(at == FilePosition::Line(6) && message.contains("size of face 0 (of 1) is missing"), "{at}: {message}");
 }
@@ -241,6 +241,6 @@ fn polygons_of_a_thousand_corners_are_cut_quickly() {
         (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
     };
     assert!(soup.faces.iter().all(|&f| double_area(f) > 0.0));
-    // 0.1 s when this was written; looking at every corner again for each ear takes 1.2 s.
+    // 0.1 s when this was written; examining every corner again for each ear takes 1.2 s.
     assert!(seconds < 0.6, "{seconds} s");
 }

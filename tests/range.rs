@@ -1,4 +1,4 @@
-//! Metrics beyond the range of doubles, and what their variables have beyond the digits of doubles.
+//! Metrics whose lengths leave the range of f64, and variables in double-double precision.
 #![allow(clippy::unwrap_used, clippy::print_stdout, clippy::print_stderr)]
 
 mod common;
@@ -12,7 +12,7 @@ use ricci::geometry::{Space, DoubleDouble};
 use ricci::mesh::{EdgeId, VertexId, shapes};
 use ricci::metric::{Class, Scheme, initial_metric};
 
-/// Metrics whose lengths and areas doubles do not hold are reached like others: angles need ratios within one triangle alone.
+/// Flows reach metrics whose lengths and areas leave the range of f64 like others: angles need only ratios within one triangle.
 #[test]
 fn lengths_beyond_doubles_are_no_limit_of_the_flow() {
     let (surface, by_height) = stretched(10, 1e4);
@@ -29,7 +29,7 @@ fn lengths_beyond_doubles_are_no_limit_of_the_flow() {
         let derivative = curvature_derivative(mesh, metric).unwrap();
         assert!(derivative.iter().all(|(_, _, x)| x.is_finite()));
         assert!(metric.angle_defects(mesh).unwrap().iter().all(|k| k.is_finite()));
-        // The area, of the size of e^900, is none that doubles hold; in another unit it is.
+        // The area, about e^900, leaves the range of f64; in another unit it does not.
         assert!(matches!(metric.curvature(mesh), Err(Error::Argument { what: "u", .. })), "{scheme}");
         let mut smaller = metric.clone();
         for v in mesh.vertices() {
@@ -39,7 +39,7 @@ fn lengths_beyond_doubles_are_no_limit_of_the_flow() {
         let curvature = smaller.curvature(mesh).unwrap();
         assert!(curvature.area.is_finite() && curvature.area > 0.0 && curvature.broken.is_empty());
         assert!(mesh.vertices().all(|v| (curvature.at[v] - target[v]).abs() < 1e-9));
-        // Lengths have a limit, and the edge that is beyond is named.
+        // Lengths have a limit, and the first edge beyond it is named.
         for refused in [smaller.lengths(mesh).map(drop), smaller.differences(mesh).map(drop)] {
             let Err(Error::EdgeWeight { edge, .. }) = refused else { panic!("{scheme}: {refused:?}") };
             let [a, b] = mesh.ends(EdgeId::from(edge)).map(|v| smaller.u[v]);
@@ -49,8 +49,8 @@ fn lengths_beyond_doubles_are_no_limit_of_the_flow() {
     }
 }
 
-/// Lengths and half-perimeter differences keep what u has beyond its doubles, for vertex types and weights of every kind: touching
-/// circles (η = 1), and triangles of circles that are about to break, too.
+/// Lengths and half-perimeter differences keep the low part of u, for all vertex types and weights, including touching circles (η = 1)
+/// and triangles of circles that are nearly broken.
 #[test]
 fn lengths_keep_both_halves_of_u() {
     let (mesh, lengths) = surface(&shapes::icosphere(2).unwrap());
@@ -64,7 +64,7 @@ fn lengths_keep_both_halves_of_u() {
                 metric.u[v] += shift + size * random.symmetric();
                 metric.u_low[v] = 0.4 * random.symmetric() * f64::EPSILON * metric.u[v].abs();
             }
-            // Lengths of this size are no doubles; the angles say what the differences are.
+            // Lengths of this size leave the range of f64; the differences follow from the angles.
             let [found, low, r] = if shift == 0.0 {
                 let r = metric.differences(&mesh).unwrap();
                 [

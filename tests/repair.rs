@@ -1,4 +1,4 @@
-//! Repair: what can be mended without a guess is, the rest is named, and every element can be traced back.
+//! Tests of repair: defects that need no guess are mended, the others are named, and every element can be traced back.
 #![allow(clippy::unwrap_used, clippy::print_stderr)]
 
 mod common;
@@ -14,7 +14,7 @@ fn mend(soup: &Soup) -> Repaired {
     check(soup, &Repair::default())
 }
 
-/// Repair, and hold the result against what every repair must satisfy.
+/// Repairs a soup, and checks what every repair must satisfy.
 fn check(soup: &Soup, options: &Repair) -> Repaired {
     let done = repair(soup, options).unwrap();
     let mut left = diagnose(&done.soup.positions, &done.soup.faces);
@@ -28,7 +28,7 @@ fn check(soup: &Soup, options: &Repair) -> Repaired {
     for (v, &origin) in done.vertex_origin.iter().enumerate() {
         assert_eq!(done.soup.positions[v], soup.positions[origin as usize]);
     }
-    // Each face has the corners that its origin had, up to its direction and to welding.
+    // Each face has the corners of its origin, up to its direction and to welding.
     for (face, &origin) in done.soup.faces.iter().zip(&done.face_origin) {
         let place = |v: u32| soup.positions[v as usize].map(|x| (x + 0.0).to_bits()); // −0 is 0
         let mut here = face.map(|v| place(done.vertex_origin[v as usize]));
@@ -38,13 +38,13 @@ fn check(soup: &Soup, options: &Repair) -> Repaired {
         assert!(here == there || options.weld.is_some_and(|w| w > 0.0));
     }
     for refused in &done.weld_refused {
-        // Each face has corners in both places.
+        // Each face has corners at both positions.
         let place = |v: u32| soup.positions[v as usize].map(|x| x + 0.0);
         let at = |f: u32, end: u32| soup.faces[f as usize].iter().any(|&v| place(v) == place(end));
         assert!(refused.faces.len() > 2);
         assert!(refused.faces.iter().all(|&f| refused.vertices.iter().all(|&v| at(f, v))));
     }
-    // What is repaired stays as it is. (Welding looks at the whole: what was dropped may allow more of it now.)
+    // A repaired soup stays as it is. (Welding is not repeated: faces that were dropped may allow more of it.)
     let again = repair(&done.soup, &Repair { weld: None, component: None, ..*options }).unwrap();
     assert_eq!(again.steps, RepairSteps::default());
     assert!(again.soup.positions == done.soup.positions && again.soup.faces == done.soup.faces);
@@ -108,12 +108,12 @@ fn a_fin_in_a_torn_surface_stays_apart_and_is_reported() {
             beside(&[loose.clone(), torn(&cube([5.0, 0.0, 0.0])), torn(&shapes::icosphere(2).unwrap())]);
         assert_eq!(shape(&check(&two, &options)), (7, 1, 4, vec!["several_components"]));
     }
-    // A distance asks for all of it.
+    // With a distance all of it is joined.
     let joined = check(&loose, &Repair { weld: Some(1e-9), ..Repair::default() });
     assert_eq!(shape(&joined).3, ["non_manifold_edge", "non_manifold_vertex", "inconsistent_orientation"]);
     let cut = Repair { weld: Some(1e-9), cut_non_manifold_edges: true, ..Repair::default() };
     assert_eq!(shape(&check(&loose, &cut)), (3, 1, 2, vec!["several_components"]));
-    // Three pages of a book that were never one: nothing says which two belong together.
+    // Three pages of a book that were never joined: nothing tells which two belong together.
     let back = |k: f64| [[0.0, 0.0, 0.0], [0.0, 0.0, 1.0], [k.cos(), k.sin(), 0.0]];
     let pages = beside(&[0.0, 2.0, 4.0].map(|k| Soup::new(back(k).to_vec(), vec![[0, 1, 2]])));
     let done = check(&pages, &Repair::default());
@@ -130,7 +130,7 @@ fn closed_surfaces_that_touch_stay_what_they_are() {
         assert!(done.soup.faces == both.faces && done.steps == RepairSteps::default(), "{:?}", done.steps);
         assert_eq!(done.weld_refused.len(), refused);
     }
-    // As loose triangles: a point is no matter; along an edge the neighbours say who belongs to whom.
+    // As loose triangles: a common point does not matter; along an edge the neighbours determine which faces belong together.
     for at in [[1.0; 3], [1.0, 1.0, 0.0]] {
         let loose = beside(&[torn(&cube([0.0; 3])), torn(&cube(at))]);
         assert_eq!(shape(&check(&loose, &Repair::default())), (4, 0, 2, vec!["several_components"]));
@@ -145,7 +145,7 @@ fn closed_surfaces_that_touch_stay_what_they_are() {
 
 #[test]
 fn welding_makes_no_edge_of_more_than_two_faces() {
-    // Surfaces on few places, torn in part: every kind of contact comes up.
+    // Random surfaces on few positions, partly torn, in which every kind of contact occurs.
     let mut random = Random::new(17);
     let mut below = |n: usize| (random.unit() * n as f64) as u32;
     let mut refused = 0;
@@ -169,7 +169,7 @@ fn welding_makes_no_edge_of_more_than_two_faces() {
     assert!(refused > 300, "{refused}");
 }
 
-/// Places of which no three are in line.
+/// Positions no three of which are collinear.
 fn position_of(place: u32) -> [f64; 3] {
     let t = f64::from(place);
     [t, t * t, t * t * t]
@@ -188,7 +188,7 @@ fn a_sound_surface_is_left_alone() {
 fn a_shuffled_soup_becomes_the_surface_it_was() {
     let whole = shapes::genus(2, 3).unwrap();
     let mut random = Random::new(31);
-    // Every face with corners of its own, some turned, some repeated, some collapsed, and a few points nobody uses.
+    // Every face has corners of its own; some faces are turned, repeated or collapsed, and a few points are unused.
     let mut torn = Soup::default();
     for (f, face) in whole.faces.iter().enumerate() {
         let n = torn.positions.len() as u32;
@@ -359,7 +359,7 @@ fn every_bad_mesh_is_repaired_or_says_what_is_left() {
         let whole = Repair { cut_non_manifold_edges: true, component: Some(0), ..Repair::default() };
         let options = if soup.faces.is_empty() { Repair::default() } else { whole };
         let done = check(&soup, &options);
-        // Only what no options mend is left.
+        // Only defects that no option mends are left.
         let left: Vec<_> = done.diagnosis.counts().into_iter().map(|(code, _)| code).collect();
         let hopeless = ["empty", "zero_area_face", "non_orientable"];
         assert!(left.iter().all(|code| hopeless.contains(code)), "{}: {left:?}", row["file"]);

@@ -1,4 +1,4 @@
-//! The generators: topology, geometry and known totals.
+//! Tests of the generators: topology, geometry and known totals.
 #![allow(clippy::unwrap_used, clippy::print_stdout, clippy::print_stderr)]
 
 use ricci::geometry::{Space, triangle};
@@ -177,8 +177,8 @@ fn level_zero_of_bolza_is_a_complex_of_two_vertices() {
 
 #[test]
 fn bolza_has_the_systole_of_the_regular_octagon() {
-    // The shortest closed geodesics of the Bolza surface have length 2 arcosh(1 + √2). The sides of the
-    // octagon are such; no closed path that bounds nothing is shorter.
+    // The shortest closed geodesics of the Bolza surface have length 2 arcosh(1 + √2), among them the sides of the octagon; no closed
+    // path that does not bound is shorter.
     let systole = 2.0 * (1.0 + 2f64.sqrt()).acosh();
     let (mesh, lengths) = shapes::bolza(0).unwrap().build().unwrap();
     let loops: Vec<_> = mesh.edges().filter(|&e| mesh.ends(e)[0] == mesh.ends(e)[1]).collect();
@@ -223,7 +223,7 @@ fn side_pairings_of_the_octagon_generate_a_surface_group_with_the_bolza_systole(
     let around = [5, 2, 7, 4, 1, 6, 3].iter().fold(pairing(0), |word, &k| compose(word, pairing(k)));
     assert!((around[0][0].abs() - 1.0).abs() < 1e-11 && around[0][1].abs() < 1e-11, "{around:?}");
     assert!(around[1][0].hypot(around[1][1]) < 1e-11, "{around:?}");
-    // A free homotopy class has the length 2 arcosh |Re p|: the least of all words of up to four pairings.
+    // A free homotopy class has the length 2 arcosh |Re p|; the systole is the least of all words of up to four pairings.
     let mut words: Vec<[Complex; 2]> = (0..8).map(pairing).collect();
     let mut shortest = f64::INFINITY;
     for _ in 0..4 {
@@ -253,7 +253,7 @@ fn subdivision_refuses_lengths_without_triangles() {
     assert_eq!(excess(with(Space::H2, [1.0, 1.0, 2.0])), 0.0);
     assert!((excess(with(Space::S2, [2.5; 3])) - (7.5 - 2.0 * PI)).abs() < 1e-15);
     assert!(matches!(with(Space::H2, [701.0; 3]), Err(Error::Argument { .. })));
-    // At the limit midlines are still right: an ideal triangle's feet are 2 asinh(1/2) apart.
+    // At the limit midlines are still accurate: an ideal triangle's feet are 2 asinh(1/2) apart.
     let far = with(Space::H2, [700.0; 3]).unwrap();
     assert!(far.lengths[6..].iter().all(|l| (l - 2.0 * 0.5f64.asinh()).abs() < 1e-9), "{:?}", far.lengths);
 }
@@ -308,7 +308,7 @@ fn impossible_shapes_are_refused() {
     }
     assert!(shapes::flat_torus([0.5, 1.0], 0, 1).is_err());
     assert!(shapes::flat_torus([0.5, 1.0], usize::MAX, usize::MAX).is_err());
-    // Sizes whose squares or quotients leave the doubles, or that differ by rounding alone.
+    // Sizes whose squares or quotients leave the range of f64, or that differ by rounding alone.
     assert!(shapes::annulus(1e-300, 1e300, 3, 9).is_err());
     assert!(shapes::annulus(1e-320, 1.0, 3, 9).is_err());
     assert!(shapes::annulus(1e-149, 1e149, 3, 9).is_err());
@@ -320,7 +320,7 @@ fn impossible_shapes_are_refused() {
     assert!(shapes::torus(1.0, 1.0 - 1e-15, 6, 6).is_err());
     assert!(shapes::ellipsoid([1.0, 1e-20, 1.0], 3).is_err());
     assert!(shapes::ellipsoid([f64::NAN, 1.0, 1.0], 3).is_err());
-    // What is barely allowed is a surface.
+    // Sizes just within the limits give surfaces.
     for soup in [
         shapes::torus(1.0, 1.0 - 2e-12, 6, 6),
         shapes::torus(1.0, 2e-12, 6, 6),

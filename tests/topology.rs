@@ -1,4 +1,4 @@
-//! Homology generators and cut graphs, by theorem.
+//! Tests of homology generators and cut graphs, by theorem.
 #![allow(clippy::unwrap_used, clippy::print_stdout, clippy::print_stderr)]
 
 mod surfaces;
@@ -8,8 +8,8 @@ use ricci::topology::{CutGraph, cut_graph, homology_generators};
 use ricci::{Control, Error};
 use surfaces::*;
 
-/// Poincaré dual cochain of a closed loop: how often each half-edge crosses the loop, pushed to its left,
-/// from right to left. A boundary loop counts as filled.
+/// The Poincaré dual cochain of a closed loop: the number of times that each half-edge crosses the loop, pushed to its left, from right
+/// to left. A boundary loop counts as filled.
 fn dual_cochain(mesh: &Mesh, walk: &[HalfedgeId]) -> PerHalfedge<i64> {
     let mut crossing = PerHalfedge::filled(mesh.n_halfedges(), 0);
     for (k, &enter) in walk.iter().enumerate() {

@@ -10,7 +10,7 @@
 //! # Ok::<(), ricci::Error>(())
 //! ```
 
-use super::check::{Defect, Diagnosis, Orientation, Piece, diagnose};
+use super::check::{Defect, Diagnosis, Orientation, OrientedPiece, diagnose};
 use super::incidence::{Incidence, NONE, components, connected, distinct, drop_unused};
 use super::io::{Attributes, Soup};
 pub use super::join::RefusedWeld;
@@ -204,7 +204,7 @@ impl RepairState {
     /// Turns the smaller part of each piece, so that neighbours agree; one-sided pieces stay as they are.
     fn orient(&mut self) {
         let Orientation { turned, pieces, .. } = Orientation::new(&self.faces, &self.incidence());
-        for Piece { faces, .. } in pieces.into_iter().filter(|piece| piece.clash.is_none()) {
+        for OrientedPiece { faces, .. } in pieces.into_iter().filter(|piece| piece.clash.is_none()) {
             let n_turned = faces.iter().filter(|&&f| turned[f as usize]).count();
             // Of two equal parts the one with the first face stays.
             let smaller = 2 * n_turned <= faces.len();

@@ -1,4 +1,4 @@
-//! Homotopy bases: relator, intersection numbers, words of paths, lifts.
+//! Tests of homotopy bases: relator, intersection numbers, words of paths, lifts.
 
 use crate::representation::{Representation, identity};
 use crate::samples::*;
@@ -41,8 +41,7 @@ fn check(name: &str, mesh: &Mesh, basis: &HomotopyBasis) {
         let c = Word::from_iter([Letter::generator(2 * group.genus + j)]);
         assert!(group.equal(&word, &c), "{name}: boundary loop {j} is {}", group.text(&word));
     }
-    // The words of half-edges are a homomorphism: around each face and there and back along each edge they
-    // cancel.
+    // The words of half-edges are a homomorphism: around each face, and along each edge and back, they cancel.
     for h in mesh.halfedges() {
         let there_and_back = basis.halfedge_word(mesh, h).times(&basis.halfedge_word(mesh, h.twin()));
         assert!(group.is_trivial(&there_and_back), "{name}: half-edge {h}");
@@ -60,7 +59,7 @@ fn check(name: &str, mesh: &Mesh, basis: &HomotopyBasis) {
     }
 }
 
-/// Words against homomorphisms made of faces, and against intersection numbers.
+/// Compares words with homomorphisms made of faces, and with intersection numbers.
 fn check_words<const N: usize>(name: &str, mesh: &Mesh, basis: &HomotopyBasis, random: &mut Random) {
     let loops = &basis.loops;
     let relator = relator_path(basis);
@@ -120,7 +119,7 @@ fn every_base_vertex_and_every_metric_will_do() {
     }
 }
 
-/// The homomorphisms tell a wrong relator from the right one.
+/// The homomorphisms distinguish a wrong relator from the right one.
 #[test]
 fn a_wrong_relator_is_seen() {
     let mut random = Random(4);
@@ -133,7 +132,7 @@ fn a_wrong_relator_is_seen() {
     assert!(rho.iter().any(|rho| rho.word(&basis.loops, &wrong) != identity()));
 }
 
-/// A contractible loop: spurs and faces put into nothing, at random.
+/// A contractible loop, made by inserting spurs and faces at random.
 fn contractible(mesh: &Mesh, start: VertexId, moves: usize, random: &mut Random) -> Vec<HalfedgeId> {
     let mut path: Vec<HalfedgeId> = Vec::new();
     for _ in 0..moves {
@@ -141,10 +140,7 @@ fn contractible(mesh: &Mesh, start: VertexId, moves: usize, random: &mut Random)
         let v = if at == 0 { start } else { mesh.tip(path[at - 1]) };
         let out: Vec<_> = mesh.outgoing(v).collect();
         let h = out[random.below(out.len())];
-        let detour = match random.below(2) == 0 || mesh.is_outside(h) {
-            true => vec![h, h.twin()],
-            false => vec![h, mesh.next(h), mesh.prev(h)],
-        };
+        let detour = if random.below(2) == 0 || mesh.is_outside(h) { vec![h, h.twin()] } else { vec![h, mesh.next(h), mesh.prev(h)] };
         path.splice(at..at, detour);
     }
     path
@@ -169,7 +165,7 @@ fn contractible_loops_lift_to_loops_and_others_end_where_their_word_says() {
             let end = &lifts[lifts.len() - 1];
             assert!(group.equal(&end.element, &start.element), "{name}: an open lift");
 
-            // Lifting is an action: along one path and then another is along both.
+            // Lifting is an action: lifting along one path and then another equals lifting along both.
             let (p, q) =
                 (random_loop(&mesh, &basis, 30, &mut random), random_loop(&mesh, &basis, round, &mut random));
             let base = basis.tree_lift(basis.base);
@@ -198,7 +194,7 @@ fn contractible_loops_lift_to_loops_and_others_end_where_their_word_says() {
 
 #[test]
 fn walls_of_copies_agree_with_lifts_of_their_corners() {
-    // Crossing h out of the copy γ D, the corner at h's origin is the same lift, seen from either copy.
+    // When h is crossed out of the copy γ D, the corner at h's origin is the same lift in both copies.
     for (name, mesh, lengths) in generated() {
         let basis = basis_of(&mesh, &lengths);
         for h in mesh.halfedges().filter(|h| !mesh.is_boundary_edge(h.edge())) {
@@ -225,15 +221,14 @@ fn length(path: &[HalfedgeId], lengths: &PerEdge<f64>) -> f64 {
 
 #[test]
 fn loops_are_short() {
-    // A flat torus: the two shortest vectors of the lattice that go along edges.
+    // A flat torus: the two shortest vectors of the lattice that run along edges.
     for tau in [[0.0, 1.0], [0.3, 1.2]] {
         let (mesh, lengths) = flat_torus(12, 12, tau);
         let basis = basis_of(&mesh, &lengths);
         let shortest = 1.0 + tau[0].hypot(tau[1]);
         assert!((basis.length(&lengths) - shortest).abs() < 1e-9, "{}", basis.length(&lengths));
     }
-    // A torus of revolution: a meridian of length 2πr, and at most the inner equator besides; both as
-    // polygons of chords.
+    // A torus of revolution: a meridian of length 2πr, and at most the inner equator in addition, both as polygons of chords.
     let (_, mesh, lengths) = from_soup("torus", &shapes::torus(2.0, 0.5, 60, 24).unwrap());
     let basis = basis_of(&mesh, &lengths);
     let most = std::f64::consts::TAU * (0.5 + 1.5 + 0.1);
@@ -241,9 +236,8 @@ fn loops_are_short() {
     // The octagon's sides are its loops.
     let (mesh, lengths) = octagon();
     assert!((basis_of(&mesh, &lengths).length(&lengths) - 4.0).abs() < 1e-12);
-    // Any generating loops through a vertex are together as long as the greedy ones [EW05]; canonical ones,
-    // on smooth surfaces of genus 2 to 5, are less than three times as long as those through the best of some
-    // vertices.
+    // The greedy loops are the shortest generating loops through a vertex in total [EW05]; canonical ones, on smooth surfaces of genus 2
+    // to 5, are less than three times as long as those through the best of some vertices.
     for g in 2..=5 {
         let (name, mesh, lengths) = from_soup(&format!("genus {g}"), &shapes::genus(g, 3).unwrap());
         let greedy: f64 = homology_generators(&mesh, &lengths, &Control::new())

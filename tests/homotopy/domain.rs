@@ -1,4 +1,4 @@
-//! Fundamental domains: side pairings, and paths across them.
+//! Tests of fundamental domains: side pairings, and paths across them.
 
 use crate::samples::*;
 use crate::surfaces::Random;
@@ -13,7 +13,7 @@ fn check(name: &str, mesh: &Mesh, basis: &HomotopyBasis, is_cut: &PerEdge<bool>,
     assert_eq!(domain.corners.len(), n);
     let mut covered = BTreeSet::new();
     for (k, side) in domain.sides.iter().enumerate() {
-        // The sides follow each other around D, and their lifts do.
+        // The sides follow each other around D, and so do their lifts.
         assert_eq!(domain.corners[k].vertex, mesh.origin(side.halfedges[0]), "{name}");
         let along: Vec<_> = basis.lift(mesh, &domain.corners[k], &side.halfedges).unwrap().collect();
         let (end, next) = (&along[along.len() - 1], &domain.corners[(k + 1) % n]);
@@ -31,7 +31,7 @@ fn check(name: &str, mesh: &Mesh, basis: &HomotopyBasis, is_cut: &PerEdge<bool>,
         let partner = &domain.sides[j];
         assert_eq!((partner.partner, &partner.halfedges), (Some(k), &reversed(&side.halfedges)), "{name}");
         assert!(group.is_trivial(&side.element.times(&partner.element)), "{name}");
-        // The element carries the partner's lift, vertex by vertex, onto this side's.
+        // The element maps the partner's lift, vertex by vertex, to this side's.
         let across: Vec<_> = basis.lift(mesh, &domain.corners[j], &partner.halfedges).unwrap().collect();
         for (here, there) in along.iter().zip(across.iter().rev()) {
             assert_eq!(here.vertex, there.vertex, "{name}");
@@ -42,8 +42,7 @@ fn check(name: &str, mesh: &Mesh, basis: &HomotopyBasis, is_cut: &PerEdge<bool>,
         mesh.edges().map(|e| if mesh.is_boundary_edge(e) { 1 } else { 2 * usize::from(is_cut[e]) }).sum();
     assert_eq!(covered.len(), walls, "{name}: every wall is on the polygon once");
 
-    // A loop through the base corner: the sides that it crosses multiply up to its element. For the loops of
-    // the basis that is a generator.
+    // A loop through the base corner: the product of the crossed sides' elements is its element, a generator for the loops of the basis.
     let product = |path: &[HalfedgeId]| {
         let crossed = domain.crossings(mesh, domain.base_corner, path).unwrap();
         crossed.iter().fold(Word::identity(), |w, &k| w.times(&domain.sides[k].element))
@@ -71,7 +70,7 @@ fn check_all(surfaces: Vec<Surface>) {
         let sphere = mesh.euler() == 2;
         if !sphere {
             check(&name, &mesh, &basis, &basis.cut(&mesh), &mut random);
-            // The polygon of the basis itself: elements are transitions, corners are its corners.
+            // The polygon of the basis itself: its elements are the transitions, its corners those of the basis.
             let polygon = FundamentalDomain::new(&mesh, &basis.cut(&mesh), &basis).unwrap();
             for (side, corner) in polygon.sides.iter().zip(&polygon.corners) {
                 let h = side.halfedges[0];

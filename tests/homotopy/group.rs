@@ -1,4 +1,4 @@
-//! Words and the word problem, against the group of a regular hyperbolic polygon and against finite groups.
+//! Tests of the word problem, against the group of a regular hyperbolic polygon and against finite groups.
 
 use crate::representation::{identity, inverse, times};
 use crate::surfaces::Random;
@@ -68,7 +68,7 @@ fn invert([a, b]: Matrix) -> Matrix {
     [a.conj(), -b]
 }
 
-/// The isometry of the disk that takes 0 to p and the direction of 1 to that from p towards q.
+/// The isometry of the disk that maps 0 to p, and the direction of 1 to that from p towards q.
 fn frame(p: Complex64, q: Complex64) -> Matrix {
     let scale = (1.0 - p.norm_sqr()).sqrt();
     let towards = (q - p) / (1.0 - p.conj() * q);
@@ -76,15 +76,14 @@ fn frame(p: Complex64, q: Complex64) -> Matrix {
     [half / scale, p * half.conj() / scale]
 }
 
-/// Generators a1, b1, … as isometries: side pairings of the regular 4g-gon with angles 2π/4g whose sides,
-/// counterclockwise, read a1 b1 a1⁻¹ b1⁻¹ …, expressed in the deck transformations that take corner 0 along
-/// its sides.
+/// The generators a1, b1, … as isometries: side pairings of the regular 4g-gon with angles 2π/4g whose sides, counterclockwise, read a1
+/// b1 a1⁻¹ b1⁻¹ …, expressed in the deck transformations that move corner 0 along its sides.
 fn polygon_group(genus: usize) -> Vec<Matrix> {
     let n = 4 * genus;
     let cosh_radius = (PI / n as f64).tan().powi(-2);
     let radius = ((cosh_radius - 1.0) / (cosh_radius + 1.0)).sqrt();
     let corner = |k: usize| Complex64::from_polar(radius, 2.0 * PI * (k % n) as f64 / n as f64);
-    // Carries the segment from p to q onto that from r to s.
+    // The isometry that maps the segment from p to q to that from r to s.
     let carry = |p, q, r, s| multiply(frame(r, s), invert(frame(p, q)));
     let mut generators = Vec::new();
     let mut before = [Complex64::ONE, Complex64::ZERO];
@@ -113,8 +112,8 @@ fn dehns_algorithm_decides_as_the_group_of_the_regular_polygon() {
     for genus in [2, 3] {
         let group = SurfaceGroup { genus, boundaries: 0 };
         let generators = polygon_group(genus);
-        // The product, and the largest entry met on the way: rounding grows with its square, from the 1e-10
-        // to which the generators are known.
+        // The product, and its largest intermediate entry: rounding grows with the square of it, from the 1e-10 to which the generators
+        // are known.
         let matrix = |word: &Word| {
             word.letters().iter().fold(
                 ([Complex64::ONE, Complex64::ZERO], 1.0_f64),
@@ -129,8 +128,7 @@ fn dehns_algorithm_decides_as_the_group_of_the_regular_polygon() {
         assert!(is_one(matrix(&group.relator()).0));
         let (mut trivial, mut decided) = (0, 0);
         for round in 0..4000 {
-            // Short words, with pieces of the relator in them, so that many are trivial and many just fail to
-            // be.
+            // Short words that contain pieces of the relator, so that many are trivial and many nearly are.
             let relator = group.relator();
             let mut word = random_word(group, random.below(3), &mut random);
             for _ in 0..round % 3 {
@@ -161,7 +159,7 @@ fn words_with_an_image_in_a_finite_group_are_not_the_identity() {
     let mut random = Random(8);
     let mut nontrivial = 0;
     for group in groups().into_iter().filter(|group| (1..40).contains(&group.n_generators())) {
-        // Permutations that satisfy the relator: drawn until they do.
+        // Permutations that satisfy the relator, by repeated random choice.
         let images: Vec<[u8; 4]> = loop {
             let draw = |_| {
                 let mut p = identity::<4>();

@@ -1,5 +1,5 @@
-//! Canonical homotopy bases, lifts and fundamental domains, by theorem. What they say is compared with
-//! homomorphisms to symmetric groups that are made of faces alone, and with intersection numbers.
+//! Tests of canonical homotopy bases, lifts and fundamental domains, by theorem. Results are compared with homomorphisms to symmetric
+//! groups that are made of faces alone, and with intersection numbers.
 #![allow(clippy::unwrap_used, clippy::print_stdout, clippy::print_stderr)]
 
 mod basis;

@@ -1,6 +1,5 @@
-//! Random homomorphisms of fundamental groups to symmetric groups, made of faces and edges alone: a
-//! permutation per half-edge such that around every face the product is 1. They know nothing of trees,
-//! polygons or words.
+//! Random homomorphisms of fundamental groups to symmetric groups, made of faces and edges alone: one permutation per half-edge such that
+//! their product around every face is 1. They use no trees, polygons or words.
 
 use crate::surfaces::Random;
 use ricci::mesh::{HalfedgeId, Mesh};
@@ -34,9 +33,8 @@ fn random<const N: usize>(random: &mut Random) -> Permutation<N> {
 pub struct Representation<const N: usize>(Vec<Permutation<N>>);
 
 impl<const N: usize> Representation<N> {
-    /// Faces are settled from the leaves of a dual spanning tree to its root: each determines the edge
-    /// towards the root, all other edges are free. The root is the outside; on a closed surface it is a face,
-    /// and one draws until its product is 1, too.
+    /// Faces are settled from the leaves of a dual spanning tree to its root: each determines the edge towards the root, all other edges
+    /// are free. The root is the outside; on a closed surface it is a face, and the choice is repeated until its product is 1, too.
     pub fn random(mesh: &Mesh, dice: &mut Random) -> Representation<N> {
         let (order, towards_root) = dual_tree(mesh);
         loop {
@@ -65,15 +63,12 @@ impl<const N: usize> Representation<N> {
     /// The image of a word whose generators are these loops.
     pub fn word(&self, loops: &[Vec<HalfedgeId>], word: &Word) -> Permutation<N> {
         let images: Vec<_> = loops.iter().map(|path| self.path(path)).collect();
-        let letter = |l: &ricci::topology::Letter| match l.is_inverse() {
-            true => inverse(images[l.index()]),
-            false => images[l.index()],
-        };
+        let letter = |l: &ricci::topology::Letter| if l.is_inverse() { inverse(images[l.index()]) } else { images[l.index()] };
         word.letters().iter().map(letter).fold(identity(), times)
     }
 }
 
-/// All faces, and per face but the root's the half-edge towards the root, leaves first.
+/// All faces, and for each face except the root the half-edge towards the root, leaves first.
 fn dual_tree(mesh: &Mesh) -> (Vec<ricci::mesh::FaceId>, Vec<HalfedgeId>) {
     let mut seen = vec![false; mesh.n_faces()];
     let (mut queue, mut towards_root) = (VecDeque::new(), Vec::new());

@@ -1,4 +1,4 @@
-//! Surfaces of every topology, Δ-complexes down to one vertex among them.
+//! Sample surfaces of every topology, including Δ-complexes with one vertex.
 
 use crate::surfaces::{Random, cube, flat_torus, load, octagon, plane_lengths, square, tetrahedron};
 use ricci::mesh::io::Soup;
@@ -6,7 +6,7 @@ use ricci::mesh::{EdgeId, HalfedgeId, Mesh, PerEdge, VertexId, shapes};
 use ricci::metric::lengths_from_positions;
 use ricci::topology::{HomotopyBasis, homotopy_basis};
 
-/// Largest mesh of the corpus that the optimised tests of a debug build take.
+/// Largest mesh of the corpus that the optimised tests of a debug build use.
 const MOST_VERTICES: usize = 20_000;
 
 pub type Surface = (String, Mesh, PerEdge<f64>);
@@ -17,8 +17,8 @@ pub fn from_soup(name: &str, soup: &Soup) -> Surface {
     (name.into(), mesh, lengths)
 }
 
-/// The surface after random flips, with lengths for which every face is a triangle: vertices of degree 1,
-/// loops and repeated edges.
+/// The surface after random flips, with lengths for which every face is a triangle; it has vertices of degree 1, loops and repeated
+/// edges.
 fn flipped((name, mut mesh, _): Surface, random: &mut Random) -> Surface {
     for _ in 0..3 * mesh.n_edges() {
         mesh.flip(EdgeId::from(random.below(mesh.n_edges())));
@@ -27,8 +27,7 @@ fn flipped((name, mut mesh, _): Surface, random: &mut Random) -> Surface {
     (format!("{name}, flipped"), mesh, lengths)
 }
 
-/// Generated surfaces: spheres, disks, annuli, pants, tori, genus 2 to 7, with holes, and all of them
-/// flipped.
+/// Generated surfaces: spheres, disks, annuli, pants, tori, genus 2 to 7, with holes, and each of them flipped.
 pub fn generated() -> Vec<Surface> {
     let mut all = vec![
         from_soup("icosphere", &shapes::icosphere(3).unwrap()),
@@ -73,7 +72,7 @@ pub fn generated() -> Vec<Surface> {
     all
 }
 
-/// The good meshes of the corpus (none where it is absent, said on stderr).
+/// The good meshes of the corpus (none where it is absent, with a note on stderr).
 pub fn corpus() -> Vec<Surface> {
     let name = |path: &std::path::Path| path.file_name().unwrap().to_string_lossy().into_owned();
     let all = crate::surfaces::corpus().into_iter().map(|path| (name(&path), load(&path)));
@@ -112,9 +111,6 @@ pub fn random_loop(mesh: &Mesh, basis: &HomotopyBasis, steps: usize, random: &mu
 
 /// The loops of the basis along its relator: a1 b1 a1⁻¹ b1⁻¹ … c1 … cb.
 pub fn relator_path(basis: &HomotopyBasis) -> Vec<HalfedgeId> {
-    let letter = |l: &ricci::topology::Letter| match l.is_inverse() {
-        true => reversed(&basis.loops[l.index()]),
-        false => basis.loops[l.index()].clone(),
-    };
+    let letter = |l: &ricci::topology::Letter| if l.is_inverse() { reversed(&basis.loops[l.index()]) } else { basis.loops[l.index()].clone() };
     basis.group.relator().letters().iter().flat_map(letter).collect()
 }
