@@ -29,8 +29,8 @@ pub struct Cholesky<T = f64> {
     symbolic: SymbolicCholesky<u32>,
     tree: SupernodeTree,
     factor: Vec<T>,
-    arenas: MemoryPool<FrontMemory<T>>,
-    desks: MemoryPool<SubstitutionMemory<T>>,
+    front_memory: MemoryPool<FrontMemory<T>>,
+    substitution_memory: MemoryPool<SubstitutionMemory<T>>,
     /// A right-hand side in the order of elimination, and memory for another one.
     ordered: [Vec<T>; 2],
 }
@@ -120,7 +120,7 @@ impl<T: FactorNumber> Cholesky<T> {
             .map_err(|_| failed(size, "not enough memory for the factor"))?;
         let factor = vec![T::ZERO; entries];
         let ordered = [vec![T::ZERO; size], vec![T::ZERO; size]];
-        Ok(Cholesky { symbolic, tree, factor, arenas: MemoryPool::default(), desks: MemoryPool::default(), ordered })
+        Ok(Cholesky { symbolic, tree, factor, front_memory: MemoryPool::default(), substitution_memory: MemoryPool::default(), ordered })
     }
 
     /// The same analysis for a factor in another type of number; this factor is released first.
@@ -129,8 +129,8 @@ impl<T: FactorNumber> Cholesky<T> {
     ///
     /// [`Error::Factorisation`] where memory for the factor is lacking.
     pub fn held_in<U: FactorNumber>(self) -> Result<Cholesky<U>> {
-        let Cholesky { symbolic, tree, factor, arenas, desks, ordered } = self;
-        drop((factor, arenas, desks, ordered));
+        let Cholesky { symbolic, tree, factor, front_memory, substitution_memory, ordered } = self;
+        drop((factor, front_memory, substitution_memory, ordered));
         Cholesky::with_tree(symbolic, tree)
     }
 
@@ -149,9 +149,9 @@ impl<T: FactorNumber> Cholesky<T> {
     ///
     /// [`NotPositiveDefinite`]; there is then no factor to solve with.
     pub fn factor(&mut self, matrix: Symmetric<'_>) -> std::result::Result<(), NotPositiveDefinite> {
-        let Cholesky { symbolic, tree, factor, arenas, .. } = self;
+        let Cholesky { symbolic, tree, factor, front_memory, .. } = self;
         match supernodes(symbolic, tree) {
-            Some(supernodes) => multifrontal::factor(supernodes, matrix.values, factor, arenas),
+            Some(supernodes) => multifrontal::factor(supernodes, matrix.values, factor, front_memory),
             // The matrix has no rows.
             None => Ok(()),
         }
@@ -163,12 +163,12 @@ impl<T: FactorNumber> Cholesky<T> {
     ///
     /// If `x` does not have n entries.
     pub fn solve(&mut self, x: &mut [f64]) {
-        let Cholesky { symbolic, tree, factor, desks, ordered: [y, solved], .. } = self;
+        let Cholesky { symbolic, tree, factor, substitution_memory, ordered: [y, solved], .. } = self;
         assert_eq!(x.len(), symbolic.nrows(), "one entry per row");
         if let (Some(supernodes), Some(order)) = (supernodes(symbolic, tree), symbolic.perm()) {
             let (forward, _) = order.arrays();
             y.iter_mut().zip(forward).for_each(|(y, &i)| *y = T::nearest(x[i as usize]));
-            substitution::solve(supernodes, factor, [y, solved], desks);
+            substitution::solve(supernodes, factor, [y, solved], substitution_memory);
             forward.iter().zip(&*y).for_each(|(&i, y)| x[i as usize] = y.to_f64());
         }
     }

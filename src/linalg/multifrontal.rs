@@ -66,34 +66,34 @@ pub(super) fn factor<T: FactorNumber>(
     supernodes: Supernodes<'_>,
     matrix: &[f64],
     factor: &mut [T],
-    memory: &MemoryPool<FrontMemory<T>>,
+    pool: &MemoryPool<FrontMemory<T>>,
 ) -> Factored {
     let segments = &supernodes.tree.segments;
     if let [bundle] = &segments[..]
         && !bundle.is_heavy
     {
-        return memory.lend(|arena| arena.bundle(supernodes, bundle, matrix, factor));
+        return pool.lend(|memory| memory.bundle(supernodes, bundle, matrix, factor));
     }
     let parts = parts(segments, factor, |s| supernodes.values_start(s));
     let failed = AtomicBool::new(false);
-    let handed_on: Vec<Mutex<Vec<T>>> = segments.iter().map(|_| Mutex::default()).collect();
+    let updates: Vec<Mutex<Vec<T>>> = segments.iter().map(|_| Mutex::default()).collect();
     let (heavy, bundles): (Vec<_>, Vec<_>) = parts.into_iter().partition(|(_, segment, _)| segment.is_heavy);
     each(bundles, |(k, segment, part)| {
         if failed.load(Ordering::Relaxed) {
             return;
         }
-        memory.lend(|arena| match arena.bundle(supernodes, segment, matrix, part) {
-            Ok(()) => *lock(&handed_on[k]) = arena.waiting.clone(),
+        pool.lend(|memory| match memory.bundle(supernodes, segment, matrix, part) {
+            Ok(()) => *lock(&updates[k]) = memory.waiting.clone(),
             Err(NotPositiveDefinite) => failed.store(true, Ordering::Relaxed),
         });
     });
-    memory.release();
+    pool.release();
     if failed.into_inner() {
         return Err(NotPositiveDefinite);
     }
     for (k, segment, part) in heavy {
-        let update = heavy_supernode(supernodes, segment, matrix, part, &handed_on)?;
-        *lock(&handed_on[k]) = update;
+        let update = heavy_supernode(supernodes, segment, matrix, part, &updates)?;
+        *lock(&updates[k]) = update;
     }
     Ok(())
 }
@@ -194,12 +194,12 @@ fn heavy_supernode<T: FactorNumber>(
     segment: &TreeSegment,
     matrix: &[f64],
     own: &mut [T],
-    handed_on: &[Mutex<Vec<T>>],
+    updates: &[Mutex<Vec<T>>],
 ) -> Result<Vec<T>, NotPositiveDefinite> {
     let s = segment.supernodes.start;
     let (width, m) = (supernodes.columns(s).len(), supernodes.rows(s).len());
     let height = width + m;
-    let children = ChildUpdates::new(supernodes, s, handed_on);
+    let children = ChildUpdates::new(supernodes, s, updates);
     let (sources, places) = supernodes.entries(s);
     each(own.chunks_mut(PANEL * height).enumerate().collect(), |(p, panel)| {
         let start = p * PANEL * height;
@@ -233,7 +233,7 @@ fn heavy_supernode<T: FactorNumber>(
         children.updates().for_each(|update| update.add(strip, first..first + columns, first, m - start));
     });
     drop(children);
-    supernodes.children(s).for_each(|c| release(supernodes, c, handed_on));
+    supernodes.children(s).for_each(|c| release(supernodes, c, updates));
     let (mut from, mut end) = (0, 0);
     for j in 0..m {
         let (start, height) = (j / STRIP * STRIP, m - j / STRIP * STRIP);
@@ -254,14 +254,14 @@ struct ChildUpdates<'a, T> {
 }
 
 impl<'a, T: FactorNumber> ChildUpdates<'a, T> {
-    fn new(supernodes: Supernodes<'a>, s: usize, handed_on: &'a [Mutex<Vec<T>>]) -> ChildUpdates<'a, T> {
+    fn new(supernodes: Supernodes<'a>, s: usize, updates: &'a [Mutex<Vec<T>>]) -> ChildUpdates<'a, T> {
         let mut held: Vec<(usize, std::sync::MutexGuard<'a, Vec<T>>, Vec<(usize, usize)>)> = Vec::new();
         for c in supernodes.children(s) {
             let k = supernodes.segment_of(c);
             let start = supernodes.tree.segments[k].start_of(c);
             match held.last_mut() {
                 Some((last, _, children)) if *last == k => children.push((c, start)),
-                _ => held.push((k, lock(&handed_on[k]), vec![(c, start)])),
+                _ => held.push((k, lock(&updates[k]), vec![(c, start)])),
             }
         }
         ChildUpdates { supernodes, held }
@@ -278,9 +278,9 @@ impl<'a, T: FactorNumber> ChildUpdates<'a, T> {
 }
 
 /// Frees the updates of a child's segment, if this is the last one that is needed.
-fn release<T>(supernodes: Supernodes<'_>, c: usize, handed_on: &[Mutex<Vec<T>>]) {
+fn release<T>(supernodes: Supernodes<'_>, c: usize, updates: &[Mutex<Vec<T>>]) {
     let k = supernodes.segment_of(c);
     if supernodes.tree.segments[k].is_last_needed(c) {
-        *lock(&handed_on[k]) = Vec::new();
+        *lock(&updates[k]) = Vec::new();
     }
 }

@@ -45,42 +45,42 @@ pub(super) fn solve<T: FactorNumber>(
     supernodes: Supernodes<'_>,
     values: &[T],
     [x, solved]: [&mut [T]; 2],
-    memory: &MemoryPool<SubstitutionMemory<T>>,
+    pool: &MemoryPool<SubstitutionMemory<T>>,
 ) {
     let segments = &supernodes.tree.segments;
     let factor = SupernodalFactor { supernodes, values };
     if let [bundle] = &segments[..]
         && !bundle.is_heavy
     {
-        memory.lend(|desk| {
-            Arch::new().dispatch(ForwardBundle { factor, bundle, x, desk });
-            Arch::new().dispatch(BackwardBundle { factor, bundle, x, solved, desk });
+        pool.lend(|memory| {
+            Arch::new().dispatch(ForwardBundle { factor, bundle, x, memory });
+            Arch::new().dispatch(BackwardBundle { factor, bundle, x, solved, memory });
         });
         return;
     }
-    let handed_on: Vec<Mutex<Vec<T>>> = segments.iter().map(|_| Mutex::default()).collect();
+    let updates: Vec<Mutex<Vec<T>>> = segments.iter().map(|_| Mutex::default()).collect();
     let (mut heavy, mut bundles): (Vec<_>, Vec<_>) = parts(segments, x, |s| supernodes.column_start(s))
         .into_iter()
         .partition(|(_, segment, _)| segment.is_heavy);
     let forward = |(k, segment, part): &mut (usize, &TreeSegment, &mut [T])| {
-        let below = memory.lend(|desk| {
-            Arch::new().dispatch(ForwardBundle { factor, bundle: segment, x: part, desk });
-            desk.waiting.clone()
+        let below = pool.lend(|memory| {
+            Arch::new().dispatch(ForwardBundle { factor, bundle: segment, x: part, memory });
+            memory.waiting.clone()
         });
-        *lock(&handed_on[*k]) = below;
+        *lock(&updates[*k]) = below;
     };
     each(bundles.iter_mut().collect(), forward);
     for (k, segment, part) in &mut heavy {
-        let below = factor.forward_heavy(segment.supernodes.start, part, &handed_on);
-        *lock(&handed_on[*k]) = below;
+        let below = factor.forward_heavy(segment.supernodes.start, part, &updates);
+        *lock(&updates[*k]) = below;
     }
-    drop(handed_on);
+    drop(updates);
     for (_, segment, part) in heavy.iter_mut().rev() {
         factor.backward_heavy(segment.supernodes.start, part, solved);
     }
     let solved = &*solved;
     each(bundles, |(_, segment, part)| {
-        memory.lend(|desk| Arch::new().dispatch(BackwardBundle { factor, bundle: segment, x: part, solved, desk }));
+        pool.lend(|memory| Arch::new().dispatch(BackwardBundle { factor, bundle: segment, x: part, solved, memory }));
     });
 }
 
@@ -98,14 +98,14 @@ impl<'a, T: FactorNumber> SupernodalFactor<'a, T> {
     }
 
     /// ForwardBundle substitution in a heavy supernode; returns the sum to be subtracted from the rows below.
-    fn forward_heavy(&self, s: usize, own: &mut [T], handed_on: &[Mutex<Vec<T>>]) -> Vec<T> {
+    fn forward_heavy(&self, s: usize, own: &mut [T], updates: &[Mutex<Vec<T>>]) -> Vec<T> {
         let supernode = self.supernode(s);
         let Supernode { width, height, .. } = supernode;
         let mut front = vec![T::ZERO; height];
         for c in self.supernodes.children(s) {
             let (k, rows) = (self.supernodes.segment_of(c), self.supernodes.relative(c));
             let start = self.supernodes.tree.segments[k].first_row_of(c);
-            add(rows, &lock(&handed_on[k])[start..start + rows.len()], &mut front);
+            add(rows, &lock(&updates[k])[start..start + rows.len()], &mut front);
         }
         own.iter_mut().zip(&front).for_each(|(x, &y)| *x -= y);
         let mut below = front.split_off(width);
@@ -167,7 +167,7 @@ struct ForwardBundle<'a, T> {
     factor: SupernodalFactor<'a, T>,
     bundle: &'a TreeSegment,
     x: &'a mut [T],
-    desk: &'a mut SubstitutionMemory<T>,
+    memory: &'a mut SubstitutionMemory<T>,
 }
 
 impl<T: FactorNumber> WithSimd for ForwardBundle<'_, T> {
@@ -175,10 +175,10 @@ impl<T: FactorNumber> WithSimd for ForwardBundle<'_, T> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let ForwardBundle { factor, bundle, x, desk } = self;
+        let ForwardBundle { factor, bundle, x, memory } = self;
         let supernodes = factor.supernodes;
-        desk.hold(supernodes.tree.widest + supernodes.tree.most_below);
-        let SubstitutionMemory { waiting, front } = desk;
+        memory.hold(supernodes.tree.widest + supernodes.tree.most_below);
+        let SubstitutionMemory { waiting, front } = memory;
         waiting.clear();
         let begin = supernodes.column_start(bundle.supernodes.start);
         for s in bundle.supernodes.clone() {
@@ -210,7 +210,7 @@ struct BackwardBundle<'a, T> {
     bundle: &'a TreeSegment,
     x: &'a mut [T],
     solved: &'a [T],
-    desk: &'a mut SubstitutionMemory<T>,
+    memory: &'a mut SubstitutionMemory<T>,
 }
 
 impl<T: FactorNumber> WithSimd for BackwardBundle<'_, T> {
@@ -218,13 +218,13 @@ impl<T: FactorNumber> WithSimd for BackwardBundle<'_, T> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let BackwardBundle { factor, bundle, x, solved, desk } = self;
+        let BackwardBundle { factor, bundle, x, solved, memory } = self;
         let supernodes = factor.supernodes;
-        desk.hold(supernodes.tree.most_below);
+        memory.hold(supernodes.tree.most_below);
         let begin = supernodes.column_start(bundle.supernodes.start);
         for s in bundle.supernodes.clone().rev() {
             let supernode = factor.supernode(s);
-            let below = &mut desk.front[..supernode.height - supernode.width];
+            let below = &mut memory.front[..supernode.height - supernode.width];
             for (y, &row) in below.iter_mut().zip(supernodes.rows(s)) {
                 let row = row as usize;
                 *y = x.get(row - begin).copied().unwrap_or_else(|| solved[row]);

@@ -284,7 +284,7 @@ fn segments(
     let total: f64 = (0..n).filter(|&s| parents[s].is_none()).map(|s| work[s]).sum();
     let most = (SHARE * total).max(LEAST_WORK);
     let mut segments: Vec<TreeSegment> = Vec::new();
-    let (mut in_bundle, mut handed_on) = (f64::INFINITY, [0; 2]);
+    let (mut in_bundle, mut updates_before) = (f64::INFINITY, [0; 2]);
     let mut s = 0;
     while s < n {
         if work[s] > most {
@@ -301,16 +301,16 @@ fn segments(
         match segments.last_mut() {
             Some(bundle) if in_bundle + work[root] <= most => {
                 bundle.supernodes.end = root + 1;
-                bundle.roots.push((root as u32, handed_on));
+                bundle.roots.push((root as u32, updates_before));
             }
             _ => {
                 let roots = vec![(root as u32, [0; 2])];
                 segments.push(TreeSegment { supernodes: s..root + 1, is_heavy: false, roots });
-                (in_bundle, handed_on) = (0.0, [0; 2]);
+                (in_bundle, updates_before) = (0.0, [0; 2]);
             }
         }
         let below = symbolic.supernode(root).pattern().len();
-        handed_on = [handed_on[0] + packed(below), handed_on[1] + below];
+        updates_before = [updates_before[0] + packed(below), updates_before[1] + below];
         in_bundle += work[root];
         s = root + 1;
     }
