@@ -45,7 +45,7 @@ REASONS = """Why these do not hold:
 
 - ember_520644: triangles of down to 0.014° are flipped 34,014 times on the way to the sphere. Drawn there with its own straight edges the surface folds in 83 of its
   7,834 faces, and putting vertices around them at the means of their neighbours does not open them.
-- maze: a long way folded into a disk. In its flat metric edges at the end of the way have length 0 to the range of doubles.
+- maze: a long way folded into a disk. In its flat metric edges at the end of the way have length 0 to the range of f64.
 """
 # Largest mesh that is matched to itself, and the seconds that one run may take: of a pair, of a mesh and itself.
 LARGEST = 30000

@@ -200,11 +200,11 @@ def main():
           "digits to tell.\n")
     print(ball)
     print("\n## Genus 1: flat tori\n")
-    print("*the same, double-double*: |K| by products of rotations with twice the digits of doubles. *rotation*: the largest of a generator, radians. "
+    print("*the same, double-double*: |K| by products of rotations in double-double precision. *rotation*: the largest of a generator, radians. "
           "*disagreement*: largest distance between the two images of a vertex along the cut, brought together by the side pairings.\n")
     print(flat)
     print("\n## Genus 2 and more: hyperbolic surfaces\n")
-    print("*area off*: |area − 4π(g − 1)|, area without angle sums. *relation*: ‖R − I‖/max‖P‖² with twice the digits; a Dirichlet domain has at "
+    print("*area off*: |area − 4π(g − 1)|, area without angle sums. *relation*: ‖R − I‖/max‖P‖² in double-double precision; a Dirichlet domain has at "
           "most 12g − 6 sides.\n")
     print(hyperbolic)
     print("\n## The same surface on finer meshes\n")

@@ -114,7 +114,7 @@ pub fn cut_graph(
 
 /// Vertices of the cut between two checks of the control. A few fans of triangles are measured at each, so that these take a fraction of
 /// a millisecond.
-const VERTICES_PER_LOOK: usize = 1024;
+const VERTICES_PER_CHECK: usize = 1024;
 
 /// Most sources that are tried on a closed surface without cones, besides the first. Usually the second or third is not better than
 /// the one before it and ends the search.
@@ -278,7 +278,7 @@ impl<'a> EditableCut<'a> {
         let mut budget = MOVES_PER_FACE * mesh.n_faces();
         let mut looked_at = 0;
         while let (Some(v), 1..) = (waiting.pop_front(), budget) {
-            control.check_every(VERTICES_PER_LOOK, &mut looked_at)?;
+            control.check_every(VERTICES_PER_CHECK, &mut looked_at)?;
             let Some((closed, opened)) = self.best_slide(lengths, v) else { continue };
             budget -= 1;
             for (edges, open) in [(closed, false), (opened, true)] {

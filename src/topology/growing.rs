@@ -9,7 +9,7 @@ use crate::error::{Error, Result};
 use crate::mesh::{EdgeId, FaceId, HalfedgeId, Mesh, PerEdge, PerFace, PerVertex, VertexId};
 
 /// Faces added between two checks of the control: they take a fraction of a millisecond.
-const FACES_PER_LOOK: usize = 1024;
+const FACES_PER_CHECK: usize = 1024;
 
 /// The cut along which a disk that grows about `root` meets itself. The disk adds one face after the other, each time the one whose far
 /// corner is nearest to the root along edges, so that paths inside the disk to the root are short. Empty on a sphere.
@@ -81,7 +81,7 @@ impl GrowingDisk<'_> {
         let (mut n_reached, mut is_first) = (0, true);
         while let Some(entry) = next {
             if let Some(f) = mesh.face(entry).filter(|&f| !std::mem::replace(&mut reached[f], true)) {
-                control.check_every(FACES_PER_LOOK, &mut n_reached)?;
+                control.check_every(FACES_PER_CHECK, &mut n_reached)?;
                 closed[entry.edge()] |= !std::mem::replace(&mut is_first, false);
                 for h in mesh.face_halfedges(f).map(HalfedgeId::twin) {
                     if let Some(g) = mesh.face(h).filter(|&g| !reached[g]) {

@@ -13,7 +13,7 @@ pub(super) const LEAST_SAVING: f64 = 1e-12;
 pub(super) const MOVES_PER_FACE: usize = 8;
 
 /// Half-edges of a path that are processed between two checks of the control: they take a fraction of a millisecond.
-const STEPS_PER_LOOK: usize = 4096;
+const STEPS_PER_CHECK: usize = 4096;
 
 /// A path with the same ends, homotopic to `path` and no longer.
 ///
@@ -37,7 +37,7 @@ pub(super) fn shorten(
     let mut budget = MOVES_PER_FACE * mesh.n_faces();
     let mut steps = 0;
     while let Some(leave) = ahead.pop() {
-        control.check_every(STEPS_PER_LOOK, &mut steps)?;
+        control.check_every(STEPS_PER_CHECK, &mut steps)?;
         match behind.last() {
             Some(&enter) if enter == leave.twin() => drop(behind.pop()),
             Some(&enter) if budget > 0 => match shorter_side(mesh, lengths, enter, leave) {

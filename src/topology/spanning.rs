@@ -19,7 +19,7 @@ use std::cmp::Ordering;
 use std::hint::black_box;
 
 /// Vertices settled between two checks of the control: they take a fraction of a millisecond.
-const VERTICES_PER_LOOK: usize = 4096;
+const VERTICES_PER_CHECK: usize = 4096;
 
 /// A number as a key of a priority queue, in the total order of `f64`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -196,7 +196,7 @@ where
         };
         loop {
             while let Some((d, v)) = queue.pop_looking_ahead(read) {
-                control.check_every(VERTICES_PER_LOOK, &mut steps)?;
+                control.check_every(VERTICES_PER_CHECK, &mut steps)?;
                 let here = &mut reach[v];
                 if d != here.distance || std::mem::replace(&mut here.is_settled, true) {
                     continue;

@@ -187,7 +187,7 @@ fn duplicates(faces: &[[u32; 3]], incidence: &Incidence, defects: &mut Vec<Defec
 }
 
 /// Number of faces that one thread of [`is_sound`] takes at a time.
-const FACES_PER_LOOK: usize = 1 << 14;
+const FACES_PER_CHECK: usize = 1 << 14;
 
 /// True if all positions are finite and no face, of three different existing vertices, has zero area.
 pub(super) fn is_sound(positions: &[Point], faces: &[[u32; 3]]) -> bool {
@@ -195,7 +195,7 @@ pub(super) fn is_sound(positions: &[Point], faces: &[[u32; 3]]) -> bool {
         let p = corners.map(|v| positions[v as usize]);
         has_clear_area(p) || !zero_area(p)
     };
-    let parts: Vec<_> = faces.chunks(FACES_PER_LOOK).collect();
+    let parts: Vec<_> = faces.chunks(FACES_PER_CHECK).collect();
     positions.as_flattened().iter().all(|x| x.is_finite())
         && parallel::map(parts.len(), |k| parts[k].iter().all(is_plane)).into_iter().all(|all| all)
 }
