@@ -5,7 +5,9 @@ use crate::geometry::conformal::{
 };
 use crate::geometry::lanes::{Formula, Lanes, work_out};
 use crate::geometry::scaled::scaled;
-use crate::geometry::triangle::{self, Angles, plane_angles_with_weights, sound_plane_angles_with_weights};
+use crate::geometry::triangle::{
+    self, Angles, TriangleSines, plane_angles_with_weights, sound_plane_angles_with_weights,
+};
 use crate::geometry::weights::weights_from_sines;
 use crate::geometry::{Space, DoubleDouble, chords};
 use crate::mesh::{EdgeId, FaceId, Mesh};
@@ -87,10 +89,10 @@ impl Parts<'_> {
         let (corners, edges, _) = self.at(f);
         let differences = differences(corners, edges);
         let eta = mesh.opposite_edges(f).map(|e| class.eta[e].high);
-        let sines = triangle::sines(class.space, differences);
+        let sines = TriangleSines::new(class.space, differences);
         let q2 = edges.map(|e| e.q2);
-        let weights = weights_from_sines(class.space, (differences, sines), q2, corners, eta);
-        (triangle::angles_from_sines(class.space, differences, sines), weights)
+        let weights = weights_from_sines(&sines, q2, corners, eta);
+        (sines.angles(), weights)
     }
 
     /// The corners of a face and the edges opposite them, in one unit of length, and its exponent.

@@ -79,20 +79,53 @@ pub fn sine(space: Space, x: f64) -> f64 {
 /// Half perimeter in H² above which quotients of sinh are formed from exponentials of differences: sinh overflows at 710.
 const FAR: f64 = 300.0;
 
-/// f of the half perimeter and of the half-perimeter differences.
-#[inline]
-pub fn sines(space: Space, r: [f64; 3]) -> (f64, [f64; 3]) {
-    (sine(space, r[0] + r[1] + r[2]), r.map(|x| sine(space, x)))
+/// The half-perimeter differences of a triangle with their sines, from which both angles and weights are formed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TriangleSines {
+    /// The space of the triangle.
+    pub space: Space,
+    /// The half-perimeter differences r.
+    pub differences: [f64; 3],
+    /// f(s) of the half perimeter.
+    pub whole: f64,
+    /// f(r_i) of the differences.
+    pub parts: [f64; 3],
 }
 
-/// `f(r_i)/f(s)`. Products of such ratios neither overflow nor underflow, whatever the size of the lengths.
-#[inline]
-fn ratios(space: Space, r: [f64; 3], (whole, sines): (f64, [f64; 3])) -> [f64; 3] {
-    let s = r[0] + r[1] + r[2];
-    match space {
-        // sinh x = e^x (1 − e^{−2x})/2
-        Space::H2 if s > FAR => r.map(|x| (x - s).exp() * (-2.0 * x).exp_m1() / (-2.0 * s).exp_m1()),
-        _ => sines.map(|x| x / whole),
+impl TriangleSines {
+    /// The sines of a triangle with these half-perimeter differences.
+    #[inline]
+    pub fn new(space: Space, r: [f64; 3]) -> TriangleSines {
+        let whole = sine(space, r[0] + r[1] + r[2]);
+        TriangleSines { space, differences: r, whole, parts: r.map(|x| sine(space, x)) }
+    }
+
+    /// `f(r_i)/f(s)`. Products of such ratios neither overflow nor underflow, whatever the size of the lengths.
+    #[inline]
+    fn ratios(&self) -> [f64; 3] {
+        let r = self.differences;
+        let s = r[0] + r[1] + r[2];
+        match self.space {
+            // sinh x = e^x (1 − e^{−2x})/2
+            Space::H2 if s > FAR => r.map(|x| (x - s).exp() * (-2.0 * x).exp_m1() / (-2.0 * s).exp_m1()),
+            _ => self.parts.map(|x| x / self.whole),
+        }
+    }
+
+    /// The angles, see [`angles_from`].
+    #[inline]
+    pub fn angles(&self) -> Angles {
+        let r = self.differences;
+        let s = r[0] + r[1] + r[2];
+        if let Some(corner) = (0..3).find(|&i| r[i] <= 0.0) {
+            return Angles { at: [0, 1, 2].map(|k| if k == corner { PI } else { 0.0 }) };
+        }
+        if self.space == Space::S2 && s >= PI {
+            return Angles { at: [PI; 3] };
+        }
+        // Roots are taken before products: f_i f_j may underflow.
+        let [a, b, c] = self.ratios().map(f64::sqrt);
+        Angles { at: [(b * c, a), (c * a, b), (a * b, c)].map(|(y, x)| 2.0 * angle(y, x)) }
     }
 }
 
@@ -107,22 +140,7 @@ pub fn angles(space: Space, l: [f64; 3]) -> Angles {
 /// The angles from the half-perimeter differences, which may be known more precisely than the lengths.
 #[inline]
 pub fn angles_from(space: Space, r: [f64; 3]) -> Angles {
-    angles_from_sines(space, r, sines(space, r))
-}
-
-/// [`angles_from`], with the [`sines`] of the differences.
-#[inline]
-pub fn angles_from_sines(space: Space, r: [f64; 3], sines: (f64, [f64; 3])) -> Angles {
-    let s = r[0] + r[1] + r[2];
-    if let Some(corner) = (0..3).find(|&i| r[i] <= 0.0) {
-        return Angles { at: [0, 1, 2].map(|k| if k == corner { PI } else { 0.0 }) };
-    }
-    if space == Space::S2 && s >= PI {
-        return Angles { at: [PI; 3] };
-    }
-    // Roots are taken before products: f_i f_j may underflow.
-    let [a, b, c] = ratios(space, r, sines).map(f64::sqrt);
-    Angles { at: [(b * c, a), (c * a, b), (a * b, c)].map(|(y, x)| 2.0 * angle(y, x)) }
+    TriangleSines::new(space, r).angles()
 }
 
 /// [`angles_from`] in E² together with half the cotangents of the angles; both come from the same roots. The cotangents are 0 where the

@@ -12,7 +12,7 @@
 
 use super::Space;
 use super::conformal::Vertex;
-use super::triangle::{plane_angles_with_weights, sines};
+use super::triangle::{TriangleSines, plane_angles_with_weights};
 use std::f64::consts::PI;
 
 /// The weights `w_k = ∂θ_i/∂u_j = ∂θ_j/∂u_i` of the three edges (w_k belongs to edge ij, opposite corner k).
@@ -30,18 +30,18 @@ use std::f64::consts::PI;
 /// centre from edge ij) / l_k. A broken triangle has weights 0: its extended angles are constant.
 #[inline]
 pub fn weights(space: Space, r: [f64; 3], q2: [f64; 3], corners: [Vertex; 3], eta: [f64; 3]) -> [f64; 3] {
-    weights_from_sines(space, (r, sines(space, r)), q2, corners, eta)
+    weights_from_sines(&TriangleSines::new(space, r), q2, corners, eta)
 }
 
-/// [`weights`], with the [`sines`] of the differences.
+/// [`weights`], from the sines of the half-perimeter differences.
 #[inline]
 pub fn weights_from_sines(
-    space: Space,
-    (r, (whole, sines)): ([f64; 3], (f64, [f64; 3])),
+    sines: &TriangleSines,
     q2: [f64; 3],
     corners: [Vertex; 3],
     eta: [f64; 3],
 ) -> [f64; 3] {
+    let TriangleSines { space, differences: r, whole, parts } = *sines;
     if r.iter().any(|&x| x <= 0.0) {
         return [0.0; 3];
     }
@@ -54,7 +54,7 @@ pub fn weights_from_sines(
     if space == Space::S2 && s >= PI {
         return [0.0; 3];
     }
-    let [a, b, c] = sines.map(|x| unit * x);
+    let [a, b, c] = parts.map(|x| unit * x);
     let delta = (unit * whole * a).sqrt() * (b * c).sqrt();
     let lambda = space.curvature();
     let c = corners.map(|v| 1.0 - lambda * v.epsilon * v.scale * v.scale);
