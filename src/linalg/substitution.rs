@@ -1,4 +1,4 @@
-//! ForwardBundle and backward substitution with a supernodal factor, for one right-hand side. Dense kernels made for factorisations would spend
+//! Forward and backward substitution with a supernodal factor, for one right-hand side. Dense kernels made for factorisations would spend
 //! more time on being called for the many small supernodes than on arithmetic.
 //!
 //! Bundles ([`super::tree`]) run in parallel, heavy supernodes one after the other, each by several threads. Every sum is formed in a
@@ -97,7 +97,7 @@ impl<'a, T: FactorNumber> SupernodalFactor<'a, T> {
         Supernode { width, values: &self.values[start..end], height: width + self.supernodes.rows(s).len() }
     }
 
-    /// ForwardBundle substitution in a heavy supernode; returns the sum to be subtracted from the rows below.
+    /// Forward substitution in a heavy supernode; returns the sum to be subtracted from the rows below.
     fn forward_heavy(&self, s: usize, own: &mut [T], updates: &[Mutex<Vec<T>>]) -> Vec<T> {
         let supernode = self.supernode(s);
         let Supernode { width, height, .. } = supernode;
@@ -125,7 +125,7 @@ impl<'a, T: FactorNumber> SupernodalFactor<'a, T> {
         below
     }
 
-    /// BackwardBundle substitution in a heavy supernode, into `own` and `solved`.
+    /// Backward substitution in a heavy supernode, into `own` and `solved`.
     fn backward_heavy(&self, s: usize, own: &mut [T], solved: &mut [T]) {
         let supernode = self.supernode(s);
         let Supernode { width, height, .. } = supernode;
@@ -161,7 +161,7 @@ impl<T: FactorNumber> SubstitutionMemory<T> {
     }
 }
 
-/// ForwardBundle substitution in a bundle; `x` holds the right-hand side at its rows. The updates of its roots are left in the memory of the
+/// Forward substitution in a bundle; `x` holds the right-hand side at its rows. The updates of its roots are left in the memory of the
 /// thread.
 struct ForwardBundle<'a, T> {
     factor: SupernodalFactor<'a, T>,
@@ -204,7 +204,7 @@ impl<T: FactorNumber> WithSimd for ForwardBundle<'_, T> {
     }
 }
 
-/// BackwardBundle substitution in a bundle; `solved` holds the solution at the rows of heavy supernodes.
+/// Backward substitution in a bundle; `solved` holds the solution at the rows of heavy supernodes.
 struct BackwardBundle<'a, T> {
     factor: SupernodalFactor<'a, T>,
     bundle: &'a TreeSegment,

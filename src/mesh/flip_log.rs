@@ -1,4 +1,4 @@
-//! A log of flips that allows to undo them.
+//! A log of flips, from which they can be undone.
 //!
 //! A solve that fails must leave its surface as it was. A log takes 16 bytes per flip of a length, 24 per flip of an η, and 24 for each
 //! set of curves that follows the flips; a copy of the surface would take as much for every edge, flipped or not.

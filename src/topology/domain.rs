@@ -100,7 +100,7 @@ impl FundamentalDomain {
         let n = chains.len();
         let pair = |(k, halfedges): (usize, Vec<HalfedgeId>)| {
             let partner = halfedges.last().and_then(|h| side_of[h.twin()]).map(|j| j as usize);
-            // DomainSide k starts at the end of its partner.
+            // Side k starts at the end of its partner.
             let element = partner.map_or_else(Word::identity, |j| {
                 let end = &corners[(j + 1) % n].element;
                 basis.group.reduce(&corners[k].element.times(&end.inverse()))
