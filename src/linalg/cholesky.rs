@@ -120,7 +120,8 @@ impl<T: FactorNumber> Cholesky<T> {
             .map_err(|_| failed(size, "not enough memory for the factor"))?;
         let factor = vec![T::ZERO; entries];
         let ordered = [vec![T::ZERO; size], vec![T::ZERO; size]];
-        Ok(Cholesky { symbolic, tree, factor, front_memory: MemoryPool::default(), substitution_memory: MemoryPool::default(), ordered })
+        let (front_memory, substitution_memory) = Default::default();
+        Ok(Cholesky { symbolic, tree, factor, front_memory, substitution_memory, ordered })
     }
 
     /// The same analysis for a factor in another type of number; this factor is released first.
