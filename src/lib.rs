@@ -44,7 +44,7 @@ pub mod structure;
 pub mod topology;
 
 pub use control::Control;
-pub use error::{FilePosition, Error, Result};
+pub use error::{Error, FilePosition, Result};
 pub use flow::{Flow, Solution};
 pub use metric::{Class, Surface, Target};
 

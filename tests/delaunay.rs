@@ -7,7 +7,7 @@ use common::Random;
 use common::flow::surface;
 use ricci::geometry::conformal::Vertex;
 use ricci::geometry::flip::diagonal;
-use ricci::geometry::{Space, DoubleDouble};
+use ricci::geometry::{DoubleDouble, Space};
 use ricci::mesh::{EdgeId, FixedEdges, Mesh, PerEdge, PerVertex, shapes};
 use ricci::metric::delaunay::{ClassFlips, IntrinsicOptions, Queue, failing, intrinsic_delaunay};
 use ricci::metric::{Class, Initial, Scheme, StartOptions, Triangulated, delaunay_start};

@@ -8,7 +8,7 @@ use ricci::mesh::Mesh;
 use ricci::mesh::check::{Defect, diagnose};
 use ricci::mesh::io::{self, Soup, TexturedMesh};
 use ricci::mesh::shapes;
-use ricci::{FilePosition, Error, Result};
+use ricci::{Error, FilePosition, Result};
 use std::collections::HashMap;
 use std::io::Write;
 
@@ -370,7 +370,10 @@ fn binary_off_is_the_text_off_of_the_same_mesh() {
                 let Err(Error::Parse { message, at, .. }) = io::parse_off(&bytes[..end], "t.off") else {
                     panic!("{header}: {end} bytes were read")
                 };
-                assert!(message.contains("the file ends in ") && at == FilePosition::Byte(end), "{header}: {message}");
+                assert!(
+                    message.contains("the file ends in ") && at == FilePosition::Byte(end),
+                    "{header}: {message}"
+                );
             }
             let longer = io::parse_off(&[&bytes[..], b"more"].concat(), "t.off").unwrap_err().to_string();
             assert!(

@@ -8,7 +8,7 @@ use proptest::prelude::{any, prop, proptest};
 use ricci::mesh::io::{self, Attributes, Soup};
 use ricci::mesh::repair::{Repair, repair};
 use ricci::mesh::{Mesh, shapes};
-use ricci::{FilePosition, Error};
+use ricci::{Error, FilePosition};
 use std::path::Path;
 
 /// A tetrahedron with an isolated vertex, and an attribute of each kind.
@@ -297,8 +297,16 @@ fn stl_that_is_cut_off_or_garbled_names_the_place() {
             FilePosition::Line(6),
             "`one` is not a number",
         ),
-        (ASCII_STL.replacen("vertex", "vortex", 1).into_bytes(), FilePosition::Line(4), "`vortex` has no place"),
-        (ASCII_STL.split("  endloop").next().unwrap().as_bytes().to_vec(), FilePosition::Line(6), "ends inside a loop"),
+        (
+            ASCII_STL.replacen("vertex", "vortex", 1).into_bytes(),
+            FilePosition::Line(4),
+            "`vortex` has no place",
+        ),
+        (
+            ASCII_STL.split("  endloop").next().unwrap().as_bytes().to_vec(),
+            FilePosition::Line(6),
+            "ends inside a loop",
+        ),
     ] {
         let Err(Error::Parse { message, at, .. }) = io::parse_stl(&bytes, "t.stl") else { panic!("{says}") };
         assert!(message.contains(says) && at == place, "{at}: {message}");

@@ -7,7 +7,7 @@ use flate2::Compression;
 use flate2::write::{GzEncoder, ZlibEncoder};
 use ricci::mesh::Mesh;
 use ricci::mesh::io::{self, Soup};
-use ricci::{FilePosition, Error};
+use ricci::{Error, FilePosition};
 use std::io::Write;
 
 const POINTS: [[f64; 3]; 4] = [[0.0, 0.0, 0.0], [1.5, 0.0, 0.0], [0.0, -2.25, 0.0], [0.1, 0.0, 3e-3]];

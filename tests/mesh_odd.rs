@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use ricci::mesh::io::{self, Soup};
-use ricci::{FilePosition, Error, Result};
+use ricci::{Error, FilePosition, Result};
 use std::time::Instant;
 
 const TRIANGLE: [[f64; 3]; 3] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.5, 0.0]];
@@ -67,18 +67,38 @@ fn ascii_ply_of_other_programs_is_read() {
 fn ply_errors_name_the_line_or_the_byte_and_quote_little() {
     let plain = HEADER.to_string() + BODY;
     for (text, at, says) in [
-        (plain.replace("1 0 0\n", "1 0\n"), FilePosition::Line(11), "row 1 of element `vertex` ends before `z`"),
-        (plain.replace("1 0 0\n", "1 0 x\n"), FilePosition::Line(11), "`z` of row 1 of element `vertex`: `x` is not"),
+        (
+            plain.replace("1 0 0\n", "1 0\n"),
+            FilePosition::Line(11),
+            "row 1 of element `vertex` ends before `z`",
+        ),
+        (
+            plain.replace("1 0 0\n", "1 0 x\n"),
+            FilePosition::Line(11),
+            "`z` of row 1 of element `vertex`: `x` is not",
+        ),
         (plain.replace("3 0 1 2", "3 0 1 -2"), FilePosition::Line(13), "face 0 names vertex -2"),
         (plain.replace("3 0 1 2", "3 0 1 1.5"), FilePosition::Line(13), "face 0 names vertex 1.5"),
-        (plain.replace("3 0 1 2", "-3 0 1 2"), FilePosition::Line(13), "list `vertex_indices` of row 0 has -3 entries"),
+        (
+            plain.replace("3 0 1 2", "-3 0 1 2"),
+            FilePosition::Line(13),
+            "list `vertex_indices` of row 0 has -3 entries",
+        ),
         // Two vertices on one line are not two rows.
         (plain.replace("0 0 0\n1", "0 0 0 1"), FilePosition::Line(12), "ends inside element `face`"),
         (plain.replace("element face", "element vertex"), FilePosition::Line(7), "a second element `vertex`"),
-        (plain.replace("property list uchar int vertex_indices\n", ""), FilePosition::Line(7), "no list property"),
+        (
+            plain.replace("property list uchar int vertex_indices\n", ""),
+            FilePosition::Line(7),
+            "no list property",
+        ),
         (plain.replace("float y", "flout y"), FilePosition::Line(5), "`flout` is no type"),
         (plain.replace("format ascii 1.0\n", ""), FilePosition::Line(8), "no line `format`"),
-        (plain.replace("element vertex 3", "element vertex -3"), FilePosition::Line(3), "`-3` is not a count"),
+        (
+            plain.replace("element vertex 3", "element vertex -3"),
+            FilePosition::Line(3),
+            "`-3` is not a count",
+        ),
     ] {
         let (found, message) = place(ply(&text));
         assert!(found == at && message.contains(says), "{found}: {message}");
@@ -97,7 +117,10 @@ fn ply_errors_name_the_line_or_the_byte_and_quote_little() {
     let error = io::parse_ply(&bytes, "t.ply").unwrap_err().to_string();
     assert_eq!(error, format!("t.ply, byte {second}: face 1 names vertex -7, which cannot be"));
     let (at, message) = place(io::parse_ply(&bytes[..second + 6], "t.ply"));
-    assert!(at == FilePosition::Byte(second + 6) && message.contains("ends inside element `face` of 2"), "{message}");
+    assert!(
+        at == FilePosition::Byte(second + 6) && message.contains("ends inside element `face` of 2"),
+        "{message}"
+    );
 }
 
 #[test]
@@ -216,7 +239,10 @@ fn vertices_of_off_may_share_a_line_and_its_header_be_small() {
     }
     // The error of the first reading is reported.
     let (at, message) = place(off(&plain.replace("1 0 0\n", "1 0\n")));
-    assert!(at == FilePosition::Line(6) && message.contains("size of face 0 (of 1) is missing"), "{at}: {message}");
+    assert!(
+        at == FilePosition::Line(6) && message.contains("size of face 0 (of 1) is missing"),
+        "{at}: {message}"
+    );
 }
 
 /// A star of `n` corners, every other of which turns inwards.

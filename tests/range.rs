@@ -8,7 +8,7 @@ use common::flips::{SCHEMES, exp, in_the_middle, measure, reach, scaled_sides, s
 use common::flow::surface;
 use ricci::Error;
 use ricci::flow::{Options, curvature_derivative};
-use ricci::geometry::{Space, DoubleDouble};
+use ricci::geometry::{DoubleDouble, Space};
 use ricci::mesh::{EdgeId, VertexId, shapes};
 use ricci::metric::{Class, Scheme, initial_metric};
 

@@ -7,7 +7,7 @@ use common::Random;
 use ricci::Error;
 use ricci::mesh::check::{Defect, diagnose};
 use ricci::mesh::io::{self, Attributes, Soup};
-use ricci::mesh::repair::{Repair, Repaired, RepairSteps, repair};
+use ricci::mesh::repair::{Repair, RepairSteps, Repaired, repair};
 use ricci::mesh::{Mesh, shapes};
 
 fn mend(soup: &Soup) -> Repaired {

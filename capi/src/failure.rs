@@ -1,7 +1,7 @@
 //! The reason why a call fails: a status, a message, and the element and the amount as numbers.
 
 use crate::status::*;
-use ricci::{FilePosition, Error};
+use ricci::{Error, FilePosition};
 use std::borrow::Cow;
 
 /// The result of the body of an entry point.

@@ -9,7 +9,7 @@ use crate::status::ricci_status;
 use crate::structs::{self, sized};
 use ricci::mesh::check::{Diagnosis, diagnose};
 use ricci::mesh::io::{self, Soup};
-use ricci::mesh::repair::{Repair, Repaired, RepairSteps, repair};
+use ricci::mesh::repair::{Repair, RepairSteps, Repaired, repair};
 use std::ffi::{CString, c_char};
 use std::sync::OnceLock;
 

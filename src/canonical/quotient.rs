@@ -15,7 +15,7 @@ use crate::embed::{About, BoundaryLoop, DeckGroup, Layout, boundary_sides, layou
 use crate::error::{Error, Result};
 use crate::flow::{Flow, Options, Report, Solution};
 use crate::geometry::motion::precise_point;
-use crate::geometry::{Motion, Space, DoubleDouble, largest};
+use crate::geometry::{DoubleDouble, Motion, Space, largest};
 use crate::mesh::{Mesh, PerEdge, VertexId};
 use crate::metric::target::{check_upper, settle_total};
 use crate::metric::{Class, Scheme, Surface};
@@ -242,7 +242,8 @@ fn upright(layout: &Layout, first: &BoundaryLoop) -> Result<Motion<DoubleDouble>
     let (start, end) = (points[0], points[points.len() - 1]);
     let [x, y] = [end[0] - start[0], end[1] - start[1]];
     let length = x.hypot(y);
-    let turn = Motion::in_plane([x / length, -y / length].map(DoubleDouble::from), [DoubleDouble::from(0.0); 2]);
+    let turn =
+        Motion::in_plane([x / length, -y / length].map(DoubleDouble::from), [DoubleDouble::from(0.0); 2]);
     let home = match first.sides.len() {
         1 => Motion::identity(Space::E2),
         _ => Motion::to_origin(Space::E2, precise_point(Space::E2, start)),

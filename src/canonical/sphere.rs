@@ -19,7 +19,7 @@ use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::flow::{Flow, Options, Seconds, Solution, StopReason};
 use crate::geometry::double_double::two_sum;
-use crate::geometry::{Space, DoubleDouble, largest, triangle};
+use crate::geometry::{DoubleDouble, Space, largest, triangle};
 use crate::mesh::{Mesh, PerVertex, Point, VertexId};
 use crate::metric::lengths::face_lengths;
 use crate::metric::{Class, Curvature, Metric, Surface};

@@ -15,7 +15,7 @@ use crate::geometry::conformal::{Edge, Vertex, differences, edge, in_one_unit};
 use crate::geometry::scaled::scaled;
 use crate::geometry::triangle::angles_from;
 use crate::geometry::weights::weights;
-use crate::geometry::{Space, DoubleDouble};
+use crate::geometry::{DoubleDouble, Space};
 use crate::mesh::{EdgeId, FaceId, Flip, HalfedgeId, Mesh, NormalCoordinates, PerEdge, PerVertex, VertexId};
 use crate::metric::Metric;
 use crate::metric::delaunay::ClassFlips;

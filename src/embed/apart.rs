@@ -8,7 +8,7 @@ use super::pieces::Pieces;
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::flow::Solution;
-use crate::geometry::{Motion, DoubleDouble};
+use crate::geometry::{DoubleDouble, Motion};
 use crate::mesh::{FaceId, HalfedgeId, PerFace, PerHalfedge};
 use std::sync::Arc;
 

@@ -7,7 +7,7 @@ use super::walk::Walks;
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::motion::precise_point;
-use crate::geometry::{Motion, DoubleDouble};
+use crate::geometry::{DoubleDouble, Motion};
 use crate::mesh::HalfedgeId;
 use crate::topology::word::Word;
 use crate::topology::{HomotopyBasis, SurfaceGroup};

@@ -19,7 +19,7 @@ use super::element::DeckElement;
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::motion::precise_point;
-use crate::geometry::{Motion, Space, DoubleDouble};
+use crate::geometry::{DoubleDouble, Motion, Space};
 use crate::parallel;
 use crate::topology::SurfaceGroup;
 use crate::topology::word::Letter;

@@ -22,7 +22,7 @@ use crate::error::{Error, Result};
 use crate::flow::Solution;
 use crate::geometry::modulus::modulus;
 use crate::geometry::motion::precise_point;
-use crate::geometry::{Motion, Space, DoubleDouble, worse};
+use crate::geometry::{DoubleDouble, Motion, Space, worse};
 use crate::mesh::HalfedgeId;
 use crate::topology::word::{Letter, Word};
 use crate::topology::{DomainSide, FundamentalDomain, HomotopyBasis, SurfaceGroup};

@@ -5,7 +5,7 @@ use super::frame::{Frame, Walk};
 use super::pieces::Pieces;
 use crate::control::{Control, Stage};
 use crate::error::{Error, Result};
-use crate::geometry::{Motion, DoubleDouble};
+use crate::geometry::{DoubleDouble, Motion};
 use crate::mesh::{FaceId, HalfedgeId, PerEdge, PerFace, PerHalfedge, VertexId};
 use crate::metric::Refinement;
 use crate::parallel;

@@ -3,7 +3,7 @@
 use super::element::DeckElement;
 use super::line::Line;
 use crate::geometry::motion::precise_point;
-use crate::geometry::{Motion, Space, DoubleDouble};
+use crate::geometry::{DoubleDouble, Motion, Space};
 
 /// The Dirichlet domain of a base point: a convex polygon with geodesic sides, each on the bisector of the base point and its image
 /// under the side's element, which carries the domain onto its neighbour across that side, or on the straight boundary of the surface.

@@ -1,6 +1,6 @@
 //! Elements of deck groups.
 
-use crate::geometry::{Motion, Space, DoubleDouble};
+use crate::geometry::{DoubleDouble, Motion, Space};
 use crate::topology::word::Word;
 
 /// An element of the deck group.

@@ -7,7 +7,7 @@ use crate::error::{Error, Result};
 use crate::geometry::model::distance;
 use crate::geometry::motion::precise_point;
 use crate::geometry::triangle::half_differences;
-use crate::geometry::{Motion, Space, DoubleDouble};
+use crate::geometry::{DoubleDouble, Motion, Space};
 use crate::mesh::{EdgeId, FaceId, HalfedgeId, Mesh, PerEdge, PerFace};
 use crate::metric::Metric;
 use crate::metric::precise::shapes;

@@ -2,7 +2,7 @@
 
 use crate::geometry::complex::{add, conj, mul, norm2, quick_norm, scale, sub};
 use crate::geometry::motion::precise_point;
-use crate::geometry::{Motion, Space, DoubleDouble};
+use crate::geometry::{DoubleDouble, Motion, Space};
 
 /// The origin in ambient coordinates.
 pub(super) const ORIGIN: [f64; 3] = [0.0, 0.0, 1.0];
@@ -202,7 +202,11 @@ impl Walk for RoughMotion {
         Some(RoughMotion(self.0.after_rotation(angle.map(f64::from))))
     }
 
-    fn backwards(&self, [cos, chord]: [DoubleDouble; 2], [half_cos, half_sin]: [DoubleDouble; 2]) -> Option<Self> {
+    fn backwards(
+        &self,
+        [cos, chord]: [DoubleDouble; 2],
+        [half_cos, half_sin]: [DoubleDouble; 2],
+    ) -> Option<Self> {
         let turned = self.0.after_rotation([half_sin.high, -half_cos.high]);
         Some(RoughMotion(turned.after_translation([cos.high, -chord.high])))
     }
@@ -316,7 +320,11 @@ impl Walk for Motion<DoubleDouble> {
         Some(self.after_rotation(angle))
     }
 
-    fn backwards(&self, [cos, chord]: [DoubleDouble; 2], [half_cos, half_sin]: [DoubleDouble; 2]) -> Option<Self> {
+    fn backwards(
+        &self,
+        [cos, chord]: [DoubleDouble; 2],
+        [half_cos, half_sin]: [DoubleDouble; 2],
+    ) -> Option<Self> {
         Some(self.after_rotation([half_sin, -half_cos]).after_translation([cos, -chord]))
     }
 

@@ -22,7 +22,7 @@ use crate::geometry::model::{distance as hyperbolic_distance, klein, poincare};
 use crate::geometry::modulus::modulus;
 use crate::geometry::motion::precise_point;
 use crate::geometry::predicates::{orientation, winding};
-use crate::geometry::{Motion, PlaneIsometry, Space, DoubleDouble};
+use crate::geometry::{DoubleDouble, Motion, PlaneIsometry, Space};
 use crate::mesh::{FaceId, HalfedgeId, Mesh, PerFace, PerHalfedge, VertexId};
 use crate::metric::Refinement;
 use crate::parallel;

@@ -1,6 +1,6 @@
 //! Straight lines of the plane and of the hyperbolic plane, with one side *beyond* each.
 
-use crate::geometry::{Motion, Space, DoubleDouble};
+use crate::geometry::{DoubleDouble, Motion, Space};
 
 /// Value of a form, as a distance, below which it is evaluated again with twice the digits; doubles give the sign of larger ones.
 const CLOSE: f64 = 1e-4;

@@ -3,7 +3,7 @@
 use super::layout::{Layout, bounding_diagonal, flat, radius};
 use crate::error::{Error, Result};
 use crate::geometry::motion::precise_point;
-use crate::geometry::{Motion, Space, DoubleDouble};
+use crate::geometry::{DoubleDouble, Motion, Space};
 
 impl Layout {
     /// [`Layout::points`] number k with twice the digits, as far as the layout has them: in H² rounding to doubles moves a point by

@@ -20,7 +20,7 @@ use super::pieces::Pieces;
 use crate::control::Control;
 use crate::error::{Error, Result, check_size};
 use crate::geometry::complex::{norm2, sub};
-use crate::geometry::{Motion, Space, DoubleDouble, worse};
+use crate::geometry::{DoubleDouble, Motion, Space, worse};
 use crate::mesh::{FaceId, HalfedgeId, Mesh, PerEdge, PerHalfedge, VertexId};
 use crate::metric::{Metric, Refinement};
 use crate::parallel;
@@ -220,7 +220,8 @@ impl<F: Frame> Development<'_, F> {
     /// The isometry of a segment's edge that is nearest to the origin, and how far those of the others are from it: a distance.
     fn seam(&self, segment: &[HalfedgeId]) -> Result<Seam> {
         let frames = segment.iter().map(|&h| self.on_both_sides(h)).collect::<Result<Vec<_>>>()?;
-        let far = |sides: &[Motion<DoubleDouble>; 2]| sides.iter().map(Motion::displacement).fold(0.0, f64::max);
+        let far =
+            |sides: &[Motion<DoubleDouble>; 2]| sides.iter().map(Motion::displacement).fold(0.0, f64::max);
         let far: Vec<f64> = frames.iter().map(far).collect();
         let nearest = (0..far.len()).min_by(|&i, &j| far[i].total_cmp(&far[j]));
         let pairing = match nearest.map(|k| frames[k]) {

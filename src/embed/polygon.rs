@@ -7,7 +7,7 @@ use super::element::DeckElement;
 use super::line::Line;
 use crate::control::Control;
 use crate::error::Result;
-use crate::geometry::{Motion, Space, DoubleDouble, triangle};
+use crate::geometry::{DoubleDouble, Motion, Space, triangle};
 
 /// Rounds of products of side elements, at most. Each round at least doubles the word length that is reached; two or three rounds are
 /// usual.

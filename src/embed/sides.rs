@@ -6,7 +6,7 @@ use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::flow::Solution;
 use crate::geometry::complex::{cross, norm2};
-use crate::geometry::{Motion, Space, DoubleDouble, worse};
+use crate::geometry::{DoubleDouble, Motion, Space, worse};
 use crate::mesh::{HalfedgeId, VertexId};
 use crate::topology::HomotopyBasis;
 

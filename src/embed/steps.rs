@@ -5,7 +5,7 @@ use super::frame::Walk;
 use super::pieces::Pieces;
 use crate::error::Result;
 use crate::flow::Solution;
-use crate::geometry::{Motion, Space, DoubleDouble};
+use crate::geometry::{DoubleDouble, Motion, Space};
 use crate::mesh::{FaceId, HalfedgeId, Mesh, PerFace, PerHalfedge};
 use crate::metric::Refinement;
 use crate::parallel;

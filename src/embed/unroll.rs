@@ -8,7 +8,7 @@ use super::place::lay_out;
 use crate::control::Control;
 use crate::error::{Result, check_size};
 use crate::flow::Solution;
-use crate::geometry::{Motion, Space, DoubleDouble};
+use crate::geometry::{DoubleDouble, Motion, Space};
 use crate::mesh::{FaceId, HalfedgeId, Mesh, PerEdge, VertexId};
 use crate::metric::curvature::area;
 use crate::metric::{Metric, Refinement};

@@ -5,7 +5,7 @@ use super::layout::Layout;
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::flow::Solution;
-use crate::geometry::{Motion, Space, DoubleDouble};
+use crate::geometry::{DoubleDouble, Motion, Space};
 use crate::mesh::{FaceId, HalfedgeId};
 use crate::topology::{corner_walk, crossed_halfedges};
 

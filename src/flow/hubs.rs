@@ -9,7 +9,7 @@ use super::solution::Solution;
 use crate::control::Control;
 use crate::error::Result;
 use crate::geometry::triangle::angles;
-use crate::geometry::{Space, DoubleDouble};
+use crate::geometry::{DoubleDouble, Space};
 use crate::mesh::{EdgeId, FilledMesh, HalfedgeId, Mesh, PerEdge, VertexId};
 use crate::metric::lengths::face_lengths;
 use crate::metric::{Class, Metric, Surface};

@@ -9,7 +9,7 @@ use crate::geometry::triangle::{
     self, Angles, TriangleSines, plane_angles_with_weights, sound_plane_angles_with_weights,
 };
 use crate::geometry::weights::weights_from_sines;
-use crate::geometry::{Space, DoubleDouble, chords};
+use crate::geometry::{DoubleDouble, Space, chords};
 use crate::mesh::{EdgeId, FaceId, Mesh};
 use crate::metric::Metric;
 use crate::parallel::{fill_both, in_parts_of_both};

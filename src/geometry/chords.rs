@@ -168,7 +168,8 @@ mod tests {
 
     #[test]
     fn thin_and_broken_triangles_are_left_to_others() {
-        let of = |lengths: [f64; 3]| angles_with_weights(lengths.map(|l| DoubleDouble::from((0.5 * l).sinh())));
+        let of =
+            |lengths: [f64; 3]| angles_with_weights(lengths.map(|l| DoubleDouble::from((0.5 * l).sinh())));
         assert!(of([1.0, 0.3, 0.4]).is_none() && of([20.0, 10.0, 10.000_001]).is_none());
         assert!(of([1e-60, 1e-60, 1e-60]).is_none() && of([600.0, 600.0, 600.0]).is_none());
         // A thin but small triangle is as precise as in the plane.

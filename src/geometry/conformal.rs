@@ -34,10 +34,10 @@
 //! ```
 
 use super::Space;
+use super::double_double::{self, DoubleDouble, two_product, two_sum};
 use super::lanes::Lanes;
 use super::scaled::{exponent, scaled};
 use super::triangle::half_differences;
-use super::double_double::{self, DoubleDouble, two_product, two_sum};
 pub use super::vertex::{Vertex, is_precise, radius};
 use std::f64::consts::PI;
 
@@ -213,7 +213,10 @@ pub(super) fn plain_chord_of<L: Lanes>(space: Space, a: [L; 2], b: [L; 2], eta: 
     let is_small = n.constant(MOST_PLAIN_ETA).where_at_least(eta[0], one, zero);
     let is_plain = a[0].where_within(&PLAIN_SCALES, b[0].where_within(&PLAIN_SCALES, is_small));
     let is_plain = n.where_within(range, is_plain);
-    DoubleDouble { high: is_plain.where_at_least(one, high, zero), low: is_plain.where_at_least(one, low, zero) }
+    DoubleDouble {
+        high: is_plain.where_at_least(one, high, zero),
+        low: is_plain.where_at_least(one, low, zero),
+    }
 }
 
 /// [`half_chord`], by [`plain_chord`] where that is not 0.

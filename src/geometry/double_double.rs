@@ -64,7 +64,12 @@ impl<L: Lanes> DoubleDouble<L> {
 
     /// `a b + c d`: each product is exact except for its last digits, and their sum is rounded once.
     #[inline(always)]
-    pub(crate) fn two_products(a: DoubleDouble<L>, b: DoubleDouble<L>, c: DoubleDouble<L>, d: DoubleDouble<L>) -> DoubleDouble<L> {
+    pub(crate) fn two_products(
+        a: DoubleDouble<L>,
+        b: DoubleDouble<L>,
+        c: DoubleDouble<L>,
+        d: DoubleDouble<L>,
+    ) -> DoubleDouble<L> {
         let ((p, p_low), (q, q_low)) = (two_product(a.high, b.high), two_product(c.high, d.high));
         let p_low = p_low + (a.high * b.low + a.low * b.high);
         let q_low = q_low + (c.high * d.low + c.low * d.high);

@@ -29,7 +29,7 @@
 
 use super::conformal::{Vertex, unit_of_products};
 use super::motion::Real;
-use super::{Space, DoubleDouble};
+use super::{DoubleDouble, Space};
 
 /// Least `D/η_ij²` of an edge that can be flipped. Where it is smaller, the circles i and j touch within the rounding of η (1e-16; the
 /// factor of 1000 leaves room), and no vector is perpendicular to the plane of their vectors.

@@ -8,7 +8,7 @@
 //! ```
 
 use super::complex::{add, cross, dot, mul, sub};
-use super::{Motion, DoubleDouble};
+use super::{DoubleDouble, Motion};
 use std::f64::consts::{PI, TAU};
 
 /// `z ↦ e^{iθ} z + t`.

@@ -150,7 +150,12 @@ impl<S: Simd> Lanes for SimdNumbers<S> {
     }
 
     #[inline(always)]
-    fn where_at_least(self, bound: SimdNumbers<S>, then: SimdNumbers<S>, other: SimdNumbers<S>) -> SimdNumbers<S> {
+    fn where_at_least(
+        self,
+        bound: SimdNumbers<S>,
+        then: SimdNumbers<S>,
+        other: SimdNumbers<S>,
+    ) -> SimdNumbers<S> {
         let mask = self.simd.greater_than_or_equal_f64s(self.at, bound.at);
         self.by(self.simd.select_f64s(mask, then.at, other.at))
     }

@@ -21,7 +21,7 @@
 use super::complex::{Complex, add, conj, mul, norm2, scale};
 pub use super::real::Real;
 use super::real::product;
-use super::{Space, DoubleDouble};
+use super::{DoubleDouble, Space};
 
 /// An orientation-preserving isometry of E², H² or S².
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -170,7 +170,8 @@ impl<T: Real> Motion<T> {
 impl Motion<f64> {
     /// The motion in double-double precision, scaled so that `|a|² + κ|b|² = 1` holds to that precision.
     pub fn precise(&self) -> Motion<DoubleDouble> {
-        Motion { space: self.space, a: self.a.map(DoubleDouble::from), b: self.b.map(DoubleDouble::from) }.normalised()
+        Motion { space: self.space, a: self.a.map(DoubleDouble::from), b: self.b.map(DoubleDouble::from) }
+            .normalised()
     }
 }
 

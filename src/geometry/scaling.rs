@@ -1,10 +1,10 @@
 //! e^u of many vertices and half chords of many edges at a time, for vertex scaling (ε = 0) in E² and H², in double-double precision.
 
 use super::conformal::plain_chord_of;
-use super::lanes::{Formula, Lanes, work_out};
 use super::double_double::exp_parts;
+use super::lanes::{Formula, Lanes, work_out};
 use super::vertex::{Vertex, is_plain};
-use super::{Space, DoubleDouble};
+use super::{DoubleDouble, Space};
 use crate::parallel::in_parts;
 
 /// The variables of a vertex: ε, u, and the part that u misses of its value.
@@ -105,7 +105,10 @@ mod tests {
                 }
                 let mut chords = vec![DoubleDouble::default(); u.len() - 7];
                 let given = |i: usize| {
-                    ([vertices[i], vertices[i + 7]], DoubleDouble { high: [0.7, 1e20][i % 20 / 10], low: 1e-17 })
+                    (
+                        [vertices[i], vertices[i + 7]],
+                        DoubleDouble { high: [0.7, 1e20][i % 20 / 10], low: 1e-17 },
+                    )
                 };
                 fill_chords(space, &mut chords, given);
                 for (i, chord) in chords.iter().enumerate() {

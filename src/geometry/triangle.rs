@@ -21,7 +21,7 @@
 
 use super::arctangent::angle;
 use super::lanes::Lanes;
-use super::{Space, DoubleDouble};
+use super::{DoubleDouble, Space};
 use std::f64::consts::PI;
 
 /// The angles of a triangle.

@@ -1,8 +1,8 @@
 //! The quantities of one vertex that formulas need: e^u, the radius of its circle, and the factor d of its type.
 
 use super::Space;
+use super::double_double::{self, DoubleDouble, MAX_EXPONENT, SURELY_NORMAL, exp_parts};
 use super::scaled::scaled;
-use super::double_double::{self, MAX_EXPONENT, SURELY_NORMAL, DoubleDouble, exp_parts};
 
 /// Largest |u| in E² for which e^u is kept without an exponent, 256 log 2: its square is about 2^±512, which leaves as much of the range
 /// of f64 for η.

@@ -7,7 +7,7 @@ use super::order::postorder;
 use super::pattern::{Pattern, Symmetric};
 use super::pool::MemoryPool;
 use super::substitution::{self, SubstitutionMemory};
-use super::tree::{Supernodes, SupernodeTree};
+use super::tree::{SupernodeTree, Supernodes};
 use crate::error::{Error, Result};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::perm::PermRef;

@@ -157,8 +157,10 @@ mod tests {
         let b: Vec<f64> = (0..n).map(|i| (0.1 * i as f64).cos()).collect();
         let mut solved = |values: &[f64], largest: f64| {
             let mut x = b.clone();
-            let (matrix, bound) = (Symmetric { pattern: &pattern, values }, ResidualBound { largest, sum: largest });
-            let found = ConjugateGradients::default().solve(matrix, bound, &mut near, &mut x, &Control::new());
+            let (matrix, bound) =
+                (Symmetric { pattern: &pattern, values }, ResidualBound { largest, sum: largest });
+            let found =
+                ConjugateGradients::default().solve(matrix, bound, &mut near, &mut x, &Control::new());
             let mut residual = b.clone();
             matrix.residual(&x, &b, &mut residual);
             (found.unwrap(), bound.excess(&residual))
@@ -194,7 +196,10 @@ mod tests {
             assert_eq!(factored.is_ok(), found.is_some(), "{scale:e}");
             if let Some(found) = found {
                 let mut conjugate = ConjugateGradients::default();
-                assert_eq!(conjugate.solve(matrix, bound, &mut near, &mut x, &Control::new()).unwrap(), found);
+                assert_eq!(
+                    conjugate.solve(matrix, bound, &mut near, &mut x, &Control::new()).unwrap(),
+                    found
+                );
             }
         }
     }

@@ -37,7 +37,12 @@ impl GmresLimits {
 /// Solves `A x = b`, starting from the x given (n numbers), and returns the norm of the remaining residual relative to that of b (0 for
 /// b = 0). `apply(x, y)` sets y to A x. The tolerance is not reached if the products are used up, a restart brings no progress, or a
 /// number is not finite.
-pub fn solve(mut apply: impl FnMut(&[f64], &mut [f64]), b: &[f64], x: &mut [f64], limits: GmresLimits) -> f64 {
+pub fn solve(
+    mut apply: impl FnMut(&[f64], &mut [f64]),
+    b: &[f64],
+    x: &mut [f64],
+    limits: GmresLimits,
+) -> f64 {
     let (size, mut products) = (norm(b), 0);
     if size == 0.0 {
         x.fill(0.0);

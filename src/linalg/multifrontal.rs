@@ -10,7 +10,7 @@ use super::front::{
 };
 use super::number::FactorNumber;
 use super::pool::{MemoryPool, lock};
-use super::tree::{TreeSegment, Supernodes, packed};
+use super::tree::{Supernodes, TreeSegment, packed};
 use crate::parallel::each;
 use faer::MatRef;
 use faer::dyn_stack::MemBuffer;

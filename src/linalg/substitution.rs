@@ -7,7 +7,7 @@
 use super::multifrontal::parts;
 use super::number::FactorNumber;
 use super::pool::{MemoryPool, lock};
-use super::tree::{TreeSegment, Supernodes};
+use super::tree::{Supernodes, TreeSegment};
 use crate::parallel::each;
 use pulp::{Arch, Simd, WithSimd};
 use std::ops::Range;
@@ -80,7 +80,9 @@ pub(super) fn solve<T: FactorNumber>(
     }
     let solved = &*solved;
     each(bundles, |(_, segment, part)| {
-        pool.lend(|memory| Arch::new().dispatch(BackwardBundle { factor, bundle: segment, x: part, solved, memory }));
+        pool.lend(|memory| {
+            Arch::new().dispatch(BackwardBundle { factor, bundle: segment, x: part, solved, memory })
+        });
     });
 }
 

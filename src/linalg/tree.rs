@@ -288,7 +288,11 @@ fn segments(
     let mut s = 0;
     while s < n {
         if work[s] > most {
-            segments.push(TreeSegment { supernodes: s..s + 1, is_heavy: true, roots: vec![(s as u32, [0; 2])] });
+            segments.push(TreeSegment {
+                supernodes: s..s + 1,
+                is_heavy: true,
+                roots: vec![(s as u32, [0; 2])],
+            });
             in_bundle = f64::INFINITY;
             s += 1;
             continue;

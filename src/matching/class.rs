@@ -7,7 +7,7 @@
 
 use super::generators::Generators;
 use crate::error::{Error, Result};
-use crate::geometry::{Motion, DoubleDouble};
+use crate::geometry::{DoubleDouble, Motion};
 use crate::mesh::{HalfedgeId, Mesh};
 use crate::topology::spanning::Key;
 use crate::topology::{HomotopyBasis, Letter, SurfaceGroup, Word, check_path, intersection_matrix};

@@ -4,7 +4,7 @@
 use crate::embed::Layout;
 use crate::error::{Error, Result};
 use crate::geometry::motion::precise_point;
-use crate::geometry::{Motion, Space, DoubleDouble};
+use crate::geometry::{DoubleDouble, Motion, Space};
 use crate::mesh::{FaceId, HalfedgeId, Mesh, PerHalfedge, PerVertex, VertexId};
 use crate::parallel;
 use crate::topology::CutGraph;
@@ -273,7 +273,10 @@ pub(super) fn aimed(space: Space, [from, to]: [Precise; 2]) -> (Motion<DoubleDou
 }
 
 /// The frame on the axis of a translation of H² that is nearest to another frame, its x axis along the axis.
-pub(super) fn on_axis(translation: &Motion<DoubleDouble>, near: &Motion<DoubleDouble>) -> Motion<DoubleDouble> {
+pub(super) fn on_axis(
+    translation: &Motion<DoubleDouble>,
+    near: &Motion<DoubleDouble>,
+) -> Motion<DoubleDouble> {
     // Seen from a point at the distance d from the axis, Im a is ± sinh(d) sinh(l/2), and |b|² − (Im a)² is sinh²(l/2).
     let seen = |frame: &Motion<DoubleDouble>| {
         let seen = translation.conjugated_by(&frame.inverse()).positive();
@@ -321,9 +324,10 @@ mod tests {
         for space in [Space::E2, Space::H2, Space::S2] {
             let from = moved(&Motion::identity(space), [0.7, -0.4]);
             let to = moved(&from, [0.3, 0.2]);
-            let [ahead, back] = [(from, to), (to, from)].map(|(a, b): (Motion<DoubleDouble>, Motion<DoubleDouble>)| {
-                logarithm(space, a.inverse().apply(b.origin()))
-            });
+            let [ahead, back] =
+                [(from, to), (to, from)].map(|(a, b): (Motion<DoubleDouble>, Motion<DoubleDouble>)| {
+                    logarithm(space, a.inverse().apply(b.origin()))
+                });
             assert!((0..2).all(|k| (ahead[k] + back[k]).abs() < 1e-15), "{space:?}: {ahead:?} {back:?}");
             assert!((ahead[0] - 0.3).abs() < 1e-15 && (ahead[1] - 0.2).abs() < 1e-15);
         }

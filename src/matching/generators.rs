@@ -2,7 +2,7 @@
 
 use crate::error::{Error, Result};
 use crate::geometry::complex::mul;
-use crate::geometry::{Motion, Space, DoubleDouble};
+use crate::geometry::{DoubleDouble, Motion, Space};
 use crate::topology::Word;
 
 /// Where the letters a1, b1, …, ag, bg, c1, …, cb go: motions that fulfil the relator `[a1, b1] … [ag, bg] c1 … cb = 1`.
@@ -211,9 +211,13 @@ fn size(rest: [DoubleDouble; 3]) -> f64 {
 }
 
 /// The shortest solution of three equations, by orthogonalising their rows; `None` for rows that depend on each other.
-fn least_solution(rows: &mut [Vec<DoubleDouble>; 3], mut side: [DoubleDouble; 3]) -> Option<Vec<DoubleDouble>> {
-    let dot =
-        |a: &[DoubleDouble], b: &[DoubleDouble]| a.iter().zip(b).fold(DoubleDouble::default(), |sum, (x, y)| sum + *x * *y);
+fn least_solution(
+    rows: &mut [Vec<DoubleDouble>; 3],
+    mut side: [DoubleDouble; 3],
+) -> Option<Vec<DoubleDouble>> {
+    let dot = |a: &[DoubleDouble], b: &[DoubleDouble]| {
+        a.iter().zip(b).fold(DoubleDouble::default(), |sum, (x, y)| sum + *x * *y)
+    };
     let n = rows[0].len();
     let mut solution = vec![DoubleDouble::default(); n];
     for k in 0..3 {

@@ -17,7 +17,7 @@ use crate::control::Control;
 use crate::embed::{UnrollOptions, unroll};
 use crate::error::{Error, Result};
 use crate::flow::Solution;
-use crate::geometry::{Motion, Space, DoubleDouble};
+use crate::geometry::{DoubleDouble, Motion, Space};
 use crate::mesh::{HalfedgeId, PerHalfedge, PerVertex, VertexId};
 use crate::metric::{Refinement, Surface};
 use crate::parallel::join;
@@ -269,7 +269,12 @@ fn opened(problem: Problem, s: usize, tree: &Tree, canonical: &Canonical, contro
 }
 
 /// The cover of a surface that is opened along its tree, with these transformations across the paths.
-fn tree_cover(surface: &Surface, space: Space, tree: &Tree, pairings: &[Motion<DoubleDouble>]) -> Result<Cover> {
+fn tree_cover(
+    surface: &Surface,
+    space: Space,
+    tree: &Tree,
+    pairings: &[Motion<DoubleDouble>],
+) -> Result<Cover> {
     Cover::along_cut(surface.mesh(), space, (&tree.cut, pairings), &tree.landmark_corners)
 }
 

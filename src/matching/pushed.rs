@@ -17,7 +17,7 @@ use super::weights::mean_value_weights;
 use crate::control::Control;
 use crate::embed::{UnrollOptions, unroll};
 use crate::error::{Error, Result};
-use crate::geometry::{Motion, Space, DoubleDouble};
+use crate::geometry::{DoubleDouble, Motion, Space};
 use crate::mesh::{HalfedgeId, Mesh, PerHalfedge, PerVertex, VertexId};
 use crate::metric::Surface;
 use crate::topology::{central_vertex, cut_graph};

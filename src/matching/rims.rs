@@ -6,7 +6,7 @@ use super::route::Marks;
 use super::slits::Slits;
 use super::walk::Found;
 use crate::error::{Error, Result};
-use crate::geometry::{Motion, DoubleDouble};
+use crate::geometry::{DoubleDouble, Motion};
 use crate::mesh::{HalfedgeId, Mesh, Place, VertexId};
 use crate::metric::Surface;
 use std::collections::HashMap;

@@ -9,7 +9,7 @@ use super::route::Marks;
 use super::walk::{Found, Seed, located};
 use crate::control::Control;
 use crate::error::Result;
-use crate::geometry::{Motion, Space, DoubleDouble};
+use crate::geometry::{DoubleDouble, Motion, Space};
 use crate::mesh::{HalfedgeId, Mesh, PerVertex, VertexId};
 use crate::metric::{Split, Surface};
 

@@ -11,7 +11,7 @@ use super::cover::{Placed, Precise, determinant, logarithm};
 use super::route::{Marks, Router};
 use crate::control::Control;
 use crate::error::{Error, Result};
-use crate::geometry::{Motion, Space, DoubleDouble};
+use crate::geometry::{DoubleDouble, Motion, Space};
 use crate::mesh::shapes::SplitMix64;
 use crate::mesh::{FaceId, HalfedgeId, Mesh, PerEdge, VertexId};
 use crate::topology::shortest_paths;
@@ -36,7 +36,8 @@ impl Inside {
         let weights = weights.map(|w| DoubleDouble::from(w.max(LEAST_WEIGHT)));
         let total = weights[0] + weights[1] + weights[2];
         let corners = old.corners(face);
-        let point = [0, 1, 2].map(|i| (0..3).fold(DoubleDouble::from(0.0), |p, k| p + weights[k] * corners[k][i]));
+        let point =
+            [0, 1, 2].map(|i| (0..3).fold(DoubleDouble::from(0.0), |p, k| p + weights[k] * corners[k][i]));
         Inside { face, point: point.map(|x| x / total) }
     }
 }

@@ -7,7 +7,7 @@ use super::boxes::Boxes;
 use super::cover::{Placed, determinant, logarithm, seen_from};
 use crate::control::{Control, Stage};
 use crate::error::{Error, Result};
-use crate::geometry::{Motion, DoubleDouble};
+use crate::geometry::{DoubleDouble, Motion};
 use crate::mesh::{FaceId, HalfedgeId, Mesh, Place, VertexId};
 use std::collections::{HashSet, VecDeque};
 use std::sync::OnceLock;
@@ -142,7 +142,12 @@ impl Walker<'_> {
 
     /// From the face of a half-edge to the face that a point lies in; of a point beyond the boundary by no more than rounding, to one at
     /// the boundary.
-    fn walk(&self, near: HalfedgeId, copy: Motion<DoubleDouble>, point: Motion<DoubleDouble>) -> Result<Found> {
+    fn walk(
+        &self,
+        near: HalfedgeId,
+        copy: Motion<DoubleDouble>,
+        point: Motion<DoubleDouble>,
+    ) -> Result<Found> {
         let mut at = Stand { near, copy, point };
         for step in 0..MOST_STEPS {
             let parts = self.parts(&at);

@@ -11,9 +11,9 @@
 use super::lengths::face_lengths;
 use crate::error::Result;
 use crate::geometry::Space;
+use crate::geometry::double_double::two_sum;
 use crate::geometry::scaled::scaled;
 use crate::geometry::triangle::{self, Angles, angles_from, area_from, half_differences};
-use crate::geometry::double_double::two_sum;
 use crate::mesh::{FaceId, Mesh, PerEdge, PerVertex};
 use crate::parallel;
 use crate::topology::check_lengths;

@@ -23,7 +23,7 @@ use crate::control::Control;
 use crate::error::{Result, check_size};
 use crate::geometry::conformal::Vertex;
 use crate::geometry::flip::{Hinge, precise_weight, weight};
-use crate::geometry::{Space, DoubleDouble};
+use crate::geometry::{DoubleDouble, Space};
 use crate::mesh::{EdgeId, FixedEdges, Flip, HalfedgeId, Mesh, PerEdge, PerVertex, VertexId};
 use std::sync::Arc;
 
@@ -146,7 +146,8 @@ impl VertexHinge {
     fn other_diagonal(&self, eta: &PerEdge<DoubleDouble>) -> Option<DoubleDouble> {
         let (hinge, scale) = self.precise(eta);
         let [.., k, l] = self.vertices;
-        let touch = |eta: DoubleDouble| k.epsilon * l.epsilon > 0.0 && (eta - 1.0.into()).high.abs() <= TOUCHING;
+        let touch =
+            |eta: DoubleDouble| k.epsilon * l.epsilon > 0.0 && (eta - 1.0.into()).high.abs() <= TOUCHING;
         let flipped = hinge.flipped().map(|product| product / scale);
         flipped.filter(|&eta| eta.high.abs() <= MAX_ETA && !touch(eta))
     }

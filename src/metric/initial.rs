@@ -16,7 +16,7 @@ use super::scheme::Scheme;
 use crate::error::{Error, Result, check_size};
 use crate::geometry::conformal::{Vertex, radius};
 use crate::geometry::scaled::scaled;
-use crate::geometry::{Space, DoubleDouble, triangle, worse};
+use crate::geometry::{DoubleDouble, Space, triangle, worse};
 use crate::mesh::{EdgeId, Mesh, PerEdge, PerVertex};
 use crate::parallel;
 use crate::topology::check_lengths;

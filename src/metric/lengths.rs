@@ -12,9 +12,9 @@
 
 use crate::error::{Error, Result, check_size};
 use crate::geometry::conformal::{self, Edge, Vertex, differences, in_one_unit, is_precise, radius};
-use crate::geometry::scaling::{fill_chords, fill_vertices};
 use crate::geometry::double_double::MAX_EXPONENT;
-use crate::geometry::{Space, DoubleDouble};
+use crate::geometry::scaling::{fill_chords, fill_vertices};
+use crate::geometry::{DoubleDouble, Space};
 use crate::mesh::{EdgeId, FaceId, Mesh, PerEdge, PerVertex, Point, VertexId};
 use crate::parallel;
 use crate::topology::check_lengths;
@@ -165,7 +165,12 @@ impl Metric {
 
     /// What the length of an edge comes from: its ends, and η.
     #[inline]
-    pub(crate) fn ends_and_eta(&self, mesh: &Mesh, vertices: &[Vertex], e: EdgeId) -> ([Vertex; 2], DoubleDouble) {
+    pub(crate) fn ends_and_eta(
+        &self,
+        mesh: &Mesh,
+        vertices: &[Vertex],
+        e: EdgeId,
+    ) -> ([Vertex; 2], DoubleDouble) {
         (mesh.ends(e).map(|v| vertices[v.index()]), self.eta[e])
     }
 

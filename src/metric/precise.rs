@@ -17,7 +17,7 @@ use crate::geometry::conformal::precise_chord;
 use crate::geometry::lanes::{Formula, Lanes, work_out};
 use crate::geometry::scaled::exponent;
 use crate::geometry::triangle::{area_from, half_angles_of_chords};
-use crate::geometry::{Space, DoubleDouble};
+use crate::geometry::{DoubleDouble, Space};
 use crate::mesh::{FaceId, Mesh, PerEdge, PerFace, PerVertex};
 use crate::parallel;
 use std::ops::{Range, RangeInclusive};

@@ -14,7 +14,7 @@ use super::surface::{LARGEST, Spline, in_batches};
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::bounds::Bounds;
-use crate::geometry::boxes::{BoundsTree, BoundsNode};
+use crate::geometry::boxes::{BoundsNode, BoundsTree};
 use crate::geometry::complex::{Complex, add, scale};
 use crate::geometry::vector::{self, Vector, distance};
 use std::f64::consts::TAU;

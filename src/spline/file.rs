@@ -10,7 +10,7 @@ use super::hole::{Hole, Sector};
 use super::patch::{Patch, Support};
 use super::space::SplineSpace;
 use super::surface::Spline;
-use crate::error::{FilePosition, Error, Result};
+use crate::error::{Error, FilePosition, Result};
 use crate::geometry::vector::Vector;
 use crate::mesh::io::write_atomically;
 use serde::Deserialize;
@@ -98,8 +98,8 @@ impl Spline {
     /// [`SplineSpace::new`] and [`Spline::new`].
     pub fn from_json(text: &str, name: &str) -> Result<Spline> {
         let parse = |at: FilePosition, message: String| Error::Parse { path: name.into(), at, message };
-        let document: Document =
-            serde_json::from_str(text).map_err(|why| parse(FilePosition::Line(why.line()), why.to_string()))?;
+        let document: Document = serde_json::from_str(text)
+            .map_err(|why| parse(FilePosition::Line(why.line()), why.to_string()))?;
         if document.format != FORMAT {
             let message = format!("format is {:?}, this version reads {FORMAT:?}", document.format);
             return Err(parse(FilePosition::Whole, message));

@@ -6,7 +6,7 @@ use crate::embed::overlap::{Triangle, overlapping};
 use crate::embed::shape::{Shape, extent};
 use crate::error::Result;
 use crate::geometry::vector::{cross, dot};
-use crate::geometry::{Motion, DoubleDouble};
+use crate::geometry::{DoubleDouble, Motion};
 use crate::mesh::union_find::UnionFind;
 use crate::mesh::{FaceId, VertexId};
 

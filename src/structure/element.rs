@@ -1,7 +1,7 @@
 //! Elements of the groups in which the transitions of atlases lie.
 
 use super::kind::Structure;
-use crate::geometry::{Motion, DoubleDouble};
+use crate::geometry::{DoubleDouble, Motion};
 use nalgebra::{Complex, Matrix2, Matrix3, SMatrix, Vector2, Vector3};
 
 /// An element of the group of a structure, acting on the coordinates of its charts.

@@ -7,7 +7,7 @@ use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::complex::norm2;
 use crate::geometry::motion::Real;
-use crate::geometry::{Motion, Space, DoubleDouble};
+use crate::geometry::{DoubleDouble, Motion, Space};
 use crate::topology::{HomotopyBasis, SurfaceGroup, crossed_halfedges};
 
 /// The homomorphism from the fundamental group into the group of a structure, by its values at the generators of a canonical basis.

@@ -9,7 +9,7 @@ use crate::embed::shape::{Shape, extent};
 use crate::error::Result;
 use crate::geometry::model::distance;
 use crate::geometry::vector::{norm, sub};
-use crate::geometry::{Motion, Space, DoubleDouble};
+use crate::geometry::{DoubleDouble, Motion, Space};
 use crate::mesh::{FaceId, HalfedgeId, PerFace, PerVertex, VertexId};
 use crate::topology::spanning::Key;
 use std::cmp::Reverse;

@@ -5,7 +5,7 @@ use crate::embed::Steps;
 use crate::embed::overlap::Triangle;
 use crate::error::{Error, Result};
 use crate::geometry::motion::precise_point;
-use crate::geometry::{Motion, Space, DoubleDouble};
+use crate::geometry::{DoubleDouble, Motion, Space};
 use crate::harmonic::ComplexForm;
 use crate::mesh::{FaceId, HalfedgeId, Mesh, PerFace, PerHalfedge, PerVertex};
 use std::sync::Arc;

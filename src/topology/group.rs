@@ -49,7 +49,11 @@ impl SurfaceGroup {
     /// A word as text: letters with spaces between them, inverses marked `^-1`; the empty word is `1`.
     pub fn text(&self, word: &Word) -> String {
         let letter = |l: &Letter| self.name(l.index()) + if l.is_inverse() { "^-1" } else { "" };
-        if word.is_empty() { "1".into() } else { word.letters().iter().map(letter).collect::<Vec<_>>().join(" ") }
+        if word.is_empty() {
+            "1".into()
+        } else {
+            word.letters().iter().map(letter).collect::<Vec<_>>().join(" ")
+        }
     }
 
     /// The word that a text like `a1 b1 a1^-1` means, freely reduced; `1` stands for the identity.

@@ -35,10 +35,12 @@ impl HandleLoops {
                 for back in [false, true] {
                     let along = self.loops[k].iter().copied();
                     let other = &self.loops[1 - k];
-                    let twisted = if back { 
-                            let inverse = other.iter().rev().map(|h| h.twin());
-                            shorten(mesh, lengths, along.chain(inverse), control)?
-                         } else { shorten(mesh, lengths, along.chain(other.iter().copied()), control)? };
+                    let twisted = if back {
+                        let inverse = other.iter().rev().map(|h| h.twin());
+                        shorten(mesh, lengths, along.chain(inverse), control)?
+                    } else {
+                        shorten(mesh, lengths, along.chain(other.iter().copied()), control)?
+                    };
                     let saved = old - path_length(lengths, &twisted);
                     if saved > saving.max(1e-12 * old) {
                         (best, saving) = (Some((k, back, twisted)), saved);

@@ -210,7 +210,11 @@ impl HomotopyBasis {
         }
         // The lift of h's origin is a corner of both copies.
         let across = mesh.next(h.twin());
-        if self.place[h] == self.place[across] { Word::identity() } else { self.corner_word(h).times(&self.corner_word(across).inverse()) }
+        if self.place[h] == self.place[across] {
+            Word::identity()
+        } else {
+            self.corner_word(h).times(&self.corner_word(across).inverse())
+        }
     }
 
     /// The interior edges along which the polygon D is cut: those with a non-trivial [`HomotopyBasis::transition`]. They open the surface

@@ -90,7 +90,11 @@ impl Reduction {
                 // The relator is R cb, so cb is the inverse of R.
                 let relator = self.group.relator();
                 let rest = &relator.letters()[..relator.len() - 1];
-                if letter.is_inverse() { rest.iter().for_each(|&letter| self.push_free(letter)) } else { inverse(rest).for_each(|letter| self.push_free(letter)) }
+                if letter.is_inverse() {
+                    rest.iter().for_each(|&letter| self.push_free(letter))
+                } else {
+                    inverse(rest).for_each(|letter| self.push_free(letter))
+                }
             }
             _ => self.push_free(letter),
         }

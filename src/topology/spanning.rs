@@ -178,7 +178,8 @@ where
 {
     fn run(&self, sources: impl IntoIterator<Item = VertexId>, control: &Control) -> Result<Forest> {
         let PathSearch { mesh, unit, .. } = *self;
-        let unreached = VertexState { distance: f64::INFINITY, parent: NONE, is_settled: false, is_fixed: false };
+        let unreached =
+            VertexState { distance: f64::INFINITY, parent: NONE, is_settled: false, is_fixed: false };
         let mut reach = PerVertex::filled(mesh.n_vertices(), unreached);
         let mut queue = NearestQueue::new(unit);
         for v in sources {

@@ -4,7 +4,7 @@
 use super::Random;
 use super::flow::{attempt, euclidean};
 use ricci::flow::{Options, Report, StopReason};
-use ricci::geometry::{Space, DoubleDouble};
+use ricci::geometry::{DoubleDouble, Space};
 use ricci::mesh::{EdgeId, FaceId, Mesh, PerEdge, PerVertex, VertexId, shapes};
 use ricci::metric::delaunay::failing;
 use ricci::metric::{Metric, Scheme};

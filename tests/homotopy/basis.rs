@@ -140,7 +140,11 @@ fn contractible(mesh: &Mesh, start: VertexId, moves: usize, random: &mut Random)
         let v = if at == 0 { start } else { mesh.tip(path[at - 1]) };
         let out: Vec<_> = mesh.outgoing(v).collect();
         let h = out[random.below(out.len())];
-        let detour = if random.below(2) == 0 || mesh.is_outside(h) { vec![h, h.twin()] } else { vec![h, mesh.next(h), mesh.prev(h)] };
+        let detour = if random.below(2) == 0 || mesh.is_outside(h) {
+            vec![h, h.twin()]
+        } else {
+            vec![h, mesh.next(h), mesh.prev(h)]
+        };
         path.splice(at..at, detour);
     }
     path

@@ -63,7 +63,9 @@ impl<const N: usize> Representation<N> {
     /// The image of a word whose generators are these loops.
     pub fn word(&self, loops: &[Vec<HalfedgeId>], word: &Word) -> Permutation<N> {
         let images: Vec<_> = loops.iter().map(|path| self.path(path)).collect();
-        let letter = |l: &ricci::topology::Letter| if l.is_inverse() { inverse(images[l.index()]) } else { images[l.index()] };
+        let letter = |l: &ricci::topology::Letter| {
+            if l.is_inverse() { inverse(images[l.index()]) } else { images[l.index()] }
+        };
         word.letters().iter().map(letter).fold(identity(), times)
     }
 }

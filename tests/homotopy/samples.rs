@@ -111,6 +111,8 @@ pub fn random_loop(mesh: &Mesh, basis: &HomotopyBasis, steps: usize, random: &mu
 
 /// The loops of the basis along its relator: a1 b1 a1⁻¹ b1⁻¹ … c1 … cb.
 pub fn relator_path(basis: &HomotopyBasis) -> Vec<HalfedgeId> {
-    let letter = |l: &ricci::topology::Letter| if l.is_inverse() { reversed(&basis.loops[l.index()]) } else { basis.loops[l.index()].clone() };
+    let letter = |l: &ricci::topology::Letter| {
+        if l.is_inverse() { reversed(&basis.loops[l.index()]) } else { basis.loops[l.index()].clone() }
+    };
     basis.group.relator().letters().iter().flat_map(letter).collect()
 }

@@ -2,7 +2,7 @@
 
 use crate::common::flow::attempt;
 use ricci::flow::Options;
-use ricci::geometry::{Space, DoubleDouble};
+use ricci::geometry::{DoubleDouble, Space};
 use ricci::mesh::{Double, FixedEdges, Flip, Mesh, NormalCoordinates, PerEdge, PerVertex, VertexId};
 use ricci::metric::delaunay::{ClassFlips, Queue, failing};
 use ricci::metric::refinement::{Final, Input, Intrinsic, Triangulations};

@@ -6,7 +6,7 @@ use crate::common::flow::default_target;
 use crate::flown::flow;
 use ricci::Control;
 use ricci::geometry::flip::Hinge;
-use ricci::geometry::{Space, DoubleDouble};
+use ricci::geometry::{DoubleDouble, Space};
 use ricci::mesh::{EdgeId, FaceId, Mesh, NormalCoordinates, PerEdge, PerVertex, VertexId, shapes};
 use ricci::metric::refinement::{Final, Input, Triangulations};
 use ricci::metric::{Class, Metric, Refinement, Scheme, initial_metric, lengths_from_positions};
@@ -58,7 +58,8 @@ fn ptolemy(mesh: &mut Mesh, metric: &mut Metric, normal: &mut NormalCoordinates,
     }
     let sides = [h, mesh.prev(h), mesh.next(h), mesh.next(h.twin()), mesh.prev(h.twin())];
     let eta = Arc::make_mut(&mut metric.eta);
-    eta[e] = Hinge::from_products([DoubleDouble::default(); 4], sides.map(|h| eta[h.edge()])).flipped().unwrap();
+    eta[e] =
+        Hinge::from_products([DoubleDouble::default(); 4], sides.map(|h| eta[h.edge()])).flipped().unwrap();
     normal.record(mesh, e);
     mesh.flip(e)
 }

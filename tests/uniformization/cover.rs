@@ -8,7 +8,7 @@ use ricci::embed::{DeckElement, dirichlet_domain};
 use ricci::geometry::model::klein;
 use ricci::geometry::motion::precise_point;
 use ricci::geometry::predicates::orientation;
-use ricci::geometry::{Motion, Space, DoubleDouble};
+use ricci::geometry::{DoubleDouble, Motion, Space};
 use ricci::mesh::{HalfedgeId, shapes};
 use ricci::topology::word::{Letter, Word};
 use ricci::{Control, Error};
@@ -182,7 +182,8 @@ fn triangle_area(space: Space, corners: [[f64; 3]; 3]) -> f64 {
     if space == Space::E2 {
         return 0.5 * det;
     }
-    let cosh = |p: [DoubleDouble; 3], q: [DoubleDouble; 3]| f64::from(p[2] * q[2] - p[0] * q[0] - p[1] * q[1]);
+    let cosh =
+        |p: [DoubleDouble; 3], q: [DoubleDouble; 3]| f64::from(p[2] * q[2] - p[0] * q[0] - p[1] * q[1]);
     2.0 * (det / (1.0 + cosh(a, b) + cosh(b, c) + cosh(c, a))).atan()
 }
 

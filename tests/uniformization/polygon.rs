@@ -4,7 +4,7 @@ use crate::surfaces::{corpus, generated};
 use ricci::Control;
 use ricci::embed::{DeckElement, DirichletDomain, dirichlet_domain};
 use ricci::geometry::motion::precise_point;
-use ricci::geometry::{Space, DoubleDouble};
+use ricci::geometry::{DoubleDouble, Space};
 use std::f64::consts::{PI, TAU};
 
 /// Poincaré's conditions for the Dirichlet domain: sides paired by isometries that carry one onto the other, corners cycle with angles that

@@ -5,7 +5,7 @@ use crate::surfaces::{Surface, corpus, generated};
 use ricci::canonical::{Quotient, QuotientOptions, uniformize_quotient};
 use ricci::embed::{UnrollOptions, dirichlet_domain, unroll};
 use ricci::flow::{Options, flow};
-use ricci::geometry::{Motion, Space, DoubleDouble};
+use ricci::geometry::{DoubleDouble, Motion, Space};
 use ricci::mesh::{FaceId, HalfedgeId, Mesh, PerEdge, PerVertex, VertexId};
 use ricci::metric::Scheme;
 use ricci::topology::word::{Letter, Word};

@@ -5,7 +5,7 @@ use super::copies::Copies;
 use super::tiling::tint;
 use crate::checkerboard;
 use crate::picture::{TINTS, tint_color};
-use ricci::geometry::{Motion, Space, DoubleDouble};
+use ricci::geometry::{DoubleDouble, Motion, Space};
 use serde_json::{Value, json};
 use std::io::{self, Seek, SeekFrom, Write};
 

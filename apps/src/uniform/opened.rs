@@ -9,7 +9,7 @@ use crate::laid::Laid;
 use crate::uv;
 use ricci::embed::DirichletDomain;
 use ricci::geometry::vector::dot;
-use ricci::geometry::{Motion, Space, DoubleDouble};
+use ricci::geometry::{DoubleDouble, Motion, Space};
 
 /// A point lies on a side if it misses it by less than this share of the terms that its distance is the sum of: elements are known to
 /// this much.

@@ -4,7 +4,7 @@ use super::quotient::Uniformized;
 use ricci::Control;
 use ricci::embed::cover::elements_reached;
 use ricci::embed::{DeckElement, Layout};
-use ricci::geometry::{Motion, DoubleDouble};
+use ricci::geometry::{DoubleDouble, Motion};
 use ricci::mesh::{HalfedgeId, Mesh};
 use ricci::topology::FundamentalDomain;
 

@@ -13,7 +13,7 @@ use ricci::embed::layout::distance_from_origin;
 use ricci::embed::{DeckElement, DirichletDomain};
 use ricci::geometry::model::Model;
 use ricci::geometry::motion::precise_point;
-use ricci::geometry::{Motion, Space, DoubleDouble};
+use ricci::geometry::{DoubleDouble, Motion, Space};
 use ricci::topology::word::Word;
 use std::f64::consts::PI;
 
@@ -162,7 +162,11 @@ fn translation_to(space: Space, p: [f64; 3]) -> Motion<DoubleDouble> {
 
 /// Copies of the layout around the origin that the group has been moved to by `home`, nearest first, as many as a picture shows.
 /// `start`: a word that leads near there.
-fn background(u: &Uniformized, home: &Motion<DoubleDouble>, start: &Word) -> ricci::Result<Vec<Motion<DoubleDouble>>> {
+fn background(
+    u: &Uniformized,
+    home: &Motion<DoubleDouble>,
+    start: &Word,
+) -> ricci::Result<Vec<Motion<DoubleDouble>>> {
     let Ok(domain) = u.domain() else { return Ok(Vec::new()) };
     let place = |g: &Motion<DoubleDouble>| g.origin().map(f64::from);
     let mut waiting = vec![home.compose(&u.deck.motion(start)?)];

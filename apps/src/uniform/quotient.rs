@@ -11,7 +11,7 @@ use ricci::embed::{
     BoundaryLoop, DeckElement, DeckGroup, DirichletDomain, Layout, UnrollOptions, dirichlet_domain, unroll,
 };
 use ricci::flow::Report;
-use ricci::geometry::{Motion, Space, DoubleDouble, worse};
+use ricci::geometry::{DoubleDouble, Motion, Space, worse};
 use ricci::mesh::{FaceId, PerEdge, VertexId};
 use ricci::topology::{HomotopyBasis, Word};
 use std::cmp::Ordering;

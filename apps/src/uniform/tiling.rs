@@ -7,7 +7,7 @@ use crate::picture::{
 };
 use ricci::embed::{DeckElement, DeckGroup};
 use ricci::geometry::model::{Model, from_poincare};
-use ricci::geometry::{Motion, Space, DoubleDouble};
+use ricci::geometry::{DoubleDouble, Motion, Space};
 use std::f64::consts::PI;
 
 /// Radius in pixels below which a copy is left out.

@@ -11,7 +11,7 @@ use crate::error::Result;
 use crate::flow::{Flow, Solution};
 use crate::geometry::motion::precise_point;
 use crate::geometry::triangle::sine;
-use crate::geometry::{Motion, DoubleDouble};
+use crate::geometry::{DoubleDouble, Motion};
 use crate::geometry::{Space, conformal};
 use crate::mesh::{EdgeId, FilledMesh, HalfedgeId, PerVertex, VertexId};
 use crate::metric::Refinement;

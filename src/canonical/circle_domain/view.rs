@@ -3,8 +3,8 @@
 use super::super::star::Punctured;
 use crate::geometry::Mobius;
 use crate::geometry::complex::{Complex, add, norm, scale, sub};
-use crate::geometry::mobius::PlaneCircle;
 use crate::geometry::double_double::two_sum;
+use crate::geometry::mobius::PlaneCircle;
 use crate::mesh::{FilledMesh, PerVertex, VertexId};
 use crate::metric::Metric;
 

@@ -1,7 +1,7 @@
 //! The faces of a placed surface side by side in one frame, as pictures show them.
 
 use super::super::cover::Placed;
-use crate::geometry::{Motion, DoubleDouble};
+use crate::geometry::{DoubleDouble, Motion};
 use crate::mesh::{FaceId, HalfedgeId};
 use crate::topology::spanning::Key;
 use std::cmp::Reverse;

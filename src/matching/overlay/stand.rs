@@ -6,7 +6,7 @@ use super::super::walk::{Found, Seed, located};
 use crate::control::Control;
 use crate::embed::triangle::Triangle;
 use crate::error::{Error, Result};
-use crate::geometry::{Motion, DoubleDouble};
+use crate::geometry::{DoubleDouble, Motion};
 use crate::mesh::{FaceId, HalfedgeId, PerVertex, Place, VertexId};
 
 /// Share of the least height of its triangles by which a vertex is moved aside at least, so that no three points that are told apart lie on

@@ -2,7 +2,7 @@
 //! version 1.0.
 
 use super::budget::Budget;
-use super::gifti_data::{ArrayHeader, VectorTable, ArrayText};
+use super::gifti_data::{ArrayHeader, ArrayText, VectorTable};
 use super::scan::Location;
 use super::{Attributes, Soup};
 use crate::error::Result;

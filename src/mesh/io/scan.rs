@@ -1,6 +1,6 @@
 //! Tokens and numbers of text lines, with errors that give the position in the file.
 
-use crate::error::{FilePosition, Error, Result};
+use crate::error::{Error, FilePosition, Result};
 use std::fmt::{self, Arguments};
 
 /// The character with which a text in Unicode may begin.

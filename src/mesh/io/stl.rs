@@ -131,7 +131,9 @@ fn ascii(text: &str, path: &str) -> Result<Soup> {
             expect = ExpectedWord::Part;
         }
         expect = match (lower.as_str(), expect) {
-            ("solid", ExpectedWord::Part | ExpectedWord::Name { .. }) => ExpectedWord::Name { line: words.line, last: false },
+            ("solid", ExpectedWord::Part | ExpectedWord::Name { .. }) => {
+                ExpectedWord::Name { line: words.line, last: false }
+            }
             ("endsolid", ExpectedWord::Part | ExpectedWord::Name { last: false, .. }) => {
                 ended = true;
                 ExpectedWord::Name { line: words.line, last: true }
@@ -165,7 +167,9 @@ fn ascii(text: &str, path: &str) -> Result<Soup> {
     }
     let place = words.place();
     match expect {
-        ExpectedWord::Corner(_) | ExpectedWord::Loop => return place.error("the file ends inside a loop".into()),
+        ExpectedWord::Corner(_) | ExpectedWord::Loop => {
+            return place.error("the file ends inside a loop".into());
+        }
         ExpectedWord::Normal => return place.error("the file ends inside a facet".into()),
         _ if !begun => return Location::whole(path).error(NO_STL.into()),
         _ if polygons.is_empty() && !ended => {

@@ -61,7 +61,10 @@ struct PunchedState {
 
 impl PunchedState {
     fn new(mesh: &Mesh, positions: &[Point]) -> PunchedState {
-        PunchedState { region: PerVertex::filled(mesh.n_vertices(), HoleRegion::Outside), positions: positions.to_vec() }
+        PunchedState {
+            region: PerVertex::filled(mesh.n_vertices(), HoleRegion::Outside),
+            positions: positions.to_vec(),
+        }
     }
 }
 
@@ -203,7 +206,8 @@ impl<'a> PositionedMesh<'a> {
     fn rest(&self, state: &PunchedState) -> Soup {
         let PunchedState { region, positions } = state;
         let gone = |f: &[VertexId; 3]| {
-            f.iter().any(|&v| region[v] == HoleRegion::Inside) || f.iter().all(|&v| region[v] == HoleRegion::Rim)
+            f.iter().any(|&v| region[v] == HoleRegion::Inside)
+                || f.iter().all(|&v| region[v] == HoleRegion::Rim)
         };
         let left = self.mesh.faces().map(|f| self.mesh.face_vertices(f)).filter(|f| !gone(f));
         let mut faces: Vec<[u32; 3]> = left.map(|f| f.map(|v| v.0)).collect();

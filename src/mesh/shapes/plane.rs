@@ -56,11 +56,8 @@ pub fn annulus(inner: f64, outer: f64, n_radial: usize, n_around: usize) -> Resu
     // The logarithm of the ratio of neighbouring rings.
     let step = (outer / inner).ln() / n_radial as f64;
     if !(THIN..=-THIN.ln()).contains(&step) {
-        let need = if step < THIN {
-            "fewer: the rings would coincide"
-        } else {
-            "more: a step has no area in f64"
-        };
+        let need =
+            if step < THIN { "fewer: the rings would coincide" } else { "more: a step has no area in f64" };
         return Err(Error::argument("radial steps", n_radial, need));
     }
     let mut soup = Soup::default();

@@ -13,7 +13,7 @@
 
 use super::triangulations::Final;
 use crate::error::{Error, Result};
-use crate::geometry::flip::{Hinge, DiagonalCrossing};
+use crate::geometry::flip::{DiagonalCrossing, Hinge};
 use crate::mesh::normal_trace::CurveCrossing;
 use crate::mesh::{Curves, HalfedgeId, PerEdge, VertexId};
 use crate::parallel;

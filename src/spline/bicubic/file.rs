@@ -5,7 +5,7 @@
 //! and its corner.
 
 use super::surface::{BicubicPatch, BicubicSurface, PatchCurve, PatchSide};
-use crate::error::{FilePosition, Error, Result};
+use crate::error::{Error, FilePosition, Result};
 use crate::geometry::vector::Vector;
 use crate::mesh::io::write_atomically;
 use serde::Deserialize;
@@ -77,8 +77,8 @@ impl BicubicSurface {
     /// [`BicubicSurface::check`].
     pub fn from_json(text: &str, name: &str) -> Result<BicubicSurface> {
         let parse = |at: FilePosition, message: String| Error::Parse { path: name.into(), at, message };
-        let document: Document =
-            serde_json::from_str(text).map_err(|why| parse(FilePosition::Line(why.line()), why.to_string()))?;
+        let document: Document = serde_json::from_str(text)
+            .map_err(|why| parse(FilePosition::Line(why.line()), why.to_string()))?;
         if document.format != FORMAT {
             let message = format!("format is {:?}, this version reads {FORMAT:?}", document.format);
             return Err(parse(FilePosition::Whole, message));

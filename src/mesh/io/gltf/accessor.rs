@@ -4,7 +4,7 @@
 use super::super::budget::Budget;
 use super::super::kind::NumberType;
 use super::super::scan::Location;
-use super::document::{GltfDocument, ElementShape, Sparse};
+use super::document::{ElementShape, GltfDocument, Sparse};
 use super::locate::locate;
 use crate::error::Result;
 use std::borrow::Cow;
@@ -105,7 +105,12 @@ impl<'a> GltfFile<'a> {
     }
 
     /// The accessor with this index, which must hold one of these shapes; `what` describes it in errors.
-    pub fn accessor(&'a self, index: u32, what: &'static str, shapes: &[ElementShape]) -> Result<Accessor<'a>> {
+    pub fn accessor(
+        &'a self,
+        index: u32,
+        what: &'static str,
+        shapes: &[ElementShape],
+    ) -> Result<Accessor<'a>> {
         let Some(text) = self.document.accessors.get(index as usize) else {
             return self.whole().error(format!("{what} names accessor {index}, which does not exist"));
         };
@@ -125,7 +130,8 @@ impl<'a> GltfFile<'a> {
             ElementShape::Mat4 => 16,
         };
         let count = text.count;
-        let dense = text.buffer_view.map(|view| ElementRun { view, offset: text.byte_offset, kind, width, count });
+        let dense =
+            text.buffer_view.map(|view| ElementRun { view, offset: text.byte_offset, kind, width, count });
         let dense = dense.map(|run| self.elements(run)).transpose();
         let sparse = text.sparse.as_deref().map(|sparse| self.sparse(sparse, kind, width)).transpose();
         match (dense, sparse) {
@@ -155,8 +161,13 @@ impl<'a> GltfFile<'a> {
             return Err("its sparse indices are no unsigned integers".into());
         };
         let (count, indices, values) = (text.count, &text.indices, &text.values);
-        let indices =
-            ElementRun { view: indices.buffer_view, offset: indices.byte_offset, kind: index, width: 1, count };
+        let indices = ElementRun {
+            view: indices.buffer_view,
+            offset: indices.byte_offset,
+            kind: index,
+            width: 1,
+            count,
+        };
         let values = ElementRun { view: values.buffer_view, offset: values.byte_offset, kind, width, count };
         Ok((self.elements(indices)?, self.elements(values)?))
     }

@@ -3,7 +3,7 @@
 use super::super::budget::Budget;
 use super::super::scan::Location;
 use super::accessor::GltfFile;
-use super::document::{Affine, Primitive, ElementShape};
+use super::document::{Affine, ElementShape, Primitive};
 use super::seams::first_alike;
 use crate::error::{Error, Result};
 use crate::mesh::Point;
@@ -153,7 +153,8 @@ impl CollectedMeshes<'_> {
             normals.iter_mut().for_each(|x| *x = unit(turn.apply(*x)));
         }
         let either = &[ElementShape::Vec3, ElementShape::Vec4];
-        let colors = self.attribute(named.color, n, AttributeReader { what: "COLOR_0", shapes: either, fill: 1.0 })?;
+        let colors =
+            self.attribute(named.color, n, AttributeReader { what: "COLOR_0", shapes: either, fill: 1.0 })?;
         let pair = |what| AttributeReader { what, shapes: &[ElementShape::Vec2], fill: 0.0 };
         let texcoords: Vec<[f64; 2]> = self.attribute(named.texcoord, n, pair("TEXCOORD_0"))?;
         let halves: Vec<[f64; 2]> = self.attribute(named.vertex, n, pair("_RICCI_VERTEX"))?;
@@ -204,7 +205,9 @@ impl CollectedMeshes<'_> {
             return Ok(Vec::new());
         }
         let at = match primitive.indices {
-            Some(index) => file.accessor(index, "indices", &[ElementShape::Scalar])?.indices(n, budget, file)?,
+            Some(index) => {
+                file.accessor(index, "indices", &[ElementShape::Scalar])?.indices(n, budget, file)?
+            }
             None => {
                 budget.take(n, size_of::<u32>(), "indices", place)?;
                 (0..n as u32).collect()
