@@ -5,7 +5,7 @@ use crate::control::Control;
 use crate::error::Result;
 use crate::geometry::largest;
 use crate::linalg::cholesky::NotPositiveDefinite;
-use crate::linalg::conjugate::{ConjugateGradients, ResidualBound};
+use crate::linalg::conjugate::{ConjugateGradients, LinearProblem, ResidualBound};
 use crate::linalg::{Cholesky, Pattern};
 
 use crate::mesh::Mesh;
@@ -188,10 +188,10 @@ impl System {
         self.gather(residual);
         self.solution.copy_from_slice(&self.rhs);
         let System { jacobian, held, solution, conjugate, .. } = self;
-        let matrix = jacobian.matrix();
+        let problem = LinearProblem { matrix: jacobian.matrix(), bound };
         let found = match held {
-            Factor::Single(near) => conjugate.solve(matrix, bound, near, solution, control)?,
-            Factor::Double(near) => conjugate.solve(matrix, bound, near, solution, control)?,
+            Factor::Single(near) => conjugate.solve(problem, near, solution, control)?,
+            Factor::Double(near) => conjugate.solve(problem, near, solution, control)?,
         };
         Ok(found && self.scatter(step))
     }

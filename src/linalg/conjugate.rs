@@ -2,16 +2,18 @@
 //!
 //! ```
 //! use ricci::Control;
-//! use ricci::linalg::conjugate::{ConjugateGradients, ResidualBound};
+//! use ricci::linalg::conjugate::{ConjugateGradients, LinearProblem, ResidualBound};
 //! use ricci::linalg::{Cholesky, Pattern, Symmetric};
 //! let pattern = Pattern::new(2, &[(0, 1)])?;
 //! let mut factor = Cholesky::analyse(&pattern)?;
 //! // [[2, 1], [1, 2]] is factorised, and [[2, 1], [1, 3]] x = [3, 4] is solved.
 //! factor.factor(Symmetric { pattern: &pattern, values: &[2.0, 1.0, 2.0] }).unwrap();
 //! let mut x = [3.0, 4.0];
-//! let bound = ResidualBound { largest: 1e-14, sum: f64::INFINITY };
-//! let matrix = Symmetric { pattern: &pattern, values: &[2.0, 1.0, 3.0] };
-//! assert!(ConjugateGradients::default().solve(matrix, bound, &mut factor, &mut x, &Control::new())?);
+//! let problem = LinearProblem {
+//!     matrix: Symmetric { pattern: &pattern, values: &[2.0, 1.0, 3.0] },
+//!     bound: ResidualBound { largest: 1e-14, sum: f64::INFINITY },
+//! };
+//! assert!(ConjugateGradients::default().solve(problem, &mut factor, &mut x, &Control::new())?);
 //! assert!(x.iter().all(|x| (x - 1.0).abs() < 1e-14));
 //! # Ok::<(), ricci::Error>(())
 //! ```
@@ -50,6 +52,15 @@ impl ResidualBound {
     }
 }
 
+/// A linear system with the accuracy that its solution must have.
+#[derive(Debug, Clone, Copy)]
+pub struct LinearProblem<'a> {
+    /// The matrix.
+    pub matrix: Symmetric<'a>,
+    /// The bound on the residual.
+    pub bound: ResidualBound,
+}
+
 /// The vectors of a solution; their memory is reused from one solution to the next.
 #[derive(Default)]
 pub struct ConjugateGradients {
@@ -75,8 +86,7 @@ impl ConjugateGradients {
     /// If `x` or the preconditioner does not have as many entries as A has rows.
     pub fn solve<T: FactorNumber>(
         &mut self,
-        matrix: Symmetric<'_>,
-        bound: ResidualBound,
+        LinearProblem { matrix, bound }: LinearProblem<'_>,
         near: &mut Cholesky<T>,
         x: &mut [f64],
         control: &Control,
@@ -157,12 +167,11 @@ mod tests {
         let b: Vec<f64> = (0..n).map(|i| (0.1 * i as f64).cos()).collect();
         let mut solved = |values: &[f64], largest: f64| {
             let mut x = b.clone();
-            let (matrix, bound) =
-                (Symmetric { pattern: &pattern, values }, ResidualBound { largest, sum: largest });
-            let found =
-                ConjugateGradients::default().solve(matrix, bound, &mut near, &mut x, &Control::new());
+            let bound = ResidualBound { largest, sum: largest };
+            let problem = LinearProblem { matrix: Symmetric { pattern: &pattern, values }, bound };
+            let found = ConjugateGradients::default().solve(problem, &mut near, &mut x, &Control::new());
             let mut residual = b.clone();
-            matrix.residual(&x, &b, &mut residual);
+            problem.matrix.residual(&x, &b, &mut residual);
             (found.unwrap(), bound.excess(&residual))
         };
         for (bend, largest) in [(0.0, 1e-11), (1e-3, 1e-6)] {
@@ -173,12 +182,12 @@ mod tests {
         assert!(!solved(&chain(n, 0.1).1, 1e-13).0 && !solved(&chain(n, 0.9).1, 1e-6).0);
         let negative: Vec<f64> = values.iter().map(|x| -x).collect();
         assert!(!solved(&negative, 1e-6).0);
-        let matrix = Symmetric { pattern: &pattern, values: &values };
         let bound = ResidualBound { largest: 1e-11, sum: 1e-11 };
+        let problem = LinearProblem { matrix: Symmetric { pattern: &pattern, values: &values }, bound };
         let cancelled = Control::new();
         cancelled.cancel();
         let mut gradients = ConjugateGradients::default();
-        assert!(gradients.solve(matrix, bound, &mut near, &mut b.clone(), &cancelled).is_err());
+        assert!(gradients.solve(problem, &mut near, &mut b.clone(), &cancelled).is_err());
     }
 
     #[test]
@@ -191,15 +200,12 @@ mod tests {
             let matrix = Symmetric { pattern: &pattern, values: &values };
             let mut near = Cholesky::analyse(&pattern).unwrap().held_in::<f32>().unwrap();
             let mut x: Vec<f64> = (0..n).map(|i| (0.1 * i as f64).cos()).collect();
-            let bound = ResidualBound { largest: 1e-12, sum: 1e-12 };
+            let problem = LinearProblem { matrix, bound: ResidualBound { largest: 1e-12, sum: 1e-12 } };
             let factored = near.factor(matrix);
             assert_eq!(factored.is_ok(), found.is_some(), "{scale:e}");
             if let Some(found) = found {
                 let mut conjugate = ConjugateGradients::default();
-                assert_eq!(
-                    conjugate.solve(matrix, bound, &mut near, &mut x, &Control::new()).unwrap(),
-                    found
-                );
+                assert_eq!(conjugate.solve(problem, &mut near, &mut x, &Control::new()).unwrap(), found);
             }
         }
     }

@@ -104,7 +104,7 @@ fn binary(bytes: &[u8], count: u32, path: &str) -> Result<Soup> {
 }
 
 /// The words that may come next in a text file.
-enum ExpectedWord {
+enum NextWord {
     /// The beginning or end of a solid, a facet or a loop.
     Part,
     /// Anything up to a facet or the end of this line, for the name of a solid; after `endsolid` no facet may follow in it.
@@ -121,45 +121,43 @@ enum ExpectedWord {
 fn ascii(text: &str, path: &str) -> Result<Soup> {
     let mut words = tokens(text, path);
     let (mut weld, mut polygons) = (CornerWeld::default(), Polygons::default());
-    let (mut expect, mut begun, mut ended) = (ExpectedWord::Part, false, false);
+    let (mut expect, mut begun, mut ended) = (NextWord::Part, false, false);
     while let Some(word) = words.next() {
-        let place = words.place();
+        let (place, line) = (words.place(), words.line);
         let lower = if word.len() <= 8 { word.to_ascii_lowercase() } else { String::new() };
-        if let ExpectedWord::Name { line, .. } = expect
-            && line != words.line
+        if let NextWord::Name { line: named, .. } = expect
+            && named != line
         {
-            expect = ExpectedWord::Part;
+            expect = NextWord::Part;
         }
         expect = match (lower.as_str(), expect) {
-            ("solid", ExpectedWord::Part | ExpectedWord::Name { .. }) => {
-                ExpectedWord::Name { line: words.line, last: false }
-            }
-            ("endsolid", ExpectedWord::Part | ExpectedWord::Name { last: false, .. }) => {
+            ("solid", NextWord::Part | NextWord::Name { .. }) => NextWord::Name { line, last: false },
+            ("endsolid", NextWord::Part | NextWord::Name { last: false, .. }) => {
                 ended = true;
-                ExpectedWord::Name { line: words.line, last: true }
+                NextWord::Name { line, last: true }
             }
-            ("facet", ExpectedWord::Part | ExpectedWord::Name { last: false, .. }) => ExpectedWord::Normal,
-            ("endfacet", ExpectedWord::Part) => ExpectedWord::Part,
-            ("outer", ExpectedWord::Part | ExpectedWord::Normal) => ExpectedWord::Loop,
-            ("loop", ExpectedWord::Loop) => ExpectedWord::Corner(Vec::new()),
-            ("vertex", ExpectedWord::Corner(mut corners)) => {
+            ("facet", NextWord::Part | NextWord::Name { last: false, .. }) => NextWord::Normal,
+            ("endfacet", NextWord::Part) => NextWord::Part,
+            ("outer", NextWord::Part | NextWord::Normal) => NextWord::Loop,
+            ("loop", NextWord::Loop) => NextWord::Corner(Vec::new()),
+            ("vertex", NextWord::Corner(mut corners)) => {
                 let mut point: Point = [0.0; 3];
                 for (x, name) in point.iter_mut().zip(["x", "y", "z"]) {
                     let token = words.next();
                     *x = words.place().number(token, format_args!("coordinate {name}"))?;
                 }
                 corners.push(weld.vertex(point));
-                ExpectedWord::Corner(corners)
+                NextWord::Corner(corners)
             }
-            ("endloop", ExpectedWord::Corner(corners)) if corners.len() >= 3 => {
+            ("endloop", NextWord::Corner(corners)) if corners.len() >= 3 => {
                 polygons.push(corners);
-                ExpectedWord::Part
+                NextWord::Part
             }
-            ("endloop", ExpectedWord::Corner(corners)) => {
+            ("endloop", NextWord::Corner(corners)) => {
                 return place.error(format!("a loop of {} corners; a face has three", corners.len()));
             }
-            (_, name @ ExpectedWord::Name { .. }) => name,
-            (_, ExpectedWord::Normal) => ExpectedWord::Normal,
+            (_, name @ NextWord::Name { .. }) => name,
+            (_, NextWord::Normal) => NextWord::Normal,
             _ if !begun => return place.error(NO_STL.into()),
             _ => return place.error(format!("{} has no place here in an STL file", Quoted(word))),
         };
@@ -167,10 +165,10 @@ fn ascii(text: &str, path: &str) -> Result<Soup> {
     }
     let place = words.place();
     match expect {
-        ExpectedWord::Corner(_) | ExpectedWord::Loop => {
+        NextWord::Corner(_) | NextWord::Loop => {
             return place.error("the file ends inside a loop".into());
         }
-        ExpectedWord::Normal => return place.error("the file ends inside a facet".into()),
+        NextWord::Normal => return place.error("the file ends inside a facet".into()),
         _ if !begun => return Location::whole(path).error(NO_STL.into()),
         _ if polygons.is_empty() && !ended => {
             return place.error("the file has neither a facet nor the word `endsolid`".into());
