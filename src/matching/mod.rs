@@ -34,39 +34,63 @@
 //! # Ok::<(), ricci::Error>(())
 //! ```
 
+#[path = "fit/turn_about_axis.rs"]
 mod axis;
+#[path = "balance/system.rs"]
 mod balance;
+#[path = "cover/face_boxes.rs"]
 mod boxes;
 mod canonical;
+#[path = "handles/named_class.rs"]
 mod class;
 mod cover;
+#[path = "landmarks/curves.rs"]
 mod curves;
+#[path = "fit/conformal_factors.rs"]
 mod density;
 mod disk;
+#[path = "match_surfaces.rs"]
 mod find;
+#[path = "handles/generators.rs"]
 mod generators;
 mod handles;
+#[path = "landmarks/marks.rs"]
 mod marks;
+#[path = "balance/matrices.rs"]
 mod matrices;
+#[path = "quality.rs"]
 mod measure;
 mod options;
 mod orbifold;
 mod overlay;
+#[path = "surface_map.rs"]
 pub mod place;
 mod pushed;
+#[path = "balance/folds.rs"]
 mod repair;
+#[path = "pushed/boundary.rs"]
 mod rims;
 mod round;
+#[path = "landmarks/router.rs"]
 mod route;
+#[path = "same_triangulation.rs"]
 mod same;
+#[path = "round/common_boundary.rs"]
 mod shared;
+#[path = "pushed/slits.rs"]
 mod slits;
+#[path = "landmarks/soft.rs"]
 mod soft;
 mod sphere;
+#[path = "orbifold/tree.rs"]
 mod tree;
+#[path = "sphere/rotations.rs"]
 mod turn;
+#[path = "balance/untangle.rs"]
 mod untangle;
+#[path = "cover/walk.rs"]
 mod walk;
+#[path = "balance/weights.rs"]
 mod weights;
 
 pub use crate::mesh::Place;
