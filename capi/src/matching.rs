@@ -14,7 +14,7 @@ use crate::structs::{self, sized};
 use ricci::Surface;
 use ricci::flow::Options;
 use ricci::matching::{
-    Boundary, LoopShape, MapQuality, MatchOptions, Matching, Place, SoftLandmark, SurfaceMap, cycle_error,
+    BoundaryMatching, LoopShape, MapQuality, MatchOptions, Matching, Place, SoftLandmark, SurfaceMap, cycle_error,
     map_quality, match_surfaces, point_error,
 };
 use ricci::mesh::{FaceId, HalfedgeId, VertexId};
@@ -29,9 +29,9 @@ pub struct ricci_matching {
 }
 handle!(ricci_matching, "matching");
 
-choices!(BOUNDARIES: Boundary = "correspondence of boundaries", [
-    RICCI_MATCH_SLIDES => Boundary::Slides,
-    RICCI_MATCH_ARC_LENGTH => Boundary::ArcLength,
+choices!(BOUNDARIES: BoundaryMatching = "correspondence of boundaries", [
+    RICCI_MATCH_SLIDES => BoundaryMatching::Slides,
+    RICCI_MATCH_ARC_LENGTH => BoundaryMatching::ArcLength,
 ]);
 
 choices!(LOOP_SHAPES: LoopShape = "shape of boundary loops", [

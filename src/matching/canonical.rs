@@ -1,35 +1,118 @@
-//! Metrics of constant curvature in the conformal classes of the surfaces.
+//! Surfaces in their canonical metrics: a flow finds the metric of constant curvature, its layout opens the surface along a cut, and the
+//! layout gives every vertex a place in the universal cover.
 
+use super::balance::mean_value_weights;
+use super::cover::{PlacedMesh, UniversalCover};
 use crate::control::Control;
+use crate::embed::{Scale, UnrollOptions, unroll};
 use crate::error::{Error, Result};
 use crate::flow::{Flow, Options, Solution};
-use crate::geometry::Space;
-use crate::mesh::PerVertex;
-use crate::metric::{Class, Surface, Target};
+use crate::geometry::{DoubleDouble, Motion, Space};
+use crate::mesh::{HalfedgeId, Mesh, PerHalfedge, PerVertex, VertexId};
+use crate::metric::{Class, Refinement, Surface, Target};
+use crate::parallel::join;
+use crate::topology::CutGraph;
 use std::fmt::Display;
+use std::sync::Arc;
 
-/// The metric with these curvatures beside that of the space, and the steps to it.
+/// What `make` makes of the source (0) and of the target (1), at the same time.
 ///
 /// # Errors
-/// [`Error::Matching`] where the flow does not come to its target; those of [`Flow::new`]; [`Error::Cancelled`].
-pub(super) fn canonical_metric(
-    surface: &Surface,
-    space: Space,
-    curvature: PerVertex<f64>,
-    options: &Options,
-    control: &Control,
-) -> Result<(Solution, usize)> {
-    let mut flow = Flow::new(surface.clone(), Class::yamabe(space), options, control)?;
-    let metric = flow.solve(&Target::All(curvature), control)?;
-    let iterations = metric.report().map_or(0, |report| report.iterations);
-    if !metric.converged() {
-        let reason = metric.report().map(|report| report.stop_reason.to_string()).unwrap_or_default();
-        return Err(not_found(iterations, reason));
-    }
-    Ok((metric, iterations))
+/// Those of `make`, the source's first.
+pub(super) fn for_both<T: Send>(make: impl Fn(usize) -> Result<T> + Sync) -> Result<[T; 2]> {
+    let (source, target) = join(|| make(0), || make(1));
+    Ok([source?, target?])
 }
 
-/// What is said of a flow that does not come to its target.
+/// The metric of constant curvature in the conformal class of a surface.
+pub(super) struct CanonicalMetric {
+    pub solution: Solution,
+    /// Steps of the flow.
+    pub iterations: usize,
+}
+
+impl CanonicalMetric {
+    /// The metric with this curvature at the vertices beside that of the space.
+    ///
+    /// # Errors
+    /// [`Error::Matching`] if the flow does not reach its target; those of [`Flow::new`]; [`Error::Cancelled`].
+    pub fn new(
+        surface: &Surface,
+        space: Space,
+        curvature: PerVertex<f64>,
+        options: &Options,
+        control: &Control,
+    ) -> Result<CanonicalMetric> {
+        let mut flow = Flow::new(surface.clone(), Class::yamabe(space), options, control)?;
+        let solution = flow.solve(&Target::All(curvature), control)?;
+        let iterations = solution.report().map_or(0, |report| report.iterations);
+        if !solution.converged() {
+            let reason = solution.report().map(|report| report.stop_reason.to_string()).unwrap_or_default();
+            return Err(not_found(iterations, reason));
+        }
+        Ok(CanonicalMetric { solution, iterations })
+    }
+}
+
+/// The error of a flow that does not reach its target.
 pub(super) fn not_found(iterations: usize, reason: impl Display) -> Error {
     Error::Matching(format!("the canonical metric was not found after {iterations} steps: {reason}"))
+}
+
+/// The way in which a surface is opened and laid out.
+pub(super) struct Opening<'a> {
+    pub cut: &'a CutGraph,
+    /// The vertex at the origin of the layout.
+    pub root: VertexId,
+    /// The cones of the metric.
+    pub cones: &'a [VertexId],
+    /// Half-edges whose corners become the own corners of their vertices ([`UniversalCover::new`]).
+    pub own_corners: &'a [HalfedgeId],
+    pub scale: Scale,
+    /// [`Solution::refinement`], if it has been formed before.
+    pub refinement: Option<Arc<Refinement>>,
+    pub threads: usize,
+}
+
+impl Opening<'_> {
+    /// The places of the vertices in this metric, and per segment of the cut the deck transformation across it.
+    ///
+    /// # Errors
+    /// Those of [`unroll`] and [`PlacedMesh::of_layout`].
+    pub fn place(
+        &self,
+        solution: &Solution,
+        mesh: &Arc<Mesh>,
+        control: &Control,
+    ) -> Result<(PlacedMesh, Vec<Motion<DoubleDouble>>)> {
+        let unrolling = UnrollOptions {
+            cones: Some(self.cones.to_vec()),
+            root: Some(self.root),
+            scale: self.scale,
+            cut: Some(self.cut.clone()),
+            refinement: self.refinement.clone(),
+            threads: self.threads,
+        };
+        let layout = unroll(solution, &unrolling, control)?;
+        let pairings: Vec<_> = layout.seams.iter().map(|seam| seam.pairing).collect();
+        let cover = UniversalCover::along_cut(mesh, layout.space, self.cut, &pairings, self.own_corners)?;
+        Ok((PlacedMesh::of_layout(cover, &layout)?, pairings))
+    }
+}
+
+/// A surface in its own canonical metric.
+pub(super) struct CanonicalSurface {
+    pub placed: PlacedMesh,
+    /// Its mean value weights in this metric.
+    pub weights: PerHalfedge<f64>,
+    /// Steps of the flow to the metric.
+    pub iterations: usize,
+}
+
+impl CanonicalSurface {
+    /// A surface that is placed in its canonical metric.
+    pub fn new(surface: &Surface, placed: PlacedMesh, iterations: usize) -> CanonicalSurface {
+        let weights = mean_value_weights(&placed, surface);
+        CanonicalSurface { placed, weights, iterations }
+    }
 }

@@ -1,24 +1,61 @@
-//! Maps between two surfaces of the same topology: both go to one canonical domain, the source by a harmonic map, and the one map is
-//! followed by the inverse of the other \[JKLLG08, Eqn 18\].
+//! Maps between two surfaces of the same topology: homeomorphisms that bring given landmarks to each other and fold no face.
 //!
-//! The domain is the target in its metric of constant curvature. Landmarks become cones of angle 2π/n in it, boundary loops become
-//! geodesics or, between corners, straight sides. So wherever the Euler characteristic of this orbifold is not positive the domain is
-//! covered by the plane or the hyperbolic plane without cones, and a map that puts every vertex at the mean of its neighbours, with
-//! positive weights, is an embedding \[LWZ23\], \[AL16\]: landmarks are met exactly and no face folds. The weights are those with which the
-//! source is harmonic in its own canonical metric, so that an isometry or a discretely conformal map is found as it is. A sphere with fewer
-//! than three landmarks has no such metric: it goes to the other one by a rotation or a Möbius transformation that meets its landmarks, and
-//! by which the conformal factors fit.
+//! # The map
 //!
-//! On surfaces with handles the map without landmarks is found first. Each landmark is then pushed along a short path to its partner,
-//! beside the paths of the others; that chooses the class of the map, and in the orbifold with cones at the landmarks the map of this class
-//! is an embedding again. Several sets of paths are compared by the energies of these maps, also from the maps without landmarks that
-//! differ by a symmetry of about the same energy.
+//! Both surfaces are drawn in one *domain*; the drawing of the source, followed by the inverse of the drawing of the target, is the map
+//! \[JKLLG08, Eqn 18\]. The domain is the target with the metric of constant curvature in its conformal class. The source is drawn there by
+//! a *harmonic map*: every vertex lies at the weighted mean of its neighbours, the weights being positive.
 //!
-//! Which homotopy class is meant is said by a tree of paths between the landmarks and loops of both surfaces, or by bases of their
-//! fundamental groups. Several are compared, and the one whose harmonic map has the least energy is taken. On surfaces with handles the
-//! class can be named by pairs of loops ([`MatchOptions::basis`]). Two surfaces with one triangulation, the same numbers and landmarks,
-//! whose metrics are hyperbolic, say it themselves: it is the class of the map that keeps numbers. There every face has a frame of its own,
-//! and nothing loses digits however far a fundamental domain would reach.
+//! In a disk with a convex boundary such a drawing is an embedding (Tutte's theorem). The same holds on flat and hyperbolic surfaces,
+//! closed or with geodesic boundary, in every homotopy class that contains a homeomorphism \[LWZ23\], \[AL16\]. A landmark that is merely
+//! held at its partner would not be a mean of its neighbours, and faces beside it could fold. So the metric gets a cone of angle 2π/n at
+//! every landmark. If the Euler characteristic of this orbifold is not positive, its universal cover is the plane or the hyperbolic plane.
+//! There the picture is symmetric about the lifts of a landmark, which therefore are the means of their neighbours already: landmarks are
+//! met exactly, and no face folds. Boundary loops become closed geodesics or, between landmarks on them (*corners*), straight sides.
+//!
+//! The weights are the mean value weights of the source in its own canonical metric, in which every vertex is the mean of its neighbours
+//! already. An isometry and a discretely conformal map are therefore found exactly. Only a sphere with fewer than three landmarks has no
+//! flat or hyperbolic orbifold metric. Its harmonic maps onto the round sphere are the Möbius transformations; one is taken that meets the
+//! landmarks and fits the conformal factors of the two surfaces best. A disk with too few landmarks gets corners on its boundary first.
+//!
+//! # The homotopy class
+//!
+//! There is one harmonic map, up to shifts of flat surfaces, in every homotopy class of maps that keep the landmarks. So a class has to be
+//! chosen. If the user leaves it open, several classes are compared and the one whose map has the least energy is taken.
+//! - *Genus 0*: a tree of paths joins all landmarks and loops (together: *marks*) of each surface. Opened along its tree a surface is a
+//!   disk, and a homeomorphism of disks is determined up to isotopy by its boundary. Two trees of the same shape therefore determine the
+//!   class.
+//! - *Handles*: the class is an isomorphism of the fundamental groups, given by the images of generators. The user can name it by pairs of
+//!   loops ([`MatchOptions::basis`]). Otherwise twists and exchanges of handles are applied as long as they lower the energy.
+//! - *Landmarks on surfaces with handles*: the map without landmarks is found first; each landmark is then pushed from its image along a
+//!   short path to its partner, beside the paths of the others. The paths determine the class. Several sets of paths are compared, also
+//!   from maps that differ from the first by a symmetry of the generators.
+//! - *One triangulation on both surfaces*, with the same numbers of landmarks and loops and hyperbolic metrics: the class of the map that
+//!   brings every vertex to the vertex of the same number. No fundamental domain is laid out, so no digits are lost however far it would
+//!   reach.
+//!
+//! # The way of a matching
+//!
+//! ```text
+//! match_surfaces                                       match_surfaces.rs   options.rs
+//!   what corresponds: landmarks, curves, loops         landmarks/
+//!   the strategy, from genus, loops, landmarks         strategy.rs         domain_pair.rs
+//!   |  same numbering          frames of faces         same_triangulation.rs
+//!   |  sphere, < 3 landmarks   rotation or Moebius     sphere/             fit/
+//!   |  disk, < 3 corners       corners, then orbifold  disk/               fit/
+//!   |  genus 0                 trees of paths          orbifold/
+//!   |  handles                 generators              handles/
+//!   |  handles and landmarks   pushed along paths      pushed/
+//!   each of them uses
+//!   |  canonical metric -> layout -> cover             canonical.rs        cover/
+//!   |  harmonic map            balance at vertices     balance/
+//!   |  several classes         the least energy        variants.rs
+//!   loops as circles, if wanted                        round/
+//!   the vertices of each in the other's triangles      cover/walk.rs       result.rs   surface_map.rs
+//! common subdivision of both, distortion of the map    overlay/            quality.rs
+//! ```
+//!
+//! # Example
 //!
 //! ```
 //! use ricci::matching::{MatchOptions, map_quality, match_surfaces};
@@ -34,71 +71,35 @@
 //! # Ok::<(), ricci::Error>(())
 //! ```
 
-#[path = "fit/turn_about_axis.rs"]
-mod axis;
-#[path = "balance/system.rs"]
 mod balance;
-#[path = "cover/face_boxes.rs"]
-mod boxes;
 mod canonical;
-#[path = "handles/named_class.rs"]
-mod class;
 mod cover;
-#[path = "landmarks/curves.rs"]
-mod curves;
-#[path = "fit/conformal_factors.rs"]
-mod density;
 mod disk;
-#[path = "match_surfaces.rs"]
-mod find;
-#[path = "handles/generators.rs"]
-mod generators;
+mod domain_pair;
+mod fit;
 mod handles;
-#[path = "landmarks/marks.rs"]
-mod marks;
-#[path = "balance/matrices.rs"]
-mod matrices;
-#[path = "quality.rs"]
-mod measure;
+mod landmarks;
+mod match_surfaces;
 mod options;
 mod orbifold;
 mod overlay;
-#[path = "surface_map.rs"]
-pub mod place;
 mod pushed;
-#[path = "balance/folds.rs"]
-mod repair;
-#[path = "pushed/boundary.rs"]
-mod rims;
+mod quality;
+mod result;
 mod round;
-#[path = "landmarks/router.rs"]
-mod route;
-#[path = "same_triangulation.rs"]
-mod same;
-#[path = "round/common_boundary.rs"]
-mod shared;
-#[path = "pushed/slits.rs"]
-mod slits;
-#[path = "landmarks/soft.rs"]
-mod soft;
+mod same_triangulation;
 mod sphere;
-#[path = "orbifold/tree.rs"]
-mod tree;
-#[path = "sphere/rotations.rs"]
-mod turn;
-#[path = "balance/untangle.rs"]
-mod untangle;
-#[path = "cover/walk.rs"]
-mod walk;
-#[path = "balance/weights.rs"]
-mod weights;
+mod strategy;
+mod surface_map;
+mod variants;
 
 pub use crate::mesh::Place;
 pub use balance::BalanceReport;
-pub use find::{Matching, match_surfaces};
-pub use measure::{MapQuality, cycle_error, dilatations, map_quality, point_error, uncovered};
-pub use options::{Boundary, LoopShape, MatchOptions};
+pub use landmarks::soft::SoftLandmark;
+pub use match_surfaces::match_surfaces;
+pub use options::{BoundaryMatching, LoopShape, MatchOptions};
 pub use overlay::{CommonDomain, DomainTriangle};
-pub use place::SurfaceMap;
+pub use quality::{MapQuality, cycle_error, dilatations, map_quality, point_error, uncovered};
+pub use result::Matching;
 pub use round::RoundHole;
-pub use soft::SoftLandmark;
+pub use surface_map::SurfaceMap;

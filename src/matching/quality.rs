@@ -1,15 +1,15 @@
-//! How a map between two surfaces in space distorts, and how well it can be undone.
+//! The distortion of a map between two surfaces in space, and its difference from the inverse of the map back.
 
-use super::find::Matching;
-use super::place::SurfaceMap;
+use super::result::Matching;
+use super::surface_map::SurfaceMap;
 use crate::embed::quality::DILATATION_CAP;
 use crate::error::{Error, Result, check_size};
 use crate::geometry::vector::{cross, diagonal, distance, dot, norm, sub, triangle_normal};
 use crate::mesh::{PerFace, Point, VertexId};
 use crate::metric::{Overlay, Surface};
 
-/// Figures of a map, of its linear extension from the source's faces to space. Every number is finite; distances are shares of the diagonal
-/// of the target's bounding box.
+/// The distortion of a map, of its linear extension from the source's faces to space. Every number is finite; distances are shares of the
+/// diagonal of the target's bounding box.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MapQuality {
     /// Quasi-conformal dilatation of the faces, largest over smallest singular value: the mean by area, and the largest.
@@ -28,11 +28,11 @@ pub struct MapQuality {
     pub distance_mean: f64,
     /// The largest.
     pub distance_max: f64,
-    /// Largest distance between the image of a landmark and the landmark that it is to go to.
+    /// Largest distance between the image of a landmark and its partner.
     pub landmark_error: f64,
 }
 
-/// The figures of a map. `landmarks`: pairs of vertices that it should bring to each other.
+/// The distortion of a map. `landmarks`: pairs of vertices that it should bring to each other.
 ///
 /// # Errors
 /// [`Error::Size`]; [`Error::Argument`] for a surface without positions.
@@ -98,7 +98,7 @@ pub fn dilatations([source, target]: [&Surface; 2], map: &SurfaceMap) -> Result<
     Ok(mesh.faces().map(|f| dilatation(at(from, f), at(&images, f))).collect::<Vec<_>>().into())
 }
 
-/// The shares of the areas of source and target by which an overlay of the two misses them.
+/// The differences of the areas of source and target from those that an overlay of the two covers, as shares of the areas.
 ///
 /// # Errors
 /// [`Error::Size`]; [`Error::Argument`] for a surface without positions.
@@ -134,8 +134,8 @@ fn dilatation(from: [Point; 3], to: [Point; 3]) -> f64 {
     if ratio.is_finite() { ratio.clamp(1.0, DILATATION_CAP) } else { DILATATION_CAP }
 }
 
-/// The mean and the largest distance of the vertices of a surface from where a map and one back bring them, as shares of the diagonal of
-/// its bounding box.
+/// The mean and the largest distance of the vertices of a surface from their images under a map followed by one back, as shares of the
+/// diagonal of its bounding box.
 ///
 /// # Errors
 /// As [`map_quality`].
@@ -152,8 +152,8 @@ pub fn cycle_error(
     Ok([off.iter().sum::<f64>() / off.len().max(1) as f64, off.iter().copied().fold(0.0, f64::max)])
 }
 
-/// The largest distance of a point of [`Matching::points`] from where it should go, as a share of the diagonal of the target's bounding
-/// box.
+/// The largest distance of the image of a point of [`Matching::points`] from the place where it should be, as a share of the diagonal of
+/// the target's bounding box.
 ///
 /// # Errors
 /// [`Error::Argument`] for a surface without positions, and for points on another one.

@@ -1,4 +1,4 @@
-//! Maps from the vertices of one surface to points of another one.
+//! Maps from the vertices of one surface to points of another one, and attributes carried along them.
 //!
 //! ```
 //! use ricci::matching::SurfaceMap;
@@ -15,13 +15,13 @@ use crate::mesh::{Mesh, Place, VertexId};
 /// A map from the vertices of a surface to points of another one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SurfaceMap {
-    /// Per vertex of the surface that it comes from.
+    /// Per vertex of the surface that the map starts from its image.
     pub places: Vec<Place>,
 }
 
 impl SurfaceMap {
-    /// Values at the vertices of the surface that the map leads to (V entries), brought to those of the surface that it comes from:
-    /// positions, texture coordinates without seams, colours.
+    /// The values at the images of the vertices, from values at the vertices of the target (V entries): positions, texture coordinates
+    /// without seams, colours.
     ///
     /// # Errors
     /// [`Error::Size`]; [`Error::Argument`] for a place in a face that the mesh has not.
@@ -31,7 +31,8 @@ impl SurfaceMap {
         self.places.iter().map(|place| Ok(combine(place.weights, corners(target, place)?.map(at)))).collect()
     }
 
-    /// Values at the corners of the target's faces (F × 3 entries) at the places of the vertices: texture coordinates with seams.
+    /// The values at the images of the vertices, from values at the corners of the target's faces (F × 3 entries): texture coordinates with
+    /// seams.
     ///
     /// # Errors
     /// As [`SurfaceMap::carry`].
@@ -48,7 +49,7 @@ impl SurfaceMap {
         self.places.iter().map(of).collect()
     }
 
-    /// The vertices nearest to the places, by weight: vertex correspondences of landmarks.
+    /// The vertex of the target nearest to each image, by weight.
     ///
     /// # Errors
     /// [`Error::Argument`] for a place in a face that the mesh has not.

@@ -1,11 +1,11 @@
-//! How boundaries go to each other.
+//! Boundaries go to each other by shares of their lengths, or slide until the map is harmonic up to the boundary.
 
 use super::samples::{check_map, moved, surface};
-use ricci::matching::{Boundary, MatchOptions, Matching, match_surfaces};
+use ricci::matching::{BoundaryMatching, MatchOptions, Matching, match_surfaces};
 use ricci::mesh::{VertexId, shapes};
 use ricci::{Control, Surface};
 
-/// Per vertex of the boundary, in order from one of them, the length before it, and the length of all.
+/// Per vertex of the boundary, in order from one of them, the length before it; and the length of the whole boundary.
 fn lengths_before(surface: &Surface, start: VertexId) -> (Vec<(VertexId, f64)>, f64) {
     let mesh = surface.mesh();
     let loops = mesh.boundary_loops();
@@ -20,7 +20,7 @@ fn lengths_before(surface: &Surface, start: VertexId) -> (Vec<(VertexId, f64)>, 
     (all, total)
 }
 
-/// How much of the target's boundary lies before the image of a vertex: `before` of the vertices, of `all`.
+/// The share of the target's boundary before the image of a vertex. `before`: the lengths before the target's vertices; `all`: the whole.
 fn before_image(
     matching: &Matching,
     target: &Surface,
@@ -97,7 +97,7 @@ fn boundaries_correspond_by_shares_of_their_length_or_slide() {
             check_map(&matching, &source, &target);
             off(&matching, [&source, &target], &marks)
         };
-        let [by_length, sliding] = [Boundary::ArcLength, Boundary::Slides].map(matched);
+        let [by_length, sliding] = [BoundaryMatching::ArcLength, BoundaryMatching::Slides].map(matched);
         assert!(by_length < 1e-9, "{n}: {by_length:e}");
         assert!(sliding > 1e-3, "{n}: {sliding:e}");
     }
@@ -117,7 +117,7 @@ fn loops_without_landmarks_keep_shares_of_their_length_too() {
         let options =
             |boundary| MatchOptions { boundary, loops: Some((0..n).collect()), ..MatchOptions::default() };
         let matching =
-            match_surfaces(&source, &target, &options(Boundary::ArcLength), &Control::new()).unwrap();
+            match_surfaces(&source, &target, &options(BoundaryMatching::ArcLength), &Control::new()).unwrap();
         check_map(&matching, &source, &target);
         for around in source.mesh().boundary_loops() {
             let uneven = uneven(&matching, [&source, &target], source.mesh().origin(around[0]));
@@ -126,7 +126,7 @@ fn loops_without_landmarks_keep_shares_of_their_length_too() {
             assert!(uneven < limit, "{name}: {uneven:e}");
         }
         let itself =
-            match_surfaces(&source, &source, &options(Boundary::ArcLength), &Control::new()).unwrap();
+            match_surfaces(&source, &source, &options(BoundaryMatching::ArcLength), &Control::new()).unwrap();
         assert!(super::samples::apart(&itself, &source) < 1e-8, "{name}");
     }
 }

@@ -1,5 +1,5 @@
-//! The homotopy class that pairs of loops name: the map brings each loop to its partner, whatever its energy, or the error says why none
-//! does.
+//! The homotopy class that pairs of loops name: the map brings each loop to its partner, whatever its energy is, or the error says why no
+//! map does.
 
 use super::samples::{apart, apart_from, check_map, moved, surface};
 use ricci::matching::{MatchOptions, Matching, match_surfaces};
@@ -39,7 +39,7 @@ fn double_torus() -> Surface {
     surface(&moved(&shapes::genus(2, 8).unwrap(), |[x, y, z]| [x, y * (1.0 + 0.1 * x), z]))
 }
 
-/// The words of a map's images of loops that start at one vertex: from vertex to vertex of the target along shortest paths.
+/// The words of the images of loops that start at one vertex, which are drawn from vertex to vertex of the target along shortest paths.
 fn image_words(
     matching: &Matching,
     target: &Surface,
@@ -62,7 +62,7 @@ fn image_words(
     loops.iter().map(word).collect()
 }
 
-/// All words of so many letters at most.
+/// All words of at most this number of letters.
 fn words(n_generators: usize, most: usize) -> Vec<Word> {
     let mut all = vec![Word::identity()];
     let mut first = 0;
@@ -80,7 +80,7 @@ fn words(n_generators: usize, most: usize) -> Vec<Word> {
     all
 }
 
-/// The map brings all loops to their partners at once, up to one path to where they start.
+/// Asserts that the map brings all loops to their partners, up to one path between their starting points.
 fn check_class(matching: &Matching, [source, target]: [&Surface; 2], pairs: &[[Loops; 2]]) {
     check_map(matching, source, target);
     assert_eq!(matching.markings, 1);
@@ -106,7 +106,7 @@ fn a_surface_goes_to_itself_by_its_own_basis() {
             check_class(&matching, [&surface, &surface], &basis);
             assert!(apart(&matching, &surface) < 1e-8, "{}", apart(&matching, &surface));
         }
-        // By all loops carried along one of them the class is the same: an inner automorphism.
+        // If all loops are conjugated by one of them, which is an inner automorphism, the class is the same.
         let around = |path: &Loops| [&loops[0][..], path, &back(&loops[0])].concat();
         let carried: Vec<Loops> = loops.iter().map(around).collect();
         let matching = by(&surface, &surface, pairs(&loops, &carried)).unwrap();
@@ -127,7 +127,7 @@ fn a_twisted_basis_gives_the_twisted_map() {
         check_class(&matching, [&surface, &surface], &basis);
         let plain = by(&surface, &surface, pairs(&loops[..few], &loops[..few])).unwrap();
         assert!(matching.balance[0].energy > 1.05 * plain.balance[0].energy);
-        // The other way round it is its inverse.
+        // In the other direction it is the inverse.
         let inverse = by(&surface, &surface, pairs(&twisted, &loops[..few])).unwrap();
         check_class(&inverse, [&surface, &surface], &pairs(&twisted, &loops[..few]));
     }
@@ -135,7 +135,7 @@ fn a_twisted_basis_gives_the_twisted_map() {
 
 #[test]
 fn a_twist_that_homology_does_not_see_is_kept() {
-    // Both loops of one handle carried around the other handle, along the curve between the two.
+    // Both loops of one handle are conjugated by the curve that separates it from the other handle.
     let surface = double_torus();
     let loops = basis_of(&surface).loops;
     let between = [&loops[0][..], &loops[1], &back(&loops[0]), &back(&loops[1])].concat();
@@ -153,7 +153,7 @@ fn a_twist_that_homology_does_not_see_is_kept() {
 fn other_surfaces_are_matched_in_the_named_class() {
     let [source, target] =
         [holed(2), surface(&shapes::punch(&shapes::torus(2.0, 0.6, 32, 20).unwrap(), 2).unwrap())];
-    // What they have in common is found without naming it; its loops then give the same map again.
+    // The common class is found without naming it; its loops then give the same map again.
     let free = by(&source, &target, Vec::new()).unwrap();
     let [first, second] = [&source, &target].map(basis_of);
     let few = 3;
@@ -241,11 +241,11 @@ fn loops_that_name_no_class_are_refused() {
         elsewhere[1].iter().position(|&h| surface.mesh().origin(h) != surface.mesh().origin(loops[0][0]));
     elsewhere[1].rotate_left(turned.unwrap());
     refused(&surface, pairs(&elsewhere, &loops), &["start at one vertex", "loop 1"]);
-    // One loop carried around the other handle: homology does not see it, the relator does.
+    // One loop is conjugated by a loop of the other handle: the homology is the same, but the relator is not fulfilled.
     let mut one = loops.clone();
     one[1] = [&loops[2][..], &loops[1], &back(&loops[2])].concat();
     refused(&surface, pairs(&loops, &one), &["loops"]);
-    // Boundary loops that go elsewhere than asked for.
+    // The loops bring boundary loops to other ones than the options ask for.
     let surface = holed(2);
     let loops = basis_of(&surface).loops;
     let options = |order: Vec<usize>| MatchOptions {

@@ -1,4 +1,4 @@
-//! Pairs of real surfaces.
+//! Maps between pairs of real surfaces.
 
 use super::samples::{apart, check_map};
 use ricci::matching::{MatchOptions, match_surfaces};
@@ -26,7 +26,7 @@ fn no_face_of_two_cats_folds_and_landmarks_bring_their_vertices_near_each_other(
     assert!(off[1] < 0.3 * off[0] && off[1] < 0.06, "{off:?}");
 }
 
-/// As [`check_map`], where positions far out lose digits of the balance.
+/// As [`check_map`], with a tolerance for surfaces whose domain reaches so far out that the balance loses digits.
 fn check_map_nearly(matching: &ricci::matching::Matching, source: &Surface, target: &Surface) {
     assert!(matching.balance.iter().all(|report| report.residual < 1e-6));
     let mut exact = matching.clone();
@@ -43,8 +43,8 @@ fn no_face_folds_between_two_meshes_of_genus_2() {
 
 #[test]
 fn surfaces_with_far_and_with_tiny_parts_go_to_themselves_by_the_identity() {
-    // Disks of H² of radius 18 and 22, a torus with a part 1e-14 of its size, a long one with thin faces; long words, and disks of radius
-    // 51 and 73.
+    // Among them are domains in H² of radius 18 and 22, a torus with a part of 1e-14 of its size, a long torus with thin faces, surfaces with
+    // long words, and domains of radius 51 and 73.
     let far = ["couplingdown", "airplane_27b", "cow_oded_low", "trim_star", "plate_holes", "tray_bottom"];
     for name in far.into_iter().chain(["derived_fertility_3disks", "b9_mesh", "elephant_with_holes"]) {
         let Some(surface) = read(name) else { return };

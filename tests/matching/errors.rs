@@ -1,4 +1,4 @@
-//! What cannot be matched is refused by name.
+//! Surfaces and landmarks that cannot be matched are refused, and the error names them.
 
 use super::samples::{potato, surface};
 use ricci::matching::{MatchOptions, Place, SoftLandmark, match_surfaces};
@@ -35,7 +35,7 @@ fn surfaces_of_different_topology_and_landmarks_in_conflict_are_named() {
 
 #[test]
 fn landmarks_that_bar_the_way_of_another_one_are_named() {
-    // All vertices of a small torus are landmarks and change places: among their paths there is no room for all.
+    // All vertices of a small torus are landmarks and change places: there is no room for the paths of all of them.
     let torus = surface(&shapes::torus(2.0, 0.8, 8, 5).unwrap());
     let n = torus.mesh().n_vertices();
     let mut conflicts = 0;
@@ -51,7 +51,7 @@ fn landmarks_that_bar_the_way_of_another_one_are_named() {
         if let Some((first, others)) = text.split_once(" has no way to its goal: it is in conflict with ") {
             let (number, vertices) = first.rsplit_once("landmark ").unwrap().1.split_once(' ').unwrap();
             let k: usize = number.parse().unwrap();
-            // One of the landmarks after the first, which a shift of the torus meets.
+            // The error names one of the landmarks after the first, which is met by a shift of the torus.
             assert!(vertices.starts_with(&format!("(vertices {k} and {})", goals[k])), "{text}");
             assert!(others.contains("landmark ") && others.contains("(vertices "), "{text}");
             conflicts += 1;
@@ -71,7 +71,7 @@ fn a_landmark_that_is_no_vertex_and_loops_that_are_no_permutation_are_named() {
     assert!(error.to_string().contains("[1, 1]"), "{error}");
 }
 
-/// The text of the error by which a surface is not matched to itself.
+/// The text of the error with which a surface is not matched to itself.
 fn why(surface: &Surface, options: &MatchOptions) -> String {
     match_surfaces(surface, surface, options, &Control::new()).unwrap_err().to_string()
 }

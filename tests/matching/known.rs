@@ -1,12 +1,11 @@
-//! Maps that are known: of a surface to itself, to a copy that is moved, to a copy that is conformal to it, and to one that is another
-//! mesh.
+//! Maps that are known exactly: of a surface to itself, to a moved copy, to a conformal copy, and to another mesh of the same surface.
 
 use super::samples::{apart, apart_from, check_map, distance, matched, moved, potato, similar, surface};
 use ricci::matching::{MatchOptions, match_surfaces};
 use ricci::mesh::{Point, VertexId, shapes};
 use ricci::{Control, Surface};
 
-/// One surface of each kind without symmetries that the landmarks leave, with landmarks that it can have.
+/// One surface of each kind, with landmarks that no symmetry of it keeps.
 fn all_kinds() -> Vec<(&'static str, Surface, Vec<u32>)> {
     let holes = |soup: &ricci::mesh::io::Soup, n| shapes::punch(soup, n).unwrap();
     let wavy = |soup: &ricci::mesh::io::Soup| {
@@ -73,8 +72,9 @@ fn a_surface_goes_to_its_image_under_an_inversion_vertex_to_vertex() {
         let square: f64 = d.iter().map(|c| c * c).sum();
         [-10.0 * d[0] / square, 10.0 * d[1] / square, 10.0 * d[2] / square]
     };
-    // Without landmarks spheres, disks and annuli have conformal maps to themselves, of which areas choose one; an inversion changes those.
-    // A torus has one that turns it about the landmark, which sends every loop to its inverse. Tori with holes come to within 2.5e-3 only.
+    // Without landmarks spheres, disks and annuli have conformal maps to themselves, one of which is chosen by the areas, which an
+    // inversion changes. A torus has one that turns it about the landmark and sends every loop to its inverse. Tori with holes reach 2.5e-3
+    // only.
     let open = [
         "sphere",
         "sphere, 1",
@@ -92,8 +92,8 @@ fn a_surface_goes_to_its_image_under_an_inversion_vertex_to_vertex() {
         let matching = matched(&source, &target, &landmarks);
         check_map(&matching, &source, &target);
         let apart = apart(&matching, &target);
-        // Around holes that are punched the triangulation is not Delaunay, of the image in other places than of the surface: the flows
-        // start from isometric flips, and so in classes that differ a little.
+        // Around punched holes the triangulation is not Delaunay, on the image at other edges than on the surface. The flows start with
+        // isometric flips of these edges, and so in conformal classes that differ a little.
         let limit = if name.contains("holes") { 1e-4 } else { 1e-6 };
         assert!(apart < limit, "{name}: {apart:e}");
     }
@@ -104,7 +104,7 @@ fn landmarks_are_met_whatever_the_surfaces() {
     let source = surface(&potato(8));
     let target = surface(&moved(&potato(8), |[x, y, z]| [x * (1.0 + 0.5 * y), y + 0.4 * z * z, 1.5 * z]));
     for n in [3, 4, 5, 8, 12] {
-        // Landmarks that are not where an isometry would have them.
+        // These landmarks are not at the images under an isometry.
         let landmarks: Vec<[VertexId; 2]> =
             (0..n).map(|k| [VertexId(k), VertexId((k * 7 + 3) % 12)]).collect();
         let options = MatchOptions { landmarks: landmarks.clone(), ..MatchOptions::default() };
@@ -122,7 +122,7 @@ fn landmarks_are_met_whatever_the_surfaces() {
 fn another_mesh_of_the_same_surface_is_met_to_second_order_but_at_landmarks() {
     let shape = |n: usize| surface(&potato(n));
     let target = shape(24);
-    // The vertices of the icosahedron are vertices of all.
+    // The vertices of the icosahedron are vertices of all these meshes.
     let landmarks = [0, 3, 5, 8, 11];
     let marks = landmarks.map(|v| target.positions().unwrap()[v as usize]);
     let mut before: Option<[f64; 3]> = None;
@@ -131,7 +131,7 @@ fn another_mesh_of_the_same_surface_is_met_to_second_order_but_at_landmarks() {
         let matching = matched(&source, &target, &landmarks);
         check_map(&matching, &source, &target);
         let wanted = |v: usize| source.positions().unwrap()[v];
-        // Of all vertices, of those away from the landmarks, and on average.
+        // The errors of all vertices, of those away from the landmarks, and the mean error.
         let all = apart_from(&matching, &target, wanted);
         let largest = |from: f64| {
             let far = |v: &usize| marks.iter().all(|&m| distance(m, wanted(*v)) > from);

@@ -1,4 +1,4 @@
-//! Landmarks on surfaces of every topology: whatever they are, they are met and no face folds, or the error names them.
+//! Landmarks on surfaces of every topology: they are met and no face folds, or the error names them.
 
 use super::corpus::read;
 use super::samples::{check_map, image, moved, potato, surface};
@@ -8,7 +8,7 @@ use ricci::mesh::shapes::{self, SplitMix64};
 use ricci::mesh::{FaceId, Mesh, VertexId};
 use ricci::{Control, Surface};
 
-/// Share of the diagonal by which landmarks may be missed.
+/// Largest distance from its partner at which a landmark counts as met, as a share of the diagonal.
 const MISSED: f64 = 1e-8;
 
 fn met(source: &Surface, target: &Surface, landmarks: Vec<[VertexId; 2]>) -> Matching {
@@ -20,7 +20,7 @@ fn met(source: &Surface, target: &Surface, landmarks: Vec<[VertexId; 2]>) -> Mat
     matching
 }
 
-/// Different vertices, so many inside and on the boundary.
+/// Different random vertices, these numbers of them inside and on the boundary.
 fn drawn(mesh: &Mesh, [inside, outside]: [usize; 2], random: &mut SplitMix64) -> Vec<VertexId> {
     let mut all: Vec<VertexId> = Vec::new();
     while all.len() < inside + outside {
@@ -84,8 +84,7 @@ fn any_landmarks_of_surfaces_with_handles_are_met() {
 
 #[test]
 fn landmarks_that_a_map_brings_together_do_not_change_it() {
-    // The map of a torus to another one with one landmark, and the vertices that it brings near vertices as further landmarks: these move
-    // little.
+    // The map of a torus to another one with one landmark; vertices that it brings near vertices are further landmarks, which move little.
     let source = surface(&shapes::torus(2.0, 0.8, 24, 12).unwrap());
     let target =
         surface(&moved(&shapes::torus(2.0, 0.8, 48, 24).unwrap(), |[x, y, z]| [x, y * (1.0 + 0.1 * x), z]));
@@ -113,7 +112,7 @@ fn place(face: u32, weights: [f64; 3]) -> Place {
     Place { face: FaceId(face), weights }
 }
 
-/// The largest distance of a point from where it should go, as a share of the target's size.
+/// The largest distance of the image of a point from the place where it should be, as a share of the target's size.
 fn missed(matching: &Matching, target: &Surface) -> f64 {
     let positions = target.positions().unwrap();
     let size = ricci::geometry::vector::diagonal(positions);
@@ -132,7 +131,7 @@ fn points_inside_faces_and_on_edges_are_met() {
     let thin = surface(&shapes::torus(2.0, 0.5, 30, 10).unwrap());
     let points = vec![
         [place(10, [0.2, 0.3, 0.5]), place(40, [0.6, 0.3, 0.1])],
-        // Two in one face, one on an edge, one at a corner.
+        // Two points in one face, one on an edge, one at a corner.
         [place(100, [0.5, 0.0, 0.5]), place(40, [0.1, 0.1, 0.8])],
         [place(200, [0.0, 1.0, 0.0]), place(140, [0.25, 0.5, 0.25])],
         [place(10, [0.7, 0.2, 0.1]), place(230, [0.0, 0.4, 0.6])],
@@ -147,7 +146,7 @@ fn points_inside_faces_and_on_edges_are_met() {
             missed(&matching, target)
         );
     }
-    // Without the points the map goes elsewhere.
+    // Without the points the map brings them to other places.
     let bare = match_surfaces(&ball, &other, &MatchOptions::default(), &Control::new()).unwrap();
     let corner = ball.mesh().face_vertices(FaceId(200))[1];
     let there = image(&bare.forward.places[corner.index()], &other);
@@ -160,7 +159,7 @@ fn the_vertices_of_a_curve_go_to_the_partner_by_arc_length() {
     let torus = |small, n, m| surface(&shapes::torus(2.0, small, n, m).unwrap());
     let (source, target) = (torus(0.8, 24, 12), torus(0.6, 30, 16));
     let meridian = |s: &Surface, m: usize| -> Vec<VertexId> {
-        // The closed path along the tube through vertex 0, by steps to the neighbour that turns least about the axis.
+        // The closed path along the tube through vertex 0, which steps to the neighbour whose angle about the axis differs least.
         let p = s.positions().unwrap();
         let first = VertexId(0);
         let mut path = vec![first];
@@ -216,8 +215,8 @@ fn soft_landmarks_come_nearer_with_their_weights_and_nothing_folds() {
     assert!((left(1) - 1.0 / 1.3).abs() < 1e-12 && (left(2) - 0.25).abs() < 1e-12, "{} {}", left(1), left(2));
 }
 
-/// How far the middle of a plane disk can move along the x axis, in steps of a thousandth, before faces fold, where the boundary stays and
-/// the map is harmonic.
+/// The distance by which the middle of a plane disk can move along the x axis, in steps of a thousandth, before faces of the harmonic map
+/// that keeps the boundary fold.
 fn folds_from(disk: &Surface) -> f64 {
     let (mesh, positions) = (disk.mesh(), disk.positions().unwrap());
     let rim = mesh.vertices().filter(|&v| mesh.is_boundary_vertex(v));
@@ -225,7 +224,7 @@ fn folds_from(disk: &Surface) -> f64 {
     values.push((VertexId(0), [1.0, 0.0, 0.0]));
     let domain = Domain::rigid(disk).unwrap();
     let moved = harmonic_map(&domain, &Prescribed { values, flux: None }, &Control::new()).unwrap().points;
-    // The map is linear in how far the middle moves.
+    // The map depends linearly on the distance by which the middle moves.
     let folds = |far: f64| {
         let at = |v: VertexId| -> [f64; 2] {
             let [p, q] = [positions[v.index()], moved[v.index()]];
@@ -258,7 +257,7 @@ fn a_vertex_that_a_spring_pulls_folds_faces_and_a_soft_landmark_does_not() {
         let options = MatchOptions { soft, landmarks, ..MatchOptions::default() };
         let matching = match_surfaces(&disk, &disk, &options, &Control::new()).unwrap();
         check_map(&matching, &disk, &disk);
-        // It has gone 4/5 of the way.
+        // The landmark has gone 4/5 of the way to its partner.
         let [x, ..] = image(&matching.forward.places[0], &disk);
         assert!(x > 0.45, "{x}");
     }

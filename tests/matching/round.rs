@@ -1,20 +1,20 @@
-//! Boundary loops that become circles: round, met by both surfaces, without folds.
+//! Boundary loops that become circles: they are round, both surfaces lie along them, and no face folds.
 
 use super::samples::{apart, check_map, potato, surface};
 use ricci::geometry::Space;
-use ricci::matching::{Boundary, LoopShape, MatchOptions, Matching, match_surfaces};
+use ricci::matching::{BoundaryMatching, LoopShape, MatchOptions, Matching, match_surfaces};
 use ricci::mesh::{VertexId, shapes};
 use ricci::{Control, Error, Surface};
 use std::collections::HashMap;
 use std::f64::consts::TAU;
 
-fn in_circles(source: &Surface, target: &Surface, boundary: Boundary) -> Result<Matching, Error> {
+fn in_circles(source: &Surface, target: &Surface, boundary: BoundaryMatching) -> Result<Matching, Error> {
     let options = MatchOptions { loop_shape: LoopShape::Circles, boundary, ..MatchOptions::default() };
     match_surfaces(source, target, &options, &Control::new())
 }
 
-/// The boundary loops of a triangulation in the plane, as the steps along their edges; the domain is flat, and its deck transformations
-/// change no step.
+/// The boundary loops of a triangulation in the plane as the vectors along their edges, which the deck transformations, translations, do
+/// not change.
 fn steps(matching: &Matching, side: usize) -> Vec<Vec<[f64; 2]>> {
     let mut along: HashMap<(VertexId, VertexId), [f64; 2]> = HashMap::new();
     for triangle in matching.domain.triangles(side) {
@@ -56,7 +56,7 @@ fn circle(steps: &[[f64; 2]]) -> [f64; 2] {
     let [x, y] = points.pop().unwrap();
     assert!(x.hypot(y) < 1e-10, "the loop does not close by {:e}", x.hypot(y));
     let [p, q] = [1, 2].map(|k| points[k * points.len() / 3]);
-    // The centre is as far from 0 as from p and q.
+    // The centre is at equal distances from 0, p and q.
     let [pp, qq] = [p, q].map(|[x, y]| 0.5 * (x * x + y * y));
     let det = p[0] * q[1] - p[1] * q[0];
     let centre = [(pp * q[1] - qq * p[1]) / det, (p[0] * qq - q[0] * pp) / det];
@@ -74,7 +74,7 @@ fn loops_of_tori_become_circles_and_no_face_folds() {
     for holes in [1, 3] {
         let both = [torus(0.3, holes), torus(0.5, holes)];
         for (source, target) in [(&both[0], &both[1]), (&both[1], &both[0])] {
-            let matching = in_circles(source, target, Boundary::Slides).unwrap();
+            let matching = in_circles(source, target, BoundaryMatching::Slides).unwrap();
             check_map(&matching, source, target);
             assert_eq!((matching.space, matching.holes.len()), (Space::E2, holes));
             assert!(matching.outside < 1e-9, "{:e}", matching.outside);
@@ -111,7 +111,7 @@ fn surfaces_with_round_holes_go_to_themselves_by_the_identity() {
     for (name, surface, space) in
         [("torus", surface(&torus), Space::E2), ("genus 2", surface(&genus), Space::H2)]
     {
-        for boundary in [Boundary::Slides, Boundary::ArcLength] {
+        for boundary in [BoundaryMatching::Slides, BoundaryMatching::ArcLength] {
             let matching = in_circles(&surface, &surface, boundary).unwrap();
             check_map(&matching, &surface, &surface);
             assert_eq!(matching.space, space);
@@ -143,7 +143,7 @@ fn surfaces_without_handles_or_boundary_have_no_round_holes() {
     let ball = surface(&shapes::punch(&potato(6), 3).unwrap());
     for (surface, words) in [(torus, "genus 1 and 0 boundary loops"), (ball, "genus 0 and 3 boundary loops")]
     {
-        let error = in_circles(&surface, &surface, Boundary::Slides).unwrap_err();
+        let error = in_circles(&surface, &surface, BoundaryMatching::Slides).unwrap_err();
         assert!(error.code() == 650 && error.to_string().contains(words), "{error}");
     }
 }

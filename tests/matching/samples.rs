@@ -1,4 +1,4 @@
-//! Surfaces of the tests, and what is measured of maps between them without the library's measures.
+//! The surfaces of the tests, and measures of maps between them that do not use the library's own measures.
 
 use ricci::matching::{MatchOptions, Matching, Place, match_surfaces};
 use ricci::mesh::io::Soup;
@@ -9,7 +9,7 @@ pub fn surface(soup: &Soup) -> Surface {
     Surface::from_soup(soup).unwrap()
 }
 
-/// A soup whose points are moved.
+/// A soup after a map of its points.
 pub fn moved(soup: &Soup, to: impl Fn(Point) -> Point) -> Soup {
     Soup { positions: soup.positions.iter().map(|&p| to(p)).collect(), ..soup.clone() }
 }
@@ -20,7 +20,7 @@ pub fn similar([x, y, z]: Point) -> Point {
     [3.0 * (cos * x - sin * y) + 1.0, 3.0 * (sin * x + cos * y), 3.0 * z - 2.0]
 }
 
-/// A ball that is no ball: no rotation of it is a symmetry.
+/// A dented ball of which no rotation is a symmetry.
 pub fn potato(n: usize) -> Soup {
     let ball = shapes::icosphere(n).unwrap();
     moved(&ball, |[x, y, z]| {
@@ -31,7 +31,7 @@ pub fn potato(n: usize) -> Soup {
 
 pub fn matched(source: &Surface, target: &Surface, landmarks: &[u32]) -> Matching {
     let landmarks = landmarks.iter().map(|&v| [VertexId(v), VertexId(v)]).collect();
-    // The loops keep their numbers, whatever their lengths.
+    // The loops keep their numbers, whatever their lengths are.
     let loops = Some((0..source.mesh().boundary_loops().len()).collect());
     let options = MatchOptions { landmarks, loops, ..MatchOptions::default() };
     match_surfaces(source, target, &options, &Control::new()).unwrap()
@@ -52,7 +52,7 @@ fn size(surface: &Surface) -> f64 {
     (0..3).map(|k| (ends(k)[1] - ends(k)[0]).powi(2)).sum::<f64>().sqrt()
 }
 
-/// Per vertex the distance between its image and where it should be, as a share of the target's size.
+/// Per vertex the distance of its image from the place where it should be, as a share of the target's size.
 pub fn apart_from(matching: &Matching, target: &Surface, wanted: impl Fn(usize) -> Point) -> Vec<f64> {
     let places = matching.forward.places.iter().enumerate();
     places.map(|(v, place)| distance(image(place, target), wanted(v)) / size(target)).collect()
@@ -63,7 +63,7 @@ pub fn apart(matching: &Matching, target: &Surface) -> f64 {
     apart_from(matching, target, |v| target.positions().unwrap()[v]).into_iter().fold(0.0, f64::max)
 }
 
-/// What a homeomorphism has to fulfil: no face folds, weights of points, and every face of either surface meets the other one.
+/// Asserts that no face folds, that the places of vertices are barycentric coordinates in faces, and that the map is in balance.
 pub fn check_map(matching: &Matching, source: &Surface, target: &Surface) {
     assert!(matching.flipped.is_empty() && matching.target_flipped.is_empty());
     for (map, from, to) in [(&matching.forward, source, target), (&matching.backward, target, source)] {

@@ -3,7 +3,7 @@
 use crate::options::{Common, FileName, MeshArgs};
 use crate::picture::PictureArgs;
 use clap::{Args, ValueEnum};
-use ricci::matching::{Boundary, LoopShape};
+use ricci::matching::{BoundaryMatching, LoopShape};
 use serde::Serialize;
 use std::path::PathBuf;
 
@@ -65,11 +65,11 @@ pub enum BoundaryName {
     ArcLength,
 }
 
-impl From<BoundaryName> for Boundary {
-    fn from(name: BoundaryName) -> Boundary {
+impl From<BoundaryName> for BoundaryMatching {
+    fn from(name: BoundaryName) -> BoundaryMatching {
         match name {
-            BoundaryName::Slides => Boundary::Slides,
-            BoundaryName::ArcLength => Boundary::ArcLength,
+            BoundaryName::Slides => BoundaryMatching::Slides,
+            BoundaryName::ArcLength => BoundaryMatching::ArcLength,
         }
     }
 }

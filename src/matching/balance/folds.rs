@@ -1,23 +1,24 @@
-//! Folds of a triangulation in its domain, opened by moving few vertices.
+//! Folds of a triangulation in its domain, which are opened by moving few vertices.
 //!
-//! A surface in its canonical shape is triangulated with flipped edges. Its own faces, drawn straight, may fold where edges were flipped.
+//! The canonical metric is found on a triangulation with flipped edges. The faces of the surface itself, drawn with straight sides, may
+//! fold where edges were flipped.
 
-use super::balance::{Freedom, balance};
-use super::cover::Placed;
+use super::{Springs, VertexFreedom, balance};
 use crate::control::Control;
 use crate::error::{Error, Result};
+use crate::matching::cover::PlacedMesh;
 use crate::mesh::{FaceId, PerHalfedge, PerVertex, VertexId};
 
-/// Rings of faces around a fold that may move, round by round; each twice the last.
+/// Most rounds; the number of rings of faces around a fold that may move doubles with each.
 const MOST_ROUNDS: usize = 9;
 
-/// Puts the vertices around folded faces at the means of their neighbours by positive weights, first those of the faces alone, then more
-/// and more rings, until no face is folded; those that are held stay. The number of vertices that were moved.
+/// Puts the vertices around folded faces at the means of their neighbours by positive weights until no face is folded: first those of the
+/// faces alone, then more and more rings around them. The vertices `held` stay. Returns the number of vertices that were moved.
 ///
 /// # Errors
-/// [`Error::Matching`] where folds stay; those of [`balance`].
-pub(super) fn unfold(
-    placed: &mut Placed,
+/// [`Error::Matching`] if folds remain; those of [`balance`].
+pub(crate) fn unfold(
+    placed: &mut PlacedMesh,
     weights: &PerHalfedge<f64>,
     held: &[VertexId],
     control: &Control,
@@ -33,19 +34,19 @@ pub(super) fn unfold(
         let is_free = around(placed, &folded, rings);
         let freedom = PerVertex::from_fn(mesh.n_vertices(), |v: VertexId| {
             if is_free[v] && !mesh.is_boundary_vertex(v) && !held.contains(&v) {
-                Freedom::Free
+                VertexFreedom::Free
             } else {
-                Freedom::Held
+                VertexFreedom::Held
             }
         });
         let before = placed.clone();
-        match balance(placed, weights, &freedom, control) {
+        match balance(placed, Springs { weights, freedom: &freedom }, control) {
             Ok(_) => {}
             Err(Error::Cancelled) => return Err(Error::Cancelled),
-            // A part of a sphere that is too large to be drawn together has no mean: what it was stays, and the next round is larger.
+            // The vertices of a large part of a sphere have no mean: they stay where they were, and the next round is larger.
             Err(_) => *placed = before,
         }
-        mesh.vertices().filter(|&v| freedom[v] == Freedom::Free).for_each(|v| moved[v.index()] = true);
+        mesh.vertices().filter(|&v| freedom[v] == VertexFreedom::Free).for_each(|v| moved[v.index()] = true);
         rings *= 2;
     }
     let folded = placed.flipped();
@@ -58,8 +59,8 @@ pub(super) fn unfold(
     }
 }
 
-/// The vertices of some faces and of so many rings around them.
-pub(super) fn around(placed: &Placed, faces: &[FaceId], rings: usize) -> PerVertex<bool> {
+/// True for the vertices of these faces and of this number of rings around them.
+pub(crate) fn around(placed: &PlacedMesh, faces: &[FaceId], rings: usize) -> PerVertex<bool> {
     let mesh = &placed.cover.mesh;
     let mut inside = PerVertex::filled(mesh.n_vertices(), false);
     let mut last: Vec<VertexId> = Vec::new();

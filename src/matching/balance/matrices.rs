@@ -1,34 +1,34 @@
-//! The matrices of balances: factors of those with symmetric weights, products with the others.
+//! The matrices of balances: factorisations of those with symmetric weights, and products with the others.
 
 use crate::error::{Error, Result};
 use crate::linalg::{Cholesky, Pattern, Symmetric};
 use crate::parallel;
 
-/// How steps to the balance are found.
-pub(super) enum Solver {
+/// The method by which Newton steps to the balance are found.
+pub(super) enum BalanceSolver {
     /// By products with the matrix; the factors of the one with symmetric weights at the first step stand in for its inverse. At 160,000
     /// vertices a step took 3 to 11 s in place of 16 s by factors of the matrix itself.
-    Products(Option<Box<Factors>>),
+    Products(Option<Box<SymmetricFactors>>),
     /// By factors of the matrix.
     Factors,
 }
 
 /// The factorisation of a matrix with symmetric weights, times −1.
-pub(super) struct Factors {
+pub(super) struct SymmetricFactors {
     pattern: Pattern,
     cholesky: Cholesky,
 }
 
-impl Factors {
+impl SymmetricFactors {
     /// For n unknowns and entries in these places.
     ///
     /// # Errors
     /// Those of [`Pattern::new`] and [`Cholesky::analyse`].
-    pub fn new(n: usize, entries: &[(u32, u32, f64)]) -> Result<Factors> {
+    pub fn new(n: usize, entries: &[(u32, u32, f64)]) -> Result<SymmetricFactors> {
         let pairs: Vec<_> = entries.iter().map(|e| (e.0, e.1)).collect();
         let pattern = Pattern::new(n, &pairs)?;
         let cholesky = Cholesky::analyse(&pattern)?;
-        Ok(Factors { pattern, cholesky })
+        Ok(SymmetricFactors { pattern, cholesky })
     }
 
     /// Factorises the matrix with these entries: (row, column, value), those at the same place adding up.
@@ -56,14 +56,14 @@ impl Factors {
 }
 
 /// A square matrix by rows.
-pub(super) struct Rows {
+pub(super) struct SparseRows {
     start: Vec<u32>,
     entries: Vec<(u32, f64)>,
 }
 
-impl Rows {
+impl SparseRows {
     /// Of n rows, from entries (row, column, value).
-    pub fn new(n: usize, entries: Vec<(u32, u32, f64)>) -> Rows {
+    pub fn new(n: usize, entries: Vec<(u32, u32, f64)>) -> SparseRows {
         let mut start = vec![0u32; n + 1];
         entries.iter().for_each(|e| start[e.0 as usize + 1] += 1);
         (0..n).for_each(|i| start[i + 1] += start[i]);
@@ -72,7 +72,7 @@ impl Rows {
             sorted[next[i as usize] as usize] = (j, value);
             next[i as usize] += 1;
         }
-        Rows { start, entries: sorted }
+        SparseRows { start, entries: sorted }
     }
 
     /// Sets y to the product with x.

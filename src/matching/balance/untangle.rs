@@ -1,27 +1,27 @@
-//! Folds that open when single vertices move: each goes to where it is farthest inside the lines of the edges around it \[FP00\].
+//! Opens folds by moving single vertices, each to the point that lies farthest inside the lines of the edges around it \[FP00\].
 
-use super::balance::Freedom;
-use super::cover::{Placed, moved, seen_from};
+use super::VertexFreedom;
 use crate::control::{Control, Stage};
 use crate::error::Result;
 use crate::geometry::Space;
 use crate::geometry::complex::{Complex, cross, dot, norm, sub};
+use crate::matching::cover::{PlacedMesh, moved, seen_from};
 use crate::mesh::{FaceId, PerVertex, VertexId};
 
-/// Rounds over the vertices of folded faces.
+/// Most rounds over the vertices of folded faces.
 const MOST_SWEEPS: usize = 200;
 /// Vertices with more neighbours stay where they are: the work grows with the fourth power of their number.
 const MOST_SIDES: usize = 48;
-/// Share of the size of a star by which a constraint may be missed: rounding.
+/// Share of the size of the polygon around a vertex by which a constraint may be missed: rounding.
 const SLACK: f64 = 1e-12;
 
-/// Moves vertices of folded faces that are free, one after the other, as long as faces fold; the faces that stay folded.
+/// Moves the free vertices of folded faces, one after the other, as long as faces fold. Returns the faces that remain folded.
 ///
 /// # Errors
 /// [`crate::Error::Cancelled`].
-pub(super) fn untangle(
-    placed: &mut Placed,
-    freedom: &PerVertex<Freedom>,
+pub(crate) fn untangle(
+    placed: &mut PlacedMesh,
+    freedom: &PerVertex<VertexFreedom>,
     control: &Control,
 ) -> Result<Vec<FaceId>> {
     let mesh = placed.cover.mesh.clone();
@@ -34,7 +34,7 @@ pub(super) fn untangle(
         let mut vertices: Vec<VertexId> = folded.iter().flat_map(|&f| mesh.face_vertices(f)).collect();
         vertices.sort_unstable();
         vertices.dedup();
-        for v in vertices.into_iter().filter(|&v| freedom[v] == Freedom::Free) {
+        for v in vertices.into_iter().filter(|&v| freedom[v] == VertexFreedom::Free) {
             if let Some(to) = innermost(&star(placed, v)) {
                 placed.at[v] = moved(&placed.at[v], logarithm_of(placed.cover.space, to)).normalised();
             }
@@ -44,8 +44,8 @@ pub(super) fn untangle(
     Ok(folded)
 }
 
-/// The vertices around one, in order, in coordinates about it in which lines are straight.
-fn star(placed: &Placed, v: VertexId) -> Vec<Complex> {
+/// The vertices around a vertex, in order, in coordinates with this vertex at the origin in which geodesics are straight.
+fn star(placed: &PlacedMesh, v: VertexId) -> Vec<Complex> {
     let at = |h| {
         let tip = placed.at[placed.cover.mesh.tip(h)];
         let tip = placed.cover.along(h).map_or(tip, |along| along.compose(&tip));
@@ -55,7 +55,7 @@ fn star(placed: &Placed, v: VertexId) -> Vec<Complex> {
     placed.cover.mesh.fan(v).into_iter().map(at).collect()
 }
 
-/// The point that lies farthest on the left of all sides of a polygon; `None` where sides have no length, or are too many.
+/// The point that lies farthest on the left of all sides of a polygon; `None` if a side has no length or there are too many sides.
 fn innermost(star: &[Complex]) -> Option<Complex> {
     let n = star.len();
     if n > MOST_SIDES {
@@ -75,7 +75,7 @@ fn innermost(star: &[Complex]) -> Option<Complex> {
     let size = star.iter().map(|&p| norm(p)).fold(0.0, f64::max);
     let depth = |p: Complex| lines.iter().map(|(n, c)| dot(*n, p) - c).fold(f64::INFINITY, f64::min);
     let mut best: Option<(f64, Complex)> = None;
-    // The largest depth is where three sides are equally far.
+    // At the point of largest depth three sides are equally far.
     for i in 0..n {
         for j in i + 1..n {
             for k in j + 1..n {
@@ -97,7 +97,7 @@ fn innermost(star: &[Complex]) -> Option<Complex> {
     best.map(|(_, at)| at).filter(|&p| norm(p) <= size)
 }
 
-/// The vector of the geodesic to a point given in coordinates in which lines are straight.
+/// The vector of the geodesic from the origin to a point in coordinates in which geodesics are straight.
 fn logarithm_of(space: Space, p: Complex) -> Complex {
     let r = norm(p);
     let length = match space {

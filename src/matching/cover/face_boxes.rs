@@ -1,28 +1,28 @@
-//! Boxes around the faces of an opened surface in one frame: which of them may hold a point.
+//! A tree of boxes around the faces of an opened surface in one frame, which finds the faces that may hold a point.
 
-use super::cover::Placed;
+use super::PlacedMesh;
 use crate::geometry::Space;
 use crate::geometry::bounds::Bounds;
 use crate::geometry::boxes::{self, BoundsNode};
 use crate::geometry::vector::{Vector, cross, dot, norm, sub};
 use crate::mesh::FaceId;
 
-/// Boxes are widened by this share of the largest coordinate: rounding.
+/// Share of the largest coordinate by which boxes are widened: rounding.
 const SLACK: f64 = 1e-12;
-/// Share of its size by which a determinant of doubles may miss its sign.
+/// Rounding error of a determinant of f64s as a share of its size.
 const ROUNDING: f64 = 1e-14;
 
 /// The faces of an opened surface in a tree of boxes.
-pub(super) struct Boxes {
+pub(super) struct FaceBoxes {
     tree: boxes::BoundsTree,
-    /// The corners, in the coordinates of the space.
+    /// The corners of the faces, in the coordinates of the space.
     corners: Vec<[Vector; 3]>,
     space: Space,
 }
 
-impl Boxes {
-    /// `None` for a surface whose faces have a frame each.
-    pub fn new(placed: &Placed) -> Option<Boxes> {
+impl FaceBoxes {
+    /// The boxes of a placed surface; `None` if every face has a frame of its own.
+    pub fn new(placed: &PlacedMesh) -> Option<FaceBoxes> {
         let (mesh, space) = (&placed.cover.mesh, placed.cover.space);
         let shares = |f: FaceId| {
             let beside = |h: &crate::mesh::HalfedgeId| mesh.face(h.twin()).is_some();
@@ -37,10 +37,10 @@ impl Boxes {
         let coordinates = bounds.iter().flat_map(|b| b.low.into_iter().chain(b.high));
         let largest = coordinates.fold(0.0f64, |most, x| most.max(x.abs()));
         let bounds: Vec<Bounds> = bounds.into_iter().map(|b| b.widened(SLACK * largest)).collect();
-        Some(Boxes { tree: boxes::BoundsTree::new(&bounds), corners, space })
+        Some(FaceBoxes { tree: boxes::BoundsTree::new(&bounds), corners, space })
     }
 
-    /// The faces that hold a point, as far as doubles tell, of lowest number first.
+    /// The faces that hold a point up to the rounding errors of f64s, by ascending number.
     pub fn around(&self, point: Vector) -> Vec<FaceId> {
         let at = flat(self.space, point);
         let (mut found, mut open) = (Vec::new(), vec![0]);
@@ -59,7 +59,7 @@ impl Boxes {
     }
 }
 
-/// Coordinates in which lines are straight, or nearly so.
+/// Coordinates in which geodesics are straight, or nearly so on the sphere.
 fn flat(space: Space, [x, y, w]: Vector) -> Vector {
     match space {
         Space::E2 => [x, y, 0.0],
@@ -82,7 +82,7 @@ fn bounds(space: Space, corners: &[Vector; 3]) -> Bounds {
     Bounds::of(points).widened(bulge)
 }
 
-/// Whether a point is on the left of all sides, but for rounding.
+/// True if a point is on the left of all sides, up to rounding.
 fn may_hold(corners: &[Vector; 3], point: Vector) -> bool {
     let size = norm(point);
     (0..3).all(|k| {
@@ -93,7 +93,7 @@ fn may_hold(corners: &[Vector; 3], point: Vector) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::cover::Cover;
+    use super::UniversalCover;
     use super::*;
     use crate::mesh::{PerVertex, VertexId, shapes};
     use crate::metric::Surface;
@@ -103,11 +103,11 @@ mod tests {
         let soup = shapes::icosphere(6).unwrap();
         let surface = Surface::from_soup(&soup).unwrap();
         let mesh = surface.mesh();
-        let cover = Cover::new(mesh, Space::S2, |_| None, &[]).unwrap();
+        let cover = UniversalCover::new(mesh, Space::S2, |_| None, &[]).unwrap();
         let at = PerVertex::from_fn(mesh.n_vertices(), |v: VertexId| {
-            Placed::frame(Space::S2, soup.positions[v.index()])
+            PlacedMesh::frame(Space::S2, soup.positions[v.index()])
         });
-        let boxes = Boxes::new(&Placed { cover, at }).unwrap();
+        let boxes = FaceBoxes::new(&PlacedMesh { cover, at }).unwrap();
         for f in mesh.faces() {
             let corners = mesh.face_vertices(f).map(|v| soup.positions[v.index()]);
             let sum = [0, 1, 2].map(|x| corners[0][x] + corners[1][x] + corners[2][x]);

@@ -1,6 +1,10 @@
 //! A triangulation in the universal cover of a surface of constant curvature: one lift of every vertex, and the deck transformations from
 //! face to face.
 
+mod face_boxes;
+mod walk;
+
+pub(super) use self::walk::{LocatedVertex, WalkSeed, locate, located};
 use crate::embed::Layout;
 use crate::error::{Error, Result};
 use crate::geometry::motion::precise_point;
@@ -15,30 +19,31 @@ use std::sync::Arc;
 /// Every vertex has an *own corner*: the corner of the opened surface whose position is that of the vertex. Its other corners lie at the
 /// images of this position under deck transformations.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Cover {
+pub(super) struct UniversalCover {
     pub mesh: Arc<Mesh>,
     pub space: Space,
-    /// The deck transformations that are in use; number 0 is the identity.
+    /// The deck transformations that occur; number 0 is the identity.
     motions: Vec<Motion<DoubleDouble>>,
-    /// The identity and those across half-edges, which are the first.
+    /// The number of those that are the identity or occur across half-edges; they come first.
     n_across: usize,
-    /// Per half-edge of a face: the transformation that carries the opened surface onto its neighbour across it.
+    /// Per half-edge of a face the number of the transformation that carries the opened surface onto its neighbour across it.
     across: PerHalfedge<u32>,
-    /// Per half-edge of a face: the transformation that carries the vertex to this corner of it.
+    /// Per half-edge of a face the number of the transformation that carries the vertex at its origin to the corner there.
     corner: PerHalfedge<u32>,
-    /// Per vertex, the half-edge of its own corner.
+    /// Per vertex the half-edge of its own corner.
     own: PerVertex<HalfedgeId>,
 }
 
-impl Cover {
-    /// A cover whose transformations across half-edges are given, the identity where `None`. `own`: own corners that are not free to
-    /// choose; a vertex on the boundary has the corner at the boundary edge that leaves it, with the surface on its left.
+impl UniversalCover {
+    /// The cover with these transformations across half-edges, `None` for the identity. `own`: half-edges whose corners become the own
+    /// corners of their vertices. A vertex on the boundary always has the corner at the boundary edge that leaves it with the surface on
+    /// the left.
     pub fn new(
         mesh: &Arc<Mesh>,
         space: Space,
         across: impl Fn(HalfedgeId) -> Option<Motion<DoubleDouble>>,
         own: &[HalfedgeId],
-    ) -> Result<Cover> {
+    ) -> Result<UniversalCover> {
         let n = mesh.n_halfedges();
         let mut motions = vec![Motion::identity(space)];
         let mut across_number = PerHalfedge::filled(n, 0u32);
@@ -64,7 +69,7 @@ impl Cover {
             own.push(first);
             let mut at = 0u32;
             for pair in fan.windows(2) {
-                // From face to face counterclockwise: the corner in the next face, as that is laid out.
+                // Counterclockwise from face to face: the transformation to the corner in the next face.
                 let step = across_number[mesh.prev(pair[0])];
                 if step != 0 {
                     let motion = motions[step as usize].inverse().compose(&motions[at as usize]);
@@ -74,7 +79,7 @@ impl Cover {
                 corner[pair[1]] = at;
             }
         }
-        Ok(Cover {
+        Ok(UniversalCover {
             mesh: mesh.clone(),
             space,
             motions,
@@ -85,15 +90,16 @@ impl Cover {
         })
     }
 
-    /// The cover of a surface that is opened along a cut: the transformation of each segment carries the opened surface onto its neighbour
-    /// on the left of the segment.
+    /// The cover of a surface that is opened along a cut. `pairings`: per segment the transformation that carries the opened surface onto
+    /// its neighbour on the left of the segment; `own` as for [`UniversalCover::new`].
     pub fn along_cut(
         mesh: &Arc<Mesh>,
         space: Space,
-        (cut, pairings): (&CutGraph, &[Motion<DoubleDouble>]),
+        cut: &CutGraph,
+        pairings: &[Motion<DoubleDouble>],
         own: &[HalfedgeId],
-    ) -> Result<Cover> {
-        // Per half-edge the segment that it lies on: positive on its left side.
+    ) -> Result<UniversalCover> {
+        // Per half-edge 1 + the number of the segment that it lies on, negative on the right side of the segment.
         let mut side = PerHalfedge::filled(mesh.n_halfedges(), 0i32);
         for (k, segment) in cut.segments.iter().enumerate() {
             for &h in segment {
@@ -104,7 +110,7 @@ impl Cover {
             let pairing = pairings.get((side[h].unsigned_abs() as usize).wrapping_sub(1))?;
             Some(if side[h] > 0 { *pairing } else { pairing.inverse() })
         };
-        Cover::new(mesh, space, across, own)
+        UniversalCover::new(mesh, space, across, own)
     }
 
     /// The half-edge of a vertex's own corner.
@@ -117,7 +123,7 @@ impl Cover {
         Some(self.across[h]).filter(|&k| k != 0).map(|k| &self.motions[k as usize])
     }
 
-    /// The transformations across the cut.
+    /// The transformations across the half-edges of the cut.
     pub fn neighbours(&self) -> &[Motion<DoubleDouble>] {
         &self.motions[1..self.n_across]
     }
@@ -140,22 +146,22 @@ impl Cover {
     }
 }
 
-/// A cover with a place for every vertex: the frame at its position, which carries the origin there.
+/// A triangulation in a universal cover, with a frame at the position of every vertex: the motion that carries the origin there.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Placed {
-    pub cover: Cover,
+pub(super) struct PlacedMesh {
+    pub cover: UniversalCover,
     pub at: PerVertex<Motion<DoubleDouble>>,
 }
 
-/// Position with twice the digits.
-pub(super) type Precise = [DoubleDouble; 3];
+/// A point in double-double precision.
+pub(super) type PrecisePoint = [DoubleDouble; 3];
 
-impl Placed {
-    /// The vertices where a layout puts their own corners.
+impl PlacedMesh {
+    /// The vertices at the points where a layout puts their own corners.
     ///
     /// # Errors
     /// [`Error::Matching`] for a layout that is not opened along edges of the surface.
-    pub fn of_layout(cover: Cover, layout: &Layout) -> Result<Placed> {
+    pub fn of_layout(cover: UniversalCover, layout: &Layout) -> Result<PlacedMesh> {
         let Some(on_input) = layout.on_input() else {
             return Err(Error::Matching("the layout is not opened along the cut".into()));
         };
@@ -163,29 +169,29 @@ impl Placed {
             let corner = on_input.corner_index[cover.own(v)] as usize;
             let k = on_input.points[corner] as usize;
             match cover.space {
-                Space::S2 => Placed::frame(cover.space, layout.points[k]),
+                Space::S2 => PlacedMesh::frame(cover.space, layout.points[k]),
                 space => Motion::to_origin(space, layout.precise_point(k)).inverse(),
             }
         };
         let at = PerVertex::from_fn(cover.mesh.n_vertices(), point);
-        Ok(Placed { cover, at })
+        Ok(PlacedMesh { cover, at })
     }
 
-    /// The frame of a point, turned as the space's frame at the origin.
+    /// The frame at a point that the translation from the origin to the point makes of the frame at the origin.
     pub fn frame(space: Space, point: [f64; 3]) -> Motion<DoubleDouble> {
         let [x, y, w] = point;
         if space == Space::S2 && w < 0.0 {
-            // Half a turn of the sphere, after which the point is nearer to the origin than to its antipode, where frames are not
+            // Half a turn of the sphere brings the point nearer to the origin than to its antipode, at which the translation is not
             // determined.
             let (zero, one) = (DoubleDouble::from(0.0), DoubleDouble::from(1.0));
             let half_turn = Motion { space, a: [zero; 2], b: [one, zero] };
-            return half_turn.compose(&Placed::frame(space, [-x, y, -w]));
+            return half_turn.compose(&PlacedMesh::frame(space, [-x, y, -w]));
         }
         Motion::to_origin(space, precise_point(space, point)).inverse()
     }
 
-    /// Where the corner of a half-edge of a face lies in the opened surface.
-    pub fn corner(&self, h: HalfedgeId) -> Precise {
+    /// The position in the opened surface of the corner of a half-edge of a face.
+    pub fn corner(&self, h: HalfedgeId) -> PrecisePoint {
         let point = self.at[self.cover.mesh.origin(h)].origin();
         self.cover.corner(h).map_or(point, |motion| motion.apply(point))
     }
@@ -202,11 +208,11 @@ impl Placed {
     }
 
     /// The corners of a face in the opened surface.
-    pub fn corners(&self, f: FaceId) -> [Precise; 3] {
+    pub fn corners(&self, f: FaceId) -> [PrecisePoint; 3] {
         self.cover.mesh.face_halfedges(f).map(|h| self.corner(h))
     }
 
-    /// Per half-edge: the vector, in the frame at its origin, of the geodesic to its tip.
+    /// Per half-edge the vector, in the frame at its origin, of the geodesic to its tip.
     pub fn logarithms(&self) -> PerHalfedge<[f64; 2]> {
         let mesh = &self.cover.mesh;
         let mut all = vec![[0.0; 2]; mesh.n_halfedges()];
@@ -219,7 +225,7 @@ impl Placed {
         all.into()
     }
 
-    /// Faces whose corners are not counterclockwise, from positions with twice the digits of doubles.
+    /// The faces whose corners are not counterclockwise, by positions in double-double precision.
     pub fn flipped(&self) -> Vec<FaceId> {
         let mesh = &self.cover.mesh;
         let mut kept = vec![false; mesh.n_faces()];
@@ -232,20 +238,20 @@ impl Placed {
     }
 }
 
-/// The point of one frame in another one. At the distance d from the origin of H² it loses a factor e^d of the digits; coordinates of the
-/// point itself, carried back, would lose e^{2d}.
-pub(super) fn seen_from(home: &Motion<DoubleDouble>, frame: &Motion<DoubleDouble>) -> Precise {
+/// The point of one frame in the coordinates of another one (`home`). At the distance d from the origin of H² the rounding error grows by
+/// the factor e^d; if the coordinates of the point itself were carried back, it would grow by e^{2d}.
+pub(super) fn seen_from(home: &Motion<DoubleDouble>, frame: &Motion<DoubleDouble>) -> PrecisePoint {
     home.inverse().compose(frame).origin()
 }
 
 /// `det(p, q, r)`: positive for a counterclockwise triangle.
-pub(super) fn determinant([p, q, r]: [Precise; 3]) -> DoubleDouble {
+pub(super) fn determinant([p, q, r]: [PrecisePoint; 3]) -> DoubleDouble {
     let minor = |i: usize, j: usize| q[i] * r[j] - q[j] * r[i];
     p[0] * minor(1, 2) + p[1] * minor(2, 0) + p[2] * minor(0, 1)
 }
 
-/// The vector at the origin of the geodesic to a point.
-pub(super) fn logarithm(space: Space, [x, y, w]: Precise) -> [f64; 2] {
+/// The vector of the geodesic from the origin to a point.
+pub(super) fn logarithm(space: Space, [x, y, w]: PrecisePoint) -> [f64; 2] {
     let (x, y, w) = (f64::from(x), f64::from(y), f64::from(w));
     let far = x.hypot(y);
     let length = match space {
@@ -256,7 +262,7 @@ pub(super) fn logarithm(space: Space, [x, y, w]: Precise) -> [f64; 2] {
     if far > 0.0 { [x, y].map(|c| c * (length / far)) } else { [0.0; 2] }
 }
 
-/// Steps to an axis: the first one leads there but for rounding.
+/// Number of steps to an axis: the first one leads there up to rounding.
 const AXIS_STEPS: usize = 3;
 
 /// The rotation about the origin that brings the x axis to a direction.
@@ -265,14 +271,14 @@ pub(super) fn turn_to(space: Space, [x, y]: [f64; 2]) -> Motion<DoubleDouble> {
     Motion::rotation([half.cos(), half.sin()], space).precise()
 }
 
-/// The frame at a point whose x axis leads to another one, and how far that is.
-pub(super) fn aimed(space: Space, [from, to]: [Precise; 2]) -> (Motion<DoubleDouble>, f64) {
+/// The frame at a point whose x axis points to another one, and the distance between them.
+pub(super) fn aimed(space: Space, [from, to]: [PrecisePoint; 2]) -> (Motion<DoubleDouble>, f64) {
     let frame = Motion::to_origin(space, from).inverse();
     let ahead = logarithm(space, frame.inverse().apply(to));
     (frame.compose(&turn_to(space, ahead)), ahead[0].hypot(ahead[1]))
 }
 
-/// The frame on the axis of a translation of H² that is nearest to another frame, its x axis along the axis.
+/// The frame at the point of the axis of a translation of H² that is nearest to another frame, its x axis along the axis.
 pub(super) fn on_axis(
     translation: &Motion<DoubleDouble>,
     near: &Motion<DoubleDouble>,
@@ -295,7 +301,7 @@ pub(super) fn on_axis(
     frame.compose(&turn_to(frame.space, seen(&frame).1))
 }
 
-/// A frame moved along a vector in it, and carried along parallel.
+/// A frame after parallel transport along the geodesic of a vector in it.
 pub(super) fn moved(frame: &Motion<DoubleDouble>, [x, y]: [f64; 2]) -> Motion<DoubleDouble> {
     let length = x.hypot(y);
     if length == 0.0 {
@@ -314,7 +320,7 @@ mod tests {
     fn frames_carry_the_origin_to_their_points() {
         let far = [[0.6, 0.0, 0.8], [0.0, 0.6, -0.8], [0.0, 0.0, -1.0], [0.0, 0.0, 1.0]];
         for p in far {
-            let q = Placed::frame(Space::S2, p).origin().map(f64::from);
+            let q = PlacedMesh::frame(Space::S2, p).origin().map(f64::from);
             assert!((0..3).all(|k| (p[k] - q[k]).abs() < 1e-15), "{p:?} {q:?}");
         }
     }

@@ -1,22 +1,29 @@
-//! Turns about an axis that bring one measure on a disk or a sphere near another one.
+//! The rotation about an axis that brings one measure on a disk or a sphere as near as possible to another one.
 
 use std::f64::consts::TAU;
 
-/// A point with its share of the measure: how far it is from the axis, in [0, 1], its angle about the axis in radians, and the share.
-pub(super) type Around = (f64, f64, f64);
+/// A point with its share of the measure.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct PolarSample {
+    /// The distance from the axis, in [0, 1].
+    pub distance: f64,
+    /// The angle about the axis, radians.
+    pub angle: f64,
+    pub share: f64,
+}
 
-/// Rings about the axis, between which measures are told apart.
+/// Number of rings about the axis into which a measure is divided.
 const RINGS: usize = 8;
-/// Waves around the axis: of each ring its first coefficients count.
+/// Number of Fourier coefficients around the axis that count in each ring.
 const WAVES: usize = 8;
-/// Angles at which the correlation is looked at first: more than two for every wave.
+/// Number of angles at which the correlation is evaluated first: more than two for every wave.
 const ANGLES: usize = 256;
-/// Newton steps from the best of them.
+/// Most Newton steps from the best of these angles.
 const STEPS: usize = 20;
 
-/// The angle by which the first measure is turned so that its correlation with the second one, ring by ring and in the first waves around
-/// the axis, is the largest. For a copy that is turned it is the angle between the two up to rounding.
-pub(super) fn best_turn(from: &[Around], to: &[Around]) -> f64 {
+/// The angle of the rotation after which the correlation of the first measure with the second one, ring by ring in the first Fourier
+/// coefficients, is the largest. If the second measure is a rotated copy of the first, it is the angle of that rotation up to rounding.
+pub(crate) fn best_turn(from: &[PolarSample], to: &[PolarSample]) -> f64 {
     let [first, second] = [from, to].map(waves);
     // The correlation is Σ Re(c_m e^{imα}) with these coefficients.
     let mut all = [[0.0; 2]; WAVES];
@@ -54,12 +61,12 @@ pub(super) fn best_turn(from: &[Around], to: &[Around]) -> f64 {
     best
 }
 
-/// Per ring the first coefficients of the measure.
-fn waves(of: &[Around]) -> [[[f64; 2]; WAVES]; RINGS] {
+/// Per ring the first Fourier coefficients of the measure, the constant one left out.
+fn waves(of: &[PolarSample]) -> [[[f64; 2]; WAVES]; RINGS] {
     let mut sums = [[[0.0; 2]; WAVES]; RINGS];
-    for &(far, angle, share) in of {
-        // Shared between the two nearest rings, so that rounding moves nothing from ring to ring.
-        let far = far.clamp(0.0, 1.0) * (RINGS - 1) as f64;
+    for &PolarSample { distance, angle, share } in of {
+        // A share is divided between the two nearest rings, so that rounding moves nothing from ring to ring.
+        let far = distance.clamp(0.0, 1.0) * (RINGS - 1) as f64;
         let ring = (far as usize).min(RINGS - 2);
         let part = far - ring as f64;
         for (ring, share) in [(ring, (1.0 - part) * share), (ring + 1, part * share)] {
@@ -72,8 +79,8 @@ fn waves(of: &[Around]) -> [[[f64; 2]; WAVES]; RINGS] {
     sums
 }
 
-/// The shift of numbers with these shares after which the mean of their hyperbolic tangents is 0.
-pub(super) fn centre(numbers: &[(f64, f64)]) -> f64 {
+/// The shift of numbers, given with their shares, after which the mean of their hyperbolic tangents is 0.
+pub(crate) fn centre(numbers: &[(f64, f64)]) -> f64 {
     let ends = numbers.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], n| [a.min(n.0), b.max(n.0)]);
     let [mut low, mut high] = ends;
     let mean = |shift: f64| numbers.iter().map(|(x, share)| share * (x - shift).tanh()).sum::<f64>();
@@ -93,13 +100,15 @@ mod tests {
 
     #[test]
     fn a_turned_copy_is_turned_back_and_a_shift_is_found() {
-        let points: Vec<Around> = (0..400)
+        let points: Vec<PolarSample> = (0..400)
             .map(|k| {
                 let x = f64::from(k);
-                ((0.37 * x) % 1.0, (1.7 * x) % TAU, 1.0 + (0.9 * x).sin() + (3.4 * x + 0.2).cos())
+                let share = 1.0 + (0.9 * x).sin() + (3.4 * x + 0.2).cos();
+                PolarSample { distance: (0.37 * x) % 1.0, angle: (1.7 * x) % TAU, share }
             })
             .collect();
-        let turned: Vec<Around> = points.iter().map(|&(r, angle, w)| (r, angle + 2.3, w)).collect();
+        let turned: Vec<PolarSample> =
+            points.iter().map(|p| PolarSample { angle: p.angle + 2.3, ..*p }).collect();
         assert!((best_turn(&points, &turned) - 2.3).abs() < 1e-12, "{}", best_turn(&points, &turned));
         let numbers = [(1.0, 0.5), (3.0, 0.25), (-2.0, 0.25)];
         let shift = centre(&numbers);

@@ -1,23 +1,23 @@
-//! Images of the generators of a fundamental group, and the moves from one choice of them to others.
+//! The images of the generators of a fundamental group, which determine a homotopy class, and the moves from one class to others.
 
 use crate::error::{Error, Result};
 use crate::geometry::complex::mul;
 use crate::geometry::{DoubleDouble, Motion, Space};
 use crate::topology::Word;
 
-/// Where the letters a1, b1, …, ag, bg, c1, …, cb go: motions that fulfil the relator `[a1, b1] … [ag, bg] c1 … cb = 1`.
+/// The images of the letters a1, b1, …, ag, bg, c1, …, cb: motions that fulfil the relator `[a1, b1] … [ag, bg] c1 … cb = 1`.
 #[derive(Debug, Clone)]
 pub(super) struct Generators {
     pub space: Space,
     pub genus: usize,
     pub motions: Vec<Motion<DoubleDouble>>,
-    /// Per c_j the line along which it moves: the frame at a point of it, with the x axis along it.
+    /// Per c_j the axis of its motion: the frame at a point of the axis, with the x axis along it.
     pub lines: Vec<Motion<DoubleDouble>>,
 }
 
 /// A change of the images of one or two handles that keeps the product of their commutators.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Move {
+pub(super) enum GeneratorMove {
     /// `a → a b^{±1}` of this handle.
     TwistA(usize, bool),
     /// `b → b a^{±1}`.
@@ -30,17 +30,17 @@ pub(super) enum Move {
     Swap(usize),
 }
 
-/// Distance of the relator from the identity, in the entries of a motion, up to which lifts fit together.
+/// Distance of the relator from the identity, in the entries of a motion, up to which lifts of the surface fit together.
 const CLOSED: f64 = 1e-12;
-/// Most corrections of the relator: each leaves its square, and rounding.
+/// Most corrections of the relator: each leaves an error of the size of its square, and rounding.
 const CLOSINGS: usize = 8;
 
 impl Generators {
-    /// These motions, changed as little as their relator asks for to be the identity; `None` where they are so long that it stays off by
-    /// more than [`CLOSED`].
+    /// These motions after the least change that makes their relator the identity; `None` if they are so long that it stays off by more
+    /// than [`CLOSED`].
     ///
-    /// The metric that they come from has curvature 0 at its vertices up to rounding, which what lies between them and the base magnifies.
-    /// Lifts of a surface fit together only where the relator holds.
+    /// The metric that they come from has curvature 0 at its vertices up to rounding, which the distance from the base magnifies. Lifts of
+    /// a surface fit together only if the relator holds.
     pub fn closed(mut self) -> Option<Generators> {
         if self.space == Space::E2 {
             // Translations commute.
@@ -66,8 +66,8 @@ impl Generators {
         (size(self.relator().0) <= CLOSED).then_some(self)
     }
 
-    /// How far the relator is from the identity, Im a and b, and the derivative of these by the same numbers of small motions that act
-    /// before each generator, by rows.
+    /// The difference of the relator from the identity, in the numbers Im a and b of a motion, and its derivative, by rows, by the same
+    /// numbers of small motions that act before each generator.
     fn relator(&self) -> ([DoubleDouble; 3], [Vec<DoubleDouble>; 3]) {
         let mut letters = Vec::new();
         for k in 0..self.genus {
@@ -81,10 +81,8 @@ impl Generators {
         for (k, is_inverse) in letters {
             let motion = self.motions[k];
             // (m e^ξ)⁻¹ = e^{−ξ} m⁻¹
-            let (before, next) = match is_inverse {
-                false => (product.compose(&motion), product.compose(&motion)),
-                true => (product, product.compose(&motion.inverse())),
-            };
+            let next = product.compose(&if is_inverse { motion.inverse() } else { motion });
+            let before = if is_inverse { product } else { next };
             for j in 0..3 {
                 let one = |i: usize| DoubleDouble::from(f64::from(u8::from(i == j)));
                 let unit = Motion { space: self.space, a: [zero, one(0)], b: [one(1), one(2)] };
@@ -119,38 +117,38 @@ impl Generators {
     }
 
     /// All moves.
-    pub fn moves(&self) -> Vec<Move> {
+    pub fn moves(&self) -> Vec<GeneratorMove> {
         let handles = 0..self.genus;
         let of = |k: usize| {
             [
-                Move::Quarter(k),
-                Move::TwistA(k, true),
-                Move::TwistA(k, false),
-                Move::TwistB(k, true),
-                Move::TwistB(k, false),
+                GeneratorMove::Quarter(k),
+                GeneratorMove::TwistA(k, true),
+                GeneratorMove::TwistA(k, false),
+                GeneratorMove::TwistB(k, true),
+                GeneratorMove::TwistB(k, false),
             ]
         };
-        let swaps = (1..self.genus).map(|k| Move::Swap(k - 1));
+        let swaps = (1..self.genus).map(|k| GeneratorMove::Swap(k - 1));
         handles.flat_map(of).chain(swaps).collect()
     }
 
     /// The images after a move.
-    pub fn moved(&self, by: Move) -> Generators {
+    pub fn moved(&self, by: GeneratorMove) -> Generators {
         let mut next = self.clone();
         let m = &mut next.motions;
         let power = |x: Motion<DoubleDouble>, is_positive: bool| if is_positive { x } else { x.inverse() };
         match by {
-            Move::TwistA(k, sign) => m[2 * k] = m[2 * k].compose(&power(m[2 * k + 1], sign)),
-            Move::TwistB(k, sign) => m[2 * k + 1] = m[2 * k + 1].compose(&power(m[2 * k], sign)),
-            Move::Quarter(k) => {
+            GeneratorMove::TwistA(k, sign) => m[2 * k] = m[2 * k].compose(&power(m[2 * k + 1], sign)),
+            GeneratorMove::TwistB(k, sign) => m[2 * k + 1] = m[2 * k + 1].compose(&power(m[2 * k], sign)),
+            GeneratorMove::Quarter(k) => {
                 let (a, b) = (m[2 * k], m[2 * k + 1]);
                 (m[2 * k], m[2 * k + 1]) = (b.conjugated_by(&a), a.inverse());
             }
-            Move::QuarterBack(k) => {
+            GeneratorMove::QuarterBack(k) => {
                 let (a, b) = (m[2 * k], m[2 * k + 1]);
                 (m[2 * k], m[2 * k + 1]) = (b.inverse(), a.conjugated_by(&b));
             }
-            Move::Swap(k) => {
+            GeneratorMove::Swap(k) => {
                 let [a, b, c, d] = [0, 1, 2, 3].map(|j| m[2 * k + j]);
                 let commutator = c.compose(&d).compose(&c.inverse()).compose(&d.inverse());
                 let back = commutator.inverse();
@@ -162,18 +160,18 @@ impl Generators {
         next
     }
 
-    /// The images after symmetries that surfaces often have, and that single moves do not lead to at once: half a turn of all handles (of a
-    /// torus x → −x, of genus 2 the hyperelliptic involution), two neighbouring handles that change places, as they are or each turned by
-    /// half a turn one way or the other, and these with the half turn of all.
+    /// The images after symmetries that surfaces often have and that need several moves: half a turn of all handles (the map x → −x of a
+    /// torus, the hyperelliptic involution in genus 2), the exchange of two neighbouring handles, alone or with half a turn of each one way
+    /// or the other, and each of these with the half turn of all handles.
     pub fn symmetric(&self) -> Vec<Generators> {
         let half = |of: &Generators, k: usize, back: bool| {
-            let by = if back { Move::QuarterBack(k) } else { Move::Quarter(k) };
+            let by = if back { GeneratorMove::QuarterBack(k) } else { GeneratorMove::Quarter(k) };
             of.moved(by).moved(by)
         };
         let turned = |of: &Generators| (0..self.genus).fold(of.clone(), |all, k| half(&all, k, k % 2 == 1));
         let mut all = vec![turned(self)];
         for k in 1..self.genus {
-            let swapped = self.moved(Move::Swap(k - 1));
+            let swapped = self.moved(GeneratorMove::Swap(k - 1));
             let both = |back: bool| half(&half(&swapped, k - 1, back), k, back);
             for next in [swapped.clone(), both(false), both(true)] {
                 all.extend([turned(&next), next]);
@@ -182,8 +180,8 @@ impl Generators {
         all
     }
 
-    /// The images of c_1 … c_b in another order, the product as before: in `order` stand the numbers of those that are to be first, second,
-    /// ….
+    /// The images after a change of the order of c_1 … c_b that keeps their product. `order`: the numbers of those that become the first,
+    /// the second, ….
     pub fn reordered(mut self, order: &[usize]) -> Generators {
         let first = 2 * self.genus;
         let mut now: Vec<usize> = (0..order.len()).collect();
@@ -210,7 +208,7 @@ fn size(rest: [DoubleDouble; 3]) -> f64 {
     rest.iter().map(|x| f64::from(*x).abs()).fold(0.0, f64::max)
 }
 
-/// The shortest solution of three equations, by orthogonalising their rows; `None` for rows that depend on each other.
+/// The shortest solution of three linear equations, by orthogonalising their rows; `None` for linearly dependent rows.
 fn least_solution(
     rows: &mut [Vec<DoubleDouble>; 3],
     mut side: [DoubleDouble; 3],
@@ -240,8 +238,8 @@ fn least_solution(
 
 #[cfg(test)]
 mod tests {
-    use super::super::cover::moved;
     use super::*;
+    use crate::matching::cover::moved;
 
     fn relator(of: &Generators) -> Motion<DoubleDouble> {
         let mut product = Motion::identity(of.space);
@@ -268,7 +266,7 @@ mod tests {
             assert!(off(&all.moved(by)) < 1e-14, "{by:?}");
         }
         for k in 0..2 {
-            let there_and_back = all.moved(Move::Quarter(k)).moved(Move::QuarterBack(k));
+            let there_and_back = all.moved(GeneratorMove::Quarter(k)).moved(GeneratorMove::QuarterBack(k));
             let apart = |(a, b): (&Motion<DoubleDouble>, &Motion<DoubleDouble>)| {
                 a.compose(&b.inverse()).distance_from_identity()
             };

@@ -1,9 +1,9 @@
-//! The homotopy class of a map that is named by pairs of loops: where it brings the letters of the source's fundamental group.
+//! The homotopy class of a map that is named by pairs of loops: the images of the letters of the source's fundamental group.
 //!
-//! The loops generate the groups of both surfaces, and the map brings the one of each pair to the other. So each letter of the source has
-//! to be written as a product of its loops. Products are compared by how far they move the base in the source's own metric: first the
-//! generators are made short, then products of few are collected, and a letter is reduced by them to the identity. What is found is checked
-//! in the groups, exactly.
+//! The loops generate the groups of both surfaces, and the map brings the first of each pair to the second. So each letter of the source
+//! has to be written as a product of its loops. Products are compared by the distance by which they move the base in the source's own
+//! metric: first the generators are made short, then products of few of them are collected, and a letter is reduced by these to the
+//! identity. The result is checked exactly in the groups.
 
 use super::generators::Generators;
 use crate::error::{Error, Result};
@@ -18,37 +18,39 @@ use std::collections::BinaryHeap;
 const SHORTER: f64 = 1e-9;
 /// Most replacements of a generator by a shorter product; each loop needs about as many as it winds around others.
 const MOST_REPLACED: usize = 10_000;
-/// Most products that are collected: those that move the base least, more than lie around a fundamental domain of a surface of small genus.
+/// Most products that are collected, those first that move the base least: more than the neighbours of a fundamental domain of a surface of
+/// small genus.
 const MOST_PRODUCTS: usize = 800;
-/// Most letters of a product that a letter of the group is.
+/// Most factors of a product that equals a letter of the group.
 const MOST_LETTERS: usize = 10_000;
 
 /// A surface with the loops that name the class.
-pub(super) struct Looped<'a> {
+pub(super) struct SurfaceWithLoops<'a> {
     pub mesh: &'a Mesh,
     pub basis: &'a HomotopyBasis,
     pub generators: &'a Generators,
     /// The frame at the base.
     pub at_base: Motion<DoubleDouble>,
+    /// The loops, as closed edge paths.
     pub loops: Vec<&'a [HalfedgeId]>,
 }
 
-/// Where the letters go.
+/// The images of the letters.
 #[derive(Debug)]
-pub(super) struct Class {
+pub(super) struct LetterImages {
     /// Per letter a1, b1, … of the source a word of the target.
     pub handles: Vec<Word>,
     /// Per letter c1, … of the source the number of the target's c and the word u for which it goes to `u c u⁻¹`.
     pub rims: Vec<(usize, Word)>,
 }
 
-/// The class in which each loop of the source goes to its partner.
+/// The images of the source's letters in the class in which each loop goes to its partner.
 ///
 /// # Errors
 /// [`Error::Matching`] for paths that are not closed, loops that do not start at one vertex (but on a torus), that cross differently on the
 /// two surfaces, that do not generate the fundamental group, or that no homeomorphism brings to each other; [`Error::Argument`] for
 /// half-edges that are no path.
-pub(super) fn class_of(sides: [&Looped; 2]) -> Result<Class> {
+pub(super) fn letter_images(sides: [&SurfaceWithLoops; 2]) -> Result<LetterImages> {
     let mut words = [Vec::new(), Vec::new()];
     for (s, side) in sides.iter().enumerate() {
         words[s] = loop_words(side, NAMES[s])?;
@@ -81,17 +83,18 @@ pub(super) fn class_of(sides: [&Looped; 2]) -> Result<Class> {
             ))
         })?);
     }
-    Ok(Class { handles: handles[..g].to_vec(), rims })
+    Ok(LetterImages { handles: handles[..g].to_vec(), rims })
 }
 
 const NAMES: [&str; 2] = ["source", "target"];
 
+/// The error of loops that no homeomorphism brings to each other.
 fn unlike(why: &str) -> Error {
     Error::Matching(format!("no map brings the loops of the basis to each other: {why}"))
 }
 
-/// The words of the loops, all along the tree to where they start and back.
-fn loop_words(side: &Looped, name: &str) -> Result<Vec<Word>> {
+/// The words of the loops; the path along the tree from the base to their start, and back, belongs to each.
+fn loop_words(side: &SurfaceWithLoops, name: &str) -> Result<Vec<Word>> {
     let is_torus = side.mesh.euler() == 0;
     let mut first = None;
     let mut words = Vec::with_capacity(side.loops.len());
@@ -115,9 +118,9 @@ fn loop_words(side: &Looped, name: &str) -> Result<Vec<Word>> {
     Ok(words)
 }
 
-/// Loops cross each other as often on both surfaces.
-fn check_crossings(sides: [&Looped; 2]) -> Result<()> {
-    let matrix = |side: &Looped| {
+/// Checks that the loops have the same intersection numbers on both surfaces.
+fn check_crossings(sides: [&SurfaceWithLoops; 2]) -> Result<()> {
+    let matrix = |side: &SurfaceWithLoops| {
         let loops: Vec<Vec<HalfedgeId>> = side.loops.iter().map(|path| path.to_vec()).collect();
         intersection_matrix(side.mesh, &loops)
     };
@@ -133,39 +136,40 @@ fn check_crossings(sides: [&Looped; 2]) -> Result<()> {
     Ok(())
 }
 
-/// An element of the group of the surface that is looked at, as a word and as a motion, and where it goes in the other group.
+/// An element of the group of one surface, as a word and as a motion, with its image in the group of the other one.
 #[derive(Debug, Clone)]
-struct Element {
+struct MappedElement {
     word: Word,
     image: Word,
     motion: Motion<DoubleDouble>,
-    /// How far it moves the base.
+    /// The distance by which it moves the base.
     far: f64,
 }
 
-struct Group<'a> {
+/// The groups of the surface whose elements are mapped and of the other one.
+struct GroupPair<'a> {
     own: SurfaceGroup,
     other: SurfaceGroup,
     at_base: &'a Motion<DoubleDouble>,
 }
 
-impl Group<'_> {
-    fn element(&self, word: Word, image: Word, motion: Motion<DoubleDouble>) -> Element {
+impl GroupPair<'_> {
+    fn element(&self, word: Word, image: Word, motion: Motion<DoubleDouble>) -> MappedElement {
         let motion = motion.normalised();
         let far = motion.conjugated_by(&self.at_base.inverse()).displacement();
-        Element { word: self.own.reduce(&word), image: self.other.reduce(&image), motion, far }
+        MappedElement { word: self.own.reduce(&word), image: self.other.reduce(&image), motion, far }
     }
 
-    fn product(&self, a: &Element, b: &Element) -> Element {
+    fn product(&self, a: &MappedElement, b: &MappedElement) -> MappedElement {
         self.element(a.word.times(&b.word), a.image.times(&b.image), a.motion.compose(&b.motion))
     }
 
-    fn inverse(&self, a: &Element) -> Element {
+    fn inverse(&self, a: &MappedElement) -> MappedElement {
         self.element(a.word.inverse(), a.image.inverse(), a.motion.inverse())
     }
 
-    /// The generators, each replaced by products with others as long as these are shorter.
-    fn shortened(&self, mut all: Vec<Element>) -> Vec<Element> {
+    /// The generators, replaced one after the other by products with others as long as these move the base less.
+    fn shortened(&self, mut all: Vec<MappedElement>) -> Vec<MappedElement> {
         let mut replaced = 0;
         'again: while replaced < MOST_REPLACED {
             for i in 0..all.len() {
@@ -193,16 +197,16 @@ impl Group<'_> {
         all
     }
 
-    /// Products of the generators, those first that move the base least.
-    fn products(&self, of: &[Element]) -> Vec<Element> {
-        let generators: Vec<Element> = of.iter().flat_map(|g| [g.clone(), self.inverse(g)]).collect();
+    /// Products of the generators in the order of the distance by which they move the base.
+    fn products(&self, of: &[MappedElement]) -> Vec<MappedElement> {
+        let generators: Vec<MappedElement> = of.iter().flat_map(|g| [g.clone(), self.inverse(g)]).collect();
         let identity = Motion::identity(self.at_base.space);
         let mut found = vec![self.element(Word::identity(), Word::identity(), identity)];
         let mut waiting = BinaryHeap::from([Reverse((Key(0.0), 0))]);
         while let Some(Reverse((_, k))) = waiting.pop().filter(|_| found.len() < MOST_PRODUCTS) {
             for g in &generators {
                 let next = self.product(&found[k], g);
-                let is_same = |e: &Element| {
+                let is_same = |e: &MappedElement| {
                     (e.far - next.far).abs() <= SHORTER * (1.0 + next.far)
                         && self.own.equal(&e.word, &next.word)
                 };
@@ -215,15 +219,15 @@ impl Group<'_> {
         found
     }
 
-    /// Where an element of the group goes, from where these products go; `None` where it is none of their products.
-    fn image(&self, products: &[Element], mut rest: Element) -> Option<Word> {
+    /// The image of an element of the group, from the images of these products; `None` if it is not found to be a product of them.
+    fn image(&self, products: &[MappedElement], mut rest: MappedElement) -> Option<Word> {
         let mut image = Word::identity();
         for _ in 0..MOST_LETTERS {
             if rest.word.is_empty() {
                 return Some(self.other.reduce(&image));
             }
-            let shorter = |g: &Element| g.motion.inverse().compose(&rest.motion);
-            let far = |g: &Element| shorter(g).conjugated_by(&self.at_base.inverse()).displacement();
+            let shorter = |g: &MappedElement| g.motion.inverse().compose(&rest.motion);
+            let far = |g: &MappedElement| shorter(g).conjugated_by(&self.at_base.inverse()).displacement();
             let (best, g) = products.iter().map(|g| (far(g), g)).min_by(|a, b| a.0.total_cmp(&b.0))?;
             if best >= (1.0 - SHORTER) * rest.far {
                 return None;
@@ -235,14 +239,14 @@ impl Group<'_> {
     }
 }
 
-/// Where the letters of surface `s` go, whose loops have the first words; their partners have the others.
-fn images(sides: [&Looped; 2], [words, partners]: [&[Word]; 2], s: usize) -> Result<Vec<Word>> {
+/// The images of the letters of surface `s`, whose loops have these words, and their partners those.
+fn images(sides: [&SurfaceWithLoops; 2], [words, partners]: [&[Word]; 2], s: usize) -> Result<Vec<Word>> {
     let side = sides[s];
-    let group = Group { own: side.basis.group, other: sides[1 - s].basis.group, at_base: &side.at_base };
+    let group = GroupPair { own: side.basis.group, other: sides[1 - s].basis.group, at_base: &side.at_base };
     let element = |(word, image): (&Word, &Word)| {
         Ok(group.element(word.clone(), image.clone(), side.generators.motion(word)?))
     };
-    let given: Vec<Element> = words.iter().zip(partners).map(element).collect::<Result<_>>()?;
+    let given: Vec<MappedElement> = words.iter().zip(partners).map(element).collect::<Result<_>>()?;
     let products = group.products(&group.shortened(given));
     let letter = |k: usize| {
         let letter = Word::from_iter([Letter::generator(k)]);
@@ -259,12 +263,12 @@ fn images(sides: [&Looped; 2], [words, partners]: [&[Word]; 2], s: usize) -> Res
     (0..group.own.n_generators()).map(letter).collect()
 }
 
-/// The word u for which an element of the group of a surface with boundary is `u c u⁻¹`; `None` where it is not conjugate to that letter.
+/// The word u with which an element of the group of a surface with boundary is `u c u⁻¹`; `None` if it is not conjugate to this letter c.
 fn conjugator(group: &SurfaceGroup, word: &Word, letter: usize) -> Option<Word> {
     let around = group.reduce(&Word::from_iter([Letter::generator(letter)]));
     let word = group.reduce(word);
     let (letters, n) = (word.letters(), around.len());
-    // What stands before and after the cyclically reduced rest.
+    // The number of letters before and after the cyclically reduced rest.
     let mut ends = 0;
     while letters.len() > 2 * ends + 1 && letters[ends] == letters[letters.len() - 1 - ends].inverse() {
         ends += 1;
@@ -274,7 +278,7 @@ fn conjugator(group: &SurfaceGroup, word: &Word, letter: usize) -> Option<Word> 
         let turned = around.letters()[k..].iter().chain(&around.letters()[..k]);
         rest.len() == n && turned.eq(rest)
     })?;
-    // The rest is y x where the letter is x y.
+    // The reduced letter is x y and the rest is y x.
     let x: Word = around.letters()[..turn].iter().copied().collect();
     let before: Word = letters[..ends].iter().copied().collect();
     Some(before.times(&x.inverse()))

@@ -1,4 +1,4 @@
-//! Curves that correspond, as pairs of points at equal shares of their lengths.
+//! Corresponding curves as pairs of points at equal shares of their lengths.
 
 use crate::error::{Error, Result};
 use crate::mesh::{HalfedgeId, Place, VertexId};
@@ -9,13 +9,13 @@ use std::collections::HashSet;
 /// Share of an edge within which a point on it counts as its end.
 const AT_END: f64 = 1e-9;
 
-/// Per vertex of the source's curves that is no landmark the pair of it and the point of the target's curve at the same share of the
-/// length.
+/// For each vertex of the source's curves that is no landmark, the pair of the vertex and the point of the target's curve at the same share
+/// of the length.
 ///
 /// # Errors
-/// [`Error::Matching`] for a curve of fewer than two vertices, of which one follows another without an edge between them, or of which one
-/// closes and the other does not; [`Error::Argument`] for a vertex that does not exist.
-pub(super) fn points(
+/// [`Error::Matching`] for a curve of fewer than two vertices, for consecutive vertices without an edge between them, and for a closed
+/// curve whose partner is open; [`Error::Argument`] for a vertex that does not exist.
+pub(crate) fn points(
     surfaces: [&Surface; 2],
     curves: &[[Vec<VertexId>; 2]],
     landmarks: &[[VertexId; 2]],
@@ -23,7 +23,7 @@ pub(super) fn points(
     let mut known: HashSet<VertexId> = landmarks.iter().map(|pair| pair[0]).collect();
     let mut all = Vec::new();
     for (number, curve) in curves.iter().enumerate() {
-        let [from, to] = [path(surfaces, curve, (number, 0))?, path(surfaces, curve, (number, 1))?];
+        let [from, to] = [path(surfaces, curve, number, 0)?, path(surfaces, curve, number, 1)?];
         let closes = |s: usize| curve[s].first() == curve[s].last();
         if closes(0) != closes(1) {
             return Err(Error::Matching(format!(
@@ -35,7 +35,7 @@ pub(super) fn points(
             if known.insert(v) {
                 all.push([
                     Place::at_vertex(surfaces[0].mesh(), v)?,
-                    at_share(surfaces[1], &to, (&shares[1], share))?,
+                    at_share(surfaces[1], &to, &shares[1], share)?,
                 ]);
             }
         }
@@ -43,11 +43,12 @@ pub(super) fn points(
     Ok(all)
 }
 
-/// The half-edges of a curve.
+/// The half-edges of the curve of this number on surface s.
 fn path(
     surfaces: [&Surface; 2],
     curve: &[Vec<VertexId>; 2],
-    (number, s): (usize, usize),
+    number: usize,
+    s: usize,
 ) -> Result<Vec<HalfedgeId>> {
     let (mesh, vertices) = (surfaces[s].mesh(), &curve[s]);
     let name = ["source", "target"][s];
@@ -82,7 +83,8 @@ fn shares(surface: &Surface, path: &[HalfedgeId]) -> Vec<f64> {
     all
 }
 
-fn at_share(surface: &Surface, path: &[HalfedgeId], (shares, share): (&[f64], f64)) -> Result<Place> {
+/// The place on a path at a share of its length; `shares`: those of its vertices.
+fn at_share(surface: &Surface, path: &[HalfedgeId], shares: &[f64], share: f64) -> Result<Place> {
     let mesh = surface.mesh();
     let k = shares.partition_point(|&s| s <= share).clamp(1, path.len()) - 1;
     let part = ((share - shares[k]) / (shares[k + 1] - shares[k])).clamp(0.0, 1.0);

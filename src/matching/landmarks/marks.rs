@@ -1,17 +1,17 @@
-//! What corresponds on two surfaces, as it is asked for: checked, and brought into the same order.
+//! Landmarks, corners and boundary loops of both surfaces from the options: they are checked and brought into corresponding order.
 
-use super::route::Marks;
+use super::Marks;
 use crate::error::{Error, Result};
 use crate::mesh::{HalfedgeId, VertexId};
 use crate::metric::Surface;
 use crate::topology::check_vertex;
 
-/// Landmarks, corners and loops of both surfaces, in the same order.
+/// Landmarks, corners and loops of both surfaces in corresponding order. `order`: per loop of the source the number of the target's.
 ///
 /// # Errors
 /// [`Error::Matching`] for landmarks that are no pairs of different vertices both inside or both on corresponding loops in the same order,
 /// and for loops that are no permutation; [`Error::Argument`] for a landmark that is no vertex.
-pub(super) fn marks(
+pub(crate) fn marks(
     surfaces: [&Surface; 2],
     landmarks: &[[VertexId; 2]],
     order: Option<&[usize]>,
@@ -67,7 +67,7 @@ fn check_landmarks(surfaces: [&Surface; 2], landmarks: &[[VertexId; 2]]) -> Resu
     Ok(())
 }
 
-/// Corners lie on corresponding loops, in the same order around them.
+/// Checks that corners lie on corresponding loops in the same order.
 fn check_corners(surfaces: [&Surface; 2], marks: &[Marks; 2]) -> Result<()> {
     for k in 0..marks[0].loops.len() {
         let along = |s: usize| -> Vec<usize> {
@@ -105,14 +105,14 @@ fn loops(surface: &Surface) -> Vec<(Vec<HalfedgeId>, f64)> {
     mesh.boundary_loops().into_iter().map(of).collect()
 }
 
-/// Lengths of loops that differ by no more than this share say nothing about which loops correspond.
+/// Share of their length by which loops may differ and still count as equally long: their lengths then say nothing about which correspond.
 const LIKE: f64 = 0.05;
 /// Most orders of loops that are compared.
 const MOST_ORDERS: usize = 6;
 
-/// The target's loop for each of the source's, as lengths leave it open: by descending length, and after that the orders in which loops of
-/// like lengths change places; that alone where there are more than a few.
-pub(super) fn loop_orders(surfaces: [&Surface; 2]) -> Vec<Vec<usize>> {
+/// The orders of loops that the lengths leave open, each as the target's loop for each of the source's: first that by descending length,
+/// then those in which loops of equal lengths change places. If there are more than [`MOST_ORDERS`], the first one alone.
+pub(crate) fn loop_orders(surfaces: [&Surface; 2]) -> Vec<Vec<usize>> {
     orders(&[loops(surfaces[0]), loops(surfaces[1])])
 }
 
@@ -144,7 +144,7 @@ fn orders(loops: &[Vec<(Vec<HalfedgeId>, f64)>; 2]) -> Vec<Vec<usize>> {
     all
 }
 
-/// The target's loop for each of the source's: by descending length.
+/// The target's loop for each of the source's by descending length.
 fn by_length(loops: &[Vec<(Vec<HalfedgeId>, f64)>; 2]) -> Vec<usize> {
     let [first, second] = [0, 1].map(|s| {
         let mut order: Vec<usize> = (0..loops[s].len()).collect();

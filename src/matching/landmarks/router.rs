@@ -1,63 +1,32 @@
-//! Edge paths between landmarks and boundary loops of one surface that do not meet each other.
+//! Edge paths between the landmarks and boundary loops of one surface, no two of which meet.
 
+use super::Marks;
 use crate::error::{Error, Result};
 use crate::mesh::{HalfedgeId, Mesh, PerEdge, PerVertex, VertexId};
 use crate::topology::spanning::Key;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// Landmarks and boundary loops of a surface, numbered: first the landmarks, then the loops.
-#[derive(Debug, Clone)]
-pub(super) struct Marks {
-    pub landmarks: Vec<VertexId>,
-    /// The loops as half-edges of faces, the surface on the left.
-    pub loops: Vec<Vec<HalfedgeId>>,
-    /// Corners of the boundary: vertices of loops.
-    pub corners: Vec<VertexId>,
-}
-
-impl Marks {
-    pub fn n(&self) -> usize {
-        self.landmarks.len() + self.loops.len()
-    }
-
-    /// The vertices of a mark: one, or those of a loop.
-    pub fn vertices(&self, mesh: &Mesh, k: usize) -> Vec<VertexId> {
-        match self.landmarks.get(k) {
-            Some(&v) => vec![v],
-            None => self.loops[k - self.landmarks.len()].iter().map(|&h| mesh.origin(h)).collect(),
-        }
-    }
-
-    /// What a message calls it.
-    pub fn name(&self, k: usize) -> String {
-        match self.landmarks.get(k) {
-            Some(v) => format!("landmark {k} (vertex {v})"),
-            None => format!("boundary loop {}", k - self.landmarks.len()),
-        }
-    }
-}
-
-/// Paths that have been found, and what they leave free.
-pub(super) struct Router<'a> {
+/// Finds paths one after the other, each beside those before it.
+pub(crate) struct PathRouter<'a> {
     mesh: &'a Mesh,
     lengths: &'a PerEdge<f64>,
     marks: &'a Marks,
-    /// Per mark the half-edges that leave it, in their cyclic order: counterclockwise around a landmark, along a loop with the surface on
-    /// the left.
+    /// Per mark the half-edges that leave it, in cyclic order: counterclockwise around a landmark, along a loop with the surface on the
+    /// left.
     exits: Vec<Vec<HalfedgeId>>,
     /// Per vertex of a mark: the mark.
     mark_of: PerVertex<Option<u32>>,
-    /// Vertices that no other path may pass or, on loops, end at.
+    /// True for vertices that no other path may pass or, on loops, end at.
     is_taken: PerVertex<bool>,
-    /// Per mark, the exits in use: place among its exits and number of the path.
+    /// Per mark the exits in use: the place among its exits and the number of the path.
     ends: Vec<Vec<(usize, usize)>>,
     /// The paths, each from its first to its second mark.
     pub paths: Vec<Vec<HalfedgeId>>,
 }
 
-impl<'a> Router<'a> {
-    pub fn new(mesh: &'a Mesh, lengths: &'a PerEdge<f64>, marks: &'a Marks) -> Router<'a> {
+impl<'a> PathRouter<'a> {
+    pub fn new(mesh: &'a Mesh, lengths: &'a PerEdge<f64>, marks: &'a Marks) -> PathRouter<'a> {
         let n = mesh.n_vertices();
         let mut mark_of = PerVertex::filled(n, None);
         for k in 0..marks.n() {
@@ -67,7 +36,7 @@ impl<'a> Router<'a> {
         let exits = (0..marks.n()).map(|k| leaves(k).filter(|h| !mesh.is_boundary_edge(h.edge())).collect());
         let exits: Vec<Vec<HalfedgeId>> = exits.collect();
         let mut is_taken = PerVertex::filled(n, false);
-        // A corner has its place in the order around its loop, as the end of a path has, and no path ends there.
+        // A corner has a place in the order around its loop like the end of a path, and no path ends there.
         let mut ends = vec![Vec::new(); marks.n()];
         for (number, &v) in marks.corners.iter().enumerate() {
             is_taken[v] = true;
@@ -77,7 +46,7 @@ impl<'a> Router<'a> {
             let place = before.filter(|h| !mesh.is_boundary_edge(h.edge())).count();
             ends[mark].push((place, usize::MAX - number));
         }
-        Router { mesh, lengths, marks, exits, mark_of, is_taken, ends, paths: Vec::new() }
+        PathRouter { mesh, lengths, marks, exits, mark_of, is_taken, ends, paths: Vec::new() }
     }
 
     /// The numbers of the paths that end at a mark, in cyclic order.
@@ -87,11 +56,11 @@ impl<'a> Router<'a> {
         ends.into_iter().map(|end| end.1).collect()
     }
 
-    /// The next path, the shortest from mark to mark that meets no other. `orders`: for each of the two marks the cyclic order in which the
-    /// paths have to end there in the end, numbered as they are found; without them any.
+    /// Finds the next path, the shortest from mark to mark that meets no other. `orders`: for each of the two marks the cyclic order in
+    /// which all paths have to end there at last, by their numbers; without them any order is permitted.
     ///
     /// # Errors
-    /// [`Error::Matching`] where there is none, naming the marks.
+    /// [`Error::Matching`] if there is no such path, naming the marks.
     pub fn join(&mut self, [a, b]: [usize; 2], orders: Option<[&[usize]; 2]>) -> Result<()> {
         let number = self.paths.len();
         let allowed = |k: usize, mark: usize| match orders {
@@ -123,14 +92,14 @@ impl<'a> Router<'a> {
         Ok(())
     }
 
-    /// Length of the shortest path from mark to mark beside those there are; `None` without any.
+    /// The length of the shortest path from mark to mark beside those that were found; `None` if there is none.
     pub fn length(&self, [a, b]: [usize; 2]) -> Option<f64> {
         let all = [a, b].map(|mark| vec![true; self.exits[mark].len()]);
         let path = self.shortest(a, &all[0], b, &all[1])?;
         Some(path.iter().map(|h| self.lengths[h.edge()]).sum())
     }
 
-    /// What stands around a mark: other marks, and the paths beside it, by their numbers.
+    /// The numbers of the other marks and of the paths that enclose a mark.
     pub fn around(&self, mark: usize) -> (Vec<usize>, Vec<usize>) {
         let mut reached = PerVertex::filled(self.mesh.n_vertices(), false);
         let mut waiting = self.marks.vertices(self.mesh, mark);
@@ -155,7 +124,7 @@ impl<'a> Router<'a> {
         (marks, (0..self.paths.len()).filter(|&k| meets(&self.paths[k])).collect())
     }
 
-    /// Which exits of a mark a path may use so that its place among those in use is the one in the order.
+    /// Per exit of a mark, true if the path of this number may use it so that the exits in use are in this order.
     fn sector(&self, mark: usize, number: usize, order: &[usize]) -> Vec<bool> {
         let n = self.exits[mark].len();
         let mut used = self.ends[mark].clone();
@@ -165,7 +134,7 @@ impl<'a> Router<'a> {
         let Some(at) = order.iter().position(|&k| k == number).filter(|_| used.len() > 1) else {
             return allowed;
         };
-        // The next path in use before this one in the order, and the exits up to the one in use after that.
+        // The exits between the path in use that comes before this one in the order and the next one in use are permitted.
         let m = order.len();
         let before =
             (1..m).map(|k| order[(at + m - k) % m]).find_map(|k| used.iter().position(|end| end.1 == k));
@@ -179,6 +148,7 @@ impl<'a> Router<'a> {
         allowed
     }
 
+    /// The shortest path from one of the permitted exits of mark a to one of mark b.
     fn shortest(&self, a: usize, starts: &[bool], b: usize, ends: &[bool]) -> Option<Vec<HalfedgeId>> {
         let (mesh, n) = (self.mesh, self.mesh.n_vertices());
         let mut distance = PerVertex::filled(n, f64::INFINITY);

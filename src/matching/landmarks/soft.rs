@@ -1,8 +1,8 @@
-//! Landmarks that draw the map near their partners: where they go instead.
+//! Soft landmarks: landmarks that need not be met, but draw the map near their partners.
 //!
 //! The map without them stands for the minimum of an energy ½ r² of the distance r that each is moved from there, and the landmark adds ½ w
 //! s² of the distance s to its partner. Both distances are taken along a shortest path of edges on the target, so that the sum is least at
-//! the share w/(1 + w) of the way. There the landmark is met exactly, by a map without folds.
+//! the share w/(1 + w) of the path. The landmark is met exactly at this point, by a map without folds.
 //!
 //! A spring in the energy of the map itself would not do that. A point has no capacity in the Dirichlet energy: the spring moves its vertex
 //! and little around it, and a vertex that is pulled is no mean of its neighbours, so that nothing keeps faces from folding. In a plane
@@ -11,6 +11,8 @@
 
 use crate::control::Control;
 use crate::error::{Error, Result};
+use crate::matching::options::MatchOptions;
+use crate::matching::result::Matching;
 use crate::mesh::{HalfedgeId, Place, VertexId};
 use crate::metric::Surface;
 use crate::topology::{check_vertex, shortest_paths};
@@ -20,16 +22,57 @@ use crate::topology::{check_vertex, shortest_paths};
 pub struct SoftLandmark {
     /// A vertex of the source and one of the target, both inside the surfaces.
     pub pair: [VertexId; 2],
-    /// Its weight w ≥ 0: the landmark goes to the share w/(1 + w) of the way from where the map without it brings it.
+    /// Its weight w ≥ 0: the landmark goes to the share w/(1 + w) of the path to its partner from its image in the map without it.
     pub weight: f64,
 }
 
-/// Checks soft landmarks.
+/// Number of times that the paths of soft landmarks are halved if they are in conflict.
+const MOST_HALVINGS: usize = 4;
+
+/// The map that brings the soft landmarks of these options near their partners. `matching` finds maps by options without soft landmarks.
 ///
 /// # Errors
 /// [`Error::Argument`] for a vertex that does not exist and a weight that is negative or not finite; [`Error::Matching`] for a landmark on
-/// a boundary.
-pub(super) fn check(surfaces: [&Surface; 2], all: &[SoftLandmark]) -> Result<()> {
+/// a boundary; those of `matching`.
+pub(crate) fn match_near(
+    surfaces: [&Surface; 2],
+    options: &MatchOptions,
+    control: &Control,
+    matching: impl Fn(&MatchOptions) -> Result<Matching>,
+) -> Result<Matching> {
+    check(surfaces, &options.soft)?;
+    let target = surfaces[1];
+    let hard = MatchOptions { soft: Vec::new(), ..options.clone() };
+    let first = matching(&hard)?;
+    let path =
+        |s: &SoftLandmark| SoftPath::new(target, first.forward.places[s.pair[0].index()], s.pair[1], control);
+    let paths: Vec<SoftPath> = options.soft.iter().map(path).collect::<Result<_>>()?;
+    let mut part = 1.0;
+    for halvings_left in (0..=MOST_HALVINGS).rev() {
+        let shares = options.soft.iter().map(|soft| part * soft.weight / (1.0 + soft.weight));
+        let shares: Vec<f64> = shares.collect();
+        let goal = |(k, soft): (usize, &SoftLandmark)| {
+            Ok([Place::at_vertex(surfaces[0].mesh(), soft.pair[0])?, paths[k].at(target, shares[k])?])
+        };
+        let goals: Vec<[Place; 2]> = options.soft.iter().enumerate().map(goal).collect::<Result<_>>()?;
+        let points = options.points.iter().copied().chain(goals).collect();
+        match matching(&MatchOptions { points, ..hard.clone() }) {
+            Ok(mut matching) => {
+                let soft = options.points.len()..options.points.len() + paths.len();
+                matching.points.drain(soft);
+                let left = paths.iter().zip(&shares).map(|(path, share)| (1.0 - share) * path.length);
+                matching.soft_left = left.collect();
+                return Ok(matching);
+            }
+            Err(why @ Error::Matching(_)) if halvings_left == 0 => return Err(why),
+            Err(Error::Matching(_)) => part *= 0.5,
+            Err(other) => return Err(other),
+        }
+    }
+    Ok(first)
+}
+
+fn check(surfaces: [&Surface; 2], all: &[SoftLandmark]) -> Result<()> {
     for (k, soft) in all.iter().enumerate() {
         if !(soft.weight >= 0.0 && soft.weight.is_finite()) {
             return Err(Error::argument(
@@ -50,23 +93,23 @@ pub(super) fn check(surfaces: [&Surface; 2], all: &[SoftLandmark]) -> Result<()>
     Ok(())
 }
 
-/// A soft landmark's way on the target from where the map brings it to its partner.
-pub(super) struct Approach {
+/// The path on the target from the image of a soft landmark to its partner.
+struct SoftPath {
     start: Place,
-    /// From the start to a corner of its face.
+    /// Length of the first part, from the start to a corner of its face.
     first: f64,
     corner: VertexId,
-    path: Vec<HalfedgeId>,
-    /// The length of the way.
-    pub length: f64,
+    /// The edges from the corner on.
+    edges: Vec<HalfedgeId>,
+    length: f64,
 }
 
-impl Approach {
-    /// From a place to a vertex.
+impl SoftPath {
+    /// The shortest path from a place to a vertex.
     ///
     /// # Errors
-    /// Those of [`shortest_paths`].
-    pub fn new(target: &Surface, start: Place, to: VertexId, control: &Control) -> Result<Approach> {
+    /// [`Error::Matching`] if there is none inside the surface; those of [`shortest_paths`].
+    fn new(target: &Surface, start: Place, to: VertexId, control: &Control) -> Result<SoftPath> {
         let (mesh, lengths) = (target.mesh(), target.lengths());
         let forest = shortest_paths(mesh, lengths, vec![to], control)?;
         let corners = mesh.face_vertices(start.face);
@@ -80,8 +123,8 @@ impl Approach {
         };
         let total = |k: &usize| inside(*k) + forest.distance[corners[*k]];
         let k = (0..3).min_by(|i, j| total(i).total_cmp(&total(j))).unwrap_or(0);
-        let (mut path, mut v) = (Vec::new(), corners[k]);
-        // Down the distances.
+        let (mut edges, mut v) = (Vec::new(), corners[k]);
+        // From vertex to vertex in the direction of descending distance, never along the boundary.
         while v != to {
             let down = |h: &HalfedgeId| forest.distance[mesh.tip(*h)] + lengths[h.edge()];
             let is_free = |h: &HalfedgeId| mesh.tip(*h) == to || !mesh.is_boundary_vertex(mesh.tip(*h));
@@ -95,18 +138,18 @@ impl Approach {
                     "a soft landmark has no way inside the target to vertex {to}: refine it there"
                 )));
             };
-            path.push(h);
+            edges.push(h);
             v = mesh.tip(h);
         }
-        let length = inside(k) + path.iter().map(|h| lengths[h.edge()]).sum::<f64>();
-        Ok(Approach { start, first: inside(k), corner: corners[k], path, length })
+        let length = inside(k) + edges.iter().map(|h| lengths[h.edge()]).sum::<f64>();
+        Ok(SoftPath { start, first: inside(k), corner: corners[k], edges, length })
     }
 
-    /// The place at a share of the way.
+    /// The place at a share of the length.
     ///
     /// # Errors
     /// Those of [`Place::at_vertex`].
-    pub fn at(&self, target: &Surface, share: f64) -> Result<Place> {
+    fn at(&self, target: &Surface, share: f64) -> Result<Place> {
         let mesh = target.mesh();
         let mut far = share * self.length;
         if far < self.first {
@@ -118,7 +161,7 @@ impl Approach {
             return Ok(Place { face: self.start.face, weights: std::array::from_fn(weight) });
         }
         far -= self.first;
-        for &h in &self.path {
+        for &h in &self.edges {
             let length = target.lengths()[h.edge()];
             if let Some((face, k)) = mesh.corner(h).filter(|_| far < length) {
                 let mut weights = [0.0; 3];
@@ -127,6 +170,6 @@ impl Approach {
             }
             far -= length;
         }
-        Place::at_vertex(mesh, self.path.last().map_or(self.corner, |h| mesh.tip(*h)))
+        Place::at_vertex(mesh, self.edges.last().map_or(self.corner, |h| mesh.tip(*h)))
     }
 }

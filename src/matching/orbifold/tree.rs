@@ -1,47 +1,50 @@
-//! Trees of paths between landmarks and boundary loops, the same on two surfaces of genus 0: they mark which map is meant.
+//! Corresponding trees of paths between the landmarks and boundary loops of two surfaces of genus 0: they determine the homotopy class of
+//! the map.
 //!
 //! A surface of genus 0 that is opened along a tree through all its landmarks and loops is a disk. A homeomorphism that brings landmarks to
 //! landmarks and the tree to a tree of the same shape, with the same order around each mark, is determined up to isotopy.
 
-use super::route::{Marks, Router};
 use crate::control::Control;
 use crate::error::Result;
+use crate::matching::landmarks::{MarkedSurface, Marks, PathRouter};
 use crate::mesh::shapes::SplitMix64;
 use crate::mesh::union_find::UnionFind;
 use crate::mesh::{HalfedgeId, Mesh, PerEdge};
-use crate::metric::Surface;
 use crate::topology::{CutGraph, shortest_paths};
 
-/// One surface's tree.
+/// The tree of one surface.
 #[derive(Debug, Clone)]
-pub(super) struct Tree {
-    /// Path by path, in the same order on both surfaces.
+pub(super) struct MarkTree {
+    /// The paths, in the same order on both surfaces.
     pub cut: CutGraph,
-    /// Per landmark, the half-edge of its own corner: that of the path of lowest number there, which leaves the landmark.
+    /// Per landmark the half-edge of its own corner: the one by which the path of lowest number leaves the landmark.
     pub landmark_corners: Vec<HalfedgeId>,
-    /// The arcs between the ends of paths and corners on boundary loops, in the same order on both surfaces: half-edges of faces, the
-    /// surface on the left.
+    /// The parts into which the ends of paths and the corners divide the boundary loops, in the same order on both surfaces: half-edges of
+    /// faces, the surface on the left.
     pub arcs: Vec<Vec<HalfedgeId>>,
 }
 
-/// The trees of two surfaces with the same numbers of landmarks and loops, of variant 0: of all trees on the marks that of the least
-/// length, by distances on both, its paths drawn as short as the order around the marks leaves them. Variants may mark other maps: where a
-/// path passes a third mark on one side on one surface and on the other side on the other one, the map is twisted there. In 1 and 2 the
-/// distances of one surface count, in others they are changed at random, and in odd ones it is the target whose paths are drawn first.
+/// Corresponding trees of two surfaces with the same numbers of landmarks and loops.
+///
+/// In variant 0 it is the spanning tree of the marks of least length, by the distances on both surfaces; its paths are drawn as short as
+/// the order around the marks permits. A path may pass a third mark on the left on one surface and on the right on the other one: then the
+/// map is twisted there, and another variant may determine a better class. Variants 1 and 2 take the distances of one surface, further ones
+/// distances that are changed at random; in odd variants the paths of the target are drawn first.
 ///
 /// # Errors
-/// [`crate::Error::Matching`] where paths have no room, naming the marks; [`crate::Error::Cancelled`].
+/// [`crate::Error::Matching`] if paths have no room, naming the marks; [`crate::Error::Cancelled`].
 pub(super) fn trees(
-    surfaces: [&Surface; 2],
-    marks: [&Marks; 2],
-    (distances, variant): (&[Distances; 2], u64),
+    sides: [MarkedSurface; 2],
+    distances: &[MarkDistances; 2],
+    variant: u64,
     control: &Control,
-) -> Result<[Tree; 2]> {
-    let n = marks[0].n();
+) -> Result<[MarkTree; 2]> {
+    let n = sides[0].marks.n();
     let edges = spanning(n, distances, variant);
-    let mut routers = [0, 1].map(|s| Router::new(surfaces[s].mesh(), surfaces[s].lengths(), marks[s]));
+    let mut routers =
+        sides.map(|side| PathRouter::new(side.surface.mesh(), side.surface.lengths(), side.marks));
     let [first, second] = &mut routers;
-    let (source, target) = if variant % 2 == 0 { (first, second) } else { (second, first) };
+    let (source, target) = if variant.is_multiple_of(2) { (first, second) } else { (second, first) };
     for &pair in &edges {
         control.check()?;
         source.join(pair, None)?;
@@ -52,23 +55,24 @@ pub(super) fn trees(
         target.join([a, b], Some([&orders[a], &orders[b]]))?;
     }
     Ok([0, 1].map(|s| {
-        let mesh = surfaces[s].mesh();
-        Tree {
-            cut: cut(mesh, &routers[s].paths, marks[s]),
-            landmark_corners: landmark_corners(&routers[s].paths, &edges, marks[s]),
-            arcs: arcs(mesh, &routers[s].paths, marks[s]),
+        let (mesh, marks, paths) = (sides[s].surface.mesh(), sides[s].marks, &routers[s].paths);
+        MarkTree {
+            cut: cut(mesh, paths, marks),
+            landmark_corners: landmark_corners(paths, &edges, marks),
+            arcs: arcs(mesh, paths, marks),
         }
     }))
 }
 
-/// Distances between the marks of a surface.
-pub(super) type Distances = Vec<Vec<f64>>;
+/// The distances between the marks of a surface, mark by mark.
+pub(super) type MarkDistances = Vec<Vec<f64>>;
 
-/// Distances between the marks along edges, as shares of the largest.
+/// The distances between the marks along edges, as shares of the largest.
 ///
 /// # Errors
 /// Those of [`shortest_paths`].
-pub(super) fn distances(surface: &Surface, marks: &Marks, control: &Control) -> Result<Distances> {
+pub(super) fn distances(side: MarkedSurface, control: &Control) -> Result<MarkDistances> {
+    let MarkedSurface { surface, marks } = side;
     let mesh = surface.mesh();
     let mut all = Vec::with_capacity(marks.n());
     for k in 0..marks.n() {
@@ -84,8 +88,8 @@ pub(super) fn distances(surface: &Surface, marks: &Marks, control: &Control) -> 
 /// Largest factor by which a distance is changed at random.
 const CHANGE: f64 = 3.0;
 
-/// The least spanning tree of a variant, its edges by ascending length.
-fn spanning(n: usize, [first, second]: &[Distances; 2], variant: u64) -> Vec<[usize; 2]> {
+/// The minimal spanning tree of a variant, its edges by ascending length.
+fn spanning(n: usize, [first, second]: &[MarkDistances; 2], variant: u64) -> Vec<[usize; 2]> {
     let mut random = SplitMix64::new(variant);
     let mut pairs: Vec<([usize; 2], f64)> = Vec::with_capacity(n * n / 2);
     for a in 0..n {
@@ -104,6 +108,7 @@ fn spanning(n: usize, [first, second]: &[Distances; 2], variant: u64) -> Vec<[us
     pairs.into_iter().map(|pair| pair.0).filter(|&[a, b]| parts.join(a as u32, b as u32)).collect()
 }
 
+/// The paths of a tree as a cut.
 fn cut(mesh: &Mesh, paths: &[Vec<HalfedgeId>], marks: &Marks) -> CutGraph {
     let mut is_cut = PerEdge::filled(mesh.n_edges(), false);
     paths.iter().flatten().for_each(|h| is_cut[h.edge()] = true);
@@ -123,7 +128,8 @@ fn landmark_corners(paths: &[Vec<HalfedgeId>], edges: &[[usize; 2]], marks: &Mar
     (0..marks.landmarks.len()).filter_map(leaving).collect()
 }
 
-/// The arcs: first those from ends of paths, by the number of the path, its first end before its last; then those from corners.
+/// The arcs: first those that start at ends of paths, by the number of the path, its first end before its last; then those that start at
+/// corners.
 fn arcs(mesh: &Mesh, paths: &[Vec<HalfedgeId>], marks: &Marks) -> Vec<Vec<HalfedgeId>> {
     let mut is_end = vec![false; mesh.n_vertices()];
     let ends = paths.iter().filter_map(|path| Some([mesh.origin(*path.first()?), mesh.tip(*path.last()?)]));

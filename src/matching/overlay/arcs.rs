@@ -1,7 +1,7 @@
 //! Both triangulations as one planar graph on the surface: vertices of either, crossings, the parts of edges between them, and their order
 //! around every vertex.
 
-use super::super::cover::Placed;
+use super::super::cover::PlacedMesh;
 use super::stand::{At, Settled};
 use super::trace::{Crossing, Leaving, Path, Tracer};
 use crate::control::{Control, Stage};
@@ -71,7 +71,7 @@ impl Parts {
 impl Arcs {
     /// # Errors
     /// [`Error::Matching`] where lines are too near to each other to tell their order; [`Error::TooLarge`]; [`Error::Cancelled`].
-    pub fn new(settled: &Settled, target: &Placed, control: &Control) -> Result<Arcs> {
+    pub fn new(settled: &Settled, target: &PlacedMesh, control: &Control) -> Result<Arcs> {
         let paths = paths(settled, target, control)?;
         let (source_mesh, target_mesh) = (&settled.source.cover.mesh, &target.cover.mesh);
         let n = [source_mesh.n_vertices(), target_mesh.n_vertices()];
@@ -288,7 +288,7 @@ fn around_target(
 }
 
 /// The edges of the source inside the surface, on the target.
-fn paths(settled: &Settled, target: &Placed, control: &Control) -> Result<Vec<Option<Path>>> {
+fn paths(settled: &Settled, target: &PlacedMesh, control: &Control) -> Result<Vec<Option<Path>>> {
     let mesh = &settled.source.cover.mesh;
     let tracer = Tracer { settled, target };
     let mut all: Vec<Option<Result<Path>>> = Vec::new();

@@ -12,8 +12,8 @@ mod pieces;
 mod stand;
 mod trace;
 
-use super::cover::Placed;
-use super::walk::Seed;
+use super::cover::PlacedMesh;
+use super::cover::WalkSeed;
 use crate::control::Control;
 use crate::error::Result;
 use crate::geometry::{Motion, Space};
@@ -30,8 +30,8 @@ use stand::Settled;
 #[derive(Debug, Clone, PartialEq)]
 pub struct CommonDomain {
     /// The source's, and the target's. An edge that joined two vertices of the boundary is halved.
-    placed: [Placed; 2],
-    seeds: [Seed; 2],
+    placed: [PlacedMesh; 2],
+    seeds: [WalkSeed; 2],
     given: [Given; 2],
 }
 
@@ -47,7 +47,7 @@ pub struct DomainTriangle {
 }
 
 impl CommonDomain {
-    pub(super) fn new(placed: [Placed; 2], seeds: [Seed; 2], splits: [&Split; 2]) -> CommonDomain {
+    pub(super) fn new(placed: [PlacedMesh; 2], seeds: [WalkSeed; 2], splits: [&Split; 2]) -> CommonDomain {
         let given = [0, 1].map(|s| Given {
             mesh: splits[s].given().mesh().clone(),
             parts: placed[s].cover.mesh.faces().map(|f| splits[s].place(f)).collect(),

@@ -1,6 +1,6 @@
 //! The faces of a placed surface side by side in one frame, as pictures show them.
 
-use super::super::cover::Placed;
+use super::super::cover::PlacedMesh;
 use crate::geometry::{DoubleDouble, Motion};
 use crate::mesh::{FaceId, HalfedgeId};
 use crate::topology::spanning::Key;
@@ -15,7 +15,7 @@ pub(super) struct Opened {
 
 /// From the face of a half-edge: first what shares its frame, then, next to what is there already, the part whose frame is moved least. A
 /// surface that is opened along a cut stays as it is; one whose faces have a frame each grows about the first.
-pub(super) fn opened(placed: &Placed, from: HalfedgeId) -> Opened {
+pub(super) fn opened(placed: &PlacedMesh, from: HalfedgeId) -> Opened {
     let (mesh, cover) = (&placed.cover.mesh, &placed.cover);
     let mut homes: Vec<Option<Motion<DoubleDouble>>> = vec![None; mesh.n_faces()];
     let mut crossed = Vec::new();

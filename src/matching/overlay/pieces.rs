@@ -1,6 +1,6 @@
 //! The faces of the graph that two triangulations make, as triangles with their places in both.
 
-use super::super::cover::Placed;
+use super::super::cover::PlacedMesh;
 use super::arcs::{Arcs, NONE};
 use super::stand::{At, Settled, Spot};
 use crate::error::{Error, Result};
@@ -54,7 +54,7 @@ struct Triangles {
 pub(super) fn overlay(
     arcs: &Arcs,
     settled: &Settled,
-    target: &Placed,
+    target: &PlacedMesh,
     given: [&Given; 2],
 ) -> Result<Overlay> {
     let mut turn = vec![NONE; arcs.origin.len()];

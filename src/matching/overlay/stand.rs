@@ -1,8 +1,8 @@
 //! Where the vertices of one triangulation stand in another one, exactly as far as digits go: inside a face, on a side at the boundary or
 //! at a vertex.
 
-use super::super::cover::{Placed, Precise, aimed, determinant, logarithm, moved};
-use super::super::walk::{Found, Seed, located};
+use super::super::cover::{LocatedVertex, WalkSeed, located};
+use super::super::cover::{PlacedMesh, PrecisePoint, aimed, determinant, logarithm, moved};
 use crate::control::Control;
 use crate::embed::triangle::Triangle;
 use crate::error::{Error, Result};
@@ -53,11 +53,11 @@ pub(super) struct View {
     pub home: Motion<DoubleDouble>,
     /// From the half-edge from which it is seen.
     pub sides: [HalfedgeId; 3],
-    pub corners: [Precise; 3],
+    pub corners: [PrecisePoint; 3],
 }
 
 impl View {
-    pub fn new(domain: &Placed, near: HalfedgeId) -> View {
+    pub fn new(domain: &PlacedMesh, near: HalfedgeId) -> View {
         let mesh = &domain.cover.mesh;
         let home = domain.frame_at(near).inverse();
         let sides = [near, mesh.next(near), mesh.prev(near)];
@@ -65,11 +65,11 @@ impl View {
     }
 
     /// What is opposite each corner, positive inside.
-    fn parts(&self, p: Precise) -> [f64; 3] {
+    fn parts(&self, p: PrecisePoint) -> [f64; 3] {
         [0, 1, 2].map(|k| f64::from(determinant([p, self.corners[(k + 1) % 3], self.corners[(k + 2) % 3]])))
     }
 
-    fn spot(&self, domain: &Placed, parts: [f64; 3]) -> Spot {
+    fn spot(&self, domain: &PlacedMesh, parts: [f64; 3]) -> Spot {
         let inside = parts.map(|x| x.max(0.0));
         let sum: f64 = inside.iter().sum();
         let own = if sum > 0.0 { inside.map(|x| x / sum) } else { [1.0 / 3.0; 3] };
@@ -89,7 +89,7 @@ struct Seen {
 
 impl Seen {
     /// Seen from the face across a side of this one.
-    fn across(&self, domain: &Placed, side: HalfedgeId) -> Seen {
+    fn across(&self, domain: &PlacedMesh, side: HalfedgeId) -> Seen {
         let copy = domain
             .cover
             .across(side)
@@ -99,7 +99,7 @@ impl Seen {
 }
 
 /// Per vertex the least height of the triangles at it, in their domain.
-fn heights(placed: &Placed) -> PerVertex<f64> {
+fn heights(placed: &PlacedMesh) -> PerVertex<f64> {
     let mesh = &placed.cover.mesh;
     let vectors = placed.logarithms();
     let mut heights = PerVertex::filled(mesh.n_vertices(), f64::INFINITY);
@@ -113,7 +113,7 @@ fn heights(placed: &Placed) -> PerVertex<f64> {
 }
 
 /// The largest distance between a corner as a face and as its neighbour have it: deck transformations are rounded.
-fn gap(placed: &Placed) -> f64 {
+fn gap(placed: &PlacedMesh) -> f64 {
     let mesh = &placed.cover.mesh;
     let of = |h: HalfedgeId| {
         let across = placed.cover.across(h)?;
@@ -128,7 +128,7 @@ fn gap(placed: &Placed) -> f64 {
 /// Both triangulations with their vertices in each other. The source's vertices are moved aside by next to nothing, or to vertices of the
 /// target that they are next to nothing away from; those of the target that have one there have no standing.
 pub(super) struct Settled {
-    pub source: Placed,
+    pub source: PlacedMesh,
     pub forward: Vec<Standing>,
     pub backward: Vec<Option<Standing>>,
     /// Per vertex of the target the one of the source that is at it.
@@ -138,7 +138,11 @@ pub(super) struct Settled {
 impl Settled {
     /// # Errors
     /// [`Error::Matching`] where the places of vertices cannot be told; [`Error::Cancelled`].
-    pub fn new([source, target]: [&Placed; 2], seeds: [Seed; 2], control: &Control) -> Result<Settled> {
+    pub fn new(
+        [source, target]: [&PlacedMesh; 2],
+        seeds: [WalkSeed; 2],
+        control: &Control,
+    ) -> Result<Settled> {
         let high = [heights(source), heights(target)];
         let gap = gap(source).max(gap(target));
         let aside = |v: VertexId| (ASIDE * high[0][v]).max(GAPS * gap).min(MOST_ASIDE * high[0][v]);
@@ -167,7 +171,7 @@ impl Settled {
             return Err(Error::Matching(format!("face {f} of the source is too thin for an overlay")));
         }
         let (found, _) = located(target, &source, seeds[1], control)?;
-        let back = |(v, found): (VertexId, &Found)| match taken[v] {
+        let back = |(v, found): (VertexId, &LocatedVertex)| match taken[v] {
             Some(_) => Ok(None),
             None => stand(target, &source, v, found).map(Some),
         };
@@ -178,8 +182,8 @@ impl Settled {
 
 /// The corner of the face where a vertex stands that it is next to, if both are inside the surface or both on the boundary.
 fn next_to(
-    points: &Placed,
-    domain: &Placed,
+    points: &PlacedMesh,
+    domain: &PlacedMesh,
     (v, standing): (VertexId, &Standing),
     same: impl Fn(VertexId) -> f64,
 ) -> Option<(HalfedgeId, VertexId)> {
@@ -194,7 +198,7 @@ fn next_to(
     [standing.near, mesh.next(standing.near), mesh.prev(standing.near)].into_iter().find_map(near)
 }
 
-fn stand(points: &Placed, domain: &Placed, v: VertexId, found: &Found) -> Result<Standing> {
+fn stand(points: &PlacedMesh, domain: &PlacedMesh, v: VertexId, found: &LocatedVertex) -> Result<Standing> {
     let seen = Seen { near: found.near, copy: found.copy };
     let point = points.at[v].origin();
     if points.cover.mesh.is_boundary_vertex(v) {
@@ -210,7 +214,7 @@ fn lost(v: VertexId) -> Error {
 }
 
 /// In the face that holds a point, from one that it lies outside of by rounding at most.
-fn inside(domain: &Placed, point: Precise, mut seen: Seen) -> Option<Standing> {
+fn inside(domain: &PlacedMesh, point: PrecisePoint, mut seen: Seen) -> Option<Standing> {
     for _ in 0..MOST_STEPS {
         let view = View::new(domain, seen.near);
         let parts = view.parts(view.home.apply(seen.copy.apply(point)));
@@ -228,7 +232,7 @@ fn inside(domain: &Placed, point: Precise, mut seen: Seen) -> Option<Standing> {
 }
 
 /// On the side at the boundary that is nearest to a point, of those around the face.
-fn on_side(domain: &Placed, point: Precise, seen: Seen) -> Option<Standing> {
+fn on_side(domain: &PlacedMesh, point: PrecisePoint, seen: Seen) -> Option<Standing> {
     let (mesh, space) = (&domain.cover.mesh, domain.cover.space);
     let mut best: Option<(f64, Seen, f64)> = None;
     for seen in around(domain, seen) {
@@ -254,7 +258,7 @@ fn on_side(domain: &Placed, point: Precise, seen: Seen) -> Option<Standing> {
 }
 
 /// The faces around the corners of a face.
-fn around(domain: &Placed, seen: Seen) -> Vec<Seen> {
+fn around(domain: &PlacedMesh, seen: Seen) -> Vec<Seen> {
     let mesh = &domain.cover.mesh;
     let mut all = Vec::new();
     for near in [seen.near, mesh.next(seen.near), mesh.prev(seen.near)] {

@@ -1,6 +1,6 @@
 //! Edges of one triangulation as straight lines through another one.
 
-use super::super::cover::{Placed, Precise, determinant, logarithm};
+use super::super::cover::{PlacedMesh, PrecisePoint, determinant, logarithm};
 use super::stand::{At, Settled, View};
 use crate::error::{Error, Result};
 use crate::geometry::DoubleDouble;
@@ -42,12 +42,12 @@ pub(super) enum Path {
 #[derive(Clone, Copy)]
 struct Line {
     near: HalfedgeId,
-    ends: [Precise; 2],
+    ends: [PrecisePoint; 2],
 }
 
 pub(super) struct Tracer<'a> {
     pub settled: &'a Settled,
-    pub target: &'a Placed,
+    pub target: &'a PlacedMesh,
 }
 
 /// The way into the target.

@@ -1,30 +1,44 @@
-//! Boundary loops of a map that goes over from one domain of the target to another one: straight lines between corners, and the vertices on
-//! them.
+//! The boundary loops when a map changes from one domain of the target to another one: straight lines between corners, and the places of
+//! the vertices on them.
 
-use super::cover::{Placed, aimed, logarithm, moved};
-use super::route::Marks;
 use super::slits::Slits;
-use super::walk::Found;
 use crate::error::{Error, Result};
-use crate::geometry::{DoubleDouble, Motion};
+use crate::geometry::{DoubleDouble, Motion, Space};
+use crate::matching::cover::{LocatedVertex, PlacedMesh, aimed, logarithm, moved};
+use crate::matching::landmarks::{MarkedSurface, Marks};
 use crate::mesh::{HalfedgeId, Mesh, Place, VertexId};
-use crate::metric::Surface;
 use std::collections::HashMap;
 
 /// Largest weight of the opposite corner at a point on a side of a face.
 const ON_SIDE: f64 = 1e-9;
 
-/// The vertices of the source's boundary in the new domain.
-pub(super) struct Rims {
-    /// Of vertices that go to another face than they were in: the transformation of the new domain from the face where they were.
-    ways: HashMap<VertexId, Motion<DoubleDouble>>,
-    /// The vertex of the target's boundary before each vertex, and the distance from there in the new domain.
-    pub places: Vec<(VertexId, (VertexId, f64))>,
+/// A vertex of the source's boundary on the boundary of the new domain.
+pub(super) struct BoundaryPlace {
+    pub vertex: VertexId,
+    /// The vertex of the target's boundary before it.
+    pub before: VertexId,
+    /// The distance from that vertex in the new domain.
+    pub distance: f64,
 }
 
-/// Puts the boundary exactly on straight lines between its corners, around a loop without corners on one closed line, with frames along
-/// them.
-pub(super) fn straighten(placed: &mut Placed, marks: &Marks) {
+/// The vertices of the source's boundary in the new domain.
+pub(super) struct BoundaryPlacement {
+    /// Per vertex that goes to another face the transformation of the new domain from the old face to the new one.
+    shifts: HashMap<VertexId, Motion<DoubleDouble>>,
+    pub places: Vec<BoundaryPlace>,
+}
+
+/// A point of a loop. The numbers of half-edges go on when the loop is run through again.
+#[derive(Clone, Copy)]
+struct LoopPoint {
+    /// The number of its half-edge.
+    edge: i64,
+    /// Its distance from the start of the loop in the new domain, less than the length of the loop.
+    distance: f64,
+}
+
+/// Puts the boundary exactly on straight lines between its corners, and a loop without corners on one closed line, with frames along them.
+pub(super) fn straighten(placed: &mut PlacedMesh, marks: &Marks) {
     let (mesh, space) = (placed.cover.mesh.clone(), placed.cover.space);
     for arc in marks.loops.iter().flat_map(|around| arcs(&mesh, around, &marks.corners)) {
         let (Some(&first), Some(&last)) = (arc.first(), arc.last()) else { continue };
@@ -45,7 +59,7 @@ pub(super) fn straighten(placed: &mut Placed, marks: &Marks) {
     }
 }
 
-/// A loop from corner to corner; the whole loop where it has none.
+/// The parts of a loop from corner to corner; the whole loop if it has no corners.
 fn arcs(mesh: &Mesh, around: &[HalfedgeId], corners: &[VertexId]) -> Vec<Vec<HalfedgeId>> {
     let is_corner = |h: &HalfedgeId| corners.contains(&mesh.origin(*h));
     let Some(first) = around.iter().position(is_corner) else { return vec![around.to_vec()] };
@@ -63,27 +77,30 @@ fn arcs(mesh: &Mesh, around: &[HalfedgeId], corners: &[VertexId]) -> Vec<Vec<Hal
 }
 
 /// A boundary loop of the target.
-struct Loop<'a> {
+struct TargetLoop<'a> {
     mesh: &'a Mesh,
+    space: Space,
     around: &'a [HalfedgeId],
-    /// Lengths in the new domain before each half-edge, and of the whole loop.
+    /// The lengths in the new domain from the start to each half-edge, and of the whole loop.
     before: Vec<f64>,
     /// The transformations of the new domain from the face of each half-edge to that of the next.
     steps: Vec<Motion<DoubleDouble>>,
 }
 
-impl Rims {
-    /// Vertices of the source's boundary, `found` in the old domain; there they are put on the boundary.
+impl BoundaryPlacement {
+    /// The places of the source's boundary vertices in the new domain. In the old one, where they were `found`, they are put exactly on the
+    /// boundary.
     ///
     /// # Errors
     /// [`Error::Matching`] for a vertex that was not found at the boundary.
     pub fn new(
-        source: &Surface,
-        (old, new): (&Placed, &Placed),
-        marks: [&Marks; 2],
-        (found, slits): (&mut [Found], &Slits),
-    ) -> Result<Rims> {
-        let mut rims = Rims { ways: HashMap::new(), places: Vec::new() };
+        [old, new]: [&PlacedMesh; 2],
+        sides: [MarkedSurface; 2],
+        found: &mut [LocatedVertex],
+        slits: &Slits,
+    ) -> Result<BoundaryPlacement> {
+        let mut all = BoundaryPlacement { shifts: HashMap::new(), places: Vec::new() };
+        let marks = sides.map(|side| side.marks);
         for (own, around) in marks[0].loops.iter().zip(&marks[1].loops) {
             let mut before = vec![0.0];
             for &h in around {
@@ -91,64 +108,69 @@ impl Rims {
                 let [x, y] = logarithm(new.cover.space, new.frame_at(h).inverse().apply(ends));
                 before.push(before[before.len() - 1] + x.hypot(y));
             }
-            let target = Loop { mesh: &new.cover.mesh, around, before, steps: slits.along_loop(around)? };
-            let mesh = source.mesh();
+            let (mesh, space) = (&new.cover.mesh, new.cover.space);
+            let target = TargetLoop { mesh, space, around, before, steps: slits.along_loop(around)? };
+            let mesh = sides[0].surface.mesh();
             let arcs = arcs(mesh, own, &marks[0].corners);
             let has_corners = arcs
                 .first()
                 .and_then(|arc| arc.first())
                 .is_some_and(|&h| marks[0].corners.contains(&mesh.origin(h)));
             let own: Vec<HalfedgeId> = arcs.concat();
-            // Counted on around the loop.
+            // The number of the half-edge of the target's loop, ascending even beyond its end, and the share of it before the vertex.
             let mut at: Vec<(usize, f64)> = Vec::with_capacity(own.len());
             for &h in &own {
-                let (mut k, share) = put(around, old, &mut found[mesh.origin(h).index()])?;
+                let (mut k, share) = on_boundary(around, old, &mut found[mesh.origin(h).index()])?;
                 while at.last().is_some_and(|last| (k, share) < *last) {
                     k += around.len();
                 }
                 at.push((k, share));
             }
             if has_corners {
-                let goals = target.between_corners(source, &arcs, (marks, &at))?;
+                let goals = target.between_corners(sides, &arcs, &at)?;
                 for ((&h, from), to) in own.iter().zip(&at).zip(goals) {
-                    rims.push(&target, new, (mesh.origin(h), from.0 as i64, to));
+                    all.push(&target, mesh.origin(h), from.0 as i64, to);
                 }
             } else {
                 for (&h, &(k, share)) in own.iter().zip(&at) {
                     let k = k % around.len();
-                    let to = target.before[k] + share * (target.before[k + 1] - target.before[k]);
-                    rims.push(&target, new, (mesh.origin(h), k as i64, (k as i64, to)));
+                    let distance = target.before[k] + share * (target.before[k + 1] - target.before[k]);
+                    let to = LoopPoint { edge: k as i64, distance };
+                    all.push(&target, mesh.origin(h), to.edge, to);
                 }
             }
         }
-        Ok(rims)
+        Ok(all)
     }
 
-    /// The transformation of the new domain from the face where a vertex was found to that in which it has its place.
-    pub fn way(&self, v: VertexId) -> Option<&Motion<DoubleDouble>> {
-        self.ways.get(&v)
+    /// The transformation of the new domain from the face in which a vertex was found to the face of its place; `None` if they are one.
+    pub fn shift(&self, v: VertexId) -> Option<&Motion<DoubleDouble>> {
+        self.shifts.get(&v)
     }
 
-    /// A vertex that goes from one half-edge of a loop to another, counted on around it, and there to this length from the start of the
-    /// loop.
-    fn push(&mut self, target: &Loop, new: &Placed, (v, from, (to, length)): (VertexId, i64, (i64, f64))) {
+    /// Adds a vertex that goes from the half-edge `from` of a loop to another point of it.
+    fn push(&mut self, target: &TargetLoop, vertex: VertexId, from: i64, to: LoopPoint) {
         let n = target.around.len() as i64;
-        let mut way = Motion::identity(new.cover.space);
-        for k in from.min(to)..from.max(to) {
-            way = way.compose(&target.steps[k.rem_euclid(n) as usize]).normalised();
+        let mut shift = Motion::identity(target.space);
+        for k in from.min(to.edge)..from.max(to.edge) {
+            shift = shift.compose(&target.steps[k.rem_euclid(n) as usize]).normalised();
         }
-        if from != to {
-            self.ways.insert(v, if to > from { way } else { way.inverse() });
+        if from != to.edge {
+            self.shifts.insert(vertex, if to.edge > from { shift } else { shift.inverse() });
         }
-        let k = to.rem_euclid(n) as usize;
-        let x = new.cover.mesh.origin(target.around[k]);
-        self.places.push((v, (x, length - target.before[k])));
+        let k = to.edge.rem_euclid(n) as usize;
+        let before = target.mesh.origin(target.around[k]);
+        self.places.push(BoundaryPlace { vertex, before, distance: to.distance - target.before[k] });
     }
 }
 
-/// Puts a vertex that was found near the boundary onto it: the number of the half-edge of the loop, and the share of that before the
-/// vertex.
-pub(super) fn put(around: &[HalfedgeId], old: &Placed, found: &mut Found) -> Result<(usize, f64)> {
+/// Puts a vertex that was found near the boundary exactly onto it. Returns the number of the half-edge of the loop and the share of this
+/// half-edge before the vertex.
+pub(crate) fn on_boundary(
+    around: &[HalfedgeId],
+    old: &PlacedMesh,
+    found: &mut LocatedVertex,
+) -> Result<(usize, f64)> {
     let mesh = &old.cover.mesh;
     let (sides, weights) = (mesh.face_halfedges(found.place.face), found.place.weights);
     for c in 0..3 {
@@ -174,22 +196,23 @@ pub(super) fn put(around: &[HalfedgeId], old: &Placed, found: &mut Found) -> Res
     Ok((k, 0.0))
 }
 
-impl Loop<'_> {
-    /// Where the vertices go so that corners go to corners, those between them by their share of the length, on the way along the loop that
-    /// is shortest for the corners: the number of a half-edge, counted on around the loop, and the length before the vertex there.
+impl TargetLoop<'_> {
+    /// The points to which the source's vertices go, so that corners go to corners, and vertices between them go by their share of the
+    /// length. The number of turns around the loop is the one by which the corners move least from where they are now (`at`).
     fn between_corners(
         &self,
-        source: &Surface,
+        sides: [MarkedSurface; 2],
         arcs: &[Vec<HalfedgeId>],
-        (marks, at): ([&Marks; 2], &[(usize, f64)]),
-    ) -> Result<Vec<(i64, f64)>> {
+        at: &[(usize, f64)],
+    ) -> Result<Vec<LoopPoint>> {
+        let (source, marks) = (sides[0].surface, sides.map(|side| side.marks));
         let (mesh, n) = (source.mesh(), self.around.len());
         let starts = arcs.iter().scan(0, |next, arc| {
             let start = *next;
             *next += arc.len();
             Some(start)
         });
-        // Where the corners are and where they go.
+        // The corners' places now, and the half-edges to which they go.
         let (mut now, mut goals): (Vec<f64>, Vec<usize>) = (Vec::new(), Vec::new());
         for (start, arc) in starts.zip(arcs) {
             now.push(at[start].0 as f64 + at[start].1);
@@ -221,7 +244,8 @@ impl Loop<'_> {
                 while length(k + 1) <= here {
                     k += 1;
                 }
-                all.push((k as i64 + laps * n as i64, here - (k / n) as f64 * total));
+                let edge = k as i64 + laps * n as i64;
+                all.push(LoopPoint { edge, distance: here - (k / n) as f64 * total });
                 before += source.lengths()[h.edge()];
             }
         }

@@ -1,92 +1,93 @@
-//! Slits along which landmarks are pushed: how the deck transformations of one domain go over into those of another one in which the
-//! landmarks are somewhere else.
+//! Slits along which landmarks are pushed: they turn deck transformations of one domain of the target into those of another one.
 //!
-//! A surface lies in the opened *old* domain of the target, some of its points not yet where they should be. From each of these points a
-//! path along edges leads to the vertex that it is to go to; no two paths meet. A point that is pushed along its path pushes ahead of
-//! itself what crosses the path: a line that crossed it goes around the end of the path afterwards. So a line that is straight in the old
-//! domain is known, up to homotopy in the surface without its landmarks, by the edges of the target that it crosses, and with them the deck
-//! transformation of any *new* domain of the target along it. Nothing is moved and nothing can fold.
+//! A surface lies in the opened *old* domain of the target, its landmarks not yet at their partners. A path along edges leads from each
+//! landmark to its partner; no two paths meet. A landmark that is pushed along its path, the *slit*, pushes ahead of itself every line that
+//! crosses the path: afterwards the line goes around the end of the path. So the class of a line that is straight in the old domain, up to
+//! homotopy in the target without the partners, is known from the edges of the target and the slits that it crosses, and with it the deck
+//! transformation along the line in any *new* domain of the target. Nothing is moved, so nothing can fold.
 
-use super::cover::{Placed, Precise, determinant, logarithm};
-use super::route::{Marks, Router};
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::{DoubleDouble, Motion, Space};
+use crate::matching::cover::{PlacedMesh, PrecisePoint, determinant, logarithm};
+use crate::matching::landmarks::{Marks, PathRouter};
 use crate::mesh::shapes::SplitMix64;
 use crate::mesh::{FaceId, HalfedgeId, Mesh, PerEdge, VertexId};
 use crate::topology::shortest_paths;
 use std::collections::HashMap;
 
-/// Least weight of a corner at a point inside a face: points on edges and vertices are taken to lie beside them, so that lines cross edges.
+/// Least weight of a corner at a point inside a face: points on edges and at vertices are moved beside them, so that lines cross edges.
 const LEAST_WEIGHT: f64 = 1e-7;
 /// Most faces that a line crosses.
 const MOST_CROSSED: usize = 100_000;
 
 /// A point strictly inside a face of the target, in the opened old domain.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Inside {
+pub(super) struct PointInFace {
     /// Face of the target.
     pub face: FaceId,
-    pub point: Precise,
+    pub point: PrecisePoint,
 }
 
-impl Inside {
+impl PointInFace {
     /// The point of a face with these weights, or near it where it lies on a side of the face.
-    pub fn new(old: &Placed, face: FaceId, weights: [f64; 3]) -> Inside {
+    pub fn new(old: &PlacedMesh, face: FaceId, weights: [f64; 3]) -> PointInFace {
         let weights = weights.map(|w| DoubleDouble::from(w.max(LEAST_WEIGHT)));
         let total = weights[0] + weights[1] + weights[2];
         let corners = old.corners(face);
         let point =
             [0, 1, 2].map(|i| (0..3).fold(DoubleDouble::from(0.0), |p, k| p + weights[k] * corners[k][i]));
-        Inside { face, point: point.map(|x| x / total) }
+        PointInFace { face, point: point.map(|x| x / total) }
     }
 }
 
-/// Where a landmark of the source lies before it is pushed.
+/// The point from which a landmark of the source is pushed.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Start {
-    /// At the vertex it goes to: at the corner of this half-edge.
-    There(HalfedgeId),
-    /// At this point.
-    At(Inside),
+pub(super) enum PushStart {
+    /// Its partner already, at the corner of this half-edge.
+    AtPartner(HalfedgeId),
+    /// This point.
+    AtPoint(PointInFace),
 }
 
-/// A landmark: from where to which vertex, and how messages call it.
+/// A landmark that is pushed to its partner, with its name in messages.
 #[derive(Debug, Clone)]
-pub(super) struct Push {
-    pub start: Start,
+pub(super) struct PushedLandmark {
+    pub start: PushStart,
+    /// Its partner, a vertex of the target.
     pub to: VertexId,
     pub name: String,
 }
 
-/// The target with the points added that are pushed, and the slits.
+/// The target with the starts of the landmarks as additional vertices, and the slits.
 pub(super) struct Slits<'a> {
-    old: &'a Placed,
-    new: &'a Placed,
+    old: &'a PlacedMesh,
+    new: &'a PlacedMesh,
     mesh: Mesh,
     /// Per face of `mesh` its corners in the opened old domain.
-    corners: Vec<[Precise; 3]>,
-    /// Faces with added points: their parts.
+    corners: Vec<[PrecisePoint; 3]>,
+    /// Per face of the target with additional vertices the faces of `mesh` in it.
     parts: HashMap<FaceId, Vec<FaceId>>,
-    /// Per half-edge on a slit: the transformation of the new domain from its face around the end of the slit to the face across.
+    /// Per half-edge on a slit the transformation of the new domain from its face around the end of the slit to the face across.
     around: HashMap<HalfedgeId, Motion<DoubleDouble>>,
-    /// Per landmark: a half-edge that leaves it, and the transformation from the landmark's place in the new domain to the face of that.
+    /// Per landmark a half-edge that leaves its start, and the transformation from its place in the new domain to the face of this
+    /// half-edge.
     exits: Vec<(HalfedgeId, Motion<DoubleDouble>)>,
 }
 
 /// A triangulation that points are added to.
-struct Growing {
+struct GrowingMesh {
     n_vertices: usize,
     origin: Vec<u32>,
     sides: Vec<[u32; 3]>,
-    corners: Vec<[Precise; 3]>,
+    corners: Vec<[PrecisePoint; 3]>,
     parts: HashMap<FaceId, Vec<FaceId>>,
 }
 
-impl Growing {
-    fn new(old: &Placed) -> Growing {
+impl GrowingMesh {
+    fn new(old: &PlacedMesh) -> GrowingMesh {
         let mesh = &old.cover.mesh;
-        Growing {
+        GrowingMesh {
             n_vertices: mesh.n_vertices(),
             origin: mesh.halfedges().map(|h| mesh.origin(h).0).collect(),
             sides: mesh.faces().map(|f| mesh.face_halfedges(f).map(|h| h.0)).collect(),
@@ -96,7 +97,7 @@ impl Growing {
     }
 
     /// Adds a point, joined to the corners of the part that it lies in.
-    fn add(&mut self, at: Inside) -> Result<VertexId> {
+    fn add(&mut self, at: PointInFace) -> Result<VertexId> {
         let parts = self.parts.entry(at.face).or_insert_with(|| vec![at.face]);
         let Some(f) = parts.iter().find(|f| is_inside(&self.corners[f.index()], at.point)).map(|f| f.index())
         else {
@@ -120,30 +121,32 @@ impl Growing {
 }
 
 impl<'a> Slits<'a> {
-    /// Slits in the target, which lies in both domains, for landmarks that are pushed, on a surface with these boundary loops.
+    /// The slits of landmarks in the target, which lies in the old and the new domain and has these boundary loops. The variant selects
+    /// other paths than the shortest: by variant 0 they are the shortest.
     ///
     /// # Errors
-    /// [`Error::Matching`] for landmarks that coincide or have no way beside each other, named.
+    /// [`Error::Matching`] for landmarks that coincide or have no path beside each other, named.
     pub fn new(
-        [old, new]: [&'a Placed; 2],
-        pushes: &[Push],
+        [old, new]: [&'a PlacedMesh; 2],
+        pushes: &[PushedLandmark],
         loops: &[Vec<HalfedgeId>],
-        (variant, control): (u64, &Control),
+        variant: u64,
+        control: &Control,
     ) -> Result<Slits<'a>> {
-        let mut growing = Growing::new(old);
-        let add = |push: &Push| match push.start {
-            Start::There(_) => Ok(push.to),
-            Start::At(inside) => growing.add(inside),
+        let mut growing = GrowingMesh::new(old);
+        let add = |push: &PushedLandmark| match push.start {
+            PushStart::AtPartner(_) => Ok(push.to),
+            PushStart::AtPoint(point) => growing.add(point),
         };
         let starts: Vec<VertexId> = pushes.iter().map(add).collect::<Result<_>>()?;
-        let Growing { n_vertices, origin, sides, corners, parts } = growing;
+        let GrowingMesh { n_vertices, origin, sides, corners, parts } = growing;
         let mesh = Mesh::assemble(n_vertices, origin, &sides)?;
         let lengths = varied(&mesh, lengths(old.cover.space, &mesh, &corners), variant, control)?;
-        let paths = paths(&mesh, lengths, pushes, (&starts, loops))?;
+        let paths = paths(&mesh, lengths, pushes, &starts, loops)?;
         let mut slits = Slits { old, new, mesh, corners, parts, around: HashMap::new(), exits: Vec::new() };
         for (push, path) in pushes.iter().zip(&paths) {
             let exit = match (push.start, path.first(), path.last()) {
-                (Start::There(h), ..) => (h, slits.vertex_to(h)?),
+                (PushStart::AtPartner(h), ..) => (h, slits.vertex_to(h)?),
                 (_, Some(&first), Some(&last)) => {
                     // Along the left side of the slit, from its end.
                     let mut back = slits.vertex_to(slits.mesh.next(last))?;
@@ -160,7 +163,7 @@ impl<'a> Slits<'a> {
         Ok(slits)
     }
 
-    /// The transformations around the end of a slit from the left side of each of its edges to the right one.
+    /// Notes for the edges of a slit the transformations around its end from their left side to the right one.
     fn open(&mut self, path: &[HalfedgeId]) -> Result<()> {
         let Some(&last) = path.last() else { return Ok(()) };
         let mut around = self.turn(last.twin(), self.mesh.next(last))?.inverse();
@@ -205,7 +208,7 @@ impl<'a> Slits<'a> {
         self.turn(own, h)
     }
 
-    /// The faces of the loop's half-edges one after the other: the transformation of the new domain from each to the next.
+    /// Per half-edge of a loop the transformation of the new domain from its face to the face of the next one.
     pub fn along_loop(&self, around: &[HalfedgeId]) -> Result<Vec<Motion<DoubleDouble>>> {
         let step = |k: usize| {
             let ahead = around[(k + 1) % around.len()];
@@ -214,26 +217,26 @@ impl<'a> Slits<'a> {
         (0..around.len()).map(step).collect()
     }
 
-    /// The transformation of the new domain along the straight line of the old one from one point to another, from face to face; `to.point`
-    /// is where the lift lies that is meant.
+    /// The transformation of the new domain, from face to face, along the straight line of the old one from a point to the lift `to` of
+    /// another one.
     ///
     /// # Errors
-    /// [`Error::Matching`] where the line does not arrive.
-    pub fn between(&self, from: Inside, to: Precise) -> Result<Motion<DoubleDouble>> {
+    /// [`Error::Matching`] if the line does not arrive.
+    pub fn between(&self, from: PointInFace, to: PrecisePoint) -> Result<Motion<DoubleDouble>> {
         let start = match self.parts.get(&from.face) {
             None => Some(from.face),
             Some(parts) => parts.iter().copied().find(|f| is_inside(&self.corners[f.index()], from.point)),
         };
         let start = start.ok_or_else(|| lost(from.face))?;
-        self.walk((start, Motion::identity(self.new.cover.space)), [from.point, to])
+        self.walk(start, Motion::identity(self.new.cover.space), [from.point, to])
     }
 
-    /// As [`Slits::between`] from a landmark: from its place in the new domain. The point is seen from the face in which the landmark
-    /// started.
+    /// As [`Slits::between`] from landmark k, from its place in the new domain. The point `to` is given in the face in which the landmark
+    /// starts.
     ///
     /// # Errors
     /// As [`Slits::between`].
-    pub fn landmark_to(&self, k: usize, mut to: Precise) -> Result<Motion<DoubleDouble>> {
+    pub fn landmark_to(&self, k: usize, mut to: PrecisePoint) -> Result<Motion<DoubleDouble>> {
         let (mut h, mut total) = self.exits[k];
         let first = h;
         loop {
@@ -241,7 +244,7 @@ impl<'a> Slits<'a> {
             let of = |k: usize| self.corners[f.index()][(corner + k) % 3];
             let [right, left] = [1, 2].map(|k| is_left([of(0), to], of(k)));
             if !right && left {
-                return self.walk((f, total), [of(0), to]);
+                return self.walk(f, total, [of(0), to]);
             }
             let side = self.mesh.prev(h);
             if let Some(across) = self.across(side) {
@@ -261,10 +264,12 @@ impl<'a> Slits<'a> {
         if h.index() < self.old.cover.mesh.n_halfedges() { self.old.cover.across(h) } else { None }
     }
 
+    /// Follows a line from a point of face f; `total`: the transformation up to this face.
     fn walk(
         &self,
-        (mut f, mut total): (FaceId, Motion<DoubleDouble>),
-        [mut from, mut to]: [Precise; 2],
+        mut f: FaceId,
+        mut total: Motion<DoubleDouble>,
+        [mut from, mut to]: [PrecisePoint; 2],
     ) -> Result<Motion<DoubleDouble>> {
         for _ in 0..MOST_CROSSED {
             let corners = &self.corners[f.index()];
@@ -288,12 +293,13 @@ impl<'a> Slits<'a> {
     }
 }
 
-/// Paths for the landmarks that are pushed, the shortest first; none for those that are there.
+/// The paths of the landmarks, found in the order of their lengths; empty for those that are at their partners already.
 fn paths(
     mesh: &Mesh,
     lengths: PerEdge<f64>,
-    pushes: &[Push],
-    (starts, loops): (&[VertexId], &[Vec<HalfedgeId>]),
+    pushes: &[PushedLandmark],
+    starts: &[VertexId],
+    loops: &[Vec<HalfedgeId>],
 ) -> Result<Vec<Vec<HalfedgeId>>> {
     let n = pushes.len();
     let ends: Vec<VertexId> = pushes.iter().map(|push| push.to).collect();
@@ -301,8 +307,8 @@ fn paths(
     // The ends of all, then the starts of those that move.
     let landmarks = ends.iter().copied().chain(moves.iter().map(|&k| starts[k])).collect();
     let marks = Marks { landmarks, loops: loops.to_vec(), corners: Vec::new() };
-    let mut router = Router::new(mesh, &lengths, &marks);
-    // How far each would go if it were alone; the last are those that have no way even then.
+    let mut router = PathRouter::new(mesh, &lengths, &marks);
+    // The length of the path of each alone; infinite for those that have no path even then, which come last.
     let length = |j: usize, k: usize| router.length([n + j, k]).unwrap_or(f64::INFINITY);
     let mut order: Vec<_> = moves.iter().enumerate().map(|(j, &k)| (length(j, k), j, k)).collect();
     order.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
@@ -325,14 +331,14 @@ fn paths(
     Ok(paths)
 }
 
-/// Hills of a variant.
+/// Number of hills of a variant.
 const HILLS: usize = 3;
-/// By how much the way over the top of a hill is longer.
+/// Factor, less 1, by which lengths at the top of a hill are multiplied.
 const HEIGHT: f64 = 8.0;
 /// Width of a hill, as a share of the largest distance from its top.
 const WIDTH: f64 = 0.25;
 
-/// Lengths that make other ways the shortest: with hills about random vertices. Those of variant 0 are the given ones.
+/// Lengths by which other paths are the shortest: multiplied by hills about random vertices. In variant 0 they are the given ones.
 fn varied(mesh: &Mesh, lengths: PerEdge<f64>, variant: u64, control: &Control) -> Result<PerEdge<f64>> {
     let mut random = SplitMix64::new(variant);
     let mut longer = lengths.clone();
@@ -348,8 +354,8 @@ fn varied(mesh: &Mesh, lengths: PerEdge<f64>, variant: u64, control: &Control) -
     Ok(longer)
 }
 
-/// Lengths in the old domain.
-fn lengths(space: Space, mesh: &Mesh, corners: &[[Precise; 3]]) -> PerEdge<f64> {
+/// The lengths of the edges in the old domain.
+fn lengths(space: Space, mesh: &Mesh, corners: &[[PrecisePoint; 3]]) -> PerEdge<f64> {
     PerEdge::from_fn(mesh.n_edges(), |e: crate::mesh::EdgeId| {
         let h = e.halfedge();
         let h = if mesh.is_outside(h) { h.twin() } else { h };
@@ -361,16 +367,17 @@ fn lengths(space: Space, mesh: &Mesh, corners: &[[Precise; 3]]) -> PerEdge<f64> 
     })
 }
 
-/// Whether a point lies on the left of the line from one point to another; points on the line count as left.
-fn is_left([from, to]: [Precise; 2], p: Precise) -> bool {
+/// True if a point lies on the left of the line from one point to another, or on this line.
+fn is_left([from, to]: [PrecisePoint; 2], p: PrecisePoint) -> bool {
     f64::from(determinant([from, to, p])) >= 0.0
 }
 
-fn is_inside(corners: &[Precise; 3], p: Precise) -> bool {
+fn is_inside(corners: &[PrecisePoint; 3], p: PrecisePoint) -> bool {
     (0..3).all(|k| is_left([corners[k], corners[(k + 1) % 3]], p))
 }
 
-fn no_way(pushes: &[Push], k: usize, mut others: Vec<usize>) -> Error {
+/// The error of landmark k, whose path meets those of others or these landmarks.
+fn no_way(pushes: &[PushedLandmark], k: usize, mut others: Vec<usize>) -> Error {
     others.retain(|&other| other != k);
     others.sort_unstable();
     others.dedup();

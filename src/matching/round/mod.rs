@@ -1,32 +1,31 @@
 //! Surfaces with handles and boundary as closed flat or hyperbolic surfaces with round holes \[JKLLG08, Fig. 12\].
 //!
 //! The target becomes such a surface ([`crate::canonical::circle_domain()`]), and the source is brought into it in the class of a map that
-//! is known, its loops onto the circles. A hole bends away from the surface around it. So a map that puts every vertex at a mean of its
-//! neighbours may fold beside it, whatever the weights are: faces are looked at, and around those that fold the weights become those by
-//! which the known map, carried over through the target's faces, is in balance. That one may fold too where faces are large; there single
-//! vertices are moved first.
+//! is known, its loops onto the circles. A hole is not convex seen from the surface around it. So a map that puts every vertex at a mean of
+//! its neighbours may fold beside it, whatever the weights are. Around faces that fold the weights are replaced by those by which the known
+//! map, carried over through the target's faces, is in balance. If that map folds too, because faces are large, single vertices are moved
+//! first.
 
-use super::balance::{BalanceReport, Freedom, balance};
-use super::canonical::not_found;
-use super::cover::{Cover, Placed, logarithm, seen_from};
-use super::options::{Boundary, MatchOptions};
-use super::orbifold::Pair;
-use super::pushed::Way;
-use super::repair::{around, unfold};
-use super::route::Marks;
-use super::shared::Shared;
-use super::untangle::untangle;
-use super::walk::{Seed, located};
-use super::weights::mean_value_weights;
+mod common_boundary;
+
+use super::balance::{
+    BalanceReport, Springs, VertexFreedom, around, balance, mean_value_weights, unfold, untangle,
+};
+use super::canonical::{CanonicalSurface, Opening, for_both, not_found};
+use super::cover::{PlacedMesh, UniversalCover, WalkSeed, logarithm, seen_from};
+use super::domain_pair::DomainPair;
+use super::landmarks::MarkedSurface;
+use super::options::{BoundaryMatching, MatchOptions};
+use super::pushed::{DomainChange, OldDomain};
 use crate::canonical::{CircleDomain, CircleDomainOptions, circle_domain};
 use crate::control::Control;
-use crate::embed::{Scale, UnrollOptions, unroll};
+use crate::embed::Scale;
 use crate::error::{Error, Result};
 use crate::geometry::{conformal, worse};
 use crate::mesh::{EdgeId, HalfedgeId, PerHalfedge, PerVertex, VertexId};
-use crate::metric::{Split, Surface};
-use crate::parallel::join;
+use crate::metric::Split;
 use crate::topology::{central_vertex, cut_about_joined};
+use common_boundary::CommonBoundary;
 use std::sync::Arc;
 
 /// A boundary loop of both surfaces as a circle of the domain.
@@ -34,7 +33,7 @@ use std::sync::Arc;
 pub struct RoundHole {
     /// The loop, by its place in [`crate::mesh::Mesh::boundary_loops`] of the source.
     pub boundary_loop: usize,
-    /// Centre, in the plane as (x, y, 1) or on the hyperboloid: one lift.
+    /// One lift of the centre, in the plane as (x, y, 1) or on the hyperboloid.
     pub center: [f64; 3],
     /// Radius in the metric of the domain.
     pub radius: f64,
@@ -44,37 +43,36 @@ pub struct RoundHole {
 }
 
 /// Both surfaces in a domain with round holes.
-pub(super) struct InRound {
-    pub pair: Pair,
+pub(super) struct RoundMatching {
+    pub pair: DomainPair,
     /// The given surfaces with the vertices that were added.
     pub splits: [Split; 2],
     pub holes: Vec<RoundHole>,
 }
 
-/// Times that the weights around folds are changed, each time on twice as many rings of faces.
+/// Most rounds in which the weights around folds are replaced, each on twice as many rings of faces as the last.
 const MOST_ROUNDS: usize = 10;
 
-/// Both surfaces in the target's domain with round holes, in the class of `pair`. On the loops either surface gets the vertices that only
-/// the other one has.
+/// Both surfaces in the target's domain with round holes, in the class of `pair`. On the loops each surface gets the vertices that only the
+/// other one has.
 ///
 /// # Errors
-/// [`Error::Matching`] where the flow does not come to its target, and where faces fold that could not be
-/// opened; those of [`circle_domain`]; [`Error::Cancelled`].
+/// [`Error::Matching`] if the flow does not reach its target, and if faces fold that could not be opened; those of [`circle_domain`];
+/// [`Error::Cancelled`].
 pub(super) fn in_round(
-    pair: &Pair,
-    (surfaces, marks): ([&Surface; 2], [&Marks; 2]),
+    pair: &DomainPair,
+    sides: [MarkedSurface; 2],
     splits: [&Split; 2],
     options: &MatchOptions,
     control: &Control,
-) -> Result<InRound> {
-    let shared = Shared::new(pair, (surfaces, marks), splits, control)?;
-    let own = |s: usize| in_own_metric(&shared.surfaces[s], &shared.marks[s].loops, options, control);
-    let (first, second) = join(|| own(0), || own(1));
-    let (source, Own { placed: mut domain, holes, iterations }) = (first?, second?);
-    let second = settled(&mut domain, &shared, control)?;
-    let (image, first, seeds) = image(&shared, &source.placed, &domain, control)?;
+) -> Result<RoundMatching> {
+    let common = CommonBoundary::new(pair, sides, splits, control)?;
+    let own = for_both(|s| with_round_holes(common.side(s), options, control))?;
+    let [(source, _), (CanonicalSurface { placed: mut domain, weights, iterations }, holes)] = own;
+    let second = settled(&mut domain, &weights, &common, control)?;
     let steps = [source.iterations, iterations];
-    let pair = Pair {
+    let (image, first, seeds) = image(&common, source.weights, &domain, control)?;
+    let pair = DomainPair {
         source: image,
         target: domain,
         seeds,
@@ -82,41 +80,43 @@ pub(super) fn in_round(
         flow_iterations: [0, 1].map(|s| pair.flow_iterations[s] + steps[s]),
         markings: pair.markings,
     };
-    Ok(InRound { pair, splits: shared.splits, holes })
+    Ok(RoundMatching { pair, splits: common.splits, holes })
 }
 
-/// Where the vertices of a surface with round holes may go.
-fn freedom(shared: &Shared, s: usize) -> PerVertex<Freedom> {
-    Freedom::of(shared.surfaces[s].mesh(), Boundary::ArcLength)
+/// The freedom of the vertices of a surface with round holes: those on the holes are held.
+fn freedom(side: MarkedSurface) -> PerVertex<VertexFreedom> {
+    VertexFreedom::of(side.surface.mesh(), BoundaryMatching::ArcLength)
 }
 
-/// The target drawn with its own edges, folds opened.
-fn settled(domain: &mut Placed, shared: &Shared, control: &Control) -> Result<BalanceReport> {
-    let weights = mean_value_weights(domain, &shared.surfaces[1]);
-    unfold(domain, &weights, &[], control)?;
-    let weights = mean_value_weights(domain, &shared.surfaces[1]);
-    balance(domain, &weights, &freedom(shared, 1), control)
-}
-
-/// The source in the target's domain, in balance by weights that are those of its own metric wherever no face folds.
-fn image(
-    shared: &Shared,
-    own: &Placed,
-    domain: &Placed,
+/// Opens the folds of the target in its domain and brings it into balance.
+fn settled(
+    domain: &mut PlacedMesh,
+    weights: &PerHalfedge<f64>,
+    common: &CommonBoundary,
     control: &Control,
-) -> Result<(Placed, BalanceReport, [Seed; 2])> {
-    let old = [&shared.pair[0], &shared.pair[1]];
-    let (found, _) = located(old[0], old[1], shared.seeds[0], control)?;
-    let marks = [&shared.marks[0], &shared.marks[1]];
-    let way = Way::new(old, (domain, found), (&shared.surfaces[0], marks), (0, control))?;
-    let (mut carried, seeds) = way.image()?;
-    let (mesh, freedom) = (carried.cover.mesh.clone(), freedom(shared, 0));
-    let mut weights = mean_value_weights(own, &shared.surfaces[0]);
+) -> Result<BalanceReport> {
+    let side = common.side(1);
+    unfold(domain, weights, &[], control)?;
+    let weights = mean_value_weights(domain, side.surface);
+    balance(domain, Springs { weights: &weights, freedom: &freedom(side) }, control)
+}
+
+/// The source in the target's domain, in balance by `weights`, those of its own metric, wherever no face folds.
+fn image(
+    common: &CommonBoundary,
+    mut weights: PerHalfedge<f64>,
+    domain: &PlacedMesh,
+    control: &Control,
+) -> Result<(PlacedMesh, BalanceReport, [WalkSeed; 2])> {
+    let old = OldDomain { source: &common.pair[0], target: &common.pair[1], seed: common.seeds[0] };
+    let sides = [common.side(0), common.side(1)];
+    let (mut carried, seeds) = DomainChange::new(old, domain, sides, 0, control)?.image()?;
+    let (mesh, freedom) = (carried.cover.mesh.clone(), freedom(sides[0]));
     let mut other: Option<PerHalfedge<f64>> = None;
     let (mut rings, mut folded) = (1, Vec::new());
     for _ in 0..MOST_ROUNDS {
         let mut image = carried.clone();
-        let report = balance(&mut image, &weights, &freedom, control)?;
+        let report = balance(&mut image, Springs { weights: &weights, freedom: &freedom }, control)?;
         folded = image.flipped();
         log::debug!("{} faces fold beside round holes; next {rings} rings", folded.len());
         if folded.is_empty() {
@@ -126,7 +126,7 @@ fn image(
             Some(other) => other,
             None => {
                 untangle(&mut carried, &freedom, control)?;
-                other.insert(mean_value_weights(&carried, &shared.surfaces[0]))
+                other.insert(mean_value_weights(&carried, sides[0].surface))
             }
         };
         let is_changed = around(&image, &folded, rings);
@@ -138,24 +138,18 @@ fn image(
     Err(Error::Matching(format!(
         "{} faces of the source fold beside round holes and could not be opened, the first in face {}: refine the surface there, or let its loops become geodesics",
         folded.len(),
-        folded.first().map_or(0, |&f| shared.splits[0].place(f).0.index())
+        folded.first().map_or(0, |&f| common.splits[0].place(f).0.index())
     )))
 }
 
-/// A surface with round holes.
-struct Own {
-    placed: Placed,
-    holes: Vec<RoundHole>,
-    iterations: usize,
-}
-
-/// The flat or hyperbolic metric in which the loops are circles, opened along a cut that keeps away from the holes.
-fn in_own_metric(
-    surface: &Surface,
-    loops: &[Vec<HalfedgeId>],
+/// A surface in the flat or hyperbolic metric in which its loops are circles, opened along a cut that keeps away from these, and the
+/// circles.
+fn with_round_holes(
+    side: MarkedSurface,
     options: &MatchOptions,
     control: &Control,
-) -> Result<Own> {
+) -> Result<(CanonicalSurface, Vec<RoundHole>)> {
+    let surface = side.surface;
     let wanted = CircleDomainOptions { flow: options.flow.clone(), ..CircleDomainOptions::default() };
     let domain = circle_domain(surface, &wanted, control)?;
     if !domain.report.converged {
@@ -170,20 +164,25 @@ fn in_own_metric(
     }
     let is_inner = |h: HalfedgeId| !mesh.is_outside(h) && !mesh.is_outside(h.twin());
     let across = |h: HalfedgeId| closed.cover.across(parts[h.index()]).copied().filter(|_| is_inner(h));
-    let cover = Cover::new(mesh, closed.cover.space, across, &[])?;
+    let cover = UniversalCover::new(mesh, closed.cover.space, across, &[])?;
     let at =
         PerVertex::from_fn(mesh.n_vertices(), |v: VertexId| closed.frame_at(parts[cover.own(v).index()]));
-    let rims = loops.iter().map(|around| around.iter().map(|h| parts[h.index()].twin()).collect::<Vec<_>>());
-    let holes = rims.enumerate().map(|(k, rim)| hole(&domain, &closed, (k, &rim))).collect();
-    Ok(Own { placed: Placed { cover, at }, holes, iterations: domain.report.iterations })
+    let rims = side
+        .marks
+        .loops
+        .iter()
+        .map(|around| around.iter().map(|h| parts[h.index()].twin()).collect::<Vec<_>>());
+    let holes = rims.enumerate().map(|(k, rim)| hole(&domain, &closed, k, &rim)).collect();
+    let placed = PlacedMesh { cover, at };
+    Ok((CanonicalSurface::new(surface, placed, domain.report.iterations), holes))
 }
 
-/// The closed surface, its holes filled, as it lies in the plane or the hyperbolic plane.
-fn closed(domain: &CircleDomain, threads: usize, control: &Control) -> Result<Placed> {
+/// The closed surface that has its holes filled, placed in the plane or the hyperbolic plane.
+fn closed(domain: &CircleDomain, threads: usize, control: &Control) -> Result<PlacedMesh> {
     let filled = &domain.filled;
     let mesh = Arc::new(filled.mesh.clone());
     let lengths = domain.metric.surface().lengths();
-    // A hole is taken in as a whole once it is reached, then the faces around it.
+    // The disk that grows about the root takes in a hole as a whole once it is reached, then the faces around it.
     let mut urgency = PerVertex::filled(mesh.n_vertices(), 0);
     for hub in filled.hubs() {
         mesh.outgoing(hub).for_each(|h| urgency[mesh.tip(h)] = 1);
@@ -192,22 +191,20 @@ fn closed(domain: &CircleDomain, threads: usize, control: &Control) -> Result<Pl
     let root = central_vertex(&mesh, lengths, control)?;
     let joined = |e: EdgeId| mesh.ends(e).into_iter().map(|v| urgency[v]).fold(0, u8::max);
     let cut = cut_about_joined(&mesh, lengths, root, &joined, control)?;
-    let unrolling = UnrollOptions {
-        cones: Some(Vec::new()),
-        root: Some(root),
+    let opening = Opening {
+        cut: &cut,
+        root,
+        cones: &[],
+        own_corners: &[],
         scale: Scale::AsSolved,
-        cut: Some(cut.clone()),
+        refinement: None,
         threads,
-        ..UnrollOptions::default()
     };
-    let layout = unroll(&domain.metric, &unrolling, control)?;
-    let pairings: Vec<_> = layout.seams.iter().map(|seam| seam.pairing).collect();
-    let cover = Cover::along_cut(&mesh, layout.space, (&cut, &pairings), &[])?;
-    Placed::of_layout(cover, &layout)
+    Ok(opening.place(&domain.metric, &mesh, control)?.0)
 }
 
-/// The circle of a loop, given by half-edges in the faces that fill it.
-fn hole(domain: &CircleDomain, closed: &Placed, (boundary_loop, rim): (usize, &[HalfedgeId])) -> RoundHole {
+/// The circle of the boundary loop of this number, given by half-edges in the faces that fill it.
+fn hole(domain: &CircleDomain, closed: &PlacedMesh, boundary_loop: usize, rim: &[HalfedgeId]) -> RoundHole {
     let (mesh, space) = (&closed.cover.mesh, closed.cover.space);
     let hub = |g: HalfedgeId| closed.frame_at(mesh.prev(g));
     let center = rim.first().map_or([0.0, 0.0, 1.0], |&g| hub(g).origin().map(f64::from));

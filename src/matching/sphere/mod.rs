@@ -1,95 +1,90 @@
-//! Spheres with fewer than three landmarks: both go to the unit sphere. Without landmarks one is turned until its conformal factor fits the
-//! other's best; with one it is turned about that, and with two it goes by a Möbius transformation that brings both to their partners.
+//! Spheres with fewer than three landmarks: both surfaces go to the unit sphere, where harmonic maps are Möbius transformations.
+//!
+//! Without landmarks the source is rotated until its conformal factor fits the target's best. One landmark is brought to its partner by a
+//! rotation, and two by a Möbius transformation; of those that remain the one is taken by which the conformal factors fit best.
 
-use super::axis::{Around, best_turn, centre};
-use super::balance::BalanceReport;
-use super::canonical::not_found;
-use super::cover::{Cover, Placed};
-use super::density::{Factors, factors};
+mod rotations;
+
+use super::balance::{BalanceReport, mean_value_weights, unfold};
+use super::canonical::{for_both, not_found};
+use super::cover::{PlacedMesh, UniversalCover, WalkSeed, locate};
+use super::domain_pair::DomainPair;
+use super::fit::{ConformalFactors, PolarSample, best_turn, centre, factors};
+use super::landmarks::MarkedSurface;
 use super::options::MatchOptions;
-use super::orbifold::Pair;
-use super::repair::unfold;
-use super::route::Marks;
-use super::turn::{Density, IDENTITY, turnings};
-use super::walk::{Seed, locate};
-use super::weights::mean_value_weights;
+use super::variants::LeastEnergy;
 use crate::canonical::{SphereOptions, uniformize_sphere};
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::Space;
 use crate::geometry::complex::{Complex, conj, mul, norm2, scale};
 use crate::geometry::vector::{Vector, cross, dot, norm, normalised, sub, triangle_normal};
-use crate::mesh::{HalfedgeId, PerVertex, VertexId};
+use crate::mesh::{HalfedgeId, PerVertex, Place, VertexId};
 use crate::metric::Surface;
-use crate::parallel::join;
+use rotations::{IDENTITY, SphereSamples, turnings};
 
-/// Both triangulations on one unit sphere: harmonic maps of spheres are Möbius transformations, and both are centred, so that a rotation is
-/// left to find.
+/// Both triangulations on one unit sphere.
 ///
 /// # Errors
-/// [`Error::Matching`] where a flow does not come to its target or a fold cannot be opened; those of [`uniformize_sphere`];
+/// [`Error::Matching`] if a flow does not reach its target or a fold cannot be opened; those of [`uniformize_sphere`];
 /// [`Error::Cancelled`].
 pub(super) fn on_sphere(
-    surfaces: [&Surface; 2],
-    marks: [&Marks; 2],
+    sides: [MarkedSurface; 2],
     options: &MatchOptions,
     control: &Control,
-) -> Result<Pair> {
-    let own = |s: usize| in_own_sphere(surfaces[s], options, control);
-    let (source, target) = join(|| own(0), || own(1));
-    let ((mut source, first), (target, second)) = (source?, target?);
-    if !marks[0].landmarks.is_empty() {
-        let source = about_landmarks(surfaces, marks, [&source, &target], control)?;
-        return Ok(pair([source, target], [first, second]));
-    }
-    let points = [&source, &target].map(positions);
-    let densities = [0, 1].map(|s| density(surfaces[s], &points[s]));
-    let mut best: Option<(f64, Placed)> = None;
+) -> Result<DomainPair> {
+    let [(source, first), (target, second)] =
+        for_both(|s| on_unit_sphere(sides[s].surface, options, control))?;
+    let source = if sides[0].marks.landmarks.is_empty() {
+        best_rotated(sides.map(|side| side.surface), [&source, &target], control)?
+    } else {
+        about_landmarks(sides, [&source, &target], control)?
+    };
+    let seeds = [seed(&source, &positions(&target), &target), seed(&target, &positions(&source), &source)];
+    let reports = [BalanceReport::default(); 2];
+    Ok(DomainPair { source, target, seeds, reports, flow_iterations: [first, second], markings: 1 })
+}
+
+/// The source after the rotation by which its conformal factor fits the target's best. Both are centred, so that a rotation is all that is
+/// left to find.
+fn best_rotated(
+    surfaces: [&Surface; 2],
+    [source, target]: [&PlacedMesh; 2],
+    control: &Control,
+) -> Result<PlacedMesh> {
+    let points = [source, target].map(positions);
+    let densities = [0, 1].map(|s| samples(surfaces[s], &points[s]));
+    let mut least = LeastEnergy::until(f64::NEG_INFINITY);
     for turn in turnings([&densities[0], &densities[1]])? {
         control.check()?;
         let mut turned = source.clone();
         let rotate = |p: Vector| turn.map(|row| dot(row, p));
         if turn != IDENTITY {
             turned.at = PerVertex::from_fn(points[0].len(), |v: VertexId| {
-                Placed::frame(Space::S2, rotate(points[0][v.index()]))
+                PlacedMesh::frame(Space::S2, rotate(points[0][v.index()]))
             });
         }
-        let seed = seed(&turned, &points[1], &target);
-        let places = match locate(&turned, &target, seed, control) {
-            Ok((places, _)) => places,
-            Err(Error::Cancelled) => return Err(Error::Cancelled),
-            // Another rotation may do.
-            Err(_) => continue,
+        let seed = seed(&turned, &points[1], target);
+        let difference = |(places, _): (Vec<Place>, f64)| {
+            let carried = places.iter().map(|place| {
+                let corners = target.cover.mesh.face_vertices(place.face);
+                (0..3).map(|k| place.weights[k] * densities[1].values[corners[k].index()]).sum::<f64>()
+            });
+            let off = carried.zip(&densities[0].values).zip(&densities[0].weights);
+            off.map(|((a, b), w)| w * (a - b) * (a - b)).sum()
         };
-        let carried = places.iter().map(|place| {
-            let corners = target.cover.mesh.face_vertices(place.face);
-            (0..3).map(|k| place.weights[k] * densities[1].values[corners[k].index()]).sum::<f64>()
-        });
-        let off = carried.zip(&densities[0].values).zip(&densities[0].weights);
-        let off: f64 = off.map(|((a, b), w)| w * (a - b) * (a - b)).sum();
-        if best.as_ref().is_none_or(|(least, ..)| off < *least) {
-            best = Some((off, turned));
-        }
+        let off = locate(&turned, target, seed, control).map(difference);
+        least.enter(off.map(|off| (off, turned)))?;
     }
-    let Some((_, turned)) = best else {
-        return Err(Error::Matching("no rotation of the sphere was found".into()));
-    };
-    source = turned;
-    Ok(pair([source, target], [first, second]))
+    least.into_best("no rotation of the sphere was found")
 }
 
-fn pair([source, target]: [Placed; 2], flow_iterations: [usize; 2]) -> Pair {
-    let seeds = [seed(&source, &positions(&target), &target), seed(&target, &positions(&source), &source)];
-    let reports = [BalanceReport::default(); 2];
-    Pair { source, target, seeds, reports, flow_iterations, markings: 1 }
-}
-
-/// The sphere seen from a landmark: this at the pole, the second one, if there is one, at infinity of the plane into which the sphere is
-/// projected from the other pole.
-struct View {
+/// The stereographic projection of the sphere that has a landmark at the origin of the plane and the second landmark, if there is one, at
+/// infinity.
+struct LandmarkProjection {
     /// By rows: two axes of the plane, and the landmark.
     axes: [Vector; 3],
-    /// The second landmark in the plane, if it is not the other pole.
+    /// The second landmark in the plane of the projection from the antipode of the first; `None` if it is this antipode.
     far: Option<Complex>,
 }
 
@@ -97,26 +92,26 @@ fn div(z: Complex, w: Complex) -> Complex {
     scale(1.0 / norm2(w), mul(z, conj(w)))
 }
 
-/// Height above the other pole below which a point counts as it.
+/// Height above the antipode of the first landmark below which a point counts as the antipode: rounding.
 const AT_POLE: f64 = 1e-14;
 
-impl View {
-    fn new(points: &[Vector], landmarks: &[VertexId]) -> Option<View> {
+impl LandmarkProjection {
+    fn new(points: &[Vector], landmarks: &[VertexId]) -> Option<LandmarkProjection> {
         let pole = points[landmarks.first()?.index()];
         let side = if pole[2].abs() < 0.9 { [0.0, 0.0, 1.0] } else { [1.0, 0.0, 0.0] };
         let first = normalised(cross(side, pole));
-        let mut view = View { axes: [first, cross(pole, first), pole], far: None };
+        let mut view = LandmarkProjection { axes: [first, cross(pole, first), pole], far: None };
         view.far = landmarks.get(1).and_then(|v| view.projected(points[v.index()]));
         Some(view)
     }
 
-    /// In the plane, the second landmark still where it is.
+    /// The point in the plane of the projection from the antipode of the first landmark; `None` for this antipode.
     fn projected(&self, p: Vector) -> Option<Complex> {
         let [x, y, w] = self.axes.map(|axis| dot(axis, p));
         (1.0 + w > AT_POLE).then(|| [x / (1.0 + w), y / (1.0 + w)])
     }
 
-    /// In the plane, the second landmark at infinity: `z/(1 − z/far)`; `None` at infinity.
+    /// The point in the plane with the second landmark at infinity, `z/(1 − z/far)`; `None` for the second landmark.
     fn seen(&self, p: Vector) -> Option<Complex> {
         let at = match (self.projected(p), self.far) {
             (Some(z), None) => z,
@@ -129,7 +124,7 @@ impl View {
         at.iter().all(|x| x.is_finite()).then_some(at)
     }
 
-    /// The point of the sphere that is seen there.
+    /// The point of the sphere that is projected to z: the inverse of [`LandmarkProjection::seen`].
     fn point(&self, z: Complex) -> Vector {
         let z = self.far.map_or(z, |far| {
             let [x, y] = div(z, far);
@@ -143,54 +138,65 @@ impl View {
     }
 }
 
-/// The source on the sphere with its one or two landmarks at their partners. Two leave a change of size about them, which centres the area
-/// between them; both leave a turn, by which the areas fit best.
+/// The source on the sphere with its one or two landmarks at their partners. A rotation about the landmarks remains free; the one is taken
+/// by which the areas fit best. With two landmarks a scaling about them remains free too; the one is taken that balances the area between
+/// them.
 ///
 /// # Errors
-/// [`Error::Matching`] where a fold cannot be opened.
+/// [`Error::Matching`] if a fold cannot be opened.
 fn about_landmarks(
-    surfaces: [&Surface; 2],
-    marks: [&Marks; 2],
-    [source, target]: [&Placed; 2],
+    sides: [MarkedSurface; 2],
+    [source, target]: [&PlacedMesh; 2],
     control: &Control,
-) -> Result<Placed> {
+) -> Result<PlacedMesh> {
     let points = [source, target].map(positions);
-    let weights = [0, 1].map(|s| density(surfaces[s], &points[s]).weights);
-    let views = [0, 1].map(|s| View::new(&points[s], &marks[s].landmarks));
-    let [Some(own), Some(other)] = views else {
+    let weights = [0, 1].map(|s| samples(sides[s].surface, &points[s]).weights);
+    let landmarks = sides.map(|side| &side.marks.landmarks);
+    let projections = [0, 1].map(|s| LandmarkProjection::new(&points[s], landmarks[s]));
+    let [Some(own), Some(other)] = projections else {
         return Err(Error::Matching("no landmark on the sphere".into()));
     };
-    let is_two = marks[0].landmarks.len() > 1;
-    let about = |view: &View, s: usize| -> (f64, Vec<Around>) {
+    let is_two = landmarks[0].len() > 1;
+    let about = |projection: &LandmarkProjection, s: usize| -> (f64, Vec<PolarSample>) {
         // A landmark has no direction from itself.
-        let others = surfaces[s].mesh().vertices().filter(|v| !marks[s].landmarks.contains(v));
-        let seen = others.filter_map(|v| Some((view.seen(points[s][v.index()])?, weights[s][v.index()])));
-        let seen: Vec<(f64, f64, f64)> = seen
-            .map(|([x, y], w)| (x.hypot(y).ln(), y.atan2(x), w))
-            .filter(|(size, ..)| size.is_finite())
+        let others = sides[s].surface.mesh().vertices().filter(|v| !landmarks[s].contains(v));
+        let seen =
+            others.filter_map(|v| Some((projection.seen(points[s][v.index()])?, weights[s][v.index()])));
+        // With the logarithm of the distance from the origin of the plane.
+        let seen: Vec<PolarSample> = seen
+            .map(|([x, y], share)| PolarSample { distance: x.hypot(y).ln(), angle: y.atan2(x), share })
+            .filter(|sample| sample.distance.is_finite())
             .collect();
-        let sizes: Vec<(f64, f64)> = seen.iter().map(|&(size, _, w)| (size, w)).collect();
+        let sizes: Vec<(f64, f64)> = seen.iter().map(|sample| (sample.distance, sample.share)).collect();
         let size = if is_two { centre(&sizes) } else { 0.0 };
-        (size, seen.into_iter().map(|(x, angle, w)| (0.5 + 0.5 * (x - size).tanh(), angle, w)).collect())
+        let on_sphere = |sample: PolarSample| {
+            let distance = 0.5 + 0.5 * (sample.distance - size).tanh();
+            PolarSample { distance, ..sample }
+        };
+        (size, seen.into_iter().map(on_sphere).collect())
     };
     let ((size, from), (other_size, to)) = (about(&own, 0), about(&other, 1));
     let (sin, cos) = best_turn(&from, &to).sin_cos();
     let factor = [cos, sin].map(|x| x * (other_size - size).exp());
-    let mesh_weights = mean_value_weights(source, surfaces[0]);
+    let mesh_weights = mean_value_weights(source, sides[0].surface);
     let mut image = source.clone();
     image.at = PerVertex::from_fn(points[0].len(), |v: VertexId| {
         let seen = own.seen(points[0][v.index()]).map(|z| other.point(mul(factor, z)));
-        Placed::frame(Space::S2, seen.unwrap_or_else(|| other.point([f64::INFINITY; 2])))
+        PlacedMesh::frame(Space::S2, seen.unwrap_or_else(|| other.point([f64::INFINITY; 2])))
     });
-    for (&from, &to) in marks[0].landmarks.iter().zip(&marks[1].landmarks) {
+    for (&from, &to) in landmarks[0].iter().zip(landmarks[1]) {
         image.at[from] = target.at[to];
     }
-    unfold(&mut image, &mesh_weights, &marks[0].landmarks, control)?;
+    unfold(&mut image, &mesh_weights, landmarks[0], control)?;
     Ok(image)
 }
 
-/// A surface as its own triangulation on its unit sphere, folds opened, and the steps of the flow.
-fn in_own_sphere(surface: &Surface, options: &MatchOptions, control: &Control) -> Result<(Placed, usize)> {
+/// The triangulation of a surface on its unit sphere, folds opened, and the steps of the flow.
+fn on_unit_sphere(
+    surface: &Surface,
+    options: &MatchOptions,
+    control: &Control,
+) -> Result<(PlacedMesh, usize)> {
     let flow = &options.flow;
     let wanted = SphereOptions {
         tolerance: flow.tolerance,
@@ -202,32 +208,33 @@ fn in_own_sphere(surface: &Surface, options: &MatchOptions, control: &Control) -
     if !sphere.report.converged {
         return Err(not_found(sphere.report.iterations, sphere.report.stop_reason));
     }
-    let cover = Cover::new(surface.mesh(), Space::S2, |_| None, &[])?;
+    let cover = UniversalCover::new(surface.mesh(), Space::S2, |_| None, &[])?;
     let at = PerVertex::from_fn(sphere.positions.len(), |v: VertexId| {
-        Placed::frame(Space::S2, sphere.positions[v])
+        PlacedMesh::frame(Space::S2, sphere.positions[v])
     });
-    let mut placed = Placed { cover, at };
+    let mut placed = PlacedMesh { cover, at };
     let weights = mean_value_weights(&placed, surface);
     unfold(&mut placed, &weights, &[], control)?;
     Ok((placed, sphere.report.iterations))
 }
 
-fn positions(placed: &Placed) -> Vec<Vector> {
+fn positions(placed: &PlacedMesh) -> Vec<Vector> {
     placed.at.iter().map(|frame| normalised(frame.origin().map(f64::from))).collect()
 }
 
-/// The conformal factor at the vertices of a surface on the sphere.
-fn density(surface: &Surface, points: &[Vector]) -> Density {
+/// The conformal factor at the vertices of a surface on the sphere, and their shares of its area.
+fn samples(surface: &Surface, points: &[Vector]) -> SphereSamples {
     let round = |f| 0.5 * norm(triangle_normal(surface.mesh().face_vertices(f).map(|v| points[v.index()])));
-    let Factors { values, weights } = factors(surface, round);
-    Density { values, points: points.to_vec(), weights }
+    let ConformalFactors { values, weights } = factors(surface, round);
+    SphereSamples { values, points: points.to_vec(), weights }
 }
 
-/// The first vertex of the points, and the target's vertex nearest to it.
-fn seed(points: &Placed, at: &[Vector], target: &Placed) -> Seed {
+/// The start of the search for the vertices of `points`: their first one, and the vertex of the target, at the positions `at`, nearest to
+/// it.
+fn seed(points: &PlacedMesh, at: &[Vector], target: &PlacedMesh) -> WalkSeed {
     let start = points.at[VertexId(0)].origin().map(f64::from);
     let off = |p: &Vector| dot(sub(*p, start), sub(*p, start));
     let nearest = (0..at.len()).min_by(|&i, &j| off(&at[i]).total_cmp(&off(&at[j]))).unwrap_or(0);
     let near: HalfedgeId = target.cover.own(VertexId::from(nearest));
-    Seed { vertex: VertexId(0), near }
+    WalkSeed { vertex: VertexId(0), near }
 }

@@ -1,11 +1,11 @@
-//! Rotations of the sphere that bring one conformal factor near another.
+//! Rotations of the sphere that bring one conformal factor as near as possible to another one.
 
 use crate::error::Result;
 use crate::geometry::vector::{Vector, cross, dot, normalised};
 use crate::linalg::dense::symmetric_eigenvectors;
 
 /// A function on the sphere, given at points, with a measure: positive weights with the sum 1.
-pub(super) struct Density {
+pub(super) struct SphereSamples {
     pub points: Vec<Vector>,
     pub values: Vec<f64>,
     pub weights: Vec<f64>,
@@ -13,7 +13,7 @@ pub(super) struct Density {
 
 /// A rotation, by rows.
 pub(super) type Rotation = [Vector; 3];
-/// The rotation that leaves all where it is.
+/// The rotation that moves nothing.
 pub(super) const IDENTITY: Rotation = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 /// Cells of a raster of the sphere along a meridian; twice as many along the equator.
@@ -23,21 +23,21 @@ const REFINED: usize = 3;
 /// Halvings of the step of the refinement.
 const HALVINGS: usize = 8;
 
-/// Rotations of the first function that are candidates for fitting it to the second one: none at all, those that bring the axes of inertia
-/// of its measure to those of the other one (exact for copies of one surface), and the best of a search by the difference of the two
-/// functions on a raster.
+/// Candidates for the rotation of the first function that fits it to the second one: the identity, the rotations that bring the axes of
+/// inertia of its measure to those of the other one (exact for copies of one surface), and the best of a search by the difference of the
+/// two functions on a raster.
 ///
 /// # Errors
 /// Those of [`symmetric_eigenvectors`].
-pub(super) fn turnings([from, to]: [&Density; 2]) -> Result<Vec<Rotation>> {
+pub(super) fn turnings([from, to]: [&SphereSamples; 2]) -> Result<Vec<Rotation>> {
     let (own, other) = (axes(from)?, axes(to)?);
-    // A surface and itself fit as they are, to the last digit.
+    // Two identical surfaces fit without a rotation, to the last digit.
     let mut all = vec![IDENTITY];
     for [a, b] in [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]] {
         let turned = [own[0].map(|x| a * x), own[1].map(|x| b * x)];
         all.push(bringing([turned[0], turned[1]], [other[0], other[1]]));
     }
-    let (samples, raster) = (Raster::new(from).samples(), Raster::new(to));
+    let (samples, raster) = (SphereRaster::new(from).samples(), SphereRaster::new(to));
     let off = |turn: &Rotation| raster.difference(turn, &samples);
     let mut coarse: Vec<(f64, Rotation)> = grid().into_iter().map(|turn| (off(&turn), turn)).collect();
     coarse.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -48,7 +48,7 @@ pub(super) fn turnings([from, to]: [&Density; 2]) -> Result<Vec<Rotation>> {
 }
 
 /// The axes of inertia of the measure, by descending moment; orthonormal.
-fn axes(of: &Density) -> Result<[Vector; 3]> {
+fn axes(of: &SphereSamples) -> Result<[Vector; 3]> {
     let mut moment = [[0.0; 3]; 3];
     for (p, w) in of.points.iter().zip(&of.weights) {
         for (i, row) in moment.iter_mut().enumerate() {
@@ -67,7 +67,7 @@ fn bringing(from: [Vector; 2], to: [Vector; 2]) -> Rotation {
     std::array::from_fn(|i| std::array::from_fn(|j| (0..3).map(|k| other[k][i] * own[k][j]).sum()))
 }
 
-/// Rotations about 20° apart: poles over the sphere, and turns about them.
+/// Rotations about 20° apart: for poles all over the sphere, and turns about them.
 fn grid() -> Vec<Rotation> {
     let n = 96;
     let mut all = Vec::new();
@@ -89,7 +89,7 @@ fn grid() -> Vec<Rotation> {
     all
 }
 
-/// The rotation turned about the three axes in smaller and smaller steps as long as that brings the functions nearer.
+/// The rotation after turns about the three axes in smaller and smaller steps, each of which brings the functions nearer.
 fn refined(mut turn: Rotation, off: &impl Fn(&Rotation) -> f64) -> Rotation {
     let (mut least, mut step) = (off(&turn), 0.2);
     for _ in 0..HALVINGS {
@@ -107,6 +107,7 @@ fn refined(mut turn: Rotation, off: &impl Fn(&Rotation) -> f64) -> Rotation {
     turn
 }
 
+/// The rotation followed by a turn about an axis.
 fn turned(turn: &Rotation, axis: usize, angle: f64) -> Rotation {
     let (sin, cos) = angle.sin_cos();
     let (i, j) = ((axis + 1) % 3, (axis + 2) % 3);
@@ -117,27 +118,27 @@ fn turned(turn: &Rotation, axis: usize, angle: f64) -> Rotation {
 }
 
 /// Means of a function in cells of equal height on the axis.
-struct Raster {
+struct SphereRaster {
     values: Vec<Option<(f64, f64)>>,
 }
 
-impl Raster {
-    fn new(of: &Density) -> Raster {
+impl SphereRaster {
+    fn new(of: &SphereSamples) -> SphereRaster {
         let mut sums = vec![[0.0; 2]; 2 * ROWS * ROWS];
         for ((p, value), w) in of.points.iter().zip(&of.values).zip(&of.weights) {
             let cell = &mut sums[cell(*p)];
             (cell[0], cell[1]) = (cell[0] + w * value, cell[1] + w);
         }
-        Raster { values: sums.into_iter().map(|[sum, w]| (w > 0.0).then(|| (sum / w, w))).collect() }
+        SphereRaster { values: sums.into_iter().map(|[sum, w]| (w > 0.0).then(|| (sum / w, w))).collect() }
     }
 
-    /// The middles of the cells that hold points, with values and weights.
+    /// The middles of the cells that hold points, with the values and weights of the cells.
     fn samples(&self) -> Vec<(Vector, f64, f64)> {
         let at = |(k, value): (usize, &Option<(f64, f64)>)| value.map(|(value, w)| (middle(k), value, w));
         self.values.iter().enumerate().filter_map(at).collect()
     }
 
-    /// The mean square difference to samples that are turned; those that meet an empty cell do not count.
+    /// The mean square difference to rotated samples; those that meet an empty cell do not count.
     fn difference(&self, turn: &Rotation, samples: &[(Vector, f64, f64)]) -> f64 {
         let (mut sum, mut total) = (0.0, f64::MIN_POSITIVE);
         for (p, value, w) in samples {
@@ -178,7 +179,7 @@ mod tests {
         let values: Vec<f64> = points.iter().map(|p| (3.0 * p[0]).sin() + p[1] * p[2]).collect();
         let by = grid()[701];
         let turned: Vec<Vector> = points.iter().map(|p| by.map(|row| dot(row, *p))).collect();
-        let [from, to] = [points, turned].map(|points| Density {
+        let [from, to] = [points, turned].map(|points| SphereSamples {
             points,
             values: values.clone(),
             weights: weights.clone(),
