@@ -14,8 +14,8 @@ use crate::structs::{self, sized};
 use ricci::Surface;
 use ricci::flow::Options;
 use ricci::matching::{
-    BoundaryMatching, LoopShape, MapQuality, MatchOptions, Matching, Place, SoftLandmark, SurfaceMap, cycle_error,
-    map_quality, match_surfaces, point_error,
+    BoundaryMatching, LoopShape, MapQuality, MatchOptions, Matching, Place, SoftLandmark, SurfaceMap,
+    cycle_error, map_quality, match_surfaces, point_error,
 };
 use ricci::mesh::{FaceId, HalfedgeId, VertexId};
 

@@ -323,7 +323,11 @@ fn matched(case: &Case, threads: usize) -> Found {
     let arc_length = case.option("boundary").as_str() == Some("arc_length");
     let how = MatchOptions {
         landmarks: case.indices("landmarks").as_chunks().0.iter().map(|pair| pair.map(VertexId)).collect(),
-        boundary: if arc_length { matching::BoundaryMatching::ArcLength } else { matching::BoundaryMatching::Slides },
+        boundary: if arc_length {
+            matching::BoundaryMatching::ArcLength
+        } else {
+            matching::BoundaryMatching::Slides
+        },
         flow: Options { threads, ..Options::default() },
         ..MatchOptions::default()
     };

@@ -93,7 +93,7 @@ fn may_hold(corners: &[Vector; 3], point: Vector) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::UniversalCover;
+    use super::super::UniversalCover;
     use super::*;
     use crate::mesh::{PerVertex, VertexId, shapes};
     use crate::metric::Surface;

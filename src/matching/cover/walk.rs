@@ -333,7 +333,7 @@ impl CornerDeterminants {
 
 #[cfg(test)]
 mod tests {
-    use super::UniversalCover;
+    use super::super::UniversalCover;
     use super::*;
     use crate::geometry::Space;
     use crate::geometry::vector::normalised;
