@@ -5,7 +5,7 @@ mod common;
 
 use common::flow::{attempt, euclidean, surface};
 use ricci::flow::cones::MAX_AUTO_CONES;
-use ricci::flow::{AutoCones, Options, auto_cones};
+use ricci::flow::{AutoCones, Options, auto_cones, with_cones_placed};
 use ricci::geometry::Space;
 use ricci::mesh::io::{self, Soup};
 use ricci::mesh::repair::{Repair, repair};
@@ -16,7 +16,7 @@ use ricci::metric::curvature::curvature;
 use ricci::metric::delaunay::{IntrinsicOptions, Triangulated, intrinsic_delaunay};
 use ricci::metric::target::{check_total, check_vertices};
 use ricci::topology::farthest_vertices;
-use ricci::{Class, Control, Error, Flow};
+use ricci::{Class, Control, Error, Flow, Surface, Target};
 use std::f64::consts::PI;
 
 fn place(mesh: &Mesh, lengths: &PerEdge<f64>, n: usize) -> AutoCones {
@@ -250,6 +250,39 @@ fn numbers_of_cones_that_cannot_be_are_refused() {
     assert!(refused(shapes::torus(1.0, 0.5, 12, 8).unwrap(), 1).contains("torus"));
     assert!(refused(shapes::genus(2, 6).unwrap(), 0).contains("needs a cone"));
     assert!(refused(shapes::disk(1).unwrap(), 2).contains("interior"));
+}
+
+#[test]
+fn open_surfaces_with_handles_have_cones_by_default() {
+    let default = |soup: &Soup| {
+        let (mesh, lengths) = surface(soup);
+        Target::default_for(&euclidean(&mesh, &lengths), Space::E2).unwrap()
+    };
+    let open = shapes::punch(&shapes::genus(2, 4).unwrap(), 3).unwrap();
+    assert_eq!(default(&open), Target::Auto(5));
+    assert_eq!(default(&shapes::punch(&shapes::genus(1, 3).unwrap(), 1).unwrap()), Target::Auto(4));
+    assert_eq!(default(&shapes::disk(3).unwrap()), Target::Boundary);
+    assert_eq!(default(&shapes::genus(2, 4).unwrap()), Target::Uniform);
+
+    let (mesh, lengths) = surface(&open);
+    let (given, free) = (euclidean(&mesh, &lengths), Control::new());
+    assert_eq!(Target::default_for(&given, Space::H2).unwrap(), Target::Uniform);
+    let curved = Surface::intrinsic(mesh.clone(), lengths.clone(), Space::H2).unwrap();
+    assert_eq!(Target::default_for(&curved, Space::E2).unwrap(), Target::Boundary);
+    let auto = Target::Auto(5);
+    assert!(matches!(auto.values(&given, Space::E2), Err(Error::TargetKind { target: "auto", .. })));
+    for (surface, space) in [(&given, Space::H2), (&curved, Space::E2)] {
+        let refused = with_cones_placed(&auto, surface, space, &free);
+        assert!(matches!(refused, Err(Error::TargetKind { target: "auto", .. })));
+    }
+
+    // A flow places the cones itself, and names them.
+    let placed = place(&mesh, &lengths, 5);
+    let mut flow = Flow::new(given, Class::yamabe(Space::E2), &Options::default(), &free).unwrap();
+    let flat = flow.solve(&auto, &free).unwrap();
+    assert!(flat.converged());
+    assert!(flat.target().unwrap().iter().zip(placed.target.iter()).all(|(a, b)| (a - b).abs() < 1e-12));
+    assert_eq!(flat.cones(), placed.cones.iter().map(|cone| cone.0).collect::<Vec<_>>());
 }
 
 #[test]

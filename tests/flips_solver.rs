@@ -160,7 +160,7 @@ fn fixed_edges_stay() {
     let fixed: Vec<EdgeId> = given.edges().filter(|e| e.index() % 5 == 0).collect();
     let ends: Vec<[VertexId; 2]> = fixed.iter().map(|&e| given.ends(e)).collect();
     let surface = euclidean(&given, &lengths);
-    let target = Target::default_for(&surface, Space::E2).unwrap();
+    let target = Target::Boundary;
     let begin = |fixed_edges| {
         let options = Options { fixed_edges, ..Options::default() };
         Flow::new(surface.clone(), Class::yamabe(Space::E2), &options, &Control::new())
@@ -351,7 +351,8 @@ fn flows_that_go_on_from_a_metric_end_where_new_ones_do() {
     for soup in [shapes::genus(1, 3).unwrap(), shapes::punch(&shapes::genus(1, 3).unwrap(), 2).unwrap()] {
         let (given, lengths) = surface(&soup);
         let whole = euclidean(&given, &lengths);
-        let first = Target::default_for(&whole, Space::E2).unwrap().values(&whole, Space::E2).unwrap();
+        let rule = if given.is_closed() { Target::Uniform } else { Target::Boundary };
+        let first = rule.values(&whole, Space::E2).unwrap();
         let inside: Vec<VertexId> = given.vertices().filter(|&v| !given.is_boundary_vertex(v)).collect();
         let mut second = first.clone();
         (second[inside[3]], second[inside[40]]) = (1.5, -1.5);

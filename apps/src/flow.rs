@@ -61,7 +61,7 @@ fn execute_in_pool(args: &FlowArgs, start: Instant, control: &Control) -> Result
         let written = timed(&mut seconds, || args.to.metric.as_deref().map_or(Ok(()), write));
         (outputs, written, seconds)
     };
-    let job = job(args, &input, space, control)?;
+    let job = job(args, &input, space)?;
     let (mut outcome, (outputs, written, seconds)) = job::run(&input, job, control, write_metric)?;
     outcome.solved.seconds.write += seconds;
     outcome.solved.failed.attempt("metric", written)?;
@@ -79,7 +79,7 @@ fn execute_in_pool(args: &FlowArgs, start: Instant, control: &Control) -> Result
 }
 
 /// What is computed.
-fn job(args: &FlowArgs, input: &Input, space: Space, control: &Control) -> Result<Job, Failure> {
+fn job(args: &FlowArgs, input: &Input, space: Space) -> Result<Job, Failure> {
     let fixed_edges = match &args.keep_edges {
         Some(path) => csv::read_edges(path, input.mesh())?,
         None => Vec::new(),
@@ -88,37 +88,15 @@ fn job(args: &FlowArgs, input: &Input, space: Space, control: &Control) -> Resul
         return Err(Failure::Usage("--pin boundary: a closed surface has none; name vertices".into()));
     }
     let pinned = args.pin.as_ref().map_or_else(Vec::new, |pin| pinned(pin, input.mesh()));
-    let usual = usual_target(args, input, space);
-    let chosen = args.target.as_ref().or(usual.as_ref());
-    let target_name = match &usual {
-        Some(usual) => Some(format!(
-            "{usual} (the default of open surfaces with handles; --target boundary bends the boundary alone)"
-        )),
-        None => args.target.as_ref().map(ToString::to_string),
-    };
     let of_layout = [&args.to.uv, &args.circles, &args.picture.base.picture, &args.to.common.report];
     Ok(Job {
         space,
         scheme: args.to.solve.scheme.into(),
-        target: chosen.map(|t| target(t, input, space, control)).transpose()?,
-        target_name,
+        target: args.target.as_ref().map(|t| target(t, input, space)).transpose()?,
+        target_name: args.target.as_ref().map(ToString::to_string),
         options: Options { fixed_edges, pinned, ..options(args) },
         laid_out: args.charts || of_layout.iter().any(|path| path.is_some()),
     })
-}
-
-/// Most cones that are placed by default, each of which costs a few solutions of a linear system; and the least number.
-const USUAL_CONES: [i64; 2] = [4, 64];
-
-/// The target of an open surface with handles in E², where none is asked for: cones. Its boundary alone would have to bend by 2πχ,
-/// which few boundaries can.
-fn usual_target(args: &FlowArgs, input: &Input, space: Space) -> Option<TargetChoice> {
-    let (mesh, plane) = (input.mesh(), space == Space::E2 && input.surface.geometry() == Space::E2);
-    let inside = mesh.vertices().filter(|&v| !mesh.is_boundary_vertex(v)).count();
-    let cones = mesh.euler().abs().clamp(USUAL_CONES[0], USUAL_CONES[1]) as usize;
-    let wanted =
-        plane && args.target.is_none() && args.pin.is_none() && !mesh.is_closed() && mesh.genus() > 0;
-    (wanted && inside > 0).then(|| TargetChoice::Auto(cones.min(inside)))
 }
 
 fn options(args: &FlowArgs) -> Options {
@@ -216,13 +194,16 @@ fn check_surface(args: &FlowArgs, input: &Input, space: Space) -> Result<(), Fai
     }
 }
 
-fn target(choice: &TargetChoice, input: &Input, space: Space, control: &Control) -> Result<Target, Failure> {
+fn target(choice: &TargetChoice, input: &Input, space: Space) -> Result<Target, Failure> {
     let n = input.mesh().n_vertices();
     Ok(match choice {
+        TargetChoice::Auto(_) if [space, input.surface.geometry()] != [Space::E2; 2] => {
+            return Err(Failure::Usage("--target auto: cones are placed in e2 only".into()));
+        }
         TargetChoice::Uniform => Target::Uniform,
         TargetChoice::Boundary => Target::Boundary,
         TargetChoice::Single(v) => Target::Single(VertexId(*v)),
-        TargetChoice::Auto(n) => charts::auto_target(*n, input, space, control)?,
+        TargetChoice::Auto(n) => Target::Auto(*n),
         TargetChoice::Cones(path) => Target::Cones(csv::read_curvatures(path, n)?),
         TargetChoice::File(path) => Target::All(csv::read_all_curvatures(path, n)?),
     })

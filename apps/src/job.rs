@@ -6,7 +6,7 @@ use crate::laid::{self, Laid, is_carried_back};
 use crate::report::{Checks, Seconds, timed};
 use crate::solved::{Measures, Solved};
 use ricci::Control;
-use ricci::flow::{self, Solution};
+use ricci::flow::{self, Solution, with_cones_placed};
 use ricci::geometry::{Space, worse};
 use ricci::mesh::{Mesh, PerVertex, VertexId};
 use ricci::metric::target::check_vertices;
@@ -20,7 +20,7 @@ pub struct Job {
     pub scheme: Scheme,
     /// `None`: the default of the surface's topology.
     pub target: Option<Target>,
-    /// What the summary calls the target, where that is not the name of its rule.
+    /// The name of the target in the summary, where that is not the name of its rule.
     pub target_name: Option<String>,
     pub options: flow::Options,
     /// Whether an output needs the layout.
@@ -55,7 +55,7 @@ pub fn run<T: Send>(
     beside: impl FnOnce(&Solution, &Measured, &PerVertex<f64>) -> T + Send,
 ) -> Result<(Outcome, T), Failure> {
     let class = Class::new(job.scheme, job.space);
-    let rule = rule(input, &job)?;
+    let (rule, rule_name) = rule(input, &job, control)?;
     let mut start = 0.0;
     let mut flow = timed(&mut start, || Flow::new(input.surface.clone(), class, &job.options, control))?;
     let solution = flow.solve(&rule, control)?;
@@ -83,7 +83,7 @@ pub fn run<T: Send>(
     };
     let mut solved = Solved::measured(solution, measures, target, seconds)?;
     solved.may_flip = job.options.flips != flow::Flips::Never;
-    let rule_name = job.target_name.unwrap_or_else(|| rule.name().into());
+    let rule_name = job.target_name.unwrap_or(rule_name);
     Ok((Outcome { rule, rule_name, pinned: job.options.pinned, report, solved, layout }, done))
 }
 
@@ -106,21 +106,31 @@ fn broken(solution: &Solution, measures: &Measures) -> Option<String> {
     Some(format!("{n} triangles break the triangle inequality (the first is face {first})"))
 }
 
-/// The target that was asked for, or the default of the surface. A target that was asked for is refused where the scheme cannot reach it
-/// on the given triangulation; a default is tried, and the flow then says why it cannot be reached.
-fn rule(input: &Input, job: &Job) -> Result<Target, Failure> {
+/// The target that was asked for, or the default of the surface, with its cones placed; and its name. A target that was asked for is
+/// refused where the scheme cannot reach it on the given triangulation; a default is tried, and the flow then says why it cannot be
+/// reached.
+fn rule(input: &Input, job: &Job, control: &Control) -> Result<(Target, String), Failure> {
     let pinned = &job.options.pinned;
-    let Some(rule) = &job.target else {
-        return Ok(match pinned.is_empty() {
-            true => Target::default_for(&input.surface, job.space)?,
-            false => Target::Cones(Vec::new()),
-        });
+    let rule = match &job.target {
+        Some(rule) => rule.clone(),
+        None if pinned.is_empty() => Target::default_for(&input.surface, job.space)?,
+        None => Target::Cones(Vec::new()),
     };
+    let name = match rule {
+        Target::Auto(n) => format!(
+            "auto:{n} (the default of open surfaces with handles; --target boundary bends the boundary alone)"
+        ),
+        _ => rule.name().into(),
+    };
+    let rule = with_cones_placed(&rule, &input.surface, job.space, control)?.into_owned();
+    if job.target.is_none() {
+        return Ok((rule, name));
+    }
     let mut target = rule.values(&input.surface, job.space)?;
     let n = target.len();
     pinned.iter().filter(|v| v.index() < n).for_each(|&v| target[v] = 0.0);
     check_vertices(input.mesh(), job.scheme, &target)?;
-    Ok(rule.clone())
+    Ok((rule, name))
 }
 
 /// u at mirror images may differ by this: what rounding does where edges were flipped in another order.

@@ -10,7 +10,7 @@ use crate::metric::ricci_metric;
 use crate::status::ricci_status;
 use crate::structs::{self, or, sized};
 use crate::target::{ricci_target, target_of, vertices};
-use ricci::flow::{Flips, Gradient, Method, Options, StepRule};
+use ricci::flow::{Flips, Gradient, Method, Options, StepRule, with_cones_placed};
 use ricci::mesh::EdgeId;
 use ricci::{Class, Control, Flow, Target};
 
@@ -100,7 +100,8 @@ pub unsafe extern "C" fn ricci_flow(
         let _reserve = memory::work(solution.mesh().n_vertices(), memory::FLOW)?;
         let (surface, space, control) = (solution.surface(), solution.metric().space, control::of(control));
         let options = read_options(options)?;
-        let target = target_of(target, surface, space, &control)?;
+        let target = target_of(target, surface, space)?;
+        let target = with_cones_placed(&target, surface, space, &control)?;
         target.resolve(surface, Class::new(solution.scheme()?, space))?;
         advance(&mut Flow::resume(solution, &options, &control)?, &target, &control)
     })
@@ -161,7 +162,7 @@ pub unsafe extern "C" fn ricci_solver_solve(
         let control = control::of(control);
         guard::change(solver, |ricci_solver { flow, .. }| {
             let _reserve = memory::work(flow.mesh().n_vertices(), memory::FLOW)?;
-            let target = target_of(target, flow.surface(), flow.metric().space, &control)?;
+            let target = target_of(target, flow.surface(), flow.metric().space)?;
             advance(flow, &target, &control)
         })
     })

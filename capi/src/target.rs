@@ -8,10 +8,10 @@ use crate::guard::{self, shared};
 use crate::metric::ricci_metric;
 use crate::status::*;
 use crate::structs::{self, sized};
-use ricci::flow::auto_cones;
+use ricci::flow::with_cones_placed;
 use ricci::geometry::Space;
 use ricci::mesh::VertexId;
-use ricci::{Class, Control, Surface, Target};
+use ricci::{Class, Surface, Target};
 
 choices!(enum TargetKind, KINDS = "kind", [
     RICCI_TARGET_DEFAULT => Default,
@@ -46,13 +46,8 @@ pub(crate) fn vertices(surface: &Surface, data: *const u32, n: usize) -> Outcome
     }
 }
 
-/// The library's target of a caller's; NULL is the default. `geometry`: in which the surface's lengths are read.
-pub(crate) fn target_of(
-    target: *const ricci_target,
-    surface: &Surface,
-    space: Space,
-    control: &Control,
-) -> Outcome<Target> {
+/// The library's target of a caller's; NULL is the default.
+pub(crate) fn target_of(target: *const ricci_target, surface: &Surface, space: Space) -> Outcome<Target> {
     let given = structs::read(target)?;
     let (n, count) = (given.n, surface.mesh().n_vertices());
     Ok(match KINDS.choose(given.kind)? {
@@ -71,11 +66,7 @@ pub(crate) fn target_of(
             let curvatures = arrays::array("curvatures", given.curvatures, n)?;
             Target::Cones(vertices.into_iter().zip(curvatures).collect())
         }
-        TargetKind::Auto if [space, surface.geometry()] != [Space::E2; 2] => {
-            let message = "cones are placed in e2, by Euclidean lengths";
-            return Err(Failure::new(RICCI_TARGET_KIND, message));
-        }
-        TargetKind::Auto => Target::All(auto_cones(surface.mesh(), surface.lengths(), n, control)?.target),
+        TargetKind::Auto => Target::Auto(n),
         TargetKind::Given => Target::All(arrays::array_of("curvatures", given.curvatures, n, count)?.into()),
     })
 }
@@ -92,7 +83,8 @@ pub unsafe extern "C" fn ricci_target_fill(
         let solution = &shared(metric)?.0.solution;
         let (surface, space) = (solution.surface(), solution.metric().space);
         arrays::check_buffer("curvatures", surface.mesh().n_vertices(), curvatures, capacity)?;
-        let target = target_of(target, surface, space, &control::of(control))?;
+        let target = target_of(target, surface, space)?;
+        let target = with_cones_placed(&target, surface, space, &control::of(control))?;
         let values = target.resolve(surface, Class::new(solution.scheme()?, space))?;
         copy_out("curvatures", &values, curvatures, capacity)
     })

@@ -844,7 +844,10 @@ RICCI_API ricci_status ricci_metric_mirror(const ricci_metric *metric, uint32_t 
 
 /** Rules for a target. */
 enum {
-    /** Closed, genus 1 and more: uniform; open: boundary; sphere: four cones of pi; in H2 and S2: uniform. */
+    /**
+     * In H2 and S2: uniform. In E2: on spheres four cones of pi; on other closed surfaces uniform; on open ones
+     * of genus 0 boundary; on open ones with handles auto, with |chi| cones, 4 to 64.
+     */
     RICCI_TARGET_DEFAULT = 0,
     /** The same curvature everywhere: 2 pi chi / V on a closed surface in E2, 0 in H2 and S2. */
     RICCI_TARGET_UNIFORM = 1,

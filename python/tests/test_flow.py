@@ -50,6 +50,8 @@ def test_targets_by_rule_by_mapping_and_by_value(genus2):
     assert by_name.report.cones.tolist() == [3, 200]
     assert start.fill("single:7")[7] == pytest.approx(-4 * np.pi)
     assert np.count_nonzero(np.abs(start.fill("auto:4")) > 1e-9) == 4
+    open_torus = ricci.metric(ricci.change(ricci.make("torus", n=24, m=12, a=2, b=1), "punch", count=1))
+    assert np.array_equal(open_torus.fill(None), open_torus.fill("auto:4"))
     with pytest.raises(ricci.ArgumentError, match="target 'autos:4'"):
         start.fill("autos:4")
 

@@ -18,7 +18,8 @@ use crate::geometry::Space;
 use crate::mesh::{Mesh, PerEdge, PerVertex, VertexId};
 use crate::metric::delaunay::{IntrinsicOptions, Triangulated, intrinsic_delaunay};
 use crate::metric::target::boundary_lengths;
-use crate::metric::{Class, Metric, initial_metric};
+use crate::metric::{Class, Metric, Surface, Target, initial_metric};
+use std::borrow::Cow;
 use std::f64::consts::PI;
 
 /// Most cones that are placed: the dense equations of more would take longer than the sparse ones of the surface.
@@ -99,6 +100,27 @@ pub fn auto_cones(mesh: &Mesh, lengths: &PerEdge<f64>, n: usize, control: &Contr
         place.boundary(lengths, mesh, &mut target)?;
     }
     Ok(AutoCones { cones, target, distortion })
+}
+
+/// A target on a surface with the cones of [`Target::Auto`] placed by [`auto_cones`]: a list of all vertices with curvature. Any other
+/// target as it is.
+///
+/// # Errors
+/// [`Error::TargetKind`] for [`Target::Auto`] in another space than E², or by lengths of another geometry; those of [`auto_cones`].
+pub fn with_cones_placed<'a>(
+    target: &'a Target,
+    surface: &Surface,
+    space: Space,
+    control: &Control,
+) -> Result<Cow<'a, Target>> {
+    let &Target::Auto(n) = target else { return Ok(Cow::Borrowed(target)) };
+    if [space, surface.geometry()] != [Space::E2; 2] {
+        let message = "cones are placed in e2, by Euclidean lengths".into();
+        return Err(Error::TargetKind { target: "auto", message });
+    }
+    let placed = auto_cones(surface.mesh(), surface.lengths(), n, control)?.target;
+    let curved = surface.mesh().vertices().filter(|&v| placed[v] != 0.0);
+    Ok(Cow::Owned(Target::Cones(curved.map(|v| (v, placed[v])).collect())))
 }
 
 /// Whether the surface can have `n` cones.

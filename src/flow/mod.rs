@@ -38,7 +38,7 @@ mod start;
 mod system;
 
 pub(crate) use active_set::{ActiveSet, Lent};
-pub use cones::{AutoCones, auto_cones};
+pub use cones::{AutoCones, auto_cones, with_cones_placed};
 pub use jacobian::curvature_derivative;
 pub use options::{Flips, Gradient, Method, Options, StepRule};
 pub use report::{Obstruction, Report, StopReason, TraceRow};

@@ -1,6 +1,7 @@
 //! One solve: from a target to a solution, by the method of the options, and back to where it was if it fails.
 
 use super::Flow;
+use super::cones::with_cones_placed;
 use super::early::Early;
 use super::evaluate::State;
 use super::options::Method;
@@ -33,10 +34,11 @@ impl Flow {
     /// Not reaching it is reported, not an error.
     ///
     /// # Errors
-    /// Those of [`Target::values`]; without pins a total that no metric can have ([`check_total`]); curvature that no angle can have
+    /// Those of [`with_cones_placed`] and [`Target::values`]; without pins a total that no metric can have ([`check_total`]); curvature that no angle can have
     /// ([`check_upper`]); [`Error::Cancelled`], [`Error::Factorisation`]: the flow is then where it was before.
     pub fn solve(&mut self, target: &Target, control: &Control) -> Result<Solution> {
         let (space, given) = (self.metric.space, self.given().clone());
+        let target = with_cones_placed(target, self.surface(), space, control)?;
         let mut values = target.values(self.surface(), space)?;
         given.vertices().filter(|v| self.pinned[v.index()]).for_each(|v| values[v] = 0.0);
         check_upper(&given, &values)?;

@@ -23,6 +23,9 @@ use std::f64::consts::PI;
 /// pass. What remains is shared out ([`settle_total`]).
 pub const TOTAL_TOLERANCE: f64 = 1e-10;
 
+/// Least and largest number of cones that are placed by default: each costs a few solutions of a linear system.
+const DEFAULT_CONES: [usize; 2] = [4, 64];
+
 /// A prescribed curvature (radians per vertex), by rule or by value.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Target {
@@ -33,6 +36,9 @@ pub enum Target {
     Boundary,
     /// E²: all of 2πχ at one vertex, 0 elsewhere.
     Single(VertexId),
+    /// E²: this many cones inside, placed with their curvatures so that a map that is flat elsewhere changes areas little. The flow
+    /// places them ([`crate::flow::with_cones_placed`]).
+    Auto(usize),
     /// The given curvatures, 0 at every other vertex.
     Cones(Vec<(VertexId, f64)>),
     /// The curvature of every vertex (V entries).
@@ -40,9 +46,10 @@ pub enum Target {
 }
 
 impl Target {
-    /// What is asked for when nothing is: `Boundary` on open surfaces in E², four cones of π on closed surfaces of
-    /// genus 0 in E² (V ≥ 4: vertex 0 and then, three times, the vertex farthest from those chosen, along edges),
-    /// `Uniform` otherwise.
+    /// The target of a surface for which none is asked for. In E²: `Boundary` on open surfaces of genus 0; `Auto` on open surfaces
+    /// with handles, |χ| cones from 4 to 64 (at most one per interior vertex; `Boundary` where there is none, or where the lengths
+    /// are not Euclidean), since few boundaries can bend by 2πχ alone; four cones of π on closed surfaces of genus 0 (V ≥ 4:
+    /// vertex 0 and then, three times, the vertex farthest from those chosen, along edges). `Uniform` otherwise.
     ///
     /// # Errors
     /// Those of [`topology::farthest_vertices`].
@@ -50,7 +57,10 @@ impl Target {
         let mesh = surface.mesh();
         Ok(match space {
             Space::H2 | Space::S2 => Target::Uniform,
-            Space::E2 if !mesh.is_closed() => Target::Boundary,
+            Space::E2 if !mesh.is_closed() => match default_cones(surface) {
+                0 => Target::Boundary,
+                n => Target::Auto(n),
+            },
             Space::E2 if mesh.euler() == 2 && mesh.n_vertices() >= 4 => {
                 let free = Control::new();
                 let cones = topology::farthest_vertices(mesh, surface.lengths(), VertexId(0), 4, &free)?;
@@ -66,6 +76,7 @@ impl Target {
             Target::Uniform => "uniform",
             Target::Boundary => "boundary",
             Target::Single(_) => "single",
+            Target::Auto(_) => "auto",
             Target::Cones(_) => "cones",
             Target::All(_) => "file",
         }
@@ -95,8 +106,8 @@ impl Target {
     /// The curvature of every vertex by this rule alone.
     ///
     /// # Errors
-    /// [`Error::TargetKind`] for a rule that does not exist on this surface in this space, or a vertex that does not exist;
-    /// [`Error::Size`].
+    /// [`Error::TargetKind`] for a rule that does not exist on this surface in this space, a vertex that does not exist, or `Auto`,
+    /// whose cones are not placed yet; [`Error::Size`].
     pub fn values(&self, surface: &Surface, space: Space) -> Result<PerVertex<f64>> {
         let mesh = surface.mesh();
         let n = mesh.n_vertices();
@@ -124,6 +135,7 @@ impl Target {
                 target[vertex(*v)?] = total;
                 target
             }
+            Target::Auto(_) => return Err(kind("its cones are still to be placed")),
             Target::Cones(cones) => {
                 let mut target = PerVertex::filled(n, 0.0);
                 for &(v, curvature) in cones {
@@ -137,6 +149,17 @@ impl Target {
             }
         })
     }
+}
+
+/// The number of cones of the default target of an open surface in E²; 0 where it has none.
+fn default_cones(surface: &Surface) -> usize {
+    let mesh = surface.mesh();
+    if mesh.genus() == 0 || surface.geometry() != Space::E2 {
+        return 0;
+    }
+    let inside = mesh.vertices().filter(|&v| !mesh.is_boundary_vertex(v)).count();
+    let [least, most] = DEFAULT_CONES;
+    mesh.euler().unsigned_abs().clamp(least, most).min(inside)
 }
 
 /// Necessary conditions on a target: [`check_vertices`] and [`check_total`]; for vertex scaling and inversive distance with

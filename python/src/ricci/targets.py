@@ -16,7 +16,8 @@ from ricci.errors import ArgumentError
 __all__ = ["TargetLike"]
 
 # What a flow takes as its target:
-#   None, "default"    closed, genus 1 and more: uniform; open: boundary; sphere: four cones of pi; in H2 and S2: uniform
+#   None, "default"    closed, genus 1 and more: uniform; sphere: four cones of pi; open: boundary, with handles "auto:N" with
+#                      N = |chi|, 4 to 64; in H2 and S2: uniform
 #   "uniform"          the same curvature everywhere
 #   "boundary"         0 inside, 2 pi chi shared over the boundary by length
 #   "single:V"         all curvature at vertex V

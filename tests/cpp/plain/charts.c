@@ -1,4 +1,5 @@
 /* Cones placed on a torus, and its layout in charts. */
+#include "samples.h"
 #include "torus.h"
 #include <ricci/uniformize.h>
 
@@ -36,6 +37,18 @@ int main(void) {
     OK(ricci_metric_new(mesh, RICCI_SCHEME_YAMABE, RICCI_SPACE_H2, &curved));
     FAILS(fill(curved, target_of(RICCI_TARGET_AUTO, NULL, NULL, 6), target, n), RICCI_TARGET_KIND, "e2");
 
+    /* An open torus has four of them by default. */
+    ricci_mesh *open = NULL;
+    ricci_metric *around = NULL;
+    OK(change(mesh, RICCI_CHANGE_PUNCH, 1, 0, 0, &open));
+    OK(ricci_metric_new(open, RICCI_SCHEME_YAMABE, RICCI_SPACE_E2, &around));
+    OK(fill(around, target_of(RICCI_TARGET_AUTO, NULL, NULL, 4), again, n));
+    OK(ricci_target_fill(around, NULL, NULL, target, n));
+    CHECK(memcmp(target, again, n * sizeof *target) == 0);
+    ricci_metric_free(around);
+    ricci_mesh_free(open);
+
+    OK(fill(metric, target_of(RICCI_TARGET_AUTO, NULL, NULL, 6), target, n));
     OK(flow_to(metric, target, n, NULL, NULL, &flat));
     OK(ricci_layout_new(flat, NULL, NULL, &layout));
     OK(ricci_layout_summarise(layout, &plane, sizeof plane));
