@@ -16,10 +16,12 @@ use crate::paths::{halfedges, vertex_or_none};
 use crate::report::stop_reason;
 use crate::status::*;
 use crate::structs::{self, sized};
-use ricci::canonical::{Quotient, QuotientOptions, Sphere, Uniformization, quotient_of, uniformize};
+use ricci::canonical::{
+    FlowedSphere, Quotient, QuotientOptions, Sphere, Uniformization, quotient_of, uniformize,
+};
 use ricci::embed::BoundaryLoop;
 use ricci::geometry::Model;
-use ricci::mesh::Mesh;
+use ricci::mesh::{Mesh, PerVertex, Point};
 use ricci::topology::FundamentalDomain;
 use std::ffi::c_char;
 use std::sync::Arc;
@@ -33,21 +35,24 @@ handle!(ricci_uniform, "uniform");
 #[derive(Clone)]
 pub(crate) enum CanonicalShape {
     Sphere(Arc<Sphere>),
+    FlowedSphere(Arc<FlowedSphere>),
     Quotient(Arc<Quotient>),
 }
 
 impl ricci_uniform {
-    fn sphere(&self) -> Outcome<&Arc<Sphere>> {
+    /// The vertices of a sphere.
+    fn sphere_positions(&self) -> Outcome<&PerVertex<Point>> {
         match &self.shape {
-            CanonicalShape::Sphere(sphere) => Ok(sphere),
-            _ => Err(Failure::new(RICCI_LAYOUT, "this surface is no sphere, but the quotient of a plane")),
+            CanonicalShape::Sphere(sphere) => Ok(&sphere.positions),
+            CanonicalShape::FlowedSphere(sphere) => Ok(&sphere.positions),
+            CanonicalShape::Quotient(_) => Err(Failure::new(RICCI_LAYOUT, "this surface is no sphere, but the quotient of a plane")),
         }
     }
 
     pub(crate) fn quotient(&self) -> Outcome<&Arc<Quotient>> {
         match &self.shape {
             CanonicalShape::Quotient(quotient) => Ok(quotient),
-            _ => Err(Failure::new(RICCI_LAYOUT, "this surface is a sphere, not the quotient of a plane")),
+            CanonicalShape::Sphere(_) | CanonicalShape::FlowedSphere(_) => Err(Failure::new(RICCI_LAYOUT, "this surface is a sphere, not the quotient of a plane")),
         }
     }
 }
@@ -145,6 +150,17 @@ pub unsafe extern "C" fn ricci_uniformize(
                 let metric = ricci_metric::at(sphere.metric.clone(), None)?;
                 Ok(ricci_uniform { shape: CanonicalShape::Sphere(Arc::new(*sphere)), metric })
             }
+            Uniformization::FlowedSphere(sphere) => {
+                let report = &sphere.report;
+                log::info!(
+                    "uniformize: flow in S2 {} after {} iterations, max |K| = {:.1e}",
+                    report.stop_reason,
+                    report.iterations,
+                    report.max_curvature_error
+                );
+                let metric = ricci_metric::at(sphere.metric.clone(), Some(report.clone()))?;
+                Ok(ricci_uniform { shape: CanonicalShape::FlowedSphere(Arc::new(*sphere)), metric })
+            }
         }
     })
 }
@@ -184,6 +200,10 @@ pub unsafe extern "C" fn ricci_uniform_summarise(
                 sphere_figures(sphere, &mut figures);
                 sphere.report.stop_reason
             }
+            CanonicalShape::FlowedSphere(sphere) => {
+                flowed_sphere_figures(sphere, &mut figures)?;
+                sphere.report.stop_reason
+            }
             CanonicalShape::Quotient(quotient) => {
                 quotient_figures(quotient, &mut figures);
                 quotient.report.stop_reason
@@ -219,6 +239,22 @@ fn sphere_figures(sphere: &Sphere, figures: &mut ricci_uniform_summary) {
         off_centre: report.centring,
         ..*figures
     };
+}
+
+fn flowed_sphere_figures(sphere: &FlowedSphere, figures: &mut ricci_uniform_summary) -> Outcome<()> {
+    let FlowedSphere { metric, report, root, .. } = sphere;
+    *figures = ricci_uniform_summary {
+        base: root.0,
+        converged: report.converged().into(),
+        iterations: report.iterations,
+        max_curvature_error: report.max_curvature_error,
+        angle_defect: report.max_curvature_error,
+        gauss_bonnet: report.gauss_bonnet,
+        area: 4.0 * std::f64::consts::PI,
+        smallest_edge: metric.metric().lengths(metric.mesh())?.iter().copied().fold(f64::INFINITY, f64::min),
+        ..*figures
+    };
+    Ok(())
 }
 
 fn quotient_figures(quotient: &Quotient, figures: &mut ricci_uniform_summary) {
@@ -381,10 +417,11 @@ pub unsafe extern "C" fn ricci_sphere_points(
     capacity: usize,
 ) -> ricci_status {
     guard::with(uniform, |uniform| {
-        let sphere = uniform.sphere()?;
-        match MODELS.choose(model)? {
-            Model::Hyperboloid => copy_out("points", &sphere.positions, points, capacity),
-            _ => copy_out("points", &sphere.plane, points, capacity),
+        let positions = uniform.sphere_positions()?;
+        match (MODELS.choose(model)?, &uniform.shape) {
+            (Model::Hyperboloid, _) => copy_out("points", positions, points, capacity),
+            (_, CanonicalShape::Sphere(sphere)) => copy_out("points", &sphere.plane, points, capacity),
+            _ => Err(Failure::new(RICCI_LAYOUT, "no plane lies under this sphere: take RICCI_MODEL_AMBIENT")),
         }
     })
 }
@@ -398,9 +435,9 @@ pub unsafe extern "C" fn ricci_sphere_mesh(
 ) -> ricci_status {
     guard::make(mesh, || {
         let uniform = shared(uniform)?;
-        let (sphere, state) = (uniform.sphere()?, &uniform.metric.0);
+        let (positions, state) = (uniform.sphere_positions()?, &uniform.metric.0);
         let on = ON.choose(on)?;
-        let own = || ricci_mesh::in_space(state.solution.mesh().clone(), Arc::new(sphere.positions.to_vec()));
+        let own = || ricci_mesh::in_space(state.solution.mesh().clone(), Arc::new(positions.to_vec()));
         if on == Triangulation::Input {
             return Err(Failure::new(
                 RICCI_LAYOUT,
@@ -410,7 +447,7 @@ pub unsafe extern "C" fn ricci_sphere_mesh(
         Ok(match state.refinement(&control::of(control))?.filter(|_| on == Triangulation::Refinement) {
             Some(refinement) => {
                 // A combination of the ends of an edge, as vectors, has the direction of its point on the arc between them.
-                let mut points = refinement.from_final_vertices(&sphere.positions)?;
+                let mut points = refinement.from_final_vertices(positions)?;
                 for p in points.iter_mut().skip(refinement.n_input_vertices) {
                     let norm = p[0].hypot(p[1]).hypot(p[2]);
                     *p = p.map(|x| x / norm);

@@ -91,7 +91,7 @@ typedef struct ricci_uniform_options {
     size_t size;
     /**
      * How the flow is done; NULL: its defaults. A sphere takes tolerance, max_iterations (of all its flows)
-     * and threads.
+     * and threads; with RICCI_METHOD_GRADIENT it flows in S2 itself, with all of them and in any scheme.
      */
     const ricci_flow_options *flow;
     /**
@@ -101,10 +101,11 @@ typedef struct ricci_uniform_options {
     const ricci_metric *start;
     /**
      * The vertex at a quotient's origin, where the loops of its homotopy basis meet; of a sphere the vertex
-     * that is sent to infinity. NULL: one from which no vertex is far; one from which sizes differ least.
+     * that is sent to infinity, or where the layout of one that flows in S2 starts. NULL: one from which no
+     * vertex is far; one from which sizes differ least; vertex 0.
      */
     const uint32_t *base;
-    /** RICCI_SCHEME_*; spheres have RICCI_SCHEME_YAMABE. */
+    /** RICCI_SCHEME_*; spheres have RICCI_SCHEME_YAMABE, but for those that flow in S2. */
     uint32_t scheme;
     /** 0. */
     uint32_t reserved;
@@ -137,7 +138,10 @@ typedef struct ricci_uniform_summary {
      * sides.
      */
     uint32_t space;
-    /** The base vertex: at the origin of a quotient, at infinity of the plane under a sphere. */
+    /**
+     * The base vertex: at the origin of a quotient, at infinity of the plane under a sphere, where the
+     * layout of a sphere starts that has flowed in S2.
+     */
     uint32_t base;
     /**
      * 1 if the curvature is within the tolerance and no triangle is broken; of a sphere also every edge
@@ -156,7 +160,7 @@ typedef struct ricci_uniform_summary {
     size_t n_flips;
     /** Edge flips before them, which change no distance on the surface. */
     size_t n_start_flips;
-    /** Largest |K| that the flow has left, of a sphere in the plane under it, radians. */
+    /** Largest |K| that the flow has left, of a sphere in the plane under it (if there is one), radians. */
     double max_curvature_error;
     /**
      * Largest |K| of the metric, of a quotient after corrections in double-double precision, radians.
@@ -241,8 +245,9 @@ typedef struct ricci_uniform_summary {
  *
  * Genus 0: the polyhedron whose edges, after flips, are chords with lengths in the conformal class of the
  * surface; its vertices are moved by the Moebius transformation after which their mean is the centre, each
- * weighed with one third of the area of the given faces at it: they are determined up to a rotation. Genus 1:
- * flat, with the area of the given surface; more: hyperbolic. If the flow has not converged, the other
+ * weighed with one third of the area of the given faces at it: they are determined up to a rotation. With
+ * RICCI_METHOD_GRADIENT the surface flows in S2, on its own triangulation, and is laid out from the base.
+ * Genus 1: flat, with the area of the given surface; more: hyperbolic. If the flow has not converged, the other
  * results are as accurate as the metric. Deterministic.
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE, RICCI_ARGUMENT (no such vertex; a sphere of less
  * than four vertices or in another scheme; a corner that is not on the boundary), RICCI_LAYOUT (geodesics
@@ -279,7 +284,8 @@ RICCI_API ricci_status ricci_uniform_summarise(const ricci_uniform *uniform, ric
                                                size_t size);
 
 /**
- * The metric of constant curvature; of a quotient with the report of its flow.
+ * The metric of constant curvature; of a quotient, and of a sphere that has flowed in S2, with the report of
+ * the flow.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER.
  *
@@ -385,7 +391,7 @@ RICCI_API ricci_status ricci_uniform_lift(const ricci_uniform *uniform, const in
  * 1) have far more digits.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT, RICCI_LAYOUT (not a
- * sphere).
+ * sphere; the plane under one that has flowed in S2).
  *
  * @param uniform   the uniformization, of a sphere.
  * @param model     RICCI_MODEL_AMBIENT: unit vectors; else the plane (ricci_to_plane), infinite at the

@@ -27,6 +27,14 @@ def test_the_modulus_of_a_torus_of_revolution():
     assert errors[1] < 0.3 * errors[0] < 0.02
 
 
+def test_a_sphere_flows_in_its_own_space():
+    found = ricci.uniformize(ricci.make("ellipsoid", n=4, a=1, b=1.2, c=0.9), flow={"method": "gradient"})
+    assert found.converged and found.metric.report.converged and found.summary.n_tried == 0
+    np.testing.assert_allclose(np.linalg.norm(found.sphere_points(), axis=1), 1, atol=1e-12)
+    with pytest.raises(ricci.LayoutError, match="plane"):
+        found.sphere_points("poincare")
+
+
 def test_a_sphere_lies_on_the_unit_sphere():
     found = ricci.uniformize(ricci.make("ellipsoid", n=6, a=2, b=1, c=1), flow={"tolerance": 1e-11})
     points = found.sphere_points()

@@ -11,13 +11,15 @@ mod known;
 use check::{check, finger, on_sphere, rough, run, same_up_to_moebius, surface};
 use common::Random;
 use common::flips::{measure, shuffle};
-use ricci::canonical::{Sphere, SphereOptions, SphereReport, uniformize_sphere};
-use ricci::flow::{Seconds, StopReason};
+use ricci::canonical::{
+    QuotientOptions, Sphere, SphereOptions, SphereReport, Uniformization, flow_to_sphere, uniformize, uniformize_sphere,
+};
+use ricci::flow::{Method, Options, Seconds, StopReason};
 use ricci::geometry::Space;
 use ricci::geometry::vector::dot;
 use ricci::mesh::shapes::{self, IntrinsicSurface};
 use ricci::mesh::{Mesh, PerEdge, VertexId, io};
-use ricci::metric::lengths_from_positions;
+use ricci::metric::{Scheme, lengths_from_positions};
 use ricci::{Control, Error, Surface};
 
 /// A report but for its times.
@@ -43,6 +45,23 @@ fn generated_shapes_become_convex_spheres() {
         let sphere = run(&mesh, &lengths, &SphereOptions::default()).unwrap();
         check(&sphere, &mesh, &lengths, name);
     }
+}
+
+#[test]
+fn the_flow_in_s2_ends_at_the_sphere_over_the_plane_up_to_a_moebius_transformation() {
+    let (mesh, lengths) = surface(&shapes::ellipsoid([1.0, 1.2, 0.9], 8).unwrap());
+    let given = Surface::intrinsic(mesh.clone(), lengths.clone(), Space::E2).unwrap();
+    let flow = Options { method: Method::Gradient, ..Options::default() };
+    let how = QuotientOptions { base: Some(VertexId(5)), flow, ..QuotientOptions::default() };
+    let Uniformization::FlowedSphere(flowed) = uniformize(&given, &how, &Control::new()).unwrap() else {
+        panic!("the flow in S²")
+    };
+    assert!(flowed.report.converged() && flowed.root == VertexId(5));
+    let over_plane = run(&mesh, &lengths, &SphereOptions::default()).unwrap();
+    same_up_to_moebius(&flowed.positions, &over_plane.positions, 1e-6, "ellipsoid");
+    let torus = Surface::from_soup(&shapes::torus(2.0, 1.0, 12, 8).unwrap()).unwrap();
+    let refused = flow_to_sphere(&torus, Scheme::Yamabe, None, &how.flow, &Control::new());
+    assert!(matches!(refused, Err(Error::Argument { what: "surface", .. })));
 }
 
 #[test]

@@ -149,6 +149,7 @@ fn uniform(case: &Case, threads: usize) -> Found {
         Uniformization::Sphere(s) => {
             vec![("cross_ratios", cross_ratios(&s.positions, &indices(&case.json["mesh"]["faces"])))]
         }
+        Uniformization::FlowedSphere(_) => vec![],
     }
 }
 

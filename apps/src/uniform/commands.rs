@@ -10,7 +10,6 @@ use super::summary;
 use crate::delivery::Delivery;
 use crate::failure::Failure;
 use crate::input::{self, Input};
-use crate::options::MethodChoice;
 use crate::progress::Progress;
 use crate::report::{Done, timed};
 use ricci::Control;
@@ -61,14 +60,10 @@ fn base(input: &Input, args: &CanonicalArgs) -> Result<Option<VertexId>, Failure
     }
 }
 
-/// Uniformize a surface: by the library's one call, but for the paper's flow of spheres.
+/// The surface uniformized by the library.
 fn shape(task: &Task<'_>) -> Result<Shape, Failure> {
     let Task { input, args, control, .. } = *task;
     let (base, mut taken) = (base(input, args)?, 0.0);
-    if input.mesh().euler() > 1 && args.to.solve.method == MethodChoice::Gradient {
-        let found = timed(&mut taken, || flowed(task, base))?;
-        return Ok(Shape::Sphere(Box::new(Round::new(task, found, taken)?)));
-    }
     let options = QuotientOptions {
         scheme: args.to.solve.scheme.into(),
         base,
@@ -78,6 +73,9 @@ fn shape(task: &Task<'_>) -> Result<Shape, Failure> {
     Ok(match timed(&mut taken, || canonical::uniformize(&input.surface, &options, control))? {
         Uniformization::Sphere(sphere) => {
             Shape::Sphere(Box::new(Round::new(task, punctured(*sphere), taken)?))
+        }
+        Uniformization::FlowedSphere(sphere) => {
+            Shape::Sphere(Box::new(Round::new(task, flowed(*sphere), taken)?))
         }
         Uniformization::Quotient(quotient) => {
             Shape::Quotient(Box::new(Uniformized::new(task, *quotient, taken)?))

@@ -4,14 +4,13 @@ use super::needs::Task;
 use crate::failure::{Failure, known, told};
 use crate::report::{Checks, Seconds, timed};
 use crate::solved::Solved;
-use ricci::canonical::{Sphere, SphereReport};
-use ricci::embed::{Layout, layout_of};
-use ricci::flow::{Report, Solution, flow};
+use ricci::canonical::{FlowedSphere, Sphere, SphereReport};
+use ricci::embed::Layout;
+use ricci::flow::{Report, Solution};
 use ricci::geometry::vector::{add, distance, dot, triangle_normal};
-use ricci::geometry::{Space, worse};
-use ricci::mesh::{FaceId, Mesh, PerVertex, Point, VertexId};
+use ricci::geometry::worse;
+use ricci::mesh::{FaceId, Mesh, PerVertex, Point};
 use ricci::metric::Refinement;
-use ricci::{Class, Target};
 
 /// Most that an angle may miss the Delaunay condition of an edge, or convexity of the plane's outline, radians: ten times the
 /// default tolerance of the flow whose curvature errors it consists of.
@@ -48,27 +47,16 @@ pub struct Round {
 /// How a sphere was found, its metric, and where its vertices are.
 pub type Found = (Way, Solution, PerVertex<Point>);
 
-/// What [`ricci::canonical::uniformize()`] found.
+/// A sphere that was found by a puncture.
 pub fn punctured(sphere: Sphere) -> Found {
     let Sphere { metric, positions, report, .. } = sphere;
     (Way::Puncture(Box::new(report)), metric, positions)
 }
 
-/// By the gradient flow in S², laid out from a vertex.
-pub fn flowed(task: &Task<'_>, base: Option<VertexId>) -> Result<Found, Failure> {
-    let Task { input, args, control, .. } = *task;
-    let class = Class::new(args.to.solve.scheme.into(), Space::S2);
-    let metric = flow(input.surface.clone(), class, &Target::Uniform, &args.to.options(), control)?;
-    let Some(report) = metric.report().cloned() else {
-        return Err(Failure::Failed("the flow has left no report".into()));
-    };
-    let root = base.unwrap_or(VertexId(0));
-    let layout = layout_of(metric.mesh(), metric.metric(), Some(root), None, control)?;
-    let mut positions = PerVertex::filled(input.mesh().n_vertices(), [0.0, 0.0, 1.0]);
-    for h in metric.mesh().halfedges().filter(|&h| !metric.mesh().is_outside(h)) {
-        positions[metric.mesh().origin(h)] = layout.corner(h);
-    }
-    Ok((Way::Flow(Box::new(report), Box::new(layout)), metric, positions))
+/// A sphere that was found by the gradient flow in S².
+pub fn flowed(sphere: FlowedSphere) -> Found {
+    let FlowedSphere { metric, report, layout, positions, .. } = sphere;
+    (Way::Flow(Box::new(report), Box::new(layout)), metric, positions)
 }
 
 impl Round {

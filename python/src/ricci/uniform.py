@@ -29,10 +29,11 @@ class UniformOptions(TypedDict, total=False):
     """Options of a uniformization.
 
     Attributes:
-        flow: how the flow is done; a sphere takes tolerance, max_iterations and threads.
+        flow: how the flow is done; a sphere takes tolerance, max_iterations and threads, or with the method ``"gradient"``, by which it
+            flows in S2, all of them.
         start: where the flow starts, such as another flow's result.
         base: the vertex at a quotient's origin; of a sphere that which is sent to infinity.
-        scheme: spheres have ``"yamabe"``.
+        scheme: spheres have ``"yamabe"``, but for those that flow in S2.
         boundary: the shape that the boundary is given: ``"geodesic"`` loops, or ``"straight"`` sides between corners.
         corners: vertices of the boundary, for straight sides; a number of them: as many are chosen.
         corner_angles: angles inside the corners, radians; 0: those without one share what is left.
@@ -87,7 +88,7 @@ class Uniform(Handle):
 
     @cached_property
     def metric(self) -> Metric:
-        """The metric of constant curvature; of a quotient with the report of its flow."""
+        """The metric of constant curvature; of a quotient, and of a sphere that has flowed in S2, with the report of the flow."""
         return Metric._made(lib.ricci_uniform_metric, self)
 
     @cached_property
@@ -133,7 +134,7 @@ class Uniform(Handle):
         """The vertices of a sphere as unit vectors (n x 3), or in the plane under it (n x 2), infinite at the base.
 
         Raises:
-            LayoutError: not a sphere.
+            LayoutError: not a sphere; the plane under one that has flowed in S2.
         """
         shape = (self.metric.summary.n_vertices, 3 if model == "ambient" else 2)
         return doubles(lib.ricci_sphere_points, self, constant("MODEL", model), shape=shape)

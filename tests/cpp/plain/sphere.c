@@ -155,6 +155,39 @@ static void any_threads_give_the_same_bits_and_options_count(void) {
     ricci_uniform_free(from_7), ricci_mesh_free(mesh), ricci_mesh_free(measured);
 }
 
+/* By the gradient flow in S2: on the given triangulation, with a report, without a plane. */
+static void spheres_flow_in_their_own_space(void) {
+    ricci_mesh *mesh = NULL, *ball = NULL;
+    ricci_uniform *sphere = NULL;
+    ricci_metric *metric = NULL;
+    ricci_uniform_options options;
+    ricci_flow_options flow;
+    ricci_uniform_summary s;
+    ricci_report_summary report;
+    const uint32_t five = 5;
+    double *plane;
+    INIT(options), INIT(flow);
+    flow.method = RICCI_METHOD_GRADIENT;
+    options.flow = &flow, options.base = &five, options.scheme = RICCI_SCHEME_INVERSIVE;
+    OK(make_sized(RICCI_SHAPE_ELLIPSOID, 6, 0, 1, 0.9, 1.2, &mesh));
+    OK(ricci_uniformize(mesh, &options, NULL, &sphere));
+    OK(ricci_uniform_summarise(sphere, &s, sizeof s));
+    CHECK(s.converged && s.base == 5 && s.space == RICCI_SPACE_S2 && s.angle_defect < 1e-9);
+    CHECK(s.n_flips == 0 && s.n_tried == 0 && s.smallest_edge > 0);
+    OK(ricci_uniform_metric(sphere, &metric));
+    OK(ricci_report_summarise(metric, &report, sizeof report));
+    CHECK(report.iterations == s.iterations && report.converged);
+    OK(ricci_sphere_mesh(sphere, RICCI_ON_METRIC, NULL, &ball));
+    arrays b = arrays_of(ball, 1);
+    for (size_t f = 0; f < b.n.n_faces; f++) CHECK(cone(b.positions, b.faces + 3 * f) > 0);
+    free(positions_of(sphere, b.n.n_vertices));
+    plane = (double *)room(2 * b.n.n_vertices, sizeof *plane);
+    FAILS(ricci_sphere_points(sphere, RICCI_MODEL_POINCARE, plane, 2 * b.n.n_vertices), RICCI_LAYOUT,
+          "RICCI_MODEL_AMBIENT");
+    free(plane), arrays_free(&b);
+    ricci_metric_free(metric), ricci_uniform_free(sphere), ricci_mesh_free(mesh), ricci_mesh_free(ball);
+}
+
 static void what_is_no_sphere_is_refused(void) {
     ricci_mesh *ball = NULL, *three = NULL, *two = NULL, *none_mesh = NULL;
     ricci_uniform *none = NULL, *sphere = NULL;
@@ -206,6 +239,7 @@ int main(void) {
     round_spheres_come_back();
     metric_polyhedron_and_refinement_agree();
     any_threads_give_the_same_bits_and_options_count();
+    spheres_flow_in_their_own_space();
     what_is_no_sphere_is_refused();
     return 0;
 }
