@@ -4,12 +4,13 @@
 mod surfaces;
 
 use ricci::embed::quality::DILATATION_CAP;
-use ricci::embed::{Layout, Quality, layout};
+use ricci::embed::{CirclePattern, Layout, Quality, UnrollOptions, layout, layout_of, unroll};
+use ricci::flow::{Options, flow};
 use ricci::geometry::{PlaneIsometry, Space, vector};
 use ricci::mesh::{EdgeId, FaceId, Mesh, PerEdge, VertexId, shapes};
 use ricci::metric::Refinement;
 use ricci::topology::cut_graph;
-use ricci::{Class, Control, Error, Solution, Surface};
+use ricci::{Class, Control, Error, Solution, Surface, Target};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::sync::Arc;
 use surfaces::*;
@@ -357,4 +358,33 @@ fn what_cannot_be_laid_out_is_refused_by_name() {
     let control = Control::new();
     control.cancel();
     assert_eq!(layout(&mesh, &lengths, &good, &control), Err(Error::Cancelled));
+}
+
+#[test]
+fn dual_circles_are_orthogonal_to_vertex_circles_with_and_without_flips() {
+    let free = Control::new();
+    for n in [3, 9] {
+        let sphere = Surface::from_soup(&shapes::ellipsoid([1.0, 2.0, 0.4], n).unwrap()).unwrap();
+        let target = Target::default_for(&sphere, Space::E2).unwrap();
+        let flat = flow(sphere, Class::inversive(Space::E2), &target, &Options::default(), &free).unwrap();
+        let layout = unroll(&flat, &UnrollOptions::default(), &free).unwrap();
+        let pattern = CirclePattern::new(&layout, flat.mesh(), flat.metric()).unwrap();
+        assert_eq!(pattern.dual_circles.len(), flat.mesh().n_faces());
+        let power_at = |p: [f64; 2], v: VertexId| {
+            let circles = pattern.vertex_circles.iter().filter(|c| c.vertex == v);
+            circles.map(|c| distance(p, c.center).powi(2) - c.radius * c.radius).collect::<Vec<_>>()
+        };
+        for (f, circle) in &pattern.dual_circles {
+            for v in flat.mesh().face_vertices(*f) {
+                let powers = power_at(circle.center, v);
+                let near = |p: &f64| (p - circle.power).abs() < 1e-7 * (1.0 + circle.power.abs());
+                assert!(powers.iter().any(near), "face {f}, vertex {v}: {powers:?}, {}", circle.power);
+            }
+        }
+    }
+    let sphere = Surface::from_soup(&shapes::genus(2, 3).unwrap()).unwrap();
+    let curved = Solution::initial_of(sphere, Class::inversive(Space::H2)).unwrap();
+    let mesh = curved.mesh();
+    let layout = layout_of(mesh, curved.metric(), None, None, &free).unwrap();
+    assert!(matches!(CirclePattern::new(&layout, mesh, curved.metric()), Err(Error::Layout(_))));
 }

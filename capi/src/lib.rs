@@ -38,6 +38,7 @@ mod thread_failure;
 pub mod atlas;
 pub mod bicubic;
 pub mod circle_domain;
+pub mod circles;
 pub mod control;
 pub mod deck;
 pub mod dirichlet;

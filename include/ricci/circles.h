@@ -1,4 +1,4 @@
-/* ricci: circle domains, surfaces with boundary whose loops are circles.
+/* ricci: circle domains, surfaces with boundary whose loops are circles; and the circle patterns of layouts.
  *
  * SPDX-License-Identifier: MIT OR Apache-2.0
  *
@@ -159,6 +159,33 @@ RICCI_API ricci_status ricci_circle_domain_mesh(const ricci_circle_domain *domai
  */
 RICCI_API ricci_status ricci_circle_domain_layout(const ricci_circle_domain *domain, uint32_t model,
                                                   ricci_layout **layout);
+
+/** The circles of a layout in E2. */
+enum {
+    /**
+     * Per point of the layout, the circle of its vertex: a real one in the circle schemes, of radius 0 with
+     * vertex scaling, of imaginary radius in RICCI_SCHEME_VIRTUAL.
+     */
+    RICCI_CIRCLES_VERTICES = 0,
+    /** Per face of the metric's triangulation, the circle orthogonal to those of its vertices. */
+    RICCI_CIRCLES_FACES = 1
+};
+
+/**
+ * The circle pattern of a layout in the plane.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT, RICCI_LAYOUT (another space than
+ * E2), RICCI_DOMAIN (a radius that no double holds).
+ *
+ * @param layout    the layout.
+ * @param which     RICCI_CIRCLES_*.
+ * @param circles   out: rows of three: the centre and the square of the radius, negative where that is
+ *                  imaginary; NaN where there is none: at a crossing of the refinement, of a face that is not
+ *                  laid out or has no area. n_points x 3, or n_faces of the metric x 3.
+ * @param capacity  entries of `circles`.
+ */
+RICCI_API ricci_status ricci_layout_circles(const ricci_layout *layout, uint32_t which, double *circles,
+                                            size_t capacity);
 
 #ifdef __cplusplus
 }

@@ -29,6 +29,12 @@ public:
     }
 };
 
+// Centre and squared radius of each circle of a layout in the plane: RICCI_CIRCLES_*.
+inline std::vector<double> circle_pattern(const layout &of_layout,
+                                          std::uint32_t which = RICCI_CIRCLES_VERTICES) {
+    return values<double>(ricci_layout_circles, of_layout.get(), which);
+}
+
 } // namespace ricci
 
 #endif

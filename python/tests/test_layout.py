@@ -126,3 +126,12 @@ def test_a_cut_goes_through_chosen_cones(torus):
     plain, cut = ricci.layout(flat, cones=[]), ricci.layout(flat, cones=[0, 300], root=410)
     assert len(cut.seams) > len(plain.seams)
     assert np.allclose(cut.points()[cut.corners()[torus.F == 410]], 0)
+
+
+def test_circles_of_faces_are_orthogonal_to_those_of_their_corners():
+    flat = ricci.flow(ricci.make("disk", n=5), scheme="tangential", flips="never")
+    layout = ricci.layout(flat)
+    points, faces = layout.circle_pattern(), layout.circle_pattern("faces")
+    corners = points[layout.corners("metric")]
+    distances = ((corners[:, :, :2] - faces[:, None, :2]) ** 2).sum(2)
+    np.testing.assert_allclose(distances, corners[:, :, 2] + faces[:, None, 2], atol=1e-9)

@@ -5,7 +5,7 @@ pub(crate) mod apart;
 pub mod border;
 mod chart_growth;
 pub mod charts;
-
+pub mod circles;
 pub mod cover;
 pub mod deck;
 mod develop;
@@ -33,6 +33,7 @@ mod walk;
 
 pub use border::Border;
 pub use charts::{ChartOptions, Charts, charts};
+pub use circles::{CirclePattern, VertexCircle};
 pub use deck::DeckGroup;
 pub use dirichlet::dirichlet_domain;
 pub use domain::DirichletDomain;

@@ -122,6 +122,15 @@ class Layout(Handle):
         call(lib.ricci_layout_distortion, self, constant("ON", on), pointer(qc), pointer(ratio), qc.size)
         return qc, ratio
 
+    def circle_pattern(self, which: Literal["vertices", "faces"] = "vertices") -> Doubles:
+        """The circle pattern of a layout in the plane: centre and squared radius of each circle, n x 3.
+
+        Args:
+            which: the circles of the vertices, one per point of the layout; or those of the faces of the metric's triangulation, orthogonal
+                to the circles of their corners. NaN where there is none.
+        """
+        return np.asarray(listed(lib.ricci_layout_circles, self, constant("CIRCLES", which), dtype=float)).reshape(-1, 3)
+
     @cached_property
     def seams(self) -> list[Seam]:
         """The seams with their isometries."""

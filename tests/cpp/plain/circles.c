@@ -87,7 +87,40 @@ static void holes_of_a_sphere_become_round(void) {
     ricci_mesh_free(mesh), ricci_mesh_free(sphere);
 }
 
+/* The circle of a face is orthogonal to those of its corners. */
+static void circles_of_a_layout_are_orthogonal(void) {
+    ricci_mesh *mesh = NULL;
+    ricci_metric *metric = NULL, *flat = NULL;
+    ricci_layout *layout = NULL;
+    ricci_layout_summary s;
+    ricci_flow_options rigid;
+    INIT(rigid);
+    rigid.flips = RICCI_FLIPS_NEVER;
+    OK(make_disk(5, &mesh));
+    OK(ricci_metric_new(mesh, RICCI_SCHEME_TANGENTIAL, RICCI_SPACE_E2, &metric));
+    OK(ricci_flow(metric, NULL, &rigid, NULL, &flat));
+    OK(ricci_layout_new(flat, NULL, NULL, &layout));
+    OK(ricci_layout_summarise(layout, &s, sizeof s));
+    double *of_points = (double *)room(3 * s.n_points, sizeof *of_points);
+    double *of_faces = (double *)room(3 * s.n_faces, sizeof *of_faces);
+    uint32_t *corners = (uint32_t *)room(3 * s.n_faces, sizeof *corners);
+    OK(ricci_layout_circles(layout, RICCI_CIRCLES_VERTICES, of_points, 3 * s.n_points));
+    OK(ricci_layout_circles(layout, RICCI_CIRCLES_FACES, of_faces, 3 * s.n_faces));
+    OK(ricci_layout_corners(layout, RICCI_ON_METRIC, corners, 3 * s.n_faces));
+    for (size_t a = 0; a < 3 * s.n_faces; a++) {
+        const double *c = of_faces + 3 * (a / 3), *p = of_points + 3 * (size_t)corners[a];
+        const double d = hypot(c[0] - p[0], c[1] - p[1]);
+        CHECK(p[2] > 0 && fabs(d * d - c[2] - p[2]) < 1e-9 * (1 + d * d));
+    }
+    FAILS(ricci_layout_circles(layout, 2, of_points, 3 * s.n_points), RICCI_ARGUMENT, "which");
+    FAILS(ricci_layout_circles(layout, RICCI_CIRCLES_FACES, of_faces, 3), RICCI_BUFFER_TOO_SMALL, "circles");
+    FAILS(ricci_layout_circles(NULL, RICCI_CIRCLES_FACES, of_faces, 3), RICCI_NULL_POINTER, "layout");
+    free(of_points), free(of_faces), free(corners);
+    ricci_layout_free(layout), ricci_metric_free(flat), ricci_metric_free(metric), ricci_mesh_free(mesh);
+}
+
 int main(void) {
+    circles_of_a_layout_are_orthogonal();
     an_annulus_has_its_modulus();
     holes_of_a_sphere_become_round();
     return 0;
