@@ -8,7 +8,7 @@ use crate::output::{Outputs, check_extension, check_outputs};
 use crate::picture::SurfacePictureArgs;
 use crate::report::{Checks, Counts, InputSummary, Report, Seconds, timed};
 use crate::say::{self, count, size};
-use crate::shape_quality::{self, ShapeQuality};
+use crate::shape_quality::QualityFigures;
 use crate::show;
 use clap::Args;
 use ricci::Control;
@@ -17,7 +17,8 @@ use ricci::control::Stage;
 use ricci::geometry::triangle;
 use ricci::mesh::check::{Defect, Diagnosis, diagnose};
 use ricci::mesh::io::Soup;
-use ricci::mesh::{FaceId, Mesh};
+use ricci::mesh::FaceId;
+use ricci::metric::ShapeQuality;
 use serde::Serialize;
 use std::path::Path;
 use std::time::Instant;
@@ -44,7 +45,7 @@ pub struct InfoArgs {
 struct Info {
     /// The other commands accept the file as it is.
     admissible: bool,
-    quality: ShapeQuality,
+    quality: QualityFigures,
     #[serde(flatten)]
     defects: Defects,
 }
@@ -153,11 +154,10 @@ pub fn run(args: &InfoArgs, control: &Control) -> Result<u8, Failure> {
 /// What a list of triangles is.
 fn of_soup(soup: &Soup) -> (Counts, Info) {
     let diagnosis = diagnose(&soup.positions, &soup.faces);
-    let quality = || shape_quality::of_triangles(&soup.positions, &soup.faces);
     let quality = match input::out_of_range(soup) {
         // Angles and areas of such faces say nothing.
-        Some(_) => shape_quality::of_triangles(&[], &[]),
-        None => shape_of(soup).unwrap_or_else(quality),
+        Some(_) => ShapeQuality::of_soup(&Soup::default()),
+        None => ShapeQuality::of_soup(soup),
     };
     (Counts::from(&diagnosis), Info::new(Defects::of(soup, &diagnosis), quality))
 }
@@ -167,7 +167,7 @@ fn of_metric(path: &Path, text: &str) -> Result<(Counts, Info), Failure> {
     match metric_file::parse(path, text, None) {
         Ok(surface) => Ok((Counts::from(&**surface.mesh()), Info::of_metric(&surface))),
         Err(Failure::Defects(diagnosis) | Failure::Unglued(diagnosis)) => {
-            let quality = shape_quality::of_triangles(&[], &[]);
+            let quality = ShapeQuality::of_soup(&Soup::default());
             Ok((Counts::from(&*diagnosis), Info::new(Defects::from(&*diagnosis), quality)))
         }
         Err(failure) => Err(failure),
@@ -190,18 +190,12 @@ impl Info {
         let list: Vec<_> = mesh.faces().filter(broken).map(defect).collect();
         let count = DefectCount { code: "triangle_inequality", count: list.len() };
         let counts = if list.is_empty() { Vec::new() } else { vec![count] };
-        Info::new(Defects { counts, list }, shape_quality::of_surface(surface))
+        Info::new(Defects { counts, list }, ShapeQuality::of_surface(surface))
     }
 
     fn new(defects: Defects, quality: ShapeQuality) -> Self {
-        Info { admissible: defects.list.is_empty(), quality, defects }
+        Info { admissible: defects.list.is_empty(), quality: quality.into(), defects }
     }
-}
-
-/// Quality of a triangle list that is a surface.
-fn shape_of(soup: &Soup) -> Option<ShapeQuality> {
-    let mesh = Mesh::from_faces(soup.positions.len(), &soup.faces).ok()?;
-    Some(shape_quality::of_surface(&Surface::in_space(mesh, soup.positions.clone()).ok()?))
 }
 
 /// Defects of one kind that are printed one by one; the report has them all.

@@ -7,13 +7,14 @@ use crate::output::{Outputs, check_extension, check_outputs, extension, format_o
 use crate::report::{Checks, Counts, InputSummary, Report, Seconds};
 use crate::say::{self, count};
 use crate::shape::{Shape, ToMesh, ToMetric};
-use crate::shape_quality::{self, ShapeQuality};
+use crate::shape_quality::QualityFigures;
 use crate::show;
 use clap::Args;
 use ricci::Surface;
 use ricci::geometry::hyperelliptic::period_matrix;
 use ricci::mesh::io::{self, Soup};
 use ricci::mesh::shapes::{self, IntrinsicSurface, TorusKnot};
+use ricci::metric::ShapeQuality;
 use serde::Serialize;
 use std::path::Path;
 use std::time::Instant;
@@ -142,7 +143,7 @@ fn write_lengths(outputs: &mut Outputs, path: &Path, surface: &Surface) -> Resul
 #[derive(Serialize)]
 struct MadeResult {
     #[serde(flatten)]
-    quality: ShapeQuality,
+    quality: QualityFigures,
     /// Of the curve that a hyperelliptic surface is: `[re, im]` of τ_ij.
     #[serde(skip_serializing_if = "Option::is_none")]
     period_matrix: Option<Vec<Vec<[f64; 2]>>>,
@@ -176,7 +177,7 @@ impl Made<'_> {
             count(boundary_loops, "boundary loop", "boundary loops"),
         );
         if let Some(path) = &common.report {
-            let quality = shape_quality::of_surface(&self.surface);
+            let quality = ShapeQuality::of_surface(&self.surface).into();
             let result = MadeResult { quality, period_matrix: known_periods(shape)? };
             let seconds = Seconds { total: self.start.elapsed().as_secs_f64(), ..Seconds::default() };
             let report = Report::new("make", summary, shape, result).finished(Checks::default(), seconds);

@@ -4,7 +4,6 @@ use crate::failure::{Failure, names_element};
 use crate::input::Input;
 use crate::output::is_stdout;
 use crate::report::{Attempts, Checks, Done};
-use crate::shape_quality::thinnest;
 use crate::solved::Solved;
 use ricci::flow::Options;
 use std::io::{self, Write};
@@ -70,7 +69,7 @@ pub fn surface(input: &Input) -> String {
 
 /// Where a check fails: whether the surface has slivers, which cost digits.
 fn slivers(input: &Input, checks: &Checks, may_flip: bool) -> String {
-    let thinnest = || thinnest(&input.surface);
+    let thinnest = || input.surface.thinnest_face().map(|(face, angle)| (face, angle.to_degrees()));
     match (!checks.failed().is_empty()).then(thinnest).flatten() {
         Some((face, angle)) if angle < SLIVER => format!(
             "slivers  face {face} is the thinnest, with an angle of {angle:.1e} degrees: remesh there{}\n",

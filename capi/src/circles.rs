@@ -7,16 +7,9 @@ use crate::layout::ricci_layout;
 use crate::status::ricci_status;
 use ricci::embed::CirclePattern;
 
-/// The elements that have circles.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum CircleOwner {
-    Vertex,
-    Face,
-}
-
-choices!(OWNERS: CircleOwner = "which", [
-    RICCI_CIRCLES_VERTICES => CircleOwner::Vertex,
-    RICCI_CIRCLES_FACES => CircleOwner::Face,
+choices!(enum CircleOwner, OWNERS = "which", [
+    RICCI_CIRCLES_VERTICES => Vertex,
+    RICCI_CIRCLES_FACES => Face,
 ]);
 
 #[unsafe(no_mangle)]

@@ -55,6 +55,7 @@ pub mod map;
 pub mod matching;
 pub mod mesh;
 pub mod metric;
+pub mod quality;
 pub mod report;
 pub mod shapes;
 pub mod soup;

@@ -14,7 +14,7 @@ use std::ffi::{CString, c_char};
 use std::sync::OnceLock;
 
 pub struct ricci_soup {
-    soup: Soup,
+    pub(crate) soup: Soup,
     /// The record of the repair, if this list was repaired: origins of its elements and counts of the steps. Its own `soup` is empty.
     origin: Option<Repaired>,
     diagnosis: OnceLock<DiagnosisTexts>,

@@ -167,6 +167,18 @@ RICCI_API_VOID void ricci_soup_free(ricci_soup *soup);
 RICCI_API ricci_status ricci_soup_summarise(const ricci_soup *soup, ricci_soup_summary *summary, size_t size);
 
 /**
+ * How well shaped the triangles of a list are: as a surface if it is one; else face by face, without those
+ * that name no vertex or one that is not finite.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE.
+ *
+ * @param soup     the triangle list.
+ * @param quality  out: the figures.
+ * @param size     sizeof *quality.
+ */
+RICCI_API ricci_status ricci_soup_quality(const ricci_soup *soup, ricci_quality_summary *quality, size_t size);
+
+/**
  * Positions, or an attribute.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (it has none).

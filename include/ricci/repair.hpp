@@ -23,6 +23,7 @@ public:
                                      positions.size() / 3, faces.data(), faces.size() / 3));
     }
     ricci_soup_summary summary() const { return ricci::summary(ricci_soup_summarise, get()); }
+    ricci_quality_summary quality() const { return ricci::summary(ricci_soup_quality, get()); }
     ricci_defect defect(std::size_t index) const {
         ricci_defect one;
         check(ricci_soup_defect(handle_, index, &one, sizeof one));

@@ -587,6 +587,33 @@ RICCI_API_VOID void ricci_mesh_free(ricci_mesh *mesh);
  */
 RICCI_API ricci_status ricci_mesh_summarise(const ricci_mesh *mesh, ricci_mesh_summary *summary, size_t size);
 
+/** How well shaped triangles are. NaN where a list of triangles does not have it. */
+typedef struct ricci_quality_summary {
+    /** Bytes of this struct that are filled. */
+    size_t size;
+    /** Area of all faces. */
+    double area;
+    /** The smallest angle, radians; 0 of a face without area. */
+    double min_angle;
+    /** Share of the faces with an angle above 90 degrees. */
+    double obtuse_fraction;
+    /** Longest over shortest edge; NaN if an edge has length 0. */
+    double edge_ratio;
+    /** Share of the interior edges whose opposite angles add up to more than pi; NaN of what is no surface. */
+    double non_delaunay_fraction;
+} ricci_quality_summary;
+
+/**
+ * How well shaped the triangles of a mesh are, by its lengths.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE, RICCI_EDGE_LENGTH.
+ *
+ * @param mesh     the mesh.
+ * @param quality  out: the figures.
+ * @param size     sizeof *quality.
+ */
+RICCI_API ricci_status ricci_mesh_quality(const ricci_mesh *mesh, ricci_quality_summary *quality, size_t size);
+
 /**
  * Positions, lengths, or an attribute that the mesh was read with.
  *

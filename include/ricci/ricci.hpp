@@ -217,6 +217,7 @@ public:
         check(ricci_mesh_write(handle_, attributes, path.c_str()));
     }
     ricci_mesh_summary summary() const { return ricci::summary(ricci_mesh_summarise, get()); }
+    ricci_quality_summary quality() const { return ricci::summary(ricci_mesh_quality, get()); }
     std::vector<double> values(std::uint32_t which) const {
         return ricci::values<double>(ricci_mesh_values, get(), which);
     }

@@ -184,3 +184,13 @@ def test_changes_do_what_they_say(torus):
     np.testing.assert_allclose(np.linalg.norm(turned.V - [0, 0, 5], axis=1) * np.linalg.norm(torus.V - [0, 0, 5], axis=1), 4, rtol=1e-12)
     with pytest.raises(ricci.ArgumentError, match="torus"):
         ricci.make("tors")
+
+
+def test_the_quality_of_triangles():
+    faces = [[0, 1, 2], [0, 2, 3]]
+    quality = ricci.Mesh(SQUARE, faces).quality
+    np.testing.assert_allclose([quality.area, quality.min_angle, quality.edge_ratio], [1, np.pi / 4, np.sqrt(2)])
+    assert (quality.obtuse_fraction, quality.non_delaunay_fraction) == (0, 0)
+    assert ricci.Soup(SQUARE, faces).quality == quality
+    torn = ricci.Soup(SQUARE, [*faces, [0, 1, 9]]).quality
+    assert torn.area == pytest.approx(1) and np.isnan(torn.non_delaunay_fraction)

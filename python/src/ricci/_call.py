@@ -146,11 +146,11 @@ def rows(n: int, function: Callable[..., int], *arguments: Any, dtype: Any = np.
     return [entries[a:b] for a, b in pairwise(starts)]
 
 
-def summary(kind: type[Figures], name: str, handle: Passed) -> Figures:
-    """The figures that `ricci_<name>_summarise` fills, as the dataclass `kind` with fields of the same names."""
+def summary(kind: type[Figures], name: str, handle: Passed, function: Callable[..., int] | None = None) -> Figures:
+    """The figures that `function`, or `ricci_<name>_summarise`, fills, as the dataclass `kind` with fields of the same names."""
     struct = f"ricci_{name}_summary"
     out = ffi.new(f"{struct} *")
-    check(getattr(lib, f"ricci_{name}_summarise")(handle._pointer, out, ffi.sizeof(struct)))
+    check((function or getattr(lib, f"ricci_{name}_summarise"))(handle._pointer, out, ffi.sizeof(struct)))
     return kind(**{field.name: _number(getattr(out, field.name), str(field.type)) for field in fields(kind)})  # type: ignore[arg-type]
 
 

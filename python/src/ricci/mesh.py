@@ -16,7 +16,7 @@ from ricci._library import ffi, lib
 from ricci._structs import Struct, choice, number, options, real_list
 from ricci._triangles import Triangles
 from ricci.errors import ArgumentError
-from ricci.figures import MeshSummary
+from ricci.figures import MeshSummary, QualitySummary
 from ricci.figures.names import Space
 
 __all__ = ["Attributes", "Mesh"]
@@ -142,6 +142,11 @@ class Mesh(Triangles):
     def summary(self) -> MeshSummary:
         """Counts, Euler characteristic, genus, boundary loops, and which attributes there are."""
         return summary(MeshSummary, "mesh", self)
+
+    @cached_property
+    def quality(self) -> QualitySummary:
+        """How well shaped the triangles are."""
+        return summary(QualitySummary, "quality", self, lib.ricci_mesh_quality)
 
     @cached_property
     def edges(self) -> Indices:

@@ -16,7 +16,7 @@ from ricci._call import Handle, Indices, call, filled, path_bytes, pointer, rows
 from ricci._library import ffi, lib
 from ricci._structs import number, options
 from ricci._triangles import Triangles
-from ricci.figures import SoupSummary
+from ricci.figures import QualitySummary, SoupSummary
 from ricci.mesh import Mesh
 
 __all__ = ["Defect", "RepairOptions", "Soup"]
@@ -112,6 +112,11 @@ class Soup(Triangles):
     def summary(self) -> SoupSummary:
         """Counts, the number of defects, and what a repair did."""
         return summary(SoupSummary, "soup", self)
+
+    @cached_property
+    def quality(self) -> QualitySummary:
+        """How well shaped the triangles are, as those of a surface if the list is one."""
+        return summary(QualitySummary, "quality", self, lib.ricci_soup_quality)
 
     @cached_property
     def defects(self) -> list[Defect]:

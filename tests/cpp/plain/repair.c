@@ -27,7 +27,12 @@ static void fin(void) {
         memcpy(positions[k], place[corner[k]], sizeof positions[k]);
         faces[k] = k;
     }
+    ricci_quality_summary shape;
     OK(mend(positions[0], 39, faces, 13, NULL, &repair));
+    OK(ricci_soup_quality(repair, &shape, sizeof shape));
+    CHECK(shape.size == sizeof shape && shape.area > 6 && shape.min_angle > 0 && shape.edge_ratio < 3 &&
+          shape.non_delaunay_fraction != shape.non_delaunay_fraction);
+    FAILS(ricci_soup_quality(repair, NULL, sizeof shape), RICCI_NULL_POINTER, "quality");
     OK(ricci_soup_summarise(repair, &summary, sizeof summary));
     CHECK(summary.n_vertices == 11 && summary.refused_edges == 1 && summary.refused_faces == 3);
     FAILS(ricci_soup_refused(repair, vertices, 2, meeting, 2, starts, 2), RICCI_BUFFER_TOO_SMALL, "faces");

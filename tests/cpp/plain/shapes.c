@@ -23,7 +23,23 @@ static void check_pants(ricci_mesh *mesh) {
     ricci_metric_free(metric);
 }
 
+/* Right isosceles triangles all over. */
+static void shapes_have_their_angles(void) {
+    const double places[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    const uint32_t faces[6] = {0, 1, 2, 0, 2, 3};
+    ricci_mesh *square = NULL;
+    ricci_quality_summary shape;
+    OK(ricci_mesh_from_arrays(places[0], 0, 4, faces, 2, &square));
+    OK(ricci_mesh_quality(square, &shape, sizeof shape));
+    CHECK(fabs(shape.area - 1) < 1e-15 && fabs(shape.min_angle - atan(1)) < 1e-15);
+    CHECK(shape.obtuse_fraction == 0 && fabs(shape.edge_ratio - sqrt(2)) < 1e-15);
+    CHECK(shape.non_delaunay_fraction == 0);
+    FAILS(ricci_mesh_quality(NULL, &shape, sizeof shape), RICCI_NULL_POINTER, "mesh");
+    ricci_mesh_free(square);
+}
+
 int main(void) {
+    shapes_have_their_angles();
     ricci_mesh *mesh = NULL, *other = NULL;
     const double square[8] = {1, 0, 0, 1, -1, 0, 0, -1}, centre[3] = {9, 0, 0};
     double tau[2], square_of;

@@ -3,7 +3,7 @@
 from ricci.figures.covered import DeckSummary, DirichletSummary, DomainSummary, HomotopySummary, UniformSummary
 from ricci.figures.derived import BicubicSummary, FormsSummary, MatchingSummary, SplineSummary, StructureSummary
 from ricci.figures.placed import AtlasSummary, CircleDomainSummary, LayoutSummary, MapSummary
-from ricci.figures.surface import MeshSummary, MetricSummary, ReportSummary, SoupSummary
+from ricci.figures.surface import MeshSummary, MetricSummary, QualitySummary, ReportSummary, SoupSummary
 
 __all__ = [
     "AtlasSummary",
@@ -19,6 +19,7 @@ __all__ = [
     "MatchingSummary",
     "MeshSummary",
     "MetricSummary",
+    "QualitySummary",
     "ReportSummary",
     "SoupSummary",
     "SplineSummary",

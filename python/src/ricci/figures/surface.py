@@ -96,6 +96,25 @@ class SoupSummary:
 
 
 @dataclass(frozen=True)
+class QualitySummary:
+    """How well shaped triangles are.
+
+    Attributes:
+        area: area of all faces.
+        min_angle: the smallest angle, radians; 0 of a face without area.
+        obtuse_fraction: share of the faces with an angle above 90 degrees.
+        edge_ratio: longest over shortest edge; NaN if an edge has length 0.
+        non_delaunay_fraction: share of the interior edges whose opposite angles add up to more than pi; NaN of what is no surface.
+    """
+
+    area: float
+    min_angle: float
+    obtuse_fraction: float
+    edge_ratio: float
+    non_delaunay_fraction: float
+
+
+@dataclass(frozen=True)
 class MetricSummary:
     """Figures of a metric.
 
