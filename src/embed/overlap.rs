@@ -179,6 +179,7 @@ fn join(a: [f64; 4], b: [f64; 4]) -> [f64; 4] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::clip::clip;
     use crate::mesh::shapes::SplitMix64;
 
     /// Area of the intersection, by clipping one triangle with the sides of the other.
@@ -186,19 +187,8 @@ mod tests {
         let mut polygon = a.to_vec();
         for k in 0..3 {
             let (p, q) = (b[k], b[(k + 1) % 3]);
-            let side = |r: [f64; 2]| (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
-            let mut kept = Vec::new();
-            for (i, &r) in polygon.iter().enumerate() {
-                let s = polygon[(i + 1) % polygon.len()];
-                let (x, y) = (side(r), side(s));
-                if x >= 0.0 {
-                    kept.push(r);
-                }
-                if x * y < 0.0 {
-                    kept.push([0, 1].map(|k| r[k] + x / (x - y) * (s[k] - r[k])));
-                }
-            }
-            polygon = kept;
+            let side = |r: &[f64; 2]| (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
+            polygon = clip(&polygon, side);
         }
         let cross = |i: usize| {
             let (p, q) = (polygon[i], polygon[(i + 1) % polygon.len()]);

@@ -6,6 +6,7 @@ pub(crate) mod bounds;
 pub(crate) mod boxes;
 pub(crate) mod chords;
 pub mod circle;
+pub mod clip;
 pub mod complex;
 pub mod conformal;
 pub mod disk_barycentre;

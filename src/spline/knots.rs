@@ -2,6 +2,7 @@
 
 use super::index::MAX_DEGREE;
 use crate::error::{Error, Result};
+use crate::geometry::clip::clip;
 use crate::geometry::complex::{cross, distance, dot, doubled_area, sub};
 use std::collections::{HashMap, HashSet};
 use std::f64::consts::TAU;
@@ -274,21 +275,10 @@ fn doubled_area_of(polygon: &[[f64; 2]]) -> f64 {
 /// The part of a convex polygon to the left of the line from a to b.
 fn clipped(polygon: &[[f64; 2]], a: [f64; 2], b: [f64; 2]) -> Vec<[f64; 2]> {
     let along = sub(b, a);
-    let height = |p: [f64; 2]| cross(along, sub(p, a));
     // Rounding of a corner that lies on the line.
     let zero = f64::EPSILON * 8.0 * dot(along, along);
-    let mut left = Vec::new();
-    for (i, &p) in polygon.iter().enumerate() {
-        let q = polygon[(i + 1) % polygon.len()];
-        let (hp, hq) = (height(p), height(q));
-        if hp >= -zero {
-            left.push(p);
-        }
-        if (hp > zero && hq < -zero) || (hp < -zero && hq > zero) {
-            let s = hp / (hp - hq);
-            left.push([p[0] + s * (q[0] - p[0]), p[1] + s * (q[1] - p[1])]);
-        }
-    }
+    let height = |p: &[f64; 2]| Some(cross(along, sub(*p, a))).filter(|h| h.abs() > zero).unwrap_or(0.0);
+    let left = clip(polygon, height);
     if doubled_area_of(&left) > zero { left } else { Vec::new() }
 }
 

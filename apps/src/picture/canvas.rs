@@ -4,8 +4,9 @@ use super::Style;
 use super::coat::wire_width;
 use super::color::Rgb;
 use super::fit::Fit;
-use super::region::{Chain, chains, in_box, once, segment_in_box};
+use super::region::{Chain, chains, once};
 use super::sheet::{Path, Sheet, paths};
+use ricci::geometry::clip::{in_box, segment_in_box};
 
 /// Pixels beyond the panel up to which something is drawn, so that the ends of lines do not show.
 const BEYOND: f64 = 20.0;

@@ -6,10 +6,11 @@ use super::color::{INK, Rgb, cone_color, from_hex, mix, seam_color, to_hex};
 use super::colormap::NO_VALUE;
 use super::fit::Fit;
 use super::raster::doubled_area;
-use super::region::{Chain, FINEST, cells, is_finite, outline, strip};
+use super::region::{Chain, FINEST, cells, is_finite, outline};
 use super::sheet::{Path, Sheet};
 use super::texture::{OCTAVE, Texture};
 use super::{Circle, Field, Flat, Style};
+use ricci::geometry::clip::strip;
 
 /// Circles of a smaller radius (pixels) are left out.
 const LEAST_RADIUS: f64 = 0.8;

@@ -1,7 +1,8 @@
-//! Regions of the plane as closed polygons: their parts in half-planes, their outlines, the cells of a pattern in them.
+//! Regions of the plane as closed polygons: their outlines, and the cells of a pattern in them.
 
 use super::texture::{CIRCLE_SPACING, RING, Texture};
 use super::vector::ends;
+use ricci::geometry::clip::{clip, strip};
 use std::collections::{HashMap, HashSet};
 use std::f64::consts::TAU;
 
@@ -14,39 +15,6 @@ pub const FINEST: f64 = 1.2;
 const CIRCLE_SIDES: [usize; 3] = [24, 24, 12];
 /// A cell's sides are drawn by this many pieces, which can follow a curve.
 const PIECES: usize = 3;
-
-/// The part of a closed polygon where an affine function is not negative, by the algorithm of Sutherland and Hodgman: where
-/// it consists of several pieces, they are joined by lines that run there and back and so fill nothing.
-pub fn clip<const N: usize>(polygon: &[[f64; N]], side: impl Fn(&[f64; N]) -> f64) -> Vec<[f64; N]> {
-    let mut part = Vec::new();
-    for (k, p) in polygon.iter().enumerate() {
-        let q = &polygon[(k + 1) % polygon.len()];
-        let (s, t) = (side(p), side(q));
-        if s >= 0.0 {
-            part.push(*p);
-        }
-        if s * t < 0.0 {
-            part.push(std::array::from_fn(|i| p[i] + s / (s - t) * (q[i] - p[i])));
-        }
-    }
-    part
-}
-
-/// The part of a polygon between two values of a coordinate.
-pub fn strip<const N: usize>(polygon: &[[f64; N]], axis: usize, [low, high]: [f64; 2]) -> Vec<[f64; N]> {
-    clip(&clip(polygon, |p| p[axis] - low), |p| high - p[axis])
-}
-
-/// The part of a polygon in a box of the plane of the first two coordinates.
-pub fn in_box<const N: usize>(polygon: &[[f64; N]], [low, high]: [[f64; 2]; 2]) -> Vec<[f64; N]> {
-    strip(&strip(polygon, 0, [low[0], high[0]]), 1, [low[1], high[1]])
-}
-
-/// The part of a segment in a box; ends inside stay as they are, so that neighbours still meet there.
-pub fn segment_in_box(ends: [[f64; 2]; 2], bounds: [[f64; 2]; 2]) -> Option<[[f64; 2]; 2]> {
-    // As a polygon it runs there and back.
-    in_box(&ends, bounds).first_chunk().copied()
-}
 
 pub fn is_finite(points: &[[f64; 2]]) -> bool {
     points.as_flattened().iter().all(|x| x.is_finite())
@@ -233,13 +201,5 @@ mod tests {
         let share =
             std::f64::consts::PI * (RING[0].powi(2) - RING[1].powi(2) + RING[2].powi(2)) / 0.75f64.sqrt();
         assert!((dark / whole / share - 1.0).abs() < 0.02, "{dark} of {whole}");
-    }
-
-    #[test]
-    fn segments_end_at_the_box() {
-        let frame = [[0.0, 0.0], [10.0, 5.0]];
-        assert_eq!(segment_in_box([[-5.0, 1.0], [5.0, 1.0]], frame), Some([[0.0, 1.0], [5.0, 1.0]]));
-        assert_eq!(segment_in_box([[-5.0, 9.0], [5.0, 9.0]], frame), None);
-        assert_eq!(segment_in_box([[3.0, 3.0], [3.0, 3.0]], frame), Some([[3.0, 3.0], [3.0, 3.0]]));
     }
 }

@@ -1,6 +1,7 @@
 //! Triangles of a surface cut into convex pieces along lines on which a linear function of ambient coordinates is 0.
 
 use ricci::geometry::Space;
+use ricci::geometry::clip::clip_by;
 use ricci::geometry::vector::norm;
 use ricci::mesh::{FaceId, Mesh, Point};
 use std::collections::HashMap;
@@ -17,22 +18,13 @@ pub fn whole(corners: [[f64; 3]; 3]) -> Vec<Corner> {
     (0..3).map(|k| (corners[k], unit(k))).collect()
 }
 
-/// What of a piece lies where a function is negative, and where it is positive.
+/// The parts of a piece where a function is negative, and where it is positive.
 pub fn split(piece: &[Corner], space: Space, value: impl Fn([f64; 3]) -> f64) -> [Vec<Corner>; 2] {
-    let mut parts = [Vec::new(), Vec::new()];
-    for (i, &(p, b)) in piece.iter().enumerate() {
-        let (q, c) = piece[(i + 1) % piece.len()];
-        let [here, there] = [p, q].map(&value);
-        for (part, sign) in parts.iter_mut().zip([-1.0, 1.0]) {
-            part.extend((here * sign >= 0.0).then_some((p, b)));
-        }
-        if here * there < 0.0 {
-            let t = here / (here - there);
-            let point = middle(space, &[p.map(|x| (1.0 - t) * x), q.map(|x| t * x)]);
-            let shares = [0, 1, 2].map(|k| b[k] + t * (c[k] - b[k]));
-            parts.iter_mut().for_each(|part| part.push((point, shares)));
-        }
-    }
+    let between = |&(p, b): &Corner, &(q, c): &Corner, t: f64| {
+        let point = middle(space, &[p.map(|x| (1.0 - t) * x), q.map(|x| t * x)]);
+        (point, [0, 1, 2].map(|k| b[k] + t * (c[k] - b[k])))
+    };
+    let parts = [-1.0, 1.0].map(|sign| clip_by(piece, |corner| sign * value(corner.0), between));
     parts.map(|part| if part.len() > 2 { part } else { Vec::new() })
 }
 
