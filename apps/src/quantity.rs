@@ -3,7 +3,7 @@
 use crate::input::Input;
 use crate::job::Outcome;
 use crate::laid::Laid;
-use crate::picture::{CLASSES, ColorChoice, Field, Scale};
+use crate::picture::{CLASSES, ColorChoice, ColorField, ColorScale};
 use ricci::geometry::triangle;
 use ricci::geometry::vector::{cross, dot, norm, sub, triangle_normal};
 use ricci::mesh::{FaceId, Mesh, PerFace, PerVertex, Point};
@@ -11,14 +11,14 @@ use ricci::metric::Refinement;
 use ricci::metric::curvature::{curvature, curvature_from_angles};
 
 /// The quantity of a finished flow; `None` for no quantity, and for one of the layout where the flow has no layout.
-pub fn of_flow(choice: ColorChoice, input: &Input, outcome: &Outcome) -> Option<Field> {
+pub fn of_flow(choice: ColorChoice, input: &Input, outcome: &Outcome) -> Option<ColorField> {
     let laid = outcome.layout.as_ref().ok();
     let mesh = laid.map_or(input.mesh(), |laid| laid.mesh());
     Some(match choice {
         ColorChoice::None => return None,
         ColorChoice::U => {
             let factor = outcome.solved.solution.conformal_factor().ok()?;
-            let scale = Scale::of_signed("log conformal factor u", &factor);
+            let scale = ColorScale::of_signed("log conformal factor u", &factor);
             at_vertices(mesh, &on_layout(&factor, laid)?, scale)
         }
         ColorChoice::Curvature => {
@@ -27,12 +27,12 @@ pub fn of_flow(choice: ColorChoice, input: &Input, outcome: &Outcome) -> Option<
         }
         ColorChoice::Qc => {
             let values: Vec<f64> = laid?.quality.qc.to_vec();
-            let scale = Scale::of_amounts("quasi-conformal dilatation K", &values);
+            let scale = ColorScale::of_amounts("quasi-conformal dilatation K", &values);
             at_faces(&values, scale)
         }
         ColorChoice::Area => {
             let values: Vec<f64> = laid?.quality.area_ratio.iter().map(|r| r.log2()).collect();
-            let scale = Scale::of_signed("log2 of area in the layout over area on the surface", &values);
+            let scale = ColorScale::of_signed("log2 of area in the layout over area on the surface", &values);
             at_faces(&values, scale)
         }
         ColorChoice::Pieces => pieces(laid?),
@@ -40,7 +40,7 @@ pub fn of_flow(choice: ColorChoice, input: &Input, outcome: &Outcome) -> Option<
 }
 
 /// Pieces in colours: a hue for the face of the final triangulation, a shade for that of the input. Faces side by side differ.
-fn pieces(laid: &Laid) -> Field {
+fn pieces(laid: &Laid) -> ColorField {
     let mesh = laid.mesh();
     let parts = |of: fn(&Refinement) -> &PerFace<FaceId>| match laid.refinement() {
         Some(refinement) => of(refinement).clone(),
@@ -50,7 +50,7 @@ fn pieces(laid: &Laid) -> Field {
     let shade = classes(mesh, &parts(|r| &r.input_face));
     let values: Vec<f64> = hue.iter().zip(shade).map(|(hue, shade)| (CLASSES * hue + shade) as f64).collect();
     let title = "hue by face of the final triangulation, shade by face of the input";
-    at_faces(&values, Scale::of_pairs(title, "what a face of each has in common is a piece"))
+    at_faces(&values, ColorScale::of_pairs(title, "what a face of each has in common is a piece"))
 }
 
 /// Per face of the mesh a class of the larger triangle (`whole`) that it is part of: two of these that share an edge have different
@@ -87,7 +87,7 @@ fn on_layout(given: &[f64], laid: Option<&Laid>) -> Option<PerVertex<f64>> {
 }
 
 /// Gaussian curvature of a surface: the angle defect of each vertex over a third of the area around it.
-fn density_of_input(input: &Input) -> Option<(PerVertex<f64>, Scale)> {
+fn density_of_input(input: &Input) -> Option<(PerVertex<f64>, ColorScale)> {
     let surface = &input.surface;
     let (mesh, lengths, geometry) = (surface.mesh(), surface.lengths(), surface.geometry());
     let defect = curvature(mesh, geometry, lengths).ok()?.at;
@@ -96,7 +96,7 @@ fn density_of_input(input: &Input) -> Option<(PerVertex<f64>, Scale)> {
 }
 
 /// The same of any triangle list; vertices where it is no surface have none.
-pub fn curvature_of_triangles(points: &[Point], faces: &[[u32; 3]]) -> Field {
+pub fn curvature_of_triangles(points: &[Point], faces: &[[u32; 3]]) -> ColorField {
     let corners = |f: FaceId| faces[f.index()].map(|v| points[v as usize]);
     if let Ok(mesh) = Mesh::from_faces(points.len(), faces) {
         let angles = mesh.faces().map(|f| angles(corners(f)));
@@ -104,7 +104,7 @@ pub fn curvature_of_triangles(points: &[Point], faces: &[[u32; 3]]) -> Field {
         let (values, scale) = density(&mesh, &defect, |f| area(corners(f)), 0.0);
         return at_vertices(&mesh, &values, scale);
     }
-    Field { corners: vec![[f64::NAN; 3]; faces.len()], scale: Scale::of_signed(CURVATURE, &[]) }
+    ColorField { corners: vec![[f64::NAN; 3]; faces.len()], scale: ColorScale::of_signed(CURVATURE, &[]) }
 }
 
 /// Angle defects over areas, with what the background geometry adds. A vertex of the boundary has the mean of its
@@ -114,7 +114,7 @@ fn density(
     defect: &PerVertex<f64>,
     area: impl Fn(FaceId) -> f64,
     background: f64,
-) -> (PerVertex<f64>, Scale) {
+) -> (PerVertex<f64>, ColorScale) {
     let mut around = PerVertex::filled(mesh.n_vertices(), 0.0);
     for f in mesh.faces() {
         let third = area(f) / 3.0;
@@ -131,17 +131,17 @@ fn density(
             sums[a].1 += 1.0;
         }
     }
-    let scale = Scale::of_signed(CURVATURE, &values);
+    let scale = ColorScale::of_signed(CURVATURE, &values);
     mesh.vertices().filter(|v| !inside(*v)).for_each(|v| values[v] = sums[v].0 / sums[v].1);
     (values, scale)
 }
 
-fn at_vertices(mesh: &Mesh, values: &PerVertex<f64>, scale: Scale) -> Field {
-    Field { corners: mesh.faces().map(|f| mesh.face_vertices(f).map(|v| values[v])).collect(), scale }
+fn at_vertices(mesh: &Mesh, values: &PerVertex<f64>, scale: ColorScale) -> ColorField {
+    ColorField { corners: mesh.faces().map(|f| mesh.face_vertices(f).map(|v| values[v])).collect(), scale }
 }
 
-fn at_faces(values: &[f64], scale: Scale) -> Field {
-    Field { corners: values.iter().map(|v| [*v; 3]).collect(), scale }
+fn at_faces(values: &[f64], scale: ColorScale) -> ColorField {
+    ColorField { corners: values.iter().map(|v| [*v; 3]).collect(), scale }
 }
 
 fn angles(p: [Point; 3]) -> [f64; 3] {

@@ -6,7 +6,7 @@ use crate::input::Input;
 use crate::job::Outcome;
 use crate::laid::Laid;
 use crate::picture::{
-    self, Circle, Flat, FlowPictureArgs, Focus, Picture, Style, Surface, SurfacePictureArgs, Zoom,
+    self, Circle, ShownLayout, FlowPictureArgs, Focus, Picture, Style, ShownSurface, SurfacePictureArgs, Zoom,
 };
 use crate::quantity;
 use ricci::mesh::io::Soup;
@@ -39,7 +39,7 @@ pub fn draw(
         laid.map_or((input.mesh(), input.positions()), |laid| (laid.mesh(), laid.positions.as_deref()));
     let faces = mesh.triangles();
     let cones = cones(input.mesh(), outcome);
-    let surface = positions.as_ref().map(|positions| Surface {
+    let surface = positions.as_ref().map(|positions| ShownSurface {
         positions,
         faces: &faces,
         corner_uv: parts.as_ref().map(|p| p.corner_uv.as_slice()),
@@ -105,7 +105,7 @@ pub fn draw_surface(soup: &Soup, args: &SurfacePictureArgs, threads: usize) -> R
         })
     };
     let faces: Vec<[u32; 3]> = faces.into_iter().map(|f| f.map(&mut keep)).collect();
-    let surface = Surface {
+    let surface = ShownSurface {
         positions: &seen,
         faces: &faces,
         corner_uv: None,
@@ -178,8 +178,8 @@ impl Parts {
         parts
     }
 
-    fn flat(&self) -> Flat<'_> {
-        Flat {
+    fn flat(&self) -> ShownLayout<'_> {
+        ShownLayout {
             corner_uv: &self.corner_uv,
             seams: &self.seams,
             boundary: &self.boundary,
@@ -187,7 +187,7 @@ impl Parts {
             cones: &self.cones,
             circles: &self.circles,
             dual_circles: &self.dual_circles,
-            ..Flat::default()
+            ..ShownLayout::default()
         }
     }
 }

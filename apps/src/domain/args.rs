@@ -1,7 +1,7 @@
 //! The options of `ricci circles`.
 
 use crate::options::{Common, FileName, SurfaceArgs, positive};
-use crate::picture::{PictureArgs, Texture};
+use crate::picture::{PictureArgs, TextureChoice};
 use clap::Args;
 use serde::Serialize;
 use std::str::FromStr;
@@ -62,7 +62,7 @@ pub struct CirclesArgs {
     /// Pattern of the layout [default: circles]
     #[arg(long, value_enum, requires = "picture")]
     #[serde(skip)]
-    pub texture: Option<Texture>,
+    pub texture: Option<TextureChoice>,
     #[command(flatten)]
     #[serde(flatten)]
     pub common: Common,

@@ -11,7 +11,7 @@ use crate::input::{self, Input};
 use crate::metric_file::MetricFile;
 use crate::options::OnChoice;
 use crate::output::{Outputs, check_extension, check_outputs};
-use crate::picture::Texture;
+use crate::picture::TextureChoice;
 use crate::progress::Progress;
 use crate::report::{Done, Figures, InputSummary, Report, timed};
 use crate::uv;
@@ -143,7 +143,7 @@ fn write(
         let written = outputs.add(path, |out| uv::write_origins(out, halved, laid, OnChoice::Refined));
         found.failed.attempt("xref", written)?;
     }
-    let style = args.picture.style(args.texture.unwrap_or(Texture::Circles), args.common.threads);
+    let style = args.picture.style(args.texture.unwrap_or(TextureChoice::Circles), args.common.threads);
     let draw = || picture::draw(found, &style, args.picture.is_svg());
     let drawn = delivery.picture(args.picture.picture.as_deref(), draw);
     found.failed.attempt("picture", drawn)?;
@@ -176,7 +176,7 @@ struct Asked<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     outer: Option<usize>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    texture: Option<Texture>,
+    texture: Option<TextureChoice>,
     #[serde(flatten)]
     args: &'a CirclesArgs,
 }
@@ -187,7 +187,7 @@ impl Asked<'_> {
         Asked {
             input_geometry: input.surface.geometry().name(),
             outer: found.domain.outer,
-            texture: args.texture.or(drawn.then_some(Texture::Circles)),
+            texture: args.texture.or(drawn.then_some(TextureChoice::Circles)),
             args,
         }
     }

@@ -2,7 +2,7 @@
 
 use super::found::Found;
 use crate::failure::Failure;
-use crate::picture::{self, Circle, Flat, Picture, Style, Surface};
+use crate::picture::{self, Circle, ShownLayout, Picture, Style, ShownSurface};
 use ricci::geometry::Space;
 use ricci::mesh::HalfedgeId;
 
@@ -37,16 +37,16 @@ pub fn draw(found: &Found, style: &Style, is_svg: bool) -> Result<Vec<u8>, Failu
             _ => boundary.extend(rim.into_iter().map(side)),
         }
     }
-    let flat = Flat {
+    let flat = ShownLayout {
         corner_uv: &corner_uv,
         seams: &seams,
         boundary: &boundary,
         holes: &holes,
         rims: &rims,
-        ..Flat::default()
+        ..ShownLayout::default()
     };
     let faces = mesh.triangles();
-    let surface = laid.positions.as_deref().filter(|_| !is_svg).map(|positions| Surface {
+    let surface = laid.positions.as_deref().filter(|_| !is_svg).map(|positions| ShownSurface {
         positions,
         faces: &faces,
         corner_uv: Some(&corner_uv),

@@ -1,7 +1,7 @@
 //! The options of `ricci forms`.
 
 use crate::options::{Common, FileName, SurfaceArgs, choices};
-use crate::picture::{PictureArgs, Texture, Zoom, zoom};
+use crate::picture::{PictureArgs, TextureChoice, Zoom, zoom};
 use clap::{Args, ValueEnum};
 use ricci::harmonic::Classes;
 use serde::Serialize;
@@ -51,7 +51,7 @@ pub struct FormsArgs {
     /// Pattern of the integral of the form [default: checker]
     #[arg(long, value_enum, requires = "picture")]
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub texture: Option<Texture>,
+    pub texture: Option<TextureChoice>,
     /// Distance between neighbouring trajectories, over the square root of the surface's area [default: 0.04]
     #[arg(long, value_name = "SHARE", requires = "picture", value_parser = crate::options::positive)]
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -70,7 +70,7 @@ pub struct FormsArgs {
 #[serde(rename_all = "lowercase")]
 pub enum ShowChoice {
     /// The surface with the pattern of the form's integral
-    Texture,
+    TextureChoice,
     /// The surface with horizontal (red) and vertical (green) trajectories
     Trajectories,
     /// The surface with the pattern, beside the integral in the plane

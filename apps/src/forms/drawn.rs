@@ -5,7 +5,7 @@ use super::found::Chosen;
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::output::Outputs;
-use crate::picture::{self, Flat, Picture, Style, Surface, Texture};
+use crate::picture::{self, ShownLayout, Picture, Style, ShownSurface, TextureChoice};
 use crate::show::surroundings;
 use crate::uv;
 use ricci::Control;
@@ -46,7 +46,7 @@ pub fn draw(input: &Input, chosen: &Chosen, args: &FormsArgs, control: &Control)
     let layout = &chosen.layout;
     let mesh = layout.mesh();
     let show = args.show.unwrap_or(ShowChoice::Texture);
-    let usual = if show == ShowChoice::Trajectories { Texture::None } else { Texture::Checker };
+    let usual = if show == ShowChoice::Trajectories { TextureChoice::None } else { TextureChoice::Checker };
     let style = args.picture.style(args.texture.unwrap_or(usual), args.common.threads);
     let corner_uv: Vec<[[f64; 2]; 3]> = mesh.faces().map(|f| layout.face(f)).collect();
     let cut: Vec<_> = mesh.edges().filter(|&e| layout.is_cut[e]).collect();
@@ -54,7 +54,7 @@ pub fn draw(input: &Input, chosen: &Chosen, args: &FormsArgs, control: &Control)
     let seams: Vec<_> = cut.iter().flat_map(|e| [e.halfedge(), e.halfedge().twin()]).map(line).collect();
     let outer = mesh.halfedges().filter(|&h| mesh.is_outside(h.twin()));
     let boundary: Vec<_> = outer.map(line).map(|(a, b, _)| (a, b)).collect();
-    let flat = Flat { corner_uv: &corner_uv, seams: &seams, boundary: &boundary, ..Flat::default() };
+    let flat = ShownLayout { corner_uv: &corner_uv, seams: &seams, boundary: &boundary, ..ShownLayout::default() };
     if args.picture.is_svg() {
         return picture::svg(&Picture { flat: Some(flat), ..Picture::default() }, &style);
     }
@@ -66,7 +66,7 @@ pub fn draw(input: &Input, chosen: &Chosen, args: &FormsArgs, control: &Control)
         ShowChoice::Trajectories => lines_in_space(layout, &mut positions, args, control)?,
         _ => cut.iter().map(|&e| (mesh.ends(e)[0].0, mesh.ends(e)[1].0, 0)).collect(),
     };
-    let surface = Surface {
+    let surface = ShownSurface {
         positions: &positions,
         faces: &faces,
         corner_uv: Some(&corner_uv),

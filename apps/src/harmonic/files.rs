@@ -5,7 +5,7 @@ use super::found::{Found, Plane};
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::output::{Outputs, write_textured};
-use crate::picture::{self, Flat, Picture, Surface, Texture};
+use crate::picture::{self, ShownLayout, Picture, ShownSurface, TextureChoice};
 use crate::uv::Drawn;
 use ricci::harmonic::SphereMap;
 use ricci::mesh::io::TexturedMesh;
@@ -42,18 +42,18 @@ impl Plane {
     /// The surface beside its image, or as SVG the image alone.
     pub fn draw(&self, input: &Input, args: &HarmonicArgs) -> Result<Vec<u8>, Failure> {
         let mesh = self.mesh(input);
-        let style = args.picture.style(Texture::Checker, args.common.threads);
+        let style = args.picture.style(TextureChoice::Checker, args.common.threads);
         let faces = mesh.triangles();
         let corner_uv: Vec<_> = faces.iter().map(|f| f.map(|v| self.points[v as usize])).collect();
         let outer = mesh.halfedges().filter(|&h| mesh.is_outside(h.twin()));
         let at = |v: VertexId| self.points[v.index()];
         let boundary: Vec<_> = outer.map(|h| (at(mesh.origin(h)), at(mesh.tip(h)))).collect();
-        let flat = Some(Flat { corner_uv: &corner_uv, boundary: &boundary, ..Flat::default() });
+        let flat = Some(ShownLayout { corner_uv: &corner_uv, boundary: &boundary, ..ShownLayout::default() });
         if args.picture.is_svg() {
             return picture::svg(&Picture { flat, ..Picture::default() }, &style);
         }
         let positions = self.positions(input)?;
-        let surface = Surface {
+        let surface = ShownSurface {
             positions: &positions,
             faces: &faces,
             corner_uv: Some(&corner_uv),
@@ -80,7 +80,7 @@ pub fn write_sphere(
 /// The sphere with the edges of the domain.
 pub fn draw_sphere(found: &Found, map: &SphereMap, args: &HarmonicArgs) -> Result<Vec<u8>, Failure> {
     let faces = found.domain.mesh().triangles();
-    let surface = Surface {
+    let surface = ShownSurface {
         positions: &map.points,
         faces: &faces,
         corner_uv: None,
@@ -88,6 +88,6 @@ pub fn draw_sphere(found: &Found, map: &SphereMap, args: &HarmonicArgs) -> Resul
         cones: &[],
         is_closed: true,
     };
-    let style = picture::Style { wire: true, ..args.picture.style(Texture::None, args.common.threads) };
+    let style = picture::Style { wire: true, ..args.picture.style(TextureChoice::None, args.common.threads) };
     picture::png(&Picture { surface: Some(surface), ..Picture::default() }, &style)
 }

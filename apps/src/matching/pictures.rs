@@ -5,7 +5,7 @@ use super::found::Found;
 use super::no_positions;
 use crate::failure::Failure;
 use crate::input::Input;
-use crate::picture::{self, Circle, Field, Flat, Picture, Scale, Style, Surface, Texture, Tiles};
+use crate::picture::{self, Circle, ColorField, ShownLayout, Picture, ColorScale, Style, ShownSurface, TextureChoice, Tiles};
 use ricci::geometry::motion::precise_point;
 use ricci::geometry::{Motion, Space, model};
 use ricci::matching::{DomainTriangle, dilatations};
@@ -38,7 +38,7 @@ fn carried(input: &Input, found: &Found, args: &MatchArgs) -> Result<Vec<u8>, Fa
     };
     let corner_uv = [corners(&faces[0], &carried), corners(&faces[1], &uv)];
     let marks = [0, 1].map(|s| found.landmarks.iter().map(|pair| (pair[s].0, LANDMARK)).collect::<Vec<_>>());
-    let surface = |k: usize, positions, is_closed| Surface {
+    let surface = |k: usize, positions, is_closed| ShownSurface {
         positions,
         faces: &faces[k],
         corner_uv: Some(&corner_uv[k]),
@@ -46,7 +46,7 @@ fn carried(input: &Input, found: &Found, args: &MatchArgs) -> Result<Vec<u8>, Fa
         cones: &marks[k],
         is_closed,
     };
-    let style = args.picture.style(Texture::Checker, args.common.threads);
+    let style = args.picture.style(TextureChoice::Checker, args.common.threads);
     let pattern = Tiles::even(1.0 / CHECKS, faces[0].len().max(faces[1].len()));
     let both = Picture {
         pattern: Some(&pattern),
@@ -72,7 +72,7 @@ fn projected(points: &[Point]) -> Vec<[f64; 2]> {
 
 /// Both triangulations in the domain: on the sphere, in the plane or in the Poincaré disk, where lines between vertices are drawn straight.
 fn domains(found: &Found, args: &MatchArgs) -> Result<Vec<u8>, Failure> {
-    let style = Style { wire: true, ..args.picture.style(Texture::None, args.common.threads) };
+    let style = Style { wire: true, ..args.picture.style(TextureChoice::None, args.common.threads) };
     let domain = &found.matching.domain;
     let triangles = [0, 1].map(|side| domain.triangles(side));
     let marks = [0, 1].map(|s| found.landmarks.iter().map(|pair| pair[s]).collect::<Vec<_>>());
@@ -82,7 +82,7 @@ fn domains(found: &Found, args: &MatchArgs) -> Result<Vec<u8>, Failure> {
         let faces = points
             .each_ref()
             .map(|p| (0..p.len() as u32 / 3).map(|f| [3 * f, 3 * f + 1, 3 * f + 2]).collect::<Vec<_>>());
-        let sphere = |s: usize| Surface {
+        let sphere = |s: usize| ShownSurface {
             positions: &points[s],
             faces: &faces[s],
             corner_uv: None,
@@ -101,7 +101,7 @@ fn domains(found: &Found, args: &MatchArgs) -> Result<Vec<u8>, Failure> {
     });
     let rim = [Circle { center: [0.0; 2], radius: 1.0 }];
     let rims: &[Circle] = if domain.space() == Space::H2 { &rim } else { &[] };
-    let flat = |s: usize| Flat { corner_uv: &uv[s], cones: &dots[s], rims, ..Flat::default() };
+    let flat = |s: usize| ShownLayout { corner_uv: &uv[s], cones: &dots[s], rims, ..ShownLayout::default() };
     // No pattern is drawn; without one of so many faces the second panel would take that of the first.
     let pattern = Tiles::even(1.0, uv[0].len().max(uv[1].len()));
     let both = Picture {
@@ -143,21 +143,21 @@ fn heat(input: &Input, found: &Found, args: &MatchArgs) -> Result<Vec<u8>, Failu
     let Some(positions) = input.positions() else { return Err(no_positions()) };
     let mesh = input.mesh();
     let field = match &found.partners {
-        Some(off) => Field {
+        Some(off) => ColorField {
             corners: mesh.faces().map(|f| mesh.face_vertices(f).map(|v| off[v.index()])).collect(),
-            scale: Scale::of_amounts("distance from the partner, over the diagonal", off),
+            scale: ColorScale::of_amounts("distance from the partner, over the diagonal", off),
         },
         None => {
             let all = dilatations([&input.surface, &found.target.surface], &found.matching.forward)?;
-            Field {
+            ColorField {
                 corners: all.iter().map(|k| [*k; 3]).collect(),
-                scale: Scale::of_amounts("quasi-conformal dilatation K", &all),
+                scale: ColorScale::of_amounts("quasi-conformal dilatation K", &all),
             }
         }
     };
     let faces = mesh.triangles();
     let marks: Vec<_> = found.landmarks.iter().map(|pair| (pair[0].0, LANDMARK)).collect();
-    let surface = Surface {
+    let surface = ShownSurface {
         positions,
         faces: &faces,
         corner_uv: None,
@@ -165,6 +165,6 @@ fn heat(input: &Input, found: &Found, args: &MatchArgs) -> Result<Vec<u8>, Failu
         cones: &marks,
         is_closed: mesh.is_closed(),
     };
-    let style = args.picture.style(Texture::None, args.common.threads);
+    let style = args.picture.style(TextureChoice::None, args.common.threads);
     picture::png(&Picture { surface: Some(surface), field: Some(&field), ..Picture::default() }, &style)
 }

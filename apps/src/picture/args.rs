@@ -1,6 +1,6 @@
 //! The options of pictures.
 
-use super::{Style, Texture, View};
+use super::{Style, TextureChoice, Viewpoint};
 use crate::options::FileName;
 use crate::output::extension;
 use clap::{Args, ValueEnum};
@@ -19,7 +19,7 @@ pub struct PictureArgs {
     /// Look from this azimuth (0: from the front, growing to the right) and elevation, degrees [default: chosen]
     #[arg(long, value_name = "AZIMUTH,ELEVATION", requires = "picture", value_parser = angles, allow_hyphen_values = true)]
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub view: Option<Angles>,
+    pub view: Option<ViewAngles>,
     /// The direction that is up [default: by the shape of the surface]
     #[arg(long, value_name = "AXIS", requires = "picture", allow_hyphen_values = true, value_parser = ["x", "y", "z", "-x", "-y", "-z"])]
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -63,7 +63,7 @@ pub struct FlowPictureArgs {
     /// Pattern of the layout on both [default: checker; none under colours]
     #[arg(long, value_enum, requires = "picture")]
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub texture: Option<Texture>,
+    pub texture: Option<TextureChoice>,
     /// Show a quantity in colours, with a legend
     #[arg(long, value_enum, value_name = "QUANTITY", requires = "picture")]
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -111,7 +111,7 @@ pub struct Zoom {
 }
 
 /// Azimuth and elevation in degrees.
-pub type Angles = [f64; 2];
+pub type ViewAngles = [f64; 2];
 
 /// The unit vector along an axis by its name.
 fn direction(axis: &str) -> [f64; 3] {
@@ -130,9 +130,9 @@ impl PictureArgs {
         self.view.is_some() || self.up.is_some()
     }
 
-    pub fn style(&self, texture: Texture, threads: usize) -> Style {
+    pub fn style(&self, texture: TextureChoice, threads: usize) -> Style {
         let fallback = Style::default();
-        let view = View {
+        let view = Viewpoint {
             up: self.up.as_deref().map(direction),
             angles: self.view.map(|angles| angles.map(f64::to_radians)),
             from: None,
@@ -154,7 +154,7 @@ impl PictureArgs {
 
 impl SurfacePictureArgs {
     pub fn style(&self, threads: usize) -> Style {
-        self.base.style(Texture::None, threads)
+        self.base.style(TextureChoice::None, threads)
     }
 
     /// Whether the curvature is to be shown.
@@ -165,7 +165,7 @@ impl SurfacePictureArgs {
 
 impl FlowPictureArgs {
     pub fn style(&self, threads: usize) -> Style {
-        let usual = if self.color().is_some() { Texture::None } else { Texture::Checker };
+        let usual = if self.color().is_some() { TextureChoice::None } else { TextureChoice::Checker };
         self.base.style(self.texture.unwrap_or(usual), threads)
     }
 
@@ -175,7 +175,7 @@ impl FlowPictureArgs {
     }
 }
 
-fn angles(text: &str) -> Result<Angles, String> {
+fn angles(text: &str) -> Result<ViewAngles, String> {
     let numbers: Vec<f64> = text.split(',').filter_map(|x| x.trim().parse().ok()).collect();
     match numbers.as_slice() {
         &[azimuth, elevation] if azimuth.abs() <= 360.0 && elevation.abs() <= 90.0 => {

@@ -1,13 +1,13 @@
 //! Where a surface is seen from.
 
-use super::raster::{Hit, Samples, Shape};
+use super::raster::{Hit, Samples, DrawnShape};
 use super::upright::{Stance, stance};
 use super::vector::{V3, add, bounding_ball, cross, dot, normal, scaled, sub, unit};
 use ricci::parallel::map;
 
 /// The view that a caller wants; what is left open is chosen.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct View {
+pub struct Viewpoint {
     /// The direction that is up.
     pub up: Option<V3>,
     /// Azimuth around the vertical (0: from the front, growing to the right) and elevation above the horizon, radians.
@@ -52,7 +52,7 @@ impl Camera {
     }
 
     /// The view that was asked for, or the one of [`STANDING`] or [`LYING`] that shows most.
-    pub fn choose(points: &[V3], faces: &[[u32; 3]], view: &View) -> Camera {
+    pub fn choose(points: &[V3], faces: &[[u32; 3]], view: &Viewpoint) -> Camera {
         let given = view.up.and_then(unit).map(|up| Stance { up, lies: false });
         let Stance { up, lies } = given.unwrap_or_else(|| stance(points, faces));
         let front = front_of(up);
@@ -90,7 +90,7 @@ impl Camera {
             [middle + scale * x, middle - scale * y, scale * z]
         };
         let seen: Vec<V3> = points.iter().map(place).collect();
-        let shapes: Vec<Shape> = faces.iter().map(|f| Shape::Triangle(f.map(|v| seen[v as usize]))).collect();
+        let shapes: Vec<DrawnShape> = faces.iter().map(|f| DrawnShape::Triangle(f.map(|v| seen[v as usize]))).collect();
         let samples = Samples::new(&shapes, [PROBE, 0, PROBE], 1.0);
         let normal_of =
             |hit: Hit| unit(normal(faces[hit.shape].map(|v| points[v as usize]))).unwrap_or([0.0; 3]);
@@ -123,18 +123,18 @@ mod tests {
     #[test]
     fn axes_are_right_handed_and_the_asked_angles_are_taken() {
         let soup = shapes::icosphere(3).unwrap();
-        let view = View { up: Some([0.0, 1.0, 0.0]), angles: Some([0.0, 0.0]), from: None };
+        let view = Viewpoint { up: Some([0.0, 1.0, 0.0]), angles: Some([0.0, 0.0]), from: None };
         let camera = Camera::choose(&soup.positions, &soup.faces, &view);
         for (axis, expected) in camera.axes.iter().zip([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]) {
             assert!(norm(sub(*axis, expected)) < 1e-15, "{axis:?}");
         }
         // From the right and from above.
-        let view = View { angles: Some([0.5f64, 0.3]), ..view };
+        let view = Viewpoint { angles: Some([0.5f64, 0.3]), ..view };
         let [x, y, z] = Camera::choose(&soup.positions, &soup.faces, &view).axes;
         assert!(norm(sub(cross(x, y), z)) < 1e-15 && z[0] > 0.0 && (z[1] - 0.3f64.sin()).abs() < 1e-15);
         // From a given direction.
         let from = [0.48, -0.6, -0.64];
-        let view = View { angles: None, from: Some(from), ..view };
+        let view = Viewpoint { angles: None, from: Some(from), ..view };
         let [x, y, z] = Camera::choose(&soup.positions, &soup.faces, &view).axes;
         assert!(norm(sub(cross(x, y), z)) < 1e-15 && norm(sub(z, from)) < 1e-15, "{z:?}");
     }
@@ -142,7 +142,7 @@ mod tests {
     #[test]
     fn a_torus_lies_and_shows_its_hole() {
         let soup = shapes::torus(2.0, 0.7, 40, 20).unwrap();
-        let camera = Camera::choose(&soup.positions, &soup.faces, &View::default());
+        let camera = Camera::choose(&soup.positions, &soup.faces, &Viewpoint::default());
         let up = [0, 1, 2].map(|k| dot(camera.up, camera.axes.map(|a| a[k])));
         assert!((up[2] - 1.0).abs() < 1e-12, "{up:?}");
         assert!(camera.axes[2][2] > 0.5, "{:?}", camera.axes);
@@ -153,7 +153,7 @@ mod tests {
         // A bowl seen from its convex side: the half sphere z < 0.
         let mut soup = shapes::icosphere(8).unwrap();
         soup.faces.retain(|f| f.iter().all(|v| soup.positions[*v as usize][2] < 0.05));
-        let camera = Camera::choose(&soup.positions, &soup.faces, &View::default());
+        let camera = Camera::choose(&soup.positions, &soup.faces, &Viewpoint::default());
         assert!(camera.axes[2][2] < 0.0, "{:?}", camera.axes);
     }
 }

@@ -4,30 +4,30 @@ use super::Style;
 use super::coat::wire_width;
 use super::color::Rgb;
 use super::fit::Fit;
-use super::region::{Chain, chains, once};
-use super::sheet::{Path, Sheet, paths};
+use super::region::{Polyline, chains, once};
+use super::sheet::{SvgPath, VectorSheet, paths};
 use ricci::geometry::clip::{in_box, segment_in_box};
 
 /// Pixels beyond the panel up to which something is drawn, so that the ends of lines do not show.
 const BEYOND: f64 = 20.0;
 
-pub struct Canvas<'a> {
-    pub sheet: Sheet,
+pub struct PanelCanvas<'a> {
+    pub sheet: VectorSheet,
     pub fit: Fit,
     pub style: &'a Style,
     /// What is drawn, in the drawing's coordinates.
     panel: [[f64; 2]; 2],
 }
 
-impl<'a> Canvas<'a> {
-    pub fn new(fit: Fit, style: &'a Style) -> Canvas<'a> {
+impl<'a> PanelCanvas<'a> {
+    pub fn new(fit: Fit, style: &'a Style) -> PanelCanvas<'a> {
         let [width, height] = [fit.width as f64, fit.height as f64];
         let [low, high] =
             [[-BEYOND, height + BEYOND], [width + BEYOND, -BEYOND]].map(|pixel| fit.invert(pixel));
-        Canvas { sheet: Sheet::new(fit.width, fit.height), fit, style, panel: [low, high] }
+        PanelCanvas { sheet: VectorSheet::new(fit.width, fit.height), fit, style, panel: [low, high] }
     }
 
-    pub fn pixels(&self, points: &[[f64; 2]]) -> Chain {
+    pub fn pixels(&self, points: &[[f64; 2]]) -> Polyline {
         points.iter().map(|p| self.fit.apply(*p)).collect()
     }
 
@@ -37,14 +37,14 @@ impl<'a> Canvas<'a> {
     }
 
     /// Polygons in pixels.
-    pub fn polygons<'p>(&self, polygons: impl IntoIterator<Item = &'p Chain>) -> Path {
-        paths(polygons.into_iter().map(|p| self.pixels(&self.shown(p))), Path::polygon)
+    pub fn polygons<'p>(&self, polygons: impl IntoIterator<Item = &'p Polyline>) -> SvgPath {
+        paths(polygons.into_iter().map(|p| self.pixels(&self.shown(p))), SvgPath::polygon)
     }
 
     /// Segments in pixels, each once, joined into lines.
-    pub fn lines(&self, segments: impl Iterator<Item = [[f64; 2]; 2]>) -> Path {
+    pub fn lines(&self, segments: impl Iterator<Item = [[f64; 2]; 2]>) -> SvgPath {
         let shown = once(segments).filter_map(|side| segment_in_box(side, self.panel));
-        paths(chains(shown.map(|[a, b]| (a, b))).iter().map(|line| self.pixels(line)), Path::line)
+        paths(chains(shown.map(|[a, b]| (a, b))).iter().map(|line| self.pixels(line)), SvgPath::line)
     }
 
     /// Draw edges of a mesh.
@@ -56,7 +56,7 @@ impl<'a> Canvas<'a> {
     /// Draw dots in a white ring: their radius, and that with the ring, in those of cones.
     pub fn dots(&mut self, dots: impl Iterator<Item = ([f64; 2], Rgb)> + Clone, [radius, ring]: [f64; 2]) {
         let disk = |at: [f64; 2], radius: f64| {
-            let mut path = Path::default();
+            let mut path = SvgPath::default();
             path.circle(self.fit.apply(at), radius * self.style.cone());
             path
         };

@@ -3,8 +3,8 @@
 use super::color::{INK, Rgb, from_hex, mix};
 use super::colormap::NO_VALUE;
 use super::raster::doubled_area;
-use super::texture::{Patch, Texture, Tiles};
-use super::{Field, Style};
+use super::texture::{TexturePatch, TextureChoice, Tiles};
+use super::{ColorField, Style};
 
 /// Colour of a surface that shows nothing else.
 pub const CLAY: u32 = 0xd3c6b4;
@@ -24,8 +24,8 @@ const DENSE: [f64; 2] = [2.0, 9.0];
 
 /// What is drawn on a panel.
 pub struct Coat<'a> {
-    patches: Option<Vec<Patch>>,
-    field: Option<(&'a Field, Vec<Rgb>)>,
+    patches: Option<Vec<TexturePatch>>,
+    field: Option<(&'a ColorField, Vec<Rgb>)>,
     wire: Option<Vec<Wire>>,
     clay: Rgb,
     light: Rgb,
@@ -34,20 +34,20 @@ pub struct Coat<'a> {
 
 /// What a panel's faces are to show.
 #[derive(Clone, Copy)]
-pub struct Wish<'a> {
+pub struct PanelContent<'a> {
     pub tiles: Option<&'a Tiles>,
     pub corner_uv: Option<&'a [[[f64; 2]; 3]]>,
-    pub field: Option<&'a Field>,
+    pub field: Option<&'a ColorField>,
 }
 
 impl<'a> Coat<'a> {
     /// `triangles`: each face on the panel.
-    pub fn new(wish: &Wish<'a>, style: &Style, triangles: &[[[f64; 2]; 3]]) -> Coat<'a> {
-        let patch = |uv: &[[[f64; 2]; 3]], tiles: &Tiles| -> Vec<Patch> {
+    pub fn new(wish: &PanelContent<'a>, style: &Style, triangles: &[[[f64; 2]; 3]]) -> Coat<'a> {
+        let patch = |uv: &[[[f64; 2]; 3]], tiles: &Tiles| -> Vec<TexturePatch> {
             let each = triangles.iter().zip(uv).enumerate();
-            each.map(|(f, (pixels, uv))| Patch::new(style.texture, *uv, tiles, f, *pixels)).collect()
+            each.map(|(f, (pixels, uv))| TexturePatch::new(style.texture, *uv, tiles, f, *pixels)).collect()
         };
-        let textured = style.texture != Texture::None;
+        let textured = style.texture != TextureChoice::None;
         let patches = wish.corner_uv.zip(wish.tiles).filter(|_| textured).map(|(uv, tiles)| patch(uv, tiles));
         let half_width = wire_width(style.size);
         let wire = style.wire.then(|| triangles.iter().map(|t| Wire::new(*t, half_width)).collect());

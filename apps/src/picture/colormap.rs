@@ -63,7 +63,7 @@ impl Ramp {
 
 /// The colours of a quantity.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Scale {
+pub struct ColorScale {
     /// What is shown, with its unit.
     pub title: String,
     pub ramp: Ramp,
@@ -73,32 +73,32 @@ pub struct Scale {
     pub ends: String,
 }
 
-impl Scale {
+impl ColorScale {
     /// For amounts: between the percentiles of the data.
-    pub fn of_amounts(title: &str, values: &[f64]) -> Scale {
+    pub fn of_amounts(title: &str, values: &[f64]) -> ColorScale {
         let middle = percentile(values, 50.0).unwrap_or(0.0);
         let [low, high] = PERCENTILES;
         let range = [[low, 25.0], [high, 75.0]].map(|percents| end(values, middle, percents));
-        Scale { title: title.into(), ramp: Ramp::Viridis, range, ends: clipping(values, range) }
+        ColorScale { title: title.into(), ramp: Ramp::Viridis, range, ends: clipping(values, range) }
     }
 
     /// For what has a sign: as far to both sides of 0 as the upper percentile of its size.
-    pub fn of_signed(title: &str, values: &[f64]) -> Scale {
+    pub fn of_signed(title: &str, values: &[f64]) -> ColorScale {
         let sizes: Vec<f64> = values.iter().map(|x| x.abs()).collect();
         let most = end(&sizes, 0.0, [PERCENTILES[1], 75.0]);
         let range = [-most, most];
-        Scale { title: title.into(), ramp: Ramp::BlueRed, range, ends: clipping(values, range) }
+        ColorScale { title: title.into(), ramp: Ramp::BlueRed, range, ends: clipping(values, range) }
     }
 
     /// For pairs of classes.
-    pub fn of_pairs(title: &str, ends: &str) -> Scale {
+    pub fn of_pairs(title: &str, ends: &str) -> ColorScale {
         let range = [0.0, (CLASSES * CLASSES - 1) as f64];
-        Scale { title: title.into(), ramp: Ramp::Pairs, range, ends: ends.into() }
+        ColorScale { title: title.into(), ramp: Ramp::Pairs, range, ends: ends.into() }
     }
 
     /// For stripes of equal width over a range.
-    pub fn of_stripes(title: &str, range: [f64; 2], ends: &str) -> Scale {
-        Scale { title: title.into(), ramp: Ramp::Stripes, range, ends: ends.into() }
+    pub fn of_stripes(title: &str, range: [f64; 2], ends: &str) -> ColorScale {
+        ColorScale { title: title.into(), ramp: Ramp::Stripes, range, ends: ends.into() }
     }
 
     /// Where a value lies on the map, in [0, 1]; what is no number lies nowhere (NaN).
@@ -179,19 +179,19 @@ mod tests {
         // 1 … 100 in any order, and one value that is none.
         let mut values: Vec<f64> = (0..100).map(|k| f64::from((k * 37) % 100 + 1)).collect();
         values.push(f64::NAN);
-        assert_eq!(Scale::of_amounts("x", &values).range, [2.0, 98.0]);
+        assert_eq!(ColorScale::of_amounts("x", &values).range, [2.0, 98.0]);
         assert_eq!(percentile(&values, 100.0), Some(100.0));
         let signed: Vec<f64> = values.iter().map(|x| if *x > 50.0 { -x } else { *x }).collect();
-        assert_eq!(Scale::of_signed("x", &signed).range, [-98.0, 98.0]);
+        assert_eq!(ColorScale::of_signed("x", &signed).range, [-98.0, 98.0]);
         assert_eq!(percentile(&[], 50.0), None);
         // A tenth of the values far out leaves the colours to the others, but for where these are all the same.
         let tail =
             |bulk: fn(u32) -> f64| (0..100).map(|k| if k < 90 { bulk(k) } else { 1e6 }).collect::<Vec<_>>();
-        assert_eq!(Scale::of_signed("x", &tail(f64::from)).range, [-296.0, 296.0]);
-        assert_eq!(Scale::of_amounts("x", &tail(f64::from)).range, [1.0, 149.0]);
-        assert_eq!(Scale::of_amounts("x", &tail(|_| 1.0)).range, [1.0, 1e6]);
+        assert_eq!(ColorScale::of_signed("x", &tail(f64::from)).range, [-296.0, 296.0]);
+        assert_eq!(ColorScale::of_amounts("x", &tail(f64::from)).range, [1.0, 149.0]);
+        assert_eq!(ColorScale::of_amounts("x", &tail(|_| 1.0)).range, [1.0, 1e6]);
         // Where colours are clipped the scale says so, and how far the values reach.
-        let ends = |values: &[f64]| Scale::of_amounts("x", values).ends;
+        let ends = |values: &[f64]| ColorScale::of_amounts("x", values).ends;
         assert_eq!(ends(&values), "3.0% of the values are clipped, all reach from 1 to 100");
         assert_eq!(ends(&[3.0, 4.0]), "all values lie within the colours");
     }
@@ -203,12 +203,12 @@ mod tests {
         assert!((0..50).all(|k| viridis(k) < viridis(k + 1)));
         let signed = |k: i32| lightness(Ramp::BlueRed.color(0.5 + f64::from(k) / 100.0));
         assert!((0..50).all(|k| signed(k) > signed(k + 1) && signed(-k) > signed(-k - 1)));
-        assert!(Ramp::BlueRed.color(Scale::of_signed("x", &[-1.0, 2.0]).place(0.0)).iter().all(|c| *c > 0.9));
+        assert!(Ramp::BlueRed.color(ColorScale::of_signed("x", &[-1.0, 2.0]).place(0.0)).iter().all(|c| *c > 0.9));
     }
 
     #[test]
     fn classes_have_colours_of_their_own() {
-        let scale = Scale::of_pairs("", "");
+        let scale = ColorScale::of_pairs("", "");
         let n = CLASSES * CLASSES;
         let of = |k: usize| scale.ramp.color(scale.place(k as f64));
         for k in 0..n {
@@ -222,7 +222,7 @@ mod tests {
 
     #[test]
     fn stripes_alternate_and_are_equally_wide() {
-        let scale = Scale::of_stripes("", [0.0, 180.0], "");
+        let scale = ColorScale::of_stripes("", [0.0, 180.0], "");
         let of = |x: f64| scale.ramp.color(scale.place(x));
         let wide = 180.0 / STRIPES as f64;
         for k in 1..STRIPES {
@@ -251,8 +251,8 @@ mod tests {
     #[test]
     fn ticks_are_round_and_inside() {
         let scale =
-            Scale { title: String::new(), ramp: Ramp::Viridis, range: [0.0, 1.0], ends: String::new() };
+            ColorScale { title: String::new(), ramp: Ramp::Viridis, range: [0.0, 1.0], ends: String::new() };
         assert_eq!(scale.ticks(), [0.2, 0.4, 0.6000000000000001, 0.8]);
-        assert!(Scale { range: [2.0, 2.0], ..scale }.ticks().is_empty());
+        assert!(ColorScale { range: [2.0, 2.0], ..scale }.ticks().is_empty());
     }
 }

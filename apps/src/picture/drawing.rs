@@ -6,13 +6,13 @@ use super::coat::{DARK, LIGHT, wire_opacity};
 use super::color::{INK, Rgb, from_hex, mix, seam_color};
 use super::fit::Fit;
 use super::region::Chain;
-use super::sheet::{Path, Sheet};
+use super::sheet::{SvgPath, VectorSheet};
 use super::text::word;
 use super::texture::Tiles;
 
 /// What of the plane is shown.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Frame {
+pub enum DrawingFrame {
     /// The unit disk.
     Disk,
     /// Of the upper half-plane, what is this far from 0 at most to the left, to the right and up.
@@ -25,11 +25,11 @@ pub enum Frame {
 #[derive(Clone, Debug)]
 pub struct Area {
     /// Its border, a closed polygon.
-    pub border: Chain,
+    pub border: Polyline,
     /// 0: the colours of the pattern itself; others in turn, see [`tints`].
     pub tint: u8,
     /// The dark cells of the pattern.
-    pub cells: Vec<Chain>,
+    pub cells: Vec<Polyline>,
     /// The edges of the mesh, and how many pixels a face has about.
     pub wire: Vec<[[f64; 2]; 2]>,
     pub face: f64,
@@ -39,8 +39,8 @@ pub struct Area {
 
 /// A line through points; the colour is that of a seam, or ink.
 #[derive(Clone, Debug)]
-pub struct Line {
-    pub points: Chain,
+pub struct DrawnLine {
+    pub points: Polyline,
     pub color: Option<usize>,
     /// In widths of a seam.
     pub width: f64,
@@ -59,16 +59,16 @@ pub struct Label {
 
 /// The pattern of all copies: coordinates of the corners of its triangles.
 #[derive(Clone, Copy)]
-pub struct Pattern<'a> {
+pub struct DrawingPattern<'a> {
     pub uv: &'a [[[f64; 2]; 3]],
     pub tiles: &'a Tiles,
 }
 
 #[derive(Clone, Copy)]
 pub struct Drawing<'a> {
-    pub frame: Frame,
+    pub frame: DrawingFrame,
     pub areas: &'a [Area],
-    pub lines: &'a [Line],
+    pub lines: &'a [DrawnLine],
     pub dots: &'a [[f64; 2]],
     pub labels: &'a [Label],
 }
@@ -107,34 +107,34 @@ pub fn tint_color(tint: u8) -> Rgb {
     mix(light, dark, 0.3)
 }
 
-impl Frame {
+impl DrawingFrame {
     pub fn fit(&self, size: usize) -> Fit {
         let corners = match *self {
-            Frame::Disk => [[-1.0; 2], [1.0; 2]],
-            Frame::HalfPlane(far) => [[-far, 0.0], [far, far]],
-            Frame::Rectangle(corners) => corners,
+            DrawingFrame::Disk => [[-1.0; 2], [1.0; 2]],
+            DrawingFrame::HalfPlane(far) => [[-far, 0.0], [far, far]],
+            DrawingFrame::Rectangle(corners) => corners,
         };
         Fit::new(corners.into_iter(), size)
     }
 }
 
 /// Areas, lines, dots and labels over one another, in this order.
-pub fn draw(drawing: &Drawing<'_>, style: &Style) -> Sheet {
-    let mut canvas = Canvas::new(drawing.frame.fit(style.size), style);
+pub fn draw(drawing: &Drawing<'_>, style: &Style) -> VectorSheet {
+    let mut canvas = PanelCanvas::new(drawing.frame.fit(style.size), style);
     let (fit, width) = (canvas.fit, 2.0 * style.line());
     // The ground of the model, and its border.
-    let (mut ground, mut border) = (Path::default(), Path::default());
+    let (mut ground, mut border) = (SvgPath::default(), SvgPath::default());
     match drawing.frame {
-        Frame::Disk => {
+        DrawingFrame::Disk => {
             ground.circle(fit.apply([0.0; 2]), fit.scale);
             border = ground.clone();
         }
-        Frame::HalfPlane(_) => {
+        DrawingFrame::HalfPlane(_) => {
             let (right, y) = (fit.width as f64, fit.apply([0.0; 2])[1]);
             ground.rectangle([0.0, 0.0, right, y]);
             border.line(&[[0.0, y], [right, y]]);
         }
-        Frame::Rectangle(_) => {}
+        DrawingFrame::Rectangle(_) => {}
     }
     canvas.sheet.fill(from_hex(EMPTY), &ground);
     drawing.areas.iter().for_each(|copy| area(&mut canvas, copy));
@@ -148,7 +148,7 @@ pub fn draw(drawing: &Drawing<'_>, style: &Style) -> Sheet {
     canvas.sheet.cut("drawing")
 }
 
-fn area(canvas: &mut Canvas<'_>, area: &Area) {
+fn area(canvas: &mut PanelCanvas<'_>, area: &Area) {
     let [light, dark] = tints(area.tint);
     let ground = mix(light, dark, area.dark);
     let [border, cells] = [canvas.polygons([&area.border]), canvas.polygons(&area.cells)];
@@ -160,7 +160,7 @@ fn area(canvas: &mut Canvas<'_>, area: &Area) {
 }
 
 /// A label where there is room for it.
-fn label(canvas: &mut Canvas<'_>, label: &Label) {
+fn label(canvas: &mut PanelCanvas<'_>, label: &Label) {
     let size = canvas.style.letters();
     let lettering = word(&label.text, size);
     if lettering.width > canvas.fit.scale * label.room {

@@ -1,15 +1,15 @@
 //! The layout in the plane: colours or a pattern, and over them the wire, circles, boundary, seams and cones.
 
 use super::canvas::Canvas;
-use super::coat::{CLAY, DARK, LIGHT, Wish, wire_opacity};
+use super::coat::{CLAY, DARK, LIGHT, PanelContent, wire_opacity};
 use super::color::{INK, Rgb, cone_color, from_hex, mix, seam_color, to_hex};
 use super::colormap::NO_VALUE;
 use super::fit::Fit;
 use super::raster::doubled_area;
-use super::region::{Chain, FINEST, cells, is_finite, outline};
-use super::sheet::{Path, Sheet};
-use super::texture::{OCTAVE, Texture};
-use super::{Circle, Field, Flat, Style};
+use super::region::{Polyline, FINEST, cells, is_finite, outline};
+use super::sheet::{SvgPath, VectorSheet};
+use super::texture::{OCTAVE, TextureChoice};
+use super::{Circle, ColorField, ShownLayout, Style};
 use ricci::geometry::clip::strip;
 
 /// Circles of a smaller radius (pixels) are left out.
@@ -29,8 +29,8 @@ const PALE: f64 = 0.75;
 /// Degrees of opacity of the wire.
 const WIRE_CLASSES: usize = 5;
 /// Draw a layout; what reaches beyond the panel is to be cut off.
-pub fn draw(flat: &Flat<'_>, wish: &Wish<'_>, style: &Style) -> Sheet {
-    let mut canvas = Canvas::new(fit(flat, style), style);
+pub fn draw(flat: &ShownLayout<'_>, wish: &PanelContent<'_>, style: &Style) -> VectorSheet {
+    let mut canvas = PanelCanvas::new(fit(flat, style), style);
     if let Some(field) = wish.field {
         colors(flat, field, &mut canvas);
     }
@@ -45,7 +45,7 @@ pub fn draw(flat: &Flat<'_>, wish: &Wish<'_>, style: &Style) -> Sheet {
 }
 
 /// The whole layout with its circles, or the part that is to be shown.
-fn fit(flat: &Flat<'_>, style: &Style) -> Fit {
+fn fit(flat: &ShownLayout<'_>, style: &Style) -> Fit {
     if let Some(focus) = &style.focus {
         return Fit::around(focus.at_layout, focus.radius_layout, style.size);
     }
@@ -56,14 +56,14 @@ fn fit(flat: &Flat<'_>, style: &Style) -> Fit {
 }
 
 /// The pattern over colours, or on a ground of its own; without a pattern one colour.
-fn pattern(flat: &Flat<'_>, wish: &Wish<'_>, canvas: &mut Canvas<'_>) {
+fn pattern(flat: &ShownLayout<'_>, wish: &PanelContent<'_>, canvas: &mut PanelCanvas<'_>) {
     // Circles are to be seen, not what is under them.
     let pale = |hex: u32| mix(from_hex(hex), [1.0; 3], if flat.circles.is_empty() { 0.0 } else { PALE });
     let texture = canvas.style.texture;
     for (check, region) in regions(flat, wish, canvas) {
         let fine = check * canvas.fit.scale < FINEST;
         let ground = match texture {
-            Texture::None => pale(CLAY),
+            TextureChoice::None => pale(CLAY),
             _ => mix(pale(LIGHT), pale(DARK), if fine { texture.mean() } else { 0.0 }),
         };
         let dark = if fine { Vec::new() } else { cells(&region, texture, check) };
@@ -78,7 +78,7 @@ fn pattern(flat: &Flat<'_>, wish: &Wish<'_>, canvas: &mut Canvas<'_>) {
 }
 
 /// The parts of the layout with checks of one size, as polygons that end with the panel, and that size.
-fn regions(flat: &Flat<'_>, wish: &Wish<'_>, canvas: &Canvas<'_>) -> Vec<(f64, Vec<Chain>)> {
+fn regions(flat: &ShownLayout<'_>, wish: &PanelContent<'_>, canvas: &PanelCanvas<'_>) -> Vec<(f64, Vec<Polyline>)> {
     let size = wish.tiles.map_or(1.0, |tiles| tiles.size);
     let parts =
         wish.tiles.map_or_else(|| vec![(0, flat.corner_uv.to_vec())], |tiles| tiles.levels(flat.corner_uv));
@@ -90,8 +90,8 @@ fn regions(flat: &Flat<'_>, wish: &Wish<'_>, canvas: &Canvas<'_>) -> Vec<(f64, V
 }
 
 /// Each triangle in its colours, cut where one ends and the next begins. Their edges are crisp, so that neighbours leave no gap.
-fn colors(flat: &Flat<'_>, field: &Field, canvas: &mut Canvas<'_>) {
-    let mut paths = vec![Path::default(); COLORS + 1];
+fn colors(flat: &ShownLayout<'_>, field: &ColorField, canvas: &mut PanelCanvas<'_>) {
+    let mut paths = vec![SvgPath::default(); COLORS + 1];
     for (uv, values) in flat.corner_uv.iter().zip(&field.corners) {
         let t = values.map(|v| field.scale.place(v) * (COLORS - 1) as f64 + 0.5);
         let shown = canvas.shown(&[0, 1, 2].map(|k| [uv[k][0], uv[k][1], t[k]]));
@@ -111,7 +111,7 @@ fn colors(flat: &Flat<'_>, field: &Field, canvas: &mut Canvas<'_>) {
 }
 
 /// The edges of the mesh; paler where they are dense.
-fn wire(flat: &Flat<'_>, canvas: &mut Canvas<'_>) {
+fn wire(flat: &ShownLayout<'_>, canvas: &mut PanelCanvas<'_>) {
     let mut classes = vec![Vec::new(); WIRE_CLASSES + 1];
     for uv in flat.corner_uv.iter().filter(|uv| is_finite(&uv[..])) {
         let opacity = wire_opacity(0.5 * doubled_area(uv.map(|p| canvas.fit.apply(p))).abs());
@@ -124,9 +124,9 @@ fn wire(flat: &Flat<'_>, canvas: &mut Canvas<'_>) {
 }
 
 /// Round holes and rims.
-fn rounds(flat: &Flat<'_>, canvas: &mut Canvas<'_>) {
+fn rounds(flat: &ShownLayout<'_>, canvas: &mut PanelCanvas<'_>) {
     let circles = |circles: &[Circle]| {
-        let mut path = Path::default();
+        let mut path = SvgPath::default();
         for Circle { center, radius } in circles {
             let radius = canvas.fit.scale * radius;
             if (LEAST_RADIUS..MOST_RADIUS).contains(&radius) {
@@ -143,11 +143,11 @@ fn rounds(flat: &Flat<'_>, canvas: &mut Canvas<'_>) {
 }
 
 /// Circles, the lines of small ones thinner.
-fn circles(flat: &Flat<'_>, canvas: &mut Canvas<'_>) {
+fn circles(flat: &ShownLayout<'_>, canvas: &mut PanelCanvas<'_>) {
     let most = (1.2e-3 * canvas.style.size as f64).max(0.8);
     for (circles, color) in [(flat.dual_circles, DUAL_CIRCLE), (flat.circles, VERTEX_CIRCLE)] {
         let widths = [0.25, 0.5, 1.0].map(|share| share * most);
-        let mut paths = widths.map(|_| Path::default());
+        let mut paths = widths.map(|_| SvgPath::default());
         for Circle { center, radius } in circles {
             let radius = canvas.fit.scale * radius;
             if (LEAST_RADIUS..MOST_RADIUS).contains(&radius) {
@@ -160,7 +160,7 @@ fn circles(flat: &Flat<'_>, canvas: &mut Canvas<'_>) {
 }
 
 /// Frame, boundary, seams and cones.
-fn lines(flat: &Flat<'_>, canvas: &mut Canvas<'_>) {
+fn lines(flat: &ShownLayout<'_>, canvas: &mut PanelCanvas<'_>) {
     let width = 2.0 * canvas.style.line();
     let mut line = |sides: &mut dyn Iterator<Item = [[f64; 2]; 2]>, color: Rgb, width: f64| {
         let path = canvas.lines(sides);

@@ -1,11 +1,11 @@
 //! What stands below a picture: the bar of colours with its numbers, and the key of the circles.
 
 use super::color::{INK, from_hex, to_hex};
-use super::colormap::{Ramp, Scale, number};
+use super::colormap::{Ramp, ColorScale, number};
 use super::flat::{DUAL_CIRCLE, VERTEX_CIRCLE};
-use super::sheet::{Path, Sheet};
+use super::sheet::{SvgPath, VectorSheet};
 use super::text::{CAPITALS, Lettering, line};
-use super::{Flat, Style};
+use super::{ShownLayout, Style};
 
 /// Length and height of the bar, over the size of a panel.
 const BAR: [f64; 2] = [0.62, 0.022];
@@ -13,7 +13,7 @@ const BAR: [f64; 2] = [0.62, 0.022];
 const STEPS: usize = 160;
 
 /// The bar of colours of a quantity, with its title above and its numbers below.
-pub fn bar(scale: &Scale, style: &Style) -> Sheet {
+pub fn bar(scale: &ColorScale, style: &Style) -> VectorSheet {
     let (size, letters) = (style.size as f64, style.letters());
     let [length, height] = [(BAR[0] * size).max(16.0 * letters), (BAR[1] * size).max(0.8 * letters)];
     let [title, top] = [1.3 * letters, 1.9 * letters];
@@ -36,16 +36,16 @@ pub fn bar(scale: &Scale, style: &Style) -> Sheet {
     let reach =
         captions.iter().map(|(_, lettering, at)| (at[0] - 0.5 * length).abs() + 0.5 * lettering.width);
     let width = reach.fold(0.5 * length, f64::max) * 2.0 + letters;
-    let mut sheet = Sheet::new(width.ceil() as usize, (below + 1.8 * letters).ceil() as usize);
+    let mut sheet = VectorSheet::new(width.ceil() as usize, (below + 1.8 * letters).ceil() as usize);
     let left = 0.5 * (sheet.width as f64 - length);
     for k in 0..STEPS {
         let [from, to] = [k, k + 1].map(|k| length * k as f64 / STEPS as f64);
-        let mut path = Path::default();
+        let mut path = SvgPath::default();
         path.rectangle([left + from, top, to - from, height]);
         let color = to_hex(scale.on_bar((k as f64 + 0.5) / STEPS as f64));
         sheet.add(&format!(r#"fill="{color}" shape-rendering="crispEdges""#), &path);
     }
-    let mut ticks = Path::default();
+    let mut ticks = SvgPath::default();
     let tick = |v: &f64| [top + height, top + height + 0.3 * letters].map(|y| [left + place(*v), y]);
     values.iter().for_each(|v| ticks.line(&tick(v)));
     sheet.stroke(INK, (0.05 * letters).max(0.8), &ticks);
@@ -56,7 +56,7 @@ pub fn bar(scale: &Scale, style: &Style) -> Sheet {
 }
 
 /// The key of the circles of a layout, if it has any.
-pub fn circles(flat: &Flat<'_>, style: &Style) -> Option<Sheet> {
+pub fn circles(flat: &ShownLayout<'_>, style: &Style) -> Option<VectorSheet> {
     let letters = style.letters();
     let kinds = [
         (flat.circles, VERTEX_CIRCLE, "circles of the vertices"),
@@ -67,10 +67,10 @@ pub fn circles(flat: &Flat<'_>, style: &Style) -> Option<Sheet> {
     let widest = written.iter().map(|l| l.width).fold(0.0, f64::max);
     let (radius, row) = (0.38 * letters, 1.45 * letters);
     let width = (widest + 3.0 * letters).ceil() as usize;
-    let mut sheet = Sheet::new(width, (row * entries.len() as f64 + 0.6 * letters).ceil() as usize);
+    let mut sheet = VectorSheet::new(width, (row * entries.len() as f64 + 0.6 * letters).ceil() as usize);
     for (k, ((_, color, text), lettering)) in entries.iter().zip(&written).enumerate() {
         let y = row * (k as f64 + 0.9);
-        let mut path = Path::default();
+        let mut path = SvgPath::default();
         path.circle([letters, y - 0.5 * CAPITALS * letters], radius);
         sheet.stroke(from_hex(*color), 0.12 * letters, &path);
         sheet.write(text, &lettering.path, ([2.0 * letters, y], INK), 0.0);
@@ -86,7 +86,7 @@ mod tests {
     fn the_numbers_at_the_ends_are_the_percentiles() {
         let values: Vec<f64> = (1..=1000).map(f64::from).collect();
         let svg =
-            String::from_utf8(bar(&Scale::of_amounts("area", &values), &Style::default()).svg()).unwrap();
+            String::from_utf8(bar(&ColorScale::of_amounts("area", &values), &Style::default()).svg()).unwrap();
         let written: Vec<&str> =
             svg.split("aria-label=\"").skip(1).filter_map(|s| s.split('"').next()).collect();
         assert_eq!((written[0], written[2], written[written.len() - 1]), ("area", "20", "980"));
@@ -94,7 +94,7 @@ mod tests {
 
     #[test]
     fn the_bar_runs_through_the_map_and_its_letters_can_be_read_at_any_size() {
-        let scale = Scale::of_amounts("a", &[0.0, 1.0]);
+        let scale = ColorScale::of_amounts("a", &[0.0, 1.0]);
         for size in [64, 320, 900, 4096] {
             let style = Style { size, ..Style::default() };
             let image = bar(&scale, &style).image().unwrap();

@@ -38,7 +38,7 @@ impl Lights {
     }
 
     /// Light from a surface of this colour and unit normal `n` towards the viewer.
-    pub fn on(&self, albedo: Rgb, n: V3, open: Open) -> Rgb {
+    pub fn on(&self, albedo: Rgb, n: V3, open: ReceivedLight) -> Rgb {
         let facing = |light: V3| dot(light, n).max(0.0);
         let tilt = 0.5 + 0.5 * dot(self.up, n);
         let direct = KEY * facing(self.key) * open.key;
@@ -53,7 +53,7 @@ impl Lights {
     }
 
     /// The ground, white where nothing shades it.
-    pub fn on_ground(open: Open) -> Rgb {
+    pub fn on_ground(open: ReceivedLight) -> Rgb {
         // What hides next to nothing of the sky dims it by next to nothing: the shade ends without a border.
         let hidden = 1.0 - open.sky;
         let sky = hidden * hidden / (hidden + FAINT);

@@ -30,12 +30,12 @@ mod upright;
 mod vector;
 
 pub use args::{ColorChoice, FlowPictureArgs, PictureArgs, SurfacePictureArgs, Zoom, zoom};
-pub use camera::{Camera, View};
-pub use colormap::{CLASSES, Scale};
-pub use drawing::{Area, Drawing, Frame, Label, Line, PALE, Pattern, TINTS, tint_color};
+pub use camera::{Camera, Viewpoint};
+pub use colormap::{CLASSES, ColorScale};
+pub use drawing::{Area, Drawing, DrawingFrame, Label, DrawnLine, PALE, DrawingPattern, TINTS, tint_color};
 pub use region::{FINEST, cells, in_pieces, outline};
-pub use scene::{Circle, Field, Flat, Focus, Style, Surface};
-pub use texture::{OCTAVE, Texture, Tiles};
+pub use scene::{Circle, ColorField, ShownLayout, Focus, Style, ShownSurface};
+pub use texture::{OCTAVE, TextureChoice, Tiles};
 
 pub use raster::doubled_area;
 pub use upright::stance;
@@ -50,17 +50,17 @@ use sheet::Sheet;
 /// What one picture shows: the surface on the left, the layout or a drawing on the right, or one of them.
 #[derive(Clone, Copy, Default)]
 pub struct Picture<'a> {
-    pub surface: Option<Surface<'a>>,
+    pub surface: Option<ShownSurface<'a>>,
     /// A second surface, on the right.
-    pub beside: Option<Surface<'a>>,
-    pub flat: Option<Flat<'a>>,
+    pub beside: Option<ShownSurface<'a>>,
+    pub flat: Option<ShownLayout<'a>>,
     /// A second layout, on the right of the first.
-    pub flat_beside: Option<Flat<'a>>,
+    pub flat_beside: Option<ShownLayout<'a>>,
     /// A drawing in place of the layout, or beside it.
     pub drawing: Option<&'a Drawing<'a>>,
     /// The size of the pattern, where it is not to be found from the areas on both sides.
     pub pattern: Option<&'a Tiles>,
-    pub field: Option<&'a Field>,
+    pub field: Option<&'a ColorField>,
 }
 
 /// Space between two panels, over the size of a panel.
@@ -86,16 +86,16 @@ impl Picture<'_> {
     }
 
     /// The panels side by side, and below them what says what they show.
-    fn sheet(&self, style: &Style) -> ricci::Result<Sheet> {
+    fn sheet(&self, style: &Style) -> ricci::Result<VectorSheet> {
         parallel::within(style.threads, || Ok(self.panels(style)))
     }
 
-    fn panels(&self, style: &Style) -> Sheet {
+    fn panels(&self, style: &Style) -> VectorSheet {
         let own = if self.pattern.is_some() { None } else { self.tiles().map(|t| t.banded(style.bands)) };
         let tiles = self.pattern.or(own.as_ref());
-        let wish = |corner_uv| Wish { tiles, corner_uv, field: self.field };
+        let wish = |corner_uv| PanelContent { tiles, corner_uv, field: self.field };
         let [surface, beside] = [self.surface, self.beside]
-            .map(|surface| surface.map(|s| Sheet::of_image(solid::draw(&s, &wish(s.corner_uv), style))));
+            .map(|surface| surface.map(|s| VectorSheet::of_image(solid::draw(&s, &wish(s.corner_uv), style))));
         let [flat, second] = [(self.flat, "layout"), (self.flat_beside, "second-layout")]
             .map(|(flat, id)| flat.map(|f| flat::draw(&f, &wish(Some(f.corner_uv)), style).cut(id)));
         let drawing = self.drawing.map(|d| drawing::draw(d, style));
@@ -107,12 +107,12 @@ impl Picture<'_> {
 }
 
 /// Sheets from left to right (axis 0) or from top to bottom (axis 1), their middles on one line.
-fn stack(sheets: impl IntoIterator<Item = Option<Sheet>>, axis: usize, gap: usize) -> Sheet {
-    let sheets: Vec<Sheet> = sheets.into_iter().flatten().collect();
+fn stack(sheets: impl IntoIterator<Item = Option<VectorSheet>>, axis: usize, gap: usize) -> VectorSheet {
+    let sheets: Vec<VectorSheet> = sheets.into_iter().flatten().collect();
     let sizes: Vec<[usize; 2]> = sheets.iter().map(|s| [s.width, s.height]).collect();
     let mut whole = [0, 1].map(|k| sizes.iter().map(|s| s[k]).max().unwrap_or(1));
     whole[axis] = sizes.iter().map(|s| s[axis]).sum::<usize>() + gap * sizes.len().saturating_sub(1);
-    let (mut stacked, mut next) = (Sheet::new(whole[0], whole[1]), 0);
+    let (mut stacked, mut next) = (VectorSheet::new(whole[0], whole[1]), 0);
     for (sheet, size) in sheets.into_iter().zip(sizes) {
         let mut at = [0, 1].map(|k| (whole[k] - size[k].min(whole[k])) / 2);
         at[axis] = next;
@@ -132,7 +132,7 @@ pub fn png(picture: &Picture<'_>, style: &Style) -> Result<Vec<u8>, Failure> {
     encoded(&picture.sheet(style)?.image()?, style.palette).map_err(|e| Failure::Failed(e.to_string()))
 }
 
-fn encoded(image: &Image, palette: bool) -> Result<Vec<u8>, png::EncodingError> {
+fn encoded(image: &PixelImage, palette: bool) -> Result<Vec<u8>, png::EncodingError> {
     let rgb: Vec<u8> = image.rgba.chunks_exact(4).flat_map(|p| [p[0], p[1], p[2]]).collect();
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, image.width as u32, image.height as u32);

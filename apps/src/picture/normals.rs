@@ -12,7 +12,7 @@ const MOST_FACES: usize = 64;
 /// A unit normal for every corner: the mean over the faces at its vertex that meet the corner's face at less than
 /// [`CREASE`], each weighed with its area and its angle there.
 pub fn corner_normals(points: &[V3], faces: &[[u32; 3]]) -> Vec<[V3; 3]> {
-    let sides: Vec<Side> = faces.iter().map(|f| Side::new(f.map(|v| points[v as usize]))).collect();
+    let sides: Vec<FaceNormal> = faces.iter().map(|f| FaceNormal::new(f.map(|v| points[v as usize]))).collect();
     // The faces around each vertex, and which of their corners it is.
     let mut around = vec![Vec::new(); points.len()];
     for (f, face) in faces.iter().enumerate() {
@@ -33,14 +33,14 @@ pub fn corner_normals(points: &[V3], faces: &[[u32; 3]]) -> Vec<[V3; 3]> {
 }
 
 /// What a face says about the normals at its corners.
-struct Side {
+struct FaceNormal {
     direction: V3,
     weight: [f64; 3],
     needle: bool,
 }
 
-impl Side {
-    fn new(p: [V3; 3]) -> Side {
+impl FaceNormal {
+    fn new(p: [V3; 3]) -> FaceNormal {
         let n = normal(p);
         let doubled_area = norm(n);
         let direction = unit(n).unwrap_or([0.0; 3]);
@@ -48,6 +48,6 @@ impl Side {
         let longest = sides.iter().map(|s| norm(*s)).fold(0.0, f64::max);
         let angle = |k: usize| f64::atan2(doubled_area, -dot(sides[k], sides[(k + 2) % 3]));
         let weight = [0, 1, 2].map(|k| doubled_area * angle(k));
-        Side { direction, weight, needle: doubled_area <= NEEDLE * longest * longest }
+        FaceNormal { direction, weight, needle: doubled_area <= NEEDLE * longest * longest }
     }
 }

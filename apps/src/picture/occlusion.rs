@@ -2,7 +2,7 @@
 //! sees it. Every second pixel of every second row asks all lights; those between take the mean of their neighbours on the same piece of
 //! surface.
 
-use super::raster::{Hit, Samples, Shape, scan};
+use super::raster::{Hit, Samples, DrawnShape, scan};
 use super::vector::{V3, add, at, bounding_ball, complement, dot, scaled, sphere_point, sub};
 use ricci::parallel::{each, map};
 
@@ -24,18 +24,18 @@ const SOFT: usize = 3;
 
 /// Shares of the light that arrive, in [0, 1].
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Open {
+pub struct ReceivedLight {
     pub sky: f64,
     pub key: f64,
 }
 
-impl Open {
-    pub const FULLY: Open = Open { sky: 1.0, key: 1.0 };
+impl ReceivedLight {
+    pub const FULLY: ReceivedLight = ReceivedLight { sky: 1.0, key: 1.0 };
 }
 
 /// A point that is seen, in pixel coordinates.
 #[derive(Clone, Copy)]
-pub struct Point {
+pub struct SeenPoint {
     pub xyz: V3,
     /// Unit normal for shading.
     pub normal: V3,
@@ -53,9 +53,9 @@ pub struct Ground {
 
 impl Ground {
     /// The ground behind a pixel.
-    pub fn below(&self, [x, y]: [f64; 2]) -> Point {
+    pub fn below(&self, [x, y]: [f64; 2]) -> SeenPoint {
         let z = (self.level - self.up[0] * x - self.up[1] * y) / self.up[2];
-        Point { xyz: [x, y, z], normal: self.up, flat: self.up, on_ground: true }
+        SeenPoint { xyz: [x, y, z], normal: self.up, flat: self.up, on_ground: true }
     }
 }
 
@@ -98,7 +98,7 @@ impl DepthMap {
     }
 
     /// Whether the first or the second light sees a point.
-    fn sees(&self, point: &Point, is_first: bool) -> bool {
+    fn sees(&self, point: &SeenPoint, is_first: bool) -> bool {
         let [x, y, z] = self.place(add(point.xyz, scaled(point.flat, LIFT / self.scale)));
         let [x, y] = [x + 0.5, y + 0.5];
         let inside = |c: f64| c >= 0.0 && c < self.size as f64;
@@ -111,15 +111,15 @@ impl DepthMap {
 }
 
 /// A surface that casts shadows.
-pub struct Caster {
+pub struct ShadowCaster {
     sky: Vec<DepthMap>,
     key: Vec<DepthMap>,
     towards_key: V3,
 }
 
-impl Caster {
+impl ShadowCaster {
     /// `key`: unit vector towards the key light.
-    pub fn new(points: &[V3], faces: &[[u32; 3]], key: V3) -> Caster {
+    pub fn new(points: &[V3], faces: &[[u32; 3]], key: V3) -> ShadowCaster {
         let (ball, [a, b]) = (bounding_ball(points), complement(key));
         let around_key = |i: usize| {
             let [x, y, z] = sphere_point(i, KEY_SPHERE);
@@ -128,11 +128,11 @@ impl Caster {
         let depth = |towards: V3, size: usize| DepthMap::new(points, faces, towards, ball, size);
         let sky = map(SKY_LIGHTS / 2, |i| depth(sphere_point(i, SKY_LIGHTS), SKY_MAP));
         let key_maps = map(KEY_LIGHTS, |i| depth(around_key(i), KEY_MAP));
-        Caster { sky, key: key_maps, towards_key: key }
+        ShadowCaster { sky, key: key_maps, towards_key: key }
     }
 
     /// The shares of the light that reach a point.
-    pub fn open(&self, point: &Point) -> Open {
+    pub fn open(&self, point: &SeenPoint) -> ReceivedLight {
         let (mut seen, mut all) = (0.0, 0.0);
         for map in &self.sky {
             // Of two opposite lights one is below the face itself and says nothing about what is above it.
@@ -143,7 +143,7 @@ impl Caster {
         }
         let faces_key = dot(self.towards_key, point.normal) > 0.0;
         let lit = self.key.iter().filter(|map| faces_key && map.sees(point, true)).count();
-        Open { sky: if all > 0.0 { seen / all } else { 1.0 }, key: lit as f64 / KEY_LIGHTS as f64 }
+        ReceivedLight { sky: if all > 0.0 { seen / all } else { 1.0 }, key: lit as f64 / KEY_LIGHTS as f64 }
     }
 }
 
@@ -159,22 +159,22 @@ pub fn over(b: V3, corners: [V3; 3], normals: [V3; 3]) -> V3 {
 }
 
 /// The light at every second pixel of every second row of a picture.
-pub struct Field {
+pub struct LightField {
     width: usize,
     /// What is seen there, if anything is, and its light.
-    seen: Vec<Option<(Point, Open)>>,
+    seen: Vec<Option<(SeenPoint, ReceivedLight)>>,
 }
 
-impl Field {
+impl LightField {
     /// `describe` names the point that a pixel shows, given the face and the barycentric coordinates, or nothing.
     pub fn new(
-        caster: &Caster,
-        shapes: &[Shape],
+        caster: &ShadowCaster,
+        shapes: &[DrawnShape],
         [width, height]: [usize; 2],
-        describe: impl Fn([f64; 2], Option<&Hit>) -> Option<Point> + Sync,
-    ) -> Field {
+        describe: impl Fn([f64; 2], Option<&Hit>) -> Option<SeenPoint> + Sync,
+    ) -> LightField {
         let samples = Samples::new(shapes, [width, 0, height], DENSITY);
-        let mut field = Field { width: samples.width, seen: vec![None; samples.len()] };
+        let mut field = LightField { width: samples.width, seen: vec![None; samples.len()] };
         each(field.seen.chunks_mut(field.width.max(1)).enumerate().collect(), |(row, out)| {
             for (out, (at, hit)) in out.iter_mut().zip(samples.row(shapes, row)) {
                 *out = describe(at, hit.as_ref()).map(|point| (point, caster.open(&point)));
@@ -201,7 +201,7 @@ impl Field {
     }
 
     /// The light at a point that is seen at the pixel coordinates (x, y); `None` if no pixel near it shows its surface.
-    pub fn at(&self, [x, y]: [f64; 2], point: &Point) -> Option<Open> {
+    pub fn at(&self, [x, y]: [f64; 2], point: &SeenPoint) -> Option<ReceivedLight> {
         let [x, y] = [x, y].map(|c| c * DENSITY - 0.5);
         let [i, j] = [x.floor(), y.floor()];
         let tap = |(di, dj): (f64, f64)| {
@@ -215,22 +215,22 @@ impl Field {
     }
 
     /// The weighted mean over pixels that show the piece of surface on which a point lies.
-    fn mean(&self, taps: impl Iterator<Item = (usize, f64)>, point: &Point) -> Option<Open> {
-        let (mut open, mut total) = (Open { sky: 0.0, key: 0.0 }, 0.0);
+    fn mean(&self, taps: impl Iterator<Item = (usize, f64)>, point: &SeenPoint) -> Option<ReceivedLight> {
+        let (mut open, mut total) = (ReceivedLight { sky: 0.0, key: 0.0 }, 0.0);
         for (pixel, weight) in taps {
             let near = self.seen.get(pixel).and_then(Option::as_ref);
             if let Some((_, light)) = near.filter(|(other, _)| other.neighbours(point)) {
-                open = Open { sky: open.sky + weight * light.sky, key: open.key + weight * light.key };
+                open = ReceivedLight { sky: open.sky + weight * light.sky, key: open.key + weight * light.key };
                 total += weight;
             }
         }
-        (total > 0.0).then(|| Open { sky: open.sky / total, key: open.key / total })
+        (total > 0.0).then(|| ReceivedLight { sky: open.sky / total, key: open.key / total })
     }
 }
 
-impl Point {
+impl SeenPoint {
     /// Whether two points a few pixels apart lie on the same smooth piece of surface.
-    fn neighbours(&self, other: &Point) -> bool {
+    fn neighbours(&self, other: &SeenPoint) -> bool {
         let apart = sub(self.xyz, other.xyz);
         let off = dot(apart, self.normal).abs().min(dot(apart, other.normal).abs());
         self.on_ground == other.on_ground

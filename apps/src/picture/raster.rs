@@ -11,7 +11,7 @@ const BAND: usize = 48;
 
 /// Something to draw: x to the right and y down in pixels, z towards the viewer.
 #[derive(Clone, Copy)]
-pub enum Shape {
+pub enum DrawnShape {
     Triangle([V3; 3]),
     /// All points within `radius` of a segment: a tube with round ends, a ball where the ends coincide.
     Capsule {
@@ -33,19 +33,19 @@ pub struct Hit {
 
 /// A rectangle of 8-bit sRGB pixels, opaque, four bytes each, row by row.
 #[derive(Clone)]
-pub struct Image {
+pub struct PixelImage {
     pub width: usize,
     pub height: usize,
     pub rgba: Vec<u8>,
 }
 
-impl Image {
-    pub fn white(width: usize, height: usize) -> Image {
-        Image { width, height, rgba: vec![255; 4 * width * height] }
+impl PixelImage {
+    pub fn white(width: usize, height: usize) -> PixelImage {
+        PixelImage { width, height, rgba: vec![255; 4 * width * height] }
     }
 
     /// Put another image into this one, its top left corner at (x, y); it must fit.
-    pub fn put(&mut self, other: &Image, x: usize, y: usize) {
+    pub fn put(&mut self, other: &PixelImage, x: usize, y: usize) {
         for (row, line) in other.rgba.chunks_exact(4 * other.width.max(1)).enumerate() {
             let start = 4 * ((y + row) * self.width + x);
             self.rgba[start..start + line.len()].copy_from_slice(line);
@@ -56,11 +56,11 @@ impl Image {
 /// Draw. `paint` gives the colour at a place of a shape, or of the background; it is asked once for each shape in a pixel, in the middle of
 /// the samples that show it.
 pub fn render(
-    shapes: &[Shape],
+    shapes: &[DrawnShape],
     [width, height]: [usize; 2],
     paint: impl Fn([f64; 2], Option<&Hit>) -> Rgb + Sync,
-) -> Image {
-    let mut image = Image::white(width, height);
+) -> PixelImage {
+    let mut image = PixelImage::white(width, height);
     let codes: Vec<u8> = (0..=CODES as usize).map(|k| encode((k as f64 + 0.5) / CODES)).collect();
     let bands = image.rgba.chunks_mut((4 * width * BAND).max(1));
     each(bands.enumerate().collect(), |(band, pixels)| {
@@ -98,13 +98,13 @@ const NOTHING: u32 = u32::MAX;
 
 impl Samples {
     /// What is visible in `rows` pixel rows from `first` on, with `scale` samples on each pixel's side.
-    pub fn new(shapes: &[Shape], [width, first, rows]: [usize; 3], scale: f64) -> Samples {
+    pub fn new(shapes: &[DrawnShape], [width, first, rows]: [usize; 3], scale: f64) -> Samples {
         let [width, height] = [width, rows].map(|n| (n as f64 * scale).ceil() as usize);
         let (depth, nearest) = (vec![f32::NEG_INFINITY; width * height], vec![NOTHING; width * height]);
         let mut samples = Samples { width, scale, first, depth, nearest };
         for (index, shape) in (0..).zip(shapes) {
             match shape {
-                Shape::Triangle(p) => {
+                DrawnShape::Triangle(p) => {
                     let place = |p: V3| [p[0] * scale - 0.5, (p[1] - first as f64) * scale - 0.5, p[2]];
                     scan(p.map(place), [width, height], |at, z| samples.put(at, z, index));
                 }
@@ -120,7 +120,7 @@ impl Samples {
         }
     }
 
-    fn capsule(&mut self, capsule: &Shape, index: u32) {
+    fn capsule(&mut self, capsule: &DrawnShape, index: u32) {
         let first = self.first as f64;
         let [x, y] = capsule.bounds();
         let [columns, rows] = [(x, 0.0, self.width), (y, first, self.depth.len() / self.width.max(1))]
@@ -165,7 +165,7 @@ impl Samples {
     /// The samples of a row with their places and what is visible there.
     pub fn row<'a>(
         &'a self,
-        shapes: &'a [Shape],
+        shapes: &'a [DrawnShape],
         row: usize,
     ) -> impl Iterator<Item = ([f64; 2], Option<Hit>)> + 'a {
         (0..self.width).map(move |column| {
@@ -230,11 +230,11 @@ fn bounds(points: &[V3]) -> [[f64; 2]; 2] {
     [0, 1].map(|k| ends(points.iter().map(|p| p[k])))
 }
 
-impl Shape {
+impl DrawnShape {
     fn bounds(&self) -> [[f64; 2]; 2] {
         match self {
-            Shape::Triangle(p) => bounds(p),
-            Shape::Capsule { ends: points, radius } => {
+            DrawnShape::Triangle(p) => bounds(p),
+            DrawnShape::Capsule { ends: points, radius } => {
                 bounds(points).map(|[low, high]| [low - radius, high + radius])
             }
         }
@@ -244,18 +244,18 @@ impl Shape {
     fn hit(&self, index: usize, at: [f64; 2]) -> Hit {
         let (local, front) = match self {
             // y runs down: a triangle seen from its front has negative area.
-            Shape::Triangle(p) => {
+            DrawnShape::Triangle(p) => {
                 let corners = p.map(|p| [p[0], p[1]]);
                 (barycentric(corners, at), doubled_area(corners) < 0.0)
             }
-            Shape::Capsule { .. } => (self.cover(at).map_or([0.0, 0.0, 1.0], |(_, normal)| normal), true),
+            DrawnShape::Capsule { .. } => (self.cover(at).map_or([0.0, 0.0, 1.0], |(_, normal)| normal), true),
         };
         Hit { shape: index, local, front }
     }
 
     /// Depth and normal where a capsule covers a point of the screen.
     fn cover(&self, at: [f64; 2]) -> Option<(f64, V3)> {
-        let Shape::Capsule { ends: [a, b], radius } = self else { return None };
+        let DrawnShape::Capsule { ends: [a, b], radius } = self else { return None };
         let along = [b[0] - a[0], b[1] - a[1]];
         let square = along[0] * along[0] + along[1] * along[1];
         let t = (at[0] - a[0]) * along[0] + (at[1] - a[1]) * along[1];

@@ -1,13 +1,13 @@
 //! Regions of the plane as closed polygons: their outlines, and the cells of a pattern in them.
 
-use super::texture::{CIRCLE_SPACING, RING, Texture};
+use super::texture::{CIRCLE_SPACING, RING, TextureChoice};
 use super::vector::ends;
 use ricci::geometry::clip::{clip, strip};
 use std::collections::{HashMap, HashSet};
 use std::f64::consts::TAU;
 
 /// A closed polygon, or a line, by its points.
-pub type Chain = Vec<[f64; 2]>;
+pub type Polyline = Vec<[f64; 2]>;
 
 /// Checks below this many pixels are not drawn each: they would only add up to their mean.
 pub const FINEST: f64 = 1.2;
@@ -35,7 +35,7 @@ pub fn border<P: Copy + Ord>(triangles: impl Iterator<Item = [P; 3]>) -> Vec<(P,
 }
 
 /// The border of triangles as closed polygons.
-pub fn outline(triangles: impl Iterator<Item = [[f64; 2]; 3]>) -> Vec<Chain> {
+pub fn outline(triangles: impl Iterator<Item = [[f64; 2]; 3]>) -> Vec<Polyline> {
     let sides = border(triangles.filter(|t| is_finite(t)).map(|t| t.map(key)));
     let place = |p: [u64; 2]| p.map(f64::from_bits);
     chains(sides.into_iter().map(|(a, b)| (place(a), place(b))))
@@ -51,7 +51,7 @@ pub fn once(segments: impl Iterator<Item = [[f64; 2]; 2]>) -> impl Iterator<Item
 }
 
 /// Chain segments end to start into lines; one that closes ends where it began.
-pub fn chains(segments: impl Iterator<Item = ([f64; 2], [f64; 2])>) -> Vec<Chain> {
+pub fn chains(segments: impl Iterator<Item = ([f64; 2], [f64; 2])>) -> Vec<Polyline> {
     let segments: Vec<_> = segments.filter(|(a, b)| is_finite(&[*a, *b])).collect();
     let mut from: HashMap<_, Vec<usize>> = HashMap::new();
     for (i, (a, _)) in segments.iter().enumerate().rev() {
@@ -80,11 +80,11 @@ pub fn chains(segments: impl Iterator<Item = ([f64; 2], [f64; 2])>) -> Vec<Chain
 
 /// The dark cells of a pattern in a region, whose polygons run around it on the left; circles have their inner edges run the
 /// other way. `check`: the side of a check.
-pub fn cells(region: &[Chain], texture: Texture, check: f64) -> Vec<Chain> {
+pub fn cells(region: &[Polyline], texture: TextureChoice, check: f64) -> Vec<Polyline> {
     let cells = region.iter().flat_map(|polygon| match texture {
-        Texture::Checker => checks(polygon, check),
-        Texture::Circles => circles(polygon, check * CIRCLE_SPACING),
-        Texture::None => Vec::new(),
+        TextureChoice::Checker => checks(polygon, check),
+        TextureChoice::Circles => circles(polygon, check * CIRCLE_SPACING),
+        TextureChoice::None => Vec::new(),
     });
     cells.filter(|cell| cell.len() > 2).collect()
 }
@@ -95,8 +95,8 @@ fn intervals(polygon: &[[f64; 2]], axis: usize, step: f64) -> std::ops::RangeInc
     (low / step).floor() as i64..=(high / step).floor() as i64
 }
 
-fn checks(polygon: &[[f64; 2]], side: f64) -> Vec<Chain> {
-    let of = |polygon: &[[f64; 2]], axis: usize, k: i64| -> Chain {
+fn checks(polygon: &[[f64; 2]], side: f64) -> Vec<Polyline> {
+    let of = |polygon: &[[f64; 2]], axis: usize, k: i64| -> Polyline {
         strip(polygon, axis, [k as f64 * side, (k + 1) as f64 * side])
     };
     let mut cells = Vec::new();
@@ -109,7 +109,7 @@ fn checks(polygon: &[[f64; 2]], side: f64) -> Vec<Chain> {
 }
 
 /// Rings with a dot at their centre, around the points of a triangular lattice.
-fn circles(polygon: &[[f64; 2]], step: f64) -> Vec<Chain> {
+fn circles(polygon: &[[f64; 2]], step: f64) -> Vec<Polyline> {
     let (height, radius) = (0.75f64.sqrt() * step, RING[0] * step);
     let mut cells = Vec::new();
     let numbers = |polygon: &[[f64; 2]], axis: usize, step: f64| {
@@ -132,7 +132,7 @@ fn circles(polygon: &[[f64; 2]], step: f64) -> Vec<Chain> {
 }
 
 /// The part of a polygon in a disk, for which a polygon with the same area stands.
-fn disk(polygon: &[[f64; 2]], [x, y]: [f64; 2], radius: f64, sides: usize) -> Chain {
+fn disk(polygon: &[[f64; 2]], [x, y]: [f64; 2], radius: f64, sides: usize) -> Polyline {
     let turn = TAU / sides as f64;
     let apothem = radius * (0.5 * turn / (0.5 * turn).tan()).sqrt();
     (0..sides).fold(polygon.to_vec(), |part, k| {
@@ -142,7 +142,7 @@ fn disk(polygon: &[[f64; 2]], [x, y]: [f64; 2], radius: f64, sides: usize) -> Ch
 }
 
 /// The same polygon with points between on sides that are long beside `side`.
-pub fn in_pieces(polygon: &[[f64; 2]], side: f64) -> Chain {
+pub fn in_pieces(polygon: &[[f64; 2]], side: f64) -> Polyline {
     let pieces = |k: usize| {
         let (p, q) = (polygon[k], polygon[(k + 1) % polygon.len()]);
         let n = ((q[0] - p[0]).hypot(q[1] - p[1]) / side * PIECES as f64).ceil().clamp(1.0, PIECES as f64);
@@ -157,8 +157,8 @@ mod tests {
     use super::*;
 
     /// Twice the area that polygons run around on the left.
-    fn area(polygons: &[Chain]) -> f64 {
-        let of = |p: &Chain| (2..p.len()).map(|k| doubled_area([p[0], p[k - 1], p[k]])).sum::<f64>();
+    fn area(polygons: &[Polyline]) -> f64 {
+        let of = |p: &Polyline| (2..p.len()).map(|k| doubled_area([p[0], p[k - 1], p[k]])).sum::<f64>();
         polygons.iter().map(of).sum()
     }
 
@@ -195,9 +195,9 @@ mod tests {
         ];
         let region = [bay, hole];
         let whole = area(&region);
-        let dark = area(&cells(&region, Texture::Checker, 0.05));
+        let dark = area(&cells(&region, TextureChoice::Checker, 0.05));
         assert!((dark / whole - 0.5).abs() < 0.01, "{dark} of {whole}");
-        let dark = area(&cells(&region, Texture::Circles, 0.05));
+        let dark = area(&cells(&region, TextureChoice::Circles, 0.05));
         let share =
             std::f64::consts::PI * (RING[0].powi(2) - RING[1].powi(2) + RING[2].powi(2)) / 0.75f64.sqrt();
         assert!((dark / whole / share - 1.0).abs() < 0.02, "{dark} of {whole}");

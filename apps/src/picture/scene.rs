@@ -12,7 +12,7 @@ const LETTERS: [f64; 3] = [0.025, 12.0, 44.0];
 
 /// A surface in space.
 #[derive(Clone, Copy)]
-pub struct Surface<'a> {
+pub struct ShownSurface<'a> {
     pub positions: &'a [[f64; 3]],
     pub faces: &'a [[u32; 3]],
     /// Layout coordinates of each face's corners.
@@ -34,7 +34,7 @@ pub struct Circle {
 
 /// A layout in the plane.
 #[derive(Clone, Copy, Default)]
-pub struct Flat<'a> {
+pub struct ShownLayout<'a> {
     pub corner_uv: &'a [[[f64; 2]; 3]],
     /// Both copies of each cut edge: ends in the order of their face, and the number of their seam.
     pub seams: &'a [([f64; 2], [f64; 2], usize)],
@@ -53,10 +53,10 @@ pub struct Flat<'a> {
 
 /// A quantity on the surface, to be shown in colours.
 #[derive(Clone)]
-pub struct Field {
+pub struct ColorField {
     /// Its value at each face's corners; NaN where it has none.
     pub corners: Vec<[f64; 3]>,
-    pub scale: Scale,
+    pub scale: ColorScale,
 }
 
 /// How a picture is drawn.
@@ -66,8 +66,8 @@ pub struct Style {
     pub size: usize,
     /// 0: one per core.
     pub threads: usize,
-    pub view: View,
-    pub texture: Texture,
+    pub view: Viewpoint,
+    pub texture: TextureChoice,
     /// Draw the edges of the mesh.
     pub wire: bool,
     /// Stand the surface on a ground that takes its shadow.
@@ -112,7 +112,7 @@ impl Style {
 
 impl Default for Style {
     fn default() -> Style {
-        let (view, texture) = (View::default(), Texture::Checker);
+        let (view, texture) = (Viewpoint::default(), TextureChoice::Checker);
         Style {
             size: 900,
             threads: 0,

@@ -13,18 +13,18 @@ const WIRE: f64 = 0.65;
 
 /// A drawing in pixels, y down.
 #[derive(Default)]
-pub struct Sheet {
+pub struct VectorSheet {
     pub width: usize,
     pub height: usize,
-    images: Vec<(Image, [usize; 2])>,
+    images: Vec<(PixelImage, [usize; 2])>,
     vectors: String,
 }
 
 /// Lines and curves: the data of an SVG path.
 #[derive(Default, Clone)]
-pub struct Path(String);
+pub struct SvgPath(String);
 
-impl Path {
+impl SvgPath {
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
@@ -68,47 +68,47 @@ impl Path {
 }
 
 /// Several lines or polygons, each added by `add`.
-pub fn paths(pieces: impl Iterator<Item = Vec<[f64; 2]>>, add: fn(&mut Path, &[[f64; 2]])) -> Path {
-    let mut path = Path::default();
+pub fn paths(pieces: impl Iterator<Item = Vec<[f64; 2]>>, add: fn(&mut SvgPath, &[[f64; 2]])) -> SvgPath {
+    let mut path = SvgPath::default();
     pieces.for_each(|points| add(&mut path, &points));
     path
 }
 
-impl Sheet {
-    pub fn new(width: usize, height: usize) -> Sheet {
-        Sheet { width: width.max(1), height: height.max(1), ..Sheet::default() }
+impl VectorSheet {
+    pub fn new(width: usize, height: usize) -> VectorSheet {
+        VectorSheet { width: width.max(1), height: height.max(1), ..VectorSheet::default() }
     }
 
     /// A sheet with an image on all of it.
-    pub fn of_image(image: Image) -> Sheet {
-        let mut sheet = Sheet::new(image.width, image.height);
+    pub fn of_image(image: PixelImage) -> VectorSheet {
+        let mut sheet = VectorSheet::new(image.width, image.height);
         sheet.images.push((image, [0; 2]));
         sheet
     }
 
     /// Add a path with these attributes.
-    pub fn add(&mut self, attributes: &str, path: &Path) {
+    pub fn add(&mut self, attributes: &str, path: &SvgPath) {
         if !path.is_empty() {
             let _ = writeln!(self.vectors, r#"<path {attributes} d="{}"/>"#, path.0);
         }
     }
 
-    pub fn fill(&mut self, color: Rgb, path: &Path) {
+    pub fn fill(&mut self, color: Rgb, path: &SvgPath) {
         self.add(&format!(r#"fill="{}""#, to_hex(color)), path);
     }
 
-    pub fn stroke(&mut self, color: Rgb, width: f64, path: &Path) {
+    pub fn stroke(&mut self, color: Rgb, width: f64, path: &SvgPath) {
         self.add(&format!(r#"stroke="{}" stroke-width="{}""#, to_hex(color), decimal(width)), path);
     }
 
     /// Add edges of a mesh, of this opacity in linear light.
-    pub fn wire(&mut self, opacity: f64, width: f64, path: &Path) {
+    pub fn wire(&mut self, opacity: f64, width: f64, path: &SvgPath) {
         let (ink, width, opacity) = (to_hex(INK), decimal(width), decimal(WIRE * opacity));
         self.add(&format!(r#"stroke="{ink}" stroke-width="{width}" stroke-opacity="{opacity}""#), path);
     }
 
     /// Write what begins at a point; `halo`: the width of a white line around it. Readers find the text by its label.
-    pub fn write(&mut self, text: &str, letters: &Path, ([x, y], color): ([f64; 2], Rgb), halo: f64) {
+    pub fn write(&mut self, text: &str, letters: &SvgPath, ([x, y], color): ([f64; 2], Rgb), halo: f64) {
         let label = text.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;");
         let [x, y] = [x, y].map(decimal);
         let _ =
@@ -121,8 +121,8 @@ impl Sheet {
     }
 
     /// Cut off what lies beyond the sides; `id` is of this sheet alone in a picture.
-    pub fn cut(mut self, id: &str) -> Sheet {
-        let Sheet { width, height, vectors, .. } = &self;
+    pub fn cut(mut self, id: &str) -> VectorSheet {
+        let VectorSheet { width, height, vectors, .. } = &self;
         self.vectors = format!(
             r##"<clipPath id="{id}"><path d="M0 0H{width}V{height}H0Z"/></clipPath>
 <g clip-path="url(#{id})">
@@ -133,7 +133,7 @@ impl Sheet {
     }
 
     /// Put another sheet on this one, its top left corner at (x, y).
-    pub fn put(&mut self, other: Sheet, [x, y]: [usize; 2]) {
+    pub fn put(&mut self, other: VectorSheet, [x, y]: [usize; 2]) {
         let placed = other.images.into_iter().map(|(image, at)| (image, [at[0] + x, at[1] + y]));
         self.images.extend(placed);
         if !other.vectors.is_empty() {
@@ -142,7 +142,7 @@ impl Sheet {
     }
 
     fn text(&self, ground: &str) -> String {
-        let Sheet { width, height, vectors, .. } = self;
+        let VectorSheet { width, height, vectors, .. } = self;
         format!(
             r#"<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" viewBox="0 0 {width} {height}" fill="none" stroke-linejoin="round" stroke-linecap="round">
 {ground}{vectors}</svg>
@@ -152,13 +152,13 @@ impl Sheet {
 
     /// The vectors as a file, on a white ground.
     pub fn svg(&self) -> Vec<u8> {
-        let Sheet { width, height, .. } = self;
+        let VectorSheet { width, height, .. } = self;
         self.text(&format!("<path fill=\"white\" d=\"M0 0H{width}V{height}H0Z\"/>\n")).into_bytes()
     }
 
     /// The images on a white ground, and the vectors over them.
-    pub fn image(self) -> Result<Image, Failure> {
-        let mut image = Image::white(self.width, self.height);
+    pub fn image(self) -> Result<PixelImage, Failure> {
+        let mut image = PixelImage::white(self.width, self.height);
         self.images.iter().for_each(|(part, [x, y])| image.put(part, *x, *y));
         if self.vectors.is_empty() {
             return Ok(image);
@@ -191,11 +191,11 @@ mod tests {
 
     #[test]
     fn vectors_lie_over_images_and_end_with_their_sheet() {
-        let mut part = Sheet::of_image(Image { width: 4, height: 4, rgba: [0, 0, 0, 255].repeat(16) });
-        let mut path = Path::default();
+        let mut part = VectorSheet::of_image(PixelImage { width: 4, height: 4, rgba: [0, 0, 0, 255].repeat(16) });
+        let mut path = SvgPath::default();
         path.rectangle([2.0, 0.0, 100.0, 100.0]);
         part.fill([1.0, 0.0, 0.0], &path);
-        let mut sheet = Sheet::new(10, 6);
+        let mut sheet = VectorSheet::new(10, 6);
         sheet.put(part.cut("part"), [1, 1]);
         let image = sheet.image().unwrap();
         let at = |x: usize, y: usize| image.rgba[4 * (10 * y + x)..][..3].to_vec();

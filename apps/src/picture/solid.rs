@@ -1,16 +1,16 @@
 //! The surface in space.
 
 use super::camera::Camera;
-use super::coat::{Coat, Wish};
+use super::coat::{Coat, PanelContent};
 use super::color::{INK, Rgb, cone_color, mix, seam_color};
 use super::fit::Fit;
 use super::light::Lights;
 use super::normals::corner_normals;
-use super::occlusion::{Caster, Field, Ground, Open, Point, over};
-use super::raster::{Hit, Image, Shape, render};
+use super::occlusion::{ShadowCaster, LightField, Ground, ReceivedLight, SeenPoint, over};
+use super::raster::{Hit, PixelImage, DrawnShape, render};
 use super::region::border;
 use super::vector::{V3, add, at, bounding_ball, dot, norm, normal, scaled, sub, unit};
-use super::{Style, Surface, View};
+use super::{Style, ShownSurface, Viewpoint};
 
 /// The ground is shown from this elevation on (sine).
 const LOWEST: f64 = 0.1;
@@ -28,19 +28,19 @@ const FOCUS_UP: V3 = [0.0, -0.8, 0.6];
 const INSIDE: Rgb = [0.5, 0.18, 0.08];
 
 /// Draw a surface with its light and shadows.
-pub fn draw(surface: &Surface<'_>, wish: &Wish<'_>, style: &Style) -> Image {
+pub fn draw(surface: &ShownSurface<'_>, wish: &PanelContent<'_>, style: &Style) -> PixelImage {
     let finite = |p: &V3| p.iter().all(|x| x.is_finite());
     if surface.positions.is_empty() || !surface.positions.iter().all(finite) {
-        return Image::white(style.size, style.size);
+        return PixelImage::white(style.size, style.size);
     }
-    let scene = Scene::new(surface, wish, style);
+    let scene = LitScene::new(surface, wish, style);
     render(&scene.shapes, scene.size, |pixel, hit| scene.paint(pixel, hit))
 }
 
 /// Everything that a visible point of the panel needs.
-struct Scene<'a> {
+struct LitScene<'a> {
     /// The faces, then seams, boundary and cones.
-    shapes: Vec<Shape>,
+    shapes: Vec<DrawnShape>,
     size: [usize; 2],
     corners: Vec<[V3; 3]>,
     normals: Vec<[V3; 3]>,
@@ -50,8 +50,8 @@ struct Scene<'a> {
     lights: Lights,
     ground: Option<Ground>,
     /// None in a draft.
-    caster: Option<Caster>,
-    field: Option<Field>,
+    caster: Option<ShadowCaster>,
+    field: Option<LightField>,
     /// Width in pixels over which the ground fades at the edge.
     margin: f64,
     /// The point of the ground below the surface's middle, and the surface's radius.
@@ -59,7 +59,7 @@ struct Scene<'a> {
 }
 
 /// A surface as the camera sees it.
-struct Stage {
+struct CameraView {
     camera: Camera,
     lights: Lights,
     fit: Fit,
@@ -68,10 +68,10 @@ struct Stage {
     ground: Option<Ground>,
 }
 
-impl Stage {
+impl CameraView {
     /// `points`: scaled by `factor`.
-    fn new(points: &[V3], faces: &[[u32; 3]], style: &Style, factor: f64) -> Stage {
-        let view = View { from: style.focus.map(|focus| focus.normal), ..style.view };
+    fn new(points: &[V3], faces: &[[u32; 3]], style: &Style, factor: f64) -> CameraView {
+        let view = Viewpoint { from: style.focus.map(|focus| focus.normal), ..style.view };
         let camera = Camera::choose(points, faces, &view);
         // A part of the surface is lit as seen, wherever it faces.
         let up = match style.focus {
@@ -106,17 +106,17 @@ impl Stage {
         let placed: Vec<V3> = seen.iter().map(pixel).collect();
         let level = placed.iter().map(|p| dot(up, *p)).fold(f64::INFINITY, f64::min);
         let ground = has_ground.then_some(Ground { up, level });
-        Stage { camera, lights, fit, placed, ground }
+        CameraView { camera, lights, fit, placed, ground }
     }
 }
 
-impl<'a> Scene<'a> {
-    fn new(surface: &Surface<'_>, wish: &Wish<'a>, style: &Style) -> Scene<'a> {
+impl<'a> LitScene<'a> {
+    fn new(surface: &ShownSurface<'_>, wish: &PanelContent<'a>, style: &Style) -> LitScene<'a> {
         // Scaled, so that neither tiny nor huge coordinates under- or overflow in products.
         let most = surface.positions.iter().flatten().fold(0.0f64, |m, x| m.max(x.abs()));
         let factor = if most > 0.0 { 1.0 / most } else { 1.0 };
         let points: Vec<V3> = surface.positions.iter().map(|p| scaled(*p, factor)).collect();
-        let Stage { camera, lights, fit, placed, ground } = Stage::new(&points, surface.faces, style, factor);
+        let CameraView { camera, lights, fit, placed, ground } = CameraView::new(&points, surface.faces, style, factor);
         let turned = |n: V3| {
             let [x, y, z] = camera.apply(n);
             [x, -y, z]
@@ -125,13 +125,13 @@ impl<'a> Scene<'a> {
         let normals: Vec<[V3; 3]> =
             corner_normals(&points, surface.faces).into_iter().map(|n| n.map(turned)).collect();
         let flat: Vec<[[f64; 2]; 3]> = corners.iter().map(|c| c.map(|p| [p[0], p[1]])).collect();
-        let mut shapes: Vec<Shape> = corners.iter().map(|c| Shape::Triangle(*c)).collect();
-        let cast = || Caster::new(&placed, surface.faces, lights.key);
+        let mut shapes: Vec<DrawnShape> = corners.iter().map(|c| DrawnShape::Triangle(*c)).collect();
+        let cast = || ShadowCaster::new(&placed, surface.faces, lights.key);
         let caster = (!style.draft).then(cast);
         let mut strokes = Vec::new();
         let mut tube = |a: u32, b: u32, radius: f64, color: Rgb| {
             let ends = [placed[a as usize], placed[b as usize]];
-            shapes.push(Shape::Capsule { ends, radius });
+            shapes.push(DrawnShape::Capsule { ends, radius });
             strokes.push(color);
         };
         let border = if surface.is_closed { Vec::new() } else { border(surface.faces.iter().copied()) };
@@ -140,7 +140,7 @@ impl<'a> Scene<'a> {
         surface.cones.iter().for_each(|&(v, curvature)| tube(v, v, style.cone(), cone_color(curvature)));
         let (middle, radius) = bounding_ball(&placed);
         let foot = ground.map_or(middle, |g| add(middle, scaled(g.up, g.level - dot(g.up, middle))));
-        let mut scene = Scene {
+        let mut scene = LitScene {
             foot: (foot, radius),
             size: [fit.width, fit.height],
             coat: Coat::new(wish, style, &flat),
@@ -156,13 +156,13 @@ impl<'a> Scene<'a> {
         };
         let faces = &scene.shapes[..scene.corners.len()];
         let describe = |at, hit: Option<&Hit>| scene.describe(at, hit);
-        let light = |caster| Field::new(caster, faces, scene.size, describe);
+        let light = |caster| LightField::new(caster, faces, scene.size, describe);
         scene.field = scene.caster.as_ref().map(light);
         scene
     }
 
     /// The point of a face, or of the ground behind it all.
-    fn describe(&self, pixel: [f64; 2], hit: Option<&Hit>) -> Option<Point> {
+    fn describe(&self, pixel: [f64; 2], hit: Option<&Hit>) -> Option<SeenPoint> {
         let Some(hit) = hit else { return self.ground.map(|g| g.below(pixel)) };
         let (corners, normals) = (self.corners[hit.shape], self.normals[hit.shape]);
         let toward = |n: V3| if hit.front { n } else { scaled(n, -1.0) };
@@ -171,11 +171,11 @@ impl<'a> Scene<'a> {
         let flat = unit(normal(corners)).map(|n| if n[2] < 0.0 { scaled(n, -1.0) } else { n });
         let flat = flat.or(smooth).unwrap_or([0.0, 0.0, 1.0]);
         let xyz = over(hit.local, corners, normals.map(toward));
-        Some(Point { xyz, normal: smooth.unwrap_or(flat), flat, on_ground: false })
+        Some(SeenPoint { xyz, normal: smooth.unwrap_or(flat), flat, on_ground: false })
     }
 
     /// The ground ends in white before the panel does, and away from the surface: 1 inside, 0 there.
-    fn fade(&self, pixel: [f64; 2], below: &Point) -> f64 {
+    fn fade(&self, pixel: [f64; 2], below: &SeenPoint) -> f64 {
         let smooth = |t: f64| t.clamp(0.0, 1.0).powi(2) * (3.0 - 2.0 * t.clamp(0.0, 1.0));
         let edge = |k: usize| smooth(pixel[k].min(self.size[k] as f64 - pixel[k]) / self.margin);
         let (foot, radius) = self.foot;
@@ -184,9 +184,9 @@ impl<'a> Scene<'a> {
     }
 
     /// The light at a point near one that a pixel shows.
-    fn open(&self, pixel: [f64; 2], point: &Point) -> Open {
+    fn open(&self, pixel: [f64; 2], point: &SeenPoint) -> ReceivedLight {
         let near = self.field.as_ref().and_then(|field| field.at(pixel, point));
-        near.unwrap_or_else(|| self.caster.as_ref().map_or(Open::FULLY, |caster| caster.open(point)))
+        near.unwrap_or_else(|| self.caster.as_ref().map_or(ReceivedLight::FULLY, |caster| caster.open(point)))
     }
 
     /// The colour of a place of a shape, or of the background.
@@ -204,6 +204,6 @@ impl<'a> Scene<'a> {
             return self.lights.on(albedo, point.normal, self.open(pixel, &point));
         }
         // Tubes and balls are marks on the surface: lit, but not shaded by it.
-        self.lights.on(self.strokes[hit.shape - self.corners.len()], hit.local, Open::FULLY)
+        self.lights.on(self.strokes[hit.shape - self.corners.len()], hit.local, ReceivedLight::FULLY)
     }
 }

@@ -1,9 +1,9 @@
 //! Tests of the renderer: views, normals, hits and shade.
 
-use super::camera::{Camera, View};
+use super::camera::{Camera, Viewpoint};
 use super::normals::corner_normals;
 use super::occlusion::{Caster, Ground, Point};
-use super::raster::{Hit, Shape, render};
+use super::raster::{Hit, DrawnShape, render};
 use super::vector::{V3, dot, norm, sub, unit};
 use super::*;
 use ricci::mesh::io::Soup;
@@ -17,11 +17,11 @@ fn flags(_: [f64; 2], hit: Option<&Hit>) -> [f64; 3] {
 }
 
 fn style() -> Style {
-    Style { size: SIZE, texture: Texture::None, ground: false, ..Style::default() }
+    Style { size: SIZE, texture: TextureChoice::None, ground: false, ..Style::default() }
 }
 
-fn surface<'a>(soup: &'a Soup, uv: Option<&'a [[[f64; 2]; 3]]>) -> Surface<'a> {
-    Surface {
+fn surface<'a>(soup: &'a Soup, uv: Option<&'a [[[f64; 2]; 3]]>) -> ShownSurface<'a> {
+    ShownSurface {
         positions: &soup.positions,
         faces: &soup.faces,
         corner_uv: uv,
@@ -31,11 +31,11 @@ fn surface<'a>(soup: &'a Soup, uv: Option<&'a [[[f64; 2]; 3]]>) -> Surface<'a> {
     }
 }
 
-fn draw(surface: Surface<'_>, style: &Style) -> Image {
+fn draw(surface: ShownSurface<'_>, style: &Style) -> PixelImage {
     Picture { surface: Some(surface), ..Picture::default() }.sheet(style).unwrap().image().unwrap()
 }
 
-fn pixels(image: &Image) -> impl Iterator<Item = &[u8]> {
+fn pixels(image: &PixelImage) -> impl Iterator<Item = &[u8]> {
     image.rgba.chunks_exact(4).map(|p| &p[..3])
 }
 
@@ -60,7 +60,7 @@ fn a_sphere_fills_its_circle_and_touches_the_margins() {
 fn every_view_fills_its_panel_to_the_margin_on_all_sides() {
     let soup = shapes::ellipsoid([3.0, 2.0, 1.0], 12).unwrap();
     for angles in [None, Some([0.3, 0.9]), Some([2.0, -0.4])] {
-        let view = View { angles, ..View::default() };
+        let view = Viewpoint { angles, ..Viewpoint::default() };
         let image = draw(surface(&soup, None), &Style { view, ..style() });
         assert_eq!(image.width.max(image.height), SIZE, "{angles:?}");
         let used = |x: usize, y: usize| image.rgba[4 * (y * image.width + x)..][..3] != [255; 3];
@@ -79,9 +79,9 @@ fn every_view_fills_its_panel_to_the_margin_on_all_sides() {
 
 #[test]
 fn the_nearer_shape_hides_the_farther_one_in_either_order() {
-    let triangle = |z: f64| Shape::Triangle([[0.0, 0.0, z], [400.0, 0.0, z], [0.0, 400.0, z]]);
-    let ball = |z: f64| Shape::Capsule { ends: [[20.0, 20.0, z]; 2], radius: 5.0 };
-    let middle = |shapes: &[Shape]| {
+    let triangle = |z: f64| DrawnShape::Triangle([[0.0, 0.0, z], [400.0, 0.0, z], [0.0, 400.0, z]]);
+    let ball = |z: f64| DrawnShape::Capsule { ends: [[20.0, 20.0, z]; 2], radius: 5.0 };
+    let middle = |shapes: &[DrawnShape]| {
         let image = render(shapes, [40; 2], flags);
         [image.rgba[4 * (20 * 40 + 20)], image.rgba[4 * (20 * 40 + 20) + 2]]
     };
@@ -100,7 +100,7 @@ fn neighbouring_triangles_leave_no_crack() {
         let [x, y, _] = soup.positions[v as usize];
         [x * 93.7 + 100.0, y * 93.7 + 100.0, 0.0]
     };
-    let shapes: Vec<Shape> = soup.faces.iter().map(|f| Shape::Triangle(f.map(place))).collect();
+    let shapes: Vec<DrawnShape> = soup.faces.iter().map(|f| DrawnShape::Triangle(f.map(place))).collect();
     let image = render(&shapes, [200; 2], flags);
     for (i, p) in pixels(&image).enumerate() {
         if (i as f64 % 200.0 - 100.0).hypot((i / 200) as f64 - 100.0) < 88.0 {
@@ -111,12 +111,12 @@ fn neighbouring_triangles_leave_no_crack() {
 
 #[test]
 fn lines_behind_the_surface_are_hidden_and_cones_keep_their_colour() {
-    let red = |image: &Image| pixels(image).filter(|p| p[0] > 150 && p[1] < 90 && p[2] < 90).count();
+    let red = |image: &PixelImage| pixels(image).filter(|p| p[0] > 150 && p[1] < 90 && p[2] < 90).count();
     for shift in [0.0, 5.0, -5.0] {
         let mut soup = shapes::icosphere(6).unwrap();
         soup.positions.iter_mut().for_each(|p| p.iter_mut().for_each(|x| *x += shift));
         let cones: Vec<(u32, f64)> = (0..soup.positions.len() as u32).map(|v| (v, 1.0)).collect();
-        let dots = |faces| red(&draw(Surface { faces, cones: &cones, ..surface(&soup, None) }, &style()));
+        let dots = |faces| red(&draw(ShownSurface { faces, cones: &cones, ..surface(&soup, None) }, &style()));
         let (seen, all) = (dots(&soup.faces), dots(&soup.faces[..1]));
         assert!(
             seen > 500 && (seen as f64) < 0.8 * all as f64,
@@ -209,20 +209,20 @@ fn a_picture_is_the_same_for_any_number_of_threads() {
         soup.faces.iter().map(|f| f.map(|v| [f64::from(v / 12), f64::from(v % 12)])).collect();
     let values: Vec<f64> = soup.positions.iter().map(|p| p[0]).collect();
     let corners = soup.faces.iter().map(|f| f.map(|v| values[v as usize])).collect();
-    let field = Field { corners, scale: Scale::of_signed("x", &values) };
+    let field = ColorField { corners, scale: ColorScale::of_signed("x", &values) };
     let seams = [(0, 1, 0), (1, 2, 1)];
-    let surface = Surface { seams: &seams, cones: &[(7, 1.0)], ..surface(&soup, Some(&uv)) };
-    let flat = Flat { corner_uv: &uv, ..Flat::default() };
+    let surface = ShownSurface { seams: &seams, cones: &[(7, 1.0)], ..surface(&soup, Some(&uv)) };
+    let flat = ShownLayout { corner_uv: &uv, ..ShownLayout::default() };
     let picture =
         Picture { surface: Some(surface), flat: Some(flat), field: Some(&field), ..Picture::default() };
-    let style = Style { texture: Texture::Circles, wire: true, ground: true, ..style() };
+    let style = Style { texture: TextureChoice::Circles, wire: true, ground: true, ..style() };
     let drawn = |threads| png(&picture, &Style { threads, ..style }).unwrap();
     let one = drawn(1);
     for threads in [2, 3, 0] {
         assert!(drawn(threads) == one, "{threads} threads");
     }
     // And the view that is chosen.
-    let choose = || Ok(Camera::choose(&soup.positions, &soup.faces, &View::default()).axes);
+    let choose = || Ok(Camera::choose(&soup.positions, &soup.faces, &Viewpoint::default()).axes);
     let view = |threads| parallel::within(threads, choose).unwrap();
     assert_eq!(view(1), view(3));
 }
@@ -245,7 +245,7 @@ fn of_two_layouts_each_is_cut_at_its_own_sides() {
     let rectangle = |w: f64, h: f64| [[[0.0, 0.0], [w, 0.0], [w, h]], [[0.0, 0.0], [w, h], [0.0, h]]];
     let [wide, narrow] = [rectangle(1.0, 1.0), rectangle(0.5, 1.0)];
     for [first, second] in [[&wide, &narrow], [&narrow, &wide]] {
-        let flat = |corner_uv| Some(Flat { corner_uv, ..Flat::default() });
+        let flat = |corner_uv| Some(ShownLayout { corner_uv, ..ShownLayout::default() });
         let both = Picture { flat: flat(first), flat_beside: flat(second), ..Picture::default() };
         let image = both.sheet(&style()).unwrap().image().unwrap();
         let painted = pixels(&image).filter(|p| **p != [255; 3]).count() as f64;
@@ -262,21 +262,21 @@ fn drawings_are_well_formed_and_small() {
     let border = region::border(soup.faces.iter().copied());
     let boundary: Vec<_> = border.iter().map(|&(a, b)| (flat_of(a), flat_of(b))).collect();
     let circles = [Circle { center: [0.0; 2], radius: 0.5 }];
-    let flat = Flat {
+    let flat = ShownLayout {
         corner_uv: &uv,
         boundary: &boundary,
         cones: &[([0.1, 0.1], -1.0)],
         circles: &circles,
-        ..Flat::default()
+        ..ShownLayout::default()
     };
     let values: Vec<f64> = uv.iter().map(|t| t[0][0]).collect();
-    let scale = Scale::of_signed("x & y < z", &values);
-    let field = Field { corners: values.iter().map(|v| [*v; 3]).collect(), scale };
+    let scale = ColorScale::of_signed("x & y < z", &values);
+    let field = ColorField { corners: values.iter().map(|v| [*v; 3]).collect(), scale };
     for (texture, field) in [
-        (Texture::Checker, None),
-        (Texture::Circles, None),
-        (Texture::None, None),
-        (Texture::None, Some(&field)),
+        (TextureChoice::Checker, None),
+        (TextureChoice::Circles, None),
+        (TextureChoice::None, None),
+        (TextureChoice::None, Some(&field)),
     ] {
         let drawn = Picture { flat: Some(flat), field, ..Picture::default() };
         let svg = svg(&drawn, &Style { texture, wire: field.is_none(), ..style() }).unwrap();
@@ -284,7 +284,7 @@ fn drawings_are_well_formed_and_small() {
         resvg::usvg::roxmltree::Document::parse(&svg).unwrap();
         assert!(svg.ends_with("</svg>\n") && svg.contains("circles of the vertices"));
         // Of the colours each is a path, and so is each letter; circles of the pattern are polygons.
-        let limit = 50 * uv.len() + if texture == Texture::Circles { 260_000 } else { 60_000 };
+        let limit = 50 * uv.len() + if texture == TextureChoice::Circles { 260_000 } else { 60_000 };
         assert!(svg.len() < limit, "{} bytes for {} faces", svg.len(), uv.len());
     }
 }
@@ -293,11 +293,11 @@ fn drawings_are_well_formed_and_small() {
 fn degenerate_input_is_drawn_as_far_as_it_goes() {
     assert!(!png(&Picture::default(), &style()).unwrap().is_empty());
     let uv = [[[1e300, 0.0], [f64::NAN, 1.0], [0.0, 1e-300]]];
-    let flat = Flat { corner_uv: &uv, ..Flat::default() };
-    let everything = Style { wire: true, ground: true, palette: true, texture: Texture::Checker, ..style() };
+    let flat = ShownLayout { corner_uv: &uv, ..ShownLayout::default() };
+    let everything = Style { wire: true, ground: true, palette: true, texture: TextureChoice::Checker, ..style() };
     for positions in [vec![[1.0; 3]; 3], vec![[1e300; 3], [-1e300; 3], [1e-300; 3]], vec![[f64::NAN; 3]; 3]] {
         let soup = Soup::new(positions, vec![[0, 1, 2]]);
-        let field = Field { corners: vec![[f64::NAN; 3]], scale: Scale::of_amounts("nothing", &[]) };
+        let field = ColorField { corners: vec![[f64::NAN; 3]], scale: ColorScale::of_amounts("nothing", &[]) };
         let drawn = Picture {
             surface: Some(surface(&soup, Some(&uv))),
             flat: Some(flat),

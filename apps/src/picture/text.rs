@@ -21,7 +21,7 @@ const SPACE: f64 = 0.2;
 /// Outlines of letters in pixels, y down, and how far the line is to the right of where it began.
 #[derive(Default)]
 pub struct Lettering {
-    pub path: Path,
+    pub path: SvgPath,
     pub width: f64,
 }
 
@@ -72,7 +72,7 @@ impl Lettering {
 }
 
 struct Pen<'a> {
-    path: &'a mut Path,
+    path: &'a mut SvgPath,
     scale: f64,
     at: [f64; 2],
 }

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 /// Which pattern.
 #[derive(ValueEnum, Serialize, Debug, Clone, Copy, PartialEq)]
 #[serde(rename_all = "lowercase")]
-pub enum Texture {
+pub enum TextureChoice {
     Checker,
     Circles,
     None,
@@ -29,8 +29,8 @@ const FILTER: f64 = 1.1;
 pub const RING: [f64; 3] = [0.47, 0.36, 0.11];
 
 /// The pattern on one triangle of a panel.
-pub struct Patch {
-    texture: Texture,
+pub struct TexturePatch {
+    texture: TextureChoice,
     /// Pattern coordinates of the corners at level 0, in periods.
     uv: [[f64; 2]; 3],
     /// Their derivatives by x and y on the panel: `[du/dx, du/dy], [dv/dx, dv/dy]`.
@@ -41,10 +41,10 @@ pub struct Patch {
     contrast: f64,
 }
 
-impl Patch {
+impl TexturePatch {
     /// `uv`: layout coordinates of face `f`; `pixels`: the triangle on the panel.
-    pub fn new(texture: Texture, uv: [[f64; 2]; 3], tiles: &Tiles, f: usize, pixels: [[f64; 2]; 3]) -> Patch {
-        let period = tiles.size * if texture == Texture::Circles { CIRCLE_SPACING } else { 1.0 };
+    pub fn new(texture: TextureChoice, uv: [[f64; 2]; 3], tiles: &Tiles, f: usize, pixels: [[f64; 2]; 3]) -> TexturePatch {
+        let period = tiles.size * if texture == TextureChoice::Circles { CIRCLE_SPACING } else { 1.0 };
         let uv = uv.map(|p| p.map(|x| x / period));
         let area = doubled_area(pixels);
         let slope = [0, 1].map(|k| {
@@ -57,7 +57,7 @@ impl Patch {
         let steepest = slope.iter().map(|s| s[0].hypot(s[1])).fold(0.0, f64::max);
         let pixels = 1.0 / (steepest * zoom);
         let contrast = ((pixels - FADE[0]) / (FADE[1] - FADE[0])).clamp(0.0, 1.0);
-        Patch { texture, uv, slope, level, contrast: if contrast.is_nan() { 0.0 } else { contrast } }
+        TexturePatch { texture, uv, slope, level, contrast: if contrast.is_nan() { 0.0 } else { contrast } }
     }
 
     /// From 0 (ground) to 1 (pattern) at barycentric coordinates.
@@ -67,9 +67,9 @@ impl Patch {
         let at = [0, 1].map(|k| zoom * (b[0] * self.uv[0][k] + b[1] * self.uv[1][k] + b[2] * self.uv[2][k]));
         let slope = self.slope.map(|s| s.map(|x| x * zoom));
         let value = match self.texture {
-            Texture::Checker => checker(at, slope),
-            Texture::Circles => circles(at, slope),
-            Texture::None => 0.0,
+            TextureChoice::Checker => checker(at, slope),
+            TextureChoice::Circles => circles(at, slope),
+            TextureChoice::None => 0.0,
         };
         let mean = self.texture.mean();
         if value.is_nan() { mean } else { mean + self.contrast * (value - mean) }
@@ -107,14 +107,14 @@ fn circles(at: [f64; 2], slope: [[f64; 2]; 2]) -> f64 {
     within(RING[0]) - within(RING[1]) + within(RING[2])
 }
 
-impl Texture {
+impl TextureChoice {
     /// The share of the plane that is dark.
     pub fn mean(self) -> f64 {
         let [outer, inner, dot] = RING.map(|r| r * r);
         match self {
-            Texture::Checker => 0.5,
-            Texture::Circles => std::f64::consts::PI * (outer - inner + dot) / 0.75f64.sqrt(),
-            Texture::None => 0.0,
+            TextureChoice::Checker => 0.5,
+            TextureChoice::Circles => std::f64::consts::PI * (outer - inner + dot) / 0.75f64.sqrt(),
+            TextureChoice::None => 0.0,
         }
     }
 }
@@ -193,14 +193,14 @@ mod tests {
 
     #[test]
     fn patterns_finer_than_a_pixel_fade_to_their_mean() {
-        let patch = |texture, size| Patch::new(texture, PIXELS, &tiles(size), 0, PIXELS);
+        let patch = |texture, size| TexturePatch::new(texture, PIXELS, &tiles(size), 0, PIXELS);
         let at = [0.31, 0.305, 0.385];
-        assert_eq!(patch(Texture::Checker, 0.5).value(at), 0.5);
-        assert_eq!(patch(Texture::Circles, 0.5).value(at), Texture::Circles.mean());
-        let full = patch(Texture::Checker, 50.0).value(at);
+        assert_eq!(patch(TextureChoice::Checker, 0.5).value(at), 0.5);
+        assert_eq!(patch(TextureChoice::Circles, 0.5).value(at), TextureChoice::Circles.mean());
+        let full = patch(TextureChoice::Checker, 50.0).value(at);
         assert!(full.min(1.0 - full).abs() < 1e-12, "{full}");
         // The mean is that of the pattern.
-        for texture in [Texture::Checker, Texture::Circles] {
+        for texture in [TextureChoice::Checker, TextureChoice::Circles] {
             let patch = patch(texture, 5.0);
             let n = 600;
             let points = (0..n).flat_map(|i| (0..n - i).map(move |j| (i as f64 + 0.3, j as f64 + 0.3)));

@@ -2,7 +2,7 @@
 
 use super::args::{EvalArgs, SurfaceColor};
 use crate::failure::Failure;
-use crate::picture::{Camera, Field, Picture, Scale, Style, Surface, Texture, png};
+use crate::picture::{Camera, ColorField, Picture, ColorScale, Style, ShownSurface, TextureChoice, png};
 use ricci::Control;
 use ricci::mesh::io::Soup;
 use ricci::spline::{Parameter, Spline, SurfacePoint, multi_indices};
@@ -26,7 +26,7 @@ pub fn draw(spline: &Spline, args: &EvalArgs, control: &Control) -> Result<Vec<u
         lines.extend(net(spline).into_iter().map(|[a, b]| (first + a, first + b, NET)));
         positions.extend(spline.control_points());
     }
-    let surface = Surface {
+    let surface = ShownSurface {
         positions: &positions,
         faces: &soup.faces,
         corner_uv: None,
@@ -34,7 +34,7 @@ pub fn draw(spline: &Spline, args: &EvalArgs, control: &Control) -> Result<Vec<u
         cones: &[],
         is_closed: false,
     };
-    let style = Style { wire: false, ..args.picture.style(Texture::None, threads) };
+    let style = Style { wire: false, ..args.picture.style(TextureChoice::None, threads) };
     let field = match args.color {
         Some(SurfaceColor::Curvature) => {
             Some(curvature(&corners(spline, (&soup, sides), (2, threads), control)?))
@@ -66,23 +66,23 @@ fn corners(
 }
 
 /// The Gaussian curvature.
-fn curvature(corners: &[SurfacePoint]) -> Field {
+fn curvature(corners: &[SurfacePoint]) -> ColorField {
     let gauss = |at: &SurfacePoint| at.principal_curvatures().map_or(f64::NAN, |[a, b]| a * b);
     let values: Vec<f64> = corners.iter().map(gauss).collect();
-    let scale = Scale::of_signed("Gaussian curvature", &values);
-    Field { corners: values.as_chunks().0.to_vec(), scale }
+    let scale = ColorScale::of_signed("Gaussian curvature", &values);
+    ColorField { corners: values.as_chunks().0.to_vec(), scale }
 }
 
 /// Reflection lines of light lines at infinity, circles around the horizontal axis of the picture.
-fn reflection(corners: &[SurfacePoint], camera: &Camera) -> Field {
+fn reflection(corners: &[SurfacePoint], camera: &Camera) -> ColorField {
     let angle = |at: &SurfacePoint| at.normal().map_or(f64::NAN, |normal| reflected(camera.apply(normal)));
     let values: Vec<f64> = corners.iter().map(angle).collect();
-    let scale = Scale::of_stripes(
+    let scale = ColorScale::of_stripes(
         "reflected view from the horizontal, degrees",
         [0.0, 180.0],
         "stripes of 10 degrees",
     );
-    Field { corners: values.as_chunks().0.to_vec(), scale }
+    ColorField { corners: values.as_chunks().0.to_vec(), scale }
 }
 
 /// The angle in degrees between the horizontal axis and the view reflected at a surface with this unit normal, in the axes of the

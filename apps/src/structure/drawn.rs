@@ -3,7 +3,7 @@
 use super::args::StructureArgs;
 use crate::failure::Failure;
 use crate::input::Input;
-use crate::picture::{self, CLASSES, Field, Picture, Scale, Surface, Texture};
+use crate::picture::{self, CLASSES, ColorField, Picture, ColorScale, ShownSurface, TextureChoice};
 use ricci::Control;
 use ricci::mesh::{FaceId, Mesh, PerFace};
 use ricci::structure::Atlas;
@@ -68,9 +68,9 @@ pub fn draw(
     let positions =
         refinement.as_ref().map_or_else(|| Ok(given.to_vec()), |r| r.from_input_vertices(given))?;
     let value = |f: FaceId| owner[face(f)].map_or(f64::NAN, |chart| colour[chart as usize] as f64);
-    let field = Field {
+    let field = ColorField {
         corners: mesh.faces().map(|f| [value(f); 3]).collect(),
-        scale: Scale::of_pairs("charts", "one colour is the core of one chart; grey lies in none"),
+        scale: ColorScale::of_pairs("charts", "one colour is the core of one chart; grey lies in none"),
     };
     let border = mesh.edges().filter(|e| {
         let [f, g] = [e.halfedge(), e.halfedge().twin()].map(|h| mesh.face(h).map(|f| owner[face(f)]));
@@ -79,7 +79,7 @@ pub fn draw(
     let seams: Vec<_> = border.map(|e| (mesh.ends(e)[0].0, mesh.ends(e)[1].0, 0)).collect();
     let cones: Vec<_> = atlas.singular_vertices.iter().map(|v| (v.0, -1.0)).collect();
     let faces = mesh.triangles();
-    let surface = Surface {
+    let surface = ShownSurface {
         positions: &positions,
         faces: &faces,
         corner_uv: None,
@@ -87,6 +87,6 @@ pub fn draw(
         cones: &cones,
         is_closed: mesh.is_closed(),
     };
-    let style = args.picture.style(Texture::None, args.common.threads);
+    let style = args.picture.style(TextureChoice::None, args.common.threads);
     picture::png(&Picture { surface: Some(surface), field: Some(&field), ..Picture::default() }, &style)
 }

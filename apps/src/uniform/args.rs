@@ -2,7 +2,7 @@
 
 use super::boundary::BoundaryArgs;
 use crate::options::{FileName, MetricArgs, choices};
-use crate::picture::{PictureArgs, Texture};
+use crate::picture::{PictureArgs, TextureChoice};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 use ricci::geometry::model::Model;
@@ -72,7 +72,7 @@ pub struct CanonicalArgs {
     /// Pattern of the layout [default: checker]
     #[arg(long, value_enum, requires = "picture")]
     #[serde(skip)]
-    pub texture: Option<Texture>,
+    pub texture: Option<TextureChoice>,
 }
 
 #[derive(Args, Debug, Clone)]

@@ -17,7 +17,7 @@ use crate::delivery::Delivery;
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::output::{Outputs, extension, write_textured};
-use crate::picture::{Style, Texture};
+use crate::picture::{Style, TextureChoice};
 use crate::report::{Figures, InputSummary, Report};
 use crate::uv;
 use ricci::control::Stage;
@@ -56,7 +56,7 @@ impl Wish<'_> {
 
     /// How the picture is drawn.
     fn style(&self) -> Style {
-        let texture = self.args.texture.unwrap_or(Texture::Checker);
+        let texture = self.args.texture.unwrap_or(TextureChoice::Checker);
         self.args.picture.style(texture, self.args.to.common.threads)
     }
 

@@ -8,7 +8,7 @@ use super::pieces::middle;
 use super::quotient::{ORIGIN, Uniformized};
 use super::tiling::{Prototype, Stamp, Tiling, tint};
 use crate::failure::Failure;
-use crate::picture::{self, Frame, PALE, Pattern, Picture, Style, Surface, Tiles};
+use crate::picture::{self, DrawingFrame, PALE, DrawingPattern, Picture, Style, ShownSurface, Tiles};
 use ricci::embed::layout::distance_from_origin;
 use ricci::embed::{DeckElement, DirichletDomain};
 use ricci::geometry::model::Model;
@@ -45,7 +45,7 @@ pub fn draw(u: &Uniformized, shown: Shown, canvas: &Canvas, svg: bool) -> Result
     };
     let (uv, tiles) = pattern(&opened.shape, u.deck.space);
     let tiles = tiles.banded(canvas.style.bands);
-    let pattern = Pattern { uv: &uv, tiles: &tiles };
+    let pattern = DrawingPattern { uv: &uv, tiles: &tiles };
     let stamp = &Stamp::new(&opened.shape, u.deck.space, &pattern, &canvas.style);
     let tiling = match shown {
         Shown::Uniform(ShowChoice::Surface) => None,
@@ -64,7 +64,7 @@ pub fn draw(u: &Uniformized, shown: Shown, canvas: &Canvas, svg: bool) -> Result
         return picture::svg(&Picture { drawing: drawing.as_ref(), ..Picture::default() }, &canvas.style);
     }
     let with_surface = matches!(shown, Shown::Uniform(ShowChoice::Both | ShowChoice::Surface));
-    let surface = opened.in_space.as_ref().filter(|_| with_surface).map(|surface| Surface {
+    let surface = opened.in_space.as_ref().filter(|_| with_surface).map(|surface| ShownSurface {
         positions: &surface.points,
         faces: &surface.triangles,
         corner_uv: Some(&uv),
@@ -92,13 +92,13 @@ fn pattern(shape: &Prototype, space: Space) -> (Vec<[[f64; 2]; 3]>, Tiles) {
     (uv, tiles)
 }
 
-fn frame(at: ModelPlace, around: &[[f64; 3]]) -> Frame {
+fn frame(at: ModelPlace, around: &[[f64; 3]]) -> DrawingFrame {
     match at {
         ModelPlace::Hyperbolic(Model::HalfPlane) => {
             let high = around.iter().map(|p| at.flat(*p)[1]).fold(1.0, f64::max);
-            Frame::HalfPlane(HEADROOM * high)
+            DrawingFrame::HalfPlane(HEADROOM * high)
         }
-        ModelPlace::Hyperbolic(_) => Frame::Disk,
+        ModelPlace::Hyperbolic(_) => DrawingFrame::Disk,
         ModelPlace::Plane => {
             let bound =
                 |k: usize, pick: fn(f64, f64) -> f64, start| around.iter().map(|p| p[k]).fold(start, pick);
@@ -106,7 +106,7 @@ fn frame(at: ModelPlace, around: &[[f64; 3]]) -> Frame {
                 [(f64::min as fn(f64, f64) -> f64, f64::INFINITY), (f64::max, f64::NEG_INFINITY)]
                     .map(|(pick, start)| [0, 1].map(|k| bound(k, pick, start)));
             let room = 0.06 * (high[0] - low[0]).max(high[1] - low[1]);
-            Frame::Rectangle([low.map(|x| x - room), high.map(|x| x + room)])
+            DrawingFrame::Rectangle([low.map(|x| x - room), high.map(|x| x + room)])
         }
     }
 }
@@ -251,7 +251,7 @@ fn tiled(u: &Uniformized, canvas: &Canvas, shape: &Stamp) -> Result<Tiling, Fail
 }
 
 /// What is shown of all copies: in the plane all of it.
-fn first_frame(elements: &[DeckElement], at: ModelPlace, shape: &Stamp) -> Frame {
+fn first_frame(elements: &[DeckElement], at: ModelPlace, shape: &Stamp) -> DrawingFrame {
     if at != ModelPlace::Plane {
         return frame(at, &shape.border);
     }

@@ -10,7 +10,7 @@ use crate::failure::Failure;
 use crate::input::Input;
 use crate::options::{FileName, FlipsChoice, MethodChoice, OnChoice, SchemeChoice};
 use crate::output::{check_extension, check_outputs};
-use crate::picture::Texture;
+use crate::picture::TextureChoice;
 use ricci::Control;
 use ricci::embed::cover::{elements_to_depth, elements_within};
 use ricci::geometry::Space;
@@ -243,7 +243,7 @@ impl Wish<'_> {
             model: (!self.lies_in_plane(input) && input.mesh().euler() < 0)
                 .then(|| self.place(Space::H2).name()),
             boundary: (!input.mesh().is_closed()).then(|| self.args.boundary.choice()),
-            texture: args.texture.or(drawn.then_some(Texture::Checker)),
+            texture: args.texture.or(drawn.then_some(TextureChoice::Checker)),
             show: drawn.then_some(shown),
             args,
             cover: self.cover,
@@ -262,7 +262,7 @@ pub struct Asked<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     model: Option<&'static str>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    texture: Option<Texture>,
+    texture: Option<TextureChoice>,
     #[serde(skip_serializing_if = "Option::is_none")]
     show: Option<Shown>,
     #[serde(flatten)]

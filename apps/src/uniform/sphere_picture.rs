@@ -4,7 +4,7 @@ use super::pieces::{Pieces, Welded, split, whole};
 use super::sphere::Round;
 use crate::failure::Failure;
 use crate::input::Input;
-use crate::picture::{self, Picture, Style, Surface, Tiles};
+use crate::picture::{self, Picture, Style, ShownSurface, Tiles};
 use ricci::geometry::Space;
 use ricci::geometry::vector::{norm, triangle_normal};
 
@@ -41,9 +41,9 @@ pub fn draw(input: &Input, s: &Round, style: &Style, beside: bool) -> Result<Vec
     picture::png(&drawn, style)
 }
 
-fn on_pieces<'a>(pieces: &'a Welded, uv: &'a [[[f64; 2]; 3]]) -> Surface<'a> {
+fn on_pieces<'a>(pieces: &'a Welded, uv: &'a [[[f64; 2]; 3]]) -> ShownSurface<'a> {
     let Welded { points: positions, triangles: faces, cut: seams } = pieces;
-    Surface { positions, faces, corner_uv: Some(uv), seams, cones: &[], is_closed: true }
+    ShownSurface { positions, faces, corner_uv: Some(uv), seams, cones: &[], is_closed: true }
 }
 
 /// Stereographic coordinates from the farther pole of a triangle on one hemisphere.

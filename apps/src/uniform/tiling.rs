@@ -2,7 +2,7 @@
 
 use super::model_place::ModelPlace;
 use crate::picture::{
-    Area, Drawing, FINEST, Frame, Label, Line, OCTAVE, Pattern, Style, TINTS, Texture, cells, in_pieces,
+    Area, Drawing, FINEST, DrawingFrame, Label, DrawnLine, OCTAVE, DrawingPattern, Style, TINTS, TextureChoice, cells, in_pieces,
     outline,
 };
 use ricci::embed::{DeckElement, DeckGroup};
@@ -45,7 +45,7 @@ pub struct Stamp {
 
 impl Stamp {
     /// A prototype with the pattern that is drawn in these plane coordinates of its triangles.
-    pub fn new(shape: &Prototype, space: Space, pattern: &Pattern<'_>, style: &Style) -> Stamp {
+    pub fn new(shape: &Prototype, space: Space, pattern: &DrawingPattern<'_>, style: &Style) -> Stamp {
         let place = ModelPlace::new(space, Model::Poincare);
         let flat = |points: &[[f64; 3]]| points.iter().map(|p| place.flat(*p)).collect::<Vec<_>>();
         let (border, centre) = (flat(&shape.border), place.flat(shape.centre));
@@ -65,7 +65,7 @@ impl Stamp {
         let sides =
             |t: &[u32; 3]| [0, 1, 2].map(|k| [t[k], t[(k + 1) % 3]].map(|v| shape.points[v as usize]));
         let wired = shape.triangles.iter().filter(|_| style.wire);
-        let none = style.texture == Texture::None;
+        let none = style.texture == TextureChoice::None;
         Stamp {
             cells: levels.into_iter().flat_map(part).collect(),
             wire: wired.flat_map(sides).filter(|[p, q]| p < q).collect(),
@@ -80,17 +80,17 @@ impl Stamp {
 /// A drawing in the making.
 pub struct Tiling {
     pub at: ModelPlace,
-    pub frame: Frame,
+    pub frame: DrawingFrame,
     scale: f64,
     areas: Vec<Area>,
-    pub lines: Vec<Line>,
+    pub lines: Vec<DrawnLine>,
     pub dots: Vec<[f64; 2]>,
     pub labels: Vec<Label>,
 }
 
 impl Tiling {
     /// `size`: pixels of the panel.
-    pub fn new(at: ModelPlace, frame: Frame, size: usize) -> Tiling {
+    pub fn new(at: ModelPlace, frame: DrawingFrame, size: usize) -> Tiling {
         let scale = frame.fit(size).scale;
         let (areas, lines, dots, labels) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         Tiling { at, frame, scale, areas, lines, dots, labels }
@@ -121,7 +121,7 @@ impl Tiling {
         let wire = stamp.wire.iter().filter(|_| face > WIRED).map(|side| [0, 1].map(|k| moved(&side[k])));
         if let (Some(width), true) = (border, radius > BORDERED) {
             let points = outline.iter().chain(outline.first()).copied().collect();
-            self.lines.push(Line { points, color: None, width });
+            self.lines.push(DrawnLine { points, color: None, width });
         }
         let (cells, wire) = (cells.collect(), wire.collect());
         let dark = stamp.dark[usize::from(!fine)];
@@ -136,7 +136,7 @@ impl Tiling {
             let skip = usize::from(!drawn.is_empty());
             drawn.extend(geodesic.into_iter().skip(skip).map(|p| self.at.flat(p)));
         }
-        self.lines.push(Line { points: drawn, color, width });
+        self.lines.push(DrawnLine { points: drawn, color, width });
     }
 
     /// Add a geodesic, unless it is too short to be seen.
