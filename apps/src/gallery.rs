@@ -1,5 +1,5 @@
-//! `ricci gallery`: one picture per kind of surface and of picture, each by the command line that is written beside it; and all of them,
-//! under the figures of the paper, in a page with views that turn.
+//! `ricci gallery`: one picture per kind of surface and of picture, each made by the command line that is written beside it; and a page with
+//! all of them, under the figures of the paper, with views that turn.
 
 mod page;
 mod rows;
@@ -12,19 +12,19 @@ use crate::failure::Failure;
 use crate::output::Outputs;
 use crate::report::path_text;
 use crate::{info, make, say, spline};
-use page::{Exhibit, Part};
+use page::{Exhibit, PageSection};
 use ricci::Control;
-use rows::Source::{Corpus, Made};
-use rows::{Row, credit, figures, sections};
+use rows::RowSource::{Corpus, Made};
+use rows::{GalleryRow, credit, figures, sections};
 use serde_json::Value;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
-use view::{Beside, View};
+use view::{Companion, PageView};
 
-/// What other programs' pictures of the same layouts look like; it ends the page where the corpus is at hand.
+/// A description of other programs' pictures of the same layouts; it ends the page where the corpus is at hand.
 const BESIDE: &str = include_str!("gallery/beside.md");
 
-/// How a spline is written for its view.
+/// The options of `ricci spline eval` that write a spline for its view.
 const TESSELLATED: &str = "--tessellate 8 --out VIEW";
 
 /// Pixels of the longer side of each panel.
@@ -38,7 +38,7 @@ pub fn run(args: &GalleryArgs, control: &Control) -> Result<u8, Failure> {
     let mut page = PREFACE.to_string();
     let mut exit_code = 0;
     let scratch = tempfile::tempdir().map_err(|e| Failure::Failed(format!("no temporary directory: {e}")))?;
-    let studio = Studio { args, scratch: scratch.path(), control };
+    let studio = GalleryMaker { args, scratch: scratch.path(), control };
     let mut shown_parts = Vec::new();
     for (title, mut rows) in sections() {
         rows.retain(|row| meshes.is_some() || !matches!(row.source, Corpus(_)));
@@ -77,23 +77,24 @@ pub fn run(args: &GalleryArgs, control: &Control) -> Result<u8, Failure> {
     Ok(exit_code)
 }
 
-/// First the figures of the paper, then what is in none of them under its own titles; nothing stands there twice.
-fn by_figure(sections: Vec<(&'static str, Vec<Exhibit>)>) -> Vec<Part> {
+/// The sections of the page: first the figures of the paper, then all pictures that are in none of them, under their own titles. No picture
+/// stands there twice.
+fn by_figure(sections: Vec<(&'static str, Vec<Exhibit>)>) -> Vec<PageSection> {
     let mut order = Vec::new();
     let mut open = HashMap::new();
-    let mut known = BTreeMap::new();
+    let mut known = HashSet::new();
     for (title, exhibits) in sections {
         for exhibit in exhibits {
             order.push((title, exhibit.name));
-            known.insert(exhibit.name, ());
+            known.insert(exhibit.name);
             open.insert(exhibit.name, exhibit);
         }
     }
     let mut parts = Vec::new();
     for (number, about, rows) in figures() {
         let mut part =
-            Part { title: format!("Figure {number}. {about}"), exhibits: Vec::new(), earlier: Vec::new() };
-        for name in rows.into_iter().filter(|name| known.contains_key(name)) {
+            PageSection { title: format!("Figure {number}. {about}"), exhibits: Vec::new(), earlier: Vec::new() };
+        for name in rows.into_iter().filter(|name| known.contains(name)) {
             match open.remove(name) {
                 Some(exhibit) => part.exhibits.push(exhibit),
                 None => part.earlier.push(name),
@@ -105,7 +106,7 @@ fn by_figure(sections: Vec<(&'static str, Vec<Exhibit>)>) -> Vec<Part> {
         let Some(exhibit) = open.remove(name) else { continue };
         match parts.last_mut().filter(|part| part.title == title) {
             Some(part) => part.exhibits.push(exhibit),
-            None => parts.push(Part { title: title.into(), exhibits: vec![exhibit], earlier: Vec::new() }),
+            None => parts.push(PageSection { title: title.into(), exhibits: vec![exhibit], earlier: Vec::new() }),
         }
     }
     parts
@@ -123,17 +124,17 @@ copy that the others are moved images of is blue. Every picture is made by the c
 beside it (with `--size 320 --palette`).
 ";
 
-/// Where pictures are made.
-struct Studio<'a> {
+/// The maker of the pictures.
+struct GalleryMaker<'a> {
     args: &'a GalleryArgs,
     /// A directory for surfaces.
     scratch: &'a Path,
     control: &'a Control,
 }
 
-impl Studio<'_> {
-    /// Make the picture of a row, with what is said of it.
-    fn exhibit(&self, row: &Row, index: &str) -> Result<Exhibit, Failure> {
+impl GalleryMaker<'_> {
+    /// Make the picture of a row, with its commands, its report and its view.
+    fn exhibit(&self, row: &GalleryRow, index: &str) -> Result<Exhibit, Failure> {
         let told = |why: String| why.replace(&path_text(self.scratch), "…");
         let (picture, report, view) = match self.draw(row) {
             Ok((report, view)) => (self.picture(row), report, view),
@@ -156,13 +157,13 @@ impl Studio<'_> {
     }
 
     /// The bytes of a row's picture.
-    fn picture(&self, row: &Row) -> Result<Vec<u8>, String> {
+    fn picture(&self, row: &GalleryRow) -> Result<Vec<u8>, String> {
         let file = self.args.out.join(format!("{}.png", row.name));
         std::fs::read(&file).map_err(|e| format!("{}: {e}", file.display()))
     }
 
     /// The file with a row's surface.
-    fn surface(&self, row: &Row) -> PathBuf {
+    fn surface(&self, row: &GalleryRow) -> PathBuf {
         match (&row.source, &self.args.meshes) {
             (Corpus(_), Some(folder)) => folder.join("good").join(row.file()),
             _ => self.scratch.join(row.file()),
@@ -170,7 +171,7 @@ impl Studio<'_> {
     }
 
     /// The words of a command line of a row.
-    fn words(&self, row: &Row, line: &str) -> Vec<String> {
+    fn words(&self, row: &GalleryRow, line: &str) -> Vec<String> {
         let own = |suffix: &str| path_text(&self.scratch.join(format!("{}{suffix}", row.name)));
         let to = |word: &str| match word {
             "{}" => path_text(&self.surface(row)),
@@ -188,7 +189,7 @@ impl Studio<'_> {
     }
 
     /// Make the picture of a row; returned are the report of its last command, and its view or why there is none.
-    fn draw(&self, row: &Row) -> Result<(Option<Value>, Result<View, String>), Failure> {
+    fn draw(&self, row: &GalleryRow) -> Result<(Option<Value>, Result<PageView, String>), Failure> {
         let quiet = format!("--quiet --threads={}", self.args.common.threads);
         let drawing = format!("--picture PICTURE --size={SIZE} --palette {quiet}");
         if let Made(line, _) = row.source {
@@ -218,12 +219,12 @@ impl Studio<'_> {
         let report = report.ok().and_then(|bytes| serde_json::from_slice(&bytes).ok());
         let view = match beside {
             Err(why) => Err(why),
-            Ok((beside @ Beside::Texture, _)) => View::read(&written, (beside, &written), row.up())?,
-            Ok((Beside::Alone, _)) if row.draw.contains("{spline}") => {
+            Ok((beside @ Companion::Texture, _)) => PageView::read(&written, beside, &written, row.up())?,
+            Ok((Companion::Alone, _)) if row.draw.contains("{spline}") => {
                 self.run(parse(self.words(row, &format!("spline eval {{spline}} {TESSELLATED} {quiet}")))?)?;
-                View::read(&written, (Beside::Alone, &written), row.up())?
+                PageView::read(&written, Companion::Alone, &written, row.up())?
             }
-            Ok((beside, _)) => View::read(&surface, (beside, &written), row.up())?,
+            Ok((beside, _)) => PageView::read(&surface, beside, &written, row.up())?,
         };
         Ok((report, view))
     }

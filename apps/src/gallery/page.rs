@@ -1,13 +1,13 @@
-//! The gallery as one page that needs nothing beside it: pictures, commands, figures of the reports, and views that turn.
+//! The gallery as one HTML page without other files: pictures, commands, figures of the reports, and views that turn.
 
-use super::view::{MOST_VERTICES, View, embedded};
+use super::view::{MOST_VERTICES, PageView, embedded};
 use crate::failure::Failure;
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
 
 const FRAME: &str = include_str!("page.html");
 const STYLE: &str = include_str!("page.css");
-/// What follows uses what stands before it; first a library (MIT, its licence at its head).
+/// The scripts of the page, each of which uses those before it; the first is a library (MIT, its licence at its head).
 const PROGRAM: [&str; 4] = [
     include_str!("picogl.min.js"),
     include_str!("shape.js"),
@@ -18,7 +18,7 @@ const PROGRAM: [&str; 4] = [
 /// Longest list of a report whose entries are shown.
 const LONGEST_LIST: usize = 6;
 
-/// A picture with all that is said of it.
+/// A picture with its description, commands, report and view.
 pub struct Exhibit {
     pub name: &'static str,
     pub about: String,
@@ -28,21 +28,21 @@ pub struct Exhibit {
     pub picture: Result<Vec<u8>, String>,
     pub report: Option<Value>,
     /// The view, or why there is none.
-    pub view: Result<View, String>,
+    pub view: Result<PageView, String>,
 }
 
-/// A part of the page.
-pub struct Part {
+/// A section of the page.
+pub struct PageSection {
     pub title: String,
     pub exhibits: Vec<Exhibit>,
-    /// Names of exhibits that stand in an earlier part.
+    /// Names of exhibits that stand in an earlier section.
     pub earlier: Vec<&'static str>,
 }
 
 /// The page.
-pub fn write(parts: &[Part]) -> Result<String, Failure> {
+pub fn write(parts: &[PageSection]) -> Result<String, Failure> {
     let (mut body, mut contents, mut views) = (String::new(), String::new(), Map::new());
-    for (k, Part { title, exhibits, earlier }) in parts.iter().enumerate() {
+    for (k, PageSection { title, exhibits, earlier }) in parts.iter().enumerate() {
         let title = escaped(title);
         push(&mut contents, format_args!("<a href=\"#part-{k}\">{title}</a>\n"));
         push(&mut body, format_args!("<h2 id=\"part-{k}\">{title}</h2>\n"));
@@ -183,7 +183,7 @@ mod tests {
     #[test]
     fn everything_of_an_exhibit_is_on_the_page() {
         let exhibits = vec![exhibit("one", Ok(vec![1, 2, 3])), exhibit("two", Err("why & wherefore".into()))];
-        let page = write(&[Part { title: "Title".into(), exhibits, earlier: vec!["zero"] }]).ok().unwrap();
+        let page = write(&[PageSection { title: "Title".into(), exhibits, earlier: vec!["zero"] }]).ok().unwrap();
         for text in [
             "id=\"one\"",
             "data:image/png;base64,AQID",

@@ -1,7 +1,7 @@
-//! What the gallery draws: a row for each picture, and the figures of the paper with their rows.
+//! The list of the gallery's pictures: a row for each, and the figures of the paper with their rows.
 
 use super::view::Beside;
-use Source::{Corpus, Made};
+use RowSource::{Corpus, Made};
 use ricci::mesh::io;
 use std::path::Path;
 
@@ -13,24 +13,25 @@ const FIGURES: &str = include_str!("figures.txt");
 
 /// One picture. In the command lines `{}` stands for the surface's file, `{spline}` for a spline's, `{other}` for a second surface's and
 /// `{=NAME}` for that of a mesh of the corpus.
-pub struct Row {
+pub struct GalleryRow {
     pub name: &'static str,
-    pub source: Source,
+    pub source: RowSource,
     /// `flow …`, `uniformize …`, `cover …`, `circles …`, `harmonic …`, `forms …`, `structure …`, `match …`, `spline …` or `info …`, or such
     /// commands with ` && ` between them, of which the last one draws; for what `make` draws itself nothing.
     pub draw: &'static str,
     pub about: &'static str,
 }
 
-pub enum Source {
-    /// What `ricci make` is given, and the extension of the file that it writes.
+/// The surface of a picture.
+pub enum RowSource {
+    /// The arguments of `ricci make`, and the extension of the file that it writes.
     Made(&'static str, &'static str),
     /// The name of a mesh of the corpus.
     Corpus(&'static str),
 }
 
 /// The rows of [`PICTURES`] under their titles.
-pub fn sections() -> Vec<(&'static str, Vec<Row>)> {
+pub fn sections() -> Vec<(&'static str, Vec<GalleryRow>)> {
     let row = |line: &'static str| {
         let mut fields = line.split('|').map(str::trim);
         let [name, source, draw, about] = [(); 4].map(|()| fields.next().unwrap_or_default());
@@ -39,7 +40,7 @@ pub fn sections() -> Vec<(&'static str, Vec<Row>)> {
             Some(("lengths", line)) => Made(line, "json"),
             _ => Corpus(source),
         };
-        Row { name, source, draw, about }
+        GalleryRow { name, source, draw, about }
     };
     let section = |text: &'static str| {
         let (title, rows) = text.split_once('\n').unwrap_or((text, ""));
@@ -58,7 +59,7 @@ pub fn figures() -> Vec<(&'static str, &'static str, Vec<&'static str>)> {
     FIGURES.lines().filter(|line| !line.starts_with('#') && !line.is_empty()).map(figure).collect()
 }
 
-impl Row {
+impl GalleryRow {
     /// The surface's file.
     pub fn file(&self) -> String {
         match self.source {
@@ -86,17 +87,17 @@ impl Row {
         make.into_iter().chain(lines.map(|(k, line)| format!("ricci {line}{}", picture_of(k)))).collect()
     }
 
-    /// What the view shows beside the surface, and the option by which the last command writes it; or why there is no view.
-    pub fn beside(&self, surface: &Path) -> Result<(Beside, &'static str), String> {
+    /// The second side of the view, and the option by which the last command writes it; or why there is no view.
+    pub fn beside(&self, surface: &Path) -> Result<(Companion, &'static str), String> {
         if let Made(_, "json") = self.source {
             return Err("Given by its edge lengths: there is no surface in space to be turned.".into());
         }
         let last = self.draw.rsplit(" && ").next().unwrap_or_default();
         Ok(match last.split(' ').next().unwrap_or_default() {
-            "uniformize" | "cover" if is_sphere(surface) => (Beside::Image, "--sphere"),
-            "flow" | "uniformize" | "cover" | "circles" | "harmonic" | "forms" => (Beside::Texture, "--uv"),
-            "match" => (Beside::Image, "--output"),
-            _ => (Beside::Alone, ""),
+            "uniformize" | "cover" if is_sphere(surface) => (Companion::Image, "--sphere"),
+            "flow" | "uniformize" | "cover" | "circles" | "harmonic" | "forms" => (Companion::Texture, "--uv"),
+            "match" => (Companion::Image, "--output"),
+            _ => (Companion::Alone, ""),
         })
     }
 
@@ -110,12 +111,12 @@ impl Row {
     }
 }
 
-/// Whether a file's triangles form a closed surface of genus 0, of all surfaces in one piece the one with the most faces for its vertices.
+/// True if a file's triangles form a closed surface of genus 0, of all surfaces in one piece the one with the most faces for its vertices.
 fn is_sphere(file: &Path) -> bool {
     io::read(file).is_ok_and(|soup| soup.faces.len() + 4 == 2 * soup.positions.len())
 }
 
-/// Where a mesh comes from, by the second and third column after its name.
+/// The origin of a mesh, by the second and third column after its name in the corpus's index.
 pub fn credit(index: &str, mesh: &str) -> Option<String> {
     let line = index.lines().find_map(|l| l.strip_prefix(mesh)?.strip_prefix(','))?;
     let (mut fields, mut quoted) = (vec![String::new()], false);
@@ -189,7 +190,7 @@ mod tests {
 
     #[test]
     fn what_is_up_is_read_from_the_command() {
-        let up = |draw| Row { name: "m", source: Corpus("m"), draw, about: "" }.up();
+        let up = |draw| GalleryRow { name: "m", source: Corpus("m"), draw, about: "" }.up();
         assert_eq!(up("info {} --up=-z --view 1,2"), Some([0.0, 0.0, -1.0]));
         assert_eq!(up("flow {} --up x"), Some([1.0, 0.0, 0.0]));
         assert_eq!(up("flow {}"), None);

@@ -1,4 +1,4 @@
-//! A surface with its image, small enough to lie in a page: what a view of the gallery turns.
+//! A surface with its image, packed small enough to lie in the gallery's page, where it is turned.
 
 use crate::failure::Failure;
 use crate::picture;
@@ -13,9 +13,9 @@ use std::path::Path;
 /// Most vertices of a view, those on a seam counted on each of its sides: it keeps a view below 1 MB, and numbers in 16 bits.
 pub const MOST_VERTICES: usize = 20_000;
 
-/// What a surface is shown beside.
+/// The second side of a view.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Beside {
+pub enum Companion {
     /// Nothing.
     Alone,
     /// The texture coordinates of its file.
@@ -26,7 +26,7 @@ pub enum Beside {
 
 /// Coordinates as numbers of 16 bits: `from + step · k`, three to a vertex, little-endian, in base64.
 #[derive(Serialize)]
-struct Points {
+struct PackedPoints {
     from: Point,
     step: f64,
     data: String,
@@ -34,14 +34,14 @@ struct Points {
 
 /// The two sides of a view.
 #[derive(Serialize)]
-pub struct View {
+pub struct PageView {
     vertices: usize,
     faces: usize,
     /// Corners of faces, numbers of 16 bits, little-endian, in base64.
     corners: String,
-    surface: Points,
+    surface: PackedPoints,
     /// The image of each vertex; its third coordinate is 0 in a layout.
-    image: Option<Points>,
+    image: Option<PackedPoints>,
     /// Whether the image lies in the plane.
     flat: bool,
     /// Directions of the surface's space that are up on the page, and whether it is first looked at from above.
@@ -49,27 +49,28 @@ pub struct View {
     lies: bool,
 }
 
-impl View {
-    /// The view of a file, or why there is none.
+impl PageView {
+    /// The view of a file, or why there is none; `other`: the file with the image, where it is shown beside one.
     ///
     /// # Errors
     /// [`Failure::Input`] for files that cannot be read, and for an image with other vertices.
     pub fn read(
         file: &Path,
-        beside: (Beside, &Path),
+        beside: Companion,
+        other: &Path,
         up: Option<Point>,
-    ) -> Result<Result<View, String>, Failure> {
+    ) -> Result<Result<PageView, String>, Failure> {
         let soup = io::read(file)?;
         let (places, corners, image) = match beside {
-            (Beside::Alone, _) => (soup.positions.clone(), soup.faces.clone(), None),
-            (Beside::Texture, _) => {
+            Companion::Alone => (soup.positions.clone(), soup.faces.clone(), None),
+            Companion::Texture => {
                 let (places, image, corners) = opened(&soup);
                 (places, corners, Some(image))
             }
-            (Beside::Image, path) => {
-                let image = io::read(path)?.positions;
+            Companion::Image => {
+                let image = io::read(other)?.positions;
                 if image.len() != soup.positions.len() {
-                    return Err(Failure::Input(format!("{} has other vertices", path.display())));
+                    return Err(Failure::Input(format!("{} has other vertices", other.display())));
                 }
                 (soup.positions.clone(), soup.faces.clone(), Some(image))
             }
@@ -82,13 +83,13 @@ impl View {
             )));
         }
         let stance = picture::stance(&soup.positions, &soup.faces);
-        Ok(Ok(View {
+        Ok(Ok(PageView {
             vertices: n,
             faces: corners.len(),
             corners: base64(corners.as_flattened().iter().map(|&v| v as u16)),
-            surface: Points::of(&places),
-            image: image.as_deref().map(Points::of),
-            flat: beside.0 == Beside::Texture,
+            surface: PackedPoints::of(&places),
+            image: image.as_deref().map(PackedPoints::of),
+            flat: beside == Companion::Texture,
             up: up.unwrap_or(stance.up),
             lies: up.is_none() && stance.lies,
         }))
@@ -110,16 +111,16 @@ fn opened(soup: &Soup) -> (Vec<Point>, Vec<Point>, Vec<[u32; 3]>) {
     (places, image, faces)
 }
 
-impl Points {
-    /// Coordinates that are not finite, which no written file has, would become 0.
-    fn of(points: &[Point]) -> Points {
+impl PackedPoints {
+    /// The coordinates of points as 16-bit numbers; those that are not finite, which no written file has, would become 0.
+    fn of(points: &[Point]) -> PackedPoints {
         let end = |k: usize, of: fn(f64, f64) -> f64, start| points.iter().map(|p| p[k]).fold(start, of);
         let from = [0, 1, 2].map(|k| end(k, f64::min, f64::INFINITY));
         let to = [0, 1, 2].map(|k| end(k, f64::max, f64::NEG_INFINITY));
         let longest = (0..3).map(|k| to[k] - from[k]).fold(f64::MIN_POSITIVE, f64::max);
         let step = longest / f64::from(u16::MAX);
         let number = |p: &Point| [0, 1, 2].map(|k| ((p[k] - from[k]) / step).round() as u16);
-        Points { from, step, data: base64(points.iter().flat_map(number)) }
+        PackedPoints { from, step, data: base64(points.iter().flat_map(number)) }
     }
 }
 
@@ -149,7 +150,7 @@ mod tests {
         let text = "v 0 0 0\nv 2 0 0\nv 0 3 0\nv 1 1 1\nvt 0 0\nvt 1 0\nvt 0 1\nvt 5 5\nvt 6 6\nvt 7 5\n\
                     f 1/1 2/2 3/3\nf 1/1 4/4 2/2\nf 3/6 2/5 4/4\n";
         std::fs::write(&path, text).unwrap();
-        let view = View::read(&path, (Beside::Texture, &path), None).unwrap().ok().unwrap();
+        let view = PageView::read(&path, Companion::Texture, &path, None).unwrap().ok().unwrap();
         assert_eq!((view.vertices, view.faces), (6, 3));
         assert_eq!(numbers(&view.corners), [0, 1, 2, 0, 3, 1, 4, 5, 3]);
         let expected = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 3.0, 0.0], [1.0, 1.0, 1.0]];
