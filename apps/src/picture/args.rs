@@ -1,4 +1,4 @@
-//! The options of pictures.
+//! The options of pictures on the command line.
 
 use super::{Style, TextureChoice, Viewpoint};
 use crate::options::FileName;
@@ -6,7 +6,7 @@ use crate::output::extension;
 use clap::{Args, ValueEnum};
 use serde::Serialize;
 
-/// What every command takes that draws a surface.
+/// The options of every command that draws a surface.
 #[derive(Args, Serialize, Debug, Clone, Default)]
 pub struct PictureArgs {
     /// Write a picture (.png; of a layout also .svg)
@@ -120,12 +120,12 @@ fn direction(axis: &str) -> [f64; 3] {
 }
 
 impl PictureArgs {
-    /// Whether the picture is asked for as the drawing of a layout alone.
+    /// True if the picture is to be an SVG, which shows a layout alone.
     pub fn is_svg(&self) -> bool {
         self.picture.as_ref().is_some_and(|path| extension(path) == "svg")
     }
 
-    /// Whether it is said from where a surface is looked at.
+    /// True if the direction is given from which a surface is looked at.
     pub fn is_turned(&self) -> bool {
         self.view.is_some() || self.up.is_some()
     }
@@ -157,7 +157,7 @@ impl SurfacePictureArgs {
         self.base.style(TextureChoice::None, threads)
     }
 
-    /// Whether the curvature is to be shown.
+    /// True if the curvature is to be shown.
     pub fn curvature(&self) -> bool {
         self.color.as_deref() == Some("curvature")
     }

@@ -1,11 +1,11 @@
-//! Where a surface is seen from.
+//! The camera of a surface: the direction that it is seen from, which is chosen where none is given.
 
 use super::raster::{Hit, Samples, DrawnShape};
 use super::upright::{Stance, stance};
 use super::vector::{V3, add, bounding_ball, cross, dot, normal, scaled, sub, unit};
 use ricci::parallel::map;
 
-/// The view that a caller wants; what is left open is chosen.
+/// The direction that a caller wants to see a surface from; parts that are none are chosen.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Viewpoint {
     /// The direction that is up.
@@ -29,16 +29,16 @@ pub struct Camera {
 const PROBE: usize = 72;
 /// Candidate azimuths, degrees: three-quarter views from the front and from the back.
 const AROUND: [f64; 8] = [-32.0, 32.0, -50.0, 50.0, -130.0, 130.0, -148.0, 148.0];
-/// Elevation, degrees: of what stands, and of what lies flat.
+/// Elevation of the camera, degrees, over surfaces that stand and over those that lie flat.
 const STANDING: f64 = 20.0;
 const LYING: f64 = 40.0;
-/// Surface seen at a glancing angle counts at most this many times its projected area.
+/// The area of a surface at a glancing angle counts as this many times its projected area at most.
 const GLANCING: f64 = 2.5;
-/// Of two sides that show as much surface the one with more detail is better: to this power of how much normals turn from
-/// pixel to pixel, of which this much is nothing to look at.
+/// Views with more detail are better: the area that a view shows is multiplied with the mean turn of the normals from pixel to pixel, plus
+/// [`LEAST_DETAIL`], to this power.
 const DETAIL: f64 = 0.3;
 const LEAST_DETAIL: f64 = 0.01;
-/// The front is better than the back by this share.
+/// Share by which a view from the front is preferred to one from the back.
 const FRONT: f64 = 0.08;
 
 impl Camera {
@@ -51,7 +51,7 @@ impl Camera {
         Camera { axes: [cross(up, level), screen_up, towards], up: [0.0, cos, sin] }
     }
 
-    /// The view that was asked for, or the one of [`STANDING`] or [`LYING`] that shows most.
+    /// The camera that was asked for, or, of those around the surface at the elevation [`STANDING`] or [`LYING`], the one that shows most.
     pub fn choose(points: &[V3], faces: &[[u32; 3]], view: &Viewpoint) -> Camera {
         let given = view.up.and_then(unit).map(|up| Stance { up, lies: false });
         let Stance { up, lies } = given.unwrap_or_else(|| stance(points, faces));
@@ -81,7 +81,7 @@ impl Camera {
         self.axes.map(|axis| dot(axis, p))
     }
 
-    /// How much of the surface's outside a small image shows, in pixels, more where there is detail.
+    /// The area of the surface's outside in a small image, in pixels, weighted with its detail.
     fn shows(&self, points: &[V3], faces: &[[u32; 3]], (centre, radius): (V3, f64)) -> f64 {
         let middle = 0.5 * PROBE as f64;
         let scale = middle * 0.96 / radius;
@@ -108,7 +108,7 @@ impl Camera {
     }
 }
 
-/// The side that is taken for the front where `up` is up: files with y up mostly face +z, those with z up −y.
+/// The direction of the front of a surface whose vertical is `up`: files with y up mostly face +z, those with z up −y.
 fn front_of(up: V3) -> V3 {
     let usual = if up[2].abs() > 0.8 { [0.0, -1.0, 0.0] } else { [0.0, 0.0, 1.0] };
     unit(sub(usual, scaled(up, dot(up, usual)))).unwrap_or([1.0, 0.0, 0.0])

@@ -1,4 +1,4 @@
-//! A panel to draw on in the coordinates of a drawing: what lies beyond it is left out.
+//! A panel to draw on in the coordinates of a drawing. Parts of the drawing beyond the panel are left out.
 
 use super::Style;
 use super::coat::wire_width;
@@ -11,11 +11,12 @@ use ricci::geometry::clip::{in_box, segment_in_box};
 /// Pixels beyond the panel up to which something is drawn, so that the ends of lines do not show.
 const BEYOND: f64 = 20.0;
 
+/// A panel of vectors, and the map from the drawing's coordinates to its pixels.
 pub struct PanelCanvas<'a> {
     pub sheet: VectorSheet,
     pub fit: Fit,
     pub style: &'a Style,
-    /// What is drawn, in the drawing's coordinates.
+    /// The rectangle that is drawn, in the drawing's coordinates.
     panel: [[f64; 2]; 2],
 }
 
@@ -53,7 +54,7 @@ impl<'a> PanelCanvas<'a> {
         self.sheet.wire(opacity, 2.0 * wire_width(self.style.size), &path);
     }
 
-    /// Draw dots in a white ring: their radius, and that with the ring, in those of cones.
+    /// Draw dots in white rings. `radius`: that of a dot, `ring`: that of its ring, both over the radius of a cone.
     pub fn dots(&mut self, dots: impl Iterator<Item = ([f64; 2], Rgb)> + Clone, [radius, ring]: [f64; 2]) {
         let disk = |at: [f64; 2], radius: f64| {
             let mut path = SvgPath::default();

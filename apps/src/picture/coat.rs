@@ -1,9 +1,9 @@
-//! What covers the faces of a panel: a colour, a pattern, the wire of the mesh.
+//! The colouring of the faces of a panel: a colour or a pattern, and the edges of the mesh.
 
 use super::color::{INK, Rgb, from_hex, mix};
 use super::colormap::NO_VALUE;
-use super::raster::doubled_area;
 use super::texture::{TexturePatch, TextureChoice, Tiles};
+use ricci::geometry::complex::doubled_area;
 use super::{ColorField, Style};
 
 /// Colour of a surface that shows nothing else.
@@ -11,9 +11,9 @@ pub const CLAY: u32 = 0xd3c6b4;
 /// The two colours of a pattern.
 pub const LIGHT: u32 = 0xf3efe6;
 pub const DARK: u32 = 0x3a6ea5;
-/// Colours of a map that are told apart.
+/// Number of colours in the table of a colour map.
 const TABLE: usize = 512;
-/// How much darker a pattern makes the colours of a quantity.
+/// Share by which the dark parts of a pattern darken the colours of a quantity.
 const SHADE: f64 = 0.35;
 /// Half the width of a wire, over the size of the picture.
 const WIRE: f64 = 0.00045;
@@ -22,7 +22,7 @@ const WIRE_OPACITY: f64 = 0.75;
 /// second on it is drawn in full.
 const DENSE: [f64; 2] = [2.0, 9.0];
 
-/// What is drawn on a panel.
+/// The colouring of all faces of a panel.
 pub struct Coat<'a> {
     patches: Option<Vec<TexturePatch>>,
     field: Option<(&'a ColorField, Vec<Rgb>)>,
@@ -32,7 +32,7 @@ pub struct Coat<'a> {
     dark: Rgb,
 }
 
-/// What a panel's faces are to show.
+/// The pattern and the quantity that the faces of a panel are to show.
 #[derive(Clone, Copy)]
 pub struct PanelContent<'a> {
     pub tiles: Option<&'a Tiles>,

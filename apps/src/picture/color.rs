@@ -1,4 +1,4 @@
-//! Colours in linear light, and how they reach the file.
+//! Colours in linear light, and their sRGB values in files.
 
 /// Linear light, each channel in [0, 1].
 pub type Rgb = [f64; 3];

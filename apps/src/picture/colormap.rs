@@ -1,4 +1,4 @@
-//! Colours for numbers, and the range they cover.
+//! Colour maps, and the ranges of numbers that they cover.
 
 use super::color::{Rgb, from_hex, mix};
 use super::vector::ends;
@@ -8,7 +8,7 @@ use super::vector::ends;
 pub enum Ramp {
     /// For amounts: viridis \[SW15\], ten of its 256 colours.
     Viridis,
-    /// For what has a sign: ColorBrewer's RdBu \[HB03\], blue for negative.
+    /// For signed quantities: ColorBrewer's RdBu \[HB03\], blue for negative.
     BlueRed,
     /// For pairs of classes, k for hue k/4 and shade k mod 4: ColorBrewer's Set2 \[HB03\], four of its colours.
     Pairs,
@@ -23,22 +23,23 @@ const BLUE_RED: [u32; 11] = [
     0x67001f,
 ];
 const HUES: [u32; 4] = [0x66c2a5, 0xfc8d62, 0x8da0cb, 0xe78ac3];
-/// How much of the way to white each shade is.
+/// Share of white in each shade.
 const SHADES: [f64; 4] = [0.0, 0.42, 0.64, 0.22];
 /// Hues, and shades of each, of [`Ramp::Pairs`].
 pub const CLASSES: usize = 4;
 /// Stripes of [`Ramp::Stripes`]: over half a turn each takes 10 degrees.
 pub const STRIPES: usize = 18;
 const STRIPE_COLORS: [u32; 2] = [0xf7f7f2, 0x22303f];
-/// What has no value.
+/// The colour of places without a value.
 pub const NO_VALUE: Rgb = [0.4; 3];
 /// The ends of a range are these percentiles of the data: a few extreme values do not take all the colours.
 pub const PERCENTILES: [f64; 2] = [2.0, 98.0];
-/// Or this many times as far from the middle as the quartiles are, where tails are longer than that: the bulk has most of the colours.
+/// Where a percentile of [`PERCENTILES`] is farther from the middle than this many times the quartile, the range ends there instead, so
+/// that most of the colours are left to most of the values.
 const TAIL: f64 = 4.0;
 
 impl Ramp {
-    /// The colour at t in [0, 1]; what lies beyond has the colour of the end.
+    /// The colour at t, which is clamped to [0, 1].
     pub fn color(self, t: f64) -> Rgb {
         if t.is_nan() {
             return NO_VALUE;
@@ -64,12 +65,12 @@ impl Ramp {
 /// The colours of a quantity.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ColorScale {
-    /// What is shown, with its unit.
+    /// The name of the quantity, with its unit.
     pub title: String,
     pub ramp: Ramp,
     /// The numbers at the ends of the map.
     pub range: [f64; 2],
-    /// What the ends of the range are.
+    /// A remark on the ends of the range.
     pub ends: String,
 }
 
@@ -82,7 +83,7 @@ impl ColorScale {
         ColorScale { title: title.into(), ramp: Ramp::Viridis, range, ends: clipping(values, range) }
     }
 
-    /// For what has a sign: as far to both sides of 0 as the upper percentile of its size.
+    /// For signed quantities: as far to both sides of 0 as the upper percentile of the absolute values.
     pub fn of_signed(title: &str, values: &[f64]) -> ColorScale {
         let sizes: Vec<f64> = values.iter().map(|x| x.abs()).collect();
         let most = end(&sizes, 0.0, [PERCENTILES[1], 75.0]);
@@ -101,7 +102,7 @@ impl ColorScale {
         ColorScale { title: title.into(), ramp: Ramp::Stripes, range, ends: ends.into() }
     }
 
-    /// Where a value lies on the map, in [0, 1]; what is no number lies nowhere (NaN).
+    /// The place of a value on the map, in [0, 1]; NaN for NaN.
     pub fn place(&self, value: f64) -> f64 {
         let [low, high] = self.range;
         let t = if high > low { (value - low) / (high - low) } else { 0.5 + 0.0 * value };
@@ -135,14 +136,14 @@ impl ColorScale {
     }
 }
 
-/// Where colours end on one side of the middle, by the percentile of the end and that of the quartile.
+/// The end of the range on one side of the middle. `percents`: the percentile of the end, and that of the quartile.
 fn end(values: &[f64], middle: f64, percents: [f64; 2]) -> f64 {
     let [far, quartile] = percents.map(|p| percentile(values, p).unwrap_or(middle) - middle);
     let short = quartile != 0.0 && far.abs() > TAIL * quartile.abs();
     middle + if short { TAIL * quartile } else { far }
 }
 
-/// How many values the ends of a range stand for, and how far these reach.
+/// A remark on the share of the values that lie outside a range, and how far they reach.
 fn clipping(values: &[f64], [low, high]: [f64; 2]) -> String {
     let finite = values.iter().copied().filter(|x| x.is_finite());
     let beyond = finite.clone().filter(|x| *x < low || *x > high).count();
@@ -154,7 +155,7 @@ fn clipping(values: &[f64], [low, high]: [f64; 2]) -> String {
     format!("{percent:.1}% of the values are clipped, all reach from {least} to {most}")
 }
 
-/// The value that this percentage of the (finite) values does not exceed; `None` of nothing.
+/// The value that this percentage of the finite values does not exceed; none if there are no values.
 pub fn percentile(values: &[f64], percent: f64) -> Option<f64> {
     let mut sorted: Vec<f64> = values.iter().copied().filter(|x| x.is_finite()).collect();
     sorted.sort_by(f64::total_cmp);
@@ -162,7 +163,7 @@ pub fn percentile(values: &[f64], percent: f64) -> Option<f64> {
     sorted.get(rank.saturating_sub(1)).copied()
 }
 
-/// A number with three digits, as short as that goes.
+/// A number with three digits, without needless zeros.
 pub fn number(x: f64) -> String {
     let short = if (1e2..1e5).contains(&x.abs()) { format!("{x:.0}") } else { format!("{x:.2e}") };
     let x = short.parse().ok().filter(|x: &f64| x.is_finite()).unwrap_or(0.0) + 0.0;

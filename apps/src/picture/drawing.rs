@@ -10,7 +10,7 @@ use super::sheet::{SvgPath, VectorSheet};
 use super::text::word;
 use super::texture::Tiles;
 
-/// What of the plane is shown.
+/// The part of the plane that is shown.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum DrawingFrame {
     /// The unit disk.
@@ -21,17 +21,18 @@ pub enum DrawingFrame {
     Rectangle([[f64; 2]; 2]),
 }
 
-/// One copy of what is drawn.
+/// One copy of the surface.
 #[derive(Clone, Debug)]
 pub struct Area {
     /// Its border, a closed polygon.
     pub border: Polyline,
-    /// 0: the colours of the pattern itself; others in turn, see [`tints`].
+    /// The number of its tint ([`tints`]); 0 is that of the pattern itself.
     pub tint: u8,
     /// The dark cells of the pattern.
     pub cells: Vec<Polyline>,
-    /// The edges of the mesh, and how many pixels a face has about.
+    /// The edges of the mesh.
     pub wire: Vec<[[f64; 2]; 2]>,
+    /// The mean area of a face, pixels.
     pub face: f64,
     /// Share of the dark colour in the ground.
     pub dark: f64,
@@ -75,9 +76,9 @@ pub struct Drawing<'a> {
 
 /// Tints beyond the first.
 pub const TINTS: u8 = 11;
-/// The one after those is for what is in the background.
+/// The tint of copies in the background.
 pub const PALE: u8 = TINTS + 1;
-/// Colour of what a disk or half-plane has no copy on.
+/// Colour of the part of a disk or half-plane that no copy covers.
 const EMPTY: u32 = 0xefeeea;
 /// Distance of a label from its point, over the size of its letters.
 const AWAY: f64 = 0.9;
@@ -101,7 +102,7 @@ pub fn tints(tint: u8) -> [Rgb; 2] {
     }
 }
 
-/// A colour for what has a pattern of its own in grey.
+/// The colour of a copy whose grey pattern comes from a texture.
 pub fn tint_color(tint: u8) -> Rgb {
     let [light, dark] = tints(tint);
     mix(light, dark, 0.3)

@@ -1,4 +1,4 @@
-//! How a drawing is placed on its panel.
+//! The map from the coordinates of a drawing to the pixels of its panel.
 
 use super::vector::ends;
 
@@ -35,7 +35,7 @@ impl Fit {
         Fit { scale, offset, width, height }
     }
 
-    /// The square around a point with this half of a side.
+    /// The square around a point. `radius`: half its side.
     pub fn around(at: [f64; 2], radius: f64, size: usize) -> Fit {
         Fit::new([-radius, radius].map(|r| at.map(|x| x + r)).into_iter(), size)
     }

@@ -5,30 +5,31 @@ use super::coat::{CLAY, DARK, LIGHT, PanelContent, wire_opacity};
 use super::color::{INK, Rgb, cone_color, from_hex, mix, seam_color, to_hex};
 use super::colormap::NO_VALUE;
 use super::fit::Fit;
-use super::raster::doubled_area;
 use super::region::{Polyline, FINEST, cells, is_finite, outline};
 use super::sheet::{SvgPath, VectorSheet};
 use super::texture::{OCTAVE, TextureChoice};
 use super::{Circle, ColorField, ShownLayout, Style};
+use ricci::geometry::complex::doubled_area;
 use ricci::geometry::clip::strip;
 
 /// Circles of a smaller radius (pixels) are left out.
 const LEAST_RADIUS: f64 = 0.8;
-/// And of a larger one: their piece of arc in the picture is a line.
+/// Circles of a larger radius (pixels) are left out too: their arcs in the picture would be straight lines.
 const MOST_RADIUS: f64 = 1e5;
 /// Colour of the frame around charts.
 const FRAME: u32 = 0x9a9a9a;
 pub const VERTEX_CIRCLE: u32 = 0xb5342a;
 pub const DUAL_CIRCLE: u32 = 0x26539e;
-/// Colours of a map that are told apart.
+/// Number of colours of a map in which triangles are drawn.
 const COLORS: usize = 64;
-/// How much darker the dark cells of a pattern make a colour.
+/// Opacity of the dark cells of a pattern over colours.
 const SHADE: f64 = 0.17;
-/// How pale what lies under circles is.
+/// Share of white in the colours under circles.
 const PALE: f64 = 0.75;
-/// Degrees of opacity of the wire.
+/// Number of opacities of the wire.
 const WIRE_CLASSES: usize = 5;
-/// Draw a layout; what reaches beyond the panel is to be cut off.
+
+/// Draw a layout. Parts of lines may reach beyond the panel, which the caller cuts off.
 pub fn draw(flat: &ShownLayout<'_>, wish: &PanelContent<'_>, style: &Style) -> VectorSheet {
     let mut canvas = PanelCanvas::new(fit(flat, style), style);
     if let Some(field) = wish.field {
@@ -57,7 +58,7 @@ fn fit(flat: &ShownLayout<'_>, style: &Style) -> Fit {
 
 /// The pattern over colours, or on a ground of its own; without a pattern one colour.
 fn pattern(flat: &ShownLayout<'_>, wish: &PanelContent<'_>, canvas: &mut PanelCanvas<'_>) {
-    // Circles are to be seen, not what is under them.
+    // Pale, so that the circles over it stand out.
     let pale = |hex: u32| mix(from_hex(hex), [1.0; 3], if flat.circles.is_empty() { 0.0 } else { PALE });
     let texture = canvas.style.texture;
     for (check, region) in regions(flat, wish, canvas) {
@@ -95,9 +96,10 @@ fn colors(flat: &ShownLayout<'_>, field: &ColorField, canvas: &mut PanelCanvas<'
     for (uv, values) in flat.corner_uv.iter().zip(&field.corners) {
         let t = values.map(|v| field.scale.place(v) * (COLORS - 1) as f64 + 0.5);
         let shown = canvas.shown(&[0, 1, 2].map(|k| [uv[k][0], uv[k][1], t[k]]));
-        let [low, high] = match t.iter().any(|t| t.is_nan()) {
-            true => [COLORS; 2],
-            false => [f64::min, f64::max].map(|f| f(f(t[0], t[1]), t[2]) as usize),
+        let [low, high] = if t.iter().any(|t| t.is_nan()) {
+            [COLORS; 2]
+        } else {
+            [f64::min, f64::max].map(|f| f(f(t[0], t[1]), t[2]) as usize)
         };
         for color in low..=high {
             let ends = [color as f64, (color + 1) as f64];

@@ -1,4 +1,4 @@
-//! What stands below a picture: the bar of colours with its numbers, and the key of the circles.
+//! The legend below a picture: the bar of colours with its numbers, and the key of the circles.
 
 use super::color::{INK, from_hex, to_hex};
 use super::colormap::{Ramp, ColorScale, number};
@@ -23,9 +23,9 @@ pub fn bar(scale: &ColorScale, style: &Style) -> VectorSheet {
     values.extend((high > low).then_some(high));
     // Classes have no numbers.
     values.retain(|_| scale.ramp != Ramp::Pairs);
-    // The line that numbers stand on, and the one of what is said of them.
+    // The base line of the numbers; the remark on the ends stands below it.
     let below = top + height + if values.is_empty() { 0.0 } else { (0.45 + CAPITALS) * letters };
-    // Lines of text and where the middle of each stands.
+    // Lines of text, with the middle of the base line of each.
     let caption = |text: &str, size: f64, x: f64, y: f64| (text.to_string(), line(text, size), [x, y]);
     let ends = format!("({})", scale.ends);
     let mut captions = vec![

@@ -8,13 +8,13 @@ use super::vector::{V3, add, dot, scaled, unit};
 const KEY: f64 = 0.76;
 const FILL: f64 = 0.16;
 const SKY: f64 = 0.40;
-/// What the ground throws back upwards.
+/// Brightness of the light that the ground reflects upwards.
 const BOUNCE: f64 = 0.16;
 const SHINE: f64 = 0.05;
-/// How dark a shadow on the ground may become: the share of white that the sky and the key light give.
+/// Shares of the white of the ground that come from the sky and from the key light: a full shadow lacks both.
 const GROUND_SKY: f64 = 0.42;
 const GROUND_KEY: f64 = 0.26;
-/// Share of the sky that is hidden where the shade on the ground is half of what the sky alone would give.
+/// Hidden share of the sky at which the ground is dimmed by half of that share. Smaller shares dim it by less, so that shadows end softly.
 const FAINT: f64 = 0.05;
 
 /// The lights of a scene, in pixel coordinates (x right, y down, z towards the viewer).
@@ -46,7 +46,7 @@ impl Lights {
         let half = unit(add(self.key, [0.0, 0.0, 1.0])).unwrap_or([0.0, 0.0, 1.0]);
         let shine = SHINE * facing(half).powi(30) * open.key;
         albedo.map(|a| {
-            // What does not come from the sky comes, in part, off the surface itself, and off it again.
+            // Where the surface hides the sky from itself, part of the missing light is reflected by the surface, once or more often.
             let sky = open.sky / (1.0 - 0.9 * a * (1.0 - open.sky));
             soft(a * (direct + around * sky) + shine)
         })
@@ -54,7 +54,6 @@ impl Lights {
 
     /// The ground, white where nothing shades it.
     pub fn on_ground(open: ReceivedLight) -> Rgb {
-        // What hides next to nothing of the sky dims it by next to nothing: the shade ends without a border.
         let hidden = 1.0 - open.sky;
         let sky = hidden * hidden / (hidden + FAINT);
         [1.0 - GROUND_SKY * sky - GROUND_KEY * (1.0 - open.key); 3]

@@ -1,9 +1,9 @@
 //! Pictures: the surface with the pattern of its layout beside the flat layout, and a legend below.
 //!
-//! A surface becomes triangles and round strokes that go through one supersampled z-buffer in linear light. All that is flat becomes
-//! SVG, which is the file or is drawn over the surfaces by resvg. Light and shadow come from depth maps, one for each of many small
-//! lights. Orthographic, so that attributes interpolate linearly. Every pixel is a fixed computation: a picture is the same
-//! for any number of threads.
+//! A surface becomes triangles and round strokes, which one supersampled z-buffer draws in linear light. Layouts, drawings and legends become
+//! SVG, which is the file itself or is drawn over the surfaces by resvg. Light and shadow come from depth maps, one for each of many small
+//! lights. The projection is orthographic, so that attributes interpolate linearly. Each pixel is computed by itself, so that a picture
+//! is the same for any number of threads.
 
 mod args;
 mod camera;
@@ -37,7 +37,7 @@ pub use region::{FINEST, cells, in_pieces, outline};
 pub use scene::{Circle, ColorField, ShownLayout, Focus, Style, ShownSurface};
 pub use texture::{OCTAVE, TextureChoice, Tiles};
 
-pub use raster::doubled_area;
+pub use ricci::geometry::complex::doubled_area;
 pub use upright::stance;
 pub use vector::normal;
 
@@ -47,7 +47,7 @@ use raster::Image;
 use ricci::parallel;
 use sheet::Sheet;
 
-/// What one picture shows: the surface on the left, the layout or a drawing on the right, or one of them.
+/// The content of a picture: the surface on the left, the layout or a drawing on the right, or one of them.
 #[derive(Clone, Copy, Default)]
 pub struct Picture<'a> {
     pub surface: Option<ShownSurface<'a>>,
@@ -85,7 +85,7 @@ impl Picture<'_> {
         })
     }
 
-    /// The panels side by side, and below them what says what they show.
+    /// The panels side by side, and the legend below them.
     fn sheet(&self, style: &Style) -> ricci::Result<VectorSheet> {
         parallel::within(style.threads, || Ok(self.panels(style)))
     }
@@ -142,7 +142,7 @@ fn encoded(image: &PixelImage, palette: bool) -> Result<Vec<u8>, png::EncodingEr
         let (colors, indices) = palette::reduce(&rgb);
         encoder.set_color(png::ColorType::Indexed);
         encoder.set_palette(colors);
-        // Neighbouring numbers of a palette say nothing about each other.
+        // Neighbouring numbers of a palette are unrelated, so that no filter would help.
         encoder.set_filter(png::Filter::NoFilter);
         encoder.write_header()?.write_image_data(&indices)?;
     } else {

@@ -4,7 +4,7 @@ use super::vector::{V3, add, dot, norm, normal, scaled, sub, unit};
 
 /// Faces that meet at more than this angle (radians) are shaded as two sides of a crease.
 const CREASE: f64 = 0.75;
-/// A face lower than this share of its longest side has no direction of its own: it takes that of its neighbours.
+/// A face lower than this share of its longest side is a needle, whose normal is rounding: it takes that of its neighbours.
 const NEEDLE: f64 = 1e-3;
 /// A vertex in more faces than this is smooth; comparing them in pairs would cost the square of their number.
 const MOST_FACES: usize = 64;
@@ -32,7 +32,7 @@ pub fn corner_normals(points: &[V3], faces: &[[u32; 3]]) -> Vec<[V3; 3]> {
     faces.iter().enumerate().map(|(f, face)| face.map(|v| corner(f, v))).collect()
 }
 
-/// What a face says about the normals at its corners.
+/// The normal of a face, and its weight in the normals at its corners.
 struct FaceNormal {
     direction: V3,
     weight: [f64; 3],

@@ -1,25 +1,27 @@
-//! How much of the sky and of the key light a point sees past the surface, by depth maps: the surface as each of many small lights
-//! sees it. Every second pixel of every second row asks all lights; those between take the mean of their neighbours on the same piece of
-//! surface.
+//! Shadows: the shares of the sky's light and of the key light that reach a point past the surface. They are found by depth maps, the surface
+//! as each of many small lights sees it, at every second pixel of every second row. Pixels between take the mean of their neighbours on the
+//! same piece of surface.
 
 use super::raster::{Hit, Samples, DrawnShape, scan};
 use super::vector::{V3, add, at, bounding_ball, complement, dot, scaled, sphere_point, sub};
 use ricci::parallel::{each, map};
 
-/// Lights of the sky, half of them opposite to the others, and of the key light, of which single ones cannot be told apart on a surface.
+/// Numbers of lights that stand for the sky, half of them opposite to the others, and for the key light: so many that their single shadows
+/// are not visible.
 const SKY_LIGHTS: usize = 64;
 const KEY_LIGHTS: usize = 16;
-/// So many lights as close together as those of the key light would cover the whole sphere: its angular radius, the softness of its
-/// shadows, is 0.16.
+/// The lights of the key light lie as close together as this many lights on the whole sphere, so that its angular radius, and with it the
+/// softness of its shadows, is 0.16.
 const KEY_SPHERE: usize = 2500;
-/// Pixels on the side of a depth map, of the sky and of the key light, whose shadows have edges.
+/// Pixels on the side of a depth map of the sky, and of one of the key light, whose shadows have sharper edges.
 const SKY_MAP: usize = 224;
 const KEY_MAP: usize = 448;
 /// A point is lifted off the surface by this many pixels of a map, so that the map's steps do not hide it from itself.
 const LIFT: f64 = 1.6;
-/// Points on a pixel's side at which light is found.
+/// Number of points per pixel side at which light is found.
 const DENSITY: f64 = 0.5;
-/// Such points to each side, every other one, over which light on the ground is averaged: single lights cannot be told apart there either.
+/// Light on the ground is averaged over this many of these points to each side, every other one, so that shadows of single lights are not
+/// visible there either.
 const SOFT: usize = 3;
 
 /// Shares of the light that arrive, in [0, 1].
@@ -33,7 +35,7 @@ impl ReceivedLight {
     pub const FULLY: ReceivedLight = ReceivedLight { sky: 1.0, key: 1.0 };
 }
 
-/// A point that is seen, in pixel coordinates.
+/// A visible point, in pixel coordinates.
 #[derive(Clone, Copy)]
 pub struct SeenPoint {
     pub xyz: V3,
@@ -59,17 +61,17 @@ impl Ground {
     }
 }
 
-/// The surface as two lights far away on opposite sides see it: how near to each it is.
+/// The surface as two distant lights on opposite sides see it.
 struct DepthMap {
     /// Unit vector towards the first light.
     towards: V3,
-    /// A point of space on the map: to the right, up and towards the first light, in pixels of the map.
+    /// The axes of the map, to the right, up and towards the first light, in pixels of the map.
     axes: [V3; 3],
     origin: V3,
     /// Pixels of the map per unit.
     scale: f64,
     size: usize,
-    /// What is nearest to the first light, and what to the second.
+    /// Per pixel of the map, the depths that are nearest to the first light and to the second.
     depth: Vec<[f32; 2]>,
 }
 
@@ -97,7 +99,7 @@ impl DepthMap {
         [0, 1, 2].map(|k| dot(self.axes[k], p) + self.origin[k])
     }
 
-    /// Whether the first or the second light sees a point.
+    /// True if the first light, or else the second, sees a point.
     fn sees(&self, point: &SeenPoint, is_first: bool) -> bool {
         let [x, y, z] = self.place(add(point.xyz, scaled(point.flat, LIFT / self.scale)));
         let [x, y] = [x + 0.5, y + 0.5];
@@ -135,7 +137,7 @@ impl ShadowCaster {
     pub fn open(&self, point: &SeenPoint) -> ReceivedLight {
         let (mut seen, mut all) = (0.0, 0.0);
         for map in &self.sky {
-            // Of two opposite lights one is below the face itself and says nothing about what is above it.
+            // Of two opposite lights one is behind the face itself, and is left out.
             let is_first = dot(map.towards, point.flat) > 0.0;
             let weight = dot(map.towards, point.normal) * if is_first { 1.0 } else { -1.0 };
             seen += if map.sees(point, is_first) { weight.max(0.0) } else { 0.0 };
@@ -161,12 +163,12 @@ pub fn over(b: V3, corners: [V3; 3], normals: [V3; 3]) -> V3 {
 /// The light at every second pixel of every second row of a picture.
 pub struct LightField {
     width: usize,
-    /// What is seen there, if anything is, and its light.
+    /// The visible points there, if there are any, with their light.
     seen: Vec<Option<(SeenPoint, ReceivedLight)>>,
 }
 
 impl LightField {
-    /// `describe` names the point that a pixel shows, given the face and the barycentric coordinates, or nothing.
+    /// `describe`: the point that a pixel shows, from the face and the barycentric coordinates there, or none.
     pub fn new(
         caster: &ShadowCaster,
         shapes: &[DrawnShape],
@@ -229,7 +231,7 @@ impl LightField {
 }
 
 impl SeenPoint {
-    /// Whether two points a few pixels apart lie on the same smooth piece of surface.
+    /// True if two points a few pixels apart lie on the same smooth piece of surface.
     fn neighbours(&self, other: &SeenPoint) -> bool {
         let apart = sub(self.xyz, other.xyz);
         let off = dot(apart, self.normal).abs().min(dot(apart, other.normal).abs());

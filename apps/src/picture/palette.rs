@@ -1,10 +1,10 @@
-//! An image in at most 256 colours, by median cut \[Hec82\].
+//! Reduction of an image to at most 256 colours, by median cut \[Hec82\].
 
 use std::collections::BTreeMap;
 
-/// Colours of an indexed PNG, whose pixels are bytes.
+/// Most colours of an indexed PNG, whose pixels are bytes.
 const MOST: usize = 256;
-/// Greys from this one on, in which shadows on paper end.
+/// The darkest of the light greys, which keep colours of their own because soft shadows end in them.
 const LIGHT_GREY: u8 = 200;
 
 /// Colours and how often each occurs.
@@ -15,7 +15,7 @@ pub fn reduce(rgb: &[u8]) -> (Vec<u8>, Vec<u8>) {
     let pixels = || rgb.chunks_exact(3).map(|p| [p[0], p[1], p[2]]);
     let mut count: BTreeMap<[u8; 3], usize> = BTreeMap::new();
     pixels().for_each(|p| *count.entry(p).or_default() += 1);
-    // The steps of a soft shadow on white paper show: light greys keep a colour of their own each.
+    // Steps in a soft shadow on white would be visible, so that each light grey keeps a colour of its own.
     let own = |(c, _): &([u8; 3], usize)| c[0] >= LIGHT_GREY && c[0] == c[1] && c[1] == c[2];
     let (greys, others): (Colors, Colors) = count.into_iter().partition(own);
     let mut boxes: Vec<Colors> = greys.into_iter().map(|c| vec![c]).collect();

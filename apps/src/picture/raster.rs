@@ -2,6 +2,7 @@
 
 use super::color::{Rgb, encode};
 use super::vector::{V3, ends};
+use ricci::geometry::complex::doubled_area;
 use ricci::parallel::each;
 
 /// Samples per pixel side of a finished picture.
@@ -9,7 +10,7 @@ pub const SAMPLES: usize = 4;
 /// Rows of one band; fixed, so that the image does not depend on the number of threads.
 const BAND: usize = 48;
 
-/// Something to draw: x to the right and y down in pixels, z towards the viewer.
+/// A shape to draw: x to the right and y down in pixels, z towards the viewer.
 #[derive(Clone, Copy)]
 pub enum DrawnShape {
     Triangle([V3; 3]),
@@ -27,7 +28,7 @@ pub struct Hit {
     pub shape: usize,
     /// Barycentric coordinates on a triangle; on a capsule the unit normal (x right, y down, z towards the viewer).
     pub local: V3,
-    /// Whether a triangle shows the side from which its corners run counterclockwise.
+    /// True if a triangle shows the side from which its corners run counterclockwise.
     pub front: bool,
 }
 
@@ -53,8 +54,8 @@ impl PixelImage {
     }
 }
 
-/// Draw. `paint` gives the colour at a place of a shape, or of the background; it is asked once for each shape in a pixel, in the middle of
-/// the samples that show it.
+/// The image of some shapes. `paint`: the colour at a place of a shape, or of the background; it is called once for each shape in a pixel, at
+/// the mean place of the samples that show it.
 pub fn render(
     shapes: &[DrawnShape],
     [width, height]: [usize; 2],
@@ -79,25 +80,26 @@ pub fn render(
     image
 }
 
-/// Steps of linear light that are told apart: finer than those of 8 bits, also where it is dark.
+/// Number of steps of linear light in the table of 8-bit codes: they are finer than those of 8 bits, also in the dark.
 const CODES: f64 = 16384.0;
 
-/// Which shape is nearest at each sample of a few rows, and how far towards the viewer it is there.
+/// The nearest shape at each sample of a few rows, and its depth there.
 pub struct Samples {
-    /// Samples in a row, and on a pixel's side.
+    /// Samples in a row.
     pub width: usize,
+    /// Samples on a pixel's side.
     scale: f64,
-    /// The pixel row in which they begin.
+    /// The first pixel row.
     first: usize,
     depth: Vec<f32>,
     nearest: Vec<u32>,
 }
 
-/// No shape.
+/// The number that stands for no shape.
 const NOTHING: u32 = u32::MAX;
 
 impl Samples {
-    /// What is visible in `rows` pixel rows from `first` on, with `scale` samples on each pixel's side.
+    /// The visible shapes in `rows` pixel rows from `first` on, with `scale` samples on each pixel's side.
     pub fn new(shapes: &[DrawnShape], [width, first, rows]: [usize; 3], scale: f64) -> Samples {
         let [width, height] = [width, rows].map(|n| (n as f64 * scale).ceil() as usize);
         let (depth, nearest) = (vec![f32::NEG_INFINITY; width * height], vec![NOTHING; width * height]);
@@ -141,7 +143,7 @@ impl Samples {
     fn in_pixel(&self, x: usize, y: usize) -> impl Iterator<Item = (u32, f64, [f64; 2])> {
         let row = |k: usize| &self.nearest[(SAMPLES * y + k) * self.width + SAMPLES * x..][..SAMPLES];
         let first = row(0)[0];
-        // Of a pixel that shows one shape a single look is enough.
+        // In a pixel that shows one shape all samples count as one.
         let n = if (0..SAMPLES).all(|k| row(k).iter().all(|id| *id == first)) { 1 } else { SAMPLES };
         let mut seen = [(NOTHING, 0.0, [0.0; 2]); SAMPLES * SAMPLES];
         let mut count = 0;
@@ -157,12 +159,12 @@ impl Samples {
         seen.into_iter().take(count).map(move |(id, number, sum)| (id, number / (n * n), place(number, sum)))
     }
 
-    /// How many there are.
+    /// The number of samples.
     pub fn len(&self) -> usize {
         self.depth.len()
     }
 
-    /// The samples of a row with their places and what is visible there.
+    /// The samples of a row: the place of each, and the visible point there.
     pub fn row<'a>(
         &'a self,
         shapes: &'a [DrawnShape],
@@ -177,7 +179,7 @@ impl Samples {
 
 /// The whole numbers below `n` in an interval.
 fn span([low, high]: [f64; 2], n: usize) -> std::ops::Range<usize> {
-    // Rounding up, by a conversion that is faster than the function.
+    // Rounds up by a conversion, which is faster than `ceil`.
     let low = low.clamp(0.0, n as f64);
     let start = low as usize + usize::from(low > (low as usize) as f64);
     start..if high < 0.0 { 0 } else { (high.min(n as f64) as usize + 1).min(n) }
@@ -195,8 +197,8 @@ pub fn scan(p: [V3; 3], [width, height]: [usize; 2], mut put: impl FnMut(usize, 
     if area == 0.0 || !area.is_finite() {
         return;
     }
-    // Of side k, opposite corner k: where it meets row 0, how far it moves to the right with each row, and whether it bounds on the left.
-    // A level side bounds nothing: the rows end with it.
+    // Per side k, opposite corner k: its x in row 0, the change of x from row to row, and whether it bounds the triangle on the left. A
+    // horizontal side bounds no row on either side.
     let mut sides = [(0.0, 0.0, None); 3];
     let mut slope = [0.0; 2];
     for k in 0..3 {
@@ -220,11 +222,6 @@ pub fn scan(p: [V3; 3], [width, height]: [usize; 2], mut put: impl FnMut(usize, 
     }
 }
 
-/// Twice the signed area.
-pub fn doubled_area(p: [[f64; 2]; 3]) -> f64 {
-    (p[1][0] - p[0][0]) * (p[2][1] - p[0][1]) - (p[1][1] - p[0][1]) * (p[2][0] - p[0][0])
-}
-
 /// Least and largest x and y of some points.
 fn bounds(points: &[V3]) -> [[f64; 2]; 2] {
     [0, 1].map(|k| ends(points.iter().map(|p| p[k])))
@@ -240,7 +237,7 @@ impl DrawnShape {
         }
     }
 
-    /// What a visible point of the shape looks like; `at` may be a little beside it.
+    /// The visible point of the shape at a place, which may lie a little outside it.
     fn hit(&self, index: usize, at: [f64; 2]) -> Hit {
         let (local, front) = match self {
             // y runs down: a triangle seen from its front has negative area.

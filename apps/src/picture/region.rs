@@ -9,11 +9,11 @@ use std::f64::consts::TAU;
 /// A closed polygon, or a line, by its points.
 pub type Polyline = Vec<[f64; 2]>;
 
-/// Checks below this many pixels are not drawn each: they would only add up to their mean.
+/// Checks with sides below this many pixels are not drawn one by one, since they would only add up to their mean colour.
 pub const FINEST: f64 = 1.2;
 /// Sides of the polygons that stand for the circles of a pattern, in the order of [`RING`].
 const CIRCLE_SIDES: [usize; 3] = [24, 24, 12];
-/// A cell's sides are drawn by this many pieces, which can follow a curve.
+/// Number of pieces of a cell's side, so that it can follow a curve.
 const PIECES: usize = 3;
 
 pub fn is_finite(points: &[[f64; 2]]) -> bool {
@@ -25,7 +25,7 @@ fn key(p: [f64; 2]) -> [u64; 2] {
     p.map(f64::to_bits)
 }
 
-/// The sides of triangles that no other one has, as they run around their own.
+/// The sides that belong to one triangle alone, in the direction in which they run around it.
 pub fn border<P: Copy + Ord>(triangles: impl Iterator<Item = [P; 3]>) -> Vec<(P, P)> {
     let sides = triangles.flat_map(|t| [0, 1, 2].map(|k| (t[k], t[(k + 1) % 3])));
     let mut sides: Vec<_> = sides.map(|(a, b)| (a.min(b), a.max(b), a < b)).collect();
@@ -41,7 +41,7 @@ pub fn outline(triangles: impl Iterator<Item = [[f64; 2]; 3]>) -> Vec<Polyline> 
     chains(sides.into_iter().map(|(a, b)| (place(a), place(b))))
 }
 
-/// Each segment once, whichever way it runs.
+/// The segments without repetitions, in whichever direction they run.
 pub fn once(segments: impl Iterator<Item = [[f64; 2]; 2]>) -> impl Iterator<Item = [[f64; 2]; 2]> {
     let mut known = HashSet::new();
     segments.filter(move |[a, b]| {
@@ -50,7 +50,7 @@ pub fn once(segments: impl Iterator<Item = [[f64; 2]; 2]>) -> impl Iterator<Item
     })
 }
 
-/// Chain segments end to start into lines; one that closes ends where it began.
+/// Lines from segments that are joined end to start; a closed line ends at its first point.
 pub fn chains(segments: impl Iterator<Item = ([f64; 2], [f64; 2])>) -> Vec<Polyline> {
     let segments: Vec<_> = segments.filter(|(a, b)| is_finite(&[*a, *b])).collect();
     let mut from: HashMap<_, Vec<usize>> = HashMap::new();
@@ -153,8 +153,8 @@ pub fn in_pieces(polygon: &[[f64; 2]], side: f64) -> Polyline {
 
 #[cfg(test)]
 mod tests {
-    use super::super::raster::doubled_area;
     use super::*;
+    use ricci::geometry::complex::doubled_area;
 
     /// Twice the area that polygons run around on the left.
     fn area(polygons: &[Polyline]) -> f64 {

@@ -1,4 +1,4 @@
-//! What a picture shows and how it is drawn.
+//! The content of a picture, and the style in which it is drawn.
 
 use super::camera::View;
 use super::colormap::Scale;
@@ -21,7 +21,7 @@ pub struct ShownSurface<'a> {
     pub seams: &'a [(u32, u32, usize)],
     /// Cone vertices and their curvature.
     pub cones: &'a [(u32, f64)],
-    /// Known to have no boundary; of others it is looked for and drawn.
+    /// True if the surface is known to have no boundary; the boundary of others is searched and drawn.
     pub is_closed: bool,
 }
 
@@ -45,7 +45,7 @@ pub struct ShownLayout<'a> {
     pub cones: &'a [([f64; 2], f64)],
     pub circles: &'a [Circle],
     pub dual_circles: &'a [Circle],
-    /// Round holes: nothing is seen inside, and their edge is drawn as the circle that it is.
+    /// Round holes, which are white and whose edges are drawn as circles.
     pub holes: &'a [Circle],
     /// Circles that bound the layout from outside.
     pub rims: &'a [Circle],
@@ -87,7 +87,7 @@ pub struct Style {
 pub struct Focus {
     pub at: [f64; 3],
     pub radius: f64,
-    /// A normal of the surface there, of any length: from where it is looked at, unless the view is given.
+    /// A normal of the surface there, of any length, which is the direction of the view unless one is given.
     pub normal: [f64; 3],
     pub at_layout: [f64; 2],
     pub radius_layout: f64,

@@ -1,4 +1,4 @@
-//! A sheet to draw on: images, and vectors over them as SVG, which become pixels by resvg.
+//! A sheet with images, and with vectors over them as SVG, which resvg turns into pixels.
 
 use super::color::{INK, Rgb, to_hex};
 use super::raster::Image;
@@ -8,7 +8,7 @@ use resvg::tiny_skia::{PixmapMut, Transform};
 use resvg::usvg;
 use std::fmt::Write;
 
-/// Opacity in SVG over that in linear light: it mixes colours as they are written, in which thin lines are darker.
+/// Opacity in SVG over that in linear light: SVG mixes sRGB values, in which thin lines look darker.
 const WIRE: f64 = 0.65;
 
 /// A drawing in pixels, y down.
@@ -36,7 +36,7 @@ impl SvgPath {
         self.0 += &numbers.join(" ");
     }
 
-    /// A line through points, by steps; what is not finite is left out.
+    /// A line through points, by relative steps; one with a point that is not finite is left out.
     pub fn line(&mut self, points: &[[f64; 2]]) {
         if points.len() < 2 || !is_finite(points) {
             return;
@@ -107,7 +107,7 @@ impl VectorSheet {
         self.add(&format!(r#"stroke="{ink}" stroke-width="{width}" stroke-opacity="{opacity}""#), path);
     }
 
-    /// Write what begins at a point; `halo`: the width of a white line around it. Readers find the text by its label.
+    /// Write letters that begin at a point. `halo`: the width of a white line around them. The text is their label for screen readers.
     pub fn write(&mut self, text: &str, letters: &SvgPath, ([x, y], color): ([f64; 2], Rgb), halo: f64) {
         let label = text.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;");
         let [x, y] = [x, y].map(decimal);
@@ -120,7 +120,7 @@ impl VectorSheet {
         self.vectors += "</g>\n";
     }
 
-    /// Cut off what lies beyond the sides; `id` is of this sheet alone in a picture.
+    /// Cut off the vectors beyond the sides; `id`: a name that no other sheet of the picture has.
     pub fn cut(mut self, id: &str) -> VectorSheet {
         let VectorSheet { width, height, vectors, .. } = &self;
         self.vectors = format!(

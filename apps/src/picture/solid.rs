@@ -1,4 +1,4 @@
-//! The surface in space.
+//! The picture of a surface in space, with light and shadow.
 
 use super::camera::Camera;
 use super::coat::{Coat, PanelContent};
@@ -12,19 +12,19 @@ use super::region::border;
 use super::vector::{V3, add, at, bounding_ball, dot, norm, normal, scaled, sub, unit};
 use super::{Style, ShownSurface, Viewpoint};
 
-/// The ground is shown from this elevation on (sine).
+/// The sine of the lowest elevation of the camera from which the ground is shown.
 const LOWEST: f64 = 0.1;
-/// How much of the way to the end of the shadow the picture reaches.
+/// Share of the shadow's length that the picture has room for.
 const SHADOW: f64 = 0.5;
 /// Room for the shade beside and below a surface that stands on the ground, over its radius.
 const ROOM: f64 = 0.12;
-/// Over this share of the picture's size the ground fades into the white around the panel.
+/// Width of the border in which the ground fades to white, over the picture's size.
 const FADE: f64 = 0.16;
-/// And between these distances from the point below the surface's middle, over the surface's radius.
+/// The ground also fades between these distances from the point below the surface's middle, over the surface's radius.
 const REACH: [f64; 2] = [0.9, 2.2];
 /// The direction that counts as up for the light on a part of a surface: up on the screen and towards the viewer.
 const FOCUS_UP: V3 = [0.0, -0.8, 0.6];
-/// The inside of a surface has this tint.
+/// The tint of the inside of a surface.
 const INSIDE: Rgb = [0.5, 0.18, 0.08];
 
 /// Draw a surface with its light and shadows.
@@ -37,7 +37,7 @@ pub fn draw(surface: &ShownSurface<'_>, wish: &PanelContent<'_>, style: &Style) 
     render(&scene.shapes, scene.size, |pixel, hit| scene.paint(pixel, hit))
 }
 
-/// Everything that a visible point of the panel needs.
+/// The shapes of a panel with the colouring, the lights and the shadows of their points.
 struct LitScene<'a> {
     /// The faces, then seams, boundary and cones.
     shapes: Vec<DrawnShape>,
@@ -45,11 +45,11 @@ struct LitScene<'a> {
     corners: Vec<[V3; 3]>,
     normals: Vec<[V3; 3]>,
     coat: Coat<'a>,
-    /// Colours of what follows the faces.
+    /// Colours of the shapes after the faces.
     strokes: Vec<Rgb>,
     lights: Lights,
     ground: Option<Ground>,
-    /// None in a draft.
+    /// None in a draft, which has no shadows.
     caster: Option<ShadowCaster>,
     field: Option<LightField>,
     /// Width in pixels over which the ground fades at the edge.
@@ -80,7 +80,7 @@ impl CameraView {
         };
         let lights = Lights::new(up);
         let seen: Vec<V3> = points.iter().map(|p| camera.apply(*p)).collect();
-        // With the shadow on the ground, where there is one.
+        // The picture has room for the shadow on the ground, if there is one.
         let height = |p: &V3| dot(camera.up, *p);
         let lowest = seen.iter().map(height).fold(f64::INFINITY, f64::min);
         let has_ground = style.ground && style.focus.is_none() && camera.up[2] > LOWEST;
@@ -112,7 +112,7 @@ impl CameraView {
 
 impl<'a> LitScene<'a> {
     fn new(surface: &ShownSurface<'_>, wish: &PanelContent<'a>, style: &Style) -> LitScene<'a> {
-        // Scaled, so that neither tiny nor huge coordinates under- or overflow in products.
+        // Scaled, so that products of tiny coordinates do not underflow, nor those of huge ones overflow.
         let most = surface.positions.iter().flatten().fold(0.0f64, |m, x| m.max(x.abs()));
         let factor = if most > 0.0 { 1.0 / most } else { 1.0 };
         let points: Vec<V3> = surface.positions.iter().map(|p| scaled(*p, factor)).collect();
@@ -174,7 +174,7 @@ impl<'a> LitScene<'a> {
         Some(SeenPoint { xyz, normal: smooth.unwrap_or(flat), flat, on_ground: false })
     }
 
-    /// The ground ends in white before the panel does, and away from the surface: 1 inside, 0 there.
+    /// The strength of the ground's shadows: 1 near the surface, 0 at the border of the panel and far from the surface.
     fn fade(&self, pixel: [f64; 2], below: &SeenPoint) -> f64 {
         let smooth = |t: f64| t.clamp(0.0, 1.0).powi(2) * (3.0 - 2.0 * t.clamp(0.0, 1.0));
         let edge = |k: usize| smooth(pixel[k].min(self.size[k] as f64 - pixel[k]) / self.margin);
@@ -183,7 +183,7 @@ impl<'a> LitScene<'a> {
         edge(0) * edge(1) * smooth((REACH[1] - far) / (REACH[1] - REACH[0]))
     }
 
-    /// The light at a point near one that a pixel shows.
+    /// The light at a point that a pixel shows, from the field of light or else from the shadow maps.
     fn open(&self, pixel: [f64; 2], point: &SeenPoint) -> ReceivedLight {
         let near = self.field.as_ref().and_then(|field| field.at(pixel, point));
         near.unwrap_or_else(|| self.caster.as_ref().map_or(ReceivedLight::FULLY, |caster| caster.open(point)))

@@ -2,7 +2,7 @@
 
 use super::camera::{Camera, Viewpoint};
 use super::normals::corner_normals;
-use super::occlusion::{Caster, Ground, Point};
+use super::occlusion::{ShadowCaster, Ground, SeenPoint};
 use super::raster::{Hit, DrawnShape, render};
 use super::vector::{V3, dot, norm, sub, unit};
 use super::*;
@@ -148,13 +148,13 @@ fn creases_are_sharp_and_round_surfaces_smooth() {
 }
 
 /// A sphere of this radius at the origin that casts shadows.
-fn sphere(radius: f64, key: V3) -> Caster {
+fn sphere(radius: f64, key: V3) -> ShadowCaster {
     let soup = shapes::icosphere(12).unwrap();
     let points: Vec<V3> = soup.positions.iter().map(|p| p.map(|x| x * radius)).collect();
-    Caster::new(&points, &soup.faces, key)
+    ShadowCaster::new(&points, &soup.faces, key)
 }
 
-fn open(caster: &Caster, point: &Point) -> [f64; 2] {
+fn open(caster: &ShadowCaster, point: &SeenPoint) -> [f64; 2] {
     let open = caster.open(point);
     [open.sky, open.key]
 }
@@ -166,7 +166,7 @@ fn nothing_is_hidden_on_a_convex_body() {
     for k in 0..200 {
         let t = f64::from(k);
         let n = unit([t.sin(), (1.7 * t).cos(), (0.3 * t).sin()]).unwrap();
-        let point = Point { xyz: n.map(|x| 200.0 * x), normal: n, flat: n, on_ground: false };
+        let point = SeenPoint { xyz: n.map(|x| 200.0 * x), normal: n, flat: n, on_ground: false };
         let [sky, lit] = open(&caster, &point);
         assert_eq!(sky, 1.0, "{n:?}");
         if dot(n, key) > 0.2 {

@@ -1,4 +1,4 @@
-//! Lettering as outlines of the font that the command brings along: a picture looks the same on every machine.
+//! Lettering as outlines of a font that the command contains, so that a picture looks the same on every machine.
 
 use super::sheet::Path;
 use ttf_parser::{Face, OutlineBuilder};
@@ -11,14 +11,14 @@ const ITALIC: &[u8] = include_bytes!("fonts/STIXTwoText-Italic.ttf");
 /// Height of capitals and half the height of letters like x, over the size of the font.
 pub const CAPITALS: f64 = 0.657;
 const MIDDLE: f64 = 0.235;
-/// Size of numbers and exponents, and how far they are off the line, over the size of the font.
+/// Size of numbers and exponents, and their distances from the middle of the line, over the size of the font.
 const SMALL: f64 = 0.68;
 const BELOW: f64 = 0.16;
 const ABOVE: f64 = 0.36;
 /// Space between the letters of a word in generators, over the size of the font.
 const SPACE: f64 = 0.2;
 
-/// Outlines of letters in pixels, y down, and how far the line is to the right of where it began.
+/// Outlines of letters in pixels, y down, and the width of the line.
 #[derive(Default)]
 pub struct Lettering {
     pub path: SvgPath,

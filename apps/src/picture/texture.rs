@@ -1,11 +1,11 @@
 //! Patterns of a layout, filtered to the pixel: checks, and circles that show that the map is conformal.
 
-use super::raster::doubled_area;
 use clap::ValueEnum;
 use serde::Serialize;
+use ricci::geometry::complex::doubled_area;
 use std::collections::BTreeMap;
 
-/// Which pattern.
+/// The pattern of a layout.
 #[derive(ValueEnum, Serialize, Debug, Clone, Copy, PartialEq)]
 #[serde(rename_all = "lowercase")]
 pub enum TextureChoice {
@@ -100,7 +100,7 @@ fn circles(at: [f64; 2], slope: [[f64; 2]; 2]) -> f64 {
     let nearest = if p[0].hypot(p[1]) <= q[0].hypot(q[1]) { p } else { q };
     let distance = nearest[0].hypot(nearest[1]);
     let outward = nearest.map(|x| x / distance.max(1e-12));
-    // How fast the distance grows per pixel.
+    // The growth of the distance per pixel.
     let rate = [0, 1].map(|k| outward[0] * slope[0][k] + outward[1] * slope[1][k]);
     let rate = rate[0].hypot(rate[1]).max(1e-12);
     let within = |radius: f64| ((radius - distance) / rate + 0.5).clamp(0.0, 1.0);
@@ -119,7 +119,7 @@ impl TextureChoice {
     }
 }
 
-/// How large the pattern is, on the surface and in the layout alike.
+/// The size of the pattern, which is the same on the surface and in the layout.
 pub struct Tiles {
     /// Side of a check at the median scale, in the layout.
     pub size: f64,

@@ -1,10 +1,8 @@
-//! Which way up a surface is.
-//!
-//! Files do not say it. y is up in most of them; exceptions are told by their shape.
+//! The vertical of a surface, which files do not tell: y is up in most of them, and exceptions are recognised by their shape.
 
 use super::vector::{V3, add, complement, dot, ends, norm, normal, scaled, sphere_point, unit};
 
-/// Which way is up, and whether the surface lies flat on the ground, to be seen from above.
+/// The vertical of a surface, and whether it lies flat on the ground, so that it is seen from above.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stance {
     pub up: V3,
@@ -15,18 +13,18 @@ pub struct Stance {
 const SHEET: f64 = 0.35;
 /// A sheet lower than this share of its width and length lies on the ground.
 const FLAT_SHEET: f64 = 0.34;
-/// A closed surface lower than this share of its width and length is seen from above, wherever up is.
+/// A closed surface lower than this share of its width and length is seen from above, whatever its vertical is.
 const LOW: f64 = 0.45;
-/// A closed surface thinner than this share of its width and length lies on the ground,
+/// A closed surface thinner than this share of its width and length lies on the ground, if it is also [`CENTRED`].
 const FLAT_BODY: f64 = 0.6;
-/// if the middle of its area is that of its bounding box, up to this share of the extent: no side of it is up.
+/// Distance of the centroid of a surface from the middle of its bounding box, over the extent, up to which no side of it counts as its top.
 const CENTRED: f64 = 0.01;
-/// A flat side with this share of the area that the surface can stand on is what it stands on; twice as much where it is slanted in the
-/// file, as cuts of scans are.
+/// Least share of the area of a flat side that a surface stands on; twice as much is asked of a side that is slanted in the file, as cuts of
+/// scans are.
 const BASE: f64 = 0.065;
-/// Difference of the shares of two flat sides that counts for nothing.
+/// Difference of the shares of two flat sides up to which they count as equal.
 const ALIKE: f64 = 1e-3;
-/// Directions in which flat sides are looked for, and how many of those with the most area are looked at.
+/// Number of directions in which flat sides are searched, and of those with the most area that are examined.
 const DIRECTIONS: usize = 128;
 const LOOKED_AT: usize = 6;
 /// Faces of a flat side: normals within this cosine of its own, and no deeper than this share of the extent along it.
@@ -38,6 +36,7 @@ const AXIS: f64 = 0.995;
 const Y: V3 = [0.0, 1.0, 0.0];
 const Z: V3 = [0.0, 0.0, 1.0];
 
+/// The stance of a surface, by its shape.
 pub fn stance(points: &[V3], faces: &[[u32; 3]]) -> Stance {
     let axis = |k: usize, sign: f64| [0, 1, 2].map(|j| if j == k { sign } else { 0.0 });
     // Height over the lesser of width and length.
@@ -58,7 +57,7 @@ pub fn stance(points: &[V3], faces: &[[u32; 3]]) -> Stance {
         let standing = if most == 1 { Z } else { Y };
         return Stance { up: if lies { up } else { standing }, lies };
     }
-    // What a sculptor has given a foot stands on it, however thin it is.
+    // A surface with a flat base, such as a statue, stands on it, however thin it is.
     if let Some(up) = base(points, faces) {
         return Stance { up, lies: thin(up) < FLAT_BODY };
     }
@@ -99,7 +98,7 @@ fn base(points: &[V3], faces: &[[u32; 3]]) -> Option<V3> {
         faces.iter().map(area).sum::<f64>() / total
     };
     let sides = sums.iter().take(LOOKED_AT).filter_map(|s| unit(s.0)).map(|down| (share(down), down));
-    // Of two that are as large the lower one in the file.
+    // Of two sides of equal share the one that is lower in the file.
     let taste = |(share, [x, y, z]): &(f64, V3)| share - ALIKE * (x + y + z);
     let (share, down) = sides.max_by(|a, b| taste(a).total_cmp(&taste(b)))?;
     let axis = (0..3).find(|k| down[*k].abs() > AXIS);

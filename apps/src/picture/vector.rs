@@ -1,4 +1,4 @@
-//! Vectors in space, beside what the library has for them.
+//! Vectors in space: the library's functions, and further ones that pictures need.
 
 pub use ricci::geometry::vector::{Vector as V3, add, cross, dot, norm, sub, triangle_normal as normal};
 
