@@ -42,10 +42,10 @@ pub use upright::stance;
 pub use vector::normal;
 
 use crate::failure::Failure;
-use coat::Wish;
-use raster::Image;
+use coat::PanelContent;
+use raster::PixelImage;
 use ricci::parallel;
-use sheet::Sheet;
+use sheet::VectorSheet;
 
 /// The content of a picture: the surface on the left, the layout or a drawing on the right, or one of them.
 #[derive(Clone, Copy, Default)]
