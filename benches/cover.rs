@@ -1,8 +1,8 @@
-//! Layouts, deck groups and covers, against a yardstick that is linear up to a logarithm: shortest paths along the
+//! Times of layouts, deck groups and covers, compared with a job that is linear up to a logarithm: shortest paths along the
 //! edges of the same triangulation, in the same round.
 //!
 //! `cargo bench --bench cover [-- VERTICES…] > docs/results/bench-cover.md` (default: 10000 50000 200000 800000). The surface has genus 3,
-//! in H² and, with one cone, in E²; a round is one of each job, one after the other, so that what else the machine does hits all alike;
+//! in H² and, with one cone, in E²; a round does each job once, one after the other, so that other load of the machine affects all alike;
 //! medians of five rounds.
 #![allow(clippy::unwrap_used, clippy::print_stdout, clippy::print_stderr)]
 
@@ -19,7 +19,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 const ROUNDS: usize = 5;
-/// Copies that are placed.
+/// Number of copies that are placed.
 const COPIES: usize = 13;
 /// The cone of the flat metric.
 const CONE: VertexId = VertexId(0);

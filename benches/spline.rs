@@ -1,4 +1,4 @@
-//! Evaluation of splines, over the plane and over surfaces: points per second on one core, beside the bare recurrence.
+//! Points per second at which splines over the plane and over surfaces are evaluated on one core, compared with the bare recurrence.
 //!
 //! `cargo bench --bench spline`; its table is in `docs/results/bench-spline.md`. The yardstick evaluates each basis function by itself, by
 //! the recurrence of its definition ([`ricci::spline::simplex_spline`]), for the patches in whose knots' hull the point lies; both evaluate

@@ -1,4 +1,4 @@
-//! What some work asks of the heap: its peak, and bytes.
+//! The heap memory of some work: its peak, and all bytes that it asks for.
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -9,7 +9,7 @@ struct Counting;
 static LIVE: AtomicUsize = AtomicUsize::new(0);
 static PEAK: AtomicUsize = AtomicUsize::new(0);
 static ASKED: AtomicUsize = AtomicUsize::new(0);
-/// Not counted: the matrix products under the factorisation reserve 960 MiB of address space once per thread, of which
+/// Allocations of at least this size are not counted: the matrix products under the factorisation reserve 960 MiB of address space once per thread, of which
 /// they touch a few (resident memory shows it).
 const RESERVATION: usize = 960 << 20;
 
@@ -47,12 +47,12 @@ unsafe impl GlobalAlloc for Counting {
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
 
-/// Bytes that are live.
+/// The number of live bytes.
 pub fn live() -> usize {
     LIVE.load(Ordering::Relaxed)
 }
 
-/// The result of `work` and the bytes that it asks for, whether they are given back or not.
+/// The result of `work` and the number of bytes that it allocates, freed or not.
 pub fn asked<R>(work: impl FnOnce() -> R) -> (usize, R) {
     let before = ASKED.load(Ordering::Relaxed);
     let result = work();

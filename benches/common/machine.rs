@@ -1,4 +1,4 @@
-//! The machine that a page was made on.
+//! A description of the machine on which a page of results was made.
 
 use std::fmt::Write;
 
@@ -14,12 +14,12 @@ fn processor() -> Option<String> {
     Some(line.split_once(':')?.1.trim().to_string())
 }
 
-/// Add to a page.
+/// Append formatted text to a page.
 pub fn put(page: &mut String, text: std::fmt::Arguments<'_>) {
     page.write_fmt(text).unwrap();
 }
 
-/// The machine and its load; `peers` says what they are, or why there are none, and is none where none were asked for.
+/// The machine and its load. `peers`: the versions of the peers, or why there are none; none if no peers were asked for.
 pub fn machine(page: &mut String, peers: Option<Result<String, String>>, load: [Option<String>; 2]) {
     let cores = std::thread::available_parallelism().map_or(1, |n| n.get());
     let processor = processor().unwrap_or_else(|| "a processor without a name".into());

@@ -1,18 +1,18 @@
-//! What several benches need. Each of them compiles this module by itself and uses some of it.
+//! Helpers of several benches, each of which compiles this module by itself and uses a part of it.
 #![allow(dead_code)]
 
 pub mod heap;
 pub mod machine;
 pub mod peers;
 
-/// The middle one of some numbers.
+/// The median of some numbers.
 pub fn median(x: impl Iterator<Item = f64>) -> f64 {
     let mut x: Vec<f64> = x.collect();
     x.sort_by(f64::total_cmp);
     x[x.len() / 2]
 }
 
-/// Seconds of some work, and its result.
+/// The seconds of some work, and its result.
 pub fn seconds<R>(work: impl FnOnce() -> R) -> (f64, R) {
     let start = std::time::Instant::now();
     let result = work();

@@ -1,4 +1,4 @@
-//! The programs of benches/peers: other libraries at the same work, each in a process of its own.
+//! The programs of benches/peers, which do the same work by other libraries, each in a process of its own.
 
 use std::ffi::OsStr;
 use std::path::PathBuf;
@@ -8,7 +8,7 @@ use std::process::Command;
 pub struct Program(PathBuf);
 
 impl Program {
-    /// The program in the folder that `RICCI_PEERS` names, or else built by cmake below the target folder; why there is none.
+    /// The program in the folder that `RICCI_PEERS` names, or else built by cmake below the target folder; or why there is none.
     pub fn find(name: &str) -> Result<Program, String> {
         if let Some(folder) = std::env::var_os("RICCI_PEERS") {
             return Ok(Program(PathBuf::from(folder).join(name)));
@@ -20,7 +20,7 @@ impl Program {
         Ok(Program([build, name].iter().collect()))
     }
 
-    /// What it prints.
+    /// The output of the program.
     pub fn run(&self, arguments: &[&OsStr]) -> String {
         let output = Command::new(&self.0).args(arguments).output();
         let output = output.unwrap_or_else(|e| panic!("{}: {e}", self.0.display()));

@@ -1,4 +1,4 @@
-//! A disk flattened by the flow, and by a linear least-squares conformal map with the same factoriser.
+//! Times of flattening a disk by the flow, and by a linear least-squares conformal map with the same factoriser.
 
 use crate::common::seconds;
 use ricci::flow::{Flips, Options, Report, curvature_derivative, flow};
@@ -8,7 +8,7 @@ use ricci::mesh::{Mesh, shapes};
 use ricci::metric::Metric;
 use ricci::{Class, Control, Surface, Target};
 
-/// What a disk of one size took.
+/// The measurements of a disk of one size.
 pub struct Row {
     pub vertices: usize,
     /// The flow to a disk that is flat inside, without flips and layout.
@@ -41,7 +41,7 @@ pub fn measure(vertices: usize) -> Row {
 }
 
 /// The least-squares conformal map of \[LPRM02\] with two vertices of the boundary held: half the Dirichlet energy of both coordinates
-/// less the area of the image. Seconds, and what is left of the energy relative to that area.
+/// less the area of the image. Returns the seconds, and the remaining energy relative to that area.
 fn least_squares(mesh: &Mesh, metric: &Metric) -> ([f64; 4], f64) {
     let along = &mesh.boundary_loops()[0];
     let held = [0, along.len() / 2].map(|k| mesh.origin(along[k]).index());

@@ -1,4 +1,4 @@
-//! What edge flips cost: where none is needed, where many are, and the way back.
+//! The cost of edge flips on surfaces that need none and on surfaces that need many, and of the refinement that leads back.
 
 use crate::common::{heap, median, seconds};
 use ricci::flow::{Flips, Options, Report};
@@ -12,7 +12,7 @@ use std::f64::consts::PI;
 fn rounds(vertices: usize) -> usize {
     if vertices < 100_000 { 5 } else { 3 }
 }
-/// Cones of the surface that needs flips.
+/// Number of cones of the surface that needs flips.
 const CONES: usize = 8;
 
 /// Seconds of one flow from the input to the metric, and to the refinement.
@@ -31,7 +31,7 @@ impl Run {
     }
 }
 
-/// What one size and scheme took.
+/// The measurements of one size and scheme.
 pub struct Row {
     pub vertices: usize,
     pub scheme: Scheme,
@@ -49,7 +49,7 @@ pub struct Row {
     pub bytes: usize,
 }
 
-/// The surface in the class of `scheme`, and the seconds that took.
+/// The flow of a surface in the class of `scheme`, and the seconds of its start.
 fn start(surface: &Surface, scheme: Scheme, flips: Flips) -> (f64, Flow) {
     let (class, options) = (Class::new(scheme, Space::E2), Options { flips, ..Options::default() });
     seconds(|| Flow::new(surface.clone(), class, &options, &Control::new()).unwrap())
@@ -101,7 +101,7 @@ fn cones(surface: &Surface) -> Target {
 fn open(vertices: usize, scheme: Scheme) -> ([Run; 2], f64) {
     let surface = acute_disk(vertices);
     let mut target = Target::Boundary.values(&surface, Space::E2).unwrap();
-    // The disk is not as regular as the torus.
+    // Smaller than on the torus, since the disk is less regular.
     target.iter_mut().zip(waves(surface.mesh()).iter()).for_each(|(k, wave)| *k += 0.1 * wave);
     let target = Target::All(target);
     let run = |flips| {

@@ -3,7 +3,7 @@
 use super::flips::{Row, Run};
 use crate::common::machine::{load, machine, put};
 
-/// What the project asks: auto over never where no flip is needed, and the share of flips and checks where many are.
+/// The project's bounds: time of auto over never where no flip is needed, and share of flips and checks where many are needed.
 const RATIO: f64 = 1.10;
 const SHARE: f64 = 0.15;
 

@@ -1,4 +1,4 @@
-//! The linear algebra of one Newton step: the matrix, and what faer needs for it, and what the flow's own factorisation does.
+//! Times of the linear algebra of one Newton step by faer and by the flow's own factorisation.
 
 use crate::common::seconds;
 use faer::dyn_stack::{MemBuffer, MemStack};
@@ -16,7 +16,7 @@ use ricci::metric::Metric;
 use ricci::parallel::Pool;
 use std::io::Write;
 
-/// What one solver took for one analysis, factorisation and solve.
+/// The measurements of one solver for one analysis, factorisation and solve.
 #[derive(Clone)]
 pub struct Linear {
     pub solver: String,
@@ -24,7 +24,7 @@ pub struct Linear {
     pub analyse: f64,
     pub factor: f64,
     pub solve: f64,
-    /// Numbers in the factor.
+    /// Number of entries of the factor.
     pub entries: usize,
     /// Processor seconds per second of the factorisation.
     pub cores: f64,
@@ -38,7 +38,7 @@ impl Linear {
         iterations as f64 * (self.factor + self.solve) + self.analyse
     }
 
-    /// Seconds of what any Newton's method has to do once.
+    /// Seconds of one analysis and one factorisation, which any Newton's method needs.
     pub fn once(&self) -> f64 {
         self.analyse + self.factor
     }
@@ -147,7 +147,7 @@ impl Matrix {
         residual.iter().fold(0.0, |m, r| r.abs().max(m))
     }
 
-    /// In the format that benches/peers reads.
+    /// The matrix in the format that benches/peers reads.
     pub fn write(&self, out: impl Write) -> std::io::Result<()> {
         let mut out = std::io::BufWriter::new(out);
         let (n, entries) = (self.pattern.size(), self.pattern.entries());

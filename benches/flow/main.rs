@@ -1,9 +1,9 @@
-//! The flow against the linear algebra it stands on: faer, CHOLMOD and Eigen on the same matrix, in one run.
+//! Times of the flow compared with its linear algebra by faer, CHOLMOD and Eigen on the same matrix, in one run.
 //!
 //! `cargo bench --bench flow [-- VERTICES… SCHEME…] > docs/results/bench.md` (default: 10000 50000 200000 850000 yamabe inversive). Disks
 //! of the same sizes are flattened by the flow and by a linear conformal map. The target is a flat torus, from a torus of revolution of
 //! that size, noisy so that Newton has work to do. A round is one flow, then one analysis, factorisation and solve by each solver of ∂K/∂u
-//! at the solution; several rounds follow each other, so that what else the machine does hits all sides, and medians are printed.
+//! at the solution; several rounds follow each other, so that other load of the machine affects all alike, and medians are printed.
 //!
 //! `cargo bench --bench flow -- flips [VERTICES… SCHEME…] > docs/results/bench-flips.md` (default: 10000 50000 200000 400000) measures
 //! what edge flips cost instead.
@@ -34,13 +34,13 @@ fn rounds(vertices: usize) -> usize {
     if vertices < 100_000 { 9 } else { 3 }
 }
 
-/// Threads of the flow.
+/// Numbers of threads of the flow.
 const THREADS: [usize; 2] = [1, 2];
 
-/// Largest ‖A x − b‖∞ of a solver that solved the system: ‖b‖∞ = 1, and what rounding leaves is below 1e-13.
+/// Largest ‖A x − b‖∞ of a solver that solved the system: ‖b‖∞ = 1, and rounding leaves less than 1e-13.
 const SOLVED: f64 = 1e-10;
 
-/// What one size and scheme took.
+/// The measurements of one size and scheme.
 struct Row {
     vertices: usize,
     scheme: Scheme,

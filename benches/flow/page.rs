@@ -4,9 +4,9 @@ use crate::Row;
 use crate::common::machine::{machine, put};
 use crate::conformal;
 
-/// What the project asks of the flow, against one analysis and one factorisation by faer.
+/// The project's bound of the flow's time, over that of one analysis and one factorisation by faer.
 const RATIO: f64 = 2.5;
-/// What the project asks of its memory, bytes per vertex.
+/// The project's bound of the flow's memory, bytes per vertex.
 const PEAK: usize = 1536;
 
 impl Row {
@@ -25,7 +25,7 @@ impl Row {
     }
 }
 
-/// The page; `peers` says what they are, or why there are none.
+/// The page. `peers`: the versions of the peers, or why there are none.
 pub fn page(
     (rows, disks): (&[Row], &[conformal::Row]),
     peers: Result<String, String>,

@@ -3,10 +3,10 @@
 use crate::common::peers::Program;
 use crate::linear::{Linear, Matrix};
 
-/// What the program can measure, in its words.
+/// The solvers that the program can measure, by its names for them.
 const SOLVERS: [&str; 3] = ["CHOLMOD AMD", "CHOLMOD METIS", "Eigen LDLT"];
 
-/// What each solver takes for the matrix.
+/// The measurements of each solver for the matrix.
 pub fn measure(program: &Program, matrix: &Matrix) -> Vec<Linear> {
     let mut file = tempfile::NamedTempFile::new().unwrap();
     matrix.write(file.as_file_mut()).unwrap();

@@ -1,4 +1,4 @@
-//! Harmonic maps of disks onto the round disk, beside CGAL's maps of the same disks.
+//! Times of harmonic maps of disks onto the round disk, compared with CGAL's maps of the same disks.
 
 use crate::common::peers::Program;
 use crate::common::{median, seconds};
@@ -9,14 +9,14 @@ use ricci::{Control, Surface};
 use std::path::{Path, PathBuf};
 
 const ROUNDS: usize = 3;
-/// CGAL's methods, in the words of benches/peers/maps.cpp.
+/// CGAL's methods, by their names in benches/peers/maps.cpp.
 pub const METHODS: [&str; 4] = ["Tutte", "conformal", "conformal LU", "LSCM"];
-/// The method that finds the same map as we do on the triangulation that the disk has.
+/// The method whose map is the library's on the given triangulation of the disk.
 const SAME: usize = 2;
 /// Open meshes of the corpus of genus 0 with one boundary loop.
 const CORPUS: [&str; 3] = ["camelhead.obj", "face_libigl.obj", "cortex_human_brain_48k_open.obj"];
 
-/// What one disk took.
+/// The measurements of one disk.
 pub struct Disk {
     pub name: String,
     pub vertices: usize,
@@ -24,7 +24,7 @@ pub struct Disk {
     pub ours: [f64; 2],
     /// Faces of that triangulation that the map turns over.
     pub flipped: usize,
-    /// Of each method seconds, and the triangles that its map turns over.
+    /// Per method its seconds, and the number of triangles that its map turns over.
     pub peers: Vec<(f64, usize)>,
     /// Largest distance of an image by CGAL's discrete conformal map from ours on the same triangulation, after the rotation that takes one
     /// boundary vertex to the other.

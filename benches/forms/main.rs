@@ -1,4 +1,4 @@
-//! Harmonic forms by phase beside one factorisation and 2g solves, and harmonic maps of disks beside CGAL's, in one run.
+//! Times of harmonic forms by phase, compared with one factorisation and 2g solves, and of harmonic maps of disks, compared with CGAL's.
 //!
 //! `cargo bench --bench forms [-- VERTICES…] > docs/results/bench-forms.md` (default: 10000 50000 300000). Forms: generated closed
 //! surfaces of genus 2, 10, 46 and 73 of about that size. Disks: a wavy disk with noise, and with `RICCI_MESHES` some of the corpus.
@@ -26,7 +26,7 @@ fn rounds(vertices: usize) -> usize {
     if vertices < 100_000 { 5 } else { 3 }
 }
 
-/// What the forms of one surface took.
+/// The measurements of the forms of one surface.
 pub struct Row {
     vertices: usize,
     genus: usize,

@@ -1,4 +1,4 @@
-//! What must hold of whatever a reader accepts.
+//! Conditions that must hold for every input that a reader accepts.
 
 pub mod face;
 pub mod surfaces;
@@ -11,8 +11,8 @@ use ricci::mesh::{Mesh, Point};
 use std::path::PathBuf;
 use std::sync::OnceLock;
 
-/// Whether this input is one of the few that make long work, one in so many: all of its bytes decide. What comes of changing such an input
-/// is none mostly, so that long work does not take most of the time once it is in the corpus.
+/// True if this input is one of the few, one in `one_in`, that make long work. All of its bytes decide that, so that changed copies of such an
+/// input mostly make none, and long work does not take most of the time once it is in the corpus.
 pub fn is_rare(input: &[u8], one_in: u32) -> bool {
     let sum = input.iter().fold(0_u32, |sum, &b| sum.wrapping_mul(31).wrapping_add(b.into()));
     (sum ^ (sum >> 15)).is_multiple_of(one_in)
@@ -78,8 +78,8 @@ pub fn build(soup: &Soup) {
     }
 }
 
-/// What is repaired has its way back, to attributes too, holds no more edges of three faces than it did, and needs no second
-/// repair.
+/// A repaired list names the origin of each element, with its attributes, has no more edges of three faces than before, and needs no
+/// second repair.
 pub fn mend(soup: &Soup, options: &Repair) {
     let mended = match repair(soup, options) {
         Ok(mended) => mended,
@@ -143,7 +143,7 @@ pub fn mend(soup: &Soup, options: &Repair) {
     assert!(again.soup.faces == mended.soup.faces && again.steps == RepairSteps::default(), "repaired twice");
 }
 
-/// Options of a repair, one for each number.
+/// The options of a repair that a number stands for.
 pub fn options(bits: u8) -> Repair {
     Repair {
         weld: [Some(0.0), None, Some(0.5), Some(1e-300)][usize::from(bits & 3)],
@@ -152,7 +152,7 @@ pub fn options(bits: u8) -> Repair {
     }
 }
 
-/// Euler's formula with what the mesh says of itself.
+/// Euler's formula with the counts of the mesh.
 pub fn counts(mesh: &Mesh) {
     let [v, e, f] = [mesh.n_vertices(), mesh.n_edges(), mesh.n_faces()].map(|n| n as i64);
     assert_eq!(mesh.euler(), v - e + f);
@@ -208,7 +208,7 @@ fn survives_glb(soup: &Soup, back: &Soup) {
     survive(soup, back, "glb");
 }
 
-/// Attributes that the format has are there again, to its digits.
+/// Attributes that the format has come back, to its precision.
 fn survive(soup: &Soup, back: &Soup, extension: &str) {
     let (old, new) = (&soup.attributes, &back.attributes);
     let (float, byte) = (f64::from(f32::EPSILON), 1.0 / 509.0);

@@ -23,7 +23,7 @@ const MOST_STEPS: usize = 16;
 /// Flips of one input, and of one in 32.
 const FLIPS: [usize; 2] = [16, 200];
 
-/// Where every half-edge starts, and the faces beside it.
+/// The origin of every half-edge, and the faces beside it.
 fn shape(mesh: &Mesh) -> Vec<(VertexId, Option<FaceId>)> {
     mesh.edges()
         .flat_map(|e| [e.halfedge(), e.halfedge().twin()])
@@ -31,7 +31,7 @@ fn shape(mesh: &Mesh) -> Vec<(VertexId, Option<FaceId>)> {
         .collect()
 }
 
-/// Any flips leave a surface of the same topology; four of one edge leave it as it was; curves are followed.
+/// Any flips leave a surface of the same topology, four flips of one edge restore it, and curves are followed.
 fn by_hand(given: &Mesh, how: u8, bytes: impl Iterator<Item = u8>) {
     let mut mesh = given.clone();
     let mut curves = NormalCoordinates::new(&mesh);
@@ -68,7 +68,7 @@ fn target(surface: &Surface, bytes: &mut impl Iterator<Item = u8>) -> PerVertex<
     PerVertex::from_fn(n, |v: VertexId| drawn[v] + miss / n as f64)
 }
 
-/// Whatever the target, the flow ends with a metric, or says why not; the way back covers both triangulations.
+/// For any target the flow ends with a metric or an error, and the refinement covers both triangulations.
 fn in_a_flow(surface: Surface, how: u8, mut bytes: impl Iterator<Item = u8>) {
     let scheme = if how & 2 == 0 { Scheme::Yamabe } else { Scheme::Inversive };
     let target = Target::All(target(&surface, &mut bytes));

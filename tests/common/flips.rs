@@ -1,4 +1,4 @@
-//! What every flow with flips must satisfy, recomputed with formulas of our own.
+//! Conditions that every flow with flips must satisfy, recomputed with plain formulas that the library does not use.
 #![allow(dead_code)]
 
 use super::Random;
@@ -24,22 +24,22 @@ pub fn started(
     Flow::new(euclidean(mesh, lengths), class, options, &Control::new()).unwrap()
 }
 
-/// `a + b` and what rounding loses of it.
+/// The rounded sum `a + b`, and its rounding error.
 pub fn two_sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
     let part = sum - a;
     (sum, (a - (sum - part)) + (b - part))
 }
 
-/// Curvature from lengths and their remainders alone, broken faces, and per vertex what the rounding of the lengths as they are
-/// given can do to its curvature.
+/// Curvature from lengths and their remainders alone, the number of broken faces, and per vertex a bound of the change of its curvature
+/// by the rounding of the given lengths.
 pub struct Measured {
     pub curvature: Vec<f64>,
     pub broken: usize,
     pub rounding: Vec<f64>,
 }
 
-/// `e^x` to twice the digits: the power series at x/1024, squared ten times.
+/// `e^x` in double-double precision: the power series at x/1024, squared ten times.
 pub fn exp(x: DoubleDouble) -> DoubleDouble {
     let x = x * (0.5f64.powi(10)).into();
     let (mut sum, mut term) = (DoubleDouble::from(1.0), DoubleDouble::from(1.0));
@@ -67,7 +67,7 @@ pub fn scaled_sides(mesh: &Mesh, metric: &Metric, face: FaceId) -> ([(f64, f64);
 }
 
 /// Measure a metric with plain formulas: `tan²(θ_a/2) = f(s − b) f(s − c) / (f(s) f(s − a))` (f = identity, sinh) with the
-/// half-perimeter differences to twice the digits; in E² each triangle in a scale of its own, so that lengths may be of any size.
+/// half-perimeter differences in double-double precision; in E² each triangle in a scale of its own, so that lengths may be of any size.
 pub fn measure(mesh: &Mesh, metric: &Metric) -> Measured {
     let plane = metric.space == Space::E2;
     let read = |of: fn(&Metric, &Mesh) -> ricci::Result<PerEdge<f64>>| {
@@ -82,9 +82,10 @@ pub fn measure(mesh: &Mesh, metric: &Metric) -> Measured {
         rounding: vec![1e-14; mesh.n_vertices()],
     };
     for face in mesh.faces() {
-        let sides = match plane {
-            true => scaled_sides(mesh, metric, face).0,
-            false => mesh.opposite_edges(face).map(|e| (lengths[e], low[e])),
+        let sides = if plane {
+            scaled_sides(mesh, metric, face).0
+        } else {
+            mesh.opposite_edges(face).map(|e| (lengths[e], low[e]))
         };
         assert!(sides.iter().all(|(l, rest)| *l > 0.0 && l.is_finite() && rest.is_finite()));
         // s − l_k, and an ulp of the longest side where no remainder is known.
@@ -115,10 +116,10 @@ pub fn measure(mesh: &Mesh, metric: &Metric) -> Measured {
     found
 }
 
-/// The tolerance that is asked for by default.
+/// The default tolerance of a flow.
 const ASKED: f64 = 1e-10;
 
-/// What a flow with flips and the default tolerance claims is so: Euler's and Delaunay's conditions, whole triangles and, where it says
+/// Asserts that what a flow with flips and the default tolerance reports is true: Euler's and Delaunay's conditions, whole triangles and, where it says
 /// that it reached its target, the curvature of the target: to the tolerance asked for, or, at the rounding floor, to the error that it
 /// states. Nothing is NaN. Returns whether it reached it.
 pub fn honest(flow: &Flow, report: &Report, target: &PerVertex<f64>, what: &str) -> bool {
@@ -173,7 +174,7 @@ pub fn reach(flow: &mut Flow, target: &PerVertex<f64>, what: &str) -> Report {
     report
 }
 
-/// Flip an edge whose two triangles form a strictly convex quadrilateral in the plane; the surface stays as it is.
+/// Flip an edge whose two triangles form a strictly convex quadrilateral in the plane, which does not change the surface.
 pub fn isometric_flip(mesh: &mut Mesh, lengths: &mut PerEdge<f64>, e: EdgeId) -> bool {
     let h = e.halfedge();
     if mesh.is_outside(h) || mesh.is_outside(h.twin()) || mesh.face(h) == mesh.face(h.twin()) {
@@ -205,7 +206,7 @@ pub fn shuffle(mesh: &mut Mesh, lengths: &mut PerEdge<f64>, tries: usize, random
     edges.into_iter().filter(|&e| isometric_flip(mesh, lengths, e)).count()
 }
 
-/// Curvatures at some vertices; what is left of 2πχ is shared by the others.
+/// A target with the given curvatures at some vertices; the others share the rest of 2πχ equally.
 pub fn balanced(mesh: &Mesh, cones: &[(VertexId, f64)]) -> PerVertex<f64> {
     let left = 2.0 * PI * mesh.euler() as f64 - cones.iter().map(|(_, k)| k).sum::<f64>();
     let mut target = PerVertex::filled(mesh.n_vertices(), left / (mesh.n_vertices() - cones.len()) as f64);
@@ -222,13 +223,13 @@ pub fn stretched(frequency: usize, times: f64) -> ((Mesh, PerEdge<f64>), Vec<Ver
     (super::flow::surface(&soup), by_height.into_iter().map(VertexId::from).collect())
 }
 
-/// Four cones about the middle: the ends become discs that are smaller by the exponential of the length over the width.
+/// Four cones about the middle. The ends become discs that are smaller by the exponential of the length over the width.
 pub fn in_the_middle(mesh: &Mesh, by_height: &[VertexId]) -> PerVertex<f64> {
     let cones: Vec<_> = by_height[by_height.len() / 2 - 2..][..4].iter().map(|&v| (v, PI)).collect();
     balanced(mesh, &cones)
 }
 
-/// The target drawn towards its mean, as far as `most` asks for at its largest entry.
+/// Moves a target towards its mean until its largest entry is `most`.
 pub fn drawn_below(target: &mut PerVertex<f64>, total: f64, most: f64) {
     let mean = total / target.len() as f64;
     let shift = target.iter().sum::<f64>() / target.len() as f64;

@@ -1,4 +1,4 @@
-//! Surfaces to flow on, and what every flow must satisfy.
+//! Surfaces to flow on, and conditions that every flow must satisfy.
 #![allow(dead_code)]
 
 use ricci::flow::{Flips, Options, Report, StopReason};
@@ -51,7 +51,7 @@ pub fn attempt(flow: &mut Flow, target: &PerVertex<f64>) -> Report {
     solution.report().unwrap().clone()
 }
 
-/// Defaults, on the triangulation as it is.
+/// The default options without flips.
 pub fn rigid() -> Options {
     Options { flips: Flips::Never, ..Options::default() }
 }
@@ -64,7 +64,7 @@ pub fn solve(mesh: &Mesh, start: &Metric, target: &PerVertex<f64>, options: &Opt
     (flow.metric().clone(), report)
 }
 
-/// Converged to 1e-10, and says so.
+/// Asserts that a flow has converged to 1e-10 and says so.
 pub fn converged(report: &Report) {
     assert_eq!(report.stop_reason, StopReason::Converged, "{report:?}");
     assert!(report.converged() && report.max_curvature_error <= 1e-10);

@@ -1,4 +1,4 @@
-//! What several tests share: the mesh corpus and its index.
+//! Helpers of several tests: the mesh corpus with its index, and random numbers.
 #![allow(dead_code)]
 
 pub mod flips;
@@ -83,7 +83,7 @@ impl Random {
     }
 }
 
-/// A double as C's `%a` writes it.
+/// A floating-point number as C's `%a` writes it.
 pub fn hex(text: &str) -> f64 {
     let (sign, digits) = text.strip_prefix('-').map_or((1.0, text), |digits| (-1.0, digits));
     let (mantissa, exponent) = digits.strip_prefix("0x").unwrap().split_once('p').unwrap();

@@ -1,4 +1,4 @@
-//! What the library does for each call of a case.
+//! The calls of the library that the golden vectors name, one for each kind of case.
 
 use crate::cases::{Case, Found, indices, points};
 use crate::common::hex;
@@ -65,12 +65,11 @@ fn solved(case: &Case, threads: usize) -> Solution {
     if case.option("without_flow").is_u64() {
         return Solution::initial_of(surface, class).unwrap();
     }
-    let target = match case.option("cones").is_array() {
-        true => {
-            let vertices = case.indices("cones").into_iter().map(VertexId);
-            Target::Cones(vertices.zip(case.numbers("curvatures")).collect())
-        }
-        false => Target::All(PerVertex::from(case.numbers("target"))),
+    let target = if case.option("cones").is_array() {
+        let vertices = case.indices("cones").into_iter().map(VertexId);
+        Target::Cones(vertices.zip(case.numbers("curvatures")).collect())
+    } else {
+        Target::All(PerVertex::from(case.numbers("target")))
     };
     let solution = flow(surface, class, &target, &options(case, threads), &Control::new()).unwrap();
     assert!(solution.converged(), "{}", case.name);
@@ -86,7 +85,7 @@ fn flowed(case: &Case, threads: usize) -> Found {
     found
 }
 
-/// Where the numbers of a layout or a chart mean distances.
+/// The model in which the coordinates of a layout or a chart have distances.
 #[derive(Clone, Copy)]
 enum Model {
     Plane,
@@ -125,12 +124,11 @@ fn layout(case: &Case, threads: usize) -> Found {
 }
 
 fn uniformization(case: &Case, threads: usize) -> Uniformization {
-    let boundary = match case.option("corners").is_array() {
-        true => {
-            let corner = |v| Corner { vertex: VertexId(v), angle: None };
-            Boundary::Straight(Corners::At(case.indices("corners").into_iter().map(corner).collect()))
-        }
-        false => Boundary::Geodesic,
+    let boundary = if case.option("corners").is_array() {
+        let corner = |v| Corner { vertex: VertexId(v), angle: None };
+        Boundary::Straight(Corners::At(case.indices("corners").into_iter().map(corner).collect()))
+    } else {
+        Boundary::Geodesic
     };
     let base = case.option("base").as_u64().map(|v| VertexId(v as u32));
     let how = QuotientOptions { scheme: case.scheme(), base, boundary, flow: options(case, threads) };
@@ -153,7 +151,8 @@ fn uniform(case: &Case, threads: usize) -> Found {
     }
 }
 
-/// For the corners of every face: of the edge opposite, i j with k here and l across, `|il| |jk| / (|lj| |ki|)`.
+/// Per corner of every face the cross-ratio of the edge opposite: `|il| |jk| / (|lj| |ki|)` for the edge i j, the corner k and the corner l
+/// of the face across.
 fn cross_ratios(points: &PerVertex<Point>, faces: &[u32]) -> Vec<f64> {
     let corners = || {
         faces.as_chunks::<3>().0.iter().flat_map(|f| [0, 1, 2].map(|k| [k, k + 1, k + 2].map(|k| f[k % 3])))

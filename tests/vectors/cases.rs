@@ -24,7 +24,7 @@ fn folder() -> PathBuf {
         .map_or_else(|| PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/vectors"), PathBuf::from)
 }
 
-/// FNV-1a of what stands before the seal.
+/// The seal of a case: FNV-1a of the text before it.
 fn sealed(line: &str) -> bool {
     let (text, rest) = line.split_once(",\"seal\":\"").unwrap();
     let value = text
@@ -90,7 +90,7 @@ impl Case {
         surface(&self.json[key])
     }
 
-    /// What does not agree: a line for each quantity.
+    /// A line for each quantity that does not agree.
     pub fn failures(&self, found: impl FnOnce(&Case) -> Option<Found>) -> Vec<String> {
         if !self.intact {
             return vec![format!("FAILED {}: what is written is not what was sealed", self.name)];
@@ -109,12 +109,13 @@ impl Case {
                 true => x.abs(),
                 false => 1.0,
             };
-            let error = match ours.len() == exact.len() {
-                true => ours.iter().zip(&exact).fold(0.0f64, |m, (a, b)| {
+            let error = if ours.len() == exact.len() {
+                ours.iter().zip(&exact).fold(0.0f64, |m, (a, b)| {
                     let off = (a - b).abs() / scale(*b);
                     if off.is_nan() { f64::INFINITY } else { m.max(off) }
-                }),
-                false => f64::INFINITY,
+                })
+            } else {
+                f64::INFINITY
             };
             if error > tolerance {
                 failures.push(format!(

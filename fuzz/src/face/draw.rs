@@ -1,4 +1,4 @@
-//! Arguments of calls, drawn from the input: valid ones, NULL, sizes that are wrong, numbers that mean nothing.
+//! Arguments of calls, drawn from the input: valid ones, NULL, wrong sizes, meaningless numbers.
 
 use super::session::Session;
 use super::tape::MOST_ROWS;
@@ -11,14 +11,14 @@ use std::sync::OnceLock;
 const CAPACITY: usize = 1024;
 /// Entries of arrays and of buffers whose number is not given: more than any handle here has.
 const UNCOUNTED: usize = 4096;
-/// What fills a buffer before a call.
+/// The byte that fills a buffer before a call.
 pub const UNTOUCHED: u8 = 0xa5;
 /// Options whose defaults are seconds of work: all of their fields are drawn.
 const LONG: [&str; 2] = ["ricci_spline_surface_options", "ricci_bicubic_options"];
 /// Bytes of the largest struct, and some more.
 const STRUCT_BYTES: usize = 4096;
 
-/// What a call may write, to be looked at when it has returned.
+/// Memory that a call may write, which is examined when it has returned.
 pub enum Watched {
     /// Entries of a type in memory that the session keeps, from an offset; the capacity that the call was told.
     Buffer { kept: usize, at: usize, word: &'static str, bytes: usize, capacity: Option<usize> },
@@ -28,14 +28,14 @@ pub enum Watched {
     Made { kept: usize, of: &'static str },
 }
 
-/// A message of the library's log: it says something.
+/// Checks that a message of the library's log is not empty.
 unsafe extern "C" fn logged(level: u32, message: *const c_char, _: *mut c_void) {
     // SAFETY: NUL-terminated (header).
     let message = unsafe { std::ffi::CStr::from_ptr(message) };
     assert!(!message.is_empty() && (1..=5).contains(&level));
 }
 
-/// The names of files: what can be read, what can be written, what is neither.
+/// The names of files: those that can be read, that can be written, and neither.
 fn files() -> &'static [CString] {
     static ALL: OnceLock<(tempfile::TempDir, Vec<CString>)> = OnceLock::new();
     &ALL.get_or_init(|| {

@@ -13,7 +13,7 @@ use std::sync::OnceLock;
 
 include!(concat!(env!("OUT_DIR"), "/face.rs"));
 
-/// What a function gives back.
+/// The return value of a function.
 pub enum Answer {
     Nothing,
     Status(u32),
@@ -34,7 +34,7 @@ pub struct Struct {
     pub fields: &'static [(&'static str, &'static str, usize)],
 }
 
-/// What a parameter or field is, by its C type.
+/// The kind of a parameter or field, by its C type.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Kind {
     F64,

@@ -1,5 +1,5 @@
-//! A sequence of calls, and what must hold of each: an answer that the header knows, words for every failure, results without
-//! a NaN, nothing written where a call has failed, nothing beyond what it was given.
+//! A sequence of calls, and the conditions on each: a status that the header names, a message for every failure, results without NaN,
+//! nothing written by a call that fails, and nothing written beyond the buffers.
 
 use super::draw::{UNTOUCHED, Watched};
 use super::shared::{self, Handles};
@@ -10,7 +10,7 @@ use std::ffi::{CStr, c_char};
 use std::sync::OnceLock;
 use std::time::Instant;
 
-/// Calls of one input, at most.
+/// Most calls of one input.
 const MOST_CALLS: usize = 8;
 /// Calls that take a hundred times as long as others: one input of eight makes them.
 const LONG: [&str; 8] = [
@@ -33,8 +33,8 @@ const WRONG_SIZE: u32 = 1;
 
 /// Functions whose capacity counts rows of two numbers of the last buffer.
 const IN_PAIRS: [&str; 2] = ["ricci_structure_places", "ricci_uniform_sides"];
-/// What the headers say may be NaN: fields of summaries that do not apply to every surface.
-const MAY_BE_NAN: [(&str, &str); 13] = [
+/// Fields of summaries that do not apply to every surface, and may be NaN, as the headers say.
+const MAY_BE_NAN: [(&str, &str); 17] = [
     ("ricci_circle_domain_summary", "modulus"),
     ("ricci_forms_summary", "asymmetry"),
     ("ricci_forms_summary", "star_residual"),
@@ -44,13 +44,18 @@ const MAY_BE_NAN: [(&str, &str); 13] = [
     ("ricci_layout_summary", "qc_max"),
     ("ricci_layout_summary", "area_ratio_min"),
     ("ricci_layout_summary", "area_ratio_max"),
+    ("ricci_quality_summary", "min_angle"),
+    ("ricci_quality_summary", "obtuse_fraction"),
+    ("ricci_quality_summary", "edge_ratio"),
+    ("ricci_quality_summary", "non_delaunay_fraction"),
     ("ricci_spline_summary", "fit_rms"),
     ("ricci_spline_summary", "fit_max"),
     ("ricci_uniform_summary", "modulus"),
     ("ricci_uniform_summary", "extremal_distance"),
 ];
-/// Functions whose results may hold a NaN, as the headers say: curvatures where the surface has no tangent plane.
-const MAY_GIVE_NAN: [&str; 1] = ["ricci_spline_evaluate"];
+/// Functions whose results may hold a NaN, as the headers say: curvatures where the surface has no tangent plane, circles that there
+/// are not.
+const MAY_GIVE_NAN: [&str; 2] = ["ricci_spline_evaluate", "ricci_layout_circles"];
 
 /// The state of one input.
 pub struct Session<'a> {
@@ -71,7 +76,7 @@ fn text(place: *const c_char) -> String {
     unsafe { CStr::from_ptr(place) }.to_str().expect("UTF-8").into()
 }
 
-/// Whether memory is as it was before the call.
+/// True if memory is as it was before the call.
 fn untouched(bytes: &[u8]) -> bool {
     static BEFORE: [u8; 4096] = [UNTOUCHED; 4096];
     bytes.chunks(BEFORE.len()).all(|part| *part == BEFORE[..part.len()])
@@ -84,7 +89,7 @@ fn status(answer: Answer) -> u32 {
     }
 }
 
-/// Make the calls that the bytes say.
+/// Make the calls that the bytes stand for.
 pub fn run(bytes: &[u8]) {
     let mut session = Session {
         tape: Tape::new(bytes),
@@ -150,7 +155,7 @@ impl Session<'_> {
         }
     }
 
-    /// Words for the failure, and nothing written.
+    /// Checks that a failed call has a message and has written nothing.
     fn failed(&mut self, name: &str, status: u32) {
         let sentence = match (call("ricci_status_text").run)(&[status.into()]) {
             Answer::Text(place) => text(place),
@@ -178,7 +183,7 @@ impl Session<'_> {
         }
     }
 
-    /// Results that are what the header says.
+    /// Checks that the results of a call are as the header says.
     fn succeeded(&mut self, name: &str) {
         for watched in std::mem::take(&mut self.watched) {
             match watched {
@@ -246,7 +251,7 @@ fn faces(mesh: u64) -> usize {
     usize::from_ne_bytes(bytes[start..start + 8].try_into().unwrap())
 }
 
-/// Make the shared handles, and see that every function that takes a handle refuses NULL.
+/// Make the shared handles, and check that every function that takes a handle refuses NULL.
 pub fn prepare() {
     shared::handles();
     for (call, of) in CALLS.iter().zip(parameters()) {

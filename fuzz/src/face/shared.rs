@@ -28,7 +28,7 @@ use std::sync::OnceLock;
 /// Handles by the name of their type.
 pub type Handles = HashMap<&'static str, Vec<u64>>;
 
-/// The handle that a call makes; NULL where this surface has no such thing.
+/// The handle that a call makes; NULL if this surface has none of the kind.
 fn made<T>(call: impl FnOnce(*mut *mut T) -> u32) -> *mut T {
     let mut place = null_mut();
     call(&raw mut place);
@@ -62,7 +62,7 @@ impl Shelf {
         handle
     }
 
-    /// Surfaces of every topology, and what is made of them.
+    /// Surfaces of every topology, and the handles that are made from them.
     fn surfaces(&mut self) {
         // A sphere, a disk, an annulus, flat tori, surfaces of genus 2 with one and two vertices, a pair of pants.
         let given = [
