@@ -9,8 +9,8 @@ struct Counting;
 static LIVE: AtomicUsize = AtomicUsize::new(0);
 static PEAK: AtomicUsize = AtomicUsize::new(0);
 static ASKED: AtomicUsize = AtomicUsize::new(0);
-/// Allocations of at least this size are not counted: the matrix products under the factorisation reserve 960 MiB of address space once per thread, of which
-/// they touch a few (resident memory shows it).
+/// Allocations of at least this size are not counted: the matrix products under the factorisation reserve 960 MiB of address space once per
+/// thread, of which they touch a few (resident memory shows it).
 const RESERVATION: usize = 960 << 20;
 
 impl Counting {

@@ -34,8 +34,8 @@ impl Flow {
     /// Not reaching it is reported, not an error.
     ///
     /// # Errors
-    /// Those of [`with_cones_placed`] and [`Target::values`]; without pins a total that no metric can have ([`check_total`]); curvature that no angle can have
-    /// ([`check_upper`]); [`Error::Cancelled`], [`Error::Factorisation`]: the flow is then where it was before.
+    /// Those of [`with_cones_placed`] and [`Target::values`]; without pins a total that no metric can have ([`check_total`]); curvature
+    /// that no angle can have ([`check_upper`]); [`Error::Cancelled`], [`Error::Factorisation`]: the flow is then where it was before.
     pub fn solve(&mut self, target: &Target, control: &Control) -> Result<Solution> {
         let (space, given) = (self.metric.space, self.given().clone());
         let target = with_cones_placed(target, self.surface(), space, control)?;

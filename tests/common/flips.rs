@@ -119,9 +119,9 @@ pub fn measure(mesh: &Mesh, metric: &Metric) -> Measured {
 /// The default tolerance of a flow.
 const ASKED: f64 = 1e-10;
 
-/// Asserts that what a flow with flips and the default tolerance reports is true: Euler's and Delaunay's conditions, whole triangles and, where it says
-/// that it reached its target, the curvature of the target: to the tolerance asked for, or, at the rounding floor, to the error that it
-/// states. Nothing is NaN. Returns whether it reached it.
+/// Asserts that what a flow with flips and the default tolerance reports is true: Euler's and Delaunay's conditions, whole triangles and,
+/// where it says that it reached its target, the curvature of the target: to the tolerance asked for, or, at the rounding floor, to the
+/// error that it states. Nothing is NaN. Returns whether it reached it.
 pub fn honest(flow: &Flow, report: &Report, target: &PerVertex<f64>, what: &str) -> bool {
     let (mesh, metric) = (flow.mesh(), flow.metric());
     mesh.validate().unwrap();
