@@ -92,8 +92,11 @@ fn by_figure(sections: Vec<(&'static str, Vec<Exhibit>)>) -> Vec<PageSection> {
     }
     let mut parts = Vec::new();
     for (number, about, rows) in figures() {
-        let mut part =
-            PageSection { title: format!("Figure {number}. {about}"), exhibits: Vec::new(), earlier: Vec::new() };
+        let mut part = PageSection {
+            title: format!("Figure {number}. {about}"),
+            exhibits: Vec::new(),
+            earlier: Vec::new(),
+        };
         for name in rows.into_iter().filter(|name| known.contains(name)) {
             match open.remove(name) {
                 Some(exhibit) => part.exhibits.push(exhibit),
@@ -106,7 +109,9 @@ fn by_figure(sections: Vec<(&'static str, Vec<Exhibit>)>) -> Vec<PageSection> {
         let Some(exhibit) = open.remove(name) else { continue };
         match parts.last_mut().filter(|part| part.title == title) {
             Some(part) => part.exhibits.push(exhibit),
-            None => parts.push(PageSection { title: title.into(), exhibits: vec![exhibit], earlier: Vec::new() }),
+            None => {
+                parts.push(PageSection { title: title.into(), exhibits: vec![exhibit], earlier: Vec::new() })
+            }
         }
     }
     parts

@@ -1,14 +1,14 @@
 //! The picture of a finished flow: the surface with its checkerboard beside the layout with its seams.
 
-use crate::circles::circles;
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::job::Outcome;
 use crate::laid::Laid;
 use crate::picture::{
-    self, Circle, ShownLayout, FlowPictureArgs, Focus, Picture, Style, ShownSurface, SurfacePictureArgs, Zoom,
+    self, Circle, FlowPictureArgs, Focus, Picture, ShownLayout, ShownSurface, Style, SurfacePictureArgs, Zoom,
 };
 use crate::quantity;
+use ricci::embed::CirclePattern;
 use ricci::mesh::io::Soup;
 use ricci::mesh::{FaceId, HalfedgeId, Mesh, PerVertex, Point, VertexId};
 
@@ -169,11 +169,14 @@ impl Parts {
         }
         // Circles belong to the layout, not to its charts.
         let with_circles = outcome.solved.scheme.epsilon() != 0 && laid.packed.is_none();
-        if let Some(all) = with_circles.then(|| circles(&outcome.solved, laid)).flatten() {
+        let solution = &outcome.solved.solution;
+        let pattern = || CirclePattern::new(&laid.layout, solution.mesh(), solution.metric()).ok();
+        if let Some(all) = with_circles.then(pattern).flatten() {
             let vertex = all.vertex_circles.iter().map(|c| Circle { center: c.center, radius: c.radius });
             parts.circles = vertex.collect();
-            let dual = |c: &crate::circles::DualCircle| Some(Circle { center: c.center, radius: c.radius? });
-            parts.dual_circles = all.dual_circles.iter().filter_map(dual).collect();
+            let real = all.dual_circles.iter().filter(|(_, c)| c.power >= 0.0);
+            parts.dual_circles =
+                real.map(|(_, c)| Circle { center: c.center, radius: c.power.sqrt() }).collect();
         }
         parts
     }

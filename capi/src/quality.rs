@@ -40,9 +40,7 @@ pub unsafe extern "C" fn ricci_mesh_quality(
     quality: *mut ricci_quality_summary,
     size: usize,
 ) -> ricci_status {
-    guard::with(mesh, |mesh| {
-        structs::write(ShapeQuality::of_surface(mesh.surface()?).into(), quality, size)
-    })
+    guard::with(mesh, |mesh| structs::write(ShapeQuality::of_surface(mesh.surface()?).into(), quality, size))
 }
 
 #[unsafe(no_mangle)]

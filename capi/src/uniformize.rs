@@ -45,14 +45,18 @@ impl ricci_uniform {
         match &self.shape {
             CanonicalShape::Sphere(sphere) => Ok(&sphere.positions),
             CanonicalShape::FlowedSphere(sphere) => Ok(&sphere.positions),
-            CanonicalShape::Quotient(_) => Err(Failure::new(RICCI_LAYOUT, "this surface is no sphere, but the quotient of a plane")),
+            CanonicalShape::Quotient(_) => {
+                Err(Failure::new(RICCI_LAYOUT, "this surface is no sphere, but the quotient of a plane"))
+            }
         }
     }
 
     pub(crate) fn quotient(&self) -> Outcome<&Arc<Quotient>> {
         match &self.shape {
             CanonicalShape::Quotient(quotient) => Ok(quotient),
-            CanonicalShape::Sphere(_) | CanonicalShape::FlowedSphere(_) => Err(Failure::new(RICCI_LAYOUT, "this surface is a sphere, not the quotient of a plane")),
+            CanonicalShape::Sphere(_) | CanonicalShape::FlowedSphere(_) => {
+                Err(Failure::new(RICCI_LAYOUT, "this surface is a sphere, not the quotient of a plane"))
+            }
         }
     }
 }

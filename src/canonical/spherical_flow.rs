@@ -54,7 +54,8 @@ pub fn flow_to_sphere(
     }
     let class = Class::new(scheme, Space::S2);
     let metric = flow(surface.clone(), class, &Target::Uniform, options, control)?;
-    let report = metric.report().cloned().ok_or_else(|| Error::Layout("the flow has left no report".into()))?;
+    let report =
+        metric.report().cloned().ok_or_else(|| Error::Layout("the flow has left no report".into()))?;
     let mesh = metric.mesh();
     let root = root.unwrap_or(VertexId(0));
     let layout = layout_of(mesh, metric.metric(), Some(root), None, control)?;

@@ -159,7 +159,7 @@ fn default_cones(surface: &Surface) -> usize {
     }
     let inside = mesh.vertices().filter(|&v| !mesh.is_boundary_vertex(v)).count();
     let [least, most] = DEFAULT_CONES;
-    mesh.euler().unsigned_abs().clamp(least, most).min(inside)
+    (mesh.euler().unsigned_abs() as usize).clamp(least, most).min(inside)
 }
 
 /// Necessary conditions on a target: [`check_vertices`] and [`check_total`]; for vertex scaling and inversive distance with

@@ -12,7 +12,8 @@ use check::{check, finger, on_sphere, rough, run, same_up_to_moebius, surface};
 use common::Random;
 use common::flips::{measure, shuffle};
 use ricci::canonical::{
-    QuotientOptions, Sphere, SphereOptions, SphereReport, Uniformization, flow_to_sphere, uniformize, uniformize_sphere,
+    QuotientOptions, Sphere, SphereOptions, SphereReport, Uniformization, flow_to_sphere, uniformize,
+    uniformize_sphere,
 };
 use ricci::flow::{Method, Options, Seconds, StopReason};
 use ricci::geometry::Space;

@@ -2,7 +2,7 @@
 
 use super::found::Found;
 use crate::failure::Failure;
-use crate::picture::{self, Circle, ShownLayout, Picture, Style, ShownSurface};
+use crate::picture::{self, Circle, Picture, ShownLayout, ShownSurface, Style};
 use ricci::geometry::Space;
 use ricci::mesh::HalfedgeId;
 

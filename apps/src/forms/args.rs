@@ -70,7 +70,7 @@ pub struct FormsArgs {
 #[serde(rename_all = "lowercase")]
 pub enum ShowChoice {
     /// The surface with the pattern of the form's integral
-    TextureChoice,
+    Texture,
     /// The surface with horizontal (red) and vertical (green) trajectories
     Trajectories,
     /// The surface with the pattern, beside the integral in the plane

@@ -5,7 +5,7 @@ use super::found::Chosen;
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::output::Outputs;
-use crate::picture::{self, ShownLayout, Picture, Style, ShownSurface, TextureChoice};
+use crate::picture::{self, Picture, ShownLayout, ShownSurface, Style, TextureChoice};
 use crate::show::surroundings;
 use crate::uv;
 use ricci::Control;
@@ -54,7 +54,8 @@ pub fn draw(input: &Input, chosen: &Chosen, args: &FormsArgs, control: &Control)
     let seams: Vec<_> = cut.iter().flat_map(|e| [e.halfedge(), e.halfedge().twin()]).map(line).collect();
     let outer = mesh.halfedges().filter(|&h| mesh.is_outside(h.twin()));
     let boundary: Vec<_> = outer.map(line).map(|(a, b, _)| (a, b)).collect();
-    let flat = ShownLayout { corner_uv: &corner_uv, seams: &seams, boundary: &boundary, ..ShownLayout::default() };
+    let flat =
+        ShownLayout { corner_uv: &corner_uv, seams: &seams, boundary: &boundary, ..ShownLayout::default() };
     if args.picture.is_svg() {
         return picture::svg(&Picture { flat: Some(flat), ..Picture::default() }, &style);
     }

@@ -183,7 +183,8 @@ mod tests {
     #[test]
     fn everything_of_an_exhibit_is_on_the_page() {
         let exhibits = vec![exhibit("one", Ok(vec![1, 2, 3])), exhibit("two", Err("why & wherefore".into()))];
-        let page = write(&[PageSection { title: "Title".into(), exhibits, earlier: vec!["zero"] }]).ok().unwrap();
+        let page =
+            write(&[PageSection { title: "Title".into(), exhibits, earlier: vec!["zero"] }]).ok().unwrap();
         for text in [
             "id=\"one\"",
             "data:image/png;base64,AQID",

@@ -1,6 +1,6 @@
 //! The list of the gallery's pictures: a row for each, and the figures of the paper with their rows.
 
-use super::view::Beside;
+use super::view::Companion;
 use RowSource::{Corpus, Made};
 use ricci::mesh::io;
 use std::path::Path;
@@ -95,7 +95,9 @@ impl GalleryRow {
         let last = self.draw.rsplit(" && ").next().unwrap_or_default();
         Ok(match last.split(' ').next().unwrap_or_default() {
             "uniformize" | "cover" if is_sphere(surface) => (Companion::Image, "--sphere"),
-            "flow" | "uniformize" | "cover" | "circles" | "harmonic" | "forms" => (Companion::Texture, "--uv"),
+            "flow" | "uniformize" | "cover" | "circles" | "harmonic" | "forms" => {
+                (Companion::Texture, "--uv")
+            }
             "match" => (Companion::Image, "--output"),
             _ => (Companion::Alone, ""),
         })

@@ -5,7 +5,7 @@ use super::found::{Found, Plane};
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::output::{Outputs, write_textured};
-use crate::picture::{self, ShownLayout, Picture, ShownSurface, TextureChoice};
+use crate::picture::{self, Picture, ShownLayout, ShownSurface, TextureChoice};
 use crate::uv::Drawn;
 use ricci::harmonic::SphereMap;
 use ricci::mesh::io::TexturedMesh;

@@ -5,7 +5,9 @@ use super::found::Found;
 use super::no_positions;
 use crate::failure::Failure;
 use crate::input::Input;
-use crate::picture::{self, Circle, ColorField, ShownLayout, Picture, ColorScale, Style, ShownSurface, TextureChoice, Tiles};
+use crate::picture::{
+    self, Circle, ColorField, ColorScale, Picture, ShownLayout, ShownSurface, Style, TextureChoice, Tiles,
+};
 use ricci::geometry::motion::precise_point;
 use ricci::geometry::{Motion, Space, model};
 use ricci::matching::{DomainTriangle, dilatations};

@@ -1,6 +1,6 @@
 //! The camera of a surface: the direction that it is seen from, which is chosen where none is given.
 
-use super::raster::{Hit, Samples, DrawnShape};
+use super::raster::{DrawnShape, Hit, Samples};
 use super::upright::{Stance, stance};
 use super::vector::{V3, add, bounding_ball, cross, dot, normal, scaled, sub, unit};
 use ricci::parallel::map;
@@ -90,7 +90,8 @@ impl Camera {
             [middle + scale * x, middle - scale * y, scale * z]
         };
         let seen: Vec<V3> = points.iter().map(place).collect();
-        let shapes: Vec<DrawnShape> = faces.iter().map(|f| DrawnShape::Triangle(f.map(|v| seen[v as usize]))).collect();
+        let shapes: Vec<DrawnShape> =
+            faces.iter().map(|f| DrawnShape::Triangle(f.map(|v| seen[v as usize]))).collect();
         let samples = Samples::new(&shapes, [PROBE, 0, PROBE], 1.0);
         let normal_of =
             |hit: Hit| unit(normal(faces[hit.shape].map(|v| points[v as usize]))).unwrap_or([0.0; 3]);

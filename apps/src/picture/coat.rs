@@ -2,9 +2,9 @@
 
 use super::color::{INK, Rgb, from_hex, mix};
 use super::colormap::NO_VALUE;
-use super::texture::{TexturePatch, TextureChoice, Tiles};
-use ricci::geometry::complex::doubled_area;
+use super::texture::{TextureChoice, TexturePatch, Tiles};
 use super::{ColorField, Style};
+use ricci::geometry::complex::doubled_area;
 
 /// Colour of a surface that shows nothing else.
 pub const CLAY: u32 = 0xd3c6b4;

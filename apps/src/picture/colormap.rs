@@ -204,7 +204,9 @@ mod tests {
         assert!((0..50).all(|k| viridis(k) < viridis(k + 1)));
         let signed = |k: i32| lightness(Ramp::BlueRed.color(0.5 + f64::from(k) / 100.0));
         assert!((0..50).all(|k| signed(k) > signed(k + 1) && signed(-k) > signed(-k - 1)));
-        assert!(Ramp::BlueRed.color(ColorScale::of_signed("x", &[-1.0, 2.0]).place(0.0)).iter().all(|c| *c > 0.9));
+        assert!(
+            Ramp::BlueRed.color(ColorScale::of_signed("x", &[-1.0, 2.0]).place(0.0)).iter().all(|c| *c > 0.9)
+        );
     }
 
     #[test]

@@ -1,11 +1,11 @@
 //! A drawing in a model of the plane or of the hyperbolic plane: areas with a pattern, lines and lettering over one another.
 
 use super::Style;
-use super::canvas::Canvas;
+use super::canvas::PanelCanvas;
 use super::coat::{DARK, LIGHT, wire_opacity};
 use super::color::{INK, Rgb, from_hex, mix, seam_color};
 use super::fit::Fit;
-use super::region::Chain;
+use super::region::Polyline;
 use super::sheet::{SvgPath, VectorSheet};
 use super::text::word;
 use super::texture::Tiles;

@@ -1,16 +1,16 @@
 //! The layout in the plane: colours or a pattern, and over them the wire, circles, boundary, seams and cones.
 
-use super::canvas::Canvas;
+use super::canvas::PanelCanvas;
 use super::coat::{CLAY, DARK, LIGHT, PanelContent, wire_opacity};
 use super::color::{INK, Rgb, cone_color, from_hex, mix, seam_color, to_hex};
 use super::colormap::NO_VALUE;
 use super::fit::Fit;
-use super::region::{Polyline, FINEST, cells, is_finite, outline};
+use super::region::{FINEST, Polyline, cells, is_finite, outline};
 use super::sheet::{SvgPath, VectorSheet};
 use super::texture::{OCTAVE, TextureChoice};
 use super::{Circle, ColorField, ShownLayout, Style};
-use ricci::geometry::complex::doubled_area;
 use ricci::geometry::clip::strip;
+use ricci::geometry::complex::doubled_area;
 
 /// Circles of a smaller radius (pixels) are left out.
 const LEAST_RADIUS: f64 = 0.8;
@@ -79,7 +79,11 @@ fn pattern(flat: &ShownLayout<'_>, wish: &PanelContent<'_>, canvas: &mut PanelCa
 }
 
 /// The parts of the layout with checks of one size, as polygons that end with the panel, and that size.
-fn regions(flat: &ShownLayout<'_>, wish: &PanelContent<'_>, canvas: &PanelCanvas<'_>) -> Vec<(f64, Vec<Polyline>)> {
+fn regions(
+    flat: &ShownLayout<'_>,
+    wish: &PanelContent<'_>,
+    canvas: &PanelCanvas<'_>,
+) -> Vec<(f64, Vec<Polyline>)> {
     let size = wish.tiles.map_or(1.0, |tiles| tiles.size);
     let parts =
         wish.tiles.map_or_else(|| vec![(0, flat.corner_uv.to_vec())], |tiles| tiles.levels(flat.corner_uv));

@@ -1,7 +1,7 @@
 //! The legend below a picture: the bar of colours with its numbers, and the key of the circles.
 
 use super::color::{INK, from_hex, to_hex};
-use super::colormap::{Ramp, ColorScale, number};
+use super::colormap::{ColorScale, Ramp, number};
 use super::flat::{DUAL_CIRCLE, VERTEX_CIRCLE};
 use super::sheet::{SvgPath, VectorSheet};
 use super::text::{CAPITALS, Lettering, line};
@@ -85,8 +85,8 @@ mod tests {
     #[test]
     fn the_numbers_at_the_ends_are_the_percentiles() {
         let values: Vec<f64> = (1..=1000).map(f64::from).collect();
-        let svg =
-            String::from_utf8(bar(&ColorScale::of_amounts("area", &values), &Style::default()).svg()).unwrap();
+        let svg = String::from_utf8(bar(&ColorScale::of_amounts("area", &values), &Style::default()).svg())
+            .unwrap();
         let written: Vec<&str> =
             svg.split("aria-label=\"").skip(1).filter_map(|s| s.split('"').next()).collect();
         assert_eq!((written[0], written[2], written[written.len() - 1]), ("area", "20", "980"));

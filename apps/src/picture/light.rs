@@ -1,7 +1,7 @@
 //! Light on a surface: a key light from above left, a weak fill from the right, and the sky.
 
 use super::color::Rgb;
-use super::occlusion::Open;
+use super::occlusion::ReceivedLight;
 use super::vector::{V3, add, dot, scaled, unit};
 
 /// Brightness of each light on a white surface that faces it.

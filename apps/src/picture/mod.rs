@@ -32,9 +32,9 @@ mod vector;
 pub use args::{ColorChoice, FlowPictureArgs, PictureArgs, SurfacePictureArgs, Zoom, zoom};
 pub use camera::{Camera, Viewpoint};
 pub use colormap::{CLASSES, ColorScale};
-pub use drawing::{Area, Drawing, DrawingFrame, Label, DrawnLine, PALE, DrawingPattern, TINTS, tint_color};
+pub use drawing::{Area, Drawing, DrawingFrame, DrawingPattern, DrawnLine, Label, PALE, TINTS, tint_color};
 pub use region::{FINEST, cells, in_pieces, outline};
-pub use scene::{Circle, ColorField, ShownLayout, Focus, Style, ShownSurface};
+pub use scene::{Circle, ColorField, Focus, ShownLayout, ShownSurface, Style};
 pub use texture::{OCTAVE, TextureChoice, Tiles};
 
 pub use ricci::geometry::complex::doubled_area;
@@ -94,8 +94,9 @@ impl Picture<'_> {
         let own = if self.pattern.is_some() { None } else { self.tiles().map(|t| t.banded(style.bands)) };
         let tiles = self.pattern.or(own.as_ref());
         let wish = |corner_uv| PanelContent { tiles, corner_uv, field: self.field };
-        let [surface, beside] = [self.surface, self.beside]
-            .map(|surface| surface.map(|s| VectorSheet::of_image(solid::draw(&s, &wish(s.corner_uv), style))));
+        let [surface, beside] = [self.surface, self.beside].map(|surface| {
+            surface.map(|s| VectorSheet::of_image(solid::draw(&s, &wish(s.corner_uv), style)))
+        });
         let [flat, second] = [(self.flat, "layout"), (self.flat_beside, "second-layout")]
             .map(|(flat, id)| flat.map(|f| flat::draw(&f, &wish(Some(f.corner_uv)), style).cut(id)));
         let drawing = self.drawing.map(|d| drawing::draw(d, style));

@@ -12,7 +12,8 @@ const MOST_FACES: usize = 64;
 /// A unit normal for every corner: the mean over the faces at its vertex that meet the corner's face at less than
 /// [`CREASE`], each weighed with its area and its angle there.
 pub fn corner_normals(points: &[V3], faces: &[[u32; 3]]) -> Vec<[V3; 3]> {
-    let sides: Vec<FaceNormal> = faces.iter().map(|f| FaceNormal::new(f.map(|v| points[v as usize]))).collect();
+    let sides: Vec<FaceNormal> =
+        faces.iter().map(|f| FaceNormal::new(f.map(|v| points[v as usize]))).collect();
     // The faces around each vertex, and which of their corners it is.
     let mut around = vec![Vec::new(); points.len()];
     for (f, face) in faces.iter().enumerate() {

@@ -2,7 +2,7 @@
 //! as each of many small lights sees it, at every second pixel of every second row. Pixels between take the mean of their neighbours on the
 //! same piece of surface.
 
-use super::raster::{Hit, Samples, DrawnShape, scan};
+use super::raster::{DrawnShape, Hit, Samples, scan};
 use super::vector::{V3, add, at, bounding_ball, complement, dot, scaled, sphere_point, sub};
 use ricci::parallel::{each, map};
 
@@ -222,7 +222,8 @@ impl LightField {
         for (pixel, weight) in taps {
             let near = self.seen.get(pixel).and_then(Option::as_ref);
             if let Some((_, light)) = near.filter(|(other, _)| other.neighbours(point)) {
-                open = ReceivedLight { sky: open.sky + weight * light.sky, key: open.key + weight * light.key };
+                open =
+                    ReceivedLight { sky: open.sky + weight * light.sky, key: open.key + weight * light.key };
                 total += weight;
             }
         }

@@ -245,7 +245,9 @@ impl DrawnShape {
                 let corners = p.map(|p| [p[0], p[1]]);
                 (barycentric(corners, at), doubled_area(corners) < 0.0)
             }
-            DrawnShape::Capsule { .. } => (self.cover(at).map_or([0.0, 0.0, 1.0], |(_, normal)| normal), true),
+            DrawnShape::Capsule { .. } => {
+                (self.cover(at).map_or([0.0, 0.0, 1.0], |(_, normal)| normal), true)
+            }
         };
         Hit { shape: index, local, front }
     }

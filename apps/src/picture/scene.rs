@@ -1,8 +1,8 @@
 //! The content of a picture, and the style in which it is drawn.
 
-use super::camera::View;
-use super::colormap::Scale;
-use super::texture::Texture;
+use super::camera::Viewpoint;
+use super::colormap::ColorScale;
+use super::texture::TextureChoice;
 
 /// Half the width of a line and the radius of a cone's ball, over the size of a panel, and in pixels at least.
 const LINE: [f64; 2] = [0.0013, 0.7];

@@ -1,7 +1,7 @@
 //! A sheet with images, and with vectors over them as SVG, which resvg turns into pixels.
 
 use super::color::{INK, Rgb, to_hex};
-use super::raster::Image;
+use super::raster::PixelImage;
 use super::region::is_finite;
 use crate::failure::Failure;
 use resvg::tiny_skia::{PixmapMut, Transform};
@@ -191,7 +191,8 @@ mod tests {
 
     #[test]
     fn vectors_lie_over_images_and_end_with_their_sheet() {
-        let mut part = VectorSheet::of_image(PixelImage { width: 4, height: 4, rgba: [0, 0, 0, 255].repeat(16) });
+        let mut part =
+            VectorSheet::of_image(PixelImage { width: 4, height: 4, rgba: [0, 0, 0, 255].repeat(16) });
         let mut path = SvgPath::default();
         path.rectangle([2.0, 0.0, 100.0, 100.0]);
         part.fill([1.0, 0.0, 0.0], &path);

@@ -6,11 +6,11 @@ use super::color::{INK, Rgb, cone_color, mix, seam_color};
 use super::fit::Fit;
 use super::light::Lights;
 use super::normals::corner_normals;
-use super::occlusion::{ShadowCaster, LightField, Ground, ReceivedLight, SeenPoint, over};
-use super::raster::{Hit, PixelImage, DrawnShape, render};
+use super::occlusion::{Ground, LightField, ReceivedLight, SeenPoint, ShadowCaster, over};
+use super::raster::{DrawnShape, Hit, PixelImage, render};
 use super::region::border;
 use super::vector::{V3, add, at, bounding_ball, dot, norm, normal, scaled, sub, unit};
-use super::{Style, ShownSurface, Viewpoint};
+use super::{ShownSurface, Style, Viewpoint};
 
 /// The sine of the lowest elevation of the camera from which the ground is shown.
 const LOWEST: f64 = 0.1;
@@ -116,7 +116,8 @@ impl<'a> LitScene<'a> {
         let most = surface.positions.iter().flatten().fold(0.0f64, |m, x| m.max(x.abs()));
         let factor = if most > 0.0 { 1.0 / most } else { 1.0 };
         let points: Vec<V3> = surface.positions.iter().map(|p| scaled(*p, factor)).collect();
-        let CameraView { camera, lights, fit, placed, ground } = CameraView::new(&points, surface.faces, style, factor);
+        let CameraView { camera, lights, fit, placed, ground } =
+            CameraView::new(&points, surface.faces, style, factor);
         let turned = |n: V3| {
             let [x, y, z] = camera.apply(n);
             [x, -y, z]

@@ -2,8 +2,8 @@
 
 use super::camera::{Camera, Viewpoint};
 use super::normals::corner_normals;
-use super::occlusion::{ShadowCaster, Ground, SeenPoint};
-use super::raster::{Hit, DrawnShape, render};
+use super::occlusion::{Ground, SeenPoint, ShadowCaster};
+use super::raster::{DrawnShape, Hit, render};
 use super::vector::{V3, dot, norm, sub, unit};
 use super::*;
 use ricci::mesh::io::Soup;
@@ -116,7 +116,8 @@ fn lines_behind_the_surface_are_hidden_and_cones_keep_their_colour() {
         let mut soup = shapes::icosphere(6).unwrap();
         soup.positions.iter_mut().for_each(|p| p.iter_mut().for_each(|x| *x += shift));
         let cones: Vec<(u32, f64)> = (0..soup.positions.len() as u32).map(|v| (v, 1.0)).collect();
-        let dots = |faces| red(&draw(ShownSurface { faces, cones: &cones, ..surface(&soup, None) }, &style()));
+        let dots =
+            |faces| red(&draw(ShownSurface { faces, cones: &cones, ..surface(&soup, None) }, &style()));
         let (seen, all) = (dots(&soup.faces), dots(&soup.faces[..1]));
         assert!(
             seen > 500 && (seen as f64) < 0.8 * all as f64,
@@ -294,10 +295,12 @@ fn degenerate_input_is_drawn_as_far_as_it_goes() {
     assert!(!png(&Picture::default(), &style()).unwrap().is_empty());
     let uv = [[[1e300, 0.0], [f64::NAN, 1.0], [0.0, 1e-300]]];
     let flat = ShownLayout { corner_uv: &uv, ..ShownLayout::default() };
-    let everything = Style { wire: true, ground: true, palette: true, texture: TextureChoice::Checker, ..style() };
+    let everything =
+        Style { wire: true, ground: true, palette: true, texture: TextureChoice::Checker, ..style() };
     for positions in [vec![[1.0; 3]; 3], vec![[1e300; 3], [-1e300; 3], [1e-300; 3]], vec![[f64::NAN; 3]; 3]] {
         let soup = Soup::new(positions, vec![[0, 1, 2]]);
-        let field = ColorField { corners: vec![[f64::NAN; 3]], scale: ColorScale::of_amounts("nothing", &[]) };
+        let field =
+            ColorField { corners: vec![[f64::NAN; 3]], scale: ColorScale::of_amounts("nothing", &[]) };
         let drawn = Picture {
             surface: Some(surface(&soup, Some(&uv))),
             flat: Some(flat),

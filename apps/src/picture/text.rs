@@ -1,6 +1,6 @@
 //! Lettering as outlines of a font that the command contains, so that a picture looks the same on every machine.
 
-use super::sheet::Path;
+use super::sheet::SvgPath;
 use ttf_parser::{Face, OutlineBuilder};
 
 /// STIX Two Text, its Latin letters, digits and signs.

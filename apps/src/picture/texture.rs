@@ -1,8 +1,8 @@
 //! Patterns of a layout, filtered to the pixel: checks, and circles that show that the map is conformal.
 
 use clap::ValueEnum;
-use serde::Serialize;
 use ricci::geometry::complex::doubled_area;
+use serde::Serialize;
 use std::collections::BTreeMap;
 
 /// The pattern of a layout.
@@ -43,7 +43,13 @@ pub struct TexturePatch {
 
 impl TexturePatch {
     /// `uv`: layout coordinates of face `f`; `pixels`: the triangle on the panel.
-    pub fn new(texture: TextureChoice, uv: [[f64; 2]; 3], tiles: &Tiles, f: usize, pixels: [[f64; 2]; 3]) -> TexturePatch {
+    pub fn new(
+        texture: TextureChoice,
+        uv: [[f64; 2]; 3],
+        tiles: &Tiles,
+        f: usize,
+        pixels: [[f64; 2]; 3],
+    ) -> TexturePatch {
         let period = tiles.size * if texture == TextureChoice::Circles { CIRCLE_SPACING } else { 1.0 };
         let uv = uv.map(|p| p.map(|x| x / period));
         let area = doubled_area(pixels);

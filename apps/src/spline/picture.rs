@@ -2,7 +2,7 @@
 
 use super::args::{EvalArgs, SurfaceColor};
 use crate::failure::Failure;
-use crate::picture::{Camera, ColorField, Picture, ColorScale, Style, ShownSurface, TextureChoice, png};
+use crate::picture::{Camera, ColorField, ColorScale, Picture, ShownSurface, Style, TextureChoice, png};
 use ricci::Control;
 use ricci::mesh::io::Soup;
 use ricci::spline::{Parameter, Spline, SurfacePoint, multi_indices};

@@ -3,7 +3,7 @@
 use super::args::StructureArgs;
 use crate::failure::Failure;
 use crate::input::Input;
-use crate::picture::{self, CLASSES, ColorField, Picture, ColorScale, ShownSurface, TextureChoice};
+use crate::picture::{self, CLASSES, ColorField, ColorScale, Picture, ShownSurface, TextureChoice};
 use ricci::Control;
 use ricci::mesh::{FaceId, Mesh, PerFace};
 use ricci::structure::Atlas;

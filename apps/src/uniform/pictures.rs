@@ -8,7 +8,7 @@ use super::pieces::middle;
 use super::quotient::{ORIGIN, Uniformized};
 use super::tiling::{Prototype, Stamp, Tiling, tint};
 use crate::failure::Failure;
-use crate::picture::{self, DrawingFrame, PALE, DrawingPattern, Picture, Style, ShownSurface, Tiles};
+use crate::picture::{self, DrawingFrame, DrawingPattern, PALE, Picture, ShownSurface, Style, Tiles};
 use ricci::embed::layout::distance_from_origin;
 use ricci::embed::{DeckElement, DirichletDomain};
 use ricci::geometry::model::Model;

@@ -4,7 +4,7 @@ use super::pieces::{Pieces, Welded, split, whole};
 use super::sphere::Round;
 use crate::failure::Failure;
 use crate::input::Input;
-use crate::picture::{self, Picture, Style, ShownSurface, Tiles};
+use crate::picture::{self, Picture, ShownSurface, Style, Tiles};
 use ricci::geometry::Space;
 use ricci::geometry::vector::{norm, triangle_normal};
 

@@ -2,8 +2,8 @@
 
 use super::model_place::ModelPlace;
 use crate::picture::{
-    Area, Drawing, FINEST, DrawingFrame, Label, DrawnLine, OCTAVE, DrawingPattern, Style, TINTS, TextureChoice, cells, in_pieces,
-    outline,
+    Area, Drawing, DrawingFrame, DrawingPattern, DrawnLine, FINEST, Label, OCTAVE, Style, TINTS,
+    TextureChoice, cells, in_pieces, outline,
 };
 use ricci::embed::{DeckElement, DeckGroup};
 use ricci::geometry::model::{Model, from_poincare};
