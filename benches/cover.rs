@@ -8,7 +8,7 @@
 
 use ricci::canonical::{Quotient, QuotientOptions, uniformize_quotient};
 use ricci::embed::cover::{elements_to_depth, moved};
-use ricci::embed::{DeckGroup, UnrollOptions, layout_of, unroll};
+use ricci::embed::{DeckGroup, Layout, LayoutOptions, LayoutScale, LayoutOpening};
 use ricci::flow::{Options, Solution, flow};
 use ricci::geometry::Space;
 use ricci::mesh::{Mesh, VertexId, shapes};
@@ -53,9 +53,11 @@ fn round(mesh: &Arc<Mesh>, given: &Quotient, flat: &Solution) -> [f64; 7] {
     };
     shortest_paths(mesh, &lengths, [base], &control).unwrap();
     done(&mut lap);
-    let layout = layout_of(mesh, metric.metric(), Some(base), None, &control).unwrap();
+    let (opening, scale, root) = (LayoutOpening::MetricEdges, LayoutScale::AsSolved, Some(base));
+    let options = LayoutOptions { opening, scale, root, ..LayoutOptions::default() };
+    let layout = Layout::of_solution(metric, &options, &control).unwrap();
     done(&mut lap);
-    let refined = layout.refined(&refinement, metric.metric(), &control).unwrap();
+    let refined = layout.on_refinement(&refinement, metric.metric(), &control).unwrap();
     done(&mut lap);
     let basis = homotopy_basis(mesh, &lengths, Some(base), &control).unwrap();
     done(&mut lap);
@@ -66,8 +68,8 @@ fn round(mesh: &Arc<Mesh>, given: &Quotient, flat: &Solution) -> [f64; 7] {
     let sum: f64 = copies.iter().map(|g| moved(&refined.points, &g.motion)[0][2]).sum();
     assert!(sum.is_finite());
     done(&mut lap);
-    let options = UnrollOptions { refinement: flat_refinement, ..UnrollOptions::default() };
-    assert!(unroll(flat, &options, &control).unwrap().broken.is_empty());
+    let options = LayoutOptions { refinement: flat_refinement, ..LayoutOptions::default() };
+    assert!(Layout::of_solution(flat, &options, &control).unwrap().broken.is_empty());
     done(&mut lap);
     seconds
 }

@@ -5,11 +5,11 @@ mod common;
 
 use common::Random;
 use common::flow::{euclidean, surface};
-use ricci::embed::overlap::overlapping;
-use ricci::embed::pack::pack;
-use ricci::embed::{ChartOptions, UnrollOptions, charts, layout_of, unroll};
+use ricci::embed::{ChartOptions, Layout, LayoutOptions, LayoutOpening, charts};
 use ricci::flow::{Options, auto_cones};
 use ricci::geometry::Space;
+use ricci::geometry::packing::pack;
+use ricci::geometry::triangle_overlap::overlapping;
 use ricci::mesh::{Curves, FixedEdges, Flip, Mesh, NormalCoordinates, PerEdge, PerVertex, VertexId, shapes};
 use ricci::metric::delaunay::{ClassFlips, IntrinsicOptions, Queue, intrinsic_delaunay};
 use ricci::metric::{Scheme, Triangulated, delaunay_start, initial_metric};
@@ -62,10 +62,11 @@ fn a_cancelled_control_stops_every_stage() {
     is_cancelled("shortest_paths", shortest_paths(mesh, lengths, cones, &stop));
     is_cancelled("farthest_vertices", farthest_vertices(mesh, lengths, VertexId(0), 4, &stop));
     is_cancelled("homology_generators", homology_generators(mesh, lengths, &stop));
-    let options = UnrollOptions { cones: Some(cones.to_vec()), ..UnrollOptions::default() };
-    is_cancelled("unroll", unroll(&now, &options, &stop));
-    let layout = unroll(&now, &options, &free).unwrap();
-    is_cancelled("layout_of", layout_of(now.mesh(), now.metric(), None, None, &stop));
+    let options = LayoutOptions { cones: Some(cones.to_vec()), ..LayoutOptions::default() };
+    is_cancelled("Layout::of_solution", Layout::of_solution(&now, &options, &stop));
+    let layout = Layout::of_solution(&now, &options, &free).unwrap();
+    let options = LayoutOptions { opening: LayoutOpening::MetricEdges, ..LayoutOptions::default() };
+    is_cancelled("Layout::of_solution", Layout::of_solution(&now, &options, &stop));
     is_cancelled("charts", charts(layout.mesh(), |h| layout.uv(h), &ChartOptions::default(), &stop));
     is_cancelled("pack", pack(&[[1.0, 2.0], [1.0, 1.0]], 0.0, &stop));
     let triangles: Vec<_> = layout.mesh().faces().map(|f| layout.face_uv(f)).collect();
@@ -204,7 +205,8 @@ fn work_ends_soon_after_it_is_cancelled_from_another_thread() {
     }
     made.solve(&Target::Uniform, &free).unwrap();
     let cut = cut_graph(made.mesh(), &made.metric().lengths(made.mesh()).unwrap(), &[], &free).unwrap();
-    let layout = layout_of(made.mesh(), made.metric(), None, Some(&cut), &free).unwrap();
+    let options = LayoutOptions { opening: LayoutOpening::MetricCut(cut), ..LayoutOptions::default() };
+    let layout = Layout::of_solution(&made.solution(), &options, &free).unwrap();
     let uv = |h| layout.uv(h);
     interrupt("charts", one, |c| charts(made.mesh(), uv, &ChartOptions::default(), c).map(drop));
     let triangles: Vec<_> = made.mesh().faces().map(|f| layout.face_uv(f)).collect();

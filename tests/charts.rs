@@ -5,11 +5,11 @@ mod common;
 
 use common::Random;
 use common::flow::{attempt, surface};
-use ricci::embed::overlap::{Triangle, overlapping};
-use ricci::embed::{ChartOptions, Charts, Layout, UnrollOptions, charts, layout_of, unroll};
+use ricci::embed::{ChartOptions, Charts, Layout, LayoutOptions, LayoutScale, LayoutOpening, charts};
 use ricci::flow::{Options, auto_cones, flow};
 use ricci::geometry::Space;
 use ricci::geometry::predicates::orientation;
+use ricci::geometry::triangle_overlap::{TriangleCorners, overlapping};
 use ricci::mesh::io::Soup;
 use ricci::mesh::shapes;
 use ricci::mesh::{FaceId, HalfedgeId, Mesh, PerEdge, PerVertex, VertexId};
@@ -27,9 +27,9 @@ fn cut(mesh: &Mesh, uv: impl Fn(HalfedgeId) -> [f64; 2]) -> Charts {
     result
 }
 
-/// What charts promise, by other means than they were made with.
+/// The guarantees of charts, checked by other means than those that made them.
 fn verify(mesh: &Mesh, uv: &impl Fn(HalfedgeId) -> [f64; 2], charts: &Charts) {
-    // Inside the unit square, every motion is rigid, and the scale is the same everywhere.
+    // All charts lie inside the unit square; every motion is rigid, and the scale is the same for all.
     assert!(charts.coordinates.as_flattened().iter().all(|x| (0.0..=1.0).contains(x)));
     for f in mesh.faces() {
         for h in mesh.face_halfedges(f) {
@@ -74,21 +74,21 @@ fn verify(mesh: &Mesh, uv: &impl Fn(HalfedgeId) -> [f64; 2], charts: &Charts) {
     // Degenerate ones are lower than 3 roundings in the square or the layout, or no higher than 1e-11 of their length.
     let size = mesh.halfedges().flat_map(uv).fold(0.0f64, |m, x| m.max(x.abs()));
     for &f in &charts.degenerate {
-        let low = |t: Triangle, size: f64| {
+        let low = |t: TriangleCorners, size: f64| {
             let longest = (0..3).map(|k| distance(t[k], t[(k + 1) % 3])).fold(0.0, f64::max);
             let height = doubled_area(&t).abs() / longest;
             longest == 0.0 || height < 1e-11 * longest || height < 3.0 * f64::EPSILON * size
         };
         assert!(low(charts.face_uv(mesh, f), 1.0) || low(mesh.face_halfedges(f).map(uv), size), "face {f}");
     }
-    // No two others overlap: in the same chart not in the layout either.
-    let of_chart = |c: usize| -> Vec<Triangle> {
+    // No two other faces overlap in the square, and no two of one chart overlap in the layout.
+    let of_chart = |c: usize| -> Vec<TriangleCorners> {
         let faces = mesh.faces().filter(|&f| charts.chart[f] as usize == c).filter(is_solid);
         faces.map(|f| mesh.face_halfedges(f).map(uv)).collect()
     };
-    let overlapping = |all: &[Triangle]| overlapping(all, &Control::new()).unwrap();
+    let overlapping = |all: &[TriangleCorners]| overlapping(all, &Control::new()).unwrap();
     (0..charts.count()).for_each(|c| assert_eq!(overlapping(&of_chart(c)), [0usize; 0]));
-    let all: Vec<Triangle> = mesh.faces().filter(is_solid).map(|f| charts.face_uv(mesh, f)).collect();
+    let all: Vec<TriangleCorners> = mesh.faces().filter(is_solid).map(|f| charts.face_uv(mesh, f)).collect();
     assert_eq!(overlapping(&all), [0usize; 0]);
     covered_at_most_once(mesh, charts);
     keep_their_distance(mesh, charts, ChartOptions::default().margin);
@@ -119,18 +119,18 @@ fn distance(p: [f64; 2], q: [f64; 2]) -> f64 {
     (p[0] - q[0]).hypot(p[1] - q[1])
 }
 
-fn doubled_area(&[a, b, c]: &Triangle) -> f64 {
+fn doubled_area(&[a, b, c]: &TriangleCorners) -> f64 {
     (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 }
 
 /// Random points of the unit square lie in one face at most.
 fn covered_at_most_once(mesh: &Mesh, charts: &Charts) {
-    let triangles: Vec<Triangle> = mesh.faces().map(|f| charts.face_uv(mesh, f)).collect();
+    let triangles: Vec<TriangleCorners> = mesh.faces().map(|f| charts.face_uv(mesh, f)).collect();
     let mut random = Random::new(11);
     let mut covered = 0;
     for _ in 0..600 {
         let p = [random.unit(), random.unit()];
-        let inside = |t: &Triangle| {
+        let inside = |t: &TriangleCorners| {
             let side =
                 |a: [f64; 2], b: [f64; 2]| (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
             let sides = [side(t[0], t[1]), side(t[1], t[2]), side(t[2], t[0])];
@@ -221,7 +221,7 @@ fn a_flipped_face_is_a_chart_of_its_own() {
 }
 
 #[test]
-fn a_layout_that_shrinks_beyond_doubles_stays_together() {
+fn a_layout_that_shrinks_beyond_f64_stays_together() {
     // A logarithmic spiral: radii from 1 to 1e-30, two and a half turns. Most faces are far smaller than the square resolves.
     let (n, m) = (240, 6);
     let (mesh, positions) = strip(n, m);
@@ -304,8 +304,8 @@ fn bad_input_is_refused_by_name() {
     assert_eq!(charts(&mesh, plane, &ChartOptions::default(), &control), Err(Error::Cancelled));
 }
 
-/// The flat metric with these curvatures, laid out.
-fn lay_out(mesh: &Mesh, lengths: &PerEdge<f64>, target: &PerVertex<f64>) -> (Mesh, Layout) {
+/// The layout of the flat metric with these curvatures.
+fn flat_layout(mesh: &Mesh, lengths: &PerEdge<f64>, target: &PerVertex<f64>) -> (Mesh, Layout) {
     let mut surface = Triangulated { mesh: mesh.clone(), lengths: lengths.clone(), geometry: Space::E2 };
     let class = Class::yamabe(Space::E2).into();
     let start = delaunay_start(&mut surface, class, &mut |_, _| {}, &Control::new()).unwrap();
@@ -315,7 +315,9 @@ fn lay_out(mesh: &Mesh, lengths: &PerEdge<f64>, target: &PerVertex<f64>) -> (Mes
     let cones: Vec<_> =
         mesh.vertices().filter(|&v| target[v] != 0.0 && !mesh.is_boundary_vertex(v)).collect();
     let cut = cut_graph(&mesh, &metric.lengths(&mesh).unwrap(), &cones, &Control::new()).unwrap();
-    let layout = layout_of(&mesh, &metric, None, Some(&cut), &Control::new()).unwrap();
+    let (opening, scale) = (LayoutOpening::MetricCut(cut), LayoutScale::AsSolved);
+    let options = LayoutOptions { opening, scale, ..LayoutOptions::default() };
+    let layout = Layout::of_solution(&flow.solution(), &options, &Control::new()).unwrap();
     (Arc::unwrap_or_clone(mesh), layout)
 }
 
@@ -328,7 +330,7 @@ fn layouts_of_high_genus_come_apart_into_few_charts() {
         });
         let placed = auto_cones(&mesh, &lengths, 8, &Control::new()).unwrap().target;
         for (name, target) in [("single", single), ("auto:8", placed)] {
-            let (mesh, layout) = lay_out(&mesh, &lengths, &target);
+            let (mesh, layout) = flat_layout(&mesh, &lengths, &target);
             let start = Instant::now();
             let result = cut(&mesh, |h| layout.uv(h));
             println!(
@@ -340,7 +342,7 @@ fn layouts_of_high_genus_come_apart_into_few_charts() {
                 result.seam_length[1] / layout.diameter,
                 start.elapsed().as_secs_f64()
             );
-            let all: Vec<Triangle> = mesh.faces().map(|f| layout.face_uv(f)).collect();
+            let all: Vec<TriangleCorners> = mesh.faces().map(|f| layout.face_uv(f)).collect();
             assert_eq!(result.count() == 1, overlapping(&all, &Control::new()).unwrap().is_empty());
             assert!(result.count() < 50);
         }
@@ -354,7 +356,7 @@ fn layouts_of_real_surfaces_come_apart() {
     for ((file, soup), n) in soups.into_iter().zip([8, 8, 12, 20, 8, 6]) {
         let (mesh, lengths) = surface(&soup);
         let target = auto_cones(&mesh, &lengths, n, &Control::new()).unwrap().target;
-        let (mesh, layout) = lay_out(&mesh, &lengths, &target);
+        let (mesh, layout) = flat_layout(&mesh, &lengths, &target);
         let start = Instant::now();
         let result = charts(&mesh, |h| layout.uv(h), &ChartOptions::default(), &Control::new()).unwrap();
         let seconds = start.elapsed().as_secs_f64();
@@ -380,7 +382,7 @@ fn layouts_with_a_single_cone_come_apart_into_few_charts() {
         assert!(flat.report().unwrap().is_reached(), "{file}: {:?}", flat.report());
         let inside = !flat.given().is_boundary_vertex(VertexId(0));
         assert_eq!(flat.cones(), &[VertexId(0)][..usize::from(inside)], "{file}");
-        let layout = unroll(&flat, &UnrollOptions::default(), &control).unwrap();
+        let layout = Layout::of_solution(&flat, &LayoutOptions::default(), &control).unwrap();
         let (start, laid) = (Instant::now(), layout.mesh());
         let result = charts(laid, |h| layout.uv(h), &ChartOptions::default(), &control).unwrap();
         let seconds = start.elapsed().as_secs_f64();

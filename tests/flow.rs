@@ -5,7 +5,7 @@ mod common;
 
 use common::Random;
 use common::flow::{converged, distance, euclidean, rigid, solve, surface};
-use ricci::embed::layout;
+use ricci::embed::Layout;
 use ricci::flow::{Gradient, Method, Options, Report, StepRule, StopReason, curvature_derivative};
 use ricci::geometry::Space;
 use ricci::geometry::hyperelliptic::period_matrix;
@@ -90,7 +90,7 @@ fn spherical_flow_rounds_an_ellipsoid_by_newton_and_by_gradient() {
 /// Modulus of the flat metric on a torus, from the holonomy of two homology generators.
 fn modulus_of(mesh: &Mesh, lengths: &PerEdge<f64>) -> [f64; 2] {
     let cut = cut_graph(mesh, lengths, &[], &Control::new()).unwrap();
-    let laid = layout(&Arc::new(mesh.clone()), lengths, &cut, &Control::new()).unwrap();
+    let laid = Layout::of_lengths(&Arc::new(mesh.clone()), lengths, &cut, &Control::new()).unwrap();
     assert!(laid.flipped.is_empty() && laid.consistency() < 1e-9);
     let turns = |s: &ricci::embed::Seam| s.isometry().rotation.abs();
     assert!(laid.seams.iter().all(|s| turns(s) < 1e-8 && s.residual < 1e-9), "{:?}", laid.seams);

@@ -1,10 +1,10 @@
-//! Plane layouts, by theorem.
+//! Layouts of given lengths in the plane, by theorem.
 #![allow(clippy::unwrap_used, clippy::print_stdout, clippy::print_stderr)]
 
 mod surfaces;
 
 use ricci::embed::quality::DILATATION_CAP;
-use ricci::embed::{CirclePattern, Layout, Quality, UnrollOptions, layout, layout_of, unroll};
+use ricci::embed::{CirclePattern, Layout, LayoutOpening, LayoutOptions, Quality};
 use ricci::flow::{Options, flow};
 use ricci::geometry::{PlaneIsometry, Space, vector};
 use ricci::mesh::{EdgeId, FaceId, Mesh, PerEdge, VertexId, shapes};
@@ -15,10 +15,10 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::sync::Arc;
 use surfaces::*;
 
-fn lay_out(mesh: &Mesh, lengths: &PerEdge<f64>, cones: &[VertexId]) -> Layout {
+fn cut_and_unfold(mesh: &Mesh, lengths: &PerEdge<f64>, cones: &[VertexId]) -> Layout {
     gauss_bonnet(mesh, Space::E2, lengths);
     let cut = cut_graph(mesh, lengths, cones, &Control::new()).unwrap();
-    layout(&Arc::new(mesh.clone()), lengths, &cut, &Control::new()).unwrap()
+    Layout::of_lengths(&Arc::new(mesh.clone()), lengths, &cut, &Control::new()).unwrap()
 }
 
 fn vertices(n: u32) -> Vec<VertexId> {
@@ -62,7 +62,7 @@ fn a_plane_mesh_is_recovered_up_to_an_isometry() {
     for (seed, holes) in [(1, vec![]), (2, vec![(3, 4), (20, 11)]), (3, vec![(0, 4)])] {
         let (mesh, positions) = square(30, &holes, &mut Random(seed));
         let lengths = plane_lengths(&mesh, &positions);
-        let layout = lay_out(&mesh, &lengths, &[]);
+        let layout = cut_and_unfold(&mesh, &lengths, &[]);
         assert_faithful(&mesh, &lengths, &layout, 1e-12);
         // Holes cut the square, but its holonomy is trivial: one isometry fits all corners.
         let pairs = || {
@@ -89,7 +89,7 @@ fn a_plane_mesh_is_recovered_up_to_an_isometry() {
 fn seams_of_a_flat_torus_are_translations_that_generate_its_lattice() {
     for (n, m, tau) in [(1, 1, [0.3, 1.2]), (2, 1, [-0.4, 0.7]), (9, 5, [0.25, 0.6]), (6, 17, [2.7, 1.1])] {
         let (mesh, lengths) = flat_torus(n, m, tau);
-        let layout = lay_out(&mesh, &lengths, &[]);
+        let layout = cut_and_unfold(&mesh, &lengths, &[]);
         assert_faithful(&mesh, &lengths, &layout, 1e-12);
         // Coordinates (s, t) of a translation s + tτ, in the frame where the first edge of face 0 is real.
         let [a, b, _] = layout.face_uv(FaceId(0));
@@ -131,13 +131,13 @@ fn assert_holonomy_is_curvature(mesh: &Mesh, lengths: &PerEdge<f64>, layout: &La
 fn holonomy_around_a_cone_rotates_by_its_curvature() {
     for (mesh, lengths) in [cube(), tetrahedron(), octagon()] {
         let all = vertices(mesh.n_vertices() as u32);
-        let layout = lay_out(&mesh, &lengths, &all);
+        let layout = cut_and_unfold(&mesh, &lengths, &all);
         assert_faithful(&mesh, &lengths, &layout, 1e-13);
         assert_holonomy_is_curvature(&mesh, &lengths, &layout);
     }
     let angle = 5.0;
     let (mesh, lengths) = cone(6, 7, 0.7, angle);
-    let layout = lay_out(&mesh, &lengths, &[]);
+    let layout = cut_and_unfold(&mesh, &lengths, &[]);
     let around = layout.seams.iter().map(|s| s.isometry().rotation.abs()).fold(0.0, f64::max);
     assert!((around - (TAU - angle)).abs() < 1e-12, "{around}");
 }
@@ -145,7 +145,7 @@ fn holonomy_around_a_cone_rotates_by_its_curvature() {
 #[test]
 fn holonomy_around_a_cone_fixes_its_image() {
     for (mesh, lengths) in [cube(), tetrahedron()] {
-        let layout = lay_out(&mesh, &lengths, &vertices(mesh.n_vertices() as u32));
+        let layout = cut_and_unfold(&mesh, &lengths, &vertices(mesh.n_vertices() as u32));
         for v in mesh.vertices() {
             let g = PlaneIsometry::from(layout.vertex_holonomy(v).unwrap());
             // The counterclockwise turn starts in the corner of the last half-edge clockwise.
@@ -158,7 +158,7 @@ fn holonomy_around_a_cone_fixes_its_image() {
 #[test]
 fn seams_of_the_cube_turn_by_right_angles_and_those_of_the_tetrahedron_by_straight_ones() {
     for ((mesh, lengths), step) in [(cube(), FRAC_PI_2), (tetrahedron(), PI)] {
-        let layout = lay_out(&mesh, &lengths, &vertices(mesh.n_vertices() as u32));
+        let layout = cut_and_unfold(&mesh, &lengths, &vertices(mesh.n_vertices() as u32));
         assert!(!layout.seams.is_empty());
         for seam in layout.seams.iter().map(|seam| seam.isometry()) {
             assert!(off_multiple(seam.rotation, step) < 1e-13, "{}", seam.rotation);
@@ -175,7 +175,7 @@ fn edges_that_span_fifteen_orders_of_magnitude_keep_their_local_accuracy() {
         let (mesh, lengths) = cone(52, 24, 0.5, angle);
         let range = lengths.iter().fold([f64::MAX, 0.0_f64], |[a, b], &l| [a.min(l), b.max(l)]);
         assert!(range[1] / range[0] > 1e15);
-        let layout = lay_out(&mesh, &lengths, &[]);
+        let layout = cut_and_unfold(&mesh, &lengths, &[]);
         assert!(layout.flipped.is_empty(), "angle {angle}: {} flipped", layout.flipped.len());
         assert!(layout.local_consistency < 1e-11, "angle {angle}: {}", layout.local_consistency);
         assert!(layout.consistency() < 1e-13);
@@ -190,7 +190,7 @@ fn consistency_shows_curvature_inside_the_layout() {
     for h in mesh.outgoing(raised) {
         lengths[h.edge()] *= 1.05;
     }
-    let flat = lay_out(&mesh, &lengths, &[]);
+    let flat = cut_and_unfold(&mesh, &lengths, &[]);
     assert!(flat.consistency() > 1e-3);
     let g = PlaneIsometry::from(flat.vertex_holonomy(raised).unwrap());
     assert_eq!(g, PlaneIsometry::IDENTITY, "an uncut vertex has no transition around it");
@@ -206,8 +206,8 @@ fn flipped_faces_are_found_in_the_final_coordinates() {
         (lengths[bc], lengths[ca], lengths[ab]) = (l[0], l[1], l[2]);
         lengths
     };
-    assert!(lay_out(&mesh, &sides([3.0, 4.0, 5.0]), &[]).flipped.is_empty());
-    assert_eq!(lay_out(&mesh, &sides([2.0, 1.0, 1.0]), &[]).flipped, [FaceId(0)]);
+    assert!(cut_and_unfold(&mesh, &sides([3.0, 4.0, 5.0]), &[]).flipped.is_empty());
+    assert_eq!(cut_and_unfold(&mesh, &sides([2.0, 1.0, 1.0]), &[]).flipped, [FaceId(0)]);
 }
 
 #[test]
@@ -217,7 +217,7 @@ fn broken_triangles_are_laid_out_flat_and_named() {
     let mut long = lengths.clone();
     let e = EdgeId(3 * 14);
     long[e] = 1.0;
-    let layout = layout(&Arc::new(mesh.clone()), &long, &cut, &Control::new()).unwrap();
+    let layout = Layout::of_lengths(&Arc::new(mesh.clone()), &long, &cut, &Control::new()).unwrap();
     let mut beside = [e.halfedge(), e.halfedge().twin()].map(|h| mesh.face(h).unwrap());
     beside.sort();
     assert_eq!(layout.broken, beside);
@@ -230,7 +230,7 @@ fn broken_triangles_are_laid_out_flat_and_named() {
 #[test]
 fn scaling_to_an_area_scales_coordinates_and_seams() {
     let (mesh, lengths) = flat_torus(5, 4, [0.2, 0.8]);
-    let mut layout = lay_out(&mesh, &lengths, &[]);
+    let mut layout = cut_and_unfold(&mesh, &lengths, &[]);
     let before = layout.clone();
     let factor = layout.scale_to_area(20.0).unwrap();
     assert!((factor - 5.0).abs() < 1e-12);
@@ -239,7 +239,7 @@ fn scaling_to_an_area_scales_coordinates_and_seams() {
         assert_eq!(*p, scaled(*q));
     }
     for (s, t) in layout.seams.iter().zip(&before.seams) {
-        // Pairings have more digits than doubles: the scaled one is rounded once.
+        // Pairings are in double-double precision: the scaled one is rounded once.
         let (p, q) = (s.isometry().translation, scaled(t.isometry().translation));
         assert!((0..2).all(|k| (p[k] - q[k]).abs() <= 4.0 * f64::EPSILON * factor), "{p:?} {q:?}");
     }
@@ -250,7 +250,7 @@ fn scaling_to_an_area_scales_coordinates_and_seams() {
 fn quality_of_an_isometric_layout_is_one() {
     let (mesh, positions) = square(20, &[(7, 7)], &mut Random(9));
     let lengths = plane_lengths(&mesh, &positions);
-    let q = lay_out(&mesh, &lengths, &[]).quality(&mesh, &lengths).unwrap();
+    let q = cut_and_unfold(&mesh, &lengths, &[]).quality(&mesh, &lengths).unwrap();
     assert!(q.qc_max < 1.0 + 1e-12 && q.qc_mean < 1.0 + 1e-12 && q.qc_mean >= 1.0);
     assert!(q.area_ratio_min > 1.0 - 1e-11 && q.area_ratio_max < 1.0 + 1e-11);
     assert!(q.degenerate.is_empty());
@@ -262,7 +262,7 @@ fn quality_of_an_affine_stretch_is_the_ratio_of_its_factors() {
     let input = plane_lengths(&mesh, &positions);
     for [a, b] in [[3.0, 2.0], [1.0, 7.0], [1e-3, 1e3]] {
         let stretched: Vec<_> = positions.iter().map(|p| [a * p[0], b * p[1]]).collect();
-        let layout = lay_out(&mesh, &plane_lengths(&mesh, &stretched), &[]);
+        let layout = cut_and_unfold(&mesh, &plane_lengths(&mesh, &stretched), &[]);
         let q = layout.quality(&mesh, &input).unwrap();
         let k = f64::max(a / b, b / a);
         let tolerance = 1e-14 * k * k; // lengths of the image know its smaller extent to this
@@ -329,7 +329,7 @@ fn quality_is_finite_on_needles_and_on_faces_without_area() {
         PerEdge::from_fn(5, |e: EdgeId| if mesh.ends(e).map(|v| v.0 % 2) == [0, 0] { l02 } else { 1.0 })
     };
     for sliver in [1e-3, 1e-9, 1e-15] {
-        let needle = lay_out(&mesh, &lengths(sliver), &[]);
+        let needle = cut_and_unfold(&mesh, &lengths(sliver), &[]);
         let q = needle.quality(&mesh, &lengths(sliver)).unwrap();
         assert!((q.qc_max - 1.0).abs() < 1e-12, "needle {sliver}: {}", q.qc_max);
         // The equilateral triangle becomes the needle by shrinking its base and stretching its height.
@@ -338,7 +338,7 @@ fn quality_is_finite_on_needles_and_on_faces_without_area() {
         let expected = (height / 0.75_f64.sqrt()) / sliver;
         assert!((q.qc_max / expected - 1.0).abs() < 1e-12, "{} for {expected}", q.qc_max);
     }
-    let flat = lay_out(&mesh, &lengths(2.0), &[]);
+    let flat = cut_and_unfold(&mesh, &lengths(2.0), &[]);
     let q = flat.quality(&mesh, &lengths(1.0)).unwrap();
     assert_eq!(q.degenerate, [FaceId(0), FaceId(1)]);
     assert!(q.qc.iter().all(|&k| k == DILATATION_CAP) && q.qc_mean == 1.0 && q.area_ratio_max.is_finite());
@@ -351,13 +351,13 @@ fn what_cannot_be_laid_out_is_refused_by_name() {
     let good = cut_graph(&mesh, &lengths, &[], &Control::new()).unwrap();
     let mut open = good.clone();
     open.is_cut.fill(false);
-    assert!(matches!(layout(&mesh, &lengths, &open, &Control::new()), Err(Error::Layout(_))));
+    assert!(matches!(Layout::of_lengths(&mesh, &lengths, &open, &Control::new()), Err(Error::Layout(_))));
     open.is_cut = good.is_cut.clone();
     open.segments[0].push(mesh.edges().find(|&e| !good.is_cut[e]).unwrap().halfedge());
-    assert!(matches!(layout(&mesh, &lengths, &open, &Control::new()), Err(Error::Layout(_))));
+    assert!(matches!(Layout::of_lengths(&mesh, &lengths, &open, &Control::new()), Err(Error::Layout(_))));
     let control = Control::new();
     control.cancel();
-    assert_eq!(layout(&mesh, &lengths, &good, &control), Err(Error::Cancelled));
+    assert_eq!(Layout::of_lengths(&mesh, &lengths, &good, &control), Err(Error::Cancelled));
 }
 
 #[test]
@@ -367,7 +367,7 @@ fn dual_circles_are_orthogonal_to_vertex_circles_with_and_without_flips() {
         let sphere = Surface::from_soup(&shapes::ellipsoid([1.0, 2.0, 0.4], n).unwrap()).unwrap();
         let target = Target::default_for(&sphere, Space::E2).unwrap();
         let flat = flow(sphere, Class::inversive(Space::E2), &target, &Options::default(), &free).unwrap();
-        let layout = unroll(&flat, &UnrollOptions::default(), &free).unwrap();
+        let layout = Layout::of_solution(&flat, &LayoutOptions::default(), &free).unwrap();
         let pattern = CirclePattern::new(&layout, flat.mesh(), flat.metric()).unwrap();
         assert_eq!(pattern.dual_circles.len(), flat.mesh().n_faces());
         let power_at = |p: [f64; 2], v: VertexId| {
@@ -385,6 +385,7 @@ fn dual_circles_are_orthogonal_to_vertex_circles_with_and_without_flips() {
     let sphere = Surface::from_soup(&shapes::genus(2, 3).unwrap()).unwrap();
     let curved = Solution::initial_of(sphere, Class::inversive(Space::H2)).unwrap();
     let mesh = curved.mesh();
-    let layout = layout_of(mesh, curved.metric(), None, None, &free).unwrap();
+    let options = LayoutOptions { opening: LayoutOpening::MetricEdges, ..LayoutOptions::default() };
+    let layout = Layout::of_solution(&curved, &options, &free).unwrap();
     assert!(matches!(CirclePattern::new(&layout, mesh, curved.metric()), Err(Error::Layout(_))));
 }

@@ -6,7 +6,7 @@ use crate::laid::Packed;
 use crate::report::timed;
 use ricci::Control;
 use ricci::embed::ChartOptions;
-use ricci::embed::overlap::{Triangle, overlapping};
+use ricci::geometry::triangle_overlap::{TriangleCorners, overlapping};
 use ricci::mesh::FaceId;
 
 /// Cut the layout of an outcome into charts, if it has one.
@@ -16,7 +16,8 @@ pub fn cut(outcome: &mut Outcome, margin: f64, control: &Control) -> Result<(), 
         let mesh = laid.mesh();
         let charts = ricci::embed::charts(mesh, |h| laid.corner_uv(h), &ChartOptions { margin }, control)?;
         let counts = |f: &FaceId| charts.degenerate.binary_search(f).is_err();
-        let triangles: Vec<Triangle> = mesh.faces().filter(counts).map(|f| charts.face_uv(mesh, f)).collect();
+        let triangles: Vec<TriangleCorners> =
+            mesh.faces().filter(counts).map(|f| charts.face_uv(mesh, f)).collect();
         Ok(Packed { overlapping: overlapping(&triangles, control)?.len(), charts })
     })?;
     laid.degenerate.extend(&packed.charts.degenerate);

@@ -4,12 +4,13 @@ use crate::input::Input;
 use crate::report::{Seconds, timed};
 use ricci::Control;
 use ricci::control::Stage;
-use ricci::embed::{Charts, Layout, OnInput, Quality, UnrollOptions, refinement_of, unroll_by};
+use ricci::embed::{Charts, Layout, LayoutOptions, OnInput, Quality};
 use ricci::flow::Solution;
 use ricci::mesh::{FaceId, HalfedgeId, Mesh, PerHalfedge, PerVertex, Point, VertexId};
 use ricci::metric::Refinement;
-use ricci::parallel::{fill, join, within};
+use ricci::parallel::{fill, within};
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// Crossings per edge up to which the common refinement is formed even where only the summary shows it: it then costs no more time
 /// than the flow.
@@ -56,23 +57,22 @@ pub fn lay_out(
     control: &Control,
 ) -> ricci::Result<Laid> {
     control.step(Stage::Layout, 0.0)?;
-    let (mut refine, mut both) = (0.0, 0.0);
-    let laid = timed(&mut both, || {
-        let refine = || timed(&mut refine, || refinement_of(solution, control));
-        let layout = unroll_by(solution, &UnrollOptions::default(), refine, control)?;
+    let mut refinement = None;
+    if !solution.is_unflipped() {
+        refinement = Some(Arc::new(timed(&mut seconds.refine, || solution.refinement(control))?));
+    }
+    let options = LayoutOptions { refinement, ..LayoutOptions::default() };
+    timed(&mut seconds.layout, || {
+        let layout = Layout::of_solution(solution, &options, control)?;
         within(solution.threads(), || Laid::new(input, solution, layout))
-    });
-    seconds.refine += refine;
-    seconds.layout += both - refine;
-    laid
+    })
 }
 
 impl Laid {
     /// A layout of a metric of the input.
     pub fn new(input: &Input, solution: &Solution, layout: Layout) -> ricci::Result<Laid> {
-        let quality = || layout.quality(input.mesh(), input.surface.lengths());
-        let (quality, on_input) = join(quality, || layout.on_input());
-        let quality = quality?;
+        let quality = layout.quality(input.mesh(), input.surface.lengths())?;
+        let on_input = layout.on_input();
         let given = input.positions();
         let (weight, positions, degenerate) = match layout.refinement() {
             Some(r) => {

@@ -14,7 +14,7 @@ mod page;
 
 use common::peers::Program;
 use common::{heap, machine, median, seconds};
-use ricci::harmonic::forms::Seconds;
+use ricci::harmonic::forms::FormsSeconds;
 use ricci::harmonic::{Domain, FormsOptions, HarmonicForms, Laplace, PeriodMatrix};
 use ricci::mesh::shapes;
 use ricci::{Control, Surface};
@@ -30,14 +30,14 @@ fn rounds(vertices: usize) -> usize {
 pub struct Row {
     vertices: usize,
     genus: usize,
-    /// Seconds of the triangulation and its weights.
+    /// FormsSeconds of the triangulation and its weights.
     domain: f64,
-    phases: Seconds,
-    /// Seconds of [`HarmonicForms::new`], all phases.
+    phases: FormsSeconds,
+    /// FormsSeconds of [`HarmonicForms::new`], all phases.
     forms: f64,
-    /// Seconds of the period matrix.
+    /// FormsSeconds of the period matrix.
     periods: f64,
-    /// Seconds of one assembly, analysis and factorisation of the same matrix and as many solves, and nothing else.
+    /// FormsSeconds of one assembly, analysis and factorisation of the same matrix and as many solves, and nothing else.
     yardstick: f64,
     /// Heap bytes of the forms at their peak, beyond the surface.
     bytes: usize,
@@ -66,14 +66,14 @@ fn measure(genus: usize, vertices: usize) -> Row {
         bytes = bytes.max(peak - before);
         rows.push((domain, forms, periods, phases, yardstick(&surface, genus)));
     }
-    let of = |field: fn(&(f64, f64, f64, Seconds, f64)) -> f64| median(rows.iter().map(field));
+    let of = |field: fn(&(f64, f64, f64, FormsSeconds, f64)) -> f64| median(rows.iter().map(field));
     Row {
         vertices: surface.mesh().n_vertices(),
         genus,
         domain: of(|row| row.0),
         forms: of(|row| row.1),
         periods: of(|row| row.2),
-        phases: Seconds {
+        phases: FormsSeconds {
             topology: of(|row| row.3.topology),
             assemble: of(|row| row.3.assemble),
             analyse: of(|row| row.3.analyse),

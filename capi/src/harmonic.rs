@@ -11,7 +11,7 @@ use crate::status::*;
 use crate::structs::{self, sized};
 use ricci::Control;
 use ricci::harmonic::{
-    Domain, HarmonicMap, Prescribed, SphereMapOptions, harmonic_map, planar, simple_domain, sphere_map,
+    Domain, HarmonicMap, MapConstraints, SphereMapOptions, harmonic_map, planar, simple_domain, sphere_map,
 };
 use ricci::mesh::VertexId;
 
@@ -103,5 +103,5 @@ fn given(domain: &Domain, spec: &ricci_harmonic_spec, control: &Control) -> Outc
     let places: Vec<[f64; 3]> = array("values", spec.values.cast(), spec.n)?;
     let mut values = room("values", spec.n)?;
     values.extend(vertices(spec)?.into_iter().zip(places));
-    Ok(harmonic_map(domain, &Prescribed { values, flux: None }, control)?.points)
+    Ok(harmonic_map(domain, &MapConstraints { values, flux: None }, control)?.points)
 }

@@ -14,7 +14,7 @@ use crate::structs::{self, sized};
 use crate::target::vertices;
 use crate::texture::TextureFile;
 use ricci::embed::layout::{bounding_diagonal, distance};
-use ricci::embed::{Layout, OnInput, Quality, Scale, Seam, UnrollOptions, unroll};
+use ricci::embed::{Layout, LayoutOptions, LayoutScale, OnInput, Quality, Seam};
 use ricci::geometry::{Model, PlaneIsometry, Space};
 use ricci::mesh::{EdgeId, FaceId, Mesh, PerEdge, PerHalfedge, Point};
 use std::borrow::Cow;
@@ -28,9 +28,9 @@ choices!(pub(crate) MODELS: Model = "model", [
     RICCI_MODEL_AMBIENT => Model::Hyperboloid,
 ]);
 
-choices!(SCALES: Scale = "scale", [
-    RICCI_SCALE_INPUT_AREA => Scale::InputArea,
-    RICCI_SCALE_AS_SOLVED => Scale::AsSolved,
+choices!(SCALES: LayoutScale = "scale", [
+    RICCI_SCALE_INPUT_AREA => LayoutScale::InputArea,
+    RICCI_SCALE_AS_SOLVED => LayoutScale::AsSolved,
 ]);
 
 pub struct ricci_layout {
@@ -197,16 +197,16 @@ pub unsafe extern "C" fn ricci_layout_new(
         } else {
             Some(vertices(surface, given.cones, given.n_cones)?)
         };
-        let options = UnrollOptions {
+        let options = LayoutOptions {
             cones,
             root: vertex_or_none(given.root)?,
             scale: SCALES.choose(given.scale)?,
             refinement: state.refinement(&control)?.cloned(),
             threads: given.threads,
-            ..UnrollOptions::default()
+            ..LayoutOptions::default()
         };
         let model = MODELS.choose(given.model)?;
-        ricci_layout::new(state.clone(), unroll(&state.solution, &options, &control)?, model)
+        ricci_layout::new(state.clone(), Layout::of_solution(&state.solution, &options, &control)?, model)
     })
 }
 

@@ -370,7 +370,7 @@ pub unsafe extern "C" fn ricci_uniform_layout(
                     Some(refinement) => refinement.clone(),
                     None => Arc::new(state.solution.refinement(&control)?),
                 };
-                quotient.layout.refined(&refinement, quotient.metric.metric(), &control)?
+                quotient.layout.on_refinement(&refinement, quotient.metric.metric(), &control)?
             }
             Triangulation::Input => {
                 let message = "a quotient is opened along edges of the metric's triangulation: take RICCI_ON_REFINEMENT";

@@ -2,7 +2,7 @@
 
 use super::star::Punctured;
 use crate::control::Control;
-use crate::embed::place::unroll_part;
+use crate::embed::unfold::unfold_part;
 use crate::error::{Error, Result};
 use crate::geometry::barycentre::conformal_barycentre;
 use crate::geometry::double_double::two_sum;
@@ -19,10 +19,10 @@ impl Punctured {
     /// # Errors
     ///
     /// [`Error::Layout`] where vertices lie in no triangle of the plane; [`Error::Cancelled`].
-    pub fn lay_out(&self, control: &Control) -> Result<PerVertex<[f64; 2]>> {
+    pub fn unfold(&self, control: &Control) -> Result<PerVertex<[f64; 2]>> {
         let mut is_cut = PerEdge::filled(self.mesh.n_edges(), false);
         self.star().into_iter().for_each(|arc| is_cut[self.link(arc).edge()] = true);
-        let at = unroll_part(&Arc::new(self.mesh.clone()), &self.closed(), &is_cut, control)?;
+        let at = unfold_part(&Arc::new(self.mesh.clone()), &self.closed(), &is_cut, control)?;
         let mut plane = PerVertex::filled(self.mesh.n_vertices(), [f64::INFINITY; 2]);
         for h in self.mesh.halfedges().filter(|&h| !self.in_star(h)) {
             plane[self.mesh.origin(h)] = at[h];

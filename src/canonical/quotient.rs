@@ -11,7 +11,7 @@
 
 use super::boundary::{Boundary, target};
 use crate::control::Control;
-use crate::embed::{About, BoundaryLoop, DeckGroup, Layout, boundary_sides, layout_about};
+use crate::embed::{BasedLayout, BoundaryLoop, DeckGroup, Layout, boundary_sides};
 use crate::error::{Error, Result};
 use crate::flow::{Flow, Options, Report, Solution};
 use crate::geometry::motion::precise_point;
@@ -63,7 +63,7 @@ pub struct Quotient {
     /// The metric, on the triangulation that flips have led to, with the way back. Of a surface with boundary perhaps on its double.
     pub metric: Solution,
     /// Its layout about the base vertex; in E² scaled to the area of the given surface. It lies on the metric's triangulation, or where
-    /// that is one of a double on the common refinement of it and the given surface ([`layout_about`]). With boundary in E² it is moved:
+    /// that is one of a double on the common refinement of it and the given surface ([`crate::embed::LayoutOpening::MetricEdges`]). With boundary in E² it is moved:
     /// the first corner to the origin and its side along the x axis, or the first loop of an annulus along the x axis, the surface above
     /// it.
     pub layout: Layout,
@@ -111,7 +111,7 @@ impl Quotient {
 /// # Errors
 ///
 /// [`Error::Layout`] for a sphere, for a disk with geodesic boundary, and for a flat surface that is not between 1e-100 and 1e100 wide;
-/// those of [`Boundary::corners`], [`Flow::new`], [`Flow::solve`], [`layout_about`], [`homotopy_basis`], [`DeckGroup::new`];
+/// those of [`Boundary::corners`], [`Flow::new`], [`Flow::solve`], [`Layout::of_solution`], [`homotopy_basis`], [`DeckGroup::new`];
 /// [`Error::Cancelled`].
 pub fn uniformize_quotient(
     surface: &Surface,
@@ -169,7 +169,7 @@ fn finish(
     let (report, angle_defect) = solve(&mut flow, &corners, control)?;
     let metric = flow.solution();
     Pool::new(options.flow.threads)?.run(|| {
-        let About { mut layout, base, lengths } = layout_about(&metric, options.base, control)?;
+        let BasedLayout { mut layout, base, lengths } = BasedLayout::new(&metric, options.base, control)?;
         if metric.metric().space == Space::E2 {
             layout.scale_to_area(surface.area()?)?;
             check_size(&layout)?;

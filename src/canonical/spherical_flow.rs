@@ -13,7 +13,7 @@
 //! ```
 
 use crate::control::Control;
-use crate::embed::{Layout, layout_of};
+use crate::embed::{Layout, LayoutOpening, LayoutOptions};
 use crate::error::{Error, Result};
 use crate::flow::{Options, Report, Solution, flow};
 use crate::geometry::Space;
@@ -58,7 +58,9 @@ pub fn flow_to_sphere(
         metric.report().cloned().ok_or_else(|| Error::Layout("the flow has left no report".into()))?;
     let mesh = metric.mesh();
     let root = root.unwrap_or(VertexId(0));
-    let layout = layout_of(mesh, metric.metric(), Some(root), None, control)?;
+    let (opening, threads) = (LayoutOpening::MetricEdges, options.threads);
+    let layout_options = LayoutOptions { opening, root: Some(root), threads, ..LayoutOptions::default() };
+    let layout = Layout::of_solution(&metric, &layout_options, control)?;
     let mut positions = PerVertex::filled(mesh.n_vertices(), [0.0, 0.0, 1.0]);
     for h in mesh.halfedges().filter(|&h| !mesh.is_outside(h)) {
         positions[mesh.origin(h)] = layout.corner(h);

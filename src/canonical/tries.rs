@@ -169,7 +169,7 @@ impl<'a> Tried<'a> {
         let left = self.solver.left();
         let most = if goal.slivers { STEPS_FROM_A_PLANE } else { STEPS_FROM_A_PLANE.max(left / 2) };
         let found = surface.flatten(goal, most.min(left), &mut self.solver)?;
-        Ok((surface.lay_out(self.solver.control)?, found))
+        Ok((surface.unfold(self.solver.control)?, found))
     }
 }
 

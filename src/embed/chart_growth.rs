@@ -1,109 +1,109 @@
-//! Growing charts face by face, and joining those that fit together.
+//! The growth of charts face by face, and the joining of charts that fit together.
 
-use super::overlap::{BoxTree, Triangle};
 use crate::control::{Control, Stage};
 use crate::error::Result;
+use crate::geometry::triangle_flatness::TriangleOrientation;
+use crate::geometry::triangle_overlap::{BoxTree, TriangleCorners};
 use crate::mesh::{FaceId, Mesh, PerEdge, PerFace};
 use crate::topology::spanning::Key;
 use std::cmp::Reverse;
 use std::collections::{BTreeSet, BinaryHeap};
 
-/// Faces between two looks at the control.
+/// Number of faces after which the control is asked again whether to stop.
 const FACES_PER_STEP: usize = 4096;
-/// The chart number of a face that no chart has yet.
+/// The chart number of a face that is in no chart yet.
 const NONE: u32 = u32::MAX;
 
-/// How a face lies in the plane.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Lie {
-    /// Counterclockwise, with more area than rounding could have given it.
-    Solid,
-    /// Without an area that rounding could not have given it: it overlaps nothing, and belongs to the chart that reaches it first.
-    Degenerate,
-    /// Clockwise: a chart of its own.
-    Flipped,
-}
-
-/// A surface in the plane, to be cut into charts.
-pub(super) struct Sheet<'a> {
+/// A layout in the plane that is to be cut into charts.
+pub(super) struct PlaneLayout<'a> {
     pub mesh: &'a Mesh,
     /// Per face, its corners in the layout.
-    pub layout: Vec<Triangle>,
-    pub lie: PerFace<Lie>,
-    /// Edges across which faces may be in one chart.
+    pub triangles: Vec<TriangleCorners>,
+    /// Per face, its orientation. An upright face must not overlap another one of its chart; a degenerate one belongs to the chart that
+    /// reaches it first; a flipped one is a chart of its own.
+    pub orientation: PerFace<TriangleOrientation>,
+    /// Per edge, true if the faces on its two sides may be in one chart.
     pub joined: PerEdge<bool>,
-    /// Per face: twice its area in the layout.
+    /// Per face, twice its area in the layout.
     pub area: PerFace<f64>,
 }
 
-/// The chart of each face, numbered by their area, the largest first.
-pub(super) struct Partition {
+/// The division of a layout into charts, which are numbered by their area, the largest first.
+pub(super) struct ChartPartition {
     pub chart: PerFace<u32>,
     pub count: usize,
 }
 
-/// Cuts a sheet into connected charts. Where its faces have these `triangles`, the interiors of the solid faces of one chart are disjoint,
-/// exactly. `done` and `share`: the part of the control's stage that is over, and the part that this call takes.
+/// The division of a layout into connected charts. If its faces have the corners `triangles`, in the layout or after packing, the interiors
+/// of the upright faces of one chart are disjoint, exactly. `done` and `share`: the part of the control's stage that is over, and the part
+/// that this call takes.
 pub(super) fn partition(
-    sheet: &Sheet,
-    triangles: &[Triangle],
+    layout: &PlaneLayout,
+    triangles: &[TriangleCorners],
     [done, share]: [f64; 2],
     control: &Control,
-) -> Result<Partition> {
-    let mut growth = Growth::new(sheet, triangles, control)?;
+) -> Result<ChartPartition> {
+    let mut growth = ChartGrowth::new(layout, triangles, control)?;
     growth.grow([done, share], control)?;
     growth.join(control)?;
     Ok(growth.numbered())
 }
 
-/// Charts in the making.
-struct Growth<'a> {
-    sheet: &'a Sheet<'a>,
-    triangles: &'a [Triangle],
+/// The charts while they grow.
+struct ChartGrowth<'a> {
+    layout: &'a PlaneLayout<'a>,
+    triangles: &'a [TriangleCorners],
     chart: PerFace<u32>,
-    /// The faces of each chart.
+    /// Per chart, its faces.
     members: Vec<Vec<FaceId>>,
+    /// The boxes of the faces; those of the chart that grows are present.
     tree: BoxTree<'a>,
 }
 
-impl<'a> Growth<'a> {
-    /// Every flipped face is a chart, the others are in none yet.
-    fn new(sheet: &'a Sheet<'a>, triangles: &'a [Triangle], control: &Control) -> Result<Growth<'a>> {
-        let mut chart = PerFace::filled(sheet.mesh.n_faces(), NONE);
+impl<'a> ChartGrowth<'a> {
+    /// The start of the growth: every flipped face is a chart, the other faces are in none yet.
+    fn new(
+        layout: &'a PlaneLayout<'a>,
+        triangles: &'a [TriangleCorners],
+        control: &Control,
+    ) -> Result<ChartGrowth<'a>> {
+        let mut chart = PerFace::filled(layout.mesh.n_faces(), NONE);
         let mut members = Vec::new();
-        for f in sheet.mesh.faces().filter(|&f| sheet.lie[f] == Lie::Flipped) {
+        let is_flipped = |f: &FaceId| layout.orientation[*f] == TriangleOrientation::Flipped;
+        for f in layout.mesh.faces().filter(is_flipped) {
             chart[f] = members.len() as u32;
             members.push(vec![f]);
         }
-        Ok(Growth { sheet, triangles, chart, members, tree: BoxTree::new(triangles, control)? })
+        Ok(ChartGrowth { layout, triangles, chart, members, tree: BoxTree::new(triangles, control)? })
     }
 
-    /// Whether a face counts for overlap.
-    fn is_solid(&self, f: FaceId) -> bool {
-        self.sheet.lie[f] == Lie::Solid
+    fn is_upright(&self, f: FaceId) -> bool {
+        self.layout.orientation[f] == TriangleOrientation::Upright
     }
 
-    /// Whether a face overlaps one in the tree.
+    /// True if a face overlaps one that is present in the tree.
     fn is_refused(&self, f: FaceId) -> bool {
-        self.is_solid(f) && self.tree.meeting(f.index()).is_some()
+        self.is_upright(f) && self.tree.meeting(f.index()).is_some()
     }
 
+    /// Makes a face present in the tree, if it counts for overlap.
     fn enter(&mut self, f: FaceId) {
-        if self.is_solid(f) {
+        if self.is_upright(f) {
             self.tree.insert(f.index());
         }
     }
 
+    /// Removes the faces of a chart from the tree.
     fn clear(&mut self, members: &[FaceId]) {
-        for &f in members.iter().filter(|&&f| self.sheet.lie[f] == Lie::Solid) {
+        for &f in members.iter().filter(|&&f| self.layout.orientation[f] == TriangleOrientation::Upright) {
             self.tree.remove(f.index());
         }
     }
 
-    /// Faces across the joined edges of f.
+    /// The faces across the joined edges of f.
     fn neighbours(&self, f: FaceId) -> impl Iterator<Item = FaceId> + '_ {
-        let sides = self.sheet.mesh.face_halfedges(f).into_iter();
-        sides.filter(|h| self.sheet.joined[h.edge()]).filter_map(|h| self.sheet.mesh.face(h.twin()))
+        let sides = self.layout.mesh.face_halfedges(f).into_iter();
+        sides.filter(|h| self.layout.joined[h.edge()]).filter_map(|h| self.layout.mesh.face(h.twin()))
     }
 
     fn centre(&self, f: FaceId) -> [f64; 2] {
@@ -113,13 +113,13 @@ impl<'a> Growth<'a> {
 
     /// Grows charts until every face is in one.
     fn grow(&mut self, [before, share]: [f64; 2], control: &Control) -> Result<()> {
-        let mut seeds: Vec<FaceId> = self.sheet.mesh.faces().filter(|&f| self.chart[f] == NONE).collect();
-        let sheet = self.sheet;
+        let mut seeds: Vec<FaceId> = self.layout.mesh.faces().filter(|&f| self.chart[f] == NONE).collect();
+        let area = &self.layout.area;
         seeds.sort_by(|&f, &g| {
-            let solid = self.is_solid(g).cmp(&self.is_solid(f));
-            solid.then(sheet.area[g].total_cmp(&sheet.area[f])).then(f.cmp(&g))
+            let upright_first = self.is_upright(g).cmp(&self.is_upright(f));
+            upright_first.then(area[g].total_cmp(&area[f])).then(f.cmp(&g))
         });
-        let mut refused = PerFace::filled(self.sheet.mesh.n_faces(), NONE);
+        let mut refused = PerFace::filled(self.layout.mesh.n_faces(), NONE);
         let mut done = 0;
         for seed in seeds {
             if self.chart[seed] != NONE {
@@ -133,11 +133,11 @@ impl<'a> Growth<'a> {
                     continue;
                 }
                 if usize::is_multiple_of(done, FACES_PER_STEP) {
-                    let part = done as f64 / self.sheet.mesh.n_faces() as f64;
+                    let part = done as f64 / self.layout.mesh.n_faces() as f64;
                     control.step(Stage::Layout, before + share * part)?;
                 }
                 if self.is_refused(f) {
-                    // The chart only grows, so that a face that overlaps it now always will.
+                    // The chart only grows, so a face that overlaps it now will always overlap it.
                     refused[f] = number;
                     continue;
                 }
@@ -158,9 +158,10 @@ impl<'a> Growth<'a> {
         Ok(())
     }
 
-    /// Joins charts that hang together and do not overlap: each, from the largest down, with its neighbours, the largest first.
+    /// Joins charts that share a joined edge and do not overlap: each, from the largest down, with its neighbours, the largest first.
     fn join(&mut self, control: &Control) -> Result<()> {
-        let size = |g: &Self, c: u32| -> f64 { g.members[c as usize].iter().map(|f| g.sheet.area[*f]).sum() };
+        let size =
+            |g: &Self, c: u32| -> f64 { g.members[c as usize].iter().map(|f| g.layout.area[*f]).sum() };
         let mut order: Vec<(Key, Reverse<u32>)> =
             (0..self.members.len() as u32).map(|c| (Key(size(self, c)), Reverse(c))).collect();
         order.sort_unstable_by(|a, b| b.cmp(a));
@@ -214,22 +215,22 @@ impl<'a> Growth<'a> {
         Ok(())
     }
 
-    /// Charts across the joined edges of a chart; some more than once.
+    /// The charts across the joined edges of a chart; some more than once.
     fn around(&self, c: u32) -> impl Iterator<Item = u32> + '_ {
         let faces = self.members[c as usize].iter();
         faces.flat_map(|&f| self.neighbours(f)).map(|g| self.chart[g]).filter(move |&other| other != c)
     }
 
-    /// Chart numbers by area, the largest first, and how many there are.
-    fn numbered(&self) -> Partition {
-        let area = |c: &usize| -> f64 { self.members[*c].iter().map(|f| self.sheet.area[*f]).sum() };
+    /// The partition, with the charts numbered by area, the largest first.
+    fn numbered(&self) -> ChartPartition {
+        let area = |c: &usize| -> f64 { self.members[*c].iter().map(|f| self.layout.area[*f]).sum() };
         let mut order: Vec<usize> =
             (0..self.members.len()).filter(|&c| !self.members[c].is_empty()).collect();
         order.sort_by_cached_key(|c| (Reverse(Key(area(c))), *c));
-        let mut chart = PerFace::filled(self.sheet.mesh.n_faces(), 0);
+        let mut chart = PerFace::filled(self.layout.mesh.n_faces(), 0);
         for (number, &c) in order.iter().enumerate() {
             self.members[c].iter().for_each(|&f| chart[f] = number as u32);
         }
-        Partition { chart, count: order.len() }
+        ChartPartition { chart, count: order.len() }
     }
 }

@@ -1,13 +1,13 @@
 //! The circle pattern of a layout in the plane: vertex circles, and per face the circle orthogonal to its three.
 //!
 //! ```
-//! use ricci::embed::{CirclePattern, UnrollOptions, unroll};
+//! use ricci::embed::{CirclePattern, Layout, LayoutOptions};
 //! use ricci::flow::{Options, flow};
 //! use ricci::{Class, Control, Surface, Target, geometry::Space, mesh::shapes};
 //! let disk = Surface::from_soup(&shapes::disk(4)?)?;
 //! let (class, control) = (Class::inversive(Space::E2), Control::new());
 //! let flat = flow(disk, class, &Target::Boundary, &Options::default(), &control)?;
-//! let layout = unroll(&flat, &UnrollOptions::default(), &control)?;
+//! let layout = Layout::of_solution(&flat, &LayoutOptions::default(), &control)?;
 //! let pattern = CirclePattern::new(&layout, flat.mesh(), flat.metric())?;
 //! assert_eq!(pattern.vertex_circles.len(), flat.given().n_vertices());
 //! # Ok::<(), ricci::Error>(())

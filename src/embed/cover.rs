@@ -1,4 +1,4 @@
-//! Finite pieces of the universal cover.
+//! Finite parts of the universal cover: lists of deck elements, and points moved by them.
 //!
 //! ```
 //! use ricci::embed::cover::elements_to_depth;
@@ -25,15 +25,15 @@ use crate::topology::SurfaceGroup;
 use crate::topology::word::Letter;
 use std::collections::HashMap;
 
-/// Elements between two looks at the control.
+/// Number of elements after which the control is asked again whether to stop.
 const ELEMENTS_PER_STEP: usize = 256;
-/// Difference of displacements, in H² a length and in E² in units of the longest generator, up to which two elements are compared as words.
-/// One element along two words differs by far less; a larger value would only cost comparisons.
+/// Largest difference of displacements, in H² a length and in E² in units of the longest generator, for which two elements are compared as
+/// words. One element by two words differs by far less; a larger value would only cost comparisons.
 const SAME: f64 = 1e-6;
 
 /// All deck elements of word length at most `depth` in the canonical generators, each once, shortest first, the identity to begin with.
 ///
-/// Whether two words mean the same is decided in the group ([`SurfaceGroup::equal`]), not by coordinates.
+/// The group decides if two words are the same element ([`SurfaceGroup::equal`]), not their coordinates.
 ///
 /// # Errors
 /// [`Error::TooLarge`] for more than `limit` elements; [`Error::Cancelled`].
@@ -47,7 +47,7 @@ pub fn elements_to_depth(
         .flat_map(|k| [Letter::generator(k), Letter::generator(k).inverse()])
         .map(|letter| deck.element(letter))
         .collect::<Result<Vec<_>>>()?;
-    let mut found = Found::new(deck, limit);
+    let mut found = ElementSearch::new(deck, limit);
     let mut level = 0..1;
     for _ in 0..depth {
         for k in level.clone() {
@@ -60,8 +60,8 @@ pub fn elements_to_depth(
 
 /// All deck elements that move the centre of a Dirichlet domain by at most `radius`, each once, nearest first.
 ///
-/// The segment from the centre to such an image runs through copies of the domain that all meet the disk of that radius, each next to the
-/// one before. So all are reached by steps over sides, and a step to a copy outside the disk is not taken.
+/// The segment from the centre to such an image runs through neighbouring copies of the domain that all meet the disk of that radius. So
+/// all are reached by steps over sides, and steps to copies outside the disk are not taken.
 ///
 /// # Errors
 /// Those of [`elements_to_depth`].
@@ -90,7 +90,7 @@ pub fn elements_within(
     Ok(near.into_iter().map(|(_, g)| g).collect())
 }
 
-/// The deck elements that are reached from the identity over `sides`, by way of wanted elements alone, each once.
+/// The wanted deck elements that are reached from the identity over `sides`, by way of wanted elements alone, each once.
 ///
 /// # Errors
 /// Those of [`elements_to_depth`].
@@ -101,7 +101,7 @@ pub fn elements_reached(
     limit: usize,
     control: &Control,
 ) -> Result<Vec<DeckElement>> {
-    let mut found = Found::new(deck, limit);
+    let mut found = ElementSearch::new(deck, limit);
     let mut next = 0;
     while next < found.elements.len() {
         found.grow(next, sides, &wanted, control)?;
@@ -110,34 +110,34 @@ pub fn elements_reached(
     Ok(found.elements)
 }
 
-/// Elements that were found, arranged by two properties in which equal elements agree.
-struct Found {
+/// A search for deck elements, with those that were found arranged by two properties in which equal elements agree.
+struct ElementSearch {
     group: SurfaceGroup,
     elements: Vec<DeckElement>,
-    /// By image in the abelianisation and displacement in units of [`SAME`].
+    /// The elements by their image in the abelianisation and their displacement in units of `same`.
     alike: HashMap<(Vec<i64>, i64), Vec<u32>>,
     limit: usize,
     /// [`SAME`] as a length: in E² in units of the longest generator.
     same: f64,
 }
 
-impl Found {
-    fn new(deck: &DeckGroup, limit: usize) -> Found {
+impl ElementSearch {
+    fn new(deck: &DeckGroup, limit: usize) -> ElementSearch {
         let longest = deck.generators.iter().map(Motion::displacement).fold(0.0, f64::max);
-        let mut found = Found {
+        let mut found = ElementSearch {
             group: deck.group,
             elements: Vec::new(),
             alike: HashMap::new(),
             limit: limit.max(1),
             same: if deck.space == Space::E2 && longest > 0.0 { SAME * longest } else { SAME },
         };
-        let one = DeckElement::identity(deck.space);
-        let key = found.key(&one);
-        found.insert(one, key);
+        let identity = DeckElement::identity(deck.space);
+        let key = found.key(&identity);
+        found.insert(identity, key);
         found
     }
 
-    /// Multiplies element `k` by `factors` from the right, and keeps products that are new and `wanted`.
+    /// Multiplies element `k` by the factors from the right, and keeps the products that are new and wanted.
     fn grow(
         &mut self,
         k: usize,
@@ -190,7 +190,7 @@ impl Found {
     }
 }
 
-/// Points in ambient coordinates moved by an isometry, with twice the digits on the way: parallel inside a pool.
+/// The images of points in ambient coordinates under an isometry, computed in double-double precision, in parallel inside a pool.
 pub fn moved(points: &[[f64; 3]], motion: &Motion<DoubleDouble>) -> Vec<[f64; 3]> {
     let mut out = vec![[0.0; 3]; points.len()];
     parallel::fill(&mut out, |k| motion.apply(precise_point(motion.space, points[k])).map(f64::from));

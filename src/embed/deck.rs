@@ -1,4 +1,4 @@
-//! The deck group of a surface of constant curvature: its fundamental group as isometries of the model space.
+//! The deck group of a surface of constant curvature: its fundamental group, which acts on the model space by isometries.
 //!
 //! ```
 //! use ricci::canonical::{QuotientOptions, uniformize_quotient};
@@ -13,10 +13,10 @@
 //! # }
 //! ```
 
-use super::border::Border;
+use super::boundary_lift::BoundaryLift;
+use super::cover_walk::CoverWalks;
 use super::element::DeckElement;
 use super::layout::Layout;
-use super::walk::Walks;
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::flow::Solution;
@@ -28,37 +28,38 @@ use crate::topology::word::{Letter, Word};
 use crate::topology::{DomainSide, FundamentalDomain, HomotopyBasis, SurfaceGroup};
 use std::f64::consts::TAU;
 
-/// The group of deck transformations of the universal cover of a layout, acting from the left: M(γ) carries the base lift to the end of
-/// γ's lift, `M(γδ) = M(γ) M(δ)`.
+/// The group of deck transformations of the universal cover of a layout. It acts from the left: M(γ) carries the base lift to the end of
+/// γ's lift, and `M(γδ) = M(γ) M(δ)`.
 ///
-/// Isometries have twice the digits of doubles: products of far translations then lose less than the errors of the side pairings.
+/// Isometries are in double-double precision, so that the rounding of products of far translations is smaller than the errors of the side
+/// pairings.
 #[derive(Debug, Clone)]
 pub struct DeckGroup {
-    /// The space it acts on.
+    /// The space on which the group acts.
     pub space: Space,
-    /// The group with its names and relator.
+    /// The abstract group, with the names of its generators and its relator.
     pub group: SurfaceGroup,
     /// The isometries of the canonical generators a1, b1, …, ag, bg, c1, …, cb.
     pub generators: Vec<Motion<DoubleDouble>>,
-    /// Sides of the layout's fundamental domain: the elements that carry it onto its neighbours, counterclockwise.
+    /// Per side of the layout's fundamental domain, counterclockwise, the element that carries the domain onto its neighbour there.
     pub sides: Vec<DeckElement>,
-    /// The lines along which the layout's domain has the boundary of the surface, counterclockwise. Where the boundary is straight they
-    /// bound the universal cover.
-    pub borders: Vec<Border>,
-    /// The corner of the layout that is the base lift: a half-edge of a face at the base vertex.
+    /// The lifts of boundary loops along which the layout's domain meets the boundary of the surface, counterclockwise. If the boundary is
+    /// straight, they are lines that bound the universal cover.
+    pub borders: Vec<BoundaryLift>,
+    /// The corner of the layout that is the base lift, as a half-edge of a face at the base vertex.
     pub corner: HalfedgeId,
-    /// `‖R − I‖_F / max_k ‖P_k‖²` of the relator's matrix R over its partial products P_k (Frobenius norms of 2×2 matrices, R with the
-    /// nearer sign). 0 without a relation.
+    /// `‖R − I‖_F / max_k ‖P_k‖²` for the relator's matrix R and its partial products P_k (Frobenius norms of 2×2 matrices, R with the
+    /// nearer sign); 0 without a relation.
     pub relation_residual: f64,
-    /// `‖R − I‖_F` itself: the error of the relation near the base.
+    /// `‖R − I‖_F`: the error of the relation near the base.
     pub relation_error: f64,
-    /// As `relation_residual`, for each side: how far its pairing is from its word's isometry; the largest.
+    /// The largest difference between the pairing of a side and the isometry of the side's word, relative as `relation_residual` is.
     pub side_residual: f64,
 }
 
 impl DeckGroup {
-    /// The deck group of a layout without cones of this metric ([`super::layout_about`]), with the generators of a homotopy basis of the
-    /// mesh that is laid out.
+    /// The deck group of a layout without cones of this metric ([`super::LayoutOpening::MetricEdges`]), with the generators of a homotopy basis
+    /// of the mesh that is laid out.
     ///
     /// # Errors
     /// [`Error::Layout`], [`Error::Size`] for a metric or basis of another mesh, or where the opened surface is no disk;
@@ -94,14 +95,14 @@ impl DeckGroup {
             None => Err(Error::Layout("a side of the fundamental domain has no edges".into())),
         };
         let pairings: Vec<_> = domain.sides.iter().map(pairing).collect::<Result<_>>()?;
-        let walks = Walks::new(metric, layout)?;
+        let walks = CoverWalks::new(metric, layout)?;
         let element = |path: &Vec<HalfedgeId>| walks.element(deck.corner, path, control);
         deck.generators = basis.loops.iter().map(element).collect::<Result<_>>()?;
         for (k, (side, motion)) in domain.sides.iter().zip(pairings).enumerate() {
             if side.partner.is_none() {
                 let start = side.halfedges.first().copied().unwrap_or(deck.corner);
                 let copy = &domain.corners[k].element;
-                deck.borders.push(Border::new(&walks, basis, (copy, start), control)?);
+                deck.borders.push(BoundaryLift::new(&walks, basis, copy, start, control)?);
                 continue;
             }
             let word = side.element.clone();
@@ -127,7 +128,7 @@ impl DeckGroup {
     /// The isometry of a generator or its inverse.
     ///
     /// # Errors
-    /// [`Error::Argument`] for a generator that the group has not.
+    /// [`Error::Argument`] for a generator that the group does not have.
     pub fn letter(&self, letter: Letter) -> Result<Motion<DoubleDouble>> {
         match self.generators.get(letter.index()) {
             Some(g) if letter.is_inverse() => Ok(g.inverse()),
@@ -148,7 +149,7 @@ impl DeckGroup {
         letters.map(|&l| self.letter(l)).try_fold(Motion::identity(self.space), |m, g| Ok(m.compose(&g?)))
     }
 
-    /// How far `rest` is from the identity, relative to the largest ‖P‖² of the partial products of a word.
+    /// The distance of `rest` from the identity, relative to the largest ‖P‖² of the partial products of a word.
     fn residual(&self, word: &Word, rest: &Motion<DoubleDouble>) -> Result<f64> {
         let mut product = Motion::identity(self.space);
         let mut largest = product.norm_square();
@@ -157,11 +158,11 @@ impl DeckGroup {
             largest = largest.max(product.norm_square());
         }
         let residual = rest.distance_from_identity() / largest;
-        // A product beyond the range of doubles gives NaN.
+        // A product beyond the range of f64s gives NaN.
         Ok(if residual.is_nan() { f64::MAX } else { residual })
     }
 
-    /// |tr| of the generators' matrices of determinant 1: 2 cosh(L/2) in H².
+    /// Per generator, |tr| of its matrix of determinant 1: 2 cosh(L/2) in H².
     pub fn traces(&self) -> Vec<f64> {
         self.generators.iter().map(|g| 2.0 * f64::from(g.half_trace()).abs()).collect()
     }
@@ -181,10 +182,10 @@ impl DeckGroup {
         }
     }
 
-    /// Corners of the canonical polygon, whose sides are geodesics from lift to lift of the base along the relator: the images of the base
-    /// lift at `base` under its prefixes, in ambient coordinates; 4g + b of them.
+    /// The 4g + b corners of the canonical polygon, whose sides are geodesics from lift to lift of the base along the relator: the images of the
+    /// point `base` under the prefixes of the relator, in ambient coordinates.
     ///
-    /// It is a fundamental domain of a closed surface: the geodesic loops of the generators meet in the base alone. Its corners need
+    /// For a closed surface the polygon is a fundamental domain, since the geodesic loops of the generators meet at the base alone. It need
     /// not be convex.
     ///
     /// # Errors
@@ -201,18 +202,16 @@ impl DeckGroup {
         relator.letters().iter().map(corner).collect()
     }
 
-    /// The angles of the canonical polygon inside its corners, in [0, 2π): on a closed surface they add up to 2π, since all corners are one
-    /// point of it.
+    /// The interior angles of the canonical polygon, in [0, 2π). On a closed surface they add up to 2π, since all corners are one point of it.
     ///
-    /// Each is formed at the base: seen from corner P_k, the neighbours are where the last letter came from and where the next one
-    /// leads.
+    /// Each angle is computed at the base, between the images of the base under the inverse of the last letter and under the next letter.
     ///
     /// # Errors
     /// As [`DeckGroup::letter`].
     pub fn canonical_angles(&self, base: [f64; 3]) -> Result<Vec<f64>> {
-        let home = Motion::to_origin(self.space, precise_point(self.space, base));
+        let to_origin = Motion::to_origin(self.space, precise_point(self.space, base));
         let direction = |g: Motion<DoubleDouble>| {
-            let [x, y, _] = g.conjugated_by(&home).origin().map(f64::from);
+            let [x, y, _] = g.conjugated_by(&to_origin).origin().map(f64::from);
             y.atan2(x)
         };
         let relator = self.group.relator();

@@ -1,4 +1,4 @@
-//! Dirichlet domains: the points that are nearer to a base point than to its images under a group.
+//! Dirichlet domains: the points that are nearer to a base point than to its images under a deck group.
 //!
 //! ```
 //! use ricci::embed::dirichlet_domain;
@@ -14,12 +14,12 @@
 //! # }
 //! ```
 
-use super::border::Border;
+use super::bisector_polygon::{BisectorPolygon, BoundedGroup, SearchLimits};
+use super::boundary_lift::BoundaryLift;
 use super::deck::DeckGroup;
 use super::domain::DirichletDomain;
 use super::frame::ORIGIN;
 use super::layout::distance_from_origin;
-use super::polygon::{Given, Limits, Polygon};
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::motion::precise_point;
@@ -27,24 +27,23 @@ use crate::geometry::{Motion, Space};
 use crate::topology::word::Letter;
 use std::f64::consts::PI;
 
-/// Lengths by which a bisector must move the border of the polygon to count; the first for which all sides can be paired is taken. Elements
-/// have errors of 1e-30, or 1e-14 in some schemes, times e^distance, and so have corners where more than three bisectors meet.
+/// Lengths by which a bisector must cut into the polygon to count; the first one is taken with which all sides can be paired. Elements have
+/// errors of 1e-30, or 1e-14 in some schemes, times e^distance, and so have the corners at which more than three bisectors meet.
 const TOLERANCES: [f64; 4] = [1e-12, 1e-10, 1e-8, 1e-6];
-/// Products that one search forms at most, which takes some seconds: wrong elements would make ever new products.
+/// Most products that one search forms, which takes some seconds: wrong elements would make ever new products.
 const MOST_PRODUCTS: usize = 5_000_000;
-/// Displacement of the centre, in H² a length and in E² in units of the longest factor, below which an element is the identity. It is far
-/// above the errors of elements and far below the shortest loop of a surface that can be resolved.
+/// Displacement of the centre, in H² a length and in E² in units of the longest factor, below which an element is the identity. The bound
+/// is far above the errors of elements and far below the shortest loop of a surface that can be resolved.
 const SAME: f64 = 1e-6;
-/// Relative difference of the polygon's area and the surface's up to which the polygon is the domain. A missing or wrong side changes the
-/// area by more.
+/// Largest relative difference between the areas of the domain and the surface: a missing or wrong side changes the area by more.
 const AREA: f64 = 1e-6;
 
-/// Largest rotation of a deck transformation of a flat surface, radians, with which a polygon is looked for: translations alone have copies
-/// that tile a part of the plane.
+/// Largest rotation, in radians, of a deck transformation of a flat surface that has a Dirichlet domain: only copies under translations
+/// tile the plane.
 const TURNING: f64 = 1e-6;
 
-/// Largest [`DeckGroup::side_residual`] with which a polygon is looked for: pairings farther from their words have lost half of their
-/// digits, and bound no polygon.
+/// Largest [`DeckGroup::side_residual`] with which a polygon is searched: pairings farther from their words have lost half of their digits,
+/// and bound no polygon.
 const PAIRED: f64 = 1e-8;
 
 fn none(why: &str) -> Error {
@@ -52,14 +51,14 @@ fn none(why: &str) -> Error {
     Error::Layout(format!("no Dirichlet domain: {why} ({advice})"))
 }
 
-/// The Dirichlet domain of the base point `centre` (ambient coordinates) of a surface with this area, in E² or H²: a closed one, or one
-/// with straight boundary, whose lines bound the domain too.
+/// The Dirichlet domain of the base point `centre` (ambient coordinates) of a surface with this area, in E² or H². The surface is closed,
+/// or has a straight boundary, whose lines bound the domain too.
 ///
-/// Bisectors of the side pairings of the layout cut a first polygon; then those of products of the elements of its sides are tried, until
-/// none cuts anything off, every side has its partner, and the area is the surface's.
+/// The bisectors of the layout's side pairings cut out a first polygon; then the bisectors of products of its sides' elements are tried,
+/// until none cuts anything off, every side has its partner, and the area is that of the surface.
 ///
 /// # Errors
-/// [`Error::Layout`] for a group without elements, in S², or in E² with rotations, and where no such polygon is found;
+/// [`Error::Layout`] for a group without elements, in S², or in E² with rotations, and if no such polygon is found;
 /// [`Error::Cancelled`].
 pub fn dirichlet_domain(
     deck: &DeckGroup,
@@ -82,40 +81,40 @@ pub fn dirichlet_domain(
             "no Dirichlet domain: loops of this flat surface turn by up to {turning} radians, and its copies do not tile the plane"
         )));
     }
-    // The base point is carried to the origin, and everything with it.
+    // The base point is moved to the origin, and everything with it.
     let home = Motion::to_origin(deck.space, precise_point(deck.space, centre));
     let sides = deck.sides.iter().map(|g| g.conjugated_by(&home));
-    // The images of the centre under the side pairings lie within the sum of their distances: no point that is nearest to the centre, and
-    // on this side of the borders, is farther out.
-    let borders: Vec<Border> = deck.borders.iter().map(|border| border.conjugated_by(&home)).collect();
+    // No point of the domain is farther from the centre than the sum of these distances: those of the images of the centre under the side
+    // pairings, and those of the boundary lines.
+    let borders: Vec<BoundaryLift> = deck.borders.iter().map(|border| border.conjugated_by(&home)).collect();
     let centre_of_all = precise_point(deck.space, ORIGIN);
-    let to_border = |border: &Border| border.line().distance(deck.space, &centre_of_all).abs();
+    let to_border = |border: &BoundaryLift| border.line().distance(deck.space, &centre_of_all).abs();
     let reach = sides.clone().map(|g| g.motion.displacement()).sum::<f64>()
         + borders.iter().map(to_border).sum::<f64>();
-    // The generators are factors too: on a surface of few vertices they are shorter than the sides.
+    // The generators are factors too, since on a surface of few vertices they are shorter than the sides.
     let generator = |k| Ok(deck.element(Letter::generator(k))?.conjugated_by(&home));
     let generators = (0..deck.generators.len()).map(generator);
     let factors = sides.map(Ok).chain(generators).collect::<Result<Vec<_>>>()?;
-    // Lengths of the plane are in units of the longest factor, those of H² as they are.
+    // Tolerances in E² are in units of the longest factor.
     let longest = || factors.iter().map(|g| g.motion.displacement()).fold(0.0, f64::max);
-    // The radius of a disk of this area: a polygon of that area reaches farther.
+    // `least` is the radius of a disk of this area: a polygon of the same area reaches farther.
     let (unit, least) = match deck.space {
         Space::H2 => (1.0, 2.0 * (area / (4.0 * PI)).sqrt().asinh()),
         _ => (longest(), (area / PI).sqrt()),
     };
-    let point = |border: &Border| distance_from_origin(deck.space, border.point);
-    let given = Given { deck, factors, reach: borders.iter().map(point).fold(0.0, f64::max), borders };
-    let (mut nearest, mut limits) = (None, Limits { least, left: MOST_PRODUCTS });
+    let point = |border: &BoundaryLift| distance_from_origin(deck.space, border.point);
+    let group = BoundedGroup { deck, factors, reach: borders.iter().map(point).fold(0.0, f64::max), borders };
+    let (mut nearest, mut limits) = (None, SearchLimits { least, left: MOST_PRODUCTS });
     for tolerance in TOLERANCES {
-        let mut polygon = Polygon::around(deck.space, reach, [tolerance * unit, SAME * unit]);
-        polygon.close(&given, &mut limits, control)?;
+        let mut polygon = BisectorPolygon::around(deck.space, reach, [tolerance * unit, SAME * unit]);
+        polygon.close(&group, &mut limits, control)?;
         if !polygon.is_bounded() {
             break;
         }
         if polygon.radius < least {
             continue;
         }
-        match polygon.finish(&given, centre, &home.inverse()) {
+        match polygon.finish(&group, centre, &home.inverse()) {
             Some(domain) if (domain.area - area).abs() <= AREA * area => return Ok(domain),
             found => nearest = found.or(nearest),
         }

@@ -1,31 +1,31 @@
-//! Dirichlet domains as data.
+//! The data of a Dirichlet domain: corners, sides, their elements and partners.
 
 use super::element::DeckElement;
-use super::line::Line;
+use crate::geometry::bounding_line::BoundingLine;
 use crate::geometry::motion::precise_point;
 use crate::geometry::{DoubleDouble, Motion, Space};
 
-/// The Dirichlet domain of a base point: a convex polygon with geodesic sides, each on the bisector of the base point and its image
-/// under the side's element, which carries the domain onto its neighbour across that side, or on the straight boundary of the surface.
+/// The Dirichlet domain of a base point: a convex polygon with geodesic sides. A side lies on the straight boundary of the surface, or on
+/// the bisector of the base point and its image under the side's element, which carries the domain onto its neighbour across that side.
 #[derive(Debug, Clone)]
 pub struct DirichletDomain {
     /// The base point, in ambient coordinates.
     pub centre: [f64; 3],
     /// Corners counterclockwise, in ambient coordinates; side k runs from corner k to the next one.
     pub corners: Vec<[f64; 3]>,
-    /// The element of each side; of one on the boundary, that which moves the boundary along itself by its loop once, a conjugate of some
-    /// c_j.
+    /// Per side, its element; for a side on the boundary, the element that moves the boundary along itself by its loop once, a conjugate of
+    /// some c_j.
     pub sides: Vec<DeckElement>,
-    /// Per side, the one with the inverse element; none on the boundary.
+    /// Per side, the side with the inverse element; `None` on the boundary.
     pub partner: Vec<Option<usize>>,
-    /// Area of the polygon, from the lengths of its sides and of the rays to its corners.
+    /// The area of the polygon, from the lengths of its sides and of the rays to its corners.
     pub area: f64,
-    /// Largest distance of a corner from the base point.
+    /// The largest distance of a corner from the base point.
     pub radius: f64,
 }
 
-/// The lines of a domain's sides, the centre carried to the origin.
-pub(super) struct Lines(Vec<Line>);
+/// The lines of a domain's sides, after the centre has been moved to the origin.
+pub(super) struct DomainLines(Vec<BoundingLine>);
 
 impl DirichletDomain {
     /// The elements of the sides that have a neighbour across them: all but those on the boundary.
@@ -33,17 +33,18 @@ impl DirichletDomain {
         self.sides.iter().zip(&self.partner).filter(|(_, partner)| partner.is_some()).map(|(side, _)| side)
     }
 
-    pub(super) fn lines(&self) -> Lines {
+    pub(super) fn lines(&self) -> DomainLines {
         let line = |side: &DeckElement| {
-            let home = Motion::to_origin(side.motion.space, precise_point(side.motion.space, self.centre));
-            Line::bisector(&side.motion.conjugated_by(&home))
+            let to_origin =
+                Motion::to_origin(side.motion.space, precise_point(side.motion.space, self.centre));
+            BoundingLine::bisector(&side.motion.conjugated_by(&to_origin))
         };
-        Lines(self.neighbours().map(line).collect())
+        DomainLines(self.neighbours().map(line).collect())
     }
 }
 
-impl Lines {
-    /// Whether a point is surely farther than `radius` from the domain: it lies farther beyond the line of a side.
+impl DomainLines {
+    /// True if a point lies farther than `radius` beyond the line of a side, and so farther than that from the domain.
     pub fn keep_off(&self, space: Space, p: [DoubleDouble; 3], radius: f64) -> bool {
         let most = if space == Space::H2 { radius.sinh() } else { radius };
         self.0.iter().any(|line| line.value(&p).high > most * line.norm)

@@ -1,4 +1,4 @@
-//! Elements of deck groups.
+//! The elements of deck groups, each with its word and its isometry.
 
 use crate::geometry::{DoubleDouble, Motion, Space};
 use crate::topology::word::Word;
@@ -6,9 +6,9 @@ use crate::topology::word::Word;
 /// An element of the deck group.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DeckElement {
-    /// As a word in the canonical generators.
+    /// The element as a word in the canonical generators.
     pub word: Word,
-    /// As an isometry.
+    /// The element as an isometry.
     pub motion: Motion<DoubleDouble>,
 }
 
@@ -23,7 +23,7 @@ impl DeckElement {
         DeckElement { word: self.word.inverse(), motion: self.motion.inverse() }
     }
 
-    /// The conjugate `to ∘ self ∘ to⁻¹` as an isometry, under the same word.
+    /// The element with the isometry `to ∘ self ∘ to⁻¹` and the same word.
     pub(super) fn conjugated_by(&self, to: &Motion<DoubleDouble>) -> DeckElement {
         DeckElement { word: self.word.clone(), motion: self.motion.conjugated_by(to) }
     }

@@ -1,11 +1,11 @@
-//! The triangles of a metric, each by itself.
+//! The triangles of a metric with their sides and angles, and the frames of their half-edges.
 
-use super::frame::{Frame, PlaneFrame, Walk};
+use super::frame::{HalfedgeFrame, MovingFrame, PlaneFrame};
 use super::pieces::Place;
-use super::triangle::Triangle;
 use crate::error::{Error, Result};
 use crate::geometry::model::distance;
 use crate::geometry::motion::precise_point;
+use crate::geometry::plane_triangle::PlaneTriangle;
 use crate::geometry::triangle::half_differences;
 use crate::geometry::{DoubleDouble, Motion, Space};
 use crate::mesh::{EdgeId, FaceId, HalfedgeId, Mesh, PerEdge, PerFace};
@@ -14,14 +14,13 @@ use crate::metric::precise::shapes;
 use crate::metric::refinement::corner_at;
 use crate::parallel;
 use std::cell::OnceCell;
-use std::hint::black_box;
 
-/// The triangles of a metric as frames walk along and about them.
-pub(super) struct Faces<'a, F: Frame> {
+/// The triangles of a metric, in the form in which frames move along their sides and turn at their corners.
+pub(super) struct Faces<'a, F: HalfedgeFrame> {
     pub mesh: &'a Mesh,
     pub space: Space,
     sides: PerEdge<F::Side>,
-    /// At each corner, in corner order.
+    /// Per face, the angles in corner order.
     angles: PerFace<[F::Angle; 3]>,
     /// The sum of the faces' areas, by formulas without angles.
     area: f64,
@@ -30,15 +29,15 @@ pub(super) struct Faces<'a, F: Frame> {
 }
 
 impl<'a> Faces<'a, PlaneFrame> {
-    /// Of lengths in E² (E entries), by doubles.
+    /// The triangles with these lengths in E² (E entries), in f64.
     pub fn of_lengths(mesh: &'a Mesh, lengths: PerEdge<f64>) -> Self {
         Self::of_triangles(mesh, lengths, |lengths, f| {
             half_differences(mesh.opposite_edges(f).map(|e| lengths[e]))
         })
     }
 
-    /// Of a metric in E², by doubles. Triangles keep their shape where circles of very different sizes meet, since they come from
-    /// [`Metric::differences`]: rounded lengths would lose it.
+    /// The triangles of a metric in E², in f64. They are formed from [`Metric::differences`], so that triangles whose vertex circles have
+    /// very different sizes keep their shape, which rounded lengths would lose.
     ///
     /// # Errors
     /// Those of [`Metric::lengths`]; [`Error::Layout`] in another space.
@@ -58,7 +57,7 @@ impl<'a> Faces<'a, PlaneFrame> {
         let (mut angles, mut areas) =
             (vec![[[0.0; 2]; 3]; mesh.n_faces()], vec![(0.0, false); mesh.n_faces()]);
         parallel::fill_both(&mut angles, &mut areas, |f| {
-            let triangle = Triangle::from_differences(differences(&lengths, f.into()));
+            let triangle = PlaneTriangle::from_differences(differences(&lengths, f.into()));
             (triangle.direction, (triangle.area, triangle.excess > 0.0))
         });
         Faces { mesh, space: Space::E2, sides: lengths, angles: angles.into(), ..Faces::summed(mesh, &areas) }
@@ -66,7 +65,7 @@ impl<'a> Faces<'a, PlaneFrame> {
 }
 
 impl<'a> Faces<'a, Motion<DoubleDouble>> {
-    /// Of a metric in any space, with twice the digits of doubles.
+    /// The triangles of a metric in any space, in double-double precision.
     ///
     /// # Errors
     /// Those of [`Metric::lengths`].
@@ -83,8 +82,23 @@ impl<'a> Faces<'a, Motion<DoubleDouble>> {
 }
 
 impl Faces<'_, Motion<DoubleDouble>> {
-    /// A point of a face, the first half-edge of which has this frame, to twice the digits at a corner.
-    pub fn point(&self, (face, first): (FaceId, Motion<DoubleDouble>), place: Place) -> [DoubleDouble; 3] {
+    /// The face across a half-edge of the triangulation, and the frame of its first half-edge. `first`: the frame of the first half-edge of
+    /// the face on the left.
+    ///
+    /// # Errors
+    /// [`Error::Layout`] unless the half-edge has a face on both sides.
+    pub fn across_side(
+        &self,
+        first: Motion<DoubleDouble>,
+        h: HalfedgeId,
+    ) -> Result<(FaceId, Motion<DoubleDouble>)> {
+        let ((face, side), (next, k)) = (corner_of(self.mesh, h)?, corner_of(self.mesh, h.twin())?);
+        let across = self.across(self.side(face, side, first), h);
+        Ok((next, self.around(next, k, across)[0]))
+    }
+
+    /// A point of a face whose first half-edge has this frame; at a corner in double-double precision.
+    pub fn point(&self, face: FaceId, first: Motion<DoubleDouble>, place: Place) -> [DoubleDouble; 3] {
         match place.rounded() {
             Some(corner) => self.around(face, 0, first)[corner].origin(),
             None => {
@@ -95,8 +109,8 @@ impl Faces<'_, Motion<DoubleDouble>> {
     }
 }
 
-impl<'a, F: Frame> Faces<'a, F> {
-    /// What is known of faces with these areas, broken ones marked.
+impl<'a, F: HalfedgeFrame> Faces<'a, F> {
+    /// The sum of these areas and the list of the broken faces, which are marked by `true`; sides and angles stay empty.
     fn summed(mesh: &'a Mesh, areas: &[(f64, bool)]) -> Self {
         let sum = areas.iter().fold(DoubleDouble::default(), |sum, (area, _)| sum.plus(*area));
         Faces {
@@ -109,13 +123,7 @@ impl<'a, F: Frame> Faces<'a, F> {
         }
     }
 
-    /// Reads what a walk around a face reads, so that it is near when the walk comes.
-    #[inline]
-    pub fn read(&self, f: FaceId) {
-        black_box((self.angles[f][0], self.sides(f)));
-    }
-
-    /// Whether the lengths of a face break the triangle inequality.
+    /// True if the lengths of a face break the triangle inequality.
     pub fn is_broken(&self, f: FaceId) -> bool {
         !self.broken.is_empty() && self.broken.binary_search(&f).is_ok()
     }
@@ -132,7 +140,7 @@ impl<'a, F: Frame> Faces<'a, F> {
         F::length(self.space, self.sides[self.mesh.opposite_edges(f)[corner]])
     }
 
-    /// A number that grows with the length of a face's longest side; in E² by [`PlaneFrame`]s that length.
+    /// A number that grows with the length of a face's longest side; with [`PlaneFrame`]s, that length.
     #[inline]
     pub fn longest(&self, f: FaceId) -> f64 {
         self.mesh.opposite_edges(f).map(|e| F::size(self.sides[e])).into_iter().fold(0.0, f64::max)
@@ -143,7 +151,7 @@ impl<'a, F: Frame> Faces<'a, F> {
         self.area
     }
 
-    /// The corners of a face as its first half-edge has them at the origin, along the x axis: ambient coordinates.
+    /// The ambient coordinates of a face's corners when its first half-edge starts at the origin, along the x axis.
     pub fn local(&self, f: FaceId) -> [[f64; 3]; 3] {
         self.all(f, F::identity(self.space)).map(|frame| frame.origin())
     }
@@ -156,7 +164,12 @@ impl<'a, F: Frame> Faces<'a, F> {
 
     /// The frames of the half-edges of a face, in order, from that of its half-edge number `k`.
     #[inline]
-    pub fn around<W: Walk<Side = F::Side, Angle = F::Angle>>(&self, f: FaceId, k: usize, frame: W) -> [W; 3] {
+    pub fn around<W: MovingFrame<Side = F::Side, Angle = F::Angle>>(
+        &self,
+        f: FaceId,
+        k: usize,
+        frame: W,
+    ) -> [W; 3] {
         match k {
             0 => self.all(f, frame),
             1 => {
@@ -170,15 +183,15 @@ impl<'a, F: Frame> Faces<'a, F> {
         }
     }
 
-    /// [`Faces::around`] from the first half-edge.
+    /// The frames of the half-edges of a face, in order, from that of its first one.
     #[inline]
-    pub fn all<W: Walk<Side = F::Side, Angle = F::Angle>>(&self, f: FaceId, first: W) -> [W; 3] {
+    pub fn all<W: MovingFrame<Side = F::Side, Angle = F::Angle>>(&self, f: FaceId, first: W) -> [W; 3] {
         self.onwards::<W, 0>(f, first)
     }
 
     /// The frames of the half-edges of a face, one after the other from that of its half-edge number `K`.
     #[inline]
-    fn onwards<W: Walk<Side = F::Side, Angle = F::Angle>, const K: usize>(
+    fn onwards<W: MovingFrame<Side = F::Side, Angle = F::Angle>, const K: usize>(
         &self,
         f: FaceId,
         frame: W,
@@ -187,14 +200,14 @@ impl<'a, F: Frame> Faces<'a, F> {
         let [here, next, last] = [K, (K + 1) % 3, (K + 2) % 3];
         let second = frame.forward(sides[here]).turned_onwards(angles[next]);
         let third = second.forward(sides[next]).turned_onwards(angles[last]);
-        // The last corner is placed from its nearer neighbour, since a step is rounded to doubles of its size.
+        // The last corner is placed from its nearer neighbour, since the rounding of a step grows with its length.
         let nearer = W::size(sides[last]) < W::size(sides[next]);
         [frame, second, if nearer { third.ending_at(&frame, sides[last]) } else { third }]
     }
 
     /// The frame of half-edge number `k` of a face, from that of its first one.
     #[inline]
-    pub fn side<W: Walk<Side = F::Side, Angle = F::Angle>>(&self, f: FaceId, k: usize, first: W) -> W {
+    pub fn side<W: MovingFrame<Side = F::Side, Angle = F::Angle>>(&self, f: FaceId, k: usize, first: W) -> W {
         match k {
             0 => first,
             1 => {
@@ -207,7 +220,12 @@ impl<'a, F: Frame> Faces<'a, F> {
 
     /// The frame of the first half-edge of a face, from that of its half-edge number `k`.
     #[inline]
-    pub fn first<W: Walk<Side = F::Side, Angle = F::Angle>>(&self, f: FaceId, k: usize, frame: W) -> W {
+    pub fn first<W: MovingFrame<Side = F::Side, Angle = F::Angle>>(
+        &self,
+        f: FaceId,
+        k: usize,
+        frame: W,
+    ) -> W {
         match k {
             0 => frame,
             1 => {
@@ -224,21 +242,26 @@ impl<'a, F: Frame> Faces<'a, F> {
 
     /// The frame of the twin of half-edge number `k` of a face, from that of the face's first one.
     #[inline]
-    pub fn beyond<W: Walk<Side = F::Side, Angle = F::Angle>>(&self, f: FaceId, k: usize, first: W) -> W {
+    pub fn beyond<W: MovingFrame<Side = F::Side, Angle = F::Angle>>(
+        &self,
+        f: FaceId,
+        k: usize,
+        first: W,
+    ) -> W {
         let inwards = if k == 2 { first.turned_inwards(self.angles[f][0]) } else { None };
         inwards.unwrap_or_else(|| self.across(self.side(f, k, first), self.mesh.face_halfedges(f)[k]))
     }
 
     /// The frame of the twin of the half-edge with this frame.
     #[inline]
-    pub fn across<W: Walk<Side = F::Side, Angle = F::Angle>>(&self, frame: W, h: HalfedgeId) -> W {
+    pub fn across<W: MovingFrame<Side = F::Side, Angle = F::Angle>>(&self, frame: W, h: HalfedgeId) -> W {
         frame.forward(self.sides[h.edge()]).turned_round()
     }
 
-    /// The distance from the origin of the corner opposite the twin of a half-edge with this frame, or a number that grows with it; none
-    /// where no face is beyond.
+    /// The distance from the origin of the corner opposite the twin of a half-edge with this frame, or a number that grows with it; `None`
+    /// if no face lies beyond.
     #[inline]
-    pub fn distance_beyond<W: Walk<Side = F::Side, Angle = F::Angle>>(
+    pub fn distance_beyond<W: MovingFrame<Side = F::Side, Angle = F::Angle>>(
         &self,
         frame: W,
         h: HalfedgeId,
@@ -249,27 +272,27 @@ impl<'a, F: Frame> Faces<'a, F> {
     }
 }
 
-/// A final face where it lies.
-pub(super) struct Placed<'a, F: Frame> {
+/// A final face at its place in the layout.
+pub(super) struct PlacedFace<'a, F: HalfedgeFrame> {
     faces: &'a Faces<'a, F>,
     face: FaceId,
     /// The frame of its first half-edge.
     first: F,
-    /// [`Faces::local`], formed where a piece has a point elsewhere than at a corner of the face.
+    /// [`Faces::local`], computed when a point is asked for that is no corner of the face.
     local: OnceCell<[[f64; 3]; 3]>,
 }
 
-impl<'a, F: Frame> Placed<'a, F> {
+impl<'a, F: HalfedgeFrame> PlacedFace<'a, F> {
     pub fn new(faces: &'a Faces<'a, F>, face: FaceId, first: F) -> Self {
-        Placed { faces, face, first, local: OnceCell::new() }
+        PlacedFace { faces, face, first, local: OnceCell::new() }
     }
 
-    /// The point with these weights of the face's corners, as the face's first half-edge has it at the origin.
+    /// The point with these weights of the face's corners, when the face's first half-edge starts at the origin.
     fn local(&self, weights: [f64; 3]) -> [f64; 3] {
         combination(self.faces.space, *self.local.get_or_init(|| self.faces.local(self.face)), weights)
     }
 
-    /// A point of the face where it lies, and what its doubles miss of x and y: nothing is known of that elsewhere than at a corner.
+    /// A point of the face in the layout, and the low parts of x and y in double-double precision, which are known only at a corner.
     pub fn point(&self, place: Place) -> ([f64; 3], [f64; 2]) {
         match place.rounded() {
             Some(corner) => self.faces.side(self.face, corner, self.first).point(),
@@ -277,8 +300,8 @@ impl<'a, F: Frame> Placed<'a, F> {
         }
     }
 
-    /// By how much points miss these of the face, as [`Frame::miss`] has it: at a corner about the corner itself, since seen
-    /// from elsewhere in a large face of H² the difference would be magnified.
+    /// The differences between `points` and the points of the face at these places ([`HalfedgeFrame::miss`]). At a corner the difference is
+    /// a vector at the corner itself, since in a large face of H² it would be magnified elsewhere.
     pub fn misses(&self, points: [[f64; 3]; 3], places: [Place; 3], sides: &[F; 3]) -> [[f64; 2]; 3] {
         [0, 1, 2].map(|k| match places[k].rounded() {
             Some(corner) => sides[corner].miss_of_origin(points[k]),
@@ -286,18 +309,18 @@ impl<'a, F: Frame> Placed<'a, F> {
         })
     }
 
-    /// The frames of its half-edges.
+    /// The frames of the face's half-edges.
     pub fn sides(&self) -> [F; 3] {
         self.faces.all(self.face, self.first)
     }
 
-    /// The length of the face's longest side, or a number that grows with it: [`Faces::longest`].
+    /// [`Faces::longest`] of the face.
     pub fn longest(&self) -> f64 {
         self.faces.longest(self.face)
     }
 }
 
-/// The point of the plane, hyperboloid or sphere in the direction of a combination of points; at a corner, the corner itself.
+/// The point of the plane, hyperboloid or sphere in the direction of a combination of corners; if only one has a weight, that corner.
 pub(super) fn combination(space: Space, corners: [[f64; 3]; 3], weights: [f64; 3]) -> [f64; 3] {
     if let Some(corner) = corner_at(weights) {
         return corners[corner];
@@ -317,7 +340,7 @@ pub(super) fn combination(space: Space, corners: [[f64; 3]; 3], weights: [f64; 3
         }
     };
     let (x, y) = (x / norm, y / norm);
-    // So that the point is on the hyperboloid to the last digit.
+    // In H² w is computed from x and y, so that the point lies on the hyperboloid to the last digit.
     let w = if space == Space::H2 { 1.0f64.hypot(x.hypot(y)) } else { w / norm };
     [x, y, w]
 }

@@ -7,79 +7,79 @@ use crate::geometry::{DoubleDouble, Motion, Space};
 /// The origin in ambient coordinates.
 pub(super) const ORIGIN: [f64; 3] = [0.0, 0.0, 1.0];
 
-/// The frame of a half-edge, by which its face is placed: the isometry that brings the half-edge from the origin, along the x axis, to
-/// where it lies.
+/// The frame of a half-edge, by which its face is placed: the isometry that carries the half-edge from the origin, along the x axis, to its
+/// place in the layout.
 ///
-/// Frames of H² and S² are [`Motion`]s with twice the digits of doubles, since their errors are magnified by e^distance in H². In E² a
-/// [`PlaneFrame`] of doubles is enough, and takes a tenth of the time.
-pub(super) trait Frame: Walk {
-    /// The frames by which it is found out in which order faces are added.
-    type Rough: Walk<Side = Self::Side, Angle = Self::Angle>;
-    /// Whether it has twice the digits of doubles.
+/// Frames of H² and S² are [`Motion`]s in double-double precision, since in H² their errors are magnified by e^distance. In E² a
+/// [`PlaneFrame`] of f64s is enough, and takes a tenth of the time.
+pub(super) trait HalfedgeFrame: MovingFrame {
+    /// The frames in f64 by which the order is found in which faces are added.
+    type Rough: MovingFrame<Side = Self::Side, Angle = Self::Angle>;
+    /// True for frames in double-double precision.
     const IS_PRECISE: bool;
 
     /// The length of a side.
     fn length(space: Space, side: Self::Side) -> f64;
-    /// The frame itself, where frames that find the order are as good as any.
+    /// The frame that a rough frame stands for; `None` if it has to be computed in double-double precision.
     fn of_rough(rough: Self::Rough) -> Option<Self>;
-    /// Where the half-edge starts, in ambient coordinates.
+    /// The start of the half-edge, in ambient coordinates.
     fn origin(&self) -> [f64; 3];
-    /// [`Frame::origin`], and what its doubles miss of x and y.
+    /// [`HalfedgeFrame::origin`], and the low parts of x and y in double-double precision.
     fn point(&self) -> ([f64; 3], [f64; 2]);
-    /// Where it carries a point in ambient coordinates.
+    /// The image of a point in ambient coordinates.
     fn apply(&self, p: [f64; 3]) -> [f64; 3];
-    /// By how much a point misses the place where the frame carries `local`: a vector of the plane in E², elsewhere one at the frame's
-    /// origin.
+    /// The difference between a point and the image of `local`: a vector of the plane in E², elsewhere a vector at the frame's origin.
     fn miss(&self, point: [f64; 3], local: [f64; 3]) -> [f64; 2];
-    /// [`Frame::miss`] of where the half-edge starts, to first order.
+    /// [`HalfedgeFrame::miss`] with the start of the half-edge as image, to first order.
     fn miss_of_origin(&self, point: [f64; 3]) -> [f64; 2];
-    /// The isometry.
+    /// The frame as an isometry.
     fn motion(&self) -> Motion<DoubleDouble>;
 }
 
-/// What walks from face to face.
-pub(super) trait Walk: Copy + Send + Sync {
-    /// The length of a side, as walks along it take it.
+/// A frame that moves from half-edge to half-edge, and so from face to face.
+pub(super) trait MovingFrame: Copy + Send + Sync {
+    /// The length of a side, in the form that steps along the side need.
     type Side: Copy + Send + Sync;
-    /// The angle at a corner, as turns by it take it.
+    /// The angle at a corner, in the form that turns by the angle need.
     type Angle: Copy + Send + Sync;
 
     /// A number that grows with the length of a side.
     fn size(side: Self::Side) -> f64;
     /// The frame at the origin, along the x axis.
     fn identity(space: Space) -> Self;
-    /// After a step along the half-edge: at its tip, in the same direction.
+    /// The frame after a step along the half-edge: at its tip, in the same direction.
     fn forward(&self, side: Self::Side) -> Self;
-    /// After a turn by π less the angle: from one side of a triangle, at its end, to the next one.
+    /// The frame after a turn by π minus the angle: from one side of a triangle, at its end, to the next side.
     fn turned_onwards(&self, angle: Self::Angle) -> Self;
-    /// After a turn by π.
+    /// The frame after a turn by π.
     fn turned_round(&self) -> Self;
-    /// After a turn by the angle: from one side of a triangle, at its start, to where the one before it comes from; where that is as good
-    /// as going around the triangle.
+    /// The frame after a turn by the angle: from one side of a triangle, at its start, to the direction from which the side before it
+    /// comes. `None` if this loses accuracy against a walk around the triangle.
     fn turned_inwards(&self, angle: Self::Angle) -> Option<Self>;
-    /// The frame of the side before, of this length, which makes this angle with the half-edge; where that is as good as going around the
-    /// triangle.
+    /// The frame of the side before this one, which has this length and makes this angle with it. `None` if this loses accuracy against a
+    /// walk around the triangle.
     fn backwards(&self, side: Self::Side, angle: Self::Angle) -> Option<Self>;
-    /// In the same direction, but moved so that the half-edge, of this length, ends at the place of another frame. A frame of twice the
-    /// digits stays as it is: it ends there to all digits that a layout has.
+    /// The frame in the same direction, but moved so that the half-edge, of this length, ends at the place of another frame. A frame in
+    /// double-double precision stays as it is, since it ends there to all digits that a layout has.
     fn ending_at(&self, end: &Self, side: Self::Side) -> Self;
-    /// The distance of the half-edge's start from the origin, as [`Walk::distance_of_apex`] tells it.
+    /// The distance of the half-edge's start from the origin, or a number that grows with it as in [`MovingFrame::distance_of_apex`].
     fn distance(&self) -> f64;
-    /// The distance from the origin of the third corner of a triangle on this half-edge, by its angle here and its last side; or a number
-    /// that grows with that distance. Doubles are enough, since it only decides the order of faces.
+    /// The distance from the origin of the third corner of a triangle on this half-edge, or a number that grows with that distance.
+    /// `angle`: the triangle's angle at the start of the half-edge; `last`: its side that ends there. It is computed in f64, since it only
+    /// decides the order of faces.
     fn distance_of_apex(&self, angle: Self::Angle, last: Self::Side) -> f64;
 }
 
-/// A frame in the plane. The direction is passed on from face to face and loses a rounding each time; the place is summed up with twice
-/// the digits, so that faces that are small against their coordinates keep their shape.
+/// A frame in the plane. The direction is passed on from face to face and is rounded each time; the place is summed in double-double
+/// precision, so that faces that are small against their coordinates keep their shape.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PlaneFrame {
-    /// Of length 1.
+    /// The unit vector in the direction of the half-edge.
     direction: [f64; 2],
     place: [DoubleDouble; 2],
 }
 
-impl Walk for PlaneFrame {
+impl MovingFrame for PlaneFrame {
     type Side = f64;
     /// `[cos, sin]`.
     type Angle = [f64; 2];
@@ -108,7 +108,7 @@ impl Walk for PlaneFrame {
         PlaneFrame { direction: self.direction.map(|x| -x), place: self.place }
     }
 
-    /// None: places are rounded, so that the way to a corner matters ([`Walk::ending_at`]).
+    /// `None`, since steps are rounded, so that the result depends on the way to a corner ([`MovingFrame::ending_at`]).
     fn turned_inwards(&self, _: [f64; 2]) -> Option<Self> {
         None
     }
@@ -131,7 +131,7 @@ impl Walk for PlaneFrame {
     }
 }
 
-impl Frame for PlaneFrame {
+impl HalfedgeFrame for PlaneFrame {
     type Rough = PlaneFrame;
     const IS_PRECISE: bool = false;
 
@@ -170,11 +170,11 @@ impl Frame for PlaneFrame {
     }
 }
 
-/// A motion in doubles. Its errors grow with each step, but it shows well enough which faces are near.
+/// A motion in f64. Its errors grow with each step, but it shows well enough which faces are near.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct RoughMotion(Motion);
 
-impl Walk for RoughMotion {
+impl MovingFrame for RoughMotion {
     type Side = [DoubleDouble; 2];
     type Angle = [DoubleDouble; 2];
 
@@ -226,7 +226,7 @@ impl Walk for RoughMotion {
     }
 }
 
-impl Frame for Motion<DoubleDouble> {
+impl HalfedgeFrame for Motion<DoubleDouble> {
     type Rough = RoughMotion;
     const IS_PRECISE: bool = true;
 
@@ -266,8 +266,7 @@ impl Frame for Motion<DoubleDouble> {
     }
 
     fn miss_of_origin(&self, point: [f64; 3]) -> [f64; 2] {
-        // What is left of the difference is small, so that doubles are enough for how the inverse carries it:
-        // X ↦ ā² X − κ b² X̄ − 2 ā b w.
+        // The difference is small, so f64s are enough to apply the inverse to it: X ↦ ā² X − κ b² X̄ − 2 ā b w.
         let (near, [x, y]) = (self.rounded(), self.place());
         let [dx, dy] = [x.plus(-point[0]), y.plus(-point[1])].map(|d| -d.high);
         let [x, y] = [x.high, y.high];
@@ -290,8 +289,8 @@ impl Frame for Motion<DoubleDouble> {
     }
 }
 
-impl Walk for Motion<DoubleDouble> {
-    /// a and b of the translation along the side ([`Motion::translation_of_chord`]).
+impl MovingFrame for Motion<DoubleDouble> {
+    /// The coefficients a and b of the translation along the side ([`Motion::translation_of_chord`]).
     type Side = [DoubleDouble; 2];
     /// `[cos, sin]` of half the angle.
     type Angle = [DoubleDouble; 2];
@@ -345,7 +344,7 @@ impl Walk for Motion<DoubleDouble> {
 mod tests {
     use super::*;
 
-    /// The same walk, sides of length k and turns of 0.1 k, by both kinds of frames.
+    /// Both kinds of frames take the same walk, with sides of length k and turns by 0.1 k.
     #[test]
     fn plane_frames_walk_as_motions_do() {
         let (mut plane, mut motion) =
@@ -360,8 +359,8 @@ mod tests {
                 (plane, motion) = (plane.turned_round(), motion.turned_round());
             }
             let local = [0.3, -2.0, 1.0];
-            let [p, q] = [plane.apply(local), Frame::apply(&motion, local)];
-            let r = Frame::apply(&plane.motion(), local);
+            let [p, q] = [plane.apply(local), HalfedgeFrame::apply(&motion, local)];
+            let r = HalfedgeFrame::apply(&plane.motion(), local);
             for other in [q, r] {
                 assert!((p[0] - other[0]).hypot(p[1] - other[1]) < 1e-12, "{k}: {p:?} {other:?}");
             }
@@ -385,7 +384,7 @@ mod tests {
                 motion = motion.forward(side).turned_onwards([half.1, half.0].map(DoubleDouble::from));
                 let small = Motion::translation(1e-9, space).precise();
                 let near = motion.turned_onwards([0.6, 0.8].map(DoubleDouble::from)).compose(&small);
-                let point = Frame::origin(&near);
+                let point = HalfedgeFrame::origin(&near);
                 let (known, off) = (motion.miss(point, ORIGIN), motion.miss_of_origin(point));
                 let scale = point.iter().fold(1.0, |m: f64, x| m.max(x.abs()));
                 let error = (known[0] - off[0]).hypot(known[1] - off[1]);

@@ -1,27 +1,29 @@
-//! A surface, opened along a cut, in the space of its metric.
+//! Layouts: the coordinates of a surface that is opened along a cut, in the space of its metric.
 //!
 //! ```
-//! use ricci::embed::{UnrollOptions, unroll};
+//! use ricci::embed::{Layout, LayoutOptions};
 //! use ricci::{Class, Control, Solution, Surface, geometry::Space, mesh::shapes};
 //! # fn main() -> ricci::Result<()> {
 //! let (mesh, lengths) = shapes::flat_torus([0.0, 1.0], 4, 4)?.build()?;
 //! let torus = Surface::intrinsic(mesh, lengths, Space::E2)?;
 //! let flat = Solution::initial_of(torus, Class::yamabe(Space::E2))?;
-//! let layout = unroll(&flat, &UnrollOptions::default(), &Control::new())?;
+//! let layout = Layout::of_solution(&flat, &LayoutOptions::default(), &Control::new())?;
 //! let [x, y] = layout.modulus().unwrap();
 //! assert!(x.abs() < 1e-14 && (y - 1.0).abs() < 1e-14);
 //! # Ok(())
 //! # }
 //! ```
 
-use super::pieces::Pieces;
-use super::shape::{Shape, Standing, extent, is_surely_upright};
+use super::pieces::LayoutPieces;
 use crate::error::{Error, Result};
 use crate::geometry::complex::{norm, quick_norm};
-use crate::geometry::model::{distance as hyperbolic_distance, klein, poincare};
+use crate::geometry::model::{distance as hyperbolic_distance, poincare};
 use crate::geometry::modulus::modulus;
 use crate::geometry::motion::precise_point;
 use crate::geometry::predicates::{orientation, winding};
+use crate::geometry::triangle_flatness::{
+    TriangleFlatness, TriangleOrientation, is_surely_upright, largest_coordinate,
+};
 use crate::geometry::{DoubleDouble, Motion, PlaneIsometry, Space};
 use crate::mesh::{FaceId, HalfedgeId, Mesh, PerFace, PerHalfedge, VertexId};
 use crate::metric::Refinement;
@@ -30,20 +32,20 @@ use crate::topology::{CutGraph, corner_walk, number_corners};
 use std::cmp::Ordering;
 use std::sync::Arc;
 
-/// Relative rounding error of one step of a development: a direction is turned by an angle and made a unit vector again, a few ulp.
+/// Relative rounding error of one step from face to face: a direction is turned by an angle and made a unit vector again, a few ulp.
 const STEP_ROUNDING: f64 = 4.0 * f64::EPSILON;
-/// Distance in H² by which the two sides of a seam may differ however exact the metric is: copies of the layout need to meet no better, in
-/// a cover that is drawn or written in doubles.
+/// Distance in H² by which the two sides of a seam may differ however exact the metric is: in a cover that is drawn or written in f64,
+/// copies of the layout need not meet more exactly.
 pub const MEETING: f64 = 1e-8;
 
 /// A surface, opened along a cut, in the model space of its metric: E², H² or S². Orientation is the surface's (of a sphere seen from
 /// outside).
 ///
-/// What is laid out is [`Layout::mesh`]: the metric's own triangulation, or a common refinement of it with the surface as it came. Then a
-/// *piece*, a triangle of the refinement, lies in its *final face*, a triangle of the metric's: its corners are the combinations of the
-/// face's corners, as vectors, that the refinement names, brought back to the plane, the hyperboloid or the sphere. So the map from the
-/// input is projective on every piece: with the homogeneous weights q of its corners ([`Refinement::weight`]) and their ambient coordinates
-/// P it is q P that is linear.
+/// The triangles that are laid out are those of [`Layout::mesh`]: the metric's own triangulation, or its common refinement with the surface
+/// as it came. A triangle of the refinement, a *piece*, lies in its *final face*, a triangle of the metric's triangulation: the corners of
+/// the piece are combinations of the face's corners, as vectors, with the weights of the refinement, brought back to the plane, the
+/// hyperboloid or the sphere. So the map from the input is projective on every piece: with the homogeneous weights q of the corners
+/// ([`Refinement::weight`]) and their ambient coordinates P, it is q P that is linear.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layout {
     /// The space.
@@ -57,48 +59,52 @@ pub struct Layout {
     /// Ambient coordinates `[x, y, w]` of the vertices of the opened surface: of the plane `w = 1`, of the hyperboloid
     /// `w² = 1 + x² + y²` ([`crate::geometry::model`] has other models), of the unit sphere `x² + y² + w² = 1`.
     pub points: Vec<[f64; 3]>,
-    /// Plane coordinates of these vertices: in E² their own, in H² of the Poincaré disk, in S² by stereographic projection from the south
-    /// pole.
+    /// Plane coordinates of these vertices: in E² their own, in H² those of the Poincaré disk, in S² the stereographic projection from the
+    /// south pole.
     pub coordinates: Vec<[f64; 2]>,
     /// One seam per segment of the cut, in the same order.
     pub seams: Vec<Seam>,
     /// Triangles that are not counterclockwise. Of a metric's own triangulation: clockwise or without area, by exact arithmetic. Of a
-    /// refinement: those with an area below −[`super::shape::LEAST_SHARE`] · longest edge², and by more than rounding explains.
+    /// refinement: those whose area is below −[`crate::geometry::triangle_flatness::LEAST_RELATIVE_AREA`] · longest edge², by more than
+    /// rounding explains.
     pub flipped: Vec<FaceId>,
-    /// Triangles of a refinement whose area differs from zero by no more than this.
+    /// Triangles of a refinement whose area differs from zero by no more than that.
     pub degenerate: Vec<FaceId>,
-    /// Triangles in final faces whose lengths break the triangle inequality, ascending: they are laid out with angles (π, 0, 0), and the
+    /// Triangles in final faces whose lengths break the triangle inequality, ascending. They are laid out with angles (π, 0, 0), and the
     /// layout does not represent the metric there.
     pub broken: Vec<FaceId>,
-    /// Largest distance between where a face has its corner and where the corner lies, also across the cut by the seams' pairings: how far
-    /// the metric is from constant curvature off the cones, and rounding, both magnified by e^radius in H². See [`Layout::consistency`].
+    /// Largest distance between the place of a corner by its face and the place that it got, also across the cut by the seams' pairings: it
+    /// consists of the metric's deviation from constant curvature off the cones and of rounding, both magnified by e^radius in H². See
+    /// [`Layout::consistency`].
     pub disagreement: f64,
-    /// Largest difference between an edge as its face has it and as it lies, relative to the longest side of the final face.
+    /// Largest difference, as a vector, between an edge by its face and the edge in the layout, relative to the longest side of the final
+    /// face.
     pub local_consistency: f64,
     /// Largest distance of a point from the origin.
     pub radius: f64,
     /// Diagonal of the bounding box of `coordinates`; infinite for a vertex at the south pole of the sphere.
     pub diameter: f64,
-    /// Area of the surface, by formulas without angles; of a double's given half, half of the double's.
+    /// Area of the surface, by formulas without angles; for the given half of a double, half of the double's area.
     pub area: f64,
     /// Lengths in the layout over lengths in the metric.
     pub scale: f64,
-    /// What the doubles of `points` miss of x and y at corners of final faces; none where no more is known.
+    /// The low parts of x and y in double-double precision, beside `points`, at corners of final faces; empty if only the f64s are known.
     pub(super) remainders: Vec<[f64; 2]>,
-    pub(super) pieces: Pieces,
+    /// The triangles that are laid out.
+    pub(super) pieces: LayoutPieces,
     /// The surface as it came and the cut on it, where the cut runs along its edges.
     pub(super) input: Option<(Arc<Mesh>, CutGraph)>,
     /// Per half-edge: 0 if not cut, k + 1 on the left side of seam k, −(k + 1) on its right side.
     pub(super) side: PerHalfedge<i32>,
-    /// Number of final faces between the origin and the farthest piece, at most.
+    /// Upper bound of the number of final faces between the origin and the farthest piece.
     pub(super) n_steps: usize,
-    /// The frames of the final faces' first half-edges, with twice the digits; none where doubles were enough.
+    /// The frames of the final faces' first half-edges, in double-double precision; empty if the layout was computed in f64.
     pub(super) frames: Vec<Motion<DoubleDouble>>,
     /// Per triangle, the number of its final face's frame in `frames`.
     pub(super) patch: PerFace<u32>,
 }
 
-/// How the two sides of a segment of the cut lie to each other.
+/// The isometry between the two sides of a segment of the cut.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Seam {
     /// The isometry that carries the opened surface onto its neighbour across the left side of the segment: the image of its right side
@@ -109,8 +115,8 @@ pub struct Seam {
     pub residual: f64,
 }
 
-/// Rotation in radians below which an isometry counts as a translation. Rounding of numbers with twice the digits leaves about 1e-30 on
-/// flat tori, whose sides are paired by translations, and positions in doubles show no rotation below 1e-16.
+/// Largest rotation, in radians, of an isometry that counts as a translation. On flat tori, whose sides are paired by translations,
+/// rounding in double-double precision leaves about 1e-30, and positions in f64 show no rotation below 1e-16.
 const LEAST_ROTATION: f64 = 1e-24;
 
 impl Seam {
@@ -122,12 +128,12 @@ impl Seam {
     }
 }
 
-/// The layout on the surface as it came: where its corners lie if the map is made linear on its own faces.
+/// The layout on the faces of the surface as it came, on each of which the map is made linear between its corners.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OnInput {
     /// Per half-edge of the input, the index into `points` of the corner at its origin ([`Layout::corner_index`]).
     pub corner_index: PerHalfedge<u32>,
-    /// Which of [`Layout::points`], and so of [`Layout::coordinates`], the vertices of the opened input are.
+    /// Per vertex of the opened input, its index in [`Layout::points`] and [`Layout::coordinates`].
     pub points: Vec<u32>,
     /// Their plane coordinates.
     pub coordinates: Vec<[f64; 2]>,
@@ -138,12 +144,12 @@ pub struct OnInput {
 }
 
 impl Layout {
-    /// What is laid out.
+    /// The triangles that are laid out.
     pub fn mesh(&self) -> &Mesh {
         self.pieces.mesh()
     }
 
-    /// The common refinement that is laid out; `None` where that is the metric's own triangulation.
+    /// The common refinement that is laid out; `None` if the metric's own triangulation is.
     pub fn refinement(&self) -> Option<&Arc<Refinement>> {
         self.pieces.refinement()
     }
@@ -210,7 +216,7 @@ impl Layout {
         Some(input.faces().map(|f| input.face_halfedges(f).map(point)).collect())
     }
 
-    /// On which side of which seam a half-edge lies: 0 if it is not cut, k + 1 on the left side of seam k, −(k + 1) on its right side.
+    /// The side of the seam on which a half-edge lies: 0 if it is not cut, k + 1 on the left side of seam k, −(k + 1) on its right side.
     pub fn side(&self, h: HalfedgeId) -> i32 {
         self.side[h]
     }
@@ -225,14 +231,13 @@ impl Layout {
         }
     }
 
-    /// Change of frame from the face of `h` to the face across: carries the image of `h` in the one onto its image in the other. The
-    /// inverse of [`Layout::neighbour`].
+    /// The isometry that carries the image of `h` in its face onto its image in the face across: the inverse of [`Layout::neighbour`].
     pub fn transition(&self, h: HalfedgeId) -> Motion<DoubleDouble> {
         self.neighbour(h.twin())
     }
 
-    /// Holonomy of a walk from face to face: the composition of the transitions across `crossed`, first one first. Each half-edge
-    /// lies in the face that the walk leaves.
+    /// Holonomy of a walk from face to face: the composition of the transitions across the half-edges `crossed`, in the order of the walk.
+    /// Each half-edge lies in the face that the walk leaves.
     pub fn holonomy(&self, crossed: impl IntoIterator<Item = HalfedgeId>) -> Motion<DoubleDouble> {
         let cut = crossed.into_iter().filter(|&h| self.side[h] != 0);
         cut.fold(Motion::identity(self.space), |total, h| self.transition(h).compose(&total))
@@ -274,11 +279,11 @@ impl Layout {
         if self.space == Space::E2 { self.disagreement / self.diameter } else { self.disagreement }
     }
 
-    /// The largest [`Layout::consistency`] that rounding and curvature errors explain; these are given by the sum of their absolute values
+    /// The largest [`Layout::consistency`] that rounding and curvature errors explain. `curvature_errors`: the sum of their absolute values
     /// over the vertices.
     pub fn consistency_limit(&self, curvature_errors: f64) -> f64 {
-        // A vertex with curvature error δ turns what lies beyond it by δ: in E² that moves it by at most δ of the diameter, in H² a point
-        // at distance r by sinh(r) δ.
+        // A vertex with curvature error δ turns the part of the layout beyond it by δ: in E² this moves points by at most δ of the
+        // diameter, in H² a point at distance r by sinh(r) δ.
         let off = curvature_errors + STEP_ROUNDING * self.n_steps as f64;
         if self.space == Space::H2 { MEETING.max(self.radius.sinh() * off) } else { off }
     }
@@ -287,11 +292,11 @@ impl Layout {
     pub fn modulus(&self) -> Option<[f64; 2]> {
         let mesh = self.mesh();
         let is_torus = self.space == Space::E2 && mesh.is_closed() && mesh.euler() == 0;
-        let pairings: Vec<PlaneIsometry> = match is_torus {
-            true => self.seams.iter().map(Seam::isometry).collect(),
-            false => return None,
-        };
-        if pairings.iter().any(|g| g.rotation.abs() > TURNS) {
+        if !is_torus {
+            return None;
+        }
+        let pairings: Vec<PlaneIsometry> = self.seams.iter().map(Seam::isometry).collect();
+        if pairings.iter().any(|g| g.rotation.abs() > MOST_ROTATION) {
             return None;
         }
         // Any two that are not parallel generate the lattice.
@@ -301,13 +306,13 @@ impl Layout {
         periods.find_map(|t| modulus([first, t]))
     }
 
-    /// Finds the triangles that are flipped or degenerate.
+    /// Sets the lists of flipped and degenerate triangles.
     pub(super) fn find_flat(&mut self) {
         let mesh = self.pieces.mesh();
         if self.pieces.refinement().is_none() {
             self.flipped = match self.space {
                 Space::E2 => faces_where(mesh, |f| !is_left_turn(self.face_uv(f))),
-                // The sign of the determinant is in H² the orientation in the Klein disk.
+                // In H² the sign of the determinant is the orientation in the Klein disk.
                 _ => faces_where(mesh, |f| {
                     let [p, q, r] = self.face_points(f);
                     winding(p, q, r) != Ordering::Greater
@@ -315,57 +320,50 @@ impl Layout {
             };
             return;
         }
-        let size = extent(&self.coordinates);
-        let mut standing = vec![Standing::Upright; mesh.n_faces()];
-        parallel::fill(&mut standing, |f| self.standing(f.into(), size));
-        let faces = |so: Standing| mesh.faces().filter(|f| standing[f.index()] == so).collect();
-        (self.flipped, self.degenerate) = (faces(Standing::Flipped), faces(Standing::Degenerate));
+        let extent = largest_coordinate(&self.coordinates);
+        let mut orientation = vec![TriangleOrientation::Upright; mesh.n_faces()];
+        parallel::fill(&mut orientation, |f| self.orientation(f.into(), extent));
+        let faces = |wanted| mesh.faces().filter(|f| orientation[f.index()] == wanted).collect();
+        (self.flipped, self.degenerate) =
+            (faces(TriangleOrientation::Flipped), faces(TriangleOrientation::Degenerate));
     }
 
-    /// How a triangle lies; `size`: as [`Layout::shape`] has it.
-    fn standing(&self, f: FaceId, size: f64) -> Standing {
-        if self.space == Space::H2 && is_surely_upright(self.face_points(f)) {
-            return Standing::Upright;
-        }
-        let (shape, extent) = self.shape(f, size);
-        Standing::of(&shape, extent)
-    }
-
-    /// The shape of a triangle, and the size of the coordinates at which its corners have been rounded: in E² `size`, the one of the whole
-    /// layout. In H² and S² the triangle is first moved to the origin, where doubles are densest.
-    pub(super) fn shape(&self, f: FaceId, size: f64) -> (Shape, f64) {
+    /// The orientation of a triangle of a refinement; `extent`: the largest coordinate of the whole layout, at which corners in E² are
+    /// rounded. In H² and S² the triangle is moved to the origin first.
+    fn orientation(&self, f: FaceId, extent: f64) -> TriangleOrientation {
         if self.space == Space::E2 {
-            return (Shape::of(self.face_uv(f)), size);
+            return TriangleFlatness::of(self.face_uv(f)).orientation(extent);
         }
         let points = self.face_points(f);
-        shape_of(points, self.brought_home(points))
+        if self.space == Space::H2 && is_surely_upright(points) {
+            return TriangleOrientation::Upright;
+        }
+        let (flatness, extent) = TriangleFlatness::in_curved_space(points, self.moved_to_origin(points));
+        flatness.orientation(extent)
     }
 
-    /// Points moved by an isometry that brings the first of them to the origin.
-    pub(super) fn brought_home(&self, points: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
+    /// The points moved by an isometry that brings the first of them to the origin.
+    pub(super) fn moved_to_origin(&self, points: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
         let home = Motion::to_origin(self.space, precise_point(self.space, points[0]));
         points.map(|p| home.apply(precise_point(self.space, p)).map(f64::from))
     }
 
-    /// The frame of the first half-edge of a triangle's final face, of a layout with frames of twice the digits ([`super::layout_about`]).
+    /// The frame of the first half-edge of a triangle's final face, for a layout that was computed in double-double precision
+    /// ([`super::LayoutOpening::MetricEdges`]).
     pub(super) fn frame(&self, f: FaceId) -> Result<Motion<DoubleDouble>> {
         let frame = self.frames.get(*self.patch.get(f.index()).unwrap_or(&u32::MAX) as usize);
-        frame.copied().ok_or_else(|| Error::Layout(format!("face {f} has no frame of twice the digits")))
+        frame
+            .copied()
+            .ok_or_else(|| Error::Layout(format!("face {f} has no frame in double-double precision")))
     }
 }
 
-/// [`Layout::shape`] in H² and S² of a triangle with these corners, which are `home` where it has been moved to the origin.
-pub(super) fn shape_of(corners: [[f64; 3]; 3], home: [[f64; 3]; 3]) -> (Shape, f64) {
-    let far = corners.map(|[x, y, _]| x.hypot(y)).into_iter().fold(1.0, f64::max);
-    (Shape::of(home.map(klein)), far)
-}
-
-/// Length, in diameters of the layout, below which the translation of a seam counts as none: the seam then leads to a vertex and back. It
-/// is far above the rounding of coordinates and far below an edge.
+/// Largest translation of a seam, in diameters of the layout, that counts as none: such a seam leads to a vertex and back. The bound is far
+/// above the rounding of coordinates and far below the length of an edge.
 const LEAST_PERIOD: f64 = 1e-9;
-/// Rotation in radians above which a side pairing shows that the surface has cones. It is far above the tolerance of a flow to curvature 0
-/// and far below the curvature of a cone that somebody asked for.
-const TURNS: f64 = 1e-6;
+/// Largest rotation of a side pairing, in radians, on a surface without cones. The bound is far above the tolerance of a flow to curvature
+/// 0 and far below the curvature of a cone that a caller asks for.
+const MOST_ROTATION: f64 = 1e-6;
 
 fn faces_where(mesh: &Mesh, is_so: impl Fn(FaceId) -> bool + Sync) -> Vec<FaceId> {
     let mut found = vec![false; mesh.n_faces()];
@@ -377,7 +375,7 @@ fn is_left_turn([a, b, c]: [[f64; 2]; 3]) -> bool {
     orientation(a, b, c) == Ordering::Greater
 }
 
-/// Distance of a point in ambient coordinates from the origin.
+/// The distance of a point in ambient coordinates from the origin.
 pub fn distance_from_origin(space: Space, [x, y, w]: [f64; 3]) -> f64 {
     let r = x.hypot(y);
     match space {
@@ -390,7 +388,7 @@ pub fn distance_from_origin(space: Space, [x, y, w]: [f64; 3]) -> f64 {
 /// The largest distance of points in ambient coordinates from the origin.
 pub(super) fn radius(space: Space, points: &[[f64; 3]]) -> f64 {
     let far = points.iter().map(|&p| match space {
-        // It grows with the distance in the plane of x and y.
+        // This grows with the distance, which is found from it at the end.
         Space::E2 | Space::H2 => quick_norm([p[0], p[1]]),
         Space::S2 => distance_from_origin(space, p),
     });
@@ -398,7 +396,7 @@ pub(super) fn radius(space: Space, points: &[[f64; 3]]) -> f64 {
     if space == Space::H2 { far.asinh() } else { far }
 }
 
-/// Distance of two points in ambient coordinates, near the origin in H².
+/// The distance of two points in ambient coordinates; in H² both have to be near the origin.
 pub fn distance(space: Space, p: [f64; 3], q: [f64; 3]) -> f64 {
     match space {
         Space::E2 => (p[0] - q[0]).hypot(p[1] - q[1]),
@@ -410,11 +408,12 @@ pub fn distance(space: Space, p: [f64; 3], q: [f64; 3]) -> f64 {
     }
 }
 
+/// The plane coordinates of a point in ambient coordinates ([`Layout::coordinates`]).
 pub(super) fn flat(space: Space, p: [f64; 3]) -> [f64; 2] {
     if space == Space::E2 { [p[0], p[1]] } else { poincare(p) }
 }
 
-/// Diagonal of the points' bounding box.
+/// The diagonal of the points' bounding box.
 pub fn bounding_diagonal(points: &[[f64; 2]]) -> f64 {
     let extent = |k: usize| {
         let range = points

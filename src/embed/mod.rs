@@ -1,49 +1,45 @@
 //! Layouts of metrics: a surface that is opened along a cut and developed into the space of its metric, the isometries between the two
 //! sides of each seam, how much the map distorts, and charts that do not overlap.
 
-pub(crate) mod apart;
-pub mod border;
+mod bisector_polygon;
+pub mod boundary_lift;
 mod chart_growth;
 pub mod charts;
 pub mod circles;
 pub mod cover;
+mod cover_walk;
 pub mod deck;
 mod develop;
 pub mod dirichlet;
 mod domain;
+mod edge_lengths;
 mod element;
+mod face_transitions;
 mod faces;
 mod frame;
 pub mod layout;
-mod line;
+mod layout_options;
 mod moving;
-pub mod overlap;
-pub mod pack;
+mod of_planar_domain;
+mod of_solution;
 mod pieces;
-pub mod place;
-pub(crate) mod planar;
-mod polygon;
 pub mod quality;
-pub mod shape;
+mod separate_faces;
 pub mod sides;
-pub mod steps;
-pub(crate) mod triangle;
-pub mod unroll;
-mod walk;
+pub(crate) mod unfold;
 
-pub use border::Border;
+pub use boundary_lift::BoundaryLift;
 pub use charts::{ChartOptions, Charts, charts};
 pub use circles::{CirclePattern, VertexCircle};
 pub use deck::DeckGroup;
 pub use dirichlet::dirichlet_domain;
 pub use domain::DirichletDomain;
 pub use element::DeckElement;
+pub use face_transitions::FaceTransitions;
 pub use layout::{Layout, OnInput, Seam};
-pub use place::{layout, layout_of};
+pub use layout_options::{CONE_TOLERANCE, LayoutOptions, LayoutScale, LayoutOpening, cones_of};
+pub(crate) use of_planar_domain::PlanarPlaces;
+pub(crate) use of_solution::BasedLayout;
 pub use quality::Quality;
+pub(crate) use separate_faces::SeparateFaces;
 pub use sides::{BoundaryLoop, BoundarySide, boundary_sides};
-pub use steps::{Steps, steps};
-pub use unroll::{
-    About, Scale, Source, UnrollOptions, cones_of, layout_about, refinement_of, unroll, unroll_by,
-    unroll_source,
-};

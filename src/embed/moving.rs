@@ -1,4 +1,4 @@
-//! Layouts that are scaled and moved, and their points with twice the digits.
+//! Scaling and moving of layouts, and the points of a layout in double-double precision.
 
 use super::layout::{Layout, bounding_diagonal, flat, radius};
 use crate::error::{Error, Result};
@@ -6,7 +6,7 @@ use crate::geometry::motion::precise_point;
 use crate::geometry::{DoubleDouble, Motion, Space};
 
 impl Layout {
-    /// [`Layout::points`] number k with twice the digits, as far as the layout has them: in H² rounding to doubles moves a point by
+    /// [`Layout::points`] number k in double-double precision, as far as the layout knows it: in H² rounding to f64 moves a point by
     /// e^distance ulp.
     pub(crate) fn precise_point(&self, k: usize) -> [DoubleDouble; 3] {
         let [x, y] = self.remainders.get(k).copied().unwrap_or([0.0; 2]);
@@ -19,7 +19,7 @@ impl Layout {
         [x, y, if self.space == Space::H2 { (one + x * x + y * y).sqrt() } else { one }]
     }
 
-    /// Scales a layout in E² so that its area is `area` (finite, positive); returns the factor on lengths.
+    /// Scales a layout in E² so that its area is `area` (finite, positive); the result is the factor on lengths.
     ///
     /// # Errors
     /// [`Error::Argument`] for an area that is not finite and positive; [`Error::Layout`] in another space, whose curvature fixes the
@@ -86,7 +86,7 @@ impl Layout {
         self.area *= factor * factor;
     }
 
-    /// What the points miss of these ones.
+    /// Sets the low parts of the points in double-double precision.
     fn set_remainders(&mut self, precise: &[[DoubleDouble; 3]]) {
         let rest = |(p, q): (&[DoubleDouble; 3], &[f64; 3])| [0, 1].map(|k| p[k].plus(-q[k]).high);
         self.remainders = precise.iter().zip(&self.points).map(rest).collect();

@@ -1,4 +1,4 @@
-//! What is laid out: a triangulation each of whose triangles lies in one triangle of the metric's.
+//! The triangles that are laid out: the metric's triangulation, or a refinement of it.
 
 use crate::error::{Error, Result};
 use crate::mesh::{EdgeId, FaceId, HalfedgeId, Mesh, PerEdge, VertexId};
@@ -9,25 +9,25 @@ use std::sync::Arc;
 
 /// The triangles that are laid out, the *pieces*, each in a *final face*: one of the triangulation that the metric lives on.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Pieces {
+pub(super) enum LayoutPieces {
     /// The final faces themselves.
     Mesh(Arc<Mesh>),
     /// The triangles of a common refinement.
     Refinement(Arc<Refinement>),
 }
 
-impl Pieces {
+impl LayoutPieces {
     pub fn mesh(&self) -> &Mesh {
         match self {
-            Pieces::Mesh(mesh) => mesh,
-            Pieces::Refinement(r) => &r.mesh,
+            LayoutPieces::Mesh(mesh) => mesh,
+            LayoutPieces::Refinement(r) => &r.mesh,
         }
     }
 
     pub fn refinement(&self) -> Option<&Arc<Refinement>> {
         match self {
-            Pieces::Mesh(_) => None,
-            Pieces::Refinement(r) => Some(r),
+            LayoutPieces::Mesh(_) => None,
+            LayoutPieces::Refinement(r) => Some(r),
         }
     }
 
@@ -40,17 +40,17 @@ impl Pieces {
         self.refinement().map_or(f, |r| r.final_face[f])
     }
 
-    /// The half-edge of a final face that a half-edge of a piece runs along, if it does.
+    /// The half-edge of a final face along which a half-edge of a piece runs; `None` if it runs through the inside of the face.
     pub fn final_halfedge(&self, h: HalfedgeId) -> Option<HalfedgeId> {
         self.refinement().map_or(Some(h), |r| r.final_halfedge(h))
     }
 
-    /// The edge of the input that an edge of the pieces is a part of, if it is.
+    /// The edge of the input that contains an edge of the pieces; `None` if that runs through the inside of a face.
     pub fn input_edge(&self, e: EdgeId) -> Option<EdgeId> {
         self.refinement().map_or(Some(e), |r| r.origin[e].input)
     }
 
-    /// The half-edge of a face of the input that a half-edge of a piece runs along, if it does.
+    /// The half-edge of a face of the input along which a half-edge of a piece runs; `None` if it runs through the inside of the face.
     pub fn input_halfedge(&self, input: &Mesh, h: HalfedgeId) -> Option<HalfedgeId> {
         let Some(r) = self.refinement() else { return Some(h) };
         let (e, f) = (r.origin[h.edge()].input?, r.mesh.face(h)?);
@@ -61,38 +61,40 @@ impl Pieces {
         Some(input.face_halfedges(r.input_face[f])[corner]).filter(|g| g.edge() == e)
     }
 
-    /// Weights of a piece's corners in its face of the input.
+    /// The barycentric weights of a piece's corners in its face of the input.
     pub fn input_barycentric(&self, f: FaceId) -> [[f64; 3]; 3] {
         self.refinement().map_or(CORNERS, |r| r.input_barycentric(f))
     }
 
-    /// Weights of a piece's corners in its final face.
+    /// The barycentric weights of a piece's corners in its final face.
     pub fn final_barycentric(&self, f: FaceId) -> [[f64; 3]; 3] {
         self.refinement().map_or(CORNERS, |r| r.final_barycentric(f))
     }
 
-    /// Where in its face of the input a corner of a piece lies, at the origin of this half-edge.
+    /// The place, in its face of the input, of the corner of a piece at the origin of this half-edge.
     pub fn input_place(&self, corner: (FaceId, usize), h: HalfedgeId) -> Place {
         self.refinement().map_or(Place::Corner(corner.1), |r| r.input_place(corner, h))
     }
 
-    /// Where in its final face a corner of a piece lies, at the origin of this half-edge.
+    /// The place, in its final face, of the corner of a piece at the origin of this half-edge.
     pub fn final_place(&self, corner: (FaceId, usize), h: HalfedgeId) -> Place {
         self.refinement().map_or(Place::Corner(corner.1), |r| r.final_place(corner, h))
     }
 
-    /// A cut of the input on the pieces: the same segments, edge by edge.
+    /// A cut of the input as a cut of the pieces, with the same segments.
     pub fn cut_of_input(&self, input: &Mesh, cut: &CutGraph) -> Result<CutGraph> {
         let marked = |r: &Refinement, e: EdgeId| r.origin[e].input.is_some_and(|e| cut.is_cut[e]);
         self.cut_on_pieces(input, cut, marked, |h| self.input_halfedge(input, h))
     }
 
-    /// A cut of the final triangulation on the pieces: the same segments, edge by edge.
+    /// A cut of the final triangulation as a cut of the pieces, with the same segments.
     pub fn cut_of_final(&self, mesh: &Mesh, cut: &CutGraph) -> Result<CutGraph> {
         let marked = |r: &Refinement, e: EdgeId| r.origin[e].result.is_some_and(|e| cut.is_cut[e]);
         self.cut_on_pieces(mesh, cut, marked, |h| self.final_halfedge(h))
     }
 
+    /// A cut of a triangulation as a cut of the refinement. `marked`: true if an edge of the refinement lies on the cut; `whole`: the
+    /// half-edge of the triangulation along which one of the refinement runs.
     fn cut_on_pieces(
         &self,
         coarse: &Mesh,

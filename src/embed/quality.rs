@@ -1,26 +1,28 @@
 //! Distortion of a layout: quasi-conformal dilatation and area.
 //!
 //! ```
-//! use ricci::embed::layout;
+//! use ricci::embed::Layout;
 //! use ricci::{Control, Surface, mesh::shapes, topology::cut_graph};
 //! # fn main() -> ricci::Result<()> {
 //! let disk = Surface::from_soup(&shapes::disk(4)?)?;
 //! let cut = cut_graph(disk.mesh(), disk.lengths(), &[], &Control::new())?;
-//! let isometric = layout(disk.mesh(), disk.lengths(), &cut, &Control::new())?;
+//! let isometric = Layout::of_lengths(disk.mesh(), disk.lengths(), &cut, &Control::new())?;
 //! let quality = isometric.quality(disk.mesh(), disk.lengths())?;
 //! assert!(quality.qc_max < 1.0 + 1e-12 && quality.degenerate.is_empty());
 //! # Ok(())
 //! # }
 //! ```
 
-use super::layout::{Layout, distance, shape_of};
-use super::overlap::Triangle;
+use super::layout::{Layout, distance};
 use super::pieces::CORNERS;
-use super::shape::{LEAST_SHARE, Shape, Standing, extent, is_surely_upright};
-use super::triangle::Triangle as PlaneTriangle;
 use crate::error::{Error, Result, check_size};
 use crate::geometry::complex::{Complex, conj, cross, doubled_area, mul, norm2, quick_norm, sub};
+use crate::geometry::plane_triangle::PlaneTriangle;
 use crate::geometry::triangle::area;
+use crate::geometry::triangle_flatness::{
+    LEAST_RELATIVE_AREA, TriangleFlatness, TriangleOrientation, is_surely_upright, largest_coordinate,
+};
+use crate::geometry::triangle_overlap::TriangleCorners;
 use crate::geometry::{Space, vector};
 use crate::mesh::{FaceId, Mesh, PerEdge, PerFace, Point};
 use crate::metric::Refinement;
@@ -28,49 +30,47 @@ use crate::parallel;
 use crate::topology::check_lengths;
 use std::ops::RangeInclusive;
 
-/// The dilatation of a face whose image or original has no area. It is 1/ε, since doubles resolve no larger one.
+/// The dilatation of a face that has no area in the input or in the layout. It is 1/ε, since f64s resolve no larger dilatation.
 pub const DILATATION_CAP: f64 = 1.0 / f64::EPSILON;
 
-/// Length of the longest edge of a piece on the unit sphere below which its shape is not measured: coordinates are rounded by 1e-16, which
-/// leaves the shape of a larger piece right to 1e-9.
+/// Least length of the longest edge of a piece on the unit sphere whose shape is measured: coordinates are rounded by 1e-16, which leaves
+/// the shape of a larger piece right to 1e-9.
 const LEAST_EDGE_ON_SPHERE: f64 = 1e-7;
 
-/// How the linear maps from the input triangles to the layout's triangles distort. Every number is finite.
+/// The distortion of the linear maps from the input's triangles to the layout's triangles. Every number is finite.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Quality {
-    /// Quasi-conformal dilatation K ≥ 1 per face: largest over smallest singular value; [`DILATATION_CAP`] at
-    /// most.
+    /// Per face, the quasi-conformal dilatation K ≥ 1, the largest over the smallest singular value; at most [`DILATATION_CAP`].
     pub qc: PerFace<f64>,
-    /// Area in the layout over area in the input, both relative to their totals; 1 for a degenerate input
-    /// face.
+    /// Per face, the area in the layout over the area in the input, both relative to their totals; 1 for a degenerate input face.
     pub area_ratio: PerFace<f64>,
-    /// Mean of `qc`, weighed with the input areas.
+    /// The mean of `qc`, weighed with the input areas.
     pub qc_mean: f64,
-    /// Largest `qc`.
+    /// The largest `qc`.
     pub qc_max: f64,
-    /// Smallest `area_ratio`.
+    /// The smallest `area_ratio`.
     pub area_ratio_min: f64,
-    /// Largest `area_ratio`.
+    /// The largest `area_ratio`.
     pub area_ratio_max: f64,
-    /// Faces with no area in the input or in the layout (or a dilatation that reaches the cap): their `qc` is
-    /// [`DILATATION_CAP`], and the mean and extremes leave them out.
+    /// The faces that have no area in the input or in the layout, or whose dilatation reaches the cap: their `qc` is [`DILATATION_CAP`],
+    /// and the mean and the extremes leave them out.
     pub degenerate: Vec<FaceId>,
 }
 
 impl Layout {
-    /// How the linear maps from the input's triangles, or their pieces, to those of the layout's plane coordinates distort; areas are those
-    /// of the space. `input`: the triangulation of the surface as it came (of a double: that or the surface's own) with the `lengths` of
-    /// its edges in E².
+    /// The distortion of the linear maps from the input's triangles, or their pieces, to those of the layout's plane coordinates; areas are
+    /// those of the space. `input`: the triangulation of the surface as it came (of a double: that or the surface's own); `lengths`: of its
+    /// edges in E².
     ///
-    /// A flipped face counts with the dilatation of its mirror image. Triangles that are degenerate on either side are named, and
-    /// left out of the mean and the extremes.
+    /// A flipped face counts with the dilatation of its mirror image.
     ///
     /// # Errors
     /// [`Error::Size`], [`Error::EdgeLength`], [`Error::TriangleInequality`] of the input lengths.
     pub fn quality(&self, input: &Mesh, lengths: &PerEdge<f64>) -> Result<Quality> {
-        let place = (|f| self.pieces.input_face(f), |f| self.pieces.input_barycentric(f));
+        let face = |f| self.pieces.input_face(f);
+        let weights = |f| self.pieces.input_barycentric(f);
         let over = 1.0 / self.diameter;
-        Given::new(input, lengths)?.quality(self.mesh(), place, |f, from| {
+        InputTriangles::new(input, lengths)?.quality(self.mesh(), face, weights, |f, from| {
             let to = self.face_uv(f).map(|p| p.map(|x| x * over));
             let corners = self.face_points(f);
             let can_compare = self.can_compare(from, to, corners);
@@ -78,46 +78,52 @@ impl Layout {
         })
     }
 
-    /// [`Layout::quality`] of the map that is linear on the faces of the surface as it came ([`Layout::on_input`]); `None` where the cut
-    /// does not run along its edges. `lengths`: of its edges in E².
+    /// [`Layout::quality`] of the map that is linear on the faces of the surface as it came ([`Layout::on_input`]); `None` if the cut does
+    /// not run along their edges. `lengths`: of these edges in E².
     ///
     /// # Errors
     /// [`Error::Size`], [`Error::EdgeLength`], [`Error::TriangleInequality`] of the lengths.
     pub fn quality_on_input(&self, lengths: &PerEdge<f64>) -> Result<Option<Quality>> {
         let (Some((input, _)), Some(on_input)) = (&self.input, self.on_input()) else { return Ok(None) };
-        let place = (|f| f, |_| CORNERS);
         let over = 1.0 / self.diameter;
-        let quality = Given::new(input, lengths)?.quality(input, place, |f, from| {
-            let face = input.face_halfedges(f);
-            let points = face.map(|h| on_input.points[on_input.corner_index[h] as usize] as usize);
-            let to = points.map(|k| self.coordinates[k].map(|x| x * over));
-            (dilatation(from, to), self.area_of(to, points.map(|k| self.points[k])))
-        });
+        let quality = InputTriangles::new(input, lengths)?.quality(
+            input,
+            |f| f,
+            |_| CORNERS,
+            |f, from| {
+                let face = input.face_halfedges(f);
+                let points = face.map(|h| on_input.points[on_input.corner_index[h] as usize] as usize);
+                let to = points.map(|k| self.coordinates[k].map(|x| x * over));
+                (dilatation(from, to), self.area_of(to, points.map(|k| self.points[k])))
+            },
+        );
         quality.map(Some)
     }
 
-    /// Whether a piece and its image have a shape to compare. The triangles of a mesh always have, as far as doubles go: they come from
-    /// their lengths; the corners of a refinement's pieces are rounded. `to`: the image in E², divided by the diameter; `corners`: in
-    /// ambient coordinates.
-    fn can_compare(&self, from: Triangle, to: Triangle, corners: [Point; 3]) -> bool {
+    /// True if a piece and its image both have a shape that can be compared. The triangles of a mesh always have one, since they come from
+    /// their lengths, but the corners of a refinement's pieces are rounded. `to`: the image in E², divided by the diameter; `corners`: the
+    /// image in ambient coordinates.
+    fn can_compare(&self, from: TriangleCorners, to: TriangleCorners, corners: [Point; 3]) -> bool {
         let is_sound = || match self.space {
-            Space::E2 => !Shape::of(to).is_degenerate(extent(&to).max(1.0)),
+            Space::E2 => !TriangleFlatness::of(to).is_degenerate(largest_coordinate(&to).max(1.0)),
             Space::H2 if is_surely_upright(corners) => true,
             _ => {
-                let (shape, far) = shape_of(corners, self.brought_home(corners));
-                Standing::of(&shape, far) == Standing::Upright
+                let (flatness, extent) =
+                    TriangleFlatness::in_curved_space(corners, self.moved_to_origin(corners));
+                flatness.orientation(extent) == TriangleOrientation::Upright
             }
         };
-        self.refinement().is_none() || (Shape::of(from).share > LEAST_SHARE && is_sound())
+        self.refinement().is_none()
+            || (TriangleFlatness::of(from).relative_area > LEAST_RELATIVE_AREA && is_sound())
     }
 
-    /// The area of a triangle: in E² of its coordinates, divided by the diameter; elsewhere of its corners in ambient coordinates.
-    fn area_of(&self, to: Triangle, corners: [Point; 3]) -> f64 {
+    /// The area of a triangle: in E² from `to`, its coordinates divided by the diameter; elsewhere from its corners in ambient coordinates.
+    fn area_of(&self, to: TriangleCorners, corners: [Point; 3]) -> f64 {
         match self.space {
             Space::E2 => 0.5 * doubled_area(to).abs(),
             Space::H2 if corners.iter().all(|p| p[2] < NEAR) => area_near(corners),
             space => {
-                let p = self.brought_home(corners);
+                let p = self.moved_to_origin(corners);
                 area(space, [[1, 2], [2, 0], [0, 1]].map(|[i, j]| distance(space, p[i], p[j])))
             }
         }
@@ -125,11 +131,11 @@ impl Layout {
 }
 
 impl Quality {
-    /// How the linear maps from the pieces of a refinement of the `input`, with the `lengths` of its edges in E², to triangles in space
-    /// with corners on the unit sphere distort. `corners`: those of a piece, in its corner order.
+    /// The distortion of the linear maps from the pieces of a refinement to triangles in space with corners on the unit sphere. `input`:
+    /// the triangulation that is refined; `lengths`: of its edges in E²; `corners`: those of a piece's image, in its corner order.
     ///
-    /// Degenerate pieces are those within [`LEAST_SHARE`] of no area on either side, and those whose image is so small that rounding of
-    /// positions shows in its shape.
+    /// Degenerate pieces are those whose relative area is at most [`LEAST_RELATIVE_AREA`] on either side, and those whose image is so small
+    /// that rounding of positions shows in its shape.
     ///
     /// # Errors
     /// [`Error::Size`], [`Error::EdgeLength`], [`Error::TriangleInequality`] of the input lengths.
@@ -139,25 +145,26 @@ impl Quality {
         lengths: &PerEdge<f64>,
         corners: impl Fn(FaceId) -> [Point; 3] + Sync,
     ) -> Result<Quality> {
-        let place = (|f| refinement.input_face[f], |f| refinement.input_barycentric(f));
-        Given::new(input, lengths)?.quality(&refinement.mesh, place, |f, from| {
+        let (face, weights) = (|f| refinement.input_face[f], |f| refinement.input_barycentric(f));
+        InputTriangles::new(input, lengths)?.quality(&refinement.mesh, face, weights, |f, from| {
             let [a, b, c] = corners(f);
             let sides = [[b, c], [c, a], [a, b]].map(|[p, q]| vector::distance(p, q));
             let (to, _) = in_plane(sides, CORNERS);
-            let (before, after) = (Shape::of(from), Shape::of(to));
-            let is_sound =
-                before.share.min(after.share) > LEAST_SHARE && after.longest >= LEAST_EDGE_ON_SPHERE;
+            let (before, after) = (TriangleFlatness::of(from), TriangleFlatness::of(to));
+            let is_sound = before.relative_area.min(after.relative_area) > LEAST_RELATIVE_AREA
+                && after.longest >= LEAST_EDGE_ON_SPHERE;
             let dilatation = if is_sound { dilatation(from, to) } else { DILATATION_CAP };
             (dilatation, 0.5 * doubled_area(to).abs())
         })
     }
 }
 
-/// cosh of the distance from the origin up to which areas in H² are formed where triangles lie: products of three coordinates then lose at
-/// most 4 digits to those of the triangle's sides.
+/// Largest cosh of the distance from the origin at which the area of a triangle in H² is computed without a move to the origin: products of
+/// three coordinates then lose at most 4 digits against those of the triangle's sides.
 const NEAR: f64 = 16.0;
 
-/// The area of a triangle in H² by its corners p, q, r on the hyperboloid: `tan(area/2) = |det(p, q, r)| / (1 − ⟨p, q⟩ − ⟨q, r⟩ − ⟨r, p⟩)`.
+/// The area of a triangle in H² from its corners p, q, r on the hyperboloid: `tan(area/2) = |det(p, q, r)| / (1 − ⟨p, q⟩ − ⟨q, r⟩ − ⟨r,
+/// p⟩)`.
 fn area_near([p, q, r]: [Point; 3]) -> f64 {
     let (a, b) = (vector::sub(q, p), vector::sub(r, p));
     let form = |p: Point, q: Point| p[2] * q[2] - p[0] * q[0] - p[1] * q[1];
@@ -165,18 +172,18 @@ fn area_near([p, q, r]: [Point; 3]) -> f64 {
     2.0 * det.atan2(1.0 + form(p, q) + form(q, r) + form(r, p))
 }
 
-/// The surface as it came: triangles by their lengths.
-struct Given<'a> {
+/// The triangles of the surface as it came, with the lengths of their edges.
+struct InputTriangles<'a> {
     mesh: &'a Mesh,
     lengths: &'a PerEdge<f64>,
-    /// The longest edge: in units of it no area over- or underflows that matters.
+    /// The longest edge, the unit of all lengths, so that areas neither over- nor underflow.
     unit: f64,
 }
 
-impl<'a> Given<'a> {
+impl<'a> InputTriangles<'a> {
     fn new(mesh: &'a Mesh, lengths: &'a PerEdge<f64>) -> Result<Self> {
         check_lengths(mesh, lengths)?;
-        Ok(Given { mesh, lengths, unit: lengths.iter().copied().fold(0.0, f64::max) })
+        Ok(InputTriangles { mesh, lengths, unit: lengths.iter().copied().fold(0.0, f64::max) })
     }
 
     /// The sides of a face, in units of the longest edge.
@@ -184,21 +191,21 @@ impl<'a> Given<'a> {
         self.mesh.opposite_edges(f).map(|e| self.lengths[e] / self.unit)
     }
 
-    /// The quality of a map of pieces. `source`: the face of a piece, and `weights`: those of the piece's corners in it. `image`: the
-    /// dilatation of a piece that lies so in the plane, and the area of its image.
+    /// The quality of a map of pieces. `face`: the input face of a piece; `weights`: the barycentric weights of the piece's corners in it;
+    /// `image`: the dilatation of a piece with these corners in the plane, and the area of its image.
     fn quality(
         &self,
         pieces: &Mesh,
-        (source, weights): (impl Fn(FaceId) -> FaceId + Sync, impl Fn(FaceId) -> [[f64; 3]; 3] + Sync),
-        image: impl Fn(FaceId, Triangle) -> (f64, f64) + Sync,
+        face: impl Fn(FaceId) -> FaceId + Sync,
+        weights: impl Fn(FaceId) -> [[f64; 3]; 3] + Sync,
+        image: impl Fn(FaceId, TriangleCorners) -> (f64, f64) + Sync,
     ) -> Result<Quality> {
-        let need = pieces.faces().map(|f| source(f).index() + 1).fold(0, usize::max);
+        let need = pieces.faces().map(|f| face(f).index() + 1).fold(0, usize::max);
         check_size("input faces", self.mesh.n_faces().min(need), need)?;
         let (mut qc, mut areas) = (vec![DILATATION_CAP; pieces.n_faces()], vec![[0.0; 2]; pieces.n_faces()]);
-        // No dilatation is negative: where one is, it says by how much the triangle inequality is broken.
+        // A negative dilatation stands for the excess by which the triangle inequality is broken.
         parallel::fill_both(&mut qc, &mut areas, |f| {
-            let (face, weights) = (source(f.into()), weights(f.into()));
-            let (from, excess) = in_plane(self.sides(face), weights);
+            let (from, excess) = in_plane(self.sides(face(f.into())), weights(f.into()));
             if excess > 0.0 {
                 return (-excess, [0.0; 2]);
             }
@@ -206,27 +213,27 @@ impl<'a> Given<'a> {
             (dilatation, [0.5 * doubled_area(from).abs(), area])
         });
         if let Some(f) = qc.iter().position(|&qc| qc < 0.0) {
-            return Err(Error::TriangleInequality { face: source(f.into()).index(), excess: -qc[f] });
+            return Err(Error::TriangleInequality { face: face(f.into()).index(), excess: -qc[f] });
         }
         Ok(summary(qc.into(), &areas.into()))
     }
 }
 
-/// Points of a triangle in the plane, by the weights of its corners. The corner opposite the longest side lies at the origin: the edges of
-/// a needle are far from parallel there. Also by how much the longest side exceeds the others ([`PlaneTriangle::excess`]).
-fn in_plane(sides: [f64; 3], weights: [[f64; 3]; 3]) -> (Triangle, f64) {
+/// Points of a plane triangle with these sides, from the barycentric weights of the points, and [`PlaneTriangle::excess`]. The corner
+/// opposite the longest side lies at the origin, since there the edges of a needle are far from parallel.
+fn in_plane(sides: [f64; 3], weights: [[f64; 3]; 3]) -> (TriangleCorners, f64) {
     let k = longest_side(sides);
     let (i, j) = ((k + 1) % 3, (k + 2) % 3);
     let (direction, excess) = PlaneTriangle::direction_at(sides, k);
-    let way = direction.map(|x| sides[i] * x);
-    (weights.map(|w| [w[i] * sides[j] + w[j] * way[0], w[j] * way[1]]), excess)
+    let side = direction.map(|x| sides[i] * x);
+    (weights.map(|w| [w[i] * sides[j] + w[j] * side[0], w[j] * side[1]]), excess)
 }
 
 fn longest_side(sides: [f64; 3]) -> usize {
     (0..3).fold(0, |k, i| if sides[i] > sides[k] { i } else { k })
 }
 
-/// The statistics of dilatations and of areas `[input, layout]` per face.
+/// The quality with these dilatations and areas `[input, layout]` per face.
 fn summary(qc: PerFace<f64>, areas: &PerFace<[f64; 2]>) -> Quality {
     let total = areas.iter().fold([0.0; 2], |t, a| [t[0] + a[0], t[1] + a[1]]);
     let scale = total[0] / total[1];
@@ -259,21 +266,20 @@ fn summary(qc: PerFace<f64>, areas: &PerFace<[f64; 2]>) -> Quality {
     }
 }
 
-/// Dilatation of the linear map of triangles.
+/// The dilatation of the linear map between two triangles.
 ///
-/// With edge vectors P, P′ from one corner and their images Q, Q′ as complex numbers, the map is `z ↦ αz +
-/// βz̄` where `α ∝ Q P̄′ − Q′ P̄` and `β ∝ Q P′ − Q′ P`, and `K = (|α| + |β|) / ||α| − |β|| = (|α| + |β|)² /
-/// (16 A A′)`: the areas are formed directly, so nothing cancels where K is large. The corner is the one
-/// opposite the longest side, where a needle's edge vectors are far from parallel.
-fn dilatation(from: Triangle, to: Triangle) -> f64 {
+/// With edge vectors P, P′ from one corner and their images Q, Q′ as complex numbers, the map is `z ↦ αz + βz̄` with `α ∝ Q P̄′ − Q′ P̄`
+/// and `β ∝ Q P′ − Q′ P`, and `K = (|α| + |β|) / ||α| − |β|| = (|α| + |β|)² / (16 A A′)`: the areas are computed directly, so nothing
+/// cancels when K is large. The corner is the one opposite the longest side, where a needle's edge vectors are far from parallel.
+fn dilatation(from: TriangleCorners, to: TriangleCorners) -> f64 {
     let k = longest_side([[1, 2], [2, 0], [0, 1]].map(|[i, j]| norm2(sub(from[i], from[j]))));
     let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-    let vectors = |t: Triangle| [sub(t[i], t[k]), sub(t[j], t[k])];
+    let vectors = |t: TriangleCorners| [sub(t[i], t[k]), sub(t[j], t[k])];
     let ([p, q], [p_image, q_image]) = (vectors(from), vectors(to));
     let found = if [p, q, p_image, q_image].iter().all(|&z| USUAL_SQUARES.contains(&norm2(z))) {
         dilatation_of_sides([p, q], [p_image, q_image])
     } else {
-        // Scaled by their lengths: sides of very different lengths pass.
+        // Scaling by the lengths makes products of sides of very different lengths representable.
         let size = [p, q].map(quick_norm);
         let scaled = |sides: [Complex; 2]| [0, 1].map(|k| sides[k].map(|x| x / size[k]));
         dilatation_of_sides(scaled([p, q]), scaled([p_image, q_image]))
@@ -281,10 +287,10 @@ fn dilatation(from: Triangle, to: Triangle) -> f64 {
     if found.is_finite() { found.clamp(1.0, DILATATION_CAP) } else { DILATATION_CAP }
 }
 
-/// Squares of lengths of which no product of four lengths is beyond doubles.
+/// Range of squares of lengths in which no product of four lengths over- or underflows.
 const USUAL_SQUARES: RangeInclusive<f64> = 1e-60..=1e60;
 
-/// The dilatation of the linear map that takes two sides to their images, not a finite number where a triangle has no area.
+/// The dilatation of the linear map that takes two sides to their images; not finite if a triangle has no area.
 fn dilatation_of_sides([p, q]: [Complex; 2], [p_image, q_image]: [Complex; 2]) -> f64 {
     let alpha = sub(mul(p_image, conj(q)), mul(q_image, conj(p)));
     let beta = sub(mul(p_image, q), mul(q_image, p));

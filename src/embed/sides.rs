@@ -1,7 +1,7 @@
-//! The straight sides of a surface's boundary, as a layout has them.
+//! The straight sides of a surface's boundary: their lengths, and how straight they are.
 
+use super::cover_walk::CoverWalks;
 use super::layout::{Layout, distance_from_origin};
-use super::walk::Walks;
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::flow::Solution;
@@ -13,9 +13,9 @@ use crate::topology::HomotopyBasis;
 /// A boundary loop of the surface as it came.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BoundaryLoop {
-    /// The number of its generator c_j among those of the group, counted from 0.
+    /// The number of its generator c_j among the generators of the group, counted from 0.
     pub generator: usize,
-    /// Where its first side starts: a half-edge of [`Layout::mesh`], of a face.
+    /// The half-edge of [`Layout::mesh`], of a face, with which its first side starts.
     pub start: HalfedgeId,
     /// Its straight sides, one after the other, the surface on their left; a loop without corners has one, all around.
     pub sides: Vec<BoundarySide>,
@@ -24,17 +24,17 @@ pub struct BoundaryLoop {
 /// A straight side of the boundary.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BoundarySide {
-    /// The vertex of the given surface that it starts at: a corner, or the one of the lowest number on a loop without corners.
+    /// The vertex of the given surface at which it starts: a corner, or on a loop without corners the vertex of the lowest number.
     pub from: VertexId,
-    /// Distance of its ends in the universal cover, as the layout has lengths.
+    /// The distance of its ends in the universal cover, in the scale of the layout.
     pub length: f64,
-    /// Largest distance of a vertex of the boundary from the line through the ends of the side: in H² a length, in E² in units of the
+    /// The largest distance of a vertex of the boundary from the line through the ends of the side: in H² a length, in E² in units of the
     /// side's length.
     pub straightness: f64,
 }
 
 impl BoundaryLoop {
-    /// The length of its sides together.
+    /// The sum of the lengths of its sides.
     pub fn length(&self) -> f64 {
         self.sides.iter().map(|side| side.length).sum()
     }
@@ -43,7 +43,7 @@ impl BoundaryLoop {
 /// The boundary loops of a surface, in the order of [`crate::mesh::Mesh::boundary_loops`] on the surface as it came, with sides from corner
 /// to corner.
 ///
-/// `layout`, `basis`: of this metric ([`super::layout_about`]). `corners`: in the order in which loops are to start with them.
+/// `layout`, `basis`: of this metric ([`super::LayoutOpening::MetricEdges`]). `corners`: in the order in which loops are to start with them.
 ///
 /// # Errors
 /// [`Error::Layout`] for a layout or basis of another surface; [`Error::Cancelled`].
@@ -55,11 +55,11 @@ pub fn boundary_sides(
     control: &Control,
 ) -> Result<Vec<BoundaryLoop>> {
     let (given, mesh) = (metric.given(), layout.mesh());
-    let walks = Walks::new(metric, layout)?;
-    // The loops of what is laid out, each from the edge of its generator on.
-    let laid: Vec<Vec<HalfedgeId>> = basis.rims.iter().map(|&rim| mesh.boundary_from(rim)).collect();
+    let walks = CoverWalks::new(metric, layout)?;
+    // The boundary loops of the triangulation that is laid out, each from the edge of its generator on.
+    let rims: Vec<Vec<HalfedgeId>> = basis.rims.iter().map(|&rim| mesh.boundary_from(rim)).collect();
     let mut of_vertex = vec![None; mesh.n_vertices()];
-    for (generator, path) in laid.iter().enumerate() {
+    for (generator, path) in rims.iter().enumerate() {
         path.iter().for_each(|&h| of_vertex[mesh.origin(h).index()] = Some((generator, h)));
     }
     let torn = || Error::Layout("the boundary of the layout is not that of the surface".into());
@@ -76,7 +76,7 @@ pub fn boundary_sides(
         ends.push(path.len());
         let side = |k: &[usize]| {
             let from = mesh.origin(path[k[0]]);
-            straight(layout, from, &points[k[0]..=k[1]])
+            side_through(layout, from, &points[k[0]..=k[1]])
         };
         let generator = 2 * basis.group.genus + generator;
         Ok(BoundaryLoop { generator, start, sides: ends.windows(2).map(side).collect() })
@@ -84,10 +84,10 @@ pub fn boundary_sides(
     given.boundary_loops().into_iter().map(measured).collect()
 }
 
-/// The side through points, in the metric's own lengths.
-fn straight(layout: &Layout, from: VertexId, points: &[[DoubleDouble; 3]]) -> BoundarySide {
-    let home = Motion::to_origin(layout.space, points[0]);
-    let moved: Vec<[DoubleDouble; 3]> = points.iter().map(|&p| home.apply(p)).collect();
+/// The side from the vertex `from` through these points, which are in the metric's own lengths.
+fn side_through(layout: &Layout, from: VertexId, points: &[[DoubleDouble; 3]]) -> BoundarySide {
+    let to_origin = Motion::to_origin(layout.space, points[0]);
+    let moved: Vec<[DoubleDouble; 3]> = points.iter().map(|&p| to_origin.apply(p)).collect();
     let [x, y, w] = moved[moved.len() - 1];
     let along = [x, y];
     let length = distance_from_origin(layout.space, [x, y, w].map(f64::from));

@@ -15,7 +15,6 @@ mod active_set;
 mod cone_angles;
 pub mod cones;
 mod direction;
-mod early;
 mod evaluate;
 mod flatten;
 mod gradient;
@@ -51,7 +50,6 @@ use crate::geometry::DoubleDouble;
 use crate::mesh::{FixedEdges, FlipLog, PerVertex};
 use crate::metric::{Class, Surface, Target};
 use crate::parallel::Pool;
-use early::Early;
 use memory::Memory;
 use std::ops::Deref;
 use std::sync::Arc;
@@ -93,8 +91,6 @@ pub struct Flow {
     /// The present solve's target per vertex of the present triangulation.
     target: PerVertex<f64>,
     system: Option<System>,
-    /// What was analysed when the flow was made, for its first solve.
-    early: Option<Early>,
     /// Whether a factor in single precision has been precise enough in this solve.
     single_serves: bool,
     /// Flips since `system` was made.

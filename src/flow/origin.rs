@@ -2,12 +2,11 @@
 
 use crate::control::Control;
 use crate::error::Result;
-use crate::mesh::{Double, EdgeId, FaceId, FixedEdges, Flip, Mesh, NormalCoordinates, PerEdge, PerVertex};
+use crate::mesh::{Double, EdgeId, FaceId, FixedEdges, Flip, Mesh, NormalCoordinates, PerEdge};
 use crate::metric::delaunay::{Triangulated, boundary_fails};
 use crate::metric::refinement::{Final, Input, Intrinsic, Triangulations};
 use crate::metric::start::{initial_on, make_delaunay};
 use crate::metric::{Class, Initial, Metric, Refinement, StartOptions, Surface};
-use crate::parallel::join;
 use std::sync::Arc;
 
 /// Where flows on a surface start.
@@ -39,70 +38,6 @@ pub(super) struct Flipped {
     pub lengths: PerEdge<f64>,
     /// The given edges on it.
     pub given: NormalCoordinates,
-}
-
-/// A surface on the triangulation that flows with flips start from.
-pub(super) struct Delaunay {
-    surface: Surface,
-    class: Class,
-    double: Option<Double>,
-    triangulated: Triangulated,
-    radii: Option<PerVertex<f64>>,
-    /// The given edges on it, where isometric flips have made it.
-    normal: Option<NormalCoordinates>,
-    flips: usize,
-    /// Edges that are not flipped: given ones, and those of the double.
-    fixed: [FixedEdges; 2],
-}
-
-impl Delaunay {
-    /// The (weighted) Delaunay triangulation of the surface or, if it is `doubled`, of its double: [`delaunay_start`]. `fixed` edges are not
-    /// flipped.
-    ///
-    /// [`delaunay_start`]: crate::metric::delaunay_start
-    pub fn new(
-        surface: Surface,
-        class: Class,
-        doubled: bool,
-        fixed: &[EdgeId],
-        control: &Control,
-    ) -> Result<Delaunay> {
-        let given = surface.mesh();
-        let double = if doubled { Some(Double::new(given)?) } else { None };
-        let (mesh, lengths, all_fixed) = match &double {
-            Some(d) => (d.mesh.clone(), d.spread_edges(surface.lengths())?.into(), d.with_images(fixed)?),
-            None => (Mesh::clone(given), PerEdge::clone(surface.lengths()), fixed.to_vec()),
-        };
-        let all_fixed = FixedEdges::new(&mesh, &all_fixed)?;
-        // Made where there is a first flip, before which the triangulation is still the given one.
-        let (mut normal, mut flips) = (None, 0);
-        let mut record = |mesh: &Mesh, flip: Flip| {
-            normal.get_or_insert_with(|| NormalCoordinates::new(mesh)).record(mesh, flip.edge);
-            flips += 1;
-        };
-        let mut triangulated = Triangulated { mesh, lengths, geometry: surface.geometry() };
-        let options = StartOptions { class, double: double.as_ref(), fixed: &all_fixed };
-        let radii = make_delaunay(&mut triangulated, options, &mut record, control)?;
-        let fixed = [FixedEdges::new(given, fixed)?, all_fixed];
-        Ok(Delaunay { surface, class, double, triangulated, radii, normal, flips, fixed })
-    }
-
-    /// The initial metric there, and what else is made of the triangulation beside it.
-    pub fn origin_beside<T: Send>(
-        self,
-        beside: impl FnOnce(&Mesh, Option<&Double>) -> T + Send,
-    ) -> Result<(Origin, T)> {
-        let Delaunay { surface, class, double, triangulated, radii, normal, flips, fixed } = self;
-        let (initial, made) =
-            join(|| initial_on(&triangulated, class, radii), || beside(&triangulated.mesh, double.as_ref()));
-        let (initial, Triangulated { mesh, lengths, .. }, [fixed, all_fixed]) =
-            (initial?, triangulated, fixed);
-        let metric = &initial.metric;
-        let is_half = double.is_none() && !boundary_fails(&mesh, metric, &metric.u, &all_fixed);
-        let flipped = normal.map(|given| Flipped { mesh: Arc::new(mesh), lengths, given });
-        let class = Some(class);
-        Ok((Origin { surface, class, double, initial, flips, flipped, fixed, follows: true, is_half }, made))
-    }
 }
 
 impl Origin {
@@ -137,7 +72,8 @@ impl Origin {
         }
     }
 
-    /// The initial metric on the (weighted) Delaunay triangulation ([`Delaunay::new`]).
+    /// The initial metric on the (weighted) Delaunay triangulation of the surface or, if it is `doubled`, of its double
+    /// ([`crate::metric::delaunay_start`]). `fixed` edges are not flipped.
     pub fn delaunay(
         surface: Surface,
         class: Class,
@@ -145,9 +81,30 @@ impl Origin {
         fixed: &[EdgeId],
         control: &Control,
     ) -> Result<Origin> {
-        Delaunay::new(surface, class, doubled, fixed, control)?
-            .origin_beside(|_, _| ())
-            .map(|(origin, ())| origin)
+        let given = surface.mesh();
+        let double = if doubled { Some(Double::new(given)?) } else { None };
+        let (mesh, lengths, all_fixed) = match &double {
+            Some(d) => (d.mesh.clone(), d.spread_edges(surface.lengths())?.into(), d.with_images(fixed)?),
+            None => (Mesh::clone(given), PerEdge::clone(surface.lengths()), fixed.to_vec()),
+        };
+        let all_fixed = FixedEdges::new(&mesh, &all_fixed)?;
+        // The first flip makes the normal coordinates, on the triangulation before it, which is still the given one.
+        let (mut normal, mut flips) = (None, 0);
+        let mut record = |mesh: &Mesh, flip: Flip| {
+            normal.get_or_insert_with(|| NormalCoordinates::new(mesh)).record(mesh, flip.edge);
+            flips += 1;
+        };
+        let mut triangulated = Triangulated { mesh, lengths, geometry: surface.geometry() };
+        let options = StartOptions { class, double: double.as_ref(), fixed: &all_fixed };
+        let radii = make_delaunay(&mut triangulated, options, &mut record, control)?;
+        let fixed = FixedEdges::new(given, fixed)?;
+        let initial = initial_on(&triangulated, class, radii)?;
+        let Triangulated { mesh, lengths, .. } = triangulated;
+        let metric = &initial.metric;
+        let is_half = double.is_none() && !boundary_fails(&mesh, metric, &metric.u, &all_fixed);
+        let flipped = normal.map(|given| Flipped { mesh: Arc::new(mesh), lengths, given });
+        let class = Some(class);
+        Ok(Origin { surface, class, double, initial, flips, flipped, fixed, follows: true, is_half })
     }
 
     /// The triangulation at the start, and the edges that are followed from there through flips: the given ones, and those of the

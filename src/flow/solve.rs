@@ -2,7 +2,6 @@
 
 use super::Flow;
 use super::cones::with_cones_placed;
-use super::early::Early;
 use super::evaluate::State;
 use super::options::Method;
 use super::report::{Report, StopReason, WORST};
@@ -18,7 +17,6 @@ use crate::metric::curvature::gauss_bonnet;
 use crate::metric::delaunay::ClassFlips;
 use crate::metric::target::{check_total, check_upper, settle_total};
 use crate::metric::{Metric, Target};
-use crate::parallel::join;
 use std::sync::Arc;
 
 /// The end of a method.
@@ -162,7 +160,7 @@ impl Flow {
         let mirror = self.mirror.clone();
         let pool = self.pool.clone();
         let end = timed(&mut seconds, || pool.run(|| self.flow(&mut report, control)));
-        // Whether one that no step has needed is there depends on the number of threads, and the next solve must not.
+        // A system that no step has factorised is not kept for the next solve.
         self.system = self.system.take().filter(System::has_factor);
         self.single_serves = single_serves;
         if self.mirror.is_some() != mirror.is_some() {
@@ -202,7 +200,7 @@ impl Flow {
         if self.free_scale() && !keeps_area {
             state.center();
         }
-        if !self.begin(&mut state, report, control)? {
+        if !self.evaluate(&mut state, report, control)? {
             return Err(Error::Argument { what: "u", value: "start".into(), need: "in the metric's domain" });
         }
         // A target that is infeasible on one triangulation can be feasible after flips, so obstructions are only searched where flips
@@ -289,39 +287,6 @@ impl Flow {
         control: &Control,
     ) -> Result<bool> {
         timed(&mut report.seconds.assemble, || state.measure(&self.mesh, &self.metric));
-        self.after_measuring(state, report, control)
-    }
-
-    /// [`Flow::evaluate`] at the start, beside the analysis of the triangulation for Newton's method, whose order one thread has to find,
-    /// unless it was made with the flow.
-    fn begin(&mut self, state: &mut State, report: &mut Report, control: &Control) -> Result<bool> {
-        let is_newton = self.options.method == Method::Newton;
-        let early = self.early.take();
-        if !is_newton || self.system.is_some() || self.pool.threads() == 1 {
-            return self.evaluate(state, report, control);
-        }
-        if let Some(Early { seconds, .. }) = early {
-            report.seconds.analyse += seconds;
-            report.seconds.total += seconds;
-        }
-        let (mut measuring, mut both) = (0.0, 0.0);
-        let measure = || timed(&mut measuring, || state.measure(&self.mesh, &self.metric));
-        let analyse = || early.map_or_else(|| self.new_system(), |early| Ok(early.system));
-        let (system, ()) = timed(&mut both, || join(analyse, measure));
-        report.seconds.assemble += measuring;
-        report.seconds.analyse += both - measuring;
-        let is_real = self.after_measuring(state, report, control)?;
-        if report.flips == 0 {
-            // Where it has failed it is tried again when it is needed, and the error is that of then.
-            self.system = system.ok();
-            // It knows the flips of earlier solves.
-            self.unseen_flips = 0;
-        }
-        Ok(is_real)
-    }
-
-    /// What is left of [`Flow::evaluate`] where a state has been measured.
-    fn after_measuring(&mut self, state: &mut State, report: &mut Report, control: &Control) -> Result<bool> {
         if !self.flips_allowed {
             return Ok(timed(&mut report.seconds.assemble, || state.finish(&self.mesh)));
         }

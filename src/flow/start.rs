@@ -1,17 +1,16 @@
 //! Making a flow: on a surface, from a solution, from a bare metric; going to the double, and pins.
 
 use super::Flow;
-use super::early::{Early, mirror_of};
 use super::memory::Memory;
 use super::options::{Flips, Method, Options};
-use super::origin::{Delaunay, Origin};
+use super::origin::Origin;
 use super::solution::Solution;
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::Space;
 use crate::mesh::{Double, FixedEdges, FlipLog, Mesh, PerVertex, VertexId};
 use crate::metric::{Class, Metric, Surface};
-use crate::parallel::{Pool, join};
+use crate::parallel::Pool;
 use std::sync::Arc;
 
 impl Flow {
@@ -23,23 +22,19 @@ impl Flow {
     pub fn new(surface: Surface, class: Class, options: &Options, control: &Control) -> Result<Flow> {
         control.check()?;
         let pool = Arc::new(Pool::new(options.threads)?);
-        let early = |mesh: &Mesh, double: Option<&Double>| Early::new(mesh, double, class, options);
-        let begin = || {
+        let origin = pool.run(|| {
             if is_rigid(surface.geometry(), class, options) {
-                let (origin, early) =
-                    join(|| Origin::rigid(surface.clone(), class), || early(surface.mesh(), None));
-                return Ok((origin?, early));
+                return Origin::rigid(surface, class);
             }
-            let start =
-                |doubled| Delaunay::new(surface.clone(), class, doubled, &options.fixed_edges, control);
-            if surface.mesh().is_closed() || !options.pinned.is_empty() {
-                return start(false)?.origin_beside(early);
+            let fixed = &options.fixed_edges;
+            let may_double = !surface.mesh().is_closed() && options.pinned.is_empty();
+            let one_copy = Origin::delaunay(surface.clone(), class, false, fixed, control)?;
+            if may_double && !one_copy.is_half {
+                return Origin::delaunay(surface, class, true, fixed, control);
             }
-            let (one_copy, ()) = start(false)?.origin_beside(|_, _| ())?;
-            if one_copy.is_half { Ok((one_copy, None)) } else { start(true)?.origin_beside(early) }
-        };
-        let (origin, early) = pool.run(begin)?;
-        Ok(Flow { early, ..Flow::go_on(Solution::start(origin), options, pool)? })
+            Ok(one_copy)
+        })?;
+        Flow::go_on(Solution::start(origin), options, pool)
     }
 
     /// Go on from a metric of the surface: on its triangulation, from its u.
@@ -109,7 +104,6 @@ impl Flow {
             one_copy: false,
             target: PerVertex::filled(mesh.n_vertices(), 0.0),
             system: None,
-            early: None,
             single_serves: true,
             unseen_flips: 0,
             memory: Memory::default(),
@@ -154,7 +148,7 @@ impl Flow {
                 held[double.mirror(v).index()] = true;
             }
         }
-        (self.system, self.early) = (None, None);
+        self.system = None;
         Ok(())
     }
 
@@ -208,4 +202,9 @@ fn may_flip(options: &Options, space: Space) -> bool {
 /// Whether edges stay as they are: flips have no part in S² and for packings that are Delaunay on any triangulation.
 fn is_rigid(geometry: Space, class: Class, options: &Options) -> bool {
     !may_flip(options, class.space) || geometry == Space::S2 || class.scheme.is_packing()
+}
+
+/// Per vertex of a double, its mirror image.
+fn mirror_of(double: &Double) -> Vec<u32> {
+    double.mesh.vertices().map(|v| double.mirror(v).0).collect()
 }

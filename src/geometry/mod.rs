@@ -2,6 +2,7 @@
 
 pub(crate) mod arctangent;
 pub mod barycentre;
+pub(crate) mod bounding_line;
 pub(crate) mod bounds;
 pub(crate) mod boxes;
 pub(crate) mod chords;
@@ -20,7 +21,10 @@ pub mod mobius;
 pub mod model;
 pub mod modulus;
 pub mod motion;
+pub mod packing;
+pub(crate) mod plane_triangle;
 pub mod predicates;
+pub mod random;
 mod real;
 pub(crate) mod scaled;
 pub(crate) mod scaling;
@@ -28,6 +32,8 @@ pub mod space;
 pub mod sphere;
 pub mod symplectic;
 pub mod triangle;
+pub mod triangle_flatness;
+pub mod triangle_overlap;
 pub mod vector;
 mod vertex;
 pub mod weights;

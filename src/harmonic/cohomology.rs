@@ -1,4 +1,4 @@
-//! Closed forms with integer values, dual to the loops of a homotopy basis.
+//! Closed 1-forms with integer values that are dual to the loops of a homotopy basis.
 //!
 //! ```
 //! use ricci::harmonic::cohomology::{absolute, relative};
@@ -16,12 +16,12 @@ use crate::error::{Result, check_size};
 use crate::mesh::{EdgeId, HalfedgeId, Mesh, PerVertex, VertexId};
 use crate::topology::HomotopyBasis;
 
-/// An integer 1-form: the edges on which it is not 0, ascending, with its integral over their half-edges 2e.
+/// A 1-form with integer values: the edges e on which it is not 0, ascending, with its integrals over their half-edges 2e.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Cochain(pub Vec<(EdgeId, i32)>);
 
-/// Half-edges between two looks at the control.
-const STEPS: usize = 4096;
+/// Number of edges after which the control is asked again whether to stop.
+const EDGES_PER_STEP: usize = 4096;
 
 impl Cochain {
     /// The integral over a half-edge, in its direction.
@@ -30,12 +30,12 @@ impl Cochain {
         if h.0 & 1 == 0 { value } else { -value }
     }
 
-    /// Largest |value|.
+    /// The largest |value|.
     pub fn size(&self) -> i32 {
         self.0.iter().map(|(_, x)| x.abs()).max().unwrap_or(0)
     }
 
-    /// The sum with the derivative of an integer function, which is given at a few vertices and 0 elsewhere.
+    /// The sum with the derivative of an integer function `u`, which is 0 outside the vertices of `support`.
     fn plus_exact(self, mesh: &Mesh, u: &PerVertex<i32>, support: &[VertexId]) -> Cochain {
         let mut values = self.0;
         let mut touched: Vec<EdgeId> =
@@ -48,18 +48,18 @@ impl Cochain {
         }));
         values.sort_unstable_by_key(|&(e, _)| e);
         values.dedup_by(|next, kept| {
-            let same = next.0 == kept.0;
-            kept.1 += if same { next.1 } else { 0 };
-            same
+            let is_same_edge = next.0 == kept.0;
+            kept.1 += if is_same_edge { next.1 } else { 0 };
+            is_same_edge
         });
         values.retain(|&(_, x)| x != 0);
         Cochain(values)
     }
 }
 
-/// Closed forms dual to the loops a1, b1, …, ag, bg, c1, …, c(b−1): form k has the integral 1 over loop k and 0 over the others; over the
-/// last boundary loop, which the others bound, −1 for each c. A basis of the cohomology of the surface. The value on an edge is the
-/// exponent of its element in the abelianised fundamental group.
+/// The closed forms dual to the loops a1, b1, …, ag, bg, c1, …, c(b−1), a basis of the cohomology of the surface: form k has the integral 1
+/// over loop k and 0 over the other loops. Over the last boundary loop, which is homologous to minus the sum of the others, the forms of
+/// boundary loops have the integral −1. The value on an edge is the exponent of its element in the abelianised fundamental group.
 ///
 /// # Errors
 /// [`crate::Error::Size`] for the basis of another mesh; [`crate::Error::Cancelled`].
@@ -70,7 +70,7 @@ pub fn absolute(mesh: &Mesh, basis: &HomotopyBasis, control: &Control) -> Result
     let mut classes = vec![Cochain::default(); n];
     let mut steps = 0;
     for e in mesh.edges() {
-        control.check_every(STEPS, &mut steps)?;
+        control.check_every(EDGES_PER_STEP, &mut steps)?;
         let word = basis.halfedge_word(mesh, e.halfedge());
         if !word.is_empty() {
             for (class, exponent) in classes.iter_mut().zip(group.abelianisation(&word)) {
@@ -83,10 +83,10 @@ pub fn absolute(mesh: &Mesh, basis: &HomotopyBasis, control: &Control) -> Result
     Ok(classes)
 }
 
-/// Closed forms that are 0 along the boundary: a basis of the cohomology of the surface relative to its boundary. The first 2g are dual to
-/// the loops a1, b1, …, ag, bg and have the integral 0 over the arcs of the basis' tree from boundary loop to boundary loop; then come
-/// b − 1 forms dual to arcs from the last boundary loop to loop j, with integrals 0 over all loops: derivatives of functions that are
-/// 1 on boundary loop j and 0 elsewhere.
+/// Closed forms that are 0 along the boundary, a basis of the cohomology of the surface relative to its boundary. The first 2g are dual to
+/// the loops a1, b1, …, ag, bg and have the integral 0 over the arcs of the basis' tree from boundary loop to boundary loop. The other b −
+/// 1 are dual to arcs from the last boundary loop to loop j and have the integral 0 over all loops: they are the derivatives of functions
+/// that are 1 on boundary loop j and 0 elsewhere.
 ///
 /// # Errors
 /// As [`absolute`].
@@ -102,7 +102,7 @@ pub fn relative(mesh: &Mesh, basis: &HomotopyBasis, control: &Control) -> Result
         control.check()?;
         let arc = k.checked_sub(2 * basis.group.genus);
         for (j, rim) in basis.rims.iter().enumerate() {
-            // The integral along the boundary from where the tree reaches it, with the other sign.
+            // Minus the integral along the boundary, from the place where the tree reaches it.
             let mut sum = i32::from(arc == Some(j));
             for h in outside(rim.twin()) {
                 u[mesh.origin(h)] = sum;

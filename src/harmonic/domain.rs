@@ -1,4 +1,4 @@
-//! Where harmonic maps and forms live: a triangulated surface with Euclidean lengths and its cotangent weights.
+//! The domain of harmonic maps and forms: a triangulated surface with Euclidean lengths and cotangent weights.
 //!
 //! ```text
 //!        k            w_ij = (cot α + cot β) / 2, on the boundary cot α / 2
@@ -27,11 +27,11 @@ use crate::metric::lengths::face_lengths;
 use crate::metric::{Class, Refinement, Surface};
 use std::sync::Arc;
 
-/// A metric on a triangulation of its own, as harmonic maps and forms see it. Clones share the metric.
+/// A metric on a triangulation of its own, with the lengths, weights and areas that harmonic maps and forms need. Clones share the metric.
 ///
-/// Triangles of curved spaces count as the Euclidean triangles of their chords, 2 sinh(l/2) and 2 sin(l/2), which differ from the
-/// lengths by O(l³). A triangulation that is Delaunay in its space is Delaunay in the chords, so the weights of its edges inside stay at
-/// least 0; that of a boundary edge is negative where the angle across from it is obtuse.
+/// Triangles of curved spaces are replaced by the Euclidean triangles of their chords, 2 sinh(l/2) and 2 sin(l/2), which differ from the
+/// lengths by O(l³). A triangulation that is Delaunay in its space is Delaunay in the chords, so the weights of its interior edges are at
+/// least 0; the weight of a boundary edge is negative if the angle opposite the edge is obtuse.
 #[derive(Debug, Clone)]
 pub struct Domain {
     metric: Arc<Solution>,
@@ -43,7 +43,7 @@ pub struct Domain {
 }
 
 impl Domain {
-    /// A surface on its intrinsic Delaunay triangulation; [`Domain::refinement`] leads back to the given one.
+    /// The domain of a surface on its intrinsic Delaunay triangulation; [`Domain::refinement`] is the common refinement with the given one.
     ///
     /// # Errors
     /// Those of [`crate::metric::delaunay_start`] and [`Domain::of_metric`]; [`Error::Cancelled`].
@@ -52,7 +52,7 @@ impl Domain {
         Domain::of_metric(Solution::delaunay(surface.clone(), class, control)?)
     }
 
-    /// A surface on the triangulation that it has; weights are negative where that is not Delaunay.
+    /// The domain of a surface on its own triangulation; the weights of edges that are not Delaunay are negative.
     ///
     /// # Errors
     /// Those of [`Solution::initial_of`] and [`Domain::of_metric`].
@@ -60,8 +60,8 @@ impl Domain {
         Domain::of_metric(Solution::initial_of(surface.clone(), Class::yamabe(surface.geometry()))?)
     }
 
-    /// The metric that a flow has come to, on its triangulation: of vertex scaling with flips, the intrinsic Delaunay one. Of an open
-    /// surface that was solved on its double it is the double.
+    /// The domain of a flow's result, on the triangulation of the result, which after vertex scaling with flips is the intrinsic Delaunay
+    /// one. For an open surface that was solved on its double, the domain is the double.
     ///
     /// # Errors
     /// Those of [`crate::metric::Metric::lengths`]; [`Error::TriangleInequality`] for a face without area.
@@ -94,32 +94,32 @@ impl Domain {
         &self.metric
     }
 
-    /// Euclidean lengths of the edges (E entries): those of the metric in E², its chords elsewhere.
+    /// The Euclidean lengths of the edges (E entries): those of the metric in E², its chords elsewhere.
     pub fn lengths(&self) -> &PerEdge<f64> {
         &self.lengths
     }
 
-    /// Cotangents of the angles at the corners of each face (F entries, in corner order).
+    /// The cotangents of the angles at the corners of each face (F entries, in corner order).
     pub fn cotangents(&self) -> &PerFace<[f64; 3]> {
         &self.cotangents
     }
 
-    /// Cotangent weights `(cot α + cot β)/2` of the edges (E entries), α and β opposite the edge.
+    /// The cotangent weights `(cot α + cot β)/2` of the edges (E entries), α and β opposite the edge.
     pub fn weights(&self) -> &PerEdge<f64> {
         &self.weights
     }
 
-    /// Areas of the faces (F entries).
+    /// The areas of the faces (F entries).
     pub fn face_areas(&self) -> &PerFace<f64> {
         &self.face_areas
     }
 
-    /// Areas of the vertices (V entries): a third of the faces around each.
+    /// The areas of the vertices (V entries): a third of the areas of the faces around each.
     pub fn vertex_areas(&self) -> &PerVertex<f64> {
         &self.vertex_areas
     }
 
-    /// The common refinement with the triangulation of the surface as it was given; none where both are one.
+    /// The common refinement with the triangulation of the surface as it was given; `None` if both are the same.
     ///
     /// # Errors
     /// Those of [`Solution::refinement`].
@@ -127,7 +127,7 @@ impl Domain {
         if self.metric.is_unflipped() { Ok(None) } else { self.metric.refinement(control).map(Some) }
     }
 
-    /// `L u` for a function of the vertices (V entries): `Σ w_ij (u_i − u_j)` over the edges of each.
+    /// `L u` for a function of the vertices (V entries): at each vertex i the sum `Σ w_ij (u_i − u_j)` over its edges.
     ///
     /// # Panics
     /// If `u` has fewer entries.
@@ -142,7 +142,7 @@ impl Domain {
         image
     }
 
-    /// Dirichlet energy `½ Σ w_e (u_j − u_i)²` of a function that is linear on the faces (V entries).
+    /// The Dirichlet energy `½ Σ w_e (u_j − u_i)²` of a function that is linear on the faces (V entries).
     ///
     /// # Errors
     /// [`Error::Size`].
@@ -154,7 +154,7 @@ impl Domain {
     }
 }
 
-/// Length of the chord of an edge in the plane or in the space around the hyperboloid or the sphere.
+/// The length of the chord of an edge, in the plane or in the space around the hyperboloid or the sphere.
 fn chord(space: Space, length: f64) -> f64 {
     match space {
         Space::E2 => length,
@@ -164,10 +164,10 @@ fn chord(space: Space, length: f64) -> f64 {
 }
 
 /// The cotangents of a triangle's angles from its half-perimeter differences, `cot θ_k = (1/t − t)/2` with
-/// `t = tan(θ_k/2) = √(r_i r_j / (s r_k))`; none where the triangle has no area in doubles.
+/// `t = tan(θ_k/2) = √(r_i r_j / (s r_k))`; `None` if the triangle has no area in f64.
 fn cotangents(r: [f64; 3]) -> Option<[f64; 3]> {
     let s = r[0] + r[1] + r[2];
-    // Ratios first: products of lengths may under- or overflow.
+    // Ratios are formed first, since products of lengths may under- or overflow.
     let q = r.map(|x| (x / s).sqrt());
     let cot = [0, 1, 2].map(|k| {
         let t = q[(k + 1) % 3] * q[(k + 2) % 3] / q[k];

@@ -1,4 +1,4 @@
-//! Forms whose drawing distorts areas little.
+//! A combination of harmonic forms whose drawing distorts areas little.
 //!
 //! ```
 //! use ricci::harmonic::{Domain, FormsOptions, HarmonicForms, even_combination, unevenness};
@@ -19,18 +19,18 @@ use crate::error::Result;
 use crate::linalg::dense::solve_definite;
 use crate::mesh::{FaceId, PerEdge};
 
-/// Relative decrease of a step below which the search ends, and most steps; the last digits of the combination change nothing that is
-/// seen.
-const ENOUGH: f64 = 1e-4;
+/// Relative decrease of a step below which the search ends, since a smaller one changes nothing visible.
+const LEAST_DECREASE: f64 = 1e-4;
+/// Most steps of the search.
 const STEPS: usize = 60;
 
-/// How unevenly a form draws areas: `|S| ∫|ω|⁴ / (∫|ω|²)²`, 1 where |ω| is the same everywhere, else more.
+/// The unevenness of the areas in a form's drawing, `|S| ∫|ω|⁴ / (∫|ω|²)²`: 1 if |ω| is the same everywhere, otherwise more.
 pub fn unevenness(domain: &Domain, form: &OneForm) -> f64 {
     Evenness::new(domain, form).ratio
 }
 
-/// Coefficients of a harmonic form whose drawing distorts areas less than those of the basis: a local minimum of [`unevenness`], found by
-/// descent from the best form of the basis. The energy of the form is 1.
+/// The coefficients of a harmonic form of energy 1 whose drawing distorts areas less than those of the basis: a local minimum of
+/// [`unevenness`], found by descent from the best form of the basis.
 ///
 /// # Errors
 /// [`crate::Error::Factorisation`]; [`crate::Error::Cancelled`].
@@ -60,7 +60,7 @@ pub fn even_combination(forms: &HarmonicForms, control: &Control) -> Result<Vec<
             }
             step *= 0.5;
         }
-        if here.ratio >= (1.0 - ENOUGH) * before {
+        if here.ratio >= (1.0 - LEAST_DECREASE) * before {
             break;
         }
         step *= 2.0;
@@ -71,7 +71,7 @@ pub fn even_combination(forms: &HarmonicForms, control: &Control) -> Result<Vec<
 /// [`unevenness`] with its derivative.
 struct Evenness {
     ratio: f64,
-    /// Per edge what the derivative takes of a change of its value.
+    /// Per edge, the derivative of the ratio with respect to the form's value there.
     derivative: PerEdge<f64>,
 }
 
@@ -99,7 +99,7 @@ impl Evenness {
         Evenness { ratio: area * fourth / (whole * whole), derivative }
     }
 
-    /// The derivative towards another form.
+    /// The derivative in the direction of another form.
     fn slope(&self, form: &OneForm) -> f64 {
         self.derivative.iter().zip(form.0.iter()).map(|(a, b)| a * b).sum()
     }

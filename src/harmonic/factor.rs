@@ -1,4 +1,4 @@
-//! The equation of the conformal factor between two metrics, in its weak form.
+//! The residual of a conformal factor between two metrics in the equation that relates it to their curvatures.
 //!
 //! The curvature of `ḡ = e^{2λ} g` satisfies `K̄ e^{2λ} = K + Δλ`, with Δ ≥ 0 of g, and that of its boundary `k̄ e^λ = k + ∂λ/∂n`
 //! \[JKLLG08, Eqn 5\]. Against the hat function of vertex i, whose integrals of curvature are K_i and K̄_i, both say
@@ -28,11 +28,12 @@ use crate::geometry::{Space, triangle};
 use crate::mesh::{PerVertex, VertexId};
 use crate::metric::lengths::face_lengths;
 
-/// How far a conformal factor (λ, V entries) from the metric of a domain to one with these integrals of curvature around its vertices
-/// ([`curvature_integrals`]; V entries) is from the weak equation above: the norm of the residual dual to `‖∇φ‖`, over that of `K̄ − K`. It
-/// is `‖∇(λ − μ)‖ / ‖∇μ‖` with the solution μ of the equation. 0 if λ is constant and both curvatures are the same.
+/// The relative residual of a conformal factor λ (V entries) in the weak equation above, for the factor from the metric of a domain to one
+/// with these integrals of curvature around its vertices ([`curvature_integrals`]; V entries). It is the norm of the residual dual to
+/// `‖∇φ‖`, over that of `K̄ − K`, and equals `‖∇(λ − μ)‖ / ‖∇μ‖` with the solution μ of the equation; 0 if λ is constant and both
+/// curvatures are the same.
 ///
-/// Falls as h² for the factor of smooth metrics.
+/// It falls as h² for the factor of smooth metrics.
 ///
 /// # Errors
 /// [`crate::Error::Size`]; those of [`Laplace::new`].
@@ -49,8 +50,7 @@ pub fn factor_residual(domain: &Domain, factor: &[f64], curvature: &[f64], contr
     Ok(if off == 0.0 { 0.0 } else { off / size.max(f64::MIN_POSITIVE) })
 }
 
-/// [`factor_residual`] of the conformal factor that a flow has come to, on the intrinsic Delaunay triangulation of the surface as it was
-/// given.
+/// [`factor_residual`] of the conformal factor of a flow's result, on the intrinsic Delaunay triangulation of the surface as it was given.
 ///
 /// # Errors
 /// Those of [`Domain::new`], [`curvature_integrals`], [`Solution::conformal_factor`] and [`factor_residual`].
@@ -59,8 +59,8 @@ pub fn solution_residual(solution: &Solution, control: &Control) -> Result<f64> 
     factor_residual(&domain, &solution.conformal_factor()?, &curvature_integrals(solution)?, control)
 }
 
-/// The integral of curvature around every vertex of the given surface: the discrete curvature, and in H² and S² a third of what every face
-/// around it holds. They add up to 2πχ.
+/// The integral of curvature around every vertex of the given surface: the discrete curvature, and in H² and S² a third of the integral
+/// over every face around it. The integrals add up to 2πχ.
 ///
 /// # Errors
 /// Those of [`crate::metric::Metric::lengths`].
@@ -71,13 +71,13 @@ pub fn curvature_integrals(metric: &Solution) -> Result<PerVertex<f64>> {
         return Ok(around);
     }
     let lengths = metric.metric().lengths(mesh)?;
-    // Along the boundary of a surface that was solved on its double half of the faces are those of the mirror image.
-    let is_own = |v: VertexId| metric.double().is_none_or(|double| double.mirror(v) != v);
+    // Around a boundary vertex of a surface that was solved on its double, half of the faces are those of the mirror image.
+    let is_inside = |v: VertexId| metric.double().is_none_or(|double| double.mirror(v) != v);
     for f in mesh.faces() {
         let part = space.curvature() * triangle::area(space, face_lengths(mesh, &lengths, f)) / 3.0;
         for v in mesh.face_vertices(f) {
             if let Some(sum) = around.get_mut(v.index()) {
-                *sum += if is_own(v) { part } else { 0.5 * part };
+                *sum += if is_inside(v) { part } else { 0.5 * part };
             }
         }
     }

@@ -1,4 +1,4 @@
-//! Harmonic 1-forms: one in every cohomology class, by one Laplace solve each with one factorisation.
+//! Harmonic 1-forms: one in every cohomology class, from one linear solve each with one factorisation of the Laplacian.
 //!
 //! ```
 //! use ricci::harmonic::{Domain, FormsOptions, HarmonicForms};
@@ -23,7 +23,7 @@ use crate::mesh::{Mesh, VertexId};
 use crate::topology::{HomotopyBasis, homotopy_basis};
 use std::time::Instant;
 
-/// The classes of a surface with boundary; on a closed one both are the same.
+/// The two kinds of cohomology classes of a surface with boundary; on a closed surface both are the same.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Classes {
     /// Forms whose conjugate is 0 along the boundary: harmonic functions with free boundary values locally. On the double they are those
@@ -34,21 +34,21 @@ pub enum Classes {
     Relative,
 }
 
-/// What [`HarmonicForms::new`] can be asked.
+/// The options of [`HarmonicForms::new`].
 #[derive(Debug, Clone, Copy, Default)]
 pub struct FormsOptions {
     /// The classes.
     pub classes: Classes,
-    /// The base vertex of the loops; default: one from which they are short.
+    /// The base vertex of the loops; default: a vertex from which they are short.
     pub base: Option<VertexId>,
 }
 
-/// Seconds by phase.
+/// The seconds that the phases took.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Seconds {
-    /// Loops and closed forms.
+pub struct FormsSeconds {
+    /// The search for the loops and the closed forms.
     pub topology: f64,
-    /// The matrix.
+    /// The assembly of the matrix.
     pub assemble: f64,
     /// Its analysis.
     pub analyse: f64,
@@ -64,34 +64,34 @@ pub struct Seconds {
 /// are whole numbers, without rounding.
 #[derive(Debug, Clone)]
 pub struct HarmonicForms {
-    /// Where they live.
+    /// The surface of the forms.
     pub domain: Domain,
-    /// The loops that they are dual to.
+    /// The loops to which the forms are dual.
     pub basis: HomotopyBasis,
-    /// Which classes.
+    /// The kind of the classes.
     pub classes: Classes,
-    /// One per class, in the order of the basis' loops: 2g on a closed surface, 2g + b − 1 with b boundary loops.
+    /// One form per class, in the order of the basis' loops: 2g on a closed surface, 2g + b − 1 with b boundary loops.
     pub forms: Vec<OneForm>,
-    /// Closed forms of the same classes.
+    /// Per class, a closed form with integer values.
     pub cochains: Vec<Cochain>,
-    /// Largest [`OneForm::closedness`].
+    /// The largest [`OneForm::closedness`].
     pub closedness: f64,
-    /// Largest [`OneForm::coclosedness`]; of relative classes inside alone.
+    /// The largest [`OneForm::coclosedness`], for relative classes at interior vertices alone.
     pub coclosedness: f64,
-    /// Where the time went.
-    pub seconds: Seconds,
+    /// The seconds that the phases took.
+    pub seconds: FormsSeconds,
 }
 
-/// Forms that are solved for at a time: the factor is read once for all of them.
+/// Number of forms in one solve, which reads the factor once for all of them.
 const COLUMNS: usize = 8;
-/// Co-closedness up to which a solution is not corrected by a second solve.
+/// Largest coclosedness of a solution that is not corrected by a second solve.
 const COCLOSED: f64 = 1e-12;
-/// Binary digits of the values of a form: the sum of a few of them needs at most three more, which leaves sums exact in 53.
+/// Number of binary digits of the values of a form: the sum of a few of them needs at most three more, so it is exact in 53.
 const DIGITS: i32 = 50;
 
 impl HarmonicForms {
-    /// Of every class the harmonic form, `d(ω_closed + dψ) = 0` and `d*(ω_closed + dψ) = 0` \[GY03\]. O(E log E) for the loops, one
-    /// factorisation, and a solve per class.
+    /// The harmonic form `ω_closed + dψ` of every class, which satisfies `d(ω_closed + dψ) = 0` and `d*(ω_closed + dψ) = 0` \[GY03\]. O(E
+    /// log E) for the loops, one factorisation, and one solve per class.
     ///
     /// # Errors
     /// Those of [`homotopy_basis`] and [`Laplace::new`].
@@ -101,7 +101,7 @@ impl HarmonicForms {
         let basis = homotopy_basis(mesh, domain.lengths(), options.base, control)?;
         let is_relative = options.classes == Classes::Relative;
         let cochains = if is_relative { relative } else { absolute }(mesh, &basis, control)?;
-        let mut seconds = Seconds { topology: start.elapsed().as_secs_f64(), ..Seconds::default() };
+        let mut seconds = FormsSeconds { topology: start.elapsed().as_secs_f64(), ..FormsSeconds::default() };
         let laplace = Laplace::new(domain, |v| is_relative && mesh.is_boundary_vertex(v), control)?;
         [seconds.assemble, seconds.analyse, seconds.factor] = laplace.seconds;
         let start = Instant::now();
@@ -119,7 +119,7 @@ impl HarmonicForms {
     }
 
     /// The inner products `∫ ω_k ∧ *ω_l = Σ w_e ω_k(e) ω_l(e)`, symmetric and positive definite. Since ω_k is orthogonal to derivatives,
-    /// the closed form of class l stands for ω_l: the time is that of its few values.
+    /// the closed form of class l, which has few values, takes the place of ω_l.
     pub fn inner_products(&self) -> Vec<Vec<f64>> {
         let weights = self.domain.weights();
         let product = |form: &OneForm, closed: &Cochain| -> f64 {
@@ -144,7 +144,7 @@ impl HarmonicForms {
     }
 }
 
-/// The harmonic forms in the classes of a few closed ones.
+/// The harmonic forms in the classes of some closed forms.
 fn harmonic(domain: &Domain, laplace: &Laplace, closed: &[Cochain]) -> Result<Vec<OneForm>> {
     let (mesh, n) = (domain.mesh(), domain.mesh().n_vertices());
     let mut potentials = vec![0.0; n * closed.len()];
@@ -170,7 +170,7 @@ fn harmonic(domain: &Domain, laplace: &Laplace, closed: &[Cochain]) -> Result<Ve
     Ok(forms(&mut potentials))
 }
 
-/// The form `closed + dψ`, with ψ rounded to [`DIGITS`] binary digits after those of the largest value.
+/// The form `closed + dψ`, with ψ rounded to multiples of 2^−[`DIGITS`] times the power of two above the largest value.
 fn exact_sums(mesh: &Mesh, closed: &Cochain, psi: &mut [f64]) -> OneForm {
     let largest = psi.iter().fold(f64::from(closed.size()), |most, x| most.max(x.abs()));
     let quantum = 2f64.powi(largest.max(f64::MIN_POSITIVE).log2().ceil() as i32 - DIGITS);

@@ -1,4 +1,4 @@
-//! Integrals of complex forms over the surface opened along a cut.
+//! The integral of a complex 1-form over a surface that is opened along a cut: a drawing of the surface in the plane.
 //!
 //! ```
 //! use ricci::harmonic::{Domain, FormsOptions, HarmonicForms, PeriodMatrix, integrate};
@@ -27,29 +27,30 @@ use std::cmp::Ordering;
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-/// What is drawn.
+/// The triangulation that is drawn: the domain's own, or a refinement of it.
 #[derive(Debug, Clone, PartialEq)]
-enum Drawn {
+enum DrawnTriangulation {
     Mesh(Arc<Mesh>),
     Refinement(Arc<Refinement>),
 }
 
-/// A surface opened along a cut, drawn by the integral of a complex form: conformal where that is holomorphic, up to O(h²).
+/// A drawing of a surface, opened along a cut, by the integral of a complex form. If the form is holomorphic, the drawing is conformal up
+/// to O(h²).
 #[derive(Debug, Clone, PartialEq)]
 pub struct FormLayout {
-    drawn: Drawn,
+    drawn: DrawnTriangulation,
     /// The edges along which the surface is opened.
     pub is_cut: PerEdge<bool>,
     /// Per half-edge, the index into `points` of the corner at its origin, in its face ([`crate::embed::Layout::corner_index`]).
     pub corner_index: PerHalfedge<u32>,
-    /// Coordinates of the vertices of the opened surface.
+    /// The coordinates of the vertices of the opened surface.
     pub points: Vec<Complex>,
-    /// Faces that are not counterclockwise: those that hold a zero of the form. By exact arithmetic.
+    /// The faces that are not counterclockwise, by exact arithmetic: those that hold a zero of the form.
     pub flipped: Vec<FaceId>,
 }
 
-/// The integral of a closed form over the surface opened along `cut`, 0 at the first corner of face 0. Corners of one vertex on the two
-/// sides of a segment of the cut differ by a period of the form.
+/// The integral of a closed form over the surface, opened along `cut`; it is 0 at the first corner of face 0. The two corners of a vertex
+/// on the sides of a segment of the cut differ by a period of the form.
 ///
 /// # Errors
 /// [`Error::Size`]; [`Error::Layout`] for a cut that does not leave a disk.
@@ -73,16 +74,16 @@ pub fn integrate(domain: &Domain, form: &ComplexForm, cut: &CutGraph) -> Result<
         for (i, side) in sides.into_iter().enumerate() {
             corners[f.index()][(k + i) % 3] = points[i];
             if !cut.is_cut[side.edge()] {
-                // The twin starts where the side ends.
+                // The twin starts at the end of the side.
                 open.push_back((side.twin(), points[(i + 1) % 3]));
             }
         }
     }
-    Ok(FormLayout::new(Drawn::Mesh(mesh.clone()), cut.is_cut.clone(), &corners))
+    Ok(FormLayout::new(DrawnTriangulation::Mesh(mesh.clone()), cut.is_cut.clone(), &corners))
 }
 
 impl FormLayout {
-    fn new(drawn: Drawn, is_cut: PerEdge<bool>, corners: &[[Complex; 3]]) -> FormLayout {
+    fn new(drawn: DrawnTriangulation, is_cut: PerEdge<bool>, corners: &[[Complex; 3]]) -> FormLayout {
         let mesh = drawn.mesh();
         let (corner_index, n) = number_corners(mesh, &is_cut);
         let mut points = vec![[f64::NAN; 2]; n];
@@ -102,27 +103,27 @@ impl FormLayout {
     ///
     /// # Errors
     /// [`Error::Size`] for the refinement of another triangulation; [`Error::Layout`] for a drawing of a refinement.
-    pub fn refined(&self, refinement: &Arc<Refinement>) -> Result<FormLayout> {
-        let Drawn::Mesh(mesh) = &self.drawn else {
+    pub fn on_refinement(&self, refinement: &Arc<Refinement>) -> Result<FormLayout> {
+        let DrawnTriangulation::Mesh(mesh) = &self.drawn else {
             return Err(Error::Layout("a drawing of a refinement has no other refinement".into()));
         };
         let corners: Vec<[Complex; 3]> = mesh.faces().map(|f| self.face(f)).collect();
         let corners = refinement.from_final_corners(&corners)?;
         let is_cut = |e| refinement.origin[e].result.is_some_and(|e| self.is_cut[e]);
         let is_cut = PerEdge::from_fn(refinement.mesh.n_edges(), is_cut);
-        Ok(FormLayout::new(Drawn::Refinement(refinement.clone()), is_cut, &corners))
+        Ok(FormLayout::new(DrawnTriangulation::Refinement(refinement.clone()), is_cut, &corners))
     }
 
-    /// What is drawn: the domain's triangulation, or a refinement of it.
+    /// The triangulation that is drawn: the domain's own, or a refinement of it.
     pub fn mesh(&self) -> &Mesh {
         self.drawn.mesh()
     }
 
-    /// The refinement, where one is drawn.
+    /// The refinement that is drawn, if it is one.
     pub fn refinement(&self) -> Option<&Arc<Refinement>> {
         match &self.drawn {
-            Drawn::Mesh(_) => None,
-            Drawn::Refinement(r) => Some(r),
+            DrawnTriangulation::Mesh(_) => None,
+            DrawnTriangulation::Refinement(r) => Some(r),
         }
     }
 
@@ -136,8 +137,8 @@ impl FormLayout {
         self.mesh().face_halfedges(f).map(|h| self.point(h))
     }
 
-    /// Quasi-conformal dilatation of the faces that are not flipped, of a drawing of the domain's own triangulation: area-weighted mean,
-    /// and what 99% of their area stay below (at zeros of the form it is unbounded).
+    /// The quasi-conformal dilatation of the faces that are not flipped, in a drawing of the domain's own triangulation: the mean weighted
+    /// by area, and the bound that 99% of the area stay below (at zeros of the form the dilatation is unbounded).
     pub fn dilatation(&self, domain: &Domain) -> (f64, f64) {
         let mut all: Vec<(f64, f64)> = Vec::with_capacity(domain.mesh().n_faces());
         for f in domain.mesh().faces() {
@@ -158,16 +159,16 @@ impl FormLayout {
     }
 }
 
-impl Drawn {
+impl DrawnTriangulation {
     fn mesh(&self) -> &Mesh {
         match self {
-            Drawn::Mesh(mesh) => mesh,
-            Drawn::Refinement(r) => &r.mesh,
+            DrawnTriangulation::Mesh(mesh) => mesh,
+            DrawnTriangulation::Refinement(r) => &r.mesh,
         }
     }
 }
 
-/// Ratio of the singular values of a triangle's map: with the Dirichlet energy `E = Σ cot θ_k |side k|²/4` of the map and the area A of
+/// The ratio of the singular values of a triangle's map. With the Dirichlet energy `E = Σ cot θ_k |side k|²/4` of the map and the area A of
 /// the image, `(K + 1/K)/2 = E/A`.
 fn dilatation(cotangents: [f64; 3], image: [Complex; 3], doubled: f64) -> f64 {
     let energy: f64 = (0..3)

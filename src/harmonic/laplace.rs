@@ -1,4 +1,4 @@
-//! The cotangent Laplacian with some vertices held: one factorisation for many solves.
+//! Solves with the cotangent Laplacian, whose values at some vertices are held: one factorisation for many solves.
 //!
 //! ```
 //! use ricci::{Control, Surface, harmonic::{Domain, Laplace}, mesh::shapes};
@@ -21,28 +21,29 @@ use crate::linalg::{Cholesky, Pattern, Symmetric};
 use crate::mesh::VertexId;
 use std::time::Instant;
 
-/// The number of a vertex that is held.
+/// The row number of a vertex whose value is held.
 const HELD: u32 = u32::MAX;
 
-/// The matrix of [`Domain::laplacian`] between the vertices that are not held, maybe with a mass added, factorised.
+/// The factorised matrix of [`Domain::laplacian`] between the vertices that are not held, possibly with a mass added.
 pub struct Laplace<'a> {
     domain: &'a Domain,
-    /// Per vertex its row, or [`HELD`].
+    /// Per vertex, its row, or [`HELD`].
     row: Vec<u32>,
     free: Vec<u32>,
     pattern: Pattern,
     cholesky: Cholesky,
     mass: Option<Vec<f64>>,
-    /// Seconds of assembling, analysing and factorising.
+    /// The seconds for assembling, analysing and factorising.
     pub seconds: [f64; 3],
 }
 
 impl<'a> Laplace<'a> {
-    /// Assemble and factorise. Where no vertex is held, vertex 0 is, at 0: solutions are unique up to constants then.
+    /// Assembles and factorises the matrix. If no vertex is held, vertex 0 is held at 0, since solutions are only unique up to a constant
+    /// then.
     ///
     /// # Errors
-    /// [`Error::Factorisation`] where the weights do not hold the free vertices to the held ones: on a surface of several components
-    /// with none held on one, or with weights that are negative; [`Error::TooLarge`]; [`Error::Cancelled`].
+    /// [`Error::Factorisation`] if the matrix is not positive definite: on a surface of several components one of which has no held vertex,
+    /// or with negative weights; [`Error::TooLarge`]; [`Error::Cancelled`].
     pub fn new(
         domain: &'a Domain,
         held: impl Fn(VertexId) -> bool,
@@ -57,8 +58,8 @@ impl<'a> Laplace<'a> {
         Laplace::analysed(domain, &held, None, control)
     }
 
-    /// The matrix `M + L` for a mass per vertex (V entries, positive), no vertex held: an implicit step of length τ of the heat flow has
-    /// the mass ⋆0/τ.
+    /// The matrix `M + L` for a mass per vertex (V entries, positive) with no vertex held. An implicit step of length τ of the heat flow
+    /// has the mass ⋆0/τ.
     ///
     /// # Errors
     /// Those of [`Laplace::new`]; [`Error::Size`].
@@ -93,7 +94,7 @@ impl<'a> Laplace<'a> {
         Ok(laplace)
     }
 
-    /// Factorise anew with another mass.
+    /// Factorises the matrix again with another mass.
     ///
     /// # Errors
     /// [`Error::Size`]; [`Error::Factorisation`].
@@ -114,8 +115,9 @@ impl<'a> Laplace<'a> {
             }
             let free = [i, j].into_iter().filter(|&i| i != HELD);
             free.for_each(|i| values[pattern.diagonal(i as usize)] += weight);
-            if let Some(k) =
-                if i == HELD || j == HELD { None } else { pattern.position(i as usize, j as usize) }
+            if i != HELD
+                && j != HELD
+                && let Some(k) = pattern.position(i as usize, j as usize)
             {
                 values[k] -= weight;
             }
@@ -141,17 +143,17 @@ impl<'a> Laplace<'a> {
         self.mass.as_deref()
     }
 
-    /// Number of values in the factor.
+    /// The number of values in the factor.
     pub fn factor_entries(&self) -> usize {
         self.cholesky.factor_entries()
     }
 
-    /// Whether a vertex is held.
+    /// True if the value of a vertex is held.
     pub fn is_held(&self, v: usize) -> bool {
         self.row[v] == HELD
     }
 
-    /// Solve for several right sides at once: each column of V entries is a load, and becomes u with `(L u)_i = load_i` at the free
+    /// Solves for several right sides at once: each column of V entries is a load, and is replaced by u with `(L u)_i = load_i` at the free
     /// vertices and u = 0 at the held ones.
     ///
     /// # Errors
@@ -171,16 +173,17 @@ impl<'a> Laplace<'a> {
         Ok(())
     }
 
-    /// Extend a function from the held vertices: `(L u)_i = load_i` (0 by default) at the free ones, whose values are overwritten.
+    /// Extends a function from the held vertices so that `(L u)_i = load_i` (0 by default) at the free ones, whose values are overwritten.
     ///
-    /// On the boundary a load is the flux through it: the integral of the derivative of u along the outer normal around the vertex.
+    /// The load at a boundary vertex is the flux through the boundary around it: the integral of the derivative of u along the outer
+    /// normal.
     ///
     /// # Errors
     /// Those of [`Laplace::solve`].
     pub fn extend(&self, u: &mut [f64], load: Option<&[f64]>) -> Result<()> {
         check_size("function", u.len(), self.row.len())?;
         self.free.iter().for_each(|&v| u[v as usize] = 0.0);
-        // Twice: the second time corrects what rounding has left.
+        // The second solve corrects the rounding errors of the first.
         for _ in 0..2 {
             let mut residual = self.apply(u);
             residual.iter_mut().enumerate().for_each(|(v, r)| *r = load.map_or(0.0, |load| load[v]) - *r);

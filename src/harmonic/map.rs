@@ -1,13 +1,13 @@
-//! Harmonic maps to Rⁿ with given values, given fluxes, or both, and the heat flow that leads to them.
+//! Harmonic maps to Rⁿ with given values or fluxes, and the heat flow that converges to them.
 //!
 //! ```
-//! use ricci::{Control, Surface, harmonic::{Domain, Prescribed, harmonic_map}, mesh::shapes};
+//! use ricci::{Control, Surface, harmonic::{Domain, MapConstraints, harmonic_map}, mesh::shapes};
 //! let disk = Surface::from_soup(&shapes::disk(6)?)?;
 //! let domain = Domain::new(&disk, &Control::new())?;
 //! let mesh = domain.mesh();
 //! let place = |v: ricci::mesh::VertexId| disk.positions().unwrap()[v.index()];
 //! let values = mesh.vertices().filter(|&v| mesh.is_boundary_vertex(v)).map(|v| (v, place(v))).collect();
-//! let map = harmonic_map(&domain, &Prescribed { values, flux: None }, &Control::new())?;
+//! let map = harmonic_map(&domain, &MapConstraints { values, flux: None }, &Control::new())?;
 //! // The identity of a plane disk is harmonic.
 //! assert!(mesh.vertices().all(|v| (0..3).all(|k| (map.points[v.index()][k] - place(v)[k]).abs() < 1e-12)));
 //! # Ok::<(), ricci::Error>(())
@@ -21,39 +21,40 @@ use crate::geometry::worse;
 use crate::mesh::VertexId;
 use crate::topology::check_vertex;
 
-/// What a harmonic map to Rⁿ is to have.
+/// The values and fluxes that a harmonic map to Rⁿ must have.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Prescribed<const N: usize> {
-    /// Vertices with their images (Dirichlet).
+pub struct MapConstraints<const N: usize> {
+    /// The vertices with given images, and these images (Dirichlet).
     pub values: Vec<(VertexId, [f64; N])>,
-    /// Per vertex (V entries) the flux that leaves it, the integral of the derivative along the outer normal around it (Neumann); 0
-    /// by default. Without `values` it must add up to 0.
+    /// Per vertex (V entries), the flux through the boundary around it, the integral of the derivative along the outer normal (Neumann); 0
+    /// by default. Without `values` the fluxes must add up to 0.
     pub flux: Option<Vec<[f64; N]>>,
 }
 
-/// A map of the vertices to Rⁿ.
+/// A harmonic map of the vertices to Rⁿ.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HarmonicMap<const N: usize> {
-    /// Per vertex of the domain.
+    /// Per vertex of the domain, its image.
     pub points: Vec<[f64; N]>,
-    /// `½ Σ w_ij |f_i − f_j|²`.
+    /// The energy `½ Σ w_ij |f_i − f_j|²`.
     pub energy: f64,
-    /// Largest distance of a vertex from the mean of its neighbours by weight (after its flux), over the size of the image, at vertices
-    /// without a given value: the mean-value property of harmonic maps.
+    /// The residual of the mean-value property at vertices without a given value: the largest distance of an image from the weighted mean
+    /// of its neighbours' images (corrected by the flux), over the size of the image.
     pub mean_value_residual: f64,
 }
 
-/// The share of the fluxes' sizes that they may add up to where no value is given.
-const BALANCED: f64 = 1e-10;
+/// Largest sum of the fluxes, relative to the sum of their absolute values, if no value is given.
+const MOST_IMBALANCE: f64 = 1e-10;
 
-/// The harmonic map with prescribed values and fluxes, one factorisation for all coordinates. Without a value vertex 0 goes to 0.
+/// The harmonic map with given values and fluxes, from one factorisation for all coordinates. Without a given value, the image of vertex 0
+/// is 0.
 ///
 /// # Errors
-/// [`Error::Argument`] for values that are not finite, or of what is no vertex, and for fluxes that do not add up to 0 where no value is
-/// given, and for values so far apart that the energy overflows; [`Error::Size`]; those of [`Laplace::new`].
+/// [`Error::Argument`] for values that are not finite or belong to no vertex, for fluxes that do not add up to 0 if no value is given, and
+/// for values so far apart that the energy overflows; [`Error::Size`]; those of [`Laplace::new`].
 pub fn harmonic_map<const N: usize>(
     domain: &Domain,
-    data: &Prescribed<N>,
+    data: &MapConstraints<N>,
     control: &Control,
 ) -> Result<HarmonicMap<N>> {
     let n = domain.mesh().n_vertices();
@@ -94,7 +95,7 @@ fn check_flux<const N: usize>(flux: &[[f64; N]], n: usize, is_all: bool) -> Resu
     check_size("flux", flux.len(), n)?;
     for k in 0..N {
         let (sum, size) = flux.iter().fold((0.0, 0.0), |(sum, size), x| (sum + x[k], size + x[k].abs()));
-        let fits = size.is_finite() && (!is_all || f64::abs(sum) <= BALANCED * size);
+        let fits = size.is_finite() && (!is_all || f64::abs(sum) <= MOST_IMBALANCE * size);
         if !fits {
             return Err(Error::argument("sum of the fluxes", sum, "finite, and 0 where no value is given"));
         }
@@ -102,7 +103,7 @@ fn check_flux<const N: usize>(flux: &[[f64; N]], n: usize, is_all: bool) -> Resu
     Ok(())
 }
 
-/// `½ Σ w_ij |f_i − f_j|²` of a map (V entries).
+/// The energy `½ Σ w_ij |f_i − f_j|²` of a map (V entries).
 pub fn energy<const N: usize>(domain: &Domain, points: &[[f64; N]]) -> f64 {
     let mesh = domain.mesh();
     let square = |[p, q]: [[f64; N]; 2]| (0..N).map(|k| (p[k] - q[k]) * (p[k] - q[k])).sum::<f64>();
@@ -131,8 +132,8 @@ fn mean_value_residual<const N: usize>(
     if size > 0.0 { worst / size } else { worst }
 }
 
-/// One implicit step `(⋆0 + τ L) f' = ⋆0 f` of the heat flow `df/dt = −⋆0⁻¹ L f` for every map that is handed in; the energy of each falls.
-/// `τ` in units of area.
+/// One implicit step `(⋆0 + τ L) f' = ⋆0 f` of the heat flow `df/dt = −⋆0⁻¹ L f` of a map, which lowers its energy. `step`: τ, in units of
+/// area.
 ///
 /// # Errors
 /// [`Error::Argument`] for a step that is not positive; [`Error::Size`]; those of [`Laplace::with_mass`].
@@ -152,7 +153,7 @@ pub fn heat_step<const N: usize>(
 }
 
 impl Laplace<'_> {
-    /// `f' = (M + L)⁻¹ M f` for every coordinate of a map (V entries), of a matrix with mass ([`Laplace::with_mass`]).
+    /// Replaces a map f (V entries) by `(M + L)⁻¹ M f`, if the matrix has a mass M ([`Laplace::with_mass`]).
     ///
     /// # Errors
     /// [`Error::Argument`] for a matrix without mass; those of [`Laplace::solve`].

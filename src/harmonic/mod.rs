@@ -39,7 +39,7 @@ pub use even::{even_combination, unevenness};
 pub use forms::{Classes, FormsOptions, HarmonicForms};
 pub use integrate::{FormLayout, integrate};
 pub use laplace::Laplace;
-pub use map::{HarmonicMap, Prescribed, harmonic_map};
+pub use map::{HarmonicMap, MapConstraints, harmonic_map};
 pub use one_form::{ComplexForm, OneForm};
 pub use periods::PeriodMatrix;
 pub use simple::simple_domain;

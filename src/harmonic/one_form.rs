@@ -1,4 +1,4 @@
-//! Discrete 1-forms: their integrals over the edges.
+//! Discrete 1-forms, which are given by their integrals over the edges.
 //!
 //! ```
 //! use ricci::harmonic::OneForm;
@@ -53,12 +53,12 @@ impl OneForm {
         path.iter().map(|&h| self.along(h)).sum()
     }
 
-    /// Largest |value|; NaN if one is NaN.
+    /// The largest |value|; NaN if one is NaN.
     pub fn size(&self) -> f64 {
         self.0.iter().fold(0.0, |most, x| crate::geometry::worse(most, x.abs()))
     }
 
-    /// Largest |dω| of a face over the largest |value|: 0 for a closed form up to rounding.
+    /// The largest |dω| of a face over the largest |value|: 0 for a closed form up to rounding.
     pub fn closedness(&self, mesh: &Mesh) -> f64 {
         let around = mesh.faces().map(|f| self.over(&mesh.face_halfedges(f)).abs());
         relative(around.fold(0.0, crate::geometry::worse), self.size())
@@ -77,7 +77,7 @@ impl OneForm {
         sum
     }
 
-    /// Largest |d*ω| of the vertices that `counts` names, over the largest |value|.
+    /// The largest |d*ω| at the vertices for which `counts` is true, over the largest |value|.
     pub fn coclosedness(&self, domain: &Domain, counts: impl Fn(usize) -> bool) -> f64 {
         let all = self.codifferential(domain);
         let worst = (0..all.len()).filter(|&v| counts(v)).map(|v| all[v].abs());
@@ -89,7 +89,7 @@ impl OneForm {
         domain.mesh().edges().map(|e| domain.weights()[e] * self.0[e] * other.0[e]).sum()
     }
 
-    /// The integral of `ω ∧ ω'`, both taken linear on every face: exact for the classes of closed forms.
+    /// The integral of `ω ∧ ω'`, where both are taken to be linear on every face: for closed forms this depends on their classes alone.
     pub fn wedge(&self, other: &OneForm, mesh: &Mesh) -> f64 {
         let of_face = |f| {
             let [h, next, _] = mesh.face_halfedges(f);
@@ -98,7 +98,7 @@ impl OneForm {
         mesh.faces().map(of_face).sum()
     }
 
-    /// Add `times · other`.
+    /// Adds `times · other`.
     pub fn add(&mut self, times: f64, other: &OneForm) {
         self.0.iter_mut().zip(&other.0).for_each(|(x, y)| *x += times * y);
     }
@@ -109,7 +109,7 @@ fn relative(x: f64, size: f64) -> f64 {
 }
 
 impl ComplexForm {
-    /// `re + i im`.
+    /// The form `re + i im`.
     pub fn new(re: &OneForm, im: &OneForm) -> ComplexForm {
         ComplexForm(PerEdge::from_fn(re.0.len(), |e| [re.0[e], im.0[e]]))
     }

@@ -1,4 +1,4 @@
-//! The operators of a [`Domain`] as sparse matrices in rows (CSR). Numbers of rows and columns are those of the elements' ids.
+//! The operators of a [`Domain`] as sparse matrices stored by rows (CSR). Rows and columns are numbered by the elements' ids.
 //!
 //! ```
 //! use ricci::{Control, Surface, harmonic::Domain, mesh::shapes};
@@ -15,7 +15,7 @@ use crate::mesh::FaceId;
 use sprs::{CsMat, TriMat};
 
 impl Domain {
-    /// The derivative of functions: E×V, rows of −1 at the origin and +1 at the tip of the half-edge 2e (0 for a loop).
+    /// The derivative of functions: E×V, with −1 at the origin and +1 at the tip of the half-edge 2e in row e (0 for a loop).
     pub fn d0(&self) -> CsMat<f64> {
         let mesh = self.mesh();
         let mut matrix = TriMat::with_capacity((mesh.n_edges(), mesh.n_vertices()), 2 * mesh.n_edges());
@@ -27,7 +27,7 @@ impl Domain {
         matrix.to_csr()
     }
 
-    /// The derivative of 1-forms: F×E, +1 where the face has the half-edge 2e, −1 where it has its twin. `d1 d0 = 0`.
+    /// The derivative of 1-forms: F×E, +1 if the face has the half-edge 2e, −1 if it has the twin of that. `d1 d0 = 0`.
     pub fn d1(&self) -> CsMat<f64> {
         let mesh = self.mesh();
         let mut matrix = TriMat::with_capacity((mesh.n_faces(), mesh.n_edges()), 3 * mesh.n_faces());
@@ -39,7 +39,8 @@ impl Domain {
         matrix.to_csr()
     }
 
-    /// The Hodge star of functions and lumped mass matrix: V×V, diagonal, positive; a third of the area of the faces around the vertex.
+    /// The Hodge star of functions, which is the lumped mass matrix: V×V, diagonal, positive; a third of the area of the faces around the
+    /// vertex.
     pub fn star0(&self) -> CsMat<f64> {
         diagonal(self.vertex_areas())
     }
@@ -49,9 +50,9 @@ impl Domain {
         diagonal(self.weights())
     }
 
-    /// The cotangent Laplacian `L = d0ᵀ ⋆1 d0` \[PP93\]: V×V, symmetric, positive semidefinite, rows add up to 0; off the diagonal
-    /// minus the weights of the edges between the two vertices. `uᵀ L u / 2` is the Dirichlet energy. Without area: `⋆0⁻¹ L` is the
-    /// Laplacian of a point.
+    /// The cotangent Laplacian `L = d0ᵀ ⋆1 d0` \[PP93\]: V×V, symmetric, positive semidefinite, rows add up to 0; an entry off
+    /// the diagonal is minus the sum of the weights of the edges between the two vertices. `uᵀ L u / 2` is the Dirichlet energy. L is not
+    /// divided by areas; the pointwise Laplacian is `⋆0⁻¹ L`.
     pub fn laplacian(&self) -> CsMat<f64> {
         let mesh = self.mesh();
         let mut matrix = TriMat::with_capacity((mesh.n_vertices(), mesh.n_vertices()), 4 * mesh.n_edges());
@@ -65,8 +66,8 @@ impl Domain {
         matrix.to_csr()
     }
 
-    /// The gradient of functions that are linear on the faces: 2F×V, rows 2f and 2f + 1 its components along the first half-edge of face
-    /// f and 90° counterclockwise of it, in one over length. `L = Gᵀ A G`, A the areas of the faces, each twice.
+    /// The gradient of functions that are linear on the faces: 2F×V, in one over length. Rows 2f and 2f + 1 are the components along the
+    /// first half-edge of face f and 90° counterclockwise of it. `L = Gᵀ A G`, where A holds the area of every face twice.
     pub fn gradient(&self) -> CsMat<f64> {
         let mesh = self.mesh();
         let shape = (2 * mesh.n_faces(), mesh.n_vertices());
@@ -74,7 +75,8 @@ impl Domain {
         for f in mesh.faces() {
             let corners = self.face_corners(f);
             for (k, v) in mesh.face_vertices(f).into_iter().enumerate() {
-                // The hat function of corner k rises across the opposite side, 90° counterclockwise of that, by 1 over the height.
+                // The gradient of corner k's hat function points 90° counterclockwise of the opposite side; its length is 1 over the
+                // height.
                 let [p, q] = [corners[(k + 1) % 3], corners[(k + 2) % 3]];
                 let across = [p[1] - q[1], q[0] - p[0]].map(|x| x / (2.0 * self.face_areas()[f]));
                 for (row, value) in across.into_iter().enumerate() {
@@ -85,7 +87,7 @@ impl Domain {
         matrix.to_csr()
     }
 
-    /// The corners of a face in the plane, the first at the origin, its half-edge along the x axis.
+    /// The corners of a face in the plane, the first corner at the origin and the half-edge from it along the x axis.
     pub fn face_corners(&self, f: FaceId) -> [[f64; 2]; 3] {
         let base = self.lengths()[self.mesh().face_halfedge(f).edge()];
         let height = 2.0 * self.face_areas()[f] / base;

@@ -27,10 +27,10 @@ use crate::geometry::complex::Complex;
 use crate::geometry::modulus::modulus;
 use crate::linalg::dense::{solve_definite, symmetric_eigenvalues};
 
-/// The period matrix with what it says of the mesh.
+/// The period matrix, with residuals that show how well the mesh resolves it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PeriodMatrix {
-    /// Π (g × g): the integral of ζ_i over b_j.
+    /// Π (g × g): entry i, j is the integral of ζ_i over b_j.
     pub matrix: Vec<Vec<Complex>>,
     /// The star J (2g × 2g) in the order of the loops a1, b1, …: `*ω_k = Σ_l J_kl ω_l`.
     pub star: Vec<Vec<f64>>,
@@ -38,14 +38,15 @@ pub struct PeriodMatrix {
     pub asymmetry: f64,
     /// `‖J² + 1‖`, Frobenius norm.
     pub star_residual: f64,
-    /// Least eigenvalue of Im Π: positive.
+    /// The least eigenvalue of Im Π, which is positive.
     pub least_eigenvalue: f64,
 }
 
 impl PeriodMatrix {
+    /// The period matrix of a surface, from its harmonic forms.
+    ///
     /// # Errors
-    /// [`Error::Argument`] for forms of a surface with boundary or of genus 0; [`Error::Factorisation`] where rounding has made G
-    /// indefinite.
+    /// [`Error::Argument`] for forms of a surface with boundary or of genus 0; [`Error::Factorisation`] if rounding has made G indefinite.
     pub fn new(forms: &HarmonicForms) -> Result<PeriodMatrix> {
         let group = &forms.basis.group;
         let g = group.genus;
@@ -87,7 +88,7 @@ impl PeriodMatrix {
         (0..m.len()).map(|i| (0..m.len()).map(|j| mean(i, j)).collect()).collect()
     }
 
-    /// Of a torus, τ reduced to |Re τ| ≤ ½, |τ| ≥ 1.
+    /// The modulus τ of a torus, reduced to |Re τ| ≤ ½, |τ| ≥ 1; `None` for another genus.
     pub fn modulus(&self) -> Option<[f64; 2]> {
         if self.genus() == 1 { modulus([[1.0, 0.0], self.matrix[0][0]]) } else { None }
     }
@@ -113,7 +114,7 @@ impl PeriodMatrix {
         Ok(ComplexForm::new(&part(0), &part(1)))
     }
 
-    /// ζ_i for i < g.
+    /// The form ζ_i for i < g.
     ///
     /// # Errors
     /// [`Error::Argument`]; [`Error::Size`] for other forms.

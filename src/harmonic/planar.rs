@@ -10,7 +10,7 @@
 //! ```
 
 use super::domain::Domain;
-use super::map::{HarmonicMap, Prescribed, harmonic_map};
+use super::map::{HarmonicMap, MapConstraints, harmonic_map};
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::complex::{Complex, add, distance, scale, sub};
@@ -20,7 +20,8 @@ use std::cmp::Ordering;
 use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 
-/// The boundary of a disk once around, with the surface on the left: its vertices, each with its share of the length before it.
+/// The vertices of the boundary of a disk, once around with the surface on the left, each with the share of the boundary's length before
+/// it.
 ///
 /// # Errors
 /// [`Error::Layout`] for a surface that is no disk.
@@ -33,7 +34,7 @@ fn boundary(domain: &Domain) -> Result<Vec<(VertexId, f64)>> {
             "the surface has genus {genus} and {n} boundary loops; a disk, with one loop, is needed: punch or fill it"
         )));
     };
-    // Half-edges of faces, in their direction: the outside ones backwards.
+    // The twins of the outside half-edges, in reverse order, have the surface on the left.
     let around: Vec<HalfedgeId> = outside.iter().rev().map(|h| h.twin()).collect();
     let lengths: Vec<f64> = around.iter().map(|h| domain.lengths()[h.edge()]).collect();
     let total: f64 = lengths.iter().sum();
@@ -51,11 +52,12 @@ fn with_values(
     values: Vec<(VertexId, Complex)>,
     control: &Control,
 ) -> Result<HarmonicMap<2>> {
-    harmonic_map(domain, &Prescribed { values, flux: None }, control)
+    harmonic_map(domain, &MapConstraints { values, flux: None }, control)
 }
 
-/// The harmonic map of a disk onto the unit disk with the boundary by its length: injective on a Delaunay triangulation, by the theorem of
-/// Tutte and Floater \[Flo03\], since the weights are at least 0, where no two edges have the same ends ([`super::simple_domain`]).
+/// The harmonic map of a disk onto the unit disk, with the boundary spread over the circle by its length. On a Delaunay triangulation,
+/// where the weights are at least 0, it is injective by the theorem of Tutte and Floater \[Flo03\] if no two edges have the same ends
+/// ([`super::simple_domain`]).
 ///
 /// # Errors
 /// [`Error::Layout`] for a surface that is no disk; those of [`harmonic_map`].
@@ -64,9 +66,9 @@ pub fn to_disk(domain: &Domain, control: &Control) -> Result<HarmonicMap<2>> {
     with_values(domain, boundary(domain)?.into_iter().map(on_circle).collect(), control)
 }
 
-/// The harmonic map of a disk onto a convex polygon, with the boundary by its length from corner to corner. `corners`: the vertices that go
-/// to the polygon's, in the boundary's order with the surface on the left; without them the shares of length are those of the polygon's
-/// sides.
+/// The harmonic map of a disk onto a convex polygon, with the boundary spread over each side by its length. `corners`: the vertices that
+/// are mapped to the polygon's corners, in the boundary's order with the surface on the left; without them the boundary is divided in
+/// proportion to the polygon's sides.
 ///
 /// # Errors
 /// [`Error::Argument`] for a polygon that is not strictly convex and counterclockwise, and corners that do not follow each other on the
@@ -106,7 +108,7 @@ pub fn to_polygon(
         }
     };
     let on_polygon = |(v, share): (VertexId, f64)| {
-        // Shares measured from the first corner, which never decrease.
+        // Shares are measured from the first corner, so that they ascend from corner to corner.
         let along = |x: f64| (x - shares[0]).rem_euclid(1.0);
         let k = (0..n).rfind(|&k| along(shares[k]) <= along(share)).unwrap_or(0);
         let end = if k + 1 < n { along(shares[k + 1]) } else { 1.0 };
@@ -122,16 +124,16 @@ fn nearest(around: &[(VertexId, f64)], share: f64) -> VertexId {
     around.iter().min_by(|a, b| off(a.1).total_cmp(&off(b.1))).map_or(VertexId(0), |(v, _)| *v)
 }
 
-/// The boundary vertices of a disk nearest to the n-th parts of its length, from its first vertex on: corners for [`to_polygon`].
+/// The boundary vertices nearest to the ends of n equal parts of a disk's boundary, from its first vertex on: corners for [`to_polygon`].
 ///
 /// # Errors
-/// [`Error::Layout`] for a surface that is no disk; [`Error::Argument`] where one vertex is nearest to two of the parts.
+/// [`Error::Layout`] for a surface that is no disk; [`Error::Argument`] if one vertex is nearest to two ends.
 pub fn corners_by_length(domain: &Domain, n: usize) -> Result<Vec<VertexId>> {
     evenly(&boundary(domain)?, n)
 }
 
 fn evenly(around: &[(VertexId, f64)], n: usize) -> Result<Vec<VertexId>> {
-    // More corners than vertices are refused before there is memory for them.
+    // The count is bounded, so that an absurd number of corners is refused without memory for them.
     let found: Vec<VertexId> =
         (0..n.min(around.len() + 1)).map(|k| nearest(around, k as f64 / n as f64)).collect();
     let distinct = found.iter().collect::<BTreeSet<_>>().len();
@@ -148,7 +150,7 @@ pub fn regular_polygon(n: usize) -> Vec<Complex> {
     (0..n).map(corner).map(|(sin, cos)| [cos, sin]).collect()
 }
 
-/// The shares of length at which corners lie.
+/// The shares of the boundary's length at which these corners lie.
 fn corner_shares(around: &[(VertexId, f64)], corners: &[VertexId], n: usize) -> Result<Vec<f64>> {
     let share = |c: &VertexId| around.iter().find(|(v, _)| v == c).map(|(_, share)| *share);
     let shares: Vec<f64> = corners.iter().filter_map(share).collect();
@@ -164,11 +166,11 @@ fn corner_shares(around: &[(VertexId, f64)], corners: &[VertexId], n: usize) -> 
     Ok(shares)
 }
 
-/// The map of a disk with four corners onto the rectangle of its modulus, `[0, width] × [0, 1]`: each coordinate is harmonic with two sides
-/// given and no flux through the others, so the map is conformal up to O(h²). The first side, from corner 0 to corner 1, is the bottom.
+/// The map of a disk with four corners onto the rectangle of its modulus, `[0, width] × [0, 1]`, and the corners. Each coordinate is
+/// harmonic with given values on two sides and no flux through the others, so the map is conformal up to O(h²). The first side, from corner
+/// 0 to corner 1, is the bottom.
 ///
-/// `corners`: four vertices of the boundary in its order with the surface on the left; without them [`corners_by_length`]. Returned with
-/// the corners.
+/// `corners`: four vertices of the boundary in its order with the surface on the left; default: [`corners_by_length`].
 ///
 /// # Errors
 /// As [`to_polygon`].
@@ -195,10 +197,10 @@ pub fn to_rectangle(
     let between = |low: usize, high: usize| {
         let low = side(low).into_iter().map(|v| (v, [0.0]));
         let values = low.chain(side(high).into_iter().map(|v| (v, [1.0]))).collect();
-        harmonic_map(domain, &Prescribed { values, flux: None }, control)
+        harmonic_map(domain, &MapConstraints { values, flux: None }, control)
     };
     let (x, y) = (between(3, 1)?, between(0, 2)?);
-    // The energy ½∫|∇x|² of x from 0 to 1 is half of height over width, that of y the other way round.
+    // The energy ½∫|∇x|² of x from 0 to 1 is half of height over width, and that of y is half of width over height.
     let width = (y.energy / x.energy).sqrt();
     let points: Vec<Complex> = x.points.iter().zip(&y.points).map(|([x], [y])| [width * x, *y]).collect();
     let energy = width * width * x.energy + y.energy;
@@ -206,7 +208,7 @@ pub fn to_rectangle(
     Ok((HarmonicMap { points, energy, mean_value_residual }, corners))
 }
 
-/// Faces of the domain that a map to the plane does not draw counterclockwise, by exact arithmetic.
+/// The faces of the domain whose images under a map to the plane are not counterclockwise, by exact arithmetic.
 pub fn flipped(domain: &Domain, points: &[Complex]) -> Vec<FaceId> {
     let mesh = domain.mesh();
     let is_left = |f: FaceId| {

@@ -1,8 +1,8 @@
-//! Delaunay triangulations that maps to the plane need not collapse.
+//! Intrinsic Delaunay triangulations whose harmonic maps to the plane do not collapse, by vertices added on edges.
 //!
 //! On an intrinsic Delaunay triangulation two edges may join the same vertices, around the tip of a spike. A map that is linear on edges
-//! sends both to one segment and, by the maximum principle, all that lies between them too. The same happens to what an edge inside parts
-//! from the rest if both of its ends go to one side of a polygon. Vertices added there part these edges.
+//! maps both to one segment and so, by the maximum principle, everything between them. In the same way the part of a disk that an interior
+//! edge cuts off collapses if both ends of the edge are mapped to one side of a polygon. Vertices are added on such edges.
 //!
 //! ```
 //! use ricci::harmonic::{planar, simple_domain};
@@ -21,16 +21,16 @@ use crate::mesh::{EdgeId, Mesh};
 use crate::metric::{Split, Surface};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Rounds of added vertices: each puts one near the middle of every edge that must go, which leaves edges of half the length.
+/// Most rounds of added vertices: each round adds a vertex near the middle of every unwanted edge, which leaves edges of half the length.
 const ROUNDS: usize = 24;
-/// Least share of an edge that a vertex parts off: it need not lie on the edge that must go.
+/// Least share of an edge that an added vertex cuts off; the vertex need not lie exactly on the unwanted edge.
 const LEAST_PART: f64 = 0.1;
 
-/// The surface on an intrinsic Delaunay triangulation without loops and without edges that have the same two ends, with the vertices that
-/// had to be added for that on edges inside; none on most surfaces. With `apart`, no edge inside joins two boundary vertices either.
+/// The surface on an intrinsic Delaunay triangulation without loops and without edges that have the same two ends, and the vertices that
+/// had to be added for that on interior edges; none on most surfaces. With `apart`, no interior edge joins two boundary vertices either.
 ///
 /// # Errors
-/// Those of [`Domain::new`] and [`Domain::refinement`]; [`Error::Layout`] where such edges are left after 24 rounds of added vertices.
+/// Those of [`Domain::new`] and [`Domain::refinement`]; [`Error::Layout`] if such edges are left after 24 rounds of added vertices.
 pub fn simple_domain(surface: &Surface, apart: bool, control: &Control) -> Result<(Split, Domain)> {
     let mut split = Split::new(surface);
     for _ in 0..ROUNDS {
@@ -49,7 +49,7 @@ pub fn simple_domain(surface: &Surface, apart: bool, control: &Control) -> Resul
     )))
 }
 
-/// The edges that the triangulation must not have.
+/// The unwanted edges of a triangulation.
 fn edges_to_part(mesh: &Mesh, apart: bool) -> BTreeSet<EdgeId> {
     let mut ends: Vec<_> =
         mesh.edges().map(|e| (mesh.ends(e), e)).map(|([i, j], e)| (i.min(j), i.max(j), e)).collect();
@@ -62,7 +62,7 @@ fn edges_to_part(mesh: &Mesh, apart: bool) -> BTreeSet<EdgeId> {
     found
 }
 
-/// Edges of the given triangulation with shares of their length: near the middles of these Delaunay edges.
+/// Places near the middles of these Delaunay edges: edges of the given triangulation with shares of their length.
 fn places(domain: &Domain, edges: &BTreeSet<EdgeId>, control: &Control) -> Result<Vec<(EdgeId, f64)>> {
     let Some(refinement) = domain.refinement(control)? else {
         return Ok(edges.iter().map(|&e| (e, 0.5)).collect());
@@ -72,7 +72,7 @@ fn places(domain: &Domain, edges: &BTreeSet<EdgeId>, control: &Control) -> Resul
         .crossings
         .iter()
         .map(|c| (c.final_edge, ((c.final_weights[0] - 0.5).abs(), c.input_edge, c.input_weights[1])));
-    // A Delaunay edge that is a given one is crossed nowhere.
+    // A Delaunay edge that is an edge of the given triangulation has no crossings.
     let given = refinement.origin.iter().filter_map(|o| Some((o.result?, (0.5, o.input?, 0.5))));
     for (e, place) in middles.chain(given).filter(|(e, _)| edges.contains(e)) {
         let best = nearest.entry(e).or_insert(place);
@@ -83,10 +83,10 @@ fn places(domain: &Domain, edges: &BTreeSet<EdgeId>, control: &Control) -> Resul
     Ok(nearest.into_values().map(|(_, e, share)| (e, share)).collect())
 }
 
-/// Part edges inside at these shares.
+/// Divides interior edges at these shares.
 fn part(split: &mut Split, given: &Mesh, mut places: Vec<(EdgeId, f64)>) -> Result<()> {
     places.retain(|&(e, _)| !given.is_boundary_edge(e));
-    // The first part of an edge keeps its number: the farthest place comes first.
+    // The first part of a divided edge keeps its number, so the farthest place comes first.
     places.sort_by(|a, b| a.0.cmp(&b.0).then(b.1.total_cmp(&a.1)));
     let mut before = None;
     for (e, share) in places {

@@ -11,7 +11,7 @@
 
 use super::domain::Domain;
 use super::laplace::Laplace;
-use super::map::{Prescribed, energy, harmonic_map};
+use super::map::{MapConstraints, energy, harmonic_map};
 use crate::control::{Control, Stage};
 use crate::error::{Error, Result};
 use crate::geometry::barycentre::conformal_barycentre;
@@ -19,22 +19,22 @@ use crate::geometry::sphere::{lift, project};
 use crate::geometry::vector::{Vector, add, cross, dot, norm, normalised, scale, sub};
 use crate::mesh::{FaceId, VertexId};
 
-/// How the energy is brought down.
+/// The method by which the energy is lowered.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum SphereMethod {
-    /// Implicit steps in the metric of the image, whose modes all fall at a rate of their own: few steps.
+    /// Implicit steps in the metric of the image, in which all modes fall fast: few steps.
     #[default]
     Implicit,
     /// The paper's flow `df/dt = −(Δf)^∥` \[JKLLG08, Eqn 7, with Δ ≥ 0\], explicit in time: many steps.
     HeatFlow,
 }
 
-/// What [`sphere_map`] can be asked.
+/// The options of [`sphere_map`].
 #[derive(Debug, Clone, Copy)]
 pub struct SphereMapOptions {
     /// The method.
     pub method: SphereMethod,
-    /// The map is taken for harmonic once a step lowers the energy by no more than this share of it.
+    /// The relative decrease of the energy by one step up to which the map counts as harmonic.
     pub tolerance: f64,
     /// Most steps.
     pub max_iterations: usize,
@@ -49,21 +49,22 @@ impl Default for SphereMapOptions {
 /// A map to the unit sphere.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SphereMap {
-    /// Per vertex a point of the unit sphere; weighted by the vertices' areas their mean is 0.
+    /// Per vertex, its image on the unit sphere. The mean of the images, weighted by the vertices' areas, is 0.
     pub points: Vec<Vector>,
-    /// `½ Σ w |f_i − f_j|²` at the start and after every step: it never grows. 4π at least for a map onto the sphere of smooth surfaces.
+    /// The energy `½ Σ w |f_i − f_j|²` at the start and after every step, which never grows. For smooth surfaces the energy of a map onto
+    /// the sphere is at least 4π.
     pub energies: Vec<f64>,
-    /// Whether the last step was within the tolerance.
+    /// True if the last step was within the tolerance.
     pub converged: bool,
-    /// Faces that do not turn outwards.
+    /// The faces whose images do not face outwards.
     pub flipped: Vec<FaceId>,
 }
 
-/// The harmonic map of a closed surface of genus 0 to the unit sphere, of degree 1 and centred: of harmonic maps to the sphere, which are
-/// conformal, the one with the mean 0. It starts from the harmonic map onto a triangle in the plane, put on the sphere.
+/// The harmonic map of degree 1 of a closed surface of genus 0 to the unit sphere. Harmonic maps to the sphere are conformal; the result is
+/// the one whose mean is 0. The iteration starts from the harmonic map onto a triangle in the plane, lifted to the sphere.
 ///
-/// A step goes along the tangential part of the Laplacian, back to the sphere, and is followed by the Möbius transformation that
-/// centres the image; it is halved until the energy falls.
+/// A step moves the images along the tangential part of the Laplacian and back to the sphere, and then applies the Möbius transformation
+/// that centres them. It is halved until the energy falls.
 ///
 /// # Errors
 /// [`Error::Layout`] for another surface; [`Error::Argument`] for a tolerance that is not positive; those of [`harmonic_map`] and
@@ -81,7 +82,7 @@ pub fn sphere_map(domain: &Domain, options: &SphereMapOptions, control: &Control
     }
     let mut points = start(domain, control)?;
     let mut energies = vec![energy(domain, &points)];
-    let mut flow = Flow::new(domain, options.method, &points, control)?;
+    let mut flow = SphereFlow::new(domain, options.method, &points, control)?;
     let mut converged = false;
     while energies.len() <= options.max_iterations && !converged {
         control.step(Stage::Flow, energies.len() as f64 / options.max_iterations as f64)?;
@@ -103,8 +104,8 @@ pub fn sphere_map(domain: &Domain, options: &SphereMapOptions, control: &Control
     Ok(SphereMap { points, energies, converged, flipped })
 }
 
-/// A triangle of the surface goes to an equilateral one in the plane, all else harmonically into it; then everything is put on the sphere
-/// and centred.
+/// The first map: the largest face is mapped to an equilateral triangle in the plane and the rest harmonically into it; then the plane is
+/// lifted to the sphere and centred.
 fn start(domain: &Domain, control: &Control) -> Result<Vec<Vector>> {
     let (mesh, areas) = (domain.mesh(), domain.face_areas());
     let is_triangle = |f: &FaceId| {
@@ -114,51 +115,54 @@ fn start(domain: &Domain, control: &Control) -> Result<Vec<Vector>> {
     let outer = mesh.faces().filter(is_triangle).max_by(|&f, &g| areas[f].total_cmp(&areas[g]));
     let outer =
         outer.ok_or_else(|| Error::Layout("no face of the surface has three different corners".into()))?;
-    // The outer triangle is seen from behind.
+    // The outer triangle is seen from behind, so its corners are clockwise.
     let corner = |k: usize| {
         let (sin, cos) = (-std::f64::consts::TAU * k as f64 / 3.0).sin_cos();
         [cos, sin]
     };
     let values = mesh.face_vertices(outer).into_iter().enumerate().map(|(k, v)| (v, corner(k))).collect();
-    let plane = harmonic_map(domain, &Prescribed { values, flux: None }, control)?.points;
+    let plane = harmonic_map(domain, &MapConstraints { values, flux: None }, control)?.points;
     let centred = conformal_barycentre(&plane, domain.vertex_areas(), 0.0)?;
     Ok(plane.into_iter().map(|z| lift(centred.apply(z))).collect())
 }
 
-struct Flow<'a> {
+/// The iteration that lowers the energy of a map to the sphere.
+struct SphereFlow<'a> {
     domain: &'a Domain,
     control: &'a Control,
     implicit: Option<Laplace<'a>>,
-    /// Length of the next step; of implicit ones in units of the sphere's radius squared.
+    /// The length of the next step; for implicit steps in units of the sphere's radius squared.
     length: f64,
 }
 
-/// Length of the first implicit step: the second harmonics of the sphere, the slowest after the Möbius transformations, fall by half.
+/// Length of the first implicit step, by which the second harmonics of the sphere, the slowest modes beside the Möbius transformations,
+/// fall by half.
 const FIRST: f64 = 0.5;
-/// Steps that have been halved to this share of the first one have nowhere to go.
+/// Length, in units of the first step tried, below which no step lowers the energy.
 const SHORTEST: f64 = 1e-12;
-/// Least mass of a vertex in implicit steps, in areas of the sphere over the number of vertices: images of vertices may nearly coincide.
+/// Least mass of a vertex in implicit steps, in units of the sphere's area over the number of vertices, since images of vertices may nearly
+/// coincide.
 const LEAST_MASS: f64 = 1e-9;
 
-impl<'a> Flow<'a> {
+impl<'a> SphereFlow<'a> {
     fn new(
         domain: &'a Domain,
         method: SphereMethod,
         points: &[Vector],
         control: &'a Control,
-    ) -> Result<Flow<'a>> {
-        let mut flow = Flow { domain, control, implicit: None, length: FIRST };
+    ) -> Result<SphereFlow<'a>> {
+        let mut flow = SphereFlow { domain, control, implicit: None, length: FIRST };
         match method {
             SphereMethod::Implicit => {
                 flow.implicit = Some(Laplace::with_mass(domain, &flow.masses(points), control)?);
             }
-            // An explicit step is stable below the least mass over weight.
+            // An explicit step of length 1 moves every vertex to the mean of its neighbours.
             SphereMethod::HeatFlow => flow.length = 1.0,
         }
         Ok(flow)
     }
 
-    /// Areas of the vertices' images over the step's length.
+    /// The areas of the vertices' images over the length of the step.
     fn masses(&self, points: &[Vector]) -> Vec<f64> {
         let mesh = self.domain.mesh();
         let least = LEAST_MASS * 4.0 * std::f64::consts::PI / points.len() as f64;
@@ -173,7 +177,7 @@ impl<'a> Flow<'a> {
         area
     }
 
-    /// Where a step leads, with its energy; none where no step lowers that.
+    /// The images after a step, and their energy; `None` if no step lowers it.
     fn step(&mut self, points: &[Vector], before: f64) -> Result<Option<(Vec<Vector>, f64)>> {
         let first = self.length;
         while self.length > SHORTEST * first {
@@ -193,7 +197,7 @@ impl<'a> Flow<'a> {
         if self.implicit.is_some() { FIRST } else { 1.0 }
     }
 
-    /// Points moved along their tangent planes and brought back to the sphere.
+    /// The points after a move along their tangent planes and back to the sphere.
     fn moved(&mut self, points: &[Vector]) -> Result<Vec<Vector>> {
         self.control.check()?;
         let mut target = points.to_vec();
@@ -213,7 +217,7 @@ impl<'a> Flow<'a> {
                     pull[i] = (add(pull[i].0, across), pull[i].1 + weight);
                     pull[j] = (sub(pull[j].0, across), pull[j].1 + weight);
                 }
-                // The mass of a vertex in the flow is the sum of its weights: every vertex may then go to the mean of its neighbours.
+                // The mass of a vertex in this flow is the sum of its weights, so that a full step leads to the mean of its neighbours.
                 for (p, (pull, total)) in target.iter_mut().zip(pull) {
                     *p = add(*p, scale(self.length / total, pull));
                 }
@@ -229,7 +233,7 @@ impl<'a> Flow<'a> {
 
 /// The image centred by a Möbius transformation.
 fn centre(domain: &Domain, points: Vec<Vector>) -> Result<Vec<Vector>> {
-    // A pole of the projection away from every point is not needed: the one point at infinity is moved by a rounding error.
+    // If a point is the pole of the projection, it is moved by a small amount.
     let plane: Vec<[f64; 2]> = points
         .iter()
         .map(|&p| project(p).or_else(|| project(normalised([1e-9, 0.0, p[2]]))).unwrap_or([0.0; 2]))

@@ -1,8 +1,8 @@
-//! The Hodge star between harmonic forms, as a matrix between their classes.
+//! The Hodge star of harmonic forms, as a matrix between their classes.
 //!
-//! On a surface with boundary the star of an absolute class is a relative one and the other way round. With the products
-//! `G_kl = ∫ ω_k ∧ *ω_l` and `P_km = ∫ ω_k ∧ ρ_m`, ρ being the dual classes, `*ω_l = Σ_m J_lm ρ_m` has `P Jᵀ = G`. P is the intersection
-//! matrix of the loops: (0, 1; −1, 0) for each handle, −1 for a boundary loop and its arc (of relative with absolute classes +1).
+//! On a surface with boundary the star of an absolute class is a relative one, and conversely. With the products `G_kl = ∫ ω_k ∧ *ω_l` and
+//! `P_km = ∫ ω_k ∧ ρ_m`, where the ρ are the dual classes, `*ω_l = Σ_m J_lm ρ_m` has `P Jᵀ = G`. P is the intersection matrix of the loops:
+//! (0, 1; −1, 0) for each handle, −1 for a boundary loop and its arc (of relative with absolute classes +1).
 //!
 //! ```
 //! use ricci::harmonic::{Classes, Domain, FormsOptions, HarmonicForms, with_conjugate};
@@ -24,21 +24,25 @@ use super::one_form::ComplexForm;
 use crate::error::{Error, Result, check_size};
 
 impl HarmonicForms {
-    /// J: row k holds the coefficients of `*ω_k` in the dual classes, which on a closed surface are the same forms.
+    /// The matrix J, whose row k holds the coefficients of `*ω_k` in the dual classes; on a closed surface these are the same forms.
     pub fn star(&self) -> Vec<Vec<f64>> {
         let (handles, arcs) =
             (2 * self.basis.group.genus, if self.classes == Classes::Absolute { -1.0 } else { 1.0 });
-        let entry = |row: &[f64], m: usize| match m < handles {
-            true if m.is_multiple_of(2) => -row[m + 1],
-            true => row[m - 1],
-            false => arcs * row[m],
+        let entry = |row: &[f64], m: usize| {
+            if m >= handles {
+                arcs * row[m]
+            } else if m.is_multiple_of(2) {
+                -row[m + 1]
+            } else {
+                row[m - 1]
+            }
         };
         self.inner_products().iter().map(|row| (0..row.len()).map(|m| entry(row, m)).collect()).collect()
     }
 }
 
-/// The form `ω + i *ω` for the combination ω of forms with these coefficients, holomorphic up to O(h²); `dual`: the forms of the dual
-/// classes on the same domain, on a closed surface the same.
+/// The form `ω + i *ω`, holomorphic up to O(h²), for the combination ω of forms with these coefficients. `dual`: the forms of the dual
+/// classes on the same domain; on a closed surface the same forms.
 ///
 /// # Errors
 /// [`Error::Size`]; [`Error::Argument`] for classes that are not dual.

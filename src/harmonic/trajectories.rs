@@ -1,5 +1,5 @@
-//! Horizontal and vertical trajectories: the lines on the surface along which the imaginary, or the real, part of a form's integral stays
-//! the same.
+//! Horizontal and vertical trajectories of a form: the lines on the surface along which the imaginary or real part of its integral is
+//! constant.
 //!
 //! ```
 //! use ricci::harmonic::{Domain, FormsOptions, HarmonicForms, PeriodMatrix, TrajectoryOptions, integrate, trajectories};
@@ -22,14 +22,14 @@ use crate::geometry::complex::{Complex, add, doubled_area, norm2, sub};
 use crate::mesh::{FaceId, HalfedgeId, Mesh};
 use std::collections::{HashSet, VecDeque};
 
-/// Which trajectories, and how many.
+/// The options of [`trajectories`].
 #[derive(Debug, Clone, Copy)]
 pub struct TrajectoryOptions {
-    /// Along constant real part, in place of constant imaginary part.
+    /// True for lines of constant real part, false for lines of constant imaginary part.
     pub vertical: bool,
-    /// Distance between neighbouring lines on the surface, over the square root of its area; 1e-4 or more.
+    /// The distance between neighbouring lines on the surface, over the square root of its area; at least 1e-4.
     pub spacing: f64,
-    /// Length of a line on the surface at most, over the square root of its area.
+    /// The largest length of a line on the surface, over the square root of its area.
     pub longest: f64,
 }
 
@@ -39,27 +39,27 @@ impl Default for TrajectoryOptions {
     }
 }
 
-/// A point on an edge: of the half-edge, in its face, this share of the way from its origin to its tip.
+/// A point on a half-edge, with its share of the way from the origin to the tip.
 pub type OnHalfedge = (HalfedgeId, f64);
 
-/// Least [`TrajectoryOptions::spacing`]: some ten thousand lines, with as many points each as there are edges on their way.
+/// Least [`TrajectoryOptions::spacing`], which gives some ten thousand lines, each with a point on every edge that it crosses.
 const LEAST_SPACING: f64 = 1e-4;
-/// Share of the spacing down to which lines may approach each other before one of them ends [JL97].
+/// Least distance of two lines, in spacings, before one of them ends \[JL97\].
 const NEAREST: f64 = 0.55;
-/// Lines shorter than this many spacings, as there are between others near zeros, are left out.
+/// Least length of a line, in spacings; between other lines near zeros there are shorter ones, which are left out.
 const SHORTEST: f64 = 1.5;
-/// Spacings from a zero up to which the lines that run into it do not end near each other.
+/// Length, in spacings, from a zero up to which the lines that run into it do not end near each other.
 const ALONE: f64 = 1.0;
-/// Share of a face's longest side by which a corner may lie below another one and count as on its level: the faces at an edge, each in
-/// coordinates of its own, are to agree on it.
+/// Largest difference of height, in units of a face's longest side, of two corners on one level: the two faces at an edge, each with its
+/// own coordinates, have to agree on that.
 const SAME_LEVEL: f64 = 1e-12;
-/// A line looks for others after each such share of the spacing.
+/// Length, in spacings, after which a line is tested again for others nearby.
 const LOOK: f64 = 0.25;
 
-/// Evenly placed trajectories of a form's drawing, each as the points where it crosses edges of [`FormLayout::mesh`], which it joins
-/// straight. Lines through zeros come first. Others begin in faces from which no line is nearer than the spacing and end where they come
-/// nearer than about half of it to another or to themselves, at the boundary, or at their longest \[JL97\]. `areas`: of the faces on the
-/// surface (F entries, positive).
+/// Evenly spaced trajectories of a form's drawing. Each is given by the points at which it crosses edges of [`FormLayout::mesh`], between
+/// which it is straight. The lines through zeros come first. The others start in faces that are farther than the spacing from all lines;
+/// they end at about half the spacing from another line or from themselves, at the boundary, or at their largest length \[JL97\]. `areas`:
+/// of the faces on the surface (F entries, positive).
 ///
 /// # Errors
 /// [`Error::Size`]; [`Error::Argument`] for a spacing below 1e-4 or a length that is not positive; [`Error::Cancelled`].
@@ -83,7 +83,7 @@ pub fn trajectories(
     let corners: Vec<[Complex; 3]> = mesh.faces().map(|f| layout.face(f).map(turned)).collect();
     let scale = |f: usize| (drawn_area(corners[f]) / areas[f]).sqrt();
     let scale: Vec<f64> = (0..corners.len()).map(scale).collect();
-    let mut tracer = Tracer {
+    let mut tracer = TrajectoryTracer {
         mesh,
         lines: vec![Vec::new(); corners.len()],
         corners,
@@ -91,13 +91,13 @@ pub fn trajectories(
         spacing: options.spacing * unit,
         longest: options.longest * unit,
     };
-    // First the lines that run into zeros, which part the others.
+    // The lines that run into zeros come first, since they separate the others.
     let mut found = Vec::new();
     for (k, (f, corner)) in tracer.prongs().into_iter().enumerate() {
         control.check()?;
         found.extend(tracer.prong(f, corner, mesh.n_faces() + k));
     }
-    // A stride prime to the number of faces spreads the beginnings over the surface.
+    // A stride that is prime to the number of faces spreads the starts over the surface.
     let stride = (0.618 * mesh.n_faces() as f64) as usize | 1;
     let stride = (stride..).step_by(2).find(|&s| gcd(s, mesh.n_faces()) == 1).unwrap_or(1);
     for k in 0..mesh.n_faces() {
@@ -111,7 +111,7 @@ pub fn trajectories(
     Ok(found)
 }
 
-/// Area of a drawn face; of one that a zero turns over, that of an equilateral one with sides as long.
+/// The area of a drawn face; for a face that a zero turns over, the area of an equilateral triangle with the same mean square of sides.
 fn drawn_area(z: [Complex; 3]) -> f64 {
     let doubled = doubled_area(z);
     let squares: f64 = (0..3).map(|k| norm2(sub(z[(k + 1) % 3], z[k]))).sum();
@@ -122,31 +122,32 @@ fn gcd(a: usize, b: usize) -> usize {
     if b == 0 { a } else { gcd(b, a % b) }
 }
 
-/// A line's part in a face: level, least and largest x in the face's own coordinates, and whose it is.
+/// The part of a line in a face: its level, its least and largest x in the face's own coordinates, and the number of the line.
 #[derive(Clone, Copy)]
-struct Part {
+struct TrajectoryPart {
     level: f64,
     range: [f64; 2],
     line: usize,
 }
 
-struct Tracer<'a> {
+/// The drawing in which trajectories are traced, with the lines found so far.
+struct TrajectoryTracer<'a> {
     mesh: &'a Mesh,
     corners: Vec<[Complex; 3]>,
-    /// Per face, length in the drawing over length on the surface.
+    /// Per face, the ratio of lengths in the drawing to lengths on the surface.
     scale: Vec<f64>,
-    lines: Vec<Vec<Part>>,
+    lines: Vec<Vec<TrajectoryPart>>,
     spacing: f64,
     longest: f64,
 }
 
-impl Tracer<'_> {
+impl TrajectoryTracer<'_> {
     fn centre(&self, f: FaceId) -> Complex {
         let [a, b, c] = self.corners[f.index()];
         add(add(a, b), c).map(|x| x / 3.0)
     }
 
-    /// The points at which the line of a level leaves the face, as a share of each side; two, or none if it misses the face.
+    /// The points at which the line of a level crosses the sides of a face: two, or none if it misses the face.
     fn crossings(&self, f: FaceId, level: f64) -> Vec<OnHalfedge> {
         let (z, halfedges) = (self.corners[f.index()], self.mesh.face_halfedges(f));
         let crossed = (0..3).filter(|&k| (z[k][1] >= level) != (z[(k + 1) % 3][1] >= level));
@@ -154,13 +155,14 @@ impl Tracer<'_> {
         crossed.map(|k| (halfedges[k], share(k).clamp(0.0, 1.0))).collect()
     }
 
+    /// The coordinates of a point on a half-edge, in the drawing of the half-edge's face.
     fn at(&self, (h, share): OnHalfedge) -> Option<Complex> {
         let (f, k) = self.mesh.corner(h)?;
         let (a, b) = (self.corners[f.index()][k], self.corners[f.index()][(k + 1) % 3]);
         Some([0, 1].map(|i| a[i] + share * (b[i] - a[i])))
     }
 
-    /// The faces, with their corners, into which lines of one level run from a vertex where more than two do.
+    /// The faces, with their corners, into which lines run from a zero: a vertex from which more than two lines of its level start.
     fn prongs(&self) -> Vec<(FaceId, usize)> {
         let inside = self.mesh.vertices().filter(|&v| !self.mesh.is_boundary_vertex(v));
         let around = |v| {
@@ -170,7 +172,7 @@ impl Tracer<'_> {
         inside.map(around).filter(|prongs| prongs.len() > 2).flatten().collect()
     }
 
-    /// Where the line from a corner into its face leaves that through the opposite side, if it does.
+    /// The point at which the line from a corner into its face leaves the face through the opposite side, if it does.
     fn opposite(&self, f: FaceId, k: usize) -> Option<OnHalfedge> {
         let (z, side) = (self.corners[f.index()], (k + 1) % 3);
         let [from, to] = [z[side][1], z[(side + 1) % 3][1]].map(|y| y - z[k][1]);
@@ -180,7 +182,7 @@ impl Tracer<'_> {
         is_crossed.then(|| (self.mesh.face_halfedges(f)[side], (from / (from - to)).clamp(0.0, 1.0)))
     }
 
-    /// The line from a corner into its face and beyond. Near their zero lines may be as near to each other as they are.
+    /// The line from a corner into its face and beyond. Near their common zero, lines are not tested for others nearby.
     fn prong(&mut self, f: FaceId, k: usize, line: usize) -> Option<Vec<OnHalfedge>> {
         let (start, level) = ((self.mesh.face_halfedges(f)[k], 0.0), self.corners[f.index()][k][1]);
         let first = self.opposite(f, k)?;
@@ -202,8 +204,8 @@ impl Tracer<'_> {
         (back + length > SHORTEST * self.spacing).then_some(points)
     }
 
-    /// The points after `from`, where the line leaves a face, and the length that they add. For the length `alone` the line does not look
-    /// for others.
+    /// The points of a line after `from`, where it leaves a face, and the length that they add. For the length `alone` the line is not
+    /// tested for others nearby.
     fn follow(&mut self, from: OnHalfedge, line: usize, alone: f64) -> (Vec<OnHalfedge>, f64) {
         let (mut points, mut length, mut unseen) = (Vec::new(), 0.0, 0.0);
         let mut at = from;
@@ -214,7 +216,7 @@ impl Tracer<'_> {
             let Some(w) = self.at(next) else { break };
             let scale = self.scale[f.index()];
             let step = (w[0] - z[0]).abs() / scale;
-            // Where the form is nearly 0 a line has no way to go on.
+            // A line ends where the form is nearly 0.
             if !step.is_finite() || self.returns(f, z[1], line) {
                 break;
             }
@@ -232,26 +234,31 @@ impl Tracer<'_> {
         (points, length)
     }
 
+    /// Notes the part of a line in a face.
     fn mark(&mut self, f: FaceId, level: f64, ends: [OnHalfedge; 2], line: usize) {
         if let [Some(a), Some(b)] = ends.map(|end| self.at(end)) {
-            self.lines[f.index()].push(Part { level, range: [a[0].min(b[0]), a[0].max(b[0])], line });
+            self.lines[f.index()].push(TrajectoryPart {
+                level,
+                range: [a[0].min(b[0]), a[0].max(b[0])],
+                line,
+            });
         }
     }
 
-    /// Whether the line comes back to a face nearer to itself than lines may approach.
+    /// True if a line comes back to a face too near to itself.
     fn returns(&self, f: FaceId, level: f64, line: usize) -> bool {
         let least = NEAREST * self.spacing * self.scale[f.index()];
         self.lines[f.index()].iter().any(|part| part.line == line && (part.level - level).abs() < least)
     }
 
-    /// Whether another line passes the point z of a face nearer than this share of the spacing, in a drawing of its surroundings.
+    /// True if another line passes the point z of a face nearer than this share of the spacing, in a drawing of the faces around it.
     fn is_near(&self, f: FaceId, z: Complex, share: f64, line: usize) -> bool {
         let reach = share * self.spacing * self.scale[f.index()];
         let mut seen = HashSet::from([f]);
         let mut open = VecDeque::from([(f, z)]);
-        // Each face comes with the point as its own coordinates have it.
+        // Each face is stored with the point in the face's own coordinates.
         while let Some((f, z)) = open.pop_front() {
-            let passes = |part: &Part| {
+            let passes = |part: &TrajectoryPart| {
                 let beside = part.range[0] - 0.5 * reach <= z[0] && z[0] <= part.range[1] + 0.5 * reach;
                 part.line != line && (part.level - z[1]).abs() < reach && beside
             };

@@ -1,4 +1,4 @@
-//! Indices of harmonic forms and zeros of holomorphic ones, counted by their edges' values.
+//! The indices of harmonic forms and the zeros of holomorphic ones, counted from the values on edges.
 //!
 //! ```
 //! use ricci::harmonic::{Domain, FormsOptions, HarmonicForms, PeriodMatrix, zeros};
@@ -17,31 +17,31 @@ use crate::mesh::{EdgeId, FaceId, HalfedgeId, Mesh, PerFace, PerVertex, VertexId
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
-/// Indices of a real form: at vertices inside `1 − s/2`, s being the number of changes of sign among the half-edges that leave it, in
-/// turn; at faces 1 if the signs around it agree, else 0. Boundary vertices have 0.
+/// The indices of a real form. The index of an interior vertex is `1 − s/2` for s changes of sign among the half-edges that leave it, in
+/// turn; that of a face is 1 if the signs around it agree, otherwise 0. Boundary vertices have the index 0.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Indices {
-    /// Per vertex.
+    /// Per vertex, its index.
     pub vertices: PerVertex<i64>,
-    /// Per face.
+    /// Per face, its index.
     pub faces: PerFace<i64>,
-    /// Vertices where a value is lost in rounding ([`RESOLUTION`]): indices there, and in their faces, mean nothing.
+    /// Per vertex, true if a value there is lost in rounding ([`RESOLUTION`]), so that its index and those of its faces mean nothing.
     pub unresolved: PerVertex<bool>,
-    /// The same per face.
+    /// Per face, true if a corner is unresolved.
     pub unresolved_faces: PerFace<bool>,
 }
 
-/// Values of a form below this share of the largest one are lost in rounding: a form falls off exponentially along a horn of the
-/// surface, but is known to an absolute accuracy only, some 1e-13 of its largest value.
+/// Largest value of a form, relative to its largest one, that is lost in rounding: along a horn of the surface a form falls off
+/// exponentially, but it is known to an absolute accuracy only, about 1e-13 of its largest value.
 pub const RESOLUTION: f64 = 1e-11;
 
 impl Indices {
-    /// The sum of all: 2 − 2g on a closed surface, whatever the form.
+    /// The sum of all indices: 2 − 2g on a closed surface, for every form.
     pub fn total(&self) -> i64 {
         self.vertices.iter().sum::<i64>() + self.faces.iter().sum::<i64>()
     }
 
-    /// The largest where values are resolved: at most 0 for a harmonic form, where the weights are positive.
+    /// The largest resolved index: at most 0 for a harmonic form with positive weights.
     pub fn largest(&self) -> i64 {
         let at_vertices = self.vertices.iter().zip(&self.unresolved);
         let all = at_vertices.chain(self.faces.iter().zip(&self.unresolved_faces));
@@ -73,7 +73,7 @@ pub fn indices(mesh: &Mesh, form: &OneForm) -> Indices {
     }
 }
 
-/// The ends of edges whose values are lost in rounding.
+/// Per vertex, true if it is an end of an edge whose value is lost in rounding.
 fn unresolved(mesh: &Mesh, size: impl Fn(EdgeId) -> f64) -> PerVertex<bool> {
     let largest = mesh.edges().map(&size).fold(0.0, f64::max);
     let mut found = PerVertex::filled(mesh.n_vertices(), false);
@@ -86,21 +86,21 @@ fn unresolved(mesh: &Mesh, size: impl Fn(EdgeId) -> f64) -> PerVertex<bool> {
 /// A zero of a complex form.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Zero {
-    /// The vertex that it is nearest to.
+    /// The vertex nearest to the zero.
     pub vertex: VertexId,
-    /// How many zeros coincide there; negative for a pole, which a form has only where a mesh is too coarse for it.
+    /// The number of zeros that coincide there; negative for a pole, which a form has only if the mesh is too coarse for it.
     pub multiplicity: i64,
 }
 
-/// The zeros of a complex closed form, by vertex: their multiplicities add up to 2g − 2 on a closed surface, whatever the form.
+/// The zeros of a complex closed form, by vertex. On a closed surface their multiplicities add up to 2g − 2, for every form.
 ///
-/// Integrals of the form draw each face in the plane. Where the drawn faces around a vertex turn m + 1 times there is a zero of order m;
-/// a face that is drawn clockwise holds a simple one. Neighbouring faces and vertices with such numbers are one zero, and so is a
-/// region where values are lost in rounding ([`RESOLUTION`]), with the number that the turning around it says.
+/// The integrals of the form draw each face in the plane. A vertex around which the drawn faces turn m + 1 times is a zero of order m; a
+/// face that is drawn clockwise holds a simple zero. Neighbouring faces and vertices of order other than 0 are one zero. A region in which
+/// values are lost in rounding ([`RESOLUTION`]) is one zero too, whose order follows from the turning around the region.
 pub fn zeros(mesh: &Mesh, form: &ComplexForm) -> Vec<Zero> {
     let lost = unresolved(mesh, |e| norm(form.0[e]));
     let n = mesh.n_vertices();
-    // Of vertices, then of faces; of a region where values are lost, at its first vertex.
+    // The orders of vertices, then those of faces; the order of a region in which values are lost is stored at its first vertex.
     let mut order = vec![0i64; n + mesh.n_faces()];
     let mut joined = UnionFind::new(order.len());
     let mut turned = PerVertex::filled(n, 0.0);
@@ -115,7 +115,7 @@ pub fn zeros(mesh: &Mesh, form: &ComplexForm) -> Vec<Zero> {
         let (vertices, sides) = (mesh.face_vertices(f), mesh.face_halfedges(f).map(|h| form.along(h)));
         let corner = |k: usize| [sides[k], neg(sides[(k + 2) % 3])];
         if let Some(v) = vertices.into_iter().find(|v| lost[*v]) {
-            // Half a turn per face, less what its corners outside the region take.
+            // A face contributes half a turn minus its angles at corners outside the region.
             let outside = (0..3).filter(|&k| !lost[vertices[k]]).map(|k| {
                 let [z, w] = corner(k);
                 let angle = cross(z, w).atan2(dot(z, w));
@@ -145,11 +145,11 @@ pub fn zeros(mesh: &Mesh, form: &ComplexForm) -> Vec<Zero> {
     clusters(mesh, form, &order, joined)
 }
 
-/// Joins vertices and faces of order other than 0 that touch, and adds their orders up.
+/// The zeros after touching vertices and faces of order other than 0 have been joined and their orders added up.
 fn clusters(mesh: &Mesh, form: &ComplexForm, order: &[i64], mut joined: UnionFind) -> Vec<Zero> {
     let n = mesh.n_vertices();
     let number = |f: FaceId| (n + f.index()) as u32;
-    // A corner of a face that counts belongs to its cluster, whatever its own order; so does a vertex of a region that counts.
+    // The corners of a face of order other than 0 belong to its cluster, whatever their own orders; so do the vertices of such a region.
     let mut belongs: Vec<bool> =
         (0..n).map(|v| order[joined.root(v as u32) as usize] != 0 || order[v] != 0).collect();
     for f in mesh.faces().filter(|&f| order[number(f) as usize] != 0) {
@@ -166,7 +166,7 @@ fn clusters(mesh: &Mesh, form: &ComplexForm, order: &[i64], mut joined: UnionFin
     }
     let mut total = vec![0; order.len()];
     (0..order.len()).for_each(|k| total[joined.root(k as u32) as usize] += order[k]);
-    // The zero is put at the vertex around which the form is least.
+    // The vertex of a zero is the one around which the form is smallest.
     let size = |v: VertexId| {
         let all = mesh.outgoing(v).map(|h| norm(form.along(h)));
         let (sum, count) = all.fold((0.0, 0.0), |(sum, count), x| (sum + x, count + 1.0));

@@ -1,6 +1,6 @@
 //! Areas at the vertices of a mesh, and numbers there that are made more even.
 
-use crate::embed::triangle::Triangle;
+use crate::geometry::plane_triangle::PlaneTriangle;
 use crate::mesh::{Mesh, PerEdge, PerVertex};
 
 /// Rounds in which a number becomes the mean of itself and its neighbours'.
@@ -10,7 +10,7 @@ const SMOOTHINGS: usize = 5;
 pub(super) fn vertex_areas(mesh: &Mesh, lengths: &PerEdge<f64>) -> PerVertex<f64> {
     let mut areas = PerVertex::filled(mesh.n_vertices(), 0.0);
     for f in mesh.faces() {
-        let third = Triangle::from_sides(mesh.opposite_edges(f).map(|e| lengths[e])).area / 3.0;
+        let third = PlaneTriangle::from_sides(mesh.opposite_edges(f).map(|e| lengths[e])).area / 3.0;
         mesh.face_vertices(f).into_iter().for_each(|v| areas[v] += third);
     }
     areas

@@ -5,9 +5,9 @@
 
 use super::flat::{FLAT, Flat};
 use crate::control::{Control, Stage};
-use crate::embed::triangle::Triangle;
 use crate::error::{Result, check_size};
 use crate::geometry::complex::{Complex, add, cross, distance, doubled_area, mul, scale, sub};
+use crate::geometry::plane_triangle::PlaneTriangle;
 use crate::mesh::{EdgeId, FaceId, HalfedgeId, Mesh, PerEdge, PerVertex, Place, Thinning, VertexId};
 
 /// A diagonal is taken where both of its triangles have at least this share of the quadrilateral's area.
@@ -133,7 +133,7 @@ impl Work {
     fn apex(&self, h: HalfedgeId) -> Complex {
         let mesh = self.mesh();
         let [ab, bc, ca] = [h, mesh.next(h), mesh.prev(h)].map(|h| self.lengths[h.edge()]);
-        scale(ca, Triangle::from_sides([bc, ca, ab]).direction[0])
+        scale(ca, PlaneTriangle::from_sides([bc, ca, ab]).direction[0])
     }
 
     /// None for an edge on the boundary, or with one face on both sides.
@@ -262,7 +262,7 @@ impl Work {
     }
 
     fn area(&self, f: FaceId) -> f64 {
-        Triangle::from_sides(self.mesh().opposite_edges(f).map(|e| self.lengths[e])).area
+        PlaneTriangle::from_sides(self.mesh().opposite_edges(f).map(|e| self.lengths[e])).area
     }
 
     fn enqueue(&mut self, e: EdgeId) {

@@ -3,12 +3,12 @@
 use super::coarse::Coarse;
 use super::infinity::Infinity;
 use super::similarity::Similarity;
-use crate::embed::triangle::Triangle;
 use crate::error::{Error, Result};
 use crate::geometry::Space;
 use crate::geometry::complex::{
     Complex, add, conj, cross, distance, dot, doubled_area, mul, norm2, scale, sub, unit,
 };
+use crate::geometry::plane_triangle::PlaneTriangle;
 use crate::mesh::{FaceId, HalfedgeId, Mesh, PerFace, PerHalfedge, PerVertex, Place, VertexId};
 use crate::spline::knots::{Around, share_of_omega};
 use crate::spline::overlap::overlaps;
@@ -67,7 +67,7 @@ impl SurfaceDomain {
         });
         let triangle = |f: FaceId| {
             let sides = mesh.opposite_edges(f).map(|e| lengths[e] / unit[f]);
-            (sides, Triangle::from_sides(sides))
+            (sides, PlaneTriangle::from_sides(sides))
         };
         let corners = PerFace::from_fn(mesh.n_faces(), |f: FaceId| {
             let ([_, ca, ab], triangle) = triangle(f);
@@ -243,7 +243,7 @@ impl SurfaceDomain {
         let inscribed = |h: &HalfedgeId| {
             let f = mesh.face(*h)?;
             let sides = mesh.opposite_edges(f).map(|e| lengths[e]);
-            Some(2.0 * Triangle::from_sides(sides).area / (sides[0] + sides[1] + sides[2]))
+            Some(2.0 * PlaneTriangle::from_sides(sides).area / (sides[0] + sides[1] + sides[2]))
         };
         let spokes: Vec<HalfedgeId> = mesh.fan(v);
         let radius = spokes.iter().filter_map(inscribed).fold(f64::INFINITY, f64::min);

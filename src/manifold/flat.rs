@@ -3,7 +3,7 @@
 use super::pole::{evenest_vertex, from_pole};
 use crate::canonical::{Boundary, Corners, SphereOptions, uniformize_sphere};
 use crate::control::Control;
-use crate::embed::steps;
+use crate::embed::FaceTransitions;
 use crate::error::{Error, Result};
 use crate::flow::{self, Solution, flow};
 use crate::geometry::Space;
@@ -90,7 +90,7 @@ impl Flat {
             });
         }
         let refinement = Arc::new(flat.refinement(control)?);
-        let steps = steps(flat, Some(&refinement))?;
+        let steps = FaceTransitions::new(flat, Some(&refinement))?;
         let mut lengths = PerEdge::filled(steps.mesh.n_edges(), 0.0);
         for f in steps.mesh.faces() {
             let at = steps.corners[f].map(|[x, y, _]| [x, y]);

@@ -4,7 +4,7 @@
 use super::balance::mean_value_weights;
 use super::cover::{PlacedMesh, UniversalCover};
 use crate::control::Control;
-use crate::embed::{Scale, UnrollOptions, unroll};
+use crate::embed::{Layout, LayoutOpening, LayoutOptions, LayoutScale};
 use crate::error::{Error, Result};
 use crate::flow::{Flow, Options, Solution};
 use crate::geometry::{DoubleDouble, Motion, Space};
@@ -68,7 +68,7 @@ pub(super) struct Opening<'a> {
     pub cones: &'a [VertexId],
     /// Half-edges whose corners become the own corners of their vertices ([`UniversalCover::new`]).
     pub own_corners: &'a [HalfedgeId],
-    pub scale: Scale,
+    pub scale: LayoutScale,
     /// [`Solution::refinement`], if it has been formed before.
     pub refinement: Option<Arc<Refinement>>,
     pub threads: usize,
@@ -78,22 +78,22 @@ impl Opening<'_> {
     /// The places of the vertices in this metric, and per segment of the cut the deck transformation across it.
     ///
     /// # Errors
-    /// Those of [`unroll`] and [`PlacedMesh::of_layout`].
+    /// Those of [`Layout::of_solution`] and [`PlacedMesh::of_layout`].
     pub fn place(
         &self,
         solution: &Solution,
         mesh: &Arc<Mesh>,
         control: &Control,
     ) -> Result<(PlacedMesh, Vec<Motion<DoubleDouble>>)> {
-        let unrolling = UnrollOptions {
+        let layout_options = LayoutOptions {
             cones: Some(self.cones.to_vec()),
             root: Some(self.root),
             scale: self.scale,
-            cut: Some(self.cut.clone()),
+            opening: LayoutOpening::InputCut(self.cut.clone()),
             refinement: self.refinement.clone(),
             threads: self.threads,
         };
-        let layout = unroll(solution, &unrolling, control)?;
+        let layout = Layout::of_solution(solution, &layout_options, control)?;
         let pairings: Vec<_> = layout.seams.iter().map(|seam| seam.pairing).collect();
         let cover = UniversalCover::along_cut(mesh, layout.space, self.cut, &pairings, self.own_corners)?;
         Ok((PlacedMesh::of_layout(cover, &layout)?, pairings))

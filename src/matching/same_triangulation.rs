@@ -13,7 +13,7 @@ use super::landmarks::{MarkedSurface, Marks};
 use super::options::{BoundaryMatching, MatchOptions};
 use super::orbifold::OrbifoldShape;
 use crate::control::Control;
-use crate::embed::apart::apart;
+use crate::embed::SeparateFaces;
 use crate::error::Result;
 use crate::geometry::{Motion, Space};
 use crate::mesh::{PerVertex, VertexId};
@@ -49,7 +49,7 @@ pub(super) fn cone_order(sides: [MarkedSurface; 2], options: &MatchOptions) -> O
 /// keeps the vertices' numbers.
 ///
 /// # Errors
-/// Those of [`CanonicalMetric::new`], [`apart`] and [`balance`].
+/// Those of [`CanonicalMetric::new`], [`SeparateFaces::of_solution`] and [`balance`].
 pub(super) fn in_frames_of_faces(
     sides: [MarkedSurface; 2],
     order: usize,
@@ -92,7 +92,7 @@ fn canonical_surface(
 ) -> Result<CanonicalSurface> {
     let (mesh, space) = (surface.mesh(), Space::H2);
     let metric = CanonicalMetric::new(surface, space, curvature.clone(), &options.flow, control)?;
-    let faces = apart(&metric.solution, control)?;
+    let faces = SeparateFaces::of_solution(&metric.solution, control)?;
     let across = |h| {
         let is_inner = !mesh.is_outside(h) && !mesh.is_outside(h.twin());
         is_inner.then(|| faces.across[h])

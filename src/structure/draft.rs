@@ -2,9 +2,9 @@
 
 use super::sheet::{Sheet, straight_triangle};
 use crate::control::Control;
-use crate::embed::overlap::{Triangle, overlapping};
-use crate::embed::shape::{Shape, extent};
 use crate::error::Result;
+use crate::geometry::triangle_flatness::{TriangleFlatness, largest_coordinate};
+use crate::geometry::triangle_overlap::{TriangleCorners, overlapping};
 use crate::geometry::vector::{cross, dot};
 use crate::geometry::{DoubleDouble, Motion};
 use crate::mesh::union_find::UnionFind;
@@ -157,7 +157,7 @@ impl Draft {
     }
 
     /// The faces in straight coordinates; none if one has none.
-    pub fn triangles(&self, sheet: &Sheet) -> Option<Vec<Triangle>> {
+    pub fn triangles(&self, sheet: &Sheet) -> Option<Vec<TriangleCorners>> {
         let triangle = |corners: &[u32; 3]| {
             straight_triangle(sheet.steps.space, corners.map(|v| self.points[v as usize]))
         };
@@ -177,20 +177,20 @@ impl Draft {
     pub fn is_embedded(&self, sheet: &Sheet, control: &Control) -> Result<bool> {
         // Geodesic triangles about a common corner that close up do not overlap on the sphere either, whatever its size.
         let Some(mut triangles) = self.triangles(sheet) else { return Ok(self.is_oriented()) };
-        let size = extent(triangles.as_flattened());
-        if triangles.iter().any(|&t| Shape::of(t).is_flipped(size)) {
+        let size = largest_coordinate(triangles.as_flattened());
+        if triangles.iter().any(|&t| TriangleFlatness::of(t).is_flipped(size)) {
             return Ok(false);
         }
         triangles.retain(|&t| {
-            let shape = Shape::of(t);
-            shape.share > LOW + f64::EPSILON * size / (ROUNDING * shape.longest)
+            let flatness = TriangleFlatness::of(t);
+            flatness.relative_area > LOW + f64::EPSILON * size / (ROUNDING * flatness.longest)
         });
-        let triangles: Vec<Triangle> = triangles.into_iter().map(shrunk).collect();
+        let triangles: Vec<TriangleCorners> = triangles.into_iter().map(shrunk).collect();
         Ok(overlapping(&triangles, control)?.is_empty())
     }
 }
 
-fn shrunk(triangle: Triangle) -> Triangle {
+fn shrunk(triangle: TriangleCorners) -> TriangleCorners {
     let middle = [0, 1].map(|i| triangle.iter().map(|p| p[i]).sum::<f64>() / 3.0);
     triangle.map(|p| [0, 1].map(|i| p[i] + ROUNDING * (middle[i] - p[i])))
 }

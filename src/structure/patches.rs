@@ -4,10 +4,10 @@ use super::draft::Draft;
 use super::sheet::Sheet;
 use super::stars::star;
 use crate::control::{Control, Stage};
-use crate::embed::overlap::BoxTree;
-use crate::embed::shape::{Shape, extent};
 use crate::error::Result;
 use crate::geometry::model::distance;
+use crate::geometry::triangle_flatness::{TriangleFlatness, largest_coordinate};
+use crate::geometry::triangle_overlap::BoxTree;
 use crate::geometry::vector::{norm, sub};
 use crate::geometry::{DoubleDouble, Motion, Space};
 use crate::mesh::{FaceId, HalfedgeId, PerFace, PerVertex, VertexId};
@@ -173,7 +173,7 @@ impl<'a> Patches<'a> {
         if self.sheet.steps.space != Space::E2 {
             return 1.0;
         }
-        Shape::of(self.sheet.steps.corners[f].map(|[x, y, _]| [x, y])).longest
+        TriangleFlatness::of(self.sheet.steps.corners[f].map(|[x, y, _]| [x, y])).longest
     }
 
     /// Which candidates lie counterclockwise beside those kept before them, and across a side of one of these; the first `n_sure` are kept
@@ -184,12 +184,12 @@ impl<'a> Patches<'a> {
         let Some(triangles) = whole.triangles(self.sheet) else {
             return Ok((0..all.len()).map(|i| i < n_sure).collect());
         };
-        let size = extent(triangles.as_flattened());
+        let size = largest_coordinate(triangles.as_flattened());
         let mut tree = BoxTree::new(&triangles, self.control)?;
         let mut kept: Vec<bool> = Vec::with_capacity(all.len());
         for (i, &triangle) in triangles.iter().enumerate() {
-            let shape = Shape::of(triangle);
-            let (flat, flipped) = (shape.is_degenerate(size), shape.is_flipped(size));
+            let flatness = TriangleFlatness::of(triangle);
+            let (flat, flipped) = (flatness.is_degenerate(size), flatness.is_flipped(size));
             let hangs = all[i].parent.is_none_or(|(parent, _, _)| kept[parent as usize]);
             let fits = i < n_sure || (hangs && !flipped && (flat || tree.meeting(i).is_none()));
             if fits && !flat && !flipped {

@@ -1,10 +1,10 @@
 //! Triangles with the isometries between neighbours: what charts of every structure are developed from.
 
 use super::kind::straight;
-use crate::embed::Steps;
-use crate::embed::overlap::Triangle;
+use crate::embed::FaceTransitions;
 use crate::error::{Error, Result};
 use crate::geometry::motion::precise_point;
+use crate::geometry::triangle_overlap::TriangleCorners;
 use crate::geometry::{DoubleDouble, Motion, Space};
 use crate::harmonic::ComplexForm;
 use crate::mesh::{FaceId, HalfedgeId, Mesh, PerFace, PerHalfedge, PerVertex};
@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 /// A developable surface.
 pub(super) struct Sheet {
-    pub steps: Steps,
+    pub steps: FaceTransitions,
     /// Faces that no chart may contain.
     pub excluded: PerFace<bool>,
     /// Vertices that no chart may contain inside.
@@ -21,7 +21,7 @@ pub(super) struct Sheet {
 
 impl Sheet {
     /// Without singular vertices.
-    pub fn new(steps: Steps) -> Sheet {
+    pub fn new(steps: FaceTransitions) -> Sheet {
         let excluded = PerFace::filled(steps.mesh.n_faces(), false);
         let singular = PerVertex::filled(steps.mesh.n_vertices(), false);
         Sheet { steps, excluded, singular }
@@ -32,7 +32,8 @@ impl Sheet {
         let corners =
             PerFace::from_fn(mesh.n_faces(), |f: FaceId| mesh.face_vertices(f).map(|v| point(v.index())));
         let across = PerHalfedge::filled(mesh.n_halfedges(), Motion::identity(space));
-        let mut sheet = Sheet::new(Steps { mesh: mesh.clone(), space, corners, across, area: f64::NAN });
+        let mut sheet =
+            Sheet::new(FaceTransitions { mesh: mesh.clone(), space, corners, across, area: f64::NAN });
         for f in mesh.faces() {
             sheet.excluded[f] = !sheet.steps.corners[f].as_flattened().iter().all(|x| x.is_finite());
         }
@@ -67,7 +68,7 @@ impl Sheet {
             p[0] * q[1] - p[1] * q[0] <= 0.0
         };
         let excluded = PerFace::from_fn(mesh.n_faces(), clockwise);
-        let steps = Steps { mesh: mesh.clone(), space: Space::E2, corners, across, area: f64::NAN };
+        let steps = FaceTransitions { mesh: mesh.clone(), space: Space::E2, corners, across, area: f64::NAN };
         Ok(Sheet { excluded, ..Sheet::new(steps) })
     }
 
@@ -135,7 +136,7 @@ fn middle(space: Space, corners: [[f64; 3]; 3]) -> [DoubleDouble; 3] {
 }
 
 /// The corners of a triangle as straight coordinates have them; none where they have none.
-pub(super) fn straight_triangle(space: Space, corners: [[f64; 3]; 3]) -> Option<Triangle> {
+pub(super) fn straight_triangle(space: Space, corners: [[f64; 3]; 3]) -> Option<TriangleCorners> {
     let [p, q, r] = corners.map(|p| straight(space, p));
     Some([p?, q?, r?])
 }

@@ -6,7 +6,7 @@ use super::options::{AffineSource, AtlasOptions};
 use super::sheet::Sheet;
 use crate::canonical::{QuotientOptions, Sphere, SphereOptions, uniformize_quotient, uniformize_sphere};
 use crate::control::Control;
-use crate::embed::steps;
+use crate::embed::FaceTransitions;
 use crate::error::{Error, Result};
 use crate::flow::{Solution, flow};
 use crate::geometry::Space;
@@ -60,7 +60,7 @@ pub(super) fn developed(surface: &Surface, options: &AtlasOptions, control: &Con
         }
         _ if closed && euler == 2 => {
             let sphere = sphere(surface, options, control)?;
-            let sheet = Sheet::new(steps(&sphere.metric, None)?);
+            let sheet = Sheet::new(FaceTransitions::new(&sphere.metric, None)?);
             simply_connected(sheet, &sphere, control)
         }
         _ => of_quotient(surface, options, control),
@@ -143,7 +143,7 @@ fn of_quotient(surface: &Surface, options: &AtlasOptions, control: &Control) -> 
     let asked = QuotientOptions { flow: options.flow.clone(), ..QuotientOptions::default() };
     let quotient = uniformize_quotient(surface, &asked, control)?;
     let refinement = quotient.layout.refinement().cloned();
-    let steps = steps(&quotient.metric, refinement.as_ref())?;
+    let steps = FaceTransitions::new(&quotient.metric, refinement.as_ref())?;
     let factor = if steps.space == Space::E2 { (surface.area()? / steps.area).sqrt() } else { 1.0 };
     Ok(Developed {
         sheet: Sheet::new(steps).scaled(factor),
@@ -166,7 +166,7 @@ fn of_flow(
     let metric = flow(surface.clone(), Class::yamabe(Space::E2), target, &options.flow, control)?;
     // Of a double, the given half.
     let refinement = metric.double().map(|_| metric.refinement(control).map(Arc::new)).transpose()?;
-    let steps = steps(&metric, refinement.as_ref())?;
+    let steps = FaceTransitions::new(&metric, refinement.as_ref())?;
     let factor = (surface.area()? / steps.area).sqrt();
     let mut sheet = Sheet::new(steps).scaled(factor);
     target.named().into_iter().for_each(|v| sheet.singular[v] = true);

@@ -63,13 +63,6 @@ impl<T: Ord + Copy> NearestQueue<T> {
 
     /// Takes the nearest item, with its distance.
     pub fn pop(&mut self) -> Option<(f64, T)> {
-        self.pop_looking_ahead(|_| ())
-    }
-
-    /// [`NearestQueue::pop`]. Most items are passed to `ahead`, with keys, a little before they are returned, many at a time: memory that
-    /// `ahead` reads for them is then fetched together, instead of for each item on its own.
-    #[inline]
-    pub fn pop_looking_ahead(&mut self, mut ahead: impl FnMut(&[(i64, T)])) -> Option<(f64, T)> {
         loop {
             if let Some(Reverse((key, item))) = self.near.pop() {
                 return Some((distance(key), item));
@@ -86,7 +79,6 @@ impl<T: Ord + Copy> NearestQueue<T> {
             }
             let ring = &mut self.rings[(self.innermost % RINGS) as usize];
             self.n_in_rings -= ring.len();
-            ahead(ring);
             self.near.extend(ring.drain(..).map(Reverse));
         }
     }

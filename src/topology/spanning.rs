@@ -16,7 +16,6 @@ use crate::error::Result;
 use crate::mesh::union_find::UnionFind;
 use crate::mesh::{EdgeId, HalfedgeId, Mesh, PerEdge, PerVertex, VertexId};
 use std::cmp::Ordering;
-use std::hint::black_box;
 
 /// Vertices settled between two checks of the control: they take a fraction of a millisecond.
 const VERTICES_PER_CHECK: usize = 4096;
@@ -189,14 +188,8 @@ where
         }
         let mut roots = mesh.vertices();
         let mut steps = 0;
-        // Touches the edges of the vertices that come next, so that they are fetched from memory together.
-        let read = |coming: &[(i64, VertexId)]| {
-            for &(_, v) in coming {
-                black_box((self.edges)(v).next().map(|edge| edge.length));
-            }
-        };
         loop {
-            while let Some((d, v)) = queue.pop_looking_ahead(read) {
+            while let Some((d, v)) = queue.pop() {
                 control.check_every(VERTICES_PER_CHECK, &mut steps)?;
                 let here = &mut reach[v];
                 if d != here.distance || std::mem::replace(&mut here.is_settled, true) {

@@ -1,4 +1,4 @@
-//! The weak equation of the conformal factor: the rate at which its residual falls.
+//! The rate at which the residual of the conformal factor's weak equation falls.
 
 use crate::samples::{in_space, intrinsic};
 use ricci::geometry::Space;
@@ -42,7 +42,7 @@ fn known_factors_satisfy_the_equation_to_the_square_of_the_edges() {
         factor_residual(&domain, &factor, &flat, &control).unwrap()
     });
     falls(&enneper, "Enneper's surface");
-    // A factor that is none is far off.
+    // A function that is no conformal factor has a large residual.
     let soup = shapes::torus(2.0, 0.8, 32, 16).unwrap();
     let domain = Domain::new(&in_space(&soup), &control).unwrap();
     let wrong: Vec<f64> = soup.positions.iter().map(|[x, y, _]| -0.5 * x.hypot(*y).ln()).collect();

@@ -1,4 +1,4 @@
-//! What holds of every basis of harmonic forms.
+//! The properties of every basis of harmonic forms.
 
 use crate::common;
 use crate::samples::{closed, forms_of, in_space, intrinsic};
@@ -8,7 +8,7 @@ use ricci::mesh::shapes;
 use ricci::topology::intersection_matrix;
 use ricci::{Error, Surface};
 
-/// Closedness, co-closedness, periods, recomputed from the values with formulas of this test; Riemann's second relation.
+/// Closedness, coclosedness and periods, recomputed from the values by this test's own formulas; Riemann's second relation.
 fn check(name: &str, surface: &Surface) -> HarmonicForms {
     let forms = forms_of(surface);
     let (domain, mesh, genus) = (&forms.domain, forms.domain.mesh(), surface.mesh().genus());

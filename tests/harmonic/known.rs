@@ -1,4 +1,4 @@
-//! Surfaces whose period matrices are known.
+//! Period matrices of surfaces for which they are known.
 
 use crate::samples::{forms_of, in_space, intrinsic};
 use num_complex::Complex64;
@@ -86,7 +86,7 @@ fn the_bolza_surface_has_the_period_matrix_of_its_curve() {
     falls(&refined.each_ref().map(|p| spectral_distance(p, &points)), "energies");
     falls(&refined.each_ref().map(|p| p.star_residual), "J² + 1");
     assert!(spectral_distance(&refined[2], &points) < 0.02);
-    // Its automorphisms leave little asymmetry, and that unsteady, after flips; on the subdivided mesh itself it falls.
+    // By the automorphisms the asymmetry after flips is small, but does not fall steadily; on the subdivided mesh itself it falls.
     let rigid = [2, 3, 4].map(|level| {
         let domain = Domain::rigid(&intrinsic(&shapes::bolza(level).unwrap(), Space::H2)).unwrap();
         let forms = HarmonicForms::new(&domain, &Default::default(), &Control::new()).unwrap();
@@ -110,7 +110,7 @@ fn hyperelliptic_surfaces_converge_to_the_period_matrix_of_their_curve() {
     assert!(errors.windows(2).all(|pair| pair[1] < 0.7 * pair[0]) && errors[2] < 0.2, "{errors:?}");
 }
 
-/// Drawn in towards the branch points triangles resolve the forms there: rate 2. Points without symmetry.
+/// Triangles that are graded towards the branch points resolve the forms there, so the rate is 2. The points have no symmetry.
 #[test]
 fn grading_towards_the_branch_points_gives_the_second_rate() {
     let points = [[-1.6, 0.1], [-0.7, -0.3], [-0.1, 0.6], [0.5, -0.5], [1.1, 0.4], [1.5, -0.2]]

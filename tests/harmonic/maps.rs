@@ -8,7 +8,7 @@ use ricci::harmonic::planar::{
     corners_by_length, flipped, regular_polygon, to_disk, to_polygon, to_rectangle,
 };
 use ricci::harmonic::{
-    Domain, Prescribed, SphereMapOptions, SphereMethod, harmonic_map, simple_domain, sphere_map,
+    Domain, MapConstraints, SphereMapOptions, SphereMethod, harmonic_map, simple_domain, sphere_map,
 };
 use ricci::mesh::{VertexId, shapes};
 use ricci::{Control, Error, Surface};
@@ -35,7 +35,7 @@ fn linear_functions_are_reproduced() {
     };
     let on_boundary: Vec<VertexId> = mesh.vertices().filter(|&v| mesh.is_boundary_vertex(v)).collect();
     let all: Vec<[f64; 2]> = mesh.vertices().map(linear).collect();
-    // The flux of a linear function through the boundary, as the weak form has it.
+    // The flux of a linear function through the boundary in the weak form.
     let columns = [0, 1].map(|k| domain.apply_laplacian(&all.iter().map(|p| p[k]).collect::<Vec<_>>()));
     let flux = |keep: &dyn Fn(VertexId) -> bool| -> Vec<[f64; 2]> {
         let of = |v: VertexId| if keep(v) { [0, 1].map(|k| columns[k][v.index()]) } else { [0.0; 2] };
@@ -46,9 +46,12 @@ fn linear_functions_are_reproduced() {
         on_boundary.iter().copied().filter(|&v| keep(v)).map(|v| (v, linear(v))).collect()
     };
     let cases = [
-        Prescribed { values: values(&|_| true), flux: None },
-        Prescribed { values: values(&half), flux: Some(flux(&|v| mesh.is_boundary_vertex(v) && !half(v))) },
-        Prescribed { values: vec![], flux: Some(flux(&|v| mesh.is_boundary_vertex(v))) },
+        MapConstraints { values: values(&|_| true), flux: None },
+        MapConstraints {
+            values: values(&half),
+            flux: Some(flux(&|v| mesh.is_boundary_vertex(v) && !half(v))),
+        },
+        MapConstraints { values: vec![], flux: Some(flux(&|v| mesh.is_boundary_vertex(v))) },
     ];
     for (case, data) in cases.iter().enumerate() {
         let map = harmonic_map(&domain, data, &Control::new()).unwrap();
@@ -60,11 +63,11 @@ fn linear_functions_are_reproduced() {
         }
         assert!(map.mean_value_residual < 1e-13 && (map.energy - energy(&domain, &all)).abs() < 1e-11);
     }
-    let unbalanced = Prescribed::<1> { values: vec![], flux: Some(vec![[1.0]; mesh.n_vertices()]) };
+    let unbalanced = MapConstraints::<1> { values: vec![], flux: Some(vec![[1.0]; mesh.n_vertices()]) };
     assert!(matches!(harmonic_map(&domain, &unbalanced, &Control::new()), Err(Error::Argument { .. })));
 }
 
-/// No triangle turns over, nor any piece of the refinement; with the number of vertices that were added for that.
+/// The number of vertices that had to be added so that neither a triangle nor a piece of the refinement turns over.
 fn check_disk(name: &str, surface: &Surface) -> usize {
     let (split, domain) = simple_domain(surface, false, &Control::new()).unwrap();
     let map = to_disk(&domain, &Control::new()).unwrap();

@@ -2,12 +2,12 @@
 
 use crate::common::Random;
 use crate::flown::Flown;
-use ricci::Control;
-use ricci::embed::unroll::CONE_TOLERANCE;
-use ricci::embed::{Layout, Source, UnrollOptions, cones_of, unroll_source};
+use ricci::embed::{Layout, LayoutOptions, LayoutScale};
+use ricci::flow::{self, Options};
 use ricci::geometry::Space;
 use ricci::mesh::{FaceId, Mesh, PerEdge, PerVertex, Point};
 use ricci::metric::{Refinement, curvature};
+use ricci::{Class, Control, Surface, Target};
 use std::sync::Arc;
 
 #[derive(Default, Debug)]
@@ -119,19 +119,15 @@ pub fn check(r: &Refinement, input: &Mesh, flown: &Flown, positions: &[Point], w
     worst
 }
 
-pub fn check_layout(
-    r: &Refinement,
-    (input, lengths): (&Mesh, &PerEdge<f64>),
-    flown: &Flown,
-    target: &PerVertex<f64>,
-    what: &str,
-) {
-    let cones = Some(cones_of(input, &target.to_vec()[..input.n_vertices()], CONE_TOLERANCE).unwrap());
-    let given = Arc::new(input.clone());
-    let refinement = Some(Arc::new(r.clone()));
-    let source = Source { given: &given, mesh: &flown.mesh, metric: &flown.metric, refinement };
-    let options = UnrollOptions { cones, ..UnrollOptions::default() };
-    let laid = unroll_source(source, &options, &Control::new()).unwrap();
+/// Everything that holds of the layout of a flow's result on the refinement.
+pub fn check_layout(surface: &Surface, class: Class, target: &Target, what: &str) {
+    let control = Control::new();
+    let solution = flow::flow(surface.clone(), class, target, &Options::default(), &control).unwrap();
+    let r = &Arc::new(solution.refinement(&control).unwrap());
+    let (refinement, scale) = (Some(r.clone()), LayoutScale::AsSolved);
+    let options = LayoutOptions { refinement, scale, ..LayoutOptions::default() };
+    let laid = Layout::of_solution(&solution, &options, &control).unwrap();
+    let (input, lengths): (&Mesh, &PerEdge<f64>) = (surface.mesh(), surface.lengths());
     let quality = laid.quality(input, lengths).unwrap();
     println!(
         "    consistency {:.0e}, {:.0e} of a face; of {} triangles {} flipped, {} degenerate; qc mean {:.2}, max {:.0e}",
@@ -152,8 +148,8 @@ pub fn check_layout(
     assert!(laid.seams.iter().all(|seam| seam.residual < 1e-10), "{what}");
     seams_run_along_input_edges(r, input, &laid, what);
     if input.is_closed() {
-        let area =
-            curvature(&flown.mesh, Space::E2, &flown.metric.lengths(&flown.mesh).unwrap()).unwrap().area;
+        let lengths = solution.metric().lengths(solution.mesh()).unwrap();
+        let area = curvature(solution.mesh(), Space::E2, &lengths).unwrap().area;
         assert!((laid.area / area - 1.0).abs() < 1e-10, "{what}");
         let mut scaled = laid.clone();
         scaled.scale_to_area(2.0).unwrap();

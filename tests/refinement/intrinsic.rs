@@ -6,7 +6,7 @@ use crate::common::flow::{attempt, euclidean};
 use crate::common::{self, Random};
 use crate::flown::{Flown, SCHEMES, flow};
 use crate::small::shuffle;
-use ricci::embed::{UnrollOptions, cones_of, unroll};
+use ricci::embed::{Layout, LayoutOptions, cones_of};
 use ricci::flow::Options;
 use ricci::geometry::Space;
 use ricci::mesh::{Mesh, PerEdge, Point, io, shapes};
@@ -114,8 +114,8 @@ fn unchanged(surface: &Surface, scheme: ricci::metric::Scheme) -> (usize, usize,
     assert!(r.weight.iter().all(|q| (q - 1.0).abs() < 1e-12));
     let curvature = metric.curvature().unwrap();
     let cones = Some(cones_of(input, &curvature.at, 1e-11).unwrap());
-    let options = UnrollOptions { cones, ..UnrollOptions::default() };
-    let laid = unroll(&metric, &options, &Control::new()).unwrap();
+    let options = LayoutOptions { cones, ..LayoutOptions::default() };
+    let laid = Layout::of_solution(&metric, &options, &Control::new()).unwrap();
     let quality = laid.quality(input, lengths).unwrap();
     assert!(laid.flipped.is_empty());
     let strain = strain(&r, surface, &metric);
@@ -235,8 +235,8 @@ fn crossings_lie_where_the_map_of_the_delaunay_triangulation_takes_them() {
             assert!(attempt(&mut flow, &target).converged());
             let flat = flow.solution();
             let r = flat.refinement(&Control::new()).unwrap();
-            let options = UnrollOptions { cones: Some(cones.to_vec()), ..UnrollOptions::default() };
-            let laid = unroll(&flat, &options, &Control::new()).unwrap();
+            let options = LayoutOptions { cones: Some(cones.to_vec()), ..LayoutOptions::default() };
+            let laid = Layout::of_solution(&flat, &options, &Control::new()).unwrap();
             let quality = laid.quality(mesh, lengths).unwrap();
             (flow, r, quality)
         };

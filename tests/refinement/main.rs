@@ -48,7 +48,8 @@ fn every_closed_mesh_is_refined_with_its_flat_and_hyperbolic_metrics() {
                 r.mesh.n_vertices()
             );
             if space == Space::E2 {
-                check_layout(&r, (&mesh, &lengths), &flown, &target, &what);
+                let class = Class::new(scheme, space);
+                check_layout(&euclidean(&mesh, &lengths), class, &Target::All(target), &what);
             }
         }
     }
@@ -82,7 +83,7 @@ fn every_open_mesh_is_refined_in_its_half_of_the_double() {
                 half.n_vertices(),
                 r.mesh.n_vertices()
             );
-            check_layout(&r, (&half, &lengths), &flown, &target, &name);
+            check_layout(&euclidean(&half, &lengths), class, &Target::Boundary, &name);
         }
     }
 }

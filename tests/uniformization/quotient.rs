@@ -3,7 +3,7 @@
 use crate::common::Random;
 use crate::surfaces::{Surface, corpus, generated};
 use ricci::canonical::{Quotient, QuotientOptions, uniformize_quotient};
-use ricci::embed::{UnrollOptions, dirichlet_domain, unroll};
+use ricci::embed::{Layout, LayoutOptions, dirichlet_domain};
 use ricci::flow::{Options, flow};
 use ricci::geometry::{DoubleDouble, Motion, Space};
 use ricci::mesh::{FaceId, HalfedgeId, Mesh, PerEdge, PerVertex, VertexId};
@@ -258,7 +258,7 @@ fn refinements_lie_in_the_layout() {
     for surface in generated().into_iter().chain(corpus()) {
         let q = surface.uniformized();
         let r = Arc::new(q.metric.refinement(&Control::new()).unwrap());
-        let refined = q.layout.refined(&r, q.metric.metric(), &Control::new()).unwrap();
+        let refined = q.layout.on_refinement(&r, q.metric.metric(), &Control::new()).unwrap();
         assert!(refined.flipped.is_empty(), "{}: {:?}", surface.name, refined.flipped);
         let quality = refined.quality(&surface.mesh, &surface.lengths);
         if surface.geometry == Space::E2 {
@@ -304,8 +304,8 @@ fn the_given_half_of_a_double_is_laid_out() {
         assert!(flat.report().unwrap().angle_defect.unwrap() < 1e-18, "{name}");
         let r = flat.refinement(&control).unwrap();
         let (root, refinement) = (Some(VertexId(0)), Some(Arc::new(r.clone())));
-        let options = UnrollOptions { root, refinement, ..UnrollOptions::default() };
-        let layout = unroll(&flat, &options, &control).unwrap();
+        let options = LayoutOptions { root, refinement, ..LayoutOptions::default() };
+        let layout = Layout::of_solution(&flat, &options, &control).unwrap();
         assert!((layout.area + 2.0 * PI * mesh.euler() as f64).abs() < 1e-9, "{name}: {}", layout.area);
         assert!(layout.on_input().unwrap().flipped.len() * 100 < mesh.n_faces(), "{name}");
         assert!(layout.flipped.is_empty() && layout.degenerate.is_empty(), "{name}");

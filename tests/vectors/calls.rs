@@ -7,10 +7,12 @@ use ricci::canonical::{
     circle_domain, uniformize,
 };
 use ricci::embed::cover::elements_within;
-use ricci::embed::{UnrollOptions, dirichlet_domain, unroll};
+use ricci::embed::{Layout, LayoutOptions, dirichlet_domain};
 use ricci::flow::{Flips, Options, flow};
 use ricci::geometry::Space;
-use ricci::harmonic::{Domain, FormsOptions, HarmonicForms, PeriodMatrix, Prescribed, harmonic_map, planar};
+use ricci::harmonic::{
+    Domain, FormsOptions, HarmonicForms, MapConstraints, PeriodMatrix, harmonic_map, planar,
+};
 use ricci::manifold::{Flat, SurfaceFitOptions, fit_surface};
 use ricci::matching::{self, MatchOptions, match_surfaces};
 use ricci::mesh::{FaceId, Mesh, PerVertex, Point, VertexId};
@@ -111,8 +113,12 @@ fn sides(model: Model, at: [[f64; 2]; 3]) -> [f64; 3] {
 
 fn layout(case: &Case, threads: usize) -> Found {
     let solution = solved(case, threads);
-    let layout =
-        unroll(&solution, &UnrollOptions { threads, ..UnrollOptions::default() }, &Control::new()).unwrap();
+    let layout = Layout::of_solution(
+        &solution,
+        &LayoutOptions { threads, ..LayoutOptions::default() },
+        &Control::new(),
+    )
+    .unwrap();
     let model = match layout.space {
         Space::E2 => Model::Plane,
         Space::H2 => Model::Poincare,
@@ -205,7 +211,7 @@ fn harmonic(case: &Case) -> Found {
     }
     let vertices = case.indices("vertices").into_iter().map(VertexId);
     let values: Vec<(VertexId, Point)> = vertices.zip(points(case.option("values"))).collect();
-    let map = harmonic_map(&domain, &Prescribed { values, flux: None }, &control).unwrap();
+    let map = harmonic_map(&domain, &MapConstraints { values, flux: None }, &control).unwrap();
     vec![("points", map.points.into_iter().flatten().collect())]
 }
 

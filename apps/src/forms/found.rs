@@ -117,7 +117,7 @@ impl Found {
         })?;
         let dilatation = laid.dilatation(domain);
         let layout = match timed(&mut seconds.refine, || domain.refinement(control))? {
-            Some(refinement) => laid.refined(&Arc::new(refinement))?,
+            Some(refinement) => laid.on_refinement(&Arc::new(refinement))?,
             None => laid,
         };
         self.seconds = seconds;

@@ -8,10 +8,10 @@ use crate::progress::doing;
 use crate::report::{Attempts, Checks, Figures, Seconds, timed};
 use crate::say;
 use ricci::Control;
-use ricci::embed::shape::LEAST_SHARE;
 use ricci::geometry::complex::{distance, doubled_area};
+use ricci::geometry::triangle_flatness::LEAST_RELATIVE_AREA;
 use ricci::harmonic::{
-    Domain, HarmonicMap, Prescribed, SphereMap, SphereMapOptions, harmonic_map, planar, simple_domain,
+    Domain, HarmonicMap, MapConstraints, SphereMap, SphereMapOptions, harmonic_map, planar, simple_domain,
     sphere_map,
 };
 use ricci::mesh::VertexId;
@@ -173,7 +173,7 @@ fn find(
         }
         Target::File(path) => {
             let values = csv::read_places(path, domain.mesh().n_vertices())?;
-            harmonic_map(domain, &Prescribed { values, flux: None }, control)?
+            harmonic_map(domain, &MapConstraints { values, flux: None }, control)?
         }
     }))
 }
@@ -189,7 +189,7 @@ impl Plane {
         for f in refinement.iter().flat_map(|r| r.mesh.faces().map(|f| r.mesh.face_vertices(f))) {
             let corners @ [a, b, c] = f.map(|v| points[v.index()]);
             let longest = distance(a, b).max(distance(b, c)).max(distance(c, a));
-            let (area, least) = (0.5 * doubled_area(corners), LEAST_SHARE * longest * longest);
+            let (area, least) = (0.5 * doubled_area(corners), LEAST_RELATIVE_AREA * longest * longest);
             flipped += usize::from(area < -least);
             degenerate += usize::from(area.abs() <= least);
         }

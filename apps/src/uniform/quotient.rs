@@ -8,7 +8,7 @@ use crate::solved::Solved;
 use ricci::canonical::Quotient;
 use ricci::embed::layout::MEETING;
 use ricci::embed::{
-    BoundaryLoop, DeckElement, DeckGroup, DirichletDomain, Layout, UnrollOptions, dirichlet_domain, unroll,
+    BoundaryLoop, DeckElement, DeckGroup, DirichletDomain, Layout, LayoutOptions, dirichlet_domain,
 };
 use ricci::flow::Report;
 use ricci::geometry::{DoubleDouble, Motion, Space, worse};
@@ -218,14 +218,14 @@ fn on_surface(
     let laid = timed(&mut seconds.layout, || -> ricci::Result<Laid> {
         let refined = match layout.refinement() {
             Some(_) => layout.clone(),
-            None => layout.refined(&refinement, solution.metric(), control)?,
+            None => layout.on_refinement(&refinement, solution.metric(), control)?,
         };
         let mut laid = Laid::new(task.input, &solved.solution, refined)?;
         if task.needs.on_input {
             let (cones, root) = (Some(Vec::new()), Some(base));
             let refinement = Some(refinement);
-            let options = UnrollOptions { cones, root, refinement, ..UnrollOptions::default() };
-            let mut along_edges = unroll(solution, &options, control)?;
+            let options = LayoutOptions { cones, root, refinement, ..LayoutOptions::default() };
+            let mut along_edges = Layout::of_solution(solution, &options, control)?;
             if along_edges.space == Space::E2 {
                 along_edges.move_by(&placement)?;
             }

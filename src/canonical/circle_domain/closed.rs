@@ -6,7 +6,7 @@ use super::place::{anchor_weights, deviation, hub_edge, least_gap, loops_of_edge
 use super::prepare::Prepared;
 use crate::control::Control;
 use crate::embed::layout::distance_from_origin;
-use crate::embed::{Layout, layout_of};
+use crate::embed::{Layout, LayoutOptions, LayoutScale, LayoutOpening};
 use crate::error::Result;
 use crate::flow::{Flow, Solution};
 use crate::geometry::motion::precise_point;
@@ -32,7 +32,7 @@ pub(super) fn solve(
     let mut refinement = metric.refinement_where(&|f| filled.is_original(f), control)?;
     round_off(&mut refinement, &metric, &filled)?;
     let refinement = Arc::new(refinement);
-    let mut layout = whole.refined(&refinement, metric.metric(), control)?;
+    let mut layout = whole.on_refinement(&refinement, metric.metric(), control)?;
     layout.measure_area();
     if layout.space == Space::E2 {
         layout.scale_to_area(split.given().area()?)?;
@@ -80,7 +80,13 @@ fn whole_layout(metric: &Solution, filled: &FilledMesh, control: &Control) -> Re
     let root = central_vertex(mesh, &lengths, control)?;
     let joined = |e: EdgeId| mesh.ends(e).into_iter().map(|v| urgency[v]).fold(0, u8::max);
     let cut = cut_about_joined(mesh, &lengths, root, &joined, control)?;
-    layout_of(mesh, metric.metric(), Some(root), Some(&cut), control)
+    let layout_options = LayoutOptions {
+        opening: LayoutOpening::MetricCut(cut),
+        root: Some(root),
+        scale: LayoutScale::AsSolved,
+        ..LayoutOptions::default()
+    };
+    Layout::of_solution(metric, &layout_options, control)
 }
 
 /// Move the crossings on edges at hubs so that those of loops lie on their circles.

@@ -10,8 +10,7 @@ use super::place::{anchor_weights, deviation, hub_edge, least_gap, loops_of_edge
 use super::prepare::Prepared;
 use super::view::View;
 use crate::control::Control;
-use crate::embed::Layout;
-use crate::embed::planar::Placed;
+use crate::embed::{Layout, PlanarPlaces};
 use crate::error::Result;
 use crate::flow::Solution;
 use crate::geometry::complex::{Complex, add, norm, scale, sub};
@@ -181,7 +180,11 @@ impl Domain<'_> {
         places
             .extend(refinement.crossings.iter().map(|c| place(c.final_edge, c.input_edge, c.final_weights)));
         let [disagreement, local_consistency] = self.misses(&points)?;
-        Layout::planar(open, refinement, Placed { plane: places.into(), disagreement, local_consistency })
+        Layout::of_planar_domain(
+            open,
+            refinement,
+            PlanarPlaces { plane: places.into(), disagreement, local_consistency },
+        )
     }
 
     /// Whether a face of the metric's triangulation lies in the disk as the metric has it: not at the outer hub.

@@ -16,7 +16,7 @@ use super::domain_pair::DomainPair;
 use super::landmarks::MarkedSurface;
 use super::options::MatchOptions;
 use crate::control::Control;
-use crate::embed::Scale;
+use crate::embed::LayoutScale;
 use crate::error::{Error, Result};
 use crate::geometry::{DoubleDouble, Motion, Space};
 use crate::mesh::{HalfedgeId, Mesh, PerVertex};
@@ -110,7 +110,7 @@ fn handle_surface(
         root: basis.base,
         cones: &[],
         own_corners: &[domain.base_corner],
-        scale: Scale::default(),
+        scale: LayoutScale::default(),
         refinement: None,
         threads: options.flow.threads,
     };

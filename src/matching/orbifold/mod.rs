@@ -17,7 +17,7 @@ use super::landmarks::{MarkedSurface, Marks};
 use super::options::{BoundaryMatching, MatchOptions};
 use super::variants::LeastEnergy;
 use crate::control::Control;
-use crate::embed::Scale;
+use crate::embed::LayoutScale;
 use crate::error::{Error, Result};
 use crate::geometry::{DoubleDouble, Motion, Space};
 use crate::mesh::{HalfedgeId, PerHalfedge, PerVertex, VertexId};
@@ -232,7 +232,7 @@ fn opened(
         root: of.root,
         cones: &marks.landmarks,
         own_corners: &tree.landmark_corners,
-        scale: Scale::default(),
+        scale: LayoutScale::default(),
         refinement: of.refinement.clone(),
         threads: problem.threads,
     };

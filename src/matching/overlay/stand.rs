@@ -4,8 +4,8 @@
 use super::super::cover::{LocatedVertex, WalkSeed, located};
 use super::super::cover::{PlacedMesh, PrecisePoint, aimed, determinant, logarithm, moved};
 use crate::control::Control;
-use crate::embed::triangle::Triangle;
 use crate::error::{Error, Result};
+use crate::geometry::plane_triangle::PlaneTriangle;
 use crate::geometry::{DoubleDouble, Motion};
 use crate::mesh::{FaceId, HalfedgeId, PerVertex, Place, VertexId};
 
@@ -106,7 +106,7 @@ fn heights(placed: &PlacedMesh) -> PerVertex<f64> {
     for f in mesh.faces() {
         let sides = mesh.face_halfedges(f).map(|h| vectors[h][0].hypot(vectors[h][1]));
         let longest = sides.into_iter().fold(f64::MIN_POSITIVE, f64::max);
-        let height = 2.0 * Triangle::from_sides(sides).area / longest;
+        let height = 2.0 * PlaneTriangle::from_sides(sides).area / longest;
         mesh.face_vertices(f).into_iter().for_each(|v| heights[v] = heights[v].min(height));
     }
     heights

@@ -18,7 +18,7 @@ use super::landmarks::{MarkedSurface, Marks};
 use super::options::MatchOptions;
 use super::variants::LeastEnergy;
 use crate::control::Control;
-use crate::embed::Scale;
+use crate::embed::LayoutScale;
 use crate::error::Result;
 use crate::geometry::Space;
 use crate::mesh::PerVertex;
@@ -155,7 +155,7 @@ fn in_own_orbifold(
         root: central_vertex(mesh, surface.lengths(), control)?,
         cones: &marks.landmarks,
         own_corners: &[],
-        scale: Scale::default(),
+        scale: LayoutScale::default(),
         refinement: None,
         threads: options.flow.threads,
     };

@@ -19,7 +19,7 @@ use super::options::{BoundaryMatching, MatchOptions};
 use super::pushed::{DomainChange, OldDomain};
 use crate::canonical::{CircleDomain, CircleDomainOptions, circle_domain};
 use crate::control::Control;
-use crate::embed::Scale;
+use crate::embed::LayoutScale;
 use crate::error::{Error, Result};
 use crate::geometry::{conformal, worse};
 use crate::mesh::{EdgeId, HalfedgeId, PerHalfedge, PerVertex, VertexId};
@@ -196,7 +196,7 @@ fn closed(domain: &CircleDomain, threads: usize, control: &Control) -> Result<Pl
         root,
         cones: &[],
         own_corners: &[],
-        scale: Scale::AsSolved,
+        scale: LayoutScale::AsSolved,
         refinement: None,
         threads,
     };

@@ -1,8 +1,8 @@
 //! Bad triangles on demand: meshes graded towards a vertex, and slivers.
 
 use super::check_corners;
-use super::noise::SplitMix64;
 use crate::error::{Error, Result};
+use crate::geometry::random::SplitMix64;
 use crate::geometry::vector::{add, cross, distance, lerp, norm, normalised, scale, sub, triangle_normal};
 use crate::mesh::Point;
 use crate::mesh::io::Soup;

@@ -20,6 +20,7 @@ mod plane;
 mod sphere;
 mod torus;
 
+pub use crate::geometry::random::SplitMix64;
 pub use genus::genus;
 pub use grading::{Sliver, grade, slivers};
 pub use holes::punch;
@@ -27,7 +28,7 @@ pub use hyperelliptic::{hyperelliptic, hyperelliptic_graded};
 pub use intrinsic::{IntrinsicSurface, bolza, flat_torus, one_vertex, two_triangle_sphere, two_vertex};
 pub use inversion::{invert, tapered_genus};
 pub use knot::TorusKnot;
-pub use noise::{SplitMix64, noise};
+pub use noise::noise;
 pub use pants::pants;
 pub use plane::{annulus, disk};
 pub use sphere::{ellipsoid, icosphere};

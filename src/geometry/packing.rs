@@ -1,7 +1,7 @@
-//! Packing shapes into the unit square by their bounding rectangles, all with one scale.
+//! Packing of shapes into the unit square by their bounding rectangles, all with one scale.
 //!
 //! ```
-//! use ricci::{Control, embed::pack::pack};
+//! use ricci::{Control, geometry::packing::pack};
 //! # fn main() -> ricci::Result<()> {
 //! let (scale, places) = pack(&[[2.0, 2.0]; 4], 0.0, &Control::new())?.unwrap();
 //! assert!((scale - 0.25).abs() < 1e-4 && places.len() == 4);
@@ -9,26 +9,26 @@
 //! # }
 //! ```
 
+use super::complex::doubled_area;
 use crate::control::Control;
 use crate::error::Result;
-use crate::geometry::complex::doubled_area;
 use std::f64::consts::FRAC_PI_2;
 
-/// Relative accuracy at which the search for the scale ends: nobody sees a smaller gain.
+/// Relative accuracy of the scale at which its search ends: a smaller gain is not visible.
 const ACCURACY: f64 = 1e-4;
-/// Number of rectangles above which only one order is tried: packing takes the square of their number in the worst case.
+/// Number of rectangles above which only one order is tried, since packing takes the square of their number in the worst case.
 const MANY: usize = 4000;
-/// Rectangles placed between two looks at the control.
+/// Number of rectangles after which the control is asked again whether to stop.
 const RECTANGLES_PER_STEP: usize = 256;
 
-/// The rectangle of least area around some points: the angle by which they are to be turned for it to lie along the axes, longer
-/// side along x, and its sides (longer, shorter).
+/// The rectangle of least area around some points: the angle by which they have to be turned for its longer side to lie along x, and its
+/// sides (longer, shorter).
 ///
-/// One side of it lies on the convex hull. O(n log n).
+/// One of its sides lies on a side of the convex hull, so these are tried. O(n log n).
 pub fn least_rectangle(points: &[[f64; 2]]) -> (f64, [f64; 2]) {
     let hull = convex_hull(points);
     let n = hull.len();
-    // Rotating calipers: the corners farthest along, away from and back along the side.
+    // Rotating calipers: the corners of the hull that are farthest along the side, away from it, and back along it.
     let at = |i: usize| hull[i % n];
     let (mut best, mut least) = (0.0, f64::INFINITY);
     let (mut right, mut far, mut left) = (1, 1, 1);
@@ -62,13 +62,13 @@ pub fn least_rectangle(points: &[[f64; 2]]) -> (f64, [f64; 2]) {
     lengthwise(&hull, best)
 }
 
-/// Angles between 0 and a right one at which the least square is looked for, before the best is refined.
+/// Number of angles between 0 and π/2 at which the least square is searched before the best one is refined.
 const SQUARE_ANGLES: usize = 180;
-/// Halvings of the step in that refinement.
+/// Number of halvings of the step in that refinement.
 const SQUARE_STEPS: usize = 20;
 
-/// The angle by which some points are to be turned for the smallest square along the axes to hold them, and their extents then, the
-/// longer along x. A long thin shape lies along the diagonal. O(n log n).
+/// The angle by which some points have to be turned to fit into the smallest square along the axes, and their extents then, the longer
+/// along x. A long thin shape lies along the diagonal. O(n log n).
 pub fn least_square(points: &[[f64; 2]]) -> (f64, [f64; 2]) {
     let hull = convex_hull(points);
     let side = |angle: f64| {
@@ -87,7 +87,7 @@ pub fn least_square(points: &[[f64; 2]]) -> (f64, [f64; 2]) {
     lengthwise(&hull, angle)
 }
 
-/// Extents along x and y after a turn.
+/// The extents along x and y after a turn by an angle.
 fn extent(points: &[[f64; 2]], angle: f64) -> [f64; 2] {
     let (s, c) = angle.sin_cos();
     let range = points.iter().fold([[f64::INFINITY, f64::NEG_INFINITY]; 2], |r, &[x, y]| {
@@ -97,13 +97,13 @@ fn extent(points: &[[f64; 2]], angle: f64) -> [f64; 2] {
     range.map(|[low, high]| high - low)
 }
 
-/// The angle, or a right one more, so that the longer extent lies along x.
+/// The angle, plus π/2 if the longer extent would lie along y, and the extents then.
 fn lengthwise(points: &[[f64; 2]], angle: f64) -> (f64, [f64; 2]) {
     let [x, y] = extent(points, angle);
     if x >= y { (angle, [x, y]) } else { (angle + FRAC_PI_2, [y, x]) }
 }
 
-/// Corners of the convex hull, counterclockwise (Andrew's monotone chain).
+/// The corners of the convex hull, counterclockwise (Andrew's monotone chain).
 fn convex_hull(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let mut sorted = points.to_vec();
     sorted.sort_by(|p, q| p[0].total_cmp(&q[0]).then(p[1].total_cmp(&q[1])));
@@ -126,24 +126,28 @@ fn convex_hull(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     if hull.is_empty() { sorted } else { hull }
 }
 
-/// Where a rectangle lies.
+/// The place of a packed rectangle.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Place {
-    /// Its lower left corner.
+pub struct RectanglePlace {
+    /// The lower left corner.
     pub at: [f64; 2],
-    /// Turned by a quarter.
+    /// True if the rectangle is turned by π/2, so that its longer side is upright.
     pub turned: bool,
 }
 
-/// Places for rectangles with these sides, scaled by the largest factor that is found, in the unit square: `margin` apart and half
-/// of that from the border. `None` if there are too many for the margin, or all are points.
+/// The largest scale that is found for rectangles with these sides, and their places in the unit square at that scale: `margin` apart and
+/// half of that from the border. `None` if there are too many for the margin, or all are points.
 ///
-/// For each scale a skyline packing \[Jyl10\]: rectangles in the order of their size, each where its upper side comes lowest, upright or
-/// turned. The scale is found by bisection.
+/// The scale is found by bisection. At each scale the rectangles are placed by skyline packing \[Jyl10\]: in the order of their size, each
+/// where its upper side lies lowest, turned by π/2 or not.
 ///
 /// # Errors
 /// [`crate::Error::Cancelled`].
-pub fn pack(sides: &[[f64; 2]], margin: f64, control: &Control) -> Result<Option<(f64, Vec<Place>)>> {
+pub fn pack(
+    sides: &[[f64; 2]],
+    margin: f64,
+    control: &Control,
+) -> Result<Option<(f64, Vec<RectanglePlace>)>> {
     let area: f64 = sides.iter().map(|s| s[0] * s[1]).sum();
     let longest = sides.iter().fold(0.0f64, |m, s| m.max(s[0]).max(s[1]));
     let mut high = ((1.0 - margin) / longest).min(1.0 / area.sqrt());
@@ -160,7 +164,7 @@ pub fn pack(sides: &[[f64; 2]], margin: f64, control: &Control) -> Result<Option
             order
         })
         .collect();
-    let fit = |scale: f64| -> Result<Option<Vec<Place>>> {
+    let fit = |scale: f64| -> Result<Option<Vec<RectanglePlace>>> {
         for order in &orders {
             if let Some(places) = skyline(sides, order, scale, margin, control)? {
                 return Ok(Some(places));
@@ -188,23 +192,23 @@ pub fn pack(sides: &[[f64; 2]], margin: f64, control: &Control) -> Result<Option
     Ok(best)
 }
 
-/// A piece of the outline of what is packed, seen from above: from x to the next piece's x at height y.
+/// A step of the skyline, the upper outline of the packed rectangles: it reaches from `x` to the `x` of the next step at height `y`.
 #[derive(Clone, Copy)]
-struct Step {
+struct SkylineStep {
     x: f64,
     y: f64,
 }
 
-/// Places at this scale, or `None` if not all fit.
+/// The places of the rectangles at this scale, in this order, or `None` if not all fit.
 fn skyline(
     sides: &[[f64; 2]],
     order: &[usize],
     scale: f64,
     margin: f64,
     control: &Control,
-) -> Result<Option<Vec<Place>>> {
-    let mut places = vec![Place::default(); sides.len()];
-    let mut outline = vec![Step { x: 0.0, y: 0.0 }];
+) -> Result<Option<Vec<RectanglePlace>>> {
+    let mut places = vec![RectanglePlace::default(); sides.len()];
+    let mut outline = vec![SkylineStep { x: 0.0, y: 0.0 }];
     for (done, &i) in order.iter().enumerate() {
         if done.is_multiple_of(RECTANGLES_PER_STEP) {
             control.check()?;
@@ -229,15 +233,15 @@ fn skyline(
         }
         let Some((at, first, height, turned)) = best else { return Ok(None) };
         let width = if turned { short } else { long };
-        places[i] = Place { at: at.map(|x| x + 0.5 * margin), turned };
+        places[i] = RectanglePlace { at: at.map(|x| x + 0.5 * margin), turned };
         let end = at[0] + width;
-        // The outline under the rectangle gives way to its upper side; the last piece may stick out.
+        // The steps under the rectangle are replaced by its upper side; the last of them may reach beyond it.
         let covered = outline[first..].iter().take_while(|step| step.x < end).count();
         let last = outline[first + covered - 1];
         let next = outline.get(first + covered).map_or(1.0, |step| step.x);
-        let mut new = vec![Step { x: at[0], y: at[1] + height }];
+        let mut new = vec![SkylineStep { x: at[0], y: at[1] + height }];
         if next > end {
-            new.push(Step { x: end, y: last.y });
+            new.push(SkylineStep { x: end, y: last.y });
         }
         outline.splice(first..first + covered, new);
     }
@@ -247,7 +251,7 @@ fn skyline(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mesh::shapes::SplitMix64;
+    use crate::geometry::random::SplitMix64;
 
     #[test]
     fn the_least_rectangle_is_no_larger_than_at_any_angle() {

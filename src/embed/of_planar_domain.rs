@@ -1,8 +1,8 @@
-//! Layouts of planar domains, and areas of what is laid out.
+//! The layout of a planar domain, from places of its vertices in the plane.
 
 use super::layout::bounding_diagonal;
 use super::layout::{Layout, distance, distance_from_origin, flat};
-use super::pieces::Pieces;
+use super::pieces::LayoutPieces;
 use crate::error::{Error, Result, check_size};
 use crate::geometry::{Space, triangle};
 use crate::mesh::{Mesh, PerEdge, PerFace, PerHalfedge, PerVertex};
@@ -11,8 +11,8 @@ use crate::parallel;
 use crate::topology::CutGraph;
 use std::sync::Arc;
 
-/// The vertices of a refinement in the plane, and how well they fit the metric.
-pub(crate) struct Placed {
+/// The places of a refinement's vertices in the plane, and how well they fit the metric.
+pub(crate) struct PlanarPlaces {
     /// Per vertex of the refinement.
     pub plane: PerVertex<[f64; 2]>,
     /// [`Layout::disagreement`].
@@ -22,13 +22,17 @@ pub(crate) struct Placed {
 }
 
 impl Layout {
-    /// The layout of a planar domain in E²: the refinement of the surface as it came, `given`, with a place for each of its vertices and no
-    /// cut.
+    /// The layout of a planar domain in E², without a cut, from places of the vertices of a refinement. `given`: the surface as it came,
+    /// which the refinement refines.
     ///
     /// # Errors
     /// [`Error::Size`]; [`Error::Layout`] for a place that is not finite.
-    pub(crate) fn planar(given: &Arc<Mesh>, refinement: Arc<Refinement>, placed: Placed) -> Result<Layout> {
-        let Placed { plane, disagreement, local_consistency } = placed;
+    pub(crate) fn of_planar_domain(
+        given: &Arc<Mesh>,
+        refinement: Arc<Refinement>,
+        places: PlanarPlaces,
+    ) -> Result<Layout> {
+        let PlanarPlaces { plane, disagreement, local_consistency } = places;
         let mesh = &refinement.mesh;
         check_size("places", plane.len(), mesh.n_vertices())?;
         if let Some(v) = mesh.vertices().find(|&v| plane[v].iter().any(|x| !x.is_finite())) {
@@ -63,14 +67,14 @@ impl Layout {
             points,
             remainders: Vec::new(),
             coordinates,
-            pieces: Pieces::Refinement(refinement),
+            pieces: LayoutPieces::Refinement(refinement),
         };
         layout.measure_area();
         layout.find_flat();
         Ok(layout)
     }
 
-    /// Sets the area to that of the triangles that are laid out, which is not that of the whole surface where disks are left out.
+    /// Sets the area to the sum over the triangles that are laid out, which differs from that of the whole surface if disks are left out.
     pub(crate) fn measure_area(&mut self) {
         let mut areas = vec![0.0; self.mesh().n_faces()];
         parallel::fill(&mut areas, |f| {
@@ -83,7 +87,8 @@ impl Layout {
         self.area = areas.iter().sum();
     }
 
-    /// Plane coordinates of a point in ambient coordinates: its own, those of the Poincaré disk, of the stereographic projection.
+    /// The plane coordinates of a point in ambient coordinates: in E² its own, in H² those of the Poincaré disk, in S² the stereographic
+    /// projection.
     pub fn flat(&self, point: [f64; 3]) -> [f64; 2] {
         flat(self.space, point)
     }

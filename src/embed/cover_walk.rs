@@ -1,4 +1,4 @@
-//! Walks along edge paths of what a layout shows, in the universal cover: face after face, whatever the copies of the layout.
+//! Walks from face to face in the universal cover, along edge paths of the triangulation that is laid out.
 
 use super::faces::{Faces, corner_of};
 use super::layout::Layout;
@@ -9,34 +9,34 @@ use crate::geometry::{DoubleDouble, Motion, Space};
 use crate::mesh::{FaceId, HalfedgeId};
 use crate::topology::{corner_walk, crossed_halfedges};
 
-/// Walks on a layout of a metric.
+/// Walks in the universal cover of a layout of a metric.
 ///
-/// Products of the layout's side pairings lead from the middle of one copy to that of the next, in H² far from the path, which costs
-/// e^{3 radius} of the digits; from face to face nothing leads farther than the path. In E², where the layout has a scale of its own, the
-/// products cost none.
-pub(super) struct Walks<'a> {
+/// A product of the layout's side pairings leads from the middle of one copy of the layout to the middle of the next, in H² far from the
+/// path, and magnifies errors by e^{3 radius}. A walk from face to face never leads farther than the path. In E², where the layout may have
+/// another scale than the metric, products are exact enough and are used.
+pub(super) struct CoverWalks<'a> {
     faces: Faces<'a, Motion<DoubleDouble>>,
     layout: &'a Layout,
 }
 
-/// Where a walk is: a piece, its final face, and the frame of that face's first half-edge.
+/// The position of a walk: a piece, its final face, and the frame of that face's first half-edge.
 #[derive(Clone, Copy)]
-struct Place {
+struct WalkPosition {
     piece: FaceId,
     face: FaceId,
     frame: Motion<DoubleDouble>,
 }
 
-impl<'a> Walks<'a> {
+impl<'a> CoverWalks<'a> {
     pub fn new(metric: &'a Solution, layout: &'a Layout) -> Result<Self> {
-        Ok(Walks { faces: Faces::precise(metric.mesh(), metric.metric())?, layout })
+        Ok(CoverWalks { faces: Faces::precise(metric.mesh(), metric.metric())?, layout })
     }
 
     pub fn layout(&self) -> &'a Layout {
         self.layout
     }
 
-    /// The deck transformation of a closed path that starts at a corner (a half-edge of a face) of the layout, where the layout has it.
+    /// The deck transformation of a closed path that starts at the corner of the layout at the origin of `corner`, a half-edge of a face.
     pub fn element(
         &self,
         corner: HalfedgeId,
@@ -56,8 +56,8 @@ impl<'a> Walks<'a> {
         Ok(end.frame.conjugated_by(&home).normalised())
     }
 
-    /// The vertices of the lift of a path that starts at a corner, in the metric's own lengths: the final face of the corner lies with its
-    /// first half-edge at the origin, along the x axis.
+    /// The vertices of the lift of a path that starts at a corner, in the metric's own lengths. The first half-edge of the corner's final
+    /// face starts at the origin, along the x axis.
     pub fn points(&self, corner: HalfedgeId, path: &[HalfedgeId]) -> Result<Vec<[DoubleDouble; 3]>> {
         let mut place = self.start(corner)?;
         let mut points = vec![self.point(&place, corner)?];
@@ -68,37 +68,35 @@ impl<'a> Walks<'a> {
         Ok(points)
     }
 
-    fn start(&self, corner: HalfedgeId) -> Result<Place> {
+    /// The position at a corner, when the first half-edge of its final face starts at the origin.
+    fn start(&self, corner: HalfedgeId) -> Result<WalkPosition> {
         let (piece, _) = corner_of(self.layout.mesh(), corner)?;
         let face = self.layout.pieces.final_face(piece);
-        Ok(Place { piece, face, frame: Motion::identity(self.faces.space) })
+        Ok(WalkPosition { piece, face, frame: Motion::identity(self.faces.space) })
     }
 
-    /// The end of a walk through half-edges, each of the piece that the walk is in.
-    fn through(&self, mut at: Place, crossed: &[HalfedgeId]) -> Result<Place> {
-        let (mesh, faces) = (self.layout.mesh(), &self.faces);
+    /// The position after a walk through half-edges, each of which is a side of the piece where the walk is then.
+    fn through(&self, mut at: WalkPosition, crossed: &[HalfedgeId]) -> Result<WalkPosition> {
+        let mesh = self.layout.mesh();
         for &h in crossed {
             let (piece, _) = corner_of(mesh, h)?;
             if piece != at.piece {
-                let where_it_is = at.piece;
+                let face = at.piece;
                 return Err(Error::Layout(format!(
-                    "half-edge {h} is no side of face {where_it_is}, where a walk is"
+                    "half-edge {h} is no side of face {face}, where a walk is"
                 )));
             }
             (at.piece, _) = corner_of(mesh, h.twin())?;
             if let Some(along) = self.layout.pieces.final_halfedge(h) {
-                let (_, side) = corner_of(faces.mesh, along)?;
-                let (next, k) = corner_of(faces.mesh, along.twin())?;
-                let across = faces.across(faces.around(at.face, 0, at.frame)[side], along);
-                (at.face, at.frame) = (next, faces.around(next, k, across)[0]);
+                (at.face, at.frame) = self.faces.across_side(at.frame, along)?;
             }
         }
         Ok(at)
     }
 
-    /// The origin of a half-edge of the piece that a walk is in.
-    fn point(&self, at: &Place, h: HalfedgeId) -> Result<[DoubleDouble; 3]> {
+    /// The origin of a half-edge of the piece where a walk is.
+    fn point(&self, at: &WalkPosition, h: HalfedgeId) -> Result<[DoubleDouble; 3]> {
         let corner = corner_of(self.layout.mesh(), h)?;
-        Ok(self.faces.point((at.face, at.frame), self.layout.pieces.final_place(corner, h)))
+        Ok(self.faces.point(at.face, at.frame, self.layout.pieces.final_place(corner, h)))
     }
 }

@@ -1,22 +1,10 @@
-//! From a development of pieces to a layout.
-//!
-//! ```
-//! use ricci::embed::layout_of;
-//! use ricci::{Class, Control, Solution, Surface, geometry::Space, mesh::shapes};
-//! # fn main() -> ricci::Result<()> {
-//! let disk = Surface::from_soup(&shapes::disk(4)?)?;
-//! let flat = Solution::initial_of(disk, Class::yamabe(Space::E2))?;
-//! let layout = layout_of(flat.mesh(), flat.metric(), None, None, &Control::new())?;
-//! assert!(layout.seams.is_empty() && layout.consistency() < 1e-14);
-//! # Ok(())
-//! # }
-//! ```
+//! From pieces to their layout: triangles are unfolded face after face, and the opened surface gets its corners, seams and measures.
 
 use super::develop::Development;
 use super::faces::Faces;
-use super::frame::Frame;
+use super::frame::HalfedgeFrame;
 use super::layout::{Layout, Seam, bounding_diagonal, flat, radius};
-use super::pieces::Pieces;
+use super::pieces::LayoutPieces;
 use crate::control::Control;
 use crate::error::{Error, Result, check_size};
 use crate::geometry::complex::{norm2, sub};
@@ -27,66 +15,63 @@ use crate::parallel;
 use crate::topology::{CutGraph, check_lengths, cut, number_corners};
 use std::sync::Arc;
 
-/// Lays lengths that are flat off the cut out in E², in units of the lengths, by doubles, O(E log E). A corner of the smallest triangle
-/// lies at the origin.
-///
-/// `lengths`: one per edge, flat at every vertex inside the opened surface; how far they are from that shows in
-/// [`Layout::consistency`] and [`Layout::broken`]. `cut` opens the surface into a disk ([`crate::topology::cut_graph`]).
-///
-/// # Errors
-/// [`Error::Size`], [`Error::EdgeLength`], [`Error::Layout`] if the cut does not leave a disk, [`Error::Cancelled`].
-pub fn layout(mesh: &Arc<Mesh>, lengths: &PerEdge<f64>, cut: &CutGraph, control: &Control) -> Result<Layout> {
-    check_lengths(mesh, lengths)?;
-    let faces = Faces::of_lengths(mesh, lengths.clone());
-    let mut layout = lay_out(Pieces::Mesh(mesh.clone()), &faces, None, Some(cut.clone()), control)?;
-    layout.find_flat();
-    Ok(layout)
+impl Layout {
+    /// The layout in E² of lengths that are flat off the cut, in units of the lengths, computed in f64, O(E log E). A corner of the
+    /// smallest triangle lies at the origin.
+    ///
+    /// `lengths`: one per edge, flat at every vertex inside the opened surface; how far they are from that shows in
+    /// [`Layout::consistency`] and [`Layout::broken`]. `cut`: opens the surface into a disk ([`crate::topology::cut_graph`]).
+    ///
+    /// # Errors
+    /// [`Error::Size`], [`Error::EdgeLength`], [`Error::Layout`] if the cut does not leave a disk, [`Error::Cancelled`].
+    ///
+    /// ```
+    /// use ricci::embed::Layout;
+    /// use ricci::{Control, Surface, mesh::shapes, topology::cut_graph};
+    /// # fn main() -> ricci::Result<()> {
+    /// let disk = Surface::from_soup(&shapes::disk(4)?)?;
+    /// let cut = cut_graph(disk.mesh(), disk.lengths(), &[], &Control::new())?;
+    /// let layout = Layout::of_lengths(disk.mesh(), disk.lengths(), &cut, &Control::new())?;
+    /// assert!(layout.seams.is_empty() && layout.consistency() < 1e-14);
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn of_lengths(
+        mesh: &Arc<Mesh>,
+        lengths: &PerEdge<f64>,
+        cut: &CutGraph,
+        control: &Control,
+    ) -> Result<Layout> {
+        check_lengths(mesh, lengths)?;
+        let faces = Faces::of_lengths(mesh, lengths.clone());
+        let mut layout = unfold(LayoutPieces::Mesh(mesh.clone()), &faces, None, Some(cut.clone()), control)?;
+        layout.find_flat();
+        Ok(layout)
+    }
 }
 
-/// Lays a metric of constant curvature out in its space, outwards from `root` (default: a corner of the smallest triangle), with
-/// twice the digits of doubles, as deck groups need them: O(E log E).
-///
-/// `cut`: where to open the surface; cones inside have to lie on it. `None`, for a surface without cones: faces are added by the distance
-/// of their far corner from the root, and the surface is opened where this growing disk meets itself. It is nearly a Dirichlet domain:
-/// small, and round about the root. A sphere is then not cut at all.
+/// The part of a flat surface that a cut leaves around the smallest triangle, unfolded: the plane coordinates of the corner at the origin
+/// of each half-edge of a face, NaN beyond the cut.
 ///
 /// # Errors
-/// [`Error::Argument`] for a root that is no vertex; [`Error::Layout`] for a cut that does not leave a disk, a surface of several
-/// components, lengths beyond what doubles can place; those of [`Metric::lengths`]; [`Error::Cancelled`].
-pub fn layout_of(
-    mesh: &Arc<Mesh>,
-    metric: &Metric,
-    root: Option<VertexId>,
-    cut: Option<&CutGraph>,
-    control: &Control,
-) -> Result<Layout> {
-    let faces = Faces::precise(mesh, metric)?;
-    let mut layout = lay_out(Pieces::Mesh(mesh.clone()), &faces, root, cut.cloned(), control)?;
-    layout.find_flat();
-    Ok(layout)
-}
-
-/// Lays out the part of a flat surface that a cut leaves around the smallest triangle: the coordinates of the corner at the origin of each
-/// half-edge of a face, NaN beyond the cut.
-///
-/// # Errors
-/// Those of [`layout_of`].
-pub(crate) fn unroll_part(
+/// Those of [`Metric::lengths`]; [`Error::Layout`] for lengths beyond what f64s can place; [`Error::Cancelled`].
+pub(crate) fn unfold_part(
     mesh: &Arc<Mesh>,
     metric: &Metric,
     is_cut: &PerEdge<bool>,
     control: &Control,
 ) -> Result<PerHalfedge<[f64; 2]>> {
     let faces = Faces::in_plane(mesh, metric)?;
-    let grown = Development::grow(Pieces::Mesh(mesh.clone()), &faces, None, Some(is_cut), control)?;
+    let grown = Development::grow(LayoutPieces::Mesh(mesh.clone()), &faces, None, Some(is_cut), control)?;
     let (corner, n_corners) = number_corners(mesh, is_cut);
     let points = grown.points(&corner, n_corners);
     Ok(PerHalfedge::from_fn(mesh.n_halfedges(), |h| flat(Space::E2, points[corner[h] as usize])))
 }
 
-/// Lays pieces out along a cut of them; flipped and degenerate triangles are found later ([`Layout::find_flat`]).
-pub(super) fn lay_out<F: Frame>(
-    pieces: Pieces,
+/// Unfolds pieces that are opened along a cut of them; without a cut, the surface is opened where the growing disk meets itself. Flipped
+/// and degenerate triangles are found later ([`Layout::find_flat`]).
+pub(super) fn unfold<F: HalfedgeFrame>(
+    pieces: LayoutPieces,
     faces: &Faces<F>,
     root: Option<VertexId>,
     cut: Option<CutGraph>,
@@ -102,23 +87,21 @@ pub(super) fn lay_out<F: Frame>(
     match cut {
         Some(cut) => {
             check_size("is_cut", cut.is_cut.len(), pieces.mesh().n_edges())?;
-            // One thread alone can grow.
-            let check = || check_cut(pieces.mesh(), &cut).map(|()| Opened::new(pieces.mesh(), &cut));
-            let (grown, opened) = parallel::join(|| grow(Some(&cut)), check);
-            let opened = opened?;
-            grown?.layout(cut, opened, control)
+            check_cut(pieces.mesh(), &cut)?;
+            let corners = CutCorners::new(pieces.mesh(), &cut);
+            grow(Some(&cut))?.into_layout(cut, corners, control)
         }
         None => {
             let (grown, mesh) = (grow(None)?, pieces.mesh());
             let cut = CutGraph::around(mesh, PerEdge::from_fn(mesh.n_edges(), |e| !grown.crossed[e]));
-            let opened = Opened::new(mesh, &cut);
-            grown.layout(cut, opened, control)
+            let corners = CutCorners::new(mesh, &cut);
+            grown.into_layout(cut, corners, control)
         }
     }
 }
 
-/// What follows from a cut alone.
-struct Opened {
+/// The corners of the opened surface and the sides of its seams, which follow from the cut alone.
+struct CutCorners {
     /// [`Layout::corner_index`].
     corner_index: PerHalfedge<u32>,
     n_corners: usize,
@@ -126,19 +109,19 @@ struct Opened {
     side: PerHalfedge<i32>,
 }
 
-impl Opened {
-    fn new(mesh: &Mesh, cut: &CutGraph) -> Opened {
+impl CutCorners {
+    fn new(mesh: &Mesh, cut: &CutGraph) -> CutCorners {
         let (corner_index, n_corners) = number_corners(mesh, &cut.is_cut);
-        Opened { corner_index, n_corners, side: seam_sides(mesh, cut) }
+        CutCorners { corner_index, n_corners, side: seam_sides(mesh, cut) }
     }
 }
 
-impl<F: Frame> Development<'_, F> {
-    /// The layout of a development in which every piece was reached, opened along a cut of the pieces. Its flipped and degenerate triangles
-    /// are not found yet.
-    fn layout(self, cut: CutGraph, opened: Opened, control: &Control) -> Result<Layout> {
+impl<F: HalfedgeFrame> Development<'_, F> {
+    /// The layout of a development in which every piece was reached, opened along a cut of the pieces. Its lists of flipped and degenerate
+    /// triangles are empty yet.
+    fn into_layout(self, cut: CutGraph, corners: CutCorners, control: &Control) -> Result<Layout> {
         let (mesh, faces, space) = (self.pieces.mesh(), self.faces, self.faces.space);
-        let Opened { corner_index, n_corners, side } = opened;
+        let CutCorners { corner_index, n_corners, side } = corners;
         let (points, remainders) = self.points_and_remainders(&corner_index, n_corners);
         let mut coordinates = vec![[0.0; 2]; n_corners];
         parallel::fill(&mut coordinates, |k| flat(space, points[k]));
@@ -147,7 +130,7 @@ impl<F: Frame> Development<'_, F> {
         let is_placed = points.as_flattened().iter().all(|x| x.is_finite()) && diameter > 0.0;
         if !(is_placed && (diameter.is_finite() || space == Space::S2)) {
             return Err(Error::Layout(
-                "the lengths are too large or too small for doubles: rescale them".into(),
+                "the lengths are too large or too small for floating-point numbers: rescale them".into(),
             ));
         }
         control.check()?;
@@ -190,15 +173,15 @@ impl<F: Frame> Development<'_, F> {
         })
     }
 
-    /// The largest of [`Development::misses`].
+    /// The largest [`Development::misses`] of all patches.
     fn most_misses(&self, point: impl Fn(HalfedgeId) -> [f64; 3] + Sync) -> [f64; 2] {
         let mut misses = vec![[0.0; 2]; self.frames.len()];
         parallel::fill(&mut misses, |patch| self.misses(patch, &point));
         misses.iter().fold([0.0; 2], |[a, b], m| [worse(a, m[0]), worse(b, m[1])])
     }
 
-    /// Of one patch: the largest distance between where its face has a corner and where that lies, and the largest difference of an edge
-    /// relative to the face's longest side.
+    /// The largest distance in one patch between the place of a corner by its face and its point in the layout, and the largest such
+    /// difference of an edge relative to the face's longest side.
     fn misses(&self, patch: usize, point: impl Fn(HalfedgeId) -> [f64; 3]) -> [f64; 2] {
         let mut pieces = self.pieces_of(patch).peekable();
         let Some(placed) = pieces.peek().map(|&f| self.placed(f)) else { return [0.0; 2] };
@@ -217,7 +200,8 @@ impl<F: Frame> Development<'_, F> {
         [worst.sqrt() / over, worst_edge.sqrt()]
     }
 
-    /// The isometry of a segment's edge that is nearest to the origin, and how far those of the others are from it: a distance.
+    /// The seam of a segment: the isometry of its edge that is nearest to the origin, and the largest distance of the other edges'
+    /// isometries from it.
     fn seam(&self, segment: &[HalfedgeId]) -> Result<Seam> {
         let frames = segment.iter().map(|&h| self.on_both_sides(h)).collect::<Result<Vec<_>>>()?;
         let far =
@@ -237,18 +221,19 @@ impl<F: Frame> Development<'_, F> {
 }
 
 impl Layout {
-    /// The same layout on a common refinement of the triangulation that is laid out, opened where that is; O(pieces).
+    /// The same layout on a common refinement of the triangulation that is laid out, opened along the same edges; O(pieces). `metric`: the
+    /// metric that was laid out.
     ///
     /// # Errors
-    /// [`Error::Size`] for the refinement of another triangulation; [`Error::Layout`] for a layout that has no frames (of
-    /// [`layout_of`]) or is one of a refinement; [`Error::Cancelled`].
-    pub fn refined(&self, r: &Arc<Refinement>, metric: &Metric, control: &Control) -> Result<Layout> {
-        let Pieces::Mesh(mesh) = &self.pieces else {
+    /// [`Error::Size`] for the refinement of another triangulation; [`Error::Layout`] for a layout that is already one of a refinement or
+    /// has not been computed in double-double precision ([`super::LayoutOpening`]); [`Error::Cancelled`].
+    pub fn on_refinement(&self, r: &Arc<Refinement>, metric: &Metric, control: &Control) -> Result<Layout> {
+        let LayoutPieces::Mesh(mesh) = &self.pieces else {
             return Err(Error::Layout("a layout of a refinement has no other refinement".into()));
         };
         if self.frames.is_empty() {
             return Err(Error::Layout(
-                "this layout has no frames of twice the digits to place pieces by".into(),
+                "this layout was not computed in double-double precision, which pieces need".into(),
             ));
         }
         let need = r.final_face.iter().map(|f| f.index() + 1).fold(0, usize::max);
@@ -262,15 +247,15 @@ impl Layout {
         let frames: Vec<_> = mesh.faces().map(frame).collect();
         let grown = Development::of_frames(r, &faces, frames);
         let cut = grown.pieces.cut_of_final(mesh, &self.cut)?.inside(&r.mesh);
-        let opened = Opened::new(grown.pieces.mesh(), &cut);
-        let mut layout = grown.layout(cut, opened, control)?;
+        let corners = CutCorners::new(grown.pieces.mesh(), &cut);
+        let mut layout = grown.into_layout(cut, corners, control)?;
         layout.scale_by(self.scale);
         layout.find_flat();
         Ok(layout)
     }
 }
 
-/// Per half-edge, the seam on whose left (positive) or right side it lies: [`Layout::side`].
+/// [`Layout::side`] of each half-edge.
 fn seam_sides(mesh: &Mesh, cut: &CutGraph) -> PerHalfedge<i32> {
     let mut side = PerHalfedge::filled(mesh.n_halfedges(), 0);
     for (k, segment) in cut.segments.iter().enumerate() {

@@ -1,26 +1,28 @@
-//! Convex polygons that half-planes cut out, about the origin of the plane or of the hyperbolic plane.
+//! Convex polygons about the origin of the plane or of the hyperbolic plane, cut out by bisectors and boundary lines of a deck group.
 
-use super::border::Border;
+use super::boundary_lift::BoundaryLift;
 use super::deck::DeckGroup;
 use super::domain::DirichletDomain;
 use super::element::DeckElement;
-use super::line::Line;
 use crate::control::Control;
 use crate::error::Result;
+use crate::geometry::bounding_line::BoundingLine;
 use crate::geometry::{DoubleDouble, Motion, Space, triangle};
 
-/// Rounds of products of side elements, at most. Each round at least doubles the word length that is reached; two or three rounds are
-/// usual.
+/// Most rounds in which products of side elements are tried. Each round at least doubles the length of the words that are reached; two or
+/// three rounds are usual.
 const ROUNDS: usize = 12;
+
 fn product(deck: &DeckGroup, g: &DeckElement, h: &DeckElement, motion: Motion<DoubleDouble>) -> DeckElement {
     DeckElement { word: deck.group.reduce(&g.word.times(&h.word)), motion }
 }
 
-/// Largest number of products that are added to factors whose bisectors do not bound the polygon. Finding them takes the square of this
-/// number of compositions, below a second.
+/// Most products that are added to factors whose bisectors do not bound the polygon. Finding them takes the square of this number of
+/// compositions, less than a second.
 const MOST_FACTORS: usize = 600;
 
-/// Of some elements and their products by twos, other than the identity, those that move the origin least: twice as many as were given.
+/// The elements that move the origin least among the given ones and the products of two of them, without the identity: twice as many as
+/// were given. `same`: displacement up to which two elements are one.
 fn shortest_products(
     deck: &DeckGroup,
     all: &[DeckElement],
@@ -55,65 +57,72 @@ fn shortest_products(
     Ok(found)
 }
 
-/// Where the search for a polygon gives up.
-pub(super) struct Limits {
+/// The limits at which the search for a polygon gives up.
+pub(super) struct SearchLimits {
     /// Radius below which no polygon has room for the surface.
     pub least: f64,
-    /// Products of elements that may still be formed, for all polygons together.
+    /// Number of products of elements that may still be formed, for all polygons together.
     pub left: usize,
 }
 
-/// Generators of a group and lines that bound what it acts on, about the origin.
-pub(super) struct Given<'a> {
+/// A deck group about the origin, with generators and with the boundary lifts that bound the universal cover.
+pub(super) struct BoundedGroup<'a> {
     pub deck: &'a DeckGroup,
     /// Elements that generate the group.
     pub factors: Vec<DeckElement>,
-    /// A lift of each boundary loop, at least, and the largest distance of their points.
-    pub borders: Vec<Border>,
+    /// At least one lift of each boundary loop.
+    pub borders: Vec<BoundaryLift>,
+    /// The largest distance of these lifts' points from the origin.
     pub reach: f64,
 }
 
-/// What a side of the polygon lies on.
+/// The line on which a side of the polygon lies.
 #[derive(Clone)]
-enum Side {
-    /// The square that the polygon starts from.
+enum PolygonSide {
+    /// A side of the square from which the polygon starts.
     Start,
     /// The bisector of the origin and its image under this element.
     Bisector(DeckElement),
-    /// A given border, moved by this element.
-    Border(usize, DeckElement),
+    /// The boundary lift of this number, moved by this element.
+    Boundary(usize, DeckElement),
 }
 
-/// A convex polygon about the origin in the plane or in the Klein disk. Corners are vectors `[x, y, w]` of height 1, with twice the digits:
-/// at distance d the Klein disk's border is e^{−2d} away.
-pub(super) struct Polygon {
+/// A convex polygon about the origin in the plane or in the Klein disk. Its corners are vectors `[x, y, w]` with w = 1, in double-double
+/// precision, since at distance d from the origin the border of the Klein disk is only e^{−2d} away.
+pub(super) struct BisectorPolygon {
     space: Space,
     corners: Vec<[DoubleDouble; 3]>,
-    sides: Vec<Side>,
-    /// Largest distance of a corner from the origin.
+    sides: Vec<PolygonSide>,
+    /// The largest distance of a corner from the origin.
     pub radius: f64,
-    /// How far a line must cut into the polygon to count; the displacement up to which an element is the identity. Lengths.
+    /// The length by which a line must cut into the polygon to count.
     tolerance: f64,
+    /// The displacement up to which an element is the identity, a length.
     same: f64,
 }
 
-impl Polygon {
-    /// A square about the whole Klein disk; in the plane, one about the disk of radius `reach`.
-    pub fn around(space: Space, reach: f64, [tolerance, same]: [f64; 2]) -> Polygon {
+impl BisectorPolygon {
+    /// A square around the whole Klein disk; in the plane, around the disk of radius `reach`.
+    pub fn around(space: Space, reach: f64, [tolerance, same]: [f64; 2]) -> BisectorPolygon {
         let far = if space == Space::H2 { 2.0 } else { 2.0 * reach };
         let corners = [[far, far], [-far, far], [-far, -far], [far, -far]];
         let corners = corners.map(|[x, y]| [x, y, 1.0].map(DoubleDouble::from)).to_vec();
-        let sides = corners.iter().map(|_| Side::Start).collect();
-        Polygon { space, corners, sides, radius: f64::INFINITY, tolerance, same }
+        let sides = corners.iter().map(|_| PolygonSide::Start).collect();
+        BisectorPolygon { space, corners, sides, radius: f64::INFINITY, tolerance, same }
     }
 
-    /// Cuts by the bisectors of the given factors and of their inverses, then of products of the elements of its sides, and by the images
-    /// of the given borders under these, until none cuts anything off. Where the factors move the centre so far that their bisectors do not
-    /// bound the polygon, short products are added to them. It ends early at the `limits`, which wrong elements bring about.
-    pub fn close(&mut self, all: &Given<'_>, limits: &mut Limits, control: &Control) -> Result<()> {
-        // These generate the group, so that they stay among the factors.
-        let given: Vec<_> = all.factors.iter().flat_map(|g| [g.clone(), g.inverse()]).collect();
-        let (deck, mut factors) = (all.deck, given.clone());
+    /// Cuts by the bisectors of the factors and of their inverses, then of products of the elements of its sides, and by the images of the
+    /// boundary lifts under these, until none cuts anything off. If the factors move the centre so far that their bisectors do not bound
+    /// the polygon, short products are added to them. The search ends early at the `limits`, which only wrong elements reach.
+    pub fn close(
+        &mut self,
+        all: &BoundedGroup<'_>,
+        limits: &mut SearchLimits,
+        control: &Control,
+    ) -> Result<()> {
+        // These generate the group, so they stay among the factors.
+        let generators: Vec<_> = all.factors.iter().flat_map(|g| [g.clone(), g.inverse()]).collect();
+        let (deck, mut factors) = (all.deck, generators.clone());
         for _ in 0..ROUNDS {
             factors.iter().for_each(|g| {
                 self.cut_by_both(g);
@@ -133,96 +142,97 @@ impl Polygon {
                     }
                 }
             }
-            match self.is_bounded() {
-                true if !changed => break,
-                true => {}
-                // This round has cut nothing off, and no more products may be added.
-                false if !changed && factors.len() > MOST_FACTORS => break,
-                false => {
-                    limits.left = limits.left.saturating_sub(factors.len() * factors.len());
-                    factors = shortest_products(deck, &factors, self.same, control)?;
-                    factors.extend_from_slice(&given);
-                }
+            let (is_bounded, may_add) = (self.is_bounded(), factors.len() <= MOST_FACTORS);
+            if !changed && (is_bounded || !may_add) {
+                break;
+            }
+            if !is_bounded {
+                limits.left = limits.left.saturating_sub(factors.len() * factors.len());
+                factors = shortest_products(deck, &factors, self.same, control)?;
+                factors.extend_from_slice(&generators);
             }
         }
         Ok(())
     }
 
-    /// Cuts by the bisectors of an element and of its inverse, since each is the other's partner.
+    /// Cuts by the bisectors of an element and of its inverse, whose sides are partners; true if one of them cut something off.
     fn cut_by_both(&mut self, g: &DeckElement) -> bool {
         let mut cut = |g: &DeckElement| {
-            self.is_cut_by(&g.motion) && self.cut(&Line::bisector(&g.motion), Side::Bisector(g.clone()))
+            self.is_cut_by(&g.motion)
+                && self.cut(&BoundingLine::bisector(&g.motion), PolygonSide::Bisector(g.clone()))
         };
         let first = cut(g);
         cut(&g.inverse()) || first
     }
 
-    /// Cuts by the given borders and by those that it has, and by the images of them all under the factors and the elements of its sides.
-    fn cut_by_borders(&mut self, all: &Given<'_>, factors: &[DeckElement]) -> bool {
-        let one = DeckElement::identity(self.space);
-        let mut known: Vec<(usize, DeckElement)> = (0..all.borders.len()).map(|k| (k, one.clone())).collect();
+    /// Cuts by the boundary lifts, by those on which sides of the polygon lie, and by the images of all these under the factors and the
+    /// elements of the sides; true if one of them cut something off.
+    fn cut_by_borders(&mut self, all: &BoundedGroup<'_>, factors: &[DeckElement]) -> bool {
+        let identity = DeckElement::identity(self.space);
+        let mut known: Vec<(usize, DeckElement)> =
+            (0..all.borders.len()).map(|k| (k, identity.clone())).collect();
         known.extend(self.sides.iter().filter_map(|side| match side {
-            Side::Border(k, g) => Some((*k, g.clone())),
+            PolygonSide::Boundary(k, g) => Some((*k, g.clone())),
             _ => None,
         }));
         let mut elements: Vec<DeckElement> =
-            std::iter::once(&one).chain(self.elements()).chain(factors).cloned().collect();
-        // The shortest first: once the polygon is bounded, elements that move the given borders too far to touch it need not be tried,
-        // which would be known to few digits.
+            std::iter::once(&identity).chain(self.elements()).chain(factors).cloned().collect();
+        // The shortest come first: once the polygon is bounded, elements that move the boundary lifts too far to touch it need not be
+        // tried. Those are known to few digits.
         elements.sort_by(|g, h| g.motion.displacement().total_cmp(&h.motion.displacement()));
         let mut changed = false;
         for h in &elements {
             for (k, g) in &known {
-                // Of an image of an image the elements are multiplied first, which costs fewer digits.
+                // For the image of an image, the elements are multiplied first, which loses fewer digits.
                 let motion = h.motion.compose(&g.motion);
                 if motion.displacement() > self.radius + all.reach {
                     continue;
                 }
                 let line = all.borders[*k].conjugated_by(&motion).line();
                 if self.is_beyond(&line) && !self.has(&line) {
-                    changed |= self.cut(&line, Side::Border(*k, product(all.deck, h, g, motion)));
+                    changed |= self.cut(&line, PolygonSide::Boundary(*k, product(all.deck, h, g, motion)));
                 }
             }
         }
         changed
     }
 
-    /// Whether one of its sides on the boundary lies on a line, up to rounding.
-    fn has(&self, line: &Line) -> bool {
+    /// True if one of its sides on the boundary lies on a line, up to rounding.
+    fn has(&self, line: &BoundingLine) -> bool {
         let (n, near) = (self.corners.len(), |p| line.beyond(self.space, p).abs() <= self.same);
         let is_on = |k: &usize| near(&self.corners[*k]) && near(&self.corners[(k + 1) % n]);
-        (0..n).filter(|&k| matches!(self.sides[k], Side::Border(..))).any(|k| is_on(&k))
+        (0..n).filter(|&k| matches!(self.sides[k], PolygonSide::Boundary(..))).any(|k| is_on(&k))
     }
 
     /// The elements of its sides.
     fn elements(&self) -> impl Iterator<Item = &DeckElement> {
         self.sides.iter().filter_map(|side| match side {
-            Side::Bisector(g) => Some(g),
+            PolygonSide::Bisector(g) => Some(g),
             _ => None,
         })
     }
 
-    /// Whether it lies inside the Klein disk, and nothing of the square is left that it started from.
+    /// True if the polygon lies inside the Klein disk and no side of the square is left from which it started.
     pub fn is_bounded(&self) -> bool {
-        self.radius < f64::INFINITY && !self.sides.iter().any(|side| matches!(side, Side::Start))
+        self.radius < f64::INFINITY && !self.sides.iter().any(|side| matches!(side, PolygonSide::Start))
     }
 
-    /// Whether the bisector of `g` cuts a corner off.
+    /// True if the bisector of `g` cuts a corner off.
     fn is_cut_by(&self, g: &Motion<DoubleDouble>) -> bool {
         let moved = g.displacement();
         if moved <= self.same || moved > 2.0 * self.radius + self.tolerance {
             return false;
         }
-        self.is_beyond(&Line::bisector(g))
+        self.is_beyond(&BoundingLine::bisector(g))
     }
 
-    /// Whether a corner lies beyond a line.
-    fn is_beyond(&self, line: &Line) -> bool {
+    /// True if a corner lies beyond a line.
+    fn is_beyond(&self, line: &BoundingLine) -> bool {
         self.corners.iter().any(|p| line.beyond(self.space, p) > self.tolerance)
     }
 
-    /// Cuts off the part beyond a line; false if that is all of it.
-    fn cut(&mut self, line: &Line, side: Side) -> bool {
+    /// Cuts off the part beyond a line; false if that is the whole polygon.
+    fn cut(&mut self, line: &BoundingLine, side: PolygonSide) -> bool {
         let n = self.corners.len();
         let beyond: Vec<f64> = self.corners.iter().map(|p| line.beyond(self.space, p)).collect();
         // The corners that are cut off lie in a row around the farthest one, between two that stay.
@@ -258,7 +268,7 @@ impl Polygon {
         true
     }
 
-    /// Distance of a corner from the origin; infinite outside the Klein disk.
+    /// The distance of a corner from the origin; infinite outside the Klein disk.
     fn distance(&self, [x, y, _]: &[DoubleDouble; 3]) -> f64 {
         let square = *x * *x + *y * *y;
         match self.space {
@@ -271,20 +281,20 @@ impl Polygon {
         }
     }
 
-    /// The side with the inverse element, or that there is none on the boundary; none where it is missing.
+    /// The side with the inverse element, `Some(None)` for a side on the boundary, which has none; `None` if the partner is missing.
     fn partner(&self, k: usize) -> Option<Option<usize>> {
-        let Side::Bisector(g) = &self.sides[k] else { return Some(None) };
-        let is_inverse = |side: &Side| match side {
-            Side::Bisector(h) => g.motion.compose(&h.motion).displacement() <= self.same,
+        let PolygonSide::Bisector(g) = &self.sides[k] else { return Some(None) };
+        let is_inverse = |side: &PolygonSide| match side {
+            PolygonSide::Bisector(h) => g.motion.compose(&h.motion).displacement() <= self.same,
             _ => false,
         };
         self.sides.iter().position(is_inverse).map(Some)
     }
 
-    /// The domain of the group and borders that it was cut by, with every side's partner; none if a side has no element or no partner.
+    /// The Dirichlet domain that the polygon is, with every side's partner, moved by `back`; `None` if a side has no element or no partner.
     pub fn finish(
         self,
-        all: &Given<'_>,
+        all: &BoundedGroup<'_>,
         centre: [f64; 3],
         back: &Motion<DoubleDouble>,
     ) -> Option<DirichletDomain> {
@@ -324,25 +334,25 @@ impl Polygon {
     }
 }
 
-impl Given<'_> {
-    /// The element of a side; of one on the boundary, that which moves it along itself.
-    fn element(&self, side: &Side) -> Option<DeckElement> {
+impl BoundedGroup<'_> {
+    /// The element of a side; for a side on the boundary, the element that moves it along itself.
+    fn element(&self, side: &PolygonSide) -> Option<DeckElement> {
         match side {
-            Side::Start => None,
-            Side::Bisector(g) => Some(g.clone()),
-            Side::Border(k, g) => Some(self.borders[*k].moved_by(g, &self.deck.group).element),
+            PolygonSide::Start => None,
+            PolygonSide::Bisector(g) => Some(g.clone()),
+            PolygonSide::Boundary(k, g) => Some(self.borders[*k].moved_by(g, &self.deck.group).element),
         }
     }
 }
 
-/// Where the side between two corners crosses a line, at height 1.
-fn meeting(line: &Line, p: &[DoubleDouble; 3], q: &[DoubleDouble; 3]) -> [DoubleDouble; 3] {
+/// The point with w = 1 at which the side between two corners crosses a line.
+fn meeting(line: &BoundingLine, p: &[DoubleDouble; 3], q: &[DoubleDouble; 3]) -> [DoubleDouble; 3] {
     let (a, b) = (line.value(p), line.value(q));
     let sum = [0, 1, 2].map(|i| b * p[i] - a * q[i]);
     sum.map(|x| x / sum[2])
 }
 
-/// The point of the hyperboloid (the plane) over a vector of height 1.
+/// The point of the hyperboloid, in E² of the plane, in the direction of a vector with w = 1.
 fn on_hyperboloid(space: Space, [x, y, w]: [DoubleDouble; 3]) -> [DoubleDouble; 3] {
     if space != Space::H2 {
         return [x, y, w];

@@ -1,7 +1,7 @@
-//! Whether triangles in the plane overlap: by exact arithmetic, and without looking at every pair.
+//! Overlaps of triangles in the plane, found by exact arithmetic and without a test of every pair.
 //!
 //! ```
-//! use ricci::{Control, embed::overlap::overlapping};
+//! use ricci::{Control, geometry::triangle_overlap::overlapping};
 //! # fn main() -> ricci::Result<()> {
 //! let left = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
 //! let right = [[1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
@@ -11,53 +11,54 @@
 //! # }
 //! ```
 
+use super::predicates::orientation;
 use crate::control::Control;
 use crate::error::Result;
-use crate::geometry::predicates::orientation;
 use std::cmp::Ordering;
 
-/// Triangles between two looks at the control.
+/// Number of triangles after which the control is asked again whether to stop.
 const TRIANGLES_PER_STEP: usize = 4096;
 
-/// Corners of a triangle in the plane.
-pub type Triangle = [[f64; 2]; 3];
+/// The corners of a triangle in the plane.
+pub type TriangleCorners = [[f64; 2]; 3];
 
-/// Whether the interiors of two counterclockwise triangles meet; sides and corners may. Exact.
+/// True if the interiors of two counterclockwise triangles meet, not only their sides or corners. Exact.
 ///
 /// Two convex polygons whose interiors do not meet are separated by the line of a side of one of them.
-pub fn interiors_meet(a: &Triangle, b: &Triangle) -> bool {
-    let separates = |a: &Triangle, b: &Triangle| {
+pub fn interiors_meet(a: &TriangleCorners, b: &TriangleCorners) -> bool {
+    let separates = |a: &TriangleCorners, b: &TriangleCorners| {
         (0..3).any(|k| b.iter().all(|&p| orientation(a[k], a[(k + 1) % 3], p) != Ordering::Greater))
     };
     !separates(a, b) && !separates(b, a)
 }
 
-/// Triangles, some of which are *present*, in a tree of bounding boxes.
+/// A tree of the bounding boxes of triangles, for searches among those that are marked as *present*.
 ///
 /// The tree is built once over all triangles, by halving along the longer side of the box of their centres. Each node counts the present
-/// triangles below it, and a search only enters nodes that have some. Triangles may differ in size by any factor, which a grid would not
-/// stand. Adding and removing take O(log n), a search O(log n) and the number of boxes that it meets.
+/// triangles below it, and a search only enters nodes that have some. Unlike a grid, the tree suits triangles whose sizes differ by any
+/// factor. Adding and removing take O(log n), a search O(log n) and the number of boxes that it meets.
 pub struct BoxTree<'a> {
-    triangles: &'a [Triangle],
-    /// Number of leaves, a power of two; leaf k is node `leaves + k`, the children of node i are 2i and 2i + 1.
+    triangles: &'a [TriangleCorners],
+    /// The number of leaves, a power of two; leaf k is node `leaves + k`, the children of node i are 2i and 2i + 1.
     leaves: usize,
-    /// Leaf → triangle.
+    /// Per leaf, its triangle.
     order: Vec<u32>,
-    /// Triangle → leaf.
+    /// TriangleCorners → leaf.
     leaf: Vec<u32>,
-    /// Per node: least x, y, largest x, y.
+    /// Per node, the least x and y, then the largest x and y.
     boxes: Vec<[f64; 4]>,
+    /// Per node, the number of present triangles below it.
     present: Vec<u32>,
 }
 
 const EMPTY: [f64; 4] = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
 
 impl<'a> BoxTree<'a> {
-    /// A tree with no triangle present. Coordinates must be finite. O(n log n).
+    /// The tree of triangles with finite coordinates, none of which is present yet. O(n log n).
     ///
     /// # Errors
     /// [`crate::Error::Cancelled`].
-    pub fn new(triangles: &'a [Triangle], control: &Control) -> Result<BoxTree<'a>> {
+    pub fn new(triangles: &'a [TriangleCorners], control: &Control) -> Result<BoxTree<'a>> {
         let n = triangles.len();
         let leaves = n.next_power_of_two();
         let mut order: Vec<u32> = (0..n as u32).collect();
@@ -91,10 +92,11 @@ impl<'a> BoxTree<'a> {
         }
     }
 
-    /// A present triangle whose interior meets that of the counterclockwise triangle f, which is not present itself.
+    /// Some present triangle whose interior meets that of the counterclockwise triangle f, which is not present itself.
     pub fn meeting(&self, f: usize) -> Option<usize> {
-        let (triangle, own) = (&self.triangles[f], self.boxes[self.leaves + self.leaf[f] as usize]);
-        let apart = |b: [f64; 4]| b[0] >= own[2] || own[0] >= b[2] || b[1] >= own[3] || own[1] >= b[3];
+        let (triangle, around) = (&self.triangles[f], self.boxes[self.leaves + self.leaf[f] as usize]);
+        let apart =
+            |b: [f64; 4]| b[0] >= around[2] || around[0] >= b[2] || b[1] >= around[3] || around[1] >= b[3];
         let mut open = vec![1];
         while let Some(node) = open.pop() {
             if self.present.get(node).is_none_or(|&count| count == 0) || apart(self.boxes[node]) {
@@ -113,13 +115,13 @@ impl<'a> BoxTree<'a> {
     }
 }
 
-/// The triangles, ascending, whose interiors meet that of an earlier triangle that is not itself in this list. Clockwise triangles count as
-/// their mirror images do, triangles without area meet nothing. Exact.
+/// The triangles, ascending, whose interiors meet that of an earlier triangle that is not in this list itself. Clockwise triangles count as
+/// their counterclockwise copies, and triangles without area meet nothing. Exact.
 ///
 /// # Errors
 /// [`crate::Error::Cancelled`].
-pub fn overlapping(triangles: &[Triangle], control: &Control) -> Result<Vec<usize>> {
-    let turned: Vec<Triangle> = triangles
+pub fn overlapping(triangles: &[TriangleCorners], control: &Control) -> Result<Vec<usize>> {
+    let turned: Vec<TriangleCorners> = triangles
         .iter()
         .map(|&[a, b, c]| if orientation(a, b, c) == Ordering::Less { [a, c, b] } else { [a, b, c] })
         .collect();
@@ -141,8 +143,9 @@ pub fn overlapping(triangles: &[Triangle], control: &Control) -> Result<Vec<usiz
     Ok(found)
 }
 
-/// Orders triangles so that the two halves of each block of a power of two lie on different sides of its middle.
-fn halve(triangles: &[Triangle], order: &mut [u32], leaves: usize, control: &Control) -> Result<()> {
+/// Orders the triangles below a node with this number of leaves so that its two halves lie on different sides of a line along an axis, and
+/// so on down to the leaves.
+fn halve(triangles: &[TriangleCorners], order: &mut [u32], leaves: usize, control: &Control) -> Result<()> {
     let half = leaves / 2;
     if half == 0 || order.len() <= 1 {
         return Ok(());
@@ -168,7 +171,7 @@ fn halve(triangles: &[Triangle], order: &mut [u32], leaves: usize, control: &Con
     }
 }
 
-fn bounds(triangle: &Triangle) -> [f64; 4] {
+fn bounds(triangle: &TriangleCorners) -> [f64; 4] {
     triangle.iter().fold(EMPTY, |b, &[x, y]| join(b, [x, y, x, y]))
 }
 
@@ -180,10 +183,10 @@ fn join(a: [f64; 4], b: [f64; 4]) -> [f64; 4] {
 mod tests {
     use super::*;
     use crate::geometry::clip::clip;
-    use crate::mesh::shapes::SplitMix64;
+    use crate::geometry::random::SplitMix64;
 
-    /// Area of the intersection, by clipping one triangle with the sides of the other.
-    fn common_area(a: &Triangle, b: &Triangle) -> f64 {
+    /// The area of the intersection, by clipping one triangle with the sides of the other.
+    fn common_area(a: &TriangleCorners, b: &TriangleCorners) -> f64 {
         let mut polygon = a.to_vec();
         for k in 0..3 {
             let (p, q) = (b[k], b[(k + 1) % 3]);
@@ -197,7 +200,7 @@ mod tests {
         0.5 * (0..polygon.len()).map(cross).sum::<f64>()
     }
 
-    fn triangles(n: usize, seed: u64) -> Vec<Triangle> {
+    fn triangles(n: usize, seed: u64) -> Vec<TriangleCorners> {
         let mut random = SplitMix64::new(seed);
         let mut next = || {
             let size = 0.001f64.powf(random.unit());

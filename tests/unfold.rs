@@ -1,11 +1,11 @@
-//! One call from a flow's result to its layout: every space, closed and open, flipped or not, cut along the input's edges.
+//! Layouts of flows' results: every space, closed and open, flipped or not, cut along the input's edges.
 #![allow(clippy::unwrap_used, clippy::print_stdout, clippy::print_stderr)]
 
 mod common;
 
 use common::flow::{euclidean, surface};
-use ricci::embed::unroll::CONE_TOLERANCE;
-use ricci::embed::{Layout, Quality, Scale, UnrollOptions, cones_of, unroll};
+use ricci::embed::CONE_TOLERANCE;
+use ricci::embed::{CONE_TOLERANCE, Layout, LayoutOptions, LayoutScale, LayoutOpening, Quality, cones_of};
 use ricci::flow::{Flips, Options, Solution, auto_cones, flow};
 use ricci::geometry::{PlaneIsometry, Space};
 use ricci::mesh::io::Soup;
@@ -29,11 +29,11 @@ fn flow_to(
     found
 }
 
-fn with_cones(cones: &[VertexId]) -> UnrollOptions {
-    UnrollOptions { cones: Some(cones.to_vec()), ..UnrollOptions::default() }
+fn with_cones(cones: &[VertexId]) -> LayoutOptions {
+    LayoutOptions { cones: Some(cones.to_vec()), ..LayoutOptions::default() }
 }
 
-/// What holds of every layout on the surface as it came.
+/// The properties of every layout on the surface as it came.
 fn check(mesh: &Mesh, layout: &Layout, what: &str) {
     assert!(layout.flipped.is_empty() && layout.broken.is_empty(), "{what}: {:?}", layout.flipped);
     assert!(layout.consistency() <= layout.consistency_limit(1e-9), "{what}: {:e}", layout.consistency());
@@ -54,7 +54,7 @@ fn check(mesh: &Mesh, layout: &Layout, what: &str) {
     let corners = layout.corner_uv().unwrap();
     assert_eq!(corners.len(), mesh.n_faces());
     assert!(corners.as_flattened().as_flattened().iter().all(|x| x.is_finite()), "{what}");
-    // Folds are few: faces that final edges cut where they are bent most.
+    // Few faces fold over: some of those that final edges cross in strongly bent regions.
     assert!(50 * on_input.flipped.len() <= mesh.n_faces(), "{what}: {} fold", on_input.flipped.len());
     println!(
         "{what}: {} seams, {} of {} faces fold",
@@ -64,8 +64,8 @@ fn check(mesh: &Mesh, layout: &Layout, what: &str) {
     );
 }
 
-/// With K the dilatation of a linear map of triangles, K + 1/K is the squared norm of its derivative over the determinant; both from
-/// squared lengths and areas.
+/// K + 1/K for the dilatation K of a linear map of triangles: the squared norm of its derivative over the determinant, computed from squared
+/// lengths and areas.
 fn check_quality((mesh, lengths): &(Mesh, PerEdge<f64>), corners: &[[[f64; 2]; 3]], quality: &Quality) {
     let [mut areas, mut images] = [Vec::new(), Vec::new()];
     for f in mesh.faces() {
@@ -95,8 +95,7 @@ fn check_quality((mesh, lengths): &(Mesh, PerEdge<f64>), corners: &[[[f64; 2]; 3
     }
 }
 
-/// Noise of a rounding error in a target makes no cones: eight of them on a sphere are joined by seven seams, and some more where those
-/// branch.
+/// Rounding errors in a target make no cones: eight cones on a sphere are joined by seven seams, and some more if those branch.
 #[test]
 fn noise_in_a_target_makes_no_cones() {
     let surface = surface(&shapes::ellipsoid([1.0, 1.3, 0.8], 12).unwrap());
@@ -108,8 +107,8 @@ fn noise_in_a_target_makes_no_cones() {
     }
     let result = flow_to(&surface, Space::E2, &target, Flips::Auto);
     for cones in [Some(cones_of(mesh, &target, CONE_TOLERANCE).unwrap()), None] {
-        let options = UnrollOptions { cones, ..UnrollOptions::default() };
-        let layout = unroll(&result, &options, &Control::new()).unwrap();
+        let options = LayoutOptions { cones, ..LayoutOptions::default() };
+        let layout = Layout::of_solution(&result, &options, &Control::new()).unwrap();
         assert!((7..=9).contains(&layout.seams.len()), "{}", layout.seams.len());
         check(mesh, &layout, "ellipsoid");
     }
@@ -140,14 +139,14 @@ fn layouts_in_the_plane_are_cut_along_the_inputs_edges() {
             }
             let result = flow_to(&surface, Space::E2, &target, flips);
             let cones = cones_of(mesh, &target, CONE_TOLERANCE).unwrap();
-            let layout = unroll(&result, &with_cones(&cones), &Control::new()).unwrap();
+            let layout = Layout::of_solution(&result, &with_cones(&cones), &Control::new()).unwrap();
             let what = format!("{name}, flips {flips:?}, {} of them", result.flips());
             check(mesh, &layout, &what);
             assert_eq!(layout.refinement().is_some(), !result.is_unflipped());
             let given_area = area(mesh, Space::E2, &surface.1).unwrap();
             assert!((layout.area / given_area - 1.0).abs() < 1e-12, "{what}");
-            let options = UnrollOptions { scale: Scale::AsSolved, ..with_cones(&cones) };
-            let solved = unroll(&result, &options, &Control::new()).unwrap();
+            let options = LayoutOptions { scale: LayoutScale::AsSolved, ..with_cones(&cones) };
+            let solved = Layout::of_solution(&result, &options, &Control::new()).unwrap();
             assert_eq!(solved.scale, 1.0);
             assert!((solved.area * layout.scale * layout.scale / given_area - 1.0).abs() < 1e-12, "{what}");
             let quality = layout.quality(mesh, &surface.1).unwrap();
@@ -171,13 +170,13 @@ fn layouts_in_the_hyperbolic_plane_are_cut_along_the_inputs_edges() {
         let surface = surface(&soup);
         let mesh = &surface.0;
         let result = flow_to(&surface, Space::H2, &PerVertex::filled(mesh.n_vertices(), 0.0), Flips::Auto);
-        let layout = unroll(&result, &with_cones(&[]), &Control::new()).unwrap();
+        let layout = Layout::of_solution(&result, &with_cones(&[]), &Control::new()).unwrap();
         check(mesh, &layout, name);
         assert!((layout.area + 2.0 * PI * mesh.euler() as f64).abs() < 1e-8, "{name}: {}", layout.area);
         // The root lies at the origin, and a cone on the cut.
         let root = VertexId(5);
-        let options = UnrollOptions { root: Some(root), ..with_cones(&[VertexId(9)]) };
-        let other = unroll(&result, &options, &Control::new()).unwrap();
+        let options = LayoutOptions { root: Some(root), ..with_cones(&[VertexId(9)]) };
+        let other = Layout::of_solution(&result, &options, &Control::new()).unwrap();
         check(mesh, &other, name);
         let laid = other.mesh();
         let at_root = laid.halfedges().filter(|&h| !laid.is_outside(h) && laid.origin(h) == root);
@@ -188,15 +187,21 @@ fn layouts_in_the_hyperbolic_plane_are_cut_along_the_inputs_edges() {
     }
 }
 
-/// Layouts of a refinement and of the metric's triangulation about one vertex lie the same way.
+/// A layout of a refinement and one of the metric's triangulation about the same vertex agree near that vertex.
 #[test]
 fn refinements_lie_as_their_final_faces_do() {
     let surface = surface(&shapes::genus(2, 3).unwrap());
     let result = flow_to(&surface, Space::H2, &PerVertex::filled(surface.0.n_vertices(), 0.0), Flips::Auto);
     let control = Control::new();
     let root = Some(VertexId(7));
-    let whole = ricci::embed::layout_of(result.mesh(), result.metric(), root, None, &control).unwrap();
-    let layout = unroll(&result, &UnrollOptions { root, ..with_cones(&[]) }, &control).unwrap();
+    let options = LayoutOptions {
+        opening: LayoutOpening::MetricEdges,
+        scale: LayoutScale::AsSolved,
+        root,
+        ..with_cones(&[])
+    };
+    let whole = Layout::of_solution(&result, &options, &control).unwrap();
+    let layout = Layout::of_solution(&result, &LayoutOptions { root, ..with_cones(&[]) }, &control).unwrap();
     let around = |layout: &Layout| {
         let mesh = layout.mesh();
         let near = mesh.outgoing(VertexId(7)).map(|h| mesh.tip(h)).collect::<Vec<_>>();
@@ -229,8 +234,8 @@ fn a_sphere_in_its_own_space_has_no_cut_and_an_explicit_cut_is_kept() {
     let (mesh, lengths) = &flat;
     let result = flow_to(&flat, Space::E2, &PerVertex::filled(mesh.n_vertices(), 0.0), Flips::Auto);
     let cut = cut_graph(mesh, lengths, &[VertexId(4)], &Control::new()).unwrap();
-    let options = UnrollOptions { cut: Some(cut.clone()), ..with_cones(&[]) };
-    let layout = unroll(&result, &options, &Control::new()).unwrap();
+    let options = LayoutOptions { opening: LayoutOpening::InputCut(cut.clone()), ..with_cones(&[]) };
+    let layout = Layout::of_solution(&result, &options, &Control::new()).unwrap();
     check(mesh, &layout, "torus");
     assert_eq!(layout.on_input().unwrap().cut, cut);
     assert!(layout.modulus().is_some());
@@ -243,7 +248,7 @@ fn a_sphere_in_its_own_space_has_no_cut_and_an_explicit_cut_is_kept() {
     let (options, control) = (Options { tolerance: 1e-8, ..Options::default() }, Control::new());
     let class = Class::yamabe(Space::S2);
     let found = flow(euclidean(mesh, lengths), class, &Target::Uniform, &options, &control).unwrap();
-    let layout = unroll(&found, &with_cones(&[]), &control).unwrap();
+    let layout = Layout::of_solution(&found, &with_cones(&[]), &control).unwrap();
     assert!(layout.seams.is_empty() && layout.flipped.is_empty());
     assert!((layout.area - 4.0 * PI).abs() < 1e-6, "{}", layout.area);
 }
@@ -258,29 +263,31 @@ fn layouts_do_not_depend_on_the_number_of_threads() {
     let curved = flow_to(&surface, Space::H2, &PerVertex::filled(mesh.n_vertices(), 0.0), Flips::Auto);
     for (result, cones) in [(flat, vec![cone]), (curved, Vec::new())] {
         let on = |threads: usize| {
-            unroll(&result, &UnrollOptions { threads, ..with_cones(&cones) }, &Control::new()).unwrap()
+            Layout::of_solution(&result, &LayoutOptions { threads, ..with_cones(&cones) }, &Control::new())
+                .unwrap()
         };
         let (one, three) = (on(1), on(3));
         assert_eq!(one, three);
-        assert_eq!(one, unroll(&result, &with_cones(&cones), &Control::new()).unwrap());
+        assert_eq!(one, Layout::of_solution(&result, &with_cones(&cones), &Control::new()).unwrap());
         let quality = |layout: &Layout| layout.quality(mesh, &surface.1).unwrap();
         assert_eq!(quality(&one), quality(&three));
     }
 }
 
 #[test]
-fn what_cannot_be_unrolled_is_refused_by_name() {
+fn impossible_layouts_are_refused_by_name() {
     let round = surface(&shapes::icosphere(3).unwrap());
     let (mesh, lengths) = &round;
     let cones = auto_cones(mesh, lengths, 4, &Control::new()).unwrap().target;
     let result = flow_to(&round, Space::E2, &cones, Flips::Auto);
-    let refused = |options: &UnrollOptions| unroll(&result, options, &Control::new()).unwrap_err();
+    let refused =
+        |options: &LayoutOptions| Layout::of_solution(&result, options, &Control::new()).unwrap_err();
     assert!(matches!(refused(&with_cones(&[VertexId(1)])), Error::Layout(_)));
     let n = mesh.n_vertices() as u32;
     assert!(matches!(refused(&with_cones(&[VertexId(n)])), Error::Argument { .. }));
-    let root = UnrollOptions { root: Some(VertexId(n)), ..UnrollOptions::default() };
+    let root = LayoutOptions { root: Some(VertexId(n)), ..LayoutOptions::default() };
     assert!(matches!(refused(&root), Error::Argument { .. }));
     assert!(matches!(cones_of(mesh, &[0.0], 1e-10), Err(Error::Size { .. })));
-    let mut layout = unroll(&result, &UnrollOptions::default(), &Control::new()).unwrap();
+    let mut layout = Layout::of_solution(&result, &LayoutOptions::default(), &Control::new()).unwrap();
     assert!(matches!(layout.scale_to_area(f64::NAN), Err(Error::Argument { .. })));
 }

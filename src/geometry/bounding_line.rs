@@ -1,48 +1,50 @@
-//! Straight lines of the plane and of the hyperbolic plane, with one side *beyond* each.
+//! Straight lines that bound convex regions of the plane and of the hyperbolic plane.
 
-use crate::geometry::{DoubleDouble, Motion, Space};
+use super::{DoubleDouble, Motion, Space};
 
-/// Value of a form, as a distance, below which it is evaluated again with twice the digits; doubles give the sign of larger ones.
+/// Largest distance from a line for which the line's form is evaluated in double-double precision: of points that are farther away, f64
+/// shows on which side they lie.
 const CLOSE: f64 = 1e-4;
 
-/// A straight line, as a linear form of vectors `[x, y, w]` that is positive beyond it.
+/// A straight line that bounds a region: a linear form of vectors `[x, y, w]` that is positive *beyond* the line, outside the region.
 #[derive(Debug, Clone)]
-pub(super) struct Line {
+pub(crate) struct BoundingLine {
     form: [DoubleDouble; 3],
-    /// The form's norm: form over norm is distance (H²: its hyperbolic sine).
+    /// The norm of the form: the form over its norm is the distance from the line, in H² the hyperbolic sine of the distance.
     pub norm: f64,
 }
 
-impl Line {
+impl BoundingLine {
     /// The bisector of the origin and its image `[x, y, w]`: `x X + y Y − h W`, positive nearer to the image.
-    pub fn bisector(g: &Motion<DoubleDouble>) -> Line {
+    pub fn bisector(g: &Motion<DoubleDouble>) -> BoundingLine {
         let [x, y, w] = g.origin();
         let moved = g.displacement();
         let (height, norm) = match g.space {
             Space::H2 => (w - 1.0.into(), 2.0 * (0.5 * moved).sinh()),
             _ => ((x * x + y * y) * 0.5.into(), moved),
         };
-        Line { form: [x, y, -height], norm }
+        BoundingLine { form: [x, y, -height], norm }
     }
 
-    /// The line along which an isometry translates, the right of its direction beyond it. In the plane translations have no line of their
-    /// own, and it is that through `point`.
-    pub fn along(g: &Motion<DoubleDouble>, point: [DoubleDouble; 3]) -> Line {
+    /// The line along which an isometry translates; what lies to the right of the translation lies beyond it. In the plane a translation
+    /// has many such lines, and the one through `point` is taken.
+    pub fn along(g: &Motion<DoubleDouble>, point: [DoubleDouble; 3]) -> BoundingLine {
         match g.space {
-            // Of the translation along the x axis, a real and b = sinh(L/2): conjugates have the axis that the form says.
+            // The translation by L along the x axis has a real and b = sinh(L/2), so this form is its axis; conjugating the translation
+            // moves the form with the axis.
             Space::H2 => {
                 let Motion { a, b, .. } = g.positive();
-                Line { form: [b[1], -b[0], a[1]], norm: (0.5 * g.translation_length()).sinh() }
+                BoundingLine { form: [b[1], -b[0], a[1]], norm: (0.5 * g.translation_length()).sinh() }
             }
             _ => {
                 let [x, y, _] = g.origin();
                 let height = y * point[0] - x * point[1];
-                Line { form: [y, -x, -height], norm: g.displacement() }
+                BoundingLine { form: [y, -x, -height], norm: g.displacement() }
             }
         }
     }
 
-    /// How far a point `[x, y, 1]` lies beyond the line: the distance, in H² (the Klein disk) its hyperbolic sine; for a point outside the
+    /// The distance by which a point `[x, y, 1]` lies beyond the line, in H² (the Klein disk) its hyperbolic sine; for a point outside the
     /// disk some number of the same sign.
     pub fn beyond(&self, space: Space, p: &[DoubleDouble; 3]) -> f64 {
         let size = match space {
@@ -60,12 +62,12 @@ impl Line {
         self.value(p).high * unit
     }
 
-    /// The form.
+    /// The value of the form at a vector.
     pub fn value(&self, p: &[DoubleDouble; 3]) -> DoubleDouble {
         self.form[0] * p[0] + self.form[1] * p[1] + self.form[2] * p[2]
     }
 
-    /// How far beyond the line a point in ambient coordinates lies: a distance.
+    /// The distance by which a point in ambient coordinates lies beyond the line.
     pub fn distance(&self, space: Space, p: &[DoubleDouble; 3]) -> f64 {
         let far = self.value(p).high / self.norm;
         if space == Space::H2 { far.asinh() } else { far }
