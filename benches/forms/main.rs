@@ -30,14 +30,14 @@ fn rounds(vertices: usize) -> usize {
 pub struct Row {
     vertices: usize,
     genus: usize,
-    /// FormsSeconds of the triangulation and its weights.
+    /// The seconds of the triangulation and its weights.
     domain: f64,
     phases: FormsSeconds,
-    /// FormsSeconds of [`HarmonicForms::new`], all phases.
+    /// The seconds of [`HarmonicForms::new`], all phases.
     forms: f64,
-    /// FormsSeconds of the period matrix.
+    /// The seconds of the period matrix.
     periods: f64,
-    /// FormsSeconds of one assembly, analysis and factorisation of the same matrix and as many solves, and nothing else.
+    /// The seconds of one assembly, analysis and factorisation of the same matrix and as many solves, and nothing else.
     yardstick: f64,
     /// Heap bytes of the forms at their peak, beyond the surface.
     bytes: usize,
