@@ -5,7 +5,7 @@ use crate::flown::Flown;
 use ricci::embed::{Layout, LayoutOptions, LayoutScale};
 use ricci::flow::{self, Options};
 use ricci::geometry::Space;
-use ricci::mesh::{FaceId, Mesh, PerEdge, PerVertex, Point};
+use ricci::mesh::{FaceId, Mesh, PerEdge, Point};
 use ricci::metric::{Refinement, curvature};
 use ricci::{Class, Control, Surface, Target};
 use std::sync::Arc;
