@@ -8,7 +8,7 @@
 
 use ricci::canonical::{Quotient, QuotientOptions, uniformize_quotient};
 use ricci::embed::cover::{elements_to_depth, moved};
-use ricci::embed::{DeckGroup, Layout, LayoutOptions, LayoutScale, LayoutOpening};
+use ricci::embed::{DeckGroup, Layout, LayoutOpening, LayoutOptions, LayoutScale};
 use ricci::flow::{Options, Solution, flow};
 use ricci::geometry::Space;
 use ricci::mesh::{Mesh, VertexId, shapes};

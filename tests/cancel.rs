@@ -5,7 +5,7 @@ mod common;
 
 use common::Random;
 use common::flow::{euclidean, surface};
-use ricci::embed::{ChartOptions, Layout, LayoutOptions, LayoutOpening, charts};
+use ricci::embed::{ChartOptions, Layout, LayoutOpening, LayoutOptions, charts};
 use ricci::flow::{Options, auto_cones};
 use ricci::geometry::Space;
 use ricci::geometry::packing::pack;

@@ -5,7 +5,7 @@ mod common;
 
 use common::Random;
 use common::flow::{attempt, surface};
-use ricci::embed::{ChartOptions, Charts, Layout, LayoutOptions, LayoutScale, LayoutOpening, charts};
+use ricci::embed::{ChartOptions, Charts, Layout, LayoutOpening, LayoutOptions, LayoutScale, charts};
 use ricci::flow::{Options, auto_cones, flow};
 use ricci::geometry::Space;
 use ricci::geometry::predicates::orientation;

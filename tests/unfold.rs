@@ -4,7 +4,7 @@
 mod common;
 
 use common::flow::{euclidean, surface};
-use ricci::embed::{CONE_TOLERANCE, Layout, LayoutOptions, LayoutScale, LayoutOpening, Quality, cones_of};
+use ricci::embed::{CONE_TOLERANCE, Layout, LayoutOpening, LayoutOptions, LayoutScale, Quality, cones_of};
 use ricci::flow::{Flips, Options, Solution, auto_cones, flow};
 use ricci::geometry::{PlaneIsometry, Space};
 use ricci::mesh::io::Soup;

@@ -39,7 +39,7 @@ pub struct FlowedSphere {
 /// The flow in S² to K = 0, and its metric laid out on the unit sphere from `root` (default: vertex 0).
 ///
 /// # Errors
-/// [`Error::Argument`] for a surface that is not closed of genus 0, or a root that is no vertex; those of [`flow()`] and [`layout_of`].
+/// [`Error::Argument`] for a surface that is not closed of genus 0, or a root that is no vertex; those of [`flow()`] and [`Layout::of_solution`].
 pub fn flow_to_sphere(
     surface: &Surface,
     scheme: Scheme,

@@ -37,7 +37,7 @@ pub use domain::DirichletDomain;
 pub use element::DeckElement;
 pub use face_transitions::FaceTransitions;
 pub use layout::{Layout, OnInput, Seam};
-pub use layout_options::{CONE_TOLERANCE, LayoutOptions, LayoutScale, LayoutOpening, cones_of};
+pub use layout_options::{CONE_TOLERANCE, LayoutOpening, LayoutOptions, LayoutScale, cones_of};
 pub(crate) use of_planar_domain::PlanarPlaces;
 pub(crate) use of_solution::BasedLayout;
 pub use quality::Quality;

@@ -4,7 +4,7 @@ use super::edge_lengths::{lengths_of_input, lengths_of_pieces, with_least_length
 use super::faces::Faces;
 use super::frame::HalfedgeFrame;
 use super::layout::Layout;
-use super::layout_options::{CONE_TOLERANCE, LayoutOptions, LayoutScale, LayoutOpening, cones_of};
+use super::layout_options::{CONE_TOLERANCE, LayoutOpening, LayoutOptions, LayoutScale, cones_of};
 use super::pieces::LayoutPieces;
 use super::unfold::unfold;
 use crate::control::Control;
@@ -43,7 +43,9 @@ impl Layout {
         let threads = if options.threads == 0 { solution.threads() } else { options.threads };
         within(threads, || {
             let mut layout = match &options.opening {
-                LayoutOpening::InputEdges | LayoutOpening::InputCut(_) => along_input_edges(solution, options, control)?,
+                LayoutOpening::InputEdges | LayoutOpening::InputCut(_) => {
+                    along_input_edges(solution, options, control)?
+                }
                 LayoutOpening::MetricEdges => along_metric_edges(solution, options, control)?,
                 LayoutOpening::MetricCut(cut) => along_metric_cut(solution, options.root, cut, control)?,
             };

@@ -223,7 +223,8 @@ fn folds_from(disk: &Surface) -> f64 {
     let mut values: Vec<_> = rim.map(|v| (v, positions[v.index()])).collect();
     values.push((VertexId(0), [1.0, 0.0, 0.0]));
     let domain = Domain::rigid(disk).unwrap();
-    let moved = harmonic_map(&domain, &MapConstraints { values, flux: None }, &Control::new()).unwrap().points;
+    let moved =
+        harmonic_map(&domain, &MapConstraints { values, flux: None }, &Control::new()).unwrap().points;
     // The map depends linearly on the distance by which the middle moves.
     let folds = |far: f64| {
         let at = |v: VertexId| -> [f64; 2] {

@@ -5,7 +5,7 @@ use crate::surfaces::Surface;
 use ricci::Control;
 use ricci::canonical::{QuotientOptions, Uniformization, uniformize};
 use ricci::embed::cover::elements_within;
-use ricci::embed::{Layout, LayoutOptions, LayoutOpening, dirichlet_domain};
+use ricci::embed::{Layout, LayoutOpening, LayoutOptions, dirichlet_domain};
 use ricci::geometry::Space;
 use ricci::geometry::modulus::modulus;
 use ricci::mesh::{VertexId, shapes};

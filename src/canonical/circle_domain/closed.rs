@@ -6,7 +6,7 @@ use super::place::{anchor_weights, deviation, hub_edge, least_gap, loops_of_edge
 use super::prepare::Prepared;
 use crate::control::Control;
 use crate::embed::layout::distance_from_origin;
-use crate::embed::{Layout, LayoutOptions, LayoutScale, LayoutOpening};
+use crate::embed::{Layout, LayoutOpening, LayoutOptions, LayoutScale};
 use crate::error::Result;
 use crate::flow::{Flow, Solution};
 use crate::geometry::motion::precise_point;
