@@ -1,5 +1,9 @@
 //! Linear systems without symmetry, by generalised minimal residuals (GMRES, \[SS86\]), which need only products with the matrix.
 //!
+//! faer's `bicgstab` was measured as a replacement: on mean value Laplacians of 10,000 unknowns, preconditioned by their symmetric part, it
+//! needs as many products (3 to 15 for residuals of 1e-2 to 1e-11) and as much time. But where it breaks down, as for a singular matrix, it
+//! spends all products and returns NaN, and it does not report the residual that it has reached, which callers here use.
+//!
 //! ```
 //! // [[2, 1], [0, 4]] x = [4, 8]
 //! let apply = |x: &[f64], y: &mut [f64]| (y[0], y[1]) = (2.0 * x[0] + x[1], 4.0 * x[1]);
