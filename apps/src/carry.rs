@@ -1,25 +1,25 @@
-//! What the input's file says of vertices and corners, on the mesh that is written with the layout.
+//! Colours and normals of the input on the mesh that is written with the layout.
 
 use crate::input::Input;
 use ricci::mesh::Point;
 use ricci::metric::Refinement;
 use std::collections::HashMap;
 
-/// Colours and normals of the written mesh; empty for none.
+/// The colours and normals of the written mesh; empty for none.
 #[derive(Default)]
-pub struct Carried {
+pub struct CarriedAttributes {
     pub colors: Vec<[f64; 4]>,
     pub normals: Vec<Point>,
-    /// Indices of the corners' normals, where the vertices have more than one.
+    /// The indices of the normals of the corners, where vertices have more than one.
     pub face_normals: Vec<[u32; 3]>,
 }
 
-/// Colours and normals for the input's own mesh or a `refinement` of it. A crossing gets values that are linear along the input's edge,
-/// a corner values that are linear in the input's face, so that both look as in the input. Normals are not made unit vectors: between
-/// corners their direction is then that of their sum.
-pub fn carry(input: &Input, refinement: Option<&Refinement>) -> ricci::Result<Carried> {
+/// The colours and normals for the input's own mesh or a `refinement` of it. Values at crossings are interpolated along the input's edge,
+/// those at corners in the input's face, so that both look as in the input. Normals are not made unit vectors, which keeps the direction
+/// of the interpolated ones.
+pub fn carry(input: &Input, refinement: Option<&Refinement>) -> ricci::Result<CarriedAttributes> {
     let given = &input.attributes;
-    let mut carried = Carried::default();
+    let mut carried = CarriedAttributes::default();
     if let Some(colors) = &given.colors {
         carried.colors = at_vertices(refinement, colors)?;
     }
@@ -44,7 +44,7 @@ fn at_vertices<const N: usize>(
     refinement.map_or_else(|| Ok(values.to_vec()), |r| r.from_input_vertices(values))
 }
 
-/// What of the input's attributes the written file has no place for.
+/// The attributes of the input that the written file has no place for.
 pub fn left_out(input: &Input) -> Vec<&'static str> {
     let uv = input
         .attributes
@@ -54,7 +54,7 @@ pub fn left_out(input: &Input) -> Vec<&'static str> {
     uv.into_iter().collect()
 }
 
-/// The different values in order of appearance, and which of them the corners have.
+/// The different values in order of appearance, and the indices of the corners' values.
 fn numbered(corners: &[[Point; 3]]) -> (Vec<Point>, Vec<[u32; 3]>) {
     let (mut values, mut known) = (Vec::new(), HashMap::new());
     let mut number = |value: Point| {

@@ -9,7 +9,7 @@ const PIXELS: u32 = 64;
 const LIGHT: u8 = 235;
 const DARK: u8 = 70;
 
-/// How often the texture, which is two squares wide, is there along a unit of the layout.
+/// The number of repetitions of the texture, which is two squares wide, along a unit of the layout.
 pub fn repeat(layout: &[[f64; 2]]) -> f64 {
     let bound =
         |k: usize, pick: fn(f64, f64) -> f64, start: f64| layout.iter().map(|p| p[k]).fold(start, pick);

@@ -1,23 +1,18 @@
-//! The command line.
+//! The command line: all commands with their options.
 
-use crate::domain::CirclesArgs;
-use crate::failure::Failure;
+use crate::circles::CirclesArgs;
 use crate::flow_args::FlowArgs;
 use crate::forms::FormsArgs;
 use crate::harmonic::HarmonicArgs;
-use crate::info::{DefectFigures, InfoArgs};
+use crate::info::InfoArgs;
 use crate::matching::MatchArgs;
 use crate::options::Common;
-use crate::output::{self, Outputs};
 use crate::repair::RepairArgs;
-use crate::report::{Checks, Figures, InputSummary, Report, Seconds};
 use crate::spline::SplineArgs;
 use crate::structure::StructureArgs;
-use crate::uniform::{CoverArgs, UniformizeArgs};
+use crate::uniformize::{CoverArgs, UniformizeArgs};
 use clap::{Args, Parser, Subcommand};
-use serde::Serialize;
-use serde_json::json;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Conformal metrics of prescribed curvature on triangle meshes, by discrete surface Ricci flow.
 #[derive(Parser, Debug)]
@@ -47,10 +42,10 @@ pub enum Command {
     #[command(after_help = crate::flow_args::HELP)]
     Flow(FlowArgs),
     /// The metric of constant curvature of a closed surface, in the sphere, the plane or the hyperbolic plane
-    #[command(after_help = crate::uniform::UNIFORMIZE_HELP)]
+    #[command(after_help = crate::uniformize::UNIFORMIZE_HELP)]
     Uniformize(UniformizeArgs),
     /// A finite piece of the universal cover, with the group that rebuilds the surface from one copy
-    #[command(after_help = crate::uniform::COVER_HELP)]
+    #[command(after_help = crate::uniformize::COVER_HELP)]
     Cover(CoverArgs),
     /// Harmonic maps to a disk, a rectangle, the sphere, or with given values
     #[command(after_help = crate::harmonic::HELP)]
@@ -59,7 +54,7 @@ pub enum Command {
     #[command(after_help = crate::forms::HELP)]
     Forms(FormsArgs),
     /// A surface with boundary whose loops are circles: in the unit disk, a flat torus or a hyperbolic surface
-    #[command(after_help = crate::domain::HELP)]
+    #[command(after_help = crate::circles::HELP)]
     Circles(CirclesArgs),
     /// A map between two surfaces of the same topology, landmarks to landmarks
     #[command(after_help = crate::matching::HELP)]
@@ -85,65 +80,6 @@ pub enum Command {
         #[arg(value_enum)]
         shell: clap_complete::Shell,
     },
-}
-
-impl Command {
-    /// Write the report of a command whose input is not what it needs, or that cannot deliver, if a report was asked for.
-    pub fn report_failure(&self, failure: &Failure) -> Result<(), Failure> {
-        match self {
-            Command::Flow(args) => {
-                report_failure("flow", &args.to.surface.file.mesh, &args.to.common, args, failure)
-            }
-            Command::Info(args) => report_failure("info", &args.file.mesh, &args.common, args, failure),
-            Command::Repair(args) => report_failure("repair", &args.mesh, &args.common, args, failure),
-            Command::Harmonic(args) => {
-                report_failure("harmonic", &args.surface.file.mesh, &args.common, args, failure)
-            }
-            Command::Forms(args) => {
-                report_failure("forms", &args.surface.file.mesh, &args.common, args, failure)
-            }
-            Command::Uniformize(UniformizeArgs { canonical: args, .. }) => {
-                report_failure("uniformize", &args.to.surface.file.mesh, &args.to.common, args, failure)
-            }
-            Command::Cover(CoverArgs { canonical: args, .. }) => {
-                report_failure("cover", &args.to.surface.file.mesh, &args.to.common, args, failure)
-            }
-            Command::Circles(args) => {
-                report_failure("circles", &args.surface.file.mesh, &args.common, args, failure)
-            }
-            Command::Match(args) => report_failure("match", &args.source.mesh, &args.common, args, failure),
-            Command::Structure(args) => {
-                report_failure("structure", &args.surface.file.mesh, &args.common, args, failure)
-            }
-            _ => Ok(()),
-        }
-    }
-}
-
-/// The report of a failure has no result, but `error`: the message, the exit code, and the defects of the input.
-fn report_failure(
-    command: &'static str,
-    mesh: &Path,
-    common: &Common,
-    asked: impl Serialize,
-    failure: &Failure,
-) -> Result<(), Failure> {
-    let wanted = matches!(failure.exit_code(), 1 | 3) && !output::in_place();
-    let Some(path) = common.report.as_ref().filter(|_| wanted) else {
-        return Ok(());
-    };
-    let (input, defects) = match failure {
-        Failure::Defects(found) | Failure::Unglued(found) => {
-            let defects: Vec<_> = found.defects.iter().map(DefectFigures::from).collect();
-            (Some(InputSummary::new(mesh, &**found)), defects)
-        }
-        _ => (None, Vec::new()),
-    };
-    let error = json!({"message": failure.to_string(), "exit_code": failure.exit_code(), "defects": defects});
-    let report = Report::new(command, input, asked, Figures::default().with("error", error));
-    let mut outputs = Outputs::default();
-    outputs.add_report(path, &report.finished(Checks::default(), Seconds::default()))?;
-    outputs.commit().map(drop)
 }
 
 const DEMO_EXAMPLE: &str = "\

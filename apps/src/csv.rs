@@ -1,4 +1,4 @@
-//! CSV files: curvatures per vertex and edges in, the steps of a gradient flow out.
+//! CSV files: tables of curvatures, places, landmarks and edges that commands read, and the steps of a gradient flow that they write.
 
 use crate::failure::Failure;
 use ricci::flow::TraceRow;
@@ -17,7 +17,7 @@ pub fn read_text(path: &Path) -> Result<String, Failure> {
 pub fn read_curvatures(path: &Path, n_vertices: usize) -> Result<Vec<(VertexId, f64)>, Failure> {
     let mut rows = Vec::new();
     let mut named = vec![false; n_vertices];
-    for (i, [vertex, curvature]) in pairs(path, ["vertex", "curvature"])? {
+    for (i, [vertex, curvature]) in read_rows(path, ["vertex", "curvature"])? {
         let v = vertex_of(path, i, &vertex, n_vertices)?;
         let curvature: f64 = curvature
             .parse()
@@ -67,7 +67,7 @@ pub fn read_places(path: &Path, n_vertices: usize) -> Result<Vec<(VertexId, [f64
 /// names of a header.
 pub fn read_landmarks(path: &Path, n_vertices: [usize; 2]) -> Result<Vec<[VertexId; 2]>, Failure> {
     let mut rows = Vec::new();
-    for (i, ends) in pairs(path, ["source_vertex", "target_vertex"])? {
+    for (i, ends) in read_rows(path, ["source_vertex", "target_vertex"])? {
         let [a, b] = [0, 1].map(|k| vertex_of(path, i, &ends[k], n_vertices[k]));
         rows.push([a?, b?]);
     }
@@ -77,7 +77,7 @@ pub fn read_landmarks(path: &Path, n_vertices: [usize; 2]) -> Result<Vec<[Vertex
 /// Read `vertex,vertex` rows: the edges of `mesh` between these pairs, each once, ascending. Lines as in [`read_curvatures`].
 pub fn read_edges(path: &Path, mesh: &Mesh) -> Result<Vec<EdgeId>, Failure> {
     let mut edges = Vec::new();
-    for (i, ends) in pairs(path, ["vertex", "vertex"])? {
+    for (i, ends) in read_rows(path, ["vertex", "vertex"])? {
         let [a, b] = ends.map(|v| vertex_of(path, i, &v, mesh.n_vertices()));
         let (a, b) = (a?, b?);
         let before = edges.len();
@@ -93,11 +93,6 @@ pub fn read_edges(path: &Path, mesh: &Mesh) -> Result<Vec<EdgeId>, Failure> {
 
 fn refuse(path: &Path, line: usize, why: String) -> Failure {
     Failure::Input(format!("{}:{line}: {why}", path.display()))
-}
-
-/// Rows of two fields with their line numbers; a first row `names` is a header.
-fn pairs(path: &Path, names: [&str; 2]) -> Result<Vec<(usize, [String; 2])>, Failure> {
-    read_rows(path, names)
 }
 
 /// Rows of as many fields as there are names, with their line numbers; a first row of the names is left out.

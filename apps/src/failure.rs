@@ -1,4 +1,4 @@
-//! Why a command ends early, and with which exit code.
+//! The reasons why a command ends early, and their exit codes.
 
 use ricci::Error;
 use ricci::mesh::check::Diagnosis;
@@ -14,13 +14,21 @@ pub enum Failure {
     Input(String),
     /// The input's faces do not form the surface that is needed (exit 3).
     Defects(Box<Diagnosis>),
-    /// The same of faces that may be meant to be glued, in an intrinsic metric that does not say how.
+    /// The faces of an intrinsic metric do not form a surface by their vertices alone, and may be meant to be glued in a way that the file
+    /// does not say (exit 3).
     Unglued(Box<Diagnosis>),
     /// Ctrl-C (exit 4).
     Cancelled,
 }
 
+/// The reason why nothing in space can be made of an intrinsic metric.
+pub const NO_POSITIONS: &str = "an intrinsic metric has no positions in space";
+
 impl Failure {
+    pub fn no_positions() -> Failure {
+        Failure::Failed(NO_POSITIONS.into())
+    }
+
     pub fn exit_code(&self) -> u8 {
         match self {
             Failure::Failed(_) => 1,
@@ -49,7 +57,7 @@ impl std::fmt::Display for Failure {
     }
 }
 
-/// Whether a text names a vertex, face or edge by its number without saying where numbers begin.
+/// True if a text names a vertex, face or edge by its number without saying where numbers begin.
 pub fn names_element(text: &str) -> bool {
     const KINDS: [&str; 6] = ["vertex", "vertices", "face", "faces", "edge", "edges"];
     let words: Vec<&str> = text.split_whitespace().map(|word| word.trim_start_matches('(')).collect();
@@ -69,24 +77,24 @@ impl From<Error> for Failure {
     }
 }
 
-/// What a step has made, or the text of its error.
+/// The result of a step, or the text of its error.
 ///
 /// # Errors
 /// [`Failure::Cancelled`] alone.
-pub fn told<T>(made: ricci::Result<T>) -> Result<Result<T, String>, Failure> {
-    match made {
+pub fn or_reason<T>(result: ricci::Result<T>) -> Result<Result<T, String>, Failure> {
+    match result {
         Err(Error::Cancelled) => Err(Failure::Cancelled),
-        made => Ok(made.map_err(|error| error.to_string())),
+        result => Ok(result.map_err(|error| error.to_string())),
     }
 }
 
-/// What was made.
+/// The result of a step that an output needs.
 ///
 /// # Errors
-/// [`Failure::Failed`] with the reason why it was not, also where no output asked for it.
-pub fn known<T>(made: &Option<Result<T, String>>) -> Result<&T, Failure> {
-    match made {
-        Some(Ok(made)) => Ok(made),
+/// [`Failure::Failed`] with the reason why there is none, also where no output has asked for the step.
+pub fn required<T>(result: &Option<Result<T, String>>) -> Result<&T, Failure> {
+    match result {
+        Some(Ok(result)) => Ok(result),
         Some(Err(why)) => Err(Failure::Failed(why.clone())),
         None => Err(Failure::Failed("no output has asked for it".into())),
     }

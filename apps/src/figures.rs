@@ -1,10 +1,10 @@
-//! The figures of a flow, as its report has them.
+//! The figures of a flow for the report of `ricci flow`, and those that other commands share with it.
 
-use crate::input::Input;
-use crate::job::Outcome;
-use crate::laid::Laid;
+use crate::job::FlowOutcome;
 use crate::report::Figures;
-use crate::solved::Solved;
+use crate::runner::CommandRun;
+use crate::solved::SolvedMetric;
+use crate::surface_layout::SurfaceLayout;
 use ricci::embed::{Layout, Seam};
 use ricci::flow::{Obstruction, Report};
 use ricci::geometry::{PlaneIsometry, Space};
@@ -12,15 +12,15 @@ use ricci::mesh::{HalfedgeId, VertexId};
 use serde_json::{Value, json};
 
 impl Figures {
-    /// What a metric is, by which way it was found, and what it was held against.
-    pub fn of_metric(solved: &Solved) -> Figures {
+    /// The space and the scheme of a metric.
+    pub fn of_metric(solved: &SolvedMetric) -> Figures {
         Figures::default()
             .with("space", solved.solution.metric().space.name())
             .with("scheme", solved.scheme.name())
     }
 
-    /// How a flow went. `flips` counts the isometric ones to the Delaunay triangulation too, `start_flips` only these.
-    pub fn course(self, report: &Report, solved: &Solved) -> Figures {
+    /// The course of a flow. `flips` counts the isometric flips to the Delaunay triangulation too, `start_flips` only these.
+    pub fn course(self, report: &Report, solved: &SolvedMetric) -> Figures {
         let start_flips = solved.solution.start_flips();
         self.with("converged", report.converged())
             .with("stop_reason", report.stop_reason.name())
@@ -29,18 +29,18 @@ impl Figures {
             .with("start_flips", start_flips)
     }
 
-    /// The precision of a flow: the tolerance asked for, and where it stalled what rounding can do to the curvature there.
+    /// The precision of a flow: the tolerance asked for and, where the flow stalled, the most that rounding changes the curvature there.
     pub fn precision(self, report: &Report) -> Figures {
         self.with("tolerance", report.tolerance)
             .with("rounding_floor", report.rounding_floor)
             .with("double_double", report.double_double)
     }
 
-    /// How a layout distorts the surface; null where there is none.
+    /// The distortion of the surface by a layout; null where there is none.
     ///
-    /// Faces without area in the input or the layout are `degenerate_pieces`, which the qc figures leave out; with charts also those
-    /// smaller than the coordinates of the unit square resolve. `crossings` are vertices of the refinement that the input has not.
-    pub fn distortion(self, laid: Option<&Laid>) -> Figures {
+    /// Faces without area in the input or the layout are `degenerate_pieces`, which the qc figures leave out; with charts also faces that
+    /// are smaller than the coordinates of the unit square resolve. `crossings` counts the vertices of the refinement beyond the input's.
+    pub fn distortion(self, laid: Option<&SurfaceLayout>) -> Figures {
         let quality = laid.map(|laid| &laid.quality);
         self.if_some("flipped_input_faces", laid.and_then(|l| l.on_input.as_ref()).map(|o| o.flipped.len()))
             .with("qc_mean", quality.map(|q| q.qc_mean))
@@ -48,26 +48,23 @@ impl Figures {
             .with("area_ratio_min", quality.map(|q| q.area_ratio_min))
             .with("area_ratio_max", quality.map(|q| q.area_ratio_max))
             .with("degenerate_pieces", laid.map(|laid| laid.degenerate.len()))
-            .with("crossings", laid.and_then(Laid::refinement).map(|r| r.crossings.len()))
+            .with("crossings", laid.and_then(SurfaceLayout::refinement).map(|r| r.crossings.len()))
     }
 
-    /// What could not be made, by option, with the reason, and what of the input's file has no place in the one with the layout.
-    pub fn missing(self, solved: &Solved) -> Figures {
-        let failed: serde_json::Map<String, Value> =
-            solved.failed.0.iter().map(|(wish, why)| (wish.to_string(), why.as_str().into())).collect();
-        self.if_some("failed", (!failed.is_empty()).then_some(failed))
-            .with("left_out", solved.left_out.clone())
+    /// The options that failed, with the reasons, and what the input's file holds and the file with the layout has no place for.
+    pub fn missing(self, run: &CommandRun<'_>) -> Figures {
+        self.failed(&run.failed).with("left_out", run.left_out.clone())
     }
 }
 
 /// The figures of a flow. Those of the layout are null where there is none.
-pub fn of_flow(input: &Input, outcome: &Outcome) -> Figures {
-    let Outcome { report, solved, layout, .. } = outcome;
+pub fn of_flow(outcome: &FlowOutcome, run: &CommandRun<'_>) -> Figures {
+    let FlowOutcome { report, solved, layout, .. } = outcome;
     let laid = layout.as_ref().ok();
     let packed = laid.and_then(|l| l.packed.as_ref());
     let initial = solved.solution.initial();
     let cones: Option<Vec<_>> =
-        outcome.named_cones(input).map(|cones| cones.into_iter().map(|(v, k)| json!([v.0, k])).collect());
+        outcome.named_cones().map(|cones| cones.into_iter().map(|(v, k)| json!([v.0, k])).collect());
     let worst = |&(v, error): &(VertexId, f64)| json!({"vertex": v.0, "curvature_error": error});
     Figures::of_metric(solved)
         .with("target", outcome.rule.name())
@@ -78,9 +75,9 @@ pub fn of_flow(input: &Input, outcome: &Outcome) -> Figures {
         .with("broken_faces", solved.curvature.broken.iter().map(|f| f.0).collect::<Vec<_>>())
         .with("worst_vertices", report.worst.iter().map(worst).collect::<Vec<_>>())
         .with("obstruction", report.obstruction.as_ref().map(obstruction))
-        // Newton matrices that had to be shifted to be positive definite.
+        // The number of Newton matrices that had to be shifted to be positive definite.
         .with("shifted", report.shifted)
-        // Edges whose weight had to be moved into the scheme's range, and the largest relative change of length by that.
+        // The number of edges whose weight was moved into the range of the scheme, and the largest relative change of length by that.
         .with("clamped_edges", initial.clamped_edges)
         .with("max_length_change", initial.max_length_change)
         .with("area", solved.curvature.area)
@@ -92,12 +89,12 @@ pub fn of_flow(input: &Input, outcome: &Outcome) -> Figures {
         .if_some("modulus", laid.and_then(|l| l.modulus))
         .if_some("seams", laid.map(|l| &l.layout).filter(|l| l.space == Space::E2).map(seams))
         .if_some("no_layout", layout.as_ref().err().cloned())
-        .missing(solved)
+        .missing(run)
         .with("residuals", report.residuals.clone())
 }
 
-/// Every metric of the scheme on this triangulation has a total curvature of more than `above` at the vertices; the target asks for
-/// `target`.
+/// Vertices at which every metric of the scheme on this triangulation has a total curvature of more than `above`, while the target asks
+/// for `target`.
 fn obstruction(o: &Obstruction) -> Value {
     let vertices: Vec<u32> = o.vertices.iter().map(|v| v.0).collect();
     json!({"vertices": vertices, "target": o.curvature, "above": o.least})

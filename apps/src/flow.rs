@@ -1,85 +1,118 @@
-//! `ricci flow`.
+//! `ricci flow` as a job: what it refuses, computes, writes and reports.
 
 use crate::charts;
-use crate::circles::circles;
+use crate::circle_file::CircleFile;
 use crate::csv;
-use crate::delivery::Delivery;
 use crate::failure::Failure;
-use crate::figures;
 use crate::flow_args::{FlowArgs, PinChoice, TargetChoice};
-use crate::flow_summary;
 use crate::input::{self, Input};
-use crate::job::{self, Job, Outcome, default_space};
-use crate::metric_file::MetricFile;
+use crate::job::{FlowJob, FlowOutcome, default_space, run_flow};
 use crate::options::{MethodChoice, OnChoice};
-use crate::output::{self, Outputs, check_extension};
+use crate::output::{check_extension, check_outputs};
 use crate::picture::ColorChoice;
-use crate::progress::{Progress, doing};
-use crate::report::{Done, Figures, InputSummary, Report, timed};
+use crate::progress::doing;
+use crate::runner::{CommandRun, Job, JobHeader};
 use crate::show;
 use crate::uv;
-use ricci::Control;
-use ricci::flow::{Gradient, Options, Solution};
+use ricci::flow::{Gradient, Options};
 use ricci::geometry::Space;
-use ricci::mesh::{Mesh, PerVertex, VertexId};
-use ricci::metric::{Measured, Scheme, Target};
-use ricci::parallel::Pool;
+use ricci::mesh::{Mesh, VertexId};
+use ricci::metric::{Scheme, Target};
 use serde::Serialize;
-use std::path::Path;
-use std::time::Instant;
 
-/// Run the command and say what came out.
-pub fn run(args: &FlowArgs, control: &Control) -> Result<u8, Failure> {
-    let done = execute(args, control)?;
-    if !args.to.common.quiet {
-        flow_summary::say(&done)?;
+impl Job for FlowArgs {
+    type Outcome = FlowOutcome;
+
+    fn header(&self) -> JobHeader<'_> {
+        JobHeader { name: "flow", common: &self.to.common, mesh: Some(&self.to.surface.file.mesh) }
     }
-    Ok(done.exit_code)
-}
 
-/// Run the command; the exit code is 1 if a check fails or a file that was asked for has nothing to hold.
-pub fn execute(args: &FlowArgs, control: &Control) -> Result<Done<Outcome>, Failure> {
-    let start = Instant::now();
-    check_request(args)?;
-    // All that is divided among threads is so in one pool, which starts once.
-    Pool::new(args.to.common.threads)?.run(|| execute_in_pool(args, start, control))
-}
-
-fn execute_in_pool(args: &FlowArgs, start: Instant, control: &Control) -> Result<Done<Outcome>, Failure> {
-    let progress = Progress::watch(control, args.to.common.quiet);
-    let input = input::surface(&args.to.surface, control)?;
-    // Placed cones exist in E² alone.
-    let automatic = matches!(args.target, Some(TargetChoice::Auto(_))).then_some(Space::E2);
-    let space = args.space.space().or(automatic).unwrap_or_else(|| default_space(input.mesh()));
-    check_surface(args, &input, space)?;
-    let write_metric = |solution: &Solution, measured: &Measured, target: &PerVertex<f64>| {
-        let (mut outputs, mut seconds) = (Outputs::default(), 0.0);
-        let write = |path| {
-            let file = MetricFile::of(solution, measured, target)?;
-            outputs.add(path, |out| file.write(out))
+    fn check(&self) -> Result<(), Failure> {
+        check_options(self)?;
+        let written: &[&str] = if self.homogeneous { &["obj"] } else { &["obj", "glb"] };
+        let (to, picture) = (&self.to, &self.picture.base.picture);
+        check_extension("--uv", to.uv.as_deref(), written)?;
+        check_extension("--picture", picture.as_deref(), &["png", "svg"])?;
+        let table = match &self.target {
+            Some(TargetChoice::Cones(path) | TargetChoice::File(path)) => Some(path.as_path()),
+            _ => None,
         };
-        let written = timed(&mut seconds, || args.to.metric.as_deref().map_or(Ok(()), write));
-        (outputs, written, seconds)
-    };
-    let job = job(args, &input, space)?;
-    let (mut outcome, (outputs, written, seconds)) = job::run(&input, job, control, write_metric)?;
-    outcome.solved.seconds.write += seconds;
-    outcome.solved.failed.attempt("metric", written)?;
-    if args.charts {
-        let cut = doing("cutting", || charts::cut(&mut outcome, args.margin, control));
-        outcome.solved.failed.attempt("charts", cut)?;
+        let files = [&to.metric, &to.uv, &to.xref, &self.circles, &self.trace, &to.common.report, picture];
+        let inputs = [Some(to.surface.file.mesh.as_path()), self.keep_edges.as_deref(), table];
+        check_outputs(&inputs, &files.map(|file| file.as_deref()))
     }
-    let delivery = Delivery::new(control, start)?.with(outputs);
-    let (files, figures) = write(args, &input, &mut outcome, delivery)?;
-    drop(progress);
-    let checks = outcome.checks();
-    let exit_code = if outcome.solved.failed.0.is_empty() { checks.exit_code() } else { 1 };
-    let seconds = start.elapsed().as_secs_f64();
-    Ok(Done { input, result: outcome, figures, checks, files, seconds, exit_code })
+
+    fn compute(&self, run: &mut CommandRun<'_>) -> Result<FlowOutcome, Failure> {
+        let input = input::surface(&self.to.surface, &mut run.seconds, run.control)?;
+        // Cones are placed in E² alone.
+        let automatic = matches!(self.target, Some(TargetChoice::Auto(_))).then_some(Space::E2);
+        let space = self.space.space().or(automatic).unwrap_or_else(|| default_space(input.mesh()));
+        check_surface(self, &input, space)?;
+        let job = flow_job(self, &input, space)?;
+        let mut outcome = run_flow(input, job, run)?;
+        if self.charts {
+            let cut = || charts::cut(&mut outcome, self.margin, &mut run.seconds, run.control);
+            let cut = doing("cutting", cut);
+            run.failed.attempt("charts", cut)?;
+        }
+        Ok(outcome)
+    }
+
+    fn write(&self, outcome: &FlowOutcome, run: &mut CommandRun<'_>) -> Result<(), Failure> {
+        let (input, solved, picture) = (&outcome.input, &outcome.solved, &self.picture.base);
+        run.file("trace", self.trace.as_deref(), |outputs, path| {
+            outputs.add(path, |out| csv::write_trace(out, &outcome.report.trace))
+        })?;
+        match &outcome.layout {
+            Ok(laid) => {
+                uv::write_asked(run, input, laid, &self.to, self.homogeneous)?;
+                run.file("circles", self.circles.as_deref(), |outputs, path| {
+                    let none = || Failure::Failed("the metric has no circles".into());
+                    outputs.add_json(path, &CircleFile::new(solved, laid).ok_or_else(none)?)
+                })?;
+            }
+            Err(why) => run.failed.refuse(
+                why,
+                &[
+                    ("uv", self.to.uv.is_some()),
+                    ("xref", self.to.xref.is_some()),
+                    ("circles", self.circles.is_some()),
+                    ("charts", self.charts),
+                    ("picture", picture.is_svg()),
+                ],
+            ),
+        }
+        let is_drawable = outcome.layout.is_ok() || !picture.is_svg();
+        let path = picture.picture.as_deref().filter(|_| is_drawable);
+        run.picture("picture", path, || show::draw(outcome, &self.picture, self.to.common.threads))
+    }
+
+    fn settings<'a>(&'a self, outcome: &'a FlowOutcome) -> impl Serialize + 'a {
+        FlowSettings {
+            space: outcome.solved.solution.metric().space.name(),
+            input_geometry: outcome.input.surface.geometry().name(),
+            target: self.target.as_ref().map_or_else(|| rule_text(&outcome.rule), ToString::to_string),
+            pin: outcome.pinned.iter().map(|v| v.0).collect(),
+            max_iterations: options(self).iteration_limit(),
+            args: self,
+        }
+    }
 }
 
-/// What is computed.
-fn job(args: &FlowArgs, input: &Input, space: Space) -> Result<Job, Failure> {
+/// The options of a run as its report has them.
+#[derive(Serialize)]
+struct FlowSettings<'a> {
+    space: &'static str,
+    input_geometry: &'static str,
+    target: String,
+    pin: Vec<u32>,
+    max_iterations: usize,
+    #[serde(flatten)]
+    args: &'a FlowArgs,
+}
+
+/// The flow that the arguments ask for.
+fn flow_job<'a>(args: &'a FlowArgs, input: &Input, space: Space) -> Result<FlowJob<'a>, Failure> {
     let fixed_edges = match &args.keep_edges {
         Some(path) => csv::read_edges(path, input.mesh())?,
         None => Vec::new(),
@@ -89,13 +122,14 @@ fn job(args: &FlowArgs, input: &Input, space: Space) -> Result<Job, Failure> {
     }
     let pinned = args.pin.as_ref().map_or_else(Vec::new, |pin| pinned(pin, input.mesh()));
     let of_layout = [&args.to.uv, &args.circles, &args.picture.base.picture, &args.to.common.report];
-    Ok(Job {
+    Ok(FlowJob {
         space,
         scheme: args.to.solve.scheme.into(),
         target: args.target.as_ref().map(|t| target(t, input, space)).transpose()?,
         target_name: args.target.as_ref().map(ToString::to_string),
         options: Options { fixed_edges, pinned, ..options(args) },
-        laid_out: args.charts || of_layout.iter().any(|path| path.is_some()),
+        needs_layout: args.charts || of_layout.iter().any(|path| path.is_some()),
+        metric: args.to.metric.as_deref(),
     })
 }
 
@@ -104,8 +138,8 @@ fn options(args: &FlowArgs) -> Options {
     Options { gradient, ..args.to.options() }
 }
 
-/// What can be refused before anything is read.
-fn check_request(args: &FlowArgs) -> Result<(), Failure> {
+/// Refuse options that do not go together.
+fn check_options(args: &FlowArgs) -> Result<(), Failure> {
     let newton = args.to.solve.method != MethodChoice::Gradient;
     let on_input = args.to.on == OnChoice::Input;
     let placed = matches!(args.target, Some(TargetChoice::Auto(_)));
@@ -133,23 +167,13 @@ fn check_request(args: &FlowArgs) -> Result<(), Failure> {
             "--area-normalised is a variant of the gradient flow; add --method gradient",
         ),
     ];
-    if let Some((_, why)) = refused.into_iter().find(|(refused, _)| *refused) {
-        return Err(Failure::Usage(why.into()));
+    match refused.into_iter().find(|(refused, _)| *refused) {
+        Some((_, why)) => Err(Failure::Usage(why.into())),
+        None => Ok(()),
     }
-    let written: &[&str] = if args.homogeneous { &["obj"] } else { &["obj", "glb"] };
-    let (to, picture) = (&args.to, args.picture.base.picture.as_deref());
-    check_extension("--uv", to.uv.as_deref(), written)?;
-    check_extension("--picture", picture, &["png", "svg"])?;
-    let table = match &args.target {
-        Some(TargetChoice::Cones(path) | TargetChoice::File(path)) => Some(path.as_path()),
-        _ => None,
-    };
-    let files = [&to.metric, &to.uv, &to.xref, &args.circles, &args.trace, &to.common.report];
-    let files: Vec<Option<&Path>> = files.map(|path| path.as_deref()).into_iter().chain([picture]).collect();
-    output::check_outputs(&[Some(&to.surface.file.mesh), args.keep_edges.as_deref(), table], &files)
 }
 
-/// What can be refused once the surface is known.
+/// Refuse what can be refused once the surface is known.
 fn check_surface(args: &FlowArgs, input: &Input, space: Space) -> Result<(), Failure> {
     let refuse = |why: String| Err(Failure::Usage(why));
     let scheme: Scheme = args.to.solve.scheme.into();
@@ -216,82 +240,7 @@ fn pinned(choice: &PinChoice, mesh: &Mesh) -> Vec<VertexId> {
     }
 }
 
-/// Write every file that was asked for but the metric, the report last; returns their names and the figures. One that cannot be made keeps
-/// none of the others back.
-fn write(
-    args: &FlowArgs,
-    input: &Input,
-    outcome: &mut Outcome,
-    mut delivery: Delivery,
-) -> Result<(Vec<String>, Figures), Failure> {
-    let outputs = &mut delivery.outputs;
-    if let Some(path) = &args.trace {
-        let written = outputs.add(path, |out| csv::write_trace(out, &outcome.report.trace));
-        outcome.solved.failed.attempt("trace", written)?;
-    }
-    match &outcome.layout {
-        Ok(laid) => {
-            let solved = &mut outcome.solved;
-            uv::write_asked(outputs, input, laid, (&args.to, args.homogeneous), solved)?;
-            if let Some(path) = &args.circles {
-                let all = circles(solved, laid).ok_or(Failure::Failed("the metric has no circles".into()));
-                let written = all.and_then(|all| outputs.add_json(path, &all));
-                solved.failed.attempt("circles", written)?;
-            }
-        }
-        Err(why) => {
-            let of_layout = [
-                ("uv", args.to.uv.is_some()),
-                ("xref", args.to.xref.is_some()),
-                ("circles", args.circles.is_some()),
-                ("charts", args.charts),
-                ("picture", args.picture.base.is_svg()),
-            ];
-            let missing = of_layout.into_iter().filter(|(_, asked)| *asked);
-            outcome.solved.failed.0.extend(missing.map(|(wish, _)| (wish, why.clone())));
-        }
-    }
-    let drawable = outcome.layout.is_ok() || !args.picture.base.is_svg();
-    let picture = args.picture.base.picture.as_deref().filter(|_| drawable);
-    let drawn =
-        delivery.picture(picture, || show::draw(input, outcome, &args.picture, args.to.common.threads));
-    outcome.solved.failed.attempt("picture", drawn)?;
-    delivery.close(&mut outcome.solved.seconds);
-    let figures = figures::of_flow(input, outcome);
-    let files = delivery.commit(args.to.common.report.as_deref(), || {
-        let asked = Asked::new(args, input, outcome);
-        let report = Report::new("flow", InputSummary::of(input), asked, figures.clone());
-        report.finished(outcome.checks(), outcome.solved.seconds)
-    })?;
-    Ok((files, figures))
-}
-
-/// What was asked, defaults put in: a run with these options is this run.
-#[derive(Serialize)]
-struct Asked<'a> {
-    space: &'static str,
-    input_geometry: &'static str,
-    target: String,
-    pin: Vec<u32>,
-    max_iterations: usize,
-    #[serde(flatten)]
-    args: &'a FlowArgs,
-}
-
-impl Asked<'_> {
-    fn new<'a>(args: &'a FlowArgs, input: &Input, outcome: &Outcome) -> Asked<'a> {
-        Asked {
-            space: outcome.solved.solution.metric().space.name(),
-            input_geometry: input.surface.geometry().name(),
-            target: args.target.as_ref().map_or_else(|| rule_text(&outcome.rule), ToString::to_string),
-            pin: outcome.pinned.iter().map(|v| v.0).collect(),
-            max_iterations: options(args).iteration_limit(),
-            args,
-        }
-    }
-}
-
-/// A default target: its rule, with the cones that were chosen.
+/// The text of a default target: the name of its rule, or the cones that were chosen.
 fn rule_text(rule: &Target) -> String {
     match rule {
         Target::Cones(cones) if !cones.is_empty() => {

@@ -1,44 +1,78 @@
-//! What `ricci flow` says on stdout.
+//! The checks and the summary of `ricci flow`.
 
-use crate::failure::Failure;
-use crate::job::Outcome;
-use crate::laid::Laid;
-use crate::report::Done;
-use crate::say::{count, ending, lines, modulus, surface, tolerance};
+use crate::figures::of_flow;
+use crate::job::FlowOutcome;
+use crate::report::{Checks, Done, Figures, InputSummary};
+use crate::runner::{CommandRun, JobOutcome};
+use crate::say::{count, ending, modulus, surface, tolerance};
+use crate::surface_layout::SurfaceLayout;
 use ricci::flow::StopReason;
+use ricci::geometry::worse;
 use ricci::mesh::VertexId;
 
-/// The summary of a flow.
-pub fn say(done: &Done<Outcome>) -> Result<(), Failure> {
-    let outcome = &done.result;
-    let report = &outcome.report;
-    let mut text = surface(&done.input);
-    text += &format!(
-        "metric   {} {}, target {}: {} after {}, max |K − K̄| = {:.1e}{}{}\n",
-        outcome.solved.solution.metric().space,
-        outcome.solved.scheme,
-        outcome.rule_name,
-        report.stop_reason,
-        count(report.iterations, "step", "steps"),
-        report.max_curvature_error,
-        tolerance(report.tolerance),
-        match report.broken_triangles {
-            0 => String::new(),
-            n => format!(", {}", count(n, "broken triangle", "broken triangles")),
+/// Largest difference of u at mirror images: rounding differs where edges of the two halves were flipped in another order.
+const MIRROR: f64 = 1e-8;
+
+impl JobOutcome for FlowOutcome {
+    type Figures = Figures;
+
+    fn checks(&self) -> Checks {
+        let mut checks = self.solved.checks(self.report.allowed_error());
+        let solution = &self.solved.solution;
+        if let Some(double) = solution.double() {
+            let u = &solution.metric().u;
+            let differs = |v: VertexId| (u[v] - u[double.mirror(v)]).abs();
+            checks.add("mirror_symmetry", solution.mesh().vertices().map(differs).fold(0.0, worse), MIRROR);
         }
-    );
-    if !report.converged() {
-        text += &format!("why      {}\n", why(outcome));
+        if let Ok(laid) = &self.layout {
+            let limit = laid.layout.consistency_limit(self.solved.total_error());
+            checks.add("layout_consistency", laid.layout.consistency(), limit);
+            if let Some(packed) = &laid.packed {
+                checks.add("overlapping_in_charts", packed.overlapping as f64, 0.0);
+            }
+            checks.add("flipped_triangles", laid.flipped().len() as f64, 0.0);
+        }
+        checks
     }
-    text += &match &outcome.layout {
-        Ok(laid) => format!("layout   {}\n", layout(laid)),
-        Err(why) => format!("layout   none: {why}\n"),
-    };
-    lines(&(text + &ending(done, &outcome.solved)), &done.files)
+
+    fn input(&self) -> Option<InputSummary> {
+        Some(InputSummary::of(&self.input))
+    }
+
+    fn figures(&self, run: &CommandRun<'_>) -> Figures {
+        of_flow(self, run)
+    }
+
+    fn summary(&self, done: &Done) -> String {
+        let report = &self.report;
+        let mut text = surface(&self.input);
+        text += &format!(
+            "metric   {} {}, target {}: {} after {}, max |K − K̄| = {:.1e}{}{}\n",
+            self.solved.solution.metric().space,
+            self.solved.scheme,
+            self.rule_name,
+            report.stop_reason,
+            count(report.iterations, "step", "steps"),
+            report.max_curvature_error,
+            tolerance(report.tolerance),
+            match report.broken_triangles {
+                0 => String::new(),
+                n => format!(", {}", count(n, "broken triangle", "broken triangles")),
+            }
+        );
+        if !report.converged() {
+            text += &format!("why      {}\n", why(self));
+        }
+        text += &match &self.layout {
+            Ok(laid) => format!("layout   {}\n", layout(laid)),
+            Err(why) => format!("layout   none: {why}\n"),
+        };
+        text + &ending(&self.input, done, self.solved.may_flip)
+    }
 }
 
 /// The quality of a layout.
-pub fn layout(laid: &Laid) -> String {
+pub fn layout(laid: &SurfaceLayout) -> String {
     let q = &laid.quality;
     let mut text = format!(
         "{}, dilatation mean {:.4} max {:.3}, area ratio {:.2e} to {:.2e}",
@@ -59,8 +93,8 @@ pub fn layout(laid: &Laid) -> String {
     text + &modulus(laid.modulus)
 }
 
-/// Why a flow did not converge, as far as that is known.
-fn why(outcome: &Outcome) -> String {
+/// The reason why a flow did not converge, as far as it is known.
+fn why(outcome: &FlowOutcome) -> String {
     let report = &outcome.report;
     if report.stop_reason == StopReason::BrokenTriangles {
         return format!(

@@ -11,7 +11,7 @@ use crate::demo::{execute, make_directory, parse};
 use crate::failure::Failure;
 use crate::output::Outputs;
 use crate::report::path_text;
-use crate::{info, make, say, spline};
+use crate::{runner, say, spline};
 use page::{Exhibit, PageSection};
 use ricci::Control;
 use rows::RowSource::{Corpus, Made};
@@ -200,7 +200,7 @@ impl GalleryMaker<'_> {
         if let Made(line, _) = row.source {
             let own = if row.draw.is_empty() { &drawing } else { &quiet };
             if let Command::Make(args) = parse(self.words(row, &format!("make {line} -o {{}} {own}")))? {
-                make::run(&args)?;
+                runner::run(&args, self.control)?;
             }
         }
         let (surface, written) = (self.surface(row), self.scratch.join(format!("{}-view.obj", row.name)));
@@ -238,8 +238,8 @@ impl GalleryMaker<'_> {
     fn run(&self, command: Command) -> Result<(), Failure> {
         let failed = |checks: String| Err(Failure::Failed(format!("these checks fail: {checks}")));
         match command {
-            Command::Make(args) => make::run(&args).map(|_| ()),
-            Command::Info(args) => info::run(&args, self.control).map(|_| ()),
+            Command::Make(args) => runner::run(&args, self.control).map(drop),
+            Command::Info(args) => runner::run(&args, self.control).map(drop),
             Command::Spline(args) => match spline::run(&args, self.control)? {
                 0 => Ok(()),
                 _ => failed("those of the spline".into()),

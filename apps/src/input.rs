@@ -5,14 +5,14 @@ use crate::failure::Failure;
 use crate::metric_file;
 use crate::options::{MeshArgs, SurfaceArgs};
 use crate::output::{STANDARD, extension};
-use crate::timing::{Seconds, timed};
+use crate::timing::{PhaseSeconds, timed};
 use ricci::Control;
 use ricci::Surface;
 use ricci::control::Stage;
 use ricci::geometry::Space;
 use ricci::mesh::io::{self, Attributes, Soup};
 use ricci::mesh::{Mesh, Point};
-use ricci::metric::Split;
+use ricci::metric::{Refinement, Split};
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
@@ -20,48 +20,46 @@ use std::path::{Path, PathBuf};
 pub struct Input {
     pub path: PathBuf,
     pub surface: Surface,
-    /// What else the mesh file says of vertices and corners.
+    /// The colours, normals and texture coordinates of the mesh file.
     pub attributes: Attributes,
-    /// Where the surface is one whose edges were halved after it was read: which ones.
+    /// The edges that were halved after the surface was read, if any were.
     pub split: Option<Split>,
-    /// Those of reading and building.
-    pub seconds: Seconds,
 }
 
-/// What a file holds.
-pub enum Content {
+/// The contents of a file.
+pub enum FileContent {
     /// The text of an intrinsic metric.
     Lengths(String),
     Triangles(Soup),
 }
 
-/// Read a mesh file or, from a name that ends in `.json`, the text of an intrinsic metric; what kind of file stdin is, is seen from its
+/// Read a mesh file or, from a name that ends in `.json`, the text of an intrinsic metric. The kind of file on stdin is recognised by its
 /// first bytes.
-pub fn content(file: &MeshArgs) -> Result<Content, Failure> {
+pub fn content(file: &MeshArgs) -> Result<FileContent, Failure> {
     let path = &file.mesh;
     if path == Path::new(STANDARD) {
         return from_stdin(file.weld);
     }
     let kind = extension(path);
     match file.weld {
-        None if kind == "json" => Ok(Content::Lengths(read_text(path)?)),
-        None => Ok(Content::Triangles(io::read(path)?)),
-        Some(weld) if kind == "stl" => Ok(Content::Triangles(io::read_stl(path, weld)?)),
+        None if kind == "json" => Ok(FileContent::Lengths(read_text(path)?)),
+        None => Ok(FileContent::Triangles(io::read(path)?)),
+        Some(weld) if kind == "stl" => Ok(FileContent::Triangles(io::read_stl(path, weld)?)),
         Some(_) => Err(Failure::Usage(WELD_ELSEWHERE.into())),
     }
 }
 
 const WELD_ELSEWHERE: &str = "--weld: only an STL file has no vertices of its own; ricci repair welds";
 
-fn from_stdin(weld: Option<f64>) -> Result<Content, Failure> {
+fn from_stdin(weld: Option<f64>) -> Result<FileContent, Failure> {
     let mut bytes = Vec::new();
     std::io::stdin().lock().read_to_end(&mut bytes).map_err(|e| Failure::Input(format!("stdin: {e}")))?;
     let kind = kind_of(&bytes);
     let name = "stdin";
-    Ok(Content::Triangles(match (kind, weld) {
+    Ok(FileContent::Triangles(match (kind, weld) {
         ("stl", Some(weld)) => io::parse_stl_welded(&bytes, name, weld)?,
         (_, Some(_)) => return Err(Failure::Usage(WELD_ELSEWHERE.into())),
-        ("json", _) => return Ok(Content::Lengths(String::from_utf8_lossy(&bytes).into_owned())),
+        ("json", _) => return Ok(FileContent::Lengths(String::from_utf8_lossy(&bytes).into_owned())),
         ("stl", _) => io::parse_stl(&bytes, name)?,
         ("ply", _) => io::parse_ply(&bytes, name)?,
         ("off", _) => io::parse_off(&bytes, name)?,
@@ -71,7 +69,7 @@ fn from_stdin(weld: Option<f64>) -> Result<Content, Failure> {
     }))
 }
 
-/// The extension of files that begin like this; that of OBJ, which has no beginning of its own, for all others.
+/// The extension of files with this beginning; that of OBJ, which has no mark of its own, for all others.
 fn kind_of(bytes: &[u8]) -> &'static str {
     let text = bytes.trim_ascii_start();
     let first = text.split(|b| b.is_ascii_whitespace()).next().unwrap_or_default();
@@ -90,17 +88,17 @@ fn kind_of(bytes: &[u8]) -> &'static str {
     }
 }
 
-/// Read a mesh file that is to hold triangles.
+/// Read a mesh file that must hold triangles.
 pub fn read_triangles(path: &Path) -> Result<Soup, Failure> {
     match content(&MeshArgs { mesh: path.into(), weld: None })? {
-        Content::Triangles(soup) => Ok(soup),
-        Content::Lengths(_) => {
+        FileContent::Triangles(soup) => Ok(soup),
+        FileContent::Lengths(_) => {
             Err(Failure::Input(format!("{}: an intrinsic metric has no triangles in space", path.display())))
         }
     }
 }
 
-/// Largest coordinate, and least length, whose products with others doubles hold.
+/// Least length and largest coordinate whose products with others neither underflow nor overflow.
 const RANGE: [f64; 2] = [1e-150, 1e150];
 
 /// The first coordinate that is too large to compute with, if there is one.
@@ -114,21 +112,27 @@ pub fn out_of_range(soup: &Soup) -> Option<String> {
 }
 
 /// Read the surface of a command.
-pub fn surface(args: &SurfaceArgs, control: &Control) -> Result<Input, Failure> {
-    read(&args.file, args.input_geometry.map(Space::from), control)
+pub fn surface(args: &SurfaceArgs, seconds: &mut PhaseSeconds, control: &Control) -> Result<Input, Failure> {
+    read(&args.file, args.input_geometry.map(Space::from), seconds, control)
 }
 
-/// Read a surface; its lengths in a `geometry` other than the file's if one is given.
-pub fn read(file: &MeshArgs, geometry: Option<Space>, control: &Control) -> Result<Input, Failure> {
+/// Read a surface, with its lengths in a `geometry` other than the file's if one is given. Adds the seconds of reading and building.
+pub fn read(
+    file: &MeshArgs,
+    geometry: Option<Space>,
+    seconds: &mut PhaseSeconds,
+    control: &Control,
+) -> Result<Input, Failure> {
     let path = file.mesh.clone();
-    let mut seconds = Seconds::default();
     control.step(Stage::Read, 0.0)?;
     let content = timed(&mut seconds.read, || content(file))?;
     control.step(Stage::Build, 0.0)?;
     let (surface, attributes) = timed(&mut seconds.build, || -> Result<_, Failure> {
         Ok(match content {
-            Content::Lengths(text) => (metric_file::parse(&path, &text, geometry)?, Attributes::default()),
-            Content::Triangles(soup) => {
+            FileContent::Lengths(text) => {
+                (metric_file::parse(&path, &text, geometry)?, Attributes::default())
+            }
+            FileContent::Triangles(soup) => {
                 if let Some(why) = out_of_range(&soup) {
                     return Err(Failure::Input(format!("{}: {why}", path.display())));
                 }
@@ -138,7 +142,7 @@ pub fn read(file: &MeshArgs, geometry: Option<Space>, control: &Control) -> Resu
         })
     })?;
     control.check()?;
-    Ok(Input { path, surface, attributes, split: None, seconds })
+    Ok(Input { path, surface, attributes, split: None })
 }
 
 impl Input {
@@ -156,11 +160,31 @@ impl Input {
             uv: given.uv.as_ref().map(|values| split.from_given_corners(values)).transpose()?,
         };
         let (path, surface, split) = (self.path.clone(), split.surface()?, Some(split.clone()));
-        Ok(Input { path, surface, attributes, split, seconds: self.seconds })
+        Ok(Input { path, surface, attributes, split })
     }
 
-    /// Positions in space; none for an intrinsic metric.
+    /// The positions in space; none for an intrinsic metric.
     pub fn positions(&self) -> Option<&[Point]> {
         self.surface.positions().map(|positions| positions.as_slice())
+    }
+
+    /// The positions of the vertices of the input's own mesh, or of a `refinement` of it.
+    ///
+    /// # Errors
+    /// [`Failure::Failed`] for an intrinsic metric.
+    pub fn positions_on(&self, refinement: Option<&Refinement>) -> Result<Vec<Point>, Failure> {
+        let given = self.positions().ok_or_else(Failure::no_positions)?;
+        Ok(refinement.map_or_else(|| Ok(given.to_vec()), |r| r.from_input_vertices(given))?)
+    }
+
+    /// Refuse the vertex of an option that the surface does not have.
+    pub fn check_vertex(&self, option: &str, vertex: Option<u32>) -> Result<(), Failure> {
+        let n = self.mesh().n_vertices();
+        match vertex {
+            Some(v) if v as usize >= n => {
+                Err(Failure::Usage(format!("{option} {v}: there is no such vertex, they are 0 to {}", n - 1)))
+            }
+            _ => Ok(()),
+        }
     }
 }

@@ -1,16 +1,16 @@
-//! The `ricci` command.
+//! The `ricci` command: from the command line to the exit code.
 
 #![warn(clippy::too_many_lines)]
 
 mod carry;
 mod charts;
 mod checkerboard;
+mod circle_file;
 mod circles;
 mod cli;
 mod csv;
-mod delivery;
+mod defects;
 mod demo;
-mod domain;
 mod failure;
 mod figures;
 mod flow;
@@ -22,7 +22,6 @@ mod harmonic;
 mod info;
 mod input;
 mod job;
-mod laid;
 mod make;
 mod matching;
 mod metric_file;
@@ -33,6 +32,7 @@ mod progress;
 mod quantity;
 mod repair;
 mod report;
+mod runner;
 mod say;
 mod shape;
 mod shape_quality;
@@ -40,48 +40,46 @@ mod show;
 mod solved;
 mod spline;
 mod structure;
+mod surface_layout;
 mod timing;
-mod uniform;
+mod uniformize;
 mod uv;
 
 use clap::{CommandFactory, Parser};
 use cli::{Cli, Command};
 use failure::Failure;
+use ricci::Control;
 use std::io::Write;
 use std::process::ExitCode;
+use uniformize::CanonicalJob;
 
 fn main() -> ExitCode {
-    let cli = Cli::parse();
-    match run(&cli.command) {
+    let control = progress::cancellable();
+    match run(&Cli::parse().command, &control) {
         Ok(code) => ExitCode::from(code),
         Err(failure) => {
-            let told = cli.command.report_failure(&failure);
-            if let Err(why) = told {
-                let _ = writeln!(std::io::stderr(), "ricci: {why}");
-            }
             let _ = writeln!(std::io::stderr(), "ricci: {failure}");
             ExitCode::from(failure.exit_code())
         }
     }
 }
 
-fn run(command: &Command) -> Result<u8, Failure> {
-    let control = progress::cancellable();
+fn run(command: &Command, control: &Control) -> Result<u8, Failure> {
     match command {
-        Command::Flow(args) => flow::run(args, &control),
-        Command::Uniformize(args) => uniform::uniformize(args, &control),
-        Command::Cover(args) => uniform::cover(args, &control),
-        Command::Harmonic(args) => harmonic::run(args, &control),
-        Command::Forms(args) => forms::run(args, &control),
-        Command::Circles(args) => domain::run(args, &control),
-        Command::Match(args) => matching::run(args, &control),
-        Command::Structure(args) => structure::run(args, &control),
-        Command::Info(args) => info::run(args, &control),
-        Command::Repair(args) => repair::run(args, &control),
-        Command::Spline(args) => spline::run(args, &control),
-        Command::Make(args) => make::run(args),
-        Command::Demo(args) => demo::run(args, &control),
-        Command::Gallery(args) => gallery::run(args, &control),
+        Command::Flow(args) => runner::run(args, control),
+        Command::Uniformize(args) => runner::run(&CanonicalJob::from(args), control),
+        Command::Cover(args) => runner::run(&CanonicalJob::from(args), control),
+        Command::Harmonic(args) => runner::run(args, control),
+        Command::Forms(args) => runner::run(args, control),
+        Command::Circles(args) => runner::run(args, control),
+        Command::Match(args) => runner::run(args, control),
+        Command::Structure(args) => runner::run(args, control),
+        Command::Info(args) => runner::run(args, control),
+        Command::Repair(args) => runner::run(args, control),
+        Command::Spline(args) => spline::run(args, control),
+        Command::Make(args) => runner::run(args, control),
+        Command::Demo(args) => demo::run(args, control),
+        Command::Gallery(args) => gallery::run(args, control),
         Command::Completions { shell } => {
             let mut script = Vec::new();
             clap_complete::generate(*shell, &mut Cli::command(), "ricci", &mut script);

@@ -2,11 +2,11 @@
 
 use crate::failure::Failure;
 use crate::metric_file::LengthsFile;
-use crate::options::Common;
-use crate::output::{Outputs, check_extension, check_outputs, extension, format_of};
-use crate::report::{Checks, Counts, InputSummary, Report, Seconds};
-use crate::say::{self, count};
-use crate::shape::{Shape, ToMesh, ToMetric};
+use crate::output::{check_extension, check_outputs, extension, format_of};
+use crate::report::{Done, InputSummary};
+use crate::runner::{CommandRun, Job, JobHeader, JobOutcome};
+use crate::say::count;
+use crate::shape::{Destination, SampleShape};
 use crate::shape_quality::QualityFigures;
 use crate::show;
 use clap::Args;
@@ -16,8 +16,7 @@ use ricci::mesh::io::{self, Soup};
 use ricci::mesh::shapes::{self, IntrinsicSurface, TorusKnot};
 use ricci::metric::ShapeQuality;
 use serde::Serialize;
-use std::path::Path;
-use std::time::Instant;
+use std::path::PathBuf;
 
 pub const HELP: &str = "\
 Example: a torus, and a hyperbolic surface given by its edge lengths alone
@@ -26,7 +25,8 @@ Example: a torus, and a hyperbolic surface given by its edge lengths alone
 
 `ricci make SHAPE --help` shows the options of a shape.";
 
-#[derive(Args, Debug)]
+#[derive(Args, Serialize, Debug)]
+#[serde(transparent)]
 #[command(
     subcommand_value_name = "SHAPE",
     subcommand_help_heading = "Shapes",
@@ -34,54 +34,173 @@ Example: a torus, and a hyperbolic surface given by its edge lengths alone
 )]
 pub struct MakeArgs {
     #[command(subcommand)]
-    pub shape: Shape,
+    pub shape: SampleShape,
 }
 
-/// Run the command.
-pub fn run(args: &MakeArgs) -> Result<u8, Failure> {
-    let start = Instant::now();
-    let mesh = |soup, to| write_mesh(soup, to, &args.shape, start);
-    let metric = |surface, to| write_metric(surface, to, &args.shape, start);
-    match &args.shape {
-        Shape::Sphere { n, to } => mesh(shapes::icosphere(*n), to),
-        Shape::Ellipsoid { axes, n, to } => mesh(shapes::ellipsoid([axes[0], axes[1], axes[2]], *n), to),
-        Shape::Torus { big, small, n, m, to } => {
-            let m = m.unwrap_or_else(|| around(*n, small / big));
-            mesh(shapes::torus(*big, *small, *n, m), to)
+/// A sample surface: as triangles in space where it has any, and by its lengths.
+pub struct MakeOutcome {
+    out: PathBuf,
+    soup: Option<Soup>,
+    surface: Surface,
+    periods: Option<Vec<Vec<[f64; 2]>>>,
+}
+
+/// The surface as the report has it.
+#[derive(Serialize)]
+pub struct MakeFigures {
+    #[serde(flatten)]
+    quality: QualityFigures,
+    /// The period matrix of the curve that a hyperelliptic surface is: `[re, im]` of τ_ij.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    period_matrix: Option<Vec<Vec<[f64; 2]>>>,
+}
+
+impl Job for MakeArgs {
+    type Outcome = MakeOutcome;
+
+    fn header(&self) -> JobHeader<'_> {
+        JobHeader { name: "make", common: self.shape.destination().common(), mesh: None }
+    }
+
+    fn check(&self) -> Result<(), Failure> {
+        let report = self.header().common.report.as_deref();
+        match self.shape.destination() {
+            Destination::Mesh(to) => {
+                let picture = to.picture.base.picture.as_deref();
+                check_extension("-o", Some(&to.out), &["obj", "off", "ply", "glb", "json"])?;
+                check_extension("--picture", picture, &["png"])?;
+                check_outputs(&[], &[Some(&to.out), report, picture])
+            }
+            Destination::Metric(to) => {
+                let name = "-o (this surface has no positions; its lengths are written)";
+                check_extension(name, Some(&to.out), &["json"])?;
+                check_outputs(&[], &[Some(&to.out), report])
+            }
         }
-        Shape::Disk { n, height, to } => mesh(shapes::disk(*n).map(|s| raise(s, *height)), to),
-        Shape::Annulus { inner, outer, n, m, height, to } => {
-            // Steps in geometric progression: log(outer/inner)/n each, and 2π/m around in rows of height √3/2.
-            let step = (outer / inner).ln() / *n as f64;
-            let m = m.unwrap_or_else(|| around(1, std::f64::consts::TAU * 0.75f64.sqrt() / step));
-            mesh(shapes::annulus(*inner, *outer, *n, m).map(|s| raise(s, *height)), to)
+    }
+
+    fn compute(&self, _: &mut CommandRun<'_>) -> Result<MakeOutcome, Failure> {
+        let (soup, surface) = match (build(&self.shape)?, self.shape.destination()) {
+            (SampleSurface::Metric(given), _) => {
+                let (mesh, lengths) = given.build()?;
+                (None, Surface::intrinsic(mesh, lengths, given.geometry)?)
+            }
+            (SampleSurface::Mesh(soup), Destination::Mesh(to)) => {
+                let soup = to.spoil.apply(soup)?;
+                let surface = Surface::from_soup(&soup)?;
+                (Some(soup), surface)
+            }
+            (SampleSurface::Mesh(soup), Destination::Metric(_)) => (None, Surface::from_soup(&soup)?),
+        };
+        let periods = if self.header().common.report.is_some() { known_periods(&self.shape)? } else { None };
+        Ok(MakeOutcome { out: self.shape.destination().out().into(), soup, surface, periods })
+    }
+
+    fn write(&self, outcome: &MakeOutcome, run: &mut CommandRun<'_>) -> Result<(), Failure> {
+        let (out, surface) = (&*outcome.out, &outcome.surface);
+        match &outcome.soup {
+            Some(soup) if extension(out) != "json" => {
+                let format = format_of(out)?;
+                run.outputs.add_named(out, |path| io::write_as(path, format, soup))?;
+            }
+            _ => {
+                let (mesh, geometry, lengths) = (surface.mesh(), surface.geometry(), surface.lengths());
+                run.outputs.add_json(out, &LengthsFile::new(mesh, geometry, lengths))?;
+            }
         }
-        Shape::Genus { genus, n, ratio, to } => mesh(shapes::tapered_genus(*genus, *n, *ratio), to),
-        Shape::Knot { p, q, big, small, tube, n, m, to } => {
-            let knot = TorusKnot { p: *p, q: *q, big: *big, small: *small };
-            let m = m.unwrap_or_else(|| knot_around(&knot, *tube, *n));
-            mesh(knot.torus(*tube, *n, m), to)
-        }
-        Shape::FlatTorus { tau, n, m, to } => metric(shapes::flat_torus([tau[0], tau[1]], *n, *m), to),
-        Shape::Pants { lengths, level, to } => {
-            metric(shapes::pants([lengths[0], lengths[1], lengths[2]], *level), to)
-        }
-        Shape::Hyperelliptic { at, n, grading, to } => {
-            metric(shapes::hyperelliptic_graded(at, *n, *grading), to)
-        }
-        Shape::Bolza { level, to } => metric(shapes::bolza(*level), to),
-        Shape::OneVertex { genus, to } => metric(shapes::one_vertex(*genus), to),
-        Shape::TwoVertex { genus, to } => metric(shapes::two_vertex(*genus), to),
-        Shape::TwoTriangles { to } => metric(Ok(shapes::two_triangle_sphere()), to),
+        let (Some(soup), Destination::Mesh(to)) = (&outcome.soup, self.shape.destination()) else {
+            return Ok(());
+        };
+        let draw = || show::draw_surface(soup, &to.picture, to.common.threads);
+        run.draw(to.picture.base.picture.as_deref(), draw)
     }
 }
 
-/// A count in proportion to another, at least 3.
+impl JobOutcome for MakeOutcome {
+    type Figures = MakeFigures;
+
+    fn input(&self) -> Option<InputSummary> {
+        Some(InputSummary::new(&self.out, &**self.surface.mesh()))
+    }
+
+    fn figures(&self, _: &CommandRun<'_>) -> MakeFigures {
+        let quality = ShapeQuality::of_surface(&self.surface).into();
+        MakeFigures { quality, period_matrix: self.periods.clone() }
+    }
+
+    fn summary(&self, _: &Done) -> String {
+        let mesh = self.surface.mesh();
+        format!(
+            "{}: {}, {}, genus {}, {}\n",
+            self.out.display(),
+            count(mesh.n_vertices(), "vertex", "vertices"),
+            count(mesh.n_faces(), "face", "faces"),
+            mesh.genus(),
+            count(mesh.boundary_loops().len(), "boundary loop", "boundary loops"),
+        )
+    }
+}
+
+/// A sample surface as the library makes it.
+enum SampleSurface {
+    Mesh(Soup),
+    Metric(Intrinsic),
+}
+
+fn build(shape: &SampleShape) -> ricci::Result<SampleSurface> {
+    Ok(match shape {
+        SampleShape::Sphere { n, .. } => SampleSurface::Mesh(shapes::icosphere(*n)?),
+        SampleShape::Ellipsoid { axes, n, .. } => {
+            SampleSurface::Mesh(shapes::ellipsoid([axes[0], axes[1], axes[2]], *n)?)
+        }
+        SampleShape::Torus { big, small, n, m, .. } => {
+            let m = m.unwrap_or_else(|| around(*n, small / big));
+            SampleSurface::Mesh(shapes::torus(*big, *small, *n, m)?)
+        }
+        SampleShape::Disk { n, height, .. } => SampleSurface::Mesh(raise(shapes::disk(*n)?, *height)),
+        SampleShape::Annulus { inner, outer, n, m, height, .. } => {
+            // Steps in geometric progression: log(outer/inner)/n each, and 2π/m around in rows of height √3/2.
+            let step = (outer / inner).ln() / *n as f64;
+            let m = m.unwrap_or_else(|| around(1, std::f64::consts::TAU * 0.75f64.sqrt() / step));
+            SampleSurface::Mesh(raise(shapes::annulus(*inner, *outer, *n, m)?, *height))
+        }
+        SampleShape::Genus { genus, n, ratio, .. } => {
+            SampleSurface::Mesh(shapes::tapered_genus(*genus, *n, *ratio)?)
+        }
+        SampleShape::Knot { p, q, big, small, tube, n, m, .. } => {
+            let knot = TorusKnot { p: *p, q: *q, big: *big, small: *small };
+            let m = m.unwrap_or_else(|| knot_around(&knot, *tube, *n));
+            SampleSurface::Mesh(knot.torus(*tube, *n, m)?)
+        }
+        SampleShape::FlatTorus { tau, n, m, .. } => {
+            SampleSurface::Metric(shapes::flat_torus([tau[0], tau[1]], *n, *m)?)
+        }
+        SampleShape::Pants { lengths, level, .. } => {
+            SampleSurface::Metric(shapes::pants([lengths[0], lengths[1], lengths[2]], *level)?)
+        }
+        SampleShape::Hyperelliptic { at, n, grading, .. } => {
+            SampleSurface::Metric(shapes::hyperelliptic_graded(at, *n, *grading)?)
+        }
+        SampleShape::Bolza { level, .. } => SampleSurface::Metric(shapes::bolza(*level)?),
+        SampleShape::OneVertex { genus, .. } => SampleSurface::Metric(shapes::one_vertex(*genus)?),
+        SampleShape::TwoVertex { genus, .. } => SampleSurface::Metric(shapes::two_vertex(*genus)?),
+        SampleShape::TwoTriangles { .. } => SampleSurface::Metric(shapes::two_triangle_sphere()),
+    })
+}
+
+/// The period matrix of a hyperelliptic surface, as `[re, im]` of τ_ij; none for the other shapes.
+fn known_periods(shape: &SampleShape) -> ricci::Result<Option<Vec<Vec<[f64; 2]>>>> {
+    let SampleShape::Hyperelliptic { at, .. } = shape else { return Ok(None) };
+    let tau = period_matrix(at)?;
+    Ok(Some(tau.iter().map(|row| row.iter().map(|z| [z.re, z.im]).collect()).collect()))
+}
+
+/// The number of vertices around that is in this ratio to `n`, at least 3.
 fn around(n: usize, ratio: f64) -> usize {
     (n as f64 * ratio).round().clamp(3.0, 1e6) as usize
 }
 
-/// Vertices around a tube such that they are as far apart as its `n` cross-sections are.
+/// The number of vertices around a tube for which they are as far apart as its `n` cross-sections.
 fn knot_around(knot: &TorusKnot, tube: f64, n: usize) -> usize {
     let TorusKnot { p, q, big, small } = *knot;
     // The core's length: p turns around the axis and q around the tube, at right angles.
@@ -89,104 +208,11 @@ fn knot_around(knot: &TorusKnot, tube: f64, n: usize) -> usize {
     around(n, tube / length)
 }
 
-/// Raise a plane piece to a hill of this height and a hollow of half the depth.
+/// Bend a plane piece into a hill of this height and a hollow of half that depth.
 fn raise(mut soup: Soup, height: f64) -> Soup {
     let bump = |x: f64, y: f64| (-7.0 * (x * x + y * y)).exp();
     for [x, y, z] in &mut soup.positions {
         *z += height * (bump(*x - 0.25, *y - 0.15) - 0.5 * bump(*x + 0.4, *y + 0.35));
     }
     soup
-}
-
-fn write_mesh(soup: ricci::Result<Soup>, to: &ToMesh, shape: &Shape, start: Instant) -> Result<u8, Failure> {
-    check_extension("-o", Some(&to.out), &["obj", "off", "ply", "glb", "json"])?;
-    let (report, picture) = (to.common.report.as_deref(), to.picture.base.picture.as_deref());
-    check_extension("--picture", picture, &["png"])?;
-    check_outputs(&[], &[Some(&to.out), report, picture])?;
-    let soup = to.spoil.apply(soup?)?;
-    let surface = Surface::from_soup(&soup)?;
-    let mut outputs = Outputs::default();
-    if extension(&to.out) == "json" {
-        write_lengths(&mut outputs, &to.out, &surface)?;
-    } else {
-        let format = format_of(&to.out)?;
-        outputs.add_named(&to.out, |path| io::write_as(path, format, &soup))?;
-    }
-    if let Some(path) = picture {
-        outputs.add_bytes(path, &show::draw_surface(&soup, &to.picture, to.common.threads)?)?;
-    }
-    Made { out: &to.out, surface, outputs, start }.finish(shape, &to.common)
-}
-
-fn write_metric(
-    surface: ricci::Result<IntrinsicSurface>,
-    to: &ToMetric,
-    shape: &Shape,
-    start: Instant,
-) -> Result<u8, Failure> {
-    let name = "-o (this surface has no positions; its lengths are written)";
-    check_extension(name, Some(&to.out), &["json"])?;
-    check_outputs(&[], &[Some(&to.out), to.common.report.as_deref()])?;
-    let given = surface?;
-    let (mesh, lengths) = given.build()?;
-    let surface = Surface::intrinsic(mesh, lengths, given.geometry)?;
-    let mut outputs = Outputs::default();
-    write_lengths(&mut outputs, &to.out, &surface)?;
-    Made { out: &to.out, surface, outputs, start }.finish(shape, &to.common)
-}
-
-fn write_lengths(outputs: &mut Outputs, path: &Path, surface: &Surface) -> Result<(), Failure> {
-    outputs.add_json(path, &LengthsFile::new(surface.mesh(), surface.geometry(), surface.lengths()))
-}
-
-/// What the report says of the surface.
-#[derive(Serialize)]
-struct MadeResult {
-    #[serde(flatten)]
-    quality: QualityFigures,
-    /// Of the curve that a hyperelliptic surface is: `[re, im]` of τ_ij.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    period_matrix: Option<Vec<Vec<[f64; 2]>>>,
-}
-
-fn known_periods(shape: &Shape) -> ricci::Result<Option<Vec<Vec<[f64; 2]>>>> {
-    let Shape::Hyperelliptic { at, .. } = shape else { return Ok(None) };
-    let tau = period_matrix(at)?;
-    Ok(Some(tau.iter().map(|row| row.iter().map(|z| [z.re, z.im]).collect()).collect()))
-}
-
-/// A surface that was made, with its files.
-struct Made<'a> {
-    out: &'a Path,
-    surface: Surface,
-    outputs: Outputs,
-    start: Instant,
-}
-
-impl Made<'_> {
-    /// Write the report, put the files in place, say what was made.
-    fn finish(mut self, shape: &Shape, common: &Common) -> Result<u8, Failure> {
-        let summary = InputSummary::new(self.out, &**self.surface.mesh());
-        let Counts { vertices, faces, genus, boundary_loops, .. } = summary.counts;
-        let text = format!(
-            "{}: {}, {}, genus {}, {}\n",
-            self.out.display(),
-            count(vertices, "vertex", "vertices"),
-            count(faces, "face", "faces"),
-            genus.unwrap_or(0),
-            count(boundary_loops, "boundary loop", "boundary loops"),
-        );
-        if let Some(path) = &common.report {
-            let quality = ShapeQuality::of_surface(&self.surface).into();
-            let result = MadeResult { quality, period_matrix: known_periods(shape)? };
-            let seconds = Seconds { total: self.start.elapsed().as_secs_f64(), ..Seconds::default() };
-            let report = Report::new("make", summary, shape, result).finished(Checks::default(), seconds);
-            self.outputs.add_report(path, &report)?;
-        }
-        let files = self.outputs.commit()?;
-        if !common.quiet {
-            say::lines(&text, &files)?;
-        }
-        Ok(0)
-    }
 }

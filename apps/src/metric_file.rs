@@ -1,7 +1,7 @@
 //! Intrinsic metrics as JSON files: what `--metric` writes, and what is read in place of a mesh.
 //!
-//! Per-face triples are ordered opposite the corners: `[bc, ca, ab]` for the face `[a, b, c]`. Numbers are written so
-//! that they read back as the same doubles.
+//! Per-face triples are ordered opposite the corners: `[bc, ca, ab]` for the face `[a, b, c]`. Numbers are written so that they read back
+//! as the same floating-point numbers.
 
 use crate::failure::Failure;
 use ricci::Surface;
@@ -22,11 +22,11 @@ use std::path::Path;
 /// The scheme of a metric whose vertices are of several types.
 pub const MIXED: &str = "mixed";
 
-/// Largest relative difference of the two lengths that a file gives an edge, one for each of its faces: programs that compute them
-/// per face round them apart.
+/// Largest relative difference of the two lengths that a file has for an edge, one for each of its faces: programs that compute lengths
+/// per face round them differently.
 const LENGTHS_AGREE: f64 = 1e-12;
 
-/// A surface of given edge lengths, without a conformal class: what `ricci make` writes.
+/// A surface by its edge lengths, without a conformal class, as `ricci make` writes it.
 #[derive(Serialize)]
 pub struct LengthsFile {
     /// The geometry in which `lengths` are to be read.
@@ -48,7 +48,7 @@ impl LengthsFile {
     }
 }
 
-/// What is written: the metric on its final triangulation.
+/// A metric on its final triangulation, as `--metric` writes it.
 #[derive(Serialize)]
 pub struct MetricFile<'a> {
     space: &'static str,
@@ -56,7 +56,7 @@ pub struct MetricFile<'a> {
     #[serde(flatten)]
     surface: LengthsFile,
     eta: Vec<[f64; 3]>,
-    /// What the doubles of `lengths` lose of the lengths; left out where that is nothing.
+    /// The parts of the lengths that `lengths` loses by rounding; left out where all are 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     lengths_lo: Option<Vec<[f64; 3]>>,
     u: Cow<'a, [f64]>,
@@ -64,20 +64,20 @@ pub struct MetricFile<'a> {
     epsilon: Cow<'a, [i8]>,
     target: Cow<'a, [f64]>,
     boundary: Vec<bool>,
-    /// Per vertex its mirror image, where the surface is the double of the input: its vertices come first.
+    /// Per vertex its mirror image, where the surface is the double of the input, whose vertices come first.
     #[serde(skip_serializing_if = "Option::is_none")]
     mirror: Option<Vec<u32>>,
 }
 
 impl<'a> MetricFile<'a> {
-    /// `target`: per vertex of the solution's triangulation.
+    /// `target`: the target curvature of each vertex of the solution's triangulation.
     pub fn new(solution: &'a Solution, target: &'a PerVertex<f64>) -> ricci::Result<Self> {
         within(solution.threads(), || {
             MetricFile::of(solution, &solution.metric().measured(solution.mesh())?, target)
         })
     }
 
-    /// [`MetricFile::new`] of a solution whose metric has been measured.
+    /// [`MetricFile::new`] for a solution whose metric has been measured.
     pub fn of(
         solution: &'a Solution,
         measured: &Measured,
@@ -103,7 +103,7 @@ impl<'a> MetricFile<'a> {
 }
 
 impl MetricFile<'_> {
-    /// Write what serde makes of this as JSON on one line, its numbers formatted side by side inside a pool.
+    /// Write this as JSON on one line, the same text as by serde. Inside a pool its threads share the formatting of the numbers.
     pub fn write(&self, out: &mut impl Write) -> io::Result<()> {
         let LengthsFile { input_geometry, faces, face_edges, lengths } = &self.surface;
         let triples = |values: &[[f64; 3]], text: &mut TextBuilder, k: usize| triple(text, values[k], number);
@@ -133,7 +133,7 @@ impl MetricFile<'_> {
         writeln!(out, "}}")
     }
 
-    /// Without a vertex and the faces at it, whose other vertices are on the boundary then, with whatever curvature they have there.
+    /// The metric without a vertex and the faces at it. The other vertices of these faces are on the boundary then.
     pub fn without(mut self, vertex: usize) -> Self {
         let gone: Vec<bool> = self.surface.faces.iter().map(|f| f.contains(&(vertex as u32))).collect();
         for face in (0..gone.len()).filter(|&f| gone[f]) {
@@ -154,7 +154,7 @@ impl MetricFile<'_> {
         self
     }
 
-    /// The curvature that came out in place of the target at boundary vertices (`curvature` of the file's vertices).
+    /// The metric with its own curvature as the target of boundary vertices; `curvature`: that of each vertex of the file.
     pub fn free_on_boundary(mut self, curvature: &[f64]) -> Self {
         let target = self.target.to_mut();
         for v in (0..target.len()).filter(|&v| self.boundary[v]) {
@@ -175,7 +175,7 @@ impl MetricFile<'_> {
     }
 }
 
-/// A field of a JSON object behind another one, with a list of n items.
+/// Write a field of a JSON object that follows another one and holds a list of n items.
 fn array(
     out: &mut impl Write,
     name: &str,
@@ -200,8 +200,8 @@ fn triple<T: Copy>(text: &mut TextBuilder, values: [T; 3], item: impl Fn(&mut Te
     text.character(']');
 }
 
-/// A number of JSON, which has none that is not finite.
-fn number(text: &mut TextBuilder, x: f64) {
+/// Write a number; JSON has none that is not finite.
+fn number(text: &mut Text, x: f64) {
     if x.is_finite() { text.number(x) } else { text.text("null") }
 }
 
@@ -231,10 +231,10 @@ fn face_edges_of(mesh: &Mesh) -> Option<Vec<[i32; 3]>> {
     (!mesh.is_given_by_faces()).then(|| mesh.faces().map(|f| mesh.face_edges(f)).collect())
 }
 
-/// What is read: `faces` and `lengths` suffice. `input_geometry` (default e2) says how the lengths are read. A conformal
+/// The fields that are read: `faces` and `lengths` suffice. `input_geometry` (default e2) says how the lengths are read. A conformal
 /// class in the file (`eta`, `u`, `epsilon`) is passed over: the lengths are the metric.
 #[derive(Deserialize)]
-struct Given {
+struct MetricFields {
     faces: Vec<[u32; 3]>,
     lengths: Vec<[f64; 3]>,
     #[serde(default)]
@@ -248,7 +248,7 @@ struct Given {
 /// Read the text of a metric file; `geometry` is to be taken in place of the one that it names.
 pub fn parse(path: &Path, text: &str, geometry: Option<Space>) -> Result<Surface, Failure> {
     let refuse = |why: String| Failure::Input(format!("{}: {why}", path.display()));
-    let given: Given = serde_json::from_str(text).map_err(|e| refuse(e.to_string()))?;
+    let given: MetricFields = serde_json::from_str(text).map_err(|e| refuse(e.to_string()))?;
     let n_faces = given.faces.len();
     let sizes = [
         ("lengths", Some(given.lengths.len())),
@@ -279,7 +279,7 @@ pub fn parse(path: &Path, text: &str, geometry: Option<Space>) -> Result<Surface
     Ok(Surface::intrinsic(mesh, lengths, geometry.unwrap_or(written))?)
 }
 
-/// What is a defect of faces given by their vertices, but not of a gluing.
+/// True for a defect of faces that are given by their vertices, but not of faces that are glued.
 fn may_be_glued(defect: &Defect) -> bool {
     matches!(
         defect,

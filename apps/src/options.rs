@@ -33,7 +33,7 @@ impl Serialize for FileName {
     }
 }
 
-/// What every command takes.
+/// The options of every command.
 #[derive(Args, Serialize, Debug, Clone)]
 pub struct Common {
     /// Write all numbers of the run as JSON
@@ -49,13 +49,13 @@ pub struct Common {
     pub threads: usize,
 }
 
-/// More threads than 1024 help nobody and can exhaust the system.
+/// A number of threads; more than 1024 are of no use and can exhaust the system.
 fn threads() -> impl TypedValueParser<Value = usize> {
     let all = || std::thread::available_parallelism().map_or(1, |n| n.get());
     clap::value_parser!(u16).range(..=1024).map(move |n| if n == 0 { all() } else { n.into() })
 }
 
-/// A mesh file, and how it is read.
+/// A mesh file, with the distance of welding.
 #[derive(Args, Serialize, Debug, Clone)]
 pub struct MeshArgs {
     /// Mesh file (.obj, .off, .ply, .stl, .glb, .gltf, .gii) or intrinsic metric (.json: `faces` and `lengths` suffice); - for stdin
@@ -66,7 +66,7 @@ pub struct MeshArgs {
     pub weld: Option<f64>,
 }
 
-/// A surface: its file, and how its lengths are read.
+/// The file of a surface, and the geometry of its lengths.
 #[derive(Args, Serialize, Debug, Clone)]
 pub struct SurfaceArgs {
     #[command(flatten)]
@@ -78,7 +78,7 @@ pub struct SurfaceArgs {
     pub input_geometry: Option<GeometryChoice>,
 }
 
-/// What the commands take that compute a metric: the surface, the way, and the files that all of them write.
+/// The options of the commands that compute a metric: the surface, the method, and the files that all of them write.
 #[derive(Args, Serialize, Debug, Clone)]
 pub struct MetricArgs {
     #[command(flatten)]
@@ -105,7 +105,7 @@ pub struct MetricArgs {
     pub common: Common,
 }
 
-/// How a metric is computed.
+/// The method by which a metric is computed.
 #[derive(Args, Serialize, Debug, Clone)]
 pub struct SolveArgs {
     /// Discrete conformal structure
@@ -127,7 +127,7 @@ pub struct SolveArgs {
 }
 
 impl MetricArgs {
-    /// The library's options for this.
+    /// The library's options of the flow.
     pub fn options(&self) -> Options {
         Options {
             method: self.solve.method.into(),
@@ -145,7 +145,7 @@ pub fn distance(text: &str) -> Result<f64, String> {
     number(text, |x| x >= 0.0, "must be a finite distance, 0 or more")
 }
 
-/// A distance to which copies of a surface can be made: within 0 there is the surface alone.
+/// A radius around the base point, greater than 0: within 0 there is the surface alone.
 pub fn radius(text: &str) -> Result<f64, String> {
     number(text, |x| x > 0.0, "must be a finite distance greater than 0")
 }
@@ -155,9 +155,9 @@ pub fn positive(text: &str) -> Result<f64, String> {
     number(text, |x| x > 0.0, "must be a positive number")
 }
 
-/// A finite number that fits, or the error `else_`.
-pub fn number(text: &str, fits: fn(f64) -> bool, else_: &str) -> Result<f64, String> {
-    text.parse().ok().filter(|x: &f64| x.is_finite() && fits(*x)).ok_or_else(|| else_.into())
+/// A finite number that `fits`, or the error `otherwise`.
+pub fn number(text: &str, fits: fn(f64) -> bool, otherwise: &str) -> Result<f64, String> {
+    text.parse().ok().filter(|x: &f64| x.is_finite() && fits(*x)).ok_or_else(|| otherwise.into())
 }
 
 /// Choices of an option that are those of a type of the library, by the same names.

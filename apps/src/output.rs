@@ -1,5 +1,5 @@
-//! Files are written beside their destination and renamed into place when all of them are complete; what is no regular file is
-//! written in place.
+//! Output files: they are written beside their destination and renamed into place when all of them are complete. Outputs that are no
+//! regular files are written in place.
 
 use crate::failure::Failure;
 use ricci::mesh::io::{Format, TexturedMesh, destination};
@@ -10,14 +10,16 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use tempfile::TempDir;
 
-/// The name that stands for stdin and stdout.
+/// The file name that stands for stdin and stdout.
 pub const STANDARD: &str = "-";
 
-/// Directories of files that are not in place yet, of this process, and whether all of its files are in place.
+/// The files of this process that are not in place yet.
 static DRAFTS: Mutex<Drafts> = Mutex::new(Drafts { directories: Vec::new(), in_place: false });
 
 struct Drafts {
+    /// The directories that hold them.
     directories: Vec<PathBuf>,
+    /// True once all files of the last run are in place.
     in_place: bool,
 }
 
@@ -39,12 +41,12 @@ pub fn abandon() -> bool {
     abandoned
 }
 
-/// Whether the files of the last run are in place.
+/// True if the files of the last run are in place.
 pub fn in_place() -> bool {
     drafts().in_place
 }
 
-/// The files of one run: none is there before all are complete.
+/// The files of one run, none of which appears under its name before all are complete.
 #[derive(Default)]
 pub struct Outputs {
     pending: Vec<Pending>,
@@ -53,43 +55,43 @@ pub struct Outputs {
 /// A complete file in a temporary directory of its own, which is removed with it.
 struct Pending {
     directory: TempDir,
-    /// The name that was asked for.
+    /// The file name that was asked for.
     path: PathBuf,
-    place: Place,
+    place: OutputPlace,
 }
 
-/// Where a file goes.
-enum Place {
+/// The destination of a file.
+enum OutputPlace {
     Stdout,
     /// A device, a pipe or an open file, which is written to.
     Open,
-    /// A regular file, which is replaced: what its name stands for once links are followed, with the permissions it has.
+    /// A regular file, which is replaced: the path that its name leads to once links are followed, and its permissions.
     Regular(PathBuf, Option<Permissions>),
 }
 
-impl Place {
-    fn of(path: &Path) -> Place {
+impl OutputPlace {
+    fn of(path: &Path) -> OutputPlace {
         let exists_otherwise = fs::metadata(path).is_ok_and(|found| !found.is_file());
-        // What a shell has opened is not to be replaced, also where it is a regular file.
+        // A file that a shell has opened must not be replaced, even where it is a regular file.
         let opened = ["/dev", "/proc"].iter().any(|root| path.starts_with(root));
         if path == Path::new(STANDARD) {
-            Place::Stdout
+            OutputPlace::Stdout
         } else if exists_otherwise || opened {
-            Place::Open
+            OutputPlace::Open
         } else {
             let (target, permissions) = destination(path);
-            Place::Regular(target, permissions)
+            OutputPlace::Regular(target, permissions)
         }
     }
 }
 
 impl Pending {
     fn new(path: &Path) -> io::Result<Pending> {
-        let place = Place::of(path);
+        let place = OutputPlace::of(path);
         let mut builder = tempfile::Builder::new();
         builder.prefix(".ricci-");
         let directory = match &place {
-            Place::Regular(target, _) => builder.tempdir_in(directory_of(target))?,
+            OutputPlace::Regular(target, _) => builder.tempdir_in(directory_of(target))?,
             _ => builder.tempdir()?,
         };
         let mut drafts = drafts();
@@ -98,7 +100,7 @@ impl Pending {
         Ok(Pending { directory, path: path.into(), place })
     }
 
-    /// Where the file is written.
+    /// The path at which the file is written.
     fn draft(&self) -> PathBuf {
         self.directory.path().join("draft")
     }
@@ -110,16 +112,16 @@ impl Pending {
 
     fn put_in_place(&self) -> io::Result<()> {
         match &self.place {
-            Place::Stdout => {
+            OutputPlace::Stdout => {
                 let mut out = io::stdout().lock();
                 io::copy(&mut File::open(self.draft())?, &mut out)?;
                 out.flush()
             }
-            Place::Open => {
+            OutputPlace::Open => {
                 let mut out = File::options().append(true).open(&self.path)?;
                 io::copy(&mut File::open(self.draft())?, &mut out).map(drop)
             }
-            Place::Regular(target, permissions) => {
+            OutputPlace::Regular(target, permissions) => {
                 if let Some(permissions) = permissions {
                     fs::set_permissions(self.draft(), permissions.clone())?;
                 }
@@ -186,10 +188,15 @@ impl Outputs {
         })
     }
 
-    /// Put every file in place; returns their names. Links stay links, and permissions those of what is replaced. Where one fails, the
-    /// others are still there.
+    /// Add the files of `others` behind these.
+    pub fn append(&mut self, others: Outputs) {
+        self.pending.extend(others.pending);
+    }
+
+    /// Put every file in place; returns their names. Links stay links, and a file keeps the permissions of the one that it replaces. Where
+    /// one fails, the others are still put in place.
     pub fn commit(self) -> Result<Vec<PathBuf>, Failure> {
-        // Locked: a process that is to end waits for this.
+        // The lock makes a process that is about to end wait for this.
         let mut drafts = drafts();
         let done: Vec<_> = self.pending.iter().map(Pending::commit).collect();
         drafts.in_place = true;
@@ -201,13 +208,13 @@ impl Outputs {
 /// A usage error if a file of this name could not be written: found before the work, not after it.
 fn check_writable(path: &Path) -> Result<(), Failure> {
     let refuse = |why: String| Err(Failure::Usage(format!("{}: {why}", path.display())));
-    let target = match Place::of(path) {
+    let target = match OutputPlace::of(path) {
         _ if path.is_dir() => return refuse("is a directory".into()),
-        Place::Regular(_, Some(permissions)) if permissions.readonly() => {
+        OutputPlace::Regular(_, Some(permissions)) if permissions.readonly() => {
             return refuse("is write-protected".into());
         }
-        Place::Regular(target, _) => target,
-        Place::Stdout | Place::Open => return Ok(()),
+        OutputPlace::Regular(target, _) => target,
+        OutputPlace::Stdout | OutputPlace::Open => return Ok(()),
     };
     let directory = directory_of(&target);
     if !directory.is_dir() {
@@ -242,7 +249,7 @@ pub fn check_outputs(inputs: &[Option<&Path>], outputs: &[Option<&Path>]) -> Res
     Ok(())
 }
 
-/// Where a file is, or would be: one name per file, however it is called.
+/// The one path of a file, existing or not, whatever name it is called by.
 fn place_of(path: &Path) -> PathBuf {
     let (target, _) = destination(path);
     match (directory_of(&target).canonicalize(), target.file_name()) {
@@ -251,10 +258,10 @@ fn place_of(path: &Path) -> PathBuf {
     }
 }
 
-/// A usage error unless the file that an option names, if it names one, has one of these extensions (lower case). What is no regular
-/// file has the format of the first.
+/// A usage error unless the file that an option names, if it names one, has one of these extensions (lower case). An output that is no
+/// regular file has the format of the first.
 pub fn check_extension(option: &str, path: Option<&Path>, known: &[&str]) -> Result<(), Failure> {
-    let named = |path: &&Path| matches!(Place::of(path), Place::Regular(..));
+    let named = |path: &&Path| matches!(OutputPlace::of(path), OutputPlace::Regular(..));
     let Some(path) = path.filter(named).filter(|path| !known.contains(&extension(path).as_str())) else {
         return Ok(());
     };
@@ -262,21 +269,21 @@ pub fn check_extension(option: &str, path: Option<&Path>, known: &[&str]) -> Res
     Err(Failure::Usage(format!("{option} {}: the name must end in {}", path.display(), known.join(" or "))))
 }
 
-/// Whether a file of this name is the process's stdout.
+/// True if a file of this name is the stdout of the process.
 pub fn is_stdout(path: &Path) -> bool {
     [STANDARD, "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"].iter().any(|name| path == Path::new(name))
 }
 
-/// The format of a mesh file that is written: OBJ where the name says none.
+/// The format of a mesh file to be written: OBJ where the name does not say it.
 pub fn format_of(path: &Path) -> Result<Format, Failure> {
-    match Place::of(path) {
-        Place::Regular(..) => Ok(Format::of(path)?),
-        Place::Stdout | Place::Open => Ok(Format::of(path).unwrap_or(Format::Obj)),
+    match OutputPlace::of(path) {
+        OutputPlace::Regular(..) => Ok(Format::of(path)?),
+        OutputPlace::Stdout | OutputPlace::Open => Ok(Format::of(path).unwrap_or(Format::Obj)),
     }
 }
 
-/// Add a triangle list with texture coordinates: binary glTF for .glb, else OBJ.
-pub fn write_textured(outputs: &mut Outputs, path: &Path, data: &TexturedMesh) -> Result<(), Failure> {
+/// Write a triangle list with texture coordinates: binary glTF for .glb, else OBJ.
+pub fn write_textured(outputs: &mut Outputs, path: &Path, data: &Textured) -> Result<(), Failure> {
     match extension(path).as_str() {
         "glb" => outputs.add_named(path, |path| ricci::mesh::io::write_glb(path, data, None).map(drop)),
         _ => outputs.add(path, |out| ricci::mesh::io::write_obj_to(out, data).map_err(io::Error::other)),

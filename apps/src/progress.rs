@@ -1,4 +1,4 @@
-//! A progress bar on a terminal, and Ctrl-C.
+//! The progress bar on a terminal, and the handler of Ctrl-C.
 
 use crate::failure::Failure;
 use crate::output;
@@ -15,20 +15,21 @@ use std::time::Duration;
 const REFRESH: Duration = Duration::from_millis(100);
 /// Runs shorter than this show no bar.
 const PATIENCE: Duration = Duration::from_millis(400);
-/// Time that work has to end by itself after Ctrl-C: with what it takes to give large pictures' memory back, a tenth of a second.
+/// Time that work has to end by itself after Ctrl-C. Together with the time in which the memory of a large picture is freed, the process
+/// ends within a tenth of a second.
 const GRACE: Duration = Duration::from_millis(25);
 
-/// What is being done, where the library has no stage for it.
+/// The name of the work under way, where the library has no stage for it.
 static WORK: Mutex<Option<&str>> = Mutex::new(None);
 
-/// Shows where a `Control` is until dropped.
+/// A progress bar that follows a `Control` until it is dropped.
 pub struct Progress {
     stop: Option<Sender<()>>,
     thread: Option<JoinHandle<()>>,
 }
 
 impl Progress {
-    /// Watch `control`, if stderr is a terminal and it may be used.
+    /// Follow `control`, if stderr is a terminal and the command is not to be quiet.
     pub fn watch(control: &Control, quiet: bool) -> Progress {
         if quiet || !std::io::stderr().is_terminal() {
             return Progress { stop: None, thread: None };
@@ -64,7 +65,7 @@ impl Drop for Progress {
     }
 }
 
-/// Do some work, which the bar names.
+/// Do some work under a name that the bar shows.
 pub fn doing<T>(what: &'static str, work: impl FnOnce() -> T) -> T {
     let name = |what| *WORK.lock().unwrap_or_else(PoisonError::into_inner) = what;
     name(Some(what));
@@ -84,12 +85,12 @@ fn stage_name(stage: Stage) -> &'static str {
     }
 }
 
-/// A control that Ctrl-C cancels. Work that has not ended a moment later is left where it is: nothing is there yet of its files, and the
+/// A control that Ctrl-C cancels. If work has not ended a moment later, the process ends: none of its files is in place yet, and the
 /// temporary ones are removed.
 pub fn cancellable() -> Control {
     let control = Control::new();
     let handle = control.clone();
-    // Without a handler Ctrl-C ends the process at once, which leaves temporary files behind but nothing half-written.
+    // If no handler can be set, Ctrl-C ends the process at once: temporary files are left behind, but no output is half-written.
     let _ = ctrlc::set_handler(move || {
         handle.cancel();
         std::thread::sleep(GRACE);

@@ -1,9 +1,9 @@
 //! Quantities that pictures show in colours.
 
 use crate::input::Input;
-use crate::job::Outcome;
-use crate::laid::Laid;
+use crate::job::FlowOutcome;
 use crate::picture::{CLASSES, ColorChoice, ColorField, ColorScale};
+use crate::surface_layout::SurfaceLayout;
 use ricci::geometry::triangle;
 use ricci::geometry::vector::{cross, dot, norm, sub, triangle_normal};
 use ricci::mesh::{FaceId, Mesh, PerFace, PerVertex, Point};
@@ -11,8 +11,8 @@ use ricci::metric::Refinement;
 use ricci::metric::curvature::{curvature, curvature_from_angles};
 
 /// The quantity of a finished flow; `None` for no quantity, and for one of the layout where the flow has no layout.
-pub fn of_flow(choice: ColorChoice, input: &Input, outcome: &Outcome) -> Option<ColorField> {
-    let laid = outcome.layout.as_ref().ok();
+pub fn of_flow(choice: ColorChoice, outcome: &FlowOutcome) -> Option<ColorField> {
+    let (input, laid) = (&outcome.input, outcome.layout.as_ref().ok());
     let mesh = laid.map_or(input.mesh(), |laid| laid.mesh());
     Some(match choice {
         ColorChoice::None => return None,
@@ -40,7 +40,7 @@ pub fn of_flow(choice: ColorChoice, input: &Input, outcome: &Outcome) -> Option<
 }
 
 /// Pieces in colours: a hue for the face of the final triangulation, a shade for that of the input. Faces side by side differ.
-fn pieces(laid: &Laid) -> ColorField {
+fn pieces(laid: &SurfaceLayout) -> ColorField {
     let mesh = laid.mesh();
     let parts = |of: fn(&Refinement) -> &PerFace<FaceId>| match laid.refinement() {
         Some(refinement) => of(refinement).clone(),
@@ -77,7 +77,7 @@ fn classes(mesh: &Mesh, whole: &PerFace<FaceId>) -> Vec<usize> {
 const CURVATURE: &str = "Gaussian curvature K (1/length²)";
 
 /// Values at given vertices, at those of what is laid out.
-fn on_layout(given: &[f64], laid: Option<&Laid>) -> Option<PerVertex<f64>> {
+fn on_layout(given: &[f64], laid: Option<&SurfaceLayout>) -> Option<PerVertex<f64>> {
     let Some(refinement) = laid.and_then(|laid| laid.refinement()) else {
         return Some(given.to_vec().into());
     };
@@ -95,7 +95,7 @@ fn density_of_input(input: &Input) -> Option<(PerVertex<f64>, ColorScale)> {
     Some(density(mesh, &defect, area, geometry.curvature()))
 }
 
-/// The same of any triangle list; vertices where it is no surface have none.
+/// The curvature of any triangle list; none at vertices where it is no surface.
 pub fn curvature_of_triangles(points: &[Point], faces: &[[u32; 3]]) -> ColorField {
     let corners = |f: FaceId| faces[f.index()].map(|v| points[v as usize]);
     if let Ok(mesh) = Mesh::from_faces(points.len(), faces) {

@@ -1,24 +1,23 @@
-//! `ricci repair`.
+//! `ricci repair`: mends what can be mended without a guess, and says which defects are left.
 
+use crate::defects::{DefectFigures, DefectList};
 use crate::failure::Failure;
-use crate::info::{DefectFigures, Defects};
 use crate::input::read_triangles;
 use crate::options::{Common, FileName, distance};
-use crate::output::{Outputs, check_extension, check_outputs, extension, format_of};
+use crate::output::{check_extension, check_outputs, extension, format_of};
 use crate::picture::SurfacePictureArgs;
-use crate::report::{Checks, Counts, Figures, InputSummary, Report, Seconds, timed};
-use crate::say::{self, count};
+use crate::report::{Checks, Counts, Done, Figures, InputSummary, timed};
+use crate::runner::{CommandRun, Job, JobHeader, JobOutcome};
+use crate::say::count;
 use crate::show;
 use clap::Args;
-use ricci::Control;
 use ricci::control::Stage;
 use ricci::mesh::check::diagnose;
-use ricci::mesh::io;
+use ricci::mesh::io::{self, Soup};
 use ricci::mesh::repair::{RefusedWeld, Repair, Repaired, repair};
 use serde::Serialize;
 use serde_json::json;
 use std::path::PathBuf;
-use std::time::Instant;
 
 pub const HELP: &str = "\
 Example: the largest piece of a scan, welded within 1e-6, and where its vertices and faces came from
@@ -62,78 +61,112 @@ pub struct RepairArgs {
     pub common: Common,
 }
 
-/// What was asked, with the distance of welding; null for none.
+/// The options of a run as its report has them.
 #[derive(Serialize)]
-struct Asked<'a> {
+struct RepairSettings<'a> {
+    /// The distance of welding; null for no welding.
     weld: Option<f64>,
     #[serde(flatten)]
     args: &'a RepairArgs,
 }
 
-/// `--map`: for each vertex and face of the result its number in the input, from 0.
+/// The file of `--map`: for each vertex and face of the result its number in the input, from 0.
 #[derive(Serialize)]
-struct MapFile<'a> {
+struct OriginFile<'a> {
     vertex_origin: &'a [u32],
     face_origin: &'a [u32],
 }
 
-/// Run the command: 0 if the result is a surface that the other commands accept, 1 if a defect is left.
-pub fn run(args: &RepairArgs, control: &Control) -> Result<u8, Failure> {
-    let start = Instant::now();
-    check_extension("-o", Some(&args.out), &["obj", "off", "ply", "glb"])?;
-    let picture = args.picture.base.picture.as_deref();
-    check_extension("--picture", picture, &["png"])?;
-    let files = [Some(&*args.out), args.map.as_deref(), picture, args.common.report.as_deref()];
-    check_outputs(&[Some(&args.mesh)], &files)?;
-    let mut seconds = Seconds::default();
-    control.step(Stage::Read, 0.0)?;
-    let soup = timed(&mut seconds.read, || read_triangles(&args.mesh))?;
-    control.step(Stage::Build, 0.0)?;
-    let weld = (!args.no_weld).then_some(args.weld);
-    let options = Repair { weld, cut_non_manifold_edges: args.cut_edges, component: args.component };
-    let done = timed(&mut seconds.build, || repair(&soup, &options))?;
-    control.step(Stage::Write, 0.0)?;
-    let mut outputs = Outputs::default();
-    let left_out = timed(&mut seconds.write, || write(args, &done, &mut outputs))?;
-    let defects = Defects::of(&done.soup, &done.diagnosis);
-    let (text, is_left) = (text(args, &done, &defects, &left_out), !defects.list.is_empty());
-    if let Some(path) = &args.common.report {
-        let input = InputSummary::new(&args.mesh, &diagnose(&soup.positions, &soup.faces));
+/// The mesh as it was read and as it is repaired, with the defects that are left.
+pub struct RepairOutcome {
+    path: PathBuf,
+    /// The name of the repaired file.
+    out: FileName,
+    soup: Soup,
+    repaired: Repaired,
+    defects: DefectList,
+}
+
+impl RepairArgs {
+    /// The distance of welding; none for no welding.
+    fn weld(&self) -> Option<f64> {
+        (!self.no_weld).then_some(self.weld)
+    }
+}
+
+impl Job for RepairArgs {
+    type Outcome = RepairOutcome;
+
+    fn header(&self) -> JobHeader<'_> {
+        JobHeader { name: "repair", common: &self.common, mesh: Some(&self.mesh) }
+    }
+
+    fn check(&self) -> Result<(), Failure> {
+        check_extension("-o", Some(&self.out), &["obj", "off", "ply", "glb"])?;
+        let picture = self.picture.base.picture.as_deref();
+        check_extension("--picture", picture, &["png"])?;
+        let files = [Some(&*self.out), self.map.as_deref(), picture, self.common.report.as_deref()];
+        check_outputs(&[Some(&self.mesh)], &files)
+    }
+
+    fn compute(&self, run: &mut CommandRun<'_>) -> Result<RepairOutcome, Failure> {
+        run.control.step(Stage::Read, 0.0)?;
+        let soup = timed(&mut run.seconds.read, || read_triangles(&self.mesh))?;
+        run.control.step(Stage::Build, 0.0)?;
+        let (weld, component) = (self.weld(), self.component);
+        let options = Repair { weld, cut_non_manifold_edges: self.cut_edges, component };
+        let repaired = timed(&mut run.seconds.build, || repair(&soup, &options))?;
+        let defects = DefectList::of(&repaired.soup, &repaired.diagnosis);
+        let (path, out) = (self.mesh.clone(), self.out.clone());
+        Ok(RepairOutcome { path, out, soup, repaired, defects })
+    }
+
+    fn write(&self, outcome: &RepairOutcome, run: &mut CommandRun<'_>) -> Result<(), Failure> {
+        let (format, repaired) = (format_of(&self.out)?, &outcome.repaired);
+        let soup = &repaired.soup;
+        run.left_out = run.outputs.add_named(&self.out, |path| io::write_as(path, format, soup))?;
+        if let Some(path) = &self.map {
+            let Repaired { vertex_origin, face_origin, .. } = repaired;
+            run.outputs.add_json(path, &OriginFile { vertex_origin, face_origin })?;
+        }
+        let draw = || show::draw_surface(soup, &self.picture, self.common.threads);
+        run.draw(self.picture.base.picture.as_deref(), draw)
+    }
+
+    fn settings<'a>(&'a self, _: &'a RepairOutcome) -> impl Serialize + 'a {
+        RepairSettings { weld: self.weld(), args: self }
+    }
+}
+
+impl JobOutcome for RepairOutcome {
+    type Figures = Figures;
+
+    fn checks(&self) -> Checks {
         let mut checks = Checks::default();
-        checks.add("defects", defects.list.len() as f64, 0.0);
-        seconds.total = start.elapsed().as_secs_f64();
-        let report = Report::new("repair", input, Asked { weld, args }, figures(&done, left_out, &defects));
-        outputs.add_report(path, &report.finished(checks, seconds))?;
+        checks.add("defects", self.defects.list.len() as f64, 0.0);
+        checks
     }
-    control.check()?;
-    let files = outputs.commit()?;
-    if !args.common.quiet {
-        say::lines(&text, &files)?;
+
+    fn input(&self) -> Option<InputSummary> {
+        Some(InputSummary::new(&self.path, &diagnose(&self.soup.positions, &self.soup.faces)))
     }
-    Ok(u8::from(is_left))
+
+    fn figures(&self, run: &CommandRun<'_>) -> Figures {
+        figures(&self.repaired, &run.left_out, &self.defects)
+    }
+
+    fn summary(&self, done: &Done) -> String {
+        text(self, &done.left_out)
+    }
 }
 
-/// Write the surface, the map back and the picture; returns what the surface's format leaves out.
-fn write(args: &RepairArgs, done: &Repaired, outputs: &mut Outputs) -> Result<Vec<&'static str>, Failure> {
-    let (format, soup) = (format_of(&args.out)?, &done.soup);
-    let left_out = outputs.add_named(&args.out, |path| io::write_as(path, format, soup))?;
-    if let Some(path) = &args.map {
-        let map = MapFile { vertex_origin: &done.vertex_origin, face_origin: &done.face_origin };
-        outputs.add_json(path, &map)?;
-    }
-    if let Some(path) = &args.picture.base.picture {
-        outputs.add_bytes(path, &show::draw_surface(soup, &args.picture, args.common.threads)?)?;
-    }
-    Ok(left_out)
-}
-
-/// What was done, what the result is, and what is left.
-fn figures(done: &Repaired, left_out: Vec<&'static str>, defects: &Defects) -> Figures {
-    let (steps, diagnosis) = (&done.steps, &done.diagnosis);
-    // Edges in which welding would have made more than two faces meet; numbers of the input.
+/// The steps that were taken, the counts of the result, and the defects that are left.
+fn figures(repaired: &Repaired, left_out: &[&str], defects: &DefectList) -> Figures {
+    let (steps, diagnosis) = (&repaired.steps, &repaired.diagnosis);
+    // An edge in which welding would have made more than two faces meet, with numbers of the input.
     let refused = |edge: &RefusedWeld| json!({"vertices": edge.vertices, "faces": edge.faces});
     Figures::default()
-        // Whether the other commands accept the result.
+        // True if the other commands accept the result.
         .with("admissible", defects.list.is_empty())
         .counts(Counts::from(diagnosis))
         .with("welded_vertices", steps.welded_vertices)
@@ -144,14 +177,15 @@ fn figures(done: &Repaired, left_out: Vec<&'static str>, defects: &Defects) -> F
         .with("turned_faces", steps.turned_faces)
         .with("faces_of_other_components", steps.faces_of_other_components)
         .with("isolated_vertices", steps.isolated_vertices)
-        .with("weld_refused", done.weld_refused.iter().map(refused).collect::<Vec<_>>())
-        // Attributes that the format of the output has no place for.
+        .with("weld_refused", repaired.weld_refused.iter().map(refused).collect::<Vec<_>>())
+        // The attributes that the format of the output has no place for.
         .with("left_out", left_out)
         .with("defect_counts", json!(defects.counts))
         .with("defects", json!(defects.list))
 }
 
-fn text(args: &RepairArgs, repaired: &Repaired, defects: &Defects, left_out: &[&str]) -> String {
+fn text(outcome: &RepairOutcome, left_out: &[&str]) -> String {
+    let RepairOutcome { path, out, repaired, defects, .. } = outcome;
     let (steps, result) = (&repaired.steps, &repaired.diagnosis);
     let vertex = |n, what: &str| (n, count(n, "vertex", "vertices") + what);
     let face = |n, what: &str| (n, count(n, "face", "faces") + what);
@@ -171,13 +205,13 @@ fn text(args: &RepairArgs, repaired: &Repaired, defects: &Defects, left_out: &[&
     .collect();
     let mut text = format!(
         "{}: {}\n{}: {}, {}, {}, {}\n",
-        args.mesh.display(),
-        match done.is_empty() {
-            true if result.vertices == 0 => "the file is empty: it has neither vertices nor faces".into(),
-            true => "nothing to mend".into(),
-            false => done.join(", "),
+        path.display(),
+        match done.len() {
+            0 if result.vertices == 0 => "the file is empty: it has neither vertices nor faces".into(),
+            0 => "nothing to mend".into(),
+            _ => done.join(", "),
         },
-        args.out.display(),
+        out.display(),
         count(result.vertices, "vertex", "vertices"),
         count(result.faces, "face", "faces"),
         count(result.components, "component", "components"),
@@ -192,7 +226,7 @@ fn text(args: &RepairArgs, repaired: &Repaired, defects: &Defects, left_out: &[&
         );
     }
     for what in left_out {
-        text += &format!("left out: {what} (.{} has no place for them)\n", extension(&args.out));
+        text += &format!("left out: {what} (.{} has no place for them)\n", extension(out));
     }
     let mut told: Vec<&str> = Vec::new();
     for DefectFigures { message, remedy, .. } in &defects.list {

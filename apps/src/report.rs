@@ -1,12 +1,12 @@
-//! The report: one JSON object with all numbers of a run.
+//! The report of a command: one JSON object with all numbers of the run.
 
 use crate::failure::Failure;
 use crate::input::Input;
-pub use crate::timing::{Seconds, timed};
+pub use crate::timing::{PhaseSeconds, timed};
 use ricci::mesh::Mesh;
 use ricci::mesh::check::Diagnosis;
 use serde::{Serialize, Serializer};
-use serde_json::Value;
+use serde_json::{Map, Value};
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -15,19 +15,19 @@ use std::path::Path;
 pub struct Figures(Vec<(&'static str, Value)>);
 
 impl Figures {
-    /// These figures and one more; a number that is none, or not finite, is null.
+    /// These figures and one more; a value that is none, or a number that is not finite, is null.
     pub fn with(mut self, name: &'static str, value: impl Into<Value>) -> Figures {
         self.0.push((name, value.into()));
         self
     }
 
-    /// The same, where there is a value.
     /// These figures, then others.
     pub fn and(mut self, others: &Figures) -> Figures {
         self.0.extend(others.0.iter().cloned());
         self
     }
 
+    /// These figures and one more, where it has a value.
     pub fn if_some(self, name: &'static str, value: Option<impl Into<Value>>) -> Figures {
         match value {
             Some(value) => self.with(name, value),
@@ -35,12 +35,14 @@ impl Figures {
         }
     }
 
-    /// The figure of a name; null where there is none.
-    pub fn get(&self, name: &str) -> &Value {
-        self.0.iter().find(|(known, _)| *known == name).map_or(&Value::Null, |(_, value)| value)
+    /// These figures and, where there are any, the options whose files could not be made, with the reasons.
+    pub fn failed(self, failed: &Attempts) -> Figures {
+        let failed: Map<String, Value> =
+            failed.0.iter().map(|(option, why)| (option.to_string(), why.as_str().into())).collect();
+        self.if_some("failed", (!failed.is_empty()).then_some(failed))
     }
 
-    /// These figures and those of a surface.
+    /// These figures and the counts of a surface.
     pub fn counts(self, of: Counts) -> Figures {
         self.with("vertices", of.vertices)
             .with("edges", of.edges)
@@ -58,36 +60,46 @@ impl Serialize for Figures {
     }
 }
 
-/// What every command's report has in common.
+/// The report of one run, with the options of its command and their result.
 #[derive(Serialize)]
-pub struct Report<O, R> {
+pub struct RunReport<O, R> {
     ricci: &'static str,
     version: &'static str,
     command: &'static str,
-    /// None where a command makes its own (`demo`).
+    /// The surface of the command; none for `demo`, which makes its own surfaces, and for commands that read splines.
     input: Option<InputSummary>,
     options: O,
     result: R,
     checks: Checks,
-    seconds: Seconds,
+    seconds: PhaseSeconds,
     peak_bytes: Option<u64>,
 }
 
-impl<O, R> Report<O, R> {
+impl<O, R> RunReport<O, R> {
     pub fn new(command: &'static str, input: impl Into<Option<InputSummary>>, options: O, result: R) -> Self {
         let version = env!("CARGO_PKG_VERSION");
-        let (checks, seconds) = (Checks::default(), Seconds::default());
+        let (checks, seconds) = (Checks::default(), PhaseSeconds::default());
         let input = input.into();
-        Report { ricci: version, version, command, input, options, result, checks, seconds, peak_bytes: None }
+        RunReport {
+            ricci: version,
+            version,
+            command,
+            input,
+            options,
+            result,
+            checks,
+            seconds,
+            peak_bytes: None,
+        }
     }
 
     /// The report of a run that is over.
-    pub fn finished(self, checks: Checks, seconds: Seconds) -> Self {
-        Report { checks, seconds, peak_bytes: peak_bytes(), ..self }
+    pub fn finished(self, checks: Checks, seconds: PhaseSeconds) -> Self {
+        RunReport { checks, seconds, peak_bytes: peak_bytes(), ..self }
     }
 }
 
-/// The size and topology of a surface. What a defective list of triangles does not have is null.
+/// The size and topology of a surface. Figures that a defective list of triangles does not have are null.
 #[derive(Serialize, Clone)]
 pub struct Counts {
     pub vertices: usize,
@@ -173,34 +185,30 @@ impl Checks {
         self.0.iter().filter(|(_, c)| !c.holds).map(|(name, _)| *name).collect()
     }
 
-    /// Exit code of a run with these checks.
+    /// The exit code of a run with these checks.
     pub fn exit_code(&self) -> u8 {
         u8::from(!self.failed().is_empty())
     }
 }
 
-/// A finished run of a command.
-pub struct Done<T> {
-    pub input: Input,
-    /// What the command is for: the metric of a flow, a surface in its canonical shape.
-    pub result: T,
-    pub figures: Figures,
+/// A command that has run: what is told of it once its files are in place.
+pub struct Done {
     pub checks: Checks,
-    /// Files written.
+    /// The options whose files could not be made, with the reasons.
+    pub failed: Attempts,
+    /// The numbers of vertices and faces that the file of `--uv` has beyond the input's.
+    pub added: [usize; 2],
+    /// The attributes of the input that the written file has no place for.
+    pub left_out: Vec<&'static str>,
+    /// The files written.
     pub files: Vec<String>,
     pub seconds: f64,
     pub exit_code: u8,
+    /// The lines for stdout; empty with `--quiet`.
+    pub summary: String,
 }
 
-impl<T> Done<T> {
-    /// What is left to tell without the result itself.
-    pub fn drop_result(self) -> Done<()> {
-        let Done { input, figures, checks, files, seconds, exit_code, .. } = self;
-        Done { input, result: (), figures, checks, files, seconds, exit_code }
-    }
-}
-
-/// Wishes that could not be fulfilled, by option, with the reason.
+/// The options that could not be fulfilled, with the reasons.
 #[derive(Default)]
 pub struct Attempts(pub BTreeMap<&'static str, String>);
 
@@ -208,51 +216,43 @@ impl Attempts {
     /// Each reason once, with the options that failed for it.
     pub fn by_cause(&self) -> Vec<(Vec<&'static str>, &str)> {
         let mut causes: Vec<(Vec<&'static str>, &str)> = Vec::new();
-        for (&wish, why) in &self.0 {
+        for (&option, why) in &self.0 {
             match causes.iter_mut().find(|(_, known)| known == why) {
-                Some((wishes, _)) => wishes.push(wish),
-                None => causes.push((vec![wish], why)),
+                Some((options, _)) => options.push(option),
+                None => causes.push((vec![option], why)),
             }
         }
         causes
     }
 
-    /// The value of `result`; where there is none the reason is remembered under the option `wish`, so that everything else that was
-    /// asked for is still delivered.
+    /// Remember one reason under all the options of a list that were asked for.
+    pub fn refuse(&mut self, why: &str, options: &[(&'static str, bool)]) {
+        let asked = options.iter().filter(|(_, is_asked)| *is_asked);
+        self.0.extend(asked.map(|(option, _)| (*option, why.to_string())));
+    }
+
+    /// The value of `result`. Where there is none, the reason is remembered under the `option`, so that everything else that was asked
+    /// for is still delivered.
     ///
     /// # Errors
     /// [`Failure::Cancelled`] alone.
     pub fn attempt<T>(
         &mut self,
-        wish: &'static str,
+        option: &'static str,
         result: Result<T, Failure>,
     ) -> Result<Option<T>, Failure> {
         match result {
             Ok(value) => Ok(Some(value)),
             Err(Failure::Cancelled) => Err(Failure::Cancelled),
             Err(failure) => {
-                self.0.insert(wish, failure.to_string());
+                self.0.insert(option, failure.to_string());
                 Ok(None)
             }
         }
     }
 }
 
-impl Seconds {
-    /// Those of reading a mesh and of a flow.
-    pub fn new(input: &Input, flow: &ricci::flow::Seconds) -> Seconds {
-        Seconds {
-            assemble: flow.assemble,
-            analyse: flow.analyse,
-            factor: flow.factor,
-            solve: flow.solve,
-            flip: flow.flip,
-            ..input.seconds
-        }
-    }
-}
-
-/// The largest memory this process has held; known on Linux.
+/// The most memory that this process has held; known on Linux alone.
 fn peak_bytes() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|l| l.strip_prefix("VmHWM:"))?;

@@ -1,28 +1,27 @@
-//! What commands say on stdout: a few lines for people. All numbers are in the report.
+//! The summaries of commands on stdout: a few lines for people. All numbers are in the report.
 
 use crate::failure::{Failure, names_element};
 use crate::input::Input;
 use crate::output::is_stdout;
-use crate::report::{Attempts, Checks, Done};
-use crate::solved::Solved;
+use crate::report::{Checks, Done};
 use ricci::flow::Options;
 use std::io::{self, Write};
 use std::path::Path;
 
-/// Angle in degrees below which the thinnest face is named where a check fails: rounding moves the cotangent of such an angle by
+/// The angle in degrees below which the thinnest face is named where a check fails: rounding moves the cotangent of such an angle by
 /// 1e-13 and more.
 const SLIVER: f64 = 0.1;
 
-/// What commands name that write no file.
+/// The files of a command that writes none.
 pub const NO_FILES: &[&str] = &[];
 
-/// Print the lines of a summary, and where elements are named that their numbers begin at 0.
+/// Print the lines of a summary and, where they name elements by number, a note that numbers begin at 0.
 pub fn lines(text: &str, files: &[impl AsRef<Path>]) -> Result<(), Failure> {
     let note = if names_element(text) { "elements are numbered from 0\n" } else { "" };
     print(&format!("{text}{note}"), files)
 }
 
-/// Print on stdout; on stderr where one of the files that were written is stdout. A reader that has gone away is no error.
+/// Print on stdout, or on stderr where one of the written files is stdout. A reader that has closed the pipe is no error.
 pub fn print(text: &str, files: &[impl AsRef<Path>]) -> Result<(), Failure> {
     let taken = files.iter().any(|file| is_stdout(file.as_ref()));
     let mut out: Box<dyn Write> = if taken { Box::new(io::stderr()) } else { Box::new(io::stdout()) };
@@ -37,7 +36,7 @@ pub fn count(n: usize, one: &str, many: &str) -> String {
     format!("{n} {}", if n == 1 { one } else { many })
 }
 
-/// A length or an area: with so many decimals, or, where those would be zeros or noise, with as many digits and a power of ten.
+/// A length or an area with this many decimals; in scientific notation where those would be zeros or noise.
 pub fn size(x: f64, decimals: usize) -> String {
     if x == 0.0 || (1e-3..1e9).contains(&x.abs()) {
         format!("{x:.decimals$}")
@@ -46,9 +45,9 @@ pub fn size(x: f64, decimals: usize) -> String {
     }
 }
 
-/// What max |K| was held against, where it is not what goes without saying.
-pub fn tolerance(held: f64) -> String {
-    if held == Options::default().tolerance { String::new() } else { format!(", tolerance {held:.1e}") }
+/// The limit of max |K|, where it is not the default.
+pub fn tolerance(limit: f64) -> String {
+    if limit == Options::default().tolerance { String::new() } else { format!(", tolerance {limit:.1e}") }
 }
 
 /// The first line of a summary: the surface.
@@ -67,7 +66,7 @@ pub fn surface(input: &Input) -> String {
     )
 }
 
-/// Where a check fails: whether the surface has slivers, which cost digits.
+/// The thinnest face, if a check fails and it is a sliver, which costs digits.
 fn slivers(input: &Input, checks: &Checks, may_flip: bool) -> String {
     let thinnest = || input.surface.thinnest_face().map(|(face, angle)| (face, angle.to_degrees()));
     match (!checks.failed().is_empty()).then(thinnest).flatten() {
@@ -79,11 +78,11 @@ fn slivers(input: &Input, checks: &Checks, may_flip: bool) -> String {
     }
 }
 
-/// The last lines of a summary: what is not there, whether the checks hold, the files, the time.
-pub fn ending<T>(done: &Done<T>, solved: &Solved) -> String {
-    let Solved { failed, left_out, added, .. } = solved;
-    let mut text = slivers(&done.input, &done.checks, solved.may_flip);
-    let [vertices, faces] = *added;
+/// The last lines of the summary of a metric: slivers, vertices added to the input's, attributes left out, then as [`finish`].
+/// `may_flip`: whether edges were allowed to be flipped.
+pub fn ending(input: &Input, done: &Done, may_flip: bool) -> String {
+    let mut text = slivers(input, &done.checks, may_flip);
+    let [vertices, faces] = done.added;
     if vertices + faces > 0 {
         text += &format!(
             "added    {} and {} to the input's, where its edges cross others: --xref X.csv says where, --on input has none\n",
@@ -91,18 +90,18 @@ pub fn ending<T>(done: &Done<T>, solved: &Solved) -> String {
             count(faces, "face", "faces")
         );
     }
-    for what in left_out {
+    for what in &done.left_out {
         text += &format!("left out {what}\n");
     }
-    text + &finish(done, failed)
+    text + &finish(done)
 }
 
-/// The last lines of every summary: wishes that failed, whether the checks hold, the files, the time.
-pub fn finish<T>(done: &Done<T>, failed: &Attempts) -> String {
-    let Done { checks, files, seconds, .. } = done;
+/// The last lines of a summary: options that failed, the checks, the files, the time.
+pub fn finish(done: &Done) -> String {
+    let Done { checks, failed, files, seconds, .. } = done;
     let mut text = String::new();
-    for (wishes, why) in failed.by_cause() {
-        text += &format!("FAILED   --{}: {why}\n", wishes.join(", --"));
+    for (options, why) in failed.by_cause() {
+        text += &format!("FAILED   --{}: {why}\n", options.join(", --"));
     }
     text += &checks.told(failed.0.is_empty());
     if !files.is_empty() {
@@ -111,8 +110,16 @@ pub fn finish<T>(done: &Done<T>, failed: &Attempts) -> String {
     text + &format!("{seconds:.2} s\n")
 }
 
+/// The checks that fail by their names alone.
+pub fn checks_by_name(checks: &Checks) -> String {
+    match checks.failed().as_slice() {
+        [] => "checks   all hold\n".into(),
+        failed => format!("checks   FAILED: {}\n", failed.join(", ")),
+    }
+}
+
 impl Checks {
-    /// Whether all hold, or which do not; `whole`: everything that was asked for was made.
+    /// The line that says that all checks hold, or which ones fail. `whole`: everything that was asked for was made.
     pub fn told(&self, whole: bool) -> String {
         match self.failed().as_slice() {
             [] if whole => "checks   all hold\n".into(),
@@ -128,7 +135,7 @@ impl Checks {
     }
 }
 
-/// τ of a flat torus, after what else is said of its layout.
+/// The modulus τ of a flat torus, to follow other figures of its layout.
 pub fn modulus(tau: Option<[f64; 2]>) -> String {
     tau.map_or_else(String::new, |[re, im]| {
         format!(", modulus {re:.6} {} {:.6} i", if im < 0.0 { '-' } else { '+' }, im.abs())

@@ -1,4 +1,4 @@
-//! The shapes that `ricci make` knows, and what can be done to them.
+//! The options of `ricci make`: the sample surfaces, and how they can be spoiled.
 
 use crate::options::{Common, FileName, choices, number};
 use crate::picture::SurfacePictureArgs;
@@ -7,10 +7,11 @@ use num_complex::Complex64;
 use ricci::mesh::io::Soup;
 use ricci::mesh::shapes::{self, Sliver};
 use serde::{Serialize, Serializer};
+use std::path::Path;
 
 #[derive(Subcommand, Serialize, Debug)]
 #[serde(rename_all = "kebab-case")]
-pub enum Shape {
+pub enum SampleShape {
     /// The unit sphere: an icosahedron with each edge cut into N
     #[command(alias = "icosphere")]
     Sphere {
@@ -190,7 +191,51 @@ pub enum Shape {
     },
 }
 
-/// Where a surface in space goes.
+/// The output of a sample surface, and what is done to the surface before.
+pub enum Destination<'a> {
+    Mesh(&'a ToMesh),
+    Metric(&'a ToMetric),
+}
+
+impl<'a> Destination<'a> {
+    pub fn common(&self) -> &'a Common {
+        match self {
+            Destination::Mesh(to) => &to.common,
+            Destination::Metric(to) => &to.common,
+        }
+    }
+
+    /// The name of the file of `-o`.
+    pub fn out(&self) -> &'a Path {
+        match self {
+            Destination::Mesh(to) => &to.out,
+            Destination::Metric(to) => &to.out,
+        }
+    }
+}
+
+impl SampleShape {
+    pub fn destination(&self) -> Destination<'_> {
+        match self {
+            SampleShape::Sphere { to, .. }
+            | SampleShape::Ellipsoid { to, .. }
+            | SampleShape::Torus { to, .. }
+            | SampleShape::Disk { to, .. }
+            | SampleShape::Annulus { to, .. }
+            | SampleShape::Genus { to, .. }
+            | SampleShape::Knot { to, .. } => Destination::Mesh(to),
+            SampleShape::FlatTorus { to, .. }
+            | SampleShape::Pants { to, .. }
+            | SampleShape::Hyperelliptic { to, .. }
+            | SampleShape::Bolza { to, .. }
+            | SampleShape::OneVertex { to, .. }
+            | SampleShape::TwoVertex { to, .. }
+            | SampleShape::TwoTriangles { to } => Destination::Metric(to),
+        }
+    }
+}
+
+/// The output of a surface in space.
 #[derive(Args, Serialize, Debug)]
 pub struct ToMesh {
     /// Mesh (.obj, .off, .ply, .glb), or its edge lengths (.json)
@@ -198,7 +243,7 @@ pub struct ToMesh {
     pub out: FileName,
     #[command(flatten)]
     #[serde(flatten)]
-    pub spoil: Spoil,
+    pub spoil: SpoilArgs,
     #[command(flatten)]
     #[serde(flatten)]
     pub picture: SurfacePictureArgs,
@@ -207,7 +252,7 @@ pub struct ToMesh {
     pub common: Common,
 }
 
-/// Where a surface that is given by its edge lengths goes.
+/// The output of a surface that is given by its edge lengths.
 #[derive(Args, Serialize, Debug)]
 pub struct ToMetric {
     /// Edge lengths (.json)
@@ -220,7 +265,7 @@ pub struct ToMetric {
 
 /// Holes, noise, an inversion and bad triangles, in this order.
 #[derive(Args, Serialize, Debug)]
-pub struct Spoil {
+pub struct SpoilArgs {
     /// Cut this many round holes, far from each other
     #[arg(long, default_value_t = 0, value_name = "COUNT")]
     pub holes: usize,
@@ -247,8 +292,8 @@ pub struct Spoil {
     pub seed: u64,
 }
 
-impl Spoil {
-    /// The surface after all that was asked for.
+impl SpoilArgs {
+    /// The surface with the holes, the noise, the inversion and the bad triangles that were asked for.
     pub fn apply(&self, mut soup: Soup) -> ricci::Result<Soup> {
         if self.holes > 0 {
             soup = shapes::punch(&soup, self.holes)?;

@@ -4,7 +4,7 @@ use ricci::metric::ShapeQuality;
 use serde::Serialize;
 
 /// The figures of [`ShapeQuality`], with angles in degrees.
-#[derive(Serialize, Debug, PartialEq)]
+#[derive(Serialize, Debug, Clone, PartialEq)]
 pub struct QualityFigures {
     pub area: f64,
     pub min_angle_degrees: Option<f64>,

@@ -1,34 +1,30 @@
-//! The picture of a finished flow: the surface with its checkerboard beside the layout with its seams.
+//! The picture of a flow, the surface with its checkerboard beside the layout with its seams; and the picture of a surface alone.
 
 use crate::failure::Failure;
-use crate::input::Input;
-use crate::job::Outcome;
-use crate::laid::Laid;
+use crate::job::FlowOutcome;
 use crate::picture::{
     self, Circle, FlowPictureArgs, Focus, Picture, ShownLayout, ShownSurface, Style, SurfacePictureArgs, Zoom,
 };
 use crate::quantity;
+use crate::surface_layout::SurfaceLayout;
 use ricci::embed::CirclePattern;
+use ricci::geometry::circle::PowerCircle;
 use ricci::mesh::io::Soup;
 use ricci::mesh::{FaceId, HalfedgeId, Mesh, PerVertex, Point, VertexId};
 
-/// Only vertices with at least this much target curvature get a dot; a uniform target on a torus-like layout has none.
+/// Least target curvature, radians, of a vertex that gets a dot; a uniform target gives no vertex that much.
 const CONE: f64 = 1e-6;
-/// and only where there are at most this many, so that the dots leave the surface visible.
+/// Most vertices that get a dot: more of them would hide the surface.
 const MOST_CONES: usize = 60;
 
-/// The picture as PNG, or the flat layout alone as SVG where its name ends in `.svg`: without a layout there is nothing to show then,
-/// and the caller does not ask for it.
-pub fn draw(
-    input: &Input,
-    outcome: &Outcome,
-    args: &FlowPictureArgs,
-    threads: usize,
-) -> Result<Vec<u8>, Failure> {
+/// The picture as PNG, or the flat layout alone as SVG where its name ends in `.svg`. Without a layout there is nothing for an SVG to show,
+/// and the caller does not ask for one.
+pub fn draw(outcome: &FlowOutcome, args: &FlowPictureArgs, threads: usize) -> Result<Vec<u8>, Failure> {
+    let input = &outcome.input;
     let laid = outcome.layout.as_ref().ok();
-    let parts = laid.map(|laid| Parts::new(input, outcome, laid));
-    let flat = parts.as_ref().map(Parts::flat);
-    let field = args.color().and_then(|choice| quantity::of_flow(choice, input, outcome));
+    let drawing = laid.map(|laid| LayoutDrawing::new(outcome, laid));
+    let flat = drawing.as_ref().map(LayoutDrawing::flat);
+    let field = args.color().and_then(|choice| quantity::of_flow(choice, outcome));
     let focus = args.zoom.zip(laid).and_then(|(zoom, laid)| focus(&zoom, laid));
     let style = Style { focus, ..args.style(threads) };
     if let (Some(flat), true) = (&flat, args.base.is_svg()) {
@@ -38,20 +34,20 @@ pub fn draw(
     let (mesh, positions) =
         laid.map_or((input.mesh(), input.positions()), |laid| (laid.mesh(), laid.positions.as_deref()));
     let faces = mesh.triangles();
-    let cones = cones(input.mesh(), outcome);
+    let cones = cones(outcome);
     let surface = positions.as_ref().map(|positions| ShownSurface {
         positions,
         faces: &faces,
-        corner_uv: parts.as_ref().map(|p| p.corner_uv.as_slice()),
-        seams: parts.as_ref().map_or(&[], |p| &p.edges),
+        corner_uv: drawing.as_ref().map(|p| p.corner_uv.as_slice()),
+        seams: drawing.as_ref().map_or(&[], |p| &p.edges),
         cones: &cones,
         is_closed: false,
     });
     picture::png(&Picture { surface, flat, field: field.as_ref(), ..Picture::default() }, &style)
 }
 
-/// The surroundings of a vertex; of a metric without positions, of its layout alone.
-fn focus(zoom: &Zoom, laid: &Laid) -> Option<Focus> {
+/// The surroundings of a vertex on the surface and in its layout; for a metric without positions, in the layout alone.
+fn focus(zoom: &Zoom, laid: &SurfaceLayout) -> Option<Focus> {
     let mesh = laid.mesh();
     if let Some(positions) = &laid.positions {
         return surroundings(mesh, positions, zoom, |f| laid.face_uv(f));
@@ -62,7 +58,7 @@ fn focus(zoom: &Zoom, laid: &Laid) -> Option<Focus> {
     Some(Focus { at: [0.0; 3], radius, normal: [0.0; 3], at_layout, radius_layout: radius })
 }
 
-/// The surroundings of a vertex, as much of the surface as of its drawing in the plane; none where either has no area there.
+/// The surroundings of a vertex, an equal share of the surface and of its drawing in the plane; none where either has no area there.
 pub fn surroundings(
     mesh: &Mesh,
     positions: &[Point],
@@ -95,7 +91,7 @@ pub fn draw_surface(soup: &Soup, args: &SurfacePictureArgs, threads: usize) -> R
     let Soup { positions, faces, .. } = soup;
     let finite = |v: &u32| positions.get(*v as usize).is_some_and(|p| p.iter().all(|x| x.is_finite()));
     let faces: Vec<[u32; 3]> = faces.iter().filter(|f| f.iter().all(finite)).copied().collect();
-    // Points in no face would widen the view.
+    // Points that belong to no face would widen the view.
     let mut number = vec![None; positions.len()];
     let mut seen = Vec::new();
     let mut keep = |v: u32| {
@@ -119,15 +115,16 @@ pub fn draw_surface(soup: &Soup, args: &SurfacePictureArgs, threads: usize) -> R
 }
 
 /// Cone vertices with their curvature, on a surface where few vertices have any.
-fn cones(mesh: &Mesh, outcome: &Outcome) -> Vec<(u32, f64)> {
+fn cones(outcome: &FlowOutcome) -> Vec<(u32, f64)> {
+    let mesh = outcome.input.mesh();
     let curved = |v: &VertexId| !mesh.is_boundary_vertex(*v) && outcome.target(*v).abs() > CONE;
     let cones: Vec<_> = mesh.vertices().filter(curved).map(|v| (v.0, outcome.target(v))).collect();
     if cones.len() <= MOST_CONES { cones } else { Vec::new() }
 }
 
-/// The layout as plain arrays.
+/// The layout of a flow as the plain arrays that are drawn.
 #[derive(Default)]
-struct Parts {
+struct LayoutDrawing {
     corner_uv: Vec<[[f64; 2]; 3]>,
     edges: Vec<(u32, u32, usize)>,
     seams: Vec<([f64; 2], [f64; 2], usize)>,
@@ -138,47 +135,49 @@ struct Parts {
     dual_circles: Vec<Circle>,
 }
 
-impl Parts {
-    fn new(input: &Input, outcome: &Outcome, laid: &Laid) -> Parts {
+impl LayoutDrawing {
+    fn new(outcome: &FlowOutcome, laid: &SurfaceLayout) -> LayoutDrawing {
         let mesh = laid.mesh();
         let side = |h: HalfedgeId| (laid.corner_uv(h), laid.corner_uv(mesh.next(h)));
-        let mut parts =
-            Parts { corner_uv: mesh.faces().map(|f| laid.face_uv(f)).collect(), ..Parts::default() };
+        let corner_uv = mesh.faces().map(|f| laid.face_uv(f)).collect();
+        let mut drawing = LayoutDrawing { corner_uv, ..LayoutDrawing::default() };
         for (h, number) in laid.seams() {
-            parts.edges.push((mesh.origin(h).0, mesh.tip(h).0, number));
+            drawing.edges.push((mesh.origin(h).0, mesh.tip(h).0, number));
             for h in [h, h.twin()] {
                 let (a, b) = side(h);
-                parts.seams.push((a, b, number));
+                drawing.seams.push((a, b, number));
             }
         }
         for h in mesh.halfedges().filter(|h| mesh.is_outside(h.twin())) {
-            parts.boundary.push(side(h));
+            drawing.boundary.push(side(h));
         }
         if laid.packed.is_some() {
             let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
-            parts.frame = (0..4).map(|k| (square[k], square[(k + 1) % 4])).collect();
+            drawing.frame = (0..4).map(|k| (square[k], square[(k + 1) % 4])).collect();
         }
         let mut seen = vec![false; laid.coordinates().len()];
         let mut curvature = PerVertex::filled(mesh.n_vertices(), 0.0);
-        cones(input.mesh(), outcome).into_iter().for_each(|(v, k)| curvature[VertexId(v)] = k);
+        cones(outcome).into_iter().for_each(|(v, k)| curvature[VertexId(v)] = k);
         for h in mesh.halfedges().filter(|&h| !mesh.is_outside(h) && curvature[mesh.origin(h)] != 0.0) {
             let uv = laid.corner_index()[h] as usize;
             if !std::mem::replace(&mut seen[uv], true) {
-                parts.cones.push((laid.coordinates()[uv], curvature[mesh.origin(h)]));
+                drawing.cones.push((laid.coordinates()[uv], curvature[mesh.origin(h)]));
             }
         }
-        // Circles belong to the layout, not to its charts.
+        // Circles belong to the whole layout, and do not fit its charts.
         let with_circles = outcome.solved.scheme.epsilon() != 0 && laid.packed.is_none();
-        let solution = &outcome.solved.solution;
-        let pattern = || CirclePattern::new(&laid.layout, solution.mesh(), solution.metric()).ok();
-        if let Some(all) = with_circles.then(pattern).flatten() {
-            let vertex = all.vertex_circles.iter().map(|c| Circle { center: c.center, radius: c.radius });
-            parts.circles = vertex.collect();
-            let real = all.dual_circles.iter().filter(|(_, c)| c.power >= 0.0);
-            parts.dual_circles =
-                real.map(|(_, c)| Circle { center: c.center, radius: c.power.sqrt() }).collect();
+        let pattern = || {
+            let solution = &outcome.solved.solution;
+            CirclePattern::new(&laid.layout, solution.mesh(), solution.metric()).ok()
+        };
+        if let Some(pattern) = with_circles.then(pattern).flatten() {
+            let vertex = pattern.vertex_circles.iter().map(|c| Circle { center: c.center, radius: c.radius });
+            drawing.circles = vertex.collect();
+            let dual = pattern.dual_circles.iter().filter(|(_, c)| c.power >= 0.0);
+            let circle = |c: &PowerCircle| Circle { center: c.center, radius: c.power.sqrt() };
+            drawing.dual_circles = dual.map(|(_, c)| circle(c)).collect();
         }
-        parts
+        drawing
     }
 
     fn flat(&self) -> ShownLayout<'_> {

@@ -1,11 +1,11 @@
-//! Seconds by phase.
+//! The seconds that the phases of a command take.
 
 use serde::Serialize;
 use std::time::Instant;
 
 /// Wall-clock seconds by phase; `write` is without pictures and ends before the report itself is written.
 #[derive(Serialize, Default, Clone, Copy)]
-pub struct Seconds {
+pub struct PhaseSeconds {
     pub total: f64,
     pub read: f64,
     pub build: f64,
@@ -18,6 +18,17 @@ pub struct Seconds {
     pub layout: f64,
     pub picture: f64,
     pub write: f64,
+}
+
+impl PhaseSeconds {
+    /// Add the seconds of a flow.
+    pub fn add_flow(&mut self, flow: &ricci::flow::Seconds) {
+        self.assemble += flow.assemble;
+        self.analyse += flow.analyse;
+        self.factor += flow.factor;
+        self.solve += flow.solve;
+        self.flip += flow.flip;
+    }
 }
 
 /// Run `work` and add its seconds to a phase.

@@ -1,35 +1,42 @@
-//! The surface with its layout as texture coordinates.
+//! The files of `--uv` and `--xref`: the surface with its layout as texture coordinates, and the way back to the input.
 
 use crate::carry::{carry, left_out};
 use crate::checkerboard;
 use crate::failure::Failure;
 use crate::input::Input;
-use crate::laid::Laid;
 use crate::options::{MetricArgs, OnChoice};
 use crate::output::{Outputs, extension};
-use crate::solved::Solved;
-use ricci::mesh::io::{self, Texture, TexturedMesh, Wrap};
+use crate::runner::CommandRun;
+use crate::surface_layout::SurfaceLayout;
+use ricci::mesh::io::{self, Texture, Textured, Wrap};
 use ricci::mesh::{Mesh, PerHalfedge, Point};
 use ricci::metric::Refinement;
 use std::io::Write;
 use std::path::Path;
 
-/// Add OBJ or, from a name that ends in `.glb`, binary glTF with a checkerboard; with the input's colours and normals.
+/// The faces of `--uv`, and whether its texture coordinates are homogeneous.
+#[derive(Default)]
+pub struct UvOptions {
+    pub on: OnChoice,
+    pub homogeneous: bool,
+}
+
+/// Write OBJ or, for a name that ends in `.glb`, binary glTF with a checkerboard; with the input's colours and normals.
 ///
 /// OBJ: `v` of the input, `vt` of the layout, `f v/vt`. The faces are the layout's (then the crossings of the input's edges with
-/// flipped ones follow its vertices), or the input's own. Returned is how many vertices and faces the file has beyond the input's.
+/// flipped ones follow its vertices), or the input's own. Returns the numbers of vertices and faces that the file has beyond the input's.
 pub fn write(
     outputs: &mut Outputs,
     path: &Path,
     input: &Input,
-    laid: &Laid,
-    (on, homogeneous): (OnChoice, bool),
+    laid: &SurfaceLayout,
+    options: UvOptions,
 ) -> Result<[usize; 2], Failure> {
     // Without positions `--uv` is refused before the flow.
     let (Some(positions), Some(own_positions)) = (laid.positions.as_deref(), input.positions()) else {
-        return Err(Failure::Failed("an intrinsic metric has no positions in space".into()));
+        return Err(Failure::no_positions());
     };
-    let (mesh, positions, index, texcoords, refinement) = match (on, &laid.on_input) {
+    let (mesh, positions, index, texcoords, refinement) = match (options.on, &laid.on_input) {
         (OnChoice::Refined, _) => {
             (laid.mesh(), positions, laid.corner_index(), laid.coordinates(), laid.refinement())
         }
@@ -40,26 +47,27 @@ pub fn write(
             return Err(Failure::Failed("--on input: the layout is not cut along the input's edges".into()));
         }
     };
-    let weights = if homogeneous { laid.weights() } else { Vec::new() };
-    Drawn { mesh, positions, index, texcoords, weights: &weights, refinement }.write(outputs, path, input)?;
+    let weights = if options.homogeneous { laid.weights() } else { Vec::new() };
+    UvMesh { mesh, positions, index, texcoords, weights: &weights, refinement }
+        .write(outputs, path, input)?;
     Ok([positions.len() - own_positions.len(), mesh.n_faces() - input.mesh().n_faces()])
 }
 
-/// A mesh in space with a drawing of it in the plane.
-pub struct Drawn<'a> {
+/// A mesh in space with texture coordinates.
+pub struct UvMesh<'a> {
     pub mesh: &'a Mesh,
     pub positions: &'a [Point],
-    /// Per half-edge, which of the coordinates the corner at its origin has.
+    /// Per half-edge the index of the texture coordinates of the corner at its origin.
     pub index: &'a PerHalfedge<u32>,
     pub texcoords: &'a [[f64; 2]],
-    /// Homogeneous weights of the coordinates; none for 1.
+    /// The homogeneous weights of the coordinates; empty where all are 1.
     pub weights: &'a [f64],
-    /// Where the mesh is a refinement of the input.
+    /// The refinement of the input that the mesh is, if it is one.
     pub refinement: Option<&'a Refinement>,
 }
 
-impl Drawn<'_> {
-    /// Add OBJ or, from a name that ends in `.glb`, binary glTF with a checkerboard; with the input's colours and normals.
+impl UvMesh<'_> {
+    /// Write OBJ or, for a name that ends in `.glb`, binary glTF with a checkerboard; with the input's colours and normals.
     pub fn write(&self, outputs: &mut Outputs, path: &Path, input: &Input) -> Result<(), Failure> {
         let faces = self.mesh.triangles();
         let carried = carry(input, self.refinement)?;
@@ -84,30 +92,36 @@ impl Drawn<'_> {
     }
 }
 
-/// Write `--uv` and `--xref`, as far as they are asked for; what cannot be made is remembered with its reason.
+/// Write `--uv` and `--xref`, as far as they are asked for.
+///
+/// # Errors
+/// [`Failure::Cancelled`] alone.
 pub fn write_asked(
-    outputs: &mut Outputs,
+    run: &mut CommandRun<'_>,
     input: &Input,
-    laid: &Laid,
-    (args, homogeneous): (&MetricArgs, bool),
-    solved: &mut Solved,
+    laid: &SurfaceLayout,
+    args: &MetricArgs,
+    homogeneous: bool,
 ) -> Result<(), Failure> {
     if let Some(path) = &args.uv {
-        let written = write(outputs, path, input, laid, (args.on, homogeneous));
-        if let Some(added) = solved.failed.attempt("uv", written)? {
-            (solved.added, solved.left_out) = (added, left_out(input));
+        let written = write(&mut run.outputs, path, input, laid, UvOptions { on: args.on, homogeneous });
+        if let Some(added) = run.failed.attempt("uv", written)? {
+            (run.added, run.left_out) = (added, left_out(input));
         }
     }
-    if let Some(path) = &args.xref {
-        let written = outputs.add(path, |out| write_origins(out, input, laid, args.on));
-        solved.failed.attempt("xref", written)?;
-    }
-    Ok(())
+    run.file("xref", args.xref.as_deref(), |outputs, path| {
+        outputs.add(path, |out| write_origins(out, input, laid, args.on))
+    })
 }
 
 /// The way back from the vertices and faces that `--uv` has to those of the input: a face for each face, and for each vertex a face
 /// with barycentric coordinates in it.
-pub fn write_origins(out: &mut impl Write, input: &Input, laid: &Laid, on: OnChoice) -> std::io::Result<()> {
+pub fn write_origins(
+    out: &mut impl Write,
+    input: &Input,
+    laid: &SurfaceLayout,
+    on: OnChoice,
+) -> std::io::Result<()> {
     let refinement = laid.refinement().filter(|_| on == OnChoice::Refined);
     let mesh = refinement.map_or(input.mesh(), |r| &r.mesh);
     let whole = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
@@ -136,7 +150,7 @@ pub fn write_origins(out: &mut impl Write, input: &Input, laid: &Laid, on: OnCho
     Ok(())
 }
 
-/// The point of every corner of every face.
+/// The index of the point of every corner of every face.
 pub fn corners(mesh: &Mesh, index: &PerHalfedge<u32>) -> Vec<[u32; 3]> {
     mesh.faces().map(|f| mesh.face_halfedges(f).map(|h| index[h])).collect()
 }

@@ -47,7 +47,7 @@ pub struct FormsArgs {
     /// What the picture shows [default: texture]
     #[arg(long, value_enum, requires = "picture")]
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub show: Option<ShowChoice>,
+    pub show: Option<FormPictureChoice>,
     /// Pattern of the integral of the form [default: checker]
     #[arg(long, value_enum, requires = "picture")]
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -65,10 +65,10 @@ pub struct FormsArgs {
     pub common: Common,
 }
 
-/// What the picture shows.
+/// The contents of a picture of `ricci forms`.
 #[derive(ValueEnum, Serialize, Debug, Clone, Copy, PartialEq)]
 #[serde(rename_all = "lowercase")]
-pub enum ShowChoice {
+pub enum FormPictureChoice {
     /// The surface with the pattern of the form's integral
     Texture,
     /// The surface with horizontal (red) and vertical (green) trajectories
@@ -79,7 +79,7 @@ pub enum ShowChoice {
 
 choices!(ClassesChoice = Classes { Absolute, Relative });
 
-/// Sizes of coefficients: from one over this up to it, so that no square over- or underflows.
+/// Largest size of a coefficient, and the inverse of the least one: no square overflows or underflows.
 const LARGEST: f64 = 1e100;
 
 fn coefficient(text: &str) -> Result<f64, String> {

@@ -1,8 +1,8 @@
-//! The figures of forms, as the report has them, and what is said of them.
+//! The checks, the figures and the summary of `ricci forms`.
 
-use super::found::Found;
-use crate::failure::Failure;
-use crate::report::{Done, Figures};
+use super::outcome::FormsOutcome;
+use crate::report::{Checks, Done, Figures, InputSummary};
+use crate::runner::{CommandRun, JobOutcome};
 use crate::say;
 use ricci::harmonic::Zero;
 use serde_json::{Value, json};
@@ -11,63 +11,93 @@ fn zeros(zeros: &[Zero]) -> Value {
     zeros.iter().map(|z| json!({"vertex": z.vertex.0, "multiplicity": z.multiplicity})).collect()
 }
 
-pub fn of_forms(found: &Found) -> Figures {
-    let (forms, periods) = (&found.forms, found.periods.as_ref());
-    let figures = Figures::default()
-        .with("forms", forms.forms.len())
-        .with("basis", forms.basis.group.names())
-        .with("flips", forms.domain.metric().start_flips())
-        .with("period_matrix", periods.map_or(Value::Null, |p| json!(p.matrix)))
-        .with("zeros", found.zeros.iter().map(|z| zeros(z)).collect::<Vec<_>>())
-        .with("closedness", forms.closedness)
-        .with("coclosedness", forms.coclosedness)
-        .with("period_error", found.period_error())
-        .with("largest_index", found.largest_index())
-        .with("riemann_symmetry", periods.map(|p| p.asymmetry))
-        .with("riemann_min_eigenvalue", periods.map(|p| p.least_eigenvalue))
-        .with("star_residual", periods.map(|p| p.star_residual))
-        .if_some("modulus", periods.and_then(|p| p.modulus()).map(|tau| json!(tau)));
-    match &found.chosen {
-        Some(chosen) => figures
-            .with("combination", chosen.coefficients.clone())
-            .with("combination_zeros", zeros(&chosen.zeros))
-            .with("unevenness", chosen.unevenness)
-            .with("flipped_triangles", chosen.layout.flipped.len())
-            .with("qc_mean", chosen.dilatation.0)
-            .with("qc_99", chosen.dilatation.1),
-        None => figures,
-    }
-}
+/// Largest dω of a form of the basis, relative to its largest value.
+const CLOSED: f64 = 1e-12;
+/// Largest d*ω of a form of the basis, relative to its largest value.
+const COCLOSED: f64 = 1e-10;
+/// Largest error of the integral of a form of the basis over a loop.
+const PERIODS: f64 = 1e-10;
 
-pub fn say(done: &Done<Found>) -> Result<(), Failure> {
-    let found = &done.result;
-    let forms = &found.forms;
-    let mut text = say::surface(&done.input);
-    text += &format!(
-        "forms    {}, dω = {:.1e}, d*ω = {:.1e}, integrals off by {:.1e}\n",
-        say::count(forms.forms.len(), "harmonic form", "harmonic forms"),
-        forms.closedness,
-        forms.coclosedness,
-        found.period_error()
-    );
-    if let Some(periods) = &found.periods {
-        text += &format!(
-            "periods  least eigenvalue of Im Π {:.6}, ‖Π − Πᵀ‖/‖Π‖ = {:.1e}, ‖J² + 1‖ = {:.1e}{}\n",
-            periods.least_eigenvalue,
-            periods.asymmetry,
-            periods.star_residual,
-            say::modulus(periods.modulus())
-        );
+impl JobOutcome for FormsOutcome {
+    type Figures = Figures;
+
+    fn checks(&self) -> Checks {
+        let mut checks = Checks::default();
+        checks.add("closedness", self.forms.closedness, CLOSED);
+        checks.add("coclosedness", self.forms.coclosedness, COCLOSED);
+        checks.add("period_error", self.period_error(), PERIODS);
+        if let Some(periods) = &self.periods {
+            // Positive definite: minus the least eigenvalue is below 0.
+            checks.add("riemann_indefinite", -periods.least_eigenvalue, 0.0);
+            let expected = 2 * periods.genus() as i64 - 2;
+            let total = |zeros: &Vec<Zero>| zeros.iter().map(|z| z.multiplicity).sum::<i64>();
+            let off = self.zeros.iter().map(|zeros| (total(zeros) - expected).abs()).max().unwrap_or(0);
+            checks.add("zeros_missing", off as f64, 0.0);
+        }
+        checks
     }
-    if let Some(chosen) = &found.chosen {
-        let total: i64 = chosen.zeros.iter().map(|z| z.multiplicity).sum();
-        text += &format!(
-            "drawn    a form with {} at {}, dilatation {:.4} on average, {:.4} on 99% of the area\n",
-            say::count(total.unsigned_abs() as usize, "zero", "zeros"),
-            say::count(chosen.zeros.len(), "vertex", "vertices"),
-            chosen.dilatation.0,
-            chosen.dilatation.1
-        );
+
+    fn input(&self) -> Option<InputSummary> {
+        Some(InputSummary::of(&self.input))
     }
-    say::lines(&(text + &say::finish(done, &found.failed)), &done.files)
+
+    fn figures(&self, _: &CommandRun<'_>) -> Figures {
+        let (forms, periods) = (&self.forms, self.periods.as_ref());
+        let figures = Figures::default()
+            .with("forms", forms.forms.len())
+            .with("basis", forms.basis.group.names())
+            .with("flips", forms.domain.metric().start_flips())
+            .with("period_matrix", periods.map_or(Value::Null, |p| json!(p.matrix)))
+            .with("zeros", self.zeros.iter().map(|z| zeros(z)).collect::<Vec<_>>())
+            .with("closedness", forms.closedness)
+            .with("coclosedness", forms.coclosedness)
+            .with("period_error", self.period_error())
+            .with("largest_index", self.largest_index())
+            .with("riemann_symmetry", periods.map(|p| p.asymmetry))
+            .with("riemann_min_eigenvalue", periods.map(|p| p.least_eigenvalue))
+            .with("star_residual", periods.map(|p| p.star_residual))
+            .if_some("modulus", periods.and_then(|p| p.modulus()).map(|tau| json!(tau)));
+        match &self.chosen {
+            Some(chosen) => figures
+                .with("combination", chosen.coefficients.clone())
+                .with("combination_zeros", zeros(&chosen.zeros))
+                .with("unevenness", chosen.unevenness)
+                .with("flipped_triangles", chosen.layout.flipped.len())
+                .with("qc_mean", chosen.dilatation.0)
+                .with("qc_99", chosen.dilatation.1),
+            None => figures,
+        }
+    }
+
+    fn summary(&self, done: &Done) -> String {
+        let forms = &self.forms;
+        let mut text = say::surface(&self.input);
+        text += &format!(
+            "forms    {}, dω = {:.1e}, d*ω = {:.1e}, integrals off by {:.1e}\n",
+            say::count(forms.forms.len(), "harmonic form", "harmonic forms"),
+            forms.closedness,
+            forms.coclosedness,
+            self.period_error()
+        );
+        if let Some(periods) = &self.periods {
+            text += &format!(
+                "periods  least eigenvalue of Im Π {:.6}, ‖Π − Πᵀ‖/‖Π‖ = {:.1e}, ‖J² + 1‖ = {:.1e}{}\n",
+                periods.least_eigenvalue,
+                periods.asymmetry,
+                periods.star_residual,
+                say::modulus(periods.modulus())
+            );
+        }
+        if let Some(chosen) = &self.chosen {
+            let total: i64 = chosen.zeros.iter().map(|z| z.multiplicity).sum();
+            text += &format!(
+                "drawn    a form with {} at {}, dilatation {:.4} on average, {:.4} on 99% of the area\n",
+                say::count(total.unsigned_abs() as usize, "zero", "zeros"),
+                say::count(chosen.zeros.len(), "vertex", "vertices"),
+                chosen.dilatation.0,
+                chosen.dilatation.1
+            );
+        }
+        text + &say::finish(done)
+    }
 }

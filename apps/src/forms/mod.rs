@@ -2,10 +2,9 @@
 
 mod args;
 mod command;
-mod drawn;
 mod figures;
 mod file;
-mod found;
+mod outcome;
+mod picture;
 
 pub use args::{FormsArgs, HELP};
-pub use command::{execute, run};

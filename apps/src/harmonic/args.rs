@@ -32,7 +32,7 @@ pub struct HarmonicArgs {
     /// Where to: disk, polygon:N, rectangle, sphere or file:F.csv [default: sphere for closed surfaces, else disk]
     #[arg(long, value_name = "TARGET", value_parser = target)]
     #[serde(skip)]
-    pub to: Option<Target>,
+    pub to: Option<MapTarget>,
     /// Corners of the polygon or the rectangle, which has four: boundary vertices (numbered from 0), in order with the surface on the left
     /// [default: evenly by the length of the boundary]
     #[arg(long, value_name = "V,V,…", value_delimiter = ',')]
@@ -52,30 +52,30 @@ pub struct HarmonicArgs {
     pub common: Common,
 }
 
-/// Where a surface is mapped to.
+/// The image that a surface is mapped onto.
 #[derive(Serialize, Debug, Clone, PartialEq)]
 #[serde(rename_all = "lowercase")]
-pub enum Target {
+pub enum MapTarget {
     Disk,
-    /// With this many corners; none for those that are named.
+    /// A polygon with this many corners; none where `--corners` names them.
     Polygon(Option<u32>),
     Rectangle,
     Sphere,
     File(FileName),
 }
 
-fn target(text: &str) -> Result<Target, String> {
+fn target(text: &str) -> Result<MapTarget, String> {
     match text {
-        "disk" => Ok(Target::Disk),
-        "polygon" => Ok(Target::Polygon(None)),
-        "rectangle" => Ok(Target::Rectangle),
-        "sphere" => Ok(Target::Sphere),
+        "disk" => Ok(MapTarget::Disk),
+        "polygon" => Ok(MapTarget::Polygon(None)),
+        "rectangle" => Ok(MapTarget::Rectangle),
+        "sphere" => Ok(MapTarget::Sphere),
         _ => match (text.strip_prefix("polygon:"), text.strip_prefix("file:")) {
             (Some(n), _) => match n.parse() {
-                Ok(n) if n >= 3 => Ok(Target::Polygon(Some(n))),
+                Ok(n) if n >= 3 => Ok(MapTarget::Polygon(Some(n))),
                 _ => Err(format!("polygon:{n}: the number of corners is whole, at least 3 and below 2^32")),
             },
-            (_, Some(path)) if !path.is_empty() => Ok(Target::File(std::ffi::OsString::from(path).into())),
+            (_, Some(path)) if !path.is_empty() => Ok(MapTarget::File(std::ffi::OsString::from(path).into())),
             _ => Err("must be disk, polygon:N, rectangle, sphere or file:F.csv".into()),
         },
     }

@@ -1,36 +1,29 @@
 //! Harmonic maps as files and in pictures.
 
 use super::args::HarmonicArgs;
-use super::found::{Found, Plane};
+use super::outcome::{HarmonicOutcome, PlaneMap};
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::output::{Outputs, write_textured};
 use crate::picture::{self, Picture, ShownLayout, ShownSurface, TextureChoice};
-use crate::uv::Drawn;
+use crate::uv::UvMesh;
 use ricci::harmonic::SphereMap;
-use ricci::mesh::io::TexturedMesh;
-use ricci::mesh::{Mesh, PerHalfedge, Point, VertexId};
+use ricci::mesh::io::Textured;
+use ricci::mesh::{Mesh, PerHalfedge, VertexId};
 use std::path::Path;
 
-impl Plane {
+impl PlaneMap {
     fn mesh<'a>(&'a self, input: &'a Input) -> &'a Mesh {
         self.refinement.as_ref().map_or(input.mesh(), |r| &r.mesh)
-    }
-
-    fn positions(&self, input: &Input) -> Result<Vec<Point>, Failure> {
-        let Some(given) = input.positions() else {
-            return Err(Failure::Failed("an intrinsic metric has no positions in space".into()));
-        };
-        Ok(self.refinement.as_ref().map_or_else(|| Ok(given.to_vec()), |r| r.from_input_vertices(given))?)
     }
 
     /// The surface with the map as texture coordinates.
     pub fn write(&self, outputs: &mut Outputs, path: &Path, input: &Input) -> Result<(), Failure> {
         let mesh = self.mesh(input);
         let index = PerHalfedge::from_fn(mesh.n_halfedges(), |h| mesh.origin(h).0);
-        let drawn = Drawn {
+        let drawn = UvMesh {
             mesh,
-            positions: &self.positions(input)?,
+            positions: &input.positions_on(self.refinement.as_ref())?,
             index: &index,
             texcoords: &self.points,
             weights: &[],
@@ -52,7 +45,7 @@ impl Plane {
         if args.picture.is_svg() {
             return picture::svg(&Picture { flat, ..Picture::default() }, &style);
         }
-        let positions = self.positions(input)?;
+        let positions = input.positions_on(self.refinement.as_ref())?;
         let surface = ShownSurface {
             positions: &positions,
             faces: &faces,
@@ -69,17 +62,21 @@ impl Plane {
 pub fn write_sphere(
     outputs: &mut Outputs,
     path: &Path,
-    found: &Found,
+    outcome: &HarmonicOutcome,
     map: &SphereMap,
 ) -> Result<(), Failure> {
-    let faces = found.domain.mesh().triangles();
-    let data = TexturedMesh { positions: &map.points, faces: &faces, ..TexturedMesh::default() };
+    let faces = outcome.domain.mesh().triangles();
+    let data = Textured { positions: &map.points, faces: &faces, ..Textured::default() };
     write_textured(outputs, path, &data)
 }
 
 /// The sphere with the edges of the domain.
-pub fn draw_sphere(found: &Found, map: &SphereMap, args: &HarmonicArgs) -> Result<Vec<u8>, Failure> {
-    let faces = found.domain.mesh().triangles();
+pub fn draw_sphere(
+    outcome: &HarmonicOutcome,
+    map: &SphereMap,
+    args: &HarmonicArgs,
+) -> Result<Vec<u8>, Failure> {
+    let faces = outcome.domain.mesh().triangles();
     let surface = ShownSurface {
         positions: &map.points,
         faces: &faces,

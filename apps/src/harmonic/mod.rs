@@ -3,7 +3,6 @@
 mod args;
 mod command;
 mod files;
-mod found;
+mod outcome;
 
 pub use args::{HELP, HarmonicArgs};
-pub use command::{execute, run};

@@ -43,10 +43,10 @@ Files
     --heat H.png         the source in colours: with --same-numbering how far each vertex comes to lie from its partner, else how much each
                          face is distorted";
 
-/// What the picture of a matching shows.
+/// The contents of a picture of `ricci match`.
 #[derive(ValueEnum, Serialize, Debug, Clone, Copy, PartialEq)]
 #[serde(rename_all = "lowercase")]
-pub enum ShowChoice {
+pub enum MatchPictureChoice {
     /// Both surfaces with one texture: the target's, carried over
     Carried,
     /// Both triangulations in the common domain
@@ -55,7 +55,7 @@ pub enum ShowChoice {
     Heat,
 }
 
-/// How boundaries correspond.
+/// The correspondence of boundaries.
 #[derive(ValueEnum, Serialize, Debug, Clone, Copy, PartialEq, Eq)]
 #[serde(rename_all = "kebab-case")]
 pub enum BoundaryName {
@@ -74,7 +74,7 @@ impl From<BoundaryName> for BoundaryMatching {
     }
 }
 
-/// What boundary loops become in the domain.
+/// The shape of boundary loops in the domain.
 #[derive(ValueEnum, Serialize, Debug, Clone, Copy, PartialEq, Eq)]
 #[serde(rename_all = "lowercase")]
 pub enum LoopShapeName {
@@ -159,7 +159,7 @@ pub struct MatchArgs {
     /// What the picture shows [default: carried]
     #[arg(long, value_enum, requires = "picture")]
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub show: Option<ShowChoice>,
+    pub show: Option<MatchPictureChoice>,
     #[command(flatten)]
     #[serde(flatten)]
     pub picture: PictureArgs,

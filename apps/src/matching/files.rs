@@ -1,9 +1,7 @@
-//! Matchings as files.
+//! The files of `ricci match`.
 
-use super::found::Found;
-use super::no_positions;
+use super::outcome::MatchOutcome;
 use crate::failure::Failure;
-use crate::input::Input;
 use crate::output::{Outputs, write_textured};
 use ricci::matching::SurfaceMap;
 use ricci::mesh::io::TexturedMesh;
@@ -22,30 +20,25 @@ pub fn write_map(outputs: &mut Outputs, path: &Path, map: &SurfaceMap) -> Result
     outputs.add_bytes(path, text.as_bytes())
 }
 
-/// The source's faces, its vertices at their images.
-pub fn write_moved(outputs: &mut Outputs, path: &Path, input: &Input, found: &Found) -> Result<(), Failure> {
-    let Some(positions) = found.target.positions() else { return Err(no_positions()) };
-    let images = found.matching.forward.carry(found.target.mesh(), positions)?;
-    let faces = input.mesh().triangles();
-    let data = TexturedMesh { positions: &images, faces: &faces, ..TexturedMesh::default() };
+/// The source with its vertices at their images.
+pub fn write_moved(outputs: &mut Outputs, path: &Path, outcome: &MatchOutcome) -> Result<(), Failure> {
+    let Some(positions) = outcome.target.positions() else { return Err(Failure::no_positions()) };
+    let images = outcome.matching.forward.carry(outcome.target.mesh(), positions)?;
+    let faces = outcome.source.mesh().triangles();
+    let data = Textured { positions: &images, faces: &faces, ..Textured::default() };
     write_textured(outputs, path, &data)
 }
 
 /// The source with the target's texture coordinates. Where these have seams, each vertex takes those of the face of the target that it lies
 /// in.
-pub fn write_carried(
-    outputs: &mut Outputs,
-    path: &Path,
-    input: &Input,
-    found: &Found,
-) -> Result<(), Failure> {
-    let Some(uv) = &found.target.attributes.uv else {
+pub fn write_carried(outputs: &mut Outputs, path: &Path, outcome: &MatchOutcome) -> Result<(), Failure> {
+    let Some(uv) = &outcome.target.attributes.uv else {
         return Err(Failure::Failed("the target has no texture coordinates".into()));
     };
-    let Some(positions) = input.positions() else { return Err(no_positions()) };
-    let texcoords = found.matching.forward.carry_corners(found.target.mesh(), uv)?;
-    let faces = input.mesh().triangles();
-    let data = TexturedMesh {
+    let Some(positions) = outcome.source.positions() else { return Err(Failure::no_positions()) };
+    let texcoords = outcome.matching.forward.carry_corners(outcome.target.mesh(), uv)?;
+    let faces = outcome.source.mesh().triangles();
+    let data = Textured {
         positions,
         faces: &faces,
         texcoords: &texcoords,
@@ -59,13 +52,13 @@ pub fn write_carried(
 pub fn write_overlay(
     outputs: &mut Outputs,
     path: &Path,
-    input: &Input,
-    (found, overlay): (&Found, &Overlay),
+    outcome: &MatchOutcome,
+    overlay: &Overlay,
 ) -> Result<(), Failure> {
-    let Some(positions) = input.positions() else { return Err(no_positions()) };
-    let positions = overlay.from_vertices(0, input.mesh(), positions)?;
+    let Some(positions) = outcome.source.positions() else { return Err(Failure::no_positions()) };
+    let positions = overlay.from_vertices(0, outcome.source.mesh(), positions)?;
     let faces = overlay.mesh.triangles();
-    let carried = match &found.target.attributes.uv {
+    let carried = match &outcome.target.attributes.uv {
         Some(uv) => overlay.from_corners(1, uv)?,
         None => Vec::new(),
     };
@@ -80,7 +73,7 @@ pub fn write_overlay(
     write_textured(outputs, path, &data)
 }
 
-/// A row for every corner of the overlay: its places in the source and in the target, and its weight.
+/// A row for every corner of the overlay, with its places in the source and in the target and its weight.
 pub fn write_places(outputs: &mut Outputs, path: &Path, overlay: &Overlay) -> Result<(), Failure> {
     let mut text = String::from("face,vertex,source_face,a0,a1,a2,target_face,b0,b1,b2,weight\n");
     for f in overlay.mesh.faces() {

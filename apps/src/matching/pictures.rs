@@ -1,10 +1,9 @@
-//! Matchings in pictures: one texture on both surfaces, both triangulations in the domain, how far the map is from what it should be.
+//! The pictures of `ricci match`: one texture on both surfaces, both triangulations in the domain, and the source coloured by the errors
+//! or the distortion of the map.
 
-use super::args::{MatchArgs, ShowChoice};
-use super::found::Found;
-use super::no_positions;
+use super::args::{MatchArgs, MatchPictureChoice};
+use super::outcome::MatchOutcome;
 use crate::failure::Failure;
-use crate::input::Input;
 use crate::picture::{
     self, Circle, ColorField, ColorScale, Picture, ShownLayout, ShownSurface, Style, TextureChoice, Tiles,
 };
@@ -13,33 +12,33 @@ use ricci::geometry::{Motion, Space, model};
 use ricci::matching::{DomainTriangle, dilatations};
 use ricci::mesh::{Point, VertexId};
 
-/// Checks of the texture along the target's longest direction.
+/// The number of checks of the texture along the longest direction of the target.
 const CHECKS: f64 = 24.0;
-/// Curvature in whose colour landmarks are drawn.
+/// The curvature in whose colour landmarks are drawn.
 const LANDMARK: f64 = 1.0;
 
-/// Draw what is asked for.
-pub fn draw(show: ShowChoice, input: &Input, found: &Found, args: &MatchArgs) -> Result<Vec<u8>, Failure> {
+pub fn draw(show: MatchPictureChoice, outcome: &MatchOutcome, args: &MatchArgs) -> Result<Vec<u8>, Failure> {
     match show {
-        ShowChoice::Carried => carried(input, found, args),
-        ShowChoice::Domains => domains(found, args),
-        ShowChoice::Heat => heat(input, found, args),
+        MatchPictureChoice::Carried => carried(outcome, args),
+        MatchPictureChoice::Domains => domains(outcome, args),
+        MatchPictureChoice::Heat => heat(outcome, args),
     }
 }
 
-/// Both surfaces with one texture: on the target by its two longest directions, on the source carried over.
-fn carried(input: &Input, found: &Found, args: &MatchArgs) -> Result<Vec<u8>, Failure> {
-    let (Some(from), Some(to)) = (input.positions(), found.target.positions()) else {
-        return Err(no_positions());
+/// Both surfaces with one texture: on the target along its two longest directions, on the source carried over by the map.
+fn carried(outcome: &MatchOutcome, args: &MatchArgs) -> Result<Vec<u8>, Failure> {
+    let (Some(from), Some(to)) = (outcome.source.positions(), outcome.target.positions()) else {
+        return Err(Failure::no_positions());
     };
     let uv = projected(to);
-    let carried = found.matching.forward.carry(found.target.mesh(), &uv)?;
-    let faces = [input.mesh().triangles(), found.target.mesh().triangles()];
+    let carried = outcome.matching.forward.carry(outcome.target.mesh(), &uv)?;
+    let faces = [outcome.source.mesh().triangles(), outcome.target.mesh().triangles()];
     let corners = |faces: &[[u32; 3]], uv: &[[f64; 2]]| -> Vec<[[f64; 2]; 3]> {
         faces.iter().map(|f| f.map(|v| uv[v as usize])).collect()
     };
     let corner_uv = [corners(&faces[0], &carried), corners(&faces[1], &uv)];
-    let marks = [0, 1].map(|s| found.landmarks.iter().map(|pair| (pair[s].0, LANDMARK)).collect::<Vec<_>>());
+    let marks =
+        [0, 1].map(|s| outcome.landmarks.iter().map(|pair| (pair[s].0, LANDMARK)).collect::<Vec<_>>());
     let surface = |k: usize, positions, is_closed| ShownSurface {
         positions,
         faces: &faces[k],
@@ -52,8 +51,8 @@ fn carried(input: &Input, found: &Found, args: &MatchArgs) -> Result<Vec<u8>, Fa
     let pattern = Tiles::even(1.0 / CHECKS, faces[0].len().max(faces[1].len()));
     let both = Picture {
         pattern: Some(&pattern),
-        surface: Some(surface(0, from, input.mesh().is_closed())),
-        beside: Some(surface(1, to, found.target.mesh().is_closed())),
+        surface: Some(surface(0, from, outcome.source.mesh().is_closed())),
+        beside: Some(surface(1, to, outcome.target.mesh().is_closed())),
         ..Picture::default()
     };
     picture::png(&both, &style)
@@ -73,11 +72,11 @@ fn projected(points: &[Point]) -> Vec<[f64; 2]> {
 }
 
 /// Both triangulations in the domain: on the sphere, in the plane or in the Poincaré disk, where lines between vertices are drawn straight.
-fn domains(found: &Found, args: &MatchArgs) -> Result<Vec<u8>, Failure> {
+fn domains(outcome: &MatchOutcome, args: &MatchArgs) -> Result<Vec<u8>, Failure> {
     let style = Style { wire: true, ..args.picture.style(TextureChoice::None, args.common.threads) };
-    let domain = &found.matching.domain;
+    let domain = &outcome.matching.domain;
     let triangles = [0, 1].map(|side| domain.triangles(side));
-    let marks = [0, 1].map(|s| found.landmarks.iter().map(|pair| pair[s]).collect::<Vec<_>>());
+    let marks = [0, 1].map(|s| outcome.landmarks.iter().map(|pair| pair[s]).collect::<Vec<_>>());
     if domain.space() == Space::S2 {
         let points =
             triangles.each_ref().map(|all| all.iter().flat_map(|t| t.corners).collect::<Vec<Point>>());
@@ -104,7 +103,7 @@ fn domains(found: &Found, args: &MatchArgs) -> Result<Vec<u8>, Failure> {
     let rim = [Circle { center: [0.0; 2], radius: 1.0 }];
     let rims: &[Circle] = if domain.space() == Space::H2 { &rim } else { &[] };
     let flat = |s: usize| ShownLayout { corner_uv: &uv[s], cones: &dots[s], rims, ..ShownLayout::default() };
-    // No pattern is drawn; without one of so many faces the second panel would take that of the first.
+    // No pattern is drawn, but the two panels share one, which must have an entry for every face of either.
     let pattern = Tiles::even(1.0, uv[0].len().max(uv[1].len()));
     let both = Picture {
         pattern: Some(&pattern),
@@ -119,7 +118,7 @@ fn domains(found: &Found, args: &MatchArgs) -> Result<Vec<u8>, Failure> {
 fn in_plane(space: Space, triangles: &[DomainTriangle]) -> Vec<[[f64; 2]; 3]> {
     let home = match space {
         Space::H2 => {
-            // By area about equal weights: what is far out has most of the triangles, and they are small there.
+            // Weighted by area: most triangles lie far out, and are small there.
             let middle = triangles.iter().map(|t| {
                 let [a, b, c] = t.corners.map(model::poincare);
                 let area = 0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])).abs();
@@ -139,18 +138,19 @@ fn in_plane(space: Space, triangles: &[DomainTriangle]) -> Vec<[[f64; 2]; 3]> {
     triangles.iter().map(|t| t.corners.map(plane)).collect()
 }
 
-/// The source in colours: the distance of every vertex's image from the vertex of the same number where numbers correspond, else how much
-/// the map distorts every face.
-fn heat(input: &Input, found: &Found, args: &MatchArgs) -> Result<Vec<u8>, Failure> {
-    let Some(positions) = input.positions() else { return Err(no_positions()) };
-    let mesh = input.mesh();
-    let field = match &found.partners {
+/// The source in colours: where numbers correspond, the distance of the image of every vertex from the vertex of the same number; else
+/// the distortion of every face by the map.
+fn heat(outcome: &MatchOutcome, args: &MatchArgs) -> Result<Vec<u8>, Failure> {
+    let Some(positions) = outcome.source.positions() else { return Err(Failure::no_positions()) };
+    let mesh = outcome.source.mesh();
+    let field = match &outcome.partners {
         Some(off) => ColorField {
             corners: mesh.faces().map(|f| mesh.face_vertices(f).map(|v| off[v.index()])).collect(),
             scale: ColorScale::of_amounts("distance from the partner, over the diagonal", off),
         },
         None => {
-            let all = dilatations([&input.surface, &found.target.surface], &found.matching.forward)?;
+            let all =
+                dilatations([&outcome.source.surface, &outcome.target.surface], &outcome.matching.forward)?;
             ColorField {
                 corners: all.iter().map(|k| [*k; 3]).collect(),
                 scale: ColorScale::of_amounts("quasi-conformal dilatation K", &all),
@@ -158,7 +158,7 @@ fn heat(input: &Input, found: &Found, args: &MatchArgs) -> Result<Vec<u8>, Failu
         }
     };
     let faces = mesh.triangles();
-    let marks: Vec<_> = found.landmarks.iter().map(|pair| (pair[0].0, LANDMARK)).collect();
+    let marks: Vec<_> = outcome.landmarks.iter().map(|pair| (pair[0].0, LANDMARK)).collect();
     let surface = ShownSurface {
         positions,
         faces: &faces,

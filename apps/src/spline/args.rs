@@ -2,7 +2,7 @@
 
 use crate::options::{Common, FileName, choices, number, positive};
 use crate::picture::PictureArgs;
-use crate::uniform::CornersChoice;
+use crate::uniformize::CornersChoice;
 use clap::{Args, Subcommand, ValueEnum};
 use ricci::structure::AffineSource;
 use serde::Serialize;
@@ -178,7 +178,7 @@ pub struct ExportArgs {
     pub tolerance: f64,
     /// The unit of the coordinates, which STEP files say
     #[arg(long, value_enum, value_name = "UNIT", default_value = "mm")]
-    pub unit: Unit,
+    pub unit: UnitChoice,
     #[command(flatten)]
     #[serde(flatten)]
     pub common: Common,
@@ -186,7 +186,7 @@ pub struct ExportArgs {
 
 #[derive(ValueEnum, Serialize, Debug, Clone, Copy)]
 #[serde(rename_all = "lowercase")]
-pub enum Unit {
+pub enum UnitChoice {
     /// Millimetres
     Mm,
     /// Metres

@@ -1,38 +1,38 @@
-//! `ricci spline eval`.
+//! `ricci spline eval` as a job: points, derivatives and triangles of a spline.
 
 use super::args::EvalArgs;
 use super::picture::draw;
 use crate::csv::read_rows;
 use crate::failure::Failure;
+use crate::options::FileName;
 use crate::output::{Outputs, check_extension, check_outputs, format_of};
-use crate::progress::Progress;
-use crate::report::{Checks, Figures, Report, Seconds, timed};
-use crate::say::{self, count};
+use crate::report::{Done, Figures, timed};
+use crate::runner::{CommandRun, Job, JobHeader, JobOutcome};
+use crate::say::count;
 use ricci::Control;
 use ricci::mesh::io;
 use ricci::spline::{ClosestPoint, Parameter, Spline, SurfacePoint};
 use std::io::Write;
 use std::path::Path;
 use std::str::FromStr;
-use std::time::Instant;
 
-/// What `-o` is to hold.
-enum Wanted<'a> {
+/// The contents of the file of `-o`.
+enum EvalOutput<'a> {
     Rows { at: &'a Path, out: &'a Path },
     Nearest { to: &'a Path, out: &'a Path },
     Mesh { sides: u16, out: &'a Path },
     Nothing,
 }
 
-impl Wanted<'_> {
-    fn of(args: &EvalArgs) -> Result<Wanted<'_>, Failure> {
+impl EvalOutput<'_> {
+    fn of(args: &EvalArgs) -> Result<EvalOutput<'_>, Failure> {
         if let (Some(out), Some(to)) = (args.out.as_deref(), args.closest.as_deref()) {
-            return Ok(Wanted::Nearest { to, out });
+            return Ok(EvalOutput::Nearest { to, out });
         }
         match (args.out.as_deref(), args.at.as_deref(), args.tessellate) {
-            (Some(out), Some(at), _) => Ok(Wanted::Rows { at, out }),
-            (Some(out), None, Some(sides)) => Ok(Wanted::Mesh { sides, out }),
-            (None, None, _) => Ok(Wanted::Nothing),
+            (Some(out), Some(at), _) => Ok(EvalOutput::Rows { at, out }),
+            (Some(out), None, Some(sides)) => Ok(EvalOutput::Mesh { sides, out }),
+            (None, None, _) => Ok(EvalOutput::Nothing),
             (Some(_), None, None) => Err(Failure::Usage(
                 "-o: say with --at Q.csv, --closest P.csv or --tessellate N what is to be written".into(),
             )),
@@ -41,86 +41,100 @@ impl Wanted<'_> {
     }
 }
 
-/// Evaluate a spline at places, or all over, and draw it.
-pub fn eval(args: &EvalArgs, control: &Control) -> Result<u8, Failure> {
-    let start = Instant::now();
-    let wanted = Wanted::of(args)?;
-    let known: &[&str] =
-        if args.at.is_some() || args.closest.is_some() { &["csv"] } else { &["obj", "off", "ply", "glb"] };
-    let picture = args.picture.picture.as_deref();
-    check_extension("-o", args.out.as_deref(), known)?;
-    check_extension("--picture", picture, &["png"])?;
-    check_outputs(
-        &[Some(&args.spline), args.at.as_deref(), args.closest.as_deref()],
-        &[args.out.as_deref(), picture, args.common.report.as_deref()],
-    )?;
-    let progress = Progress::watch(control, args.common.quiet);
-    let mut seconds = Seconds::default();
-    let spline = timed(&mut seconds.read, || Spline::read(&args.spline))?;
-    let mut outputs = Outputs::default();
-    let points = timed(&mut seconds.solve, || write(&wanted, &spline, args, (&mut outputs, control)))?;
-    if let Some(path) = picture {
-        let drawn = timed(&mut seconds.picture, || draw(&spline, args, control));
-        outputs.add_bytes(path, &drawn?)?;
+/// A spline, with the file of `-o` written already: its rows are written while they are computed.
+pub struct EvalOutcome {
+    out: Option<FileName>,
+    spline: Spline,
+    points: usize,
+}
+
+impl Job for EvalArgs {
+    type Outcome = EvalOutcome;
+
+    fn header(&self) -> JobHeader<'_> {
+        JobHeader { name: "spline", common: &self.common, mesh: None }
     }
-    if let Some(path) = &args.common.report {
-        let space = spline.space();
-        let figures = Figures::default()
+
+    fn check(&self) -> Result<(), Failure> {
+        EvalOutput::of(self)?;
+        let has_rows = self.at.is_some() || self.closest.is_some();
+        let known: &[&str] = if has_rows { &["csv"] } else { &["obj", "off", "ply", "glb"] };
+        check_extension("-o", self.out.as_deref(), known)?;
+        check_extension("--picture", self.picture.picture.as_deref(), &["png"])?;
+        let files = [&self.out, &self.picture.picture, &self.common.report];
+        check_outputs(
+            &[Some(&self.spline), self.at.as_deref(), self.closest.as_deref()],
+            &files.map(|file| file.as_deref()),
+        )
+    }
+
+    fn compute(&self, run: &mut CommandRun<'_>) -> Result<EvalOutcome, Failure> {
+        let spline = timed(&mut run.seconds.read, || Spline::read(&self.spline))?;
+        let write = || write_output(self, &spline, &mut run.outputs, run.control);
+        let points = timed(&mut run.seconds.solve, write)?;
+        Ok(EvalOutcome { out: self.out.clone(), spline, points })
+    }
+
+    fn write(&self, outcome: &EvalOutcome, run: &mut CommandRun<'_>) -> Result<(), Failure> {
+        let control = run.control;
+        run.draw(self.picture.picture.as_deref(), || draw(&outcome.spline, self, control))
+    }
+}
+
+impl JobOutcome for EvalOutcome {
+    type Figures = Figures;
+
+    fn figures(&self, _: &CommandRun<'_>) -> Figures {
+        let space = self.spline.space();
+        Figures::default()
             .with("degree", space.degree())
             .with("patches", space.patches().len())
             .with("control_points", space.n_control_points())
-            .with("points", points);
-        seconds.total = start.elapsed().as_secs_f64();
-        let report = Report::new("spline", None, args, figures);
-        outputs.add_report(path, &report.finished(Checks::default(), seconds))?;
+            .with("points", self.points)
     }
-    control.check()?;
-    let files = outputs.commit()?;
-    drop(progress);
-    if !args.common.quiet {
-        let text = args.out.as_ref().map_or_else(String::new, |out| {
-            format!("{}: {}\n", out.display(), count(points, "point", "points"))
-        });
-        say::lines(&text, &files)?;
+
+    fn summary(&self, _: &Done) -> String {
+        let points = count(self.points, "point", "points");
+        self.out.as_ref().map_or_else(String::new, |out| format!("{}: {points}\n", out.display()))
     }
-    Ok(0)
 }
 
-/// Add what `-o` is to hold; returns how many points that is.
-fn write(
-    wanted: &Wanted<'_>,
-    spline: &Spline,
+/// Write the file of `-o`; returns the number of its points.
+fn write_output(
     args: &EvalArgs,
-    (outputs, control): (&mut Outputs, &Control),
+    spline: &Spline,
+    outputs: &mut Outputs,
+    control: &Control,
 ) -> Result<usize, Failure> {
     let threads = args.common.threads;
-    match *wanted {
-        Wanted::Rows { at, out } => {
+    match EvalOutput::of(args)? {
+        EvalOutput::Rows { at, out } => {
             let places = places(at)?;
             let order = if args.derivatives { 2 } else { 0 };
-            let found = match args.filled {
-                true => spline.evaluate(&places, order, threads, control)?,
-                false => spline.clone().with_holes(Vec::new()).evaluate(&places, order, threads, control)?,
+            let found = if args.filled {
+                spline.evaluate(&places, order, threads, control)?
+            } else {
+                spline.clone().with_holes(Vec::new()).evaluate(&places, order, threads, control)?
             };
             let in_hole = |&at: &Parameter| spline.is_in_hole(at);
             let holes = (!spline.holes().is_empty()).then(|| places.iter().map(in_hole).collect::<Vec<_>>());
-            let rows = Rows { places: &places, points: &found, derivatives: args.derivatives, holes };
+            let rows = PointRows { places: &places, points: &found, derivatives: args.derivatives, holes };
             outputs.add(out, |file| rows.write(file))?;
             Ok(found.len())
         }
-        Wanted::Nearest { to, out } => {
+        EvalOutput::Nearest { to, out } => {
             let points = points(to)?;
             let found = spline.closest_points(threads, control)?.find(&points, threads, control)?;
             outputs.add(out, |file| write_nearest(file, &points, &found))?;
             Ok(found.len())
         }
-        Wanted::Mesh { sides, out } => {
+        EvalOutput::Mesh { sides, out } => {
             let soup = spline.tessellate(sides.into(), threads, control)?;
             let format = format_of(out)?;
             outputs.add_named(out, |path| io::write_as(path, format, &soup))?;
             Ok(soup.positions.len())
         }
-        Wanted::Nothing => Ok(0),
+        EvalOutput::Nothing => Ok(0),
     }
 }
 
@@ -160,15 +174,15 @@ fn write_nearest(out: &mut impl Write, points: &[[f64; 3]], nearest: &[ClosestPo
 }
 
 /// The rows of `--at`.
-struct Rows<'a> {
+struct PointRows<'a> {
     places: &'a [Parameter],
     points: &'a [SurfacePoint],
     derivatives: bool,
-    /// Of a spline with holes, whether a place is in one.
+    /// Per place true if it lies in a hole; none for a spline without holes.
     holes: Option<Vec<bool>>,
 }
 
-impl Rows<'_> {
+impl PointRows<'_> {
     fn write(&self, out: &mut impl Write) -> std::io::Result<()> {
         write!(out, "patch,x,y,X,Y,Z")?;
         if self.derivatives {
@@ -184,7 +198,7 @@ impl Rows<'_> {
             let all = found.point.iter().chain(derivatives.filter(|_| self.derivatives));
             all.into_iter().try_for_each(|x| write!(out, ",{x}"))?;
             if self.derivatives {
-                // Where the first derivatives are parallel there is no normal: the fields stay empty.
+                // There is no normal where the first derivatives are parallel: its fields stay empty.
                 let normal =
                     found.normal().map_or_else(|| ",,".into(), |n| format!("{},{},{}", n[0], n[1], n[2]));
                 let curvatures =

@@ -1,107 +1,114 @@
-//! `ricci spline export`.
+//! `ricci spline export` as a job: bicubic patches near a spline, for CAD.
 
-use super::args::{ExportArgs, Unit};
+use super::args::{ExportArgs, UnitChoice};
 use crate::failure::Failure;
-use crate::output::{Outputs, check_extension, check_outputs, extension};
-use crate::progress::Progress;
-use crate::report::{Checks, Figures, Report, Seconds, timed};
+use crate::output::{check_extension, check_outputs, extension};
+use crate::report::{Checks, Done, Figures, timed};
+use crate::runner::{CommandRun, Job, JobHeader, JobOutcome};
 use crate::say::{self, count};
-use ricci::Control;
 use ricci::spline::{Bicubic, BicubicOptions, LengthUnit, Spline, StepOptions};
-use std::time::Instant;
 
-/// Largest angle, in degrees, between the normals of neighbouring patches: a designer sees more in reflections.
+/// Largest angle, in degrees, between the normals of neighbouring patches: larger angles are seen in reflections.
 const NORMAL_JUMP: f64 = 1.0;
 
-/// Write bicubic patches near a spline. The exit code is 1 if a check fails.
-pub fn export(args: &ExportArgs, control: &Control) -> Result<u8, Failure> {
-    let start = Instant::now();
-    check_extension("-o", Some(&args.out), &["step", "stp", "json"])?;
-    check_outputs(&[Some(&args.spline)], &[Some(&*args.out), args.common.report.as_deref()])?;
-    let progress = Progress::watch(control, args.common.quiet);
-    let mut seconds = Seconds::default();
-    let spline = timed(&mut seconds.read, || Spline::read(&args.spline))?;
-    let options = BicubicOptions {
-        tolerance: args.tolerance,
-        threads: args.common.threads,
-        ..BicubicOptions::default()
-    };
-    let found = timed(&mut seconds.solve, || spline.to_bicubic(&options, control))?;
-    let checks = checks(args, &found);
-    let mut outputs = Outputs::default();
-    timed(&mut seconds.write, || -> Result<(), Failure> {
-        let mut bytes = Vec::new();
-        if extension(&args.out) == "json" {
-            found.surface.write_json(&mut bytes).map_err(|why| Failure::Input(why.to_string()))?;
+/// A spline, with bicubic patches near it.
+pub struct ExportOutcome {
+    spline: Spline,
+    bicubic: Bicubic,
+    /// The limit of the distance from the spline.
+    tolerance: f64,
+}
+
+impl Job for ExportArgs {
+    type Outcome = ExportOutcome;
+
+    fn header(&self) -> JobHeader<'_> {
+        JobHeader { name: "spline", common: &self.common, mesh: None }
+    }
+
+    fn check(&self) -> Result<(), Failure> {
+        check_extension("-o", Some(&self.out), &["step", "stp", "json"])?;
+        check_outputs(&[Some(&self.spline)], &[Some(&*self.out), self.common.report.as_deref()])
+    }
+
+    fn compute(&self, run: &mut CommandRun<'_>) -> Result<ExportOutcome, Failure> {
+        let spline = timed(&mut run.seconds.read, || Spline::read(&self.spline))?;
+        let options = BicubicOptions {
+            tolerance: self.tolerance,
+            threads: self.common.threads,
+            ..BicubicOptions::default()
+        };
+        let bicubic = timed(&mut run.seconds.solve, || spline.to_bicubic(&options, run.control))?;
+        Ok(ExportOutcome { spline, bicubic, tolerance: self.tolerance })
+    }
+
+    fn write(&self, outcome: &ExportOutcome, run: &mut CommandRun<'_>) -> Result<(), Failure> {
+        let (surface, mut bytes) = (&outcome.bicubic.surface, Vec::new());
+        if extension(&self.out) == "json" {
+            surface.write_json(&mut bytes).map_err(|why| Failure::Input(why.to_string()))?;
         } else {
-            found.surface.write_step(&step_options(args), &mut bytes)?;
+            surface.write_step(&step_options(self), &mut bytes)?;
         }
-        outputs.add_bytes(&args.out, &bytes)
-    })?;
-    if let Some(path) = &args.common.report {
-        seconds.total = start.elapsed().as_secs_f64();
-        let report = Report::new("spline", None, args, figures(&spline, &found));
-        outputs.add_report(path, &report.finished(checks.clone(), seconds))?;
+        run.outputs.add_bytes(&self.out, &bytes)
     }
-    control.check()?;
-    let files = outputs.commit()?;
-    drop(progress);
-    if !args.common.quiet {
-        say::lines(&text(args, &found, &checks), &files)?;
+}
+
+impl JobOutcome for ExportOutcome {
+    type Figures = Figures;
+
+    fn checks(&self) -> Checks {
+        let bicubic = &self.bicubic;
+        let mut checks = Checks::default();
+        checks.add("distance", bicubic.distance, self.tolerance);
+        checks.add("normal_jump", bicubic.angles.largest.to_degrees(), NORMAL_JUMP);
+        checks.add("open_sides", bicubic.surface.open_sides() as f64, 0.0);
+        checks
     }
-    Ok(checks.exit_code())
+
+    fn figures(&self, _: &CommandRun<'_>) -> Figures {
+        let ExportOutcome { spline, bicubic, .. } = self;
+        let surface = &bicubic.surface;
+        Figures::default()
+            .with("degree", spline.space().degree())
+            .with("patches", spline.space().patches().len())
+            .with("bicubic_patches", surface.patches.len())
+            .with("curves", surface.curves.len())
+            .with("control_points", surface.n_control_points())
+            .with("spans_min", bicubic.spans[0])
+            .with("spans_max", bicubic.spans[1])
+            .with("rounds", bicubic.rounds)
+            .with("closed", surface.is_closed())
+            .with("diagonal", bicubic.diagonal)
+            // A fraction of the diagonal of the bounding box.
+            .with("distance", bicubic.distance)
+            // Degrees.
+            .with("normal_jump_max", bicubic.angles.largest.to_degrees())
+            .with("normal_jump_mean", bicubic.angles.mean.to_degrees())
+            .with("normal_jump_of_spline", bicubic.angles.of_spline.to_degrees())
+    }
+
+    fn summary(&self, done: &Done) -> String {
+        let bicubic = &self.bicubic;
+        let [least, most] = bicubic.spans;
+        format!(
+            "patches  {}, {least} to {most} spans a side, {}\ndistance {:.2e} of the diagonal of the bounding box\nnormals  turn at common sides by {:.3} degrees at most, {:.4} in the mean; the spline's own by {:.3}\n{}wrote    {}\n",
+            count(bicubic.surface.patches.len(), "bicubic patch", "bicubic patches"),
+            if bicubic.surface.is_closed() { "closed" } else { "open" },
+            bicubic.distance,
+            bicubic.angles.largest.to_degrees(),
+            bicubic.angles.mean.to_degrees(),
+            bicubic.angles.of_spline.to_degrees(),
+            say::checks_by_name(&done.checks),
+            done.files[0],
+        )
+    }
 }
 
 fn step_options(args: &ExportArgs) -> StepOptions {
     let unit = match args.unit {
-        Unit::Mm => LengthUnit::Millimetre,
-        Unit::M => LengthUnit::Metre,
+        UnitChoice::Mm => LengthUnit::Millimetre,
+        UnitChoice::M => LengthUnit::Metre,
     };
     let name = args.spline.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     StepOptions { name, unit }
-}
-
-fn checks(args: &ExportArgs, found: &Bicubic) -> Checks {
-    let mut checks = Checks::default();
-    checks.add("distance", found.distance, args.tolerance);
-    checks.add("normal_jump", found.angles.largest.to_degrees(), NORMAL_JUMP);
-    checks.add("open_sides", found.surface.open_sides() as f64, 0.0);
-    checks
-}
-
-fn figures(spline: &Spline, found: &Bicubic) -> Figures {
-    let surface = &found.surface;
-    Figures::default()
-        .with("degree", spline.space().degree())
-        .with("patches", spline.space().patches().len())
-        .with("bicubic_patches", surface.patches.len())
-        .with("curves", surface.curves.len())
-        .with("control_points", surface.n_control_points())
-        .with("spans_min", found.spans[0])
-        .with("spans_max", found.spans[1])
-        .with("rounds", found.rounds)
-        .with("closed", surface.is_closed())
-        .with("diagonal", found.diagonal)
-        // A fraction of the diagonal of the bounding box.
-        .with("distance", found.distance)
-        // Degrees.
-        .with("normal_jump_max", found.angles.largest.to_degrees())
-        .with("normal_jump_mean", found.angles.mean.to_degrees())
-        .with("normal_jump_of_spline", found.angles.of_spline.to_degrees())
-}
-
-fn text(args: &ExportArgs, found: &Bicubic, checks: &Checks) -> String {
-    let failed = checks.failed();
-    let [least, most] = found.spans;
-    format!(
-        "patches  {}, {least} to {most} spans a side, {}\ndistance {:.2e} of the diagonal of the bounding box\nnormals  turn at common sides by {:.3} degrees at most, {:.4} in the mean; the spline's own by {:.3}\nchecks   {}\nwrote    {}\n",
-        count(found.surface.patches.len(), "bicubic patch", "bicubic patches"),
-        if found.surface.is_closed() { "closed" } else { "open" },
-        found.distance,
-        found.angles.largest.to_degrees(),
-        found.angles.mean.to_degrees(),
-        found.angles.of_spline.to_degrees(),
-        if failed.is_empty() { "all hold".into() } else { format!("FAILED: {}", failed.join(", ")) },
-        args.out.display(),
-    )
 }

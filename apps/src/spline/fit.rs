@@ -1,113 +1,127 @@
-//! `ricci spline fit`.
+//! `ricci spline fit` as a job: a spline near a mesh, by least squares.
 
 use super::args::FitArgs;
-use super::found::Found;
+use super::outcome::FitOutcome;
 use super::planar::fit_planar;
 use super::whole::fit_whole;
 use crate::failure::Failure;
-use crate::input::{self, Input};
+use crate::input;
 use crate::options::MeshArgs;
-use crate::output::{Outputs, check_extension, check_outputs};
-use crate::progress::Progress;
-use crate::report::{Checks, Figures, InputSummary, Report, Seconds, timed};
+use crate::output::{check_extension, check_outputs};
+use crate::report::{Checks, Done, Figures, InputSummary, timed};
+use crate::runner::{CommandRun, Job, JobHeader, JobOutcome};
 use crate::say::{self, count};
-use ricci::Control;
 use ricci::spline::Identities;
 use serde::Serialize;
 use serde_json::{Map, Value};
 use std::io::Write;
-use std::time::Instant;
 
-/// Limits of the checks: identities of exact arithmetic, which doubles keep to this.
+/// Largest difference of the sum of the basis functions from 1: 0 in exact arithmetic, as the two below.
 const UNITY: f64 = 1e-12;
+/// Largest error of a polynomial that the basis reproduces.
 const REPRODUCTION: f64 = 1e-10;
+/// Largest jump of a derivative across a side of two patches.
 const CONTINUITY: f64 = 1e-8;
 
-/// What was asked, defaults put in.
+/// The options of a run as its report has them.
 #[derive(Serialize)]
-struct Asked<'a> {
+struct FitSettings<'a> {
     #[serde(flatten)]
     args: &'a FitArgs,
     #[serde(flatten)]
     defaults: &'a Map<String, Value>,
 }
 
-/// Fit a spline to a mesh. The exit code is 1 if a check fails.
-pub fn fit(args: &FitArgs, control: &Control) -> Result<u8, Failure> {
-    let start = Instant::now();
-    check_extension("-o", Some(&args.out), &["json"])?;
-    check_outputs(&[Some(&args.mesh)], &[Some(&*args.out), args.common.report.as_deref()])?;
-    let progress = Progress::watch(control, args.common.quiet);
-    let file = MeshArgs { mesh: args.mesh.clone(), weld: None };
-    let input = input::read(&file, None, control)?;
-    let mut seconds = Seconds { ..input.seconds };
-    let mut found = timed(&mut seconds.solve, || match args.planar {
-        true => fit_planar(args, &input, control),
-        false => fit_whole(args, &input, control),
-    })?;
-    let identities = found.spline.identities(args.common.threads, control)?;
-    check(&mut found.checks, &identities);
-    let figures = figures(&found, &identities);
-    let mut outputs = Outputs::default();
-    timed(&mut seconds.write, || {
-        outputs.add(&args.out, |out| out.write_all(found.spline.to_json().as_bytes()))
-    })?;
-    let text = text(args, &input, &found);
-    if let Some(path) = &args.common.report {
-        seconds.total = start.elapsed().as_secs_f64();
-        let asked = Asked { args, defaults: &found.defaults };
-        let report = Report::new("spline", InputSummary::of(&input), asked, figures);
-        outputs.add_report(path, &report.finished(found.checks.clone(), seconds))?;
+impl Job for FitArgs {
+    type Outcome = FitOutcome;
+
+    fn header(&self) -> JobHeader<'_> {
+        JobHeader { name: "spline", common: &self.common, mesh: None }
     }
-    control.check()?;
-    let files = outputs.commit()?;
-    drop(progress);
-    if !args.common.quiet {
-        say::lines(&text, &files)?;
+
+    fn check(&self) -> Result<(), Failure> {
+        check_extension("-o", Some(&self.out), &["json"])?;
+        check_outputs(&[Some(&self.mesh)], &[Some(&*self.out), self.common.report.as_deref()])
     }
-    Ok(found.checks.exit_code())
+
+    fn compute(&self, run: &mut CommandRun<'_>) -> Result<FitOutcome, Failure> {
+        let control = run.control;
+        let file = MeshArgs { mesh: self.mesh.clone(), weld: None };
+        let input = input::read(&file, None, &mut run.seconds, control)?;
+        let mut outcome = timed(&mut run.seconds.solve, || {
+            if self.planar { fit_planar(self, input, control) } else { fit_whole(self, input, control) }
+        })?;
+        let identities = outcome.spline.identities(self.common.threads, control)?;
+        check_identities(&mut outcome.checks, &identities);
+        outcome.figures = figures(&outcome, &identities);
+        Ok(outcome)
+    }
+
+    fn write(&self, outcome: &FitOutcome, run: &mut CommandRun<'_>) -> Result<(), Failure> {
+        run.outputs.add(&self.out, |out| out.write_all(outcome.spline.to_json().as_bytes()))
+    }
+
+    fn settings<'a>(&'a self, outcome: &'a FitOutcome) -> impl Serialize + 'a {
+        FitSettings { args: self, defaults: &outcome.defaults }
+    }
 }
 
-fn figures(found: &Found, identities: &Identities) -> Figures {
-    let space = found.spline.space();
+impl JobOutcome for FitOutcome {
+    type Figures = Figures;
+
+    fn checks(&self) -> Checks {
+        self.checks.clone()
+    }
+
+    fn input(&self) -> Option<InputSummary> {
+        Some(InputSummary::of(&self.input))
+    }
+
+    fn figures(&self, _: &CommandRun<'_>) -> Figures {
+        self.figures.clone()
+    }
+
+    fn summary(&self, done: &Done) -> String {
+        let space = self.spline.space();
+        let filled = match self.spline.holes().len() {
+            0 => String::new(),
+            n => format!(", {}", count(n, "filled hole", "filled holes")),
+        };
+        format!(
+            "{}spline   degree {}, {}, {}{filled}\nfit      root mean square {:.2e}, largest {:.2e} of the diagonal of the bounding box\n{}wrote    {}\n",
+            say::surface(&self.input),
+            space.degree(),
+            count(space.patches().len(), "patch", "patches"),
+            count(space.n_control_points(), "control point", "control points"),
+            self.rms,
+            self.max,
+            say::checks_by_name(&done.checks),
+            done.files[0],
+        )
+    }
+}
+
+fn figures(outcome: &FitOutcome, identities: &Identities) -> Figures {
+    let space = outcome.spline.space();
     let figures = Figures::default()
         .with("degree", space.degree())
         .with("patches", space.patches().len())
         .with("control_points", space.n_control_points())
         // Fractions of the diagonal of the bounding box.
-        .with("rms", found.rms)
-        .with("max", found.max)
+        .with("rms", outcome.rms)
+        .with("max", outcome.max)
         .with("partition_of_unity", identities.partition_of_unity)
         .if_some("polynomial_reproduction", identities.polynomial_reproduction)
         .with("continuity", identities.continuity)
-        // Sides between patches, at corners of the boundary, across which the spline is less smooth.
+        // The number of sides of two patches, at corners of the boundary, across which the spline is less smooth than elsewhere.
         .with("rough_sides", identities.rough_sides);
-    figures.and(&found.figures)
+    figures.and(&outcome.figures)
 }
 
-fn check(checks: &mut Checks, identities: &Identities) {
+fn check_identities(checks: &mut Checks, identities: &Identities) {
     checks.add("partition_of_unity", identities.partition_of_unity, UNITY);
     if let Some(error) = identities.polynomial_reproduction {
         checks.add("polynomial_reproduction", error, REPRODUCTION);
     }
     checks.add("continuity", identities.continuity, CONTINUITY);
-}
-
-fn text(args: &FitArgs, input: &Input, found: &Found) -> String {
-    let space = found.spline.space();
-    let failed = found.checks.failed();
-    let holes = found.spline.holes().len();
-    let filled =
-        if holes > 0 { format!(", {}", count(holes, "filled hole", "filled holes")) } else { String::new() };
-    format!(
-        "{}spline   degree {}, {}, {}{filled}\nfit      root mean square {:.2e}, largest {:.2e} of the diagonal of the bounding box\nchecks   {}\nwrote    {}\n",
-        say::surface(input),
-        args.degree,
-        count(space.patches().len(), "patch", "patches"),
-        count(space.n_control_points(), "control point", "control points"),
-        found.rms,
-        found.max,
-        if failed.is_empty() { "all hold".into() } else { format!("FAILED: {}", failed.join(", ")) },
-        args.out.display(),
-    )
 }

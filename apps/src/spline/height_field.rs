@@ -8,12 +8,14 @@ use std::cmp::Ordering;
 /// A mesh over the plane.
 pub struct HeightField<'a> {
     pub points: &'a [[f64; 3]],
-    /// Closed polygons over which it lies: its boundary loops, in x and y.
+    /// The closed polygons in x and y below its boundary loops.
     pub outline: Vec<Vec<[f64; 2]>>,
 }
 
-/// The mesh as a height field. Errors: [`Failure::Input`] for a mesh without boundary, or one whose faces, seen from above, do not all
-/// turn the same way.
+/// The mesh as a height field.
+///
+/// # Errors
+/// [`Failure::Input`] for a mesh without boundary, and for one whose faces do not all have the same orientation seen from above.
 pub fn height_field(input: &Input) -> Result<HeightField<'_>, Failure> {
     let refuse = |why: String| Err(Failure::Input(format!("{}: {why}", input.path.display())));
     let mesh = input.mesh();

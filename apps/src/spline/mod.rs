@@ -4,8 +4,8 @@ mod args;
 mod eval;
 mod export;
 mod fit;
-mod found;
 mod height_field;
+mod outcome;
 mod picture;
 mod planar;
 mod whole;
@@ -13,14 +13,15 @@ mod whole;
 pub use args::{HELP, SplineArgs};
 
 use crate::failure::Failure;
+use crate::runner;
 use args::SplineCommand;
 use ricci::Control;
 
-/// Run the subcommand; the exit code is 1 if a check fails.
+/// Run the subcommand; returns the exit code.
 pub fn run(args: &SplineArgs, control: &Control) -> Result<u8, Failure> {
     match &args.command {
-        SplineCommand::Fit(args) => fit::fit(args, control),
-        SplineCommand::Eval(args) => eval::eval(args, control),
-        SplineCommand::Export(args) => export::export(args, control),
+        SplineCommand::Fit(args) => runner::run(args, control),
+        SplineCommand::Eval(args) => runner::run(args, control),
+        SplineCommand::Export(args) => runner::run(args, control),
     }
 }

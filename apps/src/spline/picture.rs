@@ -1,4 +1,4 @@
-//! Pictures of spline surfaces.
+//! The pictures of `ricci spline eval`.
 
 use super::args::{EvalArgs, SurfaceColor};
 use crate::failure::Failure;
@@ -14,7 +14,7 @@ const SIDES: usize = 12;
 const SIDE: usize = 0;
 const NET: usize = 2;
 
-/// The surface with what was asked for: sides of patches, control net, a quantity.
+/// The surface, with the sides of its patches, its control net and a quantity in colours where these are asked for.
 pub fn draw(spline: &Spline, args: &EvalArgs, control: &Control) -> Result<Vec<u8>, Failure> {
     let sides = args.tessellate.map_or(SIDES, usize::from);
     let threads = args.common.threads;
@@ -35,34 +35,26 @@ pub fn draw(spline: &Spline, args: &EvalArgs, control: &Control) -> Result<Vec<u
         is_closed: false,
     };
     let style = Style { wire: false, ..args.picture.style(TextureChoice::None, threads) };
+    let evaluate = |order| spline.evaluate(&corners(spline, &soup, sides), order, threads, control);
     let field = match args.color {
-        Some(SurfaceColor::Curvature) => {
-            Some(curvature(&corners(spline, (&soup, sides), (2, threads), control)?))
-        }
+        Some(SurfaceColor::Curvature) => Some(curvature(&evaluate(2)?)),
         Some(SurfaceColor::Reflection) => {
             let camera = Camera::choose(&positions, &soup.faces, &style.view);
-            Some(reflection(&corners(spline, (&soup, sides), (1, threads), control)?, &camera))
+            Some(reflection(&evaluate(1)?, &camera))
         }
         Some(SurfaceColor::None) | None => None,
     };
     png(&Picture { surface: Some(surface), field: field.as_ref(), ..Picture::default() }, &style)
 }
 
-/// The surface itself at the corners of its triangles, with derivatives up to an order.
-fn corners(
-    spline: &Spline,
-    (soup, sides): (&Soup, usize),
-    (order, threads): (usize, usize),
-    control: &Control,
-) -> Result<Vec<SurfacePoint>, Failure> {
+/// The places of the corners of the triangles, of which there are `sides` × `sides` per patch.
+fn corners(spline: &Spline, soup: &Soup, sides: usize) -> Vec<Parameter> {
     let patches = spline.space().patches().len();
     // The triangles after those of the patches lie in the chart of the hole at infinity.
     let cap = spline.holes().iter().find(|hole| hole.is_at_infinity()).map(|hole| hole.chart);
     let patch = |f: usize| cap.filter(|_| f / sides.pow(2) >= patches).unwrap_or((f / sides.pow(2)) as u32);
     let corners = soup.attributes.uv.iter().flatten().enumerate();
-    let places: Vec<Parameter> =
-        corners.flat_map(|(f, uv)| uv.map(|[x, y]| Parameter { patch: patch(f), x, y })).collect();
-    Ok(spline.evaluate(&places, order, threads, control)?)
+    corners.flat_map(|(f, uv)| uv.map(|[x, y]| Parameter { patch: patch(f), x, y })).collect()
 }
 
 /// The Gaussian curvature.

@@ -1,8 +1,8 @@
-//! Splines over the plane.
+//! Splines near height fields, with x and y of the mesh as parameters: `ricci spline fit --planar`.
 
 use super::args::FitArgs;
-use super::found::Found;
 use super::height_field::{HeightField, height_field};
+use super::outcome::FitOutcome;
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::report::{Checks, Figures};
@@ -14,14 +14,13 @@ use ricci::spline::{
 use serde_json::Map;
 use std::sync::Arc;
 
-/// Control points per vertex of the mesh where no edge is asked for.
+/// The number of control points per vertex of the mesh where no edge length is asked for.
 const CONTROL_SHARE: f64 = 0.25;
-/// Weight of the variation of bending where none is asked for.
+/// The weight of the variation of bending where none is asked for.
 const FAIRNESS: f64 = 1e-12;
 
-/// A spline whose parameters are x and y of the mesh.
-pub fn fit_planar(args: &FitArgs, input: &Input, control: &Control) -> Result<Found, Failure> {
-    let field = height_field(input)?;
+pub fn fit_planar(args: &FitArgs, input: Input, control: &Control) -> Result<FitOutcome, Failure> {
+    let field = height_field(&input)?;
     let edge =
         args.edge.unwrap_or_else(|| usual_edge(&field.outline, field.points.len(), args.degree.into()));
     let fitted = fitted(args, &field, edge, control)?;
@@ -29,13 +28,14 @@ pub fn fit_planar(args: &FitArgs, input: &Input, control: &Control) -> Result<Fo
     let mut defaults = Map::new();
     defaults.insert("edge".into(), edge.into());
     defaults.insert("fairness".into(), args.fairness.unwrap_or(FAIRNESS).into());
-    Ok(Found {
+    Ok(FitOutcome {
         rms: fitted.rms / diagonal,
         max: fitted.max / diagonal,
         spline: fitted.spline,
         defaults,
         figures: Figures::default(),
         checks: Checks::default(),
+        input,
     })
 }
 
@@ -57,7 +57,8 @@ fn fitted(args: &FitArgs, field: &HeightField<'_>, edge: f64, control: &Control)
     Ok(fit_points(&Arc::new(space), &places, field.points, &options, control)?)
 }
 
-/// The edge for which there is about a quarter as many control points as vertices: n²/2 of them come to a triangle.
+/// The edge length of the domain's triangles for which there are about a quarter as many control points as vertices, at n²/2 control
+/// points per triangle for degree n.
 fn usual_edge(outline: &[Vec<[f64; 2]>], vertices: usize, degree: usize) -> f64 {
     let doubled = |polygon: &Vec<[f64; 2]>| -> f64 {
         let next = polygon.iter().cycle().skip(1);

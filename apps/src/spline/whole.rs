@@ -1,7 +1,7 @@
-//! Splines over whole surfaces.
+//! Splines near whole surfaces, over their flat metric.
 
 use super::args::{AtlasChoice, FitArgs};
-use super::found::Found;
+use super::outcome::FitOutcome;
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::progress::doing;
@@ -12,16 +12,9 @@ use ricci::manifold::{Flat, FlatOptions, SurfaceFit, SurfaceFitOptions, fit_surf
 use ricci::mesh::VertexId;
 use serde_json::{Map, Value};
 
-/// A spline over the flat metric of a surface.
-pub fn fit_whole(args: &FitArgs, input: &Input, control: &Control) -> Result<Found, Failure> {
+pub fn fit_whole(args: &FitArgs, input: Input, control: &Control) -> Result<FitOutcome, Failure> {
     let whole = &args.whole;
-    let n = input.mesh().n_vertices();
-    if let Some(v) = whole.singular.filter(|&v| v as usize >= n) {
-        return Err(Failure::Usage(format!(
-            "--singular {v}: there is no such vertex, they are 0 to {}",
-            n - 1
-        )));
-    }
+    input.check_vertex("--singular", whole.singular)?;
     if input.positions().is_none() {
         let path = input.path.display();
         return Err(Failure::Input(format!(
@@ -58,14 +51,15 @@ pub fn fit_whole(args: &FitArgs, input: &Input, control: &Control) -> Result<Fou
     let radii: Vec<f64> = fitted.spline.holes().iter().map(|hole| hole.radius).collect();
     let figures = Figures::default()
         .with("singular_vertices", &singular[..])
-        // In the unit of the flat metric, and the share of the vertices that lie in them.
+        // The radii of the holes in the unit of the flat metric, and the share of the vertices that lie in holes.
         .with("hole_radii", radii)
         .with("hole_share", share_in_holes(&fitted))
         .with("hole_coefficients", coefficients(&fitted))
         // Patches in which normals turn by more than 60 degrees over a twelfth of a side.
         .with("folded_patches", &fitted.folds[..])
         .with("rounds", fitted.rounds);
-    Ok(Found { rms: fitted.rms, max: fitted.max, defaults, figures, checks, spline: fitted.spline })
+    let SurfaceFit { rms, max, spline, .. } = fitted;
+    Ok(FitOutcome { input, spline, rms, max, defaults, figures, checks })
 }
 
 fn share_in_holes(fitted: &SurfaceFit) -> f64 {

@@ -1,14 +1,13 @@
-//! Atlases as a JSON file.
+//! The JSON file of `ricci structure --atlas`.
 
 use ricci::structure::{Atlas, Element};
 use serde::{Serialize, Serializer};
 
-/// What the first entry of a unitary matrix is multiplied by in the file: four roundings more than 1. The entries on the diagonal are each
-/// other's conjugates, and of products of such matrices the first one stays the larger one, so that readers who divide by the largest entry
-/// never take the other.
+/// The factor that the first entry of a unitary matrix gets in the file: four roundings more than 1. The two entries on the diagonal are
+/// conjugates of each other, so that rounding would decide which of them is larger. With this factor the first one is, also in products,
+/// and readers who divide by the largest entry always divide by the same one.
 const FIRST: f64 = 1.0 + 4.0 * f64::EPSILON;
 
-/// `--atlas`.
 #[derive(Serialize)]
 pub struct AtlasFile<'a> {
     kind: &'static str,
@@ -21,7 +20,7 @@ pub struct AtlasFile<'a> {
 struct ChartFile<'a> {
     vertices: Vec<u32>,
     faces: Vec<u32>,
-    /// Per face the places of its corners among the vertices, one of which may be there more than once.
+    /// Per face the indices of its corners in `vertices`, in which a vertex may stand more than once.
     corners: &'a [[u32; 3]],
     coordinates: &'a [[f64; 2]],
 }
@@ -30,19 +29,19 @@ struct ChartFile<'a> {
 struct TransitionFile<'a> {
     from: u32,
     to: u32,
-    matrix: Matrix<'a>,
+    matrix: ElementRows<'a>,
     pairs: &'a [[u32; 2]],
 }
 
-/// Rows of complex numbers `[re, im]`, or of real ones.
-struct Matrix<'a>(&'a Element);
+/// The matrix of a transition as rows of complex numbers `[re, im]`, or of real ones.
+struct ElementRows<'a>(&'a Element);
 
-impl Serialize for Matrix<'_> {
+impl Serialize for ElementRows<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut rows = self.0.rows();
         match self.0 {
             Element::Mobius(m) => {
-                // Of a motion of the plane the last row is (0, 1).
+                // The last row of a motion of the plane is (0, 1); it is not unitary.
                 if m.m21.norm() > 0.0 {
                     rows[0][0] = rows[0][0].map(|x| FIRST * x);
                 }
@@ -68,7 +67,7 @@ impl<'a> AtlasFile<'a> {
         let transitions = atlas.transitions.iter().map(|t| TransitionFile {
             from: t.from,
             to: t.to,
-            matrix: Matrix(&t.element),
+            matrix: ElementRows(&t.element),
             pairs: &t.pairs,
         });
         AtlasFile {

@@ -2,9 +2,8 @@
 
 mod args;
 mod command;
-mod drawn;
 mod figures;
 mod file;
+mod picture;
 
 pub use args::{HELP, StructureArgs};
-pub use command::{execute, run};

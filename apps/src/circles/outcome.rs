@@ -1,0 +1,61 @@
+//! A circle domain on the surface as it was given.
+
+use crate::failure::Failure;
+use crate::input::Input;
+use crate::surface_layout::SurfaceLayout;
+use crate::report::PhaseSeconds;
+use ricci::canonical::CircleDomain;
+use ricci::mesh::PerVertex;
+
+pub struct CirclesOutcome {
+    pub input: Input,
+    pub domain: CircleDomain,
+    /// The input with the edges halved that the domain has halved.
+    pub halved: Input,
+    pub laid: SurfaceLayout,
+    /// |Σ K + λ area − 2πχ| of the surface with its disks.
+    pub gauss_bonnet: f64,
+    /// The limit of max |K|.
+    pub tolerance: f64,
+}
+
+impl CirclesOutcome {
+    /// `taken`: the seconds until the domain was found.
+    pub fn new(
+        input: Input,
+        domain: CircleDomain,
+        tolerance: f64,
+        taken: f64,
+        seconds: &mut PhaseSeconds,
+    ) -> Result<CirclesOutcome, Failure> {
+        let failed = |error: ricci::Error| Failure::Failed(error.to_string());
+        let halved = input.halved(&domain.split).map_err(failed)?;
+        let curvature = domain.metric.metric().curvature(domain.metric.mesh()).map_err(failed)?;
+        seconds.add_flow(&domain.report.seconds);
+        seconds.layout = (taken - domain.report.seconds.total).max(0.0);
+        let laid = layout_on(&halved, &domain).map_err(failed)?;
+        let gauss_bonnet = curvature.gauss_bonnet;
+        Ok(CirclesOutcome { input, domain, halved, laid, gauss_bonnet, tolerance })
+    }
+}
+
+/// The layout of a domain on the input with its halved edges.
+fn layout_on(halved: &Input, domain: &CircleDomain) -> ricci::Result<SurfaceLayout> {
+    let layout = domain.layout.clone();
+    let quality = layout.quality(halved.mesh(), halved.surface.lengths())?;
+    let refinement = layout.refinement();
+    let positions = match (refinement, halved.positions()) {
+        (Some(r), Some(positions)) => Some(r.from_input_vertices(positions)?),
+        _ => None,
+    };
+    Ok(SurfaceLayout {
+        weight: refinement.map_or_else(|| PerVertex::from(Vec::new()), |r| r.weight.clone()),
+        positions,
+        on_input: None,
+        packed: None,
+        degenerate: layout.degenerate.clone(),
+        modulus: domain.torus_modulus,
+        quality,
+        layout,
+    })
+}

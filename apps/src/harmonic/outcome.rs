@@ -1,0 +1,215 @@
+//! A harmonic map with its checks, its figures and its summary.
+
+use super::args::{HarmonicArgs, MapTarget};
+use crate::csv;
+use crate::failure::Failure;
+use crate::input::Input;
+use crate::progress::doing;
+use crate::report::{Checks, Done, Figures, InputSummary, timed};
+use crate::runner::{CommandRun, JobOutcome};
+use crate::say;
+use ricci::Control;
+use ricci::geometry::complex::{distance, doubled_area};
+use ricci::geometry::triangle_flatness::LEAST_RELATIVE_AREA;
+use ricci::harmonic::{
+    Domain, HarmonicMap, MapConstraints, SphereMap, SphereMapOptions, harmonic_map, planar, simple_domain,
+    sphere_map,
+};
+use ricci::mesh::VertexId;
+use ricci::metric::Refinement;
+
+/// A map to the plane, carried back to the surface.
+pub struct PlaneMap {
+    pub map: HarmonicMap<2>,
+    /// The vertices at the corners of a polygon or rectangle.
+    corners: Option<Vec<u32>>,
+    /// The common refinement of the domain's triangulation and the given one; none where they are the same.
+    pub refinement: Option<Refinement>,
+    /// The image of each vertex of the refinement.
+    pub points: Vec<[f64; 2]>,
+    /// The number of triangles of the domain and of pieces of the refinement that turn over.
+    pub flipped: usize,
+    /// The number of pieces without area.
+    pub degenerate: usize,
+}
+
+/// The image of a surface, with the map onto it.
+pub enum MappedSurface {
+    Plane(Box<PlaneMap>),
+    Sphere(SphereMap),
+}
+
+pub struct HarmonicOutcome {
+    pub input: Input,
+    pub to: MapTarget,
+    pub domain: Domain,
+    /// The input with the vertices that the map needs beside its own, where it needs any.
+    refined: Option<Input>,
+    added_vertices: usize,
+    pub map: MappedSurface,
+}
+
+/// Largest distance of a vertex from the mean of its neighbours, as a share of the size of the image.
+const MEAN_VALUE: f64 = 1e-10;
+
+impl HarmonicOutcome {
+    pub fn new(
+        input: Input,
+        args: &HarmonicArgs,
+        to: MapTarget,
+        run: &mut CommandRun<'_>,
+    ) -> Result<HarmonicOutcome, Failure> {
+        let (seconds, control) = (&mut run.seconds, run.control);
+        let simple = matches!(to, MapTarget::Disk | MapTarget::Polygon(_) | MapTarget::Rectangle);
+        let mut refined = None;
+        let domain = timed(&mut seconds.flip, || -> Result<Domain, Failure> {
+            if !simple {
+                return Ok(Domain::new(&input.surface, control)?);
+            }
+            let is_polygon = matches!(to, MapTarget::Polygon(_));
+            let (split, domain) = simple_domain(&input.surface, is_polygon, control)?;
+            refined = if split.n_added() > 0 { Some(input.halved(&split)?) } else { None };
+            Ok(domain)
+        })?;
+        let map = if to == MapTarget::Sphere {
+            let map = || doing("sphere", || sphere_map(&domain, &SphereMapOptions::default(), control));
+            MappedSurface::Sphere(timed(&mut seconds.solve, map)?)
+        } else {
+            let (map, corners) = timed(&mut seconds.solve, || map_to_plane(&domain, args, &to, control))?;
+            let carried = timed(&mut seconds.refine, || PlaneMap::new(&domain, map, corners, control))?;
+            MappedSurface::Plane(Box::new(carried))
+        };
+        let added_vertices = domain.mesh().n_vertices() - input.mesh().n_vertices();
+        Ok(HarmonicOutcome { input, to, domain, refined, added_vertices, map })
+    }
+
+    /// The surface that is mapped: the input, with the vertices added to it that the map needs.
+    pub fn mapped_input(&self) -> &Input {
+        self.refined.as_ref().unwrap_or(&self.input)
+    }
+}
+
+impl JobOutcome for HarmonicOutcome {
+    type Figures = Figures;
+
+    fn checks(&self) -> Checks {
+        let mut checks = Checks::default();
+        match &self.map {
+            MappedSurface::Plane(plane) => {
+                checks.add("mean_value_residual", plane.map.mean_value_residual, MEAN_VALUE);
+                // No triangle of a disk folds in a map onto a convex region.
+                if matches!(self.to, MapTarget::Disk | MapTarget::Polygon(_)) {
+                    checks.add("flipped_triangles", plane.flipped as f64, 0.0);
+                }
+            }
+            MappedSurface::Sphere(map) => {
+                checks.add("flipped_triangles", map.flipped.len() as f64, 0.0);
+                let rise = map.energies.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
+                checks.add("energy_rise", rise, 0.0);
+                checks.add("not_converged", f64::from(u8::from(!map.converged)), 0.0);
+            }
+        }
+        checks
+    }
+
+    fn input(&self) -> Option<InputSummary> {
+        Some(InputSummary::of(&self.input))
+    }
+
+    fn figures(&self, _: &CommandRun<'_>) -> Figures {
+        let figures = Figures::default()
+            .with("flips", self.domain.metric().start_flips())
+            .with("added_vertices", self.added_vertices);
+        match &self.map {
+            MappedSurface::Plane(plane) => figures
+                .with("energy", plane.map.energy)
+                .with("mean_value_residual", plane.map.mean_value_residual)
+                .with("flipped_triangles", plane.flipped)
+                .with("degenerate_pieces", plane.degenerate)
+                .if_some("corners", plane.corners.clone()),
+            MappedSurface::Sphere(map) => figures
+                .with("energy", map.energies.last().copied())
+                .with("energies", map.energies.clone())
+                .with("iterations", map.energies.len() - 1)
+                .with("converged", map.converged)
+                .with("flipped_triangles", map.flipped.len()),
+        }
+    }
+
+    fn summary(&self, done: &Done) -> String {
+        let added = match self.added_vertices {
+            0 => String::new(),
+            n => format!(", {} added", say::count(n, "vertex", "vertices")),
+        };
+        let map = match &self.map {
+            MappedSurface::Plane(plane) => format!(
+                "map      energy {}, off the means of neighbours by {:.1e}, {}{added}\n",
+                say::size(plane.map.energy, 6),
+                plane.map.mean_value_residual,
+                say::count(plane.flipped, "triangle flipped", "triangles flipped")
+            ),
+            MappedSurface::Sphere(map) => format!(
+                "map      energy {:.6} from {:.6} after {}, {}\n",
+                map.energies.last().copied().unwrap_or(f64::NAN),
+                map.energies.first().copied().unwrap_or(f64::NAN),
+                say::count(map.energies.len() - 1, "step", "steps"),
+                say::count(map.flipped.len(), "triangle flipped", "triangles flipped")
+            ),
+        };
+        say::surface(&self.input) + &map + &say::finish(done)
+    }
+}
+
+/// The map to the plane, with the vertices at the corners of a polygon or rectangle.
+fn map_to_plane(
+    domain: &Domain,
+    args: &HarmonicArgs,
+    to: &MapTarget,
+    control: &Control,
+) -> Result<(HarmonicMap<2>, Option<Vec<VertexId>>), Failure> {
+    let given = || args.corners.iter().map(|&v| VertexId(v)).collect::<Vec<_>>();
+    Ok(match to {
+        MapTarget::Polygon(n) => {
+            let at = match n {
+                Some(n) if args.corners.is_empty() => planar::corners_by_length(domain, *n as usize)?,
+                _ => given(),
+            };
+            let polygon = planar::regular_polygon(at.len());
+            (planar::to_polygon(domain, &polygon, Some(&at), control)?, Some(at))
+        }
+        MapTarget::Rectangle => {
+            let (map, at) = planar::to_rectangle(domain, given().try_into().ok(), control)?;
+            (map, Some(at.to_vec()))
+        }
+        MapTarget::File(path) => {
+            let values = csv::read_places(path, domain.mesh().n_vertices())?;
+            (harmonic_map(domain, &MapConstraints { values, flux: None }, control)?, None)
+        }
+        MapTarget::Disk | MapTarget::Sphere => (planar::to_disk(domain, control)?, None),
+    })
+}
+
+impl PlaneMap {
+    fn new(
+        domain: &Domain,
+        map: HarmonicMap<2>,
+        corners: Option<Vec<VertexId>>,
+        control: &Control,
+    ) -> ricci::Result<PlaneMap> {
+        let refinement = domain.refinement(control)?;
+        let points = match &refinement {
+            Some(r) => r.from_final_vertices(&map.points)?,
+            None => map.points.clone(),
+        };
+        let (mut flipped, mut degenerate) = (planar::flipped(domain, &map.points).len(), 0);
+        for f in refinement.iter().flat_map(|r| r.mesh.faces().map(|f| r.mesh.face_vertices(f))) {
+            let corners @ [a, b, c] = f.map(|v| points[v.index()]);
+            let longest = distance(a, b).max(distance(b, c)).max(distance(c, a));
+            let (area, least) = (0.5 * doubled_area(corners), LEAST_RELATIVE_AREA * longest * longest);
+            flipped += usize::from(area < -least);
+            degenerate += usize::from(area.abs() <= least);
+        }
+        let corners = corners.map(|corners| corners.into_iter().map(|v| v.0).collect());
+        Ok(PlaneMap { map, corners, refinement, points, flipped, degenerate })
+    }
+}

@@ -1,0 +1,188 @@
+//! A matching with its checks, its figures and its summary.
+
+use crate::input::Input;
+use crate::report::{Checks, Done, Figures, InputSummary};
+use crate::runner::{CommandRun, JobOutcome};
+use crate::say;
+use ricci::geometry::vector::{diagonal, distance};
+use ricci::geometry::{Space, model, worse};
+use ricci::matching::{MapQuality, Matching, RoundHole, cycle_error, map_quality, point_error, uncovered};
+use ricci::mesh::VertexId;
+use ricci::metric::Overlay;
+use serde_json::{Value, json};
+
+/// Largest distance of a landmark's image from its partner, as a share of the diagonal of the target's bounding box.
+const LANDMARK: f64 = 1e-8;
+/// Largest share of the area of a surface that an overlay misses.
+const AREA: f64 = 1e-10;
+/// Largest distance of a vertex from the circle of its loop, as a share of the radius.
+const ROUND: f64 = 1e-9;
+/// Largest difference from 1 of the sum of the weights of a place, and most that one of them is below 0.
+const WEIGHTS: f64 = 1e-12;
+
+pub struct MatchOutcome {
+    pub source: Input,
+    pub target: Input,
+    pub matching: Matching,
+    pub landmarks: Vec<[VertexId; 2]>,
+    quality: MapQuality,
+    /// The largest distance between the image of a point that corresponds and its partner, as a share of the diagonal.
+    point_error: f64,
+    /// The mean and the largest distance of a vertex from where the map and its inverse bring it.
+    cycle: [f64; 2],
+    /// Per vertex the distance of its image from the target's vertex of the same number, where numbers correspond.
+    pub partners: Option<Vec<f64>>,
+    pub overlay: Option<Overlay>,
+    /// The shares of the areas of source and target that the overlay misses.
+    uncovered: [f64; 2],
+}
+
+impl MatchOutcome {
+    pub fn new(
+        surfaces: [Input; 2],
+        matching: Matching,
+        landmarks: Vec<[VertexId; 2]>,
+        same_numbering: bool,
+    ) -> ricci::Result<MatchOutcome> {
+        let [source, target] = surfaces;
+        let surfaces = [&source.surface, &target.surface];
+        let quality = map_quality(surfaces, &matching.forward, &landmarks)?;
+        let cycle = cycle_error(surfaces, [&matching.forward, &matching.backward])?;
+        let positions = target.positions().unwrap_or_default();
+        let point_error = point_error(&target.surface, &matching)?;
+        let partners = if same_numbering {
+            let size = diagonal(positions).max(f64::MIN_POSITIVE);
+            let images = matching.forward.carry(target.mesh(), positions)?;
+            Some(images.iter().zip(positions).map(|(&p, &q)| distance(p, q) / size).collect())
+        } else {
+            None
+        };
+        let (overlay, uncovered) = (None, [0.0; 2]);
+        Ok(MatchOutcome {
+            source,
+            target,
+            matching,
+            landmarks,
+            quality,
+            point_error,
+            cycle,
+            partners,
+            overlay,
+            uncovered,
+        })
+    }
+
+    pub fn lay_over(&mut self, overlay: Overlay) -> ricci::Result<()> {
+        self.uncovered = uncovered([&self.source.surface, &self.target.surface], &overlay)?;
+        self.overlay = Some(overlay);
+        Ok(())
+    }
+
+    /// The mean and the largest distance of a vertex's image from the target's vertex of the same number.
+    fn partners(&self) -> Option<[f64; 2]> {
+        let off = self.partners.as_ref()?;
+        let mean = off.iter().sum::<f64>() / off.len().max(1) as f64;
+        Some([mean, off.iter().copied().fold(0.0, f64::max)])
+    }
+}
+
+impl JobOutcome for MatchOutcome {
+    type Figures = Figures;
+
+    fn checks(&self) -> Checks {
+        let mut checks = Checks::default();
+        let flipped = self.matching.flipped.len() + self.matching.target_flipped.len();
+        checks.add("flipped_triangles", flipped as f64, 0.0);
+        checks.add("landmark_error", self.quality.landmark_error, LANDMARK);
+        if !self.matching.points.is_empty() {
+            checks.add("point_error", self.point_error, LANDMARK);
+        }
+        let places = [&self.matching.forward, &self.matching.backward];
+        let off = places.iter().flat_map(|map| &map.places).map(|place| {
+            let least = place.weights.iter().copied().fold(0.0, f64::min);
+            (place.weights.iter().sum::<f64>() - 1.0).abs().max(-least)
+        });
+        if self.overlay.is_some() {
+            checks.add("overlay_area", self.uncovered[0].max(self.uncovered[1]), AREA);
+        }
+        if !self.matching.holes.is_empty() {
+            let off = self.matching.holes.iter().map(|hole| hole.deviation);
+            checks.add("roundness", off.fold(0.0, worse), ROUND);
+        }
+        checks.add("weights", off.fold(0.0, f64::max), WEIGHTS);
+        checks
+    }
+
+    fn input(&self) -> Option<InputSummary> {
+        Some(InputSummary::of(&self.source).with_target(InputSummary::of(&self.target)))
+    }
+
+    fn figures(&self, _: &CommandRun<'_>) -> Figures {
+        let (m, q) = (&self.matching, &self.quality);
+        let [first, second] = m.balance;
+        let partners = self.partners();
+        Figures::default()
+            .with("space", m.space.name())
+            .with("landmarks", self.landmarks.len())
+            .if_some("points", Some(m.points.len()).filter(|n| *n > 0))
+            .if_some("point_error", Some(self.point_error).filter(|_| !m.points.is_empty()))
+            .if_some("soft_left", Some(m.soft_left.clone()).filter(|left| !left.is_empty()))
+            .with("flipped_triangles", m.flipped.len() + m.target_flipped.len())
+            .with("landmark_error", q.landmark_error)
+            .with("qc_mean", q.qc_mean)
+            .with("qc_max", q.qc_max)
+            .with("area_ratio_min", q.area_ratio_min)
+            .with("area_ratio_mean", q.area_ratio_mean)
+            .with("area_ratio_max", q.area_ratio_max)
+            .with("area_log", q.area_log)
+            .with("distance_mean", q.distance_mean)
+            .with("distance_max", q.distance_max)
+            .with("cycle_mean", self.cycle[0])
+            .with("cycle_max", self.cycle[1])
+            .if_some("partner_mean", partners.map(|p| p[0]))
+            .if_some("partner_max", partners.map(|p| p[1]))
+            .if_some("overlay_faces", self.overlay.as_ref().map(|o| o.mesh.n_faces()))
+            .if_some("overlay_crossings", self.overlay.as_ref().map(|o| o.crossings.len()))
+            .if_some("overlay_uncovered", self.overlay.as_ref().map(|_| self.uncovered.to_vec()))
+            .if_some("circles", circles(m))
+            .with("outside", m.outside)
+            .with("markings", m.markings)
+            .with("energy", first.energy)
+            .with("target_energy", second.energy)
+            .with("balance_residual", first.residual.max(second.residual))
+            .with("iterations", m.flow_iterations.to_vec())
+    }
+
+    fn summary(&self, done: &Done) -> String {
+        let (m, q) = (&self.matching, &self.quality);
+        let partners = self.partners().map_or(String::new(), |[mean, most]| {
+            format!("partners vertices of the same number are {mean:.2e} of the diagonal apart, at most {most:.2e}\n")
+        });
+        format!(
+            "{}target   {}map      in {}, {}, {} compared; no face folds\n\
+             quality  dilatation {:.2} on average, at most {:.1e}; there and back {:.1e} of the diagonal, at most {:.1e}\n{partners}{}",
+            say::surface(&self.source),
+            say::surface(&self.target).trim_start_matches("surface").trim_start(),
+            m.space,
+            say::count(self.landmarks.len(), "landmark", "landmarks"),
+            say::count(m.markings, "class", "classes"),
+            q.qc_mean,
+            q.qc_max,
+            self.cycle[0],
+            self.cycle[1],
+            say::finish(done),
+        )
+    }
+}
+
+/// The loops as circles; none where they are geodesics.
+fn circles(matching: &Matching) -> Option<Vec<Value>> {
+    let circle = |hole: &RoundHole| {
+        let center = match matching.space {
+            Space::H2 => model::poincare(hole.center),
+            _ => [hole.center[0], hole.center[1]],
+        };
+        json!({"loop": hole.boundary_loop, "center": center, "radius": hole.radius, "deviation": hole.deviation})
+    };
+    Some(matching.holes.iter().map(circle).collect()).filter(|all: &Vec<Value>| !all.is_empty())
+}

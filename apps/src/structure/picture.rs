@@ -1,0 +1,88 @@
+//! The picture of an atlas: the surface with its charts in colours.
+
+use super::args::StructureArgs;
+use crate::failure::Failure;
+use crate::input::Input;
+use crate::picture::{self, CLASSES, ColorField, ColorScale, Picture, ShownSurface, TextureChoice};
+use ricci::Control;
+use ricci::mesh::{FaceId, Mesh, PerFace};
+use ricci::structure::Atlas;
+use std::sync::Arc;
+
+/// Per face the chart in whose colour it is drawn: the first chart whose core it belongs to; none for an excluded face.
+fn owners(atlas: &Atlas) -> PerFace<Option<u32>> {
+    let mut owner = PerFace::filled(atlas.mesh.n_faces(), None);
+    for (k, chart) in (0..).zip(&atlas.charts) {
+        for &f in &chart.faces[..chart.n_core] {
+            owner[f].get_or_insert(k);
+        }
+    }
+    owner
+}
+
+/// A colour per chart: neighbouring charts differ as far as there are colours, and so do charts with successive numbers.
+fn colours(mesh: &Mesh, owner: &PerFace<Option<u32>>, n_charts: usize) -> Vec<usize> {
+    let n = CLASSES * CLASSES;
+    let mut beside = vec![Vec::new(); n_charts];
+    for e in mesh.edges() {
+        let [f, g] = [e.halfedge(), e.halfedge().twin()].map(|h| mesh.face(h).and_then(|f| owner[f]));
+        if let (Some(i), Some(j)) = (f, g)
+            && i != j
+        {
+            beside[i as usize].push(j as usize);
+            beside[j as usize].push(i as usize);
+        }
+    }
+    let mut colour = vec![n; n_charts];
+    for i in 0..n_charts {
+        // A step that is prime to the number of classes reaches every class.
+        let wish = (5 * i) % n;
+        let free = |c: &usize| beside[i].iter().all(|&j| colour[j] != *c);
+        colour[i] = (0..n).map(|k| (wish + 5 * k) % n).find(free).unwrap_or(wish);
+    }
+    colour
+}
+
+pub fn draw(
+    input: &Input,
+    atlas: &Atlas,
+    args: &StructureArgs,
+    control: &Control,
+) -> Result<Vec<u8>, Failure> {
+    let owner = owners(atlas);
+    let colour = colours(&atlas.mesh, &owner, atlas.charts.len());
+    // The given surface, cut along the edges of the atlas's triangulation.
+    let refinement = match &atlas.refinement {
+        Some(refinement) => Some(refinement.clone()),
+        None if atlas.metric.is_unflipped() => None,
+        None => Some(Arc::new(atlas.metric.refinement(control)?)),
+    };
+    let mesh = refinement.as_ref().map_or(&*atlas.mesh, |r| &r.mesh);
+    let face = |f: FaceId| match &refinement {
+        Some(r) if atlas.refinement.is_none() => r.final_face[f],
+        _ => f,
+    };
+    let positions = input.positions_on(refinement.as_deref())?;
+    let value = |f: FaceId| owner[face(f)].map_or(f64::NAN, |chart| colour[chart as usize] as f64);
+    let field = ColorField {
+        corners: mesh.faces().map(|f| [value(f); 3]).collect(),
+        scale: ColorScale::of_pairs("charts", "one colour is the core of one chart; grey lies in none"),
+    };
+    let border = mesh.edges().filter(|e| {
+        let [f, g] = [e.halfedge(), e.halfedge().twin()].map(|h| mesh.face(h).map(|f| owner[face(f)]));
+        f.is_some() && g.is_some() && f != g
+    });
+    let seams: Vec<_> = border.map(|e| (mesh.ends(e)[0].0, mesh.ends(e)[1].0, 0)).collect();
+    let cones: Vec<_> = atlas.singular_vertices.iter().map(|v| (v.0, -1.0)).collect();
+    let faces = mesh.triangles();
+    let surface = ShownSurface {
+        positions: &positions,
+        faces: &faces,
+        corner_uv: None,
+        seams: &seams,
+        cones: &cones,
+        is_closed: mesh.is_closed(),
+    };
+    let style = args.picture.style(TextureChoice::None, args.common.threads);
+    picture::png(&Picture { surface: Some(surface), field: Some(&field), ..Picture::default() }, &style)
+}
