@@ -17,7 +17,9 @@ from pathlib import Path
 import ricci
 from ricci.cohorts import Job
 
-ROOT = Path(__file__).resolve().parents[2]
+import page
+
+HEAD = ["workers", "s", "s in meshes", "s of the processor", "failures", "converged", "SHA-256 of `results.parquet`"]
 SUFFIXES = {".obj", ".off", ".ply", ".stl", ".glb", ".gii"}
 
 
@@ -60,14 +62,14 @@ def killed(names, out, workers):
 
 
 def main():
-    folder = Path(sys.argv[1]) if len(sys.argv) > 1 else ROOT.parent / "shared" / "meshes" / "good"
+    folder = Path(page.corpus)
     names = sorted(str(path) for path in folder.glob("*.*") if path.suffix in SUFFIXES)
     busy = os.getloadavg()[0]
     with tempfile.TemporaryDirectory() as place:
         rows = []
         for workers in (1, 2):
             seconds, cells = measured(names, Path(place, str(workers)), workers)
-            rows.append((seconds, f"| {workers} | " + " | ".join(map(str, cells)) + " |"))
+            rows.append((seconds, [workers, *cells]))
         out = Path(place, "killed")
         kept = killed(names, out, 2)
         start = time.perf_counter()
@@ -81,9 +83,7 @@ Made by `docs/results/cohort.py`: `ricci.cohort(paths, Job("flow"), out, engine=
 worker, on {platform.machine()} with {os.cpu_count()} cores. The load average of the minute before it began was {busy:.1f}: what else ran there is in the first two
 columns of seconds, and hardly in those of the processor.
 
-| workers | s | s in meshes | s of the processor | failures | converged | SHA-256 of `results.parquet` |
-|---|---|---|---|---|---|---|
-{chr(10).join(row for _, row in rows)}
+{page.table(HEAD, [cells for _, cells in rows])}
 
 `s` is what the call takes, with the start of the cluster and of its workers; `s in meshes` the sum of what the reports of the meshes say. Two workers
 are {rows[0][0] / rows[1][0]:.2f} times as fast as one.

@@ -7,7 +7,6 @@ import os
 import platform
 import statistics
 import subprocess
-import tempfile
 
 import page
 
@@ -21,17 +20,13 @@ PHASES = ["read", "build", *FLOW, "refine", "layout", "write"]
 RUNS = 5
 
 
-def reports(folder, mesh, *options):
+def reports(run, mesh, *options):
     """Reports of the command by number of threads."""
     found = {1: [], 2: []}
     for _ in range(RUNS):
         for threads, rows in found.items():
-            metric = os.path.join(folder, "metric.json")
-            if os.path.exists(metric):
-                os.remove(metric)
-            report, why = page.run(folder, "flow", mesh, *options, "--threads", str(threads), "--metric", metric)
-            assert report is not None, why
-            rows.append(report)
+            (metric,) = run.fresh("metric.json")
+            rows.append(run.needed(mesh, "flow", mesh, *options, "--threads", str(threads), "--metric", metric))
     return found
 
 
@@ -48,18 +43,17 @@ def rows(name, found):
         yield [name, vertices, rows[0]["result"]["flips"], threads, *cells, f"{layout:.2f}", f"{memory:.0f}"]
 
 
-def main():
+def content(run):
     out = []
-    with tempfile.TemporaryDirectory() as folder:
-        for n, m in TORI:
-            torus = page.make(folder, "torus.obj", "torus", "--big", "2", "--small", "0.9", "-n", str(n), "-m", str(m))
-            out += rows("torus, `--flips never`", reports(folder, torus, "--flips", "never"))
-            out += rows("torus", reports(folder, torus))
-        for mesh in page.meshes(lambda m: m["name"] in SMALL):
-            out += rows(f"{mesh['name']} (genus {mesh['genus']})", reports(folder, page.file_of(mesh)))
+    for n, m in [] if page.named else TORI:
+        torus = run.make("torus.obj", "torus", "--big", "2", "--small", "0.9", "-n", str(n), "-m", str(m))
+        out += rows("torus, `--flips never`", reports(run, torus, "--flips", "never"))
+        out += rows("torus", reports(run, torus))
+    for mesh in page.meshes(lambda m: m["name"] in SMALL):
+        out += rows(f"{mesh['name']} (genus {mesh['genus']})", reports(run, page.file_of(mesh)))
     commit = subprocess.run(["git", "rev-parse", "--short", "HEAD"], cwd=page.root, capture_output=True, text=True).stdout.strip()
     head = ["surface", "vertices", "flips", "threads", *PHASES, "flow", "whole", "whole over flow", "times one thread", "layout, µs per face", "bytes per vertex"]
-    print(f"""# Where the time of a command goes
+    return [f"""# Where the time of a command goes
 
 Made by `docs/results/command.py > docs/results/command.md` with the command of commit {commit}, on {platform.machine()} with {os.cpu_count()} cores; the load average
 of the minute before it ended was {os.getloadavg()[0]:.1f}.
@@ -69,8 +63,7 @@ flow's start; on two threads the analysis is made beside that and counts in both
 of the target belong to no phase, and less with two threads, where the metric is written and measured beside the layout. Bytes are the most memory that the process
 had, the program's own 11 MB among them.
 
-{page.table(head, out)}""")
+{page.table(head, out)}"""]
 
 
-if __name__ == "__main__":
-    main()
+page.main(content)

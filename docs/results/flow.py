@@ -3,22 +3,17 @@
 
 usage: docs/results/flow.py [CORPUS [NAME…]] > docs/results/flow.md     (after: cargo build --release -p ricci-apps)
 
-RICCI_CHECK names the program that judges the files from outside (by default ../shared/tools/check.py beside the repository);
-where it or numpy is absent, the page says so. Two flows run at a time, on one thread each.
+Two flows run at a time, on one thread each.
 """
 import concurrent.futures
-import csv
-import json
 import math
 import os
 import random
 import statistics
-import subprocess
 import sys
 import tempfile
 
-import page
-from page import CHECK, WHY, corpus, named, ricci
+from page import CHECK, WHY, Run, corpus, file_of, genus, index, launch, loops, main, named, plain, read_obj, sides, table, write_rows
 
 SCHEMES = ["yamabe", "inversive"]
 RIGID = ["yamabe", "inversive", "thurston", "tangential"]
@@ -34,8 +29,7 @@ TARGETS = {
 TOLERANCE = 1e-10
 SECONDS = 900
 
-meshes = [m for m in csv.DictReader(open(os.path.join(corpus, "INDEX.csv"))) if not named or m["name"] in named]
-meshes.sort(key=lambda m: (int(m["boundary_loops"]) > 0, int(m["genus"]), int(m["V"])))
+meshes = sorted((m for m in index(corpus) if not named or m["name"] in named), key=lambda m: (loops(m) > 0, genus(m), int(m["V"])))
 
 
 def euler(mesh):
@@ -44,18 +38,10 @@ def euler(mesh):
 
 def boundary(mesh):
     """The boundary's length at each of its vertices: half of the two edges there."""
-    points, sides = [], set()
-    with open(os.path.join(corpus, mesh["file"])) as file:
-        for line in file:
-            word = line.split()
-            if word and word[0] == "v":
-                points.append([float(x) for x in word[1:4]])
-            elif word and word[0] == "f":
-                f = [int(corner.split("/")[0]) - 1 for corner in word[1:]]
-                sides.update(zip(f, f[1:] + f[:1]))
-    length = {}
-    for a, b in sides:
-        if (b, a) not in sides:
+    points, faces = read_obj(file_of(mesh))
+    known, length = sides(faces), {}
+    for a, b in known:
+        if (b, a) not in known:
             for v in (a, b):
                 length[v] = length.get(v, 0.0) + math.dist(points[a], points[b]) / 2
     return length
@@ -81,35 +67,28 @@ def random_cones(mesh, target):
     return curvature
 
 
-def options(mesh, target, folder):
+def options(run, mesh, target):
     if target in ("cones", "straight"):
-        path = os.path.join(folder, "cones.csv")
-        with open(path, "w") as out:
-            out.write("vertex,curvature\n" + "".join(f"{v},{k!r}\n" for v, k in random_cones(mesh, target).items()))
+        path = write_rows(run.path("cones.csv"), "vertex,curvature", random_cones(mesh, target).items())
         return ["--space", "e2", "--target", f"cones:{path}"]
     return ["--space", "e2", "--target", "single:0"] if target == "single" else []
 
 
-def run(mesh, scheme, target, flips="auto"):
+def flow(mesh, scheme, target, flips="auto"):
     """The report's result, with what the outside program says of the files."""
     with tempfile.TemporaryDirectory() as folder:
-        path = os.path.join(corpus, mesh["file"])
-        report, metric, uv = (os.path.join(folder, name) for name in ("r.json", "m.json", "uv.obj"))
-        line = [ricci, "flow", path, "--scheme", scheme, "--flips", flips, "--threads", "1", "--report", report, "--quiet"]
-        line += options(mesh, target, folder)
-        flat = target != "default" or int(mesh["boundary_loops"]) > 0 or int(mesh["genus"]) < 2
+        run, path = Run(folder), file_of(mesh)
+        metric, uv = run.fresh("m.json", "uv.obj")
+        line = ["flow", path, "--scheme", scheme, "--flips", flips, "--threads", "1", *options(run, mesh, target)]
+        flat = target != "default" or loops(mesh) > 0 or genus(mesh) < 2
         files = flips == "auto"
         line += ["--metric", metric, *(["--uv", uv] if flat else [])] if files else []
-        try:
-            done = subprocess.run(line, stderr=subprocess.PIPE, text=True, timeout=SECONDS)
-        except subprocess.TimeoutExpired:
+        code, found, said = launch(folder, *line, seconds=SECONDS)
+        if code is None:
             return {"done": False, "stop_reason": f"{SECONDS} seconds"}
-        if not os.path.exists(report):
-            return {"done": False, "stop_reason": done.stderr.strip()}
-        found = json.load(open(report))
-        if "converged" not in found["result"]:
-            return {"done": False, "stop_reason": done.stderr.strip()}
-        result = {**found["result"], "seconds": found["seconds"], "code": done.returncode}
+        if found is None or "converged" not in found["result"]:
+            return {"done": False, "stop_reason": said}
+        result = {**found["result"], "seconds": found["seconds"], "code": code}
         result["failed"] = [name for name, check in found["checks"].items() if not check["holds"]]
         result["done"] = result["converged"] and result["max_curvature_error"] <= TOLERANCE and result["broken_triangles"] == 0
         if files and CHECK:
@@ -121,39 +100,27 @@ def run(mesh, scheme, target, flips="auto"):
 def on_input(mesh):
     """The layout of the default flow on the input's own faces: how many the program says fold, and the outside verdict."""
     with tempfile.TemporaryDirectory() as folder:
-        path = os.path.join(corpus, mesh["file"])
-        report, uv = (os.path.join(folder, name) for name in ("r.json", "uv.obj"))
-        line = [ricci, "flow", path, "--uv", uv, "--on", "input", "--threads", "1", "--report", report, "--quiet"]
-        done = subprocess.run(line, stderr=subprocess.PIPE, text=True, timeout=SECONDS)
-        found = CHECK.corners(uv, path) if CHECK and done.returncode == 0 else {}
-        folded = json.load(open(report))["result"]["flipped_input_faces"] if done.returncode == 0 else None
-        return {"code": done.returncode, "folded": folded, **found}
+        path, uv = file_of(mesh), os.path.join(folder, "uv.obj")
+        code, report, _ = launch(folder, "flow", path, "--uv", uv, "--on", "input", "--threads", "1", seconds=SECONDS)
+        found = CHECK.corners(uv, path) if CHECK and code == 0 else {}
+        return {"code": code, "folded": report["result"]["flipped_input_faces"] if code == 0 else None, **found}
 
 
 def work(mesh):
     print(mesh["name"], file=sys.stderr)
-    genus = int(mesh["genus"])
-    targets = ["default", "cones"] + ["straight"] * (int(mesh["boundary_loops"]) > 0) + ["single"] * (1 <= genus <= 3)
-    flown = {(target, scheme): run(mesh, scheme, target) for target in targets for scheme in SCHEMES}
-    return flown, {scheme: run(mesh, scheme, "default", "never") for scheme in RIGID}, on_input(mesh)
+    targets = ["default", "cones"] + ["straight"] * (loops(mesh) > 0) + ["single"] * (1 <= genus(mesh) <= 3)
+    flown = {(target, scheme): flow(mesh, scheme, target) for target in targets for scheme in SCHEMES}
+    return flown, {scheme: flow(mesh, scheme, "default", "never") for scheme in RIGID}, on_input(mesh)
 
 
 def kind(mesh):
-    if int(mesh["boundary_loops"]):
+    if loops(mesh):
         return "open"
-    return "closed, genus " + ("≥ 2" if int(mesh["genus"]) >= 2 else mesh["genus"])
-
-
-def table(head, rows):
-    print(page.table(head, rows) + "\n")
-
-
-def number(x, form):
-    return "–" if x is None else format(x, form)
+    return "closed, genus " + ("≥ 2" if genus(mesh) >= 2 else mesh["genus"])
 
 
 def middle(values):
-    return number(statistics.median_low(values), "d") if values else "–"
+    return plain(statistics.median_low(values), "d") if values else "–"
 
 
 def why(x):
@@ -173,7 +140,7 @@ def summary(flown):
             uv = [x["uv"] for x in done if x.get("uv")]
             steps = [x["iterations"] for x in done]
             yield (target, scheme, f"{len(done)} of {len(r)}", f"{middle(steps)}, {max(steps, default='–')}",
-                   middle([x["flips"] for x in done]), number(max((x["max_curvature_error"] for x in done), default=None), ".0e"),
+                   middle([x["flips"] for x in done]), plain(max((x["max_curvature_error"] for x in done), default=None), ".0e"),
                    f"{sum(x['flipped_triangles'] == 0 for x in laid)} of {len(laid)}", sum(x["degenerate_pieces"] for x in laid),
                    f"{sum(x['max_curvature_error'] <= TOLERANCE and x['broken_triangles'] == 0 for x in metric)} of {len(metric)}",
                    f"{sum(x['flipped'] == 0 and x['first_vertices_kept'] for x in uv)} of {len(uv)}")
@@ -197,7 +164,7 @@ def missing(flown):
             for scheme in SCHEMES:
                 r = x.get((target, scheme))
                 if r and not r["done"]:
-                    yield m["name"], target, scheme, why(r), r.get("iterations", "–"), number(r.get("max_curvature_error"), ".0e")
+                    yield m["name"], target, scheme, why(r), r.get("iterations", "–"), plain(r.get("max_curvature_error"), ".0e")
 
 
 def details(flown, target):
@@ -213,9 +180,9 @@ def details(flown, target):
             fails = ", ".join(r["failed"]).replace("_", " ")
             yield (m["name"], m["V"], m["genus"], m["boundary_loops"], scheme,
                    ("yes" if r["done"] else why(r)) + (f" ! {fails}" if fails else ""), r["iterations"], r["flips"],
-                   f"{r['seconds']['total']:.2f}", f"{r['max_curvature_error']:.0e}", number(get("qc_mean"), ".3f"),
-                   number(get("qc_max"), ".3g"), number(get("flipped_triangles"), "d"), number(get("degenerate_pieces"), "d"),
-                   number(get("crossings"), "d"), number(metric and metric["max_curvature_error"], ".0e"),
+                   f"{r['seconds']['total']:.2f}", f"{r['max_curvature_error']:.0e}", plain(get("qc_mean"), ".3f"),
+                   plain(get("qc_max"), ".3g"), plain(get("flipped_triangles"), "d"), plain(get("degenerate_pieces"), "d"),
+                   plain(get("crossings"), "d"), plain(metric and metric["max_curvature_error"], ".0e"),
                    "–" if not uv else f"{uv['flipped']}, {uv['degenerate']}")
 
 
@@ -225,54 +192,54 @@ def rigid_cell(x):
     return f"{x['iterations']}" + (f" ! {x['flipped_triangles']} flipped" if x["flipped_triangles"] else "")
 
 
-with concurrent.futures.ProcessPoolExecutor(2) as pool:
-    results = list(pool.map(work, meshes))
-flown = [(m, x) for m, (x, _, _) in zip(meshes, results)]
-rigid = [(m, x) for m, (_, x, _) in zip(meshes, results)]
-given = [(m, x) for m, (_, _, x) in zip(meshes, results)]
+def content(_):
+    with concurrent.futures.ProcessPoolExecutor(2) as pool:
+        results = list(pool.map(work, meshes))
+    flown = [(m, x) for m, (x, _, _) in zip(meshes, results)]
+    rigid = [(m, x) for m, (_, x, _) in zip(meshes, results)]
+    given = [(m, x) for m, (_, _, x) in zip(meshes, results)]
+    whole = sum(int(m["F"]) for m, _ in given)
+    folded = sum(x["folded"] or 0 for _, x in given)
+    same = sum(bool(x.get("same_faces")) for _, x in given)
+    head = ["mesh", "V", "genus", "loops", "scheme", "reached", "steps", "flips", "seconds", "error", "qc mean", "qc max", "flipped",
+            "degenerate", "crossings", "outside error", "outside flipped, degenerate"]
+    return [
+        "# Flow on the mesh corpus",
+        f"Made by `docs/results/flow.py`: `ricci flow` on each of the {len(meshes)} meshes. Reached: converged, max |K − K̄| ≤ 1e-10, no "
+        "broken triangle. Flips: those of the flow and the isometric ones before it, on the double of an open surface. Seconds: the whole "
+        "command on one thread, files included.",
+        "\n".join(f"- *{name}*: {text}" for name, text in TARGETS.items()),
+        "## With flips",
+        f"No outside verdict: {WHY}." if WHY else
+        "The last two columns are the verdict of a program that shares nothing with this project (`check.py metric`, `check.py uv`), on the "
+        "files written: how many metrics have max |K − K̄| ≤ 1e-10 and no broken triangle, recomputed from faces and lengths in long "
+        "doubles (which slivers of 1e-9 and thinner exhaust); how many layouts have no flipped triangle and keep the input's vertices.",
+        table(["target", "scheme", "reached", "steps: median, most", "median flips", "largest error", "layouts without flipped triangles",
+               "degenerate pieces", "outside: metrics", "outside: layouts"], summary(flown)),
+        "Per class: steps (median, most), median flips.",
+        table(["class", "meshes"] + [f"{target} {scheme}" for target in TARGETS for scheme in SCHEMES], classes(flown)),
+        "Not reached: u is beyond ±5e5 (diverged), rounding holds the error above 1e-10 (rounding floor: the report "
+        "states it; stalled), or Newton's method takes more than 500 steps.",
+        table(["mesh", "target", "scheme", "why", "steps", "error"], missing(flown)),
+        "## Every flow",
+        "Error: max |K − K̄| of the flow. qc: quasi-conformal dilatation of the layout, area-weighted mean and maximum. Flipped and "
+        "degenerate: pieces of the layout. Crossings: vertices of the common refinement that are none of the input's. Outside: error of the "
+        "metric file; flipped and degenerate pieces of the layout file. A dash where there is no layout (H²) or no refinement (no flip). `!`: a "
+        "check of the report that does not hold.",
+        *(block for target in TARGETS for block in (f"### {target}", table(head, details(flown, target)))),
+        "## Without flips",
+        "`--flips never`, default target: steps where reached, otherwise why not: the energy is least with that many broken triangles; or "
+        "infeasible, and how many vertices prove it. `!`: reached, but triangles of the layout are flipped.",
+        table(["", *RIGID], [["reached", *(f"{sum(x[s]['done'] for _, x in rigid)} of {len(rigid)}" for s in RIGID)]]),
+        table(["mesh", *RIGID], [[m["name"], *(rigid_cell(x[s]) for s in RIGID)] for m, x in rigid]),
+        "## On the input's own faces",
+        "`--on input`, default target: the layout made linear on each face of the input. Folded: faces of the input that turn over then "
+        "(the exact map, on the refinement, turns none over), as the report says and as `check.py corners` counts.",
+        f"{sum(x['code'] == 0 for _, x in given)} of {len(given)} meshes written; {same} with the input's own faces, and so with seams on its "
+        f"edges, by the outside program. {folded} of {whole} faces folded: {100 * folded / whole:.2f} %.",
+        table(["mesh", "faces", "folded", "share", "outside: folded"],
+              [(m["name"], m["F"], x["folded"], f"{100 * (x['folded'] or 0) / int(m['F']):.2f} %", x.get("flipped", "–")) for m, x in given]),
+    ]
 
-print("# Flow on the mesh corpus\n")
-print(f"Made by `docs/results/flow.py`: `ricci flow` on each of the {len(meshes)} meshes. Reached: converged, max |K − K̄| ≤ 1e-10, no "
-      "broken triangle. Flips: those of the flow and the isometric ones before it, on the double of an open surface. Seconds: the whole "
-      "command on one thread, files included.\n")
-for name, text in TARGETS.items():
-    print(f"- *{name}*: {text}")
-print("\n## With flips\n")
-if WHY:
-    print(f"No outside verdict: {WHY}.\n")
-else:
-    print("The last two columns are the verdict of a program that shares nothing with this project (`check.py metric`, `check.py uv`), on the "
-          "files written: how many metrics have max |K − K̄| ≤ 1e-10 and no broken triangle, recomputed from faces and lengths in long "
-          "doubles (which slivers of 1e-9 and thinner exhaust); how many layouts have no flipped triangle and keep the input's vertices.\n")
-table(["target", "scheme", "reached", "steps: median, most", "median flips", "largest error", "layouts without flipped triangles",
-       "degenerate pieces", "outside: metrics", "outside: layouts"], summary(flown))
-print("Per class: steps (median, most), median flips.\n")
-table(["class", "meshes"] + [f"{target} {scheme}" for target in TARGETS for scheme in SCHEMES], classes(flown))
-print("Not reached: u is beyond ±5e5 (diverged), rounding holds the error above 1e-10 (rounding floor: the report "
-      "states it; stalled), or Newton's method takes more than 500 steps.\n")
-table(["mesh", "target", "scheme", "why", "steps", "error"], missing(flown))
-print("## Every flow\n")
-print("Error: max |K − K̄| of the flow. qc: quasi-conformal dilatation of the layout, area-weighted mean and maximum. Flipped and "
-      "degenerate: pieces of the layout. Crossings: vertices of the common refinement that are none of the input's. Outside: error of the "
-      "metric file; flipped and degenerate pieces of the layout file. A dash where there is no layout (H²) or no refinement (no flip). `!`: a "
-      "check of the report that does not hold.\n")
-head = ["mesh", "V", "genus", "loops", "scheme", "reached", "steps", "flips", "seconds", "error", "qc mean", "qc max", "flipped",
-        "degenerate", "crossings", "outside error", "outside flipped, degenerate"]
-for target in TARGETS:
-    print(f"### {target}\n")
-    table(head, details(flown, target))
-print("## Without flips\n")
-print("`--flips never`, default target: steps where reached, otherwise why not: the energy is least with that many broken triangles; or "
-      "infeasible, and how many vertices prove it. `!`: reached, but triangles of the layout are flipped.\n")
-table(["", *RIGID], [["reached", *(f"{sum(x[s]['done'] for _, x in rigid)} of {len(rigid)}" for s in RIGID)]])
-table(["mesh", *RIGID], [[m["name"], *(rigid_cell(x[s]) for s in RIGID)] for m, x in rigid])
-print("## On the input's own faces\n")
-print("`--on input`, default target: the layout made linear on each face of the input. Folded: faces of the input that turn over then "
-      "(the exact map, on the refinement, turns none over), as the report says and as `check.py corners` counts.\n")
-whole = sum(int(m["F"]) for m, _ in given)
-folded = sum(x["folded"] or 0 for _, x in given)
-same = sum(bool(x.get("same_faces")) for _, x in given)
-print(f"{sum(x['code'] == 0 for _, x in given)} of {len(given)} meshes written; {same} with the input's own faces, and so with seams on its "
-      f"edges, by the outside program. {folded} of {whole} faces folded: {100 * folded / whole:.2f} %.\n")
-table(["mesh", "faces", "folded", "share", "outside: folded"],
-      [(m["name"], m["F"], x["folded"], f"{100 * (x['folded'] or 0) / int(m['F']):.2f} %", x.get("flipped", "–")) for m, x in given])
+
+main(content)

@@ -3,17 +3,15 @@
 
 usage: docs/results/matching.py [CORPUS [NAME…]] > docs/results/matching.md     (after: cargo build --release -p ricci-apps)
 
-Of the names two are of sections: figure12, cortices. RICCI_ROWS names a file that keeps what is finished, a line per run of the command: an interrupted
-run goes on from there. RICCI_CHECK names the program that judges the files from outside (by default ../shared/tools/check.py beside the repository).
+Of the names two are of sections: figure12, cortices.
 """
 import heapq
-import json
 import math
 import os
 import statistics
-import tempfile
 
-from page import WHY, corpus, failures, file_of, judged, make, meshes, named, run, small, table, verdict
+from page import (corpus, divided, failures, file_of, judged, main, meshes, named, read_obj, rim, small, table, verdict, verdict_of_outside,
+                  write_rows)
 
 # Pairs whose vertices correspond by number, and others.
 SAME = [("pair_cat_A", "pair_cat_B"), ("human_man", "human_woman"), ("pair_face_reference", "pair_face_rage"),
@@ -53,27 +51,15 @@ PATIENCE = 300
 OWN_PATIENCE = 100
 
 
-def read(path):
-    places, faces = [], []
-    for word in (line.split() for line in open(path)):
-        if word and word[0] == "v":
-            places.append([float(x) for x in word[1:4]])
-        elif word and word[0] == "f":
-            faces.append([int(corner.split("/")[0]) - 1 for corner in word[1:4]])
-    return places, faces
-
-
 def farthest(path, n):
     """Vertices inside a mesh, each farthest along edges from those before it."""
-    places, faces = read(path)
-    beside, sides = [{} for _ in places], set()
+    places, faces = read_obj(path)
+    beside, border = [{} for _ in places], rim(faces)
     for f in faces:
         for a, b in zip(f, f[1:] + f[:1]):
             beside[a][b] = beside[b][a] = math.dist(places[a], places[b])
-            sides.add((a, b))
-    rim = {v for a, b in sides if (b, a) not in sides for v in (a, b)}
-    found, far = [], [math.inf] * len(places)
-    start = min(v for v in range(len(places)) if v not in rim)
+    inside = [v for v in range(len(places)) if v not in border]
+    found, far, start = [], [math.inf] * len(places), inside[0]
     while len(found) < n:
         found.append(start)
         far[start], heap = 0.0, [(0.0, start)]
@@ -83,217 +69,157 @@ def farthest(path, n):
                 if d + length < far[u]:
                     far[u] = d + length
                     heapq.heappush(heap, (far[u], u))
-        start = max((v for v in range(len(places)) if v not in rim), key=far.__getitem__)
+        start = max(inside, key=far.__getitem__)
     return found
 
 
-def divided(path, folder, times):
-    """A mesh with every triangle cut into four, so often."""
-    places, faces = read(path)
-    for _ in range(times):
-        middle, finer = {}, []
-        def between(a, b):
-            key = (min(a, b), max(a, b))
-            if key not in middle:
-                middle[key] = len(places)
-                places.append([(x + y) / 2 for x, y in zip(places[a], places[b])])
-            return middle[key]
-        for a, b, c in faces:
-            ab, bc, ca = between(a, b), between(b, c), between(c, a)
-            finer += [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]
-        faces = finer
-    out = os.path.join(folder, "fine_" + os.path.basename(path))
-    with open(out, "w") as file:
-        file.writelines("v {!r} {!r} {!r}\n".format(*p) for p in places)
-        file.writelines("f {} {} {}\n".format(*(v + 1 for v in f)) for f in faces)
-    return out
+def matched(run, name, paths, landmarks=(), same=False, seconds=None, overlay=False, more=()):
+    """Report and what the outside program says of the map, or two times None: then it is told why. The answer is kept under the name."""
+    report, why, seen = run.keep(name, lambda: answer(run, paths, landmarks, same, seconds, overlay, more))
+    run.bad += [f"{name}: {why}"] if report is None else failures(name, report)
+    return report, seen
 
 
-KNOWN = {}
-
-
-def matched(folder, name, paths, landmarks=(), same=False, seconds=None, overlay=False, more=()):
-    """Report, or none and why; and what the outside program says of the map. `name` says of what: under it the answer is kept."""
-    kept = os.environ.get("RICCI_ROWS")
-    if kept and not KNOWN and os.path.exists(kept):
-        KNOWN.update((key, answer) for key, answer in map(json.loads, open(kept)))
-    if name not in KNOWN:
-        KNOWN[name] = answer(folder, paths, landmarks, same, seconds, overlay, more)
-        if kept:
-            with open(kept, "a") as file:
-                file.write(json.dumps([name, KNOWN[name]]) + "\n")
-    return KNOWN[name]
-
-
-def answer(folder, paths, landmarks, same, seconds, overlay, more):
-    rows, places = os.path.join(folder, "map.csv"), os.path.join(folder, "landmarks.csv")
+def answer(run, paths, landmarks, same, seconds, overlay, more):
+    rows, over = run.fresh("map.csv", "overlay.obj")
     asked = ["match", *paths, "--map", rows, *more]
     if landmarks:
-        with open(places, "w") as file:
-            file.write("source_vertex,target_vertex\n")
-            file.writelines(f"{v},{v}\n" for v in landmarks)
-        asked += ["--landmarks", places]
+        pairs = write_rows(run.path("landmarks.csv"), "source_vertex,target_vertex", [(v, v) for v in landmarks])
+        asked += ["--landmarks", pairs]
     asked += ["--same-numbering"] if same else []
-    asked += ["--overlay", os.path.join(folder, "overlay.obj")] if overlay else []
-    report, why = run(folder, *asked, seconds=seconds)
-    if report is None or "error" in report["result"]:
-        return None, why if report is None else report["result"]["error"]["message"], None
-    return report, why, judged("map_", rows, *paths)
+    asked += ["--overlay", over] if overlay else []
+    report, why = run.try_report(*asked, seconds=seconds)
+    return report, why, None if report is None else judged("map_", rows, *paths)
 
 
 def row(name, report, seen, *more):
     r = report["result"]
     outside = "–" if seen is None else f"{'all' if seen['covered'] else 'not all'}, {small(seen['weights_off'])}, {seen['faces_oriented']:.4f}"
-    return [name, *more, r["space"], str(r["flipped_triangles"]), small(r["landmark_error"]), f"{r['qc_mean']:.3f}", small(r["qc_max"]),
-            f"{r['area_log']:.3f}", small(r["cycle_mean"]), str(r["markings"]), outside, f"{report['seconds']['total']:.1f}"]
+    return [name, *more, r["space"], r["flipped_triangles"], small(r["landmark_error"]), f"{r['qc_mean']:.3f}", small(r["qc_max"]),
+            f"{r['area_log']:.3f}", small(r["cycle_mean"]), r["markings"], outside, f"{report['seconds']['total']:.1f}"]
 
 
 HEAD = ["space", "flipped", "landmarks off", "K mean", "K max", "area", "there and back", "classes", "outside: covered, weights, oriented", "s"]
 
 
-def pairs(folder):
-    known = {mesh["name"]: mesh for mesh in meshes(lambda m: True)}
-    rows, partners, bad = [], {n: [] for n in LANDMARKS}, []
-    for first, second in SAME + OTHER:
-        if first not in known or second not in known:
-            continue
-        paths, same = [file_of(known[name]) for name in (first, second)], (first, second) in SAME
+def known_pairs(pairs):
+    """The pairs of which the corpus has both meshes, with their files."""
+    known = {mesh["name"]: mesh for mesh in meshes()}
+    return [(pair, [file_of(known[name]) for name in pair]) for pair in pairs if all(name in known for name in pair)]
+
+
+def pairs(run):
+    rows, partners = [], {n: [] for n in LANDMARKS}
+    for pair, paths in known_pairs(SAME + OTHER):
+        same, name = pair in SAME, " → ".join(pair)
         vertices = farthest(paths[0], max(LANDMARKS)) if same else []
         for n in LANDMARKS if same else LANDMARKS[:1]:
-            name = f"{first} → {second}"
-            report, why, seen = matched(folder, f"{name}, {n}", paths, vertices[:n], same, PATIENCE)
+            title, far = f"{name}, {n} landmarks", "–"
+            report, seen = matched(run, title, paths, vertices[:n], same, PATIENCE)
             if report is None:
-                bad.append(f"{name}, {n} landmarks: {why}")
                 continue
-            bad += failures(f"{name}, {n} landmarks", report)
-            if seen and not (seen["covered"] and seen["weights_off"] < 1e-12):
-                bad.append(f"{name}, {n} landmarks, outside: {seen}")
-            far = "–"
+            run.insist(not seen or seen["covered"] and seen["weights_off"] < 1e-12, f"{title}, outside: {seen}")
             if same:
                 partners[n].append(report["result"]["partner_mean"])
                 far = f"{report['result']['partner_mean']:.4f}, {report['result']['partner_max']:.4f}"
-            rows.append(row(name, report, seen, str(n), far))
-    medians = [[str(n), str(len(partners[n])), f"{statistics.median(partners[n]):.4f}"] for n in LANDMARKS if partners[n]]
-    return table(["pair", "landmarks", "partners: mean, max", *HEAD], rows), medians, bad
+            rows.append(row(name, report, seen, n, far))
+    medians = [[n, len(partners[n]), f"{statistics.median(partners[n]):.4f}"] for n in LANDMARKS if partners[n]]
+    return table(["pair", "landmarks", "partners: mean, max", *HEAD], rows), medians
 
 
-def selves(folder):
-    rows, bad = [], []
-    for mesh in meshes(lambda m: int(m["V"]) <= LARGEST):
-        path = file_of(mesh)
-        report, why, seen = matched(folder, f"{mesh['name']} to itself", [path, path], (), True, OWN_PATIENCE)
-        if report is None:
-            bad.append(f"{mesh['name']} to itself: {why}")
-            continue
-        bad += failures(f"{mesh['name']} to itself", report)
-        off = report["result"]["partner_max"]
-        if off > 1e-8:
-            bad.append(f"{mesh['name']} to itself: a vertex is {off:.1e} away from itself")
-        rows.append([mesh["name"], mesh["V"], mesh["genus"], mesh["boundary_loops"], report["result"]["space"], small(off),
-                     small(report["result"]["balance_residual"]), str(report["result"]["flipped_triangles"]), f"{report['seconds']['total']:.1f}"])
-    return table(["mesh", "V", "genus", "loops", "space", "farthest from itself", "off the means", "flipped", "s"], rows), bad
+def itself(run, mesh):
+    path, name = file_of(mesh), f"{mesh['name']} to itself"
+    report, _ = matched(run, name, [path, path], (), True, OWN_PATIENCE)
+    if report is None:
+        return None
+    off = report["result"]["partner_max"]
+    run.insist(off <= 1e-8, f"{name}: a vertex is {off:.1e} away from itself")
+    return [mesh["name"], mesh["V"], mesh["genus"], mesh["boundary_loops"], report["result"]["space"], small(off),
+            small(report["result"]["balance_residual"]), report["result"]["flipped_triangles"], f"{report['seconds']['total']:.1f}"]
 
 
-def overlays(folder):
+def overlay(run, known):
     """Source and target laid over each other."""
-    known = {mesh["name"]: mesh for mesh in meshes(lambda m: True)}
-    rows, bad = [], []
-    for first, second in SAME[:3] + OTHER:
-        if first not in known or second not in known:
-            continue
-        paths, name = [file_of(known[n]) for n in (first, second)], f"{first} over {second}"
-        report, why, _ = matched(folder, name, paths, (), False, PATIENCE, True)
-        if report is None:
-            bad.append(f"{name}: {why}")
-            continue
-        bad += failures(name, report)
-        r = report["result"]
-        if "overlay_faces" not in r:
-            bad.append(f"{name}: {r['failed']['overlay'] if 'failed' in r else 'no overlay'}")
-            continue
-        counts = [str(report["input"]["faces"]), str(report["input"]["target"]["faces"]), str(r["overlay_faces"]), str(r["overlay_crossings"])]
-        rows.append([f"{first}, {second}", *counts, *map(small, r["overlay_uncovered"]), f"{report['seconds']['total']:.1f}"])
-    return table(["source, target", "F", "F of the target", "F of the overlay", "crossings", "source missed", "target missed", "s"], rows), bad
+    pair, paths = known
+    name = " over ".join(pair)
+    report, _ = matched(run, name, paths, (), False, PATIENCE, True)
+    if report is None:
+        return None
+    r = report["result"]
+    if "overlay_faces" not in r:
+        run.bad.append(f"{name}: {r['failed']['overlay'] if 'failed' in r else 'no overlay'}")
+        return None
+    counts = [report["input"]["faces"], report["input"]["target"]["faces"], r["overlay_faces"], r["overlay_crossings"]]
+    return [", ".join(pair), *counts, *map(small, r["overlay_uncovered"]), f"{report['seconds']['total']:.1f}"]
 
 
-def figure_12(folder):
+def figure_12(run):
     """Two surfaces of genus 1 with three boundary loops."""
-    rows, bad = [], []
-    shapes = [make(folder, f"{name}.obj", "torus", "--big", big, "--small", low, "--holes", "3") for name, big, low in
-              (("thin", "1", "0.3"), ("thick", "1", "0.6"))]
+    rows, names = [], ("thin", "thick")
+    shapes = [run.make(f"{name}.obj", "torus", "--big", "1", "--small", low, "--holes", "3") for name, low in zip(names, ("0.3", "0.6"))]
     for first, second in ((0, 1), (1, 0)):
         for shape in ("circles", "geodesics"):
-            report, why, seen = matched(folder, f"figure 12, {first}, {shape}", [shapes[first], shapes[second]], more=["--loop-shape", shape])
-            if report is None:
-                bad.append(f"tori with holes, {shape}: {why}")
-                continue
-            bad += failures(f"tori with holes, {shape}", report)
-            circles = report["result"].get("circles")
-            round_ = small(max(circle["deviation"] for circle in circles)) if circles else "–"
-            names = ("thin", "thick")
-            rows.append(row(f"{names[first]} torus → {names[second]} torus", report, seen, shape, round_))
-    return table(["pair", "loops", "roundness", *HEAD], rows), bad
+            name = f"{names[first]} torus → {names[second]} torus"
+            report, seen = matched(run, f"{name}, {shape}", [shapes[first], shapes[second]], more=["--loop-shape", shape])
+            if report is not None:
+                circles = report["result"].get("circles")
+                round_ = small(max(circle["deviation"] for circle in circles)) if circles else "–"
+                rows.append(row(name, report, seen, shape, round_))
+    return table(["pair", "loops", "roundness", *HEAD], rows)
 
 
-def speed(folder):
-    rows, bad = [], []
-    names = ["cortex_fsaverage5_pial_left", "cortex_fsaverage5_pial_right"]
-    paths = [os.path.join(corpus, f"{name}.obj") for name in names]
+def speed(run):
+    rows = []
+    paths = [os.path.join(corpus, f"cortex_fsaverage5_pial_{side}.obj") for side in ("left", "right")]
     for times in (0, 2):
-        both = [divided(path, folder, times) for path in paths] if times else paths
+        both = [divided(path, run.path("fine_" + os.path.basename(path)), times) for path in paths] if times else paths
         for n in (0, 8):
-            report, why, _ = matched(folder, f"hemispheres, {times} divisions, {n}", both, farthest(paths[0], n), False, 1200)
-            if report is None:
-                bad.append(f"hemispheres, {times} divisions, {n} landmarks: {why}")
-                continue
-            bad += failures("hemispheres", report)
-            rows.append([str(report["input"]["vertices"]), str(n), f"{report['seconds']['total']:.1f}", f"{report['seconds']['solve']:.1f}",
-                         f"{(report['peak_bytes'] or 0) / 2**20:.0f}", str(report["result"]["flipped_triangles"])])
-    return table(["V each", "landmarks", "s", "s, matching alone", "MiB at most", "flipped"], rows), bad
+            report, _ = matched(run, f"hemispheres, {times} divisions, {n} landmarks", both, farthest(paths[0], n), False, 1200)
+            if report is not None:
+                rows.append([report["input"]["vertices"], n, f"{report['seconds']['total']:.1f}", f"{report['seconds']['solve']:.1f}",
+                             f"{(report['peak_bytes'] or 0) / 2**20:.0f}", report["result"]["flipped_triangles"]])
+    return table(["V each", "landmarks", "s", "s, matching alone", "MiB at most", "flipped"], rows)
 
 
-def main():
-    with tempfile.TemporaryDirectory() as folder:
-        all_pairs, medians, bad = pairs(folder)
-        own, more = selves(folder)
-        over, fifth = overlays(folder)
-        holes, third = figure_12(folder) if not named or "figure12" in named else ("", [])
-        times, fourth = speed(folder) if not named or "cortices" in named else ("", [])
-    print("# Surface matching\n")
-    print("Made by `docs/results/matching.py`: `ricci match` with default options. Times are those of one run each, on two cores that were shared with other "
-          "work at the same time: they say little.\n")
-    print(verdict(bad + more + third + fourth + fifth) + "\n")
-    print(REASONS)
-    if WHY:
-        print(f"No independent program has judged the files: {WHY}.\n")
-    print("## Pairs\n")
-    print("*landmarks*: vertices of the same number, each farthest along edges from those before it. *partners*: distance of a vertex's image from the vertex of the same "
-          "number, over the diagonal of the target's box. *flipped*: faces of either surface that are not counterclockwise in the domain. *landmarks off*: "
-          "of a landmark's image from its partner, over that diagonal. *K*: quasi-conformal dilatation from face to image in space, by area. *area*: mean by area of |ln| of a face's share of the area of the image over its share of its own surface. *there and back*: mean distance of a vertex from where the map and its inverse bring "
-          "it. *classes*: ways to mark the map whose energies were compared. *outside*: check.py on the map: whether it covers the source, weights off, share of faces that keep "
-          "their side in space.\n")
-    print(all_pairs)
-    if medians:
-        print("\nMedian over the pairs with the same numbering of the mean distance to the partner:\n")
-        print(table(["landmarks", "pairs", "median"], medians))
-    print("\n## Every mesh to itself\n")
-    print(f"Connected meshes of up to {LARGEST} vertices. *farthest from itself*: largest distance of a vertex from its image, over the diagonal. *off the means*: of a vertex from the "
-          "mean of its neighbours, over their mean distance.\n")
-    print(own)
-    print("\n## Another mesh of the same surface\n")
-    print(REMESHED)
-    print("## Overlays\n")
-    print("Source and target laid over each other in the domain, without landmarks: every face of the overlay is a part of one face of either. *missed*: share of the area of a "
-          "surface that its parts miss.\n")
-    print(over)
-    if holes:
-        print("\n## Genus 1 with three boundary loops\n")
-        print(FIGURE_12)
-        print(holes)
-    if times:
-        print("\n## Two hemispheres of the cortex\n")
-        print("As they are, and with every triangle cut into four twice.\n")
-        print(times)
+def content(run):
+    all_pairs, medians = pairs(run)
+    own = run.rows(meshes(lambda m: int(m["V"]) <= LARGEST), itself)
+    over = run.rows(known_pairs(SAME[:3] + OTHER), overlay)
+    holes = figure_12(run) if not named or "figure12" in named else ""
+    times = speed(run) if not named or "cortices" in named else ""
+    return [
+        "# Surface matching",
+        "Made by `docs/results/matching.py`: `ricci match` with default options. Times are those of one run each, on two cores that were shared with other "
+        "work at the same time: they say little.",
+        verdict(run.bad),
+        REASONS,
+        verdict_of_outside(""),
+        "## Pairs",
+        "*landmarks*: vertices of the same number, each farthest along edges from those before it. *partners*: distance of a vertex's image from the vertex of the same "
+        "number, over the diagonal of the target's box. *flipped*: faces of either surface that are not counterclockwise in the domain. *landmarks off*: "
+        "of a landmark's image from its partner, over that diagonal. *K*: quasi-conformal dilatation from face to image in space, by area. *area*: mean by area of |ln| of a face's share of the area of the image over its share of its own surface. *there and back*: mean distance of a vertex from where the map and its inverse bring "
+        "it. *classes*: ways to mark the map whose energies were compared. *outside*: check.py on the map: whether it covers the source, weights off, share of faces that keep "
+        "their side in space.",
+        all_pairs,
+        medians and "Median over the pairs with the same numbering of the mean distance to the partner:",
+        medians and table(["landmarks", "pairs", "median"], medians),
+        "## Every mesh to itself",
+        f"Connected meshes of up to {LARGEST} vertices. *farthest from itself*: largest distance of a vertex from its image, over the diagonal. *off the means*: of a vertex from the "
+        "mean of its neighbours, over their mean distance.",
+        table(["mesh", "V", "genus", "loops", "space", "farthest from itself", "off the means", "flipped", "s"], own),
+        "## Another mesh of the same surface",
+        REMESHED,
+        "## Overlays",
+        "Source and target laid over each other in the domain, without landmarks: every face of the overlay is a part of one face of either. *missed*: share of the area of a "
+        "surface that its parts miss.",
+        table(["source, target", "F", "F of the target", "F of the overlay", "crossings", "source missed", "target missed", "s"], over),
+        holes and "## Genus 1 with three boundary loops",
+        holes and FIGURE_12,
+        holes,
+        times and "## Two hemispheres of the cortex",
+        times and "As they are, and with every triangle cut into four twice.",
+        times,
+    ]
 
 
-main()
+main(content)

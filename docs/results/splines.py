@@ -2,16 +2,13 @@
 """Splines near meshes of the corpus, what an outside program says of them, and their patches for CAD, as tables.
 
 usage: docs/results/splines.py [CORPUS [NAME…]] > docs/results/splines.md     (after: cargo build --release -p ricci-apps)
-
-RICCI_ROWS names a file that keeps what is finished, a line per spline: an interrupted run goes on from there.
 """
 import csv
 import json
+import math
 import os
 import random
 import subprocess
-import sys
-import tempfile
 
 import page
 
@@ -41,29 +38,29 @@ def jobs(meshes):
             yield mesh, 3, "form"
 
 
-def fit(mesh, degree, kind, folder):
+def fit(run, mesh, degree, kind):
     """One spline: the figures of its reports, what the outside program says, and what fails."""
     row = {"mesh": mesh["name"], "degree": degree, "kind": kind, "bad": []}
-    spline = os.path.join(folder, "S.json")
+    (spline,) = run.fresh("S.json")
     asked = {"flow": [], "form": ["--atlas", "form"], "dense": ["--control-points", str(int(mesh["V"]) // 2)]}[kind]
-    report, code = page.run(folder, "spline", "fit", page.file_of(mesh), "--degree", str(degree), *asked, "-o", spline, seconds=PATIENCE)
+    report, why = run.try_report("spline", "fit", page.file_of(mesh), "--degree", str(degree), *asked, "-o", spline, seconds=PATIENCE)
     if report is None:
-        return row | {"refused": str(code).splitlines()[0].removeprefix("ricci: ")}
+        return row | {"refused": why.splitlines()[0].removeprefix("ricci: ")}
     figures = report["result"]
     names = ["patches", "control_points", "hole_coefficients", "singular_vertices", "rms", "max", "continuity", "rough_sides", "partition_of_unity", "folded_patches", "rounds"]
     row |= {name: figures[name] for name in names} | {"seconds": report["seconds"]["total"]}
     row["bad"] += [f"{name} is {page.small(c['value'])}, over {page.small(c['limit'])}" for name, c in report["checks"].items() if not c["holds"]]
     row["bad"] += [f"rms is {page.small(row['rms'])}, over {page.small(RMS)}"] if row["rms"] > RMS else []
-    closed = int(mesh["boundary_loops"]) == 0
+    closed = page.loops(mesh) == 0
     if kind == "flow":
         share(row, mesh)
-        if closed and len(row["singular_vertices"]) != int(int(mesh["genus"]) != 1):
+        if closed and len(row["singular_vertices"]) != int(page.genus(mesh) != 1):
             row["bad"].append(f"{len(row['singular_vertices'])} singular vertices")
     if kind != "form":
-        row["outside"] = outside(row, spline, folder)
-        row["angles"] = angles(mesh, spline, folder)
+        row["outside"] = outside(run, row, spline)
+        row["angles"] = angles(run, mesh, spline)
         if degree == 3 or int(mesh["V"]) <= EXPORTED:
-            row["export"] = export(row, spline, folder, closed)
+            row["export"] = export(run, row, spline, closed)
     return row
 
 
@@ -102,45 +99,33 @@ def places(spline):
     return inside, pairs
 
 
-def evaluated(folder, spline, rows, *options):
+def evaluated(run, spline, rows, *options):
     """The rows of `spline eval --at` at places, and their file."""
-    at, out = os.path.join(folder, "q.csv"), os.path.join(folder, "v.csv")
-    with open(at, "w") as file:
-        file.write("patch,x,y\n" + "".join(f"{p},{x!r},{y!r}\n" for p, x, y in rows))
+    at, out = page.write_rows(run.path("q.csv"), "patch,x,y", rows), run.path("v.csv")
     subprocess.run([page.ricci, "spline", "eval", spline, "--at", at, *options, "-o", out, "--quiet"], check=True, timeout=PATIENCE)
     return list(csv.DictReader(open(out))), out
 
 
-def outside(row, path, folder):
+def outside(run, row, path):
     """Largest difference from the outside program's values, its partition of unity, and the largest difference across sides."""
     spline = json.load(open(path))
     inside, pairs = places(spline)
-    pairs, _ = evaluated(folder, path, pairs, "--filled")
-    _, out = evaluated(folder, path, inside)
+    pairs, _ = evaluated(run, path, pairs, "--filled")
+    _, out = evaluated(run, path, inside)
     pairs = [[float(r[x]) for x in "XYZ"] for r in pairs]
     size = max(max(p[x] for p in spline["control_points"]) - min(p[x] for p in spline["control_points"]) for x in range(3))
     apart = max(abs(a - b) for p, q in zip(pairs[::2], pairs[1::2]) for a, b in zip(p, q)) / size
     row["bad"] += [f"sides differ by {page.small(apart)}"] if apart > 1e-10 else []
-    if page.CHECK is None:
+    said = page.judged_within(JUDGING, "spline", path, out)
+    if said is None:
         return [None, None, apart]
-    try:
-        said = subprocess.run([sys.executable, page.judge, "spline", path, out], capture_output=True, text=True, timeout=JUDGING, check=True)
-    except subprocess.TimeoutExpired:
-        return [None, None, apart]
-    said = json.loads(said.stdout)
     if max(said["worst_difference"], said["partition_of_unity"]) > 1e-9:
         row["bad"].append(f"outside: {said}")
     return [said["worst_difference"], said["partition_of_unity"], apart]
 
 
-def normals(path):
-    """Vertices of an OBJ file and unit normals there, the mean of those of its faces by area."""
-    points, faces = [], []
-    for words in map(str.split, open(path)):
-        if words and words[0] == "v":
-            points.append([float(x) for x in words[1:4]])
-        elif words and words[0] == "f":
-            faces.append([int(word.split("/")[0]) - 1 for word in words[1:4]])
+def normals(points, faces):
+    """Normals at the vertices of a mesh, the sums of those of the faces there by area."""
     sums = [[0.0] * 3 for _ in points]
     for face in faces:
         a, b, c = (points[v] for v in face)
@@ -148,22 +133,18 @@ def normals(path):
         n = [u[1] * w[2] - u[2] * w[1], u[2] * w[0] - u[0] * w[2], u[0] * w[1] - u[1] * w[0]]
         for v in face:
             sums[v] = [s + x for s, x in zip(sums[v], n)]
-    return points, sums
+    return sums
 
 
-def angles(mesh, spline, folder):
+def angles(run, mesh, spline):
     """Median and 99th percentile of the angles, in degrees, between normals of the mesh and of the spline where it is nearest."""
-    import math
-
-    points, own = normals(page.file_of(mesh))
-    at, out = os.path.join(folder, "p.csv"), os.path.join(folder, "n.csv")
-    with open(at, "w") as file:
-        file.write("x,y,z\n" + "".join(f"{x!r},{y!r},{z!r}\n" for x, y, z in points))
+    points, faces = page.read_obj(page.file_of(mesh))
+    at, out = page.write_rows(run.path("p.csv"), "x,y,z", points), run.path("n.csv")
     subprocess.run([page.ricci, "spline", "eval", spline, "--closest", at, "-o", out, "--quiet"], check=True, timeout=PATIENCE)
     nearest = [(r["patch"], float(r["u"]), float(r["v"])) for r in csv.DictReader(open(out))]
-    rows, _ = evaluated(folder, spline, nearest, "--filled", "--derivatives")
+    rows, _ = evaluated(run, spline, nearest, "--filled", "--derivatives")
     found = []
-    for r, n in zip(rows, own):
+    for r, n in zip(rows, normals(points, faces)):
         if r["NX"] and any(n):
             cosine = sum(float(r[k]) * x for k, x in zip(("NX", "NY", "NZ"), n)) / math.hypot(*n)
             found.append(math.degrees(math.acos(max(-1.0, min(1.0, cosine)))))
@@ -171,35 +152,23 @@ def angles(mesh, spline, folder):
     return [found[len(found) // 2], found[99 * len(found) // 100]]
 
 
-def export(row, spline, folder, closed):
-    out = os.path.join(folder, "S.step")
-    report, code = page.run(folder, "spline", "export", spline, "-o", out, "--tolerance", "1e-3", seconds=PATIENCE)
+def export(run, row, spline, closed):
+    (out,) = run.fresh("S.step")
+    report, why = run.try_report("spline", "export", spline, "-o", out, "--tolerance", "1e-3", seconds=PATIENCE)
     if report is None:
-        row["bad"].append("export: " + str(code).splitlines()[0])
+        row["bad"].append("export: " + why.splitlines()[0])
         return None
     figures, checks = report["result"], report["checks"]
     row["bad"] += [f"export: {name} is {page.small(c['value'])}, over {page.small(c['limit'])}" for name, c in checks.items() if not c["holds"]]
     row["bad"] += ["export: closed surface, open shell"] if closed != figures["closed"] else []
     names = ["bicubic_patches", "spans_min", "spans_max", "distance", "normal_jump_max", "normal_jump_mean"]
-    size = os.path.getsize(out)
-    os.remove(out)
-    return {name: figures[name] for name in names} | {"bytes": size, "seconds": report["seconds"]["total"]}
+    return {name: figures[name] for name in names} | {"bytes": os.path.getsize(out), "seconds": report["seconds"]["total"]}
 
 
-def rows_of(meshes, folder):
-    kept, known = os.environ.get("RICCI_ROWS"), {}
-    if kept and os.path.exists(kept):
-        known = {(row["mesh"], row["degree"], row["kind"]): row for row in map(json.loads, open(kept))}
-    rows = []
+def kept_rows(run, meshes):
     for mesh, degree, kind in jobs(meshes):
-        row = known.get((mesh["name"], degree, kind))
-        if row is None:
-            row = fit(mesh, degree, kind, folder)
-            if kept:
-                with open(kept, "a") as file:
-                    file.write(json.dumps(row) + "\n")
-        rows.append(row | {"V": int(mesh["V"]), "genus": mesh["genus"], "loops": mesh["boundary_loops"]})
-    return rows
+        row = run.keep([mesh["name"], degree, kind], lambda: fit(run, mesh, degree, kind))
+        yield row | {"V": int(mesh["V"]), "genus": mesh["genus"], "loops": mesh["boundary_loops"]}
 
 
 def fits(rows):
@@ -240,26 +209,6 @@ def atlases(rows):
     return page.table(head, lines)
 
 
-def main():
-    wanted = CLOSED + OPEN + SPHERES
-    meshes = page.meshes(lambda m: m["name"] in wanted, key=lambda m: wanted.index(m["name"]))
-    with tempfile.TemporaryDirectory() as folder:
-        rows = rows_of(meshes, folder)
-    whole = [r for r in rows if r["kind"] == "flow" and "rms" in r]
-    dense = [r for r in rows if r["kind"] == "dense" and "rms" in r]
-    name = lambda r: f"{r['mesh']}, degree {r['degree']}" + {"flow": "", "dense": ", V/2 control points", "form": ", from a form"}[r["kind"]]
-    bad = [f"{name(r)}: {'; '.join(r['bad'])}" for r in rows if r["bad"]]
-    bad += [f"{name(r)}: {r['refused']}" for r in rows if "refused" in r and r["kind"] != "form"]
-    near = [r for r in whole if r["rms"] <= RMS and r["max"] <= MOST]
-    print(TEXT["head"].format(fitted=len(whole), near=len(near)))
-    print(page.verdict(bad) + "\n")
-    print(TEXT["fits"] + "\n" + fits(whole) + "\n")
-    print(TEXT["dense"] + "\n" + fits(dense) + "\n\n" + TEXT["after"])
-    print(TEXT["export"] + "\n" + exports([r for r in rows if r.get("export")]) + "\n")
-    print(TEXT["form"] + "\n" + atlases(rows) + "\n")
-    print(TEXT["pictures"], end="")
-
-
 TEXT = {
     "head": """# Splines near scanned surfaces
 
@@ -279,7 +228,6 @@ over the size of the surface, and its own partition of unity. *across sides*: la
 """,
     "dense": """Surfaces of genus 3 have all of −8π at their one singular vertex, a total angle of five turns; of spheres it lies at infinity of a plane. Fitted with half as many control points as vertices:
 """,
-    "after": "",
     "export": """## Patches for CAD
 
 Three to a triangle of the domain, as `docs/results/splines-step.md` tells, at T = 1e-3: the distance is to be below T, the normals of neighbours are to turn by one degree
@@ -306,5 +254,25 @@ without gaps are continuous normals, lines without corners continuous curvatures
 """,
 }
 
-if __name__ == "__main__":
-    main()
+
+def content(run):
+    wanted = CLOSED + OPEN + SPHERES
+    meshes = page.meshes(lambda m: m["name"] in wanted, key=lambda m: wanted.index(m["name"]))
+    rows = list(kept_rows(run, meshes))
+    whole = [r for r in rows if r["kind"] == "flow" and "rms" in r]
+    dense = [r for r in rows if r["kind"] == "dense" and "rms" in r]
+    name = lambda r: f"{r['mesh']}, degree {r['degree']}" + {"flow": "", "dense": ", V/2 control points", "form": ", from a form"}[r["kind"]]
+    bad = [f"{name(r)}: {'; '.join(r['bad'])}" for r in rows if r["bad"]]
+    bad += [f"{name(r)}: {r['refused']}" for r in rows if "refused" in r and r["kind"] != "form"]
+    near = [r for r in whole if r["rms"] <= RMS and r["max"] <= MOST]
+    return [
+        TEXT["head"].format(fitted=len(whole), near=len(near)), page.verdict(bad),
+        TEXT["fits"], fits(whole),
+        TEXT["dense"], fits(dense),
+        TEXT["export"], exports([r for r in rows if r.get("export")]),
+        TEXT["form"], atlases(rows),
+        TEXT["pictures"],
+    ]
+
+
+page.main(content)

@@ -2,14 +2,8 @@
 """Atlases of every mesh of the corpus, with every structure that it has, as tables.
 
 usage: docs/results/structures.py [CORPUS [NAME…]] > docs/results/structures.md     (after: cargo build --release -p ricci-apps)
-
-RICCI_ROWS names a file that keeps what is finished, a line per atlas: an interrupted run goes on from there.
 """
-import json
 import os
-import subprocess
-import sys
-import tempfile
 
 import page
 
@@ -25,24 +19,21 @@ TITLES = {
 
 
 def kinds(mesh):
-    closed, genus = int(mesh["boundary_loops"]) == 0, int(mesh["genus"])
-    euler = 2 - 2 * genus - int(mesh["boundary_loops"])
+    closed, genus, euler = page.loops(mesh) == 0, page.genus(mesh), page.euler(mesh)
     wanted = ["conformal", "affine", "affine patches"] + (["spherical"] if euler == 2 else [])
     wanted += ["affine form"] if closed and genus > 0 else []
     return wanted + (["hyperbolic", "hyperbolic patches", "projective"] if euler < 0 else [])
 
 
-def one(mesh, kind, folder):
+def one(run, mesh, kind):
     """One atlas: the figures of its report, what the outside program says, and what fails."""
-    words, out = kind.split(), os.path.join(folder, "A.json")
-    if os.path.exists(out):
-        os.remove(out)
+    words, (out,) = kind.split(), run.fresh("A.json")
     asked = ["--from", "form"] if "form" in words else []
     asked += ["--charts", "patches"] if "patches" in words else []
     row = {"mesh": mesh["name"], "kind": kind, "bad": []}
-    report, code = page.run(folder, "structure", page.file_of(mesh), "--kind", words[0], *asked, "--atlas", out)
+    report, why = run.try_report("structure", page.file_of(mesh), "--kind", words[0], *asked, "--atlas", out)
     if report is None or not os.path.exists(out):
-        return row | {"bad": [str(code if report is None else report["result"])]}
+        return row | {"bad": [str(why if report is None else report["result"])]}
     figures = report["result"]
     row["seconds"] = report["seconds"]["total"]
     row["bad"] += [f"{name} is {c['value']:.1e}" for name, c in report["checks"].items() if not c["holds"]]
@@ -50,38 +41,17 @@ def one(mesh, kind, folder):
         row[name] = figures[name]
     row["singular"] = len(figures["singular_vertices"])
     row["zeros"] = sum(zero["multiplicity"] for zero in figures["zeros"])
-    genus, closed = int(mesh["genus"]), int(mesh["boundary_loops"]) == 0
+    genus, closed = page.genus(mesh), page.loops(mesh) == 0
     if words[0] == "affine" and "form" not in words and closed and row["singular"] != int(genus != 1):
         row["bad"].append(f"{row['singular']} singular vertices")
     if "form" in words and row["zeros"] != 2 * genus - 2:
         row["bad"].append(f"{row['zeros']} zeros")
-    if page.CHECK is not None and os.path.getsize(out) <= JUDGED:
-        try:
-            outside = subprocess.run([sys.executable, page.judge, "atlas", out], capture_output=True, text=True, timeout=JUDGING)
-        except subprocess.TimeoutExpired:
-            return row
-        outside = json.loads(outside.stdout)
+    outside = page.judged_within(JUDGING, "atlas", out) if os.path.getsize(out) <= JUDGED else None
+    if outside is not None:
         row["outside"] = [outside["worst_transition"], outside["triples"], outside["worst_cocycle"]]
         if max(outside["worst_transition"], outside["worst_cocycle"]) > 1e-9:
             row["bad"].append(f"outside: {outside}")
     return row
-
-
-def rows_of(meshes, folder):
-    kept, known = os.environ.get("RICCI_ROWS"), {}
-    if kept and os.path.exists(kept):
-        known = {(row["mesh"], row["kind"]): row for row in map(json.loads, open(kept))}
-    rows = []
-    for mesh in meshes:
-        for kind in kinds(mesh):
-            row = known.get((mesh["name"], kind))
-            if row is None:
-                row = one(mesh, kind, folder)
-                if kept:
-                    with open(kept, "a") as file:
-                        file.write(json.dumps(row) + "\n")
-            rows.append(row | {"V": mesh["V"], "genus": mesh["genus"], "loops": mesh["boundary_loops"]})
-    return rows
 
 
 def table(kind, rows):
@@ -99,29 +69,33 @@ def table(kind, rows):
     return page.table(head, lines)
 
 
-def main():
-    meshes = page.meshes(lambda m: True, key=lambda m: int(m["V"]))
-    with tempfile.TemporaryDirectory() as folder:
-        rows = rows_of(meshes, folder)
+def content(run):
+    meshes = page.meshes(key=lambda m: int(m["V"]))
+    rows = []
+    for mesh, kind in ((mesh, kind) for mesh in meshes for kind in kinds(mesh)):
+        row = run.keep([mesh["name"], kind], lambda: one(run, mesh, kind))
+        rows.append(row | {"V": mesh["V"], "genus": mesh["genus"], "loops": mesh["boundary_loops"]})
     bad = [f"{row['mesh']}, {row['kind']}: {'; '.join(row['bad'])}" for row in rows if row["bad"]]
     whole = [row for row in rows if "charts" in row]
     most = lambda name: max(row[name] for row in whole)
-    print("# Geometric structures\n")
-    print("Every mesh of the corpus with every structure that it has, made by `docs/results/structures.py`: `ricci structure MESH --kind …` with default")
-    print("options. Times are those of one run on a shared machine and say little.\n")
-    print(f"{len(rows)} atlases of {len(meshes)} meshes; {len(rows) - len(bad)} hold all their checks. Worst of those that were made: cocycle {page.small(most('cocycle_residual'))},")
-    print(f"relation of the holonomy {page.small(most('relation_residual'))}, shared vertices {page.small(most('transition_residual'))}.\n")
-    print(page.verdict(bad) + "\n")
-    print("*at vertices*: largest distance between the image of a shared vertex and its place, over the size of the chart; *cocycle*: largest difference of")
-    print("T_jk T_ij and T_ik over all overlaps of three charts (*triples*); *relation*: of the holonomy; *curvature*: largest |K − K̄|, radians. *singular*: vertices that no chart")
-    print("has inside: from a form those at its zeros and at faces that it draws clockwise, many where faces are thin; on a flat boundary those with an angle of 360° and more. *outside*:")
-    print("check.py on the file where that is not too large or too long for it; it looks at the triples that begin at the first 300 charts.")
-    print("It divides matrices by their largest entry; a rotation of the sphere by more than 90° between two charts, which only very coarse parts of a sphere")
-    print("need, has two of the same size, and rounding decides which one a product is divided by.\n")
+    blocks = [
+        "# Geometric structures",
+        """Every mesh of the corpus with every structure that it has, made by `docs/results/structures.py`: `ricci structure MESH --kind …` with default
+options. Times are those of one run on a shared machine and say little.""",
+        f"""{len(rows)} atlases of {len(meshes)} meshes; {len(rows) - len(bad)} hold all their checks. Worst of those that were made: cocycle {page.small(most('cocycle_residual'))},
+relation of the holonomy {page.small(most('relation_residual'))}, shared vertices {page.small(most('transition_residual'))}.""",
+        page.verdict(bad),
+        """*at vertices*: largest distance between the image of a shared vertex and its place, over the size of the chart; *cocycle*: largest difference of
+T_jk T_ij and T_ik over all overlaps of three charts (*triples*); *relation*: of the holonomy; *curvature*: largest |K − K̄|, radians. *singular*: vertices that no chart
+has inside: from a form those at its zeros and at faces that it draws clockwise, many where faces are thin; on a flat boundary those with an angle of 360° and more. *outside*:
+check.py on the file where that is not too large or too long for it; it looks at the triples that begin at the first 300 charts.
+It divides matrices by their largest entry; a rotation of the sphere by more than 90° between two charts, which only very coarse parts of a sphere
+need, has two of the same size, and rounding decides which one a product is divided by.""",
+    ]
     for kind, title in TITLES.items():
         of = [row for row in whole if row["kind"] == kind]
-        if of:
-            print(f"## {title}\n\n{table(kind, of)}\n")
+        blocks += [f"## {title}", table(kind, of)] if of else []
+    return blocks
 
 
-main()
+page.main(content)

@@ -2,79 +2,55 @@
 """Uniformize every closed mesh of the corpus and generated surfaces at four resolutions, and write the tables.
 
 usage: docs/results/uniformization.py [CORPUS [NAME…]] > docs/results/uniformization.md     (after: cargo build --release -p ricci-apps)
-
-RICCI_CHECK names the program that judges the files from outside (by default ../shared/tools/check.py beside the repository);
-where it or numpy is absent, the page says so.
 """
 import json
 import math
 import os
-import tempfile
 
-from page import CHECK, WHY, failures, file_of, judge, judged, make, meshes, run, small, table, verdict
+from page import CHECK, WHY, complex_text, file_of, genus, judge, judged, loops, main, meshes, rate, read_obj, seconds, small, table, verdict
 
 GENERA = {2: [2, 4, 8, 16], 3: [2, 4, 8, 16], 4: [2, 4, 8, 16], 5: [2, 4, 8, 16]}
 GEODESICS = 2
 
-closed = meshes(lambda m: int(m["boundary_loops"]) == 0)
+closed = meshes(lambda m: loops(m) == 0)
 
 
-def seconds(report):
-    return f"{report['seconds']['total']:.2f}"
+def sphere(run, mesh):
+    path, (out,) = file_of(mesh), run.fresh("sphere.obj")
+    report = run.report(mesh["name"], "uniformize", path, "--sphere", out)
+    if report is None:
+        return None
+    r, seen = report["result"], judged("sphere", out, path)
+    return [
+        mesh["name"], mesh["V"], r["iterations"], r["flips"], small(r["max_curvature_error"]), f"{r['u_range']:.1f}",
+        small(r["delaunay_violation"]), small(r["link_turning"]), small(r["nonconvexity"]), small(r["centring"]), small(r["smallest_edge"]),
+        "–" if seen is None else f"{small(seen['worst_nonconvexity'])}, {small(seen['centre_of_mass'])}", seconds(report),
+    ]
 
 
-def spheres(folder):
-    rows, bad = [], []
-    for mesh in (m for m in closed if int(m["genus"]) == 0):
-        path, out = file_of(mesh), os.path.join(folder, "sphere.obj")
-        report, why = run(folder, "uniformize", path, "--sphere", out)
-        if report is None:
-            bad.append(f"{mesh['name']}: {why}")
-            continue
-        r = report["result"]
-        seen = judged("sphere", out, path)
-        bad += failures(mesh["name"], report)
-        rows.append([
-            mesh["name"], mesh["V"], str(r["iterations"]), str(r["flips"]), small(r["max_curvature_error"]), f"{r['u_range']:.1f}",
-            small(r["delaunay_violation"]), small(r["link_turning"]), small(r["nonconvexity"]), small(r["centring"]), small(r["smallest_edge"]),
-            "–" if seen is None else f"{small(seen['worst_nonconvexity'])}, {small(seen['centre_of_mass'])}", seconds(report),
-        ])
-    head = ["mesh", "V", "steps", "flips", "max \\|K\\|", "range of u", "Delaunay violation", "least turning", "nonconvexity", "centring",
-            "shortest edge", "outside: nonconvexity, centre", "s"]
-    return table(head, rows), bad
+def quotient(run, mesh):
+    path, (uv, deck, metric), is_flat = file_of(mesh), run.fresh("uv.obj", "deck.json", "metric.json"), genus(mesh) == 1
+    report = run.report(mesh["name"], "uniformize", path, "--uv", uv, "--generators", deck, "--metric", metric)
+    if report is None:
+        return None
+    r, checks, seen = report["result"], report["checks"], "–"
+    if CHECK is not None:
+        k, relation = judged("metric", metric)["max_curvature_error"], judged("deck", deck)["relative"]
+        seen = f"{small(k)}, {small(relation)}, {judged('uv', uv, path, *([] if is_flat else ['h2']))['flipped']}"
+    of_space = [complex_text(r["modulus"], 6), small(checks["turning"]["value"])] if is_flat else [
+        small(checks["area"]["value"]), f"{min(r['translation_lengths']):.2f}–{max(r['translation_lengths']):.2f}"]
+    return [
+        mesh["name"], mesh["V"], *([] if is_flat else [mesh["genus"]]), r["iterations"], r["flips"], small(r["max_curvature_error"]),
+        small(r["angle_defect"]), *of_space, small(r["relation_residual"]), small(r["disagreement"]), f"{r['radius']:.1f}", r["domain"]["sides"],
+        f"{r['qc_mean']:.3f}", seen, seconds(report),
+    ]
 
 
-def quotients(folder, genus_one):
-    rows, bad = [], []
-    for mesh in (m for m in closed if (int(m["genus"]) == 1) == genus_one and int(m["genus"]) > 0):
-        path = file_of(mesh)
-        uv, deck, metric = (os.path.join(folder, name) for name in ("uv.obj", "deck.json", "metric.json"))
-        report, why = run(folder, "uniformize", path, "--uv", uv, "--generators", deck, "--metric", metric)
-        if report is None:
-            bad.append(f"{mesh['name']}: {why}")
-            continue
-        r, checks = report["result"], report["checks"]
-        bad += failures(mesh["name"], report)
-        verdicts = "–"
-        if CHECK is not None:
-            k = judged("metric", metric)["max_curvature_error"]
-            relation = judged("deck", deck)["relative"]
-            flips = judged("uv", uv, path) if genus_one else judged("uv", uv, path, "h2")
-            verdicts = f"{small(k)}, {small(relation)}, {flips['flipped']}"
-        row = [mesh["name"], mesh["V"]]
-        row += [] if genus_one else [mesh["genus"]]
-        row += [str(r["iterations"]), str(r["flips"]), small(r["max_curvature_error"]), small(r["angle_defect"])]
-        if genus_one:
-            row += ["{:.6f} + {:.6f} i".format(*r["modulus"]), small(checks["turning"]["value"])]
-        else:
-            row += [small(checks["area"]["value"]), f"{min(r['translation_lengths']):.2f}–{max(r['translation_lengths']):.2f}"]
-        row += [small(r["relation_residual"]), small(r["disagreement"]), f"{r['radius']:.1f}", str(r["domain"]["sides"]), f"{r['qc_mean']:.3f}",
-                verdicts, seconds(report)]
-        rows.append(row)
-    head = ["mesh", "V"] + ([] if genus_one else ["genus"]) + ["steps", "flips", "max \\|K\\|", "the same, double-double"]
-    head += ["modulus", "rotation"] if genus_one else ["area off", "translation lengths"]
-    head += ["relation", "disagreement", "radius", "Dirichlet sides", "mean dilatation", "outside: \\|K\\|, relative relation, flipped", "s"]
-    return table(head, rows), bad
+SPHERES = ["mesh", "V", "steps", "flips", "max \\|K\\|", "range of u", "Delaunay violation", "least turning", "nonconvexity", "centring",
+           "shortest edge", "outside: nonconvexity, centre", "s"]
+QUOTIENT = ["relation", "disagreement", "radius", "Dirichlet sides", "mean dilatation", "outside: \\|K\\|, relative relation, flipped", "s"]
+FLAT = ["mesh", "V", "steps", "flips", "max \\|K\\|", "the same, twofold", "modulus", "rotation"] + QUOTIENT
+HYPERBOLIC = ["mesh", "V", "genus", "steps", "flips", "max \\|K\\|", "the same, twofold", "area off", "translation lengths"] + QUOTIENT
 
 
 def lengths_of(deck, depth):
@@ -92,23 +68,20 @@ def lengths_of(deck, depth):
     return sorted(2 * math.acosh(h) for h in half if h > 1 + 1e-6)
 
 
-def family(folder, genus, layers):
-    """Shortest geodesics of the same smooth surface on ever finer meshes."""
-    rows, values = [], []
+def family(run, number, layers):
+    """Shortest geodesics of the same smooth surface on ever finer meshes, with its numbers of vertices."""
+    vertices, values = [], []
     for n in layers:
-        mesh, deck = make(folder, "made.obj", "genus", "--genus", str(genus), "-n", str(n)), os.path.join(folder, "deck.json")
-        report, why = run(folder, "uniformize", mesh, "--generators", deck)
-        if report is None:
-            raise SystemExit(f"genus {genus}, {n} layers: {why}")
-        shortest = lengths_of(deck, 3)
+        mesh, deck = run.make("made.obj", "genus", "--genus", str(number), "-n", str(n)), run.path("deck.json")
+        report = run.needed(f"genus {number}, {n} layers", "uniformize", mesh, "--generators", deck)
         simple = []
-        for x in shortest:
+        for x in lengths_of(deck, 3):
             # Neither another one's length nor a geodesic run through several times.
             if all(abs(x / y - round(x / y)) > 1e-3 for y in simple):
                 simple.append(x)
         values.append(simple[:GEODESICS])
-        rows.append([n, report["input"]["vertices"], report["result"]["relation_residual"]])
-    return rows, values
+        vertices.append(report["input"]["vertices"])
+    return vertices, values
 
 
 def rates(series):
@@ -127,15 +100,11 @@ def conformal_height(t, a, c):
     return math.tanh(total * h / 3)
 
 
-def spheroid(folder, n, a=1.0, c=1.6):
-    """Largest error of the distances between vertices of a spheroid on the unit sphere, over some pairs."""
-    mesh = make(folder, "made.obj", "ellipsoid", "--axes", str(a), str(a), str(c), "-n", str(n))
-    out = os.path.join(folder, "sphere.obj")
-    report, why = run(folder, "uniformize", mesh, "--sphere", out)
-    if report is None:
-        raise SystemExit(f"spheroid {n}: {why}")
-    read = lambda path: [[float(x) for x in line.split()[1:4]] for line in open(path) if line.startswith("v ")]
-    given, found = read(mesh), read(out)
+def spheroid(run, n, a=1.0, c=1.6):
+    """The number of vertices of a spheroid, and the largest error of the distances between some of them on the unit sphere."""
+    mesh, out = run.make("made.obj", "ellipsoid", "--axes", str(a), str(a), str(c), "-n", str(n)), run.path("sphere.obj")
+    run.needed(f"spheroid {n}", "uniformize", mesh, "--sphere", out)
+    given, found = read_obj(mesh)[0], read_obj(out)[0]
 
     def exact(p):
         z = conformal_height(math.asin(max(-1.0, min(1.0, p[2] / c))), a, c) if abs(p[2]) < c else math.copysign(1, p[2])
@@ -144,74 +113,63 @@ def spheroid(folder, n, a=1.0, c=1.6):
 
     some = range(0, len(given), max(1, len(given) // 60))
     wanted = {i: exact(given[i]) for i in some}
-    worst = max(abs(math.dist(wanted[i], wanted[j]) - math.dist(found[i], found[j])) for i in some for j in some)
-    return report["input"]["vertices"], worst
+    return len(given), max(abs(math.dist(wanted[i], wanted[j]) - math.dist(found[i], found[j])) for i in some for j in some)
 
 
-def convergence(folder):
+def convergence(run):
     rows, errors = [], []
     for n in (4, 8, 16, 32):
-        vertices, worst = spheroid(folder, n)
+        vertices, worst = spheroid(run, n)
         errors.append(worst)
-        rate = "" if len(errors) < 2 else f"{math.log2(errors[-2] / errors[-1]):.2f}"
-        rows.append(["0", str(n), str(vertices), "distances on the sphere", small(worst), rate])
+        rows.append([0, n, vertices, "distances on the sphere", small(worst), rate(errors)])
     exact = 1.2 / math.sqrt(2.0**2 - 1.2**2)
     exact = max(exact, 1 / exact)
     errors = []
     for n in (16, 32, 64, 128):
-        mesh = make(folder, "made.obj", "torus", "--big", "2", "--small", "1.2", "-n", str(n), "-m", str(n))
-        report, why = run(folder, "uniformize", mesh)
-        if report is None:
-            raise SystemExit(f"torus {n}: {why}")
+        mesh = run.make("made.obj", "torus", "--big", "2", "--small", "1.2", "-n", str(n), "-m", str(n))
+        report = run.needed(f"torus {n}", "uniformize", mesh)
         tau = report["result"]["modulus"]
         errors.append(math.hypot(tau[0], tau[1] - exact))
-        rate = "" if len(errors) < 2 else f"{math.log2(errors[-2] / errors[-1]):.2f}"
-        rows.append(["1", str(n), str(report["input"]["vertices"]), f"Im τ = {tau[1]:.8f} (exact {exact:.8f})", small(errors[-1]), rate])
-    for genus, layers in GENERA.items():
-        runs, values = family(folder, genus, layers)
-        for (n, vertices, _), v, i in zip(runs, values, range(len(runs))):
+        shown = f"Im τ = {tau[1]:.8f} (exact {exact:.8f})"
+        rows.append([1, n, report["input"]["vertices"], shown, small(errors[-1]), rate(errors)])
+    for number, layers in GENERA.items():
+        vertices, values = family(run, number, layers)
+        for i, (n, v) in enumerate(zip(layers, values)):
             change = "" if i == 0 else small(max(abs(a - b) for a, b in zip(v, values[i - 1])))
-            rate = ""
-            if i >= 2:
-                rate = ", ".join(f"{rates([w[k] for w in values[:i + 1]])[-1]:.2f}" for k in range(GEODESICS))
-            rows.append([str(genus), str(n), str(vertices), ", ".join(f"{x:.6f}" for x in v), change, rate])
+            fall = "" if i < 2 else ", ".join(f"{rates([w[k] for w in values[:i + 1]])[-1]:.2f}" for k in range(GEODESICS))
+            rows.append([number, n, vertices[i], ", ".join(f"{x:.6f}" for x in v), change, fall])
     return table(["genus", "resolution", "V", "modulus / shortest geodesics", "error / change", "rate"], rows)
 
 
-def main():
-    with tempfile.TemporaryDirectory() as folder:
-        ball, bad = spheres(folder)
-        flat, more = quotients(folder, True)
-        hyperbolic, most = quotients(folder, False)
-        bad += more + most
-        refined = convergence(folder)
-    print("# Uniformization")
-    print()
-    print(f"Every closed mesh of the corpus ({len(closed)}), made by `docs/results/uniformization.py`: `ricci uniformize MESH` with default options. "
-          "Times are those of one run on a shared machine and say little.")
-    print()
-    print(verdict(bad))
-    print()
-    print(f"*outside*: what an independent program finds in the files ({os.path.basename(judge)})." if WHY is None else f"No outside program: {WHY}.")
-    print()
-    print("## Genus 0: the unit sphere\n")
-    print("*Delaunay violation* (radians) and *least turning* are those of the plane, *nonconvexity* the largest signed distance of a vertex over the "
-          "plane of a neighbouring face (negative: strictly convex), *centring* |Σ w x|/Σ w. Where the range of u comes near 30 positions have no more "
-          "digits to tell.\n")
-    print(ball)
-    print("\n## Genus 1: flat tori\n")
-    print("*the same, double-double*: |K| by products of rotations in double-double precision. *rotation*: the largest of a generator, radians. "
-          "*disagreement*: largest distance between the two images of a vertex along the cut, brought together by the side pairings.\n")
-    print(flat)
-    print("\n## Genus 2 and more: hyperbolic surfaces\n")
-    print("*area off*: |area − 4π(g − 1)|, area without angle sums. *relation*: ‖R − I‖/max‖P‖² in double-double precision; a Dirichlet domain has at "
-          "most 12g − 6 sides.\n")
-    print(hyperbolic)
-    print("\n## The same surface on finer meshes\n")
-    print("A spheroid (1 : 1 : 1.6), whose conformal map is an integral; a torus of revolution (R = 2, r = 1.2), whose modulus is known; smooth surfaces of `ricci make genus`: lengths of the shortest closed geodesics of "
-          "the hyperbolic metric (traces of the deck group), by words of up to three letters. *rate*: log₂ of the quotient of successive errors (genus 0 and 1) or "
-          "changes.\n")
-    print(refined)
+def content(run):
+    ball = run.rows((m for m in closed if genus(m) == 0), sphere)
+    flat = run.rows((m for m in closed if genus(m) == 1), quotient)
+    hyperbolic = run.rows((m for m in closed if genus(m) > 1), quotient)
+    return [
+        "# Uniformization",
+        f"Every closed mesh of the corpus ({len(closed)}), made by `docs/results/uniformization.py`: `ricci uniformize MESH` with default options. "
+        "Times are those of one run on a shared machine and say little.",
+        verdict(run.bad),
+        f"*outside*: what an independent program finds in the files ({os.path.basename(judge)})." if WHY is None else f"No outside program: {WHY}.",
+        "## Genus 0: the unit sphere",
+        "*Delaunay violation* (radians) and *least turning* are those of the plane, *nonconvexity* the largest signed distance of a vertex over the "
+        "plane of a neighbouring face (negative: strictly convex), *centring* |Σ w x|/Σ w. Where the range of u comes near 30 positions have no more "
+        "digits to tell.",
+        table(SPHERES, ball),
+        "## Genus 1: flat tori",
+        "*the same, twofold*: |K| by products of rotations in double-double precision. *rotation*: the largest of a generator, radians. "
+        "*disagreement*: largest distance between the two images of a vertex along the cut, brought together by the side pairings.",
+        table(FLAT, flat),
+        "## Genus 2 and more: hyperbolic surfaces",
+        "*area off*: |area − 4π(g − 1)|, area without angle sums. *relation*: ‖R − I‖/max‖P‖² in double-double precision; a Dirichlet domain has at "
+        "most 12g − 6 sides.",
+        table(HYPERBOLIC, hyperbolic),
+        "## The same surface on finer meshes",
+        "A spheroid (1 : 1 : 1.6), whose conformal map is an integral; a torus of revolution (R = 2, r = 1.2), whose modulus is known; smooth surfaces of `ricci make genus`: lengths of the shortest closed geodesics of "
+        "the hyperbolic metric (traces of the deck group), by words of up to three letters. *rate*: log₂ of the quotient of successive errors (genus 0 and 1) or "
+        "changes.",
+        convergence(run),
+    ]
 
 
-main()
+main(content)
