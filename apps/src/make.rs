@@ -144,7 +144,7 @@ impl JobOutcome for MakeOutcome {
 /// A sample surface as the library makes it.
 enum SampleSurface {
     Mesh(Soup),
-    Metric(Intrinsic),
+    Metric(IntrinsicSurface),
 }
 
 fn build(shape: &SampleShape) -> ricci::Result<SampleSurface> {

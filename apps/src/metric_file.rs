@@ -201,7 +201,7 @@ fn triple<T: Copy>(text: &mut TextBuilder, values: [T; 3], item: impl Fn(&mut Te
 }
 
 /// Write a number; JSON has none that is not finite.
-fn number(text: &mut Text, x: f64) {
+fn number(text: &mut TextBuilder, x: f64) {
     if x.is_finite() { text.number(x) } else { text.text("null") }
 }
 

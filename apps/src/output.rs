@@ -283,7 +283,7 @@ pub fn format_of(path: &Path) -> Result<Format, Failure> {
 }
 
 /// Write a triangle list with texture coordinates: binary glTF for .glb, else OBJ.
-pub fn write_textured(outputs: &mut Outputs, path: &Path, data: &Textured) -> Result<(), Failure> {
+pub fn write_textured(outputs: &mut Outputs, path: &Path, data: &TexturedMesh) -> Result<(), Failure> {
     match extension(path).as_str() {
         "glb" => outputs.add_named(path, |path| ricci::mesh::io::write_glb(path, data, None).map(drop)),
         _ => outputs.add(path, |out| ricci::mesh::io::write_obj_to(out, data).map_err(io::Error::other)),

@@ -8,7 +8,7 @@ use crate::options::{MetricArgs, OnChoice};
 use crate::output::{Outputs, extension};
 use crate::runner::CommandRun;
 use crate::surface_layout::SurfaceLayout;
-use ricci::mesh::io::{self, Texture, Textured, Wrap};
+use ricci::mesh::io::{self, Texture, TexturedMesh, Wrap};
 use ricci::mesh::{Mesh, PerHalfedge, Point};
 use ricci::metric::Refinement;
 use std::io::Write;

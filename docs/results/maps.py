@@ -110,7 +110,7 @@ def content(run):
         "*corners*: onto regular polygons, the corners at the vertices nearest to even shares of the boundary. More vertices are added there: an edge inside "
         "must not join two boundary vertices, which may lie on one side. *rectangle*: onto the rectangle of the disk's modulus, where two sides of each coordinate are free; no theorem "
         "excludes flipped triangles there. Of maze, a long winding corridor, 3011 of 9924 pieces lie within 1e-15 of a slanted "
-        "side of the triangle, and 1756 of the pentagon: floating-point coordinates do not tell which way they turn.",
+        "side of the triangle, and 1756 of the pentagon: coordinates in f64 do not tell which way they turn.",
         table(DISKS, flat),
         "## Spheres",
         "Every closed mesh of genus 0 onto the unit sphere. *energy*: Dirichlet energy of the map, 4π = 12.566371 at least on smooth surfaces, before the first "

@@ -49,8 +49,8 @@ def quotient(run, mesh):
 SPHERES = ["mesh", "V", "steps", "flips", "max \\|K\\|", "range of u", "Delaunay violation", "least turning", "nonconvexity", "centring",
            "shortest edge", "outside: nonconvexity, centre", "s"]
 QUOTIENT = ["relation", "disagreement", "radius", "Dirichlet sides", "mean dilatation", "outside: \\|K\\|, relative relation, flipped", "s"]
-FLAT = ["mesh", "V", "steps", "flips", "max \\|K\\|", "the same, twofold", "modulus", "rotation"] + QUOTIENT
-HYPERBOLIC = ["mesh", "V", "genus", "steps", "flips", "max \\|K\\|", "the same, twofold", "area off", "translation lengths"] + QUOTIENT
+FLAT = ["mesh", "V", "steps", "flips", "max \\|K\\|", "the same, double-double", "modulus", "rotation"] + QUOTIENT
+HYPERBOLIC = ["mesh", "V", "genus", "steps", "flips", "max \\|K\\|", "the same, double-double", "area off", "translation lengths"] + QUOTIENT
 
 
 def lengths_of(deck, depth):
@@ -157,7 +157,7 @@ def content(run):
         "digits to tell.",
         table(SPHERES, ball),
         "## Genus 1: flat tori",
-        "*the same, twofold*: |K| by products of rotations in double-double precision. *rotation*: the largest of a generator, radians. "
+        "*the same, double-double*: |K| by products of rotations in double-double precision. *rotation*: the largest of a generator, radians. "
         "*disagreement*: largest distance between the two images of a vertex along the cut, brought together by the side pairings.",
         table(FLAT, flat),
         "## Genus 2 and more: hyperbolic surfaces",

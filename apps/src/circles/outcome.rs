@@ -2,8 +2,8 @@
 
 use crate::failure::Failure;
 use crate::input::Input;
-use crate::surface_layout::SurfaceLayout;
 use crate::report::PhaseSeconds;
+use crate::surface_layout::SurfaceLayout;
 use ricci::canonical::CircleDomain;
 use ricci::mesh::PerVertex;
 

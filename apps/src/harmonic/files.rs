@@ -8,7 +8,7 @@ use crate::output::{Outputs, write_textured};
 use crate::picture::{self, Picture, ShownLayout, ShownSurface, TextureChoice};
 use crate::uv::UvMesh;
 use ricci::harmonic::SphereMap;
-use ricci::mesh::io::Textured;
+use ricci::mesh::io::TexturedMesh;
 use ricci::mesh::{Mesh, PerHalfedge, VertexId};
 use std::path::Path;
 
@@ -66,7 +66,7 @@ pub fn write_sphere(
     map: &SphereMap,
 ) -> Result<(), Failure> {
     let faces = outcome.domain.mesh().triangles();
-    let data = Textured { positions: &map.points, faces: &faces, ..Textured::default() };
+    let data = TexturedMesh { positions: &map.points, faces: &faces, ..TexturedMesh::default() };
     write_textured(outputs, path, &data)
 }
 

@@ -25,7 +25,7 @@ pub fn write_moved(outputs: &mut Outputs, path: &Path, outcome: &MatchOutcome) -
     let Some(positions) = outcome.target.positions() else { return Err(Failure::no_positions()) };
     let images = outcome.matching.forward.carry(outcome.target.mesh(), positions)?;
     let faces = outcome.source.mesh().triangles();
-    let data = Textured { positions: &images, faces: &faces, ..Textured::default() };
+    let data = TexturedMesh { positions: &images, faces: &faces, ..TexturedMesh::default() };
     write_textured(outputs, path, &data)
 }
 
@@ -38,7 +38,7 @@ pub fn write_carried(outputs: &mut Outputs, path: &Path, outcome: &MatchOutcome)
     let Some(positions) = outcome.source.positions() else { return Err(Failure::no_positions()) };
     let texcoords = outcome.matching.forward.carry_corners(outcome.target.mesh(), uv)?;
     let faces = outcome.source.mesh().triangles();
-    let data = Textured {
+    let data = TexturedMesh {
         positions,
         faces: &faces,
         texcoords: &texcoords,

@@ -190,7 +190,7 @@ impl GlbDocument<'_> {
 }
 
 /// The node of a copy in the plane: the mesh of its tint, moved.
-fn placed(name: &str, tint: u8, motion: &Motion<Twofold>) -> String {
+fn placed(name: &str, tint: u8, motion: &Motion<DoubleDouble>) -> String {
     let [[[cos, sin], [x, y]], _] = motion.mobius();
     let half = 0.5 * sin.atan2(cos);
     let (translation, rotation) = ([x, y, 0.0], [0.0, 0.0, half.sin(), half.cos()]);

@@ -17,7 +17,7 @@ use crate::picture::{Style, TextureChoice};
 use crate::runner::CommandRun;
 use crate::uv;
 use ricci::control::Stage;
-use ricci::mesh::io::Textured;
+use ricci::mesh::io::TexturedMesh;
 use std::io::Write;
 use std::path::Path;
 
@@ -122,11 +122,11 @@ fn write_on_sphere(
     s: &SphereSurface,
 ) -> Result<(), Failure> {
     let faces = s.mesh().triangles();
-    let data = Textured {
+    let data = TexturedMesh {
         positions: &s.positions,
         colors: input.attributes.colors.as_deref().unwrap_or_default(),
         faces: &faces,
-        ..Textured::default()
+        ..TexturedMesh::default()
     };
     write_textured(outputs, path, &data)
 }

@@ -185,7 +185,11 @@ fn translation_to(space: Space, p: [f64; 3]) -> Motion<DoubleDouble> {
 
 /// The motions of the copies of the layout that are nearest to the origin, once the group has been moved by `home`; as many as a picture
 /// shows. `start`: a word that leads near the origin.
-fn background(u: &Uniformized, home: &Motion<Twofold>, start: &Word) -> ricci::Result<Vec<Motion<Twofold>>> {
+fn background(
+    u: &Uniformized,
+    home: &Motion<DoubleDouble>,
+    start: &Word,
+) -> ricci::Result<Vec<Motion<DoubleDouble>>> {
     let Ok(domain) = u.domain() else { return Ok(Vec::new()) };
     let place = |g: &Motion<DoubleDouble>| g.origin().map(f64::from);
     let mut waiting = vec![home.compose(&u.deck.motion(start)?)];

@@ -12,7 +12,7 @@ use ricci::embed::{
     BoundaryLoop, DeckElement, DeckGroup, DirichletDomain, Layout, LayoutOptions, dirichlet_domain,
 };
 use ricci::flow::{Report, Solution};
-use ricci::geometry::{Motion, Space, Twofold, worse};
+use ricci::geometry::{DoubleDouble, Motion, Space, worse};
 use ricci::mesh::{FaceId, PerEdge, VertexId};
 use ricci::topology::{HomotopyBasis, Word};
 use std::cmp::Ordering;
@@ -215,7 +215,7 @@ fn geodesics(task: &CanonicalTask<'_>, deck: &DeckGroup) -> Result<Vec<(String, 
 /// The base vertex at which a surface is cut open, and the motion that then brings the layout to its place.
 struct BasePlacement {
     vertex: VertexId,
-    motion: Motion<Twofold>,
+    motion: Motion<DoubleDouble>,
 }
 
 /// The layout of a quotient on the surface as it was given.
