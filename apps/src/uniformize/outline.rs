@@ -36,7 +36,7 @@ pub fn sides(u: &Uniformized) -> ricci::Result<Vec<OutlineSide>> {
             n_pairs += 1;
         }
     }
-    let side = |(k, side): (usize, &ricci::topology::Side)| OutlineSide {
+    let side = |(k, side): (usize, &ricci::topology::DomainSide)| OutlineSide {
         points: chain(mesh, whole, &side.halfedges),
         pair: pair[k],
         word: side.partner.map_or_else(String::new, |_| u.deck.group.text(&side.element)),
