@@ -2,7 +2,7 @@
 
 use super::quotient::Uniformized;
 use super::request::CanonicalJob;
-use super::shape::{CanonicalOutcome, CanonicalShape};
+use super::shape::{CanonicalOutcome, UniformShape};
 use super::sphere::{SphereSurface, flowed, punctured};
 use super::task::CanonicalTask;
 use crate::failure::Failure;
@@ -31,7 +31,7 @@ impl Job for CanonicalJob<'_> {
         let needs = self.needs(&input, shown);
         let task = CanonicalTask { input: &input, args: self.args, needs, control: run.control };
         let mut shape = shape(&task, run)?;
-        if let (CanonicalShape::Quotient(u), Some(cover)) = (&mut shape, &self.cover) {
+        if let (UniformShape::Quotient(u), Some(cover)) = (&mut shape, &self.cover) {
             cover.find(u, run)?;
         }
         Ok(CanonicalOutcome { input, shape, shown, has_copies: self.cover.is_some() })
@@ -43,15 +43,15 @@ impl Job for CanonicalJob<'_> {
 
     fn settings<'a>(&'a self, outcome: &'a CanonicalOutcome) -> impl Serialize + 'a {
         let base = match &outcome.shape {
-            CanonicalShape::Quotient(u) => Some(u.basis.base.0),
-            CanonicalShape::Sphere(_) => self.args.base,
+            UniformShape::Quotient(u) => Some(u.basis.base.0),
+            UniformShape::Sphere(_) => self.args.base,
         };
         self.settings_of(&outcome.input, base, outcome.shown)
     }
 }
 
 /// The surface uniformized by the library.
-fn shape(task: &CanonicalTask<'_>, run: &mut CommandRun<'_>) -> Result<CanonicalShape, Failure> {
+fn shape(task: &CanonicalTask<'_>, run: &mut CommandRun<'_>) -> Result<UniformShape, Failure> {
     let CanonicalTask { input, args, control, .. } = *task;
     input.check_vertex("--base", args.base)?;
     let (base, mut taken) = (args.base.map(VertexId), 0.0);
@@ -61,14 +61,14 @@ fn shape(task: &CanonicalTask<'_>, run: &mut CommandRun<'_>) -> Result<Canonical
         boundary: args.boundary.to_library(),
         flow: args.to.options(),
     };
-    let sphere = |found, taken, run: &mut CommandRun<'_>| -> Result<CanonicalShape, Failure> {
-        Ok(CanonicalShape::Sphere(Box::new(SphereSurface::new(task, found, taken, run)?)))
+    let sphere = |found, taken, run: &mut CommandRun<'_>| -> Result<UniformShape, Failure> {
+        Ok(UniformShape::Sphere(Box::new(SphereSurface::new(task, found, taken, run)?)))
     };
     match timed(&mut taken, || canonical::uniformize(&input.surface, &options, control))? {
         Uniformization::Sphere(found) => sphere(punctured(*found), taken, run),
         Uniformization::FlowedSphere(found) => sphere(flowed(*found), taken, run),
         Uniformization::Quotient(quotient) => {
-            Ok(CanonicalShape::Quotient(Box::new(Uniformized::new(task, *quotient, taken, run)?)))
+            Ok(UniformShape::Quotient(Box::new(Uniformized::new(task, *quotient, taken, run)?)))
         }
     }
 }

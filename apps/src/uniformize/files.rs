@@ -7,7 +7,7 @@ use super::group_file::{DomainFile, GroupFile};
 use super::pictures;
 use super::quotient::Uniformized;
 use super::request::CanonicalJob;
-use super::shape::{CanonicalOutcome, CanonicalShape};
+use super::shape::{CanonicalOutcome, UniformShape};
 use super::sphere::SphereSurface;
 use super::sphere_picture;
 use crate::failure::Failure;
@@ -29,8 +29,8 @@ impl CanonicalJob<'_> {
             solved.write_metric(outputs, path)
         })?;
         match &outcome.shape {
-            CanonicalShape::Quotient(u) => self.write_quotient(run, &outcome.input, u, outcome.shown),
-            CanonicalShape::Sphere(s) => self.write_sphere(run, &outcome.input, s, outcome.shown),
+            UniformShape::Quotient(u) => self.write_quotient(run, &outcome.input, u, outcome.shown),
+            UniformShape::Sphere(s) => self.write_sphere(run, &outcome.input, s, outcome.shown),
         }
     }
 

@@ -8,32 +8,32 @@ use crate::report::Checks;
 use crate::solved::SolvedMetric;
 
 /// A surface in its canonical shape.
-pub enum CanonicalShape {
+pub enum UniformShape {
     Sphere(Box<SphereSurface>),
     Quotient(Box<Uniformized>),
 }
 
 pub struct CanonicalOutcome {
     pub input: Input,
-    pub shape: CanonicalShape,
+    pub shape: UniformShape,
     /// The contents of the picture.
     pub shown: CanonicalPictureChoice,
     /// True if a cover was asked for.
     pub has_copies: bool,
 }
 
-impl CanonicalShape {
+impl UniformShape {
     pub fn checks(&self) -> Checks {
         match self {
-            CanonicalShape::Sphere(s) => s.checks(),
-            CanonicalShape::Quotient(u) => u.checks(),
+            UniformShape::Sphere(s) => s.checks(),
+            UniformShape::Quotient(u) => u.checks(),
         }
     }
 
     pub fn solved(&self) -> &SolvedMetric {
         match self {
-            CanonicalShape::Sphere(s) => &s.solved,
-            CanonicalShape::Quotient(u) => &u.solved,
+            UniformShape::Sphere(s) => &s.solved,
+            UniformShape::Quotient(u) => &u.solved,
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::figures::of_quotient;
 use super::quotient::Uniformized;
-use super::shape::{CanonicalOutcome, CanonicalShape};
+use super::shape::{CanonicalOutcome, UniformShape};
 use super::sphere_figures;
 use crate::flow_summary;
 use crate::report::{Checks, Done, Figures, InputSummary};
@@ -22,15 +22,15 @@ impl JobOutcome for CanonicalOutcome {
 
     fn figures(&self, run: &CommandRun<'_>) -> Figures {
         match &self.shape {
-            CanonicalShape::Quotient(u) => of_quotient(u, self.has_copies, run),
-            CanonicalShape::Sphere(s) => sphere_figures::of_sphere(&self.input, s, self.has_copies, run),
+            UniformShape::Quotient(u) => of_quotient(u, self.has_copies, run),
+            UniformShape::Sphere(s) => sphere_figures::of_sphere(&self.input, s, self.has_copies, run),
         }
     }
 
     fn summary(&self, done: &Done) -> String {
         let text = match &self.shape {
-            CanonicalShape::Quotient(u) => quotient(u, self.has_copies),
-            CanonicalShape::Sphere(s) => sphere_figures::text(s, self.has_copies),
+            UniformShape::Quotient(u) => quotient(u, self.has_copies),
+            UniformShape::Sphere(s) => sphere_figures::text(s, self.has_copies),
         };
         say::surface(&self.input) + &text + &say::ending(&self.input, done, self.shape.solved().may_flip)
     }
