@@ -18,16 +18,16 @@ const ON_SIDE: f64 = 1e-8;
 const MOST_CUTS: usize = 10_000;
 
 /// An opened surface.
-pub struct OpenedSurface {
+pub struct CutOpenSurface {
     /// The domain that drawings copy.
     pub shape: Prototype,
     /// The triangles in space with the cut, numbered by its pairs of sides, if the surface has positions.
     pub in_space: Option<WeldedPieces>,
 }
 
-impl OpenedSurface {
+impl CutOpenSurface {
     /// Cut along edges, as the layout is; the loops of the generators stand for the cut.
-    pub fn along_edges(u: &Uniformized, laid: &SurfaceLayout, sides: &[OutlineSide]) -> OpenedSurface {
+    pub fn along_edges(u: &Uniformized, laid: &SurfaceLayout, sides: &[OutlineSide]) -> CutOpenSurface {
         let border = sides.iter().flat_map(|s| &s.points[..s.points.len().saturating_sub(1)]).copied();
         let shape = Prototype {
             points: laid.layout.points.clone(),
@@ -36,14 +36,14 @@ impl OpenedSurface {
             centre: ORIGIN,
         };
         let (triangles, cut) = (laid.mesh().triangles(), loops_on_surface(u));
-        OpenedSurface {
+        CutOpenSurface {
             shape,
             in_space: laid.positions.clone().map(|points| WeldedPieces { points, triangles, cut }),
         }
     }
 
     /// Cut along the sides of the Dirichlet domain: the part of a triangle that lies across a side is moved into the domain.
-    pub fn along_geodesics(laid: &SurfaceLayout, domain: &DirichletDomain, at: ModelPlace) -> OpenedSurface {
+    pub fn along_geodesics(laid: &SurfaceLayout, domain: &DirichletDomain, at: ModelPlace) -> CutOpenSurface {
         let folding = Folding::new(domain, if at == ModelPlace::Plane { Space::E2 } else { Space::H2 });
         let (pairs, mesh) = (pairs(domain), laid.mesh());
         let mut pieces = ConvexPieces::default();
@@ -55,7 +55,7 @@ impl OpenedSurface {
         let WeldedPieces { points, triangles, .. } = pieces.welded(&pieces.places);
         let in_space = laid.positions.as_ref().map(|positions| pieces.in_space(mesh, positions));
         let shape = Prototype { points, triangles, border: border(domain, at), centre: domain.centre };
-        OpenedSurface { shape, in_space }
+        CutOpenSurface { shape, in_space }
     }
 }
 

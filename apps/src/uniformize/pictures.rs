@@ -2,7 +2,7 @@
 
 use super::args::{CanonicalPictureChoice, CoverPictureChoice, UniformPictureChoice};
 use super::model_place::ModelPlace;
-use super::opened::{OpenedSurface, pairs};
+use super::opened::{CutOpenSurface, pairs};
 use super::outline::{OutlineSide, sides};
 use super::pieces::middle;
 use super::quotient::{ORIGIN, Uniformized};
@@ -50,8 +50,8 @@ pub fn draw(
             | CanonicalPictureChoice::Cover(CoverPictureChoice::Copies)
     );
     let opened = match u.domain().ok().filter(|_| !along_edges) {
-        Some(domain) => OpenedSurface::along_geodesics(laid, domain, canvas.at),
-        None => OpenedSurface::along_edges(u, laid, &sides),
+        Some(domain) => CutOpenSurface::along_geodesics(laid, domain, canvas.at),
+        None => CutOpenSurface::along_edges(u, laid, &sides),
     };
     let (uv, tiles) = pattern(&opened.shape, u.deck.space);
     let tiles = tiles.banded(canvas.style.bands);
