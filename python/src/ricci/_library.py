@@ -1,4 +1,4 @@
-"""The shared library: where it is, and whether it is of the version that this package was made for."""
+"""Loads the shared library, and checks that it has the version that this package was made for."""
 
 from __future__ import annotations
 

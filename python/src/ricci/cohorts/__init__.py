@@ -24,7 +24,7 @@ class CohortOptions(TypedDict, total=False):
         engine: ``"inline"``, ``"processes"``, ``"dask"`` (a local cluster), or a `distributed.Client`; ``"processes"``.
         workers: processes; one per core. A client has its own.
         read: makes of a path what the job is given; `ricci.read`. `ricci.cohorts.repaired` mends what needs no guess.
-        retry: whether meshes that failed in an earlier run are tried again.
+        retry: true if meshes that failed in an earlier run are tried again.
         progress: called as ``progress(done, total, row)`` after each mesh.
     """
 

@@ -104,7 +104,7 @@ class StructureSummary:
     Attributes:
         kind: which structure it is.
         space: of which the charts are pieces.
-        converged: whether the flow came to its target.
+        converged: true if the flow came to its target.
         n_matrix: numbers of a matrix: 8, real and imaginary parts of [[a, b], [c, d]] of z -> (a z + b) / (c z + d); or 9, by rows.
         n_vertices: number of vertices of the triangulation.
         n_faces: number of its faces.
@@ -177,7 +177,7 @@ class BicubicSummary:
         spans_max: largest number of spans along a side.
         rounds: times that patches were made: once, and again where they missed the spline.
         n_open_sides: number of sides whose control points or knots differ from those of their curve: 0 is watertight.
-        closed: whether every curve is a side of two patches.
+        closed: true if every curve is a side of two patches.
         diagonal: the diagonal of the bounding box of the corners, middles of sides and centroids of the spline's patches.
         distance: largest distance of a patch from the spline's point with the same parameters, over the diagonal, between the points that
             are interpolated.

@@ -116,7 +116,7 @@ class CircleDomainSummary:
 
     Attributes:
         space: ``"e2"``: the unit disk (genus 0) or a flat torus (1); ``"h2"`` for more.
-        converged: whether the curvature is within the tolerance, no circles overlap and no triangle is flipped.
+        converged: true if the curvature is within the tolerance, no circles overlap and no triangle is flipped.
         stop_reason: why the flow stopped.
         outer: genus 0: the loop on the unit circle; else 4294967295.
         n_circles: circles: one per boundary loop of the mesh.

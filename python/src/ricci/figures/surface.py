@@ -19,7 +19,7 @@ class MeshSummary:
         n_boundary_vertices: number of vertices on the boundary.
         euler: V - E + F.
         genus: (2 - euler - boundary loops) / 2.
-        has_positions: whether its vertices have positions in space, 0 for an intrinsic surface.
+        has_positions: true if its vertices have positions in space, 0 for an intrinsic surface.
         geometry: the geometry in which its lengths are meant.
         n_normals: number of normals of vertices: V, or 0 if the mesh was not read from a file that has them.
         n_colors: number of colours: V, or 0.
@@ -122,7 +122,7 @@ class MetricSummary:
         space: the geometry of its triangles.
         input_geometry: the geometry in which the input lengths were read.
         scheme: how lengths depend on u.
-        doubled: whether its triangulation is one of the double of the surface: two copies glued along the boundary.
+        doubled: true if its triangulation is one of the double of the surface: two copies glued along the boundary.
         n_vertices: V of the mesh it was made from, the entries of per-vertex arrays.
         n_mesh_vertices: V of its triangulation: those of the mesh, and of a double the mirror images of interior vertices behind them.
         n_edges: E of its triangulation, the entries of per-edge arrays.
@@ -158,7 +158,7 @@ class ReportSummary:
     """Figures of a report.
 
     Attributes:
-        converged: whether the curvature error is within `tolerance` and no triangle is broken.
+        converged: true if the curvature error is within `tolerance` and no triangle is broken.
         stop_reason: why the flow stopped.
         iterations: number of steps.
         flips: number of edges flipped by this flow; those before it are in `MetricSummary`.
@@ -182,7 +182,7 @@ class ReportSummary:
         obstruction_target: total target curvature at the vertices of the obstruction, radians; of a double, with their mirror images.
         obstruction_above: every metric of the class on this triangulation has a total curvature above this at the vertices of the
             obstruction, radians.
-        double_double: whether u, lengths and curvature were carried to twice the digits of a double (Newton in E2).
+        double_double: true if u, lengths and curvature were computed in double-double precision (Newton in E2).
     """
 
     converged: bool
