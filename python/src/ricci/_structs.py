@@ -1,4 +1,4 @@
-"""Structs of the caller's: options by their names, with the arrays that they point to."""
+"""Structs of the C face, which are filled from options by their names and keep the arrays that they point to."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ Write: TypeAlias = "Callable[[Struct, str, Any], None]"
 
 
 class Struct(Passed):
-    """A struct that begins with its size, zero in every other field: the defaults."""
+    """A struct that begins with its size. Its other fields are zero at first, which means the defaults."""
 
     def __init__(self, name: str) -> None:
         self._pointer = ffi.new(f"ricci_{name} *")

@@ -19,7 +19,7 @@ _Arrays: TypeAlias = "tuple[npt.ArrayLike, npt.ArrayLike]"
 
 
 def as_mesh(V: MeshLike, F: npt.ArrayLike | None = None) -> Mesh:
-    """The mesh that arguments of this package mean.
+    """The mesh that the arguments `V, F` of this package stand for.
 
     Args:
         V: n x 3 positions with `F`; without, a `Mesh`, a file's name, a pair (V, F), or another library's mesh.
@@ -74,7 +74,7 @@ def _of_pyvista(other: Any) -> _Arrays | None:
 
 
 def _of_trimesh(other: Any) -> _Arrays | None:
-    """trimesh.Trimesh, and whatever else has `vertices` and `faces`."""
+    """trimesh.Trimesh, and every other object with `vertices` and `faces`."""
     return (other.vertices, other.faces) if hasattr(other, "vertices") and hasattr(other, "faces") else None
 
 

@@ -25,7 +25,7 @@ __all__ = ["Place", "Structure", "StructureOptions", "structure", "structures"]
 
 
 class StructureOptions(TypedDict, total=False):
-    """Charts, and where a structure comes from.
+    """Options of a structure: its charts, and the source of an affine structure.
 
     Attributes:
         flow: how the flow is done.
@@ -106,7 +106,7 @@ class Structure(Handle):
 
     @cached_property
     def transitions(self) -> tuple[Indices, npt.NDArray[Any]]:
-        """From which chart to which (k x 2), and the matrices: k x 2 x 2 complex, or k x 3 x 3."""
+        """The charts that each transition leads from and to (k x 2), and the matrices: k x 2 x 2 complex, or k x 3 x 3."""
         n = self.summary.n_transitions
         charts, matrices = np.empty((n, 2), np.uint32), np.empty((n, self.summary.n_matrix))
         call(lib.ricci_structure_transitions, self, pointer(charts), charts.size, pointer(matrices), matrices.size)

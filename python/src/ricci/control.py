@@ -107,7 +107,7 @@ def run(progress: Progress, work: Callable[[Any], int]) -> None:
     failure = running.failure
     if failure is not None:
         try:
-            # Without the frames of the thread that ran it; and this frame, which the exception has, lets go of the exception.
+            # The traceback has no frames of the thread that ran the call. `finally` breaks the cycle of this frame and the exception.
             raise failure.with_traceback(None)
         finally:
             del failure, running

@@ -81,7 +81,7 @@ def harmonic(V: MeshLike, F: npt.ArrayLike | None = None, progress: Progress = N
 
 
 class FormsOptions(TypedDict, total=False):
-    """Which forms.
+    """Options of harmonic forms.
 
     Attributes:
         base: the vertex where the loops meet; one from which they are short.
@@ -128,7 +128,7 @@ class Forms(Handle):
         return values.view(np.complex128)[:, 0]
 
     def zeros(self, coefficients: npt.ArrayLike) -> Longs:
-        """The zeros of that holomorphic form, k x 2: nearest vertex and multiplicity."""
+        """The zeros of the form of `holomorphic`, k x 2: nearest vertex and multiplicity."""
         given = _arrays.real(coefficients)
         return sized_list(lib.ricci_forms_zeros, self, pointer(given), given.size, dtype=np.int64).reshape(-1, 2)
 

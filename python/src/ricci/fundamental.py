@@ -42,7 +42,7 @@ class Homotopy(Handle):
 
     @cached_property
     def intersections(self) -> Longs:
-        """[i, j]: how often loop j crosses loop i from right to left, minus how often from left to right."""
+        """The intersection numbers [i, j]: crossings of loop i by loop j from right to left, minus those from left to right."""
         n = self.summary.n_generators
         return frozen(filled(lib.ricci_homotopy_intersections, self, out=np.empty((n, n), np.int64)))
 
@@ -72,7 +72,7 @@ class Homotopy(Handle):
         return text_of(lib.ricci_homotopy_word_text, self, pointer(letters), letters.size)
 
     def parse(self, text: str) -> Signed:
-        """The word that a text like ``"a1 b1 a1^-1"`` means, freely reduced."""
+        """The word of a text like ``"a1 b1 a1^-1"``, freely reduced."""
         return sized_list(lib.ricci_homotopy_word_parse, self, text.encode())
 
     def lift(self, vertex: int, path: npt.ArrayLike, element: npt.ArrayLike = ()) -> list[Signed]:

@@ -1,4 +1,4 @@
-"""Layouts: a surface, opened along a cut, in the plane, the hyperbolic plane or on the sphere; and charts of one."""
+"""Layouts: coordinates of a surface that is cut open, in the plane, the hyperbolic plane or on the sphere; and charts of a layout."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ class LayoutOptions(TypedDict, total=False):
 
 
 def _cones(struct: Any, field: str, value: Any) -> None:
-    """No cones at all is a pointer with the count 0."""
+    """Sets the cones. An empty list becomes a pointer with the count 0, because NULL means the default."""
     index_list("n_cones")(struct, field, value if np.size(value) else [0])
     struct.put("n_cones", int(np.size(value)))
 
@@ -85,7 +85,7 @@ class Seam:
 
 
 class Layout(Handle):
-    """A surface, opened along a cut, in the space of its metric.
+    """The coordinates of a surface that is opened along a cut and unfolded in the space of its metric.
 
     If edges were flipped, the mesh of the layout is the common subdivision of the mesh and the metric's triangulation: ``on="refinement"``;
     ``on="input"`` makes the map linear on the faces of the mesh itself. Arrays of properties are read-only.
@@ -179,12 +179,12 @@ class Atlas(Handle):
 
     @cached_property
     def summary(self) -> AtlasSummary:
-        """Counts, scale, and how much of the square is covered."""
+        """Counts, scale, and the share of the square that is covered."""
         return summary(AtlasSummary, "atlas", self)
 
     @cached_property
     def charts(self) -> Indices:
-        """The chart of every face of what is laid out; charts with more area come first."""
+        """The chart of every face of the layout's mesh; charts with more area come first."""
         return frozen(filled(lib.ricci_atlas_faces, self, out=np.empty(self.summary.n_faces, np.uint32)))
 
     @cached_property
@@ -203,12 +203,12 @@ class Atlas(Handle):
         return frozen(doubles(lib.ricci_atlas_motions, self, shape=(self.summary.n_charts, 3)))
 
     def write(self, path: str | os.PathLike[str], *, homogeneous: bool = False) -> None:
-        """Write what is laid out with its charts as texture coordinates, as OBJ."""
+        """Write the layout's mesh with its charts as texture coordinates, as OBJ."""
         call(lib.ricci_atlas_write, self, int(homogeneous), path_bytes(path))
 
 
 def layout(metric: Metric, progress: Progress = None, **given: Unpack[LayoutOptions]) -> Layout:
-    """Lay a metric out in its space, cut open along edges of the mesh through all cones.
+    """The layout of a metric in its space, cut open along edges of the mesh through all cones.
 
     Raises:
         LayoutError: the metric has no layout.

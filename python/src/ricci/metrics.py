@@ -96,7 +96,7 @@ class Report(Passed):
 
     @cached_property
     def target(self) -> Doubles:
-        """The target, n curvatures in radians; at pinned vertices what came out."""
+        """The target, n curvatures in radians; at pinned vertices the curvature at the end."""
         return self._values("TARGET", self._n_vertices)
 
     @cached_property

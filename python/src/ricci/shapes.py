@@ -35,7 +35,7 @@ Change: TypeAlias = Literal["punch", "grade", "caps", "needles", "noise", "inver
 
 
 class ShapeOptions(TypedDict, total=False):
-    """Sizes of a surface; `shapes.h` says for each shape which it uses and what they mean there.
+    """Sizes of a surface; `shapes.h` describes them for each shape.
 
     Attributes:
         genus: number of handles, at least 1.

@@ -1,4 +1,4 @@
-"""Triangle lists that are no surface yet: read, diagnose, repair, write."""
+"""Triangle lists, which may have defects: reading, diagnosis, repair, writing."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ def _view(owner: Handle, address: Any, n: int) -> Indices:
 
 
 class Soup(Triangles):
-    """A triangle list with attributes, whatever its defects, and where it came from if it was repaired. It never changes.
+    """A triangle list with attributes, which may have defects; a repaired one knows the origins of its elements. It never changes.
 
     Args:
         V: n x 3 positions.
@@ -91,7 +91,7 @@ class Soup(Triangles):
         return cls._made(lib.ricci_soup_read, path_bytes(path))
 
     def write(self, path: str | os.PathLike[str]) -> None:
-        """Write the list as .obj, .off, .ply or .glb, whole or not at all, whatever its defects."""
+        """Write the list as .obj, .off, .ply or .glb, whole or not at all. It may have defects."""
         call(lib.ricci_soup_write, self, path_bytes(path))
 
     def repair(self, **given: Unpack[RepairOptions]) -> Soup:
@@ -110,7 +110,7 @@ class Soup(Triangles):
 
     @cached_property
     def summary(self) -> SoupSummary:
-        """Counts, the number of defects, and what a repair did."""
+        """Counts, the number of defects, and the steps of a repair."""
         return summary(SoupSummary, "soup", self)
 
     @cached_property

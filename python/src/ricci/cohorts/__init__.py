@@ -1,4 +1,4 @@
-"""Thousands of meshes: the same job on each, results and reports to Parquet, one failure spoils nothing."""
+"""Cohorts: the same job on thousands of meshes, with results and reports in Parquet. A mesh that fails does not stop the others."""
 
 from __future__ import annotations
 

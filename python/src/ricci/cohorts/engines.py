@@ -20,12 +20,12 @@ class WorkerDied(Exception):
 
 
 def inline(work: Work, paths: Sequence[str], _: int) -> Iterator[Row]:
-    """One mesh after the other, here."""
+    """Does the work in this process, one mesh after the other."""
     return map(work, paths)
 
 
 def _pool(workers: int) -> ProcessPoolExecutor:
-    # A child that is forked would have the locks of threads that it does not have.
+    # A forked child would inherit locks that are held by threads which it does not have.
     return ProcessPoolExecutor(workers, mp_context=multiprocessing.get_context("spawn"))
 
 
@@ -49,7 +49,7 @@ def _alone(work: Work, path: str) -> Row:
 
 
 def processes(work: Work, paths: Sequence[str], workers: int) -> Iterator[Row]:
-    """So many processes at a time. Where one dies, the meshes that were under way are done again, each in a process of its own."""
+    """Does the work in several processes. If one dies, the meshes under way are done again, each in a process of its own."""
     waiting = deque(paths)
     while waiting:
         running: dict[Future[Row], str] = {}
@@ -73,7 +73,7 @@ def processes(work: Work, paths: Sequence[str], workers: int) -> Iterator[Row]:
 
 
 def dask(work: Work, paths: Sequence[str], workers: int, client: Any = None) -> Iterator[Row]:
-    """By the workers of a `distributed.Client`, or of a local cluster of processes that is made for it."""
+    """Does the work with the workers of a `distributed.Client`, or of a local cluster of processes that is made for it."""
     from distributed import Client, KilledWorker, LocalCluster, as_completed
 
     if client is None:
@@ -93,7 +93,7 @@ def dask(work: Work, paths: Sequence[str], workers: int, client: Any = None) -> 
         else:
             yield future.result() if wrong is None else failed(path, wrong)
         future.release()
-    # Dask blames every mesh that waited at a worker which died. By itself each shows whether it was the one.
+    # Dask blames every mesh that waited at a worker which died, so each is tried again by itself.
     for path in suspects:
         future = client.submit(work, path, pure=False)
         wrong = future.exception()

@@ -1,4 +1,4 @@
-"""Rows of a cohort on disk: one small Parquet file as each is done, one table in the end."""
+"""Rows of a cohort on disk: a small Parquet file for each finished mesh, and one table at the end."""
 
 from __future__ import annotations
 
@@ -34,20 +34,20 @@ KINDS = ("results", "reports")
 
 
 def _write(table: pa.Table, path: Path) -> None:
-    """A file that appears whole or not at all."""
+    """Writes a file that appears whole or not at all."""
     part = path.with_suffix(".part")
     pq.write_table(table, part)
     os.replace(part, path)
 
 
 def _read(path: Path) -> pa.Table:
-    """A whole file: what `read_table` does for folders of files takes longer than reading one row."""
+    """Reads a whole file. `read_table` searches folders of files, which takes longer than reading one row."""
     with pq.ParquetFile(path) as file:
         return file.read()
 
 
 class Store:
-    """The folder of a cohort: `results.parquet`, `reports.parquet`, and in `rows` what was done since these were written.
+    """The folder of a cohort: `results.parquet`, `reports.parquet`, and in `rows` the meshes that were done since these were written.
 
     Raises:
         ArgumentError: the folder has rows of another job.
@@ -68,7 +68,7 @@ class Store:
         return self.rows / f"{hashlib.sha256(path.encode()).hexdigest()[:32]}.{kind}"
 
     def add(self, row: Row) -> None:
-        """Keep one row. The result is written last: a row without it is not done. What Parquet cannot hold is that row's error."""
+        """Keep one row. The result is written last: a row without it is not done. A value that Parquet cannot hold is that row's error."""
         try:
             report, result = _table([row.report]), _table([row.result])
         except pa.ArrowException as wrong:
@@ -78,12 +78,12 @@ class Store:
         _write(result, self._place("results", row.path))
 
     def done(self) -> dict[str, bool]:
-        """The paths that have a row, and whether it is without error."""
+        """The paths that have a row: true for those without error."""
         table = self._joined("results")
         return dict(zip(table["path"].to_pylist(), table["ok"].to_pylist(), strict=True)) if len(table) else {}
 
     def _joined(self, kind: str) -> pa.Table:
-        """The table and the rows beside it; of a path that is there twice the row beside it counts."""
+        """The table and the rows beside it. If a path is in both, the row beside the table replaces that of the table."""
         parts = [_read(path) for path in sorted(self.rows.glob(f"*.{kind}"))]
         whole = self.folder / f"{kind}.parquet"
         if whole.exists():
@@ -110,7 +110,7 @@ def _table(rows: list[dict[str, Any]]) -> pa.Table:
 
 
 def _concatenated(parts: Iterable[pa.Table]) -> pa.Table:
-    """Tables one below the other: a column that one has not is empty there, types widen."""
+    """The rows of several tables in one. A column that a table lacks is empty in its rows, and types widen."""
     parts = list(parts)
     return pa.concat_tables(parts, promote_options="permissive") if parts else pa.table({"path": pa.array([], pa.string())})
 
