@@ -12,15 +12,12 @@ const SHARED: &[(&str, &str)] = &[];
 
 /// Names that more than one type still bears and that are to be renamed.
 const TO_BE_RENAMED: &str = "\
-    Accessor Angles Around Asked At Before Border Boundary Boxes Canonical Canvas Charts Chords \
-    Class Corner Cover Crossing Delaunay Disk Document Domain Drawn Element Encoding End Factor \
-    Factors Failure Field File Filled Flat Flow Format Found Frame Given Goal Growth Handle Header \
-    Image Input Intrinsic Jet Kind Lift Limits Line Lines Meeting Mesh Mobius Model Node Number \
-    Numbers On Opened Options Origin Outcome Overlay Own Part Parts Patch PatchEntry Path Pattern \
-    Piece Pieces Place Placed Plan Plane Point Polygon Problem Quad Quantity Reached Report Round Row \
-    Rows Scale Scene Search Seconds Seen Shape Shared Sheet ShowChoice Side Similarity Solver \
-    Source Split Spot Stage Standing Start State Steps Surface System Target Text Texture Tracer \
-    Tree Triangle Values Vertices View Way Wish Work \
+    Angles Around Asked At Border Boundary Canvas Charts Chords Class Corner Crossing Delaunay Document \
+    Domain Drawn Element End Factors Failure Field Flat Flow Found Frame Given Growth Image Input Jet \
+    Lift Line Lines Mobius Model Opened Origin Outcome Overlay Own Part Parts Patch PatchEntry Path \
+    Pattern Pieces Place Placed Plan Plane Point Quad Reached Report Round Rows Scale Seconds Seen Shape \
+    Sheet ShowChoice Side Similarity Solver Source Spot Stage Standing Start Surface System Target \
+    Texture Tracer Triangle Values View Way Wish Work \
     ";
 
 /// Parameters with a tuple as pattern that remain in signatures.
