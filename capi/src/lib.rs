@@ -59,6 +59,7 @@ pub mod quality;
 pub mod report;
 pub mod shapes;
 pub mod soup;
+pub mod sphere;
 pub mod spline;
 pub mod spline_file;
 pub mod spline_fit;

@@ -20,7 +20,6 @@ use ricci::canonical::{
     FlowedSphere, Quotient, QuotientOptions, Sphere, Uniformization, quotient_of, uniformize,
 };
 use ricci::embed::BoundaryLoop;
-use ricci::geometry::Model;
 use ricci::mesh::{Mesh, PerVertex, Point};
 use ricci::topology::FundamentalDomain;
 use std::ffi::c_char;
@@ -28,7 +27,7 @@ use std::sync::Arc;
 
 pub struct ricci_uniform {
     pub(crate) shape: CanonicalShape,
-    metric: ricci_metric,
+    pub(crate) metric: ricci_metric,
 }
 handle!(ricci_uniform, "uniform");
 
@@ -41,7 +40,7 @@ pub(crate) enum CanonicalShape {
 
 impl ricci_uniform {
     /// The vertices of a sphere.
-    fn sphere_positions(&self) -> Outcome<&PerVertex<Point>> {
+    pub(crate) fn sphere_positions(&self) -> Outcome<&PerVertex<Point>> {
         match &self.shape {
             CanonicalShape::Sphere(sphere) => Ok(&sphere.positions),
             CanonicalShape::FlowedSphere(sphere) => Ok(&sphere.positions),
@@ -410,55 +409,5 @@ pub unsafe extern "C" fn ricci_uniform_lift(
         let Quotient { layout, deck, .. } = &**uniform.quotient()?;
         let path = halfedges(layout.mesh(), path, n_path)?;
         copy_out("points", &layout.lift(deck.corner, &path)?, points, capacity)
-    })
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn ricci_sphere_points(
-    uniform: *const ricci_uniform,
-    model: u32,
-    points: *mut f64,
-    capacity: usize,
-) -> ricci_status {
-    guard::with(uniform, |uniform| {
-        let positions = uniform.sphere_positions()?;
-        match (MODELS.choose(model)?, &uniform.shape) {
-            (Model::Hyperboloid, _) => copy_out("points", positions, points, capacity),
-            (_, CanonicalShape::Sphere(sphere)) => copy_out("points", &sphere.plane, points, capacity),
-            _ => Err(Failure::new(RICCI_LAYOUT, "no plane lies under this sphere: take RICCI_MODEL_AMBIENT")),
-        }
-    })
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn ricci_sphere_mesh(
-    uniform: *const ricci_uniform,
-    on: u32,
-    control: *const ricci_control,
-    mesh: *mut *mut ricci_mesh,
-) -> ricci_status {
-    guard::make(mesh, || {
-        let uniform = shared(uniform)?;
-        let (positions, state) = (uniform.sphere_positions()?, &uniform.metric.0);
-        let on = ON.choose(on)?;
-        let own = || ricci_mesh::in_space(state.solution.mesh().clone(), Arc::new(positions.to_vec()));
-        if on == Triangulation::Input {
-            return Err(Failure::new(
-                RICCI_LAYOUT,
-                "the polyhedron has the metric's faces: take RICCI_ON_METRIC",
-            ));
-        }
-        Ok(match state.refinement(&control::of(control))?.filter(|_| on == Triangulation::Refinement) {
-            Some(refinement) => {
-                // A combination of the ends of an edge, as vectors, has the direction of its point on the arc between them.
-                let mut points = refinement.from_final_vertices(positions)?;
-                for p in points.iter_mut().skip(refinement.n_input_vertices) {
-                    let norm = p[0].hypot(p[1]).hypot(p[2]);
-                    *p = p.map(|x| x / norm);
-                }
-                ricci_mesh::in_space(Arc::new(refinement.mesh.clone()), Arc::new(points))
-            }
-            None => own(),
-        })
     })
 }

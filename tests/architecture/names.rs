@@ -12,12 +12,10 @@ const SHARED: &[(&str, &str)] = &[];
 
 /// Names that more than one type still bears and that are to be renamed.
 const TO_BE_RENAMED: &str = "\
-    Angles Around Asked At Border Boundary Canvas Charts Chords Class Corner Crossing Delaunay Document \
-    Domain Drawn Element End Factors Failure Field Flat Flow Found Frame Given Growth Image Input Jet \
-    Lift Line Lines Mobius Model Opened Origin Outcome Overlay Own Part Parts Patch PatchEntry Path \
-    Pattern Pieces Place Placed Plan Plane Point Quad Reached Report Round Rows Scale Seconds Seen Shape \
-    Sheet ShowChoice Side Similarity Solver Source Spot Stage Standing Start Surface System Target \
-    Texture Tracer Triangle Values View Way Wish Work \
+    Angles Around Asked At Charts Chords Corner Crossing Document Domain Drawn End Failure Flat Found \
+    Given Input Jet Lift Mobius Model Opened Origin Outcome Overlay Parts PatchEntry Pieces Place Plan \
+    Plane Quad Reached Report Round Seconds Seen Shape ShowChoice Side Similarity Spot Target Values \
+    View Way Work \
     ";
 
 /// Parameters with a tuple as pattern that remain in signatures.
