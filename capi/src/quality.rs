@@ -1,4 +1,4 @@
-//! How well shaped the triangles of a mesh or a triangle list are.
+//! The quality of the triangles of a mesh or a triangle list: angles, edge ratios, Delaunay edges.
 
 use crate::guard;
 use crate::mesh::ricci_mesh;

@@ -8,11 +8,14 @@ use std::collections::BTreeMap;
 const CRATES: &[&str] = &["src", "capi/src", "apps/src"];
 
 /// Names that more than one type bears on purpose, each with its reason.
-const SHARED: &[(&str, &str)] = &[];
+const SHARED: &[(&str, &str)] = &[(
+    "Failure",
+    "the reason why a call of the C face fails, and why the command fails: neither crate knows the other",
+)];
 
 /// Names that more than one type still bears and that are to be renamed.
 const TO_BE_RENAMED: &str = "\
-    Angles Around Asked At Charts Chords Corner Crossing Document Domain Drawn End Failure Flat Found \
+    Angles Around Asked At Charts Chords Corner Crossing Document Domain Drawn End Flat Found \
     Given Input Jet Lift Mobius Model Opened Origin Outcome Overlay Parts PatchEntry Pieces Place Plan \
     Plane Quad Reached Report Round Seconds Seen Shape ShowChoice Side Similarity Spot Target Values \
     View Way Work \
