@@ -14,7 +14,7 @@ use ricci::mesh::io::Soup;
 use ricci::mesh::shapes::{self, IntrinsicSurface, Sliver, TorusKnot};
 use std::sync::Arc;
 
-choices!(enum SampleShape, SHAPES = "shape", [
+choices!(enum SampleKind, SHAPES = "shape", [
     RICCI_SHAPE_SPHERE => Sphere,
     RICCI_SHAPE_ELLIPSOID => Ellipsoid,
     RICCI_SHAPE_DISK => Disk,
@@ -88,25 +88,25 @@ fn intrinsic(surface: IntrinsicSurface) -> Outcome<ricci_mesh> {
 }
 
 /// The approximate number of faces of a sample surface, by the formulas of the header.
-fn faces_of(shape: SampleShape, [n, m, genus]: [usize; 3]) -> usize {
+fn faces_of(shape: SampleKind, [n, m, genus]: [usize; 3]) -> usize {
     let square = n.saturating_mul(n);
     let cut = |times: usize| 4_usize.saturating_pow(times.min(32) as u32);
     match shape {
-        SampleShape::Sphere | SampleShape::Ellipsoid => square.saturating_mul(20),
-        SampleShape::Disk => square.saturating_mul(6),
-        SampleShape::Annulus | SampleShape::Torus | SampleShape::Knot | SampleShape::FlatTorus => {
+        SampleKind::Sphere | SampleKind::Ellipsoid => square.saturating_mul(20),
+        SampleKind::Disk => square.saturating_mul(6),
+        SampleKind::Annulus | SampleKind::Torus | SampleKind::Knot | SampleKind::FlatTorus => {
             n.saturating_mul(m).saturating_mul(2)
         }
-        SampleShape::Genus => genus.saturating_mul(6).saturating_mul(square).saturating_mul(16),
-        SampleShape::Bolza | SampleShape::Pants => cut(n).saturating_mul(16),
-        SampleShape::OneVertex | SampleShape::TwoVertex => genus.saturating_mul(4),
-        SampleShape::TwoTriangles => 2,
-        SampleShape::Hyperelliptic => square.saturating_mul(40),
+        SampleKind::Genus => genus.saturating_mul(6).saturating_mul(square).saturating_mul(16),
+        SampleKind::Bolza | SampleKind::Pants => cut(n).saturating_mul(16),
+        SampleKind::OneVertex | SampleKind::TwoVertex => genus.saturating_mul(4),
+        SampleKind::TwoTriangles => 2,
+        SampleKind::Hyperelliptic => square.saturating_mul(40),
     }
 }
 
 /// A reserve for a sample surface. One with more faces than an index can count gets none: the library refuses it.
-fn room_for(shape: SampleShape, sizes: [usize; 3]) -> Outcome<memory::Reserve> {
+fn room_for(shape: SampleKind, sizes: [usize; 3]) -> Outcome<memory::Reserve> {
     let faces = faces_of(shape, sizes);
     memory::work(if faces > u32::MAX as usize { 0 } else { faces }, memory::MESH)
 }
@@ -121,20 +121,20 @@ pub unsafe extern "C" fn ricci_make(shape: *const ricci_shape, mesh: *mut *mut r
         let shape = SHAPES.choose(shape)?;
         let _reserve = room_for(shape, [n, m, genus])?;
         ricci_mesh::from_soup(match shape {
-            SampleShape::Sphere => shapes::icosphere(n)?,
-            SampleShape::Ellipsoid => shapes::ellipsoid([a, b, c], n)?,
-            SampleShape::Disk => shapes::disk(n)?,
-            SampleShape::Annulus => shapes::annulus(a, b, n, m)?,
-            SampleShape::Torus => shapes::torus(a, b, n, m)?,
-            SampleShape::Genus => shapes::tapered_genus(genus, n, if a == 0.0 { 1.0 } else { a })?,
-            SampleShape::Knot => TorusKnot { p, q, big: a, small: b }.torus(c, n, m)?,
-            SampleShape::FlatTorus => return intrinsic(shapes::flat_torus([a, b], n, m)?),
-            SampleShape::Bolza => return intrinsic(shapes::bolza(n)?),
-            SampleShape::OneVertex => return intrinsic(shapes::one_vertex(genus)?),
-            SampleShape::TwoVertex => return intrinsic(shapes::two_vertex(genus)?),
-            SampleShape::TwoTriangles => return intrinsic(shapes::two_triangle_sphere()),
-            SampleShape::Pants => return intrinsic(shapes::pants([a, b, c], n)?),
-            SampleShape::Hyperelliptic => {
+            SampleKind::Sphere => shapes::icosphere(n)?,
+            SampleKind::Ellipsoid => shapes::ellipsoid([a, b, c], n)?,
+            SampleKind::Disk => shapes::disk(n)?,
+            SampleKind::Annulus => shapes::annulus(a, b, n, m)?,
+            SampleKind::Torus => shapes::torus(a, b, n, m)?,
+            SampleKind::Genus => shapes::tapered_genus(genus, n, if a == 0.0 { 1.0 } else { a })?,
+            SampleKind::Knot => TorusKnot { p, q, big: a, small: b }.torus(c, n, m)?,
+            SampleKind::FlatTorus => return intrinsic(shapes::flat_torus([a, b], n, m)?),
+            SampleKind::Bolza => return intrinsic(shapes::bolza(n)?),
+            SampleKind::OneVertex => return intrinsic(shapes::one_vertex(genus)?),
+            SampleKind::TwoVertex => return intrinsic(shapes::two_vertex(genus)?),
+            SampleKind::TwoTriangles => return intrinsic(shapes::two_triangle_sphere()),
+            SampleKind::Pants => return intrinsic(shapes::pants([a, b, c], n)?),
+            SampleKind::Hyperelliptic => {
                 return intrinsic(shapes::hyperelliptic(&branch_points(points, n_points)?, n)?);
             }
         })

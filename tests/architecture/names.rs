@@ -22,7 +22,7 @@ const TO_BE_RENAMED: &str = "\
     ";
 
 /// Parameters with a tuple as pattern that remain in signatures.
-const TUPLE_PARAMETERS: usize = 80;
+const TUPLE_PARAMETERS: usize = 29;
 
 /// The name of the type that a line declares. An alias counts only where it begins the line: further in it is the
 /// associated type of a trait.
