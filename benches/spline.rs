@@ -5,10 +5,12 @@
 //! the same points in the same round, and the medians of five rounds are given. *Nearest points* are those to vertices of the mesh.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-use ricci::manifold::{Flat, FlatOptions, SurfaceFitOptions, fit_surface};
 use ricci::mesh::io::Soup;
 use ricci::mesh::shapes::{self, SplitMix64};
-use ricci::spline::{Domain, KnotOptions, Parameter, Spline, SplineSpace, multi_indices, simplex_spline};
+use ricci::spline::{
+    FlatMetric, FlatMetricOptions, KnotOptions, Parameter, PlaneDomain, Spline, SplineSpace,
+    SurfaceFitOptions, fit_surface, multi_indices, simplex_spline,
+};
 use ricci::{Control, Surface};
 use std::sync::Arc;
 use std::time::Instant;
@@ -19,7 +21,7 @@ const POINTS: usize = 400_000;
 const BARE: usize = 400;
 
 /// A square of n × n cells, cut in two.
-fn square(n: usize) -> Domain {
+fn square(n: usize) -> PlaneDomain {
     let at = |i: usize, j: usize| (j * (n + 1) + i) as u32;
     let vertices = (0..(n + 1) * (n + 1)).map(|v| [(v % (n + 1)) as f64, (v / (n + 1)) as f64]).collect();
     let triangles = (0..n * n).flat_map(|c| {
@@ -27,7 +29,7 @@ fn square(n: usize) -> Domain {
         let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
         if (i + j) % 2 == 0 { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] }
     });
-    Domain { vertices, triangles: triangles.collect() }
+    PlaneDomain { vertices, triangles: triangles.collect() }
 }
 
 fn places(space: &SplineSpace, random: &mut SplitMix64) -> Vec<Parameter> {
@@ -64,7 +66,7 @@ fn bare(surface: &Spline, at: Parameter) -> [f64; 3] {
 /// A spline over a closed surface, each patch in a chart of its own.
 fn surface(soup: &Soup, degree: usize) -> Spline {
     let (control, surface) = (Control::new(), Surface::from_soup(soup).unwrap());
-    let flat = Flat::new(&surface, &FlatOptions::default(), &control).unwrap();
+    let flat = FlatMetric::new(&surface, &FlatMetricOptions::default(), &control).unwrap();
     let options = SurfaceFitOptions { degree, rounds: 2, ..SurfaceFitOptions::default() };
     fit_surface(&surface, &flat, &options, &control).unwrap().spline
 }

@@ -17,8 +17,7 @@
 //! | [`canonical`] | canonical shapes: uniformization, spheres, circle domains, straight boundaries |
 //! | [`matching`] | maps between two surfaces |
 //! | [`structure`] | atlases: conformal, spherical, affine, hyperbolic, projective |
-//! | [`spline`] | triangular B-splines, bicubic patches |
-//! | [`manifold`] | smooth surfaces of class C² on atlases |
+//! | [`spline`] | triangular B-splines, fits over whole surfaces, bicubic patches for CAD |
 //!
 //! Three cargo features, on by default, add file formats and the crates that they need: `gltf` reads and writes .glb and reads .gltf,
 //! `gifti` reads .gii, `json` reads and writes splines.
@@ -34,7 +33,6 @@ pub mod flow;
 pub mod geometry;
 pub mod harmonic;
 pub mod linalg;
-pub mod manifold;
 pub mod matching;
 pub mod mesh;
 pub mod metric;

@@ -23,7 +23,6 @@ const FLOORS: &[&[&str]] = &[
     &["matching"],
     &["structure"],
     &["spline"],
-    &["manifold"],
 ];
 /// The one import that points up: the error type contains a mesh's diagnosis.
 const EXCEPTION: (&str, &str) = ("error", "mesh::check::Diagnosis");

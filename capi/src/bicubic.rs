@@ -10,12 +10,12 @@ use crate::spline::ricci_spline;
 use crate::status::*;
 use crate::structs::{self, or, sized};
 use ricci::mesh::io::write_atomically;
-use ricci::spline::{Bicubic, BicubicOptions, BicubicSurface, LengthUnit, StepOptions};
+use ricci::spline::{BicubicFit, BicubicOptions, BicubicSurface, LengthUnit, StepOptions};
 use std::ffi::c_char;
 use std::io::Write;
 use std::path::Path;
 
-pub struct ricci_bicubic(Bicubic);
+pub struct ricci_bicubic(BicubicFit);
 handle!(ricci_bicubic, "bicubic patches");
 
 /// Number of places of a spline that are evaluated at a time while patches are made.

@@ -10,7 +10,7 @@ use crate::mesh::ricci_mesh;
 use crate::status::*;
 use crate::structs::{self, or, sized};
 use ricci::mesh::io::Soup;
-use ricci::spline::{Domain, KnotOptions, Polynomial, Spline, SplineSpace, basis_size, triangulate};
+use ricci::spline::{KnotOptions, PlaneDomain, Polynomial, Spline, SplineSpace, basis_size, triangulate};
 use std::sync::Arc;
 
 pub struct ricci_spline {
@@ -73,7 +73,7 @@ impl ricci_spline_spec {
     }
 
     /// The knots of each vertex of a domain: the caller's, or else those that the spec's options lead to.
-    fn knots(&self, domain: &Domain) -> Outcome<Vec<Vec<[f64; 2]>>> {
+    fn knots(&self, domain: &PlaneDomain) -> Outcome<Vec<Vec<[f64; 2]>>> {
         let per_vertex = self.degree().saturating_add(1);
         let n = domain.vertices.len().saturating_mul(per_vertex);
         if let Some(knots) = optional::<[f64; 2]>("knots", self.knots, n)? {
@@ -112,7 +112,7 @@ pub unsafe extern "C" fn ricci_spline_domain(
         let all: Vec<[f64; 2]> = array("corners", corners.cast(), starts[n_polygons])?;
         let polygons: Vec<Vec<[f64; 2]>> =
             starts.windows(2).map(|ends| all[ends[0]..ends[1]].to_vec()).collect();
-        let Domain { vertices, triangles } = triangulate(&polygons, edge)?;
+        let PlaneDomain { vertices, triangles } = triangulate(&polygons, edge)?;
         let positions = vertices.into_iter().map(|[x, y]| [x, y, 0.0]).collect();
         ricci_mesh::from_soup(Soup::new(positions, triangles))
     })
@@ -129,7 +129,7 @@ pub unsafe extern "C" fn ricci_spline_new(
         let Soup { positions, faces: triangles, .. } = mesh.soup()?;
         let _reserve = memory::work(triangles.len(), memory::patch(spec.degree()))?;
         let vertices = positions.into_iter().map(|[x, y, _]| [x, y]).collect();
-        let domain = Domain { vertices, triangles };
+        let domain = PlaneDomain { vertices, triangles };
         flat(SplineSpace::planar(&domain, &spec.knots(&domain)?)?)
     })
 }

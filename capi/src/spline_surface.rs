@@ -9,7 +9,7 @@ use crate::spline::ricci_spline;
 use crate::status::ricci_status;
 use crate::structs::{self, or, sized};
 use ricci::geometry::vector::{Vector, diagonal};
-use ricci::manifold::{Flat, SurfaceFitOptions, fit_surface};
+use ricci::spline::{FlatMetric, SurfaceFitOptions, fit_surface};
 
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
@@ -63,7 +63,7 @@ pub unsafe extern "C" fn ricci_spline_fit_surface(
         let options = structs::read(options)?.read();
         let surface = solution.surface();
         let _reserve = memory::work(surface.mesh().n_vertices(), memory::FIT)?;
-        let found = fit_surface(surface, &Flat::of(solution, &control)?, &options, &control)?;
+        let found = fit_surface(surface, &FlatMetric::of(solution, &control)?, &options, &control)?;
         let size = surface.positions().map_or(0.0, |points| diagonal(points));
         Ok(ricci_spline { spline: found.spline, fitted: Some([found.rms * size, found.max * size]) })
     })

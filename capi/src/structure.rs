@@ -11,7 +11,7 @@ use crate::mesh::{SPACES, ricci_mesh};
 use crate::paths::vertex_or_none;
 use crate::status::*;
 use crate::structs::{self, sized};
-use ricci::structure::{AffineSource, Atlas, AtlasOptions, Charts, Element, Structure, atlas};
+use ricci::structure::{AffineSource, Atlas, AtlasOptions, ChartKind, GroupElement, Structure, atlas};
 
 pub struct ricci_structure {
     pub(crate) atlas: Atlas,
@@ -26,9 +26,9 @@ choices!(KINDS: Structure = "kind of structure", [
     RICCI_STRUCTURE_PROJECTIVE => Structure::Projective,
 ]);
 
-choices!(CHARTS: Charts = "charts", [
-    RICCI_CHARTS_STARS => Charts::Stars,
-    RICCI_CHARTS_PATCHES => Charts::Patches,
+choices!(CHARTS: ChartKind = "charts", [
+    RICCI_CHARTS_STARS => ChartKind::Stars,
+    RICCI_CHARTS_PATCHES => ChartKind::Patches,
 ]);
 
 choices!(SOURCES: AffineSource = "source", [
@@ -81,8 +81,8 @@ fn matrix_size(structure: Structure) -> usize {
 }
 
 /// The entries of a matrix by rows, complex ones as real and imaginary part.
-fn entries(element: &Element) -> impl Iterator<Item = f64> + use<> {
-    let parts = if matches!(element, Element::Mobius(_)) { 2 } else { 1 };
+fn entries(element: &GroupElement) -> impl Iterator<Item = f64> + use<> {
+    let parts = if matches!(element, GroupElement::Mobius(_)) { 2 } else { 1 };
     element.rows().into_iter().flatten().flat_map(move |entry| entry.into_iter().take(parts))
 }
 
@@ -172,7 +172,7 @@ pub unsafe extern "C" fn ricci_structure_holonomy(
 ) -> ricci_status {
     guard::with(structure, |ricci_structure { atlas }| {
         let generators = atlas.holonomy.generators.iter();
-        let elements = generators.map(|motion| Element::of_motion(atlas.structure, motion));
+        let elements = generators.map(|motion| GroupElement::of_motion(atlas.structure, motion));
         let numbers: Vec<f64> = elements.flat_map(|element| entries(&element)).collect();
         copy_out("matrices", &numbers, matrices, capacity)
     })

@@ -7,7 +7,7 @@ use crate::guard::{self, output};
 use crate::status::ricci_status;
 use crate::structure::ricci_structure;
 use ricci::mesh::FaceId;
-use ricci::structure::{Atlas, Chart, Lift};
+use ricci::structure::{Atlas, Chart, FaceLift};
 
 choices!(enum ChartRows, ROWS = "which", [
     RICCI_CHART_FACES => Faces,
@@ -51,9 +51,9 @@ impl StructureList {
     }
 }
 
-fn lift(what: &str, place: *const u32) -> Outcome<Lift> {
+fn lift(what: &str, place: *const u32) -> Outcome<FaceLift> {
     let numbers: Vec<u32> = array(what, place, 2)?;
-    Ok(Lift { chart: numbers[0], face: numbers[1] })
+    Ok(FaceLift { chart: numbers[0], face: numbers[1] })
 }
 
 #[unsafe(no_mangle)]

@@ -6,7 +6,7 @@ mod file;
 
 use file::AtlasFile;
 use ricci::mesh::VertexId;
-use ricci::structure::{AffineSource, AtlasOptions, Charts, Structure, atlas};
+use ricci::structure::{AffineSource, AtlasOptions, ChartKind, Structure, atlas};
 use ricci::{Control, Error, flow};
 use serde_json::Value;
 
@@ -38,7 +38,7 @@ libfuzzer_sys::fuzz_target!(|data: &[u8]| {
     let Some(surface) = ricci_fuzz::surfaces::surface(data, &mut bytes) else { return };
     let options = AtlasOptions {
         structure: STRUCTURES[usize::from(how) % 5],
-        charts: if how & 32 == 0 { Charts::Stars } else { Charts::Patches },
+        charts: if how & 32 == 0 { ChartKind::Stars } else { ChartKind::Patches },
         source: if how & 64 == 0 { AffineSource::Flow } else { AffineSource::Form },
         radius: (how & 128 != 0).then_some(0.5),
         singular,

@@ -1,15 +1,15 @@
-//! Charts turned so that as many transitions as possible are translations.
+//! Rotations of charts that make as many transitions as possible translations.
 
-use super::draft::Draft;
+use super::draft::ChartDraft;
 use super::overlaps::Overlap;
-use super::sheet::Sheet;
+use super::sheet::DevelopableSurface;
 use crate::geometry::Motion;
 use crate::geometry::complex::norm2;
 use std::collections::VecDeque;
 
-/// Turns charts about their origins so that transitions along a tree of overlaps are translations; in E² then all are, where the holonomy
-/// has no rotation.
-pub(super) fn align(drafts: &mut [Draft], overlaps: &[Overlap], sheet: &Sheet) {
+/// Turns charts about their origins so that transitions along a spanning tree of overlaps are translations. In E² all are then, if the
+/// holonomy has no rotation.
+pub(super) fn align(drafts: &mut [ChartDraft], overlaps: &[Overlap], sheet: &DevelopableSurface) {
     let mut beside: Vec<Vec<(usize, usize)>> = vec![Vec::new(); drafts.len()];
     for (k, overlap) in overlaps.iter().enumerate() {
         let [i, j] = overlap.charts.map(|chart| chart as usize);
@@ -28,12 +28,10 @@ pub(super) fn align(drafts: &mut [Draft], overlaps: &[Overlap], sheet: &Sheet) {
                     continue;
                 }
                 let overlap = &overlaps[k];
-                let [a, b] = match overlap.charts[0] as usize == i {
-                    true => overlap.face,
-                    false => [overlap.face[1], overlap.face[0]],
-                };
+                let [a, b] = overlap.face;
+                let [a, b] = if overlap.charts[0] as usize == i { [a, b] } else { [b, a] };
                 let there = drafts[j].places[b as usize].compose(&drafts[i].places[a as usize].inverse());
-                // A sphere's charts about antipodes have no translation between them.
+                // Charts of a sphere about antipodes have no translation between them.
                 if f64::from(norm2(there.a)) > 0.0 {
                     let back = Motion { b: [0.0.into(); 2], ..there }.inverse().normalised();
                     drafts[j].turn(sheet, &back);

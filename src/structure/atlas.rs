@@ -1,11 +1,11 @@
-//! Atlases.
+//! The atlas of a surface: its charts, their transitions, and the places of points in charts.
 
-use super::cocycle::{Cocycles, cocycles};
-use super::draft::Draft;
-use super::element::Element;
+use super::cocycle::Cocycles;
+use super::draft::ChartDraft;
+use super::element::GroupElement;
 use super::holonomy::Holonomy;
 use super::kind::Structure;
-use super::overlaps::{Lift, Lifts, Transition};
+use super::overlaps::{FaceLift, FaceLifts, Transition};
 use crate::error::{Error, Result};
 use crate::flow::Solution;
 use crate::geometry::complex::distance;
@@ -15,18 +15,18 @@ use crate::mesh::{FaceId, Mesh, VertexId};
 use crate::metric::Refinement;
 use std::sync::Arc;
 
-/// A chart: lifts of faces, beside each other in the chart's coordinates.
+/// A chart: lifts of faces that lie beside each other in the chart's coordinates.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Chart {
-    /// The faces. One that a vertex's star meets twice is there twice.
+    /// The faces; one that a vertex's star meets twice is there twice.
     pub faces: Vec<FaceId>,
-    /// The first so many of them are the chart's core; the others are there for its overlaps. All of them in a star.
+    /// The number of faces in the chart's core, which come first; the others are there for overlaps. A star is all core.
     pub n_core: usize,
-    /// Per face its corners, as numbers in `vertices`.
+    /// The corners of each face, as numbers in `vertices`.
     pub corners: Vec<[u32; 3]>,
-    /// The vertices; one that the chart reaches by different ways is there more than once.
+    /// The vertices; one that the chart reaches in different ways is there more than once.
     pub vertices: Vec<VertexId>,
-    /// Their coordinates.
+    /// The coordinates of these vertices.
     pub coordinates: Vec<[f64; 2]>,
 }
 
@@ -34,105 +34,73 @@ pub struct Chart {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ChartPoint {
     /// The chart, and the number of the face in it.
-    pub lift: Lift,
-    /// Coordinates in the chart.
+    pub lift: FaceLift,
+    /// The coordinates in the chart.
     pub coordinates: [f64; 2],
 }
 
-/// A geometric structure of a surface by charts and transitions.
+/// A geometric structure of a surface, as charts and transitions.
 ///
-/// Charts cover the surface without the singular vertices and the faces that are excluded; none has a singular vertex inside. The triangles
-/// of charts are those of [`Atlas::mesh`]: geodesics of the structure's metric, between whose corners points are by weights of their
-/// ambient coordinates (linear in the plane and in the Klein disk up to a factor).
+/// Charts cover the surface except singular vertices and excluded faces; none has a singular vertex inside. Triangles of charts are those
+/// of [`Atlas::mesh`], geodesics of the structure's metric. A point of a triangle is given by weights of the ambient coordinates of its
+/// corners, so it is linear in the plane, and in the Klein disk up to a factor.
 #[derive(Debug, Clone)]
 pub struct Atlas {
-    /// The kind.
+    /// The kind of structure.
     pub structure: Structure,
-    /// The space that the charts are pieces of.
+    /// The space in which charts lie.
     pub space: Space,
-    /// The triangulation that the charts are made of. Its first vertices are those of the surface; of a surface with boundary
-    /// that was solved on its double it is the common refinement, and has more.
+    /// The triangulation of the charts. Its first vertices are those of the surface; for a surface with boundary that was solved on its
+    /// double it is the common subdivision, and has more.
     pub mesh: Arc<Mesh>,
-    /// The metric that the triangulation belongs to, with the way back to the given surface: that of the structure, or for an atlas from a
-    /// form the given one on its Delaunay triangulation.
+    /// The metric of the triangulation, with the way back to the given surface: that of the structure, or for an atlas from a form the
+    /// given one on its Delaunay triangulation.
     pub metric: Arc<Solution>,
-    /// The common refinement, where the triangulation is that.
+    /// The common subdivision, if the triangulation is one.
     pub refinement: Option<Arc<Refinement>>,
     /// The charts.
     pub charts: Vec<Chart>,
-    /// One transition per connected overlap, from the chart of the lower number to the other.
+    /// One transition for each connected overlap, from the chart of the lower number to the other.
     pub transitions: Vec<Transition>,
-    /// Vertices that no chart has inside, ascending: cone points of the flat metric, vertices of the boundary whose angle there is a full
-    /// turn or more, or the vertices at the zeros of the form.
+    /// The vertices that no chart has inside, ascending: cone points of the flat metric, boundary vertices with an angle of a full turn or
+    /// more, or vertices at the zeros of the form.
     pub singular_vertices: Vec<VertexId>,
-    /// Faces of no chart: those at the vertex at infinity of a sphere in the plane, or those that a form does not draw counterclockwise,
-    /// each of which holds one of its zeros.
+    /// The faces of no chart: those at the vertex at infinity of a sphere in the plane, or those that a form maps clockwise or to no area,
+    /// each with one of its zeros.
     pub excluded: Vec<FaceId>,
-    /// The zeros of the holomorphic 1-form, with multiplicity 2g − 2, if the atlas is made from one.
+    /// The zeros of the holomorphic 1-form if the atlas is made from one; their multiplicities add up to 2g − 2.
     pub zeros: Vec<Zero>,
-    /// Largest |K| at a vertex that is not singular, radians: what the charts are off the structure's curvature.
+    /// Largest |K| at a regular vertex, in radians: the error of the charts' curvature.
     pub curvature_error: f64,
-    /// Whether the flow came to its target.
+    /// True if the flow converged.
     pub converged: bool,
-    /// The holonomy.
+    /// The holonomy of the structure.
     pub holonomy: Holonomy,
-    /// How well transitions compose.
+    /// The measured deviation of transitions from the cocycle condition.
     pub cocycles: Cocycles,
-    /// Charts whose faces do not lie counterclockwise beside each other.
+    /// The charts whose faces are not counterclockwise or overlap.
     pub folded: Vec<u32>,
-    lifts: Lifts,
+    pub(super) lifts: FaceLifts,
 }
 
-/// What an atlas is put together from.
-pub(super) struct Parts {
-    pub structure: Structure,
-    pub space: Space,
-    pub mesh: Arc<Mesh>,
-    pub drafts: Vec<Draft>,
-    pub transitions: Vec<Transition>,
-    pub lifts: Lifts,
-    pub folded: Vec<u32>,
-    pub holonomy: Holonomy,
-    pub metric: Arc<Solution>,
-    pub refinement: Option<Arc<Refinement>>,
-}
-
-impl Atlas {
-    pub(super) fn new(parts: Parts) -> Atlas {
-        let Parts { structure, space, mesh, drafts, transitions, lifts, folded, holonomy, .. } = parts;
-        let chart = |draft: Draft| Chart {
+impl Chart {
+    pub(super) fn new(draft: ChartDraft, structure: Structure, space: Space) -> Chart {
+        Chart {
             coordinates: draft.points.iter().map(|&p| structure.coordinates(space, p)).collect(),
             n_core: if draft.n_core == 0 { draft.faces.len() } else { draft.n_core },
             faces: draft.faces,
             corners: draft.corners,
             vertices: draft.vertices,
-        };
-        let cocycles = cocycles(&lifts, &transitions, mesh.n_faces());
-        Atlas {
-            structure,
-            space,
-            charts: drafts.into_iter().map(chart).collect(),
-            transitions,
-            singular_vertices: Vec::new(),
-            excluded: Vec::new(),
-            zeros: Vec::new(),
-            curvature_error: 0.0,
-            converged: true,
-            holonomy,
-            cocycles,
-            folded,
-            lifts,
-            mesh,
-            metric: parts.metric,
-            refinement: parts.refinement,
         }
     }
+}
 
-    /// The lifts of a face of [`Atlas::mesh`] to charts, ascending; empty for an excluded one.
+impl Atlas {
+    /// The lifts of a face of [`Atlas::mesh`] to charts, ascending; empty for an excluded face.
     ///
     /// # Errors
     /// [`Error::Argument`] for a face that does not exist.
-    pub fn lifts(&self, f: FaceId) -> Result<&[Lift]> {
+    pub fn lifts(&self, f: FaceId) -> Result<&[FaceLift]> {
         self.check_face(f)?;
         Ok(self.lifts.of(f))
     }
@@ -149,12 +117,12 @@ impl Atlas {
             return Err(Error::argument("weights", format!("{weights:?}"), need));
         }
         let place =
-            |&lift: &Lift| ChartPoint { lift, coordinates: self.point(lift, weights.map(|w| w / sum)) };
+            |&lift: &FaceLift| ChartPoint { lift, coordinates: self.point(lift, weights.map(|w| w / sum)) };
         Ok(self.lifts.of(f).iter().map(place).collect())
     }
 
-    /// The coordinates of a point of a lift of a face, by weights of its corners.
-    fn point(&self, lift: Lift, weights: [f64; 3]) -> [f64; 2] {
+    /// The coordinates of a point in a lift of a face, by weights of the face's corners.
+    fn point(&self, lift: FaceLift, weights: [f64; 3]) -> [f64; 2] {
         let chart = &self.charts[lift.chart as usize];
         let corners = chart.corners[lift.face as usize].map(|v| chart.coordinates[v as usize]);
         if let Some(k) = weights.iter().position(|&w| w == 1.0) {
@@ -170,38 +138,35 @@ impl Atlas {
         self.structure.coordinates(self.space, [x / norm, y / norm, w / norm])
     }
 
-    /// The transition between two lifts of one face: from the coordinates of the first one's chart to those of the second one's.
+    /// The transition between two lifts of one face: it maps coordinates of the first one's chart to those of the second one's.
     ///
     /// # Errors
-    /// [`Error::Argument`] for what are no two lifts of one face.
-    pub fn between(&self, from: Lift, to: Lift) -> Result<Element> {
-        let face = |lift: Lift| {
+    /// [`Error::Argument`] if they are not two lifts of one face.
+    pub fn between(&self, from: FaceLift, to: FaceLift) -> Result<GroupElement> {
+        let face = |lift: FaceLift| {
             let chart = self.charts.get(lift.chart as usize);
             chart.and_then(|chart| chart.faces.get(lift.face as usize)).copied()
         };
         let other = || Error::argument("lifts", format!("{from:?} and {to:?}"), "two lifts of one face");
         let f = face(from).filter(|&f| face(to) == Some(f)).ok_or_else(other)?;
         if from == to {
-            return Ok(Element::identity(self.structure));
+            return Ok(GroupElement::identity(self.structure));
         }
         let at = |lift| self.lifts.of(f).binary_search(&lift).map_err(|_| other());
         let (i, j) = (at(from)?, at(to)?);
         let element = self.transitions[self.lifts.transition(f, i.min(j), i.max(j)) as usize].element;
-        match i < j {
-            true => Ok(element),
-            false => element.inverse().ok_or_else(other),
-        }
+        if i < j { Ok(element) } else { element.inverse().ok_or_else(other) }
     }
 
-    /// Moves coordinates from the chart of one lift of a face to that of another.
+    /// The coordinates in the chart of lift `to`, from those in the chart of another lift of the same face.
     ///
     /// # Errors
     /// Those of [`Atlas::between`].
-    pub fn carry(&self, from: Lift, to: Lift, coordinates: [f64; 2]) -> Result<[f64; 2]> {
+    pub fn carry(&self, from: FaceLift, to: FaceLift, coordinates: [f64; 2]) -> Result<[f64; 2]> {
         Ok(self.between(from, to)?.apply(coordinates))
     }
 
-    /// The value of a function of charts at a point, in every chart that contains it.
+    /// The values of a function of chart points at one point, in every chart that contains it.
     ///
     /// # Errors
     /// Those of [`Atlas::places`].
@@ -214,7 +179,7 @@ impl Atlas {
         Ok(self.places(f, weights)?.into_iter().map(function).collect())
     }
 
-    /// The largest distance between the image of a shared vertex and its place, over the size of the chart where that is.
+    /// The largest distance of the image of a shared vertex from the vertex, over the size of the chart in which they are.
     pub fn transition_residual(&self) -> f64 {
         let size = |chart: &Chart| {
             let range = |i: usize| {

@@ -1,14 +1,15 @@
-//! From a surface to an atlas.
+//! The construction of an atlas from a surface and options.
 
 use super::align::align;
-use super::atlas::{Atlas, Parts};
-use super::draft::Draft;
+use super::atlas::{Atlas, Chart};
+use super::cocycle::cocycles;
+use super::draft::ChartDraft;
+use super::growth::AtlasCover;
 use super::holonomy::Holonomy;
-use super::options::{AtlasOptions, Charts};
-use super::overlaps::Lifts;
-use super::patches::Patches;
-use super::sheet::Sheet;
-use super::source::{Developed, developed};
+use super::options::{AtlasOptions, ChartKind};
+use super::overlaps::FaceLifts;
+use super::sheet::DevelopableSurface;
+use super::source::{StructureSource, structure_source};
 use super::stars::star;
 use crate::control::Control;
 use crate::error::{Error, Result};
@@ -16,32 +17,32 @@ use crate::mesh::VertexId;
 use crate::metric::Surface;
 use crate::parallel::{self, Pool};
 
-/// The atlas of a structure on a surface. The same for any number of threads.
+/// The atlas of a structure on a surface; it is the same for any number of threads.
 ///
 /// # Errors
-/// [`Error::Argument`] for a structure that the surface has not, options that do not belong to the structure, a singular vertex that does
-/// not exist or on a surface that needs none, a radius that is not positive; [`Error::Layout`] for a surface without a regular vertex;
+/// [`Error::Argument`] for a structure that the surface does not have, options that do not belong to the structure, a singular vertex that
+/// does not exist or on a surface that needs none, a radius that is not positive; [`Error::Layout`] for a surface without a regular vertex;
 /// those of [`crate::canonical::uniformize()`], [`crate::flow::flow()`] and [`crate::harmonic::HarmonicForms::new`]; [`Error::Cancelled`].
 pub fn atlas(surface: &Surface, options: &AtlasOptions, control: &Control) -> Result<Atlas> {
     if let Some(radius) = options.radius.filter(|r| r.is_nan() || *r <= 0.0) {
         return Err(Error::argument("radius", radius, "positive"));
     }
-    let found = developed(surface, options, control)?;
+    let found = structure_source(surface, options, control)?;
     Pool::new(options.flow.threads)?.run(|| chart(found, options, control))
 }
 
-/// The charts of a developed surface.
-fn chart(found: Developed, options: &AtlasOptions, control: &Control) -> Result<Atlas> {
+/// The atlas of a developed surface.
+fn chart(found: StructureSource, options: &AtlasOptions, control: &Control) -> Result<Atlas> {
     let (sheet, structure) = (&found.sheet, options.structure);
     let holonomy = Holonomy::new(sheet, &found.basis, control)?;
     let mut drafts = match options.charts {
-        Charts::Stars => stars(sheet, options.radius, control)?,
-        Charts::Patches => Patches::new(sheet, options.radius, control).cover()?,
+        ChartKind::Stars => stars(sheet, options.radius, control)?,
+        ChartKind::Patches => AtlasCover::new(sheet, options.radius, control).cover()?,
     };
     if drafts.is_empty() {
         return Err(Error::Layout("every vertex is singular: refine the surface".into()));
     }
-    let mut lifts = Lifts::new(&drafts, sheet.mesh().n_faces());
+    let mut lifts = FaceLifts::new(&drafts, sheet.mesh().n_faces());
     let overlaps = lifts.find_overlaps(&drafts, control)?;
     align(&mut drafts, &overlaps, sheet);
     let mut embedded: Vec<Result<bool>> = (0..drafts.len()).map(|_| Ok(false)).collect();
@@ -52,34 +53,35 @@ fn chart(found: Developed, options: &AtlasOptions, control: &Control) -> Result<
             folded.push(i);
         }
     }
-    let transitions = overlaps.into_iter().map(|overlap| overlap.transition(structure, &drafts)).collect();
+    let transitions: Vec<_> =
+        overlaps.into_iter().map(|overlap| overlap.transition(structure, &drafts)).collect();
     let (space, mesh) = (sheet.steps.space, sheet.steps.mesh.clone());
-    let mut atlas = Atlas::new(Parts {
+    Ok(Atlas {
         structure,
         space,
-        mesh,
-        drafts,
+        charts: drafts.into_iter().map(|draft| Chart::new(draft, structure, space)).collect(),
+        cocycles: cocycles(&lifts, &transitions, mesh.n_faces()),
         transitions,
-        lifts,
-        folded,
+        singular_vertices: mesh.vertices().filter(|&v| sheet.singular[v]).collect(),
+        excluded: mesh.faces().filter(|&f| sheet.excluded[f]).collect(),
+        zeros: found.zeros,
+        curvature_error: found.curvature_error,
+        converged: found.converged,
         holonomy,
+        folded,
+        lifts,
+        mesh,
         metric: found.metric,
         refinement: found.refinement,
-    });
-    atlas.singular_vertices = sheet.mesh().vertices().filter(|&v| sheet.singular[v]).collect();
-    atlas.excluded = sheet.mesh().faces().filter(|&f| sheet.excluded[f]).collect();
-    atlas.zeros = found.zeros;
-    atlas.curvature_error = found.curvature_error;
-    atlas.converged = found.converged;
-    Ok(atlas)
+    })
 }
 
-/// The stars of all regular vertices, and patches about the faces that these leave over.
-fn stars(sheet: &Sheet, radius: Option<f64>, control: &Control) -> Result<Vec<Draft>> {
+/// The stars of all regular vertices, and grown charts over the faces that are in none of them.
+fn stars(sheet: &DevelopableSurface, radius: Option<f64>, control: &Control) -> Result<Vec<ChartDraft>> {
     let vertices: Vec<VertexId> = sheet.mesh().vertices().filter(|&v| !sheet.singular[v]).collect();
-    let mut found: Vec<Option<Draft>> = (0..vertices.len()).map(|_| None).collect();
+    let mut found: Vec<Option<ChartDraft>> = (0..vertices.len()).map(|_| None).collect();
     parallel::fill(&mut found, |i| star(sheet, vertices[i]));
-    let mut drafts: Vec<Draft> = found.into_iter().flatten().collect();
-    drafts.extend(Patches::new(sheet, radius, control).cover_rest(&drafts)?);
+    let mut drafts: Vec<ChartDraft> = found.into_iter().flatten().collect();
+    drafts.extend(AtlasCover::new(sheet, radius, control).cover_rest(&drafts)?);
     Ok(drafts)
 }

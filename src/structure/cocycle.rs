@@ -1,21 +1,21 @@
-//! How well the transitions of an atlas compose.
+//! The cocycle condition of an atlas, measured.
 
-use super::overlaps::{Lifts, Transition};
+use super::overlaps::{FaceLifts, Transition};
 use crate::geometry::worse;
 use crate::mesh::FaceId;
 use std::collections::BTreeSet;
 
-/// The check of `T_jk T_ij = T_ik` wherever three charts overlap.
+/// The deviation of transitions from `T_jk T_ij = T_ik` where three charts overlap.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Cocycles {
-    /// Overlaps of three charts that were compared: different triples of transitions.
+    /// Number of different triples of transitions that were compared.
     pub triples: usize,
-    /// The largest difference ([`super::Element::difference`]).
+    /// The largest difference, see [`super::GroupElement::difference`].
     pub residual: f64,
 }
 
 /// Compares the transitions of every three lifts of a face, each triple of transitions once.
-pub(super) fn cocycles(lifts: &Lifts, transitions: &[Transition], n_faces: usize) -> Cocycles {
+pub(super) fn cocycles(lifts: &FaceLifts, transitions: &[Transition], n_faces: usize) -> Cocycles {
     let (mut seen, mut residual) = (BTreeSet::new(), 0.0);
     for f in (0..n_faces).map(FaceId::from) {
         let n = lifts.of(f).len();

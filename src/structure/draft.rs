@@ -1,6 +1,6 @@
-//! A chart before its coordinates are read: lifts of faces with the places where they lie.
+//! A chart in the making: lifts of faces with their motions, and the vertices that they share.
 
-use super::sheet::{Sheet, straight_triangle};
+use super::sheet::{DevelopableSurface, straight_triangle};
 use crate::control::Control;
 use crate::error::Result;
 use crate::geometry::triangle_flatness::{TriangleFlatness, largest_coordinate};
@@ -10,33 +10,33 @@ use crate::geometry::{DoubleDouble, Motion};
 use crate::mesh::union_find::UnionFind;
 use crate::mesh::{FaceId, VertexId};
 
-/// The number of a face that a chart has not.
+/// The number of a face that a chart does not have.
 pub(super) const NONE: u32 = u32::MAX;
 
-/// Area of a triangle over the square of its longest side below which overlaps with others are not looked for: rounding moves its corners
-/// by a good part of its height.
+/// Area of a triangle over the square of its longest side below which it is not tested for overlaps: rounding moves its corners by a good
+/// part of its height.
 const LOW: f64 = 1e-9;
-/// By which share triangles are shrunk about their middles before overlaps are looked for. Those whose corners rounding may move by as much
-/// are left out.
+/// Share by which triangles are shrunk about their middles before they are tested for overlaps. Those whose corners rounding may move by as
+/// much are left out.
 const ROUNDING: f64 = 1e-6;
 
-/// Lifts of faces, each beside one of those before it.
+/// The lifts of faces in a chart; each one but the first lies beside an earlier one.
 #[derive(Default)]
-pub(super) struct Draft {
+pub(super) struct ChartDraft {
     pub faces: Vec<FaceId>,
     pub places: Vec<Motion<DoubleDouble>>,
-    /// Across each side of each face, in the order of its half-edges, the lift of the chart that lies there.
+    /// For each face and each of its half-edges the number of the face of the chart beyond it, or [`NONE`].
     pub neighbours: Vec<[u32; 3]>,
-    /// The first so many faces are no other chart's.
+    /// The number of faces, first ones, that belong to the core of no other chart.
     pub n_core: usize,
-    /// Per corner of each face the number of its vertex in the chart.
+    /// For each face the numbers of its corners' vertices in the chart.
     pub corners: Vec<[u32; 3]>,
-    /// The vertices, with their ambient coordinates.
+    /// The vertices; `points` are their ambient coordinates.
     pub vertices: Vec<VertexId>,
     pub points: Vec<[f64; 3]>,
 }
 
-impl Draft {
+impl ChartDraft {
     pub fn push(&mut self, f: FaceId, place: Motion<DoubleDouble>) -> u32 {
         self.faces.push(f);
         self.places.push(place);
@@ -44,18 +44,18 @@ impl Draft {
         self.faces.len() as u32 - 1
     }
 
-    /// Makes side `k` of one lift and side `l` of another one edge of the chart.
+    /// Glues side `k` of one face to side `l` of another.
     pub fn join(&mut self, (i, k): (u32, usize), (j, l): (u32, usize)) {
         self.neighbours[i as usize][k] = j;
         self.neighbours[j as usize][l] = i;
     }
 
-    /// Joins lifts that lie beside each other and numbers the vertices. Every face is there once, and those of its neighbours that it was
-    /// reached from are joined.
+    /// Glues faces that lie beside each other, and numbers the vertices. Every face is there once, and already glued to the face from which
+    /// it was reached.
     ///
-    /// Two lifts that share a regular vertex are joined across an edge at it: around such a vertex the surface closes up. What a chart
-    /// goes around, a singular vertex or a handle, stays open.
-    pub fn close(&mut self, sheet: &Sheet) {
+    /// Two faces that share a regular vertex are glued across an edge at it, since the surface closes up around such a vertex. Around a
+    /// singular vertex or a handle the chart stays open.
+    pub fn close(&mut self, sheet: &DevelopableSurface) {
         let mesh = sheet.mesh();
         let mut same = self.joined_corners(sheet);
         let mut number: Vec<(FaceId, u32)> = self.faces.iter().copied().zip(0..).collect();
@@ -98,14 +98,14 @@ impl Draft {
         self.number_vertices(sheet, same);
     }
 
-    /// Numbers the vertices by the lifts that are joined.
-    pub fn finish(&mut self, sheet: &Sheet) {
+    /// Numbers the vertices by the glued faces.
+    pub fn finish(&mut self, sheet: &DevelopableSurface) {
         let same = self.joined_corners(sheet);
         self.number_vertices(sheet, same);
     }
 
-    /// Which corners are one by the lifts that are joined; corner k of lift i has the number 3i + k.
-    fn joined_corners(&self, sheet: &Sheet) -> UnionFind {
+    /// The corners that are identified by gluing; corner k of face i has the number 3i + k.
+    fn joined_corners(&self, sheet: &DevelopableSurface) -> UnionFind {
         let mesh = sheet.mesh();
         let mut same = UnionFind::new(3 * self.faces.len());
         for (i, &f) in self.faces.iter().enumerate() {
@@ -121,7 +121,7 @@ impl Draft {
         same
     }
 
-    fn number_vertices(&mut self, sheet: &Sheet, mut same: UnionFind) {
+    fn number_vertices(&mut self, sheet: &DevelopableSurface, mut same: UnionFind) {
         let mut number = vec![NONE; 3 * self.faces.len()];
         self.corners = vec![[NONE; 3]; self.faces.len()];
         (self.vertices, self.points) = (Vec::new(), Vec::new());
@@ -142,8 +142,8 @@ impl Draft {
         }
     }
 
-    /// Turns the chart about its origin.
-    pub fn turn(&mut self, sheet: &Sheet, by: &Motion<DoubleDouble>) {
+    /// Rotates the chart about its origin.
+    pub fn turn(&mut self, sheet: &DevelopableSurface, by: &Motion<DoubleDouble>) {
         self.places.iter_mut().for_each(|place| *place = by.compose(place));
         let mut fresh = vec![true; self.vertices.len()];
         for i in 0..self.faces.len() {
@@ -156,15 +156,15 @@ impl Draft {
         }
     }
 
-    /// The faces in straight coordinates; none if one has none.
-    pub fn triangles(&self, sheet: &Sheet) -> Option<Vec<TriangleCorners>> {
+    /// The faces in coordinates in which geodesics are straight; none if one face has no such coordinates.
+    pub fn triangles(&self, sheet: &DevelopableSurface) -> Option<Vec<TriangleCorners>> {
         let triangle = |corners: &[u32; 3]| {
             straight_triangle(sheet.steps.space, corners.map(|v| self.points[v as usize]))
         };
         self.corners.iter().map(triangle).collect()
     }
 
-    /// Whether all faces are counterclockwise, seen from outside the sphere.
+    /// True if all faces are counterclockwise, seen from outside the sphere.
     fn is_oriented(&self) -> bool {
         self.corners.iter().all(|corners| {
             let [p, q, r] = corners.map(|v| self.points[v as usize]);
@@ -172,10 +172,10 @@ impl Draft {
         })
     }
 
-    /// Whether its faces lie counterclockwise beside each other, but for faces that are nearly flat ([`LOW`]) and overlaps that rounding
-    /// can explain ([`ROUNDING`]).
-    pub fn is_embedded(&self, sheet: &Sheet, control: &Control) -> Result<bool> {
-        // Geodesic triangles about a common corner that close up do not overlap on the sphere either, whatever its size.
+    /// True if the faces are counterclockwise and do not overlap, except for nearly degenerate faces ([`LOW`]) and for overlaps that
+    /// rounding explains ([`ROUNDING`]).
+    pub fn is_embedded(&self, sheet: &DevelopableSurface, control: &Control) -> Result<bool> {
+        // On a sphere, a closed fan of geodesic triangles about a common corner does not overlap either, whatever its size.
         let Some(mut triangles) = self.triangles(sheet) else { return Ok(self.is_oriented()) };
         let size = largest_coordinate(triangles.as_flattened());
         if triangles.iter().any(|&t| TriangleFlatness::of(t).is_flipped(size)) {

@@ -1,84 +1,87 @@
-//! Elements of the groups in which the transitions of atlases lie.
+//! Elements of the transformation groups of structures, as matrices that act on chart coordinates.
 
 use super::kind::Structure;
 use crate::geometry::{DoubleDouble, Motion};
 use nalgebra::{Complex, Matrix2, Matrix3, SMatrix, Vector2, Vector3};
 
-/// An element of the group of a structure, acting on the coordinates of its charts.
+/// An element of the group of a structure, acting on the coordinates of charts.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Element {
-    /// `z ↦ (a z + b)/(c z + d)`, rows `[a, b]`, `[c, d]`: of PSL(2,C), SU(2), SU(1,1) (determinant 1), or `[[e^{iθ}, t], [0, 1]]`.
+pub enum GroupElement {
+    /// `z ↦ (a z + b)/(c z + d)`, rows `[a, b]`, `[c, d]`: in PSL(2,C), SU(2), SU(1,1) (determinant 1), or `[[e^{iθ}, t], [0, 1]]`.
     Mobius(Matrix2<Complex<f64>>),
-    /// Acts on `(x, y, 1)` up to scale: of SE(2), with last row `[0, 0, 1]`, or of SO⁺(2,1).
+    /// A matrix that acts on `(x, y, 1)` up to scale: in SE(2), with last row `[0, 0, 1]`, or in SO⁺(2,1).
     Projective(Matrix3<f64>),
 }
 
-impl Element {
-    /// An isometry as the charts of a structure see it.
-    pub fn of_motion(structure: Structure, motion: &Motion<DoubleDouble>) -> Element {
+impl GroupElement {
+    /// An isometry of the space as an element of the group of a structure.
+    pub fn of_motion(structure: Structure, motion: &Motion<DoubleDouble>) -> GroupElement {
         if structure.is_complex() {
             let [[a, b], [c, d]] = motion.mobius().map(|row| row.map(|[re, im]| Complex::new(re, im)));
-            return Element::Mobius(Matrix2::new(a, b, c, d));
+            return GroupElement::Mobius(Matrix2::new(a, b, c, d));
         }
         let rows = motion.matrix().map(|row| row.map(f64::from));
-        Element::Projective(Matrix3::from_fn(|i, j| rows[i][j]))
+        GroupElement::Projective(Matrix3::from_fn(|i, j| rows[i][j]))
     }
 
     /// The identity.
-    pub fn identity(structure: Structure) -> Element {
-        match structure.is_complex() {
-            true => Element::Mobius(Matrix2::identity()),
-            false => Element::Projective(Matrix3::identity()),
+    pub fn identity(structure: Structure) -> GroupElement {
+        if structure.is_complex() {
+            GroupElement::Mobius(Matrix2::identity())
+        } else {
+            GroupElement::Projective(Matrix3::identity())
         }
     }
 
-    /// The image of a point; not finite where that is infinite.
+    /// The image of a point; not finite if the image is infinite.
     pub fn apply(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         match self {
-            Element::Mobius(m) => {
+            GroupElement::Mobius(m) => {
                 let image = m * Vector2::new(Complex::new(x, y), Complex::new(1.0, 0.0));
                 let z = image.x / image.y;
                 [z.re, z.im]
             }
-            Element::Projective(m) => {
+            GroupElement::Projective(m) => {
                 let image = m * Vector3::new(x, y, 1.0);
                 [image.x / image.z, image.y / image.z]
             }
         }
     }
 
-    /// `self ∘ first`; none for elements that act on different coordinates.
-    pub fn after(&self, first: &Element) -> Option<Element> {
+    /// The composition `self ∘ first`; none for elements that act on different coordinates.
+    pub fn after(&self, first: &GroupElement) -> Option<GroupElement> {
         match (self, first) {
-            (Element::Mobius(m), Element::Mobius(n)) => Some(Element::Mobius(m * n)),
-            (Element::Projective(m), Element::Projective(n)) => Some(Element::Projective(m * n)),
+            (GroupElement::Mobius(m), GroupElement::Mobius(n)) => Some(GroupElement::Mobius(m * n)),
+            (GroupElement::Projective(m), GroupElement::Projective(n)) => {
+                Some(GroupElement::Projective(m * n))
+            }
             _ => None,
         }
     }
 
     /// The inverse; none for a matrix without one.
-    pub fn inverse(&self) -> Option<Element> {
+    pub fn inverse(&self) -> Option<GroupElement> {
         match self {
-            Element::Mobius(m) => m.try_inverse().map(Element::Mobius),
-            Element::Projective(m) => m.try_inverse().map(Element::Projective),
+            GroupElement::Mobius(m) => m.try_inverse().map(GroupElement::Mobius),
+            GroupElement::Projective(m) => m.try_inverse().map(GroupElement::Projective),
         }
     }
 
-    /// How far two elements are apart, as maps: the largest difference of an entry once both matrices are divided by their entry in the
-    /// place where the second one has its largest. Infinite for elements that act on different coordinates.
-    pub fn difference(&self, other: &Element) -> f64 {
+    /// The difference of two elements as maps: the largest difference of an entry after both matrices are divided by their entry at the
+    /// position of the second one's largest. Infinite for elements that act on different coordinates.
+    pub fn difference(&self, other: &GroupElement) -> f64 {
         match (self, other) {
-            (Element::Mobius(m), Element::Mobius(n)) => apart(m, n, |z| z.norm()),
-            (Element::Projective(m), Element::Projective(n)) => apart(m, n, |x| x.abs()),
+            (GroupElement::Mobius(m), GroupElement::Mobius(n)) => apart(m, n, |z| z.norm()),
+            (GroupElement::Projective(m), GroupElement::Projective(n)) => apart(m, n, |x| x.abs()),
             _ => f64::INFINITY,
         }
     }
 
-    /// Its matrix by rows, complex numbers as `[Re, Im]`.
+    /// The matrix by rows, complex numbers as `[Re, Im]`.
     pub fn rows(&self) -> Vec<Vec<[f64; 2]>> {
         match self {
-            Element::Mobius(m) => by_rows(m, |z| [z.re, z.im]),
-            Element::Projective(m) => by_rows(m, |x| [x, 0.0]),
+            GroupElement::Mobius(m) => by_rows(m, |z| [z.re, z.im]),
+            GroupElement::Projective(m) => by_rows(m, |x| [x, 0.0]),
         }
     }
 }

@@ -1,8 +1,8 @@
-//! The holonomy of a structure: the fundamental group in the structure's group.
+//! The holonomy of a structure: the homomorphism of the fundamental group into the structure's group.
 
-use super::element::Element;
+use super::element::GroupElement;
 use super::kind::Structure;
-use super::sheet::Sheet;
+use super::sheet::DevelopableSurface;
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::complex::norm2;
@@ -10,10 +10,10 @@ use crate::geometry::motion::Real;
 use crate::geometry::{DoubleDouble, Motion, Space};
 use crate::topology::{HomotopyBasis, SurfaceGroup, crossed_halfedges};
 
-/// The homomorphism from the fundamental group into the group of a structure, by its values at the generators of a canonical basis.
+/// The homomorphism from the fundamental group into the group of a structure, given by its values at the generators of a canonical basis.
 ///
-/// On a surface with singular vertices the loops go round them, on whichever side. The holonomy around one is the identity: its cone angle
-/// is a multiple of 2π.
+/// On a surface with singular vertices, loops pass these on either side: the holonomy around one is the identity, since its cone angle is a
+/// multiple of 2π.
 #[derive(Debug, Clone)]
 pub struct Holonomy {
     /// The fundamental group of the surface, with names and relator.
@@ -26,7 +26,11 @@ pub struct Holonomy {
 }
 
 impl Holonomy {
-    pub(super) fn new(sheet: &Sheet, basis: &HomotopyBasis, control: &Control) -> Result<Holonomy> {
+    pub(super) fn new(
+        sheet: &DevelopableSurface,
+        basis: &HomotopyBasis,
+        control: &Control,
+    ) -> Result<Holonomy> {
         let mesh = sheet.mesh();
         let none = || Error::Layout(format!("the base, vertex {}, has no face", basis.base));
         let corner = mesh.outgoing(basis.base).find(|&h| !mesh.is_outside(h)).ok_or_else(none)?;
@@ -44,22 +48,22 @@ impl Holonomy {
         Ok(Holonomy { group: basis.group, generators, relation_residual })
     }
 
-    /// The value at generator `k` as the charts of a structure see it.
-    pub fn element(&self, structure: Structure, k: usize) -> Option<Element> {
-        self.generators.get(k).map(|motion| Element::of_motion(structure, motion))
+    /// The value at generator `k`, as an element of the group of a structure.
+    pub fn element(&self, structure: Structure, k: usize) -> Option<GroupElement> {
+        self.generators.get(k).map(|motion| GroupElement::of_motion(structure, motion))
     }
 }
 
-/// Products of 2 to this power, and larger ones, are as far from the identity as they are large, to all digits.
+/// Binary exponent of the size of a product from which on its distance from the identity is its size, to all digits.
 const FAR: i32 = 120;
 
-/// `unit`: a length that the surface is about as large as.
+/// The relation residual, see [`Holonomy::relation_residual`]; `unit` is a length about as large as the surface.
 fn residual(group: SurfaceGroup, generators: &[Motion<DoubleDouble>], unit: f64) -> f64 {
     let Some(first) = generators.first() else { return 0.0 };
     let longest = generators.iter().map(|g| f64::from(norm2(g.b)).sqrt()).fold(unit, f64::max);
     let unit = if first.space == Space::E2 { longest } else { 1.0 };
     let in_units = |g: &Motion<DoubleDouble>| Motion { b: g.b.map(|x| x / unit.into()), ..*g };
-    // The product is `product · 2^power`, of a size near 1: products of many far translations are beyond the range of doubles.
+    // The product is `product · 2^power` with a size near 1, since products of many far translations are beyond the range of f64.
     let (mut product, mut power) = (Motion::<DoubleDouble>::identity(first.space), 0);
     let size = |m: &Motion<DoubleDouble>, power: i32| 0.5 * m.norm_square().log2() + f64::from(power);
     let mut largest = size(&product, power);
@@ -70,16 +74,17 @@ fn residual(group: SurfaceGroup, generators: &[Motion<DoubleDouble>], unit: f64)
         let by = size(&product, 0).floor() as i32;
         (product, power) = (scaled(&product, -by), power + by);
     }
-    let off = match power < FAR {
-        true => scaled(&product, power).distance_from_identity().log2(),
-        false => size(&product, power),
+    let off = if power < FAR {
+        scaled(&product, power).distance_from_identity().log2()
+    } else {
+        size(&product, power)
     };
     let residual = (off - 2.0 * largest).exp2();
-    // A generator beyond the range of doubles gives NaN.
+    // A generator beyond the range of f64 gives NaN.
     if residual.is_nan() { f64::MAX } else { residual }
 }
 
-/// Both parameters times 2^k.
+/// The motion with both parameters multiplied by 2^k.
 fn scaled(m: &Motion<DoubleDouble>, k: i32) -> Motion<DoubleDouble> {
     Motion { a: m.a.map(|x| x.times_two_to(k)), b: m.b.map(|x| x.times_two_to(k)), ..*m }
 }

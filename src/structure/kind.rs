@@ -1,4 +1,4 @@
-//! The structures that an atlas can have, and the coordinates of their charts.
+//! The kinds of geometric structures, and the coordinates of their charts.
 
 use crate::error::Error;
 use crate::geometry::Space;
@@ -7,16 +7,16 @@ use crate::geometry::model::{from_klein, from_poincare, klein, poincare};
 /// A geometric structure of a surface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Structure {
-    /// Charts in the complex plane, transitions Möbius transformations: those of the surface's metric of constant curvature, in the
+    /// Charts in the complex plane, with Möbius transformations as transitions: those of the surface's metric of constant curvature, in the
     /// stereographic plane, the Euclidean plane or the Poincaré disk. A disk has a flat metric.
     Conformal,
-    /// Genus 0: stereographic charts of the unit sphere, transitions rotations in SU(2).
+    /// Stereographic charts of the unit sphere, with rotations in SU(2) as transitions; for genus 0.
     Spherical,
-    /// Charts in the Euclidean plane, transitions its motions. Closed surfaces of genus other than 1 have singular vertices.
+    /// Charts in the Euclidean plane, with its motions as transitions. Closed surfaces of genus other than 1 have singular vertices.
     Affine,
-    /// χ < 0: charts in the Poincaré disk, transitions in SU(1,1).
+    /// Charts in the Poincaré disk, with transitions in SU(1,1); for χ < 0.
     Hyperbolic,
-    /// χ < 0: charts in the Klein disk, where geodesics are straight; transitions in SO⁺(2,1) ⊂ PGL(3,R).
+    /// Charts in the Klein disk, where geodesics are straight, with transitions in SO⁺(2,1) ⊂ PGL(3,R); for χ < 0.
     Projective,
 }
 
@@ -41,22 +41,22 @@ impl Structure {
         }
     }
 
-    /// Whether coordinates are complex numbers, on which Möbius transformations act.
+    /// True if coordinates are complex numbers, on which Möbius transformations act.
     pub fn is_complex(self) -> bool {
         matches!(self, Structure::Conformal | Structure::Spherical | Structure::Hyperbolic)
     }
 
-    /// The chart's coordinates of a point in ambient coordinates.
+    /// The coordinates in a chart of a point in ambient coordinates.
     pub(super) fn coordinates(self, space: Space, p: [f64; 3]) -> [f64; 2] {
         match (self, space) {
             (_, Space::E2) => [p[0], p[1]],
             (Structure::Projective, _) => klein(p),
-            // The stereographic plane of the sphere by the same formula.
+            // The same formula gives the stereographic plane of the sphere.
             _ => poincare(p),
         }
     }
 
-    /// The point with these coordinates.
+    /// The point, in ambient coordinates, with given coordinates in a chart.
     pub(super) fn ambient(self, space: Space, [x, y]: [f64; 2]) -> [f64; 3] {
         match (self, space) {
             (_, Space::E2) => [x, y, 1.0],
@@ -71,7 +71,8 @@ impl Structure {
     }
 }
 
-/// Coordinates in which geodesics are straight: of the plane, the Klein disk, the central projection of a hemisphere; none beyond that.
+/// Coordinates in which geodesics are straight: those of the plane, the Klein disk, or the central projection of a hemisphere; none beyond
+/// it.
 pub(super) fn straight(space: Space, [x, y, w]: [f64; 3]) -> Option<[f64; 2]> {
     match space {
         Space::E2 => Some([x, y]),

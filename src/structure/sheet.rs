@@ -1,4 +1,4 @@
-//! Triangles with the isometries between neighbours: what charts of every structure are developed from.
+//! Surfaces that charts are developed from: triangles with the isometries between neighbours.
 
 use super::kind::straight;
 use crate::embed::FaceTransitions;
@@ -10,8 +10,8 @@ use crate::harmonic::ComplexForm;
 use crate::mesh::{FaceId, HalfedgeId, Mesh, PerFace, PerHalfedge, PerVertex};
 use std::sync::Arc;
 
-/// A developable surface.
-pub(super) struct Sheet {
+/// A developable surface: faces in a space, isometries across their sides, excluded faces and singular vertices.
+pub(super) struct DevelopableSurface {
     pub steps: FaceTransitions,
     /// Faces that no chart may contain.
     pub excluded: PerFace<bool>,
@@ -19,29 +19,38 @@ pub(super) struct Sheet {
     pub singular: PerVertex<bool>,
 }
 
-impl Sheet {
-    /// Without singular vertices.
-    pub fn new(steps: FaceTransitions) -> Sheet {
+impl DevelopableSurface {
+    /// The surface of given faces, with no excluded faces or singular vertices.
+    pub fn new(steps: FaceTransitions) -> DevelopableSurface {
         let excluded = PerFace::filled(steps.mesh.n_faces(), false);
         let singular = PerVertex::filled(steps.mesh.n_vertices(), false);
-        Sheet { steps, excluded, singular }
+        DevelopableSurface { steps, excluded, singular }
     }
 
-    /// Vertices in a space in which the whole surface lies; faces with a point that is not finite are excluded.
-    pub fn of_points(mesh: &Arc<Mesh>, space: Space, point: impl Fn(usize) -> [f64; 3]) -> Sheet {
+    /// The surface with given points of a space as vertices; faces with a point that is not finite are excluded.
+    pub fn of_points(
+        mesh: &Arc<Mesh>,
+        space: Space,
+        point: impl Fn(usize) -> [f64; 3],
+    ) -> DevelopableSurface {
         let corners =
             PerFace::from_fn(mesh.n_faces(), |f: FaceId| mesh.face_vertices(f).map(|v| point(v.index())));
         let across = PerHalfedge::filled(mesh.n_halfedges(), Motion::identity(space));
-        let mut sheet =
-            Sheet::new(FaceTransitions { mesh: mesh.clone(), space, corners, across, area: f64::NAN });
+        let mut sheet = DevelopableSurface::new(FaceTransitions {
+            mesh: mesh.clone(),
+            space,
+            corners,
+            across,
+            area: f64::NAN,
+        });
         for f in mesh.faces() {
             sheet.excluded[f] = !sheet.steps.corners[f].as_flattened().iter().all(|x| x.is_finite());
         }
         sheet
     }
 
-    /// The plane in which the integrals of a closed form draw the faces. Faces that are not drawn counterclockwise are excluded.
-    pub fn of_form(mesh: &Arc<Mesh>, form: &ComplexForm) -> Result<Sheet> {
+    /// The surface developed to the plane by the integrals of a closed form; faces that are not counterclockwise there are excluded.
+    pub fn of_form(mesh: &Arc<Mesh>, form: &ComplexForm) -> Result<DevelopableSurface> {
         let corners = PerFace::from_fn(mesh.n_faces(), |f: FaceId| {
             let [first, second, _] = mesh.face_halfedges(f).map(|h| form.along(h));
             [[0.0, 0.0, 1.0], [first[0], first[1], 1.0], [first[0] + second[0], first[1] + second[1], 1.0]]
@@ -57,7 +66,7 @@ impl Sheet {
             if mesh.is_boundary_edge(h.edge()) {
                 return Ok(still);
             }
-            // The origin of h in the place of its face, and in that of the face beyond.
+            // The origin of h in the coordinates of its face, and in those of the face beyond.
             let (here, beyond) = (place(h)?, place(mesh.next(h.twin()))?);
             let by = [0, 1].map(|i| DoubleDouble::from(here[i]) - DoubleDouble::from(beyond[i]));
             Ok(Motion::in_plane([1.0, 0.0].map(DoubleDouble::from), by))
@@ -69,11 +78,11 @@ impl Sheet {
         };
         let excluded = PerFace::from_fn(mesh.n_faces(), clockwise);
         let steps = FaceTransitions { mesh: mesh.clone(), space: Space::E2, corners, across, area: f64::NAN };
-        Ok(Sheet { excluded, ..Sheet::new(steps) })
+        Ok(DevelopableSurface { excluded, ..DevelopableSurface::new(steps) })
     }
 
-    /// The same plane surface with all lengths multiplied.
-    pub fn scaled(mut self, factor: f64) -> Sheet {
+    /// The same plane surface with all lengths multiplied by a factor.
+    pub fn scaled(mut self, factor: f64) -> DevelopableSurface {
         let steps = &mut self.steps;
         for corner in steps.corners.iter_mut().flatten() {
             *corner = [factor * corner[0], factor * corner[1], corner[2]];
@@ -89,13 +98,13 @@ impl Sheet {
         &self.steps.mesh
     }
 
-    /// Ambient coordinates of the corners of a face that lies at a place.
+    /// The ambient coordinates of the corners of a face after the motion `place`.
     pub fn corners(&self, f: FaceId, place: &Motion<DoubleDouble>) -> [[f64; 3]; 3] {
         let space = self.steps.space;
         self.steps.corners[f].map(|p| place.apply(precise_point(space, p)).map(f64::from))
     }
 
-    /// The place of a face that has its corner `k` at the origin, or its middle where that is none.
+    /// The motion that takes corner `k` of a face to the origin, or the face's middle if there is no `k`.
     pub fn place_about(&self, f: FaceId, k: Option<usize>) -> Motion<DoubleDouble> {
         let (space, corners) = (self.steps.space, self.steps.corners[f]);
         let at = match k {
@@ -103,7 +112,7 @@ impl Sheet {
             None => middle(space, corners),
         };
         if space == Space::S2 && f64::from(at[2]) < 0.0 {
-            // From the lower half of the sphere by way of the half turn about the x axis, since the pole's antipode has no shortest way.
+            // From the lower half of the sphere it goes by way of the half turn about the x axis, since the antipode has no shortest way.
             let [zero, one] = [0.0, 1.0].map(DoubleDouble::from);
             let over = Motion { space, a: [zero; 2], b: [zero, one] };
             return Motion::to_origin(space, over.apply(at)).compose(&over);
@@ -135,7 +144,7 @@ fn middle(space: Space, corners: [[f64; 3]; 3]) -> [DoubleDouble; 3] {
     precise_point(space, [x / norm, y / norm, w / norm])
 }
 
-/// The corners of a triangle as straight coordinates have them; none where they have none.
+/// The corners of a triangle in coordinates in which geodesics are straight; none if a corner has no such coordinates.
 pub(super) fn straight_triangle(space: Space, corners: [[f64; 3]; 3]) -> Option<TriangleCorners> {
     let [p, q, r] = corners.map(|p| straight(space, p));
     Some([p?, q?, r?])

@@ -1,9 +1,9 @@
-//! The metrics and forms that structures come from.
+//! The metrics and forms from which the charts of each structure are developed.
 
 use super::kind::Structure;
-use super::least::least_distorting_vertex;
 use super::options::{AffineSource, AtlasOptions};
-use super::sheet::Sheet;
+use super::sheet::DevelopableSurface;
+use super::singular::singular_vertex;
 use crate::canonical::{QuotientOptions, Sphere, SphereOptions, uniformize_quotient, uniformize_sphere};
 use crate::control::Control;
 use crate::embed::FaceTransitions;
@@ -19,16 +19,16 @@ use crate::topology::{HomotopyBasis, homotopy_basis};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-/// Length of the shortest edge relative to the longest below which a search for loops takes edges to have this length.
+/// Length, over the longest edge, to which shorter edges are raised for the search for loops.
 const SHORTEST: f64 = 1e-12;
-/// Radians. By how much an angle may miss a full turn and count as one.
+/// Deviation, in radians, from a full turn up to which an angle counts as one.
 const FULL: f64 = 1e-9;
 
-/// A surface that charts can be developed from.
-pub(super) struct Developed {
-    pub sheet: Sheet,
+/// A surface from which charts are developed, with its metric and figures.
+pub(super) struct StructureSource {
+    pub sheet: DevelopableSurface,
     pub metric: Arc<Solution>,
-    /// What the sheet lies on, where that is not the metric's triangulation.
+    /// The common subdivision, if the sheet lies on it and not on the metric's triangulation.
     pub refinement: Option<Arc<Refinement>>,
     pub basis: HomotopyBasis,
     pub zeros: Vec<Zero>,
@@ -36,8 +36,12 @@ pub(super) struct Developed {
     pub converged: bool,
 }
 
-/// The surface that the charts of a structure are developed from.
-pub(super) fn developed(surface: &Surface, options: &AtlasOptions, control: &Control) -> Result<Developed> {
+/// Develops a surface for the charts of a structure.
+pub(super) fn structure_source(
+    surface: &Surface,
+    options: &AtlasOptions,
+    control: &Control,
+) -> Result<StructureSource> {
     let mesh = surface.mesh();
     check(mesh, options)?;
     let (closed, euler) = (mesh.is_closed(), mesh.euler());
@@ -45,13 +49,7 @@ pub(super) fn developed(surface: &Surface, options: &AtlasOptions, control: &Con
         (Structure::Affine, AffineSource::Form) => of_form(surface, options, control),
         (Structure::Affine, _) if closed && euler == 2 => of_plane(surface, options, control),
         (Structure::Affine, _) if closed && euler < 0 => {
-            let v = match options.singular {
-                Some(v) => v,
-                None => {
-                    let domain = Domain::new(surface, control)?;
-                    Pool::new(options.flow.threads)?.run(|| least_distorting_vertex(&domain, control))?
-                }
-            };
+            let v = singular_vertex(surface, options.singular, options.flow.threads, control)?;
             of_flow(surface, &Target::Single(v), options, control)
         }
         (Structure::Affine, _) if !closed => of_flow(surface, &Target::Boundary, options, control),
@@ -60,14 +58,14 @@ pub(super) fn developed(surface: &Surface, options: &AtlasOptions, control: &Con
         }
         _ if closed && euler == 2 => {
             let sphere = sphere(surface, options, control)?;
-            let sheet = Sheet::new(FaceTransitions::new(&sphere.metric, None)?);
+            let sheet = DevelopableSurface::new(FaceTransitions::new(&sphere.metric, None)?);
             simply_connected(sheet, &sphere, control)
         }
         _ => of_quotient(surface, options, control),
     }
 }
 
-/// Whether a surface has a structure, and options belong to it.
+/// Checks that a surface has a structure, and that options belong to it.
 fn check(mesh: &Mesh, options: &AtlasOptions) -> Result<()> {
     let (closed, euler, structure) = (mesh.is_closed(), mesh.euler(), options.structure);
     let need = match structure {
@@ -113,21 +111,25 @@ fn sphere(surface: &Surface, options: &AtlasOptions, control: &Control) -> Resul
     uniformize_sphere(surface, &sphere, control)
 }
 
-/// A sphere in the plane, one vertex at infinity.
-fn of_plane(surface: &Surface, options: &AtlasOptions, control: &Control) -> Result<Developed> {
+/// A sphere as the plane with one vertex at infinity.
+fn of_plane(surface: &Surface, options: &AtlasOptions, control: &Control) -> Result<StructureSource> {
     let sphere = sphere(surface, options, control)?;
-    let mut sheet = Sheet::of_points(sphere.metric.mesh(), Space::E2, |v| {
+    let mut sheet = DevelopableSurface::of_points(sphere.metric.mesh(), Space::E2, |v| {
         let [x, y] = sphere.plane[VertexId::from(v)];
         [x, y, 1.0]
     });
     sheet.singular[sphere.report.puncture] = true;
     let found = simply_connected(sheet, &sphere, control)?;
-    Ok(Developed { curvature_error: sphere.report.max_curvature_error, ..found })
+    Ok(StructureSource { curvature_error: sphere.report.max_curvature_error, ..found })
 }
 
-fn simply_connected(sheet: Sheet, sphere: &Sphere, control: &Control) -> Result<Developed> {
+fn simply_connected(
+    sheet: DevelopableSurface,
+    sphere: &Sphere,
+    control: &Control,
+) -> Result<StructureSource> {
     let ones = PerEdge::filled(sheet.mesh().n_edges(), 1.0);
-    Ok(Developed {
+    Ok(StructureSource {
         basis: homotopy_basis(sheet.mesh(), &ones, None, control)?,
         sheet,
         metric: Arc::new(sphere.metric.clone()),
@@ -138,15 +140,15 @@ fn simply_connected(sheet: Sheet, sphere: &Sphere, control: &Control) -> Result<
     })
 }
 
-/// The metric of constant curvature, with geodesic boundary.
-fn of_quotient(surface: &Surface, options: &AtlasOptions, control: &Control) -> Result<Developed> {
+/// The surface with the metric of constant curvature and geodesic boundary.
+fn of_quotient(surface: &Surface, options: &AtlasOptions, control: &Control) -> Result<StructureSource> {
     let asked = QuotientOptions { flow: options.flow.clone(), ..QuotientOptions::default() };
     let quotient = uniformize_quotient(surface, &asked, control)?;
     let refinement = quotient.layout.refinement().cloned();
     let steps = FaceTransitions::new(&quotient.metric, refinement.as_ref())?;
     let factor = if steps.space == Space::E2 { (surface.area()? / steps.area).sqrt() } else { 1.0 };
-    Ok(Developed {
-        sheet: Sheet::new(steps).scaled(factor),
+    Ok(StructureSource {
+        sheet: DevelopableSurface::new(steps).scaled(factor),
         zeros: Vec::new(),
         curvature_error: quotient.angle_defect,
         converged: quotient.report.converged(),
@@ -156,22 +158,22 @@ fn of_quotient(surface: &Surface, options: &AtlasOptions, control: &Control) -> 
     })
 }
 
-/// A flat metric with curvature at one vertex or on the boundary.
+/// The surface with a flat metric whose curvature is at one vertex or on the boundary.
 fn of_flow(
     surface: &Surface,
     target: &Target,
     options: &AtlasOptions,
     control: &Control,
-) -> Result<Developed> {
+) -> Result<StructureSource> {
     let metric = flow(surface.clone(), Class::yamabe(Space::E2), target, &options.flow, control)?;
-    // Of a double, the given half.
+    // Of a doubled surface, only the given half is taken.
     let refinement = metric.double().map(|_| metric.refinement(control).map(Arc::new)).transpose()?;
     let steps = FaceTransitions::new(&metric, refinement.as_ref())?;
     let factor = (surface.area()? / steps.area).sqrt();
-    let mut sheet = Sheet::new(steps).scaled(factor);
+    let mut sheet = DevelopableSurface::new(steps).scaled(factor);
     target.named().into_iter().for_each(|v| sheet.singular[v] = true);
     mark_wide_corners(&mut sheet);
-    Ok(Developed {
+    Ok(StructureSource {
         basis: homotopy_basis(sheet.mesh(), &lengths(&sheet), None, control)?,
         sheet,
         zeros: Vec::new(),
@@ -182,9 +184,8 @@ fn of_flow(
     })
 }
 
-/// Marks the vertices of the boundary whose angle is at least a full turn: no chart in the plane can have such a vertex with all of its
-/// faces.
-fn mark_wide_corners(sheet: &mut Sheet) {
+/// Marks boundary vertices with an angle of at least a full turn: no chart in the plane can contain all faces of such a vertex.
+fn mark_wide_corners(sheet: &mut DevelopableSurface) {
     let mesh = sheet.steps.mesh.clone();
     let mut angle = PerVertex::filled(mesh.n_vertices(), 0.0);
     for f in mesh.faces() {
@@ -198,8 +199,8 @@ fn mark_wide_corners(sheet: &mut Sheet) {
     mesh.vertices().filter(is_wide).for_each(|v| sheet.singular[v] = true);
 }
 
-/// The lengths of the edges of a flat sheet, as searches for loops take them.
-fn lengths(sheet: &Sheet) -> PerEdge<f64> {
+/// The edge lengths of a flat sheet for the search for loops.
+fn lengths(sheet: &DevelopableSurface) -> PerEdge<f64> {
     let mesh = sheet.mesh();
     let mut lengths = PerEdge::filled(mesh.n_edges(), 0.0);
     for f in mesh.faces() {
@@ -214,14 +215,14 @@ fn lengths(sheet: &Sheet) -> PerEdge<f64> {
     lengths
 }
 
-/// The plane in which a holomorphic 1-form draws the surface.
-fn of_form(surface: &Surface, options: &AtlasOptions, control: &Control) -> Result<Developed> {
+/// The surface developed to the plane by a holomorphic 1-form.
+fn of_form(surface: &Surface, options: &AtlasOptions, control: &Control) -> Result<StructureSource> {
     let domain = Domain::new(surface, control)?;
     Pool::new(options.flow.threads)?.run(|| {
         let forms = HarmonicForms::new(&domain, &FormsOptions::default(), control)?;
         let form = with_conjugate(&forms, &forms, &even_combination(&forms, control)?)?;
         let mesh = domain.mesh();
-        let mut sheet = Sheet::of_form(mesh, &form)?;
+        let mut sheet = DevelopableSurface::of_form(mesh, &form)?;
         let mut turned = PerVertex::filled(mesh.n_vertices(), 0.0);
         for f in mesh.faces() {
             let sides = mesh.face_halfedges(f).map(|h| form.along(h));
@@ -240,7 +241,7 @@ fn of_form(surface: &Surface, options: &AtlasOptions, control: &Control) -> Resu
             })
             .sum();
         let factor = (surface.area()? / area).sqrt();
-        Ok(Developed {
+        Ok(StructureSource {
             zeros: zeros(mesh, &form),
             metric: domain.metric().clone(),
             refinement: None,

@@ -1,22 +1,22 @@
-//! Charts that are the stars of vertices.
+//! The charts that are stars of vertices.
 
-use super::draft::Draft;
-use super::sheet::Sheet;
+use super::draft::ChartDraft;
+use super::sheet::DevelopableSurface;
 use crate::mesh::{HalfedgeId, VertexId};
 
-/// The star of a vertex in the universal cover, the vertex at the origin; none where a face of it is excluded. Two lifts of one face are
-/// two faces of it.
-pub(super) fn star(sheet: &Sheet, v: VertexId) -> Option<Draft> {
+/// The star of a vertex in the universal cover, with the vertex at the origin; none if a face of it is excluded. A face that the star meets
+/// twice is there twice.
+pub(super) fn star(sheet: &DevelopableSurface, v: VertexId) -> Option<ChartDraft> {
     let mesh = sheet.mesh();
     let corner = |h: HalfedgeId| mesh.corner(h).filter(|(f, _)| !sheet.excluded[*f]);
-    // Counterclockwise, on the boundary from the first half-edge of a face on.
+    // Counterclockwise; on the boundary from the first half-edge that belongs to a face.
     let mut first = mesh.outgoing(v).find(|&h| !mesh.is_outside(h))?;
     if mesh.is_boundary_vertex(v) {
         while !mesh.is_boundary_edge(first.edge()) {
             first = mesh.next(first.twin());
         }
     }
-    let (mut draft, mut h) = (Draft::default(), first);
+    let (mut draft, mut h) = (ChartDraft::default(), first);
     let (f, k) = corner(h)?;
     let mut here = draft.push(f, sheet.place_about(f, Some(k)));
     loop {

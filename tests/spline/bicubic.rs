@@ -2,19 +2,19 @@
 
 use ricci::Control;
 use ricci::spline::{
-    Bicubic, BicubicOptions, BicubicSurface, Domain, FitOptions, KnotOptions, Locator, Parameter, Polynomial,
-    Spline, SplineSpace, fit, triangulate,
+    BicubicFit, BicubicOptions, BicubicSurface, FitOptions, KnotOptions, Locator, Parameter, PlaneDomain,
+    Polynomial, Spline, SplineSpace, fit, triangulate,
 };
 use std::sync::Arc;
 
 /// A square with a hole in it, coarsely triangulated.
-fn domain() -> Domain {
+fn domain() -> PlaneDomain {
     let square = vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
     let hole = vec![[0.4, 0.4], [0.4, 0.6], [0.6, 0.6], [0.6, 0.4]];
     triangulate(&[square, hole], 0.25).unwrap()
 }
 
-fn space(domain: &Domain, degree: usize) -> Arc<SplineSpace> {
+fn space(domain: &PlaneDomain, degree: usize) -> Arc<SplineSpace> {
     Arc::new(SplineSpace::planar(domain, &domain.knots(degree, &KnotOptions::default()).unwrap()).unwrap())
 }
 
@@ -29,7 +29,7 @@ fn cubic(degree: usize) -> Spline {
 }
 
 /// A smooth height field fitted at many points.
-fn hill(domain: &Domain, degree: usize) -> Spline {
+fn hill(domain: &PlaneDomain, degree: usize) -> Spline {
     let space = space(domain, degree);
     let locator = Locator::new(domain);
     let at = |i: usize| i as f64 / 80.0;
@@ -40,7 +40,7 @@ fn hill(domain: &Domain, degree: usize) -> Spline {
     fit(&space, &places, &points, &FitOptions::default(), &Control::new()).unwrap().spline
 }
 
-fn patches(spline: &Spline, tolerance: f64, threads: usize) -> Bicubic {
+fn patches(spline: &Spline, tolerance: f64, threads: usize) -> BicubicFit {
     let options = BicubicOptions { tolerance, threads, ..BicubicOptions::default() };
     spline.to_bicubic(&options, &Control::new()).unwrap()
 }
@@ -85,7 +85,7 @@ fn patches_near_a_height_field_keep_to_the_tolerance() {
         eprintln!("degree {degree}: {miss:e} {:e} {:?} {:?}", found.distance, found.angles, found.spans);
         assert!(found.distance <= tolerance && miss <= tolerance, "{miss:e} {:e}", found.distance);
         assert_eq!(found.surface.open_sides(), 0);
-        // The same bits for any number of threads.
+        // The bits do not depend on the number of threads.
         assert_eq!(found, patches(&spline, tolerance, 1));
     }
 }
@@ -93,7 +93,7 @@ fn patches_near_a_height_field_keep_to_the_tolerance() {
 #[test]
 fn a_tolerance_out_of_reach_is_an_error_that_names_the_patch() {
     let options = |tolerance| BicubicOptions { tolerance, ..BicubicOptions::default() };
-    let two = Domain {
+    let two = PlaneDomain {
         vertices: vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]],
         triangles: vec![[0, 1, 2], [0, 2, 3]],
     };
@@ -123,8 +123,8 @@ fn files_of_patches_are_read_as_they_were_and_tampering_is_named() {
     assert!(told("ricci-patches 1", "ricci-patches 2").contains("this version reads"));
     assert!(told("\"reversed\":true", "\"reversed\":false").contains("sides do not follow each other"));
     assert!(told("\"curve\":0,", "\"curve\":99999,").contains("does not exist"));
-    assert!(told("\"knots\":[0.0, 0.0", "\"knots\":[0.0, 0.1").contains("not clamped"));
-    // The last bit of a common control point.
+    assert!(told("\"knots\":[0.0,0.0", "\"knots\":[0.0,0.1").contains("not clamped"));
+    // A change of the last bit of a common control point is found.
     let mut moved = surface.clone();
     moved.patches[3].control[1][0][2] = moved.patches[3].control[1][0][2].next_up();
     let error = moved.check().unwrap_err().to_string();
@@ -134,7 +134,7 @@ fn files_of_patches_are_read_as_they_were_and_tampering_is_named() {
     assert!(moved.check().unwrap_err().to_string().contains("does not end at the points"));
 }
 
-/// The exact way, three patches of bidegree (n, n) to a triangle, asks that the spline is one polynomial on each of its triangles. It is
+/// The exact way, three patches of bidegree (n, n) for each triangle, needs a spline that is one polynomial on each of its triangles. It is
 /// not: knot lines cross the triangles, and the polynomial of the middle misses the spline outside of it.
 #[test]
 fn a_triangle_is_not_one_polynomial() {
@@ -167,7 +167,7 @@ pub fn polynomials(spline: &Spline) -> [f64; 2] {
     [inside as f64 / f64::from(all), worst / largest]
 }
 
-/// Whether a point lies in a convex polygon.
+/// True if a point lies in a convex polygon.
 fn is_in(polygon: &[[f64; 2]], p: [f64; 2]) -> bool {
     let next = polygon.iter().cycle().skip(1);
     polygon

@@ -1,20 +1,24 @@
 //! Bicubic patches of splines over whole surfaces, and their STEP files.
 
-use ricci::manifold::{Flat, FlatOptions, SurfaceFitOptions, fit_surface};
 use ricci::mesh::{VertexId, shapes};
-use ricci::spline::{Bicubic, BicubicOptions, BicubicPatch, Spline};
+use ricci::spline::{
+    BicubicFit, BicubicOptions, BicubicPatch, FlatMetric, FlatMetricOptions, Spline, SurfaceFitOptions,
+    fit_surface,
+};
 use ricci::{Control, Surface};
 
 fn fitted(soup: &ricci::mesh::io::Soup, control_points: usize) -> Spline {
     let (surface, control) = (Surface::from_soup(soup).unwrap(), Control::new());
     let singular = (surface.mesh().euler() != 0).then_some(VertexId(0));
-    let flat = Flat::new(&surface, &FlatOptions { singular, ..FlatOptions::default() }, &control).unwrap();
+    let flat =
+        FlatMetric::new(&surface, &FlatMetricOptions { singular, ..FlatMetricOptions::default() }, &control)
+            .unwrap();
     let control_points = Some(control_points);
     let options = SurfaceFitOptions { rounds: 2, control_points, ..SurfaceFitOptions::default() };
     fit_surface(&surface, &flat, &options, &control).unwrap().spline
 }
 
-fn patches(spline: &Spline, tolerance: f64) -> Bicubic {
+fn patches(spline: &Spline, tolerance: f64) -> BicubicFit {
     let options = BicubicOptions { tolerance, ..BicubicOptions::default() };
     spline.to_bicubic(&options, &Control::new()).unwrap()
 }
@@ -22,7 +26,7 @@ fn patches(spline: &Spline, tolerance: f64) -> Bicubic {
 #[test]
 fn a_torus_closes_up_with_its_volume() {
     let spline = fitted(&shapes::torus(2.0, 0.8, 120, 60).unwrap(), 400);
-    let Bicubic { surface, distance, angles, spans, .. } = patches(&spline, 1e-3);
+    let BicubicFit { surface, distance, angles, spans, .. } = patches(&spline, 1e-3);
     eprintln!(
         "{distance:e} {angles:?} {spans:?}; one polynomial: {:?}",
         crate::bicubic::polynomials(&spline)
@@ -40,7 +44,7 @@ fn the_surroundings_of_a_singular_vertex_are_patches_as_others() {
     let surface = patches(&spline, 1.0).surface;
     assert!(surface.is_closed() && surface.open_sides() == 0);
     let [hole] = spline.holes() else { panic!("one hole") };
-    // Patches at the vertex have one point and one tangent plane there; the turns of the chart are one turn on the surface.
+    // Patches at the vertex share one point and one tangent plane; all turns of the chart are one turn on the surface.
     let at_vertex = |patch: &&BicubicPatch| {
         let (of, corner) = patch.source;
         let [x, y] = spline.space().patches()[of as usize].knots[corner][0];

@@ -9,7 +9,7 @@ fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
     (0..3).map(|x| (a[x] - b[x]).powi(2)).sum::<f64>().sqrt()
 }
 
-/// Hills over the square of side 1: control points over their places, at heights of a wave.
+/// Hills over the unit square: control points over their abscissas, at heights of a wave.
 fn hills(degree: usize) -> Spline {
     let space = space(4, degree);
     let height = |[x, y]: [f64; 2]| [x, y, 0.15 * (7.0 * x).sin() * (5.0 * y).cos()];
@@ -67,7 +67,7 @@ fn points_on_normals_come_back_to_where_the_normals_start() {
             let mut back = 0;
             for (i, found) in one.iter().enumerate() {
                 assert!(found.distance <= far.abs() + 1e-13, "{degree} {far} {i} {found:?}");
-                // Beyond the radius of curvature, and near the boundary, another part of the hills may be nearer.
+                // Beyond the radius of curvature, and near the boundary, another part of the hills can be nearer.
                 let bends = on[i].principal_curvatures().unwrap();
                 if found.distance < far.abs() - 1e-13 || bends.iter().any(|k| k.abs() * far.abs() > 0.8) {
                     continue;
@@ -113,7 +113,7 @@ fn what_has_no_nearest_point_is_refused_by_name() {
         none.closest_points(1, &Control::new()).map(|_| ()),
         Err(Error::Argument { what: "patches", .. })
     ));
-    // A surface that is one point.
+    // The surface is a single point.
     let point =
         Spline::new(surface.space().clone(), vec![[1.0; 3]; surface.space().n_control_points()]).unwrap();
     assert!((find(&point, &[[1.0, 1.0, 3.0]], 1)[0].distance - 2.0).abs() < 1e-14);

@@ -1,4 +1,4 @@
-//! Domains of planar splines, fits to points, files.
+//! Domains of planar splines, and fits to points.
 
 use crate::{Random, random_surface, space};
 use ricci::spline::{FitOptions, KnotOptions, Locator, Parameter, Spline, SplineSpace, fit, triangulate};
@@ -74,7 +74,7 @@ fn fits_reproduce_polynomials_and_come_near_smooth_functions() {
         let again = fit(&space, &places, &heights(&wave), &two, &control).unwrap();
         assert_eq!(again.spline.control_points(), smooth.spline.control_points());
     }
-    // Each degree gains.
+    // Each higher degree fits better.
     assert!(errors.windows(2).all(|e| e[1] < 0.5 * e[0]), "{errors:?}");
     let few = fit(
         &Arc::new(SplineSpace::planar(&domain, &domain.knots(3, &KnotOptions::default()).unwrap()).unwrap()),
@@ -97,7 +97,7 @@ fn identities_are_measured() {
         );
         assert!(found.continuity < 1e-8, "{degree} {found:?}");
         assert_eq!(found.rough_sides, 2, "{degree} {found:?}");
-        // Of a plane, whose second derivatives are rounding, jumps say nothing.
+        // The second derivatives of a plane are rounding, so jumps of them tell nothing.
         let space = surface.space().clone();
         let plane = space.abscissas().iter().map(|&[x, y]| [x, y, 0.5 * x - y]).collect();
         let found = Spline::new(space, plane).unwrap().identities(1, &Control::new()).unwrap();

@@ -1,4 +1,4 @@
-//! Where knots lie, and what splines are where they coincide.
+//! The positions of knots, and splines whose knots coincide.
 
 use crate::{Random, difference, random_surface, square};
 use ricci::spline::{KnotOptions, MAX_DEGREE, SplineSpace, multi_indices};
@@ -27,7 +27,7 @@ fn knots_are_in_general_position_inside_on_straight_sides_and_at_corners() {
                 }
             }
         }
-        // No three knots of a triangle whose corners all lie inside are on a line.
+        // No three knots of a triangle are on a line if its corners are all inside.
         let inner =
             |v: &u32| (1..n).contains(&(*v as usize % (n + 1))) && (1..n).contains(&(*v as usize / (n + 1)));
         let mut seen = 0;
@@ -54,7 +54,7 @@ fn many_places_at_a_time_are_the_same_as_one_by_one_for_any_number_of_threads() 
     let space = Arc::new(SplineSpace::planar(&domain, &knots).unwrap());
     let surface = random_surface(&space);
     let mut random = Random(43);
-    // More than one batch.
+    // The places are more than one batch.
     let places: Vec<_> = (0..70_000).map(|_| random.place(&space)).collect();
     let control = ricci::Control::new();
     let one = surface.evaluate(&places, 2, 1, &control).unwrap();

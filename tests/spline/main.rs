@@ -12,13 +12,13 @@ mod knots;
 mod smooth;
 
 use ricci::spline::{
-    Domain, KnotOptions, Parameter, Patch, Polynomial, Spline, SplineSpace, Support, monomials,
+    KnotOptions, Parameter, Patch, PlaneDomain, Polynomial, Spline, SplineSpace, Support, monomials,
     multi_indices, simplex_spline, simplex_spline_gradient,
 };
 use ricci::{Control, Error};
 use std::sync::Arc;
 
-/// Numbers between 0 and 1 that look random, the same on every machine.
+/// Pseudo-random numbers between 0 and 1, the same on every machine.
 struct Random(u64);
 
 impl Random {
@@ -41,7 +41,7 @@ impl Random {
 }
 
 /// A square whose n × n cells are moved about a little and cut in two.
-fn square(n: usize) -> Domain {
+fn square(n: usize) -> PlaneDomain {
     let mut random = Random(7);
     let mut vertices = Vec::new();
     for j in 0..=n {
@@ -58,7 +58,7 @@ fn square(n: usize) -> Domain {
         let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
         if (i + j) % 2 == 0 { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] }
     });
-    Domain { vertices, triangles: triangles.collect() }
+    PlaneDomain { vertices, triangles: triangles.collect() }
 }
 
 fn space(n: usize, degree: usize) -> Arc<SplineSpace> {
@@ -67,7 +67,7 @@ fn space(n: usize, degree: usize) -> Arc<SplineSpace> {
     Arc::new(SplineSpace::planar(&domain, &knots).unwrap())
 }
 
-/// A surface with control points that look random.
+/// A surface with pseudo-random control points.
 fn random_surface(space: &Arc<SplineSpace>) -> Spline {
     let mut random = Random(3);
     let points = (0..space.n_control_points()).map(|_| [random.next(), random.next(), random.next()]);
@@ -257,8 +257,8 @@ fn along(surface: &Spline, at: Parameter, [dx, dy]: [f64; 2], order: usize) -> [
     })
 }
 
-/// What the derivative of order n − 1 and its slope do at the lines through pairs of knots that cross a segment inside a patch: the
-/// largest jump of each, over the largest value of each.
+/// The largest jumps of the derivative of order n − 1 and of its slope, over the largest value of each, at the lines through pairs of knots
+/// that cross a segment inside a patch.
 fn jumps(surface: &Spline, patch: usize) -> [f64; 2] {
     let space = surface.space();
     let order = space.degree() - 1;
@@ -316,7 +316,7 @@ fn derivatives_are_continuous_up_to_the_degree_less_one() {
             assert!(value < 1e-8, "{degree} {patch}: {value:e}");
             roughest = roughest.max(slope);
         }
-        // The n-th derivative is constant between the lines and jumps at them; of degree 1 only from patch to patch.
+        // The n-th derivative is constant between the lines and jumps at them; with degree 1 only between patches.
         assert!(degree == 1 || roughest > 1e-2, "{degree}: {roughest:e}");
     }
 }
@@ -324,7 +324,7 @@ fn derivatives_are_continuous_up_to_the_degree_less_one() {
 #[test]
 fn knots_on_a_line_make_a_crease() {
     let domain = square(4);
-    // The inner edge from vertex 7 to 12, upwards, bends there: knots of both ends coincide or lie on it.
+    // A crease along the inner edge from vertex 7 up to 12: the knots of both ends coincide, or lie on its line.
     let options = KnotOptions { creases: vec![[7, 12]], ..KnotOptions::default() };
     let smooth = domain.knots(3, &KnotOptions::default()).unwrap();
     let creased = domain.knots(3, &options).unwrap();
@@ -362,7 +362,7 @@ fn charts_can_be_exchanged_by_affine_maps() {
     let surface = random_surface(&space);
     let places: Vec<Parameter> = (0..50).map(|_| random.place(&space)).collect();
     for _ in 0..100 {
-        // Every patch in a chart of its own.
+        // Every patch has a chart of its own.
         let maps: Vec<[[f64; 3]; 2]> = (0..space.patches().len())
             .map(|_| {
                 let (turn, size, shear) = (6.0 * random.next(), 0.3 + random.next(), random.next() - 0.5);
@@ -372,7 +372,7 @@ fn charts_can_be_exchanged_by_affine_maps() {
             .collect();
         let image = |m: &[[f64; 3]; 2], [x, y]: [f64; 2]| m.map(|[a, b, c]| a * x + b * y + c);
         let after = |m: &[[f64; 3]; 2], n: &[[f64; 3]; 2]| {
-            // m ∘ n⁻¹
+            // The map m ∘ n⁻¹.
             let [[a, b, e], [c, d, f]] = *n;
             let det = a * d - b * c;
             m.map(|[p, q, r]| {

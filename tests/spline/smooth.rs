@@ -1,11 +1,11 @@
-//! How smooth splines are across the edges of their domain.
+//! The smoothness of splines across the edges of their domain.
 
 use crate::{along, random_surface, square};
 use ricci::spline::{KnotOptions, MAX_DEGREE, Parameter, Spline, SplineSpace};
 use std::sync::Arc;
 
-/// Shortest piece of a segment between two lines of knots that is looked at, in a square of side 1 with 4 × 4 cells: derivatives that are
-/// taken from values on a shorter one lose digits.
+/// Shortest piece of a segment between two lines of knots that is used, in a unit square with 4 × 4 cells: derivatives from values on a
+/// shorter one lose digits.
 const SHORTEST: f64 = 4e-4;
 
 /// The derivatives at s = 0, by s, of the polynomial with these values, by Newton's divided differences.
@@ -33,8 +33,8 @@ fn derivatives(nodes: &[f64], values: &[f64]) -> Vec<f64> {
     powers
 }
 
-/// Derivatives at the end of a segment from a place on an edge into a patch, by its length: from the order min(n − 1, 2) up to n. None
-/// where another line of knots is too near.
+/// The derivatives, by length, at the start of a segment from a place on an edge into a patch: from the order min(n − 1, 2) up to n. None
+/// if another line of knots is too near.
 fn at_edge(surface: &Spline, patch: usize, from: [f64; 2], direction: [f64; 2]) -> Option<Vec<[f64; 3]>> {
     let space = surface.space();
     let cross = |a: [f64; 2], b: [f64; 2]| a[0] * b[1] - a[1] * b[0];
@@ -80,7 +80,7 @@ fn derivatives_below_the_degree_are_continuous_across_edges_and_the_next_one_jum
                 let is_beside = |other: &ricci::spline::Patch| {
                     (0..3).any(|i| other.knots[i][0] == q && other.knots[(i + 1) % 3][0] == p)
                 };
-                // Vertices inside alone: at corners and on the boundary knots lie on lines of edges.
+                // Only edges between inner vertices count: at corners and on the boundary knots lie on lines of edges.
                 let is_inside = |v: [f64; 2]| v.iter().all(|x| *x > 0.1 && *x < 0.9);
                 let beyond = space.patches().iter().position(is_beside).filter(|b| a < *b);
                 let Some(b) = beyond.filter(|_| is_inside(p) && is_inside(q)) else { continue };

@@ -1,16 +1,16 @@
-//! Structures that are known.
+//! Structures with known answers.
 
 use crate::{glued, made, of, options};
 use ricci::geometry::modulus::modulus;
 use ricci::mesh::{VertexId, shapes};
 use ricci::structure::{
-    AffineSource, Atlas, AtlasOptions, Charts, Element, Structure, least_distorting_vertex,
+    AffineSource, Atlas, AtlasOptions, ChartKind, GroupElement, Structure, least_distorting_vertex,
 };
 use ricci::{Control, harmonic::Domain};
 
 /// The translation of a transition whose linear part is the identity.
-fn translation(element: &Element) -> [f64; 2] {
-    let Element::Projective(m) = element else { panic!("{element:?}") };
+fn translation(element: &GroupElement) -> [f64; 2] {
+    let GroupElement::Projective(m) = element else { panic!("{element:?}") };
     for (i, j, expected) in [(0, 0, 1.0), (0, 1, 0.0), (1, 0, 0.0), (1, 1, 1.0), (2, 0, 0.0), (2, 1, 0.0)] {
         assert!((m[(i, j)] - expected).abs() < 1e-12, "{m}");
     }
@@ -53,7 +53,7 @@ fn transitions_of_a_flat_torus_are_translations_of_its_lattice() {
     let tau = [0.3, 1.2];
     let torus = glued(shapes::flat_torus(tau, 5, 7));
     for source in [AffineSource::Flow, AffineSource::Form] {
-        for charts in [Charts::Stars, Charts::Patches] {
+        for charts in [ChartKind::Stars, ChartKind::Patches] {
             let found = made(&torus, &AtlasOptions { source, ..options(Structure::Affine, charts) });
             check_lattice(&found);
             let periods = [0, 1].map(|k| translation(&found.holonomy.element(Structure::Affine, k).unwrap()));
@@ -67,9 +67,11 @@ fn transitions_of_a_flat_torus_are_translations_of_its_lattice() {
 #[test]
 fn the_holonomy_of_the_bolza_surface_has_the_traces_of_its_group() {
     let bolza = glued(shapes::bolza(2));
-    let found = made(&bolza, &options(Structure::Hyperbolic, Charts::Stars));
+    let found = made(&bolza, &options(Structure::Hyperbolic, ChartKind::Stars));
     for k in 0..4 {
-        let Some(Element::Mobius(m)) = found.holonomy.element(Structure::Hyperbolic, k) else { panic!() };
+        let Some(GroupElement::Mobius(m)) = found.holonomy.element(Structure::Hyperbolic, k) else {
+            panic!()
+        };
         let half = 0.5 * m.trace().re.abs();
         assert!(half > 1.0 + 2f64.sqrt() - 1e-9, "{half}");
         let is_whole = |n: i32| {
@@ -78,7 +80,9 @@ fn the_holonomy_of_the_bolza_surface_has_the_traces_of_its_group() {
         };
         assert!((0..60).any(is_whole), "{half}");
         // The same element of SO(2,1): its trace is tr² − 1.
-        let Some(Element::Projective(p)) = found.holonomy.element(Structure::Projective, k) else { panic!() };
+        let Some(GroupElement::Projective(p)) = found.holonomy.element(Structure::Projective, k) else {
+            panic!()
+        };
         assert!((p.trace() / (4.0 * half * half - 1.0) - 1.0).abs() < 1e-12);
     }
 }
@@ -86,11 +90,11 @@ fn the_holonomy_of_the_bolza_surface_has_the_traces_of_its_group() {
 #[test]
 fn rotations_of_the_sphere_are_unitary() {
     let sphere = of(shapes::ellipsoid([1.0, 1.5, 2.0], 3));
-    for charts in [Charts::Stars, Charts::Patches] {
+    for charts in [ChartKind::Stars, ChartKind::Patches] {
         let found = made(&sphere, &options(Structure::Spherical, charts));
         for t in &found.transitions {
-            let Element::Mobius(m) = t.element else { panic!() };
-            let off = m * m.adjoint() - Element::identity(Structure::Spherical).matrix2();
+            let GroupElement::Mobius(m) = t.element else { panic!() };
+            let off = m * m.adjoint() - GroupElement::identity(Structure::Spherical).matrix2();
             assert!(off.iter().all(|z| z.norm() < 1e-14) && (m.determinant().re - 1.0).abs() < 1e-14);
         }
     }
@@ -100,9 +104,9 @@ trait Matrix2 {
     fn matrix2(&self) -> nalgebra::Matrix2<nalgebra::Complex<f64>>;
 }
 
-impl Matrix2 for Element {
+impl Matrix2 for GroupElement {
     fn matrix2(&self) -> nalgebra::Matrix2<nalgebra::Complex<f64>> {
-        let Element::Mobius(m) = self else { panic!() };
+        let GroupElement::Mobius(m) = self else { panic!() };
         *m
     }
 }
@@ -112,7 +116,7 @@ impl Matrix2 for Element {
 fn projective_transitions_carry_lines_to_lines() {
     let two = of(shapes::genus(2, 2));
     let bend = |structure| {
-        let found = made(&two, &options(structure, Charts::Patches));
+        let found = made(&two, &options(structure, ChartKind::Patches));
         let mut most: f64 = 0.0;
         for t in &found.transitions {
             let from = &found.charts[t.from as usize];
@@ -131,12 +135,12 @@ fn projective_transitions_carry_lines_to_lines() {
     assert!(bend(Structure::Hyperbolic) > 1e-4);
 }
 
-/// The same shape of charts: the Klein charts are those of the Poincaré disk under 2z/(1 + |z|²).
+/// Charts of the same shape: the Klein charts are those of the Poincaré disk under 2z/(1 + |z|²).
 #[test]
 fn projective_charts_are_the_hyperbolic_ones_in_the_klein_disk() {
     let two = of(shapes::genus(2, 2));
     let [poincare, klein] = [Structure::Hyperbolic, Structure::Projective]
-        .map(|structure| made(&two, &options(structure, Charts::Stars)));
+        .map(|structure| made(&two, &options(structure, ChartKind::Stars)));
     for (p, k) in poincare.charts.iter().zip(&klein.charts) {
         assert_eq!(p.vertices, k.vertices);
         for (z, w) in p.coordinates.iter().zip(&k.coordinates) {
@@ -148,7 +152,7 @@ fn projective_charts_are_the_hyperbolic_ones_in_the_klein_disk() {
 
 /// Area-weighted variance of the logarithm of how the flow to one cone changes areas.
 fn distortion(surface: &ricci::Surface, v: VertexId) -> f64 {
-    let asked = AtlasOptions { singular: Some(v), ..options(Structure::Affine, Charts::Stars) };
+    let asked = AtlasOptions { singular: Some(v), ..options(Structure::Affine, ChartKind::Stars) };
     let found = made(surface, &asked);
     assert_eq!(found.singular_vertices, [v]);
     let factor = found.metric.conformal_factor().unwrap();

@@ -1,4 +1,4 @@
-//! Atlases, by theorem.
+//! Atlases of generated surfaces, checked by theorems.
 #![allow(clippy::unwrap_used, clippy::print_stderr)]
 
 #[path = "../common/mod.rs"]
@@ -9,10 +9,10 @@ mod points;
 use ricci::mesh::io::Soup;
 use ricci::mesh::shapes::{self, IntrinsicSurface};
 use ricci::mesh::{Mesh, PerVertex, VertexId};
-use ricci::structure::{AffineSource, Atlas, AtlasOptions, Charts, Structure, atlas};
+use ricci::structure::{AffineSource, Atlas, AtlasOptions, ChartKind, Structure, atlas};
 use ricci::{Control, Error, Surface};
 
-/// Of generated surfaces, all of moderate shape: a few hundred roundings.
+/// Tolerance for generated surfaces, all of moderate shape: a few hundred roundings.
 const NEAR: f64 = 1e-11;
 
 fn of(soup: ricci::Result<Soup>) -> Surface {
@@ -25,7 +25,7 @@ fn glued(shape: ricci::Result<IntrinsicSurface>) -> Surface {
     Surface::intrinsic(mesh, lengths, shape.geometry).unwrap()
 }
 
-fn options(structure: Structure, charts: Charts) -> AtlasOptions {
+fn options(structure: Structure, charts: ChartKind) -> AtlasOptions {
     AtlasOptions { structure, charts, ..AtlasOptions::default() }
 }
 
@@ -41,7 +41,7 @@ fn all_options(surface: &Surface) -> Vec<AtlasOptions> {
         Structure::Hyperbolic | Structure::Projective => euler < 0,
     };
     let mut all = Vec::new();
-    for charts in [Charts::Stars, Charts::Patches] {
+    for charts in [ChartKind::Stars, ChartKind::Patches] {
         all.extend(Structure::ALL.into_iter().filter(fits).map(|structure| options(structure, charts)));
         if closed && euler <= 0 {
             all.push(AtlasOptions { source: AffineSource::Form, ..options(Structure::Affine, charts) });
@@ -50,7 +50,7 @@ fn all_options(surface: &Surface) -> Vec<AtlasOptions> {
     all
 }
 
-/// What holds of every atlas: transitions carry shared vertices to their places and compose, the holonomy keeps the relation, charts are
+/// Properties of every atlas: transitions map shared vertices to their images and compose, the holonomy keeps the relation, charts are
 /// embedded, and every regular point lies inside a chart.
 fn check(name: &str, atlas: &Atlas, within: f64) {
     let errors = [
@@ -117,13 +117,13 @@ fn every_structure_of_generated_surfaces_closes_up() {
 #[test]
 fn a_surface_of_one_vertex_has_one_star_that_overlaps_itself() {
     let surface = glued(shapes::one_vertex(2));
-    let found = made(&surface, &options(Structure::Hyperbolic, Charts::Stars));
+    let found = made(&surface, &options(Structure::Hyperbolic, ChartKind::Stars));
     check("one vertex", &found, NEAR);
     let chart = &found.charts[0];
     assert_eq!((found.charts.len(), chart.faces.len()), (1, 3 * surface.mesh().n_faces()));
     assert!(found.transitions.iter().all(|t| t.from == 0 && t.to == 0));
-    // Its affine structure has no regular vertex to put a chart around.
-    let affine = atlas(&surface, &options(Structure::Affine, Charts::Stars), &Control::new()).unwrap();
+    // Its affine structure has no regular vertex that could be the centre of a chart.
+    let affine = atlas(&surface, &options(Structure::Affine, ChartKind::Stars), &Control::new()).unwrap();
     assert!(affine.charts.iter().all(|chart| chart.vertices.iter().all(|v| v.0 == 0)));
 }
 
@@ -131,7 +131,7 @@ fn a_surface_of_one_vertex_has_one_star_that_overlaps_itself() {
 fn results_do_not_depend_on_threads() {
     let surface = of(shapes::genus(2, 2));
     for structure in [Structure::Affine, Structure::Projective] {
-        for charts in [Charts::Stars, Charts::Patches] {
+        for charts in [ChartKind::Stars, ChartKind::Patches] {
             let on = |threads| {
                 let mut options = options(structure, charts);
                 options.flow.threads = threads;
@@ -150,7 +150,7 @@ fn meshes_of_the_corpus_have_their_structures() {
     for (name, soup) in meshes {
         let surface = of(Ok(soup));
         for options in all_options(&surface) {
-            if options.charts == Charts::Patches && options.structure != Structure::Affine {
+            if options.charts == ChartKind::Patches && options.structure != Structure::Affine {
                 continue;
             }
             let name = format!("{name}, {} {:?} {:?}", options.structure, options.source, options.charts);
@@ -168,7 +168,7 @@ fn what_does_not_exist_is_refused_by_name() {
         Err(error @ Error::Argument { .. }) => error.to_string(),
         other => panic!("{:?}", other.map(|atlas| atlas.charts.len())),
     };
-    let kind = |structure| options(structure, Charts::Stars);
+    let kind = |structure| options(structure, ChartKind::Stars);
     assert!(refused(&torus, &kind(Structure::Spherical)).contains("genus 0"));
     for structure in [Structure::Hyperbolic, Structure::Projective] {
         for surface in [&sphere, &torus, &disk] {

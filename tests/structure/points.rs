@@ -1,9 +1,9 @@
-//! Points in charts.
+//! Coordinates of points in charts.
 
 use crate::{all_options, glued, made, of, options};
 use ricci::mesh::shapes::{self, SplitMix64};
 use ricci::mesh::{FaceId, VertexId};
-use ricci::structure::{Charts, Lift, Structure};
+use ricci::structure::{ChartKind, FaceLift, Structure};
 
 #[test]
 fn points_have_the_same_place_by_every_chart() {
@@ -40,7 +40,7 @@ fn points_have_the_same_place_by_every_chart() {
 
 #[test]
 fn points_and_lifts_that_do_not_exist_are_refused() {
-    let found = made(&of(shapes::genus(2, 1)), &options(Structure::Conformal, Charts::Stars));
+    let found = made(&of(shapes::genus(2, 1)), &options(Structure::Conformal, ChartKind::Stars));
     let far = FaceId::from(found.mesh.n_faces());
     assert!(found.places(far, [1.0, 0.0, 0.0]).is_err() && found.lifts(far).is_err());
     for weights in [[0.0; 3], [1.0, -1.0, 1.0], [f64::NAN, 1.0, 1.0]] {
@@ -49,8 +49,8 @@ fn points_and_lifts_that_do_not_exist_are_refused() {
     let all = found.lifts(FaceId(0)).unwrap();
     let other = (0..).map(FaceId::from).find(|&f| found.lifts(f).unwrap()[0].chart != all[0].chart).unwrap();
     assert!(found.between(all[0], found.lifts(other).unwrap()[0]).is_err());
-    assert!(found.between(all[0], Lift { chart: u32::MAX, face: 0 }).is_err());
-    // A corner of a face is the vertex itself.
+    assert!(found.between(all[0], FaceLift { chart: u32::MAX, face: 0 }).is_err());
+    // The place of a corner of a face is that of the vertex.
     let values = found
         .evaluate(FaceId(0), [0.0, 2.0, 0.0], |at| {
             let chart = &found.charts[at.lift.chart as usize];

@@ -13,11 +13,13 @@ use ricci::geometry::Space;
 use ricci::harmonic::{
     Domain, FormsOptions, HarmonicForms, MapConstraints, PeriodMatrix, harmonic_map, planar,
 };
-use ricci::manifold::{Flat, SurfaceFitOptions, fit_surface};
 use ricci::matching::{self, MatchOptions, match_surfaces};
 use ricci::mesh::{FaceId, Mesh, PerVertex, Point, VertexId};
 use ricci::metric::{curvature, initial_metric};
-use ricci::spline::{self, FitOptions, KnotOptions, Parameter, Spline, SplineSpace, basis_size, fit};
+use ricci::spline::{
+    self, FitOptions, FlatMetric, KnotOptions, Parameter, Spline, SplineSpace, SurfaceFitOptions, basis_size,
+    fit, fit_surface,
+};
 use ricci::structure::{AtlasOptions, Structure, atlas};
 use ricci::{Class, Control, Solution, Surface, Target};
 use std::f64::consts::TAU;
@@ -257,10 +259,10 @@ fn structure(case: &Case, threads: usize) -> Found {
 }
 
 /// The domain of a spline, in the plane.
-fn domain(case: &Case) -> spline::Domain {
+fn domain(case: &Case) -> spline::PlaneDomain {
     let given = &case.json["mesh"];
     let vertices = points(&given["positions"]).into_iter().map(|[x, y, _]| [x, y]).collect();
-    spline::Domain { vertices, triangles: indices(&given["faces"]).as_chunks().0.to_vec() }
+    spline::PlaneDomain { vertices, triangles: indices(&given["faces"]).as_chunks().0.to_vec() }
 }
 
 fn degree(case: &Case) -> usize {
@@ -318,7 +320,8 @@ fn surface_fit(case: &Case, threads: usize) -> Found {
         threads,
         ..SurfaceFitOptions::default()
     };
-    let spline = fit_surface(&surface, &Flat::of(&flat, &control).unwrap(), &how, &control).unwrap().spline;
+    let spline =
+        fit_surface(&surface, &FlatMetric::of(&flat, &control).unwrap(), &how, &control).unwrap().spline;
     let fine = spline.tessellate(3, threads, &control).unwrap();
     let off = |p: &Point| ((p[0].hypot(p[1]) - big).hypot(p[2]) - small).abs();
     vec![("distance", vec![fine.positions.iter().map(off).fold(0.0, f64::max)])]

@@ -6,7 +6,7 @@ use crate::output::{check_extension, check_outputs, extension};
 use crate::report::{Checks, Done, Figures, timed};
 use crate::runner::{CommandRun, Job, JobHeader, JobOutcome};
 use crate::say::{self, count};
-use ricci::spline::{Bicubic, BicubicOptions, LengthUnit, Spline, StepOptions};
+use ricci::spline::{BicubicFit, BicubicOptions, LengthUnit, Spline, StepOptions};
 
 /// Largest angle, in degrees, between the normals of neighbouring patches: larger angles are seen in reflections.
 const NORMAL_JUMP: f64 = 1.0;
@@ -14,7 +14,7 @@ const NORMAL_JUMP: f64 = 1.0;
 /// A spline, with bicubic patches near it.
 pub struct ExportOutcome {
     spline: Spline,
-    bicubic: Bicubic,
+    bicubic: BicubicFit,
     /// The limit of the distance from the spline.
     tolerance: f64,
 }

@@ -9,7 +9,7 @@ use crate::report::{Checks, Figures};
 use ricci::Control;
 use ricci::geometry::vector::diagonal;
 use ricci::spline::{
-    FitOptions, Fitted, KnotOptions, Locator, Parameter, SplineSpace, fit as fit_points, triangulate,
+    FitOptions, KnotOptions, Locator, Parameter, SplineFit, SplineSpace, fit as fit_points, triangulate,
 };
 use serde_json::Map;
 use std::sync::Arc;
@@ -39,7 +39,12 @@ pub fn fit_planar(args: &FitArgs, input: Input, control: &Control) -> Result<Fit
     })
 }
 
-fn fitted(args: &FitArgs, field: &HeightField<'_>, edge: f64, control: &Control) -> Result<Fitted, Failure> {
+fn fitted(
+    args: &FitArgs,
+    field: &HeightField<'_>,
+    edge: f64,
+    control: &Control,
+) -> Result<SplineFit, Failure> {
     let domain = triangulate(&field.outline, edge)?;
     control.check()?;
     let space = SplineSpace::planar(&domain, &domain.knots(args.degree.into(), &KnotOptions::default())?)?;

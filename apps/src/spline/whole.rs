@@ -8,8 +8,8 @@ use crate::progress::doing;
 use crate::report::{Checks, Figures};
 use ricci::Control;
 use ricci::flow;
-use ricci::manifold::{Flat, FlatOptions, SurfaceFit, SurfaceFitOptions, fit_surface};
 use ricci::mesh::VertexId;
+use ricci::spline::{FlatMetric, FlatMetricOptions, SurfaceFit, SurfaceFitOptions, fit_surface};
 use serde_json::{Map, Value};
 
 pub fn fit_whole(args: &FitArgs, input: Input, control: &Control) -> Result<FitOutcome, Failure> {
@@ -22,13 +22,13 @@ pub fn fit_whole(args: &FitArgs, input: Input, control: &Control) -> Result<FitO
         )));
     }
     let threads = args.common.threads;
-    let options = FlatOptions {
+    let options = FlatMetricOptions {
         source: whole.atlas.into(),
         singular: whole.singular.map(VertexId),
         corners: whole.corners.as_ref().map_or_else(Default::default, |corners| corners.to_library()),
         flow: flow::Options { threads, ..flow::Options::default() },
     };
-    let flat = doing("flat metric", || Flat::new(&input.surface, &options, control))?;
+    let flat = doing("flat metric", || FlatMetric::new(&input.surface, &options, control))?;
     let usual = SurfaceFitOptions::default();
     let options = SurfaceFitOptions {
         degree: args.degree.into(),

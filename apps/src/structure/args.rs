@@ -3,7 +3,7 @@
 use crate::options::{Common, FileName, FlipsChoice, SurfaceArgs, choices, positive};
 use crate::picture::PictureArgs;
 use clap::Args;
-use ricci::structure::{AffineSource, Charts, Structure};
+use ricci::structure::{AffineSource, ChartKind, Structure};
 use serde::Serialize;
 
 pub const HELP: &str = "\
@@ -62,4 +62,4 @@ pub struct StructureArgs {
 
 choices!(KindChoice = Structure { Conformal, Spherical, Affine, Hyperbolic, Projective });
 choices!(SourceChoice = AffineSource { Flow, Form });
-choices!(ChartsChoice = Charts { Stars, Patches });
+choices!(ChartsChoice = ChartKind { Stars, Patches });

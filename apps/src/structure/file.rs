@@ -1,6 +1,6 @@
 //! The JSON file of `ricci structure --atlas`.
 
-use ricci::structure::{Atlas, Element};
+use ricci::structure::{Atlas, GroupElement};
 use serde::{Serialize, Serializer};
 
 /// The factor that the first entry of a unitary matrix gets in the file: four roundings more than 1. The two entries on the diagonal are
@@ -34,20 +34,20 @@ struct TransitionFile<'a> {
 }
 
 /// The matrix of a transition as rows of complex numbers `[re, im]`, or of real ones.
-struct ElementRows<'a>(&'a Element);
+struct ElementRows<'a>(&'a GroupElement);
 
 impl Serialize for ElementRows<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut rows = self.0.rows();
         match self.0 {
-            Element::Mobius(m) => {
+            GroupElement::Mobius(m) => {
                 // The last row of a motion of the plane is (0, 1); it is not unitary.
                 if m.m21.norm() > 0.0 {
                     rows[0][0] = rows[0][0].map(|x| FIRST * x);
                 }
                 rows.serialize(serializer)
             }
-            Element::Projective(_) => {
+            GroupElement::Projective(_) => {
                 let real: Vec<Vec<f64>> =
                     rows.iter().map(|row| row.iter().map(|entry| entry[0]).collect()).collect();
                 real.serialize(serializer)

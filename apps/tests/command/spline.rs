@@ -1,9 +1,8 @@
 //! `ricci spline`.
 
 use crate::run::Place;
-use ricci::manifold::{Flat, FlatOptions, SurfaceFitOptions, fit_surface};
 use ricci::mesh::shapes;
-use ricci::spline::Parameter;
+use ricci::spline::{FlatMetric, FlatMetricOptions, Parameter, SurfaceFitOptions, fit_surface};
 use ricci::{Control, Surface};
 use serde_json::Value;
 
@@ -125,7 +124,7 @@ fn rows_say_where_a_hole_is_filled() {
     let place = Place::new();
     let control = Control::new();
     let surface = Surface::from_soup(&shapes::genus(2, 6).unwrap()).unwrap();
-    let flat = Flat::new(&surface, &FlatOptions::default(), &control).unwrap();
+    let flat = FlatMetric::new(&surface, &FlatMetricOptions::default(), &control).unwrap();
     let options = SurfaceFitOptions { rounds: 1, ..SurfaceFitOptions::default() };
     let spline = fit_surface(&surface, &flat, &options, &control).unwrap().spline;
     spline.write(&place.path("s.json")).unwrap();

@@ -1,28 +1,28 @@
 //! Angles between the normals of neighbouring patches.
 
-use super::sample::{At, within};
+use super::sample::{QuadPlace, within};
 use super::surface::{BicubicPatch, BicubicSurface};
 use crate::error::Result;
 use crate::geometry::vector::{Vector, cross, distance, dot, norm};
-use crate::spline::point::SurfacePoint;
+use crate::spline::triangular::SurfacePoint;
 
 /// Angles, in radians, between the normals on both sides of curves that patches have in common.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NormalAngles {
-    /// The largest.
+    /// The largest angle.
     pub largest: f64,
-    /// The mean over the places where they are measured.
+    /// The mean over the places of measurement.
     pub mean: f64,
-    /// The largest between the spline's own normals at the same places, which is not 0 at creases.
+    /// The largest angle between the spline's own normals at the same places; at creases it is not 0.
     pub of_spline: f64,
 }
 
-/// What is measured on one curve.
+/// The measured distances and angles on one curve.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct CurveFigures {
     /// Largest distance of the curve from the spline.
     pub miss: f64,
-    /// Largest angle by which the normals of the patches differ beyond those of the spline.
+    /// Largest angle between the normals of the patches minus the angle between those of the spline.
     pub excess: f64,
     largest: f64,
     of_spline: f64,
@@ -43,11 +43,13 @@ impl NormalAngles {
     }
 }
 
-/// The figures of curves, each with the sides of quadrilaterals that it is; `evaluate` gives the spline with its first derivatives.
+/// The figures of some curves. `uses` has for each curve the sides of quadrilaterals that it is; `evaluate` gives the spline with its first
+/// derivatives.
 pub(super) fn measure(
     surface: &BicubicSurface,
-    (curves, uses): (&[usize], &[Vec<(usize, usize)>]),
-    evaluate: impl Fn(&[At]) -> Result<Vec<SurfacePoint>>,
+    curves: &[usize],
+    uses: &[Vec<(usize, usize)>],
+    evaluate: impl Fn(&[QuadPlace]) -> Result<Vec<SurfacePoint>>,
 ) -> Result<Vec<CurveFigures>> {
     let places = |&curve: &usize| {
         let spans = surface.curves[curve].control.len() - 3;
@@ -55,12 +57,12 @@ pub(super) fn measure(
             let reversed = surface.patches[q].sides[k].reversed;
             within(spans)
                 .map(move |x| (q, BicubicPatch::on_side(k, if reversed { 1.0 - x } else { x })))
-                .collect::<Vec<At>>()
+                .collect::<Vec<QuadPlace>>()
         });
         both.collect::<Vec<_>>()
     };
-    let at: Vec<Vec<Vec<At>>> = curves.iter().map(places).collect();
-    let all: Vec<At> = at.iter().flatten().flatten().copied().collect();
+    let at: Vec<Vec<Vec<QuadPlace>>> = curves.iter().map(places).collect();
+    let all: Vec<QuadPlace> = at.iter().flatten().flatten().copied().collect();
     let found = evaluate(&all)?;
     let mut rest = &found[..];
     let mut figures = Vec::with_capacity(curves.len());
@@ -82,7 +84,7 @@ pub(super) fn measure(
 }
 
 impl CurveFigures {
-    /// Take in a place: for each patch there its point and the spline's.
+    /// Includes a place: for each patch there the patch's point and the spline's.
     fn add(&mut self, sides: &[(SurfacePoint, &SurfacePoint)]) {
         for (patch, spline) in sides {
             self.miss = self.miss.max(distance(patch.point, spline.point));
@@ -97,7 +99,7 @@ impl CurveFigures {
     }
 }
 
-/// The angle between two normals; none where one does not exist.
+/// The angle between two normals; none if one of them does not exist.
 fn angle(a: &SurfacePoint, b: &SurfacePoint) -> Option<f64> {
     let [m, n]: [Vector; 2] = [a.normal()?, b.normal()?];
     Some(norm(cross(m, n)).atan2(dot(m, n)))

@@ -4,19 +4,20 @@ use crate::geometry::vector::{Vector, add, scale, sub};
 
 /// Degree in each direction.
 pub(super) const DEGREE: usize = 3;
-/// The basis functions that do not vanish in a span: how many there are.
+/// Number of basis functions that do not vanish in a span.
 pub(super) const LOCAL: usize = DEGREE + 1;
 
-/// Clamped knots with equal spans: 0 four times, 1/k, …, 1 four times.
+/// Clamped knots with equal spans: 0 four times, 1/k, 2/k, …, 1 four times.
 pub(super) fn uniform(spans: usize) -> Vec<f64> {
     let inner = (1..spans).map(|i| i as f64 / spans as f64);
     [0.0; LOCAL].into_iter().chain(inner).chain([1.0; LOCAL]).collect()
 }
 
-/// The basis functions at a place: the first that does not vanish there, and of it and the next three the derivatives of order 0, 1, 2.
+/// The basis functions at a place: the number of the first that does not vanish there, and the derivatives of order 0, 1, 2 of it and the
+/// next three.
 pub(super) fn basis(knots: &[f64], x: f64) -> (usize, [[f64; LOCAL]; 3]) {
     let last = knots.len() - LOCAL;
-    // The span [t_i, t_{i+1}) that contains x, the last one with its end.
+    // The span [t_i, t_{i+1}) contains x; the last span contains its end too.
     let span = knots[..last].partition_point(|&t| t <= x).clamp(LOCAL, last) - 1;
     let mut rows = [[0.0; LOCAL]; LOCAL];
     rows[0][0] = 1.0;
@@ -41,7 +42,7 @@ pub(super) fn basis(knots: &[f64], x: f64) -> (usize, [[f64; LOCAL]; 3]) {
     (span - DEGREE, [rows[DEGREE], first, second])
 }
 
-/// From functions of degree p − 1 (or their derivatives) the derivatives of those of degree p.
+/// The derivatives of basis functions of degree p, from those of degree p − 1 or their derivatives.
 fn derivative(knots: &[f64], span: usize, degree: usize, below: [f64; LOCAL]) -> [f64; LOCAL] {
     let p = degree as f64;
     let mut found = [0.0; LOCAL];
@@ -54,12 +55,12 @@ fn derivative(knots: &[f64], span: usize, degree: usize, below: [f64; LOCAL]) ->
     found
 }
 
-/// a / b, and 0 where knots coincide.
+/// The quotient a / b; 0 if b is, as where knots coincide.
 fn ratio(a: f64, b: f64) -> f64 {
     if b > 0.0 { a / b } else { 0.0 }
 }
 
-/// Value, first and second derivative of a curve.
+/// The value and the first and second derivative of a curve.
 pub(super) fn curve_at(knots: &[f64], control: &[Vector], x: f64) -> [Vector; 3] {
     let (first, weights) = basis(knots, x);
     weights.map(|w| combined(&w, |j| control[first + j]))
@@ -70,8 +71,8 @@ pub(super) fn combined(weights: &[f64; LOCAL], vector: impl Fn(usize) -> Vector)
     (0..LOCAL).fold([0.0; 3], |sum, j| add(sum, scale(weights[j], vector(j))))
 }
 
-/// The control points, over [`uniform`] knots, of the C² cubic with these values at the ends of the spans and these derivatives at 0 and 1:
-/// k + 3 of them from k + 1 values.
+/// The control points, over [`uniform`] knots, of the C² cubic with given values at the ends of the spans and given derivatives at 0 and 1:
+/// k + 3 points from k + 1 values.
 pub(super) fn interpolate(values: &[Vector], ends: [Vector; 2]) -> Vec<Vector> {
     let spans = values.len() - 1;
     let third = 1.0 / (DEGREE * spans) as f64;
@@ -80,7 +81,7 @@ pub(super) fn interpolate(values: &[Vector], ends: [Vector; 2]) -> Vec<Vector> {
     (control[0], control[spans + 2]) = (values[0], values[spans]);
     control[1] = add(values[0], scale(third, ends[0]));
     control[spans + 1] = sub(values[spans], scale(third, ends[1]));
-    // At the end of span i the functions i, i + 1, i + 2 do not vanish: tridiagonal equations, eliminated from the front.
+    // At the end of span i only the functions i, i + 1, i + 2 do not vanish: tridiagonal equations, eliminated from the front.
     let mut upper = vec![0.0; spans + 1];
     for i in 1..spans {
         let [below, middle, above, _] = basis(&knots, knots[DEGREE + i]).1[0];

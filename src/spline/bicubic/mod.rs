@@ -1,15 +1,15 @@
-//! Bicubic patches near a spline, for CAD: three to a triangle, with sides that neighbours have in common to the last bit.
+//! Bicubic patches near a spline, for CAD: three for each triangle, with sides that neighbours have in common to the last bit.
 //!
-//! Each triangle becomes three quadrilaterals, from a corner over the middles of its sides to the centroid. In its own coordinates a
-//! quadrilateral is a C² bicubic over clamped knots that interpolates the spline at the ends of its spans; derivatives along its rim are
-//! difference quotients of the spline, turned into tangent planes that neighbours have in common. A side's curve is made once, from the
-//! side's own points, and both neighbours have its control points; corners likewise.
+//! A triangle is divided into three quadrilaterals, each between a corner, the middles of two sides and the centroid. In its own
+//! coordinates a quadrilateral is a C² bicubic over clamped knots that interpolates the spline at the ends of its spans. Derivatives along
+//! its rim are difference quotients of the spline, projected to tangent planes that neighbours have in common. The curve of a side is made
+//! once, from points of the side, and both neighbours have its control points; so have corners.
 //!
-//! Spans go on across opposite sides of quadrilaterals, and so around one vertex of the triangles: quadrilaterals between the vertices a
-//! and b of a side have as many spans along it near a as b asks for. So every vertex has a number of its own, and the patches are refined
-//! where they miss the spline without a seam anywhere.
+//! Opposite sides of a quadrilateral have equally many spans, so the number of spans goes on from quadrilateral to quadrilateral around a
+//! vertex of the triangles. Each vertex therefore has a number of its own: in the quadrilateral at corner a, the spans along the half side
+//! towards b are the number of b. So patches can be refined where they miss the spline, and still match along all sides.
 //!
-//! The exact way, three patches of bidegree (n, n) for each polynomial, is open to Bézier triangles alone: `docs/results/splines-step.md`.
+//! The exact way, three patches of bidegree (n, n) for each polynomial, works for Bézier triangles only: `docs/results/splines-step.md`.
 
 mod angles;
 mod cubic;
@@ -29,7 +29,7 @@ mod surface;
 mod tangents;
 
 pub use angles::NormalAngles;
-pub use outcome::{Bicubic, BicubicOptions};
+pub use outcome::{BicubicFit, BicubicOptions};
 #[cfg(feature = "step")]
 pub use step::{LengthUnit, StepOptions};
 pub use surface::{BicubicPatch, BicubicSurface, PatchCurve, PatchSide};

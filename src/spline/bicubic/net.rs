@@ -1,46 +1,46 @@
-//! Which sides and corners the triangles of a spline have in common.
+//! The numbering of the sides and corners of the triangles of a spline, shared ones once.
 
 use crate::error::{Error, Result};
 use crate::mesh::union_find::UnionFind;
-use crate::spline::surface::Spline;
+use crate::spline::triangular::Spline;
 use std::collections::HashMap;
 
-/// A side of a triangle, which another one may have too.
+/// A side of a triangle, by its number.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Side {
-    /// Its number.
+pub(super) struct NetSide {
+    /// The number of the side, which a neighbour has too.
     pub edge: u32,
-    /// Whether it runs against the direction in which the first triangle has it.
+    /// True if it runs against the direction that it has in its first triangle.
     pub reversed: bool,
 }
 
 /// Triangles with numbered corners and sides.
 #[derive(Debug, Clone)]
-pub(super) struct Net {
-    /// Per triangle the vertices at its corners.
+pub(super) struct TriangleNet {
+    /// For each triangle the vertices at its corners.
     pub vertices: Vec<[u32; 3]>,
-    /// Per triangle its sides: side k from corner k to the next.
-    pub sides: Vec<[Side; 3]>,
-    /// Per side the first triangle that has it, and which side of this triangle it is.
+    /// For each triangle its sides; side k is from corner k to the next.
+    pub sides: Vec<[NetSide; 3]>,
+    /// For each side the first triangle that has it, and the number of the side in that triangle.
     pub owners: Vec<(u32, usize)>,
-    /// Per vertex the first triangle that has it, and which corner of this triangle it is.
+    /// For each vertex the first triangle that has it, and the number of the corner in that triangle.
     pub corners: Vec<(u32, usize)>,
 }
 
-impl Net {
-    /// Two triangles have a side in common if they have its control points in common, in opposite directions.
+impl TriangleNet {
+    /// The net of a spline. Two triangles share a side if its control points are the same in opposite directions.
     ///
     /// # Errors
     /// [`Error::Spline`] for a side of three triangles, or one that two triangles have in the same direction.
-    pub fn new(spline: &Spline) -> Result<Net> {
+    pub fn new(spline: &Spline) -> Result<TriangleNet> {
         let triangles = spline.triangles();
         let mut net =
-            Net { vertices: Vec::new(), sides: Vec::new(), owners: Vec::new(), corners: Vec::new() };
+            TriangleNet { vertices: Vec::new(), sides: Vec::new(), owners: Vec::new(), corners: Vec::new() };
         let mut known: HashMap<Vec<u32>, (u32, bool)> = HashMap::new();
         let mut sets = UnionFind::new(3 * triangles.len());
         let corner = |triangle: usize, k: usize| (3 * triangle + k % 3) as u32;
         for (at, triangle) in triangles.iter().enumerate() {
-            let mut sides = [Side { edge: 0, reversed: false }; 3];
+            let mut sides = [NetSide { edge: 0, reversed: false }; 3];
             for (k, side) in sides.iter_mut().enumerate() {
                 let along = triangle.along(k, spline);
                 let against: Vec<u32> = along.iter().rev().copied().collect();
@@ -50,7 +50,7 @@ impl Net {
                         return Err(refuse(at, k, "two other patches have it too"));
                     }
                     *is_shared = true;
-                    *side = Side { edge: *edge, reversed: true };
+                    *side = NetSide { edge: *edge, reversed: true };
                     sets.join(corner(at, k), corner(other as usize, j + 1));
                     sets.join(corner(at, k + 1), corner(other as usize, j));
                 } else {

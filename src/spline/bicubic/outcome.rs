@@ -1,17 +1,17 @@
-//! What is asked of bicubic patches near a spline, and what comes out.
+//! Options and results of the conversion of a spline to bicubic patches.
 
 use super::angles::NormalAngles;
 use super::surface::BicubicSurface;
 
-/// What [`to_bicubic`](crate::spline::Spline::to_bicubic) can be asked.
+/// Options of [`to_bicubic`](crate::spline::Spline::to_bicubic).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BicubicOptions {
     /// Largest distance of the patches from the spline, over the diagonal of its bounding box: 1e-10 to 1. Default 1e-4.
     pub tolerance: f64,
-    /// Largest angle, in radians, between the normals of neighbouring patches beyond what the spline's own normals differ by there.
-    /// Default half a degree.
+    /// Largest angle, in radians, between the normals of neighbouring patches, minus that between the spline's own normals there. Default:
+    /// half a degree.
     pub angle: f64,
-    /// Threads; 0 (default) is one per core. The result does not depend on it.
+    /// Number of threads; 0 (default) is one for each core. The result does not depend on it.
     pub threads: usize,
 }
 
@@ -21,20 +21,20 @@ impl Default for BicubicOptions {
     }
 }
 
-/// Bicubic patches near a spline, with what they miss.
+/// Bicubic patches near a spline, with their measured deviations from it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Bicubic {
+pub struct BicubicFit {
     /// The patches.
     pub surface: BicubicSurface,
     /// The diagonal of the bounding box of the corners, middles of sides and centroids of the spline's patches.
     pub diagonal: f64,
-    /// Largest distance of a patch from the spline's point with the same parameters, over the diagonal: at nine places of each cell between
-    /// knots, none of which is interpolated.
+    /// Largest distance of a patch from the spline's point with the same parameters, over the diagonal. It is measured at nine places of
+    /// each cell between knots; none of these is interpolated.
     pub distance: f64,
     /// Angles between the normals of neighbouring patches, at three places of each span of their common curves.
     pub angles: NormalAngles,
     /// The least and the largest number of spans along a side.
     pub spans: [usize; 2],
-    /// How often patches were refined.
+    /// Number of times that patches were refined.
     pub rounds: usize,
 }

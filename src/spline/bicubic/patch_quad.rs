@@ -1,52 +1,51 @@
 //! The three quadrilaterals of a patch, and their coordinates.
 //!
-//! What stands below as s and t is a function of the grid's coordinates σ and τ, s = σ (1 + 3 σ)/4 and t likewise, but along sides at a
-//! singular vertex.
+//! The s and t below are functions of the grid's coordinates σ and τ, s = σ (1 + 3 σ)/4 and t likewise, except along sides at a singular
+//! vertex.
 //!
 //! ```text
 //!              C₂                 Quadrilateral k has the corners C_k, the middle of side k, the centroid, and the
 //!             /  \                middle of the side before; (s, t) is (0, 0), (1, 0), (1, 1), (0, 1) there.
 //!            / 2  \
 //!          M₂--G--M₁              In u, which is the chart's coordinate from C_k on, it is the Coons patch of its sides
-//!          / 0 | 1 \
+//!          M₂--G--M₁              In u, the chart's coordinate relative to C_k, it is the Coons patch of its sides
 //!        C₀----M₀---C₁                u = s a(t) + t b(s) − s t D,   a(t) from M_k to G, b(s) from M_{k−1} to G, D = u(G)
 //! ```
 //!
-//! [Coo67], and bilinear in the chart. Around a singular vertex with the total angle 2πm the surface is smooth in w = z^{1/m}: there u = w,
-//! so that the sides at the vertex are rays on which |w| grows linearly, and a(t), b(s) are the images of straight segments. Where that
-//! patch turns over or leaves the triangle, M and G are chosen nearer to the vertex ([`super::split`]); where no choice helps, the place is
-//! the bilinear one times (s + t − s t)^{m−1}: the same on all four sides.
+//! [Coo67], which is bilinear in the chart. Around a singular vertex with total angle 2πm the surface is smooth in w = z^{1/m}. There u =
+//! w: the sides at the vertex are rays on which |w| grows linearly, and a(t), b(s) are the images of straight segments. If that patch turns
+//! over or leaves the triangle, M and G are chosen nearer to the vertex ([`super::split`]). If no choice helps, the place is the bilinear
+//! one times (s + t − s t)^{m−1}, which is the same on all four sides.
 
 use crate::geometry::complex::{Complex, add, conj, cross, mul, norm, norm2, scale, sub, unit};
-use crate::spline::patch::Parameter;
-use crate::spline::surface::Spline;
+use crate::spline::triangular::{Parameter, Spline};
 
-/// Cells along a side of the grid on which a Coons patch is looked at.
+/// Cells along a side of the grid on which a Coons patch is checked.
 const CELLS: u8 = 16;
 /// Share of a triangle by which a place on its side may lie outside: rounding.
 const INSIDE: f64 = 1e-12;
-/// The grid is 1 + DENSER times denser at a corner than it would be evenly: there, between the knots of a vertex, a spline bends most.
+/// The grid is 1 + DENSER times denser at a corner than an even one, because a spline bends most between the knots of a vertex.
 const DENSER: f64 = 3.0;
 
-/// How a patch is divided.
+/// The points at which a patch is divided into three quadrilaterals.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Division {
-    /// Per side its share from its first corner on at which it is divided.
+pub(super) struct PatchDivision {
+    /// For each side, the share of its length from its first corner at which it is divided.
     pub middles: [f64; 3],
-    /// Barycentric weights of the corner that all three quadrilaterals have.
+    /// Barycentric weights of the common corner of the three quadrilaterals.
     pub centre: [f64; 3],
-    /// Per corner the total angle of its vertex in turns: m of a singular vertex, otherwise 1.
+    /// For each corner the total angle of its vertex in turns: m of a singular vertex, otherwise 1.
     pub turns: [i32; 3],
 }
 
-/// Where the filling around a singular vertex alone is the surface.
+/// The disk around a singular vertex in which the filling alone is the surface.
 #[derive(Debug, Clone, Copy)]
-struct Filled {
+struct FilledDisk {
     /// The chart of its hole.
     chart: u32,
-    /// The coordinate there over w of the quadrilateral.
+    /// The ratio of the coordinate of that chart to the quadrilateral's coordinate w.
     scale: Complex,
-    /// Largest size of that coordinate.
+    /// Largest size of that coordinate in the disk.
     inner: f64,
 }
 
@@ -54,24 +53,25 @@ struct Filled {
 #[derive(Debug, Clone)]
 pub(super) struct PatchQuad {
     pub patch: u32,
-    /// Where u = 0 lies in the chart.
+    /// The position of u = 0 in the chart.
     corner: Complex,
-    /// What u = 1 is in the chart: a length and a direction.
+    /// The vector u = 1 in the chart: a length and a direction.
     frame: Complex,
-    /// m.
+    /// The number of turns m of the corner.
     turns: i32,
-    /// Of a singular vertex with a filling.
-    filled: Option<Filled>,
-    /// From the corner to the middles of the side from it and of the side to it, and to the centroid, over `frame`.
+    /// The disk of the filling, if the corner is a singular vertex with a filling.
+    filled: Option<FilledDisk>,
+    /// The vectors from the corner to the middles of the two sides at it, over `frame`.
     ends: [Complex; 2],
+    /// The vector from the corner to the centroid, over `frame`.
     centroid: Complex,
-    /// Whether the Coons patch in w is taken: it may turn over, or leave the triangle, where that has a wide angle at a singular vertex.
+    /// True if the Coons patch in w is taken; it can turn over, or leave the triangle, if that has a wide angle at a singular vertex.
     is_coons: bool,
 }
 
 impl PatchQuad {
     /// The quadrilateral at corner k of a patch.
-    pub fn new(spline: &Spline, (patch, k): (usize, usize), division: &Division) -> PatchQuad {
+    pub fn new(spline: &Spline, (patch, k): (usize, usize), division: &PatchDivision) -> PatchQuad {
         let knots = &spline.space().patches()[patch].knots;
         let [a, b, c] = [0, 1, 2].map(|j| knots[(k + j) % 3][0]);
         let (next, last) = (sub(b, a), sub(c, a));
@@ -86,25 +86,25 @@ impl PatchQuad {
         let filled = spline.holes().iter().filter(|_| turns > 1).find_map(|hole| {
             let [p, q] = [a, add(a, frame)].map(|[x, y]| Parameter { patch, x, y });
             let scale = hole.spoke(p, q)?;
-            Some(Filled { chart: hole.chart, scale, inner: hole.inner })
+            Some(FilledDisk { chart: hole.chart, scale, inner: hole.inner })
         });
         let quad = PatchQuad { patch, corner: a, frame, turns, filled, ends, centroid, is_coons: true };
         let is_coons = turns == 1 || quad.is_sound(from, to);
         PatchQuad { is_coons, ..quad }
     }
 
-    /// Whether it is the Coons patch.
+    /// True if the quadrilateral is the Coons patch in w.
     pub fn is_coons(&self) -> bool {
         self.is_coons
     }
 
-    /// The place of (s, t): in the chart of the filling around a singular vertex, as far as that alone is the surface. There z = wᵐ is so
-    /// small that its digits would be lost beside the coordinates of the corner.
+    /// The place at (s, t). Where the filling around a singular vertex alone is the surface, it is in the chart of the hole: there z = wᵐ
+    /// is so small that its digits would be lost in the coordinates of the patch.
     pub fn place(&self, at: [f64; 2]) -> Parameter {
         let local = self.local(at);
         let in_filling = self.filled.map(|filled| (filled, mul(filled.scale, root(local, self.turns))));
         match in_filling {
-            Some((Filled { chart, inner, .. }, w)) if norm(w) <= inner => {
+            Some((FilledDisk { chart, inner, .. }, w)) if norm(w) <= inner => {
                 Parameter { patch: chart, x: w[0], y: w[1] }
             }
             _ => {
@@ -114,7 +114,7 @@ impl PatchQuad {
         }
     }
 
-    /// The place of (s, t) from the corner, over the frame.
+    /// The position at (s, t) relative to the corner, over the frame.
     fn local(&self, at: [f64; 2]) -> Complex {
         let [s, t] = self.dense(at);
         if !self.is_coons {
@@ -131,7 +131,7 @@ impl PatchQuad {
         (1..self.turns).fold(u, |z, _| mul(z, u))
     }
 
-    /// Whether the cells of a grid are counterclockwise and in the triangle, of whose sides the quadrilateral has these shares.
+    /// True if the cells of a grid are counterclockwise and inside the triangle; `from` and `to` are the shares of its sides at the corner.
     fn is_sound(&self, from: f64, to: f64) -> bool {
         let at = |i: u8, j: u8| self.local([i, j].map(|k| f64::from(k) / f64::from(CELLS)));
         let [next, last] = [scale(1.0 / from, self.ends[0]), scale(1.0 / to, self.ends[1])];
@@ -147,8 +147,8 @@ impl PatchQuad {
         (0..CELLS).all(|i| (0..CELLS).all(|j| is_upright(i, j) && is_inside(at(i + 1, j + 1))))
     }
 
-    /// The grid's coordinates in the quadrilateral. Sides at a singular vertex stay even: no knots lie near it, its filling is as smooth as
-    /// elsewhere.
+    /// The coordinates (s, t) of grid coordinates. Sides at a singular vertex stay even, since no knots lie near it, where the filling is
+    /// as smooth as elsewhere.
     fn dense(&self, [s, t]: [f64; 2]) -> [f64; 2] {
         if self.turns == 1 {
             return [dense(s), dense(t)];
@@ -157,12 +157,12 @@ impl PatchQuad {
     }
 }
 
-/// A coordinate of the grid in the quadrilateral.
+/// The coordinate s of a grid coordinate σ.
 pub(super) fn dense(x: f64) -> f64 {
     x * (1.0 + DENSER * x) / (1.0 + DENSER)
 }
 
-/// z^{1/m}.
+/// The root z^{1/m}.
 pub(super) fn root(z: Complex, turns: i32) -> Complex {
     if turns == 1 {
         return z;

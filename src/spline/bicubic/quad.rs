@@ -1,45 +1,45 @@
-//! The three quadrilaterals of each triangle of a surface, those that close it around a vertex at infinity among them.
+//! The three quadrilaterals of each triangle of a surface, cap triangles at infinity included.
 
 use super::patch_quad::{PatchQuad, dense};
 use super::split::divisions;
-use crate::spline::cap::{CapTriangle, Triangle};
-use crate::spline::patch::Parameter;
-use crate::spline::surface::Spline;
+use crate::spline::triangular::{CapTriangle, Parameter, Spline, SurfaceTriangle};
 
 /// A quadrilateral of a triangle of the surface.
 #[derive(Debug, Clone)]
-pub(super) enum Quad {
+pub(super) enum SurfaceQuad {
     Patch(PatchQuad),
-    /// In a triangle at infinity, at this corner: bilinear in its barycentric weights.
+    /// In a cap triangle, at this corner: bilinear in the barycentric weights.
     Cap(CapTriangle, usize),
 }
 
-impl Quad {
+impl SurfaceQuad {
     /// The three quadrilaterals of each triangle.
-    pub fn all(spline: &Spline, triangles: &[Triangle<'_>]) -> Vec<Quad> {
+    pub fn all(spline: &Spline, triangles: &[SurfaceTriangle<'_>]) -> Vec<SurfaceQuad> {
         let divisions = divisions(spline);
-        let of = |(at, triangle): (usize, &Triangle<'_>)| {
+        let of = |(at, triangle): (usize, &SurfaceTriangle<'_>)| {
             [0, 1, 2].map(|k| match triangle {
-                Triangle::Patch(_) => Quad::Patch(PatchQuad::new(spline, (at, k), &divisions[at])),
-                Triangle::Cap(cap) => Quad::Cap(*cap, k),
+                SurfaceTriangle::Patch(_) => {
+                    SurfaceQuad::Patch(PatchQuad::new(spline, (at, k), &divisions[at]))
+                }
+                SurfaceTriangle::Cap(cap) => SurfaceQuad::Cap(*cap, k),
             })
         };
         triangles.iter().enumerate().flat_map(of).collect()
     }
 
-    /// The patch of the spline in which it lies, or the chart of a hole.
+    /// The patch of the spline that it belongs to, or the chart of a hole.
     pub fn patch(&self) -> usize {
         match self {
-            Quad::Patch(quad) => quad.patch as usize,
-            Quad::Cap(cap, _) => cap.chart as usize,
+            SurfaceQuad::Patch(quad) => quad.patch as usize,
+            SurfaceQuad::Cap(cap, _) => cap.chart as usize,
         }
     }
 
-    /// The place of (s, t).
+    /// The place at (s, t).
     pub fn place(&self, at: [f64; 2]) -> Parameter {
         let (cap, k) = match self {
-            Quad::Patch(quad) => return quad.place(at),
-            Quad::Cap(cap, k) => (cap, *k),
+            SurfaceQuad::Patch(quad) => return quad.place(at),
+            SurfaceQuad::Cap(cap, k) => (cap, *k),
         };
         let [s, t] = at.map(dense);
         let mut weights = [s * t / 3.0; 3];

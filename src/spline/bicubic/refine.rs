@@ -1,59 +1,61 @@
-//! Patches that are made, measured, and made again with more spans where they miss the spline.
+//! The refinement of bicubic patches: they are made, measured, and made again with more spans where they miss the spline.
 
 use super::angles::{self, CurveFigures, NormalAngles};
 use super::cubic::{interpolate, uniform};
 
-use super::net::Net;
-use super::outcome::{Bicubic, BicubicOptions};
-use super::quad::Quad;
-use super::sample::{At, PARTS, Sample, WITHIN, grid, within};
+use super::net::TriangleNet;
+use super::outcome::{BicubicFit, BicubicOptions};
+use super::quad::SurfaceQuad;
+use super::sample::{PARTS, QuadPlace, QuadSample, WITHIN, grid, within};
 use super::surface::{BicubicPatch, BicubicSurface, PatchCurve, PatchSide};
 use super::tangents::with_common_planes;
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::vector::{Vector, distance};
-use crate::spline::patch::Parameter;
-use crate::spline::point::SurfacePoint;
-use crate::spline::surface::Spline;
+use crate::spline::triangular::{Parameter, Spline, SurfacePoint};
 
-/// Most spans along a side: a spline that needs more is rough or the tolerance is near its rounding errors. A distance that needs more is
-/// an error, an angle is reported.
+/// Most spans along a side: a spline that needs more is rough, or the tolerance is near its rounding errors. If a distance needs more, that
+/// is an error; an angle is only reported.
 const MOST_SPANS: usize = 128;
-/// Share of the tolerance that is used up: between the places of measurement distances were up to 15 % larger.
+/// Share of the tolerance that is allowed at the places of measurement: between them distances were up to 15 % larger.
 const SHARE: f64 = 0.8;
-/// Places that are evaluated at a time: 10 MB of points.
+/// Number of places evaluated at a time: 10 MB of points.
 const BATCH: usize = 1 << 16;
 
-/// What is known on the way.
-pub(super) struct Work<'a> {
+/// The state of the refinement.
+pub(super) struct BicubicRefinement<'a> {
     spline: &'a Spline,
     options: BicubicOptions,
     control: &'a Control,
-    net: Net,
-    /// Number 3 f + k is at corner k of triangle f.
-    quads: Vec<Quad>,
-    /// Per vertex the spans of all halves of sides that lie across from it.
+    net: TriangleNet,
+    /// The quadrilaterals; number 3 f + k is at corner k of triangle f.
+    quads: Vec<SurfaceQuad>,
+    /// For each vertex the number of spans of all halves of sides that lie across from it.
     spans: Vec<usize>,
-    samples: Vec<Sample>,
+    samples: Vec<QuadSample>,
     surface: BicubicSurface,
     diagonal: f64,
-    /// Per quadrilateral its largest distance from the spline.
+    /// For each quadrilateral its largest distance from the spline.
     misses: Vec<f64>,
-    /// Per curve what is measured on it.
+    /// For each curve its measured figures.
     figures: Vec<CurveFigures>,
     rounds: usize,
 }
 
-impl<'a> Work<'a> {
-    /// Everything but control points.
-    pub fn new(spline: &'a Spline, options: BicubicOptions, control: &'a Control) -> Result<Work<'a>> {
+impl<'a> BicubicRefinement<'a> {
+    /// The start: points, quadrilaterals and curves with one span, without control points.
+    pub fn new(
+        spline: &'a Spline,
+        options: BicubicOptions,
+        control: &'a Control,
+    ) -> Result<BicubicRefinement<'a>> {
         let triangles = spline.triangles();
         let n = triangles.len();
         if n == 0 {
             return Err(Error::argument("patches of the spline", 0, "1 or more"));
         }
-        let net = Net::new(spline)?;
-        let quads = Quad::all(spline, &triangles);
+        let net = TriangleNet::new(spline)?;
+        let quads = SurfaceQuad::all(spline, &triangles);
         let place = |&(f, k): &(u32, usize), at: [f64; 2]| quads[3 * f as usize + k].place(at);
         let places: Vec<Parameter> = (net.corners.iter().map(|at| place(at, [0.0, 0.0])))
             .chain(net.owners.iter().map(|at| place(at, [1.0, 0.0])))
@@ -64,9 +66,9 @@ impl<'a> Work<'a> {
         let surface = skeleton(&net, points);
         let (spans, misses) = (vec![1; net.corners.len()], vec![0.0; quads.len()]);
         let figures = vec![CurveFigures::default(); surface.curves.len()];
-        let samples = vec![Sample::default(); quads.len()];
+        let samples = vec![QuadSample::default(); quads.len()];
         let (diagonal, rounds) = (surface.diagonal(), 0);
-        Ok(Work {
+        Ok(BicubicRefinement {
             spline,
             options,
             control,
@@ -82,7 +84,7 @@ impl<'a> Work<'a> {
         })
     }
 
-    /// Make the patches, and those again that miss the spline or fold against their neighbours, with twice the spans.
+    /// Makes the patches; those that miss the spline, or fold against their neighbours, are made again with twice the spans.
     ///
     /// # Errors
     /// Those of [`Spline::to_bicubic`].
@@ -109,12 +111,12 @@ impl<'a> Work<'a> {
         Ok(())
     }
 
-    /// The patches with their figures.
-    pub fn finish(self) -> Result<Bicubic> {
+    /// Checks the patches and returns them with their figures.
+    pub fn finish(self) -> Result<BicubicFit> {
         self.surface.check()?;
         let least = self.spans.iter().copied().min().unwrap_or(0);
         let most = self.spans.iter().copied().max().unwrap_or(0);
-        Ok(Bicubic {
+        Ok(BicubicFit {
             distance: self.misses.iter().copied().fold(0.0, f64::max) / self.diagonal,
             angles: NormalAngles::of(&self.figures),
             surface: self.surface,
@@ -124,7 +126,7 @@ impl<'a> Work<'a> {
         })
     }
 
-    /// The vertices that say how many spans a quadrilateral has along s and along t.
+    /// The vertices whose numbers of spans a quadrilateral has along s and along t.
     fn across(&self, q: usize) -> [usize; 2] {
         [1, 2].map(|k| self.net.vertices[q / 3][(q + k) % 3] as usize)
     }
@@ -133,9 +135,9 @@ impl<'a> Work<'a> {
         self.across(q).map(|v| self.spans[v])
     }
 
-    /// The quadrilaterals that must be finer.
+    /// The quadrilaterals that need more spans.
     fn failing(&self) -> Vec<usize> {
-        // A distance that is no number fails too.
+        // A distance that is NaN fails too.
         let is_near = |&miss: &f64| miss <= SHARE * self.options.tolerance * self.diagonal;
         let mut fails: Vec<bool> = self.misses.iter().map(|miss| !is_near(miss)).collect();
         for (of, figures) in self.surface.uses().iter().zip(&self.figures) {
@@ -158,7 +160,7 @@ impl<'a> Work<'a> {
     }
 
     /// The spline at places of quadrilaterals, with derivatives up to `order`.
-    fn evaluate(&self, at: &[At], order: usize) -> Result<Vec<SurfacePoint>> {
+    fn evaluate(&self, at: &[QuadPlace], order: usize) -> Result<Vec<SurfacePoint>> {
         let places: Vec<Parameter> = at.iter().map(|&(q, place)| self.quads[q].place(place)).collect();
         self.spline.evaluate(&places, order, self.options.threads, self.control)
     }
@@ -166,20 +168,20 @@ impl<'a> Work<'a> {
     fn sample(&mut self, quads: &[usize]) -> Result<()> {
         for batch in self.batches(quads) {
             let places = |&q: &usize| grid(self.spans_of(q)).map(move |place| (q, place));
-            let at: Vec<At> = batch.iter().flat_map(places).collect();
+            let at: Vec<QuadPlace> = batch.iter().flat_map(places).collect();
             let points: Vec<Vector> = self.evaluate(&at, 0)?.iter().map(|found| found.point).collect();
             let mut rest = &points[..];
             for &q in batch {
                 let [m, n] = self.spans_of(q);
                 let (here, later) = rest.split_at((PARTS * m + 1) * (PARTS * n + 1));
                 rest = later;
-                self.samples[q] = Sample::new(here, [m, n]);
+                self.samples[q] = QuadSample::new(here, [m, n]);
             }
         }
         Ok(())
     }
 
-    /// Curves and patches from the samples; which patches have changed.
+    /// Makes curves and patches from the samples; returns the patches that have changed.
     fn set_patches(&mut self) -> Vec<usize> {
         let across = with_common_planes(&mut self.surface, &self.samples);
         let mut changed = Vec::new();
@@ -197,19 +199,19 @@ impl<'a> Work<'a> {
         changed
     }
 
-    /// Distances between the interpolated points, and what curves have there.
+    /// Measures distances between the interpolated points, and the figures of curves.
     fn measure(&mut self, quads: &[usize]) -> Result<()> {
         for batch in self.batches(quads) {
             let cells = |&q: &usize| {
                 let [m, n] = self.spans_of(q);
-                within(n).flat_map(move |t| within(m).map(move |s| (q, [s, t]))).collect::<Vec<At>>()
+                within(n).flat_map(move |t| within(m).map(move |s| (q, [s, t]))).collect::<Vec<QuadPlace>>()
             };
-            let at: Vec<At> = batch.iter().flat_map(cells).collect();
+            let at: Vec<QuadPlace> = batch.iter().flat_map(cells).collect();
             let found = self.evaluate(&at, 0)?;
             batch.iter().for_each(|&q| self.misses[q] = 0.0);
             for ((q, place), found) in at.into_iter().zip(&found) {
                 let miss = distance(self.surface.patches[q].evaluate(place).point, found.point);
-                // NaN stays, and fails.
+                // A NaN stays, and fails.
                 self.misses[q] = if miss > self.misses[q] || miss.is_nan() { miss } else { self.misses[q] };
             }
         }
@@ -222,7 +224,7 @@ impl<'a> Work<'a> {
         let uses = self.surface.uses();
         for batch in curves.chunks(BATCH / (2 * WITHIN.len() * MOST_SPANS)) {
             for (&curve, figures) in
-                batch.iter().zip(angles::measure(&self.surface, (batch, &uses), |at| self.evaluate(at, 1))?)
+                batch.iter().zip(angles::measure(&self.surface, batch, &uses, |at| self.evaluate(at, 1))?)
             {
                 uses[curve].iter().for_each(|&(q, _)| self.misses[q] = self.misses[q].max(figures.miss));
                 self.figures[curve] = figures;
@@ -231,16 +233,17 @@ impl<'a> Work<'a> {
         Ok(())
     }
 
-    /// Quadrilaterals in groups with about [`BATCH`] places.
+    /// The quadrilaterals in groups with about [`BATCH`] places.
     fn batches<'q>(&self, quads: &'q [usize]) -> std::slice::Chunks<'q, usize> {
         let largest = quads.iter().flat_map(|&q| self.spans_of(q)).max().unwrap_or(1);
         quads.chunks((BATCH / (PARTS * largest + 1).pow(2)).max(1))
     }
 }
 
-/// The points, curves and patches of a net, with no control points yet. Points: corners, middles of sides, centroids. Curves: the halves
-/// 2 e and 2 e + 1 of side e, from its begin and its end to its middle; then three per triangle, from the middles to the centroid.
-fn skeleton(net: &Net, points: Vec<Vector>) -> BicubicSurface {
+/// The points, curves and patches of a net, without control points. Points are corners, middles of sides, centroids. Curves are the halves
+/// 2 e and 2 e + 1 of each side e, from its begin and its end to its middle; then three for each triangle, from the middles to the
+/// centroid.
+fn skeleton(net: &TriangleNet, points: Vec<Vector>) -> BicubicSurface {
     let [corners, edges] = [net.corners.len() as u32, net.owners.len() as u32];
     let halves = net.owners.iter().enumerate().flat_map(|(e, &(f, k))| {
         let of = net.vertices[f as usize];
@@ -269,8 +272,8 @@ fn skeleton(net: &Net, points: Vec<Vector>) -> BicubicSurface {
     BicubicSurface { points, curves, patches: (0..3 * net.sides.len()).map(patch).collect() }
 }
 
-/// The control points of the bicubic that interpolates points and derivatives: first along s, then along t.
-fn tensor(Sample { points, twists, .. }: &Sample, across: &[Vec<Vector>; 4]) -> Vec<Vec<Vector>> {
+/// The control points of the bicubic that interpolates the points and derivatives of a sample: first along s, then along t.
+fn tensor(QuadSample { points, twists, .. }: &QuadSample, across: &[Vec<Vector>; 4]) -> Vec<Vec<Vector>> {
     let row = |j: usize| interpolate(&points[j], [across[3][j], across[1][j]]);
     let rows: Vec<Vec<Vector>> = (0..points.len()).map(row).collect();
     let ends =

@@ -9,9 +9,9 @@ use step_io::model as m;
 use step_io::scene::{NurbsCurve, NurbsSurface};
 use step_io::{Ap242Author, AuthorError, Orientation, StepBuilder, StepModel};
 
-/// What every file says of when it was made, so that the same patches give the same bytes.
+/// The time stamp of every file: fixed, so that the same patches give the same bytes.
 const TIME_STAMP: &str = "2000-01-01T00:00:00Z";
-/// Over the diagonal: points nearer than this are one to a reader. Common curves and points agree to the last bit.
+/// Distance, over the diagonal, below which a reader may take two points as one. Common curves and points agree to the last bit.
 const UNCERTAINTY: f64 = 1e-7;
 
 type Authored<T> = std::result::Result<T, AuthorError>;
@@ -26,7 +26,7 @@ pub enum LengthUnit {
     Metre,
 }
 
-/// What a STEP file says beside the patches.
+/// Options of STEP files.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct StepOptions {
     /// The name of the part.
@@ -36,11 +36,11 @@ pub struct StepOptions {
 }
 
 impl BicubicSurface {
-    /// Write the patches as STEP AP242: each part that closes up as a solid, with normals outwards, the others as shells of one surface
-    /// model. The same patches give the same bytes.
+    /// Writes the patches as STEP AP242. Each part that closes up becomes a solid with outward normals; the others become shells of one
+    /// surface model. The same patches give the same bytes.
     ///
     /// # Errors
-    /// Those of [`BicubicSurface::check`]; [`Error::Io`], without a path, where `out` takes no more.
+    /// Those of [`BicubicSurface::check`]; [`Error::Io`], without a path, if writing to `out` fails.
     pub fn write_step(&self, options: &StepOptions, out: &mut impl Write) -> Result<()> {
         self.check()?;
         let model = self.step_model(options).map_err(|why| {
@@ -73,7 +73,7 @@ impl BicubicSurface {
         for patches in self.parts() {
             let sides = || patches.iter().flat_map(|&at| &self.patches[at].sides);
             let is_closed = sides().all(|side| uses[side.curve as usize].len() == 2);
-            // What the volume says of a closed part: normals of a solid point outwards.
+            // Normals of a solid point outwards, which its signed volume tells.
             let sense = if is_closed && self.volume(&patches) < 0.0 {
                 Orientation::Reversed
             } else {
@@ -90,13 +90,13 @@ impl BicubicSurface {
             }
         }
         if !open.is_empty() {
-            add_shells(&mut builder, part, (open, &options.name), &units)?;
+            add_shells(&mut builder, part, open, &options.name, &units)?;
         }
         Ok(builder.finish())
     }
 }
 
-/// A face over a patch. Against its sense the loop is run backwards.
+/// Adds a face over a patch. With a reversed sense the loop runs backwards.
 fn face(
     builder: &mut StepBuilder,
     patch: &BicubicPatch,
@@ -105,17 +105,18 @@ fn face(
 ) -> Authored<m::AdvancedFaceId> {
     let side = |reversed: bool| if reversed { Orientation::Reversed } else { Orientation::Forward };
     let edges = patch.sides.iter().map(|of| (edges[of.curve as usize], side(of.reversed))).collect();
-    // The loop runs around the surface's own normal; the face's flags turn both at once.
+    // The loop runs counterclockwise around the surface's own normal; the face's flags turn both at once.
     let bound = FaceBoundInput { edges, outer: true, orientation: sense };
     builder.face(SurfaceInput::Nurbs(nurbs_surface(patch)), sense, vec![bound])
 }
 
-/// Open shells as one surface model of the part. The builder has solids alone, so its own representation of such a part holds no more than
-/// the origin, and this one is a second with the same units.
+/// Adds open shells as one surface model of the part. The builder knows solids only, and its own representation of such a part holds no
+/// more than the origin; so this is a second representation with the same units.
 fn add_shells(
     builder: &mut StepBuilder,
     part: Part,
-    (shells, name): (Vec<Vec<m::AdvancedFaceId>>, &str),
+    shells: Vec<Vec<m::AdvancedFaceId>>,
+    name: &str,
     units: &UnitsInput,
 ) -> Authored<()> {
     let shape = builder.part_ids(part).shape;
@@ -139,7 +140,7 @@ fn add_shells(
     Ok(())
 }
 
-/// A geometric context in three dimensions with these units and radians.
+/// Adds a geometric context in three dimensions with these units and radians.
 fn context(author: &mut Ap242Author, units: &UnitsInput) -> Authored<m::ComplexEntityId> {
     let prefix = (units.length == step_io::build::LengthUnit::Millimetre).then_some(m::SiPrefix::Milli);
     let named = || m::PartialEntity::NamedUnit { dimensions: None };

@@ -1,51 +1,54 @@
-//! Surfaces of bicubic patches.
+//! Surfaces of bicubic patches that share curves and points.
 
 use super::cubic::{DEGREE, LOCAL, basis, combined, curve_at};
 use crate::error::{Error, Result};
 use crate::geometry::vector::{Vector, cross, diagonal, dot};
 use crate::mesh::union_find::UnionFind;
-use crate::spline::point::SurfacePoint;
+use crate::spline::triangular::SurfacePoint;
 
-/// A cubic B-spline curve over [0, 1], a side of one patch or of two.
+/// A cubic B-spline curve over [0, 1]: a side of one patch or of two.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "json", derive(serde::Serialize, serde::Deserialize))]
 pub struct PatchCurve {
-    /// The points of the surface at which it begins and ends: its first and last control point.
+    /// The points of the surface at which the curve begins and ends: its first and last control point.
     pub ends: [u32; 2],
-    /// Clamped: 0 four times, then ascending, then 1 four times.
+    /// Clamped knots: 0 four times, then ascending, then 1 four times.
     pub knots: Vec<f64>,
-    /// Four fewer than knots.
+    /// The control points, four fewer than knots.
     pub control: Vec<Vector>,
 }
 
 /// A side of a patch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "json", derive(serde::Serialize, serde::Deserialize))]
 pub struct PatchSide {
-    /// The curve.
+    /// The number of its curve.
     pub curve: u32,
-    /// Whether the curve runs against the way around the patch.
+    /// True if the curve runs against the way around the patch.
     pub reversed: bool,
 }
 
 /// A bicubic B-spline patch over [0, 1]²; its normal is ∂s × ∂t.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "json", derive(serde::Serialize, serde::Deserialize))]
 pub struct BicubicPatch {
-    /// The patch of the spline that it is a third of, and at which corner; numbers after those of the patches are the triangles around a
-    /// vertex at infinity.
+    /// The patch of the spline that it is a third of, and the number of the corner there; numbers after those of the patches are cap
+    /// triangles at infinity.
     pub source: (u32, usize),
-    /// Clamped knots in s and in t.
+    /// The clamped knots in s and in t.
     pub knots: [Vec<f64>; 2],
-    /// `control[i][j]`: i along s, j along t.
+    /// The control points `control[i][j]`, i along s, j along t.
     pub control: Vec<Vec<Vector>>,
-    /// The way around: from (0, 0) over (1, 0), (1, 1), (0, 1). The control points of a side are those of its curve, bit for bit.
+    /// The sides along the way around (0, 0), (1, 0), (1, 1), (0, 1). The control points of a side are those of its curve, bit for bit.
     pub sides: [PatchSide; 4],
 }
 
 /// Bicubic patches that meet along common curves.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct BicubicSurface {
-    /// Where curves end.
+    /// The points at which curves end.
     pub points: Vec<Vector>,
-    /// The sides of patches, each once.
+    /// The curves, each once.
     pub curves: Vec<PatchCurve>,
     /// The patches.
     pub patches: Vec<BicubicPatch>,
@@ -68,7 +71,7 @@ impl BicubicPatch {
         SurfacePoint { point: at(0, 0), first: [at(1, 0), at(0, 1)], second: [at(2, 0), at(1, 1), at(0, 2)] }
     }
 
-    /// The place on a side, as far along the way around.
+    /// The place on a side at a share of the way along it, in the direction around the patch.
     pub fn on_side(side: usize, x: f64) -> [f64; 2] {
         [[x, 0.0], [1.0, x], [1.0 - x, 1.0], [0.0, 1.0 - x]][side % 4]
     }
@@ -83,7 +86,7 @@ impl BicubicPatch {
             _ => self.control[0].clone(),
         };
         let mut knots = self.knots[side % 2].clone();
-        // The sides 2 and 3 run against their parameter.
+        // Sides 2 and 3 run against their parameter.
         if (side % 4 >= 2) != reversed {
             control.reverse();
             knots = knots.iter().rev().map(|x| 1.0 - x).collect();
@@ -91,7 +94,7 @@ impl BicubicPatch {
         (knots, control)
     }
 
-    /// Give a side the control points of its curve.
+    /// Replaces the control points of a side by those of its curve.
     pub(super) fn set_side(&mut self, k: usize, curve: &PatchCurve) {
         let [m, n] = [self.control.len() - 1, self.control[0].len() - 1];
         let against = (k >= 2) != self.sides[k].reversed;
@@ -107,12 +110,12 @@ impl BicubicPatch {
         }
     }
 
-    /// The points of the surface at its corners (0, 0), (1, 0), (1, 1), (0, 1).
+    /// The points at the corners (0, 0), (1, 0), (1, 1), (0, 1).
     pub fn corners(&self, curves: &[PatchCurve]) -> [u32; 4] {
         self.sides.map(|side| curves[side.curve as usize].ends[usize::from(side.reversed)])
     }
 
-    /// Whether side k has the control points and the knots of its curve.
+    /// True if side k has the control points and the knots of its curve.
     fn has_curve(&self, k: usize, curves: &[PatchCurve]) -> bool {
         let PatchSide { curve, reversed } = self.sides[k];
         let PatchCurve { knots, control, .. } = &curves[curve as usize];
@@ -123,7 +126,7 @@ impl BicubicPatch {
 }
 
 impl BicubicSurface {
-    /// Per curve the patches that have it, and which of their sides it is.
+    /// For each curve the patches that have it, each with the number of the side.
     pub fn uses(&self) -> Vec<Vec<(usize, usize)>> {
         let mut uses = vec![Vec::new(); self.curves.len()];
         for (at, patch) in self.patches.iter().enumerate() {
@@ -132,12 +135,12 @@ impl BicubicSurface {
         uses
     }
 
-    /// Whether every curve is a side of two patches.
+    /// True if every curve is a side of two patches.
     pub fn is_closed(&self) -> bool {
         self.uses().iter().all(|of| of.len() == 2)
     }
 
-    /// The connected parts, each as its patches, ascending.
+    /// The connected parts, each as its patches in ascending order.
     pub fn parts(&self) -> Vec<Vec<usize>> {
         let mut sets = UnionFind::new(self.patches.len());
         for of in self.uses() {
@@ -154,18 +157,18 @@ impl BicubicSurface {
         diagonal(&self.points)
     }
 
-    /// The number of control points of all patches, those of common sides once for each.
+    /// The number of control points of all patches; those of common sides count once for each patch.
     pub fn n_control_points(&self) -> usize {
         self.patches.iter().flat_map(|patch| &patch.control).map(Vec::len).sum()
     }
 
-    /// How many sides of patches differ from their curve by a bit of a knot or a control point: watertight is 0.
+    /// The number of sides of patches that differ from their curve by a bit of a knot or a control point; 0 if the surface is watertight.
     pub fn open_sides(&self) -> usize {
         let open = |patch: &BicubicPatch| (0..4).filter(|&k| !patch.has_curve(k, &self.curves)).count();
         self.patches.iter().map(open).sum()
     }
 
-    /// The volume inside some patches that close up, positive where normals point outwards: by the tetrahedra over the nets of control
+    /// The signed volume inside some patches that close up, positive if normals point outwards, by tetrahedra over the nets of control
     /// points.
     pub fn volume(&self, part: &[usize]) -> f64 {
         let sixfold = |[a, b, c]: [Vector; 3]| dot(a, cross(b, c));
@@ -182,8 +185,8 @@ impl BicubicSurface {
         part.iter().map(|&at| cells(&self.patches[at])).sum::<f64>() / 6.0
     }
 
-    /// That numbers fit together, everything is finite, knots are clamped, neighbours turn the same way, and sides are their curves bit for
-    /// bit.
+    /// Checks that numbers fit together, everything is finite, knots are clamped, neighbours have the same orientation, and sides are their
+    /// curves bit for bit.
     ///
     /// # Errors
     /// [`Error::Spline`], which names the curve or patch.

@@ -1,22 +1,25 @@
-//! Tangent planes that neighbouring patches have in common.
+//! Common tangent planes of neighbouring patches.
 
 use super::cubic::{interpolate, uniform};
-use super::sample::Sample;
+use super::sample::QuadSample;
 use super::surface::BicubicSurface;
 use crate::geometry::vector::{Vector, add, cross, dot, normalised, scale, sub};
 
-/// Least cosine of the angle between a normal and the mean of those that meet there for the mean to be taken: more than 0.2 rad is a crease
-/// of the spline, which stays.
+/// Least cosine of the angle between normals and their mean for the mean to be taken: an angle of more than 0.2 rad is a crease of the
+/// spline, which stays.
 const CREASE: f64 = 0.98;
 
-/// The curves of a surface, and per patch the derivatives across its sides: from samples, with a common tangent plane where patches meet,
-/// at the ends of spans.
-pub(super) fn with_common_planes(surface: &mut BicubicSurface, samples: &[Sample]) -> Vec<[Vec<Vector>; 4]> {
+/// Sets the curves of a surface from samples, and returns for each patch the derivatives across its sides at the ends of spans, with a
+/// common tangent plane where patches meet.
+pub(super) fn with_common_planes(
+    surface: &mut BicubicSurface,
+    samples: &[QuadSample],
+) -> Vec<[Vec<Vector>; 4]> {
     let normals = point_normals(surface, samples);
     let uses = surface.uses();
     let mut across: Vec<[Vec<Vector>; 4]> = samples.iter().map(|sample| sample.across.clone()).collect();
     for (at, of) in uses.iter().enumerate() {
-        // Curves run along growing s or t of the first patch that has them.
+        // A curve runs along growing s or t of the first patch that has it.
         let (first, side) = of[0];
         let mut values = samples[first].along(side);
         let mut ends = samples[first].ends(side);
@@ -39,7 +42,7 @@ pub(super) fn with_common_planes(surface: &mut BicubicSurface, samples: &[Sample
                 );
             }
         }
-        // At its ends a curve is what crosses the sides that meet it there.
+        // The derivative of a curve at its end is the derivative across the side that meets it there.
         for &(q, k) in of {
             let backwards = runs_backwards(surface, (q, k));
             let ends = if backwards { [ends[1], ends[0]].map(|d| scale(-1.0, d)) } else { ends };
@@ -54,19 +57,19 @@ pub(super) fn with_common_planes(surface: &mut BicubicSurface, samples: &[Sample
     across
 }
 
-/// Whether a side has its curve against growing s or t.
+/// True if the curve of a side runs against growing s or t.
 fn runs_backwards(surface: &BicubicSurface, (q, k): (usize, usize)) -> bool {
     (k >= 2) != surface.patches[q].sides[k].reversed
 }
 
-/// The entry along a side of what is at the end of span i of its curve.
+/// The index along a side of the end of span i of its curve.
 fn along(surface: &BicubicSurface, of: (usize, usize), i: usize, spans: usize) -> usize {
     if runs_backwards(surface, of) { spans - i } else { i }
 }
 
-/// Turn the derivatives across a curve, of the two patches with their sides and entries, into the mean of the two tangent planes.
+/// Projects the derivatives across a curve, given by patch, side and index for its two patches, to the mean of their tangent planes.
 fn share_plane(sides: [(usize, usize, usize); 2], tangent: Vector, across: &mut [[Vec<Vector>; 4]]) {
-    // Derivatives point into the one patch and out of the other, or both in: the normals agree up to their sign.
+    // Derivatives point into one patch and out of the other, or into both, so the normals agree up to sign.
     let derivative = |across: &[[Vec<Vector>; 4]], (q, k, i): (usize, usize, usize)| across[q][k][i];
     let [a, b] = sides.map(|of| normalised(cross(tangent, derivative(across, of))));
     let b = if dot(a, b) < 0.0 { scale(-1.0, b) } else { b };
@@ -79,8 +82,8 @@ fn share_plane(sides: [(usize, usize, usize); 2], tangent: Vector, across: &mut 
     }
 }
 
-/// Per point the mean of the normals of the patches that meet there; none at creases.
-fn point_normals(surface: &BicubicSurface, samples: &[Sample]) -> Vec<Option<Vector>> {
+/// For each point the mean of the normals of the patches that meet there; none at creases.
+fn point_normals(surface: &BicubicSurface, samples: &[QuadSample]) -> Vec<Option<Vector>> {
     let mut all = vec![Vec::new(); surface.points.len()];
     for (patch, sample) in surface.patches.iter().zip(samples) {
         for (k, point) in patch.corners(&surface.curves).into_iter().enumerate() {
@@ -94,7 +97,7 @@ fn point_normals(surface: &BicubicSurface, samples: &[Sample]) -> Vec<Option<Vec
     all.iter().map(mean).collect()
 }
 
-/// The part of a vector in the plane of a normal.
+/// The projection of a vector to the plane orthogonal to a normal.
 fn beside(vector: Vector, normal: Vector) -> Vector {
     sub(vector, scale(dot(vector, normal), normal))
 }

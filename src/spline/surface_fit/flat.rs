@@ -1,0 +1,241 @@
+//! Flat metrics of surfaces, over which splines are fitted: by the flow, by a holomorphic 1-form, or a sphere as a plane.
+
+use super::pole::{evenest_vertex, from_pole};
+use crate::canonical::{Boundary, Corners, SphereOptions, uniformize_sphere};
+use crate::control::Control;
+use crate::embed::FaceTransitions;
+use crate::error::{Error, Result};
+use crate::flow::{self, Solution, flow};
+use crate::geometry::Space;
+use crate::geometry::complex::{Complex, cross, distance, norm, norm2};
+use crate::harmonic::{ComplexForm, Domain, FormsOptions, HarmonicForms, even_combination, with_conjugate};
+use crate::mesh::{Mesh, PerEdge, PerVertex, VertexId};
+use crate::metric::curvature::curvature;
+use crate::metric::{Class, Surface, Target};
+use crate::parallel::Pool;
+use crate::structure::{AffineSource, singular_vertex};
+use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
+
+/// Largest curvature, in radians, of a vertex that counts as flat: above what a converged flow leaves, and its rounding.
+pub(super) const FLAT: f64 = 1e-7;
+
+/// Options of [`FlatMetric::new`].
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct FlatMetricOptions {
+    /// The flow, with all curvature at one vertex, or a holomorphic 1-form with its 2g − 2 zeros. Default: the flow.
+    pub source: AffineSource,
+    /// The vertex with the curvature. Default: the one that distorts areas least; on a sphere, the one around which the factor between the
+    /// surface and its conformal image varies least.
+    pub singular: Option<VertexId>,
+    /// The corners of the boundary of a disk. Default: four right angles.
+    pub corners: Corners,
+    /// Tolerance, threads and further options of the flow.
+    pub flow: flow::Options,
+}
+
+/// A flat metric of a surface: a triangulation with edge lengths.
+#[derive(Debug, Clone)]
+pub struct FlatMetric {
+    /// The triangulation. Its first vertices are those of the surface, in order; the others lie on edges of the surface.
+    pub mesh: Arc<Mesh>,
+    /// The lengths of its edges; infinite at a vertex at infinity.
+    pub lengths: PerEdge<f64>,
+    /// For a sphere the positions of its vertices in the plane, one of them at infinity.
+    pub plane: Option<PerVertex<Complex>>,
+}
+
+impl FlatMetric {
+    /// A flat metric in the conformal class of a surface.
+    ///
+    /// A sphere becomes a plane with one vertex at infinity, where its curvature 4π is. By the flow, a closed surface of genus 1 is flat
+    /// everywhere; others have their whole curvature 2πχ at one vertex. Boundaries become straight except for the corners of a disk, which
+    /// has no singular vertex. By a holomorphic 1-form ω, for closed surfaces of genus 1 and more, lengths are |ω| on the intrinsic
+    /// Delaunay triangulation, and vertices at zeros of order k have the curvature −2πk.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for a form on a closed surface of genus 0, a singular vertex where there is none, or on the boundary;
+    /// [`Error::Layout`] for a form that turns triangles over, or a flow that does not converge; those of [`flow()`], [`uniformize_sphere`]
+    /// and [`HarmonicForms::new`]; [`Error::Cancelled`].
+    pub fn new(surface: &Surface, options: &FlatMetricOptions, control: &Control) -> Result<FlatMetric> {
+        let mesh = surface.mesh();
+        if mesh.is_closed() && mesh.euler() > 0 {
+            return FlatMetric::of_sphere(surface, options, control);
+        }
+        if options.source == AffineSource::Form {
+            return FlatMetric::by_form(surface, options, control);
+        }
+        let target = target(surface, options, control)?;
+        let flat = flow(surface.clone(), Class::yamabe(Space::E2), &target, &options.flow, control)?;
+        if !flat.converged() {
+            let error = flat.report().map_or(f64::NAN, |report| report.max_curvature_error);
+            return Err(not_converged(error, options.flow.tolerance));
+        }
+        FlatMetric::of(&flat, control)
+    }
+
+    /// The flat metric that a flow found; for a surface that was doubled, on its given half.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for a metric that is not Euclidean; those of [`Solution::refinement`].
+    pub fn of(flat: &Solution, control: &Control) -> Result<FlatMetric> {
+        if flat.metric().space != Space::E2 {
+            return Err(Error::argument("metric", flat.metric().space, "flat, of the Euclidean plane"));
+        }
+        if flat.double().is_none() {
+            return Ok(FlatMetric {
+                mesh: flat.mesh().clone(),
+                lengths: flat.metric().lengths(flat.mesh())?,
+                plane: None,
+            });
+        }
+        let refinement = Arc::new(flat.refinement(control)?);
+        let steps = FaceTransitions::new(flat, Some(&refinement))?;
+        let mut lengths = PerEdge::filled(steps.mesh.n_edges(), 0.0);
+        for f in steps.mesh.faces() {
+            let at = steps.corners[f].map(|[x, y, _]| [x, y]);
+            for (k, h) in steps.mesh.face_halfedges(f).into_iter().enumerate() {
+                lengths[h.edge()] = distance(at[k], at[(k + 1) % 3]);
+            }
+        }
+        Ok(FlatMetric { mesh: steps.mesh, lengths, plane: None })
+    }
+
+    /// The plane with a vertex at infinity, by stereographic projection of the uniformized sphere.
+    fn of_sphere(surface: &Surface, options: &FlatMetricOptions, control: &Control) -> Result<FlatMetric> {
+        if options.source == AffineSource::Form {
+            let need = "of genus 1 or more, for a metric by a holomorphic form: a sphere has none";
+            return Err(Error::argument("surface", "closed, of genus 0", need));
+        }
+        let flow::Options { tolerance, max_iterations, threads, .. } = options.flow;
+        let options = SphereOptions { tolerance, max_iterations, puncture: options.singular, threads };
+        let sphere = uniformize_sphere(surface, &options, control)?;
+        if !sphere.report.converged {
+            return Err(not_converged(sphere.report.max_curvature_error, tolerance));
+        }
+        let mesh = sphere.metric.mesh().clone();
+        let plane = match options.puncture {
+            Some(_) => sphere.plane,
+            None => from_pole(&sphere.positions, evenest_vertex(surface, &mesh, &sphere.positions)),
+        };
+        let lengths = PerEdge::from_fn(mesh.n_edges(), |e| {
+            let ends = mesh.ends(e).map(|v| plane[v]);
+            if ends.as_flattened().iter().all(|x| x.is_finite()) {
+                distance(ends[0], ends[1])
+            } else {
+                f64::INFINITY
+            }
+        });
+        Ok(FlatMetric { mesh, lengths, plane: Some(plane) })
+    }
+
+    /// Edge lengths that are comparable everywhere: the flat ones, or for a plane with a vertex at infinity the chords of the unit sphere
+    /// that projects to it.
+    pub(super) fn finite_lengths(&self) -> PerEdge<f64> {
+        let Some(plane) = &self.plane else { return self.lengths.clone() };
+        let shrink = |z: Complex| 2.0 / (1.0 + norm2(z)).sqrt();
+        PerEdge::from_fn(self.mesh.n_edges(), |e| match self.mesh.ends(e).map(|v| plane[v]) {
+            [z, w] if !z[0].is_finite() => shrink(w),
+            [z, w] if !w[0].is_finite() => shrink(z),
+            [z, w] => 0.5 * distance(z, w) * shrink(z) * shrink(w),
+        })
+    }
+
+    /// The singular vertices inside the surface, ascending.
+    ///
+    /// # Errors
+    /// Those of [`FlatMetric::curvature`].
+    pub fn singular(&self) -> Result<Vec<VertexId>> {
+        let curvature = self.curvature()?;
+        let is_cone = |v: &VertexId| !self.mesh.is_boundary_vertex(*v) && curvature[*v].abs() > FLAT;
+        Ok(self.mesh.vertices().filter(is_cone).collect())
+    }
+
+    /// The metric |ω| of a holomorphic 1-form with zeros of small order.
+    fn by_form(surface: &Surface, options: &FlatMetricOptions, control: &Control) -> Result<FlatMetric> {
+        if !surface.mesh().is_closed() {
+            return Err(Error::argument(
+                "surface",
+                "with boundary",
+                "closed, for a metric by a holomorphic form",
+            ));
+        }
+        if let Some(v) = options.singular {
+            return Err(Error::argument(
+                "singular vertex",
+                v,
+                "left out: a form has its zeros where they are",
+            ));
+        }
+        let domain = Domain::new(surface, control)?;
+        let form = Pool::new(options.flow.threads)?.run(|| {
+            let forms = HarmonicForms::new(&domain, &FormsOptions::default(), control)?;
+            with_conjugate(&forms, &forms, &even_combination(&forms, control)?)
+        })?;
+        FlatMetric::of_form(domain.mesh(), &form)
+    }
+
+    /// The metric |ω| of a given holomorphic 1-form ω.
+    ///
+    /// # Errors
+    /// [`Error::Layout`] for triangles that ω turns over.
+    pub fn of_form(mesh: &Arc<Mesh>, form: &ComplexForm) -> Result<FlatMetric> {
+        let is_upright = |f: &crate::mesh::FaceId| {
+            let [p, q, _] = mesh.face_halfedges(*f).map(|h| form.along(h));
+            cross(p, q) > 0.0
+        };
+        let wrong = mesh.faces().filter(|f| !is_upright(f)).count();
+        if let Some(f) = mesh.faces().find(|f| !is_upright(f)) {
+            return Err(Error::Layout(format!(
+                "the holomorphic form turns {wrong} triangles over, triangle {f} among them, so that |ω| is no metric there: refine the surface, or take the flow"
+            )));
+        }
+        let lengths =
+            PerEdge::from_fn(mesh.n_edges(), |e: crate::mesh::EdgeId| norm(form.along(e.halfedge())));
+        Ok(FlatMetric { mesh: mesh.clone(), lengths, plane: None })
+    }
+
+    /// The curvature at each vertex; of a plane, 4π at infinity and 0 elsewhere.
+    ///
+    /// # Errors
+    /// Those of [`curvature()`].
+    pub fn curvature(&self) -> Result<PerVertex<f64>> {
+        if let Some(plane) = &self.plane {
+            let at = |v: VertexId| if plane[v][0].is_finite() { 0.0 } else { 2.0 * TAU };
+            return Ok(PerVertex::from_fn(plane.len(), at));
+        }
+        Ok(curvature(&self.mesh, Space::E2, &self.lengths)?.at)
+    }
+}
+
+fn not_converged(error: f64, tolerance: f64) -> Error {
+    Error::Layout(format!(
+        "the flow to the flat metric did not converge: curvatures miss by {error:e}, asked for {tolerance:e}"
+    ))
+}
+
+/// The target curvatures of the flow.
+fn target(surface: &Surface, options: &FlatMetricOptions, control: &Control) -> Result<Target> {
+    let mesh = surface.mesh();
+    let is_disk = mesh.euler() > 0;
+    if let Some(v) = options.singular {
+        let why = match () {
+            _ if mesh.euler() == 0 || is_disk => "left out: this surface has none",
+            _ if v.index() >= mesh.n_vertices() => "a vertex of the surface, numbered from 0",
+            _ if mesh.is_boundary_vertex(v) => "inside the surface",
+            _ => "",
+        };
+        if !why.is_empty() {
+            return Err(Error::argument("singular vertex", v, why));
+        }
+    }
+    let mut curvatures = PerVertex::filled(mesh.n_vertices(), 0.0);
+    if is_disk {
+        let boundary = Boundary::Straight(options.corners.clone());
+        boundary.corners(surface)?.into_iter().for_each(|(v, angle)| curvatures[v] = PI - angle);
+    } else if mesh.euler() < 0 {
+        let v = singular_vertex(surface, options.singular, options.flow.threads, control)?;
+        curvatures[v] = TAU * mesh.euler() as f64;
+    }
+    Ok(Target::All(curvatures))
+}

@@ -1,0 +1,130 @@
+//! The search for patches in which a spline folds.
+
+use super::domain::SurfaceDomain;
+use crate::control::Control;
+use crate::error::Result;
+use crate::geometry::complex::{Complex, add, scale, sub};
+use crate::geometry::vector::{Vector, cross, dot, norm};
+use crate::mesh::FaceId;
+use crate::spline::{Hole, Parameter, Spline};
+
+/// Steps of the grid along a side of a patch.
+const STEPS: usize = 12;
+/// Distance of the grid from sides and corners, in steps, so that places are inside their patch and not at its singular vertex.
+const INSET: f64 = 0.01;
+/// Largest angle, in degrees, between the normals at neighbouring places of the grid that is not a fold: at sharp ridges of scanned
+/// surfaces, angles up to 45 were measured.
+const TURN: f64 = 60.0;
+
+impl SurfaceDomain {
+    /// The patches in which a spline over this domain folds: its normals turn by more than 60 degrees between neighbouring places of a
+    /// grid, which are at most a twelfth of a side apart. Around a singular vertex they are also at most as far apart in the coordinate in
+    /// which the vertex is a regular point.
+    ///
+    /// # Errors
+    /// [`crate::Error::Spline`] for a spline over another domain; [`crate::Error::Cancelled`].
+    pub fn folds(&self, spline: &Spline, threads: usize, control: &Control) -> Result<Vec<usize>> {
+        let mesh = &self.coarse().mesh;
+        let singular: Vec<_> = self.singular().into_iter().zip(spline.holes()).collect();
+        let places = |f: FaceId| {
+            let around = mesh.face_vertices(f);
+            let at = |k: usize| {
+                let (_, hole) = singular.iter().find(|(v, _)| *v == around[k])?;
+                Some((k, Some(*hole)))
+            };
+            let (k, hole) = (0..3).find_map(at).unwrap_or((0, None));
+            let corners = [0, 1, 2].map(|j| self.corners(f)[(k + j) % 3]);
+            grid(f.0, corners, hole)
+        };
+        let grids: Vec<Vec<Parameter>> = mesh.faces().map(places).collect();
+        let found = spline.evaluate(&grids.concat(), 1, threads, control)?;
+        let normals: Vec<Vector> = found.iter().map(|at| cross(at.first[0], at.first[1])).collect();
+        let mut rest = &normals[..];
+        let is_folded = |grid: &Vec<Parameter>| {
+            let (of, later) = rest.split_at(grid.len());
+            rest = later;
+            is_folded(of)
+        };
+        let folded: Vec<bool> = grids.iter().map(is_folded).collect();
+        Ok((0..folded.len()).filter(|&patch| folded[patch]).collect())
+    }
+}
+
+/// True if the normals at two neighbouring places of a grid differ by too large an angle.
+fn is_folded(normals: &[Vector]) -> bool {
+    let (side, limit) = (STEPS + 1, TURN.to_radians());
+    let turn = |a: Vector, b: Vector| norm(cross(a, b)).atan2(dot(a, b));
+    let next = |at: usize| [(at % side + 1 < side, at + 1), (at + side < normals.len(), at + side)];
+    let turns =
+        |at: usize| next(at).iter().any(|&(is_there, to)| is_there && turn(normals[at], normals[to]) > limit);
+    (0..normals.len()).any(turns)
+}
+
+/// The grid in a triangle, in rows from its first corner, where the vertex of `hole` is, to the opposite side. Places where the filling
+/// alone is the surface are in the chart of the hole, since differences from a corner have few digits in the chart of the patch.
+fn grid(patch: u32, [a, b, c]: [Complex; 3], hole: Option<&Hole>) -> Vec<Parameter> {
+    let place = |[x, y]: Complex| Parameter { patch, x, y };
+    let at = |row: f64, column: usize| {
+        let column = (column as f64 + INSET) / (STEPS as f64 + 2.0 * INSET);
+        let end = add(scale(1.0 - column, sub(b, a)), scale(column, sub(c, a)));
+        let inside = hole.and_then(|hole| hole.near_vertex([place(a), place(add(a, end))], row));
+        let turns = hole.map_or(1, |hole| hole.turns);
+        inside.unwrap_or_else(|| place(add(a, scale(row.powi(turns), end))))
+    };
+    let rows = rows(hole.map_or(1, |hole| hole.turns));
+    rows.into_iter()
+        .flat_map(|row| (0..=STEPS).map(move |column| (row, column)))
+        .map(|(r, c)| at(r, c))
+        .collect()
+}
+
+/// The rows of the grid of a triangle with m turns at its first corner, as values of |w| = |z|^(1/m): steps are at most a twelfth in w and
+/// in z.
+fn rows(turns: i32) -> Vec<f64> {
+    let step = 1.0 / (STEPS as f64 + 2.0 * INSET);
+    let [first, last] = [INSET * step, 1.0 - INSET * step];
+    let next = |row: &f64| {
+        let of_z = (row.powi(turns) + step).powf(1.0 / f64::from(turns));
+        (*row < last).then_some(of_z.min(row + step).min(last))
+    };
+    std::iter::successors(Some(first), next).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::spline::Sector;
+
+    /// At a vertex with any number of turns, neighbouring rows are at most a twelfth apart, in w and in z = wᵐ.
+    #[test]
+    fn rows_are_near_each_other_in_both_coordinates() {
+        for turns in [1, 2, 3, 5, 31] {
+            let rows = rows(turns);
+            let most =
+                |power: i32| rows.windows(2).map(|w| w[1].powi(power) - w[0].powi(power)).fold(0.0, f64::max);
+            let twelfth = 1.0 / STEPS as f64;
+            assert!(most(1) <= twelfth && most(turns) <= twelfth, "{turns}: {rows:?}");
+            assert!(rows[0] > 0.0 && rows[rows.len() - 1] < 1.0 && rows.len() > STEPS, "{turns}: {rows:?}");
+        }
+    }
+
+    /// Places near a vertex of five turns are in the chart of its hole, those farther away in the patch.
+    #[test]
+    fn places_near_a_vertex_are_in_the_chart_of_its_hole() {
+        let corners = [[1.0, 1.0], [2.0, 1.0], [1.5, 2.0]];
+        let sector = Sector { patch: 3, angle: 0.2, to: [[1.0, 0.0, -1.0], [0.0, 1.0, -1.0]] };
+        let hole = Hole::new(7, vec![sector], 5, 0.4).unwrap().blank(25);
+        let places = grid(3, corners, Some(&hole));
+        let inside: Vec<_> = places.iter().filter(|at| at.patch == 7).collect();
+        assert!(!inside.is_empty() && inside.len() < places.len());
+        // |w| = (|z| / 0.4)^(1/5): up to 0.8.
+        assert!(inside.iter().all(|at| at.x.hypot(at.y) <= hole.inner));
+        let beyond = places.iter().filter(|at| at.patch == 3);
+        let far = |at: &Parameter| ((at.x - 1.0).hypot(at.y - 1.0) / 0.4).powf(0.2);
+        assert!(
+            beyond.clone().all(|at| far(at) > hole.inner - 1e-9),
+            "{:?}",
+            beyond.map(far).fold(9.0, f64::min)
+        );
+    }
+}
