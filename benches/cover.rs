@@ -41,8 +41,9 @@ fn round(mesh: &Arc<Mesh>, given: &Quotient, flat: &Solution) -> [f64; 7] {
     let metric = &given.metric;
     let lengths = metric.metric().lengths(mesh).unwrap();
     let base = given.basis.base;
-    let refinement = Arc::new(metric.refinement(&control).unwrap());
-    let flat_refinement = (!flat.is_unflipped()).then(|| Arc::new(flat.refinement(&control).unwrap()));
+    let subdivision = Arc::new(metric.common_subdivision(&control).unwrap());
+    let flat_subdivision =
+        (!flat.is_unflipped()).then(|| Arc::new(flat.common_subdivision(&control).unwrap()));
     let mut seconds = [0.0; 7];
     let mut job = 0;
     let mut lap = Instant::now();
@@ -57,7 +58,7 @@ fn round(mesh: &Arc<Mesh>, given: &Quotient, flat: &Solution) -> [f64; 7] {
     let options = LayoutOptions { opening, scale, root, ..LayoutOptions::default() };
     let layout = Layout::of_solution(metric, &options, &control).unwrap();
     done(&mut lap);
-    let refined = layout.on_refinement(&refinement, metric.metric(), &control).unwrap();
+    let refined = layout.on_subdivision(&subdivision, metric.metric(), &control).unwrap();
     done(&mut lap);
     let basis = homotopy_basis(mesh, &lengths, Some(base), &control).unwrap();
     done(&mut lap);
@@ -68,7 +69,7 @@ fn round(mesh: &Arc<Mesh>, given: &Quotient, flat: &Solution) -> [f64; 7] {
     let sum: f64 = copies.iter().map(|g| moved(&refined.points, &g.motion)[0][2]).sum();
     assert!(sum.is_finite());
     done(&mut lap);
-    let options = LayoutOptions { refinement: flat_refinement, ..LayoutOptions::default() };
+    let options = LayoutOptions { subdivision: flat_subdivision, ..LayoutOptions::default() };
     assert!(Layout::of_solution(flat, &options, &control).unwrap().broken.is_empty());
     done(&mut lap);
     seconds
@@ -101,7 +102,7 @@ fn main() {
         let final_mesh = given.metric.mesh().clone();
         let (class, target) = (Class::yamabe(Space::E2), Target::Single(CONE));
         let flat = flow(surface.clone(), class, &target, &Options::default(), &Control::new()).unwrap();
-        let n_flat = flat.refinement(&Control::new()).unwrap().mesh.n_faces();
+        let n_flat = flat.common_subdivision(&Control::new()).unwrap().mesh.n_faces();
         let pool = Pool::new(0).unwrap();
         let rounds: Vec<[f64; 7]> =
             (0..ROUNDS).map(|_| pool.run(|| round(&final_mesh, &given, &flat))).collect();

@@ -11,7 +11,7 @@ use ricci::geometry::Space;
 use ricci::geometry::packing::pack;
 use ricci::geometry::triangle_overlap::overlapping;
 use ricci::mesh::{Curves, FixedEdges, Flip, Mesh, NormalCoordinates, PerEdge, PerVertex, VertexId, shapes};
-use ricci::metric::delaunay::{ClassFlips, IntrinsicOptions, Queue, intrinsic_delaunay};
+use ricci::metric::delaunay::{ClassFlips, FlipQueue, IntrinsicOptions, intrinsic_delaunay};
 use ricci::metric::{Scheme, Triangulated, delaunay_start, initial_metric};
 use ricci::topology::{cut_graph, farthest_vertices, homology_generators, shortest_paths};
 use ricci::{Class, Control, Error, Flow, Result, Target};
@@ -54,7 +54,7 @@ fn a_cancelled_control_stops_every_stage() {
     assert!(before == (made.mesh().clone(), made.metric().clone()));
     let now = made.solve(&target, &free).unwrap();
     assert!(now.converged());
-    is_cancelled("refinement", now.refinement(&stop));
+    is_cancelled("subdivision", now.common_subdivision(&stop));
     let normal = NormalCoordinates::new(mesh);
     is_cancelled("Curves::trace", Curves::trace(mesh, &normal, &stop));
     let cones = [VertexId(3), VertexId(700)];
@@ -118,7 +118,8 @@ fn flips_that_are_cancelled_on_their_way_leave_the_surface() {
     let mut metric = initial_metric(&mesh, &lengths, Space::E2, Class::yamabe(Space::E2)).unwrap().metric;
     metric.u = PerVertex::from_fn(mesh.n_vertices(), |v: VertexId| (v.index() as f64).sin());
     let vertices = metric.vertices();
-    let (mut m, mut queue, control) = (mesh.clone(), Queue::all(&mesh, &FixedEdges::none()), Control::new());
+    let (mut m, mut queue, control) =
+        (mesh.clone(), FlipQueue::all(&mesh, &FixedEdges::none()), Control::new());
     let mut record = |_: &Mesh, _: Flip<_>| control.cancel();
     is_cancelled(
         "restore_delaunay",

@@ -370,7 +370,7 @@ fn layouts_of_real_surfaces_come_apart() {
     }
 }
 
-/// All curvature at a single vertex, on surfaces of high genus, laid out on the common refinement: e^40 between the scales.
+/// All curvature at a single vertex, on surfaces of high genus, laid out on the common subdivision: e^40 between the scales.
 #[test]
 fn layouts_with_a_single_cone_come_apart_into_few_charts() {
     let Some(soups) = common::named("good", &["elephant_2775", "holes_7b", "casting"]) else { return };

@@ -9,7 +9,7 @@ use ricci::geometry::conformal::Vertex;
 use ricci::geometry::flip::diagonal;
 use ricci::geometry::{DoubleDouble, Space};
 use ricci::mesh::{EdgeId, FixedEdges, Mesh, PerEdge, PerVertex, shapes};
-use ricci::metric::delaunay::{ClassFlips, IntrinsicOptions, Queue, failing, intrinsic_delaunay};
+use ricci::metric::delaunay::{ClassFlips, FlipQueue, IntrinsicOptions, failing, intrinsic_delaunay};
 use ricci::metric::{Class, Initial, Scheme, StartOptions, Triangulated, delaunay_start};
 use ricci::{Control, Error};
 
@@ -141,7 +141,7 @@ fn arguments_of_the_wrong_size_are_errors() {
         let error = intrinsic_delaunay(&mut surface, circles, &mut |_, _| {}, &control).unwrap_err();
         assert!(matches!(error, Error::Size { .. }), "{error}");
         let mut metric = start(&(mesh.clone(), lengths.clone()), Space::E2, Scheme::Yamabe).1.metric;
-        let mut queue = Queue::all(&mesh, &fixed);
+        let mut queue = FlipQueue::all(&mesh, &fixed);
         let mut flips = ClassFlips { mesh: &mut mesh.clone(), metric: &mut metric, record: &mut |_, _| {} };
         let error = flips.restore_delaunay(&vertices, &mut queue, &control).unwrap_err();
         assert!(matches!(error, Error::Size { .. }), "{error}");

@@ -251,7 +251,7 @@ fn extended(mesh: &Mesh, metric: &Metric, u: Vec<f64>) -> Option<(Vec<f64>, usiz
     Some((k.at.into_vec(), k.broken.len()))
 }
 
-/// Where along `u + t direction` the first triangle breaks: the t, to rounding. `None` where none does within reach, or an edge loses
+/// The t, to rounding, at which the first triangle along `u + t direction` breaks. `None` where none does within reach, or an edge loses
 /// its length first.
 fn breaking_point(mesh: &Mesh, metric: &Metric, direction: &[f64]) -> Option<f64> {
     let broken = |t: f64| {

@@ -1,4 +1,4 @@
-//! With edge flips every admissible target is reached: the corpus.
+//! Tests on the corpus that edge flips make every admissible target reachable.
 #![allow(clippy::unwrap_used, clippy::print_stdout, clippy::print_stderr)]
 
 mod common;

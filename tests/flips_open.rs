@@ -1,4 +1,4 @@
-//! Surfaces with boundary flow on one copy for as long as that gives what their double gives.
+//! Tests that surfaces with boundary flow on one copy as long as the result is that of the double.
 #![allow(clippy::unwrap_used, clippy::print_stdout, clippy::print_stderr)]
 
 mod common;

@@ -10,7 +10,7 @@ use ricci::flow::{Flips, Options, StopReason};
 use ricci::geometry::Space;
 use ricci::mesh::io::Soup;
 use ricci::mesh::{EdgeId, Mesh, PerEdge, PerVertex, VertexId, shapes};
-use ricci::metric::{Metric, Refinement, Scheme, initial_metric};
+use ricci::metric::{CommonSubdivision, Metric, Scheme, initial_metric};
 use ricci::{Class, Control, Error, Flow, Target};
 use std::f64::consts::PI;
 use std::time::Duration;
@@ -36,8 +36,8 @@ fn cones(mesh: &Mesh, seed: u64) -> PerVertex<f64> {
     target
 }
 
-fn everything(flow: &Flow) -> (Mesh, Metric, Refinement) {
-    (Mesh::clone(flow.mesh()), flow.metric().clone(), flow.refinement(&Control::new()).unwrap())
+fn everything(flow: &Flow) -> (Mesh, Metric, CommonSubdivision) {
+    (Mesh::clone(flow.mesh()), flow.metric().clone(), flow.common_subdivision(&Control::new()).unwrap())
 }
 
 #[test]

@@ -8,7 +8,7 @@ use ricci::embed::{CirclePattern, Layout, LayoutOpening, LayoutOptions, Quality}
 use ricci::flow::{Options, flow};
 use ricci::geometry::{PlaneIsometry, Space, vector};
 use ricci::mesh::{EdgeId, FaceId, Mesh, PerEdge, VertexId, shapes};
-use ricci::metric::Refinement;
+use ricci::metric::CommonSubdivision;
 use ricci::topology::cut_graph;
 use ricci::{Class, Control, Error, Solution, Surface, Target};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -274,19 +274,19 @@ fn quality_of_an_affine_stretch_is_the_ratio_of_its_factors() {
     }
 }
 
-/// The refinement of an icosphere by itself, and its positions as they are on the sphere.
-fn round_sphere(subdivisions: usize) -> (Surface, Refinement) {
+/// The subdivision of an icosphere by itself, and its positions as they are on the sphere.
+fn round_sphere(subdivisions: usize) -> (Surface, CommonSubdivision) {
     let surface = Surface::from_soup(&shapes::icosphere(subdivisions).unwrap()).unwrap();
     let metric = Solution::initial_of(surface.clone(), Class::yamabe(Space::E2)).unwrap();
-    (surface, metric.refinement(&Control::new()).unwrap())
+    (surface, metric.common_subdivision(&Control::new()).unwrap())
 }
 
 #[test]
 fn quality_on_the_sphere_is_that_of_the_chords() {
-    let (surface, refinement) = round_sphere(6);
+    let (surface, subdivision) = round_sphere(6);
     let (mesh, positions) = (surface.mesh(), surface.positions().unwrap());
     let corners = |f| mesh.face_vertices(f).map(|v| positions[v.index()]);
-    let q = Quality::on_sphere(&refinement, mesh, surface.lengths(), corners).unwrap();
+    let q = Quality::on_sphere(&subdivision, mesh, surface.lengths(), corners).unwrap();
     assert!(q.degenerate.is_empty() && q.qc_max < 1.0 + 1e-12);
     assert!(q.area_ratio_min > 1.0 - 1e-11 && q.area_ratio_max < 1.0 + 1e-11);
 
@@ -297,7 +297,7 @@ fn quality_on_the_sphere_is_that_of_the_chords() {
         let [p, q] = mesh.ends(e).map(|v| stretch(positions[v.index()]));
         vector::distance(p, q)
     });
-    let q = Quality::on_sphere(&refinement, mesh, &long, corners).unwrap();
+    let q = Quality::on_sphere(&subdivision, mesh, &long, corners).unwrap();
     let normal = |p| vector::norm(vector::triangle_normal(p));
     for f in mesh.faces() {
         let ratio = normal(corners(f).map(stretch)) / normal(corners(f));
@@ -309,14 +309,14 @@ fn quality_on_the_sphere_is_that_of_the_chords() {
 
 #[test]
 fn pieces_too_small_for_positions_on_the_sphere_are_degenerate() {
-    let (surface, refinement) = round_sphere(2);
+    let (surface, subdivision) = round_sphere(2);
     let (mesh, positions) = (surface.mesh(), surface.positions().unwrap());
     let small = |f: FaceId| {
         let [a, b, c] = mesh.face_vertices(f).map(|v| positions[v.index()]);
         let near = |p| vector::lerp(a, p, if f.0 == 3 { 1e-8 } else { 1.0 });
         if f.0 == 5 { [a, b, vector::lerp(a, b, 0.5)] } else { [a, near(b), near(c)] }
     };
-    let q = Quality::on_sphere(&refinement, mesh, surface.lengths(), small).unwrap();
+    let q = Quality::on_sphere(&subdivision, mesh, surface.lengths(), small).unwrap();
     assert_eq!(q.degenerate, [FaceId(3), FaceId(5)]);
     assert_eq!([q.qc[FaceId(3)], q.qc[FaceId(5)]], [DILATATION_CAP; 2]);
     assert!(q.qc_max < 1.0 + 1e-12 && q.qc_mean < 1.0 + 1e-12);

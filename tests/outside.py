@@ -96,7 +96,7 @@ def check_uv(name, path, source, metric):
     area = (e[2][:, 0] * e[0][:, 1] - e[2][:, 1] * e[0][:, 0]) / 2
     longest = np.max([(x * x).sum(1) for x in e], axis=0)
     if len(v) > len(v0) or f.shape != f0.shape or (f != f0).any():
-        # The common refinement: pieces of the input's faces.
+        # The common subdivision: pieces of the input's faces.
         off = on_edges(v[len(v0) :], v0, f0)
         check(name + " crossings", off <= 1e-9 * size, f"{off} off the input's edges")
         check(name + " orientation", (area >= -1e-12 * longest).all(), f"{(area < -1e-12 * longest).sum()} flipped")

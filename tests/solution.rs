@@ -1,4 +1,4 @@
-//! What a flow's solution and report say of it: the tolerance asked for, rounding floors, cones, and the same from one line as from
+//! Tests the solution and the report of a flow: the tolerance asked for, rounding floors, cones, and the same from one line as from
 //! the object.
 #![allow(clippy::unwrap_used, clippy::print_stdout, clippy::print_stderr)]
 
@@ -6,7 +6,7 @@ mod common;
 
 use common::Random;
 use common::flips::{SCHEMES, honest};
-use ricci::flow::{Options, Report, Seconds, StopReason, flow};
+use ricci::flow::{FlowSeconds, Options, Report, StopReason, flow};
 use ricci::geometry::Space;
 use ricci::mesh::{PerVertex, VertexId, shapes};
 use ricci::metric::Scheme;
@@ -19,7 +19,7 @@ fn solved(surface: &Surface, class: Class, target: &Target, options: &Options) -
 
 /// The report without its times, which differ from run to run.
 fn timeless(solution: &Solution) -> Report {
-    Report { seconds: Seconds::default(), ..solution.report().unwrap().clone() }
+    Report { seconds: FlowSeconds::default(), ..solution.report().unwrap().clone() }
 }
 
 /// Inversive distance in H² is carried in doubles: no metric has less error than about 1e-15.
@@ -65,7 +65,10 @@ fn one_line_gives_what_the_object_gives() {
         assert_eq!(bits(&one), bits(&other), "{scheme}");
         assert_eq!(timeless(&one), timeless(&other), "{scheme}");
         assert_eq!((one.flips(), one.cones()), (other.flips(), other.cones()));
-        assert!(one.refinement(&control).unwrap() == other.refinement(&control).unwrap(), "{scheme}");
+        assert!(
+            one.common_subdivision(&control).unwrap() == other.common_subdivision(&control).unwrap(),
+            "{scheme}"
+        );
     }
 }
 

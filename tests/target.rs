@@ -1,4 +1,4 @@
-//! Which targets have a metric: admissibility before the flow, and what a flow says that cannot succeed.
+//! Tests which targets have a metric: admissibility before the flow, and the report of a flow that cannot succeed.
 #![allow(clippy::unwrap_used, clippy::print_stderr)]
 
 mod common;

@@ -45,9 +45,9 @@ fn check(mesh: &Mesh, layout: &Layout, what: &str) {
         let joined = index(h) == index(mesh.next(t)) && index(mesh.next(h)) == index(t);
         assert!(joined || on_input.cut.is_cut[e], "{what}: edge {e}");
     }
-    if let Some(r) = layout.refinement() {
+    if let Some(r) = layout.common_subdivision() {
         for e in r.mesh.edges().filter(|&e| layout.cut.is_cut[e]) {
-            assert!(r.origin[e].input.is_some_and(|e| on_input.cut.is_cut[e]), "{what}: edge {e}");
+            assert!(r.edge(0, e).is_some_and(|e| on_input.cut.is_cut[e]), "{what}: edge {e}");
         }
     }
     let corners = layout.corner_uv().unwrap();
@@ -141,7 +141,7 @@ fn layouts_in_the_plane_are_cut_along_the_inputs_edges() {
             let layout = Layout::of_solution(&result, &with_cones(&cones), &Control::new()).unwrap();
             let what = format!("{name}, flips {flips:?}, {} of them", result.flips());
             check(mesh, &layout, &what);
-            assert_eq!(layout.refinement().is_some(), !result.is_unflipped());
+            assert_eq!(layout.common_subdivision().is_some(), !result.is_unflipped());
             let given_area = area(mesh, Space::E2, &surface.1).unwrap();
             assert!((layout.area / given_area - 1.0).abs() < 1e-12, "{what}");
             let options = LayoutOptions { scale: LayoutScale::AsSolved, ..with_cones(&cones) };
@@ -186,9 +186,9 @@ fn layouts_in_the_hyperbolic_plane_are_cut_along_the_inputs_edges() {
     }
 }
 
-/// A layout of a refinement and one of the metric's triangulation about the same vertex agree near that vertex.
+/// A layout of a subdivision and one of the metric's triangulation about the same vertex agree near that vertex.
 #[test]
-fn refinements_lie_as_their_final_faces_do() {
+fn subdivisions_lie_as_their_final_faces_do() {
     let surface = surface(&shapes::genus(2, 3).unwrap());
     let result = flow_to(&surface, Space::H2, &PerVertex::filled(surface.0.n_vertices(), 0.0), Flips::Auto);
     let control = Control::new();

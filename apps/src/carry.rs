@@ -2,7 +2,7 @@
 
 use crate::input::Input;
 use ricci::mesh::Point;
-use ricci::metric::Refinement;
+use ricci::metric::CommonSubdivision;
 use std::collections::HashMap;
 
 /// The colours and normals of the written mesh; empty for none.
@@ -14,34 +14,34 @@ pub struct CarriedAttributes {
     pub face_normals: Vec<[u32; 3]>,
 }
 
-/// The colours and normals for the input's own mesh or a `refinement` of it. Values at crossings are interpolated along the input's edge,
+/// The colours and normals for the input's own mesh or a `subdivision` of it. Values at crossings are interpolated along the input's edge,
 /// those at corners in the input's face, so that both look as in the input. Normals are not made unit vectors, which keeps the direction
 /// of the interpolated ones.
-pub fn carry(input: &Input, refinement: Option<&Refinement>) -> ricci::Result<CarriedAttributes> {
+pub fn carry(input: &Input, subdivision: Option<&CommonSubdivision>) -> ricci::Result<CarriedAttributes> {
     let given = &input.attributes;
     let mut carried = CarriedAttributes::default();
     if let Some(colors) = &given.colors {
-        carried.colors = at_vertices(refinement, colors)?;
+        carried.colors = at_vertices(subdivision, colors)?;
     }
     match (&given.corner_normals, &given.normals) {
         (Some(corners), _) => {
-            let corners = match refinement {
-                Some(r) => &r.from_input_corners(corners)?,
+            let corners = match subdivision {
+                Some(r) => &r.from_corners(0, corners)?,
                 None => corners,
             };
             (carried.normals, carried.face_normals) = numbered(corners);
         }
-        (None, Some(normals)) => carried.normals = at_vertices(refinement, normals)?,
+        (None, Some(normals)) => carried.normals = at_vertices(subdivision, normals)?,
         (None, None) => {}
     }
     Ok(carried)
 }
 
 fn at_vertices<const N: usize>(
-    refinement: Option<&Refinement>,
+    subdivision: Option<&CommonSubdivision>,
     values: &[[f64; N]],
 ) -> ricci::Result<Vec<[f64; N]>> {
-    refinement.map_or_else(|| Ok(values.to_vec()), |r| r.from_input_vertices(values))
+    subdivision.map_or_else(|| Ok(values.to_vec()), |r| r.from_vertices(0, values))
 }
 
 /// The attributes of the input that the written file has no place for.

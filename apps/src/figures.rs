@@ -39,7 +39,7 @@ impl Figures {
     /// The distortion of the surface by a layout; null where there is none.
     ///
     /// Faces without area in the input or the layout are `degenerate_pieces`, which the qc figures leave out; with charts also faces that
-    /// are smaller than the coordinates of the unit square resolve. `crossings` counts the vertices of the refinement beyond the input's.
+    /// are smaller than the coordinates of the unit square resolve. `crossings` counts the vertices of the subdivision beyond the input's.
     pub fn distortion(self, laid: Option<&SurfaceLayout>) -> Figures {
         let quality = laid.map(|laid| &laid.quality);
         self.if_some("flipped_input_faces", laid.and_then(|l| l.on_input.as_ref()).map(|o| o.flipped.len()))
@@ -48,7 +48,7 @@ impl Figures {
             .with("area_ratio_min", quality.map(|q| q.area_ratio_min))
             .with("area_ratio_max", quality.map(|q| q.area_ratio_max))
             .with("degenerate_pieces", laid.map(|laid| laid.degenerate.len()))
-            .with("crossings", laid.and_then(SurfaceLayout::refinement).map(|r| r.crossings.len()))
+            .with("crossings", laid.and_then(SurfaceLayout::common_subdivision).map(|r| r.crossings.len()))
     }
 
     /// The options that failed, with the reasons, and what the input's file holds and the file with the layout has no place for.

@@ -150,7 +150,7 @@ fn check_options(args: &FlowArgs) -> Result<(), Failure> {
         ),
         (
             on_input && (args.charts || args.homogeneous),
-            "--on input: charts and homogeneous coordinates belong to the refinement; leave --on, or them, out",
+            "--on input: charts and homogeneous coordinates belong to the subdivision; leave --on, or them, out",
         ),
         (
             args.picture.base.is_svg() && args.picture.base.is_turned(),

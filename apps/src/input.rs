@@ -12,7 +12,7 @@ use ricci::control::Stage;
 use ricci::geometry::Space;
 use ricci::mesh::io::{self, Attributes, Soup};
 use ricci::mesh::{Mesh, Point};
-use ricci::metric::{Refinement, Split};
+use ricci::metric::{CommonSubdivision, Split};
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
@@ -168,13 +168,13 @@ impl Input {
         self.surface.positions().map(|positions| positions.as_slice())
     }
 
-    /// The positions of the vertices of the input's own mesh, or of a `refinement` of it.
+    /// The positions of the vertices of the input's own mesh, or of a `subdivision` of it.
     ///
     /// # Errors
     /// [`Failure::Failed`] for an intrinsic metric.
-    pub fn positions_on(&self, refinement: Option<&Refinement>) -> Result<Vec<Point>, Failure> {
+    pub fn positions_on(&self, subdivision: Option<&CommonSubdivision>) -> Result<Vec<Point>, Failure> {
         let given = self.positions().ok_or_else(Failure::no_positions)?;
-        Ok(refinement.map_or_else(|| Ok(given.to_vec()), |r| r.from_input_vertices(given))?)
+        Ok(subdivision.map_or_else(|| Ok(given.to_vec()), |r| r.from_vertices(0, given))?)
     }
 
     /// Refuse the vertex of an option that the surface does not have.

@@ -93,7 +93,7 @@ pub struct MetricArgs {
     /// Write the surface with its layout as texture coordinates (E²; H² of closed surfaces), .obj or .glb
     #[arg(long, value_name = "OUT.obj")]
     pub uv: Option<FileName>,
-    /// Faces of --uv: those of the common refinement, on which the map is exact, or the input's own
+    /// Faces of --uv: those of the common subdivision, on which the map is exact, or the input's own
     #[arg(long, value_enum, value_name = "FACES", default_value_t = OnChoice::Refined)]
     pub on: OnChoice,
     /// Write where the faces and vertices of --uv lie in the input's, numbered from 0: rows output_face,source_face, then
@@ -190,7 +190,7 @@ choices!(FlipsChoice = Flips { Auto, Never });
 #[derive(clap::ValueEnum, serde::Serialize, Debug, Clone, Copy, PartialEq, Default)]
 #[serde(rename_all = "lowercase")]
 pub enum OnChoice {
-    /// Those of the common refinement with the final triangulation: the map as it is
+    /// Those of the common subdivision with the final triangulation: the map as it is
     #[default]
     Refined,
     /// The input's own: the map made linear on each

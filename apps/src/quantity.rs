@@ -7,7 +7,7 @@ use crate::surface_layout::SurfaceLayout;
 use ricci::geometry::triangle;
 use ricci::geometry::vector::{cross, dot, norm, sub, triangle_normal};
 use ricci::mesh::{FaceId, Mesh, PerFace, PerVertex, Point};
-use ricci::metric::Refinement;
+use ricci::metric::CommonSubdivision;
 use ricci::metric::curvature::{curvature, curvature_from_angles};
 
 /// The quantity of a finished flow; `None` for no quantity, and for one of the layout where the flow has no layout.
@@ -42,12 +42,12 @@ pub fn of_flow(choice: ColorChoice, outcome: &FlowOutcome) -> Option<ColorField>
 /// Pieces in colours: a hue for the face of the final triangulation, a shade for that of the input. Faces side by side differ.
 fn pieces(laid: &SurfaceLayout) -> ColorField {
     let mesh = laid.mesh();
-    let parts = |of: fn(&Refinement) -> &PerFace<FaceId>| match laid.refinement() {
-        Some(refinement) => of(refinement).clone(),
+    let parts = |of: fn(&CommonSubdivision) -> &PerFace<FaceId>| match laid.common_subdivision() {
+        Some(subdivision) => of(subdivision).clone(),
         None => mesh.faces().collect::<Vec<_>>().into(),
     };
-    let hue = classes(mesh, &parts(|r| &r.final_face));
-    let shade = classes(mesh, &parts(|r| &r.input_face));
+    let hue = classes(mesh, &parts(|r| &r.faces[1]));
+    let shade = classes(mesh, &parts(|r| &r.faces[0]));
     let values: Vec<f64> = hue.iter().zip(shade).map(|(hue, shade)| (CLASSES * hue + shade) as f64).collect();
     let title = "hue by face of the final triangulation, shade by face of the input";
     at_faces(&values, ColorScale::of_pairs(title, "what a face of each has in common is a piece"))
@@ -78,11 +78,11 @@ const CURVATURE: &str = "Gaussian curvature K (1/length²)";
 
 /// Values at given vertices, at those of what is laid out.
 fn on_layout(given: &[f64], laid: Option<&SurfaceLayout>) -> Option<PerVertex<f64>> {
-    let Some(refinement) = laid.and_then(|laid| laid.refinement()) else {
+    let Some(subdivision) = laid.and_then(|laid| laid.common_subdivision()) else {
         return Some(given.to_vec().into());
     };
     let given: Vec<[f64; 1]> = given.iter().map(|x| [*x]).collect();
-    let all = refinement.from_input_vertices(&given).ok()?;
+    let all = subdivision.from_vertices(0, &given).ok()?;
     Some(all.into_iter().map(|[x]| x).collect::<Vec<_>>().into())
 }
 

@@ -7,12 +7,12 @@ use ricci::control::Stage;
 use ricci::embed::{Charts, Layout, LayoutOptions, OnInput, Quality};
 use ricci::flow::Solution;
 use ricci::mesh::{FaceId, HalfedgeId, Mesh, PerHalfedge, PerVertex, Point, VertexId};
-use ricci::metric::Refinement;
+use ricci::metric::CommonSubdivision;
 use ricci::parallel::{fill, within};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// Most crossings per edge with which the common refinement is formed even where only the summary shows it: it then takes no more time
+/// Most crossings per edge with which the common subdivision is formed even where only the summary shows it: it then takes no more time
 /// than the flow.
 const FEW_CROSSINGS: usize = 16;
 
@@ -42,7 +42,7 @@ pub struct SurfaceLayout {
     /// The layout cut into charts, where that was asked for.
     pub packed: Option<PackedCharts>,
     pub quality: Quality,
-    /// The pieces of the refinement whose image has almost no area, or the faces without area in the input or the layout; in charts also
+    /// The pieces of the subdivision whose image has almost no area, or the faces without area in the input or the layout; in charts also
     /// those that are smaller than the coordinates of the unit square resolve.
     pub degenerate: Vec<FaceId>,
     /// The modulus τ of a flat torus.
@@ -57,11 +57,11 @@ pub fn lay_out(
     control: &Control,
 ) -> ricci::Result<SurfaceLayout> {
     control.step(Stage::Layout, 0.0)?;
-    let mut refinement = None;
+    let mut subdivision = None;
     if !solution.is_unflipped() {
-        refinement = Some(Arc::new(timed(&mut seconds.refine, || solution.refinement(control))?));
+        subdivision = Some(Arc::new(timed(&mut seconds.refine, || solution.common_subdivision(control))?));
     }
-    let options = LayoutOptions { refinement, ..LayoutOptions::default() };
+    let options = LayoutOptions { subdivision, ..LayoutOptions::default() };
     timed(&mut seconds.layout, || {
         let layout = Layout::of_solution(solution, &options, control)?;
         within(solution.threads(), || SurfaceLayout::new(input, solution, layout))
@@ -74,9 +74,9 @@ impl SurfaceLayout {
         let quality = layout.quality(input.mesh(), input.surface.lengths())?;
         let on_input = layout.on_input();
         let given = input.positions();
-        let (weight, positions, degenerate) = match layout.refinement() {
+        let (weight, positions, degenerate) = match layout.common_subdivision() {
             Some(r) => {
-                let positions = given.map(|p| r.from_input_vertices(p)).transpose()?;
+                let positions = given.map(|p| r.from_vertices(0, p)).transpose()?;
                 (r.weight.clone(), positions, layout.degenerate.clone())
             }
             None => {
@@ -98,14 +98,14 @@ impl SurfaceLayout {
         })
     }
 
-    /// The mesh of the layout: the given triangulation, or its common refinement with the final one.
+    /// The mesh of the layout: the given triangulation, or its common subdivision with the final one.
     pub fn mesh(&self) -> &Mesh {
         self.layout.mesh()
     }
 
-    /// The common refinement, where edges were flipped.
-    pub fn refinement(&self) -> Option<&Refinement> {
-        self.layout.refinement().map(|r| &**r)
+    /// The common subdivision, where edges were flipped.
+    pub fn common_subdivision(&self) -> Option<&CommonSubdivision> {
+        self.layout.common_subdivision().map(|r| &**r)
     }
 
     /// The homogeneous weights of the coordinates.

@@ -22,7 +22,7 @@ pub struct PhaseSeconds {
 
 impl PhaseSeconds {
     /// Add the seconds of a flow.
-    pub fn add_flow(&mut self, flow: &ricci::flow::Seconds) {
+    pub fn add_flow(&mut self, flow: &ricci::flow::FlowSeconds) {
         self.assemble += flow.assemble;
         self.analyse += flow.analyse;
         self.factor += flow.factor;

@@ -10,7 +10,7 @@ use crate::runner::CommandRun;
 use crate::surface_layout::SurfaceLayout;
 use ricci::mesh::io::{self, Texture, TexturedMesh, Wrap};
 use ricci::mesh::{Mesh, PerHalfedge, Point};
-use ricci::metric::Refinement;
+use ricci::metric::CommonSubdivision;
 use std::io::Write;
 use std::path::Path;
 
@@ -36,9 +36,9 @@ pub fn write(
     let (Some(positions), Some(own_positions)) = (laid.positions.as_deref(), input.positions()) else {
         return Err(Failure::no_positions());
     };
-    let (mesh, positions, index, texcoords, refinement) = match (options.on, &laid.on_input) {
+    let (mesh, positions, index, texcoords, subdivision) = match (options.on, &laid.on_input) {
         (OnChoice::Refined, _) => {
-            (laid.mesh(), positions, laid.corner_index(), laid.coordinates(), laid.refinement())
+            (laid.mesh(), positions, laid.corner_index(), laid.coordinates(), laid.common_subdivision())
         }
         (OnChoice::Input, Some(on_input)) => {
             (input.mesh(), own_positions, &on_input.corner_index, &on_input.coordinates[..], None)
@@ -48,7 +48,7 @@ pub fn write(
         }
     };
     let weights = if options.homogeneous { laid.weights() } else { Vec::new() };
-    UvMesh { mesh, positions, index, texcoords, weights: &weights, refinement }
+    UvMesh { mesh, positions, index, texcoords, weights: &weights, subdivision }
         .write(outputs, path, input)?;
     Ok([positions.len() - own_positions.len(), mesh.n_faces() - input.mesh().n_faces()])
 }
@@ -62,15 +62,15 @@ pub struct UvMesh<'a> {
     pub texcoords: &'a [[f64; 2]],
     /// The homogeneous weights of the coordinates; empty where all are 1.
     pub weights: &'a [f64],
-    /// The refinement of the input that the mesh is, if it is one.
-    pub refinement: Option<&'a Refinement>,
+    /// The subdivision of the input that the mesh is, if it is one.
+    pub subdivision: Option<&'a CommonSubdivision>,
 }
 
 impl UvMesh<'_> {
     /// Write OBJ or, for a name that ends in `.glb`, binary glTF with a checkerboard; with the input's colours and normals.
     pub fn write(&self, outputs: &mut Outputs, path: &Path, input: &Input) -> Result<(), Failure> {
         let faces = self.mesh.triangles();
-        let carried = carry(input, self.refinement)?;
+        let carried = carry(input, self.subdivision)?;
         let data = TexturedMesh {
             positions: self.positions,
             colors: &carried.colors,
@@ -122,11 +122,11 @@ pub fn write_origins(
     laid: &SurfaceLayout,
     on: OnChoice,
 ) -> std::io::Result<()> {
-    let refinement = laid.refinement().filter(|_| on == OnChoice::Refined);
-    let mesh = refinement.map_or(input.mesh(), |r| &r.mesh);
+    let subdivision = laid.common_subdivision().filter(|_| on == OnChoice::Refined);
+    let mesh = subdivision.map_or(input.mesh(), |r| &r.mesh);
     let whole = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     let source = |f| {
-        let (face, corners) = refinement.map_or((f, whole), |r| (r.input_face[f], r.input_barycentric(f)));
+        let (face, corners) = subdivision.map_or((f, whole), |r| (r.faces[0][f], r.barycentric(0, f)));
         input.split.as_ref().map_or((face, corners), |split| split.carried(face, corners))
     };
     let mut place = vec![None; mesh.n_vertices()];

@@ -1,4 +1,4 @@
-//! The cost of edge flips on surfaces that need none and on surfaces that need many, and of the refinement that leads back.
+//! The cost of edge flips on surfaces that need none and on surfaces that need many, and of the subdivision that leads back.
 
 use crate::common::{heap, median, seconds};
 use ricci::flow::{Flips, Options, Report};
@@ -15,7 +15,7 @@ fn rounds(vertices: usize) -> usize {
 /// Number of cones of the surface that needs flips.
 const CONES: usize = 8;
 
-/// Seconds of one flow from the input to the metric, and to the refinement.
+/// Seconds of one flow from the input to the metric, and to the subdivision.
 #[derive(Clone)]
 pub struct Run {
     /// [`Flow::new`]: the double, Delaunay, circles.
@@ -43,9 +43,9 @@ pub struct Row {
     pub open: ([Run; 2], f64),
     /// Flips needed.
     pub flipped: Run,
-    /// Seconds of the refinement, and its triangles.
-    pub refinement: (f64, usize),
-    /// Heap bytes of flow and refinement per vertex of the input.
+    /// Seconds of the subdivision, and its triangles.
+    pub subdivision: (f64, usize),
+    /// Heap bytes of flow and subdivision per vertex of the input.
     pub bytes: usize,
 }
 
@@ -151,8 +151,9 @@ pub fn measure(vertices: usize, scheme: Scheme) -> Row {
             let report = solve(&mut flow, &target);
             assert!(report.converged(), "{report:?}");
             let run = Run { start, report, start_flips: flow.start_flips() };
-            let (took, refinement) = seconds(|| flow.solution().refinement(&Control::new()).unwrap());
-            triangles = refinement.mesh.n_faces();
+            let (took, subdivision) =
+                seconds(|| flow.solution().common_subdivision(&Control::new()).unwrap());
+            triangles = subdivision.mesh.n_faces();
             (took, run)
         });
         flipped.push(run);
@@ -166,7 +167,7 @@ pub fn measure(vertices: usize, scheme: Scheme) -> Row {
         ratio,
         open: open(vertices, scheme),
         flipped: middle(flipped),
-        refinement: (median(refined.into_iter()), triangles),
+        subdivision: (median(refined.into_iter()), triangles),
         bytes,
     }
 }

@@ -102,14 +102,14 @@ start + those of the flow. Share: flips and Delaunay checks of the solve. The Ne
     page += "
 ## The way back
 
-The common refinement of the input with the result of the flows above. Bytes: peak of the heap during flow and refinement, per vertex
+The common subdivision of the input with the result of the flows above. Bytes: peak of the heap during flow and subdivision, per vertex
 of the input.
 
 | vertices | scheme | triangles | seconds | µs per triangle | bytes |
 |---|---|---|---|---|---|
 ";
     for row in rows {
-        let (seconds, triangles) = row.refinement;
+        let (seconds, triangles) = row.subdivision;
         let each = 1e6 * seconds / triangles as f64;
         let (vertices, scheme, bytes) = (row.vertices, row.scheme, row.bytes);
         put(

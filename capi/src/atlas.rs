@@ -145,7 +145,7 @@ pub unsafe extern "C" fn ricci_atlas_write(
         let ricci_atlas { state, layout, positions, charts } = atlas;
         let weights = match (homogeneous, layout.space) {
             (0, _) => None,
-            (_, Space::E2) => Some((crate::map::weights(state, layout.refinement())?, Vec::new())),
+            (_, Space::E2) => Some((crate::map::weights(state, layout.common_subdivision())?, Vec::new())),
             _ => return Err(not_projective()),
         };
         let (corners, positions) = (atlas.corners(), positions.clone());

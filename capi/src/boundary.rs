@@ -3,7 +3,7 @@
 use crate::arrays::array;
 use crate::choice::choices;
 use crate::failure::Outcome;
-use ricci::canonical::{Boundary, Corner, Corners};
+use ricci::canonical::{Boundary, BoundaryCorner, Corners};
 use ricci::mesh::VertexId;
 
 choices!(enum BoundaryKind, KINDS = "boundary", [
@@ -20,7 +20,7 @@ pub fn read(kind: u32, corners: *const u32, angles: *const f64, n: usize) -> Out
         return Ok(Boundary::Straight(if n == 0 { Corners::Default } else { Corners::Count(n) }));
     }
     let angles: Vec<f64> = if angles.is_null() { vec![0.0; n] } else { array("corner_angles", angles, n)? };
-    let corner = |(v, angle): (u32, f64)| Corner {
+    let corner = |(v, angle): (u32, f64)| BoundaryCorner {
         vertex: VertexId(v),
         angle: Some(angle).filter(|angle| *angle != 0.0),
     };

@@ -123,7 +123,7 @@ impl ricci_layout {
             return Err(Failure::argument("the points of a layout need a model with two coordinates"));
         }
         let surface = state.solution.surface();
-        let lies_on_input = layout.refinement().is_some() || state.solution.is_unflipped();
+        let lies_on_input = layout.common_subdivision().is_some() || state.solution.is_unflipped();
         let quality =
             if lies_on_input { Some(layout.quality(surface.mesh(), surface.lengths())?) } else { None };
         let (points, on_input) = (plane_points(&layout, model), layout.on_input());
@@ -155,8 +155,8 @@ impl ricci_layout {
     /// The positions of the vertices of the layout's mesh; none of an intrinsic surface.
     pub(crate) fn positions(&self) -> Outcome<Option<Arc<Vec<Point>>>> {
         let solution = &self.state.solution;
-        Ok(match (solution.surface().positions(), self.layout.refinement()) {
-            (Some(positions), Some(r)) => Some(Arc::new(r.from_input_vertices(positions)?)),
+        Ok(match (solution.surface().positions(), self.layout.common_subdivision()) {
+            (Some(positions), Some(r)) => Some(Arc::new(r.from_vertices(0, positions)?)),
             (positions, _) => positions.cloned(),
         })
     }
@@ -201,7 +201,7 @@ pub unsafe extern "C" fn ricci_layout_new(
             cones,
             root: vertex_or_none(given.root)?,
             scale: SCALES.choose(given.scale)?,
-            refinement: state.refinement(&control)?.cloned(),
+            subdivision: state.subdivision_if_flipped(&control)?.cloned(),
             threads: given.threads,
             ..LayoutOptions::default()
         };
@@ -408,7 +408,10 @@ pub unsafe extern "C" fn ricci_layout_write(
                     "on the input's own faces the map is linear: take homogeneous 0",
                 ));
             }
-            _ => Some((crate::map::weights(&layout.state, layout.layout.refinement())?, layout.heights()?)),
+            _ => Some((
+                crate::map::weights(&layout.state, layout.layout.common_subdivision())?,
+                layout.heights()?,
+            )),
         };
         TextureFile { mesh, positions, points: &layout.points, corners: layout.corners(on)? }
             .write(&arrays::path(path)?, weights)

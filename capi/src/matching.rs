@@ -335,6 +335,6 @@ pub unsafe extern "C" fn ricci_matching_map(
         let n = matching.forward.places.len().saturating_add(matching.backward.places.len());
         let _reserve = memory::work(n, memory::LAYOUT)?;
         let overlay = matching.domain.overlay(*threads, &control::of(control))?;
-        Ok(ricci_map::of_overlay([source.clone(), target.clone()], overlay))
+        Ok(ricci_map::of_surfaces([source, target], overlay))
     })
 }

@@ -10,7 +10,7 @@ use crate::status::ricci_status;
 use crate::structs::{self, sized};
 use ricci::flow::{Report, Solution};
 use ricci::mesh::PerEdge;
-use ricci::metric::Refinement;
+use ricci::metric::CommonSubdivision;
 use ricci::metric::curvature::Curvature;
 use ricci::metric::scheme::Scheme;
 use ricci::{Class, Control};
@@ -32,13 +32,13 @@ pub(crate) enum Triangulation {
     /// The metric's own triangulation.
     Metric,
     /// The common subdivision of both.
-    Refinement,
+    Subdivision,
 }
 
 choices!(pub(crate) ON: Triangulation = "on", [
     RICCI_ON_INPUT => Triangulation::Input,
     RICCI_ON_METRIC => Triangulation::Metric,
-    RICCI_ON_REFINEMENT => Triangulation::Refinement,
+    RICCI_ON_REFINEMENT => Triangulation::Subdivision,
 ]);
 
 // A kind of numbers that a metric has.
@@ -60,7 +60,7 @@ pub(crate) struct MetricState {
     /// The lengths of the edges of the metric's triangulation.
     pub lengths: Arc<PerEdge<f64>>,
     curvature: OnceLock<Curvature>,
-    refinement: OnceLock<Arc<Refinement>>,
+    subdivision: OnceLock<Arc<CommonSubdivision>>,
 }
 
 pub struct ricci_metric(pub(crate) Arc<MetricState>);
@@ -82,12 +82,14 @@ impl MetricState {
         computed_once(&self.curvature, || self.solution.curvature())
     }
 
-    /// The common subdivision of the caller's mesh and the metric's triangulation; none if they are the same triangulation.
-    pub fn refinement(&self, control: &Control) -> Outcome<Option<&Arc<Refinement>>> {
-        if self.solution.is_unflipped() {
-            return Ok(None);
-        }
-        computed_once(&self.refinement, || Ok(Arc::new(self.solution.refinement(control)?))).map(Some)
+    /// The common subdivision of the given mesh and the metric's triangulation.
+    pub fn subdivision(&self, control: &Control) -> Outcome<&Arc<CommonSubdivision>> {
+        computed_once(&self.subdivision, || Ok(Arc::new(self.solution.common_subdivision(control)?)))
+    }
+
+    /// The same; none where both triangulations are one.
+    pub fn subdivision_if_flipped(&self, control: &Control) -> Outcome<Option<&Arc<CommonSubdivision>>> {
+        if self.solution.is_unflipped() { Ok(None) } else { self.subdivision(control).map(Some) }
     }
 }
 
@@ -96,8 +98,8 @@ impl ricci_metric {
     pub(crate) fn at(solution: Solution, report: Option<Report>) -> Outcome<ricci_metric> {
         let lengths = Arc::new(solution.metric().lengths(solution.mesh())?);
         let report = solution.report().cloned().or(report);
-        let (curvature, refinement) = (OnceLock::new(), OnceLock::new());
-        Ok(ricci_metric(Arc::new(MetricState { solution, report, lengths, curvature, refinement })))
+        let (curvature, subdivision) = (OnceLock::new(), OnceLock::new());
+        Ok(ricci_metric(Arc::new(MetricState { solution, report, lengths, curvature, subdivision })))
     }
 }
 

@@ -47,17 +47,22 @@ pub unsafe extern "C" fn ricci_sphere_mesh(
                 "the polyhedron has the metric's faces: take RICCI_ON_METRIC",
             ));
         }
-        Ok(match state.refinement(&control::of(control))?.filter(|_| on == Triangulation::Refinement) {
-            Some(refinement) => {
-                // A combination of the ends of an edge, as vectors, has the direction of its point on the arc between them.
-                let mut points = refinement.from_final_vertices(positions)?;
-                for p in points.iter_mut().skip(refinement.n_input_vertices) {
-                    let norm = p[0].hypot(p[1]).hypot(p[2]);
-                    *p = p.map(|x| x / norm);
+        Ok(
+            match state
+                .subdivision_if_flipped(&control::of(control))?
+                .filter(|_| on == Triangulation::Subdivision)
+            {
+                Some(subdivision) => {
+                    // A combination of the ends of an edge, as vectors, has the direction of its point on the arc between them.
+                    let mut points = subdivision.from_vertices(1, positions)?;
+                    for p in points.iter_mut().skip(subdivision.n_vertices[0]) {
+                        let norm = p[0].hypot(p[1]).hypot(p[2]);
+                        *p = p.map(|x| x / norm);
+                    }
+                    ricci_mesh::in_space(Arc::new(subdivision.mesh.clone()), Arc::new(points))
                 }
-                ricci_mesh::in_space(Arc::new(refinement.mesh.clone()), Arc::new(points))
-            }
-            None => own(),
-        })
+                None => own(),
+            },
+        )
     })
 }

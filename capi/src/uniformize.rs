@@ -317,8 +317,8 @@ pub unsafe extern "C" fn ricci_uniform_sides(
 
 /// The mesh that the homotopy basis of a quotient lies on.
 fn mesh_of(quotient: &Quotient) -> Arc<Mesh> {
-    match quotient.layout.refinement() {
-        Some(refinement) => Arc::new(refinement.mesh.clone()),
+    match quotient.layout.common_subdivision() {
+        Some(subdivision) => Arc::new(subdivision.mesh.clone()),
         None => quotient.metric.mesh().clone(),
     }
 }
@@ -358,19 +358,19 @@ pub unsafe extern "C" fn ricci_uniform_layout(
         let _reserve = memory::work(uniform.metric.0.solution.mesh().n_vertices(), memory::LAYOUT)?;
         let (quotient, state) = (uniform.quotient()?, &uniform.metric.0);
         let laid = match ON.choose(on)? {
-            Triangulation::Metric if quotient.layout.refinement().is_some() => {
+            Triangulation::Metric if quotient.layout.common_subdivision().is_some() => {
                 let message = "the metric lives on the double of the surface: take RICCI_ON_REFINEMENT";
                 return Err(Failure::new(RICCI_LAYOUT, message));
             }
-            Triangulation::Refinement if quotient.layout.refinement().is_some() => quotient.layout.clone(),
-            Triangulation::Metric => quotient.layout.clone(),
-            Triangulation::Refinement => {
-                let refinement = match state.refinement(&control)? {
-                    Some(refinement) => refinement.clone(),
-                    None => Arc::new(state.solution.refinement(&control)?),
-                };
-                quotient.layout.on_refinement(&refinement, quotient.metric.metric(), &control)?
+            Triangulation::Subdivision if quotient.layout.common_subdivision().is_some() => {
+                quotient.layout.clone()
             }
+            Triangulation::Metric => quotient.layout.clone(),
+            Triangulation::Subdivision => quotient.layout.on_subdivision(
+                state.subdivision(&control)?,
+                quotient.metric.metric(),
+                &control,
+            )?,
             Triangulation::Input => {
                 let message = "a quotient is opened along edges of the metric's triangulation: take RICCI_ON_REFINEMENT";
                 return Err(Failure::new(RICCI_LAYOUT, message));

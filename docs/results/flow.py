@@ -223,7 +223,7 @@ def content(_):
         table(["mesh", "target", "scheme", "why", "steps", "error"], missing(flown)),
         "## Every flow",
         "Error: max |K − K̄| of the flow. qc: quasi-conformal dilatation of the layout, area-weighted mean and maximum. Flipped and "
-        "degenerate: pieces of the layout. Crossings: vertices of the common refinement that are none of the input's. Outside: error of the "
+        "degenerate: pieces of the layout. Crossings: vertices of the common subdivision that are none of the input's. Outside: error of the "
         "metric file; flipped and degenerate pieces of the layout file. A dash where there is no layout (H²) or no refinement (no flip). `!`: a "
         "check of the report that does not hold.",
         *(block for target in TARGETS for block in (f"### {target}", table(head, details(flown, target)))),

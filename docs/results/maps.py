@@ -102,7 +102,7 @@ def content(run):
         verdict_of_outside(""),
         "## Disks",
         "Every disk of the corpus onto the unit disk, its boundary by its length. *flipped*: triangles of the Delaunay triangulation that are not "
-        "counterclockwise, by exact arithmetic, and pieces of its common refinement with the mesh whose area is below −1e-12 times their longest edge "
+        "counterclockwise, by exact arithmetic, and pieces of its common subdivision with the mesh whose area is below −1e-12 times their longest edge "
         "squared; *without area*: pieces within that of 0. *outside*: check.py on the file. *added*: vertices put on edges inside, because two edges "
         "of the Delaunay triangulation had the same ends: the linear map would collapse all that lies between them. *off the means*: of a vertex from the mean of its neighbours by weight, over the size of "
         "the image. *linear off*: the image as a plane surface of its own, two linear functions given along its boundary: their largest "

@@ -4,7 +4,7 @@
 use ricci::flow::Options;
 use ricci::geometry::Space;
 use ricci::mesh::{EdgeId, FaceId, Mesh, NormalCoordinates, PerVertex, VertexId};
-use ricci::metric::{Refinement, Scheme};
+use ricci::metric::{CommonSubdivision, Scheme};
 use ricci::{Class, Control, Error, Surface, Target, flow};
 use std::f64::consts::PI;
 
@@ -68,7 +68,7 @@ fn target(surface: &Surface, bytes: &mut impl Iterator<Item = u8>) -> PerVertex<
     PerVertex::from_fn(n, |v: VertexId| drawn[v] + miss / n as f64)
 }
 
-/// For any target the flow ends with a metric or an error, and the refinement covers both triangulations.
+/// For any target the flow ends with a metric or an error, and the subdivision covers both triangulations.
 fn in_a_flow(surface: Surface, how: u8, mut bytes: impl Iterator<Item = u8>) {
     let scheme = if how & 2 == 0 { Scheme::Yamabe } else { Scheme::Inversive };
     let target = Target::All(target(&surface, &mut bytes));
@@ -95,8 +95,8 @@ fn in_a_flow(surface: Surface, how: u8, mut bytes: impl Iterator<Item = u8>) {
     assert!((total - expected).abs() < ROUNDING * mesh.n_faces() as f64, "{total}, not {expected}");
     let report = solution.report().unwrap();
     assert!(!report.converged() || report.max_curvature_error <= report.tolerance.max(options.tolerance));
-    match solution.refinement(&control) {
-        Ok(refinement) => way_back(&refinement, &given),
+    match solution.common_subdivision(&control) {
+        Ok(subdivision) => way_back(&subdivision, &given),
         Err(Error::TooLarge { .. }) => {}
         // Pieces that are too small for doubles, of a metric that the flow has not brought to its target.
         Err(error) => assert!(!report.converged(), "{error}"),
@@ -104,20 +104,20 @@ fn in_a_flow(surface: Surface, how: u8, mut bytes: impl Iterator<Item = u8>) {
 }
 
 /// The pieces cover every face of the surface once, and points come back.
-fn way_back(refinement: &Refinement, given: &Mesh) {
-    refinement.mesh.validate().unwrap();
-    assert_eq!(refinement.mesh.euler(), given.euler());
-    assert!(refinement.weight.iter().all(|&q| q > 0.0 && q.is_finite()));
+fn way_back(subdivision: &CommonSubdivision, given: &Mesh) {
+    subdivision.mesh.validate().unwrap();
+    assert_eq!(subdivision.mesh.euler(), given.euler());
+    assert!(subdivision.weight.iter().all(|&q| q > 0.0 && q.is_finite()));
     let mut areas = vec![0.0; given.n_faces()];
-    for f in refinement.mesh.faces() {
-        let [a, b, c] = refinement.input_barycentric(f);
+    for f in subdivision.mesh.faces() {
+        let [a, b, c] = subdivision.barycentric(0, f);
         assert!([a, b, c].iter().flatten().all(|x| (-ROUNDING..=1.0 + ROUNDING).contains(x)));
-        areas[refinement.input_face[f].index()] += a[0] * (b[1] * c[2] - b[2] * c[1])
+        areas[subdivision.faces[0][f].index()] += a[0] * (b[1] * c[2] - b[2] * c[1])
             + a[1] * (b[2] * c[0] - b[0] * c[2])
             + a[2] * (b[0] * c[1] - b[1] * c[0]);
     }
     assert!(areas.iter().all(|area| (area - 1.0).abs() < ROUNDING), "{areas:?}");
-    let (forward, backward) = (refinement.forward(), refinement.backward());
+    let (forward, backward) = (subdivision.forward(), subdivision.backward());
     for f in given.faces() {
         let Some((there, weights)) = forward.image(f, [0.5, 0.3, 0.2]) else {
             panic!("no image of face {f}")

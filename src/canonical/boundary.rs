@@ -1,4 +1,4 @@
-//! What becomes of the boundary of a surface: geodesic loops, or straight sides between corners.
+//! The shape that the boundary of a surface is given: geodesic loops, or straight sides between corners.
 //!
 //! ```
 //! use ricci::canonical::{Boundary, Corners, QuotientOptions, uniformize_quotient};
@@ -19,7 +19,7 @@ use crate::metric::target::TOTAL_TOLERANCE;
 use crate::metric::{Surface, curvature};
 use std::f64::consts::{FRAC_PI_4, PI, TAU};
 
-/// What the boundary of an open surface becomes.
+/// The shape that the boundary of an open surface is given.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub enum Boundary {
     /// Every loop a closed geodesic: in H² where χ < 0, in E² on an annulus. A disk has none.
@@ -29,30 +29,31 @@ pub enum Boundary {
     Straight(Corners),
 }
 
-/// Where the corners of a straight boundary are.
+/// The corners of a straight boundary.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub enum Corners {
     /// 4|χ| corners that turn by a quarter each: four right angles on a disk, none on an annulus; placed as [`Corners::Count`] does.
     #[default]
     Default,
-    /// As many corners with equal angles: the vertices where the boundary turns by more than π/4 if there are just as many, from that of
-    /// the lowest number on, else at equal distances along the longest boundary loop, from the vertex where that turns most.
+    /// This number of corners with equal angles. They are the vertices where the boundary turns by more than π/4 if there are exactly so
+    /// many, from that of the lowest number on; else they lie at equal distances along the longest boundary loop, from the vertex where
+    /// that turns most.
     Count(usize),
-    /// These.
-    At(Vec<Corner>),
+    /// The corners that the caller names.
+    At(Vec<BoundaryCorner>),
 }
 
 /// A corner of a straight boundary.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Corner {
+pub struct BoundaryCorner {
     /// A vertex of the boundary.
     pub vertex: VertexId,
-    /// The angle inside it, radians; `None`: the same for all such corners, so that the total is right.
+    /// The angle inside the corner, radians; `None` for the one that all such corners share, with which the total is right.
     pub angle: Option<f64>,
 }
 
 impl Boundary {
-    /// The space of the metric that a surface with boundary has with it.
+    /// The space of the metric in which a surface with boundary has this shape.
     ///
     /// # Errors
     /// [`Error::Layout`] for geodesic loops around a disk.
@@ -92,8 +93,8 @@ pub(super) fn target(mesh: &Mesh, corners: &[(VertexId, f64)]) -> PerVertex<f64>
     target
 }
 
-/// Corners with the angles that were left open.
-fn with_angles(mesh: &Mesh, corners: &[Corner]) -> Result<Vec<(VertexId, f64)>> {
+/// The corners, with values for the angles that were left open.
+fn with_angles(mesh: &Mesh, corners: &[BoundaryCorner]) -> Result<Vec<(VertexId, f64)>> {
     for (k, corner) in corners.iter().enumerate() {
         let v = corner.vertex;
         if v.index() >= mesh.n_vertices() || !mesh.is_boundary_vertex(v) {
@@ -131,11 +132,11 @@ fn with_angles(mesh: &Mesh, corners: &[Corner]) -> Result<Vec<(VertexId, f64)>> 
     Ok(corners.iter().map(|corner| (corner.vertex, corner.angle.unwrap_or(share))).collect())
 }
 
-/// As many corners: [`Corners::Count`].
-fn placed(surface: &Surface, n: usize) -> Result<Vec<Corner>> {
+/// `n` corners, placed as [`Corners::Count`] says.
+fn placed(surface: &Surface, n: usize) -> Result<Vec<BoundaryCorner>> {
     let (mesh, lengths) = (surface.mesh(), surface.lengths());
     let turns = curvature(mesh, surface.geometry(), lengths)?.at;
-    let at = |v| Corner { vertex: v, angle: None };
+    let at = |v| BoundaryCorner { vertex: v, angle: None };
     let mut loops: Vec<Vec<HalfedgeId>> = mesh.boundary_loops();
     // Outside half-edges run backwards: the surface is on their right.
     loops.iter_mut().for_each(|walk| walk.reverse());
@@ -162,8 +163,8 @@ fn placed(surface: &Surface, n: usize) -> Result<Vec<Corner>> {
         .collect())
 }
 
-/// Of the places 0, 1, … with these distances to the next one, around a loop: `n` of them at nearly equal distances, the first one
-/// included, ascending.
+/// A choice of `n` places at nearly equal distances around a loop, the first one included, ascending. `steps`: the distance of each place
+/// to the next one.
 fn evenly(steps: &[f64], n: usize) -> Vec<usize> {
     let total: f64 = steps.iter().sum();
     let positions: Vec<f64> = steps
@@ -177,7 +178,7 @@ fn evenly(steps: &[f64], n: usize) -> Vec<usize> {
     for k in 0..n {
         let wanted = total * k as f64 / n as f64;
         let first = chosen.last().map_or(0, |&last: &usize| last + 1);
-        // Those that are left have to fit behind it.
+        // The remaining ones have to fit behind it.
         let last = steps.len() - (n - k);
         let nearest = (first..=last)
             .min_by(|&i, &j| (positions[i] - wanted).abs().total_cmp(&(positions[j] - wanted).abs()));

@@ -1,4 +1,4 @@
-//! Which vertex to send to infinity.
+//! Chooses candidates for the vertex that is sent to infinity.
 //!
 //! The planes seen from two vertices differ by an inversion, on the same triangulation. With u of the centred sphere, the plane seen
 //! from v has `u' = u_i + u_v − 2 log(|x_i − x_v|/2)`. This is −log(2 η) at the neighbours of v, whatever u; about u_i + u_v on the far
@@ -6,24 +6,24 @@
 //! range of u' is smallest for a vertex with long edges half way down the deepest finger. The depth of a vertex is the largest u minus
 //! its own, and one vertex of each depth is tried.
 //!
-//! Where the angles at an edge of v add up to nearly π, the outline seen from v is nearly straight there, and rounding decides which
+//! If the angles opposite an edge at v add up to nearly π, the outline seen from v is nearly straight there, and rounding decides which
 //! way it turns. The logarithm of that small angle is counted as lost digits of u.
 
-use super::star::Punctured;
+use super::star::PuncturedSurface;
 use crate::error::Result;
 use crate::mesh::{PerVertex, VertexId};
 use crate::topology::spanning::Key;
 
-/// Number of depths, in steps of 1 of u, at each of which the best vertex is tried. The range of u of surfaces in doubles is smaller.
+/// Number of depths, in steps of 1 of u, at each of which the best vertex is tried. The range of u is smaller on surfaces that f64 can represent.
 const DEPTHS: usize = 64;
 /// Number of the best vertices that are tried whatever their depth.
 const BEST_ANYWHERE: usize = 8;
 /// Radians. Smaller angles count as this one: they consist of rounding.
 const LEAST_ANGLE: f64 = 1e-12;
 
-impl Punctured {
+impl PuncturedSurface {
     /// Vertices to puncture, the best one first: by the range of u in the plane seen from them, and the digits lost in narrow angles.
-    /// `plane` is the present layout, `u` that of the centred sphere. Only vertices that `may` be punctured come.
+    /// `plane` is the present layout, `u` that of the centred sphere. Only vertices that `may` be punctured are returned.
     pub fn candidates(
         &self,
         plane: &PerVertex<[f64; 2]>,

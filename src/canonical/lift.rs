@@ -1,6 +1,6 @@
-//! From the punctured plane to the sphere: layout, centring, lift, and whether the lifted triangulation is convex.
+//! Lifts the punctured plane to the sphere: layout, centring, lift, and the test whether the lifted triangulation is convex.
 
-use super::star::Punctured;
+use super::star::PuncturedSurface;
 use crate::control::Control;
 use crate::embed::unfold::unfold_part;
 use crate::error::{Error, Result};
@@ -13,7 +13,7 @@ use crate::mesh::{Mesh, PerEdge, PerVertex, Point, VertexId};
 use crate::metric::Metric;
 use std::sync::Arc;
 
-impl Punctured {
+impl PuncturedSurface {
     /// The vertices in the plane, the smallest triangle at the origin; the puncture at (∞, ∞).
     ///
     /// # Errors
@@ -67,7 +67,7 @@ impl Punctured {
         Metric { space: Space::S2, u, u_low, ..self.metric.clone() }
     }
 
-    /// By how much the angles opposite an edge of the planar part exceed π at most: 0 where every edge is Delaunay.
+    /// Largest excess over π of the angles opposite an edge of the planar part: 0 if every edge is Delaunay.
     pub fn delaunay_violation(&self) -> Result<f64> {
         Ok(self.excess()?.iter().copied().fold(0.0, worse))
     }
@@ -79,7 +79,7 @@ pub(super) fn lifted(plane: &PerVertex<[f64; 2]>) -> PerVertex<Point> {
 }
 
 /// The largest signed distance of a face's corner over the plane of a neighbouring face: not positive where every edge is convex.
-/// Faces without area in doubles have no plane and are left out.
+/// Faces whose area is 0 in f64 have no plane and are left out.
 pub(super) fn nonconvexity(mesh: &Mesh, positions: &PerVertex<Point>) -> f64 {
     let over = |h| {
         let [a, b, c] = [h, mesh.next(h), mesh.prev(h)].map(|h| positions[mesh.origin(h)]);

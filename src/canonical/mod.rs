@@ -25,7 +25,7 @@ mod star;
 mod tries;
 pub mod uniformize;
 
-pub use boundary::{Boundary, Corner, Corners};
+pub use boundary::{Boundary, BoundaryCorner, Corners};
 pub use circle_domain::{CircleDomain, CircleDomainOptions, DomainCircle, Normalisation, circle_domain};
 pub use quotient::{Quotient, QuotientOptions, quotient_of, uniformize_quotient};
 pub use sphere::{Sphere, SphereOptions, SphereReport, uniformize_sphere};

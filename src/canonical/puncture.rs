@@ -8,10 +8,10 @@
 //! It is found by an active-set method ([`ActiveSet`]): Newton steps with the link held; after each step vertices that violate their
 //! bound enter the link, and those at which the outline turns the wrong way leave it.
 
-use super::star::{FLAT_POLYHEDRON, Punctured};
+use super::star::{FLAT_POLYHEDRON, PuncturedSurface};
 use crate::control::Control;
 use crate::error::Result;
-use crate::flow::{ActiveSet, Flow, Lent, Options, Report, Seconds, StopReason};
+use crate::flow::{ActiveSet, BorrowedMetric, Flow, FlowSeconds, Options, Report, StopReason};
 use crate::geometry::double_double::two_sum;
 use crate::geometry::worse;
 use crate::mesh::{HalfedgeId, PerVertex};
@@ -21,7 +21,7 @@ const SETTLED: f64 = 0.5;
 /// Radians. Largest angle of the triangle that is made where a vertex leaves the link: the metric around it is only known near the
 /// present u.
 const WIDEST_OPENING: f64 = 0.5;
-/// Radians. Below this largest |K| Newton's method converges quadratically, so that a step which raises the error was too long.
+/// Radians. Largest |K| below which Newton's method converges quadratically, so that a step that raises the error was too long.
 const QUADRATIC: f64 = 1e-3;
 /// Shortest step of u. An angle of 1e-12 is all rounding, and lengths change by the squares of angles.
 const SHORTEST_STEP: f64 = 1e-24;
@@ -29,20 +29,20 @@ const SHORTEST_STEP: f64 = 1e-24;
 /// its full angle at once.
 const NARROW: f64 = 1e-3;
 
-/// What a plane is asked for.
+/// The conditions that a plane is to fulfil.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Goal {
+pub(super) struct PlaneGoal {
     /// Radians by which the outline may turn the wrong way at a vertex.
     pub straight: f64,
-    /// Whether angles far below 1e-4 count at the end. Then edges of slivers are flipped too, and near the end a step that
+    /// True if angles far below 1e-4 count at the end. Then edges of slivers are flipped too, and near the end a step that
     /// raises the error, because a sliver breaks on its way, is made again a quarter as long.
     pub slivers: bool,
 }
 
-/// How a flat metric was found.
+/// The report of a flow to a plane.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Found {
-    /// |K| inside is within the tolerance and the outline is convex, as far as was asked for.
+pub(super) struct PlaneReport {
+    /// True if |K| inside is within the tolerance and the outline is convex within that of the goal.
     pub converged: bool,
     pub stop_reason: StopReason,
     /// Largest |K| inside.
@@ -52,38 +52,42 @@ pub(super) struct Found {
 }
 
 /// The solver that all flows of a call share, with its steps and times so far.
-pub(super) struct Solver<'a> {
+pub(super) struct PlaneSolver<'a> {
     flow: Flow,
     pub options: &'a Options,
     pub control: &'a Control,
     /// Newton steps so far.
     pub iterations: usize,
-    pub seconds: Seconds,
+    pub seconds: FlowSeconds,
 }
 
-impl<'a> Solver<'a> {
-    /// For punctures of this surface.
-    pub fn new(begin: &Punctured, options: &'a Options, control: &'a Control) -> Result<Solver<'a>> {
+impl<'a> PlaneSolver<'a> {
+    /// A solver for punctures of this surface.
+    pub fn new(
+        begin: &PuncturedSurface,
+        options: &'a Options,
+        control: &'a Control,
+    ) -> Result<PlaneSolver<'a>> {
         let flow = Flow::within_bounds(begin.mesh.clone(), begin.metric.clone(), options)?;
-        Ok(Solver { flow, options, control, iterations: 0, seconds: Seconds::default() })
+        Ok(PlaneSolver { flow, options, control, iterations: 0, seconds: FlowSeconds::default() })
     }
 
-    /// Newton steps that are left of the limit of the options.
+    /// The number of Newton steps that remain until the limit of the options.
     pub fn left(&self) -> usize {
         self.options.iteration_limit().saturating_sub(self.iterations)
     }
 
-    /// Count what a flow has cost.
+    /// Count the steps and the time of a flow.
     pub fn add(&mut self, report: &Report) {
         self.iterations += report.iterations;
         self.seconds += report.seconds;
     }
 }
 
-impl Punctured {
+impl PuncturedSurface {
     /// Flow from the present u to the plane in `most` Newton steps at most; no further where all vertices lie on a line
-    /// ([`Punctured::is_flat`]).
-    pub fn flatten(&mut self, goal: Goal, most: usize, solver: &mut Solver) -> Result<Found> {
+    /// ([`PuncturedSurface::is_flat`]).
+    pub fn flatten(&mut self, goal: PlaneGoal, most: usize, solver: &mut PlaneSolver) -> Result<PlaneReport> {
         let (mut steps, mut longest) = (0, solver.options.max_step);
         self.enter(goal.slivers)?;
         loop {
@@ -114,24 +118,25 @@ impl Punctured {
             let ended = stop_reason != StopReason::IterationLimit;
             let settled = error < SETTLED || ended;
             let go_on = entered || (settled && self.leave(&turning, error.max(goal.straight))?);
-            // Where triangles are broken at the lowest point, angles are only as accurate as the outline that was asked for.
+            // If triangles are broken at the lowest point, angles are only as accurate as the goal for the outline.
             let is_broken = stop_reason == StopReason::BrokenTriangles;
             let within = if is_broken { FLAT_POLYHEDRON.max(goal.straight) } else { FLAT_POLYHEDRON };
             if (!go_on && ended) || steps >= most || self.is_flat(within)? {
                 let converged = report.converged() && !go_on;
                 let stop_reason = if go_on { StopReason::IterationLimit } else { stop_reason };
-                return Ok(Found { converged, stop_reason, error, turning: least });
+                return Ok(PlaneReport { converged, stop_reason, error, turning: least });
             }
         }
     }
 
     /// One Newton step with the puncture and its link held.
-    fn step(&mut self, max_step: f64, solver: &mut Solver) -> Result<Report> {
+    fn step(&mut self, max_step: f64, solver: &mut PlaneSolver) -> Result<Report> {
         let link = self.star().into_iter().map(|arc| self.mesh.tip(arc));
         let active = ActiveSet { held: link.chain([self.at]).collect(), fixed_edges: self.rim() };
-        // The solver looks at the faces of the star as well: they must be triangles.
+        // The solver measures the faces of the star too, so these must be triangles.
         (self.metric.u[self.at], self.metric.u_low[self.at]) = (self.closing_u(), 0.0);
-        let lent = Lent { mesh: &mut self.mesh, metric: &mut self.metric, followed: &mut self.followed };
+        let lent =
+            BorrowedMetric { mesh: &mut self.mesh, metric: &mut self.metric, followed: &mut self.followed };
         let report = solver.flow.step_within(lent, &active, max_step, solver.control);
         (self.metric.u[self.at], self.metric.u_low[self.at]) = (0.0, 0.0);
         let report = report?;

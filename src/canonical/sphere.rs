@@ -1,4 +1,4 @@
-//! Closed surfaces of genus 0 on the unit sphere [Riv94; Spr20; BPS15].
+//! Uniformizes closed surfaces of genus 0: puts them on the unit sphere [Riv94; Spr20; BPS15].
 //!
 //! ```
 //! use ricci::canonical::{SphereOptions, uniformize_sphere};
@@ -12,12 +12,12 @@
 
 use super::candidates::range;
 use super::lift::{lifted, nonconvexity, off_centre};
-use super::puncture::Solver;
-use super::star::{NEARLY_FLAT, Punctured};
-use super::tries::{Flat, Tried, on_a_circle, said};
+use super::puncture::PlaneSolver;
+use super::star::{NEARLY_FLAT, PuncturedSurface};
+use super::tries::{FoundPlane, PunctureSearch, on_a_circle, said};
 use crate::control::Control;
 use crate::error::{Error, Result};
-use crate::flow::{Flow, Options, Seconds, Solution, StopReason};
+use crate::flow::{Flow, FlowSeconds, Options, Solution, StopReason};
 use crate::geometry::double_double::two_sum;
 use crate::geometry::{DoubleDouble, Space, largest, triangle};
 use crate::mesh::{Mesh, PerVertex, Point, VertexId};
@@ -30,7 +30,7 @@ use std::sync::Arc;
 /// Radians. The angles opposite an edge of a result may exceed π by this, and its outline may turn the wrong way by this: it is far above
 /// rounding, and far below the excess at a wrong edge.
 const DELAUNAY: f64 = 1e-9;
-/// Most Newton steps on the sphere after the lift. One or two correct the rounding of the plane.
+/// Largest number of Newton steps on the sphere after the lift. One or two correct the rounding of the plane.
 const POLISH_STEPS: usize = 10;
 
 /// Options of [`uniformize_sphere`].
@@ -52,17 +52,17 @@ impl Default for SphereOptions {
     }
 }
 
-/// What became of a sphere.
+/// The report of [`uniformize_sphere`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct SphereReport {
-    /// Whether plane and sphere have K = 0 to the tolerance, every edge is Delaunay and the outline is convex, these two to 1e-9.
+    /// True if plane and sphere have K = 0 to the tolerance, every edge is Delaunay and the outline is convex, these two to 1e-9.
     pub converged: bool,
-    /// Why the last flow stopped; `stalled` also where it came to its target and the polyhedron is not the one asked for.
+    /// Why the last flow stopped; `stalled` also if it reached its target, but the polyhedron is not convex.
     pub stop_reason: StopReason,
     /// Newton steps of the whole call.
     pub iterations: usize,
-    /// What they took; the rest of the call is neither in its phases nor in its `total`.
-    pub seconds: Seconds,
+    /// Seconds of the flows; the rest of the call is neither in the phases nor in `total`.
+    pub seconds: FlowSeconds,
     /// Flips inside the class, on the way to the result.
     pub flips: usize,
     /// Isometric flips before them.
@@ -77,14 +77,14 @@ pub struct SphereReport {
     pub spherical_curvature_error: f64,
     /// max |Σ K + area − 4π| of the spherical metric.
     pub gauss_bonnet: f64,
-    /// Largest minus smallest u of the plane. Beyond about 30 positions on the sphere run out of digits (edges near 1e-14), where
-    /// the metric does not.
+    /// Largest minus smallest u of the plane. Beyond about 30 positions on the sphere run out of digits (edges near 1e-14); the metric does
+    /// not.
     pub u_range: f64,
     /// Length of the shortest edge of the spherical metric.
     pub smallest_edge: f64,
-    /// By how much the planar angles opposite an edge exceed π at most, radians: 0 where all are Delaunay.
+    /// Largest excess over π of the planar angles opposite an edge, radians: 0 if all edges are Delaunay.
     pub delaunay_violation: f64,
-    /// Least turning of the planar outline, the link of the puncture, radians: not negative where it is convex.
+    /// Least turning of the planar outline, the link of the puncture, radians: not negative if it is convex.
     pub link_turning: f64,
     /// Largest signed distance of a vertex over the plane of a neighbouring face: not positive where the positions are convex.
     pub nonconvexity: f64,
@@ -102,7 +102,7 @@ pub struct Sphere {
     pub positions: PerVertex<Point>,
     /// The plane under them by stereographic projection from (0, 0, −1) ([`crate::geometry::sphere::lift`]); (∞, ∞) at the puncture.
     pub plane: PerVertex<[f64; 2]>,
-    /// How it went.
+    /// The report.
     pub report: SphereReport,
 }
 
@@ -149,9 +149,9 @@ fn uniformize(surface: &Surface, options: &SphereOptions, control: &Control) -> 
     let unit = unit(&metric);
     Arc::make_mut(&mut metric.eta).iter_mut().for_each(|eta| *eta = scaled_by(*eta, 1.0 / unit));
     let weights = vertex_areas(surface, unit);
-    let begin = Punctured { mesh, metric, at: VertexId(0), followed, flips: 0 };
+    let begin = PuncturedSurface { mesh, metric, at: VertexId(0), followed, flips: 0 };
     let flow = flow(options);
-    let mut tried = Tried::new(&weights, Solver::new(&begin, &flow, control)?);
+    let mut tried = PunctureSearch::new(&weights, PlaneSolver::new(&begin, &flow, control)?);
     let flat = match options.puncture {
         Some(v) => tried.punctured_at(&begin, v)?,
         None => tried.best(&begin)?,
@@ -171,10 +171,10 @@ fn uniformize(surface: &Surface, options: &SphereOptions, control: &Control) -> 
     }
 }
 
-/// From the plane to the sphere: the polyhedron over the plane, and its metric as one of the surface that flows went out `from`, whose
-/// lengths are `unit` times those of the plane's class.
-fn raised(flat: Flat, from: Solution, unit: f64, tried: &mut Tried) -> Result<Sphere> {
-    let Flat { surface, plane, found } = flat;
+/// The sphere over a plane: the polyhedron, and its metric as one of the surface `from` which the flows started, whose lengths are `unit`
+/// times those of the plane's class.
+fn raised(flat: FoundPlane, from: Solution, unit: f64, tried: &mut PunctureSearch) -> Result<Sphere> {
+    let FoundPlane { surface, plane, found } = flat;
     let tolerance = tried.solver.options.tolerance;
     let view = surface.centre(&plane, tried.weights)?;
     let plane = PerVertex::from_fn(plane.len(), |v| view.apply(plane[v]));
@@ -187,7 +187,7 @@ fn raised(flat: Flat, from: Solution, unit: f64, tried: &mut Tried) -> Result<Sp
     let report = SphereReport {
         converged,
         stop_reason: match found.stop_reason {
-            // The flow came to its target, the polyhedron did not.
+            // The flow reached its target, but the polyhedron is not convex.
             StopReason::Converged if !is_whole => StopReason::BrokenTriangles,
             StopReason::Converged if !converged => StopReason::Stalled,
             reason => reason,
@@ -213,13 +213,13 @@ fn raised(flat: Flat, from: Solution, unit: f64, tried: &mut Tried) -> Result<Sp
         let (sum, lost) = two_sum(*u, -unit.ln());
         (*u, *low) = two_sum(sum, lost + *low);
     }
-    let Punctured { mesh, followed, flips, .. } = surface;
+    let PuncturedSurface { mesh, followed, flips, .. } = surface;
     Ok(Sphere { metric: from.at(mesh, metric, followed, flips), positions, plane, report })
 }
 
-/// The spherical metric with K = 0 to the tolerance, and its curvature. The lifted metric has that, but for what rounding of the plane
-/// does to needles: Newton steps on the sphere make up for it.
-fn polished(mesh: &Mesh, lifted: Metric, solver: &mut Solver) -> Result<(Metric, Curvature)> {
+/// The spherical metric with K = 0 to the tolerance, and its curvature. The lifted metric is that up to the rounding of needles in the
+/// plane, which Newton steps on the sphere correct.
+fn polished(mesh: &Mesh, lifted: Metric, solver: &mut PlaneSolver) -> Result<(Metric, Curvature)> {
     let (flow, left) = (solver.options, solver.left());
     let curvature = lifted.curvature(mesh)?;
     if largest(curvature.at.iter()) <= flow.tolerance || left == 0 {
@@ -235,8 +235,8 @@ fn polished(mesh: &Mesh, lifted: Metric, solver: &mut Solver) -> Result<(Metric,
     Ok((metric, curvature))
 }
 
-/// A power of two of about the size of the longest edge: with η over its square nothing depends on the size of the surface, and
-/// nothing is rounded.
+/// A power of two of about the size of the longest edge. With η divided by its square no result depends on the size of the surface, and
+/// the division rounds nothing.
 fn unit(metric: &Metric) -> f64 {
     let largest = metric.eta.iter().map(|eta| eta.high).fold(f64::MIN_POSITIVE, f64::max);
     2f64.powi((0.5 * largest.log2()).round() as i32)

@@ -1,9 +1,9 @@
-//! The star of a puncture: a closed surface with one vertex sent to infinity.
+//! A closed surface with one vertex, the puncture, sent to infinity; its star, and the bounds on u that the star sets.
 //!
 //! ```text
 //!        ∞           ∞ has u = 0, and with it a horocycle. The arc h from ∞ to j has length √(2 η_h e^{u_j}) ≥ 1: no horocycle may reach
 //!      / | \         into that of ∞, so u_j ≥ −log(2 η_h), the *bound*. The arcs of length 1 are the star, its link bounds the
-//!     i——j——m        planar part, where all else lies. Beyond a link edge of length c lies a triangle with sides a, b, c; the arc
+//!     i——j——m        planar part, with all other vertices. Beyond a link edge of length c lies a triangle with sides a, b, c; the arc
 //!      \ | /         across it to its third corner k has length (a + b)/c (Ptolemy), so it has to be flipped
 //!        k           into the star, and u_k be raised to its bound, where c ≥ a + b: where the triangle breaks.
 //! ```
@@ -24,22 +24,22 @@ use std::f64::consts::PI;
 
 /// A vertex is above its bound if its u exceeds the bound by more than this, which is far above the rounding of u and η.
 const OFF_BOUND: f64 = 1e-12;
-/// Most flips per edge. Surfaces need less than one; rounding could make a sequence of flips come back to where it was.
+/// Largest number of flips per edge. Surfaces need less than one; rounding could make a sequence of flips repeat.
 const MOST_FLIPS_PER_EDGE: usize = 100;
 /// Rounding of η (of relative size ε) changes an angle π − φ by a few ε/φ. An edge is not flipped where the angles opposite it exceed π
 /// by less than this multiple of ε/φ.
 const ANGLE_ROUNDINGS: f64 = 32.0;
-/// Radians. An edge is not flipped either where the angles exceed π by less than this: rounding is that large whatever φ is.
+/// Radians. An edge is not flipped if the angles exceed π by less than this, which bounds the rounding at any φ.
 const LEAST_EXCESS: f64 = 1e-12;
-/// Radians. A polyhedron whose dihedral angles are all this close to 0 and π is flat: where they are within δ, rounding leaves the
-/// spherical metric |K| up to 6e-15/δ (measured), which is above the default tolerance of 1e-10 here.
+/// Radians. A polyhedron whose dihedral angles are all this close to 0 and π counts as flat. If they are within δ, rounding makes |K| of
+/// the spherical metric up to 6e-15/δ (measured), which is above the default tolerance of 1e-10 at this δ.
 pub(super) const FLAT_POLYHEDRON: f64 = 5e-5;
-/// Radians. Where a polyhedron this close to a flat one is not found, its flatness is given as the reason.
+/// Radians. If no polyhedron is found on a surface this close to a flat one, the error names flatness as the reason.
 pub(super) const NEARLY_FLAT: f64 = 1e-2;
 
-/// A punctured surface in E²: vertex scaling, but that some vertices may be circles (ε = 1) whose edges to points have η ≥ 0.
+/// A punctured surface in E²: vertex scaling, except that some vertices may be circles (ε = 1) whose edges to points have η ≥ 0.
 #[derive(Debug, Clone)]
-pub(super) struct Punctured {
+pub(super) struct PuncturedSurface {
     pub mesh: Mesh,
     /// u is 0 at the puncture.
     pub metric: Metric,
@@ -51,7 +51,7 @@ pub(super) struct Punctured {
     pub flips: usize,
 }
 
-impl Punctured {
+impl PuncturedSurface {
     /// The arcs from the puncture, clockwise.
     pub fn star(&self) -> Vec<HalfedgeId> {
         self.mesh.outgoing(self.at).collect()
@@ -72,13 +72,13 @@ impl Punctured {
         -(2.0 * self.metric.eta[arc.edge()].high).ln()
     }
 
-    /// Length of an edge; 0 where it has none that is real.
+    /// Length of an edge; 0 if it has no real one.
     pub fn length(&self, h: HalfedgeId) -> f64 {
         let [a, b] = self.mesh.ends(h.edge()).map(|v| self.metric.vertex(v));
         edge(Space::E2, a, b, self.metric.eta[h.edge()]).map_or(0.0, |edge| edge.length(Space::E2))
     }
 
-    /// A u of the puncture with which arcs are so long that the star's faces are triangles too.
+    /// A u of the puncture at which arcs are so long that the star's faces are triangles too.
     pub fn closing_u(&self) -> f64 {
         let longest = self.star().iter().map(|&arc| self.length(self.link(arc))).fold(1.0, f64::max);
         2.0 * (2.0 * longest).ln()
@@ -91,13 +91,13 @@ impl Punctured {
         metric
     }
 
-    /// Whether the face of a half-edge belongs to the star.
+    /// True if the face of a half-edge belongs to the star.
     pub fn in_star(&self, h: HalfedgeId) -> bool {
         [h, self.mesh.next(h), self.mesh.prev(h)].iter().any(|&h| self.mesh.origin(h) == self.at)
     }
 
-    /// Half-perimeter differences of a face, from u to twice the digits. Errors: [`Error::EdgeWeight`] at an edge whose length is
-    /// beyond doubles.
+    /// Half-perimeter differences of a face, from u in double-double precision. Errors: [`Error::EdgeWeight`] at an edge whose length is
+    /// beyond the range of f64.
     fn differences(&self, f: FaceId) -> Result<[f64; 3]> {
         let (corners, edges, unit) = self.parts(f)?;
         Ok(differences(corners, edges).map(|r| scaled(r, unit)))
@@ -108,7 +108,7 @@ impl Punctured {
         let mut corners = self.mesh.face_vertices(f).map(|v| self.metric.vertex(v));
         let sides = self.mesh.opposite_edges(f);
         let side = |k: usize| {
-            let (e, need) = (sides[k], "one that gives the edge a length in the range of doubles at this u");
+            let (e, need) = (sides[k], "one that gives the edge a length in floating-point range at this u");
             let eta = self.metric.eta[e];
             let made = edge(Space::E2, corners[(k + 1) % 3], corners[(k + 2) % 3], eta);
             made.ok_or(Error::EdgeWeight { edge: e.index(), eta: eta.high, need })
@@ -133,8 +133,8 @@ impl Punctured {
         Ok(angles_from(Space::E2, self.differences(f)?).at[(corner + turn) % 3])
     }
 
-    /// The angles under which the circle of a face, orthogonal to those of its corners, meets its sides: its angles where no corner is a
-    /// circle. A side is Delaunay where those of its two faces add up to π at most.
+    /// The angles under which the circle of a face, which is orthogonal to those of its corners, meets its sides; if no corner is a circle,
+    /// these are the angles of the face. A side is Delaunay if those of its two faces add up to π at most.
     fn side_angles(&self, f: FaceId) -> Result<[f64; 3]> {
         let (corners, edges, _) = self.parts(f)?;
         let r = differences(corners, edges);
@@ -146,7 +146,7 @@ impl Punctured {
         Ok(cotangents.map(|x| 1f64.atan2(x)))
     }
 
-    /// Per edge the angles of the planar part opposite it ([`Punctured::side_angles`]); 0 in the star.
+    /// Per edge the angles of the planar part opposite it ([`PuncturedSurface::side_angles`]); 0 in the star.
     fn opposite(&self) -> Result<PerEdge<[f64; 2]>> {
         let mut found = vec![Ok([0.0; 3]); self.mesh.n_faces()];
         parallel::fill(&mut found, |f| {
@@ -165,7 +165,7 @@ impl Punctured {
         Ok(self.mesh.edges().map(both).collect::<Result<Vec<_>>>()?.into())
     }
 
-    /// Per edge, by how much the angles opposite it exceed π; it is Delaunay where they do not.
+    /// Per edge, the excess over π of the angles opposite it; it is Delaunay if that is not positive.
     pub fn excess(&self) -> Result<PerEdge<f64>> {
         Ok(self.opposite()?.iter().map(|[a, b]| a + b - PI).collect::<Vec<_>>().into())
     }
@@ -181,8 +181,8 @@ impl Punctured {
         self.star().into_iter().map(|arc| Ok(PI - inside(arc)?)).collect()
     }
 
-    /// Whether all vertices but the puncture lie on a line of the plane, so all on one circle of the sphere, `within` some angle: planar
-    /// angles are 0 or π, they add up to 2π inside, and the outline, there and back, turns nowhere the wrong way.
+    /// True if all vertices but the puncture lie on a line of the plane, and thus all on one circle of the sphere, up to the angle `within`:
+    /// planar angles are 0 or π, they add up to 2π inside, and the outline, which runs along the line and back, nowhere turns the wrong way.
     pub fn is_flat(&self, within: f64) -> Result<bool> {
         let mut around = PerVertex::filled(self.mesh.n_vertices(), 0.0);
         for h in self.mesh.halfedges().filter(|&h| !self.in_star(h)) {
@@ -192,7 +192,7 @@ impl Punctured {
             }
             around[self.mesh.origin(h)] += angle;
         }
-        // Between two arcs from the puncture to j, j is an end of the line.
+        // A vertex j between two arcs from the puncture to it is an end of the line.
         let mut outside = PerVertex::filled(self.mesh.n_vertices(), false);
         for j in self.star().into_iter().map(|arc| self.mesh.tip(arc)) {
             (around[j], outside[j]) = (around[j] + PI, true);
@@ -216,9 +216,8 @@ impl Punctured {
         flipped
     }
 
-    /// Flips until the star is that of u: vertices above their bound leave the link, those that violate it enter, and the link is
-    /// put on its bounds. `slivers`: edges of slivers are flipped too. Returns whether anything was flipped. Errors: flips that do
-    /// not end.
+    /// Flip until the star is that of u: vertices above their bound leave the link, those that violate it enter, and the u of the link is
+    /// set to its bounds. `slivers`: edges of slivers are flipped too. Returns true if anything was flipped. Errors: flips that do not end.
     pub fn enter(&mut self, slivers: bool) -> Result<bool> {
         let before = self.flips;
         loop {
@@ -261,20 +260,20 @@ impl Punctured {
         Ok(self.flips > before)
     }
 
-    /// Half of what the other two sides of the planar face at an edge exceed it by: of the one beyond the star.
+    /// Half of the excess of the other two sides over an edge, in its planar face, the one beyond the star.
     pub fn slack(&self, side: HalfedgeId) -> Result<f64> {
         let (f, corner) = self.corner(if self.in_star(side) { side.twin() } else { side })?;
         Ok(self.differences(f)?[(corner + 2) % 3])
     }
 
-    /// Flip edges that are not Delaunay by more than rounding. Newton's own test takes the cosines of the angles, which cannot tell
-    /// where one is π − φ and the other about φ, below 1e-6.
+    /// Flip edges that are not Delaunay by more than rounding. The test of the Newton steps uses the cosines of the angles, which do not
+    /// decide if one angle is π − φ and the other is about φ, with φ below 1e-6.
     fn flip_slivers(&mut self) -> Result<()> {
         let fails = |[a, b]: [f64; 2]| {
             let phi = (PI - a.max(b)).max(f64::EPSILON);
             a + b - PI > LEAST_EXCESS + ANGLE_ROUNDINGS * f64::EPSILON / phi
         };
-        // Usually no edge fails, and one parallel look at all of them is enough.
+        // Usually no edge fails, and one parallel test of all of them is enough.
         if !self.opposite()?.iter().any(|&angles| fails(angles)) {
             return Ok(());
         }
@@ -286,7 +285,7 @@ impl Punctured {
         Ok(())
     }
 
-    /// The angle of [`Punctured::opposite`] in the face of a half-edge.
+    /// The angle of [`PuncturedSurface::opposite`] in the face of a half-edge.
     fn opposite_angle(&self, h: HalfedgeId) -> Result<f64> {
         if self.in_star(h) {
             return Ok(0.0);

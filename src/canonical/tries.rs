@@ -1,78 +1,78 @@
-//! Flows from one vertex after the other, until one ends well.
+//! Searches for a vertex to puncture the surface at: flows from one vertex after the other, until one succeeds.
 
-use super::puncture::{Found, Goal, Solver};
-use super::star::{FLAT_POLYHEDRON, NEARLY_FLAT, Punctured};
+use super::puncture::{PlaneGoal, PlaneReport, PlaneSolver};
+use super::star::{FLAT_POLYHEDRON, NEARLY_FLAT, PuncturedSurface};
 use crate::error::{Error, Result};
 use crate::geometry::worse;
 use crate::mesh::{Mesh, PerVertex, VertexId};
 use crate::topology::{farthest_vertices, shortest_paths};
 
-/// The first plane is only used to find the vertex from which the plane is best, so that its outline may turn the wrong way a little.
-const FIRST_PLANE: Goal = Goal { straight: 1e-4, slivers: false };
-/// The last plane: its outline is convex but for rounding.
-const LAST_PLANE: Goal = Goal { straight: 1e-12, slivers: true };
-/// Most vertices that are tried, first from a guess, then from the plane that was found, until the flow from one ends well.
+/// The goal for the first plane. It is only used to find the best vertex, so its outline may turn the wrong way a little.
+const FIRST_PLANE: PlaneGoal = PlaneGoal { straight: 1e-4, slivers: false };
+/// The goal for the last plane: its outline is convex up to rounding.
+const LAST_PLANE: PlaneGoal = PlaneGoal { straight: 1e-12, slivers: true };
+/// Largest number of vertices that are tried, first from a guess, then from the first plane, until the flow from one succeeds.
 const TRIES: usize = 8;
-/// Most Newton steps from the first plane to the plane seen from another vertex. One is usual; narrow angles take some more.
+/// Largest number of Newton steps from the first plane to the plane seen from another vertex. One is usual; narrow angles take some more.
 const STEPS_FROM_A_PLANE: usize = 60;
 
-/// A punctured surface, its plane, and how it was found.
+/// A punctured surface with its plane and the report of the flow.
 #[derive(Clone)]
-pub(super) struct Flat {
-    pub surface: Punctured,
+pub(super) struct FoundPlane {
+    pub surface: PuncturedSurface,
     pub plane: PerVertex<[f64; 2]>,
-    pub found: Found,
+    pub found: PlaneReport,
 }
 
-impl Flat {
-    /// By how much angles at an edge exceed π, or the outline turns the wrong way, at most.
+impl FoundPlane {
+    /// Largest excess over π of the angles at an edge, or turning of the outline the wrong way.
     fn violation(&self) -> Result<f64> {
         Ok(worse(self.surface.delaunay_violation()?, -self.found.turning))
     }
 
-    fn is_good(&self, goal: Goal) -> Result<bool> {
+    fn is_good(&self, goal: PlaneGoal) -> Result<bool> {
         Ok(self.found.converged && self.violation()? <= goal.straight)
     }
 
-    /// By how much it is off a plane with a convex outline, at most.
+    /// Largest error of the curvature, or violation of the conditions on angles and outline.
     fn error(&self) -> Result<f64> {
         Ok(worse(self.found.error, self.violation()?))
     }
 }
 
-/// The flows that were started so far, and what they need.
-pub(super) struct Tried<'a> {
+/// The search: the flows so far, and the data that all of them use.
+pub(super) struct PunctureSearch<'a> {
     /// Flows that were started.
     pub flows: usize,
-    /// All vertices lie on one circle.
+    /// True if all vertices lie on one circle.
     is_flat: bool,
-    /// Of the vertices, for the centring.
+    /// Weights of the vertices, for the centring.
     pub weights: &'a PerVertex<f64>,
-    /// Which vertices may be sent to infinity.
+    /// True at vertices that may be sent to infinity.
     may: PerVertex<bool>,
-    pub solver: Solver<'a>,
+    pub solver: PlaneSolver<'a>,
 }
 
-impl<'a> Tried<'a> {
-    /// Nothing yet.
-    pub fn new(weights: &'a PerVertex<f64>, solver: Solver<'a>) -> Tried<'a> {
+impl<'a> PunctureSearch<'a> {
+    /// A search without flows yet.
+    pub fn new(weights: &'a PerVertex<f64>, solver: PlaneSolver<'a>) -> PunctureSearch<'a> {
         let may = PerVertex::filled(weights.len(), true);
-        Tried { flows: 0, is_flat: false, weights, may, solver }
+        PunctureSearch { flows: 0, is_flat: false, weights, may, solver }
     }
 
-    /// Only vertices that `may` are sent to infinity.
-    pub fn only(self, may: PerVertex<bool>) -> Tried<'a> {
-        Tried { may, ..self }
+    /// The search among the vertices that `may` be sent to infinity.
+    pub fn only(self, may: PerVertex<bool>) -> PunctureSearch<'a> {
+        PunctureSearch { may, ..self }
     }
 
     /// The plane with this vertex at infinity.
-    pub fn punctured_at(&mut self, begin: &Punctured, v: VertexId) -> Result<Flat> {
+    pub fn punctured_at(&mut self, begin: &PuncturedSurface, v: VertexId) -> Result<FoundPlane> {
         let first = self.guessed(begin, &[v], None)?;
         self.first_good([Ok(first.surface.clone())], Some(&first), LAST_PLANE)
     }
 
-    /// The plane with a small range of u and no narrow angles: from any plane, the one that is best seen from there.
-    pub fn best(&mut self, begin: &Punctured) -> Result<Flat> {
+    /// The plane with a small range of u and no narrow angles. A first plane is used to find the best vertex for it.
+    pub fn best(&mut self, begin: &PuncturedSurface) -> Result<FoundPlane> {
         let widest = begin.widest(&self.may);
         let first = match self.guessed(begin, &[widest], None) {
             Ok(first) if first.found.converged => first,
@@ -84,7 +84,7 @@ impl<'a> Tried<'a> {
                 self.guessed(begin, &others, known.ok().as_ref())?
             }
         };
-        let Flat { surface, plane, .. } = &first;
+        let FoundPlane { surface, plane, .. } = &first;
         let view = surface.centre(plane, self.weights)?;
         let centred = PerVertex::from_fn(plane.len(), |v| view.apply(plane[v]));
         let u = surface.spherical(&centred, view.scale.ln()).u;
@@ -99,13 +99,18 @@ impl<'a> Tried<'a> {
         self.first_good(candidates.into_iter().take(TRIES).map(seen_from), Some(&first), LAST_PLANE)
     }
 
-    /// A plane whose outline is nearly convex, from the first of the vertices from which the flow ends well. The guess adds
+    /// A plane whose outline is nearly convex, with the first of the vertices at infinity from which the flow succeeds. The guess adds
     /// −2 log(distance) to u: the inversion of a surface that is nearly a plane.
-    fn guessed(&mut self, begin: &Punctured, vertices: &[VertexId], known: Option<&Flat>) -> Result<Flat> {
+    fn guessed(
+        &mut self,
+        begin: &PuncturedSurface,
+        vertices: &[VertexId],
+        known: Option<&FoundPlane>,
+    ) -> Result<FoundPlane> {
         let (lengths, control) = (begin.metric.lengths(&begin.mesh)?, self.solver.control);
         let guess = |&v: &VertexId| {
             let distance = shortest_paths(&begin.mesh, &lengths, [v], control)?.distance;
-            let mut surface = Punctured { at: v, ..begin.clone() };
+            let mut surface = PuncturedSurface { at: v, ..begin.clone() };
             let u = |i| if i == v { 0.0 } else { begin.metric.u[i] - 2.0 * distance[i].ln() };
             surface.metric.u = PerVertex::from_fn(distance.len(), u);
             Ok(surface)
@@ -113,17 +118,17 @@ impl<'a> Tried<'a> {
         self.first_good(vertices.iter().map(guess), known, FIRST_PLANE)
     }
 
-    /// The result of the first flow that ends well; if none does, the one with the least error, `known` included.
+    /// The result of the first flow that reaches the goal; if none does, the one with the least error, `known` included.
     ///
     /// # Errors
     ///
     /// [`Error::Layout`] where all vertices lie on one circle, or no flow came to a plane; [`Error::Cancelled`].
     fn first_good(
         &mut self,
-        surfaces: impl IntoIterator<Item = Result<Punctured>>,
-        known: Option<&Flat>,
-        goal: Goal,
-    ) -> Result<Flat> {
+        surfaces: impl IntoIterator<Item = Result<PuncturedSurface>>,
+        known: Option<&FoundPlane>,
+        goal: PlaneGoal,
+    ) -> Result<FoundPlane> {
         let none =
             |why: &str| Error::Layout(format!("no plane was found from any vertex that was tried: {why}"));
         let (mut best, mut failure) = (known.cloned(), none("the step limit came first"));
@@ -133,7 +138,7 @@ impl<'a> Tried<'a> {
             }
             let mut surface = surface?;
             let end = self.flow(&mut surface, goal);
-            // A surface with lengths beyond doubles, after a flow that failed, is not known to be flat.
+            // After a flow that failed, lengths may be beyond the range of f64; the surface then does not count as flat.
             let is_flat = |within| matches!(surface.is_flat(within), Ok(true));
             let [flat, nearly_flat] = [FLAT_POLYHEDRON, NEARLY_FLAT].map(is_flat);
             match end {
@@ -143,7 +148,7 @@ impl<'a> Tried<'a> {
                     return Err(on_a_circle(&surface.mesh));
                 }
                 Ok((plane, found)) => {
-                    let flat = Flat { surface, plane, found };
+                    let flat = FoundPlane { surface, plane, found };
                     if flat.is_good(goal)? {
                         return Ok(flat);
                     }
@@ -162,9 +167,13 @@ impl<'a> Tried<'a> {
         best.ok_or(failure)
     }
 
-    /// One flow. From a guess it takes no more than half of the steps that are left, but [`STEPS_FROM_A_PLANE`] at least, so that
-    /// other vertices have their turn.
-    fn flow(&mut self, surface: &mut Punctured, goal: Goal) -> Result<(PerVertex<[f64; 2]>, Found)> {
+    /// One flow. From a guess it takes half of the remaining steps at most, but [`STEPS_FROM_A_PLANE`] at least, so that steps remain for
+    /// other vertices.
+    fn flow(
+        &mut self,
+        surface: &mut PuncturedSurface,
+        goal: PlaneGoal,
+    ) -> Result<(PerVertex<[f64; 2]>, PlaneReport)> {
         self.flows += 1;
         let left = self.solver.left();
         let most = if goal.slivers { STEPS_FROM_A_PLANE } else { STEPS_FROM_A_PLANE.max(left / 2) };
@@ -173,7 +182,7 @@ impl<'a> Tried<'a> {
     }
 }
 
-/// An error's words inside another.
+/// The text of an error, for use in another one.
 pub(super) fn said(error: Error) -> String {
     match error {
         Error::Layout(why) => why,
@@ -181,7 +190,7 @@ pub(super) fn said(error: Error) -> String {
     }
 }
 
-/// The error of a polyhedron without inside.
+/// The error of a polyhedron without volume.
 pub(super) fn on_a_circle(mesh: &Mesh) -> Error {
     Error::Layout(format!(
         "all {} vertices come to lie on one circle, as those of the double of a plane polygon: no polyhedron with an inside has them for \

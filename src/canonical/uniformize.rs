@@ -1,4 +1,4 @@
-//! One call for every surface.
+//! Uniformizes any surface by one call: to a sphere or to a quotient.
 //!
 //! ```
 //! use ricci::canonical::{QuotientOptions, uniformize};
@@ -44,7 +44,7 @@ impl Uniformization {
         self.metric().metric().space
     }
 
-    /// Whether the flow came to its target, within its tolerance.
+    /// True if the flow came to its target, within its tolerance.
     pub fn converged(&self) -> bool {
         match self {
             Uniformization::Sphere(sphere) => sphere.report.converged,

@@ -56,7 +56,7 @@ impl CirclePattern {
             return Err(Error::Layout(format!("the circles of a layout lie in e2, not in {}", layout.space)));
         }
         let (gamma, scale) = (metric.radii()?, layout.scale);
-        let n_given = layout.refinement().map_or(mesh.n_vertices(), |r| r.n_input_vertices);
+        let n_given = layout.common_subdivision().map_or(mesh.n_vertices(), |r| r.n_vertices[0]);
         let laid = layout.mesh();
         let mut vertex_of = vec![None; layout.coordinates.len()];
         for h in laid.halfedges().filter(|&h| laid.origin(h).index() < n_given) {
@@ -79,23 +79,23 @@ impl CirclePattern {
     }
 }
 
-/// The faces of the metric's triangulation where they lie in the layout. A face that is laid out in pieces of a refinement is found from
+/// The faces of the metric's triangulation where they lie in the layout. A face that is laid out in pieces of a subdivision is found from
 /// its largest piece.
 fn final_faces(layout: &Layout) -> Vec<(FaceId, [[f64; 2]; 3])> {
     let mesh = layout.mesh();
-    let Some(refinement) = layout.refinement() else {
+    let Some(subdivision) = layout.common_subdivision() else {
         return mesh.faces().map(|f| (f, layout.face_uv(f))).collect();
     };
     let mut largest: BTreeMap<FaceId, (f64, FaceId)> = BTreeMap::new();
     for piece in mesh.faces() {
-        let share = determinant(refinement.final_barycentric(piece)).abs();
-        let best = largest.entry(refinement.final_face[piece]).or_insert((0.0, piece));
+        let share = determinant(subdivision.barycentric(1, piece)).abs();
+        let best = largest.entry(subdivision.faces[1][piece]).or_insert((0.0, piece));
         if share > best.0 {
             *best = (share, piece);
         }
     }
     let corners = |(f, (share, piece)): (FaceId, (f64, FaceId))| {
-        let (weights, uv) = (refinement.final_barycentric(piece), layout.face_uv(piece));
+        let (weights, uv) = (subdivision.barycentric(1, piece), layout.face_uv(piece));
         (share > 0.0)
             .then(|| (f, [0, 1, 2].map(|c| [0, 1].map(|axis| solve(weights, uv.map(|p| p[axis]), c)))))
     };

@@ -7,7 +7,7 @@ use crate::control::{Control, Stage};
 use crate::error::{Error, Result};
 use crate::geometry::{DoubleDouble, Motion};
 use crate::mesh::{FaceId, HalfedgeId, PerEdge, PerFace, PerHalfedge, VertexId};
-use crate::metric::Refinement;
+use crate::metric::CommonSubdivision;
 use crate::parallel;
 use crate::topology::{NearestQueue, check_vertex};
 use std::sync::Arc;
@@ -87,7 +87,7 @@ impl<'a, F: HalfedgeFrame> Development<'a, F> {
             patch: PerFace::filled(n_pieces, NONE),
             n_patches: 0,
             order: Vec::with_capacity(n_pieces),
-            spans: vec![[0; 2]; if pieces.refinement().is_some() { n_final } else { 0 }],
+            spans: vec![[0; 2]; if pieces.common_subdivision().is_some() { n_final } else { 0 }],
             crossed: PerEdge::filled(if is_cut.is_none() { n_edges } else { 0 }, false),
             queue: NearestQueue::new((faces.area() / n_final as f64).sqrt()),
         };
@@ -140,17 +140,17 @@ impl<'a, F: HalfedgeFrame> Development<'a, F> {
         Ok(self.faces.side(face, k, self.frames[self.patch[piece] as usize]))
     }
 
-    /// The development of a refinement, given the frames of the first half-edges of its final faces.
-    pub fn of_frames(r: &Arc<Refinement>, faces: &'a Faces<'a, F>, frames: Vec<F>) -> Self {
+    /// The development of a subdivision, given the frames of the first half-edges of its final faces.
+    pub fn of_frames(r: &Arc<CommonSubdivision>, faces: &'a Faces<'a, F>, frames: Vec<F>) -> Self {
         let mut order: Vec<FaceId> = r.mesh.faces().collect();
-        order.sort_by_key(|&f| r.final_face[f]);
-        let first = |k: usize| order.partition_point(|&f| r.final_face[f].index() < k) as u32;
+        order.sort_by_key(|&f| r.faces[1][f]);
+        let first = |k: usize| order.partition_point(|&f| r.faces[1][f].index() < k) as u32;
         Development {
-            pieces: LayoutPieces::Refinement(r.clone()),
+            pieces: LayoutPieces::Subdivision(r.clone()),
             faces,
             spans: (0..frames.len()).map(|k| [first(k), first(k + 1)]).collect(),
             n_patches: frames.len(),
-            patch: r.final_face.iter().map(|f| f.0).collect::<Vec<_>>().into(),
+            patch: r.faces[1].iter().map(|f| f.0).collect::<Vec<_>>().into(),
             frames,
             order,
             crossed: Vec::new().into(),
@@ -162,7 +162,7 @@ impl<'a, F: HalfedgeFrame> Development<'a, F> {
         self.order.len()
     }
 
-    /// The pieces of a patch; of a refinement, none if the patch's final face was not reached.
+    /// The pieces of a patch; of a subdivision, none if the patch's final face was not reached.
     pub fn pieces_of(&self, patch: usize) -> impl Iterator<Item = FaceId> + '_ {
         let of_mesh = self.spans.is_empty().then(|| FaceId::from(patch));
         let [begin, end] = self.spans.get(patch).map_or([0; 2], |span| span.map(|k| k as usize));
@@ -229,7 +229,7 @@ impl<F: HalfedgeFrame> DevelopmentGrowth<'_, F> {
     fn add(&mut self, piece: FaceId, k: usize, frame: F::Rough) -> Result<()> {
         let (mesh, faces, pieces) = (self.pieces.mesh(), self.faces, self.pieces);
         let face = pieces.final_face(piece);
-        let is_refined = pieces.refinement().is_some();
+        let is_refined = pieces.common_subdivision().is_some();
         let (halfedges, sides) = (faces.mesh.face_halfedges(face), faces.around(face, k, frame));
         let number = self.new_patch(face, sides[0]);
         let (begin, mut distance) = (self.order.len(), [None; 3]);
@@ -321,7 +321,7 @@ impl<F: HalfedgeFrame> DevelopmentGrowth<'_, F> {
 
 /// The number of a half-edge among those of the final face of a piece that has it as a side.
 fn number_in(sides: [HalfedgeId; 3], along: HalfedgeId) -> Result<usize> {
-    let torn = || Error::Layout("a piece of the refinement does not lie in its face".into());
+    let torn = || Error::Layout("a piece of the subdivision does not lie in its face".into());
     sides.iter().position(|&side| side == along).ok_or_else(torn)
 }
 
@@ -350,7 +350,7 @@ fn start<F: HalfedgeFrame>(
     };
     check_vertex(faces.mesh, root)?;
     check_vertex(mesh, root)?;
-    // A layout of the final triangulation and one of its refinement agree if both start with the first half-edge of the final triangulation
+    // A layout of the final triangulation and one of its subdivision agree if both start with the first half-edge of the final triangulation
     // at the root. If that belongs to no piece, since it lies on the other half of the double, any other one is taken.
     let first = faces.mesh.outgoing(root).find(|&h| !faces.mesh.is_outside(h));
     let mut any = None;

@@ -3,7 +3,7 @@
 use super::faces::{Faces, combination};
 use super::frame::HalfedgeFrame;
 use super::layout::distance;
-use super::pieces::{LayoutPieces, Place};
+use super::pieces::{LayoutPieces, PlaceInFace};
 use crate::mesh::{FaceId, HalfedgeId, Mesh, PerEdge};
 use crate::parallel;
 use std::cell::OnceCell;
@@ -15,7 +15,7 @@ const LEAST_LENGTH: f64 = 1e-12;
 /// The lengths of the pieces' edges in the metric.
 pub(super) fn lengths_of_pieces<F: HalfedgeFrame>(pieces: &LayoutPieces, faces: &Faces<F>) -> PerEdge<f64> {
     let mesh = pieces.mesh();
-    if pieces.refinement().is_none() {
+    if pieces.common_subdivision().is_none() {
         return faces.lengths();
     }
     // Of the two half-edges of an interior edge, the one with the even number is measured.
@@ -30,7 +30,7 @@ pub(super) fn lengths_of_pieces<F: HalfedgeFrame>(pieces: &LayoutPieces, faces: 
             let corners = *corners.get_or_init(|| faces.local(face));
             combination(faces.space, corners, places[k].weights())
         };
-        [0, 1, 2].map(|k| match [places[k], places[(k + 1) % 3]].map(Place::rounded) {
+        [0, 1, 2].map(|k| match [places[k], places[(k + 1) % 3]].map(PlaceInFace::rounded) {
             _ if !is_measured(sides[k]) => 0.0,
             // The edge is a whole side of the final face.
             [Some(from), Some(to)] if from != to => faces.length(face, 3 - from - to),
@@ -47,7 +47,7 @@ pub(super) fn lengths_of_pieces<F: HalfedgeFrame>(pieces: &LayoutPieces, faces: 
 
 /// The lengths of the input's edges, each measured along itself: the sums of the lengths of the pieces' edges that it consists of.
 pub(super) fn lengths_of_input(pieces: &LayoutPieces, of_pieces: PerEdge<f64>, input: &Mesh) -> PerEdge<f64> {
-    if pieces.refinement().is_none() {
+    if pieces.common_subdivision().is_none() {
         return with_least_length(of_pieces);
     }
     let mut lengths = PerEdge::filled(input.n_edges(), 0.0);

@@ -6,7 +6,7 @@ use crate::error::Result;
 use crate::flow::Solution;
 use crate::geometry::{DoubleDouble, Motion, Space};
 use crate::mesh::{FaceId, HalfedgeId, Mesh, PerFace, PerHalfedge};
-use crate::metric::Refinement;
+use crate::metric::CommonSubdivision;
 use crate::parallel;
 use std::sync::Arc;
 
@@ -28,19 +28,19 @@ pub struct FaceTransitions {
 }
 
 impl FaceTransitions {
-    /// The transitions of a metric: on its triangulation, or on the pieces of a common refinement ([`Solution::refinement`]).
+    /// The transitions of a metric: on its triangulation, or on the pieces of a common subdivision ([`Solution::common_subdivision`]).
     ///
     /// # Errors
-    /// Those of [`crate::metric::Metric::lengths`]; [`crate::Error::Layout`] for a refinement of another triangulation.
-    pub fn new(metric: &Solution, refinement: Option<&Arc<Refinement>>) -> Result<FaceTransitions> {
+    /// Those of [`crate::metric::Metric::lengths`]; [`crate::Error::Layout`] for a subdivision of another triangulation.
+    pub fn new(metric: &Solution, subdivision: Option<&Arc<CommonSubdivision>>) -> Result<FaceTransitions> {
         let faces = Faces::precise(metric.mesh(), metric.metric())?;
-        let pieces = refinement.map_or_else(
+        let pieces = subdivision.map_or_else(
             || LayoutPieces::Mesh(metric.mesh().clone()),
-            |r| LayoutPieces::Refinement(r.clone()),
+            |r| LayoutPieces::Subdivision(r.clone()),
         );
         let mesh = match &pieces {
             LayoutPieces::Mesh(mesh) => mesh.clone(),
-            LayoutPieces::Refinement(r) => Arc::new(r.mesh.clone()),
+            LayoutPieces::Subdivision(r) => Arc::new(r.mesh.clone()),
         };
         let mut corners = vec![[[0.0; 3]; 3]; mesh.n_faces()];
         parallel::fill(&mut corners, |f| {

@@ -1,7 +1,7 @@
 //! The triangles of a metric with their sides and angles, and the frames of their half-edges.
 
 use super::frame::{HalfedgeFrame, MovingFrame, PlaneFrame};
-use super::pieces::Place;
+use super::pieces::PlaceInFace;
 use crate::error::{Error, Result};
 use crate::geometry::model::distance;
 use crate::geometry::motion::precise_point;
@@ -10,8 +10,8 @@ use crate::geometry::triangle::half_differences;
 use crate::geometry::{DoubleDouble, Motion, Space};
 use crate::mesh::{EdgeId, FaceId, HalfedgeId, Mesh, PerEdge, PerFace};
 use crate::metric::Metric;
+use crate::metric::common_subdivision::corner_at;
 use crate::metric::precise::shapes;
-use crate::metric::refinement::corner_at;
 use crate::parallel;
 use std::cell::OnceCell;
 
@@ -98,7 +98,7 @@ impl Faces<'_, Motion<DoubleDouble>> {
     }
 
     /// A point of a face whose first half-edge has this frame; at a corner in double-double precision.
-    pub fn point(&self, face: FaceId, first: Motion<DoubleDouble>, place: Place) -> [DoubleDouble; 3] {
+    pub fn point(&self, face: FaceId, first: Motion<DoubleDouble>, place: PlaceInFace) -> [DoubleDouble; 3] {
         match place.rounded() {
             Some(corner) => self.around(face, 0, first)[corner].origin(),
             None => {
@@ -293,7 +293,7 @@ impl<'a, F: HalfedgeFrame> PlacedFace<'a, F> {
     }
 
     /// A point of the face in the layout, and the low parts of x and y in double-double precision, which are known only at a corner.
-    pub fn point(&self, place: Place) -> ([f64; 3], [f64; 2]) {
+    pub fn point(&self, place: PlaceInFace) -> ([f64; 3], [f64; 2]) {
         match place.rounded() {
             Some(corner) => self.faces.side(self.face, corner, self.first).point(),
             None => (self.first.apply(self.local(place.weights())), [0.0; 2]),
@@ -302,7 +302,7 @@ impl<'a, F: HalfedgeFrame> PlacedFace<'a, F> {
 
     /// The differences between `points` and the points of the face at these places ([`HalfedgeFrame::miss`]). At a corner the difference is
     /// a vector at the corner itself, since in a large face of H² it would be magnified elsewhere.
-    pub fn misses(&self, points: [[f64; 3]; 3], places: [Place; 3], sides: &[F; 3]) -> [[f64; 2]; 3] {
+    pub fn misses(&self, points: [[f64; 3]; 3], places: [PlaceInFace; 3], sides: &[F; 3]) -> [[f64; 2]; 3] {
         [0, 1, 2].map(|k| match places[k].rounded() {
             Some(corner) => sides[corner].miss_of_origin(points[k]),
             None => self.first.miss(points[k], self.local(places[k].weights())),

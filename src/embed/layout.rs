@@ -26,7 +26,7 @@ use crate::geometry::triangle_flatness::{
 };
 use crate::geometry::{DoubleDouble, Motion, PlaneIsometry, Space};
 use crate::mesh::{FaceId, HalfedgeId, Mesh, PerFace, PerHalfedge, VertexId};
-use crate::metric::Refinement;
+use crate::metric::CommonSubdivision;
 use crate::parallel;
 use crate::topology::{CutGraph, corner_walk, number_corners};
 use std::cmp::Ordering;
@@ -41,11 +41,11 @@ pub const MEETING: f64 = 1e-8;
 /// A surface, opened along a cut, in the model space of its metric: E², H² or S². Orientation is the surface's (of a sphere seen from
 /// outside).
 ///
-/// The triangles that are laid out are those of [`Layout::mesh`]: the metric's own triangulation, or its common refinement with the surface
-/// as it came. A triangle of the refinement, a *piece*, lies in its *final face*, a triangle of the metric's triangulation: the corners of
-/// the piece are combinations of the face's corners, as vectors, with the weights of the refinement, brought back to the plane, the
+/// The triangles that are laid out are those of [`Layout::mesh`]: the metric's own triangulation, or its common subdivision with the surface
+/// as it came. A triangle of the subdivision, a *piece*, lies in its *final face*, a triangle of the metric's triangulation: the corners of
+/// the piece are combinations of the face's corners, as vectors, with the weights of the subdivision, brought back to the plane, the
 /// hyperboloid or the sphere. So the map from the input is projective on every piece: with the homogeneous weights q of the corners
-/// ([`Refinement::weight`]) and their ambient coordinates P, it is q P that is linear.
+/// ([`CommonSubdivision::weight`]) and their ambient coordinates P, it is q P that is linear.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layout {
     /// The space.
@@ -65,10 +65,10 @@ pub struct Layout {
     /// One seam per segment of the cut, in the same order.
     pub seams: Vec<Seam>,
     /// Triangles that are not counterclockwise. Of a metric's own triangulation: clockwise or without area, by exact arithmetic. Of a
-    /// refinement: those whose area is below −[`crate::geometry::triangle_flatness::LEAST_RELATIVE_AREA`] · longest edge², by more than
+    /// subdivision: those whose area is below −[`crate::geometry::triangle_flatness::LEAST_RELATIVE_AREA`] · longest edge², by more than
     /// rounding explains.
     pub flipped: Vec<FaceId>,
-    /// Triangles of a refinement whose area differs from zero by no more than that.
+    /// Triangles of a subdivision whose area differs from zero by no more than that.
     pub degenerate: Vec<FaceId>,
     /// Triangles in final faces whose lengths break the triangle inequality, ascending. They are laid out with angles (π, 0, 0), and the
     /// layout does not represent the metric there.
@@ -149,9 +149,9 @@ impl Layout {
         self.pieces.mesh()
     }
 
-    /// The common refinement that is laid out; `None` if the metric's own triangulation is.
-    pub fn refinement(&self) -> Option<&Arc<Refinement>> {
-        self.pieces.refinement()
+    /// The common subdivision that is laid out; `None` if the metric's own triangulation is.
+    pub fn common_subdivision(&self) -> Option<&Arc<CommonSubdivision>> {
+        self.pieces.common_subdivision()
     }
 
     /// Plane coordinates of the corner at the origin of `h`, in its face.
@@ -309,7 +309,7 @@ impl Layout {
     /// Sets the lists of flipped and degenerate triangles.
     pub(super) fn find_flat(&mut self) {
         let mesh = self.pieces.mesh();
-        if self.pieces.refinement().is_none() {
+        if self.pieces.common_subdivision().is_none() {
             self.flipped = match self.space {
                 Space::E2 => faces_where(mesh, |f| !is_left_turn(self.face_uv(f))),
                 // In H² the sign of the determinant is the orientation in the Klein disk.
@@ -328,7 +328,7 @@ impl Layout {
             (faces(TriangleOrientation::Flipped), faces(TriangleOrientation::Degenerate));
     }
 
-    /// The orientation of a triangle of a refinement; `extent`: the largest coordinate of the whole layout, at which corners in E² are
+    /// The orientation of a triangle of a subdivision; `extent`: the largest coordinate of the whole layout, at which corners in E² are
     /// rounded. In H² and S² the triangle is moved to the origin first.
     fn orientation(&self, f: FaceId, extent: f64) -> TriangleOrientation {
         if self.space == Space::E2 {

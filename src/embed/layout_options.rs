@@ -2,7 +2,7 @@
 
 use crate::error::{Result, check_size};
 use crate::mesh::{Mesh, VertexId};
-use crate::metric::Refinement;
+use crate::metric::CommonSubdivision;
 use crate::topology::CutGraph;
 use std::sync::Arc;
 
@@ -31,7 +31,7 @@ pub enum LayoutOpening {
     /// Edges of the metric's own triangulation, for a surface without cones: faces are added by the distance of their far corner from the
     /// root, and the surface is opened where this growing disk meets itself. The opened surface is nearly a Dirichlet domain, small and
     /// round about the root; a sphere is not cut at all. The coordinates are computed in double-double precision, as deck groups need them.
-    /// If the metric lives on the double, the refinement of its triangulation and the given half is laid out.
+    /// If the metric lives on the double, the subdivision of its triangulation and the given half is laid out.
     MetricEdges,
     /// This cut of the metric's own triangulation, with all cones inside the surface on it. The coordinates are computed in double-double
     /// precision. If the metric lives on the double, both halves are laid out.
@@ -52,8 +52,8 @@ pub struct LayoutOptions {
     pub root: Option<VertexId>,
     /// The scale in E². Default: [`LayoutScale::InputArea`].
     pub scale: LayoutScale,
-    /// [`crate::Solution::refinement`] of the result, if the caller has it already.
-    pub refinement: Option<Arc<Refinement>>,
+    /// [`crate::Solution::common_subdivision`] of the result, if the caller has it already.
+    pub subdivision: Option<Arc<CommonSubdivision>>,
     /// The number of threads, in a pool of the call's own unless the caller is in one ([`crate::parallel::within`]); default 0: as many as
     /// the flow had. The result does not depend on it.
     pub threads: usize,

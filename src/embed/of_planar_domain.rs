@@ -6,14 +6,14 @@ use super::pieces::LayoutPieces;
 use crate::error::{Error, Result, check_size};
 use crate::geometry::{Space, triangle};
 use crate::mesh::{Mesh, PerEdge, PerFace, PerHalfedge, PerVertex};
-use crate::metric::Refinement;
+use crate::metric::CommonSubdivision;
 use crate::parallel;
 use crate::topology::CutGraph;
 use std::sync::Arc;
 
-/// The places of a refinement's vertices in the plane, and how well they fit the metric.
+/// The places of a subdivision's vertices in the plane, and how well they fit the metric.
 pub(crate) struct PlanarPlaces {
-    /// Per vertex of the refinement.
+    /// Per vertex of the subdivision.
     pub plane: PerVertex<[f64; 2]>,
     /// [`Layout::disagreement`].
     pub disagreement: f64,
@@ -22,21 +22,21 @@ pub(crate) struct PlanarPlaces {
 }
 
 impl Layout {
-    /// The layout of a planar domain in E², without a cut, from places of the vertices of a refinement. `given`: the surface as it came,
-    /// which the refinement refines.
+    /// The layout of a planar domain in E², without a cut, from places of the vertices of a subdivision. `given`: the surface as it came,
+    /// which the subdivision refines.
     ///
     /// # Errors
     /// [`Error::Size`]; [`Error::Layout`] for a place that is not finite.
     pub(crate) fn of_planar_domain(
         given: &Arc<Mesh>,
-        refinement: Arc<Refinement>,
+        subdivision: Arc<CommonSubdivision>,
         places: PlanarPlaces,
     ) -> Result<Layout> {
         let PlanarPlaces { plane, disagreement, local_consistency } = places;
-        let mesh = &refinement.mesh;
+        let mesh = &subdivision.mesh;
         check_size("places", plane.len(), mesh.n_vertices())?;
         if let Some(v) = mesh.vertices().find(|&v| plane[v].iter().any(|x| !x.is_finite())) {
-            return Err(Error::Layout(format!("vertex {v} of the refinement has no place in the plane")));
+            return Err(Error::Layout(format!("vertex {v} of the subdivision has no place in the plane")));
         }
         let uncut = |mesh: &Mesh| CutGraph {
             is_cut: PerEdge::filled(mesh.n_edges(), false),
@@ -67,7 +67,7 @@ impl Layout {
             points,
             remainders: Vec::new(),
             coordinates,
-            pieces: LayoutPieces::Refinement(refinement),
+            pieces: LayoutPieces::Subdivision(subdivision),
         };
         layout.measure_area();
         layout.find_flat();

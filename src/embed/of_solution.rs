@@ -12,7 +12,7 @@ use crate::error::Result;
 use crate::flow::Solution;
 use crate::geometry::Space;
 use crate::mesh::{Mesh, PerEdge, VertexId};
-use crate::metric::Refinement;
+use crate::metric::CommonSubdivision;
 use crate::metric::curvature::area;
 use crate::parallel::within;
 use crate::topology::{CutGraph, central_vertex, check_vertex, cut_about, cut_about_centre, cut_graph};
@@ -20,11 +20,11 @@ use std::sync::Arc;
 
 impl Layout {
     /// The layout of a flow's result, closed or open, on the double (then of the given half), with edges flipped (then on the common
-    /// refinement) or not. By default the surface is opened along edges of the surface as it came ([`LayoutOpening`]).
+    /// subdivision) or not. By default the surface is opened along edges of the surface as it came ([`LayoutOpening`]).
     ///
     /// # Errors
     /// [`crate::Error::Argument`] for a cone or root that is no vertex; [`crate::Error::Layout`] for a sphere in E² with fewer than two
-    /// cones, a cut that does not leave a disk, several components, lengths beyond what f64s can place; those of [`Solution::refinement`]
+    /// cones, a cut that does not leave a disk, several components, lengths beyond what f64s can place; those of [`Solution::common_subdivision`]
     /// and [`crate::metric::Metric::lengths`]; [`crate::Error::Cancelled`].
     ///
     /// ```
@@ -63,10 +63,10 @@ impl Layout {
 /// The layout opened along edges of the surface as it came, at the metric's own scale.
 fn along_input_edges(solution: &Solution, options: &LayoutOptions, control: &Control) -> Result<Layout> {
     let (mesh, metric) = (solution.mesh(), solution.metric());
-    let pieces = match &options.refinement {
-        Some(refinement) => LayoutPieces::Refinement(refinement.clone()),
+    let pieces = match &options.subdivision {
+        Some(subdivision) => LayoutPieces::Subdivision(subdivision.clone()),
         None if solution.is_unflipped() => LayoutPieces::Mesh(solution.given().clone()),
-        None => LayoutPieces::Refinement(Arc::new(solution.refinement(control)?)),
+        None => LayoutPieces::Subdivision(Arc::new(solution.common_subdivision(control)?)),
     };
     if metric.space == Space::E2 {
         cut_and_unfold(solution, pieces, &Faces::in_plane(mesh, metric)?, options, control)
@@ -178,19 +178,21 @@ impl BasedLayout {
     fn unmeasured(
         solution: &Solution,
         base: Option<VertexId>,
-        refinement: Option<&Arc<Refinement>>,
+        subdivision: Option<&Arc<CommonSubdivision>>,
         control: &Control,
     ) -> Result<BasedLayout> {
         let faces = Faces::precise(solution.mesh(), solution.metric())?;
-        let (pieces, surface): (LayoutPieces, &Mesh) = match (solution.double(), refinement) {
+        let (pieces, surface): (LayoutPieces, &Mesh) = match (solution.double(), subdivision) {
             (None, _) => (LayoutPieces::Mesh(solution.mesh().clone()), solution.mesh()),
-            (Some(_), Some(refinement)) => (LayoutPieces::Refinement(refinement.clone()), solution.given()),
+            (Some(_), Some(subdivision)) => {
+                (LayoutPieces::Subdivision(subdivision.clone()), solution.given())
+            }
             (Some(_), None) => {
-                (LayoutPieces::Refinement(Arc::new(solution.refinement(control)?)), solution.given())
+                (LayoutPieces::Subdivision(Arc::new(solution.common_subdivision(control)?)), solution.given())
             }
         };
         let of_pieces = lengths_of_pieces(&pieces, &faces);
-        let is_refined = pieces.refinement().is_some();
+        let is_refined = pieces.common_subdivision().is_some();
         let base = match base {
             Some(base) => base,
             None if is_refined => {
@@ -205,7 +207,7 @@ impl BasedLayout {
 }
 
 fn along_metric_edges(solution: &Solution, options: &LayoutOptions, control: &Control) -> Result<Layout> {
-    Ok(BasedLayout::unmeasured(solution, options.root, options.refinement.as_ref(), control)?.layout)
+    Ok(BasedLayout::unmeasured(solution, options.root, options.subdivision.as_ref(), control)?.layout)
 }
 
 /// The layout opened along a cut of the metric's own triangulation, at the metric's own scale.

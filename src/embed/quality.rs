@@ -25,7 +25,7 @@ use crate::geometry::triangle_flatness::{
 use crate::geometry::triangle_overlap::TriangleCorners;
 use crate::geometry::{Space, vector};
 use crate::mesh::{FaceId, Mesh, PerEdge, PerFace, Point};
-use crate::metric::Refinement;
+use crate::metric::CommonSubdivision;
 use crate::parallel;
 use crate::topology::check_lengths;
 use std::ops::RangeInclusive;
@@ -101,7 +101,7 @@ impl Layout {
     }
 
     /// True if a piece and its image both have a shape that can be compared. The triangles of a mesh always have one, since they come from
-    /// their lengths, but the corners of a refinement's pieces are rounded. `to`: the image in E², divided by the diameter; `corners`: the
+    /// their lengths, but the corners of a subdivision's pieces are rounded. `to`: the image in E², divided by the diameter; `corners`: the
     /// image in ambient coordinates.
     fn can_compare(&self, from: TriangleCorners, to: TriangleCorners, corners: [Point; 3]) -> bool {
         let is_sound = || match self.space {
@@ -113,7 +113,7 @@ impl Layout {
                 flatness.orientation(extent) == TriangleOrientation::Upright
             }
         };
-        self.refinement().is_none()
+        self.common_subdivision().is_none()
             || (TriangleFlatness::of(from).relative_area > LEAST_RELATIVE_AREA && is_sound())
     }
 
@@ -131,7 +131,7 @@ impl Layout {
 }
 
 impl Quality {
-    /// The distortion of the linear maps from the pieces of a refinement to triangles in space with corners on the unit sphere. `input`:
+    /// The distortion of the linear maps from the pieces of a subdivision to triangles in space with corners on the unit sphere. `input`:
     /// the triangulation that is refined; `lengths`: of its edges in E²; `corners`: those of a piece's image, in its corner order.
     ///
     /// Degenerate pieces are those whose relative area is at most [`LEAST_RELATIVE_AREA`] on either side, and those whose image is so small
@@ -140,13 +140,13 @@ impl Quality {
     /// # Errors
     /// [`Error::Size`], [`Error::EdgeLength`], [`Error::TriangleInequality`] of the input lengths.
     pub fn on_sphere(
-        refinement: &Refinement,
+        subdivision: &CommonSubdivision,
         input: &Mesh,
         lengths: &PerEdge<f64>,
         corners: impl Fn(FaceId) -> [Point; 3] + Sync,
     ) -> Result<Quality> {
-        let (face, weights) = (|f| refinement.input_face[f], |f| refinement.input_barycentric(f));
-        InputTriangles::new(input, lengths)?.quality(&refinement.mesh, face, weights, |f, from| {
+        let (face, weights) = (|f| subdivision.faces[0][f], |f| subdivision.barycentric(0, f));
+        InputTriangles::new(input, lengths)?.quality(&subdivision.mesh, face, weights, |f, from| {
             let [a, b, c] = corners(f);
             let sides = [[b, c], [c, a], [a, b]].map(|[p, q]| vector::distance(p, q));
             let (to, _) = in_plane(sides, CORNERS);

@@ -26,7 +26,7 @@ impl SeparateFaces {
     /// The faces of a flow's result.
     ///
     /// # Errors
-    /// [`Error::Layout`] for a face whose pieces are not connected; those of [`Solution::refinement`] and
+    /// [`Error::Layout`] for a face whose pieces are not connected; those of [`Solution::common_subdivision`] and
     /// [`crate::metric::Metric::lengths`]; [`Error::Cancelled`].
     pub(crate) fn of_solution(solution: &Solution, control: &Control) -> Result<SeparateFaces> {
         control.check()?;
@@ -34,7 +34,7 @@ impl SeparateFaces {
         let pieces = if solution.is_unflipped() {
             LayoutPieces::Mesh(given.clone())
         } else {
-            LayoutPieces::Refinement(Arc::new(solution.refinement(control)?))
+            LayoutPieces::Subdivision(Arc::new(solution.common_subdivision(control)?))
         };
         let faces = Faces::precise(solution.mesh(), solution.metric())?;
         let frames = frames(&pieces, &faces)?;
@@ -51,7 +51,7 @@ impl SeparateFaces {
                     corner[h] = faces.point(pieces.final_face(piece), frames[piece], place);
                 }
                 let beside = pieces.mesh().face(sides[k].twin());
-                if let (Some(h), Some(beside)) = (pieces.input_halfedge(given, sides[k]), beside) {
+                if let (Some(h), Some(beside)) = (pieces.input_halfedge(sides[k]), beside) {
                     let frame = across_halfedge(&pieces, &faces, frames[piece], sides[k])?;
                     across[h] = frame.compose(&frames[beside].inverse()).normalised();
                 }

@@ -10,7 +10,7 @@ use crate::error::{Error, Result, check_size};
 use crate::geometry::complex::{norm2, sub};
 use crate::geometry::{DoubleDouble, Motion, Space, worse};
 use crate::mesh::{FaceId, HalfedgeId, Mesh, PerEdge, PerHalfedge, VertexId};
-use crate::metric::{Metric, Refinement};
+use crate::metric::{CommonSubdivision, Metric};
 use crate::parallel;
 use crate::topology::{CutGraph, check_lengths, cut, number_corners};
 use std::sync::Arc;
@@ -140,7 +140,7 @@ impl<F: HalfedgeFrame> Development<'_, F> {
         if space == Space::E2 {
             seams.iter_mut().for_each(|seam| seam.residual /= diameter);
         }
-        // A refinement with a boundary, of a closed triangulation, is the given half of a double.
+        // A subdivision with a boundary, of a closed triangulation, is the given half of a double.
         let is_half = faces.mesh.is_closed() && !mesh.is_closed();
         control.check()?;
         Ok(Layout {
@@ -221,22 +221,27 @@ impl<F: HalfedgeFrame> Development<'_, F> {
 }
 
 impl Layout {
-    /// The same layout on a common refinement of the triangulation that is laid out, opened along the same edges; O(pieces). `metric`: the
+    /// The same layout on a common subdivision of the triangulation that is laid out, opened along the same edges; O(pieces). `metric`: the
     /// metric that was laid out.
     ///
     /// # Errors
-    /// [`Error::Size`] for the refinement of another triangulation; [`Error::Layout`] for a layout that is already one of a refinement or
+    /// [`Error::Size`] for the subdivision of another triangulation; [`Error::Layout`] for a layout that is already one of a subdivision or
     /// has not been computed in double-double precision ([`super::LayoutOpening`]); [`Error::Cancelled`].
-    pub fn on_refinement(&self, r: &Arc<Refinement>, metric: &Metric, control: &Control) -> Result<Layout> {
+    pub fn on_subdivision(
+        &self,
+        r: &Arc<CommonSubdivision>,
+        metric: &Metric,
+        control: &Control,
+    ) -> Result<Layout> {
         let LayoutPieces::Mesh(mesh) = &self.pieces else {
-            return Err(Error::Layout("a layout of a refinement has no other refinement".into()));
+            return Err(Error::Layout("a layout of a subdivision has no other subdivision".into()));
         };
         if self.frames.is_empty() {
             return Err(Error::Layout(
                 "this layout was not computed in double-double precision, which pieces need".into(),
             ));
         }
-        let need = r.final_face.iter().map(|f| f.index() + 1).fold(0, usize::max);
+        let need = r.faces[1].iter().map(|f| f.index() + 1).fold(0, usize::max);
         check_size("final faces", mesh.n_faces().min(need), need)?;
         let faces = Faces::precise(mesh, metric)?;
         let frame = |f: FaceId| {

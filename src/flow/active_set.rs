@@ -9,7 +9,7 @@
 //! the triangulation, whichever vertices are held, so one analysis serves all steps, also those on other surfaces of that pattern.
 
 use super::seconds::timed;
-use super::system::System;
+use super::system::NewtonSystem;
 use super::{Flow, Options, Report};
 use crate::control::Control;
 use crate::error::{Error, Result};
@@ -17,7 +17,7 @@ use crate::mesh::{EdgeId, FixedEdges, Mesh, NormalCoordinates, VertexId};
 use crate::metric::Metric;
 use std::sync::Arc;
 
-/// What a Newton step leaves as it is.
+/// The vertices and edges that a Newton step leaves as they are.
 pub(crate) struct ActiveSet {
     /// Vertices on their bound.
     pub held: Vec<VertexId>,
@@ -25,15 +25,15 @@ pub(crate) struct ActiveSet {
     pub fixed_edges: Vec<EdgeId>,
 }
 
-/// A metric that is lent to a flow for a step.
-pub(crate) struct Lent<'a> {
+/// A metric that a flow borrows for one step.
+pub(crate) struct BorrowedMetric<'a> {
     pub mesh: &'a mut Mesh,
     pub metric: &'a mut Metric,
-    /// Told every flip.
+    /// Every flip is recorded in these.
     pub followed: &'a mut Vec<NormalCoordinates>,
 }
 
-impl Lent<'_> {
+impl BorrowedMetric<'_> {
     fn exchange(&mut self, flow: &mut Flow) {
         std::mem::swap(self.mesh, Arc::make_mut(&mut flow.now.mesh));
         std::mem::swap(self.metric, &mut flow.now.metric);
@@ -49,7 +49,7 @@ impl Flow {
     /// Those of [`Flow::from_metric`].
     pub(crate) fn within_bounds(mesh: Mesh, metric: Metric, options: &Options) -> Result<Flow> {
         let options = Options { max_iterations: 1, ..options.clone() };
-        // The active set changes by what a step says of the bounds: its digits are those of doubles.
+        // The active set changes by the signs of the multipliers that a step leads to, so steps are solved in f64 from the first.
         let flow = Flow::from_metric(mesh, metric, &options)?;
         Ok(Flow { is_bounded: true, single_serves: false, ..flow })
     }
@@ -61,7 +61,7 @@ impl Flow {
     /// [`Error::Factorisation`], [`Error::Cancelled`]. The metric is then its start, and may have been flipped.
     pub(crate) fn step_within(
         &mut self,
-        mut lent: Lent<'_>,
+        mut lent: BorrowedMetric<'_>,
         active: &ActiveSet,
         max_step: f64,
         control: &Control,
@@ -82,9 +82,9 @@ impl Flow {
         self.fixed = FixedEdges::new(&self.mesh, &active.fixed_edges)?;
         self.log.clear();
         self.options.max_step = max_step;
-        // Whether one that no step has needed is there depends on the number of threads.
-        self.system = self.system.take().filter(System::has_factor);
-        // Edges that were flipped outside this flow make the system's pattern out of date too.
+        // Only with several threads is a system made that no step needs. It is dropped, so that steps are the same for any number.
+        self.system = self.system.take().filter(NewtonSystem::has_factor);
+        // The pattern of the system may be out of date, since edges were flipped outside this flow.
         self.unseen_flips =
             self.system.as_ref().map_or(0, |system| system.jacobian.changed_edges(&self.mesh));
         (self.start, self.start_low) = (self.metric.u.clone(), self.metric.u_low.clone());
@@ -119,7 +119,7 @@ mod tests {
             let expected =
                 pinned.reach(&PerVertex::filled(mesh.n_vertices(), 0.0), &control).unwrap().clone();
             let (mut moved_mesh, mut metric, mut followed) = (mesh.clone(), start.clone(), Vec::new());
-            let lent = Lent { mesh: &mut moved_mesh, metric: &mut metric, followed: &mut followed };
+            let lent = BorrowedMetric { mesh: &mut moved_mesh, metric: &mut metric, followed: &mut followed };
             let active = ActiveSet { held: held.clone(), fixed_edges: Vec::new() };
             let report = bounded.step_within(lent, &active, 3.0, &control).unwrap();
             assert_eq!((report.iterations, report.flips), (expected.iterations, expected.flips));

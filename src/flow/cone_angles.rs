@@ -6,9 +6,9 @@ const STEPS_PER_UNKNOWN: usize = 8;
 /// A multiplier of the wrong sign below this, relative to the gradient, is 0.
 const NOTHING: f64 = 1e-12;
 
-/// Curvatures, and the multiplier of their sum.
+/// The curvatures of cones, and the multiplier of their sum.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Angles {
+pub(super) struct ConeAngles {
     pub t: Vec<f64>,
     /// The value that the gradient `B t + g` has at every entry that is not at its bound; 0 without a sum.
     pub level: f64,
@@ -20,7 +20,7 @@ pub(super) struct Angles {
 ///
 /// `b`: k × k, symmetric, positive definite where Σ t = 0 (everywhere without a sum). Primal active-set method; each step solves
 /// the equations of the entries that are not at their bound. `None` if those are singular to working precision.
-pub(super) fn angles(b: &[Vec<f64>], g: &[f64], sum: Option<f64>, bound: f64) -> Option<Angles> {
+pub(super) fn angles(b: &[Vec<f64>], g: &[f64], sum: Option<f64>, bound: f64) -> Option<ConeAngles> {
     let k = g.len();
     let gradient = |t: &[f64]| -> Vec<f64> {
         (0..k).map(|i| g[i] + b[i].iter().zip(t).map(|(b, t)| b * t).sum::<f64>()).collect()
@@ -62,7 +62,7 @@ pub(super) fn angles(b: &[Vec<f64>], g: &[f64], sum: Option<f64>, bound: f64) ->
     }
     let slope = gradient(&t);
     let energy = t.iter().zip(&slope).zip(g).map(|((t, s), g)| 0.5 * t * (s + g)).sum();
-    Some(Angles { t, level, energy })
+    Some(ConeAngles { t, level, energy })
 }
 
 /// The equations of a step of the `free` entries to where the gradient, now `slope`, is 0 for them. With a sum, which the step is to
@@ -128,7 +128,7 @@ mod tests {
             for (sum, bound) in
                 [(None, 0.7), (Some(2.0), 2.5), (Some(-3.0), 0.1), (Some(0.4 * k as f64), 0.5)]
             {
-                let Angles { t, level, .. } = angles(&b, &g, sum, bound).unwrap();
+                let ConeAngles { t, level, .. } = angles(&b, &g, sum, bound).unwrap();
                 let slope: Vec<f64> =
                     (0..k).map(|i| g[i] + (0..k).map(|j| b[i][j] * t[j]).sum::<f64>()).collect();
                 for i in 0..k {

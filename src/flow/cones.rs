@@ -1,4 +1,4 @@
-//! Cones that lower the distortion of area: where to put them, and how much curvature each takes.
+//! Places cones, with their curvatures, such that the distortion of area is low.
 //!
 //! To first order the conformal factor u between a surface and the metric with curvature K̄ solves `L u = K̄ − K`, L being the
 //! cotangent Laplacian (∂K/∂u at u = 0), exact for smooth surfaces with K̄ = 0 off the cones. The distortion of area is
@@ -6,12 +6,12 @@
 //! `L w = (u − ū) dA`, `∂E/∂K̄_v = w_v`. At the best curvatures of given cones w has one value at all of them, and the next cone
 //! goes where w differs most from it. Then each cone in turn is taken away and placed anew, as long as that lowers E.
 //!
-//! Each place that is tried costs two solutions with one factorisation: `H_v = L⁻¹ M L⁻¹ δ_v`. All else is known from those:
+//! Each place that is tried costs two solutions with one factorisation: `H_v = L⁻¹ M L⁻¹ δ_v`. All other quantities follow from these:
 //! E is a quadratic form in the curvatures with the matrix `H_v(v')`, and `w = w₀ + Σ K̄_v H_v`.
 
-use super::cone_angles::{Angles, angles};
-use super::evaluate::State;
-use super::system::System;
+use super::cone_angles::{ConeAngles, angles};
+use super::evaluate::FlowState;
+use super::system::NewtonSystem;
 use crate::control::{Control, Stage};
 use crate::error::{Error, Result};
 use crate::geometry::Space;
@@ -22,18 +22,18 @@ use crate::metric::{Class, Metric, Surface, Target, initial_metric};
 use std::borrow::Cow;
 use std::f64::consts::PI;
 
-/// Most cones that are placed: the dense equations of more would take longer than the sparse ones of the surface.
+/// Largest number of cones that are placed: the dense equations of more would take longer than the sparse ones of the surface.
 pub const MAX_AUTO_CONES: usize = 256;
 /// The least angle around a cone that is placed (half of it at the boundary): near a cone of angle θ lengths grow like the power
 /// θ/2π of the distance, so narrower ones squeeze a whole neighbourhood into nothing. Three such cones still close a sphere.
 pub const LEAST_ANGLE: f64 = PI / 6.0;
-/// Times each cone is taken away and placed anew. Few move in the second round.
+/// How many times each cone is taken away and placed anew. Few move in the second round.
 const SWEEPS: usize = 2;
-/// A cone is moved only if that lowers E by this fraction: a smaller change is rounding, which is not to decide between equal places.
+/// Least relative decrease of E by which a cone is moved: smaller changes may be rounding, which must not decide between equal places.
 const WORTH_MOVING: f64 = 1e-6;
 /// Residual that a linear solution may leave, for right-hand sides of order 1.
 const ENOUGH: f64 = 1e-11;
-/// Shift of the Laplacian, relative to its mean diagonal, where rounding leaves it without a factor.
+/// Shift of the Laplacian, relative to its mean diagonal, if rounding leaves it without a factor.
 const SHIFT: f64 = 1e-12;
 
 /// Cones that [`auto_cones`] placed.
@@ -72,7 +72,7 @@ pub struct AutoCones {
 /// ```
 pub fn auto_cones(mesh: &Mesh, lengths: &PerEdge<f64>, n: usize, control: &Control) -> Result<AutoCones> {
     check_number(mesh, n)?;
-    let mut place = Placing::new(mesh, lengths, control)?;
+    let mut place = ConePlacement::new(mesh, lengths, control)?;
     let mut distortion = vec![2.0 * place.energy];
     for k in 0..n {
         control.step(Stage::Flow, k as f64 / (n + SWEEPS * n) as f64)?;
@@ -92,7 +92,7 @@ pub fn auto_cones(mesh: &Mesh, lengths: &PerEdge<f64>, n: usize, control: &Contr
     let mut target = PerVertex::filled(mesh.n_vertices(), 0.0);
     cones.iter().for_each(|&(v, curvature)| target[v] = curvature);
     if n > 0 {
-        // Not from the quadratic form, where a small distortion is the difference of large numbers.
+        // In the quadratic form a small distortion would be the difference of large numbers, so it is measured anew.
         let change = place.change(&target);
         distortion[n] = 2.0 * place.gradient(&change)?.1;
     }
@@ -123,7 +123,7 @@ pub fn with_cones_placed<'a>(
     Ok(Cow::Owned(Target::Cones(curved.map(|v| (v, placed[v])).collect())))
 }
 
-/// Whether the surface can have `n` cones.
+/// Checks that the surface can have `n` cones.
 fn check_number(mesh: &Mesh, n: usize) -> Result<()> {
     let interior = mesh.vertices().filter(|&v| !mesh.is_boundary_vertex(v)).count();
     let message = match (mesh.is_closed(), mesh.euler()) {
@@ -142,34 +142,35 @@ fn check_number(mesh: &Mesh, n: usize) -> Result<()> {
 }
 
 /// A vertex with `H = L⁻¹ M L⁻¹ δ`, M the mass matrix with the mean projected out.
-struct Cone {
+struct CandidateCone {
     vertex: VertexId,
     h: Vec<f64>,
 }
 
-struct Placing<'a> {
-    /// The surface on its intrinsic Delaunay triangulation, what is measured there at u = 0, and the Laplacian.
+/// The placement of cones on a surface.
+struct ConePlacement<'a> {
+    /// The surface on its intrinsic Delaunay triangulation, the measurements there at u = 0, and the Laplacian.
     mesh: Mesh,
-    state: State,
-    system: System,
-    /// u is held there: the boundary, or one vertex of a closed surface.
+    state: FlowState,
+    system: NewtonSystem,
+    /// True at vertices whose u is held: the boundary, or one vertex of a closed surface.
     fixed: Vec<bool>,
     /// A third of the area around each vertex; the total is 1.
     mass: Vec<f64>,
     control: &'a Control,
-    /// Closed surfaces: what the curvatures add up to.
+    /// On closed surfaces, the sum of the curvatures of the cones.
     sum: Option<f64>,
     /// w without a cone: u₀ solves `L u₀ = −K`, and `L w₀ = M u₀`.
     w0: Vec<f64>,
     /// E without a cone.
     energy0: f64,
-    cones: Vec<Cone>,
-    angles: Angles,
+    cones: Vec<CandidateCone>,
+    angles: ConeAngles,
     /// E with the present cones.
     energy: f64,
 }
 
-impl<'a> Placing<'a> {
+impl<'a> ConePlacement<'a> {
     fn new(mesh: &Mesh, lengths: &PerEdge<f64>, control: &'a Control) -> Result<Self> {
         let (mesh, metric, state) = measured(mesh, lengths, control)?;
         let mass = state.vertex_areas(&mesh, &metric, state.area(&mesh, &metric));
@@ -179,7 +180,7 @@ impl<'a> Placing<'a> {
             .map(|v| if closed { v.index() == 0 } else { mesh.is_boundary_vertex(v) })
             .collect();
         control.check()?;
-        let mut system = System::new(&mesh, &fixed, None)?;
+        let mut system = NewtonSystem::new(&mesh, &fixed, None)?;
         system.jacobian.assemble(&mesh, &metric, &state);
         if system.factor().is_err() {
             let (size, shift) = (system.unknowns(), SHIFT * system.jacobian.mean_diagonal());
@@ -187,7 +188,7 @@ impl<'a> Placing<'a> {
             system.factor().map_err(|_| factorisation(size, "the Laplacian is not positive definite"))?;
         }
         let sum = closed.then(|| 2.0 * PI * mesh.euler() as f64);
-        let mut place = Placing {
+        let mut place = ConePlacement {
             sum,
             mesh,
             state,
@@ -198,7 +199,7 @@ impl<'a> Placing<'a> {
             w0: Vec::new(),
             energy0: 0.0,
             cones: Vec::new(),
-            angles: Angles { t: Vec::new(), level: 0.0, energy: 0.0 },
+            angles: ConeAngles { t: Vec::new(), level: 0.0, energy: 0.0 },
             energy: 0.0,
         };
         let minus: Vec<f64> = place.state.curvature.iter().map(|k| -k).collect();
@@ -244,10 +245,10 @@ impl<'a> Placing<'a> {
         Ok((self.solve(&weighted)?, energy))
     }
 
-    fn cone(&mut self, vertex: VertexId) -> Result<Cone> {
+    fn cone(&mut self, vertex: VertexId) -> Result<CandidateCone> {
         let mut delta = vec![0.0; self.mass.len()];
         delta[vertex.index()] = 1.0;
-        Ok(Cone { vertex, h: self.gradient(&delta)?.0 })
+        Ok(CandidateCone { vertex, h: self.gradient(&delta)?.0 })
     }
 
     /// The best curvatures of the present cones.
@@ -257,7 +258,7 @@ impl<'a> Placing<'a> {
         let b: Vec<Vec<f64>> =
             (0..k).map(|i| (0..k).map(|j| 0.5 * (at(i, j) + at(j, i))).collect()).collect();
         let g: Vec<f64> = self.cones.iter().map(|c| self.w0[c.vertex.index()]).collect();
-        // The first cones of a sphere take more than they can keep.
+        // A sphere's first one or two cones take more than the bound, until others share it.
         let bound = (2.0 * PI - LEAST_ANGLE).max(self.sum.unwrap_or(0.0) / k.max(1) as f64);
         self.angles = angles(&b, &g, self.sum, bound)
             .ok_or_else(|| factorisation(k, "the curvatures of the cones are not determined"))?;
@@ -265,7 +266,7 @@ impl<'a> Placing<'a> {
         Ok(())
     }
 
-    /// Where a further cone lowers E fastest.
+    /// The vertex where a further cone lowers E fastest.
     fn best(&mut self) -> Result<VertexId> {
         let taken: Vec<VertexId> = self.cones.iter().map(|c| c.vertex).collect();
         let candidates =
@@ -273,7 +274,7 @@ impl<'a> Placing<'a> {
         let candidates: Vec<VertexId> = candidates.collect();
         let gain: Vec<f64> = match self.sum {
             Some(sum) if taken.is_empty() => {
-                // The first cone of a closed surface takes all: down the gradient where curvature is to be added.
+                // The first cone of a closed surface takes all curvature; it goes where the gradient is lowest if that is positive.
                 let w = self.gradient(&self.spread())?.0;
                 if sum > 0.0 { w.iter().map(|w| -w).collect() } else { w }
             }
@@ -294,7 +295,7 @@ impl<'a> Placing<'a> {
         })
     }
 
-    /// Take a cone away and place it where the others want it, if that is better than before.
+    /// Take a cone away and place it at the best vertex for the others, if that lowers E.
     fn place_anew(&mut self, k: usize) -> Result<()> {
         let (before, kept) = (self.energy, self.angles.clone());
         let old = self.cones.remove(k);
@@ -317,8 +318,8 @@ impl<'a> Placing<'a> {
         Ok(())
     }
 
-    /// The curvature that u = 0 on the boundary leaves there, below π − LEAST_ANGLE/2 and with the total of Gauss–Bonnet: what
-    /// some vertices cannot take goes to the others in proportion to the boundary's length at each.
+    /// Set the curvature of boundary vertices to the one that u = 0 there leads to, bounded by π − LEAST_ANGLE/2 and with the total of
+    /// Gauss–Bonnet: curvature beyond the bound goes to the other vertices in proportion to the boundary's length at each.
     fn boundary(&mut self, lengths: &PerEdge<f64>, mesh: &Mesh, target: &mut PerVertex<f64>) -> Result<()> {
         let change = self.change(target);
         let u = self.solve(&change)?;
@@ -340,7 +341,7 @@ impl<'a> Placing<'a> {
         }
         let limit = PI - 0.5 * LEAST_ANGLE;
         let total = 2.0 * PI * mesh.euler() as f64;
-        // Each round fills one vertex at least, or ends.
+        // Each round brings one vertex at least to its bound, or is the last.
         for _ in 0..=boundary.len() {
             boundary.iter().for_each(|&v| target[v] = target[v].min(limit));
             let missing = total - target.iter().sum::<f64>();
@@ -361,15 +362,15 @@ impl<'a> Placing<'a> {
 }
 
 /// A surface on its intrinsic Delaunay triangulation, measured at u = 0.
-fn measured(mesh: &Mesh, lengths: &PerEdge<f64>, control: &Control) -> Result<(Mesh, Metric, State)> {
-    // An input that is no surface is refused with the names of its own elements.
+fn measured(mesh: &Mesh, lengths: &PerEdge<f64>, control: &Control) -> Result<(Mesh, Metric, FlowState)> {
+    // Errors of the input are found here, before flips, so that they name its own elements.
     initial_metric(mesh, lengths, Space::E2, Class::yamabe(Space::E2))?;
     control.check()?;
     let mut surface = Triangulated { mesh: mesh.clone(), lengths: lengths.clone(), geometry: Space::E2 };
     intrinsic_delaunay(&mut surface, IntrinsicOptions::default(), &mut |_, _| {}, control)?;
     let Triangulated { mesh, lengths, .. } = surface;
     let metric = initial_metric(&mesh, &lengths, Space::E2, Class::yamabe(Space::E2))?.metric;
-    let mut state = State::new(&metric.u, &metric.u_low);
+    let mut state = FlowState::new(&metric.u, &metric.u_low);
     if !state.evaluate(&mesh, &metric) {
         return Err(factorisation(0, "an edge without length"));
     }

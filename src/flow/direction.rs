@@ -1,11 +1,11 @@
-//! The direction of a Newton step: by the factor that is there, by one in single precision, by one in doubles.
+//! The direction of a Newton step: by the factor of an earlier step, by a new one in f32, or by one in f64.
 
 use super::Flow;
 use super::newton::Iterate;
 use super::report::Report;
 use super::seconds::timed;
 use super::solve::center;
-use super::system::{Precision, System};
+use super::system::{NewtonSystem, Precision};
 use crate::control::Control;
 use crate::error::Result;
 use crate::geometry::largest;
@@ -13,25 +13,25 @@ use crate::linalg::conjugate::ResidualBound;
 
 /// First shift of a matrix that is not positive definite, relative to its mean diagonal; grows by [`SHIFT_GROWTH`].
 const FIRST_SHIFT: f64 = 1e-12;
-/// Factor from one shift to the next: [`SHIFTS`] of them reach the diagonal's own size and beyond.
+/// NewtonFactor from one shift to the next: [`SHIFTS`] of them reach the diagonal's own size and beyond.
 const SHIFT_GROWTH: f64 = 100.0;
-/// Shifts that are tried for one step, at most.
+/// Largest number of shifts that are tried for one step.
 const SHIFTS: usize = 12;
-/// The linear residual of a step that is solved with the factor of an earlier matrix, as a share of what is left of the error if it falls
-/// quadratically at the rate of the last step \[EW96, choice 2\]: too little to slow that down.
+/// The linear residual of a step that is solved with the factor of an earlier matrix, as a share of the error that would remain at the
+/// quadratic rate of the last step \[EW96, choice 2\]: too small to slow the convergence down.
 const FORCING: f64 = 0.1;
-/// Largest share of the right-hand side that a step leaves which is solved with a factor of another matrix or in single precision.
+/// Largest linear residual, as a share of the right-hand side, of a step that is solved with a factor of another matrix or in f32.
 const MAX_FORCING: f64 = 0.01;
-/// Radians. While edges may be flipped, a step by the factor of its own matrix leaves no more than this: what it leaves decides which
-/// diagonal a quadrilateral on a circle is flipped to, and a symmetric surface has thousands of those. Later steps leave less anyway.
+/// Radians. Largest linear residual of a step by the f32 factor of its own matrix while edges may be flipped: it decides which diagonal a
+/// cocircular quadrilateral is flipped to, and a symmetric surface has thousands of those. Later steps leave less anyway.
 const TIES: f64 = 1e-10;
-/// Radians. No step leaves less than this of a linear residual, a tenth of the rounding of an angle of 1. It is far below the rounding of
-/// the curvature because u magnifies what is left over the whole surface.
+/// Radians. Linear residual below which no step is solved further: a tenth of the rounding of an angle of 1. It is far below the rounding
+/// of the curvature because the residuals of the whole surface add up in u.
 const LEAST_LEFT: f64 = 2e-17;
-/// Radians. Nor less than this at the vertex that is held, where what is left at all the others adds up: the rounding of a curvature.
+/// Radians. The same bound at the vertex whose u is held, where the residuals of all others add up: the rounding of a curvature.
 const LEAST_SUM: f64 = 4e-16;
-/// Unknowns from which on a factor in single precision saves time. Below, the first step is exact: one that is not breaks the symmetry of
-/// a surface, whose quadrilaterals on a circle are then flipped one way or the other.
+/// Number of unknowns from which on a factor in f32 saves time. Below, the first step is solved in f64, since an inexact one breaks the
+/// symmetry of a surface, whose cocircular quadrilaterals are then flipped one way or the other.
 const SINGLE_FROM: usize = 10_000;
 
 impl Flow {
@@ -47,12 +47,12 @@ impl Flow {
         let mut found = self.direction_near(&mut system, at, report, control)?;
         let is_large = system.unknowns() >= SINGLE_FROM;
         if !found && is_large && self.single_serves && at.is_sound() {
-            system = self.analysed(system, Precision::Single, report)?;
+            system = self.analysed(system, Precision::F32, report)?;
             found = self.direction_single(&mut system, at, report, control)?;
             self.single_serves = found;
         }
         if !found {
-            system = self.analysed(system, Precision::Double, report)?;
+            system = self.analysed(system, Precision::F64, report)?;
             found = self.direction_of(&mut system, at, report, control)?;
         }
         self.system = Some(system);
@@ -60,11 +60,11 @@ impl Flow {
         Ok(found)
     }
 
-    /// The Newton direction of a matrix that has been assembled, by the factor that an earlier step of this solve has left. False where
-    /// that does not pay; it is then not tried again for some steps, more and more of them.
+    /// The Newton direction of a matrix that has been assembled, by the factor of an earlier step of this solve. False if a new factor is
+    /// quicker; the old one is then not tried again for some steps, for more and more of them at each failure.
     fn direction_near(
         &self,
-        system: &mut System,
+        system: &mut NewtonSystem,
         at: &mut Iterate,
         report: &mut Report,
         control: &Control,
@@ -74,15 +74,15 @@ impl Flow {
             return Ok(false);
         }
         let forcing = f64::min(FORCING * (at.error / at.last_error).powi(2), MAX_FORCING);
-        let found = self.solve_near(system, at, forcing, (report, control))?;
+        let found = timed(&mut report.seconds.solve, || self.solve_near(system, at, forcing, control))?;
         at.misses = if found { (0, 0) } else { (misses + 1, report.iterations + (2 << misses.min(8))) };
         Ok(found)
     }
 
-    /// The Newton direction of a matrix that has been assembled, by its own factor in single precision; false where that does not serve.
+    /// The Newton direction of a matrix that has been assembled, by its own factor in f32; false if that is not precise enough.
     fn direction_single(
         &self,
-        system: &mut System,
+        system: &mut NewtonSystem,
         at: &mut Iterate,
         report: &mut Report,
         control: &Control,
@@ -91,29 +91,26 @@ impl Flow {
         let factored = timed(&mut report.seconds.factor, || system.factor()).is_ok();
         let most = if self.flips_allowed { TIES / at.error } else { MAX_FORCING };
         let forcing = f64::min(FORCING * at.error, f64::min(most, MAX_FORCING));
-        Ok(factored && self.solve_near(system, at, forcing, (report, control))?)
+        Ok(factored && timed(&mut report.seconds.solve, || self.solve_near(system, at, forcing, control))?)
     }
 
-    /// `at.step` from `at.residual` with an earlier factor, up to this share of the error; false where that does not pay.
+    /// `at.step` from `at.residual` with an earlier factor, up to this share of the error; false if a new factor is quicker.
     pub(super) fn solve_near(
         &self,
-        system: &mut System,
+        system: &mut NewtonSystem,
         at: &mut Iterate,
         share: f64,
-        (report, control): (&mut Report, &Control),
+        control: &Control,
     ) -> Result<bool> {
         let [largest, sum] = [LEAST_LEFT, LEAST_SUM].map(|least| f64::max(share * at.error, least));
         let bound = ResidualBound { largest, sum: if self.free_scale() { sum } else { f64::INFINITY } };
-        let seconds = &mut report.seconds.solve;
-        self.solve_by(at, |residual, step| {
-            timed(seconds, || system.solve_near(residual, bound, step, control))
-        })
+        self.solve_by(at, |residual, step| system.solve_near(residual, bound, step, control))
     }
 
     /// `at.step` from `at.residual` with the last factor; false where it is not finite.
     pub(super) fn solve_step(
         &self,
-        system: &mut System,
+        system: &mut NewtonSystem,
         at: &mut Iterate,
         report: &mut Report,
     ) -> Result<bool> {
@@ -123,8 +120,8 @@ impl Flow {
 
     /// `at.step` by a solution of the system for `at.residual`; false where `solve` finds none.
     ///
-    /// Where no step changes the total curvature, its rounding is spread over all vertices first, else the one that is held has all of it;
-    /// the step is the one that leaves the mean of u.
+    /// If u is determined up to a constant, the rounding of the total curvature is spread over all vertices first, since it would all go to
+    /// the vertex that is held; and the step keeps the mean of u.
     fn solve_by(
         &self,
         Iterate { residual, step, .. }: &mut Iterate,
@@ -148,7 +145,7 @@ impl Flow {
     /// `at.shift` remembers by how much, for the next iteration.
     fn direction_of(
         &self,
-        system: &mut System,
+        system: &mut NewtonSystem,
         at: &mut Iterate,
         report: &mut Report,
         control: &Control,
@@ -170,7 +167,7 @@ impl Flow {
             report.factorisations += 1;
             let factored = timed(&mut report.seconds.factor, || system.factor()).is_ok();
             if factored && self.solve_step(system, at, report)? {
-                // A step that more shift does not shorten is not the loose vertices': the line search will cap it.
+                // If more shift does not shorten the step, it is not long because of loose vertices; the line search will cap it.
                 let now = largest(&at.step);
                 let settled = now > 0.5 * last;
                 last = now;
@@ -198,7 +195,7 @@ mod tests {
     use crate::metric::{Class, Surface, Target};
 
     #[test]
-    fn single_precision_leads_to_the_metric_of_doubles() {
+    fn a_factor_in_f32_leads_to_the_metric_of_one_in_f64() {
         let options = Options { flips: Flips::Never, threads: 2, ..Options::default() };
         let mut soup = shapes::torus(2.0, 0.9, 160, 80).unwrap();
         shapes::noise(&mut soup, 0.05, 1).unwrap();
@@ -209,7 +206,7 @@ mod tests {
             let mut flow = Flow::new(surface.clone(), class, &options, &control).unwrap();
             flow.single_serves = single;
             let solution = flow.solve(&Target::Uniform, &control).unwrap();
-            assert_eq!(flow.system.as_ref().unwrap().is_ready(Precision::Single), single);
+            assert_eq!(flow.system.as_ref().unwrap().is_ready(Precision::F32), single);
             solution
         });
         let [one, other] = [&single, &double].map(|s| s.report().unwrap());

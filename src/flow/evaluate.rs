@@ -1,7 +1,7 @@
 //! Lengths, angles and curvature at given variables: the right-hand side of the flow.
 
-use super::measure::{Parts, chord, needs_chords_alone};
-use super::seconds::{Seconds, timed};
+use super::measure::{FaceMeasures, chord, needs_chords_alone};
+use super::seconds::{FlowSeconds, timed};
 use crate::control::Control;
 use crate::error::Result;
 use crate::geometry::conformal::{Edge, Vertex};
@@ -12,19 +12,19 @@ use crate::geometry::{DoubleDouble, Space, largest, worse};
 use crate::mesh::{EdgeId, FixedEdges, Flip, Mesh, PerVertex, VertexId};
 use crate::metric::Metric;
 use crate::metric::curvature::curvature_into;
-use crate::metric::delaunay::{ClassFlips, Queue};
+use crate::metric::delaunay::{ClassFlips, FlipQueue};
 use crate::parallel::fill;
 
 /// A face with a weight above this is a needle, whose other weights are differences of numbers of this size: their rounding may hide
 /// that an edge fails the Delaunay condition by more than 1e-12.
 const NEEDLE: f64 = 1e3;
-/// Roundings of the largest weight of a needle that add up in its other weights, at most.
+/// Largest number of roundings of the largest weight of a needle that add up in its other weights.
 const ROUNDINGS: f64 = 256.0;
 
-/// The metric at one u: the variables with their curvature, and what was measured on the way, whose memory goes from step to step.
-pub(super) struct State {
+/// The metric at one u: the variables with their curvature, and the measurements that led to it, whose memory goes from step to step.
+pub(super) struct FlowState {
     pub u: PerVertex<f64>,
-    /// What the doubles `u` lose: u is kept to twice the digits.
+    /// The low parts of u in double-double precision.
     pub low: PerVertex<f64>,
     pub vertices: Vec<Vertex>,
     /// Empty where half chords are enough.
@@ -35,15 +35,15 @@ pub(super) struct State {
     /// Per face: ∂θ/∂u weights of the edges opposite its corners, 0 in a broken face.
     pub weights: Vec<[f64; 3]>,
     pub curvature: PerVertex<f64>,
-    /// Whether all edges had a length at the last measurement.
+    /// True if all edges had a length at the last measurement.
     is_real: bool,
-    /// What the sums of `curvature` lose while they are formed.
+    /// The rounding errors of the sums of `curvature` while they are formed.
     lost: Vec<f64>,
 }
 
-impl State {
-    pub fn new(u: &PerVertex<f64>, low: &PerVertex<f64>) -> State {
-        State {
+impl FlowState {
+    pub fn new(u: &PerVertex<f64>, low: &PerVertex<f64>) -> FlowState {
+        FlowState {
             u: u.clone(),
             low: low.clone(),
             vertices: Vec::new(),
@@ -57,10 +57,10 @@ impl State {
         }
     }
 
-    /// [`State::new`] with the memory of this one.
-    pub fn at(mut self, u: &PerVertex<f64>, low: &PerVertex<f64>) -> State {
+    /// [`FlowState::new`] with the memory of this one.
+    pub fn at(mut self, u: &PerVertex<f64>, low: &PerVertex<f64>) -> FlowState {
         if self.u.len() != u.len() {
-            return State::new(u, low);
+            return FlowState::new(u, low);
         }
         self.u.copy_from_slice(u);
         self.low.copy_from_slice(low);
@@ -79,7 +79,7 @@ impl State {
         self.finish(mesh)
     }
 
-    /// The curvature of what has been measured; false where some edge had no real length.
+    /// The curvature from the measured angles; false if some edge had no real length.
     pub fn finish(&mut self, mesh: &Mesh) -> bool {
         if self.is_real {
             self.sum_up(mesh);
@@ -93,23 +93,23 @@ impl State {
         curvature_into(mesh, angles, &mut self.curvature, &mut self.lost);
     }
 
-    /// [`State::evaluate`] of what has been measured, after the flips of `surface` inside its class that make it weighted Delaunay at
-    /// `self.u`, but for `fixed` edges. Returns also the number of flips.
+    /// Completes [`FlowState::evaluate`] after [`FlowState::measure`]: flips the edges of `surface` inside its class until it is weighted Delaunay
+    /// at `self.u`, except for `fixed` edges, and measures what has changed. Returns also the number of flips.
     ///
-    /// An edge is Delaunay where its Laplacian weight, which Newton needs anyway, is not negative. So the flips start at the
-    /// edges of negative weight and at broken faces, and only what they touch is measured again.
+    /// An edge is Delaunay if its Laplacian weight, which Newton's method needs anyway, is not negative. So the flips start at the edges of
+    /// negative weight and at broken faces, and only the faces that they touch are measured again.
     pub fn flip_to_delaunay(
         &mut self,
         surface: ClassFlips,
         fixed: &FixedEdges,
-        seconds: &mut Seconds,
+        seconds: &mut FlowSeconds,
         control: &Control,
     ) -> Result<(bool, usize)> {
         let ClassFlips { mesh, metric: class, record } = surface;
         let real = self.is_real;
         let mut touched = Vec::new();
         let flips = timed(&mut seconds.flip, || {
-            let mut queue = if real { self.suspects(mesh, fixed) } else { Queue::all(mesh, fixed) };
+            let mut queue = if real { self.suspects(mesh, fixed) } else { FlipQueue::all(mesh, fixed) };
             let mut record = |mesh: &Mesh, flip: Flip<DoubleDouble>| {
                 touched.push(flip.edge);
                 record(mesh, flip);
@@ -131,7 +131,7 @@ impl State {
         Ok((real, flips))
     }
 
-    /// Everything but the curvature.
+    /// Measure everything but the curvature.
     pub fn measure(&mut self, mesh: &Mesh, class: &Metric) {
         let (space, u, low) = (class.space, &self.u, &self.low);
         self.vertices.resize(mesh.n_vertices(), Vertex::default());
@@ -144,15 +144,15 @@ impl State {
         self.is_real =
             (needs_chords_alone(class) && self.find_chords(mesh, class)) || self.find_edges(mesh, class);
         if self.is_real {
-            let State { vertices, edges, chords, angles, weights, .. } = self;
-            let parts = Parts { mesh, class, vertices, edges, chords };
+            let FlowState { vertices, edges, chords, angles, weights, .. } = self;
+            let parts = FaceMeasures { mesh, class, vertices, edges, chords };
             parts.measure(angles, weights);
         }
     }
 
     /// The half chords of the edges; false where some have no length, or need units of their own.
     fn find_chords(&mut self, mesh: &Mesh, class: &Metric) -> bool {
-        let State { vertices, edges, chords, .. } = self;
+        let FlowState { vertices, edges, chords, .. } = self;
         edges.clear();
         chords.resize(mesh.n_edges(), DoubleDouble::default());
         fill_chords(class.space, chords, |e| class.ends_and_eta(mesh, vertices, e.into()));
@@ -165,17 +165,17 @@ impl State {
 
     /// The edges; false where some have no length.
     fn find_edges(&mut self, mesh: &Mesh, class: &Metric) -> bool {
-        let State { vertices, edges, chords, .. } = self;
+        let FlowState { vertices, edges, chords, .. } = self;
         chords.clear();
         edges.resize(mesh.n_edges(), Edge::default());
         fill(edges, |e| class.edge(mesh, vertices, e.into()));
         edges.iter().all(|e| e.q2 != 0.0)
     }
 
-    /// What faces are measured from.
-    fn parts<'a>(&'a self, mesh: &'a Mesh, class: &'a Metric) -> Parts<'a> {
-        let State { vertices, edges, chords, .. } = self;
-        Parts { mesh, class, vertices, edges, chords }
+    /// The vertices and edges from which faces are measured.
+    fn parts<'a>(&'a self, mesh: &'a Mesh, class: &'a Metric) -> FaceMeasures<'a> {
+        let FlowState { vertices, edges, chords, .. } = self;
+        FaceMeasures { mesh, class, vertices, edges, chords }
     }
 
     /// Measure flipped edges, and the faces at them.
@@ -193,8 +193,8 @@ impl State {
             }
             return;
         }
-        let State { vertices, edges, chords, angles, weights, .. } = self;
-        let parts = Parts { mesh, class, vertices, edges, chords };
+        let FlowState { vertices, edges, chords, angles, weights, .. } = self;
+        let parts = FaceMeasures { mesh, class, vertices, edges, chords };
         for f in flipped.iter().flat_map(|e| [e.halfedge(), e.halfedge().twin()]).filter_map(|h| mesh.face(h))
         {
             (angles[f.index()], weights[f.index()]) = parts.measured(f);
@@ -210,10 +210,10 @@ impl State {
         }
     }
 
-    /// The only edges that may fail the Delaunay condition: those of negative weight, as far as rounding lets that be known, and those of
-    /// faces without weights.
-    fn suspects(&self, mesh: &Mesh, fixed: &FixedEdges) -> Queue {
-        let mut queue = Queue::new(mesh.n_edges(), fixed);
+    /// The edges that may fail the Delaunay condition: those whose weight is negative or may be so by rounding, and those of faces without
+    /// weights.
+    fn suspects(&self, mesh: &Mesh, fixed: &FixedEdges) -> FlipQueue {
+        let mut queue = FlipQueue::new(mesh.n_edges(), fixed);
         let mut weight = vec![0.0; mesh.n_edges()];
         for f in mesh.faces() {
             let weights = self.weights[f.index()];
@@ -230,8 +230,8 @@ impl State {
         queue
     }
 
-    /// Let `next` have the memory of what was measured here; u and its curvature stay.
-    pub fn hand_on(&mut self, next: &mut State) {
+    /// Move the memory of the measurements to `next`; u and its curvature stay.
+    pub fn hand_on(&mut self, next: &mut FlowState) {
         if self.is_measured() {
             next.vertices = std::mem::take(&mut self.vertices);
             next.edges = std::mem::take(&mut self.edges);
@@ -242,13 +242,13 @@ impl State {
         }
     }
 
-    /// Whether what was measured is still here.
+    /// True if the measurements have not been handed on.
     pub fn is_measured(&self) -> bool {
         !self.angles.is_empty()
     }
 
     /// u of `from` plus `t` times `step`.
-    pub fn set_step(&mut self, from: &State, t: f64, step: &[f64]) {
+    pub fn set_step(&mut self, from: &FlowState, t: f64, step: &[f64]) {
         for (v, step) in step.iter().enumerate() {
             let v = VertexId::from(v);
             (self.u[v], self.low[v]) = add(from.u[v], from.low[v], t * step);
@@ -282,7 +282,8 @@ impl State {
         self.angles.iter().filter(|a| a.broken()).count()
     }
 
-    /// Whether doubles hold the total area. A face in H² and S² has at most π and 2π, and edges in E² without units of their own are short: those of which half chords are known.
+    /// True if the total area is in the range of f64. A face in H² and S² has at most π and 2π, and edges in E² without units of their own
+    /// (those of which half chords are known) are short.
     pub fn has_finite_area(&self, mesh: &Mesh, class: &Metric) -> bool {
         class.space != Space::E2
             || !self.chords.is_empty()
@@ -290,7 +291,7 @@ impl State {
             || self.area(mesh, class).is_finite()
     }
 
-    /// Total area; infinite where doubles end.
+    /// Total area; infinite beyond the range of f64.
     pub fn area(&self, mesh: &Mesh, class: &Metric) -> f64 {
         let (parts, mut areas) = (self.parts(mesh, class), vec![0.0; mesh.n_faces()]);
         fill(&mut areas, |f| parts.area(f.into()));
@@ -308,7 +309,7 @@ impl State {
     }
 }
 
-/// `u + low + x` as a double and what it loses.
+/// `u + low + x` as high and low part.
 fn add(u: f64, low: f64, x: f64) -> (f64, f64) {
     let (sum, lost) = two_sum(u, x);
     two_sum(sum, lost + low)

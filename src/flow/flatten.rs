@@ -1,39 +1,39 @@
-//! Flat vertices to twice the digits of doubles.
+//! Corrects the curvature of flat vertices in double-double precision.
 
 use super::Flow;
-use super::evaluate::State;
+use super::evaluate::FlowState;
 use super::solve::center;
-use super::system::{Precision, System};
+use super::system::{NewtonSystem, Precision};
 use crate::control::Control;
 use crate::error::Result;
 use crate::geometry::largest;
 
-/// Corrections at most. Each brings the curvature down by the accuracy of a linear solution, 1e-12 and better.
+/// Largest number of corrections. Each brings the curvature down by the accuracy of a linear solution, 1e-12 and better.
 const STEPS: usize = 4;
-/// No correction is made below this: angles have 31 digits or so. That `double_double::exp` has 20 does not matter: it is a function
-/// of u that is smooth where corrections of u below 1e-16 are concerned, so they make up for it.
+/// Radians. Largest |K| below which no correction is made: angles have about 31 digits. That the exponential has only 20 digits does not
+/// matter: its error is a smooth function of u at the scale of the corrections, which are below 1e-16, so they compensate it.
 const FLOOR: f64 = 1e-29;
 
 impl Flow {
-    /// Bring the curvature of all vertices from nearly 0 to 0, as far as twice the digits of doubles go: iterative refinement of the
-    /// nonlinear system, residuals with twice the digits ([`crate::metric::Metric::angle_defects`]), corrections in doubles with one
-    /// factorisation. The triangulation stays. Returns the largest |K| that is left, radians.
+    /// Bring the curvature of all vertices from nearly 0 to 0 in double-double precision: iterative refinement of the nonlinear system, with
+    /// residuals in double-double precision ([`crate::metric::Metric::angle_defects`]) and corrections in f64 with one factorisation. The
+    /// triangulation stays. Returns the largest remaining |K|, radians.
     ///
-    /// For a metric that a flow to K̄ = 0 has come to.
+    /// The present metric has to be the result of a flow to K̄ = 0.
     ///
     /// # Errors
     /// Those of [`crate::metric::Metric::angle_defects`]; [`crate::Error::Cancelled`], [`crate::Error::Factorisation`].
     pub fn flatten(&mut self, control: &Control) -> Result<f64> {
-        self.flatten_at(State::new(&self.metric.u, &self.metric.u_low), control)
+        self.flatten_at(FlowState::new(&self.metric.u, &self.metric.u_low), control)
     }
 
-    /// [`Flow::flatten`] of the present metric, of which `state` may hold what has been measured.
-    pub(super) fn flatten_at(&mut self, mut state: State, control: &Control) -> Result<f64> {
+    /// [`Flow::flatten`] of the present metric; `state` may hold measurements of it.
+    pub(super) fn flatten_at(&mut self, mut state: FlowState, control: &Control) -> Result<f64> {
         let pool = self.pool.clone();
         pool.run(|| {
             let is_measured = state.is_measured() || state.evaluate(&self.mesh, &self.metric);
             if !is_measured {
-                // It names the first vertex or edge outside the domain.
+                // This returns the error that names the first vertex or edge outside the domain.
                 self.metric.check_domain(&self.mesh)?;
             }
             let residual = self.defects();
@@ -47,9 +47,9 @@ impl Flow {
             let shared = self.mirror.is_some();
             let mut system = match self.system.take().filter(|_| !shared) {
                 Some(kept) => {
-                    kept.flipped(&self.mesh, &fixed, None, 0)?.analysed(&self.mesh, Precision::Double)?
+                    kept.flipped(&self.mesh, &fixed, None, 0)?.analysed(&self.mesh, Precision::F64)?
                 }
-                None => System::new(&self.mesh, &fixed, None)?,
+                None => NewtonSystem::new(&self.mesh, &fixed, None)?,
             };
             system.jacobian.assemble(&self.mesh, &self.metric, &state);
             control.check()?;
@@ -65,14 +65,14 @@ impl Flow {
     /// Corrections of a metric, measured at `state`, as long as they lower the largest residual, which is returned.
     fn correct(
         &mut self,
-        system: &mut System,
-        mut state: State,
+        system: &mut NewtonSystem,
+        mut state: FlowState,
         mut residual: Vec<f64>,
         control: &Control,
     ) -> Result<f64> {
         let mut error = largest(&residual);
         let mut step = vec![0.0; residual.len()];
-        let mut next = State::new(&state.u, &state.low);
+        let mut next = FlowState::new(&state.u, &state.low);
         for _ in 0..STEPS {
             control.check()?;
             if error <= FLOOR || !system.solve(&residual, 0.0, &mut step) {
@@ -85,7 +85,7 @@ impl Flow {
             (self.now.metric.u, self.now.metric.u_low) = (next.u.clone(), next.low.clone());
             let left = self.defects();
             let now = largest(&left);
-            // A step out of the domain leaves no numbers, or wild ones, and is taken back here too.
+            // After a step out of the domain these numbers are NaN or huge, so that it is taken back here too.
             if now >= error {
                 (self.now.metric.u, self.now.metric.u_low) = (state.u, state.low);
                 break;

@@ -1,7 +1,7 @@
-//! The flow `du/dt = K̄ − K` itself, explicit in time [JKLLG08, Eqn 16].
+//! The gradient flow `du/dt = K̄ − K`, explicit in time [JKLLG08, Eqn 16].
 
 use super::Flow;
-use super::evaluate::State;
+use super::evaluate::FlowState;
 use super::newton::progress;
 use super::options::StepRule;
 use super::report::{Report, StopReason, TraceRow};
@@ -10,20 +10,20 @@ use crate::control::{Control, Stage};
 use crate::error::Result;
 use crate::geometry::Space;
 
-/// A step that raises the largest residual more than this is halved (Barzilai–Borwein steps are not monotone).
+/// Largest factor by which a step may raise the largest residual; a longer step is halved (Barzilai–Borwein steps are not monotone).
 const GROWTH: f64 = 10.0;
 /// Halvings before the flow counts as stalled.
 const HALVINGS: usize = 60;
 
-/// Rescalings, at most, until a metric has the area that is kept: one is exact in E², and in S² they converge linearly.
+/// Largest number of rescalings until a metric has the area that is kept: one is exact in E², and in S² they converge linearly.
 const RESCALINGS: usize = 20;
 /// Half the relative error of the area that is accepted after the last rescaling: far below the tolerance of flows.
 const AREA_REACHED: f64 = 1e-12;
 
-/// A step of the flow: where it starts, and where it leads.
-struct Leg {
-    state: State,
-    trial: State,
+/// A step of the gradient flow: its start and its end.
+struct GradientStep {
+    state: FlowState,
+    trial: FlowState,
     /// K̄ − K at `state`: the direction of the flow.
     direction: Vec<f64>,
     /// K̄ − K at `trial`.
@@ -38,8 +38,13 @@ struct Leg {
 }
 
 impl Flow {
-    pub(super) fn gradient(&self, state: State, report: &mut Report, control: &Control) -> Result<State> {
-        // Where pinned vertices hold their u, no constant can be added to u that would keep the area.
+    pub(super) fn gradient(
+        &self,
+        state: FlowState,
+        report: &mut Report,
+        control: &Control,
+    ) -> Result<FlowState> {
+        // The area is kept by adding a constant to u, which pinned vertices do not allow.
         let area = match self.metric.space {
             _ if self.has_pins() => None,
             Space::S2 => Some(self.spherical_area()),
@@ -48,9 +53,10 @@ impl Flow {
         };
         let [mut direction, next_direction] = [(); 2].map(|()| vec![0.0; self.mesh.n_vertices()]);
         let first = state.residual(&self.target, &self.pinned, &mut direction);
-        let trial = State::new(&self.start, &self.start_low);
+        let trial = FlowState::new(&self.start, &self.start_low);
         let (error, next_error, energy) = (first, first, 0.0);
-        let mut leg = Leg { state, trial, direction, next_direction, error, next_error, area, energy };
+        let mut leg =
+            GradientStep { state, trial, direction, next_direction, error, next_error, area, energy };
         let mut step = 0.0;
         self.note(&leg, step, report);
         report.stop_reason = loop {
@@ -75,9 +81,15 @@ impl Flow {
         Ok(leg.state)
     }
 
-    /// Go `h` along the direction of a leg, or half as far, and so on, until the error there is not much larger: how far that was;
-    /// none where the error grows along every step.
-    fn go(&self, leg: &mut Leg, mut h: f64, report: &mut Report, control: &Control) -> Result<Option<f64>> {
+    /// Go `h` along the direction of a leg, or half as far, and so on, until the error there is not much larger. Returns the step size, or
+    /// none if the error grows along every step.
+    fn go(
+        &self,
+        leg: &mut GradientStep,
+        mut h: f64,
+        report: &mut Report,
+        control: &Control,
+    ) -> Result<Option<f64>> {
         for _ in 0..HALVINGS {
             control.check()?;
             leg.trial.set_step(&leg.state, h, &leg.direction);
@@ -92,8 +104,8 @@ impl Flow {
         Ok(None)
     }
 
-    /// Note where a leg starts, to which a step of this size has led.
-    fn note(&self, leg: &Leg, step_size: f64, report: &mut Report) {
+    /// Report the start of a leg, to which a step of this size has led.
+    fn note(&self, leg: &GradientStep, step_size: f64, report: &mut Report) {
         let area = leg.state.area(&self.mesh, &self.metric);
         let (step, energy, max_curvature_error) = (report.iterations, leg.energy, leg.error);
         report.residuals.push(max_curvature_error);
@@ -101,7 +113,7 @@ impl Flow {
     }
 
     /// The explicit scheme is stable for h < 2/λ_max, and λ_max ≤ 2 max_i Σ |w| c(l) (Gershgorin).
-    fn stable_step(&self, state: &State) -> f64 {
+    fn stable_step(&self, state: &FlowState) -> f64 {
         let space = self.metric.space;
         let mut row = vec![0.0; self.mesh.n_vertices()];
         for f in self.mesh.faces() {
@@ -117,7 +129,7 @@ impl Flow {
     }
 
     /// Evaluate `state.u`, after bringing it to the total area `area` (if given) by a constant; false where there is no such metric.
-    pub(super) fn settle(&self, state: &mut State, area: Option<f64>) -> bool {
+    pub(super) fn settle(&self, state: &mut FlowState, area: Option<f64>) -> bool {
         if area.is_none() && self.free_scale() {
             state.center();
         }
@@ -126,7 +138,7 @@ impl Flow {
         }
         let Some(area) = area else { return state.has_finite_area(&self.mesh, &self.metric) };
         // Area grows as e^{2u} (exactly in E²): a fixed point that contracts fast on the sphere too.
-        let missing = |state: &State| 0.5 * (area / state.area(&self.mesh, &self.metric)).ln();
+        let missing = |state: &FlowState| 0.5 * (area / state.area(&self.mesh, &self.metric)).ln();
         for _ in 0..RESCALINGS {
             let mut shift = missing(state);
             if !shift.is_finite() {
@@ -136,7 +148,7 @@ impl Flow {
                 return true;
             }
             state.shift(shift);
-            // Near the largest spherical metric of the class the area grows faster, and there may be no metric: go back half the way.
+            // Near the largest spherical metric of the class the area grows faster, and the shift may leave the domain: go back half the way.
             while !state.evaluate(&self.mesh, &self.metric) {
                 shift *= 0.5;
                 if shift.abs() <= 4.0 * f64::EPSILON {
@@ -149,9 +161,9 @@ impl Flow {
     }
 }
 
-impl Leg {
-    /// Let the next leg start where this one, of size `h`, has led, and add the change of the energy (trapezoidal rule). Returns the
-    /// next step: Barzilai–Borwein's long and short step in turn \[BB88\], or `h` again where the energy is straight along the leg.
+impl GradientStep {
+    /// Let the next leg start at the end of this one, of size `h`, and add the change of the energy (trapezoidal rule). Returns the next
+    /// step size: Barzilai–Borwein's long and short step in turn \[BB88\], or `h` again where the energy is straight along the leg.
     fn finish(&mut self, h: f64, iteration: usize) -> f64 {
         let (mut ss, mut sy, mut yy) = (0.0, 0.0, 0.0);
         for v in 0..self.direction.len() {

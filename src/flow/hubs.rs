@@ -1,10 +1,10 @@
-//! Flows of surfaces whose boundary loops are filled by hubs.
+//! The start of flows on surfaces whose boundary loops are filled by hubs.
 //!
 //! A hub h is a circle, ε_h = 1, with η_hi = 0 to the vertices i of its loop, which are points, ε_i = 0. So these lie on the circle:
 //! `l_hi = e^{u_h}` in E², `l_hi = γ_h` in H². An edge between a hub and a vertex of its loop has no other diagonal and is never
-//! flipped. An edge of the loop may be: across it the hub then sees a vertex outside its circle.
+//! flipped. An edge of the loop may be flipped; the hub is then joined to a vertex outside its circle.
 
-use super::origin::Origin;
+use super::origin::FlowOrigin;
 use super::solution::Solution;
 use crate::control::Control;
 use crate::error::Result;
@@ -16,10 +16,10 @@ use crate::metric::{Class, Metric, Surface};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::sync::Arc;
 
-/// Least radius that a circle starts with, in units of the longest edge of its loop. Chords of a circle are at most twice its radius.
+/// Least radius of a circle at the start, in units of the longest edge of its loop, since chords of a circle are at most twice its radius.
 const LEAST_START: f64 = 0.6;
 
-/// The radius with which the circle about a hub starts: that of a circle as long as the loop, or more where one edge is long.
+/// The radius of the circle about a hub at the start: that of a circle as long as the loop, or a larger one if one edge is long.
 pub(crate) fn start_radius(lengths: &PerEdge<f64>, filled: &FilledMesh, k: usize) -> f64 {
     let edges = filled.loops[k].iter().map(|h| lengths[h.edge()]);
     let (sum, longest) = edges.fold((0.0, 0.0), |(sum, longest), l| (sum + l, f64::max(longest, l)));
@@ -38,7 +38,7 @@ impl Solution {
         space: Space,
         control: &Control,
     ) -> Result<Solution> {
-        let mut origin = Origin::delaunay(surface, Class::yamabe(space), false, &filled.rims(), control)?;
+        let mut origin = FlowOrigin::delaunay(surface, Class::yamabe(space), false, &filled.rims(), control)?;
         let mesh = match &origin.flipped {
             Some(flipped) => flipped.mesh.clone(),
             None => origin.surface.mesh().clone(),
@@ -50,7 +50,7 @@ impl Solution {
             make_hub(&mesh, &mut initial.metric, hub);
             initial.metric.u[hub] = if space == Space::H2 { (0.5 * radius).tanh().ln() } else { radius.ln() };
             initial.radii[hub] = radius;
-            // In the geometry of the input the circle has no size of its own. In H² u is negative where ε = 1.
+            // In the geometry of the input the circle has no size, so any u in the domain will do (in H² u is negative if ε = 1).
             initial.input_u[hub] = if initial.input_geometry == Space::H2 { -1.0 } else { 0.0 };
         }
         origin.class = None;
@@ -58,7 +58,7 @@ impl Solution {
     }
 }
 
-/// Radians that an angle opposite an edge of a loop may exceed its bound by.
+/// Radians by which an angle opposite an edge of a loop may exceed its bound.
 const OBTUSE: f64 = 1e-6;
 
 impl Solution {

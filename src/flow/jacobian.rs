@@ -8,14 +8,14 @@
 //!
 //! (a loop adds `2 W (c − 1)` to its vertex). Symmetric; semidefinite in E², definite in H², indefinite in S².
 
-use super::evaluate::State;
+use super::evaluate::FlowState;
 use crate::error::{Error, Result};
 use crate::linalg::{Pattern, Symmetric};
 use crate::mesh::{EdgeId, Mesh, VertexId};
 use crate::metric::Metric;
 use crate::parallel::fill;
 
-/// Stands where there is no unknown or no entry.
+/// Marks a vertex without an unknown, or an edge without an entry.
 const NONE: u32 = u32::MAX;
 
 /// The matrix over the vertices that are not fixed.
@@ -53,13 +53,13 @@ impl Jacobian {
         Ok(Jacobian { entry, values: vec![0.0; pattern.entries()], unknown, pattern })
     }
 
-    /// Give back the memory of all but the pattern, which that of another matrix is to be compared with.
+    /// Release the memory of all but the pattern, which is kept for comparing it with that of another matrix.
     pub fn keep_pattern_alone(&mut self) {
         (self.unknown, self.entry, self.values) = (Vec::new(), Vec::new(), Vec::new());
     }
 
     /// Fill the matrix with the derivative at a state.
-    pub fn assemble(&mut self, mesh: &Mesh, class: &Metric, state: &State) {
+    pub fn assemble(&mut self, mesh: &Mesh, class: &Metric, state: &FlowState) {
         self.values.fill(0.0);
         for f in mesh.faces() {
             let opposite = mesh.opposite_edges(f);
@@ -93,13 +93,14 @@ impl Jacobian {
         }
     }
 
-    /// How many edges of a mesh have their entry elsewhere than here.
+    /// The number of edges of a mesh whose entry has another position than here.
     pub fn changed_edges(&self, mesh: &Mesh) -> usize {
         let is_changed = |e: &EdgeId| {
             let ([i, j], entry) = (mesh.ends(*e).map(|v| self.unknown[v.index()]), self.entry[e.index()]);
-            match i == j || i == NONE || j == NONE {
-                true => entry != NONE,
-                false => self.pattern.position(i as usize, j as usize) != Some(entry as usize),
+            if i == j || i == NONE || j == NONE {
+                entry != NONE
+            } else {
+                self.pattern.position(i as usize, j as usize) != Some(entry as usize)
             }
         };
         mesh.edges().filter(is_changed).count()
@@ -114,9 +115,9 @@ impl Jacobian {
 
     /// The change of the curvature of each vertex that rounding can cause, at the state that this was assembled at.
     ///
-    /// `Σ |∂K_i/∂u_j| δ`, term by term, for the rounding of e^u and of the lengths, where δ is an ulp of 1, or its square where these have
-    /// twice the digits ([`is_precise`]); and two ulp of π for every angle, which is a double.
-    pub fn rounding_floor(&self, mesh: &Mesh, class: &Metric, state: &State) -> Vec<f64> {
+    /// `Σ |∂K_i/∂u_j| δ`, term by term, for the rounding of e^u and of the lengths, where δ is an ulp of 1, or its square if these are in
+    /// double-double precision ([`Metric::is_precise`]); and two ulp of π for every angle, which is an f64.
+    pub fn rounding_floor(&self, mesh: &Mesh, class: &Metric, state: &FlowState) -> Vec<f64> {
         let precise = class.is_precise();
         let moved = if precise { f64::EPSILON * f64::EPSILON } else { f64::EPSILON };
         let mut floor = vec![0.0; mesh.n_vertices()];
@@ -144,7 +145,7 @@ impl Jacobian {
         Symmetric { pattern: &self.pattern, values: &self.values }
     }
 
-    /// Vertices that are unknowns, ascending, with their row.
+    /// The vertices with an unknown, ascending, with their row.
     pub fn rows(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
         let row = |(v, &row): (usize, &u32)| (row != NONE).then_some((v, row as usize));
         self.unknown.iter().enumerate().filter_map(row)
@@ -160,9 +161,9 @@ impl Jacobian {
 /// Those of [`Metric::check_domain`].
 pub fn curvature_derivative(mesh: &Mesh, metric: &Metric) -> Result<Vec<(VertexId, VertexId, f64)>> {
     metric.check(mesh)?;
-    let mut state = State::new(&metric.u, &metric.u_low);
+    let mut state = FlowState::new(&metric.u, &metric.u_low);
     if !state.evaluate(mesh, metric) {
-        // The first edge without a length is named by this call.
+        // This call returns the error that names the first edge without a length.
         metric.check_domain(mesh)?;
         return Err(Error::Argument { what: "metric", value: "u".into(), need: "inside its domain" });
     }

@@ -1,18 +1,18 @@
-//! How far to go along a Newton step: full steps where the convex energy falls, else a bisection on its slope.
+//! The line search along a Newton step: the full step if the convex energy falls, else a bisection on its slope.
 
 use crate::geometry::largest;
 
-/// Radians. Below this max |K − K̄| a smaller residual also accepts a step. Far from the solution only the slope does: mixing the two
-/// there cycles.
+/// Radians. Below this max |K − K̄| a smaller residual also accepts a step. Far from the solution only the slope does, since mixing the
+/// two criteria can cycle there.
 const NEAR_SOLUTION: f64 = 1e-2;
-/// A convex energy that at the end of a step rises by at most this share of the rate at which it fell at the start has fallen all in
-/// all, unless its slope jumps. Refusing every rise halves good steps: half of all flows then take twice as many.
+/// Largest slope of the energy at the end of a step, as a share of the rate at which it fell at the start. A convex energy has then fallen
+/// all in all, unless its slope jumps. Without this tolerance good steps are halved, and half of all flows take twice as many steps.
 const OVERSHOOT: f64 = 0.1;
 /// Trials before the line search gives up: 2⁻⁵⁰ of a step is below the rounding of u.
 const TRIALS: usize = 50;
-/// Share of the first slope at which a bisection ends. Where vertices that are far smaller than all else have large curvature, dK/du
-/// changes within a tiny change of u, and a step meets a bend of the energy that its start does not show. A step that ends before the
-/// bend gains nothing, since the next one meets it again; one that ends inside it does.
+/// Share of the first slope at which a bisection ends. At vertices with large curvature whose triangles are far smaller than all others,
+/// dK/du changes within a tiny change of u, and a step meets a bend of the energy that is not seen at its start. A step that ends before
+/// the bend gains nothing, since the next one meets it again; a step that ends inside it does.
 const SETTLED_SLOPE: f64 = 0.5;
 /// Points tried between a short and a long step before the short one is taken.
 const BISECTIONS: usize = 10;
@@ -48,7 +48,7 @@ impl<'a> LineSearch<'a> {
         (self.trials <= TRIALS).then_some(self.t)
     }
 
-    /// Whether the last fraction is accepted: `error` and `residual` are those at its end, no error outside the metric's domain.
+    /// True if the last fraction is accepted: `error` and `residual` are those at its end, no error outside the metric's domain.
     pub fn accepts(&mut self, error: Option<f64>, residual: &[f64]) -> bool {
         let slope = error.map_or(f64::NEG_INFINITY, |_| slope(self.step, residual));
         let falls = slope >= -OVERSHOOT * self.first;
@@ -58,10 +58,12 @@ impl<'a> LineSearch<'a> {
         if smaller || (falls && settled) {
             return true;
         }
-        match falls {
-            true => self.short = self.t,
-            false if self.t == self.short => (self.short, self.long) = (0.0, Some(self.t)),
-            false => self.long = Some(self.t),
+        if falls {
+            self.short = self.t;
+        } else if self.t == self.short {
+            (self.short, self.long) = (0.0, Some(self.t));
+        } else {
+            self.long = Some(self.t);
         }
         self.between += usize::from(self.short > 0.0);
         let long = self.long.unwrap_or(self.t);
@@ -71,7 +73,7 @@ impl<'a> LineSearch<'a> {
     }
 }
 
-/// How fast the energy falls along a step.
+/// The rate at which the energy falls along a step.
 fn slope(step: &[f64], residual: &[f64]) -> f64 {
     step.iter().zip(residual).map(|(d, r)| d * r).sum()
 }

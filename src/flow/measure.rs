@@ -1,4 +1,4 @@
-//! Angles and derivative weights of faces, from what a state knows of vertices and edges.
+//! Angles and derivative weights of faces, from the measured vertices and edges of a state.
 
 use crate::geometry::conformal::{
     Edge, Vertex, differences, differences_of, differences_of_lengths, in_one_unit, plain_chord,
@@ -14,37 +14,37 @@ use crate::mesh::{EdgeId, FaceId, Mesh};
 use crate::metric::Metric;
 use crate::parallel::{fill_both, in_parts_of_both};
 
-/// Whether half chords are all that faces need: for vertex scaling in E² and H².
+/// True if half chords are all that faces need: for vertex scaling in E² and H².
 pub(super) fn needs_chords_alone(class: &Metric) -> bool {
     class.space != Space::S2 && class.epsilon.iter().all(|&e| e == 0)
 }
 
-/// The half chord of an edge, for vertex scaling; 0 where it has no length, and where that needs a unit of its own.
+/// The half chord of an edge, for vertex scaling; 0 if the edge has no length, and if the length needs a unit of its own.
 #[inline]
 pub(super) fn chord(mesh: &Mesh, class: &Metric, vertices: &[Vertex], e: EdgeId) -> DoubleDouble {
     let ([a, b], eta) = class.ends_and_eta(mesh, vertices, e);
     plain_chord(class.space, a, b, eta)
 }
 
-/// What faces are measured from.
+/// The vertices and edges of a metric, from which its faces are measured.
 #[derive(Clone, Copy)]
-pub(super) struct Parts<'a> {
+pub(super) struct FaceMeasures<'a> {
     pub mesh: &'a Mesh,
     pub class: &'a Metric,
     pub vertices: &'a [Vertex],
-    /// None where the chords are known instead.
+    /// Empty if the half chords are known instead.
     pub edges: &'a [Edge],
     pub chords: &'a [DoubleDouble],
 }
 
-impl Parts<'_> {
+impl FaceMeasures<'_> {
     /// Angles and derivative weights of all faces; weights 0 of broken ones.
     pub fn measure(self, angles: &mut [Angles], weights: &mut [[f64; 3]]) {
         if !self.has_chords() {
             fill_both(angles, weights, |f| self.measured(f.into()));
             return;
         }
-        let formula = ByChords { space: self.class.space };
+        let formula = ChordFormula { space: self.class.space };
         in_parts_of_both(angles, weights, |start, angles, weights| {
             let given = |i: usize| {
                 let [a, b, c] = self.chords_at((start + i).into());
@@ -82,7 +82,7 @@ impl Parts<'_> {
         self.mesh.opposite_edges(f).map(|e| self.chords[e.index()])
     }
 
-    /// The way that serves all classes.
+    /// Angles and derivative weights by the formulas that hold in all classes.
     #[inline(never)]
     fn by_differences(self, f: FaceId) -> (Angles, [f64; 3]) {
         let (mesh, class) = (self.mesh, self.class);
@@ -97,17 +97,15 @@ impl Parts<'_> {
 
     /// The corners of a face and the edges opposite them, in one unit of length, and its exponent.
     fn at(self, f: FaceId) -> ([Vertex; 3], [Edge; 3], i32) {
-        let Parts { mesh, class, vertices, .. } = self;
+        let FaceMeasures { mesh, class, vertices, .. } = self;
         let mut corners = mesh.face_vertices(f).map(|v| vertices[v.index()]);
-        let mut edges = mesh.opposite_edges(f).map(|e| match self.has_chords() {
-            true => class.edge(mesh, vertices, e),
-            false => self.edges[e.index()],
-        });
+        let edge = |e| if self.has_chords() { class.edge(mesh, vertices, e) } else { self.edges[e.index()] };
+        let mut edges = mesh.opposite_edges(f).map(edge);
         let unit = in_one_unit(&mut corners, &mut edges);
         (corners, edges, unit)
     }
 
-    /// Area of a face; infinite where doubles end, which takes lengths of 1e154.
+    /// Area of a face; infinite beyond the range of f64, from lengths of 1e154 on.
     pub fn area(self, f: FaceId) -> f64 {
         let by_chords = self.has_chords() && self.class.space == Space::H2;
         let found = if by_chords { chords::area(self.chords_at(f)) } else { None };
@@ -118,14 +116,14 @@ impl Parts<'_> {
     }
 }
 
-/// Angles and derivative weights of triangles of vertex scaling in E² or H², with 1 for each whose are sound. Given are the half chords
-/// opposite the corners, and what these miss.
+/// The formula for triangles of vertex scaling in E² or H²: angles, derivative weights, and 1 if these are sound, else 0. Given are the
+/// high parts of the half chords opposite the corners, then their low parts.
 #[derive(Clone, Copy)]
-struct ByChords {
+struct ChordFormula {
     space: Space,
 }
 
-impl Formula<6, 7> for ByChords {
+impl Formula<6, 7> for ChordFormula {
     #[inline(always)]
     fn of<L: Lanes>(self, [a, b, c, a_low, b_low, c_low]: [L; 6]) -> [L; 7] {
         let (high, low) = ([a, b, c], [a_low, b_low, c_low]);
@@ -163,7 +161,8 @@ mod tests {
             let chords: Vec<DoubleDouble> =
                 (0..mesh.n_edges()).map(|e| chord(mesh, &class, &vertices, e.into())).collect();
             assert!(chords.iter().all(|chord| chord.high > 0.0));
-            let parts = Parts { mesh, class: &class, vertices: &vertices, edges: &[], chords: &chords };
+            let parts =
+                FaceMeasures { mesh, class: &class, vertices: &vertices, edges: &[], chords: &chords };
             let alone: Vec<_> = mesh.faces().map(|f| parts.measured(f)).collect();
             broken += alone.iter().filter(|(angles, _)| angles.broken()).count();
             for faces in [1, 3, 64, 65, mesh.n_faces()] {

@@ -1,21 +1,21 @@
-//! Memory that goes from solve to solve, so that many solves of one flow do not ask for it again and again.
+//! Keeps the memory of solves for later ones, so that many solves of one flow do not allocate it again and again.
 
-use super::evaluate::State;
+use super::evaluate::FlowState;
 use crate::mesh::PerVertex;
 
-/// What solves have given back. Empty pieces have their memory still.
+/// States and vectors whose memory is used again.
 #[derive(Default)]
-pub(super) struct Memory {
-    states: Vec<State>,
+pub(super) struct SolveMemory {
+    states: Vec<FlowState>,
     vectors: Vec<Vec<f64>>,
 }
 
-impl Memory {
-    /// A state at this u, nothing of which is measured.
-    pub fn state(&mut self, u: &PerVertex<f64>, low: &PerVertex<f64>) -> State {
+impl SolveMemory {
+    /// A state at this u, without measurements.
+    pub fn state(&mut self, u: &PerVertex<f64>, low: &PerVertex<f64>) -> FlowState {
         match self.states.pop() {
             Some(kept) => kept.at(u, low),
-            None => State::new(u, low),
+            None => FlowState::new(u, low),
         }
     }
 
@@ -27,7 +27,7 @@ impl Memory {
         vector
     }
 
-    pub fn take_back(&mut self, state: State) {
+    pub fn take_back(&mut self, state: FlowState) {
         self.states.push(state);
     }
 

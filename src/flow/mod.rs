@@ -36,12 +36,12 @@ mod spherical;
 mod start;
 mod system;
 
-pub(crate) use active_set::{ActiveSet, Lent};
+pub(crate) use active_set::{ActiveSet, BorrowedMetric};
 pub use cones::{AutoCones, auto_cones, with_cones_placed};
 pub use jacobian::curvature_derivative;
 pub use options::{Flips, Gradient, Method, Options, StepRule};
 pub use report::{Obstruction, Report, StopReason, TraceRow};
-pub use seconds::Seconds;
+pub use seconds::FlowSeconds;
 pub use solution::Solution;
 
 use crate::control::Control;
@@ -50,52 +50,53 @@ use crate::geometry::DoubleDouble;
 use crate::mesh::{FixedEdges, FlipLog, PerVertex};
 use crate::metric::{Class, Surface, Target};
 use crate::parallel::Pool;
-use memory::Memory;
+use memory::SolveMemory;
 use std::ops::Deref;
 use std::sync::Arc;
-use system::System;
+use system::NewtonSystem;
 
 /// A surface in a conformal class, which flows to one target after the other. It keeps its factorisation and its threads; each solve
 /// starts from the last metric that reached its target (at first from the given one).
 ///
 /// With [`Flips::Auto`] the class is that of the surface's (weighted) Delaunay triangulation and edges are flipped inside it, so that
 /// every admissible target is reached; a surface with boundary is solved on its double, whose metric is kept symmetric, since only
-/// closed surfaces have that guarantee: on one copy for as long as no edge is to be flipped across the boundary, which is all there
-/// is to do on surfaces that need no flips. [`Solution::refinement`] carries the result back to the given triangulation.
+/// closed surfaces have that guarantee. Before that it is solved on one copy, for as long as no edge is to be flipped across the boundary;
+/// surfaces that need no flips are solved there altogether. [`Solution::common_subdivision`] carries the result back to the given triangulation.
 ///
-/// Edges stay as they are with [`Flips::Never`], and where flips have no part: in S², in the gradient flow, for Thurston's and
+/// Edges stay as they are with [`Flips::Never`], and where flips play no part: in S², in the gradient flow, for Thurston's and
 /// tangential packings (Delaunay on any triangulation). Between imaginary circles (virtual radii) an edge need not have another
-/// diagonal: flips help there, without a guarantee. Pinned vertices keep a boundary from being doubled: interior edges alone are
-/// flipped.
+/// diagonal: flips help there, without a guarantee. A surface with boundary and pinned vertices is not doubled: only its interior edges
+/// are flipped.
 ///
-/// A flow answers what its present metric, a [`Solution`], answers: the start, or where the last solve ended, converged or not.
+/// A flow dereferences to its present metric, a [`Solution`]: the start, or the end of the last solve, converged or not.
 pub struct Flow {
     now: Solution,
-    /// u that solves start from, which is that of the last one that reached its target, or what was set; and what its doubles lose.
+    /// u that solves start from, in double-double precision (high parts, low parts): that of the last solve that reached its target, or the
+    /// one that was set.
     start: PerVertex<f64>,
     start_low: PerVertex<f64>,
     options: Options,
-    /// Whether edges may be flipped, by the options and the class.
+    /// True if edges may be flipped, by the options and the class.
     flips_allowed: bool,
-    /// Edges of the present triangulation that are not flipped: those of the options, and their images on a double.
+    /// Edges of the present triangulation that are not flipped: those of the options, and their mirror images on a double.
     fixed: FixedEdges,
     pinned: Vec<bool>,
-    /// Whether `pinned` is an active set, which changes between steps: then it stays in the matrix ([`active_set`]).
+    /// True if `pinned` is an active set, which changes between steps: then it stays in the matrix ([`active_set`]).
     is_bounded: bool,
     /// Per vertex its mirror image on a double, where the metric is kept symmetric.
     mirror: Option<Vec<u32>>,
-    /// The flips of the present solve, by which it is undone.
+    /// The flips of the present solve, for undoing it.
     log: FlipLog<DoubleDouble>,
-    /// On one copy of a surface with boundary, as long as nothing is flipped across its boundary.
+    /// True while the flow is on one copy of a surface with boundary, because nothing has to be flipped across the boundary yet.
     one_copy: bool,
     /// The present solve's target per vertex of the present triangulation.
     target: PerVertex<f64>,
-    system: Option<System>,
-    /// Whether a factor in single precision has been precise enough in this solve.
+    system: Option<NewtonSystem>,
+    /// True if a factor in f32 has been precise enough in this solve.
     single_serves: bool,
     /// Flips since `system` was made.
     unseen_flips: usize,
-    memory: Memory,
+    memory: SolveMemory,
     pool: Arc<Pool>,
 }
 
@@ -109,8 +110,8 @@ impl Deref for Flow {
 
 /// The metric of a surface with prescribed curvature in a class: [`Flow::new`] and [`Flow::solve`].
 ///
-/// A flow that does not reach its target is no error: the report says so and why, and the metric is the last one. For several targets
-/// on one surface keep a [`Flow`].
+/// Not reaching the target is no error: the report says so and why, and the metric is the last one. For several targets on one surface
+/// keep a [`Flow`].
 ///
 /// # Errors
 /// Those of [`Flow::new`] and [`Flow::solve`].

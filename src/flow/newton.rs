@@ -5,11 +5,11 @@
 //! pattern of the matrix but not its unknowns, so the factor serves on. Where it does not serve well the matrix is factorised anew.
 
 use super::Flow;
-use super::evaluate::State;
+use super::evaluate::FlowState;
 use super::line_search::LineSearch;
-use super::memory::Memory;
+use super::memory::SolveMemory;
 use super::report::{Report, StopReason};
-use super::solve::End;
+use super::solve::MethodEnd;
 use crate::control::{Control, Stage};
 use crate::error::Result;
 use crate::geometry::double_double::MAX_EXPONENT;
@@ -17,7 +17,7 @@ use crate::geometry::{Space, largest, worse};
 use crate::metric::delaunay::boundary_fails;
 
 /// Relative change of the residual, at unchanged u, above which a failed line search is repeated: flipping an edge and back rounds η,
-/// which on needle triangles moves the residual, so the search has started from what is no longer so.
+/// which on needle triangles moves the residual, so that the search started from a wrong one.
 const MOVED_BY_FLIPS: f64 = 1e-3;
 /// Repetitions of that in one solve, at most.
 const RESTARTS: usize = 20;
@@ -25,21 +25,21 @@ const RESTARTS: usize = 20;
 const FLOOR_SLACK: f64 = 8.0;
 /// Radians. A larger estimate of the rounding floor comes from a degenerating triangle and is not accepted.
 const MAX_FLOOR: f64 = 1e-7;
-/// Iterations without a new best residual (by a tenth) after which a residual below [`QUADRATIC`] counts as stalled: Newton converges
-/// quadratically there, and what does not is rounding. (Farther out the maximum norm proves nothing.)
+/// Iterations without a new best residual (by a tenth) after which a residual below [`QUADRATIC`] counts as stalled: Newton's method
+/// converges quadratically there, so that only rounding is left. (Farther out the maximum norm proves nothing.)
 const PATIENCE: usize = 8;
 /// Radians. Below this residual convergence is quadratic.
 const QUADRATIC: f64 = 1e-8;
 
-/// Steps over which it is seen how fast the steps still proposed become shorter: at needles by a share each, on the way to a far metric by
-/// about the length of those taken.
+/// Number of steps over which the rate is measured at which proposed steps become shorter. At needles each is shorter by a share, on the
+/// way to a far metric by about the length of the step taken.
 const SETTLING_STEPS: usize = 20;
 
-/// What a Newton solve carries from step to step.
+/// The state of a Newton solve between its steps.
 pub(super) struct Iterate {
-    pub state: State,
+    pub state: FlowState,
     /// The state at the end of a step that is tried.
-    pub trial: State,
+    pub trial: FlowState,
     /// K̄ − K at `state`.
     pub residual: Vec<f64>,
     /// The same at the end of a step that is tried.
@@ -47,12 +47,12 @@ pub(super) struct Iterate {
     pub step: Vec<f64>,
     /// Largest residual.
     pub error: f64,
-    /// What the last matrix was shifted by.
+    /// The shift of the last matrix.
     pub shift: f64,
     /// Least error so far, but for the last tenth, and the steps since.
     best: f64,
     since_best: usize,
-    /// Length of the first in the present row of steps that were all too long for what is left, and their number.
+    /// Of the present row of steps that were too long for the remaining iterations, the length of the first, and their number.
     too_long: (f64, usize),
     /// Flips in this solve when the last direction was found; none before the first one, and where the last one was not found.
     pub(super) solved_at: Option<usize>,
@@ -62,8 +62,8 @@ pub(super) struct Iterate {
     pub(super) misses: (u32, usize),
 }
 
-/// What a solve does next.
-enum Next {
+/// The next action of a solve.
+enum NextStep {
     Step,
     Stop(StopReason),
     /// Leave the one copy of a surface with boundary, whose double would flip a boundary edge.
@@ -71,7 +71,7 @@ enum Next {
 }
 
 impl Iterate {
-    pub fn new(flow: &mut Flow, state: State) -> Iterate {
+    pub fn new(flow: &mut Flow, state: FlowState) -> Iterate {
         let n = flow.mesh.n_vertices();
         let [mut residual, next_residual, step] = [(); 3].map(|()| flow.memory.zeros(n));
         let error = state.residual(&flow.target, &flow.pinned, &mut residual);
@@ -95,19 +95,19 @@ impl Iterate {
         }
     }
 
-    /// The state, when all else has been given back.
-    pub fn end(self, memory: &mut Memory) -> State {
+    /// The state; the memory of the rest goes back to `memory`.
+    pub fn end(self, memory: &mut SolveMemory) -> FlowState {
         memory.take_back(self.trial);
         memory.take_back_vectors([self.residual, self.next_residual, self.step]);
         self.state
     }
 
-    /// Whether the matrix is to be taken as it is.
+    /// True if the matrix is to be taken as it is.
     pub(super) fn is_sound(&self) -> bool {
         self.shift == 0.0 && self.state.broken() == 0
     }
 
-    /// Count the step that has led here: whether there have been too many without a better residual.
+    /// Count the step that has led here; true if there have been too many without a better residual.
     fn is_out_of_patience(&mut self) -> bool {
         self.since_best += 1;
         if self.error < 0.9 * self.best {
@@ -118,16 +118,21 @@ impl Iterate {
 }
 
 impl Flow {
-    pub(super) fn newton(&mut self, state: State, report: &mut Report, control: &Control) -> Result<End> {
+    pub(super) fn newton(
+        &mut self,
+        state: FlowState,
+        report: &mut Report,
+        control: &Control,
+    ) -> Result<MethodEnd> {
         let mut at = Iterate::new(self, state);
         report.residuals.push(at.error);
         control.step(Stage::Flow, 0.0)?;
         let Some(reason) = self.iterate(&mut at, report, control)? else {
             report.max_curvature_error = at.error;
-            return Ok(End { state: at.end(&mut self.memory), left: true });
+            return Ok(MethodEnd { state: at.end(&mut self.memory), left: true });
         };
         report.stop_reason = reason;
-        // A step within bounds may begin where another one has ended, at the tolerance: it has no factor yet to polish with.
+        // A step within bounds may begin where another one has ended, at the tolerance. Polishing needs a factor, which it has not yet.
         let begins_at_end = self.is_bounded && report.iterations == 0 && at.error > self.polished();
         if begins_at_end && report.stop_reason == StopReason::Converged {
             self.direction(&mut at, report, control)?;
@@ -144,7 +149,7 @@ impl Flow {
             self.system = Some(self.polish(system, &mut at, report, control)?);
         }
         if !at.state.is_measured() {
-            // The last point that was tried was not taken: back to the triangulation of the one before.
+            // The last point that was tried was not taken, so go back to the triangulation of the one before.
             self.evaluate(&mut at.state, report, control)?;
             at.error = at.state.residual(&self.target, &self.pinned, &mut at.residual);
             if report.stop_reason == StopReason::Converged && at.error > report.tolerance {
@@ -155,7 +160,7 @@ impl Flow {
         if report.stop_reason == StopReason::Stalled {
             report.stop_reason = self.stalled(&mut at, report)?;
         }
-        Ok(End { state: at.end(&mut self.memory), left: false })
+        Ok(MethodEnd { state: at.end(&mut self.memory), left: false })
     }
 
     /// Steps until there is a reason to stop, or none where the flow leaves the one copy of a surface with boundary.
@@ -168,9 +173,9 @@ impl Flow {
         let (first, mut restarts) = (at.error, 0);
         loop {
             match self.next(at, report) {
-                Next::Step => control.step(Stage::Flow, progress(first, at.error, report.tolerance))?,
-                Next::Stop(reason) => return Ok(Some(reason)),
-                Next::Leave => return Ok(None),
+                NextStep::Step => control.step(Stage::Flow, progress(first, at.error, report.tolerance))?,
+                NextStep::Stop(reason) => return Ok(Some(reason)),
+                NextStep::Leave => return Ok(None),
             }
             if self.is_lopsided(at) {
                 (self.mirror, self.system, at.solved_at) = (None, None, None);
@@ -198,26 +203,26 @@ impl Flow {
         }
     }
 
-    /// Whether there is another step to take.
-    fn next(&self, at: &Iterate, report: &Report) -> Next {
+    /// The next action: a step, or a reason to stop or to leave the copy.
+    fn next(&self, at: &Iterate, report: &Report) -> NextStep {
         let at_limit = report.iterations >= self.options.iteration_limit();
         let leaves = || boundary_fails(&self.mesh, &self.metric, &at.state.u, &self.fixed);
         let most = MAX_EXPONENT - self.options.max_step;
         if self.one_copy && !at_limit && leaves() {
-            Next::Leave
+            NextStep::Leave
         } else if at.error <= report.tolerance {
-            Next::Stop(StopReason::Converged)
+            NextStep::Stop(StopReason::Converged)
         } else if self.metric.space == Space::E2 && largest(at.state.u.iter()) > most {
-            Next::Stop(StopReason::Diverged)
+            NextStep::Stop(StopReason::Diverged)
         } else if at_limit {
-            Next::Stop(StopReason::IterationLimit)
+            NextStep::Stop(StopReason::IterationLimit)
         } else {
-            Next::Step
+            NextStep::Step
         }
     }
 
-    /// Whether the steps that are left cannot go as far as the one proposed, nor will it be short enough in time at the rate at which it
-    /// falls. In the second half of the iterations allowed it is too late to save time.
+    /// The reason to stop if the proposed step is longer than all remaining steps together, and becomes shorter too slowly to be reached
+    /// before the iteration limit. In the second half of the iterations it is too late to save time.
     fn out_of_reach(&self, at: &mut Iterate, report: &Report) -> Option<StopReason> {
         let (step, limit) = (largest(&at.step), self.options.iteration_limit());
         let left = (limit - report.iterations) as f64;
@@ -234,8 +239,8 @@ impl Flow {
         (steps >= SETTLING_STEPS && step > shorter).then_some(StopReason::OutOfReach { step })
     }
 
-    /// Go back to the triangulation of the last metric, or one of the same, after a search that found nothing: whether the residual
-    /// there has changed so much that the search is worth repeating.
+    /// Go back to a Delaunay triangulation of the last metric after a search that found nothing. Returns true if the residual there has
+    /// changed so much that the search is worth repeating.
     fn is_moved_by_flips(
         &mut self,
         at: &mut Iterate,
@@ -270,7 +275,7 @@ impl Flow {
         Ok(false)
     }
 
-    /// What a flow that no step takes further has come to.
+    /// The stop reason of a flow that no step takes further.
     fn stalled(&mut self, at: &mut Iterate, report: &mut Report) -> Result<StopReason> {
         if at.error <= report.tolerance {
             return Ok(StopReason::Converged);
@@ -288,8 +293,8 @@ impl Flow {
         Ok(if at_floor { StopReason::RoundingFloor { size } } else { StopReason::Stalled })
     }
 
-    /// Whether what is left of the error differs between mirror images: flips in another order round η differently, which symmetric
-    /// steps cannot make up for.
+    /// True if most of the remaining error differs between mirror images: flips in another order round η differently, which symmetric steps
+    /// cannot correct.
     fn is_lopsided(&self, at: &Iterate) -> bool {
         let Some(mirror) = &self.mirror else { return false };
         let even = |(r, &image): (&f64, &u32)| 0.5 * (r + at.residual[image as usize]).abs();

@@ -1,7 +1,7 @@
-//! Why a target has no metric: a set of vertices whose curvature is below what the scheme can give them.
+//! Finds an obstruction to a target: a set of vertices whose target is below the least curvature that the scheme can give them.
 
 use super::Flow;
-use super::evaluate::State;
+use super::evaluate::FlowState;
 use super::report::Obstruction;
 use crate::geometry::Space;
 use crate::mesh::{FaceId, HalfedgeId, VertexId};
@@ -37,9 +37,9 @@ impl Flow {
         None
     }
 
-    /// The smallest violated set among those that a flow without a limit suggests: the vertices whose u is below a bound, for every
-    /// bound. `None` where none of these is violated, and in S², where angle sums have no bound.
-    pub(super) fn obstruction(&self, state: &State) -> Option<Obstruction> {
+    /// The smallest obstruction among the sets of vertices whose u is below a bound, for every bound: a flow without a limit separates u at
+    /// an obstruction. `None` if none of these sets is one, and in S², where angle sums have no bound.
+    pub(super) fn obstruction(&self, state: &FlowState) -> Option<Obstruction> {
         let mesh = &self.mesh;
         if self.metric.space == Space::S2 {
             return None;

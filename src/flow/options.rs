@@ -1,4 +1,4 @@
-//! What a flow can be asked.
+//! Options of flows.
 //!
 //! ```
 //! # use ricci::flow::{Flips, Options};
@@ -11,7 +11,7 @@
 use crate::error::{Error, Result};
 use crate::mesh::{EdgeId, VertexId};
 
-/// How the target is reached.
+/// The method by which the target is reached.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Method {
     /// Newton with a line search (E², H²); in S², where the energy is not convex, damped Newton.
@@ -21,7 +21,7 @@ pub enum Method {
     Gradient,
 }
 
-/// Whether edges may be flipped inside the conformal class.
+/// True if edges may be flipped inside the conformal class.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Flips {
     /// As often as needed (Newton in E² and H²): the triangulation is weighted Delaunay throughout. The solver's mesh changes with it.
@@ -70,8 +70,8 @@ pub struct Options {
     /// Vertices of the given surface that hold their u; their curvature is then free. Default none. They keep a surface with boundary
     /// from being doubled.
     pub pinned: Vec<VertexId>,
-    /// Threads of this flow's own pool; 0 (default) is one per core. Several are those of the pool that the caller is in, if any. The result
-    /// does not depend on it.
+    /// Number of threads of this flow's own pool; 0 (default) is one per core. With 0 or several, a caller inside a pool lends its threads.
+    /// The result does not depend on the number.
     pub threads: usize,
     /// Options of [`Method::Gradient`].
     pub gradient: Gradient,
@@ -94,7 +94,7 @@ impl Default for Options {
 }
 
 impl Options {
-    /// Whether the tolerance and all step sizes are positive finite numbers.
+    /// Checks that the tolerance and all step sizes are positive finite numbers.
     ///
     /// # Errors
     /// [`Error::Argument`].
@@ -113,7 +113,7 @@ impl Options {
         }
     }
 
-    /// The limit that `max_iterations` stands for.
+    /// The largest number of iterations, with the default for `max_iterations` 0.
     pub fn iteration_limit(&self) -> usize {
         match (self.max_iterations, self.method) {
             (0, Method::Newton) => 500,

@@ -1,10 +1,10 @@
-//! Newton's last digits: steps with the matrix of the last step.
+//! Polishes the result of Newton's method by steps with the factor of the last one.
 
 use super::Flow;
 use super::newton::Iterate;
 use super::report::Report;
 use super::seconds::timed;
-use super::system::{Precision, System};
+use super::system::{NewtonSystem, Precision};
 use crate::control::Control;
 use crate::error::Result;
 use crate::geometry::Space;
@@ -12,33 +12,35 @@ use crate::geometry::Space;
 /// Radians. Once converged, the last matrix is reused to bring the error down to this, each step at least halving it; in H², whose
 /// layouts magnify errors by e^distance, as far as it goes.
 const POLISH_TO: f64 = 1e-13;
-/// Such steps at most: each costs a solution, and the error falls to rounding in one or two.
+/// Largest number of such steps: each costs a solution, and the error falls to rounding in one or two.
 const POLISH_STEPS: usize = 3;
 
-/// Share of the right-hand side that a step leaves which polishes: far less than the polish gains.
+/// Linear residual of such a step as a share of the right-hand side: far less than the step gains.
 const POLISH_FORCING: f64 = 1e-6;
 
 impl Flow {
-    /// An error that needs no more polish.
+    /// The error at which polishing ends.
     pub(super) fn polished(&self) -> f64 {
         if self.metric.space == Space::H2 { 0.0 } else { POLISH_TO }
     }
 
     /// Steps with the last matrix, as long as they at least halve the error and flip nothing: iterative refinement of the nonlinear
-    /// system at the price of a few solutions with the last factor, or of one more where that does not serve. Returns the system.
+    /// system at the price of a few solutions with the last factor, or of one more factor if that is not good enough. Returns the system.
     pub(super) fn polish(
         &mut self,
-        mut system: System,
+        mut system: NewtonSystem,
         at: &mut Iterate,
         report: &mut Report,
         control: &Control,
-    ) -> Result<System> {
+    ) -> Result<NewtonSystem> {
         let broken = at.state.broken();
         for _ in 0..POLISH_STEPS {
             control.check()?;
             at.state.residual(&self.target, &self.pinned, &mut at.residual);
-            if !self.solve_near(&mut system, at, POLISH_FORCING, (report, control))? {
-                system = self.analysed(system, Precision::Double, report)?;
+            if !timed(&mut report.seconds.solve, || {
+                self.solve_near(&mut system, at, POLISH_FORCING, control)
+            })? {
+                system = self.analysed(system, Precision::F64, report)?;
                 report.factorisations += 1;
                 let factored = timed(&mut report.seconds.factor, || system.factor()).is_ok();
                 if !(factored && self.solve_step(&mut system, at, report)?) {

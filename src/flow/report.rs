@@ -1,4 +1,4 @@
-//! What a flow did.
+//! The report of a flow.
 //!
 //! ```
 //! # use ricci::{Class, Control, Flow, Surface, Target, geometry::Space, mesh::shapes};
@@ -12,7 +12,7 @@
 //! # Ok::<(), ricci::Error>(())
 //! ```
 
-use super::seconds::Seconds;
+use super::seconds::FlowSeconds;
 use crate::mesh::{Double, VertexId};
 use std::collections::BTreeSet;
 
@@ -21,8 +21,8 @@ use std::collections::BTreeSet;
 pub enum StopReason {
     /// The tolerance asked for is reached and every triangle is whole.
     Converged,
-    /// No step reduces the error further, and rounding explains what is left of it; every triangle is whole. The metric is as good as
-    /// doubles can make it on this surface, but not to the tolerance asked for.
+    /// No step reduces the error further, and rounding explains the remaining error; every triangle is whole. The metric is as good as
+    /// floating-point numbers can make it on this surface, but not to the tolerance asked for.
     RoundingFloor {
         /// Largest curvature error that rounding explains, radians; above the tolerance.
         size: f64,
@@ -101,7 +101,7 @@ pub struct Obstruction {
     pub vertices: Vec<VertexId>,
     /// Σ K̄ over I, radians.
     pub curvature: f64,
-    /// The bound, not attained, radians. (Both sums are formed in doubles.)
+    /// The bound, not attained, radians. (Both sums are formed in f64.)
     pub least: f64,
 }
 
@@ -118,12 +118,12 @@ pub struct Report {
     pub max_curvature_error: f64,
     /// The tolerance that was asked for, radians.
     pub tolerance: f64,
-    /// Largest |K| left after the correction to twice the digits of doubles, which flows to K̄ = 0 in H² end with.
+    /// Largest remaining |K| after the correction in double-double precision, with which flows to K̄ = 0 in H² end.
     pub angle_defect: Option<f64>,
     /// Largest curvature error that rounding can cause at the final metric; determined where a flow stalls.
     pub rounding_floor: Option<f64>,
-    /// Whether u and the lengths were carried to twice the digits of a double (Newton in E², and in H² where every ε is 0; the
-    /// corrections are doubles). The angles formed from them are doubles, and so is the curvature, but for what its sums lose.
+    /// True if u and the lengths were carried in double-double precision (Newton's method in E², and in H² if every ε is 0; the steps are
+    /// f64). The angles formed from them are f64, and so is the curvature, up to the rounding errors of its sums.
     pub double_double: bool,
     /// Faces that break the triangle inequality.
     pub broken_triangles: usize,
@@ -140,15 +140,14 @@ pub struct Report {
     pub trace: Vec<TraceRow>,
     /// Newton matrices that had to be shifted to be positive definite.
     pub shifted: usize,
-    /// Numeric factorisations, also those that failed: Newton steps after the first take the factor of an earlier one where that is the
-    /// shorter way.
+    /// Numeric factorisations, also those that failed: Newton steps after the first use the factor of an earlier one if that is quicker.
     pub factorisations: usize,
     /// Unknowns of the linear system and entries of its Cholesky factor (0 for the gradient flow).
     pub unknowns: usize,
     /// Entries of the Cholesky factor.
     pub factor_entries: usize,
     /// Seconds by phase.
-    pub seconds: Seconds,
+    pub seconds: FlowSeconds,
 }
 
 impl Report {
@@ -172,21 +171,22 @@ impl Report {
             factorisations: 0,
             unknowns: 0,
             factor_entries: 0,
-            seconds: Seconds::default(),
+            seconds: FlowSeconds::default(),
         }
     }
 
-    /// Whether the curvature error is at most the tolerance asked for, and no triangle is broken.
+    /// True if the curvature error is at most the tolerance asked for, and no triangle is broken.
     pub fn converged(&self) -> bool {
         self.stop_reason == StopReason::Converged
     }
 
-    /// Whether the flow came as far as doubles go: it converged, or it ended at the rounding floor.
+    /// True if the flow came as far as rounding lets it: it converged, or it ended at the rounding floor.
     pub fn is_reached(&self) -> bool {
         matches!(self.stop_reason, StopReason::Converged | StopReason::RoundingFloor { .. })
     }
 
-    /// What the curvature error is held against: the tolerance asked for, or the size of the rounding floor where the flow ended there.
+    /// The bound that the curvature error is compared with: the tolerance asked for, or the size of the rounding floor if the flow ended
+    /// there.
     pub fn allowed_error(&self) -> f64 {
         match self.stop_reason {
             StopReason::RoundingFloor { size } => size.max(self.tolerance),
@@ -194,8 +194,8 @@ impl Report {
         }
     }
 
-    /// The report of a flow on a double, with the vertices of the surface in place of their mirror images. Errors at boundary
-    /// vertices count both copies: they are twice those of the surface.
+    /// Replace mirror images in the report of a flow on a double by the vertices of the surface. Errors at boundary vertices stay those of
+    /// both copies: twice those of the surface.
     pub(super) fn on_surface(&mut self, double: &Double) {
         let on_surface = |v: VertexId| v.min(double.mirror(v));
         let mut seen = BTreeSet::new();

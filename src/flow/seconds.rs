@@ -1,10 +1,10 @@
-//! Where the time of a flow goes.
+//! The time of a flow by phase.
 
 use std::time::Instant;
 
 /// Seconds by phase.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Seconds {
+pub struct FlowSeconds {
     /// Lengths, angles, curvature, derivative.
     pub assemble: f64,
     /// Ordering and symbolic analysis; on several threads some of it is done when the flow is made, and counts in its first solve.
@@ -19,8 +19,8 @@ pub struct Seconds {
     pub total: f64,
 }
 
-impl std::ops::AddAssign for Seconds {
-    fn add_assign(&mut self, rest: Seconds) {
+impl std::ops::AddAssign for FlowSeconds {
+    fn add_assign(&mut self, rest: FlowSeconds) {
         self.assemble += rest.assemble;
         self.analyse += rest.analyse;
         self.factor += rest.factor;
@@ -30,7 +30,7 @@ impl std::ops::AddAssign for Seconds {
     }
 }
 
-/// Do some work, and add the seconds it takes to a phase.
+/// Do some work, and add the seconds that it takes to a phase.
 pub(super) fn timed<R>(phase: &mut f64, work: impl FnOnce() -> R) -> R {
     let start = Instant::now();
     let result = work();

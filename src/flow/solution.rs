@@ -1,38 +1,41 @@
-//! What a flow has come to: a metric of the surface, with its report, its cones and the way back to the surface as it was given.
+//! The result of a flow: a metric of the surface, with its report, its cones and the way back to the surface as it was given.
 
-use super::origin::Origin;
+use super::origin::{FlippedStart, FlowOrigin};
 use super::report::Report;
 use crate::control::Control;
 use crate::error::{Error, Result, check_size};
 use crate::mesh::{Double, FaceId, Mesh, NormalCoordinates, PerVertex, VertexId};
+use crate::metric::common_subdivision::{
+    FinalTriangulation, InputTriangulation, IntrinsicTriangulation, Triangulations,
+};
 use crate::metric::delaunay::boundary_fails;
-use crate::metric::{Class, Curvature, Initial, Metric, Refinement, Scheme, Surface};
+use crate::metric::{Class, CommonSubdivision, Curvature, Initial, Metric, Scheme, Surface};
 use crate::parallel::within;
 use std::sync::Arc;
 
 /// A metric of a surface: the one that a [`super::Flow`] has come to, or the initial one.
 ///
 /// It lives on a triangulation of its own, [`Solution::mesh`]: that of the given surface or of its double, whose first vertices are
-/// the given ones, after edge flips. What is asked per vertex of the given surface is answered per vertex of the given surface.
-/// Clones share the arrays of the surface.
+/// the given ones, after edge flips. Methods say in which of the two triangulations their arrays are. Clones share the arrays of the
+/// surface.
 #[derive(Debug, Clone)]
 pub struct Solution {
-    pub(super) origin: Arc<Origin>,
+    pub(super) origin: Arc<FlowOrigin>,
     pub(super) mesh: Arc<Mesh>,
     pub(super) metric: Metric,
     /// Triangulations as curves on `mesh`: that of the given edges, and that of the start if isometric flips made another one.
     /// Empty where no edge was ever to be flipped.
     pub(super) followed: Vec<NormalCoordinates>,
     pub(super) flips: usize,
-    pub(super) reached: Option<Reached>,
+    pub(super) reached: Option<FlowOutcome>,
     pub(super) threads: usize,
 }
 
-/// What a flow was asked for and how it went.
+/// The target of a flow and its report.
 #[derive(Debug, Clone)]
-pub(super) struct Reached {
+pub(super) struct FlowOutcome {
     pub report: Report,
-    /// Per given vertex; at pinned vertices the curvature that came out.
+    /// Per given vertex; at pinned vertices the resulting curvature.
     pub target: PerVertex<f64>,
     pub cones: Vec<VertexId>,
 }
@@ -43,7 +46,7 @@ impl Solution {
     /// # Errors
     /// Those of [`crate::metric::initial_metric`].
     pub fn initial_of(surface: Surface, class: Class) -> Result<Solution> {
-        Ok(Solution::start(Origin::rigid(surface, class)?))
+        Ok(Solution::start(FlowOrigin::rigid(surface, class)?))
     }
 
     /// The initial metric of a closed surface on its (weighted) Delaunay triangulation.
@@ -51,10 +54,10 @@ impl Solution {
     /// # Errors
     /// Those of [`crate::metric::delaunay_start`].
     pub(crate) fn delaunay(surface: Surface, class: Class, control: &Control) -> Result<Solution> {
-        Ok(Solution::start(Origin::delaunay(surface, class, false, &[], control)?))
+        Ok(Solution::start(FlowOrigin::delaunay(surface, class, false, &[], control)?))
     }
 
-    /// Copies of what flows change: triangulation, metric, and what is told of flips.
+    /// Copies of what flows change: triangulation, metric, and the triangulations that are followed through flips.
     pub(crate) fn parts(&self) -> (Mesh, Metric, Vec<NormalCoordinates>) {
         (Mesh::clone(&self.mesh), self.metric.clone(), self.followed.clone())
     }
@@ -80,8 +83,8 @@ impl Solution {
         }
     }
 
-    /// Where flows from this origin start.
-    pub(super) fn start(origin: Origin) -> Solution {
+    /// The initial metric of this origin as a solution.
+    pub(super) fn start(origin: FlowOrigin) -> Solution {
         let metric = origin.initial.metric.clone();
         let (mesh, followed) = origin.start();
         Solution {
@@ -127,12 +130,12 @@ impl Solution {
         &self.mesh
     }
 
-    /// Its variables there.
+    /// The variables of the metric on [`Solution::mesh`].
     pub fn metric(&self) -> &Metric {
         &self.metric
     }
 
-    /// Where flows on the surface start; on another triangulation if isometric flips came first.
+    /// The initial metric that flows on the surface start from; on another triangulation if isometric flips came first.
     pub fn initial(&self) -> &Initial {
         &self.origin.initial
     }
@@ -142,17 +145,17 @@ impl Solution {
         self.origin.double.as_ref()
     }
 
-    /// How the flow went; none for an initial metric.
+    /// The report of the flow; none for an initial metric.
     pub fn report(&self) -> Option<&Report> {
         self.reached.as_ref().map(|reached| &reached.report)
     }
 
-    /// Whether a flow led here and its error is at most the tolerance asked for.
+    /// True if a flow led here and its error is at most the tolerance asked for.
     pub fn converged(&self) -> bool {
         self.report().is_some_and(Report::converged)
     }
 
-    /// The curvature asked for, per given vertex, at pinned vertices what came out; none for an initial metric.
+    /// The curvature asked for, per given vertex, at pinned vertices the resulting one; none for an initial metric.
     pub fn target(&self) -> Option<&PerVertex<f64>> {
         self.reached.as_ref().map(|reached| &reached.target)
     }
@@ -203,7 +206,7 @@ impl Solution {
         self.flips
     }
 
-    /// Whether it lives on the given triangulation itself.
+    /// True if it lives on the given triangulation itself.
     pub fn is_unflipped(&self) -> bool {
         Arc::ptr_eq(&self.mesh, self.given())
     }
@@ -234,8 +237,8 @@ impl Solution {
         Ok(factor.into())
     }
 
-    /// How often the given edges cross those of the metric's triangulation, and of the one that flows start from: the size of
-    /// [`Solution::refinement`] beyond that of the surface, on a double of both halves. O(E).
+    /// The number of crossings of the given edges with those of the metric's triangulation, and of the one that flows start from: the size
+    /// of [`Solution::common_subdivision`] beyond that of the surface, on a double of both halves. O(E).
     ///
     /// # Errors
     /// [`crate::Error::TooLarge`] for more than can be numbered.
@@ -245,29 +248,46 @@ impl Solution {
         Ok(now + start)
     }
 
-    /// The common refinement of the given triangulation and the metric's, on the given surface alone: the first half of a double.
+    /// The common subdivision of the given triangulation and the metric's, on the given surface alone: the first half of a double.
     ///
     /// # Errors
-    /// Those of [`Refinement::new`].
-    pub fn refinement(&self, control: &Control) -> Result<Refinement> {
-        self.refinement_where(&|_| true, control)
+    /// Those of [`CommonSubdivision::new`].
+    pub fn common_subdivision(&self, control: &Control) -> Result<CommonSubdivision> {
+        self.common_subdivision_where(&|_| true, control)
     }
 
-    /// [`Solution::refinement`] of the given faces that `keep` names, whose vertices come first.
+    /// [`Solution::common_subdivision`] of the given faces that `keep` names, whose vertices come first.
     ///
     /// # Errors
-    /// Those of [`Refinement::new`].
-    pub(crate) fn refinement_where(
+    /// Those of [`CommonSubdivision::new`].
+    pub(crate) fn common_subdivision_where(
         &self,
         keep: &(dyn Fn(FaceId) -> bool + Sync),
         control: &Control,
-    ) -> Result<Refinement> {
-        let now = (&*self.mesh, &self.metric, &self.followed[..]);
-        within(self.threads, || self.origin.refinement(now, keep, control))
+    ) -> Result<CommonSubdivision> {
+        let Solution { mesh, metric, followed, origin, .. } = self;
+        let unflipped;
+        let normal = match &followed[..] {
+            [normal, ..] => normal,
+            [] => {
+                unflipped = NormalCoordinates::new(mesh);
+                &unflipped
+            }
+        };
+        let intrinsic = origin.flipped.as_ref().zip(followed.get(1)).map(|(flipped, normal)| {
+            let FlippedStart { mesh, lengths, given } = flipped;
+            IntrinsicTriangulation { mesh, lengths, given, normal }
+        });
+        let given = origin.double.as_ref().map_or(&**self.given(), |double| &double.mesh);
+        let Initial { input_geometry: geometry, input_u: u, .. } = &origin.initial;
+        let input = InputTriangulation { mesh: given, geometry: *geometry, u };
+        let keep = |f| keep(f) && origin.double.as_ref().is_none_or(|double| double.is_original(f));
+        let all = Triangulations { input, intrinsic, result: FinalTriangulation { mesh, metric, normal } };
+        within(self.threads, || CommonSubdivision::new(all, &keep, control))
     }
 
-    /// Whether a flow can go on from here. A flow that is to be `doubled` can on the double, or on one copy that could be reflected,
-    /// being Delaunay along the boundary too, as it was at the start; any other flow can where there is no double.
+    /// True if a flow can go on from here. A flow that is to be `doubled` can on the double, or on one copy that is one half of it: Delaunay
+    /// along the boundary too, now as at the start. Any other flow can if there is no double.
     pub(super) fn suits(&self, doubled: bool) -> bool {
         let fails = || boundary_fails(&self.mesh, &self.metric, &self.metric.u, &self.origin.fixed);
         match self.double() {

@@ -1,13 +1,13 @@
-//! One solve: from a target to a solution, by the method of the options, and back to where it was if it fails.
+//! One solve of a flow, from a target to a solution by the method of the options. A solve that fails leaves the flow as it was.
 
 use super::Flow;
 use super::cones::with_cones_placed;
-use super::evaluate::State;
+use super::evaluate::FlowState;
 use super::options::Method;
 use super::report::{Report, StopReason, WORST};
 use super::seconds::timed;
-use super::solution::{Reached, Solution};
-use super::system::{Precision, System};
+use super::solution::{FlowOutcome, Solution};
+use super::system::{NewtonSystem, Precision};
 use crate::control::Control;
 use crate::error::{Error, Result, check_size};
 use crate::geometry::Space;
@@ -19,17 +19,15 @@ use crate::metric::target::{check_total, check_upper, settle_total};
 use crate::metric::{Metric, Target};
 use std::sync::Arc;
 
-/// The end of a method.
-pub(super) struct End {
-    pub state: State,
-    /// Whether the flow has left the one copy of a surface with boundary, whose double would flip a boundary edge.
+/// The last state of a method.
+pub(super) struct MethodEnd {
+    pub state: FlowState,
+    /// True if the flow has left the one copy of a surface with boundary, whose double would flip a boundary edge.
     pub left: bool,
 }
 
 impl Flow {
-    /// Flow to a target; at pinned vertices it is ignored.
-    ///
-    /// Not reaching it is reported, not an error.
+    /// Flow to a target, which is ignored at pinned vertices. Not reaching it is reported and no error.
     ///
     /// # Errors
     /// Those of [`with_cones_placed`] and [`Target::values`]; without pins a total that no metric can have ([`check_total`]); curvature
@@ -54,8 +52,8 @@ impl Flow {
         Ok(self.solution())
     }
 
-    /// [`Flow::solve`] for the curvature of every given vertex, whatever it is: no target is refused but those that are not finite.
-    /// The report tells what came of it.
+    /// [`Flow::solve`] for the curvature of every given vertex, without the checks of admissibility: only values that are not finite are
+    /// refused. The report says how far the flow came.
     ///
     /// # Errors
     /// [`Error::Size`], [`Error::Argument`]; those of [`Flow::solve`].
@@ -76,18 +74,18 @@ impl Flow {
             let pinned = |v: &VertexId| self.pinned[v.index()];
             self.given().vertices().filter(pinned).for_each(|v| target[v] = curvature[v]);
         }
-        let reached = self.now.reached.insert(Reached { report, target, cones: Vec::new() });
+        let reached = self.now.reached.insert(FlowOutcome { report, target, cones: Vec::new() });
         Ok(&reached.report)
     }
 
-    /// Whether a flow to this target ends with [`Flow::flatten`]: layouts in H² magnify what is left of the curvature by e^distance.
+    /// True if a flow to this target ends with [`Flow::flatten`], because layouts in H² magnify remaining curvature by e^distance.
     fn is_to_be_flattened(&self, target: &PerVertex<f64>) -> bool {
         self.metric.space == Space::H2 && target.iter().all(|&k| k == 0.0)
     }
 
-    /// A solve, on the double where it leads there; the flow is as before where that is an error.
+    /// A solve, which goes on on the double if an edge has to be flipped across the boundary. On an error the flow is as before.
     fn advance(&mut self, target: &PerVertex<f64>, control: &Control) -> Result<Report> {
-        // What comes after `run` can fail too, when u and the start are those of its end.
+        // Flattening and the solve on the double can fail after `run` has changed u and the start, so copies of these are kept.
         let goes_on = self.one_copy || self.is_to_be_flattened(target);
         let Metric { u, u_low, .. } = &self.metric;
         let before = goes_on.then(|| [u, u_low, &self.start, &self.start_low].map(PerVertex::clone));
@@ -106,7 +104,7 @@ impl Flow {
                 Ok(report)
             }
             Err(error) => {
-                // The triangulation from before, whose system is to be made anew.
+                // Back to the triangulation from before; the system of another one is dropped.
                 self.system = None;
                 let Flow { now, log, start, start_low, .. } = self;
                 let eta = Arc::make_mut(&mut now.metric.eta);
@@ -121,8 +119,11 @@ impl Flow {
         }
     }
 
-    /// The rest of a solve whose one copy has been left with this report, on the double. `start`, the start of the solve with what
-    /// its doubles lose, is that of the next solve too where this one does not reach its target.
+    /// The rest of a solve on the double of the surface, after a first part on one copy, which ended with this report because an edge has to
+    /// be flipped across the boundary. Returns the report of both parts and the flow on the double.
+    ///
+    /// `start` is the u that the solve started from (high parts, low parts). If the target is not reached, the next solve starts from it
+    /// again.
     fn run_doubled(
         &self,
         mut report: Report,
@@ -145,7 +146,8 @@ impl Flow {
         Ok((report.then(rest), Some(doubled)))
     }
 
-    /// One solve on the present copy or double; whether it was left because the double would flip a boundary edge.
+    /// One solve on the present copy or double. Returns the report, and true if the copy was left because its double would flip a boundary
+    /// edge.
     fn run(&mut self, target: &PerVertex<f64>, control: &Control) -> Result<(Report, bool)> {
         self.target = self.spread_target(target)?;
         if !self.has_pins() {
@@ -161,17 +163,17 @@ impl Flow {
         let pool = self.pool.clone();
         let end = timed(&mut seconds, || pool.run(|| self.flow(&mut report, control)));
         // A system that no step has factorised is not kept for the next solve.
-        self.system = self.system.take().filter(System::has_factor);
+        self.system = self.system.take().filter(NewtonSystem::has_factor);
         self.single_serves = single_serves;
         if self.mirror.is_some() != mirror.is_some() {
             (self.mirror, self.system) = (mirror, None);
         }
-        let End { mut state, left } = end?;
+        let MethodEnd { mut state, left } = end?;
         report.seconds.total += seconds;
         self.now.flips += report.flips;
         self.now.share_given();
         if self.one_copy && self.free_scale() {
-            // The scale of the double, where a vertex inside counts twice.
+            // The mean of u on the double is set to 0, where each interior vertex counts twice.
             let copies = |v| if self.mesh.is_boundary_vertex(v) { 1.0 } else { 2.0 };
             let (sum, n) = self
                 .mesh
@@ -193,8 +195,8 @@ impl Flow {
         Ok((report, left))
     }
 
-    /// The flow by its method, from the start to the end that the report tells.
-    pub(super) fn flow(&mut self, report: &mut Report, control: &Control) -> Result<End> {
+    /// The flow by the method of the options, from the start to the end that the report describes.
+    pub(super) fn flow(&mut self, report: &mut Report, control: &Control) -> Result<MethodEnd> {
         let mut state = self.memory.state(&self.start, &self.start_low);
         let keeps_area = self.options.method == Method::Gradient && self.options.gradient.area_normalised;
         if self.free_scale() && !keeps_area {
@@ -208,7 +210,7 @@ impl Flow {
         if !self.flips_allowed {
             report.obstruction = self.obstruction_at_a_vertex();
         }
-        let stopped = |state| End { state, left: false };
+        let stopped = |state| MethodEnd { state, left: false };
         let end = match (self.options.method, self.metric.space) {
             _ if report.obstruction.is_some() => {
                 let mut residual = vec![0.0; self.target.len()];
@@ -225,10 +227,10 @@ impl Flow {
         Ok(end)
     }
 
-    /// What the report says of the last state.
-    fn judge(&self, state: &State, report: &mut Report) {
+    /// Complete the report by what is measured at the last state.
+    fn judge(&self, state: &FlowState, report: &mut Report) {
         report.broken_triangles = state.broken();
-        // In E² the area has no part in it.
+        // In E² the area does not enter Gauss–Bonnet.
         let area = if self.metric.space == Space::E2 { 0.0 } else { state.area(&self.mesh, &self.metric) };
         report.gauss_bonnet = gauss_bonnet(&self.mesh, self.metric.space, &state.curvature, area);
         report.worst = self.worst(state);
@@ -251,7 +253,7 @@ impl Flow {
     }
 
     /// The vertices that are farthest from their target.
-    fn worst(&self, state: &State) -> Vec<(VertexId, f64)> {
+    fn worst(&self, state: &FlowState) -> Vec<(VertexId, f64)> {
         let mut worst: Vec<(VertexId, f64)> = Vec::with_capacity(WORST + 1);
         let first = |v: &VertexId| self.mirror.as_ref().is_none_or(|mirror| mirror[v.index()] >= v.0);
         for v in self.mesh.vertices().filter(|v| !self.pinned[v.index()]).filter(first) {
@@ -269,12 +271,12 @@ impl Flow {
         self.pinned.contains(&true)
     }
 
-    /// E² without pinned vertices: u is determined up to a constant, and Σ u = 0 is kept.
+    /// True in E² without pinned vertices: u is determined up to a constant, and Σ u = 0 is kept.
     pub(super) fn free_scale(&self) -> bool {
         self.metric.space == Space::E2 && !self.has_pins()
     }
 
-    /// Curvature error that a linear solution may leave: it is added to what the tolerance allows.
+    /// Curvature error that a linear solution may leave, a small share of the tolerance.
     pub(super) fn enough(&self) -> f64 {
         0.01 * self.options.tolerance
     }
@@ -282,7 +284,7 @@ impl Flow {
     /// Compute a state at its u, on the Delaunay triangulation there if edges may be flipped; false outside the domain.
     pub(super) fn evaluate(
         &mut self,
-        state: &mut State,
+        state: &mut FlowState,
         report: &mut Report,
         control: &Control,
     ) -> Result<bool> {
@@ -299,9 +301,9 @@ impl Flow {
         Ok(real)
     }
 
-    /// Take the system for the present unknowns and triangulation, new or kept; one that is kept may have the factor of another
-    /// triangulation ([`Flow::analysed`]). It is put back by the caller.
-    pub(super) fn take_system(&mut self, report: &mut Report) -> Result<System> {
+    /// Take the system for the present unknowns and triangulation out of the flow, new or kept; a kept one may have the factor of another
+    /// triangulation ([`Flow::analysed`]). The caller puts it back.
+    pub(super) fn take_system(&mut self, report: &mut Report) -> Result<NewtonSystem> {
         let flips = std::mem::take(&mut self.unseen_flips);
         let system = match self.system.take() {
             Some(kept) if flips == 0 => kept,
@@ -316,8 +318,8 @@ impl Flow {
     }
 
     /// An analysed system of the present unknowns and triangulation.
-    fn new_system(&self) -> Result<System> {
-        System::new(&self.mesh, &self.held_by_system(), self.mirror.as_deref())
+    fn new_system(&self) -> Result<NewtonSystem> {
+        NewtonSystem::new(&self.mesh, &self.held_by_system(), self.mirror.as_deref())
     }
 
     /// The vertices at which the system has no unknown.
@@ -330,10 +332,10 @@ impl Flow {
     /// A system that can be factorised in this precision.
     pub(super) fn analysed(
         &self,
-        system: System,
+        system: NewtonSystem,
         precision: Precision,
         report: &mut Report,
-    ) -> Result<System> {
+    ) -> Result<NewtonSystem> {
         if system.is_ready(precision) {
             return Ok(system);
         }
@@ -343,7 +345,7 @@ impl Flow {
     }
 
     /// Fill the matrix at a state.
-    pub(super) fn assemble(&self, system: &mut System, state: &State, report: &mut Report) {
+    pub(super) fn assemble(&self, system: &mut NewtonSystem, state: &FlowState, report: &mut Report) {
         timed(&mut report.seconds.assemble, || {
             system.jacobian.assemble(&self.mesh, &self.metric, state);
             if self.is_bounded {

@@ -1,15 +1,15 @@
-//! Damped Newton in S², where the energy is a saddle: convex but for the scale (and flat along Möbius maps).
+//! Damped Newton's method in S², where the energy has a saddle: it is convex except along the scale, and flat along Möbius maps.
 //!
 //! On the round sphere ∂K/∂u is (Laplacian − 2·area): −2 on constants, 0 on the three Möbius directions, positive
 //! on the rest. Constants are taken out by keeping the total area at `2πχ − Σ K̄`; the rest is solved with
 //! `∂K/∂u + μ·area`, which is positive definite for μ > 2 near the solution.
 
 use super::Flow;
-use super::evaluate::State;
+use super::evaluate::FlowState;
 use super::newton::{Iterate, progress};
 use super::report::{Report, StopReason};
 use super::seconds::timed;
-use super::system::{Precision, System};
+use super::system::{NewtonSystem, Precision};
 use crate::control::{Control, Stage};
 use crate::error::Result;
 use crate::geometry::largest;
@@ -19,7 +19,7 @@ use std::f64::consts::PI;
 const MIN_DAMPING: f64 = 2.1;
 /// The flow gives up at this damping: steps are then far below the rounding of u.
 const MAX_DAMPING: f64 = 1e15;
-/// Factor by which the damping grows after a step that was refused.
+/// NewtonFactor by which the damping grows after a step that was refused.
 const DAMPING_GROWTH: f64 = 4.0;
 
 impl Flow {
@@ -30,10 +30,10 @@ impl Flow {
 
     pub(super) fn spherical(
         &mut self,
-        mut state: State,
+        mut state: FlowState,
         report: &mut Report,
         control: &Control,
-    ) -> Result<State> {
+    ) -> Result<FlowState> {
         let area = (!self.has_pins()).then(|| self.spherical_area());
         if !self.settle(&mut state, area) {
             return Ok(self.without_a_start(report));
@@ -43,7 +43,7 @@ impl Flow {
         at.shift = MIN_DAMPING;
         report.residuals.push(at.error);
         let system = self.take_system(report)?;
-        let mut system = self.analysed(system, Precision::Double, report)?;
+        let mut system = self.analysed(system, Precision::F64, report)?;
         report.stop_reason = loop {
             if at.error <= report.tolerance {
                 break StopReason::Converged;
@@ -73,7 +73,7 @@ impl Flow {
     /// does not lower the norm of the residual.
     fn damped_step(
         &self,
-        system: &mut System,
+        system: &mut NewtonSystem,
         at: &mut Iterate,
         area: Option<f64>,
         report: &mut Report,
@@ -100,9 +100,9 @@ impl Flow {
         is_better
     }
 
-    /// The start as it is, where no shift of it has the area of the target.
-    fn without_a_start(&self, report: &mut Report) -> State {
-        let mut state = State::new(&self.start, &self.start_low);
+    /// The start as the result, if no shift of it has the area of the target.
+    fn without_a_start(&self, report: &mut Report) -> FlowState {
+        let mut state = FlowState::new(&self.start, &self.start_low);
         state.evaluate(&self.mesh, &self.metric);
         let mut residual = vec![0.0; self.mesh.n_vertices()];
         report.stop_reason = StopReason::Stalled;
@@ -111,7 +111,7 @@ impl Flow {
     }
 
     /// Euclidean norm of the residual.
-    fn norm_at(&self, state: &State) -> f64 {
+    fn norm_at(&self, state: &FlowState) -> f64 {
         let square = |(i, t): (usize, &f64)| {
             if self.pinned[i] { 0.0 } else { (t - state.curvature[i.into()]).powi(2) }
         };

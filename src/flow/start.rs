@@ -1,9 +1,9 @@
-//! Making a flow: on a surface, from a solution, from a bare metric; going to the double, and pins.
+//! Makes flows: on a surface, from a solution, from a bare metric, on the double; and sets the pins of one.
 
 use super::Flow;
-use super::memory::Memory;
+use super::memory::SolveMemory;
 use super::options::{Flips, Method, Options};
-use super::origin::Origin;
+use super::origin::FlowOrigin;
 use super::solution::Solution;
 use crate::control::Control;
 use crate::error::{Error, Result};
@@ -24,13 +24,13 @@ impl Flow {
         let pool = Arc::new(Pool::new(options.threads)?);
         let origin = pool.run(|| {
             if is_rigid(surface.geometry(), class, options) {
-                return Origin::rigid(surface, class);
+                return FlowOrigin::rigid(surface, class);
             }
             let fixed = &options.fixed_edges;
             let may_double = !surface.mesh().is_closed() && options.pinned.is_empty();
-            let one_copy = Origin::delaunay(surface.clone(), class, false, fixed, control)?;
+            let one_copy = FlowOrigin::delaunay(surface.clone(), class, false, fixed, control)?;
             if may_double && !one_copy.is_half {
-                return Origin::delaunay(surface, class, true, fixed, control);
+                return FlowOrigin::delaunay(surface, class, true, fixed, control);
             }
             Ok(one_copy)
         })?;
@@ -39,8 +39,8 @@ impl Flow {
 
     /// Go on from a metric of the surface: on its triangulation, from its u.
     ///
-    /// If edges are to be flipped, and have not been, or with other fixed edges, or other than [`Flow::new`] does on the double or
-    /// not, the flow is a new one, which starts from the given lengths.
+    /// If edges are to be flipped now and were not before, or with other fixed edges, or on the double instead of one copy or the other way
+    /// round, the flow is a new one ([`Flow::new`]), which starts from the given lengths.
     ///
     /// # Errors
     /// Those of [`Flow::new`].
@@ -60,7 +60,7 @@ impl Flow {
 
     /// A flow in the class of any metric, vertex types mixed or not, on its triangulation as it is.
     ///
-    /// Where [`Options::flips`] allows it edges are flipped inside the class from there on. There is no isometric start and no
+    /// Edges are flipped inside the class if [`Options::flips`] allows it. There is no isometric start and no
     /// double, so targets that need them can be out of reach: [`Flow::new`] has both.
     ///
     /// # Errors
@@ -68,7 +68,7 @@ impl Flow {
     pub fn from_metric(mesh: Mesh, metric: Metric, options: &Options) -> Result<Flow> {
         let follows = may_flip(options, metric.space);
         let pool = Arc::new(Pool::new(options.threads)?);
-        Flow::go_on(Solution::start(Origin::of_metric(mesh, &metric, follows)?), options, pool)
+        Flow::go_on(Solution::start(FlowOrigin::of_metric(mesh, &metric, follows)?), options, pool)
     }
 
     fn go_on(mut now: Solution, options: &Options, pool: Arc<Pool>) -> Result<Flow> {
@@ -81,7 +81,7 @@ impl Flow {
         if let Some(double) = &origin.double {
             fixed = FixedEdges::new(&mesh, &double.with_images(&options.fixed_edges)?)?;
             mirror = Some(mirror_of(double));
-            // Rounding has told mirror images apart: they must be the same to begin with.
+            // Rounding has made u differ between mirror images, but the flow needs a symmetric start.
             let Metric { u, u_low, .. } = &mut now.metric;
             for v in mesh.vertices().skip(double.n_half_vertices()) {
                 let image = double.mirror(v);
@@ -106,7 +106,7 @@ impl Flow {
             system: None,
             single_serves: true,
             unseen_flips: 0,
-            memory: Memory::default(),
+            memory: SolveMemory::default(),
             pool,
         };
         flow.hold(&options.pinned)?;
@@ -115,8 +115,8 @@ impl Flow {
 
     /// Hold u at these vertices of the given surface, and at no others; their curvature is then free.
     ///
-    /// A surface with boundary whose edges flip is on its double if no vertex is pinned: going there and leaving it the flow begins
-    /// anew, as in [`Flow::resume`].
+    /// A surface with boundary whose edges flip is solved on its double if no vertex is pinned. A flow that goes there or comes from there
+    /// begins anew, as in [`Flow::resume`].
     ///
     /// # Errors
     /// Those of [`Flow::new`].
@@ -168,7 +168,7 @@ impl Flow {
 
     /// The same flow on the double, from the present u.
     pub(super) fn doubled(&self, control: &Control) -> Result<Flow> {
-        let Origin { surface, class: Some(class), .. } = &*self.origin else {
+        let FlowOrigin { surface, class: Some(class), .. } = &*self.origin else {
             let value = "a metric without a surface".into();
             return Err(Error::Argument {
                 what: "flow",
@@ -177,29 +177,29 @@ impl Flow {
             });
         };
         let fixed = &self.options.fixed_edges;
-        let double = || Origin::delaunay(surface.clone(), *class, true, fixed, control);
+        let double = || FlowOrigin::delaunay(surface.clone(), *class, true, fixed, control);
         let mut flow =
             Flow::go_on(Solution::start(self.pool.run(double)?), &self.options, self.pool.clone())?;
         if let Some(double) = flow.now.double() {
-            // Edges between imaginary circles may have no length there before they are flipped: then it begins from its own start.
+            // Edges between imaginary circles may have no length at this u before they are flipped. Then the flow keeps its own start.
             let u = double.spread_vertices(&self.metric.u)?;
             let _ = flow.set_u(u.into());
         }
         Ok(flow)
     }
 
-    /// The present metric, with what the last solve says of it.
+    /// The present metric, with the report of the last solve.
     pub fn solution(&self) -> Solution {
         self.now.clone()
     }
 }
 
-/// Whether these options let edges flip at all.
+/// True if these options let edges flip at all.
 fn may_flip(options: &Options, space: Space) -> bool {
     options.flips == Flips::Auto && options.method == Method::Newton && space != Space::S2
 }
 
-/// Whether edges stay as they are: flips have no part in S² and for packings that are Delaunay on any triangulation.
+/// True if edges stay as they are: nothing is flipped in S², nor in packings, which are Delaunay on any triangulation.
 fn is_rigid(geometry: Space, class: Class, options: &Options) -> bool {
     !may_flip(options, class.space) || geometry == Space::S2 || class.scheme.is_packing()
 }

@@ -10,72 +10,72 @@ use crate::linalg::{Cholesky, Pattern};
 
 use crate::mesh::Mesh;
 
-/// Residual of the linear solution at which its refinement stops, relative to the right-hand side: near the rounding of doubles.
+/// Residual of the linear solution at which its refinement stops, relative to the right-hand side: near the rounding of f64.
 const REFINE_TO: f64 = 1e-13;
-/// Refinement steps at most; each costs a solution and gains several digits.
+/// Largest number of refinement steps; each costs a solution and gains several digits.
 const REFINE_STEPS: usize = 2;
 
-/// Share of the edges that may be flipped before the order of elimination is made anew. Fill grows fast where the order does not
-/// know the pattern: flips of 0.5 % of the edges make a factor of 400,000 rows so much larger that it takes ten times as long.
+/// Share of the edges that may be flipped before the order of elimination is made anew. An order that was made for another pattern has
+/// much more fill: flips of 0.5 % of the edges make a factor of 400,000 rows so much larger that it takes ten times as long.
 const FEW_FLIPS: f64 = 5e-4;
 
-/// What a factor is held in.
+/// The precision of a factor.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Precision {
-    /// For [`System::solve_near`]: half the memory, and solutions in half the time.
-    Single,
-    /// For [`System::solve`] too.
-    Double,
+    /// For [`NewtonSystem::solve_near`]: half the memory, and solutions in half the time.
+    F32,
+    /// For [`NewtonSystem::solve`] too.
+    F64,
 }
 
 /// A factorisation, or memory for it.
-enum Factor {
-    Single(Cholesky<f32>),
-    Double(Cholesky),
+enum NewtonFactor {
+    F32(Cholesky<f32>),
+    F64(Cholesky),
 }
 
-impl Factor {
+impl NewtonFactor {
     /// The same analysis, for a factor in this precision.
-    fn held_in(self, precision: Precision) -> Result<Factor> {
+    fn held_in(self, precision: Precision) -> Result<NewtonFactor> {
         Ok(match (self, precision) {
-            (Factor::Single(factor), Precision::Double) => Factor::Double(factor.held_in()?),
-            (Factor::Double(factor), Precision::Single) => Factor::Single(factor.held_in()?),
+            (NewtonFactor::F32(factor), Precision::F64) => NewtonFactor::F64(factor.held_in()?),
+            (NewtonFactor::F64(factor), Precision::F32) => NewtonFactor::F32(factor.held_in()?),
             (same, _) => same,
         })
     }
 
     fn is_in(&self, precision: Precision) -> bool {
-        matches!(self, Factor::Single(_)) == (precision == Precision::Single)
+        matches!(self, NewtonFactor::F32(_)) == (precision == Precision::F32)
     }
 
-    /// For another pattern, with the order of this one where that is to be kept; one factor at a time: this one is released before there
-    /// is memory for the new.
-    fn analysed(self, pattern: &Pattern, keep_order: bool) -> Result<Factor> {
+    /// The analysis of another pattern, with the order of this one if that is to be kept. The memory of this factor is released before that
+    /// of the new one is taken.
+    fn analysed(self, pattern: &Pattern, keep_order: bool) -> Result<NewtonFactor> {
         if !keep_order {
             drop(self);
-            return Ok(Factor::Double(Cholesky::analyse(pattern)?));
+            return Ok(NewtonFactor::F64(Cholesky::analyse(pattern)?));
         }
-        Ok(Factor::Double(match self {
-            Factor::Single(factor) => factor.analyse_again(pattern)?,
-            Factor::Double(factor) => factor.analyse_again(pattern)?,
+        Ok(NewtonFactor::F64(match self {
+            NewtonFactor::F32(factor) => factor.analyse_again(pattern)?,
+            NewtonFactor::F64(factor) => factor.analyse_again(pattern)?,
         }))
     }
 
     fn entries(&self) -> usize {
         match self {
-            Factor::Single(factor) => factor.factor_entries(),
-            Factor::Double(factor) => factor.factor_entries(),
+            NewtonFactor::F32(factor) => factor.factor_entries(),
+            NewtonFactor::F64(factor) => factor.factor_entries(),
         }
     }
 }
 
 /// The matrix with the last factorisation, which may be that of an earlier one, and the vectors of a solution, whose memory is kept.
-pub(super) struct System {
+pub(super) struct NewtonSystem {
     pub jacobian: Jacobian,
-    held: Factor,
-    /// Whether the factorisation knows the present pattern.
+    held: NewtonFactor,
+    /// True if the present pattern has been analysed.
     is_analysed: bool,
-    /// Whether there is a factor.
+    /// True if there is a factor.
     is_factored: bool,
     /// Flips since the order was made.
     age: usize,
@@ -85,14 +85,14 @@ pub(super) struct System {
     conjugate: ConjugateGradients,
 }
 
-impl System {
+impl NewtonSystem {
     /// Order and analyse for the unknowns of [`Jacobian::new`].
-    pub fn new(mesh: &Mesh, fixed: &[bool], mirror: Option<&[u32]>) -> Result<System> {
+    pub fn new(mesh: &Mesh, fixed: &[bool], mirror: Option<&[u32]>) -> Result<NewtonSystem> {
         let jacobian = Jacobian::new(mesh, fixed, mirror)?;
-        let held = Factor::Double(Cholesky::analyse(&jacobian.pattern)?);
+        let held = NewtonFactor::F64(Cholesky::analyse(&jacobian.pattern)?);
         let n = jacobian.pattern.size();
         let zeros = vec![0.0; n];
-        Ok(System {
+        Ok(NewtonSystem {
             jacobian,
             held,
             is_analysed: true,
@@ -105,33 +105,33 @@ impl System {
         })
     }
 
-    /// The same unknowns after `flips` more edge flips. The factor stays that of the last matrix; [`System::analysed`] makes ready for
-    /// another one.
+    /// The same unknowns after `flips` more edge flips. The factor stays that of the last matrix; [`NewtonSystem::analysed`] prepares for another
+    /// one.
     pub fn flipped(
         mut self,
         mesh: &Mesh,
         fixed: &[bool],
         mirror: Option<&[u32]>,
         flips: usize,
-    ) -> Result<System> {
+    ) -> Result<NewtonSystem> {
         self.jacobian.keep_pattern_alone();
         let jacobian = Jacobian::new(mesh, fixed, mirror)?;
         let is_analysed = self.is_analysed && jacobian.pattern == self.jacobian.pattern;
-        Ok(System { jacobian, is_analysed, age: self.age + flips, ..self })
+        Ok(NewtonSystem { jacobian, is_analysed, age: self.age + flips, ..self })
     }
 
-    /// Ready for [`System::factor`] in this precision: analysed, where the pattern has changed since the last analysis. The order is kept
+    /// Prepare for [`NewtonSystem::factor`] in this precision: analyse the pattern if it has changed since the last analysis. The order is kept
     /// while few edges have been flipped since it was made.
-    pub fn analysed(mut self, mesh: &Mesh, precision: Precision) -> Result<System> {
+    pub fn analysed(mut self, mesh: &Mesh, precision: Precision) -> Result<NewtonSystem> {
         if self.is_ready(precision) {
             return Ok(self);
         }
-        let System { held, is_analysed, jacobian, .. } = self;
+        let NewtonSystem { held, is_analysed, jacobian, .. } = self;
         self.is_factored = false;
         let keep = self.age as f64 <= FEW_FLIPS * mesh.n_edges() as f64;
         let held = if is_analysed { held } else { held.analysed(&jacobian.pattern, keep)? };
         let age = if keep || is_analysed { self.age } else { 0 };
-        Ok(System {
+        Ok(NewtonSystem {
             held: held.held_in(precision)?,
             is_analysed: true,
             is_factored: false,
@@ -149,12 +149,12 @@ impl System {
         self.held.entries()
     }
 
-    /// Whether a matrix has been factorised.
+    /// True if a matrix has been factorised.
     pub fn has_factor(&self) -> bool {
         self.is_factored
     }
 
-    /// Whether the matrix can be factorised in this precision.
+    /// True if the matrix can be factorised in this precision.
     pub fn is_ready(&self, precision: Precision) -> bool {
         self.is_analysed && self.held.is_in(precision)
     }
@@ -163,15 +163,15 @@ impl System {
     pub fn factor(&mut self) -> std::result::Result<(), NotPositiveDefinite> {
         self.is_factored = false;
         match &mut self.held {
-            Factor::Single(factor) => factor.factor(self.jacobian.matrix())?,
-            Factor::Double(factor) => factor.factor(self.jacobian.matrix())?,
+            NewtonFactor::F32(factor) => factor.factor(self.jacobian.matrix())?,
+            NewtonFactor::F64(factor) => factor.factor(self.jacobian.matrix())?,
         }
         self.is_factored = true;
         Ok(())
     }
 
-    /// [`System::solve`] within `bound`, with the factor of an earlier matrix. False where there is none, and where a factor of the
-    /// matrix itself is the better way.
+    /// [`NewtonSystem::solve`] by conjugate gradients within `bound`, with the factor of an earlier matrix as preconditioner. False if there is no
+    /// factor, and if a factor of the matrix itself would be quicker.
     ///
     /// # Errors
     /// [`crate::Error::Cancelled`].
@@ -187,28 +187,28 @@ impl System {
         }
         self.gather(residual);
         self.solution.copy_from_slice(&self.rhs);
-        let System { jacobian, held, solution, conjugate, .. } = self;
+        let NewtonSystem { jacobian, held, solution, conjugate, .. } = self;
         let problem = LinearProblem { matrix: jacobian.matrix(), bound };
         let found = match held {
-            Factor::Single(near) => conjugate.solve(problem, near, solution, control)?,
-            Factor::Double(near) => conjugate.solve(problem, near, solution, control)?,
+            NewtonFactor::F32(near) => conjugate.solve(problem, near, solution, control)?,
+            NewtonFactor::F64(near) => conjugate.solve(problem, near, solution, control)?,
         };
         Ok(found && self.scatter(step))
     }
 
-    /// Solve `(∂K/∂u) step = residual` (both per vertex, 0 at fixed vertices) with the last factor, refined where
-    /// the linear residual asks for it: what it leaves of the curvature error stays below `REFINE_TO` of that error, or below
-    /// `enough` (radians). False when the solution is not finite, and for a factor in single precision.
+    /// Solve `(∂K/∂u) step = residual` (both per vertex, 0 at fixed vertices) with the last factor. The solution is refined until the linear
+    /// residual is below [`REFINE_TO`] of the right-hand side, or below `enough` (radians). False if the solution is not finite, and for a
+    /// factor in f32.
     pub fn solve(&mut self, residual: &[f64], enough: f64, step: &mut [f64]) -> bool {
         self.gather(residual);
-        let Factor::Double(factor) = &mut self.held else { return false };
+        let NewtonFactor::F64(factor) = &mut self.held else { return false };
         self.solution.copy_from_slice(&self.rhs);
         factor.solve(&mut self.solution);
         let (scale, mut last) = (largest(&self.rhs), f64::INFINITY);
         for _ in 0..REFINE_STEPS {
             self.jacobian.matrix().residual(&self.solution, &self.rhs, &mut self.correction);
             let now = largest(&self.correction);
-            // What is not finite ends the refinement too.
+            // The comparison is false for NaN, which ends the refinement too.
             let worth_it = now > f64::max(REFINE_TO * scale, enough) && now < 0.5 * last;
             if !worth_it {
                 break;
@@ -226,7 +226,7 @@ impl System {
         self.jacobian.rows().for_each(|(v, row)| self.rhs[row] += residual[v]);
     }
 
-    /// The solution as a step per vertex; whether it is finite.
+    /// Write the solution as a step per vertex; true if it is finite.
     fn scatter(&self, step: &mut [f64]) -> bool {
         step.fill(0.0);
         self.jacobian.rows().for_each(|(v, row)| step[v] = self.solution[row]);

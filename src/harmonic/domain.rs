@@ -24,7 +24,7 @@ use crate::geometry::Space;
 use crate::geometry::triangle::{area_from, half_differences};
 use crate::mesh::{FaceId, Mesh, PerEdge, PerFace, PerVertex};
 use crate::metric::lengths::face_lengths;
-use crate::metric::{Class, Refinement, Surface};
+use crate::metric::{Class, CommonSubdivision, Surface};
 use std::sync::Arc;
 
 /// A metric on a triangulation of its own, with the lengths, weights and areas that harmonic maps and forms need. Clones share the metric.
@@ -43,7 +43,7 @@ pub struct Domain {
 }
 
 impl Domain {
-    /// The domain of a surface on its intrinsic Delaunay triangulation; [`Domain::refinement`] is the common refinement with the given one.
+    /// The domain of a surface on its intrinsic Delaunay triangulation; [`Domain::common_subdivision`] is the common subdivision with the given one.
     ///
     /// # Errors
     /// Those of [`crate::metric::delaunay_start`] and [`Domain::of_metric`]; [`Error::Cancelled`].
@@ -119,12 +119,12 @@ impl Domain {
         &self.vertex_areas
     }
 
-    /// The common refinement with the triangulation of the surface as it was given; `None` if both are the same.
+    /// The common subdivision with the triangulation of the surface as it was given; `None` if both are the same.
     ///
     /// # Errors
-    /// Those of [`Solution::refinement`].
-    pub fn refinement(&self, control: &Control) -> Result<Option<Refinement>> {
-        if self.metric.is_unflipped() { Ok(None) } else { self.metric.refinement(control).map(Some) }
+    /// Those of [`Solution::common_subdivision`].
+    pub fn common_subdivision(&self, control: &Control) -> Result<Option<CommonSubdivision>> {
+        if self.metric.is_unflipped() { Ok(None) } else { self.metric.common_subdivision(control).map(Some) }
     }
 
     /// `L u` for a function of the vertices (V entries): at each vertex i the sum `Σ w_ij (u_i − u_j)` over its edges.

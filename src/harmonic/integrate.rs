@@ -21,17 +21,17 @@ use crate::error::{Error, Result, check_size};
 use crate::geometry::complex::{Complex, add, doubled_area};
 use crate::geometry::predicates::orientation;
 use crate::mesh::{FaceId, HalfedgeId, Mesh, PerEdge, PerFace, PerHalfedge};
-use crate::metric::Refinement;
+use crate::metric::CommonSubdivision;
 use crate::topology::{CutGraph, cut::is_disk, number_corners};
 use std::cmp::Ordering;
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-/// The triangulation that is drawn: the domain's own, or a refinement of it.
+/// The triangulation that is drawn: the domain's own, or a subdivision of it.
 #[derive(Debug, Clone, PartialEq)]
 enum DrawnTriangulation {
     Mesh(Arc<Mesh>),
-    Refinement(Arc<Refinement>),
+    Subdivision(Arc<CommonSubdivision>),
 }
 
 /// A drawing of a surface, opened along a cut, by the integral of a complex form. If the form is holomorphic, the drawing is conformal up
@@ -99,31 +99,31 @@ impl FormLayout {
         FormLayout { is_cut, corner_index, points, flipped, drawn }
     }
 
-    /// The same drawing on a common refinement of the domain's triangulation and the given one ([`Domain::refinement`]).
+    /// The same drawing on a common subdivision of the domain's triangulation and the given one ([`Domain::common_subdivision`]).
     ///
     /// # Errors
-    /// [`Error::Size`] for the refinement of another triangulation; [`Error::Layout`] for a drawing of a refinement.
-    pub fn on_refinement(&self, refinement: &Arc<Refinement>) -> Result<FormLayout> {
+    /// [`Error::Size`] for the subdivision of another triangulation; [`Error::Layout`] for a drawing of a subdivision.
+    pub fn on_subdivision(&self, subdivision: &Arc<CommonSubdivision>) -> Result<FormLayout> {
         let DrawnTriangulation::Mesh(mesh) = &self.drawn else {
-            return Err(Error::Layout("a drawing of a refinement has no other refinement".into()));
+            return Err(Error::Layout("a drawing of a subdivision has no other subdivision".into()));
         };
         let corners: Vec<[Complex; 3]> = mesh.faces().map(|f| self.face(f)).collect();
-        let corners = refinement.from_final_corners(&corners)?;
-        let is_cut = |e| refinement.origin[e].result.is_some_and(|e| self.is_cut[e]);
-        let is_cut = PerEdge::from_fn(refinement.mesh.n_edges(), is_cut);
-        Ok(FormLayout::new(DrawnTriangulation::Refinement(refinement.clone()), is_cut, &corners))
+        let corners = subdivision.from_corners(1, &corners)?;
+        let is_cut = |e| subdivision.edge(1, e).is_some_and(|e| self.is_cut[e]);
+        let is_cut = PerEdge::from_fn(subdivision.mesh.n_edges(), is_cut);
+        Ok(FormLayout::new(DrawnTriangulation::Subdivision(subdivision.clone()), is_cut, &corners))
     }
 
-    /// The triangulation that is drawn: the domain's own, or a refinement of it.
+    /// The triangulation that is drawn: the domain's own, or a subdivision of it.
     pub fn mesh(&self) -> &Mesh {
         self.drawn.mesh()
     }
 
-    /// The refinement that is drawn, if it is one.
-    pub fn refinement(&self) -> Option<&Arc<Refinement>> {
+    /// The subdivision that is drawn, if it is one.
+    pub fn common_subdivision(&self) -> Option<&Arc<CommonSubdivision>> {
         match &self.drawn {
             DrawnTriangulation::Mesh(_) => None,
-            DrawnTriangulation::Refinement(r) => Some(r),
+            DrawnTriangulation::Subdivision(r) => Some(r),
         }
     }
 
@@ -163,7 +163,7 @@ impl DrawnTriangulation {
     fn mesh(&self) -> &Mesh {
         match self {
             DrawnTriangulation::Mesh(mesh) => mesh,
-            DrawnTriangulation::Refinement(r) => &r.mesh,
+            DrawnTriangulation::Subdivision(r) => &r.mesh,
         }
     }
 }

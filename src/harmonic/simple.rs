@@ -17,7 +17,7 @@
 use super::domain::Domain;
 use crate::control::Control;
 use crate::error::{Error, Result};
-use crate::mesh::{EdgeId, Mesh};
+use crate::mesh::{EdgeId, HalfedgeId, Mesh};
 use crate::metric::{Split, Surface};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -30,7 +30,7 @@ const LEAST_PART: f64 = 0.1;
 /// had to be added for that on interior edges; none on most surfaces. With `apart`, no interior edge joins two boundary vertices either.
 ///
 /// # Errors
-/// Those of [`Domain::new`] and [`Domain::refinement`]; [`Error::Layout`] if such edges are left after 24 rounds of added vertices.
+/// Those of [`Domain::new`] and [`Domain::common_subdivision`]; [`Error::Layout`] if such edges are left after 24 rounds of added vertices.
 pub fn simple_domain(surface: &Surface, apart: bool, control: &Control) -> Result<(Split, Domain)> {
     let mut split = Split::new(surface);
     for _ in 0..ROUNDS {
@@ -64,16 +64,19 @@ fn edges_to_part(mesh: &Mesh, apart: bool) -> BTreeSet<EdgeId> {
 
 /// Places near the middles of these Delaunay edges: edges of the given triangulation with shares of their length.
 fn places(domain: &Domain, edges: &BTreeSet<EdgeId>, control: &Control) -> Result<Vec<(EdgeId, f64)>> {
-    let Some(refinement) = domain.refinement(control)? else {
+    let Some(subdivision) = domain.common_subdivision(control)? else {
         return Ok(edges.iter().map(|&e| (e, 0.5)).collect());
     };
     let mut nearest: BTreeMap<EdgeId, (f64, EdgeId, f64)> = BTreeMap::new();
-    let middles = refinement
+    let middles = subdivision
         .crossings
         .iter()
-        .map(|c| (c.final_edge, ((c.final_weights[0] - 0.5).abs(), c.input_edge, c.input_weights[1])));
+        .map(|c| (c[1].edge, ((c[1].weights[0] - 0.5).abs(), c[0].edge, c[0].weights[1])));
     // A Delaunay edge that is an edge of the given triangulation has no crossings.
-    let given = refinement.origin.iter().filter_map(|o| Some((o.result?, (0.5, o.input?, 0.5))));
+    let given = subdivision.along.iter().filter_map(|&[given, here]| {
+        let [given, here] = [given?, here?].map(HalfedgeId::edge);
+        Some((here, (0.5, given, 0.5)))
+    });
     for (e, place) in middles.chain(given).filter(|(e, _)| edges.contains(e)) {
         let best = nearest.entry(e).or_insert(place);
         if place.0 < best.0 {

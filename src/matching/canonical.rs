@@ -9,7 +9,7 @@ use crate::error::{Error, Result};
 use crate::flow::{Flow, Options, Solution};
 use crate::geometry::{DoubleDouble, Motion, Space};
 use crate::mesh::{HalfedgeId, Mesh, PerHalfedge, PerVertex, VertexId};
-use crate::metric::{Class, Refinement, Surface, Target};
+use crate::metric::{Class, CommonSubdivision, Surface, Target};
 use crate::parallel::join;
 use crate::topology::CutGraph;
 use std::fmt::Display;
@@ -69,8 +69,8 @@ pub(super) struct Opening<'a> {
     /// Half-edges whose corners become the own corners of their vertices ([`UniversalCover::new`]).
     pub own_corners: &'a [HalfedgeId],
     pub scale: LayoutScale,
-    /// [`Solution::refinement`], if it has been formed before.
-    pub refinement: Option<Arc<Refinement>>,
+    /// [`Solution::common_subdivision`], if it has been formed before.
+    pub subdivision: Option<Arc<CommonSubdivision>>,
     pub threads: usize,
 }
 
@@ -90,7 +90,7 @@ impl Opening<'_> {
             root: Some(self.root),
             scale: self.scale,
             opening: LayoutOpening::InputCut(self.cut.clone()),
-            refinement: self.refinement.clone(),
+            subdivision: self.subdivision.clone(),
             threads: self.threads,
         };
         let layout = Layout::of_solution(solution, &layout_options, control)?;

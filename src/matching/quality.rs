@@ -6,7 +6,7 @@ use crate::embed::quality::DILATATION_CAP;
 use crate::error::{Error, Result, check_size};
 use crate::geometry::vector::{cross, diagonal, distance, dot, norm, sub, triangle_normal};
 use crate::mesh::{PerFace, Point, VertexId};
-use crate::metric::{Overlay, Surface};
+use crate::metric::{CommonSubdivision, Surface};
 
 /// The distortion of a map, of its linear extension from the source's faces to space. Every number is finite; distances are shares of the
 /// diagonal of the target's bounding box.
@@ -102,7 +102,7 @@ pub fn dilatations([source, target]: [&Surface; 2], map: &SurfaceMap) -> Result<
 ///
 /// # Errors
 /// [`Error::Size`]; [`Error::Argument`] for a surface without positions.
-pub fn uncovered(surfaces: [&Surface; 2], overlay: &Overlay) -> Result<[f64; 2]> {
+pub fn uncovered(surfaces: [&Surface; 2], overlay: &CommonSubdivision) -> Result<[f64; 2]> {
     let share = |side: usize| {
         let (mesh, points) = (surfaces[side].mesh(), positions(surfaces[side])?);
         let own: f64 = mesh.faces().map(|f| area(mesh.face_vertices(f).map(|v| points[v.index()]))).sum();

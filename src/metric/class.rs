@@ -1,4 +1,4 @@
-//! Where a metric is looked for: the scheme that represents it, and the space that it lives in.
+//! The conformal class of a metric: the scheme that represents it, and the space that its triangles live in.
 //!
 //! ```
 //! # use ricci::{Class, geometry::Space, metric::Scheme};

@@ -67,11 +67,11 @@ pub(crate) fn gauss_bonnet(mesh: &Mesh, space: Space, curvature: &PerVertex<f64>
     (total + curved - 2.0 * PI * mesh.euler() as f64).abs()
 }
 
-/// π − (π rounded to a double). Without it the curvature of every vertex is off by twice this, always to the same side, and the
-/// total curvature of a closed surface by V times as much.
+/// π − (π rounded to f64). Without it the curvature of every vertex is off by twice this, always to the same side, and the total
+/// curvature of a closed surface by V times as much.
 const PI_LOW: f64 = 1.224_646_799_147_353_2e-16;
 
-/// K from the corner angles of each face, in face order. What each sum loses to rounding is added up too and put back at the end, so
+/// K from the corner angles of each face, in face order. The rounding errors of each sum are added up too and put back at the end, so
 /// that a vertex of a thousand triangles is as exact as one of six.
 pub fn curvature_from_angles(mesh: &Mesh, angles: impl Iterator<Item = [f64; 3]>) -> PerVertex<f64> {
     let mut at = PerVertex::filled(mesh.n_vertices(), 0.0);
@@ -79,7 +79,7 @@ pub fn curvature_from_angles(mesh: &Mesh, angles: impl Iterator<Item = [f64; 3]>
     at
 }
 
-/// [`curvature_from_angles`] into `at` (V entries); `lost` is memory for what its sums lose.
+/// [`curvature_from_angles`] into `at` (V entries); `lost` is memory for the rounding errors of the sums.
 pub(crate) fn curvature_into(
     mesh: &Mesh,
     angles: impl Iterator<Item = [f64; 3]>,

@@ -4,13 +4,13 @@
 //! the surface unless the edge is cocircular. Flips that leave the surface as it is are in [`super::isometric`].
 //!
 //! ```
-//! use ricci::metric::delaunay::{ClassFlips, Queue, failing};
+//! use ricci::metric::delaunay::{ClassFlips, FlipQueue, failing};
 //! use ricci::{Class, Control, Surface, geometry::Space, mesh::{FixedEdges, Mesh, shapes}};
 //!
 //! let torus = Surface::from_soup(&shapes::torus(2.0, 1.0, 24, 12)?)?;
 //! let mut mesh = Mesh::clone(torus.mesh());
 //! let mut metric = torus.initial(Class::yamabe(Space::E2))?.metric;
-//! let (vertices, mut queue) = (metric.vertices(), Queue::all(&mesh, &FixedEdges::none()));
+//! let (vertices, mut queue) = (metric.vertices(), FlipQueue::all(&mesh, &FixedEdges::none()));
 //! let mut flips = ClassFlips { mesh: &mut mesh, metric: &mut metric, record: &mut |_, _| {} };
 //! flips.restore_delaunay(&vertices, &mut queue, &Control::new())?;
 //! assert!(failing(&mesh, &metric).is_empty());
@@ -27,15 +27,16 @@ use crate::geometry::{DoubleDouble, Space};
 use crate::mesh::{EdgeId, FixedEdges, Flip, HalfedgeId, Mesh, PerEdge, PerVertex, VertexId};
 use std::sync::Arc;
 
-pub use super::flip_queue::Queue;
+pub use super::flip_queue::FlipQueue;
 pub use super::isometric::{IntrinsicOptions, Triangulated, intrinsic_delaunay};
 
-/// Largest |η| that a flip makes, about 2^960: what is formed from edges below it stays in the doubles with all their digits. An edge whose
-/// other diagonal has more is not flipped.
+/// Largest |η| that a flip makes, about 2^960: numbers formed from edges below it stay in the range of f64 with all their digits. An
+/// edge whose other diagonal has a larger one is not flipped.
 const MAX_ETA: f64 = 1e289;
 
-/// An edge is not flipped into one between two circles that touch, with η this near 1. Such an edge cannot be flipped back. It comes up
-/// where a circle meets itself around a point on it that has one other edge: only that edge knows the point's size.
+/// Largest |η − 1| at which two circles count as touching. An edge is not flipped into one between such circles, since it could not be
+/// flipped back. Such an edge arises where a circle meets itself around a point on it that has one other edge: the size of the point is
+/// known from that edge alone.
 const TOUCHING: f64 = 1e-12;
 
 /// The four vertices of the hinge of half-edge h (origin, tip, left, right), and its five half-edges: h, then those of the left and the
@@ -67,7 +68,7 @@ impl ClassFlips<'_> {
     pub fn restore_delaunay(
         &mut self,
         vertices: &[Vertex],
-        queue: &mut Queue,
+        queue: &mut FlipQueue,
         control: &Control,
     ) -> Result<usize> {
         let ClassFlips { mesh, metric, record } = self;
@@ -128,21 +129,21 @@ impl VertexHinge {
         self.vertices.map(|v| v.epsilon)
     }
 
-    /// Whether the edge fails the weighted Delaunay condition and can be flipped. `is_precise`: that of the metric, [`Metric::is_precise`].
+    /// True if the edge fails the weighted Delaunay condition and can be flipped. `is_precise`: [`Metric::is_precise`] of the metric.
     fn wants_flip(&self, eta: &PerEdge<DoubleDouble>, is_precise: bool) -> bool {
         let w = self.vertices.map(|v| weight(self.space, v));
         let rounded = Hinge::of_weights(self.epsilon(), w, self.sides.map(|h| eta[h.edge()].high)).0;
         rounded.verdict().unwrap_or_else(|| is_precise && self.precise(eta).0.wants_flip())
     }
 
-    /// The hinge to twice the digits, and the product of the `w` of its left and right vertex in the hinge's unit.
+    /// The hinge in double-double precision, and the product of the `w` of its left and right vertex in the hinge's unit.
     fn precise(&self, eta: &PerEdge<DoubleDouble>) -> (Hinge<DoubleDouble>, DoubleDouble) {
         let w = self.vertices.map(|v| precise_weight(self.space, v));
         Hinge::of_weights(self.epsilon(), w, self.sides.map(|h| eta[h.edge()]))
     }
 
-    /// η of the other diagonal, to twice the digits whatever the digits of w, on which it does not depend; `None` where there is no other
-    /// diagonal, where its η is above [`MAX_ETA`], or where it would join circles that touch.
+    /// η of the other diagonal in double-double precision, also where w is less precise, since it does not depend on w; `None` where there
+    /// is no other diagonal, where its η is above [`MAX_ETA`], or where it would join circles that touch.
     fn other_diagonal(&self, eta: &PerEdge<DoubleDouble>) -> Option<DoubleDouble> {
         let (hinge, scale) = self.precise(eta);
         let [.., k, l] = self.vertices;
@@ -158,10 +159,10 @@ pub fn failing(mesh: &Mesh, metric: &Metric) -> Vec<EdgeId> {
     let (vertices, is_precise) = (metric.vertices(), metric.is_precise());
     let fails =
         |h| VertexHinge::new(metric.space, mesh, h, |v| vertices[v]).wants_flip(&metric.eta, is_precise);
-    Queue::where_holds(mesh, &FixedEdges::none(), fails).into_vec()
+    FlipQueue::where_holds(mesh, &FixedEdges::none(), fails).into_vec()
 }
 
-/// Whether some boundary edge would be flipped on the surface's double, where its face meets the mirror image of that face. `fixed`
+/// True if some boundary edge would be flipped on the surface's double, where its face meets the mirror image of that face. `fixed`
 /// edges would not be.
 pub fn boundary_fails(mesh: &Mesh, metric: &Metric, u: &PerVertex<f64>, fixed: &FixedEdges) -> bool {
     let fails = |h: HalfedgeId| {

@@ -1,4 +1,4 @@
-//! The edges that may have to be flipped, and the loop that flips them.
+//! The queue of edges that may have to be flipped, and the loop that flips them.
 
 use crate::control::Control;
 use crate::error::{Error, Result};
@@ -6,26 +6,26 @@ use crate::mesh::{EdgeId, FixedEdges, Flip, HalfedgeId, Mesh, PerEdge};
 use crate::parallel;
 use std::collections::VecDeque;
 
-/// Edges that are looked at between two looks at the control: about 1 ms of work.
+/// Edges that are looked at between two checks of the control: about 1 ms of work.
 const EDGES_PER_STEP: usize = 4096;
 
 /// Edges that may fail the Delaunay condition, first come first served.
 #[derive(Debug, Clone)]
-pub struct Queue {
+pub struct FlipQueue {
     waiting: VecDeque<EdgeId>,
-    /// Per edge, whether it waits or must never wait.
+    /// Per edge, true if it waits or must never wait.
     queued: PerEdge<bool>,
 }
 
-impl Queue {
+impl FlipQueue {
     /// An empty queue for a surface with this many edges. `fixed` edges never enter it, and so are never flipped.
-    pub fn new(n_edges: usize, fixed: &FixedEdges) -> Queue {
-        Queue { waiting: VecDeque::new(), queued: PerEdge::from_fn(n_edges, |e| fixed.contains(e)) }
+    pub fn new(n_edges: usize, fixed: &FixedEdges) -> FlipQueue {
+        FlipQueue { waiting: VecDeque::new(), queued: PerEdge::from_fn(n_edges, |e| fixed.contains(e)) }
     }
 
     /// Every edge of a surface but the `fixed` ones.
-    pub fn all(mesh: &Mesh, fixed: &FixedEdges) -> Queue {
-        let mut queue = Queue::new(mesh.n_edges(), fixed);
+    pub fn all(mesh: &Mesh, fixed: &FixedEdges) -> FlipQueue {
+        let mut queue = FlipQueue::new(mesh.n_edges(), fixed);
         mesh.edges().for_each(|e| queue.push(e));
         queue
     }
@@ -35,13 +35,13 @@ impl Queue {
         mesh: &Mesh,
         fixed: &FixedEdges,
         holds: impl Fn(HalfedgeId) -> bool + Sync,
-    ) -> Queue {
+    ) -> FlipQueue {
         let mut held = vec![false; mesh.n_edges()];
         parallel::fill(&mut held, |e| {
             let h = EdgeId::from(e).halfedge();
             between_faces(mesh, h) && holds(h)
         });
-        let mut queue = Queue::new(mesh.n_edges(), fixed);
+        let mut queue = FlipQueue::new(mesh.n_edges(), fixed);
         mesh.edges().filter(|e| held[e.index()]).for_each(|e| queue.push(e));
         queue
     }
@@ -59,14 +59,15 @@ impl Queue {
         let mut held = vec![false; waiting.len()];
         parallel::fill(&mut held, |k| holds(waiting[k].halfedge()));
         for (e, held) in waiting.into_iter().zip(held) {
-            match held {
-                true => self.waiting.push_back(e),
-                false => self.queued[e] = false,
+            if held {
+                self.waiting.push_back(e);
+            } else {
+                self.queued[e] = false;
             }
         }
     }
 
-    /// Whether no edge waits.
+    /// True if no edge waits.
     pub fn is_empty(&self) -> bool {
         self.waiting.is_empty()
     }
@@ -124,20 +125,20 @@ pub(super) struct Flippable<'a, T, D> {
     pub values: &'a mut PerEdge<T>,
     /// The value that the edge of a half-edge between two faces gets by its flip, or `None` where it is not to be flipped.
     pub decide: D,
-    /// Told each flip just before it is made.
+    /// Called with each flip just before it is made.
     pub record: &'a mut dyn FnMut(&Mesh, Flip<T>),
 }
 
-/// Flips that may be made without progress: 100 per edge and a million.
+/// Largest number of flips without progress: 100 per edge and a million.
 ///
-/// Surfaces that are not built for it need less than one isometric flip per edge, and single cones on the corpus at most ten inside
-/// the class (200,000 flips on 20,000 edges). A million takes one or two seconds, and is more than it takes to unwind a torus of two
+/// Ordinary surfaces need less than one isometric flip per edge, and single cones on the corpus at most ten flips per edge inside the
+/// class (200,000 flips on 20,000 edges). A million takes one or two seconds, and is more than it takes to unwind a torus of two
 /// vertices that is sheared 100,000 times (400,000 flips), the thinnest that is accepted.
 pub(super) fn allowance(n_edges: usize) -> usize {
     100 * n_edges + 1_000_000
 }
 
-/// Whether an edge lies between two different faces: no other edge has another diagonal.
+/// True if an edge lies between two different faces. No other edge has another diagonal.
 pub(super) fn between_faces(mesh: &Mesh, h: HalfedgeId) -> bool {
     let [f, g] = [h, h.twin()].map(|h| mesh.face(h));
     f.is_some() && g.is_some() && f != g

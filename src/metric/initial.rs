@@ -23,7 +23,7 @@ use crate::topology::check_lengths;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// The initial metric with what is needed to read the result of a flow against it.
+/// The initial metric, with the radii and u of the input against which the result of a flow is read.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Initial {
     /// (ε, η, u) in the target space.
@@ -68,13 +68,13 @@ pub fn initial_metric(
             if scheme.is_packing() { mean } else { min }
         }
     };
-    let range = match scheme {
-        Scheme::Thurston => Range::Clamp(0.0, 1.0),
-        Scheme::Tangential => Range::Clamp(1.0, 1.0),
-        _ => Range::Refuse,
+    let bounds = match scheme {
+        Scheme::Thurston => EtaBounds::Clamp(0.0, 1.0),
+        Scheme::Tangential => EtaBounds::Clamp(1.0, 1.0),
+        _ => EtaBounds::Refuse,
     };
     let circles = MixedClass { epsilon, radii, space };
-    represented(mesh, lengths, input_geometry, circles, range)
+    represented(mesh, lengths, input_geometry, circles, bounds)
 }
 
 /// A conformal class of vertices of several types, with the radii that a metric is to be represented with.
@@ -102,25 +102,25 @@ pub fn initial_mixed(
     check_triangles(mesh, lengths, input_geometry)?;
     check_size("epsilon", circles.epsilon.len(), mesh.n_vertices())?;
     check_size("radii", circles.radii.len(), mesh.n_vertices())?;
-    represented(mesh, lengths, input_geometry, circles, Range::Refuse)
+    represented(mesh, lengths, input_geometry, circles, EtaBounds::Refuse)
 }
 
-/// What happens to an η that the scheme does not allow.
+/// The treatment of an η that the scheme does not allow.
 #[derive(Clone, Copy)]
-enum Range {
+enum EtaBounds {
     /// It is an error.
     Refuse,
     /// It is moved to the nearest end of this interval, which changes the length.
     Clamp(f64, f64),
 }
 
-/// The metric of a class, up to `range`, whose edges have these lengths in the geometry of the input.
+/// The metric of a class whose edges have these lengths in the geometry of the input, up to the clamping of η to `bounds`.
 fn represented(
     mesh: &Mesh,
     lengths: &PerEdge<f64>,
     input_geometry: Space,
     circles: MixedClass,
-    range: Range,
+    bounds: EtaBounds,
 ) -> Result<Initial> {
     let MixedClass { epsilon, radii, space } = circles;
     let n = mesh.n_vertices();
@@ -144,11 +144,11 @@ fn represented(
         weight_of_length(input_geometry, lengths[e], mesh.ends(e).map(|v| vertices[v]))
     });
     let mut clamped_edges = 0;
-    match range {
-        Range::Refuse => mesh
+    match bounds {
+        EtaBounds::Refuse => mesh
             .edges()
             .try_for_each(|e| check_weight(mesh.ends(e).map(|v| metric.epsilon[v]), e, weights[e.index()]))?,
-        Range::Clamp(low, high) => {
+        EtaBounds::Clamp(low, high) => {
             for eta in &mut weights {
                 let clamped = match *eta {
                     x if (x - low.into()).high < 0.0 => low.into(),
@@ -171,7 +171,7 @@ fn represented(
     Ok(Initial { metric, input_geometry, radii, input_u, clamped_edges, max_length_change })
 }
 
-/// Check that two vertices of these types can have this η.
+/// Checks that two vertices of these types can have this η.
 #[inline]
 fn check_weight(epsilon: [i8; 2], edge: EdgeId, eta: DoubleDouble) -> Result<()> {
     let need = match epsilon {
@@ -209,7 +209,7 @@ impl Initial {
         check_size("epsilon", metric.epsilon.len(), self.radii.len())?;
         Ok(PerVertex::from_fn(metric.u.len(), |v| match metric.epsilon[v] {
             0 => metric.u[v] - self.input_u[v],
-            // log γ is u: the radius itself may be beyond the doubles.
+            // log γ is u: the radius itself may be beyond the range of f64.
             _ if metric.space == Space::E2 => metric.u[v] - self.radii[v].ln(),
             epsilon => (radius(metric.space, epsilon, metric.u[v]) / self.radii[v]).ln(),
         }))
@@ -225,7 +225,7 @@ fn log_radius(space: Space, radius: f64) -> f64 {
     }
 }
 
-/// η from a length: the length formulas solved for it. In E² the length that η gives back is the given one, to twice the digits.
+/// η from a length: the length formulas solved for it. In E² the length that η gives back is the given one, in double-double precision.
 fn weight_of_length(space: Space, length: f64, [a, b]: [Vertex; 2]) -> DoubleDouble {
     // The unit of length is 2 to the larger exponent of the two circles.
     let unit = a.exponent.max(b.exponent);
@@ -291,7 +291,7 @@ fn start_shift(mesh: &Mesh, lengths: &PerEdge<f64>, input: &Metric, space: Space
     Ok(shift)
 }
 
-/// Every length positive, every face a triangle of the input geometry.
+/// Checks that every length is positive and every face a triangle of the input geometry.
 pub(super) fn check_triangles(mesh: &Mesh, lengths: &PerEdge<f64>, geometry: Space) -> Result<()> {
     check_lengths(mesh, lengths)?;
     for f in mesh.faces() {

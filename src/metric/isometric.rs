@@ -17,7 +17,7 @@
 //! # Ok::<(), ricci::Error>(())
 //! ```
 
-use super::flip_queue::{Flippable, Queue, allowance, endless};
+use super::flip_queue::{FlipQueue, Flippable, allowance, endless};
 use super::lengths::face_lengths;
 use crate::control::Control;
 use crate::error::{Result, check_size};
@@ -38,7 +38,7 @@ pub struct Triangulated {
     pub geometry: Space,
 }
 
-/// Which triangulation [`intrinsic_delaunay`] makes; by default the plain Delaunay one.
+/// Options of [`intrinsic_delaunay`]; by default it makes the Delaunay triangulation without circles.
 #[derive(Debug, Clone, Copy)]
 pub struct IntrinsicOptions<'a> {
     /// Radii of circles around the vertices (V entries, 0 for none), for a triangulation that is weighted by them.
@@ -55,9 +55,9 @@ impl Default for IntrinsicOptions<'_> {
     }
 }
 
-/// Where the cosines of two angles add up to more than this, the angles add up to less than π; where they add up to less than minus
-/// this, to more. Rounding of the cosines is a few 1e-16, far less. Nearer to 0 one angle may be near π and the other near 0, where
-/// cosines do not tell a sum from π.
+/// Least |sum of the cosines of two angles| whose sign decides whether the angles add up to less than π (positive) or more (negative).
+/// It is far above the rounding of the cosines, a few 1e-16. Nearer to 0 one angle may be near π and the other near 0, where cosines do
+/// not tell a sum from π.
 const DECISIVE: f64 = 1e-3;
 
 /// Share by which the sum of all cotangents must have fallen for a series of flips to count as progress. The sum has about 16 digits,
@@ -65,13 +65,13 @@ const DECISIVE: f64 = 1e-3;
 const PROGRESS: f64 = 1e-6;
 
 /// Isometric flips until every edge of the triangulation is Delaunay, except for fixed edges and those whose flip would make a triangle
-/// too thin for doubles. Returns the number of flips. `record` is told each flip (the edge with its length) just before it is made.
+/// too thin for f64. Returns the number of flips. `record` is called with each flip (the edge with its length) just before it is made.
 ///
 /// Every flip towards the plain Delaunay triangulation lowers the sum of all cotangents \[Musin97\]. On triangles that are nearly
 /// degenerate rounding could repeat the same flips without end; then the sum does not fall.
 ///
 /// # Errors
-/// The surface is left as it was, bit for bit, whatever `record` was told.
+/// The surface is left as it was, bit for bit, although `record` was called.
 /// - [`crate::Error::Size`]: lengths or circles are not one per edge, per vertex.
 /// - [`crate::Error::EdgeLength`]: a length out of range.
 /// - [`crate::Error::Connectivity`]: the flips do not end, since the sum of cotangents does not fall any more.
@@ -113,7 +113,7 @@ impl IsometricFlips<'_> {
         control: &Control,
     ) -> Result<usize> {
         let Triangulated { mesh, lengths, .. } = surface;
-        let mut queue = Queue::where_holds(mesh, fixed, |h| self.fails(mesh, lengths, h));
+        let mut queue = FlipQueue::where_holds(mesh, fixed, |h| self.fails(mesh, lengths, h));
         if queue.is_empty() {
             return Ok(0);
         }
@@ -129,11 +129,11 @@ impl IsometricFlips<'_> {
         flips
     }
 
-    /// [`Queue::flip_until_empty`], for as long as the sum of cotangents falls.
+    /// [`FlipQueue::flip_until_empty`], for as long as the sum of cotangents falls.
     fn flip(
         self,
         Triangulated { mesh, lengths, .. }: &mut Triangulated,
-        queue: &mut Queue,
+        queue: &mut FlipQueue,
         record: &mut dyn FnMut(&Mesh, Flip),
         control: &Control,
     ) -> Result<usize> {
@@ -152,14 +152,14 @@ impl IsometricFlips<'_> {
             if now >= (1.0 - PROGRESS) * lowest {
                 return Err(endless(
                     "isometric flips towards Delaunay do not end: 100 per edge and a million have not lowered the sum of \
-                     cotangents; its triangles are too thin for doubles",
+                     cotangents; its triangles are too thin for floating-point numbers",
                 ));
             }
             lowest = now;
         }
     }
 
-    /// Whether the edge of a half-edge between two faces fails the condition.
+    /// True if the edge of a half-edge between two faces fails the condition.
     fn fails(self, mesh: &Mesh, lengths: &PerEdge<f64>, h: HalfedgeId) -> bool {
         match self.circles {
             None => is_obtuse(self.geometry, sides(mesh, lengths, h)),
@@ -178,7 +178,7 @@ impl IsometricFlips<'_> {
         Hinge::from_products(squares, [h, ki, jk, il, lj].map(product))
     }
 
-    /// Length of the other diagonal, if there is one and both triangles that it makes have an area in doubles.
+    /// Length of the other diagonal, if there is one and both triangles that it makes have an area in f64.
     fn flipped(self, mesh: &Mesh, lengths: &PerEdge<f64>, h: HalfedgeId) -> Option<f64> {
         let sides = sides(mesh, lengths, h);
         let [left, right] = sides.map(|l| triangle::angles(self.geometry, l));
@@ -207,7 +207,7 @@ impl IsometricFlips<'_> {
     }
 }
 
-/// Whether these lengths are, in doubles, those of a triangle with an area.
+/// True if these lengths are, in f64, those of a triangle with an area.
 fn has_area(l: &[f64; 3]) -> bool {
     triangle::half_differences(*l).into_iter().all(|r| r > 0.0)
 }
@@ -226,7 +226,7 @@ fn sides(mesh: &Mesh, lengths: &PerEdge<f64>, h: HalfedgeId) -> [[f64; 3]; 2] {
     [h, h.twin()].map(|h| [mesh.next(h), mesh.prev(h), h].map(|side| lengths[side.edge()]))
 }
 
-/// Whether the angles α, β opposite a common side add up to more than π by more than [`TOLERANCE`]. In curved spaces the angles are
+/// True if the angles α, β opposite a common side add up to more than π by more than [`TOLERANCE`]. In curved spaces the angles are
 /// those of the Euclidean triangles of the half chords, which decide alike.
 ///
 /// Far from π the sum of the cosines decides. Near π, where α is near π and β near 0, it cannot, but `sin(α + β)` can.

@@ -27,18 +27,17 @@ pub struct Metric {
     pub space: Space,
     /// Vertex type ε ∈ {−1, 0, 1}; V entries, fixed in the class.
     pub epsilon: PerVertex<i8>,
-    /// Edge weight η; E entries, fixed in the class (up to flips). It has twice the digits, since flips add up their rounding, and the
-    /// angles of a needle magnify it by the needle's length over its width.
-    /// Metrics that differ in u alone share it.
+    /// Edge weight η; E entries, fixed in the class (up to flips). It is in double-double precision, since flips add up their
+    /// rounding, and the angles of a needle magnify it by the needle's length over its width. Metrics that differ in u alone share it.
     pub eta: Arc<PerEdge<DoubleDouble>>,
     /// Conformal variable u; V entries. ε ≠ 0: `log γ`, `log tanh(γ/2)`, `log tan(γ/2)` in E², H², S².
     pub u: PerVertex<f64>,
-    /// What the doubles u lose; V entries, at most half an ulp of them. 0 in a metric that no flow has made.
+    /// The low parts of the u in double-double precision; V entries, at most half an ulp of u. 0 in a metric that no flow has made.
     pub u_low: PerVertex<f64>,
 }
 
 impl Metric {
-    /// Number of vertices, edges agree with the mesh; ε is −1, 0 or 1; η and u are finite, and their low parts at most an ulp of them.
+    /// Checks that the numbers of vertices and edges agree with the mesh; ε is −1, 0 or 1; η and u are finite, and their low parts at most an ulp of them.
     ///
     /// # Errors
     /// [`Error::Size`], [`Error::Argument`] (ε, `u_low`), [`Error::Domain`] (u), [`Error::EdgeWeight`] (η).
@@ -78,17 +77,17 @@ impl Metric {
         }
     }
 
-    /// Whether lengths are formed to twice the digits: [`is_precise`] of all vertices.
+    /// True if lengths are formed in double-double precision: [`is_precise`] of all vertices.
     pub fn is_precise(&self) -> bool {
         self.epsilon.iter().all(|&epsilon| is_precise(self.space, epsilon))
     }
 
-    /// η as doubles (E entries).
+    /// η rounded to f64 (E entries).
     pub fn rounded_eta(&self) -> PerEdge<f64> {
         PerEdge::from_fn(self.eta.len(), |e| self.eta[e].high)
     }
 
-    /// The quantities of all vertices (V entries).
+    /// The derived quantities of all vertices (V entries).
     pub fn vertices(&self) -> PerVertex<Vertex> {
         let mut vertices = vec![Vertex::default(); self.u.len()];
         fill_vertices(self.space, &mut vertices, |v| {
@@ -98,12 +97,12 @@ impl Metric {
         vertices.into()
     }
 
-    /// The quantities of a vertex.
+    /// The derived quantities of a vertex.
     pub fn vertex(&self, v: VertexId) -> Vertex {
         Vertex::precise(self.space, self.epsilon[v], self.u[v], self.u_low[v])
     }
 
-    /// Whether this is a metric: every edge has a real positive length, whether doubles hold it or not.
+    /// True if this is a metric: every edge has a real positive length, whether an f64 holds it or not.
     ///
     /// # Errors
     /// Those of [`Metric::check`]; [`Error::Domain`] where u is outside the domain of its vertex type (in E² beyond ±5e5),
@@ -116,7 +115,7 @@ impl Metric {
         self.vertices_and_edges(mesh).map(|_| ())
     }
 
-    /// Whether this is vertex scaling in E² with numbers of which each triple gives an edge a length.
+    /// True if this is vertex scaling in E² with u and η in a range where every edge has a length.
     fn is_surely_inside(&self) -> bool {
         self.space == Space::E2
             && self.epsilon.iter().all(|&e| e == 0)
@@ -124,7 +123,7 @@ impl Metric {
             && self.eta.iter().all(|eta| eta.high > 0.0 && eta.high.is_normal())
     }
 
-    /// Whether this is vertex scaling in H² with a [`plain_chord`](conformal::plain_chord) at each edge.
+    /// True if this is vertex scaling in H² with a [`plain_chord`](conformal::plain_chord) at each edge.
     fn has_plain_chords(&self, mesh: &Mesh) -> bool {
         if self.space != Space::H2 || self.epsilon.iter().any(|&e| e != 0) {
             return false;
@@ -135,7 +134,7 @@ impl Metric {
         chords.iter().all(|q| q.high > 0.0)
     }
 
-    /// The quantities of all vertices and edges.
+    /// The derived quantities of all vertices and edges.
     ///
     /// # Errors
     /// Those of [`Metric::check_domain`].
@@ -163,7 +162,7 @@ impl Metric {
         conformal::edge(self.space, a, b, eta).unwrap_or_default()
     }
 
-    /// What the length of an edge comes from: its ends, and η.
+    /// The ends of an edge and its η, from which its length comes.
     #[inline]
     pub(crate) fn ends_and_eta(
         &self,
@@ -177,7 +176,7 @@ impl Metric {
     /// Circle radii γ from u (ε = 0: e^u): [`radius`].
     ///
     /// # Errors
-    /// [`Error::Domain`] for the first vertex whose radius is no positive number that a double holds.
+    /// [`Error::Domain`] for the first vertex whose radius is no positive number that an f64 holds.
     pub fn radii(&self) -> Result<PerVertex<f64>> {
         let radii: PerVertex<f64> =
             PerVertex::from_fn(self.u.len(), |v| radius(self.space, self.epsilon[v], self.u[v]));

@@ -1,4 +1,4 @@
-//! What a metric says of its edges and faces: lengths to all their digits, shapes of triangles, curvature.
+//! Measurements of a metric: lengths of edges to all their digits, shapes of triangles, curvature.
 //!
 //! ```
 //! # use ricci::{Class, Surface, geometry::Space, mesh::shapes};
@@ -21,7 +21,7 @@ impl Metric {
     /// The edge lengths.
     ///
     /// # Errors
-    /// Those of [`Metric::check_domain`]; [`Error::EdgeWeight`] for the first edge whose length no double holds, below 2e-308
+    /// Those of [`Metric::check_domain`]; [`Error::EdgeWeight`] for the first edge whose length no f64 holds, below 2e-308
     /// or above 2e308, which happens in E² alone. Angles, curvature and the flow have no such limit.
     pub fn lengths(&self, mesh: &Mesh) -> Result<PerEdge<f64>> {
         self.measured(mesh)?.lengths()
@@ -39,7 +39,7 @@ impl Metric {
         Ok(measured.differences())
     }
 
-    /// What the doubles of [`Metric::lengths`] lose, per edge: `l` to twice the digits is `length + remainder`.
+    /// The rounding errors of [`Metric::lengths`], per edge: `l` in double-double precision is `length + remainder`.
     ///
     /// It matters where circles of very different sizes meet, and far out in H². It is 0 in S² on edges with ε = 0 at both ends.
     ///
@@ -50,7 +50,7 @@ impl Metric {
         Ok(measured.remainders(&measured.lengths()?))
     }
 
-    /// All that can be asked of the metric's edges, which are formed once.
+    /// The vertices and edges of the metric, formed once for several measurements.
     ///
     /// # Errors
     /// Those of [`Metric::check_domain`].
@@ -59,10 +59,10 @@ impl Metric {
         Ok(Measured { metric: self, mesh, vertices, edges })
     }
 
-    /// Curvature, from the variables themselves: also where lengths are beyond the doubles.
+    /// Curvature, from the variables themselves: also where lengths are beyond the range of f64.
     ///
     /// # Errors
-    /// Those of [`Metric::check_domain`]; [`Error::Argument`] where the area is beyond the doubles: u is then to be shifted by a
+    /// Those of [`Metric::check_domain`]; [`Error::Argument`] where the area is beyond the range of f64: u is then to be shifted by a
     /// constant, which changes neither angles nor curvature.
     pub fn curvature(&self, mesh: &Mesh) -> Result<Curvature> {
         self.measured(mesh)?.curvature()
@@ -126,7 +126,7 @@ impl Measured<'_> {
     pub fn curvature(&self) -> Result<Curvature> {
         let curvature = curvature_of(self.mesh, self.metric.space, |f| self.face_differences(f));
         if !curvature.area.is_finite() {
-            let value = "so large that the area is beyond doubles".into();
+            let value = "so large that the area is out of floating-point range".into();
             return Err(Error::Argument { what: "u", value, need: "smaller: subtract a constant" });
         }
         Ok(curvature)

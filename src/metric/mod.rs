@@ -9,6 +9,7 @@
 //! ```
 
 pub mod class;
+pub mod common_subdivision;
 pub mod curvature;
 pub mod delaunay;
 mod flip_queue;
@@ -16,9 +17,7 @@ pub mod initial;
 pub mod isometric;
 pub mod lengths;
 pub mod measured;
-pub mod overlay;
 pub mod precise;
-pub mod refinement;
 pub mod scheme;
 pub mod shape_quality;
 pub mod split;
@@ -27,13 +26,12 @@ pub mod surface;
 pub mod target;
 
 pub use class::Class;
+pub use common_subdivision::CommonSubdivision;
 pub use curvature::{Curvature, curvature};
 pub use initial::{Initial, initial_metric};
 pub use isometric::Triangulated;
 pub use lengths::{Metric, lengths_from_positions};
 pub use measured::Measured;
-pub use overlay::Overlay;
-pub use refinement::Refinement;
 pub use scheme::Scheme;
 pub use shape_quality::ShapeQuality;
 pub use split::Split;

@@ -1,4 +1,4 @@
-//! Chords, angles and curvature of a metric to twice the digits of doubles, from its variables.
+//! Chords, angles and curvature of a metric in double-double precision, from its variables.
 //!
 //! ```
 //! # use ricci::{Class, Surface, geometry::Space, mesh::shapes};
@@ -23,9 +23,9 @@ use crate::parallel;
 use std::ops::{Range, RangeInclusive};
 
 impl Metric {
-    /// The half chords of the edges, l/2, sinh(l/2), sin(l/2) in E², H², S², in units of their own, with the exponents of these. To 20
-    /// digits where lengths are precise ([`crate::geometry::conformal::is_precise`]), else to those of doubles. It needs a metric in its
-    /// domain: [`Metric::check_domain`].
+    /// The half chords of the edges, l/2, sinh(l/2), sin(l/2) in E², H², S², in units of their own, with the exponents of these. They have
+    /// 20 digits where lengths are precise ([`crate::geometry::conformal::is_precise`]), else 16. The metric has to be in its domain:
+    /// [`Metric::check_domain`].
     pub(crate) fn scaled_chords(&self, mesh: &Mesh) -> PerEdge<(DoubleDouble, i32)> {
         let vertices = self.vertices();
         let mut chords = vec![(DoubleDouble::default(), 0); mesh.n_edges()];
@@ -36,8 +36,8 @@ impl Metric {
         chords.into()
     }
 
-    /// By how much the angles around each vertex inside miss 2π, those at a vertex of the boundary π, in (−2π, 2π], to twice the digits. It
-    /// is the curvature of vertices that are meant to be flat, where sums of angles in doubles would show their own rounding.
+    /// 2π minus the sum of the angles around each interior vertex, π minus it at a boundary vertex, in (−2π, 2π] and double-double
+    /// precision. It is the curvature of vertices that are meant to be flat, where sums of angles in f64 would show their own rounding.
     ///
     /// The rotations by all the angles are multiplied; no angle is formed.
     ///
@@ -48,7 +48,7 @@ impl Metric {
         Ok(self.angle_defects_inside(mesh))
     }
 
-    /// [`Metric::angle_defects`] of a metric that is known to be in its domain; outside it they mean nothing.
+    /// [`Metric::angle_defects`] of a metric that is known to be in its domain; of others the numbers mean nothing.
     pub(crate) fn angle_defects_inside(&self, mesh: &Mesh) -> PerVertex<f64> {
         let half_angles = half_angles(self, mesh, &self.scaled_chords(mesh));
         let mut turn: PerVertex<[DoubleDouble; 2]> =
@@ -68,12 +68,12 @@ impl Metric {
 }
 
 /// Per edge its half chord and the exponent of that one's unit ([`Metric::scaled_chords`]).
-type Chords = PerEdge<(DoubleDouble, i32)>;
+type ScaledChords = PerEdge<(DoubleDouble, i32)>;
 /// `[cos, sin]` of half the angle at each corner of a face.
 type HalfAngles = [[DoubleDouble; 2]; 3];
 
 /// `[cos, sin]` of half the angle at each corner, from the half chords and the exponents of their units.
-fn half_angles(metric: &Metric, mesh: &Mesh, chords: &Chords) -> PerFace<HalfAngles> {
+fn half_angles(metric: &Metric, mesh: &Mesh, chords: &ScaledChords) -> PerFace<HalfAngles> {
     let mut angles = vec![HalfAngles::default(); mesh.n_faces()];
     if are_usual(metric, chords) {
         parallel::in_parts(&mut angles, |start, angles| {
@@ -88,7 +88,7 @@ fn half_angles(metric: &Metric, mesh: &Mesh, chords: &Chords) -> PerFace<HalfAng
     angles.into()
 }
 
-fn half_angles_at(metric: &Metric, mesh: &Mesh, chords: &Chords, f: FaceId) -> HalfAngles {
+fn half_angles_at(metric: &Metric, mesh: &Mesh, chords: &ScaledChords, f: FaceId) -> HalfAngles {
     let sides = mesh.opposite_edges(f).map(|e| chords[e]);
     // In E² the unit of the longest side is used, so that its chord is about 1. In H² and S² lengths have no unit but 1.
     let size = |(q, unit): (DoubleDouble, i32)| unit + exponent(q.high);
@@ -105,7 +105,7 @@ fn half_angles_at(metric: &Metric, mesh: &Mesh, chords: &Chords, f: FaceId) -> H
 pub(crate) fn shapes(
     metric: &Metric,
     mesh: &Mesh,
-) -> Result<(Chords, PerFace<HalfAngles>, Vec<(f64, bool)>)> {
+) -> Result<(ScaledChords, PerFace<HalfAngles>, Vec<(f64, bool)>)> {
     metric.check(mesh)?;
     let chords = metric.scaled_chords(mesh);
     let mut angles = vec![HalfAngles::default(); mesh.n_faces()];
@@ -135,24 +135,24 @@ pub(crate) fn shapes(
     Ok((chords, angles.into(), areas))
 }
 
-/// Whether these are half chords in H² and all [`USUAL_CHORDS`].
-fn are_usual(metric: &Metric, chords: &Chords) -> bool {
+/// True if these are half chords in H² and all [`USUAL_CHORDS`].
+fn are_usual(metric: &Metric, chords: &ScaledChords) -> bool {
     let is_usual = |(q, unit): &(DoubleDouble, i32)| *unit == 0 && USUAL_CHORDS.contains(&q.high);
     metric.space == Space::H2 && chords.iter().all(is_usual)
 }
 
-/// Whether half angles are those of (π, 0, 0), which broken triangles have.
+/// True if half angles are those of (π, 0, 0), which broken triangles have.
 fn is_flat(half_angles: &HalfAngles) -> bool {
     half_angles.iter().all(|[cos, sin]| cos.high == 0.0 || sin.high == 0.0)
 }
 
-/// Half chords in H² of edges that surely are in the domain of metrics ([`Metric::check_domain`]), and products of which doubles hold.
+/// Half chords in H² of edges that are certainly in the domain of metrics ([`Metric::check_domain`]), and whose products f64 holds.
 const USUAL_CHORDS: RangeInclusive<f64> = 1e-60..=1e60;
 
-/// Hand the half angles and the area of each of these faces in H² to `take`, `None` for a face that may be broken.
+/// Call `take` with the half angles and the area of each of these faces in H², with `None` for a face that may be broken.
 fn hyperbolic_shapes(
     mesh: &Mesh,
-    chords: &Chords,
+    chords: &ScaledChords,
     faces: Range<usize>,
     mut take: impl FnMut(FaceId, Option<(HalfAngles, f64)>),
 ) {
@@ -168,8 +168,8 @@ fn hyperbolic_shapes(
     });
 }
 
-/// `[cos, sin]` of half the angles of a triangle in H², each with what its double misses, its area, and 1; 0 for one that may be broken,
-/// whose numbers mean nothing. Given are the half chords of its sides, and what these miss.
+/// The formula for a triangle in H²: `[cos, sin]` of half its angles, each as high and low part, its area, and 1; instead of 1 a 0 for a
+/// triangle that may be broken, whose numbers mean nothing. Given are the high parts of the half chords of its sides, then the low ones.
 ///
 /// With half the perimeter s and `r_k = s − l_k` the half-angle law reads `cos²(θ_k/2) = sinh s sinh r_k / (sinh l_i sinh l_j)` and
 /// `sin²(θ_k/2) = sinh r_i sinh r_j / (sinh l_i sinh l_j)`, where `sinh s sinh r_k = (p − q_k)(p + q_k)` with the half chords q and
@@ -203,7 +203,7 @@ impl Formula<6, 14> for HyperbolicShape {
         let (mut x, mut is_known) = (product, one.high);
         for k in 0..3 {
             x[k] = product[k].sqrt();
-            // Not where it is no number either.
+            // NaN counts as not known too.
             is_known = product[k].high.where_at_least(least, is_known, zero);
         }
         let mut angles = [[one; 2]; 3];

@@ -37,7 +37,7 @@ impl Scheme {
         }
     }
 
-    /// Whether this is Thurston's or a tangential packing, which are Delaunay on any triangulation: flips have no part in them.
+    /// True if this is Thurston's or a tangential packing, which are Delaunay on any triangulation: flips have no part in them.
     pub fn is_packing(self) -> bool {
         matches!(self, Scheme::Thurston | Scheme::Tangential)
     }

@@ -11,7 +11,7 @@
 //! # Ok::<(), ricci::Error>(())
 //! ```
 
-use super::refinement::CORNERS;
+use super::common_subdivision::CORNERS;
 use super::surface::Surface;
 use crate::error::{Error, Result, check_size};
 use crate::geometry::flip::diagonal;
@@ -32,7 +32,7 @@ pub struct Split {
     lengths: Vec<f64>,
     positions: Option<Vec<Point>>,
     n_vertices: usize,
-    /// Per edge the one that the line it lies on goes on with, at the tip of its half-edge 2e.
+    /// Per edge the next part of the same given edge, at the tip of its half-edge 2e.
     ahead: Vec<Option<u32>>,
     /// The ends of the edge that each added vertex has parted, with their weights.
     added: Vec<[(u32, f64); 2]>,
@@ -41,7 +41,7 @@ pub struct Split {
     corners: Vec<[[f64; 3]; 3]>,
 }
 
-/// By how much weights may be negative or their sum may differ from 1.
+/// Largest amount by which weights may be negative, or their sum may differ from 1.
 const WEIGHTS: f64 = 1e-9;
 /// Weight up to which a point counts as one on the opposite side, and at a corner.
 const AT_CORNER: f64 = 1e-12;
@@ -54,7 +54,7 @@ fn weights_in(corners: [[f64; 3]; 3], point: [f64; 3]) -> [f64; 3] {
 }
 
 impl Split {
-    /// Nothing halved yet.
+    /// The surface with nothing halved yet.
     pub fn new(given: &Surface) -> Split {
         let mesh = given.mesh();
         Split {
@@ -77,7 +77,7 @@ impl Split {
         &self.given
     }
 
-    /// Vertices that were added.
+    /// The number of vertices that were added.
     pub fn n_added(&self) -> usize {
         self.n_vertices - self.given.mesh().n_vertices()
     }
@@ -185,7 +185,7 @@ impl Split {
                 // The part at the origin of the half-edge 2e lies along `there`; of its twin, along the new edge.
                 let [first, second] = [[there, 2 * other], [2 * other + 1, there ^ 1]][k];
                 let weights = if k == 0 { weights } else { [weights[1], weights[0]] };
-                self.cut_face(there ^ k, ([first, second], weights), length);
+                self.cut_face(there ^ k, [first, second], weights, length);
             }
         }
         Ok(EdgeId::from(other))
@@ -215,7 +215,7 @@ impl Split {
         let Some((f, w)) = local.max_by(|a, b| least(&a.1).total_cmp(&least(&b.1))) else {
             return Err(Error::argument("face of a point", face, "an existing face"));
         };
-        // From the corner with the largest weight: the line from there is the best determined.
+        // The line starts at the corner with the largest weight, from which its direction is determined best.
         let first = (0..3).fold(0, |best, k| if w[k] > w[best] { k } else { best });
         let [p, q, r] = [0, 1, 2].map(|k| w[(first + k) % 3].max(0.0));
         let sides = [0, 1, 2].map(|k| self.sides[f][(first + k) % 3] as usize);
@@ -226,7 +226,7 @@ impl Split {
             (false, true) => self.part_from(sides[2], p / (p + r)).map(|_| self.last()),
             (true, true) => {
                 let line = self.part_from(sides[1], r / (q + r))?;
-                // It runs from the side to the corner.
+                // The line runs from the side to the corner.
                 self.part(line, p)?;
                 Ok(self.last())
             }
@@ -272,7 +272,7 @@ impl Split {
 
     /// Cut the face of half-edge `h`, whose two parts are `parts` in its direction at the point with these weights of its ends, by a line
     /// of this length.
-    fn cut_face(&mut self, h: usize, (parts, [p, q]): ([usize; 2], [f64; 2]), length: f64) {
+    fn cut_face(&mut self, h: usize, parts: [usize; 2], [p, q]: [f64; 2], length: f64) {
         let Some((f, k)) = self.corner(h) else { return };
         let [next, prev] = [1, 2].map(|turn| self.sides[f][(k + turn) % 3]);
         let [middle, opposite] = [self.origin[parts[1]], self.origin[prev as usize]];

@@ -26,12 +26,12 @@ use crate::mesh::{Double, FixedEdges, Flip, Mesh, PerVertex};
 /// there, so that targets beyond that bound are out of reach. A half keeps η well above 1 without making the circles small.
 const SHARE_OF_LARGEST: f64 = 0.5;
 
-/// What [`delaunay_start`] needs to know beside the surface.
+/// Options of [`delaunay_start`].
 #[derive(Debug, Clone, Copy)]
 pub struct StartOptions<'a> {
     /// The conformal class.
     pub class: Class,
-    /// Where the surface is the double of another one: mirror images then get the same radii.
+    /// The double, if the surface is that of another one: mirror images then get the same radii.
     pub double: Option<&'a Double>,
     /// Edges that are not flipped.
     pub fixed: &'a FixedEdges,
@@ -52,7 +52,7 @@ impl From<Class> for StartOptions<'_> {
 /// - Inversive distance: half of those radii, on the Delaunay triangulation weighted by the circles.
 /// - Thurston's and tangential packings are Delaunay on any triangulation and stay on the given one.
 ///
-/// `record` is told each flip (the edge with its length) just before it is made.
+/// `record` is called with each flip (the edge with its length) just before it is made.
 ///
 /// # Errors
 /// Those of [`initial_metric`] and [`intrinsic_delaunay`], with the surface as it was, maybe on another triangulation;

@@ -19,8 +19,8 @@ use crate::mesh::{Mesh, PerEdge, PerVertex, VertexId};
 use crate::topology;
 use std::f64::consts::PI;
 
-/// Gauss–Bonnet must hold for a given target to this, relative to `2π + Σ|K̄|`: targets written with ten digits
-/// pass. What remains is shared out ([`settle_total`]).
+/// Largest error of Gauss–Bonnet that a given target may have, relative to `2π + Σ|K̄|`: targets written with ten digits
+/// pass. The error is then shared out ([`settle_total`]).
 pub const TOTAL_TOLERANCE: f64 = 1e-10;
 
 /// Least and largest number of cones that are placed by default: each costs a few solutions of a linear system.
@@ -94,7 +94,7 @@ impl Target {
         Ok(target)
     }
 
-    /// The vertices that the caller names as cones.
+    /// The vertices that the target names as cones.
     pub fn named(&self) -> Vec<VertexId> {
         match self {
             Target::Single(v) => vec![*v],
@@ -172,8 +172,8 @@ pub fn check_admissible(mesh: &Mesh, class: Class, target: &PerVertex<f64>) -> R
     check_total(mesh, class.space, target)
 }
 
-/// What each vertex can have: [`check_upper`], and for Thurston's and tangential packings, which never flip, a lower bound too. Each
-/// of the d angles at a vertex is below π there, so `K̄ > (2 − d)π` inside, `(1 − d)π` on the boundary. (Conditions on larger vertex
+/// Bounds on the curvature of each vertex: [`check_upper`], and for Thurston's and tangential packings, which never flip, a lower bound
+/// too. Each of the d angles at a vertex is below π there, so `K̄ > (2 − d)π` inside, `(1 − d)π` on the boundary. (Conditions on larger vertex
 /// sets are found by the flow that runs into them: [`crate::flow::Obstruction`].)
 ///
 /// # Errors
@@ -239,8 +239,8 @@ pub fn check_total(mesh: &Mesh, space: Space, target: &PerVertex<f64>) -> Result
     Err(Error::TargetTotal { sum, need, miss })
 }
 
-/// Give a target in E², whose total misses 2πχ by no more than rounding, that total: the difference is shared equally over the vertices
-/// that are not flat. Otherwise all of it would remain at the one vertex that the solver holds. Other targets stay as they are.
+/// Correct a target in E² whose total misses 2πχ by no more than rounding: the difference is shared equally over the vertices that are
+/// not flat. Without that all of it would remain at the one vertex whose u the solver holds. Other targets stay as they are.
 pub fn settle_total(mesh: &Mesh, space: Space, target: &mut PerVertex<f64>) {
     let miss = target.iter().sum::<f64>() - 2.0 * PI * mesh.euler() as f64;
     if space == Space::E2 && check_total(mesh, space, target).is_ok() {

@@ -12,7 +12,7 @@ use crate::geometry::complex::distance;
 use crate::geometry::{Space, worse};
 use crate::harmonic::Zero;
 use crate::mesh::{FaceId, Mesh, VertexId};
-use crate::metric::Refinement;
+use crate::metric::CommonSubdivision;
 use std::sync::Arc;
 
 /// A chart: lifts of faces that lie beside each other in the chart's coordinates.
@@ -57,7 +57,7 @@ pub struct Atlas {
     /// given one on its Delaunay triangulation.
     pub metric: Arc<Solution>,
     /// The common subdivision, if the triangulation is one.
-    pub refinement: Option<Arc<Refinement>>,
+    pub subdivision: Option<Arc<CommonSubdivision>>,
     /// The charts.
     pub charts: Vec<Chart>,
     /// One transition for each connected overlap, from the chart of the lower number to the other.

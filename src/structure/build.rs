@@ -72,7 +72,7 @@ fn chart(found: StructureSource, options: &AtlasOptions, control: &Control) -> R
         lifts,
         mesh,
         metric: found.metric,
-        refinement: found.refinement,
+        subdivision: found.subdivision,
     })
 }
 

@@ -13,7 +13,7 @@ use crate::geometry::Space;
 use crate::geometry::complex::{cross, dot, neg, sub};
 use crate::harmonic::{Domain, FormsOptions, HarmonicForms, Zero, even_combination, with_conjugate, zeros};
 use crate::mesh::{Mesh, PerEdge, PerVertex, VertexId};
-use crate::metric::{Class, Refinement, Surface, Target};
+use crate::metric::{Class, CommonSubdivision, Surface, Target};
 use crate::parallel::Pool;
 use crate::topology::{HomotopyBasis, homotopy_basis};
 use std::f64::consts::TAU;
@@ -29,7 +29,7 @@ pub(super) struct StructureSource {
     pub sheet: DevelopableSurface,
     pub metric: Arc<Solution>,
     /// The common subdivision, if the sheet lies on it and not on the metric's triangulation.
-    pub refinement: Option<Arc<Refinement>>,
+    pub subdivision: Option<Arc<CommonSubdivision>>,
     pub basis: HomotopyBasis,
     pub zeros: Vec<Zero>,
     pub curvature_error: f64,
@@ -133,7 +133,7 @@ fn simply_connected(
         basis: homotopy_basis(sheet.mesh(), &ones, None, control)?,
         sheet,
         metric: Arc::new(sphere.metric.clone()),
-        refinement: None,
+        subdivision: None,
         zeros: Vec::new(),
         curvature_error: sphere.report.spherical_curvature_error,
         converged: sphere.report.converged,
@@ -144,8 +144,8 @@ fn simply_connected(
 fn of_quotient(surface: &Surface, options: &AtlasOptions, control: &Control) -> Result<StructureSource> {
     let asked = QuotientOptions { flow: options.flow.clone(), ..QuotientOptions::default() };
     let quotient = uniformize_quotient(surface, &asked, control)?;
-    let refinement = quotient.layout.refinement().cloned();
-    let steps = FaceTransitions::new(&quotient.metric, refinement.as_ref())?;
+    let subdivision = quotient.layout.common_subdivision().cloned();
+    let steps = FaceTransitions::new(&quotient.metric, subdivision.as_ref())?;
     let factor = if steps.space == Space::E2 { (surface.area()? / steps.area).sqrt() } else { 1.0 };
     Ok(StructureSource {
         sheet: DevelopableSurface::new(steps).scaled(factor),
@@ -154,7 +154,7 @@ fn of_quotient(surface: &Surface, options: &AtlasOptions, control: &Control) -> 
         converged: quotient.report.converged(),
         basis: quotient.basis,
         metric: Arc::new(quotient.metric),
-        refinement,
+        subdivision,
     })
 }
 
@@ -167,8 +167,9 @@ fn of_flow(
 ) -> Result<StructureSource> {
     let metric = flow(surface.clone(), Class::yamabe(Space::E2), target, &options.flow, control)?;
     // Of a doubled surface, only the given half is taken.
-    let refinement = metric.double().map(|_| metric.refinement(control).map(Arc::new)).transpose()?;
-    let steps = FaceTransitions::new(&metric, refinement.as_ref())?;
+    let subdivision =
+        metric.double().map(|_| metric.common_subdivision(control).map(Arc::new)).transpose()?;
+    let steps = FaceTransitions::new(&metric, subdivision.as_ref())?;
     let factor = (surface.area()? / steps.area).sqrt();
     let mut sheet = DevelopableSurface::new(steps).scaled(factor);
     target.named().into_iter().for_each(|v| sheet.singular[v] = true);
@@ -180,7 +181,7 @@ fn of_flow(
         curvature_error: metric.report().map_or(f64::NAN, |report| report.max_curvature_error),
         converged: metric.converged(),
         metric: Arc::new(metric),
-        refinement,
+        subdivision,
     })
 }
 
@@ -244,7 +245,7 @@ fn of_form(surface: &Surface, options: &AtlasOptions, control: &Control) -> Resu
         Ok(StructureSource {
             zeros: zeros(mesh, &form),
             metric: domain.metric().clone(),
-            refinement: None,
+            subdivision: None,
             basis: forms.basis.clone(),
             sheet: sheet.scaled(factor),
             curvature_error: 0.0,

@@ -1,4 +1,4 @@
-//! Geodesic boundaries.
+//! Tests geodesic boundaries.
 
 use crate::surfaces::{ORIGIN, check_geodesic, from_soup, uniformized};
 use ricci::canonical::QuotientOptions;

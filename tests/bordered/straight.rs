@@ -1,7 +1,7 @@
-//! Straight boundaries in the plane.
+//! Tests straight boundaries in the plane.
 
 use crate::surfaces::{check_geodesic, from_soup, uniformized};
-use ricci::canonical::{Boundary, Corner, Corners, Quotient, QuotientOptions, uniformize_quotient};
+use ricci::canonical::{Boundary, BoundaryCorner, Corners, Quotient, QuotientOptions, uniformize_quotient};
 use ricci::embed::dirichlet_domain;
 use ricci::geometry::Space;
 use ricci::mesh::VertexId;
@@ -15,7 +15,7 @@ fn straight(corners: Corners) -> QuotientOptions {
 }
 
 fn at(corners: &[(u32, Option<f64>)]) -> Corners {
-    let corner = |&(v, angle): &(u32, Option<f64>)| Corner { vertex: VertexId(v), angle };
+    let corner = |&(v, angle): &(u32, Option<f64>)| BoundaryCorner { vertex: VertexId(v), angle };
     Corners::At(corners.iter().map(corner).collect())
 }
 

@@ -1,4 +1,4 @@
-//! What holds of every circle domain, computed again from its layout.
+//! Checks that every circle domain has to pass, computed again from its layout.
 
 use ricci::canonical::{CircleDomain, CircleDomainOptions, circle_domain};
 use ricci::geometry::Space;

@@ -1,4 +1,4 @@
-//! Circle domains that are known.
+//! Circle domains with known answers.
 
 use crate::check::{check, domain, domain_of, triangles};
 use crate::common::Random;

@@ -67,16 +67,16 @@ fn linear_functions_are_reproduced() {
     assert!(matches!(harmonic_map(&domain, &unbalanced, &Control::new()), Err(Error::Argument { .. })));
 }
 
-/// The number of vertices that had to be added so that neither a triangle nor a piece of the refinement turns over.
+/// The number of vertices that had to be added so that neither a triangle nor a piece of the subdivision turns over.
 fn check_disk(name: &str, surface: &Surface) -> usize {
     let (split, domain) = simple_domain(surface, false, &Control::new()).unwrap();
     let map = to_disk(&domain, &Control::new()).unwrap();
     assert!(flipped(&domain, &map.points).is_empty(), "{name}");
     assert!(map.mean_value_residual < 1e-10, "{name}: {}", map.mean_value_residual);
-    if let Some(refinement) = domain.refinement(&Control::new()).unwrap() {
-        let points = refinement.from_final_vertices(&map.points).unwrap();
-        for f in refinement.mesh.faces() {
-            let [a, b, c] = refinement.mesh.face_vertices(f).map(|v| points[v.index()]);
+    if let Some(subdivision) = domain.common_subdivision(&Control::new()).unwrap() {
+        let points = subdivision.from_vertices(1, &map.points).unwrap();
+        for f in subdivision.mesh.faces() {
+            let [a, b, c] = subdivision.mesh.face_vertices(f).map(|v| points[v.index()]);
             let [p, q] = [[b[0] - a[0], b[1] - a[1]], [c[0] - a[0], c[1] - a[1]]];
             let longest = p[0].hypot(p[1]).max(q[0].hypot(q[1]));
             assert!(p[0] * q[1] - p[1] * q[0] > -1e-12 * longest * longest, "{name}: piece {f}");

@@ -4,7 +4,7 @@ use super::samples::{matched, moved, potato, surface};
 use ricci::matching::{MatchOptions, Matching, match_surfaces};
 use ricci::mesh::io::Soup;
 use ricci::mesh::{FaceId, Point, VertexId, shapes};
-use ricci::metric::Overlay;
+use ricci::metric::CommonSubdivision;
 use ricci::{Control, Surface};
 
 fn area([a, b, c]: [Point; 3]) -> f64 {
@@ -22,7 +22,7 @@ fn distance(p: Point, q: Point) -> f64 {
 }
 
 /// Everything that an overlay promises, measured from its arrays.
-pub fn check(overlay: &Overlay, matching: &Matching, surfaces: [&Surface; 2], what: &str) {
+pub fn check(overlay: &CommonSubdivision, matching: &Matching, surfaces: [&Surface; 2], what: &str) {
     let mesh = &overlay.mesh;
     assert_eq!(mesh.euler(), surfaces[0].mesh().euler(), "{what}");
     assert_eq!(mesh.boundary_loops().len(), surfaces[0].mesh().boundary_loops().len(), "{what}");
@@ -31,7 +31,7 @@ pub fn check(overlay: &Overlay, matching: &Matching, surfaces: [&Surface; 2], wh
         let corners = |f: FaceId| surface.mesh().face_vertices(f).map(|v| positions[v.index()]);
         let size = surface.mesh().faces().map(|f| area(corners(f))).sum::<f64>();
         let own = |f: FaceId| {
-            overlay.barycentric[s][f].map(|weights| combine(weights, corners(overlay.faces[s][f])))
+            overlay.barycentric(s, f).map(|weights| combine(weights, corners(overlay.faces[s][f])))
         };
         let covered: f64 = mesh.faces().map(|f| area(own(f))).sum();
         assert!((covered / size - 1.0).abs() < 1e-10, "{what}: {covered} of {size}");
@@ -42,11 +42,11 @@ pub fn check(overlay: &Overlay, matching: &Matching, surfaces: [&Surface; 2], wh
             assert!((per_face[f.index()] / area(corners(f)) - 1.0).abs() < 1e-9, "{what}: face {f}");
         }
         for f in mesh.faces() {
-            assert!(overlay.barycentric[s][f].as_flattened().iter().all(|&w| w > -1e-15), "{what}");
+            assert!(overlay.barycentric(s, f).as_flattened().iter().all(|&w| w > -1e-15), "{what}");
         }
         assert!(overlay.least_share(s) > -1e-15, "{what}: {:e}", overlay.least_share(s));
         // Neighbours agree where their common vertices are.
-        let all = overlay.from_vertices(s, surface.mesh(), positions).unwrap();
+        let all = overlay.from_vertices(s, positions).unwrap();
         let worst = mesh.faces().flat_map(|f| {
             let there = own(f);
             let vertices = mesh.face_vertices(f);
@@ -60,28 +60,53 @@ pub fn check(overlay: &Overlay, matching: &Matching, surfaces: [&Surface; 2], wh
 }
 
 /// Vertices of the source are where the map has them, and crossings lie on their edges.
-fn check_vertices(overlay: &Overlay, matching: &Matching, [source, target]: [&Surface; 2], what: &str) {
+fn check_vertices(
+    overlay: &CommonSubdivision,
+    matching: &Matching,
+    [source, target]: [&Surface; 2],
+    what: &str,
+) {
     let to = target.positions().unwrap();
-    let on_target = overlay.from_vertices(1, target.mesh(), to).unwrap();
-    let on_source = overlay.from_vertices(0, source.mesh(), source.positions().unwrap()).unwrap();
+    let on_target = overlay.from_vertices(1, to).unwrap();
+    let on_source = overlay.from_vertices(0, source.positions().unwrap()).unwrap();
     let images = matching.forward.carry(target.mesh(), to).unwrap();
     for (v, &image) in images.iter().enumerate() {
         assert_eq!(on_source[v], source.positions().unwrap()[v], "{what}");
         assert!(distance(on_target[v], image) < 1e-8, "{what}: {:e}", distance(on_target[v], image));
     }
-    for (k, meeting) in overlay.crossings.iter().enumerate() {
+    let sides = [(source, &on_source), (target, &on_target)];
+    for (k, crossing) in overlay.crossings.iter().enumerate() {
         let v = overlay.n_vertices[0] + k;
-        for ((surface, all), (e, t)) in [(source, &on_source), (target, &on_target)].into_iter().zip(meeting)
-        {
-            let [a, b] = surface.mesh().ends(*e).map(|v| surface.positions().unwrap()[v.index()]);
-            let there = [0, 1, 2].map(|k| (1.0 - t) * a[k] + t * b[k]);
+        for ((surface, all), at) in sides.into_iter().zip(crossing) {
+            let ends = surface.mesh().ends(at.edge);
+            assert!(ends == at.ends && (at.weights[0] + at.weights[1] - 1.0).abs() < 1e-15, "{what}");
+            let [a, b] = ends.map(|v| surface.positions().unwrap()[v.index()]);
+            let there = [0, 1, 2].map(|k| at.weights[0] * a[k] + at.weights[1] * b[k]);
             assert!(distance(all[v], there) < 1e-12, "{what}");
+        }
+    }
+    // The parts of an edge lie on it, and are as long as it together.
+    for (side, (surface, all)) in sides.into_iter().enumerate() {
+        let (mesh, positions) = (surface.mesh(), surface.positions().unwrap());
+        let mut covered = vec![0.0; mesh.n_edges()];
+        for h in overlay.mesh.edges().map(|e| e.halfedge()) {
+            let Some(along) = overlay.halfedge(side, h) else { continue };
+            let [from, to] = [mesh.origin(along), mesh.tip(along)].map(|v| positions[v.index()]);
+            let [a, b] = [overlay.mesh.origin(h), overlay.mesh.tip(h)].map(|v| all[v.index()]);
+            let part = distance(a, b);
+            let off = distance(from, a) + part + distance(b, to) - distance(from, to);
+            assert!(off.abs() < 1e-9, "{what}: {off:e} of {along}");
+            covered[along.edge().index()] += part;
+        }
+        for e in mesh.edges() {
+            let [a, b] = mesh.ends(e).map(|v| positions[v.index()]);
+            assert!((covered[e.index()] - distance(a, b)).abs() < 1e-9, "{what}: edge {e}");
         }
     }
 }
 
 /// The map of points and the one back undo each other.
-fn check_points(overlay: &Overlay, [source, _]: [&Surface; 2], what: &str) {
+fn check_points(overlay: &CommonSubdivision, [source, _]: [&Surface; 2], what: &str) {
     let (forward, back) = (overlay.forward(), overlay.backward());
     for f in source.mesh().faces() {
         let weights = [0.2, 0.3, 0.5];
@@ -96,7 +121,7 @@ fn check_points(overlay: &Overlay, [source, _]: [&Surface; 2], what: &str) {
     }
 }
 
-fn overlay(matching: &Matching) -> Overlay {
+fn overlay(matching: &Matching) -> CommonSubdivision {
     matching.domain.overlay(1, &Control::new()).unwrap()
 }
 

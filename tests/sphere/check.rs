@@ -1,4 +1,4 @@
-//! What holds of every sphere, computed again.
+//! Checks that every sphere has to pass, computed again from its data.
 
 use crate::common::Random;
 use ricci::canonical::{Sphere, SphereOptions, uniformize_sphere};

@@ -15,7 +15,7 @@ use ricci::canonical::{
     QuotientOptions, Sphere, SphereOptions, SphereReport, Uniformization, flow_to_sphere, uniformize,
     uniformize_sphere,
 };
-use ricci::flow::{Method, Options, Seconds, StopReason};
+use ricci::flow::{FlowSeconds, Method, Options, StopReason};
 use ricci::geometry::Space;
 use ricci::geometry::vector::dot;
 use ricci::mesh::shapes::{self, IntrinsicSurface};
@@ -25,7 +25,7 @@ use ricci::{Control, Error, Surface};
 
 /// A report but for its times.
 fn timeless(report: &SphereReport) -> SphereReport {
-    SphereReport { seconds: Seconds::default(), ..report.clone() }
+    SphereReport { seconds: FlowSeconds::default(), ..report.clone() }
 }
 
 #[test]
@@ -171,17 +171,17 @@ fn results_are_the_same_for_any_number_of_threads() {
 }
 
 #[test]
-fn the_way_back_is_a_refinement_of_the_given_faces() {
+fn the_way_back_is_a_subdivision_of_the_given_faces() {
     let (mesh, lengths) = surface(&rough(2, 0.8));
     let sphere = run(&mesh, &lengths, &SphereOptions::default()).unwrap();
     assert!(sphere.report.flips > 0 && sphere.report.start_flips > 0, "{:?}", sphere.report);
     assert_eq!(sphere.metric.flips(), sphere.report.flips + sphere.report.start_flips);
-    let refinement = sphere.metric.refinement(&Control::new()).unwrap();
-    refinement.mesh.validate().unwrap();
-    assert_eq!(refinement.mesh.euler(), 2);
-    assert_eq!(refinement.n_input_vertices, mesh.n_vertices());
-    for crossing in &refinement.crossings {
-        assert!(crossing.final_weights.iter().all(|w| *w > 0.0 && *w < 1.0));
+    let subdivision = sphere.metric.common_subdivision(&Control::new()).unwrap();
+    subdivision.mesh.validate().unwrap();
+    assert_eq!(subdivision.mesh.euler(), 2);
+    assert_eq!(subdivision.n_vertices[0], mesh.n_vertices());
+    for crossing in &subdivision.crossings {
+        assert!(crossing[1].weights.iter().all(|w| *w > 0.0 && *w < 1.0));
     }
     // The metric it is made of is flat in the plane too: the same class.
     let mut plane = sphere.metric.metric().clone();

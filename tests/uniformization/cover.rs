@@ -1,4 +1,4 @@
-//! Finite pieces of the universal cover.
+//! Tests finite pieces of the universal cover.
 
 use crate::common::Random;
 use crate::surfaces::{Surface, generated};
@@ -197,7 +197,7 @@ fn no_two_copies_overlap() {
         let flat = |p: [f64; 3]| if q.layout.space == Space::E2 { [p[0], p[1]] } else { klein(p) };
         let at = q.layout.corner(q.deck.corner);
         let d = dirichlet_domain(&q.deck, at, q.layout.area, &Control::new()).unwrap();
-        // What is near enough to touch.
+        // The copies that are near enough to touch.
         let near = elements_within(&q.deck, &d, 2.0 * q.layout.radius, 1 << 20, &Control::new()).unwrap();
         let triangles: Vec<[[f64; 2]; 3]> = mesh.faces().map(|f| q.layout.face_points(f).map(flat)).collect();
         let inside = |p: [f64; 2], t: &[[f64; 2]; 3]| {

@@ -1,4 +1,4 @@
-//! Known answers.
+//! Uniformizations with known answers.
 
 use crate::quotient::check;
 use crate::surfaces::Surface;

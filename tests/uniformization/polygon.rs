@@ -1,4 +1,4 @@
-//! Reduced fundamental polygons.
+//! Tests reduced fundamental polygons.
 
 use crate::surfaces::{corpus, generated};
 use ricci::Control;

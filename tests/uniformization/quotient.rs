@@ -1,4 +1,4 @@
-//! The metric, its layout and the deck group.
+//! Tests the metric of a quotient, its layout and the deck group.
 
 use crate::common::Random;
 use crate::surfaces::{Surface, corpus, generated};
@@ -254,11 +254,11 @@ fn what_is_no_quotient_is_refused() {
 /// The refined layout: input vertices are where the final triangulation has them, no piece is flipped, and pieces of a face that are joined
 /// have the face's area.
 #[test]
-fn refinements_lie_in_the_layout() {
+fn subdivisions_lie_in_the_layout() {
     for surface in generated().into_iter().chain(corpus()) {
         let q = surface.uniformized();
-        let r = Arc::new(q.metric.refinement(&Control::new()).unwrap());
-        let refined = q.layout.on_refinement(&r, q.metric.metric(), &Control::new()).unwrap();
+        let r = Arc::new(q.metric.common_subdivision(&Control::new()).unwrap());
+        let refined = q.layout.on_subdivision(&r, q.metric.metric(), &Control::new()).unwrap();
         assert!(refined.flipped.is_empty(), "{}: {:?}", surface.name, refined.flipped);
         let quality = refined.quality(&surface.mesh, &surface.lengths);
         if surface.geometry == Space::E2 {
@@ -272,8 +272,8 @@ fn refinements_lie_in_the_layout() {
         }
         let corners = |f: FaceId| refined.face_points(f);
         for f in r.mesh.faces() {
-            let whole = q.layout.face_points(r.final_face[f]);
-            for (p, weights) in corners(f).into_iter().zip(r.final_barycentric(f)) {
+            let whole = q.layout.face_points(r.faces[1][f]);
+            for (p, weights) in corners(f).into_iter().zip(r.barycentric(1, f)) {
                 // On the line or in the plane of the three corners' cone: the combination, up to its length.
                 let sum = [0, 1, 2].map(|i| (0..3).map(|k| weights[k] * whole[k][i]).sum::<f64>());
                 let scale = sum[2] / p[2];
@@ -302,9 +302,9 @@ fn the_given_half_of_a_double_is_laid_out() {
         let flat = flow(surface.given(), class, &Target::Uniform, &Options::default(), &control).unwrap();
         assert!(flat.converged() && flat.double().is_some(), "{name}");
         assert!(flat.report().unwrap().angle_defect.unwrap() < 1e-18, "{name}");
-        let r = flat.refinement(&control).unwrap();
-        let (root, refinement) = (Some(VertexId(0)), Some(Arc::new(r.clone())));
-        let options = LayoutOptions { root, refinement, ..LayoutOptions::default() };
+        let r = flat.common_subdivision(&control).unwrap();
+        let (root, subdivision) = (Some(VertexId(0)), Some(Arc::new(r.clone())));
+        let options = LayoutOptions { root, subdivision, ..LayoutOptions::default() };
         let layout = Layout::of_solution(&flat, &options, &control).unwrap();
         assert!((layout.area + 2.0 * PI * mesh.euler() as f64).abs() < 1e-9, "{name}: {}", layout.area);
         assert!(layout.on_input().unwrap().flipped.len() * 100 < mesh.n_faces(), "{name}");

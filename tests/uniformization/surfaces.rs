@@ -1,4 +1,4 @@
-//! Surfaces, and their uniformization.
+//! The surfaces of the tests, and their uniformization.
 
 use crate::common::index;
 use ricci::Control;

@@ -3,8 +3,8 @@
 use crate::cases::{Case, Found, indices, points};
 use crate::common::hex;
 use ricci::canonical::{
-    Boundary, CircleDomainOptions, Corner, Corners, Normalisation, Quotient, QuotientOptions, Uniformization,
-    circle_domain, uniformize,
+    Boundary, BoundaryCorner, CircleDomainOptions, Corners, Normalisation, Quotient, QuotientOptions,
+    Uniformization, circle_domain, uniformize,
 };
 use ricci::embed::cover::elements_within;
 use ricci::embed::{Layout, LayoutOptions, dirichlet_domain};
@@ -133,7 +133,7 @@ fn layout(case: &Case, threads: usize) -> Found {
 
 fn uniformization(case: &Case, threads: usize) -> Uniformization {
     let boundary = if case.option("corners").is_array() {
-        let corner = |v| Corner { vertex: VertexId(v), angle: None };
+        let corner = |v| BoundaryCorner { vertex: VertexId(v), angle: None };
         Boundary::Straight(Corners::At(case.indices("corners").into_iter().map(corner).collect()))
     } else {
         Boundary::Geodesic

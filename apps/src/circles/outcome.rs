@@ -43,13 +43,13 @@ impl CirclesOutcome {
 fn layout_on(halved: &Input, domain: &CircleDomain) -> ricci::Result<SurfaceLayout> {
     let layout = domain.layout.clone();
     let quality = layout.quality(halved.mesh(), halved.surface.lengths())?;
-    let refinement = layout.refinement();
-    let positions = match (refinement, halved.positions()) {
-        (Some(r), Some(positions)) => Some(r.from_input_vertices(positions)?),
+    let subdivision = layout.common_subdivision();
+    let positions = match (subdivision, halved.positions()) {
+        (Some(r), Some(positions)) => Some(r.from_vertices(0, positions)?),
         _ => None,
     };
     Ok(SurfaceLayout {
-        weight: refinement.map_or_else(|| PerVertex::from(Vec::new()), |r| r.weight.clone()),
+        weight: subdivision.map_or_else(|| PerVertex::from(Vec::new()), |r| r.weight.clone()),
         positions,
         on_input: None,
         packed: None,

@@ -34,7 +34,7 @@ pub struct ChosenForm {
     pub coefficients: Vec<f64>,
     pub unevenness: f64,
     pub zeros: Vec<Zero>,
-    /// The integral on the given surface, or on its refinement with the domain's triangulation.
+    /// The integral on the given surface, or on its subdivision with the domain's triangulation.
     pub layout: FormLayout,
     /// The quasi-conformal dilatation: its mean by area, and the bound that 99 % of the area stay below.
     pub dilatation: (f64, f64),
@@ -126,8 +126,8 @@ impl FormsOutcome {
             integrate(domain, &form, &cut)
         })?;
         let dilatation = laid.dilatation(domain);
-        let layout = match timed(&mut seconds.refine, || domain.refinement(control))? {
-            Some(refinement) => laid.on_refinement(&Arc::new(refinement))?,
+        let layout = match timed(&mut seconds.refine, || domain.common_subdivision(control))? {
+            Some(subdivision) => laid.on_subdivision(&Arc::new(subdivision))?,
             None => laid,
         };
         Ok(ChosenForm {

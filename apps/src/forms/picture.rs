@@ -21,15 +21,15 @@ pub fn write_uv(
     input: &Input,
     layout: &FormLayout,
 ) -> Result<(), Failure> {
-    let refinement = layout.refinement().map(|r| &**r);
-    let positions = input.positions_on(refinement)?;
+    let subdivision = layout.common_subdivision().map(|r| &**r);
+    let positions = input.positions_on(subdivision)?;
     let drawn = uv::UvMesh {
         mesh: layout.mesh(),
         positions: &positions,
         index: &layout.corner_index,
         texcoords: &layout.points,
         weights: &[],
-        refinement,
+        subdivision,
     };
     drawn.write(outputs, path, input)
 }
@@ -58,7 +58,7 @@ pub fn draw(
     if args.picture.is_svg() {
         return picture::svg(&Picture { flat: Some(flat), ..Picture::default() }, &style);
     }
-    let mut positions = input.positions_on(layout.refinement().map(|r| &**r))?;
+    let mut positions = input.positions_on(layout.common_subdivision().map(|r| &**r))?;
     let focus = args.zoom.and_then(|zoom| surroundings(mesh, &positions, &zoom, |f| layout.face(f)));
     let style = Style { focus, ..style };
     let faces = mesh.triangles();
@@ -90,7 +90,7 @@ fn lines_in_space(
         let normal = picture::normal(mesh.face_vertices(f).map(|v| positions[v.index()]));
         0.5 * normal.iter().map(|x| x * x).sum::<f64>().sqrt()
     };
-    // The area of a piece of a refinement may be rounded to 0.
+    // The area of a piece of a subdivision may be rounded to 0.
     let areas: Vec<f64> = mesh.faces().map(|f| area(f).max(f64::MIN_POSITIVE)).collect();
     let mut strokes = Vec::new();
     for (color, vertical) in [false, true].into_iter().enumerate() {

@@ -14,7 +14,7 @@ use std::path::Path;
 
 impl PlaneMap {
     fn mesh<'a>(&'a self, input: &'a Input) -> &'a Mesh {
-        self.refinement.as_ref().map_or(input.mesh(), |r| &r.mesh)
+        self.subdivision.as_ref().map_or(input.mesh(), |r| &r.mesh)
     }
 
     /// The surface with the map as texture coordinates.
@@ -23,11 +23,11 @@ impl PlaneMap {
         let index = PerHalfedge::from_fn(mesh.n_halfedges(), |h| mesh.origin(h).0);
         let drawn = UvMesh {
             mesh,
-            positions: &input.positions_on(self.refinement.as_ref())?,
+            positions: &input.positions_on(self.subdivision.as_ref())?,
             index: &index,
             texcoords: &self.points,
             weights: &[],
-            refinement: self.refinement.as_ref(),
+            subdivision: self.subdivision.as_ref(),
         };
         drawn.write(outputs, path, input)
     }
@@ -45,7 +45,7 @@ impl PlaneMap {
         if args.picture.is_svg() {
             return picture::svg(&Picture { flat, ..Picture::default() }, &style);
         }
-        let positions = input.positions_on(self.refinement.as_ref())?;
+        let positions = input.positions_on(self.subdivision.as_ref())?;
         let surface = ShownSurface {
             positions: &positions,
             faces: &faces,

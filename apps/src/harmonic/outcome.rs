@@ -16,18 +16,18 @@ use ricci::harmonic::{
     sphere_map,
 };
 use ricci::mesh::VertexId;
-use ricci::metric::Refinement;
+use ricci::metric::CommonSubdivision;
 
 /// A map to the plane, carried back to the surface.
 pub struct PlaneMap {
     pub map: HarmonicMap<2>,
     /// The vertices at the corners of a polygon or rectangle.
     corners: Option<Vec<u32>>,
-    /// The common refinement of the domain's triangulation and the given one; none where they are the same.
-    pub refinement: Option<Refinement>,
-    /// The image of each vertex of the refinement.
+    /// The common subdivision of the domain's triangulation and the given one; none where they are the same.
+    pub subdivision: Option<CommonSubdivision>,
+    /// The image of each vertex of the subdivision.
     pub points: Vec<[f64; 2]>,
-    /// The number of triangles of the domain and of pieces of the refinement that turn over.
+    /// The number of triangles of the domain and of pieces of the subdivision that turn over.
     pub flipped: usize,
     /// The number of pieces without area.
     pub degenerate: usize,
@@ -196,13 +196,13 @@ impl PlaneMap {
         corners: Option<Vec<VertexId>>,
         control: &Control,
     ) -> ricci::Result<PlaneMap> {
-        let refinement = domain.refinement(control)?;
-        let points = match &refinement {
-            Some(r) => r.from_final_vertices(&map.points)?,
+        let subdivision = domain.common_subdivision(control)?;
+        let points = match &subdivision {
+            Some(r) => r.from_vertices(1, &map.points)?,
             None => map.points.clone(),
         };
         let (mut flipped, mut degenerate) = (planar::flipped(domain, &map.points).len(), 0);
-        for f in refinement.iter().flat_map(|r| r.mesh.faces().map(|f| r.mesh.face_vertices(f))) {
+        for f in subdivision.iter().flat_map(|r| r.mesh.faces().map(|f| r.mesh.face_vertices(f))) {
             let corners @ [a, b, c] = f.map(|v| points[v.index()]);
             let longest = distance(a, b).max(distance(b, c)).max(distance(c, a));
             let (area, least) = (0.5 * doubled_area(corners), LEAST_RELATIVE_AREA * longest * longest);
@@ -210,6 +210,6 @@ impl PlaneMap {
             degenerate += usize::from(area.abs() <= least);
         }
         let corners = corners.map(|corners| corners.into_iter().map(|v| v.0).collect());
-        Ok(PlaneMap { map, corners, refinement, points, flipped, degenerate })
+        Ok(PlaneMap { map, corners, subdivision, points, flipped, degenerate })
     }
 }

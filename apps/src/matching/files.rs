@@ -5,7 +5,7 @@ use crate::failure::Failure;
 use crate::output::{Outputs, write_textured};
 use ricci::matching::SurfaceMap;
 use ricci::mesh::io::TexturedMesh;
-use ricci::metric::Overlay;
+use ricci::metric::CommonSubdivision;
 use std::fmt::Write;
 use std::path::Path;
 
@@ -53,10 +53,10 @@ pub fn write_overlay(
     outputs: &mut Outputs,
     path: &Path,
     outcome: &MatchOutcome,
-    overlay: &Overlay,
+    overlay: &CommonSubdivision,
 ) -> Result<(), Failure> {
     let Some(positions) = outcome.source.positions() else { return Err(Failure::no_positions()) };
-    let positions = overlay.from_vertices(0, outcome.source.mesh(), positions)?;
+    let positions = overlay.from_vertices(0, positions)?;
     let faces = overlay.mesh.triangles();
     let carried = match &outcome.target.attributes.uv {
         Some(uv) => overlay.from_corners(1, uv)?,
@@ -74,12 +74,12 @@ pub fn write_overlay(
 }
 
 /// A row for every corner of the overlay, with its places in the source and in the target and its weight.
-pub fn write_places(outputs: &mut Outputs, path: &Path, overlay: &Overlay) -> Result<(), Failure> {
+pub fn write_places(outputs: &mut Outputs, path: &Path, overlay: &CommonSubdivision) -> Result<(), Failure> {
     let mut text = String::from("face,vertex,source_face,a0,a1,a2,target_face,b0,b1,b2,weight\n");
     for f in overlay.mesh.faces() {
         let [first, second] = overlay.faces.each_ref().map(|faces| faces[f]);
         for (k, v) in overlay.mesh.face_vertices(f).into_iter().enumerate() {
-            let [[a, b, c], [p, q, r]] = overlay.barycentric.each_ref().map(|all| all[f][k]);
+            let [[a, b, c], [p, q, r]] = [0, 1].map(|side| overlay.barycentric(side, f)[k]);
             let weight = overlay.weight[v];
             // Writing to a string does not fail.
             let _ = writeln!(text, "{f},{v},{first},{a:?},{b:?},{c:?},{second},{p:?},{q:?},{r:?},{weight:?}");

@@ -8,7 +8,7 @@ use ricci::geometry::vector::{diagonal, distance};
 use ricci::geometry::{Space, model, worse};
 use ricci::matching::{MapQuality, Matching, RoundHole, cycle_error, map_quality, point_error, uncovered};
 use ricci::mesh::VertexId;
-use ricci::metric::Overlay;
+use ricci::metric::CommonSubdivision;
 use serde_json::{Value, json};
 
 /// Largest distance of a landmark's image from its partner, as a share of the diagonal of the target's bounding box.
@@ -32,7 +32,7 @@ pub struct MatchOutcome {
     cycle: [f64; 2],
     /// Per vertex the distance of its image from the target's vertex of the same number, where numbers correspond.
     pub partners: Option<Vec<f64>>,
-    pub overlay: Option<Overlay>,
+    pub overlay: Option<CommonSubdivision>,
     /// The shares of the areas of source and target that the overlay misses.
     uncovered: [f64; 2],
 }
@@ -72,7 +72,7 @@ impl MatchOutcome {
         })
     }
 
-    pub fn lay_over(&mut self, overlay: Overlay) -> ricci::Result<()> {
+    pub fn lay_over(&mut self, overlay: CommonSubdivision) -> ricci::Result<()> {
         self.uncovered = uncovered([&self.source.surface, &self.target.surface], &overlay)?;
         self.overlay = Some(overlay);
         Ok(())

@@ -86,7 +86,7 @@ pub enum ColorChoice {
     Qc,
     /// Area in the layout over area in the input
     Area,
-    /// Pieces of the common refinement: a hue for the final face, a shade for that of the input
+    /// Pieces of the common subdivision: a hue for the final face, a shade for that of the input
     Pieces,
     None,
 }

@@ -52,17 +52,17 @@ pub fn draw(
     let owner = owners(atlas);
     let colour = colours(&atlas.mesh, &owner, atlas.charts.len());
     // The given surface, cut along the edges of the atlas's triangulation.
-    let refinement = match &atlas.refinement {
-        Some(refinement) => Some(refinement.clone()),
+    let subdivision = match &atlas.subdivision {
+        Some(subdivision) => Some(subdivision.clone()),
         None if atlas.metric.is_unflipped() => None,
-        None => Some(Arc::new(atlas.metric.refinement(control)?)),
+        None => Some(Arc::new(atlas.metric.common_subdivision(control)?)),
     };
-    let mesh = refinement.as_ref().map_or(&*atlas.mesh, |r| &r.mesh);
-    let face = |f: FaceId| match &refinement {
-        Some(r) if atlas.refinement.is_none() => r.final_face[f],
+    let mesh = subdivision.as_ref().map_or(&*atlas.mesh, |r| &r.mesh);
+    let face = |f: FaceId| match &subdivision {
+        Some(r) if atlas.subdivision.is_none() => r.faces[1][f],
         _ => f,
     };
-    let positions = input.positions_on(refinement.as_deref())?;
+    let positions = input.positions_on(subdivision.as_deref())?;
     let value = |f: FaceId| owner[face(f)].map_or(f64::NAN, |chart| colour[chart as usize] as f64);
     let field = ColorField {
         corners: mesh.faces().map(|f| [value(f); 3]).collect(),

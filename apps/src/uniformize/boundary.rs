@@ -3,7 +3,7 @@
 use crate::failure::Failure;
 use crate::input::Input;
 use clap::{Args, ValueEnum};
-use ricci::canonical::{Boundary, Corner, Corners};
+use ricci::canonical::{Boundary, BoundaryCorner, Corners};
 use ricci::mesh::VertexId;
 use ricci::topology::{SurfaceGroup, Word};
 use serde::Serialize;
@@ -77,7 +77,7 @@ impl FromStr for CornersChoice {
 impl CornersChoice {
     /// The library's option for it.
     pub fn to_library(&self) -> Corners {
-        let corner = |&(v, angle): &(u32, Option<f64>)| Corner {
+        let corner = |&(v, angle): &(u32, Option<f64>)| BoundaryCorner {
             vertex: VertexId(v),
             angle: angle.map(f64::to_radians),
         };

@@ -74,18 +74,18 @@ fn chain(mesh: &Mesh, whole: &Layout, halfedges: &[HalfedgeId]) -> Vec<[f64; 3]>
     halfedges.iter().map(|&h| whole.corner(h)).chain(last).collect()
 }
 
-/// The loops of the generators on the surface as it was given: edges of the common refinement, with the loop's number.
+/// The loops of the generators on the surface as it was given: edges of the common subdivision, with the loop's number.
 pub fn loops_on_surface(u: &Uniformized) -> Vec<(u32, u32, usize)> {
-    let refinement = u.laid().ok().and_then(|laid| laid.refinement());
+    let subdivision = u.laid().ok().and_then(|laid| laid.common_subdivision());
     // The one loop around a disk is no generator.
-    let Some(refinement) = refinement.filter(|_| !u.deck.sides.is_empty()) else { return Vec::new() };
+    let Some(subdivision) = subdivision.filter(|_| !u.deck.sides.is_empty()) else { return Vec::new() };
     let mut of_edge = vec![None; u.layout.mesh().n_edges()];
     for (k, path) in u.basis.loops.iter().enumerate() {
         path.iter().for_each(|h| of_edge[h.edge().index()] = Some(k));
     }
-    let (mesh, is_laid) = (&refinement.mesh, u.layout.refinement().is_some());
+    let (mesh, is_laid) = (&subdivision.mesh, u.layout.common_subdivision().is_some());
     let numbered = mesh.edges().filter_map(|e| {
-        let laid = if is_laid { Some(e) } else { refinement.origin[e].result };
+        let laid = if is_laid { Some(e) } else { subdivision.edge(1, e) };
         let k = of_edge[laid?.index()]?;
         let [a, b] = mesh.ends(e);
         Some((a.0, b.0, k))

@@ -87,7 +87,7 @@ impl Uniformized {
         seconds.add_flow(&report.seconds);
         seconds.layout = taken - report.seconds.total;
         let solved = SolvedMetric::new(metric, target)?;
-        let laid = if is_carried_back(&solved.solution, task.needs.refinement) {
+        let laid = if is_carried_back(&solved.solution, task.needs.subdivision) {
             let base = BasePlacement { vertex: basis.base, motion: placement };
             Some(or_reason(on_surface(task, &solved.solution, &layout, &base, seconds))?)
         } else {
@@ -227,20 +227,20 @@ fn on_surface(
     seconds: &mut PhaseSeconds,
 ) -> ricci::Result<SurfaceLayout> {
     let control = task.control;
-    let refinement = match layout.refinement() {
-        Some(refinement) => refinement.clone(),
-        None => Arc::new(timed(&mut seconds.refine, || solution.refinement(control))?),
+    let subdivision = match layout.common_subdivision() {
+        Some(subdivision) => subdivision.clone(),
+        None => Arc::new(timed(&mut seconds.refine, || solution.common_subdivision(control))?),
     };
     timed(&mut seconds.layout, || {
-        let refined = match layout.refinement() {
+        let refined = match layout.common_subdivision() {
             Some(_) => layout.clone(),
-            None => layout.on_refinement(&refinement, solution.metric(), control)?,
+            None => layout.on_subdivision(&subdivision, solution.metric(), control)?,
         };
         let mut laid = SurfaceLayout::new(task.input, solution, refined)?;
         if task.needs.on_input {
             let (cones, root) = (Some(Vec::new()), Some(base.vertex));
-            let refinement = Some(refinement);
-            let options = LayoutOptions { cones, root, refinement, ..LayoutOptions::default() };
+            let subdivision = Some(subdivision);
+            let options = LayoutOptions { cones, root, subdivision, ..LayoutOptions::default() };
             let mut along_edges = Layout::of_solution(solution, &options, control)?;
             if along_edges.space == Space::E2 {
                 along_edges.move_by(&base.motion)?;

@@ -113,7 +113,7 @@ impl CanonicalJob<'_> {
         let by_domain = self.cover.is_some_and(|c| c.depth.is_none() || c.domain.is_some());
         let copies = self.cover.is_some_and(|c| c.cover.is_some());
         OutputNeeds {
-            refinement: report || drawn || copies || self.args.to.uv.is_some(),
+            subdivision: report || drawn || copies || self.args.to.uv.is_some(),
             on_input: self.args.to.on == OnChoice::Input && self.args.to.uv.is_some(),
             domain: (report || by_domain || (drawn && of_domain)) && !self.args.boundary.has_corners(input),
         }

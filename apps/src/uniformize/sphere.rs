@@ -11,7 +11,7 @@ use ricci::flow::{Report, Solution};
 use ricci::geometry::vector::{add, distance, dot, triangle_normal};
 use ricci::geometry::worse;
 use ricci::mesh::{FaceId, Mesh, PerVertex, Point};
-use ricci::metric::Refinement;
+use ricci::metric::CommonSubdivision;
 
 /// Most that an angle may miss the Delaunay condition of an edge, or convexity of the plane's outline, radians: ten times the default
 /// tolerance of the flow, whose curvature errors are the cause.
@@ -41,8 +41,8 @@ pub struct SphereSurface {
     pub tolerance: f64,
     pub solved: SolvedMetric,
     pub positions: PerVertex<Point>,
-    /// The common refinement with the given triangulation, where an output needs it, or the reason why there is none.
-    pub refinement: Option<Result<Refinement, String>>,
+    /// The common subdivision with the given triangulation, where an output needs it, or the reason why there is none.
+    pub subdivision: Option<Result<CommonSubdivision, String>>,
 }
 
 /// A sphere as the library found it.
@@ -80,11 +80,11 @@ impl SphereSurface {
         };
         seconds.add_flow(flow);
         seconds.layout = taken - flow.total;
-        let refine = || metric.refinement(task.control);
-        let refinement =
-            if task.needs.refinement { Some(or_reason(timed(&mut seconds.refine, refine))?) } else { None };
+        let refine = || metric.common_subdivision(task.control);
+        let subdivision =
+            if task.needs.subdivision { Some(or_reason(timed(&mut seconds.refine, refine))?) } else { None };
         let solved = SolvedMetric::new(metric, None)?;
-        Ok(SphereSurface { method, tolerance, solved, positions, refinement })
+        Ok(SphereSurface { method, tolerance, solved, positions, subdivision })
     }
 
     /// The triangulation on the sphere.
@@ -116,15 +116,15 @@ impl SphereSurface {
         self.mesh().face_vertices(f).map(|v| self.positions[v])
     }
 
-    /// The common refinement with the given triangulation, if there is one.
-    pub fn refinement(&self) -> Result<&Refinement, Failure> {
-        required(&self.refinement)
+    /// The common subdivision with the given triangulation, if there is one.
+    pub fn common_subdivision(&self) -> Result<&CommonSubdivision, Failure> {
+        required(&self.subdivision)
     }
 
-    /// The corners of a piece of the common refinement on the sphere.
-    pub fn piece(&self, refinement: &Refinement, f: FaceId) -> [Point; 3] {
-        let corners = self.mesh().face_vertices(refinement.final_face[f]).map(|v| self.positions[v]);
-        refinement.final_barycentric(f).map(|w| {
+    /// The corners of a piece of the common subdivision on the sphere.
+    pub fn piece(&self, subdivision: &CommonSubdivision, f: FaceId) -> [Point; 3] {
+        let corners = self.mesh().face_vertices(subdivision.faces[1][f]).map(|v| self.positions[v]);
+        subdivision.barycentric(1, f).map(|w| {
             let p = [0, 1, 2].map(|k| (0..3).map(|i| w[i] * corners[i][k]).sum::<f64>());
             let length = p[0].hypot(p[1]).hypot(p[2]);
             p.map(|x| x / length)
@@ -152,8 +152,8 @@ impl SphereSurface {
             let limit = layout.consistency_limit(self.solved.total_error());
             checks.add("layout_consistency", layout.consistency(), limit);
         }
-        if let Some(refinement) = &self.refinement {
-            checks.add("without_refinement", f64::from(u8::from(refinement.is_err())), 0.0);
+        if let Some(subdivision) = &self.subdivision {
+            checks.add("without_refinement", f64::from(u8::from(subdivision.is_err())), 0.0);
         }
         checks
     }

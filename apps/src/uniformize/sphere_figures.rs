@@ -25,7 +25,7 @@ pub fn of_sphere(input: &Input, s: &SphereSurface, copies: bool, run: &CommandRu
         .with("tolerance", s.tolerance)
         .with("flipped_triangles", s.inward());
     let on_sphere = |r| Quality::on_sphere(r, input.mesh(), input.surface.lengths(), |f| s.piece(r, f)).ok();
-    if let Some(q) = s.refinement().ok().and_then(on_sphere) {
+    if let Some(q) = s.common_subdivision().ok().and_then(on_sphere) {
         figures = figures
             .with("qc_mean", q.qc_mean)
             .with("qc_max", q.qc_max)
@@ -34,8 +34,8 @@ pub fn of_sphere(input: &Input, s: &SphereSurface, copies: bool, run: &CommandRu
             .with("degenerate_pieces", q.degenerate.len());
     }
     figures = figures
-        // The reason why the common refinement is missing, and with it `qc_mean` and the figures beside it.
-        .if_some("no_refinement", s.refinement.as_ref().and_then(|r| r.as_ref().err()).cloned())
+        // The reason why the common subdivision is missing, and with it `qc_mean` and the figures beside it.
+        .if_some("no_refinement", s.subdivision.as_ref().and_then(|r| r.as_ref().err()).cloned())
         .with("area", solved.curvature.area)
         .with("smallest_edge", solved.lengths.iter().copied().fold(f64::INFINITY, f64::min))
         // The number of faces whose positions cannot be told from a point in floating-point numbers; the metric has them all the same.

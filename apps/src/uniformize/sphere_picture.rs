@@ -13,8 +13,8 @@ const LEVEL: f64 = 1e-12;
 
 /// The picture as PNG; `beside`: the sphere too.
 pub fn draw(input: &Input, s: &SphereSurface, style: &Style, beside: bool) -> Result<Vec<u8>, Failure> {
-    let r = s.refinement()?;
-    let positions = input.positions().map(|p| r.from_input_vertices(p)).transpose()?;
+    let r = s.common_subdivision()?;
+    let positions = input.positions().map(|p| r.from_vertices(0, p)).transpose()?;
     // Cut along the equator, where the pattern breaks.
     let height = |p: [f64; 3]| if p[2].abs() < LEVEL { 0.0 } else { p[2] };
     let mut pieces = ConvexPieces::default();

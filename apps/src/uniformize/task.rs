@@ -7,8 +7,8 @@ use ricci::Control;
 /// The results that outputs need beside metric, layout and group.
 #[derive(Clone, Copy)]
 pub struct OutputNeeds {
-    /// The common refinement of the given triangulation and the metric's.
-    pub refinement: bool,
+    /// The common subdivision of the given triangulation and the metric's.
+    pub subdivision: bool,
     /// The layout on the input's own faces.
     pub on_input: bool,
     /// The Dirichlet domain of the base point.

@@ -339,7 +339,7 @@ fn the_dirichlet_domain_is_formed_for_what_shows_it() {
 }
 
 #[test]
-fn the_common_refinement_is_formed_for_what_holds_it() {
+fn the_common_subdivision_is_formed_for_what_holds_it() {
     let place = Place::new();
     // Slanted parallelograms: each given edge crosses the Delaunay triangulation thousands of times.
     place.expect(0, "make flat-torus --tau 5000.3 1 -n 4 -m 4 -o slanted.json --quiet");

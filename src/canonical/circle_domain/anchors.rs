@@ -1,4 +1,4 @@
-//! Where crossings on edges at hubs lie: those of a loop on its circle.
+//! Places crossings on edges at hubs, such that those of a loop lie on its circle.
 //!
 //! ```text
 //!                 k          An edge ij of a loop that has been flipped crosses the edge from the hub h to a vertex k outside the circle. As a
@@ -12,7 +12,7 @@
 pub(super) struct HubEdge {
     /// η.
     pub eta: f64,
-    /// Whether the ends are hubs.
+    /// True if the ends are hubs.
     pub is_hub: [bool; 2],
     /// The position of each end is this times its vector: `e^u` in E², negative for a hub whose circle has the surface inside; `2 e^u/d` in
     /// H².
@@ -20,8 +20,8 @@ pub(super) struct HubEdge {
 }
 
 impl HubEdge {
-    /// Of a crossing, given by the weights of the positions of the ends: weights of the *anchors* of the ends, which add up to 1. The
-    /// anchor of a hub is where the edge leaves its circle, that of a point the point.
+    /// The weights of the *anchors* of the ends, which add up to 1, from the weights of the positions of the `ends` in a crossing. The anchor
+    /// of a hub is the point where the edge leaves its circle, that of a point is the point.
     pub fn weights(&self, ends: [f64; 2]) -> [f64; 2] {
         let HubEdge { eta, is_hub, scale } = *self;
         // The crossing as a combination of the vectors, and the sum of the weights of positions that each anchor is.

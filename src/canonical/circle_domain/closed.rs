@@ -3,7 +3,7 @@
 use super::domain::{CircleDomain, CircleReport, DomainCircle};
 use super::options::CircleDomainOptions;
 use super::place::{anchor_weights, deviation, hub_edge, least_gap, loops_of_edges, rims};
-use super::prepare::Prepared;
+use super::prepare::PreparedSurface;
 use crate::control::Control;
 use crate::embed::layout::distance_from_origin;
 use crate::embed::{Layout, LayoutOpening, LayoutOptions, LayoutScale};
@@ -14,25 +14,25 @@ use crate::geometry::triangle::sine;
 use crate::geometry::{DoubleDouble, Motion};
 use crate::geometry::{Space, conformal};
 use crate::mesh::{EdgeId, FilledMesh, HalfedgeId, PerVertex, VertexId};
-use crate::metric::Refinement;
+use crate::metric::CommonSubdivision;
 use crate::topology::{central_vertex, cut_about_joined};
 use std::sync::Arc;
 
 pub(super) fn solve(
-    prepared: Prepared,
+    prepared: PreparedSurface,
     options: &CircleDomainOptions,
     control: &Control,
 ) -> Result<CircleDomain> {
-    let Prepared { split, filled, start, .. } = prepared;
+    let PreparedSurface { split, filled, start, .. } = prepared;
     let mut flow = Flow::resume(&start, &options.of_flow(), control)?;
     let flat = PerVertex::filled(filled.mesh.n_vertices(), 0.0);
     let report = flow.reach(&flat, control)?.clone();
     let metric = flow.solution();
     let whole = whole_layout(&metric, &filled, control)?;
-    let mut refinement = metric.refinement_where(&|f| filled.is_original(f), control)?;
-    round_off(&mut refinement, &metric, &filled)?;
-    let refinement = Arc::new(refinement);
-    let mut layout = whole.on_refinement(&refinement, metric.metric(), control)?;
+    let mut subdivision = metric.common_subdivision_where(&|f| filled.is_original(f), control)?;
+    round_off(&mut subdivision, &metric, &filled)?;
+    let subdivision = Arc::new(subdivision);
+    let mut layout = whole.on_subdivision(&subdivision, metric.metric(), control)?;
     layout.measure_area();
     if layout.space == Space::E2 {
         layout.scale_to_area(split.given().area()?)?;
@@ -71,7 +71,7 @@ pub(super) fn solve(
 fn whole_layout(metric: &Solution, filled: &FilledMesh, control: &Control) -> Result<Layout> {
     let mesh = metric.mesh();
     let lengths = metric.metric().lengths(mesh)?;
-    // A disk is taken in as a whole once it is reached, then the faces around it.
+    // Once a disk is reached, all of it is joined first, then the faces around it.
     let mut urgency = PerVertex::filled(mesh.n_vertices(), 0);
     for hub in filled.hubs() {
         mesh.outgoing(hub).for_each(|h| urgency[mesh.tip(h)] = 1);
@@ -80,27 +80,27 @@ fn whole_layout(metric: &Solution, filled: &FilledMesh, control: &Control) -> Re
     let root = central_vertex(mesh, &lengths, control)?;
     let joined = |e: EdgeId| mesh.ends(e).into_iter().map(|v| urgency[v]).fold(0, u8::max);
     let cut = cut_about_joined(mesh, &lengths, root, &joined, control)?;
-    let layout_options = LayoutOptions {
+    let options = LayoutOptions {
         opening: LayoutOpening::MetricCut(cut),
         root: Some(root),
         scale: LayoutScale::AsSolved,
         ..LayoutOptions::default()
     };
-    Layout::of_solution(metric, &layout_options, control)
+    Layout::of_solution(metric, &options, control)
 }
 
 /// Move the crossings on edges at hubs so that those of loops lie on their circles.
-fn round_off(refinement: &mut Refinement, metric: &Solution, filled: &FilledMesh) -> Result<()> {
+fn round_off(subdivision: &mut CommonSubdivision, metric: &Solution, filled: &FilledMesh) -> Result<()> {
     let (mesh, space) = (metric.mesh(), metric.metric().space);
     let lengths = metric.metric().lengths(mesh)?;
     let loops = loops_of_edges(filled);
     let radius = |v: VertexId| conformal::radius(space, metric.metric().epsilon[v], metric.metric().u[v]);
-    for crossing in &mut refinement.crossings {
-        let e = crossing.final_edge;
-        let Some(edge) = hub_edge(mesh, metric.metric(), filled, (e, None)) else { continue };
+    for crossing in &mut subdivision.crossings {
+        let e = crossing[1].edge;
+        let Some(edge) = hub_edge(mesh, metric.metric(), filled, e, None) else { continue };
         let ends = mesh.ends(e);
-        let own_loop = loops.get(&crossing.input_edge).copied();
-        let [a, b] = anchor_weights(&edge, ends.map(|v| filled.loop_of(v)), own_loop, crossing.final_weights);
+        let own_loop = loops.get(&crossing[0].edge).copied();
+        let [a, b] = anchor_weights(&edge, ends.map(|v| filled.loop_of(v)), own_loop, crossing[1].weights);
         // An anchor as a combination of the ends: a share of the way, measured by x or sinh x.
         let part = |i: usize| {
             let near = if edge.is_hub[i] { radius(ends[i]) } else { 0.0 };
@@ -109,14 +109,14 @@ fn round_off(refinement: &mut Refinement, metric: &Solution, filled: &FilledMesh
         let ([own, far], [other_own, other_far]) = (part(0), part(1));
         let weights = [a * own + b * other_far, a * far + b * other_own];
         let sum = weights[0] + weights[1];
-        crossing.final_weights = weights.map(|w| w / sum);
+        crossing[1].weights = weights.map(|w| w / sum);
     }
     Ok(())
 }
 
-/// The circles as they lie in the layout, one lift of each.
+/// The circles in the layout, one lift of each.
 fn circles(whole: &Layout, layout: &Layout, metric: &Solution, filled: &FilledMesh) -> Vec<DomainCircle> {
-    let Some(refinement) = layout.refinement() else { return Vec::new() };
+    let Some(subdivision) = layout.common_subdivision() else { return Vec::new() };
     let space = layout.space;
     let factor = layout.scale / whole.scale;
     let circle = |(k, rim): (usize, Vec<HalfedgeId>)| {
@@ -125,8 +125,8 @@ fn circles(whole: &Layout, layout: &Layout, metric: &Solution, filled: &FilledMe
         let center = if space == Space::E2 { [factor * x, factor * y, w] } else { [x, y, w] };
         let scale = if space == Space::E2 { layout.scale } else { 1.0 };
         let radius = scale * conformal::radius(space, 1, metric.metric().u[hub]);
-        // Where the cut runs along the loop, the surface lies at another copy of the disk.
-        let copy = |g: HalfedgeId| match refinement.final_halfedge(g) {
+        // If the cut runs along the loop, the surface lies at another copy of the disk.
+        let copy = |g: HalfedgeId| match subdivision.halfedge(1, g) {
             Some(h) => pairing(whole, h, factor),
             None => Motion::identity(space),
         };
@@ -137,7 +137,7 @@ fn circles(whole: &Layout, layout: &Layout, metric: &Solution, filled: &FilledMe
         });
         DomainCircle { boundary_loop: k, center: layout.flat(center), radius, deviation, vertices: rim.len() }
     };
-    rims(refinement, filled).into_iter().enumerate().map(circle).collect()
+    rims(subdivision, filled).into_iter().enumerate().map(circle).collect()
 }
 
 /// [`Layout::neighbour`] of a layout of which lengths become `factor` times as long.

@@ -9,8 +9,8 @@ use crate::geometry::mobius::PlaneCircle;
 use crate::mesh::{PerVertex, VertexId};
 
 /// A planar domain in the unit disk, its outer loop on the unit circle, before it is normalised.
-pub(super) struct InDisk<'a> {
-    /// Places of the vertices (hubs too, which count for nothing).
+pub(super) struct DomainInDisk<'a> {
+    /// Places of the vertices, and of hubs, which have no weight.
     pub points: &'a PerVertex<Complex>,
     /// The area of the given faces at each vertex.
     pub weights: &'a PerVertex<f64>,
@@ -20,8 +20,8 @@ pub(super) struct InDisk<'a> {
     pub rim: &'a [VertexId],
 }
 
-impl InDisk<'_> {
-    /// The transformation of the disk onto itself that is asked for.
+impl DomainInDisk<'_> {
+    /// The transformation of the disk onto itself that a normalisation names.
     ///
     /// # Errors
     /// [`Error::Argument`] for vertices that are not where the normalisation needs them.
@@ -34,7 +34,7 @@ impl InDisk<'_> {
             Normalisation::Vertex(v) => Mobius::to_origin(self.points[*v]),
             Normalisation::Centred => match self.inner {
                 [only] => only.to_centre(),
-                // Where most of the area lies within rounding of one point of the circle, the vertex that was sent to infinity stays at 0.
+                // If most of the area lies within rounding of one point of the circle, the vertex that was sent to infinity stays at 0.
                 _ => disk_barycentre(self.points, self.weights).unwrap_or(Mobius::IDENTITY),
             },
         };

@@ -1,8 +1,8 @@
-//! A circle domain as data.
+//! The circle domain as data, with its report.
 
 use super::place::hub_pairs;
 use crate::embed::Layout;
-use crate::flow::{Seconds, Solution, StopReason};
+use crate::flow::{FlowSeconds, Solution, StopReason};
 use crate::mesh::{FilledMesh, VertexId};
 use crate::metric::Split;
 
@@ -21,10 +21,10 @@ pub struct DomainCircle {
     pub vertices: usize,
 }
 
-/// What became of a circle domain.
+/// The report of [`super::circle_domain()`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct CircleReport {
-    /// Whether K = 0 to the tolerance, no two circles overlap, and no triangle is flipped.
+    /// True if K = 0 to the tolerance, no two circles overlap, and no triangle is flipped.
     pub converged: bool,
     /// Why the flow stopped.
     pub stop_reason: StopReason,
@@ -32,8 +32,8 @@ pub struct CircleReport {
     pub iterations: usize,
     /// Flips on the way to the result, isometric ones before the flow included.
     pub flips: usize,
-    /// Largest |K| over hubs and vertices of the flow's last metric, radians; in the plane seen from the puncture without that and its
-    /// link.
+    /// Largest |K| over hubs and vertices of the flow's last metric, radians; in the plane of a punctured surface without the puncture and
+    /// its link.
     pub max_curvature_error: f64,
     /// Largest |K| of [`CircleDomain::metric`], measured from its variables, at all vertices but those of the outer loop, radians.
     pub domain_curvature_error: f64,
@@ -45,8 +45,8 @@ pub struct CircleReport {
     pub least_gap: f64,
     /// The vertex that was sent to infinity on the way, of a surface of genus 0.
     pub puncture: Option<VertexId>,
-    /// What the flows took; the rest of the call is neither in its phases nor in its `total`.
-    pub seconds: Seconds,
+    /// Seconds of the flows; the rest of the call is neither in the phases nor in `total`.
+    pub seconds: FlowSeconds,
 }
 
 /// A surface whose boundary loops are circles.
@@ -56,28 +56,27 @@ pub struct CircleDomain {
     pub split: Split,
     /// That surface with a hub in each loop.
     pub filled: FilledMesh,
-    /// The metric on the filled surface, flat or hyperbolic, and the way back. Of a planar domain in the unit disk, that of the disk: the
-    /// outer hub has its circle from outside, so that the faces at it do not lie in the plane as they should, and K at its loop means
-    /// nothing.
+    /// The metric on the filled surface, flat or hyperbolic, and the way back. For a planar domain it is the metric of the unit disk: the
+    /// outer hub is outside its circle then, so that the faces at it are not triangles of the plane, and K at its loop has no meaning.
     pub metric: Solution,
-    /// The surface without its holes, on the common refinement of the surface of `split` and the metric's triangulation. In E² of a torus
-    /// it has the area of the given surface.
+    /// The layout of the surface without its holes, on the common subdivision of the surface of `split` and the metric's triangulation. That
+    /// of a torus has the area of the given surface.
     pub layout: Layout,
     /// The circles, loop by loop.
     pub circles: Vec<DomainCircle>,
-    /// Of a planar domain, the loop on the unit circle.
+    /// The loop on the unit circle, of a planar domain.
     pub outer: Option<usize>,
-    /// Of an annulus: log of the ratio of the radii over 2π, height over circumference of the cylinder.
+    /// The modulus of an annulus: log of the ratio of the radii over 2π, height over circumference of the cylinder.
     pub modulus: Option<f64>,
-    /// Of a torus with holes: the modulus of the torus, `[Re τ, Im τ]` reduced.
+    /// The modulus of a torus with holes, `[Re τ, Im τ]` reduced.
     pub torus_modulus: Option<[f64; 2]>,
-    /// How it went.
+    /// The report.
     pub report: CircleReport,
 }
 
 impl CircleDomain {
-    /// The loops whose circles overlap another one, ascending: between two hubs of the triangulation η is 1 or less. Where two disks
-    /// overlap there is such an edge, because the union of the disks has the shape of the part of the triangulation whose disks meet.
+    /// The loops whose circles overlap another one, ascending: those of two hubs that are joined by an edge with η ≤ 1. Such an edge exists
+    /// wherever two disks overlap, because the union of the disks is homotopic to the part of the triangulation whose disks meet.
     pub fn overlapping(&self) -> Vec<usize> {
         let (mesh, eta) = (self.metric.mesh(), &self.metric.metric().eta);
         let mut all: Vec<usize> = hub_pairs(mesh, &self.filled)

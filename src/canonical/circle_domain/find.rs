@@ -1,21 +1,21 @@
-//! Finding a circle domain.
+//! Finds the circle domain of a surface; refines loops whose circles overlap.
 
 use super::domain::CircleDomain;
 use super::options::CircleDomainOptions;
-use super::prepare::{Prepared, halve_loops, refine};
+use super::prepare::{PreparedSurface, halve_loops, refine};
 use super::{closed, planar};
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::metric::{Split, Surface};
 use crate::parallel::Pool;
 
-/// How often loops whose circles overlap are halved edge by edge.
+/// How many times the edges of loops whose circles overlap are halved.
 const ROUNDS: usize = 4;
 
 /// A surface with boundary as a circle domain: of genus 0 in the unit disk, whose circle is one of the loops; of genus 1 in a flat torus;
 /// of more in a hyperbolic surface.
 ///
-/// Where circles overlap, because loops with few edges lie close together, the edges of these loops are halved and all is done again.
+/// If circles overlap, because loops with few edges lie close together, the edges of these loops are halved and the flow starts again.
 /// The result is the same for any number of threads.
 ///
 /// # Errors
@@ -33,7 +33,7 @@ pub fn circle_domain(
         let mut split = Split::new(surface);
         refine(&mut split, options)?;
         for round in 1.. {
-            let domain = solve(Prepared::new(split, options, control)?, options, control)?;
+            let domain = solve(PreparedSurface::new(split, options, control)?, options, control)?;
             let overlapping = domain.overlapping();
             if overlapping.is_empty() {
                 return Ok(domain);
@@ -56,7 +56,11 @@ fn crowded(loops: &[usize]) -> Error {
     ))
 }
 
-fn solve(prepared: Prepared, options: &CircleDomainOptions, control: &Control) -> Result<CircleDomain> {
+fn solve(
+    prepared: PreparedSurface,
+    options: &CircleDomainOptions,
+    control: &Control,
+) -> Result<CircleDomain> {
     match prepared.surface.mesh().genus() {
         0 => planar::solve(prepared, options, control),
         _ => closed::solve(prepared, options, control),

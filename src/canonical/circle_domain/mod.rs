@@ -1,7 +1,7 @@
 //! Circle domains: surfaces with boundary in a metric of constant curvature whose boundary loops are circles [BPS15; BL23].
 //!
 //! Every loop is filled by a hub ([`crate::flow`]), and the closed surface is brought to its constant curvature: the vertices of a loop
-//! then lie on a circle about its hub. Where the triangulation of the class wants an edge of a loop flipped it is flipped. The edge then
+//! then lie on a circle about its hub. An edge of a loop that is not Delaunay is flipped like any other. The edge then
 //! crosses edges at the hub, and the points where it does are vertices of the loop too, on its circle.
 //!
 //! ```

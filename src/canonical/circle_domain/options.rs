@@ -1,4 +1,4 @@
-//! What a circle domain can be asked.
+//! Options of circle domains.
 
 use crate::error::{Error, Result};
 use crate::flow::Options;
@@ -6,9 +6,9 @@ use crate::mesh::VertexId;
 use crate::metric::Surface;
 use crate::topology::check_vertex;
 
-/// Edges that a loop has at least, unless the caller asks for fewer: a polygon of this many corners on a circle looks like a circle.
+/// Default for the least number of edges of a loop: a polygon of this many corners on a circle looks like a circle.
 pub const LEAST_LOOP: usize = 12;
-/// How the unit disk of a planar domain is moved onto itself at the end.
+/// The normalisation of a planar domain: the way in which the unit disk is moved onto itself at the end.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub enum Normalisation {
     /// Two loops: both circles about 0. Else, the barycentre of the area at 0 ([`crate::geometry::disk_barycentre`]), in weights of one
@@ -24,10 +24,10 @@ pub enum Normalisation {
 /// Options of [`super::circle_domain()`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct CircleDomainOptions {
-    /// Of a surface of genus 0, the loop that becomes the unit circle, by its place in [`crate::mesh::Mesh::boundary_loops`]. Default: the
+    /// The loop of a surface of genus 0 that becomes the unit circle, by its place in [`crate::mesh::Mesh::boundary_loops`]. Default: the
     /// longest.
     pub outer: Option<usize>,
-    /// Of a surface of genus 0.
+    /// The normalisation of a surface of genus 0.
     pub normalisation: Normalisation,
     /// Edges of a loop with fewer than this are halved, the longest first. Default [`LEAST_LOOP`].
     pub least_loop: usize,
@@ -96,7 +96,7 @@ impl CircleDomainOptions {
         self.flow.check()
     }
 
-    /// Those of the flow.
+    /// The options of the flow.
     pub(super) fn of_flow(&self) -> Options {
         let Options { tolerance, max_iterations, threads, .. } = self.flow;
         Options { tolerance, max_iterations, threads, ..Options::default() }

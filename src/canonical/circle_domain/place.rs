@@ -1,10 +1,10 @@
-//! Hubs on the final triangulation, and the loops on the refinement.
+//! Finds hubs on the final triangulation, and loops on the common subdivision.
 
 use super::anchors::HubEdge;
 use crate::geometry::Space;
 use crate::geometry::worse;
 use crate::mesh::{EdgeId, FilledMesh, HalfedgeId, Mesh};
-use crate::metric::{Metric, Refinement};
+use crate::metric::{CommonSubdivision, Metric};
 use std::collections::BTreeMap;
 
 /// The edges of the final triangulation between two hubs, with their loops.
@@ -24,7 +24,8 @@ pub(super) fn hub_edge(
     mesh: &Mesh,
     metric: &Metric,
     filled: &FilledMesh,
-    (e, outer): (EdgeId, Option<usize>),
+    e: EdgeId,
+    outer: Option<usize>,
 ) -> Option<HubEdge> {
     let ends = mesh.ends(e);
     let loops = ends.map(|v| filled.loop_of(v));
@@ -58,12 +59,12 @@ pub(super) fn loops_of_edges(filled: &FilledMesh) -> BTreeMap<EdgeId, usize> {
     along.flat_map(|(k, rim)| rim.iter().map(move |h| (h.edge(), k))).collect()
 }
 
-/// Per loop the half-edges of the refinement along it, in its faces.
-pub(super) fn rims(refinement: &Refinement, filled: &FilledMesh) -> Vec<Vec<HalfedgeId>> {
-    let (mesh, loops) = (&refinement.mesh, loops_of_edges(filled));
+/// Per loop the half-edges of the subdivision along it, in its faces.
+pub(super) fn rims(subdivision: &CommonSubdivision, filled: &FilledMesh) -> Vec<Vec<HalfedgeId>> {
+    let (mesh, loops) = (&subdivision.mesh, loops_of_edges(filled));
     let mut rims = vec![Vec::new(); filled.loops.len()];
     for rim in mesh.boundary_loops() {
-        let first = rim.first().and_then(|h| refinement.origin[h.edge()].input);
+        let first = rim.first().and_then(|h| subdivision.edge(0, h.edge()));
         if let Some(&k) = first.and_then(|e| loops.get(&e)) {
             rims[k] = rim.into_iter().map(HalfedgeId::twin).collect();
         }

@@ -1,14 +1,14 @@
-//! Planar circle domains: through the plane of a punctured sphere into the unit disk.
+//! Circle domains of genus 0: from the plane of a punctured sphere into the unit disk.
 
-use super::super::puncture::Solver;
-use super::super::star::Punctured;
-use super::super::tries::{Flat, Tried};
-use super::disk::InDisk;
+use super::super::puncture::PlaneSolver;
+use super::super::star::PuncturedSurface;
+use super::super::tries::{FoundPlane, PunctureSearch};
+use super::disk::DomainInDisk;
 use super::domain::{CircleDomain, CircleReport, DomainCircle};
 use super::options::CircleDomainOptions;
 use super::place::{anchor_weights, deviation, hub_edge, least_gap, loops_of_edges, rims};
-use super::prepare::Prepared;
-use super::view::View;
+use super::prepare::PreparedSurface;
+use super::view::DiskView;
 use crate::control::Control;
 use crate::embed::{Layout, PlanarPlaces};
 use crate::error::Result;
@@ -19,16 +19,16 @@ use crate::geometry::mobius::PlaneCircle;
 use crate::geometry::{DoubleDouble, Space, triangle, worse};
 use crate::mesh::{EdgeId, FilledMesh, Mesh, PerEdge, PerVertex, VertexId};
 use crate::metric::lengths::face_lengths;
-use crate::metric::{Metric, Refinement, Surface};
+use crate::metric::{CommonSubdivision, Metric, Surface};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
 pub(super) fn solve(
-    prepared: Prepared,
+    prepared: PreparedSurface,
     options: &CircleDomainOptions,
     control: &Control,
 ) -> Result<CircleDomain> {
-    let Prepared { split, surface, filled, start } = prepared;
+    let PreparedSurface { split, surface, filled, start } = prepared;
     let outer = options.outer.unwrap_or_else(|| longest_loop(&surface, &filled));
     let weights = vertex_areas(&surface, &filled);
     let flow = options.of_flow();
@@ -36,26 +36,26 @@ pub(super) fn solve(
     let unit = unit(&metric);
     in_units(&mesh, &mut metric, unit);
     shift(&mut metric, 1, -unit.ln());
-    let begin = Punctured { mesh, metric, at: VertexId(0), followed, flips: 0 };
+    let begin = PuncturedSurface { mesh, metric, at: VertexId(0), followed, flips: 0 };
     let may = inside(&begin.mesh, surface.mesh(), &filled);
-    let mut tried = Tried::new(&weights, Solver::new(&begin, &flow, control)?).only(may);
-    let Flat { surface: found_on, plane, found } = tried.best(&begin)?;
-    let view = View::new(&found_on, &plane, &filled, outer);
+    let mut tried = PunctureSearch::new(&weights, PlaneSolver::new(&begin, &flow, control)?).only(may);
+    let FoundPlane { surface: found_on, plane, found } = tried.best(&begin)?;
+    let view = DiskView::new(&found_on, &plane, &filled, outer);
     let points = view.apply(&plane);
     let inner: Vec<PlaneCircle> =
         (0..filled.loops.len()).filter(|&k| k != outer).map(|k| view.circle(k)).collect();
     let rim = rim_of(surface.mesh(), outer);
-    let disk = InDisk { points: &points, weights: &weights, inner: &inner, rim: &rim };
+    let disk = DomainInDisk { points: &points, weights: &weights, inner: &inner, rim: &rim };
     let view = view.then(&disk.normalised(&options.normalisation)?);
     let mut metric = view.metric(&found_on, &plane);
     in_units(&found_on.mesh, &mut metric, 1.0 / unit);
     shift(&mut metric, 0, -unit.ln());
     let puncture = Some(found_on.at);
-    let Punctured { mesh, followed, flips, .. } = found_on;
+    let PuncturedSurface { mesh, followed, flips, .. } = found_on;
     let solution = start.at(mesh, metric, followed, flips);
-    let domain = Domain { view, plane: &plane, solution: &solution, filled: &filled, outer };
-    let refinement = Arc::new(solution.refinement_where(&|f| filled.is_original(f), control)?);
-    let layout = domain.layout(surface.mesh(), refinement)?;
+    let domain = PlanarDomain { view, plane: &plane, solution: &solution, filled: &filled, outer };
+    let subdivision = Arc::new(solution.common_subdivision_where(&|f| filled.is_original(f), control)?);
+    let layout = domain.layout(surface.mesh(), subdivision)?;
     let circles = domain.circles(&layout);
     let least_gap = least_gap(solution.mesh(), solution.metric(), &filled);
     let vertices: usize = circles.iter().map(|c| c.vertices).sum();
@@ -87,7 +87,7 @@ pub(super) fn solve(
     })
 }
 
-/// The loop with the longest edges together.
+/// The longest loop.
 fn longest_loop(surface: &Surface, filled: &FilledMesh) -> usize {
     let length = |k: usize| filled.loops[k].iter().map(|h| surface.lengths()[h.edge()]).sum::<f64>();
     (0..filled.loops.len()).fold((0, 0.0), |best, k| if length(k) > best.1 { (k, length(k)) } else { best }).0
@@ -106,7 +106,7 @@ fn vertex_areas(surface: &Surface, filled: &FilledMesh) -> PerVertex<f64> {
     areas
 }
 
-/// The vertices that may be sent to infinity: inside the surface, and not next to a loop if there are such.
+/// The vertices that may be sent to infinity: interior ones, without those next to a loop if others exist.
 fn inside(mesh: &Mesh, open: &Mesh, filled: &FilledMesh) -> PerVertex<bool> {
     let is_inside = |v: VertexId| filled.loop_of(v).is_none() && !open.is_boundary_vertex(v);
     let is_far = |v: VertexId| is_inside(v) && mesh.outgoing(v).all(|h| is_inside(mesh.tip(h)));
@@ -131,7 +131,7 @@ fn in_units(mesh: &Mesh, metric: &mut Metric, unit: f64) {
     }
 }
 
-/// Adds to u at all vertices of a type.
+/// Add a constant to u at all vertices of a type.
 fn shift(metric: &mut Metric, epsilon: i8, by: f64) {
     for v in
         (0..metric.u.len()).map(VertexId::from).filter(|&v| metric.epsilon[v] == epsilon).collect::<Vec<_>>()
@@ -148,24 +148,24 @@ fn rim_of(open: &Mesh, k: usize) -> Vec<VertexId> {
     rim
 }
 
-/// A planar circle domain that has been found.
-struct Domain<'a> {
-    view: View,
+/// A planar circle domain: its view, its metric and its hubs.
+struct PlanarDomain<'a> {
+    view: DiskView,
     plane: &'a PerVertex<Complex>,
     solution: &'a Solution,
     filled: &'a FilledMesh,
     outer: usize,
 }
 
-impl Domain<'_> {
-    /// The layout on the refinement of the open surface.
-    fn layout(&self, open: &Arc<Mesh>, refinement: Arc<Refinement>) -> Result<Layout> {
+impl PlanarDomain<'_> {
+    /// The layout on the subdivision of the open surface.
+    fn layout(&self, open: &Arc<Mesh>, subdivision: Arc<CommonSubdivision>) -> Result<Layout> {
         let points = self.view.apply(self.plane);
         let (mesh, metric) = (self.solution.mesh(), self.solution.metric());
         let loops = loops_of_edges(self.filled);
         let place = |e: EdgeId, input: EdgeId, weights: [f64; 2]| {
             let ends = mesh.ends(e);
-            let Some(edge) = hub_edge(mesh, metric, self.filled, (e, Some(self.outer))) else {
+            let Some(edge) = hub_edge(mesh, metric, self.filled, e, Some(self.outer)) else {
                 return add(scale(weights[0], points[ends[0]]), scale(weights[1], points[ends[1]]));
             };
             let hubs = ends.map(|v| self.filled.loop_of(v));
@@ -176,18 +176,14 @@ impl Domain<'_> {
             };
             add(scale(a, anchor(0)), scale(b, anchor(1)))
         };
-        let mut places: Vec<Complex> = points.iter().take(refinement.n_input_vertices).copied().collect();
-        places
-            .extend(refinement.crossings.iter().map(|c| place(c.final_edge, c.input_edge, c.final_weights)));
+        let mut places: Vec<Complex> = points.iter().take(subdivision.n_vertices[0]).copied().collect();
+        places.extend(subdivision.crossings.iter().map(|c| place(c[1].edge, c[0].edge, c[1].weights)));
         let [disagreement, local_consistency] = self.misses(&points)?;
-        Layout::of_planar_domain(
-            open,
-            refinement,
-            PlanarPlaces { plane: places.into(), disagreement, local_consistency },
-        )
+        let places = PlanarPlaces { plane: places.into(), disagreement, local_consistency };
+        Layout::of_planar_domain(open, subdivision, places)
     }
 
-    /// Whether a face of the metric's triangulation lies in the disk as the metric has it: not at the outer hub.
+    /// True if a face of the metric's triangulation has the shape in the disk that the metric gives it: false at the outer hub.
     fn is_inside(&self, vertices: [VertexId; 3]) -> bool {
         !vertices.contains(&self.filled.hub(self.outer))
     }
@@ -221,8 +217,8 @@ impl Domain<'_> {
     }
 
     fn circles(&self, layout: &Layout) -> Vec<DomainCircle> {
-        let Some(refinement) = layout.refinement() else { return Vec::new() };
-        let all = rims(refinement, self.filled).into_iter().enumerate();
+        let Some(subdivision) = layout.common_subdivision() else { return Vec::new() };
+        let all = rims(subdivision, self.filled).into_iter().enumerate();
         let circle = |(k, rim): (usize, Vec<crate::mesh::HalfedgeId>)| {
             let PlaneCircle { center, radius } = self.view.circle(k);
             let deviation = deviation(rim.len(), radius, |i| norm(sub(layout.uv(rim[i]), center)));
@@ -233,7 +229,7 @@ impl Domain<'_> {
 }
 
 /// Height over circumference of the cylinder that an annulus is.
-fn modulus_of(domain: &Domain) -> f64 {
+fn modulus_of(domain: &PlanarDomain) -> f64 {
     let inner = domain.view.circle(1 - domain.outer);
     let centred = inner.to_centre().apply_to_circle(inner);
     -centred.radius.ln() / TAU

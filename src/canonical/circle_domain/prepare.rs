@@ -1,4 +1,4 @@
-//! From a surface to the start of its flow: loops with enough edges, filled by hubs.
+//! Prepares a surface for its flow: gives loops enough edges, and fills them by hubs.
 
 use super::options::CircleDomainOptions;
 use crate::control::Control;
@@ -10,7 +10,7 @@ use crate::mesh::{EdgeId, FilledMesh, HalfedgeId, PerEdge};
 use crate::metric::{Split, Surface};
 
 /// A surface that is ready to flow.
-pub(super) struct Prepared {
+pub(super) struct PreparedSurface {
     pub split: Split,
     /// The surface of `split`.
     pub surface: Surface,
@@ -19,7 +19,7 @@ pub(super) struct Prepared {
     pub start: Solution,
 }
 
-/// Give every loop the edges that it needs, and a planar surface a vertex inside.
+/// Give every loop enough edges, and a planar surface an interior vertex.
 pub(super) fn refine(split: &mut Split, options: &CircleDomainOptions) -> Result<()> {
     let mesh = split.given().mesh().clone();
     for rim in mesh.boundary_loops() {
@@ -49,18 +49,22 @@ pub(super) fn halve_loops(split: &mut Split, loops: &[usize]) -> Result<()> {
     Ok(())
 }
 
-/// How often edges of loops are parted opposite obtuse angles. Each time the angles of the parts are right ones; new triangles elsewhere
-/// may want it again.
+/// How many times edges of loops are parted opposite obtuse angles. Each time the angles at the new vertices are right ones, but new
+/// triangles elsewhere may have obtuse ones again.
 const PARTINGS: usize = 6;
 /// Least share of an edge that is parted off.
 const LEAST_PART: f64 = 1e-3;
 
-impl Prepared {
-    /// The start of the flow, with the edges of loops parted that are opposite obtuse angles: across them the triangulation is not that of
-    /// a Delaunay triangulation whose mirror image continues it, so that the class would not be the surface's alone.
-    pub fn new(mut split: Split, options: &CircleDomainOptions, control: &Control) -> Result<Prepared> {
+impl PreparedSurface {
+    /// The start of the flow, after parting the edges of loops that are opposite obtuse angles. Across such an edge the triangulation and its
+    /// mirror image are not Delaunay together, so that the class would depend on more than the surface.
+    pub fn new(
+        mut split: Split,
+        options: &CircleDomainOptions,
+        control: &Control,
+    ) -> Result<PreparedSurface> {
         for _ in 0..PARTINGS {
-            let begin = Prepared::as_it_is(split, options, control)?;
+            let begin = PreparedSurface::as_it_is(split, options, control)?;
             let obtuse = begin.start.obtuse_rims(&begin.filled);
             if obtuse.is_empty() {
                 return Ok(begin);
@@ -70,20 +74,20 @@ impl Prepared {
                 split.part(edge, share.clamp(LEAST_PART, 1.0 - LEAST_PART))?;
             }
         }
-        Prepared::as_it_is(split, options, control)
+        PreparedSurface::as_it_is(split, options, control)
     }
 
-    fn as_it_is(split: Split, options: &CircleDomainOptions, control: &Control) -> Result<Prepared> {
+    fn as_it_is(split: Split, options: &CircleDomainOptions, control: &Control) -> Result<PreparedSurface> {
         let surface = split.surface()?;
         let filled = FilledMesh::new(surface.mesh())?;
         let space = if surface.mesh().genus() < 2 { Space::E2 } else { Space::H2 };
         let closed = closed_surface(&surface, &filled)?;
         let start = Solution::with_hubs(closed, &filled, space, control)?.on_threads(options.flow.threads);
-        Ok(Prepared { split, surface, filled, start })
+        Ok(PreparedSurface { split, surface, filled, start })
     }
 }
 
-/// The filled surface. The edges at hubs have a length because a surface has lengths everywhere: nothing is measured with it.
+/// The filled surface. The lengths of the edges at hubs only have to make triangles; nothing is measured with them.
 fn closed_surface(surface: &Surface, filled: &FilledMesh) -> Result<Surface> {
     let mut lengths: Vec<f64> = surface.lengths().iter().copied().collect();
     let rims: Vec<f64> =

@@ -1,6 +1,6 @@
-//! The plane of a punctured sphere as it comes to lie in the unit disk.
+//! The map from the plane of a punctured sphere to the unit disk.
 
-use super::super::star::Punctured;
+use super::super::star::PuncturedSurface;
 use crate::geometry::Mobius;
 use crate::geometry::complex::{Complex, add, norm, scale, sub};
 use crate::geometry::double_double::two_sum;
@@ -12,8 +12,8 @@ use crate::metric::Metric;
 /// the outer hub would both lie at 0, and the edge between them have no direction.
 const OFF_CENTRE: Complex = [0.31, 0.17];
 
-/// The plane of a punctured sphere as it comes to lie in the unit disk.
-pub(super) struct View {
+/// The map from the plane of a punctured sphere to the unit disk, with the circles of the hubs.
+pub(super) struct DiskView {
     map: Mobius,
     /// The same, with another point at the centre, for anchors.
     off_centre: Mobius,
@@ -24,20 +24,25 @@ pub(super) struct View {
     n_points: usize,
 }
 
-impl View {
+impl DiskView {
     /// The outside of the outer circle on the unit disk.
-    pub fn new(on: &Punctured, plane: &PerVertex<Complex>, filled: &FilledMesh, outer: usize) -> View {
+    pub fn new(
+        on: &PuncturedSurface,
+        plane: &PerVertex<Complex>,
+        filled: &FilledMesh,
+        outer: usize,
+    ) -> DiskView {
         let hubs = filled.hubs();
         let circle = |&v: &VertexId| PlaneCircle { center: plane[v], radius: on.metric.u[v].exp() };
         let circles: Vec<PlaneCircle> = hubs.iter().map(circle).collect();
         let map = Mobius::outside(circles[outer]);
         let off_centre = Mobius::to_origin(OFF_CENTRE).after(&map);
-        View { map, off_centre, circles, outer, puncture: on.at, n_points: plane.len() - hubs.len() }
+        DiskView { map, off_centre, circles, outer, puncture: on.at, n_points: plane.len() - hubs.len() }
     }
 
     /// Followed by a transformation of the disk.
-    pub fn then(self, next: &Mobius) -> View {
-        View { map: next.after(&self.map), ..self }
+    pub fn then(self, next: &Mobius) -> DiskView {
+        DiskView { map: next.after(&self.map), ..self }
     }
 
     /// The circle of a hub in the disk.
@@ -46,9 +51,10 @@ impl View {
     }
 
     fn circle_seen(&self, map: &Mobius, k: usize) -> PlaneCircle {
-        match k == self.outer {
-            true => PlaneCircle { center: [0.0; 2], radius: 1.0 },
-            false => map.apply_to_circle(self.circles[k]),
+        if k == self.outer {
+            PlaneCircle { center: [0.0; 2], radius: 1.0 }
+        } else {
+            map.apply_to_circle(self.circles[k])
         }
     }
 
@@ -66,7 +72,7 @@ impl View {
     }
 
     /// The metric of the class with the lengths of the disk.
-    pub fn metric(&self, on: &Punctured, plane: &PerVertex<Complex>) -> Metric {
+    pub fn metric(&self, on: &PuncturedSurface, plane: &PerVertex<Complex>) -> Metric {
         let mut metric = on.metric.clone();
         for v in on.mesh.vertices() {
             let by = match v.index().checked_sub(self.n_points) {
@@ -83,7 +89,8 @@ impl View {
         metric
     }
 
-    /// Where the edge from hub k to the vertex `to` leaves the circle: seen off the centre, then in the disk.
+    /// The anchor of hub k: the point where the edge to the vertex `to` leaves its circle. It is found in the disk moved off the centre,
+    /// then brought to the disk.
     pub fn anchor(&self, plane: &PerVertex<Complex>, k: usize, to: VertexId) -> Complex {
         let PlaneCircle { center, radius } = self.circle_seen(&self.off_centre, k);
         let away = sub(self.seen(&self.off_centre, plane, to), center);

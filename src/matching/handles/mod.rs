@@ -111,7 +111,7 @@ fn handle_surface(
         cones: &[],
         own_corners: &[domain.base_corner],
         scale: LayoutScale::default(),
-        refinement: None,
+        subdivision: None,
         threads: options.flow.threads,
     };
     let (mut placed, _) = opening.place(&metric.solution, mesh, control)?;

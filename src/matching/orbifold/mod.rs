@@ -21,7 +21,7 @@ use crate::embed::LayoutScale;
 use crate::error::{Error, Result};
 use crate::geometry::{DoubleDouble, Motion, Space};
 use crate::mesh::{HalfedgeId, PerHalfedge, PerVertex, VertexId};
-use crate::metric::Refinement;
+use crate::metric::CommonSubdivision;
 use crate::topology::central_vertex;
 use sides::{length_shares, lines, own_shares, slide};
 use std::f64::consts::{FRAC_PI_2, TAU};
@@ -71,8 +71,8 @@ struct OrbifoldProblem<'a> {
 /// The canonical metric of a surface, prepared for layouts along several cuts.
 struct OrbifoldMetric {
     metric: CanonicalMetric,
-    /// The refinement of the surface on which the metric was found, if edges were flipped.
-    refinement: Option<Arc<Refinement>>,
+    /// The subdivision of the surface on which the metric was found, if edges were flipped.
+    subdivision: Option<Arc<CommonSubdivision>>,
     /// The vertex at the origin of the layouts.
     root: VertexId,
 }
@@ -209,13 +209,13 @@ fn orbifold_metric(
     marks.landmarks.iter().for_each(|&v| curvature[v] = TAU * (1.0 - 1.0 / shape.order as f64));
     marks.corners.iter().for_each(|&v| curvature[v] = shape.corner);
     let metric = CanonicalMetric::new(surface, shape.space, curvature, &options.flow, control)?;
-    let refinement = if metric.solution.is_unflipped() {
+    let subdivision = if metric.solution.is_unflipped() {
         None
     } else {
-        Some(Arc::new(metric.solution.refinement(control)?))
+        Some(Arc::new(metric.solution.common_subdivision(control)?))
     };
     let root = central_vertex(surface.mesh(), surface.lengths(), control)?;
-    Ok(OrbifoldMetric { metric, refinement, root })
+    Ok(OrbifoldMetric { metric, subdivision, root })
 }
 
 /// One of the surfaces in its canonical metric, laid out along its tree.
@@ -233,7 +233,7 @@ fn opened(
         cones: &marks.landmarks,
         own_corners: &tree.landmark_corners,
         scale: LayoutScale::default(),
-        refinement: of.refinement.clone(),
+        subdivision: of.subdivision.clone(),
         threads: problem.threads,
     };
     let (placed, pairings) = opening.place(&of.metric.solution, surface.mesh(), control)?;

@@ -1,25 +1,25 @@
-//! Both triangulations as one planar graph on the surface: vertices of either, crossings, the parts of edges between them, and their order
-//! around every vertex.
+//! Makes one planar graph on the surface of both triangulations: vertices of either, crossings, the parts of edges between them, and their
+//! order around every vertex.
 
 use super::super::cover::PlacedMesh;
-use super::stand::{At, Settled};
-use super::trace::{Crossing, Leaving, Path, Tracer};
+use super::stand::{SettledVertices, VertexPlace};
+use super::trace::{Departure, EdgeTracer, TracedCrossing, TracedEdge};
 use crate::control::{Control, Stage};
 use crate::error::{Error, Result};
 use crate::geometry::DoubleDouble;
 use crate::mesh::{EdgeId, HalfedgeId, Mesh, VertexId};
 use crate::parallel;
 
-/// Marks what there is none of.
+/// Marks the absence of a number.
 pub(super) const NONE: u32 = u32::MAX;
-/// Most half-edges per vertex and crossing; it bounds what u32 can number.
+/// Largest number of half-edges per vertex and crossing. It bounds the size of graphs whose half-edges u32 can number.
 const HALFEDGES_PER_VERTEX: usize = 16;
 
-/// The graph. Its vertices: those of the source; of the target, with gaps where they are at one of the source; crossings.
-pub(super) struct Arcs {
-    /// Vertices of source and target.
+/// The graph. Its vertices are those of the source, those of the target (with gaps where they are at one of the source), and the crossings.
+pub(super) struct OverlayGraph {
+    /// Numbers of vertices of source and target.
     pub n: [usize; 2],
-    pub crossings: Vec<Crossing>,
+    pub crossings: Vec<TracedCrossing>,
     /// Per crossing, the edge of the source.
     pub crossed_by: Vec<EdgeId>,
     /// Per half-edge.
@@ -30,27 +30,27 @@ pub(super) struct Arcs {
     pub around: Vec<Vec<u32>>,
 }
 
-/// Where the parts of edges are.
-struct Parts {
-    /// Per edge: its first part, and after the last edge the end.
+/// The numbers of the parts of edges.
+struct EdgeParts {
+    /// Per edge of the target, its first part, and after the last edge the end.
     target: Vec<u32>,
-    /// Per edge; [`NONE`] for one that is an edge of the target, or on the boundary.
+    /// Per edge of the source, its first part; [`NONE`] for one that is an edge of the target, or on the boundary.
     source: Vec<u32>,
     /// Per edge of the source: the number of its first crossing, and after the last edge the end.
     first: Vec<u32>,
-    /// Per crossing, and per vertex of the source on a side of the target: after how many others it comes along the target's half-edge 2e.
+    /// Per crossing, and per vertex of the source on a side of the target: the number of others before it along the target's half-edge 2e.
     rank: Vec<u32>,
     side_rank: Vec<u32>,
 }
 
-impl Parts {
+impl EdgeParts {
     /// The half-edge along one of the target from its origin.
     fn leaving(&self, h: HalfedgeId) -> u32 {
         let [begin, end] = [0, 1].map(|k| self.target[h.edge().index() + k]);
         if h.0 & 1 == 0 { 2 * begin } else { 2 * (end - 1) + 1 }
     }
 
-    /// The half-edges from a point on one of the target, with so many before it: in its direction and against it.
+    /// The two half-edges that leave a point on one of the target, in its direction and against it. `rank`: the number of points before it.
     fn both(&self, h: HalfedgeId, rank: u32) -> [u32; 2] {
         let at = self.target[h.edge().index()] + rank;
         let [on, back] = [2 * (at + 1), 2 * at + 1];
@@ -58,26 +58,26 @@ impl Parts {
     }
 
     /// The half-edge along one of the source from its origin.
-    fn leaving_by(&self, h: HalfedgeId, paths: &[Option<Path>]) -> u32 {
+    fn leaving_by(&self, h: HalfedgeId, paths: &[Option<TracedEdge>]) -> u32 {
         let e = h.edge().index();
         match &paths[e] {
-            Some(Path::Along(along)) => self.leaving(if h.0 & 1 == 0 { *along } else { along.twin() }),
+            Some(TracedEdge::Along(along)) => self.leaving(if h.0 & 1 == 0 { *along } else { along.twin() }),
             _ if h.0 & 1 == 0 => 2 * self.source[e],
             _ => 2 * (self.source[e] + self.first[e + 1] - self.first[e]) + 1,
         }
     }
 }
 
-impl Arcs {
+impl OverlayGraph {
     /// # Errors
-    /// [`Error::Matching`] where lines are too near to each other to tell their order; [`Error::TooLarge`]; [`Error::Cancelled`].
-    pub fn new(settled: &Settled, target: &PlacedMesh, control: &Control) -> Result<Arcs> {
+    /// [`Error::Matching`] if lines are so near to each other that their order cannot be decided; [`Error::TooLarge`]; [`Error::Cancelled`].
+    pub fn new(settled: &SettledVertices, target: &PlacedMesh, control: &Control) -> Result<OverlayGraph> {
         let paths = paths(settled, target, control)?;
         let (source_mesh, target_mesh) = (&settled.source.cover.mesh, &target.cover.mesh);
         let n = [source_mesh.n_vertices(), target_mesh.n_vertices()];
         let (mut crossings, mut crossed_by, mut first) = (Vec::new(), Vec::new(), vec![0u32]);
         for (e, path) in source_mesh.edges().zip(&paths) {
-            if let Some(Path::Through(_, found)) = path {
+            if let Some(TracedEdge::Through(_, found)) = path {
                 crossings.extend_from_slice(found);
                 crossed_by.resize(crossings.len(), e);
             }
@@ -87,7 +87,7 @@ impl Arcs {
         if count > u32::MAX as usize / HALFEDGES_PER_VERTEX {
             return Err(Error::TooLarge { what: "vertices of an overlay", count });
         }
-        let mut arcs = Arcs {
+        let mut arcs = OverlayGraph {
             n,
             crossings,
             crossed_by,
@@ -95,9 +95,9 @@ impl Arcs {
             along: [Vec::new(), Vec::new()],
             around: vec![Vec::new(); count],
         };
-        let parts = arcs.part_edges(settled, target_mesh, (&paths, first))?;
+        let parts = arcs.part_edges(settled, target_mesh, &paths, first)?;
         arcs.name_boundary(settled, target_mesh, &parts)?;
-        arcs.turn(settled, target_mesh, (&paths, &parts));
+        arcs.turn(settled, target_mesh, &paths, &parts);
         if arcs.around.iter().map(Vec::len).sum::<usize>() != arcs.origin.len() {
             return Err(Error::Matching("edges of the overlay meet in no clear order".into()));
         }
@@ -108,7 +108,7 @@ impl Arcs {
         self.origin[h as usize ^ 1] as usize
     }
 
-    fn target_vertex(&self, settled: &Settled, b: VertexId) -> u32 {
+    fn target_vertex(&self, settled: &SettledVertices, b: VertexId) -> u32 {
         settled.taken[b].map_or((self.n[0] + b.index()) as u32, |v| v.0)
     }
 
@@ -122,20 +122,21 @@ impl Arcs {
         }
     }
 
-    /// The parts of the target's edges, then those of the source's that run through its faces.
+    /// Append the parts of the target's edges, then those of the source's edges that run through its faces.
     fn part_edges(
         &mut self,
-        settled: &Settled,
+        settled: &SettledVertices,
         target: &Mesh,
-        (paths, first): (&[Option<Path>], Vec<u32>),
-    ) -> Result<Parts> {
+        paths: &[Option<TracedEdge>],
+        first: Vec<u32>,
+    ) -> Result<EdgeParts> {
         let mut points: Vec<Vec<(DoubleDouble, u32)>> = vec![Vec::new(); target.n_edges()];
         let crossing_at = (self.n[0] + self.n[1]) as u32;
         for (k, crossing) in self.crossings.iter().enumerate() {
             points[crossing.halfedge.edge().index()].push((crossing.across, crossing_at + k as u32));
         }
         for (v, standing) in settled.forward.iter().enumerate() {
-            if let At::Side(_, x) = standing.at {
+            if let VertexPlace::Side(_, x) = standing.at {
                 let x = if standing.near.0 & 1 == 0 { x } else { -x };
                 points[standing.near.edge().index()].push((x.into(), v as u32));
             }
@@ -159,12 +160,12 @@ impl Arcs {
             self.part(&all, [None, Some(e.halfedge())]);
             starts.push((self.origin.len() / 2) as u32);
         }
-        let mut parts = Parts { target: starts, source: vec![NONE; paths.len()], first, rank, side_rank };
+        let mut parts = EdgeParts { target: starts, source: vec![NONE; paths.len()], first, rank, side_rank };
         let mesh = &settled.source.cover.mesh;
         for (e, path) in mesh.edges().zip(paths) {
             match path {
-                Some(Path::Along(along)) => self.name(&parts, *along, e)?,
-                Some(Path::Through(..)) => {
+                Some(TracedEdge::Along(along)) => self.name(&parts, *along, e)?,
+                Some(TracedEdge::Through(..)) => {
                     parts.source[e.index()] = (self.origin.len() / 2) as u32;
                     let [a, b] = mesh.ends(e);
                     let between = parts.first[e.index()]..parts.first[e.index() + 1];
@@ -180,8 +181,8 @@ impl Arcs {
         Ok(parts)
     }
 
-    /// An edge of the target is one of the source.
-    fn name(&mut self, parts: &Parts, along: HalfedgeId, e: EdgeId) -> Result<()> {
+    /// Record that an edge of the target is also one of the source.
+    fn name(&mut self, parts: &EdgeParts, along: HalfedgeId, e: EdgeId) -> Result<()> {
         let h = parts.leaving(along) as usize;
         if parts.leaving(along.twin()) as usize != h ^ 1 || self.along[0][h].is_some() {
             return Err(Error::Matching(format!("edge {e} of the source and others lie on one edge")));
@@ -190,8 +191,8 @@ impl Arcs {
         Ok(())
     }
 
-    /// The edges of the source that parts of the boundary belong to.
-    fn name_boundary(&mut self, settled: &Settled, target: &Mesh, parts: &Parts) -> Result<()> {
+    /// Record the edges of the source that parts of the boundary belong to.
+    fn name_boundary(&mut self, settled: &SettledVertices, target: &Mesh, parts: &EdgeParts) -> Result<()> {
         let mut out = vec![NONE; self.n[0] + self.n[1]];
         for b in target.vertices().filter(|&b| target.is_boundary_vertex(b)) {
             if let Some(&h) = target.fan(b).first() {
@@ -199,7 +200,7 @@ impl Arcs {
             }
         }
         for (v, standing) in settled.forward.iter().enumerate() {
-            if let At::Side(..) = standing.at {
+            if let VertexPlace::Side(..) = standing.at {
                 out[v] = parts.both(standing.near, parts.side_rank[v])[0];
             }
         }
@@ -224,14 +225,20 @@ impl Arcs {
         Ok(())
     }
 
-    /// The order around every vertex.
-    fn turn(&mut self, settled: &Settled, target: &Mesh, (paths, parts): (&[Option<Path>], &Parts)) {
+    /// Find the order of half-edges around every vertex.
+    fn turn(
+        &mut self,
+        settled: &SettledVertices,
+        target: &Mesh,
+        paths: &[Option<TracedEdge>],
+        parts: &EdgeParts,
+    ) {
         let source = &settled.source.cover.mesh;
         let mut shared: Vec<Vec<(HalfedgeId, [DoubleDouble; 2], u32)>> = vec![Vec::new(); self.n[0]];
         for (e, path) in source.edges().zip(paths) {
-            let Some(Path::Through(leaving, _)) = path else { continue };
+            let Some(TracedEdge::Through(leaving, _)) = path else { continue };
             for (h, leaving) in [e.halfedge(), e.halfedge().twin()].into_iter().zip(leaving) {
-                let leaving: &Leaving = leaving;
+                let leaving: &Departure = leaving;
                 if let Some((corner, direction)) = *leaving {
                     let arc = parts.leaving_by(h, paths);
                     shared[source.origin(h).index()].push((corner, direction, arc));
@@ -240,13 +247,13 @@ impl Arcs {
         }
         for (v, standing) in source.vertices().zip(&settled.forward) {
             let around = match standing.at {
-                At::Inside(_) => source.fan(v).iter().map(|&h| parts.leaving_by(h, paths)).collect(),
-                At::Side(..) => {
+                VertexPlace::Inside(_) => source.fan(v).iter().map(|&h| parts.leaving_by(h, paths)).collect(),
+                VertexPlace::Side(..) => {
                     let [on, back] = parts.both(standing.near, parts.side_rank[v.index()]);
                     let inner = source.fan(v).into_iter().skip(1).map(|h| parts.leaving_by(h, paths));
                     std::iter::once(on).chain(inner).chain(std::iter::once(back)).collect()
                 }
-                At::Vertex(b) => around_target(target, b, parts, &shared[v.index()]),
+                VertexPlace::Vertex(b) => around_target(target, b, parts, &shared[v.index()]),
             };
             self.around[v.index()] = around;
         }
@@ -266,7 +273,7 @@ impl Arcs {
 fn around_target(
     target: &Mesh,
     b: VertexId,
-    parts: &Parts,
+    parts: &EdgeParts,
     shared: &[(HalfedgeId, [DoubleDouble; 2], u32)],
 ) -> Vec<u32> {
     let fan = target.fan(b);
@@ -288,10 +295,14 @@ fn around_target(
 }
 
 /// The edges of the source inside the surface, on the target.
-fn paths(settled: &Settled, target: &PlacedMesh, control: &Control) -> Result<Vec<Option<Path>>> {
+fn paths(
+    settled: &SettledVertices,
+    target: &PlacedMesh,
+    control: &Control,
+) -> Result<Vec<Option<TracedEdge>>> {
     let mesh = &settled.source.cover.mesh;
-    let tracer = Tracer { settled, target };
-    let mut all: Vec<Option<Result<Path>>> = Vec::new();
+    let tracer = EdgeTracer { settled, target };
+    let mut all: Vec<Option<Result<TracedEdge>>> = Vec::new();
     all.resize_with(mesh.n_edges(), || None);
     control.step(Stage::Layout, 0.0)?;
     parallel::fill(&mut all, |e| {

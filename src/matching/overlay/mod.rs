@@ -1,10 +1,10 @@
-//! The common refinement of source and target in the domain where they were matched.
+//! The common subdivision of source and target in the domain where they were matched.
 //!
 //! Edges of both are straight in the domain, so a face of the source and one of the target have convex pieces in common. The edges of the
 //! source are traced through the target, the vertices of both, the crossings and the parts of edges make a planar graph, and the faces of
-//! this graph are the pieces. All decisions are signs of determinants with twice the digits of doubles. So that none of these is 0, or
-//! smaller than the gaps that rounding leaves between copies of the domain, vertices of the source are first moved aside by next to
-//! nothing; boundaries, which lie on each other, and common vertices are treated as such.
+//! this graph are the pieces. All decisions are signs of determinants in double-double precision. So that none of these is 0, or
+//! smaller than the gaps that rounding leaves between copies of the domain, vertices of the source are first moved aside by tiny
+//! distances. Boundaries, which lie on each other, and common vertices stay where they are.
 
 mod arcs;
 mod opened;
@@ -19,53 +19,53 @@ use crate::error::Result;
 use crate::geometry::{Motion, Space};
 use crate::mesh::union_find::UnionFind;
 use crate::mesh::{FaceId, HalfedgeId, VertexId};
-use crate::metric::{Overlay, Split};
+use crate::metric::{CommonSubdivision, Split};
 use crate::parallel::within;
-use arcs::Arcs;
-use opened::{Opened, opened};
-use pieces::Given;
-use stand::Settled;
+use arcs::OverlayGraph;
+use opened::{OpenedFaces, opened};
+use pieces::GivenSurface;
+use stand::SettledVertices;
 
 /// Both triangulations of a matching in the domain of the target.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CommonDomain {
-    /// The source's, and the target's. An edge that joined two vertices of the boundary is halved.
+    /// The source and the target in the domain. An edge that joined two vertices of the boundary is halved.
     placed: [PlacedMesh; 2],
     seeds: [WalkSeed; 2],
-    given: [Given; 2],
+    given: [GivenSurface; 2],
 }
 
-/// A face in the domain.
+/// A face of the source or the target in the domain.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DomainTriangle {
     /// In the plane as (x, y, 1), on the hyperboloid or on the sphere.
     pub corners: [[f64; 3]; 3],
-    /// Numbers beyond those of the surface are of vertices on edges that were halved.
+    /// Its vertices. Numbers beyond those of the surface belong to vertices on edges that were halved.
     pub vertices: [VertexId; 3],
-    /// The face of the surface that it is a part of.
+    /// The face of the surface that contains it.
     pub face: FaceId,
 }
 
 impl CommonDomain {
     pub(super) fn new(placed: [PlacedMesh; 2], seeds: [WalkSeed; 2], splits: [&Split; 2]) -> CommonDomain {
-        let given = [0, 1].map(|s| Given {
+        let given = [0, 1].map(|s| GivenSurface {
             mesh: splits[s].given().mesh().clone(),
             parts: placed[s].cover.mesh.faces().map(|f| splits[s].place(f)).collect(),
         });
         CommonDomain { placed, seeds, given }
     }
 
-    /// Where it lies.
+    /// The space of the domain.
     pub fn space(&self) -> Space {
         self.placed[1].cover.space
     }
 
-    /// The faces of one of the two (0 the source, 1 the target) as they lie in the domain, opened along that one's cut, or where it meets
-    /// itself growing about a face: corners that meet there have the same coordinates.
+    /// The faces of one of the two (0 the source, 1 the target) in the domain. The surface is opened along its cut, or grown about a face
+    /// until it meets itself. Corners that meet in the opened surface have the same coordinates.
     pub fn triangles(&self, side: usize) -> Vec<DomainTriangle> {
         let placed = &self.placed[side];
         let mesh = &placed.cover.mesh;
-        let Opened { homes, crossed } = opened(placed, self.seeds[1 - side].near);
+        let OpenedFaces { homes, crossed } = opened(placed, self.seeds[1 - side].near);
         let mut one = UnionFind::new(mesh.n_halfedges());
         let is_whole = |h: &HalfedgeId| !mesh.is_outside(*h) && !mesh.is_outside(h.twin());
         let meets = mesh.halfedges().filter(is_whole).filter(|&h| placed.cover.across(h).is_none());
@@ -87,20 +87,20 @@ impl CommonDomain {
         mesh.faces().map(of).collect()
     }
 
-    /// The triangulations laid over each other: the map is projective on every triangle of it. The source's vertices come to lie where the
-    /// matching has them, but for less than 1e-5, mostly 1e-11, of the height of the triangles there. `threads`: 0 for one per core; the
-    /// result does not depend on it.
+    /// The common subdivision of both triangulations: the map is projective on every triangle of it. The source's vertices lie where the
+    /// matching has them up to 1e-5, mostly 1e-11, of the height of the triangles there. `threads`: 0 for one per core; the result does not
+    /// depend on it.
     ///
     /// # Errors
-    /// [`crate::Error::Matching`] where triangles are so thin that what lies on which side of what cannot be told;
+    /// [`crate::Error::Matching`] if triangles are so thin that the sides of lines on which vertices lie cannot be decided;
     /// [`crate::Error::TooLarge`]; [`crate::Error::Cancelled`].
-    pub fn overlay(&self, threads: usize, control: &Control) -> Result<Overlay> {
+    pub fn overlay(&self, threads: usize, control: &Control) -> Result<CommonSubdivision> {
         control.check()?;
         within(threads, || {
             let [source, target] = &self.placed;
-            let settled = Settled::new([source, target], self.seeds, control)?;
-            let arcs = Arcs::new(&settled, target, control)?;
-            pieces::overlay(&arcs, &settled, target, [&self.given[0], &self.given[1]])
+            let settled = SettledVertices::new([source, target], self.seeds, control)?;
+            let arcs = OverlayGraph::new(&settled, target, control)?;
+            pieces::subdivision(&arcs, &settled, target, [&self.given[0], &self.given[1]])
         })
     }
 }

@@ -1,4 +1,4 @@
-//! The faces of a placed surface side by side in one frame, as pictures show them.
+//! Opens a placed surface: puts its faces side by side in one frame, for pictures.
 
 use super::super::cover::PlacedMesh;
 use crate::geometry::{DoubleDouble, Motion};
@@ -7,15 +7,16 @@ use crate::topology::spanning::Key;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// Where the opened surface of each face lies, and the half-edges at which it was left for a neighbour that is drawn beside it.
-pub(super) struct Opened {
+/// The motion of each face into the opened surface, and the half-edges across which a neighbour was placed beside its face.
+pub(super) struct OpenedFaces {
     pub homes: Vec<Motion<DoubleDouble>>,
     pub crossed: Vec<HalfedgeId>,
 }
 
-/// From the face of a half-edge: first what shares its frame, then, next to what is there already, the part whose frame is moved least. A
-/// surface that is opened along a cut stays as it is; one whose faces have a frame each grows about the first.
-pub(super) fn opened(placed: &PlacedMesh, from: HalfedgeId) -> Opened {
+/// The surface opened from the face of a half-edge: first the faces that share its frame are placed, then, beside those that are placed
+/// already, the part whose frame is moved least. A surface that is opened along a cut stays as it is; one whose faces have a frame each
+/// grows about the first.
+pub(super) fn opened(placed: &PlacedMesh, from: HalfedgeId) -> OpenedFaces {
     let (mesh, cover) = (&placed.cover.mesh, &placed.cover);
     let mut homes: Vec<Option<Motion<DoubleDouble>>> = vec![None; mesh.n_faces()];
     let mut crossed = Vec::new();
@@ -52,5 +53,5 @@ pub(super) fn opened(placed: &PlacedMesh, from: HalfedgeId) -> Opened {
             }
         }
     }
-    Opened { homes: homes.into_iter().map(|home| home.unwrap_or(identity)).collect(), crossed }
+    OpenedFaces { homes: homes.into_iter().map(|home| home.unwrap_or(identity)).collect(), crossed }
 }

@@ -1,5 +1,5 @@
-//! Where the vertices of one triangulation stand in another one, exactly as far as digits go: inside a face, on a side at the boundary or
-//! at a vertex.
+//! Finds the place of each vertex of one triangulation in the other one, with decisions in double-double precision: inside a face, on a
+//! side at the boundary, or at a vertex.
 
 use super::super::cover::{LocatedVertex, WalkSeed, located};
 use super::super::cover::{PlacedMesh, PrecisePoint, aimed, determinant, logarithm, moved};
@@ -9,92 +9,94 @@ use crate::geometry::plane_triangle::PlaneTriangle;
 use crate::geometry::{DoubleDouble, Motion};
 use crate::mesh::{FaceId, HalfedgeId, PerVertex, Place, VertexId};
 
-/// Share of the least height of its triangles by which a vertex is moved aside at least, so that no three points that are told apart lie on
-/// one line.
+/// Least distance by which a vertex is moved aside, as a share of the least height of its triangles, so that no three different points lie
+/// on one line.
 const ASIDE: f64 = 1e-12;
-/// The same as a multiple of the largest gap between copies of the domain: what is told by one copy then holds for the others.
+/// The same as a multiple of the largest gap between copies of the domain, so that decisions on one copy hold on the others.
 const GAPS: f64 = 1e3;
-/// The share by which it is moved aside at most.
+/// Largest distance by which a vertex is moved aside, as the same share.
 const MOST_ASIDE: f64 = 1e-6;
-/// A vertex is taken for one of the other triangulation that is nearer than this multiple of the distance by which it is moved aside.
+/// Largest distance at which a vertex is identified with one of the other triangulation, as a multiple of that by which it is moved aside.
 const SAME: f64 = 10.0;
-/// Sides that are crossed at most from the face that a search has found to the one that holds a point.
+/// Largest number of sides that are crossed from the face that a search has found to the one that contains a point.
 const MOST_STEPS: usize = 64;
-/// The golden angle: the directions in which vertices are moved aside are all different.
+/// The golden angle, by which the directions turn in which vertices are moved aside, so that all are different.
 const GOLDEN: f64 = 2.399_963_229_728_653;
 
-/// A vertex in the domain.
+/// A vertex of one triangulation in the opened domain of the other one.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Standing {
-    /// A half-edge of the face that it is in; the side of the domain that it is on; one that leaves the vertex that it is at.
+pub(super) struct PlacedVertex {
+    /// A half-edge of the face that contains it, the side at the boundary that it lies on, or a half-edge that leaves the vertex that it is
+    /// at.
     pub near: HalfedgeId,
     /// The transformation that carries the vertex's own position into the opened domain.
     pub copy: Motion<DoubleDouble>,
-    pub at: At,
+    pub at: VertexPlace,
 }
 
+/// The place of a vertex of one triangulation in the other one.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum At {
-    Inside(Spot),
+pub(super) enum VertexPlace {
+    Inside(WeightedPlace),
     /// On a side at the boundary, at this distance from its origin.
-    Side(Spot, f64),
+    Side(WeightedPlace, f64),
     Vertex(VertexId),
 }
 
 /// A place, and the sum of the weights with which the corners, as vectors, give the point.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Spot {
+pub(super) struct WeightedPlace {
     pub place: Place,
     pub total: f64,
 }
 
-/// A face of a domain as it is seen from one of its corners: coordinates of small triangles then differ in all their digits.
-pub(super) struct View {
+/// A face of a domain in the frame of one of its corners, where the coordinates of small triangles differ in all their digits.
+pub(super) struct FaceView {
     pub home: Motion<DoubleDouble>,
-    /// From the half-edge from which it is seen.
+    /// Its half-edges, from that of the frame on.
     pub sides: [HalfedgeId; 3],
     pub corners: [PrecisePoint; 3],
 }
 
-impl View {
-    pub fn new(domain: &PlacedMesh, near: HalfedgeId) -> View {
+impl FaceView {
+    pub fn new(domain: &PlacedMesh, near: HalfedgeId) -> FaceView {
         let mesh = &domain.cover.mesh;
         let home = domain.frame_at(near).inverse();
         let sides = [near, mesh.next(near), mesh.prev(near)];
-        View { home, sides, corners: sides.map(|h| home.apply(domain.corner(h))) }
+        FaceView { home, sides, corners: sides.map(|h| home.apply(domain.corner(h))) }
     }
 
-    /// What is opposite each corner, positive inside.
+    /// The determinant of a point with the side opposite each corner, positive inside.
     fn parts(&self, p: PrecisePoint) -> [f64; 3] {
         [0, 1, 2].map(|k| f64::from(determinant([p, self.corners[(k + 1) % 3], self.corners[(k + 2) % 3]])))
     }
 
-    fn spot(&self, domain: &PlacedMesh, parts: [f64; 3]) -> Spot {
+    fn spot(&self, domain: &PlacedMesh, parts: [f64; 3]) -> WeightedPlace {
         let inside = parts.map(|x| x.max(0.0));
         let sum: f64 = inside.iter().sum();
         let own = if sum > 0.0 { inside.map(|x| x / sum) } else { [1.0 / 3.0; 3] };
         let (face, first) = domain.cover.mesh.corner(self.sides[0]).unwrap_or((FaceId(0), 0));
         let weights = std::array::from_fn(|k| own[(k + 3 - first) % 3]);
         let total = sum / f64::from(determinant(self.corners));
-        Spot { place: Place { face, weights }, total: if total > 0.0 { total } else { 1.0 } }
+        WeightedPlace { place: Place { face, weights }, total: if total > 0.0 { total } else { 1.0 } }
     }
 }
 
-/// A point seen from a face of a domain: a half-edge of that, and the transformation that carries the point there.
+/// A face of a domain near a point: a half-edge of that, and the transformation that carries the point there.
 #[derive(Clone, Copy)]
-struct Seen {
+struct FaceNearPoint {
     near: HalfedgeId,
     copy: Motion<DoubleDouble>,
 }
 
-impl Seen {
-    /// Seen from the face across a side of this one.
-    fn across(&self, domain: &PlacedMesh, side: HalfedgeId) -> Seen {
+impl FaceNearPoint {
+    /// The same for the face across a side of this one.
+    fn across(&self, domain: &PlacedMesh, side: HalfedgeId) -> FaceNearPoint {
         let copy = domain
             .cover
             .across(side)
             .map_or(self.copy, |across| across.inverse().compose(&self.copy).normalised());
-        Seen { near: side.twin(), copy }
+        FaceNearPoint { near: side.twin(), copy }
     }
 }
 
@@ -112,7 +114,7 @@ fn heights(placed: &PlacedMesh) -> PerVertex<f64> {
     heights
 }
 
-/// The largest distance between a corner as a face and as its neighbour have it: deck transformations are rounded.
+/// The largest distance between the positions of a corner in two neighbouring faces, which differ by the rounding of deck transformations.
 fn gap(placed: &PlacedMesh) -> f64 {
     let mesh = &placed.cover.mesh;
     let of = |h: HalfedgeId| {
@@ -125,24 +127,24 @@ fn gap(placed: &PlacedMesh) -> f64 {
     inner.filter_map(of).fold(0.0, f64::max)
 }
 
-/// Both triangulations with their vertices in each other. The source's vertices are moved aside by next to nothing, or to vertices of the
-/// target that they are next to nothing away from; those of the target that have one there have no standing.
-pub(super) struct Settled {
+/// The places of the vertices of both triangulations in each other. The source's vertices have been moved by tiny distances: aside, or to
+/// vertices of the target that are so near. Vertices of the target with one of the source at them have no place of their own.
+pub(super) struct SettledVertices {
     pub source: PlacedMesh,
-    pub forward: Vec<Standing>,
-    pub backward: Vec<Option<Standing>>,
-    /// Per vertex of the target the one of the source that is at it.
+    pub forward: Vec<PlacedVertex>,
+    pub backward: Vec<Option<PlacedVertex>>,
+    /// Per vertex of the target, the vertex of the source at it.
     pub taken: PerVertex<Option<VertexId>>,
 }
 
-impl Settled {
+impl SettledVertices {
     /// # Errors
-    /// [`Error::Matching`] where the places of vertices cannot be told; [`Error::Cancelled`].
+    /// [`Error::Matching`] if the places of vertices cannot be decided; [`Error::Cancelled`].
     pub fn new(
         [source, target]: [&PlacedMesh; 2],
         seeds: [WalkSeed; 2],
         control: &Control,
-    ) -> Result<Settled> {
+    ) -> Result<SettledVertices> {
         let high = [heights(source), heights(target)];
         let gap = gap(source).max(gap(target));
         let aside = |v: VertexId| (ASIDE * high[0][v]).max(GAPS * gap).min(MOST_ASIDE * high[0][v]);
@@ -158,12 +160,12 @@ impl Settled {
         for (v, found) in mesh.vertices().zip(&found) {
             let mut standing = stand(&source, target, v, found)?;
             let same = |b: VertexId| (SAME * aside(v)).min(SAME * MOST_ASIDE * high[1][b]);
-            if let Some((h, b)) = next_to(&source, target, (v, &standing), same)
+            if let Some((h, b)) = next_to(&source, target, v, &standing, same)
                 && taken[b].is_none()
             {
                 taken[b] = Some(v);
                 source.at[v] = standing.copy.inverse().compose(&target.frame_at(h)).normalised();
-                standing = Standing { near: h, at: At::Vertex(b), ..standing };
+                standing = PlacedVertex { near: h, at: VertexPlace::Vertex(b), ..standing };
             }
             forward.push(standing);
         }
@@ -176,15 +178,17 @@ impl Settled {
             None => stand(target, &source, v, found).map(Some),
         };
         let backward = target.cover.mesh.vertices().zip(&found).map(back).collect::<Result<_>>()?;
-        Ok(Settled { source, forward, backward, taken })
+        Ok(SettledVertices { source, forward, backward, taken })
     }
 }
 
-/// The corner of the face where a vertex stands that it is next to, if both are inside the surface or both on the boundary.
+/// The corner, of the face that contains a vertex, that is so near that both count as one, if both are inside the surface or both on the
+/// boundary.
 fn next_to(
     points: &PlacedMesh,
     domain: &PlacedMesh,
-    (v, standing): (VertexId, &Standing),
+    v: VertexId,
+    standing: &PlacedVertex,
     same: impl Fn(VertexId) -> f64,
 ) -> Option<(HalfedgeId, VertexId)> {
     let mesh = &domain.cover.mesh;
@@ -198,8 +202,13 @@ fn next_to(
     [standing.near, mesh.next(standing.near), mesh.prev(standing.near)].into_iter().find_map(near)
 }
 
-fn stand(points: &PlacedMesh, domain: &PlacedMesh, v: VertexId, found: &LocatedVertex) -> Result<Standing> {
-    let seen = Seen { near: found.near, copy: found.copy };
+fn stand(
+    points: &PlacedMesh,
+    domain: &PlacedMesh,
+    v: VertexId,
+    found: &LocatedVertex,
+) -> Result<PlacedVertex> {
+    let seen = FaceNearPoint { near: found.near, copy: found.copy };
     let point = points.at[v].origin();
     if points.cover.mesh.is_boundary_vertex(v) {
         return on_side(domain, point, seen).ok_or_else(|| lost(v));
@@ -213,14 +222,14 @@ fn lost(v: VertexId) -> Error {
     ))
 }
 
-/// In the face that holds a point, from one that it lies outside of by rounding at most.
-fn inside(domain: &PlacedMesh, point: PrecisePoint, mut seen: Seen) -> Option<Standing> {
+/// The place of a point inside a face, from a face that contains it up to rounding.
+fn inside(domain: &PlacedMesh, point: PrecisePoint, mut seen: FaceNearPoint) -> Option<PlacedVertex> {
     for _ in 0..MOST_STEPS {
-        let view = View::new(domain, seen.near);
+        let view = FaceView::new(domain, seen.near);
         let parts = view.parts(view.home.apply(seen.copy.apply(point)));
         let Some(k) = (0..3).find(|&k| parts[k] < 0.0) else {
-            let at = At::Inside(view.spot(domain, parts));
-            return Some(Standing { near: seen.near, copy: seen.copy, at });
+            let at = VertexPlace::Inside(view.spot(domain, parts));
+            return Some(PlacedVertex { near: seen.near, copy: seen.copy, at });
         };
         let side = view.sides[(k + 1) % 3];
         if domain.cover.mesh.is_outside(side.twin()) {
@@ -231,10 +240,10 @@ fn inside(domain: &PlacedMesh, point: PrecisePoint, mut seen: Seen) -> Option<St
     None
 }
 
-/// On the side at the boundary that is nearest to a point, of those around the face.
-fn on_side(domain: &PlacedMesh, point: PrecisePoint, seen: Seen) -> Option<Standing> {
+/// The place of a point on the side at the boundary that is nearest to it, of those around the face.
+fn on_side(domain: &PlacedMesh, point: PrecisePoint, seen: FaceNearPoint) -> Option<PlacedVertex> {
     let (mesh, space) = (&domain.cover.mesh, domain.cover.space);
-    let mut best: Option<(f64, Seen, f64)> = None;
+    let mut best: Option<(f64, FaceNearPoint, f64)> = None;
     for seen in around(domain, seen) {
         for side in [seen.near, mesh.next(seen.near), mesh.prev(seen.near)] {
             if !mesh.is_outside(side.twin()) {
@@ -245,25 +254,25 @@ fn on_side(domain: &PlacedMesh, point: PrecisePoint, seen: Seen) -> Option<Stand
             let [x, y] = logarithm(space, frame.inverse().apply(seen.copy.apply(point)));
             let off = (-x).max(x - length).max(0.0) + y.abs();
             if best.is_none_or(|(least, ..)| off < least) {
-                best = Some((off, Seen { near: side, ..seen }, x));
+                best = Some((off, FaceNearPoint { near: side, ..seen }, x));
             }
         }
     }
     let (_, seen, x) = best?;
-    let view = View::new(domain, seen.near);
+    let view = FaceView::new(domain, seen.near);
     let [a, b, _] = view.parts(view.home.apply(seen.copy.apply(point)));
-    // The point is on the side: its part opposite the third corner is rounding.
+    // The point is on the side, so that its weight of the third corner is set to 0.
     let spot = view.spot(domain, [a, b, 0.0]);
-    Some(Standing { near: seen.near, copy: seen.copy, at: At::Side(spot, x) })
+    Some(PlacedVertex { near: seen.near, copy: seen.copy, at: VertexPlace::Side(spot, x) })
 }
 
 /// The faces around the corners of a face.
-fn around(domain: &PlacedMesh, seen: Seen) -> Vec<Seen> {
+fn around(domain: &PlacedMesh, seen: FaceNearPoint) -> Vec<FaceNearPoint> {
     let mesh = &domain.cover.mesh;
     let mut all = Vec::new();
     for near in [seen.near, mesh.next(seen.near), mesh.prev(seen.near)] {
         let most = mesh.fan(mesh.origin(near)).len();
-        let mut at = Seen { near, ..seen };
+        let mut at = FaceNearPoint { near, ..seen };
         all.push(at);
         for _ in 1..most {
             let side = mesh.prev(at.near);
@@ -273,7 +282,7 @@ fn around(domain: &PlacedMesh, seen: Seen) -> Vec<Seen> {
             at = at.across(domain, side);
             all.push(at);
         }
-        at = Seen { near, ..seen };
+        at = FaceNearPoint { near, ..seen };
         for _ in 1..most {
             if mesh.is_outside(at.near.twin()) {
                 break;

@@ -156,7 +156,7 @@ fn in_own_orbifold(
         cones: &marks.landmarks,
         own_corners: &[],
         scale: LayoutScale::default(),
-        refinement: None,
+        subdivision: None,
         threads: options.flow.threads,
     };
     Ok((opening.place(&metric.solution, mesh, control)?.0, metric.iterations))

@@ -197,7 +197,7 @@ fn closed(domain: &CircleDomain, threads: usize, control: &Control) -> Result<Pl
         cones: &[],
         own_corners: &[],
         scale: LayoutScale::AsSolved,
-        refinement: None,
+        subdivision: None,
         threads,
     };
     Ok(opening.place(&domain.metric, &mesh, control)?.0)

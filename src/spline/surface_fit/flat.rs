@@ -89,7 +89,7 @@ impl FlatMetric {
                 plane: None,
             });
         }
-        let refinement = Arc::new(flat.refinement(control)?);
+        let refinement = Arc::new(flat.common_subdivision(control)?);
         let steps = FaceTransitions::new(flat, Some(&refinement))?;
         let mut lengths = PerEdge::filled(steps.mesh.n_edges(), 0.0);
         for f in steps.mesh.faces() {

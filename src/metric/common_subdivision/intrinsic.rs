@@ -7,34 +7,38 @@
 //! its crossings with the final edges in these faces ([`super::chords`]) are those of the map itself.
 //!
 //! That line may cross a final edge and at once cross it back, or cross final edges around its own ends. Curves in normal coordinates do
-//! neither. So these passages are taken out, and the crossings that normal coordinates know of are left. They may be out of order along
-//! either edge, because passages were taken out or by rounding, and are brought into order ([`restore_order`]): the crossings define a
-//! bijection if their order is right along both edges.
+//! neither. So these crossings are taken out, and those that normal coordinates count are left. Rounding, or taking crossings out, may
+//! have put them out of order along either edge; [`restore_order`] brings them into order, because the crossings define a bijection only
+//! if their order is right along both edges.
 
-use super::chords::{Border, Chords, Passing, Station};
+use super::chords::{BorderPlace, FaceChords, Passing, Station};
+use super::data::{Crossing, torn};
 use super::geodesic::{Straight, straight};
-use super::lines::Lines;
+use super::lines::StraightLines;
 use super::order::{ORIGIN, OnEdge, TIP, restore_order, restore_order_across};
-use super::parts::{Crossing, torn};
-use super::triangulations::Intrinsic;
+use super::triangulations::IntrinsicTriangulation;
 use crate::control::Control;
 use crate::error::Result;
 use crate::mesh::normal_trace::CurveCrossing;
 use crate::mesh::{Curves, EdgeId, FaceId, HalfedgeId, Mesh, PerEdge};
 
-/// What the places of crossings are found from.
-pub(super) struct Placement<'a> {
+/// The input's edges as straight lines on the intrinsic triangulation, and the final edges as chords of its faces.
+pub(super) struct CrossingPlacement<'a> {
     /// The input's edges on the intrinsic triangulation, with their crossings.
     curves: Curves,
     straight: Vec<Straight>,
     /// Per intrinsic edge: the final half-edge along its half-edge 2e, if it stays.
     stays: PerEdge<Option<HalfedgeId>>,
-    chords: Chords<'a>,
+    chords: FaceChords<'a>,
 }
 
-impl<'a> Placement<'a> {
-    /// O(edges + crossings of any two of the three triangulations). Errors: those of [`super::Refinement::new`].
-    pub fn new(intrinsic: Intrinsic<'a>, lines: &Lines, control: &Control) -> Result<Placement<'a>> {
+impl<'a> CrossingPlacement<'a> {
+    /// O(edges + crossings of any two of the three triangulations). Errors: those of [`super::CommonSubdivision::new`].
+    pub fn new(
+        intrinsic: IntrinsicTriangulation<'a>,
+        lines: &StraightLines,
+        control: &Control,
+    ) -> Result<CrossingPlacement<'a>> {
         let (mesh, result) = (intrinsic.mesh, lines.result.mesh);
         let curves = Curves::trace(mesh, intrinsic.given, control)?;
         control.check()?;
@@ -44,43 +48,43 @@ impl<'a> Placement<'a> {
         let crossings = lines.crossings(mesh, &on_final)?;
         control.check()?;
         let stays = PerEdge::from_fn(mesh.n_edges(), |e| on_final.along(e));
-        let chords = Chords { mesh, curves: on_final, crossings, weight: lines.vertex_weights() };
-        Ok(Placement { curves, straight, stays, chords })
+        let chords = FaceChords { mesh, curves: on_final, crossings, weight: lines.vertex_weights() };
+        Ok(CrossingPlacement { curves, straight, stays, chords })
     }
 
-    /// Move the crossings of an edge of the input, which come on a straight line of the class, to the straight line on the surface;
-    /// whether that has changed any.
+    /// Move the crossings of an edge of the input from the straight line of the class, where they are, to the straight line on the
+    /// surface; true if that has changed any.
     pub fn place(&self, e: EdgeId, strip: &[CurveCrossing], placed: &mut [(Crossing, f64)]) -> Result<bool> {
         let along_intrinsic = self.curves.along(e).is_some();
         if !along_intrinsic && !strip.is_empty() {
             for ((crossing, weight), passing) in placed.iter_mut().zip(reduced(self.line(e)?, strip)?) {
                 let Passing { halfedge, line, across: [x, y], weight: q } = passing;
-                crossing.input_weights = line;
-                crossing.final_weights = if halfedge.0 & 1 == 0 { [x, y] } else { [y, x] };
+                crossing[0].weights = line;
+                crossing[1].weights = if halfedge.0 & 1 == 0 { [x, y] } else { [y, x] };
                 *weight = q;
             }
         }
-        let mut places: Vec<OnEdge> = placed.iter().map(|(crossing, _)| crossing.input_weights).collect();
+        let mut places: Vec<OnEdge> = placed.iter().map(|(crossing, _)| crossing[0].weights).collect();
         restore_order(&mut places);
         let mut moved = !along_intrinsic;
         for ((crossing, _), place) in placed.iter_mut().zip(places) {
-            moved |= crossing.input_weights != place;
-            crossing.input_weights = place;
+            moved |= crossing[0].weights != place;
+            crossing[0].weights = place;
         }
         Ok(moved)
     }
 
     /// Once all crossings are placed, bring those on each final edge into order, and mark in `moved` those that this moves.
     pub fn settle(result: &Mesh, curves: &Curves, crossings: &mut [Crossing], moved: &mut [bool]) {
-        let mut places: Vec<OnEdge> = crossings.iter().map(|c| c.final_weights).collect();
+        let mut places: Vec<OnEdge> = crossings.iter().map(|c| c[1].weights).collect();
         restore_order_across(result, curves, &mut places);
         for ((crossing, place), moved) in crossings.iter_mut().zip(places).zip(moved) {
-            *moved |= crossing.final_weights != place;
-            crossing.final_weights = place;
+            *moved |= crossing[1].weights != place;
+            crossing[1].weights = place;
         }
     }
 
-    /// All that the straight line of an edge of the input passes. Errors: [`crate::Error::Connectivity`] where it leaves the surface.
+    /// All crossings of the straight line of an edge of the input with final edges. Errors: [`crate::Error::Connectivity`] where it leaves the surface.
     fn line(&self, e: EdgeId) -> Result<Vec<Passing>> {
         let (mesh, crossings) = (self.chords.mesh, self.curves.crossings(e));
         // The corner opposite a half-edge, in its face.
@@ -89,7 +93,7 @@ impl<'a> Placement<'a> {
             let k = (k + 2) % 3;
             let mut vector = [0.0; 3];
             vector[k] = 1.0;
-            Ok((f, Station { border: Border::Corner(k), line, vector }))
+            Ok((f, Station { border: BorderPlace::Corner(k), line, vector }))
         };
         let mut passed = Vec::new();
         let mut from = None;
@@ -100,7 +104,7 @@ impl<'a> Placement<'a> {
                 let (f, k) = mesh.corner(h).ok_or_else(torn)?;
                 let mut vector = [0.0; 3];
                 (vector[k], vector[(k + 1) % 3]) = (straight.ratio * x, straight.ratio * y);
-                Ok((f, Station { border: Border::Side(k, rank), line: straight.edge, vector }))
+                Ok((f, Station { border: BorderPlace::Side(k, rank), line: straight.edge, vector }))
             };
             let rank = self.chords.rank(h, straight.across);
             let (f, to) = on(h, straight.across, rank)?;
@@ -121,7 +125,7 @@ impl<'a> Placement<'a> {
         Ok(passed)
     }
 
-    /// The passage of a line through an intrinsic half-edge, if a final edge runs along that.
+    /// The crossing of a line with an intrinsic half-edge as one with the final edge along that, if there is one.
     fn along_final(&self, h: HalfedgeId, straight: &Straight) -> Option<Passing> {
         let along = self.stays[h.edge()]?;
         let mesh = self.chords.mesh;
@@ -138,7 +142,7 @@ impl<'a> Placement<'a> {
     }
 }
 
-/// The passages of `strip` among all that a line passes.
+/// The crossings of `strip` among all those of a line.
 fn reduced(passed: Vec<Passing>, strip: &[CurveCrossing]) -> Result<Vec<Passing>> {
     let mut tight: Vec<Passing> = Vec::with_capacity(strip.len());
     for passing in passed {
@@ -147,7 +151,7 @@ fn reduced(passed: Vec<Passing>, strip: &[CurveCrossing]) -> Result<Vec<Passing>
             _ => tight.push(passing),
         }
     }
-    // Passages around the ends of the line come before and after those of the strip.
+    // Crossings around the ends of the line come before and after those of the strip.
     let same =
         |window: &[Passing]| window.iter().zip(strip).all(|(passing, at)| passing.halfedge == at.halfedge);
     let start = tight.windows(strip.len()).position(same).ok_or_else(torn)?;

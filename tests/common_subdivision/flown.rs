@@ -1,12 +1,14 @@
-//! Flows whose flips are recorded.
+//! Flows whose flips are recorded, for the checks of the common subdivision.
 
 use crate::common::flow::attempt;
 use ricci::flow::Options;
 use ricci::geometry::{DoubleDouble, Space};
 use ricci::mesh::{Double, FixedEdges, Flip, Mesh, NormalCoordinates, PerEdge, PerVertex, VertexId};
-use ricci::metric::delaunay::{ClassFlips, Queue, failing};
-use ricci::metric::refinement::{Final, Input, Intrinsic, Triangulations};
-use ricci::metric::{Metric, Refinement, Scheme, StartOptions, Triangulated, delaunay_start};
+use ricci::metric::common_subdivision::{
+    FinalTriangulation, InputTriangulation, IntrinsicTriangulation, Triangulations,
+};
+use ricci::metric::delaunay::{ClassFlips, FlipQueue, failing};
+use ricci::metric::{CommonSubdivision, Metric, Scheme, StartOptions, Triangulated, delaunay_start};
 use ricci::{Class, Control, Flow};
 
 pub const SCHEMES: [Scheme; 2] = [Scheme::Yamabe, Scheme::Inversive];
@@ -20,7 +22,7 @@ pub struct Flown {
     pub input_u: PerVertex<f64>,
     pub normal: NormalCoordinates,
     pub flips: usize,
-    /// Where the isometric flips have led, if there were any: triangulation, lengths, the input's edges on it, its own on `mesh`.
+    /// The start after isometric flips, if there were any: triangulation, lengths, the input's edges on it, its own on `mesh`.
     pub start: Option<(Mesh, PerEdge<f64>, NormalCoordinates, NormalCoordinates)>,
 }
 
@@ -49,7 +51,7 @@ pub fn flow(
     for step in 1..=20 {
         let s = f64::from(step) / 20.0;
         let u = PerVertex::from_fn(from.len(), |v: VertexId| (1.0 - s) * from[v] + s * to[v]);
-        let mut queue = Queue::new(mesh.n_edges(), &FixedEdges::none());
+        let mut queue = FlipQueue::new(mesh.n_edges(), &FixedEdges::none());
         metric.u = u;
         failing(mesh, metric).into_iter().for_each(|e| queue.push(e));
         let vertices = metric.vertices();
@@ -101,16 +103,17 @@ impl Flown {
         }
     }
 
-    pub fn refine(&self, input: &Mesh, double: Option<&Double>) -> Refinement {
+    pub fn refine(&self, input: &Mesh, double: Option<&Double>) -> CommonSubdivision {
         let keep = |f| double.is_none_or(|double| double.is_original(f));
-        let given = Input { mesh: input, geometry: self.geometry, u: &self.input_u };
-        let result = Final { mesh: &self.mesh, metric: &self.metric, normal: &self.normal };
-        let intrinsic = self.start.as_ref().map(|(mesh, lengths, given, normal)| Intrinsic {
+        let given = InputTriangulation { mesh: input, geometry: self.geometry, u: &self.input_u };
+        let result = FinalTriangulation { mesh: &self.mesh, metric: &self.metric, normal: &self.normal };
+        let intrinsic = self.start.as_ref().map(|(mesh, lengths, given, normal)| IntrinsicTriangulation {
             mesh,
             lengths,
             given,
             normal,
         });
-        Refinement::new(Triangulations { input: given, intrinsic, result }, &keep, &Control::new()).unwrap()
+        CommonSubdivision::new(Triangulations { input: given, intrinsic, result }, &keep, &Control::new())
+            .unwrap()
     }
 }

@@ -8,13 +8,13 @@ use ricci::Control;
 use ricci::geometry::flip::Hinge;
 use ricci::geometry::{DoubleDouble, Space};
 use ricci::mesh::{EdgeId, FaceId, Mesh, NormalCoordinates, PerEdge, PerVertex, VertexId, shapes};
-use ricci::metric::refinement::{Final, Input, Triangulations};
-use ricci::metric::{Class, Metric, Refinement, Scheme, initial_metric, lengths_from_positions};
+use ricci::metric::common_subdivision::{FinalTriangulation, InputTriangulation, Triangulations};
+use ricci::metric::{Class, CommonSubdivision, Metric, Scheme, initial_metric, lengths_from_positions};
 use std::f64::consts::PI;
 use std::sync::Arc;
 
 #[test]
-fn without_flips_the_refinement_is_the_input() {
+fn without_flips_the_subdivision_is_the_input() {
     let soup = shapes::genus(2, 3).unwrap();
     let mesh = Mesh::from_soup(&soup).unwrap();
     let lengths = lengths_from_positions(&mesh, &soup.positions).unwrap();
@@ -22,14 +22,14 @@ fn without_flips_the_refinement_is_the_input() {
     let normal = NormalCoordinates::new(&mesh);
     let mut metric = initial.metric;
     metric.u.iter_mut().for_each(|u| *u += 0.5);
-    let given = Input { mesh: &mesh, geometry: Space::E2, u: &initial.input_u };
-    let result = Final { mesh: &mesh, metric: &metric, normal: &normal };
+    let given = InputTriangulation { mesh: &mesh, geometry: Space::E2, u: &initial.input_u };
+    let result = FinalTriangulation { mesh: &mesh, metric: &metric, normal: &normal };
     let all = Triangulations { input: given, intrinsic: None, result };
-    let r = Refinement::new(all, &|_| true, &Control::new()).unwrap();
+    let r = CommonSubdivision::new(all, &|_| true, &Control::new()).unwrap();
     assert_eq!(r.mesh.n_vertices(), mesh.n_vertices());
     for f in r.mesh.faces() {
         assert_eq!(r.mesh.face_vertices(f), mesh.face_vertices(f));
-        assert!(r.input_face[f] == f && r.final_face[f] == f);
+        assert!(r.faces[0][f] == f && r.faces[1][f] == f);
     }
     assert!(r.weight.iter().all(|q| (q * 0.5f64.exp() - 1.0).abs() < 1e-14));
 }
@@ -93,9 +93,9 @@ fn refined_from_either_side_the_crossings_are_the_same() {
             (0..3).for_each(|_| assert!(ptolemy(&mut back, &mut again, &mut reverse, e)));
         }
         let refine = |a: &Mesh, b: &Mesh, metric: &Metric, normal: &NormalCoordinates| {
-            let given = Input { mesh: a, geometry: Space::E2, u: &metric.u };
-            let result = Final { mesh: b, metric, normal };
-            Refinement::new(
+            let given = InputTriangulation { mesh: a, geometry: Space::E2, u: &metric.u };
+            let result = FinalTriangulation { mesh: b, metric, normal };
+            CommonSubdivision::new(
                 Triangulations { input: given, intrinsic: None, result },
                 &|_| true,
                 &Control::new(),
@@ -111,13 +111,10 @@ fn refined_from_either_side_the_crossings_are_the_same() {
         let mut one: Vec<_> = there
             .crossings
             .iter()
-            .map(|c| (c.input_edge, c.final_edge, c.input_weights[1], c.final_weights[1]))
+            .map(|c| (c[0].edge, c[1].edge, c[0].weights[1], c[1].weights[1]))
             .collect();
-        let mut two: Vec<_> = here
-            .crossings
-            .iter()
-            .map(|c| (c.final_edge, c.input_edge, c.final_weights[1], c.input_weights[1]))
-            .collect();
+        let mut two: Vec<_> =
+            here.crossings.iter().map(|c| (c[1].edge, c[0].edge, c[1].weights[1], c[0].weights[1])).collect();
         for list in [&mut one, &mut two] {
             list.sort_by(|a, b| (a.0, a.1).cmp(&(b.0, b.1)).then(a.2.total_cmp(&b.2)));
         }
@@ -128,14 +125,14 @@ fn refined_from_either_side_the_crossings_are_the_same() {
             );
         }
         // The weight of the way back is the inverse, up to a crossing's number.
-        let product = |r: &Refinement| r.weight.iter().map(|q| q.ln()).sum::<f64>();
+        let product = |r: &CommonSubdivision| r.weight.iter().map(|q| q.ln()).sum::<f64>();
         assert!((product(&there) + product(&here)).abs() < 1e-9);
         // Pieces fill the faces of both.
         for (r, n) in [(&there, before.n_faces()), (&here, after.n_faces())] {
             let mut area = vec![[0.0; 2]; n];
             for f in r.mesh.faces() {
-                area[r.input_face[f].index()][0] += determinant(r.input_barycentric(f));
-                area[r.final_face[f].index()][1] += determinant(r.final_barycentric(f));
+                area[r.faces[0][f].index()][0] += determinant(r.barycentric(0, f));
+                area[r.faces[1][f].index()][1] += determinant(r.barycentric(1, f));
             }
             assert!(area.iter().flatten().all(|a| (a - 1.0).abs() < 1e-12), "{area:?}");
         }
@@ -204,9 +201,9 @@ fn edges_across_a_cocircular_quadrilateral_stay_straight() {
             continue;
         }
         seen += 1;
-        let given = Input { mesh: &before, geometry: space, u: &u };
-        let result = Final { mesh: &mesh, metric: &metric, normal: &normal };
-        let r = Refinement::new(
+        let given = InputTriangulation { mesh: &before, geometry: space, u: &u };
+        let result = FinalTriangulation { mesh: &mesh, metric: &metric, normal: &normal };
+        let r = CommonSubdivision::new(
             Triangulations { input: given, intrinsic: None, result },
             &|_| true,
             &Control::new(),
@@ -216,7 +213,7 @@ fn edges_across_a_cocircular_quadrilateral_stay_straight() {
         let volume = |a: usize, b: usize, c: usize| determinant([at[a], at[b], at[c]]);
         let c = r.crossings[0];
         for (ends, weights, [from, to], [one, other]) in
-            [(c.input_ends, c.input_weights, [0, 2], [1, 3]), (c.final_ends, c.final_weights, [1, 3], [2, 0])]
+            [(c[0].ends, c[0].weights, [0, 2], [1, 3]), (c[1].ends, c[1].weights, [1, 3], [2, 0])]
         {
             let share = volume(from, one, other) / (volume(from, one, other) + volume(to, other, one));
             let found = weights[usize::from(ends[1].index() == to)];
@@ -229,8 +226,7 @@ fn edges_across_a_cocircular_quadrilateral_stay_straight() {
         };
         let q = r.weight[VertexId(4)];
         for i in 0..3 {
-            let [p, image] =
-                [point(c.input_ends, c.input_weights, i), q * point(c.final_ends, c.final_weights, i)];
+            let [p, image] = [point(c[0].ends, c[0].weights, i), q * point(c[1].ends, c[1].weights, i)];
             assert!((p - image).abs() < 1e-12, "{space} {epsilon}: {p} {image}");
         }
     }
@@ -250,8 +246,8 @@ fn values_are_carried_through_both_triangulations() {
     let corners = |mesh: &Mesh| -> Vec<_> {
         mesh.faces().map(|f| mesh.face_vertices(f).map(|v| soup.positions[v.index()])).collect()
     };
-    let of_input = (r.from_input_vertices(&soup.positions), r.from_input_corners(&corners(&mesh)));
-    let of_final = (r.from_final_vertices(&soup.positions), r.from_final_corners(&corners(&flown.mesh)));
+    let of_input = (r.from_vertices(0, &soup.positions), r.from_corners(0, &corners(&mesh)));
+    let of_final = (r.from_vertices(1, &soup.positions), r.from_corners(1, &corners(&flown.mesh)));
     for (at_vertices, at_corners) in [of_input, of_final] {
         let (at_vertices, at_corners) = (at_vertices.unwrap(), at_corners.unwrap());
         for f in r.mesh.faces() {
@@ -262,28 +258,28 @@ fn values_are_carried_through_both_triangulations() {
             }
         }
     }
-    assert!(r.from_input_vertices(&soup.positions[1..]).is_err());
-    assert!(r.from_input_corners(&corners(&mesh)[1..]).is_err());
+    assert!(r.from_vertices(0, &soup.positions[1..]).is_err());
+    assert!(r.from_corners(0, &corners(&mesh)[1..]).is_err());
     // Points map across the common border of two pieces without a jump.
     let forward = r.forward();
     for h in r.mesh.halfedges().step_by(5) {
         let (f, g) = (r.mesh.face(h).unwrap(), r.mesh.face(h.twin()).unwrap());
         let middle = |f, h| {
             let k = r.mesh.face_halfedges(f).iter().position(|&x| x == h).unwrap();
-            let b = r.input_barycentric(f);
+            let b = r.barycentric(0, f);
             [0, 1, 2].map(|i| 0.3 * b[k][i] + 0.7 * b[(k + 1) % 3][i])
         };
         let other = |f, h| {
             let k = r.mesh.face_halfedges(f).iter().position(|&x| x == h).unwrap();
-            let b = r.input_barycentric(f);
+            let b = r.barycentric(0, f);
             [0, 1, 2].map(|i| 0.7 * b[k][i] + 0.3 * b[(k + 1) % 3][i])
         };
         let place = |(f, b): (FaceId, [f64; 3])| {
             let corners = flown.mesh.face_vertices(f).map(|v| soup.positions[v.index()]);
             [0, 1, 2].map(|i| (0..3).map(|k| b[k] * corners[k][i]).sum::<f64>())
         };
-        let p = place(forward.image(r.input_face[f], middle(f, h)).unwrap());
-        let q = place(forward.image(r.input_face[g], other(g, h.twin())).unwrap());
+        let p = place(forward.image(r.faces[0][f], middle(f, h)).unwrap());
+        let q = place(forward.image(r.faces[0][g], other(g, h.twin())).unwrap());
         assert!((0..3).all(|i| (p[i] - q[i]).abs() < 1e-10), "{p:?} {q:?}");
     }
 }
@@ -297,9 +293,9 @@ fn any_number_of_threads_gives_the_same_and_a_cancelled_call_says_so() {
     let (mut after, mut metric, mut normal) = (mesh.clone(), initial.metric, NormalCoordinates::new(&mesh));
     shuffle(&mut after, &mut metric, &mut normal, 2 * mesh.n_edges(), 2);
     let refine = |control: &Control| {
-        let given = Input { mesh: &mesh, geometry: Space::E2, u: &initial.input_u };
-        let result = Final { mesh: &after, metric: &metric, normal: &normal };
-        Refinement::new(Triangulations { input: given, intrinsic: None, result }, &|_| true, control)
+        let given = InputTriangulation { mesh: &mesh, geometry: Space::E2, u: &initial.input_u };
+        let result = FinalTriangulation { mesh: &after, metric: &metric, normal: &normal };
+        CommonSubdivision::new(Triangulations { input: given, intrinsic: None, result }, &|_| true, control)
     };
     let one = refine(&Control::new()).unwrap();
     assert!(one.crossings.len() > mesh.n_edges());
@@ -312,10 +308,14 @@ fn any_number_of_threads_gives_the_same_and_a_cancelled_call_says_so() {
     assert!(matches!(refine(&cancelled), Err(ricci::Error::Cancelled)));
     // A flip that was not recorded is noticed.
     let blind = NormalCoordinates::new(&mesh);
-    let given = Input { mesh: &mesh, geometry: Space::E2, u: &initial.input_u };
-    let result = Final { mesh: &after, metric: &metric, normal: &blind };
+    let given = InputTriangulation { mesh: &mesh, geometry: Space::E2, u: &initial.input_u };
+    let result = FinalTriangulation { mesh: &after, metric: &metric, normal: &blind };
     assert!(
-        Refinement::new(Triangulations { input: given, intrinsic: None, result }, &|_| true, &Control::new())
-            .is_err()
+        CommonSubdivision::new(
+            Triangulations { input: given, intrinsic: None, result },
+            &|_| true,
+            &Control::new()
+        )
+        .is_err()
     );
 }

@@ -1,4 +1,4 @@
-//! Where the edges of the input, straight on the surface, cross those of an intrinsic triangulation of it.
+//! Crossings of the edges of the input, straight on the surface, with those of an intrinsic triangulation of it.
 //!
 //! An edge a → b of the input runs through a strip of intrinsic triangles. Points are vectors of R³, and a line is the intersection of
 //! the surface of all points with a plane through 0: points are (x, y, 1) in E², on the hyperboloid in H², on the sphere in S². Each
@@ -16,7 +16,7 @@
 //! does anyway.
 
 use super::order::{OnEdge, restore_order, restore_order_across};
-use super::triangulations::Intrinsic;
+use super::triangulations::IntrinsicTriangulation;
 use crate::geometry::{Space, triangle};
 use crate::mesh::{Curves, EdgeId, FaceId, HalfedgeId, PerEdge, PerFace, PerHalfedge};
 use crate::parallel;
@@ -36,9 +36,9 @@ pub(super) struct Straight {
     pub ratio: f64,
 }
 
-/// What leads from frame to frame in the intrinsic triangulation.
+/// The motions from frame to frame in the intrinsic triangulation.
 struct Frames<'a> {
-    intrinsic: &'a Intrinsic<'a>,
+    intrinsic: &'a IntrinsicTriangulation<'a>,
     curvature: f64,
     /// Per edge: S(l) and C(l), that is l and 1, sinh l and cosh l, sin l and cos l.
     shift: PerEdge<[f64; 2]>,
@@ -48,7 +48,11 @@ struct Frames<'a> {
 
 /// All crossings, in the order of `curves`. Those of each edge of the input are in order along it, and those of each intrinsic edge
 /// along that.
-pub(super) fn straight(intrinsic: &Intrinsic, geometry: Space, curves: &Curves) -> Vec<Straight> {
+pub(super) fn straight(
+    intrinsic: &IntrinsicTriangulation,
+    geometry: Space,
+    curves: &Curves,
+) -> Vec<Straight> {
     let frames = Frames::new(intrinsic, geometry, curves);
     let crossing = curves.that_cross();
     let mut found = vec![Vec::new(); crossing.len()];
@@ -64,7 +68,7 @@ pub(super) fn straight(intrinsic: &Intrinsic, geometry: Space, curves: &Curves) 
 
 impl<'a> Frames<'a> {
     /// In the faces that these curves run through.
-    fn new(intrinsic: &'a Intrinsic<'a>, geometry: Space, curves: &Curves) -> Frames<'a> {
+    fn new(intrinsic: &'a IntrinsicTriangulation<'a>, geometry: Space, curves: &Curves) -> Frames<'a> {
         let (mesh, lengths) = (intrinsic.mesh, intrinsic.lengths);
         let mut is_crossed = PerFace::filled(mesh.n_faces(), false);
         for h in mesh.edges().flat_map(|e| curves.crossings(e)).map(|at| at.halfedge) {
@@ -148,7 +152,7 @@ impl<'a> Frames<'a> {
         [x * cosine - t * sine, y, t * cosine + self.curvature * x * sine]
     }
 
-    /// Where the line from a to b crosses the half-edge in whose frame they are.
+    /// The point where the line from a to b crosses the half-edge in whose frame they are.
     fn meeting(&self, h: HalfedgeId, a: [f64; 3], b: [f64; 3]) -> Straight {
         let [sine, cosine] = self.shift[h.edge()];
         let edge = place([-b[1], a[1]]);
@@ -172,7 +176,7 @@ fn back([sine, cosine]: [f64; 2]) -> [f64; 2] {
 }
 
 /// The point with weights in this proportion. Both weights are positive without rounding; one that is not becomes [`LEAST`]. Where
-/// neither is a positive number, the point is unknown to doubles; the middle of the edge then stands for it, which the order along the
+/// neither is a positive number, the point is not known in f64; the middle of the edge then stands for it, which the order along the
 /// edge corrects ([`super::order::restore_order`]).
 pub(super) fn place(weights: [f64; 2]) -> OnEdge {
     let [x, y] = weights.map(|w| if w > 0.0 && w < f64::INFINITY { w } else { 0.0 });

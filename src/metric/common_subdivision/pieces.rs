@@ -9,8 +9,8 @@
 //!       0——\———/——1
 //! ```
 
-use super::parts::{Origin, torn};
-use super::triangulations::Final;
+use super::data::torn;
+use super::triangulations::FinalTriangulation;
 use crate::control::{Control, Stage};
 use crate::error::Result;
 use crate::mesh::normal::Strands;
@@ -24,9 +24,9 @@ const FACES_PER_STEP: usize = 1024;
 /// Most corners of a piece.
 const MOST_CORNERS: usize = 6;
 
-/// Where in its final triangle a corner of a piece is.
+/// The place of a corner of a piece in its final triangle.
 #[derive(Debug, Clone, Copy)]
-enum Spot {
+enum CornerSpot {
     /// At corner k, after this many curves of its fan.
     Corner(usize, i64),
     /// The crossing at this position along side k → k + 1.
@@ -35,7 +35,7 @@ enum Spot {
 
 /// The side of a piece that follows a corner, counterclockwise.
 #[derive(Debug, Clone, Copy)]
-enum Way {
+enum PieceSide {
     /// Part number `.1` of side `.0` → `.0` + 1.
     Side(usize, i64),
     /// Part of a curve.
@@ -45,7 +45,7 @@ enum Way {
 /// A corner of a triangle of the output: vertex, and the half-edges of the input's and the final face at which (vertex) or on
 /// which (crossing) it lies.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Corner {
+pub(super) struct PieceCorner {
     pub vertex: u32,
     pub input: HalfedgeId,
     pub result: HalfedgeId,
@@ -53,9 +53,9 @@ pub(super) struct Corner {
 
 /// Two triangulations of a surface, one drawn on the other.
 #[derive(Clone, Copy)]
-pub(super) struct Overlay<'a> {
+pub(super) struct DrawnCurves<'a> {
     pub input: &'a Mesh,
-    pub result: &'a Final<'a>,
+    pub result: &'a FinalTriangulation<'a>,
     /// The input's edges on the final triangulation.
     pub curves: &'a Curves,
     /// Per crossing, whether it is off the class's straight line, so that the map of a piece at it is projective in each triangle
@@ -64,8 +64,8 @@ pub(super) struct Overlay<'a> {
 }
 
 /// The pieces as triangles. The numbers of vertices and half-edges have gaps, where faces are not kept.
-pub(super) struct Pieces<'a> {
-    pub overlay: Overlay<'a>,
+pub(super) struct PieceTriangles<'a> {
+    pub drawn: DrawnCurves<'a>,
     /// Per final edge, its first entry in `slots`, which holds the crossings of each edge in order along half-edge 2e.
     slot_start: Vec<u32>,
     slots: Vec<u32>,
@@ -74,30 +74,34 @@ pub(super) struct Pieces<'a> {
     /// Per final edge, the number of its first part; per edge of the input that crosses any, the same.
     parts: Vec<u32>,
     curve_parts: Vec<u32>,
-    /// Per edge of the output.
-    pub origins: Vec<Origin>,
+    /// Per edge of the output, the half-edges of the input and of the final triangulation that its half-edge 2e runs along.
+    pub along: Vec<[Option<HalfedgeId>; 2]>,
     /// Per triangle: its half-edges, corners, the piece it belongs to.
     pub sides: Vec<[u32; 3]>,
-    pub corners: Vec<[Corner; 3]>,
+    pub corners: Vec<[PieceCorner; 3]>,
     pub piece: Vec<u32>,
     n_pieces: u32,
 }
 
-impl<'a> Pieces<'a> {
+impl<'a> PieceTriangles<'a> {
     /// Cut all final triangles, O(output); keep the pieces of those faces of the input that `keep` names. A piece with a crossing that
     /// was moved is taken apart into its triangles.
-    pub fn cut(overlay: Overlay<'a>, keep: &dyn Fn(FaceId) -> bool, control: &Control) -> Result<Pieces<'a>> {
-        let Overlay { input, result, curves, .. } = overlay;
+    pub fn cut(
+        drawn: DrawnCurves<'a>,
+        keep: &dyn Fn(FaceId) -> bool,
+        control: &Control,
+    ) -> Result<PieceTriangles<'a>> {
+        let DrawnCurves { input, result, curves, .. } = drawn;
         let mesh = result.mesh;
         let n = |e: EdgeId| result.normal.crossings(e).max(0) as u32;
-        let mut pieces = Pieces {
-            overlay,
+        let mut pieces = PieceTriangles {
+            drawn,
             slot_start: running_sum(mesh.edges().map(n)),
             slots: vec![NONE; curves.n_crossings()],
             crossed_by: vec![0; curves.n_crossings()],
             parts: running_sum(mesh.edges().map(|e| n(e) + 1)),
             curve_parts: Vec::new(),
-            origins: Vec::new(),
+            along: Vec::new(),
             sides: Vec::new(),
             corners: Vec::new(),
             piece: Vec::new(),
@@ -105,17 +109,17 @@ impl<'a> Pieces<'a> {
         };
         pieces.reserve(mesh);
         for e in mesh.edges() {
-            let along = result.normal.along(mesh, e.halfedge()).map(HalfedgeId::edge);
-            pieces.origins.extend((0..=n(e)).map(|_| Origin { input: along, result: Some(e) }));
+            let along = result.normal.along(mesh, e.halfedge());
+            pieces.along.extend((0..=n(e)).map(|_| [along, Some(e.halfedge())]));
         }
-        let first = pieces.origins.len() as u32;
+        let first = pieces.along.len() as u32;
         let parts = |e| match curves.crossings(e).len() as u32 {
             0 => 0,
             m => m + 1,
         };
         pieces.curve_parts = running_sum(input.edges().map(parts)).into_iter().map(|k| first + k).collect();
         for e in input.edges() {
-            pieces.origins.extend((0..parts(e)).map(|_| Origin { input: Some(e), result: None }));
+            pieces.along.extend((0..parts(e)).map(|_| [Some(e.halfedge()), None]));
             for (c, crossing) in curves.numbers(e).zip(curves.crossings(e)) {
                 let slot = pieces.slot(crossing.halfedge, i64::from(crossing.position));
                 pieces.slots[slot] = c as u32;
@@ -134,7 +138,7 @@ impl<'a> Pieces<'a> {
     /// Make room for the pieces of all faces: each crossing adds three edges and two triangles to those of the final triangulation.
     fn reserve(&mut self, mesh: &Mesh) {
         let n = self.slots.len();
-        self.origins.reserve_exact(mesh.n_edges() + 3 * n);
+        self.along.reserve_exact(mesh.n_edges() + 3 * n);
         let triangles = mesh.n_faces() + 2 * n;
         self.sides.reserve_exact(triangles);
         self.corners.reserve_exact(triangles);
@@ -143,46 +147,46 @@ impl<'a> Pieces<'a> {
 
     fn slot(&self, side: HalfedgeId, position: i64) -> usize {
         let e = side.edge();
-        let n = self.overlay.result.normal.crossings(e);
+        let n = self.drawn.result.normal.crossings(e);
         let along = if side.0 & 1 == 0 { position } else { n - 1 - position };
         self.slot_start[e.index()] as usize + along as usize
     }
 
     fn cut_face(&mut self, f: FaceId, keep: &dyn Fn(FaceId) -> bool) -> Result<()> {
-        let h = self.overlay.result.mesh.face_halfedges(f);
-        let n = h.map(|h| self.overlay.result.normal.crossings(h.edge()).max(0));
+        let h = self.drawn.result.mesh.face_halfedges(f);
+        let n = h.map(|h| self.drawn.result.normal.crossings(h.edge()).max(0));
         if n == [0; 3] {
             return self.emit_whole(h, keep);
         }
         let Strands { arc, fan } = Strands::new(n);
         let next = |k: usize| (k + 1) % 3;
-        let mut polygon: Vec<(Spot, Way)> = Vec::with_capacity(MOST_CORNERS);
+        let mut polygon: Vec<(CornerSpot, PieceSide)> = Vec::with_capacity(MOST_CORNERS);
         for k in 0..3 {
             let before = (k + 2) % 3;
             for m in 0..arc[k] {
                 polygon.clear();
-                let (out, back) = (Spot::Side(k, m), Spot::Side(before, n[before] - 1 - m));
+                let (out, back) = (CornerSpot::Side(k, m), CornerSpot::Side(before, n[before] - 1 - m));
                 if m == 0 {
-                    polygon.push((Spot::Corner(k, 0), Way::Side(k, 0)));
+                    polygon.push((CornerSpot::Corner(k, 0), PieceSide::Side(k, 0)));
                 } else {
-                    polygon.push((Spot::Side(k, m - 1), Way::Side(k, m)));
+                    polygon.push((CornerSpot::Side(k, m - 1), PieceSide::Side(k, m)));
                 }
-                polygon.push((out, Way::Curve));
-                polygon.push((back, Way::Side(before, n[before] - m)));
+                polygon.push((out, PieceSide::Curve));
+                polygon.push((back, PieceSide::Side(before, n[before] - m)));
                 if m > 0 {
-                    polygon.push((Spot::Side(before, n[before] - m), Way::Curve));
+                    polygon.push((CornerSpot::Side(before, n[before] - m), PieceSide::Curve));
                 }
                 self.emit(h, &polygon, keep)?;
             }
         }
         // The last piece runs around the outermost curve at each corner.
-        let around = |polygon: &mut Vec<(Spot, Way)>, k: usize| {
+        let around = |polygon: &mut Vec<(CornerSpot, PieceSide)>, k: usize| {
             let before = (k + 2) % 3;
             if arc[k] == 0 {
-                polygon.push((Spot::Corner(k, 0), Way::Side(k, 0)));
+                polygon.push((CornerSpot::Corner(k, 0), PieceSide::Side(k, 0)));
             } else {
-                polygon.push((Spot::Side(before, n[before] - arc[k]), Way::Curve));
-                polygon.push((Spot::Side(k, arc[k] - 1), Way::Side(k, arc[k])));
+                polygon.push((CornerSpot::Side(before, n[before] - arc[k]), PieceSide::Curve));
+                polygon.push((CornerSpot::Side(k, arc[k] - 1), PieceSide::Side(k, arc[k])));
             }
         };
         polygon.clear();
@@ -192,27 +196,27 @@ impl<'a> Pieces<'a> {
         };
         // The curves of the fan of corner k cross the opposite side, `far`, behind the `skip` curves that cut off its first corner.
         let (far, skip) = (next(k), arc[next(k)]);
-        polygon.push((Spot::Corner(k, 0), Way::Side(k, 0)));
+        polygon.push((CornerSpot::Corner(k, 0), PieceSide::Side(k, 0)));
         around(&mut polygon, far);
         for m in 0..fan[k] {
             let at = skip + m;
-            polygon.push((Spot::Side(far, at), Way::Curve));
+            polygon.push((CornerSpot::Side(far, at), PieceSide::Curve));
             self.emit(h, &polygon, keep)?;
             polygon.clear();
-            polygon.push((Spot::Corner(k, m + 1), Way::Curve));
-            polygon.push((Spot::Side(far, at), Way::Side(far, at + 1)));
+            polygon.push((CornerSpot::Corner(k, m + 1), PieceSide::Curve));
+            polygon.push((CornerSpot::Side(far, at), PieceSide::Side(far, at + 1)));
         }
         around(&mut polygon, next(far));
         self.emit(h, &polygon, keep)
     }
 
-    /// A final face that no curve crosses, which is a face of the input: what [`Pieces::emit`] makes of it.
+    /// A final face that no curve crosses, which is a face of the input: what [`PieceTriangles::emit`] makes of it.
     fn emit_whole(&mut self, h: [HalfedgeId; 3], keep: &dyn Fn(FaceId) -> bool) -> Result<()> {
-        let mut corners = [Corner { vertex: 0, input: h[0], result: h[0] }; 3];
+        let mut corners = [PieceCorner { vertex: 0, input: h[0], result: h[0] }; 3];
         for (k, corner) in corners.iter_mut().enumerate() {
-            *corner = self.piece_corner(h, Spot::Corner(k, 0), None)?;
+            *corner = self.piece_corner(h, CornerSpot::Corner(k, 0), None)?;
         }
-        let [a, b, c] = corners.map(|corner| self.overlay.input.face(corner.input));
+        let [a, b, c] = corners.map(|corner| self.drawn.input.face(corner.input));
         if a.is_none() || a != b || b != c {
             return Err(torn());
         }
@@ -227,7 +231,7 @@ impl<'a> Pieces<'a> {
     fn emit(
         &mut self,
         h: [HalfedgeId; 3],
-        polygon: &[(Spot, Way)],
+        polygon: &[(CornerSpot, PieceSide)],
         keep: &dyn Fn(FaceId) -> bool,
     ) -> Result<()> {
         let size = polygon.len();
@@ -236,18 +240,18 @@ impl<'a> Pieces<'a> {
         let mut curves = [None; MOST_CORNERS];
         for (i, &(spot, way)) in polygon.iter().enumerate() {
             (sides[i], curves[i]) = match way {
-                Way::Side(k, part) => (self.side_part(h[k], part), None),
-                Way::Curve => {
+                PieceSide::Side(k, part) => (self.side_part(h[k], part), None),
+                PieceSide::Curve => {
                     let (side, along) = self.curve_part(h, spot, polygon[(i + 1) % size].0)?;
                     (side, Some(along))
                 }
             };
         }
         let mut face = None;
-        let mut corners = [Corner { vertex: NONE, input: h[0], result: h[0] }; MOST_CORNERS];
+        let mut corners = [PieceCorner { vertex: NONE, input: h[0], result: h[0] }; MOST_CORNERS];
         for (i, &(spot, _)) in polygon.iter().enumerate() {
             let corner = self.piece_corner(h, spot, curves[i].or(curves[(i + size - 1) % size]))?;
-            let lies_in = self.overlay.input.face(corner.input).ok_or_else(torn)?;
+            let lies_in = self.drawn.input.face(corner.input).ok_or_else(torn)?;
             if *face.get_or_insert(lies_in) != lies_in {
                 return Err(torn());
             }
@@ -260,37 +264,42 @@ impl<'a> Pieces<'a> {
     }
 
     /// A corner of a piece; `curve` is the half-edge of the input that a side of the piece at it is part of.
-    fn piece_corner(&self, h: [HalfedgeId; 3], spot: Spot, curve: Option<HalfedgeId>) -> Result<Corner> {
-        let Final { mesh, normal, .. } = self.overlay.result;
+    fn piece_corner(
+        &self,
+        h: [HalfedgeId; 3],
+        spot: CornerSpot,
+        curve: Option<HalfedgeId>,
+    ) -> Result<PieceCorner> {
+        let FinalTriangulation { mesh, normal, .. } = self.drawn.result;
         match spot {
-            Spot::Corner(k, turn) => {
+            CornerSpot::Corner(k, turn) => {
                 let coincident = i64::from(normal.crossings(h[k].edge()) < 0);
                 let input = normal.leaving(mesh, h[k], coincident + turn - 1);
-                Ok(Corner { vertex: mesh.origin(h[k]).0, input, result: h[k] })
+                Ok(PieceCorner { vertex: mesh.origin(h[k]).0, input, result: h[k] })
             }
-            Spot::Side(k, at) => {
+            CornerSpot::Side(k, at) => {
                 let vertex = mesh.n_vertices() as u32 + self.slots[self.slot(h[k], at)];
-                Ok(Corner { vertex, input: curve.ok_or_else(torn)?, result: h[k] })
+                Ok(PieceCorner { vertex, input: curve.ok_or_else(torn)?, result: h[k] })
             }
         }
     }
 
     /// Append the triangles of a piece with these corners and sides (side i follows corner i): they lie around corner 0, with new edges
     /// between them.
-    fn triangulate(&mut self, sides: &[u32], corners: &[Corner]) {
-        let (size, n) = (sides.len(), self.overlay.result.mesh.n_vertices());
+    fn triangulate(&mut self, sides: &[u32], corners: &[PieceCorner]) {
+        let (size, n) = (sides.len(), self.drawn.result.mesh.n_vertices());
         // Numbers of crossings follow those of the vertices.
-        let crossing = |c: &Corner| (c.vertex as usize).checked_sub(n);
+        let crossing = |c: &PieceCorner| (c.vertex as usize).checked_sub(n);
         let is_moved =
-            |c: &Corner| crossing(c).and_then(|c| self.overlay.moved.get(c)).is_some_and(|&moved| moved);
+            |c: &PieceCorner| crossing(c).and_then(|c| self.drawn.moved.get(c)).is_some_and(|&moved| moved);
         let apart = corners.iter().any(is_moved);
         let mut left = sides[0];
         for i in 1..size - 1 {
             let closing = if i + 2 == size {
                 sides[size - 1]
             } else {
-                self.origins.push(Origin { input: None, result: None });
-                2 * (self.origins.len() as u32 - 1)
+                self.along.push([None; 2]);
+                2 * (self.along.len() as u32 - 1)
             };
             self.sides.push([left, sides[i], closing]);
             self.corners.push([corners[0], corners[i], corners[i + 1]]);
@@ -309,17 +318,17 @@ impl<'a> Pieces<'a> {
     }
 
     /// The half-edge of the part of a curve that runs from one spot to the next, and the half-edge of the input it is part of.
-    fn curve_part(&self, h: [HalfedgeId; 3], from: Spot, to: Spot) -> Result<(u32, HalfedgeId)> {
+    fn curve_part(&self, h: [HalfedgeId; 3], from: CornerSpot, to: CornerSpot) -> Result<(u32, HalfedgeId)> {
         // A crossing at one end, and whether that is the start.
         let (k, at, starts) = match (from, to) {
-            (Spot::Side(k, at), _) => (k, at, true),
-            (_, Spot::Side(k, at)) => (k, at, false),
+            (CornerSpot::Side(k, at), _) => (k, at, true),
+            (_, CornerSpot::Side(k, at)) => (k, at, false),
             _ => return Err(torn()),
         };
         let c = self.slots[self.slot(h[k], at)] as usize;
         let e = EdgeId(self.crossed_by[c]);
-        let number = c - self.overlay.curves.numbers(e).start;
-        let leaves_face = self.overlay.curves.crossings(e)[number].halfedge == h[k];
+        let number = c - self.drawn.curves.numbers(e).start;
+        let leaves_face = self.drawn.curves.crossings(e)[number].halfedge == h[k];
         let part = number as u32 + u32::from(!leaves_face);
         // The piece's side runs against the curve if it starts where the curve leaves the face, or ends where the curve enters it.
         let odd = u32::from(leaves_face == starts);

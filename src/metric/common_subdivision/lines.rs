@@ -1,28 +1,28 @@
-//! Lines that are straight in the class of the final metric, and where they cross the final edges.
+//! Lines that are straight in the class of the final metric, and their crossings with the final edges.
 
-use super::parts::Crossing;
-use super::strip::{Raw, Strips};
-use super::triangulations::{Final, Input};
+use super::data::{Crossing, EdgePoint};
+use super::strip::{RawCrossing, Strips};
+use super::triangulations::{FinalTriangulation, InputTriangulation};
 use crate::error::{Error, Result};
 use crate::geometry::Space;
 use crate::geometry::conformal::Vertex;
 use crate::mesh::{Curves, EdgeId, HalfedgeId, Mesh, PerVertex, VertexId};
 
 /// Lines that are straight in the class of the final metric.
-pub(super) struct Lines<'a> {
+pub(super) struct StraightLines<'a> {
     /// Geometry of the input.
     pub geometry: Space,
-    pub result: &'a Final<'a>,
+    pub result: &'a FinalTriangulation<'a>,
     strips: Strips<'a>,
     scales: Scales,
 }
 
-impl<'a> Lines<'a> {
+impl<'a> StraightLines<'a> {
     /// # Errors
     /// [`Error::Domain`] at a vertex outside the domain of either metric.
-    pub fn new(input: Input, result: &'a Final<'a>) -> Result<Lines<'a>> {
+    pub fn new(input: InputTriangulation, result: &'a FinalTriangulation<'a>) -> Result<StraightLines<'a>> {
         let scales = Scales::new(input, *result)?;
-        Ok(Lines { geometry: input.geometry, result, strips: Strips::new(result), scales })
+        Ok(StraightLines { geometry: input.geometry, result, strips: Strips::new(result), scales })
     }
 
     /// Homogeneous weights of the input's vertices.
@@ -55,7 +55,7 @@ struct Scales {
 }
 
 impl Scales {
-    fn new(input: Input, result: Final) -> Result<Scales> {
+    fn new(input: InputTriangulation, result: FinalTriangulation) -> Result<Scales> {
         let metric = result.metric;
         let log = |space: Space, u: &PerVertex<f64>| -> Result<Vec<f64>> {
             let scale = |v: usize| {
@@ -78,7 +78,7 @@ impl Scales {
     /// A crossing of the edge `e` with the final half-edge `at`, and its homogeneous weight.
     fn crossing(
         &self,
-        raw: &Raw,
+        raw: &RawCrossing,
         (e, ends): (EdgeId, [VertexId; 2]),
         at: HalfedgeId,
         mesh: &Mesh,
@@ -97,14 +97,9 @@ impl Scales {
         let (final_weights, above) = positions(raw.meeting.edge, [0; 2], along, &self.result);
         let swap = at.0 & 1 == 1;
         let turned = |x: [f64; 2]| if swap { [x[1], x[0]] } else { x };
-        let crossing = Crossing {
-            input_edge: e,
-            input_ends: ends,
-            input_weights,
-            final_edge: at.edge(),
-            final_ends: mesh.ends(at.edge()),
-            final_weights: turned(final_weights),
-        };
-        (crossing, (above - below).exp())
+        let on_input = EdgePoint { edge: e, ends, weights: input_weights };
+        let weights = turned(final_weights);
+        let on_final = EdgePoint { edge: at.edge(), ends: mesh.ends(at.edge()), weights };
+        ([on_input, on_final], (above - below).exp())
     }
 }

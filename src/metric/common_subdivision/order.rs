@@ -1,7 +1,7 @@
 //! Points on an edge, and their order.
 //!
 //! A point is the pair of weights of the edge's ends, which add up to 1: near either end the smaller weight says how near, to the
-//! relative accuracy of doubles.
+//! relative accuracy of f64.
 
 use crate::mesh::normal_trace::CurveCrossing;
 use crate::mesh::{Curves, Mesh};
@@ -19,7 +19,7 @@ pub(super) const TIP: OnEdge = [0.0, 1.0];
 /// differ afterwards.
 const SPREAD: f64 = 1.0 / (1 << 20) as f64;
 
-/// Whether a lies nearer to the origin than b by one weight and not farther by the other.
+/// True if a lies nearer to the origin than b by one weight and not farther by the other.
 pub(super) fn before(a: OnEdge, b: OnEdge) -> bool {
     a[1] <= b[1] && a[0] >= b[0] && a != b
 }
@@ -33,7 +33,7 @@ pub(super) fn between(a: OnEdge, b: OnEdge, t: f64) -> OnEdge {
 ///
 /// Points out of order, or equal to their neighbour, are moved to their mean, which is the least change (in the mean square) that
 /// leaves none out of order. Then they are spread evenly around it, over [`SPREAD`] of the way to the next point on both sides. Points
-/// between which there is no double still coincide afterwards, but none is in the wrong order.
+/// between which there is no f64 still coincide afterwards, but none is in the wrong order.
 pub(super) fn restore_order(places: &mut [OnEdge]) {
     if places.windows(2).all(|pair| before(pair[0], pair[1])) {
         return;
@@ -58,7 +58,7 @@ pub(super) fn restore_order(places: &mut [OnEdge]) {
         }
         at += n;
     }
-    // Where there is no double between two places, rounding has not kept them in order.
+    // Two places with no f64 between them may have been put out of order by rounding.
     for k in 1..places.len() {
         let [x, y] = places[k - 1];
         places[k] = [places[k][0].min(x), places[k][1].max(y)];

@@ -15,20 +15,19 @@
 //!       0——C———B——1
 //! ```
 
+use super::data::Crossing;
 use super::geodesic::place;
 use super::order::{OnEdge, TIP, before, between};
-use super::parts::Crossing;
 use crate::geometry::vector::{cross, dot};
 use crate::mesh::normal::Strands;
 use crate::mesh::{Curves, FaceId, HalfedgeId, Mesh};
 
 /// The final edges on the intrinsic triangulation.
-pub(super) struct Chords<'a> {
+pub(super) struct FaceChords<'a> {
     pub mesh: &'a Mesh,
     /// The intrinsic edges on the final triangulation.
     pub curves: Curves,
-    /// Their crossings with final edges, each with its homogeneous weight. The fields of [`Crossing`] that speak of the input mean the
-    /// intrinsic triangulation here.
+    /// Their crossings with final edges, each with its homogeneous weight: points on an intrinsic edge and on a final edge.
     pub crossings: Vec<(Crossing, f64)>,
     /// Homogeneous weights of the vertices.
     pub weight: Vec<f64>,
@@ -36,7 +35,7 @@ pub(super) struct Chords<'a> {
 
 /// A place on the border of a face.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Border {
+pub(super) enum BorderPlace {
     Corner(usize),
     /// On the side k → k + 1, where this many chords cross it nearer to k.
     Side(usize, i64),
@@ -45,43 +44,43 @@ pub(super) enum Border {
 /// A point where a line meets the border of a face.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Station {
-    pub border: Border,
-    /// Where on the line.
+    pub border: BorderPlace,
+    /// Its place on the line.
     pub line: OnEdge,
     /// The point as a vector: weights of the corners of the face.
     pub vector: [f64; 3],
 }
 
-/// Where a line crosses a final half-edge, from its left to its right.
+/// The crossing of a line with a final half-edge, from the left of the half-edge to its right.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Passing {
     pub halfedge: HalfedgeId,
-    /// Where on the line.
+    /// Its place on the line.
     pub line: OnEdge,
-    /// Where on the half-edge.
+    /// Its place on the half-edge.
     pub across: OnEdge,
     /// Homogeneous weight.
     pub weight: f64,
 }
 
 /// An end of a chord: weights of the corners, place on the final half-edge, homogeneous weight.
-type End = ([f64; 3], OnEdge, f64);
+type ChordEnd = ([f64; 3], OnEdge, f64);
 
-impl Chords<'_> {
-    /// How many chords cross a half-edge nearer to its origin than this place on it.
+impl FaceChords<'_> {
+    /// The number of chords that cross a half-edge nearer to its origin than this place on it.
     pub fn rank(&self, h: HalfedgeId, at: OnEdge) -> i64 {
         let crossings = &self.crossings[self.curves.numbers(h.edge())];
         let along = if h.0 & 1 == 0 { at } else { [at[1], at[0]] };
-        let rank = crossings.partition_point(|(c, _)| before(c.input_weights, along));
+        let rank = crossings.partition_point(|(c, _)| before(c[0].weights, along));
         (if h.0 & 1 == 0 { rank } else { crossings.len() - rank }) as i64
     }
 
-    /// How many chords cross a half-edge.
+    /// The number of chords that cross a half-edge.
     pub fn count(&self, h: HalfedgeId) -> i64 {
         self.curves.numbers(h.edge()).len() as i64
     }
 
-    /// Append what the line from one place on the border of a face to another passes on its way.
+    /// Append the crossings of the line from one place on the border of a face to another.
     pub fn pass(&self, f: FaceId, from: Station, to: Station, passed: &mut Vec<Passing>) {
         let sides = self.mesh.face_halfedges(f);
         let n = sides.map(|h| self.count(h));
@@ -89,9 +88,9 @@ impl Chords<'_> {
         let before = |k: usize| (k + 2) % 3;
         // The number of chords that cut off corner k and lie between that corner and the place.
         let around = |k: usize, at: Station| match at.border {
-            Border::Corner(corner) if corner == k => 0,
-            Border::Side(side, rank) if side == k => rank.min(arc[k]),
-            Border::Side(side, rank) if side == before(k) => (n[side] - rank).min(arc[k]),
+            BorderPlace::Corner(corner) if corner == k => 0,
+            BorderPlace::Side(side, rank) if side == k => rank.min(arc[k]),
+            BorderPlace::Side(side, rank) if side == before(k) => (n[side] - rank).min(arc[k]),
             _ => arc[k],
         };
         let arc_at = |k: usize, m: i64| {
@@ -109,10 +108,10 @@ impl Chords<'_> {
             // which all of them end.
             let (far, skip) = ((k + 1) % 3, arc[(k + 1) % 3]);
             let beyond = |at: Station| match at.border {
-                Border::Corner(corner) if corner == k => None,
-                Border::Corner(corner) => Some(if corner == far { 0 } else { fan[k] }),
-                Border::Side(side, rank) if side == far => Some((rank - skip).clamp(0, fan[k])),
-                Border::Side(side, _) => Some(if side == k { 0 } else { fan[k] }),
+                BorderPlace::Corner(corner) if corner == k => None,
+                BorderPlace::Corner(corner) => Some(if corner == far { 0 } else { fan[k] }),
+                BorderPlace::Side(side, rank) if side == far => Some((rank - skip).clamp(0, fan[k])),
+                BorderPlace::Side(side, _) => Some(if side == k { 0 } else { fan[k] }),
             };
             if let (Some(a), Some(b)) = (beyond(from), beyond(to)) {
                 let mut meet = |m: i64| {
@@ -143,7 +142,7 @@ impl Chords<'_> {
         k: usize,
         position: i64,
         halfedge: Option<HalfedgeId>,
-    ) -> (HalfedgeId, End) {
+    ) -> (HalfedgeId, ChordEnd) {
         let side = sides[k];
         let odd = side.0 & 1 == 1;
         let along = if odd { self.count(side) - 1 - position } else { position } as usize;
@@ -152,13 +151,13 @@ impl Chords<'_> {
         let (crossing, weight) = self.crossings[self.curves.numbers(side.edge()).start + along];
         let turned = |[x, y]: OnEdge, odd: bool| if odd { [y, x] } else { [x, y] };
         let mut vector = [0.0; 3];
-        [vector[k], vector[(k + 1) % 3]] = turned(crossing.input_weights, odd);
-        let place = turned(crossing.final_weights, halfedge.unwrap_or(crossed).0 & 1 == 1);
+        [vector[k], vector[(k + 1) % 3]] = turned(crossing[0].weights, odd);
+        let place = turned(crossing[1].weights, halfedge.unwrap_or(crossed).0 & 1 == 1);
         (crossed, (vector, place, weight))
     }
 
-    /// Where the line between two stations meets the chord between two ends.
-    fn meet(&self, halfedge: HalfedgeId, [c, d]: [End; 2], [from, to]: [Station; 2]) -> Passing {
+    /// The crossing of the line between two stations with the chord between two ends.
+    fn meet(&self, halfedge: HalfedgeId, [c, d]: [ChordEnd; 2], [from, to]: [Station; 2]) -> Passing {
         let (a, b) = (from.vector, to.vector);
         let line = place([determinant(c.0, d.0, b).abs(), determinant(c.0, d.0, a).abs()]);
         let chord = place([determinant(a, b, d.0).abs(), determinant(a, b, c.0).abs()]);

@@ -10,7 +10,7 @@ use ricci::embed::{Layout, LayoutOptions, cones_of};
 use ricci::flow::Options;
 use ricci::geometry::Space;
 use ricci::mesh::{Mesh, PerEdge, Point, io, shapes};
-use ricci::metric::{Refinement, lengths_from_positions};
+use ricci::metric::{CommonSubdivision, lengths_from_positions};
 use ricci::{Class, Control, Flow, Solution};
 use std::f64::consts::PI;
 
@@ -78,21 +78,21 @@ fn rough_sphere(frequency: usize, noise: f64, squeeze: f64) -> (Surface, Vec<Poi
     ((mesh, lengths), positions)
 }
 
-/// Square of the length of a side of a triangle of the refinement in its face: of weights with these differences.
+/// Square of the length of a side of a triangle of the subdivision in its face: of weights with these differences.
 fn squared_length(from: [f64; 3], to: [f64; 3], sides: [f64; 3]) -> f64 {
     let d = [0, 1, 2].map(|k| to[k] - from[k]);
     -(0..3).map(|k| d[(k + 1) % 3] * d[(k + 2) % 3] * sides[k] * sides[k]).sum::<f64>()
 }
 
 /// The largest disagreement of lengths, relative to the longest side of the faces, between input and final triangulation.
-fn strain(r: &Refinement, (input, lengths): &Surface, metric: &Solution) -> f64 {
+fn strain(r: &CommonSubdivision, (input, lengths): &Surface, metric: &Solution) -> f64 {
     let mesh = metric.mesh();
     let finally = metric.metric().lengths(mesh).unwrap();
     let mut worst = 0.0f64;
     for f in r.mesh.faces() {
-        let of_input = input.opposite_edges(r.input_face[f]).map(|e| lengths[e]);
-        let of_final = mesh.opposite_edges(r.final_face[f]).map(|e| finally[e]);
-        let (a, b) = (r.input_barycentric(f), r.final_barycentric(f));
+        let of_input = input.opposite_edges(r.faces[0][f]).map(|e| lengths[e]);
+        let of_final = mesh.opposite_edges(r.faces[1][f]).map(|e| finally[e]);
+        let (a, b) = (r.barycentric(0, f), r.barycentric(1, f));
         let longest = of_input.into_iter().chain(of_final).fold(0.0, f64::max);
         for k in 0..3 {
             let next = (k + 1) % 3;
@@ -103,14 +103,14 @@ fn strain(r: &Refinement, (input, lengths): &Surface, metric: &Solution) -> f64 
     worst
 }
 
-/// What becomes of a surface that is asked to have the curvature it has: start flips, crossings, strain, mean and largest
+/// The result of a flow to the curvature that the surface has already: start flips, crossings, strain, mean and largest
 /// dilatation − 1, over the spread of the layout.
 fn unchanged(surface: &Surface, scheme: ricci::metric::Scheme) -> (usize, usize, f64, [f64; 2]) {
     let (input, lengths) = surface;
     let class = Class::new(scheme, Space::E2);
     let flow = Flow::new(euclidean(input, lengths), class, &Options::default(), &Control::new()).unwrap();
     let metric = flow.solution();
-    let r = metric.refinement(&Control::new()).unwrap();
+    let r = metric.common_subdivision(&Control::new()).unwrap();
     assert!(r.weight.iter().all(|q| (q - 1.0).abs() < 1e-12));
     let curvature = metric.curvature().unwrap();
     let cones = Some(cones_of(input, &curvature.at, 1e-11).unwrap());
@@ -181,7 +181,7 @@ fn a_curved_surface_is_mapped_to_itself_with_its_homogeneous_weights() {
             let surface = ricci::Surface::intrinsic(mesh.clone(), lengths.clone(), space).unwrap();
             let class = Class::new(scheme, space);
             let flow = Flow::new(surface, class, &Options::default(), &Control::new()).unwrap();
-            assert!(flow.solution().refinement(&Control::new()).unwrap() == r);
+            assert!(flow.solution().common_subdivision(&Control::new()).unwrap() == r);
         }
         let finally = start.metric.lengths(&start.mesh).unwrap();
         let gram = |l: [f64; 3]| {
@@ -193,9 +193,9 @@ fn a_curved_surface_is_mapped_to_itself_with_its_homogeneous_weights() {
         };
         let mut worst = 0.0f64;
         for f in r.mesh.faces() {
-            let of_input = gram(mesh.opposite_edges(r.input_face[f]).map(|e| lengths[e]));
-            let of_final = gram(start.mesh.opposite_edges(r.final_face[f]).map(|e| finally[e]));
-            let (a, b, q) = (r.input_barycentric(f), r.final_barycentric(f), r.weights(f));
+            let of_input = gram(mesh.opposite_edges(r.faces[0][f]).map(|e| lengths[e]));
+            let of_final = gram(start.mesh.opposite_edges(r.faces[1][f]).map(|e| finally[e]));
+            let (a, b, q) = (r.barycentric(0, f), r.barycentric(1, f), r.weights(f));
             for (i, j) in [(0, 0), (0, 1), (1, 2), (2, 0)] {
                 let image = q[i] * q[j] * product(b[i], b[j], of_final);
                 worst = worst.max((product(a[i], a[j], of_input) - image).abs());
@@ -234,7 +234,7 @@ fn crossings_lie_where_the_map_of_the_delaunay_triangulation_takes_them() {
             let mut flow = begin(mesh, lengths);
             assert!(attempt(&mut flow, &target).converged());
             let flat = flow.solution();
-            let r = flat.refinement(&Control::new()).unwrap();
+            let r = flat.common_subdivision(&Control::new()).unwrap();
             let options = LayoutOptions { cones: Some(cones.to_vec()), ..LayoutOptions::default() };
             let laid = Layout::of_solution(&flat, &options, &Control::new()).unwrap();
             let quality = laid.quality(mesh, lengths).unwrap();
@@ -244,7 +244,7 @@ fn crossings_lie_where_the_map_of_the_delaunay_triangulation_takes_them() {
         let (other, expected, its_quality) = flown(&delaunay, &its_lengths);
         let map = expected.forward();
         assert!(!expected.crossings.is_empty() && r.crossings.len() > 3 * expected.crossings.len());
-        // Where a place of the plane is in the Delaunay triangulation.
+        // The face and the weights of a place of the plane in the Delaunay triangulation.
         let locate = |p: Point| {
             let homogeneous = |p: Point| [p[0], p[1], 1.0];
             let inside = |f| {
@@ -261,14 +261,14 @@ fn crossings_lie_where_the_map_of_the_delaunay_triangulation_takes_them() {
             .crossings
             .iter()
             .map(|c| {
-                let [a, b] = c.input_ends.map(|v| positions[v.index()]);
-                let p = [0, 1, 2].map(|i| c.input_weights[0] * a[i] + c.input_weights[1] * b[i]);
+                let [a, b] = c[0].ends.map(|v| positions[v.index()]);
+                let p = [0, 1, 2].map(|i| c[0].weights[0] * a[i] + c[0].weights[1] * b[i]);
                 let (f, barycentric) = locate(p);
                 let (face, image) = map.image(f, barycentric).unwrap();
                 // The weights of the two ends, and of no other vertex.
                 let vertices = other.mesh().face_vertices(face);
                 let weight = |v| (0..3).filter(|&k| vertices[k] == v).map(|k| image[k]).sum::<f64>();
-                (0..2).map(|k| (weight(c.final_ends[k]) - c.final_weights[k]).abs()).fold(0.0, f64::max)
+                (0..2).map(|k| (weight(c[1].ends[k]) - c[1].weights[k]).abs()).fold(0.0, f64::max)
             })
             .fold(0.0, f64::max);
         println!(
@@ -288,7 +288,7 @@ fn crossings_lie_where_the_map_of_the_delaunay_triangulation_takes_them() {
 }
 
 #[test]
-fn what_holds_of_every_refinement_holds_of_sheared_and_rough_surfaces() {
+fn what_holds_of_every_subdivision_holds_of_sheared_and_rough_surfaces() {
     let mut surfaces = Vec::new();
     for (name, frequency, noise, squeeze) in [("rough", 8, 0.4, 1.0), ("flat", 6, 0.2, 1e-2)] {
         let ((mesh, lengths), positions) = rough_sphere(frequency, noise, squeeze);
@@ -324,7 +324,7 @@ fn what_holds_of_every_refinement_holds_of_sheared_and_rough_surfaces() {
 
 /// Final edges that wind around straight lines, again and again: what is met is far from what a curve pulled tight meets.
 #[test]
-fn what_holds_of_every_refinement_holds_after_any_flips_in_the_class() {
+fn what_holds_of_every_subdivision_holds_after_any_flips_in_the_class() {
     let mut random = Random::new(9);
     let mut surfaces = vec![sheared_torus(5, 7), rough_sphere(4, 0.7, 1.0).0, sheared_disk(6, 2).0];
     for soup in [shapes::one_vertex(1), shapes::one_vertex(2), shapes::two_vertex(2), shapes::one_vertex(3)] {

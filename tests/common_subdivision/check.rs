@@ -1,4 +1,4 @@
-//! What holds of every refinement, and of its layout.
+//! Checks that every common subdivision and its layout have to pass.
 
 use crate::common::Random;
 use crate::flown::Flown;
@@ -6,7 +6,7 @@ use ricci::embed::{Layout, LayoutOptions, LayoutScale};
 use ricci::flow::{self, Options};
 use ricci::geometry::Space;
 use ricci::mesh::{FaceId, Mesh, PerEdge, Point};
-use ricci::metric::{Refinement, curvature};
+use ricci::metric::{CommonSubdivision, curvature};
 use ricci::{Class, Control, Surface, Target};
 use std::sync::Arc;
 
@@ -17,13 +17,13 @@ pub struct Worst {
     pub projective: f64,
 }
 
-/// Everything that holds of every refinement of `input` (the half, for a double).
-pub fn check(r: &Refinement, input: &Mesh, flown: &Flown, positions: &[Point], what: &str) -> Worst {
+/// Checks a common subdivision of `input` (the half, for a double).
+pub fn check(r: &CommonSubdivision, input: &Mesh, flown: &Flown, positions: &[Point], what: &str) -> Worst {
     let mut worst = Worst::default();
     r.mesh.validate().unwrap();
     assert_eq!(r.mesh.euler(), input.euler(), "{what}");
     assert_eq!(r.mesh.boundary_loops().len(), input.boundary_loops().len(), "{what}");
-    assert_eq!(r.n_input_vertices, input.n_vertices(), "{what}");
+    assert_eq!(r.n_vertices[0], input.n_vertices(), "{what}");
     assert!(r.weight.iter().all(|&q| q > 0.0 && q.is_finite()));
 
     // Areas of the pieces add up to the faces'.
@@ -31,8 +31,8 @@ pub fn check(r: &Refinement, input: &Mesh, flown: &Flown, positions: &[Point], w
     let mut final_area = vec![0.0; flown.mesh.n_faces()];
     for f in r.mesh.faces() {
         for (corners, sum) in [
-            (r.input_barycentric(f), &mut input_area[r.input_face[f].index()]),
-            (r.final_barycentric(f), &mut final_area[r.final_face[f].index()]),
+            (r.barycentric(0, f), &mut input_area[r.faces[0][f].index()]),
+            (r.barycentric(1, f), &mut final_area[r.faces[1][f].index()]),
         ] {
             let area = determinant(corners);
             assert!(area > -1e-12, "{what}: {area}");
@@ -47,20 +47,20 @@ pub fn check(r: &Refinement, input: &Mesh, flown: &Flown, positions: &[Point], w
 
     // The crossings of an edge follow each other, and cut it into one more part than they are.
     let mut parts = vec![0; input.n_edges()];
-    r.origin.iter().filter_map(|o| o.input).for_each(|e| parts[e.index()] += 1);
+    r.mesh.edges().filter_map(|e| r.edge(0, e)).for_each(|e| parts[e.index()] += 1);
     let mut crossings = vec![Vec::new(); input.n_edges()];
-    r.crossings.iter().for_each(|c| crossings[c.input_edge.index()].push(c.input_weights[1]));
+    r.crossings.iter().for_each(|c| crossings[c[0].edge.index()].push(c[0].weights[1]));
     for (parts, crossings) in parts.iter().zip(&crossings) {
         assert_eq!(*parts, crossings.len() + 1, "{what}");
         assert!(crossings.is_sorted(), "{what}: {crossings:?}");
     }
 
     // Positions: every corner of every piece, seen from its own face of the input, is where its vertex is.
-    let at = r.from_input_vertices(positions).unwrap();
+    let at = r.from_vertices(0, positions).unwrap();
     let extent = positions.iter().flatten().fold(0.0f64, |m, x| m.max(x.abs()));
     for f in r.mesh.faces() {
-        let corners = input.face_vertices(r.input_face[f]).map(|v| positions[v.index()]);
-        for (b, v) in r.input_barycentric(f).into_iter().zip(r.mesh.face_vertices(f)) {
+        let corners = input.face_vertices(r.faces[0][f]).map(|v| positions[v.index()]);
+        for (b, v) in r.barycentric(0, f).into_iter().zip(r.mesh.face_vertices(f)) {
             for i in 0..3 {
                 let x: f64 = (0..3).map(|k| b[k] * corners[k][i]).sum();
                 worst.position = worst.position.max((x - at[v.index()][i]).abs() / extent);
@@ -91,7 +91,7 @@ pub fn check(r: &Refinement, input: &Mesh, flown: &Flown, positions: &[Point], w
         let corners: Vec<_> = piece
             .iter()
             .flat_map(|&f| {
-                let (a, b, q) = (r.input_barycentric(f), r.final_barycentric(f), r.weights(f));
+                let (a, b, q) = (r.barycentric(0, f), r.barycentric(1, f), r.weights(f));
                 (0..3).map(move |k| (a[k], b[k].map(|x| q[k] * x)))
             })
             .collect();
@@ -119,13 +119,13 @@ pub fn check(r: &Refinement, input: &Mesh, flown: &Flown, positions: &[Point], w
     worst
 }
 
-/// Everything that holds of the layout of a flow's result on the refinement.
+/// Everything that holds of the layout of a flow's result on the subdivision.
 pub fn check_layout(surface: &Surface, class: Class, target: &Target, what: &str) {
     let control = Control::new();
     let solution = flow::flow(surface.clone(), class, target, &Options::default(), &control).unwrap();
-    let r = &Arc::new(solution.refinement(&control).unwrap());
-    let (refinement, scale) = (Some(r.clone()), LayoutScale::AsSolved);
-    let options = LayoutOptions { refinement, scale, ..LayoutOptions::default() };
+    let r = &Arc::new(solution.common_subdivision(&control).unwrap());
+    let (subdivision, scale) = (Some(r.clone()), LayoutScale::AsSolved);
+    let options = LayoutOptions { subdivision, scale, ..LayoutOptions::default() };
     let laid = Layout::of_solution(&solution, &options, &control).unwrap();
     let (input, lengths): (&Mesh, &PerEdge<f64>) = (surface.mesh(), surface.lengths());
     let quality = laid.quality(input, lengths).unwrap();
@@ -140,11 +140,11 @@ pub fn check_layout(surface: &Surface, class: Class, target: &Target, what: &str
         quality.qc_max
     );
     assert!(laid.consistency() < 1e-10, "{what}");
-    // Where faces are so small against where they lie that doubles lose their shape, nothing can be said of their pieces.
+    // Pieces of faces so small, compared with their coordinates, that f64 loses their shape are not checked.
     if laid.local_consistency < 1e-6 {
         assert!(laid.flipped.is_empty() && laid.degenerate.is_empty(), "{what}");
     }
-    // Where the two sides of a seam are glued by an isometry, that carries one onto the other.
+    // The isometry that glues two sides of a seam carries one onto the other.
     assert!(laid.seams.iter().all(|seam| seam.residual < 1e-10), "{what}");
     seams_run_along_input_edges(r, input, &laid, what);
     if input.is_closed() {
@@ -160,22 +160,22 @@ pub fn check_layout(surface: &Surface, class: Class, target: &Target, what: &str
 }
 
 /// The cut is one of the input, and the input's own corners lie where the pieces have them.
-fn seams_run_along_input_edges(r: &Refinement, input: &Mesh, laid: &Layout, what: &str) {
+fn seams_run_along_input_edges(r: &CommonSubdivision, input: &Mesh, laid: &Layout, what: &str) {
     let on_input = laid.on_input().unwrap();
     for e in r.mesh.edges().filter(|&e| laid.cut.is_cut[e]) {
-        assert!(r.origin[e].input.is_some_and(|e| on_input.cut.is_cut[e]), "{what}: edge {e}");
+        assert!(r.edge(0, e).is_some_and(|e| on_input.cut.is_cut[e]), "{what}: edge {e}");
     }
     assert_eq!(laid.cut.segments.len(), on_input.cut.segments.len(), "{what}");
     let corners = laid.corner_uv().unwrap();
     assert_eq!(corners.len(), input.n_faces());
     for f in r.mesh.faces() {
-        for (uv, weights) in laid.face_uv(f).into_iter().zip(r.input_barycentric(f)) {
+        for (uv, weights) in laid.face_uv(f).into_iter().zip(r.barycentric(0, f)) {
             if let Some(corner) = weights.iter().position(|&w| w == 1.0) {
-                assert_eq!(corners[r.input_face[f].index()][corner], uv, "{what}: face {f}");
+                assert_eq!(corners[r.faces[0][f].index()][corner], uv, "{what}: face {f}");
             }
         }
     }
-    // Where an edge is not cut, both faces have its ends in one place.
+    // The ends of an edge that is not cut have the same coordinates in both faces.
     let index = |h| on_input.corner_index[h];
     for e in input.edges().filter(|&e| !input.is_boundary_edge(e)) {
         let (h, t) = (e.halfedge(), e.halfedge().twin());

@@ -1,4 +1,4 @@
-//! The way back from the final triangulation to the input's: the common refinement.
+//! Tests the common subdivision of a surface's triangulation before and after a flow.
 #![allow(clippy::unwrap_used, clippy::print_stdout, clippy::print_stderr)]
 
 mod check;

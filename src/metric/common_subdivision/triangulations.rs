@@ -1,4 +1,4 @@
-//! What a refinement is made of: the triangulation that a surface came with, the one that a flow started from, and the final one.
+//! The triangulations of which a flow's common subdivision is made: that of the input, the one that the flow started from, and the final one.
 
 use super::super::lengths::Metric;
 use crate::error::{Error, Result, check_size};
@@ -7,7 +7,7 @@ use crate::mesh::{Mesh, NormalCoordinates, PerEdge, PerVertex};
 
 /// The surface as it came.
 #[derive(Debug, Clone, Copy)]
-pub struct Input<'a> {
+pub struct InputTriangulation<'a> {
     /// Its triangulation, before any flip.
     pub mesh: &'a Mesh,
     /// Geometry of its lengths.
@@ -18,7 +18,7 @@ pub struct Input<'a> {
 
 /// Another triangulation of the same surface, which a flow starts from.
 #[derive(Debug, Clone, Copy)]
-pub struct Intrinsic<'a> {
+pub struct IntrinsicTriangulation<'a> {
     /// The triangulation.
     pub mesh: &'a Mesh,
     /// Lengths of its edges, in the geometry of the input.
@@ -31,7 +31,7 @@ pub struct Intrinsic<'a> {
 
 /// The surface after a flow.
 #[derive(Debug, Clone, Copy)]
-pub struct Final<'a> {
+pub struct FinalTriangulation<'a> {
     /// Its triangulation, after all flips.
     pub mesh: &'a Mesh,
     /// Its metric.
@@ -40,24 +40,24 @@ pub struct Final<'a> {
     pub normal: &'a NormalCoordinates,
 }
 
-/// The triangulations of one surface between which a refinement leads.
+/// The triangulations of one surface between which a common subdivision leads.
 #[derive(Debug, Clone, Copy)]
 pub struct Triangulations<'a> {
     /// The one that the surface came with.
-    pub input: Input<'a>,
+    pub input: InputTriangulation<'a>,
     /// The one that isometric flips of the input have led to and the flow has started from, if that is another one: the edges of the
     /// input are then drawn straight on the surface.
-    pub intrinsic: Option<Intrinsic<'a>>,
+    pub intrinsic: Option<IntrinsicTriangulation<'a>>,
     /// The one after the flow.
-    pub result: Final<'a>,
+    pub result: FinalTriangulation<'a>,
 }
 
-/// Half-edges of the refinement per crossing and edge, at most: 2 · (2 sides + 3 edges inside a piece), and 2 to spare. It bounds the
-/// number of crossings whose refinement u32 can number.
+/// Half-edges of the subdivision per crossing and edge, at most: 2 · (2 sides + 3 edges inside a piece), and 2 to spare. It bounds the
+/// number of crossings whose subdivision u32 can number.
 const HALFEDGES_PER_CROSSING: usize = 12;
 
 impl Triangulations<'_> {
-    /// Whether arrays have the sizes of the meshes, and crossings can be numbered.
+    /// Checks that arrays have the sizes of the meshes, and that crossings can be numbered.
     pub(super) fn check(&self) -> Result<()> {
         let Triangulations { input, intrinsic, result } = self;
         check_size("final vertices", result.mesh.n_vertices(), input.mesh.n_vertices())?;
@@ -66,7 +66,7 @@ impl Triangulations<'_> {
         result.metric.check(result.mesh)?;
         let count = result.normal.check(result.mesh)?.saturating_add(input.mesh.n_edges());
         check_count("crossings of input and final edges", count)?;
-        let Some(Intrinsic { mesh, lengths, given, normal }) = intrinsic else { return Ok(()) };
+        let Some(IntrinsicTriangulation { mesh, lengths, given, normal }) = intrinsic else { return Ok(()) };
         check_size("intrinsic edges", mesh.n_edges(), result.mesh.n_edges())?;
         check_size("intrinsic lengths", lengths.len(), mesh.n_edges())?;
         check_count("crossings of input and intrinsic edges", given.check(mesh)?)?;
