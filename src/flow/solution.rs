@@ -27,13 +27,13 @@ pub struct Solution {
     /// Empty where no edge was ever to be flipped.
     pub(super) followed: Vec<NormalCoordinates>,
     pub(super) flips: usize,
-    pub(super) reached: Option<FlowOutcome>,
+    pub(super) reached: Option<ReachedTarget>,
     pub(super) threads: usize,
 }
 
 /// The target of a flow and its report.
 #[derive(Debug, Clone)]
-pub(super) struct FlowOutcome {
+pub(super) struct ReachedTarget {
     pub report: Report,
     /// Per given vertex; at pinned vertices the resulting curvature.
     pub target: PerVertex<f64>,

@@ -6,7 +6,7 @@ use super::evaluate::FlowState;
 use super::options::Method;
 use super::report::{Report, StopReason, WORST};
 use super::seconds::timed;
-use super::solution::{FlowOutcome, Solution};
+use super::solution::{ReachedTarget, Solution};
 use super::system::{NewtonSystem, Precision};
 use crate::control::Control;
 use crate::error::{Error, Result, check_size};
@@ -74,7 +74,7 @@ impl Flow {
             let pinned = |v: &VertexId| self.pinned[v.index()];
             self.given().vertices().filter(pinned).for_each(|v| target[v] = curvature[v]);
         }
-        let reached = self.now.reached.insert(FlowOutcome { report, target, cones: Vec::new() });
+        let reached = self.now.reached.insert(ReachedTarget { report, target, cones: Vec::new() });
         Ok(&reached.report)
     }
 

@@ -14,12 +14,7 @@ const SHARED: &[(&str, &str)] = &[(
 )];
 
 /// Names that more than one type still bears and that are to be renamed.
-const TO_BE_RENAMED: &str = "\
-    Angles Around Asked At Charts Chords Corner Crossing Document Domain Drawn End Flat Found \
-    Given Input Jet Lift Mobius Model Opened Origin Outcome Overlay Parts PatchEntry Pieces Place Plan \
-    Plane Quad Reached Report Round Seconds Seen Shape ShowChoice Side Similarity Spot Target Values \
-    View Way Work \
-    ";
+const TO_BE_RENAMED: &str = "";
 
 /// Parameters with a tuple as pattern that remain in signatures.
 const TUPLE_PARAMETERS: usize = 29;

@@ -1,7 +1,7 @@
 //! Makes the common subdivision from its pieces: the vertices and edges that were kept are numbered without gaps.
 
 use super::data::{CommonSubdivision, Crossing, FacePoint, PackedPlace, torn};
-use super::pieces::{PieceCorner, PieceTriangles};
+use super::pieces::{PieceTriangles, SubdivisionCorner};
 use crate::error::Result;
 use crate::mesh::{FaceId, HalfedgeId, Mesh, PerEdge, PerFace, PerVertex, VertexId};
 use crate::parallel;
@@ -69,14 +69,14 @@ pub(super) fn assemble(
 
 /// Per triangle the places of its corners, and its faces, in the input and in the final triangulation.
 fn faces_of(
-    all: &[[PieceCorner; 3]],
+    all: &[[SubdivisionCorner; 3]],
     meshes: [&Mesh; 2],
 ) -> Result<(Vec<[[PackedPlace; 2]; 3]>, [PerFace<FaceId>; 2])> {
     let lies_on = |mesh: &Mesh, h: HalfedgeId| {
         let (face, corner) = mesh.corner(h)?;
         Some((face, PackedPlace { corner: corner as u8, backward: h.0 & 1 == 1 }))
     };
-    let of = |c: PieceCorner| lies_on(meshes[0], c.input).zip(lies_on(meshes[1], c.result));
+    let of = |c: SubdivisionCorner| lies_on(meshes[0], c.input).zip(lies_on(meshes[1], c.result));
     let mut places = Vec::with_capacity(all.len());
     let mut faces = [Vec::with_capacity(all.len()), Vec::with_capacity(all.len())];
     for corners in all {

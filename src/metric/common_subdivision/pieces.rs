@@ -45,7 +45,7 @@ enum PieceSide {
 /// A corner of a triangle of the output: vertex, and the half-edges of the input's and the final face at which (vertex) or on
 /// which (crossing) it lies.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct PieceCorner {
+pub(super) struct SubdivisionCorner {
     pub vertex: u32,
     pub input: HalfedgeId,
     pub result: HalfedgeId,
@@ -78,7 +78,7 @@ pub(super) struct PieceTriangles<'a> {
     pub along: Vec<[Option<HalfedgeId>; 2]>,
     /// Per triangle: its half-edges, corners, the piece it belongs to.
     pub sides: Vec<[u32; 3]>,
-    pub corners: Vec<[PieceCorner; 3]>,
+    pub corners: Vec<[SubdivisionCorner; 3]>,
     pub piece: Vec<u32>,
     n_pieces: u32,
 }
@@ -212,7 +212,7 @@ impl<'a> PieceTriangles<'a> {
 
     /// A final face that no curve crosses, which is a face of the input: what [`PieceTriangles::emit`] makes of it.
     fn emit_whole(&mut self, h: [HalfedgeId; 3], keep: &dyn Fn(FaceId) -> bool) -> Result<()> {
-        let mut corners = [PieceCorner { vertex: 0, input: h[0], result: h[0] }; 3];
+        let mut corners = [SubdivisionCorner { vertex: 0, input: h[0], result: h[0] }; 3];
         for (k, corner) in corners.iter_mut().enumerate() {
             *corner = self.piece_corner(h, CornerSpot::Corner(k, 0), None)?;
         }
@@ -248,7 +248,7 @@ impl<'a> PieceTriangles<'a> {
             };
         }
         let mut face = None;
-        let mut corners = [PieceCorner { vertex: NONE, input: h[0], result: h[0] }; MOST_CORNERS];
+        let mut corners = [SubdivisionCorner { vertex: NONE, input: h[0], result: h[0] }; MOST_CORNERS];
         for (i, &(spot, _)) in polygon.iter().enumerate() {
             let corner = self.piece_corner(h, spot, curves[i].or(curves[(i + size - 1) % size]))?;
             let lies_in = self.drawn.input.face(corner.input).ok_or_else(torn)?;
@@ -269,29 +269,30 @@ impl<'a> PieceTriangles<'a> {
         h: [HalfedgeId; 3],
         spot: CornerSpot,
         curve: Option<HalfedgeId>,
-    ) -> Result<PieceCorner> {
+    ) -> Result<SubdivisionCorner> {
         let FinalTriangulation { mesh, normal, .. } = self.drawn.result;
         match spot {
             CornerSpot::Corner(k, turn) => {
                 let coincident = i64::from(normal.crossings(h[k].edge()) < 0);
                 let input = normal.leaving(mesh, h[k], coincident + turn - 1);
-                Ok(PieceCorner { vertex: mesh.origin(h[k]).0, input, result: h[k] })
+                Ok(SubdivisionCorner { vertex: mesh.origin(h[k]).0, input, result: h[k] })
             }
             CornerSpot::Side(k, at) => {
                 let vertex = mesh.n_vertices() as u32 + self.slots[self.slot(h[k], at)];
-                Ok(PieceCorner { vertex, input: curve.ok_or_else(torn)?, result: h[k] })
+                Ok(SubdivisionCorner { vertex, input: curve.ok_or_else(torn)?, result: h[k] })
             }
         }
     }
 
     /// Append the triangles of a piece with these corners and sides (side i follows corner i): they lie around corner 0, with new edges
     /// between them.
-    fn triangulate(&mut self, sides: &[u32], corners: &[PieceCorner]) {
+    fn triangulate(&mut self, sides: &[u32], corners: &[SubdivisionCorner]) {
         let (size, n) = (sides.len(), self.drawn.result.mesh.n_vertices());
         // Numbers of crossings follow those of the vertices.
-        let crossing = |c: &PieceCorner| (c.vertex as usize).checked_sub(n);
-        let is_moved =
-            |c: &PieceCorner| crossing(c).and_then(|c| self.drawn.moved.get(c)).is_some_and(|&moved| moved);
+        let crossing = |c: &SubdivisionCorner| (c.vertex as usize).checked_sub(n);
+        let is_moved = |c: &SubdivisionCorner| {
+            crossing(c).and_then(|c| self.drawn.moved.get(c)).is_some_and(|&moved| moved)
+        };
         let apart = corners.iter().any(is_moved);
         let mut left = sides[0];
         for i in 1..size - 1 {
