@@ -54,22 +54,18 @@ fn basis_functions_add_up_to_one() {
     }
 }
 
+/// The root mean square distance of the vertices from a cubic fit: 5.8e-4 on a torus of 174 patches, 1.3e-2 on a surface of genus 2 with 310,
+/// where the spline without a filled hole has coinciding knots at its singular vertex.
 #[test]
 fn a_fit_comes_near_the_surface() {
-    for (soup, step) in [(shapes::torus(2.0, 0.8, 80, 40).unwrap(), 37), (shapes::genus(2, 8).unwrap(), 37)] {
-        let surface = Surface::from_soup(&soup).unwrap();
+    let cases = [(shapes::torus(2.0, 0.8, 80, 40), 1e-3), (shapes::genus(2, 8), 2e-2)];
+    for (soup, most) in cases {
+        let surface = Surface::from_soup(&soup.unwrap()).unwrap();
         let points = surface.positions().unwrap().to_vec();
-        let (_, domain) = domain(surface, step);
+        let (_, domain) = domain(surface, 37);
         let space: Arc<SplineSpace> = Arc::new(domain.space(3, 0.5).unwrap());
         let places = domain.places(points.len()).unwrap();
         let fitted = fit(&space, &places, &points, &FitOptions::default(), &Control::new()).unwrap();
-        eprintln!(
-            "{} vertices, {} patches, {} control points: rms {:e} max {:e}",
-            points.len(),
-            space.patches().len(),
-            space.n_control_points(),
-            fitted.rms,
-            fitted.max
-        );
+        assert!(fitted.rms < most, "{} control points: {:e}", space.n_control_points(), fitted.rms);
     }
 }
