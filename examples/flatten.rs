@@ -13,8 +13,7 @@ fn main() -> Result<()> {
     };
     let control = Control::new();
     let target = Target::default_for(&surface, Space::E2)?;
-    let mut flow =
-        Flow::new(surface.clone(), Class::yamabe(Space::E2), &flow::Options::default(), &control)?;
+    let mut flow = Flow::new(surface.clone(), Class::yamabe(Space::E2), &flow::Options::default(), &control)?;
     let flat = flow.solve(&target, &control)?;
     let layout = Layout::of_solution(&flat, &LayoutOptions::default(), &control)?;
     let quality = layout.quality(surface.mesh(), surface.lengths())?;

@@ -11,7 +11,12 @@ fn main() -> Result<()> {
     let found = uniformize(&surface, &QuotientOptions::default(), &Control::new())?;
     assert!(found.converged());
     if let Uniformization::Quotient(quotient) = &found {
-        println!("{:?}: {:?}", found.space(), quotient.report.stop_reason());
+        let deck = &quotient.deck;
+        println!(
+            "{} generators, their relation holds to {:.1e}",
+            deck.generators.len(),
+            deck.relation_residual
+        );
     }
     Ok(())
 }

@@ -95,9 +95,8 @@ mod variants;
 
 pub use crate::mesh::Place;
 pub use balance::BalanceReport;
-pub use landmarks::soft::SoftLandmark;
 pub use match_surfaces::match_surfaces;
-pub use options::{BoundaryMatching, LoopShape, MatchOptions};
+pub use options::{BoundaryMatching, LoopShape, MatchOptions, SoftLandmark};
 pub use overlay::{CommonDomain, DomainTriangle};
 pub use quality::{MapQuality, cycle_error, dilatations, map_quality, point_error, uncovered};
 pub use result::Matching;

@@ -1,6 +1,5 @@
 //! The options of a matching.
 
-use super::landmarks::soft::SoftLandmark;
 use crate::flow::Options;
 use crate::mesh::{HalfedgeId, Place, VertexId};
 
@@ -27,6 +26,15 @@ pub enum LoopShape {
     /// weights of the map are changed around them, and it is an error if that does not open them. Landmarks inside the surfaces are
     /// refused.
     Circles,
+}
+
+/// A landmark that draws the map near its partner.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SoftLandmark {
+    /// A vertex of the source and one of the target, both inside the surfaces.
+    pub pair: [VertexId; 2],
+    /// Its weight w ≥ 0: the landmark goes to the share w/(1 + w) of the path to its partner from its image in the map without it.
+    pub weight: f64,
 }
 
 /// Options of [`super::match_surfaces`].

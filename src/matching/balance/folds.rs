@@ -3,7 +3,8 @@
 //! The canonical metric is found on a triangulation with flipped edges. The faces of the surface itself, drawn with straight sides, may
 //! fold where edges were flipped.
 
-use super::{Springs, VertexFreedom, balance};
+use super::solve::balance;
+use super::springs::{Springs, VertexFreedom};
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::matching::cover::PlacedMesh;

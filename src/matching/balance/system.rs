@@ -1,7 +1,7 @@
 //! The equations of a balance: energy, forces and their derivatives by the positions of the vertices, and Newton's method for both.
 
 use super::matrices::{BalanceSolver, SparseRows, SymmetricFactors};
-use super::{EnergyMinimum, Springs, VertexFreedom};
+use super::springs::{EnergyMinimum, Springs, VertexFreedom};
 use crate::control::{Control, Stage};
 use crate::error::Result;
 use crate::geometry::Space;

@@ -1,6 +1,6 @@
 //! Opens folds by moving single vertices, each to the point that lies farthest inside the lines of the edges around it \[FP00\].
 
-use super::VertexFreedom;
+use super::springs::VertexFreedom;
 use crate::control::{Control, Stage};
 use crate::error::Result;
 use crate::geometry::Space;

@@ -6,47 +6,36 @@
 //! lower the energy of the harmonic map. A class that the user names by pairs of loops ([`named_class`]) is taken as it is.
 
 mod generators;
+mod handle_surface;
 mod named_class;
 mod search;
 
 use super::balance::{Springs, relax, settle_both};
-use super::canonical::{CanonicalMetric, CanonicalSurface, Opening, for_both};
-use super::cover::{PlacedMesh, UniversalCover, WalkSeed, on_axis};
+use super::canonical::for_both;
+use super::cover::{PlacedMesh, WalkSeed};
 use super::domain_pair::DomainPair;
 use super::landmarks::MarkedSurface;
 use super::options::MatchOptions;
 use crate::control::Control;
-use crate::embed::LayoutScale;
 use crate::error::{Error, Result};
-use crate::geometry::{DoubleDouble, Motion, Space};
-use crate::mesh::{HalfedgeId, Mesh, PerVertex};
+use crate::geometry::Space;
+use crate::mesh::HalfedgeId;
 use crate::metric::Surface;
-use crate::topology::{CutGraph, FundamentalDomain, HomotopyBasis, crossed_halfedges, homotopy_basis};
 use generators::Generators;
+use handle_surface::{HandleSurface, handle_surface};
 use named_class::{LetterImages, SurfaceWithLoops, letter_images};
 use search::{ClassSearch, LeastMap};
-use std::sync::Arc;
 
 /// Energy of the source in the target's domain over that of the target itself, below which no other class is tried.
 const UNTWISTED: f64 = 1.05;
 /// Energy of another class over the least, up to which the map of it may be the better one for landmarks.
 const SIMILAR: f64 = 1.5;
 
-/// A surface in its own metric, opened along the cut of its homotopy basis.
-struct HandleSurface {
-    own: CanonicalSurface,
-    basis: HomotopyBasis,
-    domain: FundamentalDomain,
-    /// The generators of its deck group, with the lines of its boundary, in the order of its basis.
-    generators: Generators,
-}
-
 /// Both surfaces in the target's metric. With `more` also the source in other classes of about the same energy, from which landmarks may be
 /// nearer to their partners.
 ///
 /// # Errors
-/// [`Error::Matching`] if a flow does not reach its target, and if no harmonic map is found; those of [`homotopy_basis`],
-/// [`CanonicalMetric::new`] and [`Opening::place`]; [`Error::Cancelled`].
+/// [`Error::Matching`] if a flow does not reach its target, and if no harmonic map is found; those of [`handle_surface`]; [`Error::Cancelled`].
 pub(super) fn with_handles(
     sides: [MarkedSurface; 2],
     more: bool,
@@ -89,95 +78,6 @@ pub(super) fn with_handles(
     let flow_iterations = own.map(|own| own.own.iterations);
     let pair = DomainPair { source: image, target: domain, seeds, reports, flow_iterations, markings: tried };
     Ok((pair, others))
-}
-
-/// A surface in its flat or hyperbolic metric; the base of its homotopy basis is its landmark, if it has one.
-fn handle_surface(
-    side: MarkedSurface,
-    space: Space,
-    options: &MatchOptions,
-    control: &Control,
-) -> Result<HandleSurface> {
-    let MarkedSurface { surface, marks } = side;
-    let mesh = surface.mesh();
-    let basis = homotopy_basis(mesh, surface.lengths(), marks.landmarks.first().copied(), control)?;
-    let cut = CutGraph::around(mesh, basis.cut(mesh));
-    let domain = FundamentalDomain::new(mesh, &cut.is_cut, &basis)?;
-    let curvature = PerVertex::filled(mesh.n_vertices(), 0.0);
-    let metric = CanonicalMetric::new(surface, space, curvature, &options.flow, control)?;
-    let opening = Opening {
-        cut: &cut,
-        root: basis.base,
-        cones: &[],
-        own_corners: &[domain.base_corner],
-        scale: LayoutScale::default(),
-        subdivision: None,
-        threads: options.flow.threads,
-    };
-    let (mut placed, _) = opening.place(&metric.solution, mesh, control)?;
-    let mut generators = generators(&basis, &domain, &placed, mesh)?;
-    if let Some(closed) = generators.clone().closed() {
-        placed.cover = cover_by_words(mesh, &basis, &domain, &closed)?;
-        generators = closed;
-    }
-    add_lines(&mut generators, &basis, &placed, mesh)?;
-    Ok(HandleSurface {
-        own: CanonicalSurface::new(surface, placed, metric.iterations),
-        basis,
-        domain,
-        generators,
-    })
-}
-
-/// The cover of a surface that is opened along the cut of its homotopy basis, if the letters go to these motions.
-fn cover_by_words(
-    mesh: &Arc<Mesh>,
-    basis: &HomotopyBasis,
-    domain: &FundamentalDomain,
-    generators: &Generators,
-) -> Result<UniversalCover> {
-    let mut words: Vec<Option<Motion<DoubleDouble>>> = vec![None; mesh.n_halfedges()];
-    for h in mesh.halfedges().filter(|&h| !mesh.is_outside(h)) {
-        let word = basis.transition(mesh, h);
-        if !word.is_empty() {
-            words[h.index()] = Some(generators.motion(&word)?);
-        }
-    }
-    UniversalCover::new(mesh, generators.space, |h| words[h.index()], &[domain.base_corner])
-}
-
-/// The motions of a surface's own generators, without lines.
-fn generators(
-    basis: &HomotopyBasis,
-    domain: &FundamentalDomain,
-    placed: &PlacedMesh,
-    mesh: &Mesh,
-) -> Result<Generators> {
-    let cover = &placed.cover;
-    let motion = |path: &Vec<HalfedgeId>| {
-        let crossed = crossed_halfedges(mesh, domain.base_corner, path)?;
-        let through = crossed.into_iter().filter_map(|h| cover.across(h));
-        Ok(through.fold(Motion::identity(cover.space), |all, step| all.compose(step)).normalised())
-    };
-    let motions: Vec<Motion<DoubleDouble>> = basis.loops.iter().map(motion).collect::<Result<_>>()?;
-    Ok(Generators { space: cover.space, genus: basis.group.genus, motions, lines: Vec::new() })
-}
-
-/// Adds the lines of the boundary: the axes of its generators.
-fn add_lines(
-    generators: &mut Generators,
-    basis: &HomotopyBasis,
-    placed: &PlacedMesh,
-    mesh: &Mesh,
-) -> Result<()> {
-    for (j, &rim) in basis.rims.iter().enumerate() {
-        let start = mesh.tip(rim);
-        let tree = generators.motion(&basis.corner_word(placed.cover.own(start)))?.inverse();
-        let along = &generators.motions[2 * generators.genus + j];
-        let line = on_axis(along, &tree.compose(&placed.at[start]));
-        generators.lines.push(line);
-    }
-    Ok(())
 }
 
 /// For each letter of the source's boundary the number of the target's letter to whose loop its loop goes.

@@ -1,7 +1,7 @@
 //! The search for a homotopy class of low energy among maps between surfaces with handles.
 
 use super::generators::Generators;
-use super::{HandleSurface, cover_by_words};
+use super::handle_surface::{HandleSurface, cover_by_words};
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::Space;

@@ -1,6 +1,6 @@
 //! Landmarks, corners and boundary loops of both surfaces from the options: they are checked and brought into corresponding order.
 
-use super::Marks;
+use super::marked_surface::Marks;
 use crate::error::{Error, Result};
 use crate::mesh::{HalfedgeId, VertexId};
 use crate::metric::Surface;

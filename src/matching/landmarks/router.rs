@@ -1,6 +1,6 @@
 //! Edge paths between the landmarks and boundary loops of one surface, no two of which meet.
 
-use super::Marks;
+use super::marked_surface::Marks;
 use crate::error::{Error, Result};
 use crate::mesh::{HalfedgeId, Mesh, PerEdge, PerVertex, VertexId};
 use crate::topology::spanning::Key;

@@ -11,20 +11,11 @@
 
 use crate::control::Control;
 use crate::error::{Error, Result};
-use crate::matching::options::MatchOptions;
+use crate::matching::options::{MatchOptions, SoftLandmark};
 use crate::matching::result::Matching;
 use crate::mesh::{HalfedgeId, Place, VertexId};
 use crate::metric::Surface;
 use crate::topology::{check_vertex, shortest_paths};
-
-/// A landmark that draws the map near its partner.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SoftLandmark {
-    /// A vertex of the source and one of the target, both inside the surfaces.
-    pub pair: [VertexId; 2],
-    /// Its weight w ≥ 0: the landmark goes to the share w/(1 + w) of the path to its partner from its image in the map without it.
-    pub weight: f64,
-}
 
 /// Number of times that the paths of soft landmarks are halved if they are in conflict.
 const MOST_HALVINGS: usize = 4;
