@@ -174,8 +174,8 @@ enum {
 /**
  * The circle pattern of a layout in the plane.
  *
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT, RICCI_LAYOUT (another space than
- * E2), RICCI_DOMAIN (a radius that no double holds).
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT, RICCI_LAYOUT (another space
+ * than E2), RICCI_DOMAIN (a radius that no double holds).
  *
  * @param layout    the layout.
  * @param which     RICCI_CIRCLES_*.

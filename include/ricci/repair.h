@@ -176,7 +176,8 @@ RICCI_API ricci_status ricci_soup_summarise(const ricci_soup *soup, ricci_soup_s
  * @param quality  out: the figures.
  * @param size     sizeof *quality.
  */
-RICCI_API ricci_status ricci_soup_quality(const ricci_soup *soup, ricci_quality_summary *quality, size_t size);
+RICCI_API ricci_status ricci_soup_quality(const ricci_soup *soup, ricci_quality_summary *quality,
+                                          size_t size);
 
 /**
  * Positions, or an attribute.

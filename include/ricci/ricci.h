@@ -599,7 +599,8 @@ typedef struct ricci_quality_summary {
     double obtuse_fraction;
     /** Longest over shortest edge; NaN if an edge has length 0. */
     double edge_ratio;
-    /** Share of the interior edges whose opposite angles add up to more than pi; NaN of what is no surface. */
+    /** Share of the interior edges whose opposite angles add up to more than pi; NaN of what is no surface.
+     */
     double non_delaunay_fraction;
 } ricci_quality_summary;
 
@@ -612,7 +613,8 @@ typedef struct ricci_quality_summary {
  * @param quality  out: the figures.
  * @param size     sizeof *quality.
  */
-RICCI_API ricci_status ricci_mesh_quality(const ricci_mesh *mesh, ricci_quality_summary *quality, size_t size);
+RICCI_API ricci_status ricci_mesh_quality(const ricci_mesh *mesh, ricci_quality_summary *quality,
+                                          size_t size);
 
 /**
  * Positions, lengths, or an attribute that the mesh was read with.
@@ -872,8 +874,8 @@ RICCI_API ricci_status ricci_metric_mirror(const ricci_metric *metric, uint32_t 
 /** Rules for a target. */
 enum {
     /**
-     * In H2 and S2: uniform. In E2: on spheres four cones of pi; on other closed surfaces uniform; on open ones
-     * of genus 0 boundary; on open ones with handles auto, with |chi| cones, 4 to 64.
+     * In H2 and S2: uniform. In E2: on spheres four cones of pi; on other closed surfaces uniform; on open
+     * ones of genus 0 boundary; on open ones with handles auto, with |chi| cones, 4 to 64.
      */
     RICCI_TARGET_DEFAULT = 0,
     /** The same curvature everywhere: 2 pi chi / V on a closed surface in E2, 0 in H2 and S2. */

@@ -247,8 +247,8 @@ typedef struct ricci_uniform_summary {
  * surface; its vertices are moved by the Moebius transformation after which their mean is the centre, each
  * weighed with one third of the area of the given faces at it: they are determined up to a rotation. With
  * RICCI_METHOD_GRADIENT the surface flows in S2, on its own triangulation, and is laid out from the base.
- * Genus 1: flat, with the area of the given surface; more: hyperbolic. If the flow has not converged, the other
- * results are as accurate as the metric. Deterministic.
+ * Genus 1: flat, with the area of the given surface; more: hyperbolic. If the flow has not converged, the
+ * other results are as accurate as the metric. Deterministic.
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE, RICCI_ARGUMENT (no such vertex; a sphere of less
  * than four vertices or in another scheme; a corner that is not on the boundary), RICCI_LAYOUT (geodesics
  * around a disk; `start` in another space; a vertex of a sphere has half of its area, or all lie on one
