@@ -29,7 +29,9 @@ def test_the_modulus_of_a_torus_of_revolution():
 
 def test_a_sphere_flows_in_its_own_space():
     found = ricci.uniformize(ricci.make("ellipsoid", n=4, a=1, b=1.2, c=0.9), flow={"method": "gradient"})
-    assert found.converged and found.metric.report.converged and found.summary.n_tried == 0
+    assert found.converged
+    assert found.metric.report.converged
+    assert found.summary.n_tried == 0
     np.testing.assert_allclose(np.linalg.norm(found.sphere_points(), axis=1), 1, atol=1e-12)
     with pytest.raises(ricci.LayoutError, match="plane"):
         found.sphere_points("poincare")
