@@ -75,7 +75,7 @@ impl ConjugateGradients {
     /// matrix that `near` has factorised last. Sums are formed in a fixed order for any number of threads.
     ///
     /// Returns false, with meaningless `x`, where factorising A is faster or needed: A is found not to be positive definite, or after a
-    /// few steps the residuals fall too slowly for [`ITERATIONS`].
+    /// few steps the residuals fall too slowly to end within the limit of steps.
     ///
     /// # Errors
     ///

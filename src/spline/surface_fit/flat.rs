@@ -77,7 +77,7 @@ impl FlatMetric {
     /// The flat metric that a flow found; for a surface that was doubled, on its given half.
     ///
     /// # Errors
-    /// [`Error::Argument`] for a metric that is not Euclidean; those of [`Solution::refinement`].
+    /// [`Error::Argument`] for a metric that is not Euclidean; those of [`Solution::common_subdivision`].
     pub fn of(flat: &Solution, control: &Control) -> Result<FlatMetric> {
         if flat.metric().space != Space::E2 {
             return Err(Error::argument("metric", flat.metric().space, "flat, of the Euclidean plane"));
