@@ -1,8 +1,8 @@
 //! One word per idea: every type of the library, the C face and the command has a name of its own, and no parameter
 //! is a tuple that is taken apart in the signature.
 
-use super::{rust_files, text};
-use std::collections::BTreeMap;
+use super::{files, open, rust_files, text};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The crates whose types share one vocabulary.
 const CRATES: &[&str] = &["src", "capi/src", "apps/src"];
@@ -106,6 +106,42 @@ fn no_parameter_is_a_tuple() {
         wrong.extend(tuples.map(|(name, parameter)| format!("{file}: {name}: {parameter}")));
     }
     assert!(wrong.len() <= TUPLE_PARAMETERS, "{} parameters are tuples: {wrong:#?}", wrong.len());
+}
+
+/// The words of a folder's files.
+fn words(folder: &str) -> BTreeSet<String> {
+    let texts: String = files(folder).iter().map(|file| text(file)).collect();
+    texts.split(|c: char| !c.is_alphanumeric() && c != '_').map(str::to_string).collect()
+}
+
+/// The tables of docs/c-conventions.md name what exists: items of Rust in the second column, symbols of C in any one.
+#[test]
+fn the_tables_of_names_name_what_exists() {
+    let (rust, c) = (words("src"), words("include"));
+    let page = text("docs/c-conventions.md");
+    let (mut count, mut missing) = (0, Vec::new());
+    for row in page.lines().filter(|line| line.starts_with("| ") && !line.starts_with("| **")) {
+        for (column, cell) in row.trim_matches('|').split(" | ").enumerate() {
+            for span in cell.split('`').skip(1).step_by(2) {
+                let mut names = BTreeSet::new();
+                if column == 1 && span != "log" {
+                    open(span, "", &mut names);
+                }
+                for name in names.iter().map(|path| path.rsplit("::").next().unwrap()) {
+                    count += 1;
+                    if !rust.contains(name) {
+                        missing.push(format!("{name} in src, of {row}"));
+                    }
+                }
+                let symbol = span.starts_with("ricci_") || span.starts_with("RICCI_");
+                if symbol && !span.ends_with('*') && !c.contains(span) {
+                    missing.push(format!("{span} in the headers"));
+                }
+            }
+        }
+    }
+    assert!(count > 100, "only {count} names of Rust were found");
+    assert!(missing.is_empty(), "docs/c-conventions.md names what does not exist: {missing:#?}");
 }
 
 #[test]
