@@ -64,6 +64,12 @@ pub fn no_such(element: FailureElement, what: &str, index: usize, count: usize) 
     Failure::argument(format!("{what} {index} does not exist: there are {count}")).at(element, index)
 }
 
+/// The number of the system's error, which the standard library writes at the end of its message; 0 where the failure has none.
+fn system_error(message: &str) -> f64 {
+    let number = message.rsplit_once("(os error ").and_then(|(_, rest)| rest.strip_suffix(')'));
+    number.and_then(|number| number.parse::<i32>().ok()).map_or(0.0, f64::from)
+}
+
 impl From<Error> for Failure {
     fn from(error: Error) -> Failure {
         let failure = Failure::new(error.code(), error.to_string());
@@ -87,6 +93,7 @@ impl From<Error> for Failure {
             Error::Spline { what: "vertex", index, .. } => ((FailureElement::Vertex, *index), 0.0),
             Error::Spline { index, .. } => ((FailureElement::Entry, *index), 0.0),
             Error::TargetTotal { miss, .. } => ((FailureElement::None, 0), *miss),
+            Error::Io { message, .. } => ((FailureElement::None, 0), system_error(message)),
             _ => return failure,
         };
         Failure { at, amount, ..failure }

@@ -263,6 +263,19 @@ pub struct ricci_attributes {
 // SAFETY: numbers and raw pointers; 8-byte alignment, size first.
 sized!(ricci_attributes, "attributes");
 
+impl ricci_attributes {
+    /// A copy of the caller's attributes, for the vertices and faces of a triangle list.
+    pub(crate) fn of(&self, soup: &Soup) -> Outcome<Attributes> {
+        let (v, f) = (soup.positions.len(), soup.faces.len());
+        Ok(Attributes {
+            normals: arrays::optional("normals", self.normals, v)?,
+            colors: arrays::optional("colors", self.colors, v)?,
+            uv: arrays::optional("uv", self.uv, f)?,
+            corner_normals: arrays::optional("corner_normals", self.corner_normals, f)?,
+        })
+    }
+}
+
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ricci_mesh_write(
     mesh: *const ricci_mesh,
@@ -274,13 +287,7 @@ pub unsafe extern "C" fn ricci_mesh_write(
         let mut soup = mesh.soup()?;
         let given = structs::read(attributes)?;
         if !attributes.is_null() {
-            let (v, f) = (soup.positions.len(), soup.faces.len());
-            soup.attributes = Attributes {
-                normals: arrays::optional("normals", given.normals, v)?,
-                colors: arrays::optional("colors", given.colors, v)?,
-                uv: arrays::optional("uv", given.uv, f)?,
-                corner_normals: arrays::optional("corner_normals", given.corner_normals, f)?,
-            };
+            soup.attributes = given.of(&soup)?;
         }
         if given.png.is_null() && given.png_size == 0 {
             return write_soup(&path, &soup);

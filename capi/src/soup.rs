@@ -4,7 +4,7 @@ use crate::arrays::{self, CallerBuffer, check_buffer, copy_out, copy_rows};
 use crate::failure::{Failure, FailureElement, Outcome, no_such};
 use crate::guard::{self, handle, shared};
 use crate::memory;
-use crate::mesh::{MeshValue, VALUES, copy_attribute, count, ricci_mesh, write_soup};
+use crate::mesh::{MeshValue, VALUES, copy_attribute, count, ricci_attributes, ricci_mesh, write_soup};
 use crate::status::ricci_status;
 use crate::structs::{self, sized};
 use ricci::mesh::check::{Diagnosis, diagnose};
@@ -134,6 +134,26 @@ pub unsafe extern "C" fn ricci_soup_from_arrays(
     guard::make(soup, || {
         let positions = arrays::points(positions, stride, n_vertices)?;
         Ok(ricci_soup::new(Soup::new(positions, arrays::array("faces", faces.cast(), n_faces)?)))
+    })
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_soup_with_attributes(
+    soup: *const ricci_soup,
+    attributes: *const ricci_attributes,
+    result: *mut *mut ricci_soup,
+) -> ricci_status {
+    guard::make(result, || {
+        let soup = &shared(soup)?.soup;
+        if attributes.is_null() {
+            return Err(Failure::null("attributes"));
+        }
+        let given = structs::read(attributes)?;
+        if !given.png.is_null() {
+            return Err(Failure::argument("png is written into a file, it is no attribute of a triangle list"));
+        }
+        let attributes = given.of(soup)?;
+        Ok(ricci_soup::new(Soup { attributes, ..Soup::new(soup.positions.clone(), soup.faces.clone()) }))
     })
 }
 

@@ -1,7 +1,9 @@
-//! Files of layouts and charts: OBJ meshes with texture coordinates.
+//! Files of layouts and charts: meshes with texture coordinates, in the format of the file's extension.
 
 use crate::failure::{Failure, Outcome};
-use ricci::mesh::{Mesh, PerVertex, Point, io};
+use crate::mesh::write_soup;
+use ricci::mesh::io::{self, Attributes, Format, Soup};
+use ricci::mesh::{Mesh, PerVertex, Point};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -14,12 +16,19 @@ pub(crate) struct TextureFile<'a> {
 }
 
 impl TextureFile<'_> {
-    /// Writes an OBJ file. `weights`: the homogeneous weights of the vertices, and the factors by which they are multiplied at the
-    /// points (all 1 if empty).
+    /// Writes a file in the format of its extension. `weights`: the homogeneous weights of the vertices, which only OBJ holds, and the
+    /// factors by which they are multiplied at the points (all 1 if empty).
     pub fn write(self, path: &Path, weights: Option<(PerVertex<f64>, Vec<f64>)>) -> Outcome {
-        let positions = self.positions.ok_or_else(|| {
+        let format = Format::of(path)?;
+        let positions = self.positions.clone().ok_or_else(|| {
             Failure::argument("the layout is of an intrinsic mesh: it has no positions to write")
         })?;
+        if format != Format::Obj {
+            if weights.is_some() {
+                return Err(Failure::argument("homogeneous texture coordinates are written in .obj files only"));
+            }
+            return self.write_as(format, path, positions.to_vec());
+        }
         let faces = self.mesh.triangles();
         let mut of_points = Vec::new();
         if let Some((weights, heights)) = weights {
@@ -39,5 +48,27 @@ impl TextureFile<'_> {
             ..io::TexturedMesh::default()
         };
         Ok(io::write_obj(path, &data)?)
+    }
+
+    /// Writes another format than OBJ, if it holds these texture coordinates.
+    fn write_as(&self, format: Format, path: &Path, positions: Vec<Point>) -> Outcome {
+        let uv = self.corners.iter().map(|corners| corners.map(|p| self.points[p as usize])).collect();
+        if format == Format::Off && self.has_seams(positions.len()) {
+            return Err(Failure::argument(
+                "OFF has one pair of texture coordinates for each vertex, and this layout has seams: write .obj, .ply or .glb",
+            ));
+        }
+        let attributes = Attributes { uv: Some(uv), ..Attributes::default() };
+        write_soup(path, &Soup { attributes, ..Soup::new(positions, self.mesh.triangles()) })
+    }
+
+    /// True if a vertex lies at several points.
+    fn has_seams(&self, n_vertices: usize) -> bool {
+        let mut at = vec![None; n_vertices];
+        let triangles = self.mesh.triangles();
+        triangles.as_flattened().iter().zip(self.corners.as_flattened()).any(|(&vertex, &corner)| {
+            let point = self.points[corner as usize];
+            at[vertex as usize].replace(point).is_some_and(|known: [f64; 2]| known != point)
+        })
     }
 }

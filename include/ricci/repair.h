@@ -137,6 +137,20 @@ RICCI_API ricci_status ricci_soup_from_arrays(const double *positions, size_t st
                                               const uint32_t *faces, size_t n_faces, ricci_soup **soup);
 
 /**
+ * The same triangle list with attributes of the caller's in place of its own; ricci_soup_mesh hands them on
+ * to a mesh. The list counts as one that was not repaired.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE, RICCI_ARGUMENT (a texture, which belongs to a
+ * file), RICCI_NO_MEMORY.
+ *
+ * @param soup        the triangle list.
+ * @param attributes  the attributes, which are copied; `png` NULL.
+ * @param result      out: the new handle, to be released by ricci_soup_free.
+ */
+RICCI_API ricci_status ricci_soup_with_attributes(const ricci_soup *soup, const ricci_attributes *attributes,
+                                                  ricci_soup **result);
+
+/**
  * A triangle list from a mesh file, with its attributes, in the file's numbers.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (not UTF-8), RICCI_IO, RICCI_PARSE,

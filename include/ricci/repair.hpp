@@ -22,6 +22,9 @@ public:
         return soup(make<ricci_soup>(ricci_soup_from_arrays, positions.data(), std::size_t(0),
                                      positions.size() / 3, faces.data(), faces.size() / 3));
     }
+    soup with(const ricci_attributes &attributes) const {
+        return soup(make<ricci_soup>(ricci_soup_with_attributes, get(), &attributes));
+    }
     ricci_soup_summary summary() const { return ricci::summary(ricci_soup_summarise, get()); }
     ricci_quality_summary quality() const { return ricci::summary(ricci_soup_quality, get()); }
     ricci_defect defect(std::size_t index) const {

@@ -125,7 +125,10 @@ enum {
     RICCI_STRUCT_SIZE = 14,
     /** There is not enough memory; handles are unchanged. */
     RICCI_NO_MEMORY = 15,
-    /** A file could not be read or written. */
+    /**
+     * A file could not be read or written; amount: the number of the system's error (errno), 0 if it has
+     * none.
+     */
     RICCI_IO = 100,
     /** A file's content is not what its format says. */
     RICCI_PARSE = 101,
@@ -1522,20 +1525,22 @@ RICCI_API ricci_status ricci_layout_distortion(const ricci_layout *layout, uint3
 RICCI_API ricci_status ricci_layout_mesh(const ricci_layout *layout, ricci_mesh **mesh);
 
 /**
- * Write a mesh with the layout as texture coordinates (`f v/vt`), as OBJ whose numbers read back as they are.
+ * Write a mesh with the layout as texture coordinates, in the format of the file's extension: .obj
+ * (`f v/vt`), .ply and .off, whose numbers read back as they are, or .glb, which has 24 bits.
  *
  * On the input: its own vertices and faces, in order; seams run along its edges only. On the common
  * subdivision the `v` of the mesh come first, unchanged, then the crossings. A file of that name is replaced
  * only once the new one is complete.
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_ARGUMENT (the mesh is intrinsic), RICCI_DOMAIN,
- * RICCI_LAYOUT (as of ricci_layout_corners; a model that is not projective).
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_UNKNOWN_FORMAT, RICCI_ARGUMENT (the mesh is
+ * intrinsic; a layout with seams as .off, which has no place for them; `homogeneous` as another format than
+ * .obj), RICCI_DOMAIN, RICCI_LAYOUT (as of ricci_layout_corners; a model that is not projective).
  *
  * @param layout       the layout.
  * @param on           RICCI_ON_INPUT: the given mesh; else the layout's mesh.
  * @param homogeneous  1: `vt qx qy q` with the q of ricci_map_weights: the projective map of every piece is
  *                     linear in these three, and divided by the third; in H2 in the Klein disk alone, not
  *                     on the input. 0: `vt x y`.
- * @param path         file name in UTF-8.
+ * @param path         file name in UTF-8, ending in .obj, .off, .ply or .glb.
  */
 RICCI_API ricci_status ricci_layout_write(const ricci_layout *layout, uint32_t on, uint32_t homogeneous,
                                           const char *path);

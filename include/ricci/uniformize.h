@@ -1109,16 +1109,16 @@ RICCI_API ricci_status ricci_atlas_corners(const ricci_atlas *atlas, uint32_t *c
 RICCI_API ricci_status ricci_atlas_motions(const ricci_atlas *atlas, double *motions, size_t capacity);
 
 /**
- * Write the layout's mesh with its charts as texture coordinates (`f v/vt`), as OBJ whose numbers read back
- * as they are.
+ * Write the layout's mesh with its charts as texture coordinates, in the format of the file's extension, as
+ * ricci_layout_write does.
  *
  * A file of that name is replaced only once the new one is complete.
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_ARGUMENT (the mesh is intrinsic), RICCI_DOMAIN,
- * RICCI_LAYOUT (homogeneous charts of a layout that is not in E2).
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_UNKNOWN_FORMAT, RICCI_ARGUMENT (the mesh is
+ * intrinsic; what the format has no place for), RICCI_DOMAIN, RICCI_LAYOUT (homogeneous charts of a layout that is not in E2).
  *
  * @param atlas        the atlas.
  * @param homogeneous  1: `vt qx qy q` with the q of ricci_map_weights; 0: `vt x y`.
- * @param path         file name in UTF-8.
+ * @param path         file name in UTF-8, ending in .obj, .off, .ply or .glb.
  */
 RICCI_API ricci_status ricci_atlas_write(const ricci_atlas *atlas, uint32_t homogeneous, const char *path);
 

@@ -71,6 +71,13 @@ static void attributes(void) {
     CHECK(normals[2] == 1 && normals[5] == 2 && normals[8] == 3);
     CHECK(uv[1] == 0.5 && uv[2] == 1 && uv[4] == 0.25 && uv[5] == 1);
     OK(ricci_soup_write(repair, "attributes.ply"));
+    INIT(textured);
+    textured.uv = uv;
+    OK(ricci_soup_with_attributes(repair, &textured, &soup));
+    OK(ricci_soup_summarise(soup, &summary, sizeof summary));
+    CHECK(summary.n_uv == 1 && summary.n_normals == 0 && summary.isolated_vertices == 0);
+    FAILS(ricci_soup_with_attributes(repair, NULL, &soup), RICCI_NULL_POINTER, "attributes");
+    ricci_soup_free(soup);
     ricci_soup_free(repair);
 
     /* And go out again with a texture. */
