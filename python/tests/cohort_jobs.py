@@ -37,3 +37,11 @@ def odd_results(mesh):
     if mesh.genus == 2:
         return {"what": threading.Lock()}
     return {"what": object()} if mesh.genus == 3 else counts(mesh)
+
+
+def works_long(mesh):
+    """A worker that is in the middle of a mesh for a long time."""
+    end = time.time() + 60
+    while time.time() < end:
+        time.sleep(0.01)
+    return counts(mesh)

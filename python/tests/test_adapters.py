@@ -64,6 +64,76 @@ def test_nibabel(sheet, tmp_path):
     assert np.array_equal(ricci.as_mesh(nibabel.freesurfer.read_geometry(tmp_path / "lh.sheet")).F, F)
 
 
+@pytest.fixture(scope="module")
+def dressed():
+    """A disk with normals, colours and texture coordinates; and one whose texture coordinates have seams."""
+    disk = ricci.make("disk", n=4)
+    rng = np.random.default_rng(5)
+    normals, colors = rng.normal(size=(disk.n_vertices, 3)), np.round(255 * rng.random((disk.n_vertices, 4))) / 255
+    whole = disk.with_attributes(normals=normals, colors=colors, uv=disk.V[:, :2][disk.F])
+    return whole, disk.with_attributes(normals=normals, uv=rng.random((disk.n_faces, 3, 2)), corner_normals=None)
+
+
+@pytest.mark.parametrize("library", ["trimesh", "meshio", "pyvista"])
+def test_attributes_go_along_both_ways(dressed, library):
+    pytest.importorskip(library)
+    torn = dressed[1]
+    send = getattr(ricci, f"to_{library}")
+    for mesh in dressed:
+        again = ricci.as_mesh(send(mesh, field=np.arange(mesh.n_vertices)))
+        assert np.array_equal(again.F, mesh.F)
+        for name in ("normals", "colors", "uv"):
+            mine, other = getattr(mesh, name), getattr(again, name)
+            assert (mine is None) == (other is None), name
+            assert mine is None or np.allclose(mine, other, atol=1e-7), name
+    assert ricci.as_mesh(send(torn)).summary.n_boundary_loops == 1
+
+
+def test_texture_coordinates_are_where_the_libraries_look_for_them(dressed):
+    trimesh, pyvista = pytest.importorskip("trimesh"), pytest.importorskip("pyvista")
+    whole, torn = dressed
+    uv = whole.V[:, :2]
+    assert np.allclose(ricci.to_trimesh(whole).visual.uv, uv)
+    assert np.allclose(ricci.to_pyvista(whole).active_texture_coordinates, uv)
+    assert ricci.to_pyvista(torn).cell_data["uv"].shape == (torn.n_faces, 6)
+    assert ricci.to_trimesh(torn).face_attributes["uv"].shape == (torn.n_faces, 6)
+    painted = whole.with_attributes(colors=whole.colors)
+    assert np.array_equal(ricci.to_trimesh(painted).visual.vertex_colors, np.round(255 * whole.colors))
+    ball = ricci.as_mesh(pyvista.Sphere(theta_resolution=12, phi_resolution=10))
+    assert ball.normals.shape == (ball.n_vertices, 3)
+    assert ricci.as_mesh(trimesh.creation.icosphere(subdivisions=1)).uv is None
+
+
+def test_labels_have_the_intent_and_the_table_of_labels(sheet, tmp_path):
+    nibabel = pytest.importorskip("nibabel")
+    image = ricci.to_gifti(sheet, aparc=np.array([13, 14, 14, 0]), mask=np.array([True, False, True, True]), depth=np.arange(4.0))
+    nibabel.save(image, tmp_path / "sheet.gii")
+    again = nibabel.load(tmp_path / "sheet.gii")
+    assert [array.intent for array in again.darrays] == [1008, 1009, 1002, 1002, 2005]
+    assert again.darrays[2].data.tolist() == [13, 14, 14, 0]
+    assert again.darrays[2].data.dtype == np.int32
+    assert again.labeltable.get_labels_as_dict() == {13: "13", 14: "14", 0: "0", 1: "1"}
+    with pytest.raises(TypeError, match="GIFTI holds numbers"):
+        ricci.to_gifti(sheet, names=np.array(["a", "b", "c", "d"]))
+    with pytest.warns(UserWarning, match="texture coordinates"):
+        ricci.to_gifti(sheet.with_attributes(uv=np.zeros((2, 3, 2))))
+
+
+def test_other_objects_name_what_makes_a_mesh_of_them(tmp_path):
+    pyvista, trimesh, nibabel = (pytest.importorskip(name) for name in ("pyvista", "trimesh", "nibabel"))
+    ball = pyvista.Sphere()
+    given = [
+        (ball.cast_to_unstructured_grid(), r"extract_surface\(\).triangulate\(\)"),
+        (pyvista.MultiBlock([ball, ball]), r"combine\(\).extract_surface"),
+        (pyvista.ImageData(dimensions=(3, 3, 3)), r"extract_surface\(\)"),
+        (trimesh.Scene([trimesh.creation.box()]), r"to_mesh\(\)"),
+        (nibabel.gifti.GiftiImage(), "no pointset and triangles"),
+    ]
+    for other, words in given:
+        with pytest.raises(ricci.ArgumentError, match=words):
+            ricci.as_mesh(other)
+
+
 def test_arrays_pairs_files_and_meshes(sheet, tmp_path):
     sheet.write(tmp_path / "sheet.obj")
     for given in ((V, F), str(tmp_path / "sheet.obj"), tmp_path / "sheet.obj", sheet):

@@ -197,8 +197,9 @@ def test_messages_of_the_library_reach_logging(caplog, torus):
     assert not caplog.records
 
 
-def test_handles_cannot_be_pickled(torus):
-    import pickle
-
-    with pytest.raises(TypeError):
-        pickle.dumps(torus)
+@pytest.mark.parametrize("progress", [3, "flow", [print]])
+def test_progress_is_a_function_or_a_control(torus, progress):
+    with pytest.raises(TypeError, match="progress is a function of a stage and a fraction, or a Control"):
+        ricci.flow(torus, progress=progress)
+    with pytest.raises(TypeError, match="progress is a function"):
+        ricci.Control(progress)

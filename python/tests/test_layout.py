@@ -82,6 +82,80 @@ def test_layouts_are_written_as_obj(tmp_path, laid, genus2):
     assert ricci.read(tmp_path / "fine.obj").n_faces == laid.summary.n_faces
 
 
+@pytest.mark.parametrize("ending", ["ply", "glb"])
+def test_layouts_are_written_in_the_format_of_the_ending(tmp_path, laid, genus2, ending):
+    """Each format has the coordinates of every corner; glTF has a vertex once for each pair, in 24 bits."""
+    for writes in (laid, ricci.atlas(laid)):
+        path = tmp_path / f"uv.{ending}"
+        writes.write(path)
+        assert not path.read_bytes().startswith(b"v ")
+        again = ricci.Soup.read(path)
+        uv = laid.uv() if writes is laid else writes.points[writes.corners]
+        assert again.summary.n_uv == len(uv)
+        np.testing.assert_allclose(again.uv, uv, atol=1e-6 * np.abs(uv).max() if ending == "glb" else 0)
+
+
+def test_what_a_format_has_no_place_for_is_refused(tmp_path, laid, disk):
+    with pytest.raises(ricci.FileError, match=r"known are .obj, .off, .ply, .glb"):
+        laid.write(tmp_path / "uv.vtk")
+    with pytest.raises(ricci.FileError, match="unknown format"):
+        ricci.atlas(laid).write(tmp_path / "charts")
+    with pytest.raises(ricci.ArgumentError, match="has seams"):
+        laid.write(tmp_path / "uv.off")
+    with pytest.raises(ricci.ArgumentError, match=r"in .obj files only"):
+        laid.write(tmp_path / "uv.ply", "refinement", homogeneous=True)
+    assert list(tmp_path.iterdir()) == []
+    whole = ricci.layout(ricci.flow(disk))
+    whole.write(tmp_path / "uv.off")
+    assert np.array_equal(ricci.read(tmp_path / "uv.off").uv, whole.uv())
+
+
+def test_a_curved_metric_is_laid_out_where_its_cones_are_named_alone(genus2):
+    curved = ricci.metric(genus2)
+    with pytest.raises(ricci.LayoutError, match=r"curved at \d+ vertices inside.*ricci.flow\(mesh.*cones=") as told:
+        ricci.layout(curved)
+    at = told.value.index
+    assert told.value.element == "vertex"
+    assert abs(curved.curvature[at]) == np.abs(curved.curvature).max()
+    everywhere = ricci.layout(curved, cones=np.arange(genus2.n_vertices))
+    assert everywhere.summary.n_flipped == 0
+    corners = [[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 1)]
+    sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]]
+    cube = ricci.Mesh(corners, [face for a, b, c, d in sides for face in ([a, b, c], [a, c, d])])
+    assert ricci.layout(ricci.metric(cube), cones=range(8)).summary.n_flipped == 0
+
+
+def test_flat_metrics_need_no_flow(disk):
+    assert ricci.layout(ricci.metric(disk)).summary.n_flipped == 0
+    assert ricci.layout(ricci.metric(ricci.make("flat_torus"))).summary.n_flipped == 0
+
+
+def test_a_metric_that_has_not_converged_is_told_of(genus2):
+    with pytest.warns(ricci.NotConverged, match="the flow stopped \\(iteration_limit\\) after 1 steps") as flowed:
+        early = ricci.flow(genus2, target="auto:6", max_iterations=1)
+    assert flowed[0].filename == __file__
+    with pytest.warns(ricci.NotConverged, match="has not converged.*its seams do not fit") as laid:
+        ricci.layout(early)
+    assert laid[0].filename == __file__
+
+
+def test_labels_stay_labels_on_the_refinement(flat, genus2):
+    way = ricci.Map(flat)
+    labels = np.arange(genus2.n_vertices, dtype=np.int16) % 7
+    carried = way.carry(labels)
+    assert carried.dtype == np.int16
+    assert np.array_equal(carried[: genus2.n_vertices], labels)
+    shares = np.stack([way.carry((labels == label).astype(float)) for label in range(7)])
+    np.testing.assert_allclose(np.take_along_axis(shares, carried[None].astype(int), 0)[0], shares.max(0), atol=1e-12)
+    assert set(np.unique(way.carry(genus2.F % 5, at="corners"))) <= set(range(5))
+    assert way.carry(labels > 3).dtype == bool
+    assert way.carry(labels, labels=False).dtype == float
+    metric_side = way.carry(np.arange(flat.summary.n_mesh_vertices), on="metric")
+    assert np.array_equal(metric_side[: genus2.n_vertices], np.arange(genus2.n_vertices))
+    with pytest.raises(ricci.ArgumentError, match="rows of labels"):
+        way.carry(labels[:-1])
+
+
 def test_charts_fill_the_unit_square_and_are_moved_copies(laid, tmp_path):
     atlas = ricci.atlas(laid, margin=0.01)
     points = atlas.points[atlas.corners]

@@ -35,6 +35,33 @@ def test_landmarks_are_met_and_weights_are_barycentric(disk):
         found.carry(np.zeros(3))
 
 
+def test_labels_are_carried_as_labels(disk):
+    """A vertex gets the label that has the most weight around its image."""
+    target = ricci.Mesh(disk.V * [1.5, 1, 1], disk.F)
+    found = ricci.match(disk, target, boundary="arc_length")
+    labels = (np.arange(disk.n_vertices) * 7 % 5).astype(np.uint8)
+    for direction in ("forward", "backward"):
+        carried = found.carry(labels, direction)
+        assert carried.dtype == np.uint8
+        shares = np.stack([found.carry((labels == label).astype(float), direction) for label in range(5)])
+        np.testing.assert_allclose(np.take_along_axis(shares, carried[None].astype(int), 0)[0], shares.max(0), atol=1e-12)
+    both = np.stack([labels, labels[::-1]], 1)
+    assert np.array_equal(found.carry(both)[:, 0], found.carry(labels))
+    assert found.carry(labels, labels=False).dtype == float
+    assert np.array_equal(found.carry(labels.astype(float), labels=True), found.carry(labels))
+    assert np.array_equal(found.map().carry(np.arange(disk.n_vertices))[: disk.n_vertices], np.arange(disk.n_vertices))
+    for wrong, words in (
+        (disk.V[:, 0] * 1j, "real and imaginary parts"),
+        (labels.astype(str), "texts"),
+        (labels.astype(object), "objects"),
+    ):
+        with pytest.raises(TypeError, match=words):
+            found.carry(wrong)
+    masked = np.ma.masked_equal(labels, 3)
+    with pytest.raises(ricci.ArgumentError, match="masked entries"):
+        found.carry(masked)
+
+
 def test_spheres_and_tori(torus):
     ball = ricci.make("ellipsoid", n=5, a=1.5, b=1, c=1)
     found = ricci.match(ball, ricci.make("sphere", n=6))

@@ -105,6 +105,17 @@ def test_copies_cover_a_disk_of_the_universal_cover(octagon):
         ricci.cover(octagon, depth=6, limit=10)
 
 
+def test_neighbours_lie_across_every_side(octagon):
+    """Without a depth the cover is one copy and those that share a side of the layout with it."""
+    cover = ricci.cover(octagon)
+    across = {tuple(word) for word in ricci.deck(octagon, kind="sides").words}
+    assert len(across) == octagon.summary.n_sides
+    assert {tuple(word) for word in cover.deck.words} == across | {()}
+    assert cover.deck.words[0].tolist() == []
+    with pytest.raises(ricci.ArgumentError, match="name one of them"):
+        ricci.cover(octagon, depth=1, radius=2.0)
+
+
 def test_the_canonical_polygon_closes(octagon):
     corners, angles = octagon.polygon
     assert corners.shape == (8, 3)

@@ -21,6 +21,7 @@ from ricci.control import Control
 from ricci.covering import Cover, Deck, Dirichlet, cover, deck, dirichlet
 from ricci.errors import (
     ArgumentError,
+    ArgumentTypeError,
     Cancelled,
     FileError,
     InternalError,
@@ -28,6 +29,7 @@ from ricci.errors import (
     MatchingError,
     MeshError,
     MetricError,
+    NotConverged,
     OutOfMemory,
     ParseError,
     RicciError,
@@ -41,7 +43,7 @@ from ricci.layouts import Atlas, Layout, atlas, layout
 from ricci.log import log_to_logging
 from ricci.maps import Map
 from ricci.matching import Matching, match
-from ricci.mesh import Mesh
+from ricci.mesh import Mesh, read
 from ricci.metrics import Metric, Report, Solver, flow, metric
 from ricci.shapes import change, hyperelliptic_periods, make
 from ricci.soup import Defect, Soup
@@ -49,10 +51,9 @@ from ricci.splines import Spline, flat_metric, spline, spline_domain
 from ricci.status import Status
 from ricci.uniform import Uniform, uniformize
 
-read = Mesh.read
-
 __all__ = [
     "ArgumentError",
+    "ArgumentTypeError",
     "Atlas",
     "Bicubic",
     "Cancelled",
@@ -78,6 +79,7 @@ __all__ = [
     "MeshError",
     "Metric",
     "MetricError",
+    "NotConverged",
     "OutOfMemory",
     "ParseError",
     "Place",

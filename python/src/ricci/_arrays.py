@@ -8,15 +8,45 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ricci._call import Doubles, Indices, Signed
-from ricci.errors import ArgumentError
+from ricci._call import Doubles, Indices, Signed, signed_view
+from ricci.errors import ArgumentError, ArgumentTypeError
 
 _LARGEST = np.iinfo(np.uint32).max
 
 
+# Why numbers of these kinds are not taken as real ones, by numpy's letter for the kind.
+_NOT_REAL = {
+    "c": "complex numbers: give their real and imaginary parts as two columns",
+    "U": "texts: make numbers of them first, as float(text) does",
+    "S": "texts: make numbers of them first, as float(text) does",
+    "M": "dates",
+    "m": "time spans",
+    "V": "records: name one of their fields",
+    "O": "objects, or rows of different lengths",
+}
+
+
+def numbers(values: npt.ArrayLike, name: str = "values") -> npt.NDArray[Any]:
+    """`values` as an array of real numbers, of whatever type they are.
+
+    Raises:
+        ArgumentTypeError: complex numbers, texts, objects, entries that are masked.
+    """
+    if isinstance(values, np.ma.MaskedArray) and np.ma.is_masked(values):
+        n = int(np.ma.getmaskarray(values).sum())
+        raise ArgumentTypeError(f"{name} have {n} masked entries: fill them, or leave them out")
+    try:
+        array = np.asarray(values)
+    except ValueError as wrong:
+        raise ArgumentTypeError(f"{name}: {wrong}") from wrong
+    if array.dtype.kind in _NOT_REAL:
+        raise ArgumentTypeError(f"{name} are {_NOT_REAL[array.dtype.kind]}")
+    return array
+
+
 def real(values: npt.ArrayLike, columns: int | None = None, name: str = "values") -> Doubles:
     """`values` as contiguous doubles, with so many columns: the array itself where it is that already."""
-    array = np.ascontiguousarray(values, dtype=np.float64)
+    array = np.ascontiguousarray(numbers(values, name), dtype=np.float64)
     if columns is not None and (array.ndim != 2 or array.shape[1] != columns):
         raise ArgumentError(f"{name} has shape {array.shape}, n x {columns} is needed")
     return array
@@ -24,7 +54,7 @@ def real(values: npt.ArrayLike, columns: int | None = None, name: str = "values"
 
 def points(values: npt.ArrayLike, name: str = "V") -> Doubles:
     """Positions, n x 3, whose rows may lie apart, so that columns of a wider array and every other row are no copies."""
-    array = np.asarray(values, dtype=np.float64)
+    array = np.asarray(numbers(values, name), dtype=np.float64)
     if array.ndim != 2 or array.shape[1] != 3:
         raise ArgumentError(f"{name} has shape {array.shape}, n x 3 is needed")
     in_place = array.strides[1] == 8 and array.strides[0] >= 24
@@ -37,11 +67,11 @@ def indices(values: npt.ArrayLike, columns: int | None = None, name: str = "indi
     Raises:
         ArgumentError: not integers, negative, or beyond 32 bits; the index is that of the entry.
     """
-    array = np.asarray(values)
+    array = numbers(values, name)
     if array.size == 0:
         array = array.astype(np.uint32)
     if array.dtype.kind not in "iu":
-        raise ArgumentError(f"{name} are integers, not {array.dtype}")
+        raise ArgumentTypeError(f"{name} are integers, not {array.dtype}")
     if columns is not None and (array.ndim != 2 or array.shape[1] != columns):
         raise ArgumentError(f"{name} has shape {array.shape}, n x {columns} is needed")
     if array.dtype in (np.dtype(np.int32), np.dtype(np.uint32)) and array.flags.c_contiguous:
@@ -49,6 +79,17 @@ def indices(values: npt.ArrayLike, columns: int | None = None, name: str = "indi
         return array.view(np.uint32)
     _in_range(array, name, check=True)
     return np.ascontiguousarray(array, dtype=np.uint32)
+
+
+def index(value: Any, name: str) -> Indices:
+    """One index as an array of one entry.
+
+    Raises:
+        ArgumentTypeError: no whole number.
+    """
+    if np.ndim(value) != 0:
+        raise ArgumentTypeError(f"{name} is one index, not {value!r:.40}")
+    return indices([value], name=name)
 
 
 def _in_range(array: npt.NDArray[Any], name: str, check: bool) -> None:
@@ -62,7 +103,7 @@ def _in_range(array: npt.NDArray[Any], name: str, check: bool) -> None:
 
 def signed(values: npt.ArrayLike, name: str = "path") -> Signed:
     """Edge paths and words: contiguous int32, 1-based, negative for what is run backwards."""
-    array = np.asarray(values)
+    array = numbers(values, name)
     if array.size == 0:
         return np.empty(0, np.int32)
     if array.dtype.kind not in "iu" or np.abs(array.astype(np.int64)).max() > np.iinfo(np.int32).max:
@@ -78,6 +119,7 @@ def joined(lists: Iterable[npt.ArrayLike]) -> tuple[Signed, npt.NDArray[np.uintp
 
 
 def frozen(array: Any) -> Any:
-    """The array, read-only: what an object hands out again and again."""
+    """The array, read-only, indices with a sign: what an object hands out again and again."""
+    array = signed_view(array)
     array.setflags(write=False)
     return array

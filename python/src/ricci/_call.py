@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 import os
 from collections.abc import Callable
 from dataclasses import fields
@@ -13,13 +14,13 @@ import numpy.typing as npt
 
 from ricci._library import ffi, lib
 from ricci.control import Progress, check, run
-from ricci.errors import ArgumentError, last_failure, last_needed
+from ricci.errors import ArgumentError, ArgumentTypeError, FileError, last_failure, last_needed
 from ricci.figures.names import CONSTANTS
 from ricci.status import Status
 
 Doubles = npt.NDArray[np.float64]
 Complexes = npt.NDArray[np.complex128]
-Indices = npt.NDArray[np.uint32]
+Indices = npt.NDArray[np.int32]
 Signed = npt.NDArray[np.int32]
 Longs = npt.NDArray[np.int64]
 
@@ -38,12 +39,31 @@ class Passed:
     """An object that is passed to the library as a pointer, and that keeps the memory behind the pointer alive."""
 
     _pointer: Any
+    # How a caller makes one.
+    _made_by: ClassVar[str] = ""
+
+    def __reduce__(self) -> Any:
+        kind = type(self).__name__
+        raise TypeError(f"a ricci.{kind} is memory of the library, which pickle cannot take: send what it was made from ({self._made_by})")
 
 
 class Handle(Passed):
-    """An object of the library, freed with the Python object. The library keeps alive the objects that it was made from."""
+    """An object of the library, freed with the Python object. The library keeps alive the objects that it was made from.
+
+    Handles never change, so that a copy of one is the handle itself.
+    """
 
     _type: ClassVar[str]
+
+    def __init_subclass__(cls) -> None:
+        if "_type" in cls.__dict__:
+            _KINDS[f"struct ricci_{cls._type}"] = cls
+
+    def __copy__(self) -> Self:
+        return self
+
+    def __deepcopy__(self, _: Any) -> Self:
+        return self
 
     def __init__(self, pointer: Any) -> None:
         self._pointer = ffi.gc(pointer, getattr(lib, f"ricci_{self._type}_free"))
@@ -58,17 +78,89 @@ class Handle(Passed):
         return made
 
 
+# The classes of handles by the names of their types in the headers.
+_KINDS: dict[str, type[Handle]] = {}
+# The sizes of the integers that functions take, in bits, and whether they have a sign.
+_INTEGERS = {"uint32_t": (32, False), "int32_t": (32, True), "uint64_t": (64, False), "int64_t": (64, True), "size_t": (64, False)}
+
+
+def fitting(kind: Any, value: Any, name: str = "") -> Any:
+    """A value as cffi takes it for an argument or a field of the type `kind`: handles as their pointers, numbers checked.
+
+    Raises:
+        ArgumentTypeError: it is of another type; the message says what is needed, and how one is made.
+        ArgumentError: a number out of range.
+    """
+    lead = f"{name}: " if name else ""
+    if kind.kind == "pointer" and kind.item.kind == "struct":
+        return _struct_for(kind, value, lead)
+    if kind.kind == "primitive" and not isinstance(value, bytes):
+        return _number_for(kind, value, lead)
+    return value
+
+
+def _struct_for(kind: Any, value: Any, lead: str) -> Any:
+    """The pointer to a struct or to an object of the library that a value stands for."""
+    needed = _KINDS.get(kind.item.cname)
+    # What is passed in place of an object, such as its report, is none.
+    passes = isinstance(value, Passed if needed is None else Handle)
+    given = value._pointer if passes else value
+    if isinstance(given, ffi.CData) and (given == ffi.NULL or ffi.typeof(given) == kind):
+        return given
+    if needed is None:
+        raise ArgumentTypeError(f"{lead}{type(value).__name__} is no {kind.item.cname.removeprefix('struct ricci_').replace('_', ' ')}")
+    made = f": {needed._made_by} makes one" if needed._made_by else ""
+    raise ArgumentTypeError(f"{lead}a {needed.__name__} is needed, not {type(value).__name__}{made}")
+
+
+def _number_for(kind: Any, value: Any, lead: str) -> Any:
+    """A number as an argument of a primitive type."""
+    if kind.cname in ("double", "float"):
+        if isinstance(value, str | bytes | complex) or not hasattr(value, "__float__"):
+            raise ArgumentTypeError(f"{lead}a number is needed, not {type(value).__name__}")
+        try:
+            return float(value)
+        except (TypeError, OverflowError) as wrong:
+            raise ArgumentTypeError(f"{lead}{wrong}") from wrong
+    try:
+        number = operator.index(value)
+    except TypeError:
+        raise ArgumentTypeError(f"{lead}a whole number is needed, not {value!r}") from None
+    bits, signed = _INTEGERS.get(kind.cname, (64, True))
+    least, most = (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1) if signed else (0, 2**bits - 1)
+    if not least <= number <= most:
+        raise ArgumentError(f"{lead}{number} is not between {least} and {most}")
+    return number
+
+
+def _fitting_all(function: Callable[..., int], arguments: tuple[Any, ...]) -> list[Any]:
+    """All arguments of a function of the library as cffi takes them; those of a wrapper of one are its handles' pointers."""
+    if not isinstance(function, ffi.CData):
+        return [a._pointer if isinstance(a, Passed) else a for a in arguments]
+    kinds = ffi.typeof(function).args
+    return [a if a is CONTROL else fitting(kind, a) for kind, a in zip(kinds, arguments, strict=True)]
+
+
 def call(function: Callable[..., int], *arguments: Any, progress: Progress = None) -> None:
     """Call `function`; handles among the arguments are passed as their pointers, CONTROL as the control of `progress`.
 
     Raises:
-        RicciError: the call failed.
+        RicciError: the call failed, or an argument is of another type.
     """
-    given = [a._pointer if isinstance(a, Passed) else a for a in arguments]
-    if CONTROL not in given:
+    given = _fitting_all(function, arguments)
+    try:
+        _run(function, arguments, given, progress)
+    except FileError as wrong:
+        # The library names the file in its message alone.
+        wrong.filename = next((a.name for a in arguments if isinstance(a, _PathBytes)), None)
+        raise
+
+
+def _run(function: Callable[..., int], arguments: tuple[Any, ...], given: list[Any], progress: Progress) -> None:
+    if not any(a is CONTROL for a in given):
         check(function(*given))
         return
-    at = given.index(CONTROL)
+    at = next(k for k, a in enumerate(given) if a is CONTROL)
 
     def work(control: Any) -> int:
         # This closure keeps the arguments alive as long as the call runs, even if the caller is gone.
@@ -90,10 +182,15 @@ def pointer(array: npt.NDArray[Any] | None) -> Any:
     return ffi.from_buffer(f"{kind}[]", array) if array.flags.c_contiguous else ffi.cast(f"{kind} *", array.ctypes.data)
 
 
+def signed_view(array: Any) -> Any:
+    """Indices that the library wrote as unsigned numbers, as a view with a sign: no mesh has 2^31 vertices, and F - 1 of 0 is -1."""
+    return array.view(np.int32) if array.dtype == np.uint32 else array
+
+
 def filled(function: Callable[..., int], *arguments: Any, out: npt.NDArray[Any], progress: Progress = None) -> Any:
-    """The array `out`, into which `function` wrote through its last two arguments, address and capacity."""
+    """The array `out`, into which `function` wrote through its last two arguments, address and capacity; indices have a sign."""
     call(function, *arguments, pointer(out), out.size, progress=progress)
-    return out
+    return signed_view(out)
 
 
 def doubles(function: Callable[..., int], *arguments: Any, shape: tuple[int, ...]) -> Doubles:
@@ -103,10 +200,10 @@ def doubles(function: Callable[..., int], *arguments: Any, shape: tuple[int, ...
 
 def listed(function: Callable[..., int], *arguments: Any, dtype: Any = np.uint32) -> Any:
     """A list whose length the call reports: a first call asks for the length."""
-    given = [a._pointer if isinstance(a, Passed) else a for a in arguments]
-    status = function(*given, ffi.NULL, 0)
+    given = _fitting_all(function, (*arguments, ffi.NULL, 0))
+    status = function(*given)
     if status == Status.OK:
-        return np.empty(0, dtype)
+        return signed_view(np.empty(0, dtype))
     if status != Status.BUFFER_TOO_SMALL:
         raise last_failure(status)
     return filled(function, *arguments, out=np.empty(last_needed(), dtype))
@@ -136,13 +233,14 @@ def rows(n: int, function: Callable[..., int], *arguments: Any, dtype: Any = np.
     A first call without room for the entries either reports their number or writes the offsets at which each list starts and ends.
     """
     starts = np.zeros(n + 1, np.uintp)
-    given = [a._pointer if isinstance(a, Passed) else a for a in arguments]
-    status = function(*given, ffi.NULL, 0, pointer(starts), starts.size)
+    given = _fitting_all(function, (*arguments, ffi.NULL, 0, pointer(starts), starts.size))
+    status = function(*given)
     if status not in (Status.OK, Status.BUFFER_TOO_SMALL):
         raise last_failure(status)
     entries = np.empty(last_needed() if status else int(starts[-1]), dtype)
     if entries.size:
         call(function, *arguments, pointer(entries), entries.size, pointer(starts), starts.size)
+    entries = signed_view(entries)
     return [entries[a:b] for a, b in pairwise(starts)]
 
 
@@ -167,12 +265,31 @@ def _number(value: Any, kind: str) -> Any:
         return complex(value[0], value[1])
     if kind.startswith("tuple"):
         return tuple(value)
-    return value
+    # The library's sign that there is no such element.
+    return -1 if kind == "int" and value == np.iinfo(np.uint32).max else value
+
+
+class _PathBytes(bytes):
+    """A file's name as the library takes it, and as the caller gave it."""
+
+    name: str
 
 
 def path_bytes(path: str | os.PathLike[str]) -> bytes:
-    """A file's name as the library takes it."""
-    return os.fspath(path).encode("utf-8")
+    """A file's name as the library takes it.
+
+    Raises:
+        ArgumentTypeError: not the name of a file.
+    """
+    try:
+        name = os.fspath(path)
+    except TypeError:
+        raise ArgumentTypeError(f"a file's name is needed, not {type(path).__name__}") from None
+    made = _PathBytes(os.fsencode(name))
+    if 0 in made:
+        raise ArgumentError(f"{name!r} is no file's name")
+    made.name = os.fsdecode(name)
+    return made
 
 
 def constant(prefix: str, name: str, among: tuple[str, ...] | None = None) -> int:

@@ -26,6 +26,27 @@ def _find() -> Path:
     return found
 
 
+class Library:
+    """The functions and constants of the shared library by their names.
+
+    It is pickled as the name of `lib` in this module, so that functions whose globals have it can be sent to other processes by value.
+    """
+
+    def __init__(self, opened: Any) -> None:
+        self._opened = opened
+
+    def __getattr__(self, name: str) -> Any:
+        value = getattr(self._opened, name)
+        self.__dict__[name] = value
+        return value
+
+    def __dir__(self) -> list[str]:
+        return dir(self._opened)
+
+    def __reduce__(self) -> str:
+        return "lib"
+
+
 def _open(found: Path) -> Any:
     """The library as cffi's object; an ImportError if it has another binary interface than the headers."""
     opened = ffi.dlopen(str(found))
@@ -37,5 +58,5 @@ def _open(found: Path) -> Any:
 
 
 path: Path = _find()
-lib: Any = _open(path)
+lib: Any = Library(_open(path))
 VERSION: str = ffi.string(lib.ricci_version()).decode()

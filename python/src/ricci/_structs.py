@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+import difflib
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any, TypeAlias
 
 import numpy as np
 
 from ricci import _arrays
-from ricci._call import Handle, Passed, constant, pointer
+from ricci._call import Handle, Passed, constant, fitting, pointer
 from ricci._library import ffi, lib
 from ricci.control import check
-from ricci.errors import ArgumentError
+from ricci.errors import ArgumentError, ArgumentTypeError
 
 # Writes a value into the field of that name, and keeps what the field points to.
 Write: TypeAlias = "Callable[[Struct, str, Any], None]"
@@ -29,11 +30,13 @@ class Struct(Passed):
         """Set one field: a number, an array, or another struct or handle, which is kept."""
         if isinstance(value, np.ndarray | Passed):
             self._kept.append(value)
-            value = pointer(value) if isinstance(value, np.ndarray) else value._pointer
+        kind = dict(ffi.typeof(self._pointer).item.fields)[field].type
+        if isinstance(value, np.ndarray) and kind.kind == "pointer" and kind.item.kind == "primitive":
+            value = pointer(value)
         try:
-            setattr(self._pointer, field, value)
+            setattr(self._pointer, field, fitting(kind, value, field))
         except (TypeError, OverflowError) as wrong:
-            raise ArgumentError(f"{field}: {wrong}") from wrong
+            raise wrong if isinstance(wrong, ArgumentError) else ArgumentError(f"{field}: {wrong}") from wrong
 
 
 def options(name: str, given: Mapping[str, Any], writers: Mapping[str, Write]) -> Struct:
@@ -43,17 +46,44 @@ def options(name: str, given: Mapping[str, Any], writers: Mapping[str, Write]) -
         ArgumentError: a name that is no option; the message lists those that there are.
     """
     struct = Struct(name)
+    known(given, writers)
     for field, value in given.items():
-        if field not in writers:
-            raise ArgumentError(f"there is no option {field!r}; there are {', '.join(sorted(writers))}")
         if value is not None:
             writers[field](struct, field, value)
     return struct
 
 
+def known(given: Mapping[str, Any], names: Iterable[str]) -> None:
+    """Refuse options by other names than these.
+
+    Raises:
+        ArgumentTypeError: options that are no mapping.
+        ArgumentError: a name that is no option; the message lists those that there are.
+    """
+    if not isinstance(given, Mapping):
+        raise ArgumentTypeError(f"options are a dict of names and values, not {type(given).__name__}")
+    for name in given:
+        if name not in names:
+            near = difflib.get_close_matches(str(name), names, 1)
+            meant = f"; did you mean {near[0]!r}?" if near else ""
+            raise ArgumentError(f"there is no option {name!r}; there are {', '.join(sorted(names))}{meant}")
+
+
 def number(struct: Struct, field: str, value: Any) -> None:
     """A number, or a flag."""
-    struct.put(field, int(value) if isinstance(value, bool | np.bool_ | np.integer) else value)
+    struct.put(field, int(value) if isinstance(value, bool | np.bool_) else value)
+
+
+def above_zero(struct: Struct, field: str, value: Any) -> None:
+    """A number whose zero stands for the default in the library, so that a zero of the caller's is refused."""
+    number(struct, field, value)
+    if value == 0:
+        raise ArgumentError(f"{field} is {value}: it must be above 0; None, or leaving it out, is the default")
+
+
+def or_none(struct: Struct, field: str, value: Any) -> None:
+    """A number for which the library takes zero as the default and what is below zero as none: a zero of the caller's is none."""
+    number(struct, field, -1 if value == 0 else value)
 
 
 def choice(prefix: str, among: tuple[str, ...] | None = None) -> Write:
@@ -63,7 +93,7 @@ def choice(prefix: str, among: tuple[str, ...] | None = None) -> Write:
 
 def one_index(struct: Struct, field: str, value: Any) -> None:
     """An index that may be left out: a pointer to it."""
-    struct.put(field, _arrays.indices([value], name=field))
+    struct.put(field, _arrays.index(value, field))
 
 
 def index_list(count: str | None = None, columns: int | None = None) -> Write:

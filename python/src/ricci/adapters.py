@@ -1,21 +1,28 @@
-"""Meshes of other libraries: trimesh, meshio, PyVista and nibabel give and take them. None of these is needed to import this package."""
+"""Meshes of other libraries: trimesh, meshio, PyVista and nibabel give and take them. None of these is needed to import this package.
+
+Normals, colours and texture coordinates go along both ways. Where a library has one pair of texture coordinates for each vertex and those
+of a mesh have seams, they become an attribute `uv` of its faces (m x 6, the pairs of the three corners): cutting the mesh open along the
+seams would make another surface of it.
+"""
 
 from __future__ import annotations
 
 import os
+import warnings
 from typing import Any, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
-from ricci.errors import ArgumentError
-from ricci.mesh import Mesh
+from ricci.errors import ArgumentError, ArgumentTypeError
+from ricci.mesh import Attributes, Mesh
 
 __all__ = ["MeshLike", "as_mesh", "from_arrays_of", "to_gifti", "to_meshio", "to_pyvista", "to_trimesh"]
 
 # A Mesh, a file's name, a pair of arrays (V, F), or an object of trimesh, meshio, PyVista or nibabel; as V with F = None.
 MeshLike: TypeAlias = Any
 _Arrays: TypeAlias = "tuple[npt.ArrayLike, npt.ArrayLike]"
+_Found: TypeAlias = "tuple[npt.ArrayLike, npt.ArrayLike, Attributes]"
 
 
 def as_mesh(V: MeshLike, F: npt.ArrayLike | None = None) -> Mesh:
@@ -30,12 +37,19 @@ def as_mesh(V: MeshLike, F: npt.ArrayLike | None = None) -> Mesh:
         MeshError: the faces are no surface.
     """
     if F is not None:
+        if isinstance(V, Mesh | str | os.PathLike | tuple) or _is_foreign(V):
+            given = f"{F!r:.40}"
+            raise ArgumentTypeError(
+                f"{type(V).__name__} is a whole mesh, so that {given} behind it is not its faces: name the argument, as in target={given}"
+            )
         return Mesh(V, F)
     if isinstance(V, Mesh):
         return V
     if isinstance(V, str | os.PathLike):
         return Mesh.read(V)
-    return Mesh(*from_arrays_of(V))
+    points, faces, attributes = _parts_of(V)
+    mesh = Mesh(points, faces)
+    return mesh.with_attributes(**attributes) if attributes else mesh
 
 
 def from_arrays_of(other: Any) -> _Arrays:
@@ -44,77 +58,230 @@ def from_arrays_of(other: Any) -> _Arrays:
     Raises:
         ArgumentError: it is none of these, or has other faces than triangles.
     """
+    points, faces, _ = _parts_of(other)
+    return points, faces
+
+
+def _parts_of(other: Any) -> _Found:
+    """Positions, triangles and attributes."""
     if isinstance(other, tuple) and len(other) == 2:
-        return other
-    for read in (_of_meshio, _of_pyvista, _of_trimesh, _of_nibabel):
+        return *other, {}
+    for read in (_of_pyvista, _of_meshio, _of_trimesh, _of_nibabel):
         found = read(other)
         if found is not None:
             return found
-    raise ArgumentError(f"a mesh, a file or arrays V and F are needed, not {type(other).__name__}")
+    if isinstance(other, np.ndarray | list):
+        raise ArgumentTypeError("positions V alone are no mesh: give the faces F behind them, or name the file")
+    raise ArgumentTypeError(f"a mesh, a file or arrays V and F are needed, not {type(other).__name__}")
 
 
-def _of_meshio(other: Any) -> _Arrays | None:
+def _is_foreign(other: Any) -> bool:
+    """True of a mesh of another library."""
+    return any(hasattr(other, name) for name in ("points", "vertices", "agg_data"))
+
+
+def _corners(values: npt.ArrayLike, faces: npt.ArrayLike) -> npt.NDArray[Any]:
+    """Values of vertices at the corners of the faces."""
+    return np.asarray(values, float)[np.asarray(faces)]
+
+
+def _named(points: Any, cells: Any, faces: npt.ArrayLike) -> Attributes:
+    """The attributes of these names in mappings of arrays at vertices and faces."""
+    found: Attributes = {}
+    n, m = len(np.asarray(points.get("normals", ()))), len(np.asarray(faces))
+    if n and np.shape(points["normals"]) == (n, 3):
+        found["normals"] = np.asarray(points["normals"], float)
+    if "colors" in points and np.ndim(points["colors"]) == 2 and np.shape(points["colors"])[1] == 4:
+        found["colors"] = np.asarray(points["colors"], float)
+    if "uv" in points and np.ndim(points["uv"]) == 2 and np.shape(points["uv"])[1] == 2:
+        found["uv"] = _corners(points["uv"], faces)
+    if "uv" in cells and np.size(cells["uv"]) == 6 * m:
+        found["uv"] = np.reshape(np.asarray(cells["uv"], float), (m, 3, 2))
+    if "corner_normals" in cells and np.size(cells["corner_normals"]) == 9 * m:
+        found["corner_normals"] = np.reshape(np.asarray(cells["corner_normals"], float), (m, 3, 3))
+    return found
+
+
+def _of_meshio(other: Any) -> _Found | None:
     """meshio.Mesh: `points` and blocks of cells, of which those of two dimensions must be triangles."""
     if not (hasattr(other, "points") and hasattr(other, "cells_dict")):
         return None
     wrong = sorted({"quad", "polygon", "triangle6"} & set(other.cells_dict))
     if wrong or "triangle" not in other.cells_dict:
-        raise ArgumentError(f"triangles are needed, not {', '.join(other.cells_dict)}")
-    points = np.asarray(other.points)
-    return (points if points.shape[1] == 3 else np.pad(points, ((0, 0), (0, 1)))), other.cells_dict["triangle"]
+        raise ArgumentError(f"triangles are needed, not {', '.join(map(str, other.cells_dict))}")
+    points, faces = np.asarray(other.points), other.cells_dict["triangle"]
+    cells = {name: values["triangle"] for name, values in getattr(other, "cell_data_dict", {}).items() if "triangle" in values}
+    attributes = _named(getattr(other, "point_data", {}), cells, faces)
+    return (points if points.shape[1] == 3 else np.pad(points, ((0, 0), (0, 1)))), faces, attributes
 
 
-def _of_pyvista(other: Any) -> _Arrays | None:
+def _of_pyvista(other: Any) -> _Found | None:
     """pyvista.PolyData: `points`, and faces as rows of a count and as many vertices."""
-    if not (hasattr(other, "points") and hasattr(other, "is_all_triangles")):
+    if hasattr(other, "combine") and hasattr(other, "n_blocks"):
+        raise ArgumentTypeError(f"one surface is needed, not {type(other).__name__}: combine().extract_surface().triangulate() makes one")
+    if not hasattr(other, "is_all_triangles"):
+        if hasattr(other, "extract_surface"):
+            raise ArgumentTypeError(f"a surface is needed, not {type(other).__name__}: extract_surface().triangulate() makes one of it")
         return None
     if not other.is_all_triangles:
         raise ArgumentError("triangles are needed: PolyData.triangulate makes them")
-    return other.points, np.asarray(other.faces).reshape(-1, 4)[:, 1:]
+    faces = np.asarray(other.faces).reshape(-1, 4)[:, 1:]
+    attributes = _named(other.point_data, other.cell_data, faces)
+    if "uv" not in attributes and getattr(other, "active_texture_coordinates", None) is not None:
+        attributes["uv"] = _corners(np.asarray(other.active_texture_coordinates)[:, :2], faces)
+    if "normals" not in attributes and "Normals" in other.point_data:
+        attributes["normals"] = np.asarray(other.point_data["Normals"], float)
+    return other.points, faces, attributes
 
 
-def _of_trimesh(other: Any) -> _Arrays | None:
+def _of_trimesh(other: Any) -> _Found | None:
     """trimesh.Trimesh, and every other object with `vertices` and `faces`."""
-    return (other.vertices, other.faces) if hasattr(other, "vertices") and hasattr(other, "faces") else None
+    if hasattr(other, "geometry") and hasattr(other, "graph"):
+        raise ArgumentTypeError(f"one mesh is needed, not {type(other).__name__}: to_mesh() makes one of it, its geometry has each")
+    if not (hasattr(other, "vertices") and hasattr(other, "faces")):
+        return None
+    faces = np.asarray(other.faces)
+    attributes = _named(getattr(other, "vertex_attributes", {}), getattr(other, "face_attributes", {}), faces)
+    visual: Any = getattr(other, "visual", None)
+    kind, uv = getattr(visual, "kind", None), getattr(visual, "uv", None)
+    if uv is not None and "uv" not in attributes:
+        attributes["uv"] = _corners(uv, faces)
+    if kind == "vertex" and "colors" not in attributes:
+        attributes["colors"] = np.asarray(visual.vertex_colors) / 255.0
+    return other.vertices, faces, attributes
 
 
-def _of_nibabel(other: Any) -> _Arrays | None:
+def _of_nibabel(other: Any) -> _Found | None:
     """nibabel.GiftiImage: a surface's pointset and triangles."""
-    return other.agg_data(("pointset", "triangle")) if hasattr(other, "agg_data") else None
+    if not hasattr(other, "agg_data"):
+        return None
+    found = other.agg_data(("pointset", "triangle"))
+    if any(np.size(part) == 0 for part in found):
+        raise ArgumentError("this GIFTI image has no pointset and triangles: it is not the file of the surface, which is beside it")
+    return *found, {}
 
 
-def to_trimesh(mesh: Mesh, **fields: Any) -> Any:
-    """A `trimesh.Trimesh` with the same vertices and faces, in order; `fields` (n rows each) become vertex attributes."""
+def _vertex_uv(mesh: Mesh) -> npt.NDArray[Any] | None:
+    """n x 2 texture coordinates of the vertices, where the corners of every vertex agree on them."""
+    if mesh.uv is None:
+        return None
+    found = np.zeros((mesh.n_vertices, 2))
+    found[mesh.F] = mesh.uv
+    return found if np.array_equal(found[mesh.F], mesh.uv) else None
+
+
+def _at_vertices(mesh: Mesh, fields: dict[str, Any]) -> dict[str, Any]:
+    """The attributes of the vertices by name, and the caller's fields."""
+    own = {"normals": mesh.normals, "colors": mesh.colors}
+    return {**{name: np.array(values) for name, values in own.items() if values is not None}, **fields}
+
+
+def _at_faces(mesh: Mesh) -> dict[str, Any]:
+    """The attributes of the corners that do not fit vertices, one row for each face."""
+    found = {}
+    if mesh.uv is not None and _vertex_uv(mesh) is None:
+        found["uv"] = mesh.uv.reshape(-1, 6).copy()
+    if mesh.corner_normals is not None:
+        found["corner_normals"] = mesh.corner_normals.reshape(-1, 9).copy()
+    return found
+
+
+def to_trimesh(mesh: MeshLike, **fields: Any) -> Any:
+    """A `trimesh.Trimesh` with the same vertices and faces, in order; `fields` (n rows each) become vertex attributes.
+
+    Texture coordinates become its visual, or the face attribute `uv` where they have seams; colours its visual, beside texture coordinates
+    the vertex attribute `colors`; normals the vertex attribute `normals`.
+    """
     import trimesh
 
-    return trimesh.Trimesh(mesh.V, mesh.F.astype(np.int64), process=False, vertex_attributes=fields)
+    mesh = as_mesh(mesh)
+    uv, at_vertices = _vertex_uv(mesh), _at_vertices(mesh, fields)
+    colors = at_vertices.pop("colors", None) if uv is None and "colors" not in fields else None
+    return trimesh.Trimesh(
+        mesh.V,
+        mesh.F.astype(np.int64),
+        process=False,
+        vertex_attributes=at_vertices,
+        face_attributes=_at_faces(mesh),
+        vertex_colors=None if colors is None else np.round(255 * colors).astype(np.uint8),
+        visual=None if uv is None else trimesh.visual.TextureVisuals(uv=uv),
+    )
 
 
-def to_meshio(mesh: Mesh, **fields: Any) -> Any:
-    """A `meshio.Mesh`; `fields` (n rows each) become point data."""
+def to_meshio(mesh: MeshLike, **fields: Any) -> Any:
+    """A `meshio.Mesh`; `fields` (n rows each) become point data.
+
+    Normals, colours and texture coordinates are the point data `normals`, `colors` and `uv`, the last at seams the cell data `uv`.
+    """
     import meshio
 
-    return meshio.Mesh(mesh.V, [("triangle", mesh.F.astype(np.int64))], point_data=fields)
+    mesh = as_mesh(mesh)
+    uv, cells = _vertex_uv(mesh), {name: [values] for name, values in _at_faces(mesh).items()}
+    points = _at_vertices(mesh, fields if uv is None else {"uv": uv, **fields})
+    return meshio.Mesh(mesh.V, [("triangle", mesh.F.astype(np.int64))], point_data=points, cell_data=cells)
 
 
-def to_pyvista(mesh: Mesh, **fields: Any) -> Any:
-    """A `pyvista.PolyData`; `fields` (n rows each) become point data."""
+def to_pyvista(mesh: MeshLike, **fields: Any) -> Any:
+    """A `pyvista.PolyData`; `fields` (n rows each) become point data.
+
+    Texture coordinates are its active ones, or the cell data `uv` where they have seams; normals and colours are point data.
+    """
     import pyvista
 
+    mesh = as_mesh(mesh)
     made = pyvista.PolyData.from_regular_faces(np.array(mesh.V), mesh.F.astype(np.int64))
-    for name, values in fields.items():
+    uv = _vertex_uv(mesh)
+    if uv is not None:
+        made.active_texture_coordinates = uv
+    for name, values in _at_vertices(mesh, fields).items():
         made.point_data[name] = values
+    for name, values in _at_faces(mesh).items():
+        made.cell_data[name] = values
     return made
 
 
-def to_gifti(mesh: Mesh, **fields: Any) -> Any:
-    """A `nibabel.GiftiImage` with pointset and triangles; `fields` (n numbers each) become arrays with these names."""
+def to_gifti(mesh: MeshLike, **fields: Any) -> Any:
+    """A `nibabel.GiftiImage` with pointset and triangles; `fields` (n numbers each) become arrays with these names.
+
+    Whole numbers and flags are labels: they get the intent LABEL and a table of their values; other numbers have the intent SHAPE. GIFTI
+    has no place for texture coordinates, whose loss is a warning.
+    """
     from nibabel.gifti import GiftiDataArray, GiftiImage
 
+    mesh = as_mesh(mesh)
     points = GiftiDataArray(mesh.V.astype(np.float32), intent="NIFTI_INTENT_POINTSET", datatype="NIFTI_TYPE_FLOAT32")
     faces = GiftiDataArray(mesh.F.astype(np.int32), intent="NIFTI_INTENT_TRIANGLE", datatype="NIFTI_TYPE_INT32")
     image = GiftiImage(darrays=[points, faces])
-    for name, values in fields.items():
-        data = np.asarray(values, np.float32)
-        image.add_gifti_data_array(GiftiDataArray(data, intent="NIFTI_INTENT_SHAPE", datatype="NIFTI_TYPE_FLOAT32", meta={"Name": name}))
+    if mesh.uv is not None:
+        warnings.warn("GIFTI has no place for texture coordinates: they are left out", UserWarning, stacklevel=2)
+    for name, values in _at_vertices(mesh, fields).items():
+        image.add_gifti_data_array(_gifti_array(name, np.asarray(values), image))
     return image
+
+
+def _gifti_array(name: str, values: npt.NDArray[Any], image: Any) -> Any:
+    """One array of a GIFTI image, with the intent that its numbers have; labels are entered into the image's table."""
+    from nibabel.gifti import GiftiDataArray, GiftiLabel
+
+    if values.dtype.kind in "iub":
+        known = {label.key for label in image.labeltable.labels}
+        for key in np.unique(values.astype(np.int32)).tolist():
+            if key not in known:
+                label = GiftiLabel(key, *_color_of(key))
+                label.label = str(key)
+                image.labeltable.labels.append(label)
+        labels = np.asarray(values, np.int32)
+        return GiftiDataArray(labels, intent="NIFTI_INTENT_LABEL", datatype="NIFTI_TYPE_INT32", meta={"Name": name})
+    if values.dtype.kind != "f":
+        raise ArgumentTypeError(f"{name}: GIFTI holds numbers, not {values.dtype}")
+    intent = {3: "NIFTI_INTENT_VECTOR", 4: "NIFTI_INTENT_RGBA_VECTOR"}.get(values.shape[1] if values.ndim == 2 else 0, "NIFTI_INTENT_SHAPE")
+    return GiftiDataArray(values.astype(np.float32), intent=intent, datatype="NIFTI_TYPE_FLOAT32", meta={"Name": name})
+
+
+def _color_of(key: int) -> tuple[float, float, float, float]:
+    """A colour for a label: hues a golden section apart, so that near numbers are far apart; 0 is without colour."""
+    if key == 0:
+        return 0.0, 0.0, 0.0, 0.0
+    hue = 6 * (key * 0.6180339887498949 % 1)
+    red, green, blue = (min(max(abs((hue + turn) % 6 - 3) - 1, 0), 1) for turn in (0, 4, 2))
+    return red, green, blue, 1.0

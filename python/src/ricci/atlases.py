@@ -13,7 +13,7 @@ from ricci import _arrays
 from ricci._arrays import frozen
 from ricci._call import CONTROL, Doubles, Handle, Indices, call, constant, doubles, listed, pointer, rows, summary
 from ricci._library import ffi, lib
-from ricci._structs import Write, choice, number, one_index, options
+from ricci._structs import Write, above_zero, choice, one_index, options
 from ricci.adapters import MeshLike, as_mesh
 from ricci.control import Progress
 from ricci.errors import ArgumentError
@@ -45,7 +45,7 @@ class StructureOptions(TypedDict, total=False):
 _STRUCTURE: dict[str, Write] = {
     "flow": lambda struct, field, value: struct.put(field, flow_struct(value)),
     "singular": one_index,
-    "radius": number,
+    "radius": above_zero,
     "charts": choice("CHARTS"),
     "source": choice("AFFINE"),
 }
@@ -72,6 +72,7 @@ class Structure(Handle):
     """A geometric structure of a surface: charts in the plane, and transitions in the structure's group. It never changes."""
 
     _type: ClassVar[str] = "structure"
+    _made_by: ClassVar[str] = "ricci.structure(mesh, kind=...)"
 
     @cached_property
     def summary(self) -> StructureSummary:

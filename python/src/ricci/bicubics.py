@@ -8,7 +8,7 @@ from typing import Any, ClassVar, Literal, TypedDict, Unpack
 
 from ricci._call import CONTROL, Handle, call, constant, path_bytes, summary, text_of
 from ricci._library import ffi, lib
-from ricci._structs import Struct, Write, choice, number, options
+from ricci._structs import Struct, Write, above_zero, choice, options
 from ricci.control import Progress
 from ricci.figures import BicubicSummary
 from ricci.splines import Spline
@@ -49,13 +49,14 @@ def _name(struct: Struct, field: str, value: str) -> None:
 
 
 _STEP: dict[str, Write] = {"name": _name, "unit": choice("UNIT")}
-_BICUBIC: dict[str, Write] = dict.fromkeys(BicubicOptions.__annotations__, number)
+_BICUBIC: dict[str, Write] = dict.fromkeys(BicubicOptions.__annotations__, above_zero)
 
 
 class Bicubic(Handle):
     """Bicubic B-spline patches near a spline, three for each of its patches; neighbours share the control points of their side."""
 
     _type: ClassVar[str] = "bicubic"
+    _made_by: ClassVar[str] = "ricci.bicubic(spline)"
 
     @cached_property
     def summary(self) -> BicubicSummary:

@@ -5,15 +5,16 @@ from __future__ import annotations
 from functools import cached_property
 from typing import Any, ClassVar, TypedDict, Unpack
 
+import numpy as np
 import numpy.typing as npt
 
 from ricci._arrays import frozen
 from ricci._call import CONTROL, Doubles, Handle, constant, doubles, summary
 from ricci._library import lib
-from ricci._structs import Write, index_list, number, one_index, options, real_list
+from ricci._structs import Write, above_zero, index_list, one_index, options, real_list
 from ricci.adapters import MeshLike, as_mesh
 from ricci.control import Progress
-from ricci.errors import ArgumentError
+from ricci.errors import ArgumentError, warn
 from ricci.figures import CircleDomainSummary
 from ricci.figures.names import Model
 from ricci.layouts import Layout
@@ -47,8 +48,8 @@ def _of_three(write: Write) -> Write:
     """Three entries: the library reads as many."""
 
     def checked(struct: Any, field: str, value: Any) -> None:
-        if len(value) != 3:
-            raise ArgumentError(f"{field} has {len(value)} entries, 3 are needed")
+        if np.size(value) != 3:
+            raise ArgumentError(f"{field} has {np.size(value)} entries, 3 are needed")
         write(struct, field, value)
 
     return checked
@@ -60,7 +61,7 @@ _CIRCLES: dict[str, Write] = {
     "centre": one_index,
     "three": _of_three(index_list()),
     "angles": _of_three(real_list()),
-    "least_loop": number,
+    "least_loop": above_zero,
 }
 
 
@@ -68,6 +69,7 @@ class CircleDomain(Handle):
     """A surface with boundary whose loops are circles: in the unit disk, a flat torus or a hyperbolic surface."""
 
     _type: ClassVar[str] = "circle_domain"
+    _made_by: ClassVar[str] = "ricci.circles(mesh)"
 
     @cached_property
     def summary(self) -> CircleDomainSummary:
@@ -103,9 +105,16 @@ def circles(V: MeshLike, F: npt.ArrayLike | None = None, progress: Progress = No
         progress: a `Control` or a callback.
         given: outer, centre, three, angles, least_loop, flow (`CircleOptions`).
 
+    Warns:
+        NotConverged: the loops did not become circles; `summary` says why.
+
     Raises:
         ArgumentError: a closed surface; no such loop or vertex.
         LayoutError: circles overlap however fine the loops are.
     """
     struct = options("circle_domain_options", given, _CIRCLES)
-    return CircleDomain._made(lib.ricci_circle_domain_new, as_mesh(V, F), struct, CONTROL, progress=progress)
+    made = CircleDomain._made(lib.ricci_circle_domain_new, as_mesh(V, F), struct, CONTROL, progress=progress)
+    s = made.summary
+    if not s.converged:
+        warn(f"the circle domain did not converge ({s.stop_reason}), curvature error {s.max_curvature_error:.1e}: look at `summary`")
+    return made

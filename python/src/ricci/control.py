@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import Any, TypeAlias
 
 from ricci._library import ffi, lib
-from ricci.errors import last_failure
+from ricci.errors import ArgumentTypeError, last_failure
 
 __all__ = ["Control", "Progress"]
 
@@ -28,12 +28,17 @@ class Control:
     """
 
     def __init__(self, callback: Callable[[str, float], object] | None = None) -> None:
+        if callback is not None and not callable(callback):
+            raise ArgumentTypeError(f"progress is a function of a stage and a fraction, or a Control, not {type(callback).__name__}")
         made = ffi.new("ricci_control **")
         status = lib.ricci_control_new(made)
         if status:
             raise last_failure(status)
         self._pointer: Any = ffi.gc(made[0], lib.ricci_control_free)
         self._callback = callback
+
+    def __reduce__(self) -> Any:
+        raise TypeError("a ricci.Control belongs to the calls of its own process, so that pickle cannot take it")
 
     def cancel(self) -> None:
         """Ask the running call, and every later one with this control, to stop; the call raises `Cancelled`."""

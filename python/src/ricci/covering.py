@@ -13,7 +13,7 @@ from ricci import _arrays
 from ricci._arrays import frozen
 from ricci._call import CONTROL, Complexes, Doubles, Handle, Indices, Signed, constant, doubles, filled, pointer, rows, summary
 from ricci._library import lib
-from ricci._structs import Struct, Write, nested, number, options
+from ricci._structs import Struct, Write, known, nested, number, options
 from ricci.adapters import MeshLike
 from ricci.control import Progress
 from ricci.errors import ArgumentError
@@ -71,6 +71,7 @@ class Deck(Handle):
     """Deck transformations of a quotient, each as a word in the generators and as an isometry. They act from the left."""
 
     _type: ClassVar[str] = "deck"
+    _made_by: ClassVar[str] = "ricci.deck(uniform)"
 
     @cached_property
     def summary(self) -> DeckSummary:
@@ -118,6 +119,7 @@ class Dirichlet(Handle):
     """The points of the universal cover that are nearer to a centre than to its images: a convex polygon."""
 
     _type: ClassVar[str] = "dirichlet"
+    _made_by: ClassVar[str] = "ricci.dirichlet(uniform)"
 
     @cached_property
     def summary(self) -> DirichletSummary:
@@ -136,10 +138,10 @@ class Dirichlet(Handle):
 
 
 class CoverOptions(TypedDict, total=False):
-    """A piece of the universal cover: all copies to a depth, or all within a radius of the base.
+    """A piece of the universal cover: the neighbours of a copy, all copies to a depth, or all within a radius of the base.
 
     Attributes:
-        depth: most letters of a word.
+        depth: most letters of a word in the generators; few of the copies with one letter share a side with the first one.
         radius: how far the base may move.
         limit: most elements that are looked at; 100,000.
     """
@@ -192,7 +194,7 @@ def dirichlet(uniform: Uniform, centre: npt.ArrayLike | None = None, progress: P
 
 
 def cover(V: MeshLike, F: npt.ArrayLike | None = None, progress: Progress = None, **given: Unpack[CoverOptions]) -> Cover:
-    """A piece of the universal cover of a surface that is no sphere; by default all copies to depth 1.
+    """A piece of the universal cover of a surface that is no sphere; by default a copy and its neighbours, one across each of its sides.
 
     Args:
         V: a `Uniform`, or positions with `F`, or a mesh of any kind (`as_mesh`), which is uniformized first.
@@ -200,10 +202,17 @@ def cover(V: MeshLike, F: npt.ArrayLike | None = None, progress: Progress = None
         progress: a `Control` or a callback.
         given: depth or radius, and limit (`CoverOptions`).
     """
+    known(given, CoverOptions.__annotations__)
+    if "radius" in given and "depth" in given:
+        raise ArgumentError("depth and radius: name one of them")
     uniform = V if isinstance(V, Uniform) else uniformize(V, F, progress)
     limit = given.get("limit", LIMIT)
-    if "radius" in given:
+    if "depth" not in given and "radius" not in given:
+        across = {tuple(word.tolist()): None for word in deck(uniform, progress, kind="sides").words}
+        across.pop((), None)
+        found = deck(uniform, progress, kind="words", words=[(), *across])
+    elif "radius" in given:
         found = deck(uniform, progress, kind="within", dirichlet=dirichlet(uniform), radius=given["radius"], limit=limit)
     else:
-        found = deck(uniform, progress, kind="depth", depth=given.get("depth", 1), limit=limit)
+        found = deck(uniform, progress, kind="depth", depth=given["depth"], limit=limit)
     return Cover(uniform, uniform.layout("refinement", progress=progress), found)

@@ -1,11 +1,18 @@
 """Exceptions of failed calls: one class for each family of statuses, with the element and the amount as numbers.
 
-Every exception of the library is a `RicciError`. Those of arguments are also a `ValueError`, those of files an `OSError`, and a refusal
-of memory is a `MemoryError`, so that code which knows nothing of this package treats them rightly.
+Every exception of the library is a `RicciError`. Those of arguments are also a `ValueError`, and a `TypeError` where the type is wrong;
+those of files are an `OSError` with its number and file name, such as `FileNotFoundError`, and a refusal of memory is a `MemoryError`, so
+that code which knows nothing of this package treats them rightly.
 """
 
 from __future__ import annotations
 
+import os
+import sys
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
 from typing import Any
 
 from ricci._library import ffi, lib
@@ -13,6 +20,7 @@ from ricci.status import Status
 
 __all__ = [
     "ArgumentError",
+    "ArgumentTypeError",
     "Cancelled",
     "FileError",
     "InternalError",
@@ -20,6 +28,7 @@ __all__ = [
     "MatchingError",
     "MeshError",
     "MetricError",
+    "NotConverged",
     "OutOfMemory",
     "ParseError",
     "RicciError",
@@ -63,6 +72,10 @@ class ArgumentError(RicciError, ValueError):
     """An argument, an array's size or an option is not what it must be."""
 
 
+class ArgumentTypeError(ArgumentError, TypeError):
+    """An argument is of another type than the one that is needed; the message says how to make one."""
+
+
 class Cancelled(RicciError):
     """The call was stopped by its `Control`."""
 
@@ -76,7 +89,51 @@ class OutOfMemory(RicciError, MemoryError):
 
 
 class FileError(RicciError, OSError):
-    """A file could not be read or written, or its name has no known format."""
+    """A file could not be read or written, or its name has no known format.
+
+    As with every `OSError`, `errno` is the number of the system's error, `strerror` its text and `filename` the file; None where the
+    system had nothing against it. What is not there is also a `FileNotFoundError`, what is not permitted a `PermissionError`.
+    """
+
+    def __new__(cls, *given: Any) -> FileError:
+        """An exception of the class that stands for the system's error, which is the amount."""
+        number = int(given[3]) if len(given) > 3 else 0
+        kind = _BY_NUMBER.get(type(OSError(number, "")), cls) if cls is FileError and number else cls
+        made: FileError = OSError.__new__(kind)
+        return made
+
+    def __init__(self, message: str, status: int = Status.IO, place: tuple[int, int] = (0, -1), amount: float = 0.0) -> None:
+        super().__init__(message, status, place, amount)
+        self.args = (message,)
+        if amount:
+            self.errno, self.strerror = int(amount), os.strerror(int(amount))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return FileError, (self.message, int(self.status), self._place, self.amount), {"filename": self.filename}
+
+
+class FileMissingError(FileError, FileNotFoundError):
+    """There is no such file or folder."""
+
+
+class FilePermissionError(FileError, PermissionError):
+    """The system does not permit that to this user."""
+
+
+class FileIsFolderError(FileError, IsADirectoryError):
+    """A folder is where a file is needed."""
+
+
+class FileUnderFileError(FileError, NotADirectoryError):
+    """A file is where a folder is needed."""
+
+
+_BY_NUMBER: dict[type, type[FileError]] = {
+    FileNotFoundError: FileMissingError,
+    PermissionError: FilePermissionError,
+    IsADirectoryError: FileIsFolderError,
+    NotADirectoryError: FileUnderFileError,
+}
 
 
 class ParseError(RicciError, ValueError):
@@ -146,3 +203,30 @@ def last_needed() -> int:
     failure = ffi.new("ricci_failure *")
     lib.ricci_last_failure(failure, ffi.sizeof("ricci_failure"))
     return int(failure.needed)
+
+
+class NotConverged(UserWarning):
+    """A result is handed out that did not come to its target; `converged` of it is False, and its `summary` says why."""
+
+
+_SILENT: ContextVar[bool] = ContextVar("ricci_silent", default=False)
+
+
+@contextmanager
+def silent() -> Iterator[None]:
+    """Within it, results that did not converge are no warnings: for callers who look at `converged` themselves."""
+    token = _SILENT.set(True)
+    try:
+        yield
+    finally:
+        _SILENT.reset(token)
+
+
+def warn(message: str) -> None:
+    """Warn of a result that did not converge, at the line of the caller's that asked for it."""
+    if _SILENT.get():
+        return
+    level, frame = 2, sys._getframe(1)
+    while frame.f_back is not None and frame.f_globals.get("__name__", "").partition(".")[0] == "ricci":
+        level, frame = level + 1, frame.f_back
+    warnings.warn(message, NotConverged, stacklevel=level)

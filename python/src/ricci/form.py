@@ -12,7 +12,7 @@ from ricci import _arrays
 from ricci._arrays import frozen
 from ricci._call import CONTROL, Complexes, Doubles, Handle, Longs, constant, doubles, filled, pointer, sized_list, summary
 from ricci._library import lib
-from ricci._structs import Struct, Write, choice, one_index, options
+from ricci._structs import Struct, Write, choice, known, one_index, options
 from ricci.adapters import MeshLike, as_mesh
 from ricci.control import Progress
 from ricci.errors import ArgumentError
@@ -41,6 +41,9 @@ class HarmonicOptions(TypedDict, total=False):
 
 def _harmonic_struct(given: HarmonicOptions) -> Struct:
     struct = Struct("harmonic_spec")
+    known(given, HarmonicOptions.__annotations__)
+    if given.get("n") == 0:
+        raise ArgumentError("n is 0: a polygon has at least 3 corners")
     target = given.get("target", "values" if "bc" in given else "disk")
     struct.put("target", constant("HARMONIC", target))
     vertices = _arrays.indices(given.get("b", ()), name="b")
@@ -99,6 +102,7 @@ class Forms(Handle):
     """A basis of the harmonic 1-forms of a surface, on its intrinsic Delaunay triangulation `mesh`. It never changes."""
 
     _type: ClassVar[str] = "forms"
+    _made_by: ClassVar[str] = "ricci.forms(mesh)"
 
     @cached_property
     def summary(self) -> FormsSummary:

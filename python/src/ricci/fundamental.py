@@ -29,6 +29,7 @@ class Homotopy(Handle):
     """
 
     _type: ClassVar[str] = "homotopy"
+    _made_by: ClassVar[str] = "ricci.homotopy(mesh)"
 
     @cached_property
     def summary(self) -> HomotopySummary:
@@ -105,6 +106,7 @@ class Domain(Handle):
     """A surface opened along a cut into a disk, lifted to the universal cover: a polygon whose sides are paired."""
 
     _type: ClassVar[str] = "domain"
+    _made_by: ClassVar[str] = "ricci.homotopy(mesh).domain()"
 
     @cached_property
     def summary(self) -> DomainSummary:
@@ -143,5 +145,5 @@ def homotopy(V: MeshLike, F: npt.ArrayLike | None = None, *, base: int | None = 
         base: the base vertex; None for one from which the loops are short.
         progress: a `Control` or a callback.
     """
-    at = ffi.NULL if base is None else ffi.new("uint32_t *", base)
+    at = ffi.NULL if base is None else pointer(_arrays.index(base, "base"))
     return Homotopy._made(lib.ricci_homotopy_new, as_mesh(V, F), at, CONTROL, progress=progress)

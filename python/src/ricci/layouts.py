@@ -28,12 +28,14 @@ from ricci._call import (
     summary,
 )
 from ricci._library import lib
-from ricci._structs import Write, choice, index_list, number, one_index, options
+from ricci._structs import Write, above_zero, choice, index_list, one_index, options
 from ricci.control import Progress
+from ricci.errors import LayoutError, warn
 from ricci.figures import AtlasSummary, LayoutSummary
 from ricci.figures.names import Model, On
 from ricci.mesh import Mesh
 from ricci.metrics import Metric
+from ricci.status import Status
 
 __all__ = ["Atlas", "Layout", "LayoutOptions", "Seam", "atlas", "layout"]
 
@@ -67,7 +69,7 @@ _LAYOUT: dict[str, Write] = {
     "scale": choice("SCALE"),
     "cones": _cones,
     "root": one_index,
-    "threads": number,
+    "threads": above_zero,
 }
 
 
@@ -92,6 +94,7 @@ class Layout(Handle):
     """
 
     _type: ClassVar[str] = "layout"
+    _made_by: ClassVar[str] = "ricci.layout(metric)"
 
     @cached_property
     def summary(self) -> LayoutSummary:
@@ -146,12 +149,16 @@ class Layout(Handle):
         return Mesh._made(lib.ricci_layout_mesh, self)
 
     def write(self, path: str | os.PathLike[str], on: On = "input", *, homogeneous: bool = False) -> None:
-        """Write the mesh with the layout as texture coordinates, as OBJ.
+        """Write the mesh with the layout as texture coordinates, as .obj, .ply, .glb or, without seams, .off.
 
         Args:
-            path: the file.
+            path: the file, whose ending says the format.
             on: the mesh, or what is laid out.
-            homogeneous: `vt qx qy q`, in which the projective map of every piece is linear.
+            homogeneous: `vt qx qy q`, in which the projective map of every piece is linear; as .obj only.
+
+        Raises:
+            FileError: another ending.
+            ArgumentError: what the format has no place for.
         """
         call(lib.ricci_layout_write, self, constant("ON", on), int(homogeneous), path_bytes(path))
 
@@ -173,6 +180,7 @@ class Atlas(Handle):
     """
 
     _type: ClassVar[str] = "atlas"
+    _made_by: ClassVar[str] = "ricci.atlas(layout)"
 
     def __init__(self, layout: Layout, margin: float = 1 / 256, progress: Progress = None) -> None:
         self._pointer = Atlas._made(lib.ricci_atlas_new, layout, margin, CONTROL, progress=progress)._pointer
@@ -203,16 +211,48 @@ class Atlas(Handle):
         return frozen(doubles(lib.ricci_atlas_motions, self, shape=(self.summary.n_charts, 3)))
 
     def write(self, path: str | os.PathLike[str], *, homogeneous: bool = False) -> None:
-        """Write the layout's mesh with its charts as texture coordinates, as OBJ."""
+        """Write the layout's mesh with its charts as texture coordinates, as `Layout.write` does."""
         call(lib.ricci_atlas_write, self, int(homogeneous), path_bytes(path))
+
+
+# Largest curvature of a vertex, radians, that a layout does not cut through: the library's own bound for cones.
+_FLAT = 1e-10
+
+
+def _check_flat(metric: Metric, has_cones: bool) -> None:
+    """Refuse a curved metric that no flow has led to; warn of a flow that did not converge."""
+    report = metric.flow_report()
+    if report is not None:
+        if not report.converged:
+            s = report.summary
+            warn(f"the metric that is laid out has not converged ({s.stop_reason}, {s.max_curvature_error:.1e}): its seams do not fit")
+        return
+    inside = np.ones(metric.summary.n_vertices, bool)
+    inside[metric.boundary_vertices()] = False
+    curved = np.flatnonzero(inside & (np.abs(metric.curvature) > _FLAT))
+    if curved.size and not has_cones:
+        at = int(curved[np.argmax(np.abs(metric.curvature[curved]))])
+        raise LayoutError(
+            f"the metric is curved at {curved.size} vertices inside, most at vertex {at} by {metric.curvature[at]:.3g}: no flow has led "
+            'to it: ricci.flow(mesh, target="auto:8") makes one that is flat but for eight cones; a layout that is cut at each of the '
+            "curved vertices is had by naming them: cones=[...]",
+            Status.LAYOUT,
+            (1, at),
+            float(metric.curvature[at]),
+        )
 
 
 def layout(metric: Metric, progress: Progress = None, **given: Unpack[LayoutOptions]) -> Layout:
     """The layout of a metric in its space, cut open along edges of the mesh through all cones.
 
     Raises:
-        LayoutError: the metric has no layout.
+        LayoutError: the metric has no layout; or it is curved, no flow has led to it, and `cones` does not say where it is to be cut.
+
+    Warns:
+        NotConverged: the flow that led to the metric did not come to its target, so that seams do not fit and faces may be folded.
     """
+    if isinstance(metric, Metric):
+        _check_flat(metric, given.get("cones") is not None)
     return Layout._made(lib.ricci_layout_new, metric, options("layout_options", given, _LAYOUT), CONTROL, progress=progress)
 
 

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import ClassVar, Literal
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 import numpy.typing as npt
 
 from ricci import _arrays
 from ricci._arrays import frozen
-from ricci._call import CONTROL, Doubles, Handle, Indices, call, constant, doubles, filled, pointer, summary
+from ricci._call import CONTROL, Doubles, Handle, Indices, call, constant, doubles, filled, pointer, signed_view, summary
+from ricci._labels import are_labels, heaviest
 from ricci._library import lib
 from ricci._structs import Struct
 from ricci.control import Progress
@@ -36,10 +37,15 @@ class Map(Handle):
         progress: a `Control` or a callback.
     """
 
+    # The mesh of the side "metric".
+    _target: Mesh
+
     _type: ClassVar[str] = "map"
+    _made_by: ClassVar[str] = "ricci.Map(metric)"
 
     def __init__(self, metric: Metric, progress: Progress = None) -> None:
         self._pointer = Map._made(lib.ricci_map_new, metric, CONTROL, progress=progress)._pointer
+        self._target: Mesh = metric.triangulation
 
     @cached_property
     def summary(self) -> MapSummary:
@@ -64,19 +70,36 @@ class Map(Handle):
         """For each crossing the edge that it lies on (a row of that mesh's `edges`), and how far from its first end, 0 to 1."""
         edges, fractions = np.empty(self.summary.n_crossings, np.uint32), np.empty(self.summary.n_crossings)
         call(lib.ricci_map_crossings, self, constant("ON", on), pointer(edges), pointer(fractions), edges.size)
-        return edges, fractions
+        return signed_view(edges), fractions
 
     @cached_property
     def weights(self) -> Doubles:
         """The homogeneous weight q of every vertex: with (x, y) in a layout, (q x, q y, q) is linear on every piece."""
         return frozen(doubles(lib.ricci_map_weights, self, shape=(self.summary.n_vertices,)))
 
-    def carry(self, values: npt.ArrayLike, on: Side = "input", at: Literal["vertices", "corners"] = "vertices") -> Doubles:
-        """Values at vertices (n, or n x k) or corners (m x 3, or m x 3 x k), carried to those of the subdivision."""
-        array = _arrays.real(values)
+    def carry(
+        self, values: npt.ArrayLike, on: Side = "input", at: Literal["vertices", "corners"] = "vertices", labels: bool | None = None
+    ) -> npt.NDArray[Any]:
+        """Values at vertices (n, or n x k) or corners (m x 3, or m x 3 x k), carried to those of the subdivision.
+
+        Whole numbers and flags are labels: a point gets the one that has the most weight in its face, and the result has their type.
+
+        Args:
+            values: one row for each vertex or face.
+            on: the side that they are on.
+            at: where they are.
+            labels: true or false says whether values are labels; None: whole numbers are, others are interpolated.
+
+        Raises:
+            ArgumentTypeError: complex numbers (carry the two parts), texts (carry their numbers).
+        """
+        array = _arrays.numbers(values)
         lead = 1 if at == "vertices" else 2
         if array.ndim < lead or (lead == 2 and array.shape[1] != 3):
             raise ArgumentError(f"values at {at} have shape {array.shape}")
+        if are_labels(array, labels):
+            return self._carry_labels(array, on, at)
+        array = _arrays.real(array)
         rest = array.shape[lead:]
         struct = Struct("carried")
         struct.put("on", constant("ON", on))
@@ -86,3 +109,25 @@ class Map(Handle):
         struct.put("n_components", int(np.prod(rest, dtype=int)))
         own = (self.summary.n_vertices,) if lead == 1 else (self.summary.n_faces, 3)
         return doubles(lib.ricci_map_carry, self, struct, shape=own + rest)
+
+    def _carry_labels(self, labels: npt.NDArray[Any], on: Side, at: str) -> npt.NDArray[Any]:
+        """Labels at vertices or corners of a side, at those of the subdivision."""
+        parents, weights, faces = self.faces(on), self.barycentric(on), self.mesh.F
+        corners = None if at == "corners" else self._target.F if on == "metric" else self._input_faces(faces, parents, weights)
+        needed = int((parents if corners is None else corners).max()) + 1
+        if len(labels) != needed:
+            raise ArgumentError(f"there are {len(labels)} rows of labels, {needed} are needed")
+        of_face = labels[parents] if corners is None else labels[corners[parents]]
+        found = np.stack([heaviest(of_face, weights[:, corner]) for corner in range(3)], axis=1)
+        if at == "corners":
+            return found
+        out = np.empty((self.summary.n_vertices, *labels.shape[1:]), labels.dtype)
+        out[faces] = found
+        return out
+
+    def _input_faces(self, faces: Indices, parents: Indices, weights: Doubles) -> Indices:
+        """The vertices of the faces of the given mesh: where the pieces of a face have its corners, with all the weight."""
+        found = np.zeros((int(parents.max()) + 1, 3), np.int32)
+        piece, corner, place = np.nonzero(weights == 1)
+        found[parents[piece], place] = faces[piece, corner]
+        return found

@@ -12,13 +12,15 @@ import numpy.typing as npt
 from ricci import _arrays
 from ricci._arrays import frozen
 from ricci._call import CONTROL, Doubles, Handle, Indices, call, constant, doubles, filled, pointer, summary
+from ricci._labels import are_labels, heaviest
 from ricci._library import lib
-from ricci._structs import Struct, Write, choice, index_list, number, options, real_list
+from ricci._structs import Struct, Write, above_zero, choice, index_list, options, real_list
 from ricci.adapters import MeshLike, as_mesh
 from ricci.control import Progress
 from ricci.errors import ArgumentError
 from ricci.figures import MatchingSummary
 from ricci.maps import Map
+from ricci.mesh import Mesh
 
 __all__ = ["MatchOptions", "Matching", "Points", "match"]
 
@@ -104,14 +106,19 @@ _MATCH: dict[str, Write] = {
     "boundary": choice("MATCH", ("slides", "arc_length")),
     "loop_shape": choice("MATCH", ("geodesics", "circles")),
     "basis": _basis,
-    "threads": number,
+    "threads": above_zero,
 }
 
 
 class Matching(Handle):
     """A map between two surfaces and its inverse; no face folds. It never changes."""
 
+    # The surfaces, whose faces labels are looked up in.
+    _source: Mesh
+    _target: Mesh
+
     _type: ClassVar[str] = "matching"
+    _made_by: ClassVar[str] = "ricci.match(source, target)"
 
     @cached_property
     def summary(self) -> MatchingSummary:
@@ -127,15 +134,28 @@ class Matching(Handle):
         """n x 3 barycentric coordinates of the images in their faces, not negative, with the sum 1."""
         return doubles(lib.ricci_matching_weights, self, _direction(direction), shape=(self._size(direction), 3))
 
-    def carry(self, values: npt.ArrayLike, direction: Direction = "forward") -> Doubles:
+    def carry(self, values: npt.ArrayLike, direction: Direction = "forward", labels: bool | None = None) -> npt.NDArray[Any]:
         """Values at the vertices of the surface that the map leads to (n, or n x k), brought to those where it comes from.
 
-        ``carry(V_target)`` has the image of every vertex of the source.
+        ``carry(V_target)`` has the image of every vertex of the source. Whole numbers and flags are labels, such as those of parcels: a
+        vertex gets the label that has the most weight in the face of its image, and the result has the type of `values`.
+
+        Args:
+            values: one row for each vertex.
+            direction: ``"forward"``: from the target to the source.
+            labels: true or false says whether values are labels; None: whole numbers are, others are interpolated.
+
+        Raises:
+            ArgumentTypeError: complex numbers (carry the two parts), texts (carry their numbers).
         """
-        array = _arrays.real(values)
+        given = _arrays.numbers(values)
         other = self._size("backward" if direction == "forward" else "forward")
-        if array.ndim == 0 or len(array) != other:
-            raise ArgumentError(f"values have shape {array.shape}, {other} rows are needed")
+        if given.ndim == 0 or len(given) != other:
+            raise ArgumentError(f"values have shape {given.shape}, {other} rows are needed")
+        if are_labels(given, labels):
+            corners = (self._target if direction == "forward" else self._source).F
+            return heaviest(given[corners[self.faces(direction)]], self.weights(direction))
+        array = _arrays.real(given)
         shape = (self._size(direction), *array.shape[1:])
         return doubles(lib.ricci_matching_carry, self, _direction(direction), pointer(array), array.size, shape=shape)
 
@@ -154,7 +174,9 @@ class Matching(Handle):
 
     def map(self, progress: Progress = None) -> Map:
         """The common subdivision of the two surfaces: in its methods ``"input"`` is the source and ``"metric"`` the target."""
-        return Map._made(lib.ricci_matching_map, self, CONTROL, progress=progress)
+        made = Map._made(lib.ricci_matching_map, self, CONTROL, progress=progress)
+        made._target = self._target
+        return made
 
     def _size(self, direction: Direction) -> int:
         s = self.summary
@@ -181,4 +203,7 @@ def match(source: MeshLike, target: MeshLike, progress: Progress = None, **given
     if np.size(hard.get("soft", ())) != 2 * np.size(hard.get("soft_weights", ())):
         raise ArgumentError("soft and soft_weights: one weight for every pair")
     struct = options("match_options", hard, _MATCH)
-    return Matching._made(lib.ricci_match, as_mesh(source), as_mesh(target), struct, CONTROL, progress=progress)
+    meshes = as_mesh(source), as_mesh(target)
+    made = Matching._made(lib.ricci_match, *meshes, struct, CONTROL, progress=progress)
+    made._source, made._target = meshes
+    return made

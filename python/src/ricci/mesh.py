@@ -11,15 +11,15 @@ import numpy.typing as npt
 
 from ricci import _arrays
 from ricci._arrays import frozen
-from ricci._call import Doubles, Indices, Signed, call, constant, filled, path_bytes, pointer, summary
+from ricci._call import Doubles, Handle, Indices, Signed, call, constant, filled, path_bytes, pointer, summary
 from ricci._library import ffi, lib
 from ricci._structs import Struct, choice, number, options, real_list
 from ricci._triangles import Triangles
-from ricci.errors import ArgumentError
+from ricci.errors import ArgumentError, RicciError
 from ricci.figures import MeshSummary, QualitySummary
 from ricci.figures.names import Space
 
-__all__ = ["Attributes", "Mesh"]
+__all__ = ["Attributes", "Mesh", "read"]
 
 
 class Attributes(TypedDict, total=False):
@@ -59,6 +59,16 @@ _ATTRIBUTES = {
 }
 
 
+# Those that a mesh keeps.
+_KEPT = ("normals", "colors", "uv", "corner_normals")
+
+
+class _List(Handle):
+    """A triangle list of the library, on the way to a mesh with attributes."""
+
+    _type: ClassVar[str] = "soup"
+
+
 class Mesh(Triangles):
     """A connected oriented triangulated surface with the lengths of its edges. It never changes.
 
@@ -74,6 +84,7 @@ class Mesh(Triangles):
     """
 
     _type: ClassVar[str] = "mesh"
+    _made_by: ClassVar[str] = "ricci.as_mesh(V, F), or ricci.read(path),"
     _faces_of: ClassVar[Any] = lib.ricci_mesh_faces
     _values_of: ClassVar[Any] = lib.ricci_mesh_values
 
@@ -117,6 +128,52 @@ class Mesh(Triangles):
         array = _arrays.real(lengths)
         return Mesh._made(lib.ricci_mesh_with_lengths, self, pointer(array), array.size, constant("SPACE", geometry))
 
+    def with_attributes(self, **attributes: Unpack[Attributes]) -> Mesh:
+        """The same mesh with these attributes in place of its own: normals, colors, uv, corner_normals."""
+        given = options("attributes", attributes, _ATTRIBUTES)
+        self._check_attributes(attributes)
+        positions, faces = _arrays.points(self.V), _arrays.indices(self.F, 3, "F")
+        of = (pointer(positions), positions.strides[0], len(positions), pointer(faces), len(faces))
+        plain = _List._made(lib.ricci_soup_from_arrays, *of)
+        made = Mesh._made(lib.ricci_soup_mesh, _List._made(lib.ricci_soup_with_attributes, plain, given))
+        if not np.array_equal(made.face_edges, self.face_edges):
+            raise ArgumentError("this mesh has several edges between two vertices, or edges of an order of its own: it takes no attributes")
+        kept = self._own_lengths()
+        return made if kept is None else made.with_lengths(kept, self.summary.geometry)
+
+    def _own_lengths(self) -> Doubles | None:
+        """The lengths of a mesh in space that were given in place of those between its positions, or None."""
+        try:
+            measured = Mesh(self.V, self.F)
+            same = self.summary.geometry == "e2" and np.array_equal(measured.lengths, self.lengths)
+        except RicciError:
+            # Positions coincide: lengths are the caller's, or there are none.
+            same = self.summary.geometry == "e2" and not self._has_lengths()
+        return None if same else self.lengths
+
+    def _has_lengths(self) -> bool:
+        try:
+            return len(self.lengths) > 0
+        except RicciError:
+            return False
+
+    def __reduce__(self) -> Any:
+        """The arrays that the mesh is made of again, bit for bit, with the order of its edges.
+
+        Raises:
+            TypeError: a triangulation in space with several edges between two vertices, which arrays cannot say.
+        """
+        if not self.summary.has_positions:
+            return _glued, (self.F, self.face_edges, self.lengths, self.summary.geometry)
+        try:
+            same = np.array_equal(Mesh(self.V, self.F).face_edges, self.face_edges)
+        except RicciError:
+            same = False
+        if not same:
+            raise TypeError("a mesh in space with several edges between two vertices, as a common subdivision, cannot be pickled")
+        kept = {name: getattr(self, name) for name in _KEPT if getattr(self, name) is not None}
+        return _in_space, (self.V, self.F, kept, self._own_lengths(), self.summary.geometry)
+
     def write(self, path: str | os.PathLike[str], **attributes: Unpack[Attributes]) -> None:
         """Write the mesh as .obj, .off, .ply or .glb, whole or not at all, with the attributes that the format has.
 
@@ -134,7 +191,7 @@ class Mesh(Triangles):
         n, m = self.summary.n_vertices, self.summary.n_faces
         shapes = {"normals": (n, 3), "colors": (n, 4), "uv": (m, 3, 2), "corner_normals": (m, 3, 3)}
         for name, shape in shapes.items():
-            found = np.shape(given[name]) if name in given else shape  # type: ignore[literal-required]
+            found = np.shape(given[name]) if given.get(name) is not None else shape  # type: ignore[literal-required]
             if found != shape:
                 raise ArgumentError(f"{name} has shape {found}, {shape} is needed")
 
@@ -194,3 +251,21 @@ class Mesh(Triangles):
     def __repr__(self) -> str:
         s = self.summary
         return f"<ricci.Mesh: {s.n_vertices} vertices, {s.n_faces} faces, genus {s.genus}, {s.n_boundary_loops} boundary loops>"
+
+
+def _in_space(V: Doubles, F: Indices, attributes: Attributes, lengths: Doubles | None, geometry: Space) -> Mesh:
+    """The mesh of a pickle."""
+    mesh = Mesh(V, F)
+    if attributes:
+        mesh = mesh.with_attributes(**attributes)
+    return mesh if lengths is None else mesh.with_lengths(lengths, geometry)
+
+
+def _glued(F: Indices, face_edges: Signed, lengths: Doubles, geometry: Space) -> Mesh:
+    """The intrinsic mesh of a pickle."""
+    return Mesh.from_gluing(F, face_edges, lengths, geometry)
+
+
+def read(path: str | os.PathLike[str]) -> Mesh:
+    """The mesh of a file, as `Mesh.read`."""
+    return Mesh.read(path)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable
 from functools import cached_property
-from typing import Any, ClassVar, Literal, TypedDict, Unpack
+from typing import Any, ClassVar, Literal, Self, TypedDict, Unpack
 
 import numpy as np
 import numpy.typing as npt
@@ -14,9 +14,10 @@ from ricci import _arrays
 from ricci._arrays import frozen
 from ricci._call import CONTROL, Doubles, Handle, Indices, Passed, call, constant, doubles, filled, pointer, summary
 from ricci._library import ffi, lib
-from ricci._structs import Struct, Write, choice, index_list, number, options
+from ricci._structs import Struct, Write, above_zero, choice, index_list, number, options
 from ricci.adapters import MeshLike, as_mesh
 from ricci.control import Progress
+from ricci.errors import ArgumentError, warn
 from ricci.figures import MetricSummary, ReportSummary
 from ricci.figures.names import Scheme, Space
 from ricci.mesh import Mesh
@@ -67,7 +68,8 @@ class FlowJob(FlowOptions, total=False):
 
 
 _FLOW: dict[str, Write] = {
-    **dict.fromkeys(("tolerance", "max_iterations", "threads", "max_step", "step_size", "area_normalised"), number),
+    **dict.fromkeys(("tolerance", "max_iterations", "threads", "max_step", "step_size"), above_zero),
+    "area_normalised": number,
     "method": choice("METHOD"),
     "flips": choice("FLIPS"),
     "step": choice("STEP"),
@@ -126,10 +128,10 @@ class Report(Passed):
         return self._vertices("OBSTRUCTION", self.summary.n_obstruction)
 
     def _values(self, which: str, *shape: int) -> Any:
-        return frozen(doubles(lib.ricci_report_values, self, getattr(lib, f"RICCI_REPORT_{which}"), shape=shape))
+        return frozen(doubles(lib.ricci_report_values, self._pointer, getattr(lib, f"RICCI_REPORT_{which}"), shape=shape))
 
     def _vertices(self, which: str, n: int) -> Any:
-        return frozen(filled(lib.ricci_report_vertices, self, getattr(lib, f"RICCI_REPORT_{which}"), out=np.empty(n, np.uint32)))
+        return frozen(filled(lib.ricci_report_vertices, self._pointer, getattr(lib, f"RICCI_REPORT_{which}"), out=np.empty(n, np.uint32)))
 
     def __repr__(self) -> str:
         s = self.summary
@@ -149,6 +151,7 @@ class Metric(Handle):
     """
 
     _type: ClassVar[str] = "metric"
+    _made_by: ClassVar[str] = "ricci.flow(mesh)"
 
     def __init__(self, V: MeshLike, F: npt.ArrayLike | None = None, *, space: Space = "e2", scheme: Scheme = "yamabe") -> None:
         made = Metric._made(lib.ricci_metric_new, as_mesh(V, F), constant("SCHEME", scheme), constant("SPACE", space))
@@ -156,7 +159,18 @@ class Metric(Handle):
 
     def flow(self, target: TargetLike = None, progress: Progress = None, **given: Unpack[FlowOptions]) -> Metric:
         """The metric of the class with the curvature `target`, as `ricci.flow`; it goes on from where this one is."""
-        return Metric._made(lib.ricci_flow, self, target_struct(target), flow_struct(given), CONTROL, progress=progress)
+        made = Metric._made(lib.ricci_flow, self, target_struct(target), flow_struct(given), CONTROL, progress=progress)
+        made._warn()
+        return made
+
+    def _warn(self) -> None:
+        """Warn of a flow that has not converged."""
+        s = self.report.summary
+        if not s.converged:
+            warn(
+                f"the flow stopped ({s.stop_reason}) after {s.iterations} steps with a curvature error of {s.max_curvature_error:.1e}, "
+                f"which is above the tolerance {s.tolerance:.1e}: look at `report`"
+            )
 
     def fill(self, target: TargetLike = None, progress: Progress = None) -> Doubles:
         """The curvature that a target has at every vertex, n numbers in radians.
@@ -181,10 +195,23 @@ class Metric(Handle):
         """
         return Report(self)
 
+    def flow_report(self) -> Report | None:
+        """The report of the flow that led to this metric; None if no flow has."""
+        try:
+            return self.report
+        except ArgumentError:
+            return None
+
     @property
     def converged(self) -> bool:
         """True if the flow that led to this metric came to its target."""
         return self.report.converged
+
+    def boundary_vertices(self) -> Indices:
+        """The vertices of the surface on its boundary, ascending: of a double those that are their own mirror images."""
+        if self.summary.doubled:
+            return frozen(np.flatnonzero(self.mirror == np.arange(self.summary.n_mesh_vertices)).astype(np.int32))
+        return frozen(np.unique(np.concatenate([np.empty(0, np.int32), *self.triangulation.boundary])))
 
     @cached_property
     def factor(self) -> Doubles:
@@ -248,10 +275,17 @@ class Solver(Handle):
     """
 
     _type: ClassVar[str] = "solver"
+    _made_by: ClassVar[str] = "ricci.Solver(metric)"
 
     def __init__(self, start: Metric, **given: Unpack[FlowOptions]) -> None:
         self._pointer = Solver._made(lib.ricci_solver_new, start, flow_struct(given))._pointer
         self._turn = threading.Lock()
+
+    def __copy__(self) -> Self:
+        raise TypeError("a ricci.Solver changes with every solve, so that it has no copies: make another one of its metric")
+
+    def __deepcopy__(self, _: Any) -> Self:
+        return self.__copy__()
 
     def pin(self, vertices: npt.ArrayLike = ()) -> None:
         """Hold u fixed at these vertices in the following solves, whose curvature is then free; none releases all."""
@@ -260,7 +294,9 @@ class Solver(Handle):
 
     def solve(self, target: TargetLike = None, progress: Progress = None) -> Metric:
         """The metric with this target, from where the last solve ended. After a failure the solver is where it was before."""
-        return Metric._made(self._in_turn(lib.ricci_solver_solve), self, target_struct(target), CONTROL, progress=progress)
+        made = Metric._made(self._in_turn(lib.ricci_solver_solve), self, target_struct(target), CONTROL, progress=progress)
+        made._warn()
+        return made
 
     def _in_turn(self, function: Callable[..., int]) -> Callable[..., int]:
         """The function, which the library asks for by one thread at a time; held by the thread that runs it, until it has ended."""
@@ -287,7 +323,7 @@ def flow(
 ) -> Metric:
     """Deform the metric of a mesh in its conformal class to a prescribed curvature.
 
-    Whether it came that far is in ``result.converged``: a flow that stops early is a result, not an error.
+    Whether it came that far is in ``result.converged``: a flow that stops early is a result with the warning `NotConverged`, not an error.
 
     Args:
         V: n x 3 positions with `F`, or a mesh of any kind (`as_mesh`).

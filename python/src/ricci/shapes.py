@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any, Literal, TypeAlias, TypedDict, Unpack
 
 import numpy as np
@@ -10,7 +11,8 @@ import numpy.typing as npt
 from ricci import _arrays
 from ricci._call import Complexes, constant, doubles, pointer
 from ricci._library import lib
-from ricci._structs import Struct, Write, number, options, real_list
+from ricci._structs import Struct, Write, known, number, options, real_list
+from ricci.errors import ArgumentError
 from ricci.mesh import Mesh
 
 __all__ = ["ChangeOptions", "ShapeOptions", "change", "hyperelliptic_periods", "make"]
@@ -35,7 +37,7 @@ Change: TypeAlias = Literal["punch", "grade", "caps", "needles", "noise", "inver
 
 
 class ShapeOptions(TypedDict, total=False):
-    """Sizes of a surface; `shapes.h` describes them for each shape.
+    """Sizes of a surface; `shapes.h` describes them for each shape. Left out: as the command `ricci make` has them.
 
     Attributes:
         genus: number of handles, at least 1.
@@ -78,6 +80,58 @@ class ChangeOptions(TypedDict, total=False):
     centre: npt.ArrayLike
 
 
+# The sizes that the command `ricci make` has where none are given.
+_DEFAULTS: dict[str, dict[str, Any]] = {
+    "sphere": {"n": 16},
+    "ellipsoid": {"a": 3.0, "b": 2.0, "c": 1.0, "n": 16},
+    "disk": {"n": 24},
+    "annulus": {"a": 0.3, "b": 1.0, "n": 16},
+    "torus": {"a": 2.0, "b": 1.0, "n": 64},
+    "genus": {"genus": 2, "n": 6},
+    "knot": {"p": 2, "q": 3, "a": 2.0, "b": 0.9, "c": 0.4, "n": 240},
+    "flat_torus": {"a": 0.0, "b": 1.0, "n": 16, "m": 16},
+    "bolza": {"n": 3},
+    "one_vertex": {"genus": 2},
+    "two_vertex": {"genus": 2},
+    "pants": {"a": 1.0, "b": 2.0, "c": 3.0, "n": 4},
+    "hyperelliptic": {"n": 16, "points": [np.exp(1j * np.pi * k / 3) for k in range(6)]},
+}
+# What a change needs to be told.
+_NEEDS: dict[str, tuple[str, ...]] = {
+    "punch": ("count",),
+    "grade": ("vertex", "count"),
+    "caps": ("count", "amount"),
+    "needles": ("count", "amount"),
+    "noise": ("amount",),
+    "invert": ("centre", "amount"),
+}
+
+
+def _around(shape: str, sizes: Mapping[str, Any]) -> int:
+    """The number of vertices around for which triangles are nearly equilateral, at least 3."""
+    a, b, n = sizes["a"], sizes["b"], sizes["n"]
+    if shape == "torus":
+        vertices = n * b / a
+    elif shape == "annulus":
+        vertices = 2 * np.pi * np.sqrt(0.75) * n / np.log(b / a)
+    else:
+        # The length of a knot: p turns around the axis and q around the tube, at right angles.
+        vertices = n * sizes["c"] / np.hypot(sizes["p"] * a, sizes["q"] * b)
+    return int(np.clip(np.floor(vertices + 0.5), 3, 1e6)) if np.isfinite(vertices) else 3
+
+
+def _sizes(shape: str, given: Mapping[str, Any]) -> dict[str, Any]:
+    """The sizes of a shape, with defaults for those that are not given."""
+    told = {name: value for name, value in given.items() if value is not None}
+    sizes = {**_DEFAULTS.get(shape, {}), **told}
+    if shape == "genus" and told.get("a") == 0:
+        raise ArgumentError("a is 0: the first hole is a times as wide as the last, above 0")
+    if shape in ("torus", "annulus", "knot") and "m" not in sizes:
+        with np.errstate(all="ignore"):
+            sizes["m"] = _around(shape, {name: _arrays.real(value, name=name)[0] for name, value in sizes.items()})
+    return sizes
+
+
 def _pairs(points: npt.ArrayLike) -> npt.NDArray[np.float64]:
     """Complex numbers as rows of real and imaginary parts."""
     array = np.ascontiguousarray(points, dtype=np.complex128)
@@ -97,18 +151,29 @@ _CHANGE: dict[str, Write] = {**dict.fromkeys(ChangeOptions.__annotations__, numb
 
 
 def make(shape: Shape, **sizes: Unpack[ShapeOptions]) -> Mesh:
-    """A sample surface: ``make("torus", a=2, b=1, n=48, m=24)``.
+    """A sample surface: ``make("torus")``, or ``make("torus", a=2, b=1, n=48, m=24)``.
 
     Args:
         shape: which one; those from ``"flat_torus"`` on are intrinsic: gluings with lengths, without positions.
-        sizes: as the shape uses them.
+        sizes: as the shape uses them; those that are left out are the defaults of the command `ricci make`.
     """
-    return Mesh._made(lib.ricci_make, options("shape", {**sizes, "shape": constant("SHAPE", shape)}, _SHAPE))
+    number_of = constant("SHAPE", shape)
+    known(sizes, ShapeOptions.__annotations__)
+    return Mesh._made(lib.ricci_make, options("shape", {**_sizes(shape, sizes), "shape": number_of}, _SHAPE))
 
 
 def change(mesh: Mesh, what: Change, **how: Unpack[ChangeOptions]) -> Mesh:
-    """A changed copy of a surface in space, without its attributes: ``change(mesh, "punch", count=3)`` cuts three holes."""
-    return Mesh._made(lib.ricci_change, mesh, options("change_spec", {**how, "change": constant("CHANGE", what)}, _CHANGE))
+    """A changed copy of a surface in space, without its attributes: ``change(mesh, "punch", count=3)`` cuts three holes.
+
+    Raises:
+        ArgumentError: an argument that the change needs is not given.
+    """
+    number_of = constant("CHANGE", what)
+    known(how, ChangeOptions.__annotations__)
+    missing = [name for name in _NEEDS[what] if how.get(name) is None]
+    if missing:
+        raise ArgumentError(f"{what} needs {', '.join(missing)}")
+    return Mesh._made(lib.ricci_change, mesh, options("change_spec", {**how, "change": number_of}, _CHANGE))
 
 
 def hyperelliptic_periods(points: npt.ArrayLike) -> Complexes:

@@ -16,6 +16,7 @@ from ricci._call import Handle, Indices, call, filled, path_bytes, pointer, rows
 from ricci._library import ffi, lib
 from ricci._structs import number, options
 from ricci._triangles import Triangles
+from ricci.errors import ArgumentError
 from ricci.figures import QualitySummary, SoupSummary
 from ricci.mesh import Mesh
 
@@ -61,7 +62,7 @@ class _View:
     def __init__(self, owner: Handle, address: Any, n: int) -> None:
         self._owner = owner._pointer
         data = (int(ffi.cast("uintptr_t", address)), True)
-        self.__array_interface__ = {"data": data, "shape": (n,), "typestr": "<u4", "version": 3}
+        self.__array_interface__ = {"data": data, "shape": (n,), "typestr": "<i4", "version": 3}
 
 
 def _view(owner: Handle, address: Any, n: int) -> Indices:
@@ -77,6 +78,7 @@ class Soup(Triangles):
     """
 
     _type: ClassVar[str] = "soup"
+    _made_by: ClassVar[str] = "ricci.Soup(V, F)"
     _faces_of: ClassVar[Any] = lib.ricci_soup_faces
     _values_of: ClassVar[Any] = lib.ricci_soup_values
 
@@ -84,6 +86,17 @@ class Soup(Triangles):
         positions, faces = _arrays.points(V), _arrays.indices(F, 3, "F")
         made = Soup._made(lib.ricci_soup_from_arrays, pointer(positions), positions.strides[0], len(positions), pointer(faces), len(faces))
         self._pointer = made._pointer
+
+    def __reduce__(self) -> Any:
+        """The arrays of the list.
+
+        Raises:
+            TypeError: a list with attributes, or a repaired one, whose origins arrays cannot say.
+        """
+        s = self.summary
+        if s.n_normals + s.n_colors + s.n_uv + s.n_corner_normals or self._is_repaired():
+            raise TypeError("a triangle list with attributes, or a repaired one, cannot be pickled: send its file, or its mesh()")
+        return Soup, (self.V, self.F.view(np.uint32))
 
     @classmethod
     def read(cls, path: str | os.PathLike[str]) -> Self:
@@ -136,6 +149,12 @@ class Soup(Triangles):
         edges = np.empty((self.summary.refused_edges, 2), np.uint32)
         faces = rows(len(edges), lib.ricci_soup_refused, self, pointer(edges), edges.size, dtype=np.uint32)
         return frozen(edges), faces
+
+    def _is_repaired(self) -> bool:
+        try:
+            return len(self.origins) > 0
+        except ArgumentError:
+            return False
 
     def _defect(self, index: int) -> Defect:
         found = ffi.new("ricci_defect *")

@@ -12,9 +12,24 @@ import numpy.typing as npt
 
 from ricci import _arrays
 from ricci._arrays import frozen
-from ricci._call import CONTROL, Doubles, Handle, Indices, Signed, call, constant, doubles, filled, path_bytes, pointer, summary, text_of
+from ricci._call import (
+    CONTROL,
+    Doubles,
+    Handle,
+    Indices,
+    Signed,
+    call,
+    constant,
+    doubles,
+    filled,
+    path_bytes,
+    pointer,
+    signed_view,
+    summary,
+    text_of,
+)
 from ricci._library import lib
-from ricci._structs import Struct, Write, index_list, number, options, real_list
+from ricci._structs import Struct, Write, above_zero, index_list, options, or_none, real_list
 from ricci.adapters import MeshLike, as_mesh
 from ricci.atlases import structure
 from ricci.control import Progress
@@ -58,7 +73,7 @@ class SurfaceOptions(TypedDict, total=False):
         fairness: weight of the variation of bending in the first round; 1e-10.
         spread: least distance of knots from their vertex; 0.9.
         rounds: times that the sizes of the triangles are adapted to the errors; 6.
-        corrections: times at most that vertices are moved to the nearest points of the spline; 20, negative: none.
+        corrections: times at most that vertices are moved to the nearest points of the spline; 20; 0: none.
         threads: one per core. The result does not depend on it.
     """
 
@@ -73,13 +88,13 @@ class SurfaceOptions(TypedDict, total=False):
 
 
 _PLANE: dict[str, Write] = {
-    "degree": number,
-    "spread": number,
+    "degree": above_zero,
+    "spread": above_zero,
     "knots": real_list(),
     "coincident": index_list("n_coincident"),
     "creases": index_list("n_creases", 2),
 }
-_SURFACE: dict[str, Write] = dict.fromkeys(SurfaceOptions.__annotations__, number)
+_SURFACE: dict[str, Write] = {**dict.fromkeys(SurfaceOptions.__annotations__, above_zero), "corrections": or_none}
 
 
 def _places(parameters: npt.ArrayLike, patches: npt.ArrayLike | None) -> Struct:
@@ -100,6 +115,7 @@ class Spline(Handle):
     """A spline surface: basis functions over a domain, with a control point each. It never changes."""
 
     _type: ClassVar[str] = "spline"
+    _made_by: ClassVar[str] = "ricci.spline(mesh)"
 
     @classmethod
     def plane(cls, domain: MeshLike, **given: Unpack[PlaneOptions]) -> Self:
@@ -127,6 +143,10 @@ class Spline(Handle):
     def read(cls, path: str | os.PathLike[str]) -> Self:
         """The spline of a file, `ricci-spline 1`."""
         return cls._made(lib.ricci_spline_read, path_bytes(path))
+
+    def __reduce__(self) -> Any:
+        """The text of the spline's file, which reads back as it was."""
+        return Spline.parse, (self.text(),)
 
     @classmethod
     def parse(cls, text: str) -> Self:
@@ -158,10 +178,10 @@ class Spline(Handle):
             points: k x 3.
             places: k x 2, where in the spline they belong; None: over their own x and y.
             progress: a `Control` or a callback.
-            how: `fairness`, the weight of the variation of bending (1e-12; below 0: none), and `threads`.
+            how: `fairness`, the weight of the variation of bending (1e-12; 0: none), and `threads`.
         """
         array = _arrays.real(points, 3, "points")
-        struct = options("spline_fit_options", how, {"fairness": number, "threads": number})
+        struct = options("spline_fit_options", how, {"fairness": or_none, "threads": above_zero})
         if places is not None:
             struct.put("places", _places(places, None))
         return Spline._made(lib.ricci_spline_fit, self, pointer(array), len(array), struct, CONTROL, progress=progress)
@@ -242,7 +262,7 @@ class Spline(Handle):
             values.size,
             progress=progress,
         )
-        return patches, values[:, :2], values[:, 2:5], values[:, 5]
+        return signed_view(patches), values[:, :2], values[:, 2:5], values[:, 5]
 
     def blossom(self, patch: int, arguments: npt.ArrayLike) -> Doubles:
         """The polar form of the polynomial in the middle of a patch at `arguments`, degree x 2: a point in space."""
@@ -289,6 +309,7 @@ def flat_metric(mesh: Mesh, singular: int | None = None, progress: Progress = No
     Raises:
         ArgumentError: a sphere, whose curvature has no place in the plane.
     """
+    mesh = as_mesh(mesh)
     if mesh.euler > 0 and mesh.summary.n_boundary_loops == 0:
         raise ArgumentError("a sphere has no flat metric; open it, or use the command `ricci spline fit`")
     curvatures = np.zeros(mesh.n_vertices)

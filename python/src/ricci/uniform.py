@@ -15,6 +15,7 @@ from ricci._library import lib
 from ricci._structs import Write, choice, index_list, nested, one_index, options, real_list
 from ricci.adapters import MeshLike, as_mesh
 from ricci.control import Progress
+from ricci.errors import ArgumentError, warn
 from ricci.figures import UniformSummary
 from ricci.figures.names import Model, On, Scheme
 from ricci.fundamental import Domain, Homotopy
@@ -51,6 +52,8 @@ class UniformOptions(TypedDict, total=False):
 def _corners(struct: Any, field: str, value: Any) -> None:
     """Vertices, or their number."""
     if isinstance(value, int | np.integer):
+        if value < 1:
+            raise ArgumentError(f"corners is {value}: at least 1, or None for none")
         struct.put("n_corners", int(value))
     else:
         index_list("n_corners")(struct, field, value)
@@ -75,6 +78,7 @@ class Uniform(Handle):
     """
 
     _type: ClassVar[str] = "uniform"
+    _made_by: ClassVar[str] = "ricci.uniformize(mesh)"
 
     @cached_property
     def summary(self) -> UniformSummary:
@@ -157,8 +161,15 @@ def uniformize(V: MeshLike, F: npt.ArrayLike | None = None, progress: Progress =
         progress: a `Control` or a callback.
         given: base, boundary, corners, flow (`UniformOptions`).
 
+    Warns:
+        NotConverged: the result did not come to its metric; `summary` says why.
+
     Raises:
         LayoutError: geodesics around a disk.
         TargetError: angles of corners that do not add up.
     """
-    return Uniform._made(lib.ricci_uniformize, as_mesh(V, F), options("uniform_options", given, _UNIFORM), CONTROL, progress=progress)
+    made = Uniform._made(lib.ricci_uniformize, as_mesh(V, F), options("uniform_options", given, _UNIFORM), CONTROL, progress=progress)
+    s = made.summary
+    if not s.converged:
+        warn(f"the uniformization did not converge ({s.stop_reason}), curvature error {s.angle_defect:.1e}: look at its `summary`")
+    return made

@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable, Mapping
+from contextlib import closing
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import Any, Literal, TypedDict, Unpack
 
+from ricci._structs import known
 from ricci.cohorts.engines import engine_of
 from ricci.cohorts.jobs import Job, Outcome, Row, one, repaired, signature
-from ricci.errors import ArgumentError
-from ricci.mesh import Mesh
+from ricci.errors import ArgumentError, ArgumentTypeError
+from ricci.mesh import Mesh, read
 
 __all__ = ["CohortOptions", "CohortResult", "Job", "Outcome", "Row", "cohort", "repaired"]
 
@@ -66,13 +68,14 @@ def cohort(
     """Do one job on many meshes, into tables of the folder `out`.
 
     Each mesh is one row as soon as it is done; a run that was killed goes on where it stopped when it is called again, and its tables are
-    those of a run in one go, but for the reports' seconds. What fails on one mesh, a worker's death included, is that row's error. That a
-    file has changed since is not noticed: another version of the files wants another folder.
+    those of a run in one go, but for the reports' seconds. What fails on one mesh, a worker's death included, is that row's error. A folder
+    goes on with its own job alone: one whose code has changed, or a number that it uses, is refused there. That a file has changed since is
+    not noticed: another version of the files wants another folder.
 
     Args:
         paths: mesh files, each once.
-        job: a `Job`, or a function that takes what `read` makes and returns columns by name, or an `Outcome`; for other engines than
-            ``"inline"`` one that can be imported by the workers.
+        job: a `Job`, or a function that takes what `read` makes and returns columns by name, or an `Outcome`. One that is defined in a
+            script or a notebook is sent to workers by value, which takes the package cloudpickle.
         out: the folder.
         how: engine, workers, read, retry, progress (`CohortOptions`).
 
@@ -81,19 +84,31 @@ def cohort(
     """
     from ricci.cohorts.store import Store
 
+    known(how, CohortOptions.__annotations__)
+    workers = how.get("workers")
+    if workers is not None and (not isinstance(workers, int) or workers < 1):
+        raise ArgumentError(f"workers is {workers!r}: a number of processes from 1, or None for one per core")
+    if isinstance(paths, str | bytes | os.PathLike):
+        raise ArgumentTypeError(f"paths are a list of files: [{os.fspath(paths)!r}]")
+    if not callable(job):
+        raise ArgumentTypeError(f"a job is a function of a mesh, or a Job, not {type(job).__name__}")
     names = [os.fspath(path) for path in paths]
     if len(set(names)) != len(names):
         twice = next(name for at, name in enumerate(names) if name in names[:at])
         raise ArgumentError(f"{twice} is there twice")
     engine = engine_of(how.get("engine", "processes"))
-    store = Store(Path(out), signature(job))
-    known = store.done()
-    todo = [name for name in names if name not in known or (how.get("retry", False) and not known[name])]
+    reader = how.get("read") or read
+    by = "" if reader in (read, Mesh.read) else f" read by {signature(reader)}"
+    store = Store(Path(out), signature(job) + by)
+    told = store.done()
+    todo = [name for name in names if name not in told or (how.get("retry", False) and not told[name])]
     done, tell = len(names) - len(todo), how.get("progress")
-    for row in engine(partial(one, job, how.get("read", Mesh.read)), todo, how.get("workers") or os.cpu_count() or 1):
-        store.add(row)
-        done += 1
-        if tell is not None:
-            tell(done, len(names), row)
+    # Closed however the run ends, so that no worker is left.
+    with closing(engine(partial(one, job, reader), todo, workers or os.cpu_count() or 1)) as rows:
+        for row in rows:
+            store.add(row)
+            done += 1
+            if tell is not None:
+                tell(done, len(names), row)
     tables = store.finish(names)
     return CohortResult(Path(out), tables["results"], tables["reports"])

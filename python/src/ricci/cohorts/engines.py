@@ -1,81 +1,156 @@
-"""Engines that do the work of a cohort: this process, several processes, or Dask. If a worker dies, only its current mesh fails."""
+"""Engines that do the work of a cohort: this process, several processes, or Dask. If a worker dies, only its current mesh fails.
+
+No engine leaves a process behind: workers end with the run, however it ends, and with this process, however that ends.
+"""
 
 from __future__ import annotations
 
 import multiprocessing
+import multiprocessing.spawn
+import pickle
+import signal
+import subprocess
+import sys
 from collections import deque
-from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
-from concurrent.futures.process import BrokenProcessPool
+from collections.abc import Callable, Generator, Sequence
+from contextlib import suppress
+from multiprocessing.connection import wait
 from typing import Any
 
 from ricci.cohorts.jobs import Row, failed
-from ricci.errors import ArgumentError
+from ricci.cohorts.worker import REFUSED, ROW
+from ricci.errors import ArgumentError, ArgumentTypeError
 
 Work = Callable[[str], Row]
+Rows = Generator[Row, None, None]
 
 
 class WorkerDied(Exception):
     """The process that was at a mesh ended before it had a row."""
 
 
-def inline(work: Work, paths: Sequence[str], _: int) -> Iterator[Row]:
-    """Does the work in this process, one mesh after the other."""
-    return map(work, paths)
+def packed(work: Work) -> bytes:
+    """The work as bytes for another process: by name where it can be imported there, else by value.
 
-
-def _pool(workers: int) -> ProcessPoolExecutor:
-    # A forked child would inherit locks that are held by threads which it does not have.
-    return ProcessPoolExecutor(workers, mp_context=multiprocessing.get_context("spawn"))
-
-
-def _row(future: Future[Row], path: str) -> Row:
-    """The row that a worker has sent. If the row could not be sent, that is the error of the mesh."""
+    Raises:
+        ArgumentError: it cannot be sent; the message says what to do.
+    """
+    advice = 'put it into a module that can be imported, or take engine="inline"'
     try:
-        return future.result()
-    except BrokenProcessPool:
-        raise
+        by_name = pickle.dumps(work)
+    except Exception:
+        by_name = b"__main__"
+    # A script is not imported by workers, and a notebook has no file that could be.
+    if b"__main__" not in by_name:
+        return by_name
+    try:
+        import cloudpickle
+    except ImportError:
+        raise ArgumentError(
+            f"the job or its reader is defined in the script or notebook itself, or within a function: pip install cloudpickle, {advice}"
+        ) from None
+    try:
+        return bytes(cloudpickle.dumps(work))
     except Exception as wrong:
-        return failed(path, wrong)
+        raise ArgumentError(f"the job or its reader cannot be sent to workers ({wrong}): {advice}") from wrong
 
 
-def _alone(work: Work, path: str) -> Row:
-    """One mesh in a process of its own."""
-    with _pool(1) as pool:
+def inline(work: Work, paths: Sequence[str], _: int) -> Rows:
+    """Does the work in this process, one mesh after the other."""
+    for path in paths:
+        yield work(path)
+
+
+class _Worker:
+    """A process that does the work on one mesh at a time, and the mesh that it is at."""
+
+    def __init__(self, payload: bytes) -> None:
+        self.connection, theirs = multiprocessing.Pipe()
+        self.path: str | None = None
+        serve = f"from ricci.cohorts.worker import serve; serve({theirs.fileno()})"
+        # A new interpreter: a forked child would inherit locks that are held by threads which it does not have. The script that calls
+        # this is not run again in it, so that it needs no guard.
+        self.process = subprocess.Popen(
+            [multiprocessing.spawn.get_executable() or sys.executable, "-c", f"import sys; sys.path[:] = {sys.path!r}; {serve}"],
+            stdin=subprocess.DEVNULL,
+            pass_fds=[theirs.fileno()],
+        )
+        theirs.close()
+        self._send(payload)
+
+    def begin(self, path: str) -> None:
+        """Name the mesh that it is to work on."""
+        self.path = path
+        self._send(path.encode("utf-8", "surrogateescape"))
+
+    def _send(self, message: bytes) -> None:
+        # If it is dead, `answer` finds that.
+        with suppress(OSError):
+            self.connection.send_bytes(message)
+
+    def answer(self) -> Row | None:
+        """The row of its mesh, that it has died there included; None: it is ready for work.
+
+        Raises:
+            ArgumentError: it cannot load the work.
+        """
         try:
-            return _row(pool.submit(work, path), path)
-        except BrokenProcessPool:
-            return failed(path, WorkerDied("the process that worked on it has died"))
+            kind, content = pickle.loads(self.connection.recv_bytes())
+        except (EOFError, OSError):
+            path, self.path = self.path or "", None
+            return failed(path, WorkerDied(f"the process that worked on it has died ({_how_ended(self.process.wait())})"))
+        if kind == REFUSED:
+            raise ArgumentError(f"the workers cannot load the job or its reader ({content}): it must be importable where they run")
+        if kind == ROW:
+            self.path = None
+            row: Row = content
+            return row
+        return None
+
+    def end(self) -> None:
+        """End the process at once."""
+        self.connection.close()
+        self.process.kill()
+        self.process.wait()
 
 
-def processes(work: Work, paths: Sequence[str], workers: int) -> Iterator[Row]:
-    """Does the work in several processes. If one dies, the meshes under way are done again, each in a process of its own."""
-    waiting = deque(paths)
-    while waiting:
-        running: dict[Future[Row], str] = {}
-        with _pool(workers) as pool:
-            try:
-                while waiting or running:
-                    while waiting and len(running) < 2 * workers:
-                        running[pool.submit(work, waiting[0])] = waiting[0]
-                        waiting.popleft()
-                    for future in wait(running, return_when=FIRST_COMPLETED).done:
-                        row = _row(future, running[future])
-                        del running[future]
-                        yield row
-            except BrokenProcessPool:
-                pass
-            except BaseException:
-                pool.shutdown(wait=False, cancel_futures=True)
-                raise
-        for path in running.values():
-            yield _alone(work, path)
+def _how_ended(code: int) -> str:
+    """The end of a process in words."""
+    if code >= 0:
+        return f"exit status {code}"
+    reason = ", as the system does to one that takes too much memory" if -code == signal.SIGKILL else ""
+    return f"signal {signal.Signals(-code).name}{reason}"
 
 
-def dask(work: Work, paths: Sequence[str], workers: int, client: Any = None) -> Iterator[Row]:
+def processes(work: Work, paths: Sequence[str], workers: int) -> Rows:
+    """Does the work in several processes, each at one mesh. If one dies, another takes its place."""
+    payload, waiting = packed(work), deque(paths)
+    crew: list[_Worker] = []
+    try:
+        while waiting or crew:
+            while waiting and len(crew) < workers:
+                crew.append(_Worker(payload))
+                crew[-1].begin(waiting.popleft())
+            for worker in [worker for worker in crew if worker.connection in wait([w.connection for w in crew])]:
+                row = worker.answer()
+                if row is None:
+                    continue
+                if worker.process.poll() is None and waiting:
+                    worker.begin(waiting.popleft())
+                else:
+                    crew.remove(worker)
+                    worker.end()
+                yield row
+    finally:
+        for worker in crew:
+            worker.end()
+
+
+def dask(work: Work, paths: Sequence[str], workers: int, client: Any = None) -> Rows:
     """Does the work with the workers of a `distributed.Client`, or of a local cluster of processes that is made for it."""
     from distributed import Client, KilledWorker, LocalCluster, as_completed
 
+    packed(work)
     if client is None:
         with (
             LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=":0") as cluster,
@@ -85,22 +160,29 @@ def dask(work: Work, paths: Sequence[str], workers: int, client: Any = None) -> 
         return
     futures = {client.submit(work, path, pure=False): path for path in paths}
     suspects = []
-    for future in as_completed(list(futures)):
-        path = futures.pop(future)
-        wrong = future.exception()
-        if isinstance(wrong, KilledWorker):
-            suspects.append(path)
-        else:
-            yield future.result() if wrong is None else failed(path, wrong)
-        future.release()
-    # Dask blames every mesh that waited at a worker which died, so each is tried again by itself.
-    for path in suspects:
-        future = client.submit(work, path, pure=False)
-        wrong = future.exception()
-        yield future.result() if wrong is None else failed(path, WorkerDied(str(wrong)))
+    try:
+        for future in as_completed(list(futures)):
+            path = futures.pop(future)
+            wrong = future.exception()
+            if isinstance(wrong, KilledWorker):
+                suspects.append(path)
+            else:
+                yield future.result() if wrong is None else failed(path, wrong)
+            future.release()
+        # Dask blames every mesh that waited at a worker which died, so each is tried again by itself.
+        for path in suspects:
+            future = client.submit(work, path, pure=False)
+            futures[future] = path
+            wrong = future.exception()
+            del futures[future]
+            yield future.result() if wrong is None else failed(path, WorkerDied(str(wrong)))
+    finally:
+        # Those that have not begun; what a worker of the caller's client is at, it brings to its end.
+        if futures:
+            client.cancel(list(futures))
 
 
-def engine_of(engine: Any) -> Callable[[Work, Sequence[str], int], Iterator[Row]]:
+def engine_of(engine: Any) -> Callable[[Work, Sequence[str], int], Rows]:
     """The engine of this name, or that of a `distributed.Client`.
 
     Raises:
@@ -111,4 +193,5 @@ def engine_of(engine: Any) -> Callable[[Work, Sequence[str], int], Iterator[Row]
         return named[engine]
     if hasattr(engine, "submit") and hasattr(engine, "scheduler"):
         return lambda work, paths, workers: dask(work, paths, workers, engine)
-    raise ArgumentError(f"engine {engine!r}: {', '.join(named)}, or a distributed.Client")
+    kind = ArgumentError if isinstance(engine, str) else ArgumentTypeError
+    raise kind(f"engine {engine!r}: {', '.join(named)}, or a distributed.Client")

@@ -9,21 +9,22 @@ import time
 from collections.abc import Callable, Mapping
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass, field
-from functools import partial
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
-from ricci.atlases import structure
-from ricci.circle import circles
+from ricci._structs import known
+from ricci.atlases import StructureOptions, structure
+from ricci.circle import CircleOptions, circles
+from ricci.cohorts.fingerprint import digest, name_of, spelled
 from ricci.control import Control
-from ricci.errors import RicciError
-from ricci.form import forms
+from ricci.errors import ArgumentError, RicciError, silent
+from ricci.form import FormsOptions, forms
 from ricci.mesh import Mesh
-from ricci.metrics import flow
+from ricci.metrics import FlowJob, FlowOptions, flow
 from ricci.soup import Soup
-from ricci.splines import spline
-from ricci.uniform import uniformize
+from ricci.splines import SurfaceOptions, spline
+from ricci.uniform import UniformOptions, uniformize
 
 __all__ = ["Job", "Outcome", "Row", "repaired"]
 
@@ -72,21 +73,26 @@ class Job:
     options: Mapping[str, Any] = field(default_factory=dict)
     seconds: float | None = None
 
+    def __post_init__(self) -> None:
+        if self.kind not in _OPTIONS:
+            raise ArgumentError(f"{self.kind!r} is none of {', '.join(_OPTIONS)}")
+        known(self.options, _OPTIONS[self.kind])
+        if "flow" in self.options:
+            known(self.options["flow"], FlowOptions.__annotations__)
+        if self.seconds is not None and not self.seconds > 0:
+            raise ArgumentError(f"seconds is {self.seconds}: above 0, or None for no limit")
+
     def __call__(self, mesh: Mesh) -> Outcome:
         """The outcome on one mesh."""
-        with _limit(self.seconds) as control:
+        # The column `converged` says what a warning would.
+        with silent(), _limit(self.seconds) as control:
             found, arrays = _KINDS[self.kind](mesh, self.options, control)
         figures = {name: value for name, value in found.items() if not name.startswith("seconds")}
         report = {name: value for name, value in found.items() if name.startswith("seconds")}
         return Outcome({**_figures(mesh), **figures, **arrays}, report)
 
     def __str__(self) -> str:
-        return f"{self.kind} {json.dumps(dict(self.options), sort_keys=True, default=_spelled)} within {self.seconds} s"
-
-
-def _spelled(value: Any) -> Any:
-    """The text of a value that JSON has no type for. Arrays become lists, because an array's repr would leave numbers out."""
-    return value.tolist() if isinstance(value, np.ndarray | np.generic) else repr(value)
+        return f"{self.kind} {json.dumps(dict(self.options), sort_keys=True, default=spelled)} within {self.seconds} s"
 
 
 @contextmanager
@@ -157,6 +163,18 @@ _KINDS: dict[str, Callable[[Mesh, Mapping[str, Any], Control], _Found]] = {
 }
 
 
+# The names of the options of each kind.
+_OPTIONS: dict[str, frozenset[str]] = {
+    "info": frozenset(),
+    "flow": frozenset({"target", *FlowJob.__annotations__}),
+    "uniformize": frozenset(UniformOptions.__annotations__),
+    "circles": frozenset(CircleOptions.__annotations__),
+    "forms": frozenset(FormsOptions.__annotations__),
+    "structure": frozenset({"kind", *StructureOptions.__annotations__}),
+    "spline": frozenset(SurfaceOptions.__annotations__),
+}
+
+
 def repaired(path: str) -> Mesh:
     """A reader for cohorts of files with defects, which are repaired where that takes no guess."""
     return Soup.read(path).repair().mesh()
@@ -211,9 +229,5 @@ def one(job: Callable[[Any], Outcome | Mapping[str, Any]], read: Callable[[str],
 
 
 def signature(job: Any) -> str:
-    """The text that identifies a job: two runs with the same text may share a folder."""
-    if isinstance(job, Job):
-        return str(job)
-    if isinstance(job, partial):
-        return f"{signature(job.func)} {job.args!r} {job.keywords!r}"
-    return f"{job.__module__}.{job.__qualname__}" if hasattr(job, "__qualname__") else repr(job)
+    """The text that identifies a job, or a reader: two runs with the same text may share a folder."""
+    return str(job) if isinstance(job, Job) else f"{name_of(job)} #{digest(job)}"

@@ -14,6 +14,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from ricci._library import VERSION
+from ricci.cohorts.fingerprint import changed
 from ricci.cohorts.jobs import Row, failed
 from ricci.errors import ArgumentError
 
@@ -60,7 +61,11 @@ class Store:
         if note.exists():
             known = json.loads(note.read_text(encoding="utf-8"))["job"]
             if known != own:
-                raise ArgumentError(f"{folder} has the rows of another job: {known}, not {own}")
+                why = changed(known, own)
+                because = f" ({why})" if why else ""
+                raise ArgumentError(
+                    f"{folder} has the rows of another job{because}: {known}, not {own}. Name another folder, or delete this one"
+                )
         else:
             note.write_text(json.dumps({"job": own}), encoding="utf-8")
 

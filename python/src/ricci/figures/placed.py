@@ -118,7 +118,7 @@ class CircleDomainSummary:
         space: ``"e2"``: the unit disk (genus 0) or a flat torus (1); ``"h2"`` for more.
         converged: true if the curvature is within the tolerance, no circles overlap and no triangle is flipped.
         stop_reason: why the flow stopped.
-        outer: genus 0: the loop on the unit circle; else 4294967295.
+        outer: genus 0: the loop on the unit circle; else -1.
         n_circles: circles: one per boundary loop of the mesh.
         n_overlapping: circles that overlap another one.
         iterations: Newton steps of all flows.
