@@ -150,7 +150,9 @@ pub unsafe extern "C" fn ricci_soup_with_attributes(
         }
         let given = structs::read(attributes)?;
         if !given.png.is_null() {
-            return Err(Failure::argument("png is written into a file, it is no attribute of a triangle list"));
+            return Err(Failure::argument(
+                "png is written into a file, it is no attribute of a triangle list",
+            ));
         }
         let attributes = given.of(soup)?;
         Ok(ricci_soup::new(Soup { attributes, ..Soup::new(soup.positions.clone(), soup.faces.clone()) }))

@@ -25,7 +25,9 @@ impl TextureFile<'_> {
         })?;
         if format != Format::Obj {
             if weights.is_some() {
-                return Err(Failure::argument("homogeneous texture coordinates are written in .obj files only"));
+                return Err(Failure::argument(
+                    "homogeneous texture coordinates are written in .obj files only",
+                ));
             }
             return self.write_as(format, path, positions.to_vec());
         }
