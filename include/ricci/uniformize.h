@@ -1114,7 +1114,8 @@ RICCI_API ricci_status ricci_atlas_motions(const ricci_atlas *atlas, double *mot
  *
  * A file of that name is replaced only once the new one is complete.
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_UNKNOWN_FORMAT, RICCI_ARGUMENT (the mesh is
- * intrinsic; what the format has no place for), RICCI_DOMAIN, RICCI_LAYOUT (homogeneous charts of a layout that is not in E2).
+ * intrinsic; what the format has no place for), RICCI_DOMAIN, RICCI_LAYOUT (homogeneous charts of a layout
+ * that is not in E2).
  *
  * @param atlas        the atlas.
  * @param homogeneous  1: `vt qx qy q` with the q of ricci_map_weights; 0: `vt x y`.

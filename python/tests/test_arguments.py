@@ -73,7 +73,7 @@ FINE = {
     "progress": (type(None), type(print)),
     "start": (type(None),),
     "options": (type(None), dict),
-    "indices": (type(None), list, tuple),
+    "indices": (type(None), int, list, tuple),
     "root": (type(None), int),
     "base": (type(None), int),
     "job": (dict,),

@@ -167,6 +167,19 @@ def test_a_folder_refuses_an_edited_job_or_reader(files, tmp_path):
     assert ricci.cohort(files, made(PLAIN), **run_it, read=ricci.Mesh.read).failures == []
 
 
+def test_a_folder_without_rows_takes_any_job(files, tmp_path):
+    held = threading.Lock()
+    with pytest.raises(ricci.ArgumentError, match="cannot be sent"):
+        ricci.cohort(files, lambda mesh: {"a": held}, tmp_path / "out")
+    assert ricci.cohort(files, made(PLAIN), tmp_path / "out", engine="inline").failures == []
+
+
+def test_workers_that_cannot_start_end_the_run(files, tmp_path, monkeypatch):
+    monkeypatch.setenv("RICCI_LIBRARY", str(tmp_path / "nothing.so"))
+    with pytest.raises(RuntimeError, match=r"a worker ended before it had loaded the job \(exit status 1\)"):
+        ricci.cohort(files, cohort_jobs.counts, tmp_path / "out", workers=2)
+
+
 def test_a_users_module_counts_with_its_text(tmp_path, monkeypatch):
     monkeypatch.syspath_prepend(str(tmp_path))
     (tmp_path / "a_users_own.py").write_text("K = 1\n")

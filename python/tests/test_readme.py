@@ -22,7 +22,7 @@ def test_the_examples_of_the_package_run(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     found = run(ROOT / "python" / "README.md")
     assert found["flat"].converged
-    assert len(found["cover"]) == 9
+    assert len(found["cover"]) == 19
     assert (found["wrong_at"].element, found["wrong_at"].index) == ("vertex", 7)
     assert found["found"].failures == []
     assert (tmp_path / "flat.obj").exists()

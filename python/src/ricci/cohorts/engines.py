@@ -67,6 +67,7 @@ class _Worker:
     def __init__(self, payload: bytes) -> None:
         self.connection, theirs = multiprocessing.Pipe()
         self.path: str | None = None
+        self.loaded = False
         serve = f"from ricci.cohorts.worker import serve; serve({theirs.fileno()})"
         # A new interpreter: a forked child would inherit locks that are held by threads which it does not have. The script that calls
         # this is not run again in it, so that it needs no guard.
@@ -93,12 +94,17 @@ class _Worker:
 
         Raises:
             ArgumentError: it cannot load the work.
+            RuntimeError: it ended before it came to that, as where this package cannot be imported.
         """
         try:
             kind, content = pickle.loads(self.connection.recv_bytes())
         except (EOFError, OSError):
+            ended = _how_ended(self.process.wait())
+            if not self.loaded:
+                raise RuntimeError(f"a worker ended before it had loaded the job ({ended}): what it wrote to stderr says why") from None
             path, self.path = self.path or "", None
-            return failed(path, WorkerDied(f"the process that worked on it has died ({_how_ended(self.process.wait())})"))
+            return failed(path, WorkerDied(f"the process that worked on it has died ({ended})"))
+        self.loaded = True
         if kind == REFUSED:
             raise ArgumentError(f"the workers cannot load the job or its reader ({content}): it must be importable where they run")
         if kind == ROW:

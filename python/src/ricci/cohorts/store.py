@@ -58,7 +58,7 @@ class Store:
         self.folder, self.rows = folder, folder / "rows"
         self.rows.mkdir(parents=True, exist_ok=True)
         note, own = folder / "job.json", f"{job}, ricci {VERSION}"
-        if note.exists():
+        if note.exists() and (any(self.rows.iterdir()) or (folder / "results.parquet").exists()):
             known = json.loads(note.read_text(encoding="utf-8"))["job"]
             if known != own:
                 why = changed(known, own)
