@@ -7,6 +7,7 @@ use crate::harmonic::HarmonicArgs;
 use crate::info::InfoArgs;
 use crate::matching::MatchArgs;
 use crate::options::Common;
+use crate::refine::RefineArgs;
 use crate::repair::RepairArgs;
 use crate::spline::SplineArgs;
 use crate::structure::StructureArgs;
@@ -38,6 +39,9 @@ pub enum Command {
     /// Mend what can be mended without a guess, with a map back to the input
     #[command(after_help = crate::repair::HELP)]
     Repair(RepairArgs),
+    /// Finer triangles of the same surface, in space with the way back, or of its metric with a least angle
+    #[command(after_help = crate::refine::HELP)]
+    Refine(RefineArgs),
     /// The conformal metric with a prescribed curvature, and its layout
     #[command(after_help = crate::flow_args::HELP)]
     Flow(FlowArgs),

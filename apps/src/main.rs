@@ -30,6 +30,7 @@ mod output;
 mod picture;
 mod progress;
 mod quantity;
+mod refine;
 mod repair;
 mod report;
 mod runner;
@@ -76,6 +77,7 @@ fn run(command: &Command, control: &Control) -> Result<u8, Failure> {
         Command::Structure(args) => runner::run(args, control),
         Command::Info(args) => runner::run(args, control),
         Command::Repair(args) => runner::run(args, control),
+        Command::Refine(args) => runner::run(args, control),
         Command::Spline(args) => spline::run(args, control),
         Command::Make(args) => runner::run(args, control),
         Command::Demo(args) => demo::run(args, control),

@@ -47,7 +47,7 @@ const TURNING: f64 = 1e-6;
 const PAIRED: f64 = 1e-8;
 
 fn none(why: &str) -> Error {
-    let advice = "the surface reaches farther in its metric than its isometries have digits; take another base vertex or a finer mesh";
+    let advice = "the surface reaches farther in its metric than its isometries have digits; take another base vertex or a finer mesh (`ricci refine`)";
     Error::Layout(format!("no Dirichlet domain: {why} ({advice})"))
 }
 

@@ -46,6 +46,11 @@ impl<I, T> PerElement<I, T> {
         (0..n).map(I::from).map(f).collect::<Vec<_>>().into()
     }
 
+    /// Adds the entries of elements that were added.
+    pub(crate) fn extend(&mut self, values: impl IntoIterator<Item = T>) {
+        self.values.extend(values);
+    }
+
     /// The entries as a plain vector.
     pub fn into_vec(self) -> Vec<T> {
         self.values

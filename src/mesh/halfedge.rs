@@ -295,6 +295,26 @@ impl Mesh {
         self.out[v.index()] = h.0;
     }
 
+    /// Adds a vertex that nothing leads to yet.
+    pub(super) fn add_vertex(&mut self) -> VertexId {
+        self.out.push(OUTSIDE);
+        VertexId::from(self.out.len() - 1)
+    }
+
+    /// Adds an edge that no face has yet; its half-edge 2e starts at `from`.
+    pub(super) fn add_edge(&mut self, from: VertexId, to: VertexId) -> EdgeId {
+        self.next.extend([OUTSIDE; 2]);
+        self.face.extend([OUTSIDE; 2]);
+        self.origin.extend([from.0, to.0]);
+        EdgeId::from(self.n_edges() - 1)
+    }
+
+    /// Adds a face without sides.
+    pub(super) fn add_face(&mut self) -> FaceId {
+        self.first.push(OUTSIDE);
+        FaceId::from(self.first.len() - 1)
+    }
+
     /// Checks every rule of the structure. O(V + E + F).
     ///
     /// # Errors

@@ -19,11 +19,13 @@ pub mod flip_log;
 pub mod halfedge;
 pub mod ids;
 mod incidence;
+mod insert;
 pub mod io;
 mod join;
 pub mod normal;
 pub mod normal_trace;
 pub mod place;
+pub mod refine;
 pub mod remove;
 pub mod repair;
 pub mod shapes;
@@ -40,6 +42,7 @@ pub use ids::{EdgeId, FaceId, HalfedgeId, VertexId};
 pub use normal::NormalCoordinates;
 pub use normal_trace::Curves;
 pub use place::Place;
+pub use refine::{Refine, RefinedSoup};
 pub use remove::{Thinned, Thinning};
 
 /// A point of space, `[x, y, z]`.

@@ -17,7 +17,7 @@
 //! # Ok::<(), ricci::Error>(())
 //! ```
 
-use super::flip_queue::{FlipQueue, Flippable, allowance, endless};
+use super::flip_queue::{FlipQueue, Flippable, allowance, between_faces, endless};
 use super::lengths::face_lengths;
 use crate::control::Control;
 use crate::error::{Result, check_size};
@@ -91,6 +91,19 @@ pub fn intrinsic_delaunay(
     let most = allowance(mesh.n_edges());
     let flips = IsometricFlips { geometry: *geometry, circles: options.circles, most };
     flips.make(surface, options.fixed, record, control)
+}
+
+/// Length of the other diagonal of an edge that is not Delaunay; none for an edge that is, that has none, or whose flip would make a
+/// triangle too thin for f64.
+pub(super) fn delaunay_flip(
+    geometry: Space,
+    mesh: &Mesh,
+    lengths: &PerEdge<f64>,
+    h: HalfedgeId,
+) -> Option<f64> {
+    let flips = IsometricFlips { geometry, circles: None, most: 0 };
+    let may_flip = between_faces(mesh, h) && flips.fails(mesh, lengths, h);
+    may_flip.then(|| flips.flipped(mesh, lengths, h)).flatten()
 }
 
 /// Flips of the edges that fail a Delaunay condition.

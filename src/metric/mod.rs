@@ -8,6 +8,7 @@
 //! # Ok::<(), ricci::Error>(())
 //! ```
 
+pub mod angle_refinement;
 pub mod class;
 pub mod common_subdivision;
 pub mod curvature;
@@ -17,6 +18,7 @@ pub mod initial;
 pub mod isometric;
 pub mod lengths;
 pub mod measured;
+mod plane_walk;
 pub mod precise;
 pub mod scheme;
 pub mod shape_quality;
@@ -25,6 +27,7 @@ pub mod start;
 pub mod surface;
 pub mod target;
 
+pub use angle_refinement::{AngleRefinement, AngleReport};
 pub use class::Class;
 pub use common_subdivision::CommonSubdivision;
 pub use curvature::{Curvature, curvature};

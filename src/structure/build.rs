@@ -40,7 +40,9 @@ fn chart(found: StructureSource, options: &AtlasOptions, control: &Control) -> R
         ChartKind::Patches => AtlasCover::new(sheet, options.radius, control).cover()?,
     };
     if drafts.is_empty() {
-        return Err(Error::Layout("every vertex is singular: refine the surface".into()));
+        return Err(Error::Layout(
+            "every vertex is singular: refine the surface (`ricci refine --levels 1`)".into(),
+        ));
     }
     let mut lifts = FaceLifts::new(&drafts, sheet.mesh().n_faces());
     let overlaps = lifts.find_overlaps(&drafts, control)?;

@@ -52,7 +52,7 @@ pub fn circle_domain(
 /// The error of loops whose circles overlap.
 fn crowded(loops: &[usize]) -> Error {
     Error::Layout(format!(
-        "the circles of boundary loops {loops:?} overlap, also with their edges halved {ROUNDS} times: refine the surface between these loops"
+        "the circles of boundary loops {loops:?} overlap, also with their edges halved {ROUNDS} times: refine the surface between these loops (`ricci refine --edge L`)"
     ))
 }
 

@@ -54,7 +54,7 @@ pub(crate) fn unfold(
     match folded.first() {
         None => Ok(moved.iter().filter(|m| **m).count()),
         Some(f) => Err(Error::Matching(format!(
-            "{} faces fold in the canonical domain and could not be opened, the first face {f}: refine the surface there",
+            "{} faces fold in the canonical domain and could not be opened, the first face {f}: refine the surface (`ricci refine --edge L`)",
             folded.len()
         ))),
     }

@@ -136,7 +136,7 @@ fn with_nearest(
         return Ok(found);
     }
     Err(Error::Matching(format!(
-        "the boundary of {} vertices is too coarse for {CORNERS} corners: name pairs of vertices on it as landmarks, or refine it",
+        "the boundary of {} vertices is too coarse for {CORNERS} corners: name pairs of vertices on it as landmarks, or refine it (`ricci refine --edge L`)",
         boundary.len()
     )))
 }

@@ -70,7 +70,7 @@ impl<'a> PathRouter<'a> {
         let (starts, ends) = (allowed(0, a), allowed(1, b));
         let Some(path) = self.shortest(a, &starts, b, &ends) else {
             return Err(Error::Matching(format!(
-                "no edge path is left between {} and {} beside those between other marks: refine the surface there, or leave one of them out",
+                "no edge path is left between {} and {} beside those between other marks: refine the surface (`ricci refine --edge L`), or leave one of them out",
                 self.marks.name(a),
                 self.marks.name(b)
             )));

@@ -126,7 +126,7 @@ impl SoftPath {
                 .min_by(|g, h| down(g).total_cmp(&down(h)));
             let Some(h) = next else {
                 return Err(Error::Matching(format!(
-                    "a soft landmark has no way inside the target to vertex {to}: refine it there"
+                    "a soft landmark has no way inside the target to vertex {to}: refine the target (`ricci refine --edge L`)"
                 )));
             };
             edges.push(h);

@@ -383,7 +383,7 @@ fn no_way(pushes: &[PushedLandmark], k: usize, mut others: Vec<usize>) -> Error 
     others.dedup();
     let names: Vec<&str> = others.into_iter().map(|other| pushes[other].name.as_str()).collect();
     Error::Matching(format!(
-        "{} has no way to its goal: it is in conflict with {}; refine the target there, or leave one of them out",
+        "{} has no way to its goal: it is in conflict with {}; refine the target (`ricci refine --edge L`), or leave one of them out",
         pushes[k].name,
         names.join(", ")
     ))

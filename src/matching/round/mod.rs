@@ -136,7 +136,7 @@ fn image(
         rings *= 2;
     }
     Err(Error::Matching(format!(
-        "{} faces of the source fold beside round holes and could not be opened, the first in face {}: refine the surface there, or let its loops become geodesics",
+        "{} faces of the source fold beside round holes and could not be opened, the first in face {}: refine the surface (`ricci refine --edge L`), or let its loops become geodesics",
         folded.len(),
         folded.first().map_or(0, |&f| common.splits[0].place(f).0.index())
     )))

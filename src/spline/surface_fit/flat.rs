@@ -187,7 +187,7 @@ impl FlatMetric {
         let wrong = mesh.faces().filter(|f| !is_upright(f)).count();
         if let Some(f) = mesh.faces().find(|f| !is_upright(f)) {
             return Err(Error::Layout(format!(
-                "the holomorphic form turns {wrong} triangles over, triangle {f} among them, so that |ω| is no metric there: refine the surface, or take the flow"
+                "the holomorphic form turns {wrong} triangles over, triangle {f} among them, so that |ω| is no metric there: refine the surface (`ricci refine --levels 1`), or take the flow"
             )));
         }
         let lengths =
