@@ -59,7 +59,8 @@ pub struct MatchOptions {
     /// searched.
     pub basis: Vec<[Vec<HalfedgeId>; 2]>,
     /// Per boundary loop of the source the one of the target to which it goes, by their places in [`crate::mesh::Mesh::boundary_loops`].
-    /// Default: the longest to the longest, and so on. On surfaces with handles loops whose lengths are nearly equal are also exchanged, if
+    /// Default: a loop with landmarks to that of their partners, of the others the longest to the longest, and so on. On surfaces with
+    /// handles loops without landmarks whose lengths are nearly equal are also exchanged, if
     /// that gives no more than six orders, and the order with the least energy is taken.
     pub loops: Option<Vec<usize>>,
     /// The rule by which boundaries correspond.

@@ -108,7 +108,7 @@ pub(super) fn in_best_order(
     check_landmarks_beside_circles(surfaces[0], landmarks, options)?;
     let is_open = options.loops.is_none() && options.basis.is_empty() && surfaces[0].mesh().genus() > 0;
     let orders = if is_open {
-        loop_orders(surfaces).into_iter().map(Some).collect()
+        loop_orders(surfaces, landmarks)?.into_iter().map(Some).collect()
     } else {
         vec![options.loops.clone()]
     };

@@ -119,7 +119,8 @@ pub struct MatchArgs {
     #[arg(long, value_name = "G.csv")]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub basis: Option<FileName>,
-    /// For each boundary loop of the source the target's that it goes to, numbered from 0 [default: by descending length]
+    /// For each boundary loop of the source the target's that it goes to, numbered from 0 [default: loops
+    /// with landmarks as these say, the others by descending length]
     #[arg(long, value_name = "K,K,…", value_delimiter = ',')]
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub loops: Vec<usize>,

@@ -46,7 +46,7 @@ class MatchOptions(TypedDict, total=False):
 
     Attributes:
         landmarks: k x 2 vertices, of the source and of the target, that correspond.
-        loops: for each boundary loop of the source that of the target; by descending length.
+        loops: for each boundary loop of the source that of the target; by landmarks on them, the others by descending length.
         points: pairs of points that correspond as landmarks do.
         curves: pairs of curves that correspond by shares of their lengths, as lists of vertices joined by edges.
         soft: k x 2 vertices inside that need not be met.
