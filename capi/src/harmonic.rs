@@ -82,7 +82,7 @@ fn plane(
             };
             planar::to_polygon(domain, &planar::regular_polygon(spec.n), Some(&corners), control)?
         }
-        HarmonicTarget::Rectangle => planar::to_rectangle(domain, corners(spec)?, control)?.0,
+        HarmonicTarget::Rectangle => planar::to_rectangle(domain, corners(spec)?, control)?.map,
         _ => planar::to_disk(domain, control)?,
     })
 }

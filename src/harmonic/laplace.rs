@@ -69,6 +69,22 @@ impl<'a> Laplace<'a> {
         Laplace::analysed(domain, &vec![false; n], Some(mass.to_vec()), control)
     }
 
+    /// As [`Laplace::with_mass`], between the vertices that are not held (V entries).
+    ///
+    /// # Errors
+    /// Those of [`Laplace::with_mass`].
+    pub fn held_with_mass(
+        domain: &'a Domain,
+        mass: &[f64],
+        held: &[bool],
+        control: &Control,
+    ) -> Result<Laplace<'a>> {
+        let n = domain.mesh().n_vertices();
+        check_size("masses", mass.len(), n)?;
+        check_size("held vertices", held.len(), n)?;
+        Laplace::analysed(domain, held, Some(mass.to_vec()), control)
+    }
+
     fn analysed(
         domain: &'a Domain,
         held: &[bool],

@@ -57,6 +57,32 @@ pub fn harmonic_map<const N: usize>(
     data: &MapConstraints<N>,
     control: &Control,
 ) -> Result<HarmonicMap<N>> {
+    let (mut points, held) = start_of(domain, data)?;
+    let laplace = Laplace::new(domain, |v| held[v.index()], control)?;
+    for k in 0..N {
+        control.check()?;
+        let mut column: Vec<f64> = points.iter().map(|p| p[k]).collect();
+        let load: Option<Vec<f64>> = data.flux.as_ref().map(|flux| flux.iter().map(|x| x[k]).collect());
+        laplace.extend(&mut column, load.as_deref())?;
+        points.iter_mut().zip(column).for_each(|(p, x)| p[k] = x);
+    }
+    let is_free = |v: usize| !laplace.is_held(v);
+    let mean_value_residual = mean_value_residual(domain, &points, data.flux.as_deref(), is_free);
+    let energy = energy(domain, &points);
+    if !energy.is_finite() {
+        return Err(Error::argument("energy of the map", energy, "finite: the values are too far apart"));
+    }
+    Ok(HarmonicMap { energy, mean_value_residual, points })
+}
+
+/// The given values, 0 at the other vertices, and per vertex whether it has a given value.
+///
+/// # Errors
+/// As [`harmonic_map`] for the data.
+pub(super) fn start_of<const N: usize>(
+    domain: &Domain,
+    data: &MapConstraints<N>,
+) -> Result<(Vec<[f64; N]>, Vec<bool>)> {
     let n = domain.mesh().n_vertices();
     let mut points = vec![[0.0; N]; n];
     let mut held = vec![false; n];
@@ -74,21 +100,7 @@ pub fn harmonic_map<const N: usize>(
     if let Some(flux) = &data.flux {
         check_flux(flux, n, data.values.is_empty())?;
     }
-    let laplace = Laplace::new(domain, |v| held[v.index()], control)?;
-    for k in 0..N {
-        control.check()?;
-        let mut column: Vec<f64> = points.iter().map(|p| p[k]).collect();
-        let load: Option<Vec<f64>> = data.flux.as_ref().map(|flux| flux.iter().map(|x| x[k]).collect());
-        laplace.extend(&mut column, load.as_deref())?;
-        points.iter_mut().zip(column).for_each(|(p, x)| p[k] = x);
-    }
-    let is_free = |v: usize| !laplace.is_held(v);
-    let mean_value_residual = mean_value_residual(domain, &points, data.flux.as_deref(), is_free);
-    let energy = energy(domain, &points);
-    if !energy.is_finite() {
-        return Err(Error::argument("energy of the map", energy, "finite: the values are too far apart"));
-    }
-    Ok(HarmonicMap { energy, mean_value_residual, points })
+    Ok((points, held))
 }
 
 fn check_flux<const N: usize>(flux: &[[f64; N]], n: usize, is_all: bool) -> Result<()> {
@@ -110,7 +122,8 @@ pub fn energy<const N: usize>(domain: &Domain, points: &[[f64; N]]) -> f64 {
     mesh.edges().map(|e| 0.5 * domain.weights()[e] * square(mesh.ends(e).map(|v| points[v.index()]))).sum()
 }
 
-fn mean_value_residual<const N: usize>(
+/// [`HarmonicMap::mean_value_residual`] over the vertices that count.
+pub(super) fn mean_value_residual<const N: usize>(
     domain: &Domain,
     points: &[[f64; N]],
     flux: Option<&[[f64; N]]>,

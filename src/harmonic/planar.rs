@@ -62,8 +62,16 @@ fn with_values(
 /// # Errors
 /// [`Error::Layout`] for a surface that is no disk; those of [`harmonic_map`].
 pub fn to_disk(domain: &Domain, control: &Control) -> Result<HarmonicMap<2>> {
+    with_values(domain, disk_values(domain)?, control)
+}
+
+/// The images of the boundary vertices under [`to_disk`].
+///
+/// # Errors
+/// [`Error::Layout`] for a surface that is no disk.
+pub fn disk_values(domain: &Domain) -> Result<Vec<(VertexId, Complex)>> {
     let on_circle = |(v, share): (VertexId, f64)| (v, [(TAU * share).cos(), (TAU * share).sin()]);
-    with_values(domain, boundary(domain)?.into_iter().map(on_circle).collect(), control)
+    Ok(boundary(domain)?.into_iter().map(on_circle).collect())
 }
 
 /// The harmonic map of a disk onto a convex polygon, with the boundary spread over each side by its length. `corners`: the vertices that
@@ -79,6 +87,18 @@ pub fn to_polygon(
     corners: Option<&[VertexId]>,
     control: &Control,
 ) -> Result<HarmonicMap<2>> {
+    with_values(domain, polygon_values(domain, polygon, corners)?, control)
+}
+
+/// The images of the boundary vertices under [`to_polygon`].
+///
+/// # Errors
+/// As [`to_polygon`].
+pub fn polygon_values(
+    domain: &Domain,
+    polygon: &[Complex],
+    corners: Option<&[VertexId]>,
+) -> Result<Vec<(VertexId, Complex)>> {
     let n = polygon.len();
     let turns =
         |k: usize| orientation(polygon[k], polygon[(k + 1) % n], polygon[(k + 2) % n]) == Ordering::Greater;
@@ -115,7 +135,7 @@ pub fn to_polygon(
         let t = (along(share) - along(shares[k])) / (end - along(shares[k]));
         (v, add(polygon[k], scale(t, sub(polygon[(k + 1) % n], polygon[k]))))
     };
-    with_values(domain, around.iter().copied().map(on_polygon).collect(), control)
+    Ok(around.iter().copied().map(on_polygon).collect())
 }
 
 /// The boundary vertex whose share of the length is nearest to this one.
@@ -166,6 +186,20 @@ fn corner_shares(around: &[(VertexId, f64)], corners: &[VertexId], n: usize) -> 
     Ok(shares)
 }
 
+/// The map of a disk with four corners onto the rectangle of its modulus.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RectangleMap {
+    /// The map onto `[0, modulus] × [0, 1]`.
+    pub map: HarmonicMap<2>,
+    /// The vertices that go to the rectangle's corners, from (0, 0) on, counterclockwise.
+    pub corners: [VertexId; 4],
+    /// The modulus: width over height of the rectangle that the disk is conformal to, up to O(h²). It is the geometric mean of its bounds.
+    pub modulus: f64,
+    /// A lower and an upper bound of the modulus of the triangulated surface itself, from the energies of both coordinates: each is at least
+    /// that of the smooth harmonic function with its values (Dirichlet's principle).
+    pub bounds: [f64; 2],
+}
+
 /// The map of a disk with four corners onto the rectangle of its modulus, `[0, width] × [0, 1]`, and the corners. Each coordinate is
 /// harmonic with given values on two sides and no flux through the others, so the map is conformal up to O(h²). The first side, from corner
 /// 0 to corner 1, is the bottom.
@@ -178,7 +212,7 @@ pub fn to_rectangle(
     domain: &Domain,
     corners: Option<[VertexId; 4]>,
     control: &Control,
-) -> Result<(HarmonicMap<2>, [VertexId; 4])> {
+) -> Result<RectangleMap> {
     let around = boundary(domain)?;
     let corners = match corners {
         Some(corners) => corners,
@@ -205,7 +239,9 @@ pub fn to_rectangle(
     let points: Vec<Complex> = x.points.iter().zip(&y.points).map(|([x], [y])| [width * x, *y]).collect();
     let energy = width * width * x.energy + y.energy;
     let mean_value_residual = x.mean_value_residual.max(y.mean_value_residual);
-    Ok((HarmonicMap { points, energy, mean_value_residual }, corners))
+    let bounds = [0.5 / x.energy, 2.0 * y.energy];
+    let map = HarmonicMap { points, energy, mean_value_residual };
+    Ok(RectangleMap { map, corners, modulus: width, bounds })
 }
 
 /// The faces of the domain whose images under a map to the plane are not counterclockwise, by exact arithmetic.

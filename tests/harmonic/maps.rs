@@ -170,7 +170,7 @@ fn a_sector_has_the_modulus_of_its_logarithm() {
         let soup = ricci::mesh::io::Soup { positions, faces, ..Default::default() };
         let domain = domain(&in_space(&soup));
         let corners = [id(0, 0), id(m, 0), id(m, n), id(0, n)].map(VertexId);
-        let (map, _) = to_rectangle(&domain, Some(corners), &Control::new()).unwrap();
+        let map = to_rectangle(&domain, Some(corners), &Control::new()).unwrap().map;
         let width = map.points.iter().map(|p| p[0]).fold(0.0, f64::max);
         assert!(flipped(&domain, &map.points).is_empty());
         (width - 1.0).abs()

@@ -1,6 +1,6 @@
 //! The options of `ricci harmonic`.
 
-use crate::options::{Common, FileName, SurfaceArgs};
+use crate::options::{Common, FileName, SurfaceArgs, positive};
 use crate::picture::PictureArgs;
 use clap::Args;
 use serde::Serialize;
@@ -20,7 +20,13 @@ convex regions then flip no triangle. Where two edges of it have the same ends, 
     sphere           a closed surface of genus 0 onto the unit sphere, centred
     file:F.csv       rows vertex,x,y: where these vertices go; the others are free
 
+--to rectangle reports the modulus, width over height, with a lower and an upper bound that hold for the surface of flat triangles itself.
+
+--method heat follows the heat flow df/dt = Δf from the mean of the given values, in implicit steps, and to the sphere the flow of the
+tangential part, in explicit ones; the energy falls at every step.
+
 Files
+    --trace T.csv              step,energy of the heat flow
     --uv OUT.obj | OUT.glb     the surface with the map to the plane as texture coordinates
     --sphere S.obj | S.glb     the input's vertices on the unit sphere, with the faces of the intrinsic Delaunay triangulation";
 
@@ -38,6 +44,20 @@ pub struct HarmonicArgs {
     #[arg(long, value_name = "V,V,…", value_delimiter = ',')]
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub corners: Vec<u32>,
+    /// Solve for the map, or follow the heat flow to it
+    #[arg(long, value_enum, default_value_t = HarmonicMethodChoice::Solve)]
+    pub method: HarmonicMethodChoice,
+    /// Length of a step of --method heat to the plane, a time in units of area [default: 1/100 of the surface's area]
+    #[arg(long, value_name = "T", value_parser = positive)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub step: Option<f64>,
+    /// Most steps of --method heat [default: 10000 to the plane, 2000 to the sphere]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub max_iterations: Option<u32>,
+    /// Write the energy at each step of --method heat
+    #[arg(long, value_name = "T.csv")]
+    pub trace: Option<FileName>,
     /// Write the surface with its map to the plane as texture coordinates, .obj or .glb
     #[arg(long, value_name = "OUT.obj")]
     pub uv: Option<FileName>,
@@ -50,6 +70,16 @@ pub struct HarmonicArgs {
     #[command(flatten)]
     #[serde(flatten)]
     pub common: Common,
+}
+
+/// The way to a harmonic map.
+#[derive(clap::ValueEnum, Serialize, Debug, Clone, Copy, PartialEq, Eq)]
+#[serde(rename_all = "lowercase")]
+pub enum HarmonicMethodChoice {
+    /// Linear solves; to the sphere, implicit steps in the metric of the image
+    Solve,
+    /// The heat flow
+    Heat,
 }
 
 /// The image that a surface is mapped onto.

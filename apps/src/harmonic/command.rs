@@ -1,6 +1,6 @@
 //! `ricci harmonic` as a job: what it refuses, computes, writes and reports.
 
-use super::args::{HarmonicArgs, MapTarget};
+use super::args::{HarmonicArgs, HarmonicMethodChoice, MapTarget};
 use super::files::{draw_sphere, write_sphere};
 use super::outcome::{HarmonicOutcome, MappedSurface};
 use crate::failure::Failure;
@@ -8,6 +8,7 @@ use crate::input::{self, Input};
 use crate::output::{check_extension, check_outputs};
 use crate::runner::{CommandRun, Job, JobHeader};
 use serde::Serialize;
+use std::io::Write;
 
 impl Job for HarmonicArgs {
     type Outcome = HarmonicOutcome;
@@ -21,11 +22,12 @@ impl Job for HarmonicArgs {
         check_extension("--sphere", self.sphere.as_deref(), &["obj", "glb"])?;
         check_extension("--picture", self.picture.picture.as_deref(), &["png", "svg"])?;
         check_corners(self)?;
+        check_method(self)?;
         let values = match &self.to {
             Some(MapTarget::File(path)) => Some(&**path),
             _ => None,
         };
-        let files = [&self.uv, &self.sphere, &self.picture.picture, &self.common.report];
+        let files = [&self.uv, &self.sphere, &self.trace, &self.picture.picture, &self.common.report];
         check_outputs(&[Some(&self.surface.file.mesh), values], &files.map(|file| file.as_deref()))
     }
 
@@ -39,6 +41,9 @@ impl Job for HarmonicArgs {
 
     fn write(&self, outcome: &HarmonicOutcome, run: &mut CommandRun<'_>) -> Result<(), Failure> {
         let picture = self.picture.picture.as_deref();
+        run.file("trace", self.trace.as_deref(), |outputs, path| {
+            outputs.add(path, |out| write_energies(out, outcome.energies()))
+        })?;
         match &outcome.map {
             MappedSurface::Plane(plane) => {
                 let input = outcome.mapped_input();
@@ -56,6 +61,34 @@ impl Job for HarmonicArgs {
     fn settings<'a>(&'a self, outcome: &'a HarmonicOutcome) -> impl Serialize + 'a {
         let input_geometry = outcome.input.surface.geometry().name();
         HarmonicSettings { input_geometry, args: self, to: &outcome.to }
+    }
+}
+
+/// The energy of a heat flow at its start and after each step.
+fn write_energies(out: &mut impl Write, energies: &[f64]) -> std::io::Result<()> {
+    writeln!(out, "step,energy")?;
+    energies.iter().enumerate().try_for_each(|(step, energy)| writeln!(out, "{step},{energy:?}"))
+}
+
+/// Refuse options that do not go with the method.
+fn check_method(args: &HarmonicArgs) -> Result<(), Failure> {
+    let is_heat = args.method == HarmonicMethodChoice::Heat;
+    let refused = [
+        (args.trace.is_some() && !is_heat, "--trace records the heat flow; add --method heat"),
+        (args.step.is_some() && !is_heat, "--step is one of the heat flow; add --method heat"),
+        (args.max_iterations.is_some() && !is_heat, "--max-iterations: of the heat flow; add --method heat"),
+        (
+            is_heat && args.to == Some(MapTarget::Rectangle),
+            "--method heat: the rectangle's modulus comes from two linear solves; take --to polygon:4 or --method solve",
+        ),
+        (
+            args.step.is_some() && args.to == Some(MapTarget::Sphere),
+            "--step: steps to the sphere choose their own length",
+        ),
+    ];
+    match refused.into_iter().find(|(refused, _)| *refused) {
+        Some((_, why)) => Err(Failure::Usage(why.into())),
+        None => Ok(()),
     }
 }
 

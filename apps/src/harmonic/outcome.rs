@@ -1,6 +1,6 @@
 //! A harmonic map with its checks, its figures and its summary.
 
-use super::args::{HarmonicArgs, MapTarget};
+use super::args::{HarmonicArgs, HarmonicMethodChoice, MapTarget};
 use crate::csv;
 use crate::failure::Failure;
 use crate::input::Input;
@@ -12,8 +12,8 @@ use ricci::Control;
 use ricci::geometry::complex::{distance, doubled_area};
 use ricci::geometry::triangle_flatness::LEAST_RELATIVE_AREA;
 use ricci::harmonic::{
-    Domain, HarmonicMap, MapConstraints, SphereMap, SphereMapOptions, harmonic_map, planar, simple_domain,
-    sphere_map,
+    Domain, HarmonicMap, HeatOptions, MapConstraints, SphereMap, SphereMapOptions, SphereMethod,
+    harmonic_map, heat_flow, planar, simple_domain, sphere_map,
 };
 use ricci::mesh::VertexId;
 use ricci::metric::CommonSubdivision;
@@ -21,8 +21,8 @@ use ricci::metric::CommonSubdivision;
 /// A map to the plane, carried back to the surface.
 pub struct PlaneMap {
     pub map: HarmonicMap<2>,
-    /// The vertices at the corners of a polygon or rectangle.
-    corners: Option<Vec<u32>>,
+    /// The vertices at the corners of a polygon or rectangle, its modulus, and the heat flow.
+    course: MapCourse,
     /// The common subdivision of the domain's triangulation and the given one; none where they are the same.
     pub subdivision: Option<CommonSubdivision>,
     /// The image of each vertex of the subdivision.
@@ -31,6 +31,17 @@ pub struct PlaneMap {
     pub flipped: usize,
     /// The number of pieces without area.
     pub degenerate: usize,
+}
+
+/// What is known of a map to the plane beside the map.
+#[derive(Default)]
+struct MapCourse {
+    /// The vertices at the corners of a polygon or rectangle.
+    corners: Option<Vec<VertexId>>,
+    /// The modulus of a rectangle, with its lower and its upper bound.
+    modulus: Option<(f64, [f64; 2])>,
+    /// The energies of a heat flow, and whether it converged.
+    heat: Option<(Vec<f64>, bool)>,
 }
 
 /// The image of a surface, with the map onto it.
@@ -52,6 +63,10 @@ pub struct HarmonicOutcome {
 /// Largest distance of a vertex from the mean of its neighbours, as a share of the size of the image.
 const MEAN_VALUE: f64 = 1e-10;
 
+/// Rise of the energy in a step of the heat flow that rounding may make, as a share of the energy at the start: where the flow has come to
+/// rest, sums over all edges differ in their last digits.
+const ENERGY_ROUNDING: f64 = 1e-14;
+
 impl HarmonicOutcome {
     pub fn new(
         input: Input,
@@ -72,11 +87,12 @@ impl HarmonicOutcome {
             Ok(domain)
         })?;
         let map = if to == MapTarget::Sphere {
-            let map = || doing("sphere", || sphere_map(&domain, &SphereMapOptions::default(), control));
+            let options = sphere_options(args);
+            let map = || doing("sphere", || sphere_map(&domain, &options, control));
             MappedSurface::Sphere(timed(&mut seconds.solve, map)?)
         } else {
-            let (map, corners) = timed(&mut seconds.solve, || map_to_plane(&domain, args, &to, control))?;
-            let carried = timed(&mut seconds.refine, || PlaneMap::new(&domain, map, corners, control))?;
+            let (map, course) = timed(&mut seconds.solve, || map_to_plane(&domain, args, &to, control))?;
+            let carried = timed(&mut seconds.refine, || PlaneMap::new(&domain, map, course, control))?;
             MappedSurface::Plane(Box::new(carried))
         };
         let added_vertices = domain.mesh().n_vertices() - input.mesh().n_vertices();
@@ -86,6 +102,19 @@ impl HarmonicOutcome {
     /// The surface that is mapped: the input, with the vertices added to it that the map needs.
     pub fn mapped_input(&self) -> &Input {
         self.refined.as_ref().unwrap_or(&self.input)
+    }
+
+    /// The energies of the steps to the map, the start included; empty for a map that was solved for.
+    pub fn energies(&self) -> &[f64] {
+        match &self.map {
+            MappedSurface::Plane(plane) => plane.course.heat.as_ref().map_or(&[], |(energies, _)| energies),
+            MappedSurface::Sphere(map) => &map.energies,
+        }
+    }
+
+    /// The largest rise of the energy in a step.
+    fn energy_rise(&self) -> f64 {
+        self.energies().windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max)
     }
 }
 
@@ -97,6 +126,11 @@ impl JobOutcome for HarmonicOutcome {
         match &self.map {
             MappedSurface::Plane(plane) => {
                 checks.add("mean_value_residual", plane.map.mean_value_residual, MEAN_VALUE);
+                if let Some((energies, converged)) = &plane.course.heat {
+                    let size = energies.first().copied().unwrap_or(0.0);
+                    checks.add("energy_rise", self.energy_rise(), ENERGY_ROUNDING * size);
+                    checks.add("not_converged", f64::from(u8::from(!converged)), 0.0);
+                }
                 // No triangle of a disk folds in a map onto a convex region.
                 if matches!(self.to, MapTarget::Disk | MapTarget::Polygon(_)) {
                     checks.add("flipped_triangles", plane.flipped as f64, 0.0);
@@ -104,8 +138,7 @@ impl JobOutcome for HarmonicOutcome {
             }
             MappedSurface::Sphere(map) => {
                 checks.add("flipped_triangles", map.flipped.len() as f64, 0.0);
-                let rise = map.energies.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
-                checks.add("energy_rise", rise, 0.0);
+                checks.add("energy_rise", self.energy_rise(), 0.0);
                 checks.add("not_converged", f64::from(u8::from(!map.converged)), 0.0);
             }
         }
@@ -126,7 +159,12 @@ impl JobOutcome for HarmonicOutcome {
                 .with("mean_value_residual", plane.map.mean_value_residual)
                 .with("flipped_triangles", plane.flipped)
                 .with("degenerate_pieces", plane.degenerate)
-                .if_some("corners", plane.corners.clone()),
+                .if_some("corners", plane.course.corner_numbers())
+                .if_some("modulus", plane.course.modulus.map(|(modulus, _)| modulus))
+                .if_some("modulus_bounds", plane.course.modulus.map(|(_, bounds)| bounds.to_vec()))
+                .if_some("iterations", plane.course.heat.as_ref().map(|(energies, _)| energies.len() - 1))
+                .if_some("converged", plane.course.heat.as_ref().map(|(_, converged)| *converged))
+                .if_some("energies", plane.course.heat.as_ref().map(|(energies, _)| energies.clone())),
             MappedSurface::Sphere(map) => figures
                 .with("energy", map.energies.last().copied())
                 .with("energies", map.energies.clone())
@@ -143,10 +181,12 @@ impl JobOutcome for HarmonicOutcome {
         };
         let map = match &self.map {
             MappedSurface::Plane(plane) => format!(
-                "map      energy {}, off the means of neighbours by {:.1e}, {}{added}\n",
+                "map      energy {}{}, off the means of neighbours by {:.1e}, {}{added}\n{}",
                 say::size(plane.map.energy, 6),
+                plane.course.steps(),
                 plane.map.mean_value_residual,
-                say::count(plane.flipped, "triangle flipped", "triangles flipped")
+                say::count(plane.flipped, "triangle flipped", "triangles flipped"),
+                plane.course.modulus_line(),
             ),
             MappedSurface::Sphere(map) => format!(
                 "map      energy {:.6} from {:.6} after {}, {}\n",
@@ -160,40 +200,83 @@ impl JobOutcome for HarmonicOutcome {
     }
 }
 
-/// The map to the plane, with the vertices at the corners of a polygon or rectangle.
+impl MapCourse {
+    fn corner_numbers(&self) -> Option<Vec<u32>> {
+        self.corners.as_ref().map(|corners| corners.iter().map(|v| v.0).collect())
+    }
+
+    /// The steps of a heat flow for the summary.
+    fn steps(&self) -> String {
+        let Some((energies, _)) = &self.heat else { return String::new() };
+        let first = energies.first().copied().unwrap_or(f64::NAN);
+        format!(" from {} after {}", say::size(first, 6), say::count(energies.len() - 1, "step", "steps"))
+    }
+
+    /// The modulus of a rectangle for the summary.
+    fn modulus_line(&self) -> String {
+        self.modulus.map_or_else(String::new, |(modulus, [low, high])| {
+            format!("modulus  {modulus:.8}, width over height; between {low:.8} and {high:.8}\n")
+        })
+    }
+}
+
+fn sphere_options(args: &HarmonicArgs) -> SphereMapOptions {
+    let usual = SphereMapOptions::default();
+    SphereMapOptions {
+        method: match args.method {
+            HarmonicMethodChoice::Solve => SphereMethod::Implicit,
+            HarmonicMethodChoice::Heat => SphereMethod::HeatFlow,
+        },
+        max_iterations: args.max_iterations.map_or(usual.max_iterations, |n| n as usize),
+        ..usual
+    }
+}
+
+/// The map to the plane, and what is known of it.
 fn map_to_plane(
     domain: &Domain,
     args: &HarmonicArgs,
     to: &MapTarget,
     control: &Control,
-) -> Result<(HarmonicMap<2>, Option<Vec<VertexId>>), Failure> {
+) -> Result<(HarmonicMap<2>, MapCourse), Failure> {
     let given = || args.corners.iter().map(|&v| VertexId(v)).collect::<Vec<_>>();
-    Ok(match to {
+    let mut course = MapCourse::default();
+    let values = match to {
+        MapTarget::Rectangle => {
+            let found = planar::to_rectangle(domain, given().try_into().ok(), control)?;
+            course.corners = Some(found.corners.to_vec());
+            course.modulus = Some((found.modulus, found.bounds));
+            return Ok((found.map, course));
+        }
         MapTarget::Polygon(n) => {
             let at = match n {
                 Some(n) if args.corners.is_empty() => planar::corners_by_length(domain, *n as usize)?,
                 _ => given(),
             };
-            let polygon = planar::regular_polygon(at.len());
-            (planar::to_polygon(domain, &polygon, Some(&at), control)?, Some(at))
+            let values = planar::polygon_values(domain, &planar::regular_polygon(at.len()), Some(&at))?;
+            course.corners = Some(at);
+            values
         }
-        MapTarget::Rectangle => {
-            let (map, at) = planar::to_rectangle(domain, given().try_into().ok(), control)?;
-            (map, Some(at.to_vec()))
-        }
-        MapTarget::File(path) => {
-            let values = csv::read_places(path, domain.mesh().n_vertices())?;
-            (harmonic_map(domain, &MapConstraints { values, flux: None }, control)?, None)
-        }
-        MapTarget::Disk | MapTarget::Sphere => (planar::to_disk(domain, control)?, None),
-    })
+        MapTarget::File(path) => csv::read_places(path, domain.mesh().n_vertices())?,
+        MapTarget::Disk | MapTarget::Sphere => planar::disk_values(domain)?,
+    };
+    let data = MapConstraints { values, flux: None };
+    if args.method == HarmonicMethodChoice::Solve {
+        return Ok((harmonic_map(domain, &data, control)?, course));
+    }
+    let usual = HeatOptions::default();
+    let max_iterations = args.max_iterations.map_or(usual.max_iterations, |n| n as usize);
+    let options = HeatOptions { step: args.step.unwrap_or(0.0), max_iterations, ..usual };
+    let found = heat_flow(domain, &data, &options, control)?;
+    course.heat = Some((found.energies, found.converged));
+    Ok((found.map, course))
 }
 
 impl PlaneMap {
     fn new(
         domain: &Domain,
         map: HarmonicMap<2>,
-        corners: Option<Vec<VertexId>>,
+        course: MapCourse,
         control: &Control,
     ) -> ricci::Result<PlaneMap> {
         let subdivision = domain.common_subdivision(control)?;
@@ -209,7 +292,6 @@ impl PlaneMap {
             flipped += usize::from(area < -least);
             degenerate += usize::from(area.abs() <= least);
         }
-        let corners = corners.map(|corners| corners.into_iter().map(|v| v.0).collect());
-        Ok(PlaneMap { map, corners, subdivision, points, flipped, degenerate })
+        Ok(PlaneMap { map, course, subdivision, points, flipped, degenerate })
     }
 }
