@@ -74,6 +74,23 @@ pub fn read_landmarks(path: &Path, n_vertices: [usize; 2]) -> Result<Vec<[Vertex
     Ok(rows)
 }
 
+/// Read `loop,vertex` rows: the vertices of loops, which follow each other; loops by their names, in order. Lines as in
+/// [`read_curvatures`], but for the names of a header.
+pub fn read_loops(path: &Path, n_vertices: usize) -> Result<Vec<(String, Vec<VertexId>)>, Failure> {
+    let mut loops: Vec<(String, Vec<VertexId>)> = Vec::new();
+    for (i, [name, vertex]) in read_rows(path, ["loop", "vertex"])? {
+        let v = vertex_of(path, i, &vertex, n_vertices)?;
+        match loops.iter_mut().find(|(known, _)| *known == name) {
+            Some((_, vertices)) => vertices.push(v),
+            None => loops.push((name, vec![v])),
+        }
+    }
+    if loops.is_empty() {
+        return Err(Failure::Input(format!("{}: no loop; rows are loop,vertex", path.display())));
+    }
+    Ok(loops)
+}
+
 /// Read `vertex,vertex` rows: the edges of `mesh` between these pairs, each once, ascending. Lines as in [`read_curvatures`].
 pub fn read_edges(path: &Path, mesh: &Mesh) -> Result<Vec<EdgeId>, Failure> {
     let mut edges = Vec::new();

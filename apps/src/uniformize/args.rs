@@ -44,7 +44,13 @@ Copies are named by their deck transformation as a word in the generators, a1.b1
 Files
     --cover OUT.obj | OUT.glb  all copies of the surface opened as --uv has it: an object each, faces and texture coordinates as there
     --domain D.json            the Dirichlet domain of the base point: corners, and per side word, matrix and partner; the corners of
-                               the canonical polygon, whose sides are the words of the generators";
+                               the canonical polygon, whose sides are the words of the generators
+    --lift L.csv               rows loop,vertex: closed loops on the surface by name, each vertex joined to the next by an edge
+    --lift-out O.json          loops lifted to the cover: points in --model, and the deck transformation from the first to the last as
+                               word and matrix
+
+Example: a loop of a genus 2 surface lifts to a path from the base point to its image under the loop's deck transformation
+    ricci cover two.obj --depth 2 --word a1.b1^-1 --lift-out lift.json --picture lift.png";
 
 /// The options of both commands.
 #[derive(Args, Serialize, Debug, Clone)]
@@ -107,6 +113,15 @@ pub struct CoverArgs {
     /// Write the Dirichlet domain
     #[arg(long, value_name = "D.json")]
     pub domain: Option<FileName>,
+    /// Lift this loop from the base point, a word in the generators such as 'a1 b1^-1' or a1.b1^-1; may be given several times
+    #[arg(long = "word", value_name = "WORD")]
+    pub words: Vec<String>,
+    /// Lift the closed loops of these rows loop,vertex
+    #[arg(long, value_name = "L.csv")]
+    pub lift: Option<FileName>,
+    /// Write the lifted loops
+    #[arg(long, value_name = "O.json")]
+    pub lift_out: Option<FileName>,
     /// What the picture shows [default: tiles]
     #[arg(long, value_enum, requires = "picture")]
     pub show: Option<CoverPictureChoice>,

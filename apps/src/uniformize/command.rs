@@ -1,5 +1,6 @@
 //! `ricci uniformize` and `ricci cover` as jobs: the metric of constant curvature is computed here.
 
+use super::lifts::lifts;
 use super::quotient::Uniformized;
 use super::request::CanonicalJob;
 use super::shape::{CanonicalOutcome, UniformShape};
@@ -33,6 +34,7 @@ impl Job for CanonicalJob<'_> {
         let mut shape = shape(&task, run)?;
         if let (UniformShape::Quotient(u), Some(cover)) = (&mut shape, &self.cover) {
             cover.find(u, run)?;
+            u.lifts = lifts(u, cover, &input)?;
         }
         Ok(CanonicalOutcome { input, shape, shown, has_copies: self.cover.is_some() })
     }

@@ -1,6 +1,7 @@
 //! The figures of a surface of genus 1 or more, or with boundary, for the reports of `ricci uniformize` and `ricci cover`.
 
 use super::group_file::letters;
+use super::lifts;
 use super::quotient::Uniformized;
 use crate::report::Figures;
 use crate::runner::CommandRun;
@@ -59,6 +60,7 @@ pub fn of_quotient(u: &Uniformized, copies: bool, run: &CommandRun<'_>) -> Figur
         // The reason why the layout is not carried back to the given triangulation; the figures of that are null then.
         .if_some("no_refinement", u.laid.as_ref().and_then(|laid| laid.as_ref().err()).cloned())
         .if_some("copies", u.elements.as_ref().ok().filter(|_| copies).map(Vec::len))
+        .if_some("lifts", lifts::figures(u))
         .missing(run)
         .with("residuals", u.report.residuals.clone())
 }

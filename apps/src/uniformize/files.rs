@@ -4,6 +4,7 @@ use super::args::{CanonicalPictureChoice, UniformPictureChoice};
 use super::copies::CoverCopies;
 use super::cover_glb::write_glb;
 use super::group_file::{DomainFile, GroupFile};
+use super::lifts::LiftFile;
 use super::pictures;
 use super::quotient::Uniformized;
 use super::request::CanonicalJob;
@@ -61,6 +62,10 @@ impl CanonicalJob<'_> {
         let domain = self.cover.and_then(|c| c.domain);
         run.file("domain", domain.map(|path| &**path), |outputs, path| {
             outputs.add_json(path, &DomainFile::new(u, u.domain()?, at)?)
+        })?;
+        let lifted = self.cover.and_then(|c| c.lift_out);
+        run.file("lift-out", lifted.map(|path| &**path), |outputs, path| {
+            outputs.add_json(path, &LiftFile::new(u, at))
         })?;
         let canvas = pictures::ModelCanvas { at: self.drawn_place(u.deck.space), style: self.style() };
         let draw = || pictures::draw(u, shown, &canvas, args.picture.is_svg());

@@ -8,6 +8,7 @@ mod cover_glb;
 mod figures;
 mod files;
 mod group_file;
+mod lifts;
 mod model_place;
 mod opened;
 mod outline;

@@ -69,8 +69,14 @@ pub fn draw(
         CanonicalPictureChoice::Uniform(UniformPictureChoice::Dirichlet) => {
             Some(dirichlet(u, canvas, stamp)?)
         }
-        CanonicalPictureChoice::Cover(CoverPictureChoice::Copies) => Some(copies(u, canvas, stamp)?),
-        CanonicalPictureChoice::Cover(CoverPictureChoice::Tiles) => Some(tiled(u, canvas, stamp)?),
+        CanonicalPictureChoice::Cover(choice) => {
+            let mut tiling = match choice {
+                CoverPictureChoice::Copies => copies(u, canvas, stamp)?,
+                CoverPictureChoice::Tiles => tiled(u, canvas, stamp)?,
+            };
+            lifted(u, &mut tiling);
+            Some(tiling)
+        }
     };
     let drawing = tiling.as_ref().map(Tiling::drawing);
     let cones: Vec<(u32, f64)> = u.corners.iter().map(|(v, angle)| (v.0, PI - angle)).collect();
@@ -256,12 +262,23 @@ fn borders(tiling: &mut Tiling, domain: &DirichletDomain, motion: &Motion<Double
 /// The copies of the layout.
 fn copies(u: &Uniformized, canvas: &ModelCanvas, shape: &Stamp) -> Result<Tiling, Failure> {
     let elements = u.copies()?;
-    let mut tiling = Tiling::new(canvas.at, first_frame(elements, canvas.at, shape), canvas.style.size);
+    let mut tiling = Tiling::new(canvas.at, first_frame(u, elements, canvas.at, shape), canvas.style.size);
     for g in elements {
         tiling.copy(shape, &g.motion, tint(&u.deck, g), Some(THIN));
     }
     tiling.dots.push(canvas.at.flat(shape.centre));
     Ok(tiling)
+}
+
+/// The loops lifted to the cover, each in a colour of its own, with dots at its ends.
+fn lifted(u: &Uniformized, tiling: &mut Tiling) {
+    for (k, named) in u.lifts.iter().enumerate() {
+        let points = &named.lift.points;
+        tiling.line(points, Some(k), BOLD);
+        let ends = [points.first(), points.last()].into_iter().flatten();
+        let dots: Vec<[f64; 2]> = ends.map(|p| tiling.at.flat(*p)).collect();
+        tiling.dots.extend(dots);
+    }
 }
 
 /// The copies of the Dirichlet domain.
@@ -273,13 +290,14 @@ fn tiled(u: &Uniformized, canvas: &ModelCanvas, shape: &Stamp) -> Result<Tiling,
     Ok(tiling)
 }
 
-/// The frame of a picture of copies: in the plane around all of them, elsewhere around the first.
-fn first_frame(elements: &[DeckElement], at: ModelPlace, shape: &Stamp) -> DrawingFrame {
+/// The frame of a picture of copies: in the plane around all of them and the lifts, elsewhere around the first.
+fn first_frame(u: &Uniformized, elements: &[DeckElement], at: ModelPlace, shape: &Stamp) -> DrawingFrame {
     if at != ModelPlace::Plane {
         return frame(at, &shape.border);
     }
     let moved =
         |g: &DeckElement| shape.border.iter().map(|p| g.motion.rounded().apply(*p)).collect::<Vec<_>>();
-    let all: Vec<[f64; 3]> = elements.iter().flat_map(moved).collect();
+    let lifts = u.lifts.iter().flat_map(|named| named.lift.points.iter().copied());
+    let all: Vec<[f64; 3]> = elements.iter().flat_map(moved).chain(lifts).collect();
     frame(at, &all)
 }

@@ -1,5 +1,6 @@
 //! A surface other than a sphere in its metric of constant curvature, with the layout on the surface as it was given.
 
+use super::lifts::NamedLift;
 use super::task::CanonicalTask;
 use crate::failure::{Failure, or_reason, required};
 use crate::report::{Checks, PhaseSeconds, timed};
@@ -33,6 +34,10 @@ const STRAIGHT: f64 = 1e-9;
 /// Largest difference of the areas of Dirichlet domain and surface, relative: corners are known to 1e-8 of the domain's size.
 const DOMAIN_AREA: f64 = 1e-7;
 
+/// Largest distance of the end of a lifted loop from the image of its start under the loop's deck transformation, over the size of its
+/// ambient coordinates, which are rounded by 1e-16 of it at every step.
+const LIFT_END: f64 = 1e-9;
+
 /// A uniformized surface.
 pub struct Uniformized {
     pub report: Report,
@@ -58,6 +63,8 @@ pub struct Uniformized {
     pub domain: Option<Result<DirichletDomain, String>>,
     /// The copies of a cover, or the reason why there are none; the identity alone where no cover was asked for.
     pub elements: Result<Vec<DeckElement>, String>,
+    /// The loops that were lifted to the cover.
+    pub lifts: Vec<NamedLift>,
 }
 
 impl Uniformized {
@@ -116,6 +123,7 @@ impl Uniformized {
             geodesics,
             domain,
             elements,
+            lifts: Vec::new(),
         })
     }
 
@@ -168,6 +176,9 @@ impl Uniformized {
         checks.add("unconverged", f64::from(u8::from(!self.report.converged())), 0.0);
         if let Some(laid) = &self.laid {
             checks.add("without_refinement", f64::from(u8::from(laid.is_err())), 0.0);
+        }
+        if let Some(worst) = self.lifts.iter().map(|named| named.lift.end_error).reduce(worse) {
+            checks.add("lift_end", worst, LIFT_END);
         }
         if let Ok(domain) = self.domain() {
             checks.add("domain_area", (domain.area - area).abs() / area, DOMAIN_AREA);

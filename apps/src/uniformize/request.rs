@@ -29,6 +29,15 @@ pub struct CoverRequest<'a> {
     pub limit: u32,
     pub cover: Option<&'a FileName>,
     pub domain: Option<&'a FileName>,
+    /// Words of loops to lift.
+    #[serde(skip_serializing_if = "<[String]>::is_empty")]
+    pub words: &'a [String],
+    /// The file of loops to lift.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub lift: Option<&'a FileName>,
+    /// The file of lifted loops.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub lift_out: Option<&'a FileName>,
 }
 
 /// The arguments of either command; a report of a failure has those that both share.
@@ -49,7 +58,21 @@ pub struct CanonicalJob<'a> {
 impl CoverRequest<'_> {
     pub fn new(args: &CoverArgs) -> CoverRequest<'_> {
         let CoverArgs { depth, radius, limit, .. } = *args;
-        CoverRequest { depth, radius, limit, cover: args.cover.as_ref(), domain: args.domain.as_ref() }
+        CoverRequest {
+            depth,
+            radius,
+            limit,
+            cover: args.cover.as_ref(),
+            domain: args.domain.as_ref(),
+            words: &args.words,
+            lift: args.lift.as_ref(),
+            lift_out: args.lift_out.as_ref(),
+        }
+    }
+
+    /// True if loops are to be lifted.
+    pub fn lifts_loops(&self) -> bool {
+        !self.words.is_empty() || self.lift.is_some()
     }
 
     /// Find the copies that are asked for. Where there are too many, or no domain to find them by, the files that show no copies are written
@@ -111,7 +134,7 @@ impl CanonicalJob<'_> {
             ) | CanonicalPictureChoice::Cover(CoverPictureChoice::Tiles)
         );
         let by_domain = self.cover.is_some_and(|c| c.depth.is_none() || c.domain.is_some());
-        let copies = self.cover.is_some_and(|c| c.cover.is_some());
+        let copies = self.cover.is_some_and(|c| c.cover.is_some() || c.lift.is_some());
         OutputNeeds {
             subdivision: report || drawn || copies || self.args.to.uv.is_some(),
             on_input: self.args.to.on == OnChoice::Input && self.args.to.uv.is_some(),
@@ -146,7 +169,14 @@ impl CanonicalJob<'_> {
                 "--view, --up: an SVG shows no surface in space; use .png, or leave them out".into(),
             ));
         }
+        let lifted = cover.and_then(|c| c.lift_out);
+        if lifted.is_some() && !cover.is_some_and(CoverRequest::lifts_loops) {
+            return Err(Failure::Usage(
+                "--lift-out: say which loops to lift, --word 'a1 b1^-1' or --lift L.csv".into(),
+            ));
+        }
         let files = [
+            lifted.map(|name| &**name),
             args.to.metric.as_deref(),
             args.to.uv.as_deref(),
             args.to.xref.as_deref(),
@@ -157,7 +187,8 @@ impl CanonicalJob<'_> {
             copies,
             domain,
         ];
-        check_outputs(&[Some(&args.to.surface.file.mesh)], &files)
+        let loops = cover.and_then(|c| c.lift).map(|name| &**name);
+        check_outputs(&[Some(&args.to.surface.file.mesh), loops], &files)
     }
 
     /// Refuse what can be refused once the surface is known; returns the contents of the picture.
@@ -232,6 +263,11 @@ impl CanonicalJob<'_> {
         if self.cover.is_some_and(|c| c.domain.is_some()) {
             return usage(
                 "--domain: a sphere is its own universal cover; there is no fundamental domain to write",
+            );
+        }
+        if self.cover.is_some_and(|c| c.lifts_loops()) {
+            return usage(
+                "--word, --lift: a sphere is its own universal cover, where every loop stays closed",
             );
         }
         if args.to.solve.method == MethodChoice::Newton {

@@ -1,6 +1,7 @@
 //! The figures and the summaries of `ricci uniformize` and `ricci cover`.
 
 use super::figures::of_quotient;
+use super::lifts;
 use super::quotient::Uniformized;
 use super::shape::{CanonicalOutcome, UniformShape};
 use super::sphere_figures;
@@ -84,7 +85,7 @@ fn quotient(u: &Uniformized, copies: bool) -> String {
         text += &format!("cover    {}", say::count(n, "copy", "copies"));
         text += &u.laid().map_or("\n".into(), |laid| format!(", {} triangles\n", n * laid.mesh().n_faces()));
     }
-    text
+    text + &lifts::text(u)
 }
 
 /// The lines about the boundary, with the closed geodesics that were asked for.
