@@ -56,6 +56,7 @@ pub mod matching;
 pub mod mesh;
 pub mod metric;
 pub mod quality;
+pub mod refine;
 pub mod report;
 pub mod shapes;
 pub mod soup;

@@ -9,6 +9,7 @@ use crate::status::ricci_status;
 use crate::structs::{self, sized};
 use ricci::mesh::check::{Diagnosis, diagnose};
 use ricci::mesh::io::{self, Soup};
+use ricci::mesh::{Place, RefinedSoup};
 use ricci::mesh::repair::{Repair, RepairSteps, Repaired, repair};
 use std::ffi::{CString, c_char};
 use std::sync::OnceLock;
@@ -17,6 +18,8 @@ pub struct ricci_soup {
     pub(crate) soup: Soup,
     /// The record of the repair, if this list was repaired: origins of its elements and counts of the steps. Its own `soup` is empty.
     origin: Option<Repaired>,
+    /// Where its elements lie in the list that it was refined from, if it was; its own `soup` is empty.
+    finer: Option<RefinedSoup>,
     diagnosis: OnceLock<DiagnosisTexts>,
 }
 handle!(ricci_soup, "soup");
@@ -38,7 +41,20 @@ struct DefectTexts {
 
 impl ricci_soup {
     fn new(soup: Soup) -> ricci_soup {
-        ricci_soup { soup, origin: None, diagnosis: OnceLock::new() }
+        ricci_soup { soup, origin: None, finer: None, diagnosis: OnceLock::new() }
+    }
+
+    /// A refined list.
+    pub(crate) fn refined(mut finer: RefinedSoup) -> ricci_soup {
+        let soup = std::mem::take(&mut finer.soup);
+        ricci_soup { finer: Some(finer), ..ricci_soup::new(soup) }
+    }
+
+    /// For each face of a refined list its face, and for each vertex its place, in the list that it was made from.
+    pub(crate) fn places(&self) -> Outcome<(&[u32], &[Option<Place>])> {
+        let finer = self.finer.as_ref();
+        let finer = finer.ok_or_else(|| Failure::argument("this triangle list was not refined"))?;
+        Ok((&finer.face_origin, &finer.vertex_place))
     }
 
     fn diagnosis(&self) -> &DiagnosisTexts {

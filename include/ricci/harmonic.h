@@ -46,6 +46,14 @@ enum {
     RICCI_HARMONIC_POLYGON = 4
 };
 
+/** The way to a harmonic map. */
+enum {
+    /** Linear solves; to the sphere, implicit steps in the metric of the image. */
+    RICCI_HARMONIC_SOLVE = 0,
+    /** The heat flow df/dt = Laplacian of f, whose energy falls at every step; not to the rectangle. */
+    RICCI_HARMONIC_HEAT = 1
+};
+
 /** Options of ricci_forms_new; zeros are the defaults. */
 typedef struct ricci_forms_options {
     /** sizeof(ricci_forms_options), by ricci_init. */
@@ -98,11 +106,37 @@ typedef struct ricci_harmonic_spec {
     const double *values;
     /** Number of vertices, and of a polygon's corners. */
     size_t n;
-    /** RICCI_HARMONIC_... */
+    /** RICCI_HARMONIC_DISK ... RICCI_HARMONIC_POLYGON. */
     uint32_t target;
+    /** RICCI_HARMONIC_SOLVE, RICCI_HARMONIC_HEAT. */
+    uint32_t method;
+    /** Of the heat flow to the plane: length of a step, a time in units of area; 0: a hundredth of the area. */
+    double step;
+    /** Of the heat flow: most steps; 0: 10000, to the sphere 2000. */
+    size_t max_iterations;
+} ricci_harmonic_spec;
+
+/** Figures of a harmonic map; NaN where they have no meaning. */
+typedef struct ricci_harmonic_summary {
+    /** Bytes of this struct that are filled. */
+    size_t size;
+    /** The energy: half of the weighted sum of squared differences along the edges. */
+    double energy;
+    /** Largest distance of a vertex from the mean of its neighbours, over the size of the image. */
+    double mean_value_residual;
+    /** Of a rectangle: its modulus, width over height. */
+    double modulus;
+    /** Of a rectangle: a lower bound of the modulus of the surface of flat triangles. */
+    double modulus_low;
+    /** Of a rectangle: an upper bound of it. */
+    double modulus_high;
+    /** Number of energies: that at the start, then one per step; 0 for a map that was solved for. */
+    size_t n_energies;
+    /** 1 if the map is harmonic within the tolerance, 0 if the steps ran out. */
+    uint32_t converged;
     /** 0. */
     uint32_t reserved;
-} ricci_harmonic_spec;
+} ricci_harmonic_summary;
 
 /**
  * The harmonic map of a surface with given boundary values, to a disk, a rectangle, a polygon or the sphere.
@@ -124,6 +158,26 @@ typedef struct ricci_harmonic_spec {
  */
 RICCI_API ricci_status ricci_harmonic(const ricci_mesh *mesh, const ricci_harmonic_spec *spec,
                                       const ricci_control *control, double *points, size_t capacity);
+
+/**
+ * ricci_harmonic with the figures of the map: the modulus of a rectangle, the energies of a heat flow.
+ *
+ * @return as ricci_harmonic; RICCI_STRUCT_SIZE.
+ *
+ * @param mesh               the surface.
+ * @param spec               the target and the method; NULL for the unit disk.
+ * @param control            progress and cancellation, or NULL.
+ * @param points             out: n_vertices x 3, in the plane with z = 0.
+ * @param capacity           entries of `points`.
+ * @param energies           out: the energies of the steps, as many as there is room for; NULL for none.
+ * @param energies_capacity  entries of `energies`.
+ * @param summary            out: the figures.
+ * @param size               sizeof *summary.
+ */
+RICCI_API ricci_status ricci_harmonic_map(const ricci_mesh *mesh, const ricci_harmonic_spec *spec,
+                                          const ricci_control *control, double *points, size_t capacity,
+                                          double *energies, size_t energies_capacity,
+                                          ricci_harmonic_summary *summary, size_t size);
 
 /**
  * The harmonic 1-forms of a surface: form k has the integral 1 over loop k of a homotopy basis a1, b1, ...,

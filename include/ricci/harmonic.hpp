@@ -21,6 +21,22 @@ inline std::vector<double> harmonic(const mesh &on,
     return points;
 }
 
+// A harmonic map with its figures: the modulus of a rectangle, the energies of a heat flow.
+struct harmonic_result {
+    std::vector<double> points, energies;
+    ricci_harmonic_summary summary;
+};
+inline harmonic_result harmonic_map(const mesh &on, const ricci_harmonic_spec &spec,
+                                    const control *watched = nullptr) {
+    const std::size_t most = spec.max_iterations ? spec.max_iterations : 10000;
+    harmonic_result found{std::vector<double>(3 * on.summary().n_vertices), std::vector<double>(most + 1), {}};
+    check(ricci_harmonic_map(on.get(), &spec, of(watched), found.points.data(), found.points.size(),
+                             found.energies.data(), found.energies.size(), &found.summary,
+                             sizeof found.summary));
+    found.energies.resize(found.summary.n_energies);
+    return found;
+}
+
 // The harmonic map with given places, 3 coordinates each, of some vertices.
 inline std::vector<double> harmonic(const mesh &on, span<std::uint32_t> vertices, span<double> places,
                                     const control *watched = nullptr) {

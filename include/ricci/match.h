@@ -56,7 +56,10 @@ typedef struct ricci_match_options {
     const uint32_t *landmarks;
     /** Number of pairs. */
     size_t n_landmarks;
-    /** For each boundary loop of the source that of the target; NULL: by descending length. */
+    /**
+     * For each boundary loop of the source that of the target; NULL: by the landmarks on them, the others by
+     * descending length.
+     */
     const uint32_t *loops;
     /** Number of loops. */
     size_t n_loops;

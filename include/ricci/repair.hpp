@@ -48,9 +48,34 @@ public:
                                  both.second.size()));
         return both;
     }
+    // The same surface in smaller triangles.
+    soup refined(const ricci_refine_options &options) const {
+        return soup(make<ricci_soup>(ricci_soup_refine, get(), &options));
+    }
+    // Of a refined list: for each face its given face; for each vertex a given face and coordinates in it.
+    struct places {
+        std::vector<std::uint32_t> faces, vertex_faces;
+        std::vector<double> weights;
+    };
+    places where() const {
+        const ricci_soup_summary n = summary();
+        places all{std::vector<std::uint32_t>(n.n_faces), std::vector<std::uint32_t>(n.n_vertices),
+                   std::vector<double>(3 * n.n_vertices)};
+        check(ricci_soup_places(handle_, all.faces.data(), all.faces.size(), all.vertex_faces.data(),
+                                all.vertex_faces.size(), all.weights.data(), all.weights.size()));
+        return all;
+    }
     ricci::mesh build() const { return ricci::mesh(make<ricci_mesh>(ricci_soup_mesh, get())); }
     void write(const std::string &path) const { check(ricci_soup_write(handle_, path.c_str())); }
 };
+
+// The same metric without small angles, as an intrinsic mesh.
+inline mesh refined_to_angle(const mesh &on,
+                             const ricci_refine_options &options = init<ricci_refine_options>(),
+                             const control *watched = nullptr) {
+    return mesh(make<ricci_mesh>(ricci_mesh_refine_angle, on.get(), &options, of(watched),
+                                 static_cast<ricci_refine_summary *>(nullptr), std::size_t(0)));
+}
 
 } // namespace ricci
 

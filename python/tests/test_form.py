@@ -133,3 +133,20 @@ def test_an_annulus_has_its_modulus():
     """Radii 1 and 2: height over circumference is ln 2 / 2 pi."""
     found = ricci.circles(ricci.make("annulus", a=1, b=2, n=12, m=60))
     assert found.summary.modulus.imag == pytest.approx(np.log(2) / (2 * np.pi), rel=2e-3)
+
+
+def test_the_modulus_of_a_rectangle_and_the_energies_of_the_heat_flow(disk):
+    grid = np.stack(np.meshgrid(np.linspace(0, 2, 9), np.linspace(0, 1, 5), [0.0]), -1).reshape(-1, 3)
+    cells = [9 * j + i for j in range(4) for i in range(8)]
+    faces = np.array([[a, a + 1, a + 10] for a in cells] + [[a, a + 10, a + 9] for a in cells])
+    found = ricci.harmonic_map(grid, faces, target="rectangle", b=[0, 8, 44, 36])
+    assert found.summary.modulus == pytest.approx(2, rel=1e-12)
+    assert found.summary.modulus_low <= found.summary.modulus * (1 + 1e-12) <= found.summary.modulus_high * (1 + 2e-12)
+    np.testing.assert_allclose(found.points, grid, atol=1e-12)
+    flow = ricci.harmonic_map(disk, method="heat")
+    assert flow.summary.converged
+    assert len(flow.energies) == flow.summary.n_energies > 10
+    assert np.diff(flow.energies).max() < 1e-13
+    np.testing.assert_allclose(flow.points, ricci.harmonic(disk), atol=1e-9)
+    with pytest.raises(ricci.ArgumentError, match="linear solves"):
+        ricci.harmonic_map(disk, target="rectangle", method="heat")

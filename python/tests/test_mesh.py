@@ -195,3 +195,27 @@ def test_the_quality_of_triangles():
     torn = ricci.Soup(SQUARE, [*faces, [0, 1, 9]]).quality
     assert torn.area == pytest.approx(1)
     assert np.isnan(torn.non_delaunay_fraction)
+
+
+def test_refined_lists_lie_where_their_places_say():
+    sphere = ricci.make("sphere", n=3)
+    soup = ricci.Soup(sphere.V, sphere.F)
+    for finer in (soup.refine(levels=1), soup.refine(longest_edge=0.2)):
+        faces, at, weights = finer.places
+        assert len(faces) == finer.summary.n_faces
+        np.testing.assert_allclose((weights[:, :, None] * soup.V[soup.F[at]]).sum(1), finer.V, atol=1e-14)
+        assert finer.quality.area == pytest.approx(soup.quality.area, rel=1e-12)
+        assert finer.summary.euler == 2
+    with pytest.raises(ricci.ArgumentError, match="was not refined"):
+        _ = soup.places
+
+
+def test_metrics_are_refined_to_an_angle():
+    thin = ricci.make("ellipsoid", n=3, a=1, b=0.1, c=6)
+    finer, course = thin.refine_angle()
+    assert course.least_angle >= np.deg2rad(25) > course.given_angle
+    assert course.n_below == 0
+    assert finer.quality.min_angle == pytest.approx(course.least_angle)
+    assert finer.quality.area == pytest.approx(thin.quality.area, rel=1e-9)
+    with pytest.raises(ricci.ArgumentError, match="30"):
+        thin.refine_angle(1.0)

@@ -37,7 +37,7 @@ from ricci.errors import (
     SplineError,
     TargetError,
 )
-from ricci.form import Forms, forms, harmonic
+from ricci.form import Forms, HarmonicMap, forms, harmonic, harmonic_map
 from ricci.fundamental import Domain, Homotopy, homotopy
 from ricci.layouts import Atlas, Layout, atlas, layout
 from ricci.log import log_to_logging
@@ -108,6 +108,7 @@ __all__ = [
     "flow",
     "forms",
     "harmonic",
+    "harmonic_map",
     "homotopy",
     "hyperelliptic_periods",
     "layout",

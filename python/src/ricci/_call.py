@@ -249,6 +249,11 @@ def summary(kind: type[Figures], name: str, handle: Passed, function: Callable[.
     struct = f"ricci_{name}_summary"
     out = ffi.new(f"{struct} *")
     check((function or getattr(lib, f"ricci_{name}_summarise"))(handle._pointer, out, ffi.sizeof(struct)))
+    return figures_of(kind, out)
+
+
+def figures_of(kind: type[Figures], out: Any) -> Figures:
+    """A struct of figures that was filled, as the dataclass `kind` with fields of the same names."""
     return kind(**{field.name: _number(getattr(out, field.name), str(field.type)) for field in fields(kind)})  # type: ignore[arg-type]
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import cached_property
 from typing import ClassVar, Literal, TypedDict, Unpack
 
@@ -10,16 +11,16 @@ import numpy.typing as npt
 
 from ricci import _arrays
 from ricci._arrays import frozen
-from ricci._call import CONTROL, Complexes, Doubles, Handle, Longs, constant, doubles, filled, pointer, sized_list, summary
-from ricci._library import lib
+from ricci._call import CONTROL, Complexes, Doubles, Handle, Longs, call, constant, doubles, figures_of, filled, pointer, sized_list, summary
+from ricci._library import ffi, lib
 from ricci._structs import Struct, Write, choice, known, one_index, options
 from ricci.adapters import MeshLike, as_mesh
 from ricci.control import Progress
 from ricci.errors import ArgumentError
-from ricci.figures import FormsSummary
+from ricci.figures import FormsSummary, HarmonicSummary
 from ricci.mesh import Mesh
 
-__all__ = ["Forms", "FormsOptions", "HarmonicOptions", "forms", "harmonic"]
+__all__ = ["Forms", "FormsOptions", "HarmonicMap", "HarmonicOptions", "forms", "harmonic", "harmonic_map"]
 
 
 class HarmonicOptions(TypedDict, total=False):
@@ -31,12 +32,36 @@ class HarmonicOptions(TypedDict, total=False):
         b: the vertices that are given, for ``"values"``; the corners of a rectangle or a polygon.
         bc: the places of the vertices `b`, k x 2 or k x 3, or k numbers.
         n: number of corners of a polygon; of `b` where that is given.
+        method: ``"solve"``, or ``"heat"``: the heat flow df/dt = Laplacian of f, whose energy falls at every step (not to the rectangle).
+        step: length of a step of the heat flow to the plane, a time in units of area; a hundredth of the area.
+        max_iterations: most steps of the heat flow; 10000, to the sphere 2000.
     """
 
     target: Literal["disk", "rectangle", "sphere", "values", "polygon"]
     b: npt.ArrayLike
     bc: npt.ArrayLike
     n: int
+    method: Literal["solve", "heat"]
+    step: float
+    max_iterations: int
+
+
+_TARGETS = ("disk", "rectangle", "sphere", "values", "polygon")
+
+
+@dataclass(frozen=True)
+class HarmonicMap:
+    """A harmonic map with its figures.
+
+    Attributes:
+        points: the images of the vertices, n x 3, in the plane with z = 0.
+        energies: the energy at the start of the heat flow and after each step; empty for a map that was solved for.
+        summary: energy, residual, the modulus of a rectangle with bounds.
+    """
+
+    points: Doubles
+    energies: Doubles
+    summary: HarmonicSummary
 
 
 def _harmonic_struct(given: HarmonicOptions) -> Struct:
@@ -45,7 +70,10 @@ def _harmonic_struct(given: HarmonicOptions) -> Struct:
     if given.get("n") == 0:
         raise ArgumentError("n is 0: a polygon has at least 3 corners")
     target = given.get("target", "values" if "bc" in given else "disk")
-    struct.put("target", constant("HARMONIC", target))
+    struct.put("target", constant("HARMONIC", target, _TARGETS))
+    struct.put("method", constant("HARMONIC", given.get("method", "solve"), ("solve", "heat")))
+    struct.put("step", given.get("step", 0.0))
+    struct.put("max_iterations", given.get("max_iterations", 0))
     vertices = _arrays.indices(given.get("b", ()), name="b")
     struct.put("n", vertices.size or given.get("n", 0))
     if vertices.size:
@@ -81,6 +109,32 @@ def harmonic(V: MeshLike, F: npt.ArrayLike | None = None, progress: Progress = N
         raise ArgumentError("harmonic values need b and bc")
     out = np.empty((mesh.n_vertices, 3))
     return filled(lib.ricci_harmonic, mesh, _harmonic_struct(given), CONTROL, out=out, progress=progress)
+
+
+def harmonic_map(V: MeshLike, F: npt.ArrayLike | None = None, progress: Progress = None, **given: Unpack[HarmonicOptions]) -> HarmonicMap:
+    """`harmonic` with its figures: the modulus of a rectangle with its bounds, the energies of a heat flow.
+
+    Args:
+        V: n x 3 positions with `F`, or a mesh of any kind (`as_mesh`).
+        F: m x 3 vertex indices.
+        progress: a `Control` or a callback.
+        given: where it goes, and how (`HarmonicOptions`).
+
+    Raises:
+        LayoutError: a surface of another topology.
+    """
+    mesh = as_mesh(V, F)
+    if given.get("target") == "values" and "bc" not in given:
+        raise ArgumentError("harmonic values need b and bc")
+    points = np.empty((mesh.n_vertices, 3))
+    most = given.get("max_iterations", 10000) + 1 if given.get("method") == "heat" or given.get("target") == "sphere" else 0
+    energies = np.empty(most)
+    out = ffi.new("ricci_harmonic_summary *")
+    size = ffi.sizeof("ricci_harmonic_summary")
+    places = (pointer(points), points.size, pointer(energies), energies.size)
+    call(lib.ricci_harmonic_map, mesh, _harmonic_struct(given), CONTROL, *places, out, size, progress=progress)
+    told = figures_of(HarmonicSummary, out)
+    return HarmonicMap(points, energies[: told.n_energies].copy(), told)
 
 
 class FormsOptions(TypedDict, total=False):

@@ -162,6 +162,43 @@ static void check_simple(void) {
     ricci_mesh_free(spike);
 }
 
+/* A rectangle of 2 by 1 has the modulus 2; the heat flow lowers the energy to that of the map. */
+static void check_figures(void) {
+    enum { M = 9, N = 5 };
+    double positions[3 * M * N], points[3 * M * N], energies[2000];
+    uint32_t faces[6 * (M - 1) * (N - 1)], *f = faces;
+    const uint32_t corners[4] = {0, M - 1, M * N - 1, M * (N - 1)};
+    for (int k = 0; k < M * N; k++)
+        positions[3 * k] = (k % M) * 0.25, positions[3 * k + 1] = (k / M) * 0.25, positions[3 * k + 2] = 0;
+    for (uint32_t j = 0; j + 1 < N; j++) {
+        for (uint32_t i = 0; i + 1 < M; i++, f += 6) {
+            const uint32_t a = M * j + i, quad[6] = {a, a + 1, a + M + 1, a, a + M + 1, a + M};
+            memcpy(f, quad, sizeof quad);
+        }
+    }
+    ricci_mesh *mesh = NULL;
+    ricci_harmonic_spec spec;
+    ricci_harmonic_summary s;
+    OK(ricci_mesh_from_arrays(positions, 0, M * N, faces, 2 * (M - 1) * (N - 1), &mesh));
+    INIT(spec);
+    spec.target = RICCI_HARMONIC_RECTANGLE, spec.vertices = corners, spec.n = 4;
+    OK(ricci_harmonic_map(mesh, &spec, NULL, points, 3 * M * N, NULL, 0, &s, sizeof s));
+    CHECK(fabs(s.modulus - 2) < 1e-12 && s.modulus_low < 2 + 1e-12 && s.modulus_high > 2 - 1e-12);
+    CHECK(s.n_energies == 0 && s.converged == 1);
+    spec.method = RICCI_HARMONIC_HEAT;
+    FAILS(ricci_harmonic_map(mesh, &spec, NULL, points, 3 * M * N, NULL, 0, &s, sizeof s), RICCI_ARGUMENT,
+          "linear solves");
+    INIT(spec);
+    OK(ricci_harmonic_map(mesh, &spec, NULL, points, 3 * M * N, NULL, 0, &s, sizeof s));
+    const double energy = s.energy;
+    spec.method = RICCI_HARMONIC_HEAT;
+    OK(ricci_harmonic_map(mesh, &spec, NULL, points, 3 * M * N, energies, 2000, &s, sizeof s));
+    CHECK(s.converged == 1 && s.n_energies > 10 && s.n_energies < 2000 && s.modulus != s.modulus);
+    for (size_t k = 1; k < s.n_energies; k++) CHECK(energies[k] < energies[k - 1] + 1e-13);
+    CHECK(fabs(s.energy - energy) < 1e-10);
+    ricci_mesh_free(mesh);
+}
+
 int main(void) {
     ricci_mesh *mesh = NULL;
     OK(make_bolza(2, &mesh));
@@ -173,5 +210,6 @@ int main(void) {
     check_open();
     check_maps();
     check_simple();
+    check_figures();
     return 0;
 }

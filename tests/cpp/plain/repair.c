@@ -1,5 +1,6 @@
 /* A torn and shuffled torus through the C face: mended, and every element traced back. */
 #include "torus.h"
+#include <math.h>
 #include <ricci/repair.h>
 
 /* ricci_soup_repair of arrays. */
@@ -108,6 +109,51 @@ static void attributes(void) {
     ricci_mesh_free(mesh);
 }
 
+/* Two triangles of a square become 8, whose places are those of their positions; as a metric with thin
+ * triangles they are refined to the angle. */
+static void check_refined(void) {
+    const double square[12] = {0, 0, 0, 8, 0, 0, 8, 1, 0, 0, 1, 0};
+    const uint32_t two[6] = {0, 1, 2, 0, 2, 3};
+    double positions[27], weights[27];
+    uint32_t origin[8], at[9];
+    ricci_soup *soup = NULL, *finer = NULL;
+    ricci_mesh *mesh = NULL, *fat = NULL;
+    ricci_soup_summary n;
+    ricci_refine_options options;
+    ricci_refine_summary course;
+    OK(ricci_soup_from_arrays(square, 0, 4, two, 2, &soup));
+    FAILS(ricci_soup_places(soup, origin, 8, at, 9, weights, 27), RICCI_ARGUMENT, "was not refined");
+    INIT(options);
+    options.levels = 1;
+    OK(ricci_soup_refine(soup, &options, &finer));
+    OK(ricci_soup_summarise(finer, &n, sizeof n));
+    CHECK(n.n_vertices == 9 && n.n_faces == 8 && n.n_defects == 0 && n.euler == 1);
+    OK(ricci_soup_values(finer, RICCI_POSITIONS, positions, 27));
+    FAILS(ricci_soup_places(finer, origin, 8, at, 9, weights, 26), RICCI_BUFFER_TOO_SMALL, "27");
+    OK(ricci_soup_places(finer, origin, 8, at, 9, weights, 27));
+    for (int f = 0; f < 8; f++) CHECK(origin[f] == (uint32_t)f / 4);
+    for (int v = 0; v < 9; v++) {
+        for (int k = 0; k < 3; k++) {
+            double x = 0;
+            for (int c = 0; c < 3; c++) x += weights[3 * v + c] * square[3 * two[3 * at[v] + c] + k];
+            CHECK(x == positions[3 * v + k]);
+        }
+    }
+    options.longest_edge = -1;
+    FAILS(ricci_soup_refine(soup, &options, &finer), RICCI_ARGUMENT, "longest edge");
+    OK(ricci_soup_mesh(soup, &mesh));
+    OK(ricci_mesh_refine_angle(mesh, NULL, NULL, &course, sizeof course, &fat));
+    CHECK(course.n_below == 0 && course.n_forced == 0 && course.n_on_boundary > 0);
+    CHECK(course.given_angle < 0.2 && course.least_angle >= 25 * acos(-1) / 180);
+    ricci_mesh_free(fat);
+    fat = NULL;
+    options.least_angle = 1;
+    FAILS(ricci_mesh_refine_angle(mesh, &options, NULL, NULL, 0, &fat), RICCI_ARGUMENT, "30");
+    ricci_mesh_free(mesh);
+    ricci_soup_free(finer);
+    ricci_soup_free(soup);
+}
+
 int main(void) {
     fin();
     attributes();
@@ -198,5 +244,6 @@ int main(void) {
     free(vertex_origin);
     free(face_origin);
     torus_free(&t);
+    check_refined();
     return 0;
 }

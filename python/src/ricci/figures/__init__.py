@@ -1,9 +1,9 @@
 """Counts and measured figures of the library's objects, as dataclasses with the fields of the `ricci_..._summary` structs."""
 
 from ricci.figures.covered import DeckSummary, DirichletSummary, DomainSummary, HomotopySummary, UniformSummary
-from ricci.figures.derived import BicubicSummary, FormsSummary, MatchingSummary, SplineSummary, StructureSummary
+from ricci.figures.derived import BicubicSummary, FormsSummary, HarmonicSummary, MatchingSummary, SplineSummary, StructureSummary
 from ricci.figures.placed import AtlasSummary, CircleDomainSummary, LayoutSummary, MapSummary
-from ricci.figures.surface import MeshSummary, MetricSummary, QualitySummary, ReportSummary, SoupSummary
+from ricci.figures.surface import MeshSummary, MetricSummary, QualitySummary, RefineSummary, ReportSummary, SoupSummary
 
 __all__ = [
     "AtlasSummary",
@@ -13,6 +13,7 @@ __all__ = [
     "DirichletSummary",
     "DomainSummary",
     "FormsSummary",
+    "HarmonicSummary",
     "HomotopySummary",
     "LayoutSummary",
     "MapSummary",
@@ -20,6 +21,7 @@ __all__ = [
     "MeshSummary",
     "MetricSummary",
     "QualitySummary",
+    "RefineSummary",
     "ReportSummary",
     "SoupSummary",
     "SplineSummary",

@@ -37,6 +37,29 @@ class FormsSummary:
 
 
 @dataclass(frozen=True)
+class HarmonicSummary:
+    """Figures of a harmonic map; NaN where they have no meaning.
+
+    Attributes:
+        energy: half of the weighted sum of squared differences along the edges.
+        mean_value_residual: largest distance of a vertex from the mean of its neighbours, over the size of the image.
+        modulus: of a rectangle, its modulus: width over height.
+        modulus_low: of a rectangle, a lower bound of the modulus of the surface of flat triangles.
+        modulus_high: of a rectangle, an upper bound of it.
+        n_energies: number of energies: that at the start, then one per step; 0 for a map that was solved for.
+        converged: true if the map is harmonic within the tolerance, false if the steps ran out.
+    """
+
+    energy: float
+    mean_value_residual: float
+    modulus: float
+    modulus_low: float
+    modulus_high: float
+    n_energies: int
+    converged: bool
+
+
+@dataclass(frozen=True)
 class MatchingSummary:
     """Figures of a matching.
 

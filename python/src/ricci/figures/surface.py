@@ -115,6 +115,29 @@ class QualitySummary:
 
 
 @dataclass(frozen=True)
+class RefineSummary:
+    """The course of a refinement of a metric.
+
+    Attributes:
+        n_inside: vertices that were added inside the surface.
+        n_on_boundary: vertices that were added on the boundary.
+        n_flips: edges that were flipped.
+        n_below: triangles with a smaller angle than asked for: 0 unless the most vertices were added.
+        n_forced: triangles whose smaller angle the surface forces, at corners where it has an angle below 60 degrees.
+        given_angle: the smallest angle of the given triangles, radians.
+        least_angle: the smallest angle of the triangles where the surface forces none, radians.
+    """
+
+    n_inside: int
+    n_on_boundary: int
+    n_flips: int
+    n_below: int
+    n_forced: int
+    given_angle: float
+    least_angle: float
+
+
+@dataclass(frozen=True)
 class MetricSummary:
     """Figures of a metric.
 
