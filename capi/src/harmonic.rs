@@ -11,8 +11,8 @@ use crate::status::*;
 use crate::structs::{self, or, sized};
 use ricci::Control;
 use ricci::harmonic::{
-    Domain, HarmonicMap, HeatOptions, MapConstraints, SphereMapOptions, SphereMethod, harmonic_map, heat_flow,
-    planar, simple_domain, sphere_map,
+    Domain, HarmonicMap, HeatOptions, MapConstraints, SphereMapOptions, SphereMethod, harmonic_map,
+    heat_flow, planar, simple_domain, sphere_map,
 };
 use ricci::mesh::VertexId;
 

@@ -9,8 +9,8 @@ use crate::status::ricci_status;
 use crate::structs::{self, sized};
 use ricci::mesh::check::{Diagnosis, diagnose};
 use ricci::mesh::io::{self, Soup};
-use ricci::mesh::{Place, RefinedSoup};
 use ricci::mesh::repair::{Repair, RepairSteps, Repaired, repair};
+use ricci::mesh::{Place, RefinedSoup};
 use std::ffi::{CString, c_char};
 use std::sync::OnceLock;
 

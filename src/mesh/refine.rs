@@ -229,7 +229,7 @@ impl FaceParts {
 
     /// Values at the corners of the given faces, at those of the parts.
     fn at_corners<const N: usize>(&self, values: &[[[f64; N]; 3]]) -> Vec<[[f64; N]; 3]> {
-        let linear = |of: &[[f64; N]; 3], w: [f64; 3]| {
+        let linear = |of: &[[f64; N]; 3], w: [f64; 3]| -> [f64; N] {
             std::array::from_fn(|k| w[0] * of[0][k] + w[1] * of[1][k] + w[2] * of[2][k])
         };
         let of_part = |(&f, corners): (&u32, &[[f64; 3]; 3])| corners.map(|w| linear(&values[f as usize], w));

@@ -107,7 +107,9 @@ impl HarmonicOutcome {
     /// The energies of the steps to the map, the start included; empty for a map that was solved for.
     pub fn energies(&self) -> &[f64] {
         match &self.map {
-            MappedSurface::Plane(plane) => plane.course.heat.as_ref().map_or(&[], |(energies, _)| energies),
+            MappedSurface::Plane(plane) => {
+                plane.course.heat.as_ref().map_or(&[][..], |(energies, _)| energies.as_slice())
+            }
             MappedSurface::Sphere(map) => &map.energies,
         }
     }

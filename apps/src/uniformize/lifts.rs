@@ -2,7 +2,7 @@
 
 use super::group_file::letters;
 use super::model_place::ModelPlace;
-use super::quotient::Uniformized;
+use super::quotient::{NamedLift, Uniformized};
 use super::request::CoverRequest;
 use crate::csv::read_loops;
 use crate::failure::Failure;
@@ -10,12 +10,6 @@ use crate::input::Input;
 use ricci::embed::LiftedLoop;
 use serde::Serialize;
 use serde_json::{Value, json};
-
-/// A lifted loop with the name that it has in files: a word, or the name of its rows.
-pub struct NamedLift {
-    pub name: String,
-    pub lift: LiftedLoop,
-}
 
 /// Lift the loops that are asked for.
 pub fn lifts(u: &Uniformized, request: &CoverRequest<'_>, input: &Input) -> Result<Vec<NamedLift>, Failure> {

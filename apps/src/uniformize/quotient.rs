@@ -1,6 +1,5 @@
 //! A surface other than a sphere in its metric of constant curvature, with the layout on the surface as it was given.
 
-use super::lifts::NamedLift;
 use super::task::CanonicalTask;
 use crate::failure::{Failure, or_reason, required};
 use crate::report::{Checks, PhaseSeconds, timed};
@@ -10,7 +9,8 @@ use crate::surface_layout::{SurfaceLayout, is_carried_back};
 use ricci::canonical::Quotient;
 use ricci::embed::layout::MEETING;
 use ricci::embed::{
-    BoundaryLoop, DeckElement, DeckGroup, DirichletDomain, Layout, LayoutOptions, dirichlet_domain,
+    BoundaryLoop, DeckElement, DeckGroup, DirichletDomain, Layout, LayoutOptions, LiftedLoop,
+    dirichlet_domain,
 };
 use ricci::flow::{Report, Solution};
 use ricci::geometry::{DoubleDouble, Motion, Space, worse};
@@ -37,6 +37,12 @@ const DOMAIN_AREA: f64 = 1e-7;
 /// Largest distance of the end of a lifted loop from the image of its start under the loop's deck transformation, over the size of its
 /// ambient coordinates, which are rounded by 1e-16 of it at every step.
 const LIFT_END: f64 = 1e-9;
+
+/// A lifted loop with the name that it has in files: a word, or the name of its rows.
+pub struct NamedLift {
+    pub name: String,
+    pub lift: LiftedLoop,
+}
 
 /// A uniformized surface.
 pub struct Uniformized {
