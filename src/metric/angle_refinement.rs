@@ -45,8 +45,9 @@ impl Default for AngleRefinement {
 /// The course and the result of a refinement.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct AngleReport {
-    /// Vertices added inside the surface, and on its boundary.
+    /// Vertices that were added inside the surface.
     pub inside: usize,
+    /// Vertices that were added on its boundary.
     pub on_boundary: usize,
     /// Edges that were flipped.
     pub flips: usize,
