@@ -63,6 +63,35 @@ fn check(mesh: &Mesh, layout: &Layout, what: &str) {
     );
 }
 
+/// Where faces fold, splits leave none: every point lies on an edge of the input, the triangles of a face fill it in the input, and none is
+/// turned over in the layout.
+fn check_repair((mesh, lengths): &(Mesh, PerEdge<f64>), layout: &Layout, what: &str) {
+    let (on_input, repaired) =
+        (layout.on_input().unwrap(), layout.repaired_input(&Control::new()).unwrap().unwrap());
+    let (r, n) = (&repaired.refinement, repaired.n_added());
+    assert!(repaired.flipped.is_empty(), "{what}: {:?}", repaired.flipped);
+    assert_eq!(repaired.split_edges.is_empty(), on_input.flipped.is_empty(), "{what}");
+    assert!(n >= repaired.split_edges.len() && n <= 2 * on_input.flipped.len(), "{what}: {n} points");
+    assert_eq!((r.mesh.n_vertices(), r.mesh.euler()), (mesh.n_vertices() + n, mesh.euler()), "{what}");
+    let mut share = vec![0.0; mesh.n_faces()];
+    for f in r.mesh.faces() {
+        let [a, b, c] = r.barycentric(0, f);
+        let minor = |i: usize, j: usize| b[i] * c[j] - b[j] * c[i];
+        let part = a[0] * minor(1, 2) + a[1] * minor(2, 0) + a[2] * minor(0, 1);
+        assert!(part > 0.0, "{what}: triangle {f}");
+        share[r.faces[0][f].index()] += part;
+    }
+    assert!(share.iter().all(|whole| (whole - 1.0).abs() < 1e-12), "{what}");
+    for e in r.mesh.edges().filter(|&e| !r.mesh.is_boundary_edge(e)) {
+        let (h, t) = (e.halfedge(), e.halfedge().twin());
+        let at = |h| repaired.corner_index[h];
+        let joined = at(h) == at(r.mesh.next(t)) && at(r.mesh.next(h)) == at(t);
+        assert!(joined || r.edge(0, e).is_some_and(|e| on_input.cut.is_cut[e]), "{what}: edge {e}");
+    }
+    let quality = layout.quality_of_repaired(&repaired, lengths).unwrap();
+    assert!(quality.degenerate.is_empty() && quality.qc.len() == r.mesh.n_faces(), "{what}");
+}
+
 /// K + 1/K for the dilatation K of a linear map of triangles: the squared norm of its derivative over the determinant, computed from squared
 /// lengths and areas.
 fn check_quality((mesh, lengths): &(Mesh, PerEdge<f64>), corners: &[[[f64; 2]; 3]], quality: &Quality) {
@@ -153,6 +182,7 @@ fn layouts_in_the_plane_are_cut_along_the_inputs_edges() {
             let on_input = layout.quality_on_input(&surface.1).unwrap().unwrap();
             assert_eq!(on_input == quality, result.is_unflipped(), "{what}");
             check_quality(&surface, &layout.corner_uv().unwrap(), &on_input);
+            check_repair(&surface, &layout, &what);
         }
     }
 }
@@ -171,6 +201,7 @@ fn layouts_in_the_hyperbolic_plane_are_cut_along_the_inputs_edges() {
         let result = flow_to(&surface, Space::H2, &PerVertex::filled(mesh.n_vertices(), 0.0), Flips::Auto);
         let layout = Layout::of_solution(&result, &with_cones(&[]), &Control::new()).unwrap();
         check(mesh, &layout, name);
+        check_repair(&surface, &layout, name);
         assert!((layout.area + 2.0 * PI * mesh.euler() as f64).abs() < 1e-8, "{name}: {}", layout.area);
         // The root lies at the origin, and a cone on the cut.
         let root = VertexId(5);
@@ -289,4 +320,21 @@ fn impossible_layouts_are_refused_by_name() {
     assert!(matches!(cones_of(mesh, &[0.0], 1e-10), Err(Error::Size { .. })));
     let mut layout = Layout::of_solution(&result, &LayoutOptions::default(), &Control::new()).unwrap();
     assert!(matches!(layout.scale_to_area(f64::NAN), Err(Error::Argument { .. })));
+}
+
+/// Needles in space whose layout has other diagonals: many faces of the input fold, and all of them are mended.
+#[test]
+fn every_fold_of_a_sheared_surface_is_mended() {
+    let mut soup = shapes::disk(10).unwrap();
+    for p in &mut soup.positions {
+        let [x, y, _] = *p;
+        *p = [x + 3.0 * y, y, 0.8 * (2.0 * x).sin() * (3.0 * y).cos()];
+    }
+    let surface = surface(&soup);
+    let given = euclidean(&surface.0, &surface.1);
+    let target = Target::Boundary.values(&given, Space::E2).unwrap();
+    let result = flow_to(&surface, Space::E2, &target, Flips::Auto);
+    let layout = Layout::of_solution(&result, &LayoutOptions::default(), &Control::new()).unwrap();
+    assert!(layout.on_input().unwrap().flipped.len() > 10);
+    check_repair(&surface, &layout, "sheared disk");
 }

@@ -5,7 +5,7 @@ use crate::report::Figures;
 use crate::runner::CommandRun;
 use crate::solved::SolvedMetric;
 use crate::surface_layout::SurfaceLayout;
-use ricci::embed::{Layout, Seam};
+use ricci::embed::{Layout, RepairedInput, Seam};
 use ricci::flow::{Obstruction, Report};
 use ricci::geometry::{PlaneIsometry, Space};
 use ricci::mesh::{HalfedgeId, VertexId};
@@ -36,18 +36,24 @@ impl Figures {
             .with("double_double", report.double_double)
     }
 
-    /// The distortion of the surface by a layout; null where there is none.
+    /// The distortion of the surface by a layout; null where there is none. The figures are those of the faces that are written: the
+    /// input's own with `--on input`, where edges were split with `--repair`; `flipped_input_faces` counts the input's own in any case.
     ///
     /// Faces without area in the input or the layout are `degenerate_pieces`, which the qc figures leave out; with charts also faces that
     /// are smaller than the coordinates of the unit square resolve. `crossings` counts the vertices of the subdivision beyond the input's.
     pub fn distortion(self, laid: Option<&SurfaceLayout>) -> Figures {
-        let quality = laid.map(|laid| &laid.quality);
-        self.if_some("flipped_input_faces", laid.and_then(|l| l.on_input.as_ref()).map(|o| o.flipped.len()))
+        let written = laid.map(SurfaceLayout::written);
+        let quality = written.as_ref().map(|written| written.quality);
+        let repaired = laid.and_then(SurfaceLayout::repaired);
+        self.if_some("flipped_input_faces", laid.filter(|l| l.on_input.is_some()).map(|l| l.folded_input_faces()))
+            .if_some("faces", laid.filter(|l| l.own_faces.is_some()).map(|_| "input"))
+            .if_some("split_edges", repaired.map(|r| r.split_edges.len()))
+            .if_some("added_vertices", repaired.map(RepairedInput::n_added))
             .with("qc_mean", quality.map(|q| q.qc_mean))
             .with("qc_max", quality.map(|q| q.qc_max))
             .with("area_ratio_min", quality.map(|q| q.area_ratio_min))
             .with("area_ratio_max", quality.map(|q| q.area_ratio_max))
-            .with("degenerate_pieces", laid.map(|laid| laid.degenerate.len()))
+            .with("degenerate_pieces", written.as_ref().map(|written| written.degenerate.len()))
             .with("crossings", laid.and_then(SurfaceLayout::common_subdivision).map(|r| r.crossings.len()))
     }
 
@@ -83,6 +89,7 @@ pub fn of_flow(outcome: &FlowOutcome, run: &CommandRun<'_>) -> Figures {
         .with("area", solved.curvature.area)
         .with("flipped_triangles", laid.map(|l| l.flipped().len()))
         .distortion(laid)
+        .if_some("overlap", laid.filter(|l| l.packed.is_none()).and_then(|l| l.layout.overlap()))
         .if_some("charts", packed.map(|p| p.charts.count()))
         .if_some("packing", packed.map(|p| p.charts.efficiency))
         .if_some("cones", cones)

@@ -12,7 +12,9 @@ use crate::output::{check_extension, check_outputs};
 use crate::picture::ColorChoice;
 use crate::progress::doing;
 use crate::runner::{CommandRun, Job, JobHeader};
+use crate::report::timed;
 use crate::show;
+use crate::surface_layout::OwnFaces;
 use crate::uv;
 use ricci::flow::{Gradient, Options};
 use ricci::geometry::Space;
@@ -29,6 +31,7 @@ impl Job for FlowArgs {
 
     fn check(&self) -> Result<(), Failure> {
         check_options(self)?;
+        self.to.check_faces()?;
         let written: &[&str] = if self.homogeneous { &["obj"] } else { &["obj", "glb"] };
         let (to, picture) = (&self.to, &self.picture.base.picture);
         check_extension("--uv", to.uv.as_deref(), written)?;
@@ -50,6 +53,10 @@ impl Job for FlowArgs {
         check_surface(self, &input, space)?;
         let job = flow_job(self, &input, space)?;
         let mut outcome = run_flow(input, job, run)?;
+        if let (Ok(laid), OnChoice::Input) = (&mut outcome.layout, self.to.on) {
+            let faces = || OwnFaces::new(&laid.layout, &outcome.input, self.to.repair, run.control);
+            laid.own_faces = timed(&mut run.seconds.layout, faces)?;
+        }
         if self.charts {
             let cut = || charts::cut(&mut outcome, self.margin, &mut run.seconds, run.control);
             let cut = doing("cutting", cut);

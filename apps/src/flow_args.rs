@@ -23,7 +23,8 @@ Files
     --uv OUT.obj | OUT.glb     the surface with the layout as texture coordinates, in E² scaled to its area, in
                                H² of the Poincaré disk, and the input's colours and normals; with --homogeneous (.obj) each vt is
                                `qx qy q`: linear in a face are these three, the texture is at (x, y); with --on input the input's
-                               own vertices and faces, in order, the map made linear on each
+                               own vertices and faces, in order, the map made linear on each: faces that fold then fail the check
+                               flipped_triangles; --repair splits the fewest edges of the input so that none does, --xref says where
     --circles C.json           vertex circles and the circles orthogonal to them, in the layout's coordinates
     --trace T.csv              step,energy,max_curvature_error,area,step_size (gradient flow)";
 

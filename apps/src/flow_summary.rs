@@ -4,7 +4,7 @@ use crate::figures::of_flow;
 use crate::job::FlowOutcome;
 use crate::report::{Checks, Done, Figures, InputSummary};
 use crate::runner::{CommandRun, JobOutcome};
-use crate::say::{count, ending, modulus, surface, tolerance};
+use crate::say::{count, ending, modulus, named, surface, tolerance};
 use crate::surface_layout::SurfaceLayout;
 use ricci::flow::StopReason;
 use ricci::geometry::worse;
@@ -30,7 +30,7 @@ impl JobOutcome for FlowOutcome {
             if let Some(packed) = &laid.packed {
                 checks.add("overlapping_in_charts", packed.overlapping as f64, 0.0);
             }
-            checks.add("flipped_triangles", laid.flipped().len() as f64, 0.0);
+            laid.check_flipped(&mut checks);
         }
         checks
     }
@@ -64,7 +64,7 @@ impl JobOutcome for FlowOutcome {
             text += &format!("why      {}\n", why(self));
         }
         text += &match &self.layout {
-            Ok(laid) => format!("layout   {}\n", layout(laid)),
+            Ok(laid) => format!("layout   {}\n{}", layout(laid), overlap(laid)),
             Err(why) => format!("layout   none: {why}\n"),
         };
         text + &ending(&self.input, done, self.solved.may_flip)
@@ -73,15 +73,28 @@ impl JobOutcome for FlowOutcome {
 
 /// The quality of a layout.
 pub fn layout(laid: &SurfaceLayout) -> String {
-    let q = &laid.quality;
+    let written = laid.written();
+    let q = written.quality;
     let mut text = format!(
-        "{}, dilatation mean {:.4} max {:.3}, area ratio {:.2e} to {:.2e}",
-        count(laid.flipped().len(), "triangle flipped", "triangles flipped"),
+        "{}{}, dilatation mean {:.4} max {:.3}, area ratio {:.2e} to {:.2e}",
+        written.name,
+        count(written.flipped.len(), "triangle flipped", "triangles flipped"),
         q.qc_mean,
         q.qc_max,
         q.area_ratio_min,
         q.area_ratio_max
     );
+    if !written.degenerate.is_empty() {
+        text += &format!(", {} without area", count(written.degenerate.len(), "triangle", "triangles"));
+    }
+    if let Some(repaired) = laid.repaired() {
+        text += &format!(
+            "\nrepaired {} that folded: {} of the input split at {}",
+            count(laid.folded_input_faces(), "face", "faces"),
+            count(repaired.split_edges.len(), "edge", "edges"),
+            count(repaired.n_added(), "point", "points"),
+        );
+    }
     if let Some(packed) = &laid.packed {
         let charts = &packed.charts;
         text += &format!(
@@ -91,6 +104,14 @@ pub fn layout(laid: &SurfaceLayout) -> String {
         );
     }
     text + &modulus(laid.modulus)
+}
+
+/// The line about a layout that overlaps itself.
+fn overlap(laid: &SurfaceLayout) -> String {
+    laid.overlap().map_or_else(String::new, |share| {
+        let percent = 100.0 * share;
+        format!("overlap  {percent:.2} % of the layout's area lies on other parts of it: --charts cuts it into pieces that do not overlap\n")
+    })
 }
 
 /// The reason why a flow did not converge, as far as it is known.
@@ -118,12 +139,4 @@ fn why(outcome: &FlowOutcome) -> String {
     }
     let worst: Vec<VertexId> = report.worst.iter().map(|&(v, _)| v).collect();
     format!("the error is largest at {}", named("vertex", "vertices", &worst))
-}
-
-/// The first few elements of a list.
-fn named<Id: ToString>(one: &str, many: &str, list: &[Id]) -> String {
-    const SHOWN: usize = 5;
-    let ids: Vec<String> = list.iter().take(SHOWN).map(ToString::to_string).collect();
-    let more = if list.len() > SHOWN { format!(" … ({} in all)", list.len()) } else { String::new() };
-    format!("{} {}{more}", if list.len() == 1 { one } else { many }, ids.join(", "))
 }

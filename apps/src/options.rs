@@ -1,5 +1,6 @@
 //! Options that several commands share.
 
+use crate::failure::Failure;
 use clap::Args;
 use clap::builder::TypedValueParser;
 use ricci::flow::{Flips, Method, Options};
@@ -96,6 +97,9 @@ pub struct MetricArgs {
     /// Faces of --uv: those of the common subdivision, on which the map is exact, or the input's own
     #[arg(long, value_enum, value_name = "FACES", default_value_t = OnChoice::Refined)]
     pub on: OnChoice,
+    /// With --on input: split the fewest of the input's edges so that no face of --uv is turned over; the surface stays as it is
+    #[arg(long, requires = "uv")]
+    pub repair: bool,
     /// Write where the faces and vertices of --uv lie in the input's, numbered from 0: rows output_face,source_face, then
     /// output_vertex,source_face,b0,b1,b2
     #[arg(long, value_name = "X.csv", requires = "uv")]
@@ -127,6 +131,16 @@ pub struct SolveArgs {
 }
 
 impl MetricArgs {
+    /// Refuse options about the faces of --uv that do not go together.
+    pub fn check_faces(&self) -> Result<(), Failure> {
+        if self.repair && self.on != OnChoice::Input {
+            return Err(Failure::Usage(
+                "--repair: faces of the common subdivision do not fold; add --on input, or leave it out".into(),
+            ));
+        }
+        Ok(())
+    }
+
     /// The library's options of the flow.
     pub fn options(&self) -> Options {
         Options {

@@ -2,6 +2,7 @@
 
 use crate::failure::Failure;
 use crate::input::Input;
+use crate::say::named;
 pub use crate::timing::{PhaseSeconds, timed};
 use ricci::mesh::Mesh;
 use ricci::mesh::check::Diagnosis;
@@ -163,11 +164,17 @@ pub fn path_text(path: &Path) -> String {
 }
 
 /// A measured value against what it must not exceed.
-#[derive(Serialize, Clone, Copy)]
+#[derive(Serialize, Clone)]
 pub struct Check {
     pub value: f64,
     pub limit: f64,
     pub holds: bool,
+    /// Where it fails.
+    #[serde(rename = "where", skip_serializing_if = "Option::is_none")]
+    pub place: Option<String>,
+    /// What lets it hold.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub remedy: Option<String>,
 }
 
 /// Checks by name.
@@ -178,7 +185,22 @@ pub struct Checks(pub BTreeMap<&'static str, Check>);
 impl Checks {
     /// Add the check that `value` is at most `limit`; NaN is not.
     pub fn add(&mut self, name: &'static str, value: f64, limit: f64) {
-        self.0.insert(name, Check { value, limit, holds: value <= limit });
+        let check = Check { value, limit, holds: value <= limit, place: None, remedy: None };
+        self.0.insert(name, check);
+    }
+
+    /// Add the check that a list is empty. Where it is not, its elements are named, and a `remedy` if there is one.
+    pub fn add_none<Id: ToString>(
+        &mut self,
+        name: &'static str,
+        [one, many]: [&str; 2],
+        list: &[Id],
+        remedy: Option<&str>,
+    ) {
+        self.add(name, list.len() as f64, 0.0);
+        if let Some(check) = self.0.get_mut(name).filter(|check| !check.holds) {
+            (check.place, check.remedy) = (Some(named(one, many, list)), remedy.map(String::from));
+        }
     }
 
     pub fn failed(&self) -> Vec<&'static str> {

@@ -1,10 +1,10 @@
 //! The layout of a flow's metric on the surface as it was given, with its quality.
 
 use crate::input::Input;
-use crate::report::{PhaseSeconds, timed};
+use crate::report::{Checks, PhaseSeconds, timed};
 use ricci::Control;
 use ricci::control::Stage;
-use ricci::embed::{Charts, Layout, LayoutOptions, OnInput, Quality};
+use ricci::embed::{Charts, Layout, LayoutOptions, OnInput, Quality, RepairedInput};
 use ricci::flow::Solution;
 use ricci::mesh::{FaceId, HalfedgeId, Mesh, PerHalfedge, PerVertex, Point, VertexId};
 use ricci::metric::CommonSubdivision;
@@ -29,6 +29,46 @@ pub struct PackedCharts {
     pub overlapping: usize,
 }
 
+/// The layout on the input's own faces, where that is what is written.
+pub struct OwnFaces {
+    /// The same with edges split, where that was asked for.
+    pub repaired: Option<RepairedInput>,
+    pub quality: Quality,
+}
+
+impl OwnFaces {
+    /// Those of a layout; none where its cut does not run along edges of the input.
+    pub fn new(
+        layout: &Layout,
+        input: &Input,
+        repair: bool,
+        control: &Control,
+    ) -> ricci::Result<Option<OwnFaces>> {
+        let lengths = input.surface.lengths();
+        if !repair {
+            return Ok(layout.quality_on_input(lengths)?.map(|quality| OwnFaces { repaired: None, quality }));
+        }
+        let Some(repaired) = layout.repaired_input(control)? else { return Ok(None) };
+        let quality = layout.quality_of_repaired(&repaired, lengths)?;
+        Ok(Some(OwnFaces { repaired: Some(repaired), quality }))
+    }
+}
+
+/// The faces that are written, with what is to be told of them.
+pub struct WrittenFaces<'a> {
+    /// Their name, to be followed by figures.
+    pub name: &'static str,
+    /// Triangles that are not counterclockwise.
+    pub flipped: &'a [FaceId],
+    /// Triangles without area.
+    pub degenerate: &'a [FaceId],
+    pub quality: &'a Quality,
+}
+
+/// Least share of a layout's area on other parts of it that is told as an overlap: rounding of two sides of a cut that lie on each other
+/// stays far below.
+const LEAST_OVERLAP: f64 = 1e-9;
+
 /// A layout on the surface as it was given; in E² it is scaled to the area of the input.
 pub struct SurfaceLayout {
     pub layout: Layout,
@@ -39,6 +79,8 @@ pub struct SurfaceLayout {
     pub positions: Option<Vec<Point>>,
     /// The layout on the input's own faces, where its cut runs along their edges.
     pub on_input: Option<OnInput>,
+    /// What is known of the input's own faces, where they are written.
+    pub own_faces: Option<OwnFaces>,
     /// The layout cut into charts, where that was asked for.
     pub packed: Option<PackedCharts>,
     pub quality: Quality,
@@ -90,6 +132,7 @@ impl SurfaceLayout {
             weight,
             positions,
             on_input,
+            own_faces: None,
             packed: None,
             degenerate,
             modulus: layout.modulus(),
@@ -117,9 +160,56 @@ impl SurfaceLayout {
         weights
     }
 
-    /// Triangles that are not counterclockwise.
+    /// The faces that are written: those of the subdivision, or the input's own.
+    pub fn written(&self) -> WrittenFaces<'_> {
+        match (&self.own_faces, &self.on_input) {
+            (Some(OwnFaces { repaired, quality }), Some(on_input)) => WrittenFaces {
+                name: "on the input's faces: ",
+                flipped: repaired.as_ref().map_or(&on_input.flipped, |repaired| &repaired.flipped),
+                degenerate: &quality.degenerate,
+                quality,
+            },
+            _ => WrittenFaces {
+                name: "",
+                flipped: &self.layout.flipped,
+                degenerate: &self.degenerate,
+                quality: &self.quality,
+            },
+        }
+    }
+
+    /// The input's faces with the fewest edges split, where these are written.
+    pub fn repaired(&self) -> Option<&RepairedInput> {
+        self.own_faces.as_ref()?.repaired.as_ref()
+    }
+
+    /// The number of the input's own faces that fold where the map is made linear on each.
+    pub fn folded_input_faces(&self) -> usize {
+        self.on_input.as_ref().map_or(0, |on_input| on_input.flipped.len())
+    }
+
+    /// The share of the layout's area that lies on other parts of it, where there is any; charts have none.
+    pub fn overlap(&self) -> Option<f64> {
+        let share = if self.packed.is_none() { self.layout.overlap() } else { None };
+        share.filter(|&share| share > LEAST_OVERLAP)
+    }
+
+    /// Triangles that are written and not counterclockwise.
     pub fn flipped(&self) -> &[FaceId] {
-        &self.layout.flipped
+        self.written().flipped
+    }
+
+    /// Adds the check that no triangle is turned over that is written.
+    pub fn check_flipped(&self, checks: &mut Checks) {
+        let remedy = match &self.own_faces {
+            Some(own) if own.repaired.is_some() => Some("leave --on input out: the map is exact on the common subdivision"),
+            Some(_) => Some(
+                "add --repair, which splits the fewest of the input's edges, or leave --on input out: the map is exact on the common \
+                 subdivision",
+            ),
+            None => None,
+        };
+        checks.add_none("flipped_triangles", ["face", "faces"], self.flipped(), remedy);
     }
 
     /// The points of the layout as it is written and drawn: in charts where it was cut into them.

@@ -24,7 +24,8 @@ pub struct UvOptions {
 /// Write OBJ or, for a name that ends in `.glb`, binary glTF with a checkerboard; with the input's colours and normals.
 ///
 /// OBJ: `v` of the input, `vt` of the layout, `f v/vt`. The faces are the layout's (then the crossings of the input's edges with
-/// flipped ones follow its vertices), or the input's own. Returns the numbers of vertices and faces that the file has beyond the input's.
+/// flipped ones follow its vertices), or the input's own, with edges split where that was asked for. Returns the numbers of vertices and
+/// faces that the subdivision has beyond the input.
 pub fn write(
     outputs: &mut Outputs,
     path: &Path,
@@ -36,21 +37,31 @@ pub fn write(
     let (Some(positions), Some(own_positions)) = (laid.positions.as_deref(), input.positions()) else {
         return Err(Failure::no_positions());
     };
-    let (mesh, positions, index, texcoords, subdivision) = match (options.on, &laid.on_input) {
-        (OnChoice::Refined, _) => {
+    let split = laid.repaired().map(|r| r.refinement.from_vertices(0, own_positions)).transpose()?;
+    let (mesh, positions, index, texcoords, subdivision) = match (options.on, &laid.on_input, laid.repaired()) {
+        (OnChoice::Refined, ..) => {
             (laid.mesh(), positions, laid.corner_index(), laid.coordinates(), laid.common_subdivision())
         }
-        (OnChoice::Input, Some(on_input)) => {
+        (OnChoice::Input, _, Some(repaired)) => (
+            repaired.mesh(),
+            split.as_deref().unwrap_or(own_positions),
+            &repaired.corner_index,
+            &repaired.coordinates[..],
+            Some(&*repaired.refinement),
+        ),
+        (OnChoice::Input, Some(on_input), None) => {
             (input.mesh(), own_positions, &on_input.corner_index, &on_input.coordinates[..], None)
         }
-        (OnChoice::Input, None) => {
+        (OnChoice::Input, None, None) => {
             return Err(Failure::Failed("--on input: the layout is not cut along the input's edges".into()));
         }
     };
     let weights = if options.homogeneous { laid.weights() } else { Vec::new() };
     UvMesh { mesh, positions, index, texcoords, weights: &weights, subdivision }
         .write(outputs, path, input)?;
-    Ok([positions.len() - own_positions.len(), mesh.n_faces() - input.mesh().n_faces()])
+    // The summary tells those of split edges on a line of their own.
+    let added = [positions.len() - own_positions.len(), mesh.n_faces() - input.mesh().n_faces()];
+    Ok(if options.on == OnChoice::Refined { added } else { [0; 2] })
 }
 
 /// A mesh in space with texture coordinates.
@@ -122,7 +133,10 @@ pub fn write_origins(
     laid: &SurfaceLayout,
     on: OnChoice,
 ) -> std::io::Result<()> {
-    let subdivision = laid.common_subdivision().filter(|_| on == OnChoice::Refined);
+    let subdivision = match on {
+        OnChoice::Refined => laid.common_subdivision(),
+        OnChoice::Input => laid.repaired().map(|repaired| &*repaired.refinement),
+    };
     let mesh = subdivision.map_or(input.mesh(), |r| &r.mesh);
     let whole = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     let source = |f| {

@@ -17,9 +17,8 @@ use ricci::embed::layout::{bounding_diagonal, distance};
 use ricci::embed::{Layout, LayoutOptions, LayoutScale, OnInput, Quality, Seam};
 use ricci::geometry::{Model, PlaneIsometry, Space};
 use ricci::mesh::{EdgeId, FaceId, Mesh, PerEdge, PerHalfedge, Point};
-use std::borrow::Cow;
 use std::ffi::c_char;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 choices!(pub(crate) MODELS: Model = "model", [
     RICCI_MODEL_POINCARE => Model::Poincare,
@@ -43,6 +42,8 @@ pub struct ricci_layout {
     on_input: Option<OnInput>,
     /// The distortion against the caller's mesh; none of a layout of the metric's own triangulation after flips.
     quality: Option<Quality>,
+    /// The distortion on the caller's mesh, found when it is first asked for.
+    of_input: OnceLock<Option<Quality>>,
 }
 handle!(ricci_layout, "layout");
 
@@ -86,6 +87,12 @@ pub struct ricci_layout_summary {
     pub qc_max: f64,
     pub area_ratio_min: f64,
     pub area_ratio_max: f64,
+    pub n_degenerate_input: usize,
+    pub qc_mean_input: f64,
+    pub qc_max_input: f64,
+    pub area_ratio_min_input: f64,
+    pub area_ratio_max_input: f64,
+    pub overlap: f64,
 }
 // SAFETY: numbers; 8-byte alignment, size first.
 sized!(ricci_layout_summary, "summary");
@@ -127,17 +134,23 @@ impl ricci_layout {
         let quality =
             if lies_on_input { Some(layout.quality(surface.mesh(), surface.lengths())?) } else { None };
         let (points, on_input) = (plane_points(&layout, model), layout.on_input());
-        Ok(ricci_layout { points, on_input, quality, layout: Arc::new(layout), state, model })
+        let of_input = OnceLock::new();
+        Ok(ricci_layout { points, on_input, quality, of_input, layout: Arc::new(layout), state, model })
     }
 
     fn on_input(&self) -> Outcome<&OnInput> {
         self.on_input.as_ref().ok_or_else(|| not_here(NOT_ON_INPUT))
     }
 
-    fn quality_on_input(&self) -> Outcome<Quality> {
+    /// The distortion on the caller's mesh; none if the layout is cut along edges of another triangulation.
+    fn quality_on_input(&self) -> Outcome<Option<&Quality>> {
+        if let Some(known) = self.of_input.get() {
+            return Ok(known.as_ref());
+        }
         let surface = self.state.solution.surface();
         let _reserve = memory::work(surface.mesh().n_vertices(), memory::LAYOUT)?;
-        self.layout.quality_on_input(surface.lengths())?.ok_or_else(|| not_here(NOT_ON_INPUT))
+        let found = self.layout.quality_on_input(surface.lengths())?;
+        Ok(self.of_input.get_or_init(|| found).as_ref())
     }
 
     /// The point of every corner of every face, of the caller's mesh or of the mesh of the layout.
@@ -221,10 +234,12 @@ pub unsafe extern "C" fn ricci_layout_summarise(
     summary: *mut ricci_layout_summary,
     size: usize,
 ) -> ricci_status {
-    guard::with(layout, |ricci_layout { layout, points, quality, state, on_input, model }| {
+    guard::with(layout, |handle| {
+        let ricci_layout { layout, points, quality, state, on_input, model, .. } = handle;
         let (mesh, given) = (layout.mesh(), state.solution.given());
-        let quality = quality.as_ref();
+        let (quality, of_input) = (quality.as_ref(), handle.quality_on_input()?);
         let figure = |of: fn(&Quality) -> f64| quality.map_or(f64::NAN, of);
+        let input_figure = |of: fn(&Quality) -> f64| of_input.map_or(f64::NAN, of);
         let figures = ricci_layout_summary {
             size,
             space: SPACES.number(layout.space)?,
@@ -249,6 +264,12 @@ pub unsafe extern "C" fn ricci_layout_summarise(
             qc_max: figure(|q| q.qc_max),
             area_ratio_min: figure(|q| q.area_ratio_min),
             area_ratio_max: figure(|q| q.area_ratio_max),
+            n_degenerate_input: of_input.map_or(0, |quality| quality.degenerate.len()),
+            qc_mean_input: input_figure(|q| q.qc_mean),
+            qc_max_input: input_figure(|q| q.qc_max),
+            area_ratio_min_input: input_figure(|q| q.area_ratio_min),
+            area_ratio_max_input: input_figure(|q| q.area_ratio_max),
+            overlap: layout.overlap().unwrap_or(f64::NAN),
         };
         structs::write(figures, summary, size)
     })
@@ -358,8 +379,8 @@ pub unsafe extern "C" fn ricci_layout_distortion(
 ) -> ricci_status {
     guard::with(layout, |layout| {
         let quality = match ON.choose(on)? {
-            Triangulation::Input => Cow::Owned(layout.quality_on_input()?),
-            _ => Cow::Borrowed(layout.quality()?),
+            Triangulation::Input => layout.quality_on_input()?.ok_or_else(|| not_here(NOT_ON_INPUT))?,
+            _ => layout.quality()?,
         };
         check_buffer("area_ratio", quality.area_ratio.len(), area_ratio, capacity)?;
         copy_out("qc", &quality.qc, qc, capacity)?;

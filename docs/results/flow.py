@@ -102,8 +102,9 @@ def on_input(mesh):
     with tempfile.TemporaryDirectory() as folder:
         path, uv = file_of(mesh), os.path.join(folder, "uv.obj")
         code, report, _ = launch(folder, "flow", path, "--uv", uv, "--on", "input", "--threads", "1", seconds=SECONDS)
-        found = CHECK.corners(uv, path) if CHECK and code == 0 else {}
-        return {"code": code, "folded": report["result"]["flipped_input_faces"] if code == 0 else None, **found}
+        written = report is not None and os.path.exists(uv)
+        found = CHECK.corners(uv, path) if CHECK and written else {}
+        return {"written": written, "folded": report["result"]["flipped_input_faces"] if written else None, **found}
 
 
 def work(mesh):
@@ -235,7 +236,7 @@ def content(_):
         "## On the input's own faces",
         "`--on input`, default target: the layout made linear on each face of the input. Folded: faces of the input that turn over then "
         "(the exact map, on the refinement, turns none over), as the report says and as `check.py corners` counts.",
-        f"{sum(x['code'] == 0 for _, x in given)} of {len(given)} meshes written; {same} with the input's own faces, and so with seams on its "
+        f"{sum(x['written'] for _, x in given)} of {len(given)} meshes written; {same} with the input's own faces, and so with seams on its "
         f"edges, by the outside program. {folded} of {whole} faces folded: {100 * folded / whole:.2f} %.",
         table(["mesh", "faces", "folded", "share", "outside: folded"],
               [(m["name"], m["F"], x["folded"], f"{100 * (x['folded'] or 0) / int(m['F']):.2f} %", x.get("flipped", "–")) for m, x in given]),

@@ -1335,8 +1335,8 @@ typedef struct ricci_layout_summary {
      */
     size_t n_flipped_input;
     /**
-     * Faces without area in the input or the layout, but for rounding; the distortions below leave them
-     * out.
+     * Faces of the layout's mesh without area in the input or the layout, but for rounding; its distortions
+     * below leave them out.
      */
     size_t n_degenerate;
     /**
@@ -1363,6 +1363,27 @@ typedef struct ricci_layout_summary {
     double area_ratio_min;
     /** Largest area distortion. */
     double area_ratio_max;
+    /**
+     * The faces without area of the mesh itself, where the map is made linear on them (RICCI_ON_INPUT); the
+     * distortions of its faces leave them out.
+     */
+    size_t n_degenerate_input;
+    /**
+     * The mean dilatation of the mesh's own faces. NaN, as all below but the last, where the layout is cut
+     * along edges of the metric's triangulation.
+     */
+    double qc_mean_input;
+    /** Largest quasi-conformal dilatation of the mesh's own faces. */
+    double qc_max_input;
+    /** Smallest area distortion of the mesh's own faces. */
+    double area_ratio_min_input;
+    /** Largest area distortion of the mesh's own faces. */
+    double area_ratio_max_input;
+    /**
+     * Share of the layout's area that lies on other parts of it, up to rounding: an atlas has no overlaps.
+     * NaN outside the plane.
+     */
+    double overlap;
 } ricci_layout_summary;
 
 /**

@@ -365,13 +365,13 @@ const LEAST_PERIOD: f64 = 1e-9;
 /// 0 and far below the curvature of a cone that a caller asks for.
 const MOST_ROTATION: f64 = 1e-6;
 
-fn faces_where(mesh: &Mesh, is_so: impl Fn(FaceId) -> bool + Sync) -> Vec<FaceId> {
+pub(super) fn faces_where(mesh: &Mesh, is_so: impl Fn(FaceId) -> bool + Sync) -> Vec<FaceId> {
     let mut found = vec![false; mesh.n_faces()];
     parallel::fill(&mut found, |f| is_so(f.into()));
     mesh.faces().filter(|f| found[f.index()]).collect()
 }
 
-fn is_left_turn([a, b, c]: [[f64; 2]; 3]) -> bool {
+pub(super) fn is_left_turn([a, b, c]: [[f64; 2]; 3]) -> bool {
     orientation(a, b, c) == Ordering::Greater
 }
 

@@ -15,6 +15,7 @@
 
 use super::layout::{Layout, distance};
 use super::pieces::CORNERS;
+use super::repaired_input::RepairedInput;
 use crate::error::{Error, Result, check_size};
 use crate::geometry::complex::{Complex, conj, cross, doubled_area, mul, norm2, quick_norm, sub};
 use crate::geometry::plane_triangle::PlaneTriangle;
@@ -85,19 +86,42 @@ impl Layout {
     /// [`Error::Size`], [`Error::EdgeLength`], [`Error::TriangleInequality`] of the lengths.
     pub fn quality_on_input(&self, lengths: &PerEdge<f64>) -> Result<Option<Quality>> {
         let (Some((input, _)), Some(on_input)) = (&self.input, self.on_input()) else { return Ok(None) };
-        let over = 1.0 / self.diameter;
+        let corner = |h| on_input.points[on_input.corner_index[h] as usize];
         let quality = InputTriangles::new(input, lengths)?.quality(
             input,
             |f| f,
             |_| CORNERS,
-            |f, from| {
-                let face = input.face_halfedges(f);
-                let points = face.map(|h| on_input.points[on_input.corner_index[h] as usize] as usize);
-                let to = points.map(|k| self.coordinates[k].map(|x| x * over));
-                (dilatation(from, to), self.area_of(to, points.map(|k| self.points[k])))
-            },
+            |f, from| self.linear_image(input.face_halfedges(f).map(corner), from),
         );
         quality.map(Some)
+    }
+
+    /// [`Layout::quality`] of the map that is linear on the faces of [`Layout::repaired_input`]. `lengths`: of the edges of the surface as
+    /// it came, in E².
+    ///
+    /// # Errors
+    /// [`Error::Size`], [`Error::EdgeLength`], [`Error::TriangleInequality`] of the lengths; [`Error::Layout`] where the cut does not run
+    /// along the edges of the input.
+    pub fn quality_of_repaired(&self, repaired: &RepairedInput, lengths: &PerEdge<f64>) -> Result<Quality> {
+        let Some((input, _)) = &self.input else {
+            return Err(Error::Layout("this layout is not cut along edges of the input".into()));
+        };
+        let (r, mesh) = (&repaired.refinement, repaired.mesh());
+        let corner = |h| repaired.points[repaired.corner_index[h] as usize];
+        InputTriangles::new(input, lengths)?.quality(
+            mesh,
+            |f| r.faces[0][f],
+            |f| r.barycentric(0, f),
+            |f, from| self.linear_image(mesh.face_halfedges(f).map(corner), from),
+        )
+    }
+
+    /// The dilatation of the linear map of a triangle to points of the layout, and the area of its image.
+    fn linear_image(&self, points: [u32; 3], from: TriangleCorners) -> (f64, f64) {
+        let over = 1.0 / self.diameter;
+        let points = points.map(|k| k as usize);
+        let to = points.map(|k| self.coordinates[k].map(|x| x * over));
+        (dilatation(from, to), self.area_of(to, points.map(|k| self.points[k])))
     }
 
     /// True if a piece and its image both have a shape that can be compared. The triangles of a mesh always have one, since they come from

@@ -10,6 +10,7 @@ pub mod circle;
 pub mod clip;
 pub mod complex;
 pub mod conformal;
+pub mod cover_share;
 pub mod disk_barycentre;
 pub mod double_double;
 mod exponentials;

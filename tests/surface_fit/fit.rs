@@ -28,6 +28,7 @@ fn folds_are_found_where_they_are() {
     let fitted = sample();
     let (domain, spline) = (&fitted.domain, &fitted.spline);
     assert_eq!(domain.folds(spline, 0, &Control::new()).unwrap(), fitted.folds);
+    assert_eq!(spline.folds(0, &Control::new()).unwrap(), fitted.folds);
     let patches = spline.space().patches();
     let is_whole = |p: &usize| !fitted.folds.contains(p);
     let patch = (0..patches.len()).rev().find(is_whole).unwrap();
@@ -38,5 +39,6 @@ fn folds_are_found_where_they_are() {
     let bent = Spline::new(spline.space().clone(), points).unwrap().with_holes(spline.holes().to_vec());
     let folds = domain.folds(&bent, 0, &Control::new()).unwrap();
     assert!(folds.contains(&patch), "{patch}: {folds:?}");
+    assert_eq!(bent.folds(0, &Control::new()).unwrap(), folds);
     assert!(folds.len() < patches.len() / 2, "{folds:?}");
 }

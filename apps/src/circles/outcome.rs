@@ -52,6 +52,7 @@ fn layout_on(halved: &Input, domain: &CircleDomain) -> ricci::Result<SurfaceLayo
         weight: subdivision.map_or_else(|| PerVertex::from(Vec::new()), |r| r.weight.clone()),
         positions,
         on_input: None,
+        own_faces: None,
         packed: None,
         degenerate: layout.degenerate.clone(),
         modulus: domain.torus_modulus,

@@ -15,7 +15,7 @@ use ricci::harmonic::{
     Domain, HarmonicMap, HeatOptions, MapConstraints, SphereMap, SphereMapOptions, SphereMethod,
     harmonic_map, heat_flow, planar, simple_domain, sphere_map,
 };
-use ricci::mesh::VertexId;
+use ricci::mesh::{FaceId, VertexId};
 use ricci::metric::CommonSubdivision;
 
 /// A map to the plane, carried back to the surface.
@@ -27,8 +27,8 @@ pub struct PlaneMap {
     pub subdivision: Option<CommonSubdivision>,
     /// The image of each vertex of the subdivision.
     pub points: Vec<[f64; 2]>,
-    /// The number of triangles of the domain and of pieces of the subdivision that turn over.
-    pub flipped: usize,
+    /// The triangles that are written and turn over: pieces of the subdivision where there is one, else triangles of the domain.
+    pub flipped: Vec<FaceId>,
     /// The number of pieces without area.
     pub degenerate: usize,
 }
@@ -99,6 +99,17 @@ impl HarmonicOutcome {
         Ok(HarmonicOutcome { input, to, domain, refined, added_vertices, map })
     }
 
+    /// What lets no triangle be turned over. No triangle of a disk folds in a map onto a convex region.
+    fn remedy(&self) -> Option<&'static str> {
+        match self.to {
+            MapTarget::File(_) => Some(
+                "give every vertex of the boundary a place, in its order around a convex curve, and let the others be free; or take --to disk",
+            ),
+            MapTarget::Rectangle => Some("take --to polygon:4 or --to disk, which turn no triangle over"),
+            _ => None,
+        }
+    }
+
     /// The surface that is mapped: the input, with the vertices added to it that the map needs.
     pub fn mapped_input(&self) -> &Input {
         self.refined.as_ref().unwrap_or(&self.input)
@@ -133,10 +144,7 @@ impl JobOutcome for HarmonicOutcome {
                     checks.add("energy_rise", self.energy_rise(), ENERGY_ROUNDING * size);
                     checks.add("not_converged", f64::from(u8::from(!converged)), 0.0);
                 }
-                // No triangle of a disk folds in a map onto a convex region.
-                if matches!(self.to, MapTarget::Disk | MapTarget::Polygon(_)) {
-                    checks.add("flipped_triangles", plane.flipped as f64, 0.0);
-                }
+                checks.add_none("flipped_triangles", ["face", "faces"], &plane.flipped, self.remedy());
             }
             MappedSurface::Sphere(map) => {
                 checks.add("flipped_triangles", map.flipped.len() as f64, 0.0);
@@ -159,7 +167,7 @@ impl JobOutcome for HarmonicOutcome {
             MappedSurface::Plane(plane) => figures
                 .with("energy", plane.map.energy)
                 .with("mean_value_residual", plane.map.mean_value_residual)
-                .with("flipped_triangles", plane.flipped)
+                .with("flipped_triangles", plane.flipped.len())
                 .with("degenerate_pieces", plane.degenerate)
                 .if_some("corners", plane.course.corner_numbers())
                 .if_some("modulus", plane.course.modulus.map(|(modulus, _)| modulus))
@@ -187,7 +195,7 @@ impl JobOutcome for HarmonicOutcome {
                 say::size(plane.map.energy, 6),
                 plane.course.steps(),
                 plane.map.mean_value_residual,
-                say::count(plane.flipped, "triangle flipped", "triangles flipped"),
+                say::count(plane.flipped.len(), "triangle flipped", "triangles flipped"),
                 plane.course.modulus_line(),
             ),
             MappedSurface::Sphere(map) => format!(
@@ -286,12 +294,16 @@ impl PlaneMap {
             Some(r) => r.from_vertices(1, &map.points)?,
             None => map.points.clone(),
         };
-        let (mut flipped, mut degenerate) = (planar::flipped(domain, &map.points).len(), 0);
-        for f in subdivision.iter().flat_map(|r| r.mesh.faces().map(|f| r.mesh.face_vertices(f))) {
-            let corners @ [a, b, c] = f.map(|v| points[v.index()]);
+        let mut degenerate = 0;
+        let mut flipped = match &subdivision {
+            Some(_) => Vec::new(),
+            None => planar::flipped(domain, &map.points),
+        };
+        for (r, f) in subdivision.iter().flat_map(|r| r.mesh.faces().map(move |f| (r, f))) {
+            let corners @ [a, b, c] = r.mesh.face_vertices(f).map(|v| points[v.index()]);
             let longest = distance(a, b).max(distance(b, c)).max(distance(c, a));
             let (area, least) = (0.5 * doubled_area(corners), LEAST_RELATIVE_AREA * longest * longest);
-            flipped += usize::from(area < -least);
+            flipped.extend((area < -least).then_some(f));
             degenerate += usize::from(area.abs() <= least);
         }
         Ok(PlaneMap { map, course, subdivision, points, flipped, degenerate })

@@ -15,6 +15,8 @@ const NORMAL_JUMP: f64 = 1.0;
 pub struct ExportOutcome {
     spline: Spline,
     bicubic: BicubicFit,
+    /// The patches of the spline that fold.
+    folds: Vec<usize>,
     /// The limit of the distance from the spline.
     tolerance: f64,
 }
@@ -39,7 +41,8 @@ impl Job for ExportArgs {
             ..BicubicOptions::default()
         };
         let bicubic = timed(&mut run.seconds.solve, || spline.to_bicubic(&options, run.control))?;
-        Ok(ExportOutcome { spline, bicubic, tolerance: self.tolerance })
+        let folds = timed(&mut run.seconds.solve, || spline.folds(self.common.threads, run.control))?;
+        Ok(ExportOutcome { spline, bicubic, folds, tolerance: self.tolerance })
     }
 
     fn write(&self, outcome: &ExportOutcome, run: &mut CommandRun<'_>) -> Result<(), Failure> {
@@ -61,6 +64,8 @@ impl JobOutcome for ExportOutcome {
         let mut checks = Checks::default();
         checks.add("distance", bicubic.distance, self.tolerance);
         checks.add("normal_jump", bicubic.angles.largest.to_degrees(), NORMAL_JUMP);
+        let remedy = "the surface turns back on itself there; fit it again with more patches, a smaller --tolerance, or more --fairness";
+        checks.add_none("folded_patches", ["patch", "patches"], &self.folds, Some(remedy));
         checks.add("open_sides", bicubic.surface.open_sides() as f64, 0.0);
         checks
     }
@@ -77,6 +82,7 @@ impl JobOutcome for ExportOutcome {
             .with("spans_min", bicubic.spans[0])
             .with("spans_max", bicubic.spans[1])
             .with("rounds", bicubic.rounds)
+            .with("folded_patches", &self.folds[..])
             .with("closed", surface.is_closed())
             .with("diagonal", bicubic.diagonal)
             // A fraction of the diagonal of the bounding box.
@@ -98,7 +104,7 @@ impl JobOutcome for ExportOutcome {
             bicubic.angles.largest.to_degrees(),
             bicubic.angles.mean.to_degrees(),
             bicubic.angles.of_spline.to_degrees(),
-            say::checks_by_name(&done.checks),
+            done.checks.told(true),
             done.files[0],
         )
     }

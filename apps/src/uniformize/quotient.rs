@@ -5,7 +5,7 @@ use crate::failure::{Failure, or_reason, required};
 use crate::report::{Checks, PhaseSeconds, timed};
 use crate::runner::CommandRun;
 use crate::solved::SolvedMetric;
-use crate::surface_layout::{SurfaceLayout, is_carried_back};
+use crate::surface_layout::{OwnFaces, SurfaceLayout, is_carried_back};
 use ricci::canonical::Quotient;
 use ricci::embed::layout::MEETING;
 use ricci::embed::{
@@ -161,7 +161,10 @@ impl Uniformized {
             _ => layout.consistency_limit(self.solved.total_error()),
         };
         checks.add("layout_consistency", layout.consistency(), meeting);
-        checks.add("flipped_triangles", self.flipped().len() as f64, 0.0);
+        match self.laid() {
+            Ok(laid) => laid.check_flipped(&mut checks),
+            Err(_) => checks.add_none("flipped_triangles", ["face", "faces"], self.flipped(), None),
+        }
         checks.add("relation_residual", self.deck.relation_residual, RELATION);
         checks.add("side_residual", self.deck.side_residual, RELATION);
         let area = self.layout.area;
@@ -263,6 +266,7 @@ fn on_surface(
                 along_edges.move_by(&base.motion)?;
             }
             laid.on_input = along_edges.on_input();
+            laid.own_faces = OwnFaces::new(&along_edges, task.input, task.args.to.repair, control)?;
         }
         Ok(laid)
     })

@@ -145,6 +145,7 @@ impl CanonicalJob<'_> {
     /// Refuse what can be refused before anything is read.
     pub fn check_request(&self) -> Result<(), Failure> {
         let args = self.args;
+        args.to.check_faces()?;
         let cover = self.cover.as_ref();
         let [copies, domain] =
             [cover.and_then(|c| c.cover), cover.and_then(|c| c.domain)].map(|file| file.map(|name| &**name));

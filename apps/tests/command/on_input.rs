@@ -2,7 +2,7 @@
 
 use crate::files::parse_obj;
 use crate::run::Place;
-use crate::surfaces::{genus_two, hill};
+use crate::surfaces::{genus_two, hill, sheared_hill};
 
 /// With `--on input` the file has the input's own vertices and faces, in order; the faces around an edge that is no seam share their
 /// points.
@@ -19,7 +19,7 @@ fn the_inputs_own_faces_are_written_on_request() {
         ("two", "uniformize two.obj"),
     ];
     for (name, line) in lines {
-        place.expect(0, &format!("{line} --uv own.obj --on input --report r.json --quiet"));
+        let ended = place.run(&format!("{line} --uv own.obj --on input --report r.json --quiet"));
         let own = parse_obj(&place.text("own.obj"));
         let (vertices, faces) = parse_plain(&place.text(&format!("{name}.obj")));
         assert_eq!(own.v, vertices, "{line}");
@@ -27,11 +27,43 @@ fn the_inputs_own_faces_are_written_on_request() {
         let result = &place.json("r.json")["result"];
         let (seams, folds) = seams_and_folds(&own);
         assert_eq!(result["flipped_input_faces"].as_u64(), Some(folds), "{line}");
+        assert_eq!(result["flipped_triangles"].as_u64(), Some(folds), "{line}");
+        assert_eq!(ended.code, Some(i32::from(folds > 0)), "{line}");
         assert!(folds as usize * 50 < own.faces.len(), "{line}: {folds} faces fold");
         let most = own.faces.len() / 4;
         assert!(seams < most, "{line}: {seams} edges on seams");
     }
     place.expect(2, "flow two.obj --charts --space e2 --target single:3 --uv own.obj --on input");
+}
+
+/// With `--repair` edges are split until no face of the file is turned over; the first vertices are the input's, and figures and exit code
+/// are those of the file.
+#[test]
+fn a_repair_leaves_no_face_turned_over() {
+    let place = Place::new();
+    place.put("two.obj", &genus_two(12).obj()).put("hill.obj", &sheared_hill(8).obj());
+    for line in ["flow hill.obj --target boundary", "flow two.obj --space e2 --target single:3", "uniformize two.obj"] {
+        let line = format!("{line} --uv own.obj --on input --report r.json");
+        let said = place.run(&line);
+        let (_, folds) = seams_and_folds(&parse_obj(&place.text("own.obj")));
+        assert_eq!(said.code, Some(i32::from(folds > 0)), "{line}\n{}", said.out);
+        assert_eq!(said.out.contains("flipped_triangles = "), folds > 0, "{line}\n{}", said.out);
+        assert_eq!(said.out.contains("add --repair"), folds > 0, "{line}\n{}", said.out);
+
+        let said = place.expect(0, &format!("{line} --repair --xref x.csv")).out;
+        let own = parse_obj(&place.text("own.obj"));
+        let (given, _) = parse_plain(&place.text(if line.contains("two") { "two.obj" } else { "hill.obj" }));
+        let result = &place.json("r.json")["result"];
+        assert_eq!(seams_and_folds(&own).1, 0, "{line}");
+        assert_eq!((&own.v[..given.len()], &result["flipped_input_faces"]), (&given[..], &folds.into()), "{line}");
+        assert_eq!(result["added_vertices"], own.v.len() - given.len(), "{line}");
+        assert_eq!(result["flipped_triangles"], 0, "{line}");
+        assert!(said.contains(&format!("repaired {folds} face")), "{line}\n{said}");
+        let rows = place.text("x.csv").lines().count();
+        assert_eq!(rows, own.faces.len() + own.v.len() + 2, "{line}");
+    }
+    let refused = place.expect(2, "flow hill.obj --uv own.obj --repair").err;
+    assert!(refused.contains("--on input"), "{refused}");
 }
 
 /// Edges inside whose two faces have their ends in different places, and faces that are not counterclockwise.

@@ -7,7 +7,7 @@
 
 use super::patch_quad::{PatchDivision, PatchQuad, root};
 use crate::geometry::complex::{Complex, add, conj, mul, norm, scale, sub, unit};
-use crate::spline::triangular::{Hole, Spline};
+use crate::spline::triangular::Spline;
 use std::collections::HashMap;
 
 /// Shares of |w| at which the sides at a singular vertex are divided if the middles do not give sound quadrilaterals; the first is taken
@@ -27,7 +27,7 @@ pub(super) fn divisions(spline: &Spline) -> Vec<PatchDivision> {
         .holes()
         .iter()
         .filter(|hole| !hole.is_at_infinity() && hole.turns > 1)
-        .map(|hole| (hole.turns, corners(spline, hole)))
+        .map(|hole| (hole.turns, hole.corners(spline.space())))
         .collect();
     let mut singular: HashMap<usize, usize> = HashMap::new();
     for (turns, corners) in &holes {
@@ -55,17 +55,6 @@ pub(super) fn divisions(spline: &Spline) -> Vec<PatchDivision> {
         }
     }
     all
-}
-
-/// The patches at the vertex of a hole, each with the number of its corner there.
-fn corners(spline: &Spline, hole: &Hole) -> Vec<(usize, usize)> {
-    let mut found = Vec::new();
-    for sector in &hole.sectors {
-        let knots = &spline.space().patches()[sector.patch as usize].knots;
-        let is_here = |k: &usize| sector.starts_at(knots[*k][0], knots[(k + 1) % 3][0]);
-        found.extend((0..3).find(is_here).map(|k| (sector.patch as usize, k)));
-    }
-    found
 }
 
 /// The division of a patch with a singular vertex at corner k; none if the opposite side comes nearer to the vertex in w than the middle

@@ -7,6 +7,7 @@ use crate::geometry::complex::{Complex, add, scale, sub};
 use crate::geometry::vector::{Vector, cross, dot, norm};
 use crate::mesh::FaceId;
 use crate::spline::{Hole, Parameter, Spline};
+use std::collections::HashMap;
 
 /// Steps of the grid along a side of a patch.
 const STEPS: usize = 12;
@@ -37,17 +38,50 @@ impl SurfaceDomain {
             grid(f.0, corners, hole)
         };
         let grids: Vec<Vec<Parameter>> = mesh.faces().map(places).collect();
-        let found = spline.evaluate(&grids.concat(), 1, threads, control)?;
-        let normals: Vec<Vector> = found.iter().map(|at| cross(at.first[0], at.first[1])).collect();
-        let mut rest = &normals[..];
-        let is_folded = |grid: &Vec<Parameter>| {
-            let (of, later) = rest.split_at(grid.len());
-            rest = later;
-            is_folded(of)
-        };
-        let folded: Vec<bool> = grids.iter().map(is_folded).collect();
-        Ok((0..folded.len()).filter(|&patch| folded[patch]).collect())
+        folded_grids(spline, &grids, threads, control)
     }
+}
+
+impl Spline {
+    /// The patches in which the spline folds, as [`SurfaceDomain::folds`] finds them, without its domain.
+    ///
+    /// # Errors
+    /// [`crate::Error::Cancelled`].
+    pub fn folds(&self, threads: usize, control: &Control) -> Result<Vec<usize>> {
+        let patches = self.space().patches();
+        let mut singular: HashMap<usize, (usize, &Hole)> = HashMap::new();
+        for hole in self.holes().iter().filter(|hole| !hole.is_at_infinity()) {
+            for (patch, k) in hole.corners(self.space()) {
+                singular.entry(patch).or_insert((k, hole));
+            }
+        }
+        let places = |patch: usize| {
+            let (k, hole) = singular.get(&patch).map_or((0, None), |&(k, hole)| (k, Some(hole)));
+            let corners = patches[patch].corners();
+            grid(patch as u32, [0, 1, 2].map(|j| corners[(k + j) % 3]), hole)
+        };
+        let grids: Vec<Vec<Parameter>> = (0..patches.len()).map(places).collect();
+        folded_grids(self, &grids, threads, control)
+    }
+}
+
+/// The numbers of the grids, one in each patch, at which the normals of a spline turn too much.
+fn folded_grids(
+    spline: &Spline,
+    grids: &[Vec<Parameter>],
+    threads: usize,
+    control: &Control,
+) -> Result<Vec<usize>> {
+    let found = spline.evaluate(&grids.concat(), 1, threads, control)?;
+    let normals: Vec<Vector> = found.iter().map(|at| cross(at.first[0], at.first[1])).collect();
+    let mut rest = &normals[..];
+    let is_folded = |grid: &Vec<Parameter>| {
+        let (of, later) = rest.split_at(grid.len());
+        rest = later;
+        is_folded(of)
+    };
+    let folded: Vec<bool> = grids.iter().map(is_folded).collect();
+    Ok((0..folded.len()).filter(|&patch| folded[patch]).collect())
 }
 
 /// True if the normals at two neighbouring places of a grid differ by too large an angle.

@@ -193,6 +193,17 @@ impl Hole {
         Some(self.of_sector(sector, sector.local(at)))
     }
 
+    /// The patches at the vertex of the hole, each with the number of its corner there.
+    pub(crate) fn corners(&self, space: &SplineSpace) -> Vec<(usize, usize)> {
+        let mut found = Vec::new();
+        for sector in &self.sectors {
+            let knots = &space.patches()[sector.patch as usize].knots;
+            let is_here = |k: &usize| sector.starts_at(knots[*k][0], knots[(k + 1) % 3][0]);
+            found.extend((0..3).find(is_here).map(|k| (sector.patch as usize, k)));
+        }
+        found
+    }
+
     /// The place in the chart of the hole at a share of |w| of the way from its vertex, the first of two places of a patch, to the second.
     /// None if the filling alone is not the surface there, or the first place is not the vertex.
     pub(crate) fn near_vertex(&self, [vertex, end]: [Parameter; 2], share: f64) -> Option<Parameter> {

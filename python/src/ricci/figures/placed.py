@@ -25,7 +25,8 @@ class LayoutSummary:
         n_flipped: faces that are not counterclockwise: by exact arithmetic; of a common subdivision, those that are clockwise by more than
             rounding.
         n_flipped_input: faces of the mesh that are not counterclockwise where the map is made linear on them (``"input"``): there it folds.
-        n_degenerate: faces without area in the input or the layout, but for rounding; the distortions below leave them out.
+        n_degenerate: faces of what is laid out without area in the input or the layout, but for rounding; its distortions below leave them
+            out.
         consistency: largest disagreement of an edge vector with the placed points: relative to `diameter` in E2, elsewhere a distance.
         scale: lengths in the layout over lengths in the metric.
         area: area of the surface in the layout.
@@ -36,6 +37,14 @@ class LayoutSummary:
         qc_max: largest quasi-conformal dilatation.
         area_ratio_min: smallest area distortion: share of the layout's area over share of the input's.
         area_ratio_max: largest area distortion.
+        n_degenerate_input: the faces without area of the mesh itself, where the map is made linear on them (``"input"``); the distortions of
+            its faces leave them out.
+        qc_mean_input: the mean dilatation of the mesh's own faces. NaN, as all below but the last, where the layout is cut along edges of the
+            metric's triangulation.
+        qc_max_input: largest quasi-conformal dilatation of the mesh's own faces.
+        area_ratio_min_input: smallest area distortion of the mesh's own faces.
+        area_ratio_max_input: largest area distortion of the mesh's own faces.
+        overlap: share of the layout's area that lies on other parts of it, up to rounding: an atlas has no overlaps. NaN outside the plane.
     """
 
     space: Space
@@ -60,6 +69,12 @@ class LayoutSummary:
     qc_max: float
     area_ratio_min: float
     area_ratio_max: float
+    n_degenerate_input: int
+    qc_mean_input: float
+    qc_max_input: float
+    area_ratio_min_input: float
+    area_ratio_max_input: float
+    overlap: float
 
 
 @dataclass(frozen=True)
