@@ -100,6 +100,11 @@ sized!(ricci_layout_summary, "summary");
 const NOT_ON_INPUT: &str =
     "this layout is cut along edges of the metric's triangulation, not of the mesh: take ricci_layout_new";
 
+/// The failure of what needs a layout that is cut along edges of the mesh.
+pub(crate) fn not_on_input() -> Failure {
+    not_here(NOT_ON_INPUT)
+}
+
 fn not_here(message: &'static str) -> Failure {
     Failure::new(RICCI_LAYOUT, message)
 }
@@ -139,7 +144,7 @@ impl ricci_layout {
     }
 
     fn on_input(&self) -> Outcome<&OnInput> {
-        self.on_input.as_ref().ok_or_else(|| not_here(NOT_ON_INPUT))
+        self.on_input.as_ref().ok_or_else(not_on_input)
     }
 
     /// The distortion on the caller's mesh; none if the layout is cut along edges of another triangulation.
@@ -379,7 +384,7 @@ pub unsafe extern "C" fn ricci_layout_distortion(
 ) -> ricci_status {
     guard::with(layout, |layout| {
         let quality = match ON.choose(on)? {
-            Triangulation::Input => layout.quality_on_input()?.ok_or_else(|| not_here(NOT_ON_INPUT))?,
+            Triangulation::Input => layout.quality_on_input()?.ok_or_else(not_on_input)?,
             _ => layout.quality()?,
         };
         check_buffer("area_ratio", quality.area_ratio.len(), area_ratio, capacity)?;

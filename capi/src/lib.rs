@@ -57,6 +57,7 @@ pub mod mesh;
 pub mod metric;
 pub mod quality;
 pub mod refine;
+pub mod repaired_input;
 pub mod report;
 pub mod shapes;
 pub mod soup;

@@ -71,6 +71,15 @@ typedef struct ricci_deck ricci_deck;
  */
 typedef struct ricci_dirichlet ricci_dirichlet;
 
+/**
+ * A layout on the faces of the mesh, with the fewest edges of the mesh split that let the map be linear on
+ * each face without turning any over.
+ *
+ * The added vertices lie on edges of the mesh, so the surface stays as it is. The first vertices are those
+ * of the mesh; the triangles of a face of the mesh follow one another.
+ */
+typedef struct ricci_repaired_input ricci_repaired_input;
+
 /** A layout in charts that do not overlap, packed into the unit square. */
 typedef struct ricci_atlas ricci_atlas;
 
@@ -994,6 +1003,153 @@ RICCI_API ricci_status ricci_domain_elements(const ricci_domain *domain, int32_t
 RICCI_API ricci_status ricci_domain_corners(const ricci_domain *domain, uint32_t *vertices,
                                             size_t vertices_capacity, int32_t *words, size_t words_capacity,
                                             size_t *starts, size_t starts_capacity);
+
+/* ---------------------------------------------------------------------------------------------------------
+ * Repaired inputs
+ */
+
+/** Figures of a repaired input. */
+typedef struct ricci_repaired_input_summary {
+    /** Bytes of this struct that are filled. */
+    size_t size;
+    /** V: those of the mesh, then the added ones. */
+    size_t n_vertices;
+    /** E. */
+    size_t n_edges;
+    /** F. */
+    size_t n_faces;
+    /** V of the mesh. */
+    size_t n_input_vertices;
+    /** Number of edges of the mesh that were split. */
+    size_t n_split_edges;
+    /** Number of points: vertices count once per piece of their star between cuts. */
+    size_t n_points;
+    /** Faces that are not counterclockwise, by exact arithmetic. */
+    size_t n_flipped;
+    /** Faces without area on either side; the distortions below leave them out. */
+    size_t n_degenerate;
+    /** Quasi-conformal dilatation of the linear maps of the faces: mean over the area of the mesh. */
+    double qc_mean;
+    /** Largest quasi-conformal dilatation. */
+    double qc_max;
+    /** Smallest area distortion: share of the layout's area over share of the mesh's. */
+    double area_ratio_min;
+    /** Largest area distortion. */
+    double area_ratio_max;
+} ricci_repaired_input_summary;
+
+/**
+ * Split the fewest edges of the mesh so that no face folds in a layout.
+ *
+ * Every split is needed: without any one of them a face would fold. If no face folds, none is split.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_LAYOUT (as of ricci_layout_corners), RICCI_NO_MEMORY,
+ * RICCI_CANCELLED.
+ *
+ * @param layout    the layout.
+ * @param control   progress and cancellation; NULL for neither.
+ * @param repaired  out: the new handle, to be released by ricci_repaired_input_free.
+ */
+RICCI_API ricci_status ricci_repaired_input_new(const ricci_layout *layout, const ricci_control *control,
+                                                ricci_repaired_input **repaired);
+
+/**
+ * Release a repaired input.
+ *
+ * @param repaired  the handle, or NULL.
+ */
+RICCI_API_VOID void ricci_repaired_input_free(ricci_repaired_input *repaired);
+
+/**
+ * The figures of a repaired input.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE.
+ *
+ * @param repaired  the repaired input.
+ * @param summary   out: the figures.
+ * @param size      sizeof *summary.
+ */
+RICCI_API ricci_status ricci_repaired_input_summarise(const ricci_repaired_input *repaired,
+                                                      ricci_repaired_input_summary *summary, size_t size);
+
+/**
+ * The mesh with its edges split.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (an intrinsic mesh).
+ *
+ * @param repaired  the repaired input.
+ * @param mesh      out: the new handle, to be released by ricci_mesh_free.
+ */
+RICCI_API ricci_status ricci_repaired_input_mesh(const ricci_repaired_input *repaired, ricci_mesh **mesh);
+
+/**
+ * The face of the mesh in which every face lies.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param repaired  the repaired input.
+ * @param faces     out: n_faces face indices, ascending.
+ * @param capacity  entries of `faces`.
+ */
+RICCI_API ricci_status ricci_repaired_input_faces(const ricci_repaired_input *repaired, uint32_t *faces,
+                                                  size_t capacity);
+
+/**
+ * The barycentric coordinates of the corners of every face in its face of the mesh.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param repaired  the repaired input.
+ * @param weights   out: n_faces x 3 x 3, corner by corner.
+ * @param capacity  entries of `weights`.
+ */
+RICCI_API ricci_status ricci_repaired_input_barycentric(const ricci_repaired_input *repaired, double *weights,
+                                                        size_t capacity);
+
+/**
+ * The edges of the mesh that were split.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param repaired  the repaired input.
+ * @param edges     out: n_split_edges edge indices, ascending.
+ * @param capacity  entries of `edges`.
+ */
+RICCI_API ricci_status ricci_repaired_input_split_edges(const ricci_repaired_input *repaired, uint32_t *edges,
+                                                        size_t capacity);
+
+/**
+ * The points of the opened mesh, in the layout's model.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param repaired  the repaired input.
+ * @param points    out: n_points x 2.
+ * @param capacity  entries of `points`.
+ */
+RICCI_API ricci_status ricci_repaired_input_points(const ricci_repaired_input *repaired, double *points,
+                                                   size_t capacity);
+
+/**
+ * The point of every corner of every face.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param repaired  the repaired input.
+ * @param corners   out: n_faces x 3 indices of points.
+ * @param capacity  entries of `corners`.
+ */
+RICCI_API ricci_status ricci_repaired_input_corners(const ricci_repaired_input *repaired, uint32_t *corners,
+                                                    size_t capacity);
+
+/**
+ * Write the mesh with its edges split and the layout as texture coordinates, as OBJ.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (an intrinsic mesh), RICCI_IO.
+ *
+ * @param repaired  the repaired input.
+ * @param path      the file, UTF-8.
+ */
+RICCI_API ricci_status ricci_repaired_input_write(const ricci_repaired_input *repaired, const char *path);
 
 /* ---------------------------------------------------------------------------------------------------------
  * Atlases

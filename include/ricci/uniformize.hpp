@@ -88,6 +88,30 @@ public:
     }
 };
 
+using repaired_input_handle = owned<ricci_repaired_input, ricci_repaired_input_free>;
+
+// A layout on the faces of the mesh, with the fewest edges split that leave no face folded.
+class repaired_input : public repaired_input_handle {
+public:
+    explicit repaired_input(const layout &of_layout, const control *watched = nullptr)
+        : repaired_input_handle(
+              make<ricci_repaired_input>(ricci_repaired_input_new, of_layout.get(), of(watched))) {}
+    ricci_repaired_input_summary summary() const {
+        return ricci::summary(ricci_repaired_input_summarise, get());
+    }
+    ricci::mesh mesh() const { return ricci::mesh(ricci::make<ricci_mesh>(ricci_repaired_input_mesh, get())); }
+    std::vector<std::uint32_t> faces() const { return values<std::uint32_t>(ricci_repaired_input_faces, get()); }
+    std::vector<double> barycentric() const { return values<double>(ricci_repaired_input_barycentric, get()); }
+    std::vector<std::uint32_t> split_edges() const {
+        return values<std::uint32_t>(ricci_repaired_input_split_edges, get());
+    }
+    std::vector<double> points() const { return values<double>(ricci_repaired_input_points, get()); }
+    std::vector<std::uint32_t> corners() const {
+        return values<std::uint32_t>(ricci_repaired_input_corners, get());
+    }
+    void write(const std::string &path) const { check(ricci_repaired_input_write(handle_, path.c_str())); }
+};
+
 using atlas_handle = owned<ricci_atlas, ricci_atlas_free>;
 
 class atlas : public atlas_handle {

@@ -2,6 +2,7 @@
 
 use super::{CALLS, word};
 use ricci_c::atlas::ricci_atlas_new;
+use ricci_c::repaired_input::ricci_repaired_input_new;
 use ricci_c::bicubic::{ricci_bicubic_new, ricci_bicubic_options};
 use ricci_c::circle_domain::ricci_circle_domain_new;
 use ricci_c::control::{ricci_control_cancel, ricci_control_new};
@@ -103,6 +104,8 @@ impl Shelf {
             let layout =
                 self.put("ricci_layout", made(|p| unsafe { ricci_layout_new(flat, null(), null(), p) }));
             self.put("ricci_atlas", made(|p| unsafe { ricci_atlas_new(layout, 0.01, null(), p) }));
+            let repaired = made(|p| unsafe { ricci_repaired_input_new(layout, null(), p) });
+            self.put("ricci_repaired_input", repaired);
             self.put("ricci_map", made(|p| unsafe { ricci_map_new(flat, null(), p) }));
             let own = made(|p| unsafe { ricci_match(mesh, mesh, null(), null(), p) });
             self.put("ricci_matching", own);

@@ -39,7 +39,7 @@ from ricci.errors import (
 )
 from ricci.form import Forms, HarmonicMap, forms, harmonic, harmonic_map
 from ricci.fundamental import Domain, Homotopy, homotopy
-from ricci.layouts import Atlas, Layout, atlas, layout
+from ricci.layouts import Atlas, Layout, RepairedInput, atlas, layout
 from ricci.log import log_to_logging
 from ricci.maps import Map
 from ricci.matching import Matching, match
@@ -83,6 +83,7 @@ __all__ = [
     "OutOfMemory",
     "ParseError",
     "Place",
+    "RepairedInput",
     "Report",
     "RicciError",
     "Solver",

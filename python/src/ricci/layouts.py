@@ -31,13 +31,13 @@ from ricci._library import lib
 from ricci._structs import Write, above_zero, choice, index_list, one_index, options
 from ricci.control import Progress
 from ricci.errors import LayoutError, warn
-from ricci.figures import AtlasSummary, LayoutSummary
+from ricci.figures import AtlasSummary, LayoutSummary, RepairedInputSummary
 from ricci.figures.names import Model, On
 from ricci.mesh import Mesh
 from ricci.metrics import Metric
 from ricci.status import Status
 
-__all__ = ["Atlas", "Layout", "LayoutOptions", "Seam", "atlas", "layout"]
+__all__ = ["Atlas", "Layout", "LayoutOptions", "RepairedInput", "Seam", "atlas", "layout"]
 
 
 class LayoutOptions(TypedDict, total=False):
@@ -143,6 +143,10 @@ class Layout(Handle):
         """The edges of every seam, in order: numbers from 1, negative where the seam runs against the edge."""
         return rows(self.summary.n_seams, lib.ricci_layout_seam_edges, self, constant("ON", on))
 
+    def repaired_input(self, progress: Progress = None) -> RepairedInput:
+        """The layout on the faces of the mesh, with the fewest edges split that leave no face folded."""
+        return RepairedInput(self, progress)
+
     @cached_property
     def mesh(self) -> Mesh:
         """The mesh of the layout: the given mesh, or the common subdivision, whose first vertices are the given ones."""
@@ -168,6 +172,63 @@ class Layout(Handle):
     def __repr__(self) -> str:
         s = self.summary
         return f"<ricci.Layout: {s.space}, {s.n_faces} faces, {s.n_seams} seams, {s.n_flipped} flipped>"
+
+
+class RepairedInput(Handle):
+    """A layout on the faces of the mesh, with the fewest edges split that leave no face folded. Arrays of properties are read-only.
+
+    Args:
+        layout: the layout.
+        progress: a `Control` or a callback.
+    """
+
+    _type: ClassVar[str] = "repaired_input"
+
+    def __init__(self, layout: Layout, progress: Progress = None) -> None:
+        self._pointer = RepairedInput._made(lib.ricci_repaired_input_new, layout, CONTROL, progress=progress)._pointer
+
+    @cached_property
+    def summary(self) -> RepairedInputSummary:
+        """Counts and distortion."""
+        return summary(RepairedInputSummary, "repaired_input", self)
+
+    @cached_property
+    def mesh(self) -> Mesh:
+        """The mesh with its edges split; its first vertices are those of the mesh."""
+        return Mesh._made(lib.ricci_repaired_input_mesh, self)
+
+    @cached_property
+    def faces(self) -> Indices:
+        """The face of the mesh in which every face lies, ascending."""
+        return frozen(filled(lib.ricci_repaired_input_faces, self, out=np.empty(self.summary.n_faces, np.uint32)))
+
+    @cached_property
+    def barycentric(self) -> Doubles:
+        """n_faces x 3 x 3: the coordinates of every corner in its face of the mesh."""
+        return frozen(doubles(lib.ricci_repaired_input_barycentric, self, shape=(self.summary.n_faces, 3, 3)))
+
+    @cached_property
+    def split_edges(self) -> Indices:
+        """The edges of the mesh that were split, ascending."""
+        return frozen(filled(lib.ricci_repaired_input_split_edges, self, out=np.empty(self.summary.n_split_edges, np.uint32)))
+
+    @cached_property
+    def points(self) -> Doubles:
+        """n_points x 2, in the layout's model."""
+        return frozen(doubles(lib.ricci_repaired_input_points, self, shape=(self.summary.n_points, 2)))
+
+    @cached_property
+    def corners(self) -> Indices:
+        """The point of every corner of every face, n_faces x 3."""
+        return frozen(filled(lib.ricci_repaired_input_corners, self, out=np.empty((self.summary.n_faces, 3), np.uint32)))
+
+    def uv(self) -> Doubles:
+        """The coordinates of every corner of every face, n_faces x 3 x 2."""
+        return self.points[self.corners]
+
+    def write(self, path: str | os.PathLike[str]) -> None:
+        """Write the mesh with its edges split and the layout as texture coordinates, as OBJ."""
+        call(lib.ricci_repaired_input_write, self, path_bytes(path))
 
 
 class Atlas(Handle):

@@ -2,7 +2,7 @@
 
 from ricci.figures.covered import DeckSummary, DirichletSummary, DomainSummary, HomotopySummary, UniformSummary
 from ricci.figures.derived import BicubicSummary, FormsSummary, HarmonicSummary, MatchingSummary, SplineSummary, StructureSummary
-from ricci.figures.placed import AtlasSummary, CircleDomainSummary, LayoutSummary, MapSummary
+from ricci.figures.placed import AtlasSummary, CircleDomainSummary, LayoutSummary, MapSummary, RepairedInputSummary
 from ricci.figures.surface import MeshSummary, MetricSummary, QualitySummary, RefineSummary, ReportSummary, SoupSummary
 
 __all__ = [
@@ -22,6 +22,8 @@ __all__ = [
     "MetricSummary",
     "QualitySummary",
     "RefineSummary",
+
+    "RepairedInputSummary",
     "ReportSummary",
     "SoupSummary",
     "SplineSummary",

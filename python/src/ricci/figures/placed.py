@@ -98,6 +98,39 @@ class MapSummary:
 
 
 @dataclass(frozen=True)
+class RepairedInputSummary:
+    """Figures of a repaired input.
+
+    Attributes:
+        n_vertices: V: those of the mesh, then the added ones.
+        n_edges: E.
+        n_faces: F.
+        n_input_vertices: V of the mesh.
+        n_split_edges: number of edges of the mesh that were split.
+        n_points: number of points: vertices count once per piece of their star between cuts.
+        n_flipped: faces that are not counterclockwise, by exact arithmetic.
+        n_degenerate: faces without area on either side; the distortions below leave them out.
+        qc_mean: quasi-conformal dilatation of the linear maps of the faces: mean over the area of the mesh.
+        qc_max: largest quasi-conformal dilatation.
+        area_ratio_min: smallest area distortion: share of the layout's area over share of the mesh's.
+        area_ratio_max: largest area distortion.
+    """
+
+    n_vertices: int
+    n_edges: int
+    n_faces: int
+    n_input_vertices: int
+    n_split_edges: int
+    n_points: int
+    n_flipped: int
+    n_degenerate: int
+    qc_mean: float
+    qc_max: float
+    area_ratio_min: float
+    area_ratio_max: float
+
+
+@dataclass(frozen=True)
 class AtlasSummary:
     """Figures of an atlas.
 
