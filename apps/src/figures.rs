@@ -46,7 +46,7 @@ impl Figures {
         let quality = written.as_ref().map(|written| written.quality);
         let repaired = laid.and_then(SurfaceLayout::repaired);
         self.if_some("flipped_input_faces", laid.filter(|l| l.on_input.is_some()).map(|l| l.folded_input_faces()))
-            .if_some("faces", laid.filter(|l| l.own_faces.is_some()).map(|_| "input"))
+            .if_some("figures_of", laid.filter(|l| l.own_faces.is_some()).map(|_| "input"))
             .if_some("split_edges", repaired.map(|r| r.split_edges.len()))
             .if_some("added_vertices", repaired.map(RepairedInput::n_added))
             .with("qc_mean", quality.map(|q| q.qc_mean))

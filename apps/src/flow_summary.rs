@@ -109,8 +109,10 @@ pub fn layout(laid: &SurfaceLayout) -> String {
 /// The line about a layout that overlaps itself.
 fn overlap(laid: &SurfaceLayout) -> String {
     laid.overlap().map_or_else(String::new, |share| {
-        let percent = 100.0 * share;
-        format!("overlap  {percent:.2} % of the layout's area lies on other parts of it: --charts cuts it into pieces that do not overlap\n")
+        format!(
+            "overlap  {:.2} % of the layout's area lies on other parts of it: --charts cuts it into pieces that do not overlap\n",
+            100.0 * share
+        )
     })
 }
 

@@ -103,7 +103,8 @@ impl HarmonicOutcome {
     fn remedy(&self) -> Option<&'static str> {
         match self.to {
             MapTarget::File(_) => Some(
-                "give every vertex of the boundary a place, in its order around a convex curve, and let the others be free; or take --to disk",
+                "give every vertex of the boundary a place, in its order around a convex curve, and let the others be free; or take \
+                 --to disk",
             ),
             MapTarget::Rectangle => Some("take --to polygon:4 or --to disk, which turn no triangle over"),
             _ => None,

@@ -64,7 +64,7 @@ impl JobOutcome for ExportOutcome {
         let mut checks = Checks::default();
         checks.add("distance", bicubic.distance, self.tolerance);
         checks.add("normal_jump", bicubic.angles.largest.to_degrees(), NORMAL_JUMP);
-        let remedy = "the surface turns back on itself there; fit it again with more patches, a smaller --tolerance, or more --fairness";
+        let remedy = "the surface turns back on itself there: fit it again, with more --fairness, or more patches by a smaller --tolerance";
         checks.add_none("folded_patches", ["patch", "patches"], &self.folds, Some(remedy));
         checks.add("open_sides", bicubic.surface.open_sides() as f64, 0.0);
         checks
