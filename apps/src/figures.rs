@@ -45,16 +45,19 @@ impl Figures {
         let written = laid.map(SurfaceLayout::written);
         let quality = written.as_ref().map(|written| written.quality);
         let repaired = laid.and_then(SurfaceLayout::repaired);
-        self.if_some("flipped_input_faces", laid.filter(|l| l.on_input.is_some()).map(|l| l.folded_input_faces()))
-            .if_some("figures_of", laid.filter(|l| l.own_faces.is_some()).map(|_| "input"))
-            .if_some("split_edges", repaired.map(|r| r.split_edges.len()))
-            .if_some("added_vertices", repaired.map(RepairedInput::n_added))
-            .with("qc_mean", quality.map(|q| q.qc_mean))
-            .with("qc_max", quality.map(|q| q.qc_max))
-            .with("area_ratio_min", quality.map(|q| q.area_ratio_min))
-            .with("area_ratio_max", quality.map(|q| q.area_ratio_max))
-            .with("degenerate_pieces", written.as_ref().map(|written| written.degenerate.len()))
-            .with("crossings", laid.and_then(SurfaceLayout::common_subdivision).map(|r| r.crossings.len()))
+        self.if_some(
+            "flipped_input_faces",
+            laid.filter(|l| l.on_input.is_some()).map(|l| l.folded_input_faces()),
+        )
+        .if_some("figures_of", laid.filter(|l| l.own_faces.is_some()).map(|_| "input"))
+        .if_some("split_edges", repaired.map(|r| r.split_edges.len()))
+        .if_some("added_vertices", repaired.map(RepairedInput::n_added))
+        .with("qc_mean", quality.map(|q| q.qc_mean))
+        .with("qc_max", quality.map(|q| q.qc_max))
+        .with("area_ratio_min", quality.map(|q| q.area_ratio_min))
+        .with("area_ratio_max", quality.map(|q| q.area_ratio_max))
+        .with("degenerate_pieces", written.as_ref().map(|written| written.degenerate.len()))
+        .with("crossings", laid.and_then(SurfaceLayout::common_subdivision).map(|r| r.crossings.len()))
     }
 
     /// The options that failed, with the reasons, and what the input's file holds and the file with the layout has no place for.

@@ -135,7 +135,8 @@ impl MetricArgs {
     pub fn check_faces(&self) -> Result<(), Failure> {
         if self.repair && self.on != OnChoice::Input {
             return Err(Failure::Usage(
-                "--repair: faces of the common subdivision do not fold; add --on input, or leave it out".into(),
+                "--repair: faces of the common subdivision do not fold; add --on input, or leave it out"
+                    .into(),
             ));
         }
         Ok(())

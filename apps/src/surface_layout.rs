@@ -202,7 +202,9 @@ impl SurfaceLayout {
     /// Adds the check that no triangle is turned over that is written.
     pub fn check_flipped(&self, checks: &mut Checks) {
         let remedy = match &self.own_faces {
-            Some(own) if own.repaired.is_some() => Some("leave --on input out: the map is exact on the common subdivision"),
+            Some(own) if own.repaired.is_some() => {
+                Some("leave --on input out: the map is exact on the common subdivision")
+            }
             Some(_) => Some(
                 "add --repair, which splits the fewest of the input's edges, or leave --on input out: the map is exact on the common \
                  subdivision",

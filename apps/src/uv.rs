@@ -38,7 +38,8 @@ pub fn write(
         return Err(Failure::no_positions());
     };
     let split = laid.repaired().map(|r| r.refinement.from_vertices(0, own_positions)).transpose()?;
-    let (mesh, positions, index, texcoords, subdivision) = match (options.on, &laid.on_input, laid.repaired()) {
+    let (mesh, positions, index, texcoords, subdivision) = match (options.on, &laid.on_input, laid.repaired())
+    {
         (OnChoice::Refined, ..) => {
             (laid.mesh(), positions, laid.corner_index(), laid.coordinates(), laid.common_subdivision())
         }

@@ -123,7 +123,10 @@ impl<'a> RepairedFaces<'a> {
             crossings: Vec::new(),
             weight: vec![1.0; n_vertices].into(),
             piece: (0..n as u32).collect::<Vec<_>>().into(),
-            faces: [self.source.iter().map(|s| s.0).collect::<Vec<_>>().into(), mesh.faces().collect::<Vec<_>>().into()],
+            faces: [
+                self.source.iter().map(|s| s.0).collect::<Vec<_>>().into(),
+                mesh.faces().collect::<Vec<_>>().into(),
+            ],
             along: PerEdge::from(along),
             barycentric: [self.source.iter().map(|s| s.1).collect(), vec![CORNERS; n]],
             mesh,

@@ -124,7 +124,8 @@ impl InputSplits<'_> {
             for (e, crossing) in self.needed(f) {
                 let at = self.taken[e.index()].partition_point(|&c| c < crossing);
                 self.taken[e.index()].insert(at, crossing);
-                for beside in [e.halfedge(), e.halfedge().twin()].into_iter().filter_map(|h| self.input.face(h))
+                for beside in
+                    [e.halfedge(), e.halfedge().twin()].into_iter().filter_map(|h| self.input.face(h))
                 {
                     if beside != f && !std::mem::replace(&mut is_waiting[beside.index()], true) {
                         waiting.push_back(beside);
@@ -255,9 +256,9 @@ impl InputSplits<'_> {
             return PRICE;
         }
         let place = |h: HalfedgeId| self.on_input.coordinates[self.on_input.corner_index[h] as usize];
-        let at = self.layout.coordinates[self.layout.corner_index[self.parts.from(across, crossing)] as usize];
-        let [a, b, c] =
-            [across, self.input.next(across), self.input.prev(across)].map(place);
+        let at =
+            self.layout.coordinates[self.layout.corner_index[self.parts.from(across, crossing)] as usize];
+        let [a, b, c] = [across, self.input.next(across), self.input.prev(across)].map(place);
         let is_left = |a, b, c| orientation(a, b, c) == Ordering::Greater;
         if is_left(a, at, c) && is_left(at, b, c) { PRICE } else { PRICE + PRICE_OF_FOLD }
     }

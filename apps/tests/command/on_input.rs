@@ -42,7 +42,9 @@ fn the_inputs_own_faces_are_written_on_request() {
 fn a_repair_leaves_no_face_turned_over() {
     let place = Place::new();
     place.put("two.obj", &genus_two(12).obj()).put("hill.obj", &sheared_hill(8).obj());
-    for line in ["flow hill.obj --target boundary", "flow two.obj --space e2 --target single:3", "uniformize two.obj"] {
+    for line in
+        ["flow hill.obj --target boundary", "flow two.obj --space e2 --target single:3", "uniformize two.obj"]
+    {
         let line = format!("{line} --uv own.obj --on input --report r.json");
         let said = place.run(&line);
         let (_, folds) = seams_and_folds(&parse_obj(&place.text("own.obj")));
@@ -55,7 +57,11 @@ fn a_repair_leaves_no_face_turned_over() {
         let (given, _) = parse_plain(&place.text(if line.contains("two") { "two.obj" } else { "hill.obj" }));
         let result = &place.json("r.json")["result"];
         assert_eq!(seams_and_folds(&own).1, 0, "{line}");
-        assert_eq!((&own.v[..given.len()], &result["flipped_input_faces"]), (&given[..], &folds.into()), "{line}");
+        assert_eq!(
+            (&own.v[..given.len()], &result["flipped_input_faces"]),
+            (&given[..], &folds.into()),
+            "{line}"
+        );
         assert_eq!(result["added_vertices"], own.v.len() - given.len(), "{line}");
         assert_eq!(result["flipped_triangles"], 0, "{line}");
         assert!(said.contains(&format!("repaired {folds} face")), "{line}\n{said}");
