@@ -41,6 +41,8 @@ int whole_job() {
     const ricci::map map(end);
     if (map.faces(RICCI_ON_INPUT).size() != map.summary().n_faces) return 6;
     if (ricci::atlas(layout).faces().size() != summary.n_faces) return 7;
+    const ricci::repaired_input repaired(layout);
+    if (repaired.summary().n_flipped != 0 || repaired.faces().size() != repaired.summary().n_faces) return 7;
     ricci::metric moved = std::move(start);
     if (start || !moved) return 8; // NOLINT: what was moved from is empty
     ricci::solver solver(moved);

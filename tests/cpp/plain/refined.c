@@ -1,5 +1,7 @@
 /* Layouts of metrics whose edges were flipped: the common subdivision, and the maps between it, the given
  * mesh and the metric's triangulation, against formulas written here. */
+#include <ricci/uniformize.h>
+
 #include "arrays.h"
 #include "samples.h"
 
@@ -266,6 +268,44 @@ static void check_distortion_on_input(const arrays *given, const ricci_layout *l
     free(qc), free(ratio);
 }
 
+/* With the fewest edges split, no face of the mesh folds. */
+static void check_repaired(const ricci_layout *layout, const ricci_layout_summary *of_layout) {
+    ricci_repaired_input *repaired = NULL;
+    ricci_repaired_input_summary s;
+    ricci_mesh *mesh = NULL;
+    ricci_mesh_summary split;
+    OK(ricci_repaired_input_new(layout, NULL, &repaired));
+    OK(ricci_repaired_input_summarise(repaired, &s, sizeof s));
+    CHECK(s.n_flipped == 0 && s.n_input_vertices == of_layout->n_input_vertices &&
+          (s.n_split_edges == 0) == (of_layout->n_flipped_input == 0));
+    OK(ricci_repaired_input_mesh(repaired, &mesh));
+    OK(ricci_mesh_summarise(mesh, &split, sizeof split));
+    CHECK(split.n_vertices == s.n_vertices && split.n_faces == s.n_faces);
+    double *points = (double *)room(2 * s.n_points, sizeof *points);
+    double *weights = (double *)room(9 * s.n_faces, sizeof *weights);
+    uint32_t *corners = (uint32_t *)room(3 * s.n_faces, sizeof *corners);
+    uint32_t *faces = (uint32_t *)room(s.n_faces, sizeof *faces);
+    uint32_t *edges = (uint32_t *)room(s.n_split_edges, sizeof *edges);
+    OK(ricci_repaired_input_points(repaired, points, 2 * s.n_points));
+    OK(ricci_repaired_input_barycentric(repaired, weights, 9 * s.n_faces));
+    OK(ricci_repaired_input_corners(repaired, corners, 3 * s.n_faces));
+    OK(ricci_repaired_input_faces(repaired, faces, s.n_faces));
+    OK(ricci_repaired_input_split_edges(repaired, edges, s.n_split_edges));
+    for (size_t f = 0; f < s.n_faces; f++) {
+        double uv[6];
+        for (size_t k = 0; k < 6; k++) uv[k] = points[2 * corners[3 * f + k / 2] + k % 2];
+        CHECK(area_in_plane(uv) > 0 && faces[f] < of_layout->n_input_faces);
+        for (size_t k = 0; k < 3; k++) {
+            const double *w = weights + 9 * f + 3 * k;
+            CHECK(fabs(w[0] + w[1] + w[2] - 1) < 1e-14);
+        }
+    }
+    OK(ricci_repaired_input_write(repaired, "repaired_input.obj"));
+    FAILS(ricci_repaired_input_points(repaired, points, 2 * s.n_points - 1), RICCI_BUFFER_TOO_SMALL, "points");
+    free(points), free(weights), free(corners), free(faces), free(edges);
+    ricci_mesh_free(mesh), ricci_repaired_input_free(repaired);
+}
+
 /* Noise in a target makes no cones: four are joined by three seams (five where those branch), along edges of
  * the mesh; its own faces have coordinates. */
 static void noise_makes_no_cones(const ricci_mesh *mesh) {
@@ -304,6 +344,7 @@ static void noise_makes_no_cones(const ricci_mesh *mesh) {
     OK(ricci_mesh_read("refined_input.obj", &back));
     OK(ricci_mesh_summarise(back, &read, sizeof read));
     CHECK(read.n_vertices == n && read.n_faces == n_faces && read.n_uv == n_faces);
+    check_repaired(layout, &s);
     ricci_mesh_free(back), ricci_layout_free(layout);
     ricci_metric_free(flat), ricci_metric_free(metric);
     free(target), free(uv);
