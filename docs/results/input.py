@@ -8,7 +8,7 @@ import os
 import sys
 import tempfile
 
-from page import file_of, launch, main, meshes, table
+from page import file_of, launch, main, meshes, small, table
 
 # The longest run on the corpus takes a minute with a development build.
 SECONDS = 400
@@ -28,50 +28,45 @@ def folded_in(path):
     return faces, folded
 
 
-def flown(folder, mesh, *options):
-    """A flow onto the input's own faces: exit code, figures, seconds, and what the file says."""
-    uv = os.path.join(folder, "uv.obj")
-    if os.path.exists(uv):
-        os.remove(uv)
-    code, report, said = launch(folder, "flow", file_of(mesh), "--uv", uv, "--on", "input", "--threads", "1", *options, seconds=SECONDS)
-    if report is None or "error" in report["result"] or not os.path.exists(uv):
-        failed = (report or {"result": {}})["result"].get("failed", {}).get("uv")
-        return {"said": failed or said or "no file", "code": code}
-    faces, folded = folded_in(uv)
-    return {"code": code, "faces": faces, "folded": folded, "seconds": report["seconds"]["total"], **report["result"]}
-
-
 def work(mesh):
+    """A flow onto the input's own faces with folds repaired: exit code, figures, and what the file says."""
     print(mesh["name"], file=sys.stderr)
     with tempfile.TemporaryDirectory() as folder:
-        return mesh, flown(folder, mesh), flown(folder, mesh, "--repair")
+        uv = os.path.join(folder, "uv.obj")
+        options = "--on", "input", "--repair", "--threads", "1"
+        code, report, said = launch(folder, "flow", file_of(mesh), "--uv", uv, *options, seconds=SECONDS)
+        if report is None or "error" in report["result"] or not os.path.exists(uv):
+            failed = (report or {"result": {}})["result"].get("failed", {}).get("uv")
+            return mesh, {"said": failed or said or "no file", "code": code}
+        faces, folded = folded_in(uv)
+        return mesh, {**report["result"], "code": code, "faces": faces, "folded": folded, "seconds": report["seconds"]["total"]}
 
 
-def row(mesh, before, after):
-    if "said" in before or "said" in after:
-        return [mesh["name"], mesh["F"], before.get("said") or after.get("said"), *[""] * 6]
-    return [mesh["name"], before["faces"], before["folded"], before["code"], after["split_edges"], after["added_vertices"],
-            after["folded"], after["code"], f"{before['seconds']:.2f}", f"{after['seconds']:.2f}"]
+def row(mesh, found):
+    if "said" in found:
+        return [mesh["name"], mesh["F"], found["said"], *[""] * 6]
+    return [mesh["name"], mesh["F"], found["flipped_input_faces"], found["folded"], found["split_edges"], found["added_vertices"],
+            found["code"], f"{found['qc_mean']:.3f}, {small(found['qc_max'])}", f"{found['seconds']:.2f}"]
 
 
 def folds(found):
     """The lines about faces that fold."""
-    done = [(m, b, a) for m, b, a in found if "said" not in b and "said" not in a]
-    none = [sum(x["folded"] == 0 for x in side) for side in ([b for _, b, _ in done], [a for _, _, a in done])]
-    total = [sum(x["folded"] for x in side) for side in ([b for _, b, _ in done], [a for _, _, a in done])]
-    share = sum(a["added_vertices"] for _, _, a in done) / max(1, sum(int(m["V"]) for m, _, _ in done))
-    wrong = [m["name"] for m, b, a in done if any(x["folded"] != x["flipped_triangles"] for x in (b, a))]
-    said = "every run" if not wrong else "all but " + ", ".join(wrong)
-    head = ["mesh", "faces", "folded", "exit", "edges split", "points added", "folded after", "exit after", "s", "s with --repair"]
+    done = [(m, x) for m, x in found if "said" not in x]
+    before, after = ([x[key] for _, x in done] for key in ("flipped_input_faces", "folded"))
+    share = sum(x["added_vertices"] for _, x in done) / max(1, sum(int(m["V"]) for m, _ in done))
+    wrong = [m["name"] for m, x in done if x["folded"] != x["flipped_triangles"] or (x["folded"] > 0) > (x["code"] == 1)]
+    head = ["mesh", "faces", "folded", "folded with --repair", "edges split", "points added", "exit", "dilatation mean, max", "s"]
     return [
         "## Folded faces with --on input",
-        "`ricci flow MESH --uv OUT.obj --on input`, default target, without and with `--repair`, on every connected mesh of the corpus "
-        f"({len(found)}). Folded: faces of the written file that do not run counterclockwise in its texture coordinates, counted from the "
-        "file by this script. Edges split, points added: what `--repair` has done; points lie on the input's edges, so the surface stays.",
-        f"Without `--repair`, {none[0]} of {len(found)} meshes have no folded face, and {total[0]} faces fold in all. With it, {none[1]} of "
-        f"{len(found)} have none, and {total[1]} faces fold; {100 * share:.2f} % of the vertices are added. In {said} the report counts the "
-        "faces that the file has. Exit 1: the check `flipped_triangles` fails, or the flow did not converge. Times are those of one run "
-        "on a shared machine and say little.",
+        "`ricci flow MESH --uv OUT.obj --on input --repair`, default target, on every connected mesh of the corpus "
+        f"({len(found)}). Folded: faces of the input that do not run counterclockwise in the layout where the map is made linear on them, "
+        "as the report counts them; without `--repair` these are in the file. Folded with `--repair`: those of the written file, counted from "
+        "its texture coordinates by this script. Points are added on edges of the input, so the surface stays as it is.",
+        f"Without `--repair`, {sum(n == 0 for n in before)} of {len(found)} meshes have no folded face, and {sum(before)} faces fold in all. "
+        f"With it, {sum(n == 0 for n in after)} of {len(found)} have none, and {sum(after)} faces fold; {100 * share:.2f} % of the vertices "
+        "are added. " + ("Every report counts the faces that fold in its file." if not wrong else "Reports that differ from their file: " +
+                         ", ".join(wrong) + "."),
+        "Exit 1: the check `flipped_triangles` fails, or another one. Times are those of one run on a shared machine and say little.",
         table(head, [row(*x) for x in found]),
     ]
 
