@@ -5,15 +5,15 @@ use crate::mesh::{EdgeId, HalfedgeId, Mesh};
 use crate::metric::CommonSubdivision;
 
 /// Per edge of the input, the half-edges of the subdivision along its half-edge 2e, in order.
-pub(super) struct EdgeParts {
+pub(super) struct InputEdgeParts {
     start: Vec<usize>,
     parts: Vec<HalfedgeId>,
 }
 
-impl EdgeParts {
+impl InputEdgeParts {
     /// The parts of edges that are not divided.
-    pub fn whole(input: &Mesh) -> EdgeParts {
-        EdgeParts {
+    pub fn whole(input: &Mesh) -> InputEdgeParts {
+        InputEdgeParts {
             start: (0..=input.n_edges()).collect(),
             parts: input.edges().map(EdgeId::halfedge).collect(),
         }
@@ -23,7 +23,7 @@ impl EdgeParts {
     ///
     /// # Errors
     /// [`Error::Layout`] where the parts of an edge do not follow one another.
-    pub fn of_subdivision(input: &Mesh, r: &CommonSubdivision) -> Result<EdgeParts> {
+    pub fn of_subdivision(input: &Mesh, r: &CommonSubdivision) -> Result<InputEdgeParts> {
         let along = |e: EdgeId| -> Option<(EdgeId, HalfedgeId)> {
             let h = r.along[e][0]?;
             let part = e.halfedge();
@@ -43,7 +43,7 @@ impl EdgeParts {
                 return Err(Error::Layout(format!("the parts of edge {e} do not follow one another")));
             }
         }
-        Ok(EdgeParts { start, parts })
+        Ok(InputEdgeParts { start, parts })
     }
 
     fn of(&self, e: EdgeId) -> &[HalfedgeId] {

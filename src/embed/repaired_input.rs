@@ -20,7 +20,7 @@
 //! # }
 //! ```
 
-use super::edge_parts::EdgeParts;
+use super::edge_parts::InputEdgeParts;
 use super::face_polygon::{BorderPoint, BorderSpot, FacePolygon, FaceTriangulation};
 use super::layout::{Layout, OnInput};
 use super::repaired_faces::RepairedFaces;
@@ -86,8 +86,8 @@ impl Layout {
     pub fn repaired_input(&self, control: &Control) -> Result<Option<RepairedInput>> {
         let (Some((input, _)), Some(on_input)) = (&self.input, self.on_input()) else { return Ok(None) };
         let parts = match self.common_subdivision() {
-            Some(r) => EdgeParts::of_subdivision(input, r)?,
-            None => EdgeParts::whole(input),
+            Some(r) => InputEdgeParts::of_subdivision(input, r)?,
+            None => InputEdgeParts::whole(input),
         };
         let taken = vec![Vec::new(); input.n_edges()];
         let mut splits = InputSplits { layout: self, input, on_input: &on_input, parts, taken };
@@ -104,7 +104,7 @@ pub(super) struct InputSplits<'a> {
     pub layout: &'a Layout,
     pub input: &'a Mesh,
     pub on_input: &'a OnInput,
-    parts: EdgeParts,
+    parts: InputEdgeParts,
     /// Per edge, the crossings at which it is split, ascending; they are counted from 1 along its half-edge 2e.
     pub taken: Vec<Vec<u32>>,
 }
