@@ -212,7 +212,7 @@ impl InputSplits<'_> {
                 let is_taken = self.taken[e.index()].binary_search(&crossing).is_ok();
                 // Those that are tried are spread evenly by their rank.
                 if is_taken || n <= most || rank * most / n != (rank + 1) * most / n {
-                    points.push(self.crossing((h, k), crossing, is_taken));
+                    points.push(self.crossing(h, k, crossing, is_taken));
                 }
             }
         }
@@ -227,7 +227,7 @@ impl InputSplits<'_> {
     }
 
     /// A crossing on the side k of a face, which is the half-edge h.
-    fn crossing(&self, (h, k): (HalfedgeId, usize), crossing: u32, is_taken: bool) -> BorderPoint {
+    fn crossing(&self, h: HalfedgeId, k: usize, crossing: u32, is_taken: bool) -> BorderPoint {
         let corner = self.layout.corner_index[self.parts.from(h, crossing)];
         let place = self.layout.coordinates[corner as usize];
         let mut weights = [0.0; 3];
