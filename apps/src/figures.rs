@@ -17,6 +17,7 @@ impl Figures {
         Figures::default()
             .with("space", solved.solution.metric().space.name())
             .with("scheme", solved.scheme.name())
+            .if_some("scheme_distance", scheme_distance(solved))
     }
 
     /// The course of a flow. `flips` counts the isometric flips to the Delaunay triangulation too, `start_flips` only these.
@@ -101,6 +102,22 @@ pub fn of_flow(outcome: &FlowOutcome, run: &CommandRun<'_>) -> Figures {
         .if_some("no_layout", layout.as_ref().err().cloned())
         .missing(run)
         .with("residuals", report.residuals.clone())
+}
+
+/// The distance of the metric that a circle packing starts from, from that of the surface; none for schemes that represent every metric.
+fn scheme_distance(solved: &SolvedMetric) -> Option<Value> {
+    let d = &solved.solution.initial().distance;
+    solved.scheme.is_packing().then(|| {
+        json!({
+            "max_log_length": d.max_log_length,
+            "mean_log_length": d.mean_log_length,
+            "edge": d.edge.map(|e| e.0),
+            "max_dilatation": d.max_dilatation,
+            "mean_dilatation": d.mean_dilatation,
+            "face": d.face.map(|f| f.0),
+            "far": d.is_far(),
+        })
+    })
 }
 
 /// Vertices at which every metric of the scheme on this triangulation has a total curvature of more than `above`, while the target asks

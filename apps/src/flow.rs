@@ -4,7 +4,7 @@ use crate::charts;
 use crate::circle_file::CircleFile;
 use crate::csv;
 use crate::failure::Failure;
-use crate::flow_args::{FlowArgs, PinChoice, TargetChoice};
+use crate::flow_args::{FlowArgs, PinChoice, StepsChoice, TargetChoice};
 use crate::input::{self, Input};
 use crate::job::{FlowJob, FlowOutcome, default_space, run_flow};
 use crate::options::{MethodChoice, OnChoice};
@@ -16,7 +16,7 @@ use crate::runner::{CommandRun, Job, JobHeader};
 use crate::show;
 use crate::surface_layout::OwnFaces;
 use crate::uv;
-use ricci::flow::{Gradient, Options};
+use ricci::flow::{Gradient, Options, StepRule};
 use ricci::geometry::Space;
 use ricci::mesh::{Mesh, VertexId};
 use ricci::metric::{Scheme, Target};
@@ -101,6 +101,8 @@ impl Job for FlowArgs {
             target: self.target.as_ref().map_or_else(|| rule_text(&outcome.rule), ToString::to_string),
             pin: outcome.pinned.iter().map(|v| v.0).collect(),
             max_iterations: options(self).iteration_limit(),
+            steps: (self.to.solve.method == MethodChoice::Gradient)
+                .then(|| StepsChoice(options(self).gradient.step).to_string()),
             args: self,
         }
     }
@@ -114,6 +116,8 @@ struct FlowSettings<'a> {
     target: String,
     pin: Vec<u32>,
     max_iterations: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    steps: Option<String>,
     #[serde(flatten)]
     args: &'a FlowArgs,
 }
@@ -141,7 +145,8 @@ fn flow_job<'a>(args: &'a FlowArgs, input: &Input, space: Space) -> Result<FlowJ
 }
 
 fn options(args: &FlowArgs) -> Options {
-    let gradient = Gradient { area_normalised: args.area_normalised, ..Gradient::default() };
+    let step = args.steps.map_or_else(StepRule::default, |steps| steps.0);
+    let gradient = Gradient { step, area_normalised: args.area_normalised };
     Options { gradient, ..args.to.options() }
 }
 
@@ -169,6 +174,7 @@ fn check_options(args: &FlowArgs) -> Result<(), Failure> {
             "--target auto chooses every curvature, --pin leaves some free; leave one out",
         ),
         (args.trace.is_some() && newton, "--trace records the gradient flow; add --method gradient"),
+        (args.steps.is_some() && newton, "--steps is a rule of the gradient flow; add --method gradient"),
         (
             args.area_normalised && newton,
             "--area-normalised is a variant of the gradient flow; add --method gradient",

@@ -1,8 +1,9 @@
 //! The options of `ricci flow`.
 
-use crate::options::{FileName, MetricArgs, distance};
+use crate::options::{FileName, MetricArgs, distance, positive};
 use crate::picture::FlowPictureArgs;
 use clap::{Args, ValueEnum};
+use ricci::flow::StepRule;
 use ricci::geometry::Space;
 use serde::Serialize;
 use std::path::PathBuf;
@@ -44,6 +45,11 @@ pub struct FlowArgs {
     /// Keep the total area during the gradient flow (E²)
     #[arg(long)]
     pub area_normalised: bool,
+    /// Step size of the gradient flow: armijo, stable or fixed:H, with which the energy falls at every step, or barzilai-borwein, with which it
+    /// may rise on the way [default: armijo]
+    #[arg(long, value_name = "RULE")]
+    #[serde(skip)]
+    pub steps: Option<StepsChoice>,
     /// Hold the conformal factor at 0 at these vertices, whose curvature is then free: boundary, or V,V,… (numbered from 0)
     #[arg(long, value_name = "VERTICES")]
     #[serde(skip)]
@@ -147,6 +153,35 @@ impl std::fmt::Display for TargetChoice {
     }
 }
 
+/// The step rule of the gradient flow.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StepsChoice(pub StepRule);
+
+impl FromStr for StepsChoice {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text.split_once(':') {
+            None if text == "armijo" => Ok(StepsChoice(StepRule::Armijo)),
+            None if text == "barzilai-borwein" => Ok(StepsChoice(StepRule::BarzilaiBorwein)),
+            None if text == "stable" => Ok(StepsChoice(StepRule::Stable)),
+            Some(("fixed", size)) => positive(size).map(|h| StepsChoice(StepRule::Fixed(h))),
+            _ => Err("must be armijo, barzilai-borwein, stable or fixed:H".into()),
+        }
+    }
+}
+
+impl std::fmt::Display for StepsChoice {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self.0 {
+            StepRule::Armijo => f.write_str("armijo"),
+            StepRule::BarzilaiBorwein => f.write_str("barzilai-borwein"),
+            StepRule::Stable => f.write_str("stable"),
+            StepRule::Fixed(h) => write!(f, "fixed:{h}"),
+        }
+    }
+}
+
 /// Vertices whose conformal factor is held.
 #[derive(Debug, Clone, PartialEq)]
 pub enum PinChoice {
@@ -169,6 +204,16 @@ impl FromStr for PinChoice {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn step_rules_read_back_as_written() {
+        for text in ["armijo", "barzilai-borwein", "stable", "fixed:0.25"] {
+            assert_eq!(text.parse::<StepsChoice>().unwrap().to_string(), text);
+        }
+        for text in ["", "fixed", "fixed:0", "fixed:-1", "fixed:nan", "Armijo"] {
+            assert!(text.parse::<StepsChoice>().is_err(), "{text}");
+        }
+    }
 
     #[test]
     fn targets_read_back_as_written() {

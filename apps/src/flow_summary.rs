@@ -60,6 +60,7 @@ impl JobOutcome for FlowOutcome {
                 n => format!(", {}", count(n, "broken triangle", "broken triangles")),
             }
         );
+        text += &self.solved.scheme_line();
         if !report.converged() {
             text += &format!("why      {}\n", why(self));
         }

@@ -104,6 +104,33 @@ impl SolvedMetric {
         checks
     }
 
+    /// The line of the summary that says how far the start of a circle packing lies from the surface; empty for other schemes.
+    pub fn scheme_line(&self) -> String {
+        if !self.scheme.is_packing() {
+            return String::new();
+        }
+        let d = &self.solution.initial().distance;
+        let at =
+            |what: &str, index: Option<u32>| index.map_or_else(String::new, |i| format!(" ({what} {i})"));
+        let mut text = format!(
+            "start    |log| of lengths over the surface's: mean {:.3} max {:.3}{}; dilatation mean {:.4} max {:.3e}{}\n",
+            d.mean_log_length,
+            d.max_log_length,
+            at("edge", d.edge.map(|e| e.0)),
+            d.mean_dilatation,
+            d.max_dilatation,
+            at("face", d.face.map(|f| f.0))
+        );
+        if d.is_far() {
+            text += &format!(
+                "WARNING  the result is conformal to that start, not to the surface, at any refinement: {} does not represent these \
+                 lengths; --scheme yamabe, inversive or virtual does\n",
+                self.scheme
+            );
+        }
+        text
+    }
+
     /// Write the metric.
     pub fn write_metric(&self, outputs: &mut Outputs, path: &Path) -> Result<(), Failure> {
         let file = MetricFile::new(&self.solution, &self.target)?;

@@ -25,9 +25,10 @@ choices!(FLIPS: Flips = "flips", [
 ]);
 
 choices!(STEPS: StepRule = "step", [
-    RICCI_STEP_BARZILAI_BORWEIN => StepRule::BarzilaiBorwein,
+    RICCI_STEP_ARMIJO => StepRule::Armijo,
     RICCI_STEP_STABLE => StepRule::Stable,
     RICCI_STEP_FIXED => StepRule::Fixed(0.0),
+    RICCI_STEP_BARZILAI_BORWEIN => StepRule::BarzilaiBorwein,
 ]);
 
 #[repr(C)]

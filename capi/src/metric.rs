@@ -122,6 +122,12 @@ pub struct ricci_metric_summary {
     pub max_length_change: f64,
     pub n_flips: usize,
     pub n_start_flips: usize,
+    pub max_log_length: f64,
+    pub mean_log_length: f64,
+    pub max_dilatation: f64,
+    pub mean_dilatation: f64,
+    pub far: u32,
+    pub reserved: u32,
 }
 // SAFETY: numbers; 8-byte alignment, size first.
 sized!(ricci_metric_summary, "summary");
@@ -182,6 +188,12 @@ pub unsafe extern "C" fn ricci_metric_summarise(
             max_length_change: initial.max_length_change,
             n_flips: solution.flips(),
             n_start_flips: solution.start_flips(),
+            max_log_length: initial.distance.max_log_length,
+            mean_log_length: initial.distance.mean_log_length,
+            max_dilatation: initial.distance.max_dilatation,
+            mean_dilatation: initial.distance.mean_dilatation,
+            far: initial.distance.is_far().into(),
+            reserved: 0,
         };
         structs::write(figures, summary, size)
     })

@@ -794,6 +794,24 @@ typedef struct ricci_metric_summary {
     size_t n_flips;
     /** Those of them that come before the flow and change no distance on the surface. */
     size_t n_start_flips;
+    /**
+     * The distance of the metric that the scheme starts from, from that of the surface: largest |log| of a
+     * length of the start over that of the surface; 0 with schemes that represent every metric.
+     */
+    double max_log_length;
+    /** The mean of that over the sides of the faces. */
+    double mean_log_length;
+    /** Largest dilatation of the maps from the surface's triangles to those of the start. */
+    double max_dilatation;
+    /** Its mean, weighed with areas. Flows are conformal to the start, so refining does not lower it. */
+    double mean_dilatation;
+    /**
+     * 1 if the start is so far (mean dilatation above 1.02, or a largest one above 2) that results belong to
+     * another conformal structure than the surface's; else 0.
+     */
+    uint32_t far;
+    /** 0. */
+    uint32_t reserved;
 } ricci_metric_summary;
 
 /**
@@ -938,14 +956,19 @@ enum {
     RICCI_FLIPS_NEVER = 1
 };
 
-/** Step size of the gradient flow. */
+/**
+ * Step size of the gradient flow. The energy falls at every step, except with plain Barzilai-Borwein steps:
+ * a step after which it has not fallen enough (Armijo's rule) is shortened.
+ */
 enum {
-    /** Barzilai-Borwein steps: far fewer steps, by other metrics than the continuous flow. */
-    RICCI_STEP_BARZILAI_BORWEIN = 0,
+    /** The step that Barzilai and Borwein propose, shortened until the energy falls. */
+    RICCI_STEP_ARMIJO = 0,
     /** The largest step that is stable by Gershgorin's bound. */
     RICCI_STEP_STABLE = 1,
     /** Always `step_size`. */
-    RICCI_STEP_FIXED = 2
+    RICCI_STEP_FIXED = 2,
+    /** Barzilai-Borwein's steps as they are; the energy may rise on the way. */
+    RICCI_STEP_BARZILAI_BORWEIN = 3
 };
 
 /** How a flow is done. Zeroed by ricci_init: the defaults. */

@@ -31,15 +31,19 @@ pub enum Flips {
     Never,
 }
 
-/// Step size of the gradient flow.
+/// Step size of the gradient flow. With all rules but [`StepRule::BarzilaiBorwein`] the energy falls at every step, as it does along the
+/// continuous flow: a step after which it has not fallen enough (Armijo's rule \[Arm66\]), or which leaves the domain, is shortened.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum StepRule {
-    /// Barzilai–Borwein's two steps in turn \[BB88\]: far fewer steps; visits other metrics on the way than the continuous flow.
+    /// The step that Barzilai and Borwein propose, shortened until the energy falls.
     #[default]
+    Armijo,
+    /// Barzilai–Borwein's two steps in turn \[BB88\] as they are (halved where they leave the domain or raise the error tenfold): the energy
+    /// may rise on the way.
     BarzilaiBorwein,
     /// The largest step for which the explicit scheme is stable by Gershgorin's bound on ∂K/∂u.
     Stable,
-    /// Always the same step (halved where it leaves the domain or raises the error tenfold).
+    /// Always the same step.
     Fixed(f64),
 }
 

@@ -76,7 +76,8 @@ impl std::fmt::Display for StopReason {
 pub struct TraceRow {
     /// Step number; 0 is the start.
     pub step: usize,
-    /// `∫ Σ (K − K̄) du` along the steps so far (trapezoidal rule), 0 at the start.
+    /// `∫ Σ (K − K̄) du` along the steps so far (trapezoidal rule with its first correction), 0 at the start. It falls at every step, except
+    /// with plain Barzilai–Borwein steps.
     pub energy: f64,
     /// max |K − K̄|, radians.
     pub max_curvature_error: f64,

@@ -13,6 +13,7 @@ use super::class::Class;
 use super::curvature::area;
 use super::lengths::{Metric, face_lengths};
 use super::scheme::Scheme;
+use super::scheme_distance::SchemeDistance;
 use crate::error::{Error, Result, check_size};
 use crate::geometry::conformal::{Vertex, radius};
 use crate::geometry::scaled::scaled;
@@ -38,6 +39,8 @@ pub struct Initial {
     pub clamped_edges: usize,
     /// Largest relative change of an edge length by that.
     pub max_length_change: f64,
+    /// The distance of this metric from that of the surface, by that.
+    pub distance: SchemeDistance,
 }
 
 /// The initial metric of a class for input `lengths` (E entries, read in `input_geometry`), carried into the space of the class.
@@ -165,10 +168,12 @@ fn represented(
     let start = clamped.as_ref().unwrap_or(lengths);
     let change = |e: EdgeId| (start[e] / lengths[e] - 1.0).abs();
     let max_length_change = if clamped.is_some() { mesh.edges().map(change).fold(0.0, worse) } else { 0.0 };
+    let distance =
+        clamped.as_ref().map_or_else(SchemeDistance::default, |c| SchemeDistance::between(mesh, lengths, c));
     let shift = start_shift(mesh, start, &metric, space)?;
     metric.space = space;
     metric.u.iter_mut().for_each(|u| *u += shift);
-    Ok(Initial { metric, input_geometry, radii, input_u, clamped_edges, max_length_change })
+    Ok(Initial { metric, input_geometry, radii, input_u, clamped_edges, max_length_change, distance })
 }
 
 /// Checks that two vertices of these types can have this η.
@@ -195,6 +200,7 @@ impl Initial {
             input_u: metric.u.clone(),
             clamped_edges: 0,
             max_length_change: 0.0,
+            distance: SchemeDistance::default(),
             metric,
         })
     }

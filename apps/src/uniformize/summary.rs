@@ -48,6 +48,7 @@ fn quotient(u: &Uniformized, copies: bool) -> String {
         say::tolerance(u.report.allowed_error()),
         say::size(u.layout.area, 6),
     );
+    text += &u.solved.scheme_line();
     let flipped = || say::count(u.flipped().len(), "triangle flipped", "triangles flipped");
     let layout = u.laid().map_or_else(|_| flipped(), flow_summary::layout);
     let modulus = u.extremal_distance.map_or_else(String::new, |m| format!(", modulus {m:.6}"));

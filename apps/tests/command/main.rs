@@ -23,6 +23,7 @@ mod outputs;
 mod picture;
 mod repair;
 mod run;
+mod schemes;
 mod spline;
 mod structure;
 mod surfaces;

@@ -37,7 +37,8 @@ class FlowOptions(TypedDict, total=False):
         threads: of this flow; one per core. The result does not depend on it.
         max_step: largest change of any u in one Newton step; 3.
         fixed_edges: rows of `Mesh.edges` that are not flipped, such as feature lines.
-        step: step size of the gradient flow: ``"barzilai_borwein"``, ``"stable"``, ``"fixed"``.
+        step: step size of the gradient flow: ``"armijo"`` (the energy falls at every step), ``"stable"``, ``"fixed"``, or
+            ``"barzilai_borwein"`` (the energy may rise on the way); ``"armijo"``.
         step_size: that of ``"fixed"``.
         area_normalised: true if a gradient flow in E2 keeps the area of the start.
     """
@@ -49,7 +50,7 @@ class FlowOptions(TypedDict, total=False):
     threads: int
     max_step: float
     fixed_edges: npt.ArrayLike
-    step: Literal["barzilai_borwein", "stable", "fixed"]
+    step: Literal["armijo", "barzilai_borwein", "stable", "fixed"]
     step_size: float
     area_normalised: bool
 

@@ -157,6 +157,13 @@ class MetricSummary:
         max_length_change: largest relative change of an edge length by going over to the scheme.
         n_flips: edge flips from the mesh it was made from to its triangulation.
         n_start_flips: those of them that come before the flow and change no distance on the surface.
+        max_log_length: largest |log| of a length of the metric that the scheme starts from, over that of the surface; 0 with schemes that
+            represent every metric.
+        mean_log_length: the mean of that over the sides of the faces.
+        max_dilatation: largest dilatation of the maps from the surface's triangles to those of the start.
+        mean_dilatation: its mean, weighed with areas. Flows are conformal to the start, so refining does not lower it.
+        far: true if the start is so far (mean dilatation above 1.02, or a largest one above 2) that results belong to another conformal
+            structure than the surface's.
     """
 
     space: Space
@@ -174,6 +181,11 @@ class MetricSummary:
     max_length_change: float
     n_flips: int
     n_start_flips: int
+    max_log_length: float
+    mean_log_length: float
+    max_dilatation: float
+    mean_dilatation: float
+    far: bool
 
 
 @dataclass(frozen=True)
