@@ -1,6 +1,7 @@
 //! Circle domains: surfaces with boundary whose boundary loops are circles.
 
 use crate::arrays::{array, copy_out};
+use crate::choice::choices;
 use crate::control::{self, ricci_control};
 use crate::failure::{Failure, Outcome};
 use crate::flow::{read_options, ricci_flow_options};
@@ -13,13 +14,19 @@ use crate::paths::vertex_or_none;
 use crate::report::stop_reason;
 use crate::status::*;
 use crate::structs::{self, sized};
-use ricci::canonical::{CircleDomain, CircleDomainOptions, Normalisation, circle_domain};
+use ricci::canonical::{CircleDomain, CircleDomainOptions, DomainFrame, Normalisation, circle_domain};
 use ricci::flow::Solution;
 use ricci::geometry::Space;
 use ricci::mesh::VertexId;
 use ricci::{Class, Surface};
 use std::ffi::c_char;
 use std::sync::Arc;
+
+choices!(FRAMES: DomainFrame = "frame", [
+    RICCI_FRAME_AUTO => DomainFrame::Auto,
+    RICCI_FRAME_DISK => DomainFrame::Disk,
+    RICCI_FRAME_STRIP => DomainFrame::Strip,
+]);
 
 pub struct ricci_circle_domain {
     domain: CircleDomain,
@@ -40,6 +47,8 @@ pub struct ricci_circle_domain_options {
     pub three: *const u32,
     pub angles: *const f64,
     pub least_loop: usize,
+    pub frame: u32,
+    pub reserved: u32,
 }
 // SAFETY: numbers and raw pointers; 8-byte alignment, size first.
 sized!(ricci_circle_domain_options, "options");
@@ -62,6 +71,10 @@ pub struct ricci_circle_domain_summary {
     pub max_curvature_error: f64,
     pub deviation: f64,
     pub modulus: [f64; 2],
+    pub frame: u32,
+    pub worst_loop: u32,
+    pub worst_vertex: u32,
+    pub centred_on: u32,
 }
 // SAFETY: numbers and a raw pointer; 8-byte alignment, size first.
 sized!(ricci_circle_domain_summary, "summary");
@@ -85,6 +98,7 @@ fn read(given: ricci_circle_domain_options) -> Outcome<CircleDomainOptions> {
     Ok(CircleDomainOptions {
         outer: vertex_or_none(given.outer)?.map(VertexId::index),
         normalisation,
+        frame: FRAMES.choose(given.frame)?,
         least_loop: if given.least_loop == 0 { usual.least_loop } else { given.least_loop },
         flow: read_options(given.flow)?,
     })
@@ -145,8 +159,12 @@ pub unsafe extern "C" fn ricci_circle_domain_summarise(
             n_halved: report.halved_edges,
             n_crossed: report.crossed_edges,
             max_curvature_error: report.domain_curvature_error,
-            deviation: domain.circles.iter().map(|c| c.deviation).fold(0.0, f64::max),
+            deviation: report.deviation,
             modulus: modulus.unwrap_or([f64::NAN; 2]),
+            frame: FRAMES.number(domain.frame)?,
+            worst_loop: report.worst_loop.map_or(u32::MAX, |k| k as u32),
+            worst_vertex: report.worst_vertex.map_or(u32::MAX, |v| v.0),
+            centred_on: report.centred_on.map_or(u32::MAX, |k| k as u32),
         };
         structs::write(figures, summary, size)
     })
@@ -161,6 +179,18 @@ pub unsafe extern "C" fn ricci_circle_domain_circles(
     guard::with(domain, |ricci_circle_domain { domain, .. }| {
         let figures = domain.circles.iter().map(|c| [c.center[0], c.center[1], c.radius, c.deviation]);
         copy_out("circles", &figures.collect::<Vec<_>>(), circles, capacity)
+    })
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_circle_domain_log_radii(
+    domain: *const ricci_circle_domain,
+    log_radii: *mut f64,
+    capacity: usize,
+) -> ricci_status {
+    guard::with(domain, |ricci_circle_domain { domain, .. }| {
+        let logs: Vec<f64> = domain.circles.iter().map(|c| c.log_radius).collect();
+        copy_out("log_radii", &logs, log_radii, capacity)
     })
 }
 

@@ -22,6 +22,19 @@ extern "C" {
 /** A surface with boundary whose loops are circles. */
 typedef struct ricci_circle_domain ricci_circle_domain;
 
+/** The shape in which a surface of genus 0 is laid out. */
+enum {
+    /** The unit disk; for an annulus the strip where doubles do not hold its inner circle in the disk. */
+    RICCI_FRAME_AUTO = 0,
+    /** The unit disk. */
+    RICCI_FRAME_DISK = 1,
+    /**
+     * An annulus in log coordinates: [0, 2 pi] x [0, 2 pi m] with the sides x = 0 and x = 2 pi identified, m the
+     * modulus. (x, y) is the point of the disk with the angle x and the radius e^-y; the outer loop is y = 0.
+     */
+    RICCI_FRAME_STRIP = 2
+};
+
 /** Options of a circle domain. Zeroed by ricci_init: the defaults. */
 typedef struct ricci_circle_domain_options {
     /** sizeof(ricci_circle_domain_options). */
@@ -42,6 +55,10 @@ typedef struct ricci_circle_domain_options {
     const double *angles;
     /** Edges of loops with fewer than this are halved; 0: 12. */
     size_t least_loop;
+    /** RICCI_FRAME_*; of a strip the surface is an annulus, and no vertex has a place. */
+    uint32_t frame;
+    /** 0. */
+    uint32_t reserved;
 } ricci_circle_domain_options;
 
 /** Figures of a circle domain. */
@@ -50,9 +67,12 @@ typedef struct ricci_circle_domain_summary {
     size_t size;
     /** RICCI_SPACE_E2: the unit disk (genus 0) or a flat torus (1); RICCI_SPACE_H2 for more. */
     uint32_t space;
-    /** 1 if the curvature is within the tolerance, no circles overlap and no triangle is flipped; else 0. */
+    /**
+     * 1 if the domain as it is has its curvature within the tolerance, loops that are round to 1e-9 of the
+     * radius, no circles that overlap and no flipped triangle; else 0.
+     */
     uint32_t converged;
-    /** RICCI_STOP_*: why the flow stopped. */
+    /** RICCI_STOP_*: why the flow stopped; RICCI_STOP_ROUNDING_FLOOR if the domain is less exact than it. */
     uint32_t stop_reason;
     /** Genus 0: the loop on the unit circle; else UINT32_MAX. */
     uint32_t outer;
@@ -79,6 +99,14 @@ typedef struct ricci_circle_domain_summary {
      * Else NaN.
      */
     double modulus[2];
+    /** RICCI_FRAME_DISK or RICCI_FRAME_STRIP: the shape of the layout; RICCI_FRAME_AUTO of genus 1 and more. */
+    uint32_t frame;
+    /** The loop with the largest deviation; UINT32_MAX: none. */
+    uint32_t worst_loop;
+    /** The vertex of the metric with the largest |K|, a hub beyond those of the mesh; UINT32_MAX: none. */
+    uint32_t worst_vertex;
+    /** The loop that was put about 0 because doubles do not hold it elsewhere; UINT32_MAX: none. */
+    uint32_t centred_on;
 } ricci_circle_domain_summary;
 
 /**
@@ -135,6 +163,19 @@ RICCI_API ricci_status ricci_circle_domain_summarise(const ricci_circle_domain *
  */
 RICCI_API ricci_status ricci_circle_domain_circles(const ricci_circle_domain *domain, double *circles,
                                                    size_t capacity);
+
+/**
+ * The logarithms of the radii, loop by loop; in a strip also those of circles whose radius is below the range
+ * of doubles.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param domain     the circle domain.
+ * @param log_radii  out: n_circles logarithms.
+ * @param capacity   entries of `log_radii`.
+ */
+RICCI_API ricci_status ricci_circle_domain_log_radii(const ricci_circle_domain *domain, double *log_radii,
+                                                     size_t capacity);
 
 /**
  * The given mesh with the vertices that were added to its loops before the flow; its first vertices are the

@@ -129,6 +129,18 @@ def test_circle_domains_by_choice(pants):
         ricci.circles(ricci.make("sphere", n=3))
 
 
+def test_an_annulus_lies_in_a_strip():
+    """Log coordinates: the outer loop is y = 0, the inner one y = 2 pi times the modulus."""
+    found = ricci.circles(ricci.make("annulus", a=1, b=2, n=12, m=60), frame="strip")
+    assert found.converged
+    assert found.summary.frame == "strip"
+    height = 2 * np.pi * found.summary.modulus.imag
+    assert sorted(found.log_radii) == pytest.approx([-height, 0])
+    points = found.layout().points()
+    assert points[:, 1].min() == pytest.approx(0, abs=1e-12)
+    assert points[:, 1].max() == pytest.approx(height)
+
+
 def test_an_annulus_has_its_modulus():
     """Radii 1 and 2: height over circumference is ln 2 / 2 pi."""
     found = ricci.circles(ricci.make("annulus", a=1, b=2, n=12, m=60))

@@ -2,14 +2,14 @@
 
 use super::star::PuncturedSurface;
 use crate::control::Control;
-use crate::embed::unfold::unfold_part;
+use crate::embed::unfold::{unfold_part, unfold_part_precisely};
 use crate::error::{Error, Result};
 use crate::geometry::barycentre::conformal_barycentre;
 use crate::geometry::double_double::two_sum;
 use crate::geometry::sphere::{SOUTH, Similarity, lift, log_density};
 use crate::geometry::vector::{add, cross, dot, norm, scale, sub};
-use crate::geometry::{Space, worse};
-use crate::mesh::{Mesh, PerEdge, PerVertex, Point, VertexId};
+use crate::geometry::{DoubleDouble, Space, worse};
+use crate::mesh::{Mesh, PerEdge, PerHalfedge, PerVertex, Point, VertexId};
 use crate::metric::Metric;
 use std::sync::Arc;
 
@@ -20,14 +20,38 @@ impl PuncturedSurface {
     ///
     /// [`Error::Layout`] where vertices lie in no triangle of the plane; [`Error::Cancelled`].
     pub fn unfold(&self, control: &Control) -> Result<PerVertex<[f64; 2]>> {
-        let mut is_cut = PerEdge::filled(self.mesh.n_edges(), false);
-        self.star().into_iter().for_each(|arc| is_cut[self.link(arc).edge()] = true);
-        let at = unfold_part(&Arc::new(self.mesh.clone()), &self.closed(), &is_cut, control)?;
-        let mut plane = PerVertex::filled(self.mesh.n_vertices(), [f64::INFINITY; 2]);
+        let (mesh, is_cut) = (Arc::new(self.mesh.clone()), self.link_edges());
+        self.placed(&unfold_part(&mesh, &self.closed(), &is_cut, control)?, |x| x)
+    }
+
+    /// [`PuncturedSurface::unfold`] in double-double precision.
+    ///
+    /// # Errors
+    ///
+    /// As there.
+    pub fn unfold_precisely(&self, control: &Control) -> Result<PerVertex<[DoubleDouble; 2]>> {
+        let (mesh, is_cut) = (Arc::new(self.mesh.clone()), self.link_edges());
+        self.placed(&unfold_part_precisely(&mesh, &self.closed(), &is_cut, control)?, f64::from)
+    }
+
+    /// True at the edges of the link, which bound the planar part.
+    fn link_edges(&self) -> PerEdge<bool> {
+        let mut is_link = PerEdge::filled(self.mesh.n_edges(), false);
+        self.star().into_iter().for_each(|arc| is_link[self.link(arc).edge()] = true);
+        is_link
+    }
+
+    /// The places of the vertices from those of the corners of the planar part.
+    fn placed<T: Copy + From<f64>>(
+        &self,
+        corners: &PerHalfedge<[T; 2]>,
+        rounded: fn(T) -> f64,
+    ) -> Result<PerVertex<[T; 2]>> {
+        let mut plane = PerVertex::filled(self.mesh.n_vertices(), [T::from(f64::INFINITY); 2]);
         for h in self.mesh.halfedges().filter(|&h| !self.in_star(h)) {
-            plane[self.mesh.origin(h)] = at[h];
+            plane[self.mesh.origin(h)] = corners[h];
         }
-        let outside = |v: &VertexId| *v != self.at && plane[*v].iter().any(|x| !x.is_finite());
+        let outside = |v: &VertexId| *v != self.at && plane[*v].iter().any(|&x| !rounded(x).is_finite());
         match self.mesh.vertices().find(outside) {
             Some(v) => {
                 let at = self.at;

@@ -26,7 +26,9 @@ mod tries;
 pub mod uniformize;
 
 pub use boundary::{Boundary, BoundaryCorner, Corners};
-pub use circle_domain::{CircleDomain, CircleDomainOptions, DomainCircle, Normalisation, circle_domain};
+pub use circle_domain::{
+    CircleDomain, CircleDomainOptions, DomainCircle, DomainFrame, Normalisation, circle_domain,
+};
 pub use quotient::{Quotient, QuotientOptions, quotient_of, uniformize_quotient};
 pub use sphere::{Sphere, SphereOptions, SphereReport, uniformize_sphere};
 pub use spherical_flow::{FlowedSphere, flow_to_sphere};

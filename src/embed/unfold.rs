@@ -68,6 +68,24 @@ pub(crate) fn unfold_part(
     Ok(PerHalfedge::from_fn(mesh.n_halfedges(), |h| flat(Space::E2, points[corner[h] as usize])))
 }
 
+/// [`unfold_part`] in double-double precision: x and y.
+///
+/// # Errors
+/// As there.
+pub(crate) fn unfold_part_precisely(
+    mesh: &Arc<Mesh>,
+    metric: &Metric,
+    is_cut: &PerEdge<bool>,
+    control: &Control,
+) -> Result<PerHalfedge<[DoubleDouble; 2]>> {
+    let faces = Faces::precise(mesh, metric)?;
+    let grown = Development::grow(LayoutPieces::Mesh(mesh.clone()), &faces, None, Some(is_cut), control)?;
+    let (corner, n_corners) = number_corners(mesh, is_cut);
+    let (points, low) = grown.points_and_remainders(&corner, n_corners);
+    let place = |k: usize| [0, 1].map(|i| DoubleDouble::from(points[k][i]).plus(low[k][i]));
+    Ok(PerHalfedge::from_fn(mesh.n_halfedges(), |h| place(corner[h] as usize)))
+}
+
 /// Unfolds pieces that are opened along a cut of them; without a cut, the surface is opened where the growing disk meets itself. Flipped
 /// and degenerate triangles are found later ([`Layout::find_flat`]).
 pub(super) fn unfold<F: HalfedgeFrame>(

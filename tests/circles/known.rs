@@ -10,7 +10,7 @@ use ricci::{Control, Surface};
 use std::f64::consts::{LN_2, PI, TAU};
 
 /// A strip of m × n squares, cut alternately, whose sides left and right are one; `place` of (row, angle).
-fn strip(m: usize, n: usize, place: impl Fn(f64, f64) -> [f64; 3]) -> Soup {
+pub fn strip(m: usize, n: usize, place: impl Fn(f64, f64) -> [f64; 3]) -> Soup {
     let mut soup = Soup::default();
     for i in 0..=m {
         soup.positions.extend((0..n).map(|j| place(i as f64 / m as f64, TAU * j as f64 / n as f64)));

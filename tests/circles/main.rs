@@ -5,6 +5,7 @@ mod check;
 #[path = "../common/mod.rs"]
 mod common;
 mod known;
+mod precision;
 
 use check::{check, domain, domain_of};
 use common::{Random, named};

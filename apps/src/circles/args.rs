@@ -1,8 +1,9 @@
 //! The options of `ricci circles`.
 
-use crate::options::{Common, FileName, SurfaceArgs, positive};
+use crate::options::{Common, FileName, SurfaceArgs, choices, positive};
 use crate::picture::{PictureArgs, TextureChoice};
 use clap::Args;
+use ricci::canonical::DomainFrame;
 use serde::Serialize;
 use std::str::FromStr;
 
@@ -15,10 +16,10 @@ A surface of genus 0 comes to lie in the unit disk, one of its loops on the unit
 one of higher genus in a hyperbolic surface with round holes. Loops are numbered from 0, in the order of their first edges.
 
 Files
-    --uv OUT.obj | OUT.glb     the surface with its layout as texture coordinates: of the unit disk, of the plane (a torus, scaled to the
-                               surface's area), of the Poincaré disk. Vertices beyond the input's lie on its edges
+    --uv OUT.obj | OUT.glb     the surface with its layout as texture coordinates: of the unit disk, of the strip (--frame strip), of the
+                               plane (a torus, scaled to the surface's area), of the Poincaré disk. Vertices beyond the input's lie on its edges
     --metric M.json            the metric with the disks: a hub per loop after the surface's vertices, epsilon 1, whose circle the loop lies on;
-                               in the unit disk without the outer loop's hub";
+                               in the unit disk without the outer loop's hub; of a strip the flat cylinder, without hubs";
 
 #[derive(Args, Serialize, Debug, Clone)]
 pub struct CirclesArgs {
@@ -37,6 +38,12 @@ pub struct CirclesArgs {
     #[arg(long, value_name = "V,V,V")]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub three: Option<ThreeVertices>,
+    /// Shape of a surface of genus 0: the unit disk; for an annulus also the strip of its log coordinates, [0, 2π] × [0, 2π modulus] with the
+    /// outer loop at y = 0, where (x, y) is the point of the disk with angle x and radius e^(−y); auto: the disk, and the strip where
+    /// doubles do not hold the inner circle in the disk
+    #[arg(long, value_enum, value_name = "SHAPE", default_value_t = FrameChoice::Auto)]
+    #[serde(skip)]
+    pub frame: FrameChoice,
     /// Halve edges of loops that have fewer than this
     #[arg(long, value_name = "EDGES", default_value_t = ricci::canonical::circle_domain::LEAST_LOOP, value_parser = edges)]
     pub least_loop: usize,
@@ -67,6 +74,8 @@ pub struct CirclesArgs {
     #[serde(flatten)]
     pub common: Common,
 }
+
+choices!(FrameChoice = DomainFrame { Auto, Disk, Strip });
 
 /// Edges that a loop may be asked to have: more than a million make no circle rounder that doubles can hold.
 fn edges(text: &str) -> Result<usize, String> {

@@ -1,6 +1,6 @@
 //! `ricci circles` as a job: what it refuses, computes, writes and reports.
 
-use super::args::CirclesArgs;
+use super::args::{CirclesArgs, FrameChoice};
 use super::outcome::CirclesOutcome;
 use super::picture;
 use crate::failure::{Failure, NO_POSITIONS};
@@ -12,7 +12,7 @@ use crate::picture::TextureChoice;
 use crate::report::timed;
 use crate::runner::{CommandRun, Job, JobHeader};
 use crate::uv::{self, UvOptions};
-use ricci::canonical::{CircleDomainOptions, Normalisation, circle_domain};
+use ricci::canonical::{CircleDomainOptions, DomainFrame, Normalisation, circle_domain};
 use ricci::flow::Options;
 use ricci::mesh::{PerVertex, VertexId};
 use serde::Serialize;
@@ -29,6 +29,10 @@ impl Job for CirclesArgs {
         let picture = self.picture.picture.as_deref();
         check_extension("--uv", self.uv.as_deref(), &["obj", "glb"])?;
         check_extension("--picture", picture, &["png", "svg"])?;
+        if self.frame == FrameChoice::Strip && (self.center.is_some() || self.three.is_some()) {
+            let why = "--center, --three: places in the unit disk; leave them or --frame strip out";
+            return Err(Failure::Usage(why.into()));
+        }
         if self.picture.is_svg() && self.picture.is_turned() {
             let why = "--view, --up: an SVG shows the layout alone; use .png, or leave them out";
             return Err(Failure::Usage(why.into()));
@@ -85,6 +89,7 @@ fn check_surface(args: &CirclesArgs, input: &Input) -> Result<(), Failure> {
             ("--outer", args.outer.is_some()),
             ("--center", args.center.is_some()),
             ("--three", args.three.is_some()),
+            ("--frame", args.frame != FrameChoice::Auto),
         ];
         if let Some((option, _)) = of_disk.iter().find(|(_, asked)| *asked) {
             let genus = mesh.genus();
@@ -92,6 +97,11 @@ fn check_surface(args: &CirclesArgs, input: &Input) -> Result<(), Failure> {
                 "{option}: a surface of genus {genus} does not lie in the unit disk; leave it out"
             ));
         }
+    }
+    if args.frame == FrameChoice::Strip && n != 2 {
+        return usage(format!(
+            "--frame strip: a surface with two loops lies in a strip, this one has {n}; leave it out"
+        ));
     }
     if let Some(k) = args.outer.filter(|&k| k >= n) {
         return usage(format!("--outer {k}: there is no such loop, they are 0 to {}", n - 1));
@@ -116,7 +126,13 @@ fn options(args: &CirclesArgs) -> CircleDomainOptions {
         threads: args.common.threads,
         ..Options::default()
     };
-    CircleDomainOptions { outer: args.outer, normalisation, least_loop: args.least_loop, flow }
+    CircleDomainOptions {
+        outer: args.outer,
+        normalisation,
+        frame: args.frame.into(),
+        least_loop: args.least_loop,
+        flow,
+    }
 }
 
 /// Write the metric of the surface with its disks; in the unit disk without the hub of the outer loop, whose disk lies outside.
@@ -124,7 +140,9 @@ fn write_metric(outputs: &mut Outputs, path: &Path, outcome: &CirclesOutcome) ->
     let domain = &outcome.domain;
     let target = PerVertex::filled(domain.metric.mesh().n_vertices(), 0.0);
     let file = MetricFile::new(&domain.metric, &target)?;
-    let Some(outer) = domain.outer else { return outputs.add(path, |out| file.write(out)) };
+    let Some(outer) = domain.outer.filter(|_| domain.frame == DomainFrame::Disk) else {
+        return outputs.add(path, |out| file.write(out));
+    };
     let file = file.without(domain.filled.hub(outer).index());
     let curvature = file.curvature();
     let file = file.free_on_boundary(&curvature);

@@ -7,11 +7,10 @@ use crate::report::{Checks, Done, Figures, InputSummary};
 use crate::runner::{CommandRun, JobOutcome};
 use crate::say::{count, finish, modulus, surface};
 use crate::solved::GAUSS_BONNET;
-use ricci::geometry::worse;
+use ricci::canonical::DomainFrame;
+use ricci::canonical::circle_domain::ROUND;
+use ricci::metric::Scheme;
 use serde_json::json;
-
-/// Largest distance of a loop from its circle, as a share of the radius.
-const ROUND: f64 = 1e-9;
 
 impl JobOutcome for CirclesOutcome {
     type Figures = Figures;
@@ -21,7 +20,7 @@ impl JobOutcome for CirclesOutcome {
         let mut checks = Checks::default();
         checks.add("gauss_bonnet", self.gauss_bonnet, GAUSS_BONNET);
         checks.add("max_curvature_error", domain.report.domain_curvature_error, self.tolerance);
-        checks.add("roundness", domain.circles.iter().map(|c| c.deviation).fold(0.0, worse), ROUND);
+        checks.add("roundness", domain.report.deviation, ROUND);
         checks.add("overlapping_circles", domain.overlapping().len() as f64, 0.0);
         let errors = domain.report.domain_curvature_error * domain.metric.mesh().n_vertices() as f64;
         checks.add("layout_consistency", layout.consistency(), layout.consistency_limit(errors));
@@ -37,16 +36,20 @@ impl JobOutcome for CirclesOutcome {
     fn figures(&self, run: &CommandRun<'_>) -> Figures {
         let CirclesOutcome { input, domain, laid, .. } = self;
         let report = &domain.report;
-        let circle = |c: &ricci::canonical::DomainCircle| json!({"loop": c.boundary_loop, "center": c.center, "radius": c.radius, "deviation": c.deviation, "vertices": c.vertices});
+        let circle = |c: &ricci::canonical::DomainCircle| json!({"loop": c.boundary_loop, "center": c.center, "radius": c.radius, "log_radius": c.log_radius, "deviation": c.deviation, "vertices": c.vertices});
         Figures::default()
             .with("space", domain.layout.space.name())
-            .with("scheme", MIXED)
+            .with("scheme", if domain.frame == DomainFrame::Strip { Scheme::Yamabe.name() } else { MIXED })
+            .if_some("frame", frame_name(domain.frame))
             .with("converged", report.converged)
             .with("stop_reason", report.stop_reason.name())
             .with("iterations", report.iterations)
             .with("flips", report.flips)
             .with("max_curvature_error", report.domain_curvature_error)
+            .if_some("worst_vertex", report.worst_vertex.map(|v| v.0))
             .if_some("outer", domain.outer)
+            .if_some("centred_on", report.centred_on)
+            .with("roundness", report.deviation)
             .with("circles", domain.circles.iter().map(circle).collect::<Vec<_>>())
             // The vertices that were added to loops: before the flow, and where flips have crossed their edges.
             .with("halved_edges", report.halved_edges)
@@ -64,7 +67,6 @@ impl JobOutcome for CirclesOutcome {
     fn summary(&self, done: &Done) -> String {
         let CirclesOutcome { input, domain, laid, .. } = self;
         let report = &domain.report;
-        let deviation = domain.circles.iter().map(|c| c.deviation).fold(0.0, worse);
         let mut text = surface(input);
         text += &format!(
             "metric   {}: {} after {}, max |K| = {:.1e}\n",
@@ -74,11 +76,15 @@ impl JobOutcome for CirclesOutcome {
             report.domain_curvature_error
         );
         text += &format!(
-            "circles  {}, off by {deviation:.1e} of the radius at most{}{}\n",
+            "circles  {}, off by {:.1e} of the radius at most{}{}{}{}\n",
             count(domain.circles.len(), "circle", "circles"),
+            report.deviation,
             domain.outer.map_or_else(String::new, |k| format!(", loop {k} outside")),
+            report.centred_on.map_or_else(String::new, |k| format!(", loop {k} about the centre")),
+            if domain.frame == DomainFrame::Strip { ", as lines of a strip (log coordinates)" } else { "" },
             domain.modulus.map_or_else(String::new, |m| format!(", modulus {m:.6}"))
         );
+        text += &why(self);
         if report.halved_edges + report.crossed_edges > 0 {
             text += &format!(
                 "loops    {} added: {} where edges were halved, {} where flips crossed them\n",
@@ -97,4 +103,55 @@ impl JobOutcome for CirclesOutcome {
         );
         text + &finish(done)
     }
+}
+
+/// The name of the shape of a surface of genus 0.
+fn frame_name(frame: DomainFrame) -> Option<&'static str> {
+    match frame {
+        DomainFrame::Auto => None,
+        DomainFrame::Disk => Some("disk"),
+        DomainFrame::Strip => Some("strip"),
+    }
+}
+
+/// Where the domain is not as exact as asked for, and what to change; empty if it is.
+fn why(outcome: &CirclesOutcome) -> String {
+    let (domain, report) = (&outcome.domain, &outcome.domain.report);
+    let mut text = String::new();
+    if let Some(k) = report.worst_loop.filter(|_| report.deviation > ROUND) {
+        let c = &domain.circles[k];
+        let [x, y] = c.center;
+        text += &format!(
+            "why      loop {k} is off its circle by {:.1e} of the radius {:.1e} about ({x:.6}, {y:.6}): {}\n",
+            c.deviation,
+            c.radius,
+            remedy(outcome, k)
+        );
+    }
+    if let Some(v) = report.worst_vertex.filter(|_| report.domain_curvature_error > outcome.tolerance) {
+        let n = outcome.halved.mesh().n_vertices();
+        let place = match v.index().checked_sub(n).filter(|_| domain.frame != DomainFrame::Strip) {
+            Some(k) => format!("the centre of loop {k}"),
+            None => format!("vertex {v}"),
+        };
+        text += &format!(
+            "why      max |K| = {:.1e} at {place}, limit {:.1e}: remesh thin triangles there, or ask for less (--tolerance)\n",
+            report.domain_curvature_error, outcome.tolerance
+        );
+    }
+    text
+}
+
+/// The way to a rounder loop k.
+fn remedy(outcome: &CirclesOutcome, k: usize) -> String {
+    let domain = &outcome.domain;
+    if domain.frame != DomainFrame::Disk {
+        return "remesh thin triangles near it, or give it more edges (--least-loop)".into();
+    }
+    if domain.circles.len() == 2 {
+        return "doubles hold no more digits of so small a circle in the disk; --frame strip does".into();
+    }
+    format!(
+        "doubles hold no more digits of so small a circle at this place; --outer {k} makes it the largest, at the cost of the loops far from it"
+    )
 }

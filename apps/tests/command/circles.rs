@@ -110,3 +110,63 @@ fn what_is_not_there_is_refused() {
         assert!(ended.err.contains(word), "{line}: {}", ended.err);
     }
 }
+
+/// A cylinder of radius 1 and this modulus, its height over its circumference, of n squares around.
+fn cylinder(modulus: f64, n: usize) -> String {
+    let rows = (modulus * n as f64).round() as usize;
+    let mut text = String::new();
+    for i in 0..=rows {
+        for j in 0..n {
+            let angle = std::f64::consts::TAU * j as f64 / n as f64;
+            let height = std::f64::consts::TAU * modulus * i as f64 / rows as f64;
+            text += &format!("v {:?} {:?} {height:?}\n", angle.cos(), angle.sin());
+        }
+    }
+    let at = |i: usize, j: usize| i * n + j % n + 1;
+    for i in 0..rows {
+        for j in 0..n {
+            let [a, b, c, d] = [at(i, j), at(i, j + 1), at(i + 1, j + 1), at(i + 1, j)];
+            text += &format!("f {a} {b} {c}\nf {a} {c} {d}\n");
+        }
+    }
+    text
+}
+
+#[test]
+fn a_long_cylinder_is_round_in_the_disk_and_straight_in_the_strip() {
+    let place = Place::new();
+    place.put("tube.obj", &cylinder(6.2, 16));
+    for (frame, name) in [("", "disk"), ("--frame strip", "strip")] {
+        place.expect(0, &format!("circles tube.obj {frame} --uv out.obj --metric m.json --report r.json"));
+        let report = place.json("r.json");
+        let result = &report["result"];
+        assert_eq!((&result["frame"], &result["converged"]), (&name.into(), &true.into()));
+        assert!(result["roundness"].as_f64().unwrap() < 1e-9);
+        let outer = result["outer"].as_u64().unwrap() as usize;
+        let inner = &result["circles"][1 - outer];
+        let (radius, modulus) = (inner["radius"].as_f64().unwrap(), result["modulus"].as_f64().unwrap());
+        assert!((6.1..6.4).contains(&modulus) && (1e-18..1e-16).contains(&radius), "{modulus} {radius}");
+        assert!(
+            (inner["log_radius"].as_f64().unwrap() / (-std::f64::consts::TAU * modulus) - 1.0).abs() < 1e-9
+        );
+        place.expect(0, "info m.json");
+    }
+    place.expect(0, "make disk -n 4 -o disk.obj");
+    for line in ["disk.obj --frame strip", "tube.obj --frame strip --center 40"] {
+        place.expect(2, &format!("circles {line}"));
+    }
+}
+
+#[test]
+fn a_domain_that_is_not_as_exact_as_asked_for_says_where_and_what_to_do() {
+    let place = Place::new();
+    place.put("tube.obj", &cylinder(3.0, 16));
+    let said = place.expect(1, "circles tube.obj --frame disk --tolerance 1e-15 --report r.json").out;
+    let report = place.json("r.json");
+    assert_eq!(report["result"]["converged"], false);
+    assert_eq!(report["result"]["stop_reason"], "rounding_floor");
+    assert!(report["result"]["worst_vertex"].is_u64());
+    for part in ["why      max |K|", "limit 1.0e-15", "--tolerance", "FAILED: max_curvature_error"] {
+        assert!(said.contains(part), "{part}: {said}");
+    }
+}

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import Any, ClassVar, TypedDict, Unpack
+from typing import Any, ClassVar, Literal, TypedDict, Unpack
 
 import numpy as np
 import numpy.typing as npt
@@ -11,7 +11,7 @@ import numpy.typing as npt
 from ricci._arrays import frozen
 from ricci._call import CONTROL, Doubles, Handle, constant, doubles, summary
 from ricci._library import lib
-from ricci._structs import Write, above_zero, index_list, one_index, options, real_list
+from ricci._structs import Write, above_zero, choice, index_list, one_index, options, real_list
 from ricci.adapters import MeshLike, as_mesh
 from ricci.control import Progress
 from ricci.errors import ArgumentError, warn
@@ -34,6 +34,9 @@ class CircleOptions(TypedDict, total=False):
         three: genus 0: three vertices of the outer loop, counterclockwise, to lie at `angles`.
         angles: three angles, radians; 0, 2 pi / 3, 4 pi / 3.
         least_loop: edges of loops with fewer than this are halved; 12.
+        frame: genus 0: ``"disk"``; of an annulus also ``"strip"``, its log coordinates [0, 2 pi] x [0, 2 pi m] with the outer loop at y = 0,
+            (x, y) the point of the disk with angle x and radius e^-y; ``"auto"``: the disk, and the strip where doubles do not hold the
+            inner circle in the disk.
     """
 
     flow: FlowOptions
@@ -42,6 +45,7 @@ class CircleOptions(TypedDict, total=False):
     three: npt.ArrayLike
     angles: npt.ArrayLike
     least_loop: int
+    frame: Literal["auto", "disk", "strip"]
 
 
 def _of_three(write: Write) -> Write:
@@ -62,6 +66,7 @@ _CIRCLES: dict[str, Write] = {
     "three": _of_three(index_list()),
     "angles": _of_three(real_list()),
     "least_loop": above_zero,
+    "frame": choice("FRAME"),
 }
 
 
@@ -78,13 +83,18 @@ class CircleDomain(Handle):
 
     @property
     def converged(self) -> bool:
-        """True if the curvature is within the tolerance, no circles overlap and no triangle is flipped."""
+        """True if the domain has its curvature within the tolerance, round and disjoint loops, and no flipped triangle."""
         return self.summary.converged
 
     @cached_property
     def circles(self) -> Doubles:
         """One row for each boundary loop: centre x, y, radius, and the largest distance of a vertex from it as a share of that."""
         return frozen(doubles(lib.ricci_circle_domain_circles, self, shape=(self.summary.n_circles, 4)))
+
+    @cached_property
+    def log_radii(self) -> Doubles:
+        """The logarithm of each radius; in a strip also of those that are below the range of doubles."""
+        return frozen(doubles(lib.ricci_circle_domain_log_radii, self, shape=(self.summary.n_circles,)))
 
     @cached_property
     def mesh(self) -> Mesh:
@@ -103,7 +113,7 @@ def circles(V: MeshLike, F: npt.ArrayLike | None = None, progress: Progress = No
         V: n x 3 positions with `F`, or a mesh of any kind (`as_mesh`).
         F: m x 3 vertex indices.
         progress: a `Control` or a callback.
-        given: outer, centre, three, angles, least_loop, flow (`CircleOptions`).
+        given: outer, centre, three, angles, least_loop, frame, flow (`CircleOptions`).
 
     Warns:
         NotConverged: the loops did not become circles; `summary` says why.

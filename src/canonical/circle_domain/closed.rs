@@ -1,7 +1,7 @@
 //! Circle domains of genus 1 and more: flat tori and hyperbolic surfaces with round holes.
 
 use super::domain::{CircleDomain, CircleReport, DomainCircle};
-use super::options::CircleDomainOptions;
+use super::options::{CircleDomainOptions, DomainFrame};
 use super::place::{anchor_weights, deviation, hub_edge, least_gap, loops_of_edges, rims};
 use super::prepare::PreparedSurface;
 use crate::control::Control;
@@ -41,12 +41,16 @@ pub(super) fn solve(
     let least_gap = least_gap(metric.mesh(), metric.metric(), &filled);
     let vertices: usize = circles.iter().map(|c| c.vertices).sum();
     let report = CircleReport {
-        converged: report.converged() && layout.flipped.is_empty() && least_gap > 0.0,
+        converged: false,
         stop_reason: report.stop_reason,
         iterations: report.iterations,
         flips: metric.flips(),
         max_curvature_error: report.max_curvature_error,
         domain_curvature_error: report.angle_defect.unwrap_or(report.max_curvature_error),
+        worst_vertex: report.worst.first().map(|worst| worst.0),
+        deviation: 0.0,
+        worst_loop: None,
+        centred_on: None,
         halved_edges: split.n_added(),
         crossed_edges: vertices - filled.loops.iter().map(Vec::len).sum::<usize>(),
         least_gap,
@@ -63,8 +67,10 @@ pub(super) fn solve(
         outer: None,
         modulus: None,
         torus_modulus,
+        frame: DomainFrame::Auto,
         report,
-    })
+    }
+    .judged(options.flow.tolerance))
 }
 
 /// The closed surface laid out, opened along a cut that keeps away from the disks.
@@ -135,7 +141,14 @@ fn circles(whole: &Layout, layout: &Layout, metric: &Solution, filled: &FilledMe
             let seen = home.apply(precise_point(space, layout.corner(rim[i])));
             distance_from_origin(space, seen.map(f64::from))
         });
-        DomainCircle { boundary_loop: k, center: layout.flat(center), radius, deviation, vertices: rim.len() }
+        DomainCircle {
+            boundary_loop: k,
+            center: layout.flat(center),
+            radius,
+            log_radius: radius.ln(),
+            deviation,
+            vertices: rim.len(),
+        }
     };
     rims(subdivision, filled).into_iter().enumerate().map(circle).collect()
 }

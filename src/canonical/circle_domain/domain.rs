@@ -1,5 +1,6 @@
 //! The circle domain as data, with its report.
 
+use super::options::DomainFrame;
 use super::place::hub_pairs;
 use crate::embed::Layout;
 use crate::flow::{FlowSeconds, Solution, StopReason};
@@ -13,8 +14,11 @@ pub struct DomainCircle {
     pub boundary_loop: usize,
     /// Centre in the coordinates of the layout: of the plane, of the Poincaré disk (one lift).
     pub center: [f64; 2],
-    /// Radius in the metric of the space: in E² in the units of the layout, in H² hyperbolic.
+    /// Radius in the metric of the space: in E² in the units of the layout, in H² hyperbolic. In a strip that of the circle in the unit disk; 0
+    /// where that is below the range of f64.
     pub radius: f64,
+    /// log of the radius, which is known where the radius itself is below the range of f64.
+    pub log_radius: f64,
     /// Largest difference between the radius and the distance of a vertex of the loop from the centre, as a share of the radius.
     pub deviation: f64,
     /// Vertices on the circle: those of the loop, and those that were added to it.
@@ -24,9 +28,10 @@ pub struct DomainCircle {
 /// The report of [`super::circle_domain()`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct CircleReport {
-    /// True if K = 0 to the tolerance, no two circles overlap, and no triangle is flipped.
+    /// True if the domain as it is returned has K = 0 to the tolerance, loops that are round to [`super::ROUND`], no two circles that overlap,
+    /// and no flipped triangle.
     pub converged: bool,
-    /// Why the flow stopped.
+    /// Why the flow stopped; [`StopReason::RoundingFloor`] if it converged, but the domain as it is returned is not that exact.
     pub stop_reason: StopReason,
     /// Newton steps of the whole call.
     pub iterations: usize,
@@ -37,6 +42,14 @@ pub struct CircleReport {
     pub max_curvature_error: f64,
     /// Largest |K| of [`CircleDomain::metric`], measured from its variables, at all vertices but those of the outer loop, radians.
     pub domain_curvature_error: f64,
+    /// Where that is largest: a vertex of the metric's triangulation, a hub if its number is beyond the surface's vertices.
+    pub worst_vertex: Option<VertexId>,
+    /// The largest deviation of a loop from its circle, and the loop.
+    pub deviation: f64,
+    /// The loop with that deviation.
+    pub worst_loop: Option<usize>,
+    /// The loop whose circle was put about 0 because f64s do not hold it elsewhere.
+    pub centred_on: Option<usize>,
     /// Vertices that were added to loops before the flow, by halving edges.
     pub halved_edges: usize,
     /// Vertices that were added to loops where flips crossed their edges.
@@ -59,6 +72,9 @@ pub struct CircleDomain {
     /// The metric on the filled surface, flat or hyperbolic, and the way back. For a planar domain it is the metric of the unit disk: the
     /// outer hub is outside its circle then, so that the faces at it are not triangles of the plane, and K at its loop has no meaning.
     pub metric: Solution,
+    /// The shape of the layout of a surface of genus 0: [`DomainFrame::Disk`] or [`DomainFrame::Strip`]; [`DomainFrame::Auto`] of higher genus.
+    /// In a strip `metric` is that of the flat cylinder, without hubs.
+    pub frame: DomainFrame,
     /// The layout of the surface without its holes, on the common subdivision of the surface of `split` and the metric's triangulation. That
     /// of a torus has the area of the given surface.
     pub layout: Layout,
@@ -78,6 +94,9 @@ impl CircleDomain {
     /// The loops whose circles overlap another one, ascending: those of two hubs that are joined by an edge with η ≤ 1. Such an edge exists
     /// wherever two disks overlap, because the union of the disks is homotopic to the part of the triangulation whose disks meet.
     pub fn overlapping(&self) -> Vec<usize> {
+        if self.frame == DomainFrame::Strip {
+            return Vec::new();
+        }
         let (mesh, eta) = (self.metric.mesh(), &self.metric.metric().eta);
         let mut all: Vec<usize> = hub_pairs(mesh, &self.filled)
             .filter(|&(e, _)| eta[e].high <= 1.0)

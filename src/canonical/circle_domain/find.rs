@@ -1,14 +1,17 @@
 //! Finds the circle domain of a surface; refines loops whose circles overlap.
 
 use super::domain::CircleDomain;
-use super::options::CircleDomainOptions;
+use super::options::{CircleDomainOptions, DomainFrame, Normalisation};
 use super::prepare::{PreparedSurface, halve_loops, refine};
-use super::{closed, planar};
+use super::{closed, planar, strip};
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::metric::{Split, Surface};
 use crate::parallel::Pool;
 
+/// Modulus above which an annulus is not tried in the unit disk at all: the disk has held one of 6.2, and not one of 12. The modulus is only
+/// known up to a factor of about 2.
+const MOST_IN_DISK: f64 = 24.0;
 /// How many times the edges of loops whose circles overlap are halved.
 const ROUNDS: usize = 4;
 
@@ -61,8 +64,31 @@ fn solve(
     options: &CircleDomainOptions,
     control: &Control,
 ) -> Result<CircleDomain> {
-    match prepared.surface.mesh().genus() {
-        0 => planar::solve(prepared, options, control),
-        _ => closed::solve(prepared, options, control),
+    if prepared.surface.mesh().genus() > 0 {
+        return closed::solve(prepared, options, control);
+    }
+    let may_open = options.frame == DomainFrame::Auto
+        && prepared.filled.loops.len() == 2
+        && options.normalisation == Normalisation::Centred;
+    match options.frame {
+        DomainFrame::Strip => strip::solve(prepared, options, control),
+        _ if may_open && strip::modulus_estimate(&prepared.surface, control)? > MOST_IN_DISK => {
+            strip::solve(prepared, options, control)
+        }
+        _ if may_open => match planar::solve(prepared.clone(), options, control) {
+            Ok(domain) if domain.is_exact() => Ok(domain),
+            Err(Error::Cancelled) => Err(Error::Cancelled),
+            disk => {
+                log::debug!(
+                    "the inner circle of an annulus is not held in the unit disk: it is laid out in a strip"
+                );
+                match (disk, strip::solve(prepared, options, control)) {
+                    (_, Err(Error::Cancelled)) => Err(Error::Cancelled),
+                    (_, Ok(strip)) if strip.is_exact() => Ok(strip),
+                    (disk, _) => disk,
+                }
+            }
+        },
+        _ => planar::solve(prepared, options, control),
     }
 }

@@ -22,9 +22,12 @@ mod find;
 mod options;
 mod place;
 mod planar;
+mod precise_map;
 mod prepare;
+mod strip;
+mod verdict;
 mod view;
 
 pub use domain::{CircleDomain, CircleReport, DomainCircle};
 pub use find::circle_domain;
-pub use options::{CircleDomainOptions, LEAST_LOOP, Normalisation};
+pub use options::{CircleDomainOptions, DomainFrame, LEAST_LOOP, Normalisation, ROUND};

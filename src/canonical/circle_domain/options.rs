@@ -21,14 +21,33 @@ pub enum Normalisation {
     Three([VertexId; 3], [f64; 3]),
 }
 
+/// The shape in which a surface of genus 0 is laid out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum DomainFrame {
+    /// The unit disk; an annulus lies in a strip instead where f64s do not hold its inner circle in the disk.
+    #[default]
+    Auto,
+    /// The unit disk.
+    Disk,
+    /// An annulus in log coordinates, `[0, 2π] × [0, 2π m]` with the sides x = 0 and x = 2π identified, m the modulus, the outer loop at y = 0:
+    /// (x, y) is the point of the disk with the angle x and the radius e^(−y). Both loops are straight there, and circles in the disk, whatever
+    /// the modulus.
+    Strip,
+}
+
+/// Largest deviation of a loop from its circle, as a share of the radius, of a converged domain.
+pub const ROUND: f64 = 1e-9;
+
 /// Options of [`super::circle_domain()`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct CircleDomainOptions {
     /// The loop of a surface of genus 0 that becomes the unit circle, by its place in [`crate::mesh::Mesh::boundary_loops`]. Default: the
     /// longest.
     pub outer: Option<usize>,
-    /// The normalisation of a surface of genus 0.
+    /// The normalisation of a surface of genus 0 in the unit disk.
     pub normalisation: Normalisation,
+    /// The shape in which a surface of genus 0 is laid out.
+    pub frame: DomainFrame,
     /// Edges of a loop with fewer than this are halved, the longest first. Default [`LEAST_LOOP`].
     pub least_loop: usize,
     /// Tolerance, steps and threads of the flows; nothing else of it is used.
@@ -40,6 +59,7 @@ impl Default for CircleDomainOptions {
         CircleDomainOptions {
             outer: None,
             normalisation: Normalisation::Centred,
+            frame: DomainFrame::Auto,
             least_loop: LEAST_LOOP,
             flow: Options::default(),
         }
@@ -91,6 +111,17 @@ impl CircleDomainOptions {
                 "of the unit disk",
                 "centred: only surfaces of genus 0 lie in the unit disk",
             ));
+        }
+        let is_annulus = is_planar && n == 2;
+        match self.frame {
+            DomainFrame::Strip if !is_annulus || self.normalisation != Normalisation::Centred => {
+                let need = "an annulus (genus 0, two loops), and no vertex at a place of the unit disk";
+                return Err(Error::argument("frame", "strip", need));
+            }
+            DomainFrame::Disk if !is_planar => {
+                return Err(Error::argument("frame", "disk", "a surface of genus 0"));
+            }
+            _ => {}
         }
         vertices.iter().try_for_each(|&v| check_vertex(mesh, v))?;
         self.flow.check()

@@ -1,25 +1,27 @@
 //! Circle domains of genus 0: from the plane of a punctured sphere into the unit disk.
 
-use super::super::puncture::PlaneSolver;
+use super::super::puncture::{PlaneReport, PlaneSolver};
 use super::super::star::PuncturedSurface;
 use super::super::tries::{FoundPlane, PunctureSearch};
 use super::disk::DomainInDisk;
 use super::domain::{CircleDomain, CircleReport, DomainCircle};
-use super::options::CircleDomainOptions;
+use super::options::{CircleDomainOptions, DomainFrame, Normalisation, ROUND};
 use super::place::{anchor_weights, deviation, hub_edge, least_gap, loops_of_edges, rims};
+use super::precise_map::PrecisePoint;
 use super::prepare::PreparedSurface;
+use super::verdict::largest_curvature;
 use super::view::DiskView;
 use crate::control::Control;
 use crate::embed::{Layout, PlanarPlaces};
 use crate::error::Result;
-use crate::flow::Solution;
+use crate::flow::{FlowSeconds, Solution};
 use crate::geometry::complex::{Complex, add, norm, scale, sub};
 use crate::geometry::double_double::two_sum;
 use crate::geometry::mobius::PlaneCircle;
 use crate::geometry::{DoubleDouble, Space, triangle, worse};
 use crate::mesh::{EdgeId, FilledMesh, Mesh, PerEdge, PerVertex, VertexId};
 use crate::metric::lengths::face_lengths;
-use crate::metric::{CommonSubdivision, Metric, Surface};
+use crate::metric::{CommonSubdivision, Metric, Split, Surface};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -39,56 +41,116 @@ pub(super) fn solve(
     let begin = PuncturedSurface { mesh, metric, at: VertexId(0), followed, flips: 0 };
     let may = inside(&begin.mesh, surface.mesh(), &filled);
     let mut tried = PunctureSearch::new(&weights, PlaneSolver::new(&begin, &flow, control)?).only(may);
-    let FoundPlane { surface: found_on, plane, found } = tried.best(&begin)?;
-    let view = DiskView::new(&found_on, &plane, &filled, outer);
-    let points = view.apply(&plane);
-    let inner: Vec<PlaneCircle> =
-        (0..filled.loops.len()).filter(|&k| k != outer).map(|k| view.circle(k)).collect();
-    let rim = rim_of(surface.mesh(), outer);
-    let disk = DomainInDisk { points: &points, weights: &weights, inner: &inner, rim: &rim };
-    let view = view.then(&disk.normalised(&options.normalisation)?);
-    let mut metric = view.metric(&found_on, &plane);
-    in_units(&found_on.mesh, &mut metric, 1.0 / unit);
-    shift(&mut metric, 0, -unit.ln());
-    let puncture = Some(found_on.at);
-    let PuncturedSurface { mesh, followed, flips, .. } = found_on;
-    let solution = start.at(mesh, metric, followed, flips);
-    let domain = PlanarDomain { view, plane: &plane, solution: &solution, filled: &filled, outer };
-    let subdivision = Arc::new(solution.common_subdivision_where(&|f| filled.is_original(f), control)?);
-    let layout = domain.layout(surface.mesh(), subdivision)?;
-    let circles = domain.circles(&layout);
-    let least_gap = least_gap(solution.mesh(), solution.metric(), &filled);
-    let vertices: usize = circles.iter().map(|c| c.vertices).sum();
-    let report = CircleReport {
-        converged: found.converged && layout.flipped.is_empty() && least_gap > 0.0,
-        stop_reason: found.stop_reason,
-        iterations: tried.solver.iterations,
-        flips: solution.flips(),
-        max_curvature_error: found.error,
-        domain_curvature_error: domain.curvature_error()?,
-        halved_edges: split.n_added(),
-        crossed_edges: vertices - filled.loops.iter().map(Vec::len).sum::<usize>(),
-        least_gap,
-        puncture,
-        seconds: tried.solver.seconds,
-    };
-    let modulus = (filled.loops.len() == 2).then(|| modulus_of(&domain));
+    let FoundPlane { surface: on, found, .. } = tried.best(&begin)?;
+    let plane = on.unfold_precisely(control)?;
+    let (iterations, seconds) = (tried.solver.iterations, tried.solver.seconds);
     drop(tried);
-    Ok(CircleDomain {
-        split,
-        circles,
-        modulus,
-        layout,
-        outer: Some(outer),
-        torus_modulus: None,
-        report,
-        metric: solution,
-        filled,
-    })
+    let view = DiskView::new(&on, &plane, &filled, outer);
+    let inner = |view: &DiskView| -> Vec<PlaneCircle> {
+        (0..filled.loops.len()).filter(|&k| k != outer).map(|k| view.circle(k)).collect()
+    };
+    let rim = rim_of(surface.mesh(), outer);
+    let points = view.apply(&plane);
+    let disk = DomainInDisk { points: &points, weights: &weights, inner: &inner(&view), rim: &rim };
+    let mut view = view.then(&disk.normalised(&options.normalisation)?);
+    let is_centred = options.normalisation == Normalisation::Centred;
+    if let ([only], true) = (&inner(&view)[..], is_centred) {
+        // The first transformation was rounded, to a share of the unit disk and not of the circle.
+        view = view.then(&only.to_centre());
+    }
+    let found = PlanarSolution { split, surface, filled, start, on, plane, found, outer, unit };
+    let mut domain = found.seen(view.clone(), control)?;
+    (domain.report.iterations, domain.report.seconds) = (iterations, seconds);
+    let domain = domain.judged(options.flow.tolerance);
+    match domain.report.worst_loop.filter(|&k| k != outer && is_centred && domain.report.deviation > ROUND) {
+        Some(k) => found.centred_on(k, view, domain, options, control),
+        None => Ok(domain),
+    }
+}
+
+/// A planar surface in the plane, with all that a domain is made of.
+struct PlanarSolution {
+    split: Split,
+    surface: Surface,
+    filled: FilledMesh,
+    start: Solution,
+    /// The surface whose metric the plane has.
+    on: PuncturedSurface,
+    plane: PerVertex<PrecisePoint>,
+    found: PlaneReport,
+    outer: usize,
+    /// The unit of length of that metric.
+    unit: f64,
+}
+
+impl PlanarSolution {
+    /// The domain in the disk as a view shows it; steps and seconds are 0, and it is not judged yet.
+    fn seen(&self, view: DiskView, control: &Control) -> Result<CircleDomain> {
+        let PlanarSolution { on, plane, filled, outer, unit, .. } = self;
+        let mut metric = view.metric(on, plane);
+        in_units(&on.mesh, &mut metric, 1.0 / unit);
+        shift(&mut metric, 0, -unit.ln());
+        let solution = self.start.clone().at(on.mesh.clone(), metric, on.followed.clone(), on.flips);
+        let domain = PlanarDomain { view, plane, solution: &solution, filled, outer: *outer };
+        let subdivision = Arc::new(solution.common_subdivision_where(&|f| filled.is_original(f), control)?);
+        let layout = domain.layout(self.surface.mesh(), subdivision)?;
+        let circles = domain.circles(&layout);
+        let vertices: usize = circles.iter().map(|c| c.vertices).sum();
+        let (domain_curvature_error, worst_vertex) = domain.curvature_error()?;
+        let report = CircleReport {
+            converged: false,
+            stop_reason: self.found.stop_reason,
+            iterations: 0,
+            flips: solution.flips(),
+            max_curvature_error: self.found.error,
+            domain_curvature_error,
+            worst_vertex,
+            deviation: 0.0,
+            worst_loop: None,
+            centred_on: None,
+            halved_edges: self.split.n_added(),
+            crossed_edges: vertices - filled.loops.iter().map(Vec::len).sum::<usize>(),
+            least_gap: least_gap(solution.mesh(), solution.metric(), filled),
+            puncture: Some(on.at),
+            seconds: FlowSeconds::default(),
+        };
+        let modulus = (filled.loops.len() == 2).then(|| modulus_of(&domain));
+        Ok(CircleDomain {
+            split: self.split.clone(),
+            circles,
+            modulus,
+            layout,
+            outer: Some(*outer),
+            torus_modulus: None,
+            frame: DomainFrame::Disk,
+            report,
+            metric: solution,
+            filled: filled.clone(),
+        })
+    }
+
+    /// The domain with the circle of loop k about 0, where f64s are dense, if it is rounder than `other`; else that one.
+    fn centred_on(
+        &self,
+        k: usize,
+        view: DiskView,
+        other: CircleDomain,
+        options: &CircleDomainOptions,
+        control: &Control,
+    ) -> Result<CircleDomain> {
+        let view = view.then(&view.circle(k).to_centre());
+        let view = view.then(&view.circle(k).to_centre());
+        let mut domain = self.seen(view, control)?;
+        let CircleReport { iterations, seconds, .. } = other.report;
+        (domain.report.iterations, domain.report.seconds) = (iterations, seconds);
+        domain.report.centred_on = Some(k);
+        let domain = domain.judged(options.flow.tolerance);
+        Ok(if domain.report.deviation < other.report.deviation { domain } else { other })
+    }
 }
 
 /// The longest loop.
-fn longest_loop(surface: &Surface, filled: &FilledMesh) -> usize {
+pub(super) fn longest_loop(surface: &Surface, filled: &FilledMesh) -> usize {
     let length = |k: usize| filled.loops[k].iter().map(|h| surface.lengths()[h.edge()]).sum::<f64>();
     (0..filled.loops.len()).fold((0, 0.0), |best, k| if length(k) > best.1 { (k, length(k)) } else { best }).0
 }
@@ -151,7 +213,7 @@ fn rim_of(open: &Mesh, k: usize) -> Vec<VertexId> {
 /// A planar circle domain: its view, its metric and its hubs.
 struct PlanarDomain<'a> {
     view: DiskView,
-    plane: &'a PerVertex<Complex>,
+    plane: &'a PerVertex<PrecisePoint>,
     solution: &'a Solution,
     filled: &'a FilledMesh,
     outer: usize,
@@ -205,15 +267,15 @@ impl PlanarDomain<'_> {
         }))
     }
 
-    /// Largest |K| of the disk's metric off the outer hub and its neighbours.
-    fn curvature_error(&self) -> Result<f64> {
+    /// Largest |K| of the disk's metric off the outer hub and its neighbours, and where it is.
+    fn curvature_error(&self) -> Result<(f64, Option<VertexId>)> {
         let mesh = self.solution.mesh();
         let mut counts = PerVertex::filled(mesh.n_vertices(), true);
         let hub = self.filled.hub(self.outer);
         counts[hub] = false;
         mesh.outgoing(hub).for_each(|h| counts[mesh.tip(h)] = false);
         let curvature = self.solution.metric().curvature(mesh)?.at;
-        Ok(mesh.vertices().filter(|&v| counts[v]).map(|v| curvature[v].abs()).fold(0.0, worse))
+        Ok(largest_curvature(&curvature, |v| counts[v]))
     }
 
     fn circles(&self, layout: &Layout) -> Vec<DomainCircle> {
@@ -222,7 +284,8 @@ impl PlanarDomain<'_> {
         let circle = |(k, rim): (usize, Vec<crate::mesh::HalfedgeId>)| {
             let PlaneCircle { center, radius } = self.view.circle(k);
             let deviation = deviation(rim.len(), radius, |i| norm(sub(layout.uv(rim[i]), center)));
-            DomainCircle { boundary_loop: k, center, radius, deviation, vertices: rim.len() }
+            let log_radius = radius.ln();
+            DomainCircle { boundary_loop: k, center, radius, log_radius, deviation, vertices: rim.len() }
         };
         all.map(circle).collect()
     }
@@ -230,7 +293,7 @@ impl PlanarDomain<'_> {
 
 /// Height over circumference of the cylinder that an annulus is.
 fn modulus_of(domain: &PlanarDomain) -> f64 {
-    let inner = domain.view.circle(1 - domain.outer);
-    let centred = inner.to_centre().apply_to_circle(inner);
-    -centred.radius.ln() / TAU
+    let k = 1 - domain.outer;
+    let centred = domain.view.then(&domain.view.circle(k).to_centre());
+    -centred.circle(k).radius.ln() / TAU
 }

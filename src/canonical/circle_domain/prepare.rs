@@ -10,6 +10,7 @@ use crate::mesh::{EdgeId, FilledMesh, HalfedgeId, PerEdge};
 use crate::metric::{Split, Surface};
 
 /// A surface that is ready to flow.
+#[derive(Clone)]
 pub(super) struct PreparedSurface {
     pub split: Split,
     /// The surface of `split`.

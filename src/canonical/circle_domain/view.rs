@@ -1,8 +1,9 @@
 //! The map from the plane of a punctured sphere to the unit disk.
 
 use super::super::star::PuncturedSurface;
+use super::precise_map::{PreciseCircle, PreciseMap, PrecisePoint, precise, rounded, size};
 use crate::geometry::Mobius;
-use crate::geometry::complex::{Complex, add, norm, scale, sub};
+use crate::geometry::complex::{Complex, add, scale, sub};
 use crate::geometry::double_double::two_sum;
 use crate::geometry::mobius::PlaneCircle;
 use crate::mesh::{FilledMesh, PerVertex, VertexId};
@@ -13,12 +14,13 @@ use crate::metric::Metric;
 const OFF_CENTRE: Complex = [0.31, 0.17];
 
 /// The map from the plane of a punctured sphere to the unit disk, with the circles of the hubs.
+#[derive(Clone)]
 pub(super) struct DiskView {
-    map: Mobius,
+    map: PreciseMap,
     /// The same, with another point at the centre, for anchors.
-    off_centre: Mobius,
+    off_centre: PreciseMap,
     /// The circles of the hubs in the plane.
-    circles: Vec<PlaneCircle>,
+    circles: Vec<PreciseCircle>,
     outer: usize,
     puncture: VertexId,
     n_points: usize,
@@ -28,37 +30,37 @@ impl DiskView {
     /// The outside of the outer circle on the unit disk.
     pub fn new(
         on: &PuncturedSurface,
-        plane: &PerVertex<Complex>,
+        plane: &PerVertex<PrecisePoint>,
         filled: &FilledMesh,
         outer: usize,
     ) -> DiskView {
         let hubs = filled.hubs();
-        let circle = |&v: &VertexId| PlaneCircle { center: plane[v], radius: on.metric.u[v].exp() };
-        let circles: Vec<PlaneCircle> = hubs.iter().map(circle).collect();
-        let map = Mobius::outside(circles[outer]);
-        let off_centre = Mobius::to_origin(OFF_CENTRE).after(&map);
+        let circle = |&v: &VertexId| PreciseCircle { center: plane[v], radius: on.metric.u[v].exp().into() };
+        let circles: Vec<PreciseCircle> = hubs.iter().map(circle).collect();
+        let map = PreciseMap::outside(circles[outer]);
+        let off_centre = PreciseMap::from(&Mobius::to_origin(OFF_CENTRE)).after(&map);
         DiskView { map, off_centre, circles, outer, puncture: on.at, n_points: plane.len() - hubs.len() }
     }
 
     /// Followed by a transformation of the disk.
-    pub fn then(self, next: &Mobius) -> DiskView {
-        DiskView { map: next.after(&self.map), ..self }
+    pub fn then(&self, next: &Mobius) -> DiskView {
+        DiskView { map: PreciseMap::from(next).after(&self.map), ..self.clone() }
     }
 
     /// The circle of a hub in the disk.
     pub fn circle(&self, k: usize) -> PlaneCircle {
-        self.circle_seen(&self.map, k)
+        self.circle_seen(&self.map, k).rounded()
     }
 
-    fn circle_seen(&self, map: &Mobius, k: usize) -> PlaneCircle {
+    fn circle_seen(&self, map: &PreciseMap, k: usize) -> PreciseCircle {
         if k == self.outer {
-            PlaneCircle { center: [0.0; 2], radius: 1.0 }
+            PreciseCircle { center: precise([0.0; 2]), radius: 1.0.into() }
         } else {
             map.apply_to_circle(self.circles[k])
         }
     }
 
-    fn seen(&self, map: &Mobius, plane: &PerVertex<Complex>, v: VertexId) -> Complex {
+    fn seen(&self, map: &PreciseMap, plane: &PerVertex<PrecisePoint>, v: VertexId) -> PrecisePoint {
         match v.index().checked_sub(self.n_points) {
             Some(k) => self.circle_seen(map, k).center,
             None if v == self.puncture => map.at_infinity(),
@@ -67,12 +69,12 @@ impl DiskView {
     }
 
     /// The vertices in the disk, hubs at the centres of their circles.
-    pub fn apply(&self, plane: &PerVertex<Complex>) -> PerVertex<Complex> {
-        PerVertex::from_fn(plane.len(), |v| self.seen(&self.map, plane, v))
+    pub fn apply(&self, plane: &PerVertex<PrecisePoint>) -> PerVertex<Complex> {
+        PerVertex::from_fn(plane.len(), |v| rounded(self.seen(&self.map, plane, v)))
     }
 
     /// The metric of the class with the lengths of the disk.
-    pub fn metric(&self, on: &PuncturedSurface, plane: &PerVertex<Complex>) -> Metric {
+    pub fn metric(&self, on: &PuncturedSurface, plane: &PerVertex<PrecisePoint>) -> Metric {
         let mut metric = on.metric.clone();
         for v in on.mesh.vertices() {
             let by = match v.index().checked_sub(self.n_points) {
@@ -91,12 +93,12 @@ impl DiskView {
 
     /// The anchor of hub k: the point where the edge to the vertex `to` leaves its circle. It is found in the disk moved off the centre,
     /// then brought to the disk.
-    pub fn anchor(&self, plane: &PerVertex<Complex>, k: usize, to: VertexId) -> Complex {
-        let PlaneCircle { center, radius } = self.circle_seen(&self.off_centre, k);
+    pub fn anchor(&self, plane: &PerVertex<PrecisePoint>, k: usize, to: VertexId) -> Complex {
+        let PreciseCircle { center, radius } = self.circle_seen(&self.off_centre, k);
         let away = sub(self.seen(&self.off_centre, plane, to), center);
         // The outer circle is seen from its other side.
-        let sign = if to.index() == self.n_points + self.outer { -1.0 } else { 1.0 };
-        let at = add(center, scale(sign * radius / norm(away), away));
-        self.map.after(&self.off_centre.inverse()).apply(at)
+        let radius = if to.index() == self.n_points + self.outer { -radius } else { radius };
+        let at = add(center, scale(radius / size(away), away));
+        rounded(self.map.after(&self.off_centre.inverse()).apply(at))
     }
 }

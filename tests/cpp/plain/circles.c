@@ -57,6 +57,29 @@ static void an_annulus_has_its_modulus(void) {
     ricci_mesh_free(mesh);
 }
 
+static void an_annulus_lies_in_a_strip(void) {
+    ricci_mesh *mesh = NULL;
+    ricci_circle_domain *domain = NULL;
+    ricci_circle_domain_summary s;
+    ricci_circle_domain_options options;
+    double logs[2], circles[8];
+    ricci_init(&options, sizeof options);
+    options.frame = RICCI_FRAME_STRIP;
+    OK(make_sized(RICCI_SHAPE_ANNULUS, 2, 24, 0.5, 1, 0, &mesh));
+    OK(ricci_circle_domain_new(mesh, &options, NULL, &domain));
+    OK(ricci_circle_domain_summarise(domain, &s, sizeof s));
+    CHECK(s.converged && s.frame == RICCI_FRAME_STRIP && s.centred_on == UINT32_MAX && s.worst_loop < 2);
+    OK(ricci_circle_domain_log_radii(domain, logs, 2));
+    CHECK(ricci_circle_domain_log_radii(domain, logs, 1) == RICCI_BUFFER_TOO_SMALL);
+    OK(ricci_circle_domain_circles(domain, circles, 8));
+    CHECK(logs[s.outer] == 0 && fabs(logs[1 - s.outer] + 2 * acos(-1) * s.modulus[1]) < 1e-12);
+    CHECK(fabs(circles[4 * (1 - s.outer) + 2] - exp(logs[1 - s.outer])) < 1e-15);
+    ricci_circle_domain_free(domain);
+    options.frame = 3;
+    CHECK(ricci_circle_domain_new(mesh, &options, NULL, &domain) == RICCI_ARGUMENT);
+    ricci_mesh_free(mesh);
+}
+
 static void holes_of_a_sphere_become_round(void) {
     ricci_mesh *sphere = NULL, *mesh = NULL;
     ricci_circle_domain *domain = NULL;
@@ -122,6 +145,7 @@ static void circles_of_a_layout_are_orthogonal(void) {
 int main(void) {
     circles_of_a_layout_are_orthogonal();
     an_annulus_has_its_modulus();
+    an_annulus_lies_in_a_strip();
     holes_of_a_sphere_become_round();
     return 0;
 }

@@ -17,6 +17,7 @@ Stop: TypeAlias = Literal[
     "infeasible",
     "out_of_reach",
 ]
+Frame: TypeAlias = Literal["auto", "disk", "strip"]
 StructureKind: TypeAlias = Literal["conformal", "spherical", "affine", "hyperbolic", "projective"]
 On: TypeAlias = Literal["input", "metric", "refinement"]
 
@@ -26,5 +27,6 @@ CONSTANTS: dict[str, tuple[str, tuple[str, ...]]] = {
     "Scheme": ("SCHEME", get_args(Scheme)),
     "Model": ("MODEL", get_args(Model)),
     "Stop": ("STOP", get_args(Stop)),
+    "Frame": ("FRAME", get_args(Frame)),
     "StructureKind": ("STRUCTURE", get_args(StructureKind)),
 }

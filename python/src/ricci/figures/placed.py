@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ricci.figures.names import Model, Space, Stop
+from ricci.figures.names import Frame, Model, Space, Stop
 
 
 @dataclass(frozen=True)
@@ -164,8 +164,9 @@ class CircleDomainSummary:
 
     Attributes:
         space: ``"e2"``: the unit disk (genus 0) or a flat torus (1); ``"h2"`` for more.
-        converged: true if the curvature is within the tolerance, no circles overlap and no triangle is flipped.
-        stop_reason: why the flow stopped.
+        converged: true if the domain as it is has its curvature within the tolerance, loops that are round to 1e-9 of the radius, no circles
+            that overlap and no flipped triangle.
+        stop_reason: why the flow stopped; ``"rounding_floor"`` if the domain is less exact than it.
         outer: genus 0: the loop on the unit circle; else -1.
         n_circles: circles: one per boundary loop of the mesh.
         n_overlapping: circles that overlap another one.
@@ -176,6 +177,10 @@ class CircleDomainSummary:
         max_curvature_error: largest |K| of the metric off the outer loop, radians.
         deviation: largest distance of a loop's vertex from its circle, a share of the radius.
         modulus: an annulus: 0 and its height over its circumference. A torus with holes: the modulus of the torus. Else NaN.
+        frame: ``"disk"`` or ``"strip"``: the shape of the layout; ``"auto"`` of genus 1 and more.
+        worst_loop: the loop with the largest deviation; 4294967295: none.
+        worst_vertex: the vertex of the metric with the largest |K|, a hub beyond those of the mesh; 4294967295: none.
+        centred_on: the loop that was put about 0 because doubles do not hold it elsewhere; 4294967295: none.
     """
 
     space: Space
@@ -191,3 +196,7 @@ class CircleDomainSummary:
     max_curvature_error: float
     deviation: float
     modulus: complex
+    frame: Frame
+    worst_loop: int
+    worst_vertex: int
+    centred_on: int
