@@ -29,8 +29,9 @@ enum {
     /** The unit disk. */
     RICCI_FRAME_DISK = 1,
     /**
-     * An annulus in log coordinates: [0, 2 pi] x [0, 2 pi m] with the sides x = 0 and x = 2 pi identified, m the
-     * modulus. (x, y) is the point of the disk with the angle x and the radius e^-y; the outer loop is y = 0.
+     * An annulus in log coordinates: [0, 2 pi] x [0, 2 pi m] with the sides x = 0 and x = 2 pi identified, m
+     * the modulus. (x, y) is the point of the disk with the angle x and the radius e^-y; the outer loop is y
+     * = 0.
      */
     RICCI_FRAME_STRIP = 2
 };
@@ -99,7 +100,8 @@ typedef struct ricci_circle_domain_summary {
      * Else NaN.
      */
     double modulus[2];
-    /** RICCI_FRAME_DISK or RICCI_FRAME_STRIP: the shape of the layout; RICCI_FRAME_AUTO of genus 1 and more. */
+    /** RICCI_FRAME_DISK or RICCI_FRAME_STRIP: the shape of the layout; RICCI_FRAME_AUTO of genus 1 and more.
+     */
     uint32_t frame;
     /** The loop with the largest deviation; UINT32_MAX: none. */
     uint32_t worst_loop;

@@ -23,9 +23,7 @@ public:
         return ricci::summary(ricci_circle_domain_summarise, get());
     }
     std::vector<double> circles() const { return values<double>(ricci_circle_domain_circles, get()); }
-    std::vector<double> log_radii() const {
-        return values<double>(ricci_circle_domain_log_radii, get());
-    }
+    std::vector<double> log_radii() const { return values<double>(ricci_circle_domain_log_radii, get()); }
     ricci::mesh mesh() const { return ricci::mesh(make<ricci_mesh>(ricci_circle_domain_mesh, get())); }
     ricci::layout layout(std::uint32_t model = RICCI_MODEL_POINCARE) const {
         return ricci::layout(make<ricci_layout>(ricci_circle_domain_layout, get(), model));
