@@ -34,7 +34,7 @@ class CircleOptions(TypedDict, total=False):
         three: genus 0: three vertices of the outer loop, counterclockwise, to lie at `angles`.
         angles: three angles, radians; 0, 2 pi / 3, 4 pi / 3.
         least_loop: edges of loops with fewer than this are halved; 12.
-        frame: genus 0: ``"disk"``; of an annulus also ``"strip"``, its log coordinates [0, 2 pi] x [0, 2 pi m] with the outer loop at y = 0,
+        frame: genus 0: ``"disk"``; of an annulus also ``"strip"``, its log coordinates [0, 2 pi] x [0, 2 pi m], the outer loop at y = 0,
             (x, y) the point of the disk with angle x and radius e^-y; ``"auto"``: the disk, and the strip where doubles do not hold the
             inner circle in the disk.
     """

@@ -164,8 +164,8 @@ class CircleDomainSummary:
 
     Attributes:
         space: ``"e2"``: the unit disk (genus 0) or a flat torus (1); ``"h2"`` for more.
-        converged: true if the domain as it is has its curvature within the tolerance, loops that are round to 1e-9 of the radius, no circles
-            that overlap and no flipped triangle.
+        converged: true if the domain as it is has its curvature within the tolerance, loops that are round to 1e-9 of the radius, no
+            circles that overlap and no flipped triangle.
         stop_reason: why the flow stopped; ``"rounding_floor"`` if the domain is less exact than it.
         outer: genus 0: the loop on the unit circle; else -1.
         n_circles: circles: one per boundary loop of the mesh.
