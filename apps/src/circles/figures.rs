@@ -125,7 +125,7 @@ fn why(outcome: &CirclesOutcome) -> String {
             "why      loop {k} is off its circle by {:.1e} of the radius {:.1e} about ({x:.6}, {y:.6}): {}\n",
             c.deviation,
             c.radius,
-            remedy(outcome, k)
+            remedy(outcome)
         );
     }
     if let Some(v) = report.worst_vertex.filter(|_| report.domain_curvature_error > outcome.tolerance) {
@@ -142,8 +142,8 @@ fn why(outcome: &CirclesOutcome) -> String {
     text
 }
 
-/// The way to a rounder loop k.
-fn remedy(outcome: &CirclesOutcome, k: usize) -> String {
+/// The way to a rounder loop.
+fn remedy(outcome: &CirclesOutcome) -> String {
     let domain = &outcome.domain;
     if domain.frame != DomainFrame::Disk {
         return "remesh thin triangles near it, or give it more edges (--least-loop)".into();
@@ -151,7 +151,7 @@ fn remedy(outcome: &CirclesOutcome, k: usize) -> String {
     if domain.circles.len() == 2 {
         return "doubles hold no more digits of so small a circle in the disk; --frame strip does".into();
     }
-    format!(
-        "doubles hold no more digits of so small a circle at this place; --outer {k} makes it the largest, at the cost of the loops far from it"
-    )
+    "doubles do not hold this loop beside the others in one disk; try another outer loop (--outer), or cut the surface along its \
+     long tubes and treat the parts"
+        .into()
 }
