@@ -45,13 +45,13 @@ fn at_vertices<const N: usize>(
 }
 
 /// The attributes of the input that the written file has no place for.
-pub fn left_out(input: &Input) -> Vec<&'static str> {
-    let uv = input
-        .attributes
+pub fn left_out(input: &Input) -> Vec<String> {
+    let given = &input.attributes;
+    let uv = given
         .uv
         .as_ref()
-        .map(|_| "texture coordinates of the input: the layout takes their place");
-    uv.into_iter().collect()
+        .map(|_| "texture coordinates of the input: the layout takes their place".to_string());
+    uv.into_iter().chain(given.unread.iter().cloned()).collect()
 }
 
 /// The different values in order of appearance, and the indices of the corners' values.

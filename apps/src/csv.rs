@@ -6,14 +6,27 @@ use ricci::mesh::{EdgeId, Mesh, PerVertex, VertexId};
 use std::io::{self, Write};
 use std::path::Path;
 
-/// The text of a file, with the file's name in the error.
+/// The text of a file, with the file's name in the error. UTF-16, in which spreadsheets save text, is read by its byte order mark.
 pub fn read_text(path: &Path) -> Result<String, Failure> {
-    std::fs::read_to_string(path).map_err(|e| Failure::Input(format!("{}: {e}", path.display())))
+    let refuse = |why: String| Failure::Input(format!("{}: {why}", path.display()));
+    let bytes = std::fs::read(path).map_err(|e| refuse(e.to_string()))?;
+    let word: fn([u8; 2]) -> u16 = match bytes[..] {
+        [0xff, 0xfe, ..] => u16::from_le_bytes,
+        [0xfe, 0xff, ..] => u16::from_be_bytes,
+        _ => {
+            return String::from_utf8(bytes).map_err(|e| {
+                refuse(format!("byte {} is not UTF-8; save it in UTF-8", e.utf8_error().valid_up_to()))
+            });
+        }
+    };
+    let words: Vec<u16> = bytes.as_chunks::<2>().0.iter().map(|&pair| word(pair)).collect();
+    String::from_utf16(&words).map_err(|e| refuse(format!("{e}; save it in UTF-8")))
 }
 
 /// Read `vertex,curvature` rows (radians): each vertex below `n_vertices` and at most once.
 ///
-/// Empty lines, lines that begin with `#` and a first line `vertex,curvature` are passed over.
+/// Fields stand between commas, semicolons or tabs, perhaps in quotes; where no comma separates them, one may stand in a number for the
+/// point. Empty lines, lines that begin with `#` and a first line `vertex,curvature` are passed over.
 pub fn read_curvatures(path: &Path, n_vertices: usize) -> Result<Vec<(VertexId, f64)>, Failure> {
     let mut rows = Vec::new();
     let mut named = vec![false; n_vertices];
@@ -34,22 +47,16 @@ pub fn read_curvatures(path: &Path, n_vertices: usize) -> Result<Vec<(VertexId, 
 
 /// Read `vertex,x,y` rows: where vertices go, each at most once. Lines as in [`read_curvatures`], but for the names of a header.
 pub fn read_places(path: &Path, n_vertices: usize) -> Result<Vec<(VertexId, [f64; 2])>, Failure> {
-    let text = read_text(path)?;
     let mut named = vec![false; n_vertices];
     let mut rows = Vec::new();
-    for (i, line) in
-        text.lines().enumerate().map(|(i, line)| (i + 1, line.trim().trim_start_matches('\u{feff}')))
-    {
-        if line.is_empty() || line.starts_with('#') || (rows.is_empty() && line.starts_with("vertex")) {
+    for (i, [vertex, x, y]) in read_rows(path, ["vertex", "x", "y"])? {
+        if rows.is_empty() && vertex.starts_with("vertex") {
             continue;
         }
-        let fields: Vec<&str> = line.split([',', ';', '\t']).map(str::trim).collect();
-        let [vertex, x, y] = fields[..] else {
-            return Err(refuse(path, i, "needs three fields: vertex,x,y".into()));
-        };
+        let vertex = &vertex[..];
         let v = vertex_of(path, i, vertex, n_vertices)?;
         let number = |text: &str| text.parse().ok().filter(|x: &f64| x.is_finite());
-        let (Some(x), Some(y)) = (number(x), number(y)) else {
+        let (Some(x), Some(y)) = (number(&x), number(&y)) else {
             return Err(refuse(path, i, format!("`{x},{y}` is no point of the plane")));
         };
         if std::mem::replace(&mut named[v.index()], true) {
@@ -112,7 +119,8 @@ fn refuse(path: &Path, line: usize, why: String) -> Failure {
     Failure::Input(format!("{}:{line}: {why}", path.display()))
 }
 
-/// Rows of as many fields as there are names, with their line numbers; a first row of the names is left out.
+/// Rows of as many fields as there are names, with their line numbers; a first row of the names is left out. The separator is the first
+/// of tab, semicolon and comma that divides the first row into so many fields; a line `sep=;` before it names one.
 pub fn read_rows<const N: usize>(
     path: &Path,
     names: [&str; N],
@@ -120,18 +128,50 @@ pub fn read_rows<const N: usize>(
     let text = read_text(path)?;
     let mut rows = Vec::new();
     // Spreadsheets write a byte order mark.
-    let lines = text.trim_start_matches('\u{feff}').lines().enumerate().map(|(i, l)| (i + 1, l.trim()));
-    for (i, row) in lines.filter(|(_, l)| !l.is_empty() && !l.starts_with('#')) {
-        let fields: Vec<_> = row.split(',').map(str::trim).collect();
-        match fields.as_slice() {
-            fields if rows.is_empty() && *fields == names => {}
-            fields => match <[&str; N]>::try_from(fields) {
-                Ok(fields) => rows.push((i, fields.map(String::from))),
-                Err(_) => return Err(refuse(path, i, format!("`{row}` is not `{}`", names.join(",")))),
-            },
+    let lines = text.trim_start_matches('\u{feff}').lines().enumerate().map(|(i, l)| (i + 1, l));
+    let (mut separator, mut begun) = (None, false);
+    for (i, row) in lines.filter(|(_, l)| !l.trim().is_empty() && !l.trim_start().starts_with('#')) {
+        if let (false, Some(named)) = (begun, row.strip_prefix("sep=").and_then(|rest| rest.chars().next())) {
+            separator = Some(named);
+            continue;
+        }
+        let divides = |&c: &char| fields(row, c).len() == N;
+        let by = *separator.get_or_insert_with(|| ['\t', ';', ','].into_iter().find(divides).unwrap_or(','));
+        let is_header = !std::mem::replace(&mut begun, true);
+        match <[String; N]>::try_from(fields(row, by)) {
+            Ok(found) if is_header && found.iter().zip(names).all(|(a, b)| a.eq_ignore_ascii_case(b)) => {}
+            Ok(found) => rows.push((i, found.map(|field| with_point(field, by)))),
+            Err(_) => return Err(refuse(path, i, format!("`{}` is not `{}`", row.trim(), names.join(",")))),
         }
     }
     Ok(rows)
+}
+
+/// The fields of a row, without blanks around them. In quotes a separator belongs to its field, and two quotes are one.
+fn fields(row: &str, separator: char) -> Vec<String> {
+    let (mut fields, mut field, mut quoted) = (Vec::new(), String::new(), false);
+    let mut letters = row.chars().peekable();
+    while let Some(c) = letters.next() {
+        match c {
+            '"' if quoted && letters.peek() == Some(&'"') => field.extend(letters.next()),
+            '"' if quoted || field.trim().is_empty() => quoted = !quoted,
+            c if c == separator && !quoted => fields.push(std::mem::take(&mut field)),
+            c => field.push(c),
+        }
+    }
+    fields.push(field);
+    fields.iter().map(|field| field.trim().to_string()).collect()
+}
+
+/// A number with a decimal comma, as it is written where fields are not separated by commas, with a point; other fields unchanged.
+fn with_point(field: String, separator: char) -> String {
+    let is_number = |text: &str| text.parse::<f64>().is_ok();
+    match field.split_once(',') {
+        Some((whole, rest)) if separator != ',' && is_number(&format!("{whole}.{rest}")) => {
+            format!("{whole}.{rest}")
+        }
+        _ => field,
+    }
 }
 
 fn vertex_of(path: &Path, line: usize, text: &str, n_vertices: usize) -> Result<VertexId, Failure> {
@@ -187,13 +227,34 @@ mod tests {
     }
 
     #[test]
+    fn separators_quotes_and_decimal_commas_are_found() {
+        let expected = [(VertexId(3), 1.5), (VertexId(0), -0.25)];
+        for text in [
+            "3;1,5\r\n0;-0,25\r\n",
+            "3;1.5\n0;-0.25\n",
+            "vertex\tcurvature\n3\t1.5\n0\t-2,5e-1\n",
+            "\u{feff}\"Vertex\",\"Curvature\"\n\"3\",\"1.5\"\n\"0\" , -0.25\n",
+            "sep=;\n\"3\";\"1,5\"\n0;-0,25\n",
+        ] {
+            assert_eq!(read(text, 4).unwrap(), expected, "{text}");
+        }
+        let file = tempfile::NamedTempFile::new().unwrap();
+        let wide = "\u{feff}3\t1,5\n".encode_utf16().flat_map(u16::to_le_bytes).collect::<Vec<u8>>();
+        std::fs::write(file.path(), wide).unwrap();
+        assert_eq!(read_curvatures(file.path(), 4).unwrap(), [(VertexId(3), 1.5)]);
+        assert_eq!(fields("a;\"b;\"\"c\"\"\";d", ';'), ["a", "b;\"c\"", "d"]);
+    }
+
+    #[test]
     fn a_bad_row_is_named_by_its_line() {
         for (text, line) in [
             ("1,1\n4,1\n", ":2: vertex 4 does not exist"),
             ("1,1\n1,2\n", ":2: vertex 1 is named twice"),
             ("0,NaN\n", ":1: `NaN`"),
             ("\n-1,0\n", ":2: `-1`"),
-            ("0;1\n", ":1: `0;1`"),
+            ("0|1\n", ":1: `0|1`"),
+            ("0;1\n0;1;2\n", ":2: `0;1;2`"),
+            ("0,1,5\n", ":1: `0,1,5`"),
         ] {
             let message = read(text, 4).unwrap_err();
             assert!(message.contains(line), "{message}");

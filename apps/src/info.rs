@@ -46,6 +46,8 @@ pub struct Info {
     /// True if the other commands accept the file as it is.
     admissible: bool,
     quality: QualityFigures,
+    /// The parts of the file that are not read, with the reasons.
+    left_out: Vec<String>,
     #[serde(flatten)]
     defects: DefectList,
 }
@@ -114,7 +116,8 @@ fn of_soup(soup: &Soup) -> (Counts, Info) {
         Some(_) => ShapeQuality::of_soup(&Soup::default()),
         None => ShapeQuality::of_soup(soup),
     };
-    (Counts::from(&diagnosis), Info::new(DefectList::of(soup, &diagnosis), quality))
+    let info = Info::new(DefectList::of(soup, &diagnosis), quality);
+    (Counts::from(&diagnosis), Info { left_out: soup.attributes.unread.clone(), ..info })
 }
 
 fn of_metric(path: &Path, text: &str) -> Result<(Counts, Info), Failure> {
@@ -148,7 +151,7 @@ impl Info {
     }
 
     fn new(defects: DefectList, quality: ShapeQuality) -> Self {
-        Info { admissible: defects.list.is_empty(), quality: quality.into(), defects }
+        Info { admissible: defects.list.is_empty(), quality: quality.into(), left_out: Vec::new(), defects }
     }
 }
 
@@ -175,6 +178,9 @@ fn text(summary: &InputSummary, info: &Info) -> String {
         percent(q.obtuse_fraction),
         percent(q.non_delaunay_fraction),
     );
+    for what in &info.left_out {
+        text += &format!("left out {what}\n");
+    }
     text +=
         if info.admissible { "no defects\n" } else { "defects (vertices and faces are numbered from 0):\n" };
     for DefectCount { code, count } in &info.defects.counts {

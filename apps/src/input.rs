@@ -1,16 +1,15 @@
 //! The surface that a command works on.
 
-use crate::csv::read_text;
 use crate::failure::Failure;
 use crate::metric_file;
 use crate::options::{MeshArgs, SurfaceArgs};
-use crate::output::{STANDARD, extension};
+use crate::output::STANDARD;
 use crate::timing::{PhaseSeconds, timed};
 use ricci::Control;
 use ricci::Surface;
 use ricci::control::Stage;
 use ricci::geometry::Space;
-use ricci::mesh::io::{self, Attributes, Soup};
+use ricci::mesh::io::{Attributes, Soup, SurfaceFile, SurfaceFormat};
 use ricci::mesh::{Mesh, Point};
 use ricci::metric::{CommonSubdivision, Split};
 use std::io::Read;
@@ -33,60 +32,24 @@ pub enum FileContent {
     Triangles(Soup),
 }
 
-/// Read a mesh file or, from a name that ends in `.json`, the text of an intrinsic metric. The kind of file on stdin is recognised by its
-/// first bytes.
+/// Read the file of a mesh or of an intrinsic metric. A file on stdin is read as one with a name is: what it holds says what it is.
 pub fn content(file: &MeshArgs) -> Result<FileContent, Failure> {
-    let path = &file.mesh;
-    if path == Path::new(STANDARD) {
-        return from_stdin(file.weld);
-    }
-    let kind = extension(path);
-    match file.weld {
-        None if kind == "json" => Ok(FileContent::Lengths(read_text(path)?)),
-        None => Ok(FileContent::Triangles(io::read(path)?)),
-        Some(weld) if kind == "stl" => Ok(FileContent::Triangles(io::read_stl(path, weld)?)),
-        Some(_) => Err(Failure::Usage(WELD_ELSEWHERE.into())),
+    let found = if file.mesh == Path::new(STANDARD) {
+        let mut bytes = Vec::new();
+        std::io::stdin().lock().read_to_end(&mut bytes).map_err(|e| Failure::Input(format!("stdin: {e}")))?;
+        SurfaceFile::of_bytes(bytes, "stdin")?
+    } else {
+        SurfaceFile::open(&file.mesh)?
+    };
+    match (found.format(), file.weld) {
+        (SurfaceFormat::Stl, Some(weld)) => Ok(FileContent::Triangles(found.welded(weld)?)),
+        (_, Some(_)) => Err(Failure::Usage(WELD_ELSEWHERE.into())),
+        (SurfaceFormat::Metric, None) => Ok(FileContent::Lengths(found.text())),
+        (_, None) => Ok(FileContent::Triangles(found.soup()?)),
     }
 }
 
 const WELD_ELSEWHERE: &str = "--weld: only an STL file has no vertices of its own; ricci repair welds";
-
-fn from_stdin(weld: Option<f64>) -> Result<FileContent, Failure> {
-    let mut bytes = Vec::new();
-    std::io::stdin().lock().read_to_end(&mut bytes).map_err(|e| Failure::Input(format!("stdin: {e}")))?;
-    let kind = kind_of(&bytes);
-    let name = "stdin";
-    Ok(FileContent::Triangles(match (kind, weld) {
-        ("stl", Some(weld)) => io::parse_stl_welded(&bytes, name, weld)?,
-        (_, Some(_)) => return Err(Failure::Usage(WELD_ELSEWHERE.into())),
-        ("json", _) => return Ok(FileContent::Lengths(String::from_utf8_lossy(&bytes).into_owned())),
-        ("stl", _) => io::parse_stl(&bytes, name)?,
-        ("ply", _) => io::parse_ply(&bytes, name)?,
-        ("off", _) => io::parse_off(&bytes, name)?,
-        ("glb", _) => io::parse_glb(&bytes, name)?,
-        ("gii", _) => io::parse_gifti(&bytes, name)?,
-        _ => io::parse_obj(&bytes, name)?,
-    }))
-}
-
-/// The extension of files with this beginning; that of OBJ, which has no mark of its own, for all others.
-fn kind_of(bytes: &[u8]) -> &'static str {
-    let text = bytes.trim_ascii_start();
-    let first = text.split(|b| b.is_ascii_whitespace()).next().unwrap_or_default();
-    let has = |word: &[u8]| text.windows(word.len()).any(|w| w == word);
-    let count = bytes.get(80..84).and_then(|n| n.try_into().ok()).map(u32::from_le_bytes);
-    match first {
-        _ if bytes.starts_with(b"glTF") => "glb",
-        _ if count.is_some_and(|n| bytes.len() as u64 == 84 + 50 * u64::from(n)) => "stl",
-        b"ply" => "ply",
-        b"solid" => "stl",
-        _ if first.ends_with(b"OFF") => "off",
-        _ if text.starts_with(b"<") => "gii",
-        _ if text.starts_with(b"{") && has(b"\"asset\"") => "glb",
-        _ if text.starts_with(b"{") => "json",
-        _ => "obj",
-    }
-}
 
 /// Read a mesh file that must hold triangles.
 pub fn read_triangles(path: &Path) -> Result<Soup, Failure> {
@@ -158,6 +121,7 @@ impl Input {
             corner_normals: given.corner_normals.as_ref().map(|v| split.from_given_corners(v)).transpose()?,
             colors: given.colors.as_ref().map(|values| split.from_given_vertices(values)).transpose()?,
             uv: given.uv.as_ref().map(|values| split.from_given_corners(values)).transpose()?,
+            unread: given.unread.clone(),
         };
         let (path, surface, split) = (self.path.clone(), split.surface()?, Some(split.clone()));
         Ok(Input { path, surface, attributes, split })

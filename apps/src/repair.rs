@@ -4,7 +4,7 @@ use crate::defects::{DefectFigures, DefectList};
 use crate::failure::Failure;
 use crate::input::read_triangles;
 use crate::options::{Common, FileName, distance};
-use crate::output::{check_extension, check_outputs, extension, format_of};
+use crate::output::{check_extension, check_outputs, format_of};
 use crate::picture::SurfacePictureArgs;
 use crate::report::{Checks, Counts, Done, Figures, InputSummary, timed};
 use crate::runner::{CommandRun, Job, JobHeader, JobOutcome};
@@ -161,7 +161,7 @@ impl JobOutcome for RepairOutcome {
 }
 
 /// The steps that were taken, the counts of the result, and the defects that are left.
-fn figures(repaired: &Repaired, left_out: &[&str], defects: &DefectList) -> Figures {
+fn figures(repaired: &Repaired, left_out: &[String], defects: &DefectList) -> Figures {
     let (steps, diagnosis) = (&repaired.steps, &repaired.diagnosis);
     // An edge in which welding would have made more than two faces meet, with numbers of the input.
     let refused = |edge: &RefusedWeld| json!({"vertices": edge.vertices, "faces": edge.faces});
@@ -184,7 +184,7 @@ fn figures(repaired: &Repaired, left_out: &[&str], defects: &DefectList) -> Figu
         .with("defects", json!(defects.list))
 }
 
-fn text(outcome: &RepairOutcome, left_out: &[&str]) -> String {
+fn text(outcome: &RepairOutcome, left_out: &[String]) -> String {
     let RepairOutcome { path, out, repaired, defects, .. } = outcome;
     let (steps, result) = (&repaired.steps, &repaired.diagnosis);
     let vertex = |n, what: &str| (n, count(n, "vertex", "vertices") + what);
@@ -226,7 +226,7 @@ fn text(outcome: &RepairOutcome, left_out: &[&str]) -> String {
         );
     }
     for what in left_out {
-        text += &format!("left out: {what} (.{} has no place for them)\n", extension(out));
+        text += &format!("left out: {what}\n");
     }
     let mut told: Vec<&str> = Vec::new();
     for DefectFigures { message, remedy, .. } in &defects.list {

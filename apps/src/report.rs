@@ -221,7 +221,7 @@ pub struct Done {
     /// The numbers of vertices and faces that the file of `--uv` has beyond the input's.
     pub added: [usize; 2],
     /// The attributes of the input that the written file has no place for.
-    pub left_out: Vec<&'static str>,
+    pub left_out: Vec<String>,
     /// The files written.
     pub files: Vec<String>,
     pub seconds: f64,

@@ -84,7 +84,7 @@ pub struct CommandRun<'a> {
     /// The numbers of vertices and faces that the file of `--uv` has beyond the input's.
     pub added: [usize; 2],
     /// The attributes of the input that the written file has no place for.
-    pub left_out: Vec<&'static str>,
+    pub left_out: Vec<String>,
 }
 
 impl<'a> CommandRun<'a> {

@@ -125,7 +125,7 @@ sized!(ricci_mesh_summary, "summary");
 
 /// The numbers of normals, of colours, of faces with texture coordinates, and of faces with normals at their corners.
 pub(crate) fn count(attributes: &Attributes) -> [usize; 4] {
-    let Attributes { normals, colors, uv, corner_normals } = attributes;
+    let Attributes { normals, colors, uv, corner_normals, .. } = attributes;
     fn n<T>(list: &Option<Vec<T>>) -> usize {
         list.as_ref().map_or(0, Vec::len)
     }

@@ -257,6 +257,7 @@ impl RepairState {
             colors: picked(&soup.attributes.colors, &vertex_origin),
             corner_normals: at_corners(&soup.attributes.corner_normals, &self),
             uv: at_corners(&soup.attributes.uv, &self),
+            unread: soup.attributes.unread.clone(),
         };
         let positions: Vec<_> = vertex_origin.iter().map(|&v| soup.positions[v as usize]).collect();
         let mut diagnosis = diagnose(&positions, &faces);

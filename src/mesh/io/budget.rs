@@ -18,7 +18,12 @@ pub(super) struct Budget {
 
 impl Budget {
     pub fn of(file: &[u8]) -> Budget {
-        Budget { left: ANY_FILE.saturating_add(PER_BYTE.saturating_mul(file.len())) }
+        Budget::of_size(file.len())
+    }
+
+    /// The budget of so many bytes, those of a file and of others that belong to it.
+    pub fn of_size(bytes: usize) -> Budget {
+        Budget { left: ANY_FILE.saturating_add(PER_BYTE.saturating_mul(bytes)) }
     }
 
     /// Subtracts `count` items of `size` bytes, before they are allocated.

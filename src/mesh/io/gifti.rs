@@ -118,6 +118,6 @@ impl GiftiArrays {
         };
         let normals = self.vectors.into_iter().find(|v| v.len() == positions.len() && !v.is_empty());
         let attributes = Attributes { normals, ..Attributes::default() };
-        Ok(Soup { positions, faces: self.faces.unwrap_or_default(), attributes })
+        Ok(Soup { positions, faces: self.faces.unwrap_or_default(), attributes: attributes.finite_only() })
     }
 }

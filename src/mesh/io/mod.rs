@@ -18,6 +18,7 @@ mod gifti;
 mod gifti_data;
 #[cfg(feature = "gltf")]
 mod gltf;
+mod guess;
 mod kind;
 mod obj;
 mod off;
@@ -29,37 +30,27 @@ mod scan;
 mod shortest;
 mod soup;
 mod stl;
+mod surface_file;
 pub mod text;
 mod textured;
+mod unpack;
 
 pub use atomic::{destination, write_atomically};
 #[cfg(feature = "gifti")]
 pub use gifti::parse_gifti;
 #[cfg(feature = "gltf")]
 pub use gltf::{Texture, Wrap, parse_glb, write_glb};
+pub use guess::SurfaceFormat;
 pub use obj::{parse_obj, write_obj, write_obj_to};
 pub use off::{parse_off, write_off};
 pub use ply::{parse_ply, write_ply};
 pub use soup::{Attributes, Soup};
 pub use stl::{parse_stl, parse_stl_welded};
+pub use surface_file::SurfaceFile;
 pub use textured::TexturedMesh;
 
 use crate::error::{Error, Result};
 use std::path::Path;
-
-/// The reader for each extension; its arguments are the bytes and, for errors, the path.
-const READERS: &[(&str, fn(&[u8], &str) -> Result<Soup>)] = &[
-    ("obj", parse_obj),
-    ("off", parse_off),
-    ("ply", parse_ply),
-    ("stl", parse_stl),
-    #[cfg(feature = "gltf")]
-    ("glb", parse_glb),
-    #[cfg(feature = "gltf")]
-    ("gltf", parse_glb),
-    #[cfg(feature = "gifti")]
-    ("gii", parse_gifti),
-];
 
 /// The format to write for each extension.
 const WRITERS: &[(&str, Format)] = &[
@@ -70,8 +61,6 @@ const WRITERS: &[(&str, Format)] = &[
     ("glb", Format::Glb),
 ];
 
-/// Extensions whose readers need a cargo feature, with its name.
-const READER_FEATURES: &[(&str, &str)] = &[("glb", "gltf"), ("gltf", "gltf"), ("gii", "gifti")];
 /// Extensions whose writers need a cargo feature, with its name.
 const WRITER_FEATURES: &[(&str, &str)] = &[("glb", "gltf")];
 
@@ -97,25 +86,14 @@ fn by_extension<T: Copy>(path: &Path, table: &[(&str, T)], features: &[(&str, &s
     Err(Error::UnknownFormat { path: path.display().to_string(), message })
 }
 
-/// Reads a mesh file by its extension (case does not matter): .obj, .off, .ply, .stl; with the cargo feature `gltf` .glb and .gltf, with
-/// `gifti` .gii.
+/// Reads a mesh file: .obj, .off, .ply, .stl; with the cargo feature `gltf` .glb and .gltf, with `gifti` .gii; with `gzip` each also
+/// packed, with `.gz` at the end. What is in the file counts, also under the name of another format.
 ///
 /// # Errors
 ///
-/// [`Error::UnknownFormat`] for another extension, or one whose feature this build lacks; [`Error::Io`]; [`Error::Parse`] with the line
-/// or byte where the file violates its format.
+/// Those of [`SurfaceFile::open`] and [`SurfaceFile::soup`].
 pub fn read(path: &Path) -> Result<Soup> {
-    let parse = by_extension(path, READERS, READER_FEATURES)?;
-    parse(&content::content(path)?, &path.display().to_string())
-}
-
-/// Reads an STL file with any name, and welds vertices within a distance.
-///
-/// # Errors
-///
-/// Those of [`parse_stl_welded`]; [`Error::Io`].
-pub fn read_stl(path: &Path, weld: f64) -> Result<Soup> {
-    parse_stl_welded(&content::content(path)?, &path.display().to_string(), weld)
+    SurfaceFile::open(path)?.soup()
 }
 
 /// A file format that can be written.
@@ -148,7 +126,7 @@ impl Format {
 /// # Errors
 ///
 /// Those of [`Format::of`] and [`write_as`].
-pub fn write(path: &Path, soup: &Soup) -> Result<Vec<&'static str>> {
+pub fn write(path: &Path, soup: &Soup) -> Result<Vec<String>> {
     write_as(path, Format::of(path)?, soup)
 }
 
@@ -163,25 +141,30 @@ pub fn write_glb_textured(path: &Path, soup: &Soup, texture: Texture<'_>) -> Res
 }
 
 /// Writes a mesh file, atomically, with the attributes that the format has: text with the fewest digits that read back, PLY binary, so
-/// that positions read back unchanged; GLB has 24 bits, see [`write_glb`]. Returns the names of the attributes that were left out because
-/// the format cannot hold them: normals and texture coordinates with more than one value at a vertex, in PLY and OFF.
+/// that positions read back unchanged; GLB has 24 bits, see [`write_glb`]. Returns what was left out: the attributes that the format cannot
+/// hold (normals and texture coordinates with more than one value at a vertex, in PLY and OFF), and [`Attributes::unread`].
 ///
 /// # Errors
 ///
 /// With the file untouched: [`Error::Argument`] for numbers that are not finite and corners out of range;
 /// [`Error::Size`] for attributes of another size; [`Error::Io`].
-pub fn write_as(path: &Path, format: Format, soup: &Soup) -> Result<Vec<&'static str>> {
+pub fn write_as(path: &Path, format: Format, soup: &Soup) -> Result<Vec<String>> {
     match format {
         Format::Ply => write_ply(path, soup),
         Format::Off => write_off(path, soup),
-        Format::Obj => textured::with_textured(soup, |data| write_obj(path, data)).map(|()| Vec::new()),
+        Format::Obj => textured::with_textured(soup, |data| write_obj(path, data))
+            .map(|()| soup.attributes.unread.clone()),
         #[cfg(feature = "gltf")]
-        Format::Glb => textured::with_textured(soup, |data| write_glb(path, data, None)).map(|_| Vec::new()),
+        Format::Glb => {
+            let written = textured::with_textured(soup, |data| write_glb(path, data, None));
+            written.map(|_| soup.attributes.unread.clone())
+        }
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::surface_file::{READER_FEATURES, READERS};
     use super::*;
 
     /// The first four readers are those of a build without features.

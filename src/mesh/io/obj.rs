@@ -2,7 +2,7 @@
 
 use super::budget::Budget;
 use super::polygon::Polygons;
-use super::scan::{BYTE_ORDER_MARK, Location, Quoted, words};
+use super::scan::{BYTE_ORDER_MARK, Location, Quoted, bare, real, words};
 use super::soup::{NO_NORMAL, NO_TEXCOORD, WHITE};
 use super::text::{TextBuilder, write_blocks};
 use super::{Attributes, Soup, TexturedMesh, write_atomically};
@@ -81,7 +81,7 @@ struct ObjFile {
 impl ObjFile {
     fn read(text: &str, path: &str) -> Result<ObjFile> {
         let mut file = ObjFile::default();
-        let mut lines = super::scan::lines(text);
+        let mut lines = super::scan::lines(text).map(|(number, line)| (number, bare(line)));
         let mut joined = String::new();
         while let Some((number, line)) = lines.next() {
             let place = Location::line(path, number);
@@ -238,7 +238,7 @@ fn append<T: Clone>(list: &mut Vec<T>, more: Vec<T>, n: usize, missing: T) {
 /// The colour after the three coordinates of a vertex: red, green, blue and perhaps opacity (a fourth coordinate alone is a weight).
 /// `None` where there is none.
 fn color<'a>(tokens: impl Iterator<Item = &'a str>) -> Option<[f64; 4]> {
-    let x: Option<Vec<f64>> = tokens.map(|t| t.parse().ok().filter(|x: &f64| x.is_finite())).collect();
+    let x: Option<Vec<f64>> = tokens.map(|t| real(t).filter(|x| x.is_finite())).collect();
     match x?.as_slice() {
         [r, g, b] => Some([*r, *g, *b, 1.0]),
         [r, g, b, a, ..] => Some([*r, *g, *b, *a]),
@@ -248,7 +248,7 @@ fn color<'a>(tokens: impl Iterator<Item = &'a str>) -> Option<[f64; 4]> {
 
 /// The first N numbers; NaN for missing ones.
 fn numbers<'a, const N: usize>(mut tokens: impl Iterator<Item = &'a str>) -> [f64; N] {
-    std::array::from_fn(|_| tokens.next().and_then(|t| t.parse().ok()).unwrap_or(f64::NAN))
+    std::array::from_fn(|_| tokens.next().and_then(real).unwrap_or(f64::NAN))
 }
 
 /// The entry (0-based) that the second or third number of a corner names among `count` so far; a wrong number names none.

@@ -5,7 +5,7 @@ use super::budget::Budget;
 use super::off_binary::parse_off_binary;
 use super::off_extras::{Columns, Extras};
 use super::polygon::Polygons;
-use super::scan::{Location, Quoted, Tokens, tokens};
+use super::scan::{Location, Quoted, Tokens, real, tokens};
 use super::shortest::Shortest;
 use super::soup::{Attributes, Soup};
 use super::write_atomically;
@@ -48,7 +48,7 @@ fn binary<'a>(bytes: &[u8], path: &'a str) -> Result<Option<(Columns, usize, Loc
 }
 
 /// The text before and after `OFF`. Some programs write the header in lower case; its letters then mean the same as capitals.
-fn split_header(word: &str) -> Option<(String, &str)> {
+pub(super) fn split_header(word: &str) -> Option<(String, &str)> {
     let upper = word.split_once("OFF").map(|(prefix, rest)| (prefix.to_string(), rest));
     upper.or_else(|| word.split_once("off").map(|(prefix, rest)| (prefix.to_ascii_uppercase(), rest)))
 }
@@ -138,7 +138,7 @@ fn read_text(text: &str, path: &str, by_line: bool) -> Result<Soup> {
             *x = tokens.place().number(token, format_args!("{name} of vertex {v} (of {n_vertices})"))?;
         }
         if by_line {
-            let rest: Vec<f64> = tokens.rest.split_ascii_whitespace().map_while(|t| t.parse().ok()).collect();
+            let rest: Vec<f64> = tokens.rest.split_ascii_whitespace().map_while(real).collect();
             extras.push(&rest);
             tokens.end_line();
         }
@@ -179,7 +179,7 @@ fn read_text(text: &str, path: &str, by_line: bool) -> Result<Soup> {
 ///
 /// With the file untouched: [`crate::Error::Argument`] for numbers that are not finite and corners out of range,
 /// [`crate::Error::Size`] for attributes of another size, [`crate::Error::Io`].
-pub fn write_off(path: &Path, soup: &Soup) -> Result<Vec<&'static str>> {
+pub fn write_off(path: &Path, soup: &Soup) -> Result<Vec<String>> {
     soup.check_writable()?;
     let Soup { positions, faces, attributes } = soup;
     let Attributes { normals, colors, .. } = attributes;

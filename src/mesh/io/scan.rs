@@ -6,13 +6,64 @@ use std::fmt::{self, Arguments};
 /// The character with which a text in Unicode may begin.
 pub(super) const BYTE_ORDER_MARK: char = '\u{feff}';
 
-/// The lines of a text (ended by LF, CR LF or CR) with their numbers from 1, without comments, trailing blanks and byte order mark.
+/// The lines of a text (ended by LF, CR LF or CR) with their numbers from 1, without trailing blanks and byte order mark, with comments.
 pub(super) fn lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
     let text = text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text);
     // In a file with LF a CR is a blank at the end of its line.
     let end = if text.contains('\n') { '\n' } else { '\r' };
-    let bare = |line: &'_ str| line.find('#').unwrap_or(line.len());
-    text.split(end).enumerate().map(move |(i, line)| (i + 1, line[..bare(line)].trim_end()))
+    text.split(end).enumerate().map(move |(i, line)| (i + 1, line.trim_end()))
+}
+
+/// A line without its comment. That begins with a word that begins with `#`, unless the word is a number that is not finite, such as
+/// `#QNAN`: in `-1.#IND` no comment begins either.
+pub(super) fn bare(line: &str) -> &str {
+    let mut from = 0;
+    while let Some(at) = line[from..].find('#').map(|k| from + k) {
+        let begins_word = line[..at].bytes().next_back().is_none_or(|b| b.is_ascii_whitespace());
+        if begins_word && words(&line[at..]).next().and_then(not_finite).is_none() {
+            return line[..at].trim_end();
+        }
+        from = at + 1;
+    }
+    line
+}
+
+/// The number that a word says, also where it is not finite in the spelling of another program.
+pub(super) fn real(word: &str) -> Option<f64> {
+    word.parse().ok().or_else(|| not_finite(word))
+}
+
+/// A number that is not finite as Microsoft's library writes it: `1.#INF`, `-1.#IND`, `1.#QNAN0`, `-nan(ind)`, also without `1.`.
+fn not_finite(word: &str) -> Option<f64> {
+    /// The letters after `#`; the last ones are what is left when the digits are rounded off.
+    const NAMES: [(&str, f64); 8] = [
+        ("inf", f64::INFINITY),
+        ("ind", f64::NAN),
+        ("qnan", f64::NAN),
+        ("snan", f64::NAN),
+        ("nan", f64::NAN),
+        ("io", f64::NAN),
+        ("qo", f64::NAN),
+        ("j", f64::INFINITY),
+    ];
+    /// No such number is longer; other words are not looked at.
+    const LONGEST: usize = 32;
+    if word.len() > LONGEST || !word.contains(['#', '(']) {
+        return None;
+    }
+    let lower = word.to_ascii_lowercase();
+    let (sign, size) = match lower.strip_prefix('-') {
+        Some(size) => (-1.0, size),
+        None => (1.0, lower.strip_prefix('+').unwrap_or(&lower)),
+    };
+    if size.starts_with("nan(") && size.ends_with(')') {
+        return Some(f64::NAN);
+    }
+    let name =
+        size.strip_prefix("1.").or_else(|| size.strip_prefix("1,")).unwrap_or(size).strip_prefix('#')?;
+    let is_tail = |tail: &str| tail.bytes().all(|b| b.is_ascii_digit() || matches!(b, b'e' | b'+' | b'-'));
+    let matching = |(letters, _): &&(&str, f64)| name.strip_prefix(*letters).is_some_and(is_tail);
+    NAMES.iter().find(matching).map(|(_, value)| sign * value)
 }
 
 /// The words of a line, between ASCII blanks.
@@ -58,7 +109,10 @@ impl<'a> Location<'a> {
     /// Reads a coordinate. `nan` and `inf` are accepted here; the diagnosis names their vertices.
     pub fn number(self, token: Option<&str>, what: Arguments<'_>) -> Result<f64> {
         match token {
-            Some(t) => t.parse().or_else(|_| self.error(format!("{what} {} is not a number", Quoted(t)))),
+            Some(t) => match real(t) {
+                Some(number) => Ok(number),
+                None => self.error(format!("{what} {} is not a number", Quoted(t))),
+            },
             None => self.error(format!("{what} is missing")),
         }
     }
@@ -106,7 +160,7 @@ pub(super) fn tokens<'a>(
     text: &'a str,
     path: &'a str,
 ) -> Tokens<'a, impl Iterator<Item = (usize, &'a str)> + use<'a>> {
-    Tokens { lines: lines(text), path, line: 0, rest: "" }
+    Tokens { lines: lines(text).map(|(number, line)| (number, bare(line))), path, line: 0, rest: "" }
 }
 
 impl<'a, L: Iterator<Item = (usize, &'a str)>> Tokens<'a, L> {
@@ -140,6 +194,48 @@ impl<'a, L: Iterator<Item = (usize, &'a str)>> Tokens<'a, L> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn numbers_that_are_not_finite_are_read_in_every_spelling() {
+        for word in [
+            "nan",
+            "-NaN",
+            "1.#IND",
+            "-1.#IND",
+            "-1.#IND00",
+            "1.#QNAN0",
+            "1.#SNAN",
+            "#QNAN",
+            "-nan(ind)",
+            "1,#IO",
+        ] {
+            assert!(real(word).unwrap().is_nan(), "{word}");
+        }
+        for (word, value) in
+            [("1.#INF", f64::INFINITY), ("-1.#INF00", f64::NEG_INFINITY), ("#INF", f64::INFINITY)]
+        {
+            assert_eq!(real(word), Some(value), "{word}");
+        }
+        assert_eq!(real("1.#INFe+000"), Some(f64::INFINITY));
+        for word in ["1.#", "#", "1.#INDIGO", "2.#INF", "nan(", "#1", "1#2", "#information"] {
+            assert_eq!(real(word), None, "{word}");
+        }
+    }
+
+    #[test]
+    fn a_comment_begins_with_a_word() {
+        for (line, expected) in [
+            ("# all", ""),
+            ("v 1 2 3 # last", "v 1 2 3"),
+            ("v 1 2\t#3", "v 1 2"),
+            ("v 0 -1.#IND 0 #x", "v 0 -1.#IND 0"),
+            ("v #QNAN #INF 0", "v #QNAN #INF 0"),
+            ("usemtl Blue#1", "usemtl Blue#1"),
+            ("f 1 2 3", "f 1 2 3"),
+        ] {
+            assert_eq!(bare(line), expected, "{line}");
+        }
+    }
 
     #[test]
     fn quoted_text_is_cut_at_a_character() {

@@ -27,6 +27,8 @@ pub struct Attributes {
     pub colors: Option<Vec<[f64; 4]>>,
     /// Texture coordinates of each face's corners (F entries); by default (0, 0).
     pub uv: Option<Vec<[[f64; 2]; 3]>>,
+    /// The parts of the file that are not here, each with the reason: what a writer of these attributes leaves out as well.
+    pub unread: Vec<String>,
 }
 
 /// The defaults of [`Attributes`].
@@ -35,13 +37,40 @@ pub(super) const WHITE: [f64; 4] = [1.0; 4];
 pub(super) const NO_TEXCOORD: [f64; 2] = [0.0; 2];
 
 impl Attributes {
-    /// The names of the attributes that are left out of a format with one normal per vertex and, unless `corner_uv`, one pair of texture
-    /// coordinates per vertex.
-    pub(super) fn left_out(&self, corner_uv: bool) -> Vec<&'static str> {
-        let corner_normals = self.corner_normals.as_ref().map(|_| "normals at hard edges");
+    /// What is left out of a format with one normal per vertex and, unless `corner_uv`, one pair of texture coordinates per vertex.
+    pub(super) fn left_out(&self, corner_uv: bool) -> Vec<String> {
+        let corner_normals =
+            self.corner_normals.as_ref().map(|_| "normals at hard edges: the format has one per vertex");
+        let uv = self.uv.as_ref().filter(|_| !corner_uv);
         let seams =
-            self.uv.as_ref().filter(|_| !corner_uv).map(|_| "texture coordinates, for they have seams");
-        corner_normals.into_iter().chain(seams).collect()
+            uv.map(|_| "texture coordinates, for they have seams: the format has one pair per vertex");
+        let of_format = corner_normals.into_iter().chain(seams).map(String::from);
+        of_format.chain(self.unread.iter().cloned()).collect()
+    }
+
+    /// Leaves out each attribute with a number that is not finite, which no file could be written with, and says so in `unread`.
+    pub(super) fn finite_only(mut self) -> Attributes {
+        fn keep<const N: usize, T>(
+            list: &mut Option<Vec<T>>,
+            rows: impl Fn(&T) -> &[[f64; N]],
+            what: [&str; 2],
+        ) -> Option<String> {
+            let given = list.as_deref()?;
+            let bad = |row: &T| !rows(row).as_flattened().iter().all(|x| x.is_finite());
+            let first = given.iter().position(bad)?;
+            let (count, all, [what, element]) =
+                (given.iter().filter(|row| bad(row)).count(), given.len(), what);
+            *list = None;
+            Some(format!("{what}: {count} of {all} are not finite, the first at {element} {first} (from 0)"))
+        }
+        let said = [
+            keep(&mut self.normals, std::slice::from_ref, ["normals", "vertex"]),
+            keep(&mut self.corner_normals, |row| &row[..], ["normals of corners", "face"]),
+            keep(&mut self.colors, std::slice::from_ref, ["colours", "vertex"]),
+            keep(&mut self.uv, |row| &row[..], ["texture coordinates", "face"]),
+        ];
+        self.unread.extend(said.into_iter().flatten());
+        self
     }
 
     /// Texture coordinates per vertex, if the corners of each of the `n` vertices agree on them.
@@ -67,7 +96,7 @@ impl Soup {
     /// Checks that numbers are finite, corners name vertices, and attributes have an entry for each element.
     pub(crate) fn check_writable(&self) -> Result<()> {
         let Soup { positions, faces, attributes } = self;
-        let Attributes { normals, corner_normals, colors, uv } = attributes;
+        let Attributes { normals, corner_normals, colors, uv, .. } = attributes;
         let (n, f) = (positions.len(), faces.len());
         sized("normals", normals, n)?;
         sized("corner_normals", corner_normals, f)?;

@@ -4,7 +4,7 @@
 use super::Soup;
 use super::budget::Budget;
 use super::polygon::Polygons;
-use super::scan::{Location, Quoted, tokens};
+use super::scan::{Location, Quoted, Tokens, tokens};
 use crate::error::Result;
 use crate::mesh::Point;
 use crate::mesh::incidence::drop_unused;
@@ -27,18 +27,26 @@ const TRIANGLE: usize = 50;
 ///
 /// [`crate::Error::Parse`] with the line or byte.
 pub fn parse_stl(bytes: &[u8], path: &str) -> Result<Soup> {
-    let count = bytes.get(HEADER..HEADER + 4).and_then(|b| b.first_chunk()).map(|b| u32::from_le_bytes(*b));
-    let exact =
-        count.is_some_and(|n| bytes.len() as u64 == (HEADER + 4) as u64 + TRIANGLE as u64 * u64::from(n));
-    match count {
-        Some(count) if exact || !is_text(bytes) => binary(bytes, count, path),
+    match announced(bytes) {
+        Some(count) if announces_its_size(bytes) || !is_text(bytes) => binary(bytes, count, path),
         _ => ascii(&String::from_utf8_lossy(bytes), path),
     }
 }
 
+/// The number of triangles that the header of a binary file announces.
+fn announced(bytes: &[u8]) -> Option<u32> {
+    bytes.get(HEADER..HEADER + 4).and_then(|b| b.first_chunk()).map(|b| u32::from_le_bytes(*b))
+}
+
+/// True if a file has the size of the triangles that it announces as a binary one.
+pub(super) fn announces_its_size(bytes: &[u8]) -> bool {
+    let size = |n: u32| (HEADER + 4) as u64 + TRIANGLE as u64 * u64::from(n);
+    announced(bytes).is_some_and(|n| bytes.len() as u64 == size(n))
+}
+
 /// True if the beginning has no control characters except those of text. A binary file has others in the filling of its first 80 bytes,
 /// in the number of triangles or in the first coordinates.
-fn is_text(bytes: &[u8]) -> bool {
+pub(super) fn is_text(bytes: &[u8]) -> bool {
     const BEGINNING: usize = 1024;
     let of_text = |b: &u8| *b >= b' ' || b.is_ascii_whitespace() || matches!(*b, 0x0b | 0x1a);
     bytes.iter().take(BEGINNING).all(of_text)
@@ -103,6 +111,16 @@ fn binary(bytes: &[u8], count: u32, path: &str) -> Result<Soup> {
     Ok(weld.soup)
 }
 
+/// The next three words as a point.
+fn point<'a>(words: &mut Tokens<'a, impl Iterator<Item = (usize, &'a str)>>) -> Result<Point> {
+    let mut point: Point = [0.0; 3];
+    for (x, name) in point.iter_mut().zip(["x", "y", "z"]) {
+        let token = words.next();
+        *x = words.place().number(token, format_args!("coordinate {name}"))?;
+    }
+    Ok(point)
+}
+
 /// The words that may come next in a text file.
 enum NextWord {
     /// The beginning or end of a solid, a facet or a loop.
@@ -124,11 +142,15 @@ fn ascii(text: &str, path: &str) -> Result<Soup> {
     let (mut expect, mut begun, mut ended) = (NextWord::Part, false, false);
     while let Some(word) = words.next() {
         let (place, line) = (words.place(), words.line);
-        let lower = if word.len() <= 8 { word.to_ascii_lowercase() } else { String::new() };
+        let mut lower = if word.len() <= 8 { word.to_ascii_lowercase() } else { String::new() };
         if let NextWord::Name { line: named, .. } = expect
             && named != line
         {
             expect = NextWord::Part;
+        }
+        if lower == "end" && matches!(expect, NextWord::Part | NextWord::Corner(_)) {
+            // Some programs write `end solid`, `end facet` and `end loop` as two words.
+            lower.extend(words.next().map(str::to_ascii_lowercase));
         }
         expect = match (lower.as_str(), expect) {
             ("solid", NextWord::Part | NextWord::Name { .. }) => NextWord::Name { line, last: false },
@@ -141,12 +163,7 @@ fn ascii(text: &str, path: &str) -> Result<Soup> {
             ("outer", NextWord::Part | NextWord::Normal) => NextWord::Loop,
             ("loop", NextWord::Loop) => NextWord::Corner(Vec::new()),
             ("vertex", NextWord::Corner(mut corners)) => {
-                let mut point: Point = [0.0; 3];
-                for (x, name) in point.iter_mut().zip(["x", "y", "z"]) {
-                    let token = words.next();
-                    *x = words.place().number(token, format_args!("coordinate {name}"))?;
-                }
-                corners.push(weld.vertex(point));
+                corners.push(weld.vertex(point(&mut words)?));
                 NextWord::Corner(corners)
             }
             ("endloop", NextWord::Corner(corners)) if corners.len() >= 3 => {

@@ -30,6 +30,34 @@ pub(super) struct Asset {
     pub version: String,
 }
 
+/// The version of a document that is not one of version 2.
+#[derive(Deserialize)]
+pub(super) struct AssetAlone {
+    pub asset: Option<AnyAsset>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct AnyAsset {
+    pub version: Option<AnyVersion>,
+}
+
+/// Version 1 writes its number as text, early files as a number.
+#[derive(Deserialize)]
+#[serde(untagged)]
+pub(super) enum AnyVersion {
+    Text(String),
+    Number(f64),
+}
+
+impl AnyVersion {
+    pub fn is_before_2(&self) -> bool {
+        match self {
+            AnyVersion::Text(text) => text.starts_with(['0', '1']),
+            AnyVersion::Number(number) => *number < 2.0,
+        }
+    }
+}
+
 #[derive(Deserialize)]
 pub(super) struct GltfScene {
     #[serde(default)]

@@ -1,7 +1,8 @@
-//! Reader and writer of glTF 2.0: binary files (.glb), and .gltf files that contain their buffers. The format is Khronos',
+//! Reader and writer of glTF 2.0: binary files (.glb), and .gltf files with their buffers inside or beside them. The format is Khronos',
 //! <https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html>.
 
 mod accessor;
+mod buffers;
 mod document;
 mod locate;
 mod scene;
@@ -10,14 +11,15 @@ mod write;
 
 pub use write::{Texture, Wrap, write_glb};
 
+use super::Soup;
 use super::budget::Budget;
-use super::scan::{Location, Quoted};
-use super::{Soup, base64};
+use super::scan::Location;
 use crate::error::Result;
-use accessor::{GltfFile, StoredBytes};
-use document::{Buffer, GltfDocument};
+use accessor::GltfFile;
+use buffers::{BufferSources, FileBeside, files_beside, stored};
+use document::{AssetAlone, GltfDocument};
 use locate::byte_of;
-use std::borrow::Cow;
+use std::path::Path;
 
 /// Prefixes of the extensions that a file may require: they change no triangle, or allow integers as positions.
 const KNOWN_EXTENSIONS: [&str; 5] =
@@ -31,13 +33,18 @@ const KNOWN_EXTENSIONS: [&str; 5] =
 /// that must not be joined by the attribute `_RICCI_VERTEX`. Triangles, strips and fans are faces; the vertices of points and lines have
 /// none. Attributes are `NORMAL`, `COLOR_0` (linear, as stored) and `TEXCOORD_0`, whose v is turned upwards as everywhere in this
 /// library. Attributes that only some primitives have are filled up with the defaults of [`super::Attributes`]. Skins and morph targets
-/// are not applied. Buffers are the binary chunk and base64 data; other files are refused with their names, and so are compressed
-/// buffers. `path` is used in errors.
+/// are not applied. Buffers are the binary chunk and base64 data; those in other files are read by [`super::read`], which knows the
+/// folder, and refused here with their names; compressed buffers are refused. `path` is used in errors.
 ///
 /// # Errors
 ///
 /// [`crate::Error::Parse`] with the byte; [`crate::Error::TooLarge`] for more vertices than can be numbered.
 pub fn parse_glb(bytes: &[u8], path: &str) -> Result<Soup> {
+    parse_beside(bytes, path, None)
+}
+
+/// [`parse_glb`] for a file in a folder, in which the files of its buffers are.
+pub(super) fn parse_beside(bytes: &[u8], path: &str, folder: Option<&Path>) -> Result<Soup> {
     let place = Location::whole(path);
     let bom = b"\xef\xbb\xbf";
     let (json, binary) = if bytes.trim_ascii_start().starts_with(b"{") || bytes.starts_with(bom) {
@@ -46,18 +53,10 @@ pub fn parse_glb(bytes: &[u8], path: &str) -> Result<Soup> {
         chunks(bytes, path)?
     };
     let text = &bytes[json.start..json.end];
-    let document: GltfDocument = match serde_json::from_slice(text) {
-        Ok(document) => document,
-        Err(e) => {
-            let said = e.to_string();
-            let said = said.rsplit_once(" at line ").map_or(said.as_str(), |(said, _)| said);
-            let said: String = said.chars().take(200).collect();
-            return Location::byte(path, json.start + byte_of(text, e.line(), e.column()))
-                .error(format!("the JSON of the file is not that of glTF: {said}"));
-        }
-    };
+    let document = document(text, path, json.start)?;
     if !document.asset.version.starts_with("2.") {
-        return place.error(format!("this is glTF {}; version 2 is read", document.asset.version));
+        return place
+            .error(format!("this is glTF {}; version 2 is read: export it anew", document.asset.version));
     }
     let known = |name: &str| KNOWN_EXTENSIONS.iter().any(|known| name.starts_with(known));
     if let Some(name) = document.extensions_required.iter().find(|name| !known(name)) {
@@ -65,14 +64,44 @@ pub fn parse_glb(bytes: &[u8], path: &str) -> Result<Soup> {
     }
     let mut file =
         GltfFile { document: &document, buffers: Vec::new(), path, json: text, json_start: json.start };
-    for (i, text) in document.buffers.iter().enumerate() {
-        match buffer(i, text, bytes, binary) {
+    let refuse = |file: &GltfFile<'_>, i: usize, message: String| {
+        file.place_of("buffers", i).error(format!("buffer {i} {message}"))
+    };
+    let beside = match files_beside(&document.buffers, folder) {
+        Ok(files) => files,
+        Err((i, message)) => return refuse(&file, i, message),
+    };
+    let sources = BufferSources { file: bytes, binary, beside: &beside };
+    for (i, buffer) in document.buffers.iter().enumerate() {
+        match stored(i, buffer, &sources) {
             Ok(found) => file.buffers.push(found),
-            Err(message) => return file.place_of("buffers", i).error(format!("buffer {i} {message}")),
+            Err(message) => return refuse(&file, i, message),
         }
     }
-    scene::soup(&file, Budget::of(bytes))
+    let more = beside.iter().map(|FileBeside { bytes, .. }| bytes.len()).sum::<usize>();
+    scene::soup(&file, Budget::of_size(bytes.len().saturating_add(more)))
 }
+
+/// The document of a file, whose text begins at byte `start`.
+fn document(text: &[u8], path: &str, start: usize) -> Result<GltfDocument> {
+    let error = match serde_json::from_slice(text) {
+        Ok(document) => return Ok(document),
+        Err(e) => e,
+    };
+    // A document of version 1 is not one of version 2: its lists are tables.
+    if let Ok(AssetAlone { asset }) = serde_json::from_slice(text)
+        && asset.is_some_and(|asset| asset.version.is_some_and(|version| version.is_before_2()))
+    {
+        return Location::whole(path).error(OLD.into());
+    }
+    let said = error.to_string();
+    let said = said.rsplit_once(" at line ").map_or(said.as_str(), |(said, _)| said);
+    let said: String = said.chars().take(200).collect();
+    Location::byte(path, start + byte_of(text, error.line(), error.column()))
+        .error(format!("the JSON of the file is not that of glTF: {said}"))
+}
+
+const OLD: &str = "this is glTF 1.0; version 2.0 is read: export it anew, or convert it (gltf-pipeline does)";
 
 /// A range of bytes of the file.
 #[derive(Clone, Copy)]
@@ -90,7 +119,9 @@ fn chunks(bytes: &[u8], path: &str) -> Result<(Chunk, Option<Chunk>)> {
             .error("this is no GLB file: that begins with `glTF`, its version and its length".into());
     };
     if version != 2 {
-        return Location::byte(path, 4).error(format!("this is version {version} of GLB; version 2 is read"));
+        return Location::byte(path, 4).error(format!(
+            "this is version {version} of GLB; version 2 is read: export it anew as glTF 2.0"
+        ));
     }
     if length as usize > bytes.len() {
         return Location::byte(path, bytes.len())
@@ -113,33 +144,4 @@ fn chunks(bytes: &[u8], path: &str) -> Result<(Chunk, Option<Chunk>)> {
         Some(json) => Ok((json, chunk(b"BIN\0")?)),
         None => Location::byte(path, 12).error("the first chunk of the file is not JSON".into()),
     }
-}
-
-/// The bytes of buffer `i`; the error is a message.
-fn buffer<'a>(
-    i: usize,
-    buffer: &Buffer,
-    file: &'a [u8],
-    binary: Option<Chunk>,
-) -> std::result::Result<StoredBytes<'a>, String> {
-    let stored = match (&buffer.uri, binary) {
-        (Some(uri), _) => match uri.strip_prefix("data:").and_then(|data| data.split_once(";base64,")) {
-            Some((_, text)) => {
-                let bytes =
-                    base64::decode(text.as_bytes()).map_err(|message| format!("is damaged: {message}"))?;
-                StoredBytes { bytes: Cow::Owned(bytes), start: None }
-            }
-            None => {
-                return Err(format!("is in another file, {}; export it as a single .glb file", Quoted(uri)));
-            }
-        },
-        (None, Some(Chunk { start, end })) if i == 0 => {
-            StoredBytes { bytes: Cow::Borrowed(&file[start..end]), start: Some(start) }
-        }
-        (None, _) => return Err("has no data in the file".into()),
-    };
-    if stored.bytes.len() < buffer.byte_length {
-        return Err(format!("has {} bytes, {} are promised", stored.bytes.len(), buffer.byte_length));
-    }
-    Ok(stored)
 }

@@ -266,8 +266,9 @@ impl CollectedMeshes<'_> {
         fn some<T>(list: Vec<T>) -> Option<Vec<T>> {
             Some(list).filter(|list| !list.is_empty())
         }
-        soup.attributes =
-            Attributes { normals: some(normals), corner_normals, colors: some(colors), uv: some(uv) };
+        let (normals, colors, uv) = (some(normals), some(colors), some(uv));
+        let attributes = Attributes { normals, corner_normals, colors, uv, ..Attributes::default() };
+        soup.attributes = attributes.finite_only();
         Ok(soup)
     }
 }

@@ -1,7 +1,7 @@
 //! The rows of a PLY file, read number by number.
 
 use super::super::kind::NumberType;
-use super::super::scan::{Location, Quoted};
+use super::super::scan::{Location, Quoted, real};
 use super::header::{PlyElement, PlyEncoding, PlyHeader};
 use crate::error::Result;
 use std::iter::Peekable;
@@ -137,8 +137,11 @@ impl<'a> PlyBody<'a> {
                 let token = std::str::from_utf8(token).ok();
                 let number = match kind {
                     // The file says that the number has 32 bits, so it is rounded to these.
-                    NumberType::F32 => token.and_then(|t| t.parse::<f32>().ok()).map(f64::from),
-                    _ => token.and_then(|t| t.parse::<f64>().ok()),
+                    NumberType::F32 => {
+                        let narrow = |t: &str| t.parse::<f32>().ok().map(f64::from).or_else(|| real(t));
+                        token.and_then(narrow)
+                    }
+                    _ => token.and_then(real),
                 };
                 if let Some(number) = number {
                     return Ok(number);

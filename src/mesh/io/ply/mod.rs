@@ -157,7 +157,7 @@ impl VertexColumns {
             ..Attributes::default()
         };
         let faces = polygons.faces(triangles);
-        Soup { positions: self.positions, faces, attributes }
+        Soup { positions: self.positions, faces, attributes: attributes.finite_only() }
     }
 }
 

@@ -13,7 +13,7 @@ use std::path::Path;
 ///
 /// With the file untouched: [`crate::Error::Argument`] for numbers that are not finite and corners out of range,
 /// [`crate::Error::Size`] for attributes of another size, [`crate::Error::Io`].
-pub fn write_ply(path: &Path, soup: &Soup) -> Result<Vec<&'static str>> {
+pub fn write_ply(path: &Path, soup: &Soup) -> Result<Vec<String>> {
     soup.check_writable()?;
     let Soup { positions, faces, attributes } = soup;
     let Attributes { normals, colors, uv, .. } = attributes;
