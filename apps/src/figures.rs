@@ -63,7 +63,7 @@ impl Figures {
 
     /// The options that failed, with the reasons, and what the input's file holds and the file with the layout has no place for.
     pub fn missing(self, run: &CommandRun<'_>) -> Figures {
-        self.failed(&run.failed).with("left_out", run.left_out.clone())
+        self.failed(&run.failed).with("left_out", run.outputs.left_out())
     }
 }
 

@@ -9,7 +9,7 @@ use ricci::Control;
 use ricci::Surface;
 use ricci::control::Stage;
 use ricci::geometry::Space;
-use ricci::mesh::io::{Attributes, Soup, SurfaceFile, SurfaceFormat};
+use ricci::mesh::io::{Attributes, NumberColumn, Soup, SurfaceFile, SurfaceFormat};
 use ricci::mesh::{Mesh, Point};
 use ricci::metric::{CommonSubdivision, Split};
 use std::io::Read;
@@ -19,7 +19,7 @@ use std::path::{Path, PathBuf};
 pub struct Input {
     pub path: PathBuf,
     pub surface: Surface,
-    /// The colours, normals and texture coordinates of the mesh file.
+    /// The data of the mesh file beside positions and faces.
     pub attributes: Attributes,
     /// The edges that were halved after the surface was read, if any were.
     pub split: Option<Split>,
@@ -116,14 +116,24 @@ impl Input {
     /// The same input with edges halved.
     pub fn halved(&self, split: &Split) -> ricci::Result<Input> {
         let given = &self.attributes;
+        let surface = split.surface()?;
+        let parents: Vec<u32> = surface.mesh().faces().map(|f| split.place(f).0.0).collect();
+        let at_vertices = |column: &NumberColumn| -> ricci::Result<NumberColumn> {
+            let rows: Vec<[f64; 1]> = column.values.iter().map(|&x| [x]).collect();
+            let values = split.from_given_vertices(&rows)?.into_iter().map(|[x]| x).collect();
+            Ok(NumberColumn { name: column.name.clone(), kind: column.kind, values })
+        };
         let attributes = Attributes {
             normals: given.normals.as_ref().map(|values| split.from_given_vertices(values)).transpose()?,
             corner_normals: given.corner_normals.as_ref().map(|v| split.from_given_corners(v)).transpose()?,
             colors: given.colors.as_ref().map(|values| split.from_given_vertices(values)).transpose()?,
             uv: given.uv.as_ref().map(|values| split.from_given_corners(values)).transpose()?,
+            labels: given.labels.as_ref().map(|labels| labels.of_origins(parents.iter().copied())),
+            vertex_numbers: given.vertex_numbers.iter().map(at_vertices).collect::<ricci::Result<_>>()?,
+            face_numbers: given.face_numbers.iter().map(|column| column.of_origins(&parents)).collect(),
             unread: given.unread.clone(),
         };
-        let (path, surface, split) = (self.path.clone(), split.surface()?, Some(split.clone()));
+        let (path, split) = (self.path.clone(), Some(split.clone()));
         Ok(Input { path, surface, attributes, split })
     }
 

@@ -50,6 +50,8 @@ pub fn in_place() -> bool {
 #[derive(Default)]
 pub struct Outputs {
     pending: Vec<Pending>,
+    /// What the input's file holds and the written mesh has no room for.
+    left_out: Vec<String>,
 }
 
 /// A complete file in a temporary directory of its own, which is removed with it.
@@ -191,6 +193,21 @@ impl Outputs {
     /// Add the files of `others` behind these.
     pub fn append(&mut self, others: Outputs) {
         self.pending.extend(others.pending);
+        self.leave_out(others.left_out);
+    }
+
+    /// Note what a written mesh has no room for.
+    pub fn leave_out(&mut self, what: impl IntoIterator<Item = String>) {
+        for what in what {
+            if !self.left_out.contains(&what) {
+                self.left_out.push(what);
+            }
+        }
+    }
+
+    /// What the input's file holds and the meshes that were written have no room for.
+    pub fn left_out(&self) -> &[String] {
+        &self.left_out
     }
 
     /// Put every file in place; returns their names. Links stay links, and a file keeps the permissions of the one that it replaces. Where

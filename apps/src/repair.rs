@@ -1,5 +1,6 @@
 //! `ricci repair`: mends what can be mended without a guess, and says which defects are left.
 
+use crate::carry::stays_behind;
 use crate::defects::{DefectFigures, DefectList};
 use crate::failure::Failure;
 use crate::input::read_triangles;
@@ -124,7 +125,9 @@ impl Job for RepairArgs {
     fn write(&self, outcome: &RepairOutcome, run: &mut CommandRun<'_>) -> Result<(), Failure> {
         let (format, repaired) = (format_of(&self.out)?, &outcome.repaired);
         let soup = &repaired.soup;
-        run.left_out = run.outputs.add_named(&self.out, |path| io::write_as(path, format, soup))?;
+        let left_out = run.outputs.add_named(&self.out, |path| io::write_as(path, format, soup))?;
+        run.outputs.leave_out(left_out);
+        run.outputs.leave_out(stays_behind(soup.attributes.labels.as_ref(), &self.mesh, &self.out));
         if let Some(path) = &self.map {
             let Repaired { vertex_origin, face_origin, .. } = repaired;
             run.outputs.add_json(path, &OriginFile { vertex_origin, face_origin })?;
@@ -152,7 +155,7 @@ impl JobOutcome for RepairOutcome {
     }
 
     fn figures(&self, run: &CommandRun<'_>) -> Figures {
-        figures(&self.repaired, &run.left_out, &self.defects)
+        figures(&self.repaired, run.outputs.left_out(), &self.defects)
     }
 
     fn summary(&self, done: &Done) -> String {

@@ -83,8 +83,6 @@ pub struct CommandRun<'a> {
     pub failed: Attempts,
     /// The numbers of vertices and faces that the file of `--uv` has beyond the input's.
     pub added: [usize; 2],
-    /// The attributes of the input that the written file has no place for.
-    pub left_out: Vec<String>,
 }
 
 impl<'a> CommandRun<'a> {
@@ -95,7 +93,6 @@ impl<'a> CommandRun<'a> {
             seconds: PhaseSeconds::default(),
             failed: Attempts::default(),
             added: [0; 2],
-            left_out: Vec::new(),
         }
     }
 
@@ -186,6 +183,7 @@ fn execute_in_pool(job: &impl Job, start: Instant, control: &Control) -> Result<
         written = run.outputs.add_report(path, &report.finished(checks.clone(), run.seconds));
         control.check()?;
     }
+    let left_out = run.outputs.left_out().to_vec();
     // A report that cannot be written keeps none of the others back.
     let files = run.outputs.commit()?.iter().map(|path| path_text(path)).collect();
     written?;
@@ -195,7 +193,7 @@ fn execute_in_pool(job: &impl Job, start: Instant, control: &Control) -> Result<
         checks,
         failed: run.failed,
         added: run.added,
-        left_out: run.left_out,
+        left_out,
         files,
         seconds: start.elapsed().as_secs_f64(),
         exit_code,

@@ -86,7 +86,7 @@ fn slivers(input: &Input, checks: &Checks, may_flip: bool) -> String {
     }
 }
 
-/// The last lines of the summary of a metric: slivers, vertices added to the input's, attributes left out, then as [`finish`].
+/// The last lines of the summary of a metric: slivers, vertices added to the input's, then as [`finish`].
 /// `may_flip`: whether edges were allowed to be flipped.
 pub fn ending(input: &Input, done: &Done, may_flip: bool) -> String {
     let mut text = slivers(input, &done.checks, may_flip);
@@ -98,18 +98,18 @@ pub fn ending(input: &Input, done: &Done, may_flip: bool) -> String {
             count(faces, "face", "faces")
         );
     }
-    for what in &done.left_out {
-        text += &format!("left out {what}\n");
-    }
     text + &finish(done)
 }
 
-/// The last lines of a summary: options that failed, the checks, the files, the time.
+/// The last lines of a summary: options that failed, what the written mesh has no room for, the checks, the files, the time.
 pub fn finish(done: &Done) -> String {
     let Done { checks, failed, files, seconds, .. } = done;
     let mut text = String::new();
     for (options, why) in failed.by_cause() {
         text += &format!("FAILED   --{}: {why}\n", options.join(", --"));
+    }
+    for what in &done.left_out {
+        text += &format!("left out {what}\n");
     }
     text += &checks.told(failed.0.is_empty());
     if !files.is_empty() {

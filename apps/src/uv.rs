@@ -21,7 +21,7 @@ pub struct UvOptions {
     pub homogeneous: bool,
 }
 
-/// Write OBJ or, for a name that ends in `.glb`, binary glTF with a checkerboard; with the input's colours and normals.
+/// Write OBJ or, for a name that ends in `.glb`, binary glTF with a checkerboard; with the input's colours, normals and, in OBJ, names of faces.
 ///
 /// OBJ: `v` of the input, `vt` of the layout, `f v/vt`. The faces are the layout's (then the crossings of the input's edges with
 /// flipped ones follow its vertices), or the input's own, with edges split where that was asked for. Returns the numbers of vertices and
@@ -79,7 +79,7 @@ pub struct UvMesh<'a> {
 }
 
 impl UvMesh<'_> {
-    /// Write OBJ or, for a name that ends in `.glb`, binary glTF with a checkerboard; with the input's colours and normals.
+    /// Write OBJ or, for a name that ends in `.glb`, binary glTF with a checkerboard; with the input's colours, normals and, in OBJ, names of faces.
     pub fn write(&self, outputs: &mut Outputs, path: &Path, input: &Input) -> Result<(), Failure> {
         let faces = self.mesh.triangles();
         let carried = carry(input, self.subdivision)?;
@@ -92,15 +92,19 @@ impl UvMesh<'_> {
             texcoord_weights: self.weights,
             faces: &faces,
             face_texcoords: &corners(self.mesh, self.index),
+            labels: carried.labels.as_ref(),
         };
+        let left_out = left_out(input, path)?;
         if extension(path) == "glb" {
             let png = checkerboard::png()?;
             let repeat = checkerboard::repeat(self.texcoords);
             let texture = Texture { png: &png, wrap: Wrap::Repeat, repeat };
-            outputs.add_named(path, |path| io::write_glb(path, &data, Some(texture)).map(drop))
+            outputs.add_named(path, |path| io::write_glb(path, &data, Some(texture)).map(drop))?;
         } else {
-            outputs.add(path, |out| io::write_obj_to(out, &data).map_err(std::io::Error::other))
+            outputs.add(path, |out| io::write_obj_to(out, &data).map_err(std::io::Error::other))?;
         }
+        outputs.leave_out(left_out);
+        Ok(())
     }
 }
 
@@ -118,7 +122,7 @@ pub fn write_asked(
     if let Some(path) = &args.uv {
         let written = write(&mut run.outputs, path, input, laid, UvOptions { on: args.on, homogeneous });
         if let Some(added) = run.failed.attempt("uv", written)? {
-            (run.added, run.left_out) = (added, left_out(input));
+            run.added = added;
         }
     }
     run.file("xref", args.xref.as_deref(), |outputs, path| {

@@ -12,7 +12,7 @@
 
 use super::check::{Defect, Diagnosis, Orientation, OrientedPiece, diagnose};
 use super::incidence::{Incidence, NONE, components, connected, distinct, drop_unused};
-use super::io::{Attributes, Soup};
+use super::io::Soup;
 pub use super::join::RefusedWeld;
 use super::join::{join, repeats};
 use super::weld::{check_tolerance, coincident};
@@ -241,24 +241,12 @@ impl RepairState {
         let kept: HashSet<u32> = vertex_origin.iter().copied().collect();
         let gone = n_before - kept.len();
         self.steps.isolated_vertices = gone.saturating_sub(self.steps.welded_vertices);
-        fn picked<T: Copy>(list: &Option<Vec<T>>, origin: &[u32]) -> Option<Vec<T>> {
-            list.as_ref()?.first()?;
-            list.as_ref().map(|list| origin.iter().map(|&v| list[v as usize]).collect())
+        let mut attributes = soup.attributes.of_origins(&vertex_origin, &self.origin);
+        let turned = |f: &usize| self.turned[*f];
+        for f in (0..faces.len()).filter(turned) {
+            attributes.corner_normals.iter_mut().for_each(|corners| corners[f].swap(1, 2));
+            attributes.uv.iter_mut().for_each(|corners| corners[f].swap(1, 2));
         }
-        fn at_corners<T: Copy>(list: &Option<Vec<[T; 3]>>, work: &RepairState) -> Option<Vec<[T; 3]>> {
-            let mut list = picked(list, &work.origin);
-            for (corners, _) in list.iter_mut().flatten().zip(&work.turned).filter(|(_, turned)| **turned) {
-                corners.swap(1, 2);
-            }
-            list
-        }
-        let attributes = Attributes {
-            normals: picked(&soup.attributes.normals, &vertex_origin),
-            colors: picked(&soup.attributes.colors, &vertex_origin),
-            corner_normals: at_corners(&soup.attributes.corner_normals, &self),
-            uv: at_corners(&soup.attributes.uv, &self),
-            unread: soup.attributes.unread.clone(),
-        };
         let positions: Vec<_> = vertex_origin.iter().map(|&v| soup.positions[v as usize]).collect();
         let mut diagnosis = diagnose(&positions, &faces);
         if let Some(Defect::Empty { collapsed }) = diagnosis.defects.first_mut() {

@@ -175,3 +175,69 @@ def test_the_separator_of_a_table_is_found(ricci, case, tmp_path, name, curvatur
     assert run.code == 0, run.text
     [(vertex, found)] = run.report["result"]["cones"]
     assert vertex == 700 and found == pytest.approx(curvature)
+
+
+@pytest.mark.row("groups full.obj")
+@pytest.mark.parametrize("more", [["--on", "input"], []])
+def test_materials_and_groups_go_with_the_faces(ricci, case, tmp_path, more):
+    source = case("groups full.obj")
+    run = ricci("flow", source, "--uv", "u.obj", *more)
+    given, written = named_faces(source), named_faces(tmp_path / "u.obj")
+    assert written[0] == given[0] == ["my materials ü.mtl"]
+    assert set(written[1]) == set(given[1])
+    if more:
+        assert written[1] == given[1]
+    assert not any("material" in what and "only OBJ" in what for what in run.report["result"]["left_out"])
+    run = ricci("flow", source, "--uv", "u.glb", *more)
+    assert any("2 materials, 2 groups, 1 object name" in what for what in run.report["result"]["left_out"]), run.report
+    assert "left out 2 materials" in run.out
+    for end, kept in [("obj", True), ("ply", False), ("glb", False), ("off", False)]:
+        run = ricci("repair", source, "-o", f"r.{end}")
+        assert any("materials" in what and "only OBJ" in what for what in run.report["result"]["left_out"]) != kept
+    assert named_faces(tmp_path / "r.obj") == given
+
+
+def named_faces(path):
+    """The material libraries of an OBJ file, and the object, group and material of each of its faces."""
+    libraries, names, faces = [], {}, []
+    for line in path.read_text(encoding="utf-8").splitlines():
+        word, _, rest = line.partition(" ")
+        if word == "mtllib":
+            libraries.append(rest)
+        elif word in ("o", "g", "usemtl"):
+            names[word] = rest
+        elif word == "f":
+            faces.append((names.get("o"), names.get("g"), names.get("usemtl")))
+    return libraries, faces
+
+
+def test_numbers_of_a_ply_go_through_repair(ricci, tmp_path):
+    points = ["0 0 0 0.5 7", "1 0 0 nan 8", "1 1 0 1e-3 9", "0 1 0 2 10"]
+    head = "ply\nformat ascii 1.0\nelement vertex 4\n" + "".join(f"property double {c}\n" for c in "xyz")
+    head += "property float quality\nproperty int label\nelement face 2\nproperty list uchar int vertex_indices\n"
+    head += "property uchar flags\nelement edge 1\nproperty int a\nproperty int b\nend_header\n"
+    (tmp_path / "m.ply").write_text(head + "\n".join(points) + "\n3 2 3 0 200\n3 0 1 2 100\n0 1\n")
+    run = ricci("repair", "m.ply", "-o", "r.ply")
+    assert run.report["result"]["left_out"] == ["element `edge` of 1 rows"]
+    data = (tmp_path / "r.ply").read_bytes()
+    text, _, body = data.partition(b"end_header\n")
+    assert b"property float quality\nproperty int label\n" in text and b"property uchar flags\n" in text
+    rows = [struct.unpack_from("<3dfi", body, 32 * v) for v in range(4)]
+    assert [row[4] for row in rows] == [7, 8, 9, 10]
+    assert rows[0][3] == 0.5 and rows[1][3] != rows[1][3]
+    faces = [struct.unpack_from("<B3IB", body, 128 + 14 * f) for f in range(2)]
+    assert faces == [(3, 2, 3, 0, 200), (3, 0, 1, 2, 100)]
+    run = ricci("flow", "m.ply", "--uv", "u.obj")
+    said = run.report["result"]["left_out"]
+    assert "numbers of vertices `quality`, `label`: only PLY has them" in said and "numbers of faces `flags`: only PLY has them" in said
+
+
+@pytest.mark.parametrize("command", [["flow"], ["uniformize"], ["harmonic", "--to", "disk"]])
+def test_every_layout_keeps_the_names_of_its_faces(ricci, tmp_path, command):
+    (tmp_path / "m.obj").write_text("mtllib m.mtl\no Sheet\n" + SQUARE.format(z=0.3).replace("f 3 4 5", "usemtl Red #2\nf 3 4 5") + "l 1 2\n")
+    run = ricci(command[0], "m.obj", *command[1:], "--uv", "u.obj")
+    assert run.code == 0, run.text
+    libraries, faces = named_faces(tmp_path / "u.obj")
+    assert libraries == ["m.mtl"] and set(faces) == {("Sheet", None, None), ("Sheet", None, "Red #2")}
+    assert "polylines: 1 (`l`), for they are no faces" in run.report["result"]["left_out"]
+    assert "left out polylines" in run.out

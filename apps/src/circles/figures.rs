@@ -1,7 +1,6 @@
 //! The checks, the figures and the summary of `ricci circles`.
 
 use super::outcome::CirclesOutcome;
-use crate::carry::left_out;
 use crate::metric_file::MIXED;
 use crate::report::{Checks, Done, Figures, InputSummary};
 use crate::runner::{CommandRun, JobOutcome};
@@ -61,7 +60,7 @@ impl JobOutcome for CirclesOutcome {
             .with("flipped_triangles", laid.flipped().len())
             .distortion(Some(laid))
             .failed(&run.failed)
-            .with("left_out", left_out(input))
+            .with("left_out", run.outputs.left_out())
     }
 
     fn summary(&self, done: &Done) -> String {

@@ -41,9 +41,10 @@ impl JobOutcome for FormsOutcome {
         Some(InputSummary::of(&self.input))
     }
 
-    fn figures(&self, _: &CommandRun<'_>) -> Figures {
+    fn figures(&self, run: &CommandRun<'_>) -> Figures {
         let (forms, periods) = (&self.forms, self.periods.as_ref());
         let figures = Figures::default()
+            .with("left_out", run.outputs.left_out())
             .with("forms", forms.forms.len())
             .with("basis", forms.basis.group.names())
             .with("flips", forms.domain.metric().start_flips())

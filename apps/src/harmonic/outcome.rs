@@ -160,8 +160,9 @@ impl JobOutcome for HarmonicOutcome {
         Some(InputSummary::of(&self.input))
     }
 
-    fn figures(&self, _: &CommandRun<'_>) -> Figures {
+    fn figures(&self, run: &CommandRun<'_>) -> Figures {
         let figures = Figures::default()
+            .with("left_out", run.outputs.left_out())
             .with("flips", self.domain.metric().start_flips())
             .with("added_vertices", self.added_vertices);
         match &self.map {

@@ -18,7 +18,7 @@ use crate::picture::{Style, TextureChoice};
 use crate::runner::CommandRun;
 use crate::uv;
 use ricci::control::Stage;
-use ricci::mesh::io::TexturedMesh;
+use ricci::mesh::io::{FaceLabels, TexturedMesh};
 use std::io::Write;
 use std::path::Path;
 
@@ -133,5 +133,12 @@ fn write_on_sphere(
         faces: &faces,
         ..TexturedMesh::default()
     };
-    write_textured(outputs, path, &data)
+    write_textured(outputs, path, &data)?;
+    let given = &input.attributes;
+    let names = given.labels.as_ref().and_then(FaceLabels::told);
+    let names = names.map(|names| format!("{names}: the faces are those after flips, not the input's"));
+    let normals = (given.normals.is_some() || given.corner_normals.is_some())
+        .then(|| "normals of the input: the sphere has its own".to_string());
+    outputs.leave_out(names.into_iter().chain(normals).chain(given.unread.iter().cloned()));
+    Ok(())
 }

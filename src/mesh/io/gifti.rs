@@ -3,7 +3,7 @@
 
 use super::budget::Budget;
 use super::gifti_data::{ArrayHeader, ArrayText, VectorTable};
-use super::scan::Location;
+use super::scan::{Location, Quoted};
 use super::{Attributes, Soup};
 use crate::error::Result;
 use crate::mesh::Point;
@@ -81,6 +81,8 @@ struct GiftiArrays {
     points: Option<Vec<Point>>,
     faces: Option<Vec<[u32; 3]>>,
     vectors: Vec<Vec<Point>>,
+    /// The intents of the arrays that are not read.
+    others: Vec<String>,
 }
 
 impl GiftiArrays {
@@ -105,7 +107,8 @@ impl GiftiArrays {
             "NIFTI_INTENT_VECTOR" if header.is_vectors() => {
                 self.vectors.push(points(rows("vectors")?));
             }
-            _ => {}
+            // The parser bounds the number of arrays by that of their tags, each longer than what is kept here.
+            other => self.others.push(format!("array {}", Quoted(other.trim_start_matches("NIFTI_INTENT_")))),
         }
         Ok(())
     }
@@ -117,7 +120,7 @@ impl GiftiArrays {
             );
         };
         let normals = self.vectors.into_iter().find(|v| v.len() == positions.len() && !v.is_empty());
-        let attributes = Attributes { normals, ..Attributes::default() };
+        let attributes = Attributes { normals, unread: self.others, ..Attributes::default() };
         Ok(Soup { positions, faces: self.faces.unwrap_or_default(), attributes: attributes.finite_only() })
     }
 }

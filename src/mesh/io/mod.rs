@@ -20,7 +20,10 @@ mod gifti_data;
 mod gltf;
 mod guess;
 mod kind;
+mod labels;
+mod number_column;
 mod obj;
+mod obj_write;
 mod off;
 mod off_binary;
 mod off_extras;
@@ -41,7 +44,11 @@ pub use gifti::parse_gifti;
 #[cfg(feature = "gltf")]
 pub use gltf::{Texture, Wrap, parse_glb, write_glb};
 pub use guess::SurfaceFormat;
-pub use obj::{parse_obj, write_obj, write_obj_to};
+pub use kind::NumberType;
+pub use labels::{FaceLabel, FaceLabels};
+pub use number_column::NumberColumn;
+pub use obj::parse_obj;
+pub use obj_write::{write_obj, write_obj_to};
 pub use off::{parse_off, write_off};
 pub use ply::{parse_ply, write_ply};
 pub use soup::{Attributes, Soup};
@@ -142,7 +149,8 @@ pub fn write_glb_textured(path: &Path, soup: &Soup, texture: Texture<'_>) -> Res
 
 /// Writes a mesh file, atomically, with the attributes that the format has: text with the fewest digits that read back, PLY binary, so
 /// that positions read back unchanged; GLB has 24 bits, see [`write_glb`]. Returns what was left out: the attributes that the format cannot
-/// hold (normals and texture coordinates with more than one value at a vertex, in PLY and OFF), and [`Attributes::unread`].
+/// hold (normals and texture coordinates with more than one value at a vertex, in PLY and OFF; [`Attributes::unheld`]), and
+/// [`Attributes::unread`].
 ///
 /// # Errors
 ///
@@ -150,16 +158,13 @@ pub fn write_glb_textured(path: &Path, soup: &Soup, texture: Texture<'_>) -> Res
 /// [`Error::Size`] for attributes of another size; [`Error::Io`].
 pub fn write_as(path: &Path, format: Format, soup: &Soup) -> Result<Vec<String>> {
     match format {
-        Format::Ply => write_ply(path, soup),
-        Format::Off => write_off(path, soup),
-        Format::Obj => textured::with_textured(soup, |data| write_obj(path, data))
-            .map(|()| soup.attributes.unread.clone()),
+        Format::Ply => return write_ply(path, soup),
+        Format::Off => return write_off(path, soup),
+        Format::Obj => textured::with_textured(soup, |data| write_obj(path, data))?,
         #[cfg(feature = "gltf")]
-        Format::Glb => {
-            let written = textured::with_textured(soup, |data| write_glb(path, data, None));
-            written.map(|_| soup.attributes.unread.clone())
-        }
+        Format::Glb => textured::with_textured(soup, |data| write_glb(path, data, None).map(drop))?,
     }
+    Ok(soup.attributes.unheld(format))
 }
 
 #[cfg(test)]

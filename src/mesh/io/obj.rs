@@ -1,20 +1,19 @@
-//! Reader and writer of Wavefront OBJ. The reader keeps the file's vertex numbering, which the readers of other crates replace.
+//! Reader of Wavefront OBJ. It keeps the file's vertex numbering, which the readers of other crates replace.
 
 use super::budget::Budget;
+use super::labels::LabelLines;
 use super::polygon::Polygons;
 use super::scan::{BYTE_ORDER_MARK, Location, Quoted, bare, real, words};
 use super::soup::{NO_NORMAL, NO_TEXCOORD, WHITE};
-use super::text::{TextBuilder, write_blocks};
-use super::{Attributes, Soup, TexturedMesh, write_atomically};
-use crate::error::{Error, Result};
+use super::{Attributes, Soup};
+use crate::error::Result;
 use crate::mesh::Point;
 use crate::parallel;
 use std::borrow::Cow;
-use std::io::{self, Write};
-use std::path::Path;
 
 /// Parses OBJ text: `v` (with colours after the coordinates, if there are any), `vt`, `vn` and `f` (polygons, negative indices, `v/vt/vn`
-/// corners), line continuations; everything else is skipped. `path` is used in errors.
+/// corners), `o`, `g`, `usemtl`, `s` and `mtllib`, line continuations; elements that are no faces are skipped and named in
+/// [`Attributes::unread`]. A file that is not UTF-8 is read as Latin-1. `path` is used in errors.
 ///
 /// Normals belong to the vertices if all corners of each vertex name equal ones, else to the corners. Missing or invalid values have the
 /// defaults of [`Attributes`].
@@ -27,7 +26,8 @@ pub fn parse_obj(bytes: &[u8], path: &str) -> Result<Soup> {
         Some(file) => file,
         None => {
             let text = std::str::from_utf8(bytes);
-            ObjFile::read(&text.map_or_else(|_| String::from_utf8_lossy(bytes), Cow::Borrowed), path)?
+            let latin = |_| Cow::Owned(bytes.iter().map(|&b| char::from(b)).collect());
+            ObjFile::read(&text.map_or_else(latin, Cow::Borrowed), path)?
         }
     };
     file.soup(Budget::of(bytes), Location::whole(path))
@@ -59,6 +59,15 @@ fn in_parts(bytes: &[u8], path: &str) -> Option<ObjFile> {
     Some(ObjFile::joined(parts?))
 }
 
+/// Elements that are no faces, and what they are.
+const OTHERS: [(&str, &str); 5] = [
+    ("l", "polylines"),
+    ("p", "points"),
+    ("curv", "curves"),
+    ("curv2", "curves on surfaces"),
+    ("surf", "free-form surfaces"),
+];
+
 /// The entry of a corner that names no texture coordinate or no normal.
 const NO_ENTRY: u32 = u32::MAX;
 
@@ -71,6 +80,9 @@ struct ObjFile {
     texcoords: Vec<[f64; 2]>,
     normals: Vec<Point>,
     polygons: Polygons,
+    labels: LabelLines,
+    /// The numbers of lines with the words of [`OTHERS`].
+    others: [usize; 5],
     /// The entry that each of the first corners names, or `NO_ENTRY`, which also holds for all others.
     corner_texcoords: Vec<u32>,
     corner_normals: Vec<u32>,
@@ -81,7 +93,10 @@ struct ObjFile {
 impl ObjFile {
     fn read(text: &str, path: &str) -> Result<ObjFile> {
         let mut file = ObjFile::default();
-        let mut lines = super::scan::lines(text).map(|(number, line)| (number, bare(line)));
+        // A name may have the sign of a comment in it.
+        let named = |line: &str| words(line).next().is_some_and(LabelLines::begins);
+        let lines = super::scan::lines(text);
+        let mut lines = lines.map(|(number, line)| (number, if named(line) { line } else { bare(line) }));
         let mut joined = String::new();
         while let Some((number, line)) = lines.next() {
             let place = Location::line(path, number);
@@ -126,7 +141,16 @@ impl ObjFile {
                 }
                 self.polygons.end();
             }
-            _ => {}
+            Some(word) if LabelLines::begins(word) => {
+                let rest = line.trim_start()[word.len()..].trim();
+                self.labels.line(word, rest, self.polygons.len());
+            }
+            Some(word) => {
+                if let Some(k) = OTHERS.iter().position(|(other, _)| *other == word) {
+                    self.others[k] += 1;
+                }
+            }
+            None => {}
         }
         Ok(())
     }
@@ -155,6 +179,8 @@ impl ObjFile {
         all.polygons.reserve(parts.iter().map(|part| &part.polygons));
         for part in parts {
             let (vertices, corners) = (all.positions.len(), all.polygons.corners.len());
+            all.labels.append(part.labels, all.polygons.len());
+            all.others.iter_mut().zip(part.others).for_each(|(n, more)| *n += more);
             all.positions.extend(part.positions);
             append(&mut all.colors, part.colors, vertices, WHITE);
             all.texcoords.extend(part.texcoords);
@@ -171,7 +197,13 @@ impl ObjFile {
             && self.corner_normals.is_empty()
             && let Some(faces) = self.polygons.all_triangles(&mut budget, place)?
         {
-            let attributes = Attributes { colors: self.all_colors(), ..Attributes::default() };
+            let labels = std::mem::take(&mut self.labels).finish(0..faces.len());
+            let attributes = Attributes {
+                colors: self.all_colors(),
+                labels,
+                unread: self.unread(),
+                ..Attributes::default()
+            };
             return Ok(Soup { positions: self.positions, faces, attributes });
         }
         let triangles = self.polygons.triangles(&self.positions, &mut budget, place)?;
@@ -193,8 +225,19 @@ impl ObjFile {
         }
         let normals = normals.filter(|normals| !normals.is_empty());
         let faces = self.polygons.faces(&triangles);
-        let attributes = Attributes { normals, corner_normals, colors: self.all_colors(), uv };
+        let labels = std::mem::take(&mut self.labels).finish(self.polygons.owners(&triangles));
+        let (colors, unread) = (self.all_colors(), self.unread());
+        let attributes =
+            Attributes { normals, corner_normals, colors, uv, labels, unread, ..Attributes::default() };
         Ok(Soup { positions: self.positions, faces, attributes })
+    }
+
+    /// The elements that are no faces, and how many there are.
+    fn unread(&self) -> Vec<String> {
+        let told = |((word, what), n): ((&str, &str), usize)| {
+            (n > 0).then(|| format!("{what}: {n} (`{word}`), for they are no faces"))
+        };
+        OTHERS.into_iter().zip(self.others).filter_map(told).collect()
     }
 
     /// The colours of all vertices, if one has a colour.
@@ -288,87 +331,6 @@ fn corner(place: Location<'_>, token: &str, vertices: usize) -> Result<u32> {
     match u32::try_from(zero_based) {
         Ok(v) => Ok(v),
         Err(_) => place.error(format!("corner {} is more than can be numbered", Quoted(token))),
-    }
-}
-
-/// Writes an OBJ file, atomically, with the fewest digits that read back to the same numbers. With [`TexturedMesh::texcoord_weights`] a
-/// comment on the first line says that the `vt` are homogeneous.
-///
-/// # Errors
-///
-/// With the file untouched: [`crate::Error::Argument`] for numbers that are not finite and corners out of
-/// range, [`crate::Error::Size`], [`crate::Error::Io`].
-pub fn write_obj(path: &Path, data: &TexturedMesh<'_>) -> Result<()> {
-    data.check()?;
-    write_atomically(path, |out| write_text(out, data))
-}
-
-/// [`write_obj`] to anything that can be written to, for callers who put files in place themselves. Lines are formatted in parallel
-/// inside a pool.
-///
-/// # Errors
-///
-/// [`crate::Error::Argument`] and [`crate::Error::Size`] before anything is written; [`crate::Error::Io`].
-pub fn write_obj_to(out: &mut impl Write, data: &TexturedMesh<'_>) -> Result<()> {
-    data.check()?;
-    write_text(out, data).map_err(|e| Error::Io { path: "OBJ".into(), message: e.to_string() })
-}
-
-fn write_text(out: &mut impl Write, data: &TexturedMesh<'_>) -> io::Result<()> {
-    if !data.texcoord_weights.is_empty() {
-        writeln!(
-            out,
-            "# vt are homogeneous: (q x, q y, q), linear within each face; the texture is at (x, y)"
-        )?;
-    }
-    write_blocks(out, data.positions.len(), |text, v| {
-        line(text, "v", &data.positions[v]);
-        if let Some([r, g, b, a]) = data.colors.get(v) {
-            let alpha = if *a == 1.0 { String::new() } else { format!(" {a:.6}") };
-            text.text(&format!(" {r:.6} {g:.6} {b:.6}{alpha}"));
-        }
-        text.character('\n');
-    })?;
-    write_blocks(out, data.texcoords.len(), |text, k| {
-        let [s, t] = data.texcoords[k];
-        match data.texcoord_weights.get(k) {
-            Some(q) => line(text, "vt", &[q * s, q * t, *q]),
-            None => line(text, "vt", &[s, t]),
-        }
-        text.character('\n');
-    })?;
-    write_blocks(out, data.normals.len(), |text, k| {
-        line(text, "vn", &data.normals[k]);
-        text.character('\n');
-    })?;
-    let has_normals = !data.normals.is_empty();
-    write_blocks(out, data.faces.len(), |text, f| {
-        let corners = data.faces[f];
-        let normals = data.face_normals.get(f).unwrap_or(&corners);
-        let texcoords = data.face_texcoords.get(f);
-        text.character('f');
-        for k in 0..3 {
-            text.character(' ');
-            text.count(u64::from(corners[k]) + 1);
-            if let Some(texcoords) = texcoords {
-                text.character('/');
-                text.count(u64::from(texcoords[k]) + 1);
-            }
-            if has_normals {
-                text.text(if texcoords.is_some() { "/" } else { "//" });
-                text.count(u64::from(normals[k]) + 1);
-            }
-        }
-        text.character('\n');
-    })
-}
-
-/// Appends a keyword and its numbers.
-fn line(text: &mut TextBuilder, keyword: &str, numbers: &[f64]) {
-    text.text(keyword);
-    for x in numbers {
-        text.character(' ');
-        text.number(*x);
     }
 }
 

@@ -8,7 +8,7 @@ use super::polygon::Polygons;
 use super::scan::{Location, Quoted, Tokens, real, tokens};
 use super::shortest::Shortest;
 use super::soup::{Attributes, Soup};
-use super::write_atomically;
+use super::{Format, write_atomically};
 use crate::error::Result;
 use crate::mesh::Point;
 use std::io::Write;
@@ -158,6 +158,7 @@ fn read_text(text: &str, path: &str, by_line: bool) -> Result<Soup> {
             };
             corners.push(v);
         }
+        extras.face_colors |= !tokens.rest.trim_start().is_empty();
         tokens.end_line();
         // Points and segments are legal in OFF but not part of the surface.
         polygons.push(corners.iter().copied());
@@ -172,8 +173,8 @@ fn read_text(text: &str, path: &str, by_line: bool) -> Result<Soup> {
 }
 
 /// Writes text OFF, atomically, with the fewest digits that read back to the same numbers, with normals, colours (0 to 255) if there are
-/// any, and texture coordinates if each vertex has a single pair. Returns the names of the attributes that were left out: normals and
-/// texture coordinates that differ between the corners of a vertex.
+/// any, and texture coordinates if each vertex has a single pair. Returns what was left out: normals and
+/// texture coordinates that differ between the corners of a vertex, and [`Attributes::unheld`].
 ///
 /// # Errors
 ///
@@ -209,5 +210,5 @@ pub fn write_off(path: &Path, soup: &Soup) -> Result<Vec<String>> {
         }
         Ok(())
     })?;
-    Ok(attributes.left_out(texture.is_some()))
+    Ok([attributes.left_out(texture.is_some()), attributes.unheld(Format::Off)].concat())
 }

@@ -96,6 +96,7 @@ impl Words<'_> {
                 let what = || format!("the colour of face {f} (of {n_faces})");
                 for _ in 0..self.count(what)? {
                     self.word(what)?;
+                    extras.face_colors = true;
                 }
             }
             // Points and segments are legal in OFF but not part of the surface.

@@ -23,11 +23,14 @@ pub(super) struct Extras {
     normals: Vec<Point>,
     colors: Vec<[f64; 4]>,
     texture: Vec<[f64; 2]>,
+    /// True if a face has a colour.
+    pub face_colors: bool,
 }
 
 impl Extras {
     pub fn new(has: Columns) -> Extras {
-        Extras { has, any: Columns::default(), normals: Vec::new(), colors: Vec::new(), texture: Vec::new() }
+        let (normals, colors, texture) = (Vec::new(), Vec::new(), Vec::new());
+        Extras { has, any: Columns::default(), normals, colors, texture, face_colors: false }
     }
 
     /// Adds the numbers after the coordinates of a vertex. The colour is what the other columns leave, three numbers or four.
@@ -73,6 +76,7 @@ impl Extras {
             normals: self.any.normal.then_some(self.normals),
             colors: self.any.color.then(|| self.colors.into_iter().map(color).collect()),
             uv: self.any.texture.then(|| triangles.iter().map(|&t| polygons.face(t).map(uv)).collect()),
+            unread: self.face_colors.then(|| "colours of faces".to_string()).into_iter().collect(),
             ..Attributes::default()
         };
         Ok(Soup { faces: polygons.faces(&triangles), positions, attributes })

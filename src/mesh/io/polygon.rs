@@ -31,6 +31,21 @@ impl Polygons {
         self.ends.is_empty()
     }
 
+    pub fn len(&self) -> usize {
+        self.ends.len()
+    }
+
+    /// The number of the polygon that each of its triangles is a part of.
+    pub fn owners<'a>(&'a self, triangles: &'a [[usize; 3]]) -> impl Iterator<Item = usize> + 'a {
+        let mut polygon = 0;
+        triangles.iter().map(move |triangle| {
+            while self.ends[polygon] <= triangle[0] {
+                polygon += 1;
+            }
+            polygon
+        })
+    }
+
     /// Ends a polygon: its corners are those pushed to `corners` since the end of the last one.
     pub fn end(&mut self) {
         self.ends.push(self.corners.len());

@@ -1,5 +1,8 @@
 //! An indexed triangle list with its attributes, and the checks before it is written.
 
+use super::Format;
+use super::labels::FaceLabels;
+use super::number_column::{NumberColumn, told};
 use crate::error::{Error, Result, check_size};
 use crate::mesh::Point;
 
@@ -27,6 +30,12 @@ pub struct Attributes {
     pub colors: Option<Vec<[f64; 4]>>,
     /// Texture coordinates of each face's corners (F entries); by default (0, 0).
     pub uv: Option<Vec<[[f64; 2]; 3]>>,
+    /// The objects, groups and materials under which faces stand, which OBJ can hold.
+    pub labels: Option<FaceLabels>,
+    /// Further numbers of vertices (V entries each), which PLY can hold.
+    pub vertex_numbers: Vec<NumberColumn>,
+    /// Further numbers of faces (F entries each), which PLY can hold.
+    pub face_numbers: Vec<NumberColumn>,
     /// The parts of the file that are not here, each with the reason: what a writer of these attributes leaves out as well.
     pub unread: Vec<String>,
 }
@@ -37,15 +46,48 @@ pub(super) const WHITE: [f64; 4] = [1.0; 4];
 pub(super) const NO_TEXCOORD: [f64; 2] = [0.0; 2];
 
 impl Attributes {
-    /// What is left out of a format with one normal per vertex and, unless `corner_uv`, one pair of texture coordinates per vertex.
+    /// The normals and texture coordinates that are left out of a format with one normal per vertex and, unless `corner_uv`, one pair of
+    /// texture coordinates per vertex.
     pub(super) fn left_out(&self, corner_uv: bool) -> Vec<String> {
         let corner_normals =
             self.corner_normals.as_ref().map(|_| "normals at hard edges: the format has one per vertex");
         let uv = self.uv.as_ref().filter(|_| !corner_uv);
         let seams =
             uv.map(|_| "texture coordinates, for they have seams: the format has one pair per vertex");
-        let of_format = corner_normals.into_iter().chain(seams).map(String::from);
-        of_format.chain(self.unread.iter().cloned()).collect()
+        corner_normals.into_iter().chain(seams).map(String::from).collect()
+    }
+
+    /// What a format has no room for beside normals, colours and texture coordinates, and what was not read in the first place.
+    pub fn unheld(&self, format: Format) -> Vec<String> {
+        let labels = self.labels.as_ref().filter(|_| format != Format::Obj).and_then(FaceLabels::told);
+        let labels = labels.map(|what| format!("{what}: only OBJ has them"));
+        let numbers = [(&self.vertex_numbers, "vertices"), (&self.face_numbers, "faces")];
+        let numbers = numbers.into_iter().filter_map(|(columns, element)| told(columns, element));
+        let numbers =
+            numbers.filter(|_| format != Format::Ply).map(|what| format!("{what}: only PLY has them"));
+        labels.into_iter().chain(numbers).chain(self.unread.iter().cloned()).collect()
+    }
+
+    /// The attributes of a triangle list whose vertices and faces come from these of the given one. Corners keep their order; an element
+    /// that comes from none has the default.
+    pub fn of_origins(&self, vertices: &[u32], faces: &[u32]) -> Attributes {
+        fn picked<T: Copy>(list: &Option<Vec<T>>, origins: &[u32], default: T) -> Option<Vec<T>> {
+            let list = list.as_ref().filter(|list| !list.is_empty())?;
+            Some(origins.iter().map(|&k| list.get(k as usize).copied().unwrap_or(default)).collect())
+        }
+        let columns = |columns: &[NumberColumn], origins: &[u32]| -> Vec<NumberColumn> {
+            columns.iter().map(|column| column.of_origins(origins)).collect()
+        };
+        Attributes {
+            normals: picked(&self.normals, vertices, NO_NORMAL),
+            corner_normals: picked(&self.corner_normals, faces, [NO_NORMAL; 3]),
+            colors: picked(&self.colors, vertices, WHITE),
+            uv: picked(&self.uv, faces, [NO_TEXCOORD; 3]),
+            labels: self.labels.as_ref().map(|labels| labels.of_origins(faces.iter().copied())),
+            vertex_numbers: columns(&self.vertex_numbers, vertices),
+            face_numbers: columns(&self.face_numbers, faces),
+            unread: self.unread.clone(),
+        }
     }
 
     /// Leaves out each attribute with a number that is not finite, which no file could be written with, and says so in `unread`.
@@ -98,6 +140,9 @@ impl Soup {
         let Soup { positions, faces, attributes } = self;
         let Attributes { normals, corner_normals, colors, uv, .. } = attributes;
         let (n, f) = (positions.len(), faces.len());
+        attributes.vertex_numbers.iter().try_for_each(|column| column.check(n))?;
+        attributes.face_numbers.iter().try_for_each(|column| column.check(f))?;
+        attributes.labels.iter().try_for_each(|labels| labels.check(f))?;
         sized("normals", normals, n)?;
         sized("corner_normals", corner_normals, f)?;
         sized("colors", colors, n)?;

@@ -61,11 +61,12 @@ pub(super) fn is_text(bytes: &[u8]) -> bool {
 /// [`crate::Error::Argument`] for a distance that is negative or not finite; [`crate::Error::Parse`].
 pub fn parse_stl_welded(bytes: &[u8], path: &str, weld: f64) -> Result<Soup> {
     check_tolerance(weld)?;
-    let Soup { positions, mut faces, .. } = parse_stl(bytes, path)?;
+    let Soup { positions, mut faces, attributes } = parse_stl(bytes, path)?;
     let first = coincident(&positions, weld);
     faces.as_flattened_mut().iter_mut().for_each(|v| *v = first[*v as usize]);
     let kept = drop_unused(positions.len(), &mut faces);
-    Ok(Soup::new(kept.into_iter().map(|v| positions[v as usize]).collect(), faces))
+    let positions = kept.into_iter().map(|v| positions[v as usize]).collect();
+    Ok(Soup { positions, faces, attributes })
 }
 
 /// The vertices, one for all corners with the same position.
@@ -139,7 +140,7 @@ enum NextWord {
 fn ascii(text: &str, path: &str) -> Result<Soup> {
     let mut words = tokens(text, path);
     let (mut weld, mut polygons) = (CornerWeld::default(), Polygons::default());
-    let (mut expect, mut begun, mut ended) = (NextWord::Part, false, false);
+    let (mut expect, mut begun, mut ended, mut solids) = (NextWord::Part, false, false, 0);
     while let Some(word) = words.next() {
         let (place, line) = (words.place(), words.line);
         let mut lower = if word.len() <= 8 { word.to_ascii_lowercase() } else { String::new() };
@@ -153,7 +154,10 @@ fn ascii(text: &str, path: &str) -> Result<Soup> {
             lower.extend(words.next().map(str::to_ascii_lowercase));
         }
         expect = match (lower.as_str(), expect) {
-            ("solid", NextWord::Part | NextWord::Name { .. }) => NextWord::Name { line, last: false },
+            ("solid", NextWord::Part | NextWord::Name { .. }) => {
+                solids += 1;
+                NextWord::Name { line, last: false }
+            }
             ("endsolid", NextWord::Part | NextWord::Name { last: false, .. }) => {
                 ended = true;
                 NextWord::Name { line, last: true }
@@ -195,6 +199,9 @@ fn ascii(text: &str, path: &str) -> Result<Soup> {
     let mut budget = Budget::of(text.as_bytes());
     let triangles = polygons.triangles(&weld.soup.positions, &mut budget, Location::whole(path))?;
     weld.soup.faces = polygons.faces(&triangles);
+    if solids > 1 {
+        weld.soup.attributes.unread.push(format!("names of {solids} solids"));
+    }
     Ok(weld.soup)
 }
 

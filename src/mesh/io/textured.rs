@@ -1,5 +1,6 @@
 //! Triangle lists whose corners have separate numbers for positions and texture coordinates, as in OBJ.
 
+use super::labels::FaceLabels;
 use super::soup::{Attributes, Soup, finite, in_range};
 use crate::error::{Error, Result, check_size};
 use crate::mesh::Point;
@@ -25,6 +26,8 @@ pub struct TexturedMesh<'a> {
     pub face_texcoords: &'a [[u32; 3]],
     /// Corners of the faces, 0-based into `normals`; as many as faces, or empty where each vertex has its own.
     pub face_normals: &'a [[u32; 3]],
+    /// The objects, groups and materials of the faces, which OBJ alone can hold.
+    pub labels: Option<&'a FaceLabels>,
 }
 
 impl TexturedMesh<'_> {
@@ -43,6 +46,7 @@ impl TexturedMesh<'_> {
                 check_size(what, size, expected)?;
             }
         }
+        self.labels.into_iter().try_for_each(|labels| labels.check(f))?;
         finite("position", self.positions)?;
         finite("colour", self.colors)?;
         finite("normal", self.normals)?;
@@ -56,7 +60,7 @@ impl TexturedMesh<'_> {
 /// Calls `write` with a soup; equal texture coordinates become one entry, and so do equal normals of corners.
 pub(super) fn with_textured<T>(soup: &Soup, write: impl FnOnce(&TexturedMesh<'_>) -> Result<T>) -> Result<T> {
     soup.check_writable()?;
-    let Attributes { normals, corner_normals, colors, uv } = &soup.attributes;
+    let Attributes { normals, corner_normals, colors, uv, labels, .. } = &soup.attributes;
     let (texcoords, face_texcoords) = indexed("texture coordinates", uv.as_deref().unwrap_or_default())?;
     let (of_corners, face_normals) = indexed("normals", corner_normals.as_deref().unwrap_or_default())?;
     write(&TexturedMesh {
@@ -68,6 +72,7 @@ pub(super) fn with_textured<T>(soup: &Soup, write: impl FnOnce(&TexturedMesh<'_>
         texcoord_weights: &[],
         face_texcoords: &face_texcoords,
         face_normals: &face_normals,
+        labels: labels.as_ref(),
     })
 }
 

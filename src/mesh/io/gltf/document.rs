@@ -2,6 +2,7 @@
 //! memory than their text, so that a document cannot take many times its size.
 
 use serde::Deserialize;
+use serde::de::IgnoredAny;
 
 /// The JSON document [glTF 2.0, section 5].
 #[derive(Deserialize)]
@@ -23,11 +24,46 @@ pub(super) struct GltfDocument {
     pub buffer_views: Vec<BufferView>,
     #[serde(default)]
     pub buffers: Vec<Buffer>,
+    // Lists of which the numbers alone are kept, which take no memory.
+    #[serde(default)]
+    pub materials: Vec<IgnoredAny>,
+    #[serde(default)]
+    pub images: Vec<IgnoredAny>,
+    #[serde(default)]
+    pub animations: Vec<IgnoredAny>,
+    #[serde(default)]
+    pub skins: Vec<IgnoredAny>,
+}
+
+impl GltfDocument {
+    /// The parts of the document that are not read. Each file of this library has the same plain material, which is none of them.
+    pub fn unread(&self) -> Vec<String> {
+        let own = self.asset.generator.as_deref().is_some_and(|name| name.starts_with("ricci "));
+        let primitives = || self.meshes.iter().flat_map(|mesh| &mesh.primitives);
+        let with = |has: fn(&Primitive) -> bool| primitives().filter(|primitive| has(primitive)).count();
+        let counts = [
+            (if own { 0 } else { self.materials.len() }, ["material", "materials"]),
+            (self.images.len(), ["picture of textures", "pictures of textures"]),
+            (self.animations.len(), ["animation", "animations"]),
+            (self.skins.len(), ["skin", "skins"]),
+            (with(|p| p.targets.is_some()), ["primitive's morph targets", "primitives' morph targets"]),
+            (
+                with(|p| p.attributes.texcoord_1.is_some()),
+                ["second set of texture coordinates", "second sets of texture coordinates"],
+            ),
+            (with(|p| p.attributes.tangent.is_some()), ["primitive's tangents", "primitives' tangents"]),
+        ];
+        let told = |(n, [one, many]): (usize, [&str; 2])| {
+            (n > 0).then(|| format!("{n} {}", if n == 1 { one } else { many }))
+        };
+        counts.into_iter().filter_map(told).collect()
+    }
 }
 
 #[derive(Deserialize)]
 pub(super) struct Asset {
     pub version: String,
+    pub generator: Option<String>,
 }
 
 /// The version of a document that is not one of version 2.
@@ -182,6 +218,7 @@ pub(super) struct Primitive {
     pub attributes: AttributeAccessors,
     pub indices: Option<u32>,
     pub mode: Option<u32>,
+    pub targets: Option<IgnoredAny>,
 }
 
 /// The accessors of the attributes that are read.
@@ -195,6 +232,10 @@ pub(super) struct AttributeAccessors {
     pub color: Option<u32>,
     #[serde(rename = "TEXCOORD_0")]
     pub texcoord: Option<u32>,
+    #[serde(rename = "TEXCOORD_1")]
+    pub texcoord_1: Option<IgnoredAny>,
+    #[serde(rename = "TANGENT")]
+    pub tangent: Option<IgnoredAny>,
     #[serde(rename = "_RICCI_VERTEX")]
     pub vertex: Option<u32>,
 }

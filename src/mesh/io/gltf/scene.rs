@@ -267,7 +267,8 @@ impl CollectedMeshes<'_> {
             Some(list).filter(|list| !list.is_empty())
         }
         let (normals, colors, uv) = (some(normals), some(colors), some(uv));
-        let attributes = Attributes { normals, corner_normals, colors, uv, ..Attributes::default() };
+        let unread = self.file.document.unread();
+        let attributes = Attributes { normals, corner_normals, colors, uv, unread, ..Attributes::default() };
         soup.attributes = attributes.finite_only();
         Ok(soup)
     }

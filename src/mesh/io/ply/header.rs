@@ -55,6 +55,8 @@ pub(super) struct PlyHeader<'a> {
     /// The start of the body: its first byte and its first line, from 1.
     pub body: usize,
     pub line: usize,
+    /// The pictures that comments name as textures.
+    pub pictures: Vec<String>,
 }
 
 /// The lines of a header, each with the byte after it. A lone carriage return ends a line too: if one ends the first line, line feeds
@@ -88,12 +90,15 @@ pub(super) fn header<'a>(bytes: &'a [u8], path: &str) -> Result<PlyHeader<'a>> {
         let what = "this is no PLY file: that begins with the line `ply`";
         return Location::line(path, 1).error(what.into());
     }
-    let mut encoding = None;
+    let (mut encoding, mut pictures) = (None, Vec::new());
     let mut elements: Vec<PlyElement<'a>> = Vec::new();
     while let Some(line) = lines.next() {
         let place = Location::line(path, lines.number);
         let mut words = line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
         match words.next() {
+            Some(b"comment") if words.next() == Some(b"TextureFile") => {
+                pictures.extend(words.next().map(|name| Quoted(&text(name)).to_string()));
+            }
             None | Some(b"comment" | b"obj_info") => {}
             Some(b"format") => encoding = Some(format(words.next(), place)?),
             Some(b"element") => {
@@ -114,7 +119,13 @@ pub(super) fn header<'a>(bytes: &'a [u8], path: &str) -> Result<PlyHeader<'a>> {
                 let Some(encoding) = encoding else {
                     return place.error("the header has no line `format`".into());
                 };
-                return Ok(PlyHeader { encoding, elements, body: lines.at, line: lines.number + 1 });
+                return Ok(PlyHeader {
+                    encoding,
+                    elements,
+                    body: lines.at,
+                    line: lines.number + 1,
+                    pictures,
+                });
             }
             Some(word) => {
                 return place.error(format!("{} begins no line of a PLY header", Quoted(&text(word))));

@@ -4,22 +4,25 @@
 
 mod body;
 mod header;
+mod numbers;
 mod write;
 
 pub use write::write_ply;
 
 use super::budget::Budget;
 use super::polygon::Polygons;
-use super::scan::Location;
-use super::{Attributes, Soup};
+use super::scan::{Location, Quoted};
+use super::{Attributes, NumberColumn, Soup};
 use crate::error::Result;
 use crate::mesh::Point;
 use crate::mesh::incidence::distinct;
 use body::{PlyBody, PlyRow};
 use header::{PlyElement, header};
+use numbers::OwnColumns;
 
 /// Parses a PLY file: elements `vertex` (x, y, z; nx, ny, nz; red, green, blue, alpha, also as diffuse_red, …; s, t or u, v or texture_u,
-/// texture_v), `face` (vertex_indices or vertex_index, texcoord) and `tristrips`; everything else is skipped. `path` is used in errors.
+/// texture_v), `face` (vertex_indices or vertex_index, texcoord) and `tristrips`; other numbers of vertices and faces are kept under
+/// their names, everything else is skipped and named in [`Attributes::unread`]. `path` is used in errors.
 ///
 /// Integer colours are divided by the largest value of their type (by 255 from 32 bits on).
 ///
@@ -31,8 +34,10 @@ pub fn parse_ply(bytes: &[u8], path: &str) -> Result<Soup> {
     let Some(vertex) = header.elements.iter().find(|e| e.name == b"vertex") else {
         return Location::line(path, header.line - 1).error("the header has no element `vertex`".into());
     };
-    let mut vertices = VertexColumns::new(vertex, path)?;
-    let (mut polygons, mut corner_uv) = (Polygons::default(), Vec::new());
+    let mut unread: Vec<String> =
+        header.pictures.iter().map(|name| format!("picture {name} of the texture")).collect();
+    let mut vertices = VertexColumns::new(vertex, path, &mut unread)?;
+    let mut faces = FaceRows::default();
     let mut budget = Budget::of(bytes);
     let mut body = PlyBody::new(bytes, &header, path);
     for element in &header.elements {
@@ -43,30 +48,73 @@ pub fn parse_ply(bytes: &[u8], path: &str) -> Result<Soup> {
             })?,
             b"face" => {
                 let lists = [corners_of(element, path)?, element.list(&["texcoord"])];
-                body.each(element, &lists, |f, row, place| {
-                    for &v in &row.lists[0] {
-                        polygons.corners.push(place.vertex(v, format_args!("face {f}"))?);
-                    }
-                    if row.lists[1].len() == 2 * row.lists[0].len() {
-                        corner_uv.extend(row.lists[1].chunks_exact(2).map(|uv| [uv[0], uv[1]]));
-                    }
-                    polygons.end();
-                    Ok(())
-                })?;
+                let read: Vec<usize> = lists.into_iter().flatten().collect();
+                faces.own = OwnColumns::new(element, &read, &mut unread);
+                body.each(element, &lists, |f, row, place| faces.push(f, row, place))?;
             }
             b"tristrips" => {
                 let lists = [corners_of(element, path)?];
                 body.each(element, &lists, |f, row, place| {
                     // A triangle for each corner, which may take a byte.
                     budget.take(row.lists[0].len(), size_of::<([u32; 3], usize)>(), "strips", place)?;
-                    strips(&row.lists[0], f, place, &mut polygons)
+                    strips(&row.lists[0], f, place, &mut faces.polygons)
                 })?;
             }
-            _ => body.skip(element)?,
+            _ => {
+                if element.count > 0 {
+                    let name = String::from_utf8_lossy(element.name);
+                    unread.push(format!("element {} of {} rows", Quoted(&name), element.count));
+                }
+                body.skip(element)?;
+            }
         }
     }
-    let triangles = polygons.triangles(&vertices.positions, &mut budget, Location::whole(path))?;
-    Ok(vertices.soup(&polygons, &triangles, &corner_uv))
+    let triangles = faces.polygons.triangles(&vertices.positions, &mut budget, Location::whole(path))?;
+    let face_numbers = faces.numbers(&triangles, &mut budget, Location::whole(path))?;
+    let mut soup = vertices.soup(&faces.polygons, &triangles, &faces.corner_uv);
+    soup.attributes.face_numbers = face_numbers;
+    soup.attributes.unread.extend(unread);
+    Ok(soup)
+}
+
+/// The rows of the element `face` that have been read.
+#[derive(Default)]
+struct FaceRows {
+    polygons: Polygons,
+    corner_uv: Vec<[f64; 2]>,
+    own: OwnColumns,
+}
+
+impl FaceRows {
+    fn push(&mut self, f: usize, row: &PlyRow, place: Location<'_>) -> Result<()> {
+        for &v in &row.lists[0] {
+            self.polygons.corners.push(place.vertex(v, format_args!("face {f}"))?);
+        }
+        if row.lists[1].len() == 2 * row.lists[0].len() {
+            self.corner_uv.extend(row.lists[1].chunks_exact(2).map(|uv| [uv[0], uv[1]]));
+        }
+        self.own.push(row);
+        self.polygons.end();
+        Ok(())
+    }
+
+    /// The numbers of the triangles: those of the polygons that they are parts of. Triangles of strips have none.
+    fn numbers(
+        &mut self,
+        triangles: &[[usize; 3]],
+        budget: &mut Budget,
+        place: Location<'_>,
+    ) -> Result<Vec<NumberColumn>> {
+        let columns = std::mem::take(&mut self.own.columns);
+        budget.take(
+            columns.len().saturating_mul(triangles.len()),
+            size_of::<f64>(),
+            "numbers of faces",
+            place,
+        )?;
+        let owners: Vec<u32> = self.polygons.owners(triangles).map(|polygon| polygon as u32).collect();
+        Ok(columns.iter().map(|column| column.of_origins(&owners)).collect())
+    }
 }
 
 /// The list of corners in the rows of an element, if it has rows.
@@ -94,6 +142,7 @@ struct VertexColumns {
     normals: Vec<Point>,
     colors: Vec<[f64; 4]>,
     uv: Vec<[f64; 2]>,
+    own: OwnColumns,
 }
 
 /// The properties with these names, of the first alternative that exists completely.
@@ -108,21 +157,27 @@ fn columns<const N: usize>(element: &PlyElement<'_>, alternatives: &[[&str; N]])
 }
 
 impl VertexColumns {
-    fn new(element: &PlyElement<'_>, path: &str) -> Result<VertexColumns> {
+    fn new(element: &PlyElement<'_>, path: &str, unread: &mut Vec<String>) -> Result<VertexColumns> {
         let Some(position) = columns(element, &[["x", "y", "z"]]) else {
             let missing = ["x", "y", "z"].into_iter().find(|name| element.column(name).is_none());
             let missing = missing.unwrap_or_default();
             return element.place(path).error(format!("element `vertex` has no property `{missing}`"));
         };
+        let normal = columns(element, &[["nx", "ny", "nz"]]);
+        let rgb = [["red", "green", "blue"], ["diffuse_red", "diffuse_green", "diffuse_blue"]];
+        let color = columns(element, &rgb);
+        let opacity = columns(element, &[["alpha"], ["diffuse_alpha"]]).filter(|_| color.is_some());
+        let texture = columns(element, &[["s", "t"], ["u", "v"], ["texture_u", "texture_v"]]);
+        let read =
+            position.into_iter().chain(normal.into_iter().flatten()).chain(color.into_iter().flatten());
+        let read = read.chain(opacity.into_iter().flatten()).chain(texture.into_iter().flatten());
         Ok(VertexColumns {
+            own: OwnColumns::new(element, &read.collect::<Vec<_>>(), unread),
             position,
-            normal: columns(element, &[["nx", "ny", "nz"]]),
-            color: columns(
-                element,
-                &[["red", "green", "blue"], ["diffuse_red", "diffuse_green", "diffuse_blue"]],
-            ),
-            opacity: columns(element, &[["alpha"], ["diffuse_alpha"]]),
-            texture: columns(element, &[["s", "t"], ["u", "v"], ["texture_u", "texture_v"]]),
+            normal,
+            color,
+            opacity,
+            texture,
             full: element.properties.iter().map(|p| p.kind.full()).collect(),
             positions: Vec::new(),
             normals: Vec::new(),
@@ -134,6 +189,7 @@ impl VertexColumns {
     fn push(&mut self, row: &PlyRow) {
         let value = |k: usize| row.numbers[k];
         let color = |k: usize| row.numbers[k] / self.full[k];
+        self.own.push(row);
         self.positions.push(self.position.map(value));
         self.normals.extend(self.normal.map(|columns| columns.map(value)));
         self.uv.extend(self.texture.map(|columns| columns.map(value)));
@@ -154,6 +210,7 @@ impl VertexColumns {
             normals: self.normal.map(|_| self.normals),
             colors: self.color.map(|_| self.colors),
             uv,
+            vertex_numbers: self.own.columns,
             ..Attributes::default()
         };
         let faces = polygons.faces(triangles);

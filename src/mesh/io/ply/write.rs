@@ -1,13 +1,14 @@
 //! Writer of binary PLY.
 
 use crate::error::Result;
-use crate::mesh::io::{Attributes, Soup, write_atomically};
+use crate::mesh::io::{Attributes, Format, NumberColumn, Soup, write_atomically};
 use std::io::Write;
 use std::path::Path;
 
 /// Writes binary PLY, atomically (little-endian, positions as 64-bit numbers, so that they read back unchanged), with normals, colours (8
 /// bits) and texture coordinates if there are any: at the vertices (s, t) if each has a single pair, else at the corners of the faces
-/// (texcoord). Returns the names of the attributes that were left out: normals that differ between the corners of a vertex.
+/// (texcoord), and further numbers under their names. Returns what was left out: normals that differ between the corners of a vertex,
+/// numbers under a name that another property has, and [`Attributes::unheld`].
 ///
 /// # Errors
 ///
@@ -19,6 +20,13 @@ pub fn write_ply(path: &Path, soup: &Soup) -> Result<Vec<String>> {
     let Attributes { normals, colors, uv, .. } = attributes;
     let vertex_uv = attributes.vertex_uv(positions.len(), faces);
     let corner_uv = uv.as_ref().filter(|_| vertex_uv.is_none());
+    let mut left_out = [attributes.left_out(true), attributes.unheld(Format::Ply)].concat();
+    let mut names = vec!["x", "y", "z"];
+    names.extend(["nx", "ny", "nz"].into_iter().filter(|_| normals.is_some()));
+    names.extend(["red", "green", "blue", "alpha"].into_iter().filter(|_| colors.is_some()));
+    names.extend(["s", "t"].into_iter().filter(|_| vertex_uv.is_some()));
+    let vertex_numbers = free(&attributes.vertex_numbers, names, &mut left_out);
+    let face_numbers = free(&attributes.face_numbers, vec!["vertex_indices", "texcoord"], &mut left_out);
     write_atomically(path, |out| {
         write!(out, "ply\nformat binary_little_endian 1.0\ncomment ricci {}\n", env!("CARGO_PKG_VERSION"))?;
         write!(
@@ -37,10 +45,12 @@ pub fn write_ply(path: &Path, soup: &Soup) -> Result<Vec<String>> {
         if vertex_uv.is_some() {
             out.write_all(b"property double s\nproperty double t\n")?;
         }
+        declare(out, &vertex_numbers)?;
         write!(out, "element face {}\nproperty list uchar uint vertex_indices\n", faces.len())?;
         if corner_uv.is_some() {
             out.write_all(b"property list uchar double texcoord\n")?;
         }
+        declare(out, &face_numbers)?;
         out.write_all(b"end_header\n")?;
         for (v, position) in positions.iter().enumerate() {
             let normal = normals.as_ref().map(|n| n[v]);
@@ -53,6 +63,7 @@ pub fn write_ply(path: &Path, soup: &Soup) -> Result<Vec<String>> {
             for x in vertex_uv.iter().flat_map(|uv| uv[v]) {
                 out.write_all(&x.to_le_bytes())?;
             }
+            row(out, &vertex_numbers, v)?;
         }
         for (f, face) in faces.iter().enumerate() {
             out.write_all(&[3])?;
@@ -65,8 +76,37 @@ pub fn write_ply(path: &Path, soup: &Soup) -> Result<Vec<String>> {
                     out.write_all(&x.to_le_bytes())?;
                 }
             }
+            row(out, &face_numbers, f)?;
         }
         Ok(())
     })?;
-    Ok(attributes.left_out(true))
+    Ok(left_out)
+}
+
+/// The columns whose names no other property of their element has; the others are added to `left_out`.
+fn free<'a>(
+    columns: &'a [NumberColumn],
+    mut names: Vec<&'a str>,
+    left_out: &mut Vec<String>,
+) -> Vec<&'a NumberColumn> {
+    let mut kept = Vec::new();
+    for column in columns {
+        if names.contains(&&column.name[..]) {
+            left_out.push(format!("numbers `{}`: another property has the name", column.name));
+        } else {
+            names.push(&column.name);
+            kept.push(column);
+        }
+    }
+    kept
+}
+
+fn declare(out: &mut impl Write, columns: &[&NumberColumn]) -> std::io::Result<()> {
+    columns.iter().try_for_each(|column| writeln!(out, "property {} {}", column.kind.name(), column.name))
+}
+
+fn row(out: &mut impl Write, columns: &[&NumberColumn], k: usize) -> std::io::Result<()> {
+    columns
+        .iter()
+        .try_for_each(|column| out.write_all(&column.kind.bytes(column.values[k])[..column.kind.size()]))
 }
