@@ -245,6 +245,60 @@ fn vertices_of_off_may_share_a_line_and_its_header_be_small() {
     );
 }
 
+#[test]
+fn a_coordinate_that_is_not_finite_is_one_in_every_text_format() {
+    for word in ["nan", "-nan(ind)", "1.#IND", "-1.#IND", "1.#QNAN0", "#QNAN", "1.#INF", "-1.#INF00"] {
+        let obj = format!("v 0 0 0\nv 1 0 0 # last\nv 0 {word} 0\nf 1 2 3\n");
+        let off = format!("OFF\n3 1 0\n0 0 0\n1 0 0 # last\n0 {word} 0\n3 0 1 2\n");
+        let ply = HEADER.to_string() + &BODY.replace("0 0.5 0", &format!("0 {word} 0"));
+        let stl = FACET.replace("0 0.5 0", &format!("0 {word} 0"));
+        for (name, soup) in [
+            ("obj", io::parse_obj(obj.as_bytes(), "t")),
+            ("off", io::parse_off(off.as_bytes(), "t")),
+            ("ply", io::parse_ply(ply.as_bytes(), "t")),
+            ("stl", io::parse_stl(stl.as_bytes(), "t")),
+        ] {
+            let soup = soup.unwrap_or_else(|e| panic!("{name} {word}: {e}"));
+            let finite: Vec<bool> = soup.positions.iter().map(|p| p[1].is_finite()).collect();
+            assert_eq!(finite, [true, true, false], "{name} {word}");
+        }
+    }
+}
+
+#[test]
+fn attributes_that_are_not_finite_are_left_out_and_said() {
+    let header =
+        HEADER.replace("float z\n", "float z\nproperty float nx\nproperty float ny\nproperty float nz\n");
+    let soup = ply(&(header + "0 0 0 nan nan nan\n1 0 0 0 0 1\n0 0.5 0 0 0 1\n3 0 1 2\n")).unwrap();
+    assert_eq!(soup.positions, TRIANGLE);
+    assert!(soup.attributes.normals.is_none());
+    assert_eq!(soup.attributes.unread, ["normals: 1 of 3 are not finite, the first at vertex 0 (from 0)"]);
+}
+
+#[test]
+fn a_file_by_name_and_its_bytes_are_read_alike() {
+    let folder = tempfile::tempdir().unwrap();
+    let facets = format!("SOLID A\n{}END SOLID\n", FACET.to_ascii_uppercase().replace("ENDLOOP", "END LOOP"));
+    for (name, text) in [
+        ("t.stl", facets),
+        ("b.stl", format!("\u{feff}solid a\n{FACET}endsolid\n")),
+        ("t.off", "3 1 0\n0 0 0\n1 0 0\n0 0.5 0\n3 0 1 2\n".into()),
+        ("t.ply", HEADER.to_string() + BODY),
+        // A mark is stronger than a name.
+        ("ply.obj", HEADER.to_string() + BODY),
+    ] {
+        let path = folder.path().join(name);
+        std::fs::write(&path, &text).unwrap();
+        let by_name = io::read(&path).unwrap();
+        assert_eq!((&by_name.positions[..], &by_name.faces[..]), (&TRIANGLE[..], &[[0, 1, 2]][..]), "{name}");
+        let file = io::SurfaceFile::of_bytes(text.into_bytes(), "bytes").unwrap();
+        assert_eq!(file.soup().unwrap(), by_name, "{name}");
+    }
+    let metric = io::SurfaceFile::of_bytes(b" {\"faces\": []}".to_vec(), "m").unwrap();
+    assert_eq!(metric.format(), io::SurfaceFormat::Metric);
+    assert!(matches!(metric.soup(), Err(Error::UnknownFormat { .. })));
+}
+
 /// A star of `n` corners, every other of which turns inwards.
 fn star(n: usize) -> String {
     let point = |i: usize| {

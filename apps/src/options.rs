@@ -59,7 +59,7 @@ fn threads() -> impl TypedValueParser<Value = usize> {
 /// A mesh file, with the distance of welding.
 #[derive(Args, Serialize, Debug, Clone)]
 pub struct MeshArgs {
-    /// Mesh file (.obj, .off, .ply, .stl, .glb, .gltf, .gii) or intrinsic metric (.json: `faces` and `lengths` suffice); - for stdin
+    /// Mesh file (.obj, .off, .ply, .stl, .glb, .gltf, .gii; also .gz) or intrinsic metric (.json: `faces` and `lengths` suffice); - for stdin
     #[serde(skip)]
     pub mesh: PathBuf,
     /// STL: corners within this distance are one vertex; 0: those in exactly the same place

@@ -31,7 +31,7 @@ The exit code is 1 if a defect is left that needs a guess; the file is written a
 
 #[derive(Args, Serialize, Debug)]
 pub struct RepairArgs {
-    /// Mesh file (.obj, .off, .ply, .stl, .glb, .gltf, .gii)
+    /// Mesh file (.obj, .off, .ply, .stl, .glb, .gltf, .gii; also .gz)
     #[serde(skip)]
     pub mesh: PathBuf,
     /// Repaired mesh (.obj, .off, .ply, .glb)

@@ -546,7 +546,8 @@ RICCI_API ricci_status ricci_mesh_with_lengths(const ricci_mesh *mesh, const dou
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (not UTF-8), RICCI_IO, RICCI_PARSE,
  * RICCI_UNKNOWN_FORMAT, RICCI_DEFECTS.
  *
- * @param path  file name in UTF-8, ending in .obj, .off, .ply, .stl, .glb, .gltf or .gii.
+ * @param path  file name in UTF-8, ending in .obj, .off, .ply, .stl, .glb, .gltf or .gii, or in one of
+ *              these and .gz.
  * @param mesh  out: the new handle, to be released by ricci_mesh_free.
  */
 RICCI_API ricci_status ricci_mesh_read(const char *path, ricci_mesh **mesh);

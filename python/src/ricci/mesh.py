@@ -96,7 +96,7 @@ class Mesh(Triangles):
 
     @classmethod
     def read(cls, path: str | os.PathLike[str]) -> Self:
-        """The mesh of a file (.obj, .off, .ply, .stl, .glb, .gltf, .gii) with its attributes, in the file's numbers.
+        """The mesh of a file (.obj, .off, .ply, .stl, .glb, .gltf, .gii, or .gz behind) with its attributes, in the file's numbers.
 
         Raises:
             FileError: it cannot be read, or its ending is not known.
