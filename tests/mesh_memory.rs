@@ -193,6 +193,15 @@ fn dense_texts(cases: &mut Vec<Case>) {
             list("v 0 0 0\n", item, 4 * N / item.len(), "")
         }));
     }
+    for item in ["g a\nf\ng b\nf\n", "usemtl\nf 1 1 1\no a\nf 1 1 1\n", "l 1 1\n", "mtllib a\nmtllib b\n"] {
+        cases.push(Case::new(format!("OBJ {item:?}"), io::parse_obj, None, move || {
+            list("v 0 0 0\n", item, 4 * N / item.len(), "")
+        }));
+    }
+    cases.push(Case::new("OBJ of different groups", io::parse_obj, Some(true), || {
+        let groups: String = (0..N / 4).map(|k| format!("g {k:x}\nf 1 1 1\n")).collect();
+        list("v 0 0 0\n", &groups, 1, "")
+    }));
     for (what, item) in [("polygon", " 1"), ("continued line", " 1\\\n")] {
         let make = move || list("v 0 0 0\nf", item, N, "\n");
         cases.push(Case::new(format!("OBJ {what}"), io::parse_obj, None, make));
@@ -241,6 +250,13 @@ fn dense_ply(cases: &mut Vec<Case>) {
         Box::new(move || ply(XYZ, 1, "tristrips", 4 * N / 256, &[&[0; 3][..], &polygons()].concat())),
     );
     push("PLY vertices", Box::new(|| ply(XYZ, N, "face", 0, &vec![0; 3 * N])));
+    push(
+        "PLY vertices with further numbers",
+        Box::new(|| {
+            let own: String = (0..8).map(|k| format!("property uchar q{k}\n")).collect();
+            ply(&format!("{XYZ}{own}"), N, "face", 0, &vec![0; 11 * N])
+        }),
+    );
     push(
         "PLY vertices with attributes",
         Box::new(|| ply(&format!("{XYZ}{COLOR}{UV}"), N, "face", 0, &vec![0; 8 * N])),

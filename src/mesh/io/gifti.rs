@@ -74,6 +74,9 @@ impl LineCounter<'_> {
     }
 }
 
+/// Most arrays that are not read and are named.
+const MOST_OTHERS: usize = 16;
+
 /// The arrays of interest that have been read.
 #[derive(Default)]
 struct GiftiArrays {
@@ -107,8 +110,10 @@ impl GiftiArrays {
             "NIFTI_INTENT_VECTOR" if header.is_vectors() => {
                 self.vectors.push(points(rows("vectors")?));
             }
-            // The parser bounds the number of arrays by that of their tags, each longer than what is kept here.
-            other => self.others.push(format!("array {}", Quoted(other.trim_start_matches("NIFTI_INTENT_")))),
+            other if self.others.len() < MOST_OTHERS => {
+                self.others.push(format!("array {}", Quoted(other.trim_start_matches("NIFTI_INTENT_"))));
+            }
+            _ => {}
         }
         Ok(())
     }
