@@ -343,9 +343,7 @@ fn stl_is_welded_within_a_distance_on_request() {
         Soup::new([a, b, c, d].map(|p| p.map(f64::from)).to_vec(), vec![[0, 1, 2], [0, 2, 3], [3, 3, 3]])
     );
     assert_eq!(io::parse_stl_welded(&bytes, "t.stl", 0.0), io::parse_stl(&bytes, "t.stl"));
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("x.bin"), &bytes).unwrap();
-    assert_eq!(io::read_stl(&folder.path().join("x.bin"), 2e-3).unwrap(), welded);
+    assert_eq!(io::SurfaceFile::of_bytes(bytes.clone(), "x").unwrap().welded(2e-3).unwrap(), welded);
     for weld in [-1.0, f64::NAN, f64::INFINITY] {
         assert!(matches!(
             io::parse_stl_welded(&bytes, "t.stl", weld),

@@ -310,7 +310,7 @@ pub unsafe extern "C" fn ricci_mesh_write(
 /// Writes a triangle list in the format of the file's extension.
 pub(crate) fn write_soup(path: &std::path::Path, soup: &Soup) -> Outcome {
     for what in io::write(path, soup)? {
-        log::warn!("{}: the format has no place for {what}: left out", path.display());
+        log::warn!("{}: left out: {what}", path.display());
     }
     Ok(())
 }

@@ -33,7 +33,7 @@ impl JobOutcome for CirclesOutcome {
     }
 
     fn figures(&self, run: &CommandRun<'_>) -> Figures {
-        let CirclesOutcome { input, domain, laid, .. } = self;
+        let CirclesOutcome { domain, laid, .. } = self;
         let report = &domain.report;
         let circle = |c: &ricci::canonical::DomainCircle| json!({"loop": c.boundary_loop, "center": c.center, "radius": c.radius, "log_radius": c.log_radius, "deviation": c.deviation, "vertices": c.vertices});
         Figures::default()

@@ -75,8 +75,8 @@ fn has(text: &[u8], word: &[u8]) -> bool {
 
 /// The first word of a text that is in no comment.
 fn first_word(text: &[u8]) -> &[u8] {
-    let lines = text.split(|&b| b == b'\n' || b == b'\r').map(<[u8]>::trim_ascii);
-    let line = lines.into_iter().find(|line| !line.is_empty() && line[0] != b'#').unwrap_or_default();
+    let mut lines = text.split(|&b| b == b'\n' || b == b'\r').map(<[u8]>::trim_ascii);
+    let line = lines.find(|line| !line.is_empty() && line[0] != b'#').unwrap_or_default();
     line.split(u8::is_ascii_whitespace).next().unwrap_or_default()
 }
 

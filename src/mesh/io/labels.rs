@@ -86,9 +86,9 @@ impl FaceLabels {
                 "indices of labels",
             ));
         }
-        let names =
-            self.labels.iter().flat_map(FaceLabel::names).chain(self.libraries.iter().map(String::as_str));
-        match names.into_iter().find(|name| name.contains(['\n', '\r'])) {
+        let libraries = self.libraries.iter().map(String::as_str);
+        let mut names = self.labels.iter().flat_map(FaceLabel::names).chain(libraries);
+        match names.find(|name| name.contains(['\n', '\r'])) {
             Some(name) => Err(Error::argument("labels", format!("{name:?}"), "names without line ends")),
             None => Ok(()),
         }

@@ -32,7 +32,8 @@ pub(super) const READER_FEATURES: &[(&str, &str)] = &[("glb", "gltf"), ("gltf", 
 pub struct SurfaceFile {
     /// The name in errors.
     name: String,
-    /// The folder of files that this one names.
+    /// The folder of the files that this one names, as only glTF does.
+    #[cfg_attr(not(feature = "gltf"), allow(dead_code))]
     folder: Option<PathBuf>,
     bytes: Vec<u8>,
     format: SurfaceFormat,

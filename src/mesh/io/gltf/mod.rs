@@ -62,16 +62,17 @@ pub(super) fn parse_beside(bytes: &[u8], path: &str, folder: Option<&Path>) -> R
     if let Some(name) = document.extensions_required.iter().find(|name| !known(name)) {
         return place.error(format!("the file needs the extension {name}; export it without"));
     }
+    let beside = files_beside(&document.buffers, folder);
     let mut file =
         GltfFile { document: &document, buffers: Vec::new(), path, json: text, json_start: json.start };
     let refuse = |file: &GltfFile<'_>, i: usize, message: String| {
         file.place_of("buffers", i).error(format!("buffer {i} {message}"))
     };
-    let beside = match files_beside(&document.buffers, folder) {
+    let beside = match &beside {
         Ok(files) => files,
-        Err((i, message)) => return refuse(&file, i, message),
+        Err((i, message)) => return refuse(&file, *i, message.clone()),
     };
-    let sources = BufferSources { file: bytes, binary, beside: &beside };
+    let sources = BufferSources { file: bytes, binary, beside };
     for (i, buffer) in document.buffers.iter().enumerate() {
         match stored(i, buffer, &sources) {
             Ok(found) => file.buffers.push(found),

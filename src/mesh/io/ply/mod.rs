@@ -61,7 +61,7 @@ pub fn parse_ply(bytes: &[u8], path: &str) -> Result<Soup> {
                 })?;
             }
             _ => {
-                if element.count > 0 {
+                if element.count > 0 && !element.properties.is_empty() {
                     let name = String::from_utf8_lossy(element.name);
                     unread.push(format!("element {} of {} rows", Quoted(&name), element.count));
                 }
