@@ -96,7 +96,7 @@ pub(super) fn header<'a>(bytes: &'a [u8], path: &str) -> Result<PlyHeader<'a>> {
         let place = Location::line(path, lines.number);
         let mut words = line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
         match words.next() {
-            Some(b"comment") if words.next() == Some(b"TextureFile") => {
+            Some(b"comment") if words.next() == Some(&b"TextureFile"[..]) => {
                 pictures.extend(words.next().map(|name| Quoted(&text(name)).to_string()));
             }
             None | Some(b"comment" | b"obj_info") => {}
