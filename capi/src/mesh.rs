@@ -272,6 +272,7 @@ impl ricci_attributes {
             colors: arrays::optional("colors", self.colors, v)?,
             uv: arrays::optional("uv", self.uv, f)?,
             corner_normals: arrays::optional("corner_normals", self.corner_normals, f)?,
+            ..Attributes::default()
         })
     }
 }
@@ -287,7 +288,10 @@ pub unsafe extern "C" fn ricci_mesh_write(
         let mut soup = mesh.soup()?;
         let given = structs::read(attributes)?;
         if !attributes.is_null() {
-            soup.attributes = given.of(&soup)?;
+            let Attributes { normals, colors, uv, corner_normals, .. } = given.of(&soup)?;
+            // Names of faces and further numbers stay.
+            let kept = std::mem::take(&mut soup.attributes);
+            soup.attributes = Attributes { normals, colors, uv, corner_normals, ..kept };
         }
         if given.png.is_null() && given.png_size == 0 {
             return write_soup(&path, &soup);
