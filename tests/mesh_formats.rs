@@ -5,7 +5,7 @@ mod common;
 
 use common::Random;
 use proptest::prelude::{any, prop, proptest};
-use ricci::mesh::io::{self, Attributes, FaceLabel, FaceLabels, Format, NumberColumn, NumberType, Soup};
+use ricci::mesh::io::{self, Attributes, Soup};
 use ricci::mesh::repair::{Repair, repair};
 use ricci::mesh::{Mesh, shapes};
 use ricci::{Error, FilePosition};
@@ -70,76 +70,6 @@ fn what_is_written_reads_back_the_same() {
         io::write_off(&at("s.off"), &shape).unwrap();
         assert_eq!(io::read(&at("s.ply")).unwrap(), shape);
         assert_eq!(io::read(&at("s.off")).unwrap(), shape);
-    }
-}
-
-/// The tetrahedron with names of its faces, and with further numbers of vertices and faces.
-fn labelled() -> Soup {
-    let mut soup = decorated();
-    let label = |group: &str, material: &str| FaceLabel {
-        object: "whole thing".into(),
-        group: group.into(),
-        material: material.into(),
-        smoothing: "off".into(),
-    };
-    let column =
-        |name: &str, kind, values: &[f64]| NumberColumn { name: name.into(), kind, values: values.to_vec() };
-    let attributes = &mut soup.attributes;
-    attributes.labels = Some(FaceLabels {
-        libraries: vec!["a b.mtl".into(), "c.mtl".into()],
-        labels: vec![label("left", "Red #1"), label("left", "Blü"), label("right side", "Red #1")],
-        of_face: vec![0, 1, 1, 2],
-    });
-    attributes.vertex_numbers = vec![
-        column("quality", NumberType::F32, &[0.5, 1.0, -2.0, 0.0, 1e30]),
-        column("label", NumberType::I16, &[-3.0, 0.0, 7.0, 1.0, 300.0]),
-    ];
-    attributes.face_numbers = vec![column("region", NumberType::U8, &[1.0, 2.0, 3.0, 255.0])];
-    soup
-}
-
-#[test]
-fn names_and_numbers_go_to_the_format_that_holds_them() {
-    let folder = tempfile::tempdir().unwrap();
-    let at = |name: &str| folder.path().join(name);
-    let soup = labelled();
-    let names = "2 materials, 2 groups, 1 object name: only OBJ has them";
-    let numbers = ["numbers of vertices `quality`, `label`", "numbers of faces `region`"]
-        .map(|n| format!("{n}: only PLY has them"));
-    assert_eq!(io::write(&at("m.obj"), &soup).unwrap(), numbers);
-    assert_eq!(io::read(&at("m.obj")).unwrap().attributes.labels, soup.attributes.labels);
-    assert_eq!(io::write(&at("m.ply"), &soup).unwrap(), [names]);
-    let mut expected = soup.clone();
-    expected.attributes.labels = None;
-    assert_eq!(io::read(&at("m.ply")).unwrap(), expected);
-    assert_eq!(soup.attributes.unheld(Format::Off), [&[names.to_string()], &numbers[..]].concat());
-    // A name that another property has, and labels that are too few.
-    let mut clash = soup.clone();
-    clash.attributes.vertex_numbers[0].name = "nx".into();
-    assert!(io::write(&at("c.ply"), &clash).unwrap().iter().any(|what| what.starts_with("numbers `nx`")));
-    clash.attributes.labels.as_mut().unwrap().of_face.pop();
-    assert!(matches!(io::write(&at("c.obj"), &clash), Err(Error::Size { .. })));
-}
-
-#[test]
-fn names_and_numbers_go_through_a_repair() {
-    let mut soup = labelled();
-    // The second face looks the other way, and the first repeats a vertex.
-    soup.faces[1].swap(0, 1);
-    soup.faces[0][1] = soup.faces[0][0];
-    let repaired = repair(&soup, &Repair::default()).unwrap();
-    let (given, found) = (&soup.attributes, &repaired.soup.attributes);
-    let labels = found.labels.as_ref().unwrap();
-    for (f, &origin) in repaired.face_origin.iter().enumerate() {
-        let given = given.labels.as_ref().unwrap();
-        assert_eq!(
-            labels.labels[labels.of_face[f] as usize],
-            given.labels[given.of_face[origin as usize] as usize]
-        );
-        assert_eq!(found.face_numbers[0].values[f], f64::from([1u8, 2, 3, 255][origin as usize]));
-    }
-    for (v, &origin) in repaired.vertex_origin.iter().enumerate() {
-        assert_eq!(found.vertex_numbers[1].values[v], given.vertex_numbers[1].values[origin as usize]);
     }
 }
 

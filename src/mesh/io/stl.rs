@@ -122,6 +122,20 @@ fn point<'a>(words: &mut Tokens<'a, impl Iterator<Item = (usize, &'a str)>>) -> 
     Ok(point)
 }
 
+/// A word in small letters, empty if it is longer than any that has a meaning. Where an end may come, the word after `end` belongs to
+/// it: some programs write `end solid`, `end facet` and `end loop`.
+fn keyword<'a>(
+    word: &str,
+    is_end: bool,
+    words: &mut Tokens<'a, impl Iterator<Item = (usize, &'a str)>>,
+) -> String {
+    let mut lower = if word.len() <= 8 { word.to_ascii_lowercase() } else { String::new() };
+    if is_end && lower == "end" {
+        lower.extend(words.next().map(str::to_ascii_lowercase));
+    }
+    lower
+}
+
 /// The words that may come next in a text file.
 enum NextWord {
     /// The beginning or end of a solid, a facet or a loop.
@@ -143,21 +157,16 @@ fn ascii(text: &str, path: &str) -> Result<Soup> {
     let (mut expect, mut begun, mut ended, mut solids) = (NextWord::Part, false, false, 0);
     while let Some(word) = words.next() {
         let (place, line) = (words.place(), words.line);
-        let mut lower = if word.len() <= 8 { word.to_ascii_lowercase() } else { String::new() };
         if let NextWord::Name { line: named, .. } = expect
             && named != line
         {
             expect = NextWord::Part;
         }
-        if lower == "end" && matches!(expect, NextWord::Part | NextWord::Corner(_)) {
-            // Some programs write `end solid`, `end facet` and `end loop` as two words.
-            lower.extend(words.next().map(str::to_ascii_lowercase));
-        }
+        let is_end = matches!(expect, NextWord::Part | NextWord::Corner(_));
+        let lower = keyword(word, is_end, &mut words);
+        solids += usize::from(lower == "solid" && matches!(expect, NextWord::Part | NextWord::Name { .. }));
         expect = match (lower.as_str(), expect) {
-            ("solid", NextWord::Part | NextWord::Name { .. }) => {
-                solids += 1;
-                NextWord::Name { line, last: false }
-            }
+            ("solid", NextWord::Part | NextWord::Name { .. }) => NextWord::Name { line, last: false },
             ("endsolid", NextWord::Part | NextWord::Name { last: false, .. }) => {
                 ended = true;
                 NextWord::Name { line, last: true }
@@ -199,9 +208,7 @@ fn ascii(text: &str, path: &str) -> Result<Soup> {
     let mut budget = Budget::of(text.as_bytes());
     let triangles = polygons.triangles(&weld.soup.positions, &mut budget, Location::whole(path))?;
     weld.soup.faces = polygons.faces(&triangles);
-    if solids > 1 {
-        weld.soup.attributes.unread.push(format!("names of {solids} solids"));
-    }
+    weld.soup.attributes.unread.extend((solids > 1).then(|| format!("names of {solids} solids")));
     Ok(weld.soup)
 }
 

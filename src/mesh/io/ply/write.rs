@@ -16,43 +16,70 @@ use std::path::Path;
 /// [`crate::Error::Size`] for attributes of another size, [`crate::Error::Io`].
 pub fn write_ply(path: &Path, soup: &Soup) -> Result<Vec<String>> {
     soup.check_writable()?;
-    let Soup { positions, faces, attributes } = soup;
-    let Attributes { normals, colors, uv, .. } = attributes;
-    let vertex_uv = attributes.vertex_uv(positions.len(), faces);
-    let corner_uv = uv.as_ref().filter(|_| vertex_uv.is_none());
+    let attributes = &soup.attributes;
+    let vertex_uv = attributes.vertex_uv(soup.positions.len(), &soup.faces);
     let mut left_out = [attributes.left_out(true), attributes.unheld(Format::Ply)].concat();
     let mut names = vec!["x", "y", "z"];
-    names.extend(["nx", "ny", "nz"].into_iter().filter(|_| normals.is_some()));
-    names.extend(["red", "green", "blue", "alpha"].into_iter().filter(|_| colors.is_some()));
+    names.extend(["nx", "ny", "nz"].into_iter().filter(|_| attributes.normals.is_some()));
+    names.extend(["red", "green", "blue", "alpha"].into_iter().filter(|_| attributes.colors.is_some()));
     names.extend(["s", "t"].into_iter().filter(|_| vertex_uv.is_some()));
     let vertex_numbers = free(&attributes.vertex_numbers, names, &mut left_out);
     let face_numbers = free(&attributes.face_numbers, vec!["vertex_indices", "texcoord"], &mut left_out);
+    let table = PlyTable { soup, vertex_uv, vertex_numbers, face_numbers };
     write_atomically(path, |out| {
+        table.header(out)?;
+        table.vertices(out)?;
+        table.faces(out)
+    })?;
+    Ok(left_out)
+}
+
+/// The properties that are written.
+struct PlyTable<'a> {
+    soup: &'a Soup,
+    /// Texture coordinates of the vertices, if each has a single pair.
+    vertex_uv: Option<Vec<[f64; 2]>>,
+    vertex_numbers: Vec<&'a NumberColumn>,
+    face_numbers: Vec<&'a NumberColumn>,
+}
+
+impl PlyTable<'_> {
+    /// Texture coordinates of the corners, if vertices have several pairs.
+    fn corner_uv(&self) -> Option<&Vec<[[f64; 2]; 3]>> {
+        self.soup.attributes.uv.as_ref().filter(|_| self.vertex_uv.is_none())
+    }
+
+    fn header(&self, out: &mut impl Write) -> std::io::Result<()> {
+        let Soup { positions, faces, attributes } = self.soup;
         write!(out, "ply\nformat binary_little_endian 1.0\ncomment ricci {}\n", env!("CARGO_PKG_VERSION"))?;
         write!(
             out,
             "element vertex {}\nproperty double x\nproperty double y\nproperty double z\n",
             positions.len()
         )?;
-        if normals.is_some() {
+        if attributes.normals.is_some() {
             out.write_all(b"property double nx\nproperty double ny\nproperty double nz\n")?;
         }
-        if colors.is_some() {
+        if attributes.colors.is_some() {
             for name in ["red", "green", "blue", "alpha"] {
                 writeln!(out, "property uchar {name}")?;
             }
         }
-        if vertex_uv.is_some() {
+        if self.vertex_uv.is_some() {
             out.write_all(b"property double s\nproperty double t\n")?;
         }
-        declare(out, &vertex_numbers)?;
+        declare(out, &self.vertex_numbers)?;
         write!(out, "element face {}\nproperty list uchar uint vertex_indices\n", faces.len())?;
-        if corner_uv.is_some() {
+        if self.corner_uv().is_some() {
             out.write_all(b"property list uchar double texcoord\n")?;
         }
-        declare(out, &face_numbers)?;
-        out.write_all(b"end_header\n")?;
-        for (v, position) in positions.iter().enumerate() {
+        declare(out, &self.face_numbers)?;
+        out.write_all(b"end_header\n")
+    }
+
+    fn vertices(&self, out: &mut impl Write) -> std::io::Result<()> {
+        let Attributes { normals, colors, .. } = &self.soup.attributes;
+        for (v, position) in self.soup.positions.iter().enumerate() {
             let normal = normals.as_ref().map(|n| n[v]);
             for x in position.iter().chain(normal.iter().flatten()) {
                 out.write_all(&x.to_le_bytes())?;
@@ -60,27 +87,30 @@ pub fn write_ply(path: &Path, soup: &Soup) -> Result<Vec<String>> {
             if let Some(color) = colors.as_ref().map(|c| c[v]) {
                 out.write_all(&color.map(|x| (255.0 * x.clamp(0.0, 1.0)).round() as u8))?;
             }
-            for x in vertex_uv.iter().flat_map(|uv| uv[v]) {
+            for x in self.vertex_uv.iter().flat_map(|uv| uv[v]) {
                 out.write_all(&x.to_le_bytes())?;
             }
-            row(out, &vertex_numbers, v)?;
+            row(out, &self.vertex_numbers, v)?;
         }
-        for (f, face) in faces.iter().enumerate() {
+        Ok(())
+    }
+
+    fn faces(&self, out: &mut impl Write) -> std::io::Result<()> {
+        for (f, face) in self.soup.faces.iter().enumerate() {
             out.write_all(&[3])?;
             for v in face {
                 out.write_all(&v.to_le_bytes())?;
             }
-            if let Some(uv) = corner_uv.map(|uv| uv[f]) {
+            if let Some(uv) = self.corner_uv().map(|uv| uv[f]) {
                 out.write_all(&[6])?;
                 for x in uv.as_flattened() {
                     out.write_all(&x.to_le_bytes())?;
                 }
             }
-            row(out, &face_numbers, f)?;
+            row(out, &self.face_numbers, f)?;
         }
         Ok(())
-    })?;
-    Ok(left_out)
+    }
 }
 
 /// The columns whose names no other property of their element has; the others are added to `left_out`.
