@@ -57,13 +57,13 @@ fn hard_edges_keep_a_normal_for_each_corner() {
 #[test]
 fn what_a_format_has_no_place_for_is_named() {
     let cube = cube();
-    let hard = "normals at hard edges";
+    let hard = "normals at hard edges: the format has one per vertex";
     let (back, left_out) = through("m.ply", &cube);
     assert_eq!(left_out, [hard]);
     let rest = Attributes { corner_normals: None, ..cube.attributes.clone() };
     assert_eq!((&back.faces, &back.attributes), (&cube.faces, &rest));
     let (back, left_out) = through("m.off", &cube);
-    assert_eq!(left_out, [hard, "texture coordinates, for they have seams"]);
+    assert_eq!(left_out, [hard, "texture coordinates, for they have seams: the format has one pair per vertex"]);
     assert_eq!((&back.faces, back.attributes), (&cube.faces, Attributes::default()));
     let smooth = Soup { attributes: Attributes::default(), ..cube };
     for name in ["m.obj", "m.off", "m.ply", "m.glb"] {
