@@ -30,6 +30,7 @@ mod off_extras;
 mod ply;
 mod polygon;
 mod scan;
+mod sheet;
 mod shortest;
 mod soup;
 mod stl;
@@ -51,6 +52,9 @@ pub use obj::parse_obj;
 pub use obj_write::{write_obj, write_obj_to};
 pub use off::{parse_off, write_off};
 pub use ply::{parse_ply, write_ply};
+pub use sheet::{
+    CuttingSheet, SheetLayer, SheetLine, SheetUnit, write_dxf, write_dxf_to, write_svg, write_svg_to,
+};
 pub use soup::{Attributes, Soup};
 pub use stl::{parse_stl, parse_stl_welded};
 pub use surface_file::SurfaceFile;
