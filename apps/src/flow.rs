@@ -3,7 +3,8 @@
 use crate::charts;
 use crate::circle_file::CircleFile;
 use crate::csv;
-use crate::failure::Failure;
+use crate::failure::{Failure, NO_POSITIONS};
+use crate::flat::FlatLayout;
 use crate::flow_args::{FlowArgs, PinChoice, StepsChoice, TargetChoice};
 use crate::input::{self, Input};
 use crate::job::{FlowJob, FlowOutcome, default_space, run_flow};
@@ -14,7 +15,7 @@ use crate::progress::doing;
 use crate::report::timed;
 use crate::runner::{CommandRun, Job, JobHeader};
 use crate::show;
-use crate::surface_layout::OwnFaces;
+use crate::surface_layout::{OwnFaces, SurfaceLayout};
 use crate::uv;
 use ricci::flow::{Gradient, Options, StepRule};
 use ricci::geometry::Space;
@@ -36,11 +37,21 @@ impl Job for FlowArgs {
         let (to, picture) = (&self.to, &self.picture.base.picture);
         check_extension("--uv", to.uv.as_deref(), written)?;
         check_extension("--picture", picture.as_deref(), &["png", "svg"])?;
+        to.flat.check()?;
         let table = match &self.target {
             Some(TargetChoice::Cones(path) | TargetChoice::File(path)) => Some(path.as_path()),
             _ => None,
         };
-        let files = [&to.metric, &to.uv, &to.xref, &self.circles, &self.trace, &to.common.report, picture];
+        let files = [
+            &to.metric,
+            &to.uv,
+            &to.xref,
+            &to.flat.flat,
+            &self.circles,
+            &self.trace,
+            &to.common.report,
+            picture,
+        ];
         let inputs = [Some(to.surface.file.mesh.as_path()), self.keep_edges.as_deref(), table];
         check_outputs(&inputs, &files.map(|file| file.as_deref()))
     }
@@ -73,6 +84,10 @@ impl Job for FlowArgs {
         match &outcome.layout {
             Ok(laid) => {
                 uv::write_asked(run, input, laid, &self.to, self.homogeneous)?;
+                run.file("flat", self.to.flat.flat.as_deref(), |outputs, path| {
+                    let flat = FlatLayout::new(input, laid, self.to.on)?.scaled(flat_scale(outcome, laid));
+                    flat.write(outputs, path, &self.to.flat)
+                })?;
                 run.file("circles", self.circles.as_deref(), |outputs, path| {
                     let none = || Failure::Failed("the metric has no circles".into());
                     outputs.add_json(path, &CircleFile::new(solved, laid).ok_or_else(none)?)
@@ -82,6 +97,7 @@ impl Job for FlowArgs {
                 why,
                 &[
                     ("uv", self.to.uv.is_some()),
+                    ("flat", self.to.flat.flat.is_some()),
                     ("xref", self.to.xref.is_some()),
                     ("circles", self.circles.is_some()),
                     ("charts", self.charts),
@@ -132,7 +148,8 @@ fn flow_job<'a>(args: &'a FlowArgs, input: &Input, space: Space) -> Result<FlowJ
         return Err(Failure::Usage("--pin boundary: a closed surface has none; name vertices".into()));
     }
     let pinned = args.pin.as_ref().map_or_else(Vec::new, |pin| pinned(pin, input.mesh()));
-    let of_layout = [&args.to.uv, &args.circles, &args.picture.base.picture, &args.to.common.report];
+    let to = &args.to;
+    let of_layout = [&to.uv, &to.flat.flat, &args.circles, &args.picture.base.picture, &to.common.report];
     Ok(FlowJob {
         space,
         scheme: args.to.solve.scheme.into(),
@@ -148,6 +165,14 @@ fn options(args: &FlowArgs) -> Options {
     let step = args.steps.map_or_else(StepRule::default, |steps| steps.0);
     let gradient = Gradient { step, area_normalised: args.area_normalised };
     Options { gradient, ..args.to.options() }
+}
+
+/// The factor from a layout, which has the area of the input, to lengths in the input's unit: where vertices are pinned, those of the
+/// metric, whose conformal factor is 0 there.
+fn flat_scale(outcome: &FlowOutcome, laid: &SurfaceLayout) -> f64 {
+    let of_charts = laid.packed.as_ref().map_or(1.0, |packed| packed.charts.scale);
+    let of_layout = if outcome.pinned.is_empty() { 1.0 } else { laid.layout.scale };
+    1.0 / (of_charts * of_layout)
 }
 
 /// Refuse options that do not go together.
@@ -167,6 +192,10 @@ fn check_options(args: &FlowArgs) -> Result<(), Failure> {
         (
             args.picture.base.is_svg() && args.picture.base.is_turned(),
             "--view, --up: an SVG shows the layout alone; use .png, or leave them out",
+        ),
+        (
+            args.picture.color == Some(ColorChoice::Charts) && !args.charts,
+            "--color charts: the layout is not cut into charts; add --charts",
         ),
         (args.margin >= 1.0, "--margin: a share of the unit square's side, in [0, 1)"),
         (
@@ -207,11 +236,13 @@ fn check_surface(args: &FlowArgs, input: &Input, space: Space) -> Result<(), Fai
         (args.circles.is_some(), "--circles"),
         (args.charts, "--charts"),
         (args.homogeneous, "--homogeneous"),
+        (args.to.flat.flat.is_some(), "--flat"),
     ];
     if let Some((_, option)) = in_plane.into_iter().find(|(wanted, _)| *wanted && space != Space::E2) {
+        let why = if option == "--flat" { "are not flat" } else { "have none" };
         return refuse(format!(
-            "{option}: layouts in {space} have none; use --space e2 (with --target single:V or cones:FILE.csv where \
-             the surface needs cones)"
+            "{option}: layouts in {space} {why}; use --space e2 (with --target auto:N, single:V or cones:FILE.csv \
+             where the surface needs cones)"
         ));
     }
     if args.circles.is_some() && scheme.epsilon() == 0 {
@@ -220,8 +251,9 @@ fn check_surface(args: &FlowArgs, input: &Input, space: Space) -> Result<(), Fai
         ));
     }
     if args.to.uv.is_some() && !in_space {
-        return refuse("--uv: an intrinsic metric has no positions in space".into());
+        return refuse(format!("--uv: {NO_POSITIONS}; --flat OUT.obj writes the layout as a flat mesh"));
     }
+    args.to.flat.check_surface(input)?;
     let n = input.mesh().n_vertices();
     match args.picture.zoom {
         Some(zoom) if zoom.vertex as usize >= n => {

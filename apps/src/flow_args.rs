@@ -15,6 +15,9 @@ Example: a flat torus, its layout as texture coordinates and a picture of both
     ricci flow torus.obj --uv flat.obj --picture flat.png --report flat.json
 Example: eight cones, and charts in the unit square
     ricci flow torus.obj --target auto:8 --charts --uv atlas.obj --picture atlas.svg
+Example: a sheet for cutting, with the boundary's own lengths
+    ricci make disk --height 0.4 -o dome.obj
+    ricci flow dome.obj --pin boundary --flat dome.dxf
 
 Files
     --target cones:FILE.csv    rows `vertex,curvature`, vertices numbered from 0, radians; 0 where none is named
@@ -26,6 +29,12 @@ Files
                                `qx qy q`: linear in a face are these three, the texture is at (x, y); with --on input the input's
                                own vertices and faces, in order, the map made linear on each: faces that fold then fail the check
                                flipped_triangles; --repair splits the fewest edges of the input so that none does, --xref says where
+                               own vertices and faces, in order, the map made linear on each
+    --flat OUT.obj | .ply | .off | .glb
+                               the layout in E² as a mesh of points (x, y, 0), a vertex for each vt of --uv, in the input's unit: with
+                               the area of the input, or with --pin the lengths of the metric, which keeps those between pinned vertices
+    --flat OUT.svg | OUT.dxf   lines for cutting, on the layers BOUNDARY, SEAMS (both sides of each) and FOLDS (--fold-angle); an SVG is true
+                               to size (--flat-unit), DXF is R12, both with the coordinates of the mesh
     --circles C.json           vertex circles and the circles orthogonal to them, in the layout's coordinates
     --trace T.csv              step,energy,max_curvature_error,area,step_size (gradient flow)";
 

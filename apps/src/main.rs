@@ -13,6 +13,7 @@ mod defects;
 mod demo;
 mod failure;
 mod figures;
+mod flat;
 mod flow;
 mod flow_args;
 mod flow_summary;

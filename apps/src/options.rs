@@ -1,6 +1,7 @@
 //! Options that several commands share.
 
 use crate::failure::Failure;
+use crate::flat::FlatArgs;
 use clap::Args;
 use clap::builder::TypedValueParser;
 use ricci::flow::{Flips, Method, Options};
@@ -94,7 +95,7 @@ pub struct MetricArgs {
     /// Write the surface with its layout as texture coordinates (E²; H² of closed surfaces), .obj or .glb
     #[arg(long, value_name = "OUT.obj")]
     pub uv: Option<FileName>,
-    /// Faces of --uv: those of the common subdivision, on which the map is exact, or the input's own
+    /// Faces of --uv and --flat: those of the common subdivision, on which the map is exact, or the input's own
     #[arg(long, value_enum, value_name = "FACES", default_value_t = OnChoice::Refined)]
     pub on: OnChoice,
     /// With --on input: split the fewest of the input's edges so that no face of --uv is turned over; the surface stays as it is
@@ -104,6 +105,9 @@ pub struct MetricArgs {
     /// output_vertex,source_face,b0,b1,b2
     #[arg(long, value_name = "X.csv", requires = "uv")]
     pub xref: Option<FileName>,
+    #[command(flatten)]
+    #[serde(flatten)]
+    pub flat: FlatArgs,
     #[command(flatten)]
     #[serde(flatten)]
     pub common: Common,
@@ -201,7 +205,7 @@ choices!(SchemeChoice = Scheme { Yamabe, Inversive, Thurston, Tangential, Virtua
 choices!(MethodChoice = Method { Newton, Gradient });
 choices!(FlipsChoice = Flips { Auto, Never });
 
-/// The faces of `--uv`.
+/// The faces of `--uv` and `--flat`.
 #[derive(clap::ValueEnum, serde::Serialize, Debug, Clone, Copy, PartialEq, Default)]
 #[serde(rename_all = "lowercase")]
 pub enum OnChoice {

@@ -1,5 +1,6 @@
 //! The options of `ricci circles`.
 
+use crate::flat::FlatArgs;
 use crate::options::{Common, FileName, SurfaceArgs, choices, positive};
 use crate::picture::{PictureArgs, TextureChoice};
 use clap::Args;
@@ -18,6 +19,8 @@ one of higher genus in a hyperbolic surface with round holes. Loops are numbered
 Files
     --uv OUT.obj | OUT.glb     the surface with its layout as texture coordinates: of the unit disk, of the strip (--frame strip), of the
                                plane (a torus, scaled to the surface's area), of the Poincaré disk. Vertices beyond the input's lie on its edges
+    --flat OUT.obj | .ply | .off | .glb | .svg | .dxf
+                               the layout in the disk or the plane as a mesh, or as lines for cutting
     --metric M.json            the metric with the disks: a hub per loop after the surface's vertices, epsilon 1, whose circle the loop lies on;
                                in the unit disk without the outer loop's hub; of a strip the flat cylinder, without hubs";
 
@@ -63,6 +66,9 @@ pub struct CirclesArgs {
     /// output_vertex,source_face,b0,b1,b2
     #[arg(long, value_name = "X.csv", requires = "uv")]
     pub xref: Option<FileName>,
+    #[command(flatten)]
+    #[serde(flatten)]
+    pub flat: FlatArgs,
     #[command(flatten)]
     #[serde(flatten)]
     pub picture: PictureArgs,

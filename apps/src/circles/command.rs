@@ -4,6 +4,7 @@ use super::args::{CirclesArgs, FrameChoice};
 use super::outcome::CirclesOutcome;
 use super::picture;
 use crate::failure::{Failure, NO_POSITIONS};
+use crate::flat::FlatLayout;
 use crate::input::{self, Input};
 use crate::metric_file::MetricFile;
 use crate::options::OnChoice;
@@ -33,11 +34,13 @@ impl Job for CirclesArgs {
             let why = "--center, --three: places in the unit disk; leave them or --frame strip out";
             return Err(Failure::Usage(why.into()));
         }
+        self.flat.check()?;
         if self.picture.is_svg() && self.picture.is_turned() {
             let why = "--view, --up: an SVG shows the layout alone; use .png, or leave them out";
             return Err(Failure::Usage(why.into()));
         }
-        let files = [&self.metric, &self.uv, &self.xref, &self.picture.picture, &self.common.report];
+        let flat = &self.flat.flat;
+        let files = [&self.metric, &self.uv, &self.xref, flat, &self.picture.picture, &self.common.report];
         check_outputs(&[Some(&self.surface.file.mesh)], &files.map(|file| file.as_deref()))
     }
 
@@ -57,6 +60,9 @@ impl Job for CirclesArgs {
         })?;
         run.file("xref", self.xref.as_deref(), |outputs, path| {
             outputs.add(path, |out| uv::write_origins(out, halved, laid, OnChoice::Refined))
+        })?;
+        run.file("flat", self.flat.flat.as_deref(), |outputs, path| {
+            FlatLayout::new(halved, laid, OnChoice::Refined)?.write(outputs, path, &self.flat)
         })?;
         let style = self.picture.style(self.texture.unwrap_or(TextureChoice::Circles), self.common.threads);
         let draw = || picture::draw(outcome, &style, self.picture.is_svg());
@@ -107,9 +113,15 @@ fn check_surface(args: &CirclesArgs, input: &Input) -> Result<(), Failure> {
         return usage(format!("--outer {k}: there is no such loop, they are 0 to {}", n - 1));
     }
     if args.uv.is_some() && input.positions().is_none() {
-        return usage(format!("--uv: {NO_POSITIONS}"));
+        return usage(format!("--uv: {NO_POSITIONS}; --flat OUT.obj writes the layout as a flat mesh"));
     }
-    Ok(())
+    if args.flat.flat.is_some() && mesh.genus() > 1 {
+        return usage(
+            "--flat: the layout lies in the hyperbolic plane, which is not flat; --uv has its Poincaré disk"
+                .into(),
+        );
+    }
+    args.flat.check_surface(input)
 }
 
 fn options(args: &CirclesArgs) -> CircleDomainOptions {

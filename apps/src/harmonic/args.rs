@@ -1,5 +1,6 @@
 //! The options of `ricci harmonic`.
 
+use crate::flat::FlatArgs;
 use crate::options::{Common, FileName, SurfaceArgs, positive};
 use crate::picture::PictureArgs;
 use clap::Args;
@@ -28,6 +29,8 @@ tangential part, in explicit ones; the energy falls at every step.
 Files
     --trace T.csv              step,energy of the heat flow
     --uv OUT.obj | OUT.glb     the surface with the map to the plane as texture coordinates
+    --flat OUT.obj | .ply | .off | .glb | .svg | .dxf
+                               the image in the plane as a mesh, or as lines for cutting
     --sphere S.obj | S.glb     the input's vertices on the unit sphere, with the faces of the intrinsic Delaunay triangulation";
 
 #[derive(Args, Serialize, Debug)]
@@ -61,6 +64,9 @@ pub struct HarmonicArgs {
     /// Write the surface with its map to the plane as texture coordinates, .obj or .glb
     #[arg(long, value_name = "OUT.obj")]
     pub uv: Option<FileName>,
+    #[command(flatten)]
+    #[serde(flatten)]
+    pub flat: FlatArgs,
     /// Write the map to the sphere, .obj or .glb
     #[arg(long, value_name = "S.obj")]
     pub sphere: Option<FileName>,

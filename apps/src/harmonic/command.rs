@@ -7,6 +7,8 @@ use crate::failure::Failure;
 use crate::input::{self, Input};
 use crate::output::{check_extension, check_outputs};
 use crate::runner::{CommandRun, Job, JobHeader};
+use crate::say::count;
+use ricci::mesh::Mesh;
 use serde::Serialize;
 use std::io::Write;
 
@@ -21,13 +23,15 @@ impl Job for HarmonicArgs {
         check_extension("--uv", self.uv.as_deref(), &["obj", "glb"])?;
         check_extension("--sphere", self.sphere.as_deref(), &["obj", "glb"])?;
         check_extension("--picture", self.picture.picture.as_deref(), &["png", "svg"])?;
+        self.flat.check()?;
         check_corners(self)?;
         check_method(self)?;
         let values = match &self.to {
             Some(MapTarget::File(path)) => Some(&**path),
             _ => None,
         };
-        let files = [&self.uv, &self.sphere, &self.trace, &self.picture.picture, &self.common.report];
+        let files =
+            [&self.uv, &self.flat.flat, &self.sphere, &self.trace, &self.picture.picture, &self.common.report];
         check_outputs(&[Some(&self.surface.file.mesh), values], &files.map(|file| file.as_deref()))
     }
 
@@ -48,6 +52,9 @@ impl Job for HarmonicArgs {
             MappedSurface::Plane(plane) => {
                 let input = outcome.mapped_input();
                 run.file("uv", self.uv.as_deref(), |outputs, path| plane.write(outputs, path, input))?;
+                run.file("flat", self.flat.flat.as_deref(), |outputs, path| {
+                    plane.write_flat(outputs, path, input, &self.flat)
+                })?;
                 run.picture("picture", picture, || plane.draw(input, self))
             }
             MappedSurface::Sphere(map) => {
@@ -130,16 +137,18 @@ fn check_surface(args: &HarmonicArgs, input: &Input, to: &MapTarget) -> Result<(
     };
     if let Some(needed) = needed {
         let path = input.path.display();
-        let why = format!("the surface has genus {genus} and {loops} boundary loops; {needed} is needed");
-        return Err(Failure::Input(format!("{path}: {why}")));
+        let loops = count(loops, "boundary loop", "boundary loops");
+        let why = format!("the surface has genus {genus} and {loops}; {needed} is needed");
+        return Err(Failure::Input(format!("{path}: {why}; {}", way_out(mesh))));
     }
     let in_space = input.positions().is_some();
     let drawn = args.picture.picture.is_some();
     let refused = [
+        (is_sphere && args.flat.flat.is_some(), "--flat: a sphere lies in no plane; use --sphere S.obj"),
         (is_sphere && args.uv.is_some(), "--uv: a sphere lies in no plane; use --sphere S.obj"),
         (!is_sphere && args.sphere.is_some(), "--sphere: the map is to the plane; use --uv, or --to sphere"),
         (is_sphere && args.picture.is_svg(), "--picture: an SVG shows no surface in space; use .png"),
-        (args.uv.is_some() && !in_space, "--uv: an intrinsic metric has no positions in space"),
+        (args.uv.is_some() && !in_space, "--uv: an intrinsic metric has no positions in space; use --flat"),
         (
             drawn && !in_space && !args.picture.is_svg() && !is_sphere,
             "--picture: an intrinsic metric has no positions in space; use .svg",
@@ -147,7 +156,23 @@ fn check_surface(args: &HarmonicArgs, input: &Input, to: &MapTarget) -> Result<(
     ];
     match refused.into_iter().find(|(refused, _)| *refused) {
         Some((_, why)) => Err(Failure::Usage(why.into())),
-        None => Ok(()),
+        None => args.flat.check_surface(input),
+    }
+}
+
+/// The command for a surface that is no disk and no sphere, or not the one that was asked for.
+fn way_out(mesh: &Mesh) -> &'static str {
+    match (mesh.genus(), mesh.boundary_loops().len()) {
+        (0, 0) => "--to sphere maps this one",
+        (_, 0) => "`ricci uniformize` maps this one to the plane or the hyperbolic plane, cut open",
+        (0, 1) => "--to disk maps this one",
+        (0, 2) => {
+            "`ricci circles` maps this one to the unit disk with a round hole, `ricci uniformize` to a flat cylinder"
+        }
+        _ => {
+            "`ricci circles` maps this one to a domain whose holes are round, `ricci uniformize` to the hyperbolic plane with geodesic \
+             boundary, or with --boundary straight to the plane"
+        }
     }
 }
 

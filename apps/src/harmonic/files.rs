@@ -3,13 +3,16 @@
 use super::args::HarmonicArgs;
 use super::outcome::{HarmonicOutcome, PlaneMap};
 use crate::failure::Failure;
+use crate::flat::{FlatArgs, FlatLayout};
 use crate::input::Input;
 use crate::output::{Outputs, write_textured};
 use crate::picture::{self, Picture, ShownLayout, ShownSurface, TextureChoice};
 use crate::uv::UvMesh;
+use ricci::embed::FlatSurface;
 use ricci::harmonic::SphereMap;
 use ricci::mesh::io::TexturedMesh;
 use ricci::mesh::{Mesh, PerHalfedge, VertexId};
+use std::borrow::Cow;
 use std::path::Path;
 
 impl PlaneMap {
@@ -30,6 +33,21 @@ impl PlaneMap {
             subdivision: self.subdivision.as_ref(),
         };
         drawn.write(outputs, path, input)
+    }
+
+    /// The image in the plane as geometry.
+    pub fn write_flat(
+        &self,
+        outputs: &mut Outputs,
+        path: &Path,
+        input: &Input,
+        args: &FlatArgs,
+    ) -> Result<(), Failure> {
+        let mesh = self.mesh(input);
+        let index = PerHalfedge::from_fn(mesh.n_halfedges(), |h| mesh.origin(h).0);
+        let points = Cow::Borrowed(&self.points[..]);
+        let surface = FlatSurface { mesh, corner_index: &index, points, seams: Vec::new() };
+        FlatLayout { surface, input, subdivision: self.subdivision.as_ref() }.write(outputs, path, args)
     }
 
     /// The surface beside its image, or as SVG the image alone.

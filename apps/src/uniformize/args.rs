@@ -29,6 +29,8 @@ Files
     --metric M.json            the metric on its triangulation, as of ricci flow
     --uv OUT.obj | OUT.glb     the surface, opened, with its layout as texture coordinates: of the plane (scaled to the surface's
                                area), of the Poincaré disk
+    --flat OUT.obj | .ply | .off | .glb | .svg | .dxf
+                               a layout in the plane as a mesh, or as lines for cutting
     --sphere S.obj | S.glb     of a sphere: the input's vertices, in order, on the unit sphere, with the faces that flips have led to
     --generators C.json        space, basis (a1, b1, …), word, and a Möbius matrix per generator: of the plane, of the Poincaré disk;
                                intersections, a row per loop of the basis: how often each other one crosses it from right to left,

@@ -12,6 +12,7 @@ use super::shape::{CanonicalOutcome, UniformShape};
 use super::sphere::SphereSurface;
 use super::sphere_picture;
 use crate::failure::Failure;
+use crate::flat::FlatLayout;
 use crate::input::Input;
 use crate::output::{Outputs, extension, write_textured};
 use crate::picture::{Style, TextureChoice};
@@ -49,9 +50,19 @@ impl CanonicalJob<'_> {
     ) -> Result<(), Failure> {
         let (args, at, control) = (self.args, self.place(u.deck.space), run.control);
         match &u.laid {
-            Some(Ok(laid)) => uv::write_asked(run, input, laid, &args.to, false)?,
+            Some(Ok(laid)) => {
+                uv::write_asked(run, input, laid, &args.to, false)?;
+                run.file("flat", args.to.flat.flat.as_deref(), |outputs, path| {
+                    FlatLayout::new(input, laid, args.to.on)?.write(outputs, path, &args.to.flat)
+                })?;
+            }
             Some(Err(why)) => {
-                run.failed.refuse(why, &[("uv", args.to.uv.is_some()), ("xref", args.to.xref.is_some())]);
+                let asked = [
+                    ("uv", args.to.uv.is_some()),
+                    ("flat", args.to.flat.flat.is_some()),
+                    ("xref", args.to.xref.is_some()),
+                ];
+                run.failed.refuse(why, &asked);
             }
             None => {}
         }

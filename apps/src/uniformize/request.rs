@@ -135,9 +135,10 @@ impl CanonicalJob<'_> {
         );
         let by_domain = self.cover.is_some_and(|c| c.depth.is_none() || c.domain.is_some());
         let copies = self.cover.is_some_and(|c| c.cover.is_some() || c.lift.is_some());
+        let laid = self.args.to.uv.is_some() || self.args.to.flat.flat.is_some();
         OutputNeeds {
-            subdivision: report || drawn || copies || self.args.to.uv.is_some(),
-            on_input: self.args.to.on == OnChoice::Input && self.args.to.uv.is_some(),
+            subdivision: report || drawn || copies || laid,
+            on_input: self.args.to.on == OnChoice::Input && laid,
             domain: (report || by_domain || (drawn && of_domain)) && !self.args.boundary.has_corners(input),
         }
     }
@@ -156,6 +157,7 @@ impl CanonicalJob<'_> {
         }
         let picture = args.picture.picture.as_deref();
         check_extension("--picture", picture, &["png", "svg"])?;
+        args.to.flat.check()?;
         let in_space = matches!(
             self.shown,
             Some(CanonicalPictureChoice::Uniform(UniformPictureChoice::Both | UniformPictureChoice::Surface))
@@ -181,6 +183,7 @@ impl CanonicalJob<'_> {
             args.to.metric.as_deref(),
             args.to.uv.as_deref(),
             args.to.xref.as_deref(),
+            args.to.flat.flat.as_deref(),
             args.sphere.as_deref(),
             args.generators.as_deref(),
             picture,
@@ -211,6 +214,14 @@ impl CanonicalJob<'_> {
                 mesh.genus()
             )));
         }
+        if self.args.to.flat.flat.is_some() && !in_plane {
+            return Err(Failure::Usage(
+                "--flat: the layout lies in the hyperbolic plane, which is not flat; --uv has its Poincaré disk, `ricci flow --target auto:8 \
+                 --flat` is flat with cones"
+                    .into(),
+            ));
+        }
+        self.args.to.flat.check_surface(input)?;
         if self.model.is_some() && in_plane {
             return Err(Failure::Usage(
                 "--model: the surface lies in the plane, which has no other model".into(),
@@ -232,9 +243,8 @@ impl CanonicalJob<'_> {
         }
         if input.positions().is_none() {
             if self.args.to.uv.is_some() {
-                return Err(Failure::Usage(format!(
-                    "--uv: {NO_POSITIONS}; `ricci cover --depth 0 --cover OUT.obj` writes the layout"
-                )));
+                let way = if in_plane { "--flat" } else { "`ricci cover --depth 0 --cover`" };
+                return Err(Failure::Usage(format!("--uv: {NO_POSITIONS}; {way} OUT.obj writes the layout")));
             }
             if let CanonicalPictureChoice::Uniform(
                 UniformPictureChoice::Both | UniformPictureChoice::Surface,
@@ -257,6 +267,11 @@ impl CanonicalJob<'_> {
         let (args, usage) = (self.args, |message: &str| Err(Failure::Usage(message.into())));
         if args.to.uv.is_some() {
             return usage("--uv: a sphere lies in no plane; use --sphere S.obj (or ricci flow, with cones)");
+        }
+        if args.to.flat.flat.is_some() {
+            return usage(
+                "--flat: a sphere lies in no plane; use --sphere S.obj (or ricci flow --flat, with cones)",
+            );
         }
         if self.model.is_some() {
             return usage("--model: a sphere is not in the hyperbolic plane");

@@ -10,6 +10,7 @@ mod circles;
 mod complex;
 mod cover;
 mod files;
+mod flat;
 mod flips;
 mod flow;
 mod forms;
