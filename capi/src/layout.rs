@@ -143,7 +143,7 @@ impl ricci_layout {
         Ok(ricci_layout { points, on_input, quality, of_input, layout: Arc::new(layout), state, model })
     }
 
-    fn on_input(&self) -> Outcome<&OnInput> {
+    pub(crate) fn on_input(&self) -> Outcome<&OnInput> {
         self.on_input.as_ref().ok_or_else(not_on_input)
     }
 

@@ -60,6 +60,7 @@ pub mod refine;
 pub mod repaired_input;
 pub mod report;
 pub mod shapes;
+pub mod sheet;
 pub mod soup;
 pub mod sphere;
 pub mod spline;

@@ -1590,6 +1590,80 @@ RICCI_API ricci_status ricci_layout_mesh(const ricci_layout *layout, ricci_mesh 
 RICCI_API ricci_status ricci_layout_write(const ricci_layout *layout, uint32_t on, uint32_t homogeneous,
                                           const char *path);
 
+/** The layers of the lines of a layout in the plane, and their names in files: BOUNDARY, SEAMS, FOLDS. */
+enum {
+    /** The boundary of the surface. */
+    RICCI_LAYER_BOUNDARY = 0,
+    /** A side of a seam; the other side is another line. */
+    RICCI_LAYER_SEAMS = 1,
+    /** An edge of the given mesh along which the surface in space has a crease. */
+    RICCI_LAYER_FOLDS = 2
+};
+
+/** The unit of coordinates, for the size of an SVG drawing. */
+enum {
+    /** Millimetres. */
+    RICCI_SHEET_MILLIMETRE = 0,
+    /** Centimetres. */
+    RICCI_SHEET_CENTIMETRE = 1,
+    /** Metres. */
+    RICCI_SHEET_METRE = 2,
+    /** Inches of 25.4 mm. */
+    RICCI_SHEET_INCH = 3
+};
+
+/**
+ * The lines along which a layout in E2 is cut and folded: its outline, with the surface on the left, divided
+ * into lines of the boundary and of the sides of seams; then the folds. A loop of the boundary that no seam
+ * meets is one closed line.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT, RICCI_LAYOUT (as of
+ * ricci_layout_corners; not in the plane).
+ *
+ * @param layout      the layout.
+ * @param on          RICCI_ON_INPUT: along edges of the given mesh; else of the layout's mesh.
+ * @param fold_angle  edges are folds where the normals of their faces differ by more than this, radians, 0 to
+ *                    pi; an intrinsic mesh has no folds.
+ * @param lines       out: four numbers for each line: RICCI_LAYER_*, the number of the seam or -1, 1 if the
+ *                    line is closed, the number of its points.
+ * @param capacity    entries of `lines`.
+ */
+RICCI_API ricci_status ricci_layout_lines(const ricci_layout *layout, uint32_t on, double fold_angle,
+                                          int32_t *lines, size_t capacity);
+
+/**
+ * The points along the lines of ricci_layout_lines, line after line, as indices into ricci_layout_points. A
+ * closed line does not repeat its first point.
+ *
+ * @return as of ricci_layout_lines.
+ *
+ * @param layout      the layout.
+ * @param on          as of ricci_layout_lines.
+ * @param fold_angle  as of ricci_layout_lines.
+ * @param points      out: as many indices as the lines have points together.
+ * @param capacity    entries of `points`.
+ */
+RICCI_API ricci_status ricci_layout_line_points(const ricci_layout *layout, uint32_t on, double fold_angle,
+                                                uint32_t *points, size_t capacity);
+
+/**
+ * Write a layout in E2 as geometry: its mesh with points (x, y, 0), .obj, .off, .ply or .glb; or the lines of
+ * ricci_layout_lines as a drawing with a layer for each RICCI_LAYER_*, .svg (true to size) or .dxf (R12).
+ *
+ * A layout with RICCI_SCALE_AS_SOLVED has the lengths of the metric. A file of that name is replaced only
+ * once the new one is complete.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_ARGUMENT, RICCI_DOMAIN, RICCI_UNKNOWN_FORMAT,
+ * RICCI_LAYOUT (as of ricci_layout_lines).
+ *
+ * @param layout      the layout.
+ * @param on          RICCI_ON_INPUT: the given mesh; else the layout's mesh.
+ * @param fold_angle  as of ricci_layout_lines.
+ * @param unit        RICCI_SHEET_*: the unit of the coordinates.
+ * @param path        file name in UTF-8.
+ */
+RICCI_API ricci_status ricci_layout_write_flat(const ricci_layout *layout, uint32_t on, double fold_angle,
+                                               uint32_t unit, const char *path);
+
 /* ---------------------------------------------------------------------------------------------------------
  * Maps: the common subdivision of the mesh and the metric's triangulation, which carries values from one to
  * the other

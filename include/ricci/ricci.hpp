@@ -369,6 +369,19 @@ public:
     void write(const std::string &path, std::uint32_t on = RICCI_ON_INPUT, bool homogeneous = false) const {
         check(ricci_layout_write(handle_, on, homogeneous ? 1 : 0, path.c_str()));
     }
+    // Four numbers for each line along which the layout is cut or folded: RICCI_LAYER_*, the seam or -1, 1 if it
+    // is closed, the number of its points. The angle is in radians.
+    std::vector<std::int32_t> lines(double fold_angle, std::uint32_t on = RICCI_ON_INPUT) const {
+        return values<std::int32_t>(ricci_layout_lines, get(), on, fold_angle);
+    }
+    std::vector<std::uint32_t> line_points(double fold_angle, std::uint32_t on = RICCI_ON_INPUT) const {
+        return values<std::uint32_t>(ricci_layout_line_points, get(), on, fold_angle);
+    }
+    // The layout as geometry: a mesh of points (x, y, 0), or lines for cutting (.svg, .dxf).
+    void write_flat(const std::string &path, double fold_angle, std::uint32_t on = RICCI_ON_INPUT,
+                    std::uint32_t unit = RICCI_SHEET_MILLIMETRE) const {
+        check(ricci_layout_write_flat(handle_, on, fold_angle, unit, path.c_str()));
+    }
 };
 
 using map_handle = owned<ricci_map, ricci_map_free>;

@@ -229,3 +229,28 @@ def test_circles_of_faces_are_orthogonal_to_those_of_their_corners():
     corners = points[layout.corners("metric")]
     distances = ((corners[:, :, :2] - faces[:, None, :2]) ** 2).sum(2)
     np.testing.assert_allclose(distances, corners[:, :, 2] + faces[:, None, 2], atol=1e-9)
+
+
+def test_a_bent_strip_is_cut_along_one_line_and_folded_along_another(tmp_path):
+    x, y = np.meshgrid(np.arange(8.0), np.arange(3.0), indexing="ij")
+    points = np.stack([np.minimum(x, 3), y, np.maximum(x - 3, 0)], axis=-1).reshape(-1, 3)
+    corner = (3 * np.arange(7)[:, None] + np.arange(2)).ravel()
+    faces = np.concatenate([[corner, corner + 3, corner + 4], [corner, corner + 4, corner + 1]], axis=1).T
+    flat = ricci.layout(ricci.metric(ricci.Mesh(points, faces.astype(np.uint32))), scale="as_solved")
+    boundary, fold = flat.lines()
+    assert (boundary.layer, boundary.closed, boundary.seam) == ("boundary", True, None)
+    assert (fold.layer, fold.closed) == ("folds", False)
+    uv = flat.points()
+    around = uv[boundary.points]
+    assert np.linalg.norm(around - np.roll(around, 1, axis=0), axis=1).sum() == pytest.approx(18, abs=1e-9)
+    assert np.linalg.norm(np.diff(uv[fold.points], axis=0), axis=1).sum() == pytest.approx(2, abs=1e-9)
+    assert len(flat.lines(fold_angle=1.6)) == 1
+    flat.write_flat(tmp_path / "strip.obj")
+    again = ricci.read(tmp_path / "strip.obj")
+    assert again.n_faces == 28
+    assert np.array_equal(again.V[:, 2], np.zeros(again.n_vertices))
+    for name in ["strip.dxf", "strip.svg"]:
+        flat.write_flat(tmp_path / name, unit="inch")
+        assert "FOLDS" in (tmp_path / name).read_text()
+    with pytest.raises(ricci.ArgumentError):
+        flat.lines(fold_angle=-1)

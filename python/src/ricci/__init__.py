@@ -39,7 +39,7 @@ from ricci.errors import (
 )
 from ricci.form import Forms, HarmonicMap, forms, harmonic, harmonic_map
 from ricci.fundamental import Domain, Homotopy, homotopy
-from ricci.layouts import Atlas, Layout, RepairedInput, atlas, layout
+from ricci.layouts import Atlas, Layout, RepairedInput, SheetLine, atlas, layout
 from ricci.log import log_to_logging
 from ricci.maps import Map
 from ricci.matching import Matching, match
@@ -86,6 +86,7 @@ __all__ = [
     "RepairedInput",
     "Report",
     "RicciError",
+    "SheetLine",
     "Solver",
     "SolverError",
     "Soup",

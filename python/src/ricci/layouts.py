@@ -37,7 +37,9 @@ from ricci.mesh import Mesh
 from ricci.metrics import Metric
 from ricci.status import Status
 
-__all__ = ["Atlas", "Layout", "LayoutOptions", "RepairedInput", "Seam", "atlas", "layout"]
+__all__ = ["Atlas", "Layout", "LayoutOptions", "RepairedInput", "Seam", "SheetLine", "atlas", "layout"]
+
+LAYERS: tuple[Literal["boundary"], Literal["seams"], Literal["folds"]] = ("boundary", "seams", "folds")
 
 
 class LayoutOptions(TypedDict, total=False):
@@ -84,6 +86,31 @@ class Seam:
     def __init__(self, row: Doubles) -> None:
         self.mobius: Complexes = np.ascontiguousarray(row[:8]).view(np.complex128).reshape(2, 2)
         self.error = float(row[8])
+
+
+FOLD_ANGLE = np.pi / 6
+"""Angle in radians above which an edge is a fold where none is asked for: 30 degrees."""
+
+
+class SheetLine:
+    """A line along which a layout in the plane is cut or folded.
+
+    Attributes:
+        layer: ``"boundary"``; ``"seams"``, one side of a seam; or ``"folds"``.
+        seam: the number of the seam, or None.
+        closed: whether the line goes on from its last point to the first.
+        points: indices into `Layout.points`; a closed line does not repeat its first point.
+    """
+
+    def __init__(self, row: Any, points: Indices) -> None:
+        layer, seam, closed, _ = (int(x) for x in row)
+        self.layer: Literal["boundary", "seams", "folds"] = LAYERS[layer]
+        self.seam = seam if seam >= 0 else None
+        self.closed = closed == 1
+        self.points = points
+
+    def __repr__(self) -> str:
+        return f"<ricci.SheetLine: {self.layer}, {self.points.size} points{', closed' if self.closed else ''}>"
 
 
 class Layout(Handle):
@@ -165,6 +192,37 @@ class Layout(Handle):
             ArgumentError: what the format has no place for.
         """
         call(lib.ricci_layout_write, self, constant("ON", on), int(homogeneous), path_bytes(path))
+
+    def lines(self, fold_angle: float = FOLD_ANGLE, on: On = "input") -> list[SheetLine]:
+        """The lines along which a layout in E2 is cut and folded.
+
+        Args:
+            fold_angle: edges of the mesh are folds where the normals of their faces differ by more than this, in radians.
+            on: along edges of the mesh, or of what is laid out.
+        """
+        asked = (self, constant("ON", on), fold_angle)
+        table = listed(lib.ricci_layout_lines, *asked, dtype=np.int32).reshape(-1, 4)
+        points = listed(lib.ricci_layout_line_points, *asked)
+        starts = np.cumsum(table[:, 3])
+        return [SheetLine(row, line) for row, line in zip(table, np.split(points, starts[:-1]), strict=False)]
+
+    def write_flat(
+        self,
+        path: str | os.PathLike[str],
+        on: On = "input",
+        *,
+        fold_angle: float = FOLD_ANGLE,
+        unit: Literal["millimetre", "centimetre", "metre", "inch"] = "millimetre",
+    ) -> None:
+        """Write a layout in E2 as a mesh of points (x, y, 0), or its lines as a drawing for cutting.
+
+        Args:
+            path: the file: .obj, .off, .ply, .glb; or .svg, .dxf with the layers BOUNDARY, SEAMS and FOLDS.
+            on: the mesh, or what is laid out.
+            fold_angle: as of `lines`.
+            unit: the unit of the coordinates, for the size of an SVG.
+        """
+        call(lib.ricci_layout_write_flat, self, constant("ON", on), fold_angle, constant("SHEET", unit), path_bytes(path))
 
     def _faces(self, on: On) -> int:
         return self.summary.n_input_faces if on == "input" else self.summary.n_faces
