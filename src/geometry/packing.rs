@@ -104,7 +104,7 @@ fn lengthwise(points: &[[f64; 2]], angle: f64) -> (f64, [f64; 2]) {
 }
 
 /// The corners of the convex hull, counterclockwise (Andrew's monotone chain).
-fn convex_hull(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
+pub fn convex_hull(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let mut sorted = points.to_vec();
     sorted.sort_by(|p, q| p[0].total_cmp(&q[0]).then(p[1].total_cmp(&q[1])));
     sorted.dedup();

@@ -1,5 +1,7 @@
-//! The vertical of a surface, which files do not tell: y is up in most of them, and exceptions are recognised by their shape.
+//! The vertical of a surface, which files do not tell: sheets lie or stand, statues stand on their base, and what has neither stands on
+//! what supports it best.
 
+use super::standing::standing;
 use super::vector::{V3, add, complement, dot, ends, norm, normal, scaled, sphere_point, unit};
 
 /// The vertical of a surface, and whether it lies flat on the ground, so that it is seen from above.
@@ -34,7 +36,6 @@ const DEPTH: f64 = 0.04;
 const AXIS: f64 = 0.995;
 
 const Y: V3 = [0.0, 1.0, 0.0];
-const Z: V3 = [0.0, 0.0, 1.0];
 
 /// The stance of a surface, by its shape.
 pub fn stance(points: &[V3], faces: &[[u32; 3]]) -> Stance {
@@ -54,8 +55,9 @@ pub fn stance(points: &[V3], faces: &[[u32; 3]]) -> Stance {
         let most = (0..3).fold(0, |l, k| if outside[k].abs() > outside[l].abs() { k } else { l });
         let up = axis(most, outside[most].signum());
         let lies = thin(up) < FLAT_SHEET;
-        let standing = if most == 1 { Z } else { Y };
-        return Stance { up: if lies { up } else { standing }, lies };
+        // A mask faces z with y up. Turned about x, as programs with z up do, it faces −y with z up, or y with −z up.
+        let upright = if most == 1 { [0.0, 0.0, -outside[1].signum()] } else { Y };
+        return Stance { up: if lies { up } else { upright }, lies };
     }
     // A surface with a flat base, such as a statue, stands on it, however thin it is.
     if let Some(up) = base(points, faces) {
@@ -67,7 +69,8 @@ pub fn stance(points: &[V3], faces: &[[u32; 3]]) -> Stance {
     };
     let is_centred = (0..3).all(|k| off(k) < CENTRED);
     let flat = [2, 1, 0].into_iter().map(|k| axis(k, 1.0)).find(|up| is_centred && thin(*up) < FLAT_BODY);
-    Stance { up: flat.unwrap_or(Y), lies: flat.is_some() || thin(Y) < LOW }
+    let up = flat.unwrap_or_else(|| standing(points, faces));
+    Stance { up, lies: flat.is_some() || thin(up) < LOW }
 }
 
 /// The end of points along a direction, and their extent, next to nothing at least.
@@ -111,6 +114,8 @@ fn base(points: &[V3], faces: &[[u32; 3]]) -> Option<V3> {
 mod tests {
     use super::*;
     use ricci::mesh::shapes;
+
+    const Z: V3 = [0.0, 0.0, 1.0];
 
     #[test]
     fn flat_things_lie_and_long_things_stand() {
