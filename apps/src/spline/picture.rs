@@ -2,7 +2,9 @@
 
 use super::args::{EvalArgs, SurfaceColor};
 use crate::failure::Failure;
-use crate::picture::{Camera, ColorField, ColorScale, Picture, ShownSurface, Style, TextureChoice, png};
+use crate::picture::{
+    Camera, ColorField, ColorScale, LineMeaning, Picture, ShownSurface, Style, TextureChoice, png,
+};
 use ricci::Control;
 use ricci::mesh::io::Soup;
 use ricci::spline::{Parameter, Spline, SurfacePoint, multi_indices};
@@ -44,7 +46,9 @@ pub fn draw(spline: &Spline, args: &EvalArgs, control: &Control) -> Result<Vec<u
         }
         Some(SurfaceColor::None) | None => None,
     };
-    png(&Picture { surface: Some(surface), field: field.as_ref(), ..Picture::default() }, &style)
+    let lines = LineMeaning::Untold;
+    let drawn = Picture { surface: Some(surface), field: field.as_ref(), lines, ..Picture::default() };
+    png(&drawn, &style)
 }
 
 /// The places of the corners of the triangles, of which there are `sides` × `sides` per patch.

@@ -48,6 +48,7 @@ pub fn fit_whole(args: &FitArgs, input: Input, control: &Control) -> Result<FitO
     if let (AtlasChoice::Flow, [v]) = (whole.atlas, &singular[..]) {
         defaults.insert("singular".into(), Value::from(*v));
     }
+    let folded_share = fitted.folded_share(&input.surface);
     let radii: Vec<f64> = fitted.spline.holes().iter().map(|hole| hole.radius).collect();
     let figures = Figures::default()
         .with("singular_vertices", &singular[..])
@@ -57,9 +58,10 @@ pub fn fit_whole(args: &FitArgs, input: Input, control: &Control) -> Result<FitO
         .with("hole_coefficients", coefficients(&fitted))
         // Patches in which normals turn by more than 60 degrees over a twelfth of a side.
         .with("folded_patches", &fitted.folds[..])
+        .with("folded_share", folded_share)
         .with("rounds", fitted.rounds);
-    let SurfaceFit { rms, max, spline, .. } = fitted;
-    Ok(FitOutcome { input, spline, rms, max, defaults, figures, checks })
+    let SurfaceFit { rms, max, spline, folds, .. } = fitted;
+    Ok(FitOutcome { input, spline, rms, max, defaults, folds, folded_share, figures, checks })
 }
 
 fn share_in_holes(fitted: &SurfaceFit) -> f64 {

@@ -1,5 +1,6 @@
 //! Splines over a whole surface, fitted to its vertices in rounds: domain, fit, corrected places, adapted sizes.
 
+use super::areas::vertex_areas;
 use super::domain::SurfaceDomain;
 use super::flat::FlatMetric;
 use super::plane::TURNS;
@@ -97,6 +98,21 @@ pub struct SurfaceFit {
     pub folds: Vec<usize>,
     /// The number of rounds that were made until this spline.
     pub rounds: usize,
+}
+
+impl SurfaceFit {
+    /// The share of the surface that lies in patches in which the spline folds: of the area around the vertices whose places are in them.
+    /// `surface`: that which was fitted.
+    pub fn folded_share(&self, surface: &Surface) -> f64 {
+        let areas = vertex_areas(surface.mesh(), surface.lengths());
+        let is_folded = |at: &Parameter| self.folds.binary_search(&(at.patch as usize)).is_ok();
+        let (mut folded, mut all) = (0.0, 0.0);
+        for (at, area) in self.places.iter().zip(areas.iter()) {
+            all += area;
+            folded += if is_folded(at) { *area } else { 0.0 };
+        }
+        if all > 0.0 { folded / all } else { 0.0 }
+    }
 }
 
 /// Fits a spline to the vertices of a surface in space, over a flat metric of it. The triangles of the domain are about equally long on the
