@@ -2,7 +2,7 @@
 
 use crate::input::Input;
 use crate::job::FlowOutcome;
-use crate::picture::{CLASSES, ColorChoice, ColorField, ColorScale};
+use crate::picture::{CLASSES, ColorChoice, ColorField, ColorScale, HUES};
 use crate::surface_layout::SurfaceLayout;
 use ricci::geometry::triangle;
 use ricci::geometry::vector::{cross, dot, norm, sub, triangle_normal};
@@ -36,6 +36,7 @@ pub fn of_flow(choice: ColorChoice, outcome: &FlowOutcome) -> Option<ColorField>
             at_faces(&values, scale)
         }
         ColorChoice::Pieces => pieces(laid?),
+        ColorChoice::Charts => charts(laid?)?,
     })
 }
 
@@ -51,6 +52,37 @@ fn pieces(laid: &SurfaceLayout) -> ColorField {
     let values: Vec<f64> = hue.iter().zip(shade).map(|(hue, shade)| (CLASSES * hue + shade) as f64).collect();
     let title = "hue by face of the final triangulation, shade by face of the input";
     at_faces(&values, ColorScale::of_pairs(title, "what a face of each has in common is a piece"))
+}
+
+/// Charts in colours that differ from those of their neighbours on the surface.
+fn charts(laid: &SurfaceLayout) -> Option<ColorField> {
+    let charts = &laid.packed.as_ref()?.charts;
+    let color = hues(laid.mesh(), |f| Some(charts.chart[f]), charts.count());
+    let values: Vec<f64> = charts.chart.iter().map(|&chart| color[chart as usize] as f64).collect();
+    let title = "charts: neighbours have different colours";
+    Some(at_faces(&values, ColorScale::of_hues(title, "charts that are no neighbours share colours")))
+}
+
+/// A colour for each of `n` charts, in their order: one that no neighbour has, as long as there is one; else that of the fewest edges. Faces
+/// may have no chart.
+pub fn hues(mesh: &Mesh, chart: impl Fn(FaceId) -> Option<u32>, n: usize) -> Vec<usize> {
+    let mut neighbours = vec![Vec::new(); n];
+    for h in mesh.edges().map(|e| e.halfedge()) {
+        if let [Some(a), Some(b)] = [h, h.twin()].map(|h| mesh.face(h).and_then(&chart))
+            && a != b
+        {
+            neighbours[a as usize].push(b as usize);
+            neighbours[b as usize].push(a as usize);
+        }
+    }
+    let mut color = vec![HUES; n];
+    for c in 0..n {
+        let edges = |hue: &usize| neighbours[c].iter().filter(|&&other| color[other] == *hue).count();
+        // Charts with successive numbers begin with different colours, so that few charts do not all have the first ones.
+        let order = (0..HUES).map(|k| (c + k) % HUES);
+        color[c] = order.min_by_key(edges).unwrap_or(0);
+    }
+    color
 }
 
 /// Per face of the mesh a class of the larger triangle (`whole`) that it is part of: two of these that share an edge have different
@@ -185,6 +217,17 @@ mod tests {
         // One whole has one class.
         let one = PerFace::filled(mesh.n_faces(), FaceId(0));
         assert!(classes(&mesh, &one).iter().all(|c| *c == 0));
+    }
+
+    #[test]
+    fn charts_side_by_side_have_different_colours() {
+        let mesh = Mesh::from_soup(&shapes::icosphere(6).unwrap()).unwrap();
+        let chart = PerFace::from_fn(mesh.n_faces(), |f| f.0 / 7);
+        let color = hues(&mesh, |f| Some(chart[f]), mesh.n_faces());
+        for e in mesh.edges() {
+            let [a, b] = [e.halfedge(), e.halfedge().twin()].map(|h| chart[mesh.face(h).unwrap()] as usize);
+            assert!(a == b || color[a] != color[b], "charts {a} and {b} are both {}", color[a]);
+        }
     }
 
     #[test]

@@ -3,7 +3,8 @@
 use crate::failure::Failure;
 use crate::job::FlowOutcome;
 use crate::picture::{
-    self, Circle, FlowPictureArgs, Focus, Picture, ShownLayout, ShownSurface, Style, SurfacePictureArgs, Zoom,
+    self, Circle, ColorChoice, FlowPictureArgs, Focus, Picture, ShownLayout, ShownSurface, Style,
+    SurfacePictureArgs, Zoom,
 };
 use crate::quantity;
 use crate::surface_layout::SurfaceLayout;
@@ -24,7 +25,10 @@ pub fn draw(outcome: &FlowOutcome, args: &FlowPictureArgs, threads: usize) -> Re
     let laid = outcome.layout.as_ref().ok();
     let drawing = laid.map(|laid| LayoutDrawing::new(outcome, laid));
     let flat = drawing.as_ref().map(LayoutDrawing::flat);
-    let field = args.color().and_then(|choice| quantity::of_flow(choice, outcome));
+    // Charts are told apart by colours unless something else is asked for.
+    let by_charts =
+        || laid.filter(|l| l.packed.is_some() && args.color.is_none()).map(|_| ColorChoice::Charts);
+    let field = args.color().or_else(by_charts).and_then(|choice| quantity::of_flow(choice, outcome));
     let focus = args.zoom.zip(laid).and_then(|(zoom, laid)| focus(&zoom, laid));
     let style = Style { focus, ..args.style(threads) };
     if let (Some(flat), true) = (&flat, args.base.is_svg()) {

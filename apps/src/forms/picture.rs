@@ -5,7 +5,7 @@ use super::outcome::ChosenForm;
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::output::Outputs;
-use crate::picture::{self, Picture, ShownLayout, ShownSurface, Style, TextureChoice};
+use crate::picture::{self, LineMeaning, Picture, ShownLayout, ShownSurface, Style, TextureChoice};
 use crate::show::surroundings;
 use crate::uv;
 use ricci::Control;
@@ -56,7 +56,8 @@ pub fn draw(
     let flat =
         ShownLayout { corner_uv: &corner_uv, seams: &seams, boundary: &boundary, ..ShownLayout::default() };
     if args.picture.is_svg() {
-        return picture::svg(&Picture { flat: Some(flat), ..Picture::default() }, &style);
+        let drawn = Picture { flat: Some(flat), lines: LineMeaning::Cut, ..Picture::default() };
+        return picture::svg(&drawn, &style);
     }
     let mut positions = input.positions_on(layout.common_subdivision().map(|r| &**r))?;
     let focus = args.zoom.and_then(|zoom| surroundings(mesh, &positions, &zoom, |f| layout.face(f)));
@@ -75,7 +76,11 @@ pub fn draw(
         is_closed: mesh.is_closed(),
     };
     let flat = (show == FormPictureChoice::Both).then_some(flat);
-    picture::png(&Picture { surface: Some(surface), flat, ..Picture::default() }, &style)
+    let lines = match show {
+        FormPictureChoice::Trajectories => LineMeaning::Trajectories,
+        _ => LineMeaning::Cut,
+    };
+    picture::png(&Picture { surface: Some(surface), flat, lines, ..Picture::default() }, &style)
 }
 
 /// Trajectories in both directions as strokes between points that are added to `positions`.

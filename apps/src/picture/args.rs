@@ -88,6 +88,8 @@ pub enum ColorChoice {
     Area,
     /// Pieces of the common subdivision: a hue for the final face, a shade for that of the input
     Pieces,
+    /// Charts, neighbours in different colours; the default with --charts
+    Charts,
     None,
 }
 
@@ -98,6 +100,7 @@ impl ColorChoice {
             ColorChoice::Qc => Some("qc"),
             ColorChoice::Area => Some("area"),
             ColorChoice::Pieces => Some("pieces"),
+            ColorChoice::Charts => Some("charts"),
             ColorChoice::U | ColorChoice::Curvature | ColorChoice::None => None,
         }
     }

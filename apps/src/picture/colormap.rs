@@ -12,6 +12,8 @@ pub enum Ramp {
     BlueRed,
     /// For pairs of classes, k for hue k/4 and shade k mod 4: ColorBrewer's Set2 \[HB03\], four of its colours.
     Pairs,
+    /// For classes, [`HUES`] of them: ColorBrewer's Set2 \[HB03\].
+    Hues,
     /// Light and dark stripes in turn, [`STRIPES`] of them.
     Stripes,
 }
@@ -22,7 +24,9 @@ const BLUE_RED: [u32; 11] = [
     0x053061, 0x2166ac, 0x4393c3, 0x92c5de, 0xd1e5f0, 0xf7f7f7, 0xfddbc7, 0xf4a582, 0xd6604d, 0xb2182b,
     0x67001f,
 ];
-const HUES: [u32; 4] = [0x66c2a5, 0xfc8d62, 0x8da0cb, 0xe78ac3];
+const SET2: [u32; HUES] = [0x66c2a5, 0xfc8d62, 0x8da0cb, 0xe78ac3, 0xa6d854, 0xffd92f, 0xe5c494, 0xb3b3b3];
+/// Colours of [`Ramp::Hues`].
+pub const HUES: usize = 8;
 /// Share of white in each shade.
 const SHADES: [f64; 4] = [0.0, 0.42, 0.64, 0.22];
 /// Hues, and shades of each, of [`Ramp::Pairs`].
@@ -39,6 +43,15 @@ pub const PERCENTILES: [f64; 2] = [2.0, 98.0];
 const TAIL: f64 = 4.0;
 
 impl Ramp {
+    /// The number of classes, for a map of classes.
+    pub fn classes(self) -> Option<usize> {
+        match self {
+            Ramp::Pairs => Some(CLASSES * CLASSES),
+            Ramp::Hues => Some(HUES),
+            Ramp::Viridis | Ramp::BlueRed | Ramp::Stripes => None,
+        }
+    }
+
     /// The colour at t, which is clamped to [0, 1].
     pub fn color(self, t: f64) -> Rgb {
         if t.is_nan() {
@@ -49,8 +62,9 @@ impl Ramp {
             Ramp::BlueRed => &BLUE_RED,
             Ramp::Pairs => {
                 let k = (t.clamp(0.0, 1.0) * (CLASSES * CLASSES - 1) as f64).round() as usize;
-                return mix(from_hex(HUES[k / CLASSES]), [1.0; 3], SHADES[k % CLASSES]);
+                return mix(from_hex(SET2[k / CLASSES]), [1.0; 3], SHADES[k % CLASSES]);
             }
+            Ramp::Hues => return from_hex(SET2[(t.clamp(0.0, 1.0) * (HUES - 1) as f64).round() as usize]),
             Ramp::Stripes => {
                 let k = ((t.clamp(0.0, 1.0) * STRIPES as f64) as usize).min(STRIPES - 1);
                 return from_hex(STRIPE_COLORS[k % 2]);
@@ -97,6 +111,16 @@ impl ColorScale {
         ColorScale { title: title.into(), ramp: Ramp::Pairs, range, ends: ends.into() }
     }
 
+    /// For classes that are numbers from 0 to below [`HUES`].
+    pub fn of_hues(title: &str, ends: &str) -> ColorScale {
+        ColorScale {
+            title: title.into(),
+            ramp: Ramp::Hues,
+            range: [0.0, (HUES - 1) as f64],
+            ends: ends.into(),
+        }
+    }
+
     /// For stripes of equal width over a range.
     pub fn of_stripes(title: &str, range: [f64; 2], ends: &str) -> ColorScale {
         ColorScale { title: title.into(), ramp: Ramp::Stripes, range, ends: ends.into() }
@@ -111,8 +135,8 @@ impl ColorScale {
 
     /// The colour of the legend's bar at t in [0, 1]: classes take equal parts of it.
     pub fn on_bar(&self, t: f64) -> Rgb {
-        let n = (CLASSES * CLASSES) as f64;
-        self.ramp.color(if self.ramp == Ramp::Pairs { (t * n).floor() / (n - 1.0) } else { t })
+        let class = |n: usize| (t * n as f64).floor() / (n - 1) as f64;
+        self.ramp.color(self.ramp.classes().map_or(t, class))
     }
 
     /// The map as a table of `n` colours.

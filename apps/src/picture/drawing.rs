@@ -30,6 +30,8 @@ pub struct Area {
     pub tint: u8,
     /// The dark cells of the pattern.
     pub cells: Vec<Polyline>,
+    /// Parts where the cells would be too small to be seen, and the share of the dark colour there.
+    pub blur: (Vec<Polyline>, f64),
     /// The edges of the mesh.
     pub wire: Vec<[[f64; 2]; 2]>,
     /// The mean area of a face, pixels.
@@ -145,7 +147,8 @@ pub fn draw(drawing: &Drawing<'_>, style: &Style) -> VectorSheet {
     }
     canvas.sheet.stroke(INK, width, &border);
     canvas.dots(drawing.dots.iter().map(|dot| (*dot, INK)), [0.6, 0.8]);
-    drawing.labels.iter().for_each(|text| label(&mut canvas, text));
+    let is_disk = drawing.frame == DrawingFrame::Disk;
+    drawing.labels.iter().for_each(|text| label(&mut canvas, text, is_disk));
     canvas.sheet.cut("drawing")
 }
 
@@ -156,12 +159,14 @@ fn area(canvas: &mut PanelCanvas<'_>, area: &Area) {
     canvas.sheet.fill(ground, &border);
     // A line in the same colour closes the gaps that anti-aliasing leaves between neighbours.
     canvas.sheet.stroke(ground, 0.3, &border);
+    let blur = canvas.polygons(&area.blur.0);
+    canvas.sheet.fill(mix(light, dark, area.blur.1), &blur);
     canvas.sheet.fill(dark, &cells);
     canvas.wire(wire_opacity(area.face), area.wire.iter().copied());
 }
 
-/// A label where there is room for it.
-fn label(canvas: &mut PanelCanvas<'_>, label: &Label) {
+/// A label where there is room for it; in the unit disk moved inwards until it lies inside.
+fn label(canvas: &mut PanelCanvas<'_>, label: &Label, is_disk: bool) {
     let size = canvas.style.letters();
     let lettering = word(&label.text, size);
     if lettering.width > canvas.fit.scale * label.room {
@@ -172,7 +177,14 @@ fn label(canvas: &mut PanelCanvas<'_>, label: &Label) {
     let [dx, dy] = label.away.map(|d| d / length);
     // Wide words are pushed farther where they would reach back to the line.
     let push = size * AWAY + 0.5 * (lettering.width - size * AWAY).max(0.0) * dx.abs();
-    let at = [x + push * dx - 0.5 * lettering.width, y - push * dy];
+    let mut at = [x + push * dx - 0.5 * lettering.width, y - push * dy];
+    if is_disk {
+        let (centre, radius) = (canvas.fit.apply([0.0; 2]), canvas.fit.scale);
+        let middle = [at[0] + 0.5 * lettering.width, at[1] - 0.5 * size];
+        let reach = (middle[0] - centre[0]).hypot(middle[1] - centre[1]) + 0.5 * lettering.width.hypot(size);
+        let back = ((reach - radius) / (reach - 0.5 * lettering.width.hypot(size)).max(1.0)).clamp(0.0, 1.0);
+        at = [0, 1].map(|k| at[k] + back * (centre[k] - middle[k]));
+    }
     let color = mix(seam_color(label.color), INK, 0.35);
     canvas.sheet.write(&label.text, &lettering.path, (at, color), HALO * size);
 }

@@ -46,7 +46,7 @@ pub fn draw(flat: &ShownLayout<'_>, wish: &PanelContent<'_>, style: &Style) -> V
 }
 
 /// The whole layout with its circles, or the part that is to be shown.
-fn fit(flat: &ShownLayout<'_>, style: &Style) -> Fit {
+pub fn fit(flat: &ShownLayout<'_>, style: &Style) -> Fit {
     if let Some(focus) = &style.focus {
         return Fit::around(focus.at_layout, focus.radius_layout, style.size);
     }

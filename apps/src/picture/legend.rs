@@ -1,11 +1,10 @@
-//! The legend below a picture: the bar of colours with its numbers, and the key of the circles.
+//! The legend below a picture: the bar of colours with its numbers.
 
-use super::color::{INK, from_hex, to_hex};
-use super::colormap::{ColorScale, Ramp, number};
-use super::flat::{DUAL_CIRCLE, VERTEX_CIRCLE};
+use super::Style;
+use super::color::{INK, to_hex};
+use super::colormap::{ColorScale, number};
 use super::sheet::{SvgPath, VectorSheet};
-use super::text::{CAPITALS, Lettering, line};
-use super::{ShownLayout, Style};
+use super::text::{CAPITALS, line};
 
 /// Length and height of the bar, over the size of a panel.
 const BAR: [f64; 2] = [0.62, 0.022];
@@ -22,7 +21,7 @@ pub fn bar(scale: &ColorScale, style: &Style) -> VectorSheet {
     let mut values: Vec<f64> = [low].into_iter().chain(scale.ticks()).collect();
     values.extend((high > low).then_some(high));
     // Classes have no numbers.
-    values.retain(|_| scale.ramp != Ramp::Pairs);
+    values.retain(|_| scale.ramp.classes().is_none());
     // The base line of the numbers; the remark on the ends stands below it.
     let below = top + height + if values.is_empty() { 0.0 } else { (0.45 + CAPITALS) * letters };
     // Lines of text, with the middle of the base line of each.
@@ -53,29 +52,6 @@ pub fn bar(scale: &ColorScale, style: &Style) -> VectorSheet {
         sheet.write(text, &lettering.path, ([left + x - 0.5 * lettering.width, *y], INK), 0.0);
     }
     sheet
-}
-
-/// The key of the circles of a layout, if it has any.
-pub fn circles(flat: &ShownLayout<'_>, style: &Style) -> Option<VectorSheet> {
-    let letters = style.letters();
-    let kinds = [
-        (flat.circles, VERTEX_CIRCLE, "circles of the vertices"),
-        (flat.dual_circles, DUAL_CIRCLE, "circles of the faces, orthogonal to those"),
-    ];
-    let entries: Vec<_> = kinds.into_iter().filter(|kind| !kind.0.is_empty()).collect();
-    let written: Vec<Lettering> = entries.iter().map(|(_, _, text)| line(text, letters)).collect();
-    let widest = written.iter().map(|l| l.width).fold(0.0, f64::max);
-    let (radius, row) = (0.38 * letters, 1.45 * letters);
-    let width = (widest + 3.0 * letters).ceil() as usize;
-    let mut sheet = VectorSheet::new(width, (row * entries.len() as f64 + 0.6 * letters).ceil() as usize);
-    for (k, ((_, color, text), lettering)) in entries.iter().zip(&written).enumerate() {
-        let y = row * (k as f64 + 0.9);
-        let mut path = SvgPath::default();
-        path.circle([letters, y - 0.5 * CAPITALS * letters], radius);
-        sheet.stroke(from_hex(*color), 0.12 * letters, &path);
-        sheet.write(text, &lettering.path, ([2.0 * letters, y], INK), 0.0);
-    }
-    (!entries.is_empty()).then_some(sheet)
 }
 
 #[cfg(test)]

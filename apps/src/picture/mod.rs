@@ -14,6 +14,7 @@ mod colormap;
 mod drawing;
 mod fit;
 mod flat;
+mod key;
 mod legend;
 mod light;
 mod normals;
@@ -24,6 +25,7 @@ mod region;
 mod scene;
 mod sheet;
 mod solid;
+mod standing;
 mod text;
 mod texture;
 mod upright;
@@ -31,8 +33,9 @@ mod vector;
 
 pub use args::{ColorChoice, FlowPictureArgs, PictureArgs, SurfacePictureArgs, Zoom, zoom};
 pub use camera::{Camera, Viewpoint};
-pub use colormap::{CLASSES, ColorScale};
+pub use colormap::{CLASSES, ColorScale, HUES};
 pub use drawing::{Area, Drawing, DrawingFrame, DrawingPattern, DrawnLine, Label, PALE, TINTS, tint_color};
+pub use key::LineMeaning;
 pub use region::{FINEST, cells, in_pieces, outline};
 pub use scene::{Circle, ColorField, Focus, ShownLayout, ShownSurface, Style};
 pub use texture::{OCTAVE, TextureChoice, Tiles};
@@ -61,6 +64,8 @@ pub struct Picture<'a> {
     /// The size of the pattern, where it is not to be found from the areas on both sides.
     pub pattern: Option<&'a Tiles>,
     pub field: Option<&'a ColorField>,
+    /// What the coloured lines and the dots mean.
+    pub lines: LineMeaning,
 }
 
 /// Space between two panels, over the size of a panel.
@@ -85,13 +90,23 @@ impl Picture<'_> {
         })
     }
 
+    /// True if the checks of the layout would all be so small that it had one grey: then they change in size.
+    fn is_grey(&self, tiles: &Tiles, style: &Style) -> bool {
+        style.texture != TextureChoice::None
+            && self.flat.is_some_and(|flat| tiles.size * flat::fit(&flat, style).scale < FINEST)
+    }
+
     /// The panels side by side, and the legend below them.
     fn sheet(&self, style: &Style) -> ricci::Result<VectorSheet> {
         parallel::within(style.threads, || Ok(self.panels(style)))
     }
 
     fn panels(&self, style: &Style) -> VectorSheet {
-        let own = if self.pattern.is_some() { None } else { self.tiles().map(|t| t.banded(style.bands)) };
+        let own = if self.pattern.is_some() { None } else { self.tiles() };
+        let own = own.map(|tiles| {
+            let bands = style.bands || self.is_grey(&tiles, style);
+            tiles.banded(bands)
+        });
         let tiles = self.pattern.or(own.as_ref());
         let wish = |corner_uv| PanelContent { tiles, corner_uv, field: self.field };
         let [surface, beside] = [self.surface, self.beside].map(|surface| {
@@ -102,8 +117,7 @@ impl Picture<'_> {
         let drawing = self.drawing.map(|d| drawing::draw(d, style));
         let panels =
             stack([surface, beside, flat, second, drawing], 0, (BETWEEN * style.size as f64) as usize);
-        let key = self.flat.and_then(|f| legend::circles(&f, style));
-        stack([Some(panels), key, self.field.map(|f| legend::bar(&f.scale, style))], 1, 0)
+        stack([Some(panels), key::draw(self, style), self.field.map(|f| legend::bar(&f.scale, style))], 1, 0)
     }
 }
 

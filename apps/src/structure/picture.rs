@@ -3,9 +3,10 @@
 use super::args::StructureArgs;
 use crate::failure::Failure;
 use crate::input::Input;
-use crate::picture::{self, CLASSES, ColorField, ColorScale, Picture, ShownSurface, TextureChoice};
+use crate::picture::{self, ColorField, ColorScale, LineMeaning, Picture, ShownSurface, TextureChoice};
+use crate::quantity::hues;
 use ricci::Control;
-use ricci::mesh::{FaceId, Mesh, PerFace};
+use ricci::mesh::{FaceId, PerFace};
 use ricci::structure::Atlas;
 use std::sync::Arc;
 
@@ -20,29 +21,6 @@ fn owners(atlas: &Atlas) -> PerFace<Option<u32>> {
     owner
 }
 
-/// A colour per chart: neighbouring charts differ as far as there are colours, and so do charts with successive numbers.
-fn colours(mesh: &Mesh, owner: &PerFace<Option<u32>>, n_charts: usize) -> Vec<usize> {
-    let n = CLASSES * CLASSES;
-    let mut beside = vec![Vec::new(); n_charts];
-    for e in mesh.edges() {
-        let [f, g] = [e.halfedge(), e.halfedge().twin()].map(|h| mesh.face(h).and_then(|f| owner[f]));
-        if let (Some(i), Some(j)) = (f, g)
-            && i != j
-        {
-            beside[i as usize].push(j as usize);
-            beside[j as usize].push(i as usize);
-        }
-    }
-    let mut colour = vec![n; n_charts];
-    for i in 0..n_charts {
-        // A step that is prime to the number of classes reaches every class.
-        let wish = (5 * i) % n;
-        let free = |c: &usize| beside[i].iter().all(|&j| colour[j] != *c);
-        colour[i] = (0..n).map(|k| (wish + 5 * k) % n).find(free).unwrap_or(wish);
-    }
-    colour
-}
-
 pub fn draw(
     input: &Input,
     atlas: &Atlas,
@@ -50,7 +28,7 @@ pub fn draw(
     control: &Control,
 ) -> Result<Vec<u8>, Failure> {
     let owner = owners(atlas);
-    let colour = colours(&atlas.mesh, &owner, atlas.charts.len());
+    let colour = hues(&atlas.mesh, |f| owner[f], atlas.charts.len());
     // The given surface, cut along the edges of the atlas's triangulation.
     let subdivision = match &atlas.subdivision {
         Some(subdivision) => Some(subdivision.clone()),
@@ -66,7 +44,7 @@ pub fn draw(
     let value = |f: FaceId| owner[face(f)].map_or(f64::NAN, |chart| colour[chart as usize] as f64);
     let field = ColorField {
         corners: mesh.faces().map(|f| [value(f); 3]).collect(),
-        scale: ColorScale::of_pairs("charts", "one colour is the core of one chart; grey lies in none"),
+        scale: ColorScale::of_hues("cores of charts", "neighbours have different colours; grey lies in none"),
     };
     let border = mesh.edges().filter(|e| {
         let [f, g] = [e.halfedge(), e.halfedge().twin()].map(|h| mesh.face(h).map(|f| owner[face(f)]));
@@ -84,5 +62,11 @@ pub fn draw(
         is_closed: mesh.is_closed(),
     };
     let style = args.picture.style(TextureChoice::None, args.common.threads);
-    picture::png(&Picture { surface: Some(surface), field: Some(&field), ..Picture::default() }, &style)
+    let drawn = Picture {
+        surface: Some(surface),
+        field: Some(&field),
+        lines: LineMeaning::Charts,
+        ..Picture::default()
+    };
+    picture::png(&drawn, &style)
 }

@@ -8,7 +8,9 @@ use super::pieces::middle;
 use super::quotient::{ORIGIN, Uniformized};
 use super::tiling::{Prototype, Stamp, Tiling, tint};
 use crate::failure::Failure;
-use crate::picture::{self, DrawingFrame, DrawingPattern, PALE, Picture, ShownSurface, Style, Tiles};
+use crate::picture::{
+    self, DrawingFrame, DrawingPattern, FINEST, LineMeaning, PALE, Picture, ShownSurface, Style, Tiles,
+};
 use ricci::embed::layout::distance_from_origin;
 use ricci::embed::{DeckElement, DirichletDomain};
 use ricci::geometry::model::Model;
@@ -54,7 +56,9 @@ pub fn draw(
         None => CutOpenSurface::along_edges(u, laid, &sides),
     };
     let (uv, tiles) = pattern(&opened.shape, u.deck.space);
-    let tiles = tiles.banded(canvas.style.bands);
+    // Checks that are too small to be seen would give one grey.
+    let scale = frame(canvas.at, &opened.shape.border).fit(canvas.style.size).scale;
+    let tiles = tiles.banded(canvas.style.bands || tiles.size * scale < FINEST);
     let pattern = DrawingPattern { uv: &uv, tiles: &tiles };
     let stamp = &Stamp::new(&opened.shape, u.deck.space, &pattern, &canvas.style);
     let tiling = match shown {
@@ -95,7 +99,13 @@ pub fn draw(
         cones: &cones,
         is_closed: u.boundary.is_empty(),
     });
-    let drawn = Picture { surface, drawing: drawing.as_ref(), pattern: Some(&tiles), ..Picture::default() };
+    let drawn = Picture {
+        surface,
+        drawing: drawing.as_ref(),
+        pattern: Some(&tiles),
+        lines: LineMeaning::Sides,
+        ..Picture::default()
+    };
     picture::png(&drawn, &canvas.style)
 }
 

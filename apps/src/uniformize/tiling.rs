@@ -3,7 +3,7 @@
 use super::model_place::ModelPlace;
 use crate::picture::{
     Area, Drawing, DrawingFrame, DrawingPattern, DrawnLine, FINEST, Label, OCTAVE, Style, TINTS,
-    TextureChoice, cells, in_pieces, outline,
+    TextureChoice, cells, doubled_area, in_pieces, outline,
 };
 use ricci::embed::{DeckElement, DeckGroup};
 use ricci::geometry::model::{Model, from_poincare};
@@ -14,6 +14,8 @@ use std::f64::consts::PI;
 const LEAST: f64 = 0.35;
 /// Radius in pixels below which few points of a copy's border are drawn.
 const PLAIN: f64 = 7.0;
+/// Side in pixels below which a check is drawn with the light ones around it in their mean colour.
+const CLEAR: f64 = 1.8;
 /// Radius in pixels above which a copy is drawn with its border.
 const BORDERED: f64 = 3.0;
 /// Area of a face in square pixels above which a copy is drawn with the edges of the mesh.
@@ -115,7 +117,12 @@ impl Tiling {
         let outline =
             if radius < PLAIN { coarse } else { stamp.border.iter().map(moved).collect::<Vec<_>>() };
         let fine = radius * stamp.check < FINEST;
-        let cells = stamp.cells.iter().filter(|_| !fine).map(|cell| cell.iter().map(moved).collect());
+        // A motion makes the checks of one copy small at one end: there they give way to their mean colour.
+        let moved_cells =
+            stamp.cells.iter().filter(|_| !fine).map(|cell| cell.iter().map(moved).collect::<Vec<_>>());
+        let side = |cell: &Vec<[f64; 2]>| self.scale * (0.5 * area(cell).abs()).sqrt();
+        let (small, cells): (Vec<Vec<[f64; 2]>>, Vec<_>) = moved_cells.partition(|cell| side(cell) < CLEAR);
+        let blurred = small.iter().filter(|cell| area(cell) != 0.0).map(|cell| doubled(cell)).collect();
         // A triangulation has about two thirds as many faces as edges.
         let face = 1.5 * PI * radius * radius / stamp.wire.len().max(1) as f64;
         let wire = stamp.wire.iter().filter(|_| face > WIRED).map(|side| [0, 1].map(|k| moved(&side[k])));
@@ -123,9 +130,9 @@ impl Tiling {
             let points = outline.iter().chain(outline.first()).copied().collect();
             self.lines.push(DrawnLine { points, color: None, width });
         }
-        let (cells, wire) = (cells.collect(), wire.collect());
         let dark = stamp.dark[usize::from(!fine)];
-        self.areas.push(Area { border: outline, tint, cells, wire, face, dark });
+        let blur = (blurred, stamp.dark[0]);
+        self.areas.push(Area { border: outline, tint, cells, blur, wire: wire.collect(), face, dark });
     }
 
     /// Add a line through ambient points, geodesic between them.
@@ -172,6 +179,23 @@ impl Tiling {
         let color = line.color.unwrap_or(0);
         self.labels.push(Label { at, away, text, room: 1.1 * length, color });
     }
+}
+
+/// Twice the area of a polygon, negative for one that runs clockwise.
+fn area(polygon: &[[f64; 2]]) -> f64 {
+    (2..polygon.len()).map(|k| doubled_area([polygon[0], polygon[k - 1], polygon[k]])).sum()
+}
+
+/// A check drawn twice as large about its middle, counterclockwise: it covers its half of the light checks around it, and those of its
+/// neighbours the rest.
+fn doubled(cell: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let n = cell.len() as f64;
+    let middle = [0, 1].map(|k| cell.iter().map(|p| p[k]).sum::<f64>() / n);
+    let mut larger: Vec<[f64; 2]> = cell.iter().map(|p| [0, 1].map(|k| 2.0 * p[k] - middle[k])).collect();
+    if area(&larger) < 0.0 {
+        larger.reverse();
+    }
+    larger
 }
 
 /// The tint of a copy, by the action of its deck transformation on homology, so that the tints of neighbours mostly differ.
