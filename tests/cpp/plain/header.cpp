@@ -38,6 +38,12 @@ int whole_job() {
     if (layout.uv().size() != 24 || layout.distortion().first.size() != 4) return 4;
     if (layout.distortion(RICCI_ON_REFINEMENT).second.size() != summary.n_faces) return 4;
     if (layout.seam_edges().size() != summary.n_seams || !layout.flipped().empty()) return 5;
+    // A closed surface is cut along sides of seams alone.
+    const std::vector<std::int32_t> lines = layout.lines(0.5);
+    std::size_t n_points = 0;
+    for (std::size_t k = 0; k < lines.size(); k += 4) n_points += static_cast<std::size_t>(lines[k + 3]);
+    if (lines.empty() || lines[0] != RICCI_LAYER_SEAMS) return 10;
+    if (layout.line_points(0.5).size() != n_points) return 10;
     const ricci::map map(end);
     if (map.faces(RICCI_ON_INPUT).size() != map.summary().n_faces) return 6;
     if (ricci::atlas(layout).faces().size() != summary.n_faces) return 7;
