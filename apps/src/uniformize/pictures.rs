@@ -58,7 +58,8 @@ pub fn draw(
     let (uv, tiles) = pattern(&opened.shape, u.deck.space);
     // Checks that are too small to be seen would give one grey.
     let scale = frame(canvas.at, &opened.shape.border).fit(canvas.style.size).scale;
-    let tiles = tiles.banded(canvas.style.bands || tiles.size * scale < FINEST);
+    let bands = canvas.style.bands || tiles.size * scale < FINEST;
+    let tiles = tiles.banded(bands);
     let pattern = DrawingPattern { uv: &uv, tiles: &tiles };
     let stamp = &Stamp::new(&opened.shape, u.deck.space, &pattern, &canvas.style);
     let tiling = match shown {
