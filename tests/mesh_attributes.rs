@@ -63,7 +63,10 @@ fn what_a_format_has_no_place_for_is_named() {
     let rest = Attributes { corner_normals: None, ..cube.attributes.clone() };
     assert_eq!((&back.faces, &back.attributes), (&cube.faces, &rest));
     let (back, left_out) = through("m.off", &cube);
-    assert_eq!(left_out, [hard, "texture coordinates, for they have seams: the format has one pair per vertex"]);
+    assert_eq!(
+        left_out,
+        [hard, "texture coordinates, for they have seams: the format has one pair per vertex"]
+    );
     assert_eq!((&back.faces, back.attributes), (&cube.faces, Attributes::default()));
     let smooth = Soup { attributes: Attributes::default(), ..cube };
     for name in ["m.obj", "m.off", "m.ply", "m.glb"] {

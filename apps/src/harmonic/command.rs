@@ -30,8 +30,14 @@ impl Job for HarmonicArgs {
             Some(MapTarget::File(path)) => Some(&**path),
             _ => None,
         };
-        let files =
-            [&self.uv, &self.flat.flat, &self.sphere, &self.trace, &self.picture.picture, &self.common.report];
+        let files = [
+            &self.uv,
+            &self.flat.flat,
+            &self.sphere,
+            &self.trace,
+            &self.picture.picture,
+            &self.common.report,
+        ];
         check_outputs(&[Some(&self.surface.file.mesh), values], &files.map(|file| file.as_deref()))
     }
 
