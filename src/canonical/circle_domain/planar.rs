@@ -33,7 +33,7 @@ pub(super) fn solve(
     let PreparedSurface { split, surface, filled, start } = prepared;
     let outer = options.outer.unwrap_or_else(|| longest_loop(&surface, &filled));
     let weights = vertex_areas(&surface, &filled);
-    let flow = options.of_flow();
+    let (flow, tolerance) = (options.of_flow(), options.flow.tolerance);
     let (mesh, mut metric, followed) = start.parts();
     let unit = unit(&metric);
     in_units(&mesh, &mut metric, unit);
@@ -58,14 +58,12 @@ pub(super) fn solve(
         // The first transformation was rounded, to a share of the unit disk and not of the circle.
         view = view.then(&only.to_centre());
     }
-    let found = PlanarSolution { split, surface, filled, start, on, plane, found, outer, unit };
+    let found = PlanarSolution { split, surface, filled, start, on, plane, found, outer, unit, tolerance };
     let mut domain = found.seen(view.clone(), control)?;
     (domain.report.iterations, domain.report.seconds) = (iterations, seconds);
-    let domain = domain.judged(options.flow.tolerance);
-    match domain.report.worst_loop.filter(|&k| k != outer && is_centred && domain.report.deviation > ROUND) {
-        Some(k) => found.centred_on(k, view, domain, options, control),
-        None => Ok(domain),
-    }
+    let domain = domain.judged(tolerance);
+    let is_lost = domain.report.worst_loop.is_some_and(|k| k != outer) && domain.report.deviation > ROUND;
+    if is_lost && is_centred { found.about_worst(view, domain, control) } else { Ok(domain) }
 }
 
 /// A planar surface in the plane, with all that a domain is made of.
@@ -81,6 +79,8 @@ struct PlanarSolution {
     outer: usize,
     /// The unit of length of that metric.
     unit: f64,
+    /// Largest |K| of a converged domain.
+    tolerance: f64,
 }
 
 impl PlanarSolution {
@@ -129,22 +129,16 @@ impl PlanarSolution {
         })
     }
 
-    /// The domain with the circle of loop k about 0, where f64s are dense, if it is rounder than `other`; else that one.
-    fn centred_on(
-        &self,
-        k: usize,
-        view: DiskView,
-        other: CircleDomain,
-        options: &CircleDomainOptions,
-        control: &Control,
-    ) -> Result<CircleDomain> {
+    /// The domain with the circle of the worst loop of `other` about 0, where f64s are dense, if it is rounder than `other`; else that one.
+    fn about_worst(&self, view: DiskView, other: CircleDomain, control: &Control) -> Result<CircleDomain> {
+        let Some(k) = other.report.worst_loop else { return Ok(other) };
         let view = view.then(&view.circle(k).to_centre());
         let view = view.then(&view.circle(k).to_centre());
         let mut domain = self.seen(view, control)?;
         let CircleReport { iterations, seconds, .. } = other.report;
         (domain.report.iterations, domain.report.seconds) = (iterations, seconds);
         domain.report.centred_on = Some(k);
-        let domain = domain.judged(options.flow.tolerance);
+        let domain = domain.judged(self.tolerance);
         Ok(if domain.report.deviation < other.report.deviation { domain } else { other })
     }
 }
