@@ -183,7 +183,7 @@ fn what_some_elements_lack_is_filled_up() {
     let text = "v 0 0 0 1 0 0\nv 1 0 0\nv 1 1 0 0 0 1\nv 0 1 0 0 1 0 0.5\nvt 0.5 0.25\nvn 0 0 2\n\
                 f 1/1 2/1 3/1\nf 1 3//1 4\n";
     let soup = io::parse_obj(text.as_bytes(), "t.obj").unwrap();
-    let Attributes { normals, corner_normals, colors, uv } = soup.attributes;
+    let Attributes { normals, corner_normals, colors, uv, .. } = soup.attributes;
     assert_eq!(uv.unwrap(), [[[0.5, 0.25]; 3], [[0.0; 2]; 3]]);
     let white = [1.0; 4];
     assert_eq!(colors.unwrap(), [[1.0, 0.0, 0.0, 1.0], white, [0.0, 0.0, 1.0, 1.0], [0.0, 1.0, 0.0, 0.5]]);
