@@ -322,7 +322,7 @@ fn obj_and_off_attributes_are_kept() {
     // Missing, invalid and out-of-range values get the default; the rest is kept.
     let poor = "v 0 0 0 1 0 0\nv 1 0 0\nv 1 1 0 nan 0 0\nvt 0 0\nvn 0 0 1\nvn 0 1 0\nf 1/1/1 2/7/1 3//1\nf 1//2 3//1 2//1\n";
     let soup = io::parse_obj(poor.as_bytes(), "t.obj").unwrap();
-    let Attributes { normals, corner_normals, colors, uv } = soup.attributes;
+    let Attributes { normals, corner_normals, colors, uv, .. } = soup.attributes;
     assert_eq!(colors.unwrap(), [[1.0, 0.0, 0.0, 1.0], [1.0; 4], [1.0; 4]]);
     assert_eq!((normals, uv), (None, Some(vec![[[0.0; 2]; 3]; 2])));
     assert_eq!(

@@ -127,8 +127,9 @@ impl Job for RefineArgs {
         match &outcome.result {
             FinerSurface::Triangles { soup, .. } => {
                 let format = format_of(&self.out)?;
-                run.left_out =
+                let left_out =
                     run.outputs.add_named(&self.out, |path| io::write_as(path, format, &soup.soup))?;
+                run.outputs.leave_out(left_out);
                 run.file("xref", self.xref.as_deref(), |outputs, path| {
                     outputs.add(path, |out| write_places(out, soup))
                 })?;
@@ -241,7 +242,7 @@ impl JobOutcome for RefineOutcome {
             .with("area_before", self.area[0]);
         match &self.result {
             FinerSurface::Triangles { soup, .. } => {
-                figures.with("longest_edge", soup.longest_edge()).with("left_out", &*run.left_out)
+                figures.with("longest_edge", soup.longest_edge()).with("left_out", run.outputs.left_out())
             }
             FinerSurface::Metric { report, .. } => figures
                 .with("added_inside", report.inside)

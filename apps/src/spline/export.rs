@@ -5,7 +5,7 @@ use crate::failure::Failure;
 use crate::output::{check_extension, check_outputs, extension};
 use crate::report::{Checks, Done, Figures, timed};
 use crate::runner::{CommandRun, Job, JobHeader, JobOutcome};
-use crate::say::{self, count};
+use crate::say::count;
 use ricci::spline::{BicubicFit, BicubicOptions, LengthUnit, Spline, StepOptions};
 
 /// Largest angle, in degrees, between the normals of neighbouring patches: larger angles are seen in reflections.
