@@ -29,7 +29,7 @@ pub struct Input {
 pub enum FileContent {
     /// The text of an intrinsic metric.
     Lengths(String),
-    Triangles(Soup),
+    Triangles(Box<Soup>),
 }
 
 /// Read the file of a mesh or of an intrinsic metric. A file on stdin is read as one with a name is: what it holds says what it is.
@@ -42,10 +42,10 @@ pub fn content(file: &MeshArgs) -> Result<FileContent, Failure> {
         SurfaceFile::open(&file.mesh)?
     };
     match (found.format(), file.weld) {
-        (SurfaceFormat::Stl, Some(weld)) => Ok(FileContent::Triangles(found.welded(weld)?)),
+        (SurfaceFormat::Stl, Some(weld)) => Ok(FileContent::Triangles(Box::new(found.welded(weld)?))),
         (_, Some(_)) => Err(Failure::Usage(WELD_ELSEWHERE.into())),
         (SurfaceFormat::Metric, None) => Ok(FileContent::Lengths(found.text())),
-        (_, None) => Ok(FileContent::Triangles(found.soup()?)),
+        (_, None) => Ok(FileContent::Triangles(Box::new(found.soup()?))),
     }
 }
 
@@ -54,7 +54,7 @@ const WELD_ELSEWHERE: &str = "--weld: only an STL file has no vertices of its ow
 /// Read a mesh file that must hold triangles.
 pub fn read_triangles(path: &Path) -> Result<Soup, Failure> {
     match content(&MeshArgs { mesh: path.into(), weld: None })? {
-        FileContent::Triangles(soup) => Ok(soup),
+        FileContent::Triangles(soup) => Ok(*soup),
         FileContent::Lengths(_) => {
             Err(Failure::Input(format!("{}: an intrinsic metric has no triangles in space", path.display())))
         }

@@ -74,14 +74,7 @@ pub fn draw(
         CanonicalPictureChoice::Uniform(UniformPictureChoice::Dirichlet) => {
             Some(dirichlet(u, canvas, stamp)?)
         }
-        CanonicalPictureChoice::Cover(choice) => {
-            let mut tiling = match choice {
-                CoverPictureChoice::Copies => copies(u, canvas, stamp)?,
-                CoverPictureChoice::Tiles => tiled(u, canvas, stamp)?,
-            };
-            lifted(u, &mut tiling);
-            Some(tiling)
-        }
+        CanonicalPictureChoice::Cover(choice) => Some(cover(u, choice, canvas, stamp)?),
     };
     let drawing = tiling.as_ref().map(Tiling::drawing);
     let cones: Vec<(u32, f64)> = u.corners.iter().map(|(v, angle)| (v.0, PI - angle)).collect();
@@ -108,6 +101,21 @@ pub fn draw(
         ..Picture::default()
     };
     picture::png(&drawn, &canvas.style)
+}
+
+/// A piece of the universal cover with the lifted loop in it.
+fn cover(
+    u: &Uniformized,
+    choice: CoverPictureChoice,
+    canvas: &ModelCanvas,
+    stamp: &Stamp,
+) -> Result<Tiling, Failure> {
+    let mut tiling = match choice {
+        CoverPictureChoice::Copies => copies(u, canvas, stamp)?,
+        CoverPictureChoice::Tiles => tiled(u, canvas, stamp)?,
+    };
+    lifted(u, &mut tiling);
+    Ok(tiling)
 }
 
 /// The pattern: checks of one size in the plane or the Poincaré disk, with bands in the metric as far as octaves reach.
