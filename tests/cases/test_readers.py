@@ -130,11 +130,13 @@ def test_every_format_is_read_packed(ricci, case, tmp_path):
     (tmp_path / "m.stl").write_bytes(case("x_bom.stl").read_bytes())
     assert ricci("flow", "m.obj", "--metric", "m.json").code == 0
     for end in ["obj", "off", "ply", "glb", "stl", "json"]:
+        plain = counts(ricci("info", f"m.{end}"))
         packed = gzip.compress((tmp_path / f"m.{end}").read_bytes())
         for name in [f"p.{end}.gz", f"p.{end}"]:
             (tmp_path / name).write_bytes(packed)
-            assert counts(ricci("info", name)) == (5, 4), name
-        assert counts(ricci("info", "-", stdin=packed)) == (5, 4), end
+            assert counts(ricci("info", name)) == plain, name
+        assert counts(ricci("info", "-", stdin=packed)) == plain, end
+        assert end == "json" or plain == (5, 4)
 
 
 def test_gltf_is_read_with_the_file_beside_it(ricci, tmp_path):
@@ -171,7 +173,7 @@ def test_gltf_is_read_with_the_file_beside_it(ricci, tmp_path):
 @pytest.mark.parametrize("name, curvature", [("c_semi.csv", 1.5707963), ("c_tab.csv", 1.57)])
 def test_the_separator_of_a_table_is_found(ricci, case, tmp_path, name, curvature):
     assert ricci("make", "disk", "-o", "m.obj", "-n", "20").code == 0
-    run = ricci("flow", "m.obj", "--target", f"cones:{case(name)}")
+    run = ricci("flow", "m.obj", "--target", f"cones:{case(name)}", "--pin", "boundary")
     assert run.code == 0, run.text
     [(vertex, found)] = run.report["result"]["cones"]
     assert vertex == 700 and found == pytest.approx(curvature)
@@ -232,7 +234,7 @@ def test_numbers_of_a_ply_go_through_repair(ricci, tmp_path):
     assert "numbers of vertices `quality`, `label`: only PLY has them" in said and "numbers of faces `flags`: only PLY has them" in said
 
 
-@pytest.mark.parametrize("command", [["flow"], ["uniformize"], ["harmonic", "--to", "disk"]])
+@pytest.mark.parametrize("command", [["flow"], ["uniformize", "--boundary", "straight"], ["harmonic", "--to", "disk"]])
 def test_every_layout_keeps_the_names_of_its_faces(ricci, tmp_path, command):
     (tmp_path / "m.obj").write_text("mtllib m.mtl\no Sheet\n" + SQUARE.format(z=0.3).replace("f 3 4 5", "usemtl Red #2\nf 3 4 5") + "l 1 2\n")
     run = ricci(command[0], "m.obj", *command[1:], "--uv", "u.obj")
