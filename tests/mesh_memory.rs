@@ -198,7 +198,7 @@ fn dense_texts(cases: &mut Vec<Case>) {
             list("v 0 0 0\n", item, 4 * N / item.len(), "")
         }));
     }
-    cases.push(Case::new("OBJ of different groups", io::parse_obj, Some(true), || {
+    cases.push(Case::new("OBJ of different groups", io::parse_obj, None, || {
         let groups: String = (0..N / 4).map(|k| format!("g {k:x}\nf 1 1 1\n")).collect();
         list("v 0 0 0\n", &groups, 1, "")
     }));

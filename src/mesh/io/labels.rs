@@ -106,6 +106,9 @@ pub(super) struct LabelLines {
     changes: Vec<(usize, [u32; 4])>,
 }
 
+/// Bytes that a label may take: its names, which are those of its lines again, and the table in which it is found.
+pub(super) const PER_LABEL: usize = 2 * size_of::<FaceLabel>();
+
 /// In place of the number of a name: that in force before this part of the file.
 const INHERITED: u32 = u32::MAX;
 
@@ -169,6 +172,11 @@ impl LabelLines {
             self.now = joined(names);
             self.change(polygons + polygon);
         }
+    }
+
+    /// The number of labels that [`LabelLines::finish`] makes at most, beside the one without names.
+    pub fn count(&self) -> usize {
+        self.changes.iter().map(|(_, names)| names).collect::<HashSet<_>>().len()
     }
 
     /// The labels of triangles, from the polygon of each; none if the file has no names.

@@ -1,7 +1,7 @@
 //! Reader of Wavefront OBJ. It keeps the file's vertex numbering, which the readers of other crates replace.
 
 use super::budget::Budget;
-use super::labels::LabelLines;
+use super::labels::{LabelLines, PER_LABEL};
 use super::polygon::Polygons;
 use super::scan::{BYTE_ORDER_MARK, Location, Quoted, bare, real, words};
 use super::soup::{NO_NORMAL, NO_TEXCOORD, WHITE};
@@ -193,6 +193,7 @@ impl ObjFile {
     }
 
     fn soup(mut self, mut budget: Budget, place: Location<'_>) -> Result<Soup> {
+        budget.take(self.labels.count(), PER_LABEL, "names of faces", place)?;
         if self.corner_texcoords.is_empty()
             && self.corner_normals.is_empty()
             && let Some(faces) = self.polygons.all_triangles(&mut budget, place)?
