@@ -11,7 +11,7 @@
 //! ```
 
 use super::ids::FaceId;
-use super::io::{Attributes, Soup};
+use super::io::{Attributes, NumberColumn, Soup};
 use super::place::Place;
 use crate::error::{Error, Result};
 use crate::geometry::vector::{distance, norm, triangle_normal};
@@ -221,7 +221,15 @@ impl FaceParts {
                 place.get_or_insert(Place { face: FaceId(self.origin[f]), weights });
             }
         }
-        let Attributes { corner_normals, uv, .. } = &given.attributes;
+        let Attributes { corner_normals, uv, labels, vertex_numbers, face_numbers, unread, .. } =
+            &given.attributes;
+        self.soup.attributes.labels =
+            labels.as_ref().map(|labels| labels.of_origins(self.origin.iter().copied()));
+        self.soup.attributes.face_numbers =
+            face_numbers.iter().map(|column| column.of_origins(&self.origin)).collect();
+        self.soup.attributes.vertex_numbers =
+            vertex_numbers.iter().map(|column| at_places(column, &vertex_place, &given.faces)).collect();
+        self.soup.attributes.unread.clone_from(unread);
         self.soup.attributes.corner_normals = corner_normals.as_ref().map(|values| self.at_corners(values));
         self.soup.attributes.uv = uv.as_ref().map(|values| self.at_corners(values));
         RefinedSoup { soup: self.soup, face_origin: self.origin, vertex_place }
@@ -235,6 +243,23 @@ impl FaceParts {
         let of_part = |(&f, corners): (&u32, &[[f64; 3]; 3])| corners.map(|w| linear(&values[f as usize], w));
         self.origin.iter().zip(&self.corners).map(of_part).collect()
     }
+}
+
+/// The numbers of the given vertices at places in their faces: linear in each face, or where they are integers, which may be labels, that of
+/// the nearest corner. Vertices without a face come first in order, as they were given.
+fn at_places(column: &NumberColumn, places: &[Option<Place>], faces: &[[u32; 3]]) -> NumberColumn {
+    let number = |(v, place): (usize, &Option<Place>)| {
+        let Some(Place { face, weights }) = place else { return column.values[v] };
+        let corners = faces[face.index()].map(|v| column.values[v as usize]);
+        if column.kind.is_integer() {
+            let nearest = (0..3).max_by(|&i, &j| weights[i].total_cmp(&weights[j])).unwrap_or(0);
+            return corners[nearest];
+        }
+        // A corner that has no share may hold a number that is not finite.
+        (0..3).filter(|&k| weights[k] != 0.0).map(|k| weights[k] * corners[k]).sum()
+    };
+    let values = places.iter().enumerate().map(number).collect();
+    NumberColumn { name: column.name.clone(), kind: column.kind, values }
 }
 
 fn mean<const N: usize>(a: [f64; N], b: [f64; N]) -> [f64; N] {

@@ -199,6 +199,13 @@ def test_materials_and_groups_go_with_the_faces(ricci, case, tmp_path, more):
     assert named_faces(tmp_path / "r.obj") == given
 
 
+def test_parts_of_faces_keep_their_names(ricci, case, tmp_path):
+    source = case("groups full.obj")
+    assert ricci("refine", source, "-o", "f.obj", "--levels", "1").code == 0
+    given, written = named_faces(source), named_faces(tmp_path / "f.obj")
+    assert written[0] == given[0] and sorted(map(str, written[1])) == sorted(4 * list(map(str, given[1])))
+
+
 def named_faces(path):
     """The material libraries of an OBJ file, and the object, group and material of each of its faces."""
     libraries, names, faces = [], {}, []
@@ -229,6 +236,13 @@ def test_numbers_of_a_ply_go_through_repair(ricci, tmp_path):
     assert rows[0][3] == 0.5 and rows[1][3] != rows[1][3]
     faces = [struct.unpack_from("<B3IB", body, 128 + 14 * f) for f in range(2)]
     assert faces == [(3, 2, 3, 0, 200), (3, 0, 1, 2, 100)]
+    run = ricci("refine", "m.ply", "-o", "f.ply", "--levels", "1")
+    assert run.code == 0 and run.report["result"]["left_out"] == ["element `edge` of 1 rows"], run.text
+    body = (tmp_path / "f.ply").read_bytes().partition(b"end_header\n")[2]
+    rows = [struct.unpack_from("<3dfi", body, 32 * v) for v in range(9)]
+    assert [row[4] for row in rows[:4]] == [7, 8, 9, 10] and {row[4] for row in rows[4:]} <= {7, 8, 9, 10}
+    assert any(row[3] == pytest.approx(1.25) for row in rows[4:])
+    assert [body[32 * 9 + 14 * f + 13] for f in range(8)].count(200) == 4
     run = ricci("flow", "m.ply", "--uv", "u.obj")
     said = run.report["result"]["left_out"]
     assert "numbers of vertices `quality`, `label`: only PLY has them" in said and "numbers of faces `flags`: only PLY has them" in said

@@ -68,7 +68,7 @@ impl NumberType {
         }
     }
 
-    pub(super) fn is_integer(self) -> bool {
+    pub(crate) fn is_integer(self) -> bool {
         !matches!(self, NumberType::F32 | NumberType::F64)
     }
 
