@@ -2,9 +2,10 @@
 
 use crate::figures::of_flow;
 use crate::job::FlowOutcome;
+use crate::listed::named;
 use crate::report::{Checks, Done, Figures, InputSummary};
 use crate::runner::{CommandRun, JobOutcome};
-use crate::say::{count, ending, modulus, named, surface, tolerance};
+use crate::say::{count, ending, modulus, surface, tolerance};
 use crate::surface_layout::SurfaceLayout;
 use ricci::flow::StopReason;
 use ricci::geometry::worse;

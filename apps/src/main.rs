@@ -23,6 +23,7 @@ mod harmonic;
 mod info;
 mod input;
 mod job;
+mod listed;
 mod make;
 mod matching;
 mod metric_file;

@@ -2,7 +2,7 @@
 
 use crate::failure::Failure;
 use crate::input::Input;
-use crate::say::named;
+use crate::listed::named;
 pub use crate::timing::{PhaseSeconds, timed};
 use ricci::mesh::Mesh;
 use ricci::mesh::check::Diagnosis;

@@ -36,14 +36,6 @@ pub fn count(n: usize, one: &str, many: &str) -> String {
     format!("{n} {}", if n == 1 { one } else { many })
 }
 
-/// The first few elements of a list.
-pub fn named<Id: ToString>(one: &str, many: &str, list: &[Id]) -> String {
-    const SHOWN: usize = 5;
-    let ids: Vec<String> = list.iter().take(SHOWN).map(ToString::to_string).collect();
-    let more = if list.len() > SHOWN { format!(" … ({} in all)", list.len()) } else { String::new() };
-    format!("{} {}{more}", if list.len() == 1 { one } else { many }, ids.join(", "))
-}
-
 /// A length or an area with this many decimals; in scientific notation where those would be zeros or noise.
 pub fn size(x: f64, decimals: usize) -> String {
     if x == 0.0 || (1e-3..1e9).contains(&x.abs()) {

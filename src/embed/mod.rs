@@ -20,6 +20,7 @@ mod face_transitions;
 mod faces;
 mod flat_surface;
 mod frame;
+mod input_splits;
 pub mod layout;
 mod layout_options;
 pub mod lifted_loop;

@@ -1,8 +1,10 @@
 //! The faces of the surface as it came, with its edges split, put together as a mesh.
 
 use super::face_polygon::{BorderSpot, FacePolygon};
+use super::input_splits::InputSplits;
 use super::layout::{Layout, faces_where, is_left_turn};
-use super::repaired_input::{InputSplits, RepairedInput};
+use super::repaired_input::RepairedInput;
+use crate::control::Control;
 use crate::error::Result;
 use crate::mesh::{EdgeId, FaceId, HalfedgeId, Mesh, PerEdge, PerHalfedge};
 use crate::metric::CommonSubdivision;
@@ -12,6 +14,22 @@ use std::sync::Arc;
 
 /// Marks a half-edge or point that has no number yet.
 const NONE: u32 = u32::MAX;
+
+impl Layout {
+    /// The layout on the surface as it came ([`Layout::on_input`]), with edges split where faces fold; `None` where the cut does not run
+    /// along the input's edges.
+    ///
+    /// Every split can be undone by none of the others. Faces that are [`RepairedInput::flipped`] are left only where rounding has turned
+    /// over pieces of the layout itself, or no edge was flipped and the layout of the input has such faces.
+    ///
+    /// # Errors
+    /// [`crate::Error::Cancelled`]; [`crate::Error::Layout`] for a subdivision that is not one of the input.
+    pub fn repaired_input(&self, control: &Control) -> Result<Option<RepairedInput>> {
+        let (Some((input, _)), Some(on_input)) = (&self.input, self.on_input()) else { return Ok(None) };
+        let splits = InputSplits::fewest(self, input, &on_input, control)?;
+        RepairedFaces::of(&splits).finish(self).map(Some)
+    }
+}
 
 /// The triangles of the faces, with new numbers of half-edges and vertices.
 pub(super) struct RepairedFaces<'a> {
