@@ -103,7 +103,10 @@ impl<'a> FlatLayout<'a> {
                 let surface = FlatSurface { mesh: laid.mesh(), corner_index, points, seams: laid.seams() };
                 (surface, laid.common_subdivision())
             }
-            (OnChoice::Input, Some(on_input)) => (FlatSurface::of_input(input.mesh(), on_input), None),
+            (OnChoice::Input, Some(on_input)) => match laid.repaired() {
+                Some(repaired) => (FlatSurface::of_repaired(repaired, on_input), Some(&*repaired.refinement)),
+                None => (FlatSurface::of_input(input.mesh(), on_input), None),
+            },
             (OnChoice::Input, None) => {
                 return Err(Failure::Failed(
                     "--on input: the layout is not cut along the input's edges".into(),

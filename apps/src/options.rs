@@ -98,8 +98,9 @@ pub struct MetricArgs {
     /// Faces of --uv and --flat: those of the common subdivision, on which the map is exact, or the input's own
     #[arg(long, value_enum, value_name = "FACES", default_value_t = OnChoice::Refined)]
     pub on: OnChoice,
-    /// With --on input: split the fewest of the input's edges so that no face of --uv is turned over; the surface stays as it is
-    #[arg(long, requires = "uv")]
+    /// With --on input: split the fewest of the input's edges so that no face of --uv or --flat is turned over; the surface
+    /// stays as it is
+    #[arg(long)]
     pub repair: bool,
     /// Write where the faces and vertices of --uv lie in the input's, numbered from 0: rows output_face,source_face, then
     /// output_vertex,source_face,b0,b1,b2
@@ -137,6 +138,11 @@ pub struct SolveArgs {
 impl MetricArgs {
     /// Refuse options about the faces of --uv that do not go together.
     pub fn check_faces(&self) -> Result<(), Failure> {
+        if self.repair && self.uv.is_none() && self.flat.flat.is_none() {
+            return Err(Failure::Usage(
+                "--repair changes the faces of --uv and --flat; add one of them".into(),
+            ));
+        }
         if self.repair && self.on != OnChoice::Input {
             return Err(Failure::Usage(
                 "--repair: faces of the common subdivision do not fold; add --on input, or leave it out"

@@ -19,6 +19,7 @@
 //! ```
 
 use super::layout::{Layout, OnInput};
+use super::repaired_input::RepairedInput;
 use crate::error::Result;
 use crate::geometry::vector::{cross, dot, norm, triangle_normal};
 use crate::mesh::io::{self, CuttingSheet, SheetLayer, SheetLine, SheetUnit, Soup};
@@ -72,6 +73,19 @@ fn numbered(segments: &[Vec<HalfedgeId>]) -> Vec<(HalfedgeId, usize)> {
 }
 
 impl<'a> FlatSurface<'a> {
+    /// A layout on the faces of the surface as it came with edges split; `on_input`: the same layout without the splits.
+    pub fn of_repaired(repaired: &'a RepairedInput, on_input: &OnInput) -> FlatSurface<'a> {
+        let (r, mesh) = (&repaired.refinement, repaired.mesh());
+        let seam: BTreeMap<HalfedgeId, usize> = numbered(&on_input.cut.segments).into_iter().collect();
+        let of = |h: HalfedgeId| Some((h, *seam.get(&r.halfedge(0, h)?)?));
+        FlatSurface {
+            mesh,
+            corner_index: &repaired.corner_index,
+            points: Cow::Borrowed(&repaired.coordinates),
+            seams: mesh.halfedges().filter_map(of).collect(),
+        }
+    }
+
     /// A layout in E²; of one in another space the plane coordinates of its model.
     pub fn of_layout(layout: &'a Layout) -> FlatSurface<'a> {
         FlatSurface {
