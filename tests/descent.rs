@@ -29,10 +29,12 @@ fn goes_down(report: &Report, name: &str) {
 
 fn surfaces() -> Vec<(&'static str, Soup, Space)> {
     let mut bumpy = shapes::torus(2.0, 0.9, 16, 10).unwrap();
+    let mut disk = shapes::disk(4).unwrap();
     shapes::noise(&mut bumpy, 0.1, 3).unwrap();
+    shapes::noise(&mut disk, 0.05, 3).unwrap();
     vec![
         ("torus", bumpy, Space::E2),
-        ("disk", shapes::disk(4).unwrap(), Space::E2),
+        ("disk", disk, Space::E2),
         ("genus 2", shapes::genus(2, 4).unwrap(), Space::H2),
         ("ellipsoid", shapes::ellipsoid([1.0, 1.2, 0.9], 3).unwrap(), Space::S2),
     ]
