@@ -340,7 +340,8 @@ RICCI_API ricci_status ricci_soup_refused(const ricci_soup *repaired, uint32_t *
  * lines. The given vertices come first and keep their numbers; attributes are interpolated. The list may have
  * defects, but no face that uses a vertex twice.
  *
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE, RICCI_ARGUMENT, RICCI_TOO_LARGE, RICCI_NO_MEMORY.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE, RICCI_ARGUMENT (a result of more than 67 million
+ *         faces, too), RICCI_NO_MEMORY.
  *
  * @param soup     the triangle list.
  * @param options  levels and longest_edge, or NULL.

@@ -63,7 +63,7 @@ pub fn longest_edge(soup: &Soup) -> f64 {
 ///
 /// # Errors
 /// [`Error::Argument`] for a length that is not positive, coordinates or attributes that are not finite, and faces that name a missing
-/// vertex or one vertex twice; [`Error::TooLarge`] for more than 67 million faces.
+/// vertex or one vertex twice, and a result of more than 67 million faces.
 pub fn refine(soup: &Soup, options: &Refine) -> Result<RefinedSoup> {
     soup.check_writable()?;
     if let Some(f) = soup.faces.iter().position(|&[a, b, c]| a == b || b == c || c == a) {
@@ -81,9 +81,14 @@ pub fn refine(soup: &Soup, options: &Refine) -> Result<RefinedSoup> {
     Ok(parts.finish(soup))
 }
 
+fn too_many(faces: usize) -> Error {
+    let need = "at most 67 million: ask for fewer levels or longer edges";
+    Error::argument("number of faces of the refined surface", faces, need)
+}
+
 /// Refuses lengths that are none, and refinements that surely have too many faces, before memory is taken for them.
 fn check_count(soup: &Soup, options: &Refine) -> Result<()> {
-    let too_large = |count| Err(Error::TooLarge { what: "faces of a refined surface", count });
+    let too_large = |count: usize| Err(too_many(count));
     let four = 4usize.saturating_pow(options.levels.try_into().unwrap_or(u32::MAX));
     let by_levels = soup.faces.len().saturating_mul(four);
     if by_levels > MOST_FACES {
@@ -137,7 +142,7 @@ impl FaceParts {
             marks.push(mark);
         }
         if n_faces > MOST_FACES {
-            return Err(Error::TooLarge { what: "faces of a refined surface", count: n_faces });
+            return Err(too_many(n_faces));
         }
         if n_faces == faces.len() {
             self.soup.faces = faces;

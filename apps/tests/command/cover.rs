@@ -337,3 +337,20 @@ fn a_sphere_is_its_own_cover() {
     assert_eq!(place.json("r.json")["result"]["copies"], 1);
     assert!(place.exists("c.obj"));
 }
+
+#[test]
+fn loops_lift_to_paths_whose_ends_their_deck_transformation_relates() {
+    let place = Place::new();
+    place.expect(0, "make genus -o two.obj");
+    place.expect(0, "cover two.obj --depth 1 --word a1.b1^-1 --lift-out o.json --report r.json");
+    let lift = &place.json("o.json")["lifts"][0];
+    let points = lift["points"].as_array().unwrap();
+    let place_of = |p: &Value| -> [f64; 2] { numbers(p).try_into().unwrap() };
+    let (start, end) = (place_of(&points[0]), place_of(&points[points.len() - 1]));
+    let image = apply(&matrix(&lift["matrix"]), start);
+    assert!((image[0] - end[0]).hypot(image[1] - end[1]) < 1e-9);
+    assert!((start[0] - end[0]).hypot(start[1] - end[1]) > 0.1);
+    assert!(place.json("r.json")["checks"]["lift_end"]["value"].as_f64().unwrap() <= 1e-9);
+    assert!(place.expect(2, "cover two.obj --word a3").err.contains("--word a3"));
+    assert!(place.expect(2, "cover two.obj --lift-out o.json").err.contains("--word"));
+}

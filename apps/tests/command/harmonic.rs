@@ -81,3 +81,26 @@ fn values_come_from_a_file() {
     assert!(place.expect(3, "harmonic d.obj --to file:g.csv").err.contains("named twice"));
     assert!(place.expect(2, "harmonic d.obj --to moon").err.contains("disk, polygon:N"));
 }
+
+#[test]
+fn the_heat_flow_falls_to_the_map_and_a_square_has_modulus_1() {
+    let place = Place::new();
+    place.expect(0, "make disk -n 6 --height 0.4 -o d.obj");
+    place.expect(0, "harmonic d.obj --report solved.json");
+    place.expect(0, "harmonic d.obj --method heat --trace t.csv --report heat.json");
+    let energies: Vec<f64> = place
+        .text("t.csv")
+        .lines()
+        .skip(1)
+        .map(|row| row.split_once(',').unwrap().1.parse().unwrap())
+        .collect();
+    assert!(energies.len() > 20 && energies.windows(2).all(|pair| pair[1] <= pair[0] + 1e-14 * energies[0]));
+    let energy = |name: &str| place.json(name)["result"]["energy"].as_f64().unwrap();
+    assert!((energies[energies.len() - 1] / energy("solved.json") - 1.0).abs() < 1e-12);
+    place.put("q.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv .5 .5 0\nf 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n");
+    let square = place.expect(0, "harmonic q.obj --to rectangle --corners 0,1,2,3 --report r.json");
+    assert!((place.json("r.json")["result"]["modulus"].as_f64().unwrap() - 1.0).abs() < 1e-14);
+    assert!(square.out.contains("modulus"), "{}", square.out);
+    assert!(place.expect(2, "harmonic d.obj --to rectangle --method heat").err.contains("linear"));
+    assert!(place.expect(2, "harmonic d.obj --trace t.csv").err.contains("--method heat"));
+}
