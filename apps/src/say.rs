@@ -71,7 +71,7 @@ fn slivers(input: &Input, checks: &Checks, may_flip: bool) -> String {
     let thinnest = || input.surface.thinnest_face().map(|(face, angle)| (face, angle.to_degrees()));
     match (!checks.failed().is_empty()).then(thinnest).flatten() {
         Some((face, angle)) if angle < SLIVER => format!(
-            "slivers  face {face} is the thinnest, with an angle of {angle:.1e} degrees: remesh there{}\n",
+            "slivers  face {face} is the thinnest, with an angle of {angle:.1e} degrees: remesh there, or refine the metric (ricci refine --intrinsic){}\n",
             if may_flip { "" } else { ", or allow flips" }
         ),
         _ => String::new(),

@@ -56,7 +56,7 @@ impl PuncturedSurface {
             Some(v) => {
                 let at = self.at;
                 Err(Error::Layout(format!(
-                    "seen from vertex {at} vertex {v} lies in no triangle: cut each triangle into four"
+                    "seen from vertex {at} vertex {v} lies in no triangle: cut each triangle into four, `ricci refine --levels 1`"
                 )))
             }
             None => Ok(plane),

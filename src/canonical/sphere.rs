@@ -128,7 +128,7 @@ fn check(given: &Mesh, options: &SphereOptions) -> Result<()> {
         let kind = if given.is_closed() { "closed" } else { "with boundary" };
         let value =
             format!("{kind}, of {} vertices and Euler characteristic {}", given.n_vertices(), given.euler());
-        let need = "one closed surface of genus 0 with at least four vertices (cut each triangle into four)";
+        let need = "one closed surface of genus 0 with at least four vertices (cut each triangle into four, `ricci refine --levels 1`)";
         return Err(Error::argument("surface", value, need));
     }
     flow(options).check()?;

@@ -194,7 +194,7 @@ pub(super) fn said(error: Error) -> String {
 pub(super) fn on_a_circle(mesh: &Mesh) -> Error {
     Error::Layout(format!(
         "all {} vertices come to lie on one circle, as those of the double of a plane polygon: no polyhedron with an inside has them for \
-         corners. Put vertices inside the faces (cut each triangle into four)",
+         corners. Put vertices inside the faces (cut each triangle into four, `ricci refine --levels 1`)",
         mesh.n_vertices()
     ))
 }

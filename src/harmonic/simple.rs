@@ -45,7 +45,7 @@ pub fn simple_domain(surface: &Surface, apart: bool, control: &Control) -> Resul
     let what = if apart { ", or join boundary vertices through the inside," } else { "" };
     Err(Error::Layout(format!(
         "edges of the intrinsic Delaunay triangulation still have the same two ends{what} after {ROUNDS} rounds of added \
-         vertices; remesh the surface"
+         vertices; remesh the surface, or refine its metric (`ricci refine --intrinsic`)"
     )))
 }
 

@@ -289,8 +289,7 @@ impl CanonicalJob<'_> {
         if args.to.solve.method == MethodChoice::Newton {
             if input.mesh().n_vertices() < 4 {
                 let path = input.path.display();
-                let why =
-                    "a sphere of fewer than four vertices is no polyhedron; cut each triangle into four";
+                let why = "a sphere of fewer than four vertices is no polyhedron; cut each triangle into four, `ricci refine --levels 1`";
                 return Err(Failure::Input(format!("{path}: {why}")));
             }
             if !matches!(args.to.solve.scheme, SchemeChoice::Yamabe) {

@@ -33,8 +33,7 @@ pub(super) fn refine(split: &mut Split, options: &CircleDomainOptions) -> Result
     let lengths = split.given().lengths().clone();
     let inside = mesh.edges().filter(|&e| !mesh.is_boundary_edge(e));
     let longest = inside.max_by(|&a, &b| lengths[a].total_cmp(&lengths[b]));
-    let need =
-        "one with a vertex or an edge inside, to send to infinity on the way (cut each triangle into four)";
+    let need = "one with a vertex or an edge inside, to send to infinity on the way (cut each triangle into four, `ricci refine --levels 1`)";
     let edge = longest.ok_or(Error::argument("surface", "without edges inside", need))?;
     split.halve(edge)?;
     Ok(())
