@@ -4,7 +4,7 @@
 
 use ricci::geometry::Space;
 use ricci::mesh::check::diagnose;
-use ricci::mesh::io::Soup;
+use ricci::mesh::io::{NumberColumn, NumberType, Soup};
 use ricci::mesh::refine::{Refine, RefinedSoup, longest_edge, refine};
 use ricci::mesh::{Mesh, PerEdge, shapes};
 use ricci::metric::ShapeQuality;
@@ -75,7 +75,17 @@ fn lists_that_are_no_surface_are_refined_and_attributes_are_interpolated() {
     soup.attributes.colors = Some((0..9).map(|v| [f64::from(v) / 8.0, 0.0, 0.0, 1.0]).collect());
     soup.attributes.uv =
         Some((0..4).map(|f| [[f64::from(f), 0.0], [f64::from(f), 1.0], [0.0, 1.0]]).collect());
+    let column = |kind, values: Vec<f64>| NumberColumn { name: "n".into(), kind, values };
+    soup.attributes.vertex_numbers = vec![column(NumberType::F64, (0..9).map(f64::from).collect())];
+    soup.attributes.face_numbers = vec![column(NumberType::U8, vec![4.0, 5.0, 6.0, 7.0])];
     let finer = refine(&soup, &Refine { levels: 1, longest_edge: None }).unwrap();
+    let carried = &finer.soup.attributes;
+    let of_face = finer.face_origin.iter().map(|f| 4.0 + f64::from(*f)).collect::<Vec<_>>();
+    assert_eq!(carried.face_numbers[0].values, of_face);
+    let numbers = carried.vertex_numbers[0].values.iter();
+    // The colours are the same numbers over 8.
+    let red = carried.colors.as_ref().unwrap().iter().map(|color| 8.0 * color[0]);
+    assert!(numbers.zip(red).all(|(x, y)| (x - y).abs() < 1e-14));
     // The three faces share the midpoint of their common edge: 7 edges get a midpoint, and 3 of the separate face.
     assert_eq!((finer.soup.positions.len(), finer.soup.faces.len()), (9 + 7 + 3, 16));
     assert!(finer.vertex_place[8].is_none() && finer.vertex_place[..8].iter().all(Option::is_some));

@@ -59,7 +59,8 @@ pub fn longest_edge(soup: &Soup) -> f64 {
 /// share stay shared, and the result depends on the list alone.
 ///
 /// Every line that cuts a face is at most √3/2 as long as its longest side or no longer than `longest_edge`, so the rounds end. Normals
-/// and colours of vertices are means of those of the edge's ends, values at corners are linear in each given face.
+/// and colours of vertices are means of those of the edge's ends, values at corners and further numbers are linear in each given face; labels
+/// and numbers of faces stay with their parts.
 ///
 /// # Errors
 /// [`Error::Argument`] for a length that is not positive, coordinates or attributes that are not finite, and faces that name a missing
