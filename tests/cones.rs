@@ -261,7 +261,7 @@ fn open_surfaces_with_handles_have_cones_by_default() {
     let open = shapes::punch(&shapes::genus(2, 4).unwrap(), 3).unwrap();
     assert_eq!(default(&open), Target::Auto(5));
     assert_eq!(default(&shapes::punch(&shapes::genus(1, 3).unwrap(), 1).unwrap()), Target::Auto(4));
-    assert_eq!(default(&shapes::disk(3).unwrap()), Target::Boundary);
+    assert_eq!(default(&shapes::disk(3).unwrap()), Target::Outer(None));
     assert_eq!(default(&shapes::genus(2, 4).unwrap()), Target::Uniform);
 
     let (mesh, lengths) = surface(&open);

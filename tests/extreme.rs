@@ -6,7 +6,7 @@ mod common;
 
 use common::Random;
 use common::flips::{SCHEMES, balanced, honest, in_the_middle, started, stretched};
-use common::flow::{attempt, euclidean, surface};
+use common::flow::{attempt, euclidean, prescribing_target, surface};
 use ricci::flow::{Options, Report, StopReason};
 use ricci::geometry::Space;
 use ricci::mesh::shapes::{self, Sliver};
@@ -52,7 +52,7 @@ fn default_targets(surface: &Surface) -> Vec<(Space, PerVertex<f64>)> {
     let given = euclidean(&surface.0, &surface.1);
     let curved = (given.mesh().euler() < 0).then_some(Space::H2);
     let target = |space| {
-        let target = Target::default_for(&given, space).unwrap();
+        let target = prescribing_target(&given, space);
         (space, target.resolve(&given, Class::yamabe(space)).unwrap())
     };
     [Space::E2].into_iter().chain(curved).map(target).collect()

@@ -5,11 +5,11 @@ mod common;
 
 use common::Random;
 use common::flips::{SCHEMES, drawn_below, reach, shuffle, started};
-use common::flow::{euclidean, surface};
+use common::flow::{euclidean, prescribing_target, surface};
 use ricci::flow::Options;
 use ricci::geometry::Space;
 use ricci::mesh::{Mesh, PerEdge, PerVertex, shapes};
-use ricci::{Class, Target};
+use ricci::Class;
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
@@ -93,7 +93,7 @@ fn the_result_depends_on_the_metric_and_not_on_its_triangulation() {
         let curved = (given.0.euler() < 0).then_some(Space::H2);
         for space in [Space::E2].into_iter().chain(curved) {
             let whole = euclidean(&given.0, &given.1);
-            let target = Target::default_for(&whole, space).unwrap();
+            let target = prescribing_target(&whole, space);
             let target = target.resolve(&whole, Class::yamabe(space)).unwrap();
             for scheme in SCHEMES {
                 let what = format!("{name} {space} {scheme}, {flips} flips");

@@ -5,7 +5,7 @@ mod common;
 
 use common::Random;
 use common::flips::{SCHEMES, honest, measure, reach, started};
-use common::flow::{attempt, distance, euclidean, surface};
+use common::flow::{attempt, distance, euclidean, prescribing_target, surface};
 use ricci::flow::{Flips, Options, StopReason};
 use ricci::geometry::Space;
 use ricci::mesh::io::Soup;
@@ -253,7 +253,7 @@ fn imaginary_circles_flip_as_far_as_they_can_and_claim_no_more() {
     for (name, surface) in &surfaces {
         for space in [Some(Space::E2), (surface.0.euler() < 0).then_some(Space::H2)].into_iter().flatten() {
             let given = euclidean(&surface.0, &surface.1);
-            let default = Target::default_for(&given, space).unwrap().values(&given, space).unwrap();
+            let default = prescribing_target(&given, space).values(&given, space).unwrap();
             let mut targets = vec![("default", default)];
             targets.extend((space == Space::E2).then(|| ("cones", cones(&surface.0, 10))));
             for (kind, target) in targets {

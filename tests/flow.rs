@@ -4,7 +4,7 @@
 mod common;
 
 use common::Random;
-use common::flow::{converged, distance, euclidean, rigid, solve, surface};
+use common::flow::{converged, distance, euclidean, prescribing_target, rigid, solve, surface};
 use ricci::embed::Layout;
 use ricci::flow::{Gradient, Method, Options, Report, StepRule, StopReason, curvature_derivative};
 use ricci::geometry::Space;
@@ -30,7 +30,7 @@ fn run(
 ) -> (Initial, Metric, Report) {
     let surface = Surface::intrinsic(mesh.clone(), lengths.clone(), geometry).unwrap();
     let initial = surface.initial(class).unwrap();
-    let target = target.unwrap_or_else(|| Target::default_for(&surface, class.space).unwrap());
+    let target = target.unwrap_or_else(|| prescribing_target(&surface, class.space));
     let target = target.resolve(&surface, class).unwrap();
     let (metric, report) = solve(mesh, &initial.metric, &target, &rigid());
     (initial, metric, report)
@@ -212,7 +212,7 @@ fn gradient_flow_and_newton_agree() {
         for scheme in Scheme::ALL {
             let initial = initial_metric(mesh, lengths, Space::E2, Class::new(scheme, space)).unwrap();
             let given = euclidean(mesh, lengths);
-            let target = Target::default_for(&given, space).unwrap();
+            let target = prescribing_target(&given, space);
             let target = target.resolve(&given, Class::new(scheme, space)).unwrap();
             let (newton, report) = solve(mesh, &initial.metric, &target, &rigid());
             if !report.is_reached() {

@@ -3,7 +3,7 @@
 
 mod common;
 
-use common::flow::{euclidean, surface};
+use common::flow::{euclidean, prescribing_target, surface};
 use ricci::embed::{CONE_TOLERANCE, Layout, LayoutOpening, LayoutOptions, LayoutScale, Quality, cones_of};
 use ricci::flow::{Flips, Options, Solution, auto_cones, flow};
 use ricci::geometry::{PlaneIsometry, Space};
@@ -160,7 +160,7 @@ fn layouts_in_the_plane_are_cut_along_the_inputs_edges() {
         let target = match mesh.euler() {
             2 => auto_cones(mesh, &surface.1, 6, &Control::new()).unwrap().target,
             -2 => Target::Single(VertexId(3)).values(&given, Space::E2).unwrap(),
-            _ => Target::default_for(&given, Space::E2).unwrap().values(&given, Space::E2).unwrap(),
+            _ => prescribing_target(&given, Space::E2).values(&given, Space::E2).unwrap(),
         };
         for flips in [Flips::Auto, Flips::Never] {
             if ["genus 2", "open torus"].contains(&name) && flips == Flips::Never {

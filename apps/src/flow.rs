@@ -139,7 +139,7 @@ struct FlowSettings<'a> {
 }
 
 /// The flow that the arguments ask for.
-fn flow_job<'a>(args: &'a FlowArgs, input: &Input, space: Space) -> Result<FlowJob<'a>, Failure> {
+pub fn flow_job<'a>(args: &'a FlowArgs, input: &Input, space: Space) -> Result<FlowJob<'a>, Failure> {
     let fixed_edges = match &args.keep_edges {
         Some(path) => csv::read_edges(path, input.mesh())?,
         None => Vec::new(),
@@ -153,8 +153,11 @@ fn flow_job<'a>(args: &'a FlowArgs, input: &Input, space: Space) -> Result<FlowJ
     Ok(FlowJob {
         space,
         scheme: args.to.solve.scheme.into(),
-        target: args.target.as_ref().map(|t| target(t, input, space)).transpose()?,
-        target_name: args.target.as_ref().map(ToString::to_string),
+        target: match args.outer {
+            Some(_) => Some(Target::Outer(args.outer)),
+            None => args.target.as_ref().map(|t| target(t, input, space)).transpose()?,
+        },
+        target_name: args.target.as_ref().map(ToString::to_string).filter(|name| name != "outer"),
         options: Options { fixed_edges, pinned, ..options(args) },
         needs_layout: args.charts || of_layout.iter().any(|path| path.is_some()),
         metric: args.to.metric.as_deref(),
@@ -176,10 +179,12 @@ fn flat_scale(outcome: &FlowOutcome, laid: &SurfaceLayout) -> f64 {
 }
 
 /// Refuse options that do not go together.
-fn check_options(args: &FlowArgs) -> Result<(), Failure> {
+pub fn check_options(args: &FlowArgs) -> Result<(), Failure> {
     let newton = args.to.solve.method != MethodChoice::Gradient;
     let on_input = args.to.on == OnChoice::Input;
     let placed = matches!(args.target, Some(TargetChoice::Auto(_)));
+    let holds_outer = args.outer.is_some() || args.target == Some(TargetChoice::Outer);
+    let other = args.target.is_some() && args.target != Some(TargetChoice::Outer);
     let refused = [
         (
             args.charts && args.circles.is_some(),
@@ -202,6 +207,14 @@ fn check_options(args: &FlowArgs) -> Result<(), Failure> {
             args.pin.is_some() && placed,
             "--target auto chooses every curvature, --pin leaves some free; leave one out",
         ),
+        (
+            args.outer.is_some() && other,
+            "--outer names the loop that --target outer holds; leave --outer or --target out",
+        ),
+        (
+            args.pin.is_some() && holds_outer,
+            "--target outer holds the outer loop itself; leave --pin, or --target and --outer, out",
+        ),
         (args.trace.is_some() && newton, "--trace records the gradient flow; add --method gradient"),
         (args.steps.is_some() && newton, "--steps is a rule of the gradient flow; add --method gradient"),
         (
@@ -216,7 +229,7 @@ fn check_options(args: &FlowArgs) -> Result<(), Failure> {
 }
 
 /// Refuse what can be refused once the surface is known.
-fn check_surface(args: &FlowArgs, input: &Input, space: Space) -> Result<(), Failure> {
+pub fn check_surface(args: &FlowArgs, input: &Input, space: Space) -> Result<(), Failure> {
     let refuse = |why: String| Err(Failure::Usage(why));
     let scheme: Scheme = args.to.solve.scheme.into();
     let (on_sphere, in_space) = (space == Space::S2, input.positions().is_some());
@@ -270,6 +283,7 @@ fn target(choice: &TargetChoice, input: &Input, space: Space) -> Result<Target, 
             return Err(Failure::Usage("--target auto: cones are placed in e2 only".into()));
         }
         TargetChoice::Uniform => Target::Uniform,
+        TargetChoice::Outer => Target::Outer(None),
         TargetChoice::Boundary => Target::Boundary,
         TargetChoice::Single(v) => Target::Single(VertexId(*v)),
         TargetChoice::Auto(n) => Target::Auto(*n),

@@ -18,6 +18,12 @@ Example: eight cones, and charts in the unit square
 Example: a sheet for cutting, with the boundary's own lengths
     ricci make disk --height 0.4 -o dome.obj
     ricci flow dome.obj --pin boundary --flat dome.dxf
+Example: a surface with holes in one piece without seams, whose longest loop keeps its lengths (the default); its boundary as straight
+         as it can be; all loops with their lengths
+    ricci make sphere --holes 7 -o swiss.obj
+    ricci flow swiss.obj --uv swiss_flat.obj --picture swiss.svg
+    ricci flow swiss.obj --target boundary --picture swiss_straight.svg
+    ricci flow swiss.obj --pin boundary --picture swiss_pinned.svg
 
 Files
     --target cones:FILE.csv    rows `vertex,curvature`, vertices numbered from 0, radians; 0 where none is named
@@ -47,10 +53,14 @@ pub struct FlowArgs {
     #[arg(long, value_enum, default_value_t = SpaceChoice::Auto)]
     #[serde(skip)]
     pub space: SpaceChoice,
-    /// Curvature: uniform, boundary, single:V, auto:N, cones:FILE.csv or file:FILE.csv [default: by the surface's topology]
+    /// Curvature: uniform, outer, boundary, single:V, auto:N, cones:FILE.csv or file:FILE.csv [default: by the surface's topology]
     #[arg(long, value_name = "TARGET", long_help = TARGET_HELP)]
     #[serde(skip)]
     pub target: Option<TargetChoice>,
+    /// The loop that keeps its lengths with --target outer, numbered from 0 in the order of ricci info [default: the longest]
+    #[arg(long, value_name = "LOOP")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub outer: Option<usize>,
     /// Keep the total area during the gradient flow (E²)
     #[arg(long)]
     pub area_normalised: bool,
@@ -63,6 +73,10 @@ pub struct FlowArgs {
     #[arg(long, value_name = "VERTICES")]
     #[serde(skip)]
     pub pin: Option<PinChoice>,
+    /// A file of several components: flow each, and write their layouts side by side; result.components has a row for each
+    #[arg(long, value_enum, value_name = "WHICH")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub components: Option<ComponentsChoice>,
     /// Edges that are not flipped (seams, feature lines), a CSV of rows vertex,vertex (numbered from 0)
     #[arg(long, value_name = "E.csv")]
     pub keep_edges: Option<FileName>,
@@ -89,12 +103,14 @@ pub struct FlowArgs {
 const TARGET_HELP: &str = "\
 Prescribed curvature in radians:
   uniform         2πχ/V at every vertex of a closed surface in E²; 0 everywhere in H² and S²
+  outer           0 inside; the outer loop (the longest, or --outer LOOP) keeps its lengths, holes are filled while the flow runs:
+                  one piece without seams, isometric if the surface can be unrolled (E², genus 0 with boundary)
   boundary        0 inside, 2πχ shared over the boundary in proportion to its length (E², open surfaces)
   single:V        all of 2πχ at vertex V (numbered from 0), 0 elsewhere (E²)
   auto:N          N cones where they lower the distortion of area most, 0 elsewhere inside (E²)
   cones:FILE.csv  the curvatures of the file's rows `vertex,curvature`, 0 elsewhere
   file:FILE.csv   the curvature of every vertex
-[default: boundary on open surfaces of genus 0 in E², auto:N on those with handles, N = |χ| from 4 to 64; four cones of π on closed surfaces of genus 0 in E²; uniform elsewhere;
+[default: outer on open surfaces of genus 0 in E², auto:N on those with handles, N = |χ| from 4 to 64; four cones of π on closed surfaces of genus 0 in E²; uniform elsewhere;
 with --pin 0 at every vertex that is not pinned]";
 
 #[derive(ValueEnum, Serialize, Debug, Clone, Copy, PartialEq)]
@@ -118,10 +134,19 @@ impl SpaceChoice {
     }
 }
 
+/// The components of a file that are flattened.
+#[derive(ValueEnum, Serialize, Debug, Clone, Copy, PartialEq)]
+#[serde(rename_all = "lowercase")]
+pub enum ComponentsChoice {
+    /// Each alone, those with the most faces first
+    All,
+}
+
 /// A target as it is asked for.
 #[derive(Debug, Clone, PartialEq)]
 pub enum TargetChoice {
     Uniform,
+    Outer,
     Boundary,
     Single(u32),
     Auto(usize),
@@ -135,6 +160,7 @@ impl FromStr for TargetChoice {
     fn from_str(text: &str) -> Result<Self, String> {
         match text.split_once(':') {
             None if text == "uniform" => Ok(TargetChoice::Uniform),
+            None if text == "outer" => Ok(TargetChoice::Outer),
             None if text == "boundary" => Ok(TargetChoice::Boundary),
             Some(("single", v)) => {
                 v.parse().map(TargetChoice::Single).map_err(|_| format!("`{v}` is not a vertex number"))
@@ -144,7 +170,7 @@ impl FromStr for TargetChoice {
             Some(("auto", n)) => {
                 n.parse().map(TargetChoice::Auto).map_err(|_| format!("`{n}` is not a number of cones"))
             }
-            _ => Err("must be uniform, boundary, single:V, auto:N, cones:FILE.csv or file:FILE.csv".into()),
+            _ => Err("must be uniform, outer, boundary, single:V, auto:N, cones:FILE.csv or file:FILE.csv".into()),
         }
     }
 }
@@ -153,6 +179,7 @@ impl std::fmt::Display for TargetChoice {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             TargetChoice::Uniform => f.write_str("uniform"),
+            TargetChoice::Outer => f.write_str("outer"),
             TargetChoice::Boundary => f.write_str("boundary"),
             TargetChoice::Single(v) => write!(f, "single:{v}"),
             TargetChoice::Auto(n) => write!(f, "auto:{n}"),
@@ -226,7 +253,7 @@ mod tests {
 
     #[test]
     fn targets_read_back_as_written() {
-        for text in ["uniform", "boundary", "single:7", "auto:4", "cones:a:b.csv", "file:/x/y.csv"] {
+        for text in ["uniform", "outer", "boundary", "single:7", "auto:4", "cones:a:b.csv", "file:/x/y.csv"] {
             assert_eq!(text.parse::<TargetChoice>().unwrap().to_string(), text);
         }
         for text in ["", "single", "single:-1", "cones:", "auto:", "auto:-1", "Uniform"] {

@@ -58,7 +58,7 @@ pub fn default_space(mesh: &Mesh) -> Space {
 pub fn run_flow(input: Input, job: FlowJob<'_>, run: &mut CommandRun<'_>) -> Result<FlowOutcome, Failure> {
     let (class, control) = (Class::new(job.scheme, job.space), run.control);
     let (rule, rule_name) = rule(&input, &job, control)?;
-    let new_flow = || Flow::new(input.surface.clone(), class, &job.options, control);
+    let new_flow = || Flow::toward(&rule, input.surface.clone(), class, &job.options, control);
     let mut flow = timed(&mut run.seconds.flip, new_flow)?;
     let solution = flow.solve(&rule, control)?;
     // The factorisation is most of the memory of a run, and the layout has no use for it.
@@ -136,10 +136,15 @@ fn rule(input: &Input, job: &FlowJob<'_>, control: &Control) -> Result<(Target, 
         Target::Auto(n) => format!(
             "auto:{n} (the default of open surfaces with handles; --target boundary bends the boundary alone)"
         ),
+        Target::Outer(outer) => outer_name(outer),
         _ => rule.name().into(),
     };
     let rule = with_cones_placed(&rule, &input.surface, job.space, control)?.into_owned();
     if job.target.is_none() {
+        return Ok((rule, name));
+    }
+    if let Target::Outer(_) = rule {
+        rule.check(&input.surface, Class::new(job.scheme, job.space))?;
         return Ok((rule, name));
     }
     let mut target = rule.values(&input.surface, job.space)?;
@@ -147,6 +152,12 @@ fn rule(input: &Input, job: &FlowJob<'_>, control: &Control) -> Result<(Target, 
     pinned.iter().filter(|v| v.index() < n).for_each(|&v| target[v] = 0.0);
     check_vertices(input.mesh(), job.scheme, &target)?;
     Ok((rule, name))
+}
+
+/// The name of a target that holds the outer loop.
+fn outer_name(outer: Option<usize>) -> String {
+    let which = outer.map_or_else(|| "the longest loop".into(), |k| format!("loop {k}"));
+    format!("outer ({which} keeps its lengths, others are filled; --target boundary bends all loops by their length)")
 }
 
 impl FlowOutcome {

@@ -8,6 +8,7 @@ mod checkerboard;
 mod circle_file;
 mod circles;
 mod cli;
+mod components;
 mod csv;
 mod defects;
 mod demo;
@@ -50,6 +51,7 @@ mod uv;
 
 use clap::{CommandFactory, Parser};
 use cli::{Cli, Command};
+use components::ComponentsJob;
 use failure::Failure;
 use ricci::Control;
 use std::io::Write;
@@ -69,6 +71,7 @@ fn main() -> ExitCode {
 
 fn run(command: &Command, control: &Control) -> Result<u8, Failure> {
     match command {
+        Command::Flow(args) if args.components.is_some() => runner::run(&ComponentsJob(args), control),
         Command::Flow(args) => runner::run(args, control),
         Command::Uniformize(args) => runner::run(&CanonicalJob::from(args), control),
         Command::Cover(args) => runner::run(&CanonicalJob::from(args), control),

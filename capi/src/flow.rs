@@ -103,7 +103,7 @@ pub unsafe extern "C" fn ricci_flow(
         let options = read_options(options)?;
         let target = target_of(target, surface, space)?;
         let target = with_cones_placed(&target, surface, space, &control)?;
-        target.resolve(surface, Class::new(solution.scheme()?, space))?;
+        target.check(surface, Class::new(solution.scheme()?, space))?;
         advance(&mut Flow::resume(solution, &options, &control)?, &target, &control)
     })
 }

@@ -8,7 +8,7 @@ use crate::guard::{self, shared};
 use crate::metric::ricci_metric;
 use crate::status::*;
 use crate::structs::{self, sized};
-use ricci::flow::with_cones_placed;
+use ricci::flow::prescribed_curvature;
 use ricci::geometry::Space;
 use ricci::mesh::VertexId;
 use ricci::{Class, Surface, Target};
@@ -21,6 +21,7 @@ choices!(enum TargetKind, KINDS = "kind", [
     RICCI_TARGET_CONES => Cones,
     RICCI_TARGET_AUTO => Auto,
     RICCI_TARGET_GIVEN => Given,
+    RICCI_TARGET_OUTER => Outer,
 ]);
 
 #[repr(C)]
@@ -46,6 +47,13 @@ pub(crate) fn vertices(surface: &Surface, data: *const u32, n: usize) -> Outcome
     }
 }
 
+/// The boundary loop through a vertex.
+fn loop_at(surface: &Surface, v: VertexId) -> Outcome<usize> {
+    let mesh = surface.mesh();
+    let at = mesh.boundary_loops().iter().position(|rim| rim.iter().any(|&h| mesh.origin(h) == v));
+    at.ok_or_else(|| Failure::argument(format!("vertex {v} of the outer loop is not on the boundary")))
+}
+
 /// The library's target of a caller's; NULL is the default.
 pub(crate) fn target_of(target: *const ricci_target, surface: &Surface, space: Space) -> Outcome<Target> {
     let given = structs::read(target)?;
@@ -66,6 +74,14 @@ pub(crate) fn target_of(target: *const ricci_target, surface: &Surface, space: S
             let curvatures = arrays::array("curvatures", given.curvatures, n)?;
             Target::Cones(vertices.into_iter().zip(curvatures).collect())
         }
+        TargetKind::Outer => match vertices(surface, given.vertices, n)?[..] {
+            [] => Target::Outer(None),
+            [v] => Target::Outer(Some(loop_at(surface, v)?)),
+            _ => {
+                let message = format!("an outer loop is named by n = 1 vertex or n = 0, not {n}");
+                return Err(Failure::new(RICCI_WRONG_SIZE, message).needs(1));
+            }
+        },
         TargetKind::Auto => Target::Auto(n),
         TargetKind::Given => Target::All(arrays::array_of("curvatures", given.curvatures, n, count)?.into()),
     })
@@ -84,8 +100,8 @@ pub unsafe extern "C" fn ricci_target_fill(
         let (surface, space) = (solution.surface(), solution.metric().space);
         arrays::check_buffer("curvatures", surface.mesh().n_vertices(), curvatures, capacity)?;
         let target = target_of(target, surface, space)?;
-        let target = with_cones_placed(&target, surface, space, &control::of(control))?;
-        let values = target.resolve(surface, Class::new(solution.scheme()?, space))?;
+        let class = Class::new(solution.scheme()?, space);
+        let values = prescribed_curvature(&target, surface, class, &control::of(control))?;
         copy_out("curvatures", &values, curvatures, capacity)
     })
 }

@@ -897,7 +897,7 @@ RICCI_API ricci_status ricci_metric_mirror(const ricci_metric *metric, uint32_t 
 enum {
     /**
      * In H2 and S2: uniform. In E2: on spheres four cones of pi; on other closed surfaces uniform; on open
-     * ones of genus 0 boundary; on open ones with handles auto, with |chi| cones, 4 to 64.
+     * ones of genus 0 outer; on open ones with handles auto, with |chi| cones, 4 to 64.
      */
     RICCI_TARGET_DEFAULT = 0,
     /** The same curvature everywhere: 2 pi chi / V on a closed surface in E2, 0 in H2 and S2. */
@@ -916,7 +916,15 @@ enum {
      */
     RICCI_TARGET_AUTO = 5,
     /** `curvatures` of all n = n_vertices vertices. */
-    RICCI_TARGET_GIVEN = 6
+    RICCI_TARGET_GIVEN = 6,
+    /**
+     * 0 inside; the outer loop keeps its lengths and is free to bend: the longest one with n = 0, with n = 1
+     * that through the one vertex of `vertices`. The other loops bend so that the surface unrolls around
+     * each of them to where it began, as if the holes were filled: the layout is one piece without a seam,
+     * and isometric if the surface can be unrolled. With pinned vertices 0 at all others. E2, open surfaces
+     * of genus 0.
+     */
+    RICCI_TARGET_OUTER = 7
 };
 
 /** A target by rule or by value. Zeroed by ricci_init: the default. */
@@ -929,7 +937,7 @@ typedef struct ricci_target {
     uint32_t reserved;
     /** Number of cones, or of vertices, as the kind says. */
     size_t n;
-    /** n vertices (SINGLE, CONES). */
+    /** n vertices (SINGLE, CONES, OUTER). */
     const uint32_t *vertices;
     /** n curvatures, radians (CONES, GIVEN). */
     const double *curvatures;
@@ -1010,7 +1018,8 @@ typedef struct ricci_flow_options {
 typedef struct ricci_solver ricci_solver;
 
 /**
- * The curvature that a target prescribes at every vertex. An inadmissible target is refused.
+ * The curvature that a target prescribes at every vertex. An inadmissible target is refused. For
+ * RICCI_TARGET_OUTER a flow finds the curvature of the boundary.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_STRUCT_SIZE, RICCI_ARGUMENT (kind, no
  * such vertex), RICCI_WRONG_SIZE, RICCI_TARGET_KIND, RICCI_TARGET_AT_VERTEX, RICCI_TARGET_BELOW,

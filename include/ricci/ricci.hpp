@@ -239,6 +239,13 @@ public:
     target() : target(RICCI_TARGET_DEFAULT, 0) {}
     static target uniform() { return target(RICCI_TARGET_UNIFORM, 0); }
     static target boundary() { return target(RICCI_TARGET_BOUNDARY, 0); }
+    // The outer loop keeps its lengths, and holes are filled: the longest loop, or that through a vertex.
+    static target outer() { return target(RICCI_TARGET_OUTER, 0); }
+    static target outer(std::uint32_t vertex) {
+        target all(RICCI_TARGET_OUTER, 1);
+        all.vertices_.assign(1, vertex);
+        return all;
+    }
     static target automatic(std::size_t cones) { return target(RICCI_TARGET_AUTO, cones); }
     static target single(std::uint32_t vertex) {
         target all(RICCI_TARGET_SINGLE, 1);

@@ -23,7 +23,8 @@ pub enum LayoutScale {
 #[derive(Debug, Clone, Default)]
 pub enum LayoutOpening {
     /// Edges of the surface as it came: a short cut in the metric through all cones ([`crate::topology::cut_graph`]); without cones, in H²
-    /// and S², the edges where a disk that grows about the root meets itself, so that nothing lies farther out than it has to.
+    /// and S², the edges where a disk that grows about the root meets itself, so that nothing lies farther out than it has to. No edge at all
+    /// where the flow has made the surface one piece of the plane ([`crate::Solution::is_one_piece`]) and no cones are named.
     #[default]
     InputEdges,
     /// This cut of the surface as it came.

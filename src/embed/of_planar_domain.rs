@@ -5,7 +5,7 @@ use super::layout::{Layout, distance, distance_from_origin, flat};
 use super::pieces::LayoutPieces;
 use crate::error::{Error, Result, check_size};
 use crate::geometry::{Space, triangle};
-use crate::mesh::{Mesh, PerEdge, PerFace, PerHalfedge, PerVertex};
+use crate::mesh::{Mesh, PerFace, PerHalfedge, PerVertex};
 use crate::metric::CommonSubdivision;
 use crate::parallel;
 use crate::topology::CutGraph;
@@ -38,16 +38,11 @@ impl Layout {
         if let Some(v) = mesh.vertices().find(|&v| plane[v].iter().any(|x| !x.is_finite())) {
             return Err(Error::Layout(format!("vertex {v} of the subdivision has no place in the plane")));
         }
-        let uncut = |mesh: &Mesh| CutGraph {
-            is_cut: PerEdge::filled(mesh.n_edges(), false),
-            nodes: Vec::new(),
-            segments: Vec::new(),
-        };
         let points: Vec<[f64; 3]> = plane.iter().map(|&[x, y]| [x, y, 1.0]).collect();
         let coordinates = plane.into_vec();
         let mut layout = Layout {
             space: Space::E2,
-            cut: uncut(mesh),
+            cut: CutGraph::empty(mesh),
             corner_index: PerHalfedge::from_fn(mesh.n_halfedges(), |h| mesh.origin(h).0),
             seams: Vec::new(),
             flipped: Vec::new(),
@@ -59,7 +54,7 @@ impl Layout {
             diameter: bounding_diagonal(&coordinates),
             area: 0.0,
             scale: 1.0,
-            input: Some((given.clone(), uncut(given))),
+            input: Some((given.clone(), CutGraph::empty(given))),
             side: PerHalfedge::filled(mesh.n_halfedges(), 0),
             n_steps: mesh.n_faces(),
             frames: Vec::new(),

@@ -6,7 +6,7 @@ use super::frame::HalfedgeFrame;
 use super::layout::Layout;
 use super::layout_options::{CONE_TOLERANCE, LayoutOpening, LayoutOptions, LayoutScale, cones_of};
 use super::pieces::LayoutPieces;
-use super::unfold::unfold;
+use super::unfold::{unfold, unfold_whole};
 use crate::control::Control;
 use crate::error::Result;
 use crate::flow::Solution;
@@ -86,6 +86,12 @@ fn cut_and_unfold<F: HalfedgeFrame>(
     let given = solution.given();
     let vertices = options.cones.iter().flatten().chain(&options.root);
     vertices.copied().try_for_each(|v| check_vertex(given, v))?;
+    let asks_for_cut = options.cones.is_some() || matches!(options.opening, LayoutOpening::InputCut(_));
+    if solution.is_one_piece() && !asks_for_cut {
+        let mut layout = unfold_whole(pieces, faces, options.root, control)?;
+        layout.input = Some((given.clone(), CutGraph::empty(given)));
+        return Ok(layout);
+    }
     let (root, cut) = root_and_cut(solution, &pieces, faces, options, control)?;
     // A sphere without cones needs no cut.
     let is_whole = cut.segments.is_empty() && given.is_closed();

@@ -86,6 +86,18 @@ pub(crate) fn unfold_part_precisely(
     Ok(PerHalfedge::from_fn(mesh.n_halfedges(), |h| place(corner[h] as usize)))
 }
 
+/// Unfolds a surface that lies in the plane without a cut: around each of its holes, its metric leads back to where it began.
+pub(super) fn unfold_whole<F: HalfedgeFrame>(
+    pieces: LayoutPieces,
+    faces: &Faces<F>,
+    root: Option<VertexId>,
+    control: &Control,
+) -> Result<Layout> {
+    let cut = CutGraph::empty(pieces.mesh());
+    let corners = CutCorners::new(pieces.mesh(), &cut);
+    grow_all(&pieces, faces, root, Some(&cut), control)?.into_layout(cut, corners, control)
+}
+
 /// Unfolds pieces that are opened along a cut of them; without a cut, the surface is opened where the growing disk meets itself. Flipped
 /// and degenerate triangles are found later ([`Layout::find_flat`]).
 pub(super) fn unfold<F: HalfedgeFrame>(
@@ -95,13 +107,7 @@ pub(super) fn unfold<F: HalfedgeFrame>(
     cut: Option<CutGraph>,
     control: &Control,
 ) -> Result<Layout> {
-    let grow = |cut: Option<&CutGraph>| {
-        let grown = Development::grow(pieces.clone(), faces, root, cut.map(|cut| &cut.is_cut), control)?;
-        if grown.n_reached() < pieces.mesh().n_faces() {
-            return Err(Error::Layout("the surface has several components: lay out each alone".into()));
-        }
-        Ok(grown)
-    };
+    let grow = |cut: Option<&CutGraph>| grow_all(&pieces, faces, root, cut, control);
     match cut {
         Some(cut) => {
             check_size("is_cut", cut.is_cut.len(), pieces.mesh().n_edges())?;
@@ -116,6 +122,21 @@ pub(super) fn unfold<F: HalfedgeFrame>(
             grown.into_layout(cut, corners, control)
         }
     }
+}
+
+/// The development of all pieces.
+fn grow_all<'a, F: HalfedgeFrame>(
+    pieces: &LayoutPieces,
+    faces: &'a Faces<'a, F>,
+    root: Option<VertexId>,
+    cut: Option<&CutGraph>,
+    control: &Control,
+) -> Result<Development<'a, F>> {
+    let grown = Development::grow(pieces.clone(), faces, root, cut.map(|cut| &cut.is_cut), control)?;
+    if grown.n_reached() < pieces.mesh().n_faces() {
+        return Err(Error::Layout("the surface has several components: lay out each alone".into()));
+    }
+    Ok(grown)
 }
 
 /// The corners of the opened surface and the sides of its seams, which follow from the cut alone.

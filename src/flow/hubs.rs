@@ -20,8 +20,8 @@ use std::sync::Arc;
 const LEAST_START: f64 = 0.6;
 
 /// The radius of the circle about a hub at the start: that of a circle as long as the loop, or a larger one if one edge is long.
-pub(crate) fn start_radius(lengths: &PerEdge<f64>, filled: &FilledMesh, k: usize) -> f64 {
-    let edges = filled.loops[k].iter().map(|h| lengths[h.edge()]);
+pub(crate) fn start_radius(lengths: &PerEdge<f64>, rim: &[HalfedgeId]) -> f64 {
+    let edges = rim.iter().map(|h| lengths[h.edge()]);
     let (sum, longest) = edges.fold((0.0, 0.0), |(sum, longest), l| (sum + l, f64::max(longest, l)));
     (sum / TAU).max(LEAST_START * longest)
 }
@@ -46,7 +46,7 @@ impl Solution {
         let lengths = origin.initial.metric.lengths(&mesh)?;
         let initial = &mut origin.initial;
         for k in 0..filled.loops.len() {
-            let (hub, radius) = (filled.hub(k), start_radius(&lengths, filled, k));
+            let (hub, radius) = (filled.hub(k), start_radius(&lengths, &filled.loops[k]));
             make_hub(&mesh, &mut initial.metric, hub);
             initial.metric.u[hub] = if space == Space::H2 { (0.5 * radius).tanh().ln() } else { radius.ln() };
             initial.radii[hub] = radius;

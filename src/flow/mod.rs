@@ -27,6 +27,7 @@ mod newton;
 mod obstruction;
 pub mod options;
 mod origin;
+mod outer;
 mod polish;
 pub mod report;
 mod seconds;
@@ -40,6 +41,7 @@ pub(crate) use active_set::{ActiveSet, BorrowedMetric};
 pub use cones::{AutoCones, auto_cones, with_cones_placed};
 pub use jacobian::curvature_derivative;
 pub use options::{Flips, Gradient, Method, Options, StepRule};
+pub use outer::prescribed_curvature;
 pub use report::{Obstruction, Report, StopReason, TraceRow};
 pub use seconds::FlowSeconds;
 pub use solution::Solution;
@@ -81,6 +83,8 @@ pub struct Flow {
     /// Edges of the present triangulation that are not flipped: those of the options, and their mirror images on a double.
     fixed: FixedEdges,
     pinned: Vec<bool>,
+    /// True after a solve for [`Target::Outer`], which holds the boundary whatever the options say.
+    holds_outer: bool,
     /// True if `pinned` is an active set, which changes between steps: then it stays in the matrix ([`active_set`]).
     is_bounded: bool,
     /// Per vertex its mirror image on a double, where the metric is kept symmetric.
@@ -122,5 +126,5 @@ pub fn flow(
     options: &Options,
     control: &Control,
 ) -> Result<Solution> {
-    Flow::new(surface, class, options, control)?.solve(target, control)
+    Flow::toward(target, surface, class, options, control)?.solve(target, control)
 }

@@ -38,6 +38,8 @@ pub(super) struct ReachedTarget {
     /// Per given vertex; at pinned vertices the resulting curvature.
     pub target: PerVertex<f64>,
     pub cones: Vec<VertexId>,
+    /// [`Solution::is_one_piece`].
+    pub is_one_piece: bool,
 }
 
 impl Solution {
@@ -85,17 +87,18 @@ impl Solution {
 
     /// The initial metric of this origin as a solution.
     pub(super) fn start(origin: FlowOrigin) -> Solution {
-        let metric = origin.initial.metric.clone();
+        let origin = Arc::new(origin);
         let (mesh, followed) = origin.start();
-        Solution {
-            mesh,
-            metric,
-            followed,
-            flips: origin.flips,
-            origin: Arc::new(origin),
-            reached: None,
-            threads: 0,
-        }
+        let (metric, flips) = (origin.initial.metric.clone(), origin.flips);
+        Solution { mesh, metric, followed, flips, origin, reached: None, threads: 0 }
+    }
+
+    /// The initial metric from which a flow has led here.
+    pub(super) fn at_start(&self) -> Solution {
+        let origin = self.origin.clone();
+        let (mesh, followed) = origin.start();
+        let (metric, flips) = (origin.initial.metric.clone(), origin.flips);
+        Solution { mesh, metric, followed, flips, origin, reached: None, threads: self.threads }
     }
 
     /// The surface as it was given.
@@ -184,6 +187,12 @@ impl Solution {
     /// than the tolerance of the flow. A layout is cut open through them. None for an initial metric.
     pub fn cones(&self) -> &[VertexId] {
         self.reached.as_ref().map_or(&[], |reached| &reached.cones)
+    }
+
+    /// True if the surface, unrolled into the plane, needs no cut: it has genus 0 and a flow to [`crate::Target::Outer`] has led here, so that
+    /// unrolling it around any of its loops ends where it began.
+    pub fn is_one_piece(&self) -> bool {
+        self.reached.as_ref().is_some_and(|reached| reached.is_one_piece)
     }
 
     /// The same for this many threads.

@@ -27,12 +27,22 @@ pub(super) struct MethodEnd {
 }
 
 impl Flow {
-    /// Flow to a target, which is ignored at pinned vertices. Not reaching it is reported and no error.
+    /// Flow to a target, which is ignored at pinned vertices. Not reaching it is reported and no error. With pinned vertices
+    /// [`Target::Outer`] is 0 at all others: these vertices are held in the place of the outer loop.
     ///
     /// # Errors
     /// Those of [`with_cones_placed`] and [`Target::values`]; without pins a total that no metric can have ([`check_total`]); curvature
     /// that no angle can have ([`check_upper`]); [`Error::Cancelled`], [`Error::Factorisation`]: the flow is then where it was before.
     pub fn solve(&mut self, target: &Target, control: &Control) -> Result<Solution> {
+        if self.holds_outer {
+            self.holds_outer = false;
+            self.pin(&self.options.pinned.clone(), control)?;
+        }
+        let target = match target {
+            Target::Outer(outer) if self.options.pinned.is_empty() => return self.solve_outer(*outer, control),
+            Target::Outer(_) => &Target::Cones(Vec::new()),
+            target => target,
+        };
         let (space, given) = (self.metric.space, self.given().clone());
         let target = with_cones_placed(target, self.surface(), space, control)?;
         let mut values = target.values(self.surface(), space)?;
@@ -74,7 +84,7 @@ impl Flow {
             let pinned = |v: &VertexId| self.pinned[v.index()];
             self.given().vertices().filter(pinned).for_each(|v| target[v] = curvature[v]);
         }
-        let reached = self.now.reached.insert(ReachedTarget { report, target, cones: Vec::new() });
+        let reached = self.now.reached.insert(ReachedTarget { report, target, cones: Vec::new(), is_one_piece: false });
         Ok(&reached.report)
     }
 

@@ -9,7 +9,7 @@ use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::Space;
 use crate::mesh::{Double, FixedEdges, FlipLog, Mesh, PerVertex, VertexId};
-use crate::metric::{Class, Metric, Surface};
+use crate::metric::{Class, Metric, Surface, Target};
 use crate::parallel::Pool;
 use std::sync::Arc;
 
@@ -20,6 +20,31 @@ impl Flow {
     /// Those of [`crate::metric::delaunay_start`]; a pinned vertex or fixed edge that does not exist; options out of their range;
     /// [`Error::Cancelled`].
     pub fn new(surface: Surface, class: Class, options: &Options, control: &Control) -> Result<Flow> {
+        Flow::begin(surface, class, options, options.pinned.is_empty(), control)
+    }
+
+    /// [`Flow::new`] for a flow whose first target is known: the result is the same, but nothing is doubled in vain for [`Target::Outer`].
+    ///
+    /// # Errors
+    /// Those of [`Flow::new`].
+    pub fn toward(
+        target: &Target,
+        surface: Surface,
+        class: Class,
+        options: &Options,
+        control: &Control,
+    ) -> Result<Flow> {
+        let doubles = options.pinned.is_empty() && !matches!(target, Target::Outer(_));
+        Flow::begin(surface, class, options, doubles, control)
+    }
+
+    fn begin(
+        surface: Surface,
+        class: Class,
+        options: &Options,
+        doubles: bool,
+        control: &Control,
+    ) -> Result<Flow> {
         control.check()?;
         let pool = Arc::new(Pool::new(options.threads)?);
         let origin = pool.run(|| {
@@ -27,7 +52,7 @@ impl Flow {
                 return FlowOrigin::rigid(surface, class);
             }
             let fixed = &options.fixed_edges;
-            let may_double = !surface.mesh().is_closed() && options.pinned.is_empty();
+            let may_double = !surface.mesh().is_closed() && doubles;
             let one_copy = FlowOrigin::delaunay(surface.clone(), class, false, fixed, control)?;
             if may_double && !one_copy.is_half {
                 return FlowOrigin::delaunay(surface, class, true, fixed, control);
@@ -71,7 +96,7 @@ impl Flow {
         Flow::go_on(Solution::start(FlowOrigin::of_metric(mesh, &metric, follows)?), options, pool)
     }
 
-    fn go_on(mut now: Solution, options: &Options, pool: Arc<Pool>) -> Result<Flow> {
+    pub(super) fn go_on(mut now: Solution, options: &Options, pool: Arc<Pool>) -> Result<Flow> {
         options.check()?;
         let (origin, mesh) = (now.origin.clone(), now.mesh.clone());
         let rigid = origin.class.map_or(!may_flip(options, now.metric.space), |class| {
@@ -98,6 +123,7 @@ impl Flow {
             flips_allowed: !rigid,
             fixed,
             pinned: vec![false; mesh.n_vertices()],
+            holds_outer: false,
             is_bounded: false,
             mirror,
             log: FlipLog::default(),
@@ -166,18 +192,26 @@ impl Flow {
         Ok(())
     }
 
+    /// [`Flow::set_u`] in double-double precision.
+    pub(super) fn set_start(&mut self, u: PerVertex<f64>, u_low: PerVertex<f64>) -> Result<()> {
+        self.set_u(u)?;
+        self.start_low = u_low.clone();
+        self.now.metric.u_low = u_low;
+        Ok(())
+    }
+
+    /// The class of the flow, which one on the double has.
+    pub(super) fn scheme_class(&self) -> Result<Class> {
+        self.class().ok_or_else(|| {
+            Error::argument("flow", "a metric without a surface", "one on a surface, which can be doubled")
+        })
+    }
+
     /// The same flow on the double, from the present u.
     pub(super) fn doubled(&self, control: &Control) -> Result<Flow> {
-        let FlowOrigin { surface, class: Some(class), .. } = &*self.origin else {
-            let value = "a metric without a surface".into();
-            return Err(Error::Argument {
-                what: "flow",
-                value,
-                need: "one on a surface, which can be doubled",
-            });
-        };
+        let (surface, class) = (self.surface().clone(), self.scheme_class()?);
         let fixed = &self.options.fixed_edges;
-        let double = || FlowOrigin::delaunay(surface.clone(), *class, true, fixed, control);
+        let double = || FlowOrigin::delaunay(surface, class, true, fixed, control);
         let mut flow =
             Flow::go_on(Solution::start(self.pool.run(double)?), &self.options, self.pool.clone())?;
         if let Some(double) = flow.now.double() {

@@ -11,7 +11,9 @@
 
 pub mod attribute;
 pub mod build;
+pub mod caps;
 pub mod check;
+pub mod components;
 pub mod double;
 pub mod fill;
 pub mod flip;

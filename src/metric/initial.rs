@@ -232,7 +232,7 @@ fn log_radius(space: Space, radius: f64) -> f64 {
 }
 
 /// η from a length: the length formulas solved for it. In E² the length that η gives back is the given one, in double-double precision.
-fn weight_of_length(space: Space, length: f64, [a, b]: [Vertex; 2]) -> DoubleDouble {
+pub(crate) fn weight_of_length(space: Space, length: f64, [a, b]: [Vertex; 2]) -> DoubleDouble {
     // The unit of length is 2 to the larger exponent of the two circles.
     let unit = a.exponent.max(b.exponent);
     let n = match space {

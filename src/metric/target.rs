@@ -15,7 +15,7 @@ use super::surface::Surface;
 use crate::control::Control;
 use crate::error::{Error, Result, check_size};
 use crate::geometry::Space;
-use crate::mesh::{Mesh, PerEdge, PerVertex, VertexId};
+use crate::mesh::{HalfedgeId, Mesh, PerEdge, PerVertex, VertexId};
 use crate::topology;
 use std::f64::consts::PI;
 
@@ -34,6 +34,11 @@ pub enum Target {
     /// E² open: 0 inside, 2πχ shared over the boundary in proportion to the adjacent boundary length (in equal
     /// shares where a share would reach π).
     Boundary,
+    /// E², genus 0 with boundary: 0 inside, while the outer loop keeps its lengths and is free to bend. That is this loop of
+    /// [`Mesh::boundary_loops`], by default the longest. The other loops bend so that the surface unrolls around each of them to where it
+    /// began, as if the holes were filled: the layout is one piece without a seam, and isometric if the surface can be unrolled. The flow
+    /// finds the curvature of the boundary ([`crate::Flow::solve`]).
+    Outer(Option<usize>),
     /// E²: all of 2πχ at one vertex, 0 elsewhere.
     Single(VertexId),
     /// E²: this many cones inside, placed with their curvatures so that a map that is flat elsewhere changes areas little. The flow
@@ -46,7 +51,7 @@ pub enum Target {
 }
 
 impl Target {
-    /// The target of a surface for which none is asked for. In E²: `Boundary` on open surfaces of genus 0; `Auto` on open surfaces
+    /// The target of a surface for which none is asked for. In E²: `Outer` on open surfaces of genus 0; `Auto` on open surfaces
     /// with handles, |χ| cones from 4 to 64 (at most one per interior vertex; `Boundary` where there is none, or where the lengths
     /// are not Euclidean), since few boundaries can bend by 2πχ alone; four cones of π on closed surfaces of genus 0 (V ≥ 4:
     /// vertex 0 and then, three times, the vertex farthest from those chosen, along edges). `Uniform` otherwise.
@@ -57,6 +62,7 @@ impl Target {
         let mesh = surface.mesh();
         Ok(match space {
             Space::H2 | Space::S2 => Target::Uniform,
+            Space::E2 if !mesh.is_closed() && mesh.genus() == 0 => Target::Outer(None),
             Space::E2 if !mesh.is_closed() => match default_cones(surface) {
                 0 => Target::Boundary,
                 n => Target::Auto(n),
@@ -75,10 +81,23 @@ impl Target {
         match self {
             Target::Uniform => "uniform",
             Target::Boundary => "boundary",
+            Target::Outer(_) => "outer",
             Target::Single(_) => "single",
             Target::Auto(_) => "auto",
             Target::Cones(_) => "cones",
             Target::All(_) => "file",
+        }
+    }
+
+    /// Checks what can be checked before a flow: [`Target::values`] with [`check_admissible`]; of `Outer`, whose values are found by the flow,
+    /// that the surface has this loop.
+    ///
+    /// # Errors
+    /// Those of [`Target::values`] and [`check_admissible`].
+    pub fn check(&self, surface: &Surface, class: Class) -> Result<()> {
+        match self {
+            Target::Outer(outer) => check_outer(surface.mesh(), class.space, *outer),
+            _ => self.resolve(surface, class).map(|_| ()),
         }
     }
 
@@ -106,8 +125,8 @@ impl Target {
     /// The curvature of every vertex by this rule alone.
     ///
     /// # Errors
-    /// [`Error::TargetKind`] for a rule that does not exist on this surface in this space, a vertex that does not exist, or `Auto`,
-    /// whose cones are not placed yet; [`Error::Size`].
+    /// [`Error::TargetKind`] for a rule that does not exist on this surface in this space, a vertex or loop that does not exist, `Auto`,
+    /// whose cones are not placed yet, and `Outer`, whose curvature the flow finds; [`Error::Size`].
     pub fn values(&self, surface: &Surface, space: Space) -> Result<PerVertex<f64>> {
         let mesh = surface.mesh();
         let n = mesh.n_vertices();
@@ -129,6 +148,10 @@ impl Target {
                 return Err(kind("exists in E² on surfaces with boundary only; use `uniform`"));
             }
             Target::Boundary => boundary_target(mesh, surface.lengths()),
+            Target::Outer(outer) => {
+                check_outer(mesh, space, *outer)?;
+                return Err(kind("the flow finds the curvature of the boundary; its result has it"));
+            }
             Target::Single(_) if space != Space::E2 => return Err(kind("exists in E² only; use `cones`")),
             Target::Single(v) => {
                 let mut target = PerVertex::filled(n, 0.0);
@@ -149,6 +172,27 @@ impl Target {
             }
         })
     }
+}
+
+/// Checks that a surface has an outer loop to hold, and this one if it is named.
+fn check_outer(mesh: &Mesh, space: Space, outer: Option<usize>) -> Result<()> {
+    let kind = |message: String| Error::TargetKind { target: Target::Outer(outer).name(), message };
+    if space != Space::E2 || mesh.is_closed() || mesh.genus() != 0 {
+        return Err(kind("exists in E² on surfaces of genus 0 with boundary only; use `boundary` or `auto`".into()));
+    }
+    let n = mesh.boundary_loops().len();
+    match outer {
+        Some(k) if k >= n => Err(kind(format!("loop {k} does not exist, the surface has loops 0 to {}", n - 1))),
+        _ => Ok(()),
+    }
+}
+
+/// The longest boundary loop, by its place in [`Mesh::boundary_loops`]; 0 for a closed surface.
+pub(crate) fn longest_loop(surface: &Surface) -> usize {
+    let loops = surface.mesh().boundary_loops();
+    let length = |rim: &Vec<_>| rim.iter().map(|h: &HalfedgeId| surface.lengths()[h.edge()]).sum::<f64>();
+    let longest = loops.iter().map(length).enumerate();
+    longest.fold((0, 0.0), |best, (k, length)| if length > best.1 { (k, length) } else { best }).0
 }
 
 /// The number of cones of the default target of an open surface in E²; 0 where it has none.

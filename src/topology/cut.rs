@@ -32,6 +32,12 @@ pub struct CutGraph {
 }
 
 impl CutGraph {
+    /// No cut at all.
+    pub(crate) fn empty(mesh: &Mesh) -> CutGraph {
+        let is_cut = PerEdge::filled(mesh.n_edges(), false);
+        CutGraph { is_cut, nodes: Vec::new(), segments: Vec::new() }
+    }
+
     /// The cut of the marked interior edges, without branches that end neither at a branch point nor on the boundary.
     pub(crate) fn around(mesh: &Mesh, marked: PerEdge<bool>) -> CutGraph {
         let fixed = PerVertex::from_fn(mesh.n_vertices(), |v| mesh.is_boundary_vertex(v));

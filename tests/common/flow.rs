@@ -29,6 +29,15 @@ pub fn small_meshes(most_vertices: usize) -> Vec<(String, Mesh, PerEdge<f64>, Ve
     rows.iter().filter(is_small).map(read).collect()
 }
 
+/// The default target of a surface, where that prescribes the curvature of every vertex; `Boundary` where the flow finds the curvature
+/// of the boundary.
+pub fn prescribing_target(surface: &Surface, space: Space) -> Target {
+    match Target::default_for(surface, space).unwrap() {
+        Target::Outer(_) => Target::Boundary,
+        target => target,
+    }
+}
+
 /// The uniform target, or four cones of π on a sphere in E².
 pub fn default_target(mesh: &Mesh, lengths: &PerEdge<f64>, space: Space, scheme: Scheme) -> PerVertex<f64> {
     if space == Space::E2 && mesh.genus() == 0 {

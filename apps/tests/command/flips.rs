@@ -54,7 +54,9 @@ fn an_open_surface_is_solved_on_its_double_and_laid_out_by_itself() {
     for scheme in ["yamabe", "inversive"] {
         place.expect(
             0,
-            &format!("flow hill.obj --scheme {scheme} --uv uv.obj --metric m.json --report r.json"),
+            &format!(
+                "flow hill.obj --scheme {scheme} --target boundary --uv uv.obj --metric m.json --report r.json"
+            ),
         );
         let (report, metric) = (place.json("r.json"), place.json("m.json"));
         assert!(curvature_error(&metric) <= 1e-10);
@@ -78,7 +80,7 @@ fn an_open_surface_is_solved_on_its_double_and_laid_out_by_itself() {
 fn an_open_surface_with_no_flips_across_its_boundary_stays_one_copy() {
     let place = Place::new();
     place.put("hill.obj", &hill(12).obj());
-    place.expect(0, "flow hill.obj --uv uv.obj --metric m.json --report r.json");
+    place.expect(0, "flow hill.obj --target boundary --uv uv.obj --metric m.json --report r.json");
     let (report, metric) = (place.json("r.json"), place.json("m.json"));
     assert!(curvature_error(&metric) <= 1e-10);
     let n = positions(&place.text("hill.obj")).len();

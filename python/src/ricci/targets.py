@@ -16,9 +16,11 @@ from ricci.errors import ArgumentError
 __all__ = ["TargetLike"]
 
 # What a flow takes as its target:
-#   None, "default"    closed, genus 1 and more: uniform; sphere: four cones of pi; open: boundary, with handles "auto:N" with
+#   None, "default"    closed, genus 1 and more: uniform; sphere: four cones of pi; open: outer, with handles "auto:N" with
 #                      N = |chi|, 4 to 64; in H2 and S2: uniform
 #   "uniform"          the same curvature everywhere
+#   "outer"            0 inside, the longest loop keeps its lengths, holes are filled: one piece without seams; genus 0
+#   "outer:V"          the same with the loop through vertex V
 #   "boundary"         0 inside, 2 pi chi shared over the boundary by length
 #   "single:V"         all curvature at vertex V
 #   "auto:N"           N cones placed by the library
@@ -30,10 +32,11 @@ TargetLike: TypeAlias = "str | Mapping[int, float] | npt.ArrayLike | None"
 def _rule(struct: Struct, text: str) -> None:
     """A rule by its name, with a number behind a colon where it takes one."""
     kind, _, number = text.partition(":")
-    if kind not in ("default", "uniform", "boundary", "single", "auto") or (kind in ("single", "auto")) != number.isdecimal():
-        raise ArgumentError(f"target {text!r}: default, uniform, boundary, single:VERTEX or auto:COUNT")
+    plain = kind in ("default", "uniform", "outer", "boundary") and text == kind
+    if not plain and not (kind in ("outer", "single", "auto") and number.isdecimal()):
+        raise ArgumentError(f"target {text!r}: default, uniform, outer, outer:VERTEX, boundary, single:VERTEX or auto:COUNT")
     struct.put("kind", getattr(lib, f"RICCI_TARGET_{kind.upper()}"))
-    if kind == "single":
+    if kind in ("single", "outer") and number:
         struct.put("n", 1)
         struct.put("vertices", _arrays.indices([int(number)]))
     elif kind == "auto":

@@ -21,6 +21,7 @@ use crate::geometry::mobius::PlaneCircle;
 use crate::geometry::{DoubleDouble, Space, triangle, worse};
 use crate::mesh::{EdgeId, FilledMesh, Mesh, PerEdge, PerVertex, VertexId};
 use crate::metric::lengths::face_lengths;
+use crate::metric::target::longest_loop;
 use crate::metric::{CommonSubdivision, Metric, Split, Surface};
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -31,7 +32,7 @@ pub(super) fn solve(
     control: &Control,
 ) -> Result<CircleDomain> {
     let PreparedSurface { split, surface, filled, start } = prepared;
-    let outer = options.outer.unwrap_or_else(|| longest_loop(&surface, &filled));
+    let outer = options.outer.unwrap_or_else(|| longest_loop(&surface));
     let weights = vertex_areas(&surface, &filled);
     let (flow, tolerance) = (options.of_flow(), options.flow.tolerance);
     let (mesh, mut metric, followed) = start.parts();
@@ -141,12 +142,6 @@ impl PlanarSolution {
         let domain = domain.judged(self.tolerance);
         Ok(if domain.report.deviation < other.report.deviation { domain } else { other })
     }
-}
-
-/// The longest loop.
-pub(super) fn longest_loop(surface: &Surface, filled: &FilledMesh) -> usize {
-    let length = |k: usize| filled.loops[k].iter().map(|h| surface.lengths()[h.edge()]).sum::<f64>();
-    (0..filled.loops.len()).fold((0, 0.0), |best, k| if length(k) > best.1 { (k, length(k)) } else { best }).0
 }
 
 /// One third of the area of the given faces at each vertex, in units of the whole; 0 at hubs.

@@ -91,7 +91,7 @@ impl PreparedSurface {
 fn closed_surface(surface: &Surface, filled: &FilledMesh) -> Result<Surface> {
     let mut lengths: Vec<f64> = surface.lengths().iter().copied().collect();
     let rims: Vec<f64> =
-        (0..filled.loops.len()).map(|k| start_radius(surface.lengths(), filled, k)).collect();
+        (0..filled.loops.len()).map(|k| start_radius(surface.lengths(), &filled.loops[k])).collect();
     for e in (lengths.len()..filled.mesh.n_edges()).map(EdgeId::from) {
         // The half-edge 2e runs to the hub.
         let hub = filled.mesh.tip(HalfedgeId(2 * e.0));
