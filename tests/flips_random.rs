@@ -6,10 +6,10 @@ mod common;
 use common::Random;
 use common::flips::{SCHEMES, drawn_below, reach, shuffle, started};
 use common::flow::{euclidean, prescribing_target, surface};
+use ricci::Class;
 use ricci::flow::Options;
 use ricci::geometry::Space;
 use ricci::mesh::{Mesh, PerEdge, PerVertex, shapes};
-use ricci::Class;
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 

@@ -115,8 +115,12 @@ fn holes_of_a_curved_surface_leave_one_piece_that_meets_itself() {
         let quality = layout.quality(given.mesh(), given.lengths()).unwrap();
         println!("{name}: dilatation {:.2}, consistency {:.1e}", quality.qc_max, layout.consistency());
         // The outer loop keeps its lengths.
-        let lengths: Vec<f64> =
-            given.mesh().boundary_loops().iter().map(|rim| rim.iter().map(|h| given.lengths()[h.edge()]).sum()).collect();
+        let lengths: Vec<f64> = given
+            .mesh()
+            .boundary_loops()
+            .iter()
+            .map(|rim| rim.iter().map(|h| given.lengths()[h.edge()]).sum())
+            .collect();
         let longest = (0..lengths.len()).max_by(|&a, &b| lengths[a].total_cmp(&lengths[b])).unwrap();
         let factor = end.conformal_factor().unwrap();
         for h in &given.mesh().boundary_loops()[longest] {
@@ -146,9 +150,12 @@ fn another_loop_can_be_the_outer_one() {
 
 #[test]
 fn a_flow_holds_the_outer_loop_for_one_solve_alone() {
-    let given = Surface::from_soup(&grid(9, 9, |i, j| (3..5).contains(&i) && (3..6).contains(&j), |x, y| {
-        [x, y, 0.1 * (x * y).sin()]
-    }))
+    let given = Surface::from_soup(&grid(
+        9,
+        9,
+        |i, j| (3..5).contains(&i) && (3..6).contains(&j),
+        |x, y| [x, y, 0.1 * (x * y).sin()],
+    ))
     .unwrap();
     let (class, free) = (Class::yamabe(Space::E2), Control::new());
     let mut flow = Flow::new(given.clone(), class, &Options::default(), &free).unwrap();
@@ -169,7 +176,8 @@ fn a_flow_holds_the_outer_loop_for_one_solve_alone() {
 
 #[test]
 fn every_scheme_and_method_closes_the_holes_it_can() {
-    let soup = grid(9, 9, |i, j| (3..5).contains(&i) && (3..6).contains(&j), |x, y| [x, y, 0.2 * (0.5 * x).sin()]);
+    let soup =
+        grid(9, 9, |i, j| (3..5).contains(&i) && (3..6).contains(&j), |x, y| [x, y, 0.2 * (0.5 * x).sin()]);
     let never = Options { flips: Flips::Never, ..Options::default() };
     for (scheme, options) in [
         (Scheme::Yamabe, never.clone()),

@@ -170,7 +170,10 @@ impl FromStr for TargetChoice {
             Some(("auto", n)) => {
                 n.parse().map(TargetChoice::Auto).map_err(|_| format!("`{n}` is not a number of cones"))
             }
-            _ => Err("must be uniform, outer, boundary, single:V, auto:N, cones:FILE.csv or file:FILE.csv".into()),
+            _ => {
+                Err("must be uniform, outer, boundary, single:V, auto:N, cones:FILE.csv or file:FILE.csv"
+                    .into())
+            }
         }
     }
 }

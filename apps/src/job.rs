@@ -157,7 +157,9 @@ fn rule(input: &Input, job: &FlowJob<'_>, control: &Control) -> Result<(Target, 
 /// The name of a target that holds the outer loop.
 fn outer_name(outer: Option<usize>) -> String {
     let which = outer.map_or_else(|| "the longest loop".into(), |k| format!("loop {k}"));
-    format!("outer ({which} keeps its lengths, others are filled; --target boundary bends all loops by their length)")
+    format!(
+        "outer ({which} keeps its lengths, others are filled; --target boundary bends all loops by their length)"
+    )
 }
 
 impl FlowOutcome {

@@ -36,18 +36,15 @@ pub fn write(
 ) -> Result<[usize; 2], Failure> {
     let own = faces_of(input, laid, options.on)?;
     let weights = if options.homogeneous { laid.weights() } else { Vec::new() };
-    let added = [own.positions.len() - input.mesh().n_vertices(), own.mesh.n_faces() - input.mesh().n_faces()];
+    let added =
+        [own.positions.len() - input.mesh().n_vertices(), own.mesh.n_faces() - input.mesh().n_faces()];
     UvMesh { weights: &weights, ..own }.write(outputs, path, input)?;
     // The summary tells those of split edges on a line of their own.
     Ok(if options.on == OnChoice::Refined { added } else { [0; 2] })
 }
 
 /// The mesh of `--uv`: the layout's faces, or the input's own.
-pub fn faces_of<'a>(
-    input: &'a Input,
-    laid: &'a SurfaceLayout,
-    on: OnChoice,
-) -> Result<UvMesh<'a>, Failure> {
+pub fn faces_of<'a>(input: &'a Input, laid: &'a SurfaceLayout, on: OnChoice) -> Result<UvMesh<'a>, Failure> {
     // Without positions `--uv` is refused before the flow.
     let (Some(positions), Some(own_positions)) = (laid.positions.as_deref(), input.positions()) else {
         return Err(Failure::no_positions());

@@ -120,7 +120,8 @@ impl Report {
     /// The report of a flow with capped holes, and of the `rest` on the open surface with u held at the loops, which has little left to do.
     fn with_holes_open(self, rest: Report) -> Report {
         let Report { stop_reason, max_curvature_error, rounding_floor, unknowns, factor_entries, .. } = self;
-        let (is_reached, worst, obstruction) = (self.is_reached(), self.worst.clone(), self.obstruction.clone());
+        let (is_reached, worst, obstruction) =
+            (self.is_reached(), self.worst.clone(), self.obstruction.clone());
         let joined = self.then(rest);
         let error = worse(joined.max_curvature_error, max_curvature_error);
         let (unknowns, factor_entries) =
@@ -147,7 +148,8 @@ fn capped(open: &Mesh, metric: &Metric, outer: usize) -> Result<(Mesh, Metric, V
         Some(polygon) => Cap::Triangles(polygon.triangles.clone()),
         None => Cap::Hub,
     };
-    let CappedMesh { mesh, rims, hubs } = CappedMesh::new(open, polygons.iter().enumerate().map(cap).collect())?;
+    let CappedMesh { mesh, rims, hubs } =
+        CappedMesh::new(open, polygons.iter().enumerate().map(cap).collect())?;
     let mut point = PerVertex::filled(open.n_vertices(), [0.0; 2]);
     let mut radius = PerVertex::filled(mesh.n_vertices(), 0.0);
     for (k, rim) in loops.iter().enumerate() {
@@ -163,12 +165,8 @@ fn capped(open: &Mesh, metric: &Metric, outer: usize) -> Result<(Mesh, Metric, V
         values.iter().copied().chain(std::iter::repeat_n(0.0, n_new)).collect::<Vec<_>>().into()
     };
     let epsilon: Vec<i8> = metric.epsilon.iter().copied().chain(std::iter::repeat_n(0, n_new)).collect();
-    let mut metric = Metric {
-        epsilon: epsilon.into(),
-        u: with(&metric.u),
-        u_low: with(&metric.u_low),
-        ..metric.clone()
-    };
+    let mut metric =
+        Metric { epsilon: epsilon.into(), u: with(&metric.u), u_low: with(&metric.u_low), ..metric.clone() };
     let mut eta: Vec<DoubleDouble> = metric.eta.iter().copied().collect();
     for e in (open.n_edges()..mesh.n_edges()).map(EdgeId::from) {
         let ends = mesh.ends(e);

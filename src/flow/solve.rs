@@ -39,7 +39,9 @@ impl Flow {
             self.pin(&self.options.pinned.clone(), control)?;
         }
         let target = match target {
-            Target::Outer(outer) if self.options.pinned.is_empty() => return self.solve_outer(*outer, control),
+            Target::Outer(outer) if self.options.pinned.is_empty() => {
+                return self.solve_outer(*outer, control);
+            }
             Target::Outer(_) => &Target::Cones(Vec::new()),
             target => target,
         };
@@ -84,7 +86,8 @@ impl Flow {
             let pinned = |v: &VertexId| self.pinned[v.index()];
             self.given().vertices().filter(pinned).for_each(|v| target[v] = curvature[v]);
         }
-        let reached = self.now.reached.insert(ReachedTarget { report, target, cones: Vec::new(), is_one_piece: false });
+        let reached =
+            self.now.reached.insert(ReachedTarget { report, target, cones: Vec::new(), is_one_piece: false });
         Ok(&reached.report)
     }
 

@@ -23,7 +23,8 @@ pub fn polygon_triangles(polygon: &[Complex]) -> Option<Vec<[u32; 3]>> {
     let mut triangulation = ConstrainedDelaunayTriangulation::<Point2<f64>>::new();
     let mut corners = Vec::with_capacity(polygon.len());
     for &p in polygon {
-        let [x, y] = scale(1.0 / size, sub(p, *first)).map(|x| if x.abs() < LEAST_COORDINATE { 0.0 } else { x });
+        let [x, y] =
+            scale(1.0 / size, sub(p, *first)).map(|x| if x.abs() < LEAST_COORDINATE { 0.0 } else { x });
         corners.push(triangulation.insert(Point2::new(x, y)).ok()?);
     }
     // Points that coincide share a vertex, whose number is then not that of the corner.
@@ -64,7 +65,8 @@ mod tests {
     fn triangles_cover_a_polygon_that_is_not_convex() {
         let star: Vec<Complex> = (0..10)
             .map(|k| {
-                let (radius, angle) = (if k % 2 == 0 { 1.0 } else { 0.3 }, 0.2 * std::f64::consts::PI * f64::from(k));
+                let (radius, angle) =
+                    (if k % 2 == 0 { 1.0 } else { 0.3 }, 0.2 * std::f64::consts::PI * f64::from(k));
                 [radius * angle.cos(), radius * angle.sin()]
             })
             .collect();

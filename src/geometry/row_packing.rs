@@ -42,12 +42,14 @@ mod tests {
     #[test]
     fn no_two_rectangles_meet() {
         let mut random = Random::new(3);
-        let sizes: Vec<[f64; 2]> = (0..60).map(|_| [0.01 + random.unit().powi(3), 0.01 + random.unit()]).collect();
+        let sizes: Vec<[f64; 2]> =
+            (0..60).map(|_| [0.01 + random.unit().powi(3), 0.01 + random.unit()]).collect();
         let corners = in_rows(&sizes);
         for i in 0..60 {
             for j in 0..i {
                 let apart = |k: usize| {
-                    corners[i][k] >= corners[j][k] + sizes[j][k] || corners[j][k] >= corners[i][k] + sizes[i][k]
+                    corners[i][k] >= corners[j][k] + sizes[j][k]
+                        || corners[j][k] >= corners[i][k] + sizes[i][k]
                 };
                 assert!(apart(0) || apart(1), "{i} and {j}");
             }

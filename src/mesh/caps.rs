@@ -56,7 +56,10 @@ impl CappedMesh {
         crate::error::check_size("caps", caps.len(), loops.len())?;
         let n_halfedges = open.n_halfedges() + 2 * loops.iter().map(Vec::len).sum::<usize>();
         if u32::try_from(n_halfedges).is_err() {
-            return Err(Error::TooLarge { what: "half-edges of the surface with its caps", count: n_halfedges });
+            return Err(Error::TooLarge {
+                what: "half-edges of the surface with its caps",
+                count: n_halfedges,
+            });
         }
         let mut builder = CapBuilder {
             origin: open.halfedges().map(|h| open.origin(h).0).collect(),
@@ -98,7 +101,8 @@ impl CapBuilder {
         if triangles.len() + 2 != rim.len() {
             return Err(wrong(triangles.len()));
         }
-        let mut between: BTreeMap<[u32; 2], u32> = (0..n).map(|i| ([i, (i + 1) % n], rim[i as usize].0)).collect();
+        let mut between: BTreeMap<[u32; 2], u32> =
+            (0..n).map(|i| ([i, (i + 1) % n], rim[i as usize].0)).collect();
         for (at, t) in triangles.iter().enumerate() {
             let mut side = [0; 3];
             for k in 0..3 {

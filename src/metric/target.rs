@@ -178,11 +178,15 @@ impl Target {
 fn check_outer(mesh: &Mesh, space: Space, outer: Option<usize>) -> Result<()> {
     let kind = |message: String| Error::TargetKind { target: Target::Outer(outer).name(), message };
     if space != Space::E2 || mesh.is_closed() || mesh.genus() != 0 {
-        return Err(kind("exists in E² on surfaces of genus 0 with boundary only; use `boundary` or `auto`".into()));
+        return Err(kind(
+            "exists in E² on surfaces of genus 0 with boundary only; use `boundary` or `auto`".into(),
+        ));
     }
     let n = mesh.boundary_loops().len();
     match outer {
-        Some(k) if k >= n => Err(kind(format!("loop {k} does not exist, the surface has loops 0 to {}", n - 1))),
+        Some(k) if k >= n => {
+            Err(kind(format!("loop {k} does not exist, the surface has loops 0 to {}", n - 1)))
+        }
         _ => Ok(()),
     }
 }

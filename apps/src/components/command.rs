@@ -96,10 +96,8 @@ fn flow_of(args: &FlowArgs, piece: Component, run: &mut CommandRun<'_>) -> Resul
 
 /// Refuse options that name elements of one surface, and files that hold one.
 fn check_options(args: &FlowArgs) -> Result<(), Failure> {
-    let by_vertex = matches!(
-        args.target,
-        Some(TargetChoice::Single(_) | TargetChoice::Cones(_) | TargetChoice::File(_))
-    );
+    let by_vertex =
+        matches!(args.target, Some(TargetChoice::Single(_) | TargetChoice::Cones(_) | TargetChoice::File(_)));
     let refused = [
         ("--target single, cones and file", by_vertex),
         ("--pin V,V", matches!(args.pin, Some(PinChoice::Vertices(_)))),

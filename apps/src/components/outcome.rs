@@ -61,7 +61,8 @@ impl JobOutcome for ComponentsOutcome {
                 .and(&of_flow(&flow.outcome, run));
             serde_json::to_value(row).unwrap_or(Value::Null)
         };
-        let flipped = |flow: &ComponentFlow| flow.outcome.layout.as_ref().map_or(0, |laid| laid.flipped().len());
+        let flipped =
+            |flow: &ComponentFlow| flow.outcome.layout.as_ref().map_or(0, |laid| laid.flipped().len());
         Figures::default()
             .with("converged", self.flows.iter().all(|flow| flow.outcome.report.converged()))
             .with("flipped_triangles", self.flows.iter().map(flipped).sum::<usize>())

@@ -407,7 +407,8 @@ fn a_default_target_out_of_reach_is_exit_1_with_the_vertices_that_prove_it() {
     };
     square.faces.retain(|f| !hole(f, 2, 2) && !hole(f, 4, 4));
     place.put("holes.obj", &square.obj());
-    let ended = place.expect(1, "flow holes.obj --scheme tangential --pin 20 --report r.json --metric m.json");
+    let ended =
+        place.expect(1, "flow holes.obj --scheme tangential --pin 20 --report r.json --metric m.json");
     let result = &place.json("r.json")["result"];
     assert_eq!((&result["converged"], &result["stop_reason"]), (&false.into(), &"infeasible".into()));
     let proof = &result["obstruction"];

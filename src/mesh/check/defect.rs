@@ -133,7 +133,9 @@ impl Defect {
                  line, so remesh there"
             }
             Defect::IsolatedVertex { .. } => "drop the vertex: ricci repair",
-            Defect::SeveralComponents { .. } => "take one: ricci repair --component K; or flatten each: ricci flow --components all",
+            Defect::SeveralComponents { .. } => {
+                "take one: ricci repair --component K; or flatten each: ricci flow --components all"
+            }
         }
     }
 
