@@ -41,6 +41,8 @@ CASES = [
             "area_normalised": 1,
         },
     ),
+    (target_struct("outer"), {"kind": 7}),
+    (target_struct("outer:5"), {"kind": 7, "n": 1, "vertices": [5]}),
     (target_struct({3: 0.5, 8: -1.0}), {"kind": 4, "n": 2, "vertices": [3, 8], "curvatures": [0.5, -1.0]}),
     (
         options(
