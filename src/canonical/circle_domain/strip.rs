@@ -28,7 +28,7 @@ pub(super) fn solve(
     control: &Control,
 ) -> Result<CircleDomain> {
     let PreparedSurface { split, surface, filled, .. } = prepared;
-    let outer = options.outer.unwrap_or_else(|| longest_loop(&surface, &filled));
+    let outer = options.outer.unwrap_or_else(|| longest_loop(&surface));
     let mut flow = Flow::new(surface.clone(), Class::yamabe(Space::E2), &options.of_flow(), control)?;
     let flat = PerVertex::filled(surface.mesh().n_vertices(), 0.0);
     let report = flow.reach(&flat, control)?.clone();
