@@ -170,11 +170,12 @@ fn options(args: &FlowArgs) -> Options {
     Options { gradient, ..args.to.options() }
 }
 
-/// The factor from a layout, which has the area of the input, to lengths in the input's unit: where vertices are pinned, those of the
-/// metric, whose conformal factor is 0 there.
+/// The factor from a layout, which has the area of the input, to lengths in the input's unit: where vertices are pinned, or a target holds
+/// the outer loop, those of the metric, whose conformal factor is 0 there.
 fn flat_scale(outcome: &FlowOutcome, laid: &SurfaceLayout) -> f64 {
     let of_charts = laid.packed.as_ref().map_or(1.0, |packed| packed.charts.scale);
-    let of_layout = if outcome.pinned.is_empty() { 1.0 } else { laid.layout.scale };
+    let holds_lengths = !outcome.pinned.is_empty() || outcome.rule.name() == "outer";
+    let of_layout = if holds_lengths { laid.layout.scale } else { 1.0 };
     1.0 / (of_charts * of_layout)
 }
 
