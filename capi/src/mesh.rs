@@ -264,16 +264,15 @@ pub struct ricci_attributes {
 sized!(ricci_attributes, "attributes");
 
 impl ricci_attributes {
-    /// A copy of the caller's attributes, for the vertices and faces of a triangle list.
+    /// The attributes of a triangle list with the caller's in place of those that the caller can give.
     pub(crate) fn of(&self, soup: &Soup) -> Outcome<Attributes> {
         let (v, f) = (soup.positions.len(), soup.faces.len());
-        Ok(Attributes {
-            normals: arrays::optional("normals", self.normals, v)?,
-            colors: arrays::optional("colors", self.colors, v)?,
-            uv: arrays::optional("uv", self.uv, f)?,
-            corner_normals: arrays::optional("corner_normals", self.corner_normals, f)?,
-            ..Attributes::default()
-        })
+        let mut attributes = soup.attributes.clone();
+        attributes.normals = arrays::optional("normals", self.normals, v)?;
+        attributes.colors = arrays::optional("colors", self.colors, v)?;
+        attributes.uv = arrays::optional("uv", self.uv, f)?;
+        attributes.corner_normals = arrays::optional("corner_normals", self.corner_normals, f)?;
+        Ok(attributes)
     }
 }
 
