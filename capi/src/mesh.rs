@@ -264,7 +264,7 @@ pub struct ricci_attributes {
 sized!(ricci_attributes, "attributes");
 
 impl ricci_attributes {
-    /// The attributes of a triangle list with the caller's in place of those that the caller can give.
+    /// The attributes of a triangle list with the caller's in place of those that the caller can give: names of faces and further numbers stay.
     pub(crate) fn of(&self, soup: &Soup) -> Outcome<Attributes> {
         let (v, f) = (soup.positions.len(), soup.faces.len());
         let mut attributes = soup.attributes.clone();
@@ -287,10 +287,7 @@ pub unsafe extern "C" fn ricci_mesh_write(
         let mut soup = mesh.soup()?;
         let given = structs::read(attributes)?;
         if !attributes.is_null() {
-            let Attributes { normals, colors, uv, corner_normals, .. } = given.of(&soup)?;
-            // Names of faces and further numbers stay.
-            let kept = std::mem::take(&mut soup.attributes);
-            soup.attributes = Attributes { normals, colors, uv, corner_normals, ..kept };
+            soup.attributes = given.of(&soup)?;
         }
         if given.png.is_null() && given.png_size == 0 {
             return write_soup(&path, &soup);

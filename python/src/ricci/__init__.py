@@ -67,6 +67,7 @@ __all__ = [
     "Domain",
     "FileError",
     "Forms",
+    "HarmonicMap",
     "Homotopy",
     "InternalError",
     "Job",

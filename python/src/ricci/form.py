@@ -11,12 +11,26 @@ import numpy.typing as npt
 
 from ricci import _arrays
 from ricci._arrays import frozen
-from ricci._call import CONTROL, Complexes, Doubles, Handle, Longs, call, constant, doubles, figures_of, filled, pointer, sized_list, summary
+from ricci._call import (
+    CONTROL,
+    Complexes,
+    Doubles,
+    Handle,
+    Longs,
+    call,
+    constant,
+    doubles,
+    figures_of,
+    filled,
+    pointer,
+    sized_list,
+    summary,
+)
 from ricci._library import ffi, lib
-from ricci._structs import Struct, Write, choice, known, one_index, options
+from ricci._structs import Struct, Write, above_zero, choice, known, one_index, options
 from ricci.adapters import MeshLike, as_mesh
 from ricci.control import Progress
-from ricci.errors import ArgumentError
+from ricci.errors import ArgumentError, warn
 from ricci.figures import FormsSummary, HarmonicSummary
 from ricci.mesh import Mesh
 
@@ -72,8 +86,9 @@ def _harmonic_struct(given: HarmonicOptions) -> Struct:
     target = given.get("target", "values" if "bc" in given else "disk")
     struct.put("target", constant("HARMONIC", target, _TARGETS))
     struct.put("method", constant("HARMONIC", given.get("method", "solve"), ("solve", "heat")))
-    struct.put("step", given.get("step", 0.0))
-    struct.put("max_iterations", given.get("max_iterations", 0))
+    for name, value in (("step", given.get("step")), ("max_iterations", given.get("max_iterations"))):
+        if value is not None:
+            above_zero(struct, name, value)
     vertices = _arrays.indices(given.get("b", ()), name="b")
     struct.put("n", vertices.size or given.get("n", 0))
     if vertices.size:
@@ -120,6 +135,9 @@ def harmonic_map(V: MeshLike, F: npt.ArrayLike | None = None, progress: Progress
         progress: a `Control` or a callback.
         given: where it goes, and how (`HarmonicOptions`).
 
+    Warns:
+        NotConverged: the steps of the heat flow ran out.
+
     Raises:
         LayoutError: a surface of another topology.
     """
@@ -127,13 +145,15 @@ def harmonic_map(V: MeshLike, F: npt.ArrayLike | None = None, progress: Progress
     if given.get("target") == "values" and "bc" not in given:
         raise ArgumentError("harmonic values need b and bc")
     points = np.empty((mesh.n_vertices, 3))
-    most = given.get("max_iterations", 10000) + 1 if given.get("method") == "heat" or given.get("target") == "sphere" else 0
+    most = (given.get("max_iterations") or 10000) + 1 if given.get("method") == "heat" or given.get("target") == "sphere" else 0
     energies = np.empty(most)
     out = ffi.new("ricci_harmonic_summary *")
     size = ffi.sizeof("ricci_harmonic_summary")
     places = (pointer(points), points.size, pointer(energies), energies.size)
     call(lib.ricci_harmonic_map, mesh, _harmonic_struct(given), CONTROL, *places, out, size, progress=progress)
     told = figures_of(HarmonicSummary, out)
+    if not told.converged:
+        warn(f"the heat flow did not come to a harmonic map in {told.n_energies - 1} steps: max_iterations allows more")
     return HarmonicMap(points, energies[: told.n_energies].copy(), told)
 
 

@@ -13,7 +13,7 @@ from ricci import _arrays
 from ricci._arrays import frozen
 from ricci._call import CONTROL, Doubles, Handle, Indices, Signed, call, constant, figures_of, filled, path_bytes, pointer, summary
 from ricci._library import ffi, lib
-from ricci._structs import Struct, choice, number, options, real_list
+from ricci._structs import Struct, above_zero, choice, number, options, real_list
 from ricci._triangles import Triangles
 from ricci.control import Progress
 from ricci.errors import ArgumentError, RicciError
@@ -175,17 +175,18 @@ class Mesh(Triangles):
         kept = {name: getattr(self, name) for name in _KEPT if getattr(self, name) is not None}
         return _in_space, (self.V, self.F, kept, self._own_lengths(), self.summary.geometry)
 
-    def refine_angle(self, least_angle: float = 0.0, most_added: int = 0, progress: Progress = None) -> tuple[Mesh, RefineSummary]:
+    def refine_angle(
+        self, least_angle: float | None = None, most_added: int | None = None, progress: Progress = None
+    ) -> tuple[Mesh, RefineSummary]:
         """The same Euclidean metric on a Delaunay triangulation without small angles, as an intrinsic mesh, and the course.
 
         Args:
-            least_angle: the least angle of its triangles, radians, at most 30 degrees; 0: 25 degrees.
-            most_added: the most vertices that are added; 0: ten per face and 100000.
+            least_angle: the least angle of its triangles, radians, at most 30 degrees; None: 25 degrees.
+            most_added: the most vertices that are added; None: ten per face and 100000.
             progress: a `Control` or a callback.
         """
-        struct = Struct("refine_options")
-        struct.put("least_angle", least_angle)
-        struct.put("most_added", most_added)
+        given = {"least_angle": least_angle, "most_added": most_added}
+        struct = options("refine_options", given, dict.fromkeys(given, above_zero))
         out = ffi.new("ricci_refine_summary *")
         finer = Mesh._made(lib.ricci_mesh_refine_angle, self, struct, CONTROL, out, ffi.sizeof("ricci_refine_summary"), progress=progress)
         return finer, figures_of(RefineSummary, out)

@@ -14,7 +14,7 @@ from ricci import _arrays
 from ricci._arrays import frozen
 from ricci._call import Doubles, Handle, Indices, call, filled, path_bytes, pointer, rows, summary
 from ricci._library import ffi, lib
-from ricci._structs import Struct, number, options
+from ricci._structs import Struct, above_zero, number, options
 from ricci._triangles import Triangles
 from ricci.errors import ArgumentError
 from ricci.figures import QualitySummary, SoupSummary
@@ -113,23 +113,24 @@ class Soup(Triangles):
             lib.ricci_soup_repair, self, options("repair_options", given, dict.fromkeys(RepairOptions.__annotations__, number))
         )
 
-    def refine(self, levels: int = 0, longest_edge: float = 0.0) -> Soup:
+    def refine(self, levels: int = 0, longest_edge: float | None = None) -> Soup:
         """The same surface in smaller triangles, attributes interpolated; `places` says where its elements lie in this list.
 
         Args:
             levels: the number of times that every face is cut into four.
-            longest_edge: the length above which no edge is left; 0: any.
+            longest_edge: the length above which no edge is left; None: any.
         """
         struct = Struct("refine_options")
         struct.put("levels", levels)
-        struct.put("longest_edge", longest_edge)
+        if longest_edge is not None:
+            above_zero(struct, "longest_edge", longest_edge)
         return Soup._made(lib.ricci_soup_refine, self, struct)
 
     @cached_property
     def places(self) -> tuple[Indices, Indices, Doubles]:
         """Of a refined list: for each face its given face, for each vertex a given face and its barycentric coordinates there.
 
-        A vertex that no face uses has the face 2^32 - 1.
+        A vertex that no face uses has the face -1.
         """
         faces, at = (np.empty(n, np.uint32) for n in (self.summary.n_faces, self.summary.n_vertices))
         weights = np.empty((at.size, 3))
