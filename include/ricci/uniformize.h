@@ -1142,12 +1142,14 @@ RICCI_API ricci_status ricci_repaired_input_corners(const ricci_repaired_input *
                                                     size_t capacity);
 
 /**
- * Write the mesh with its edges split and the layout as texture coordinates, as OBJ.
+ * Write the mesh with its edges split and the layout as texture coordinates, in the format of the file's
+ * extension, as ricci_layout_write does.
  *
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (an intrinsic mesh), RICCI_IO.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (an intrinsic mesh; what the format has no place for),
+ * RICCI_IO, RICCI_UNKNOWN_FORMAT.
  *
  * @param repaired  the repaired input.
- * @param path      the file, UTF-8.
+ * @param path      the file, UTF-8, ending in .obj, .off, .ply or .glb.
  */
 RICCI_API ricci_status ricci_repaired_input_write(const ricci_repaired_input *repaired, const char *path);
 

@@ -241,6 +241,7 @@ class RepairedInput(Handle):
     """
 
     _type: ClassVar[str] = "repaired_input"
+    _made_by: ClassVar[str] = "ricci.layout(metric).repaired_input()"
 
     def __init__(self, layout: Layout, progress: Progress = None) -> None:
         self._pointer = RepairedInput._made(lib.ricci_repaired_input_new, layout, CONTROL, progress=progress)._pointer
@@ -285,7 +286,7 @@ class RepairedInput(Handle):
         return self.points[self.corners]
 
     def write(self, path: str | os.PathLike[str]) -> None:
-        """Write the mesh with its edges split and the layout as texture coordinates, as OBJ."""
+        """Write the mesh with its edges split and the layout as texture coordinates, as `Layout.write` does."""
         call(lib.ricci_repaired_input_write, self, path_bytes(path))
 
 

@@ -22,7 +22,6 @@ __all__ = [
     "MetricSummary",
     "QualitySummary",
     "RefineSummary",
-
     "RepairedInputSummary",
     "ReportSummary",
     "SoupSummary",

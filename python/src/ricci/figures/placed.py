@@ -37,10 +37,10 @@ class LayoutSummary:
         qc_max: largest quasi-conformal dilatation.
         area_ratio_min: smallest area distortion: share of the layout's area over share of the input's.
         area_ratio_max: largest area distortion.
-        n_degenerate_input: the faces without area of the mesh itself, where the map is made linear on them (``"input"``); the distortions of
-            its faces leave them out.
-        qc_mean_input: the mean dilatation of the mesh's own faces. NaN, as all below but the last, where the layout is cut along edges of the
-            metric's triangulation.
+        n_degenerate_input: the faces without area of the mesh itself, where the map is made linear on them (``"input"``); the distortions
+            of its faces leave them out.
+        qc_mean_input: the mean dilatation of the mesh's own faces. NaN, as all below but the last, where the layout is cut along edges of
+            the metric's triangulation.
         qc_max_input: largest quasi-conformal dilatation of the mesh's own faces.
         area_ratio_min_input: smallest area distortion of the mesh's own faces.
         area_ratio_max_input: largest area distortion of the mesh's own faces.
@@ -178,9 +178,9 @@ class CircleDomainSummary:
         deviation: largest distance of a loop's vertex from its circle, a share of the radius.
         modulus: an annulus: 0 and its height over its circumference. A torus with holes: the modulus of the torus. Else NaN.
         frame: ``"disk"`` or ``"strip"``: the shape of the layout; ``"auto"`` of genus 1 and more.
-        worst_loop: the loop with the largest deviation; 4294967295: none.
-        worst_vertex: the vertex of the metric with the largest |K|, a hub beyond those of the mesh; 4294967295: none.
-        centred_on: the loop that was put about 0 because doubles do not hold it elsewhere; 4294967295: none.
+        worst_loop: the loop with the largest deviation; -1: none.
+        worst_vertex: the vertex of the metric with the largest |K|, a hub beyond those of the mesh; -1: none.
+        centred_on: the loop that was put about 0 because doubles do not hold it elsewhere; -1: none.
     """
 
     space: Space
