@@ -62,9 +62,13 @@ pub fn faces_of<'a>(input: &'a Input, laid: &'a SurfaceLayout, on: OnChoice) -> 
             &repaired.coordinates[..],
             Some(&*repaired.refinement),
         ),
-        (OnChoice::Input, Some(on_input), None) => {
-            (input.mesh(), Cow::Borrowed(own_positions), &on_input.corner_index, &on_input.coordinates[..], None)
-        }
+        (OnChoice::Input, Some(on_input), None) => (
+            input.mesh(),
+            Cow::Borrowed(own_positions),
+            &on_input.corner_index,
+            &on_input.coordinates[..],
+            None,
+        ),
         (OnChoice::Input, None, None) => {
             return Err(Failure::Failed("--on input: the layout is not cut along the input's edges".into()));
         }

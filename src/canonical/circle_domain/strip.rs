@@ -6,7 +6,6 @@
 use super::domain::{CircleDomain, CircleReport, DomainCircle};
 use super::options::{CircleDomainOptions, DomainFrame};
 use super::place::rims;
-use super::planar::longest_loop;
 use super::prepare::PreparedSurface;
 use super::verdict::largest_curvature;
 use crate::control::Control;
@@ -17,6 +16,7 @@ use crate::geometry::Space;
 use crate::geometry::complex::norm;
 use crate::geometry::{DoubleDouble, Motion, worse};
 use crate::mesh::{HalfedgeId, PerVertex, VertexId};
+use crate::metric::target::longest_loop;
 use crate::metric::{Class, Surface};
 use crate::topology::shortest_paths;
 use std::f64::consts::TAU;
