@@ -45,7 +45,7 @@ fn check(soup: &Soup, options: &Repair) -> Repaired {
         assert!(refused.faces.iter().all(|&f| refused.vertices.iter().all(|&v| at(f, v))));
     }
     // A repaired soup stays as it is. (Welding is not repeated: faces that were dropped may allow more of it.)
-    let again = repair(&done.soup, &Repair { weld: None, component: None, ..*options }).unwrap();
+    let again = repair(&done.soup, &Repair { weld: None, component: None, ..options.clone() }).unwrap();
     assert_eq!(again.steps, RepairSteps::default());
     assert!(again.soup.positions == done.soup.positions && again.soup.faces == done.soup.faces);
     done
@@ -98,7 +98,7 @@ fn a_fin_in_a_torn_surface_stays_apart_and_is_reported() {
         let again = check(&done.soup, &options);
         assert!(again.soup == done.soup && again.weld_refused.len() == 1);
         assert_eq!(done.steps.welded_vertices, 36 + 3 - 8 - 3);
-        let largest = check(&loose, &Repair { component: Some(0), ..options });
+        let largest = check(&loose, &Repair { component: Some(0), ..options.clone() });
         assert_eq!(
             (shape(&largest).0, largest.soup.faces.len(), largest.diagnosis.defects.len()),
             (2, 12, 0)

@@ -2,9 +2,10 @@
 
 use crate::defects::{DefectCount, DefectFigures, DefectList};
 use crate::failure::{Failure, NO_POSITIONS};
+use crate::info_lists::InfoLists;
 use crate::input::{self, FileContent};
 use crate::metric_file;
-use crate::options::{Common, MeshArgs};
+use crate::options::{Common, MeshArgs, sharp_angle};
 use crate::output::{check_extension, check_outputs};
 use crate::picture::SurfacePictureArgs;
 use crate::report::{Counts, Done, InputSummary, timed};
@@ -25,13 +26,20 @@ use std::path::Path;
 
 pub const HELP: &str = "\
 Example: every defect of a scan, machine-readable
-    ricci info scan.obj --report scan.json";
+    ricci info scan.obj --report scan.json
+
+The boundary loops are listed with their numbers, lengths and a vertex, as other commands name them; sharp edges and corners for
+cuts, landmarks and --corners. Hints tell what is no defect and seldom meant: vertices that nearly coincide along an open seam, with
+the smallest --weld that closes it, vertices on boundary edges (T-junctions), coordinates in single precision far from the origin.";
 
 #[derive(Args, Serialize, Debug)]
 pub struct InfoArgs {
     #[command(flatten)]
     #[serde(flatten)]
     pub file: MeshArgs,
+    /// Least angle in degrees between the normals of its faces at a sharp edge, and of turning at a corner
+    #[arg(long, value_name = "DEGREES", default_value_t = 40.0, value_parser = sharp_angle)]
+    pub sharp: f64,
     #[command(flatten)]
     #[serde(flatten)]
     pub picture: SurfacePictureArgs,
@@ -48,6 +56,8 @@ pub struct Info {
     quality: QualityFigures,
     /// The parts of the file that are not read, with the reasons.
     left_out: Vec<String>,
+    #[serde(flatten)]
+    lists: InfoLists,
     #[serde(flatten)]
     defects: DefectList,
 }
@@ -81,7 +91,7 @@ impl Job for InfoArgs {
                 return Err(Failure::Usage(format!("--picture: {NO_POSITIONS}")));
             }
             FileContent::Lengths(text) => timed(&mut run.seconds.build, || of_metric(&self.file.mesh, text))?,
-            FileContent::Triangles(soup) => timed(&mut run.seconds.build, || of_soup(soup)),
+            FileContent::Triangles(soup) => timed(&mut run.seconds.build, || of_soup(soup, self.sharp)),
         };
         Ok(InfoOutcome { summary: InputSummary::new(&self.file.mesh, counts), info, content })
     }
@@ -109,15 +119,16 @@ impl JobOutcome for InfoOutcome {
     }
 }
 
-fn of_soup(soup: &Soup) -> (Counts, Info) {
+fn of_soup(soup: &Soup, sharp: f64) -> (Counts, Info) {
     let diagnosis = diagnose(&soup.positions, &soup.faces);
     let quality = match input::out_of_range(soup) {
         // Angles and areas of faces with such a vertex are meaningless.
         Some(_) => ShapeQuality::of_soup(&Soup::default()),
         None => ShapeQuality::of_soup(soup),
     };
+    let lists = InfoLists::of_soup(soup, &diagnosis, sharp);
     let info = Info::new(DefectList::of(soup, &diagnosis), quality);
-    (Counts::from(&diagnosis), Info { left_out: soup.attributes.unread.clone(), ..info })
+    (Counts::from(&diagnosis), Info { lists, left_out: soup.attributes.unread.clone(), ..info })
 }
 
 fn of_metric(path: &Path, text: &str) -> Result<(Counts, Info), Failure> {
@@ -147,11 +158,18 @@ impl Info {
         let list: Vec<_> = mesh.faces().filter(broken).map(defect).collect();
         let count = DefectCount { code: "triangle_inequality", count: list.len() };
         let counts = if list.is_empty() { Vec::new() } else { vec![count] };
-        Info::new(DefectList { counts, list }, ShapeQuality::of_surface(surface))
+        let lists = InfoLists::of_surface(surface);
+        Info { lists, ..Info::new(DefectList { counts, list }, ShapeQuality::of_surface(surface)) }
     }
 
     fn new(defects: DefectList, quality: ShapeQuality) -> Self {
-        Info { admissible: defects.list.is_empty(), quality: quality.into(), left_out: Vec::new(), defects }
+        Info {
+            admissible: defects.list.is_empty(),
+            quality: quality.into(),
+            left_out: Vec::new(),
+            lists: InfoLists::default(),
+            defects,
+        }
     }
 }
 
@@ -181,6 +199,8 @@ fn text(summary: &InputSummary, info: &Info) -> String {
     for what in &info.left_out {
         text += &format!("left out {what}\n");
     }
+    text += &info.lists.lines();
+    text += &info.lists.hint_lines();
     text +=
         if info.admissible { "no defects\n" } else { "defects (vertices and faces are numbered from 0):\n" };
     for DefectCount { code, count } in &info.defects.counts {

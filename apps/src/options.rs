@@ -170,6 +170,11 @@ pub fn distance(text: &str) -> Result<f64, String> {
     number(text, |x| x >= 0.0, "must be a finite distance, 0 or more")
 }
 
+/// An angle in degrees from which on an edge is sharp.
+pub fn sharp_angle(text: &str) -> Result<f64, String> {
+    number(text, |x| x > 0.0 && x <= 180.0, "must be an angle in degrees above 0 and at most 180")
+}
+
 /// A radius around the base point, greater than 0: within 0 there is the surface alone.
 pub fn radius(text: &str) -> Result<f64, String> {
     number(text, |x| x > 0.0, "must be a finite distance greater than 0")

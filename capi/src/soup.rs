@@ -7,7 +7,8 @@ use crate::memory;
 use crate::mesh::{MeshValue, VALUES, copy_attribute, count, ricci_attributes, ricci_mesh, write_soup};
 use crate::status::ricci_status;
 use crate::structs::{self, sized};
-use ricci::mesh::check::{Diagnosis, diagnose};
+use ricci::mesh::check::{Defect, Diagnosis, Hint, diagnose};
+use ricci::mesh::holes::HoleChoice;
 use ricci::mesh::io::{self, Soup};
 use ricci::mesh::repair::{Repair, RepairSteps, Repaired, repair};
 use ricci::mesh::{Place, RefinedSoup};
@@ -28,15 +29,50 @@ handle!(ricci_soup, "soup");
 struct DiagnosisTexts {
     diagnosis: Diagnosis,
     defects: Vec<DefectTexts>,
+    hints: Vec<DefectTexts>,
 }
 
-/// A defect, with its texts as C strings.
+/// A defect or a hint, with its texts as C strings.
 struct DefectTexts {
     code: CString,
     message: CString,
     remedy: CString,
     vertices: Vec<u32>,
     faces: Vec<u32>,
+}
+
+impl DefectTexts {
+    fn of_defect(defect: &Defect) -> DefectTexts {
+        let texts = [defect.code().to_string(), defect.to_string(), defect.remedy().to_string()];
+        DefectTexts::new(texts, defect.vertices(), defect.faces())
+    }
+
+    fn of_hint(hint: &Hint) -> DefectTexts {
+        DefectTexts::new(
+            [hint.code().to_string(), hint.to_string(), hint.remedy()],
+            hint.vertices(),
+            hint.faces(),
+        )
+    }
+
+    fn new(texts: [String; 3], vertices: Vec<u32>, faces: Vec<u32>) -> DefectTexts {
+        let text = |words: String| CString::new(words.replace('\0', "\u{fffd}")).unwrap_or_default();
+        let [code, message, remedy] = texts.map(text);
+        DefectTexts { code, message, remedy, vertices, faces }
+    }
+
+    fn view(&self, size: usize) -> ricci_defect {
+        ricci_defect {
+            size,
+            code: self.code.as_ptr(),
+            message: self.message.as_ptr(),
+            remedy: self.remedy.as_ptr(),
+            vertices: self.vertices.as_ptr(),
+            n_vertices: self.vertices.len(),
+            faces: self.faces.as_ptr(),
+            n_faces: self.faces.len(),
+        }
+    }
 }
 
 impl ricci_soup {
@@ -63,16 +99,9 @@ impl ricci_soup {
                 Some(done) => done.diagnosis.clone(),
                 None => diagnose(&self.soup.positions, &self.soup.faces),
             };
-            let text = |words: String| CString::new(words.replace('\0', "\u{fffd}")).unwrap_or_default();
-            let record = |defect: &ricci::mesh::check::Defect| DefectTexts {
-                code: text(defect.code().to_string()),
-                message: text(defect.to_string()),
-                remedy: text(defect.remedy().to_string()),
-                vertices: defect.vertices(),
-                faces: defect.faces(),
-            };
-            let defects = diagnosis.defects.iter().map(record).collect();
-            DiagnosisTexts { diagnosis, defects }
+            let defects = diagnosis.defects.iter().map(DefectTexts::of_defect).collect();
+            let hints = diagnosis.hints.iter().map(DefectTexts::of_hint).collect();
+            DiagnosisTexts { diagnosis, defects, hints }
         })
     }
 
@@ -107,6 +136,14 @@ pub struct ricci_soup_summary {
     pub isolated_vertices: usize,
     pub refused_edges: usize,
     pub refused_faces: usize,
+    pub non_finite_faces: usize,
+    pub joined_t_junctions: usize,
+    pub collapsed_edges: usize,
+    pub flipped_edges: usize,
+    pub opened_faces: usize,
+    pub filled_holes: usize,
+    pub open_holes: usize,
+    pub n_hints: usize,
 }
 // SAFETY: numbers; 8-byte alignment, size first.
 sized!(ricci_soup_summary, "summary");
@@ -133,9 +170,14 @@ pub struct ricci_repair_options {
     pub weld: f64,
     pub component: usize,
     pub cut_non_manifold_edges: u32,
-    pub reserved: u32,
+    pub drop_non_finite: u32,
+    pub split_t_junctions: u32,
+    pub mend_zero_area: u32,
+    pub fill_holes: usize,
+    pub holes: *const u32,
+    pub n_holes: usize,
 }
-// SAFETY: numbers; 8-byte alignment, size first.
+// SAFETY: numbers and a raw pointer; 8-byte alignment, size first.
 sized!(ricci_repair_options, "options");
 
 #[unsafe(no_mangle)]
@@ -201,6 +243,8 @@ pub unsafe extern "C" fn ricci_soup_summarise(
         let [n_normals, n_colors, n_uv, n_corner_normals] = count(&list.soup.attributes);
         let steps = list.origin.as_ref().map_or_else(RepairSteps::default, |done| done.steps);
         let refused = list.origin.as_ref().map_or(&[][..], |done| &done.weld_refused);
+        let [filled_holes, open_holes] =
+            list.origin.as_ref().map_or([0; 2], |done| [done.filling.filled.len(), done.filling.open.len()]);
         let figures = ricci_soup_summary {
             size,
             n_vertices: list.soup.positions.len(),
@@ -225,6 +269,14 @@ pub unsafe extern "C" fn ricci_soup_summarise(
             isolated_vertices: steps.isolated_vertices,
             refused_edges: refused.len(),
             refused_faces: refused.iter().map(|edge| edge.faces.len()).sum(),
+            non_finite_faces: steps.non_finite_faces,
+            joined_t_junctions: steps.joined_t_junctions,
+            collapsed_edges: steps.collapsed_edges,
+            flipped_edges: steps.flipped_edges,
+            opened_faces: steps.opened_faces,
+            filled_holes,
+            open_holes,
+            n_hints: list.diagnosis().hints.len(),
         };
         structs::write(figures, summary, size)
     })
@@ -264,17 +316,22 @@ pub unsafe extern "C" fn ricci_soup_defect(
         let record = defects
             .get(index)
             .ok_or_else(|| no_such(FailureElement::Entry, "defect", index, defects.len()))?;
-        let view = ricci_defect {
-            size,
-            code: record.code.as_ptr(),
-            message: record.message.as_ptr(),
-            remedy: record.remedy.as_ptr(),
-            vertices: record.vertices.as_ptr(),
-            n_vertices: record.vertices.len(),
-            faces: record.faces.as_ptr(),
-            n_faces: record.faces.len(),
-        };
-        structs::write(view, defect, size)
+        structs::write(record.view(size), defect, size)
+    })
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_soup_hint(
+    soup: *const ricci_soup,
+    index: usize,
+    hint: *mut ricci_defect,
+    size: usize,
+) -> ricci_status {
+    guard::with(soup, |list| {
+        let hints = &list.diagnosis().hints;
+        let record =
+            hints.get(index).ok_or_else(|| no_such(FailureElement::Entry, "hint", index, hints.len()))?;
+        structs::write(record.view(size), hint, size)
     })
 }
 
@@ -291,6 +348,35 @@ pub unsafe extern "C" fn ricci_soup_write(soup: *const ricci_soup, path: *const 
     guard::with(soup, |list| write_soup(&arrays::path(path)?, &list.soup))
 }
 
+/// The library's options for those of a caller.
+fn repair_options(given: &ricci_repair_options) -> Outcome<Repair> {
+    let flag = |name: &str, value: u32| match value {
+        0 => Ok(false),
+        1 => Ok(true),
+        other => Err(Failure::argument(format!("{name} is {other}: 0 or 1"))),
+    };
+    let named: Vec<u32> = arrays::array("holes", given.holes, given.n_holes)?;
+    let holes = match given.fill_holes {
+        0 if named.is_empty() => HoleChoice::Nothing,
+        0 => HoleChoice::Through(named),
+        _ if !named.is_empty() => {
+            return Err(Failure::argument("fill_holes and holes: give one of them".to_string()));
+        }
+        usize::MAX => HoleChoice::All,
+        most => HoleChoice::UpTo(most),
+    };
+    Ok(Repair {
+        // The library refuses NaN as a tolerance, with a message.
+        weld: (given.weld.is_nan() || given.weld >= 0.0).then_some(given.weld),
+        component: given.component.checked_sub(1),
+        cut_non_manifold_edges: flag("cut_non_manifold_edges", given.cut_non_manifold_edges)?,
+        drop_non_finite: flag("drop_non_finite", given.drop_non_finite)?,
+        split_t_junctions: flag("split_t_junctions", given.split_t_junctions)?,
+        mend_zero_area: flag("mend_zero_area", given.mend_zero_area)?,
+        holes,
+    })
+}
+
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ricci_soup_repair(
     soup: *const ricci_soup,
@@ -298,18 +384,10 @@ pub unsafe extern "C" fn ricci_soup_repair(
     repaired: *mut *mut ricci_soup,
 ) -> ricci_status {
     guard::make(repaired, || {
-        let given = structs::read(options)?;
-        let cut_non_manifold_edges = match given.cut_non_manifold_edges {
-            0 => false,
-            1 => true,
-            other => return Err(Failure::argument(format!("cut_non_manifold_edges is {other}: 0 or 1"))),
-        };
-        // The library refuses NaN as a tolerance, with a message.
-        let weld = (given.weld.is_nan() || given.weld >= 0.0).then_some(given.weld);
-        let component = given.component.checked_sub(1);
+        let options = repair_options(&structs::read(options)?)?;
         let soup = &shared(soup)?.soup;
         let _reserve = memory::work(soup.positions.len().max(soup.faces.len()), memory::MESH)?;
-        let mut done = repair(soup, &Repair { weld, cut_non_manifold_edges, component })?;
+        let mut done = repair(soup, &options)?;
         let result = std::mem::take(&mut done.soup);
         Ok(ricci_soup { origin: Some(done), ..ricci_soup::new(result) })
     })

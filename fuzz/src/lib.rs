@@ -138,7 +138,7 @@ pub fn mend(soup: &Soup, options: &Repair) {
     } else if options.weld == Some(0.0) {
         assert!(crowded(&mended.soup) <= crowded(soup));
     }
-    let again = Repair { weld: None, component: None, ..*options };
+    let again = Repair { weld: None, component: None, ..options.clone() };
     let again = repair(&mended.soup, &again).unwrap();
     assert!(again.soup.faces == mended.soup.faces && again.steps == RepairSteps::default(), "repaired twice");
 }
@@ -149,6 +149,7 @@ pub fn options(bits: u8) -> Repair {
         weld: [Some(0.0), None, Some(0.5), Some(1e-300)][usize::from(bits & 3)],
         cut_non_manifold_edges: bits & 4 != 0,
         component: (bits & 8 != 0).then_some(usize::from(bits >> 4)),
+        ..Repair::default()
     }
 }
 

@@ -77,6 +77,22 @@ typedef struct ricci_soup_summary {
     size_t refused_edges;
     /** Faces of all these edges together. */
     size_t refused_faces;
+    /** Faces dropped because a corner has no finite place. */
+    size_t non_finite_faces;
+    /** Vertices put on the boundary edges on which they lie. */
+    size_t joined_t_junctions;
+    /** Edges collapsed because a face without area had two corners in nearly one place. */
+    size_t collapsed_edges;
+    /** Faces without area replaced by dividing the face beyond their longest edge. */
+    size_t flipped_edges;
+    /** Faces without area dropped at the boundary. */
+    size_t opened_faces;
+    /** Boundary loops that were filled. */
+    size_t filled_holes;
+    /** Boundary loops that were to be filled and could not be. */
+    size_t open_holes;
+    /** Of any list: findings that are no defects, see ricci_soup_hint. */
+    size_t n_hints;
 } ricci_soup_summary;
 
 /** One defect. The pointers are views into the soup and live as long as it does. */
@@ -117,8 +133,18 @@ typedef struct ricci_repair_options {
     size_t component;
     /** 1 cuts the surface open along edges in which more than two faces meet. */
     uint32_t cut_non_manifold_edges;
-    /** 0. */
-    uint32_t reserved;
+    /** 1 drops the faces of vertices whose coordinates are not finite, which are RICCI_DEFECTS otherwise. */
+    uint32_t drop_non_finite;
+    /** 1 divides faces at vertices that lie on their boundary edges, before welding. */
+    uint32_t split_t_junctions;
+    /** 1 mends faces without area by collapses and flips; vertices keep their places. */
+    uint32_t mend_zero_area;
+    /** Fill the boundary loops of at most so many edges; 0: none; SIZE_MAX: all. */
+    size_t fill_holes;
+    /** In place of it, vertices of the given list: the loops through them are filled. NULL: none. */
+    const uint32_t *holes;
+    /** Number of these vertices. */
+    size_t n_holes;
 } ricci_repair_options;
 
 /** How far to refine. Zeroed by ricci_init: nothing is refined in space, metrics to 25 degrees. */
@@ -266,6 +292,19 @@ RICCI_API ricci_status ricci_soup_defect(const ricci_soup *soup, size_t index, r
                                          size_t size);
 
 /**
+ * One finding that is no defect and still seldom meant: an open seam of nearly coincident vertices with the
+ * weld that closes it, T-junctions, coordinates in single precision far from the origin.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (index), RICCI_STRUCT_SIZE.
+ *
+ * @param soup   the triangle list.
+ * @param index  which one, below n_hints.
+ * @param hint   out: the finding.
+ * @param size   sizeof *hint.
+ */
+RICCI_API ricci_status ricci_soup_hint(const ricci_soup *soup, size_t index, ricci_defect *hint, size_t size);
+
+/**
  * The mesh of a triangle list without defects, with its attributes.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_TOO_LARGE, RICCI_DEFECTS.
@@ -291,9 +330,10 @@ RICCI_API ricci_status ricci_soup_write(const ricci_soup *soup, const char *path
 /**
  * Repair every defect that takes no guess. Defects that are left are a result, not an error.
  *
- * Elements keep their order, and attributes stay with their elements.
+ * Elements keep their order, and attributes stay with their elements; those of filled holes come last.
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (options, no such component), RICCI_TOO_LARGE,
- * RICCI_STRUCT_SIZE, RICCI_DEFECTS (a face that names no vertex or one without finite coordinates).
+ * RICCI_STRUCT_SIZE, RICCI_DEFECTS (a face that names no vertex or, without drop_non_finite, one without
+ * finite coordinates).
  *
  * @param soup      the triangle list.
  * @param options   the steps on request, or NULL for the defaults.
@@ -303,7 +343,8 @@ RICCI_API ricci_status ricci_soup_repair(const ricci_soup *soup, const ricci_rep
                                          ricci_soup **repaired);
 
 /**
- * The origins of the elements of a repaired list.
+ * The origins of the elements of a repaired list; UINT32_MAX for those of filled holes. The origin of a face
+ * is the face in which it lies.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (it was not repaired).
  *

@@ -32,6 +32,12 @@ public:
         check(ricci_soup_defect(handle_, index, &one, sizeof one));
         return one;
     }
+    // A finding that is no defect: an open seam, T-junctions, coarse coordinates.
+    ricci_defect hint(std::size_t index) const {
+        ricci_defect one;
+        check(ricci_soup_hint(handle_, index, &one, sizeof one));
+        return one;
+    }
     std::vector<double> values(std::uint32_t which) const {
         return ricci::values<double>(ricci_soup_values, get(), which);
     }

@@ -155,6 +155,22 @@ def test_defects_are_listed_as_views_and_repaired():
         soup.repair(welding=1.0)
 
 
+def test_holes_are_filled_and_seams_are_named():
+    plate = np.array([[i, j, 0] for i in range(5) for j in range(5)], float)
+    squares = [5 * i + j for i in range(4) for j in range(4) if (i, j) != (1, 1)]
+    faces = [face for k in squares for face in ([k, k + 5, k + 6], [k, k + 6, k + 1])]
+    soup = ricci.Soup(plate, faces)
+    whole = soup.repair(fill_holes=8)
+    assert (whole.summary.filled_holes, whole.summary.n_boundary_loops, whole.summary.euler) == (1, 1, 1)
+    assert soup.repair(holes=[6]).summary.n_faces == whole.summary.n_faces
+    assert set(whole.origins[1][len(faces) :].tolist()) == {2**32 - 1}
+    assert soup.repair(fill_holes="all").summary.euler == 2
+    torn = ricci.Soup(np.vstack([plate, plate + 1e-12]), [*faces[:16], *[[a + 25, b + 25, c + 25] for a, b, c in faces[16:]]])
+    (hint,) = torn.hints
+    assert hint.code == "open_seam"
+    assert "--weld" in hint.remedy
+
+
 def test_views_outlive_their_soup():
     def faces():
         soup = ricci.Soup(SQUARE, [[0, 1, 2]] * 50 + [[0, 2, 3]])

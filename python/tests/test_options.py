@@ -6,7 +6,7 @@ import pytest
 import ricci
 from ricci import atlases, bicubics, circle, covering, form, layouts, matching, mesh, metrics, shapes, soup, splines, uniform
 from ricci._library import ffi
-from ricci._structs import number, options
+from ricci._structs import options
 from ricci.targets import target_struct
 
 FLOW = {"tolerance": 0.5, "threads": 3}
@@ -65,10 +65,12 @@ CASES = [
     (
         options(
             "repair_options",
-            {"weld": 0.1, "component": 2, "cut_non_manifold_edges": True},
-            dict.fromkeys(soup.RepairOptions.__annotations__, number),
+            {"weld": 0.1, "component": 2, "cut_non_manifold_edges": True, "drop_non_finite": True, "split_t_junctions": True}
+            | {"mend_zero_area": True, "fill_holes": 12, "holes": [3, 4]},
+            soup._REPAIR,
         ),
-        {"weld": 0.1, "component": 2, "cut_non_manifold_edges": 1},
+        {"weld": 0.1, "component": 2, "cut_non_manifold_edges": 1, "drop_non_finite": 1, "split_t_junctions": 1}
+        | {"mend_zero_area": 1, "fill_holes": 12, "holes": [3, 4], "n_holes": 2},
     ),
     (
         options(

@@ -19,6 +19,7 @@ pub mod fill;
 pub mod flip;
 pub mod flip_log;
 pub mod halfedge;
+pub mod holes;
 pub mod ids;
 mod incidence;
 mod insert;
@@ -30,7 +31,9 @@ pub mod place;
 pub mod refine;
 pub mod remove;
 pub mod repair;
+pub mod rims;
 pub mod shapes;
+mod thin;
 pub(crate) mod union_find;
 mod weld;
 

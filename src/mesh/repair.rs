@@ -10,18 +10,20 @@
 //! # Ok::<(), ricci::Error>(())
 //! ```
 
-use super::check::{Defect, Diagnosis, Orientation, OrientedPiece, diagnose};
+use super::Point;
+use super::check::{Defect, Diagnosis, Hint, Orientation, OrientedPiece, diagnose, hints};
+use super::holes::{Filling, HoleChoice, fill_holes};
 use super::incidence::{Incidence, NONE, components, connected, distinct, drop_unused};
 use super::io::Soup;
 pub use super::join::RefusedWeld;
 use super::join::{join, repeats};
 use super::weld::{check_tolerance, coincident};
 use crate::error::{Error, Result};
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 /// Options of [`repair()`]. Every repair drops faces that use a vertex twice or repeat another face, gives each fan of faces a vertex of
 /// its own, turns faces until neighbours agree, and drops isolated vertices.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Repair {
     /// Vertices within this distance are joined (transitively; the position of the first one stays). 0 joins vertices at exactly the same
     /// position where their faces are then connected through edges, except in edges in which more than two faces would meet
@@ -32,13 +34,34 @@ pub struct Repair {
     pub cut_non_manifold_edges: bool,
     /// The connected piece to keep; 0 is the one with the most faces, and so on. Default all.
     pub component: Option<usize>,
+    /// True to drop the faces of vertices whose coordinates are not finite; default false: such vertices are an error.
+    pub drop_non_finite: bool,
+    /// True to divide faces at vertices that lie on their boundary edges ([`Hint::TJunctions`]), before welding. Default false.
+    pub split_t_junctions: bool,
+    /// True to mend faces without area: where two corners nearly coincide their edge collapses; else the face goes and the one beyond its
+    /// longest edge is divided at the third corner. Vertices keep their places. Faces that cannot be mended while the surface stays a
+    /// manifold are left. Default false.
+    pub mend_zero_area: bool,
+    /// The boundary loops that are filled in the end; vertices are the input's. Default none.
+    pub holes: HoleChoice,
 }
 
 impl Default for Repair {
     fn default() -> Self {
-        Repair { weld: Some(0.0), cut_non_manifold_edges: false, component: None }
+        Repair {
+            weld: Some(0.0),
+            cut_non_manifold_edges: false,
+            component: None,
+            drop_non_finite: false,
+            split_t_junctions: false,
+            mend_zero_area: false,
+            holes: HoleChoice::Nothing,
+        }
     }
 }
+
+/// The origin of an element that is new: a vertex or a face of a filled hole.
+pub const NEW: u32 = u32::MAX;
 
 /// The number of times that each kind of repair was made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -59,21 +82,35 @@ pub struct RepairSteps {
     pub faces_of_other_components: usize,
     /// Vertices dropped because no face uses them.
     pub isolated_vertices: usize,
+    /// Faces dropped because a corner has no finite place.
+    pub non_finite_faces: usize,
+    /// Vertices put on the boundary edges on which they lie, dividing their faces.
+    pub joined_t_junctions: usize,
+    /// Edges collapsed because a face without area had two corners in nearly one place.
+    pub collapsed_edges: usize,
+    /// Faces without area replaced by dividing the face beyond their longest edge.
+    pub flipped_edges: usize,
+    /// Faces without area dropped at the boundary, which was their longest edge.
+    pub opened_faces: usize,
 }
 
 /// A repaired triangle list, with the input's elements that its elements come from.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Repaired {
-    /// The list; its elements keep the order of the input's.
+    /// The list; its elements keep the order of the input's, and new ones follow.
     pub soup: Soup,
-    /// For each vertex of the list its number in the input.
+    /// For each vertex of the list its number in the input, [`NEW`] for those of filled holes.
     pub vertex_origin: Vec<u32>,
-    /// For each face of the list its number in the input.
+    /// For each face of the list the number of the input's face in which it lies, [`NEW`] in filled holes.
     pub face_origin: Vec<u32>,
     /// The repairs that were made.
     pub steps: RepairSteps,
     /// The edges because of which vertices at the same position were not all joined.
     pub weld_refused: Vec<RefusedWeld>,
+    /// The loops that were filled, and those that were not, with numbers of the repaired list.
+    pub filling: Filling,
+    /// What was found in the list before one component was taken: pieces that welding would have joined.
+    pub torn: Vec<Hint>,
     /// The remaining defects, which cannot be repaired without a guess.
     pub diagnosis: Diagnosis,
 }
@@ -85,27 +122,79 @@ pub struct Repaired {
 /// [`Error::Defects`] for faces that name missing vertices and used vertices without finite coordinates, which cannot be repaired;
 /// [`Error::Argument`] for a tolerance that is negative or not finite and a component that does not exist.
 pub fn repair(soup: &Soup, options: &Repair) -> Result<Repaired> {
-    refuse_garbage(soup)?;
+    refuse_garbage(soup, options.drop_non_finite)?;
     let mut work = RepairState {
         faces: soup.faces.clone(),
         origin: (0..soup.faces.len() as u32).collect(),
         turned: vec![false; soup.faces.len()],
+        weights: vec![None; soup.faces.len()],
         vertex_origin: (0..soup.positions.len() as u32).collect(),
         steps: RepairSteps::default(),
         weld_refused: Vec::new(),
     };
+    work.drop_non_finite(soup);
     work.drop_bad_faces();
-    work.weld(soup, options.weld)?;
+    if options.split_t_junctions {
+        work.steps.joined_t_junctions = work.split_t_junctions(&soup.positions);
+    }
+    let first = work.weld(soup, options.weld)?;
     work.drop_bad_faces();
     work.separate(options.cut_non_manifold_edges);
     work.orient();
+    let torn = options.component.map_or_else(Vec::new, |_| work.hints(soup));
     work.take(options.component)?;
-    Ok(work.finish(soup))
+    if options.mend_zero_area {
+        work.mend_zero_area(&soup.positions);
+        work.separate(options.cut_non_manifold_edges);
+    }
+    work.sort_faces();
+    let mut done = Repaired { torn, ..work.finish(soup) };
+    done.fill(&options.holes, &first)?;
+    done.diagnose();
+    Ok(done)
 }
 
-fn refuse_garbage(soup: &Soup) -> Result<()> {
+impl Repaired {
+    /// Fills holes. `first` has for each vertex of the input the one that it was joined with.
+    fn fill(&mut self, holes: &HoleChoice, first: &[u32]) -> Result<()> {
+        let choice = match holes {
+            HoleChoice::Through(named) => {
+                let mut number: HashMap<u32, u32> = HashMap::new();
+                for (v, &origin) in (0u32..).zip(&self.vertex_origin) {
+                    number.entry(origin).or_insert(v);
+                }
+                let here = |v: &u32| {
+                    let joined = first.get(*v as usize).copied().unwrap_or(*v);
+                    let missing =
+                        || Error::argument("hole", format!("vertex {v}"), "a vertex that the repair keeps");
+                    number.get(v).or(number.get(&joined)).copied().ok_or_else(missing)
+                };
+                HoleChoice::Through(named.iter().map(here).collect::<Result<_>>()?)
+            }
+            other => other.clone(),
+        };
+        self.filling = fill_holes(&mut self.soup, &choice)?;
+        self.vertex_origin.resize(self.soup.positions.len(), NEW);
+        self.face_origin.resize(self.soup.faces.len(), NEW);
+        Ok(())
+    }
+
+    fn diagnose(&mut self) {
+        self.diagnosis = diagnose(&self.soup.positions, &self.soup.faces);
+        if let Some(Defect::Empty { collapsed }) = self.diagnosis.defects.first_mut() {
+            *collapsed = self.steps.degenerate_faces;
+        }
+    }
+}
+
+fn is_finite(p: &Point) -> bool {
+    p.iter().all(|x| x.is_finite())
+}
+
+fn refuse_garbage(soup: &Soup, drops_non_finite: bool) -> Result<()> {
     let n = soup.positions.len();
-    let bad = |&v: &u32| soup.positions.get(v as usize).is_none_or(|p| !p.iter().all(|x| x.is_finite()));
+    let is_missing = |v: u32| v as usize >= n;
+    let bad = |&v: &u32| is_missing(v) || !drops_non_finite && !is_finite(&soup.positions[v as usize]);
     if !soup.faces.as_flattened().iter().any(bad) {
         return Ok(());
     }
@@ -114,21 +203,26 @@ fn refuse_garbage(soup: &Soup) -> Result<()> {
         soup.faces.as_flattened().iter().copied().filter(|&v| (v as usize) < n).collect();
     diagnosis.defects.retain(|defect| match defect.code() {
         "index_out_of_range" => true,
-        "non_finite_coordinate" => defect.vertices().iter().all(|v| used.contains(v)),
+        "non_finite_coordinate" => !drops_non_finite && defect.vertices().iter().all(|v| used.contains(v)),
         _ => false,
     });
     Err(Error::Defects(Box::new(diagnosis)))
 }
 
+/// The corners of a face in the face that it came from, as barycentric coordinates.
+pub(super) type CornerWeights = [[f64; 3]; 3];
+
 /// A triangle list while it is repaired.
-struct RepairState {
-    faces: Vec<[u32; 3]>,
+pub(super) struct RepairState {
+    pub(super) faces: Vec<[u32; 3]>,
     /// For each face its number in the input, and whether it was turned.
-    origin: Vec<u32>,
-    turned: Vec<bool>,
+    pub(super) origin: Vec<u32>,
+    pub(super) turned: Vec<bool>,
+    /// For each face that was divided where its corners lie in the input's face; these already follow its turns.
+    pub(super) weights: Vec<Option<Box<CornerWeights>>>,
     /// For each vertex its number in the input.
-    vertex_origin: Vec<u32>,
-    steps: RepairSteps,
+    pub(super) vertex_origin: Vec<u32>,
+    pub(super) steps: RepairSteps,
     weld_refused: Vec<RefusedWeld>,
 }
 
@@ -137,8 +231,20 @@ impl RepairState {
         Incidence::new(self.vertex_origin.len(), &self.faces)
     }
 
-    fn weld(&mut self, soup: &Soup, tolerance: Option<f64>) -> Result<()> {
-        let Some(tolerance) = tolerance else { return Ok(()) };
+    fn drop_non_finite(&mut self, soup: &Soup) {
+        let keep: Vec<bool> =
+            self.faces.iter().map(|f| f.iter().all(|&v| is_finite(&soup.positions[v as usize]))).collect();
+        self.steps.non_finite_faces = self.retain(&keep);
+    }
+
+    fn hints(&self, soup: &Soup) -> Vec<Hint> {
+        let positions: Vec<Point> = self.vertex_origin.iter().map(|&v| soup.positions[v as usize]).collect();
+        hints(&positions, &self.faces)
+    }
+
+    /// Joins vertices; returns for each vertex the first one in its place.
+    fn weld(&mut self, soup: &Soup, tolerance: Option<f64>) -> Result<Vec<u32>> {
+        let Some(tolerance) = tolerance else { return Ok((0..soup.positions.len() as u32).collect()) };
         check_tolerance(tolerance)?;
         let first = coincident(&soup.positions, tolerance);
         if tolerance == 0.0 {
@@ -153,19 +259,20 @@ impl RepairState {
         self.faces.as_flattened().iter().for_each(|&v| used[v as usize] = true);
         let gone = |&(v, &to): &(usize, &u32)| v as u32 != to && !used[v];
         self.steps.welded_vertices = first.iter().enumerate().filter(gone).count();
-        Ok(())
+        Ok(first)
     }
 
     /// Drops the faces for which `keep` is false; returns their number.
-    fn retain(&mut self, keep: &[bool]) -> usize {
+    pub(super) fn retain(&mut self, keep: &[bool]) -> usize {
         let before = self.faces.len();
-        fn chosen<T: Copy>(list: &mut Vec<T>, keep: &[bool]) {
+        fn chosen<T>(list: &mut Vec<T>, keep: &[bool]) {
             let mut flags = keep.iter();
             list.retain(|_| flags.next().copied().unwrap_or(false));
         }
         chosen(&mut self.faces, keep);
         chosen(&mut self.origin, keep);
         chosen(&mut self.turned, keep);
+        chosen(&mut self.weights, keep);
         before - self.faces.len()
     }
 
@@ -210,7 +317,10 @@ impl RepairState {
             let smaller = 2 * n_turned <= faces.len();
             for f in faces.into_iter().map(|f| f as usize).filter(|&f| turned[f] == smaller) {
                 self.faces[f].swap(1, 2);
-                self.turned[f] = true;
+                match &mut self.weights[f] {
+                    Some(weights) => weights.swap(1, 2),
+                    None => self.turned[f] = true,
+                }
                 self.steps.turned_faces += 1;
             }
         }
@@ -240,25 +350,38 @@ impl RepairState {
         let vertex_origin: Vec<u32> = used.into_iter().map(|v| self.vertex_origin[v as usize]).collect();
         let kept: HashSet<u32> = vertex_origin.iter().copied().collect();
         let gone = n_before - kept.len();
-        self.steps.isolated_vertices = gone.saturating_sub(self.steps.welded_vertices);
+        self.steps.isolated_vertices =
+            gone.saturating_sub(self.steps.welded_vertices + self.steps.collapsed_edges);
         let mut attributes = soup.attributes.of_origins(&vertex_origin, &self.origin);
-        let turned = |f: &usize| self.turned[*f];
-        for f in (0..faces.len()).filter(turned) {
-            attributes.corner_normals.iter_mut().for_each(|corners| corners[f].swap(1, 2));
-            attributes.uv.iter_mut().for_each(|corners| corners[f].swap(1, 2));
-        }
+        attributes.corner_normals = self.at_corners(attributes.corner_normals.take());
+        attributes.uv = self.at_corners(attributes.uv.take());
         let positions: Vec<_> = vertex_origin.iter().map(|&v| soup.positions[v as usize]).collect();
-        let mut diagnosis = diagnose(&positions, &faces);
-        if let Some(Defect::Empty { collapsed }) = diagnosis.defects.first_mut() {
-            *collapsed = self.steps.degenerate_faces;
-        }
         Repaired {
             soup: Soup { positions, faces, attributes },
             vertex_origin,
             face_origin: self.origin,
             steps: self.steps,
             weld_refused: self.weld_refused,
-            diagnosis,
+            filling: Filling::default(),
+            torn: Vec::new(),
+            diagnosis: Diagnosis::default(),
         }
+    }
+
+    /// Values at the corners of each face's origin as values at its own corners.
+    fn at_corners<const N: usize>(&self, list: Option<Vec<[[f64; N]; 3]>>) -> Option<Vec<[[f64; N]; 3]>> {
+        let mut list = list?;
+        for (f, corners) in list.iter_mut().enumerate() {
+            if let Some(weights) = &self.weights[f] {
+                let given = *corners;
+                let mean = |w: [f64; 3]| {
+                    std::array::from_fn(|x| w[0] * given[0][x] + w[1] * given[1][x] + w[2] * given[2][x])
+                };
+                *corners = weights.map(mean);
+            } else if self.turned[f] {
+                corners.swap(1, 2);
+            }
+        }
+        Some(list)
     }
 }

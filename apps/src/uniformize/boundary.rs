@@ -5,6 +5,7 @@ use crate::input::Input;
 use clap::{Args, ValueEnum};
 use ricci::canonical::{Boundary, BoundaryCorner, Corners};
 use ricci::mesh::VertexId;
+use ricci::mesh::check::{Hint, hints};
 use ricci::topology::{SurfaceGroup, Word};
 use serde::Serialize;
 use std::str::FromStr;
@@ -137,7 +138,7 @@ impl BoundaryArgs {
             let path = input.path.display();
             let why = "a disk has no closed geodesic as boundary; use --boundary straight for a rectangle or --corners for a polygon, \
                        ricci circles for the unit disk";
-            return Err(Failure::Input(format!("{path}: {why}")));
+            return Err(Failure::Input(format!("{path}: {why}{}", open_seams(input))));
         }
         if self.has_corners(input) && !self.lengths.is_empty() {
             return usage("--lengths: with corners loops turn, and have no closed geodesic");
@@ -145,6 +146,18 @@ impl BoundaryArgs {
         let group = SurfaceGroup { genus: mesh.genus(), boundaries: mesh.boundary_loops().len() };
         self.words(&group).map(drop)
     }
+}
+
+/// The hints about seams that are open by a rounding: the surface is then no disk, but was meant to be closed there.
+fn open_seams(input: &Input) -> String {
+    let Some(positions) = input.surface.positions() else { return String::new() };
+    let faces: Vec<[u32; 3]> =
+        input.mesh().faces().map(|f| input.mesh().face_vertices(f).map(|v| v.0)).collect();
+    let is_seam = |hint: &Hint| matches!(hint, Hint::OpenSeam(_) | Hint::TJunctions(_));
+    let seams = hints(positions, &faces).into_iter().filter(is_seam);
+    seams
+        .map(|hint| format!("; unless its boundary was meant to be closed: {hint}: {}", hint.remedy()))
+        .collect()
 }
 
 #[cfg(test)]

@@ -138,3 +138,29 @@ fn what_the_format_has_no_place_for_is_said() {
     };
     assert_eq!(["o.obj", "o.glb", "o.ply", "o.off"].map(left_out), [0, 0, 1, 2]);
 }
+
+#[test]
+fn holes_are_filled_where_that_is_asked_for() {
+    let place = Place::new();
+    // A torus without the faces at two vertices.
+    let mut open = torus(12, 8);
+    open.faces.retain(|f| !f.contains(&20) && !f.contains(&70));
+    place.put("open.obj", &open.obj());
+    place.expect(0, "repair open.obj -o all.obj --fill-holes all --map map.json --report r.json");
+    let result = place.json("r.json")["result"].clone();
+    assert_eq!((&result["boundary_loops"], &result["genus"]), (&0.into(), &1.into()));
+    let holes = result["filled_holes"].as_array().unwrap();
+    assert_eq!(holes.iter().map(|hole| hole["edges"].as_u64().unwrap()).collect::<Vec<_>>(), [6, 6]);
+    let map = place.json("map.json");
+    let first = holes[0]["faces"][0].as_u64().unwrap() as usize;
+    assert!(map["face_origin"][first].is_null() && map["face_origin"][first - 1].is_u64());
+    place.expect(0, "repair open.obj -o none.obj --fill-holes 5 --report r.json");
+    assert_eq!(place.json("r.json")["result"]["boundary_loops"], 2);
+    place.expect(0, "info open.obj --report r.json");
+    let vertex = place.json("r.json")["result"]["loops"][1]["vertex"].as_u64().unwrap();
+    place.expect(0, &format!("repair open.obj -o one.obj --fill-hole {vertex} --report r.json"));
+    assert_eq!(place.json("r.json")["result"]["boundary_loops"], 1);
+    for wrong in ["--fill-holes 2", "--fill-holes x", "--fill-hole 0", "--fill-holes all --fill-hole 3"] {
+        place.expect(2, &format!("repair open.obj -o x.obj {wrong}"));
+    }
+}

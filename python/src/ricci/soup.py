@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, ClassVar, Self, TypedDict, Unpack
+from typing import Any, ClassVar, Literal, Self, TypedDict, Unpack
 
 import numpy as np
 import numpy.typing as npt
@@ -14,7 +14,7 @@ from ricci import _arrays
 from ricci._arrays import frozen
 from ricci._call import Doubles, Handle, Indices, call, filled, path_bytes, pointer, rows, summary
 from ricci._library import ffi, lib
-from ricci._structs import Struct, above_zero, number, options
+from ricci._structs import Struct, Write, above_zero, index_list, number, options
 from ricci._triangles import Triangles
 from ricci.errors import ArgumentError
 from ricci.figures import QualitySummary, SoupSummary
@@ -30,11 +30,32 @@ class RepairOptions(TypedDict, total=False):
         weld: vertices within this distance become one; 0: those in exactly the same place; negative: none.
         component: keep one connected piece: 1 is that with the most faces, 2 the next; 0: all.
         cut_non_manifold_edges: cut the surface open along edges in which more than two faces meet.
+        drop_non_finite: drop the faces of vertices whose coordinates are not finite, which are an error otherwise.
+        split_t_junctions: divide faces at vertices that lie on their boundary edges, before welding.
+        mend_zero_area: mend faces without area by collapses and flips; vertices keep their places.
+        fill_holes: fill the boundary loops of at most so many edges, or ``"all"``.
+        holes: in place of it, vertices: the loops through them are filled.
     """
 
     weld: float
     component: int
     cut_non_manifold_edges: bool
+    drop_non_finite: bool
+    split_t_junctions: bool
+    mend_zero_area: bool
+    fill_holes: int | Literal["all"]
+    holes: npt.ArrayLike
+
+
+def _most_edges(struct: Struct, field: str, value: int | str) -> None:
+    number(struct, field, int(ffi.cast("size_t", -1)) if value == "all" else value)
+
+
+_REPAIR: dict[str, Write] = {
+    **dict.fromkeys(RepairOptions.__annotations__, number),
+    "fill_holes": _most_edges,
+    "holes": index_list("n_holes"),
+}
 
 
 @dataclass(frozen=True)
@@ -109,9 +130,7 @@ class Soup(Triangles):
 
     def repair(self, **given: Unpack[RepairOptions]) -> Soup:
         """The list after every repair that takes no guess. Defects that are left are a result, not an error."""
-        return Soup._made(
-            lib.ricci_soup_repair, self, options("repair_options", given, dict.fromkeys(RepairOptions.__annotations__, number))
-        )
+        return Soup._made(lib.ricci_soup_repair, self, options("repair_options", given, _REPAIR))
 
     def refine(self, levels: int = 0, longest_edge: float | None = None) -> Soup:
         """The same surface in smaller triangles, attributes interpolated; `places` says where its elements lie in this list.
@@ -158,11 +177,16 @@ class Soup(Triangles):
     @cached_property
     def defects(self) -> list[Defect]:
         """All defects; their arrays are views of the library's memory."""
-        return [self._defect(k) for k in range(self.summary.n_defects)]
+        return [self._defect(lib.ricci_soup_defect, k) for k in range(self.summary.n_defects)]
+
+    @cached_property
+    def hints(self) -> list[Defect]:
+        """Findings that are no defects: an open seam with the weld that closes it, T-junctions, coarse coordinates."""
+        return [self._defect(lib.ricci_soup_hint, k) for k in range(self.summary.n_hints)]
 
     @cached_property
     def origins(self) -> tuple[Indices, Indices]:
-        """The vertex and the face of the original that each vertex and face of a repaired list came from."""
+        """The vertex and the face of the original that each vertex and face of a repaired list came from; 2**32 - 1 in filled holes."""
         vertices, faces = (np.empty(n, np.uint32) for n in (self.summary.n_vertices, self.summary.n_faces))
         filled(lib.ricci_soup_origins, self, pointer(vertices), vertices.size, out=faces)
         return frozen(vertices), frozen(faces)
@@ -180,8 +204,8 @@ class Soup(Triangles):
         except ArgumentError:
             return False
 
-    def _defect(self, index: int) -> Defect:
+    def _defect(self, one: Any, index: int) -> Defect:
         found = ffi.new("ricci_defect *")
-        call(lib.ricci_soup_defect, self, index, found, ffi.sizeof("ricci_defect"))
+        call(one, self, index, found, ffi.sizeof("ricci_defect"))
         code, message, remedy = (ffi.string(text).decode() for text in (found.code, found.message, found.remedy))
         return Defect(code, message, remedy, _view(self, found.vertices, found.n_vertices), _view(self, found.faces, found.n_faces))

@@ -78,6 +78,8 @@ pub enum Defect {
         sizes: Vec<u32>,
         /// The first face of each, in the same order.
         first_faces: Vec<u32>,
+        /// True if welding nearly coincident vertices of their boundaries joins some of them ([`super::Hint::OpenSeam`]).
+        torn: bool,
     },
 }
 
@@ -108,7 +110,9 @@ impl Defect {
             Defect::IndexOutOfRange { .. } => {
                 "the file is cut short or its indices are wrong; export it again"
             }
-            Defect::NonFiniteCoordinate { .. } => "export the file again with finite coordinates",
+            Defect::NonFiniteCoordinate { .. } => {
+                "drop its faces: ricci repair --drop-nonfinite; or export the file again with finite coordinates"
+            }
             Defect::DegenerateFace { .. } => "drop the face: ricci repair",
             Defect::DuplicateFace { .. } => "drop the later face: ricci repair",
             Defect::NonManifoldEdge { .. } => {
@@ -129,10 +133,14 @@ impl Defect {
                  strip's faces, or another band across it, where the file was made"
             }
             Defect::ZeroAreaFace { .. } => {
-                "join corners that nearly coincide: ricci repair --weld DISTANCE; no command mends three corners on a \
-                 line, so remesh there"
+                "collapse or flip its edges: ricci repair --degenerate; or join corners that nearly coincide: ricci repair \
+                 --weld DISTANCE"
             }
             Defect::IsolatedVertex { .. } => "drop the vertex: ricci repair",
+            Defect::SeveralComponents { torn: true, .. } => {
+                "their boundaries nearly coincide, so weld first: ricci repair --weld DISTANCE; ricci repair --component K \
+                 takes one and drops the faces of all others"
+            }
             Defect::SeveralComponents { .. } => {
                 "take one: ricci repair --component K; or flatten each: ricci flow --components all"
             }

@@ -51,5 +51,6 @@ pub(in crate::mesh) fn diagnose_gluing(
         boundary_loops,
         genus,
         defects,
+        hints: Vec::new(),
     }
 }

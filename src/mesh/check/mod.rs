@@ -9,12 +9,19 @@
 //! ```
 
 mod defect;
+mod features;
 mod gluing;
+mod hint;
+mod lattice;
 mod orientation;
+mod seams;
 
 pub use defect::Defect;
+pub use features::{Features, SharpEdge};
 pub(super) use gluing::diagnose_gluing;
+pub use hint::{CoordinateLattice, Hint, OpenSeam, TJunction};
 pub(super) use orientation::{Orientation, OrientedPiece};
+pub(super) use seams::t_junctions;
 
 use super::Point;
 use super::incidence::{Incidence, boundary_loops, components, ends};
@@ -48,6 +55,8 @@ pub struct Diagnosis {
     pub genus: Option<usize>,
     /// The defects, grouped by kind: first those of the faces' indices, then those of the positions.
     pub defects: Vec<Defect>,
+    /// What is no defect and still seldom meant, of a list with positions.
+    pub hints: Vec<Hint>,
 }
 
 impl Diagnosis {
@@ -65,8 +74,11 @@ impl Diagnosis {
 }
 
 impl std::fmt::Display for Diagnosis {
-    /// Writes the first defect of each kind and its remedy, and how many more there are; numbers count from 0.
+    /// Writes the hints, then the first defect of each kind, each with its remedy, and how many more there are; numbers count from 0.
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        for hint in &self.hints {
+            write!(f, "{hint}: {}; ", hint.remedy())?;
+        }
         let mut kinds: Vec<(&Defect, usize)> = Vec::new();
         for defect in &self.defects {
             let alike = |d: &Defect| (d.code(), d.remedy()) == (defect.code(), defect.remedy());
@@ -101,11 +113,33 @@ pub(super) fn diagnose_positions(
     diagnosis.defects.extend(coordinates.map(|v| Defect::NonFiniteCoordinate { vertex: v as u32 }));
     for (face, corners) in faces.iter().enumerate().filter(|(f, _)| incidence.is_triangle(*f)) {
         let p = corners.map(|v| positions[v as usize]);
-        if corners.iter().all(|&v| finite(v as usize)) && zero_area(p) {
+        if corners.iter().all(|&v| finite(v as usize)) && has_zero_area(p) {
             diagnosis.defects.push(Defect::ZeroAreaFace { face: face as u32 });
         }
     }
+    diagnosis.hints = hints_of(positions, faces, incidence);
+    let joins =
+        |hint: &Hint| matches!(hint, Hint::OpenSeam(OpenSeam { components: [now, then], .. }) if then < now);
+    let is_torn = diagnosis.hints.iter().any(joins);
+    for defect in &mut diagnosis.defects {
+        if let Defect::SeveralComponents { torn, .. } = defect {
+            *torn = is_torn;
+        }
+    }
     diagnosis
+}
+
+/// What is no defect of a triangle list and still seldom meant. O(F log F).
+pub fn hints(positions: &[Point], faces: &[[u32; 3]]) -> Vec<Hint> {
+    hints_of(positions, faces, &Incidence::new(positions.len(), faces))
+}
+
+fn hints_of(positions: &[Point], faces: &[[u32; 3]], incidence: &Incidence) -> Vec<Hint> {
+    let coarse = lattice::lattice(positions, faces);
+    let step = coarse.map_or(0.0, |found| found.step);
+    let mut hints = seams::seam_hints(positions, faces, incidence, step);
+    hints.extend(coarse.map(Hint::CoarseCoordinates));
+    hints
 }
 
 pub(super) fn diagnose_incidence(faces: &[[u32; 3]], incidence: &Incidence) -> Diagnosis {
@@ -146,7 +180,18 @@ pub(super) fn diagnose_incidence(faces: &[[u32; 3]], incidence: &Incidence) -> D
     let boundary = incidence.edges().filter(|sides| sides.len() == 1).map(|sides| ends(faces, sides[0]));
     let boundary_loops = boundary_loops(n, boundary);
     let genus = (manifold && orientable && components == 1).then(|| genus(euler, boundary_loops)).flatten();
-    Diagnosis { vertices: n, edges, faces: faces.len(), components, euler, boundary_loops, genus, defects }
+    let hints = Vec::new();
+    Diagnosis {
+        vertices: n,
+        edges,
+        faces: faces.len(),
+        components,
+        euler,
+        boundary_loops,
+        genus,
+        defects,
+        hints,
+    }
 }
 
 /// The number of pieces; if there are several, this adds a defect.
@@ -154,7 +199,7 @@ fn several_components(pieces: Vec<(u32, u32)>, defects: &mut Vec<Defect>) -> usi
     let n = pieces.len();
     if n > 1 {
         let (first_faces, sizes) = pieces.into_iter().unzip();
-        defects.push(Defect::SeveralComponents { sizes, first_faces });
+        defects.push(Defect::SeveralComponents { sizes, first_faces, torn: false });
     }
     n
 }
@@ -193,7 +238,7 @@ const FACES_PER_CHECK: usize = 1 << 14;
 pub(super) fn is_sound(positions: &[Point], faces: &[[u32; 3]]) -> bool {
     let is_plane = |corners: &[u32; 3]| {
         let p = corners.map(|v| positions[v as usize]);
-        has_clear_area(p) || !zero_area(p)
+        has_clear_area(p) || !has_zero_area(p)
     };
     let parts: Vec<_> = faces.chunks(FACES_PER_CHECK).collect();
     positions.as_flattened().iter().all(|x| x.is_finite())
@@ -212,7 +257,8 @@ fn has_clear_area(p: [Point; 3]) -> bool {
     norm2(vector::cross(u, v)) > 4.0 * CLEAR * longest * longest
 }
 
-fn zero_area(p: [Point; 3]) -> bool {
+/// True if the corners are collinear to working precision.
+pub(super) fn has_zero_area(p: [Point; 3]) -> bool {
     let distance = |a: Point, b: Point| f64::hypot(f64::hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
     let l = [distance(p[1], p[2]), distance(p[2], p[0]), distance(p[0], p[1])];
     let r = half_differences(l);

@@ -69,6 +69,14 @@ class SoupSummary:
         isolated_vertices: vertices dropped because no face uses them.
         refused_edges: edges in which welding would have made more than two faces meet: `Soup.refused` lists them.
         refused_faces: faces of all these edges together.
+        non_finite_faces: faces dropped because a corner has no finite place.
+        joined_t_junctions: vertices put on the boundary edges on which they lie.
+        collapsed_edges: edges collapsed because a face without area had two corners in nearly one place.
+        flipped_edges: faces without area replaced by dividing the face beyond their longest edge.
+        opened_faces: faces without area dropped at the boundary.
+        filled_holes: boundary loops that were filled.
+        open_holes: boundary loops that were to be filled and could not be.
+        n_hints: of any list: findings that are no defects, `Soup.hints`.
     """
 
     n_vertices: int
@@ -93,6 +101,14 @@ class SoupSummary:
     isolated_vertices: int
     refused_edges: int
     refused_faces: int
+    non_finite_faces: int
+    joined_t_junctions: int
+    collapsed_edges: int
+    flipped_edges: int
+    opened_faces: int
+    filled_holes: int
+    open_holes: int
+    n_hints: int
 
 
 @dataclass(frozen=True)
