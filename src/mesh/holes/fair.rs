@@ -1,6 +1,6 @@
 //! Fairing of a patch: its vertices move to where the squared mean curvature over patch and loop is least.
 
-use super::patch::Patch;
+use super::patch::HolePatch;
 use crate::geometry::vector;
 use crate::linalg::{Cholesky, Pattern, Symmetric};
 use crate::mesh::Point;
@@ -22,7 +22,7 @@ pub(super) struct RingCorner {
 
 /// Solves for the least Σ |L x|² / A over the points of the patch, where L has cotangent weights and A is the area at a point \[BS08\]. The
 /// corners of the loop stay, as do the faces around it, whose tangent planes are continued. Where the system is singular nothing moves.
-pub(super) fn fair(patch: &mut Patch, ring: &[RingFace]) {
+pub(super) fn fair(patch: &mut HolePatch, ring: &[RingFace]) {
     let n_new = patch.points.len() - patch.n_corners;
     if n_new == 0 {
         return;
@@ -49,7 +49,7 @@ struct Stars {
 }
 
 impl Stars {
-    fn new(patch: &Patch, ring: &[RingFace]) -> Stars {
+    fn new(patch: &HolePatch, ring: &[RingFace]) -> Stars {
         let n = patch.points.len();
         let mut stars = Stars {
             weights: vec![BTreeMap::new(); n],

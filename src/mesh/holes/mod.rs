@@ -28,7 +28,7 @@ use super::rims::{Rim, rims_of};
 use crate::error::{Error, Result};
 use crate::geometry::vector;
 use fair::{RingCorner, RingFace};
-use patch::Patch;
+use patch::HolePatch;
 use std::collections::HashSet;
 use std::ops::Range;
 
@@ -185,7 +185,7 @@ impl Surroundings {
     }
 
     /// The patch of a loop, whose corners 0 … n − 1 are those of the loop backwards.
-    fn patch(&self, rim: &Rim, soup: &Soup) -> std::result::Result<Patch, &'static str> {
+    fn patch(&self, rim: &Rim, soup: &Soup) -> std::result::Result<HolePatch, &'static str> {
         let corners: Vec<u32> = rim.vertices.iter().rev().copied().collect();
         let points: Vec<Point> = corners.iter().map(|&v| soup.positions[v as usize]).collect();
         let is_taken = |i: usize, j: usize| {
@@ -206,7 +206,7 @@ impl Surroundings {
                 return Err("it is the boundary of a single triangle, which the patch would repeat");
             }
         }
-        let mut patch = Patch::new(points, triangles, self.scales(&corners, soup));
+        let mut patch = HolePatch::new(points, triangles, self.scales(&corners, soup));
         let ring = self.ring(&corners, soup);
         for _ in 0..ROUNDS {
             patch.refine(&is_taken);
@@ -248,7 +248,7 @@ impl Surroundings {
 const ROUNDS: usize = 2;
 
 /// Adds a patch behind the other elements.
-fn append(soup: &mut Soup, rim: &Rim, patch: &Patch) -> Result<FilledHole> {
+fn append(soup: &mut Soup, rim: &Rim, patch: &HolePatch) -> Result<FilledHole> {
     let (n, m, edges) = (soup.positions.len(), soup.faces.len(), rim.vertices.len());
     let n_new = patch.points.len() - edges;
     for (what, count) in [("vertices", n + n_new), ("sides of faces", 3 * (m + patch.triangles.len()))] {
@@ -278,7 +278,7 @@ fn append(soup: &mut Soup, rim: &Rim, patch: &Patch) -> Result<FilledHole> {
 }
 
 /// Continues the attributes of a loop over its patch: each new vertex has the mean of the three between which it was put.
-fn continue_attributes(attributes: &mut Attributes, faces: &[[u32; 3]], rim: &Rim, patch: &Patch) {
+fn continue_attributes(attributes: &mut Attributes, faces: &[[u32; 3]], rim: &Rim, patch: &HolePatch) {
     let backwards = || rim.sides.iter().rev();
     // Side 3f + k of the loop starts at corner k of face f.
     if let Some(normals) = attributes.normals.as_mut().filter(|all| !all.is_empty()) {

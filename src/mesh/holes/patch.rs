@@ -16,7 +16,7 @@ const DELAUNAY: f64 = 1e-9;
 const NONE: u32 = u32::MAX;
 
 /// Triangles over the corners of a loop and new vertices.
-pub(super) struct Patch {
+pub(super) struct HolePatch {
     /// The corners of the loop, then the new vertices.
     pub points: Vec<Point>,
     pub triangles: Vec<[u32; 3]>,
@@ -30,8 +30,8 @@ pub(super) struct Patch {
     sides: HashMap<[u32; 2], [u32; 2]>,
 }
 
-impl Patch {
-    pub fn new(points: Vec<Point>, triangles: Vec<[u32; 3]>, scales: Vec<f64>) -> Patch {
+impl HolePatch {
+    pub fn new(points: Vec<Point>, triangles: Vec<[u32; 3]>, scales: Vec<f64>) -> HolePatch {
         let mut sides: HashMap<[u32; 2], [u32; 2]> = HashMap::with_capacity(2 * triangles.len());
         for (t, &[a, b, c]) in (0u32..).zip(&triangles) {
             for edge in [[a, b], [b, c], [c, a]] {
@@ -39,7 +39,7 @@ impl Patch {
                 both[usize::from(both[0] != NONE)] = t;
             }
         }
-        Patch { n_corners: points.len(), points, triangles, scales, parents: Vec::new(), sides }
+        HolePatch { n_corners: points.len(), points, triangles, scales, parents: Vec::new(), sides }
     }
 
     /// Puts triangle `to` in the place of `from` at an edge.
