@@ -38,7 +38,7 @@ impl JobOutcome for RepairOutcome {
     }
 
     fn figures(&self, run: &CommandRun<'_>) -> Figures {
-        figures(&self.repaired, &run.left_out, &self.defects)
+        figures(&self.repaired, run.outputs.left_out(), &self.defects)
     }
 
     fn summary(&self, done: &Done) -> String {
@@ -47,7 +47,7 @@ impl JobOutcome for RepairOutcome {
 }
 
 /// The steps that were taken, the counts of the result, and the defects that are left.
-fn figures(repaired: &Repaired, left_out: &[&str], defects: &DefectList) -> Figures {
+fn figures(repaired: &Repaired, left_out: &[String], defects: &DefectList) -> Figures {
     let (steps, diagnosis) = (&repaired.steps, &repaired.diagnosis);
     // An edge in which welding would have made more than two faces meet, with numbers of the input.
     let refused = |edge: &RefusedWeld| json!({"vertices": edge.vertices, "faces": edge.faces});
@@ -106,7 +106,7 @@ fn open_figures(hole: &OpenHole, repaired: &Repaired) -> Value {
     json!({"edges": hole.edges, "vertex": vertex, "reason": hole.reason})
 }
 
-fn text(outcome: &RepairOutcome, left_out: &[&str]) -> String {
+fn text(outcome: &RepairOutcome, left_out: &[String]) -> String {
     let RepairOutcome { path, out, repaired, defects, .. } = outcome;
     let result = &repaired.diagnosis;
     let done = steps_taken(repaired);
