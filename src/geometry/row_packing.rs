@@ -37,11 +37,11 @@ pub fn in_rows(sizes: &[[f64; 2]]) -> Vec<[f64; 2]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::random::Random;
+    use crate::geometry::random::SplitMix64;
 
     #[test]
     fn no_two_rectangles_meet() {
-        let mut random = Random::new(3);
+        let mut random = SplitMix64::new(3);
         let sizes: Vec<[f64; 2]> =
             (0..60).map(|_| [0.01 + random.unit().powi(3), 0.01 + random.unit()]).collect();
         let corners = in_rows(&sizes);

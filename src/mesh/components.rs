@@ -40,7 +40,7 @@ pub fn components(soup: &Soup) -> Result<Vec<Component>> {
         return Err(Error::Defects(Box::new(Diagnosis { defects, ..diagnosis })));
     }
     let piece = |k| {
-        let one = Repair { weld: None, cut_non_manifold_edges: false, component: Some(k) };
+        let one = Repair { weld: None, component: Some(k), ..Repair::default() };
         let Repaired { soup, vertex_origin, face_origin, .. } = repair(soup, &one)?;
         Ok(Component { soup, vertices: vertex_origin, faces: face_origin })
     };
