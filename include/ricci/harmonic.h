@@ -110,7 +110,8 @@ typedef struct ricci_harmonic_spec {
     uint32_t target;
     /** RICCI_HARMONIC_SOLVE, RICCI_HARMONIC_HEAT. */
     uint32_t method;
-    /** Of the heat flow to the plane: length of a step, a time in units of area; 0: a hundredth of the area. */
+    /** Of the heat flow to the plane: length of a step, a time in units of area; 0: a hundredth of the area.
+     */
     double step;
     /** Of the heat flow: most steps; 0: 10000, to the sphere 2000. */
     size_t max_iterations;

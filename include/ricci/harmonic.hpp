@@ -29,7 +29,8 @@ struct harmonic_result {
 inline harmonic_result harmonic_map(const mesh &on, const ricci_harmonic_spec &spec,
                                     const control *watched = nullptr) {
     const std::size_t most = spec.max_iterations ? spec.max_iterations : 10000;
-    harmonic_result found{std::vector<double>(3 * on.summary().n_vertices), std::vector<double>(most + 1), {}};
+    harmonic_result found{
+        std::vector<double>(3 * on.summary().n_vertices), std::vector<double>(most + 1), {}};
     check(ricci_harmonic_map(on.get(), &spec, of(watched), found.points.data(), found.points.size(),
                              found.energies.data(), found.energies.size(), &found.summary,
                              sizeof found.summary));

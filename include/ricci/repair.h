@@ -173,7 +173,8 @@ typedef struct ricci_refine_summary {
     size_t n_flips;
     /** Triangles with a smaller angle than asked for: 0 unless the most vertices were added. */
     size_t n_below;
-    /** Triangles whose smaller angle the surface forces, at corners where it has an angle below 60 degrees. */
+    /** Triangles whose smaller angle the surface forces, at corners where it has an angle below 60 degrees.
+     */
     size_t n_forced;
     /** The smallest angle of the given triangles, radians. */
     double given_angle;
@@ -406,8 +407,8 @@ RICCI_API ricci_status ricci_soup_refine(const ricci_soup *soup, const ricci_ref
  * @param weights_capacity       entries of `weights`.
  */
 RICCI_API ricci_status ricci_soup_places(const ricci_soup *refined, uint32_t *faces, size_t faces_capacity,
-                                         uint32_t *vertex_faces, size_t vertex_faces_capacity, double *weights,
-                                         size_t weights_capacity);
+                                         uint32_t *vertex_faces, size_t vertex_faces_capacity,
+                                         double *weights, size_t weights_capacity);
 
 /**
  * The same Euclidean metric on a Delaunay triangulation without small angles: an intrinsic mesh, whose first

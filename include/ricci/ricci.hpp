@@ -376,8 +376,8 @@ public:
     void write(const std::string &path, std::uint32_t on = RICCI_ON_INPUT, bool homogeneous = false) const {
         check(ricci_layout_write(handle_, on, homogeneous ? 1 : 0, path.c_str()));
     }
-    // Four numbers for each line along which the layout is cut or folded: RICCI_LAYER_*, the seam or -1, 1 if it
-    // is closed, the number of its points. The angle is in radians.
+    // Four numbers for each line along which the layout is cut or folded: RICCI_LAYER_*, the seam or -1, 1 if
+    // it is closed, the number of its points. The angle is in radians.
     std::vector<std::int32_t> lines(double fold_angle, std::uint32_t on = RICCI_ON_INPUT) const {
         return values<std::int32_t>(ricci_layout_lines, get(), on, fold_angle);
     }

@@ -99,9 +99,15 @@ public:
     ricci_repaired_input_summary summary() const {
         return ricci::summary(ricci_repaired_input_summarise, get());
     }
-    ricci::mesh mesh() const { return ricci::mesh(ricci::make<ricci_mesh>(ricci_repaired_input_mesh, get())); }
-    std::vector<std::uint32_t> faces() const { return values<std::uint32_t>(ricci_repaired_input_faces, get()); }
-    std::vector<double> barycentric() const { return values<double>(ricci_repaired_input_barycentric, get()); }
+    ricci::mesh mesh() const {
+        return ricci::mesh(ricci::make<ricci_mesh>(ricci_repaired_input_mesh, get()));
+    }
+    std::vector<std::uint32_t> faces() const {
+        return values<std::uint32_t>(ricci_repaired_input_faces, get());
+    }
+    std::vector<double> barycentric() const {
+        return values<double>(ricci_repaired_input_barycentric, get());
+    }
     std::vector<std::uint32_t> split_edges() const {
         return values<std::uint32_t>(ricci_repaired_input_split_edges, get());
     }

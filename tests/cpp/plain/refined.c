@@ -301,7 +301,8 @@ static void check_repaired(const ricci_layout *layout, const ricci_layout_summar
         }
     }
     OK(ricci_repaired_input_write(repaired, "repaired_input.obj"));
-    FAILS(ricci_repaired_input_points(repaired, points, 2 * s.n_points - 1), RICCI_BUFFER_TOO_SMALL, "points");
+    FAILS(ricci_repaired_input_points(repaired, points, 2 * s.n_points - 1), RICCI_BUFFER_TOO_SMALL,
+          "points");
     free(points), free(weights), free(corners), free(faces), free(edges);
     ricci_mesh_free(mesh), ricci_repaired_input_free(repaired);
 }
