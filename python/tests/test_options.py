@@ -91,15 +91,17 @@ CASES = [
     (
         options(
             "circle_domain_options",
-            {"flow": FLOW, "outer": 1, "centre": 5, "three": [1, 2, 3], "angles": [0.1, 0.2, 0.3], "least_loop": 20},
+            {"flow": FLOW, "outer": 1, "centre": 5, "three": [1, 2, 3], "angles": [0.1, 0.2, 0.3], "least_loop": 20, "frame": "strip"},
             circle._CIRCLES,
         ),
-        {"flow": FLOW, "outer": [1], "centre": [5], "three": [1, 2, 3], "angles": [0.1, 0.2, 0.3], "least_loop": 20},
+        {"flow": FLOW, "outer": [1], "centre": [5], "three": [1, 2, 3], "angles": [0.1, 0.2, 0.3], "least_loop": 20, "frame": 2},
     ),
     (options("forms_options", {"base": 4, "classes": "relative"}, form._FORMS), {"base": [4], "classes": 1}),
     (
-        form._harmonic_struct({"target": "rectangle", "b": [1, 2], "bc": [[0.5], [0.6]]}),
-        {"target": 1, "vertices": [1, 2], "n": 2, "values": [0.5, 0, 0, 0.6, 0, 0]},
+        form._harmonic_struct(
+            {"target": "rectangle", "b": [1, 2], "bc": [[0.5], [0.6]], "method": "heat", "step": 0.5, "max_iterations": 7}
+        ),
+        {"target": 1, "vertices": [1, 2], "n": 2, "values": [0.5, 0, 0, 0.6, 0, 0], "method": 1, "step": 0.5, "max_iterations": 7},
     ),
     (
         options(
