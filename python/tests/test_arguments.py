@@ -157,6 +157,11 @@ def plane(**given):
         (lambda mesh: ricci.circles(mesh, least_loop=0), "least_loop"),
         (lambda mesh: ricci.structure(mesh, kind="conformal", radius=0), "radius"),
         (lambda mesh: ricci.harmonic(mesh, target="polygon", n=0), "n is 0"),
+        (lambda mesh: ricci.harmonic(mesh, method="heat", step=0.0), "step"),
+        (lambda mesh: ricci.harmonic_map(mesh, method="heat", max_iterations=0), "max_iterations"),
+        (lambda mesh: mesh.refine_angle(least_angle=0), "least_angle"),
+        (lambda mesh: mesh.refine_angle(most_added=0), "most_added"),
+        (lambda mesh: ricci.Soup(mesh.V, mesh.F).refine(longest_edge=0.0), "longest_edge"),
         (lambda mesh: plane(degree=0), "degree"),
         (lambda mesh: plane(spread=0.0), "spread"),
         *(
