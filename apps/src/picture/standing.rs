@@ -51,8 +51,8 @@ struct WeighedSurface<'a> {
     outside: V3,
 }
 
-/// The axis along which a surface stands.
-pub fn standing(points: &[V3], faces: &[[u32; 3]]) -> V3 {
+/// The axis along which a surface stands, and whether it does so convincingly.
+pub fn standing(points: &[V3], faces: &[[u32; 3]]) -> (V3, bool) {
     let surface = WeighedSurface::new(points, faces);
     let asymmetry = surface.asymmetry();
     let scored = CANDIDATES.map(|(up, usual)| {
@@ -63,7 +63,8 @@ pub fn standing(points: &[V3], faces: &[[u32; 3]]) -> V3 {
     });
     let best = scored.iter().fold(scored[0], |best, c| if c.1 > best.1 { *c } else { best });
     let is_usual = [CANDIDATES[0].0, CANDIDATES[1].0].contains(&best.0);
-    if is_usual || best.1 >= CONVINCING { best.0 } else { CANDIDATES[0].0 }
+    let is_sure = best.1 >= CONVINCING;
+    (if is_usual || is_sure { best.0 } else { CANDIDATES[0].0 }, is_sure)
 }
 
 /// The coordinate that an axis runs along.
@@ -202,13 +203,13 @@ mod tests {
         ];
         for (turn, up) in turned {
             let points: Vec<V3> = soup.positions.iter().map(turn).collect();
-            assert_eq!(standing(&points, &soup.faces), up);
+            assert_eq!(standing(&points, &soup.faces), (up, true));
         }
     }
 
     #[test]
     fn what_has_no_side_to_stand_on_has_y_up() {
         let ball = shapes::icosphere(6).unwrap();
-        assert_eq!(standing(&ball.positions, &ball.faces), [0.0, 1.0, 0.0]);
+        assert_eq!(standing(&ball.positions, &ball.faces).0, [0.0, 1.0, 0.0]);
     }
 }

@@ -69,7 +69,10 @@ pub fn stance(points: &[V3], faces: &[[u32; 3]]) -> Stance {
     };
     let is_centred = (0..3).all(|k| off(k) < CENTRED);
     let flat = [2, 1, 0].into_iter().map(|k| axis(k, 1.0)).find(|up| is_centred && thin(*up) < FLAT_BODY);
-    let up = flat.unwrap_or_else(|| standing(points, faces));
+    let up = flat.unwrap_or_else(|| {
+        let (up, is_sure) = standing(points, faces);
+        if is_sure || thin(Y) >= LOW { up } else { Y }
+    });
     Stance { up, lies: flat.is_some() || thin(up) < LOW }
 }
 
