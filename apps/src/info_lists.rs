@@ -121,7 +121,7 @@ impl InfoLists {
             text += &format!(
                 "loop {k}: {}, length {}, vertex {vertex}\n",
                 count(*edges, "edge", "edges"),
-                size(*length, 6)
+                if length.is_finite() { size(*length, 6) } else { "undefined".into() }
             );
         }
         if longest.len() > PRINTED {

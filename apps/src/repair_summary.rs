@@ -3,7 +3,6 @@
 use crate::defects::{DefectFigures, DefectList};
 use crate::info_lists::HintFigures;
 use crate::options::FileName;
-use crate::output::extension;
 use crate::report::{Checks, Counts, Done, Figures, InputSummary};
 use crate::runner::{CommandRun, JobOutcome};
 use crate::say::count;
@@ -134,7 +133,7 @@ fn text(outcome: &RepairOutcome, left_out: &[String]) -> String {
     }
     text += &warnings(repaired);
     for what in left_out {
-        text += &format!("left out: {what} (.{} has no place for them)\n", extension(out));
+        text += &format!("left out: {what}\n");
     }
     let mut told: Vec<&str> = Vec::new();
     for DefectFigures { message, remedy, .. } in &defects.list {

@@ -300,3 +300,24 @@ fn continue_attributes(attributes: &mut Attributes, faces: &[[u32; 3]], rim: &Ri
         uv.extend(patch.triangles.iter().map(|t| t.map(|k| all[k as usize])));
     }
 }
+
+/// Continues names and further numbers over a patch: its faces have those of the face beside the first side of the loop, its new vertices
+/// the mean as other attributes, or where numbers are integers, which may be labels, that of the first vertex of the loop.
+fn continue_names(attributes: &mut Attributes, rim: &Rim, patch: &HolePatch) {
+    let (Some(&side), Some(&first)) = (rim.sides.first(), rim.vertices.first()) else { return };
+    let (beside, faces) = (side as usize / 3, patch.triangles.len());
+    if let Some(labels) = &mut attributes.labels {
+        let label = labels.of_face[beside];
+        labels.of_face.extend(std::iter::repeat_n(label, faces));
+    }
+    for column in &mut attributes.face_numbers {
+        let number = column.values[beside];
+        column.values.extend(std::iter::repeat_n(number, faces));
+    }
+    for column in &mut attributes.vertex_numbers {
+        let known = rim.vertices.iter().rev().map(|&v| [column.values[v as usize]]).collect();
+        let label = column.values[first as usize];
+        let means = patch.continued(known).into_iter().skip(rim.vertices.len());
+        column.values.extend(means.map(|[mean]| if column.kind.is_integer() { label } else { mean }));
+    }
+}
