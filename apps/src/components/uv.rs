@@ -49,6 +49,16 @@ pub fn write(
         face_texcoords: &file.face_texcoords,
     };
     write_textured(outputs, path, &data)?;
+    let holds_more = |flow: &ComponentFlow| {
+        let given = &flow.outcome.input.attributes;
+        let numbers = given.vertex_numbers.len() + given.face_numbers.len();
+        given.normals.is_some() || given.corner_normals.is_some() || given.labels.is_some() || numbers > 0
+    };
+    if all.flows.iter().any(holds_more) {
+        let what =
+            "normals, groups, materials and further numbers: a file of several components has colours alone";
+        outputs.leave_out([what.to_string()]);
+    }
     Ok([added, faces - all.soup.faces.len()])
 }
 
