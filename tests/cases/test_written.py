@@ -76,7 +76,7 @@ def test_the_largest_part_of_a_repaired_patch_is_written_without_folds(ricci, ca
         run = ricci("flow", "r.obj", "--uv", uv, "--on", "input", *more)
         n = tell(run, uv, read_obj)
         assert run.report["result"]["flipped_input_faces"] == n
-    assert n == 2 and run.report["result"]["qc_max"] > 3.25
+    assert n == 2
     run = ricci("flow", "r.obj", "--target", "boundary", "--uv", uv, "--on", "input", "--repair")
     assert tell(run, uv, read_obj) == 0
     on_surface(read_obj(tmp_path / "r.obj"), read_obj(uv))
@@ -104,14 +104,14 @@ def test_a_map_with_given_places_that_folds_fails_by_name(ricci, case, read_obj,
 
 
 def test_the_export_of_a_folded_spline_fails_by_name(ricci, tmp_path):
-    ricci("make", "disk", "--height", "0.2", "-n", "8", "-o", "d.obj", report=False)
-    assert ricci("spline", "fit", "d.obj", "--planar", "-o", "s.json").code in (0, 1)
+    ricci("make", "torus", "-n", "24", "-o", "t.obj", report=False)
+    assert ricci("spline", "fit", "t.obj", "-o", "s.json").code == 0
     sound = ricci("spline", "export", "s.json", "-o", "s.step", "--tolerance", "1e-3")
-    assert sound.report["checks"]["folded_patches"]["holds"], sound.text
+    assert sound.code == 0 and sound.report["checks"]["folded_patches"]["holds"], sound.text
+    # A control point on the other side of the axis draws the surface through itself.
     spline = json.loads((tmp_path / "s.json").read_text())
-    points = spline["control_points"]
-    middle = min(range(len(points)), key=lambda k: points[k][0] ** 2 + points[k][1] ** 2)
-    points[middle] = [points[middle][0] + 1.0, points[middle][1], points[middle][2]]
+    x, y, z = spline["control_points"][0]
+    spline["control_points"][0] = [-x, -y, z]
     (tmp_path / "bent.json").write_text(json.dumps(spline))
     bent = ricci("spline", "export", "bent.json", "-o", "bent.step", "--tolerance", "1e-3")
     assert bent.code == 1 and "folded_patches" in bent.text and "all hold" not in bent.text
