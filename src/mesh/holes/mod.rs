@@ -261,6 +261,7 @@ fn append(soup: &mut Soup, rim: &Rim, patch: &HolePatch) -> Result<FilledHole> {
         Some(new) => (n + new) as u32,
     };
     continue_attributes(&mut soup.attributes, &soup.faces, rim, patch);
+    continue_names(&mut soup.attributes, rim, patch);
     soup.positions.extend(&patch.points[edges..]);
     soup.faces.extend(patch.triangles.iter().map(|t| t.map(number)));
     let areas = patch
