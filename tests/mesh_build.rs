@@ -189,7 +189,7 @@ fn projective_plane_is_non_orientable() {
 #[test]
 fn isolated_vertices_and_several_components() {
     let found = defects(8, &[[0, 1, 2], [4, 5, 6], [2, 1, 7]]);
-    let components = Defect::SeveralComponents { first_faces: vec![0, 1], sizes: vec![2, 1] };
+    let components = Defect::SeveralComponents { first_faces: vec![0, 1], sizes: vec![2, 1], torn: false };
     assert_eq!(components.faces(), [0, 1]);
     assert_eq!(found, [Defect::IsolatedVertex { vertex: 3 }, components.clone()]);
     assert!(components.remedy().contains("repair --component K"));

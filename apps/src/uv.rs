@@ -11,7 +11,6 @@ use crate::surface_layout::SurfaceLayout;
 use ricci::mesh::io::{self, Texture, TexturedMesh, Wrap};
 use ricci::mesh::{Mesh, PerHalfedge, Point};
 use ricci::metric::CommonSubdivision;
-use std::borrow::Cow;
 use std::io::Write;
 use std::path::Path;
 
@@ -34,52 +33,42 @@ pub fn write(
     laid: &SurfaceLayout,
     options: UvOptions,
 ) -> Result<[usize; 2], Failure> {
-    let own = faces_of(input, laid, options.on)?;
-    let weights = if options.homogeneous { laid.weights() } else { Vec::new() };
-    let added =
-        [own.positions.len() - input.mesh().n_vertices(), own.mesh.n_faces() - input.mesh().n_faces()];
-    UvMesh { weights: &weights, ..own }.write(outputs, path, input)?;
-    // The summary tells those of split edges on a line of their own.
-    Ok(if options.on == OnChoice::Refined { added } else { [0; 2] })
-}
-
-/// The mesh of `--uv`: the layout's faces, or the input's own.
-pub fn faces_of<'a>(input: &'a Input, laid: &'a SurfaceLayout, on: OnChoice) -> Result<UvMesh<'a>, Failure> {
     // Without positions `--uv` is refused before the flow.
     let (Some(positions), Some(own_positions)) = (laid.positions.as_deref(), input.positions()) else {
         return Err(Failure::no_positions());
     };
     let split = laid.repaired().map(|r| r.refinement.from_vertices(0, own_positions)).transpose()?;
-    let (mesh, positions, index, texcoords, subdivision) = match (on, &laid.on_input, laid.repaired()) {
+    let (mesh, positions, index, texcoords, subdivision) = match (options.on, &laid.on_input, laid.repaired())
+    {
         (OnChoice::Refined, ..) => {
-            let positions = Cow::Borrowed(positions);
             (laid.mesh(), positions, laid.corner_index(), laid.coordinates(), laid.common_subdivision())
         }
         (OnChoice::Input, _, Some(repaired)) => (
             repaired.mesh(),
-            split.map_or(Cow::Borrowed(own_positions), Cow::Owned),
+            split.as_deref().unwrap_or(own_positions),
             &repaired.corner_index,
             &repaired.coordinates[..],
             Some(&*repaired.refinement),
         ),
-        (OnChoice::Input, Some(on_input), None) => (
-            input.mesh(),
-            Cow::Borrowed(own_positions),
-            &on_input.corner_index,
-            &on_input.coordinates[..],
-            None,
-        ),
+        (OnChoice::Input, Some(on_input), None) => {
+            (input.mesh(), own_positions, &on_input.corner_index, &on_input.coordinates[..], None)
+        }
         (OnChoice::Input, None, None) => {
             return Err(Failure::Failed("--on input: the layout is not cut along the input's edges".into()));
         }
     };
-    Ok(UvMesh { mesh, positions, index, texcoords, weights: &[], subdivision })
+    let weights = if options.homogeneous { laid.weights() } else { Vec::new() };
+    UvMesh { mesh, positions, index, texcoords, weights: &weights, subdivision }
+        .write(outputs, path, input)?;
+    // The summary tells those of split edges on a line of their own.
+    let added = [positions.len() - own_positions.len(), mesh.n_faces() - input.mesh().n_faces()];
+    Ok(if options.on == OnChoice::Refined { added } else { [0; 2] })
 }
 
 /// A mesh in space with texture coordinates.
 pub struct UvMesh<'a> {
     pub mesh: &'a Mesh,
-    pub positions: Cow<'a, [Point]>,
+    pub positions: &'a [Point],
     /// Per half-edge the index of the texture coordinates of the corner at its origin.
     pub index: &'a PerHalfedge<u32>,
     pub texcoords: &'a [[f64; 2]],
@@ -95,7 +84,7 @@ impl UvMesh<'_> {
         let faces = self.mesh.triangles();
         let carried = carry(input, self.subdivision)?;
         let data = TexturedMesh {
-            positions: &self.positions,
+            positions: self.positions,
             colors: &carried.colors,
             normals: &carried.normals,
             face_normals: &carried.face_normals,

@@ -11,6 +11,7 @@ use crate::options::OnChoice;
 use crate::output::{check_extension, check_outputs};
 use crate::report::InputSummary;
 use crate::runner::{CommandRun, Job, JobHeader};
+use crate::surface_layout::OwnFaces;
 use crate::timing::timed;
 use ricci::Surface;
 use ricci::control::Stage;
@@ -49,7 +50,7 @@ impl Job for ComponentsJob<'_> {
         let path = &args.to.surface.file.mesh;
         run.control.step(Stage::Read, 0.0)?;
         let soup = match timed(&mut run.seconds.read, || input::content(&args.to.surface.file))? {
-            FileContent::Triangles(soup) => soup,
+            FileContent::Triangles(soup) => *soup,
             FileContent::Lengths(_) => {
                 return Err(Failure::Usage(
                     "--components: a file of lengths is one surface; leave --components out".into(),
@@ -81,17 +82,23 @@ impl Job for ComponentsJob<'_> {
 /// The flow of one component.
 fn flow_of(args: &FlowArgs, piece: Component, run: &mut CommandRun<'_>) -> Result<ComponentFlow, Failure> {
     let Component { soup, vertices, faces } = piece;
+    let attributes = soup.attributes.clone();
     let surface = timed(&mut run.seconds.build, || -> Result<_, Failure> {
         let surface = Surface::in_space(Mesh::from_soup(&soup)?, soup.positions)?;
         Ok(args.to.surface.input_geometry.map(Space::from).into_iter().fold(surface, Surface::read_in))
     })?;
     let path = args.to.surface.file.mesh.clone();
-    let input = Input { path, surface, attributes: soup.attributes, split: None };
+    let input = Input { path, surface, attributes, split: None };
     let automatic = matches!(args.target, Some(TargetChoice::Auto(_))).then_some(Space::E2);
     let space = args.space.space().or(automatic).unwrap_or_else(|| default_space(input.mesh()));
     check_surface(args, &input, space)?;
     let job = flow_job(args, &input, space)?;
-    Ok(ComponentFlow { outcome: run_flow(input, job, run)?, vertices, faces })
+    let mut outcome = run_flow(input, job, run)?;
+    if let (Ok(laid), OnChoice::Input) = (&mut outcome.layout, args.to.on) {
+        let own = || OwnFaces::new(&laid.layout, &outcome.input, false, run.control);
+        laid.own_faces = timed(&mut run.seconds.layout, own)?;
+    }
+    Ok(ComponentFlow { outcome, vertices, faces })
 }
 
 /// Refuse options that name elements of one surface, and files that hold one.
@@ -107,6 +114,8 @@ fn check_options(args: &FlowArgs) -> Result<(), Failure> {
         ("--circles", args.circles.is_some()),
         ("--trace", args.trace.is_some()),
         ("--xref", args.to.xref.is_some()),
+        ("--flat", args.to.flat.flat.is_some()),
+        ("--repair", args.to.repair),
         ("--charts", args.charts),
         ("--homogeneous", args.homogeneous),
         ("--picture", args.picture.base.picture.is_some()),
