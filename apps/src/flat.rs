@@ -3,68 +3,19 @@
 use crate::carry::carry;
 use crate::failure::{Failure, NO_POSITIONS};
 use crate::input::Input;
-use crate::options::{FileName, OnChoice, number};
+use crate::options::{FlatArgs, OnChoice};
 use crate::output::{Outputs, check_extension, extension, format_of};
 use crate::surface_layout::SurfaceLayout;
-use clap::{Args, ValueEnum};
 use ricci::embed::{FlatSurface, fold_edges};
 use ricci::mesh::PerEdge;
 use ricci::mesh::io::{self, CuttingSheet, SheetUnit};
 use ricci::metric::CommonSubdivision;
-use serde::Serialize;
 use std::borrow::Cow;
 use std::path::Path;
 
 /// Angle in degrees above which an edge is a fold where none is asked for: between those of smooth parts and those of creases in most
 /// meshes.
 const FOLD: f64 = 30.0;
-
-/// The options of the layout as geometry.
-#[derive(Args, Serialize, Debug, Clone, Default)]
-pub struct FlatArgs {
-    /// Write the layout in the plane as geometry (x, y, 0), a mesh .obj, .ply, .off or .glb; or as a drawing for cutting, .svg or .dxf, with
-    /// the layers BOUNDARY, SEAMS and FOLDS
-    #[arg(long, value_name = "OUT.obj")]
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub flat: Option<FileName>,
-    /// Edges of the input that are folds in drawings: the normals of the two faces differ by more than this [default: 30]
-    #[arg(long, value_name = "DEGREES", requires = "flat", value_parser = angle)]
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub fold_angle: Option<f64>,
-    /// The unit of the coordinates, for the size of an SVG [default: mm]
-    #[arg(long, value_enum, value_name = "UNIT", requires = "flat")]
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub flat_unit: Option<FlatUnitChoice>,
-}
-
-/// The units of `--flat-unit`.
-#[derive(ValueEnum, Serialize, Debug, Clone, Copy, PartialEq)]
-#[serde(rename_all = "lowercase")]
-pub enum FlatUnitChoice {
-    /// Millimetres
-    Mm,
-    /// Centimetres
-    Cm,
-    /// Metres
-    M,
-    /// Inches
-    In,
-}
-
-impl From<FlatUnitChoice> for SheetUnit {
-    fn from(unit: FlatUnitChoice) -> SheetUnit {
-        match unit {
-            FlatUnitChoice::Mm => SheetUnit::Millimetre,
-            FlatUnitChoice::Cm => SheetUnit::Centimetre,
-            FlatUnitChoice::M => SheetUnit::Metre,
-            FlatUnitChoice::In => SheetUnit::Inch,
-        }
-    }
-}
-
-fn angle(text: &str) -> Result<f64, String> {
-    number(text, |x| (0.0..=180.0).contains(&x), "must be an angle from 0 to 180 degrees")
-}
 
 impl FlatArgs {
     /// Refuse names of files that have no known format.

@@ -1,11 +1,11 @@
 //! Options that several commands share.
 
 use crate::failure::Failure;
-use crate::flat::FlatArgs;
-use clap::Args;
 use clap::builder::TypedValueParser;
+use clap::{Args, ValueEnum};
 use ricci::flow::{Flips, Method, Options};
 use ricci::geometry::Space;
+use ricci::mesh::io::SheetUnit;
 use ricci::metric::Scheme;
 use serde::{Serialize, Serializer};
 use std::ffi::OsString;
@@ -225,4 +225,51 @@ pub enum OnChoice {
     Refined,
     /// The input's own: the map made linear on each
     Input,
+}
+
+/// The options of the layout as geometry.
+#[derive(Args, Serialize, Debug, Clone, Default)]
+pub struct FlatArgs {
+    /// Write the layout in the plane as geometry (x, y, 0), a mesh .obj, .ply, .off or .glb; or as a drawing for cutting, .svg or .dxf, with
+    /// the layers BOUNDARY, SEAMS and FOLDS
+    #[arg(long, value_name = "OUT.obj")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub flat: Option<FileName>,
+    /// Edges of the input that are folds in drawings: the normals of the two faces differ by more than this [default: 30]
+    #[arg(long, value_name = "DEGREES", requires = "flat", value_parser = angle)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fold_angle: Option<f64>,
+    /// The unit of the coordinates, for the size of an SVG [default: mm]
+    #[arg(long, value_enum, value_name = "UNIT", requires = "flat")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub flat_unit: Option<FlatUnitChoice>,
+}
+
+/// The units of `--flat-unit`.
+#[derive(ValueEnum, Serialize, Debug, Clone, Copy, PartialEq)]
+#[serde(rename_all = "lowercase")]
+pub enum FlatUnitChoice {
+    /// Millimetres
+    Mm,
+    /// Centimetres
+    Cm,
+    /// Metres
+    M,
+    /// Inches
+    In,
+}
+
+impl From<FlatUnitChoice> for SheetUnit {
+    fn from(unit: FlatUnitChoice) -> SheetUnit {
+        match unit {
+            FlatUnitChoice::Mm => SheetUnit::Millimetre,
+            FlatUnitChoice::Cm => SheetUnit::Centimetre,
+            FlatUnitChoice::M => SheetUnit::Metre,
+            FlatUnitChoice::In => SheetUnit::Inch,
+        }
+    }
+}
+
+fn angle(text: &str) -> Result<f64, String> {
+    number(text, |x| (0.0..=180.0).contains(&x), "must be an angle from 0 to 180 degrees")
 }

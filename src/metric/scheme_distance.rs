@@ -119,7 +119,7 @@ mod tests {
             let p = triangle.map(|[x, y]| [stretch[0] * x, stretch[1] * y]);
             [[1, 2], [2, 0], [0, 1]].map(|[i, j]: [usize; 2]| (p[i][0] - p[j][0]).hypot(p[i][1] - p[j][1]))
         };
-        for (stretch, k) in [([1.0, 1.0], 1.0), ([3.0, 1.0], 3.0), ([0.25, 2.0], 8.0), ([7e5, 7e-1], 1e6)] {
+        for (stretch, k) in [([1.0, 1.0], 1.0), ([3.0, 1.0], 3.0), ([0.25, 2.0], 8.0), ([7e3, 7e-1], 1e4)] {
             let (found, area) = dilatation(sides([1.0, 1.0]), sides(stretch));
             assert!((found / k - 1.0).abs() < 1e-7, "{stretch:?}: {found}");
             assert!((area - 0.545).abs() < 1e-12, "{area}");

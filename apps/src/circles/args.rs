@@ -1,7 +1,6 @@
 //! The options of `ricci circles`.
 
-use crate::flat::FlatArgs;
-use crate::options::{Common, FileName, SurfaceArgs, choices, positive};
+use crate::options::{Common, FileName, FlatArgs, SurfaceArgs, choices, positive};
 use crate::picture::{PictureArgs, TextureChoice};
 use clap::Args;
 use ricci::canonical::DomainFrame;

@@ -1,7 +1,6 @@
 //! The options of `ricci harmonic`.
 
-use crate::flat::FlatArgs;
-use crate::options::{Common, FileName, SurfaceArgs, positive};
+use crate::options::{Common, FileName, FlatArgs, SurfaceArgs, positive};
 use crate::picture::PictureArgs;
 use clap::Args;
 use serde::Serialize;

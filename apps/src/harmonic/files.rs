@@ -3,8 +3,9 @@
 use super::args::HarmonicArgs;
 use super::outcome::{HarmonicOutcome, PlaneMap};
 use crate::failure::Failure;
-use crate::flat::{FlatArgs, FlatLayout};
+use crate::flat::FlatLayout;
 use crate::input::Input;
+use crate::options::FlatArgs;
 use crate::output::{Outputs, write_textured};
 use crate::picture::{self, Picture, ShownLayout, ShownSurface, TextureChoice};
 use crate::uv::UvMesh;

@@ -17,6 +17,7 @@ use ricci::harmonic::{
 };
 use ricci::mesh::{FaceId, VertexId};
 use ricci::metric::CommonSubdivision;
+use std::collections::HashSet;
 
 /// A map to the plane, carried back to the surface.
 pub struct PlaneMap {
@@ -296,17 +297,22 @@ impl PlaneMap {
             Some(r) => r.from_vertices(1, &map.points)?,
             None => map.points.clone(),
         };
-        let mut degenerate = 0;
-        let mut flipped = match &subdivision {
-            Some(_) => Vec::new(),
-            None => planar::flipped(domain, &map.points),
+        let of_domain = planar::flipped(domain, &map.points);
+        let Some(r) = &subdivision else {
+            return Ok(PlaneMap { map, course, subdivision, points, flipped: of_domain, degenerate: 0 });
         };
-        for (r, f) in subdivision.iter().flat_map(|r| r.mesh.faces().map(move |f| (r, f))) {
+        // A piece is turned over where its triangle of the domain is, even if rounding leaves no area to see it by.
+        let of_domain: HashSet<FaceId> = of_domain.into_iter().collect();
+        let (mut flipped, mut degenerate) = (Vec::new(), 0);
+        for f in r.mesh.faces() {
             let corners @ [a, b, c] = r.mesh.face_vertices(f).map(|v| points[v.index()]);
             let longest = distance(a, b).max(distance(b, c)).max(distance(c, a));
             let (area, least) = (0.5 * doubled_area(corners), LEAST_RELATIVE_AREA * longest * longest);
-            flipped.extend((area < -least).then_some(f));
-            degenerate += usize::from(area.abs() <= least);
+            if area < -least || of_domain.contains(&r.faces[1][f]) {
+                flipped.push(f);
+            } else {
+                degenerate += usize::from(area <= least);
+            }
         }
         Ok(PlaneMap { map, course, subdivision, points, flipped, degenerate })
     }

@@ -1,10 +1,11 @@
 //! The key below a picture: what its lines, dots and circles stand for.
 
 use super::color::{INK, Rgb, cone_color, from_hex, seam_color};
+use super::content::{LineMeaning, Picture};
 use super::flat::{DUAL_CIRCLE, VERTEX_CIRCLE};
+use super::scene::Style;
 use super::sheet::{SvgPath, VectorSheet};
 use super::text::{CAPITALS, Lettering, line};
-use super::{Picture, Style};
 
 /// Most lines of different colours in the sample of an entry.
 const SAMPLES: usize = 3;
@@ -15,24 +16,6 @@ const DOT: f64 = 0.26;
 const THICK: f64 = 0.12;
 /// The left ends of the texts, over the size of letters.
 const INDENT: f64 = 2.0;
-
-/// The meaning of the coloured lines and of the dots of a picture.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum LineMeaning {
-    /// Seams of a layout, and its cones.
-    #[default]
-    Seams,
-    /// Sides of a fundamental domain, and corners of the boundary.
-    Sides,
-    /// The cut along which a form was integrated.
-    Cut,
-    /// Horizontal and vertical trajectories, in this order of their colours.
-    Trajectories,
-    /// Borders of charts of an atlas, and its singular vertices.
-    Charts,
-    /// Something else, which other words tell.
-    Untold,
-}
 
 /// The mark before the text of an entry.
 enum Mark {
@@ -131,7 +114,7 @@ pub fn draw(picture: &Picture<'_>, style: &Style) -> Option<VectorSheet> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::ShownLayout;
+    use super::super::scene::ShownLayout;
     use super::*;
 
     #[test]

@@ -11,6 +11,7 @@ mod canvas;
 mod coat;
 mod color;
 mod colormap;
+mod content;
 mod drawing;
 mod fit;
 mod flat;
@@ -34,8 +35,8 @@ mod vector;
 pub use args::{ColorChoice, FlowPictureArgs, PictureArgs, SurfacePictureArgs, Zoom, zoom};
 pub use camera::{Camera, Viewpoint};
 pub use colormap::{CLASSES, ColorScale, HUES};
+pub use content::{LineMeaning, Picture};
 pub use drawing::{Area, Drawing, DrawingFrame, DrawingPattern, DrawnLine, Label, PALE, TINTS, tint_color};
-pub use key::LineMeaning;
 pub use region::{FINEST, cells, in_pieces, outline};
 pub use scene::{Circle, ColorField, Focus, ShownLayout, ShownSurface, Style};
 pub use texture::{OCTAVE, TextureChoice, Tiles};
@@ -49,24 +50,6 @@ use coat::PanelContent;
 use raster::PixelImage;
 use ricci::parallel;
 use sheet::VectorSheet;
-
-/// The content of a picture: the surface on the left, the layout or a drawing on the right, or one of them.
-#[derive(Clone, Copy, Default)]
-pub struct Picture<'a> {
-    pub surface: Option<ShownSurface<'a>>,
-    /// A second surface, on the right.
-    pub beside: Option<ShownSurface<'a>>,
-    pub flat: Option<ShownLayout<'a>>,
-    /// A second layout, on the right of the first.
-    pub flat_beside: Option<ShownLayout<'a>>,
-    /// A drawing in place of the layout, or beside it.
-    pub drawing: Option<&'a Drawing<'a>>,
-    /// The size of the pattern, where it is not to be found from the areas on both sides.
-    pub pattern: Option<&'a Tiles>,
-    pub field: Option<&'a ColorField>,
-    /// What the coloured lines and the dots mean.
-    pub lines: LineMeaning,
-}
 
 /// Space between two panels, over the size of a panel.
 const BETWEEN: f64 = 0.03;

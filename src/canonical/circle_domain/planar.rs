@@ -7,7 +7,7 @@ use super::disk::DomainInDisk;
 use super::domain::{CircleDomain, CircleReport, DomainCircle};
 use super::options::{CircleDomainOptions, DomainFrame, Normalisation, ROUND};
 use super::place::{anchor_weights, deviation, hub_edge, least_gap, loops_of_edges, rims};
-use super::precise_map::PrecisePoint;
+use super::precise_map::PrecisePlanePoint;
 use super::prepare::PreparedSurface;
 use super::verdict::largest_curvature;
 use super::view::DiskView;
@@ -75,7 +75,7 @@ struct PlanarSolution {
     start: Solution,
     /// The surface whose metric the plane has.
     on: PuncturedSurface,
-    plane: PerVertex<PrecisePoint>,
+    plane: PerVertex<PrecisePlanePoint>,
     found: PlaneReport,
     outer: usize,
     /// The unit of length of that metric.
@@ -202,7 +202,7 @@ fn rim_of(open: &Mesh, k: usize) -> Vec<VertexId> {
 /// A planar circle domain: its view, its metric and its hubs.
 struct PlanarDomain<'a> {
     view: DiskView,
-    plane: &'a PerVertex<PrecisePoint>,
+    plane: &'a PerVertex<PrecisePlanePoint>,
     solution: &'a Solution,
     filled: &'a FilledMesh,
     outer: usize,

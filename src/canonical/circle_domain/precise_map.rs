@@ -8,12 +8,12 @@ use crate::geometry::mobius::PlaneCircle;
 use crate::geometry::{DoubleDouble, Mobius};
 
 /// A point of the plane in double-double precision.
-pub(super) type PrecisePoint = Complex<DoubleDouble>;
+pub(super) type PrecisePlanePoint = Complex<DoubleDouble>;
 
 /// A circle in double-double precision.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PreciseCircle {
-    pub center: PrecisePoint,
+    pub center: PrecisePlanePoint,
     pub radius: DoubleDouble,
 }
 
@@ -26,29 +26,29 @@ impl PreciseCircle {
 /// A Möbius transformation, `z ↦ (a z + b)/(c z + d)`.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PreciseMap {
-    matrix: [[PrecisePoint; 2]; 2],
+    matrix: [[PrecisePlanePoint; 2]; 2],
 }
 
-pub(super) fn rounded(z: PrecisePoint) -> Complex {
+pub(super) fn rounded(z: PrecisePlanePoint) -> Complex {
     z.map(f64::from)
 }
 
-pub(super) fn precise(z: Complex) -> PrecisePoint {
+pub(super) fn precise(z: Complex) -> PrecisePlanePoint {
     z.map(DoubleDouble::from)
 }
 
-pub(super) fn size(z: PrecisePoint) -> DoubleDouble {
+pub(super) fn size(z: PrecisePlanePoint) -> DoubleDouble {
     norm2(z).sqrt()
 }
 
 /// The power of two just below the larger part of a number; 0 where it has none.
-fn exponent(z: PrecisePoint) -> i32 {
+fn exponent(z: PrecisePlanePoint) -> i32 {
     let largest = z.iter().fold(0.0, |m: f64, x| m.max(x.high.abs()));
     if largest > 0.0 && largest.is_finite() { largest.log2().floor() as i32 } else { 0 }
 }
 
 /// z/w; w is scaled, so that its square neither under- nor overflows.
-fn quotient(z: PrecisePoint, w: PrecisePoint) -> PrecisePoint {
+fn quotient(z: PrecisePlanePoint, w: PrecisePlanePoint) -> PrecisePlanePoint {
     let k = exponent(w);
     let unit = w.map(|x| x.scaled(-k));
     let square = norm2(unit);
@@ -84,18 +84,18 @@ impl PreciseMap {
         PreciseMap { matrix: [[d, neg(b)], [neg(c), a]] }
     }
 
-    pub fn apply(&self, z: PrecisePoint) -> PrecisePoint {
+    pub fn apply(&self, z: PrecisePlanePoint) -> PrecisePlanePoint {
         let [[a, b], [c, d]] = self.matrix;
         quotient(add(mul(a, z), b), add(mul(c, z), d))
     }
 
-    pub fn at_infinity(&self) -> PrecisePoint {
+    pub fn at_infinity(&self) -> PrecisePlanePoint {
         let [[a, _], [c, _]] = self.matrix;
         quotient(a, c)
     }
 
     /// log of the factor by which lengths grow at z.
-    pub fn log_scale(&self, z: PrecisePoint) -> f64 {
+    pub fn log_scale(&self, z: PrecisePlanePoint) -> f64 {
         let [_, [c, d]] = self.matrix;
         self.log_determinant() - 2.0 * size(add(mul(c, z), d)).high.ln()
     }
@@ -106,7 +106,7 @@ impl PreciseMap {
         self.log_determinant() - 2.0 * size(c).high.ln()
     }
 
-    fn determinant(&self) -> PrecisePoint {
+    fn determinant(&self) -> PrecisePlanePoint {
         let [[a, b], [c, d]] = self.matrix;
         sub(mul(a, d), mul(b, c))
     }

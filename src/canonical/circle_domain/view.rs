@@ -1,7 +1,7 @@
 //! The map from the plane of a punctured sphere to the unit disk.
 
 use super::super::star::PuncturedSurface;
-use super::precise_map::{PreciseCircle, PreciseMap, PrecisePoint, precise, rounded, size};
+use super::precise_map::{PreciseCircle, PreciseMap, PrecisePlanePoint, precise, rounded, size};
 use crate::geometry::Mobius;
 use crate::geometry::complex::{Complex, add, scale, sub};
 use crate::geometry::double_double::two_sum;
@@ -30,7 +30,7 @@ impl DiskView {
     /// The outside of the outer circle on the unit disk.
     pub fn new(
         on: &PuncturedSurface,
-        plane: &PerVertex<PrecisePoint>,
+        plane: &PerVertex<PrecisePlanePoint>,
         filled: &FilledMesh,
         outer: usize,
     ) -> DiskView {
@@ -60,7 +60,7 @@ impl DiskView {
         }
     }
 
-    fn seen(&self, map: &PreciseMap, plane: &PerVertex<PrecisePoint>, v: VertexId) -> PrecisePoint {
+    fn seen(&self, map: &PreciseMap, plane: &PerVertex<PrecisePlanePoint>, v: VertexId) -> PrecisePlanePoint {
         match v.index().checked_sub(self.n_points) {
             Some(k) => self.circle_seen(map, k).center,
             None if v == self.puncture => map.at_infinity(),
@@ -69,12 +69,12 @@ impl DiskView {
     }
 
     /// The vertices in the disk, hubs at the centres of their circles.
-    pub fn apply(&self, plane: &PerVertex<PrecisePoint>) -> PerVertex<Complex> {
+    pub fn apply(&self, plane: &PerVertex<PrecisePlanePoint>) -> PerVertex<Complex> {
         PerVertex::from_fn(plane.len(), |v| rounded(self.seen(&self.map, plane, v)))
     }
 
     /// The metric of the class with the lengths of the disk.
-    pub fn metric(&self, on: &PuncturedSurface, plane: &PerVertex<PrecisePoint>) -> Metric {
+    pub fn metric(&self, on: &PuncturedSurface, plane: &PerVertex<PrecisePlanePoint>) -> Metric {
         let mut metric = on.metric.clone();
         for v in on.mesh.vertices() {
             let by = match v.index().checked_sub(self.n_points) {
@@ -93,7 +93,7 @@ impl DiskView {
 
     /// The anchor of hub k: the point where the edge to the vertex `to` leaves its circle. It is found in the disk moved off the centre,
     /// then brought to the disk.
-    pub fn anchor(&self, plane: &PerVertex<PrecisePoint>, k: usize, to: VertexId) -> Complex {
+    pub fn anchor(&self, plane: &PerVertex<PrecisePlanePoint>, k: usize, to: VertexId) -> Complex {
         let PreciseCircle { center, radius } = self.circle_seen(&self.off_centre, k);
         let away = sub(self.seen(&self.off_centre, plane, to), center);
         // The outer circle is seen from its other side.

@@ -12,6 +12,7 @@ mod atomic;
 mod base64;
 mod budget;
 mod content;
+mod file_format;
 #[cfg(feature = "gifti")]
 mod gifti;
 #[cfg(feature = "gifti")]
@@ -40,6 +41,7 @@ mod textured;
 mod unpack;
 
 pub use atomic::{destination, write_atomically};
+pub use file_format::Format;
 #[cfg(feature = "gifti")]
 pub use gifti::parse_gifti;
 #[cfg(feature = "gltf")]
@@ -60,42 +62,8 @@ pub use stl::{parse_stl, parse_stl_welded};
 pub use surface_file::SurfaceFile;
 pub use textured::TexturedMesh;
 
-use crate::error::{Error, Result};
+use crate::error::Result;
 use std::path::Path;
-
-/// The format to write for each extension.
-const WRITERS: &[(&str, Format)] = &[
-    ("obj", Format::Obj),
-    ("off", Format::Off),
-    ("ply", Format::Ply),
-    #[cfg(feature = "gltf")]
-    ("glb", Format::Glb),
-];
-
-/// Extensions whose writers need a cargo feature, with its name.
-const WRITER_FEATURES: &[(&str, &str)] = &[("glb", "gltf")];
-
-/// The entry of `table` for the extension of a path (case does not matter). The error lists the extensions of the table or names the
-/// cargo feature that this build lacks.
-fn by_extension<T: Copy>(path: &Path, table: &[(&str, T)], features: &[(&str, &str)]) -> Result<T> {
-    let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
-    let is_this = |known: &str| extension.as_deref() == Some(known);
-    if let Some((_, entry)) = table.iter().find(|(known, _)| is_this(known)) {
-        return Ok(*entry);
-    }
-    let message = match features.iter().find(|(known, _)| is_this(known)) {
-        Some((extension, feature)) => {
-            format!(
-                ".{extension} files need the cargo feature `{feature}`, without which this library was built"
-            )
-        }
-        None => {
-            let known: Vec<_> = table.iter().map(|(extension, _)| format!(".{extension}")).collect();
-            format!("unknown format; known are {}", known.join(", "))
-        }
-    };
-    Err(Error::UnknownFormat { path: path.display().to_string(), message })
-}
 
 /// Reads a mesh file: .obj, .off, .ply, .stl; with the cargo feature `gltf` .glb and .gltf, with `gifti` .gii; with `gzip` each also
 /// packed, with `.gz` at the end. What is in the file counts, also under the name of another format.
@@ -105,31 +73,6 @@ fn by_extension<T: Copy>(path: &Path, table: &[(&str, T)], features: &[(&str, &s
 /// Those of [`SurfaceFile::open`] and [`SurfaceFile::soup`].
 pub fn read(path: &Path) -> Result<Soup> {
     SurfaceFile::open(path)?.soup()
-}
-
-/// A file format that can be written.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Format {
-    /// Wavefront OBJ.
-    Obj,
-    /// OFF, text.
-    Off,
-    /// PLY, binary.
-    Ply,
-    /// Binary glTF 2.0.
-    #[cfg(feature = "gltf")]
-    Glb,
-}
-
-impl Format {
-    /// The format for a file's extension (case does not matter): .obj, .off, .ply, .glb.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::UnknownFormat`] for another extension, and for .glb in a build without the cargo feature `gltf`.
-    pub fn of(path: &Path) -> Result<Format> {
-        by_extension(path, WRITERS, WRITER_FEATURES)
-    }
 }
 
 /// Writes a mesh file in the format for its extension.
@@ -173,8 +116,10 @@ pub fn write_as(path: &Path, format: Format, soup: &Soup) -> Result<Vec<String>>
 
 #[cfg(test)]
 mod tests {
+    use super::file_format::by_extension;
     use super::surface_file::{READER_FEATURES, READERS};
     use super::*;
+    use crate::error::Error;
 
     /// The first four readers are those of a build without features.
     #[test]

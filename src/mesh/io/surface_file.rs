@@ -1,9 +1,8 @@
 //! The bytes of a surface's file, from a name or from stdin, and what is made of them: one way for both.
 
+use super::file_format::by_extension;
 use super::guess::{SurfaceFormat, format};
-use super::{
-    Soup, by_extension, content, parse_obj, parse_off, parse_ply, parse_stl, parse_stl_welded, unpack,
-};
+use super::{Soup, content, parse_obj, parse_off, parse_ply, parse_stl, parse_stl_welded, unpack};
 use crate::error::{Error, Result};
 use std::path::{Path, PathBuf};
 

@@ -75,9 +75,9 @@ mod tests {
     #[test]
     fn parts_are_joined_and_damage_is_told() {
         let message = |bytes: Vec<u8>| unpacked(bytes, "m.gz").unwrap_err().to_string();
-        assert_eq!(unpacked(b"plain".to_vec(), "m").unwrap(), b"plain");
+        assert_eq!(unpacked(b"plain".to_vec(), "m").ok().as_deref(), Some(&b"plain"[..]));
         let two = [packed(b"one "), packed(b"two")].concat();
-        assert_eq!(unpacked(two.clone(), "m.gz").unwrap(), b"one two");
+        assert_eq!(unpacked(two.clone(), "m.gz").ok().as_deref(), Some(&b"one two"[..]));
         assert!(message(two[..two.len() - 9].to_vec()).contains("the gzip data are damaged"));
         assert!(message(packed(&packed(b"x"))).contains("packed this file twice"));
     }
