@@ -1,8 +1,8 @@
 //! The gradient flow `du/dt = K̄ − K`, explicit in time [JKLLG08, Eqn 16].
 //!
 //! The energy `∫ Σ (K − K̄) du` falls at every step (except with plain Barzilai–Borwein steps): a step after which it would not have fallen
-//! enough is shortened [Arm66]. The change of the energy along a step is small near the solution, but it is no difference of large numbers: it
-//! is the integral of the slope, by the trapezoidal rule with its Euler–Maclaurin correction.
+//! enough is shortened [Arm66]. The change of the energy along a step is computed as the integral of the slope, not as a difference of two
+//! energies, so it keeps its digits near the solution. The integral is formed by the trapezoidal rule with its Euler–Maclaurin correction.
 
 use super::Flow;
 use super::evaluate::FlowState;
@@ -15,7 +15,8 @@ use crate::error::Result;
 use crate::geometry::Space;
 use crate::mesh::{EdgeId, FaceId, VertexId};
 
-/// Largest factor by which a Barzilai–Borwein step may raise the largest residual (such steps are not monotone); a longer step is halved.
+/// Largest factor by which a Barzilai–Borwein step may raise the largest residual (such steps are not monotone); a step that
+/// raises it more is halved.
 const GROWTH: f64 = 10.0;
 /// Times that a step is shortened before the flow counts as stalled.
 const SHORTENINGS: usize = 60;
@@ -26,7 +27,7 @@ const SHORTER: [f64; 2] = [0.1, 0.5];
 
 /// Largest number of rescalings until a metric has the area that is kept: one is exact in E², and in S² they converge linearly.
 const RESCALINGS: usize = 20;
-/// Half the relative error of the area that is accepted after the last rescaling: far below the tolerance of flows.
+/// Largest shift of u still missing after the last rescaling: far below the tolerance of flows.
 const AREA_REACHED: f64 = 1e-12;
 
 /// A step of the gradient flow: its start and its end.
@@ -41,26 +42,26 @@ struct GradientStep {
     error: f64,
     next_error: f64,
     /// The change of the energy from `state` to `trial`.
-    fall: EnergyChange,
+    energy_change: EnergyChange,
     /// The total area that is kept, if any.
     area: Option<f64>,
     /// `∫ Σ (K − K̄) du` up to `state`.
     energy: f64,
 }
 
-/// The change of the energy along a step `s` of u, from its slopes and curvatures at both ends.
+/// The change of the energy along a change `s` of u, from its slopes and second derivatives at both ends.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 struct EnergyChange {
     /// `(K − K̄)·s` at the start and at the end.
     slopes: [f64; 2],
     /// `sᵀ (∂K/∂u) s` at the start and at the end.
-    curvatures: [f64; 2],
+    second_derivatives: [f64; 2],
 }
 
 impl EnergyChange {
-    /// The correction of the trapezoidal rule, which also bounds its error where the energy is smooth along the step.
+    /// The correction of the trapezoidal rule; its size is taken as the bound on the error of `estimate`.
     fn correction(&self) -> f64 {
-        (self.curvatures[1] - self.curvatures[0]) / 12.0
+        (self.second_derivatives[1] - self.second_derivatives[0]) / 12.0
     }
 
     fn estimate(&self) -> f64 {
@@ -80,7 +81,10 @@ impl EnergyChange {
 }
 
 impl Flow {
-    pub(super) fn gradient(
+    /// Runs the gradient flow from a state to the tolerance or to another reason to stop, and returns the last state. The first step is
+    /// [`Flow::stable_step`]; later ones start from Barzilai–Borwein's length, with [`StepRule::Stable`] from that of the state, and fixed
+    /// ones from h. All but [`StepRule::BarzilaiBorwein`] are shortened until the energy falls.
+    pub(super) fn run_gradient_flow(
         &self,
         state: FlowState,
         report: &mut Report,
@@ -96,38 +100,50 @@ impl Flow {
         let [mut direction, next_direction] = [(); 2].map(|()| vec![0.0; self.mesh.n_vertices()]);
         let first = state.residual(&self.target, &self.pinned, &mut direction);
         let trial = FlowState::new(&self.start, &self.start_low);
-        let (error, next_error, energy, fall) = (first, first, 0.0, EnergyChange::default());
-        let mut leg =
-            GradientStep { state, trial, direction, next_direction, error, next_error, fall, area, energy };
-        let mut step = 0.0;
-        self.note(&leg, step, report);
+        let (error, next_error, energy) = (first, first, 0.0);
+        let energy_change = EnergyChange::default();
+        let mut step = GradientStep {
+            state,
+            trial,
+            direction,
+            next_direction,
+            error,
+            next_error,
+            energy_change,
+            area,
+            energy,
+        };
+        let mut next_size = 0.0;
+        self.note(&step, next_size, report);
         report.stop_reason = loop {
-            if leg.error <= report.tolerance {
+            if step.error <= report.tolerance {
                 break StopReason::Converged;
             }
             if report.iterations >= self.options.iteration_limit() {
                 break StopReason::IterationLimit;
             }
-            control.step(Stage::Flow, progress(first, leg.error, report.tolerance))?;
+            control.step(Stage::Flow, progress(first, step.error, report.tolerance))?;
             match self.options.gradient.step {
-                StepRule::Fixed(h) => step = h,
+                StepRule::Fixed(h) => next_size = h,
                 StepRule::Armijo | StepRule::BarzilaiBorwein if report.iterations > 0 => {}
-                _ => step = timed(&mut report.seconds.assemble, || self.stable_step(&leg.state)),
+                _ => next_size = timed(&mut report.seconds.assemble, || self.stable_step(&step.state)),
             }
-            let Some(h) = self.go(&mut leg, step, report, control)? else { break StopReason::Stalled };
-            step = leg.finish(h, report.iterations);
+            let Some(h) = self.take_step(&mut step, next_size, report, control)? else {
+                break StopReason::Stalled;
+            };
+            next_size = step.finish(h, report.iterations);
             report.iterations += 1;
-            self.note(&leg, h, report);
+            self.note(&step, h, report);
         };
-        report.max_curvature_error = leg.error;
-        Ok(leg.state)
+        report.max_curvature_error = step.error;
+        Ok(step.state)
     }
 
-    /// Go `h` along the direction of a leg, or less far, until the energy has fallen enough there (with Barzilai–Borwein steps: until the
-    /// error is not much larger). Returns the step size, or none if that holds along no step.
-    fn go(
+    /// Goes `h` along the direction of a step, or less far, until the energy has fallen enough there (with Barzilai–Borwein steps: until the
+    /// error is not much larger). Returns the step size, or none if no trial fits.
+    fn take_step(
         &self,
-        leg: &mut GradientStep,
+        step: &mut GradientStep,
         mut h: f64,
         report: &mut Report,
         control: &Control,
@@ -135,17 +151,21 @@ impl Flow {
         let falls = self.options.gradient.step != StepRule::BarzilaiBorwein;
         for _ in 0..SHORTENINGS {
             control.check()?;
-            leg.trial.set_step(&leg.state, h, &leg.direction);
+            step.trial.set_step(&step.state, h, &step.direction);
             let mut shorter = 0.5;
-            if timed(&mut report.seconds.assemble, || self.settle(&mut leg.trial, leg.area)) {
-                leg.next_error = leg.trial.residual(&self.target, &self.pinned, &mut leg.next_direction);
-                leg.fall = timed(&mut report.seconds.assemble, || self.energy_change(leg));
-                let fits = if falls { leg.fall.is_enough() } else { leg.next_error <= GROWTH * leg.error };
+            if timed(&mut report.seconds.assemble, || self.evaluate_at_area(&mut step.trial, step.area)) {
+                step.next_error = step.trial.residual(&self.target, &self.pinned, &mut step.next_direction);
+                step.energy_change = timed(&mut report.seconds.assemble, || self.energy_change(step));
+                let fits = if falls {
+                    step.energy_change.is_enough()
+                } else {
+                    step.next_error <= GROWTH * step.error
+                };
                 if fits {
                     return Ok(Some(h));
                 }
                 if falls {
-                    shorter = leg.fall.shorter();
+                    shorter = step.energy_change.shorter();
                 }
             }
             h *= shorter;
@@ -153,23 +173,24 @@ impl Flow {
         Ok(None)
     }
 
-    /// The change of the energy from the start of a leg to its trial.
-    fn energy_change(&self, leg: &GradientStep) -> EnergyChange {
-        let step = leg.step();
-        let slope = |direction: &[f64]| -step.iter().zip(direction).map(|(s, d)| s * d).sum::<f64>();
+    /// The change of the energy from the start of a step to its trial.
+    fn energy_change(&self, step: &GradientStep) -> EnergyChange {
+        let change = step.change_of_u();
+        let slope = |direction: &[f64]| -change.iter().zip(direction).map(|(s, d)| s * d).sum::<f64>();
         EnergyChange {
-            slopes: [slope(&leg.direction), slope(&leg.next_direction)],
-            curvatures: [&leg.state, &leg.trial].map(|state| self.second_derivative(state, &step)),
+            slopes: [slope(&step.direction), slope(&step.next_direction)],
+            second_derivatives: [&step.state, &step.trial]
+                .map(|state| self.second_derivative(state, &change)),
         }
     }
 
-    /// `sᵀ (∂K/∂u) s` at a state ([`super::jacobian`]); the faces that are broken there add nothing.
-    fn second_derivative(&self, state: &FlowState, step: &[f64]) -> f64 {
+    /// `sᵀ (∂K/∂u) s` at a state for a `change` s of u ([`super::jacobian`]); the faces that are broken there add nothing.
+    fn second_derivative(&self, state: &FlowState, change: &[f64]) -> f64 {
         let twice = 2.0 * self.metric.space.curvature();
         let of_face = |f: FaceId| {
             let sides = self.mesh.opposite_edges(f).into_iter().zip(state.weights[f.index()]);
             let of_side = |(e, w): (EdgeId, f64)| {
-                let [a, b] = self.mesh.ends(e).map(|v| step[v.index()]);
+                let [a, b] = self.mesh.ends(e).map(|v| change[v.index()]);
                 w * ((a - b) * (a - b) - twice * state.squared_chord(e) * (a * a + b * b))
             };
             sides.map(of_side).sum::<f64>()
@@ -177,15 +198,16 @@ impl Flow {
         self.mesh.faces().map(of_face).sum()
     }
 
-    /// Report the start of a leg, to which a step of this size has led.
-    fn note(&self, leg: &GradientStep, step_size: f64, report: &mut Report) {
-        let area = leg.state.area(&self.mesh, &self.metric);
-        let (step, energy, max_curvature_error) = (report.iterations, leg.energy, leg.error);
+    /// Adds the current state to the report; `step_size` led to it.
+    fn note(&self, step: &GradientStep, step_size: f64, report: &mut Report) {
+        let area = step.state.area(&self.mesh, &self.metric);
+        let (iteration, energy, max_curvature_error) = (report.iterations, step.energy, step.error);
         report.residuals.push(max_curvature_error);
-        report.trace.push(TraceRow { step, energy, max_curvature_error, area, step_size });
+        report.trace.push(TraceRow { step: iteration, energy, max_curvature_error, area, step_size });
     }
 
-    /// The explicit scheme is stable for h < 2/λ_max, and λ_max ≤ 2 max_i Σ |w| c(l) (Gershgorin).
+    /// The explicit scheme is stable for h < 2/λ_max. By Gershgorin `λ_max ≤ max_i Σ |w| (1 + |c(l)|)` with c(l) = 1, cos l, cosh l, since
+    /// the diagonal entries of ∂K/∂u are sums of w c and the others of −w. In H², where c ≥ 1, the larger bound `2 Σ |w| c` is taken.
     fn stable_step(&self, state: &FlowState) -> f64 {
         let space = self.metric.space;
         let mut row = vec![0.0; self.mesh.n_vertices()];
@@ -194,15 +216,18 @@ impl Flow {
             for (h, w) in self.mesh.face_halfedges(f).into_iter().zip(weights) {
                 let side = self.mesh.next(h);
                 let c = 1.0 - 2.0 * space.curvature() * state.squared_chord(side.edge());
-                row[self.mesh.origin(side).index()] += w.abs() * c;
-                row[self.mesh.tip(side).index()] += w.abs() * c;
+                // Half of the bound, which is 1 in E².
+                let share = if space == Space::S2 { 0.5 * (1.0 + c.abs()) } else { c };
+                row[self.mesh.origin(side).index()] += w.abs() * share;
+                row[self.mesh.tip(side).index()] += w.abs() * share;
             }
         }
         1.0 / row.into_iter().fold(f64::MIN_POSITIVE, f64::max)
     }
 
-    /// Evaluate `state.u`, after bringing it to the total area `area` (if given) by a constant; false where there is no such metric.
-    pub(super) fn settle(&self, state: &mut FlowState, area: Option<f64>) -> bool {
+    /// Evaluates `state.u`; then shifts it by a constant until the area is `area`, or, with a free scale and no area, centres it before.
+    /// False where there is no such metric.
+    pub(super) fn evaluate_at_area(&self, state: &mut FlowState, area: Option<f64>) -> bool {
         if area.is_none() && self.free_scale() {
             state.center();
         }
@@ -210,7 +235,7 @@ impl Flow {
             return false;
         }
         let Some(area) = area else { return state.has_finite_area(&self.mesh, &self.metric) };
-        // Area grows as e^{2u} (exactly in E²): a fixed point that contracts fast on the sphere too.
+        // Shift by ½ log(wanted/actual): exact in E², a fast contraction in S².
         let missing = |state: &FlowState| 0.5 * (area / state.area(&self.mesh, &self.metric)).ln();
         for _ in 0..RESCALINGS {
             let mut shift = missing(state);
@@ -235,8 +260,9 @@ impl Flow {
 }
 
 impl GradientStep {
-    /// The change of u from the start to the trial. Near the solution it may be smaller than the rounding of u, so low parts count.
-    fn step(&self) -> Vec<f64> {
+    /// The change of u from the start to the trial. Near the solution it may be smaller than the rounding of u, so the low-order parts of u
+    /// are added.
+    fn change_of_u(&self) -> Vec<f64> {
         let change = |v: usize| {
             let v = VertexId::from(v);
             (self.trial.u[v] - self.state.u[v]) + (self.trial.low[v] - self.state.low[v])
@@ -244,17 +270,17 @@ impl GradientStep {
         (0..self.direction.len()).map(change).collect()
     }
 
-    /// Let the next leg start at the end of this one, of size `h`, and add the change of the energy. Returns the next step size to try:
-    /// Barzilai–Borwein's long and short step in turn \[BB88\], or `h` again where the energy is straight along the leg.
+    /// Lets the next step start at the end of this one, of size `h`, and adds the change of the energy. Returns the next step size to try:
+    /// Barzilai–Borwein's long and short step in turn \[BB88\], or `h` again where the energy is not convex along the step.
     fn finish(&mut self, h: f64, iteration: usize) -> f64 {
         let (mut ss, mut sy, mut yy) = (0.0, 0.0, 0.0);
-        for (v, s) in self.step().into_iter().enumerate() {
+        for (v, s) in self.change_of_u().into_iter().enumerate() {
             ss += s * s;
             let y = self.direction[v] - self.next_direction[v];
             sy += s * y;
             yy += y * y;
         }
-        self.energy += self.fall.estimate();
+        self.energy += self.energy_change.estimate();
         std::mem::swap(&mut self.state, &mut self.trial);
         std::mem::swap(&mut self.direction, &mut self.next_direction);
         self.error = self.next_error;
@@ -270,10 +296,13 @@ impl GradientStep {
 mod tests {
     use super::*;
 
-    /// The energy e^x − x along a step from a to b, where its slope and curvature are e^x − 1 and e^x.
+    /// The energy e^x − x along a step from a to b, where its slope and second derivative are e^x − 1 and e^x.
     fn along(a: f64, b: f64) -> EnergyChange {
         let s = b - a;
-        EnergyChange { slopes: [a, b].map(|x| s * x.exp_m1()), curvatures: [a, b].map(|x| s * s * x.exp()) }
+        EnergyChange {
+            slopes: [a, b].map(|x| s * x.exp_m1()),
+            second_derivatives: [a, b].map(|x| s * s * x.exp()),
+        }
     }
 
     #[test]
@@ -290,7 +319,7 @@ mod tests {
     }
 
     #[test]
-    fn steps_beyond_twice_the_lowest_point_are_shortened() {
+    fn steps_beyond_twice_the_distance_to_the_minimum_are_shortened() {
         assert!(along(-0.1, 0.05).is_enough());
         assert!(!along(-0.1, 0.11).is_enough());
         assert!(!along(-0.1, 3.0).is_enough());

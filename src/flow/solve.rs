@@ -232,7 +232,7 @@ impl Flow {
                 report.stop_reason = StopReason::Infeasible;
                 stopped(state)
             }
-            (Method::Gradient, _) => stopped(self.gradient(state, report, control)?),
+            (Method::Gradient, _) => stopped(self.run_gradient_flow(state, report, control)?),
             (Method::Newton, Space::S2) => stopped(self.spherical(state, report, control)?),
             (Method::Newton, _) => self.newton(state, report, control)?,
         };

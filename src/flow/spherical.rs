@@ -35,7 +35,7 @@ impl Flow {
         control: &Control,
     ) -> Result<FlowState> {
         let area = (!self.has_pins()).then(|| self.spherical_area());
-        if !self.settle(&mut state, area) {
+        if !self.evaluate_at_area(&mut state, area) {
             return Ok(self.without_a_start(report));
         }
         let mut at = Iterate::new(self, state);
@@ -92,7 +92,7 @@ impl Flow {
         }
         let Iterate { state, trial, step, .. } = at;
         trial.set_step(state, 1.0, step);
-        let inside = timed(&mut report.seconds.assemble, || self.settle(trial, area));
+        let inside = timed(&mut report.seconds.assemble, || self.evaluate_at_area(trial, area));
         let is_better = inside && self.norm_at(trial) < self.norm_at(state);
         if is_better {
             std::mem::swap(state, trial);
