@@ -49,7 +49,7 @@
 //!   each of them uses
 //!   |  canonical metric -> layout -> cover             canonical.rs        cover/
 //!   |  harmonic map            balance at vertices     balance/
-//!   |  several classes         the least energy        variants.rs
+//!   |  several classes         the least energy        least_energy.rs
 //!   loops as circles, if wanted                        round/
 //!   the vertices of each in the other's triangles      cover/walk.rs       result.rs   surface_map.rs
 //! common subdivision of both, distortion of the map    overlay/            quality.rs
@@ -79,6 +79,7 @@ mod domain_pair;
 mod fit;
 mod handles;
 mod landmarks;
+mod least_energy;
 mod match_surfaces;
 mod options;
 mod orbifold;
@@ -91,7 +92,6 @@ mod same_triangulation;
 mod sphere;
 mod strategy;
 mod surface_map;
-mod variants;
 
 pub use crate::mesh::Place;
 pub use balance::BalanceReport;

@@ -4,12 +4,12 @@ use super::disk;
 use super::domain_pair::DomainPair;
 use super::handles::with_handles;
 use super::landmarks::{MarkedSurface, Marks, loop_orders, marks};
+use super::least_energy::LeastEnergy;
 use super::options::{LoopShape, MatchOptions};
 use super::orbifold::in_orbifold;
 use super::pushed::with_pushed_landmarks;
 use super::same_triangulation::{cone_order, in_frames_of_faces};
 use super::sphere::on_sphere;
-use super::variants::LeastEnergy;
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::mesh::VertexId;
@@ -112,7 +112,7 @@ pub(super) fn in_best_order(
     } else {
         vec![options.loops.clone()]
     };
-    let (mut least, mut markings) = (LeastEnergy::until(UNTWISTED), 0);
+    let (mut least, mut markings) = (LeastEnergy::new(UNTWISTED), 0);
     for order in orders {
         let found = marks(surfaces, landmarks, order.as_deref()).and_then(|marks| {
             let sides = [0, 1].map(|s| MarkedSurface { surface: surfaces[s], marks: &marks[s] });
@@ -124,7 +124,7 @@ pub(super) fn in_best_order(
             Err(Error::Matching(_)) => {}
             Err(_) => return found.map(|(_, best)| best),
         }
-        if least.enter(found)? {
+        if least.offer(found)? {
             break;
         }
     }

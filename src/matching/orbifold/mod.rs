@@ -14,8 +14,8 @@ use super::canonical::{CanonicalMetric, CanonicalSurface, Opening, for_both};
 use super::cover::{PlacedMesh, UniversalCover, WalkSeed, aimed};
 use super::domain_pair::DomainPair;
 use super::landmarks::{MarkedSurface, Marks};
+use super::least_energy::LeastEnergy;
 use super::options::{BoundaryMatching, MatchOptions};
-use super::variants::LeastEnergy;
 use crate::control::Control;
 use crate::embed::LayoutScale;
 use crate::error::{Error, Result};
@@ -152,7 +152,7 @@ fn best_marking(
     let OrbifoldProblem { sides, .. } = problem;
     let distances = [distances(sides[0], control)?, distances(sides[1], control)?];
     let most = if sides[0].marks.n() <= RIGID { 1 } else { MOST_MARKINGS };
-    let mut least = LeastEnergy::until(UNTWISTED);
+    let mut least = LeastEnergy::new(UNTWISTED);
     for variant in 0..most {
         let marked = trees(sides, &distances, variant, control)
             .and_then(|trees| marking(problem, metrics, trees, control))
@@ -160,7 +160,7 @@ fn best_marking(
         if let Ok((ratio, _)) = &marked {
             log::debug!("marking {variant}: energy {ratio} of the target's");
         }
-        if least.enter(marked)? {
+        if least.offer(marked)? {
             break;
         }
     }

@@ -15,8 +15,8 @@ use super::cover::{PlacedMesh, UniversalCover, WalkSeed};
 use super::domain_pair::DomainPair;
 use super::handles::with_handles;
 use super::landmarks::{MarkedSurface, Marks};
+use super::least_energy::LeastEnergy;
 use super::options::MatchOptions;
-use super::variants::LeastEnergy;
 use crate::control::Control;
 use crate::embed::LayoutScale;
 use crate::error::Result;
@@ -108,7 +108,7 @@ fn least(
     mut image: impl FnMut(usize, u64) -> Result<Option<PushedImage>>,
     enough: f64,
 ) -> Result<(PushedImage, usize)> {
-    let mut least = LeastEnergy::until(enough);
+    let mut least = LeastEnergy::new(enough);
     let mut all: Vec<(Option<usize>, u64)> = (0..sources).map(|source| (Some(source), 0)).collect();
     all.extend((1..MOST_PATHS).map(|variant| (None, variant)));
     for (source, variant) in all {
@@ -118,7 +118,7 @@ fn least(
             let energy = next.relaxed.energy;
             log::debug!("map {source}, paths {variant}: energy {energy}, enough is {enough}");
         }
-        if least.enter(next.map(|next| (next.relaxed.energy, (next, source))))? {
+        if least.offer(next.map(|next| (next.relaxed.energy, (next, source))))? {
             break;
         }
     }

@@ -11,8 +11,8 @@ use super::cover::{PlacedMesh, UniversalCover, WalkSeed, locate};
 use super::domain_pair::DomainPair;
 use super::fit::{ConformalFactors, PolarSample, best_turn, centre, factors};
 use super::landmarks::MarkedSurface;
+use super::least_energy::LeastEnergy;
 use super::options::MatchOptions;
-use super::variants::LeastEnergy;
 use crate::canonical::{SphereOptions, uniformize_sphere};
 use crate::control::Control;
 use crate::error::{Error, Result};
@@ -54,7 +54,7 @@ fn best_rotated(
 ) -> Result<PlacedMesh> {
     let points = [source, target].map(positions);
     let densities = [0, 1].map(|s| samples(surfaces[s], &points[s]));
-    let mut least = LeastEnergy::until(f64::NEG_INFINITY);
+    let mut least = LeastEnergy::new(f64::NEG_INFINITY);
     for turn in turnings([&densities[0], &densities[1]])? {
         control.check()?;
         let mut turned = source.clone();
@@ -74,7 +74,7 @@ fn best_rotated(
             off.map(|((a, b), w)| w * (a - b) * (a - b)).sum()
         };
         let off = locate(&turned, target, seed, control).map(difference);
-        least.enter(off.map(|off| (off, turned)))?;
+        least.offer(off.map(|off| (off, turned)))?;
     }
     least.into_best("no rotation of the sphere was found")
 }
