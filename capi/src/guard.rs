@@ -3,8 +3,8 @@
 //! The body runs in the default floating-point environment, and a panic becomes `RICCI_PANIC`. It poisons a handle that the body
 //! was changing; handles that the body only reads stay valid.
 
-use crate::environment::Environment;
 use crate::failure::{Failure, Outcome};
+use crate::float_environment::HostFloatEnvironment;
 use crate::memory;
 use crate::status::*;
 use crate::thread_failure;
@@ -61,7 +61,7 @@ pub fn call(body: impl FnOnce() -> Outcome) -> ricci_status {
 
 /// Runs a body for [`call`]. This function is not generic: a copy for each entry point would take a fifth of a megabyte.
 fn run(body: &mut dyn FnMut() -> Outcome) -> ricci_status {
-    let _host = Environment::enter();
+    let _host = HostFloatEnvironment::replace_by_default();
     let failure = match guarded(&mut || memory::little().and_then(|()| body())) {
         Ok(Ok(())) => return RICCI_OK,
         Ok(Err(failure)) => {
@@ -117,7 +117,7 @@ pub fn free<H>(handle: *mut H) {
     if handle.is_null() {
         return;
     }
-    let _host = Environment::enter();
+    let _host = HostFloatEnvironment::replace_by_default();
     // SAFETY: made by `make` and not freed before (contract of the header).
     let mut release = || {
         drop(unsafe { Box::from_raw(handle) });

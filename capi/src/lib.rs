@@ -7,7 +7,7 @@
 //! | file | purpose |
 //! |---|---|
 //! | `guard` | runs the body of every entry point, so that nothing unwinds into C; a panic poisons the handle that was being changed |
-//! | `environment` | sets the floating-point environment, and puts the host's back |
+//! | `float_environment` | sets the floating-point environment, and puts the host's back |
 //! | `memory` | asks the system for memory before the work, so that a refusal becomes a status |
 //! | `arrays`, `structs`, `choice`, `paths` | move arrays, structs, enum values, edge paths and words from and to C |
 //! | `failure`, `thread_failure`, `status` | describe an error, and keep the last one of every thread |
@@ -26,8 +26,8 @@
 mod arrays;
 mod boundary;
 mod choice;
-mod environment;
 mod failure;
+mod float_environment;
 mod guard;
 mod memory;
 mod paths;

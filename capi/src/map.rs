@@ -115,14 +115,14 @@ pub unsafe extern "C" fn ricci_map_summarise(
     size: usize,
 ) -> ricci_status {
     guard::with(map, |map| {
-        let CommonSubdivision { mesh, crossings, piece, .. } = &*map.subdivision;
+        let CommonSubdivision { mesh, crossings, polygon_of, .. } = &*map.subdivision;
         let figures = ricci_map_summary {
             size,
             n_vertices: mesh.n_vertices(),
             n_edges: mesh.n_edges(),
             n_faces: mesh.n_faces(),
             n_crossings: crossings.len(),
-            n_pieces: piece.last().map_or(0, |&last| last as usize + 1),
+            n_pieces: polygon_of.last().map_or(0, |&last| last as usize + 1),
         };
         structs::write(figures, summary, size)
     })
@@ -155,7 +155,7 @@ pub unsafe extern "C" fn ricci_map_faces(
             Triangulation::Subdivision => None,
             _ => Some(&subdivision.faces[side(on)?]),
         };
-        let number = |f: FaceId| of.map_or(subdivision.piece[f], |of| of[f].0);
+        let number = |f: FaceId| of.map_or(subdivision.polygon_of[f], |of| of[f].0);
         copy_each("faces", subdivision.mesh.n_faces(), subdivision.mesh.faces().map(number), faces, capacity)
     })
 }

@@ -60,9 +60,9 @@ fn shortest_products(
 /// The limits at which the search for a polygon gives up.
 pub(super) struct SearchLimits {
     /// Radius below which no polygon has room for the surface.
-    pub least: f64,
+    pub least_radius: f64,
     /// Number of products of elements that may still be formed, for all polygons together.
-    pub left: usize,
+    pub products_left: usize,
 }
 
 /// A deck group about the origin, with generators and with the boundary lifts that bound the universal cover.
@@ -73,7 +73,7 @@ pub(super) struct BoundedGroup<'a> {
     /// At least one lift of each boundary loop.
     pub borders: Vec<BoundaryLift>,
     /// The largest distance of these lifts' points from the origin.
-    pub reach: f64,
+    pub farthest_border: f64,
 }
 
 /// The line on which a side of the polygon lies.
@@ -131,10 +131,10 @@ impl BisectorPolygon {
             let sides: Vec<DeckElement> = self.elements().cloned().collect();
             for g in sides.iter().chain(&factors) {
                 control.check()?;
-                if self.radius < limits.least || limits.left == 0 {
+                if self.radius < limits.least_radius || limits.products_left == 0 {
                     return Ok(());
                 }
-                limits.left = limits.left.saturating_sub(sides.len());
+                limits.products_left = limits.products_left.saturating_sub(sides.len());
                 for h in &sides {
                     let motion = g.motion.compose(&h.motion);
                     if self.is_cut_by(&motion) || self.is_cut_by(&motion.inverse()) {
@@ -147,7 +147,7 @@ impl BisectorPolygon {
                 break;
             }
             if !is_bounded {
-                limits.left = limits.left.saturating_sub(factors.len() * factors.len());
+                limits.products_left = limits.products_left.saturating_sub(factors.len() * factors.len());
                 factors = shortest_products(deck, &factors, self.same, control)?;
                 factors.extend_from_slice(&generators);
             }
@@ -185,7 +185,7 @@ impl BisectorPolygon {
             for (k, g) in &known {
                 // For the image of an image, the elements are multiplied first, which loses fewer digits.
                 let motion = h.motion.compose(&g.motion);
-                if motion.displacement() > self.radius + all.reach {
+                if motion.displacement() > self.radius + all.farthest_border {
                     continue;
                 }
                 let line = all.borders[*k].conjugated_by(&motion).line();

@@ -25,7 +25,7 @@ impl InputEdgeParts {
     /// [`Error::Layout`] where the parts of an edge do not follow one another.
     pub fn of_subdivision(input: &Mesh, r: &CommonSubdivision) -> Result<InputEdgeParts> {
         let along = |e: EdgeId| -> Option<(EdgeId, HalfedgeId)> {
-            let h = r.along[e][0]?;
+            let h = r.halfedges_along[e][0]?;
             let part = e.halfedge();
             Some((h.edge(), if h.0 & 1 == 0 { part } else { part.twin() }))
         };

@@ -99,7 +99,7 @@ impl Faces<'_, Motion<DoubleDouble>> {
 
     /// A point of a face whose first half-edge has this frame; at a corner in double-double precision.
     pub fn point(&self, face: FaceId, first: Motion<DoubleDouble>, place: PlaceInFace) -> [DoubleDouble; 3] {
-        match place.rounded() {
+        match place.rounded_corner() {
             Some(corner) => self.around(face, 0, first)[corner].origin(),
             None => {
                 let local = combination(self.space, self.local(face), place.weights());
@@ -294,7 +294,7 @@ impl<'a, F: HalfedgeFrame> PlacedFace<'a, F> {
 
     /// A point of the face in the layout, and the low parts of x and y in double-double precision, which are known only at a corner.
     pub fn point(&self, place: PlaceInFace) -> ([f64; 3], [f64; 2]) {
-        match place.rounded() {
+        match place.rounded_corner() {
             Some(corner) => self.faces.side(self.face, corner, self.first).point(),
             None => (self.first.apply(self.local(place.weights())), [0.0; 2]),
         }
@@ -303,7 +303,7 @@ impl<'a, F: HalfedgeFrame> PlacedFace<'a, F> {
     /// The differences between `points` and the points of the face at these places ([`HalfedgeFrame::miss`]). At a corner the difference is
     /// a vector at the corner itself, since in a large face of H² it would be magnified elsewhere.
     pub fn misses(&self, points: [[f64; 3]; 3], places: [PlaceInFace; 3], sides: &[F; 3]) -> [[f64; 2]; 3] {
-        [0, 1, 2].map(|k| match places[k].rounded() {
+        [0, 1, 2].map(|k| match places[k].rounded_corner() {
             Some(corner) => sides[corner].miss_of_origin(points[k]),
             None => self.first.miss(points[k], self.local(places[k].weights())),
         })

@@ -140,16 +140,16 @@ impl<'a> RepairedFaces<'a> {
             n_vertices: [input.n_vertices(), n_vertices],
             crossings: Vec::new(),
             weight: vec![1.0; n_vertices].into(),
-            piece: (0..n as u32).collect::<Vec<_>>().into(),
+            polygon_of: (0..n as u32).collect::<Vec<_>>().into(),
             faces: [
                 self.source.iter().map(|s| s.0).collect::<Vec<_>>().into(),
                 mesh.faces().collect::<Vec<_>>().into(),
             ],
-            along: PerEdge::from(along),
+            halfedges_along: PerEdge::from(along),
             barycentric: [self.source.iter().map(|s| s.1).collect(), vec![CORNERS; n]],
             mesh,
         };
-        let refinement = Arc::new(CommonSubdivision::packed(parts, [input, &own]));
+        let refinement = Arc::new(CommonSubdivision::from_barycentric(parts, [input, &own]));
         Ok(RepairedInput { refinement, split_edges, corner_index, points, coordinates, flipped })
     }
 }

@@ -1,4 +1,4 @@
-//! The faces of a surface in the metric of a flow, each in a frame of its own, and the motions between neighbouring frames.
+//! The faces of the input, in the metric of a flow, each in a frame of its own, and the motions between neighbouring frames.
 //!
 //! Each face lies near the origin of its frame, so errors do not grow with the extent of the surface, whereas in H² a layout in a single
 //! frame magnifies errors by e^distance.
@@ -12,13 +12,13 @@ use crate::geometry::{DoubleDouble, Motion};
 use crate::mesh::{FaceId, HalfedgeId, PerFace, PerHalfedge};
 use std::sync::Arc;
 
-/// The faces of the surface as it came, each in a frame of its own, in the metric of a flow. If edges were flipped, a face consists of
+/// The faces of the input, in the metric of a flow, each in a frame of its own. If edges were flipped, a face consists of
 /// pieces of the flow's triangles.
 pub(crate) struct SeparateFaces {
     /// Per half-edge of a face, its origin in the frame of the face.
     pub corner: PerHalfedge<[DoubleDouble; 3]>,
-    /// Per half-edge between two faces, the motion that carries the frame of the face on its right to its place beside the face on its
-    /// left; the identity elsewhere.
+    /// Per half-edge between two faces, the motion from the frame of the face across it to the frame of its own face; the identity
+    /// elsewhere.
     pub across: PerHalfedge<Motion<DoubleDouble>>,
 }
 
@@ -45,14 +45,15 @@ impl SeparateFaces {
         for piece in pieces.mesh().faces() {
             let sides = pieces.mesh().face_halfedges(piece);
             for k in 0..3 {
-                if let Some(input_corner) = pieces.input_place((piece, k), sides[k]).rounded() {
+                if let Some(input_corner) = pieces.input_place((piece, k), sides[k]).rounded_corner() {
                     let h = given.face_halfedges(pieces.input_face(piece))[input_corner];
                     let place = pieces.final_place((piece, k), sides[k]);
                     corner[h] = faces.point(pieces.final_face(piece), frames[piece], place);
                 }
                 let beside = pieces.mesh().face(sides[k].twin());
                 if let (Some(h), Some(beside)) = (pieces.input_halfedge(sides[k]), beside) {
-                    let frame = across_halfedge(&pieces, &faces, frames[piece], sides[k])?;
+                    let frame = frame_beyond(&pieces, &faces, frames[piece], sides[k])?;
+                    // All parts of an edge give the same motion, up to rounding.
                     across[h] = frame.compose(&frames[beside].inverse()).normalised();
                 }
             }
@@ -61,8 +62,8 @@ impl SeparateFaces {
     }
 }
 
-/// Per piece, the frame of the first half-edge of its final face, in the frame of its face of the input. That is the frame of the face's
-/// first piece.
+/// Per piece, the motion from the standard position of its final face (first corner at the origin, first side along the x axis) to the frame
+/// of its input face. An input face's frame is the one in which this is the identity for its first piece.
 fn frames(
     pieces: &LayoutPieces,
     faces: &Faces<Motion<DoubleDouble>>,
@@ -81,17 +82,17 @@ fn frames(
                 continue;
             };
             if frames[beside.index()].is_none() {
-                frames[beside.index()] = Some(across_halfedge(pieces, faces, frame, h)?);
+                frames[beside.index()] = Some(frame_beyond(pieces, faces, frame, h)?);
                 waiting.push(beside);
             }
         }
     }
     let all: Option<Vec<_>> = frames.into_iter().collect();
-    Ok(all.ok_or_else(|| Error::Layout("the parts of a face do not hang together".into()))?.into())
+    Ok(all.ok_or_else(|| Error::Layout("the pieces of a face are not connected".into()))?.into())
 }
 
-/// The frame of the final face of the piece across a half-edge, from that of the piece on its left.
-fn across_halfedge(
+/// As in [`frames`], the motion for the piece across `h`, continued from that of the piece at `h`.
+fn frame_beyond(
     pieces: &LayoutPieces,
     faces: &Faces<Motion<DoubleDouble>>,
     frame: Motion<DoubleDouble>,

@@ -73,7 +73,7 @@ fn places(domain: &Domain, edges: &BTreeSet<EdgeId>, control: &Control) -> Resul
         .iter()
         .map(|c| (c[1].edge, ((c[1].weights[0] - 0.5).abs(), c[0].edge, c[0].weights[1])));
     // A Delaunay edge that is an edge of the given triangulation has no crossings.
-    let given = subdivision.along.iter().filter_map(|&[given, here]| {
+    let given = subdivision.halfedges_along.iter().filter_map(|&[given, here]| {
         let [given, here] = [given?, here?].map(HalfedgeId::edge);
         Some((here, (0.5, given, 0.5)))
     });

@@ -159,7 +159,7 @@ impl<T: FactorNumber> FrontMemory<T> {
         let height = width + m;
         let mut top = waiting.len();
         let updates = supernodes.children(s).map(|c| {
-            let rows = supernodes.relative(c);
+            let rows = supernodes.rows_in_parent(c);
             let values = top - packed(rows.len())..top;
             top = values.start;
             (rows, values)
@@ -176,7 +176,7 @@ impl<T: FactorNumber> FrontMemory<T> {
             outer(own, width, height, front);
             let mut from = waiting.len();
             for c in supernodes.children(s) {
-                let rows = supernodes.relative(c);
+                let rows = supernodes.rows_in_parent(c);
                 let values = &waiting[from - packed(rows.len())..from];
                 from -= values.len();
                 FrontUpdate { rows, values }.add(front, width..height, width, m);
@@ -270,7 +270,7 @@ impl<'a, T: FactorNumber> ChildUpdates<'a, T> {
     fn updates(&self) -> impl Iterator<Item = FrontUpdate<'_, T>> {
         self.held.iter().flat_map(|(_, values, children)| {
             children.iter().map(|&(c, start)| {
-                let rows = self.supernodes.relative(c);
+                let rows = self.supernodes.rows_in_parent(c);
                 FrontUpdate { rows, values: &values[start..start + packed(rows.len())] }
             })
         })

@@ -88,13 +88,13 @@ mod vectors {
         fn vectors_mut<S: Simd>(simd: S, x: &mut [Self]) -> (&mut [Self::Vector<S>], &mut [Self]);
 
         /// Fewer numbers than a vector has, followed by 0.
-        fn some<S: Simd>(simd: S, x: &[Self]) -> Self::Vector<S>;
+        fn load_partial<S: Simd>(simd: S, x: &[Self]) -> Self::Vector<S>;
 
         /// Writes the first numbers of a vector to `out`.
-        fn store_some<S: Simd>(simd: S, x: Self::Vector<S>, out: &mut [Self]);
+        fn store_partial<S: Simd>(simd: S, x: Self::Vector<S>, out: &mut [Self]);
 
-        /// A vector with the same number everywhere.
-        fn everywhere<S: Simd>(simd: S, x: Self) -> Self::Vector<S>;
+        /// A vector all of whose numbers are x.
+        fn splat<S: Simd>(simd: S, x: Self) -> Self::Vector<S>;
 
         /// `a b + c`, with one rounding where the processor has such an instruction.
         fn multiply_add<S: Simd>(
@@ -124,17 +124,17 @@ mod vectors {
                 }
 
                 #[inline(always)]
-                fn some<S: Simd>(simd: S, x: &[Self]) -> Self::Vector<S> {
+                fn load_partial<S: Simd>(simd: S, x: &[Self]) -> Self::Vector<S> {
                     simd.$some(x)
                 }
 
                 #[inline(always)]
-                fn store_some<S: Simd>(simd: S, x: Self::Vector<S>, out: &mut [Self]) {
+                fn store_partial<S: Simd>(simd: S, x: Self::Vector<S>, out: &mut [Self]) {
                     simd.$store(out, x);
                 }
 
                 #[inline(always)]
-                fn everywhere<S: Simd>(simd: S, x: Self) -> Self::Vector<S> {
+                fn splat<S: Simd>(simd: S, x: Self) -> Self::Vector<S> {
                     simd.$splat(x)
                 }
 

@@ -1,8 +1,8 @@
-//! Forward and backward substitution with a supernodal factor, for one right-hand side. Dense kernels made for factorisations would spend
-//! more time on being called for the many small supernodes than on arithmetic.
+//! Forward and backward substitution with a supernodal factor, for one right-hand side. It has kernels of its own: on many small
+//! supernodes, calling those of the factorisation costs more than the arithmetic.
 //!
-//! Bundles ([`super::tree`]) run in parallel, heavy supernodes one after the other, each by several threads. Every sum is formed in a
-//! fixed order for any number of threads.
+//! Bundles (groups of small supernodes, [`super::tree`]) run in parallel, heavy supernodes one after the other, each by several threads.
+//! Every sum is formed in a fixed order for any number of threads.
 
 use super::multifrontal::parts;
 use super::number::FactorNumber;
@@ -17,8 +17,9 @@ use std::sync::Mutex;
 const COLUMNS: usize = 4;
 /// Columns of a heavy supernode that are solved for together.
 const PANEL: usize = 128;
-/// Rows below a panel, and columns of a panel, that one thread processes at a time; a multiple of [`COLUMNS`].
+/// Rows below a panel that one thread processes at a time.
 const ROWS: usize = 512;
+/// Columns of a panel that one thread processes at a time; a multiple of [`COLUMNS`].
 const PANEL_COLUMNS: usize = 32;
 
 /// Memory of one thread for substitution in bundles.
@@ -39,8 +40,8 @@ struct Supernode<'a, T> {
     height: usize,
 }
 
-/// Overwrites `x`, in the order of elimination, with the solution y of `L Lᵀ y = x`. `values` are those of L, and `solved` is memory for
-/// as many numbers as `x` has.
+/// `x` has its entries in elimination order. Overwrites it with the solution y of `L Lᵀ y = x`; `values` are those of L. `solved`: scratch of
+/// the length of `x`, for the solution at heavy supernodes.
 pub(super) fn solve<T: FactorNumber>(
     supernodes: Supernodes<'_>,
     values: &[T],
@@ -105,7 +106,7 @@ impl<'a, T: FactorNumber> SupernodalFactor<'a, T> {
         let Supernode { width, height, .. } = supernode;
         let mut front = vec![T::ZERO; height];
         for c in self.supernodes.children(s) {
-            let (k, rows) = (self.supernodes.segment_of(c), self.supernodes.relative(c));
+            let (k, rows) = (self.supernodes.segment_of(c), self.supernodes.rows_in_parent(c));
             let start = self.supernodes.tree.segments[k].first_row_of(c);
             add(rows, &lock(&updates[k])[start..start + rows.len()], &mut front);
         }
@@ -113,7 +114,7 @@ impl<'a, T: FactorNumber> SupernodalFactor<'a, T> {
         let mut below = front.split_off(width);
         for start in (0..width).step_by(PANEL) {
             let end = width.min(start + PANEL);
-            supernode.forward_block(start..end, own);
+            supernode.solve_block(start..end, own);
             let (done, rest) = own.split_at_mut(end);
             // Rows of the diagonal block are updated in place; for those below it, the products are added up.
             let y = &done[start..];
@@ -121,7 +122,7 @@ impl<'a, T: FactorNumber> SupernodalFactor<'a, T> {
             let own_rows = rest.chunks_mut(ROWS).enumerate().map(|(c, out)| (end + c * ROWS, &*minus, out));
             let rows = below.chunks_mut(ROWS).enumerate().map(|(c, out)| (width + c * ROWS, y, out));
             each(own_rows.chain(rows).collect(), |(row, y, out)| {
-                Arch::new().dispatch(Multiply { supernode, y, columns: start..end, from: row, out });
+                Arch::new().dispatch(AddProduct { supernode, y, columns: start..end, from: row, out });
             });
         }
         below
@@ -140,9 +141,15 @@ impl<'a, T: FactorNumber> SupernodalFactor<'a, T> {
             each(own[start..].chunks_mut(PANEL_COLUMNS).enumerate().collect(), |(c, out)| {
                 let from = start + c * PANEL_COLUMNS;
                 let columns = from..from + out.len();
-                Arch::new().dispatch(SubtractProducts { supernode, columns, from: end, y: below, out });
+                Arch::new().dispatch(SubtractTransposedProduct {
+                    supernode,
+                    columns,
+                    from: end,
+                    y: below,
+                    out,
+                });
             });
-            supernode.backward(start..end, &mut own[start..]);
+            supernode.solve_block_transposed(start..end, &mut own[start..]);
         }
         own.copy_from_slice(&all[..width]);
         solved[self.supernodes.columns(s)].copy_from_slice(own);
@@ -156,7 +163,7 @@ fn add<T: FactorNumber>(rows: &[u32], values: &[T], front: &mut [T]) {
 
 impl<T: FactorNumber> SubstitutionMemory<T> {
     /// Makes room for this many columns and rows of a supernode.
-    fn hold(&mut self, rows: usize) {
+    fn reserve(&mut self, rows: usize) {
         if self.front.len() < rows {
             self.front.resize(rows, T::ZERO);
         }
@@ -179,7 +186,7 @@ impl<T: FactorNumber> WithSimd for ForwardBundle<'_, T> {
     fn with_simd<S: Simd>(self, simd: S) {
         let ForwardBundle { factor, bundle, x, memory } = self;
         let supernodes = factor.supernodes;
-        memory.hold(supernodes.tree.widest + supernodes.tree.most_below);
+        memory.reserve(supernodes.tree.widest + supernodes.tree.most_below);
         let SubstitutionMemory { waiting, front } = memory;
         waiting.clear();
         let begin = supernodes.column_start(bundle.supernodes.start);
@@ -191,15 +198,15 @@ impl<T: FactorNumber> WithSimd for ForwardBundle<'_, T> {
             front.fill(T::ZERO);
             let mut top = waiting.len();
             for c in supernodes.children(s) {
-                let rows = supernodes.relative(c);
+                let rows = supernodes.rows_in_parent(c);
                 add(rows, &waiting[top - rows.len()..top], front);
                 top -= rows.len();
             }
             waiting.truncate(top);
             own.iter_mut().zip(&*front).for_each(|(x, &y)| *x -= y);
-            supernode.forward_block(0..own.len(), own);
+            supernode.solve_block(0..own.len(), own);
             let below = &mut front[own.len()..];
-            Multiply { supernode, y: own, columns: 0..own.len(), from: own.len(), out: below }
+            AddProduct { supernode, y: own, columns: 0..own.len(), from: own.len(), out: below }
                 .with_simd(simd);
             waiting.extend_from_slice(below);
         }
@@ -222,7 +229,7 @@ impl<T: FactorNumber> WithSimd for BackwardBundle<'_, T> {
     fn with_simd<S: Simd>(self, simd: S) {
         let BackwardBundle { factor, bundle, x, solved, memory } = self;
         let supernodes = factor.supernodes;
-        memory.hold(supernodes.tree.most_below);
+        memory.reserve(supernodes.tree.most_below);
         let begin = supernodes.column_start(bundle.supernodes.start);
         for s in bundle.supernodes.clone().rev() {
             let supernode = factor.supernode(s);
@@ -233,15 +240,21 @@ impl<T: FactorNumber> WithSimd for BackwardBundle<'_, T> {
             }
             let Range { start, end } = supernodes.columns(s);
             let own = &mut x[start - begin..end - begin];
-            SubtractProducts { supernode, columns: 0..own.len(), from: own.len(), y: below, out: own }
-                .with_simd(simd);
-            supernode.backward(0..own.len(), own);
+            SubtractTransposedProduct {
+                supernode,
+                columns: 0..own.len(),
+                from: own.len(),
+                y: below,
+                out: own,
+            }
+            .with_simd(simd);
+            supernode.solve_block_transposed(0..own.len(), own);
         }
     }
 }
 
-/// Adds the rows of these columns from `from` on, times y, to `out`.
-struct Multiply<'a, T> {
+/// `out += A y`, where A has the rows from `from` on of `columns`.
+struct AddProduct<'a, T> {
     supernode: Supernode<'a, T>,
     y: &'a [T],
     columns: Range<usize>,
@@ -249,27 +262,27 @@ struct Multiply<'a, T> {
     out: &'a mut [T],
 }
 
-impl<T: FactorNumber> WithSimd for Multiply<'_, T> {
+impl<T: FactorNumber> WithSimd for AddProduct<'_, T> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let Multiply { supernode, y, columns, from, out } = self;
+        let AddProduct { supernode, y, columns, from, out } = self;
         let blocks = columns.step_by(COLUMNS).zip(y.chunks(COLUMNS));
         for (j, y) in blocks {
             match *y {
-                [a] => multiply(simd, supernode.block(j, from), [a], out),
-                [a, b] => multiply(simd, supernode.block(j, from), [a, b], out),
-                [a, b, c] => multiply(simd, supernode.block(j, from), [a, b, c], out),
-                [a, b, c, d] => multiply(simd, supernode.block(j, from), [a, b, c, d], out),
+                [a] => add_multiples(simd, supernode.block(j, from), [a], out),
+                [a, b] => add_multiples(simd, supernode.block(j, from), [a, b], out),
+                [a, b, c] => add_multiples(simd, supernode.block(j, from), [a, b, c], out),
+                [a, b, c, d] => add_multiples(simd, supernode.block(j, from), [a, b, c, d], out),
                 _ => (),
             }
         }
     }
 }
 
-/// Subtracts the scalar products of these columns, from row `from` on, with y from `out`.
-struct SubtractProducts<'a, T> {
+/// `out −= Aᵀ y`, where A has the rows from `from` on of `columns`.
+struct SubtractTransposedProduct<'a, T> {
     supernode: Supernode<'a, T>,
     columns: Range<usize>,
     from: usize,
@@ -277,12 +290,12 @@ struct SubtractProducts<'a, T> {
     out: &'a mut [T],
 }
 
-impl<T: FactorNumber> WithSimd for SubtractProducts<'_, T> {
+impl<T: FactorNumber> WithSimd for SubtractTransposedProduct<'_, T> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let SubtractProducts { supernode, columns, from, y, out } = self;
+        let SubtractTransposedProduct { supernode, columns, from, y, out } = self;
         for (j, out) in columns.step_by(COLUMNS).zip(out.chunks_mut(COLUMNS)) {
             match out.len() {
                 1 => subtract(out, products(simd, supernode.block::<1>(j, from), y)),
@@ -294,8 +307,8 @@ impl<T: FactorNumber> WithSimd for SubtractProducts<'_, T> {
     }
 }
 
-fn subtract<T: FactorNumber, const N: usize>(from: &mut [T], what: [T; N]) {
-    from.iter_mut().zip(what).for_each(|(x, y)| *x -= y);
+fn subtract<T: FactorNumber, const N: usize>(x: &mut [T], what: [T; N]) {
+    x.iter_mut().zip(what).for_each(|(x, y)| *x -= y);
 }
 
 impl<'a, T: FactorNumber> Supernode<'a, T> {
@@ -311,10 +324,10 @@ impl<'a, T: FactorNumber> Supernode<'a, T> {
         std::array::from_fn(|c| self.column(j + c, from))
     }
 
-    /// Overwrites `own` with the solution of `L own = own`, L the diagonal block of these columns; the columns before them have been
-    /// subtracted.
+    /// Solves L y = own in place at `columns`, L the diagonal block of these columns; the columns before them have been subtracted. `own`
+    /// has the entries of the supernode from its first column on.
     #[inline(always)]
-    fn forward_block(&self, columns: Range<usize>, own: &mut [T]) {
+    fn solve_block(&self, columns: Range<usize>, own: &mut [T]) {
         for j in columns.clone() {
             let column = &self.column(j, j)[..columns.end - j];
             own[j] /= column[0];
@@ -323,9 +336,10 @@ impl<'a, T: FactorNumber> Supernode<'a, T> {
         }
     }
 
-    /// Overwrites `own` with the solution of `Lᵀ own = own`, L the diagonal block of these columns.
+    /// Solves Lᵀ y = own in place, L the diagonal block of `columns`; the rows below it have been subtracted. `own` has the entries of
+    /// `columns` alone.
     #[inline(always)]
-    fn backward(&self, columns: Range<usize>, own: &mut [T]) {
+    fn solve_block_transposed(&self, columns: Range<usize>, own: &mut [T]) {
         let start = columns.start;
         for j in columns.clone().rev() {
             let column = &self.column(j, j)[..columns.end - j];
@@ -338,8 +352,13 @@ impl<'a, T: FactorNumber> Supernode<'a, T> {
 
 /// Adds columns, each times its entry of y, to `out`.
 #[inline(always)]
-fn multiply<T: FactorNumber, S: Simd, const N: usize>(simd: S, columns: [&[T]; N], y: [T; N], out: &mut [T]) {
-    let y = y.map(|y| T::everywhere(simd, y));
+fn add_multiples<T: FactorNumber, S: Simd, const N: usize>(
+    simd: S,
+    columns: [&[T]; N],
+    y: [T; N],
+    out: &mut [T],
+) {
+    let y = y.map(|y| T::splat(simd, y));
     let columns = columns.map(|column| T::vectors(simd, &column[..out.len()]));
     let (whole, rest) = T::vectors_mut(simd, out);
     let columns_whole = columns.map(|(vectors, _)| &vectors[..whole.len()]);
@@ -349,11 +368,11 @@ fn multiply<T: FactorNumber, S: Simd, const N: usize>(simd: S, columns: [&[T]; N
         }
     }
     if !rest.is_empty() {
-        let mut sum = T::some(simd, rest);
+        let mut sum = T::load_partial(simd, rest);
         for c in 0..N {
-            sum = T::multiply_add(simd, T::some(simd, columns[c].1), y[c], sum);
+            sum = T::multiply_add(simd, T::load_partial(simd, columns[c].1), y[c], sum);
         }
-        T::store_some(simd, sum, rest);
+        T::store_partial(simd, sum, rest);
     }
 }
 
@@ -363,16 +382,16 @@ fn products<T: FactorNumber, S: Simd, const N: usize>(simd: S, columns: [&[T]; N
     let columns = columns.map(|column| T::vectors(simd, &column[..y.len()]));
     let (whole, rest) = T::vectors(simd, y);
     let columns_whole = columns.map(|(vectors, _)| &vectors[..whole.len()]);
-    let mut sums = [T::everywhere(simd, T::ZERO); N];
+    let mut sums = [T::splat(simd, T::ZERO); N];
     for (i, &y) in whole.iter().enumerate() {
         for c in 0..N {
             sums[c] = T::multiply_add(simd, columns_whole[c][i], y, sums[c]);
         }
     }
     if !rest.is_empty() {
-        let y = T::some(simd, rest);
+        let y = T::load_partial(simd, rest);
         for c in 0..N {
-            sums[c] = T::multiply_add(simd, T::some(simd, columns[c].1), y, sums[c]);
+            sums[c] = T::multiply_add(simd, T::load_partial(simd, columns[c].1), y, sums[c]);
         }
     }
     let mut products = [T::ZERO; N];

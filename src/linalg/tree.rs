@@ -23,7 +23,7 @@ pub(super) struct SupernodeTree {
     /// For each supernode the first one of its subtree.
     first: Vec<u32>,
     /// For each row below a diagonal block its position among the columns and rows of the parent.
-    relative: Vec<u32>,
+    rows_in_parent: Vec<u32>,
     /// The entries of the matrix by supernodes, each with its position among the supernode's values.
     entry_start: Vec<u32>,
     source: Vec<u32>,
@@ -91,9 +91,9 @@ impl<'a> Supernodes<'a> {
     }
 
     /// For each of these rows its position among the columns and rows of the parent, ascending.
-    pub fn relative(&self, s: usize) -> &'a [u32] {
+    pub fn rows_in_parent(&self, s: usize) -> &'a [u32] {
         let start = self.symbolic.col_ptr_for_row_idx()[s] as usize;
-        &self.tree.relative[start..start + self.rows(s).len()]
+        &self.tree.rows_in_parent[start..start + self.rows(s).len()]
     }
 
     /// The position of the values of a supernode in the factor.
@@ -152,12 +152,12 @@ impl SupernodeTree {
             }
         }
         drop(size);
-        let relative = relative(symbolic, &parents);
+        let rows_in_parent = rows_in_parent(symbolic, &parents);
         let (entry_start, source, place) = entries(symbolic, pattern, inverse, &supernode_of);
         let segments = segments(symbolic, &parents, &first);
         let mut tree = SupernodeTree {
             first,
-            relative,
+            rows_in_parent,
             entry_start,
             source,
             place,
@@ -189,15 +189,15 @@ impl SupernodeTree {
     }
 }
 
-/// [`Supernodes::relative`] of all supernodes.
-fn relative(symbolic: &SymbolicSupernodalCholesky<u32>, parents: &[Option<usize>]) -> Vec<u32> {
-    let mut relative = vec![0; symbolic.row_idx().len()];
+/// [`Supernodes::rows_in_parent`] of all supernodes.
+fn rows_in_parent(symbolic: &SymbolicSupernodalCholesky<u32>, parents: &[Option<usize>]) -> Vec<u32> {
+    let mut rows_in_parent = vec![0; symbolic.row_idx().len()];
     for (s, &parent) in parents.iter().enumerate() {
         let Some(p) = parent else { continue };
         let (begin, end) = (symbolic.supernode_begin()[p], symbolic.supernode_end()[p]);
         let (rows, mut k) = (symbolic.supernode(p).pattern(), 0);
         let start = symbolic.col_ptr_for_row_idx()[s] as usize;
-        for (to, &row) in relative[start..].iter_mut().zip(symbolic.supernode(s).pattern()) {
+        for (to, &row) in rows_in_parent[start..].iter_mut().zip(symbolic.supernode(s).pattern()) {
             *to = if row < end {
                 row - begin
             } else {
@@ -208,7 +208,7 @@ fn relative(symbolic: &SymbolicSupernodalCholesky<u32>, parents: &[Option<usize>
             };
         }
     }
-    relative
+    rows_in_parent
 }
 
 /// [`Supernodes::entries`] of all supernodes: their starts, the numbers in the matrix, the positions.

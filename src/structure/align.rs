@@ -1,15 +1,15 @@
 //! Rotations of charts that make as many transitions as possible translations.
 
+use super::developable::DevelopableSurface;
 use super::draft::ChartDraft;
 use super::overlaps::Overlap;
-use super::sheet::DevelopableSurface;
 use crate::geometry::Motion;
 use crate::geometry::complex::norm2;
 use std::collections::VecDeque;
 
 /// Turns charts about their origins so that transitions along a spanning tree of overlaps are translations. In E² all are then, if the
 /// holonomy has no rotation.
-pub(super) fn align(drafts: &mut [ChartDraft], overlaps: &[Overlap], sheet: &DevelopableSurface) {
+pub(super) fn align(drafts: &mut [ChartDraft], overlaps: &[Overlap], surface: &DevelopableSurface) {
     let mut beside: Vec<Vec<(usize, usize)>> = vec![Vec::new(); drafts.len()];
     for (k, overlap) in overlaps.iter().enumerate() {
         let [i, j] = overlap.charts.map(|chart| chart as usize);
@@ -34,7 +34,7 @@ pub(super) fn align(drafts: &mut [ChartDraft], overlaps: &[Overlap], sheet: &Dev
                 // Charts of a sphere about antipodes have no translation between them.
                 if f64::from(norm2(there.a)) > 0.0 {
                     let back = Motion { b: [0.0.into(); 2], ..there }.inverse().normalised();
-                    drafts[j].turn(sheet, &back);
+                    drafts[j].turn(surface, &back);
                 }
                 open.push_back(j);
             }

@@ -1,6 +1,6 @@
 //! The atlas of a surface: its charts, their transitions, and the places of points in charts.
 
-use super::cocycle::Cocycles;
+use super::cocycle::CocycleCheck;
 use super::draft::ChartDraft;
 use super::element::GroupElement;
 use super::holonomy::Holonomy;
@@ -77,7 +77,7 @@ pub struct Atlas {
     /// The holonomy of the structure.
     pub holonomy: Holonomy,
     /// The measured deviation of transitions from the cocycle condition.
-    pub cocycles: Cocycles,
+    pub cocycles: CocycleCheck,
     /// The charts whose faces are not counterclockwise or overlap.
     pub folded: Vec<u32>,
     pub(super) lifts: FaceLifts,

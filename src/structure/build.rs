@@ -2,13 +2,13 @@
 
 use super::align::align;
 use super::atlas::{Atlas, Chart};
-use super::cocycle::cocycles;
+use super::cocycle::check_cocycle_condition;
+use super::developable::DevelopableSurface;
 use super::draft::ChartDraft;
 use super::growth::AtlasCover;
 use super::holonomy::Holonomy;
 use super::options::{AtlasOptions, ChartKind};
 use super::overlaps::FaceLifts;
-use super::sheet::DevelopableSurface;
 use super::source::{StructureSource, structure_source};
 use super::stars::star;
 use crate::control::Control;
@@ -33,22 +33,22 @@ pub fn atlas(surface: &Surface, options: &AtlasOptions, control: &Control) -> Re
 
 /// The atlas of a developed surface.
 fn chart(found: StructureSource, options: &AtlasOptions, control: &Control) -> Result<Atlas> {
-    let (sheet, structure) = (&found.sheet, options.structure);
-    let holonomy = Holonomy::new(sheet, &found.basis, control)?;
+    let (surface, structure) = (&found.developed, options.structure);
+    let holonomy = Holonomy::new(surface, &found.basis, control)?;
     let mut drafts = match options.charts {
-        ChartKind::Stars => stars(sheet, options.radius, control)?,
-        ChartKind::Patches => AtlasCover::new(sheet, options.radius, control).cover()?,
+        ChartKind::Stars => stars(surface, options.radius, control)?,
+        ChartKind::Patches => AtlasCover::new(surface, options.radius, control).cover()?,
     };
     if drafts.is_empty() {
         return Err(Error::Layout(
             "every vertex is singular: refine the surface (`ricci refine --levels 1`)".into(),
         ));
     }
-    let mut lifts = FaceLifts::new(&drafts, sheet.mesh().n_faces());
+    let mut lifts = FaceLifts::new(&drafts, surface.mesh().n_faces());
     let overlaps = lifts.find_overlaps(&drafts, control)?;
-    align(&mut drafts, &overlaps, sheet);
+    align(&mut drafts, &overlaps, surface);
     let mut embedded: Vec<Result<bool>> = (0..drafts.len()).map(|_| Ok(false)).collect();
-    parallel::fill(&mut embedded, |i| drafts[i].is_embedded(sheet, control));
+    parallel::fill(&mut embedded, |i| drafts[i].is_embedded(surface, control));
     let mut folded = Vec::new();
     for (i, embedded) in (0..).zip(embedded) {
         if !embedded? {
@@ -57,15 +57,15 @@ fn chart(found: StructureSource, options: &AtlasOptions, control: &Control) -> R
     }
     let transitions: Vec<_> =
         overlaps.into_iter().map(|overlap| overlap.transition(structure, &drafts)).collect();
-    let (space, mesh) = (sheet.steps.space, sheet.steps.mesh.clone());
+    let (space, mesh) = (surface.faces.space, surface.faces.mesh.clone());
     Ok(Atlas {
         structure,
         space,
         charts: drafts.into_iter().map(|draft| Chart::new(draft, structure, space)).collect(),
-        cocycles: cocycles(&lifts, &transitions, mesh.n_faces()),
+        cocycles: check_cocycle_condition(&lifts, &transitions, mesh.n_faces()),
         transitions,
-        singular_vertices: mesh.vertices().filter(|&v| sheet.singular[v]).collect(),
-        excluded: mesh.faces().filter(|&f| sheet.excluded[f]).collect(),
+        singular_vertices: mesh.vertices().filter(|&v| surface.singular[v]).collect(),
+        excluded: mesh.faces().filter(|&f| surface.excluded[f]).collect(),
         zeros: found.zeros,
         curvature_error: found.curvature_error,
         converged: found.converged,
@@ -79,11 +79,11 @@ fn chart(found: StructureSource, options: &AtlasOptions, control: &Control) -> R
 }
 
 /// The stars of all regular vertices, and grown charts over the faces that are in none of them.
-fn stars(sheet: &DevelopableSurface, radius: Option<f64>, control: &Control) -> Result<Vec<ChartDraft>> {
-    let vertices: Vec<VertexId> = sheet.mesh().vertices().filter(|&v| !sheet.singular[v]).collect();
+fn stars(surface: &DevelopableSurface, radius: Option<f64>, control: &Control) -> Result<Vec<ChartDraft>> {
+    let vertices: Vec<VertexId> = surface.mesh().vertices().filter(|&v| !surface.singular[v]).collect();
     let mut found: Vec<Option<ChartDraft>> = (0..vertices.len()).map(|_| None).collect();
-    parallel::fill(&mut found, |i| star(sheet, vertices[i]));
+    parallel::fill(&mut found, |i| star(surface, vertices[i]));
     let mut drafts: Vec<ChartDraft> = found.into_iter().flatten().collect();
-    drafts.extend(AtlasCover::new(sheet, radius, control).cover_rest(&drafts)?);
+    drafts.extend(AtlasCover::new(surface, radius, control).cover_rest(&drafts)?);
     Ok(drafts)
 }

@@ -1,4 +1,4 @@
-//! The cocycle condition of an atlas, measured.
+//! How far transitions of charts that overlap in threes are from `T_jk T_ij = T_ik`.
 
 use super::overlaps::{FaceLifts, Transition};
 use crate::geometry::worse;
@@ -7,15 +7,19 @@ use std::collections::BTreeSet;
 
 /// The deviation of transitions from `T_jk T_ij = T_ik` where three charts overlap.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Cocycles {
+pub struct CocycleCheck {
     /// Number of different triples of transitions that were compared.
     pub triples: usize,
-    /// The largest difference, see [`super::GroupElement::difference`].
+    /// The largest difference, see [`super::GroupElement::difference`]; infinite if two transitions cannot be composed.
     pub residual: f64,
 }
 
-/// Compares the transitions of every three lifts of a face, each triple of transitions once.
-pub(super) fn cocycles(lifts: &FaceLifts, transitions: &[Transition], n_faces: usize) -> Cocycles {
+/// For every face and every three charts that contain it; each triple of transitions is compared once.
+pub(super) fn check_cocycle_condition(
+    lifts: &FaceLifts,
+    transitions: &[Transition],
+    n_faces: usize,
+) -> CocycleCheck {
     let (mut seen, mut residual) = (BTreeSet::new(), 0.0);
     for f in (0..n_faces).map(FaceId::from) {
         let n = lifts.of(f).len();
@@ -32,5 +36,5 @@ pub(super) fn cocycles(lifts: &FaceLifts, transitions: &[Transition], n_faces: u
             }
         }
     }
-    Cocycles { triples: seen.len(), residual }
+    CocycleCheck { triples: seen.len(), residual }
 }

@@ -1,6 +1,6 @@
 //! A chart in the making: lifts of faces with their motions, and the vertices that they share.
 
-use super::sheet::{DevelopableSurface, straight_triangle};
+use super::developable::{DevelopableSurface, straight_triangle};
 use crate::control::Control;
 use crate::error::Result;
 use crate::geometry::triangle_flatness::{TriangleFlatness, largest_coordinate};
@@ -55,9 +55,9 @@ impl ChartDraft {
     ///
     /// Two faces that share a regular vertex are glued across an edge at it, since the surface closes up around such a vertex. Around a
     /// singular vertex or a handle the chart stays open.
-    pub fn close(&mut self, sheet: &DevelopableSurface) {
-        let mesh = sheet.mesh();
-        let mut same = self.joined_corners(sheet);
+    pub fn close(&mut self, surface: &DevelopableSurface) {
+        let mesh = surface.mesh();
+        let mut same = self.joined_corners(surface);
         let mut number: Vec<(FaceId, u32)> = self.faces.iter().copied().zip(0..).collect();
         number.sort_unstable();
         let find = |f: FaceId| number.binary_search_by_key(&f, |x| x.0).ok().map(|k| number[k].1);
@@ -80,7 +80,7 @@ impl ChartDraft {
                     |&(p, q): &(usize, usize)| same.root(3 * i + p as u32) == same.root(3 * j + q as u32);
                 let vertices = mesh.face_vertices(self.faces[i as usize]);
                 let closes: Vec<bool> =
-                    ends.iter().map(|end| is_shared(end) && !sheet.singular[vertices[end.0]]).collect();
+                    ends.iter().map(|end| is_shared(end) && !surface.singular[vertices[end.0]]).collect();
                 if !closes.contains(&true) {
                     return true;
                 }
@@ -95,18 +95,18 @@ impl ChartDraft {
                 break;
             }
         }
-        self.number_vertices(sheet, same);
+        self.number_vertices(surface, same);
     }
 
     /// Numbers the vertices by the glued faces.
-    pub fn finish(&mut self, sheet: &DevelopableSurface) {
-        let same = self.joined_corners(sheet);
-        self.number_vertices(sheet, same);
+    pub fn finish(&mut self, surface: &DevelopableSurface) {
+        let same = self.joined_corners(surface);
+        self.number_vertices(surface, same);
     }
 
     /// The corners that are identified by gluing; corner k of face i has the number 3i + k.
-    fn joined_corners(&self, sheet: &DevelopableSurface) -> UnionFind {
-        let mesh = sheet.mesh();
+    fn joined_corners(&self, surface: &DevelopableSurface) -> UnionFind {
+        let mesh = surface.mesh();
         let mut same = UnionFind::new(3 * self.faces.len());
         for (i, &f) in self.faces.iter().enumerate() {
             for (k, h) in mesh.face_halfedges(f).into_iter().enumerate() {
@@ -121,20 +121,20 @@ impl ChartDraft {
         same
     }
 
-    fn number_vertices(&mut self, sheet: &DevelopableSurface, mut same: UnionFind) {
+    fn number_vertices(&mut self, surface: &DevelopableSurface, mut same: UnionFind) {
         let mut number = vec![NONE; 3 * self.faces.len()];
         self.corners = vec![[NONE; 3]; self.faces.len()];
         (self.vertices, self.points) = (Vec::new(), Vec::new());
         for i in 0..self.faces.len() {
             let f = self.faces[i];
-            let vertices = sheet.mesh().face_vertices(f);
+            let vertices = surface.mesh().face_vertices(f);
             let mut placed = None;
             for k in 0..3 {
                 let root = same.root((3 * i + k) as u32) as usize;
                 if number[root] == NONE {
                     number[root] = self.vertices.len() as u32;
                     self.vertices.push(vertices[k]);
-                    let corners = placed.get_or_insert_with(|| sheet.corners(f, &self.places[i]));
+                    let corners = placed.get_or_insert_with(|| surface.corners(f, &self.places[i]));
                     self.points.push(corners[k]);
                 }
                 self.corners[i][k] = number[root];
@@ -143,11 +143,11 @@ impl ChartDraft {
     }
 
     /// Rotates the chart about its origin.
-    pub fn turn(&mut self, sheet: &DevelopableSurface, by: &Motion<DoubleDouble>) {
+    pub fn turn(&mut self, surface: &DevelopableSurface, by: &Motion<DoubleDouble>) {
         self.places.iter_mut().for_each(|place| *place = by.compose(place));
         let mut fresh = vec![true; self.vertices.len()];
         for i in 0..self.faces.len() {
-            let corners = sheet.corners(self.faces[i], &self.places[i]);
+            let corners = surface.corners(self.faces[i], &self.places[i]);
             for (k, &v) in self.corners[i].iter().enumerate() {
                 if std::mem::replace(&mut fresh[v as usize], false) {
                     self.points[v as usize] = corners[k];
@@ -157,9 +157,9 @@ impl ChartDraft {
     }
 
     /// The faces in coordinates in which geodesics are straight; none if one face has no such coordinates.
-    pub fn triangles(&self, sheet: &DevelopableSurface) -> Option<Vec<TriangleCorners>> {
+    pub fn triangles(&self, surface: &DevelopableSurface) -> Option<Vec<TriangleCorners>> {
         let triangle = |corners: &[u32; 3]| {
-            straight_triangle(sheet.steps.space, corners.map(|v| self.points[v as usize]))
+            straight_triangle(surface.faces.space, corners.map(|v| self.points[v as usize]))
         };
         self.corners.iter().map(triangle).collect()
     }
@@ -174,9 +174,9 @@ impl ChartDraft {
 
     /// True if the faces are counterclockwise and do not overlap, except for nearly degenerate faces ([`LOW`]) and for overlaps that
     /// rounding explains ([`ROUNDING`]).
-    pub fn is_embedded(&self, sheet: &DevelopableSurface, control: &Control) -> Result<bool> {
+    pub fn is_embedded(&self, surface: &DevelopableSurface, control: &Control) -> Result<bool> {
         // On a sphere, a closed fan of geodesic triangles about a common corner does not overlap either, whatever its size.
-        let Some(mut triangles) = self.triangles(sheet) else { return Ok(self.is_oriented()) };
+        let Some(mut triangles) = self.triangles(surface) else { return Ok(self.is_oriented()) };
         let size = largest_coordinate(triangles.as_flattened());
         if triangles.iter().any(|&t| TriangleFlatness::of(t).is_flipped(size)) {
             return Ok(false);

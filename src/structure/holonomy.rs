@@ -1,8 +1,9 @@
-//! The holonomy of a structure: the homomorphism of the fundamental group into the structure's group.
+//! The holonomy of a structure: the isometry that each generator of the fundamental group is sent to; [`Holonomy::element`] gives it in
+//! the structure's group.
 
+use super::developable::DevelopableSurface;
 use super::element::GroupElement;
 use super::kind::Structure;
-use super::sheet::DevelopableSurface;
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::complex::norm2;
@@ -10,41 +11,42 @@ use crate::geometry::motion::Real;
 use crate::geometry::{DoubleDouble, Motion, Space};
 use crate::topology::{HomotopyBasis, SurfaceGroup, crossed_halfedges};
 
-/// The homomorphism from the fundamental group into the group of a structure, given by its values at the generators of a canonical basis.
+/// The homomorphism from the fundamental group into the isometries of the structure's space, given by its values at the generators of a
+/// canonical basis.
 ///
-/// On a surface with singular vertices, loops pass these on either side: the holonomy around one is the identity, since its cone angle is a
+/// It does not matter on which side a loop passes a singular vertex: the holonomy around one is the identity, since its cone angle is a
 /// multiple of 2π.
 #[derive(Debug, Clone)]
 pub struct Holonomy {
     /// The fundamental group of the surface, with names and relator.
     pub group: SurfaceGroup,
-    /// The values at a1, b1, …, ag, bg, c1, …, cb, in coordinates about the base: `M(γδ) = M(γ) M(δ)`.
+    /// The values at a1, b1, …, ag, bg, c1, …, cb, in a frame with the base at its origin: `M(γδ) = M(γ) M(δ)`, where γδ is γ first.
     pub generators: Vec<Motion<DoubleDouble>>,
-    /// `‖R − I‖_F / max_k ‖P_k‖²` of the relator's matrix R over its partial products P_k (Frobenius norms of 2×2 matrices, of flat
-    /// structures with lengths in units of the longest translation, or of the root of the area if that is more). 0 without generators.
+    /// `‖R − I‖ / max_k ‖P_k‖²`: R is the product of the relator's letters, P_k those of its first k letters. Frobenius norms of 2×2
+    /// matrices. In E², lengths are divided first by the larger of the longest translation and √area. 0 without generators.
     pub relation_residual: f64,
 }
 
 impl Holonomy {
     pub(super) fn new(
-        sheet: &DevelopableSurface,
+        surface: &DevelopableSurface,
         basis: &HomotopyBasis,
         control: &Control,
     ) -> Result<Holonomy> {
-        let mesh = sheet.mesh();
-        let none = || Error::Layout(format!("the base, vertex {}, has no face", basis.base));
-        let corner = mesh.outgoing(basis.base).find(|&h| !mesh.is_outside(h)).ok_or_else(none)?;
-        let (f, k) = mesh.corner(corner).ok_or_else(none)?;
-        let home = sheet.place_about(f, Some(k));
-        let identity = Motion::identity(sheet.steps.space);
+        let mesh = surface.mesh();
+        let no_face = || Error::Layout(format!("the base, vertex {}, has no face", basis.base));
+        let start = mesh.outgoing(basis.base).find(|&h| !mesh.is_outside(h)).ok_or_else(no_face)?;
+        let (f, k) = mesh.corner(start).ok_or_else(no_face)?;
+        let base_place = surface.place_about(f, Some(k));
+        let identity = Motion::identity(surface.faces.space);
         let mut generators = Vec::with_capacity(basis.loops.len());
         for path in &basis.loops {
             control.check()?;
-            let crossed = crossed_halfedges(mesh, corner, path)?;
-            let walk = crossed.iter().fold(identity, |m, &h| m.compose(&sheet.steps.across[h]));
-            generators.push(walk.conjugated_by(&home).normalised());
+            let crossed = crossed_halfedges(mesh, start, path)?;
+            let walk = crossed.iter().fold(identity, |m, &h| m.compose(&surface.faces.across[h]));
+            generators.push(walk.conjugated_by(&base_place).normalised());
         }
-        let relation_residual = residual(basis.group, &generators, sheet.size());
+        let relation_residual = residual(basis.group, &generators, surface.size());
         Ok(Holonomy { group: basis.group, generators, relation_residual })
     }
 
@@ -54,13 +56,13 @@ impl Holonomy {
     }
 }
 
-/// Binary exponent of the size of a product from which on its distance from the identity is its size, to all digits.
+/// If ‖R‖ ≥ 2^FAR, then ‖R − I‖ = ‖R‖ to all digits.
 const FAR: i32 = 120;
 
-/// The relation residual, see [`Holonomy::relation_residual`]; `unit` is a length about as large as the surface.
-fn residual(group: SurfaceGroup, generators: &[Motion<DoubleDouble>], unit: f64) -> f64 {
+/// The relation residual, see [`Holonomy::relation_residual`]; `surface_size` is a length about as large as the surface.
+fn residual(group: SurfaceGroup, generators: &[Motion<DoubleDouble>], surface_size: f64) -> f64 {
     let Some(first) = generators.first() else { return 0.0 };
-    let longest = generators.iter().map(|g| f64::from(norm2(g.b)).sqrt()).fold(unit, f64::max);
+    let longest = generators.iter().map(|g| f64::from(norm2(g.b)).sqrt()).fold(surface_size, f64::max);
     let unit = if first.space == Space::E2 { longest } else { 1.0 };
     let in_units = |g: &Motion<DoubleDouble>| Motion { b: g.b.map(|x| x / unit.into()), ..*g };
     // The product is `product · 2^power` with a size near 1, since products of many far translations are beyond the range of f64.

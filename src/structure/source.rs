@@ -1,8 +1,8 @@
 //! The metrics and forms from which the charts of each structure are developed.
 
+use super::developable::DevelopableSurface;
 use super::kind::Structure;
 use super::options::{AffineSource, AtlasOptions};
-use super::sheet::DevelopableSurface;
 use super::singular::singular_vertex;
 use crate::canonical::{QuotientOptions, Sphere, SphereOptions, uniformize_quotient, uniformize_sphere};
 use crate::control::Control;
@@ -26,9 +26,9 @@ const FULL: f64 = 1e-9;
 
 /// A surface from which charts are developed, with its metric and figures.
 pub(super) struct StructureSource {
-    pub sheet: DevelopableSurface,
+    pub developed: DevelopableSurface,
     pub metric: Arc<Solution>,
-    /// The common subdivision, if the sheet lies on it and not on the metric's triangulation.
+    /// The common subdivision, if the developed surface lies on it and not on the metric's triangulation.
     pub subdivision: Option<Arc<CommonSubdivision>>,
     pub basis: HomotopyBasis,
     pub zeros: Vec<Zero>,
@@ -58,8 +58,8 @@ pub(super) fn structure_source(
         }
         _ if closed && euler == 2 => {
             let sphere = sphere(surface, options, control)?;
-            let sheet = DevelopableSurface::new(FaceTransitions::new(&sphere.metric, None)?);
-            simply_connected(sheet, &sphere, control)
+            let developed = DevelopableSurface::new(FaceTransitions::new(&sphere.metric, None)?);
+            simply_connected(developed, &sphere, control)
         }
         _ => of_quotient(surface, options, control),
     }
@@ -114,24 +114,24 @@ fn sphere(surface: &Surface, options: &AtlasOptions, control: &Control) -> Resul
 /// A sphere as the plane with one vertex at infinity.
 fn of_plane(surface: &Surface, options: &AtlasOptions, control: &Control) -> Result<StructureSource> {
     let sphere = sphere(surface, options, control)?;
-    let mut sheet = DevelopableSurface::of_points(sphere.metric.mesh(), Space::E2, |v| {
+    let mut developed = DevelopableSurface::of_points(sphere.metric.mesh(), Space::E2, |v| {
         let [x, y] = sphere.plane[VertexId::from(v)];
         [x, y, 1.0]
     });
-    sheet.singular[sphere.report.puncture] = true;
-    let found = simply_connected(sheet, &sphere, control)?;
+    developed.singular[sphere.report.puncture] = true;
+    let found = simply_connected(developed, &sphere, control)?;
     Ok(StructureSource { curvature_error: sphere.report.max_curvature_error, ..found })
 }
 
 fn simply_connected(
-    sheet: DevelopableSurface,
+    developed: DevelopableSurface,
     sphere: &Sphere,
     control: &Control,
 ) -> Result<StructureSource> {
-    let ones = PerEdge::filled(sheet.mesh().n_edges(), 1.0);
+    let ones = PerEdge::filled(developed.mesh().n_edges(), 1.0);
     Ok(StructureSource {
-        basis: homotopy_basis(sheet.mesh(), &ones, None, control)?,
-        sheet,
+        basis: homotopy_basis(developed.mesh(), &ones, None, control)?,
+        developed,
         metric: Arc::new(sphere.metric.clone()),
         subdivision: None,
         zeros: Vec::new(),
@@ -145,10 +145,10 @@ fn of_quotient(surface: &Surface, options: &AtlasOptions, control: &Control) -> 
     let asked = QuotientOptions { flow: options.flow.clone(), ..QuotientOptions::default() };
     let quotient = uniformize_quotient(surface, &asked, control)?;
     let subdivision = quotient.layout.common_subdivision().cloned();
-    let steps = FaceTransitions::new(&quotient.metric, subdivision.as_ref())?;
-    let factor = if steps.space == Space::E2 { (surface.area()? / steps.area).sqrt() } else { 1.0 };
+    let faces = FaceTransitions::new(&quotient.metric, subdivision.as_ref())?;
+    let factor = if faces.space == Space::E2 { (surface.area()? / faces.area).sqrt() } else { 1.0 };
     Ok(StructureSource {
-        sheet: DevelopableSurface::new(steps).scaled(factor),
+        developed: DevelopableSurface::new(faces).scaled(factor),
         zeros: Vec::new(),
         curvature_error: quotient.angle_defect,
         converged: quotient.report.converged(),
@@ -169,14 +169,14 @@ fn of_flow(
     // Of a doubled surface, only the given half is taken.
     let subdivision =
         metric.double().map(|_| metric.common_subdivision(control).map(Arc::new)).transpose()?;
-    let steps = FaceTransitions::new(&metric, subdivision.as_ref())?;
-    let factor = (surface.area()? / steps.area).sqrt();
-    let mut sheet = DevelopableSurface::new(steps).scaled(factor);
-    target.named().into_iter().for_each(|v| sheet.singular[v] = true);
-    mark_wide_corners(&mut sheet);
+    let faces = FaceTransitions::new(&metric, subdivision.as_ref())?;
+    let factor = (surface.area()? / faces.area).sqrt();
+    let mut developed = DevelopableSurface::new(faces).scaled(factor);
+    target.named().into_iter().for_each(|v| developed.singular[v] = true);
+    mark_wide_corners(&mut developed);
     Ok(StructureSource {
-        basis: homotopy_basis(sheet.mesh(), &lengths(&sheet), None, control)?,
-        sheet,
+        basis: homotopy_basis(developed.mesh(), &lengths(&developed), None, control)?,
+        developed,
         zeros: Vec::new(),
         curvature_error: metric.report().map_or(f64::NAN, |report| report.max_curvature_error),
         converged: metric.converged(),
@@ -186,26 +186,26 @@ fn of_flow(
 }
 
 /// Marks boundary vertices with an angle of at least a full turn: no chart in the plane can contain all faces of such a vertex.
-fn mark_wide_corners(sheet: &mut DevelopableSurface) {
-    let mesh = sheet.steps.mesh.clone();
+fn mark_wide_corners(developed: &mut DevelopableSurface) {
+    let mesh = developed.faces.mesh.clone();
     let mut angle = PerVertex::filled(mesh.n_vertices(), 0.0);
     for f in mesh.faces() {
-        let corners = sheet.steps.corners[f].map(|[x, y, _]| [x, y]);
+        let corners = developed.faces.corners[f].map(|[x, y, _]| [x, y]);
         for (k, v) in mesh.face_vertices(f).into_iter().enumerate() {
             let [z, w] = [1, 2].map(|i| sub(corners[(k + i) % 3], corners[k]));
             angle[v] += cross(z, w).atan2(dot(z, w));
         }
     }
     let is_wide = |v: &VertexId| mesh.is_boundary_vertex(*v) && angle[*v] > TAU - FULL;
-    mesh.vertices().filter(is_wide).for_each(|v| sheet.singular[v] = true);
+    mesh.vertices().filter(is_wide).for_each(|v| developed.singular[v] = true);
 }
 
-/// The edge lengths of a flat sheet for the search for loops.
-fn lengths(sheet: &DevelopableSurface) -> PerEdge<f64> {
-    let mesh = sheet.mesh();
+/// The edge lengths of a flat surface for the search for loops.
+fn lengths(developed: &DevelopableSurface) -> PerEdge<f64> {
+    let mesh = developed.mesh();
     let mut lengths = PerEdge::filled(mesh.n_edges(), 0.0);
     for f in mesh.faces() {
-        let corners = sheet.steps.corners[f];
+        let corners = developed.faces.corners[f];
         for (k, h) in mesh.face_halfedges(f).into_iter().enumerate() {
             let (p, q) = (corners[k], corners[(k + 1) % 3]);
             lengths[h.edge()] = (p[0] - q[0]).hypot(p[1] - q[1]);
@@ -223,21 +223,21 @@ fn of_form(surface: &Surface, options: &AtlasOptions, control: &Control) -> Resu
         let forms = HarmonicForms::new(&domain, &FormsOptions::default(), control)?;
         let form = with_conjugate(&forms, &forms, &even_combination(&forms, control)?)?;
         let mesh = domain.mesh();
-        let mut sheet = DevelopableSurface::of_form(mesh, &form)?;
+        let mut developed = DevelopableSurface::of_form(mesh, &form)?;
         let mut turned = PerVertex::filled(mesh.n_vertices(), 0.0);
         for f in mesh.faces() {
             let sides = mesh.face_halfedges(f).map(|h| form.along(h));
             for (k, v) in mesh.face_vertices(f).into_iter().enumerate() {
                 let [z, w] = [sides[k], neg(sides[(k + 2) % 3])];
                 turned[v] += cross(z, w).atan2(dot(z, w));
-                sheet.singular[v] |= sheet.excluded[f];
+                developed.singular[v] |= developed.excluded[f];
             }
         }
-        mesh.vertices().for_each(|v| sheet.singular[v] |= (turned[v] / TAU).round() != 1.0);
+        mesh.vertices().for_each(|v| developed.singular[v] |= (turned[v] / TAU).round() != 1.0);
         let area: f64 = mesh
             .faces()
             .map(|f| {
-                let [_, p, q] = sheet.steps.corners[f];
+                let [_, p, q] = developed.faces.corners[f];
                 0.5 * (p[0] * q[1] - p[1] * q[0])
             })
             .sum();
@@ -247,7 +247,7 @@ fn of_form(surface: &Surface, options: &AtlasOptions, control: &Control) -> Resu
             metric: domain.metric().clone(),
             subdivision: None,
             basis: forms.basis.clone(),
-            sheet: sheet.scaled(factor),
+            developed: developed.scaled(factor),
             curvature_error: 0.0,
             converged: true,
         })

@@ -87,7 +87,7 @@ pub fn check(r: &CommonSubdivision, input: &Mesh, flown: &Flown, positions: &[Po
 
     // One projective map per piece: q · (final weights) is linear in the input weights.
     let faces: Vec<_> = r.mesh.faces().collect();
-    for piece in faces.chunk_by(|&f, &g| r.piece[f] == r.piece[g]) {
+    for piece in faces.chunk_by(|&f, &g| r.polygon_of[f] == r.polygon_of[g]) {
         let corners: Vec<_> = piece
             .iter()
             .flat_map(|&f| {

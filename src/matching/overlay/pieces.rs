@@ -224,12 +224,12 @@ impl SubdivisionTriangles {
             n_vertices,
             crossings,
             weight: order.iter().map(|&v| pieces.weight(v as usize)).collect::<Vec<_>>().into(),
-            piece: self.piece.into(),
+            polygon_of: self.piece.into(),
             faces: self.faces.map(PerFace::from),
-            along: PerEdge::from_fn(self.origin.len() / 2, along),
+            halfedges_along: PerEdge::from_fn(self.origin.len() / 2, along),
             barycentric: self.barycentric,
         };
-        Ok(CommonSubdivision::packed(unpacked, given.map(|given| &*given.mesh)))
+        Ok(CommonSubdivision::from_barycentric(unpacked, given.map(|given| &*given.mesh)))
     }
 
     /// The vertices in order: those of the given source, crossings of given edges, others; and these crossings.

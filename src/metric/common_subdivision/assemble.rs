@@ -1,4 +1,5 @@
-//! Makes the common subdivision from its pieces: the vertices and edges that were kept are numbered without gaps.
+//! Builds the common subdivision: from triangles of pieces (`assemble`), numbering the vertices and edges in use without gaps, or from
+//! barycentric coordinates (`from_barycentric`).
 
 use super::data::{CommonSubdivision, Crossing, FacePoint, PackedPlace, torn};
 use super::pieces::{PieceTriangles, SubdivisionCorner};
@@ -6,8 +7,10 @@ use crate::error::Result;
 use crate::mesh::{FaceId, HalfedgeId, Mesh, PerEdge, PerFace, PerVertex, VertexId};
 use crate::parallel;
 
-/// Marks a vertex or edge that is in no piece that is kept.
+/// Marks a vertex or edge that is in no triangle.
 const UNUSED: u32 = u32::MAX;
+/// Marks a vertex or edge that is in use, before it has its number.
+const USED: u32 = 0;
 
 /// New numbers of the elements that are not [`UNUSED`], in order, and how many these are.
 fn numbered(mut all: Vec<u32>) -> (Vec<u32>, usize) {
@@ -19,7 +22,8 @@ fn numbered(mut all: Vec<u32>) -> (Vec<u32>, usize) {
     (all, n as usize)
 }
 
-/// The common subdivision of these pieces. `crossings` and `weight` are those of all faces, also of those that are not kept.
+/// The common subdivision of these pieces. `crossings` and `weight` (per vertex, [`CommonSubdivision::weight`]) are those of
+/// all faces, also of those whose pieces are not among these.
 ///
 /// # Errors
 /// [`crate::Error::Connectivity`] where a corner of a piece lies outside the input or the final triangulation.
@@ -28,12 +32,12 @@ pub(super) fn assemble(
     crossings: Vec<Crossing>,
     weight: Vec<f64>,
 ) -> Result<CommonSubdivision> {
-    let [input, result] = [pieces.drawn.input, pieces.drawn.result.mesh];
+    let [input, final_mesh] = [pieces.drawn.input, pieces.drawn.result.mesh];
     let mut vertex = vec![UNUSED; weight.len()];
-    let mut edge = vec![UNUSED; pieces.along.len()];
+    let mut edge = vec![UNUSED; pieces.halfedges_along.len()];
     for (sides, corners) in pieces.sides.iter().zip(&pieces.corners) {
-        sides.iter().for_each(|h| edge[(h >> 1) as usize] = 0);
-        corners.iter().for_each(|c| vertex[c.vertex as usize] = 0);
+        sides.iter().for_each(|h| edge[(h >> 1) as usize] = USED);
+        corners.iter().for_each(|c| vertex[c.vertex as usize] = USED);
     }
     let (vertex, n_vertices) = numbered(vertex);
     let (edge, n_edges) = numbered(edge);
@@ -49,26 +53,27 @@ pub(super) fn assemble(
         }
         Mesh::assemble(n_vertices, origin, &sides)
     };
-    let (mesh, faces) = parallel::join(connected, || faces_of(&pieces.corners, [input, result]));
+    let (mesh, faces) = parallel::join(connected, || places_and_faces(&pieces.corners, [input, final_mesh]));
     let (mesh, (places, faces)) = (mesh?, faces?);
     let n = input.n_vertices();
-    let is_kept = |v: &usize| vertex[*v] != UNUSED;
-    let kept_edges = (0..edge.len()).filter(|&e| edge[e] != UNUSED);
+    let is_in_use = |v: &usize| vertex[*v] != UNUSED;
+    let edges_in_use = (0..edge.len()).filter(|&e| edge[e] != UNUSED);
     Ok(CommonSubdivision {
-        n_vertices: [(0..n).filter(is_kept).count(); 2],
-        crossings: (0..crossings.len()).filter(|c| is_kept(&(n + c))).map(|c| crossings[c]).collect(),
-        weight: (0..weight.len()).filter(is_kept).map(|v| weight[v]).collect::<Vec<_>>().into(),
+        n_vertices: [(0..n).filter(is_in_use).count(); 2],
+        crossings: (0..crossings.len()).filter(|c| is_in_use(&(n + c))).map(|c| crossings[c]).collect(),
+        weight: (0..weight.len()).filter(is_in_use).map(|v| weight[v]).collect::<Vec<_>>().into(),
         faces,
         places,
+        // Stored only if the triangulations have different vertices.
         points: Vec::new(),
-        piece: pieces.piece.into(),
-        along: kept_edges.map(|e| pieces.along[e]).collect::<Vec<_>>().into(),
+        polygon_of: pieces.polygon_of.into(),
+        halfedges_along: edges_in_use.map(|e| pieces.halfedges_along[e]).collect::<Vec<_>>().into(),
         mesh,
     })
 }
 
 /// Per triangle the places of its corners, and its faces, in the input and in the final triangulation.
-fn faces_of(
+fn places_and_faces(
     all: &[[SubdivisionCorner; 3]],
     meshes: [&Mesh; 2],
 ) -> Result<(Vec<[[PackedPlace; 2]; 3]>, [PerFace<FaceId>; 2])> {
@@ -81,9 +86,11 @@ fn faces_of(
     let mut faces = [Vec::with_capacity(all.len()), Vec::with_capacity(all.len())];
     for corners in all {
         let [Some(first), Some(second), Some(third)] = corners.map(of) else { return Err(torn()) };
-        faces[0].push(first.0.0);
-        faces[1].push(first.1.0);
-        places.push([first, second, third].map(|(a, b)| [a.1, b.1]));
+        // All three corners are in the same face, of the input as of the final triangulation.
+        let ((input_face, _), (final_face, _)) = first;
+        faces[0].push(input_face);
+        faces[1].push(final_face);
+        places.push([first, second, third].map(|((_, in_input), (_, in_final))| [in_input, in_final]));
     }
     Ok((places, faces.map(PerFace::from)))
 }
@@ -95,17 +102,18 @@ pub(crate) struct Unpacked {
     pub n_vertices: [usize; 2],
     pub crossings: Vec<Crossing>,
     pub weight: PerVertex<f64>,
-    pub piece: PerFace<u32>,
+    pub polygon_of: PerFace<u32>,
     pub faces: [PerFace<FaceId>; 2],
-    pub along: PerEdge<[Option<HalfedgeId>; 2]>,
+    pub halfedges_along: PerEdge<[Option<HalfedgeId>; 2]>,
     /// Per triangle: the barycentric coordinates of its corners in its face, `[corner of the triangle][corner of the face]`.
     pub barycentric: [Vec<[[f64; 3]; 3]>; 2],
 }
 
 impl CommonSubdivision {
-    /// The same with packed places, on these two triangulations.
-    pub(crate) fn packed(parts: Unpacked, meshes: [&Mesh; 2]) -> CommonSubdivision {
-        let Unpacked { mesh, n_vertices, crossings, weight, piece, faces, along, barycentric } = parts;
+    /// The common subdivision of these parts; `meshes` are its two triangulations.
+    pub(crate) fn from_barycentric(parts: Unpacked, meshes: [&Mesh; 2]) -> CommonSubdivision {
+        let Unpacked { mesh, n_vertices, crossings, weight, polygon_of, faces, halfedges_along, barycentric } =
+            parts;
         let nowhere = FacePoint { vertices: [VertexId(0); 3], weights: [0.0; 3] };
         let mut points = vec![[nowhere; 2]; mesh.n_vertices()];
         let mut places = Vec::with_capacity(mesh.n_faces());
@@ -120,12 +128,22 @@ impl CommonSubdivision {
                 })
             }));
         }
-        CommonSubdivision { mesh, n_vertices, crossings, weight, piece, faces, along, places, points }
+        CommonSubdivision {
+            mesh,
+            n_vertices,
+            crossings,
+            weight,
+            polygon_of,
+            faces,
+            halfedges_along,
+            places,
+            points,
+        }
     }
 }
 
-/// A point of a face in a form that is the same in all faces that it lies on: a point on a side by the weights along its half-edge 2e, a
-/// vertex by the weight 1; and how that form is turned into the weights of this face.
+/// The point in a form shared by all faces around it (for a point on an edge, weights in the direction of the even half-edge; for a vertex,
+/// 1, 0, 0), and the corner and direction with which this face reads that form.
 fn pack(mesh: &Mesh, face: FaceId, weights: [f64; 3]) -> (PackedPlace, FacePoint) {
     let is_zero = |k: usize| weights[k % 3] == 0.0;
     let vertex = (0..3).find(|&k| is_zero(k + 1) && is_zero(k + 2));

@@ -52,7 +52,7 @@ impl PlaceInFace {
     }
 
     /// The corner, if the place is one up to the rounding of its weights.
-    pub fn rounded(self) -> Option<usize> {
+    pub fn rounded_corner(self) -> Option<usize> {
         match self {
             PlaceInFace::Corner(corner) => Some(corner),
             PlaceInFace::Weights(weights) => corner_at(weights),
@@ -93,13 +93,13 @@ pub struct CommonSubdivision {
     /// Homogeneous weight per vertex: that of its position in the second triangulation over that in the first. Positive and finite; only
     /// quotients within a piece have a meaning.
     pub weight: PerVertex<f64>,
-    /// Per triangle, the piece that it is part of: triangles of one piece have consecutive numbers and the same projective map.
-    pub piece: PerFace<u32>,
+    /// Per triangle, the piece (a polygon) that it is part of: triangles of one piece have consecutive numbers and the same projective map.
+    pub polygon_of: PerFace<u32>,
     /// Per triangle, its face in each triangulation.
     pub faces: [PerFace<FaceId>; 2],
     /// Per edge e, the half-edge of each triangulation that its half-edge 2e runs along; none for the edges between triangles of one
     /// piece.
-    pub along: PerEdge<[Option<HalfedgeId>; 2]>,
+    pub halfedges_along: PerEdge<[Option<HalfedgeId>; 2]>,
     /// Per triangle and corner, its place in the face of each triangulation.
     pub(super) places: Vec<[[PackedPlace; 2]; 3]>,
     /// Per vertex, its place in each triangulation. Empty where every vertex is a crossing or a vertex of both.
@@ -140,12 +140,12 @@ impl CommonSubdivision {
 
     /// The edge on a side that an edge is a part of, if it is part of one.
     pub fn edge(&self, side: usize, e: EdgeId) -> Option<EdgeId> {
-        self.along[e][side].map(HalfedgeId::edge)
+        self.halfedges_along[e][side].map(HalfedgeId::edge)
     }
 
     /// The half-edge on a side that a half-edge runs along, in its direction, if it runs along one.
     pub fn halfedge(&self, side: usize, h: HalfedgeId) -> Option<HalfedgeId> {
-        let along = self.along[h.edge()][side]?;
+        let along = self.halfedges_along[h.edge()][side]?;
         Some(if h.0 & 1 == 0 { along } else { along.twin() })
     }
 

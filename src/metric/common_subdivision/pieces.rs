@@ -75,11 +75,11 @@ pub(super) struct PieceTriangles<'a> {
     parts: Vec<u32>,
     curve_parts: Vec<u32>,
     /// Per edge of the output, the half-edges of the input and of the final triangulation that its half-edge 2e runs along.
-    pub along: Vec<[Option<HalfedgeId>; 2]>,
+    pub halfedges_along: Vec<[Option<HalfedgeId>; 2]>,
     /// Per triangle: its half-edges, corners, the piece it belongs to.
     pub sides: Vec<[u32; 3]>,
     pub corners: Vec<[SubdivisionCorner; 3]>,
-    pub piece: Vec<u32>,
+    pub polygon_of: Vec<u32>,
     n_pieces: u32,
 }
 
@@ -101,25 +101,25 @@ impl<'a> PieceTriangles<'a> {
             crossed_by: vec![0; curves.n_crossings()],
             parts: running_sum(mesh.edges().map(|e| n(e) + 1)),
             curve_parts: Vec::new(),
-            along: Vec::new(),
+            halfedges_along: Vec::new(),
             sides: Vec::new(),
             corners: Vec::new(),
-            piece: Vec::new(),
+            polygon_of: Vec::new(),
             n_pieces: 0,
         };
         pieces.reserve(mesh);
         for e in mesh.edges() {
             let along = result.normal.along(mesh, e.halfedge());
-            pieces.along.extend((0..=n(e)).map(|_| [along, Some(e.halfedge())]));
+            pieces.halfedges_along.extend((0..=n(e)).map(|_| [along, Some(e.halfedge())]));
         }
-        let first = pieces.along.len() as u32;
+        let first = pieces.halfedges_along.len() as u32;
         let parts = |e| match curves.crossings(e).len() as u32 {
             0 => 0,
             m => m + 1,
         };
         pieces.curve_parts = running_sum(input.edges().map(parts)).into_iter().map(|k| first + k).collect();
         for e in input.edges() {
-            pieces.along.extend((0..parts(e)).map(|_| [Some(e.halfedge()), None]));
+            pieces.halfedges_along.extend((0..parts(e)).map(|_| [Some(e.halfedge()), None]));
             for (c, crossing) in curves.numbers(e).zip(curves.crossings(e)) {
                 let slot = pieces.slot(crossing.halfedge, i64::from(crossing.position));
                 pieces.slots[slot] = c as u32;
@@ -138,11 +138,11 @@ impl<'a> PieceTriangles<'a> {
     /// Make room for the pieces of all faces: each crossing adds three edges and two triangles to those of the final triangulation.
     fn reserve(&mut self, mesh: &Mesh) {
         let n = self.slots.len();
-        self.along.reserve_exact(mesh.n_edges() + 3 * n);
+        self.halfedges_along.reserve_exact(mesh.n_edges() + 3 * n);
         let triangles = mesh.n_faces() + 2 * n;
         self.sides.reserve_exact(triangles);
         self.corners.reserve_exact(triangles);
-        self.piece.reserve_exact(triangles);
+        self.polygon_of.reserve_exact(triangles);
     }
 
     fn slot(&self, side: HalfedgeId, position: i64) -> usize {
@@ -299,12 +299,12 @@ impl<'a> PieceTriangles<'a> {
             let closing = if i + 2 == size {
                 sides[size - 1]
             } else {
-                self.along.push([None; 2]);
-                2 * (self.along.len() as u32 - 1)
+                self.halfedges_along.push([None; 2]);
+                2 * (self.halfedges_along.len() as u32 - 1)
             };
             self.sides.push([left, sides[i], closing]);
             self.corners.push([corners[0], corners[i], corners[i + 1]]);
-            self.piece.push(self.n_pieces);
+            self.polygon_of.push(self.n_pieces);
             left = closing ^ 1;
             self.n_pieces += u32::from(apart || i + 2 == size);
         }

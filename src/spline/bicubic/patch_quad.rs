@@ -14,8 +14,8 @@
 //!
 //! [Coo67], which is bilinear in the chart. Around a singular vertex with total angle 2πm the surface is smooth in w = z^{1/m}. There u =
 //! w: the sides at the vertex are rays on which |w| grows linearly, and a(t), b(s) are the images of straight segments. If that patch turns
-//! over or leaves the triangle, M and G are chosen nearer to the vertex ([`super::split`]). If no choice helps, the place is the bilinear
-//! one times (s + t − s t)^{m−1}, which is the same on all four sides.
+//! over or leaves the triangle, M and G are moved along the lines from the vertex on which they lie ([`super::split`]). If no choice helps,
+//! the place is the bilinear one times (s + t − s t)^{m−1}, which is the same on all four sides.
 
 use crate::geometry::complex::{Complex, add, conj, cross, mul, norm, norm2, scale, sub, unit};
 use crate::spline::triangular::{Parameter, Spline};
@@ -65,8 +65,9 @@ pub(super) struct PatchQuad {
     ends: [Complex; 2],
     /// The vector from the corner to the centroid, over `frame`.
     centroid: Complex,
-    /// True if the Coons patch in w is taken; it can turn over, or leave the triangle, if that has a wide angle at a singular vertex.
-    is_coons: bool,
+    /// True if the Coons patch in w neither turns over nor leaves the triangle, as it can where that has a wide angle at a singular vertex.
+    /// A sound one is taken.
+    is_sound: bool,
 }
 
 impl PatchQuad {
@@ -88,14 +89,14 @@ impl PatchQuad {
             let scale = hole.spoke(p, q)?;
             Some(FilledDisk { chart: hole.chart, scale, inner: hole.inner })
         });
-        let quad = PatchQuad { patch, corner: a, frame, turns, filled, ends, centroid, is_coons: true };
-        let is_coons = turns == 1 || quad.is_sound(from, to);
-        PatchQuad { is_coons, ..quad }
+        let quad = PatchQuad { patch, corner: a, frame, turns, filled, ends, centroid, is_sound: true };
+        let is_sound = turns == 1 || quad.has_sound_coons_patch(from, to);
+        PatchQuad { is_sound, ..quad }
     }
 
-    /// True if the quadrilateral is the Coons patch in w.
-    pub fn is_coons(&self) -> bool {
-        self.is_coons
+    /// True if the Coons patch in w neither turns over nor leaves the triangle; the quadrilateral is that patch then.
+    pub fn is_sound(&self) -> bool {
+        self.is_sound
     }
 
     /// The place at (s, t). Where the filling around a singular vertex alone is the surface, it is in the chart of the hole: there z = wᵐ
@@ -117,7 +118,7 @@ impl PatchQuad {
     /// The position at (s, t) relative to the corner, over the frame.
     fn local(&self, at: [f64; 2]) -> Complex {
         let [s, t] = self.dense(at);
-        if !self.is_coons {
+        if !self.is_sound {
             let [a, b, d] = [
                 scale(s * (1.0 - t), self.ends[0]),
                 scale(t * (1.0 - s), self.ends[1]),
@@ -132,7 +133,7 @@ impl PatchQuad {
     }
 
     /// True if the cells of a grid are counterclockwise and inside the triangle; `from` and `to` are the shares of its sides at the corner.
-    fn is_sound(&self, from: f64, to: f64) -> bool {
+    fn has_sound_coons_patch(&self, from: f64, to: f64) -> bool {
         let at = |i: u8, j: u8| self.local([i, j].map(|k| f64::from(k) / f64::from(CELLS)));
         let [next, last] = [scale(1.0 / from, self.ends[0]), scale(1.0 / to, self.ends[1])];
         let whole = cross(next, last);

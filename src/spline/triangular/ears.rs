@@ -11,21 +11,21 @@ use std::collections::HashMap;
 const LEAST_HEIGHT: f64 = 0.1;
 
 impl PlaneDomain {
-    /// Flips edges at convex corners of the boundary until each has a single triangle, as far as no thin triangle is made. Returns the
-    /// number of inner edges that still end at corners, reflex ones included.
-    pub fn cut_ears(&mut self) -> usize {
+    /// Flips edges at every corner of the boundary, which leaves a convex one with a single triangle unless that would make a thin one.
+    /// Returns the sum of the numbers of inner edges that were left at each corner when it was visited.
+    pub fn make_ears(&mut self) -> usize {
         let mut around = vec![Vec::new(); self.vertices.len()];
         for (t, triangle) in self.triangles.iter().enumerate() {
             triangle.iter().for_each(|v| around[*v as usize].push(t));
         }
         let corners = self.corners();
-        corners.into_iter().map(|corner| self.cut_ear(corner, &mut around)).sum()
+        corners.into_iter().map(|corner| self.make_ear(corner, &mut around)).sum()
     }
 
     /// Flips edges at the middle one of three vertices of the boundary; returns the number of inner edges that are left there.
-    fn cut_ear(&mut self, [before, corner, after]: [u32; 3], around: &mut [Vec<usize>]) -> usize {
+    fn make_ear(&mut self, [before, corner, after]: [u32; 3], around: &mut [Vec<usize>]) -> usize {
         loop {
-            // The fan around the corner, from the side after it to the side before it; each entry has the triangle on its right.
+            // The neighbours of the corner from `after` to `before`, each with the triangle between it and the previous one.
             let ends = around[corner as usize].iter().filter_map(|&t| {
                 let triangle = self.triangles[t];
                 let k = triangle.iter().position(|&v| v == corner)?;
@@ -38,21 +38,21 @@ impl PlaneDomain {
             }
             debug_assert_eq!(fan.last().map(|last| last.0), Some(before));
             let inner = fan.len().saturating_sub(2);
-            let flip = (1..=inner).find(|&i| self.can_part(corner, [fan[i - 1].0, fan[i].0, fan[i + 1].0]));
+            let flip = (1..=inner).find(|&i| self.can_flip(corner, [fan[i - 1].0, fan[i].0, fan[i + 1].0]));
             let Some(i) = flip else { return inner };
             let [from, middle, to] = [fan[i - 1].0, fan[i].0, fan[i + 1].0];
-            let (near, far) = (fan[i].1, fan[i + 1].1);
-            self.triangles[near] = [corner, from, to];
-            self.triangles[far] = [from, middle, to];
-            around[corner as usize].retain(|&t| t != far);
-            around[middle as usize].retain(|&t| t != near);
-            around[from as usize].push(far);
-            around[to as usize].push(near);
+            let (first, second) = (fan[i].1, fan[i + 1].1);
+            self.triangles[first] = [corner, from, to];
+            self.triangles[second] = [from, middle, to];
+            around[corner as usize].retain(|&t| t != second);
+            around[middle as usize].retain(|&t| t != first);
+            around[from as usize].push(second);
+            around[to as usize].push(first);
         }
     }
 
     /// True if the edge from a corner to the middle one of three vertices can be flipped without making a thin triangle.
-    fn can_part(&self, corner: u32, [from, middle, to]: [u32; 3]) -> bool {
+    fn can_flip(&self, corner: u32, [from, middle, to]: [u32; 3]) -> bool {
         let is_good = |triangle: [u32; 3]| {
             let [a, b, c] = triangle.map(|v| self.vertices[v as usize]);
             let longest = distance(a, b).max(distance(b, c)).max(distance(c, a));

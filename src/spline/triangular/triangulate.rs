@@ -14,7 +14,7 @@ const MOST_VERTICES: usize = 2_000_000;
 
 /// The triangulated inside of closed polygons: the points that an odd number of them wind around. Triangles are about as large as
 /// equilateral ones with the side `edge`, or smaller where the boundary needs it. Vertices of the polygons at which they go straight on are
-/// left out. Convex corners get a single triangle where possible ([`PlaneDomain::cut_ears`]).
+/// left out. Convex corners get a single triangle where possible ([`PlaneDomain::make_ears`]).
 ///
 /// # Errors
 /// [`Error::Spline`] for a polygon that crosses itself or another one, or has no area; [`Error::Argument`] for an edge that is not
@@ -86,7 +86,7 @@ pub fn triangulate(polygons: &[Vec<[f64; 2]>], edge: f64) -> Result<PlaneDomain>
     });
     let triangles = triangles.collect();
     let mut domain = PlaneDomain { vertices, triangles };
-    domain.cut_ears();
+    domain.make_ears();
     Ok(domain)
 }
 

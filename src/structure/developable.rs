@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 /// A developable surface: faces in a space, isometries across their sides, excluded faces and singular vertices.
 pub(super) struct DevelopableSurface {
-    pub steps: FaceTransitions,
+    pub faces: FaceTransitions,
     /// Faces that no chart may contain.
     pub excluded: PerFace<bool>,
     /// Vertices that no chart may contain inside.
@@ -21,10 +21,10 @@ pub(super) struct DevelopableSurface {
 
 impl DevelopableSurface {
     /// The surface of given faces, with no excluded faces or singular vertices.
-    pub fn new(steps: FaceTransitions) -> DevelopableSurface {
-        let excluded = PerFace::filled(steps.mesh.n_faces(), false);
-        let singular = PerVertex::filled(steps.mesh.n_vertices(), false);
-        DevelopableSurface { steps, excluded, singular }
+    pub fn new(faces: FaceTransitions) -> DevelopableSurface {
+        let excluded = PerFace::filled(faces.mesh.n_faces(), false);
+        let singular = PerVertex::filled(faces.mesh.n_vertices(), false);
+        DevelopableSurface { faces, excluded, singular }
     }
 
     /// The surface with given points of a space as vertices; faces with a point that is not finite are excluded.
@@ -36,7 +36,7 @@ impl DevelopableSurface {
         let corners =
             PerFace::from_fn(mesh.n_faces(), |f: FaceId| mesh.face_vertices(f).map(|v| point(v.index())));
         let across = PerHalfedge::filled(mesh.n_halfedges(), Motion::identity(space));
-        let mut sheet = DevelopableSurface::new(FaceTransitions {
+        let mut surface = DevelopableSurface::new(FaceTransitions {
             mesh: mesh.clone(),
             space,
             corners,
@@ -44,9 +44,9 @@ impl DevelopableSurface {
             area: f64::NAN,
         });
         for f in mesh.faces() {
-            sheet.excluded[f] = !sheet.steps.corners[f].as_flattened().iter().all(|x| x.is_finite());
+            surface.excluded[f] = !surface.faces.corners[f].as_flattened().iter().all(|x| x.is_finite());
         }
-        sheet
+        surface
     }
 
     /// The surface developed to the plane by the integrals of a closed form; faces that are not counterclockwise there are excluded.
@@ -77,36 +77,36 @@ impl DevelopableSurface {
             p[0] * q[1] - p[1] * q[0] <= 0.0
         };
         let excluded = PerFace::from_fn(mesh.n_faces(), clockwise);
-        let steps = FaceTransitions { mesh: mesh.clone(), space: Space::E2, corners, across, area: f64::NAN };
-        Ok(DevelopableSurface { excluded, ..DevelopableSurface::new(steps) })
+        let faces = FaceTransitions { mesh: mesh.clone(), space: Space::E2, corners, across, area: f64::NAN };
+        Ok(DevelopableSurface { excluded, ..DevelopableSurface::new(faces) })
     }
 
     /// The same plane surface with all lengths multiplied by a factor.
     pub fn scaled(mut self, factor: f64) -> DevelopableSurface {
-        let steps = &mut self.steps;
-        for corner in steps.corners.iter_mut().flatten() {
+        let faces = &mut self.faces;
+        for corner in faces.corners.iter_mut().flatten() {
             *corner = [factor * corner[0], factor * corner[1], corner[2]];
         }
-        for step in steps.across.iter_mut() {
+        for step in faces.across.iter_mut() {
             step.b = step.b.map(|x| x * factor.into());
         }
-        steps.area *= factor * factor;
+        faces.area *= factor * factor;
         self
     }
 
     pub fn mesh(&self) -> &Mesh {
-        &self.steps.mesh
+        &self.faces.mesh
     }
 
     /// The ambient coordinates of the corners of a face after the motion `place`.
     pub fn corners(&self, f: FaceId, place: &Motion<DoubleDouble>) -> [[f64; 3]; 3] {
-        let space = self.steps.space;
-        self.steps.corners[f].map(|p| place.apply(precise_point(space, p)).map(f64::from))
+        let space = self.faces.space;
+        self.faces.corners[f].map(|p| place.apply(precise_point(space, p)).map(f64::from))
     }
 
     /// The motion that takes corner `k` of a face to the origin, or the face's middle if there is no `k`.
     pub fn place_about(&self, f: FaceId, k: Option<usize>) -> Motion<DoubleDouble> {
-        let (space, corners) = (self.steps.space, self.steps.corners[f]);
+        let (space, corners) = (self.faces.space, self.faces.corners[f]);
         let at = match k {
             Some(k) => precise_point(space, corners[k]),
             None => middle(space, corners),
@@ -122,14 +122,14 @@ impl DevelopableSurface {
 
     /// A length of the size of the whole surface: in E² the root of its area, elsewhere 1.
     pub fn size(&self) -> f64 {
-        if self.steps.space != Space::E2 {
+        if self.faces.space != Space::E2 {
             return 1.0;
         }
         let area = |[a, b, c]: &[[f64; 3]; 3]| {
             let doubled = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
             if doubled.is_finite() { 0.5 * doubled.abs() } else { 0.0 }
         };
-        self.steps.corners.iter().map(area).sum::<f64>().sqrt()
+        self.faces.corners.iter().map(area).sum::<f64>().sqrt()
     }
 }
 

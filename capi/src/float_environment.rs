@@ -1,7 +1,10 @@
-//! The floating-point environment: the default one during a call, the host's own again after it.
+//! The floating-point environment: the default one during a call, the host's own again after it. On Linux that is the whole default
+//! environment; elsewhere traps are off and rounding is to nearest, but flush-to-zero stays as the host has it. Exception flags that are
+//! raised during the call are discarded.
 //!
-//! A host may run with traps enabled, another rounding mode or flush-to-zero. The library's results must not depend on that, and
-//! its harmless 0/0 and inexact operations must not trap. Threads that a call starts inherit the environment of the call.
+//! A host may run with traps enabled, another rounding mode or flush-to-zero. The library's results must not depend on that (on
+//! flush-to-zero they do outside Linux), and its harmless 0/0 and inexact operations must not trap. Threads that a call starts inherit
+//! the environment of the call.
 
 use std::ffi::c_int;
 
@@ -15,17 +18,16 @@ unsafe extern "C" {
     fn fesetround(mode: c_int) -> c_int;
 }
 
-/// `FE_TONEAREST`, 0 on every platform that has it.
+/// The value of `FE_TONEAREST`, 0 on every platform we know.
 const TO_NEAREST: c_int = 0;
 
 /// The host's environment, which is put back when this is dropped.
-pub struct Environment(Fenv);
+pub struct HostFloatEnvironment(Fenv);
 
-impl Environment {
+impl HostFloatEnvironment {
     /// Saves the host's environment and sets the default one.
-    pub fn enter() -> Environment {
-        let mut host = Environment(Fenv([0; 256]));
-        // On other systems than Linux the host's flush-to-zero stays in force.
+    pub fn replace_by_default() -> HostFloatEnvironment {
+        let mut host = HostFloatEnvironment(Fenv([0; 256]));
         // SAFETY: the buffer is large enough and aligned for `fenv_t`; `FE_DFL_ENV` is the pointer −1 in
         // glibc and musl, whose `fesetenv` also clears flush-to-zero.
         unsafe {
@@ -40,7 +42,7 @@ impl Environment {
     }
 }
 
-impl Drop for Environment {
+impl Drop for HostFloatEnvironment {
     fn drop(&mut self) {
         // SAFETY: written by `feholdexcept` above.
         unsafe {
