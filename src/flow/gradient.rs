@@ -97,6 +97,9 @@ impl Flow {
             Space::E2 if self.options.gradient.area_normalised => Some(state.area(&self.mesh, &self.metric)),
             _ => None,
         };
+        // Steps are compared at one area, so the flow starts at it, if the class has such a metric.
+        let mut at_area = state.clone();
+        let state = if area.is_some() && self.evaluate_at_area(&mut at_area, area) { at_area } else { state };
         let [mut direction, next_direction] = [(); 2].map(|()| vec![0.0; self.mesh.n_vertices()]);
         let first = state.residual(&self.target, &self.pinned, &mut direction);
         let trial = FlowState::new(&self.start, &self.start_low);

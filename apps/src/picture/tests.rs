@@ -284,8 +284,8 @@ fn drawings_are_well_formed_and_small() {
         let svg = String::from_utf8(svg).unwrap();
         resvg::usvg::roxmltree::Document::parse(&svg).unwrap();
         assert!(svg.ends_with("</svg>\n") && svg.contains("circles of the vertices"));
-        // Of the colours each is a path, and so is each letter; circles of the pattern are polygons.
-        let limit = 50 * uv.len() + if texture == TextureChoice::Circles { 260_000 } else { 60_000 };
+        // Of the colours each is a path, and so is each letter, also of the key; circles of the pattern are polygons.
+        let limit = 50 * uv.len() + if texture == TextureChoice::Circles { 290_000 } else { 90_000 };
         assert!(svg.len() < limit, "{} bytes for {} faces", svg.len(), uv.len());
     }
 }

@@ -229,10 +229,10 @@ fn every_command_with_a_layout_in_the_plane_writes_it() {
         let drawn = read_dxf(&place.text(name));
         drawn.iter().filter(|l| l.is_closed && l.layer == layer).map(Drawn::length).collect::<Vec<f64>>()
     };
-    // The disk and the rectangle have one closed boundary, that of the unit disk by its 18 corners.
+    // The disk and the square have one closed boundary, that of the unit disk by its 18 corners.
     let disk = closed("harmonic bent.obj --to disk", "disk.dxf", "BOUNDARY");
     assert!(disk.len() == 1 && disk[0] < std::f64::consts::TAU && disk[0] > 5.9, "{disk:?}");
-    assert_eq!(closed("harmonic bent.obj --to rectangle", "rectangle.dxf", "BOUNDARY").len(), 1);
+    assert_eq!(closed("harmonic bent.obj --to polygon:4", "polygon.dxf", "BOUNDARY").len(), 1);
     assert_eq!(closed("uniformize bent.obj --boundary straight", "straight.dxf", "BOUNDARY").len(), 1);
     place.expect(0, "circles plate.obj --flat circles.dxf");
     assert!(lengths(&read_dxf(&place.text("circles.dxf")))["BOUNDARY"] > 6.0);

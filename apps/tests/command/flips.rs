@@ -141,7 +141,7 @@ fn edges_are_kept_on_demand() {
     let faces = parse_faces(&place.text("hill.obj"));
     let rows = faces.iter().step_by(3).map(|f| format!("{},{}\n", f[0], f[1]));
     place.put("e.csv", &rows.clone().collect::<String>());
-    place.expect(0, "flow hill.obj --metric m.json");
+    place.expect(0, "flow hill.obj --target boundary --metric m.json");
     let has_all = |place: &Place| {
         let kept: Vec<[f64; 3]> = crate::run::triples(&place.json("m.json")["faces"]);
         faces.iter().step_by(3).all(|f| {
@@ -150,7 +150,7 @@ fn edges_are_kept_on_demand() {
         })
     };
     assert!(!has_all(&place));
-    place.run("flow hill.obj --keep-edges e.csv --metric m.json --report r.json");
+    place.run("flow hill.obj --target boundary --keep-edges e.csv --metric m.json --report r.json");
     assert!(has_all(&place));
     assert_eq!(place.json("r.json")["options"]["keep_edges"], "e.csv");
     place.put("bad.csv", "0,0\n");

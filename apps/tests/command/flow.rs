@@ -397,9 +397,8 @@ fn the_area_normalised_gradient_flow_keeps_the_area() {
 }
 
 #[test]
-fn a_default_target_out_of_reach_is_exit_1_with_the_vertices_that_prove_it() {
-    // A square with two holes. A corner in a single triangle has an angle below π, so that K̄ = 0, the default beside a pinned vertex, is
-    // out of reach there; so is its share of −2π.
+fn the_default_is_reached_where_shares_of_the_boundary_are_not() {
+    // A square with two holes. A corner in a single triangle has an angle below π, so that its share of −2π is out of reach.
     let place = Place::new();
     let mut square = hill(7);
     let hole = |v: &[usize; 3], i: usize, j: usize| {
@@ -407,17 +406,8 @@ fn a_default_target_out_of_reach_is_exit_1_with_the_vertices_that_prove_it() {
     };
     square.faces.retain(|f| !hole(f, 2, 2) && !hole(f, 4, 4));
     place.put("holes.obj", &square.obj());
-    let ended =
-        place.expect(1, "flow holes.obj --scheme tangential --pin 20 --report r.json --metric m.json");
-    let result = &place.json("r.json")["result"];
-    assert_eq!((&result["converged"], &result["stop_reason"]), (&false.into(), &"infeasible".into()));
-    let proof = &result["obstruction"];
-    assert!(proof["target"].as_f64().unwrap() <= proof["above"].as_f64().unwrap());
-    let corner = numbers(&proof["vertices"])[0];
-    assert!(corner == 7.0 || corner == 56.0, "{proof}");
-    assert!(ended.out.contains("every metric of the scheme"), "{}", ended.out);
-    assert!(!result["worst_vertices"].as_array().unwrap().is_empty());
-    // The same target by name is an input error: it says by how much and where.
+    place.expect(0, "flow holes.obj --scheme tangential");
+    // That target by name is an input error: it says by how much and where.
     let ended = place.expect(3, "flow holes.obj --scheme tangential --target boundary");
     assert!(ended.err.contains("too small by"), "{}", ended.err);
 }
@@ -444,5 +434,5 @@ fn the_default_on_open_surfaces_with_handles_places_cones() {
     assert_eq!((&result["stop_reason"], &result["iterations"]), (&"out_of_reach".into(), &20.into()));
     place.expect(0, "flow many.obj --report r.json");
     place.put("disk.obj", &hill(8).obj());
-    assert!(place.expect(0, "flow disk.obj").out.contains("target boundary:"));
+    assert!(place.expect(0, "flow disk.obj").out.contains("target outer"));
 }

@@ -118,6 +118,7 @@ fn corners_of_stl_are_welded_for_every_command() {
     }
     place.expect(0, "make torus -o t.obj");
     place.expect(2, "info t.obj --weld 1");
+    place.expect(0, "make torus -o t.json");
     place.expect(2, "flow t.json --weld 1");
 }
 

@@ -3,6 +3,30 @@
 #include "torus.h"
 #include <ricci/uniformize.h>
 
+/* The layout of a closed surface is bounded by seams alone; drawn and written as geometry. */
+static void check_lines(const ricci_layout *layout) {
+    enum { MOST = 4000 };
+    int32_t *lines = (int32_t *)room(4 * MOST, sizeof *lines);
+    size_t n_lines = 0, n_points = 0;
+    memset(lines, -1, 4 * MOST * sizeof *lines);
+    OK(ricci_layout_lines(layout, RICCI_ON_REFINEMENT, 3, lines, 4 * MOST));
+    for (; n_lines < MOST && lines[4 * n_lines + 3] > 0; n_lines++) {
+        CHECK(lines[4 * n_lines] == RICCI_LAYER_SEAMS && lines[4 * n_lines + 1] >= 0);
+        n_points += (size_t)lines[4 * n_lines + 3];
+    }
+    CHECK(n_lines > 1 && n_points >= 2 * n_lines);
+    uint32_t *points = (uint32_t *)room(n_points, sizeof *points);
+    OK(ricci_layout_line_points(layout, RICCI_ON_REFINEMENT, 3, points, n_points));
+    FAILS(ricci_layout_line_points(layout, RICCI_ON_REFINEMENT, 3, points, n_points - 1),
+          RICCI_BUFFER_TOO_SMALL, "points");
+    FAILS(ricci_layout_lines(layout, RICCI_ON_REFINEMENT, 4, lines, 4 * MOST), RICCI_ARGUMENT, "fold_angle");
+    OK(ricci_layout_write_flat(layout, RICCI_ON_REFINEMENT, 3, RICCI_SHEET_MILLIMETRE, "charts.dxf"));
+    FAILS(ricci_layout_write_flat(layout, RICCI_ON_REFINEMENT, 3, RICCI_SHEET_MILLIMETRE, "charts.txt"),
+          RICCI_UNKNOWN_FORMAT, "charts.txt");
+    free(points);
+    free(lines);
+}
+
 int main(void) {
     torus t = torus_new(40, 20);
     ricci_mesh *mesh = torus_mesh(&t);
@@ -52,6 +76,7 @@ int main(void) {
     OK(flow_to(metric, target, n, NULL, NULL, &flat));
     OK(ricci_layout_new(flat, NULL, NULL, &layout));
     OK(ricci_layout_summarise(layout, &plane, sizeof plane));
+    check_lines(layout);
     FAILS(ricci_atlas_new(layout, 1, NULL, &charts), RICCI_ARGUMENT, "margin");
     FAILS(ricci_atlas_new(NULL, 0.01, NULL, &charts), RICCI_NULL_POINTER, "layout");
     FAILS(ricci_atlas_new(layout, 0.01, NULL, NULL), RICCI_NULL_POINTER, "atlas");

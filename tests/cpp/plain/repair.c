@@ -154,6 +154,24 @@ static void check_refined(void) {
     ricci_soup_free(soup);
 }
 
+/* A square cut along its diagonal, with the parts a little apart: the seam is found with the weld that closes
+ * it. */
+static void seam(void) {
+    const double positions[18] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1e-9, 0, 1, 1 + 1e-9, 0, 0, 1, 0};
+    const uint32_t faces[6] = {0, 1, 2, 3, 4, 5};
+    ricci_soup *soup = NULL;
+    ricci_soup_summary summary;
+    ricci_defect hint;
+    OK(ricci_soup_from_arrays(positions, 0, 6, faces, 2, &soup));
+    OK(ricci_soup_summarise(soup, &summary, sizeof summary));
+    CHECK(summary.n_hints == 1);
+    OK(ricci_soup_hint(soup, 0, &hint, sizeof hint));
+    CHECK(hint.size == sizeof hint);
+    FAILS(ricci_soup_hint(soup, 1, &hint, sizeof hint), RICCI_ARGUMENT, "index");
+    FAILS(ricci_soup_hint(soup, 0, NULL, sizeof hint), RICCI_NULL_POINTER, "hint");
+    ricci_soup_free(soup);
+}
+
 int main(void) {
     fin();
     attributes();
@@ -245,5 +263,6 @@ int main(void) {
     free(face_origin);
     torus_free(&t);
     check_refined();
+    seam();
     return 0;
 }
