@@ -30,7 +30,7 @@ pub(super) fn lengths_of_pieces<F: HalfedgeFrame>(pieces: &LayoutPieces, faces: 
             let corners = *corners.get_or_init(|| faces.local(face));
             combination(faces.space, corners, places[k].weights())
         };
-        [0, 1, 2].map(|k| match [places[k], places[(k + 1) % 3]].map(PlaceInFace::rounded) {
+        [0, 1, 2].map(|k| match [places[k], places[(k + 1) % 3]].map(PlaceInFace::rounded_corner) {
             _ if !is_measured(sides[k]) => 0.0,
             // The edge is a whole side of the final face.
             [Some(from), Some(to)] if from != to => faces.length(face, 3 - from - to),

@@ -22,6 +22,7 @@ const NEEDLE: f64 = 1e3;
 const ROUNDINGS: f64 = 256.0;
 
 /// The metric at one u: the variables with their curvature, and the measurements that led to it, whose memory goes from step to step.
+#[derive(Clone)]
 pub(super) struct FlowState {
     pub u: PerVertex<f64>,
     /// The low parts of u in double-double precision.
