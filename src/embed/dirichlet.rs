@@ -52,6 +52,26 @@ fn no_domain(why: &str) -> Error {
     Error::Layout(format!("no Dirichlet domain: {why} ({advice})"))
 }
 
+/// Checks that a group is one whose domain this search can find.
+fn check_group(deck: &DeckGroup) -> Result<()> {
+    if deck.sides.is_empty() || deck.space == Space::S2 {
+        return Err(Error::Layout("a simply connected surface has no Dirichlet domain".into()));
+    }
+    if deck.side_residual > MAX_SIDE_RESIDUAL {
+        let off = deck.side_residual;
+        return Err(no_domain(&format!(
+            "the isometries of the sides are {off:.1e} away from those of their words"
+        )));
+    }
+    let turning = deck.generators.iter().map(Motion::rotation_angle).fold(0.0, f64::max);
+    if deck.space == Space::E2 && turning > MAX_ROTATION {
+        return Err(Error::Layout(format!(
+            "no Dirichlet domain: loops of this flat surface turn by up to {turning} radians: it has cones, and the search covers translations only"
+        )));
+    }
+    Ok(())
+}
+
 /// The Dirichlet domain of the base point `centre` (ambient coordinates) of a surface with this area, in E² or H². The surface is closed,
 /// or has a straight boundary, whose lines bound the domain too.
 ///
@@ -68,21 +88,7 @@ pub fn dirichlet_domain(
     area: f64,
     control: &Control,
 ) -> Result<DirichletDomain> {
-    if deck.sides.is_empty() || deck.space == Space::S2 {
-        return Err(Error::Layout("a simply connected surface has no Dirichlet domain".into()));
-    }
-    if deck.side_residual > MAX_SIDE_RESIDUAL {
-        let off = deck.side_residual;
-        return Err(no_domain(&format!(
-            "the isometries of the sides are {off:.1e} away from those of their words"
-        )));
-    }
-    let turning = deck.generators.iter().map(Motion::rotation_angle).fold(0.0, f64::max);
-    if deck.space == Space::E2 && turning > MAX_ROTATION {
-        return Err(Error::Layout(format!(
-            "no Dirichlet domain: loops of this flat surface turn by up to {turning} radians: it has cones, and the search covers translations only"
-        )));
-    }
+    check_group(deck)?;
     // The base point is moved to the origin; side elements, generators and borders are moved with it, `deck` is not.
     let home = Motion::to_origin(deck.space, precise_point(deck.space, centre));
     let sides = deck.sides.iter().map(|g| g.conjugated_by(&home));
