@@ -14,6 +14,8 @@ ISOMETRIC = 1e-12
 
 def figures(report):
     result = report["result"]
+    if "seams" not in result:
+        return [f"none: {result['stop_reason']}", "–", "–", seconds(report)]
     return [f"{plain(result['qc_max'], '.3g')}, {plain(result['qc_mean'], '.3f')}",
             f"{small(result['area_ratio_min'])}–{small(result['area_ratio_max'])}", len(result["seams"]), seconds(report)]
 
@@ -24,7 +26,9 @@ def row(run, mesh):
     name = [mesh["name"], mesh["F"], mesh["boundary_loops"]]
     if new is None:
         return name + [run.bad[-1].removeprefix(f"{mesh['name']}: ")]
-    run.insist(new["result"]["seams"] == [], f"{mesh['name']}: the default has seams")
+    result = new["result"]
+    run.insist(result["converged"], f"{mesh['name']}: {result['stop_reason']}")
+    run.insist(result.get("seams") == [], f"{mesh['name']}: not one piece without seams")
     return name + figures(new) + (figures(old[0]) if old[0] else [old[1]])
 
 
