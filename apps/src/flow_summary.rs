@@ -7,6 +7,7 @@ use crate::report::{Checks, Done, Figures, InputSummary};
 use crate::runner::{CommandRun, JobOutcome};
 use crate::say::{count, ending, modulus, surface, tolerance};
 use crate::surface_layout::SurfaceLayout;
+use ricci::Target;
 use ricci::flow::StopReason;
 use ricci::geometry::worse;
 use ricci::mesh::VertexId;
@@ -24,6 +25,10 @@ impl JobOutcome for FlowOutcome {
             let u = &solution.metric().u;
             let differs = |v: VertexId| (u[v] - u[double.mirror(v)]).abs();
             checks.add("mirror_symmetry", solution.mesh().vertices().map(differs).fold(0.0, worse), MIRROR);
+        }
+        if let (Target::Outer(_), false) = (&self.rule, solution.is_one_piece()) {
+            let holes = self.input.mesh().boundary_loops().len() - 1;
+            checks.add("unclosed_holes", holes as f64, 0.0);
         }
         if let Ok(laid) = &self.layout {
             let limit = laid.layout.consistency_limit(self.solved.total_error());
@@ -121,6 +126,11 @@ fn overlap(laid: &SurfaceLayout) -> String {
 /// The reason why a flow did not converge, as far as it is known.
 fn why(outcome: &FlowOutcome) -> String {
     let report = &outcome.report;
+    if let (StopReason::BrokenTriangles, Target::Outer(_)) = (report.stop_reason, &outcome.rule) {
+        return "with the lengths of the outer loop kept, triangles at a filled hole break, since edges of loops are not flipped: \
+                refine the surface there, or bend the loops instead (--target boundary)"
+            .into();
+    }
     if report.stop_reason == StopReason::BrokenTriangles {
         return format!(
             "no metric of the scheme on this triangulation: its energy is least with broken {}",

@@ -1,14 +1,15 @@
 //! Flows that hold the lengths of a surface's outer loop and close its other loops while they solve ([`Target::Outer`]).
 //!
 //! A hole whose loop develops to a closed polygon of the plane, as every hole of a flat plate does, is closed by triangles of that polygon: a
-//! surface that is flat already then keeps u = 0. Any other hole is closed by a hub at equal distances from its loop. With its caps the
+//! surface that is flat already then keeps u = 0. Any other hole is closed by a hub at equal distances from its loop, or, where a triangle breaks
+//! that way, by a ring of triangles on its edges with a hub inside. With its caps the
 //! surface is a disk. On it the flow leads to K̄ = 0 everywhere inside, with the edges of the loops kept from being flipped, and the
 //! metric of the disk restricted to the surface is one of the surface's own class. Since the disk is flat, the surface unrolls around
 //! every hole to where it began: its layout is one piece without a seam.
 
 use super::Flow;
 use super::cones::with_cones_placed;
-use super::hubs::start_radius;
+use super::hubs::{radius_within, start_radius};
 use super::options::{Flips, Options};
 use super::origin::FlowOrigin;
 use super::report::Report;
@@ -19,7 +20,7 @@ use crate::geometry::complex::{Complex, add, distance, norm};
 use crate::geometry::polygon_triangles::polygon_triangles;
 use crate::geometry::{DoubleDouble, triangle, worse};
 use crate::mesh::caps::{Cap, CappedMesh};
-use crate::mesh::{EdgeId, HalfedgeId, Mesh, PerEdge, PerVertex};
+use crate::mesh::{EdgeId, HalfedgeId, Mesh, PerEdge, PerVertex, VertexId};
 use crate::metric::initial::weight_of_length;
 use crate::metric::target::longest_loop;
 use crate::metric::{Class, Metric, Surface, Target};
@@ -76,7 +77,13 @@ impl Flow {
         };
         let mut first = None;
         if given.boundary_loops().len() > 1 {
-            let CappedEnd { report, u, u_low } = open.flow_with_caps(outer, control)?;
+            let mut end = open.flow_with_caps(outer, false, control)?;
+            if !end.report.is_reached() {
+                // Triangles of a ring are small beside those of a hub or polygon, and do not break as soon.
+                let ringed = open.flow_with_caps(outer, true, control)?;
+                end = CappedEnd { report: end.report.then(ringed.report), ..ringed };
+            }
+            let CappedEnd { report, u, u_low } = end;
             open.set_start(u, u_low)?;
             first = Some(report);
         }
@@ -95,10 +102,10 @@ impl Flow {
         Ok(self.solution())
     }
 
-    /// The flow to K̄ = 0 on the surface whose loops but `outer` are capped, with u held at that loop.
-    fn flow_with_caps(&self, outer: usize, control: &Control) -> Result<CappedEnd> {
+    /// The flow to K̄ = 0 on the surface whose loops but `outer` are capped ([`capped`]), with u held at that loop.
+    fn flow_with_caps(&self, outer: usize, ringed: bool, control: &Control) -> Result<CappedEnd> {
         let n = self.mesh.n_vertices();
-        let (mesh, metric, rims) = capped(&self.mesh, &self.metric, outer)?;
+        let (mesh, metric, rims) = capped(&self.mesh, &self.metric, outer, ringed)?;
         let pinned = self.mesh.boundary_loops()[outer].iter().map(|&h| self.mesh.origin(h)).collect();
         let fixed_edges = self.options.fixed_edges.iter().copied().chain(rims).collect();
         let flips = if self.flips_allowed { Flips::Auto } else { Flips::Never };
@@ -134,9 +141,9 @@ impl Report {
     }
 }
 
-/// The surface with all loops but `outer` capped, its metric, which is that of the open surface off the caps, and the edges of the capped
+/// The surface with all loops but `outer` capped, if it is `ringed` by rings alone; its metric, which is that of the open surface off the caps, and the edges of the capped
 /// loops.
-fn capped(open: &Mesh, metric: &Metric, outer: usize) -> Result<(Mesh, Metric, Vec<EdgeId>)> {
+fn capped(open: &Mesh, metric: &Metric, outer: usize, ringed: bool) -> Result<(Mesh, Metric, Vec<EdgeId>)> {
     let lengths = metric.lengths(open)?;
     let curvature = metric.curvature(open)?.at;
     let loops = open.boundary_loops();
@@ -145,22 +152,13 @@ fn capped(open: &Mesh, metric: &Metric, outer: usize) -> Result<(Mesh, Metric, V
         .collect();
     let cap = |(k, polygon): (usize, &Option<CapPolygon>)| match polygon {
         _ if k == outer => Cap::Open,
+        _ if ringed => Cap::Ring,
         Some(polygon) => Cap::Triangles(polygon.triangles.clone()),
         None => Cap::Hub,
     };
-    let CappedMesh { mesh, rims, hubs } =
-        CappedMesh::new(open, polygons.iter().enumerate().map(cap).collect())?;
-    let mut point = PerVertex::filled(open.n_vertices(), [0.0; 2]);
-    let mut radius = PerVertex::filled(mesh.n_vertices(), 0.0);
-    for (k, rim) in loops.iter().enumerate() {
-        if let Some(polygon) = &polygons[k] {
-            rim.iter().zip(&polygon.corners).for_each(|(&h, &p)| point[open.origin(h)] = p);
-        }
-        if let Some(hub) = hubs[k] {
-            radius[hub] = start_radius(&lengths, rim);
-        }
-    }
-    let n_new = mesh.n_vertices() - open.n_vertices();
+    let capped = CappedMesh::new(open, polygons.iter().enumerate().map(cap).collect())?;
+    let new = CapLengths::new(open, &lengths, &capped, &polygons);
+    let n_new = capped.mesh.n_vertices() - open.n_vertices();
     let with = |values: &[f64]| -> PerVertex<f64> {
         values.iter().copied().chain(std::iter::repeat_n(0.0, n_new)).collect::<Vec<_>>().into()
     };
@@ -168,14 +166,63 @@ fn capped(open: &Mesh, metric: &Metric, outer: usize) -> Result<(Mesh, Metric, V
     let mut metric =
         Metric { epsilon: epsilon.into(), u: with(&metric.u), u_low: with(&metric.u_low), ..metric.clone() };
     let mut eta: Vec<DoubleDouble> = metric.eta.iter().copied().collect();
-    for e in (open.n_edges()..mesh.n_edges()).map(EdgeId::from) {
-        let ends = mesh.ends(e);
-        let hub = ends.into_iter().find(|v| v.index() >= open.n_vertices());
-        let length = hub.map_or_else(|| distance(point[ends[0]], point[ends[1]]), |hub| radius[hub]);
-        eta.push(weight_of_length(metric.space, length, ends.map(|v| metric.vertex(v))));
+    for e in (open.n_edges()..capped.mesh.n_edges()).map(EdgeId::from) {
+        let ends = capped.mesh.ends(e);
+        eta.push(weight_of_length(metric.space, new.length(ends), ends.map(|v| metric.vertex(v))));
     }
     metric.eta = Arc::new(PerEdge::from(eta));
-    Ok((mesh, metric, rims))
+    Ok((capped.mesh, metric, capped.rims))
+}
+
+/// The lengths of the edges of caps.
+struct CapLengths {
+    /// Per vertex of a polygon its corner.
+    corner: PerVertex<Complex>,
+    /// Per vertex of a ring the length of the edge below it, 0 elsewhere. It is joined to the ends of that edge by equally long ones.
+    below: PerVertex<f64>,
+    /// Per hub its distance from the loop or ring around it, 0 elsewhere.
+    radius: PerVertex<f64>,
+}
+
+impl CapLengths {
+    fn new(
+        open: &Mesh,
+        lengths: &PerEdge<f64>,
+        capped: &CappedMesh,
+        polygons: &[Option<CapPolygon>],
+    ) -> CapLengths {
+        let n = capped.mesh.n_vertices();
+        let mut corner = PerVertex::filled(n, [0.0; 2]);
+        let [mut below, mut radius] = [(); 2].map(|()| PerVertex::filled(n, 0.0));
+        for (k, rim) in open.boundary_loops().iter().enumerate() {
+            if let Some(polygon) = &polygons[k] {
+                rim.iter().zip(&polygon.corners).for_each(|(&h, &p)| corner[open.origin(h)] = p);
+            }
+            let ring = &capped.rings[k];
+            ring.iter().zip(rim).for_each(|(&v, h)| below[v] = lengths[h.edge()]);
+            let Some(hub) = capped.hubs[k] else { continue };
+            let inside =
+                (0..ring.len()).map(|i| along_ring(below[ring[i]], below[ring[(i + 1) % ring.len()]]));
+            radius[hub] = if ring.is_empty() { start_radius(lengths, rim) } else { radius_within(inside) };
+        }
+        CapLengths { corner, below, radius }
+    }
+
+    /// The length of an edge of a cap between these vertices.
+    fn length(&self, [a, b]: [VertexId; 2]) -> f64 {
+        let (hub, ring) = (self.radius[a].max(self.radius[b]), [self.below[a], self.below[b]]);
+        match ring {
+            _ if hub > 0.0 => hub,
+            [0.0, 0.0] => distance(self.corner[a], self.corner[b]),
+            [own, 0.0] | [0.0, own] => own,
+            [one, two] => along_ring(one, two),
+        }
+    }
+}
+
+/// The third side of a triangle with two sides at an angle of 60 degrees.
+fn along_ring(a: f64, b: f64) -> f64 {
+    (a * a + b * b - a * b).sqrt()
 }
 
 /// A hole as a polygon of the plane, to which its loop develops.
