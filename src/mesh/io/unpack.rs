@@ -61,7 +61,8 @@ fn gunzip(_: &[u8], path: &str) -> Result<Vec<u8>> {
     )
 }
 
-#[cfg(all(test, feature = "gzip"))]
+#[cfg(feature = "gzip")]
+#[cfg(test)]
 mod tests {
     use super::*;
     use flate2::{Compression, write::GzEncoder};

@@ -2,11 +2,17 @@
 
 use super::super::base64;
 use super::super::scan::Quoted;
-use super::Chunk;
 use super::accessor::StoredBytes;
 use super::document::Buffer;
 use std::borrow::Cow;
 use std::path::{Component, Path};
+
+/// A range of bytes of the file.
+#[derive(Clone, Copy)]
+pub(super) struct Chunk {
+    pub start: usize,
+    pub end: usize,
+}
 
 /// The bytes that buffers may be made of.
 pub(super) struct BufferSources<'a> {

@@ -16,7 +16,7 @@ use super::budget::Budget;
 use super::scan::Location;
 use crate::error::Result;
 use accessor::GltfFile;
-use buffers::{BufferSources, FileBeside, files_beside, stored};
+use buffers::{BufferSources, Chunk, FileBeside, files_beside, stored};
 use document::{AssetAlone, GltfDocument};
 use locate::byte_of;
 use std::path::Path;
@@ -103,13 +103,6 @@ fn document(text: &[u8], path: &str, start: usize) -> Result<GltfDocument> {
 }
 
 const OLD: &str = "this is glTF 1.0; version 2.0 is read: export it anew, or convert it (gltf-pipeline does)";
-
-/// A range of bytes of the file.
-#[derive(Clone, Copy)]
-struct Chunk {
-    start: usize,
-    end: usize,
-}
 
 /// The JSON and the binary chunk of a GLB file [glTF 2.0, section 4.4].
 fn chunks(bytes: &[u8], path: &str) -> Result<(Chunk, Option<Chunk>)> {
