@@ -179,7 +179,12 @@ CASES = [
     (options("step_options", {"name": "part", "unit": "metre"}, bicubics._STEP), {"name": b"part", "unit": 1}),
 ]
 # What these structs leave to handles, or what a test of another file covers.
-ELSEWHERE = {"uniform_options": {"start"}, "deck_spec": {"dirichlet"}, "spline_places": {"threads"}}
+ELSEWHERE = {
+    "target": {"curvatures", "n", "vertices"},
+    "uniform_options": {"start"},
+    "deck_spec": {"dirichlet"},
+    "spline_places": {"threads"},
+}
 
 
 def name_of(struct):
