@@ -1,7 +1,7 @@
 //! How far the metric that a scheme starts from lies from the surface: circle packings cannot represent every metric.
 //!
 //! ```
-//! # use ricci::{Class, Scheme, Surface, geometry::Space, mesh::shapes};
+//! # use ricci::{Class, Surface, geometry::Space, mesh::shapes, metric::Scheme};
 //! let torus = Surface::from_soup(&shapes::torus(2.0, 1.0, 24, 12)?)?;
 //! let far = |scheme| torus.initial(Class::new(scheme, Space::E2)).map(|initial| initial.distance);
 //! assert_eq!(far(Scheme::Inversive)?.max_dilatation, 1.0);
