@@ -222,12 +222,17 @@ def wait_for(condition, seconds=30):
         time.sleep(0.02)
 
 
+def hear_interrupts():
+    """What a shell runs in the background ignores SIGINT, and so would its children."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
 @pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL])
 def test_no_worker_outlives_a_run_that_is_stopped(files, tmp_path, how):
     psutil = pytest.importorskip("psutil")
     script = tmp_path / "run.py"
     script.write_text(STOPPED.format(tests=os.path.dirname(cohort_jobs.__file__), files=files, engine="processes"))
-    process = subprocess.Popen([sys.executable, str(script)], cwd=tmp_path, stdout=subprocess.PIPE)
+    process = subprocess.Popen([sys.executable, str(script)], cwd=tmp_path, stdout=subprocess.PIPE, preexec_fn=hear_interrupts)
     try:
         wait_for(lambda: len(serving(process)) == 2 and (tmp_path / "out" / "job.json").exists())
         time.sleep(0.5)

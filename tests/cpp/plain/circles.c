@@ -63,7 +63,7 @@ static void an_annulus_lies_in_a_strip(void) {
     ricci_circle_domain_summary s;
     ricci_circle_domain_options options;
     double logs[2], circles[8];
-    ricci_init(&options, sizeof options);
+    OK(ricci_init(&options, sizeof options));
     options.frame = RICCI_FRAME_STRIP;
     OK(make_sized(RICCI_SHAPE_ANNULUS, 2, 24, 0.5, 1, 0, &mesh));
     OK(ricci_circle_domain_new(mesh, &options, NULL, &domain));

@@ -167,8 +167,8 @@ static void seam(void) {
     CHECK(summary.n_hints == 1);
     OK(ricci_soup_hint(soup, 0, &hint, sizeof hint));
     CHECK(hint.size == sizeof hint);
-    FAILS(ricci_soup_hint(soup, 1, &hint, sizeof hint), RICCI_ARGUMENT, "index");
-    FAILS(ricci_soup_hint(soup, 0, NULL, sizeof hint), RICCI_NULL_POINTER, "hint");
+    FAILS(ricci_soup_hint(soup, 1, &hint, sizeof hint), RICCI_ARGUMENT, "hint 1");
+    FAILS(ricci_soup_hint(soup, 0, NULL, sizeof hint), RICCI_NULL_POINTER, "defect");
     ricci_soup_free(soup);
 }
 
