@@ -60,16 +60,17 @@ fn a_hole_in_a_plate_stays_planar() {
 #[test]
 fn a_sphere_with_a_hole_closes_and_its_error_falls() {
     let mut last = f64::INFINITY;
-    for n in [4, 8, 16] {
+    for n in [8, 16, 32] {
         let mut soup = shapes::icosphere(n).unwrap();
-        // The cap of 26° around the axis, with the faces that lie in it wholly.
-        let is_cap = |f: &[u32; 3]| f.iter().all(|&v| soup.positions[v as usize][2] > 0.9);
+        // A cap with a radius of a few edges, whose faces lie in it wholly: a faired patch is off the sphere by about the square of that.
+        let least = (2.5 / n as f64).cos();
+        let is_cap = |f: &[u32; 3]| f.iter().all(|&v| soup.positions[v as usize][2] > least);
         soup.faces.retain(|f| !is_cap(f));
         let done = repair(&soup, &Repair { holes: HoleChoice::All, ..Repair::default() }).unwrap();
         assert_eq!((done.diagnosis.euler, done.diagnosis.defects.len()), (2, 0));
         let error = |p: &[f64; 3]| (p[0].hypot(p[1]).hypot(p[2]) - 1.0).abs();
         let most = done.soup.positions.iter().map(error).fold(0.0, f64::max);
-        assert!(most < 0.6 * last && most < 0.02, "{n}: {most:e} after {last:e}");
+        assert!(most < 0.4 * last && most < 0.005, "{n}: {most:e} after {last:e}");
         last = most;
         let hole = &done.filling.filled[0];
         let new = |list: &[u32]| list.iter().filter(|origin| **origin == NEW).count();

@@ -33,9 +33,9 @@ pub struct RepairedInput {
     pub refinement: Arc<CommonSubdivision>,
     /// The edges of the input that were split, ascending.
     pub split_edges: Vec<EdgeId>,
-    /// Per half-edge, the index into `points` of the corner at its origin ([`Layout::corner_index`]).
+    /// Per half-edge, the index into `points` of the corner at its origin ([`super::Layout::corner_index`]).
     pub corner_index: PerHalfedge<u32>,
-    /// Per vertex of the opened surface, its index in [`Layout::points`] and [`Layout::coordinates`].
+    /// Per vertex of the opened surface, its index in [`super::Layout::points`] and [`super::Layout::coordinates`].
     pub points: Vec<u32>,
     /// Their plane coordinates.
     pub coordinates: Vec<[f64; 2]>,

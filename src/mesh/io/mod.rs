@@ -101,8 +101,8 @@ pub fn write_glb_textured(path: &Path, soup: &Soup, texture: Texture<'_>) -> Res
 ///
 /// # Errors
 ///
-/// With the file untouched: [`Error::Argument`] for numbers that are not finite and corners out of range;
-/// [`Error::Size`] for attributes of another size; [`Error::Io`].
+/// With the file untouched: [`crate::Error::Argument`] for numbers that are not finite and corners out of range;
+/// [`crate::Error::Size`] for attributes of another size; [`crate::Error::Io`].
 pub fn write_as(path: &Path, format: Format, soup: &Soup) -> Result<Vec<String>> {
     match format {
         Format::Ply => return write_ply(path, soup),
