@@ -2,7 +2,6 @@
 
 use super::{CALLS, word};
 use ricci_c::atlas::ricci_atlas_new;
-use ricci_c::repaired_input::ricci_repaired_input_new;
 use ricci_c::bicubic::{ricci_bicubic_new, ricci_bicubic_options};
 use ricci_c::circle_domain::ricci_circle_domain_new;
 use ricci_c::control::{ricci_control_cancel, ricci_control_new};
@@ -17,6 +16,7 @@ use ricci_c::map::ricci_map_new;
 use ricci_c::matching::ricci_match;
 use ricci_c::mesh::ricci_mesh;
 use ricci_c::metric::{ricci_metric, ricci_metric_new};
+use ricci_c::repaired_input::ricci_repaired_input_new;
 use ricci_c::shapes::{ricci_make, ricci_shape};
 use ricci_c::soup::{ricci_soup_from_arrays, ricci_soup_repair};
 use ricci_c::spline::{ricci_spline_domain, ricci_spline_new, ricci_spline_spec};
