@@ -58,16 +58,7 @@ impl Job for FlowArgs {
 
     fn compute(&self, run: &mut CommandRun<'_>) -> Result<FlowOutcome, Failure> {
         let input = input::surface(&self.to.surface, &mut run.seconds, run.control)?;
-        // Cones are placed in E² alone.
-        let automatic = matches!(self.target, Some(TargetChoice::Auto(_))).then_some(Space::E2);
-        let space = self.space.space().or(automatic).unwrap_or_else(|| default_space(input.mesh()));
-        check_surface(self, &input, space)?;
-        let job = flow_job(self, &input, space)?;
-        let mut outcome = run_flow(input, job, run)?;
-        if let (Ok(laid), OnChoice::Input) = (&mut outcome.layout, self.to.on) {
-            let faces = || OwnFaces::new(&laid.layout, &outcome.input, self.to.repair, run.control);
-            laid.own_faces = timed(&mut run.seconds.layout, faces)?;
-        }
+        let mut outcome = flow_of(self, input, run)?;
         if self.charts {
             let cut = || charts::cut(&mut outcome, self.margin, &mut run.seconds, run.control);
             let cut = doing("cutting", cut);
@@ -138,8 +129,23 @@ struct FlowSettings<'a> {
     args: &'a FlowArgs,
 }
 
+/// The flow of one surface, with its layout on the faces that are written.
+pub fn flow_of(args: &FlowArgs, input: Input, run: &mut CommandRun<'_>) -> Result<FlowOutcome, Failure> {
+    // Cones are placed in E² alone.
+    let automatic = matches!(args.target, Some(TargetChoice::Auto(_))).then_some(Space::E2);
+    let space = args.space.space().or(automatic).unwrap_or_else(|| default_space(input.mesh()));
+    check_surface(args, &input, space)?;
+    let job = flow_job(args, &input, space)?;
+    let mut outcome = run_flow(input, job, run)?;
+    if let (Ok(laid), OnChoice::Input) = (&mut outcome.layout, args.to.on) {
+        let faces = || OwnFaces::new(&laid.layout, &outcome.input, args.to.repair, run.control);
+        laid.own_faces = timed(&mut run.seconds.layout, faces)?;
+    }
+    Ok(outcome)
+}
+
 /// The flow that the arguments ask for.
-pub fn flow_job<'a>(args: &'a FlowArgs, input: &Input, space: Space) -> Result<FlowJob<'a>, Failure> {
+fn flow_job<'a>(args: &'a FlowArgs, input: &Input, space: Space) -> Result<FlowJob<'a>, Failure> {
     let fixed_edges = match &args.keep_edges {
         Some(path) => csv::read_edges(path, input.mesh())?,
         None => Vec::new(),
@@ -174,7 +180,7 @@ fn options(args: &FlowArgs) -> Options {
 /// the outer loop, those of the metric, whose conformal factor is 0 there.
 fn flat_scale(outcome: &FlowOutcome, laid: &SurfaceLayout) -> f64 {
     let of_charts = laid.packed.as_ref().map_or(1.0, |packed| packed.charts.scale);
-    let holds_lengths = !outcome.pinned.is_empty() || outcome.rule.name() == "outer";
+    let holds_lengths = !outcome.pinned.is_empty() || matches!(outcome.rule, Target::Outer(_));
     let of_layout = if holds_lengths { laid.layout.scale } else { 1.0 };
     1.0 / (of_charts * of_layout)
 }
@@ -230,7 +236,7 @@ pub fn check_options(args: &FlowArgs) -> Result<(), Failure> {
 }
 
 /// Refuse what can be refused once the surface is known.
-pub fn check_surface(args: &FlowArgs, input: &Input, space: Space) -> Result<(), Failure> {
+fn check_surface(args: &FlowArgs, input: &Input, space: Space) -> Result<(), Failure> {
     let refuse = |why: String| Err(Failure::Usage(why));
     let scheme: Scheme = args.to.solve.scheme.into();
     let (on_sphere, in_space) = (space == Space::S2, input.positions().is_some());

@@ -99,13 +99,18 @@ pub fn read(
                 if let Some(why) = out_of_range(&soup) {
                     return Err(Failure::Input(format!("{}: {why}", path.display())));
                 }
-                let surface = Surface::in_space(Mesh::from_soup(&soup)?, soup.positions)?;
-                (geometry.into_iter().fold(surface, Surface::read_in), soup.attributes)
+                in_space(*soup, geometry)?
             }
         })
     })?;
     control.check()?;
     Ok(Input { path, surface, attributes, split: None })
+}
+
+/// The surface of triangles in space, with its lengths in a `geometry` other than E² if one is given, and its attributes.
+pub fn in_space(soup: Soup, geometry: Option<Space>) -> ricci::Result<(Surface, Attributes)> {
+    let surface = Surface::in_space(Mesh::from_soup(&soup)?, soup.positions)?;
+    Ok((geometry.into_iter().fold(surface, Surface::read_in), soup.attributes))
 }
 
 impl Input {

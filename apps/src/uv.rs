@@ -11,6 +11,7 @@ use crate::surface_layout::SurfaceLayout;
 use ricci::mesh::io::{self, Texture, TexturedMesh, Wrap};
 use ricci::mesh::{Mesh, PerHalfedge, Point};
 use ricci::metric::CommonSubdivision;
+use std::borrow::Cow;
 use std::io::Write;
 use std::path::Path;
 
@@ -33,42 +34,56 @@ pub fn write(
     laid: &SurfaceLayout,
     options: UvOptions,
 ) -> Result<[usize; 2], Failure> {
+    let own = faces_of(input, laid, options.on)?;
+    let weights = if options.homogeneous { laid.weights() } else { Vec::new() };
+    let added =
+        [own.positions.len() - input.mesh().n_vertices(), own.mesh.n_faces() - input.mesh().n_faces()];
+    UvMesh { weights: &weights, ..own }.write(outputs, path, input)?;
+    // The summary tells those of split edges on a line of their own.
+    Ok(if options.on == OnChoice::Refined { added } else { [0; 2] })
+}
+
+/// The mesh of `--uv`: the layout's faces, or the input's own, with edges split where that was asked for.
+pub fn faces_of<'a>(input: &'a Input, laid: &'a SurfaceLayout, on: OnChoice) -> Result<UvMesh<'a>, Failure> {
     // Without positions `--uv` is refused before the flow.
     let (Some(positions), Some(own_positions)) = (laid.positions.as_deref(), input.positions()) else {
         return Err(Failure::no_positions());
     };
-    let split = laid.repaired().map(|r| r.refinement.from_vertices(0, own_positions)).transpose()?;
-    let (mesh, positions, index, texcoords, subdivision) = match (options.on, &laid.on_input, laid.repaired())
-    {
-        (OnChoice::Refined, ..) => {
-            (laid.mesh(), positions, laid.corner_index(), laid.coordinates(), laid.common_subdivision())
-        }
-        (OnChoice::Input, _, Some(repaired)) => (
-            repaired.mesh(),
-            split.as_deref().unwrap_or(own_positions),
-            &repaired.corner_index,
-            &repaired.coordinates[..],
-            Some(&*repaired.refinement),
-        ),
-        (OnChoice::Input, Some(on_input), None) => {
-            (input.mesh(), own_positions, &on_input.corner_index, &on_input.coordinates[..], None)
-        }
+    match (on, &laid.on_input, laid.repaired()) {
+        (OnChoice::Refined, ..) => Ok(UvMesh {
+            mesh: laid.mesh(),
+            positions: positions.into(),
+            index: laid.corner_index(),
+            texcoords: laid.coordinates(),
+            weights: &[],
+            subdivision: laid.common_subdivision(),
+        }),
+        (OnChoice::Input, _, Some(repaired)) => Ok(UvMesh {
+            mesh: repaired.mesh(),
+            positions: repaired.refinement.from_vertices(0, own_positions)?.into(),
+            index: &repaired.corner_index,
+            texcoords: &repaired.coordinates,
+            weights: &[],
+            subdivision: Some(&*repaired.refinement),
+        }),
+        (OnChoice::Input, Some(on_input), None) => Ok(UvMesh {
+            mesh: input.mesh(),
+            positions: own_positions.into(),
+            index: &on_input.corner_index,
+            texcoords: &on_input.coordinates,
+            weights: &[],
+            subdivision: None,
+        }),
         (OnChoice::Input, None, None) => {
-            return Err(Failure::Failed("--on input: the layout is not cut along the input's edges".into()));
+            Err(Failure::Failed("--on input: the layout is not cut along the input's edges".into()))
         }
-    };
-    let weights = if options.homogeneous { laid.weights() } else { Vec::new() };
-    UvMesh { mesh, positions, index, texcoords, weights: &weights, subdivision }
-        .write(outputs, path, input)?;
-    // The summary tells those of split edges on a line of their own.
-    let added = [positions.len() - own_positions.len(), mesh.n_faces() - input.mesh().n_faces()];
-    Ok(if options.on == OnChoice::Refined { added } else { [0; 2] })
+    }
 }
 
 /// A mesh in space with texture coordinates.
 pub struct UvMesh<'a> {
     pub mesh: &'a Mesh,
-    pub positions: &'a [Point],
+    pub positions: Cow<'a, [Point]>,
     /// Per half-edge the index of the texture coordinates of the corner at its origin.
     pub index: &'a PerHalfedge<u32>,
     pub texcoords: &'a [[f64; 2]],
@@ -84,7 +99,7 @@ impl UvMesh<'_> {
         let faces = self.mesh.triangles();
         let carried = carry(input, self.subdivision)?;
         let data = TexturedMesh {
-            positions: self.positions,
+            positions: &self.positions,
             colors: &carried.colors,
             normals: &carried.normals,
             face_normals: &carried.face_normals,

@@ -3,22 +3,19 @@
 use super::outcome::{ComponentFlow, ComponentsOutcome};
 use super::uv;
 use crate::failure::Failure;
-use crate::flow::{check_surface, flow_job};
+use crate::flow;
 use crate::flow_args::{FlowArgs, PinChoice, TargetChoice};
 use crate::input::{self, FileContent, Input};
-use crate::job::{default_space, run_flow};
 use crate::options::OnChoice;
 use crate::output::{check_extension, check_outputs};
 use crate::report::InputSummary;
 use crate::runner::{CommandRun, Job, JobHeader};
-use crate::surface_layout::OwnFaces;
 use crate::timing::timed;
-use ricci::Surface;
 use ricci::control::Stage;
 use ricci::geometry::Space;
 use ricci::mesh::check::diagnose;
 use ricci::mesh::components::{Component, components};
-use ricci::mesh::{Mesh, io::Soup};
+use ricci::mesh::io::Soup;
 use serde::{Serialize, Serializer};
 
 /// `ricci flow` on each component of its file.
@@ -82,22 +79,10 @@ impl Job for ComponentsJob<'_> {
 /// The flow of one component.
 fn flow_of(args: &FlowArgs, piece: Component, run: &mut CommandRun<'_>) -> Result<ComponentFlow, Failure> {
     let Component { soup, vertices, faces } = piece;
-    let attributes = soup.attributes.clone();
-    let surface = timed(&mut run.seconds.build, || -> Result<_, Failure> {
-        let surface = Surface::in_space(Mesh::from_soup(&soup)?, soup.positions)?;
-        Ok(args.to.surface.input_geometry.map(Space::from).into_iter().fold(surface, Surface::read_in))
-    })?;
-    let path = args.to.surface.file.mesh.clone();
-    let input = Input { path, surface, attributes, split: None };
-    let automatic = matches!(args.target, Some(TargetChoice::Auto(_))).then_some(Space::E2);
-    let space = args.space.space().or(automatic).unwrap_or_else(|| default_space(input.mesh()));
-    check_surface(args, &input, space)?;
-    let job = flow_job(args, &input, space)?;
-    let mut outcome = run_flow(input, job, run)?;
-    if let (Ok(laid), OnChoice::Input) = (&mut outcome.layout, args.to.on) {
-        let own = || OwnFaces::new(&laid.layout, &outcome.input, false, run.control);
-        laid.own_faces = timed(&mut run.seconds.layout, own)?;
-    }
+    let geometry = args.to.surface.input_geometry.map(Space::from);
+    let (surface, attributes) = timed(&mut run.seconds.build, || input::in_space(soup, geometry))?;
+    let input = Input { path: args.to.surface.file.mesh.clone(), surface, attributes, split: None };
+    let outcome = flow::flow_of(args, input, run)?;
     Ok(ComponentFlow { outcome, vertices, faces })
 }
 
@@ -129,5 +114,5 @@ fn check_options(args: &FlowArgs) -> Result<(), Failure> {
     if args.to.on == OnChoice::Input && args.to.uv.is_none() {
         return Err(Failure::Usage("--on input says which faces --uv has; add --uv".into()));
     }
-    crate::flow::check_options(args)
+    flow::check_options(args)
 }

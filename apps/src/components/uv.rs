@@ -3,11 +3,10 @@
 use super::outcome::{ComponentFlow, ComponentsOutcome};
 use crate::carry::carry;
 use crate::failure::Failure;
-use crate::input::Input;
 use crate::options::OnChoice;
 use crate::output::{Outputs, write_textured};
 use crate::surface_layout::SurfaceLayout;
-use crate::uv::{UvMesh, corners};
+use crate::uv::{UvMesh, corners, faces_of};
 use ricci::geometry::row_packing::in_rows;
 use ricci::mesh::Point;
 use ricci::mesh::io::TexturedMesh;
@@ -30,7 +29,7 @@ pub fn write(
         .flows
         .iter()
         .zip(&laid)
-        .map(|(flow, laid)| mesh_of(&flow.outcome.input, laid, on))
+        .map(|(flow, laid)| faces_of(&flow.outcome.input, laid, on))
         .collect::<Result<_, _>>()?;
     let moved = moves(&meshes);
     let mut file = JoinedUv::new(all);
@@ -62,34 +61,6 @@ pub fn write(
         outputs.leave_out([what.to_string()]);
     }
     Ok([added, faces - all.soup.faces.len()])
-}
-
-/// The faces of a component that are written.
-fn mesh_of<'a>(input: &'a Input, laid: &'a SurfaceLayout, on: OnChoice) -> Result<UvMesh<'a>, Failure> {
-    let (Some(positions), Some(own_positions)) = (laid.positions.as_deref(), input.positions()) else {
-        return Err(Failure::no_positions());
-    };
-    match (on, &laid.on_input) {
-        (OnChoice::Refined, _) => Ok(UvMesh {
-            mesh: laid.mesh(),
-            positions,
-            index: laid.corner_index(),
-            texcoords: laid.coordinates(),
-            weights: &[],
-            subdivision: laid.common_subdivision(),
-        }),
-        (OnChoice::Input, Some(on_input)) => Ok(UvMesh {
-            mesh: input.mesh(),
-            positions: own_positions,
-            index: &on_input.corner_index,
-            texcoords: &on_input.coordinates,
-            weights: &[],
-            subdivision: None,
-        }),
-        (OnChoice::Input, None) => {
-            Err(Failure::Failed("--on input: the layout is not cut along the input's edges".into()))
-        }
-    }
 }
 
 /// The way that each layout is moved, so that none lies on another one.

@@ -25,7 +25,7 @@ pub fn write_uv(
     let positions = input.positions_on(subdivision)?;
     let drawn = uv::UvMesh {
         mesh: layout.mesh(),
-        positions: &positions,
+        positions: positions.into(),
         index: &layout.corner_index,
         texcoords: &layout.points,
         weights: &[],

@@ -27,7 +27,7 @@ impl PlaneMap {
         let index = PerHalfedge::from_fn(mesh.n_halfedges(), |h| mesh.origin(h).0);
         let drawn = UvMesh {
             mesh,
-            positions: &input.positions_on(self.subdivision.as_ref())?,
+            positions: input.positions_on(self.subdivision.as_ref())?.into(),
             index: &index,
             texcoords: &self.points,
             weights: &[],
