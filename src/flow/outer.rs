@@ -141,8 +141,8 @@ impl Report {
     }
 }
 
-/// The surface with all loops but `outer` capped, if it is `ringed` by rings alone; its metric, which is that of the open surface off the caps, and the edges of the capped
-/// loops.
+/// The surface with all loops but `outer` capped, if it is `ringed` by rings alone; its metric, which is that of the open surface off the
+/// caps, and the edges of the capped loops.
 fn capped(open: &Mesh, metric: &Metric, outer: usize, ringed: bool) -> Result<(Mesh, Metric, Vec<EdgeId>)> {
     let lengths = metric.lengths(open)?;
     let curvature = metric.curvature(open)?.at;
