@@ -183,7 +183,7 @@ the curve's own period matrix.""",
         """Its mesh is kept by the rotation of order 8, and so is the discrete star J: on the two planes that the rotation has in the cohomology it has
 eigenvalues ±i(1 + first) and ±i(1 + second), computed here from the forms in the file. Π = Πᵀ where both are the same; so its asymmetry
 measures their difference alone, at most 2 % of the errors, which fall by 4. On the subdivided mesh without a flip the asymmetry is larger and
-falls steadily: 1.5e-2, 2.8e-3, 6.7e-4, 1.7e-4, 4.2e-5, 1.0e-5 (÷5.3, 4.1, 4.0, 4.0, 4.0; `tests/harmonic/known.rs` has three of these). The flips to the Delaunay
+falls steadily: 1.5e-2, 2.8e-3, 6.7e-4, 1.7e-4, 4.2e-5, 1.0e-5 (÷5.3, 4.1, 4.0, 4.0, 4.0; `tests/library/harmonic/known.rs` has three of these). The flips to the Delaunay
 triangulation take most of the difference away, all of it on the coarsest mesh, and not the same share on every level: hence no steady rate
 there. On the surface without symmetry, above, the asymmetry falls by 4.""",
         star_of_bolza(run),

@@ -27,7 +27,7 @@ away from the surface around it, so that faces may fold beside it: the weights o
 loops correspond is open, since their lengths differ by less than 5 %: of six orders that with the least energy is taken, and classes are
 counted over all.
 """
-REMESHED = """A surface and another mesh of it, by `cargo test --test matching another_mesh -- --nocapture`: a ball that is no ball, from geodesic
+REMESHED = """A surface and another mesh of it, by `cargo test --test library another_mesh -- --nocapture`: a ball that is no ball, from geodesic
 frequencies 4, 8 and 16 to 24, with five landmarks that are vertices of all. Distances of vertices from where they should be, over the diagonal, and by which factor they fall.
 
 | frequency | largest | falls by | largest away from landmarks | falls by | mean | falls by |

@@ -7,7 +7,7 @@
 //! A spring in the energy of the map itself would not do that. A point has no capacity in the Dirichlet energy: the spring moves its vertex
 //! and little around it, and a vertex that is pulled is no mean of its neighbours, so that nothing keeps faces from folding. In a plane
 //! disk of 4, 8, 16 and 32 rings whose middle is pulled, faces fold once it has moved by 0.44, 0.27, 0.16 and 0.09 of the radius
-//! (`tests/matching/landmarks.rs`): the finer the mesh, the less a spring could do before it had to be weakened.
+//! (`tests/library/matching/landmarks.rs`): the finer the mesh, the less a spring could do before it had to be weakened.
 
 use crate::control::Control;
 use crate::error::{Error, Result};

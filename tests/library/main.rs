@@ -1,0 +1,55 @@
+//! Tests of the library in one program, so that it is linked once: a module for each subject.
+#![allow(clippy::unwrap_used, clippy::print_stdout, clippy::print_stderr)]
+
+mod bordered;
+mod cancel;
+mod charts;
+mod circles;
+#[path = "../common/mod.rs"]
+mod common;
+mod common_subdivision;
+mod cones;
+mod delaunay;
+mod derivative;
+mod descent;
+mod extreme;
+mod flip_formula;
+mod flips;
+mod flips_open;
+mod flips_random;
+mod flips_solver;
+mod flow;
+mod generators;
+mod harmonic;
+mod hints;
+mod holes;
+mod homotopy;
+mod layout;
+mod matching;
+#[cfg(feature = "gltf")]
+mod mesh_attributes;
+mod mesh_build;
+mod mesh_files;
+#[cfg(all(feature = "gltf", feature = "gifti"))]
+mod mesh_formats;
+#[cfg(feature = "gifti")]
+mod mesh_gifti;
+#[cfg(feature = "gltf")]
+mod mesh_gltf;
+mod mesh_odd;
+mod outer;
+mod range;
+mod refine;
+mod repair;
+mod shapes;
+mod solution;
+mod solver;
+mod sphere;
+mod spline;
+mod structure;
+mod surface_fit;
+mod surfaces;
+mod target;
+mod topology;
+mod unfold;
+mod uniformization;
