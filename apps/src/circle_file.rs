@@ -16,14 +16,16 @@ struct VertexCircleRow {
     /// Vertex of the surface.
     vertex: u32,
     epsilon: i8,
-    center: [f64; 2],
+    #[serde(rename = "center")]
+    centre: [f64; 2],
     radius: f64,
 }
 
 #[derive(Serialize)]
 struct DualCircleRow {
     face: usize,
-    center: [f64; 2],
+    #[serde(rename = "center")]
+    centre: [f64; 2],
     power: f64,
     radius: Option<f64>,
 }
@@ -46,13 +48,13 @@ impl CircleFile {
             uv: c.point,
             vertex: c.vertex.0,
             epsilon: c.epsilon,
-            center: c.center,
+            centre: c.centre,
             radius: c.radius,
         };
         let dual_circle =
             |(f, c): &(ricci::mesh::FaceId, ricci::geometry::circle::PowerCircle)| DualCircleRow {
                 face: f.index(),
-                center: c.center,
+                centre: c.centre,
                 power: c.power,
                 radius: (c.power >= 0.0).then(|| c.power.sqrt()),
             };

@@ -175,10 +175,10 @@ impl LayoutDrawing {
             CirclePattern::new(&laid.layout, solution.mesh(), solution.metric()).ok()
         };
         if let Some(pattern) = with_circles.then(pattern).flatten() {
-            let vertex = pattern.vertex_circles.iter().map(|c| Circle { center: c.center, radius: c.radius });
+            let vertex = pattern.vertex_circles.iter().map(|c| Circle { centre: c.centre, radius: c.radius });
             drawing.circles = vertex.collect();
             let dual = pattern.dual_circles.iter().filter(|(_, c)| c.power >= 0.0);
-            let circle = |c: &PowerCircle| Circle { center: c.center, radius: c.power.sqrt() };
+            let circle = |c: &PowerCircle| Circle { centre: c.centre, radius: c.power.sqrt() };
             drawing.dual_circles = dual.map(|(_, c)| circle(c)).collect();
         }
         drawing

@@ -177,7 +177,7 @@ pub unsafe extern "C" fn ricci_circle_domain_circles(
     capacity: usize,
 ) -> ricci_status {
     guard::with(domain, |ricci_circle_domain { domain, .. }| {
-        let figures = domain.circles.iter().map(|c| [c.center[0], c.center[1], c.radius, c.deviation]);
+        let figures = domain.circles.iter().map(|c| [c.centre[0], c.centre[1], c.radius, c.deviation]);
         copy_out("circles", &figures.collect::<Vec<_>>(), circles, capacity)
     })
 }

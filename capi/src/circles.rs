@@ -29,11 +29,11 @@ pub unsafe extern "C" fn ricci_layout_circles(
         let mut rows = vec![[f64::NAN; 3]; n];
         match which {
             CircleOwner::Vertex => pattern.vertex_circles.iter().for_each(|c| {
-                let [x, y] = c.center;
+                let [x, y] = c.centre;
                 rows[c.point] = [x, y, f64::from(c.epsilon) * c.radius * c.radius];
             }),
             CircleOwner::Face => pattern.dual_circles.iter().for_each(|(f, c)| {
-                let [x, y] = c.center;
+                let [x, y] = c.centre;
                 rows[f.index()] = [x, y, c.power];
             }),
         }

@@ -175,9 +175,10 @@ fn finish(
         }
         let basis = homotopy_basis(layout.mesh(), &lengths, Some(base), control)?;
         let named: Vec<VertexId> = corners.iter().map(|corner| corner.0).collect();
-        let boundary = match given.is_closed() {
-            true => Vec::new(),
-            false => boundary_sides(&metric, &layout, &basis, &named, control)?,
+        let boundary = if given.is_closed() {
+            Vec::new()
+        } else {
+            boundary_sides(&metric, &layout, &basis, &named, control)?
         };
         let mut placement = Motion::identity(layout.space);
         if let (Space::E2, Some(first)) = (layout.space, boundary.first()) {

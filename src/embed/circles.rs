@@ -31,7 +31,7 @@ pub struct VertexCircle {
     /// The type of the circle: 1 for a real one, 0 for a point, −1 for one of imaginary radius.
     pub epsilon: i8,
     /// The centre.
-    pub center: [f64; 2],
+    pub centre: [f64; 2],
     /// The modulus of the radius γ; a point has a γ too, which its circle is not drawn with.
     pub radius: f64,
 }
@@ -65,7 +65,7 @@ impl CirclePattern {
         let vertex_circle = |(point, v): (usize, Option<VertexId>)| {
             let vertex = v?;
             let (epsilon, radius) = (metric.epsilon[vertex], scale * gamma[vertex]);
-            Some(VertexCircle { point, vertex, epsilon, center: layout.coordinates[point], radius })
+            Some(VertexCircle { point, vertex, epsilon, centre: layout.coordinates[point], radius })
         };
         let dual_circle = |(f, uv): (FaceId, [[f64; 2]; 3])| {
             let corners = mesh.face_vertices(f);

@@ -4,7 +4,7 @@ use super::Flow;
 use super::newton::Iterate;
 use super::report::Report;
 use super::seconds::timed;
-use super::solve::center;
+use super::solve::centre;
 use super::system::{NewtonSystem, Precision};
 use crate::control::Control;
 use crate::error::Result;
@@ -128,11 +128,11 @@ impl Flow {
         solve: impl FnOnce(&[f64], &mut [f64]) -> Result<bool>,
     ) -> Result<bool> {
         if self.free_scale() {
-            center(residual);
+            centre(residual);
         }
         let found = solve(residual, step)?;
         if found && self.free_scale() {
-            center(step);
+            centre(step);
         }
         Ok(found)
     }

@@ -264,7 +264,7 @@ impl FlowState {
     }
 
     /// Subtract the mean of u.
-    pub fn center(&mut self) {
+    pub fn centre(&mut self) {
         self.shift(-(self.u.iter().sum::<f64>() / self.u.len() as f64));
     }
 

@@ -2,7 +2,7 @@
 
 use super::Flow;
 use super::evaluate::FlowState;
-use super::solve::center;
+use super::solve::centre;
 use super::system::{NewtonSystem, Precision};
 use crate::control::Control;
 use crate::error::Result;
@@ -79,7 +79,7 @@ impl Flow {
                 break;
             }
             if self.free_scale() {
-                center(&mut step);
+                centre(&mut step);
             }
             next.set_step(&state, 1.0, &step);
             (self.now.metric.u, self.now.metric.u_low) = (next.u.clone(), next.low.clone());

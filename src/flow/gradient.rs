@@ -232,7 +232,7 @@ impl Flow {
     /// False where there is no such metric.
     pub(super) fn evaluate_at_area(&self, state: &mut FlowState, area: Option<f64>) -> bool {
         if area.is_none() && self.free_scale() {
-            state.center();
+            state.centre();
         }
         if !state.evaluate(&self.mesh, &self.metric) {
             return false;

@@ -213,7 +213,7 @@ impl Flow {
         let mut state = self.memory.state(&self.start, &self.start_low);
         let keeps_area = self.options.method == Method::Gradient && self.options.gradient.area_normalised;
         if self.free_scale() && !keeps_area {
-            state.center();
+            state.centre();
         }
         if !self.evaluate(&mut state, report, control)? {
             return Err(Error::Argument { what: "u", value: "start".into(), need: "in the metric's domain" });
@@ -369,7 +369,7 @@ impl Flow {
 }
 
 /// Subtract the mean.
-pub(super) fn center(x: &mut [f64]) {
+pub(super) fn centre(x: &mut [f64]) {
     let mean = x.iter().sum::<f64>() / x.len() as f64;
     x.iter_mut().for_each(|x| *x -= mean);
 }

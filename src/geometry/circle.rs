@@ -7,7 +7,7 @@
 //! use ricci::geometry::circle::power_circle;
 //! let triangle = [[0.0, 0.0], [3.0, 0.0], [0.0, 4.0]];
 //! let circumcircle = power_circle(triangle, [0; 3], [0.0; 3]).unwrap();
-//! assert_eq!((circumcircle.center, circumcircle.power.sqrt()), ([1.5, 2.0], 2.5));
+//! assert_eq!((circumcircle.centre, circumcircle.power.sqrt()), ([1.5, 2.0], 2.5));
 //! ```
 
 use super::complex::{add, cross, norm2, sub};
@@ -16,8 +16,8 @@ use super::complex::{add, cross, norm2, sub};
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PowerCircle {
     /// The power centre.
-    pub center: [f64; 2],
-    /// The common power: the squared radius of the circle about `center` that is orthogonal to the real vertex circles,
+    pub centre: [f64; 2],
+    /// The common power: the squared radius of the circle about `centre` that is orthogonal to the real vertex circles,
     /// passes through the points among them, and meets those of imaginary radius in diameters. Where it is negative
     /// there is no such real circle.
     pub power: f64,
@@ -25,21 +25,21 @@ pub struct PowerCircle {
 
 /// The power centre of three circles and its power.
 ///
-/// `centers`: corners of the triangle; `epsilon` ∈ {−1, 0, 1} and `radii` per corner. ε = 0 everywhere gives the
+/// `centres`: corners of the triangle; `epsilon` ∈ {−1, 0, 1} and `radii` per corner. ε = 0 everywhere gives the
 /// circumcircle. `None` when the centres are collinear.
 ///
 /// With origin `p_0`, `a = p_1 − p_0`, `b = p_2 − p_0`, equal powers mean `2⟨a, x⟩ = |a|² − ε_1γ_1² + ε_0γ_0²` and the
 /// like for b. [JKLLG08, §4.1: the circle orthogonal to the three vertex circles of a face].
-pub fn power_circle(centers: [[f64; 2]; 3], epsilon: [i8; 3], radii: [f64; 3]) -> Option<PowerCircle> {
-    let [p, q, r] = centers;
+pub fn power_circle(centres: [[f64; 2]; 3], epsilon: [i8; 3], radii: [f64; 3]) -> Option<PowerCircle> {
+    let [p, q, r] = centres;
     let (a, b) = (sub(q, p), sub(r, p));
     let s: [f64; 3] = std::array::from_fn(|i| f64::from(epsilon[i]) * radii[i] * radii[i]);
     let f = 0.5 * (norm2(a) - s[1] + s[0]);
     let g = 0.5 * (norm2(b) - s[2] + s[0]);
     let det = cross(a, b);
     let x = [(f * b[1] - g * a[1]) / det, (g * a[0] - f * b[0]) / det];
-    let circle = PowerCircle { center: add(p, x), power: norm2(x) - s[0] };
-    (circle.power.is_finite() && circle.center.iter().all(|c| c.is_finite())).then_some(circle)
+    let circle = PowerCircle { centre: add(p, x), power: norm2(x) - s[0] };
+    (circle.power.is_finite() && circle.centre.iter().all(|c| c.is_finite())).then_some(circle)
 }
 
 #[cfg(test)]
@@ -61,7 +61,7 @@ mod tests {
             for i in 0..3 {
                 // Orthogonal circles: d² = R² + r², r² = εγ².
                 let r2 = f64::from(epsilon[i]) * radii[i] * radii[i];
-                assert!((distance2(dual.center, TRIANGLE[i]) - dual.power - r2).abs() < 1e-14);
+                assert!((distance2(dual.centre, TRIANGLE[i]) - dual.power - r2).abs() < 1e-14);
             }
         }
     }
@@ -79,7 +79,7 @@ mod tests {
     #[test]
     fn points_have_the_circumcircle_as_dual() {
         let dual = power_circle([[0.0, 0.0], [3.0, 0.0], [0.0, 4.0]], [0; 3], [7.0; 3]).unwrap();
-        assert_eq!(dual, PowerCircle { center: [1.5, 2.0], power: 6.25 });
+        assert_eq!(dual, PowerCircle { centre: [1.5, 2.0], power: 6.25 });
     }
 
     #[test]

@@ -20,7 +20,7 @@ pub struct Mobius {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlaneCircle {
     /// Its centre.
-    pub center: Complex,
+    pub centre: Complex,
     /// Its radius.
     pub radius: f64,
 }
@@ -46,7 +46,7 @@ impl Mobius {
 
     /// `r/(z − p)`, which maps the outside of a circle to the inside of the unit circle, and ∞ to 0.
     pub fn outside(circle: PlaneCircle) -> Mobius {
-        Mobius { matrix: [[ZERO, [circle.radius, 0.0]], [ONE, neg(circle.center)]] }
+        Mobius { matrix: [[ZERO, [circle.radius, 0.0]], [ONE, neg(circle.centre)]] }
     }
 
     /// `(z − p)/(1 − p̄ z)`, which maps the unit disk to itself and p, a point inside it, to 0.
@@ -119,12 +119,12 @@ impl Mobius {
     /// `(s̄ (a p + b) − r² a c̄)/(|s|² − r² |c|²)`, its radius `r |a d − b c|/||s|² − r² |c|²|`.
     pub fn apply_to_circle(&self, circle: PlaneCircle) -> PlaneCircle {
         let [[a, b], [c, d]] = self.matrix;
-        let PlaneCircle { center: p, radius: r } = circle;
+        let PlaneCircle { centre: p, radius: r } = circle;
         let s = add(mul(c, p), d);
         // |s|² − r² |c|², as a product.
         let power = (norm(s) - r * norm(c)) * (norm(s) + r * norm(c));
         let top = sub(mul(conj(s), add(mul(a, p), b)), scale(r * r, mul(a, conj(c))));
-        PlaneCircle { center: top.map(|x| x / power), radius: r * norm(self.determinant()) / power.abs() }
+        PlaneCircle { centre: top.map(|x| x / power), radius: r * norm(self.determinant()) / power.abs() }
     }
 }
 
@@ -133,12 +133,12 @@ impl PlaneCircle {
     ///
     /// The ends of the diameter through 0 are mapped to opposite numbers: p is their hyperbolic midpoint.
     pub fn to_centre(&self) -> Mobius {
-        let far = norm(self.center);
+        let far = norm(self.centre);
         if far == 0.0 {
             return Mobius::IDENTITY;
         }
         let [low, high] = [far - self.radius, far + self.radius].map(f64::atanh);
         let at = (0.5 * (low + high)).tanh();
-        Mobius::to_origin(self.center.map(|x| x * at / far))
+        Mobius::to_origin(self.centre.map(|x| x * at / far))
     }
 }

@@ -369,7 +369,7 @@ fn dual_circles_are_orthogonal_to_vertex_circles_with_and_without_flips() {
         assert_eq!(pattern.dual_circles.len(), flat.mesh().n_faces());
         let power_at = |p: [f64; 2], v: VertexId| {
             let circles = pattern.vertex_circles.iter().filter(|c| c.vertex == v);
-            circles.map(|c| distance(p, c.center).powi(2) - c.radius * c.radius).collect::<Vec<_>>()
+            circles.map(|c| distance(p, c.centre).powi(2) - c.radius * c.radius).collect::<Vec<_>>()
         };
         // The two parts of a face that the cut runs through lie apart, and its circle is beside one of them.
         let mut is_cut = vec![false; flat.mesh().n_faces()];
@@ -383,7 +383,7 @@ fn dual_circles_are_orthogonal_to_vertex_circles_with_and_without_flips() {
         assert!(is_cut.iter().filter(|cut| **cut).count() < is_cut.len() / 4);
         for (f, circle) in pattern.dual_circles.iter().filter(|(f, _)| !is_cut[f.index()]) {
             for v in flat.mesh().face_vertices(*f) {
-                let powers = power_at(circle.center, v);
+                let powers = power_at(circle.centre, v);
                 let near = |p: &f64| (p - circle.power).abs() < 1e-7 * (1.0 + circle.power.abs());
                 assert!(powers.iter().any(near), "face {f}, vertex {v}: {powers:?}, {}", circle.power);
             }

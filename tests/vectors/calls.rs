@@ -198,7 +198,7 @@ fn circles(case: &Case, threads: usize) -> Found {
     let domain = circle_domain(&case.surface("mesh"), &how, &Control::new()).unwrap();
     assert!(domain.report.converged);
     let mut by_radius: Vec<[f64; 3]> =
-        domain.circles.iter().map(|c| [c.center[0], c.center[1], c.radius]).collect();
+        domain.circles.iter().map(|c| [c.centre[0], c.centre[1], c.radius]).collect();
     by_radius.sort_by(|a, b| b[2].total_cmp(&a[2]));
     let circles = by_radius.into_iter().flatten().collect();
     vec![("modulus", domain.modulus.into_iter().collect()), ("circles", circles)]

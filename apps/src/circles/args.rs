@@ -33,9 +33,9 @@ pub struct CirclesArgs {
     #[serde(skip)]
     pub outer: Option<usize>,
     /// The vertex at the centre of the unit disk [default: the barycentre of the area; of an annulus both circles lie about the centre]
-    #[arg(long, value_name = "VERTEX", conflicts_with = "three")]
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub center: Option<u32>,
+    #[arg(long = "center", value_name = "VERTEX", conflicts_with = "three")]
+    #[serde(rename = "center", skip_serializing_if = "Option::is_none")]
+    pub centre: Option<u32>,
     /// Three vertices of the outer loop, counterclockwise, to lie at 1, e^(2πi/3) and e^(4πi/3); or each with its angle in degrees, V:ANGLE
     #[arg(long, value_name = "V,V,V")]
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -30,7 +30,7 @@ impl Job for CirclesArgs {
         let picture = self.picture.picture.as_deref();
         check_extension("--uv", self.uv.as_deref(), &["obj", "glb"])?;
         check_extension("--picture", picture, &["png", "svg"])?;
-        if self.frame == FrameChoice::Strip && (self.center.is_some() || self.three.is_some()) {
+        if self.frame == FrameChoice::Strip && (self.centre.is_some() || self.three.is_some()) {
             let why = "--center, --three: places in the unit disk; leave them or --frame strip out";
             return Err(Failure::Usage(why.into()));
         }
@@ -93,7 +93,7 @@ fn check_surface(args: &CirclesArgs, input: &Input) -> Result<(), Failure> {
     if mesh.genus() > 0 {
         let of_disk = [
             ("--outer", args.outer.is_some()),
-            ("--center", args.center.is_some()),
+            ("--center", args.centre.is_some()),
             ("--three", args.three.is_some()),
             ("--frame", args.frame != FrameChoice::Auto),
         ];
@@ -125,7 +125,7 @@ fn check_surface(args: &CirclesArgs, input: &Input) -> Result<(), Failure> {
 }
 
 fn options(args: &CirclesArgs) -> CircleDomainOptions {
-    let normalisation = match (&args.three, args.center) {
+    let normalisation = match (&args.three, args.centre) {
         (Some(three), _) => {
             Normalisation::Three(three.vertices.map(VertexId), three.degrees.map(f64::to_radians))
         }

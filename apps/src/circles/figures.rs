@@ -35,7 +35,7 @@ impl JobOutcome for CirclesOutcome {
     fn figures(&self, run: &CommandRun<'_>) -> Figures {
         let CirclesOutcome { domain, laid, .. } = self;
         let report = &domain.report;
-        let circle = |c: &ricci::canonical::DomainCircle| json!({"loop": c.boundary_loop, "center": c.center, "radius": c.radius, "log_radius": c.log_radius, "deviation": c.deviation, "vertices": c.vertices});
+        let circle = |c: &ricci::canonical::DomainCircle| json!({"loop": c.boundary_loop, "center": c.centre, "radius": c.radius, "log_radius": c.log_radius, "deviation": c.deviation, "vertices": c.vertices});
         Figures::default()
             .with("space", domain.layout.space.name())
             .with("scheme", if domain.frame == DomainFrame::Strip { Scheme::Yamabe.name() } else { MIXED })
@@ -119,7 +119,7 @@ fn why(outcome: &CirclesOutcome) -> String {
     let mut text = String::new();
     if let Some(k) = report.worst_loop.filter(|_| report.deviation > ROUND) {
         let c = &domain.circles[k];
-        let [x, y] = c.center;
+        let [x, y] = c.centre;
         text += &format!(
             "why      loop {k} is off its circle by {:.1e} of the radius {:.1e} about ({x:.6}, {y:.6}): {}\n",
             c.deviation,

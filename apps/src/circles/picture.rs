@@ -36,7 +36,7 @@ pub fn draw(outcome: &CirclesOutcome, style: &Style, is_svg: bool) -> Result<Vec
             Some(circle) if rim.iter().all(|&h| is_on(laid.corner_uv(h), &circle)) => {
                 // The surface lies inside the outer circle.
                 let is_outer =
-                    outcome.domain.outer.is_some() && circle.center == [0.0; 2] && circle.radius == 1.0;
+                    outcome.domain.outer.is_some() && circle.centre == [0.0; 2] && circle.radius == 1.0;
                 if is_outer { rims.push(circle) } else { holes.push(circle) }
             }
             _ => boundary.extend(rim.into_iter().map(side)),
@@ -66,17 +66,17 @@ pub fn draw(outcome: &CirclesOutcome, style: &Style, is_svg: bool) -> Result<Vec
 /// A circle of the domain in the coordinates of the layout. In the Poincaré disk its Euclidean centre and radius are not the hyperbolic
 /// ones.
 fn poincare_circle(outcome: &CirclesOutcome, circle: &ricci::canonical::DomainCircle) -> Circle {
-    let (center, radius) = (circle.center, circle.radius);
+    let (centre, radius) = (circle.centre, circle.radius);
     if outcome.domain.layout.space != Space::H2 {
-        return Circle { center, radius };
+        return Circle { centre, radius };
     }
     let reach = (0.5 * radius).tanh().powi(2);
-    let far = center[0] * center[0] + center[1] * center[1];
+    let far = centre[0] * centre[0] + centre[1] * centre[1];
     let scale = 1.0 - reach * far;
-    Circle { center: center.map(|x| x * (1.0 - reach) / scale), radius: reach.sqrt() * (1.0 - far) / scale }
+    Circle { centre: centre.map(|x| x * (1.0 - reach) / scale), radius: reach.sqrt() * (1.0 - far) / scale }
 }
 
 fn is_on([x, y]: [f64; 2], circle: &Circle) -> bool {
-    let distance = (x - circle.center[0]).hypot(y - circle.center[1]);
+    let distance = (x - circle.centre[0]).hypot(y - circle.centre[1]);
     (distance - circle.radius).abs() <= WHOLE * circle.radius
 }

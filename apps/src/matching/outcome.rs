@@ -178,11 +178,11 @@ impl JobOutcome for MatchOutcome {
 /// The loops as circles; none where they are geodesics.
 fn circles(matching: &Matching) -> Option<Vec<Value>> {
     let circle = |hole: &RoundHole| {
-        let center = match matching.space {
-            Space::H2 => model::poincare(hole.center),
-            _ => [hole.center[0], hole.center[1]],
+        let centre = match matching.space {
+            Space::H2 => model::poincare(hole.centre),
+            _ => [hole.centre[0], hole.centre[1]],
         };
-        json!({"loop": hole.boundary_loop, "center": center, "radius": hole.radius, "deviation": hole.deviation})
+        json!({"loop": hole.boundary_loop, "center": centre, "radius": hole.radius, "deviation": hole.deviation})
     };
     Some(matching.holes.iter().map(circle).collect()).filter(|all: &Vec<Value>| !all.is_empty())
 }

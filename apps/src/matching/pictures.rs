@@ -100,7 +100,7 @@ fn domains(outcome: &MatchOutcome, args: &MatchArgs) -> Result<Vec<u8>, Failure>
         let marked = corners.filter(|(v, _): &(VertexId, _)| marks[s].contains(v));
         marked.map(|(_, at)| (at, LANDMARK)).collect::<Vec<_>>()
     });
-    let rim = [Circle { center: [0.0; 2], radius: 1.0 }];
+    let rim = [Circle { centre: [0.0; 2], radius: 1.0 }];
     let rims: &[Circle] = if domain.space() == Space::H2 { &rim } else { &[] };
     let flat = |s: usize| ShownLayout { corner_uv: &uv[s], cones: &dots[s], rims, ..ShownLayout::default() };
     // No pattern is drawn, but the two panels share one, which must have an entry for every face of either.

@@ -50,7 +50,7 @@ pub fn fit(flat: &ShownLayout<'_>, style: &Style) -> Fit {
     if let Some(focus) = &style.focus {
         return Fit::around(focus.at_layout, focus.radius_layout, style.size);
     }
-    let ends = |c: &Circle| [-1.0, 1.0].map(|s| [c.center[0] + s * c.radius, c.center[1] + s * c.radius]);
+    let ends = |c: &Circle| [-1.0, 1.0].map(|s| [c.centre[0] + s * c.radius, c.centre[1] + s * c.radius]);
     let points = flat.corner_uv.iter().flatten().copied();
     let points = points.chain(flat.frame.iter().map(|side| side.0));
     Fit::new(points.chain(flat.circles.iter().chain(flat.rims).flat_map(ends)), style.size)
@@ -133,10 +133,10 @@ fn wire(flat: &ShownLayout<'_>, canvas: &mut PanelCanvas<'_>) {
 fn rounds(flat: &ShownLayout<'_>, canvas: &mut PanelCanvas<'_>) {
     let circles = |circles: &[Circle]| {
         let mut path = SvgPath::default();
-        for Circle { center, radius } in circles {
+        for Circle { centre, radius } in circles {
             let radius = canvas.fit.scale * radius;
             if (LEAST_RADIUS..MOST_RADIUS).contains(&radius) {
-                path.circle(canvas.fit.apply(*center), radius);
+                path.circle(canvas.fit.apply(*centre), radius);
             }
         }
         path
@@ -154,11 +154,11 @@ fn circles(flat: &ShownLayout<'_>, canvas: &mut PanelCanvas<'_>) {
     for (circles, color) in [(flat.dual_circles, DUAL_CIRCLE), (flat.circles, VERTEX_CIRCLE)] {
         let widths = [0.25, 0.5, 1.0].map(|share| share * most);
         let mut paths = widths.map(|_| SvgPath::default());
-        for Circle { center, radius } in circles {
+        for Circle { centre, radius } in circles {
             let radius = canvas.fit.scale * radius;
             if (LEAST_RADIUS..MOST_RADIUS).contains(&radius) {
                 let class = widths.iter().rposition(|w| *w <= 0.24 * radius).unwrap_or(0);
-                paths[class].circle(canvas.fit.apply(*center), radius);
+                paths[class].circle(canvas.fit.apply(*centre), radius);
             }
         }
         widths.iter().zip(&paths).for_each(|(w, path)| canvas.sheet.stroke(from_hex(color), *w, path));

@@ -28,7 +28,7 @@ pub struct ShownSurface<'a> {
 /// A circle in the layout.
 #[derive(Clone, Copy)]
 pub struct Circle {
-    pub center: [f64; 2],
+    pub centre: [f64; 2],
     pub radius: f64,
 }
 

@@ -262,7 +262,7 @@ fn drawings_are_well_formed_and_small() {
     let uv: Vec<[[f64; 2]; 3]> = soup.faces.iter().map(|f| f.map(flat_of)).collect();
     let border = region::border(soup.faces.iter().copied());
     let boundary: Vec<_> = border.iter().map(|&(a, b)| (flat_of(a), flat_of(b))).collect();
-    let circles = [Circle { center: [0.0; 2], radius: 0.5 }];
+    let circles = [Circle { centre: [0.0; 2], radius: 0.5 }];
     let flat = ShownLayout {
         corner_uv: &uv,
         boundary: &boundary,

@@ -128,7 +128,7 @@ fn circles(whole: &Layout, layout: &Layout, metric: &Solution, filled: &FilledMe
     let circle = |(k, rim): (usize, Vec<HalfedgeId>)| {
         let hub = filled.hub(k);
         let [x, y, w] = whole.corner(whole.mesh().out(hub));
-        let center = if space == Space::E2 { [factor * x, factor * y, w] } else { [x, y, w] };
+        let centre = if space == Space::E2 { [factor * x, factor * y, w] } else { [x, y, w] };
         let scale = if space == Space::E2 { layout.scale } else { 1.0 };
         let radius = scale * conformal::radius(space, 1, metric.metric().u[hub]);
         // If the cut runs along the loop, the surface lies at another copy of the disk.
@@ -137,13 +137,13 @@ fn circles(whole: &Layout, layout: &Layout, metric: &Solution, filled: &FilledMe
             None => Motion::identity(space),
         };
         let deviation = deviation(rim.len(), radius, |i| {
-            let home = Motion::to_origin(space, copy(rim[i]).apply(precise_point(space, center)));
+            let home = Motion::to_origin(space, copy(rim[i]).apply(precise_point(space, centre)));
             let seen = home.apply(precise_point(space, layout.corner(rim[i])));
             distance_from_origin(space, seen.map(f64::from))
         });
         DomainCircle {
             boundary_loop: k,
-            center: layout.flat(center),
+            centre: layout.flat(centre),
             radius,
             log_radius: radius.ln(),
             deviation,

@@ -13,7 +13,7 @@ pub struct DomainCircle {
     /// The loop, by its place in [`crate::mesh::Mesh::boundary_loops`] of the surface.
     pub boundary_loop: usize,
     /// Centre in the coordinates of the layout: of the plane, of the Poincaré disk (one lift).
-    pub center: [f64; 2],
+    pub centre: [f64; 2],
     /// Radius in the metric of the space: in E² in the units of the layout, in H² hyperbolic. In a strip that of the circle in the unit disk; 0
     /// where that is below the range of f64.
     pub radius: f64,

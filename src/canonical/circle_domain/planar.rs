@@ -271,10 +271,10 @@ impl PlanarDomain<'_> {
         let Some(subdivision) = layout.common_subdivision() else { return Vec::new() };
         let all = rims(subdivision, self.filled).into_iter().enumerate();
         let circle = |(k, rim): (usize, Vec<crate::mesh::HalfedgeId>)| {
-            let PlaneCircle { center, radius } = self.view.circle(k);
-            let deviation = deviation(rim.len(), radius, |i| norm(sub(layout.uv(rim[i]), center)));
+            let PlaneCircle { centre, radius } = self.view.circle(k);
+            let deviation = deviation(rim.len(), radius, |i| norm(sub(layout.uv(rim[i]), centre)));
             let log_radius = radius.ln();
-            DomainCircle { boundary_loop: k, center, radius, log_radius, deviation, vertices: rim.len() }
+            DomainCircle { boundary_loop: k, centre, radius, log_radius, deviation, vertices: rim.len() }
         };
         all.map(circle).collect()
     }

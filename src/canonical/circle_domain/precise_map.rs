@@ -13,13 +13,13 @@ pub(super) type PrecisePlanePoint = Complex<DoubleDouble>;
 /// A circle in double-double precision.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PreciseCircle {
-    pub center: PrecisePlanePoint,
+    pub centre: PrecisePlanePoint,
     pub radius: DoubleDouble,
 }
 
 impl PreciseCircle {
     pub fn rounded(&self) -> PlaneCircle {
-        PlaneCircle { center: rounded(self.center), radius: self.radius.into() }
+        PlaneCircle { centre: rounded(self.centre), radius: self.radius.into() }
     }
 }
 
@@ -65,7 +65,7 @@ impl PreciseMap {
     /// The map that takes the outside of a circle to the inside of the unit circle: [`Mobius::outside`].
     pub fn outside(circle: PreciseCircle) -> PreciseMap {
         let [zero, one] = [0.0, 1.0].map(|x| precise([x, 0.0]));
-        PreciseMap { matrix: [[zero, [circle.radius, 0.0.into()]], [one, neg(circle.center)]] }
+        PreciseMap { matrix: [[zero, [circle.radius, 0.0.into()]], [one, neg(circle.centre)]] }
     }
 
     /// This map after another one.
@@ -118,13 +118,13 @@ impl PreciseMap {
     /// The image of a circle that the pole is not on: [`Mobius::apply_to_circle`].
     pub fn apply_to_circle(&self, circle: PreciseCircle) -> PreciseCircle {
         let [[a, b], [c, d]] = self.matrix;
-        let PreciseCircle { center: p, radius: r } = circle;
+        let PreciseCircle { centre: p, radius: r } = circle;
         let s = add(mul(c, p), d);
         let (far, near) = (size(s), r * size(c));
         let power = (far - near) * (far + near);
         let top = sub(mul(conj(s), add(mul(a, p), b)), scale(r * r, mul(a, conj(c))));
         let turned = if power.high < 0.0 { -power } else { power };
-        PreciseCircle { center: top.map(|x| x / power), radius: r * size(self.determinant()) / turned }
+        PreciseCircle { centre: top.map(|x| x / power), radius: r * size(self.determinant()) / turned }
     }
 }
 
@@ -136,13 +136,13 @@ mod tests {
     fn clusters_far_below_the_rounding_of_f64_keep_their_shape() {
         // A circle of radius 1e-20 about 1 + 1e-19 i, moved to the origin and blown up.
         let small = DoubleDouble::from(1e-20);
-        let center = [DoubleDouble::from(1.0), small * 10.0.into()];
-        let circle = PreciseCircle { center, radius: small };
-        let points = [[1.0, 0.0], [-0.6, 0.8], [0.0, -1.0]].map(|z| add(center, scale(small, precise(z))));
-        let map = PreciseMap::outside(PreciseCircle { center: precise([1.0, 0.0]), radius: small });
+        let centre = [DoubleDouble::from(1.0), small * 10.0.into()];
+        let circle = PreciseCircle { centre, radius: small };
+        let points = [[1.0, 0.0], [-0.6, 0.8], [0.0, -1.0]].map(|z| add(centre, scale(small, precise(z))));
+        let map = PreciseMap::outside(PreciseCircle { centre: precise([1.0, 0.0]), radius: small });
         let image = map.apply_to_circle(circle);
         for z in points.map(|z| map.apply(z)) {
-            let off = f64::from(size(sub(z, image.center)) / image.radius) - 1.0;
+            let off = f64::from(size(sub(z, image.centre)) / image.radius) - 1.0;
             assert!(off.abs() < 1e-12, "{off:e}");
         }
         let back = map.inverse().after(&map).apply(points[1]);

@@ -130,8 +130,8 @@ fn circles(layout: &Layout, rims: &[Vec<HalfedgeId>], outer: usize) -> Vec<Domai
     let circle = |(k, rim): (usize, &Vec<HalfedgeId>)| {
         let height = if k == outer { 0.0 } else { mean_height(layout, rim) };
         let deviation = rim.iter().map(|&h| (layout.uv(h)[1] - height).abs()).fold(0.0, worse);
-        let (center, radius, log_radius) = ([0.0; 2], (-height).exp(), 0.0 - height);
-        DomainCircle { boundary_loop: k, center, radius, log_radius, deviation, vertices: rim.len() }
+        let (centre, radius, log_radius) = ([0.0; 2], (-height).exp(), 0.0 - height);
+        DomainCircle { boundary_loop: k, centre, radius, log_radius, deviation, vertices: rim.len() }
     };
     rims.iter().enumerate().map(circle).collect()
 }

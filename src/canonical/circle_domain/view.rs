@@ -35,7 +35,7 @@ impl DiskView {
         outer: usize,
     ) -> DiskView {
         let hubs = filled.hubs();
-        let circle = |&v: &VertexId| PreciseCircle { center: plane[v], radius: on.metric.u[v].exp().into() };
+        let circle = |&v: &VertexId| PreciseCircle { centre: plane[v], radius: on.metric.u[v].exp().into() };
         let circles: Vec<PreciseCircle> = hubs.iter().map(circle).collect();
         let map = PreciseMap::outside(circles[outer]);
         let off_centre = PreciseMap::from(&Mobius::to_origin(OFF_CENTRE)).after(&map);
@@ -54,7 +54,7 @@ impl DiskView {
 
     fn circle_seen(&self, map: &PreciseMap, k: usize) -> PreciseCircle {
         if k == self.outer {
-            PreciseCircle { center: precise([0.0; 2]), radius: 1.0.into() }
+            PreciseCircle { centre: precise([0.0; 2]), radius: 1.0.into() }
         } else {
             map.apply_to_circle(self.circles[k])
         }
@@ -62,7 +62,7 @@ impl DiskView {
 
     fn seen(&self, map: &PreciseMap, plane: &PerVertex<PrecisePlanePoint>, v: VertexId) -> PrecisePlanePoint {
         match v.index().checked_sub(self.n_points) {
-            Some(k) => self.circle_seen(map, k).center,
+            Some(k) => self.circle_seen(map, k).centre,
             None if v == self.puncture => map.at_infinity(),
             None => map.apply(plane[v]),
         }
@@ -94,11 +94,11 @@ impl DiskView {
     /// The anchor of hub k: the point where the edge to the vertex `to` leaves its circle. It is found in the disk moved off the centre,
     /// then brought to the disk.
     pub fn anchor(&self, plane: &PerVertex<PrecisePlanePoint>, k: usize, to: VertexId) -> Complex {
-        let PreciseCircle { center, radius } = self.circle_seen(&self.off_centre, k);
-        let away = sub(self.seen(&self.off_centre, plane, to), center);
+        let PreciseCircle { centre, radius } = self.circle_seen(&self.off_centre, k);
+        let away = sub(self.seen(&self.off_centre, plane, to), centre);
         // The outer circle is seen from its other side.
         let radius = if to.index() == self.n_points + self.outer { -radius } else { radius };
-        let at = add(center, scale(radius / size(away), away));
+        let at = add(centre, scale(radius / size(away), away));
         rounded(self.map.after(&self.off_centre.inverse()).apply(at))
     }
 }

@@ -34,7 +34,7 @@ pub struct RoundHole {
     /// The loop, by its place in [`crate::mesh::Mesh::boundary_loops`] of the source.
     pub boundary_loop: usize,
     /// One lift of the centre, in the plane as (x, y, 1) or on the hyperboloid.
-    pub center: [f64; 3],
+    pub centre: [f64; 3],
     /// Radius in the metric of the domain.
     pub radius: f64,
     /// Largest difference between the radius and the distance of a vertex of the loop, of either surface, from the centre, as a share of
@@ -207,12 +207,12 @@ fn closed(domain: &CircleDomain, threads: usize, control: &Control) -> Result<Pl
 fn hole(domain: &CircleDomain, closed: &PlacedMesh, boundary_loop: usize, rim: &[HalfedgeId]) -> RoundHole {
     let (mesh, space) = (&closed.cover.mesh, closed.cover.space);
     let hub = |g: HalfedgeId| closed.frame_at(mesh.prev(g));
-    let center = rim.first().map_or([0.0, 0.0, 1.0], |&g| hub(g).origin().map(f64::from));
+    let centre = rim.first().map_or([0.0, 0.0, 1.0], |&g| hub(g).origin().map(f64::from));
     let number = rim.first().map_or(VertexId(0), |&g| mesh.origin(mesh.prev(g)));
     let radius = conformal::radius(space, 1, domain.metric.metric().u[number]);
     let off = |&g: &HalfedgeId| {
         let [x, y] = logarithm(space, seen_from(&hub(g), &closed.frame_at(mesh.next(g))));
         (x.hypot(y) - radius).abs() / radius
     };
-    RoundHole { boundary_loop, center, radius, deviation: rim.iter().map(off).fold(0.0, worse) }
+    RoundHole { boundary_loop, centre, radius, deviation: rim.iter().map(off).fold(0.0, worse) }
 }

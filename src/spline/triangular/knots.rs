@@ -156,8 +156,8 @@ pub(crate) struct KnotDirections {
 }
 
 impl KnotDirections {
-    /// The knots of a vertex at `center`: the vertex, and others at `spread` times the radius, or less on a line.
-    pub fn knots(&self, center: [f64; 2], degree: usize, spread: f64) -> Vec<[f64; 2]> {
+    /// The knots of a vertex at `centre`: the vertex, and others at `spread` times the radius, or less on a line.
+    pub fn knots(&self, centre: [f64; 2], degree: usize, spread: f64) -> Vec<[f64; 2]> {
         let reach = if self.radius.is_finite() { spread * self.radius } else { 0.0 };
         let first = self.first_turn(degree);
         // Knots of a vertex are far from each other, since a spline bends sharply between near ones.
@@ -177,7 +177,7 @@ impl KnotDirections {
         };
         let knot = |j: usize| {
             let [x, y] = offset(j);
-            [center[0] + reach * x, center[1] + reach * y]
+            [centre[0] + reach * x, centre[1] + reach * y]
         };
         (0..=degree).map(knot).collect()
     }

@@ -69,17 +69,17 @@ pub fn check(d: &CircleDomain, name: &str, tolerance: f64) {
     assert!(worst < tolerance, "{name}: off its circle by {worst:e}");
     let mut circles = Vec::new();
     for points in loops(d).into_iter().filter(|points| points.len() > 4) {
-        let (center, radius, off) = fitted(&points);
+        let (centre, radius, off) = fitted(&points);
         assert!(off < tolerance, "{name}: off a fitted circle by {off:e}");
-        circles.push((center, radius));
+        circles.push((centre, radius));
     }
     if d.layout.space == Space::E2 && d.outer.is_some() {
         assert_eq!(circles.len(), d.circles.len(), "{name}");
     }
     circles.sort_by(|a, b| b.1.total_cmp(&a.1));
     if d.outer.is_some() {
-        let (center, radius) = circles.remove(0);
-        assert!(center[0].hypot(center[1]) < 1e-12 && (radius - 1.0).abs() < 1e-12, "{name}");
+        let (centre, radius) = circles.remove(0);
+        assert!(centre[0].hypot(centre[1]) < 1e-12 && (radius - 1.0).abs() < 1e-12, "{name}");
         assert!(circles.iter().all(|(c, r)| c[0].hypot(c[1]) + r < 1.0), "{name}: a circle leaves the disk");
     }
     for (i, (c, r)) in circles.iter().enumerate() {

@@ -113,7 +113,7 @@ fn circle_domains_come_back_whatever_moebius_transformation_has_moved_them() {
             1..=3 => Mobius::to_origin([0.5 * random.symmetric(), 0.5 * random.symmetric()]),
             _ => {
                 let hole = first.circles.iter().filter(|c| c.boundary_loop != outer).nth(round - 4).unwrap();
-                Mobius { matrix: [[[0.0; 2], [1.0, 0.3]], [[1.0, 0.0], hole.center.map(|x| -x)]] }
+                Mobius { matrix: [[[0.0; 2], [1.0, 0.3]], [[1.0, 0.0], hole.centre.map(|x| -x)]] }
             }
         };
         let surface = moved(&faces, &places, |z| map.apply(z));

@@ -64,9 +64,9 @@ fn random_holes(n: usize, seed: u64) -> Soup {
     let mut gone = vec![false; mesh.n_faces()];
     let mut made = 0;
     while made < n {
-        let center = random.below(mesh.n_vertices());
+        let centre = random.below(mesh.n_vertices());
         let radius = 0.05 + 0.1 * random.unit();
-        let p = sphere.positions[center];
+        let p = sphere.positions[centre];
         let near = |v: u32, r: f64| {
             let q = sphere.positions[v as usize];
             (0..3).map(|k| (p[k] - q[k]).powi(2)).sum::<f64>() < r * r
@@ -129,7 +129,7 @@ fn any_loop_can_be_the_outer_one() {
         let d = circle_domain(&surface, &options, &Control::new()).unwrap();
         check(&d, "chosen loop", 1e-11);
         assert_eq!(d.outer, Some(k));
-        assert_eq!((d.circles[k].center, d.circles[k].radius), ([0.0; 2], 1.0));
+        assert_eq!((d.circles[k].centre, d.circles[k].radius), ([0.0; 2], 1.0));
     }
 }
 

@@ -403,11 +403,11 @@ fn blossoms_are_the_polynomials_of_omega() {
     let mut random = Random(23);
     for patch in 0..space.patches().len() {
         let omega = surface.omega(patch);
-        let center = [0, 1].map(|x| omega.iter().map(|p| p[x]).sum::<f64>() / omega.len() as f64);
+        let centre = [0, 1].map(|x| omega.iter().map(|p| p[x]).sum::<f64>() / omega.len() as f64);
         let near = |random: &mut Random| {
             let corner = omega[(random.next() * omega.len() as f64) as usize];
             let share = random.next();
-            [0, 1].map(|x| share * corner[x] + (1.0 - share) * center[x])
+            [0, 1].map(|x| share * corner[x] + (1.0 - share) * centre[x])
         };
         let at = near(&mut random);
         let value = surface.point(Parameter { patch: patch as u32, x: at[0], y: at[1] }).unwrap();
@@ -430,10 +430,10 @@ fn spheres_and_saddles_have_their_curvatures() {
     (coefficients[3], coefficients[5]) = ([0.0, 0.0, 0.5], [0.0, 0.0, -1.0]);
     let points = space.control_points_of(&Polynomial::new(2, coefficients)).unwrap();
     let surface = Spline::new(space.clone(), points).unwrap();
-    let center = (0..space.patches().len() as u32)
+    let centre = (0..space.patches().len() as u32)
         .find_map(|patch| surface.surface_point(Parameter { patch, x: 0.5, y: 0.5 }).ok())
         .unwrap();
-    let [first, second] = center.principal_curvatures().unwrap();
+    let [first, second] = centre.principal_curvatures().unwrap();
     assert!((first - 1.0).abs() < 1e-9 && (second + 2.0).abs() < 1e-9, "{first} {second}");
-    assert!(difference(center.normal().unwrap(), [0.0, 0.0, 1.0]) < 1e-9);
+    assert!(difference(centre.normal().unwrap(), [0.0, 0.0, 1.0]) < 1e-9);
 }

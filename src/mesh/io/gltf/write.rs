@@ -175,9 +175,9 @@ impl SplitVertices {
     }
 }
 
-/// The transform of the node: a stored number x stands for center + scale · x.
+/// The transform of the node: a stored number x stands for centre + scale · x.
 struct NodePlacement {
-    center: Point,
+    centre: Point,
     /// A power of two.
     scale: f64,
     low: Point,
@@ -192,22 +192,22 @@ impl NodePlacement {
         let (low, high) = (bound(f64::min, f64::INFINITY), bound(f64::max, f64::NEG_INFINITY));
         let narrow = |x: &f64| f64::from(*x as f32) == *x;
         if positions.as_flattened().iter().all(narrow) {
-            return NodePlacement { center: [0.0; 3], scale: 1.0, low, high };
+            return NodePlacement { centre: [0.0; 3], scale: 1.0, low, high };
         }
-        let center = std::array::from_fn(|k| 0.5 * low[k] + 0.5 * high[k]);
-        let extent = (0..3).map(|k| (high[k] - center[k]).max(center[k] - low[k])).fold(0.0, f64::max);
+        let centre = std::array::from_fn(|k| 0.5 * low[k] + 0.5 * high[k]);
+        let extent = (0..3).map(|k| (high[k] - centre[k]).max(centre[k] - low[k])).fold(0.0, f64::max);
         let plain = extent == 0.0 || PLAIN.contains(&extent);
         let scale = if plain { 1.0 } else { extent.log2().floor().clamp(-1000.0, 1000.0).exp2() };
-        NodePlacement { center, scale, low, high }
+        NodePlacement { centre, scale, low, high }
     }
 
     fn stored(&self, p: Point) -> [f32; 3] {
-        std::array::from_fn(|k| ((p[k] - self.center[k]) / self.scale) as f32)
+        std::array::from_fn(|k| ((p[k] - self.centre[k]) / self.scale) as f32)
     }
 
     /// The point that is read back for stored numbers.
     fn read(&self, stored: [f32; 3]) -> Point {
-        std::array::from_fn(|k| self.center[k] + self.scale * f64::from(stored[k]))
+        std::array::from_fn(|k| self.centre[k] + self.scale * f64::from(stored[k]))
     }
 
     fn bounds(&self) -> (Value, Value) {
@@ -216,8 +216,8 @@ impl NodePlacement {
 
     fn node(&self) -> Value {
         let mut node = json!({"mesh": 0});
-        if self.center != [0.0; 3] {
-            node["translation"] = json!(self.center);
+        if self.centre != [0.0; 3] {
+            node["translation"] = json!(self.centre);
         }
         if self.scale != 1.0 {
             node["scale"] = json!(vec![self.scale; 3]);
