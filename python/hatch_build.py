@@ -26,6 +26,7 @@ HEADERS = (
     "shapes",
     "uniformize",
     "circles",
+    "seamless",
     "harmonic",
     "match",
     "structure",

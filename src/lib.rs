@@ -15,6 +15,7 @@
 //! | [`embed`] | layouts, their quality, charts; deck groups, universal covers |
 //! | [`harmonic`] | Laplacian, harmonic maps and 1-forms, period matrices, trajectories |
 //! | [`canonical`] | canonical shapes: uniformization, spheres, circle domains, straight boundaries |
+//! | [`seamless`] | metrics and maps whose cones and handles turn by multiples of 90° |
 //! | [`matching`] | maps between two surfaces |
 //! | [`structure`] | atlases: conformal, spherical, affine, hyperbolic, projective |
 //! | [`spline`] | triangular B-splines, fits over whole surfaces, bicubic patches for CAD |
@@ -37,6 +38,7 @@ pub mod matching;
 pub mod mesh;
 pub mod metric;
 pub mod parallel;
+pub mod seamless;
 pub mod spline;
 pub mod structure;
 pub mod topology;

@@ -19,7 +19,7 @@ const FLOORS: &[&[&str]] = &[
     &["metric"],
     &["flow"],
     &["embed", "harmonic"],
-    &["canonical"],
+    &["canonical", "seamless"],
     &["matching"],
     &["structure"],
     &["spline"],

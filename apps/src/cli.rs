@@ -9,6 +9,7 @@ use crate::matching::MatchArgs;
 use crate::options::Common;
 use crate::refine::RefineArgs;
 use crate::repair::RepairArgs;
+use crate::seamless::SeamlessArgs;
 use crate::spline::SplineArgs;
 use crate::structure::StructureArgs;
 use crate::uniformize::{CoverArgs, UniformizeArgs};
@@ -66,6 +67,9 @@ pub enum Command {
     /// An atlas of a conformal, spherical, affine, hyperbolic or projective structure, with its transitions and holonomy
     #[command(after_help = crate::structure::HELP)]
     Structure(StructureArgs),
+    /// A flat metric whose cones and handles turn by multiples of 90°, and its map, whose seams a grid of squares crosses
+    #[command(after_help = crate::seamless::HELP)]
+    Seamless(SeamlessArgs),
     /// Triangular B-splines: fitted to meshes, evaluated
     #[command(after_help = crate::spline::HELP)]
     Spline(SplineArgs),

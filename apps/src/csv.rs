@@ -45,6 +45,17 @@ pub fn read_curvatures(path: &Path, n_vertices: usize) -> Result<Vec<(VertexId, 
     Ok(rows)
 }
 
+/// Read `vertex,valence` rows: the number of right angles around a cone. Lines as in [`read_curvatures`].
+pub fn read_valences(path: &Path, n_vertices: usize) -> Result<Vec<(VertexId, u32)>, Failure> {
+    let rows = read_rows(path, ["vertex", "valence"])?;
+    let valence = |(i, [vertex, valence]): (usize, [String; 2])| {
+        let v = vertex_of(path, i, &vertex, n_vertices)?;
+        let number = valence.parse().map_err(|_| refuse(path, i, format!("`{valence}` is no valence")))?;
+        Ok((v, number))
+    };
+    rows.into_iter().map(valence).collect()
+}
+
 /// Read `vertex,x,y` rows: where vertices go, each at most once. Lines as in [`read_curvatures`], but for the names of a header.
 pub fn read_places(path: &Path, n_vertices: usize) -> Result<Vec<(VertexId, [f64; 2])>, Failure> {
     let mut named = vec![false; n_vertices];

@@ -40,6 +40,7 @@ mod repair_summary;
 mod report;
 mod runner;
 mod say;
+mod seamless;
 mod shape;
 mod shape_quality;
 mod show;
@@ -81,6 +82,7 @@ fn run(command: &Command, control: &Control) -> Result<u8, Failure> {
         Command::Forms(args) => runner::run(args, control),
         Command::Circles(args) => runner::run(args, control),
         Command::Match(args) => runner::run(args, control),
+        Command::Seamless(args) => runner::run(args, control),
         Command::Structure(args) => runner::run(args, control),
         Command::Info(args) => runner::run(args, control),
         Command::Repair(args) => runner::run(args, control),

@@ -59,6 +59,7 @@ pub mod quality;
 pub mod refine;
 pub mod repaired_input;
 pub mod report;
+pub mod seamless;
 pub mod shapes;
 pub mod sheet;
 pub mod soup;

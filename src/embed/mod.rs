@@ -15,6 +15,7 @@ mod domain;
 mod edge_lengths;
 mod edge_parts;
 mod element;
+mod exact_seams;
 mod face_polygon;
 mod face_transitions;
 mod faces;

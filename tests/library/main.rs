@@ -41,6 +41,7 @@ mod outer;
 mod range;
 mod refine;
 mod repair;
+mod seamless;
 mod shapes;
 mod solution;
 mod solver;

@@ -45,6 +45,7 @@ from ricci.maps import Map
 from ricci.matching import Matching, match
 from ricci.mesh import Mesh, read
 from ricci.metrics import Metric, Report, Solver, flow, metric
+from ricci.seams import Seamless, seamless
 from ricci.shapes import change, hyperelliptic_periods, make
 from ricci.soup import Defect, Soup
 from ricci.splines import Spline, flat_metric, spline, spline_domain
@@ -87,6 +88,7 @@ __all__ = [
     "RepairedInput",
     "Report",
     "RicciError",
+    "Seamless",
     "SheetLine",
     "Solver",
     "SolverError",
@@ -120,6 +122,7 @@ __all__ = [
     "match",
     "metric",
     "read",
+    "seamless",
     "spline",
     "spline_domain",
     "structure",

@@ -2,7 +2,7 @@
 
 from ricci.figures.covered import DeckSummary, DirichletSummary, DomainSummary, HomotopySummary, UniformSummary
 from ricci.figures.derived import BicubicSummary, FormsSummary, HarmonicSummary, MatchingSummary, SplineSummary, StructureSummary
-from ricci.figures.placed import AtlasSummary, CircleDomainSummary, LayoutSummary, MapSummary, RepairedInputSummary
+from ricci.figures.placed import AtlasSummary, CircleDomainSummary, LayoutSummary, MapSummary, RepairedInputSummary, SeamlessSummary
 from ricci.figures.surface import MeshSummary, MetricSummary, QualitySummary, RefineSummary, ReportSummary, SoupSummary
 
 __all__ = [
@@ -24,6 +24,7 @@ __all__ = [
     "RefineSummary",
     "RepairedInputSummary",
     "ReportSummary",
+    "SeamlessSummary",
     "SoupSummary",
     "SplineSummary",
     "StructureSummary",

@@ -159,6 +159,32 @@ class AtlasSummary:
 
 
 @dataclass(frozen=True)
+class SeamlessSummary:
+    """Figures of a seamless metric.
+
+    Attributes:
+        converged: true if every angle is within the tolerance of its target.
+        n_cones: cones.
+        n_loops: loops that generate the homology: 2g.
+        flow_iterations: steps of the conformal flow.
+        iterations: Newton steps after it.
+        n_flips: edge flips.
+        error: largest deviation, radians, of the angle around a vertex from its target, and of the turning of loops that were found anew, from
+            another vertex, from multiples of 90 degrees.
+        tolerance: the tolerance that was asked for.
+    """
+
+    converged: bool
+    n_cones: int
+    n_loops: int
+    flow_iterations: int
+    iterations: int
+    n_flips: int
+    error: float
+    tolerance: float
+
+
+@dataclass(frozen=True)
 class CircleDomainSummary:
     """Figures of a circle domain.
 

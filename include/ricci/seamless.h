@@ -1,0 +1,178 @@
+/* ricci: seamless metrics and maps, whose cones and handles turn by multiples of 90 degrees.
+ *
+ * SPDX-License-Identifier: MIT OR Apache-2.0
+ *
+ *     ricci_seamless_new(mesh, NULL, NULL, &result);
+ *     ricci_seamless_summarise(result, &summary, sizeof summary);
+ *     ricci_seamless_map(result, NULL, &layout);   // a layout with exact seams
+ *
+ * The conventions are those of ricci/ricci.h.
+ */
+
+#ifndef RICCI_SEAMLESS_H
+#define RICCI_SEAMLESS_H
+
+#include <ricci/ricci.h>
+#include <ricci/uniformize.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** A flat metric whose angles around cones and along loops are multiples of 90 degrees. */
+typedef struct ricci_seamless ricci_seamless;
+
+/** The way in which the cones of a seamless metric are chosen. */
+enum {
+    /** Those of the smoothest field of four directions. */
+    RICCI_SEAMLESS_FIELD = 0,
+    /** `n_cones` cones, placed so that areas change little, their angles rounded to multiples of 90 degrees.
+     */
+    RICCI_SEAMLESS_AUTO = 1,
+    /** The `vertices` with their `valences`. */
+    RICCI_SEAMLESS_VALENCES = 2
+};
+
+/** Options of a seamless metric. Zeroed by ricci_init: the defaults. */
+typedef struct ricci_seamless_options {
+    /** sizeof(ricci_seamless_options). */
+    size_t size;
+    /** RICCI_SEAMLESS_*: how cones are chosen. */
+    uint32_t cones;
+    /** 0. */
+    uint32_t reserved;
+    /** RICCI_SEAMLESS_AUTO: the number of cones; RICCI_SEAMLESS_VALENCES: entries of both arrays. */
+    size_t n_cones;
+    /** RICCI_SEAMLESS_VALENCES: the vertices of the cones. */
+    const uint32_t *vertices;
+    /**
+     * RICCI_SEAMLESS_VALENCES: the number of right angles around each, 1 or more; 4 at any other vertex. The
+     * sum of 4 - valence is 4 chi.
+     */
+    const uint32_t *valences;
+    /**
+     * The turning of each of the 2g loops, quarter turns; NULL: the nearest to that of the conformal metric
+     * with these cones.
+     */
+    const int32_t *quarter_turns;
+    /** Its entries, 2g. */
+    size_t n_quarter_turns;
+    /** Largest deviation of an angle from its target, radians; 0: 1e-10. */
+    double tolerance;
+    /** Most Newton steps after the conformal flow; 0: 100. */
+    size_t max_iterations;
+    /** Threads; 0: one for each core. */
+    size_t threads;
+} ricci_seamless_options;
+
+/** Figures of a seamless metric. */
+typedef struct ricci_seamless_summary {
+    /** Bytes of this struct that are filled. */
+    size_t size;
+    /** 1 if every angle is within the tolerance of its target; else 0. */
+    uint32_t converged;
+    /** 0. */
+    uint32_t reserved;
+    /** Cones. */
+    size_t n_cones;
+    /** Loops that generate the homology: 2g. */
+    size_t n_loops;
+    /** Steps of the conformal flow. */
+    size_t flow_iterations;
+    /** Newton steps after it. */
+    size_t iterations;
+    /** Edge flips. */
+    size_t n_flips;
+    /**
+     * Largest deviation, radians, of the angle around a vertex from its target, and of the turning of loops
+     * that were found anew, from another vertex, from multiples of 90 degrees.
+     */
+    double error;
+    /** The tolerance that was asked for. */
+    double tolerance;
+} ricci_seamless_summary;
+
+/**
+ * A seamless metric of a closed surface near its conformal class: first the conformal metric with the cones,
+ * then least changes of the logarithms of lengths until the loops turn as they are to.
+ *
+ * Not reaching the target is RICCI_OK with `converged` 0. Deterministic.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE, RICCI_ARGUMENT (a surface with boundary, an
+ * unknown choice, a tolerance that is not positive), RICCI_WRONG_SIZE (quarter turns), RICCI_TARGET_KIND
+ * (cones or a signature that no metric has), RICCI_EDGE_LENGTH, RICCI_TRIANGLE_INEQUALITY, RICCI_EDGE_WEIGHT,
+ * RICCI_DOMAIN, RICCI_TOO_LARGE, RICCI_NO_MEMORY, RICCI_FACTORISATION, RICCI_CANCELLED.
+ *
+ * @param mesh     the mesh.
+ * @param options  the options; NULL for the defaults.
+ * @param control  progress and cancellation; NULL for neither.
+ * @param result   out: the new handle, to be released by ricci_seamless_free.
+ */
+RICCI_API ricci_status ricci_seamless_new(const ricci_mesh *mesh, const ricci_seamless_options *options,
+                                          const ricci_control *control, ricci_seamless **result);
+
+/**
+ * Release a seamless metric. Handles that were made from it live on.
+ *
+ * @param result  the handle, or NULL.
+ */
+RICCI_API_VOID void ricci_seamless_free(ricci_seamless *result);
+
+/**
+ * The figures.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE.
+ *
+ * @param result   the seamless metric.
+ * @param summary  out: the figures.
+ * @param size     sizeof *summary.
+ */
+RICCI_API ricci_status ricci_seamless_summarise(const ricci_seamless *result, ricci_seamless_summary *summary,
+                                                size_t size);
+
+/**
+ * The cones, by vertex: the vertex and its valence, the number of right angles around it.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_WRONG_SIZE.
+ *
+ * @param result    the seamless metric.
+ * @param cones     out: 2 `n_cones` numbers.
+ * @param capacity  the room in `cones`.
+ */
+RICCI_API ricci_status ricci_seamless_cones(const ricci_seamless *result, uint32_t *cones, size_t capacity);
+
+/**
+ * The turning of each loop that was asked for, quarter turns.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_WRONG_SIZE.
+ *
+ * @param result         the seamless metric.
+ * @param quarter_turns  out: `n_loops` numbers.
+ * @param capacity       the room in `quarter_turns`.
+ */
+RICCI_API ricci_status ricci_seamless_turning(const ricci_seamless *result, int32_t *quarter_turns,
+                                              size_t capacity);
+
+/**
+ * The metric on its Delaunay triangulation. Its report is that of the conformal flow.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_NO_MEMORY.
+ *
+ * @param result  the seamless metric.
+ * @param metric  out: the new handle, to be released by ricci_metric_free.
+ */
+RICCI_API ricci_status ricci_seamless_metric(const ricci_seamless *result, ricci_metric **metric);
+
+/**
+ * The map into the plane, cut through all cones. Each edge of a seam is exactly, in the doubles of
+ * ricci_layout_points, a rotation by a multiple of 90 degrees and a translation of its other side.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_LAYOUT (a metric that has not converged), RICCI_TOO_LARGE,
+ * RICCI_NO_MEMORY, RICCI_CANCELLED.
+ *
+ * @param result   the seamless metric.
+ * @param control  progress and cancellation; NULL for neither.
+ * @param layout   out: the new handle, to be released by ricci_layout_free.
+ */
+RICCI_API ricci_status ricci_seamless_map(const ricci_seamless *result, const ricci_control *control,
+                                          ricci_layout **layout);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

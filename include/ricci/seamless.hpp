@@ -1,0 +1,34 @@
+// Seamless metrics: C++ ownership and errors, as ricci/ricci.hpp has them.
+//
+// SPDX-License-Identifier: MIT OR Apache-2.0
+#ifndef RICCI_SEAMLESS_HPP
+#define RICCI_SEAMLESS_HPP
+
+#include <ricci/ricci.hpp>
+#include <ricci/seamless.h>
+
+namespace ricci {
+
+using seamless_handle = owned<ricci_seamless, ricci_seamless_free>;
+
+// A flat metric whose angles around cones and along loops are multiples of 90 degrees.
+class seamless : public seamless_handle {
+public:
+    explicit seamless(const mesh &on, const ricci_seamless_options &options = init<ricci_seamless_options>(),
+                      const control *watched = nullptr)
+        : seamless_handle(make<ricci_seamless>(ricci_seamless_new, on.get(), &options, of(watched))) {}
+    ricci_seamless_summary summary() const { return ricci::summary(ricci_seamless_summarise, get()); }
+    // A vertex and its valence for each cone.
+    std::vector<std::uint32_t> cones() const { return values<std::uint32_t>(ricci_seamless_cones, get()); }
+    // The turning of each loop, quarter turns.
+    std::vector<std::int32_t> turning() const { return values<std::int32_t>(ricci_seamless_turning, get()); }
+    ricci::metric metric() const { return ricci::metric(make<ricci_metric>(ricci_seamless_metric, get())); }
+    // The map into the plane, with exact seams.
+    ricci::layout map(const control *watched = nullptr) const {
+        return ricci::layout(make<ricci_layout>(ricci_seamless_map, get(), of(watched)));
+    }
+};
+
+} // namespace ricci
+
+#endif

@@ -1,0 +1,140 @@
+"""Seamless metrics and maps, whose cones and handles turn by multiples of 90 degrees."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import Any, ClassVar, TypedDict, Unpack
+
+import numpy as np
+import numpy.typing as npt
+
+from ricci import _arrays
+from ricci._arrays import frozen
+from ricci._call import CONTROL, Handle, constant, filled, summary
+from ricci._library import lib
+from ricci._structs import Write, above_zero, number, options
+from ricci.adapters import MeshLike, as_mesh
+from ricci.control import Progress
+from ricci.errors import ArgumentError, warn
+from ricci.figures import SeamlessSummary
+from ricci.layouts import Layout
+from ricci.metrics import Metric
+
+__all__ = ["Seamless", "SeamlessOptions", "seamless"]
+
+
+class SeamlessOptions(TypedDict, total=False):
+    """Options of a seamless metric.
+
+    Attributes:
+        cones: ``"field"``: those of the smoothest field of four directions; a number: so many, placed so that areas change little, their
+            angles rounded to multiples of 90 degrees; a mapping from vertices to valences, the number of right angles around each: the sum
+            of 4 - valence is 4 chi.
+        quarter_turns: the turning of each of the 2g loops; the nearest to that of the conformal metric with these cones.
+        tolerance: largest deviation of an angle from its target, radians; 1e-10.
+        max_iterations: most Newton steps after the conformal flow; 100.
+        threads: one for each core.
+    """
+
+    cones: str | int | dict[int, int]
+    quarter_turns: npt.ArrayLike
+    tolerance: float
+    max_iterations: int
+    threads: int
+
+
+def _cones(struct: Any, field: str, value: Any) -> None:
+    if isinstance(value, str):
+        if value != "field":
+            raise ArgumentError(f'{field} is "{value}": known are "field", a number of cones, a mapping from vertices to valences')
+        struct.put(field, constant("SEAMLESS", "field"))
+    elif isinstance(value, dict):
+        struct.put(field, constant("SEAMLESS", "valences"))
+        struct.put("vertices", _arrays.indices(list(value.keys()), None, "vertices"))
+        struct.put("valences", _arrays.indices(list(value.values()), None, "valences"))
+        struct.put("n_cones", len(value))
+    else:
+        struct.put(field, constant("SEAMLESS", "auto"))
+        struct.put("n_cones", value)
+
+
+def _quarter_turns(struct: Any, field: str, value: Any) -> None:
+    given = np.asarray(value)
+    turns = np.ascontiguousarray(given, np.int32)
+    if turns.ndim != 1 or not np.array_equal(turns, given):
+        raise ArgumentError(f"{field} is no list of whole numbers")
+    struct.put(field, turns)
+    struct.put("n_quarter_turns", len(turns))
+
+
+_SEAMLESS: dict[str, Write] = {
+    "cones": _cones,
+    "quarter_turns": _quarter_turns,
+    "tolerance": above_zero,
+    "max_iterations": above_zero,
+    "threads": number,
+}
+
+
+class Seamless(Handle):
+    """A flat metric whose angles around cones and along loops are multiples of 90 degrees."""
+
+    _type: ClassVar[str] = "seamless"
+    _made_by: ClassVar[str] = "ricci.seamless(mesh)"
+
+    @cached_property
+    def summary(self) -> SeamlessSummary:
+        """Convergence, counts, the largest deviation of an angle."""
+        return summary(SeamlessSummary, "seamless", self)
+
+    @property
+    def converged(self) -> bool:
+        """True if every angle is within the tolerance of its target."""
+        return self.summary.converged
+
+    @cached_property
+    def cones(self) -> npt.NDArray[np.uint32]:
+        """One row for each cone, by vertex: the vertex and its valence, the number of right angles around it."""
+        return frozen(filled(lib.ricci_seamless_cones, self, out=np.empty((self.summary.n_cones, 2), np.uint32)))
+
+    @cached_property
+    def turning(self) -> npt.NDArray[np.int32]:
+        """The turning of each loop that was asked for, quarter turns."""
+        return frozen(filled(lib.ricci_seamless_turning, self, out=np.empty(self.summary.n_loops, np.int32)))
+
+    @cached_property
+    def metric(self) -> Metric:
+        """The metric on its Delaunay triangulation. Its report is that of the conformal flow."""
+        return Metric._made(lib.ricci_seamless_metric, self)
+
+    def map(self, progress: Progress = None) -> Layout:
+        """The map into the plane, cut through all cones.
+
+        Each edge of a seam is exactly, in doubles, a rotation by a multiple of 90 degrees and a translation of its other side.
+        """
+        return Layout._made(lib.ricci_seamless_map, self, CONTROL, progress=progress)
+
+
+def seamless(V: MeshLike, F: npt.ArrayLike | None = None, progress: Progress = None, **given: Unpack[SeamlessOptions]) -> Seamless:
+    """A seamless metric of a closed surface near its conformal class.
+
+    First the conformal metric with the cones, then least changes of the logarithms of lengths until 2g loops turn by multiples of 90 degrees.
+
+    Args:
+        V: n x 3 positions with `F`, or a mesh of any kind (`as_mesh`).
+        F: m x 3 vertex indices.
+        progress: a `Control` or a callback.
+        given: cones, quarter_turns, tolerance, max_iterations, threads (`SeamlessOptions`).
+
+    Warns:
+        NotConverged: the target was not reached; whether a metric with this signature exists is not known.
+
+    Raises:
+        ArgumentError: a surface with boundary.
+        TargetError: cones or a signature that no metric has.
+    """
+    struct = options("seamless_options", given, _SEAMLESS)
+    made = Seamless._made(lib.ricci_seamless_new, as_mesh(V, F), struct, CONTROL, progress=progress)
+    if not made.converged:
+        warn(f"the seamless metric did not converge: angles are off by {made.summary.error:.1e}; try other cones or quarter turns")
+    return made

@@ -1,0 +1,49 @@
+"""Seamless metrics: exact seams, cones, refusals."""
+
+import numpy as np
+import pytest
+
+import ricci
+
+
+@pytest.fixture(scope="module")
+def surface() -> ricci.Mesh:
+    """A surface of genus 2."""
+    return ricci.make("genus", genus=2, n=5)
+
+
+def test_a_surface_becomes_seamless(surface: ricci.Mesh) -> None:
+    made = ricci.seamless(surface, cones=8)
+    assert made.converged
+    assert made.summary.error < 1e-10
+    assert (4 - made.cones[:, 1].astype(int)).sum() == -8
+    assert made.turning.shape == (4,)
+    again = ricci.seamless(surface, cones={int(v): int(k) for v, k in made.cones}, quarter_turns=made.turning)
+    assert np.array_equal(again.turning, made.turning)
+    assert np.array_equal(again.metric.lengths, made.metric.lengths)
+
+
+def test_its_seams_are_exact(surface: ricci.Mesh) -> None:
+    layout = ricci.seamless(surface).map()
+    faces, corners, points = layout.mesh.faces, layout.corners("refinement"), layout.points()
+    sides = {}
+    for f, c in zip(faces, corners, strict=True):
+        for k in range(3):
+            sides[int(f[k]), int(f[(k + 1) % 3])] = points[c[(k + 1) % 3]] - points[c[k]]
+    turned = 0
+    for (a, b), [x, y] in sides.items():
+        other = -sides[b, a]
+        assert any(np.array_equal(other, w) for w in ([x, y], [-y, x], [-x, -y], [y, -x]))
+        turned += not np.array_equal(other, [x, y])
+    assert turned > 0
+
+
+def test_what_cannot_be_is_refused(surface: ricci.Mesh) -> None:
+    with pytest.raises(ricci.TargetError, match="4 − valence"):
+        ricci.seamless(surface, cones={0: 5})
+    with pytest.raises(ricci.ArgumentError, match="whole numbers"):
+        ricci.seamless(surface, quarter_turns=[0.5, 0, 0, 0])
+    with pytest.raises(ricci.ArgumentError, match="field"):
+        ricci.seamless(surface, cones="few")
+    with pytest.raises(ricci.ArgumentError, match="closed"):
+        ricci.seamless(ricci.make("disk", n=4))

@@ -1,0 +1,189 @@
+//! Seams of a seamless layout that are exact: coordinates on a grid of powers of two, in which the two sides of each seam differ by a rotation
+//! by a multiple of 90° and a translation without any rounding.
+//!
+//! The opened surface is a disk whose boundary is a closed polygon. An edge of the cut is two of its sides: w and −iᵏ w. The polygon closes
+//! if `Σ (1 − iᵏ) w = 0`. Sides are rounded to Gaussian integers; what the sum is off then is a multiple of 1 − i, or of 2 if every k is
+//! even, and one long edge takes it up.
+
+use super::layout::Layout;
+use crate::error::{Error, Result};
+use crate::geometry::Space;
+use crate::mesh::HalfedgeId;
+use std::f64::consts::FRAC_PI_2;
+
+/// Largest difference, radians, of a seam's rotation from a multiple of 90° that is rounding.
+const ROTATION_ROUNDING: f64 = 1e-6;
+/// Coordinates are below 2 to this power in units of the grid, so that sums and differences of two of them are exact.
+const GRID_BITS: i32 = 51;
+
+/// A Gaussian integer: a vector in units of the grid.
+type GridVector = [i64; 2];
+
+impl Layout {
+    /// Moves the corners to a grid of powers of two such that the two sides of each edge of the cut differ by a rotation by a multiple of
+    /// 90° and a translation exactly. Returns the largest distance by which a corner was moved: a few units of rounding per edge of the cut.
+    ///
+    /// # Errors
+    /// [`Error::Layout`] for a layout that is not in E², of a surface with boundary, without cut or of several pieces, or with a seam whose
+    /// rotation is no multiple of 90° to 1e-6.
+    pub fn make_seams_exact(&mut self) -> Result<f64> {
+        let quarters = self.quarter_turns()?;
+        let boundary = self.cut_boundary()?;
+        let extent = self.coordinates.iter().flatten().fold(0.0, |top: f64, x| top.max(x.abs()));
+        let unit = 2f64.powi(extent.log2().ceil() as i32 + 1 - GRID_BITS);
+        let sides = closed_sides(self, &boundary, &quarters, unit)?;
+        let on_grid = |[x, y]: [f64; 2]| [(x / unit).round() as i64, (y / unit).round() as i64];
+        let mut exact: Vec<GridVector> = self.coordinates.iter().map(|&z| on_grid(z)).collect();
+        let mut at = boundary.first().map_or([0; 2], |&h| exact[self.corner_index[h] as usize]);
+        for (&h, side) in boundary.iter().zip(&sides) {
+            exact[self.corner_index[h] as usize] = at;
+            at = [at[0] + side[0], at[1] + side[1]];
+        }
+        let mut moved = 0.0f64;
+        for (k, z) in exact.into_iter().enumerate() {
+            let z = z.map(|x| x as f64 * unit);
+            let old = self.coordinates[k];
+            moved = moved.max((z[0] - old[0]).hypot(z[1] - old[1]));
+            self.coordinates[k] = z;
+            self.points[k] = [z[0], z[1], 1.0];
+        }
+        self.remainders.clear();
+        self.find_flat();
+        Ok(moved)
+    }
+
+    /// The rotation of each seam from its left to its right side, quarter turns.
+    fn quarter_turns(&self) -> Result<Vec<i32>> {
+        if self.space != Space::E2 {
+            return Err(Error::Layout("exact seams are those of a layout in the plane".into()));
+        }
+        let quarters = |(k, rotation): (usize, f64)| {
+            let turns = (rotation / FRAC_PI_2).round();
+            let off = (rotation - turns * FRAC_PI_2).abs();
+            if off <= ROTATION_ROUNDING {
+                return Ok(turns as i32);
+            }
+            let message = format!("seam {k} turns by {rotation} radians, {off:.1e} off a multiple of 90°");
+            Err(Error::Layout(message))
+        };
+        self.seams.iter().map(|seam| seam.isometry().rotation).enumerate().map(quarters).collect()
+    }
+
+    /// The half-edges of the cut around the opened surface, counterclockwise.
+    fn cut_boundary(&self) -> Result<Vec<HalfedgeId>> {
+        let mesh = self.mesh();
+        let refused = |message: &str| Err(Error::Layout(message.into()));
+        if !mesh.is_closed() {
+            return refused("exact seams are made on closed surfaces");
+        }
+        let is_cut = |h: HalfedgeId| self.side[h] != 0;
+        let Some(first) = mesh.halfedges().find(|&h| is_cut(h)) else {
+            return refused("the layout has no cut, so no seam to be made exact");
+        };
+        let mut boundary = Vec::new();
+        let mut h = first;
+        loop {
+            boundary.push(h);
+            h = mesh.next(h);
+            while !is_cut(h) {
+                h = mesh.next(h.twin());
+            }
+            if h == first {
+                break;
+            }
+        }
+        if boundary.len() != mesh.halfedges().filter(|&h| is_cut(h)).count() {
+            return refused(
+                "the opened surface has more than one boundary, so its seams cannot be made exact together",
+            );
+        }
+        Ok(boundary)
+    }
+}
+
+/// The sides of the boundary polygon in units of the grid: those of one edge are exactly w and −iᵏ w, and all of them add up to 0.
+fn closed_sides(
+    layout: &Layout,
+    boundary: &[HalfedgeId],
+    quarters: &[i32],
+    unit: f64,
+) -> Result<Vec<GridVector>> {
+    let mesh = layout.mesh();
+    let turn = |h: HalfedgeId| quarters[layout.side[h].unsigned_abs() as usize - 1].rem_euclid(4);
+    let vector = |h: HalfedgeId| {
+        let [a, b] = [layout.uv(h), layout.uv(mesh.next(h))];
+        [0, 1].map(|k| ((b[k] - a[k]) / unit).round() as i64)
+    };
+    let left: Vec<HalfedgeId> = boundary.iter().copied().filter(|&h| layout.side[h] > 0).collect();
+    let mut sides: Vec<GridVector> = left.iter().map(|&h| vector(h)).collect();
+    let off = left.iter().zip(&sides).fold([0; 2], |sum, (&h, &w)| add(sum, sub(w, turned(w, turn(h)))));
+    // 1 − iᵏ divides what the sum is off if k is odd, and if no k is odd.
+    let size = |k: usize| sides[k].iter().map(|x| (*x as f64).powi(2)).sum::<f64>();
+    let rank = |k: &usize| (turn(left[*k]) % 2, f64::from(u8::from(turn(left[*k]) != 0)), size(*k));
+    let order = |a: &usize, b: &usize| {
+        let (a, b) = (rank(a), rank(b));
+        a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.total_cmp(&b.2))
+    };
+    if off != [0; 2] {
+        let longest = (0..left.len()).max_by(order);
+        let correction = longest.and_then(|k| Some((k, divided(off, turn(left[k]))?)));
+        let Some((k, correction)) = correction else {
+            return Err(Error::Layout("the sides of the cut do not close, though no seam turns".into()));
+        };
+        sides[k] = sub(sides[k], correction);
+    }
+    let mut of_edge = vec![[0; 2]; mesh.n_edges()];
+    left.iter().zip(&sides).for_each(|(h, &w)| of_edge[h.edge().index()] = w);
+    let side = |&h: &HalfedgeId| {
+        let w = of_edge[h.edge().index()];
+        if layout.side[h] > 0 { w } else { turned(w, turn(h) + 2) }
+    };
+    Ok(boundary.iter().map(side).collect())
+}
+
+fn add(a: GridVector, b: GridVector) -> GridVector {
+    [a[0] + b[0], a[1] + b[1]]
+}
+
+fn sub(a: GridVector, b: GridVector) -> GridVector {
+    [a[0] - b[0], a[1] - b[1]]
+}
+
+/// iᵏ z.
+fn turned([x, y]: GridVector, k: i32) -> GridVector {
+    match k.rem_euclid(4) {
+        0 => [x, y],
+        1 => [-y, x],
+        2 => [-x, -y],
+        _ => [y, -x],
+    }
+}
+
+/// z / (1 − iᵏ), if that is a Gaussian integer.
+fn divided(z: GridVector, k: i32) -> Option<GridVector> {
+    let [x, y] = z;
+    let halves = match k.rem_euclid(4) {
+        // 1/(1 − i) = (1 + i)/2, 1/(1 + i) = (1 − i)/2.
+        1 => add(z, turned(z, 1)),
+        2 => [x, y],
+        3 => add(z, turned(z, 3)),
+        _ => return None,
+    };
+    (halves.iter().all(|x| x % 2 == 0)).then(|| halves.map(|x| x / 2))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quotients_are_undone_by_products() {
+        for k in 1..4 {
+            for z in [[3, -5], [0, 1], [7, 2]] {
+                let product = sub(z, turned(z, k));
+                assert_eq!(divided(product, k), Some(z));
+            }
+        }
+        assert_eq!(divided([1, 0], 1), None);
+    }
+}
