@@ -59,12 +59,11 @@ impl FaceTransitions {
                 None => Ok(identity),
             }
         });
-        let whole = if faces.mesh.is_closed() && !mesh.is_closed() { 0.5 } else { 1.0 };
         Ok(FaceTransitions {
             space: faces.space,
             corners: corners.into(),
             across: across.into_iter().collect::<Result<Vec<_>>>()?.into(),
-            area: whole * faces.area(),
+            area: faces.area_of(&pieces),
             mesh,
         })
     }

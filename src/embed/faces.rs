@@ -1,8 +1,9 @@
 //! The triangles of a metric with their sides and angles, and the frames of their half-edges.
 
 use super::frame::{HalfedgeFrame, MovingFrame, PlaneFrame};
-use super::pieces::PlaceInFace;
+use super::pieces::{LayoutPieces, PlaceInFace};
 use crate::error::{Error, Result};
+use crate::geometry::complex::{cross, sub};
 use crate::geometry::model::distance;
 use crate::geometry::motion::precise_point;
 use crate::geometry::plane_triangle::PlaneTriangle;
@@ -149,6 +150,25 @@ impl<'a, F: HalfedgeFrame> Faces<'a, F> {
     /// The sum of the faces' areas.
     pub fn area(&self) -> f64 {
         self.area
+    }
+
+    /// The area of pieces of the faces: half of all area for the given half of a double, the sum of the pieces' areas where caps are left out.
+    pub fn area_of(&self, pieces: &LayoutPieces) -> f64 {
+        let mesh = pieces.mesh();
+        if self.mesh.is_closed() {
+            return if mesh.is_closed() { 1.0 } else { 0.5 } * self.area;
+        }
+        let has_caps = pieces.common_subdivision().is_some_and(|r| r.n_vertices[0] < self.mesh.n_vertices());
+        if self.space != Space::E2 || !has_caps {
+            return self.area;
+        }
+        let area = |f: FaceId| {
+            let local = self.local(pieces.final_face(f));
+            let place = |weights| combination(self.space, local, weights);
+            let [a, b, c] = pieces.final_barycentric(f).map(place).map(|[x, y, _]| [x, y]);
+            0.5 * cross(sub(b, a), sub(c, a))
+        };
+        mesh.faces().map(area).sum()
     }
 
     /// The ambient coordinates of a face's corners when its first half-edge starts at the origin, along the x axis.

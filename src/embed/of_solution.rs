@@ -188,12 +188,10 @@ impl BasedLayout {
         control: &Control,
     ) -> Result<BasedLayout> {
         let faces = Faces::precise(solution.mesh(), solution.metric())?;
-        let (pieces, surface): (LayoutPieces, &Mesh) = match (solution.double(), subdivision) {
-            (None, _) => (LayoutPieces::Mesh(solution.mesh().clone()), solution.mesh()),
-            (Some(_), Some(subdivision)) => {
-                (LayoutPieces::Subdivision(subdivision.clone()), solution.given())
-            }
-            (Some(_), None) => {
+        let (pieces, surface): (LayoutPieces, &Mesh) = match (solution.goes_beyond_given(), subdivision) {
+            (false, _) => (LayoutPieces::Mesh(solution.mesh().clone()), solution.mesh()),
+            (true, Some(subdivision)) => (LayoutPieces::Subdivision(subdivision.clone()), solution.given()),
+            (true, None) => {
                 (LayoutPieces::Subdivision(Arc::new(solution.common_subdivision(control)?)), solution.given())
             }
         };

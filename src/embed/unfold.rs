@@ -179,8 +179,6 @@ impl<F: HalfedgeFrame> Development<'_, F> {
         if space == Space::E2 {
             seams.iter_mut().for_each(|seam| seam.residual /= diameter);
         }
-        // A subdivision with a boundary, of a closed triangulation, is the given half of a double.
-        let is_half = faces.mesh.is_closed() && !mesh.is_closed();
         control.check()?;
         Ok(Layout {
             space,
@@ -192,7 +190,7 @@ impl<F: HalfedgeFrame> Development<'_, F> {
             local_consistency,
             radius: radius(space, &points),
             diameter,
-            area: if is_half { 0.5 } else { 1.0 } * faces.area(),
+            area: faces.area_of(&self.pieces),
             scale: 1.0,
             input: None,
             side,

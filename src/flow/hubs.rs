@@ -21,11 +21,7 @@ const LEAST_START: f64 = 0.6;
 
 /// The radius of the circle about a hub at the start: that of a circle as long as the loop, or a larger one if one edge is long.
 pub(crate) fn start_radius(lengths: &PerEdge<f64>, rim: &[HalfedgeId]) -> f64 {
-    radius_within(rim.iter().map(|h| lengths[h.edge()]))
-}
-
-/// The same for a loop with edges of these lengths.
-pub(super) fn radius_within(edges: impl Iterator<Item = f64>) -> f64 {
+    let edges = rim.iter().map(|h| lengths[h.edge()]);
     let (sum, longest) = edges.fold((0.0, 0.0), |(sum, longest), l| (sum + l, f64::max(longest, l)));
     (sum / TAU).max(LEAST_START * longest)
 }

@@ -25,6 +25,7 @@ mod measure;
 mod memory;
 mod newton;
 mod obstruction;
+mod off_caps;
 pub mod options;
 mod origin;
 mod outer;

@@ -1,5 +1,6 @@
 //! The start that flows on a surface share: the surface, its triangulation at the start, and the initial metric there.
 
+use super::options::Options;
 use crate::control::Control;
 use crate::error::Result;
 use crate::mesh::{Double, EdgeId, FixedEdges, Flip, Mesh, NormalCoordinates, PerEdge};
@@ -15,6 +16,8 @@ pub(super) struct FlowOrigin {
     /// None for a metric of mixed types.
     pub class: Option<Class>,
     pub double: Option<Double>,
+    /// The given surface with caps on its loops, if the metric lives there.
+    pub caps: Option<Arc<Mesh>>,
     /// The metric that flows start from.
     pub initial: Initial,
     /// Isometric flips from the given triangulation to that of `initial`.
@@ -62,6 +65,7 @@ impl FlowOrigin {
             surface,
             class: None,
             double: None,
+            caps: None,
             initial,
             flips: 0,
             flipped: None,
@@ -103,16 +107,42 @@ impl FlowOrigin {
         let is_half = double.is_none() && !boundary_fails(&mesh, metric, &metric.u, &all_fixed);
         let flipped = normal.map(|given| FlippedStart { mesh: Arc::new(mesh), lengths, given });
         let class = Some(class);
-        Ok(FlowOrigin { surface, class, double, initial, flips, flipped, fixed, follows: true, is_half })
+        Ok(FlowOrigin {
+            surface,
+            class,
+            double,
+            caps: None,
+            initial,
+            flips,
+            flipped,
+            fixed,
+            follows: true,
+            is_half,
+        })
+    }
+
+    /// The initial metric on the Delaunay triangulation of a surface with caps on its loops, whose vertices, edges and faces come first
+    /// among those of `capped`.
+    pub fn with_caps(
+        surface: Surface,
+        capped: Surface,
+        class: Class,
+        options: &Options,
+        control: &Control,
+    ) -> Result<FlowOrigin> {
+        let mesh = capped.mesh().clone();
+        let origin = FlowOrigin::delaunay(capped, class, false, &options.fixed_edges, control)?;
+        Ok(FlowOrigin { surface, caps: Some(mesh), ..origin })
     }
 
     /// The triangulation at the start, and the edges that are followed from there through flips: the given ones, and those of the
     /// start if they are others.
     pub fn start(&self) -> (Arc<Mesh>, Vec<NormalCoordinates>) {
-        let mesh = match (&self.flipped, &self.double) {
-            (Some(flipped), _) => flipped.mesh.clone(),
-            (None, Some(double)) => Arc::new(double.mesh.clone()),
-            (None, None) => self.surface.mesh().clone(),
+        let mesh = match (&self.flipped, &self.double, &self.caps) {
+            (Some(flipped), ..) => flipped.mesh.clone(),
+            (None, Some(double), _) => Arc::new(double.mesh.clone()),
+            (None, None, Some(capped)) => capped.clone(),
+            (None, None, None) => self.surface.mesh().clone(),
         };
         let given = self.flipped.as_ref().map(|flipped| flipped.given.clone());
         let own = self.follows.then(|| NormalCoordinates::new(&mesh));

@@ -1,24 +1,28 @@
 //! Flows that hold the lengths of a surface's outer loop and close its other loops while they solve ([`Target::Outer`]).
 //!
 //! A hole whose loop develops to a closed polygon of the plane, as every hole of a flat plate does, is closed by triangles of that polygon: a
-//! surface that is flat already then keeps u = 0. Any other hole is closed by a hub at equal distances from its loop, or, where a triangle breaks
-//! that way, by a ring of triangles on its edges with a hub inside. With its caps the
-//! surface is a disk. On it the flow leads to K̄ = 0 everywhere inside, with the edges of the loops kept from being flipped, and the
-//! metric of the disk restricted to the surface is one of the surface's own class. Since the disk is flat, the surface unrolls around
-//! every hole to where it began: its layout is one piece without a seam.
+//! surface that is flat already then keeps u = 0. Any other hole is closed by a hub at equal distances from its loop. With its caps the
+//! surface is a disk. On it the flow leads to K̄ = 0 everywhere inside. Since the disk is flat, the surface unrolls around every hole to where
+//! it began: its layout is one piece without a seam.
+//!
+//! At first the edges of the loops are kept from being flipped: the metric of the disk restricted to the surface is then one of the
+//! surface's own class. If a triangle breaks that way, the flow runs again with all edges inside the disk free, so that only those at its
+//! boundary can break: Delaunay triangles do not [GLSW18]. If one does, the outer loop gets flaps, which are equilateral triangles outside
+//! of its edges, and these may be flipped too; u is then still held at its vertices, but its edges need not be straight any more. Such a
+//! solution lives on the surface with its caps ([`Solution::caps`]), and its layout on the common subdivision of the surface with that.
 
 use super::Flow;
 use super::cones::with_cones_placed;
-use super::hubs::{radius_within, start_radius};
+use super::hubs::start_radius;
 use super::options::{Flips, Options};
 use super::origin::FlowOrigin;
-use super::report::Report;
+use super::report::{Report, StopReason};
 use super::solution::Solution;
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::complex::{Complex, add, distance, norm};
 use crate::geometry::polygon_triangles::polygon_triangles;
-use crate::geometry::{DoubleDouble, triangle, worse};
+use crate::geometry::{DoubleDouble, Space, triangle, worse};
 use crate::mesh::caps::{Cap, CappedMesh};
 use crate::mesh::{EdgeId, HalfedgeId, Mesh, PerEdge, PerVertex, VertexId};
 use crate::metric::initial::weight_of_length;
@@ -77,17 +81,17 @@ impl Flow {
         };
         let mut first = None;
         if given.boundary_loops().len() > 1 {
-            let mut end = open.flow_with_caps(outer, false, control)?;
-            if !end.report.is_reached() {
-                // Triangles of a ring are small beside those of a hub or polygon, and do not break as soon.
-                let ringed = open.flow_with_caps(outer, true, control)?;
-                end = CappedEnd { report: end.report.then(ringed.report), ..ringed };
+            let CappedEnd { report, u, u_low } = open.flow_with_caps(outer, control)?;
+            if self.may_cross(&report) {
+                return self.solve_across_loops(outer, report, control);
             }
-            let CappedEnd { report, u, u_low } = end;
             open.set_start(u, u_low)?;
             first = Some(report);
         }
-        open.reach(&PerVertex::filled(given.n_vertices(), 0.0), control)?;
+        let report = open.reach(&PerVertex::filled(given.n_vertices(), 0.0), control)?.clone();
+        if self.may_cross(&report) {
+            return self.solve_across_loops(outer, report, control);
+        }
         open.options.pinned = self.options.pinned.clone();
         open.holds_outer = true;
         if let Some(reached) = &mut open.now.reached {
@@ -103,10 +107,10 @@ impl Flow {
     }
 
     /// The flow to K̄ = 0 on the surface whose loops but `outer` are capped ([`capped`]), with u held at that loop.
-    fn flow_with_caps(&self, outer: usize, ringed: bool, control: &Control) -> Result<CappedEnd> {
+    fn flow_with_caps(&self, outer: usize, control: &Control) -> Result<CappedEnd> {
         let n = self.mesh.n_vertices();
-        let (mesh, metric, rims) = capped(&self.mesh, &self.metric, outer, ringed)?;
-        let pinned = self.mesh.boundary_loops()[outer].iter().map(|&h| self.mesh.origin(h)).collect();
+        let (mesh, metric, rims) = capped(&self.mesh, &self.metric, (outer, Cap::Open))?;
+        let pinned = self.vertices_of_loop(outer);
         let fixed_edges = self.options.fixed_edges.iter().copied().chain(rims).collect();
         let flips = if self.flips_allowed { Flips::Auto } else { Flips::Never };
         let options = Options { pinned, fixed_edges, flips, ..self.options.clone() };
@@ -121,6 +125,68 @@ impl Flow {
         let first = |values: &PerVertex<f64>| values.iter().take(n).copied().collect::<Vec<_>>().into();
         Ok(CappedEnd { report, u: first(&flow.metric.u), u_low: first(&flow.metric.u_low) })
     }
+
+    fn vertices_of_loop(&self, k: usize) -> Vec<VertexId> {
+        let given = self.given();
+        given.boundary_loops()[k].iter().map(|&h| given.origin(h)).collect()
+    }
+
+    /// True for a flow that ended with broken triangles, which flips of edges of loops may mend.
+    fn may_cross(&self, report: &Report) -> bool {
+        let is_broken = matches!(report.stop_reason, StopReason::BrokenTriangles);
+        is_broken && self.flips_allowed && self.class().is_some() && self.surface().geometry() == Space::E2
+    }
+
+    /// The solve for [`Target::Outer`] with the edges of capped loops free to be flipped, then, if that fails too, with those of the outer
+    /// loop free as well, after one with all of them kept, which ended with this report.
+    fn solve_across_loops(&mut self, outer: usize, kept: Report, control: &Control) -> Result<Solution> {
+        let mut flow = self.flow_across_loops(outer, Cap::Open, kept, control)?;
+        if let Some(report) = flow.report().filter(|report| self.may_cross(report)).cloned() {
+            flow = self.flow_across_loops(outer, Cap::Flaps, report, control)?;
+        }
+        *self = flow;
+        Ok(self.solution())
+    }
+
+    /// The flow on the surface with its caps, among which the outer loop has this one.
+    fn flow_across_loops(&self, outer: usize, cap: Cap, before: Report, control: &Control) -> Result<Flow> {
+        let (class, surface) = (self.scheme_class()?, self.surface().clone());
+        let options = Options { pinned: self.vertices_of_loop(outer), ..self.options.clone() };
+        let n = surface.mesh().n_vertices();
+        let origin = self.pool.run(|| {
+            let metric = surface.initial(class)?.metric;
+            let (mesh, metric, _) = capped(surface.mesh(), &metric, (outer, cap))?;
+            let lengths = metric.lengths(&mesh)?;
+            FlowOrigin::with_caps(
+                surface,
+                Surface::intrinsic(mesh, lengths, Space::E2)?,
+                class,
+                &options,
+                control,
+            )
+        })?;
+        let mut flow = Flow::go_on(Solution::start(origin), &options, self.pool.clone())?;
+        let mesh = flow.now.mesh.clone();
+        // The tips of flaps are held, too.
+        mesh.vertices()
+            .skip(n)
+            .filter(|&v| mesh.is_boundary_vertex(v))
+            .for_each(|v| flow.pinned[v.index()] = true);
+        flow.reach(&PerVertex::filled(n, 0.0), control)?;
+        flow.options.pinned = self.options.pinned.clone();
+        flow.holds_outer = true;
+        let curvature = flow.curvature()?.at;
+        let given = flow.given().clone();
+        if let Some(reached) = &mut flow.now.reached {
+            let across = std::mem::replace(&mut reached.report, Report::new(options.tolerance));
+            reached.report = before.then(across);
+            reached.report.worst.retain(|(v, _)| v.index() < n);
+            reached.is_one_piece = reached.report.is_reached();
+            let on_loops = given.vertices().filter(|&v| given.is_boundary_vertex(v));
+            on_loops.for_each(|v| reached.target[v] = curvature[v]);
+        }
+        Ok(flow)
+    }
 }
 
 impl Report {
@@ -134,16 +200,20 @@ impl Report {
         let (unknowns, factor_entries) =
             (joined.unknowns.max(unknowns), joined.factor_entries.max(factor_entries));
         let joined = Report { max_curvature_error: error, unknowns, factor_entries, ..joined };
-        if is_reached && !matches!(stop_reason, super::StopReason::RoundingFloor { .. }) {
+        if is_reached && !matches!(stop_reason, StopReason::RoundingFloor { .. }) {
             return joined;
         }
         Report { stop_reason, rounding_floor, worst, obstruction, ..joined }
     }
 }
 
-/// The surface with all loops but `outer` capped, if it is `ringed` by rings alone; its metric, which is that of the open surface off the
-/// caps, and the edges of the capped loops.
-fn capped(open: &Mesh, metric: &Metric, outer: usize, ringed: bool) -> Result<(Mesh, Metric, Vec<EdgeId>)> {
+/// The surface with all loops capped, the `outer` one by the cap that is given; its metric, which is that of the open surface off the caps,
+/// and the edges of the loops with caps.
+fn capped(
+    open: &Mesh,
+    metric: &Metric,
+    (outer, outer_cap): (usize, Cap),
+) -> Result<(Mesh, Metric, Vec<EdgeId>)> {
     let lengths = metric.lengths(open)?;
     let curvature = metric.curvature(open)?.at;
     let loops = open.boundary_loops();
@@ -151,8 +221,7 @@ fn capped(open: &Mesh, metric: &Metric, outer: usize, ringed: bool) -> Result<(M
         .map(|k| CapPolygon::of_loop(open, &lengths, &curvature, &loops[k]).filter(|_| k != outer))
         .collect();
     let cap = |(k, polygon): (usize, &Option<CapPolygon>)| match polygon {
-        _ if k == outer => Cap::Open,
-        _ if ringed => Cap::Ring,
+        _ if k == outer => outer_cap.clone(),
         Some(polygon) => Cap::Triangles(polygon.triangles.clone()),
         None => Cap::Hub,
     };
@@ -178,9 +247,8 @@ fn capped(open: &Mesh, metric: &Metric, outer: usize, ringed: bool) -> Result<(M
 struct CapLengths {
     /// Per vertex of a polygon its corner.
     corner: PerVertex<Complex>,
-    /// Per vertex of a ring the length of the edge below it, 0 elsewhere. It is joined to the ends of that edge by equally long ones.
-    below: PerVertex<f64>,
-    /// Per hub its distance from the loop or ring around it, 0 elsewhere.
+    /// Per hub its distance from the vertices of its loop, and per tip of a flap the length of the edge below it, as flaps are equilateral;
+    /// 0 elsewhere.
     radius: PerVertex<f64>,
 }
 
@@ -193,36 +261,25 @@ impl CapLengths {
     ) -> CapLengths {
         let n = capped.mesh.n_vertices();
         let mut corner = PerVertex::filled(n, [0.0; 2]);
-        let [mut below, mut radius] = [(); 2].map(|()| PerVertex::filled(n, 0.0));
+        let mut radius = PerVertex::filled(n, 0.0);
         for (k, rim) in open.boundary_loops().iter().enumerate() {
             if let Some(polygon) = &polygons[k] {
                 rim.iter().zip(&polygon.corners).for_each(|(&h, &p)| corner[open.origin(h)] = p);
             }
-            let ring = &capped.rings[k];
-            ring.iter().zip(rim).for_each(|(&v, h)| below[v] = lengths[h.edge()]);
-            let Some(hub) = capped.hubs[k] else { continue };
-            let inside =
-                (0..ring.len()).map(|i| along_ring(below[ring[i]], below[ring[(i + 1) % ring.len()]]));
-            radius[hub] = if ring.is_empty() { start_radius(lengths, rim) } else { radius_within(inside) };
+            if let Some(hub) = capped.hubs[k] {
+                radius[hub] = start_radius(lengths, rim);
+            }
+            let flaps = capped.flaps[k].iter().zip(rim);
+            flaps.for_each(|(&tip, h)| radius[tip] = lengths[h.edge()]);
         }
-        CapLengths { corner, below, radius }
+        CapLengths { corner, radius }
     }
 
     /// The length of an edge of a cap between these vertices.
     fn length(&self, [a, b]: [VertexId; 2]) -> f64 {
-        let (hub, ring) = (self.radius[a].max(self.radius[b]), [self.below[a], self.below[b]]);
-        match ring {
-            _ if hub > 0.0 => hub,
-            [0.0, 0.0] => distance(self.corner[a], self.corner[b]),
-            [own, 0.0] | [0.0, own] => own,
-            [one, two] => along_ring(one, two),
-        }
+        let hub = self.radius[a].max(self.radius[b]);
+        if hub > 0.0 { hub } else { distance(self.corner[a], self.corner[b]) }
     }
-}
-
-/// The third side of a triangle with two sides at an angle of 60 degrees.
-fn along_ring(a: f64, b: f64) -> f64 {
-    (a * a + b * b - a * b).sqrt()
 }
 
 /// A hole as a polygon of the plane, to which its loop develops.

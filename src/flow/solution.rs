@@ -15,8 +15,8 @@ use std::sync::Arc;
 
 /// A metric of a surface: the one that a [`super::Flow`] has come to, or the initial one.
 ///
-/// It lives on a triangulation of its own, [`Solution::mesh`]: that of the given surface or of its double, whose first vertices are
-/// the given ones, after edge flips. Methods say in which of the two triangulations their arrays are. Clones share the arrays of the
+/// It lives on a triangulation of its own, [`Solution::mesh`]: that of the given surface, of its double or of the surface with caps on its
+/// loops, whose first vertices are the given ones, after edge flips. Methods say in which of the two triangulations their arrays are. Clones share the arrays of the
 /// surface.
 #[derive(Debug, Clone)]
 pub struct Solution {
@@ -148,6 +148,17 @@ impl Solution {
         self.origin.double.as_ref()
     }
 
+    /// The given triangulation with caps on its loops but one, if the metric lives there: a flow to [`crate::Target::Outer`] has then
+    /// flipped edges of these loops. Vertices, edges and faces of the given triangulation come first.
+    pub fn caps(&self) -> Option<&Arc<Mesh>> {
+        self.origin.caps.as_ref()
+    }
+
+    /// True if [`Solution::mesh`] also covers what is no part of the given surface: the mirrored half of a double, or caps.
+    pub fn goes_beyond_given(&self) -> bool {
+        self.double().is_some() || self.caps().is_some()
+    }
+
     /// The report of the flow; none for an initial metric.
     pub fn report(&self) -> Option<&Report> {
         self.reached.as_ref().map(|reached| &reached.report)
@@ -163,15 +174,24 @@ impl Solution {
         self.reached.as_ref().map(|reached| &reached.target)
     }
 
-    /// A target on the given surface as one on [`Solution::mesh`]: on a double, curvature on both sides of the boundary adds up.
+    /// A target on the given surface as one on [`Solution::mesh`]: on a double, curvature on both sides of the boundary adds up; on caps, and
+    /// on the loops that have them, it is 0 inside and that of the metric on the boundary, where vertices are pinned.
     ///
     /// # Errors
-    /// [`Error::Size`] unless the target has an entry per vertex of the given surface.
+    /// [`Error::Size`] unless the target has an entry per vertex of the given surface; with caps those of [`Metric::curvature`].
     pub fn spread_target(&self, target: &PerVertex<f64>) -> Result<PerVertex<f64>> {
         check_size("target", target.len(), self.given().n_vertices())?;
-        match self.double() {
-            Some(double) => Ok(double.target(target)?.into()),
-            None => Ok(target.clone()),
+        match (self.double(), self.caps()) {
+            (Some(double), _) => Ok(double.target(target)?.into()),
+            (None, Some(capped)) => {
+                let now = self.metric.curvature(&self.mesh)?.at;
+                Ok(PerVertex::from_fn(capped.n_vertices(), |v: VertexId| match v {
+                    _ if capped.is_boundary_vertex(v) => now[v],
+                    _ if v.index() >= target.len() || self.given().is_boundary_vertex(v) => 0.0,
+                    _ => target[v],
+                }))
+            }
+            (None, None) => Ok(target.clone()),
         }
     }
 
@@ -220,13 +240,16 @@ impl Solution {
         Arc::ptr_eq(&self.mesh, self.given())
     }
 
-    /// Curvature per given vertex and the area of the given surface: of a double, half of both along the boundary. Broken faces and
-    /// the residual of Gauss–Bonnet are those of [`Solution::mesh`].
+    /// Curvature per given vertex and the area of the given surface: of a double, half of both along the boundary; of a surface with caps,
+    /// those that remain without them. Broken faces and the residual of Gauss–Bonnet are those of [`Solution::mesh`].
     ///
     /// # Errors
-    /// Those of [`Metric::lengths`].
+    /// Those of [`Metric::lengths`]; with caps also those of [`Solution::common_subdivision`].
     pub fn curvature(&self) -> Result<Curvature> {
         let mut curvature = self.metric.curvature(&self.mesh)?;
+        if self.caps().is_some() {
+            return self.without_caps(curvature);
+        }
         if let Some(double) = self.double() {
             let half = |v: VertexId| if double.mirror(v) == v { 0.5 } else { 1.0 };
             let n = double.n_half_vertices();
@@ -287,17 +310,25 @@ impl Solution {
             let FlippedStart { mesh, lengths, given } = flipped;
             IntrinsicTriangulation { mesh, lengths, given, normal }
         });
-        let given = origin.double.as_ref().map_or(&**self.given(), |double| &double.mesh);
+        let given: &Mesh = match (&origin.double, &origin.caps) {
+            (Some(double), _) => &double.mesh,
+            (None, Some(capped)) => capped,
+            (None, None) => self.given(),
+        };
         let Initial { input_geometry: geometry, input_u: u, .. } = &origin.initial;
         let input = InputTriangulation { mesh: given, geometry: *geometry, u };
-        let keep = |f| keep(f) && origin.double.as_ref().is_none_or(|double| double.is_original(f));
+        let n_faces = self.given().n_faces();
+        let keep = |f: FaceId| f.index() < n_faces && keep(f);
         let all = Triangulations { input, intrinsic, result: FinalTriangulation { mesh, metric, normal } };
         within(self.threads, || CommonSubdivision::new(all, &keep, control))
     }
 
     /// True if a flow can go on from here. A flow that is to be `doubled` can on the double, or on one copy that is one half of it: Delaunay
-    /// along the boundary too, now as at the start. Any other flow can if there is no double.
+    /// along the boundary too, now as at the start. Any other flow can if there is no double. None goes on with caps.
     pub(super) fn suits(&self, doubled: bool) -> bool {
+        if self.caps().is_some() {
+            return false;
+        }
         let fails = || boundary_fails(&self.mesh, &self.metric, &self.metric.u, &self.origin.fixed);
         match self.double() {
             Some(_) => doubled,

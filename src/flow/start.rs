@@ -76,6 +76,9 @@ impl Flow {
         let fixed = FixedEdges::new(given, &options.fixed_edges)?;
         let fits = !from.followed.is_empty() && from.origin.fixed == fixed && from.suits(doubled);
         match from.class() {
+            Some(class) if from.caps().is_some() => {
+                Flow::new(from.surface().clone(), class, options, control)
+            }
             Some(class) if !fits && !is_rigid(from.surface().geometry(), class, options) => {
                 Flow::new(from.surface().clone(), class, options, control)
             }
@@ -103,6 +106,9 @@ impl Flow {
             is_rigid(origin.surface.geometry(), class, options)
         });
         let (mut fixed, mut mirror) = (FixedEdges::new(now.given(), &options.fixed_edges)?, None);
+        if origin.caps.is_some() {
+            fixed = FixedEdges::new(&mesh, &options.fixed_edges)?;
+        }
         if let Some(double) = &origin.double {
             fixed = FixedEdges::new(&mesh, &double.with_images(&options.fixed_edges)?)?;
             mirror = Some(mirror_of(double));

@@ -14,8 +14,8 @@ use super::ids::{EdgeId, HalfedgeId, VertexId};
 use crate::error::{Error, Result};
 use std::collections::BTreeMap;
 
-/// Most half-edges of a cap per edge of its loop: those of a ring with its hub.
-const MOST_HALFEDGES: usize = 8;
+/// Most half-edges of a cap per edge of its loop.
+const MOST_HALFEDGES: usize = 4;
 
 /// What closes a boundary loop.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,8 +24,8 @@ pub enum Cap {
     Open,
     /// A hub, which is a new vertex joined to all vertices of the loop.
     Hub,
-    /// A ring of new vertices, one above each edge of the loop, and a hub inside the ring.
-    Ring,
+    /// A triangle on each edge of the loop, with a new vertex each: the loop moves outwards and stays open.
+    Flaps,
     /// Triangles between vertices of the loop, by the numbers of their places on it, counterclockwise as the loop runs: those of a polygon
     /// with n corners are n − 2.
     Triangles(Vec<[u32; 3]>),
@@ -38,12 +38,12 @@ pub enum Cap {
 pub struct CappedMesh {
     /// The surface with its caps.
     pub mesh: Mesh,
-    /// The edges of the loops that were closed.
+    /// The edges of the loops that have caps.
     pub rims: Vec<EdgeId>,
     /// Per loop of [`Mesh::boundary_loops`] its hub, if it has one.
     pub hubs: Vec<Option<VertexId>>,
-    /// Per loop the vertices of its ring, one above each of its half-edges; empty where it has none.
-    pub rings: Vec<Vec<VertexId>>,
+    /// Per loop the new vertices of its flaps, one above each of its half-edges; empty where it has none.
+    pub flaps: Vec<Vec<VertexId>>,
 }
 
 /// A surface while caps are added.
@@ -74,22 +74,18 @@ impl CappedMesh {
             n_vertices: open.n_vertices(),
         };
         let (mut rims, mut hubs) = (Vec::new(), vec![None; loops.len()]);
-        let mut rings = vec![Vec::new(); loops.len()];
+        let mut flaps = vec![Vec::new(); loops.len()];
         for (k, (rim, cap)) in loops.iter().zip(caps).enumerate() {
             match cap {
                 Cap::Open => continue,
                 Cap::Hub => hubs[k] = Some(builder.add_hub(rim)),
-                Cap::Ring => {
-                    let inside;
-                    (rings[k], inside) = builder.add_ring(rim);
-                    hubs[k] = Some(builder.add_hub(&inside));
-                }
+                Cap::Flaps => flaps[k] = builder.add_flaps(rim),
                 Cap::Triangles(triangles) => builder.add_triangles(rim, &triangles)?,
             }
             rims.extend(rim.iter().map(|h| h.edge()));
         }
         let mesh = Mesh::assemble(builder.n_vertices, builder.origin, &builder.sides)?;
-        Ok(CappedMesh { mesh, rims, hubs, rings })
+        Ok(CappedMesh { mesh, rims, hubs, flaps })
     }
 }
 
@@ -106,24 +102,16 @@ impl CapBuilder {
         VertexId(hub)
     }
 
-    /// Adds a ring of vertices, and returns them with the half-edges inside the ring, which follow each other as those of the rim do.
-    fn add_ring(&mut self, rim: &[HalfedgeId]) -> (Vec<VertexId>, Vec<HalfedgeId>) {
-        let (n, first, base) = (rim.len(), self.n_vertices as u32, self.origin.len() as u32);
-        self.n_vertices += n;
-        let vertex = |i: usize| first + (i % n) as u32;
-        // Of the half-edges of place i, base + 6 i + 0 runs from the tip of the rim's half-edge to the vertex above it, + 2 from there to
-        // its origin, + 4 from that vertex to the next one.
-        let half = |i: usize, k: u32| base + 6 * (i % n) as u32 + k;
-        for (i, h) in rim.iter().enumerate() {
-            let [from, to] = [h, &rim[(i + 1) % n]].map(|h| self.origin[h.index()]);
-            self.origin.extend([to, vertex(i), vertex(i), from, vertex(i), vertex(i + 1)]);
+    fn add_flaps(&mut self, rim: &[HalfedgeId]) -> Vec<VertexId> {
+        let first = self.n_vertices;
+        for h in rim {
+            let (tip, base) = (self.n_vertices as u32, self.origin.len() as u32);
+            self.n_vertices += 1;
+            let [to, from] = [h.twin(), *h].map(|h| self.origin[h.index()]);
+            self.origin.extend([to, tip, tip, from]);
+            self.sides.push([h.0, base, base + 2]);
         }
-        for (i, h) in rim.iter().enumerate() {
-            self.sides.push([h.0, half(i, 0), half(i, 2)]);
-            // Tip of the rim's half-edge, the next vertex of the ring, this one.
-            self.sides.push([half(i + 1, 3), half(i, 5), half(i, 1)]);
-        }
-        ((0..n).map(|i| VertexId(vertex(i))).collect(), (0..n).map(|i| HalfedgeId(half(i, 4))).collect())
+        (first..self.n_vertices).map(VertexId::from).collect()
     }
 
     fn add_triangles(&mut self, rim: &[HalfedgeId], triangles: &[[u32; 3]]) -> Result<()> {
@@ -172,10 +160,9 @@ mod tests {
         let hub = CappedMesh::new(&disk, vec![Cap::Hub]).unwrap();
         assert!(hub.mesh.is_closed() && hub.mesh.genus() == 0 && hub.rims.len() == n);
         assert_eq!(hub.hubs, [Some(VertexId::from(disk.n_vertices()))]);
-        let ring = CappedMesh::new(&disk, vec![Cap::Ring]).unwrap();
-        assert!(ring.mesh.is_closed() && ring.mesh.genus() == 0 && ring.rings[0].len() == n);
-        assert_eq!(ring.mesh.n_vertices(), disk.n_vertices() + n + 1);
-        assert_eq!(ring.mesh.n_edges(), disk.n_edges() + 4 * n);
+        let flaps = CappedMesh::new(&disk, vec![Cap::Flaps]).unwrap().mesh;
+        assert_eq!((flaps.euler(), flaps.boundary_loops()[0].len()), (1, 2 * n));
+        assert_eq!(flaps.n_faces(), disk.n_faces() + n);
         let fan: Vec<[u32; 3]> = (1..n as u32 - 1).map(|i| [0, i, i + 1]).collect();
         let fan = CappedMesh::new(&disk, vec![Cap::Triangles(fan)]).unwrap();
         assert!(fan.mesh.is_closed() && fan.mesh.genus() == 0 && fan.hubs == [None]);

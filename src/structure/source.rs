@@ -166,9 +166,9 @@ fn of_flow(
     control: &Control,
 ) -> Result<StructureSource> {
     let metric = flow(surface.clone(), Class::yamabe(Space::E2), target, &options.flow, control)?;
-    // Of a doubled surface, only the given half is taken.
+    // Of a doubled surface, or one with caps, only what was given is taken.
     let subdivision =
-        metric.double().map(|_| metric.common_subdivision(control).map(Arc::new)).transpose()?;
+        metric.goes_beyond_given().then(|| metric.common_subdivision(control).map(Arc::new)).transpose()?;
     let faces = FaceTransitions::new(&metric, subdivision.as_ref())?;
     let factor = (surface.area()? / faces.area).sqrt();
     let mut developed = DevelopableSurface::new(faces).scaled(factor);

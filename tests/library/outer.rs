@@ -112,17 +112,73 @@ fn holes_of_a_curved_surface_leave_one_piece_that_meets_itself() {
         let quality = layout.quality(given.mesh(), given.lengths()).unwrap();
         println!("{name}: dilatation {:.2}, consistency {:.1e}", quality.qc_max, layout.consistency());
         // The outer loop keeps its lengths.
-        let lengths: Vec<f64> = given
-            .mesh()
-            .boundary_loops()
-            .iter()
-            .map(|rim| rim.iter().map(|h| given.lengths()[h.edge()]).sum())
-            .collect();
-        let longest = (0..lengths.len()).max_by(|&a, &b| lengths[a].total_cmp(&lengths[b])).unwrap();
+        let longest = longest(&given);
         let factor = end.conformal_factor().unwrap();
         for h in &given.mesh().boundary_loops()[longest] {
             assert!(factor[given.mesh().origin(*h)].abs() < 1e-15, "{name}");
         }
+    }
+}
+
+/// A rough surface with so many holes.
+fn rough(smooth: &Soup, noise: f64, seed: u64, holes: usize) -> Soup {
+    let mut soup = shapes::punch(smooth, holes).unwrap();
+    shapes::noise(&mut soup, noise, seed).unwrap();
+    soup
+}
+
+/// The longest boundary loop.
+fn longest(given: &Surface) -> usize {
+    let around = |rim: &Vec<ricci::mesh::HalfedgeId>| rim.iter().map(|h| given.lengths()[h.edge()]).sum();
+    let lengths: Vec<f64> = given.mesh().boundary_loops().iter().map(around).collect();
+    (0..lengths.len()).max_by(|&a, &b| lengths[a].total_cmp(&lengths[b])).unwrap()
+}
+
+#[test]
+fn where_triangles_break_edges_of_loops_are_flipped_and_the_layout_is_still_one_piece() {
+    let disk = rough(&shapes::disk(6).unwrap(), 1.0, 2, 1);
+    let ball = rough(&shapes::icosphere(4).unwrap(), 0.3, 1, 5);
+    // The hub of one hole; four hubs, and flaps on an outer loop.
+    for (name, soup, is_open_beyond) in [("disk", disk, false), ("ball", ball, true)] {
+        let (given, end) = solved(&soup, Class::yamabe(Space::E2), &Options::default());
+        assert!(end.converged() && end.is_one_piece() && end.goes_beyond_given(), "{name}");
+        let (mesh, capped) = (given.mesh(), end.caps().unwrap());
+        let n = mesh.n_vertices();
+        let open = (n..capped.n_vertices()).filter(|&v| capped.is_boundary_vertex(v.into()));
+        assert_eq!(open.count() > 0, is_open_beyond, "{name}");
+        let layout = laid_out(&end);
+        assert!(layout.seams.is_empty() && layout.flipped.is_empty() && layout.broken.is_empty(), "{name}");
+        assert!(layout.consistency() < 1e-12, "{name}: {}", layout.consistency());
+        // Flat inside, and around the loops as a polygon turns, with its crossings where edges of the loop bend.
+        let curvature = end.curvature().unwrap();
+        let inside = mesh.vertices().filter(|&v| !mesh.is_boundary_vertex(v));
+        assert!(inside.map(|v| curvature.at[v].abs()).fold(0.0, f64::max) < 1e-9, "{name}");
+        assert_eq!(&curvature.at, end.target().unwrap(), "{name}");
+        let (pieces, points) = (layout.mesh(), &layout.coordinates);
+        let area: f64 = pieces
+            .faces()
+            .map(|f| {
+                let [a, b, c] = pieces.face_halfedges(f).map(|h| points[layout.corner_index[h] as usize]);
+                0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
+            })
+            .sum();
+        assert!((curvature.area / area - 1.0).abs() < 1e-12, "{name}: {} {area}", curvature.area);
+        assert!((layout.area / area - 1.0).abs() < 1e-12, "{name}: {} {area}", layout.area);
+        let outer = &mesh.boundary_loops()[longest(&given)];
+        let factor = end.conformal_factor().unwrap();
+        assert_eq!(factor.len(), n);
+        assert!(outer.iter().all(|&h| factor[mesh.origin(h)].abs() < 1e-15), "{name}");
+        // The next solve is one on the surface itself.
+        let free = Control::new();
+        let mut flow = Flow::resume(&end, &Options::default(), &free).unwrap();
+        let next = flow.solve(&Target::Boundary, &free).unwrap();
+        assert!(!next.is_one_piece() && next.caps().is_none(), "{name}");
+        let again = flow.solve(&Target::Outer(None), &free).unwrap();
+        assert_eq!(again.metric().u, end.metric().u, "{name}");
+        // Where no edge may be flipped, none of a loop is.
+        let never = Options { flips: Flips::Never, ..Options::default() };
+        let (_, stuck) = solved(&soup, Class::yamabe(Space::E2), &never);
+        assert!(!stuck.is_one_piece() && stuck.caps().is_none(), "{name}");
     }
 }
 

@@ -74,7 +74,7 @@ impl FlatMetric {
         FlatMetric::of(&flat, control)
     }
 
-    /// The flat metric that a flow found; for a surface that was doubled, on its given half.
+    /// The flat metric that a flow found; for a surface that was doubled or has caps, on what was given.
     ///
     /// # Errors
     /// [`Error::Argument`] for a metric that is not Euclidean; those of [`Solution::common_subdivision`].
@@ -82,7 +82,7 @@ impl FlatMetric {
         if flat.metric().space != Space::E2 {
             return Err(Error::argument("metric", flat.metric().space, "flat, of the Euclidean plane"));
         }
-        if flat.double().is_none() {
+        if !flat.goes_beyond_given() {
             return Ok(FlatMetric {
                 mesh: flat.mesh().clone(),
                 lengths: flat.metric().lengths(flat.mesh())?,
