@@ -1,18 +1,20 @@
 //! Triangle lists, which may have defects: reading, diagnosis, repair, writing.
 
 use crate::arrays::{self, CallerBuffer, check_buffer, copy_out, copy_rows};
+use crate::defect_texts::{DefectTexts, ricci_defect};
 use crate::failure::{Failure, FailureElement, Outcome, no_such};
 use crate::guard::{self, handle, shared};
 use crate::memory;
 use crate::mesh::{MeshValue, VALUES, copy_attribute, count, ricci_attributes, ricci_mesh, write_soup};
+use crate::soup_lists::SoupLists;
 use crate::status::ricci_status;
 use crate::structs::{self, sized};
-use ricci::mesh::check::{Defect, Diagnosis, Hint, diagnose};
-use ricci::mesh::holes::HoleChoice;
+use ricci::mesh::check::{Diagnosis, diagnose};
+use ricci::mesh::holes::{Filling, HoleChoice};
 use ricci::mesh::io::{self, Soup};
 use ricci::mesh::repair::{Repair, RepairSteps, Repaired, repair};
 use ricci::mesh::{Place, RefinedSoup};
-use std::ffi::{CString, c_char};
+use std::ffi::c_char;
 use std::sync::OnceLock;
 
 pub struct ricci_soup {
@@ -22,6 +24,7 @@ pub struct ricci_soup {
     /// Where its elements lie in the list that it was refined from, if it was; its own `soup` is empty.
     finer: Option<RefinedSoup>,
     diagnosis: OnceLock<DiagnosisTexts>,
+    pub(crate) lists: SoupLists,
 }
 handle!(ricci_soup, "soup");
 
@@ -32,52 +35,15 @@ struct DiagnosisTexts {
     hints: Vec<DefectTexts>,
 }
 
-/// A defect or a hint, with its texts as C strings.
-struct DefectTexts {
-    code: CString,
-    message: CString,
-    remedy: CString,
-    vertices: Vec<u32>,
-    faces: Vec<u32>,
-}
-
-impl DefectTexts {
-    fn of_defect(defect: &Defect) -> DefectTexts {
-        let texts = [defect.code().to_string(), defect.to_string(), defect.remedy().to_string()];
-        DefectTexts::new(texts, defect.vertices(), defect.faces())
-    }
-
-    fn of_hint(hint: &Hint) -> DefectTexts {
-        DefectTexts::new(
-            [hint.code().to_string(), hint.to_string(), hint.remedy()],
-            hint.vertices(),
-            hint.faces(),
-        )
-    }
-
-    fn new(texts: [String; 3], vertices: Vec<u32>, faces: Vec<u32>) -> DefectTexts {
-        let text = |words: String| CString::new(words.replace('\0', "\u{fffd}")).unwrap_or_default();
-        let [code, message, remedy] = texts.map(text);
-        DefectTexts { code, message, remedy, vertices, faces }
-    }
-
-    fn view(&self, size: usize) -> ricci_defect {
-        ricci_defect {
-            size,
-            code: self.code.as_ptr(),
-            message: self.message.as_ptr(),
-            remedy: self.remedy.as_ptr(),
-            vertices: self.vertices.as_ptr(),
-            n_vertices: self.vertices.len(),
-            faces: self.faces.as_ptr(),
-            n_faces: self.faces.len(),
-        }
-    }
-}
-
 impl ricci_soup {
     fn new(soup: Soup) -> ricci_soup {
-        ricci_soup { soup, origin: None, finer: None, diagnosis: OnceLock::new() }
+        ricci_soup {
+            soup,
+            origin: None,
+            finer: None,
+            diagnosis: OnceLock::new(),
+            lists: SoupLists::default(),
+        }
     }
 
     /// A refined list.
@@ -103,6 +69,11 @@ impl ricci_soup {
             let hints = diagnosis.hints.iter().map(DefectTexts::of_hint).collect();
             DiagnosisTexts { diagnosis, defects, hints }
         })
+    }
+
+    /// The loops of which a repair made a choice.
+    pub(crate) fn filling(&self) -> Outcome<&Filling> {
+        Ok(&self.origin()?.filling)
     }
 
     fn origin(&self) -> Outcome<&Repaired> {
@@ -144,24 +115,13 @@ pub struct ricci_soup_summary {
     pub filled_holes: usize,
     pub open_holes: usize,
     pub n_hints: usize,
+    pub n_loops: usize,
+    pub n_loop_vertices: usize,
+    pub n_vertex_numbers: usize,
+    pub n_face_numbers: usize,
 }
 // SAFETY: numbers; 8-byte alignment, size first.
 sized!(ricci_soup_summary, "summary");
-
-#[repr(C)]
-#[derive(Debug, Clone, Copy)]
-pub struct ricci_defect {
-    pub size: usize,
-    pub code: *const c_char,
-    pub message: *const c_char,
-    pub remedy: *const c_char,
-    pub vertices: *const u32,
-    pub n_vertices: usize,
-    pub faces: *const u32,
-    pub n_faces: usize,
-}
-// SAFETY: numbers and raw pointers; 8-byte alignment, size first.
-sized!(ricci_defect, "defect");
 
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
@@ -245,6 +205,7 @@ pub unsafe extern "C" fn ricci_soup_summarise(
         let refused = list.origin.as_ref().map_or(&[][..], |done| &done.weld_refused);
         let [filled_holes, open_holes] =
             list.origin.as_ref().map_or([0; 2], |done| [done.filling.filled.len(), done.filling.open.len()]);
+        let rims = list.lists.rims(&list.soup);
         let figures = ricci_soup_summary {
             size,
             n_vertices: list.soup.positions.len(),
@@ -277,6 +238,10 @@ pub unsafe extern "C" fn ricci_soup_summarise(
             filled_holes,
             open_holes,
             n_hints: list.diagnosis().hints.len(),
+            n_loops: rims.len(),
+            n_loop_vertices: rims.iter().map(|rim| rim.vertices.len()).sum(),
+            n_vertex_numbers: list.soup.attributes.vertex_numbers.len(),
+            n_face_numbers: list.soup.attributes.face_numbers.len(),
         };
         structs::write(figures, summary, size)
     })

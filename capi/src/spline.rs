@@ -15,10 +15,23 @@ use std::sync::Arc;
 
 pub struct ricci_spline {
     pub(crate) spline: Spline,
-    /// The root mean square and the largest distance to the points that the spline was fitted to; none if it was not fitted.
-    pub(crate) fitted: Option<[f64; 2]>,
+    /// None if it was not fitted.
+    pub(crate) fitted: Option<FitFigures>,
 }
 handle!(ricci_spline, "spline");
+
+/// The figures of a fit.
+#[derive(Default)]
+pub(crate) struct FitFigures {
+    /// The root mean square of the distances to the points.
+    pub rms: f64,
+    /// The largest of these distances.
+    pub max: f64,
+    /// The patches in which the spline of a surface folds, ascending.
+    pub folds: Vec<u32>,
+    /// The share of the surface in these patches.
+    pub folded_share: f64,
+}
 
 impl From<Spline> for ricci_spline {
     fn from(spline: Spline) -> ricci_spline {
@@ -60,6 +73,8 @@ pub struct ricci_spline_summary {
     pub fit_rms: f64,
     pub fit_max: f64,
     pub n_holes: usize,
+    pub n_folded_patches: usize,
+    pub folded_share: f64,
 }
 // SAFETY: numbers; 8-byte alignment, size first.
 sized!(ricci_spline_summary, "summary");
@@ -178,18 +193,32 @@ pub unsafe extern "C" fn ricci_spline_summarise(
 ) -> ricci_status {
     guard::with(spline, |ricci_spline { spline, fitted }| {
         let space = spline.space();
-        let [fit_rms, fit_max] = fitted.unwrap_or([f64::NAN; 2]);
+        let of_fit = |figure: fn(&FitFigures) -> f64| fitted.as_ref().map_or(f64::NAN, figure);
         let figures = ricci_spline_summary {
             size,
             degree: space.degree(),
             n_patches: space.patches().len(),
             n_basis: basis_size(space.degree()),
             n_control_points: space.n_control_points(),
-            fit_rms,
-            fit_max,
+            fit_rms: of_fit(|fit| fit.rms),
+            fit_max: of_fit(|fit| fit.max),
             n_holes: spline.holes().len(),
+            n_folded_patches: fitted.as_ref().map_or(0, |fit| fit.folds.len()),
+            folded_share: of_fit(|fit| fit.folded_share),
         };
         structs::write(figures, summary, size)
+    })
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_spline_folds(
+    spline: *const ricci_spline,
+    patches: *mut u32,
+    capacity: usize,
+) -> ricci_status {
+    guard::with(spline, |ricci_spline { fitted, .. }| {
+        let folds = fitted.as_ref().map_or(&[][..], |fit| &fit.folds);
+        copy_out("patches", folds, patches, capacity)
     })
 }
 

@@ -4,7 +4,7 @@ use crate::arrays::array;
 use crate::control::{self, ricci_control};
 use crate::guard::{self, shared};
 use crate::memory;
-use crate::spline::ricci_spline;
+use crate::spline::{FitFigures, ricci_spline};
 use crate::spline_places::{located, ricci_spline_places};
 use crate::status::ricci_status;
 use crate::structs::{self, or, sized};
@@ -47,6 +47,9 @@ pub unsafe extern "C" fn ricci_spline_fit(
         let fairness = if fairness < 0.0 { 0.0 } else { fairness };
         let options = FitOptions { fairness, threads: given.threads };
         let found = fit(space, &places, &points, &options, &control::of(control))?;
-        Ok(ricci_spline { spline: found.spline, fitted: Some([found.rms, found.max]) })
+        Ok(ricci_spline {
+            spline: found.spline,
+            fitted: Some(FitFigures { rms: found.rms, max: found.max, ..FitFigures::default() }),
+        })
     })
 }

@@ -5,7 +5,7 @@ use crate::control::{self, ricci_control};
 use crate::guard::{self, shared};
 use crate::memory;
 use crate::metric::ricci_metric;
-use crate::spline::ricci_spline;
+use crate::spline::{FitFigures, ricci_spline};
 use crate::status::ricci_status;
 use crate::structs::{self, or, sized};
 use ricci::geometry::vector::{Vector, diagonal};
@@ -65,7 +65,10 @@ pub unsafe extern "C" fn ricci_spline_fit_surface(
         let _reserve = memory::work(surface.mesh().n_vertices(), memory::FIT)?;
         let found = fit_surface(surface, &FlatMetric::of(solution, &control)?, &options, &control)?;
         let size = surface.positions().map_or(0.0, |points| diagonal(points));
-        Ok(ricci_spline { spline: found.spline, fitted: Some([found.rms * size, found.max * size]) })
+        let folded_share = found.folded_share(surface);
+        let folds = found.folds.iter().map(|&patch| patch as u32).collect();
+        let figures = FitFigures { rms: found.rms * size, max: found.max * size, folds, folded_share };
+        Ok(ricci_spline { spline: found.spline, fitted: Some(figures) })
     })
 }
 

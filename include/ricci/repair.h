@@ -93,6 +93,14 @@ typedef struct ricci_soup_summary {
     size_t open_holes;
     /** Of any list: findings that are no defects, see ricci_soup_hint. */
     size_t n_hints;
+    /** Number of loops of ricci_soup_loops: chains that end in an edge of more than two faces are none. */
+    size_t n_loops;
+    /** Number of vertices of all these loops. */
+    size_t n_loop_vertices;
+    /** Number of further numbers of every vertex, see ricci_soup_numbers. */
+    size_t n_vertex_numbers;
+    /** Number of further numbers of every face. */
+    size_t n_face_numbers;
 } ricci_soup_summary;
 
 /** One defect. The pointers are views into the soup and live as long as it does. */
@@ -115,6 +123,52 @@ typedef struct ricci_defect {
     size_t n_faces;
 } ricci_defect;
 
+/** A hole that a repair was asked to fill. */
+typedef struct ricci_hole {
+    /** Bytes of this struct that are filled. */
+    size_t size;
+    /** The reason why it was left open, a view into the soup; NULL where it was filled. */
+    const char *reason;
+    /** Number of edges of its loop. */
+    size_t n_edges;
+    /** The first face of its patch; the others follow. */
+    size_t first_face;
+    /** Number of faces of the patch; 0 where it was left open, as all below. */
+    size_t n_faces;
+    /** The first vertex inside the patch; the others follow. */
+    size_t first_vertex;
+    /** Number of vertices inside the patch. */
+    size_t n_vertices;
+    /** Length of the loop; NaN where it was left open, as the area. */
+    double length;
+    /** Area of the patch. */
+    double area;
+    /** The vertex of the loop with the lowest number, in the repaired list. */
+    uint32_t vertex;
+    /** 1 where it was filled. */
+    uint32_t filled;
+} ricci_hole;
+
+/** Which names of faces. */
+enum {
+    /** Objects (`o` of OBJ). */
+    RICCI_LABEL_OBJECT = 0,
+    /** Groups (`g`); several of one face are one name, with blanks between them. */
+    RICCI_LABEL_GROUP = 1,
+    /** Materials (`usemtl`). */
+    RICCI_LABEL_MATERIAL = 2,
+    /** Smoothing groups (`s`). */
+    RICCI_LABEL_SMOOTHING = 3
+};
+
+/** The elements that further numbers belong to. */
+enum {
+    /** Vertices. */
+    RICCI_OF_VERTICES = 0,
+    /** Faces. */
+    RICCI_OF_FACES = 1
+};
+
 /**
  * Steps of a repair that are done on request only. These are always done: dropping faces that use a vertex
  * twice or repeat a face, giving each fan of faces a vertex of its own, turning faces until neighbours agree,
@@ -129,7 +183,10 @@ typedef struct ricci_repair_options {
      * (ricci_soup_refused); negative: no welding.
      */
     double weld;
-    /** Keep one connected piece: 1 is that with the most faces, 2 the next, and so on; 0: all. */
+    /**
+     * Keep one connected piece: 1 is that with the most faces, 2 the next, and so on, up to n_components;
+     * 0: all. ricci_soup_origins is then the way back from the piece to the list.
+     */
     size_t component;
     /** 1 cuts the surface open along edges in which more than two faces meet. */
     uint32_t cut_non_manifold_edges;
@@ -304,6 +361,111 @@ RICCI_API ricci_status ricci_soup_defect(const ricci_soup *soup, size_t index, r
  * @param size   sizeof *hint.
  */
 RICCI_API ricci_status ricci_soup_hint(const ricci_soup *soup, size_t index, ricci_defect *hint, size_t size);
+
+/**
+ * The boundary loops, in the order in which other functions and the command number them, with their vertices
+ * in the direction of the faces beside them. Positions that are not finite give a loop the length NaN.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param soup               the triangle list.
+ * @param lengths            out: n_loops lengths.
+ * @param lengths_capacity   entries of `lengths`.
+ * @param vertices           out: n_loop_vertices vertices, loop by loop.
+ * @param vertices_capacity  entries of `vertices`.
+ * @param starts             out: n_loops + 1 entries: the offsets at which each loop starts in `vertices`, and
+ *                           the end of the last.
+ * @param starts_capacity    entries of `starts`.
+ */
+RICCI_API ricci_status ricci_soup_loops(const ricci_soup *soup, double *lengths, size_t lengths_capacity,
+                                        uint32_t *vertices, size_t vertices_capacity, size_t *starts,
+                                        size_t starts_capacity);
+
+/**
+ * The edges of two faces at which the surface turns by an angle or more. Faces without area have none.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (an angle out of range).
+ *
+ * @param soup               the triangle list.
+ * @param angle              radians between the normals of the faces, more than 0 and at most pi.
+ * @param vertices           out: 2 vertices of each edge; NULL with capacity 0 asks for the number alone.
+ * @param vertices_capacity  entries of `vertices`.
+ * @param angles             out: the angle at each edge.
+ * @param angles_capacity    entries of `angles`.
+ * @param n_edges            out: the number of these edges.
+ */
+RICCI_API ricci_status ricci_soup_sharp_edges(const ricci_soup *soup, double angle, uint32_t *vertices,
+                                              size_t vertices_capacity, double *angles,
+                                              size_t angles_capacity, size_t *n_edges);
+
+/**
+ * The vertices at which lines of sharp edges and of the boundary end, branch, or turn by the angle or more.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (an angle out of range).
+ *
+ * @param soup       the triangle list.
+ * @param angle      radians, more than 0 and at most pi.
+ * @param vertices   out: the vertices, ascending; NULL with capacity 0 asks for the number alone.
+ * @param capacity   entries of `vertices`.
+ * @param n_corners  out: the number of these vertices.
+ */
+RICCI_API ricci_status ricci_soup_corners(const ricci_soup *soup, double angle, uint32_t *vertices,
+                                          size_t capacity, size_t *n_corners);
+
+/**
+ * The names under which faces stand in a file, each once, and for each face the number of its name.
+ *
+ * Name 0 is empty: that of faces without one. The others come in the order of their first faces.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (no such names).
+ *
+ * @param soup      the triangle list.
+ * @param which     RICCI_LABEL_OBJECT, _GROUP, _MATERIAL or _SMOOTHING.
+ * @param numbers   out: n_faces numbers of names; NULL with capacity 0 asks for the number of names alone.
+ * @param capacity  entries of `numbers`.
+ * @param n_names   out: the number of names, 1 or more.
+ */
+RICCI_API ricci_status ricci_soup_labels(const ricci_soup *soup, uint32_t which, uint32_t *numbers,
+                                         size_t capacity, size_t *n_names);
+
+/**
+ * One name of faces.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (index, no such names).
+ *
+ * @param soup   the triangle list.
+ * @param which  as for ricci_soup_labels.
+ * @param index  which one, below n_names.
+ * @param name   out: the name in UTF-8, a view that lives as long as the soup.
+ */
+RICCI_API ricci_status ricci_soup_label(const ricci_soup *soup, uint32_t which, size_t index,
+                                        const char **name);
+
+/**
+ * Further numbers of vertices or faces, which a file has under a name of its own, such as `quality` in PLY.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (index, no such elements).
+ *
+ * @param soup      the triangle list.
+ * @param of        RICCI_OF_VERTICES or RICCI_OF_FACES.
+ * @param index     which ones, below n_vertex_numbers or n_face_numbers.
+ * @param name      out: their name, a view that lives as long as the soup.
+ * @param values    out: n_vertices or n_faces numbers, which may be NaN.
+ * @param capacity  entries of `values`.
+ */
+RICCI_API ricci_status ricci_soup_numbers(const ricci_soup *soup, uint32_t of, size_t index,
+                                          const char **name, double *values, size_t capacity);
+
+/**
+ * One hole that a repair was asked to fill: first those that it filled, then those that it left open.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (index, it was not repaired), RICCI_STRUCT_SIZE.
+ *
+ * @param repaired  a list of ricci_soup_repair.
+ * @param index     which one, below filled_holes + open_holes.
+ * @param hole      out: the hole.
+ * @param size      sizeof *hole.
+ */
+RICCI_API ricci_status ricci_soup_hole(const ricci_soup *repaired, size_t index, ricci_hole *hole, size_t size);
 
 /**
  * The mesh of a triangle list without defects, with its attributes.

@@ -38,6 +38,75 @@ public:
         check(ricci_soup_hint(handle_, index, &one, sizeof one));
         return one;
     }
+    // The boundary loops: their lengths and their vertices.
+    struct loops_of_surface {
+        std::vector<double> lengths;
+        std::vector<std::uint32_t> vertices;
+        std::vector<std::size_t> starts;
+    };
+    loops_of_surface loops() const {
+        const ricci_soup_summary n = summary();
+        loops_of_surface all{std::vector<double>(n.n_loops), std::vector<std::uint32_t>(n.n_loop_vertices),
+                             std::vector<std::size_t>(n.n_loops + 1)};
+        check(ricci_soup_loops(handle_, all.lengths.data(), all.lengths.size(), all.vertices.data(),
+                               all.vertices.size(), all.starts.data(), all.starts.size()));
+        return all;
+    }
+    // Two vertices of each edge at which the surface turns by so many radians or more, and these angles.
+    std::pair<std::vector<std::uint32_t>, std::vector<double>> sharp_edges(double angle) const {
+        std::size_t n = 0;
+        check(ricci_soup_sharp_edges(handle_, angle, nullptr, 0, nullptr, 0, &n));
+        std::pair<std::vector<std::uint32_t>, std::vector<double>> both{std::vector<std::uint32_t>(2 * n),
+                                                                        std::vector<double>(n)};
+        check(ricci_soup_sharp_edges(handle_, angle, both.first.data(), both.first.size(),
+                                     both.second.data(), both.second.size(), &n));
+        return both;
+    }
+    std::vector<std::uint32_t> corners(double angle) const {
+        std::size_t n = 0;
+        check(ricci_soup_corners(handle_, angle, nullptr, 0, &n));
+        std::vector<std::uint32_t> vertices(n);
+        check(ricci_soup_corners(handle_, angle, vertices.data(), n, &n));
+        return vertices;
+    }
+    // For each face the number of its name (RICCI_LABEL_OBJECT, ...), and the names.
+    std::pair<std::vector<std::uint32_t>, std::vector<std::string>> names(std::uint32_t which) const {
+        std::size_t n = 0;
+        std::pair<std::vector<std::uint32_t>, std::vector<std::string>> both{
+            std::vector<std::uint32_t>(summary().n_faces), {}};
+        check(ricci_soup_labels(handle_, which, both.first.data(), both.first.size(), &n));
+        for (std::size_t k = 0; k < n; ++k) {
+            const char *name;
+            check(ricci_soup_label(handle_, which, k, &name));
+            both.second.emplace_back(name);
+        }
+        return both;
+    }
+    // Further numbers of vertices or faces (RICCI_OF_VERTICES, RICCI_OF_FACES) with their name.
+    std::pair<std::string, std::vector<double>> numbers(std::uint32_t of, std::size_t index) const {
+        const ricci_soup_summary n = summary();
+        std::vector<double> all(of == RICCI_OF_VERTICES ? n.n_vertices : n.n_faces);
+        const char *name;
+        check(ricci_soup_numbers(handle_, of, index, &name, all.data(), all.size()));
+        return {name, std::move(all)};
+    }
+    // A hole that a repair was asked to fill.
+    ricci_hole hole(std::size_t index) const {
+        ricci_hole one;
+        check(ricci_soup_hole(handle_, index, &one, sizeof one));
+        return one;
+    }
+    // The connected pieces, those with the most faces first; origins() of a piece lead back to this list.
+    std::vector<soup> components() const {
+        std::vector<soup> pieces;
+        ricci_repair_options options = init<ricci_repair_options>();
+        options.weld = -1.0;
+        for (std::size_t k = 1; k <= summary().n_components; ++k) {
+            options.component = k;
+            pieces.push_back(repaired(options));
+        }
+        return pieces;
+    }
     std::vector<double> values(std::uint32_t which) const {
         return ricci::values<double>(ricci_soup_values, get(), which);
     }

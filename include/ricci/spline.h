@@ -131,6 +131,10 @@ typedef struct ricci_spline_summary {
     double fit_max;
     /** Number of holes around singular vertices. */
     size_t n_holes;
+    /** Of a fit to a surface, the number of patches in which it folds: ricci_spline_folds. */
+    size_t n_folded_patches;
+    /** The share of the fitted surface that lies in these patches; NaN of splines that were not fitted. */
+    double folded_share;
 } ricci_spline_summary;
 
 /** Options of ricci_spline_fit_surface; zeros are the defaults. */
@@ -282,6 +286,18 @@ RICCI_API_VOID void ricci_spline_free(ricci_spline *spline);
  */
 RICCI_API ricci_status ricci_spline_summarise(const ricci_spline *spline, ricci_spline_summary *summary,
                                               size_t size);
+
+/**
+ * The patches in which a fit to a surface folds: its normals turn by more than 60 degrees there between places
+ * beside each other.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
+ *
+ * @param spline    the spline.
+ * @param patches   out: n_folded_patches numbers of patches, ascending.
+ * @param capacity  entries of `patches`.
+ */
+RICCI_API ricci_status ricci_spline_folds(const ricci_spline *spline, uint32_t *patches, size_t capacity);
 
 /**
  * Control points, knots, or the abscissas of the control points.

@@ -83,6 +83,10 @@ public:
     }
     std::vector<double> control_points() const { return values(RICCI_SPLINE_CONTROL_POINTS); }
     std::vector<double> knots() const { return values(RICCI_SPLINE_KNOTS); }
+    // Of a fit to a surface, the patches in which it folds.
+    std::vector<std::uint32_t> folds() const {
+        return ricci::values<std::uint32_t>(ricci_spline_folds, get());
+    }
     std::vector<std::uint32_t> controls() const {
         return ricci::values<std::uint32_t>(ricci_spline_controls, get());
     }

@@ -171,6 +171,52 @@ def test_holes_are_filled_and_seams_are_named():
     assert "--weld" in hint.remedy
 
 
+def test_the_lists_of_a_triangle_list_are_those_of_its_file(tmp_path):
+    roof = np.array([[0, 0, 0], [4, 0, 0], [4, 1, 1], [0, 1, 1], [4, 2, 0], [0, 2, 0], [9, 0, 0], [10, 0, 0], [9, 1, 0]], float)
+    faces = [[6, 7, 8], [0, 1, 2], [0, 2, 3], [3, 2, 4], [3, 4, 5]]
+    lines = [f"v {x} {y} {z}" for x, y, z in roof] + ["usemtl slate", "f 7 8 9", "g roof"]
+    (tmp_path / "roof.obj").write_text("\n".join(lines + [f"f {a + 1} {b + 1} {c + 1}" for a, b, c in faces[1:]]) + "\n")
+    soup = ricci.Soup.read(tmp_path / "roof.obj")
+    alone, outline = soup.loops
+    assert (alone.vertices.tolist(), len(outline.vertices)) == ([6, 7, 8], 6)
+    np.testing.assert_allclose([alone.length, outline.length], [2 + np.sqrt(2), 8 + 4 * np.sqrt(2)])
+    edges, angles = soup.sharp_edges(np.radians(60))
+    assert edges.tolist() == [[2, 3]]
+    np.testing.assert_allclose(angles, np.pi / 2)
+    assert {2, 3} <= set(soup.corners(np.radians(60)).tolist())
+    assert soup.sharp_edges(np.radians(120))[0].shape == (0, 2)
+    numbers, names = soup.names("material")
+    assert [names[k] for k in numbers] == ["slate"] * 5
+    numbers, names = soup.names("group")
+    assert [names[k] for k in numbers] == ["", "roof", "roof", "roof", "roof"]
+    large, small = soup.components()
+    assert (large.origins[0].tolist(), small.origins[1].tolist()) == ([0, 1, 2, 3, 4, 5], [0])
+    with pytest.raises(ricci.ArgumentError, match="angle"):
+        soup.corners(0.0)
+    with pytest.raises(ricci.ArgumentError, match="none of group, material"):
+        soup.names("colour")
+
+
+def test_further_numbers_of_a_file_can_be_read(tmp_path):
+    header = "ply\nformat ascii 1.0\nelement vertex 3\n" + "".join(f"property float {k}\n" for k in ("x", "y", "z", "quality"))
+    header += "element face 1\nproperty list uchar int vertex_indices\nproperty int part\nend_header\n"
+    (tmp_path / "measured.ply").write_text(header + "0 0 0 0.5\n1 0 0 nan\n0 1 0 2\n3 0 1 2 7\n")
+    soup = ricci.Soup.read(tmp_path / "measured.ply")
+    np.testing.assert_array_equal(soup.vertex_numbers["quality"], [0.5, np.nan, 2])
+    assert (list(soup.vertex_numbers), soup.face_numbers["part"].tolist()) == (["quality"], [7])
+
+
+def test_holes_of_a_repair_are_listed():
+    plate = np.array([[i, j, 0] for i in range(5) for j in range(5)], float)
+    squares = [5 * i + j for i in range(4) for j in range(4) if (i, j) != (1, 1)]
+    soup = ricci.Soup(plate, [face for k in squares for face in ([k, k + 5, k + 6], [k, k + 6, k + 1])])
+    (hole,) = soup.repair(fill_holes=8).holes
+    assert (hole.filled, hole.reason, hole.n_edges, hole.vertex) == (True, "", 4, 6)
+    np.testing.assert_allclose([hole.length, hole.area], [4, 1])
+    assert hole.faces == range(30, 32)
+    assert soup.repair().holes == []
+
+
 def test_views_outlive_their_soup():
     def faces():
         soup = ricci.Soup(SQUARE, [[0, 1, 2]] * 50 + [[0, 2, 3]])

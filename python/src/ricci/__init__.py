@@ -47,7 +47,7 @@ from ricci.mesh import Mesh, read
 from ricci.metrics import Metric, Report, Solver, flow, metric
 from ricci.seams import Seamless, seamless
 from ricci.shapes import change, hyperelliptic_periods, make
-from ricci.soup import Defect, Soup
+from ricci.soup import Defect, Hole, Loop, Soup
 from ricci.splines import Spline, flat_metric, spline, spline_domain
 from ricci.status import Status
 from ricci.uniform import Uniform, uniformize
@@ -69,11 +69,13 @@ __all__ = [
     "FileError",
     "Forms",
     "HarmonicMap",
+    "Hole",
     "Homotopy",
     "InternalError",
     "Job",
     "Layout",
     "LayoutError",
+    "Loop",
     "Map",
     "Matching",
     "MatchingError",

@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from ricci import _arrays
 from ricci._arrays import frozen
-from ricci._call import Doubles, Handle, Indices, call, filled, path_bytes, pointer, rows, summary
+from ricci._call import Doubles, Handle, Indices, call, constant, filled, path_bytes, pointer, rows, signed_view, sized_list, summary
 from ricci._library import ffi, lib
 from ricci._structs import Struct, Write, above_zero, index_list, number, options
 from ricci._triangles import Triangles
@@ -20,7 +20,7 @@ from ricci.errors import ArgumentError
 from ricci.figures import QualitySummary, SoupSummary
 from ricci.mesh import Mesh
 
-__all__ = ["Defect", "RepairOptions", "Soup"]
+__all__ = ["Defect", "Hole", "Loop", "RepairOptions", "Soup"]
 
 
 class RepairOptions(TypedDict, total=False):
@@ -75,6 +75,44 @@ class Defect:
     remedy: str
     vertices: Indices
     faces: Indices
+
+
+@dataclass(frozen=True)
+class Loop:
+    """A boundary loop.
+
+    Attributes:
+        length: its length; NaN if a vertex is not finite.
+        vertices: its vertices, in the direction of the faces beside it.
+    """
+
+    length: float
+    vertices: Indices
+
+
+@dataclass(frozen=True)
+class Hole:
+    """A hole that a repair was asked to fill.
+
+    Attributes:
+        filled: False where it was left open.
+        reason: the reason for that; empty where it was filled.
+        vertex: the vertex of its loop with the lowest number, in the repaired list.
+        n_edges: number of edges of its loop.
+        length: length of the loop; NaN where it was left open, as the area.
+        area: area of the patch.
+        faces: the faces of the patch.
+        vertices: the vertices inside the patch.
+    """
+
+    filled: bool
+    reason: str
+    vertex: int
+    n_edges: int
+    length: float
+    area: float
+    faces: range
+    vertices: range
 
 
 class _View:
@@ -185,6 +223,56 @@ class Soup(Triangles):
         return [self._defect(lib.ricci_soup_hint, k) for k in range(self.summary.n_hints)]
 
     @cached_property
+    def loops(self) -> list[Loop]:
+        """The boundary loops, in the order in which other functions and the command number them."""
+        lengths = np.empty(self.summary.n_loops)
+        vertices = rows(lengths.size, lib.ricci_soup_loops, self, pointer(lengths), lengths.size, dtype=np.uint32)
+        return [Loop(float(length), frozen(around)) for length, around in zip(lengths, vertices, strict=True)]
+
+    def sharp_edges(self, angle: float) -> tuple[Indices, Doubles]:
+        """The edges of two faces at which the surface turns by `angle` radians or more (k x 2), and the angle at each."""
+        n = ffi.new("size_t *")
+        call(lib.ricci_soup_sharp_edges, self, angle, ffi.NULL, 0, ffi.NULL, 0, n)
+        edges, angles = np.empty((n[0], 2), np.uint32), np.empty(n[0])
+        call(lib.ricci_soup_sharp_edges, self, angle, pointer(edges), edges.size, pointer(angles), angles.size, n)
+        return frozen(signed_view(edges)), frozen(angles)
+
+    def corners(self, angle: float) -> Indices:
+        """The vertices at which lines of sharp edges and of the boundary end, branch, or turn by `angle` radians or more; ascending."""
+        return frozen(signed_view(sized_list(lib.ricci_soup_corners, self, angle, dtype=np.uint32)))
+
+    def names(self, of: Literal["object", "group", "material", "smoothing"]) -> tuple[Indices, list[str]]:
+        """For each face the number of its name of this kind, and the names; number 0 is the empty name of faces without one."""
+        kind, name, names = constant("LABEL", of), ffi.new("const char **"), []
+        numbers, n = self._numbers_of_names(kind)
+        for k in range(n):
+            call(lib.ricci_soup_label, self, kind, k, name)
+            names.append(ffi.string(name[0]).decode())
+        return numbers, names
+
+    @cached_property
+    def vertex_numbers(self) -> dict[str, Doubles]:
+        """Further numbers of every vertex by the name that the file gives them, such as ``quality`` in PLY; they may be NaN."""
+        return self._further(lib.RICCI_OF_VERTICES, self.summary.n_vertex_numbers, self.summary.n_vertices)
+
+    @cached_property
+    def face_numbers(self) -> dict[str, Doubles]:
+        """Further numbers of every face by the name that the file gives them; they may be NaN."""
+        return self._further(lib.RICCI_OF_FACES, self.summary.n_face_numbers, self.summary.n_faces)
+
+    def components(self) -> list[Soup]:
+        """The connected pieces, those with the most faces first. `origins` of a piece are the vertices and faces of this list.
+
+        Each piece is repaired, too, but its vertices are not welded.
+        """
+        return [self.repair(component=k + 1, weld=-1) for k in range(self.summary.n_components)]
+
+    @cached_property
+    def holes(self) -> list[Hole]:
+        """Of a repaired list, the holes that were to be filled: first those that were, then those that were left open."""
+        return [self._hole(k) for k in range(self.summary.filled_holes + self.summary.open_holes)]
+
+    @cached_property
     def origins(self) -> tuple[Indices, Indices]:
         """The vertex and the face of the original that each vertex and face of a repaired list came from; 2**32 - 1 in filled holes."""
         vertices, faces = (np.empty(n, np.uint32) for n in (self.summary.n_vertices, self.summary.n_faces))
@@ -203,6 +291,28 @@ class Soup(Triangles):
             return len(self.origins) > 0
         except ArgumentError:
             return False
+
+    def _hole(self, index: int) -> Hole:
+        found = ffi.new("ricci_hole *")
+        call(lib.ricci_soup_hole, self, index, found, ffi.sizeof("ricci_hole"))
+        reason = "" if found.reason == ffi.NULL else ffi.string(found.reason).decode()
+        faces, vertices = (
+            range(first, first + n) for first, n in ((found.first_face, found.n_faces), (found.first_vertex, found.n_vertices))
+        )
+        return Hole(bool(found.filled), reason, found.vertex, found.n_edges, found.length, found.area, faces, vertices)
+
+    def _numbers_of_names(self, kind: int) -> tuple[Indices, int]:
+        numbers, n = np.empty(self.summary.n_faces, np.uint32), ffi.new("size_t *")
+        call(lib.ricci_soup_labels, self, kind, pointer(numbers), numbers.size, n)
+        return frozen(signed_view(numbers)), n[0]
+
+    def _further(self, of: int, count: int, size: int) -> dict[str, Doubles]:
+        columns, name = {}, ffi.new("const char **")
+        for k in range(count):
+            values = np.empty(size)
+            call(lib.ricci_soup_numbers, self, of, k, name, pointer(values), values.size)
+            columns[ffi.string(name[0]).decode()] = frozen(values)
+        return columns
 
     def _defect(self, one: Any, index: int) -> Defect:
         found = ffi.new("ricci_defect *")

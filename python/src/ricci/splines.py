@@ -212,6 +212,11 @@ class Spline(Handle):
         return self._values("HOLES", self.summary.n_holes, 2)
 
     @cached_property
+    def folds(self) -> Indices:
+        """Of a fit to a surface, the patches in which it folds: normals turn by more than 60 degrees there between neighbouring places."""
+        return frozen(filled(lib.ricci_spline_folds, self, out=np.empty(self.summary.n_folded_patches, np.uint32)))
+
+    @cached_property
     def controls(self) -> Indices:
         """n_patches x n_basis: the control points of every patch."""
         out = np.empty((self.summary.n_patches, self.summary.n_basis), np.uint32)

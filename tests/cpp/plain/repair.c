@@ -172,9 +172,88 @@ static void seam(void) {
     ricci_soup_free(soup);
 }
 
+/* A roof of two slopes beside a flat triangle apart from it: loops, the ridge, its corners, and the pieces. */
+static void lists(void) {
+    const double positions[27] = {0, 0, 0, 4, 0, 0, 4, 1, 1, 0, 1, 1, 4, 2, 0, 0, 2, 0, 9, 0, 0, 10, 0, 0, 9, 1, 0};
+    const uint32_t faces[15] = {6, 7, 8, 0, 1, 2, 0, 2, 3, 3, 2, 4, 3, 4, 5};
+    uint32_t around[9], ends[2], corners[8], origin[6], of[5];
+    size_t starts[3], n = 9;
+    double lengths[2], angle, numbers[9];
+    const char *name = NULL;
+    ricci_soup *soup = NULL, *piece = NULL;
+    ricci_soup_summary summary;
+    ricci_repair_options options;
+    OK(ricci_soup_from_arrays(positions, 0, 9, faces, 5, &soup));
+    OK(ricci_soup_summarise(soup, &summary, sizeof summary));
+    CHECK(summary.n_components == 2 && summary.n_loops == 2 && summary.n_loop_vertices == 9);
+    FAILS(ricci_soup_loops(soup, lengths, 2, around, 8, starts, 3), RICCI_BUFFER_TOO_SMALL, "vertices");
+    OK(ricci_soup_loops(soup, lengths, 2, around, 9, starts, 3));
+    CHECK(starts[1] == 3 && starts[2] == 9 && around[0] == 6 && around[1] == 7 && around[3] == 0);
+    CHECK(fabs(lengths[0] - 2 - sqrt(2)) < 1e-14 && fabs(lengths[1] - 8 - 4 * sqrt(2)) < 1e-14);
+    OK(ricci_soup_sharp_edges(soup, 1.0, NULL, 0, NULL, 0, &n));
+    CHECK(n == 1);
+    FAILS(ricci_soup_sharp_edges(soup, 1.0, ends, 2, &angle, 0, &n), RICCI_BUFFER_TOO_SMALL, "angles");
+    OK(ricci_soup_sharp_edges(soup, 1.0, ends, 2, &angle, 1, &n));
+    CHECK(ends[0] == 2 && ends[1] == 3 && fabs(angle - acos(0)) < 1e-14);
+    FAILS(ricci_soup_sharp_edges(soup, 0, ends, 2, &angle, 1, &n), RICCI_ARGUMENT, "angle");
+    OK(ricci_soup_corners(soup, 1.0, corners, 8, &n));
+    CHECK(n > 0 && n <= 8);
+    for (size_t k = 1; k < n; k++) CHECK(corners[k - 1] < corners[k]);
+    OK(ricci_soup_labels(soup, RICCI_LABEL_MATERIAL, of, 5, &n));
+    CHECK(n == 1 && of[0] == 0 && of[4] == 0);
+    OK(ricci_soup_label(soup, RICCI_LABEL_MATERIAL, 0, &name));
+    CHECK(strcmp(name, "") == 0);
+    FAILS(ricci_soup_label(soup, RICCI_LABEL_MATERIAL, 1, &name), RICCI_ARGUMENT, "name 1");
+    FAILS(ricci_soup_labels(soup, 4, of, 5, &n), RICCI_ARGUMENT, "RICCI_LABEL_SMOOTHING");
+    FAILS(ricci_soup_numbers(soup, RICCI_OF_FACES, 0, &name, numbers, 9), RICCI_ARGUMENT, "numbers 0");
+    INIT(options);
+    options.weld = -1, options.component = 2;
+    OK(ricci_soup_repair(soup, &options, &piece));
+    OK(ricci_soup_origins(piece, origin, 3, of, 1));
+    CHECK(origin[0] == 6 && origin[1] == 7 && origin[2] == 8 && of[0] == 0);
+    ricci_soup_free(piece);
+    ricci_soup_free(soup);
+}
+
+/* A square hole in a square plate is filled; the loop outside stays open as it is not asked for. */
+static void holes(void) {
+    double positions[24];
+    uint32_t faces[24];
+    for (int k = 0; k < 4; k++) {
+        const double x = k == 0 || k == 3 ? -1 : 1, y = k < 2 ? -1 : 1;
+        const uint32_t next = (uint32_t)(k + 1) % 4, v = (uint32_t)k;
+        const uint32_t two[6] = {v, next, 4 + next, v, 4 + next, 4 + v};
+        positions[3 * k] = 2 * x, positions[3 * k + 1] = 2 * y, positions[3 * k + 2] = 0;
+        positions[12 + 3 * k] = x, positions[13 + 3 * k] = y, positions[14 + 3 * k] = 0;
+        memcpy(faces + 6 * k, two, sizeof two);
+    }
+    const uint32_t through = 4;
+    ricci_soup *soup = NULL, *filled = NULL;
+    ricci_repair_options options;
+    ricci_soup_summary summary;
+    ricci_hole hole;
+    OK(ricci_soup_from_arrays(positions, 0, 8, faces, 8, &soup));
+    FAILS(ricci_soup_hole(soup, 0, &hole, sizeof hole), RICCI_ARGUMENT, "was not repaired");
+    INIT(options);
+    options.holes = &through, options.n_holes = 1;
+    OK(ricci_soup_repair(soup, &options, &filled));
+    OK(ricci_soup_summarise(filled, &summary, sizeof summary));
+    CHECK(summary.filled_holes == 1 && summary.open_holes == 0);
+    OK(ricci_soup_hole(filled, 0, &hole, sizeof hole));
+    CHECK(hole.filled == 1 && hole.reason == NULL && hole.n_edges == 4 && hole.vertex == 4);
+    CHECK(fabs(hole.length - 8) < 1e-12 && fabs(hole.area - 4) < 1e-12);
+    CHECK(hole.first_face == 8 && hole.first_face + hole.n_faces == summary.n_faces);
+    CHECK(hole.first_vertex == 8 && hole.first_vertex + hole.n_vertices == summary.n_vertices);
+    FAILS(ricci_soup_hole(filled, 1, &hole, sizeof hole), RICCI_ARGUMENT, "hole 1");
+    ricci_soup_free(filled);
+    ricci_soup_free(soup);
+}
+
 int main(void) {
     fin();
     attributes();
+    lists();
+    holes();
     torus t = torus_new(12, 8);
     const size_t n_faces = t.n_faces + 2, n_vertices = 3 * t.n_faces + 1;
     double *positions = (double *)malloc(3 * n_vertices * sizeof *positions);

@@ -177,6 +177,8 @@ class SplineSummary:
         fit_rms: of a fit, the root of the mean squared distance between points and surface; NaN of other splines.
         fit_max: the largest such distance.
         n_holes: number of holes around singular vertices.
+        n_folded_patches: of a fit to a surface, the number of patches in which it folds, `Spline.folds`.
+        folded_share: the share of the fitted surface that lies in these patches; NaN of splines that were not fitted.
     """
 
     degree: int
@@ -186,6 +188,8 @@ class SplineSummary:
     fit_rms: float
     fit_max: float
     n_holes: int
+    n_folded_patches: int
+    folded_share: float
 
 
 @dataclass(frozen=True)

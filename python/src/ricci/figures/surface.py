@@ -77,6 +77,10 @@ class SoupSummary:
         filled_holes: boundary loops that were filled.
         open_holes: boundary loops that were to be filled and could not be.
         n_hints: of any list: findings that are no defects, `Soup.hints`.
+        n_loops: number of loops of `Soup.loops`: chains that end in an edge of more than two faces are none.
+        n_loop_vertices: number of vertices of all these loops.
+        n_vertex_numbers: number of further numbers of every vertex, `Soup.vertex_numbers`.
+        n_face_numbers: number of further numbers of every face.
     """
 
     n_vertices: int
@@ -109,6 +113,10 @@ class SoupSummary:
     filled_holes: int
     open_holes: int
     n_hints: int
+    n_loops: int
+    n_loop_vertices: int
+    n_vertex_numbers: int
+    n_face_numbers: int
 
 
 @dataclass(frozen=True)
