@@ -1,6 +1,6 @@
 //! The files of `--flat`: a layout in the plane as geometry, or as a drawing for cutting sheets and fabrics.
 
-use crate::carry::carry;
+use crate::carry::{CarriedAttributes, carry, stays_behind};
 use crate::failure::{Failure, NO_POSITIONS};
 use crate::input::Input;
 use crate::options::{FlatArgs, OnChoice};
@@ -91,8 +91,13 @@ impl<'a> FlatLayout<'a> {
             _ => {
                 let format = format_of(path)?;
                 let mut soup = self.surface.soup();
-                soup.attributes.colors = self.colors()?;
-                outputs.add_named(path, |path| io::write_as(path, format, &soup).map(drop))
+                let carried = carry(self.input, self.subdivision)?;
+                soup.attributes.colors = self.colors(&carried);
+                soup.attributes.labels = carried.labels;
+                let behind = stays_behind(soup.attributes.labels.as_ref(), &self.input.path, path);
+                let left_out = outputs.add_named(path, |path| io::write_as(path, format, &soup))?;
+                outputs.leave_out(left_out.into_iter().chain(behind));
+                Ok(())
             }
         }
     }
@@ -111,16 +116,16 @@ impl<'a> FlatLayout<'a> {
     }
 
     /// The input's colours at the points of the opened surface.
-    fn colors(&self) -> Result<Option<Vec<[f64; 4]>>, Failure> {
-        let at_vertices = carry(self.input, self.subdivision)?.colors;
+    fn colors(&self, carried: &CarriedAttributes) -> Option<Vec<[f64; 4]>> {
+        let at_vertices = &carried.colors;
         if at_vertices.is_empty() {
-            return Ok(None);
+            return None;
         }
         let FlatSurface { mesh, corner_index, points, .. } = &self.surface;
         let mut colors = vec![[1.0; 4]; points.len()];
         for h in mesh.halfedges().filter(|&h| !mesh.is_outside(h)) {
             colors[corner_index[h] as usize] = at_vertices[mesh.origin(h).index()];
         }
-        Ok(Some(colors))
+        Some(colors)
     }
 }
