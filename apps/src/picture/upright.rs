@@ -3,6 +3,7 @@
 
 use super::standing::standing;
 use super::vector::{V3, add, complement, dot, ends, norm, normal, scaled, sphere_point, unit};
+use ricci::mesh::rims::rims;
 
 /// The vertical of a surface, and whether it lies flat on the ground, so that it is seen from above.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,6 +16,8 @@ pub struct Stance {
 const SHEET: f64 = 0.35;
 /// A sheet lower than this share of its width and length lies on the ground.
 const FLAT_SHEET: f64 = 0.34;
+/// A sheet whose longest boundary loop is no higher than this share of its own extent lies on the ground with it.
+const FLAT_RIM: f64 = 0.02;
 /// A closed surface lower than this share of its width and length is seen from above, whatever its vertical is.
 const LOW: f64 = 0.45;
 /// A closed surface thinner than this share of its width and length lies on the ground, if it is also [`CENTRED`].
@@ -54,7 +57,7 @@ pub fn stance(points: &[V3], faces: &[[u32; 3]]) -> Stance {
     if norm(outside) > SHEET * total {
         let most = (0..3).fold(0, |l, k| if outside[k].abs() > outside[l].abs() { k } else { l });
         let up = axis(most, outside[most].signum());
-        let lies = thin(up) < FLAT_SHEET;
+        let lies = thin(up) < FLAT_SHEET || has_flat_rim(points, faces, up);
         // A mask faces z with y up. Turned about x, as programs with z up do, it faces −y with z up, or y with −z up.
         let upright = if most == 1 { [0.0, 0.0, -outside[1].signum()] } else { Y };
         return Stance { up: if lies { up } else { upright }, lies };
@@ -80,6 +83,17 @@ pub fn stance(points: &[V3], faces: &[[u32; 3]]) -> Stance {
 fn reach(points: &[V3], axis: V3) -> (f64, f64) {
     let [low, high] = ends(points.iter().map(|p| dot(axis, *p)));
     (high, (high - low).max(f64::MIN_POSITIVE))
+}
+
+/// True if the longest boundary loop lies level under this vertical.
+fn has_flat_rim(points: &[V3], faces: &[[u32; 3]], up: V3) -> bool {
+    let all = rims(points, faces);
+    let longest = all.iter().max_by(|a, b| a.length.total_cmp(&b.length));
+    longest.is_some_and(|rim| {
+        let on_rim: Vec<V3> = rim.vertices.iter().map(|&v| points[v as usize]).collect();
+        let [wide, long] = complement(up).map(|across| reach(&on_rim, across).1);
+        reach(&on_rim, up).1 < FLAT_RIM * wide.max(long)
+    })
 }
 
 /// The direction away from the flat side that a surface stands on, if it has one.
@@ -131,6 +145,13 @@ mod tests {
         assert_eq!(stance(&disk.positions, &disk.faces), Stance { up: Z, lies: true });
         let below: Vec<[u32; 3]> = disk.faces.iter().map(|f| [f[0], f[2], f[1]]).collect();
         assert_eq!(stance(&disk.positions, &below).up, [0.0, 0.0, -1.0]);
+        // A high hill on a level rim lies, too; a mask does not.
+        let hill = |cut: f64| -> Vec<V3> {
+            let height = |x: f64, y: f64| 1.5 * (1.0 - x * x - y * y) + cut * x * x;
+            disk.positions.iter().map(|&[x, y, _]| [x, y, height(x, y)]).collect()
+        };
+        assert_eq!(stance(&hill(0.0), &disk.faces), Stance { up: Z, lies: true });
+        assert_eq!(stance(&hill(0.4), &disk.faces), Stance { up: Y, lies: false });
         // A prism with a slanted top stands on its end, wherever that looks.
         let prism = |tilt: f64| -> Vec<V3> {
             let corner = |k: u32| {
