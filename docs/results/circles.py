@@ -6,7 +6,7 @@ usage: docs/results/circles.py [CORPUS [NAME…]] > docs/results/circles.md     
 import math
 import random
 
-from page import CHECK, complex_text, file_of, judged, loops, main, meshes, named, read_obj, seconds, small, table, verdict, verdict_of_outside, write_obj
+from page import build, CHECK, complex_text, file_of, judged, loops, main, meshes, named, read_obj, seconds, small, table, verdict, verdict_of_outside, write_obj
 
 HOLES = [3, 10, 20, 40, 70, 100]
 SEED = 1
@@ -74,7 +74,7 @@ def content(run):
     return [
         "# Circle domains",
         f"Every open mesh of the corpus ({len(rows)} of {len(chosen)}), made by `docs/results/circles.py`: `ricci circles MESH` with default options. "
-        "Times are those of one run on a shared machine.",
+        f"Times are those of one run of {build} on a shared machine.",
         verdict(run.bad),
         "*deviation*: of a loop from its circle, a share of the radius. *without area*: pieces of the layout whose area is below rounding. "
         "*added before*: vertices put on loops before the flow, because a loop has fewer than 12 edges, lies opposite an obtuse angle, or has a circle that "

@@ -5,7 +5,7 @@ usage: docs/results/defaults.py [CORPUS [NAME…]] > docs/results/defaults.md   
 """
 import math
 
-from page import file_of, genus, loops, main, meshes, plain, seconds, small, table, verdict, write_obj
+from page import build, file_of, genus, loops, main, meshes, plain, seconds, small, table, verdict, write_obj
 
 HEAD = ["mesh", "F", "loops", "default: dilatation max, mean", "area ratio", "seams", "s",
         "`boundary`: dilatation max, mean", "area ratio", "seams", "s"]
@@ -111,7 +111,7 @@ def content(run):
         "# Defaults on open surfaces",
         f"Every open mesh of the corpus of genus 0 ({len(chosen)}) and surfaces that unroll, made by `docs/results/defaults.py`. By default the longest loop keeps its "
         "lengths and the holes are filled while the flow runs (`--target outer`); the former default, `--target boundary`, bends all loops in proportion to their "
-        "length. Times are those of one run on a shared machine and say little. Folded faces of files with `--on input` are in [input.md](input.md).",
+        f"length. Times are those of one run of {build} on a shared machine and say little. Folded faces of files with `--on input` are in [input.md](input.md).",
         verdict(run.bad),
         table(HEAD, rows),
         "## Surfaces that unroll",

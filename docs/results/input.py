@@ -8,7 +8,7 @@ import os
 import sys
 import tempfile
 
-from page import file_of, launch, main, meshes, small, table
+from page import build, file_of, launch, main, meshes, small, table
 
 # The longest run on the corpus takes a minute with a development build.
 SECONDS = 400
@@ -66,7 +66,7 @@ def folds(found):
         f"With it, {sum(n == 0 for n in after)} of {len(found)} have none, and {sum(after)} faces fold; {100 * share:.2f} % of the vertices "
         "are added. " + ("Every report counts the faces that fold in its file." if not wrong else "Reports that differ from their file: " +
                          ", ".join(wrong) + "."),
-        "Exit 1: the check `flipped_triangles` fails, or another one. Times are those of one run on a shared machine and say little.",
+        f"Exit 1: the check `flipped_triangles` fails, or another one. Times are those of one run of {build} on a shared machine and say little.",
         table(head, [row(*x) for x in found]),
     ]
 

@@ -1,8 +1,8 @@
 """The frame of the scripts of this folder: the corpus, the runs of the command, the program that judges its files from outside, and the page.
 
 A script is its selection of meshes, its commands and its columns: a function `content(run)` that returns the blocks of the page, which `main` calls.
-The command line is [CORPUS [NAME…]]. RICCI_CHECK names the outside program (by default ../shared/tools/check.py beside the repository), RICCI_ROWS a
-file that keeps finished rows, one per line, so that an interrupted script goes on from there.
+The command line is [CORPUS [NAME…]]. RICCI names the command, by default that of the release build, RICCI_CHECK the outside
+program (by default ../shared/tools/check.py beside the repository), RICCI_ROWS a file that keeps finished rows, one per line, so that an interrupted script goes on from there.
 """
 import contextlib
 import csv
@@ -17,7 +17,8 @@ import tempfile
 
 root = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 named = sys.argv[2:]
-ricci = os.path.join(os.environ.get("CARGO_TARGET_DIR", os.path.join(root, "target")), "release", "ricci")
+ricci = os.environ.get("RICCI") or os.path.join(os.environ.get("CARGO_TARGET_DIR", os.path.join(root, "target")), "release", "ricci")
+build = "a development build" if "debug" in ricci.split(os.sep) else "a release build"
 judge = os.environ.get("RICCI_CHECK", os.path.join(root, "..", "shared", "tools", "check.py"))
 
 
