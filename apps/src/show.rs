@@ -23,7 +23,7 @@ const MOST_CONES: usize = 60;
 pub fn draw(outcome: &FlowOutcome, args: &FlowPictureArgs, threads: usize) -> Result<Vec<u8>, Failure> {
     let input = &outcome.input;
     let laid = outcome.layout.as_ref().ok();
-    let drawing = laid.map(|laid| LayoutDrawing::new(outcome, laid));
+    let drawing = laid.map(|laid| LayoutDrawing::of_flow(outcome, laid));
     let flat = drawing.as_ref().map(LayoutDrawing::flat);
     // Charts are told apart by colours unless something else is asked for.
     let by_charts =
@@ -126,11 +126,12 @@ fn cones(outcome: &FlowOutcome) -> Vec<(u32, f64)> {
     if cones.len() <= MOST_CONES { cones } else { Vec::new() }
 }
 
-/// The layout of a flow as the plain arrays that are drawn.
+/// A layout as the plain arrays that are drawn.
 #[derive(Default)]
-struct LayoutDrawing {
-    corner_uv: Vec<[[f64; 2]; 3]>,
-    edges: Vec<(u32, u32, usize)>,
+pub struct LayoutDrawing {
+    pub corner_uv: Vec<[[f64; 2]; 3]>,
+    /// The edges of the cut on the surface, with the numbers of their seams.
+    pub edges: Vec<(u32, u32, usize)>,
     seams: Vec<([f64; 2], [f64; 2], usize)>,
     boundary: Vec<([f64; 2], [f64; 2])>,
     frame: Vec<([f64; 2], [f64; 2])>,
@@ -140,7 +141,8 @@ struct LayoutDrawing {
 }
 
 impl LayoutDrawing {
-    fn new(outcome: &FlowOutcome, laid: &SurfaceLayout) -> LayoutDrawing {
+    /// A layout with dots at its cones, which are given with their curvature.
+    pub fn new(laid: &SurfaceLayout, cones: &[(u32, f64)]) -> LayoutDrawing {
         let mesh = laid.mesh();
         let side = |h: HalfedgeId| (laid.corner_uv(h), laid.corner_uv(mesh.next(h)));
         let corner_uv = mesh.faces().map(|f| laid.face_uv(f)).collect();
@@ -161,13 +163,19 @@ impl LayoutDrawing {
         }
         let mut seen = vec![false; laid.coordinates().len()];
         let mut curvature = PerVertex::filled(mesh.n_vertices(), 0.0);
-        cones(outcome).into_iter().for_each(|(v, k)| curvature[VertexId(v)] = k);
+        cones.iter().for_each(|&(v, k)| curvature[VertexId(v)] = k);
         for h in mesh.halfedges().filter(|&h| !mesh.is_outside(h) && curvature[mesh.origin(h)] != 0.0) {
             let uv = laid.corner_index()[h] as usize;
             if !std::mem::replace(&mut seen[uv], true) {
                 drawing.cones.push((laid.coordinates()[uv], curvature[mesh.origin(h)]));
             }
         }
+        drawing
+    }
+
+    /// The layout of a flow, with its circles.
+    fn of_flow(outcome: &FlowOutcome, laid: &SurfaceLayout) -> LayoutDrawing {
+        let mut drawing = LayoutDrawing::new(laid, &cones(outcome));
         // Circles belong to the whole layout, and do not fit its charts.
         let with_circles = outcome.solved.scheme.epsilon() != 0 && laid.packed.is_none();
         let pattern = || {
@@ -184,7 +192,7 @@ impl LayoutDrawing {
         drawing
     }
 
-    fn flat(&self) -> ShownLayout<'_> {
+    pub fn flat(&self) -> ShownLayout<'_> {
         ShownLayout {
             corner_uv: &self.corner_uv,
             seams: &self.seams,

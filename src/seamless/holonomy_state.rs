@@ -74,9 +74,10 @@ impl HolonomyState {
     pub fn moved(&self, step: &[f64], factor: f64, control: &Control) -> Result<HolonomyState> {
         let mut next = self.clone();
         let HolonomyState { mesh, metric, followed, loops, flips, .. } = &mut next;
+        // Without circles ℓ² = 2 η e^(u_i + u_j), so that λ grows as ln η.
         let eta = Arc::make_mut(&mut metric.eta);
         for (e, change) in (0..).map(EdgeId).zip(step) {
-            eta[e] = eta[e] * DoubleDouble::from((0.5 * factor * change).exp());
+            eta[e] = eta[e] * DoubleDouble::from((factor * change).exp());
         }
         let (vertices, mut queue) = (metric.vertices(), FlipQueue::all(mesh, &FixedEdges::none()));
         let mut record = |mesh: &Mesh, flip: Flip<DoubleDouble>| {

@@ -1,6 +1,7 @@
 //! The options of `ricci seamless`.
 
 use crate::options::{Common, FileName, SurfaceArgs};
+use crate::picture::PictureArgs;
 use clap::Args;
 use serde::Serialize;
 use std::fmt;
@@ -46,6 +47,9 @@ pub struct SeamlessArgs {
     /// Write the metric
     #[arg(long, value_name = "M.json")]
     pub metric: Option<FileName>,
+    #[command(flatten)]
+    #[serde(flatten)]
+    pub picture: PictureArgs,
     #[command(flatten)]
     #[serde(flatten)]
     pub common: Common,

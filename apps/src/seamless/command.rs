@@ -2,6 +2,7 @@
 
 use super::args::{ConesChoice, SeamlessArgs};
 use super::figures::{SeamlessOutcome, WrittenMap};
+use super::picture::draw;
 use crate::csv;
 use crate::failure::{Failure, NO_POSITIONS};
 use crate::input::{self, Input};
@@ -25,11 +26,12 @@ impl Job for SeamlessArgs {
 
     fn check(&self) -> Result<(), Failure> {
         check_extension("--uv", self.uv.as_deref(), &["obj", "glb"])?;
+        check_extension("--picture", self.picture.picture.as_deref(), &["png", "svg"])?;
         let table = match &self.cones {
             ConesChoice::Table(path) => Some(path.as_path()),
             _ => None,
         };
-        let files = [&self.uv, &self.xref, &self.metric, &self.common.report];
+        let files = [&self.uv, &self.xref, &self.metric, &self.picture.picture, &self.common.report];
         check_outputs(&[Some(&self.surface.file.mesh), table], &files.map(|file| file.as_deref()))
     }
 
@@ -55,6 +57,7 @@ impl Job for SeamlessArgs {
 
     fn write(&self, outcome: &SeamlessOutcome, run: &mut CommandRun<'_>) -> Result<(), Failure> {
         let SeamlessOutcome { input, map, metric, .. } = outcome;
+        let picture = self.picture.picture.as_deref();
         match map {
             Ok(map) => {
                 if let Some(path) = &self.uv {
@@ -66,9 +69,15 @@ impl Job for SeamlessArgs {
                 run.file("xref", self.xref.as_deref(), |outputs, path| {
                     outputs.add(path, |out| uv::write_origins(out, input, &map.laid, OnChoice::Refined))
                 })?;
+                run.picture("picture", picture, || draw(outcome, map, self))?;
             }
             Err(why) => {
-                run.failed.refuse(why, &[("uv", self.uv.is_some()), ("xref", self.xref.is_some())]);
+                let asked = [
+                    ("uv", self.uv.is_some()),
+                    ("xref", self.xref.is_some()),
+                    ("picture", picture.is_some()),
+                ];
+                run.failed.refuse(why, &asked);
             }
         }
         run.file("metric", self.metric.as_deref(), |outputs, path| metric.write_metric(outputs, path))

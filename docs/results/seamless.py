@@ -1,0 +1,100 @@
+#!/usr/bin/env python3
+"""Seamless metrics of every closed mesh, with the cones of the smoothest field and with a few placed cones, and of random signatures, as tables.
+
+usage: docs/results/seamless.py [CORPUS [NAME…]] > docs/results/seamless.md     (after: cargo build --release -p ricci-apps)
+"""
+import random
+
+from page import build, euler, file_of, genus, judged, loops, main, meshes, seconds, small, table, verdict
+
+# Random signatures to a mesh, and the number of meshes, the smallest of each genus first.
+TRIED, RANDOM_MESHES = 20, 12
+# Vertices up to which the outside program reads the written map.
+JUDGED = 70_000
+
+HEAD = ["mesh", "V", "genus", "cones", "valences", "flow + Newton", "angles off by", "smallest and largest area ratio", "largest dilatation",
+        "flipped, degenerate", "outside: seams, not exact, flipped, angles off", "s", "s of flow"]
+
+
+def valences(cones):
+    counts = {}
+    for cone in cones:
+        counts[cone["valence"]] = counts.get(cone["valence"], 0) + 1
+    return ", ".join(f"{n} of {valence}" for valence, n in sorted(counts.items()))
+
+
+def row(run, mesh, cones):
+    [path] = run.fresh("uv.obj")
+    name = f"{mesh['name']}, {cones}"
+    report = run.report(name, "seamless", file_of(mesh), "--cones", cones, "--uv", path, seconds=600)
+    flow = run.report(f"{mesh['name']}, flow", "flow", file_of(mesh), "--space", "e2", "--uv", run.path("flow.obj"), seconds=600)
+    if report is None:
+        return None
+    r = report["result"]
+    seen = "–"
+    if int(mesh["V"]) <= JUDGED and r["flipped_triangles"] is not None:
+        said = judged("seamless", path)
+        if said:
+            run.insist(said["seams_not_exact"] == 0 and said["valences_add_up"], f"{name}, outside: {said}")
+            seen = f"{said['seam_edges']}, {said['seams_not_exact']}, {said['flipped']}, {small(said['worst_angle_off'])}"
+    return [mesh["name"], mesh["V"], mesh["genus"], len(r["cones"]), valences(r["cones"]),
+            f"{r['iterations'] - r['newton_iterations']} + {r['newton_iterations']}", small(r["holonomy_error"]),
+            f"{small(r['area_ratio_min'])}, {small(r['area_ratio_max'])}", small(r["qc_max"]),
+            f"{r['flipped_triangles']}, {r['degenerate_pieces']}", seen, seconds(report), seconds(flow) if flow else "–"]
+
+
+def signatures(run, mesh):
+    """Random cones of valence 3, 5 and 6 at random vertices, and random turning that is at most one quarter turn off the nearest."""
+    draw, reached, steps, failed = random.Random(int(mesh["V"])), 0, [], 0
+    for k in range(TRIED):
+        rest, cones, taken = 4 * euler(mesh), [], set()
+        extra = draw.randrange(0, 4)
+        quarters = [1, -1] * extra + [(1 if rest > 0 else -1)] * abs(rest)
+        for q in quarters:
+            v = draw.randrange(int(mesh["V"]))
+            while v in taken:
+                v = draw.randrange(int(mesh["V"]))
+            taken.add(v)
+            cones.append((v, 4 - q))
+        table_of_cones = run.path("cones.csv")
+        with open(table_of_cones, "w") as out:
+            out.write("vertex,valence\n" + "".join(f"{v},{valence}\n" for v, valence in cones))
+        report, _ = run.try_report("seamless", file_of(mesh), "--cones", table_of_cones, seconds=300)
+        if report is None:
+            failed += 1
+            continue
+        turning = [t + draw.choice((-1, 0, 0, 0, 1)) for t in report["result"]["holonomy"]]
+        report, _ = run.try_report("seamless", file_of(mesh), "--cones", table_of_cones, f"--turning={','.join(map(str, turning))}", seconds=300)
+        if report is None or not report["result"]["converged"]:
+            failed += 1
+            continue
+        reached += 1
+        steps.append(report["result"]["newton_iterations"])
+    steps.sort()
+    return [mesh["name"], mesh["V"], mesh["genus"], f"{reached} of {TRIED}", steps[len(steps) // 2] if steps else "–", steps[-1] if steps else "–"]
+
+
+def content(run):
+    closed = meshes(lambda mesh: loops(mesh) == 0)
+    head = f"""# Seamless metrics of scanned surfaces
+
+Made by `docs/results/seamless.py` with {build}: `ricci seamless MESH --uv`, every closed mesh of one component. *flow + Newton*: steps of the conformal flow
+with these cones and least-norm steps after it. *angles off by*: largest deviation, radians, around vertices and along loops that were found anew. *outside*: `check.py seamless`
+on the written file: edges of seams, those that are not exactly a rotation by a multiple of 90°, faces that it finds turned over or without area, largest deviation of an
+angle, radians. *s of flow*: `ricci flow --space e2 --uv` of the same mesh."""
+    blocks = []
+    for title, cones in (("Cones of the smoothest field", "field"), ("Eight placed cones", "auto:8")):
+        rows = [cells for mesh in closed if (cells := run.keep([mesh["name"], cones], lambda: row(run, mesh, cones)))]
+        blocks.append(f"## {title}\n\n" + table(HEAD, rows))
+    chosen = [mesh for mesh in closed if genus(mesh) > 0][:RANDOM_MESHES]
+    blocks.append(f"""## Random signatures
+
+Cones of valence 3 and 5 at random vertices, and turning that is the nearest to the conformal metric's but for two loops of five, which turn a quarter more or
+less: {TRIED} to a mesh, the first {len(chosen)} of genus 1 and more by genus and size.
+
+""" + table(["mesh", "V", "genus", "reached", "median Newton steps", "most"],
+            [run.keep([mesh["name"], "random"], lambda: signatures(run, mesh)) for mesh in chosen]))
+    return [head, verdict(run.bad), *blocks]
+
+
+main(content)
