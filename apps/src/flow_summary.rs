@@ -127,8 +127,8 @@ fn overlap(laid: &SurfaceLayout) -> String {
 fn why(outcome: &FlowOutcome) -> String {
     let report = &outcome.report;
     if let (StopReason::BrokenTriangles, Target::Outer(_)) = (report.stop_reason, &outcome.rule) {
-        return "with the lengths of the outer loop kept, triangles at a filled hole break, since edges of loops are not flipped: \
-                refine the surface there, or bend the loops instead (--target boundary)"
+        return "with the lengths of the outer loop kept, a triangle breaks that no flip may mend, since edges are kept or the geometry of \
+                the input is not Euclidean: allow flips, or bend the loops instead (--target boundary)"
             .into();
     }
     if report.stop_reason == StopReason::BrokenTriangles {

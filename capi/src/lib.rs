@@ -31,6 +31,7 @@ mod float_environment;
 mod guard;
 mod memory;
 mod paths;
+mod soup_cache;
 mod structs;
 mod texture;
 mod thread_failure;

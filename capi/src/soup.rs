@@ -6,7 +6,7 @@ use crate::failure::{Failure, FailureElement, Outcome, no_such};
 use crate::guard::{self, handle, shared};
 use crate::memory;
 use crate::mesh::{MeshValue, VALUES, copy_attribute, count, ricci_attributes, ricci_mesh, write_soup};
-use crate::soup_lists::SoupLists;
+use crate::soup_cache::SoupLists;
 use crate::status::ricci_status;
 use crate::structs::{self, sized};
 use ricci::mesh::check::{Diagnosis, diagnose};

@@ -6,91 +6,17 @@ use crate::choice::choices;
 use crate::failure::{Failure, FailureElement, Outcome, no_such};
 use crate::guard::{self, output};
 use crate::soup::ricci_soup;
+use crate::soup_cache::LABELS;
 use crate::status::ricci_status;
 use crate::structs::{self, sized};
 use ricci::mesh::check::Features;
-use ricci::mesh::io::{Attributes, FaceLabel, NumberColumn, Soup};
-use ricci::mesh::rims::{Rim, rims};
-use std::collections::HashMap;
-use std::ffi::{CString, c_char};
-use std::sync::OnceLock;
-
-choices!(enum LabelKind, LABELS = "which", [
-    RICCI_LABEL_OBJECT => Object,
-    RICCI_LABEL_GROUP => Group,
-    RICCI_LABEL_MATERIAL => Material,
-    RICCI_LABEL_SMOOTHING => Smoothing,
-]);
+use ricci::mesh::io::{Attributes, NumberColumn};
+use std::ffi::{CStr, c_char};
 
 choices!(enum NumbersOf, NUMBERS_OF = "of", [
     RICCI_OF_VERTICES => Vertices,
     RICCI_OF_FACES => Faces,
 ]);
-
-/// The lists of a triangle list that are made when they are asked for.
-#[derive(Default)]
-pub(crate) struct SoupLists {
-    rims: OnceLock<Vec<Rim>>,
-    names: OnceLock<[LabelNames; 4]>,
-    columns: OnceLock<[Vec<CString>; 2]>,
-    reasons: OnceLock<Vec<CString>>,
-}
-
-/// The different names of one kind, and for each face the number of its name.
-struct LabelNames {
-    names: Vec<CString>,
-    of_face: Vec<u32>,
-}
-
-impl LabelNames {
-    /// The names in the order of the first faces that have them; the empty name of faces without one comes first.
-    fn new(soup: &Soup, name: fn(&FaceLabel) -> &str) -> LabelNames {
-        let mut names = vec![""];
-        let mut number = HashMap::from([("", 0)]);
-        let mut of_face = vec![0; soup.faces.len()];
-        if let Some(labels) = &soup.attributes.labels {
-            for (own, &label) in of_face.iter_mut().zip(&labels.of_face) {
-                let name = labels.labels.get(label as usize).map_or("", name);
-                *own = *number.entry(name).or_insert_with(|| {
-                    names.push(name);
-                    names.len() as u32 - 1
-                });
-            }
-        }
-        LabelNames { names: names.into_iter().map(text).collect(), of_face }
-    }
-}
-
-/// A text as C has it.
-fn text(words: &str) -> CString {
-    CString::new(words.replace('\0', "\u{fffd}")).unwrap_or_default()
-}
-
-impl SoupLists {
-    pub fn rims(&self, soup: &Soup) -> &[Rim] {
-        self.rims.get_or_init(|| rims(&soup.positions, &soup.faces))
-    }
-
-    fn names(&self, soup: &Soup, kind: LabelKind) -> &LabelNames {
-        let all = self.names.get_or_init(|| {
-            let of: [fn(&FaceLabel) -> &str; 4] = [
-                |label| &label.object,
-                |label| &label.group,
-                |label| &label.material,
-                |label| &label.smoothing,
-            ];
-            of.map(|name| LabelNames::new(soup, name))
-        });
-        &all[kind as usize]
-    }
-
-    fn columns(&self, attributes: &Attributes, of: NumbersOf) -> &[CString] {
-        let names = |columns: &[NumberColumn]| columns.iter().map(|column| text(&column.name)).collect();
-        let all =
-            self.columns.get_or_init(|| [names(&attributes.vertex_numbers), names(&attributes.face_numbers)]);
-        &all[of as usize]
-    }
-}
 
 /// Further numbers of an element kind.
 fn numbers(attributes: &Attributes, of: NumbersOf) -> &[NumberColumn] {
@@ -194,12 +120,10 @@ pub unsafe extern "C" fn ricci_soup_hole(
 ) -> ricci_status {
     guard::with(repaired, |list| {
         let filling = list.filling()?;
-        let reasons = || filling.open.iter().map(|open| text(open.reason)).collect();
-        let reasons = list.lists.reasons.get_or_init(reasons);
         let n_filled = filling.filled.len();
         let none = ricci_hole {
             size,
-            reason: std::ptr::null(),
+            reason: c"filled".as_ptr(),
             n_edges: 0,
             first_face: 0,
             n_faces: 0,
@@ -224,7 +148,7 @@ pub unsafe extern "C" fn ricci_soup_hole(
                 ..none
             }
         } else if let Some(found) = index.checked_sub(n_filled).and_then(|k| filling.open.get(k)) {
-            let reason = reasons[index - n_filled].as_ptr();
+            let reason = list.lists.reason(filling, index - n_filled).map_or(none.reason, CStr::as_ptr);
             ricci_hole { reason, n_edges: found.edges, vertex: found.vertex, ..none }
         } else {
             return Err(no_such(FailureElement::Entry, "hole", index, n_filled + filling.open.len()));
@@ -257,14 +181,17 @@ pub unsafe extern "C" fn ricci_soup_label(
     soup: *const ricci_soup,
     which: u32,
     index: usize,
-    name: *mut *const c_char,
+    name: *mut c_char,
+    capacity: usize,
+    n_bytes: *mut usize,
 ) -> ricci_status {
     guard::with(soup, |list| {
         let names = &list.lists.names(&list.soup, LABELS.choose(which)?).names;
-        let place = output("name", name)?;
         let found = names.get(index);
-        place.set(found.ok_or_else(|| no_such(FailureElement::Entry, "name", index, names.len()))?.as_ptr());
-        Ok(())
+        let found = found.ok_or_else(|| no_such(FailureElement::Entry, "name", index, names.len()))?;
+        let mut bytes = found.replace('\0', "\u{fffd}").into_bytes();
+        bytes.push(0);
+        copy_counted("name", &bytes, name.cast(), capacity, n_bytes)
     })
 }
 
@@ -273,18 +200,12 @@ pub unsafe extern "C" fn ricci_soup_numbers(
     soup: *const ricci_soup,
     of: u32,
     index: usize,
-    name: *mut *const c_char,
     values: *mut f64,
     capacity: usize,
 ) -> ricci_status {
     guard::with(soup, |list| {
-        let (of, attributes) = (NUMBERS_OF.choose(of)?, &list.soup.attributes);
-        let (columns, names) = (numbers(attributes, of), list.lists.columns(attributes, of));
+        let columns = numbers(&list.soup.attributes, NUMBERS_OF.choose(of)?);
         let missing = || no_such(FailureElement::Entry, "numbers", index, columns.len());
-        let column = columns.get(index).ok_or_else(missing)?;
-        let place = output("name", name)?;
-        copy_out("values", &column.values, values, capacity)?;
-        place.set(names[index].as_ptr());
-        Ok(())
+        copy_out("values", &columns.get(index).ok_or_else(missing)?.values, values, capacity)
     })
 }

@@ -15,7 +15,7 @@ const HEADERS: &[(&str, usize)] = &[
     ("spline", 20),
     ("bicubic", 10),
     ("structure", 20),
-    ("repair", 20),
+    ("repair", 30),
     ("shapes", 10),
 ];
 

@@ -90,7 +90,7 @@ def content(run):
         "# Broken and odd files",
         f"Made by `docs/results/bad.py`: `ricci info`, `ricci repair --cut-edges --component 0`, and `ricci flow` of the result where it is "
         f"admissible, on each of the {len(files)} files. Every run ended with exit code 0, 1 or 3, without a panic, with finite numbers in its "
-        f"report. `info` and `repair` stayed within 64 MB + 20 × the file (the largest share was {100 * Totals.share:.0f} %); a flow with its layout "
+        f"report. `info` and `repair` took at most {100 * Totals.share:.0f} % of 64 MB + 20 × the file; a flow with its layout "
         f"took at most {Totals.flow_bytes / 1000:.0f} kB per face (of surfaces with {LARGE} faces or more).",
         f"Flows that reached their target, with flips as is the default: {Totals.flows} of {sum(r[3] != '–' for r in rows)}.",
         *fails,

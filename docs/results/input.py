@@ -61,7 +61,9 @@ def folds(found):
         "`ricci flow MESH --uv OUT.obj --on input --repair`, default target, on every connected mesh of the corpus "
         f"({len(found)}). Folded: faces of the input that do not run counterclockwise in the layout where the map is made linear on them, "
         "as the report counts them; without `--repair` these are in the file. Folded with `--repair`: those of the written file, counted from "
-        "its texture coordinates by this script. Points are added on edges of the input, so the surface stays as it is.",
+        "its texture coordinates by this script. Points are added on edges of the input, so the surface stays as it is. "
+        "Edges are split and never flipped: a flip replaces two triangles of the input by two others, which lie elsewhere in space wherever "
+        "the surface bends between them.",
         f"Without `--repair`, {sum(n == 0 for n in before)} of {len(found)} meshes have no folded face, and {sum(before)} faces fold in all. "
         f"With it, {sum(n == 0 for n in after)} of {len(found)} have none, and {sum(after)} faces fold; {100 * share:.2f} % of the vertices "
         "are added. " + ("Every report counts the faces that fold in its file." if not wrong else "Reports that differ from their file: " +

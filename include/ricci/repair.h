@@ -127,7 +127,7 @@ typedef struct ricci_defect {
 typedef struct ricci_hole {
     /** Bytes of this struct that are filled. */
     size_t size;
-    /** The reason why it was left open, a view into the soup; NULL where it was filled. */
+    /** "filled", or the reason why it was left open: a view into the soup. */
     const char *reason;
     /** Number of edges of its loop. */
     size_t n_edges;
@@ -149,7 +149,7 @@ typedef struct ricci_hole {
     uint32_t filled;
 } ricci_hole;
 
-/** Which names of faces. */
+/** Which names. */
 enum {
     /** Objects (`o` of OBJ). */
     RICCI_LABEL_OBJECT = 0,
@@ -158,7 +158,11 @@ enum {
     /** Materials (`usemtl`). */
     RICCI_LABEL_MATERIAL = 2,
     /** Smoothing groups (`s`). */
-    RICCI_LABEL_SMOOTHING = 3
+    RICCI_LABEL_SMOOTHING = 3,
+    /** Not of faces, but of the further numbers of vertices, in their order. */
+    RICCI_LABEL_VERTEX_NUMBERS = 4,
+    /** Of the further numbers of faces. */
+    RICCI_LABEL_FACE_NUMBERS = 5
 };
 
 /** The elements that further numbers belong to. */
@@ -415,45 +419,49 @@ RICCI_API ricci_status ricci_soup_corners(const ricci_soup *soup, double angle, 
 /**
  * The names under which faces stand in a file, each once, and for each face the number of its name.
  *
- * Name 0 is empty: that of faces without one. The others come in the order of their first faces.
+ * Name 0 is empty: that of faces without one. The others come in the order of their first faces. Names of
+ * numbers belong to no faces.
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (no such names).
  *
  * @param soup      the triangle list.
- * @param which     RICCI_LABEL_OBJECT, _GROUP, _MATERIAL or _SMOOTHING.
- * @param numbers   out: n_faces numbers of names; NULL with capacity 0 asks for the number of names alone.
+ * @param which     RICCI_LABEL_*.
+ * @param numbers   out: n_faces numbers of names, none for names of numbers; NULL with capacity 0 asks for the
+ *                  number of names alone.
  * @param capacity  entries of `numbers`.
- * @param n_names   out: the number of names, 1 or more.
+ * @param n_names   out: the number of names.
  */
 RICCI_API ricci_status ricci_soup_labels(const ricci_soup *soup, uint32_t which, uint32_t *numbers,
                                          size_t capacity, size_t *n_names);
 
 /**
- * One name of faces.
+ * One name of faces, or of further numbers.
  *
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (index, no such names).
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (index, no such names).
  *
- * @param soup   the triangle list.
- * @param which  as for ricci_soup_labels.
- * @param index  which one, below n_names.
- * @param name   out: the name in UTF-8, a view that lives as long as the soup.
+ * @param soup      the triangle list.
+ * @param which     RICCI_LABEL_*.
+ * @param index     which one, below n_names.
+ * @param name      out: the name in UTF-8, NUL-terminated; NULL with capacity 0 to ask for its length.
+ * @param capacity  bytes of `name`.
+ * @param n_bytes   out: number of bytes with the NUL.
  */
-RICCI_API ricci_status ricci_soup_label(const ricci_soup *soup, uint32_t which, size_t index,
-                                        const char **name);
+RICCI_API ricci_status ricci_soup_label(const ricci_soup *soup, uint32_t which, size_t index, char *name,
+                                        size_t capacity, size_t *n_bytes);
 
 /**
- * Further numbers of vertices or faces, which a file has under a name of its own, such as `quality` in PLY.
+ * Further numbers of vertices or faces, which a file has under a name of its own, such as `quality` in PLY;
+ * ricci_soup_label has their names.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (index, no such elements).
  *
  * @param soup      the triangle list.
  * @param of        RICCI_OF_VERTICES or RICCI_OF_FACES.
  * @param index     which ones, below n_vertex_numbers or n_face_numbers.
- * @param name      out: their name, a view that lives as long as the soup.
  * @param values    out: n_vertices or n_faces numbers, which may be NaN.
  * @param capacity  entries of `values`.
  */
-RICCI_API ricci_status ricci_soup_numbers(const ricci_soup *soup, uint32_t of, size_t index,
-                                          const char **name, double *values, size_t capacity);
+RICCI_API ricci_status ricci_soup_numbers(const ricci_soup *soup, uint32_t of, size_t index, double *values,
+                                          size_t capacity);
 
 /**
  * One hole that a repair was asked to fill: first those that it filled, then those that it left open.

@@ -76,19 +76,16 @@ public:
             std::vector<std::uint32_t>(summary().n_faces), {}};
         check(ricci_soup_labels(handle_, which, both.first.data(), both.first.size(), &n));
         for (std::size_t k = 0; k < n; ++k) {
-            const char *name;
-            check(ricci_soup_label(handle_, which, k, &name));
-            both.second.emplace_back(name);
+            both.second.push_back(text_of(ricci_soup_label, get(), which, k));
         }
         return both;
     }
     // Further numbers of vertices or faces (RICCI_OF_VERTICES, RICCI_OF_FACES) with their name.
     std::pair<std::string, std::vector<double>> numbers(std::uint32_t of, std::size_t index) const {
-        const ricci_soup_summary n = summary();
-        std::vector<double> all(of == RICCI_OF_VERTICES ? n.n_vertices : n.n_faces);
-        const char *name;
-        check(ricci_soup_numbers(handle_, of, index, &name, all.data(), all.size()));
-        return {name, std::move(all)};
+        const std::uint32_t which =
+            of == RICCI_OF_VERTICES ? RICCI_LABEL_VERTEX_NUMBERS : RICCI_LABEL_FACE_NUMBERS;
+        return {text_of(ricci_soup_label, get(), which, index),
+                ricci::values<double>(ricci_soup_numbers, get(), of, index)};
     }
     // A hole that a repair was asked to fill.
     ricci_hole hole(std::size_t index) const {

@@ -921,8 +921,9 @@ enum {
      * 0 inside; the outer loop keeps its lengths and is free to bend: the longest one with n = 0, with n = 1
      * that through the one vertex of `vertices`. The other loops bend so that the surface unrolls around
      * each of them to where it began, as if the holes were filled: the layout is one piece without a seam,
-     * and isometric if the surface can be unrolled. With pinned vertices 0 at all others. E2, open surfaces
-     * of genus 0.
+     * and isometric if the surface can be unrolled. Where a triangle would break, edges of the loops are
+     * flipped like others, so that they bend in the layout, those of the outer loop last; ricci_metric_mesh
+     * then also covers the filled holes. With pinned vertices 0 at all others. E2, open surfaces of genus 0.
      */
     RICCI_TARGET_OUTER = 7
 };

@@ -193,7 +193,7 @@ def test_the_lists_of_a_triangle_list_are_those_of_its_file(tmp_path):
     assert (large.origins[0].tolist(), small.origins[1].tolist()) == ([0, 1, 2, 3, 4, 5], [0])
     with pytest.raises(ricci.ArgumentError, match="angle"):
         soup.corners(0.0)
-    with pytest.raises(ricci.ArgumentError, match="none of group, material"):
+    with pytest.raises(ricci.ArgumentError, match="none of object, group"):
         soup.names("colour")
 
 

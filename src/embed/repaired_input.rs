@@ -4,7 +4,8 @@
 //! all these points no face turns over, but few of them are needed. Face by face, the cheapest points are added that let the face be
 //! triangulated without a fold; the faces across its split sides are then looked at again, so the search ends at the common subdivision at
 //! the latest. At the end points are taken away again that the others have made unnecessary. Points lie on edges of the input, therefore
-//! the surface in space stays as it is.
+//! the surface in space stays as it is. No edge is flipped for it: the two triangles that a flip makes lie elsewhere in space wherever the
+//! surface bends at the edge.
 //!
 //! ```
 //! use ricci::embed::{Layout, LayoutOptions};

@@ -109,7 +109,7 @@ impl Flow {
     /// The flow to K̄ = 0 on the surface whose loops but `outer` are capped ([`capped`]), with u held at that loop.
     fn flow_with_caps(&self, outer: usize, control: &Control) -> Result<CappedEnd> {
         let n = self.mesh.n_vertices();
-        let (mesh, metric, rims) = capped(&self.mesh, &self.metric, (outer, Cap::Open))?;
+        let (mesh, metric, rims) = capped(&self.mesh, &self.metric, outer, &Cap::Open)?;
         let pinned = self.vertices_of_loop(outer);
         let fixed_edges = self.options.fixed_edges.iter().copied().chain(rims).collect();
         let flips = if self.flips_allowed { Flips::Auto } else { Flips::Never };
@@ -155,7 +155,7 @@ impl Flow {
         let n = surface.mesh().n_vertices();
         let origin = self.pool.run(|| {
             let metric = surface.initial(class)?.metric;
-            let (mesh, metric, _) = capped(surface.mesh(), &metric, (outer, cap))?;
+            let (mesh, metric, _) = capped(surface.mesh(), &metric, outer, &cap)?;
             let lengths = metric.lengths(&mesh)?;
             FlowOrigin::with_caps(
                 surface,
@@ -212,7 +212,8 @@ impl Report {
 fn capped(
     open: &Mesh,
     metric: &Metric,
-    (outer, outer_cap): (usize, Cap),
+    outer: usize,
+    outer_cap: &Cap,
 ) -> Result<(Mesh, Metric, Vec<EdgeId>)> {
     let lengths = metric.lengths(open)?;
     let curvature = metric.curvature(open)?.at;

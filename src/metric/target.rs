@@ -37,7 +37,8 @@ pub enum Target {
     /// E², genus 0 with boundary: 0 inside, while the outer loop keeps its lengths and is free to bend. That is this loop of
     /// [`Mesh::boundary_loops`], by default the longest. The other loops bend so that the surface unrolls around each of them to where it
     /// began, as if the holes were filled: the layout is one piece without a seam, and isometric if the surface can be unrolled. The flow
-    /// finds the curvature of the boundary ([`crate::Flow::solve`]).
+    /// finds the curvature of the boundary ([`crate::Flow::solve`]). Where a triangle would break, edges of the loops are flipped like
+    /// others: they bend in the layout, first those of holes, then those of the outer loop, whose vertices still keep u = 0.
     Outer(Option<usize>),
     /// E²: all of 2πχ at one vertex, 0 elsewhere.
     Single(VertexId),

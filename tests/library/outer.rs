@@ -153,7 +153,9 @@ fn where_triangles_break_edges_of_loops_are_flipped_and_the_layout_is_still_one_
         let curvature = end.curvature().unwrap();
         let inside = mesh.vertices().filter(|&v| !mesh.is_boundary_vertex(v));
         assert!(inside.map(|v| curvature.at[v].abs()).fold(0.0, f64::max) < 1e-9, "{name}");
-        assert_eq!(&curvature.at, end.target().unwrap(), "{name}");
+        let found = end.target().unwrap();
+        let on_loops = mesh.vertices().filter(|&v| mesh.is_boundary_vertex(v));
+        assert!(on_loops.into_iter().all(|v| found[v] == curvature.at[v]), "{name}");
         let (pieces, points) = (layout.mesh(), &layout.coordinates);
         let area: f64 = pieces
             .faces()

@@ -34,12 +34,14 @@ const WRONG_SIZE: u32 = 1;
 /// Functions whose capacity counts rows of two numbers of the last buffer.
 const IN_PAIRS: [&str; 2] = ["ricci_structure_places", "ricci_uniform_sides"];
 /// Fields of summaries that do not apply to every surface, and may be NaN, as the headers say.
-const MAY_BE_NAN: [(&str, &str); 22] = [
+const MAY_BE_NAN: [(&str, &str); 25] = [
     ("ricci_circle_domain_summary", "modulus"),
     ("ricci_forms_summary", "asymmetry"),
     ("ricci_forms_summary", "star_residual"),
     ("ricci_forms_summary", "least_eigenvalue"),
     ("ricci_forms_summary", "modulus"),
+    ("ricci_hole", "length"),
+    ("ricci_hole", "area"),
     ("ricci_layout_summary", "qc_mean"),
     ("ricci_layout_summary", "qc_max"),
     ("ricci_layout_summary", "area_ratio_min"),
@@ -55,12 +57,14 @@ const MAY_BE_NAN: [(&str, &str); 22] = [
     ("ricci_quality_summary", "non_delaunay_fraction"),
     ("ricci_spline_summary", "fit_rms"),
     ("ricci_spline_summary", "fit_max"),
+    ("ricci_spline_summary", "folded_share"),
     ("ricci_uniform_summary", "modulus"),
     ("ricci_uniform_summary", "extremal_distance"),
 ];
 /// Functions whose results may hold a NaN, as the headers say: curvatures where the surface has no tangent plane, circles that there
-/// are not.
-const MAY_GIVE_NAN: [&str; 2] = ["ricci_spline_evaluate", "ricci_layout_circles"];
+/// are not, lengths of loops whose points are not finite, numbers of a file.
+const MAY_GIVE_NAN: [&str; 4] =
+    ["ricci_spline_evaluate", "ricci_layout_circles", "ricci_soup_loops", "ricci_soup_numbers"];
 
 /// The state of one input.
 pub struct Session<'a> {

@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from ricci import _arrays
 from ricci._arrays import frozen
-from ricci._call import Doubles, Handle, Indices, call, constant, filled, path_bytes, pointer, rows, signed_view, sized_list, summary
+from ricci._call import Doubles, Handle, Indices, call, constant, doubles, filled, path_bytes, pointer, rows, signed_view, sized_list, summary, text_of
 from ricci._library import ffi, lib
 from ricci._structs import Struct, Write, above_zero, index_list, number, options
 from ricci._triangles import Triangles
@@ -243,22 +243,20 @@ class Soup(Triangles):
 
     def names(self, of: Literal["object", "group", "material", "smoothing"]) -> tuple[Indices, list[str]]:
         """For each face the number of its name of this kind, and the names; number 0 is the empty name of faces without one."""
-        kind, name, names = constant("LABEL", of), ffi.new("const char **"), []
-        numbers, n = self._numbers_of_names(kind)
-        for k in range(n):
-            call(lib.ricci_soup_label, self, kind, k, name)
-            names.append(ffi.string(name[0]).decode())
-        return numbers, names
+        kind = constant("LABEL", of, ("object", "group", "material", "smoothing"))
+        numbers, n = np.empty(self.summary.n_faces, np.uint32), ffi.new("size_t *")
+        call(lib.ricci_soup_labels, self, kind, pointer(numbers), numbers.size, n)
+        return frozen(signed_view(numbers)), [text_of(lib.ricci_soup_label, self, kind, k) for k in range(n[0])]
 
     @cached_property
     def vertex_numbers(self) -> dict[str, Doubles]:
         """Further numbers of every vertex by the name that the file gives them, such as ``quality`` in PLY; they may be NaN."""
-        return self._further(lib.RICCI_OF_VERTICES, self.summary.n_vertex_numbers, self.summary.n_vertices)
+        return self._further(lib.RICCI_OF_VERTICES, lib.RICCI_LABEL_VERTEX_NUMBERS, self.summary.n_vertex_numbers, self.summary.n_vertices)
 
     @cached_property
     def face_numbers(self) -> dict[str, Doubles]:
         """Further numbers of every face by the name that the file gives them; they may be NaN."""
-        return self._further(lib.RICCI_OF_FACES, self.summary.n_face_numbers, self.summary.n_faces)
+        return self._further(lib.RICCI_OF_FACES, lib.RICCI_LABEL_FACE_NUMBERS, self.summary.n_face_numbers, self.summary.n_faces)
 
     def components(self) -> list[Soup]:
         """The connected pieces, those with the most faces first. `origins` of a piece are the vertices and faces of this list.
@@ -295,24 +293,17 @@ class Soup(Triangles):
     def _hole(self, index: int) -> Hole:
         found = ffi.new("ricci_hole *")
         call(lib.ricci_soup_hole, self, index, found, ffi.sizeof("ricci_hole"))
-        reason = "" if found.reason == ffi.NULL else ffi.string(found.reason).decode()
+        reason = "" if found.filled else ffi.string(found.reason).decode()
         faces, vertices = (
             range(first, first + n) for first, n in ((found.first_face, found.n_faces), (found.first_vertex, found.n_vertices))
         )
         return Hole(bool(found.filled), reason, found.vertex, found.n_edges, found.length, found.area, faces, vertices)
 
-    def _numbers_of_names(self, kind: int) -> tuple[Indices, int]:
-        numbers, n = np.empty(self.summary.n_faces, np.uint32), ffi.new("size_t *")
-        call(lib.ricci_soup_labels, self, kind, pointer(numbers), numbers.size, n)
-        return frozen(signed_view(numbers)), n[0]
+    def _further(self, of: int, names: int, count: int, size: int) -> dict[str, Doubles]:
+        def column(k: int) -> Doubles:
+            return frozen(doubles(lib.ricci_soup_numbers, self, of, k, shape=(size,)))
 
-    def _further(self, of: int, count: int, size: int) -> dict[str, Doubles]:
-        columns, name = {}, ffi.new("const char **")
-        for k in range(count):
-            values = np.empty(size)
-            call(lib.ricci_soup_numbers, self, of, k, name, pointer(values), values.size)
-            columns[ffi.string(name[0]).decode()] = frozen(values)
-        return columns
+        return {text_of(lib.ricci_soup_label, self, names, k): column(k) for k in range(count)}
 
     def _defect(self, one: Any, index: int) -> Defect:
         found = ffi.new("ricci_defect *")

@@ -65,6 +65,8 @@ static void a_torus_is_fitted(void) {
     CHECK(s.degree == 3 && s.n_control_points <= 64 * 32 / 3 && s.n_holes == 0);
     CHECK(s.fit_rms > 0 && s.fit_rms < 1e-3 * 7 && s.fit_max < 0.01 * 7 && s.fit_rms <= s.fit_max);
     CHECK(ricci_spline_values(spline, RICCI_SPLINE_HOLES, NULL, 0) == RICCI_OK);
+    CHECK(s.n_folded_patches == 0 && s.folded_share == 0);
+    CHECK(ricci_spline_folds(spline, NULL, 0) == RICCI_OK);
     normals_lead_back(spline, 0), normals_lead_back(spline, 0.05), normals_lead_back(spline, -0.05);
     /* n control points per patch meet without gaps: the tessellation is a torus again, with normals. */
     ricci_mesh_summary figures;
