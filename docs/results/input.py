@@ -76,7 +76,7 @@ def folds(found):
 # Measured once by hand.
 OVERLAP = """## Time of the measure of overlap
 
-The share of a layout that lies on other parts of it (`overlap` in the report), as a part of all samples of `perf record -F 1999 --call-graph dwarf` over `ricci flow MESH --uv OUT.obj --report R.json --threads 1`, of a development build: samples in which a function of the measure is being called. They are few, so a share is good to a third of itself.
+The share of a layout that lies on other parts of it (`overlap` in the report), as a part of all samples of `perf record -F 1999 --call-graph dwarf` over `ricci flow MESH --uv OUT.obj --report R.json --threads 1`, of a development build: samples in which a function of the measure is being called. They are few: ten of them tell a share to a third of itself, fewer less well.
 
 | mesh | faces | samples in it | of all | share |
 |---|---|---|---|---|
