@@ -71,3 +71,18 @@ def test_drawings_of_the_square_are_one_closed_line(ricci, case, tmp_path):
     width = svg.get("width")
     assert width.endswith("mm")
     assert float(width[:-2]) == float(svg.get("viewBox").split()[2])
+
+
+def test_flat_meshes_keep_the_names_of_faces(ricci, tmp_path):
+    points = [(x, y, 0) for y in range(3) for x in range(3)]
+    lines = [f"v {x} {y} {z}" for x, y, z in points] + ["mtllib cloth.mtl"]
+    for name, row in (("silk", 0), ("wool", 1)):
+        lines += [f"usemtl {name}"]
+        for a in (3 * row + 1, 3 * row + 2):
+            lines += [f"f {a} {a + 1} {a + 4}", f"f {a} {a + 4} {a + 3}"]
+    (tmp_path / "cloth.obj").write_text("\n".join(lines) + "\n")
+    done = ricci("flow", "cloth.obj", "--flat", "flat.obj")
+    assert done.code == 0, done.text
+    names = [line.split()[1] for line in (tmp_path / "flat.obj").read_text().splitlines() if line.startswith("usemtl")]
+    assert names == ["silk", "wool"]
+    assert ricci("flow", "cloth.obj", "--flat", "flat.ply").code == 0
