@@ -377,8 +377,8 @@ RICCI_API ricci_status ricci_soup_hint(const ricci_soup *soup, size_t index, ric
  * @param lengths_capacity   entries of `lengths`.
  * @param vertices           out: n_loop_vertices vertices, loop by loop.
  * @param vertices_capacity  entries of `vertices`.
- * @param starts             out: n_loops + 1 entries: the offsets at which each loop starts in `vertices`, and
- *                           the end of the last.
+ * @param starts             out: n_loops + 1 entries: the offsets of each loop in `vertices`, and the end
+ *                           of the last.
  * @param starts_capacity    entries of `starts`.
  */
 RICCI_API ricci_status ricci_soup_loops(const ricci_soup *soup, double *lengths, size_t lengths_capacity,
@@ -425,8 +425,8 @@ RICCI_API ricci_status ricci_soup_corners(const ricci_soup *soup, double angle, 
  *
  * @param soup      the triangle list.
  * @param which     RICCI_LABEL_*.
- * @param numbers   out: n_faces numbers of names, none for names of numbers; NULL with capacity 0 asks for the
- *                  number of names alone.
+ * @param numbers   out: n_faces numbers of names, none for names of numbers; NULL with capacity 0 asks
+ *                  for the number of names alone.
  * @param capacity  entries of `numbers`.
  * @param n_names   out: the number of names.
  */
@@ -473,7 +473,8 @@ RICCI_API ricci_status ricci_soup_numbers(const ricci_soup *soup, uint32_t of, s
  * @param hole      out: the hole.
  * @param size      sizeof *hole.
  */
-RICCI_API ricci_status ricci_soup_hole(const ricci_soup *repaired, size_t index, ricci_hole *hole, size_t size);
+RICCI_API ricci_status ricci_soup_hole(const ricci_soup *repaired, size_t index, ricci_hole *hole,
+                                       size_t size);
 
 /**
  * The mesh of a triangle list without defects, with its attributes.

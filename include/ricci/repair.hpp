@@ -58,8 +58,8 @@ public:
         check(ricci_soup_sharp_edges(handle_, angle, nullptr, 0, nullptr, 0, &n));
         std::pair<std::vector<std::uint32_t>, std::vector<double>> both{std::vector<std::uint32_t>(2 * n),
                                                                         std::vector<double>(n)};
-        check(ricci_soup_sharp_edges(handle_, angle, both.first.data(), both.first.size(),
-                                     both.second.data(), both.second.size(), &n));
+        check(ricci_soup_sharp_edges(handle_, angle, both.first.data(), both.first.size(), both.second.data(),
+                                     both.second.size(), &n));
         return both;
     }
     std::vector<std::uint32_t> corners(double angle) const {

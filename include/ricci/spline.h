@@ -288,8 +288,8 @@ RICCI_API ricci_status ricci_spline_summarise(const ricci_spline *spline, ricci_
                                               size_t size);
 
 /**
- * The patches in which a fit to a surface folds: its normals turn by more than 60 degrees there between places
- * beside each other.
+ * The patches in which a fit to a surface folds: its normals turn by more than 60 degrees there between
+ * places beside each other.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
  *

@@ -12,7 +12,22 @@ import numpy.typing as npt
 
 from ricci import _arrays
 from ricci._arrays import frozen
-from ricci._call import Doubles, Handle, Indices, call, constant, doubles, filled, path_bytes, pointer, rows, signed_view, sized_list, summary, text_of
+from ricci._call import (
+    Doubles,
+    Handle,
+    Indices,
+    call,
+    constant,
+    doubles,
+    filled,
+    path_bytes,
+    pointer,
+    rows,
+    signed_view,
+    sized_list,
+    summary,
+    text_of,
+)
 from ricci._library import ffi, lib
 from ricci._structs import Struct, Write, above_zero, index_list, number, options
 from ricci._triangles import Triangles

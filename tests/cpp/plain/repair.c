@@ -172,9 +172,11 @@ static void seam(void) {
     ricci_soup_free(soup);
 }
 
-/* A roof of two slopes beside a flat triangle apart from it: loops, the ridge, its corners, and the pieces. */
+/* A roof of two slopes beside a flat triangle apart from it: loops, the ridge, its corners, and the pieces.
+ */
 static void lists(void) {
-    const double positions[27] = {0, 0, 0, 4, 0, 0, 4, 1, 1, 0, 1, 1, 4, 2, 0, 0, 2, 0, 9, 0, 0, 10, 0, 0, 9, 1, 0};
+    const double positions[27] = {0, 0, 0, 4, 0, 0, 4, 1,  1, 0, 1, 1, 4, 2,
+                                  0, 0, 2, 0, 9, 0, 0, 10, 0, 0, 9, 1, 0};
     const uint32_t faces[15] = {6, 7, 8, 0, 1, 2, 0, 2, 3, 3, 2, 4, 3, 4, 5};
     uint32_t around[9], ends[2], corners[9], origin[6], of[5];
     size_t starts[3], n = 9;
