@@ -110,14 +110,6 @@ pub fn finish(done: &Done) -> String {
     text + &format!("{seconds:.2} s\n")
 }
 
-/// The checks that fail by their names alone.
-pub fn checks_by_name(checks: &Checks) -> String {
-    match checks.failed().as_slice() {
-        [] => "checks   all hold\n".into(),
-        failed => format!("checks   FAILED: {}\n", failed.join(", ")),
-    }
-}
-
 impl Checks {
     /// The line that says that all checks hold, or which ones fail. `whole`: everything that was asked for was made.
     pub fn told(&self, whole: bool) -> String {

@@ -69,7 +69,7 @@ pub struct FitArgs {
     /// Degree of the spline, 1 to 5
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u8).range(1..=5))]
     pub degree: u8,
-    /// Weight of the variation of bending beside the mean squared distance [default: 1e-10, 1e-12 with --planar]
+    /// Weight of the variation of bending beside the mean squared distance [default: by cross-validation, 1e-12 with --planar]
     #[arg(long, value_name = "W", value_parser = not_negative)]
     #[serde(skip)]
     pub fairness: Option<f64>,

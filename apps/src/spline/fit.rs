@@ -88,40 +88,17 @@ impl JobOutcome for FitOutcome {
             n => format!(", {}", count(n, "filled hole", "filled holes")),
         };
         format!(
-            "{}spline   degree {}, {}, {}{filled}\nfit      root mean square {:.2e}, largest {:.2e} of the diagonal of the bounding box\n{}{}wrote    {}\n",
+            "{}spline   degree {}, {}, {}{filled}\nfit      root mean square {:.2e}, largest {:.2e} of the diagonal of the bounding box\n{}wrote    {}\n",
             say::surface(&self.input),
             space.degree(),
             count(space.patches().len(), "patch", "patches"),
             count(space.n_control_points(), "control point", "control points"),
             self.rms,
             self.max,
-            folds(self),
-            say::checks_by_name(&done.checks),
+            done.checks.told(true),
             done.files[0],
         )
     }
-}
-
-/// Most patches that a summary names.
-const NAMED: usize = 8;
-
-/// The line about patches that fold, with what can be changed; empty where none does.
-fn folds(outcome: &FitOutcome) -> String {
-    let folds = &outcome.folds;
-    if folds.is_empty() {
-        return String::new();
-    }
-    let mut named: Vec<String> = folds.iter().take(NAMED).map(ToString::to_string).collect();
-    if folds.len() > NAMED {
-        named.push("…".into());
-    }
-    format!(
-        "folds    {} ({}), {:.2} % of the surface: try more control points (--control-points), more --fairness, or another singular \
-         vertex (--singular) or --atlas, so that the flat metric shrinks less there\n",
-        count(folds.len(), "patch folds", "patches fold"),
-        named.join(", "),
-        100.0 * outcome.folded_share,
-    )
 }
 
 fn figures(outcome: &FitOutcome, identities: &Identities) -> Figures {

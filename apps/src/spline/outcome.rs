@@ -14,9 +14,6 @@ pub struct FitOutcome {
     pub max: f64,
     /// The options that were left open, with the values chosen for them.
     pub defaults: Map<String, Value>,
-    /// The patches in which the spline folds, with the share of the surface that lies in them.
-    pub folds: Vec<usize>,
-    pub folded_share: f64,
     pub figures: Figures,
     pub checks: Checks,
 }

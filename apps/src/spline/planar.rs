@@ -29,8 +29,6 @@ pub fn fit_planar(args: &FitArgs, input: Input, control: &Control) -> Result<Fit
     defaults.insert("edge".into(), edge.into());
     defaults.insert("fairness".into(), args.fairness.unwrap_or(FAIRNESS).into());
     Ok(FitOutcome {
-        folds: Vec::new(),
-        folded_share: 0.0,
         rms: fitted.rms / diagonal,
         max: fitted.max / diagonal,
         spline: fitted.spline,

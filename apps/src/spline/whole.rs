@@ -9,7 +9,9 @@ use crate::report::{Checks, Figures};
 use ricci::Control;
 use ricci::flow;
 use ricci::mesh::VertexId;
-use ricci::spline::{FlatMetric, FlatMetricOptions, SurfaceFit, SurfaceFitOptions, fit_surface};
+use ricci::spline::{
+    FitCondition, FitFailure, FlatMetric, FlatMetricOptions, SurfaceFit, SurfaceFitOptions, fit_surface,
+};
 use serde_json::{Map, Value};
 
 pub fn fit_whole(args: &FitArgs, input: Input, control: &Control) -> Result<FitOutcome, Failure> {
@@ -42,9 +44,12 @@ pub fn fit_whole(args: &FitArgs, input: Input, control: &Control) -> Result<FitO
     let mut checks = Checks::default();
     checks.add("max", fitted.max, whole.tolerance);
     checks.add("folded_patches", fitted.folds.len() as f64, 0.0);
+    for failure in fitted.failures(&input.surface, whole.tolerance) {
+        tell(&mut checks, &failure);
+    }
     let singular: Vec<u32> = fitted.singular.iter().map(|v| v.0).collect();
     let mut defaults = Map::new();
-    defaults.insert("fairness".into(), options.fairness.into());
+    defaults.insert("fairness".into(), fitted.fairness.into());
     if let (AtlasChoice::Flow, [v]) = (whole.atlas, &singular[..]) {
         defaults.insert("singular".into(), Value::from(*v));
     }
@@ -60,8 +65,44 @@ pub fn fit_whole(args: &FitArgs, input: Input, control: &Control) -> Result<FitO
         .with("folded_patches", &fitted.folds[..])
         .with("folded_share", folded_share)
         .with("rounds", fitted.rounds);
-    let SurfaceFit { rms, max, spline, folds, .. } = fitted;
-    Ok(FitOutcome { input, spline, rms, max, defaults, folds, folded_share, figures, checks })
+    let SurfaceFit { rms, max, spline, .. } = fitted;
+    Ok(FitOutcome { input, spline, rms, max, defaults, figures, checks })
+}
+
+/// Most patches that a summary names.
+const NAMED: usize = 8;
+
+/// Adds to a check that fails the place and what can be changed.
+fn tell(checks: &mut Checks, failure: &FitFailure) {
+    let (name, remedy) = match failure.condition {
+        FitCondition::RootMeanSquare => {
+            ("rms", "more control points (--control-points) or a larger --tolerance")
+        }
+        FitCondition::Largest => (
+            "max",
+            "more control points (--control-points), another singular vertex (--singular) so that the flat metric shrinks less there, or a \
+             larger --tolerance",
+        ),
+        FitCondition::Folds => (
+            "folded_patches",
+            "more control points (--control-points), more --fairness, or another singular vertex (--singular) or --atlas, so that the flat \
+             metric shrinks less there",
+        ),
+    };
+    let mut named: Vec<String> = failure.patches.iter().take(NAMED).map(ToString::to_string).collect();
+    if failure.patches.len() > NAMED {
+        named.push("…".into());
+    }
+    let vertex = failure.vertex.map_or_else(String::new, |v| format!(", worst at vertex {v}"));
+    let place = format!(
+        "{:.2} % of the surface, {} {}{vertex}",
+        100.0 * failure.share,
+        if failure.patches.len() == 1 { "patch" } else { "patches" },
+        named.join(", ")
+    );
+    if let Some(check) = checks.0.get_mut(name).filter(|check| !check.holds) {
+        (check.place, check.remedy) = (Some(place), Some(remedy.into()));
+    }
 }
 
 fn share_in_holes(fitted: &SurfaceFit) -> f64 {

@@ -70,7 +70,7 @@ class SurfaceOptions(TypedDict, total=False):
         degree: 1 to 5; 3.
         control_points: their number, at most; a quarter of the vertices.
         tolerance: largest distance of a vertex over the diagonal at which no further round is made; 0.01.
-        fairness: weight of the variation of bending in the first round; 1e-10.
+        fairness: weight of the variation of bending in the first round; chosen by cross-validation.
         spread: least distance of knots from their vertex; 0.9.
         rounds: times that the sizes of the triangles are adapted to the errors; 6.
         corrections: times at most that vertices are moved to the nearest points of the spline; 20; 0: none.

@@ -10,11 +10,16 @@ mod holes;
 mod infinity;
 mod plane;
 mod pole;
+mod round;
 mod sample;
+mod setting;
 mod similarity;
 mod sizes;
+mod verdict;
 
 pub use coarse::CoarseTriangulation;
 pub use domain::SurfaceDomain;
-pub use fit::{SurfaceFit, SurfaceFitOptions, fit_surface};
+pub use fit::{SurfaceFit, fit_surface};
 pub use flat::{FlatMetric, FlatMetricOptions};
+pub use setting::SurfaceFitOptions;
+pub use verdict::{FitCondition, FitFailure};

@@ -5,6 +5,8 @@ mod cap;
 mod closest;
 mod descent;
 mod ears;
+mod equations;
+mod fairness;
 #[cfg(feature = "json")]
 mod file;
 mod fill;
@@ -24,11 +26,13 @@ mod recurrence;
 mod simplex;
 mod space;
 mod surface;
+mod system;
 mod tessellate;
 mod triangulate;
 
 pub(super) use cap::{CapTriangle, SurfaceTriangle};
 pub use closest::{ClosestPoint, ClosestPoints};
+pub(super) use fairness::FairnessUnit;
 pub use fill::Fill;
 pub use fit::{FitOptions, PlacedPoints, SplineFit, fit, fit_filled};
 pub(super) use hole::INFINITE;
@@ -43,4 +47,5 @@ pub use polar::{Polynomial, monomials};
 pub use simplex::{simplex_spline, simplex_spline_gradient};
 pub use space::SplineSpace;
 pub use surface::Spline;
+pub(super) use system::{FitSystem, PlacedRows, TangentPlanes, WeightedFit};
 pub use triangulate::triangulate;

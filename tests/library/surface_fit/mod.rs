@@ -1,10 +1,12 @@
 //! Splines over whole surfaces.
 
+mod analytic;
 mod closest;
 mod coarse;
 mod files;
 mod fit;
 mod hole;
+mod order;
 mod space;
 mod sphere;
 

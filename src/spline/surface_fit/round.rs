@@ -1,0 +1,207 @@
+//! One round of a fit to a whole surface: over one domain, fits alternate with corrections of the vertices' places.
+//!
+//! The first fits are least-squares fits to the vertices at their places. Those that follow minimise distances from tangent planes, with a
+//! small weight for tangential ones, so that the spline slides along the surface to where it fits best (Gauss–Newton) \[WPL06\].
+
+use super::domain::SurfaceDomain;
+use super::plane::TURNS;
+use super::setting::{FitSetting, miss};
+use super::sizes::VertexError;
+use crate::control::{Control, Stage};
+use crate::error::Result;
+use crate::geometry::vector::Vector;
+use crate::parallel::Pool;
+use crate::spline::triangular::{FairnessUnit, FitSystem, PlacedRows, TangentPlanes, WeightedFit};
+use crate::spline::{Hole, Parameter, Spline, SplineSpace, SurfacePoint};
+use std::sync::Arc;
+
+/// Number of fits at given places before those by tangent planes; the last of them chooses the weight of the fairness again.
+const POSITIONS: usize = 2;
+/// Corrections of the places that are made even if the tolerance is met.
+const CORRECTIONS: usize = 5;
+/// Corrections end once one leaves more than this share of the root mean square distance.
+const GAIN: f64 = 0.98;
+/// Longest step of a place in one correction, over the longest side of its triangle.
+const LONGEST_STEP: f64 = 0.25;
+/// The weight of the fairness at which cross-validation starts, and its bounds. Below the least one, fits to points without noise bend where
+/// there are few points, and are not nearer elsewhere.
+const FAIRNESS: f64 = 1e-8;
+const FAIRNESS_BOUNDS: [f64; 2] = [1e-9, 1e-2];
+/// Weight of tangential distances in the first fit by tangent planes, its factors after a fit that is nearer and one that is not, and its
+/// bounds.
+const DAMPING: f64 = 0.1;
+const LESS_DAMPING: f64 = 0.3;
+const MORE_DAMPING: f64 = 10.0;
+const DAMPING_BOUNDS: [f64; 2] = [1e-3, 1.0];
+
+/// A domain and the spline fitted over it.
+pub(super) struct FitRound {
+    pub domain: SurfaceDomain,
+    pub places: Vec<Parameter>,
+    pub spline: Spline,
+    /// Root mean square and largest distance of the vertices, over the diagonal.
+    pub measures: [f64; 2],
+    pub fairness: f64,
+    /// The patches in which the spline folds.
+    pub folds: Vec<usize>,
+    /// The distance of each vertex, over the diagonal.
+    pub distances: Vec<f64>,
+}
+
+impl FitRound {
+    /// Fits a spline over a domain, corrects the places, and looks for folds. `factor`: of the weight of the fairness.
+    pub fn new(
+        domain: SurfaceDomain,
+        setting: &FitSetting<'_>,
+        factor: f64,
+        control: &Control,
+    ) -> Result<FitRound> {
+        let FitSetting { points, options, .. } = setting;
+        let space = Arc::new(domain.space(options.degree, options.spread)?);
+        let places = domain.places(points.len())?;
+        let holes: Vec<Hole> = match &domain.infinity {
+            Some(infinity) => vec![infinity.hole.clone().blank(setting.coefficients(TURNS))],
+            None => domain
+                .singular()
+                .into_iter()
+                .map(|v| setting.hole(&domain, &places, v))
+                .collect::<Result<_>>()?,
+        };
+        let best = Pool::new(options.threads)?.run(|| {
+            let system = FitSystem::new(&space, &holes, &places, FairnessUnit::Patches)?;
+            let mut fitting =
+                RoundFitting { setting, domain: &domain, space: &space, holes: &holes, system, factor };
+            fitting.run(places, control)
+        })?;
+        let FittedPlaces { places, spline, measures, distances, fairness } = best;
+        let folds = domain.folds(&spline, options.threads, control)?;
+        Ok(FitRound { domain, places, spline, measures, fairness, folds, distances })
+    }
+
+    /// For each vertex its triangle and its distance from the spline; none where the filling of a hole alone is the surface.
+    pub fn triangles(&self) -> Vec<VertexError> {
+        let is_covered = |at: Parameter| self.spline.holes().iter().any(|hole| hole.is_core(at));
+        let all = self.places.iter().zip(&self.distances);
+        all.map(|(&at, &miss)| (!is_covered(at)).then_some((at.patch as usize, miss))).collect()
+    }
+}
+
+/// A spline with the places of the vertices and their distances.
+struct FittedPlaces {
+    places: Vec<Parameter>,
+    spline: Spline,
+    measures: [f64; 2],
+    distances: Vec<f64>,
+    fairness: f64,
+}
+
+/// The fits of a round.
+struct RoundFitting<'a> {
+    setting: &'a FitSetting<'a>,
+    domain: &'a SurfaceDomain,
+    space: &'a Arc<SplineSpace>,
+    holes: &'a [Hole],
+    system: FitSystem<'a>,
+    factor: f64,
+}
+
+impl RoundFitting<'_> {
+    /// Alternates corrections of the places with fits until the spline is near enough or little is gained.
+    fn run(&mut self, mut places: Vec<Parameter>, control: &Control) -> Result<FittedPlaces> {
+        let FitSetting { points, options, .. } = self.setting;
+        let mut placed = self.system.placed(&places, points)?;
+        let mut fit = self.fit(&placed, FAIRNESS)?;
+        let mut best = self.measured(&places, &placed, &fit)?;
+        let (mut before, mut damping) = (f64::INFINITY, DAMPING);
+        for done in 1..=options.corrections {
+            control.step(Stage::Flow, done as f64 / options.corrections as f64)?;
+            let spline = self.system.spline(self.space, self.holes, &fit.unknowns)?;
+            let found = spline.evaluate(&places, 1, options.threads, control)?;
+            self.correct(&mut places, &found, &spline);
+            placed = self.system.placed(&places, points)?;
+            let next = self.measured(&places, &placed, &fit)?;
+            let ([rms, _], is_near) = (next.measures, miss(next.measures, options.tolerance) <= 1.0);
+            if rms <= best.measures[0] {
+                best = next;
+            }
+            if done >= CORRECTIONS && (is_near || rms > GAIN * before) || done == options.corrections {
+                break;
+            }
+            if done <= POSITIONS {
+                fit = self.refit(&placed, fit.fairness, done == POSITIONS)?;
+            } else {
+                let change = if rms < before { LESS_DAMPING } else { MORE_DAMPING };
+                damping = (damping * change).clamp(DAMPING_BOUNDS[0], DAMPING_BOUNDS[1]);
+                let normals = self.normals(&found);
+                fit =
+                    self.system.fit_tangentially(&placed, &TangentPlanes { normals: &normals, damping }, fit);
+            }
+            before = rms;
+        }
+        Ok(best)
+    }
+
+    /// The normals of the tangent planes; none on the boundary, which would slide over the border of the mesh.
+    fn normals(&self, found: &[SurfacePoint]) -> Vec<Option<Vector>> {
+        let all = found.iter().zip(&self.setting.is_boundary);
+        all.map(|(at, &is_boundary)| at.normal().filter(|_| !is_boundary)).collect()
+    }
+
+    /// The spline of a solution with its distances.
+    fn measured(
+        &self,
+        places: &[Parameter],
+        placed: &PlacedRows<'_>,
+        fit: &WeightedFit,
+    ) -> Result<FittedPlaces> {
+        let distances: Vec<f64> =
+            placed.distances(&fit.unknowns).into_iter().map(|miss| miss / self.setting.diagonal).collect();
+        let (sum, max) = distances.iter().fold((0.0, 0.0f64), |(sum, max), &m| (sum + m * m, max.max(m)));
+        let measures = [(sum / distances.len().max(1) as f64).sqrt(), max];
+        let spline = self.system.spline(self.space, self.holes, &fit.unknowns)?;
+        Ok(FittedPlaces { places: places.to_vec(), spline, measures, distances, fairness: fit.fairness })
+    }
+
+    /// The first fit, whose weight of the fairness is given or chosen from `start` on.
+    fn fit(&mut self, placed: &PlacedRows<'_>, start: f64) -> Result<WeightedFit> {
+        let given = self.setting.options.fairness;
+        if given > 0.0 {
+            let fairness = given * self.factor;
+            return Ok(WeightedFit { unknowns: self.system.fit(placed, fairness)?, fairness });
+        }
+        let WeightedFit { fairness, unknowns } =
+            self.system.fit_cross_validated(placed, start, FAIRNESS_BOUNDS)?;
+        if self.factor == 1.0 {
+            return Ok(WeightedFit { unknowns, fairness });
+        }
+        let fairness = self.factor * fairness;
+        Ok(WeightedFit { unknowns: self.system.fit(placed, fairness)?, fairness })
+    }
+
+    fn refit(&mut self, placed: &PlacedRows<'_>, fairness: f64, choose: bool) -> Result<WeightedFit> {
+        if choose {
+            return self.fit(placed, fairness / self.factor);
+        }
+        Ok(WeightedFit { unknowns: self.system.fit(placed, fairness)?, fairness })
+    }
+
+    /// Moves each place towards the nearest point of the spline to its vertex, by one Gauss–Newton step. `found`: the surface there.
+    fn correct(&self, places: &mut [Parameter], found: &[SurfacePoint], spline: &Spline) {
+        let points = self.setting.points.iter();
+        for ((place, at), &point) in places.iter_mut().zip(found).zip(points) {
+            if let Some(inside) =
+                spline.holes().iter().find_map(|hole| hole.nearer(self.space, *place, point))
+            {
+                *place = inside;
+                continue;
+            }
+            let is_in_patch = (place.patch as usize) < self.space.patches().len();
+            let Some(step) = at.step_towards(point).filter(|_| is_in_patch) else { continue };
+            let length = f64::hypot(step[0], step[1]);
+            if length > 0.0 {
+                let shorter = f64::min(1.0, LONGEST_STEP / length);
+                *place = self.domain.walk(*place, step.map(|x| shorter * x));
+            }
+        }
+    }
+}
