@@ -237,7 +237,7 @@ pub unsafe extern "C" fn ricci_spline_values(
             }
             SplinePart::Abscissas => copy_out("abscissas", &space.abscissas(), values, capacity),
             SplinePart::Holes => {
-                let holes = spline.holes().iter().map(|hole| [f64::from(hole.turns), hole.radius]);
+                let holes = spline.holes().iter().map(|hole| [hole.turns, hole.radius]);
                 copy_out("holes", &holes.collect::<Vec<_>>(), values, capacity)
             }
             SplinePart::Knots => {

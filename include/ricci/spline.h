@@ -253,16 +253,40 @@ RICCI_API ricci_status ricci_spline_fit(const ricci_spline *spline, const double
                                         const ricci_spline_fit_options *options, const ricci_control *control,
                                         ricci_spline **fitted);
 
+/** Number of singular vertices: as few as keep the lengths of the flat metric comparable to those given. */
+#define RICCI_SPLINE_AUTO SIZE_MAX
+
+/**
+ * Curvatures of a flat metric for a spline over a whole surface: those of singular vertices inside, and of
+ * corners of the boundary, which take the rest; 0 elsewhere. ricci_flow makes the metric from them.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (a vertex that there is not, on
+ *         the boundary or named twice; a sphere with one singular vertex, or with too few vertices for three;
+ *         a range below 1), RICCI_TARGET_KIND (a number that the surface cannot have), RICCI_FACTORISATION,
+ *         RICCI_NO_MEMORY, RICCI_CANCELLED.
+ *
+ * @param mesh        a surface.
+ * @param singular    the singular vertices, or NULL: those that distort areas least.
+ * @param n_singular  their number; RICCI_SPLINE_AUTO without `singular`: as few as bring the ratio of the
+ *                    largest to the least factor between lengths within `range`.
+ * @param range       that ratio, above 1; 0: 30.
+ * @param control     progress and cancellation, or NULL.
+ * @param curvatures  out: one per vertex, radians.
+ * @param capacity    entries of `curvatures`.
+ */
+RICCI_API ricci_status ricci_spline_curvatures(const ricci_mesh *mesh, const uint32_t *singular,
+                                               size_t n_singular, double range, const ricci_control *control,
+                                               double *curvatures, size_t capacity);
+
 /**
  * A spline over a whole surface, near its vertices. A patch is a triangle of the flat metric, in a chart of
- * its own; around singular vertices, whose total angle is a multiple of a turn, a filling takes the place of
- * the spline.
+ * its own; around singular vertices, of any total angle, a filling takes the place of the spline.
  *
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE, RICCI_ARGUMENT (a metric that is not Euclidean, or
- *         has curvatures that are no multiple of a turn, a surface without positions), RICCI_SPLINE,
- *         RICCI_FACTORISATION, RICCI_NO_MEMORY, RICCI_CANCELLED.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE, RICCI_ARGUMENT (a metric that is not Euclidean, a
+ *         surface without positions), RICCI_SPLINE, RICCI_FACTORISATION, RICCI_NO_MEMORY, RICCI_CANCELLED.
  *
- * @param flat     a metric of the plane that ricci_flow has made flat: up to a single vertex, or everywhere.
+ * @param flat     a metric of the plane that ricci_flow has made flat: up to few vertices, or everywhere; such
+ *                 as that with the curvatures of ricci_spline_curvatures.
  * @param options  degree and sizes; NULL for the defaults.
  * @param control  progress and cancellation, or NULL.
  * @param fitted   out: the new handle, to be released by ricci_spline_free.

@@ -165,7 +165,7 @@ fn placed(surface: &Surface, n: usize) -> Result<Vec<BoundaryCorner>> {
 
 /// A choice of `n` places at nearly equal distances around a loop, the first one included, ascending. `steps`: the distance of each place
 /// to the next one.
-fn evenly(steps: &[f64], n: usize) -> Vec<usize> {
+pub(crate) fn evenly(steps: &[f64], n: usize) -> Vec<usize> {
     let total: f64 = steps.iter().sum();
     let positions: Vec<f64> = steps
         .iter()

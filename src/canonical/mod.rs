@@ -25,6 +25,7 @@ mod star;
 mod tries;
 pub mod uniformize;
 
+pub(crate) use boundary::evenly;
 pub use boundary::{Boundary, BoundaryCorner, Corners};
 pub use circle_domain::{
     CircleDomain, CircleDomainOptions, DomainCircle, DomainFrame, Normalisation, circle_domain,

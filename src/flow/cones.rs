@@ -72,34 +72,15 @@ pub struct AutoCones {
 /// ```
 pub fn auto_cones(mesh: &Mesh, lengths: &PerEdge<f64>, n: usize, control: &Control) -> Result<AutoCones> {
     check_number(mesh, n)?;
-    let mut place = ConePlacement::new(mesh, lengths, control)?;
+    let mut place = ConePlacement::new(mesh, lengths, LEAST_ANGLE, control)?;
     let mut distortion = vec![2.0 * place.energy];
     for k in 0..n {
         control.step(Stage::Flow, k as f64 / (n + SWEEPS * n) as f64)?;
-        let v = place.best()?;
-        let cone = place.cone(v)?;
-        place.cones.push(cone);
-        place.settle()?;
+        place.add_best()?;
         distortion.push(2.0 * place.energy);
     }
-    for k in 0..SWEEPS * n {
-        control.step(Stage::Flow, (n + k) as f64 / (n + SWEEPS * n) as f64)?;
-        place.place_anew(k % n)?;
-    }
-    let mut cones: Vec<_> =
-        place.cones.iter().map(|c| c.vertex).zip(place.angles.t.iter().copied()).collect();
-    cones.sort_unstable_by_key(|c| c.0);
-    let mut target = PerVertex::filled(mesh.n_vertices(), 0.0);
-    cones.iter().for_each(|&(v, curvature)| target[v] = curvature);
-    if n > 0 {
-        // In the quadratic form a small distortion would be the difference of large numbers, so it is measured anew.
-        let change = place.change(&target);
-        distortion[n] = 2.0 * place.gradient(&change)?.1;
-    }
-    if !mesh.is_closed() {
-        place.boundary(lengths, mesh, &mut target)?;
-    }
-    Ok(AutoCones { cones, target, distortion })
+    place.sweep()?;
+    place.finish(mesh, lengths, distortion)
 }
 
 /// A target on a surface with the cones of [`Target::Auto`] placed by [`auto_cones`]: a list of all vertices with curvature. Any other
@@ -124,7 +105,7 @@ pub fn with_cones_placed<'a>(
 }
 
 /// Checks that the surface can have `n` cones.
-fn check_number(mesh: &Mesh, n: usize) -> Result<()> {
+pub(super) fn check_number(mesh: &Mesh, n: usize) -> Result<()> {
     let interior = mesh.vertices().filter(|&v| !mesh.is_boundary_vertex(v)).count();
     let message = match (mesh.is_closed(), mesh.euler()) {
         (true, 2) if n < 3 => {
@@ -142,15 +123,15 @@ fn check_number(mesh: &Mesh, n: usize) -> Result<()> {
 }
 
 /// A vertex with `H = L⁻¹ M L⁻¹ δ`, M the mass matrix with the mean projected out.
-struct CandidateCone {
-    vertex: VertexId,
+pub(super) struct CandidateCone {
+    pub vertex: VertexId,
     h: Vec<f64>,
 }
 
 /// The placement of cones on a surface.
-struct ConePlacement<'a> {
+pub(super) struct ConePlacement<'a> {
     /// The surface on its intrinsic Delaunay triangulation, the measurements there at u = 0, and the Laplacian.
-    mesh: Mesh,
+    pub mesh: Mesh,
     state: FlowState,
     system: NewtonSystem,
     /// True at vertices whose u is held: the boundary, or one vertex of a closed surface.
@@ -164,14 +145,16 @@ struct ConePlacement<'a> {
     w0: Vec<f64>,
     /// E without a cone.
     energy0: f64,
-    cones: Vec<CandidateCone>,
+    pub cones: Vec<CandidateCone>,
+    /// The least total angle of a cone.
+    least_angle: f64,
     angles: ConeAngles,
     /// E with the present cones.
-    energy: f64,
+    pub energy: f64,
 }
 
 impl<'a> ConePlacement<'a> {
-    fn new(mesh: &Mesh, lengths: &PerEdge<f64>, control: &'a Control) -> Result<Self> {
+    pub fn new(mesh: &Mesh, lengths: &PerEdge<f64>, least_angle: f64, control: &'a Control) -> Result<Self> {
         let (mesh, metric, state) = measured(mesh, lengths, control)?;
         let mass = state.vertex_areas(&mesh, &metric, state.area(&mesh, &metric));
         let closed = mesh.is_closed();
@@ -199,6 +182,7 @@ impl<'a> ConePlacement<'a> {
             w0: Vec::new(),
             energy0: 0.0,
             cones: Vec::new(),
+            least_angle,
             angles: ConeAngles { t: Vec::new(), level: 0.0, energy: 0.0 },
             energy: 0.0,
         };
@@ -216,6 +200,75 @@ impl<'a> ConePlacement<'a> {
     fn spread(&self) -> Vec<f64> {
         let total = self.sum.unwrap_or(0.0);
         self.mass.iter().zip(self.state.curvature.iter()).map(|(m, k)| total * m - k).collect()
+    }
+
+    /// Adds the cone that lowers E fastest.
+    pub fn add_best(&mut self) -> Result<()> {
+        let v = self.best()?;
+        self.add(v)
+    }
+
+    /// Adds a cone at a vertex.
+    pub fn add(&mut self, v: VertexId) -> Result<()> {
+        let cone = self.cone(v)?;
+        self.cones.push(cone);
+        self.settle()
+    }
+
+    /// Keeps the first `n` cones.
+    pub fn truncate(&mut self, n: usize) -> Result<()> {
+        self.cones.truncate(n);
+        if n > 0 {
+            return self.settle();
+        }
+        self.angles = ConeAngles { t: Vec::new(), level: 0.0, energy: 0.0 };
+        self.energy = self.energy0;
+        Ok(())
+    }
+
+    /// Takes each cone away and places it anew, twice.
+    pub fn sweep(&mut self) -> Result<()> {
+        let n = self.cones.len();
+        for k in 0..SWEEPS * n {
+            self.control.step(Stage::Flow, (n + k) as f64 / (n + SWEEPS * n) as f64)?;
+            self.place_anew(k % n)?;
+        }
+        Ok(())
+    }
+
+    /// The conformal factor u that the present cones lead to by the linear model, up to a constant on closed surfaces.
+    pub fn factor(&mut self) -> Result<Vec<f64>> {
+        let change = self.change(&self.curvatures());
+        self.solve(&change)
+    }
+
+    /// The curvature of the cones, and 0 elsewhere.
+    fn curvatures(&self) -> PerVertex<f64> {
+        let mut target = PerVertex::filled(self.mass.len(), 0.0);
+        self.cones.iter().zip(&self.angles.t).for_each(|(cone, t)| target[cone.vertex] = *t);
+        target
+    }
+
+    /// The result; `distortion`: that with 0, 1, … cones, by the quadratic form.
+    pub fn finish(
+        mut self,
+        mesh: &Mesh,
+        lengths: &PerEdge<f64>,
+        mut distortion: Vec<f64>,
+    ) -> Result<AutoCones> {
+        let mut target = self.curvatures();
+        let mut cones: Vec<_> =
+            self.cones.iter().map(|c| c.vertex).zip(self.angles.t.iter().copied()).collect();
+        cones.sort_unstable_by_key(|c| c.0);
+        if let Some(last) = distortion.last_mut().filter(|_| !cones.is_empty()) {
+            // In the quadratic form a small distortion would be the difference of large numbers, so it is measured anew.
+            let change = self.change(&target);
+            *last = 2.0 * self.gradient(&change)?.1;
+        }
+        if !mesh.is_closed() {
+            self.boundary(lengths, mesh, &mut target)?;
+        }
+        Ok(AutoCones { cones, target, distortion })
     }
 
     /// K̄ − K.
@@ -259,7 +312,7 @@ impl<'a> ConePlacement<'a> {
             (0..k).map(|i| (0..k).map(|j| 0.5 * (at(i, j) + at(j, i))).collect()).collect();
         let g: Vec<f64> = self.cones.iter().map(|c| self.w0[c.vertex.index()]).collect();
         // A sphere's first one or two cones take more than the bound, until others share it.
-        let bound = (2.0 * PI - LEAST_ANGLE).max(self.sum.unwrap_or(0.0) / k.max(1) as f64);
+        let bound = (2.0 * PI - self.least_angle).max(self.sum.unwrap_or(0.0) / k.max(1) as f64);
         self.angles = angles(&b, &g, self.sum, bound)
             .ok_or_else(|| factorisation(k, "the curvatures of the cones are not determined"))?;
         self.energy = self.energy0 + self.angles.energy;

@@ -14,6 +14,7 @@
 mod active_set;
 mod cone_angles;
 pub mod cones;
+mod cones_within;
 mod direction;
 mod evaluate;
 mod flatten;
@@ -40,6 +41,8 @@ mod system;
 
 pub(crate) use active_set::{ActiveSet, BorrowedMetric};
 pub use cones::{AutoCones, auto_cones, with_cones_placed};
+pub(crate) use cones_within::outside_neighbourhoods;
+pub use cones_within::{ConeLimits, cones_at, cones_within};
 pub use jacobian::curvature_derivative;
 pub use options::{Flips, Gradient, Method, Options, StepRule};
 pub use outer::prescribed_curvature;

@@ -14,8 +14,8 @@ pub use bicubic::{
 #[cfg(feature = "step")]
 pub use bicubic::{LengthUnit, StepOptions};
 pub use surface_fit::{
-    CoarseTriangulation, FitCondition, FitFailure, FlatMetric, FlatMetricOptions, SurfaceDomain, SurfaceFit,
-    SurfaceFitOptions, fit_surface,
+    CoarseTriangulation, FitCondition, FitFailure, FlatMetric, FlatMetricOptions, SingularVertices,
+    SurfaceDomain, SurfaceFit, SurfaceFitOptions, fit_surface,
 };
 pub use triangular::{
     ClosestPoint, ClosestPoints, Fill, FitOptions, Hole, Identities, KnotOptions, Locator, MAX_DEGREE,

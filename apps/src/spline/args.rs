@@ -7,6 +7,7 @@ use clap::{Args, Subcommand, ValueEnum};
 use ricci::structure::AffineSource;
 use serde::Serialize;
 use std::path::PathBuf;
+use std::str::FromStr;
 
 pub const HELP: &str = "\
 Example: a smooth cubic surface of genus 2 with one singular vertex, and a picture of it with its control net
@@ -99,17 +100,48 @@ pub struct WholeArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub control_points: Option<u32>,
-    /// Where the affine structure comes from: the flow to one singular vertex, or a holomorphic 1-form with 2g − 2
+    /// Where the flat metric comes from: the flow, with singular vertices as --singular says, or a holomorphic 1-form with 2g − 2
     #[arg(long, value_enum, default_value_t = AtlasChoice::Flow)]
     pub atlas: AtlasChoice,
-    /// The singular vertex (numbered from 0) [default: where areas are distorted least]
-    #[arg(long, value_name = "VERTEX")]
+    /// Singular vertices: `auto` for as few as keep lengths within a factor of 30 of each other in the flat metric, their number N, or the
+    /// vertices V,V,… (numbered from 0; a single one as `V,`)
+    #[arg(long, value_name = "auto|N|V,V,…", default_value = "auto")]
     #[serde(skip)]
-    pub singular: Option<u32>,
-    /// Corners of the boundary of a disk, V,V,…, with right angles or V:ANGLE in degrees [default: four]
+    pub singular: SingularChoice,
+    /// Corners of the boundary, which then has all curvature: N, V,V,… with equal angles, or V:ANGLE in degrees [default: four on a disk, as
+    /// many as the boundary has quarters of a turn on other surfaces]
     #[arg(long, value_name = "V,V,…")]
     #[serde(skip)]
     pub corners: Option<CornersChoice>,
+}
+
+/// The singular vertices that `--singular` asks for.
+#[derive(Debug, Clone, PartialEq)]
+pub enum SingularChoice {
+    Auto,
+    Count(usize),
+    At(Vec<u32>),
+}
+
+impl FromStr for SingularChoice {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        if text == "auto" {
+            return Ok(SingularChoice::Auto);
+        }
+        if let Ok(n) = text.parse() {
+            return Ok(SingularChoice::Count(n));
+        }
+        let vertex = |part: &str| {
+            part.trim().parse().map_err(|_| format!("`{part}` is neither auto nor a vertex number"))
+        };
+        text.trim_end_matches(',')
+            .split(',')
+            .map(vertex)
+            .collect::<Result<_, String>>()
+            .map(SingularChoice::At)
+    }
 }
 
 choices!(AtlasChoice = AffineSource { Flow, Form });

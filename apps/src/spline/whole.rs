@@ -1,6 +1,6 @@
 //! Splines near whole surfaces, over their flat metric.
 
-use super::args::{AtlasChoice, FitArgs};
+use super::args::{AtlasChoice, FitArgs, SingularChoice};
 use super::outcome::FitOutcome;
 use crate::failure::Failure;
 use crate::input::Input;
@@ -10,13 +10,21 @@ use ricci::Control;
 use ricci::flow;
 use ricci::mesh::VertexId;
 use ricci::spline::{
-    FitCondition, FitFailure, FlatMetric, FlatMetricOptions, SurfaceFit, SurfaceFitOptions, fit_surface,
+    FitCondition, FitFailure, FlatMetric, FlatMetricOptions, SingularVertices, SurfaceFit, SurfaceFitOptions,
+    fit_surface,
 };
 use serde_json::{Map, Value};
 
 pub fn fit_whole(args: &FitArgs, input: Input, control: &Control) -> Result<FitOutcome, Failure> {
     let whole = &args.whole;
-    input.check_vertex("--singular", whole.singular)?;
+    let singular = match &whole.singular {
+        SingularChoice::Auto => SingularVertices::Auto,
+        SingularChoice::Count(n) => SingularVertices::Count(*n),
+        SingularChoice::At(vertices) => {
+            vertices.iter().try_for_each(|&v| input.check_vertex("--singular", Some(v)))?;
+            SingularVertices::At(vertices.iter().map(|&v| VertexId(v)).collect())
+        }
+    };
     if input.positions().is_none() {
         let path = input.path.display();
         return Err(Failure::Input(format!(
@@ -26,9 +34,10 @@ pub fn fit_whole(args: &FitArgs, input: Input, control: &Control) -> Result<FitO
     let threads = args.common.threads;
     let options = FlatMetricOptions {
         source: whole.atlas.into(),
-        singular: whole.singular.map(VertexId),
+        singular,
         corners: whole.corners.as_ref().map_or_else(Default::default, |corners| corners.to_library()),
         flow: flow::Options { threads, ..flow::Options::default() },
+        ..FlatMetricOptions::default()
     };
     let flat = doing("flat metric", || FlatMetric::new(&input.surface, &options, control))?;
     let usual = SurfaceFitOptions::default();
@@ -53,10 +62,16 @@ pub fn fit_whole(args: &FitArgs, input: Input, control: &Control) -> Result<FitO
     if let (AtlasChoice::Flow, [v]) = (whole.atlas, &singular[..]) {
         defaults.insert("singular".into(), Value::from(*v));
     }
+    let factor_range = flat.factor_range(&input.surface)?;
     let folded_share = fitted.folded_share(&input.surface);
+    // The total angles at the singular vertices, in turns; -1 at infinity.
+    let angles: Vec<f64> = fitted.spline.holes().iter().map(|hole| hole.turns).collect();
     let radii: Vec<f64> = fitted.spline.holes().iter().map(|hole| hole.radius).collect();
     let figures = Figures::default()
         .with("singular_vertices", &singular[..])
+        // The ratio of the largest factor between flat lengths and lengths on the surface to the least, outside their neighbourhoods.
+        .with("factor_range", factor_range)
+        .with("hole_angles", angles)
         // The radii of the holes in the unit of the flat metric, and the share of the vertices that lie in holes.
         .with("hole_radii", radii)
         .with("hole_share", share_in_holes(&fitted))

@@ -35,7 +35,7 @@ pub(super) struct PatchDivision {
     /// Barycentric weights of the common corner of the three quadrilaterals.
     pub centre: [f64; 3],
     /// For each corner the total angle of its vertex in turns: m of a singular vertex, otherwise 1.
-    pub turns: [i32; 3],
+    pub turns: [f64; 3],
 }
 
 /// The disk around a singular vertex in which the filling alone is the surface.
@@ -58,7 +58,7 @@ pub(super) struct PatchQuad {
     /// The vector u = 1 in the chart: a length and a direction.
     frame: Complex,
     /// The number of turns m of the corner.
-    turns: i32,
+    turns: f64,
     /// The disk of the filling, if the corner is a singular vertex with a filling.
     filled: Option<FilledDisk>,
     /// The vectors from the corner to the middles of the two sides at it, over `frame`.
@@ -77,20 +77,20 @@ impl PatchQuad {
         let [a, b, c] = [0, 1, 2].map(|j| knots[(k + j) % 3][0]);
         let (next, last) = (sub(b, a), sub(c, a));
         let turns = division.turns[k];
-        let frame = if turns == 1 { [1.0, 0.0] } else { unit(next) };
+        let frame = if turns == 1.0 { [1.0, 0.0] } else { unit(next) };
         let over = |z: Complex| scale(1.0 / norm2(frame), mul(z, conj(frame)));
         let [second, third] = [1, 2].map(|j| division.centre[(k + j) % 3]);
         let centroid = over(add(scale(second, next), scale(third, last)));
         let (from, to) = (division.middles[k], 1.0 - division.middles[(k + 2) % 3]);
         let ends = [over(scale(from, next)), over(scale(to, last))];
         let patch = patch as u32;
-        let filled = spline.holes().iter().filter(|_| turns > 1).find_map(|hole| {
+        let filled = spline.holes().iter().filter(|_| turns != 1.0).find_map(|hole| {
             let [p, q] = [a, add(a, frame)].map(|[x, y]| Parameter { patch, x, y });
             let scale = hole.spoke(p, q)?;
             Some(FilledDisk { chart: hole.chart, scale, inner: hole.inner })
         });
         let quad = PatchQuad { patch, corner: a, frame, turns, filled, ends, centroid, is_sound: true };
-        let is_sound = turns == 1 || quad.has_sound_coons_patch(from, to);
+        let is_sound = turns == 1.0 || quad.has_sound_coons_patch(from, to);
         PatchQuad { is_sound, ..quad }
     }
 
@@ -124,12 +124,14 @@ impl PatchQuad {
                 scale(t * (1.0 - s), self.ends[1]),
                 scale(s * t, self.centroid),
             ];
-            return scale((s + t - s * t).powi(self.turns - 1), add(add(a, b), d));
+            let size = s + t - s * t;
+            let stretch = if size > 0.0 { size.powf(self.turns - 1.0) } else { 0.0 };
+            return scale(stretch, add(add(a, b), d));
         }
         let towards = |end: usize, x: f64| add(self.ends[end], scale(x, sub(self.centroid, self.ends[end])));
         let [a, b, d] = [towards(0, t), towards(1, s), self.centroid].map(|z| root(z, self.turns));
         let u = sub(add(scale(s, a), scale(t, b)), scale(s * t, d));
-        (1..self.turns).fold(u, |z, _| mul(z, u))
+        root(u, 1.0 / self.turns)
     }
 
     /// True if the cells of a grid are counterclockwise and inside the triangle; `from` and `to` are the shares of its sides at the corner.
@@ -151,7 +153,7 @@ impl PatchQuad {
     /// The coordinates (s, t) of grid coordinates. Sides at a singular vertex stay even, since no knots lie near it, where the filling is
     /// as smooth as elsewhere.
     fn dense(&self, [s, t]: [f64; 2]) -> [f64; 2] {
-        if self.turns == 1 {
+        if self.turns == 1.0 {
             return [dense(s), dense(t)];
         }
         [(1.0 - t) * s + t * dense(s), (1.0 - s) * t + s * dense(t)]
@@ -164,11 +166,11 @@ pub(super) fn dense(x: f64) -> f64 {
 }
 
 /// The root z^{1/m}.
-pub(super) fn root(z: Complex, turns: i32) -> Complex {
-    if turns == 1 {
+pub(super) fn root(z: Complex, turns: f64) -> Complex {
+    if turns == 1.0 {
         return z;
     }
-    let share = 1.0 / f64::from(turns);
+    let share = 1.0 / turns;
     let (size, angle) = (norm(z).powf(share), share * z[1].atan2(z[0]));
     [size * angle.cos(), size * angle.sin()]
 }

@@ -20,16 +20,16 @@ const SHARES: [f64; 5] = [0.8, 0.7, 0.6, 0.5, 0.4];
 const CENTRE_SHARE: f64 = 1.0 / 3.0;
 
 /// The division of a patch without singular vertices.
-const EVEN: PatchDivision = PatchDivision { middles: [0.5; 3], centre: [1.0 / 3.0; 3], turns: [1; 3] };
+const EVEN: PatchDivision = PatchDivision { middles: [0.5; 3], centre: [1.0 / 3.0; 3], turns: [1.0; 3] };
 
 /// The division of each patch. A singular vertex around which no division gives sound quadrilaterals keeps the even one, and the caller
 /// gets no sign of it: [`PatchQuad`] then places the points of an unsound quadrilateral without a Coons patch.
 pub(super) fn divisions(spline: &Spline) -> Vec<PatchDivision> {
     let mut all = vec![EVEN; spline.space().patches().len()];
-    let singular_vertices: Vec<(i32, Vec<(usize, usize)>)> = spline
+    let singular_vertices: Vec<(f64, Vec<(usize, usize)>)> = spline
         .holes()
         .iter()
-        .filter(|hole| !hole.is_at_infinity() && hole.turns > 1)
+        .filter(|hole| !hole.is_at_infinity() && hole.turns != 1.0)
         .map(|hole| (hole.turns, hole.corners(spline.space())))
         .collect();
     let mut singular_corners: HashMap<usize, usize> = HashMap::new();
@@ -62,11 +62,11 @@ pub(super) fn divisions(spline: &Spline) -> Vec<PatchDivision> {
 
 /// The division of a patch with a singular vertex at corner k. None if the middle of the opposite side is nearer to the vertex in w than the
 /// midpoint of the two side ends.
-fn at_vertex(spline: &Spline, (patch, k): (usize, usize), share: f64, turns: i32) -> Option<PatchDivision> {
+fn at_vertex(spline: &Spline, (patch, k): (usize, usize), share: f64, turns: f64) -> Option<PatchDivision> {
     let knots = &spline.space().patches()[patch].knots;
     let [a, b, c] = [0, 1, 2].map(|j| knots[(k + j) % 3][0]);
     let (to_next, to_previous) = (sub(b, a), sub(c, a));
-    let along = share.powi(turns);
+    let along = share.powf(turns);
     let root = |z: Complex| root(z, turns);
     // Sides are turned so that the first one is on the positive real axis, and the second one less than half a turn further.
     let turned = |z: Complex| mul(z, conj(unit(to_next)));
@@ -78,7 +78,7 @@ fn at_vertex(spline: &Spline, (patch, k): (usize, usize), share: f64, turns: i32
     }
     let centre_share = ((midpoint_distance + CENTRE_SHARE * (opposite_distance - midpoint_distance))
         / opposite_distance)
-        .powi(turns);
+        .powf(turns);
     let mut division = EVEN;
     division.turns[k] = turns;
     division.middles[k] = along;

@@ -1,5 +1,6 @@
 //! The domain of splines over a whole surface: a coarse flat triangulation with a chart for each triangle.
 
+use super::bare::BareHole;
 use super::coarse::CoarseTriangulation;
 use super::infinity::InfinityHole;
 use super::similarity::PlaneSimilarity;
@@ -51,6 +52,8 @@ pub struct SurfaceDomain {
     pub(super) is_flat: PerVertex<bool>,
     /// The hole around the vertex at infinity, if the surface is a sphere in the plane.
     pub(super) infinity: Option<InfinityHole>,
+    /// The holes around singular vertices whose total angle is no multiple of 2π, as they are planned.
+    pub(super) bare: HashMap<VertexId, BareHole>,
 }
 
 impl SurfaceDomain {
@@ -84,7 +87,7 @@ impl SurfaceDomain {
                 }
             }
         }
-        Ok(SurfaceDomain { corners, unit, angle, is_flat, coarse, infinity: None })
+        Ok(SurfaceDomain { corners, unit, angle, is_flat, coarse, infinity: None, bare: HashMap::new() })
     }
 
     /// The triangulation.

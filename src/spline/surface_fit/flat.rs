@@ -1,11 +1,13 @@
 //! Flat metrics of surfaces, over which splines are fitted: by the flow, by a holomorphic 1-form, or a sphere as a plane.
 
+use super::areas::vertex_areas;
 use super::pole::{evenest_vertex, from_pole};
-use crate::canonical::{Boundary, Corners, SphereOptions, uniformize_sphere};
+use super::singular::{Curvatures, SingularVertices, curvatures, zeros};
+use crate::canonical::{Corners, SphereOptions, uniformize_sphere};
 use crate::control::Control;
 use crate::embed::FaceTransitions;
 use crate::error::{Error, Result};
-use crate::flow::{self, Solution, flow};
+use crate::flow::{self, Solution, flow, outside_neighbourhoods};
 use crate::geometry::Space;
 use crate::geometry::complex::{Complex, cross, distance, norm, norm2};
 use crate::harmonic::{ComplexForm, Domain, FormsOptions, HarmonicForms, even_combination, with_conjugate};
@@ -13,25 +15,46 @@ use crate::mesh::{Mesh, PerEdge, PerVertex, VertexId};
 use crate::metric::curvature::curvature;
 use crate::metric::{Class, Surface, Target};
 use crate::parallel::Pool;
-use crate::structure::{AffineSource, singular_vertex};
-use std::f64::consts::{PI, TAU};
+use crate::structure::AffineSource;
+use std::f64::consts::TAU;
 use std::sync::Arc;
 
 /// Largest curvature, in radians, of a vertex that counts as flat: above what a converged flow leaves, and its rounding.
 pub(super) const FLAT: f64 = 1e-7;
 
+/// Default of [`FlatMetricOptions::range`].
+const RANGE: f64 = 30.0;
+/// Number of vertices around each singular one that [`FlatMetric::factor_range`] leaves out.
+pub(super) const NEAR_CONE: usize = 60;
+
 /// Options of [`FlatMetric::new`].
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct FlatMetricOptions {
-    /// The flow, with all curvature at one vertex, or a holomorphic 1-form with its 2g − 2 zeros. Default: the flow.
+    /// The flow, with all curvature at singular vertices and on the boundary, or a holomorphic 1-form with its 2g − 2 zeros. Default: the
+    /// flow.
     pub source: AffineSource,
-    /// The vertex with the curvature. Default: the one that distorts areas least; on a sphere, the one around which the factor between the
-    /// surface and its conformal image varies least.
-    pub singular: Option<VertexId>,
-    /// The corners of the boundary of a disk. Default: four right angles.
+    /// The vertices with the curvature inside the surface. Default: as few as bring the factor between lengths within `range`.
+    pub singular: SingularVertices,
+    /// Largest ratio of two factors between flat lengths and lengths on the surface, outside the neighbourhoods of singular vertices, for
+    /// which no more of them are taken. Default 30.
+    pub range: f64,
+    /// The corners of the boundary, which then has all curvature of the surface. Default: on a disk four right angles, on other surfaces
+    /// as many as the boundary has quarters of a turn.
     pub corners: Corners,
     /// Tolerance, threads and further options of the flow.
     pub flow: flow::Options,
+}
+
+impl Default for FlatMetricOptions {
+    fn default() -> Self {
+        FlatMetricOptions {
+            source: AffineSource::default(),
+            singular: SingularVertices::default(),
+            range: RANGE,
+            corners: Corners::default(),
+            flow: flow::Options::default(),
+        }
+    }
 }
 
 /// A flat metric of a surface: a triangulation with edge lengths.
@@ -48,24 +71,34 @@ pub struct FlatMetric {
 impl FlatMetric {
     /// A flat metric in the conformal class of a surface.
     ///
-    /// A sphere becomes a plane with one vertex at infinity, where its curvature 4π is. By the flow, a closed surface of genus 1 is flat
-    /// everywhere; others have their whole curvature 2πχ at one vertex. Boundaries become straight except for the corners of a disk, which
-    /// has no singular vertex. By a holomorphic 1-form ω, for closed surfaces of genus 1 and more, lengths are |ω| on the intrinsic
-    /// Delaunay triangulation, and vertices at zeros of order k have the curvature −2πk.
+    /// By the flow, singular vertices inside the surface and corners of its boundary have all curvature; the boundary is straight between
+    /// corners. A sphere with one singular vertex becomes a plane with this vertex at infinity. By a holomorphic 1-form ω, for closed
+    /// surfaces of genus 1 and more, lengths are |ω| on the intrinsic Delaunay triangulation, and vertices at zeros of order k have the
+    /// curvature −2πk. If ω turns triangles over, as it does where a zero lies inside one, |ω| is no metric; each zero then moves to a vertex
+    /// of its triangle, and the metric is that with these curvatures in the conformal class, by the flow.
     ///
     /// # Errors
-    /// [`Error::Argument`] for a form on a closed surface of genus 0, a singular vertex where there is none, or on the boundary;
-    /// [`Error::Layout`] for a form that turns triangles over, or a flow that does not converge; those of [`flow()`], [`uniformize_sphere`]
-    /// and [`HarmonicForms::new`]; [`Error::Cancelled`].
+    /// [`Error::Argument`] for a form on a closed surface of genus 0 or an open surface, singular vertices where there are none or beside
+    /// given corners; [`Error::TargetKind`] for a number of singular vertices that the surface cannot have; [`Error::Layout`] for a flow that
+    /// does not converge; those of [`flow()`], [`uniformize_sphere`] and [`HarmonicForms::new`]; [`Error::Cancelled`].
     pub fn new(surface: &Surface, options: &FlatMetricOptions, control: &Control) -> Result<FlatMetric> {
-        let mesh = surface.mesh();
-        if mesh.is_closed() && mesh.euler() > 0 {
-            return FlatMetric::of_sphere(surface, options, control);
-        }
         if options.source == AffineSource::Form {
             return FlatMetric::by_form(surface, options, control);
         }
-        let target = target(surface, options, control)?;
+        match curvatures(surface, options, control)? {
+            Curvatures::Infinity(vertex) => FlatMetric::of_sphere(surface, vertex, options, control),
+            Curvatures::At(target) => FlatMetric::by_flow(surface, target, options, control),
+        }
+    }
+
+    /// The flat metric with these curvatures.
+    fn by_flow(
+        surface: &Surface,
+        target: PerVertex<f64>,
+        options: &FlatMetricOptions,
+        control: &Control,
+    ) -> Result<FlatMetric> {
+        let target = Target::All(target);
         let flat = flow(surface.clone(), Class::yamabe(Space::E2), &target, &options.flow, control)?;
         if !flat.converged() {
             let error = flat.report().map_or(f64::NAN, |report| report.max_curvature_error);
@@ -102,13 +135,14 @@ impl FlatMetric {
     }
 
     /// The plane with a vertex at infinity, by stereographic projection of the uniformized sphere.
-    fn of_sphere(surface: &Surface, options: &FlatMetricOptions, control: &Control) -> Result<FlatMetric> {
-        if options.source == AffineSource::Form {
-            let need = "of genus 1 or more, for a metric by a holomorphic form: a sphere has none";
-            return Err(Error::argument("surface", "closed, of genus 0", need));
-        }
+    fn of_sphere(
+        surface: &Surface,
+        puncture: Option<VertexId>,
+        options: &FlatMetricOptions,
+        control: &Control,
+    ) -> Result<FlatMetric> {
         let flow::Options { tolerance, max_iterations, threads, .. } = options.flow;
-        let options = SphereOptions { tolerance, max_iterations, puncture: options.singular, threads };
+        let options = SphereOptions { tolerance, max_iterations, puncture, threads };
         let sphere = uniformize_sphere(surface, &options, control)?;
         if !sphere.report.converged {
             return Err(not_converged(sphere.report.max_curvature_error, tolerance));
@@ -153,6 +187,10 @@ impl FlatMetric {
 
     /// The metric |ω| of a holomorphic 1-form with zeros of small order.
     fn by_form(surface: &Surface, options: &FlatMetricOptions, control: &Control) -> Result<FlatMetric> {
+        if surface.mesh().is_closed() && surface.mesh().euler() > 0 {
+            let need = "of genus 1 or more, for a metric by a holomorphic form: a sphere has none";
+            return Err(Error::argument("surface", "closed, of genus 0", need));
+        }
         if !surface.mesh().is_closed() {
             return Err(Error::argument(
                 "surface",
@@ -160,19 +198,39 @@ impl FlatMetric {
                 "closed, for a metric by a holomorphic form",
             ));
         }
-        if let Some(v) = options.singular {
-            return Err(Error::argument(
-                "singular vertex",
-                v,
-                "left out: a form has its zeros where they are",
-            ));
+        if options.singular != SingularVertices::Auto {
+            let need = "left out: a form has its zeros where they are";
+            return Err(Error::argument("singular vertices", format!("{:?}", options.singular), need));
         }
         let domain = Domain::new(surface, control)?;
         let form = Pool::new(options.flow.threads)?.run(|| {
             let forms = HarmonicForms::new(&domain, &FormsOptions::default(), control)?;
             with_conjugate(&forms, &forms, &even_combination(&forms, control)?)
         })?;
-        FlatMetric::of_form(domain.mesh(), &form)
+        match zeros(domain.mesh(), &form) {
+            Some(target) => FlatMetric::by_flow(surface, target, options, control),
+            None => FlatMetric::of_form(domain.mesh(), &form),
+        }
+    }
+
+    /// The ratio of the largest factor between flat lengths and lengths on the surface to the least, at the vertices of the surface except
+    /// for the 60 around each singular vertex and corner; for a plane, of the factor between the unit sphere and the surface.
+    ///
+    /// # Errors
+    /// Those of [`FlatMetric::curvature`].
+    pub fn factor_range(&self, surface: &Surface) -> Result<f64> {
+        let (mesh, curvature) = (surface.mesh(), self.curvature()?);
+        let singular = mesh.vertices().filter(|&v| curvature[v].abs() > FLAT);
+        let outside = outside_neighbourhoods(mesh, singular, NEAR_CONE);
+        let areas = [vertex_areas(mesh, surface.lengths()), vertex_areas(&self.mesh, &self.finite_lengths())];
+        let factor = |v: VertexId| (areas[1][v] / areas[0][v]).sqrt();
+        let [low, high] = mesh
+            .vertices()
+            .filter(|&v| outside[v] && factor(v).is_finite())
+            .fold([f64::INFINITY, 0.0], |[low, high], v| {
+                [f64::min(low, factor(v)), f64::max(high, factor(v))]
+            });
+        Ok(if high > 0.0 && low > 0.0 { high / low } else { 1.0 })
     }
 
     /// The metric |ω| of a given holomorphic 1-form ω.
@@ -212,30 +270,4 @@ fn not_converged(error: f64, tolerance: f64) -> Error {
     Error::Layout(format!(
         "the flow to the flat metric did not converge: curvatures miss by {error:e}, asked for {tolerance:e}"
     ))
-}
-
-/// The target curvatures of the flow.
-fn target(surface: &Surface, options: &FlatMetricOptions, control: &Control) -> Result<Target> {
-    let mesh = surface.mesh();
-    let is_disk = mesh.euler() > 0;
-    if let Some(v) = options.singular {
-        let why = match () {
-            _ if mesh.euler() == 0 || is_disk => "left out: this surface has none",
-            _ if v.index() >= mesh.n_vertices() => "a vertex of the surface, numbered from 0",
-            _ if mesh.is_boundary_vertex(v) => "inside the surface",
-            _ => "",
-        };
-        if !why.is_empty() {
-            return Err(Error::argument("singular vertex", v, why));
-        }
-    }
-    let mut curvatures = PerVertex::filled(mesh.n_vertices(), 0.0);
-    if is_disk {
-        let boundary = Boundary::Straight(options.corners.clone());
-        boundary.corners(surface)?.into_iter().for_each(|(v, angle)| curvatures[v] = PI - angle);
-    } else if mesh.euler() < 0 {
-        let v = singular_vertex(surface, options.singular, options.flow.threads, control)?;
-        curvatures[v] = TAU * mesh.euler() as f64;
-    }
-    Ok(Target::All(curvatures))
 }

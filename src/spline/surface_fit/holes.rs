@@ -4,8 +4,8 @@ use super::domain::{SAME, SurfaceDomain, nearest_on_side};
 use super::similarity::PlaneSimilarity;
 use crate::error::{Error, Result};
 use crate::geometry::complex::{add, conj, distance, mul, norm, scale, sub, unit};
-use crate::mesh::{FaceId, VertexId};
-use crate::spline::{Hole, Sector};
+use crate::mesh::{FaceId, HalfedgeId, VertexId};
+use crate::spline::{Hole, Sector, SplineSpace};
 use std::collections::HashMap;
 use std::f64::consts::TAU;
 
@@ -13,6 +13,8 @@ use std::f64::consts::TAU;
 const HOLE: f64 = 0.9;
 /// Largest deviation of the total angle of a hole's vertex from a multiple of 2π, in turns.
 const WHOLE: f64 = 1e-6;
+/// Largest share of |w| up to which a filling alone is the surface: beyond it the spline is needed for the transition.
+const MOST_INNER: f64 = 0.92;
 
 impl SurfaceDomain {
     /// The empty hole around a singular vertex whose total angle is a multiple of 2π, inside the triangles at the vertex.
@@ -44,14 +46,57 @@ impl SurfaceDomain {
     }
 
     /// The total angle of a singular vertex in turns.
-    fn turns(&self, v: VertexId) -> Result<i32> {
+    fn turns(&self, v: VertexId) -> Result<f64> {
         let turns = self.total_angle(v) / TAU;
-        let is_whole = (turns - turns.round()).abs() < WHOLE && turns > 0.5;
-        if self.coarse.mesh.is_boundary_vertex(v) || !is_whole {
-            let need = "a multiple of one turn, at a vertex inside the surface";
-            return Err(Error::argument("total angle in turns", turns, need));
+        match whole_turns(turns) {
+            Some(whole) if !self.coarse.mesh.is_boundary_vertex(v) => Ok(whole),
+            _ => {
+                let need = "a multiple of one turn, at a vertex inside the surface";
+                Err(Error::argument("total angle in turns", turns, need))
+            }
         }
-        Ok(turns.round() as i32)
+    }
+
+    /// The empty hole of a given radius around a singular vertex of any total angle. All knots of such a vertex lie at it, and the splines of
+    /// `space` are less smooth along the edges there, so that the filling alone is the surface as far as these edges, and the knots of their
+    /// ends, reach.
+    ///
+    /// # Errors
+    /// Those of [`Hole::new`].
+    pub(super) fn bare_hole(&self, v: VertexId, radius: f64, space: &SplineSpace) -> Result<Hole> {
+        let turns = self.total_angle(v) / TAU;
+        let hole = Hole::new(self.chart(v), self.around(v, radius).sectors, turns, radius)?;
+        let mesh = &self.coarse.mesh;
+        let far = |h: HalfedgeId| {
+            let (f, k) = mesh.corner(h)?;
+            let knots = &space.patches()[f.index()].knots;
+            let others = [1, 2].iter().flat_map(|j| &knots[(k + j) % 3]);
+            Some(self.unit[f] * others.map(|&p| distance(p, self.corners[f][k])).fold(0.0, f64::max))
+        };
+        let reach = mesh.fan(v).into_iter().filter_map(far).fold(0.0, f64::max);
+        let inner = (reach / radius).powf(1.0 / turns).min(MOST_INNER).max(hole.inner);
+        Ok(Hole { inner, ..hole })
+    }
+
+    /// The vertices in a disk around a vertex, each with its distance and its direction, an angle from the first half-edge of the vertex; the
+    /// nearest first. Beside them, a radius up to which the disk meets neither itself nor another singular vertex nor the boundary.
+    pub(super) fn disk(&self, v: VertexId, radius: f64) -> VertexDisk {
+        let HoleSurroundings { sectors, free } = self.around(v, radius);
+        let mut nearest: HashMap<VertexId, [f64; 2]> = HashMap::new();
+        for sector in &sectors {
+            let f = FaceId(sector.patch);
+            for (u, corner) in self.coarse.mesh.face_vertices(f).into_iter().zip(self.corners[f]) {
+                let z = sector.local(corner);
+                let there = [norm(z), sector.angle + z[1].atan2(z[0])];
+                let known = nearest.entry(u).or_insert(there);
+                if there[0] < known[0] {
+                    *known = there;
+                }
+            }
+        }
+        let mut places: Vec<(VertexId, [f64; 2])> = nearest.into_iter().filter(|&(u, _)| u != v).collect();
+        places.sort_by(|(u, p), (v, q)| p[0].total_cmp(&q[0]).then(u.cmp(v)));
+        VertexDisk { places, free }
     }
 
     /// The triangles that a disk around a vertex meets, developed from the vertex.
@@ -127,6 +172,19 @@ impl SurfaceDomain {
         let back = PlaneSimilarity { turn: conj(unit(at)), shift: [0.0; 2] };
         Sector { patch: f.0, angle: angle + at[1].atan2(at[0]), to: back.after(&to).rows() }
     }
+}
+
+/// The number of turns if an angle, given in turns, is a multiple of one.
+pub(super) fn whole_turns(turns: f64) -> Option<f64> {
+    ((turns - turns.round()).abs() < WHOLE && turns > 0.5).then(|| turns.round())
+}
+
+/// The vertices in a disk around a vertex.
+pub(super) struct VertexDisk {
+    /// The vertices, the nearest first, with distance and direction.
+    pub places: Vec<(VertexId, [f64; 2])>,
+    /// A radius of disks around the vertex that meet no other singular vertex, no boundary and not themselves.
+    pub free: f64,
 }
 
 /// The triangles that a disk around a vertex meets.

@@ -1,6 +1,7 @@
 //! Splines over whole surfaces: their domains on flat metrics, fits, and what is made of them.
 
 mod areas;
+mod bare;
 mod coarse;
 mod domain;
 mod fit;
@@ -14,6 +15,7 @@ mod round;
 mod sample;
 mod setting;
 mod similarity;
+mod singular;
 mod sizes;
 mod verdict;
 
@@ -22,4 +24,5 @@ pub use domain::SurfaceDomain;
 pub use fit::{SurfaceFit, fit_surface};
 pub use flat::{FlatMetric, FlatMetricOptions};
 pub use setting::SurfaceFitOptions;
+pub use singular::SingularVertices;
 pub use verdict::{FitCondition, FitFailure};

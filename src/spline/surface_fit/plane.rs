@@ -27,7 +27,7 @@ const RIM: f64 = 0.55;
 const BARE: f64 = 0.85;
 /// The hole is as large as that of a vertex with so many turns; around a smaller one triangles would be large compared to their distance
 /// from infinity.
-pub(super) const TURNS: u32 = 4;
+pub(super) const TURNS: f64 = 4.0;
 
 /// The vertices of a sphere in the plane, and the radius of the disk outside of which the hole lies.
 pub(super) struct PuncturedPlane<'a> {

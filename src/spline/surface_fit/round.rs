@@ -60,11 +60,11 @@ impl FitRound {
         let space = Arc::new(domain.space(options.degree, options.spread)?);
         let places = domain.places(points.len())?;
         let holes: Vec<Hole> = match &domain.infinity {
-            Some(infinity) => vec![infinity.hole.clone().blank(setting.coefficients(TURNS))],
+            Some(infinity) => vec![infinity.hole.clone().blank(setting.coefficients(setting.inside(TURNS)))],
             None => domain
                 .singular()
                 .into_iter()
-                .map(|v| setting.hole(&domain, &places, v))
+                .map(|v| setting.hole(&domain, &space, &places, v))
                 .collect::<Result<_>>()?,
         };
         let best = Pool::new(options.threads)?.run(|| {

@@ -2,17 +2,21 @@
 
 use super::domain::SurfaceDomain;
 use super::flat::FlatMetric;
+use super::holes::whole_turns;
 use super::sizes::TriangleSizes;
 use crate::control::Control;
 use crate::error::Result;
 use crate::geometry::vector::{Vector, diagonal};
 use crate::mesh::{Mesh, VertexId};
-use crate::spline::{Fill, Hole, Parameter};
+use crate::spline::{Fill, Hole, Parameter, SplineSpace};
 
 /// Least number of vertices in a hole.
 const LEAST_INSIDE: usize = 60;
 /// Largest share of all vertices in a hole.
 const MOST_INSIDE: f64 = 0.3;
+/// Area of a hole around a vertex whose total angle is no multiple of 2π, over that of one with one turn: triangles at the vertex lie in its
+/// middle, which are to be as large as others.
+const BARE_HOLE: f64 = 4.0;
 /// Default spread of knots: with knots far apart, a spline bends less sharply between its triangles.
 const WIDE: f64 = 0.9;
 /// Vertices in a hole for each coefficient of its filling.
@@ -112,7 +116,7 @@ impl<'a> FitSetting<'a> {
         control: &Control,
     ) -> Result<SurfaceDomain> {
         let degree = self.options.degree;
-        let fills: usize = sizes.turns().map(|turns| self.coefficients(turns)).sum();
+        let fills: usize = sizes.inside().map(|inside| self.coefficients(inside)).sum();
         let most = self.most_control_points().saturating_sub(fills);
         let mut count = vertices_for(most, flat, degree).saturating_sub(sizes.added());
         let mut domain = sizes.domain(count, control)?;
@@ -129,24 +133,35 @@ impl<'a> FitSetting<'a> {
     }
 
     /// The number of vertices of the surface in the hole of a singular vertex with this number of turns: [`SurfaceFitOptions::hole`] times
-    /// the area of turns² triangles.
-    pub fn inside(&self, turns: u32) -> usize {
+    /// the area of turns² triangles; times [`BARE_HOLE`] more, if the number is not whole.
+    pub fn inside(&self, turns: f64) -> usize {
         let vertices = self.points.len() as f64;
-        let wanted = self.options.hole * f64::from(turns * turns) * vertices / self.triangles.max(1) as f64;
+        let area = if whole_turns(turns).is_some() { turns * turns } else { BARE_HOLE * turns.max(1.0) };
+        let wanted = self.options.hole * area * vertices / self.triangles.max(1) as f64;
         (wanted as usize).clamp(LEAST_INSIDE, LEAST_INSIDE.max((MOST_INSIDE * vertices) as usize))
     }
 
-    /// The number of coefficients of the filling of that hole.
-    pub fn coefficients(&self, turns: u32) -> usize {
-        Fill::blank((self.inside(turns) as f64 / POINTS) as usize).coefficients().len()
+    /// The number of coefficients of the filling of a hole with this number of vertices.
+    pub fn coefficients(&self, inside: usize) -> usize {
+        Fill::blank((inside as f64 / POINTS) as usize).coefficients().len()
     }
 
     /// The hole around a singular vertex: the widest with no more vertices than wanted, so that triangles beyond it are small compared to
     /// their distance from the vertex.
-    pub fn hole(&self, domain: &SurfaceDomain, places: &[Parameter], v: VertexId) -> Result<Hole> {
+    pub fn hole(
+        &self,
+        domain: &SurfaceDomain,
+        space: &SplineSpace,
+        places: &[Parameter],
+        v: VertexId,
+    ) -> Result<Hole> {
+        if let Some(bare) = domain.bare.get(&v) {
+            let hole = domain.bare_hole(v, bare.radius, space)?;
+            return Ok(hole.blank(self.coefficients(bare.inside)));
+        }
         let mut hole = domain.hole(v)?;
-        let wanted = self.inside(hole.turns.unsigned_abs());
-        let growth = GROWTH.powi(hole.turns);
+        let wanted = self.inside(hole.turns);
+        let growth = GROWTH.powf(hole.turns);
         loop {
             let wider = domain.wide_hole(v, growth * hole.radius)?;
             let inside = places.iter().filter(|&&at| wider.contains(at)).count();
@@ -155,7 +170,7 @@ impl<'a> FitSetting<'a> {
             }
             hole = wider;
         }
-        let coefficients = self.coefficients(hole.turns.unsigned_abs());
+        let coefficients = self.coefficients(wanted);
         Ok(hole.blank(coefficients))
     }
 }

@@ -1,9 +1,11 @@
 //! The sizes of the triangles of a domain, and their adaption to the errors of a fit.
 
 use super::areas::{smooth, vertex_areas};
+use super::bare::{PlannedHole, fine_domain, plan_hole};
 use super::coarse::CoarseTriangulation;
 use super::domain::SurfaceDomain;
 use super::flat::{FLAT, FlatMetric};
+use super::holes::whole_turns;
 use super::plane::{PuncturedPlane, RING, TURNS};
 use super::sample::VertexSampling;
 use crate::control::Control;
@@ -42,8 +44,10 @@ pub(super) struct TriangleSizes<'a> {
     always: Vec<VertexId>,
     /// For each vertex, true unless it lies in the middle of a hole.
     allowed: PerVertex<bool>,
-    /// For each singular vertex inside the surface its total angle in turns, which says how large its hole is.
-    turns: Vec<u32>,
+    /// The number of vertices in the hole of each singular vertex inside the surface.
+    inside: Vec<usize>,
+    /// The holes around singular vertices whose total angle is no multiple of 2π.
+    planned: Vec<PlannedHole>,
     /// The plane, if the surface is a sphere.
     plane: Option<PuncturedPlane<'a>>,
 }
@@ -58,7 +62,7 @@ impl<'a> TriangleSizes<'a> {
         surface: &Surface,
         flat: &'a FlatMetric,
         triangles: usize,
-        inside: impl Fn(u32) -> usize,
+        inside: impl Fn(f64) -> usize,
         control: &Control,
     ) -> Result<TriangleSizes<'a>> {
         let mesh = surface.mesh();
@@ -71,10 +75,10 @@ impl<'a> TriangleSizes<'a> {
         smooth(mesh, &mut least);
         let stretch = PerVertex::from_fn(n, |v: VertexId| (areas[1][v] / areas[0][v]).sqrt());
         let plane = PuncturedPlane::new(flat, inside(TURNS));
-        let VertexChoice { always, allowed, turns } = match &plane {
+        let VertexChoice { always, allowed, inside, planned } = match &plane {
             Some(plane) => {
                 let allowed = PerVertex::from_fn(n, |v| plane.is_free(v));
-                VertexChoice { always: Vec::new(), allowed, turns: vec![TURNS] }
+                VertexChoice { always: Vec::new(), allowed, inside: vec![inside(TURNS)], planned: Vec::new() }
             }
             None => VertexChoice::around_cones(mesh, flat, inside, control)?,
         };
@@ -89,14 +93,15 @@ impl<'a> TriangleSizes<'a> {
             round: 1,
             always,
             allowed,
-            turns,
+            inside,
+            planned,
             plane,
         })
     }
 
-    /// The total angles of the singular vertices inside the surface, in turns.
-    pub fn turns(&self) -> impl Iterator<Item = u32> + '_ {
-        self.turns.iter().copied()
+    /// The number of vertices in the hole of each singular vertex inside the surface.
+    pub fn inside(&self) -> impl Iterator<Item = usize> + '_ {
+        self.inside.iter().copied()
     }
 
     /// The number of vertices that a domain has beside those that are chosen.
@@ -112,7 +117,15 @@ impl<'a> TriangleSizes<'a> {
         let keep = self.choose(count, control)?;
         match &self.plane {
             Some(plane) => plane.domain(&keep),
-            None => SurfaceDomain::new(CoarseTriangulation::new(self.flat, &keep, control)?),
+            None => {
+                let mut domain = SurfaceDomain::new(CoarseTriangulation::new(self.flat, &keep, control)?)?;
+                let coarse = domain.coarse().vertices.iter().enumerate();
+                let planned =
+                    |v: VertexId| self.planned.iter().find(|hole| hole.vertex == v).map(|hole| hole.hole);
+                let bare = coarse.filter_map(|(k, &v)| Some((VertexId(k as u32), planned(v)?)));
+                domain.bare = bare.collect();
+                Ok(domain)
+            }
         }
     }
 
@@ -159,11 +172,12 @@ impl<'a> TriangleSizes<'a> {
     }
 }
 
-/// The choice of vertices: those that are always taken, those that may be taken, and the turns of the singular ones.
+/// The choice of vertices: those that are always taken, those that may be taken, and the holes of the singular ones.
 struct VertexChoice {
     always: Vec<VertexId>,
     allowed: PerVertex<bool>,
-    turns: Vec<u32>,
+    inside: Vec<usize>,
+    planned: Vec<PlannedHole>,
 }
 
 impl VertexChoice {
@@ -171,16 +185,28 @@ impl VertexChoice {
     fn around_cones(
         mesh: &Mesh,
         flat: &FlatMetric,
-        inside: impl Fn(u32) -> usize,
+        inside: impl Fn(f64) -> usize,
         control: &Control,
     ) -> Result<VertexChoice> {
         let (n, curvature) = (mesh.n_vertices(), flat.curvature()?);
-        let always: Vec<VertexId> = mesh.vertices().filter(|&v| curvature[v].abs() > FLAT).collect();
+        let mut always: Vec<VertexId> = mesh.vertices().filter(|&v| curvature[v].abs() > FLAT).collect();
         let mut allowed = PerVertex::from_fn(flat.mesh.n_vertices(), |v: VertexId| v.index() < n);
-        let mut all_turns = Vec::new();
-        for &v in always.iter().filter(|&&v| !mesh.is_boundary_vertex(v)) {
-            let turns = (1.0 - curvature[v] / TAU).round().max(1.0) as u32;
-            all_turns.push(turns);
+        let (mut all_inside, mut planned) = (Vec::new(), Vec::new());
+        let cones: Vec<VertexId> = always.iter().copied().filter(|&v| !mesh.is_boundary_vertex(v)).collect();
+        let mut fine = None;
+        for &v in &cones {
+            let Some(turns) = whole_turns(1.0 - curvature[v] / TAU) else {
+                let fine = match &fine {
+                    Some(fine) => fine,
+                    None => fine.insert(fine_domain(flat)?),
+                };
+                let turns = 1.0 - curvature[v] / TAU;
+                let found = plan_hole(fine, v, inside(turns), [n, cones.len()]);
+                all_inside.push(found.hole.inside);
+                planned.push(found);
+                continue;
+            };
+            all_inside.push(inside(turns));
             let far = shortest_paths(&flat.mesh, &flat.lengths, [v], control)?.distance;
             let mut sorted: Vec<f64> = far.iter().copied().take(n).collect();
             sorted.sort_by(f64::total_cmp);
@@ -189,9 +215,16 @@ impl VertexChoice {
             let boundary = mesh.vertices().filter(|&u| mesh.is_boundary_vertex(u)).map(|u| far[u]);
             let free = others.chain(boundary).fold(f64::INFINITY, f64::min);
             let radius = sorted[inside(turns).min(n - 1)].min(free);
-            let bare = BARE.powi(turns as i32) * radius;
+            let bare = BARE.powf(turns) * radius;
             mesh.vertices().filter(|&u| far[u] < bare).for_each(|u| allowed[u] = false);
         }
-        Ok(VertexChoice { always, allowed, turns: all_turns })
+        for hole in &planned {
+            hole.bare.iter().for_each(|&u| allowed[u] = false);
+        }
+        for &u in planned.iter().flat_map(|hole| &hole.ring) {
+            allowed[u] = true;
+            always.push(u);
+        }
+        Ok(VertexChoice { always, allowed, inside: all_inside, planned })
     }
 }

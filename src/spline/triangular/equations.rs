@@ -9,7 +9,8 @@ use crate::error::Result;
 use crate::geometry::complex::Complex;
 use crate::parallel;
 
-/// Weight, times |m|³, of the mean square distance between filling and spline on the rings of a hole, relative to that of the points in it.
+/// Weight, times |m|³ for |m| > 1, of the mean square distance between filling and spline on the rings of a hole, relative to that of the points in
+/// it.
 /// With more weight reflection lines bend less there; but around a vertex of many turns there are too few triangles to follow the filling,
 /// and the fit to points farther away would become worse.
 const RINGS: f64 = 3.0;
@@ -85,7 +86,7 @@ impl<'a> FitUnknowns<'a> {
             let NumberedFill { hole, fill, first } = *numbered;
             let inside = places.iter().filter(|&&at| hole.contains(at)).count().max(1) as f64;
             let rings = hole.rings(self.space);
-            let rings_weight = RINGS / f64::from(hole.turns.abs()).powi(3);
+            let rings_weight = RINGS / hole.turns.abs().max(1.0).powi(3);
             let weight = share * (rings_weight * inside / rings.len().max(1) as f64).sqrt();
             all.extend(self.equations(&rings, |i, scratch| {
                 let mut terms = self.spline(rings[i], weight, scratch)?;

@@ -37,7 +37,7 @@ struct SplineDocument<'a> {
 /// A hole with its filling.
 #[derive(Serialize, Deserialize)]
 struct HoleEntry<'a> {
-    turns: i32,
+    turns: f64,
     radius: f64,
     inner: f64,
     sectors: Cow<'a, [Sector]>,

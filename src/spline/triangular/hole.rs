@@ -1,6 +1,6 @@
 //! The hole around a singular vertex: where the filling replaces the spline.
 //!
-//! Over a flat metric with a vertex of total angle 2πm, the basis functions of a spline do not add up to 1 in the core of the hole, the
+//! Over a flat metric with a vertex of total angle 2πm, m whole, the basis functions of a spline do not add up to 1 in the core of the hole, the
 //! disk that contains the knots of the vertex. There the surface is a function G of the coordinate w = z^{1/m}, in which the vertex is a
 //! regular point. It is blended into the spline F by a weight φ that is 1 for |w| ≤ τρ, 0 for |w| ≥ ρ, and has two continuous derivatives:
 //!
@@ -10,6 +10,9 @@
 //!
 //! τ is 0.8, or if the core is wider in w, its rim. G is a bicubic B-spline, [`Fill`]. So F̃ has as many continuous derivatives as F, up to
 //! two, on all of the hole.
+//!
+//! The total angle can be any positive number. Where m is not whole, all knots of the vertex lie at it, and the spline is less smooth along the
+//! edges there. Then the triangles at the vertex are small, and lie where the filling alone is the surface.
 //!
 //! A sphere is a plane with a vertex at infinity, where the same holds for w = 1/z, with m = −1; the hole is the outside of a disk of
 //! radius ρ. Patches cover the plane until the filling alone is the surface. The rest, and the vertex itself, have places only in the chart
@@ -39,9 +42,11 @@ const RINGS: [usize; 2] = [6, 48];
 /// overflow.
 const VERTEX: f64 = 1e-50;
 /// Most turns of a hole; surfaces of any genus that can be triangulated here have fewer.
-const MOST_TURNS: i32 = 1 << 16;
+const MOST_TURNS: f64 = 65536.0;
+/// Fewest turns of a hole: of a narrower cone, places in the middle of its hole are no numbers.
+const LEAST_TURNS: f64 = 1.0 / 64.0;
 /// Number of turns of a vertex at infinity: its total angle is 2π − 4π.
-pub(crate) const INFINITE: i32 = -1;
+pub(crate) const INFINITE: f64 = -1.0;
 /// Longest step of a place, in w/ρ.
 const LONGEST_STEP: f64 = 0.1;
 /// Distance from the vertex, as a share of that between two places, below which a place is the vertex: rounding.
@@ -70,8 +75,8 @@ pub struct Hole {
     pub chart: u32,
     /// The patches that the hole meets, in the order of their numbers; one that meets it in several ways is there as often.
     pub sectors: Vec<Sector>,
-    /// The total angle m in turns; −1 for a vertex at infinity of a plane.
-    pub turns: i32,
+    /// The total angle m in turns, any positive number; −1 for a vertex at infinity of a plane.
+    pub turns: f64,
     /// Radius of the hole in the unit of the flat metric; around infinity, the radius of the disk outside of which the hole lies.
     pub radius: f64,
     /// The ratio τ: the share of |w| up to which the filling alone is the surface.
@@ -85,16 +90,16 @@ impl Hole {
     ///
     /// # Errors
     /// [`Error::Argument`] for no sectors, another number of turns, or a radius that is not positive.
-    pub fn new(chart: u32, mut sectors: Vec<Sector>, turns: i32, radius: f64) -> Result<Hole> {
-        if sectors.is_empty() || !(turns == INFINITE || (1..=MOST_TURNS).contains(&turns)) {
-            let need = "1 to 65536, or -1 at infinity, with patches around the vertex";
+    pub fn new(chart: u32, mut sectors: Vec<Sector>, turns: f64, radius: f64) -> Result<Hole> {
+        if sectors.is_empty() || !(turns == INFINITE || (LEAST_TURNS..=MOST_TURNS).contains(&turns)) {
+            let need = "1/64 to 65536, or -1 at infinity, with patches around the vertex";
             return Err(Error::argument("turns of a hole", turns, need));
         }
         if !(radius > 0.0 && radius.is_finite()) {
             return Err(Error::argument("radius of a hole", radius, "positive"));
         }
         sectors.sort_by_key(|sector| sector.patch);
-        let core = if turns == INFINITE { 0.0 } else { (CLEAR * CORE).powf(1.0 / f64::from(turns)) };
+        let core = if turns == INFINITE { 0.0 } else { (CLEAR * CORE).powf(1.0 / turns) };
         Ok(Hole { chart, sectors, turns, radius, inner: core.max(LEAST_INNER), fill: None })
     }
 
@@ -157,18 +162,18 @@ impl Hole {
     /// Places on circles around the vertex, where the weight goes from 1 to 0.
     pub(super) fn rings(&self, space: &SplineSpace) -> Vec<Parameter> {
         let [circles, each] = RINGS;
-        let each = each * self.turns.unsigned_abs() as usize;
+        let each = (each as f64 * self.turns.abs().max(1.0)).round() as usize;
         let inner = self.inner;
         let ring = |k: usize| inner + (1.0 - inner) * (k as f64 + 0.5) / circles as f64;
-        let angle = |j: usize| TAU * f64::from(self.turns) * (j as f64 + 0.5) / each as f64;
-        let place = |k: usize, j: usize| self.place(space, self.radius * ring(k).powi(self.turns), angle(j));
+        let angle = |j: usize| TAU * self.turns * (j as f64 + 0.5) / each as f64;
+        let place = |k: usize, j: usize| self.place(space, self.radius * ring(k).powf(self.turns), angle(j));
         (0..circles).flat_map(|k| (0..each).filter_map(move |j| place(k, j))).collect()
     }
 
     /// The place at a distance from the vertex, in the unit of the metric, and in a direction, an angle as those of the sectors. None
     /// beyond the patches.
     pub fn place(&self, space: &SplineSpace, far: f64, angle: f64) -> Option<Parameter> {
-        let whole = TAU * f64::from(self.turns.abs());
+        let whole = TAU * self.turns.abs();
         let inside = |sector: &Sector| {
             let turn = angle - sector.angle;
             let turn = turn - whole * (turn / whole).round();
@@ -213,7 +218,7 @@ impl Hole {
 
     /// The w/ρ of a place given by a sector and the coordinate z there.
     fn of_sector(&self, sector: &Sector, z: Complex) -> Complex {
-        let share = 1.0 / f64::from(self.turns);
+        let share = 1.0 / self.turns;
         let angle = share * (sector.angle + z[1].atan2(z[0]));
         scale((norm(z) / self.radius).powf(share), [angle.cos(), angle.sin()])
     }
@@ -229,7 +234,7 @@ impl Hole {
         let here = self.sectors[first..].iter().take_while(|sector| sector.patch == at.patch);
         let places = here.map(|sector| (sector, sector.local([at.x, at.y])));
         let (sector, z) = places.min_by(|(_, a), (_, b)| norm2(*a).total_cmp(&norm2(*b)))?;
-        let share = 1.0 / f64::from(self.turns);
+        let share = 1.0 / self.turns;
         let w = self.of_sector(sector, z);
         if norm(z) <= VERTEX && !self.is_at_infinity() {
             return Some([[0.0; 2], [1.0, 0.0], [0.0; 2]]);
@@ -299,8 +304,8 @@ impl Hole {
         if self.is_at_infinity() && norm(w) <= self.inner {
             return Some(Parameter { patch: self.chart, x: w[0], y: w[1] });
         }
-        let angle = f64::from(self.turns) * w[1].atan2(w[0]);
-        self.place(space, self.radius * norm(w).min(1.0).powi(self.turns), angle)
+        let angle = self.turns * w[1].atan2(w[0]);
+        self.place(space, self.radius * norm(w).min(1.0).powf(self.turns), angle)
     }
 }
 

@@ -2,14 +2,17 @@
 
 use ricci::mesh::{VertexId, shapes};
 use ricci::spline::{
-    BicubicFit, BicubicOptions, BicubicPatch, FlatMetric, FlatMetricOptions, Spline, SurfaceFitOptions,
-    fit_surface,
+    BicubicFit, BicubicOptions, BicubicPatch, FlatMetric, FlatMetricOptions, SingularVertices, Spline,
+    SurfaceFitOptions, fit_surface,
 };
 use ricci::{Control, Surface};
 
 fn fitted(soup: &ricci::mesh::io::Soup, control_points: usize) -> Spline {
     let (surface, control) = (Surface::from_soup(soup).unwrap(), Control::new());
-    let singular = (surface.mesh().euler() != 0).then_some(VertexId(0));
+    let singular = match surface.mesh().euler() {
+        0 => SingularVertices::Auto,
+        _ => SingularVertices::At(vec![VertexId(0)]),
+    };
     let flat =
         FlatMetric::new(&surface, &FlatMetricOptions { singular, ..FlatMetricOptions::default() }, &control)
             .unwrap();

@@ -28,7 +28,7 @@ fn nearest_points_are_found_everywhere() {
             places.push(Parameter { patch: patch as u32, x, y });
         }
     }
-    let turns = f64::from(hole.turns);
+    let turns = hole.turns;
     for _ in 0..1000 {
         let (far, angle) = (random.unit().sqrt(), std::f64::consts::TAU * turns * random.unit());
         places.extend(hole.place(space, hole.radius * far.powf(turns), angle));

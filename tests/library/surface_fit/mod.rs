@@ -3,6 +3,7 @@
 mod analytic;
 mod closest;
 mod coarse;
+mod cones;
 mod files;
 mod fit;
 mod hole;

@@ -2,8 +2,8 @@
 
 use ricci::mesh::{Mesh, VertexId, shapes};
 use ricci::spline::{
-    BicubicOptions, FlatMetric, FlatMetricOptions, Parameter, Spline, SurfaceFit, SurfaceFitOptions,
-    fit_surface,
+    BicubicOptions, FlatMetric, FlatMetricOptions, Parameter, SingularVertices, Spline, SurfaceFit,
+    SurfaceFitOptions, fit_surface,
 };
 use ricci::structure::AffineSource;
 use ricci::{Control, Error, Surface};
@@ -20,7 +20,10 @@ fn fitted() -> &'static SurfaceFit {
     static FITTED: OnceLock<SurfaceFit> = OnceLock::new();
     FITTED.get_or_init(|| {
         let (surface, control) = (surface(), Control::new());
-        let options = FlatMetricOptions { singular: Some(VertexId(5)), ..FlatMetricOptions::default() };
+        let options = FlatMetricOptions {
+            singular: SingularVertices::At(vec![VertexId(5)]),
+            ..FlatMetricOptions::default()
+        };
         let flat = FlatMetric::new(&surface, &options, &control).unwrap();
         fit_surface(&surface, &flat, &SurfaceFitOptions::default(), &control).unwrap()
     })
@@ -47,7 +50,7 @@ fn a_sphere_has_one_hole_at_infinity() {
     assert!(4 * all <= surface.mesh().n_vertices(), "{all} of {}", surface.mesh().n_vertices());
     assert!(fit.rms < 1e-3 && fit.max < 1e-2, "{:e} {:e}", fit.rms, fit.max);
     assert_eq!(fit.singular, [VertexId(5)]);
-    assert!(hole.is_at_infinity() && hole.turns == -1);
+    assert!(hole.is_at_infinity() && hole.turns == -1.0);
     // The vertex at infinity is the origin of the hole's chart, except for the corrections of its place.
     let Parameter { patch, x, y } = fit.places[5];
     assert!(patch == hole.chart && f64::hypot(x, y) < 0.05, "{x} {y}");
