@@ -17,14 +17,7 @@ use serde_json::{Map, Value};
 
 pub fn fit_whole(args: &FitArgs, input: Input, control: &Control) -> Result<FitOutcome, Failure> {
     let whole = &args.whole;
-    let singular = match &whole.singular {
-        SingularChoice::Auto => SingularVertices::Auto,
-        SingularChoice::Count(n) => SingularVertices::Count(*n),
-        SingularChoice::At(vertices) => {
-            vertices.iter().try_for_each(|&v| input.check_vertex("--singular", Some(v)))?;
-            SingularVertices::At(vertices.iter().map(|&v| VertexId(v)).collect())
-        }
-    };
+    let singular = singular_vertices(&whole.singular, &input)?;
     if input.positions().is_none() {
         let path = input.path.display();
         return Err(Failure::Input(format!(
@@ -82,6 +75,17 @@ pub fn fit_whole(args: &FitArgs, input: Input, control: &Control) -> Result<FitO
         .with("rounds", fitted.rounds);
     let SurfaceFit { rms, max, spline, .. } = fitted;
     Ok(FitOutcome { input, spline, rms, max, defaults, figures, checks })
+}
+
+fn singular_vertices(choice: &SingularChoice, input: &Input) -> Result<SingularVertices, Failure> {
+    Ok(match choice {
+        SingularChoice::Auto => SingularVertices::Auto,
+        SingularChoice::Count(n) => SingularVertices::Count(*n),
+        SingularChoice::At(vertices) => {
+            vertices.iter().try_for_each(|&v| input.check_vertex("--singular", Some(v)))?;
+            SingularVertices::At(vertices.iter().map(|&v| VertexId(v)).collect())
+        }
+    })
 }
 
 /// Most patches that a summary names.
