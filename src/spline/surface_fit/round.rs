@@ -23,10 +23,12 @@ const CORRECTIONS: usize = 5;
 const GAIN: f64 = 0.98;
 /// Longest step of a place in one correction, over the longest side of its triangle.
 const LONGEST_STEP: f64 = 0.25;
-/// The weight of the fairness at which cross-validation starts, and its bounds. Below the least one, fits to points without noise bend where
-/// there are few points, and are not nearer elsewhere.
+/// The weight of the fairness at which cross-validation starts, and the largest one.
 const FAIRNESS: f64 = 1e-8;
-const FAIRNESS_BOUNDS: [f64; 2] = [1e-9, 1e-2];
+const MOST_FAIRNESS: f64 = 1e-2;
+/// The least weight for degree 0; for degree n it is 10ⁿ times smaller. With less, fits to points without noise bend where there are few
+/// points, and come no nearer elsewhere.
+const LEAST_FAIRNESS: f64 = 1e-6;
 /// Weight of tangential distances in the first fit by tangent planes, its factors after a fit that is nearer and one that is not, and its
 /// bounds.
 const DAMPING: f64 = 0.1;
@@ -169,8 +171,9 @@ impl RoundFitting<'_> {
             let fairness = given * self.factor;
             return Ok(WeightedFit { unknowns: self.system.fit(placed, fairness)?, fairness });
         }
+        let least = LEAST_FAIRNESS * 0.1f64.powi(self.setting.options.degree as i32);
         let WeightedFit { fairness, unknowns } =
-            self.system.fit_cross_validated(placed, start, FAIRNESS_BOUNDS)?;
+            self.system.fit_cross_validated(placed, start, [least, MOST_FAIRNESS])?;
         if self.factor == 1.0 {
             return Ok(WeightedFit { unknowns, fairness });
         }
