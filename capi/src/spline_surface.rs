@@ -4,12 +4,16 @@ use crate::arrays::{array, check_buffer, copy_out};
 use crate::control::{self, ricci_control};
 use crate::guard::{self, shared};
 use crate::memory;
+use crate::mesh::ricci_mesh;
 use crate::metric::ricci_metric;
 use crate::spline::{FitFigures, ricci_spline};
 use crate::status::ricci_status;
 use crate::structs::{self, or, sized};
 use ricci::geometry::vector::{Vector, diagonal};
-use ricci::spline::{FlatMetric, SurfaceFitOptions, fit_surface};
+use ricci::mesh::VertexId;
+use ricci::spline::{
+    FlatMetric, FlatMetricOptions, SingularVertices, SurfaceFitOptions, fit_surface, flat_curvatures,
+};
 
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
@@ -49,6 +53,36 @@ impl ricci_spline_surface_options {
             ..usual
         }
     }
+}
+
+/// The number of singular vertices that stands for as few as are needed: RICCI_SPLINE_AUTO.
+const AUTO: usize = usize::MAX;
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_spline_curvatures(
+    mesh: *const ricci_mesh,
+    singular: *const u32,
+    n_singular: usize,
+    range: f64,
+    control: *const ricci_control,
+    curvatures: *mut f64,
+    capacity: usize,
+) -> ricci_status {
+    guard::with(mesh, |mesh| {
+        let n = mesh.connectivity.n_vertices();
+        check_buffer("curvatures", n, curvatures, capacity)?;
+        let _reserve = memory::work(n, memory::UNIFORM)?;
+        let usual = FlatMetricOptions::default();
+        let singular = match n_singular {
+            AUTO => SingularVertices::Auto,
+            n if singular.is_null() => SingularVertices::Count(n),
+            n => SingularVertices::At(array("singular", singular, n)?.into_iter().map(VertexId).collect()),
+        };
+        let options = FlatMetricOptions { singular, range: or(range, usual.range), ..usual };
+        let found = flat_curvatures(mesh.surface()?, &options, &control::of(control))?;
+        let found: Vec<f64> = found.iter().copied().collect();
+        copy_out("curvatures", &found, curvatures, capacity)
+    })
 }
 
 #[unsafe(no_mangle)]

@@ -52,6 +52,22 @@ public:
     static spline parse(const std::string &text) {
         return spline(make<ricci_spline>(ricci_spline_parse, text.c_str()));
     }
+    // The curvatures of a flat metric of a whole surface with the singular vertices that distort areas
+    // least, or with those given; by default as few as keep its lengths within `range` of each other.
+    static std::vector<double> curvatures(const mesh &surface, std::size_t n_singular = RICCI_SPLINE_AUTO,
+                                          double range = 0, const control *watched = nullptr) {
+        std::vector<double> found(surface.summary().n_vertices);
+        check(ricci_spline_curvatures(surface.get(), nullptr, n_singular, range, of(watched), found.data(),
+                                      found.size()));
+        return found;
+    }
+    static std::vector<double> curvatures_at(const mesh &surface, span<std::uint32_t> singular,
+                                             const control *watched = nullptr) {
+        std::vector<double> found(surface.summary().n_vertices);
+        check(ricci_spline_curvatures(surface.get(), singular.data(), singular.size(), 0, of(watched),
+                                      found.data(), found.size()));
+        return found;
+    }
     // Near the vertices of a whole surface, on a flat metric of it.
     static spline
     of_surface(const metric &flat,

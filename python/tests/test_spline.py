@@ -154,5 +154,19 @@ def test_surfaces_of_other_topology(genus2):
     assert hole.holes[:, 0].tolist() == [3]
     disk = ricci.spline(ricci.make("disk", n=14), degree=2, rounds=1)
     assert disk.summary.n_holes == 0
-    with pytest.raises(ricci.ArgumentError, match="a sphere has no flat metric"):
+    with pytest.raises(ricci.ArgumentError, match="number of singular vertices"):
         ricci.spline(ricci.make("sphere", n=4))
+
+
+def test_singular_vertices_are_chosen_counted_or_named():
+    ball = ricci.make("sphere", n=8)
+    four = ricci.flat_metric(ball, singular=4)
+    fitted = ricci.spline(four, degree=2, rounds=1)
+    assert fitted.summary.n_holes == 4
+    assert fitted.holes[:, 0].sum() == pytest.approx(4 - 2, abs=1e-6)
+    named = ricci.Spline.of_surface(ricci.flat_metric(ball, singular=[0, 100, 200, 300]), degree=2, rounds=1)
+    assert named.summary.n_holes == 4
+    with pytest.raises(ricci.RicciError):
+        ricci.flat_metric(ball, singular=[0, 0, 1])
+    with pytest.raises(ricci.ArgumentError):
+        ricci.flat_metric(ball, singular="all")

@@ -4,16 +4,21 @@ use crate::options::{Common, FileName, choices, number, positive};
 use crate::picture::PictureArgs;
 use crate::uniformize::CornersChoice;
 use clap::{Args, Subcommand, ValueEnum};
+use ricci::mesh::VertexId;
+use ricci::spline::SingularVertices;
 use ricci::structure::AffineSource;
 use serde::Serialize;
 use std::path::PathBuf;
 use std::str::FromStr;
 
 pub const HELP: &str = "\
-Example: a smooth cubic surface of genus 2 with one singular vertex, and a picture of it with its control net
+Example: a smooth cubic surface of genus 2 with one singular vertex, and a picture of it with its control net; one of genus 1 with a hole,
+whose boundary has all curvature
     ricci make genus -o two.obj
     ricci spline fit two.obj --degree 3 -o two.json --report two_fit.json
     ricci spline eval two.json --picture two.png --wire --net
+    ricci make torus --holes 1 -o ring.obj
+    ricci spline fit ring.obj --singular 0 -o ring.json
 
 Example: a smooth cubic surface through the heights of a mesh, some of its points with derivatives, and a fine mesh of it
     ricci make disk --height 0.3 -o hill.obj
@@ -141,6 +146,19 @@ impl FromStr for SingularChoice {
             .map(vertex)
             .collect::<Result<_, String>>()
             .map(SingularChoice::At)
+    }
+}
+
+impl SingularChoice {
+    /// The library's option for it.
+    pub fn to_library(&self) -> SingularVertices {
+        match self {
+            SingularChoice::Auto => SingularVertices::Auto,
+            SingularChoice::Count(n) => SingularVertices::Count(*n),
+            SingularChoice::At(vertices) => {
+                SingularVertices::At(vertices.iter().map(|&v| VertexId(v)).collect())
+            }
+        }
     }
 }
 

@@ -8,16 +8,16 @@ use crate::progress::doing;
 use crate::report::{Checks, Figures};
 use ricci::Control;
 use ricci::flow;
-use ricci::mesh::VertexId;
 use ricci::spline::{
-    FitCondition, FitFailure, FlatMetric, FlatMetricOptions, SingularVertices, SurfaceFit, SurfaceFitOptions,
-    fit_surface,
+    FitCondition, FitFailure, FlatMetric, FlatMetricOptions, SurfaceFit, SurfaceFitOptions, fit_surface,
 };
 use serde_json::{Map, Value};
 
 pub fn fit_whole(args: &FitArgs, input: Input, control: &Control) -> Result<FitOutcome, Failure> {
     let whole = &args.whole;
-    let singular = singular_vertices(&whole.singular, &input)?;
+    if let SingularChoice::At(vertices) = &whole.singular {
+        vertices.iter().try_for_each(|&v| input.check_vertex("--singular", Some(v)))?;
+    }
     if input.positions().is_none() {
         let path = input.path.display();
         return Err(Failure::Input(format!(
@@ -27,7 +27,7 @@ pub fn fit_whole(args: &FitArgs, input: Input, control: &Control) -> Result<FitO
     let threads = args.common.threads;
     let options = FlatMetricOptions {
         source: whole.atlas.into(),
-        singular,
+        singular: whole.singular.to_library(),
         corners: whole.corners.as_ref().map_or_else(Default::default, |corners| corners.to_library()),
         flow: flow::Options { threads, ..flow::Options::default() },
         ..FlatMetricOptions::default()
@@ -75,17 +75,6 @@ pub fn fit_whole(args: &FitArgs, input: Input, control: &Control) -> Result<FitO
         .with("rounds", fitted.rounds);
     let SurfaceFit { rms, max, spline, .. } = fitted;
     Ok(FitOutcome { input, spline, rms, max, defaults, figures, checks })
-}
-
-fn singular_vertices(choice: &SingularChoice, input: &Input) -> Result<SingularVertices, Failure> {
-    Ok(match choice {
-        SingularChoice::Auto => SingularVertices::Auto,
-        SingularChoice::Count(n) => SingularVertices::Count(*n),
-        SingularChoice::At(vertices) => {
-            vertices.iter().try_for_each(|&v| input.check_vertex("--singular", Some(v)))?;
-            SingularVertices::At(vertices.iter().map(|&v| VertexId(v)).collect())
-        }
-    })
 }
 
 /// Most patches that a summary names.

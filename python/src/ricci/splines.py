@@ -31,13 +31,11 @@ from ricci._call import (
 from ricci._library import lib
 from ricci._structs import Struct, Write, above_zero, index_list, options, or_none, real_list
 from ricci.adapters import MeshLike, as_mesh
-from ricci.atlases import structure
 from ricci.control import Progress
 from ricci.errors import ArgumentError
 from ricci.figures import SplineSummary
 from ricci.mesh import Mesh
 from ricci.metrics import Metric
-from ricci.uniform import uniformize
 
 __all__ = ["PlaneOptions", "Spline", "SurfaceOptions", "flat_metric", "spline", "spline_domain"]
 
@@ -135,7 +133,7 @@ class Spline(Handle):
         """A spline near the vertices of a whole surface, on a metric that a flow made flat, up to singular vertices.
 
         Raises:
-            ArgumentError: the metric is not Euclidean, or has curvatures that are no multiple of a turn.
+            ArgumentError: the metric is not Euclidean.
         """
         return cls._made(lib.ricci_spline_fit_surface, flat, options("spline_surface_options", given, _SURFACE), CONTROL, progress=progress)
 
@@ -303,33 +301,34 @@ def spline_domain(polygons: Sequence[npt.ArrayLike], edge: float) -> Mesh:
     return Mesh._made(lib.ricci_spline_domain, pointer(corners), pointer(starts), len(parts), edge)
 
 
-def flat_metric(mesh: Mesh, singular: int | None = None, progress: Progress = None) -> Metric:
-    """The flat metric of a surface on which a spline lives: its whole curvature 2 pi chi at one vertex where chi < 0.
+def flat_metric(
+    mesh: Mesh, singular: int | str | npt.ArrayLike = "auto", range: float = 30.0, progress: Progress = None
+) -> Metric:
+    """The flat metric of a surface on which a spline lives: its curvature is at singular vertices inside, and at corners of the boundary.
 
     Args:
-        mesh: a surface with chi <= 0, or a disk, which gets four right angles.
-        singular: the vertex; None: where areas are distorted least.
+        mesh: a surface.
+        singular: "auto" for as few as keep lengths within a factor `range` of each other; their number; or the vertices.
+        range: that factor, above 1.
         progress: a `Control` or a callback.
 
     Raises:
-        ArgumentError: a sphere, whose curvature has no place in the plane.
+        ArgumentError: a sphere with fewer than three singular vertices, or too few vertices for three (500 each).
     """
     mesh = as_mesh(mesh)
-    if mesh.euler > 0 and mesh.summary.n_boundary_loops == 0:
-        raise ArgumentError("a sphere has no flat metric; open it, or use the command `ricci spline fit`")
-    curvatures = np.zeros(mesh.n_vertices)
-    if mesh.euler > 0:
-        square = uniformize(mesh, boundary="straight", corners=4)
-        curvatures[square.sides[0][:, 1]] = np.pi / 2
-    elif mesh.euler < 0:
-        if singular is None:
-            singular = int(structure(mesh, kind="affine", progress=progress).singular[0])
-        curvatures[singular] = 2 * np.pi * mesh.euler
+    vertices = None if isinstance(singular, (int, str)) else np.ascontiguousarray(singular, dtype=np.uint32)
+    if isinstance(singular, str) and singular != "auto":
+        raise ArgumentError(f"singular is {singular!r}: \"auto\", a number or vertices")
+    # The largest size_t stands for as few as are needed.
+    number = len(vertices) if vertices is not None else 2**64 - 1 if isinstance(singular, str) else int(singular)
+    curvatures = np.empty(mesh.n_vertices)
+    given = None if vertices is None else pointer(vertices)
+    filled(lib.ricci_spline_curvatures, mesh, given, number, float(range), CONTROL, out=curvatures, progress=progress)
     return Metric(mesh).flow(curvatures, progress)
 
 
 def spline(V: MeshLike, F: npt.ArrayLike | None = None, progress: Progress = None, **given: Unpack[SurfaceOptions]) -> Spline:
-    """A spline near the vertices of a whole surface, with one singular vertex where there must be one.
+    """A spline near the vertices of a whole surface, with as few singular vertices as its shape needs.
 
     Args:
         V: n x 3 positions with `F`, a mesh of any kind (`as_mesh`), or a `Metric` that a flow made flat.

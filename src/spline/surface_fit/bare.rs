@@ -7,6 +7,7 @@ use super::coarse::CoarseTriangulation;
 use super::domain::SurfaceDomain;
 use super::flat::FlatMetric;
 use super::holes::VertexDisk;
+use super::infinity::BareHole;
 use crate::error::Result;
 use crate::geometry::complex::{Complex, distance, norm};
 use crate::mesh::{Mesh, PerVertex, Place, VertexId};
@@ -30,15 +31,6 @@ const MOST_RIM: f64 = 0.7;
 const GROWTH: f64 = 1.3;
 /// Least number of vertices in a hole.
 const LEAST_INSIDE: usize = 24;
-
-/// A hole around a singular vertex, as it is planned.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct BareHole {
-    /// Its radius in the unit of the flat metric.
-    pub radius: f64,
-    /// The number of vertices of the surface in it.
-    pub inside: usize,
-}
 
 /// A planned hole with the vertices that it prescribes.
 pub(super) struct PlannedHole {

@@ -1,8 +1,7 @@
 //! The domain of splines over a whole surface: a coarse flat triangulation with a chart for each triangle.
 
-use super::bare::BareHole;
 use super::coarse::CoarseTriangulation;
-use super::infinity::InfinityHole;
+use super::infinity::{BareHole, InfinityHole};
 use super::similarity::PlaneSimilarity;
 use crate::error::{Error, Result};
 use crate::geometry::Space;

@@ -2,8 +2,8 @@
 
 use super::areas::vertex_areas;
 use super::pole::{evenest_vertex, from_pole};
-use super::singular::{Curvatures, SingularVertices, curvatures, zeros};
-use crate::canonical::{Corners, SphereOptions, uniformize_sphere};
+use super::singular::{Curvatures, FlatMetricOptions, NEAR_CONE, SingularVertices, curvatures, zeros};
+use crate::canonical::{SphereOptions, uniformize_sphere};
 use crate::control::Control;
 use crate::embed::FaceTransitions;
 use crate::error::{Error, Result};
@@ -21,41 +21,6 @@ use std::sync::Arc;
 
 /// Largest curvature, in radians, of a vertex that counts as flat: above what a converged flow leaves, and its rounding.
 pub(super) const FLAT: f64 = 1e-7;
-
-/// Default of [`FlatMetricOptions::range`].
-const RANGE: f64 = 30.0;
-/// Number of vertices around each singular one that [`FlatMetric::factor_range`] leaves out.
-pub(super) const NEAR_CONE: usize = 60;
-
-/// Options of [`FlatMetric::new`].
-#[derive(Debug, Clone, PartialEq)]
-pub struct FlatMetricOptions {
-    /// The flow, with all curvature at singular vertices and on the boundary, or a holomorphic 1-form with its 2g − 2 zeros. Default: the
-    /// flow.
-    pub source: AffineSource,
-    /// The vertices with the curvature inside the surface. Default: as few as bring the factor between lengths within `range`.
-    pub singular: SingularVertices,
-    /// Largest ratio of two factors between flat lengths and lengths on the surface, outside the neighbourhoods of singular vertices, for
-    /// which no more of them are taken. Default 30.
-    pub range: f64,
-    /// The corners of the boundary, which then has all curvature of the surface. Default: on a disk four right angles, on other surfaces
-    /// as many as the boundary has quarters of a turn.
-    pub corners: Corners,
-    /// Tolerance, threads and further options of the flow.
-    pub flow: flow::Options,
-}
-
-impl Default for FlatMetricOptions {
-    fn default() -> Self {
-        FlatMetricOptions {
-            source: AffineSource::default(),
-            singular: SingularVertices::default(),
-            range: RANGE,
-            corners: Corners::default(),
-            flow: flow::Options::default(),
-        }
-    }
-}
 
 /// A flat metric of a surface: a triangulation with edge lengths.
 #[derive(Debug, Clone)]
@@ -85,10 +50,45 @@ impl FlatMetric {
         if options.source == AffineSource::Form {
             return FlatMetric::by_form(surface, options, control);
         }
-        match curvatures(surface, options, control)? {
-            Curvatures::Infinity(vertex) => FlatMetric::of_sphere(surface, vertex, options, control),
-            Curvatures::At(target) => FlatMetric::by_flow(surface, target, options, control),
+        let all = curvatures(surface, options, control)?;
+        FlatMetric::best(surface, &all, options, control).map(|(flat, _)| flat)
+    }
+
+    /// The first of the flat metrics with these curvatures that keeps the factor between lengths within the range, or that with the least
+    /// range; beside it, its number.
+    fn best(
+        surface: &Surface,
+        all: &[Curvatures],
+        options: &FlatMetricOptions,
+        control: &Control,
+    ) -> Result<(FlatMetric, usize)> {
+        let mut best: Option<(f64, FlatMetric, usize)> = None;
+        let mut failure = None;
+        for (k, curvatures) in all.iter().enumerate() {
+            let found = match curvatures {
+                Curvatures::Infinity(vertex) => FlatMetric::of_sphere(surface, *vertex, options, control),
+                Curvatures::At(target) => FlatMetric::by_flow(surface, target.clone(), options, control),
+            };
+            control.check()?;
+            // A flow that fails leaves the others.
+            let flat = match found {
+                Ok(flat) if all.len() == 1 => return Ok((flat, k)),
+                Ok(flat) => flat,
+                Err(error) => {
+                    failure = Some(error);
+                    continue;
+                }
+            };
+            let range = flat.factor_range(surface)?;
+            if best.as_ref().is_none_or(|(least, ..)| range < *least) {
+                best = Some((range, flat, k));
+            }
+            if range <= options.range {
+                break;
+            }
         }
+        let failure = failure.unwrap_or_else(|| Error::Layout("there is no flat metric to choose".into()));
+        best.map(|(_, flat, k)| (flat, k)).ok_or(failure)
     }
 
     /// The flat metric with these curvatures.
@@ -270,4 +270,25 @@ fn not_converged(error: f64, tolerance: f64) -> Error {
     Error::Layout(format!(
         "the flow to the flat metric did not converge: curvatures miss by {error:e}, asked for {tolerance:e}"
     ))
+}
+
+/// The curvature of each vertex, radians, in the flat metric that [`FlatMetric::new`] makes by the flow with these options. Where that is a
+/// plane with a vertex at infinity, where no flow leads, those of three and more singular vertices.
+///
+/// # Errors
+/// [`Error::Argument`] for a sphere with one singular vertex, or with too few vertices for three; those of [`FlatMetric::new`].
+pub fn flat_curvatures(
+    surface: &Surface,
+    options: &FlatMetricOptions,
+    control: &Control,
+) -> Result<PerVertex<f64>> {
+    let all = curvatures(surface, options, control)?;
+    let best = if all.len() > 1 { FlatMetric::best(surface, &all, options, control)?.1 } else { 0 };
+    match (&all[best], all.last()) {
+        (Curvatures::At(target), _) | (_, Some(Curvatures::At(target))) => Ok(target.clone()),
+        _ => {
+            let need = "three and more on a sphere, which needs 500 vertices for each";
+            Err(Error::argument("number of singular vertices", 1, need))
+        }
+    }
 }

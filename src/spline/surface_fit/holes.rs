@@ -13,6 +13,8 @@ use std::f64::consts::TAU;
 const HOLE: f64 = 0.9;
 /// Largest deviation of the total angle of a hole's vertex from a multiple of 2π, in turns.
 const WHOLE: f64 = 1e-6;
+/// Distance between two developments of a vertex, over that from the middle of the disk, from which on they are different.
+const APART: f64 = 1e-6;
 /// Largest share of |w| up to which a filling alone is the surface: beyond it the spline is needed for the transition.
 const MOST_INNER: f64 = 0.92;
 
@@ -23,7 +25,7 @@ impl SurfaceDomain {
     /// [`Error::Argument`] for another vertex.
     pub fn hole(&self, v: VertexId) -> Result<Hole> {
         let radius = HOLE * self.clearance(v);
-        Hole::new(self.chart(v), self.around(v, radius).sectors, self.turns(v)?, radius)
+        Hole::new(self.chart(v), self.around(v, radius, 2.0).sectors, self.turns(v)?, radius)
     }
 
     /// The hole of this radius, or the widest that meets neither itself nor another singular vertex nor the boundary; at least as wide as
@@ -34,9 +36,9 @@ impl SurfaceDomain {
     pub fn wide_hole(&self, v: VertexId, radius: f64) -> Result<Hole> {
         let turns = self.turns(v)?;
         // The hole meets itself beyond half of the way from the vertex to itself.
-        let free = self.around(v, 2.0 * radius).free;
+        let free = self.around(v, 2.0 * radius, 2.0).free;
         let radius = radius.min(HOLE * free).max(HOLE * self.clearance(v));
-        Hole::new(self.chart(v), self.around(v, radius).sectors, turns, radius)
+        Hole::new(self.chart(v), self.around(v, radius, 2.0).sectors, turns, radius)
     }
 
     /// The chart number of a singular vertex's hole.
@@ -65,7 +67,7 @@ impl SurfaceDomain {
     /// Those of [`Hole::new`].
     pub(super) fn bare_hole(&self, v: VertexId, radius: f64, space: &SplineSpace) -> Result<Hole> {
         let turns = self.total_angle(v) / TAU;
-        let hole = Hole::new(self.chart(v), self.around(v, radius).sectors, turns, radius)?;
+        let hole = Hole::new(self.chart(v), self.around(v, radius, 2.0).sectors, turns, radius)?;
         let mesh = &self.coarse.mesh;
         let far = |h: HalfedgeId| {
             let (f, k) = mesh.corner(h)?;
@@ -81,14 +83,24 @@ impl SurfaceDomain {
     /// The vertices in a disk around a vertex, each with its distance and its direction, an angle from the first half-edge of the vertex; the
     /// nearest first. Beside them, a radius up to which the disk meets neither itself nor another singular vertex nor the boundary.
     pub(super) fn disk(&self, v: VertexId, radius: f64) -> VertexDisk {
-        let HoleSurroundings { sectors, free } = self.around(v, radius);
+        let HoleSurroundings { sectors, mut free } = self.around(v, radius, 1.0);
+        let whole = self.total_angle(v);
         let mut nearest: HashMap<VertexId, [f64; 2]> = HashMap::new();
         for sector in &sectors {
             let f = FaceId(sector.patch);
             for (u, corner) in self.coarse.mesh.face_vertices(f).into_iter().zip(self.corners[f]) {
                 let z = sector.local(corner);
+                if u == v && norm(z) < SAME * self.unit[f] {
+                    continue;
+                }
                 let there = [norm(z), sector.angle + z[1].atan2(z[0])];
                 let known = nearest.entry(u).or_insert(there);
+                let turn = (there[1] - known[1]) / whole;
+                let aside = (turn - turn.round()).abs() * whole * there[0];
+                if (there[0] - known[0]).abs().max(aside) > APART * there[0] {
+                    // The disk meets itself.
+                    free = free.min(there[0].max(known[0]));
+                }
                 if there[0] < known[0] {
                     *known = there;
                 }
@@ -99,8 +111,9 @@ impl SurfaceDomain {
         VertexDisk { places, free }
     }
 
-    /// The triangles that a disk around a vertex meets, developed from the vertex.
-    fn around(&self, v: VertexId, radius: f64) -> HoleSurroundings {
+    /// The triangles that a disk around a vertex meets, developed from the vertex. Those beyond a multiple of the free radius are left out:
+    /// around another singular vertex there would be many developments of one.
+    fn around(&self, v: VertexId, radius: f64, share: f64) -> HoleSurroundings {
         let mesh = &self.coarse.mesh;
         let whole = self.total_angle(v);
         let mut found: Vec<Sector> = Vec::new();
@@ -138,8 +151,7 @@ impl SurfaceDomain {
                     continue;
                 }
                 let far = distance([0.0; 2], nearest_on_side([0.0; 2], ends[0], ends[1]));
-                // A disk that is free of itself does not reach so far.
-                if far >= radius.min(2.0 * free) {
+                if far >= radius.min(share * free) {
                     continue;
                 }
                 let Some((g, across)) = self.across(h) else {

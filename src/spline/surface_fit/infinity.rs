@@ -1,4 +1,4 @@
-//! The hole around a vertex at infinity, with the vertices of the surface in it.
+//! Holes that a domain is made with: that around a vertex at infinity, with the vertices of the surface in it, and planned ones.
 
 use crate::geometry::complex::Complex;
 use crate::mesh::VertexId;
@@ -19,4 +19,13 @@ impl InfinityHole {
         let &[x, y] = self.beyond.get(&v)?;
         Some(Parameter { patch: self.hole.chart, x, y })
     }
+}
+
+/// A hole around a singular vertex, as it is planned.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct BareHole {
+    /// Its radius in the unit of the flat metric.
+    pub radius: f64,
+    /// The number of vertices of the surface in it.
+    pub inside: usize,
 }

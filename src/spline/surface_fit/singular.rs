@@ -1,15 +1,14 @@
 //! Where the curvature of a flat metric is: singular vertices inside a surface, and corners of its boundary.
 
-use super::flat::{FlatMetricOptions, NEAR_CONE};
 use crate::canonical::{Boundary, Corners, evenly};
 use crate::control::Control;
 use crate::error::{Error, Result};
-use crate::flow::{AutoCones, ConeLimits, cones_at, cones_within};
+use crate::flow::{self, AutoCones, ConeLimits, cones_at, cones_within};
 use crate::geometry::complex::{cross, dot};
 use crate::harmonic::ComplexForm;
 use crate::mesh::{Mesh, PerVertex, VertexId};
 use crate::metric::{Surface, curvature};
-use crate::structure::singular_vertex;
+use crate::structure::{AffineSource, singular_vertex};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_3, TAU};
 
 /// Least total angle of a singular vertex that is chosen, radians.
@@ -22,6 +21,41 @@ const MOST: usize = 32;
 const NO_CORNER: f64 = 0.25 * std::f64::consts::PI;
 /// Largest error of a sum of curvatures that counts as rounding, radians.
 const ROUNDING: f64 = 1e-9;
+
+/// Default of [`FlatMetricOptions::range`].
+const RANGE: f64 = 30.0;
+/// Number of vertices around each singular one that [`super::FlatMetric::factor_range`] leaves out.
+pub(super) const NEAR_CONE: usize = 60;
+
+/// Options of [`super::FlatMetric::new`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct FlatMetricOptions {
+    /// The flow, with all curvature at singular vertices and on the boundary, or a holomorphic 1-form with its 2g − 2 zeros. Default: the
+    /// flow.
+    pub source: AffineSource,
+    /// The vertices with the curvature inside the surface. Default: as few as bring the factor between lengths within `range`.
+    pub singular: SingularVertices,
+    /// Largest ratio of two factors between flat lengths and lengths on the surface, outside the neighbourhoods of singular vertices, for
+    /// which no more of them are taken. Default 30.
+    pub range: f64,
+    /// The corners of the boundary, which then has all curvature of the surface. Default: on a disk four right angles, on other surfaces
+    /// as many as the boundary has quarters of a turn.
+    pub corners: Corners,
+    /// Tolerance, threads and further options of the flow.
+    pub flow: flow::Options,
+}
+
+impl Default for FlatMetricOptions {
+    fn default() -> Self {
+        FlatMetricOptions {
+            source: AffineSource::default(),
+            singular: SingularVertices::default(),
+            range: RANGE,
+            corners: Corners::default(),
+            flow: flow::Options::default(),
+        }
+    }
+}
 
 /// The singular vertices of a flat metric inside the surface.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -45,30 +79,33 @@ pub(super) enum Curvatures {
     At(PerVertex<f64>),
 }
 
-/// The curvatures that the options ask for.
+/// The curvatures that the options ask for: several to choose from, those with more singular vertices later.
 pub(super) fn curvatures(
     surface: &Surface,
     options: &FlatMetricOptions,
     control: &Control,
-) -> Result<Curvatures> {
+) -> Result<Vec<Curvatures>> {
+    if options.range.is_nan() || options.range <= 1.0 {
+        return Err(Error::argument("range of factors", options.range, "above 1"));
+    }
     let mesh = surface.mesh();
     let is_sphere = mesh.is_closed() && mesh.euler() > 0;
     if options.corners != Corners::Default {
-        return Ok(Curvatures::At(by_given_corners(surface, options)?));
+        return Ok(vec![Curvatures::At(by_given_corners(surface, options)?)]);
     }
     let placed = match &options.singular {
         SingularVertices::Auto => return auto(surface, options, control),
-        SingularVertices::Count(1) if is_sphere => return Ok(Curvatures::Infinity(None)),
+        SingularVertices::Count(1) if is_sphere => return Ok(vec![Curvatures::Infinity(None)]),
         SingularVertices::At(given) if is_sphere && given.len() == 1 => {
             check_vertex(mesh, given[0])?;
-            return Ok(Curvatures::Infinity(Some(given[0])));
+            return Ok(vec![Curvatures::Infinity(Some(given[0]))]);
         }
         SingularVertices::Count(1) if mesh.euler() < 0 => {
-            return Ok(Curvatures::At(at_one(surface, None, options, control)?));
+            return Ok(vec![Curvatures::At(at_one(surface, None, options, control)?)]);
         }
         SingularVertices::At(given) if given.len() == 1 && mesh.euler() < 0 => {
             check_vertex(mesh, given[0])?;
-            return Ok(Curvatures::At(at_one(surface, Some(given[0]), options, control)?));
+            return Ok(vec![Curvatures::At(at_one(surface, Some(given[0]), options, control)?)]);
         }
         SingularVertices::At(given) if given.len() == 1 && (mesh.is_closed() || mesh.euler() > 0) => {
             let need = "left out: this surface has none, or two and more";
@@ -77,7 +114,7 @@ pub(super) fn curvatures(
         SingularVertices::Count(n) => place(surface, [*n, *n], options, control)?.0,
         SingularVertices::At(given) => cones_at(mesh, surface.lengths(), given, LEAST_ANGLE, control)?,
     };
-    Ok(Curvatures::At(with_corners(surface, &placed)?))
+    Ok(vec![Curvatures::At(with_corners(surface, &placed)?)])
 }
 
 fn check_vertex(mesh: &Mesh, v: VertexId) -> Result<()> {
@@ -135,24 +172,36 @@ fn place(
     cones_within(surface.mesh(), surface.lengths(), &limits, control)
 }
 
-/// As few singular vertices as bring the factor within the range.
-fn auto(surface: &Surface, options: &FlatMetricOptions, control: &Control) -> Result<Curvatures> {
+/// As few singular vertices as bring the factor within the range: none, or one where the surface needs one, if that is enough.
+fn auto(surface: &Surface, options: &FlatMetricOptions, control: &Control) -> Result<Vec<Curvatures>> {
     let mesh = surface.mesh();
     let most = (mesh.n_vertices() / VERTICES_EACH).min(MOST);
     let least = match (mesh.is_closed(), mesh.euler()) {
-        (true, 2) if most < 3 => return Ok(Curvatures::Infinity(None)),
+        (true, 2) if most < 3 => return Ok(vec![Curvatures::Infinity(None)]),
         (true, 2) => 3,
         (true, euler) if euler < 0 => 1,
         _ => 0,
     };
     let (placed, _) = place(surface, [least, most.max(least)], options, control)?;
-    if mesh.is_closed() && placed.cones.len() == 1 {
-        return Ok(Curvatures::At(at_one(surface, None, options, control)?));
+    let is_usual = placed.cones.len() == usize::from(mesh.is_closed() && mesh.euler() < 0);
+    let cones = Curvatures::At(with_corners(surface, &placed)?);
+    let mut all = vec![match (mesh.is_closed(), mesh.euler()) {
+        (true, 2) => Curvatures::Infinity(None),
+        (true, 0) => Curvatures::At(PerVertex::filled(mesh.n_vertices(), 0.0)),
+        (true, _) => Curvatures::At(at_one(surface, None, options, control)?),
+        (false, euler) if euler >= 0 => Curvatures::At(at_corners(surface, &Corners::Default)?),
+        _ => {
+            let (without, _) = place(surface, [0, 0], options, control)?;
+            Curvatures::At(with_corners(surface, &without)?)
+        }
+    }];
+    if !mesh.is_closed() && mesh.euler() < 0 {
+        all.push(Curvatures::At(at_one(surface, None, options, control)?));
     }
-    if placed.cones.is_empty() && !mesh.is_closed() && mesh.euler() >= 0 {
-        return Ok(Curvatures::At(at_corners(surface, &Corners::Default)?));
+    if !is_usual {
+        all.push(cones);
     }
-    Ok(Curvatures::At(with_corners(surface, &placed)?))
+    Ok(all)
 }
 
 /// The curvatures of cones, and the rest at few corners of each boundary loop.
@@ -174,10 +223,7 @@ fn with_corners(surface: &Surface, placed: &AutoCones) -> Result<PerVertex<f64>>
     let turns = curvature(mesh, surface.geometry(), surface.lengths())?.at;
     for (walk, total) in loops.iter().zip(rounded(&totals)) {
         let corners = ((total.abs() / FRAC_PI_2).round() as usize).max(usize::from(total.abs() > ROUNDING));
-        if corners > walk.len() {
-            let need = "at least as many as corners: one for each quarter of a turn";
-            return Err(Error::argument("vertices of a boundary loop", walk.len(), need));
-        }
+        let corners = corners.min(walk.len());
         let sharpest = (0..walk.len())
             .max_by(|&i, &j| (total * turns[walk[i]]).total_cmp(&(total * turns[walk[j]])).then(j.cmp(&i)));
         let mut walk = walk.clone();

@@ -39,7 +39,8 @@ pub struct Identities {
     /// Jump of the derivatives of order min(n − 1, 2) across sides of patches, for the spline without fillings, over the largest such
     /// derivative. Only sides with at most two knots of their ends on their line count.
     pub continuity: f64,
-    /// Number of sides between patches with more knots on their line, across which the spline is less smooth.
+    /// Number of sides between patches with more knots on their line, across which the spline is less smooth; those in cores of holes are not
+    /// counted.
     pub rough_sides: usize,
 }
 
@@ -65,7 +66,8 @@ impl Spline {
         let is_open = |side: &InnerSide| !self.holes().iter().any(|hole| hole.is_core(side.places[0]));
         let smooth: Vec<InnerSide> = smooth.into_iter().filter(is_open).collect();
         let continuity = self.jump(&smooth, threads, control)?;
-        Ok(Identities { partition_of_unity, polynomial_reproduction, continuity, rough_sides: rough })
+        let rough_sides = rough.iter().filter(|side| is_open(side)).count();
+        Ok(Identities { partition_of_unity, polynomial_reproduction, continuity, rough_sides })
     }
 
     /// The largest jump between the two patches at each side, whose derivatives are limits from their insides.
@@ -177,13 +179,13 @@ impl InnerSide {
 struct InnerSides {
     /// The sides across which the spline is as smooth as its degree allows.
     smooth: Vec<InnerSide>,
-    /// The number of other sides.
-    rough: usize,
+    /// The other sides.
+    rough: Vec<InnerSide>,
 }
 
 impl InnerSides {
     fn of(space: &SplineSpace) -> InnerSides {
-        let mut sides = InnerSides { smooth: Vec::new(), rough: 0 };
+        let mut sides = InnerSides { smooth: Vec::new(), rough: Vec::new() };
         for (at, patch) in space.patches().iter().enumerate() {
             let corners = [0, 1, 2].map(|k| patch.knots[k][0]);
             for support in &space.supports()[at] {
@@ -212,7 +214,7 @@ impl InnerSides {
         let [a, b, c] = [k, (k + 1) % 3, (k + 2) % 3].map(|k| knots[k][0]);
         let on_line = |&&p: &&[f64; 2]| doubled_area([p, a, b]).abs() < ON_LINE * doubled_area([a, b, c]);
         if knots[k].iter().chain(&knots[(k + 1) % 3]).filter(on_line).count() > 2 {
-            self.rough += 1;
+            self.rough.push(side);
         } else {
             self.smooth.push(side);
         }

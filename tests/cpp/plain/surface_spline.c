@@ -114,6 +114,30 @@ static void a_hole_is_filled(void) {
     ricci_mesh_free(mesh);
 }
 
+static void curvatures_add_up(void) {
+    enum { MOST = 2000 };
+    static double curvatures[MOST];
+    const uint32_t named[3] = {0, 50, 100}, twice[3] = {0, 50, 50};
+    ricci_mesh *mesh = NULL;
+    OK(make_sized(RICCI_SHAPE_SPHERE, 8, 0, 0, 0, 0, &mesh));
+    ricci_mesh_summary size;
+    OK(ricci_mesh_summarise(mesh, &size, sizeof size));
+    OK(ricci_spline_curvatures(mesh, NULL, 5, 0, NULL, curvatures, MOST));
+    double sum = 0;
+    int cones = 0;
+    for (size_t v = 0; v < size.n_vertices; v++) sum += curvatures[v], cones += curvatures[v] != 0;
+    CHECK(cones == 5 && fabs(sum - 16 * atan(1)) < 1e-9);
+    OK(ricci_spline_curvatures(mesh, named, 3, 0, NULL, curvatures, MOST));
+    CHECK(curvatures[0] > 0 && curvatures[50] > 0 && curvatures[100] > 0);
+    CHECK(ricci_spline_curvatures(mesh, twice, 3, 0, NULL, curvatures, MOST) == RICCI_ARGUMENT);
+    CHECK(ricci_spline_curvatures(mesh, NULL, 1, 0, NULL, curvatures, MOST) == RICCI_ARGUMENT);
+    CHECK(ricci_spline_curvatures(mesh, NULL, 2, 0, NULL, curvatures, MOST) == RICCI_TARGET_KIND);
+    CHECK(ricci_spline_curvatures(mesh, NULL, RICCI_SPLINE_AUTO, 0.5, NULL, curvatures, MOST) == RICCI_ARGUMENT);
+    CHECK(ricci_spline_curvatures(mesh, NULL, 5, 0, NULL, curvatures, 3) == RICCI_BUFFER_TOO_SMALL);
+    CHECK(ricci_spline_curvatures(NULL, NULL, 5, 0, NULL, curvatures, MOST) == RICCI_NULL_POINTER);
+    ricci_mesh_free(mesh);
+}
+
 static void what_cannot_be_is_refused(void) {
     ricci_mesh *mesh = NULL;
     ricci_metric *metric = NULL;
@@ -144,6 +168,7 @@ static void what_cannot_be_is_refused(void) {
 int main(void) {
     a_torus_is_fitted();
     a_hole_is_filled();
+    curvatures_add_up();
     what_cannot_be_is_refused();
     return 0;
 }
