@@ -54,8 +54,6 @@ def fit(run, mesh, degree, kind):
     closed = page.loops(mesh) == 0
     if kind == "flow":
         share(row, mesh)
-        if closed and len(row["singular_vertices"]) != int(page.genus(mesh) != 1):
-            row["bad"].append(f"{len(row['singular_vertices'])} singular vertices")
     if kind != "form":
         row["outside"] = outside(run, row, spline)
         row["angles"] = angles(run, mesh, spline)
@@ -334,7 +332,7 @@ TEXT = {
     "head": """# Splines near scanned surfaces
 
 Made by `docs/results/splines.py`: `ricci spline fit MESH` with default options, of degree 3 and 4, and `ricci spline export --tolerance 1e-3`. Default options
-are one singular vertex where χ ≠ 0 on a closed surface, four corners on the boundary of a disk, and a quarter as many control points as the mesh has vertices,
+are as few singular vertices as keep the factor between lengths within 30 where that can be, corners on the boundary of open surfaces, and a quarter as many control points as the mesh has vertices,
 the coefficients of fillings included. Wanted: root mean square 1e-3 and largest distance 1e-2 of the diagonal of the bounding box.
 
 {near} of {fitted} fits reach both. Times are those of one run on two cores that had other work.
@@ -363,7 +361,7 @@ at most. Degree 4 for meshes of up to 5,500 vertices.
     "form": """## The flow and a holomorphic 1-form
 
 The same surfaces, degree 3, with `--atlas form`: flat metrics |ω| have 2g − 2 cones of −2π, or fewer and larger ones at multiple zeros, in place of one.
-Where a form turns triangles of the mesh over, |ω| is no metric there and the fit says so.
+Where a form turns triangles of the mesh over, zeros move to vertices, and the flow makes the metric with their curvatures.
 """,
     "pictures": """## Pictures
 
