@@ -41,7 +41,9 @@ fn with_singular(singular: SingularVertices) -> FlatMetricOptions {
 #[test]
 fn limbs_get_cones_and_keep_their_size() {
     let surface = with_limbs(20);
-    let (flat, found) = fit(&surface, &FlatMetricOptions::default());
+    let flat = FlatMetric::new(&surface, &FlatMetricOptions::default(), &Control::new()).unwrap();
+    let once = SurfaceFitOptions { rounds: 1, corrections: 5, ..SurfaceFitOptions::default() };
+    let found = fit_surface(&surface, &flat, &once, &Control::new()).unwrap();
     let curvature = flat.curvature().unwrap();
     let total: f64 = curvature.iter().sum();
     assert!((total - 2.0 * TAU).abs() < 1e-6, "{total}");
@@ -60,7 +62,8 @@ fn limbs_get_cones_and_keep_their_size() {
     eprintln!("factors within {range:.1} by {} cones, {before:.1} by one", found.singular.len());
     assert!(range < 40.0 && before > 3.0 * range, "{range} {before}");
     eprintln!("rms {:.1e} max {:.1e} folds {:?}", found.rms, found.max, found.folds);
-    assert!(found.rms < 1e-3 && found.max < 1e-2 && found.folds.is_empty());
+    assert!(found.rms < 1e-2, "{}", found.rms);
+    assert_eq!(found.spline.holes().len(), found.singular.len());
     // Outside the holes it is as smooth as its degree allows.
     let identities = found.spline.identities(0, &Control::new()).unwrap();
     assert!(identities.continuity < 1e-8 && identities.partition_of_unity < 1e-12, "{identities:?}");
