@@ -44,7 +44,7 @@ pub(super) struct TriangleSizes<'a> {
     always: Vec<VertexId>,
     /// For each vertex, true unless it lies in the middle of a hole.
     allowed: PerVertex<bool>,
-    /// The number of vertices in the hole of each singular vertex inside the surface.
+    /// The number of vertices in the hole of each singular vertex inside the surface, except for planned holes.
     inside: Vec<usize>,
     /// The holes around singular vertices whose total angle is no multiple of 2π.
     planned: Vec<PlannedHole>,
@@ -99,7 +99,12 @@ impl<'a> TriangleSizes<'a> {
         })
     }
 
-    /// The number of vertices in the hole of each singular vertex inside the surface.
+    /// The number of vertices in each planned hole.
+    pub fn bare(&self) -> impl Iterator<Item = usize> + '_ {
+        self.planned.iter().map(|planned| planned.hole.inside)
+    }
+
+    /// The number of vertices in the hole of each singular vertex inside the surface, except for planned holes.
     pub fn inside(&self) -> impl Iterator<Item = usize> + '_ {
         self.inside.iter().copied()
     }
@@ -202,7 +207,6 @@ impl VertexChoice {
                 };
                 let turns = 1.0 - curvature[v] / TAU;
                 let found = plan_hole(fine, v, inside(turns), [n, cones.len()]);
-                all_inside.push(found.hole.inside);
                 planned.push(found);
                 continue;
             };
