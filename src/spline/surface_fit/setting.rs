@@ -16,9 +16,7 @@ const LEAST_INSIDE: usize = 60;
 const MOST_INSIDE: f64 = 0.3;
 /// Area of a hole around a vertex whose total angle is no multiple of 2π, over that of one with one turn: triangles at the vertex lie in its
 /// middle.
-const BARE_HOLE: f64 = 1.5;
-/// Coefficients of a filling around such a vertex, over those for as many vertices in another hole: tips of limbs are sharp.
-const FINER: usize = 3;
+const BARE_HOLE: f64 = 4.0;
 /// Default spread of knots: with knots far apart, a spline bends less sharply between its triangles.
 const WIDE: f64 = 0.9;
 /// Vertices in a hole for each coefficient of its filling.
@@ -119,7 +117,7 @@ impl<'a> FitSetting<'a> {
     ) -> Result<SurfaceDomain> {
         let degree = self.options.degree;
         let usual = sizes.inside().map(|inside| self.coefficients(inside));
-        let fills: usize = usual.chain(sizes.bare().map(|inside| self.coefficients(FINER * inside))).sum();
+        let fills: usize = usual.chain(sizes.bare().map(|inside| self.coefficients(inside))).sum();
         let most = self.most_control_points().saturating_sub(fills);
         let mut count = vertices_for(most, flat, degree).saturating_sub(sizes.added());
         let mut domain = sizes.domain(count, control)?;
@@ -160,7 +158,7 @@ impl<'a> FitSetting<'a> {
     ) -> Result<Hole> {
         if let Some(bare) = domain.bare.get(&v) {
             let hole = domain.bare_hole(v, bare.radius, space)?;
-            return Ok(hole.blank(self.coefficients(FINER * bare.inside)));
+            return Ok(hole.blank(self.coefficients(bare.inside)));
         }
         let mut hole = domain.hole(v)?;
         let wanted = self.inside(hole.turns);
