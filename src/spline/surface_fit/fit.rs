@@ -14,7 +14,7 @@ use crate::spline::{Parameter, Spline};
 
 /// Factors of the fairness weight after a round that misses the tolerance, and after one that meets it with folds.
 const LESS_FAIR: f64 = 0.3;
-const FAIRER: f64 = 10.0;
+const FAIRER: f64 = 100.0;
 /// Distance over the tolerance from which on a second round is the last.
 const HOPELESS: f64 = 2.0;
 
