@@ -12,6 +12,7 @@ const HEADERS: &[(&str, usize)] = &[
     ("circles", 10),
     ("harmonic", 20),
     ("match", 10),
+    ("seamless", 10),
     ("spline", 20),
     ("bicubic", 10),
     ("structure", 20),

@@ -17,6 +17,7 @@ use ricci_c::matching::ricci_match;
 use ricci_c::mesh::ricci_mesh;
 use ricci_c::metric::{ricci_metric, ricci_metric_new};
 use ricci_c::repaired_input::ricci_repaired_input_new;
+use ricci_c::seamless::ricci_seamless_new;
 use ricci_c::shapes::{ricci_make, ricci_shape};
 use ricci_c::soup::{ricci_soup_from_arrays, ricci_soup_repair};
 use ricci_c::spline::{ricci_spline_domain, ricci_spline_new, ricci_spline_spec};
@@ -109,6 +110,10 @@ impl Shelf {
             self.put("ricci_map", made(|p| unsafe { ricci_map_new(flat, null(), p) }));
             let own = made(|p| unsafe { ricci_match(mesh, mesh, null(), null(), p) });
             self.put("ricci_matching", own);
+        }
+        if matches!(shape, 0 | 4 | 7 | 9) {
+            let seamless = made(|p| unsafe { ricci_seamless_new(mesh, null(), null(), p) });
+            self.put("ricci_seamless", seamless);
         }
         if matches!(shape, 4 | 7 | 9) {
             let domain = made(|p| unsafe { ricci_dirichlet_new(uniform, null(), null(), p) });
