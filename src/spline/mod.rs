@@ -15,7 +15,7 @@ pub use bicubic::{
 pub use bicubic::{LengthUnit, StepOptions};
 pub use surface_fit::{
     CoarseTriangulation, FitCondition, FitFailure, FlatMetric, FlatMetricOptions, SingularVertices,
-    SurfaceDomain, SurfaceFit, SurfaceFitOptions, fit_surface, flat_curvatures,
+    SurfaceDomain, SurfaceFit, SurfaceFitOptions, fit_surface, fit_surface_over, flat_curvatures,
 };
 pub use triangular::{
     ClosestPoint, ClosestPoints, Fill, FitOptions, Hole, Identities, KnotOptions, Locator, MAX_DEGREE,

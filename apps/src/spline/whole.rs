@@ -9,7 +9,7 @@ use crate::report::{Checks, Figures};
 use ricci::Control;
 use ricci::flow;
 use ricci::spline::{
-    FitCondition, FitFailure, FlatMetric, FlatMetricOptions, SurfaceFit, SurfaceFitOptions, fit_surface,
+    FitCondition, FitFailure, FlatMetric, FlatMetricOptions, SurfaceFit, SurfaceFitOptions, fit_surface_over,
 };
 use serde_json::{Map, Value};
 
@@ -32,7 +32,7 @@ pub fn fit_whole(args: &FitArgs, input: Input, control: &Control) -> Result<FitO
         flow: flow::Options { threads, ..flow::Options::default() },
         ..FlatMetricOptions::default()
     };
-    let flat = doing("flat metric", || FlatMetric::new(&input.surface, &options, control))?;
+    let flats = doing("flat metric", || FlatMetric::candidates(&input.surface, &options, control))?;
     let usual = SurfaceFitOptions::default();
     let options = SurfaceFitOptions {
         degree: args.degree.into(),
@@ -42,7 +42,8 @@ pub fn fit_whole(args: &FitArgs, input: Input, control: &Control) -> Result<FitO
         threads,
         ..usual
     };
-    let fitted = doing("fit", || fit_surface(&input.surface, &flat, &options, control))?;
+    let fit = || fit_surface_over(&input.surface, &flats, &options, control);
+    let (fitted, chosen) = doing("fit", fit)?;
     let mut checks = Checks::default();
     checks.add("max", fitted.max, whole.tolerance);
     checks.add("folded_patches", fitted.folds.len() as f64, 0.0);
@@ -55,7 +56,7 @@ pub fn fit_whole(args: &FitArgs, input: Input, control: &Control) -> Result<FitO
     if let (AtlasChoice::Flow, [v]) = (whole.atlas, &singular[..]) {
         defaults.insert("singular".into(), Value::from(*v));
     }
-    let factor_range = flat.factor_range(&input.surface)?;
+    let factor_range = flats[chosen].factor_range(&input.surface)?;
     let folded_share = fitted.folded_share(&input.surface);
     // The total angles at the singular vertices, in turns; -1 at infinity.
     let angles: Vec<f64> = fitted.spline.holes().iter().map(|hole| hole.turns).collect();

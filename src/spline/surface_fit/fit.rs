@@ -58,6 +58,39 @@ impl SurfaceFit {
     }
 }
 
+/// [`fit_surface`] over several flat metrics in turn, until a fit holds its tolerance without folds; the best of them, with the number of
+/// its metric.
+///
+/// # Errors
+/// Those of [`fit_surface`], if it fails over every metric; [`Error::Argument`] for no metric.
+pub fn fit_surface_over(
+    surface: &Surface,
+    metrics: &[FlatMetric],
+    options: &SurfaceFitOptions,
+    control: &Control,
+) -> Result<(SurfaceFit, usize)> {
+    let (mut best, mut failure): (Option<(SurfaceFit, usize)>, _) = (None, None);
+    for (k, flat) in metrics.iter().enumerate() {
+        let fit = match fit_surface(surface, flat, options, control) {
+            Ok(fit) => fit,
+            Err(Error::Cancelled) => return Err(Error::Cancelled),
+            Err(error) => {
+                failure.get_or_insert(error);
+                continue;
+            }
+        };
+        let (cost, holds) = (fit.cost(options.tolerance), fit.holds(options.tolerance));
+        if best.as_ref().is_none_or(|(best, _)| cost < best.cost(options.tolerance)) {
+            best = Some((fit, k));
+        }
+        if holds {
+            break;
+        }
+    }
+    let none = || Error::argument("flat metrics", 0, "one or more");
+    best.ok_or_else(|| failure.unwrap_or_else(none))
+}
+
 /// Fits a spline to the vertices of a surface in space, over a flat metric of it. The triangles of the domain are about equally long on the
 /// surface in the first round, and become smaller where the fit is worse. Returned is the best of all rounds; they end early once the
 /// tolerance is met and the spline does not fold, and after the second where the tolerance is far, or a round gains nothing.
@@ -116,6 +149,11 @@ pub fn fit_surface(
 }
 
 impl SurfaceFit {
+    /// True if the tolerance is met, and no patch folds.
+    pub fn holds(&self, tolerance: f64) -> bool {
+        self.miss(tolerance) <= 1.0 && self.folds.is_empty()
+    }
+
     /// The distance over the tolerance: at most 1 if the tolerance is met.
     fn miss(&self, tolerance: f64) -> f64 {
         miss([self.rms, self.max], tolerance)

@@ -54,6 +54,25 @@ impl FlatMetric {
         FlatMetric::best(surface, &all, options, control).map(|(flat, _)| flat)
     }
 
+    /// The flat metrics among which [`SingularVertices::Auto`] chooses: the usual one first, with no singular vertex or one, and where its
+    /// factor between lengths leaves the range, those with more; for any other choice the metric of [`FlatMetric::new`] alone. Which is best
+    /// shows in a fit over each ([`super::fit_surface_over`]).
+    ///
+    /// # Errors
+    /// Those of [`FlatMetric::new`].
+    pub fn candidates(
+        surface: &Surface,
+        options: &FlatMetricOptions,
+        control: &Control,
+    ) -> Result<Vec<FlatMetric>> {
+        if options.source == AffineSource::Form {
+            return Ok(vec![FlatMetric::by_form(surface, options, control)?]);
+        }
+        let all = curvatures(surface, options, control)?;
+        let found = FlatMetric::within_range(surface, &all, options, control)?;
+        Ok(found.into_iter().map(|(_, flat, _)| flat).collect())
+    }
+
     /// The first of the flat metrics with these curvatures that keeps the factor between lengths within the range, or that with the least
     /// range; beside it, its number.
     fn best(
@@ -62,33 +81,42 @@ impl FlatMetric {
         options: &FlatMetricOptions,
         control: &Control,
     ) -> Result<(FlatMetric, usize)> {
-        let mut best: Option<(f64, FlatMetric, usize)> = None;
-        let mut failure = None;
+        let found = FlatMetric::within_range(surface, all, options, control)?;
+        let best = found.into_iter().min_by(|a, b| a.0.total_cmp(&b.0));
+        let none = || Error::Layout("there is no flat metric to choose".into());
+        best.map(|(_, flat, k)| (flat, k)).ok_or_else(none)
+    }
+
+    /// The flat metrics with these curvatures, each with the range of its factor and its number, up to the first within the range of the
+    /// options. Those whose flow fails are left out, unless all do.
+    fn within_range(
+        surface: &Surface,
+        all: &[Curvatures],
+        options: &FlatMetricOptions,
+        control: &Control,
+    ) -> Result<Vec<(f64, FlatMetric, usize)>> {
+        let (mut metrics, mut failure) = (Vec::new(), None);
         for (k, curvatures) in all.iter().enumerate() {
             let found = match curvatures {
                 Curvatures::Infinity(vertex) => FlatMetric::of_sphere(surface, *vertex, options, control),
                 Curvatures::At(target) => FlatMetric::by_flow(surface, target.clone(), options, control),
             };
             control.check()?;
-            // A flow that fails leaves the others.
-            let flat = match found {
-                Ok(flat) if all.len() == 1 => return Ok((flat, k)),
-                Ok(flat) => flat,
-                Err(error) => {
-                    failure = Some(error);
-                    continue;
+            match found {
+                Ok(flat) => {
+                    let range = if all.len() == 1 { 1.0 } else { flat.factor_range(surface)? };
+                    metrics.push((range, flat, k));
+                    if range <= options.range {
+                        break;
+                    }
                 }
-            };
-            let range = flat.factor_range(surface)?;
-            if best.as_ref().is_none_or(|(least, ..)| range < *least) {
-                best = Some((range, flat, k));
-            }
-            if range <= options.range {
-                break;
+                Err(error) => failure = Some(error),
             }
         }
-        let failure = failure.unwrap_or_else(|| Error::Layout("there is no flat metric to choose".into()));
-        best.map(|(_, flat, k)| (flat, k)).ok_or(failure)
+        match failure {
+            Some(error) if metrics.is_empty() => Err(error),
+            _ => Ok(metrics),
+        }
     }
 
     /// The flat metric with these curvatures.

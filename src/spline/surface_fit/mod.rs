@@ -21,7 +21,7 @@ mod verdict;
 
 pub use coarse::CoarseTriangulation;
 pub use domain::SurfaceDomain;
-pub use fit::{SurfaceFit, fit_surface};
+pub use fit::{SurfaceFit, fit_surface, fit_surface_over};
 pub use flat::{FlatMetric, flat_curvatures};
 pub use setting::SurfaceFitOptions;
 pub use singular::{FlatMetricOptions, SingularVertices};
