@@ -21,12 +21,12 @@ fn tampered_holes_are_refused_by_name() {
         refusal(&format!("{before}{}", hole.replacen(from, to, 1)))
     };
     let patches = sample().spline.space().patches().len();
-    for turns in ["0", "-2", "65537"] {
+    for turns in ["0", "-2", "65537", "99999999999"] {
         let error = with("\"turns\":3", &format!("\"turns\":{turns}"));
         assert!(matches!(error, Error::Argument { what: "turns of a hole", .. }), "{error}");
     }
+    // The number is written as 3.0.
     assert!(matches!(with("\"turns\":3", "\"turns\":2.5"), Error::Parse { .. }));
-    assert!(matches!(with("\"turns\":3", "\"turns\":99999999999"), Error::Parse { .. }));
     for radius in ["0.0", "-1.0"] {
         let error = with("\"radius\":", &format!("\"radius\":{radius},\"was\":"));
         assert!(matches!(error, Error::Argument { what: "radius of a hole", .. }), "{error}");

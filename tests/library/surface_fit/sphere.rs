@@ -56,7 +56,8 @@ fn a_sphere_has_one_hole_at_infinity() {
     assert!(patch == hole.chart && f64::hypot(x, y) < 0.05, "{x} {y}");
     let vertex = surface.positions().unwrap()[5];
     let found = fit.spline.surface_point(Parameter { patch, x: 0.0, y: 0.0 }).unwrap();
-    assert!(distance(found.point, vertex) < 1e-2, "{:?} {vertex:?}", found.point);
+    // Points slide along the surface while it is fitted.
+    assert!(distance(found.point, vertex) < 5e-2 && off(found.point) < 1e-2, "{:?} {vertex:?}", found.point);
     // Normals point outwards, as those of the mesh do.
     let normal = found.normal().unwrap();
     let gradient = [0, 1, 2].map(|x| vertex[x] / AXES[x].powi(2));
