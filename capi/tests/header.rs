@@ -13,10 +13,10 @@ const HEADERS: &[(&str, usize)] = &[
     ("harmonic", 20),
     ("match", 10),
     ("seamless", 10),
-    ("spline", 20),
+    ("spline", 25),
     ("bicubic", 10),
     ("structure", 20),
-    ("repair", 30),
+    ("repair", 40),
     ("shapes", 10),
 ];
 
