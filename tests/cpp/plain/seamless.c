@@ -79,6 +79,7 @@ static void surfaces_become_seamless(void) {
     CHECK(memcmp(turning, other, sizeof turning) == 0);
     ricci_seamless_free(result);
     options.n_quarter_turns = 3;
+    result = NULL;
     CHECK(ricci_seamless_new(mesh, &options, NULL, &result) == RICCI_WRONG_SIZE && result == NULL);
     ricci_mesh_free(mesh);
 }
