@@ -149,8 +149,8 @@ typedef struct ricci_spline_surface_options {
      */
     double tolerance;
     /**
-     * Weight of the variation of bending in the first round, h^6 |D^3 F|^2 with h the longest side of each triangle,
-     * as a mean over the triangles beside the mean squared distance; 0: chosen by cross-validation.
+     * Weight of the variation of bending in the first round, h^6 |D^3 F|^2 with h the longest side of each
+     * triangle, as a mean over the triangles beside the mean squared distance; 0: chosen by cross-validation.
      */
     double fairness;
     /** Least distance of knots from their vertex, as in ricci_spline_spec; 0: 0.9. */
@@ -260,9 +260,9 @@ RICCI_API ricci_status ricci_spline_fit(const ricci_spline *spline, const double
  * Curvatures of a flat metric for a spline over a whole surface: those of singular vertices inside, and of
  * corners of the boundary, which take the rest; 0 elsewhere. ricci_flow makes the metric from them.
  *
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (a vertex that there is not, on
- *         the boundary or named twice; a sphere with one singular vertex, or with too few vertices for three;
- *         a range below 1), RICCI_TARGET_KIND (a number that the surface cannot have), RICCI_FACTORISATION,
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (a vertex that there is not,
+ * on the boundary or named twice; a sphere with one singular vertex, or with too few vertices for three; a
+ * range below 1), RICCI_TARGET_KIND (a number that the surface cannot have), RICCI_FACTORISATION,
  *         RICCI_NO_MEMORY, RICCI_CANCELLED.
  *
  * @param mesh        a surface.
@@ -285,8 +285,8 @@ RICCI_API ricci_status ricci_spline_curvatures(const ricci_mesh *mesh, const uin
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE, RICCI_ARGUMENT (a metric that is not Euclidean, a
  *         surface without positions), RICCI_SPLINE, RICCI_FACTORISATION, RICCI_NO_MEMORY, RICCI_CANCELLED.
  *
- * @param flat     a metric of the plane that ricci_flow has made flat: up to few vertices, or everywhere; such
- *                 as that with the curvatures of ricci_spline_curvatures.
+ * @param flat     a metric of the plane that ricci_flow has made flat: up to few vertices, or everywhere;
+ * such as that with the curvatures of ricci_spline_curvatures.
  * @param options  degree and sizes; NULL for the defaults.
  * @param control  progress and cancellation, or NULL.
  * @param fitted   out: the new handle, to be released by ricci_spline_free.

@@ -132,7 +132,8 @@ static void curvatures_add_up(void) {
     CHECK(ricci_spline_curvatures(mesh, twice, 3, 0, NULL, curvatures, MOST) == RICCI_ARGUMENT);
     CHECK(ricci_spline_curvatures(mesh, NULL, 1, 0, NULL, curvatures, MOST) == RICCI_ARGUMENT);
     CHECK(ricci_spline_curvatures(mesh, NULL, 2, 0, NULL, curvatures, MOST) == RICCI_TARGET_KIND);
-    CHECK(ricci_spline_curvatures(mesh, NULL, RICCI_SPLINE_AUTO, 0.5, NULL, curvatures, MOST) == RICCI_ARGUMENT);
+    CHECK(ricci_spline_curvatures(mesh, NULL, RICCI_SPLINE_AUTO, 0.5, NULL, curvatures, MOST) ==
+          RICCI_ARGUMENT);
     CHECK(ricci_spline_curvatures(mesh, NULL, 5, 0, NULL, curvatures, 3) == RICCI_BUFFER_TOO_SMALL);
     CHECK(ricci_spline_curvatures(NULL, NULL, 5, 0, NULL, curvatures, MOST) == RICCI_NULL_POINTER);
     ricci_mesh_free(mesh);
