@@ -25,7 +25,7 @@ def test_a_surface_becomes_seamless(surface: ricci.Mesh) -> None:
 
 def test_its_seams_are_exact(surface: ricci.Mesh) -> None:
     layout = ricci.seamless(surface).map()
-    faces, corners, points = layout.mesh.faces, layout.corners("refinement"), layout.points()
+    faces, corners, points = layout.mesh.F, layout.corners("refinement"), layout.points()
     sides = {}
     for f, c in zip(faces, corners, strict=True):
         for k in range(3):
@@ -39,7 +39,7 @@ def test_its_seams_are_exact(surface: ricci.Mesh) -> None:
 
 
 def test_what_cannot_be_is_refused(surface: ricci.Mesh) -> None:
-    with pytest.raises(ricci.TargetError, match="4 − valence"):
+    with pytest.raises(ricci.TargetError, match="valence is"):
         ricci.seamless(surface, cones={0: 5})
     with pytest.raises(ricci.ArgumentError, match="whole numbers"):
         ricci.seamless(surface, quarter_turns=[0.5, 0, 0, 0])

@@ -118,7 +118,8 @@ class Seamless(Handle):
 def seamless(V: MeshLike, F: npt.ArrayLike | None = None, progress: Progress = None, **given: Unpack[SeamlessOptions]) -> Seamless:
     """A seamless metric of a closed surface near its conformal class.
 
-    First the conformal metric with the cones, then least changes of the logarithms of lengths until 2g loops turn by multiples of 90 degrees.
+    First the conformal metric with the cones, then least changes of the logarithms of lengths until 2g loops turn by multiples of
+    90 degrees.
 
     Args:
         V: n x 3 positions with `F`, or a mesh of any kind (`as_mesh`).

@@ -301,9 +301,7 @@ def spline_domain(polygons: Sequence[npt.ArrayLike], edge: float) -> Mesh:
     return Mesh._made(lib.ricci_spline_domain, pointer(corners), pointer(starts), len(parts), edge)
 
 
-def flat_metric(
-    mesh: Mesh, singular: int | str | npt.ArrayLike = "auto", range: float = 30.0, progress: Progress = None
-) -> Metric:
+def flat_metric(mesh: Mesh, singular: int | str | npt.ArrayLike = "auto", range: float = 30.0, progress: Progress = None) -> Metric:
     """The flat metric of a surface on which a spline lives: its curvature is at singular vertices inside, and at corners of the boundary.
 
     Args:
@@ -318,12 +316,15 @@ def flat_metric(
     mesh = as_mesh(mesh)
     vertices = None if isinstance(singular, (int, str)) else np.ascontiguousarray(singular, dtype=np.uint32)
     if isinstance(singular, str) and singular != "auto":
-        raise ArgumentError(f"singular is {singular!r}: \"auto\", a number or vertices")
+        raise ArgumentError(f'singular is {singular!r}: "auto", a number or vertices')
     # The largest size_t stands for as few as are needed.
-    number = len(vertices) if vertices is not None else 2**64 - 1 if isinstance(singular, str) else int(singular)
+    number = 2**64 - 1
+    if vertices is not None:
+        number = len(vertices)
+    elif isinstance(singular, int):
+        number = singular
     curvatures = np.empty(mesh.n_vertices)
-    given = None if vertices is None else pointer(vertices)
-    filled(lib.ricci_spline_curvatures, mesh, given, number, float(range), CONTROL, out=curvatures, progress=progress)
+    filled(lib.ricci_spline_curvatures, mesh, pointer(vertices), number, float(range), CONTROL, out=curvatures, progress=progress)
     return Metric(mesh).flow(curvatures, progress)
 
 

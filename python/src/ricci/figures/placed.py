@@ -169,8 +169,8 @@ class SeamlessSummary:
         flow_iterations: steps of the conformal flow.
         iterations: Newton steps after it.
         n_flips: edge flips.
-        error: largest deviation, radians, of the angle around a vertex from its target, and of the turning of loops that were found anew, from
-            another vertex, from multiples of 90 degrees.
+        error: largest deviation, radians, of the angle around a vertex from its target, and of the turning of loops that were found
+            anew, from another vertex, from multiples of 90 degrees.
         tolerance: the tolerance that was asked for.
     """
 
