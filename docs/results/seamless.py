@@ -8,7 +8,7 @@ import random
 from page import build, euler, file_of, genus, judged, loops, main, meshes, seconds, small, table, verdict
 
 # Random signatures to a mesh, and the number of meshes, the smallest of each genus first.
-TRIED, RANDOM_MESHES = 20, 12
+TRIED, RANDOM_MESHES = 20, 6
 # Vertices up to which the outside program reads the written map.
 JUDGED = 70_000
 
