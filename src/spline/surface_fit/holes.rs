@@ -9,6 +9,8 @@ use crate::spline::{Hole, Sector, SplineSpace};
 use std::collections::HashMap;
 use std::f64::consts::TAU;
 
+/// Most triangles of a disk that may meet itself, over those of the surface.
+const MOST_COPIES: usize = 16;
 /// Radius of a hole over the distance of its vertex from the sides opposite it.
 const HOLE: f64 = 0.9;
 /// Largest deviation of the total angle of a hole's vertex from a multiple of 2π, in turns.
@@ -154,7 +156,9 @@ impl SurfaceDomain {
                 if far >= radius.min(share * free) {
                     continue;
                 }
-                let Some((g, across)) = self.across(h) else {
+                // A disk with so many more triangles than the surface has met itself long before.
+                let has_room = found.len() < MOST_COPIES * mesh.n_faces();
+                let Some((g, across)) = self.across(h).filter(|_| has_room) else {
                     free = free.min(far);
                     continue;
                 };
