@@ -119,11 +119,8 @@ fn closed_sides(
     let off = left.iter().zip(&sides).fold([0; 2], |sum, (&h, &w)| add(sum, sub(w, turned(w, turn(h)))));
     // 1 − iᵏ divides what the sum is off if k is odd, and if no k is odd.
     let size = |k: usize| sides[k].iter().map(|x| (*x as f64).powi(2)).sum::<f64>();
-    let rank = |k: &usize| (turn(left[*k]) % 2, f64::from(u8::from(turn(left[*k]) != 0)), size(*k));
-    let order = |a: &usize, b: &usize| {
-        let (a, b) = (rank(a), rank(b));
-        a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.total_cmp(&b.2))
-    };
+    let rank = |k: usize| (turn(left[k]) % 2, turn(left[k]) != 0);
+    let order = |a: &usize, b: &usize| rank(*a).cmp(&rank(*b)).then(size(*a).total_cmp(&size(*b)));
     if off != [0; 2] {
         let longest = (0..left.len()).max_by(order);
         let correction = longest.and_then(|k| Some((k, divided(off, turn(left[k]))?)));

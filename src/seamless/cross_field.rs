@@ -1,5 +1,6 @@
 //! The smoothest field of four directions on a closed surface \[KCPS13\], and its cones.
 
+use super::signature::MOST_CURVED;
 use crate::control::{Control, Stage};
 use crate::error::{Error, Result};
 use crate::geometry::complex::{Complex, conj, mul};
@@ -16,8 +17,6 @@ use std::f64::consts::{PI, TAU};
 const STEPS: usize = 30;
 /// Shift of the energy, relative to its mean diagonal: the energy of a parallel field is 0.
 const SHIFT: f64 = 1e-9;
-/// The largest curvature of a cone in quarter turns: an angle of 90° is left.
-const MOST_CURVED: i32 = 3;
 
 /// The curvature of the cones of the smoothest field of four directions, in quarter turns per vertex (V entries, total 4χ). A cone that lies
 /// inside a triangle goes to the corner whose own curvature is nearest to what it has then.
@@ -142,7 +141,7 @@ impl VertexFrames<'_> {
             }
             // Re conj(z_j) r z_i, twice.
             for (row, column, x) in [(j, i, a), (j, i + 1, -b), (j + 1, i, b), (j + 1, i + 1, a)] {
-                let entry = pattern.position(row.max(column), row.min(column));
+                let entry = pattern.position(row, column);
                 let twice = if i == j { 2.0 } else { 1.0 };
                 match entry {
                     Some(at) if i != j || row == column => values[at] -= twice * weight * x,
@@ -157,8 +156,9 @@ impl VertexFrames<'_> {
     fn cones(&self, field: &[Complex]) -> PerVertex<i32> {
         let mut cones = PerVertex::filled(self.mesh.n_vertices(), 0);
         for f in self.mesh.faces() {
-            for _ in 0..self.index(f, field).abs() {
-                let sign = self.index(f, field).signum();
+            let index = self.index(f, field);
+            let sign = index.signum();
+            for _ in 0..index.abs() {
                 let corners = self.mesh.face_vertices(f);
                 let off = |v: VertexId| (f64::from(cones[v] + sign) - self.curvature[v] / (TAU / 4.0)).abs();
                 let best = corners

@@ -32,7 +32,7 @@ use crate::metric::{Class, Surface, Target};
 use crate::parallel::Pool;
 use holonomy_state::{HolonomyState, HolonomyTarget};
 use newton::{NewtonEnd, reach_holonomy};
-use signature::{check_existence, cones_of_curvature, curvature_of_cones};
+use signature::{MOST_CURVED, check_existence, cones_of_curvature, curvature_of_cones};
 use std::f64::consts::FRAC_PI_2;
 use turning_choice::nearest_quarter_turns;
 
@@ -129,8 +129,8 @@ pub struct SeamlessMap {
 ///
 /// # Errors
 /// [`Error::TargetKind`] for cones that no metric has, and signatures that are known to be impossible (genus 1 and 2); [`Error::Argument`]
-/// for a surface with boundary, whose lengths are not Euclidean, or for a tolerance that is not positive; [`Error::Size`] for quarter turns
-/// of another number than 2g; those of [`Flow::solve`]; [`Error::Cancelled`].
+/// for a surface with boundary or a tolerance that is not positive; [`Error::Size`] for quarter turns of another number than 2g; those of
+/// [`Flow::solve`]; [`Error::Cancelled`].
 pub fn seamless(surface: &Surface, options: &SeamlessOptions, control: &Control) -> Result<Seamless> {
     let mesh = surface.mesh();
     if !mesh.is_closed() {
@@ -198,13 +198,15 @@ fn chosen_cones(surface: &Surface, cones: &SeamlessCones, control: &Control) -> 
 /// Curvature of cones rounded to quarter turns such that the total is 4χ and no angle is below 90°.
 fn rounded_to_quarters(mesh: &Mesh, cones: &[(VertexId, f64)]) -> PerVertex<i32> {
     let exact = |k: usize| cones[k].1 / FRAC_PI_2;
-    let mut quarters: Vec<i32> = (0..cones.len()).map(|k| (exact(k).round() as i32).min(3)).collect();
+    let mut quarters: Vec<i32> =
+        (0..cones.len()).map(|k| (exact(k).round() as i32).min(MOST_CURVED)).collect();
     loop {
         let missing = 4 * mesh.euler() - quarters.iter().map(|&k| i64::from(k)).sum::<i64>();
         let step = missing.signum() as i32;
         let off = |k: &usize| f64::from(step) * (exact(*k) - f64::from(quarters[*k]));
-        let most =
-            (0..cones.len()).filter(|&k| quarters[k] + step <= 3).max_by(|a, b| off(a).total_cmp(&off(b)));
+        let most = (0..cones.len())
+            .filter(|&k| quarters[k] + step <= MOST_CURVED)
+            .max_by(|a, b| off(a).total_cmp(&off(b)));
         match most {
             Some(k) if step != 0 => quarters[k] += step,
             _ => break,

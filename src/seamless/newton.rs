@@ -15,7 +15,7 @@ const GOOD_SHARE: f64 = 0.5;
 const STALLED: f64 = 0.5;
 /// Below this error, radians, steps converge quadratically or are at the rounding floor.
 const NEAR: f64 = 1e-7;
-/// Relative shift of the measure of progress over which an iteration far from its target is given up: steps that do not halve the error.
+/// Steps in a row that do not halve the error, after which the iteration is given up.
 const SLOW_STEPS: usize = 60;
 
 /// The end of the iteration.

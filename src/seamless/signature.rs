@@ -4,7 +4,7 @@ use crate::error::{Error, Result};
 use crate::mesh::{Mesh, PerVertex, VertexId};
 
 /// The largest curvature of a cone in quarter turns: an angle of 90° is left.
-const MOST_CURVED: i32 = 3;
+pub(super) const MOST_CURVED: i32 = 3;
 
 /// A cone of a seamless metric.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -117,7 +117,7 @@ fn laplacian(state: &HolonomyState, weights: &[f64]) -> Result<(Pattern, Vec<f64
         }
         [a, b].into_iter().flatten().for_each(|i| values[pattern.diagonal(i)] += w);
         if let (Some(i), Some(j)) = (a, b)
-            && let Some(at) = pattern.position(i.max(j), i.min(j))
+            && let Some(at) = pattern.position(i, j)
         {
             values[at] -= w;
         }

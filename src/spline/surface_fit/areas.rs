@@ -16,6 +16,16 @@ pub(super) fn vertex_areas(mesh: &Mesh, lengths: &PerEdge<f64>) -> PerVertex<f64
     areas
 }
 
+/// The share of the whole area that belongs to the vertices, by their numbers, for which `is_there` is true; 0 where there is no area.
+pub(super) fn area_share(areas: &PerVertex<f64>, is_there: impl Fn(usize) -> bool) -> f64 {
+    let (mut there, mut all) = (0.0, 0.0);
+    for (v, area) in areas.iter().enumerate() {
+        all += area;
+        there += if is_there(v) { *area } else { 0.0 };
+    }
+    if all > 0.0 { there / all } else { 0.0 }
+}
+
 /// Replaces every number five times by the mean of itself and the mean of its neighbours.
 pub(super) fn smooth(mesh: &Mesh, sizes: &mut PerVertex<f64>) {
     for _ in 0..SMOOTHINGS {

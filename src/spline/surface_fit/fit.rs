@@ -1,6 +1,6 @@
 //! Splines over a whole surface, fitted to its vertices in rounds: domain, fit, corrected places, adapted sizes.
 
-use super::areas::vertex_areas;
+use super::areas::{area_share, vertex_areas};
 use super::domain::SurfaceDomain;
 use super::flat::FlatMetric;
 use super::round::FitRound;
@@ -47,14 +47,12 @@ impl SurfaceFit {
     /// The share of the surface that lies in patches in which the spline folds: of the area around the vertices whose places are in them.
     /// `surface`: that which was fitted.
     pub fn folded_share(&self, surface: &Surface) -> f64 {
-        let areas = vertex_areas(surface.mesh(), surface.lengths());
-        let is_folded = |at: &Parameter| self.folds.binary_search(&(at.patch as usize)).is_ok();
-        let (mut folded, mut all) = (0.0, 0.0);
-        for (at, area) in self.places.iter().zip(areas.iter()) {
-            all += area;
-            folded += if is_folded(at) { *area } else { 0.0 };
-        }
-        if all > 0.0 { folded / all } else { 0.0 }
+        area_share(&vertex_areas(surface.mesh(), surface.lengths()), |v| self.is_folded(v))
+    }
+
+    /// True if the place of a vertex lies in a patch in which the spline folds.
+    pub(super) fn is_folded(&self, vertex: usize) -> bool {
+        self.folds.binary_search(&(self.places[vertex].patch as usize)).is_ok()
     }
 }
 

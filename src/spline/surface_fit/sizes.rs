@@ -200,14 +200,13 @@ impl VertexChoice {
         let cones: Vec<VertexId> = always.iter().copied().filter(|&v| !mesh.is_boundary_vertex(v)).collect();
         let mut fine = None;
         for &v in &cones {
-            let Some(turns) = whole_turns(1.0 - curvature[v] / TAU) else {
+            let total = 1.0 - curvature[v] / TAU;
+            let Some(turns) = whole_turns(total) else {
                 let fine = match &fine {
                     Some(fine) => fine,
                     None => fine.insert(fine_domain(flat)?),
                 };
-                let turns = 1.0 - curvature[v] / TAU;
-                let found = plan_hole(fine, v, inside(turns), [n, cones.len()]);
-                planned.push(found);
+                planned.push(plan_hole(fine, v, inside(total), [n, cones.len()]));
                 continue;
             };
             all_inside.push(inside(turns));

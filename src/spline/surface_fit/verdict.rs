@@ -1,6 +1,6 @@
 //! What a fit misses: by how much, where, and the vertex where it is worst.
 
-use super::areas::vertex_areas;
+use super::areas::{area_share, vertex_areas};
 use super::fit::SurfaceFit;
 use super::setting::RMS;
 use crate::mesh::VertexId;
@@ -40,7 +40,6 @@ impl SurfaceFit {
     /// [`super::SurfaceFitOptions::tolerance`]. `surface`: that which was fitted.
     pub fn failures(&self, surface: &Surface, tolerance: f64) -> Vec<FitFailure> {
         let areas = vertex_areas(surface.mesh(), surface.lengths());
-        let all: f64 = areas.iter().sum();
         let limits = [
             (FitCondition::RootMeanSquare, self.rms, RMS * tolerance),
             (FitCondition::Largest, self.max, tolerance),
@@ -52,15 +51,7 @@ impl SurfaceFit {
             patches.dedup();
             let worst = vertices.iter().max_by(|&&u, &&v| self.distances[u].total_cmp(&self.distances[v]));
             let vertex = worst.map(|&v| VertexId(v as u32));
-            let area: f64 = vertices.iter().map(|&v| areas[VertexId(v as u32)]).sum();
-            FitFailure {
-                condition,
-                value,
-                limit,
-                share: if all > 0.0 { area / all } else { 0.0 },
-                patches,
-                vertex,
-            }
+            FitFailure { condition, value, limit, share: area_share(&areas, is_there), patches, vertex }
         };
         let mut found: Vec<FitFailure> = limits
             .into_iter()
@@ -68,8 +59,7 @@ impl SurfaceFit {
             .map(|(condition, value, limit)| failure(condition, value, limit, &|v| self.distances[v] > limit))
             .collect();
         if !self.folds.is_empty() {
-            let is_folded = |v: usize| self.folds.binary_search(&(self.places[v].patch as usize)).is_ok();
-            let folds = failure(FitCondition::Folds, self.folds.len() as f64, 0.0, &is_folded);
+            let folds = failure(FitCondition::Folds, self.folds.len() as f64, 0.0, &|v| self.is_folded(v));
             found.push(FitFailure { patches: self.folds.clone(), ..folds });
         }
         found

@@ -45,15 +45,14 @@ pub(super) fn energies(space: &SplineSpace, unit: FairnessUnit) -> Result<Vec<Pa
     found.resize_with(grids.len(), || Ok(PatchEnergy { control: Vec::new(), matrix: Vec::new() }));
     parallel::fill_with(&mut found, Scratch::default, |scratch, patch| {
         let grid = &grids[patch];
-        let (weight, side) = match unit {
-            FairnessUnit::Domain => (area * grid.area, side),
-            FairnessUnit::Patches => (1.0 / count, grid.longest()),
+        let (weight, side, scale) = match unit {
+            FairnessUnit::Domain => (area * grid.area, side, 1.0),
+            FairnessUnit::Patches => {
+                let side = grid.longest();
+                (1.0 / count, side, side.powi(if space.degree() == 1 { 2 } else { 4 }))
+            }
         };
         let energy = grid.energy(space, patch, scratch)?;
-        let scale = match unit {
-            FairnessUnit::Domain => 1.0,
-            FairnessUnit::Patches => side.powi(if space.degree() == 1 { 2 } else { 4 }),
-        };
         Ok(energy.matrix(&grid.couplings(space.degree(), side), weight * scale / SAMPLES as f64))
     });
     found.into_iter().collect()
