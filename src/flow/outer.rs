@@ -48,7 +48,8 @@ struct CappedEnd {
 /// curvature of the boundary that a flow in this class finds.
 ///
 /// # Errors
-/// Those of [`super::with_cones_placed`] and [`Target::resolve`]; for `Outer` those of [`super::flow`].
+/// Those of [`super::with_cones_placed`] and [`Target::resolve`]; for `Outer` those of [`super::flow`], and [`Error::TargetKind`] if it does
+/// not get there, or flips edges of loops on the way, which then bend between vertices.
 pub fn prescribed_curvature(
     target: &Target,
     surface: &Surface,
@@ -58,10 +59,25 @@ pub fn prescribed_curvature(
     if let Target::Outer(_) = target {
         target.check(surface, class)?;
         let end = super::flow(surface.clone(), class, target, &Options::default(), control)?;
-        let none = || Error::argument("flow", "without a target", "one that has ended");
-        return end.target().cloned().ok_or_else(none);
+        return curvature_at_vertices(&end, target);
     }
     with_cones_placed(target, surface, class.space, control)?.resolve(surface, class)
+}
+
+/// The target of the end of a flow to [`Target::Outer`], if values at vertices prescribe it.
+fn curvature_at_vertices(end: &Solution, target: &Target) -> Result<PerVertex<f64>> {
+    let refused = |message: String| Error::TargetKind { target: target.name(), message };
+    let reached = end.report().filter(|report| report.is_reached());
+    let Some(curvature) = end.target().filter(|_| reached.is_some()) else {
+        let stop = end.report().map_or("not begun", |report| report.stop_reason.name());
+        return Err(refused(format!("the flow that finds its curvature ended with: {stop}; use `boundary`")));
+    };
+    if end.caps().is_some() {
+        let message = "edges of boundary loops are flipped on the way, so that loops bend between vertices and no values at vertices prescribe \
+                       it; solve for it without values, or use `boundary`";
+        return Err(refused(message.into()));
+    }
+    Ok(curvature.clone())
 }
 
 impl Flow {

@@ -169,7 +169,8 @@ impl Solution {
         self.report().is_some_and(Report::converged)
     }
 
-    /// The curvature asked for, per given vertex, at pinned vertices the resulting one; none for an initial metric.
+    /// The curvature asked for, per given vertex, at pinned vertices the resulting one, which for loops with caps is that of the surface with
+    /// its caps; none for an initial metric.
     pub fn target(&self) -> Option<&PerVertex<f64>> {
         self.reached.as_ref().map(|reached| &reached.target)
     }

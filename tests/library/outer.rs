@@ -142,6 +142,9 @@ fn where_triangles_break_edges_of_loops_are_flipped_and_the_layout_is_still_one_
     for (name, soup, is_open_beyond) in [("disk", disk, false), ("ball", ball, true)] {
         let (given, end) = solved(&soup, Class::yamabe(Space::E2), &Options::default());
         assert!(end.converged() && end.is_one_piece() && end.goes_beyond_given(), "{name}");
+        let class = Class::yamabe(Space::E2);
+        let refused = prescribed_curvature(&Target::Outer(None), &given, class, &Control::new()).unwrap_err();
+        assert!(refused.to_string().contains("bend between vertices"), "{name}: {refused}");
         let (mesh, capped) = (given.mesh(), end.caps().unwrap());
         let n = mesh.n_vertices();
         let open = (n..capped.n_vertices()).filter(|&v| capped.is_boundary_vertex(v.into()));

@@ -198,7 +198,15 @@ bool check_flow(const Mesh &input, const ricci_mesh *mesh, const Surface &surfac
     options.flips = RICCI_FLIPS_NEVER;
     std::vector<double> target(surface.n_vertices), lengths(surface.n_edges), curvature(surface.n_vertices);
     OK(ricci_metric_new(mesh, scheme, space, &metric));
-    OK(ricci_target_fill(metric, nullptr, nullptr, target.data(), target.size()));
+    // Where no values at vertices prescribe the default target, boundaries bend by their length.
+    ricci_target boundary;
+    OK(ricci_init(&boundary, sizeof boundary));
+    boundary.kind = RICCI_TARGET_BOUNDARY;
+    const auto filled = ricci_target_fill(metric, nullptr, nullptr, target.data(), target.size());
+    if (filled == RICCI_TARGET_KIND)
+        OK(ricci_target_fill(metric, &boundary, nullptr, target.data(), target.size()));
+    else
+        OK(filled);
     const ricci_target given = given_target(target);
     OK(ricci_flow(metric, &given, &options, nullptr, &end));
     OK(ricci_report_summarise(end, &done, sizeof done));
