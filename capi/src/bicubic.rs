@@ -38,6 +38,9 @@ pub struct ricci_bicubic_options {
     pub tolerance: f64,
     pub angle: f64,
     pub threads: usize,
+    pub control_points: usize,
+    pub folds: u32,
+    pub reserved: u32,
 }
 // SAFETY: numbers; 8-byte alignment, size first.
 sized!(ricci_bicubic_options, "options");
@@ -81,6 +84,8 @@ impl ricci_bicubic_options {
         BicubicOptions {
             tolerance: or(self.tolerance, usual.tolerance),
             angle: or(self.angle, usual.angle),
+            control_points: (self.control_points > 0).then_some(self.control_points),
+            folds: self.folds != 0,
             threads: self.threads,
         }
     }

@@ -31,6 +31,8 @@ pub(crate) struct FitFigures {
     pub folds: Vec<u32>,
     /// The share of the surface in these patches.
     pub folded_share: f64,
+    /// True for a surface that is within its tolerance and does not fold.
+    pub holds: bool,
 }
 
 impl From<Spline> for ricci_spline {
@@ -75,6 +77,8 @@ pub struct ricci_spline_summary {
     pub n_holes: usize,
     pub n_folded_patches: usize,
     pub folded_share: f64,
+    pub converged: u32,
+    pub reserved: u32,
 }
 // SAFETY: numbers; 8-byte alignment, size first.
 sized!(ricci_spline_summary, "summary");
@@ -205,6 +209,8 @@ pub unsafe extern "C" fn ricci_spline_summarise(
             n_holes: spline.holes().len(),
             n_folded_patches: fitted.as_ref().map_or(0, |fit| fit.folds.len()),
             folded_share: of_fit(|fit| fit.folded_share),
+            converged: fitted.as_ref().is_some_and(|fit| fit.holds).into(),
+            reserved: 0,
         };
         structs::write(figures, summary, size)
     })

@@ -12,8 +12,10 @@ use crate::structs::{self, or, sized};
 use ricci::geometry::vector::{Vector, diagonal};
 use ricci::mesh::VertexId;
 use ricci::spline::{
-    FlatMetric, FlatMetricOptions, SingularVertices, SurfaceFitOptions, fit_surface, flat_curvatures,
+    FlatMetric, FlatMetricOptions, SingularVertices, SurfaceFit, SurfaceFitOptions, fit_surface,
+    fit_surface_over, flat_curvatures,
 };
+use ricci::{Surface, flow};
 
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
@@ -98,12 +100,41 @@ pub unsafe extern "C" fn ricci_spline_fit_surface(
         let surface = solution.surface();
         let _reserve = memory::work(surface.mesh().n_vertices(), memory::FIT)?;
         let found = fit_surface(surface, &FlatMetric::of(solution, &control)?, &options, &control)?;
-        let size = surface.positions().map_or(0.0, |points| diagonal(points));
-        let folded_share = found.folded_share(surface);
-        let folds = found.folds.iter().map(|&patch| patch as u32).collect();
-        let figures = FitFigures { rms: found.rms * size, max: found.max * size, folds, folded_share };
-        Ok(ricci_spline { spline: found.spline, fitted: Some(figures) })
+        Ok(with_figures(found, surface, options.tolerance))
     })
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_spline_fit_mesh(
+    mesh: *const ricci_mesh,
+    options: *const ricci_spline_surface_options,
+    control: *const ricci_control,
+    fitted: *mut *mut ricci_spline,
+) -> ricci_status {
+    guard::make(fitted, || {
+        let (mesh, control) = (shared(mesh)?, control::of(control));
+        let options = structs::read(options)?.read();
+        let surface = mesh.surface()?;
+        let _reserve = memory::work(surface.mesh().n_vertices(), memory::FIT)?;
+        let threads = flow::Options { threads: options.threads, ..flow::Options::default() };
+        let flat = FlatMetricOptions { flow: threads, ..FlatMetricOptions::default() };
+        let metrics = FlatMetric::candidates(surface, &flat, &control)?;
+        let (found, _) = fit_surface_over(surface, &metrics, &options, &control)?;
+        Ok(with_figures(found, surface, options.tolerance))
+    })
+}
+
+/// The spline of a fit to a surface with its figures, in the units of the surface.
+fn with_figures(found: SurfaceFit, surface: &Surface, tolerance: f64) -> ricci_spline {
+    let size = surface.positions().map_or(0.0, |points| diagonal(points));
+    let figures = FitFigures {
+        rms: found.rms * size,
+        max: found.max * size,
+        folds: found.folds.iter().map(|&patch| patch as u32).collect(),
+        folded_share: found.folded_share(surface),
+        holds: found.holds(tolerance),
+    };
+    ricci_spline { spline: found.spline, fitted: Some(figures) }
 }
 
 #[unsafe(no_mangle)]

@@ -12,13 +12,12 @@ import subprocess
 
 import page
 
-CLOSED = ["rocker_arm", "knot1", "bob", "kitten_10k", "eight_3498", "vase_genus2", "cup_10k", "brezel2", "lawson2498", "3holes", "genus3", "chair_10k"]
-SPHERES = ["max_planck_25k", "bunny_libigl"]
-OPEN = ["femur_01", "camelhead", "face_libigl", "punctured_torus"]
-# Those of genus 3, of which some miss the tolerance with a quarter as many control points as vertices, are tried with half as many too.
-DENSER = ["3holes", "genus3", "chair_10k"]
-# Of these many vertices on splines of degree 4 are not exported.
-EXPORTED = 5500
+# Meshes of the table: connected, with so many vertices.
+SIZES = range(500, 60_001)
+# Most vertices of meshes whose splines the outside program evaluates, and that are exported if they hold.
+JUDGED, EXPORTED = 6000, 5500
+# Most vertices of surfaces that are fitted over a holomorphic 1-form too.
+BY_FORM = 6000
 # Seconds that a command may take, and the outside program, which evaluates every basis function by itself.
 PATIENCE, JUDGING = 300, 100
 # Places inside patches where the outside program evaluates the spline, the share of them that lie near a side and how near, and
@@ -28,13 +27,10 @@ RMS, MOST = 1e-3, 1e-2
 
 
 def jobs(meshes):
-    """Mesh, degree and how it is fitted: `flow`, `dense` with half as many control points as vertices, `form`."""
+    """Each mesh and how it is fitted: `flow`, or `form` too on closed surfaces of genus 2 and more."""
     for mesh in meshes:
-        for degree in (3, 4):
-            yield mesh, degree, "flow"
-            if mesh["name"] in DENSER:
-                yield mesh, degree, "dense"
-        if mesh["name"] in CLOSED:
+        yield mesh, 3, "flow"
+        if page.loops(mesh) == 0 and int(mesh["genus"]) > 1 and int(mesh["V"]) <= BY_FORM:
             yield mesh, 3, "form"
 
 
@@ -42,7 +38,7 @@ def fit(run, mesh, degree, kind):
     """One spline: the figures of its reports, what the outside program says, and what fails."""
     row = {"mesh": mesh["name"], "degree": degree, "kind": kind, "bad": []}
     (spline,) = run.fresh("S.json")
-    asked = {"flow": [], "form": ["--atlas", "form"], "dense": ["--control-points", str(int(mesh["V"]) // 2)]}[kind]
+    asked = {"flow": [], "form": ["--atlas", "form"]}[kind]
     report, why = run.try_report("spline", "fit", page.file_of(mesh), "--degree", str(degree), *asked, "-o", spline, seconds=PATIENCE)
     if report is None:
         return row | {"refused": why.splitlines()[0].removeprefix("ricci: ")}
@@ -51,14 +47,13 @@ def fit(run, mesh, degree, kind):
     row |= {name: figures[name] for name in names} | {"seconds": report["seconds"]["total"]}
     row["bad"] += [f"{name} is {page.small(c['value'])}, over {page.small(c['limit'])}" for name, c in report["checks"].items() if not c["holds"]]
     row["bad"] += [f"rms is {page.small(row['rms'])}, over {page.small(RMS)}"] if row["rms"] > RMS else []
-    closed = page.loops(mesh) == 0
-    if kind == "flow":
-        share(row, mesh)
-    if kind != "form":
-        row["outside"] = outside(run, row, spline)
-        row["angles"] = angles(run, mesh, spline)
-        if degree == 3 or int(mesh["V"]) <= EXPORTED:
-            row["export"] = export(run, row, spline, closed)
+    if kind == "form":
+        return row
+    share(row, mesh)
+    row["angles"] = angles(run, mesh, spline)
+    row["outside"] = outside(run, row, spline) if int(mesh["V"]) <= JUDGED else [None, None, None]
+    if not row["bad"] and int(mesh["V"]) <= EXPORTED:
+        row["export"] = export(run, row, spline, page.loops(mesh) == 0)
     return row
 
 
@@ -135,7 +130,8 @@ def normals(points, faces):
 
 
 def angles(run, mesh, spline):
-    """Median and 99th percentile of the angles, in degrees, between normals of the mesh and of the spline where it is nearest."""
+    """Median and 99th percentile of the angles, in degrees, between normals of the mesh and of the spline where it is nearest, and the share of
+    angles above ten degrees."""
     points, faces = page.read_obj(page.file_of(mesh))
     at, out = page.write_rows(run.path("p.csv"), "x,y,z", points), run.path("n.csv")
     subprocess.run([page.ricci, "spline", "eval", spline, "--closest", at, "-o", out, "--quiet"], check=True, timeout=PATIENCE)
@@ -147,7 +143,7 @@ def angles(run, mesh, spline):
             cosine = sum(float(r[k]) * x for k, x in zip(("NX", "NY", "NZ"), n)) / math.hypot(*n)
             found.append(math.degrees(math.acos(max(-1.0, min(1.0, cosine)))))
     found.sort()
-    return [found[len(found) // 2], found[99 * len(found) // 100]]
+    return [found[len(found) // 2], found[99 * len(found) // 100], sum(x > 10.0 for x in found) / len(found)]
 
 
 def export(run, row, spline, closed):
@@ -165,6 +161,10 @@ def export(run, row, spline, closed):
 
 def torus_level(p):
     return math.hypot(math.hypot(p[0], p[1]) - 1.0, p[2]) - 0.4
+
+
+def sphere_level(p):
+    return math.hypot(*p) - 1.0
 
 
 def ellipsoid_level(p):
@@ -206,6 +206,10 @@ def exact_ellipsoid(run, n):
     return run.make("exact.obj", "ellipsoid", "--axes", "1.6", "1", "0.7", "-n", str(n))
 
 
+def exact_sphere(run, n):
+    return run.make("exact.obj", "sphere", "-n", str(n))
+
+
 def write_obj(path, rows, faces):
     with open(path, "w") as file:
         file.writelines(f"v {x!r} {y!r} {z!r}\n" for x, y, z in rows)
@@ -217,6 +221,7 @@ def write_obj(path, rows, faces):
 EXACT = [
     ("torus 1 : 0.4", exact_torus, torus_level, 16, math.hypot(2.8, 2.8, 0.8)),
     ("bumps", exact_bumps, bumps_level, 20, math.hypot(2.0, 2.0, 0.4)),
+    ("sphere", exact_sphere, sphere_level, 8, math.hypot(2.0, 2.0, 2.0)),
     ("ellipsoid 1.6 : 1 : 0.7", exact_ellipsoid, ellipsoid_level, 8, math.hypot(3.2, 2.0, 1.4)),
 ]
 # Times that the control points become four times as many, and steps of differences.
@@ -291,15 +296,15 @@ def kept_rows(run, meshes):
 
 
 def fits(rows):
-    head = ["mesh", "genus", "loops", "V", "degree", "control points + coefficients", "share", "patches", "singular", "rms", "max", "normals, median / 99 %",
+    head = ["mesh", "genus", "loops", "V", "degree", "control points + coefficients", "share", "patches", "singular", "rms", "max", "normals, median / 99 %, above 10°",
             "continuity", "unity", "folded", "rounds", "s", "outside: values, unity", "across sides"]
     lines = []
     for r in rows:
         values, unity, apart = r["outside"]
         lines.append([r["mesh"], r["genus"], r["loops"], r["V"], r["degree"], f"{r['control_points']} + {r['hole_coefficients']}",
                       f"{(r['control_points'] + r['hole_coefficients']) / r['V']:.3f}", r["patches"], len(r["singular_vertices"]), page.small(r["rms"]), page.small(r["max"]),
-                      "{:.1f}° / {:.0f}°".format(*r["angles"]), page.small(r["continuity"]), page.small(r["partition_of_unity"]), len(r["folded_patches"]), r["rounds"], f"{r['seconds']:.1f}",
-                      f"{page.small(values)}, {page.small(unity)}", page.small(apart)])
+                      "{:.1f}° / {:.0f}°, {:.0%}".format(*r["angles"]), page.small(r["continuity"]), page.small(r["partition_of_unity"]), len(r["folded_patches"]), r["rounds"], f"{r['seconds']:.1f}",
+                      "–" if values is None else f"{page.small(values)}, {page.small(unity)}", "–" if apart is None else page.small(apart)])
     return page.table(head, lines)
 
 
@@ -319,6 +324,8 @@ def atlases(rows):
     of, lines = {(r["mesh"], r["degree"], r["kind"]): r for r in rows}, []
     for r in (r for r in rows if r["kind"] == "form"):
         flow = of[r["mesh"], 3, "flow"]
+        if "refused" in flow:
+            continue
         if "refused" in r:
             lines.append([r["mesh"], r["genus"], f"{len(flow['singular_vertices'])}, –", "refused: " + r["refused"].replace("|", "\\|"), "", "", "", ""])
             continue
@@ -331,21 +338,19 @@ def atlases(rows):
 TEXT = {
     "head": """# Splines near scanned surfaces
 
-Made by `docs/results/splines.py`: `ricci spline fit MESH` with default options, of degree 3 and 4, and `ricci spline export --tolerance 1e-3`. Default options
-are as few singular vertices as keep the factor between lengths within 30 where that can be, corners on the boundary of open surfaces, and a quarter as many control points as the mesh has vertices,
-the coefficients of fillings included. Wanted: root mean square 1e-3 and largest distance 1e-2 of the diagonal of the bounding box.
+Made by `docs/results/splines.py`: `ricci spline fit MESH` with default options over every connected mesh of the corpus with 500 to 60,000 vertices. Default options
+are degree 3, as few singular vertices as keep the factor between lengths within 30 where that can be, corners on the boundary of open surfaces, and a quarter as many control points as the mesh has vertices,
+the coefficients of fillings included. Wanted: root mean square 1e-3 and largest distance 1e-2 of the diagonal of the bounding box, and no fold.
 
-{near} of {fitted} fits reach both. Times are those of one run on two cores that had other work.
+**{holding} of {all} hold; {near} of {all} reach both distances; {refused} are refused.** Times are those of one run on two cores that had other work.
 """,
     "fits": """## Fits
 
 *control points + coefficients*: the second number is of the fillings around singular vertices; *share*: of both, in the vertices of the mesh. *rms*, *max*: distances
-of the vertices, over the diagonal. *normals*: angle between the mesh's normal at a vertex and the spline's at the nearest point, median and 99th percentile; scans are rougher than
+of the vertices, over the diagonal. *normals*: angle between the mesh's normal at a vertex and the spline's at the nearest point, median, 99th percentile, and the share of vertices where it is above 10 degrees; scans are rougher than
 their splines. *continuity*: largest jump of derivatives up to order n − 1 across sides outside the fillings, relative. *unity*: partition of unity, of the report. *folded*: patches in which normals turn by more than 60° over a twelfth of a side, at a singular vertex also in the coordinate in which it is a point as any other.
 *outside*: `check.py spline` at 30 places of the file, of which ten lie near sides, all summed over the charts that reach there: largest difference from `spline eval --at`
 over the size of the surface, and its own partition of unity. *across sides*: largest difference of the surface at 30 places on sides, evaluated in the charts of both patches.
-""",
-    "dense": """Surfaces of genus 3 have all of −8π at their one singular vertex, a total angle of five turns; of spheres it lies at infinity of a plane. Fitted with half as many control points as vertices:
 """,
     "order": """## Order
 
@@ -356,11 +361,11 @@ by the size of triangles.
     "export": """## Patches for CAD
 
 Three to a triangle of the domain, as `docs/results/splines-step.md` tells, at T = 1e-3: the distance is to be below T, the normals of neighbours are to turn by one degree
-at most. Degree 4 for meshes of up to 5,500 vertices.
+at most. Fits that hold, of meshes of up to 5,500 vertices.
 """,
     "form": """## The flow and a holomorphic 1-form
 
-The same surfaces, degree 3, with `--atlas form`: flat metrics |ω| have 2g − 2 cones of −2π, or fewer and larger ones at multiple zeros, in place of one.
+Closed surfaces of genus 2 and more with up to 6,000 vertices, with `--atlas form`: flat metrics |ω| have 2g − 2 cones of −2π, or fewer and larger ones at multiple zeros, in place of one.
 Where a form turns triangles of the mesh over, zeros move to vertices, and the flow makes the metric with their curvatures.
 """,
     "pictures": """## Pictures
@@ -381,19 +386,17 @@ without gaps are continuous normals, lines without corners continuous curvatures
 
 
 def content(run):
-    wanted = CLOSED + OPEN + SPHERES
-    meshes = page.meshes(lambda m: m["name"] in wanted, key=lambda m: wanted.index(m["name"]))
+    meshes = page.meshes(lambda m: m["components"] == "1" and int(m["V"]) in SIZES, key=lambda m: int(m["V"]))
     rows = list(kept_rows(run, meshes))
-    whole = [r for r in rows if r["kind"] == "flow" and "rms" in r]
-    dense = [r for r in rows if r["kind"] == "dense" and "rms" in r]
-    name = lambda r: f"{r['mesh']}, degree {r['degree']}" + {"flow": "", "dense": ", V/2 control points", "form": ", from a form"}[r["kind"]]
-    bad = [f"{name(r)}: {'; '.join(r['bad'])}" for r in rows if r["bad"]]
-    bad += [f"{name(r)}: {r['refused']}" for r in rows if "refused" in r and r["kind"] != "form"]
+    of_flow = [r for r in rows if r["kind"] == "flow"]
+    whole = [r for r in of_flow if "rms" in r]
+    bad = [f"{r['mesh']}: {'; '.join(r['bad'])}" for r in of_flow if r["bad"]]
+    bad += [f"{r['mesh']}: {r['refused']}" for r in of_flow if "refused" in r]
     near = [r for r in whole if r["rms"] <= RMS and r["max"] <= MOST]
+    figures = {"all": len(of_flow), "near": len(near), "holding": len(of_flow) - len(bad), "refused": len(of_flow) - len(whole)}
     return [
-        TEXT["head"].format(fitted=len(whole), near=len(near)), page.verdict(bad),
+        TEXT["head"].format(**figures), page.verdict(bad),
         TEXT["fits"], fits(whole),
-        TEXT["dense"], fits(dense),
         TEXT["order"], orders(run),
         TEXT["export"], exports([r for r in rows if r.get("export")]),
         TEXT["form"], atlases(rows),

@@ -20,6 +20,7 @@ libfuzzer_sys::fuzz_target!(|data: &[u8]| {
             (0..soup.faces.len()).map(|f| [0.0, 1.0, 2.0].map(|k| [f as f64, k, 1.0])).collect(),
         ),
         uv: Some((0..soup.faces.len()).map(|f| [0.0, 1.0, 2.0].map(|k| [f as f64, k])).collect()),
+        ..Attributes::default()
     };
     mend(&soup, &options(how));
 });

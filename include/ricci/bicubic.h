@@ -55,6 +55,12 @@ typedef struct ricci_bicubic_options {
     double angle;
     /** Threads, 0 for one per core; results do not depend on it. */
     size_t threads;
+    /** Most control points of all patches together; where more are needed nothing is made. 0: no limit. */
+    size_t control_points;
+    /** Not 0: patches of a spline that folds too, which is refused else. */
+    uint32_t folds;
+    /** 0. */
+    uint32_t reserved;
 } ricci_bicubic_options;
 
 /** Entries of a STEP file beside the patches. Zeroed by ricci_init: no name, millimetres. */
@@ -112,9 +118,10 @@ typedef struct ricci_bicubic_summary {
 /**
  * Bicubic patches within a tolerance of a spline, with as many spans as that takes, up to 128 along a side.
  *
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE, RICCI_ARGUMENT (tolerance or angle),
- *         RICCI_SPLINE (a patch that 128 spans do not bring within the tolerance: its number, as that of a
- *         face; a side of more than two patches; a spline without patches), RICCI_NO_MEMORY, RICCI_CANCELLED.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE, RICCI_ARGUMENT (tolerance or angle; more control
+ *         points than allowed are needed), RICCI_SPLINE (a patch that 128 spans do not bring within the
+ *         tolerance, or that folds: its number, as that of a face; a side of more than two patches; a spline
+ *         without patches), RICCI_NO_MEMORY, RICCI_CANCELLED.
  *
  * @param spline   the spline.
  * @param options  tolerance and angle; NULL for the defaults.

@@ -125,9 +125,12 @@ typedef struct ricci_spline_summary {
     size_t n_basis;
     /** Number of control points. */
     size_t n_control_points;
-    /** Of a fit, the root of the mean squared distance between points and surface; NaN of other splines. */
+    /**
+     * Of a fit, the root of the mean squared distance between points and surface, in the unit of the points;
+     * NaN of other splines.
+     */
     double fit_rms;
-    /** The largest such distance. */
+    /** The largest such distance, in the unit of the points. */
     double fit_max;
     /** Number of holes around singular vertices. */
     size_t n_holes;
@@ -135,9 +138,16 @@ typedef struct ricci_spline_summary {
     size_t n_folded_patches;
     /** The share of the fitted surface that lies in these patches; NaN of splines that were not fitted. */
     double folded_share;
+    /**
+     * 1 for a fit to a surface whose distances are within the tolerance asked for (fit_max over the diagonal of
+     * the bounding box at most the tolerance, fit_rms a tenth of that) and that folds nowhere; else 0.
+     */
+    uint32_t converged;
+    /** 0. */
+    uint32_t reserved;
 } ricci_spline_summary;
 
-/** Options of ricci_spline_fit_surface; zeros are the defaults. */
+/** Options of ricci_spline_fit_surface and ricci_spline_fit_mesh; zeros are the defaults. */
 typedef struct ricci_spline_surface_options {
     /** sizeof(ricci_spline_surface_options), by ricci_init. */
     size_t size;
@@ -294,6 +304,24 @@ RICCI_API ricci_status ricci_spline_curvatures(const ricci_mesh *mesh, const uin
 RICCI_API ricci_status ricci_spline_fit_surface(const ricci_metric *flat,
                                                 const ricci_spline_surface_options *options,
                                                 const ricci_control *control, ricci_spline **fitted);
+
+/**
+ * A spline over a whole surface of any topology, near its vertices: ricci_spline_fit_surface over flat metrics
+ * that are made for it, first the usual one (a sphere has a vertex at infinity), then those with more singular
+ * vertices, until a fit holds; the best of all. ricci_spline_summary's `converged` says whether it holds.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE, RICCI_ARGUMENT (a surface without positions),
+ *         RICCI_LAYOUT (no flow to a flat metric converged), RICCI_SPLINE, RICCI_FACTORISATION,
+ *         RICCI_NO_MEMORY, RICCI_CANCELLED.
+ *
+ * @param mesh     a surface.
+ * @param options  degree and sizes; NULL for the defaults.
+ * @param control  progress and cancellation, or NULL.
+ * @param fitted   out: the new handle, to be released by ricci_spline_free.
+ */
+RICCI_API ricci_status ricci_spline_fit_mesh(const ricci_mesh *mesh,
+                                             const ricci_spline_surface_options *options,
+                                             const ricci_control *control, ricci_spline **fitted);
 
 /**
  * Release a spline.

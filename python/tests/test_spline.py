@@ -155,7 +155,15 @@ def test_surfaces_of_other_topology(genus2):
     disk = ricci.spline(ricci.make("disk", n=14), degree=2, rounds=1)
     assert disk.summary.n_holes == 0
     with pytest.raises(ricci.ArgumentError, match="number of singular vertices"):
-        ricci.spline(ricci.make("sphere", n=4))
+        ricci.flat_metric(ricci.make("sphere", n=4))
+
+
+def test_a_fit_says_whether_it_holds():
+    ball = ricci.make("sphere", n=12)
+    fitted = ricci.spline(ball)
+    assert fitted.summary.converged and fitted.summary.n_folded_patches == 0 and fitted.summary.fit_max < 0.01 * 2 * 3**0.5
+    rough = ricci.Spline.of_mesh(ball, tolerance=1e-9, control_points=200, rounds=1)
+    assert not rough.summary.converged and rough.summary.fit_max > 1e-9
 
 
 def test_singular_vertices_are_chosen_counted_or_named():

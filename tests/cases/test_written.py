@@ -114,7 +114,11 @@ def test_the_export_of_a_folded_spline_fails_by_name(ricci, tmp_path):
     x, y, z = spline["control_points"][0]
     spline["control_points"][0] = [-x, -y, z]
     (tmp_path / "bent.json").write_text(json.dumps(spline))
-    bent = ricci("spline", "export", "bent.json", "-o", "bent.step", "--tolerance", "1e-3")
+    refused = ricci("spline", "export", "bent.json", "-o", "bent.step", "--tolerance", "1e-3")
+    assert refused.code == 2 and "turns back on itself" in refused.text and not (tmp_path / "bent.step").exists()
+    few = ricci("spline", "export", "s.json", "-o", "few.step", "--tolerance", "1e-3", "--control-points", "100")
+    assert few.code == 2 and "larger tolerance" in few.text and not (tmp_path / "few.step").exists()
+    bent = ricci("spline", "export", "bent.json", "-o", "bent.step", "--tolerance", "1e-3", "--allow-folds")
     assert bent.code == 1 and "folded_patches" in bent.text and "all hold" not in bent.text
     assert "patch" in bent.report["checks"]["folded_patches"]["where"]
 

@@ -226,6 +226,12 @@ pub struct ExportArgs {
     /// Largest distance from the spline, over the diagonal of its bounding box
     #[arg(long, value_name = "T", default_value_t = 1e-4, value_parser = positive)]
     pub tolerance: f64,
+    /// Most control points of all patches together: where more are needed nothing is written [default: no limit]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub control_points: Option<u32>,
+    /// Write patches of a spline that folds too; the exit code is 1 then
+    #[arg(long)]
+    pub allow_folds: bool,
     /// The unit of the coordinates, which STEP files say
     #[arg(long, value_enum, value_name = "UNIT", default_value = "mm")]
     pub unit: UnitChoice,

@@ -37,11 +37,17 @@ impl Job for ExportArgs {
         let spline = timed(&mut run.seconds.read, || Spline::read(&self.spline))?;
         let options = BicubicOptions {
             tolerance: self.tolerance,
+            control_points: self.control_points.map(|n| n as usize),
+            folds: self.allow_folds,
             threads: self.common.threads,
             ..BicubicOptions::default()
         };
         let bicubic = timed(&mut run.seconds.solve, || spline.to_bicubic(&options, run.control))?;
-        let folds = timed(&mut run.seconds.solve, || spline.folds(self.common.threads, run.control))?;
+        let folds = if self.allow_folds {
+            timed(&mut run.seconds.solve, || spline.folds(self.common.threads, run.control))?
+        } else {
+            Vec::new()
+        };
         Ok(ExportOutcome { spline, bicubic, folds, tolerance: self.tolerance })
     }
 

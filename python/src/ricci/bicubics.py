@@ -8,7 +8,7 @@ from typing import Any, ClassVar, Literal, TypedDict, Unpack
 
 from ricci._call import CONTROL, Handle, call, constant, path_bytes, summary, text_of
 from ricci._library import ffi, lib
-from ricci._structs import Struct, Write, above_zero, choice, options
+from ricci._structs import Struct, Write, above_zero, choice, number, options
 from ricci.control import Progress
 from ricci.figures import BicubicSummary
 from ricci.splines import Spline
@@ -23,11 +23,15 @@ class BicubicOptions(TypedDict, total=False):
         tolerance: largest distance from the spline over the diagonal, 1e-10 to 1; 1e-4.
         angle: largest angle between the normals of neighbouring patches beyond the spline's own, radians; half a degree.
         threads: one per core. The result does not depend on it.
+        control_points: most control points of all patches together; where more are needed nothing is made. No limit.
+        folds: true for patches of a spline that folds too, which is refused else.
     """
 
     tolerance: float
     angle: float
     threads: int
+    control_points: int
+    folds: bool
 
 
 class StepOptions(TypedDict, total=False):
@@ -49,7 +53,7 @@ def _name(struct: Struct, field: str, value: str) -> None:
 
 
 _STEP: dict[str, Write] = {"name": _name, "unit": choice("UNIT")}
-_BICUBIC: dict[str, Write] = dict.fromkeys(BicubicOptions.__annotations__, above_zero)
+_BICUBIC: dict[str, Write] = {**dict.fromkeys(BicubicOptions.__annotations__, above_zero), "folds": number}
 
 
 class Bicubic(Handle):
@@ -76,6 +80,7 @@ def bicubic(spline: Spline, progress: Progress = None, **given: Unpack[BicubicOp
     """Bicubic patches within a tolerance of a spline, with as many spans as that takes, up to 128 along a side.
 
     Raises:
-        SplineError: a patch that 128 spans do not bring within the tolerance; the index is its number.
+        SplineError: a patch that 128 spans do not bring within the tolerance, or in which the spline folds; the index is its number.
+        ArgumentError: more control points than allowed are needed.
     """
     return Bicubic._made(lib.ricci_bicubic_new, spline, options("bicubic_options", given, _BICUBIC), CONTROL, progress=progress)

@@ -138,6 +138,20 @@ class Spline(Handle):
         return cls._made(lib.ricci_spline_fit_surface, flat, options("spline_surface_options", given, _SURFACE), CONTROL, progress=progress)
 
     @classmethod
+    def of_mesh(cls, surface: MeshLike, progress: Progress = None, **given: Unpack[SurfaceOptions]) -> Self:
+        """A spline near the vertices of a whole surface of any topology, on flat metrics that are made for it.
+
+        The first is the usual one, in which a sphere has a vertex at infinity; those with more singular vertices follow until a fit holds, and the
+        best is kept. `summary.converged` says whether it holds.
+
+        Raises:
+            ArgumentError: a surface without positions.
+            LayoutError: no flow to a flat metric converged.
+        """
+        mesh = as_mesh(surface)
+        return cls._made(lib.ricci_spline_fit_mesh, mesh, options("spline_surface_options", given, _SURFACE), CONTROL, progress=progress)
+
+    @classmethod
     def read(cls, path: str | os.PathLike[str]) -> Self:
         """The spline of a file, `ricci-spline 1`."""
         return cls._made(lib.ricci_spline_read, path_bytes(path))
@@ -337,5 +351,6 @@ def spline(V: MeshLike, F: npt.ArrayLike | None = None, progress: Progress = Non
         progress: a `Control` or a callback.
         given: degree, number of control points, tolerance (`SurfaceOptions`).
     """
-    flat = V if isinstance(V, Metric) else flat_metric(as_mesh(V, F), progress=progress)
-    return Spline.of_surface(flat, progress, **given)
+    if isinstance(V, Metric):
+        return Spline.of_surface(V, progress, **given)
+    return Spline.of_mesh(as_mesh(V, F), progress, **given)

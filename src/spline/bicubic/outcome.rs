@@ -11,13 +11,23 @@ pub struct BicubicOptions {
     /// Largest angle, in radians, between the normals of neighbouring patches, minus that between the spline's own normals there. Default:
     /// half a degree.
     pub angle: f64,
+    /// Most control points of all patches together; where more are needed the conversion stops. Default: no limit.
+    pub control_points: Option<usize>,
+    /// True for patches of a spline that folds too. Default: false, since no system takes a surface that turns back on itself.
+    pub folds: bool,
     /// Number of threads; 0 (default) is one for each core. The result does not depend on it.
     pub threads: usize,
 }
 
 impl Default for BicubicOptions {
     fn default() -> Self {
-        BicubicOptions { tolerance: 1e-4, angle: 0.5f64.to_radians(), threads: 0 }
+        BicubicOptions {
+            tolerance: 1e-4,
+            angle: 0.5f64.to_radians(),
+            control_points: None,
+            folds: false,
+            threads: 0,
+        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! The refinement of bicubic patches: they are made, measured, and made again with more spans where they miss the spline.
 
 use super::angles::{self, CurveFigures, NormalAngles};
-use super::cubic::{interpolate, uniform};
+use super::cubic::{DEGREE, interpolate, uniform};
 
 use super::net::TriangleNet;
 use super::outcome::{BicubicFit, BicubicOptions};
@@ -9,7 +9,7 @@ use super::quad::SurfaceQuad;
 use super::sample::{PARTS, QuadPlace, QuadSample, WITHIN, grid, within};
 use super::surface::{BicubicPatch, BicubicSurface, PatchCurve, PatchSide};
 use super::tangents::with_common_planes;
-use crate::control::Control;
+use crate::control::{Control, Stage};
 use crate::error::{Error, Result};
 use crate::geometry::vector::{Vector, distance};
 use crate::spline::triangular::{Parameter, Spline, SurfacePoint};
@@ -90,12 +90,16 @@ impl<'a> BicubicRefinement<'a> {
     /// Those of [`Spline::to_bicubic`].
     pub fn refine(&mut self) -> Result<()> {
         let mut stale: Vec<usize> = (0..self.quads.len()).collect();
+        let mut done = 0.0f64;
         while !stale.is_empty() {
+            self.check_size()?;
             self.rounds += 1;
             self.sample(&stale)?;
             let changed = self.set_patches();
             self.measure(&changed)?;
             let failing = self.failing();
+            done = done.max(1.0 - failing.len() as f64 / self.quads.len() as f64);
+            self.control.step(Stage::Build, done)?;
             let mut grown = vec![false; self.spans.len()];
             for &q in &failing {
                 self.across(q).iter().for_each(|&v| grown[v] = true);
@@ -109,6 +113,18 @@ impl<'a> BicubicRefinement<'a> {
             stale = (0..self.quads.len()).filter(|&q| self.across(q).iter().any(|&v| grown[v])).collect();
         }
         Ok(())
+    }
+
+    /// Refuses to make more control points than are allowed.
+    fn check_size(&self) -> Result<()> {
+        let Some(most) = self.options.control_points else { return Ok(()) };
+        let of = |q: usize| self.spans_of(q).iter().map(|spans| spans + DEGREE).product::<usize>();
+        let needed: usize = (0..self.quads.len()).map(of).sum();
+        if needed <= most {
+            return Ok(());
+        }
+        let value = format!("{most} where {needed} or more are needed");
+        Err(Error::argument("control points", value, "as many as needed; or take a larger tolerance"))
     }
 
     /// Checks the patches and returns them with their figures.

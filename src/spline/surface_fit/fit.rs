@@ -4,7 +4,7 @@ use super::areas::{area_share, vertex_areas};
 use super::domain::SurfaceDomain;
 use super::flat::FlatMetric;
 use super::round::FitRound;
-use super::setting::{FitSetting, SurfaceFitOptions, miss};
+use super::setting::{FitSetting, SurfaceFitOptions, cost, miss};
 use super::sizes::TriangleSizes;
 use crate::control::Control;
 use crate::error::{Error, Result};
@@ -77,8 +77,9 @@ pub fn fit_surface_over(
                 continue;
             }
         };
-        let (cost, holds) = (fit.cost(options.tolerance), fit.holds(options.tolerance));
-        if best.as_ref().is_none_or(|(best, _)| cost < best.cost(options.tolerance)) {
+        let holds = fit.holds(options.tolerance);
+        let found = fit.cost(options.tolerance);
+        if best.as_ref().is_none_or(|(best, _)| found < best.cost(options.tolerance)) {
             best = Some((fit, k));
         }
         if holds {
@@ -131,8 +132,8 @@ pub fn fit_surface(
         let next =
             SurfaceFit { spline, domain, places, singular, rms, max, folds, rounds, fairness, distances };
         let (miss, is_whole) = (next.miss(options.tolerance), next.folds.is_empty());
-        let cost = next.cost(options.tolerance);
-        let is_better = best.as_ref().is_none_or(|best| cost < best.cost(options.tolerance));
+        let is_better =
+            best.as_ref().is_none_or(|best| next.cost(options.tolerance) < best.cost(options.tolerance));
         // A fit that is far from the tolerance after two rounds, or becomes no better, would miss it after all rounds.
         let is_hopeless = rounds > 1 && (miss > HOPELESS || !is_better);
         if is_better {
@@ -157,9 +158,8 @@ impl SurfaceFit {
         miss([self.rms, self.max], tolerance)
     }
 
-    /// A number that is smaller for a better fit: first by the tolerance, then by the count of folds, then by the distance.
+    /// [`cost`] of this fit.
     fn cost(&self, tolerance: f64) -> (f64, usize, f64) {
-        let miss = self.miss(tolerance);
-        (if miss <= 1.0 { 0.0 } else { miss }, self.folds.len(), miss)
+        cost([self.rms, self.max], &self.folds, tolerance)
     }
 }

@@ -5,13 +5,16 @@
 
 use super::domain::SurfaceDomain;
 use super::plane::TURNS;
-use super::setting::{FitSetting, miss};
+use super::setting::{FitSetting, cost, miss};
 use super::sizes::VertexError;
 use crate::control::{Control, Stage};
 use crate::error::Result;
 use crate::geometry::vector::Vector;
+use crate::mesh::FaceId;
 use crate::parallel::Pool;
-use crate::spline::triangular::{FairnessUnit, FitSystem, PlacedRows, TangentPlanes, WeightedFit};
+use crate::spline::triangular::{
+    FairnessUnit, FairnessWeights, FitSystem, PlacedRows, TangentPlanes, WeightedFit,
+};
 use crate::spline::{Hole, Parameter, Spline, SplineSpace, SurfacePoint};
 use std::sync::Arc;
 
@@ -26,15 +29,25 @@ const LONGEST_STEP: f64 = 0.25;
 /// The weight of the fairness at which cross-validation starts, and the largest one.
 const FAIRNESS: f64 = 1e-8;
 const MOST_FAIRNESS: f64 = 1e-2;
-/// The least weight for degree 0; for degree n it is 10ⁿ times smaller. With less, fits to points without noise bend where there are few
-/// points, and come no nearer elsewhere.
-const LEAST_FAIRNESS: f64 = 1e-6;
+/// The least weight for degree 0; for degree n it is 10ⁿ times smaller.
+const LEAST_FAIRNESS: f64 = 1e-8;
 /// Weight of tangential distances in the first fit by tangent planes, its factors after a fit that is nearer and one that is not, and its
 /// bounds.
 const DAMPING: f64 = 0.1;
 const LESS_DAMPING: f64 = 0.3;
 const MORE_DAMPING: f64 = 10.0;
 const DAMPING_BOUNDS: [f64; 2] = [1e-3, 1.0];
+
+/// Most times that patches in which a spline folds are made fairer.
+const UNFOLDINGS: usize = 8;
+/// Distance over the tolerance, and share of the patches that fold, from which on folds are left as they are.
+const UNFOLDED_MISS: f64 = 2.0;
+const UNFOLDED_SHARE: f64 = 0.3;
+/// Factors of the weight of the fairness in a patch that folds, and for each one beside it.
+const FAIRER: f64 = 10.0;
+const FAIRER_BESIDE: f64 = 2.0;
+/// The largest weight of the fairness of a patch, relative to that of all.
+const MOST_WEIGHT: f64 = 1e6;
 
 /// A domain and the spline fitted over it.
 pub(super) struct FitRound {
@@ -73,10 +86,10 @@ impl FitRound {
             let system = FitSystem::new(&space, &holes, &places, FairnessUnit::Patches)?;
             let mut fitting =
                 RoundFitting { setting, domain: &domain, space: &space, holes: &holes, system, factor };
-            fitting.run(places, control)
+            let best = fitting.run(places, control)?;
+            fitting.unfold(best, control)
         })?;
-        let FittedPlaces { places, spline, measures, distances, fairness } = best;
-        let folds = domain.folds(&spline, options.threads, control)?;
+        let (FittedPlaces { places, spline, measures, distances, fairness }, folds) = best;
         Ok(FitRound { domain, places, spline, measures, fairness, folds, distances })
     }
 
@@ -109,13 +122,25 @@ struct RoundFitting<'a> {
 
 impl RoundFitting<'_> {
     /// Alternates corrections of the places with fits until the spline is near enough or little is gained.
-    fn run(&mut self, mut places: Vec<Parameter>, control: &Control) -> Result<FittedPlaces> {
+    fn run(&mut self, places: Vec<Parameter>, control: &Control) -> Result<FittedPlaces> {
+        let placed = self.system.placed(&places, self.setting.points)?;
+        let fit = self.fit(&placed, FAIRNESS)?;
+        self.improve(places, fit, 1, control)
+    }
+
+    /// [`Self::run`] from a fit on, `first` being the number of the first correction.
+    fn improve(
+        &mut self,
+        mut places: Vec<Parameter>,
+        mut fit: WeightedFit,
+        first: usize,
+        control: &Control,
+    ) -> Result<FittedPlaces> {
         let FitSetting { points, options, .. } = self.setting;
         let mut placed = self.system.placed(&places, points)?;
-        let mut fit = self.fit(&placed, FAIRNESS)?;
         let mut best = self.measured(&places, &placed, &fit)?;
         let (mut before, mut damping) = (f64::INFINITY, DAMPING);
-        for done in 1..=options.corrections {
+        for done in first..=options.corrections {
             control.step(Stage::Flow, done as f64 / options.corrections as f64)?;
             let spline = self.system.spline(self.space, self.holes, &fit.unknowns)?;
             let found = spline.evaluate(&places, 1, options.threads, control)?;
@@ -141,6 +166,61 @@ impl RoundFitting<'_> {
             before = rms;
         }
         Ok(best)
+    }
+
+    /// Makes the patches in which the spline folds fairer, and fits again from its places, until none folds. Returns the best spline, and the
+    /// patches in which it folds.
+    fn unfold(&mut self, mut best: FittedPlaces, control: &Control) -> Result<(FittedPlaces, Vec<usize>)> {
+        let options = self.setting.options;
+        let cost_of = |fit: &FittedPlaces, folds: &[usize]| cost(fit.measures, folds, options.tolerance);
+        let mut weights = FairnessWeights::even(self.space, self.holes);
+        let mut folds = self.domain.folds(&best.spline, options.threads, control)?;
+        let mut last = (folds.clone(), miss(best.measures, options.tolerance));
+        for _ in 0..UNFOLDINGS {
+            let is_far = last.1 > UNFOLDED_MISS;
+            if last.0.is_empty()
+                || is_far
+                || folds.len() as f64 > UNFOLDED_SHARE * weights.patches.len() as f64
+            {
+                break;
+            }
+            self.make_fairer(&mut weights, &last.0);
+            self.system.weigh(&weights);
+            let placed = self.system.placed(&best.places, self.setting.points)?;
+            let fairness = best.fairness;
+            let fit = WeightedFit { unknowns: self.system.fit(&placed, fairness)?, fairness };
+            let next = self.improve(best.places.clone(), fit, POSITIONS + 1, control)?;
+            last = (
+                self.domain.folds(&next.spline, options.threads, control)?,
+                miss(next.measures, options.tolerance),
+            );
+            if cost_of(&next, &last.0) < cost_of(&best, &folds) {
+                (best, folds) = (next, last.0.clone());
+            }
+        }
+        Ok((best, folds))
+    }
+
+    /// Raises the weights of patches in which a spline folds and of those beside them. At a hole that of its filling: the spline of a patch
+    /// there goes around a point where its derivatives have no bound.
+    fn make_fairer(&self, weights: &mut FairnessWeights, folds: &[usize]) {
+        let mesh = &self.domain.coarse().mesh;
+        let filled: Vec<&Hole> = self.holes.iter().filter(|hole| hole.fill.is_some()).collect();
+        let is_at = |hole: &Hole, patch: usize| hole.sectors.iter().any(|s| s.patch as usize == patch);
+        let raise = |weight: &mut f64, factor: f64| *weight = (*weight * factor).min(MOST_WEIGHT);
+        let is_at_hole = |patch: usize| filled.iter().any(|hole| is_at(hole, patch));
+        for (hole, weight) in filled.iter().zip(&mut weights.fillings) {
+            if folds.iter().any(|&patch| is_at(hole, patch)) {
+                raise(weight, FAIRER);
+            }
+        }
+        for &patch in folds.iter().filter(|&&patch| !is_at_hole(patch)) {
+            raise(&mut weights.patches[patch], FAIRER);
+            let beside = mesh.face_halfedges(FaceId(patch as u32)).map(|h| mesh.corner(h.twin()));
+            for f in beside.into_iter().flatten().map(|(f, _)| f.index()).filter(|&f| !is_at_hole(f)) {
+                raise(&mut weights.patches[f], FAIRER_BESIDE);
+            }
+        }
     }
 
     /// The normals of the tangent planes; none on the boundary, which would slide over the border of the mesh.

@@ -76,6 +76,12 @@ pub(super) fn miss([rms, max]: [f64; 2], tolerance: f64) -> f64 {
     f64::max(max, rms / RMS) / tolerance
 }
 
+/// A number that is smaller for a better fit: first by the tolerance, then by the count of folds, then by the distance.
+pub(super) fn cost(measures: [f64; 2], folds: &[usize], tolerance: f64) -> (f64, usize, f64) {
+    let miss = miss(measures, tolerance);
+    (if miss <= 1.0 { 0.0 } else { miss }, folds.len(), miss)
+}
+
 /// The number of vertices of a triangulation of this surface, or plane, that has at most `control_points` control points of a spline: V
 /// vertices have at most n²V − (n² − 1)χ, less for each edge of the boundary.
 fn vertices_for(control_points: usize, flat: &FlatMetric, degree: usize) -> usize {

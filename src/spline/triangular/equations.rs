@@ -75,18 +75,18 @@ impl<'a> FitUnknowns<'a> {
         })
     }
 
-    /// The equations with right-hand side 0 that keep fillings near the spline on their rings, and fair, beside a fit to points at these
-    /// places whose squared distances are weighted by the square of `share`.
+    /// The equations with right-hand side 0 that keep fillings near the spline on their rings, beside a fit to points at these places whose
+    /// squared distances are weighted by the square of `share`.
     ///
     /// # Errors
     /// Those of [`SplineSpace::each`].
-    pub fn conditions(&self, places: &[Parameter], share: f64) -> Result<Vec<EquationTerms>> {
+    pub fn on_rings(&self, places: &[Parameter], share: f64) -> Result<Vec<EquationTerms>> {
         let mut all = Vec::new();
         for numbered in &self.fills {
-            let NumberedFill { hole, fill, first } = *numbered;
-            let inside = places.iter().filter(|&&at| hole.contains(at)).count().max(1) as f64;
+            let hole = numbered.hole;
             let rings = hole.rings(self.space);
             let rings_weight = RINGS / hole.turns.abs().max(1.0).powi(3);
+            let inside = points_inside(hole, places);
             let weight = share * (rings_weight * inside / rings.len().max(1) as f64).sqrt();
             all.extend(self.equations(&rings, |i, scratch| {
                 let mut terms = self.spline(rings[i], weight, scratch)?;
@@ -95,13 +95,21 @@ impl<'a> FitUnknowns<'a> {
                 }
                 Ok(terms)
             })?);
+        }
+        Ok(all)
+    }
+
+    /// For each filling the equations with right-hand side 0 that keep it fair, beside such a fit.
+    pub fn fair_fillings(&self, places: &[Parameter], share: f64) -> Vec<Vec<EquationTerms>> {
+        let of = |NumberedFill { hole, fill, first }: &NumberedFill<'_>| {
+            let inside = points_inside(hole, places);
             let weight = share * (FILL_FAIRNESS * inside / fill.coefficients().len() as f64).sqrt();
             let row = |terms: Vec<(usize, f64)>| {
                 sorted(terms.into_iter().map(|(k, x)| ((first + k) as u32, weight * x)).collect())
             };
-            all.extend(fill.differences().into_iter().map(row));
-        }
-        Ok(all)
+            fill.differences().into_iter().map(row).collect()
+        };
+        self.fills.iter().map(of).collect()
     }
 
     /// The pairs of unknowns that an equation can have in common.
@@ -166,6 +174,11 @@ impl<'a> FitUnknowns<'a> {
         parallel::fill_with(&mut found, Scratch::default, |scratch, i| of(i, scratch).map(sorted));
         found.into_iter().collect()
     }
+}
+
+/// The number of places in a hole, at least 1.
+fn points_inside(hole: &Hole, places: &[Parameter]) -> f64 {
+    places.iter().filter(|&&at| hole.contains(at)).count().max(1) as f64
 }
 
 /// The terms in the order of their unknowns; factors of an unknown that is named twice are added.

@@ -47,5 +47,5 @@ pub use polar::{Polynomial, monomials};
 pub use simplex::{simplex_spline, simplex_spline_gradient};
 pub use space::SplineSpace;
 pub use surface::Spline;
-pub(super) use system::{FitSystem, PlacedRows, TangentPlanes, WeightedFit};
+pub(super) use system::{FairnessWeights, FitSystem, PlacedRows, TangentPlanes, WeightedFit};
 pub use triangulate::triangulate;

@@ -1,7 +1,7 @@
 //! The normal equations of a fit: one symbolic analysis for all fits over one space.
 
 use super::equations::{EquationTerms, FitUnknowns};
-use super::fairness::{FairnessUnit, energies};
+use super::fairness::{FairnessUnit, PatchEnergy, energies};
 use super::fill::Fill;
 use super::hole::Hole;
 use super::patch::Parameter;
@@ -28,9 +28,15 @@ pub(crate) struct FitSystem<'a> {
     unknowns: FitUnknowns<'a>,
     pattern: Pattern,
     cholesky: Cholesky,
-    /// The fairness energy of weight 1.
+    /// The fairness energies of the patches.
+    energies: Vec<PatchEnergy>,
+    /// Their weighted sum.
     fairness: Vec<f64>,
-    /// The conditions on fillings.
+    /// The conditions on fillings at their rings.
+    rings: Vec<f64>,
+    /// For each filling the equations of its fairness.
+    fair_fillings: Vec<Vec<EquationTerms>>,
+    /// The conditions on fillings at their rings, with the weighted ones of their fairness.
     conditions: Vec<f64>,
 }
 
@@ -46,6 +52,22 @@ pub(crate) struct TangentPlanes<'a> {
     pub normals: &'a [Option<Vector>],
     /// Weight of squared tangential distances relative to those along normals.
     pub damping: f64,
+}
+
+/// Weights of the fairness of patches and of fillings, relative to that of all.
+pub(crate) struct FairnessWeights {
+    /// The weight of each patch.
+    pub patches: Vec<f64>,
+    /// The weight of each hole with a filling.
+    pub fillings: Vec<f64>,
+}
+
+impl FairnessWeights {
+    /// A weight of 1 everywhere.
+    pub fn even(space: &SplineSpace, holes: &[Hole]) -> FairnessWeights {
+        let filled = holes.iter().filter(|hole| hole.fill.is_some()).count();
+        FairnessWeights { patches: vec![1.0; space.patches().len()], fillings: vec![1.0; filled] }
+    }
 }
 
 /// A fit with its weight of the fairness.
@@ -65,21 +87,35 @@ impl<'a> FitSystem<'a> {
         let unknowns = FitUnknowns::new(space, holes);
         let pattern = Pattern::new(unknowns.count(), &unknowns.pairs())?;
         let cholesky = Cholesky::analyse(&pattern)?;
-        let mut fairness = vec![0.0; pattern.entries()];
-        for energy in energies(space, unit)? {
+        let mut rings = vec![0.0; pattern.entries()];
+        let share = (1.0 / places.len().max(1) as f64).sqrt();
+        for row in unknowns.on_rings(places, share)? {
+            add_square(&pattern, &mut rings, &row, 1.0);
+        }
+        let fair_fillings = unknowns.fair_fillings(places, share);
+        let (energies, nothing) = (energies(space, unit)?, vec![0.0; pattern.entries()]);
+        let (fairness, conditions) = (nothing.clone(), nothing);
+        let mut system =
+            FitSystem { unknowns, pattern, cholesky, energies, fairness, rings, fair_fillings, conditions };
+        system.weigh(&FairnessWeights::even(space, holes));
+        Ok(system)
+    }
+
+    /// Gives the fairness of each patch and filling a weight relative to that of all.
+    pub fn weigh(&mut self, weights: &FairnessWeights) {
+        self.fairness.fill(0.0);
+        for (energy, weight) in self.energies.iter().zip(&weights.patches) {
             let mut matrix = energy.matrix.iter();
             for (k, &i) in energy.control.iter().enumerate() {
                 for (&j, x) in energy.control[..=k].iter().zip(matrix.by_ref()) {
-                    add_to(&pattern, &mut fairness, [i, j], *x);
+                    add_to(&self.pattern, &mut self.fairness, [i, j], weight * x);
                 }
             }
         }
-        let mut conditions = vec![0.0; pattern.entries()];
-        let share = (1.0 / places.len().max(1) as f64).sqrt();
-        for row in unknowns.conditions(places, share)? {
-            add_square(&pattern, &mut conditions, &row, 1.0);
+        self.conditions.copy_from_slice(&self.rings);
+        for (rows, &weight) in self.fair_fillings.iter().zip(&weights.fillings) {
+            rows.iter().for_each(|row| add_square(&self.pattern, &mut self.conditions, row, weight));
         }
-        Ok(FitSystem { unknowns, pattern, cholesky, fairness, conditions })
     }
 
     /// The points with their places.

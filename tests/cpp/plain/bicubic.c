@@ -208,6 +208,24 @@ static void what_cannot_be_is_refused(void) {
     FAILS(ricci_bicubic_new(spline, &options, NULL, &bicubic), RICCI_SPLINE, "128 spans");
     OK(ricci_last_failure(&failure, sizeof failure));
     CHECK(failure.element == RICCI_ELEMENT_FACE && failure.index == 0);
+    options.tolerance = 1e-2, options.control_points = 10;
+    FAILS(ricci_bicubic_new(spline, &options, NULL, &bicubic), RICCI_ARGUMENT, "larger tolerance");
+    /* A control point far above the others folds the surface, which is refused unless it is allowed. */
+    options.control_points = 0;
+    ricci_spline_summary figures;
+    OK(ricci_spline_summarise(spline, &figures, sizeof figures));
+    double *points = (double *)room(figures.n_control_points, 3 * sizeof *points);
+    ricci_spline *bent = NULL;
+    OK(ricci_spline_values(spline, RICCI_SPLINE_CONTROL_POINTS, points, 3 * figures.n_control_points));
+    points[3 * (figures.n_control_points / 2)] += 100;
+    OK(ricci_spline_with_points(spline, points, figures.n_control_points, &bent));
+    FAILS(ricci_bicubic_new(bent, &options, NULL, &bicubic), RICCI_SPLINE, "turns back on itself");
+    options.folds = 1;
+    OK(ricci_bicubic_new(bent, &options, NULL, &bicubic));
+    ricci_bicubic_free(bicubic);
+    bicubic = NULL;
+    ricci_spline_free(bent);
+    free(points);
     options.size = sizeof options - 4;
     FAILS(ricci_bicubic_new(spline, &options, NULL, &bicubic), RICCI_STRUCT_SIZE, "options");
     ricci_control *control = NULL;

@@ -94,6 +94,34 @@ static void a_torus_is_fitted(void) {
     ricci_mesh_free(mesh);
 }
 
+/* A sphere is fitted by itself; it says that it holds, and that it does not where the tolerance is too small. */
+static void a_sphere_is_fitted(void) {
+    ricci_mesh *mesh = NULL;
+    ricci_spline *spline = NULL;
+    ricci_spline_surface_options options;
+    OK(make_sized(RICCI_SHAPE_SPHERE, 12, 0, 0, 0, 0, &mesh));
+    OK(ricci_spline_fit_mesh(mesh, NULL, NULL, &spline));
+    ricci_spline_summary s = summary_of(spline);
+    CHECK(s.converged == 1 && s.n_folded_patches == 0 && s.fit_max < 0.01 * 2 * sqrt(3) && s.n_holes >= 1);
+    const double point[3] = {0, 0, 3};
+    double values[6];
+    uint32_t patch;
+    OK(ricci_spline_closest(spline, point, 1, NULL, &patch, values, 6));
+    CHECK(fabs(values[5] - 2) < 0.01);
+    ricci_spline_free(spline);
+    INIT(options);
+    options.tolerance = 1e-9, options.control_points = 200, options.rounds = 1;
+    OK(ricci_spline_fit_mesh(mesh, &options, NULL, &spline));
+    s = summary_of(spline);
+    CHECK(s.converged == 0 && s.fit_max > 1e-9);
+    ricci_spline_free(spline);
+    spline = NULL;
+    CHECK(ricci_spline_fit_mesh(NULL, NULL, NULL, &spline) == RICCI_NULL_POINTER && !spline);
+    options.degree = 6;
+    CHECK(ricci_spline_fit_mesh(mesh, &options, NULL, &spline) == RICCI_ARGUMENT && !spline);
+    ricci_mesh_free(mesh);
+}
+
 /* Around the singular vertex of a surface of genus 2 a filling takes the place of the spline. */
 static void a_hole_is_filled(void) {
     ricci_mesh *mesh = NULL;
@@ -168,6 +196,7 @@ static void what_cannot_be_is_refused(void) {
 
 int main(void) {
     a_torus_is_fitted();
+    a_sphere_is_fitted();
     a_hole_is_filled();
     curvatures_add_up();
     what_cannot_be_is_refused();

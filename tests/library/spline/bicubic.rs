@@ -106,6 +106,28 @@ fn a_tolerance_out_of_reach_is_an_error_that_names_the_patch() {
 }
 
 #[test]
+fn a_spline_that_folds_and_more_control_points_than_allowed_are_refused() {
+    let spline = cubic(3);
+    let options = BicubicOptions { tolerance: 1e-2, ..BicubicOptions::default() };
+    let made = spline.to_bicubic(&options, &Control::new()).unwrap();
+    let needed = made.surface.n_control_points();
+    let limited = |n| {
+        let options = BicubicOptions { control_points: Some(n), ..options };
+        spline.to_bicubic(&options, &Control::new())
+    };
+    assert_eq!(limited(needed).unwrap(), made);
+    assert!(limited(needed / 2).unwrap_err().to_string().contains("larger tolerance"));
+    let mut points = spline.control_points().to_vec();
+    let middle = points.len() / 2;
+    points[middle][0] += 100.0;
+    let bent = Spline::new(spline.space().clone(), points).unwrap();
+    let refused = bent.to_bicubic(&options, &Control::new()).unwrap_err().to_string();
+    assert!(refused.starts_with("patch ") && refused.contains("turns back on itself"), "{refused}");
+    let allowed = BicubicOptions { folds: true, ..options };
+    assert!(bent.to_bicubic(&allowed, &Control::new()).is_ok());
+}
+
+#[test]
 fn files_of_patches_are_read_as_they_were_and_tampering_is_named() {
     let surface = patches(&cubic(3), 1e-2, 0).surface;
     let mut bytes = Vec::new();

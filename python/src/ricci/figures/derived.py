@@ -179,6 +179,7 @@ class SplineSummary:
         n_holes: number of holes around singular vertices.
         n_folded_patches: of a fit to a surface, the number of patches in which it folds, `Spline.folds`.
         folded_share: the share of the fitted surface that lies in these patches; NaN of splines that were not fitted.
+        converged: a fit to a surface is within the tolerance asked for, and folds nowhere.
     """
 
     degree: int
@@ -190,6 +191,7 @@ class SplineSummary:
     n_holes: int
     n_folded_patches: int
     folded_share: float
+    converged: bool
 
 
 @dataclass(frozen=True)
