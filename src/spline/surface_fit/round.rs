@@ -29,8 +29,9 @@ const LONGEST_STEP: f64 = 0.25;
 /// The weight of the fairness at which cross-validation starts, and the largest one.
 const FAIRNESS: f64 = 1e-8;
 const MOST_FAIRNESS: f64 = 1e-2;
-/// The least weight for degree 0; for degree n it is 10ⁿ times smaller.
-const LEAST_FAIRNESS: f64 = 1e-8;
+/// The least weight for degree 0; for degree n it is 10ⁿ times smaller. With less, fits to points without noise bend where there are few
+/// points, and splines near rough surfaces fold more.
+const LEAST_FAIRNESS: f64 = 1e-6;
 /// Weight of tangential distances in the first fit by tangent planes, its factors after a fit that is nearer and one that is not, and its
 /// bounds.
 const DAMPING: f64 = 0.1;
