@@ -11,13 +11,13 @@ use crate::runner::{CommandRun, Job, JobHeader, JobOutcome};
 use crate::say::{self, count};
 use crate::show;
 use clap::Args;
-use ricci::Surface;
 use ricci::control::Stage;
+use ricci::mesh::Place;
 use ricci::mesh::check::{Diagnosis, diagnose};
 use ricci::mesh::io::{self, Soup};
 use ricci::mesh::refine::{Refine, RefinedSoup, refine};
 use ricci::metric::ShapeQuality;
-use ricci::metric::angle_refinement::{AngleRefinement, AngleReport, refine_to_angle};
+use ricci::metric::angle_refinement::{AngleRefinement, AngleReport, FinerMetric, refine_to_angle};
 use serde::Serialize;
 use std::io::Write;
 use std::path::PathBuf;
@@ -26,7 +26,7 @@ pub const HELP: &str = "\
 Example: every face cut into four, with the way back to the input; no edge longer than 0.02; triangles without thin ones
     ricci refine scan.obj -o fine.obj --levels 1 --xref back.csv
     ricci refine scan.obj -o even.ply --edge 0.02
-    ricci refine scan.obj --intrinsic --angle 25 -o metric.json && ricci uniformize metric.json
+    ricci refine scan.obj --intrinsic --angle 25 -o metric.json --xref back.csv && ricci uniformize metric.json
 
 In space, edges are halved at their midpoints and faces are cut by straight lines: the surface stays the same set of points, the
 input's vertices come first and keep their numbers, colours, normals and texture coordinates are interpolated. Any list of
@@ -50,11 +50,11 @@ pub struct RefineArgs {
     #[arg(long, value_name = "L", value_parser = positive)]
     pub edge: Option<f64>,
     /// Write where the faces and vertices of the result lie in the input's, numbered from 0: rows output_face,source_face, then
-    /// output_vertex,source_face,b0,b1,b2
+    /// output_vertex,source_face,b0,b1,b2; with --intrinsic, whose faces lie in no face of the input, the vertices alone
     #[arg(long, value_name = "X.csv")]
     pub xref: Option<FileName>,
     /// Refine the metric: vertices and geodesic edges, of which lengths alone are written
-    #[arg(long, conflicts_with_all = ["edge", "levels", "xref"])]
+    #[arg(long, conflicts_with_all = ["edge", "levels"])]
     pub intrinsic: bool,
     /// Least angle of the triangles of --intrinsic, degrees, at most 30
     #[arg(long, value_name = "DEGREES", default_value_t = 25.0, value_parser = positive)]
@@ -74,6 +74,10 @@ pub struct RefineArgs {
 /// Largest relative change of the area by a refinement: midpoints and lengths are rounded, at coordinates far from the origin most.
 const AREA_CHANGE: f64 = 1e-9;
 
+/// Largest excess of the straight line in space between the places of two neighbours over the length of their edge, as a share of that: the
+/// edge is a geodesic, and places are rounded.
+const LINE_EXCESS: f64 = 1e-6;
+
 /// A surface before and after it was refined.
 pub struct RefineOutcome {
     path: PathBuf,
@@ -87,7 +91,7 @@ pub struct RefineOutcome {
 /// What was refined: the triangles in space, or the metric.
 enum FinerSurface {
     Triangles { soup: Box<RefinedSoup>, diagnosis: Box<Diagnosis>, asked_edge: Option<f64> },
-    Metric { surface: Surface, report: AngleReport, asked_angle: f64 },
+    Metric { finer: Box<FinerMetric>, line_excess: Option<f64>, asked_angle: f64 },
 }
 
 impl Job for RefineArgs {
@@ -130,21 +134,34 @@ impl Job for RefineArgs {
                 let left_out =
                     run.outputs.add_named(&self.out, |path| io::write_as(path, format, &soup.soup))?;
                 run.outputs.leave_out(left_out);
-                run.file("xref", self.xref.as_deref(), |outputs, path| {
-                    outputs.add(path, |out| write_places(out, soup))
-                })?;
+                self.write_xref(run, Some(&soup.face_origin), &soup.vertex_place)?;
                 let draw = || show::draw_surface(&soup.soup, &self.picture, self.common.threads);
                 run.draw(self.picture.base.picture.as_deref(), draw)
             }
-            FinerSurface::Metric { surface, .. } => {
+            FinerSurface::Metric { finer, .. } => {
+                let FinerMetric { surface, places, .. } = &**finer;
                 let (mesh, geometry, lengths) = (surface.mesh(), surface.geometry(), surface.lengths());
-                run.outputs.add_json(&self.out, &LengthsFile::new(mesh, geometry, lengths))
+                run.outputs.add_json(&self.out, &LengthsFile::new(mesh, geometry, lengths))?;
+                let places: Vec<Option<Place>> = places.iter().copied().map(Some).collect();
+                self.write_xref(run, None, &places)
             }
         }
     }
 }
 
 impl RefineArgs {
+    /// The file of --xref. `face_origin`: per face of the result the input's face that it is a part of, where it is one.
+    fn write_xref(
+        &self,
+        run: &mut CommandRun<'_>,
+        face_origin: Option<&[u32]>,
+        places: &[Option<Place>],
+    ) -> Result<(), Failure> {
+        run.file("xref", self.xref.as_deref(), |outputs, path| {
+            outputs.add(path, |out| write_places(out, face_origin, places))
+        })
+    }
+
     fn refine_triangles(&self, run: &mut CommandRun<'_>) -> Result<RefineOutcome, Failure> {
         let path = self.surface.file.mesh.clone();
         run.control.step(Stage::Read, 0.0)?;
@@ -170,23 +187,30 @@ impl RefineArgs {
         let asked_angle = self.angle.to_radians();
         let most_added = self.most_added.unwrap_or(0);
         let options = AngleRefinement { least_angle: asked_angle, most_added };
-        let finer = || refine_to_angle(&input.surface, &options, run.control);
-        let (surface, report) = timed(&mut run.seconds.solve, finer)?;
-        let area = [input.surface.area()?, surface.area()?];
+        let refined = || refine_to_angle(&input.surface, &options, run.control);
+        let finer = Box::new(timed(&mut run.seconds.solve, refined)?);
+        let area = [input.surface.area()?, finer.surface.area()?];
         let (path, out, given) = (input.path.clone(), self.out.clone(), Counts::from(input.mesh()));
-        let result = FinerSurface::Metric { surface, report, asked_angle };
+        let line_excess = finer.line_excess(&input.surface);
+        let result = FinerSurface::Metric { finer, line_excess, asked_angle };
         Ok(RefineOutcome { path, out, given, area, result })
     }
 }
 
 /// The way back: the input's face of each face, and the place of each vertex in a face of the input.
-fn write_places(out: &mut impl Write, finer: &RefinedSoup) -> std::io::Result<()> {
-    writeln!(out, "output_face,source_face")?;
-    for (f, source) in finer.face_origin.iter().enumerate() {
-        writeln!(out, "{f},{source}")?;
+fn write_places(
+    out: &mut impl Write,
+    face_origin: Option<&[u32]>,
+    places: &[Option<Place>],
+) -> std::io::Result<()> {
+    if let Some(face_origin) = face_origin {
+        writeln!(out, "output_face,source_face")?;
+        for (f, source) in face_origin.iter().enumerate() {
+            writeln!(out, "{f},{source}")?;
+        }
     }
     writeln!(out, "output_vertex,source_face,b0,b1,b2")?;
-    for (v, place) in finer.vertex_place.iter().enumerate() {
+    for (v, place) in places.iter().enumerate() {
         if let Some(place) = place {
             let [a, b, c] = place.weights;
             writeln!(out, "{v},{},{a},{b},{c}", place.face)?;
@@ -199,7 +223,7 @@ impl RefineOutcome {
     fn counts(&self) -> Counts {
         match &self.result {
             FinerSurface::Triangles { diagnosis, .. } => Counts::from(&**diagnosis),
-            FinerSurface::Metric { surface, .. } => Counts::from(&**surface.mesh()),
+            FinerSurface::Metric { finer, .. } => Counts::from(&**finer.surface.mesh()),
         }
     }
 
@@ -222,8 +246,11 @@ impl JobOutcome for RefineOutcome {
                 checks.add("longest_edge", soup.longest_edge(), *asked);
             }
             FinerSurface::Triangles { .. } => {}
-            FinerSurface::Metric { report, .. } => {
-                checks.add("faces_below_angle", report.below as f64, 0.0);
+            FinerSurface::Metric { finer, line_excess, .. } => {
+                checks.add("faces_below_angle", finer.report.below as f64, 0.0);
+                if let Some(excess) = line_excess {
+                    checks.add("line_excess", *excess, LINE_EXCESS);
+                }
             }
         }
         checks
@@ -244,14 +271,7 @@ impl JobOutcome for RefineOutcome {
             FinerSurface::Triangles { soup, .. } => {
                 figures.with("longest_edge", soup.longest_edge()).with("left_out", run.outputs.left_out())
             }
-            FinerSurface::Metric { report, .. } => figures
-                .with("added_inside", report.inside)
-                .with("added_on_boundary", report.on_boundary)
-                .with("flips", report.flips)
-                .with("min_angle_degrees_before", report.given_angle.to_degrees())
-                .with("min_angle_degrees", report.least_angle.to_degrees())
-                .with("faces_below_angle", report.below)
-                .with("faces_forced_below", report.forced),
+            FinerSurface::Metric { finer, .. } => metric_figures(figures, &finer.report),
         }
     }
 
@@ -261,7 +281,8 @@ impl JobOutcome for RefineOutcome {
             FinerSurface::Triangles { soup, .. } => {
                 format!("longest edge {}", say::size(soup.longest_edge(), 6))
             }
-            FinerSurface::Metric { report, asked_angle, .. } => {
+            FinerSurface::Metric { finer, asked_angle, .. } => {
+                let report = &finer.report;
                 let mut text = format!(
                     "smallest angle {:.2}°, before {:.2}°",
                     report.least_angle.to_degrees(),
@@ -298,4 +319,16 @@ impl JobOutcome for RefineOutcome {
         ) + &left_out.collect::<String>()
             + &say::finish(done)
     }
+}
+
+/// The figures of a refined metric.
+fn metric_figures(figures: Figures, report: &AngleReport) -> Figures {
+    figures
+        .with("added_inside", report.inside)
+        .with("added_on_boundary", report.on_boundary)
+        .with("flips", report.flips)
+        .with("min_angle_degrees_before", report.given_angle.to_degrees())
+        .with("min_angle_degrees", report.least_angle.to_degrees())
+        .with("faces_below_angle", report.below)
+        .with("faces_forced_below", report.forced)
 }

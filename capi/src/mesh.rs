@@ -11,7 +11,7 @@ use crate::structs::{self, sized};
 use ricci::Surface;
 use ricci::geometry::Space;
 use ricci::mesh::io::{self, Attributes, Soup, Texture, Wrap};
-use ricci::mesh::{Mesh, PerEdge, Point};
+use ricci::mesh::{Mesh, PerEdge, Place, Point};
 use std::ffi::c_char;
 use std::sync::{Arc, OnceLock};
 
@@ -44,6 +44,8 @@ pub struct ricci_mesh {
     lengths: Option<(Arc<PerEdge<f64>>, Space)>,
     /// The attributes that the file had beside positions and faces.
     attributes: Attributes,
+    /// Of a refined metric, the places of its vertices on the surface that it was made from.
+    places: Option<Vec<Place>>,
     surface: OnceLock<Surface>,
     summary: OnceLock<ricci_mesh_summary>,
 }
@@ -56,6 +58,7 @@ impl ricci_mesh {
             positions: Some(positions),
             lengths: None,
             attributes: Attributes::default(),
+            places: None,
             surface: OnceLock::new(),
             summary: OnceLock::new(),
         }
@@ -64,6 +67,15 @@ impl ricci_mesh {
     pub(crate) fn intrinsic(connectivity: Arc<Mesh>, lengths: Arc<PerEdge<f64>>, space: Space) -> ricci_mesh {
         let mesh = ricci_mesh::in_space(connectivity, Arc::default());
         ricci_mesh { positions: None, lengths: Some((lengths, space)), ..mesh }
+    }
+
+    /// A refined metric with the places of its vertices on the surface that it was made from.
+    pub(crate) fn placed(self, places: Vec<Place>) -> ricci_mesh {
+        ricci_mesh { places: Some(places), ..self }
+    }
+
+    pub(crate) fn places(&self) -> Outcome<&[Place]> {
+        self.places.as_deref().ok_or_else(|| Failure::argument("this mesh was not refined"))
     }
 
     pub(crate) fn from_soup(soup: Soup) -> Outcome<ricci_mesh> {

@@ -9,7 +9,7 @@ use crate::soup::ricci_soup;
 use crate::status::ricci_status;
 use crate::structs::{self, or, sized};
 use ricci::mesh::refine::{Refine, refine};
-use ricci::metric::angle_refinement::{AngleRefinement, refine_to_angle};
+use ricci::metric::angle_refinement::{AngleRefinement, FinerMetric, refine_to_angle};
 
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
@@ -94,7 +94,8 @@ pub unsafe extern "C" fn ricci_mesh_refine_angle(
         let least_angle = or(given.least_angle, usual.least_angle);
         let options = AngleRefinement { least_angle, most_added: given.most_added };
         let _reserve = memory::work(mesh.connectivity.n_vertices(), memory::MESH)?;
-        let (finer, report) = refine_to_angle(mesh.surface()?, &options, &control)?;
+        let FinerMetric { surface: finer, places, report } =
+            refine_to_angle(mesh.surface()?, &options, &control)?;
         if !summary.is_null() {
             let figures = ricci_refine_summary {
                 size,
@@ -108,6 +109,24 @@ pub unsafe extern "C" fn ricci_mesh_refine_angle(
             };
             structs::write(figures, summary, size)?;
         }
-        Ok(ricci_mesh::intrinsic(finer.mesh().clone(), finer.lengths().clone(), finer.geometry()))
+        let made = ricci_mesh::intrinsic(finer.mesh().clone(), finer.lengths().clone(), finer.geometry());
+        Ok(made.placed(places))
+    })
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_mesh_places(
+    refined: *const ricci_mesh,
+    faces: *mut u32,
+    faces_capacity: usize,
+    weights: *mut f64,
+    weights_capacity: usize,
+) -> ricci_status {
+    guard::with(refined, |mesh| {
+        let (found, at): (Vec<u32>, Vec<[f64; 3]>) =
+            mesh.places()?.iter().map(|place| (place.face.0, place.weights)).unzip();
+        check_buffer("weights", 3 * at.len(), weights, weights_capacity)?;
+        copy_out("faces", &found, faces, faces_capacity)?;
+        copy_out("weights", &at, weights, weights_capacity)
     })
 }

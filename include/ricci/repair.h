@@ -600,6 +600,22 @@ RICCI_API ricci_status ricci_mesh_refine_angle(const ricci_mesh *mesh, const ric
                                                const ricci_control *control, ricci_refine_summary *summary,
                                                size_t size, ricci_mesh **refined);
 
+/**
+ * Where the vertices of a refined metric lie on the surface that it was made from. Edges between them are
+ * geodesics of that surface, which may cross any of its faces.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (not a mesh of
+ *         ricci_mesh_refine_angle).
+ *
+ * @param refined           the refined metric.
+ * @param faces             out: for each vertex a given face that contains it.
+ * @param faces_capacity    entries of `faces`.
+ * @param weights           out: for each vertex its three barycentric coordinates there, none negative.
+ * @param weights_capacity  entries of `weights`.
+ */
+RICCI_API ricci_status ricci_mesh_places(const ricci_mesh *refined, uint32_t *faces, size_t faces_capacity,
+                                         double *weights, size_t weights_capacity);
+
 #ifdef __cplusplus
 }
 #endif

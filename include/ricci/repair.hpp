@@ -148,6 +148,13 @@ inline mesh refined_to_angle(const mesh &on,
     return mesh(make<ricci_mesh>(ricci_mesh_refine_angle, on.get(), &options, of(watched),
                                  static_cast<ricci_refine_summary *>(nullptr), std::size_t(0)));
 }
+// Of such a mesh: for each vertex a face of the given mesh, and coordinates in it.
+inline std::pair<std::vector<std::uint32_t>, std::vector<double>> places_of(const mesh &refined) {
+    std::vector<std::uint32_t> faces(refined.summary().n_vertices);
+    std::vector<double> weights(3 * faces.size());
+    check(ricci_mesh_places(refined.get(), faces.data(), faces.size(), weights.data(), weights.size()));
+    return {std::move(faces), std::move(weights)};
+}
 
 } // namespace ricci
 

@@ -396,6 +396,34 @@ RICCI_API ricci_status ricci_uniform_lift(const ricci_uniform *uniform, const in
                                           double *points, size_t capacity);
 
 /**
+ * The lift of a closed loop through vertices of the given mesh, each joined to the next by an edge and the
+ * last to the first: points of the universal cover in ambient coordinates, from a corner of the layout on,
+ * and the deck transformation that carries the first point to the last. The loop is contracted if and only if
+ * its word is empty.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (fewer than two vertices, no
+ * such vertex, neighbours that no edge joins), RICCI_LAYOUT (a sphere, a layout of another uniformization).
+ *
+ * @param uniform           the uniformization, of a quotient.
+ * @param layout            its layout by ricci_uniform_layout on RICCI_ON_REFINEMENT.
+ * @param vertices          the loop; the first vertex may also be named again at the end.
+ * @param n_vertices        number of entries of `vertices`.
+ * @param points            out: n_points / 3 points along the loop, the first vertex's at both ends; where
+ *                          edges of the metric's triangulation cross the loop, points of the crossings are
+ *                          between them. NULL with capacity 0 to ask for their number.
+ * @param capacity          entries of `points`.
+ * @param n_points          out: entries of `points`.
+ * @param letters           out: the word of the deck transformation; NULL with capacity 0 to ask for its
+ *                          length.
+ * @param letters_capacity  entries of `letters`.
+ * @param n_letters         out: number of letters.
+ */
+RICCI_API ricci_status ricci_uniform_lift_loop(const ricci_uniform *uniform, const ricci_layout *layout,
+                                               const uint32_t *vertices, size_t n_vertices, double *points,
+                                               size_t capacity, size_t *n_points, int32_t *letters,
+                                               size_t letters_capacity, size_t *n_letters);
+
+/**
  * The vertices of the given mesh on the unit sphere, or in the plane under it, where coordinates near (0, 0,
  * 1) have far more digits.
  *

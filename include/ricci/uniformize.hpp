@@ -86,6 +86,23 @@ public:
     std::vector<double> sphere_points(std::uint32_t model = RICCI_MODEL_AMBIENT) const {
         return values<double>(ricci_sphere_points, get(), model);
     }
+    // A closed loop lifted to the universal cover: points in ambient coordinates, and the word of the deck
+    // transformation that carries the first to the last.
+    struct lifted_loop {
+        std::vector<double> points;
+        std::vector<std::int32_t> word;
+    };
+    lifted_loop lift_loop(const ricci::layout &on, const std::vector<std::uint32_t> &vertices) const {
+        std::size_t n_points = 0, n_letters = 0;
+        const auto call = [&](double *points, std::size_t size, std::int32_t *word, std::size_t length) {
+            check(ricci_uniform_lift_loop(get(), on.get(), vertices.data(), vertices.size(), points, size,
+                                          &n_points, word, length, &n_letters));
+        };
+        call(nullptr, 0, nullptr, 0);
+        lifted_loop made{std::vector<double>(n_points), std::vector<std::int32_t>(n_letters)};
+        call(made.points.data(), made.points.size(), made.word.data(), made.word.size());
+        return made;
+    }
 };
 
 using repaired_input_handle = owned<ricci_repaired_input, ricci_repaired_input_free>;

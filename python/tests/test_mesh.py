@@ -279,5 +279,13 @@ def test_metrics_are_refined_to_an_angle():
     assert course.n_below == 0
     assert finer.quality.min_angle == pytest.approx(course.least_angle)
     assert finer.quality.area == pytest.approx(thin.quality.area, rel=1e-9)
+    faces, weights = finer.places
+    at = (weights[:, :, None] * thin.V[thin.F[faces]]).sum(1)
+    np.testing.assert_array_equal(at[: len(thin.V)], thin.V)
+    ends = finer.edges
+    straight = np.linalg.norm(at[ends[:, 0]] - at[ends[:, 1]], axis=1)
+    assert (straight <= finer.lengths * (1 + 1e-9)).all()
+    with pytest.raises(ricci.ArgumentError, match="was not refined"):
+        _ = thin.places
     with pytest.raises(ricci.ArgumentError, match="30"):
         thin.refine_angle(1.0)

@@ -125,6 +125,25 @@ def test_the_canonical_polygon_closes(octagon):
     np.testing.assert_allclose(octagon.lift(loop)[-1], end[0], rtol=1e-9)
 
 
+def test_loops_of_vertices_are_lifted(octagon, genus2):
+    """A loop around a vertex closes; one that is named by the basis ends where its word carries its start."""
+    loop = ricci.homotopy(genus2).loops[0]
+    ends = genus2.edges[np.abs(loop) - 1]
+    around = np.where(loop > 0, ends[:, 0], ends[:, 1])
+    layout = octagon.layout("refinement")
+    points, word = octagon.lift_loop(around, layout)
+    assert len(points) > len(around)
+    assert len(word) > 0
+    image = ricci.deck(octagon, kind="words", words=[word]).apply(0, points[:1])
+    np.testing.assert_allclose(image[0], points[-1], rtol=1e-8)
+    face = genus2.F[0]
+    points, word = octagon.lift_loop([*face, face[0]])
+    assert word.tolist() == []
+    np.testing.assert_allclose(points[0], points[-1], atol=1e-9)
+    with pytest.raises(ricci.ArgumentError, match="an edge of the surface"):
+        octagon.lift_loop([0, genus2.n_vertices - 1])
+
+
 def test_loops_cross_as_the_names_say(genus2):
     basis = ricci.homotopy(genus2)
     expected = np.kron(np.eye(2, dtype=int), [[0, 1], [-1, 0]])

@@ -21,6 +21,7 @@
 
 use super::arctangent::angle;
 use super::lanes::Lanes;
+use super::scaled::exponent;
 use super::{DoubleDouble, Space};
 use std::f64::consts::PI;
 
@@ -191,6 +192,11 @@ pub(crate) fn is_finite<L: Lanes>(x: [L; 3], yes: L) -> L {
 pub fn half_angles_of_chords(space: Space, q: [DoubleDouble; 3]) -> [[DoubleDouble; 2]; 3] {
     let (one, curvature) = (DoubleDouble::from(1.0), DoubleDouble::from(space.curvature()));
     let c = q.map(|q| (one - curvature * q * q).sqrt());
+    let shortest = [1, 2].into_iter().fold(0, |k, i| if q[i].high < q[k].high { i } else { k });
+    let longest = q.iter().fold(0.0, |m: f64, q| m.max(q.high));
+    if q[shortest].high < NEEDLE * longest {
+        return half_angles_of_needle(q, c, shortest);
+    }
     [0, 1, 2].map(|k| {
         let (i, j) = ((k + 1) % 3, (k + 2) % 3);
         let (there, back) = (q[i] * c[j], q[j] * c[i]);
@@ -200,6 +206,38 @@ pub fn half_angles_of_chords(space: Space, q: [DoubleDouble; 3]) -> [[DoubleDoub
         let norm = (cos * cos + sin * sin).sqrt();
         [cos / norm, sin / norm]
     })
+}
+
+/// A triangle whose shortest side is less than this part of the longest one is a needle. Sums in double-double precision have 32 digits, of
+/// which 12 at least show a side above the limit.
+const NEEDLE: f64 = 1e-20;
+
+/// [`half_angles_of_chords`] where side `k` is so short that it is lost in sums with the others: these are subtracted from each other first.
+/// `c`: C(l/2) of the sides.
+fn half_angles_of_needle(q: [DoubleDouble; 3], c: [DoubleDouble; 3], k: usize) -> [[DoubleDouble; 2]; 3] {
+    let mut halves = [[DoubleDouble::from(0.5).sqrt(); 2]; 3];
+    let mut set = |at: usize, cos: DoubleDouble, sin: DoubleDouble| {
+        // Both are 0 where the long sides are equal and the short one is below the range of numbers: a right angle.
+        let larger = cos.high.max(sin.high);
+        if larger > 0.0 {
+            // In units of the larger one, since squares would underflow.
+            let [cos, sin] = [cos, sin].map(|x| x.scaled(-exponent(larger)));
+            let norm = (cos * cos + sin * sin).sqrt();
+            halves[at] = [cos / norm, sin / norm];
+        }
+    };
+    let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+    let p = q[i] * c[j] + q[j] * c[i];
+    let d = (q[i] - q[j]) * ((q[i] + q[j]) / p);
+    set(k, ((p - q[k]) * (p + q[k])).sqrt(), (q[k] - d).sqrt() * (q[k] + d).sqrt());
+    for (long, other) in [(i, j), (j, i)] {
+        let (far, near) = (q[other] * c[k], q[k] * c[other]);
+        let sum = [(far - q[long]) + near, far + q[long] + near];
+        let difference = [(q[long] - far) + near, far + q[long] - near];
+        let [cos, sin] = [sum, difference].map(|[small, large]| small.sqrt() * large.sqrt());
+        set(long, cos, sin);
+    }
+    halves
 }
 
 /// Area by Heron's formula in E², by l'Huilier's in H² and S²: `tan(area/4) = sqrt(t(s/2) t(r_i/2) t(r_j/2) t(r_k/2))`, t = tanh, tan.
@@ -235,6 +273,32 @@ mod tests {
     use super::*;
 
     const SPACES: [Space; 3] = [Space::E2, Space::H2, Space::S2];
+
+    #[test]
+    fn needles_have_their_angles_however_short_their_third_side_is() {
+        // Two long sides differ by the part t of the third side: the angles between them and that side have the cosines t and −t.
+        for space in SPACES {
+            for (x, t) in
+                [(1e-19, 0.5), (1e-21, 0.5), (1e-25, -0.25), (1e-40, 0.0), (1e-200, 0.0), (1e-320, 0.0)]
+            {
+                let long = DoubleDouble::from(0.5);
+                let c = (DoubleDouble::from(1.0) - DoubleDouble::from(0.25 * space.curvature())).sqrt();
+                // A length grows by a half chord over C(l/2).
+                let q = [long, DoubleDouble::from(x), long + DoubleDouble::from(x * t) * c];
+                let at = half_angles_of_chords(space, q).map(|[cos, sin]| 2.0 * sin.high.atan2(cos.high));
+                let known = [(t as f64).acos(), 0.0, PI - (t as f64).acos()];
+                for k in 0..3 {
+                    assert!((at[k] - known[k]).abs() < 1e-10, "{space} {x:e} {t}: {at:?} {known:?}");
+                }
+            }
+        }
+        // A broken needle.
+        let q = [0.5, 1e-30, 0.5 + 1e-10].map(DoubleDouble::from);
+        for space in SPACES {
+            let at = half_angles_of_chords(space, q).map(|[cos, sin]| 2.0 * sin.high.atan2(cos.high));
+            assert_eq!(at, [0.0, 0.0, PI], "{space}");
+        }
+    }
 
     #[test]
     fn angles_obey_the_cosine_law() {

@@ -11,7 +11,7 @@
 //! ```
 
 use super::Point;
-use super::check::{Defect, Diagnosis, Hint, Orientation, OrientedPiece, diagnose, hints};
+use super::check::{Defect, Diagnosis, Hint, Orientation, OrientedPiece, diagnose, diagnose_cut, hints};
 use super::holes::{Filling, HoleChoice, fill_holes};
 use super::incidence::{Incidence, NONE, components, connected, distinct, drop_unused};
 use super::io::Soup;
@@ -180,7 +180,14 @@ impl Repaired {
     }
 
     fn diagnose(&mut self) {
-        self.diagnosis = diagnose(&self.soup.positions, &self.soup.faces);
+        // The first vertex that has the origin of each.
+        let mut first = HashMap::new();
+        let numbered = (0u32..).zip(&self.vertex_origin);
+        let uncut: Vec<u32> = numbered
+            .map(|(v, &origin)| if origin == NEW { v } else { *first.entry(origin).or_insert(v) })
+            .collect();
+        let uncut: Vec<[u32; 3]> = self.soup.faces.iter().map(|f| f.map(|v| uncut[v as usize])).collect();
+        self.diagnosis = diagnose_cut(&self.soup.positions, &self.soup.faces, &uncut);
         if let Some(Defect::Empty { collapsed }) = self.diagnosis.defects.first_mut() {
             *collapsed = self.steps.degenerate_faces;
         }
@@ -238,8 +245,10 @@ impl RepairState {
     }
 
     fn hints(&self, soup: &Soup) -> Vec<Hint> {
-        let positions: Vec<Point> = self.vertex_origin.iter().map(|&v| soup.positions[v as usize]).collect();
-        hints(&positions, &self.faces)
+        // A vertex that was divided is one here: what the repair cut open is no seam.
+        let uncut: Vec<[u32; 3]> =
+            self.faces.iter().map(|f| f.map(|v| self.vertex_origin[v as usize])).collect();
+        hints(&soup.positions, &uncut)
     }
 
     /// Joins vertices; returns for each vertex the first one in its place.

@@ -8,21 +8,23 @@
 //! use ricci::metric::angle_refinement::{AngleRefinement, refine_to_angle};
 //! use ricci::{Control, Surface, mesh::shapes};
 //! let torus = Surface::from_soup(&shapes::torus(2.0, 0.1, 12, 6)?)?;
-//! let (finer, report) = refine_to_angle(&torus, &AngleRefinement::default(), &Control::new())?;
-//! assert!(report.least_angle >= 25f64.to_radians() && report.below == 0);
-//! assert!((finer.area()? / torus.area()? - 1.0).abs() < 1e-12);
+//! let finer = refine_to_angle(&torus, &AngleRefinement::default(), &Control::new())?;
+//! assert!(finer.report.least_angle >= 25f64.to_radians() && finer.report.below == 0);
+//! assert!((finer.surface.area()? / torus.area()? - 1.0).abs() < 1e-12);
+//! assert_eq!(finer.places.len(), finer.surface.mesh().n_vertices());
 //! # Ok::<(), ricci::Error>(())
 //! ```
 
 use super::isometric::{IntrinsicOptions, Triangulated, delaunay_flip, intrinsic_delaunay};
 use super::lengths::face_lengths;
 use super::plane_walk::{UnfoldedFace, WalkEnd, plane_distance};
+use super::signposts::Signposts;
 use super::surface::Surface;
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::plane_triangle::PlaneTriangle;
 use crate::geometry::{Space, triangle};
-use crate::mesh::{EdgeId, FaceId, HalfedgeId, Mesh, PerEdge, VertexId};
+use crate::mesh::{EdgeId, FaceId, Flip, HalfedgeId, Mesh, PerEdge, Place, VertexId};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 use std::f64::consts::FRAC_PI_3;
@@ -39,6 +41,37 @@ pub struct AngleRefinement {
 impl Default for AngleRefinement {
     fn default() -> Self {
         AngleRefinement { least_angle: 25f64.to_radians(), most_added: 0 }
+    }
+}
+
+/// A refined metric with the way back.
+#[derive(Debug, Clone)]
+pub struct FinerMetric {
+    /// The same metric on the finer triangulation. Its first vertices are the given ones.
+    pub surface: Surface,
+    /// Per vertex of that, its place on the given surface.
+    pub places: Vec<Place>,
+    /// The course of the refinement.
+    pub report: AngleReport,
+}
+
+impl FinerMetric {
+    /// The largest excess of the straight line in space between the places of two neighbours over the length of their edge, as a share of that
+    /// length: 0 but for rounding, since the edge is a geodesic of the given surface. `None` where that has no positions in space.
+    pub fn line_excess(&self, given: &Surface) -> Option<f64> {
+        let positions = given.positions()?;
+        let at = |v: VertexId| {
+            let Place { face, weights } = self.places[v.index()];
+            let corners = given.mesh().face_vertices(face).map(|v| positions[v.index()]);
+            [0, 1, 2].map(|i| (0..3).map(|k| weights[k] * corners[k][i]).sum::<f64>())
+        };
+        let mesh = self.surface.mesh();
+        let excess = |e: EdgeId| {
+            let [a, b] = mesh.ends(e).map(at);
+            let line = [0, 1, 2].map(|k| b[k] - a[k]);
+            line[0].hypot(line[1]).hypot(line[2]) / self.surface.lengths()[e] - 1.0
+        };
+        Some(mesh.edges().map(excess).fold(0.0, f64::max))
     }
 }
 
@@ -84,7 +117,7 @@ pub fn refine_to_angle(
     surface: &Surface,
     options: &AngleRefinement,
     control: &Control,
-) -> Result<(Surface, AngleReport)> {
+) -> Result<FinerMetric> {
     if !(options.least_angle > 0.0 && options.least_angle <= MOST_ANGLE) {
         let need = "between 0 and 30°, in radians: above it the refinement need not end";
         return Err(Error::argument("least angle", options.least_angle, need));
@@ -97,16 +130,20 @@ pub fn refine_to_angle(
     let lengths = PerEdge::clone(surface.lengths());
     let mut work = Triangulated { mesh, lengths, geometry: Space::E2 };
     let mut report = AngleReport { given_angle: least_of_all(&work), ..AngleReport::default() };
-    report.flips = intrinsic_delaunay(&mut work, IntrinsicOptions::default(), &mut |_, _| {}, control)?;
-    let mut refining = Refining::new(work, options.least_angle, report);
+    let mut flips = Vec::new();
+    let mut record = |_: &Mesh, flip: Flip| flips.push(flip.edge);
+    report.flips = intrinsic_delaunay(&mut work, IntrinsicOptions::default(), &mut record, control)?;
+    let mut signposts = Signposts::new(surface)?;
+    signposts.replay(&flips)?;
+    let mut refining = Refining::new(work, signposts, options.least_angle, report);
     let most = match options.most_added {
         0 => 10 * surface.mesh().n_faces() + 100_000,
         most => most,
     };
     refining.run(most, control)?;
-    let (work, report) = refining.finish();
+    let (work, places, report) = refining.finish();
     work.mesh.validate()?;
-    Ok((Surface::intrinsic(work.mesh, work.lengths, Space::E2)?, report))
+    Ok(FinerMetric { surface: Surface::intrinsic(work.mesh, work.lengths, Space::E2)?, places, report })
 }
 
 fn least_of_all(work: &Triangulated) -> f64 {
@@ -124,6 +161,7 @@ fn smallest_angle(work: &Triangulated, f: FaceId) -> (f64, usize) {
 /// A surface that is being refined.
 struct Refining {
     work: Triangulated,
+    signposts: Signposts,
     bound: f64,
     /// Per given vertex, true where the angle of the surface is below 60°.
     is_narrow: Vec<bool>,
@@ -138,7 +176,7 @@ struct Refining {
 }
 
 impl Refining {
-    fn new(work: Triangulated, bound: f64, report: AngleReport) -> Refining {
+    fn new(work: Triangulated, signposts: Signposts, bound: f64, report: AngleReport) -> Refining {
         let n = work.mesh.n_vertices();
         let mut around = vec![0.0; n];
         for f in work.mesh.faces() {
@@ -148,6 +186,7 @@ impl Refining {
         let is_narrow = around.into_iter().map(|angle| angle < FRAC_PI_3).collect();
         let mut refining = Refining {
             work,
+            signposts,
             bound,
             is_narrow,
             shells: vec![None; n],
@@ -265,6 +304,7 @@ impl Refining {
             let (_, spokes) = self.work.mesh.insert_in_face(found.face);
             let ordered = [0, 1, 2].map(|k| distances[(k + turn) % 3]);
             self.work.lengths.extend(ordered);
+            self.signposts.added_in_face(&self.work, spokes);
             let around = spokes.map(EdgeId::halfedge);
             self.report.inside += 1;
             self.shells.push(None);
@@ -315,6 +355,7 @@ impl Refining {
         lengths.extend([far]);
         lengths.extend(lines.into_iter().flatten());
         self.shells.push(shell);
+        self.signposts.added_on_edge(&self.work, [e, beyond], added);
         debug_assert!(added.iter().zip(lines).all(|(edge, line)| edge.is_some() == line.is_some()));
         let mesh = &self.work.mesh;
         let around: Vec<HalfedgeId> = mesh.fan(v).into_iter().map(|h| mesh.next(h)).collect();
@@ -324,26 +365,27 @@ impl Refining {
 
     /// Flip edges, from these sides of faces at a new vertex on, until the triangulation is Delaunay; look at the faces that changed.
     fn restore(&mut self, sides: &[HalfedgeId]) {
-        let Triangulated { mesh, lengths, geometry } = &mut self.work;
-        let mut changed: Vec<FaceId> = sides.iter().filter_map(|&h| mesh.face(h)).collect();
+        let mut changed: Vec<FaceId> = sides.iter().filter_map(|&h| self.work.mesh.face(h)).collect();
         let mut waiting: Vec<EdgeId> = sides.iter().map(|h| h.edge()).collect();
         // As in every series of flips, a bound stands against rounding.
         for _ in 0..MOST_FLIPS {
             let Some(e) = waiting.pop() else { break };
             let h = e.halfedge();
+            let Triangulated { mesh, lengths, geometry } = &mut self.work;
             let Some(length) = delaunay_flip(*geometry, mesh, lengths, h) else { continue };
             waiting.extend(mesh.quadrilateral(h).map(HalfedgeId::edge));
             mesh.flip(e);
             lengths[e] = length;
             self.report.flips += 1;
             changed.extend([h, h.twin()].into_iter().filter_map(|h| mesh.face(h)));
+            self.signposts.flipped(&self.work, e);
         }
         changed.sort_unstable();
         changed.dedup();
         changed.into_iter().for_each(|f| self.look_at(f));
     }
 
-    fn finish(mut self) -> (Triangulated, AngleReport) {
+    fn finish(mut self) -> (Triangulated, Vec<Place>, AngleReport) {
         self.report.least_angle = f64::INFINITY;
         for f in self.work.mesh.faces() {
             let (angle, corner) = smallest_angle(&self.work, f);
@@ -357,7 +399,7 @@ impl Refining {
         if self.report.least_angle.is_infinite() {
             self.report.least_angle = least_of_all(&self.work);
         }
-        (self.work, self.report)
+        (self.work, self.signposts.into_places(), self.report)
     }
 }
 

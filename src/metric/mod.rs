@@ -23,12 +23,13 @@ pub mod precise;
 pub mod scheme;
 pub mod scheme_distance;
 pub mod shape_quality;
+mod signposts;
 pub mod split;
 pub mod start;
 pub mod surface;
 pub mod target;
 
-pub use angle_refinement::{AngleRefinement, AngleReport};
+pub use angle_refinement::{AngleRefinement, AngleReport, FinerMetric};
 pub use class::Class;
 pub use common_subdivision::CommonSubdivision;
 pub use curvature::{Curvature, curvature};

@@ -5,7 +5,7 @@
 use crate::geometry::plane_triangle::PlaneTriangle;
 use crate::mesh::{EdgeId, FaceId, HalfedgeId, Mesh, PerEdge};
 
-type PlanePoint = [f64; 2];
+pub(super) type PlanePoint = [f64; 2];
 
 /// A face unfolded into the plane: its sides, and the points at which they start, counterclockwise.
 #[derive(Debug, Clone, Copy)]
@@ -25,6 +25,9 @@ pub(super) enum WalkEnd {
     /// More faces than the surface has: rounding on thin triangles.
     Lost,
 }
+
+/// How many times a straight walk may pass through a face, in the mean of all faces, before it counts as lost.
+const MOST_PASSAGES: usize = 100;
 
 fn sub(a: PlanePoint, b: PlanePoint) -> PlanePoint {
     [a[0] - b[0], a[1] - b[1]]
@@ -47,7 +50,16 @@ pub(super) fn plane_distance(a: PlanePoint, b: PlanePoint) -> f64 {
 impl UnfoldedFace {
     /// A face with its first corner at the origin and its second on the x axis.
     pub fn new(mesh: &Mesh, lengths: &PerEdge<f64>, face: FaceId) -> UnfoldedFace {
-        let sides = mesh.face_halfedges(face);
+        UnfoldedFace::with_sides(lengths, face, mesh.face_halfedges(face))
+    }
+
+    /// The face of a half-edge, which starts at the origin and runs along the x axis; none outside the surface.
+    pub fn beside(mesh: &Mesh, lengths: &PerEdge<f64>, h: HalfedgeId) -> Option<UnfoldedFace> {
+        let sides = [h, mesh.next(h), mesh.prev(h)];
+        mesh.face(h).map(|face| UnfoldedFace::with_sides(lengths, face, sides))
+    }
+
+    fn with_sides(lengths: &PerEdge<f64>, face: FaceId, sides: [HalfedgeId; 3]) -> UnfoldedFace {
         let [ab, bc, ca] = sides.map(|h| lengths[h.edge()]);
         let [cos, sin] = PlaneTriangle::direction_at([bc, ca, ab], 0).0;
         UnfoldedFace { face, sides, points: [[0.0, 0.0], [ab, 0.0], [ca * cos, ca * sin]] }
@@ -95,25 +107,49 @@ impl UnfoldedFace {
     pub fn walk_to(self, mesh: &Mesh, lengths: &PerEdge<f64>, goal: PlanePoint) -> WalkEnd {
         let [a, b, c] = self.points;
         let start = [(a[0] + b[0] + c[0]) / 3.0, (a[1] + b[1] + c[1]) / 3.0];
+        let most = mesh.n_faces();
+        match self.walk(mesh, lengths, [start, goal], most) {
+            (end, None) => WalkEnd::Inside(end),
+            (end, Some(k)) if mesh.face(end.sides[k].twin()).is_none() => {
+                WalkEnd::Boundary(end.sides[k].edge())
+            }
+            _ => WalkEnd::Lost,
+        }
+    }
+
+    /// The face at the end of the straight walk between two points of the plane, of which this face contains the first, on its boundary
+    /// or inside. Where rounding leads over the boundary of the surface, that is the face at the boundary.
+    pub fn walk_on(self, mesh: &Mesh, lengths: &PerEdge<f64>, way: [PlanePoint; 2]) -> UnfoldedFace {
+        self.walk(mesh, lengths, way, MOST_PASSAGES * mesh.n_faces()).0
+    }
+
+    /// The last face of a straight walk over at most so many sides; where it does not contain the goal, the side that leads on.
+    fn walk(
+        self,
+        mesh: &Mesh,
+        lengths: &PerEdge<f64>,
+        [start, goal]: [PlanePoint; 2],
+        most: usize,
+    ) -> (UnfoldedFace, Option<usize>) {
         let direction = sub(goal, start);
         let mut at = self;
         let mut entered = None;
-        for _ in 0..=mesh.n_faces() {
+        for passed in 0.. {
             // The way leaves a face through the side whose start lies to its right and whose end lies to its left.
             let turn = at.points.map(|p| cross(direction, sub(p, start)));
             let leaves = |&k: &usize| Some(k) != entered && turn[k] <= 0.0 && turn[(k + 1) % 3] > 0.0;
-            let Some(k) = (0..3).find(leaves) else { return WalkEnd::Inside(at) };
+            let Some(k) = (0..3).find(leaves) else { break };
             let [p, q] = [at.points[k], at.points[(k + 1) % 3]];
             if cross(sub(q, p), sub(goal, p)) >= 0.0 {
-                return WalkEnd::Inside(at);
+                break;
             }
-            match at.across(mesh, lengths, k) {
+            match at.across(mesh, lengths, k).filter(|_| passed <= most) {
                 Some(next) => at = next,
-                None => return WalkEnd::Boundary(at.sides[k].edge()),
+                None => return (at, Some(k)),
             }
             entered = Some(0);
         }
-        WalkEnd::Lost
+        (at, None)
     }
 
     /// The boundary edges whose diametral circle contains a point of this face, among those of the faces whose circumcircle contains it:

@@ -4,9 +4,9 @@ use ricci::geometry::Space;
 use ricci::mesh::check::diagnose;
 use ricci::mesh::io::{NumberColumn, NumberType, Soup};
 use ricci::mesh::refine::{Refine, RefinedSoup, longest_edge, refine};
-use ricci::mesh::{Mesh, PerEdge, shapes};
+use ricci::mesh::{Mesh, PerEdge, Place, VertexId, shapes};
 use ricci::metric::ShapeQuality;
-use ricci::metric::angle_refinement::{AngleRefinement, AngleReport, refine_to_angle};
+use ricci::metric::angle_refinement::{AngleRefinement, AngleReport, FinerMetric, refine_to_angle};
 use ricci::{Control, Error, Surface};
 use std::f64::consts::TAU;
 
@@ -108,10 +108,43 @@ fn lists_that_are_no_surface_are_refined_and_attributes_are_interpolated() {
     assert!(matches!(refine(&soup, &negative), Err(Error::Argument { .. })));
 }
 
+/// Checks the places of a refined metric's vertices: given vertices are their own places; no edge, a geodesic, is shorter than the straight
+/// line in space between its ends, and where both lie in one given face and the edge is as long as that line, it is the line.
+fn check_places(given: &Surface, finer: &Surface, places: &[Place]) {
+    let Some(positions) = given.positions() else { return };
+    let mesh = given.mesh();
+    assert_eq!(places.len(), finer.mesh().n_vertices());
+    let at = |v: VertexId| {
+        let Place { face, weights } = places[v.index()];
+        assert!(weights.iter().all(|&w| w >= 0.0) && (weights.iter().sum::<f64>() - 1.0).abs() < 1e-14);
+        let corners = mesh.face_vertices(face).map(|v| positions[v.index()]);
+        [0, 1, 2].map(|i| (0..3).map(|k| weights[k] * corners[k][i]).sum::<f64>())
+    };
+    for v in mesh.vertices() {
+        assert_eq!(at(v), positions[v.index()]);
+    }
+    let mut in_one_face = 0;
+    for e in finer.mesh().edges() {
+        let (ends, length) = (finer.mesh().ends(e), finer.lengths()[e]);
+        let [a, b] = ends.map(at);
+        let straight = (0..3).map(|k| (b[k] - a[k]).powi(2)).sum::<f64>().sqrt();
+        assert!(straight <= length * (1.0 + 1e-9), "edge {e}: {length} in a line of {straight}");
+        let [f, g] = ends.map(|v| places[v.index()].face);
+        in_one_face += usize::from(f == g && straight > length * (1.0 - 1e-9));
+    }
+    let added = finer.mesh().n_vertices() - mesh.n_vertices();
+    assert!(
+        added < 100 || in_one_face > added / 10,
+        "{in_one_face} edges in one face, {added} vertices added"
+    );
+}
+
 /// Refines to an angle and checks that area, χ and boundary length stay, and that the smallest angle is what the report says.
 fn refined(surface: &Surface, degrees: f64) -> (Surface, AngleReport) {
     let options = AngleRefinement { least_angle: degrees.to_radians(), most_added: 0 };
-    let (finer, report) = refine_to_angle(surface, &options, &Control::new()).unwrap();
+    let FinerMetric { surface: finer, places, report } =
+        refine_to_angle(surface, &options, &Control::new()).unwrap();
+    check_places(surface, &finer, &places);
     let (before, after) = (surface.mesh(), finer.mesh());
     assert_eq!(before.euler(), after.euler());
     assert_eq!(after.n_vertices(), before.n_vertices() + report.inside + report.on_boundary);
@@ -163,7 +196,7 @@ fn cones_keep_their_curvature_and_narrow_corners_are_told() {
     let cone = Surface::intrinsic(mesh, lengths, Space::E2).unwrap();
     let (finer, _) = refined(&cone, 25.0);
     let at = |s: &Surface| {
-        let faces = s.mesh().fan(ricci::mesh::VertexId(0));
+        let faces = s.mesh().fan(VertexId(0));
         let sides = |h| [h, s.mesh().next(h), s.mesh().prev(h)].map(|h| s.lengths()[h.edge()]);
         faces
             .into_iter()
@@ -194,6 +227,6 @@ fn angles_out_of_reach_and_other_geometries_are_refused() {
     // A limit on the vertices leaves small angles, and says how many.
     let thin = Surface::from_soup(&shapes::torus(3.0, 0.2, 8, 30).unwrap()).unwrap();
     let few = AngleRefinement { most_added: 5, ..AngleRefinement::default() };
-    let (finer, report) = refine_to_angle(&thin, &few, &Control::new()).unwrap();
+    let FinerMetric { surface: finer, report, .. } = refine_to_angle(&thin, &few, &Control::new()).unwrap();
     assert!(report.below > 0 && finer.mesh().n_vertices() == thin.mesh().n_vertices() + 5);
 }

@@ -322,6 +322,11 @@ fn non_manifold_edges_are_cut_on_request_only() {
     assert!(left.diagnosis.counts().iter().any(|&(code, n)| (code, n) == ("non_manifold_edge", 1)));
     let cut = check(&book, &Repair { cut_non_manifold_edges: true, ..Repair::default() });
     assert_eq!((cut.steps.cut_edges, cut.steps.split_vertices, cut.diagnosis.components), (1, 4, 3));
+    // What was cut on request is no open seam.
+    assert_eq!(cut.diagnosis.hints, []);
+    let first =
+        check(&book, &Repair { cut_non_manifold_edges: true, component: Some(0), ..Repair::default() });
+    assert_eq!((first.torn, first.diagnosis.hints), (Vec::new(), Vec::new()));
 }
 
 #[test]

@@ -26,8 +26,17 @@ fn surfaces_are_refined_where_they_are_and_the_way_back_says_so() {
 fn metrics_are_refined_to_an_angle_and_flow() {
     let place = Place::new();
     place.expect(0, "make torus --big 3 --small 0.2 -n 8 -m 30 -o t.obj");
-    place.expect(0, "refine t.obj --intrinsic -o m.json --report r.json");
+    place.expect(0, "refine t.obj --intrinsic -o m.json --xref back.csv --report r.json");
     let report = place.json("r.json");
+    let excess = &report["checks"]["line_excess"];
+    assert!(excess["holds"] == true && excess["value"].as_f64().unwrap() < 1e-9, "{excess}");
+    // A row for each vertex, the given ones at corners of their faces.
+    let back = place.text("back.csv");
+    let rows: Vec<&str> = back.lines().collect();
+    assert_eq!(rows[0], "output_vertex,source_face,b0,b1,b2");
+    assert_eq!(rows.len() as u64 - 1, report["result"]["vertices"].as_u64().unwrap());
+    let corner = |row: &&&str| row.split(',').skip(2).filter(|w| *w == "1").count() == 1;
+    assert_eq!(rows[1..].iter().filter(corner).count(), 240);
     assert!(report["result"]["min_angle_degrees"].as_f64().unwrap() >= 25.0);
     assert!(report["result"]["min_angle_degrees_before"].as_f64().unwrap() < 25.0);
     place.expect(0, "uniformize m.json --report r.json");

@@ -180,6 +180,8 @@ class Mesh(Triangles):
     ) -> tuple[Mesh, RefineSummary]:
         """The same Euclidean metric on a Delaunay triangulation without small angles, as an intrinsic mesh, and the course.
 
+        The mesh's `places` say where its vertices lie on this one.
+
         Args:
             least_angle: the least angle of its triangles, radians, at most 30 degrees; None: 25 degrees.
             most_added: the most vertices that are added; None: ten per face and 100000.
@@ -190,6 +192,18 @@ class Mesh(Triangles):
         out = ffi.new("ricci_refine_summary *")
         finer = Mesh._made(lib.ricci_mesh_refine_angle, self, struct, CONTROL, out, ffi.sizeof("ricci_refine_summary"), progress=progress)
         return finer, figures_of(RefineSummary, out)
+
+    @cached_property
+    def places(self) -> tuple[Indices, Doubles]:
+        """Of a mesh that `refine_angle` made: for each vertex a face of the given mesh and its barycentric coordinates there.
+
+        Raises:
+            ArgumentError: the mesh was not refined.
+        """
+        faces = np.empty(self.summary.n_vertices, np.uint32)
+        weights = np.empty((faces.size, 3))
+        filled(lib.ricci_mesh_places, self, pointer(faces), faces.size, out=weights)
+        return frozen(faces), frozen(weights)
 
     def write(self, path: str | os.PathLike[str], **attributes: Unpack[Attributes]) -> None:
         """Write the mesh as .obj, .off, .ply or .glb, whole or not at all, with the attributes that the format has.

@@ -10,8 +10,8 @@ import numpy.typing as npt
 
 from ricci import _arrays
 from ricci._arrays import frozen
-from ricci._call import CONTROL, Doubles, Handle, Indices, call, constant, doubles, pointer, summary
-from ricci._library import lib
+from ricci._call import CONTROL, Doubles, Handle, Indices, Signed, call, constant, doubles, pointer, summary
+from ricci._library import ffi, lib
 from ricci._structs import Write, choice, index_list, nested, one_index, options, real_list
 from ricci.adapters import MeshLike, as_mesh
 from ricci.control import Progress
@@ -133,6 +133,30 @@ class Uniform(Handle):
         """The lift of an edge path of the basis's triangulation that starts at the base: (k + 1) x 3 ambient coordinates."""
         edges = _arrays.signed(path)
         return doubles(lib.ricci_uniform_lift, self, pointer(edges), edges.size, shape=(edges.size + 1, 3))
+
+    def lift_loop(self, vertices: npt.ArrayLike, layout: Layout | None = None) -> tuple[Doubles, Signed]:
+        """The lift of a closed loop through vertices of the given mesh, each joined to the next by an edge and the last to the first.
+
+        Args:
+            vertices: the loop; the first may also be named again at the end.
+            layout: the layout on ``"refinement"``, if it is at hand; None: it is made.
+
+        Returns:
+            The points along the lift (k x 3 ambient coordinates), also where edges of the metric's triangulation cross the loop, and the
+            word of the deck transformation that carries the first point to the last.
+        """
+        around = _arrays.indices(vertices)
+        on = self.layout("refinement") if layout is None else layout
+        n_points, n_letters = ffi.new("size_t *"), ffi.new("size_t *")
+
+        def copy(points: Doubles, word: Any) -> None:
+            given = (self, on, pointer(around), around.size, pointer(points), points.size, n_points, pointer(word), word.size, n_letters)
+            call(lib.ricci_uniform_lift_loop, *given)
+
+        call(lib.ricci_uniform_lift_loop, self, on, pointer(around), around.size, ffi.NULL, 0, n_points, ffi.NULL, 0, n_letters)
+        points, word = np.empty((n_points[0] // 3, 3)), np.empty(n_letters[0], np.int32)
+        copy(points, word)
+        return points, word
 
     def sphere_points(self, model: Model = "ambient") -> Doubles:
         """The vertices of a sphere as unit vectors (n x 3), or in the plane under it (n x 2), infinite at the base.

@@ -37,8 +37,10 @@ pub(super) fn precise(z: Complex) -> PrecisePlanePoint {
     z.map(DoubleDouble::from)
 }
 
+/// |z|; z is scaled, so that its square neither under- nor overflows.
 pub(super) fn size(z: PrecisePlanePoint) -> DoubleDouble {
-    norm2(z).sqrt()
+    let k = exponent(z);
+    norm2(z.map(|x| x.scaled(-k))).sqrt().scaled(k)
 }
 
 /// The power of two just below the larger part of a number; 0 where it has none.

@@ -102,10 +102,26 @@ pub fn diagnose(positions: &[Point], faces: &[[u32; 3]]) -> Diagnosis {
     diagnose_positions(positions, faces, &Incidence::new(positions.len(), faces))
 }
 
+/// [`diagnose`] of a list that was cut open on purpose. `uncut`: its faces before, with the lists' vertices; seams are looked for in these, so
+/// that no cut counts as one, nor takes memory for each of its vertices.
+pub(super) fn diagnose_cut(positions: &[Point], faces: &[[u32; 3]], uncut: &[[u32; 3]]) -> Diagnosis {
+    let hints = hints(positions, uncut);
+    diagnose_with(positions, faces, &Incidence::new(positions.len(), faces), hints)
+}
+
 pub(super) fn diagnose_positions(
     positions: &[Point],
     faces: &[[u32; 3]],
     incidence: &Incidence,
+) -> Diagnosis {
+    diagnose_with(positions, faces, incidence, hints_of(positions, faces, incidence))
+}
+
+fn diagnose_with(
+    positions: &[Point],
+    faces: &[[u32; 3]],
+    incidence: &Incidence,
+    hints: Vec<Hint>,
 ) -> Diagnosis {
     let mut diagnosis = diagnose_incidence(faces, incidence);
     let finite = |v: usize| positions[v].iter().all(|x| x.is_finite());
@@ -117,7 +133,7 @@ pub(super) fn diagnose_positions(
             diagnosis.defects.push(Defect::ZeroAreaFace { face: face as u32 });
         }
     }
-    diagnosis.hints = hints_of(positions, faces, incidence);
+    diagnosis.hints = hints;
     let joins =
         |hint: &Hint| matches!(hint, Hint::OpenSeam(OpenSeam { components: [now, then], .. }) if then < now);
     let is_torn = diagnosis.hints.iter().any(joins);

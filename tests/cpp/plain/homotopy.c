@@ -260,6 +260,27 @@ static void the_relation_holds_for_the_matrices(const ricci_uniform *quotient) {
     free(corners), free(angles), elements_free(&e), ricci_deck_free(generators);
 }
 
+/* A loop of vertices of the given mesh: the edges of a face are contracted. */
+static void check_loop_of_vertices(const ricci_uniform *quotient, const ricci_mesh *given) {
+    arrays a = arrays_of(given, 0);
+    ricci_layout *layout = NULL;
+    ricci_uniform_summary q;
+    size_t n = 0, n_letters = 9;
+    const uint32_t *around = a.faces;
+    OK(ricci_uniform_summarise(quotient, &q, sizeof q));
+    OK(ricci_uniform_layout(quotient, RICCI_ON_REFINEMENT, RICCI_MODEL_POINCARE, NULL, &layout));
+    OK(ricci_uniform_lift_loop(quotient, layout, around, 3, NULL, 0, &n, NULL, 0, &n_letters));
+    CHECK(n >= 12 && n_letters == 0);
+    double *points = (double *)room(n, sizeof *points);
+    FAILS(ricci_uniform_lift_loop(quotient, layout, around, 3, points, n - 1, &n, NULL, 0, &n_letters),
+          RICCI_BUFFER_TOO_SMALL, "points");
+    OK(ricci_uniform_lift_loop(quotient, layout, around, 3, points, n, &n, NULL, 0, &n_letters));
+    CHECK(distance(points, points + n - 3, q.space) < 1e-8);
+    FAILS(ricci_uniform_lift_loop(quotient, layout, around, 1, NULL, 0, &n, NULL, 0, &n_letters),
+          RICCI_ARGUMENT, "two or more");
+    free(points), ricci_layout_free(layout), arrays_free(&a);
+}
+
 static void closed_surfaces(void) {
     ricci_mesh *meshes[4] = {NULL, NULL, NULL, NULL};
     torus t = torus_new(12, 8);
@@ -288,6 +309,7 @@ static void closed_surfaces(void) {
         check_words(basis), check_lifts(basis, &loops, quotient);
         check_domain(basis, domain, 0), check_domain(basis, layout, 0);
         the_relation_holds_for_the_matrices(quotient);
+        if (i < 3) check_loop_of_vertices(quotient, meshes[i]);
         ricci_uniform_free(quotient);
         CHECK(summary_of(basis).base < 1000000); /* lives on */
         rows_free(&loops);

@@ -145,6 +145,23 @@ static void check_refined(void) {
     OK(ricci_mesh_refine_angle(mesh, NULL, NULL, &course, sizeof course, &fat));
     CHECK(course.n_below == 0 && course.n_forced == 0 && course.n_on_boundary > 0);
     CHECK(course.given_angle < 0.2 && course.least_angle >= 25 * acos(-1) / 180);
+    ricci_mesh_summary found;
+    OK(ricci_mesh_summarise(fat, &found, sizeof found));
+    uint32_t *faces = malloc(found.n_vertices * sizeof *faces);
+    double *places = malloc(3 * found.n_vertices * sizeof *places);
+    FAILS(ricci_mesh_places(mesh, faces, 4, places, 12), RICCI_ARGUMENT, "was not refined");
+    FAILS(ricci_mesh_places(fat, faces, found.n_vertices, places, 5), RICCI_BUFFER_TOO_SMALL, "weights");
+    OK(ricci_mesh_places(fat, faces, found.n_vertices, places, 3 * found.n_vertices));
+    for (size_t v = 0; v < found.n_vertices; v++) {
+        double x[2] = {0, 0};
+        for (int k = 0; k < 6; k++) {
+            x[k % 2] += places[3 * v + k / 2] * square[3 * two[3 * faces[v] + k / 2] + k % 2];
+        }
+        if (v < 4) CHECK(x[0] == square[3 * v] && x[1] == square[3 * v + 1]);
+        CHECK(x[0] >= 0 && x[0] <= 8 && x[1] >= 0 && x[1] <= 1);
+    }
+    free(faces);
+    free(places);
     ricci_mesh_free(fat);
     fat = NULL;
     options.least_angle = 1;

@@ -40,6 +40,24 @@ fn long_cylinders_become_round_in_the_disk() {
 }
 
 #[test]
+fn long_sheets_become_disks_although_their_ends_are_points_to_doubles() {
+    // Seen from the middle of a sheet n times as long as wide, an end has the size e^(−πn/2): 1e-34 and 1e-68. Triangles that reach there
+    // have a side which sums of the others do not show.
+    for n in [50, 100] {
+        let corners = (0..3 * (2 * n + 1)).map(|v| [0.5 * f64::from(v / 3), 0.5 * f64::from(v % 3), 0.0]);
+        let square = |s: u32| {
+            let [a, b] = [3 * (s / 2) + s % 2, 3 * (s / 2) + s % 2 + 3];
+            [[a, b, b + 1], [a, b + 1, a + 1]]
+        };
+        let d = domain(&Soup::new(corners.collect(), (0..4 * n).flat_map(square).collect()));
+        assert!(d.report.converged, "{n}: {:?}", d.report);
+        assert_eq!(d.layout.flipped, []);
+        assert!(d.report.deviation < 1e-12 && d.report.domain_curvature_error < 1e-10, "{n}: {:?}", d.report);
+        assert!(d.layout.coordinates.iter().all(|&[x, y]| x.hypot(y) < 1.0 + 1e-12));
+    }
+}
+
+#[test]
 fn a_strip_holds_annuli_of_any_modulus() {
     for modulus in [0.5, 6.2, 150.0] {
         let (n, exact) = (12, polygonal(modulus, 12));
