@@ -214,6 +214,7 @@ fn labelled() -> Soup {
         libraries: vec!["a b.mtl".into(), "c.mtl".into()],
         labels: vec![label("left", "Red #1"), label("left", "Blü"), label("right side", "Red #1")],
         of_face: vec![0, 1, 1, 2],
+        materials: Vec::new(),
     });
     attributes.vertex_numbers = vec![
         column("quality", NumberType::F32, &[0.5, 1.0, -2.0, 0.0, 1048576.0]),
@@ -238,6 +239,29 @@ fn names_and_numbers_go_to_the_format_that_holds_them() {
     expected.attributes.labels = None;
     assert_eq!(io::read(&at("m.ply")).unwrap(), expected);
     assert_eq!(soup.attributes.unheld(Format::Off), [&[names.to_string()], &numbers[..]].concat());
+    // glTF has the names of materials, stretch by stretch.
+    let left = ["2 groups, 1 object name: only OBJ has them".to_string()];
+    assert_eq!(io::write(&at("m.glb"), &soup).unwrap(), [&left[..], &numbers[..]].concat());
+    let read = io::read(&at("m.glb")).unwrap();
+    assert_eq!((read.positions.len(), &read.faces), (soup.positions.len(), &soup.faces));
+    let names = |soup: &Soup| -> Vec<String> {
+        let labels = soup.attributes.labels.as_ref().unwrap();
+        labels.of_face.iter().map(|&k| labels.labels[k as usize].material.clone()).collect()
+    };
+    assert_eq!(names(&read), names(&soup));
+    // The look of a material goes to glTF and back, and is told where it does not go.
+    let mut shining = read;
+    for material in &mut shining.attributes.labels.as_mut().unwrap().materials {
+        (material.base_color, material.metallic, material.roughness) = ([0.5, 0.25, 1.0, 0.75], 0.5, 0.125);
+    }
+    assert!(io::write(&at("s.glb"), &shining).unwrap().is_empty());
+    let again = io::read(&at("s.glb")).unwrap();
+    assert_eq!(
+        again.attributes.labels.as_ref().unwrap().materials,
+        shining.attributes.labels.as_ref().unwrap().materials
+    );
+    assert_eq!((again.faces, again.positions), (shining.faces.clone(), shining.positions.clone()));
+    assert_eq!(io::write(&at("s.obj"), &shining).unwrap(), ["the look of 2 materials: only glTF has it"]);
     // A name that another property has, and labels that are too few.
     let mut clash = soup.clone();
     clash.attributes.vertex_numbers[0].name = "x".into();

@@ -19,7 +19,19 @@ fn check(soup: &Soup, options: &Repair) -> Repaired {
     if let Some(Defect::Empty { collapsed }) = left.defects.first_mut() {
         *collapsed = done.steps.degenerate_faces;
     }
-    assert_eq!(done.diagnosis, left);
+    // Seams that the repair cut open itself are none to it.
+    let mut found = done.diagnosis.clone();
+    if done.steps.split_vertices > 0 {
+        for diagnosis in [&mut found, &mut left] {
+            diagnosis.hints.clear();
+            for defect in &mut diagnosis.defects {
+                if let Defect::SeveralComponents { torn, .. } = defect {
+                    *torn = false;
+                }
+            }
+        }
+    }
+    assert_eq!(found, left);
     assert_eq!(done.vertex_origin.len(), done.soup.positions.len());
     assert_eq!(done.face_origin.len(), done.soup.faces.len());
     assert!(done.face_origin.is_sorted_by(|a, b| a < b));

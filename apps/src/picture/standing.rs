@@ -4,9 +4,10 @@
 //! area that lies flat on the ground; that animals are the same left and right, but not above and below; that the hole of a bust is below;
 //! and that files have y up mostly, and z more often than the rest.
 
-use super::vector::{V3, add, dot, ends, norm, normal, scaled};
+use super::vector::{V3, add, complement, dot, ends, norm, normal, scaled, sphere_point, unit};
 use ricci::geometry::complex::doubled_area;
 use ricci::geometry::packing::convex_hull;
+use std::f64::consts::FRAC_PI_4;
 
 /// The candidates with what counts for each before the surface is looked at.
 const CANDIDATES: [(V3, f64); 6] = [
@@ -51,7 +52,20 @@ struct WeighedSurface<'a> {
     outside: V3,
 }
 
-/// The axis along which a surface stands, and whether it does so convincingly.
+/// Score of the best axis below which slanted directions are looked at too: an animal whose file has its principal axes along the
+/// coordinates stands on its feet on none of them.
+const DOUBTFUL: f64 = 0.35;
+/// Score that a slanted direction needs, of support alone: an elephant on its feet has 0.83, the best sides of bodies without any 0.65.
+const SLANTED: f64 = 0.75;
+/// Number of slanted directions that are scored, of those that are then turned to the best one near them, and of the points that are looked at
+/// meanwhile.
+const DIRECTIONS: usize = 600;
+const TURNED: usize = 8;
+const MOST_POINTS: usize = 3000;
+/// Radians by which directions are turned at first, and at last.
+const TURNS: [f64; 2] = [0.08, 0.005];
+
+/// The axis along which a surface stands, or a slanted direction where none is one, and whether it does so convincingly.
 pub fn standing(points: &[V3], faces: &[[u32; 3]]) -> (V3, bool) {
     let surface = WeighedSurface::new(points, faces);
     let asymmetry = surface.asymmetry();
@@ -62,6 +76,11 @@ pub fn standing(points: &[V3], faces: &[[u32; 3]]) -> (V3, bool) {
         (up, surface.support(up) - sideways + usual)
     });
     let best = scored.iter().fold(scored[0], |best, c| if c.1 > best.1 { *c } else { best });
+    if best.1 < DOUBTFUL
+        && let Some(up) = surface.slanted(points)
+    {
+        return (up, true);
+    }
     let is_usual = [CANDIDATES[0].0, CANDIDATES[1].0].contains(&best.0);
     let is_sure = best.1 >= CONVINCING;
     (if is_usual || is_sure { best.0 } else { CANDIDATES[0].0 }, is_sure)
@@ -86,10 +105,40 @@ impl<'a> WeighedSurface<'a> {
         WeighedSurface { points, faces, area, centroid: middle, outside }
     }
 
+    /// The direction, of any, along which the surface stands best, if that is convincing.
+    fn slanted(&self, points: &[V3]) -> Option<V3> {
+        let some: Vec<V3> =
+            points.iter().step_by(points.len().div_ceil(MOST_POINTS).max(1)).copied().collect();
+        let rough = WeighedSurface { points: &some, faces: Vec::new(), ..*self };
+        let mut scored: Vec<(f64, V3)> =
+            (0..DIRECTIONS).map(|k| sphere_point(k, DIRECTIONS)).map(|up| (rough.support(up), up)).collect();
+        scored.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let turned = scored.into_iter().take(TURNED).map(|start| rough.turned(start));
+        let (_, up) = turned.reduce(|a, b| if b.0 > a.0 { b } else { a })?;
+        (self.support(up) >= SLANTED).then_some(up)
+    }
+
+    /// A direction turned to the best one near it, with its score.
+    fn turned(&self, (mut score, mut up): (f64, V3)) -> (f64, V3) {
+        let mut by = TURNS[0];
+        while by > TURNS[1] {
+            let [e, f] = complement(up);
+            let around = (0..8)
+                .map(|k| f64::from(k) * FRAC_PI_4)
+                .map(|angle| add(up, add(scaled(e, by * angle.cos()), scaled(f, by * angle.sin()))));
+            let best = around.filter_map(unit).map(|up| (self.support(up), up));
+            match best.reduce(|a, b| if b.0 > a.0 { b } else { a }).filter(|best| best.0 > score) {
+                Some(better) => (score, up) = better,
+                None => by *= 0.5,
+            }
+        }
+        (score, up)
+    }
+
     /// The score of a direction by the support from below.
     fn support(&self, up: V3) -> f64 {
-        let axis = axis_of(up);
-        let across = |p: &V3| [p[(axis + 1) % 3], p[(axis + 2) % 3]];
+        let [e, f] = complement(up);
+        let across = |p: &V3| [dot(e, *p), dot(f, *p)];
         let [low, high] = ends(self.points.iter().map(|p| dot(up, *p)));
         let height = (high - low).max(f64::MIN_POSITIVE);
         let footprint = area(&convex_hull(&self.points.iter().map(across).collect::<Vec<_>>()));
@@ -204,6 +253,18 @@ mod tests {
         for (turn, up) in turned {
             let points: Vec<V3> = soup.positions.iter().map(turn).collect();
             assert_eq!(standing(&points, &soup.faces), (up, true));
+        }
+    }
+
+    #[test]
+    fn an_animal_stands_on_its_feet_however_it_is_turned() {
+        let soup = animal();
+        for turn in [0.6, 0.9] {
+            let (sin, cos) = f64::sin_cos(turn);
+            let slanted = |&[x, y, z]: &V3| [x, cos * y - sin * z, sin * y + cos * z];
+            let points: Vec<V3> = soup.positions.iter().map(slanted).collect();
+            let (up, is_sure) = standing(&points, &soup.faces);
+            assert!(is_sure && dot(up, [0.0, cos, sin]) > 0.995, "{up:?}");
         }
     }
 

@@ -2,6 +2,10 @@
 
 use crate::error::{Error, Result, check_size};
 use std::collections::{HashMap, HashSet};
+use std::ops::Range;
+
+/// Most primitives of a glTF file.
+const MOST_STRETCHES: usize = 256;
 
 /// The names under which a face stands; an empty one for none.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, Default)]
@@ -26,8 +30,21 @@ impl FaceLabel {
 /// The words of OBJ that begin a label's lines.
 pub(super) const KEYWORDS: [&str; 4] = ["o", "g", "usemtl", "s"];
 
+/// The look of a material of glTF.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlainMaterial {
+    /// The name by which labels mean it.
+    pub name: String,
+    /// Red, green, blue, opacity, from 0 to 1, linear.
+    pub base_color: [f64; 4],
+    /// The share of metal, from 0 to 1.
+    pub metallic: f64,
+    /// From 0, a mirror, to 1.
+    pub roughness: f64,
+}
+
 /// The label of every face.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct FaceLabels {
     /// The files that describe the materials (`mtllib`), as the file names them.
     pub libraries: Vec<String>,
@@ -35,6 +52,8 @@ pub struct FaceLabels {
     pub labels: Vec<FaceLabel>,
     /// For each face the index of its label (F entries).
     pub of_face: Vec<u32>,
+    /// The materials whose look is known; only glTF holds it.
+    pub materials: Vec<PlainMaterial>,
 }
 
 impl FaceLabels {
@@ -50,11 +69,32 @@ impl FaceLabels {
         };
         let label = |face: u32| self.of_face.get(face as usize).copied().unwrap_or_else(&mut of_none);
         let of_face = origins.into_iter().map(label).collect();
-        FaceLabels { libraries: self.libraries.clone(), labels, of_face }
+        FaceLabels { libraries: self.libraries.clone(), labels, of_face, materials: self.materials.clone() }
+    }
+
+    /// The stretches of faces with one material, and its name, an empty one for none; `None` where no face has one, and where there are more
+    /// stretches than a file of glTF gets primitives.
+    pub(crate) fn material_stretches(&self) -> Option<Vec<(Range<usize>, &str)>> {
+        let mut made: Vec<(Range<usize>, &str)> = Vec::new();
+        for (f, &label) in self.of_face.iter().enumerate() {
+            let name = self.labels.get(label as usize).map_or("", |label| label.material.as_str());
+            let n = made.len();
+            match made.last_mut() {
+                Some((faces, last)) if *last == name => faces.end = f + 1,
+                _ if n == MOST_STRETCHES => return None,
+                _ => made.push((f..f + 1, name)),
+            }
+        }
+        made.iter().any(|(_, name)| !name.is_empty()).then_some(made)
     }
 
     /// The numbers of different materials, groups and objects, as a phrase; none where there is nothing to tell.
     pub fn told(&self) -> Option<String> {
+        self.told_of(true)
+    }
+
+    /// [`FaceLabels::told`], of all names or of all but those of materials.
+    pub(super) fn told_of(&self, with_materials: bool) -> Option<String> {
         let used: HashSet<u32> = self.of_face.iter().copied().collect();
         let used: Vec<&FaceLabel> = used.iter().filter_map(|&k| self.labels.get(k as usize)).collect();
         let kinds: [(fn(&FaceLabel) -> &str, [&str; 2]); 4] = [
@@ -66,7 +106,7 @@ impl FaceLabels {
                 ["smoothing group", "smoothing groups"],
             ),
         ];
-        let parts = kinds.into_iter().filter_map(|(name, [one, many])| {
+        let parts = kinds.into_iter().skip(usize::from(!with_materials)).filter_map(|(name, [one, many])| {
             let names: HashSet<&str> =
                 used.iter().map(|label| name(label)).filter(|n| !n.is_empty() && *n != "0").collect();
             (!names.is_empty())
@@ -208,7 +248,7 @@ impl LabelLines {
             of_face.push(number(now));
         }
         let empty = self.libraries.is_empty() && labels.iter().all(|label| *label == FaceLabel::default());
-        (!empty).then_some(FaceLabels { libraries: self.libraries, labels, of_face })
+        (!empty).then_some(FaceLabels { libraries: self.libraries, labels, of_face, materials: Vec::new() })
     }
 }
 

@@ -48,7 +48,7 @@ pub use gifti::parse_gifti;
 pub use gltf::{Texture, Wrap, parse_glb, write_glb};
 pub use guess::SurfaceFormat;
 pub use kind::NumberType;
-pub use labels::{FaceLabel, FaceLabels};
+pub use labels::{FaceLabel, FaceLabels, PlainMaterial};
 pub use number_column::NumberColumn;
 pub use obj::parse_obj;
 pub use obj_write::{write_obj, write_obj_to};

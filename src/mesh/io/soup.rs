@@ -59,8 +59,22 @@ impl Attributes {
 
     /// What a format has no room for beside normals, colours and texture coordinates, and what was not read in the first place.
     pub fn unheld(&self, format: Format) -> Vec<String> {
-        let labels = self.labels.as_ref().filter(|_| format != Format::Obj).and_then(FaceLabels::told);
-        let labels = labels.map(|what| format!("{what}: only OBJ has them"));
+        let names = |labels: &FaceLabels| match format {
+            Format::Obj => match labels.materials.len() {
+                0 => None,
+                1 => Some("the look of 1 material: only glTF has it".into()),
+                n => Some(format!("the look of {n} materials: only glTF has it")),
+            },
+            #[cfg(feature = "gltf")]
+            Format::Glb if labels.material_stretches().is_some() => {
+                let libraries = labels.libraries.iter().map(String::as_str);
+                let told = labels.told_of(false);
+                let all: Vec<&str> = told.as_deref().into_iter().chain(libraries).collect();
+                (!all.is_empty()).then(|| format!("{}: only OBJ has them", all.join(", ")))
+            }
+            _ => labels.told().map(|what| format!("{what}: only OBJ has them")),
+        };
+        let labels = self.labels.as_ref().and_then(names);
         let numbers = [(&self.vertex_numbers, "vertices"), (&self.face_numbers, "faces")];
         let numbers = numbers.into_iter().filter_map(|(columns, element)| told(columns, element));
         let numbers =

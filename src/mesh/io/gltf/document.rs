@@ -24,9 +24,9 @@ pub(super) struct GltfDocument {
     pub buffer_views: Vec<BufferView>,
     #[serde(default)]
     pub buffers: Vec<Buffer>,
-    // Lists of which the numbers alone are kept, which take no memory.
     #[serde(default)]
-    pub materials: Vec<IgnoredAny>,
+    pub materials: Vec<MaterialEntry>,
+    // Lists of which the numbers alone are kept, which take no memory.
     #[serde(default)]
     pub images: Vec<IgnoredAny>,
     #[serde(default)]
@@ -36,13 +36,18 @@ pub(super) struct GltfDocument {
 }
 
 impl GltfDocument {
-    /// The parts of the document that are not read. Each file of this library has the same plain material, which is none of them.
+    /// True for a file that this library wrote.
+    pub fn is_own(&self) -> bool {
+        self.asset.generator.as_deref().is_some_and(|name| name.starts_with("ricci "))
+    }
+
+    /// The parts of the document that are not read.
     pub fn unread(&self) -> Vec<String> {
-        let own = self.asset.generator.as_deref().is_some_and(|name| name.starts_with("ricci "));
+        let further = self.materials.iter().filter(|material| material.has_more()).count();
         let primitives = || self.meshes.iter().flat_map(|mesh| &mesh.primitives);
         let with = |has: fn(&Primitive) -> bool| primitives().filter(|primitive| has(primitive)).count();
         let counts = [
-            (if own { 0 } else { self.materials.len() }, ["material", "materials"]),
+            (further, ["material's relief, glow or transparency", "materials' relief, glow or transparency"]),
             (self.images.len(), ["picture of textures", "pictures of textures"]),
             (self.animations.len(), ["animation", "animations"]),
             (self.skins.len(), ["skin", "skins"]),
@@ -58,6 +63,37 @@ impl GltfDocument {
         };
         counts.into_iter().filter_map(told).collect()
     }
+}
+
+/// A material, of which the name, the colour and the roughness are read.
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct MaterialEntry {
+    pub name: Option<Box<str>>,
+    pub pbr_metallic_roughness: Option<Box<MetalAndRoughness>>,
+    normal_texture: Option<IgnoredAny>,
+    occlusion_texture: Option<IgnoredAny>,
+    emissive_texture: Option<IgnoredAny>,
+    emissive_factor: Option<IgnoredAny>,
+    alpha_mode: Option<IgnoredAny>,
+    extensions: Option<IgnoredAny>,
+}
+
+impl MaterialEntry {
+    /// True for a material with properties that are not read, beside pictures, which are counted by themselves.
+    fn has_more(&self) -> bool {
+        let MaterialEntry { normal_texture, occlusion_texture, emissive_texture, emissive_factor, .. } = self;
+        let further = [normal_texture, occlusion_texture, emissive_texture, emissive_factor];
+        further.into_iter().chain([&self.alpha_mode, &self.extensions]).any(Option::is_some)
+    }
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct MetalAndRoughness {
+    pub base_color_factor: Option<[f64; 4]>,
+    pub metallic_factor: Option<f64>,
+    pub roughness_factor: Option<f64>,
 }
 
 #[derive(Deserialize)]
@@ -218,6 +254,7 @@ pub(super) struct Primitive {
     pub attributes: AttributeAccessors,
     pub indices: Option<u32>,
     pub mode: Option<u32>,
+    pub material: Option<u32>,
     pub targets: Option<IgnoredAny>,
 }
 

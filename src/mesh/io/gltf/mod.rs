@@ -5,6 +5,7 @@ mod accessor;
 mod buffers;
 mod document;
 mod locate;
+mod materials;
 mod scene;
 mod seams;
 mod write;

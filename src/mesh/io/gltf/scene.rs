@@ -3,7 +3,8 @@
 use super::super::budget::Budget;
 use super::super::scan::Location;
 use super::accessor::GltfFile;
-use super::document::{Affine, ElementShape, Primitive};
+use super::document::{Affine, AttributeAccessors, ElementShape, Primitive};
+use super::materials::labels_of;
 use super::seams::first_alike;
 use crate::error::{Error, Result};
 use crate::mesh::Point;
@@ -30,6 +31,8 @@ pub(super) fn soup(file: &GltfFile<'_>, budget: Budget) -> Result<Soup> {
         colors: Vec::new(),
         given: Vec::new(),
         first: Vec::new(),
+        materials: Vec::new(),
+        last: None,
     };
     let scene = match document.scene {
         Some(i) if i >= document.scenes.len() => {
@@ -79,6 +82,18 @@ struct CollectedMeshes<'a> {
     given: Vec<u32>,
     /// For each vertex of the file the first vertex of its mesh that is the same vertex of the surface.
     first: Vec<u32>,
+    /// For each face the number of its material and 1, or 0.
+    materials: Vec<u32>,
+    /// The vertices of the last primitive of the same mesh.
+    last: Option<PrimitiveVertices>,
+}
+
+/// The vertices of a primitive, which the next one may share.
+struct PrimitiveVertices {
+    accessors: [Option<u32>; 5],
+    first: usize,
+    n: usize,
+    texcoords: Vec<[f64; 2]>,
 }
 
 /// The number of a vertex that another program wrote.
@@ -115,6 +130,7 @@ impl CollectedMeshes<'_> {
         let Some(mesh) = self.file.document.meshes.get(index as usize) else {
             return self.file.whole().error(format!("mesh {index} does not exist"));
         };
+        self.last = None;
         for primitive in &mesh.primitives {
             self.budget.take(1, PRIMITIVE, "primitives", self.file.whole())?;
             self.primitive(primitive, map)?;
@@ -134,9 +150,56 @@ impl CollectedMeshes<'_> {
     }
 
     fn primitive(&mut self, primitive: &Primitive, map: &Affine) -> Result<()> {
-        let file = self.file;
         let named = &primitive.attributes;
-        let Some(position) = named.position else { return Ok(()) };
+        let accessors = [named.position, named.normal, named.color, named.texcoord, named.vertex];
+        let PrimitiveVertices { first, n, texcoords, .. } = match self.last.take() {
+            Some(last) if last.accessors == accessors => last,
+            _ => {
+                let Some(new) = self.vertices(named, accessors, map)? else { return Ok(()) };
+                new
+            }
+        };
+        let file = self.file;
+        let mut faces = self.faces(primitive, n)?;
+        if map.of_normals().1 {
+            faces.iter_mut().for_each(|face| face.swap(1, 2));
+        }
+        if !texcoords.is_empty() {
+            self.budget.take(faces.len(), size_of::<[[f64; 2]; 3]>(), "faces", file.whole())?;
+            // v points down in glTF.
+            let at = |v: u32| [texcoords[v as usize][0], 1.0 - texcoords[v as usize][1]];
+            let uv = faces.iter().map(|face| face.map(at)).collect();
+            let first = self.soup.faces.len();
+            let mut append = ListAppender { budget: &mut self.budget, place: file.whole(), first };
+            append.to(&mut self.uv, uv, [NO_TEXCOORD; 3])?;
+        }
+        self.soup.faces.extend(faces.into_iter().map(|face| face.map(|v| first as u32 + v)));
+        self.material(primitive.material)?;
+        self.last = Some(PrimitiveVertices { accessors, first, n, texcoords });
+        Ok(())
+    }
+
+    /// Gives the faces that were added last their material.
+    fn material(&mut self, material: Option<u32>) -> Result<()> {
+        let file = self.file;
+        if material.is_some_and(|k| k as usize >= file.document.materials.len()) {
+            return file.whole().error(format!("material {} does not exist", material.unwrap_or_default()));
+        }
+        let wanted = self.soup.faces.len();
+        self.budget.take(wanted - self.materials.len(), size_of::<u32>(), "materials", file.whole())?;
+        self.materials.resize(wanted, material.map_or(0, |k| k + 1));
+        Ok(())
+    }
+
+    /// Adds the vertices of a primitive with these attributes; none without positions.
+    fn vertices(
+        &mut self,
+        named: &AttributeAccessors,
+        accessors: [Option<u32>; 5],
+        map: &Affine,
+    ) -> Result<Option<PrimitiveVertices>> {
+        let file = self.file;
+        let Some(position) = named.position else { return Ok(None) };
         let n = file.accessor(position, "POSITION", &[ElementShape::Vec3])?.count;
         let first = self.soup.positions.len();
         if first.checked_add(n).is_none_or(|end| end > u32::MAX as usize) {
@@ -147,7 +210,7 @@ impl CollectedMeshes<'_> {
         if *map != Affine::IDENTITY {
             positions.iter_mut().for_each(|p| *p = map.apply(*p));
         }
-        let (turn, mirrors) = map.of_normals();
+        let (turn, _) = map.of_normals();
         let mut normals: Vec<Point> = self.attribute(named.normal, n, three("NORMAL"))?;
         if map.linear != Affine::IDENTITY.linear {
             normals.iter_mut().for_each(|x| *x = unit(turn.apply(*x)));
@@ -164,21 +227,7 @@ impl CollectedMeshes<'_> {
         append.to(&mut self.colors, colors, WHITE)?;
         append.to(&mut self.given, numbers, NO_NUMBER)?;
         self.soup.positions.append(&mut positions);
-        let mut faces = self.faces(primitive, n)?;
-        if mirrors {
-            faces.iter_mut().for_each(|face| face.swap(1, 2));
-        }
-        if !texcoords.is_empty() {
-            self.budget.take(faces.len(), size_of::<[[f64; 2]; 3]>(), "faces", file.whole())?;
-            // v points down in glTF.
-            let at = |v: u32| [texcoords[v as usize][0], 1.0 - texcoords[v as usize][1]];
-            let uv = faces.iter().map(|face| face.map(at)).collect();
-            let first = self.soup.faces.len();
-            let mut append = ListAppender { budget: &mut self.budget, place: file.whole(), first };
-            append.to(&mut self.uv, uv, [NO_TEXCOORD; 3])?;
-        }
-        self.soup.faces.extend(faces.into_iter().map(|face| face.map(|v| first as u32 + v)));
-        Ok(())
+        Ok(Some(PrimitiveVertices { accessors, first, n, texcoords }))
     }
 
     /// The elements of an attribute, one for each of the `n` vertices of a primitive; none if it does not have the attribute.
@@ -226,10 +275,19 @@ impl CollectedMeshes<'_> {
     }
 
     /// Fills up attributes that some primitives lack, and renumbers vertices.
-    fn finish(mut self) -> Result<Soup> {
-        let CollectedMeshes { mut soup, mut normals, mut colors, mut uv, mut first, .. } = self;
-        let (whole, n) = (self.file.whole(), soup.positions.len());
-        let budget = &mut self.budget;
+    fn finish(self) -> Result<Soup> {
+        let CollectedMeshes {
+            file,
+            mut budget,
+            mut soup,
+            mut normals,
+            mut colors,
+            mut uv,
+            mut first,
+            materials,
+            ..
+        } = self;
+        let (whole, n) = (file.whole(), soup.positions.len());
         let mut fill = |have: usize, wanted: usize, size: usize| match have {
             0 => Ok(()),
             have => budget.take(wanted - have, size, "attributes", whole),
@@ -267,8 +325,10 @@ impl CollectedMeshes<'_> {
             Some(list).filter(|list| !list.is_empty())
         }
         let (normals, colors, uv) = (some(normals), some(colors), some(uv));
-        let unread = self.file.document.unread();
-        let attributes = Attributes { normals, corner_normals, colors, uv, unread, ..Attributes::default() };
+        let unread = file.document.unread();
+        let labels = labels_of(file.document, materials);
+        let attributes =
+            Attributes { normals, corner_normals, colors, uv, labels, unread, ..Attributes::default() };
         soup.attributes = attributes.finite_only();
         Ok(soup)
     }

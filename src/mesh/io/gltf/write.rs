@@ -1,5 +1,6 @@
 //! Writer of binary glTF 2.0 with textures.
 
+use super::materials::{MaterialStretch, stretches};
 use super::scene::unit;
 use super::seams::first_alike;
 use crate::error::{Error, Result};
@@ -93,7 +94,9 @@ pub fn write_glb(path: &Path, data: &TexturedMesh<'_>, texture: Option<Texture<'
         parts.attribute("TEXCOORD_0", split.texcoords);
     }
     if !split.faces.is_empty() {
-        parts.indices(&split.faces);
+        let (stretches, materials) = stretches(data.labels, split.faces.len());
+        parts.indices(&split.faces, &stretches);
+        parts.materials = materials;
     }
     if let Some(texture) = texture {
         parts.texture(texture);
@@ -233,7 +236,9 @@ struct GlbParts {
     views: Vec<Value>,
     accessors: Vec<Value>,
     attributes: serde_json::Map<String, Value>,
-    indices: Option<usize>,
+    /// Per primitive, the accessor of its indices and its material.
+    primitives: Vec<[usize; 2]>,
+    materials: Vec<Value>,
     /// Sampler and buffer view of the texture.
     texture: Option<(Value, usize, f64)>,
 }
@@ -278,13 +283,19 @@ impl GlbParts {
         }));
     }
 
-    fn indices(&mut self, faces: &[[u32; 3]]) {
+    fn indices(&mut self, faces: &[[u32; 3]], stretches: &[MaterialStretch]) {
         let corners = faces.as_flattened();
         let view = self.view(corners.iter().flat_map(|v| v.to_le_bytes()), Some(GlbParts::INDICES));
-        self.indices = Some(self.accessors.len());
-        self.accessors.push(json!({
-            "bufferView": view, "componentType": GlbParts::UNSIGNED_INT, "count": corners.len(), "type": "SCALAR"
-        }));
+        for MaterialStretch { faces, material } in stretches {
+            self.primitives.push([self.accessors.len(), *material]);
+            let mut accessor = json!({
+                "bufferView": view, "componentType": GlbParts::UNSIGNED_INT, "count": 3 * faces.len(), "type": "SCALAR"
+            });
+            if faces.start > 0 {
+                accessor["byteOffset"] = json!(3 * size_of::<u32>() * faces.start);
+            }
+            self.accessors.push(accessor);
+        }
     }
 
     fn texture(&mut self, texture: Texture<'_>) {
@@ -301,31 +312,36 @@ impl GlbParts {
             "scene": 0,
             "scenes": [{}]
         });
-        let mut material = json!({
-            "doubleSided": true,
-            "pbrMetallicRoughness": {"metallicFactor": 0.0, "roughnessFactor": 0.8}
-        });
+        let mut materials = self.materials;
+        if materials.is_empty() {
+            materials = stretches(None, 0).1;
+        }
         if let Some((sampler, view, repeat)) = self.texture {
-            let base = &mut material["pbrMetallicRoughness"]["baseColorTexture"];
-            *base = json!({"index": 0});
+            let mut base = json!({"index": 0});
             if repeat != 1.0 {
                 base["extensions"] = json!({"KHR_texture_transform": {"scale": [repeat, repeat]}});
                 document["extensionsUsed"] = json!(["KHR_texture_transform"]);
+            }
+            for material in &mut materials {
+                material["pbrMetallicRoughness"]["baseColorTexture"] = base.clone();
             }
             document["textures"] = json!([{"source": 0, "sampler": 0}]);
             document["samplers"] = json!([sampler]);
             document["images"] = json!([{"bufferView": view, "mimeType": "image/png"}]);
         }
         if !self.attributes.is_empty() {
-            let mut primitive = json!({"attributes": self.attributes, "material": 0});
-            match self.indices {
-                Some(indices) => primitive["indices"] = json!(indices),
-                None => primitive["mode"] = json!(0),
+            let attributes = &self.attributes;
+            let triangles = self.primitives.iter().map(|[indices, material]| {
+                json!({"attributes": attributes, "material": material, "indices": indices})
+            });
+            let mut primitives: Vec<Value> = triangles.collect();
+            if primitives.is_empty() {
+                primitives.push(json!({"attributes": attributes, "material": 0, "mode": 0}));
             }
             document["scenes"][0]["nodes"] = json!([0]);
             document["nodes"] = json!([node]);
-            document["meshes"] = json!([{"primitives": [primitive]}]);
-            document["materials"] = json!([material]);
+            document["meshes"] = json!([{"primitives": primitives}]);
+            document["materials"] = json!(materials);
             document["accessors"] = json!(self.accessors);
         }
         if !self.binary.is_empty() {
