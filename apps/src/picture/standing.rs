@@ -54,7 +54,7 @@ struct WeighedSurface<'a> {
 
 /// Score of the best axis below which slanted directions are looked at too: an animal whose file has its principal axes along the
 /// coordinates stands on its feet on none of them.
-const DOUBTFUL: f64 = 0.35;
+const DOUBTFUL: f64 = 0.36;
 /// Score that a slanted direction needs, of support alone: an elephant on its feet has 0.83, the best sides of bodies without any 0.65.
 const SLANTED: f64 = 0.75;
 /// Number of slanted directions that are scored, of those that are then turned to the best one near them, and of the points that are looked at

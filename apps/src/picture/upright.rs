@@ -18,6 +18,9 @@ const SHEET: f64 = 0.35;
 const FLAT_SHEET: f64 = 0.34;
 /// A sheet whose longest boundary loop is no higher than this share of its own extent lies on the ground with it.
 const FLAT_RIM: f64 = 0.02;
+/// A mask so many times as wide as high, between these, stands on its narrow end: faces are about 1.3 times as high as wide, and what is wider
+/// still is no face.
+const ASKEW_MASK: std::ops::Range<f64> = 1.25..1.7;
 /// A closed surface lower than this share of its width and length is seen from above, whatever its vertical is.
 const LOW: f64 = 0.45;
 /// A closed surface thinner than this share of its width and length lies on the ground, if it is also [`CENTRED`].
@@ -60,7 +63,13 @@ pub fn stance(points: &[V3], faces: &[[u32; 3]]) -> Stance {
         let lies = thin(up) < FLAT_SHEET || has_flat_rim(points, faces, up);
         // A mask faces z with y up. Turned about x, as programs with z up do, it faces −y with z up, or y with −z up.
         let upright = if most == 1 { [0.0, 0.0, -outside[1].signum()] } else { Y };
-        return Stance { up: if lies { up } else { upright }, lies };
+        let mask = || {
+            let across = axis(3 - most - if most == 1 { 2 } else { 1 }, 1.0);
+            let ([side, wide], high) = (<[f64; 2]>::from(reach(points, across)), reach(points, upright).1);
+            let beyond = dot(across, middle) / total - (side - 0.5 * wide);
+            if ASKEW_MASK.contains(&(wide / high)) { scaled(across, beyond.signum()) } else { upright }
+        };
+        return Stance { up: if lies { up } else { mask() }, lies };
     }
     // A surface with a flat base, such as a statue, stands on it, however thin it is.
     if let Some(up) = base(points, faces) {
@@ -152,6 +161,13 @@ mod tests {
         };
         assert_eq!(stance(&hill(0.0), &disk.faces), Stance { up: Z, lies: true });
         assert_eq!(stance(&hill(0.4), &disk.faces), Stance { up: Y, lies: false });
+        // A mask that lies on its side is turned to its wide end, the forehead.
+        let oval = |&[x, y, _]: &V3| {
+            let wide = 0.5 + 0.04 * (y + 1.0);
+            [1.5 * y, -wide * 2.0 * x, 2.0 * (1.0 - x * x - 0.6 * y * y)]
+        };
+        let mask: Vec<V3> = disk.positions.iter().map(oval).collect();
+        assert_eq!(stance(&mask, &disk.faces), Stance { up: [1.0, 0.0, 0.0], lies: false });
         // A prism with a slanted top stands on its end, wherever that looks.
         let prism = |tilt: f64| -> Vec<V3> {
             let corner = |k: u32| {
