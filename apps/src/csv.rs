@@ -56,6 +56,20 @@ pub fn read_valences(path: &Path, n_vertices: usize) -> Result<Vec<(VertexId, u3
     rows.into_iter().map(valence).collect()
 }
 
+/// Read `vertex,x,y,z` rows: a direction in space at a vertex. Lines as in [`read_curvatures`].
+pub fn read_directions(path: &Path, n_vertices: usize) -> Result<Vec<(VertexId, [f64; 3])>, Failure> {
+    let rows = read_rows(path, ["vertex", "x", "y", "z"])?;
+    let direction = |(i, [vertex, x, y, z]): (usize, [String; 4])| {
+        let v = vertex_of(path, i, &vertex, n_vertices)?;
+        let number = |text: &String| text.parse().ok().filter(|x: &f64| x.is_finite());
+        match [&x, &y, &z].map(number) {
+            [Some(x), Some(y), Some(z)] => Ok((v, [x, y, z])),
+            _ => Err(refuse(path, i, format!("`{x},{y},{z}` is no direction"))),
+        }
+    };
+    rows.into_iter().map(direction).collect()
+}
+
 /// Read `vertex,x,y` rows: where vertices go, each at most once. Lines as in [`read_curvatures`], but for the names of a header.
 pub fn read_places(path: &Path, n_vertices: usize) -> Result<Vec<(VertexId, [f64; 2])>, Failure> {
     let mut named = vec![false; n_vertices];

@@ -142,7 +142,7 @@ fn flow(options: &SphereOptions) -> Options {
 }
 
 fn uniformize(surface: &Surface, options: &SphereOptions, control: &Control) -> Result<Sphere> {
-    let from = Solution::delaunay(surface.clone(), Class::yamabe(Space::S2), control)?;
+    let from = Solution::delaunay(surface.clone(), Class::yamabe(Space::S2), &[], control)?;
     let (mesh, metric, followed) = from.parts();
     let n = mesh.n_vertices();
     let mut metric = Metric { space: Space::E2, u: PerVertex::filled(n, 0.0), ..metric };

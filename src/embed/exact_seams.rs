@@ -3,11 +3,12 @@
 //!
 //! The opened surface is a disk whose boundary is a closed polygon. An edge of the cut is two of its sides: w and −iᵏ w. The polygon closes
 //! if `Σ (1 − iᵏ) w = 0`. Sides are rounded to Gaussian integers; what the sum is off then is a multiple of 1 − i, or of 2 if every k is
-//! even, and one long edge takes it up.
+//! even, and one long edge takes it up. Edges of the boundary are sides of their own; they are made parallel to an axis, and the longest in
+//! each direction can take up anything along it.
 
 use super::layout::Layout;
 use crate::error::{Error, Result};
-use crate::geometry::Space;
+use crate::geometry::{DoubleDouble, Motion, Space};
 use crate::mesh::HalfedgeId;
 use std::f64::consts::FRAC_PI_2;
 
@@ -20,12 +21,25 @@ const GRID_BITS: i32 = 51;
 type GridVector = [i64; 2];
 
 impl Layout {
-    /// Moves the corners to a grid of powers of two such that the two sides of each edge of the cut differ by a rotation by a multiple of
-    /// 90° and a translation exactly. Returns the largest distance by which a corner was moved: a few units of rounding per edge of the cut.
+    /// Turns the layout such that a half-edge has the direction of the x axis.
     ///
     /// # Errors
-    /// [`Error::Layout`] for a layout that is not in E², of a surface with boundary, without cut or of several pieces, or with a seam whose
-    /// rotation is no multiple of 90° to 1e-6.
+    /// [`Error::Layout`] for a layout that is not in E².
+    pub fn align(&mut self, h: HalfedgeId) -> Result<()> {
+        let [a, b] = [self.uv(h), self.uv(self.mesh().next(h))];
+        let direction = [b[0] - a[0], a[1] - b[1]].map(DoubleDouble::from);
+        let size = (direction[0] * direction[0] + direction[1] * direction[1]).sqrt();
+        let zero = DoubleDouble::from(0.0);
+        self.move_by(&Motion::in_plane(direction.map(|x| x / size), [zero, zero]))
+    }
+
+    /// Moves the corners to a grid of powers of two such that the two sides of each edge of the cut differ by a rotation by a multiple of
+    /// 90° and a translation exactly, and edges of the boundary are parallel to an axis. Returns the largest distance by which a corner was
+    /// moved: a few units of rounding per edge of the cut.
+    ///
+    /// # Errors
+    /// [`Error::Layout`] for a layout that is not in E², closed without cut or of several pieces, with a seam whose rotation is no multiple of
+    /// 90° to 1e-6, or with an edge of the boundary that is off the axes by more ([`Layout::align`]).
     pub fn make_seams_exact(&mut self) -> Result<f64> {
         let quarters = self.quarter_turns()?;
         let boundary = self.cut_boundary()?;
@@ -69,15 +83,13 @@ impl Layout {
         self.seams.iter().map(|seam| seam.isometry().rotation).enumerate().map(quarters).collect()
     }
 
-    /// The half-edges of the cut around the opened surface, counterclockwise.
+    /// The half-edges of the cut and of the boundary around the opened surface, counterclockwise.
     fn cut_boundary(&self) -> Result<Vec<HalfedgeId>> {
         let mesh = self.mesh();
         let refused = |message: &str| Err(Error::Layout(message.into()));
-        if !mesh.is_closed() {
-            return refused("exact seams are made on closed surfaces");
-        }
-        let is_cut = |h: HalfedgeId| self.side[h] != 0;
-        let Some(first) = mesh.halfedges().find(|&h| is_cut(h)) else {
+        let is_side =
+            |h: HalfedgeId| mesh.face(h).is_some() && (self.side[h] != 0 || mesh.is_outside(h.twin()));
+        let Some(first) = mesh.halfedges().find(|&h| is_side(h)) else {
             return refused("the layout has no cut, so no seam to be made exact");
         };
         let mut boundary = Vec::new();
@@ -85,23 +97,38 @@ impl Layout {
         loop {
             boundary.push(h);
             h = mesh.next(h);
-            while !is_cut(h) {
+            while !is_side(h) {
                 h = mesh.next(h.twin());
             }
             if h == first {
                 break;
             }
         }
-        if boundary.len() != mesh.halfedges().filter(|&h| is_cut(h)).count() {
+        if boundary.len() != mesh.halfedges().filter(|&h| is_side(h)).count() {
             return refused(
                 "the opened surface has more than one boundary, so its seams cannot be made exact together",
             );
         }
         Ok(boundary)
     }
+
+    /// An edge of the boundary in units of the grid, parallel to an axis.
+    fn boundary_side(&self, h: HalfedgeId, unit: f64) -> Result<GridVector> {
+        let [a, b] = [self.uv(h), self.uv(self.mesh().next(h))];
+        let [x, y] = [b[0] - a[0], b[1] - a[1]];
+        let (long, off) = (x.abs().max(y.abs()), x.abs().min(y.abs()));
+        if off > ROTATION_ROUNDING * long {
+            let message =
+                format!("edge {} of the boundary is {:.1e} radians off the axes", h.edge(), off / long);
+            return Err(Error::Layout(message));
+        }
+        let whole = |x: f64| (x / unit).round() as i64;
+        Ok(if x.abs() >= y.abs() { [whole(x), 0] } else { [0, whole(y)] })
+    }
 }
 
-/// The sides of the boundary polygon in units of the grid: those of one edge are exactly w and −iᵏ w, and all of them add up to 0.
+/// The sides of the boundary polygon in units of the grid: those of one edge of the cut are exactly w and −iᵏ w, those of the boundary
+/// parallel to an axis, and all of them add up to 0.
 fn closed_sides(
     layout: &Layout,
     boundary: &[HalfedgeId],
@@ -115,27 +142,57 @@ fn closed_sides(
         [0, 1].map(|k| ((b[k] - a[k]) / unit).round() as i64)
     };
     let left: Vec<HalfedgeId> = boundary.iter().copied().filter(|&h| layout.side[h] > 0).collect();
+    let outer: Vec<HalfedgeId> = boundary.iter().copied().filter(|&h| layout.side[h] == 0).collect();
+    let mut free = outer.iter().map(|&h| layout.boundary_side(h, unit)).collect::<Result<Vec<_>>>()?;
     let mut sides: Vec<GridVector> = left.iter().map(|&h| vector(h)).collect();
-    let off = left.iter().zip(&sides).fold([0; 2], |sum, (&h, &w)| add(sum, sub(w, turned(w, turn(h)))));
-    // 1 − iᵏ divides what the sum is off if k is odd, and if no k is odd.
-    let size = |k: usize| sides[k].iter().map(|x| (*x as f64).powi(2)).sum::<f64>();
-    let rank = |k: usize| (turn(left[k]) % 2, turn(left[k]) != 0);
-    let order = |a: &usize, b: &usize| rank(*a).cmp(&rank(*b)).then(size(*a).total_cmp(&size(*b)));
-    if off != [0; 2] {
-        let longest = (0..left.len()).max_by(order);
-        let correction = longest.and_then(|k| Some((k, divided(off, turn(left[k]))?)));
+    let seams: Vec<i32> = left.iter().map(|&h| turn(h)).collect();
+    let off = sides.iter().zip(&seams).fold([0; 2], |sum, (&w, &k)| add(sum, sub(w, turned(w, k))));
+    close(&mut sides, &seams, &mut free, off)?;
+    let mut of_edge = vec![[0; 2]; mesh.n_edges()];
+    left.iter().zip(&sides).for_each(|(h, &w)| of_edge[h.edge().index()] = w);
+    outer.iter().zip(&free).for_each(|(h, &w)| of_edge[h.edge().index()] = w);
+    let side = |&h: &HalfedgeId| {
+        let w = of_edge[h.edge().index()];
+        if layout.side[h] >= 0 { w } else { turned(w, turn(h) + 2) }
+    };
+    Ok(boundary.iter().map(side).collect())
+}
+
+/// Changes sides such that all add up to 0: those of the boundary, each along its axis, by what they can take up, and one of the seams by the
+/// rest. `off`: the sum of the seams' sides.
+fn close(sides: &mut [GridVector], turns: &[i32], free: &mut [GridVector], off: GridVector) -> Result<()> {
+    let mut off = free.iter().fold(off, |sum, &w| add(sum, w));
+    // The longest side of the boundary along each axis.
+    let longest =
+        |axis: usize| (0..free.len()).filter(|&k| free[k][axis] != 0).max_by_key(|&k| free[k][axis].abs());
+    let takers = [longest(0), longest(1)];
+    let rest = [0, 1].map(|axis: usize| if takers[axis].is_some() { 0 } else { off[axis] });
+    if rest != [0; 2] {
+        // 1 − iᵏ divides what the sum is off if k is odd, and if no k is odd. Beside a boundary an odd k leaves something along its axis.
+        let size = |k: usize| sides[k].iter().map(|x| (*x as f64).powi(2)).sum::<f64>();
+        let rank = |k: usize| (turns[k] % 2, turns[k] != 0);
+        let order = |a: &usize, b: &usize| rank(*a).cmp(&rank(*b)).then(size(*a).total_cmp(&size(*b)));
+        let chosen = (0..sides.len()).max_by(order);
+        let correction = chosen.and_then(|k| {
+            let whole = divided(rest, turns[k]);
+            let beside = || takers.iter().any(Option::is_some) && turns[k] % 2 != 0;
+            Some((
+                k,
+                whole.or_else(|| beside().then_some(if turns[k] == 1 { turned(rest, 1) } else { rest }))?,
+            ))
+        });
         let Some((k, correction)) = correction else {
             return Err(Error::Layout("the sides of the cut do not close, though no seam turns".into()));
         };
         sides[k] = sub(sides[k], correction);
+        off = sub(off, sub(correction, turned(correction, turns[k])));
     }
-    let mut of_edge = vec![[0; 2]; mesh.n_edges()];
-    left.iter().zip(&sides).for_each(|(h, &w)| of_edge[h.edge().index()] = w);
-    let side = |&h: &HalfedgeId| {
-        let w = of_edge[h.edge().index()];
-        if layout.side[h] > 0 { w } else { turned(w, turn(h) + 2) }
-    };
-    Ok(boundary.iter().map(side).collect())
+    for axis in 0..2 {
+        if let Some(k) = takers[axis] {
+            free[k][axis] -= off[axis];
+        }
+    }
+    Ok(())
 }
 
 fn add(a: GridVector, b: GridVector) -> GridVector {

@@ -4,7 +4,7 @@ use super::origin::{FlippedStart, FlowOrigin};
 use super::report::Report;
 use crate::control::Control;
 use crate::error::{Error, Result, check_size};
-use crate::mesh::{Double, FaceId, Mesh, NormalCoordinates, PerVertex, VertexId};
+use crate::mesh::{Double, EdgeId, FaceId, Mesh, NormalCoordinates, PerVertex, VertexId};
 use crate::metric::common_subdivision::{
     FinalTriangulation, InputTriangulation, IntrinsicTriangulation, Triangulations,
 };
@@ -51,12 +51,17 @@ impl Solution {
         Ok(Solution::start(FlowOrigin::rigid(surface, class)?))
     }
 
-    /// The initial metric of a closed surface on its (weighted) Delaunay triangulation.
+    /// The initial metric of a surface on its (weighted) Delaunay triangulation, in which `fixed` edges stay.
     ///
     /// # Errors
     /// Those of [`crate::metric::delaunay_start`].
-    pub(crate) fn delaunay(surface: Surface, class: Class, control: &Control) -> Result<Solution> {
-        Ok(Solution::start(FlowOrigin::delaunay(surface, class, false, &[], control)?))
+    pub(crate) fn delaunay(
+        surface: Surface,
+        class: Class,
+        fixed: &[EdgeId],
+        control: &Control,
+    ) -> Result<Solution> {
+        Ok(Solution::start(FlowOrigin::delaunay(surface, class, false, fixed, control)?))
     }
 
     /// Copies of what flows change: triangulation, metric, and the triangulations that are followed through flips.

@@ -49,7 +49,7 @@ impl Domain {
     /// Those of [`crate::metric::delaunay_start`] and [`Domain::of_metric`]; [`Error::Cancelled`].
     pub fn new(surface: &Surface, control: &Control) -> Result<Domain> {
         let class = Class::yamabe(surface.geometry());
-        Domain::of_metric(Solution::delaunay(surface.clone(), class, control)?)
+        Domain::of_metric(Solution::delaunay(surface.clone(), class, &[], control)?)
     }
 
     /// The domain of a surface on its own triangulation; the weights of edges that are not Delaunay are negative.

@@ -1,13 +1,18 @@
-//! Closed paths from face to face that generate the homology of a closed surface, their turning, and how flips change them.
+//! Paths from face to face whose turning decides that of all others: closed ones that generate the homology of a surface, and arcs from
+//! feature to feature; their turning, and how flips change them.
 
+use super::sectors::Sectors;
 use crate::error::{Error, Result};
-use crate::mesh::{EdgeId, HalfedgeId, Mesh, PerEdge, PerFace, PerHalfedge, PerVertex, VertexId};
+use crate::mesh::{EdgeId, HalfedgeId, Mesh, PerEdge, PerFace, PerHalfedge, VertexId};
 use std::collections::VecDeque;
 
-/// Closed paths from face to face. A path is the cycle of the half-edges that it crosses, each from its own face to that of its twin.
+/// Paths from face to face. A path is the list of the half-edges that it crosses, each from its own face to that of its twin. A closed path
+/// goes on from the last to the first; an arc comes in over its first half-edge, a feature, and leaves over its last.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DualLoops {
+    /// The closed paths, then the arcs.
     loops: Vec<Vec<HalfedgeId>>,
+    n_closed: usize,
     /// Per edge, the number of times that paths cross it.
     crossings: PerEdge<u32>,
 }
@@ -41,16 +46,42 @@ impl DualLoops {
                 "paths around handles need a closed surface",
             ));
         }
-        let in_tree = vertex_tree(mesh, root);
-        let (entry, crossed) = face_tree(mesh, &in_tree);
-        let left = mesh.edges().filter(|&e| !in_tree[e] && !crossed[e]);
-        let loops: Vec<_> = left.map(|e| closed_path(mesh, &entry, e.halfedge())).collect();
+        let loops = DualLoops::between(mesh, &Sectors::new(mesh, &[])?, root);
         if loops.len() as i64 != 2 - mesh.euler() {
             return Err(Error::connectivity("path", loops.len(), "the surface has several components"));
         }
+        Ok(loops)
+    }
+
+    /// Paths that cross no feature and no boundary: for each piece of the surface two closed ones to a handle, and an arc from one of the
+    /// walks around it to each of the others. `root`: the vertex at which the tree of edges begins.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for an edge that the mesh does not have.
+    pub fn along_features(mesh: &Mesh, features: &[EdgeId], root: VertexId) -> Result<DualLoops> {
+        Ok(DualLoops::between(mesh, &Sectors::new(mesh, features)?, root))
+    }
+
+    /// [`DualLoops::along_features`] between the features of these sectors.
+    pub(super) fn between(mesh: &Mesh, sectors: &Sectors, root: VertexId) -> DualLoops {
+        let walks = sectors.walks(mesh);
+        let in_tree = edge_tree(mesh, sectors, &walks, root);
+        let (entry, crossed) = face_tree(mesh, sectors, &in_tree);
+        let left = mesh.edges().filter(|&e| !in_tree[e] && !crossed[e] && !sectors.is_feature(e));
+        let mut loops: Vec<_> = left.map(|e| closed_path(mesh, &entry, e.halfedge())).collect();
+        let n_closed = loops.len();
+        let corners = sectors.of_corners(mesh);
+        let mut first: Vec<Option<HalfedgeId>> = vec![None; sectors.n_pieces];
+        for walk in &walks {
+            let piece = sectors.piece[corners[walk[0]] as usize] as usize;
+            match first[piece] {
+                None => first[piece] = Some(walk[0]),
+                Some(from) => loops.push(arc(mesh, &entry, from, walk[0])),
+            }
+        }
         let mut crossings = PerEdge::filled(mesh.n_edges(), 0);
         loops.iter().flatten().for_each(|h| crossings[h.edge()] += 1);
-        Ok(DualLoops { loops, crossings })
+        DualLoops { loops, n_closed, crossings }
     }
 
     /// The number of paths.
@@ -63,6 +94,11 @@ impl DualLoops {
         self.loops.is_empty()
     }
 
+    /// The number of closed paths, which come first.
+    pub fn n_closed(&self) -> usize {
+        self.n_closed
+    }
+
     /// The half-edges that path k crosses, in order.
     pub fn path(&self, k: usize) -> &[HalfedgeId] {
         &self.loops[k]
@@ -72,11 +108,13 @@ impl DualLoops {
     pub(super) fn passages(&self, k: usize) -> impl Iterator<Item = Passage> + '_ {
         let path = &self.loops[k];
         let before = path.iter().cycle().skip(path.len().saturating_sub(1));
-        path.iter().zip(before).map(|(&exit, before)| Passage { entry: before.twin(), exit })
+        let all = path.iter().zip(before).map(|(&exit, before)| Passage { entry: before.twin(), exit });
+        // An arc comes into its first face from outside.
+        all.skip(usize::from(k >= self.n_closed))
     }
 
-    /// The turning of each path, radians: angles to its left less angles to its right. `angles`: that at the origin of each half-edge, in
-    /// its face.
+    /// The turning of each path, radians: angles to its left less angles to its right; of an arc, from the normal of its first edge to that
+    /// of its last. `angles`: that at the origin of each half-edge, in its face.
     pub fn turning(&self, mesh: &Mesh, angles: &PerHalfedge<f64>) -> Vec<f64> {
         let turn = |passage: Passage| {
             let (corner, sign) = passage.pivot(mesh);
@@ -97,7 +135,7 @@ impl DualLoops {
         // The new faces, and the half-edge of the new diagonal that lies in each.
         let first = |x: HalfedgeId| x == ca || x == ad;
         let second = |x: HalfedgeId| x == bc || x == db;
-        for path in &mut self.loops {
+        for (number, path) in self.loops.iter_mut().enumerate() {
             if !path.iter().any(|x| near.contains(&x.edge())) {
                 continue;
             }
@@ -106,9 +144,11 @@ impl DualLoops {
             let mut carried = Vec::with_capacity(path.len() + 2);
             for (k, &exit) in path.iter().enumerate() {
                 let entry = path[(k + path.len() - 1) % path.len()].twin();
-                if first(entry) && second(exit) {
+                // The first half-edge of an arc has no entry before it.
+                let goes_on = k > 0 || number < self.n_closed;
+                if goes_on && first(entry) && second(exit) {
                     carried.push(h);
-                } else if second(entry) && first(exit) {
+                } else if goes_on && second(entry) && first(exit) {
                     carried.push(h.twin());
                 }
                 carried.push(exit);
@@ -119,59 +159,100 @@ impl DualLoops {
     }
 }
 
-/// Per edge, true if it is in a tree of shortest edge paths from a vertex.
-fn vertex_tree(mesh: &Mesh, root: VertexId) -> PerEdge<bool> {
+/// Per edge, true if it is in a tree of shortest edge paths that spans the vertices of each piece, all those on one walk along features as
+/// one. The first tree begins at a vertex.
+fn edge_tree(mesh: &Mesh, sectors: &Sectors, walks: &[Vec<HalfedgeId>], root: VertexId) -> PerEdge<bool> {
+    let corners = sectors.of_corners(mesh);
+    // A sector between features stands for the walk that passes it.
+    let mut node: Vec<usize> = (0..sectors.len()).collect();
+    for (k, walk) in walks.iter().enumerate() {
+        walk.iter().for_each(|&h| node[corners[h] as usize] = sectors.len() + k);
+    }
+    let at = |h: HalfedgeId| node[corners[h] as usize];
+    let mut leaving: Vec<Vec<HalfedgeId>> = vec![Vec::new(); sectors.len() + walks.len()];
+    for v in mesh.vertices() {
+        mesh.outgoing(v).filter(|h| !sectors.is_feature(h.edge())).for_each(|h| leaving[at(h)].push(h));
+    }
     let mut in_tree = PerEdge::filled(mesh.n_edges(), false);
-    let mut is_reached = PerVertex::filled(mesh.n_vertices(), false);
-    is_reached[root] = true;
-    let mut waiting = VecDeque::from([root]);
-    while let Some(v) = waiting.pop_front() {
-        for h in mesh.outgoing(v) {
-            let tip = mesh.tip(h);
-            if !is_reached[tip] {
-                is_reached[tip] = true;
-                in_tree[h.edge()] = true;
-                waiting.push_back(tip);
+    let mut is_reached = vec![false; leaving.len()];
+    let roots = mesh.outgoing(root).filter(|&h| mesh.face(h).is_some()).map(at);
+    for first in roots.chain(node.iter().copied()) {
+        if std::mem::replace(&mut is_reached[first], true) {
+            continue;
+        }
+        let mut waiting = VecDeque::from([first]);
+        while let Some(v) = waiting.pop_front() {
+            for h in &leaving[v] {
+                let tip = at(mesh.next(*h));
+                if !is_reached[tip] {
+                    is_reached[tip] = true;
+                    in_tree[h.edge()] = true;
+                    waiting.push_back(tip);
+                }
             }
         }
     }
     in_tree
 }
 
-/// A tree of faces that are joined across edges outside `in_tree`: per face the half-edge of its parent that leads to it (none for the
-/// root), and per edge true if the tree crosses it.
-fn face_tree(mesh: &Mesh, in_tree: &PerEdge<bool>) -> (PerFace<Option<HalfedgeId>>, PerEdge<bool>) {
+/// A tree of the faces of each piece, which are joined across edges outside `in_tree` and no features: per face the half-edge of its parent
+/// that leads to it (none for the root), and per edge true if the tree crosses it.
+fn face_tree(
+    mesh: &Mesh,
+    sectors: &Sectors,
+    in_tree: &PerEdge<bool>,
+) -> (PerFace<Option<HalfedgeId>>, PerEdge<bool>) {
     let mut entry = PerFace::filled(mesh.n_faces(), None);
     let mut crossed = PerEdge::filled(mesh.n_edges(), false);
     let mut is_reached = PerFace::filled(mesh.n_faces(), false);
-    let mut waiting: VecDeque<_> = mesh.faces().take(1).collect();
-    waiting.iter().for_each(|&f| is_reached[f] = true);
-    while let Some(f) = waiting.pop_front() {
-        for h in mesh.face_halfedges(f) {
-            let Some(g) = mesh.face(h.twin()) else { continue };
-            if !in_tree[h.edge()] && !is_reached[g] {
-                is_reached[g] = true;
-                entry[g] = Some(h);
-                crossed[h.edge()] = true;
-                waiting.push_back(g);
+    for root in mesh.faces() {
+        if std::mem::replace(&mut is_reached[root], true) {
+            continue;
+        }
+        let mut waiting = VecDeque::from([root]);
+        while let Some(f) = waiting.pop_front() {
+            for h in mesh.face_halfedges(f) {
+                let Some(g) = mesh.face(h.twin()) else { continue };
+                if !in_tree[h.edge()] && !sectors.is_feature(h.edge()) && !is_reached[g] {
+                    is_reached[g] = true;
+                    entry[g] = Some(h);
+                    crossed[h.edge()] = true;
+                    waiting.push_back(g);
+                }
             }
         }
     }
     (entry, crossed)
 }
 
+/// The half-edges by which the tree of faces leads from its root to the face of h.
+fn from_root(mesh: &Mesh, entry: &PerFace<Option<HalfedgeId>>, h: HalfedgeId) -> Vec<HalfedgeId> {
+    let mut path = Vec::new();
+    let mut next = mesh.face(h).and_then(|f| entry[f]);
+    while let Some(x) = next {
+        path.push(x);
+        next = mesh.face(x).and_then(|f| entry[f]);
+    }
+    path.reverse();
+    path
+}
+
+/// The arc in the tree of faces that comes in over one feature and leaves over another, each given as the half-edge in the piece.
+fn arc(
+    mesh: &Mesh,
+    entry: &PerFace<Option<HalfedgeId>>,
+    from: HalfedgeId,
+    to: HalfedgeId,
+) -> Vec<HalfedgeId> {
+    let (back, on) = (from_root(mesh, entry, from), from_root(mesh, entry, to));
+    let common = back.iter().zip(&on).take_while(|(a, b)| a == b).count();
+    let away = back[common..].iter().rev().map(|x| x.twin());
+    [from.twin()].into_iter().chain(away).chain(on[common..].iter().copied()).chain([to]).collect()
+}
+
 /// The closed path that crosses h and is closed in the tree of faces, without the part that it would go there and back.
 fn closed_path(mesh: &Mesh, entry: &PerFace<Option<HalfedgeId>>, h: HalfedgeId) -> Vec<HalfedgeId> {
-    let from_root = |h: HalfedgeId| {
-        let mut path = Vec::new();
-        let mut next = mesh.face(h).and_then(|f| entry[f]);
-        while let Some(x) = next {
-            path.push(x);
-            next = mesh.face(x).and_then(|f| entry[f]);
-        }
-        path.reverse();
-        path
-    };
+    let from_root = |h| from_root(mesh, entry, h);
     let (to, back) = (from_root(h), from_root(h.twin()));
     let common = to.iter().zip(&back).take_while(|(a, b)| a == b).count();
     let home = back[common..].iter().rev().map(|x| x.twin());

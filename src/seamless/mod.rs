@@ -10,42 +10,55 @@
 //! # Ok::<(), ricci::Error>(())
 //! ```
 
+mod aligned_field;
+mod continuation;
+mod corner_choice;
 mod cross_field;
 mod dual_loops;
+mod field_guides;
 mod holonomy_state;
 mod least_norm;
 mod newton;
+mod sectors;
 mod signature;
+mod spin;
+mod start;
 mod turning_choice;
 
+pub use aligned_field::{CrossField, FieldGuide};
 pub use cross_field::field_cones;
 pub use dual_loops::DualLoops;
+pub use field_guides::{curvature_guides, sharp_edges, stroke_guides};
 pub use signature::ConeValence;
 
 use crate::control::Control;
 use crate::embed::{Layout, LayoutOptions};
 use crate::error::{Error, Result, check_size};
-use crate::flow::{Flow, Options, Solution, auto_cones};
-use crate::geometry::Space;
-use crate::mesh::{Mesh, PerVertex, VertexId};
-use crate::metric::{Class, Surface, Target};
+use crate::flow::Solution;
+use crate::mesh::{EdgeId, HalfedgeId, Mesh, PerVertex, VertexId};
+use crate::metric::Surface;
 use crate::parallel::Pool;
+use continuation::reach_by_stages;
 use holonomy_state::{HolonomyState, HolonomyTarget};
-use newton::{NewtonEnd, reach_holonomy};
-use signature::{MOST_CURVED, check_existence, cones_of_curvature, curvature_of_cones};
+use newton::{NewtonEnd, come_near};
+use sectors::Sectors;
+use signature::{check_existence, cones_of_sectors};
+use start::{chosen_right_angles, start_state};
 use std::f64::consts::FRAC_PI_2;
 use turning_choice::nearest_quarter_turns;
 
 /// The way in which the cones of a seamless metric are chosen.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub enum SeamlessCones {
-    /// Those of the smoothest field of four directions.
+    /// Those of the smoothest field of four directions: along features and the boundary, and near the guides, if there are any
+    /// ([`CrossField`]); else that of [`field_cones`].
     #[default]
     Field,
-    /// This many, placed so that areas change little ([`auto_cones`]), with their curvature rounded to quarter turns. The total is kept by
-    /// those that rounding changes most.
+    /// This many, placed so that areas change little ([`crate::flow::auto_cones`]), with their curvature rounded to quarter turns. The total
+    /// is kept by those that rounding changes most. Closed surfaces without features only.
     Auto(usize),
-    /// These; any other vertex is regular. The sum of 4 − valence is 4χ.
+    /// These; any other vertex inside has valence 4 and any other on the boundary has 2. The sum of 4 − valence, and of 2 − valence on the
+    /// boundary, is 4χ. Without features only.
     Valences(Vec<ConeValence>),
 }
 
@@ -54,9 +67,20 @@ pub enum SeamlessCones {
 pub struct SeamlessOptions {
     /// The cones.
     pub cones: SeamlessCones,
-    /// The turning of each loop in quarter turns, of the loops that [`DualLoops::new`] finds from vertex 0 on the triangulation of the
-    /// conformal metric with these cones. Default: the nearest to that metric's, in the energy of the field that turns by the difference.
+    /// The turning of each path in quarter turns, of the paths that [`DualLoops::along_features`] finds from vertex 0 on the triangulation of
+    /// the conformal metric with these cones. Default: the nearest to that metric's, in the energy of the field that turns by the difference.
     pub quarter_turns: Option<Vec<i32>>,
+    /// Edges that become straight and parallel to an axis, with angles of multiples of 90° where they meet. Edges of the boundary do so
+    /// anyway. Default none.
+    pub features: Vec<EdgeId>,
+    /// Directions that the field of [`SeamlessCones::Field`] is to be near. Default none.
+    pub guides: Vec<FieldGuide>,
+    /// Steps towards the lengths of the surface among all metrics with the same angles and turning. Default 0: the result is near the
+    /// conformal metric with these cones.
+    pub isometric_steps: usize,
+    /// Per vertex (V entries) the factor by which lengths near it are to be larger than those of the surface, for the isometric steps;
+    /// positive. Default: 1.
+    pub sizes: Option<PerVertex<f64>>,
     /// Largest deviation of an angle, around a vertex or along a loop, from the target, radians. Default 1e-10.
     pub tolerance: f64,
     /// Most Newton steps after the conformal flow. Default 100.
@@ -68,25 +92,41 @@ pub struct SeamlessOptions {
 impl Default for SeamlessOptions {
     fn default() -> Self {
         let cones = SeamlessCones::Field;
-        SeamlessOptions { cones, quarter_turns: None, tolerance: 1e-10, max_iterations: 100, threads: 0 }
+        SeamlessOptions {
+            cones,
+            quarter_turns: None,
+            features: Vec::new(),
+            guides: Vec::new(),
+            isometric_steps: 0,
+            sizes: None,
+            tolerance: 1e-10,
+            max_iterations: 100,
+            threads: 0,
+        }
     }
 }
 
 /// A metric whose angles around cones and along loops are multiples of 90°.
 #[derive(Debug, Clone)]
 pub struct Seamless {
-    /// The metric on its Delaunay triangulation, with the way back to the surface. Its report is that of the conformal flow before it.
+    /// The metric on its triangulation, which is Delaunay but for features, with the way back to the surface. Its report is that of the
+    /// conformal flow before it; none if that flow did not end and Newton's method began at the surface itself.
     pub solution: Solution,
-    /// The cones, by vertex.
+    /// The cones and the corners of the boundary, by vertex: all angles add up around a vertex, on all sides of features.
     pub cones: Vec<ConeValence>,
-    /// Loops that generate the homology, on the triangulation of the metric.
+    /// Paths whose turning decides that of all others, on the triangulation of the metric.
     pub loops: DualLoops,
-    /// Turning of each loop that was asked for, quarter turns.
+    /// Turning of each path that was asked for, quarter turns.
     pub quarter_turns: Vec<i32>,
+    /// The features and the edges of the boundary, on both triangulations.
+    pub features: Vec<EdgeId>,
     /// Steps of the conformal flow, and Newton steps after it.
     pub iterations: [usize; 2],
-    /// Largest deviation, radians, of the angle around a vertex from its target, and of the turning of loops that were found anew, from another
-    /// vertex, from multiples of 90°.
+    /// Root mean square over the edges of the change of 2 ln ℓ, less its mean, from the surface to the metric before the isometric steps and
+    /// after them; both the same without such steps.
+    pub length_changes: [f64; 2],
+    /// Largest deviation, radians, of the angle in a sector between features or around a vertex from its target, and of the turning of paths that
+    /// were found anew, from another vertex, from multiples of 90°.
     pub error: f64,
     /// The tolerance that was asked for.
     pub tolerance: f64,
@@ -98,17 +138,60 @@ impl Seamless {
         self.error <= self.tolerance
     }
 
+    /// The curvature that was asked for at each vertex, radians.
+    pub fn target(&self) -> PerVertex<f64> {
+        let mesh = self.solution.given();
+        let regular = |v| if mesh.is_boundary_vertex(v) { 2.0 } else { 4.0 };
+        let mut target = PerVertex::filled(mesh.n_vertices(), 0.0);
+        for &ConeValence { vertex, valence } in &self.cones {
+            target[vertex] = (regular(vertex) - f64::from(valence)) * FRAC_PI_2;
+        }
+        target
+    }
+
     /// The map into the plane, cut through all cones, on the common subdivision with the surface as it came where edges were flipped. Its
-    /// seams are exact ([`Layout::make_seams_exact`]).
+    /// seams are exact, and edges of the boundary are parallel to an axis exactly ([`Layout::make_seams_exact`]).
     ///
     /// # Errors
     /// Those of [`Layout::of_solution`] and [`Layout::make_seams_exact`].
     pub fn map(&self, control: &Control) -> Result<SeamlessMap> {
-        let cones = Some(self.cones.iter().map(|cone| cone.vertex).collect());
+        let given = self.solution.given();
+        let cones = self.cones.iter().map(|cone| cone.vertex).filter(|&v| !given.is_boundary_vertex(v));
+        let cones = Some(cones.collect());
         let options = LayoutOptions { cones, ..LayoutOptions::default() };
         let mut layout = Layout::of_solution(&self.solution, &options, control)?;
+        if let Some(h) = self.on_features(layout.mesh()).first() {
+            layout.align(*h)?;
+        }
         let moved = layout.make_seams_exact()?;
-        Ok(SeamlessMap { layout, moved })
+        let bend = self.bend(&layout);
+        Ok(SeamlessMap { layout, moved, bend })
+    }
+}
+
+impl Seamless {
+    /// Half-edges of a triangulation with the surface's vertices first that lie on features and the boundary and have a face.
+    fn on_features(&self, mesh: &Mesh) -> Vec<HalfedgeId> {
+        let given = self.solution.given();
+        let of_edge = |e: &EdgeId| {
+            let [a, b] = given.ends(*e);
+            let mut both = mesh.outgoing(a).filter(|&h| mesh.tip(h) == b);
+            // Of several edges between the same vertices any may be the feature.
+            let h = both.next().filter(|_| both.next().is_none())?;
+            Some(if mesh.is_outside(h) { h.twin() } else { h })
+        };
+        self.features.iter().filter_map(of_edge).collect()
+    }
+
+    /// [`SeamlessMap::bend`].
+    fn bend(&self, layout: &Layout) -> f64 {
+        let mesh = layout.mesh();
+        let off = |h: HalfedgeId| {
+            let [a, b] = [layout.uv(h), layout.uv(mesh.next(h))];
+            let turn = (b[1] - a[1]).atan2(b[0] - a[0]) / FRAC_PI_2;
+            (turn - turn.round()).abs() * FRAC_PI_2
+        };
+        self.on_features(mesh).into_iter().map(off).fold(0.0, f64::max)
     }
 }
 
@@ -119,126 +202,83 @@ pub struct SeamlessMap {
     pub layout: Layout,
     /// The largest distance by which a corner was moved to make the seams exact.
     pub moved: f64,
+    /// The largest angle, radians, between an axis and an edge of the boundary or a feature; 0 without any.
+    pub bend: f64,
 }
 
-/// A seamless metric of a closed surface near its conformal class: first the conformal metric with the cones, then least changes of the
+/// A seamless metric of a surface near its conformal class: first the conformal metric with the cones, then least changes of the
 /// logarithms of lengths, on the Delaunay triangulation, until the turning of 2g loops is what is asked for \[CZ24\]. Without loops, on a
 /// sphere, the conformal metric is seamless itself.
+///
+/// Edges of the boundary and features become straight lines parallel to an axis between corners of multiples of 90°. They are not flipped:
+/// angles between them are asked for one by one, and the turning of arcs between those that no feature joins. The flow then is only the
+/// start, and where it breaks triangles at features Newton's method begins at the surface itself.
 ///
 /// Not reaching the target is no error: [`Seamless::converged`] is false then, and nothing is claimed of whether such a metric exists.
 ///
 /// # Errors
 /// [`Error::TargetKind`] for cones that no metric has, and signatures that are known to be impossible (genus 1 and 2); [`Error::Argument`]
-/// for a surface with boundary or a tolerance that is not positive; [`Error::Size`] for quarter turns of another number than 2g; those of
-/// [`Flow::solve`]; [`Error::Cancelled`].
+/// for a tolerance that is not positive, features or guides that do not exist, sizes that are not positive, and a choice of cones that does
+/// not fit a boundary or features; [`Error::Size`] for quarter turns of another number than paths, and sizes of another than vertices;
+/// those of [`crate::Flow::solve`]; [`Error::Cancelled`].
 pub fn seamless(surface: &Surface, options: &SeamlessOptions, control: &Control) -> Result<Seamless> {
-    let mesh = surface.mesh();
-    if !mesh.is_closed() {
-        return Err(Error::argument("surface", "one with boundary", "closed, for a seamless metric"));
-    }
     if options.tolerance.is_nan() || options.tolerance <= 0.0 {
         return Err(Error::argument("tolerance", options.tolerance, "positive"));
     }
     Pool::new(options.threads)?.run(|| {
-        let curvature = chosen_cones(surface, &options.cones, control)?;
-        let conformal = conformal_metric(surface, &curvature, options, control)?;
-        let (mesh, metric, followed) = conformal.parts();
-        let loops = DualLoops::new(&mesh, VertexId(0))?;
-        let state = HolonomyState::new(mesh, metric, followed, loops)?;
+        let sectors = Sectors::new(surface.mesh(), &options.features)?;
+        let right_angles = chosen_right_angles(surface, &sectors, options, control)?;
+        let (start, state) = start_state(surface, sectors, &right_angles, options, control)?;
+        let radians = |k: &i32| f64::from(*k) * FRAC_PI_2;
+        let mut target =
+            HolonomyTarget { angles: right_angles.iter().map(radians).collect(), turning: Vec::new() };
         let quarter_turns = match &options.quarter_turns {
             Some(turns) => {
                 check_size("quarter turns", turns.len(), state.loops.len())?;
                 turns.clone()
             }
-            None => nearest_quarter_turns(&state)?,
+            None => nearest_quarter_turns(&state, &target)?,
         };
-        check_existence(surface.mesh().genus(), &curvature, &quarter_turns)?;
-        let radians = |k: &i32| f64::from(*k) * FRAC_PI_2;
-        let target = HolonomyTarget {
-            curvature: curvature.iter().map(radians).collect::<Vec<_>>().into(),
-            turning: quarter_turns.iter().map(radians).collect(),
-        };
-        let steps = conformal.report().map_or(0, |report| report.iterations);
-        let end = if quarter_turns.is_empty() {
+        if state.sectors.are_vertices() {
+            check_existence(&state.mesh, &state.loops, &right_angles, &quarter_turns)?;
+        }
+        target.turning = quarter_turns.iter().map(radians).collect();
+        let steps = start.report().map_or(0, |report| report.iterations);
+        let is_flow_enough = state.sectors.are_vertices() && quarter_turns.is_empty();
+        let mut end = if is_flow_enough {
             NewtonEnd { state, iterations: 0 }
         } else {
-            reach_holonomy(state, &target, options.max_iterations, control)?
+            reach_by_stages(state, &target, options, control)?
         };
-        let error = deviation(&end.state, &target)?;
-        let HolonomyState { mesh, metric, followed, loops, flips, .. } = end.state;
+        let before = end.state.length_change()?;
+        if deviation(&end.state, &target) <= options.tolerance {
+            end = come_near(end, &target, options.isometric_steps, control)?;
+        }
+        let (error, length_changes) = (deviation(&end.state, &target), [before, end.state.length_change()?]);
+        let HolonomyState { mesh, metric, followed, loops, flips, sectors, .. } = end.state;
         Ok(Seamless {
-            solution: conformal.at(mesh, metric, followed, flips),
-            cones: cones_of_curvature(&curvature),
+            solution: start.at(mesh, metric, followed, flips),
+            cones: cones_of_sectors(surface.mesh(), &sectors, &right_angles),
             loops,
             quarter_turns,
+            features: sectors.features(),
             iterations: [steps, end.iterations],
+            length_changes,
             error,
             tolerance: options.tolerance,
         })
     })
 }
 
-/// The curvature per vertex in quarter turns.
-fn chosen_cones(surface: &Surface, cones: &SeamlessCones, control: &Control) -> Result<PerVertex<i32>> {
-    let mesh = surface.mesh();
-    match cones {
-        SeamlessCones::Field => {
-            let curvature = field_cones(surface, control)?;
-            curvature_of_cones(mesh, &cones_of_curvature(&curvature))
-        }
-        SeamlessCones::Auto(n) => {
-            let placed = auto_cones(mesh, surface.lengths(), *n, control)?;
-            let curvature = rounded_to_quarters(mesh, &placed.cones);
-            curvature_of_cones(mesh, &cones_of_curvature(&curvature))
-        }
-        SeamlessCones::Valences(cones) => curvature_of_cones(mesh, cones),
-    }
-}
-
-/// Curvature of cones rounded to quarter turns such that the total is 4χ and no angle is below 90°.
-fn rounded_to_quarters(mesh: &Mesh, cones: &[(VertexId, f64)]) -> PerVertex<i32> {
-    let exact = |k: usize| cones[k].1 / FRAC_PI_2;
-    let mut quarters: Vec<i32> =
-        (0..cones.len()).map(|k| (exact(k).round() as i32).min(MOST_CURVED)).collect();
-    loop {
-        let missing = 4 * mesh.euler() - quarters.iter().map(|&k| i64::from(k)).sum::<i64>();
-        let step = missing.signum() as i32;
-        let off = |k: &usize| f64::from(step) * (exact(*k) - f64::from(quarters[*k]));
-        let most = (0..cones.len())
-            .filter(|&k| quarters[k] + step <= MOST_CURVED)
-            .max_by(|a, b| off(a).total_cmp(&off(b)));
-        match most {
-            Some(k) if step != 0 => quarters[k] += step,
-            _ => break,
-        }
-    }
-    let mut curvature = PerVertex::filled(mesh.n_vertices(), 0);
-    cones.iter().zip(&quarters).for_each(|(cone, &k)| curvature[cone.0] = k);
-    curvature
-}
-
-/// The conformal metric with these cones.
-fn conformal_metric(
-    surface: &Surface,
-    curvature: &PerVertex<i32>,
-    options: &SeamlessOptions,
-    control: &Control,
-) -> Result<Solution> {
-    let cones = cones_of_curvature(curvature);
-    let radians = |cone: &ConeValence| (cone.vertex, (4.0 - f64::from(cone.valence)) * FRAC_PI_2);
-    let target = Target::Cones(cones.iter().map(radians).collect());
-    let flow_options =
-        Options { tolerance: options.tolerance, threads: options.threads, ..Options::default() };
-    Flow::new(surface.clone(), Class::yamabe(Space::E2), &flow_options, control)?.solve(&target, control)
-}
-
 /// [`Seamless::error`].
-fn deviation(state: &HolonomyState, target: &HolonomyTarget) -> Result<f64> {
-    let curvature = state.curvature();
-    let around = curvature.iter().zip(target.curvature.iter()).map(|(is, wanted)| (is - wanted).abs());
+fn deviation(state: &HolonomyState, target: &HolonomyTarget) -> f64 {
+    let around =
+        state.sector_angles().into_iter().zip(&target.angles).map(|(is, wanted)| (is - wanted).abs());
     let asked = state.turning().into_iter().zip(&target.turning).map(|(is, wanted)| (is - wanted).abs());
     let last = VertexId::from(state.mesh.n_vertices() - 1);
-    let others = DualLoops::new(&state.mesh, last)?.turning(&state.mesh, &state.halfedge_angles());
+    let others = DualLoops::between(&state.mesh, &state.sectors, last);
+    let others = others.turning(&state.mesh, &state.halfedge_angles());
     let off = others.iter().map(|turning| turning - FRAC_PI_2 * (turning / FRAC_PI_2).round()).map(f64::abs);
-    Ok(around.chain(asked).chain(off).fold(0.0, f64::max))
+    let broken = if state.is_broken { f64::INFINITY } else { 0.0 };
+    around.chain(asked).chain(off).fold(broken, f64::max)
 }

@@ -18,6 +18,14 @@ const NEAR: f64 = 1e-7;
 /// Steps in a row that do not halve the error, after which the iteration is given up.
 const SLOW_STEPS: usize = 60;
 
+/// Halvings of an isometric step before the iteration ends.
+const SHORTENINGS: usize = 12;
+/// Most steps of Newton's method after an isometric step, and the largest error, radians, that they may leave.
+const RETURN_STEPS: usize = 12;
+const RETURNED: f64 = 5e-11;
+/// Least relative gain of an isometric step after which another one is made.
+const LEAST_GAIN: f64 = 1e-5;
+
 /// The end of the iteration.
 pub(super) struct NewtonEnd {
     pub state: HolonomyState,
@@ -51,7 +59,7 @@ pub(super) fn reach_holonomy(
         for _ in 0..HALVINGS {
             let tried = state.moved(&step, factor, control)?;
             let left = tried.residual(target);
-            if is_progress(&missing, &left) {
+            if !tried.is_broken && is_progress(&missing, &left) {
                 next = Some((tried, left));
                 break;
             }
@@ -71,6 +79,55 @@ pub(super) fn reach_holonomy(
         (state, missing) = (tried, left);
     }
     Ok(NewtonEnd { state, iterations: most_iterations })
+}
+
+/// Goes on among the metrics with the target's angles and turning, towards the λ that are wanted: each step is the one of least distance
+/// from there that keeps the angles to first order, shortened until that distance falls and Newton's method comes back to the target.
+///
+/// # Errors
+/// Those of [`reach_holonomy`].
+pub(super) fn come_near(
+    mut end: NewtonEnd,
+    target: &HolonomyTarget,
+    steps: usize,
+    control: &Control,
+) -> Result<NewtonEnd> {
+    let mut distance = end.state.length_change()?;
+    for k in 0..steps {
+        control.step(Stage::Flow, k as f64 / steps as f64)?;
+        let state = &end.state;
+        let penner = state.penner_coordinates()?;
+        let mut step: Vec<f64> = state.wanted.iter().zip(penner.iter()).map(|(to, is)| to - is).collect();
+        let rows = state.derivatives();
+        let along = |row: &Vec<(u32, f64)>| row.iter().map(|&(e, x)| x * step[e as usize]).sum::<f64>();
+        let right: Vec<f64> =
+            rows.iter().zip(state.residual(target)).map(|(row, missing)| missing - along(row)).collect();
+        let back = least_norm_solution(&rows, step.len(), &right)?;
+        step.iter_mut().zip(back).for_each(|(x, back)| *x += back);
+        let mut next = None;
+        let mut factor = 1.0;
+        for _ in 0..SHORTENINGS {
+            let moved = state.moved(&step, factor, control)?;
+            if !moved.is_broken {
+                let tried = reach_holonomy(moved, target, RETURN_STEPS, control)?;
+                let left = tried.state.residual(target);
+                let new_distance = tried.state.length_change()?;
+                if largest(&left) < RETURNED && new_distance < distance {
+                    next = Some((tried, new_distance));
+                    break;
+                }
+            }
+            factor *= 0.5;
+        }
+        let Some((tried, new_distance)) = next else { break };
+        let is_settled = new_distance > (1.0 - LEAST_GAIN) * distance;
+        let iterations = end.iterations + 1 + tried.iterations;
+        (end, distance) = (NewtonEnd { state: tried.state, iterations }, new_distance);
+        if is_settled {
+            break;
+        }
+    }
+    Ok(end)
 }
 
 /// True if a step leaves half of the error at most, or no more of it than before without having gone past the target.

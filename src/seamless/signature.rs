@@ -1,5 +1,8 @@
 //! The signature of a seamless metric: angles around cones and turning along loops, in quarter turns; and which signatures no metric has.
 
+use super::dual_loops::DualLoops;
+use super::sectors::Sectors;
+use super::spin::arf_invariant;
 use crate::error::{Error, Result};
 use crate::mesh::{Mesh, PerVertex, VertexId};
 
@@ -15,19 +18,34 @@ pub struct ConeValence {
     pub valence: u32,
 }
 
-/// The cones of a curvature in quarter turns (V entries), by vertex.
-pub(super) fn cones_of_curvature(curvature: &PerVertex<i32>) -> Vec<ConeValence> {
-    let cones = (0..curvature.len()).map(VertexId::from).filter(|&v| curvature[v] != 0);
-    cones.map(|vertex| ConeValence { vertex, valence: (4 - curvature[vertex]).max(0) as u32 }).collect()
+/// The cones and corners of sectors with these right angles, by vertex.
+pub(super) fn cones_of_sectors(mesh: &Mesh, sectors: &Sectors, right_angles: &[i32]) -> Vec<ConeValence> {
+    let mut valence = PerVertex::filled(mesh.n_vertices(), 0);
+    sectors.vertex.iter().zip(right_angles).for_each(|(&v, k)| valence[v] += k);
+    let is_cone = |&v: &VertexId| valence[v] != regular(mesh, v);
+    let cone = |vertex| ConeValence { vertex, valence: valence[vertex].max(0) as u32 };
+    mesh.vertices().filter(is_cone).map(cone).collect()
 }
 
-/// The curvature of cones in quarter turns, per vertex.
+/// The right angles around a vertex that is no cone or corner.
+fn regular(mesh: &Mesh, v: VertexId) -> i32 {
+    if mesh.is_boundary_vertex(v) { 2 } else { 4 }
+}
+
+/// The right angles of the sectors around vertices with these valences.
 ///
 /// # Errors
-/// [`Error::TargetKind`] for a vertex that does not exist or is named twice, a valence of 0, and a total other than 4χ.
-pub(super) fn curvature_of_cones(mesh: &Mesh, cones: &[ConeValence]) -> Result<PerVertex<i32>> {
+/// [`Error::TargetKind`] for a vertex that does not exist or is named twice, and a valence of 0; [`Error::Argument`] where features inside the
+/// surface divide the angles around a vertex.
+pub(super) fn given_right_angles(mesh: &Mesh, sectors: &Sectors, cones: &[ConeValence]) -> Result<Vec<i32>> {
     let refused = |message: String| Error::TargetKind { target: "cones", message };
-    let mut curvature = PerVertex::filled(mesh.n_vertices(), 0);
+    let is_divided = |s: usize| sectors.is_bounded(s) && !mesh.is_boundary_vertex(sectors.vertex[s]);
+    if sectors.len() != mesh.n_vertices() || (0..sectors.len()).any(is_divided) {
+        let need =
+            "those of the field where there are features, or where pieces of the surface meet at a vertex";
+        return Err(Error::argument("cones", "given valences", need));
+    }
+    let mut right_angles: Vec<i32> = mesh.vertices().map(|v| regular(mesh, v)).collect();
     let mut is_named = PerVertex::filled(mesh.n_vertices(), false);
     for &ConeValence { vertex, valence } in cones {
         if vertex.index() >= mesh.n_vertices() {
@@ -39,18 +57,13 @@ pub(super) fn curvature_of_cones(mesh: &Mesh, cones: &[ConeValence]) -> Result<P
         if std::mem::replace(&mut is_named[vertex], true) {
             return Err(refused(format!("vertex {vertex} is named twice")));
         }
-        let quarters = 4 - i64::from(valence);
-        if quarters > i64::from(MOST_CURVED) {
+        if valence == 0 {
             return Err(refused(format!("vertex {vertex} has valence 0; a cone has 1 or more")));
         }
-        curvature[vertex] = quarters as i32;
+        let too_many = |_| refused(format!("vertex {vertex} has valence {valence}, which is too large"));
+        right_angles[vertex.index()] = i32::try_from(valence).map_err(too_many)?;
     }
-    let total: i64 = curvature.iter().map(|&k| i64::from(k)).sum();
-    if total != 4 * mesh.euler() {
-        let wanted = 4 * mesh.euler();
-        return Err(refused(format!("the sum of 4 − valence is {total}; this surface has {wanted}")));
-    }
-    Ok(curvature)
+    Ok(right_angles)
 }
 
 /// Refuses signatures that no metric has. Those of this list are known to be impossible; of all others nothing is claimed.
@@ -59,15 +72,22 @@ pub(super) fn curvature_of_cones(mesh: &Mesh, cones: &[ConeValence]) -> Result<P
 /// - Genus 1, two cones of −a and a quarter turns, a dividing the turning of every loop \[IKRSS13\].
 /// - Genus 2, one cone of −8 or two of −6 and −2 quarter turns, all loops turning by half turns but not all by whole ones: the strata of
 ///   quadratic differentials with one zero of order 4, or two of 3 and 1, are empty \[MS93\].
+/// - Genus 2, one cone of −8 quarter turns, all loops turning by whole turns, with an Arf invariant of 0: Abelian differentials with one zero
+///   of order 2 have odd spin \[KZ03\].
 ///
 /// # Errors
 /// [`Error::TargetKind`], with the theorem.
-pub(super) fn check_existence(genus: usize, curvature: &PerVertex<i32>, quarter_turns: &[i32]) -> Result<()> {
+pub(super) fn check_existence(
+    mesh: &Mesh,
+    loops: &DualLoops,
+    right_angles: &[i32],
+    quarter_turns: &[i32],
+) -> Result<()> {
     let refused = |message: String| Err(Error::TargetKind { target: "seamless", message });
-    let mut cones: Vec<i32> = curvature.iter().copied().filter(|&k| k != 0).collect();
+    let mut cones: Vec<i32> = right_angles.iter().map(|k| 4 - k).filter(|&k| k != 0).collect();
     cones.sort_unstable();
     let all = |n: i32| quarter_turns.iter().all(|k| k % n == 0);
-    match (genus, &cones[..]) {
+    match (mesh.genus(), &cones[..]) {
         (1, []) if quarter_turns.iter().any(|&k| k != 0) => {
             refused("a flat torus without cones turns along no loop; ask for no turning, or for cones".into())
         }
@@ -76,6 +96,9 @@ pub(super) fn check_existence(genus: usize, curvature: &PerVertex<i32>, quarter_
         )),
         (2, [-8] | [-6, -2]) if all(2) && !all(4) => refused(
             "no surface of genus 2 has these cones with loops that turn by half turns, since no quadratic differential has such zeros [MS93]; ask for other cones".into(),
+        ),
+        (2, [-8]) if all(4) && !arf_invariant(mesh, loops, quarter_turns) => refused(
+            "no surface of genus 2 has one cone of valence 12 with these whole turns of its loops, whose Arf invariant is 0, since Abelian differentials with a double zero have odd spin [KZ03]; ask for other turning".into(),
         ),
         _ => Ok(()),
     }

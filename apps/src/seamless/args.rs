@@ -14,11 +14,15 @@ Example: a surface of genus 2 with eight cones of valence 5, in one piece of the
     ricci seamless two.obj --cones auto:8 --uv flat.obj --report flat.json
 
 Cones
-    field      those of the smoothest field of four directions
+    field      those of the smoothest field of four directions, along the boundary and features, near strokes and principal curvature
     auto:N     N cones placed so that areas change little, their angles rounded to multiples of 90°
-    V.csv      a table vertex,valence: the number of right angles around the vertex, 4 at all others; the sum of 4 − valence is 4χ
+    V.csv      a table vertex,valence: the number of right angles around the vertex, 4 at all others, 2 on the boundary; the sum of
+               4 − valence, and of 2 − valence on the boundary, is 4χ
+
+Edges of the boundary and features become straight and parallel to an axis between corners of multiples of 90°.
 
 Files
+    --field F.csv       the field in each face of the input, of which the cones come with --cones field: rows face,x,y,z, a direction of length 1
     --uv OUT.obj        the map as texture coordinates: each edge of a seam is, exactly in its decimal numbers, a rotation by a multiple of
                         90° and a translation of its other side
     --metric M.json     the metric on its own triangulation";
@@ -35,6 +39,25 @@ pub struct SeamlessArgs {
     #[arg(long, value_name = "K,K,…", value_delimiter = ',', allow_hyphen_values = true)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub turning: Option<Vec<i32>>,
+    /// Take edges at which the surface turns by this much as features
+    #[arg(long, value_name = "DEGREES", value_parser = crate::options::positive)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub features: Option<f64>,
+    /// Turn the field of --cones field along principal curvature, with this strength
+    #[arg(long, value_name = "STRENGTH", value_parser = crate::options::positive)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub curvature: Option<f64>,
+    /// Turn the field of --cones field along strokes: a table vertex,x,y,z of directions in space
+    #[arg(long, value_name = "S.csv")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub strokes: Option<PathBuf>,
+    /// Steps towards the lengths of the input with the same angles and turning
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub isometric: usize,
+    /// How much larger lengths near each vertex are to be for --isometric, at least one step: a table vertex,factor; 1 at all others
+    #[arg(long, value_name = "S.csv")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sizes: Option<PathBuf>,
     /// Largest deviation of an angle from a multiple of 90°, radians
     #[arg(long, value_name = "RADIANS", default_value_t = 1e-10, value_parser = crate::options::positive)]
     pub tolerance: f64,
@@ -44,6 +67,9 @@ pub struct SeamlessArgs {
     /// Write the way back from the faces and vertices of --uv to those of the input
     #[arg(long, value_name = "X.csv")]
     pub xref: Option<FileName>,
+    /// Write the field of four directions
+    #[arg(long, value_name = "F.csv")]
+    pub field: Option<FileName>,
     /// Write the metric
     #[arg(long, value_name = "M.json")]
     pub metric: Option<FileName>,

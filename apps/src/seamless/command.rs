@@ -15,7 +15,12 @@ use crate::solved::SolvedMetric;
 use crate::surface_layout::SurfaceLayout;
 use crate::uv::{self, UvOptions};
 use ricci::control::Stage;
-use ricci::seamless::{ConeValence, Seamless, SeamlessCones, SeamlessMap, SeamlessOptions, seamless};
+use ricci::mesh::PerVertex;
+use ricci::seamless::{
+    ConeValence, CrossField, Seamless, SeamlessCones, SeamlessMap, SeamlessOptions, curvature_guides,
+    seamless, sharp_edges, stroke_guides,
+};
+use std::io::Write;
 
 impl Job for SeamlessArgs {
     type Outcome = SeamlessOutcome;
@@ -31,28 +36,33 @@ impl Job for SeamlessArgs {
             ConesChoice::Table(path) => Some(path.as_path()),
             _ => None,
         };
-        let files = [&self.uv, &self.xref, &self.metric, &self.picture.picture, &self.common.report];
-        check_outputs(&[Some(&self.surface.file.mesh), table], &files.map(|file| file.as_deref()))
+        let inputs = [Some(&*self.surface.file.mesh), table, self.strokes.as_deref(), self.sizes.as_deref()];
+        let files =
+            [&self.uv, &self.xref, &self.field, &self.metric, &self.picture.picture, &self.common.report];
+        check_outputs(&inputs, &files.map(|file| file.as_deref()))
     }
 
     fn compute(&self, run: &mut CommandRun<'_>) -> Result<SeamlessOutcome, Failure> {
         let input = input::surface(&self.surface, &mut run.seconds, run.control)?;
-        if self.uv.is_some() && input.positions().is_none() {
-            return Err(Failure::Usage(format!("--uv: {NO_POSITIONS}")));
+        for (option, is_asked) in [("--uv", self.uv.is_some()), ("--field", self.field.is_some())] {
+            if is_asked && input.positions().is_none() {
+                return Err(Failure::Usage(format!("{option}: {NO_POSITIONS}")));
+            }
         }
-        let options = SeamlessOptions {
-            cones: cones(&self.cones, &input)?,
-            quarter_turns: self.turning.clone(),
-            tolerance: self.tolerance,
-            threads: self.common.threads,
-            ..SeamlessOptions::default()
+        let options = options(self, &input)?;
+        let field = match &self.field {
+            Some(_) => {
+                let make =
+                    || CrossField::new(&input.surface, &options.features, &options.guides, run.control);
+                Some(timed(&mut run.seconds.solve, make)?)
+            }
+            None => None,
         };
         let solve = || doing("solving", || seamless(&input.surface, &options, run.control));
         let found = timed(&mut run.seconds.solve, solve)?;
         let map = map(&input, &found, run)?;
-        let target = found.solution.final_target()?;
-        let metric = SolvedMetric::new(found.solution.clone(), target)?;
-        Ok(SeamlessOutcome { input, found, map, metric })
+        let metric = SolvedMetric::new(found.solution.clone(), Some(found.target()))?;
+        Ok(SeamlessOutcome { input, found, map, metric, field })
     }
 
     fn write(&self, outcome: &SeamlessOutcome, run: &mut CommandRun<'_>) -> Result<(), Failure> {
@@ -80,8 +90,56 @@ impl Job for SeamlessArgs {
                 run.failed.refuse(why, &asked);
             }
         }
+        if let Some(field) = &outcome.field {
+            run.file("field", self.field.as_deref(), |outputs, path| {
+                outputs.add(path, |out| write_field(out, input, field))
+            })?;
+        }
         run.file("metric", self.metric.as_deref(), |outputs, path| metric.write_metric(outputs, path))
     }
+}
+
+/// The options of the library.
+fn options(args: &SeamlessArgs, input: &Input) -> Result<SeamlessOptions, Failure> {
+    let n = input.mesh().n_vertices();
+    let surface = &input.surface;
+    let features = args.features.map(|degrees| sharp_edges(surface, degrees.to_radians())).transpose()?;
+    let mut guides = Vec::new();
+    if let Some(strength) = args.curvature {
+        guides.extend(curvature_guides(surface, strength)?);
+    }
+    if let Some(path) = &args.strokes {
+        guides.extend(stroke_guides(surface, &csv::read_directions(path, n)?)?);
+    }
+    let sizes = match &args.sizes {
+        Some(path) => {
+            let mut sizes = PerVertex::filled(n, 1.0);
+            csv::read_curvatures(path, n)?.into_iter().for_each(|(v, size)| sizes[v] = size);
+            Some(sizes)
+        }
+        None => None,
+    };
+    Ok(SeamlessOptions {
+        cones: cones(&args.cones, input)?,
+        quarter_turns: args.turning.clone(),
+        features: features.unwrap_or_default(),
+        guides,
+        isometric_steps: args.isometric.max(usize::from(sizes.is_some())),
+        sizes,
+        tolerance: args.tolerance,
+        threads: args.common.threads,
+        ..SeamlessOptions::default()
+    })
+}
+
+/// A direction of the field in each face, in space.
+fn write_field(out: &mut dyn Write, input: &Input, field: &CrossField) -> std::io::Result<()> {
+    writeln!(out, "face,x,y,z")?;
+    let Some(directions) = field.in_space(&input.surface) else { return Ok(()) };
+    for (f, [x, y, z]) in directions.iter().enumerate() {
+        writeln!(out, "{f},{x},{y},{z}")?;
+    }
+    Ok(())
 }
 
 fn cones(choice: &ConesChoice, input: &Input) -> Result<SeamlessCones, Failure> {
@@ -105,8 +163,8 @@ fn map(
     let control = run.control;
     control.step(Stage::Layout, 0.0)?;
     let lay_out = || -> ricci::Result<WrittenMap> {
-        let SeamlessMap { layout, moved } = found.map(control)?;
-        Ok(WrittenMap { laid: SurfaceLayout::new(input, &found.solution, layout)?, moved })
+        let SeamlessMap { layout, moved, bend } = found.map(control)?;
+        Ok(WrittenMap { laid: SurfaceLayout::new(input, &found.solution, layout)?, moved, bend })
     };
     match timed(&mut run.seconds.layout, lay_out) {
         Ok(map) => Ok(Ok(map)),

@@ -6,12 +6,15 @@ use crate::runner::{CommandRun, JobOutcome};
 use crate::say;
 use crate::solved::SolvedMetric;
 use crate::surface_layout::SurfaceLayout;
-use ricci::seamless::Seamless;
+use ricci::seamless::{CrossField, Seamless};
 use serde_json::json;
 use std::collections::BTreeMap;
 
 /// Largest distance, over the diameter of the map, by which a corner was moved to make the seams exact.
 const MOVED: f64 = 1e-9;
+
+/// Largest angle, radians, between an axis and a feature: angles off by up to 1e-10 each add up over the corners from one feature to another.
+const STRAIGHT: f64 = 1e-7;
 
 pub struct SeamlessOutcome {
     pub input: Input,
@@ -19,6 +22,8 @@ pub struct SeamlessOutcome {
     /// The map; why there is none, where it could not be made.
     pub map: Result<WrittenMap, String>,
     pub metric: SolvedMetric,
+    /// The field of four directions, if it is to be written.
+    pub field: Option<CrossField>,
 }
 
 /// The layout of a seamless metric, with exact seams.
@@ -26,6 +31,8 @@ pub struct WrittenMap {
     pub laid: SurfaceLayout,
     /// The largest distance by which a corner was moved to make the seams exact.
     pub moved: f64,
+    /// Largest angle, radians, between an axis and an edge of the boundary or a feature, once the map is turned to it; 0 without any.
+    pub bend: f64,
 }
 
 impl JobOutcome for SeamlessOutcome {
@@ -42,6 +49,9 @@ impl JobOutcome for SeamlessOutcome {
         }
         if let Ok(map) = map {
             map.laid.check_flipped(&mut checks);
+            if !found.features.is_empty() {
+                checks.add("straightness", map.bend, STRAIGHT);
+            }
             checks.add("moved_corners", map.moved / map.laid.layout.diameter, MOVED);
         }
         checks
@@ -63,6 +73,9 @@ impl JobOutcome for SeamlessOutcome {
             .with("cones", cones)
             .with("holonomy", found.quarter_turns.clone())
             .with("holonomy_error", found.error)
+            .with("length_changes", found.length_changes)
+            .with("straight_edges", found.features.len())
+            .with("straightness", map.as_ref().ok().map(|map| map.bend))
             .with("iterations", found.iterations[0] + found.iterations[1])
             .with("newton_iterations", found.iterations[1])
             .with("flips", found.solution.flips())

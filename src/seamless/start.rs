@@ -1,0 +1,136 @@
+//! The start of a seamless metric: the right angles of its sectors, and a metric near the one with these angles.
+
+use super::aligned_field::CrossField;
+use super::corner_choice::{check_totals, simplified};
+use super::cross_field::field_cones;
+use super::holonomy_state::HolonomyState;
+use super::sectors::Sectors;
+use super::signature::{MOST_CURVED, given_right_angles};
+use super::{SeamlessCones, SeamlessOptions};
+use crate::control::Control;
+use crate::error::{Error, Result, check_size};
+use crate::flow::{Flow, Options, Solution, auto_cones};
+use crate::geometry::Space;
+use crate::mesh::{Mesh, PerEdge, PerVertex, VertexId};
+use crate::metric::{Class, Surface, Target};
+use std::f64::consts::FRAC_PI_2;
+
+/// Most iterations of a flow beside features, which is only a start.
+const FLOW_ITERATIONS: usize = 60;
+
+/// The right angles of each sector.
+pub(super) fn chosen_right_angles(
+    surface: &Surface,
+    sectors: &Sectors,
+    options: &SeamlessOptions,
+    control: &Control,
+) -> Result<Vec<i32>> {
+    let mesh = surface.mesh();
+    let of_curvature = |curvature: PerVertex<i32>| curvature.iter().map(|k| 4 - k).collect::<Vec<_>>();
+    let right_angles = match &options.cones {
+        SeamlessCones::Field if sectors.are_vertices() && options.guides.is_empty() => {
+            of_curvature(field_cones(surface, control)?)
+        }
+        SeamlessCones::Field => {
+            let field = CrossField::along(surface, sectors, &options.guides, control)?;
+            simplified(mesh, sectors, field.right_angles(mesh, sectors))?
+        }
+        SeamlessCones::Auto(n) => {
+            if !sectors.are_vertices() {
+                let need = "those of the field or given ones, on a surface with boundary or features";
+                return Err(Error::argument("cones", "placed ones", need));
+            }
+            let placed = auto_cones(mesh, surface.lengths(), *n, control)?;
+            of_curvature(rounded_to_quarters(mesh, &placed.cones))
+        }
+        SeamlessCones::Valences(cones) => given_right_angles(mesh, sectors, cones)?,
+    };
+    check_totals(mesh, sectors, &right_angles)?;
+    Ok(right_angles)
+}
+
+/// Curvature of cones rounded to quarter turns such that the total is 4χ and no angle is below 90°.
+fn rounded_to_quarters(mesh: &Mesh, cones: &[(VertexId, f64)]) -> PerVertex<i32> {
+    let exact = |k: usize| cones[k].1 / FRAC_PI_2;
+    let mut quarters: Vec<i32> =
+        (0..cones.len()).map(|k| (exact(k).round() as i32).min(MOST_CURVED)).collect();
+    loop {
+        let missing = 4 * mesh.euler() - quarters.iter().map(|&k| i64::from(k)).sum::<i64>();
+        let step = missing.signum() as i32;
+        let off = |k: &usize| f64::from(step) * (exact(*k) - f64::from(quarters[*k]));
+        let most = (0..cones.len())
+            .filter(|&k| quarters[k] + step <= MOST_CURVED)
+            .max_by(|a, b| off(a).total_cmp(&off(b)));
+        match most {
+            Some(k) if step != 0 => quarters[k] += step,
+            _ => break,
+        }
+    }
+    let mut curvature = PerVertex::filled(mesh.n_vertices(), 0);
+    cones.iter().zip(&quarters).for_each(|(cone, &k)| curvature[cone.0] = k);
+    curvature
+}
+
+/// The conformal metric whose angles around vertices add up to these of their sectors; where features keep the flow from it, the surface
+/// itself on a triangulation that is Delaunay but for features.
+pub(super) fn start_state(
+    surface: &Surface,
+    sectors: Sectors,
+    right_angles: &[i32],
+    options: &SeamlessOptions,
+    control: &Control,
+) -> Result<(Solution, HolonomyState)> {
+    let mesh = surface.mesh();
+    let flat = |v| if mesh.is_boundary_vertex(v) { 2 } else { 4 };
+    let mut quarters = PerVertex::from_fn(mesh.n_vertices(), flat);
+    sectors.vertex.iter().zip(right_angles).for_each(|(&v, k)| quarters[v] -= k);
+    let target = Target::All(PerVertex::from_fn(mesh.n_vertices(), |v| f64::from(quarters[v]) * FRAC_PI_2));
+    let class = Class::yamabe(Space::E2);
+    let is_whole = sectors.are_vertices();
+    let flow_options = Options {
+        tolerance: options.tolerance,
+        threads: options.threads,
+        fixed_edges: options.features.clone(),
+        // A vertex that holds its size keeps the surface from being doubled; its curvature follows from the others.
+        pinned: if mesh.is_closed() { Vec::new() } else { vec![VertexId(0)] },
+        max_iterations: if is_whole { 0 } else { FLOW_ITERATIONS },
+        ..Options::default()
+    };
+    let flow = Flow::new(surface.clone(), class, &flow_options, control)
+        .and_then(|mut flow| flow.solve(&target, control));
+    match flow {
+        Err(Error::Cancelled) => return Err(Error::Cancelled),
+        Err(error) if is_whole => return Err(error),
+        Ok(solution) if is_whole || solution.converged() => {
+            let state = state_of(&solution, sectors.clone(), options)?;
+            if is_whole || !state.is_broken {
+                return Ok((solution, state));
+            }
+        }
+        _ => {}
+    }
+    let solution = Solution::delaunay(surface.clone(), class, &options.features, control)?;
+    let state = state_of(&solution, sectors, options)?;
+    Ok((solution, state))
+}
+
+/// The state of a metric, which is to be near the lengths of the surface times the sizes.
+fn state_of(solution: &Solution, sectors: Sectors, options: &SeamlessOptions) -> Result<HolonomyState> {
+    let (mesh, metric, followed) = solution.parts();
+    let mut state = HolonomyState::new(mesh, metric, followed, sectors)?;
+    let n = state.mesh.n_vertices();
+    let mut change = PerVertex::from_fn(n, |v| solution.initial().input_u[v] - state.metric.u[v]);
+    if let Some(sizes) = &options.sizes {
+        check_size("sizes", sizes.len(), n)?;
+        if let Some(size) = sizes.iter().find(|size| !(size.is_finite() && **size > 0.0)) {
+            return Err(Error::argument("size", size, "positive and finite"));
+        }
+        change = PerVertex::from_fn(n, |v| change[v] + sizes[v].ln());
+    }
+    let wanted = |e| {
+        let [a, b] = state.mesh.ends(e);
+        state.wanted[e] + change[a] + change[b]
+    };
+    state.wanted = PerEdge::from_fn(state.mesh.n_edges(), wanted);
+    Ok(state)
+}
