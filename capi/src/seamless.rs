@@ -3,7 +3,7 @@
 use crate::arrays::{self, copy_out};
 use crate::choice::choices;
 use crate::control::{self, ricci_control};
-use crate::failure::Outcome;
+use crate::failure::{Failure, Outcome};
 use crate::guard::{self, handle, shared};
 use crate::layout::ricci_layout;
 use crate::memory;
@@ -12,8 +12,12 @@ use crate::metric::{MetricState, ricci_metric};
 use crate::status::ricci_status;
 use crate::structs::{self, or, sized};
 use ricci::geometry::Model;
-use ricci::mesh::VertexId;
-use ricci::seamless::{ConeValence, Seamless, SeamlessCones, SeamlessOptions, seamless};
+use ricci::Surface;
+use ricci::mesh::{EdgeId, VertexId};
+use ricci::seamless::{
+    ConeValence, CrossField, FieldGuide, Seamless, SeamlessCones, SeamlessOptions, curvature_guides, seamless,
+    sharp_edges, stroke_guides,
+};
 use std::sync::Arc;
 
 pub struct ricci_seamless {
@@ -43,6 +47,16 @@ pub struct ricci_seamless_options {
     pub tolerance: f64,
     pub max_iterations: usize,
     pub threads: usize,
+    pub features: *const u32,
+    pub n_features: usize,
+    pub feature_angle: f64,
+    pub curvature: f64,
+    pub stroke_vertices: *const u32,
+    pub strokes: *const f64,
+    pub n_strokes: usize,
+    pub isometric_steps: usize,
+    pub sizes: *const f64,
+    pub n_sizes: usize,
 }
 // SAFETY: numbers and raw pointers; 8-byte alignment, size first.
 sized!(ricci_seamless_options, "options");
@@ -60,11 +74,46 @@ pub struct ricci_seamless_summary {
     pub n_flips: usize,
     pub error: f64,
     pub tolerance: f64,
+    pub n_features: usize,
+    pub conformal_change: f64,
+    pub length_change: f64,
 }
 // SAFETY: numbers; 8-byte alignment, size first.
 sized!(ricci_seamless_summary, "summary");
 
-fn read_options(options: *const ricci_seamless_options) -> Outcome<SeamlessOptions> {
+/// The features that are named by their ends, and the sharp edges.
+fn read_features(given: &ricci_seamless_options, surface: &Surface) -> Outcome<Vec<EdgeId>> {
+    let mesh = surface.mesh();
+    let mut features = Vec::new();
+    for ends in arrays::array::<[u32; 2]>("features", given.features.cast(), given.n_features)? {
+        let [a, b] = ends.map(VertexId);
+        let before = features.len();
+        if a.index() < mesh.n_vertices() {
+            features.extend(mesh.outgoing(a).filter(|&h| mesh.tip(h) == b).map(|h| h.edge()));
+        }
+        if features.len() == before {
+            return Err(Failure::argument(format!("features: there is no edge between the vertices {a} and {b}")));
+        }
+    }
+    if given.feature_angle != 0.0 {
+        features.extend(sharp_edges(surface, given.feature_angle)?);
+    }
+    Ok(features)
+}
+
+fn read_guides(given: &ricci_seamless_options, surface: &Surface) -> Outcome<Vec<FieldGuide>> {
+    let mut guides = Vec::new();
+    if given.curvature != 0.0 {
+        guides.extend(curvature_guides(surface, given.curvature)?);
+    }
+    let vertices = arrays::array("stroke_vertices", given.stroke_vertices, given.n_strokes)?;
+    let directions = arrays::array::<[f64; 3]>("strokes", given.strokes.cast(), given.n_strokes)?;
+    let strokes: Vec<_> = vertices.into_iter().map(VertexId).zip(directions).collect();
+    guides.extend(stroke_guides(surface, &strokes)?);
+    Ok(guides)
+}
+
+fn read_options(options: *const ricci_seamless_options, surface: &Surface) -> Outcome<SeamlessOptions> {
     let given = structs::read(options)?;
     let cones = match CONES.choose(given.cones)? {
         ConesRule::Field => SeamlessCones::Field,
@@ -84,6 +133,14 @@ fn read_options(options: *const ricci_seamless_options) -> Outcome<SeamlessOptio
         tolerance: or(given.tolerance, default.tolerance),
         max_iterations: if given.max_iterations == 0 { default.max_iterations } else { given.max_iterations },
         threads: given.threads,
+        features: read_features(&given, surface)?,
+        guides: if given.n_strokes > 0 || given.curvature != 0.0 {
+            read_guides(&given, surface)?
+        } else {
+            Vec::new()
+        },
+        isometric_steps: given.isometric_steps,
+        sizes: arrays::optional::<f64>("sizes", given.sizes, given.n_sizes)?.map(Into::into),
     })
 }
 
@@ -95,8 +152,8 @@ pub unsafe extern "C" fn ricci_seamless_new(
     result: *mut *mut ricci_seamless,
 ) -> ricci_status {
     guard::make(result, || {
-        let options = read_options(options)?;
         let mesh = shared(mesh)?;
+        let options = read_options(options, mesh.surface()?)?;
         let _reserve = memory::work(mesh.connectivity.n_vertices(), memory::FLOW)?;
         let found = seamless(mesh.surface()?, &options, &control::of(control))?;
         log::info!(
@@ -134,6 +191,9 @@ pub unsafe extern "C" fn ricci_seamless_summarise(
             n_flips: found.solution.flips(),
             error: found.error,
             tolerance: found.tolerance,
+            n_features: found.features.len(),
+            conformal_change: found.length_changes[0],
+            length_change: found.length_changes[1],
         };
         structs::write(figures, summary, size)
     })
@@ -159,6 +219,38 @@ pub unsafe extern "C" fn ricci_seamless_turning(
 ) -> ricci_status {
     guard::with(result, |ricci_seamless { found, .. }| {
         copy_out("quarter_turns", &found.quarter_turns, quarter_turns, capacity)
+    })
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_seamless_features(
+    result: *const ricci_seamless,
+    vertices: *mut u32,
+    capacity: usize,
+) -> ricci_status {
+    guard::with(result, |ricci_seamless { found, .. }| {
+        let given = found.solution.given();
+        let ends: Vec<[u32; 2]> = found.features.iter().map(|&e| given.ends(e).map(|v| v.0)).collect();
+        copy_out("vertices", &ends, vertices, capacity)
+    })
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_seamless_field(
+    mesh: *const ricci_mesh,
+    options: *const ricci_seamless_options,
+    control: *const ricci_control,
+    directions: *mut f64,
+    capacity: usize,
+) -> ricci_status {
+    guard::with(mesh, |mesh| {
+        let surface = mesh.surface()?;
+        let options = read_options(options, surface)?;
+        arrays::check_buffer("directions", 3 * surface.mesh().n_faces(), directions, capacity)?;
+        let _reserve = memory::work(mesh.connectivity.n_vertices(), memory::FLOW)?;
+        let field = CrossField::new(surface, &options.features, &options.guides, &control::of(control))?;
+        let none = || Failure::argument("a field of directions in space needs a mesh with positions".into());
+        copy_out("directions", &field.in_space(surface).ok_or_else(none)?, directions, capacity)
     })
 }
 

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Seamless metrics of every closed mesh, with the cones of the smoothest field and with a few placed cones, and of random signatures, as tables.
+"""Seamless metrics of every mesh with the cones of the smoothest field, of meshes with sharp edges along these, of closed ones with a few placed cones,
+and of random signatures, as tables.
 
 usage: docs/results/seamless.py [CORPUS [NAME…]] > docs/results/seamless.md     (after: cargo build --release -p ricci-apps)
 """
@@ -11,6 +12,8 @@ from page import build, euler, file_of, genus, judged, loops, main, meshes, seco
 TRIED, RANDOM_MESHES = 20, 6
 # Vertices up to which the outside program reads the written map.
 JUDGED = 70_000
+# The angle of sharp edges, degrees, and the most vertices of meshes with sharp edges.
+SHARP, CREASED = "40", 20_000
 
 HEAD = ["mesh", "V", "genus", "cones", "valences", "flow + Newton", "angles off by", "smallest and largest area ratio", "largest dilatation",
         "flipped, degenerate", "outside: seams, not exact, flipped, angles off", "s", "s of flow"]
@@ -23,13 +26,14 @@ def valences(cones):
     return ", ".join(f"{n} of {valence}" for valence, n in sorted(counts.items()))
 
 
-def row(run, mesh, cones):
+def row(run, mesh, cones, *options):
     [path] = run.fresh("uv.obj")
     name = f"{mesh['name']}, {cones}"
-    report = run.report(name, "seamless", file_of(mesh), "--cones", cones, "--uv", path, seconds=600)
+    report, why = run.try_report("seamless", file_of(mesh), "--cones", cones, "--uv", path, *options, seconds=600)
+    if report is None or not report["result"]["converged"]:
+        off = small(report["result"]["holonomy_error"]) if report else "–"
+        return [mesh["name"], mesh["V"], mesh["genus"], "not reached", str(why or "").strip()[:80], "–", off] + ["–"] * (len(HEAD) - 7)
     flow = run.report(f"{mesh['name']}, flow", "flow", file_of(mesh), "--space", "e2", "--uv", run.path("flow.obj"), seconds=600)
-    if report is None:
-        return None
     r = report["result"]
     seen = "–"
     if int(mesh["V"]) <= JUDGED and r["flipped_triangles"] is not None:
@@ -74,18 +78,37 @@ def signatures(run, mesh):
     return [mesh["name"], mesh["V"], mesh["genus"], f"{reached} of {TRIED}", steps[len(steps) // 2] if steps else "–", steps[-1] if steps else "–"]
 
 
+def has_sharp_edges(run, mesh):
+    report, _ = run.try_report("info", file_of(mesh), "--sharp", SHARP)
+    return report is not None and any(len(found) > 20 for found in sharp_edges(report["result"]))
+
+
+def sharp_edges(figures):
+    """Every list of sharp edges inside a report."""
+    if isinstance(figures, dict):
+        for name, value in figures.items():
+            yield from [value] if name == "sharp_edges" and isinstance(value, list) else sharp_edges(value)
+
+
 def content(run):
     closed = meshes(lambda mesh: loops(mesh) == 0)
+    every = meshes()
     head = f"""# Seamless metrics of scanned surfaces
 
-Made by `docs/results/seamless.py` with {build}: `ricci seamless MESH --uv`, every closed mesh of one component. *flow + Newton*: steps of the conformal flow
+Made by `docs/results/seamless.py` with {build}: `ricci seamless MESH --uv`, every mesh of one component; *not reached*: the refusal, or how far angles are off. *flow + Newton*: steps of the conformal flow
 with these cones and least-norm steps after it. *angles off by*: largest deviation, radians, around vertices and along loops that were found anew. *outside*: `check.py seamless`
 on the written file: edges of seams, those that are not exactly a rotation by a multiple of 90°, faces that it finds turned over or without area, largest deviation of an
 angle, radians. *s of flow*: `ricci flow --space e2 --uv` of the same mesh."""
     blocks = []
-    for title, cones in (("Cones of the smoothest field", "field"), ("Eight placed cones", "auto:8")):
-        rows = [cells for mesh in closed if (cells := run.keep([mesh["name"], cones], lambda: row(run, mesh, cones)))]
-        blocks.append(f"## {title}\n\n" + table(HEAD, rows))
+    creased = [mesh for mesh in every if int(mesh["V"]) <= CREASED and has_sharp_edges(run, mesh)]
+    for title, those, key, cones, options in (
+        ("Cones of the smoothest field, boundaries straight", every, "field", "field", ()),
+        (f"Sharp edges of {SHARP}° straight", creased, "sharp", "field", ("--features", SHARP)),
+        ("Eight placed cones", closed, "auto:8", "auto:8", ()),
+    ):
+        rows = [run.keep([mesh["name"], key], lambda: row(run, mesh, cones, *options)) for mesh in those]
+        reached = sum(cells[3] != "not reached" for cells in rows)
+        blocks.append(f"## {title}\n\nReached: {reached} of {len(rows)}.\n\n" + table(HEAD, rows))
     chosen = [mesh for mesh in closed if genus(mesh) > 0][:RANDOM_MESHES]
     blocks.append(f"""## Random signatures
 

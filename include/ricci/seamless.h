@@ -24,10 +24,13 @@ typedef struct ricci_seamless ricci_seamless;
 
 /** The way in which the cones of a seamless metric are chosen. */
 enum {
-    /** Those of the smoothest field of four directions. */
+    /**
+     * Those of the smoothest field of four directions: along features and the boundary, near strokes and
+     * principal curvature.
+     */
     RICCI_SEAMLESS_FIELD = 0,
     /** `n_cones` cones, placed so that areas change little, their angles rounded to multiples of 90 degrees.
-     */
+     * Closed surfaces without features only. */
     RICCI_SEAMLESS_AUTO = 1,
     /** The `vertices` with their `valences`. */
     RICCI_SEAMLESS_VALENCES = 2
@@ -46,16 +49,17 @@ typedef struct ricci_seamless_options {
     /** RICCI_SEAMLESS_VALENCES: the vertices of the cones. */
     const uint32_t *vertices;
     /**
-     * RICCI_SEAMLESS_VALENCES: the number of right angles around each, 1 or more; 4 at any other vertex. The
-     * sum of 4 - valence is 4 chi.
+     * RICCI_SEAMLESS_VALENCES: the number of right angles around each, 1 or more; 4 at any other vertex
+     * inside, 2 at any other on the boundary. The sum of 4 - valence, and of 2 - valence on the boundary, is
+     * 4 chi. Without features only.
      */
     const uint32_t *valences;
     /**
-     * The turning of each of the 2g loops, quarter turns; NULL: the nearest to that of the conformal metric
-     * with these cones.
+     * The turning of each of the `n_loops` paths, quarter turns; NULL: the nearest to that of the conformal
+     * metric with these cones.
      */
     const int32_t *quarter_turns;
-    /** Its entries, 2g. */
+    /** Its entries, `n_loops`. */
     size_t n_quarter_turns;
     /** Largest deviation of an angle from its target, radians; 0: 1e-10. */
     double tolerance;
@@ -63,6 +67,32 @@ typedef struct ricci_seamless_options {
     size_t max_iterations;
     /** Threads; 0: one for each core. */
     size_t threads;
+    /**
+     * Edges, by the two vertices at their ends, that become straight and parallel to an axis, with angles of
+     * multiples of 90 degrees where they meet; NULL: none. Edges of the boundary do so anyway.
+     */
+    const uint32_t *features;
+    /** The number of features. */
+    size_t n_features;
+    /** Edges at which the surface turns by so many radians are features too; 0: none. */
+    double feature_angle;
+    /** The strength by which the field is drawn along principal curvature; 0: not at all. */
+    double curvature;
+    /** Vertices at which the field is drawn along strokes; NULL: none. */
+    const uint32_t *stroke_vertices;
+    /** Their directions in space, 3 numbers each. */
+    const double *strokes;
+    /** The number of strokes. */
+    size_t n_strokes;
+    /** Steps towards the lengths of the surface with the same angles and turning; 0: none. */
+    size_t isometric_steps;
+    /**
+     * Per vertex the factor by which lengths near it are to be larger than those of the surface, for the
+     * isometric steps; NULL: 1.
+     */
+    const double *sizes;
+    /** Its entries, one for each vertex. */
+    size_t n_sizes;
 } ricci_seamless_options;
 
 /** Figures of a seamless metric. */
@@ -73,9 +103,12 @@ typedef struct ricci_seamless_summary {
     uint32_t converged;
     /** 0. */
     uint32_t reserved;
-    /** Cones. */
+    /** Cones, and corners of the boundary. */
     size_t n_cones;
-    /** Loops that generate the homology: 2g. */
+    /**
+     * Paths whose turning decides that of all others: 2g loops on a closed surface; between features and the
+     * boundary, two to a handle, and arcs to each walk along features from the first of its piece.
+     */
     size_t n_loops;
     /** Steps of the conformal flow. */
     size_t flow_iterations;
@@ -90,15 +123,25 @@ typedef struct ricci_seamless_summary {
     double error;
     /** The tolerance that was asked for. */
     double tolerance;
+    /** Features and edges of the boundary, which are straight. */
+    size_t n_features;
+    /**
+     * Root mean square over the edges of the change of twice the logarithm of lengths, less its mean, before
+     * the isometric steps.
+     */
+    double conformal_change;
+    /** The same in the result. */
+    double length_change;
 } ricci_seamless_summary;
 
 /**
- * A seamless metric of a closed surface near its conformal class: first the conformal metric with the cones,
- * then least changes of the logarithms of lengths until the loops turn as they are to.
+ * A seamless metric of a surface near its conformal class: first the conformal metric with the cones, then
+ * least changes of the logarithms of lengths until the loops turn as they are to. Edges of the boundary and
+ * features become straight lines parallel to an axis.
  *
  * Not reaching the target is RICCI_OK with `converged` 0. Deterministic.
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE, RICCI_ARGUMENT (a surface with boundary, an
- * unknown choice, a tolerance that is not positive), RICCI_WRONG_SIZE (quarter turns), RICCI_TARGET_KIND
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE, RICCI_ARGUMENT (an unknown
+ * choice, one that does not fit a boundary or features, a tolerance that is not positive), RICCI_WRONG_SIZE (quarter turns), RICCI_TARGET_KIND
  * (cones or a signature that no metric has), RICCI_EDGE_LENGTH, RICCI_TRIANGLE_INEQUALITY, RICCI_EDGE_WEIGHT,
  * RICCI_DOMAIN, RICCI_TOO_LARGE, RICCI_NO_MEMORY, RICCI_FACTORISATION, RICCI_CANCELLED.
  *
@@ -150,6 +193,34 @@ RICCI_API ricci_status ricci_seamless_turning(const ricci_seamless *result, int3
                                               size_t capacity);
 
 /**
+ * The features and the edges of the boundary, each by the vertices at its ends.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_WRONG_SIZE.
+ *
+ * @param result    the seamless metric.
+ * @param vertices  out: 2 `n_features` numbers.
+ * @param capacity  the room in `vertices`.
+ */
+RICCI_API ricci_status ricci_seamless_features(const ricci_seamless *result, uint32_t *vertices,
+                                               size_t capacity);
+
+/**
+ * The smoothest field of four directions along features and the boundary, near strokes and principal
+ * curvature: one of the directions in each face, a unit vector in space.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE, RICCI_ARGUMENT (a mesh without positions, a feature
+ * or vertex that does not exist), RICCI_BUFFER_TOO_SMALL, RICCI_NO_MEMORY, RICCI_FACTORISATION,
+ * RICCI_CANCELLED.
+ *
+ * @param mesh        the mesh.
+ * @param options     features, curvature and strokes; NULL for none.
+ * @param control     progress and cancellation; NULL for neither.
+ * @param directions  out: 3 numbers for each face.
+ * @param capacity    the room in `directions`.
+ */
+RICCI_API ricci_status ricci_seamless_field(const ricci_mesh *mesh, const ricci_seamless_options *options,
+                                            const ricci_control *control, double *directions,
+                                            size_t capacity);
+
+/**
  * The metric on its Delaunay triangulation. Its report is that of the conformal flow.
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_NO_MEMORY.
  *
@@ -159,7 +230,8 @@ RICCI_API ricci_status ricci_seamless_turning(const ricci_seamless *result, int3
 RICCI_API ricci_status ricci_seamless_metric(const ricci_seamless *result, ricci_metric **metric);
 
 /**
- * The map into the plane, cut through all cones. Each edge of a seam is exactly, in the doubles of
+ * The map into the plane, cut through all cones; edges of the boundary are parallel to an axis exactly, other
+ * features to rounding. Each edge of a seam is exactly, in the doubles of
  * ricci_layout_points, a rotation by a multiple of 90 degrees and a translation of its other side.
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_LAYOUT (a metric that has not converged), RICCI_TOO_LARGE,
  * RICCI_NO_MEMORY, RICCI_CANCELLED.

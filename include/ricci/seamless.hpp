@@ -22,12 +22,26 @@ public:
     std::vector<std::uint32_t> cones() const { return values<std::uint32_t>(ricci_seamless_cones, get()); }
     // The turning of each loop, quarter turns.
     std::vector<std::int32_t> turning() const { return values<std::int32_t>(ricci_seamless_turning, get()); }
+    // The vertices at the ends of each feature and edge of the boundary.
+    std::vector<std::uint32_t> features() const {
+        return values<std::uint32_t>(ricci_seamless_features, get());
+    }
     ricci::metric metric() const { return ricci::metric(make<ricci_metric>(ricci_seamless_metric, get())); }
     // The map into the plane, with exact seams.
     ricci::layout map(const control *watched = nullptr) const {
         return ricci::layout(make<ricci_layout>(ricci_seamless_map, get(), of(watched)));
     }
 };
+
+// The smoothest field of four directions along features, near strokes and principal curvature: a unit vector for
+// each face.
+inline std::vector<double> cross_field(const mesh &on,
+                                       const ricci_seamless_options &options = init<ricci_seamless_options>(),
+                                       const control *watched = nullptr) {
+    std::vector<double> directions(3 * on.summary().n_faces);
+    check(ricci_seamless_field(on.get(), &options, of(watched), directions.data(), directions.size()));
+    return directions;
+}
 
 } // namespace ricci
 

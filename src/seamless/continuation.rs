@@ -38,7 +38,7 @@ pub(super) fn reach_by_stages(
     for _ in 0..STAGES {
         let next = f64::min(done + share, 1.0);
         let between = between(&from, target, next);
-        let end = reach_holonomy(state.clone(), &between, STAGE_STEPS, control)?;
+        let end = reach_holonomy(state.clone(), &between, STAGE_STEPS.min(options.max_iterations), control)?;
         iterations += end.iterations;
         if error_of(&end.state, &between) <= STAGE_ERROR {
             (state, done) = (end.state, next);

@@ -42,6 +42,7 @@ mod range;
 mod refine;
 mod repair;
 mod seamless;
+mod seamless_features;
 mod shapes;
 mod solution;
 mod solver;

@@ -171,7 +171,12 @@ fn impossible_signatures_are_refused_by_name() {
     assert!(is_refused(with(valences(&[(0, 0), (1, 8)]), None), "valence 0"));
     assert!(matches!(with(valences(&[]), Some(vec![0])), Err(Error::Size { .. })));
     let disk = Surface::from_soup(&shapes::disk(4).unwrap()).unwrap();
-    assert!(seamless(&disk, &SeamlessOptions::default(), &Control::new()).is_err());
+    let on_disk = |cones| {
+        let options = SeamlessOptions { cones, ..SeamlessOptions::default() };
+        seamless(&disk, &options, &Control::new())
+    };
+    assert!(matches!(on_disk(SeamlessCones::Auto(4)), Err(Error::Argument { .. })));
+    assert!(is_refused(on_disk(valences(&[])), "on the boundary"));
 }
 
 #[test]

@@ -45,7 +45,7 @@ from ricci.maps import Map
 from ricci.matching import Matching, match
 from ricci.mesh import Mesh, read
 from ricci.metrics import Metric, Report, Solver, flow, metric
-from ricci.seams import Seamless, seamless
+from ricci.seams import Seamless, cross_field, seamless
 from ricci.shapes import change, hyperelliptic_periods, make
 from ricci.soup import Defect, Hole, Loop, Soup
 from ricci.splines import Spline, flat_metric, spline, spline_domain
@@ -109,6 +109,7 @@ __all__ = [
     "circles",
     "cohort",
     "cover",
+    "cross_field",
     "deck",
     "dirichlet",
     "flat_metric",

@@ -12,7 +12,7 @@ from ricci import _arrays
 from ricci._arrays import frozen
 from ricci._call import CONTROL, Handle, constant, filled, summary
 from ricci._library import lib
-from ricci._structs import Write, above_zero, number, options
+from ricci._structs import Write, above_zero, index_list, number, options, real_list
 from ricci.adapters import MeshLike, as_mesh
 from ricci.control import Progress
 from ricci.errors import ArgumentError, warn
@@ -20,7 +20,7 @@ from ricci.figures import SeamlessSummary
 from ricci.layouts import Layout
 from ricci.metrics import Metric
 
-__all__ = ["Seamless", "SeamlessOptions", "seamless"]
+__all__ = ["Seamless", "SeamlessOptions", "cross_field", "seamless"]
 
 
 class SeamlessOptions(TypedDict, total=False):
@@ -29,11 +29,17 @@ class SeamlessOptions(TypedDict, total=False):
     Attributes:
         cones: ``"field"``: those of the smoothest field of four directions; a number: so many, placed so that areas change little, their
             angles rounded to multiples of 90 degrees; a mapping from vertices to valences, the number of right angles around each: the sum
-            of 4 - valence is 4 chi.
-        quarter_turns: the turning of each of the 2g loops; the nearest to that of the conformal metric with these cones.
+            of 4 - valence, and of 2 - valence on the boundary, is 4 chi.
+        quarter_turns: the turning of each of the `n_loops` paths; the nearest to that of the conformal metric with these cones.
         tolerance: largest deviation of an angle from its target, radians; 1e-10.
         max_iterations: most Newton steps after the conformal flow; 100.
         threads: one for each core.
+        features: m x 2 vertices: edges that become straight and parallel to an axis. Edges of the boundary do so anyway.
+        feature_angle: edges at which the surface turns by so many radians are features too.
+        curvature: the strength by which the field is drawn along principal curvature.
+        strokes: a mapping from vertices to directions in space, which the field is drawn along.
+        isometric_steps: steps towards the lengths of the surface with the same angles and turning; none.
+        sizes: for each vertex the factor by which lengths near it are to be larger, for the isometric steps.
     """
 
     cones: str | int | dict[int, int]
@@ -41,6 +47,12 @@ class SeamlessOptions(TypedDict, total=False):
     tolerance: float
     max_iterations: int
     threads: int
+    features: npt.ArrayLike
+    feature_angle: float
+    curvature: float
+    strokes: dict[int, npt.ArrayLike]
+    isometric_steps: int
+    sizes: npt.ArrayLike
 
 
 def _cones(struct: Any, field: str, value: Any) -> None:
@@ -67,12 +79,24 @@ def _quarter_turns(struct: Any, field: str, value: Any) -> None:
     struct.put("n_quarter_turns", len(turns))
 
 
+def _strokes(struct: Any, field: str, value: Any) -> None:
+    struct.put("stroke_vertices", _arrays.indices(list(value.keys()), None, field))
+    struct.put(field, _arrays.real(np.array(list(value.values()), float), 3, field))
+    struct.put("n_strokes", len(value))
+
+
 _SEAMLESS: dict[str, Write] = {
     "cones": _cones,
     "quarter_turns": _quarter_turns,
     "tolerance": above_zero,
     "max_iterations": above_zero,
     "threads": number,
+    "features": index_list("n_features", 2),
+    "feature_angle": above_zero,
+    "curvature": above_zero,
+    "strokes": _strokes,
+    "isometric_steps": number,
+    "sizes": real_list(count="n_sizes"),
 }
 
 
@@ -103,6 +127,11 @@ class Seamless(Handle):
         return frozen(filled(lib.ricci_seamless_turning, self, out=np.empty(self.summary.n_loops, np.int32)))
 
     @cached_property
+    def features(self) -> npt.NDArray[np.uint32]:
+        """The features and the edges of the boundary, each by the vertices at its ends."""
+        return frozen(filled(lib.ricci_seamless_features, self, out=np.empty((self.summary.n_features, 2), np.uint32)))
+
+    @cached_property
     def metric(self) -> Metric:
         """The metric on its Delaunay triangulation. Its report is that of the conformal flow."""
         return Metric._made(lib.ricci_seamless_metric, self)
@@ -116,22 +145,22 @@ class Seamless(Handle):
 
 
 def seamless(V: MeshLike, F: npt.ArrayLike | None = None, progress: Progress = None, **given: Unpack[SeamlessOptions]) -> Seamless:
-    """A seamless metric of a closed surface near its conformal class.
+    """A seamless metric of a surface near its conformal class.
 
     First the conformal metric with the cones, then least changes of the logarithms of lengths until 2g loops turn by multiples of
-    90 degrees.
+    90 degrees. Edges of the boundary and features become straight lines parallel to an axis.
 
     Args:
         V: n x 3 positions with `F`, or a mesh of any kind (`as_mesh`).
         F: m x 3 vertex indices.
         progress: a `Control` or a callback.
-        given: cones, quarter_turns, tolerance, max_iterations, threads (`SeamlessOptions`).
+        given: cones, quarter_turns, features, isometric_steps and others (`SeamlessOptions`).
 
     Warns:
         NotConverged: the target was not reached; whether a metric with this signature exists is not known.
 
     Raises:
-        ArgumentError: a surface with boundary.
+        ArgumentError: features or strokes that do not exist; a choice of cones that does not fit a boundary or features.
         TargetError: cones or a signature that no metric has.
     """
     struct = options("seamless_options", given, _SEAMLESS)
@@ -139,3 +168,25 @@ def seamless(V: MeshLike, F: npt.ArrayLike | None = None, progress: Progress = N
     if not made.converged:
         warn(f"the seamless metric did not converge: angles are off by {made.summary.error:.1e}; try other cones or quarter turns")
     return made
+
+
+def cross_field(
+    V: MeshLike, F: npt.ArrayLike | None = None, progress: Progress = None, **given: Unpack[SeamlessOptions]
+) -> npt.NDArray[np.float64]:
+    """The smoothest field of four directions along features and the boundary, near strokes and principal curvature.
+
+    Args:
+        V: n x 3 positions with `F`, or a mesh of any kind (`as_mesh`).
+        F: m x 3 vertex indices.
+        progress: a `Control` or a callback.
+        given: features, feature_angle, curvature, strokes (`SeamlessOptions`); others are passed over.
+
+    Returns:
+        m x 3: one of the four directions in each face, a unit vector.
+
+    Raises:
+        ArgumentError: a mesh without positions; features or strokes that do not exist.
+    """
+    mesh = as_mesh(V, F)
+    struct = options("seamless_options", given, _SEAMLESS)
+    return filled(lib.ricci_seamless_field, mesh, struct, CONTROL, out=np.empty((mesh.summary.n_faces, 3)), progress=progress)

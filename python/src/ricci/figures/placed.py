@@ -164,14 +164,18 @@ class SeamlessSummary:
 
     Attributes:
         converged: true if every angle is within the tolerance of its target.
-        n_cones: cones.
-        n_loops: loops that generate the homology: 2g.
+        n_cones: cones, and corners of the boundary.
+        n_loops: paths whose turning decides that of all others: 2g loops on a closed surface without features.
         flow_iterations: steps of the conformal flow.
         iterations: Newton steps after it.
         n_flips: edge flips.
         error: largest deviation, radians, of the angle around a vertex from its target, and of the turning of loops that were found
             anew, from another vertex, from multiples of 90 degrees.
         tolerance: the tolerance that was asked for.
+        n_features: features and edges of the boundary, which are straight.
+        conformal_change: root mean square over the edges of the change of twice the logarithm of lengths, less its mean, before the
+            isometric steps.
+        length_change: the same in the result.
     """
 
     converged: bool
@@ -182,6 +186,9 @@ class SeamlessSummary:
     n_flips: int
     error: float
     tolerance: float
+    n_features: int
+    conformal_change: float
+    length_change: float
 
 
 @dataclass(frozen=True)
