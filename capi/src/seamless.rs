@@ -11,12 +11,12 @@ use crate::mesh::ricci_mesh;
 use crate::metric::{MetricState, ricci_metric};
 use crate::status::ricci_status;
 use crate::structs::{self, or, sized};
-use ricci::geometry::Model;
 use ricci::Surface;
+use ricci::geometry::Model;
 use ricci::mesh::{EdgeId, VertexId};
 use ricci::seamless::{
-    ConeValence, CrossField, FieldGuide, Seamless, SeamlessCones, SeamlessOptions, curvature_guides, seamless,
-    sharp_edges, stroke_guides,
+    ConeValence, CrossField, FieldGuide, Seamless, SeamlessCones, SeamlessOptions, curvature_guides,
+    seamless, sharp_edges, stroke_guides,
 };
 use std::sync::Arc;
 
@@ -92,7 +92,9 @@ fn read_features(given: &ricci_seamless_options, surface: &Surface) -> Outcome<V
             features.extend(mesh.outgoing(a).filter(|&h| mesh.tip(h) == b).map(|h| h.edge()));
         }
         if features.len() == before {
-            return Err(Failure::argument(format!("features: there is no edge between the vertices {a} and {b}")));
+            return Err(Failure::argument(format!(
+                "features: there is no edge between the vertices {a} and {b}"
+            )));
         }
     }
     if given.feature_angle != 0.0 {
@@ -249,7 +251,7 @@ pub unsafe extern "C" fn ricci_seamless_field(
         arrays::check_buffer("directions", 3 * surface.mesh().n_faces(), directions, capacity)?;
         let _reserve = memory::work(mesh.connectivity.n_vertices(), memory::FLOW)?;
         let field = CrossField::new(surface, &options.features, &options.guides, &control::of(control))?;
-        let none = || Failure::argument("a field of directions in space needs a mesh with positions".into());
+        let none = || Failure::argument("a field of directions in space needs a mesh with positions");
         copy_out("directions", &field.in_space(surface).ok_or_else(none)?, directions, capacity)
     })
 }

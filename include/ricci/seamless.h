@@ -70,6 +70,7 @@ typedef struct ricci_seamless_options {
     /**
      * Edges, by the two vertices at their ends, that become straight and parallel to an axis, with angles of
      * multiples of 90 degrees where they meet; NULL: none. Edges of the boundary do so anyway.
+     * Those around a piece with too few vertices to have right angles in all its corners are left out.
      */
     const uint32_t *features;
     /** The number of features. */

@@ -45,5 +45,28 @@ def test_what_cannot_be_is_refused(surface: ricci.Mesh) -> None:
         ricci.seamless(surface, quarter_turns=[0.5, 0, 0, 0])
     with pytest.raises(ricci.ArgumentError, match="field"):
         ricci.seamless(surface, cones="few")
-    with pytest.raises(ricci.ArgumentError, match="closed"):
-        ricci.seamless(ricci.make("disk", n=4))
+    with pytest.raises(ricci.ArgumentError, match="boundary"):
+        ricci.seamless(ricci.make("disk", n=4), cones=4)
+    with pytest.raises(ricci.ArgumentError, match="no edge"):
+        ricci.seamless(surface, features=[[0, 10**6]])
+
+
+def test_boundaries_become_straight() -> None:
+    made = ricci.seamless(ricci.make("disk", n=5), isometric_steps=2)
+    assert made.converged
+    assert made.summary.length_change <= made.summary.conformal_change
+    layout = made.map()
+    faces, corners, points = layout.mesh.F, layout.corners("refinement"), layout.points()
+    sides = {}
+    for f, c in zip(faces, corners, strict=True):
+        for k in range(3):
+            sides[int(f[k]), int(f[(k + 1) % 3])] = points[c[(k + 1) % 3]] - points[c[k]]
+    outer = [side for (a, b), side in sides.items() if (b, a) not in sides]
+    assert len(outer) == made.features.shape[0] == 30
+    assert all(0.0 in side for side in outer)
+
+
+def test_the_field_is_a_unit_vector_in_each_face(surface: ricci.Mesh) -> None:
+    field = ricci.cross_field(surface, curvature=1.0, strokes={0: [1.0, 0.0, 0.0]})
+    assert field.shape == surface.F.shape
+    assert np.allclose(np.linalg.norm(field, axis=1), 1.0)

@@ -1,8 +1,8 @@
 //! Far targets, come to by way of targets between.
 
-use super::SeamlessOptions;
 use super::holonomy_state::{HolonomyState, HolonomyTarget};
 use super::newton::{NewtonEnd, reach_holonomy};
+use super::options::SeamlessOptions;
 use crate::control::Control;
 use crate::error::Result;
 
@@ -10,10 +10,10 @@ use crate::error::Result;
 const FIRST_SHARE: f64 = 0.25;
 const LEAST_SHARE: f64 = 1.0 / 128.0;
 /// Most Newton steps of a stage, and the largest error, radians, that the next stage may begin with.
-const STAGE_STEPS: usize = 15;
+const STAGE_STEPS: usize = 10;
 const STAGE_ERROR: f64 = 1e-3;
 /// Most stages.
-const STAGES: usize = 60;
+const STAGES: usize = 24;
 
 /// Moves the metric to the target; where Newton's method does not reach it at once, along targets between what the metric has and what is
 /// asked for. The end is the better one of both.

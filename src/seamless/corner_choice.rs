@@ -51,21 +51,19 @@ impl Neighbours {
 /// sector has too little comes from the nearest that can spare it: one off features with 2 or more, or one with more than is straight.
 ///
 /// # Errors
-/// [`Error::TargetKind`] for a piece in which there is not enough to give every sector a right angle.
-pub(super) fn simplified(mesh: &Mesh, sectors: &Sectors, mut right_angles: Vec<i32>) -> Result<Vec<i32>> {
+/// A sector of a piece in which there is not enough to give every sector a right angle.
+pub(super) fn simplified(
+    mesh: &Mesh,
+    sectors: &Sectors,
+    mut right_angles: Vec<i32>,
+) -> std::result::Result<Vec<i32>, usize> {
     let neighbours = Neighbours::new(mesh, sectors);
     for sector in 0..sectors.len() {
         while right_angles[sector] < 1 {
             let can_spare = |s: usize| right_angles[s] > if sectors.is_bounded(s) { 2 } else { 1 };
             let giver = neighbours.nearest(sector, can_spare);
             let any = || neighbours.nearest(sector, |s| right_angles[s] > 1);
-            let Some(giver) = giver.or_else(any) else {
-                let message = format!(
-                    "around vertex {} no sector between features can have a right angle; have fewer features",
-                    sectors.vertex[sector]
-                );
-                return Err(Error::TargetKind { target: "seamless", message });
-            };
+            let giver = giver.or_else(any).ok_or(sector)?;
             right_angles[giver] -= 1;
             right_angles[sector] += 1;
         }

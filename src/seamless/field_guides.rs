@@ -78,8 +78,8 @@ fn principal(places: [Point; 3], normals: [Vector; 3]) -> Option<(f64, f64)> {
             }
         }
     }
-    let form = solve_definite(&matrix, &[right]).ok()?;
-    let [a, b, c] = form.first()?[..] else { return None };
+    let right: Vec<_> = right.into_iter().map(|x| vec![x]).collect();
+    let [a, b, c] = solve_definite(&matrix, &right).ok()?.concat()[..] else { return None };
     let difference = (a - c).hypot(2.0 * b);
     let angle = 0.5 * (2.0 * b).atan2(a - c);
     let size = frame.area * difference * difference;

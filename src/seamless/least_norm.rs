@@ -5,9 +5,9 @@ use crate::error::{Error, Result};
 use crate::linalg::{Cholesky, Pattern, Symmetric};
 use sprs::{CsMat, TriMat};
 
-/// Shift of the normal equations, relative to their mean diagonal, if they have no factor without it: on translation surfaces two of the
-/// equations depend on the others.
-const SHIFT: f64 = 1e-13;
+/// Shifts of the normal equations, relative to their mean diagonal, of which the first is taken with which they have a factor, if they have
+/// none without: on translation surfaces two of the equations depend on the others, and on cylinders between features one does.
+const SHIFTS: [f64; 3] = [1e-13, 1e-11, 1e-9];
 /// Times that the solution is improved by its residual: the normal equations have the squared condition number of the rows.
 const REFINEMENTS: usize = 2;
 
@@ -32,15 +32,17 @@ pub(super) fn least_norm_solution(rows: &DerivativeRows, columns: usize, right: 
         }
     }
     let mut cholesky = Cholesky::analyse(&pattern)?;
-    if cholesky.factor(Symmetric { pattern: &pattern, values: &values }).is_err() {
-        let mean = (0..n).map(|i| values[pattern.diagonal(i)]).sum::<f64>() / n.max(1) as f64;
+    let mean = (0..n).map(|i| values[pattern.diagonal(i)]).sum::<f64>() / n.max(1) as f64;
+    let mut has_factor_with = |shift: f64| {
         let mut shifted = values.clone();
-        (0..n).for_each(|i| shifted[pattern.diagonal(i)] += SHIFT * mean);
-        let failed = |_| Error::Factorisation {
+        (0..n).for_each(|i| shifted[pattern.diagonal(i)] += shift * mean);
+        cholesky.factor(Symmetric { pattern: &pattern, values: &shifted }).is_ok()
+    };
+    if ![0.0].iter().chain(&SHIFTS).any(|&shift| has_factor_with(shift)) {
+        return Err(Error::Factorisation {
             size: n,
             message: "equations for angles around vertices and handles depend on each other".into(),
-        };
-        cholesky.factor(Symmetric { pattern: &pattern, values: &shifted }).map_err(failed)?;
+        });
     }
     let matrix = Symmetric { pattern: &pattern, values: &values };
     let mut multipliers = right.to_vec();

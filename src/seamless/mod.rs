@@ -19,6 +19,7 @@ mod field_guides;
 mod holonomy_state;
 mod least_norm;
 mod newton;
+mod options;
 mod sectors;
 mod signature;
 mod spin;
@@ -29,6 +30,7 @@ pub use aligned_field::{CrossField, FieldGuide};
 pub use cross_field::field_cones;
 pub use dual_loops::DualLoops;
 pub use field_guides::{curvature_guides, sharp_edges, stroke_guides};
+pub use options::{SeamlessCones, SeamlessOptions};
 pub use signature::ConeValence;
 
 use crate::control::Control;
@@ -41,70 +43,10 @@ use crate::parallel::Pool;
 use continuation::reach_by_stages;
 use holonomy_state::{HolonomyState, HolonomyTarget};
 use newton::{NewtonEnd, come_near};
-use sectors::Sectors;
 use signature::{check_existence, cones_of_sectors};
 use start::{chosen_right_angles, start_state};
 use std::f64::consts::FRAC_PI_2;
 use turning_choice::nearest_quarter_turns;
-
-/// The way in which the cones of a seamless metric are chosen.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub enum SeamlessCones {
-    /// Those of the smoothest field of four directions: along features and the boundary, and near the guides, if there are any
-    /// ([`CrossField`]); else that of [`field_cones`].
-    #[default]
-    Field,
-    /// This many, placed so that areas change little ([`crate::flow::auto_cones`]), with their curvature rounded to quarter turns. The total
-    /// is kept by those that rounding changes most. Closed surfaces without features only.
-    Auto(usize),
-    /// These; any other vertex inside has valence 4 and any other on the boundary has 2. The sum of 4 − valence, and of 2 − valence on the
-    /// boundary, is 4χ. Without features only.
-    Valences(Vec<ConeValence>),
-}
-
-/// Options of [`seamless`].
-#[derive(Debug, Clone, PartialEq)]
-pub struct SeamlessOptions {
-    /// The cones.
-    pub cones: SeamlessCones,
-    /// The turning of each path in quarter turns, of the paths that [`DualLoops::along_features`] finds from vertex 0 on the triangulation of
-    /// the conformal metric with these cones. Default: the nearest to that metric's, in the energy of the field that turns by the difference.
-    pub quarter_turns: Option<Vec<i32>>,
-    /// Edges that become straight and parallel to an axis, with angles of multiples of 90° where they meet. Edges of the boundary do so
-    /// anyway. Default none.
-    pub features: Vec<EdgeId>,
-    /// Directions that the field of [`SeamlessCones::Field`] is to be near. Default none.
-    pub guides: Vec<FieldGuide>,
-    /// Steps towards the lengths of the surface among all metrics with the same angles and turning. Default 0: the result is near the
-    /// conformal metric with these cones.
-    pub isometric_steps: usize,
-    /// Per vertex (V entries) the factor by which lengths near it are to be larger than those of the surface, for the isometric steps;
-    /// positive. Default: 1.
-    pub sizes: Option<PerVertex<f64>>,
-    /// Largest deviation of an angle, around a vertex or along a loop, from the target, radians. Default 1e-10.
-    pub tolerance: f64,
-    /// Most Newton steps after the conformal flow. Default 100.
-    pub max_iterations: usize,
-    /// Number of threads; 0 (default) is one for each core. The result does not depend on it.
-    pub threads: usize,
-}
-
-impl Default for SeamlessOptions {
-    fn default() -> Self {
-        let cones = SeamlessCones::Field;
-        SeamlessOptions {
-            cones,
-            quarter_turns: None,
-            features: Vec::new(),
-            guides: Vec::new(),
-            isometric_steps: 0,
-            sizes: None,
-            tolerance: 1e-10,
-            max_iterations: 100,
-            threads: 0,
-        }
-    }
-}
 
 /// A metric whose angles around cones and along loops are multiples of 90°.
 #[derive(Debug, Clone)]
@@ -118,7 +60,7 @@ pub struct Seamless {
     pub loops: DualLoops,
     /// Turning of each path that was asked for, quarter turns.
     pub quarter_turns: Vec<i32>,
-    /// The features and the edges of the boundary, on both triangulations.
+    /// The features that were kept and the edges of the boundary, on both triangulations.
     pub features: Vec<EdgeId>,
     /// Steps of the conformal flow, and Newton steps after it.
     pub iterations: [usize; 2],
@@ -226,8 +168,7 @@ pub fn seamless(surface: &Surface, options: &SeamlessOptions, control: &Control)
         return Err(Error::argument("tolerance", options.tolerance, "positive"));
     }
     Pool::new(options.threads)?.run(|| {
-        let sectors = Sectors::new(surface.mesh(), &options.features)?;
-        let right_angles = chosen_right_angles(surface, &sectors, options, control)?;
+        let (sectors, right_angles) = chosen_right_angles(surface, options, control)?;
         let (start, state) = start_state(surface, sectors, &right_angles, options, control)?;
         let radians = |k: &i32| f64::from(*k) * FRAC_PI_2;
         let mut target =

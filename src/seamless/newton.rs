@@ -3,7 +3,7 @@
 use super::holonomy_state::{HolonomyState, HolonomyTarget};
 use super::least_norm::least_norm_solution;
 use crate::control::{Control, Stage};
-use crate::error::Result;
+use crate::error::{Error, Result};
 
 /// Largest difference between the changes of λ at two edges in one step.
 const LARGEST_STEP: f64 = 2.5;
@@ -35,7 +35,7 @@ pub(super) struct NewtonEnd {
 /// Moves the metric until curvature and turning are those of the target, or no step comes nearer.
 ///
 /// # Errors
-/// [`crate::Error::Factorisation`]; those of [`HolonomyState::moved`]; [`crate::Error::Cancelled`].
+/// Those of [`HolonomyState::moved`]; [`Error::Cancelled`].
 pub(super) fn reach_holonomy(
     mut state: HolonomyState,
     target: &HolonomyTarget,
@@ -51,7 +51,11 @@ pub(super) fn reach_holonomy(
         if error == 0.0 || slow > SLOW_STEPS {
             return end(state);
         }
-        let step = least_norm_solution(&state.derivatives(), state.mesh.n_edges(), &missing)?;
+        let step = match least_norm_solution(&state.derivatives(), state.mesh.n_edges(), &missing) {
+            // Triangles are so thin that no step can be told.
+            Err(Error::Factorisation { .. }) => return end(state),
+            step => step?,
+        };
         let spread = step.iter().fold(0.0, |top: f64, x| top.max(*x))
             - step.iter().fold(0.0, |low: f64, x| low.min(*x));
         let mut factor = if spread > LARGEST_STEP { LARGEST_STEP / spread } else { 1.0 };
@@ -102,7 +106,10 @@ pub(super) fn come_near(
         let along = |row: &Vec<(u32, f64)>| row.iter().map(|&(e, x)| x * step[e as usize]).sum::<f64>();
         let right: Vec<f64> =
             rows.iter().zip(state.residual(target)).map(|(row, missing)| missing - along(row)).collect();
-        let back = least_norm_solution(&rows, step.len(), &right)?;
+        let back = match least_norm_solution(&rows, step.len(), &right) {
+            Err(Error::Factorisation { .. }) => break,
+            back => back?,
+        };
         step.iter_mut().zip(back).for_each(|(x, back)| *x += back);
         let mut next = None;
         let mut factor = 1.0;

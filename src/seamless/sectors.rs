@@ -93,6 +93,19 @@ impl Sectors {
         (0..self.is_feature.len()).map(EdgeId::from).filter(|&e| self.is_feature[e]).collect()
     }
 
+    /// The features inside the surface, ascending.
+    pub fn inner_features(&self, mesh: &Mesh) -> Vec<EdgeId> {
+        self.features().into_iter().filter(|&e| !mesh.is_boundary_edge(e)).collect()
+    }
+
+    /// The features inside the surface that do not bound this piece.
+    pub fn features_off(&self, mesh: &Mesh, piece: u32) -> Vec<EdgeId> {
+        let corners = self.of_corners(mesh);
+        let is_off = |h: HalfedgeId| self.piece[corners[h] as usize] != piece;
+        let inner = self.inner_features(mesh).into_iter();
+        inner.filter(|e| is_off(e.halfedge()) && is_off(e.halfedge().twin())).collect()
+    }
+
     /// Per half-edge the sector of the corner at its origin, in its face.
     pub fn of_corners(&self, mesh: &Mesh) -> PerHalfedge<u32> {
         let mut of = PerHalfedge::filled(mesh.n_halfedges(), OUTSIDE);

@@ -4,9 +4,9 @@ use super::aligned_field::CrossField;
 use super::corner_choice::{check_totals, simplified};
 use super::cross_field::field_cones;
 use super::holonomy_state::HolonomyState;
+use super::options::{SeamlessCones, SeamlessOptions};
 use super::sectors::Sectors;
 use super::signature::{MOST_CURVED, given_right_angles};
-use super::{SeamlessCones, SeamlessOptions};
 use crate::control::Control;
 use crate::error::{Error, Result, check_size};
 use crate::flow::{Flow, Options, Solution, auto_cones};
@@ -18,23 +18,27 @@ use std::f64::consts::FRAC_PI_2;
 /// Most iterations of a flow beside features, which is only a start.
 const FLOW_ITERATIONS: usize = 60;
 
-/// The right angles of each sector.
+/// The sectors between features and the boundary, and the right angles of each. Features around a piece that is too small to have right
+/// angles in all its corners are left out.
 pub(super) fn chosen_right_angles(
     surface: &Surface,
-    sectors: &Sectors,
     options: &SeamlessOptions,
     control: &Control,
-) -> Result<Vec<i32>> {
+) -> Result<(Sectors, Vec<i32>)> {
     let mesh = surface.mesh();
+    let mut sectors = Sectors::new(mesh, &options.features)?;
     let of_curvature = |curvature: PerVertex<i32>| curvature.iter().map(|k| 4 - k).collect::<Vec<_>>();
     let right_angles = match &options.cones {
         SeamlessCones::Field if sectors.are_vertices() && options.guides.is_empty() => {
             of_curvature(field_cones(surface, control)?)
         }
-        SeamlessCones::Field => {
-            let field = CrossField::along(surface, sectors, &options.guides, control)?;
-            simplified(mesh, sectors, field.right_angles(mesh, sectors))?
-        }
+        SeamlessCones::Field => loop {
+            let field = CrossField::along(surface, &sectors, &options.guides, control)?;
+            match simplified(mesh, &sectors, field.right_angles(mesh, &sectors)) {
+                Ok(right_angles) => break right_angles,
+                Err(sector) => sectors = without_piece(mesh, &sectors, sector)?,
+            }
+        },
         SeamlessCones::Auto(n) => {
             if !sectors.are_vertices() {
                 let need = "those of the field or given ones, on a surface with boundary or features";
@@ -43,10 +47,23 @@ pub(super) fn chosen_right_angles(
             let placed = auto_cones(mesh, surface.lengths(), *n, control)?;
             of_curvature(rounded_to_quarters(mesh, &placed.cones))
         }
-        SeamlessCones::Valences(cones) => given_right_angles(mesh, sectors, cones)?,
+        SeamlessCones::Valences(cones) => given_right_angles(mesh, &sectors, cones)?,
     };
-    check_totals(mesh, sectors, &right_angles)?;
-    Ok(right_angles)
+    check_totals(mesh, &sectors, &right_angles)?;
+    Ok((sectors, right_angles))
+}
+
+/// The sectors without the features around the piece of a sector.
+fn without_piece(mesh: &Mesh, sectors: &Sectors, sector: usize) -> Result<Sectors> {
+    let left = sectors.features_off(mesh, sectors.piece[sector]);
+    if left.len() == sectors.inner_features(mesh).len() {
+        let vertex = sectors.vertex[sector];
+        let message = format!(
+            "the corner of the boundary at vertex {vertex} has no room for a right angle; refine the mesh"
+        );
+        return Err(Error::TargetKind { target: "seamless", message });
+    }
+    Sectors::new(mesh, &left)
 }
 
 /// Curvature of cones rounded to quarter turns such that the total is 4χ and no angle is below 90°.
@@ -90,7 +107,7 @@ pub(super) fn start_state(
     let flow_options = Options {
         tolerance: options.tolerance,
         threads: options.threads,
-        fixed_edges: options.features.clone(),
+        fixed_edges: sectors.inner_features(mesh),
         // A vertex that holds its size keeps the surface from being doubled; its curvature follows from the others.
         pinned: if mesh.is_closed() { Vec::new() } else { vec![VertexId(0)] },
         max_iterations: if is_whole { 0 } else { FLOW_ITERATIONS },
@@ -109,7 +126,7 @@ pub(super) fn start_state(
         }
         _ => {}
     }
-    let solution = Solution::delaunay(surface.clone(), class, &options.features, control)?;
+    let solution = Solution::delaunay(surface.clone(), class, &flow_options.fixed_edges, control)?;
     let state = state_of(&solution, sectors, options)?;
     Ok((solution, state))
 }

@@ -89,7 +89,7 @@ fn seams_are_exact() {
     for (soup, n) in [(shapes::genus(2, 6).unwrap(), 8), (shapes::torus(2.0, 1.0, 20, 12).unwrap(), 4)] {
         let surface = Surface::from_soup(&soup).unwrap();
         let of = found(&surface, SeamlessCones::Auto(n));
-        let SeamlessMap { layout, moved } = of.map(&Control::new()).unwrap();
+        let SeamlessMap { layout, moved, .. } = of.map(&Control::new()).unwrap();
         assert!(moved < 1e-10 * layout.diameter && layout.flipped.is_empty(), "{moved:e}");
         let mesh = layout.mesh();
         let mut seams = 0;
