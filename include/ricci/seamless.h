@@ -194,8 +194,8 @@ RICCI_API ricci_status ricci_seamless_turning(const ricci_seamless *result, int3
                                               size_t capacity);
 
 /**
- * The features and the edges of the boundary, each by the vertices at its ends.
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_WRONG_SIZE.
+ * The features that were kept and the edges of the boundary, each by the vertices at its ends.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
  *
  * @param result    the seamless metric.
  * @param vertices  out: 2 `n_features` numbers.

@@ -62,7 +62,7 @@ impl Job for SeamlessArgs {
         let found = timed(&mut run.seconds.solve, solve)?;
         let map = map(&input, &found, run)?;
         let metric = SolvedMetric::new(found.solution.clone(), Some(found.target()))?;
-        Ok(SeamlessOutcome { input, found, map, metric, field })
+        Ok(SeamlessOutcome { input, found, map, metric, n_features: options.features.len(), field })
     }
 
     fn write(&self, outcome: &SeamlessOutcome, run: &mut CommandRun<'_>) -> Result<(), Failure> {

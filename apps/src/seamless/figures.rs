@@ -22,6 +22,8 @@ pub struct SeamlessOutcome {
     /// The map; why there is none, where it could not be made.
     pub map: Result<WrittenMap, String>,
     pub metric: SolvedMetric,
+    /// The number of sharp edges that were to be straight.
+    pub n_features: usize,
     /// The field of four directions, if it is to be written.
     pub field: Option<CrossField>,
 }
@@ -33,6 +35,15 @@ pub struct WrittenMap {
     pub moved: f64,
     /// Largest angle, radians, between an axis and an edge of the boundary or a feature, once the map is turned to it; 0 without any.
     pub bend: f64,
+}
+
+impl SeamlessOutcome {
+    /// The number of sharp edges that are not straight, since pieces between them had no room for right angles in all their corners.
+    fn n_left_out(&self) -> usize {
+        let mesh = self.input.mesh();
+        let kept = self.found.features.iter().filter(|&&e| !mesh.is_boundary_edge(e)).count();
+        self.n_features.saturating_sub(kept)
+    }
 }
 
 impl JobOutcome for SeamlessOutcome {
@@ -75,6 +86,7 @@ impl JobOutcome for SeamlessOutcome {
             .with("holonomy_error", found.error)
             .with("length_changes", found.length_changes)
             .with("straight_edges", found.features.len())
+            .with("features_left_out", self.n_left_out())
             .with("straightness", map.as_ref().ok().map(|map| map.bend))
             .with("iterations", found.iterations[0] + found.iterations[1])
             .with("newton_iterations", found.iterations[1])
@@ -100,6 +112,16 @@ impl JobOutcome for SeamlessOutcome {
             if found.converged() { "converged" } else { "NOT converged" },
             found.error,
         );
+        if !found.features.is_empty() {
+            let left_out = match self.n_left_out() {
+                0 => String::new(),
+                n => format!("; {n} sharp edges around pieces without room for right angles left out"),
+            };
+            text += &format!(
+                "lines    {}{left_out}\n",
+                say::count(found.features.len(), "straight edge", "straight edges")
+            );
+        }
         if let Ok(map) = map {
             let quality = &map.laid.quality;
             text += &format!(

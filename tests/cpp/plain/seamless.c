@@ -106,12 +106,50 @@ static void impossible_signatures_are_refused(void) {
     CHECK(ricci_seamless_new(NULL, NULL, NULL, &result) == RICCI_NULL_POINTER);
     ricci_mesh_free(mesh);
     OK(make_sized(RICCI_SHAPE_ANNULUS, 2, 24, 0.5, 1, 0, &mesh));
-    CHECK(ricci_seamless_new(mesh, NULL, NULL, &result) == RICCI_ARGUMENT);
+    INIT(options);
+    options.cones = RICCI_SEAMLESS_AUTO;
+    options.n_cones = 4;
+    CHECK(ricci_seamless_new(mesh, &options, NULL, &result) == RICCI_ARGUMENT);
+    ricci_mesh_free(mesh);
+}
+
+/* An annulus becomes a cylinder without cones or corners, whose 48 edges on the boundary are straight. */
+static void boundaries_become_straight(void) {
+    ricci_mesh *mesh = NULL;
+    ricci_seamless *result = NULL;
+    ricci_seamless_options options;
+    ricci_seamless_summary s;
+    uint32_t ends[96];
+    const uint32_t edge[2] = {0, 9999}, vertex = 0;
+    const double zero[3] = {0, 0, 0};
+    double field[3 * 96];
+    INIT(options);
+    OK(make_sized(RICCI_SHAPE_ANNULUS, 2, 24, 0.5, 1, 0, &mesh));
+    options.isometric_steps = 2;
+    OK(ricci_seamless_new(mesh, &options, NULL, &result));
+    OK(ricci_seamless_summarise(result, &s, sizeof s));
+    CHECK(s.converged && s.n_cones == 0 && s.n_loops == 1 && s.n_features == 48);
+    CHECK(s.length_change <= s.conformal_change);
+    OK(ricci_seamless_features(result, ends, 96));
+    CHECK(ricci_seamless_features(result, ends, 95) == RICCI_BUFFER_TOO_SMALL);
+    seams_are_exact(result);
+    ricci_seamless_free(result);
+    OK(ricci_seamless_field(mesh, NULL, NULL, field, 3 * 96));
+    CHECK(ricci_seamless_field(mesh, NULL, NULL, field, 3) == RICCI_BUFFER_TOO_SMALL);
+    options.features = edge;
+    options.n_features = 1;
+    CHECK(ricci_seamless_new(mesh, &options, NULL, &result) == RICCI_ARGUMENT);
+    options.n_features = 0;
+    options.stroke_vertices = &vertex;
+    options.strokes = zero;
+    options.n_strokes = 1;
+    CHECK(ricci_seamless_field(mesh, &options, NULL, field, 3 * 96) == RICCI_ARGUMENT);
     ricci_mesh_free(mesh);
 }
 
 int main(void) {
     surfaces_become_seamless();
     impossible_signatures_are_refused();
+    boundaries_become_straight();
     return 0;
 }
