@@ -24,7 +24,7 @@ pub struct DefectCount {
 #[derive(Serialize, Clone)]
 pub struct DefectFigures {
     pub code: &'static str,
-    pub message: String,
+    pub message: Box<str>,
     pub vertices: Vec<u32>,
     pub faces: Vec<u32>,
     pub remedy: &'static str,
@@ -34,7 +34,7 @@ impl From<&Defect> for DefectFigures {
     fn from(defect: &Defect) -> Self {
         DefectFigures {
             code: defect.code(),
-            message: defect.to_string(),
+            message: defect.to_string().into(),
             vertices: defect.vertices(),
             faces: defect.faces(),
             remedy: defect.remedy(),
@@ -59,7 +59,7 @@ impl DefectList {
             let (code, remedy) = ("coordinate_out_of_range", "scale the mesh, or give the vertex its place");
             defects.list.retain(|defect| defect.code != "zero_area_face");
             defects.counts.retain(|kind| kind.code != "zero_area_face");
-            let (vertices, faces) = (Vec::new(), Vec::new());
+            let (message, vertices, faces) = (message.into(), Vec::new(), Vec::new());
             defects.list.push(DefectFigures { code, message, vertices, faces, remedy });
             defects.counts.push(DefectCount { code, count: 1 });
         }

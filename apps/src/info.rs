@@ -150,7 +150,7 @@ impl Info {
             |f: &FaceId| triangle::angles(geometry, mesh.opposite_edges(*f).map(|e| lengths[e])).broken();
         let defect = |f: FaceId| DefectFigures {
             code: "triangle_inequality",
-            message: format!("face {f} breaks the triangle inequality of {geometry}"),
+            message: format!("face {f} breaks the triangle inequality of {geometry}").into(),
             vertices: mesh.face_vertices(f).map(|v| v.0).to_vec(),
             faces: vec![f.0],
             remedy: "give the face three lengths of which none reaches the sum of the others (S²: nor all together 2π)",

@@ -286,7 +286,7 @@ mod tests {
                 // A length grows by a half chord over C(l/2).
                 let q = [long, DoubleDouble::from(x), long + DoubleDouble::from(x * t) * c];
                 let at = half_angles_of_chords(space, q).map(|[cos, sin]| 2.0 * sin.high.atan2(cos.high));
-                let known = [(t as f64).acos(), 0.0, PI - (t as f64).acos()];
+                let known = [f64::acos(t), 0.0, PI - f64::acos(t)];
                 for k in 0..3 {
                     assert!((at[k] - known[k]).abs() < 1e-10, "{space} {x:e} {t}: {at:?} {known:?}");
                 }
