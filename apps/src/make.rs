@@ -86,7 +86,7 @@ impl Job for MakeArgs {
                 (None, Surface::intrinsic(mesh, lengths, given.geometry)?)
             }
             (SampleSurface::Mesh(soup), Destination::Mesh(to)) => {
-                let soup = to.spoil.apply(soup)?;
+                let soup = to.spoil.apply(*soup)?;
                 let surface = Surface::from_soup(&soup)?;
                 (Some(soup), surface)
             }
@@ -143,34 +143,36 @@ impl JobOutcome for MakeOutcome {
 
 /// A sample surface as the library makes it.
 enum SampleSurface {
-    Mesh(Soup),
+    Mesh(Box<Soup>),
     Metric(IntrinsicSurface),
 }
 
 fn build(shape: &SampleShape) -> ricci::Result<SampleSurface> {
     Ok(match shape {
-        SampleShape::Sphere { n, .. } => SampleSurface::Mesh(shapes::icosphere(*n)?),
+        SampleShape::Sphere { n, .. } => SampleSurface::Mesh(Box::new(shapes::icosphere(*n)?)),
         SampleShape::Ellipsoid { axes, n, .. } => {
-            SampleSurface::Mesh(shapes::ellipsoid([axes[0], axes[1], axes[2]], *n)?)
+            SampleSurface::Mesh(Box::new(shapes::ellipsoid([axes[0], axes[1], axes[2]], *n)?))
         }
         SampleShape::Torus { big, small, n, m, .. } => {
             let m = m.unwrap_or_else(|| around(*n, small / big));
-            SampleSurface::Mesh(shapes::torus(*big, *small, *n, m)?)
+            SampleSurface::Mesh(Box::new(shapes::torus(*big, *small, *n, m)?))
         }
-        SampleShape::Disk { n, height, .. } => SampleSurface::Mesh(raise(shapes::disk(*n)?, *height)),
+        SampleShape::Disk { n, height, .. } => {
+            SampleSurface::Mesh(Box::new(raise(shapes::disk(*n)?, *height)))
+        }
         SampleShape::Annulus { inner, outer, n, m, height, .. } => {
             // Steps in geometric progression: log(outer/inner)/n each, and 2π/m around in rows of height √3/2.
             let step = (outer / inner).ln() / *n as f64;
             let m = m.unwrap_or_else(|| around(1, std::f64::consts::TAU * 0.75f64.sqrt() / step));
-            SampleSurface::Mesh(raise(shapes::annulus(*inner, *outer, *n, m)?, *height))
+            SampleSurface::Mesh(Box::new(raise(shapes::annulus(*inner, *outer, *n, m)?, *height)))
         }
         SampleShape::Genus { genus, n, ratio, .. } => {
-            SampleSurface::Mesh(shapes::tapered_genus(*genus, *n, *ratio)?)
+            SampleSurface::Mesh(Box::new(shapes::tapered_genus(*genus, *n, *ratio)?))
         }
         SampleShape::Knot { p, q, big, small, tube, n, m, .. } => {
             let knot = TorusKnot { p: *p, q: *q, big: *big, small: *small };
             let m = m.unwrap_or_else(|| knot_around(&knot, *tube, *n));
-            SampleSurface::Mesh(knot.torus(*tube, *n, m)?)
+            SampleSurface::Mesh(Box::new(knot.torus(*tube, *n, m)?))
         }
         SampleShape::FlatTorus { tau, n, m, .. } => {
             SampleSurface::Metric(shapes::flat_torus([tau[0], tau[1]], *n, *m)?)
