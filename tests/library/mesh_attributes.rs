@@ -240,7 +240,7 @@ fn names_and_numbers_go_to_the_format_that_holds_them() {
     assert_eq!(io::read(&at("m.ply")).unwrap(), expected);
     assert_eq!(soup.attributes.unheld(Format::Off), [&[names.to_string()], &numbers[..]].concat());
     // glTF has the names of materials, stretch by stretch.
-    let left = ["2 groups, 1 object name: only OBJ has them".to_string()];
+    let left = ["2 groups, 1 object name, a b.mtl, c.mtl: only OBJ has them".to_string()];
     assert_eq!(io::write(&at("m.glb"), &soup).unwrap(), [&left[..], &numbers[..]].concat());
     let read = io::read(&at("m.glb")).unwrap();
     assert_eq!((read.positions.len(), &read.faces), (soup.positions.len(), &soup.faces));
