@@ -56,6 +56,16 @@ pub fn read_valences(path: &Path, n_vertices: usize) -> Result<Vec<(VertexId, u3
     rows.into_iter().map(valence).collect()
 }
 
+/// Read `vertex,factor` rows: how much larger lengths near a vertex are to be. Lines as in [`read_curvatures`].
+pub fn read_factors(path: &Path, n_vertices: usize) -> Result<Vec<(VertexId, f64)>, Failure> {
+    let factor = |(i, [vertex, factor]): (usize, [String; 2])| {
+        let v = vertex_of(path, i, &vertex, n_vertices)?;
+        let number = factor.parse().ok().filter(|x: &f64| x.is_finite());
+        Ok((v, number.ok_or_else(|| refuse(path, i, format!("`{factor}` is no number")))?))
+    };
+    read_rows(path, ["vertex", "factor"])?.into_iter().map(factor).collect()
+}
+
 /// Read `vertex,x,y,z` rows: a direction in space at a vertex. Lines as in [`read_curvatures`].
 pub fn read_directions(path: &Path, n_vertices: usize) -> Result<Vec<(VertexId, [f64; 3])>, Failure> {
     let rows = read_rows(path, ["vertex", "x", "y", "z"])?;

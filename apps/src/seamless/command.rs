@@ -114,7 +114,7 @@ fn options(args: &SeamlessArgs, input: &Input) -> Result<SeamlessOptions, Failur
     let sizes = match &args.sizes {
         Some(path) => {
             let mut sizes = PerVertex::filled(n, 1.0);
-            csv::read_curvatures(path, n)?.into_iter().for_each(|(v, size)| sizes[v] = size);
+            csv::read_factors(path, n)?.into_iter().for_each(|(v, size)| sizes[v] = size);
             Some(sizes)
         }
         None => None,
