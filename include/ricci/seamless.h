@@ -142,9 +142,10 @@ typedef struct ricci_seamless_summary {
  *
  * Not reaching the target is RICCI_OK with `converged` 0. Deterministic.
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE, RICCI_ARGUMENT (an unknown
- * choice, one that does not fit a boundary or features, a tolerance that is not positive), RICCI_WRONG_SIZE (quarter turns), RICCI_TARGET_KIND
- * (cones or a signature that no metric has), RICCI_EDGE_LENGTH, RICCI_TRIANGLE_INEQUALITY, RICCI_EDGE_WEIGHT,
- * RICCI_DOMAIN, RICCI_TOO_LARGE, RICCI_NO_MEMORY, RICCI_FACTORISATION, RICCI_CANCELLED.
+ * choice, one that does not fit a boundary or features, a tolerance that is not positive), RICCI_WRONG_SIZE
+ * (quarter turns), RICCI_TARGET_KIND (cones or a signature that no metric has), RICCI_EDGE_LENGTH,
+ * RICCI_TRIANGLE_INEQUALITY, RICCI_EDGE_WEIGHT, RICCI_DOMAIN, RICCI_TOO_LARGE, RICCI_NO_MEMORY,
+ * RICCI_FACTORISATION, RICCI_CANCELLED.
  *
  * @param mesh     the mesh.
  * @param options  the options; NULL for the defaults.
@@ -207,8 +208,8 @@ RICCI_API ricci_status ricci_seamless_features(const ricci_seamless *result, uin
 /**
  * The smoothest field of four directions along features and the boundary, near strokes and principal
  * curvature: one of the directions in each face, a unit vector in space.
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE, RICCI_ARGUMENT (a mesh without positions, a feature
- * or vertex that does not exist), RICCI_BUFFER_TOO_SMALL, RICCI_NO_MEMORY, RICCI_FACTORISATION,
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE, RICCI_ARGUMENT (a mesh without positions, a
+ * feature or vertex that does not exist), RICCI_BUFFER_TOO_SMALL, RICCI_NO_MEMORY, RICCI_FACTORISATION,
  * RICCI_CANCELLED.
  *
  * @param mesh        the mesh.

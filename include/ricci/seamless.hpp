@@ -33,8 +33,8 @@ public:
     }
 };
 
-// The smoothest field of four directions along features, near strokes and principal curvature: a unit vector for
-// each face.
+// The smoothest field of four directions along features, near strokes and principal curvature: a unit vector
+// for each face.
 inline std::vector<double> cross_field(const mesh &on,
                                        const ricci_seamless_options &options = init<ricci_seamless_options>(),
                                        const control *watched = nullptr) {

@@ -139,8 +139,8 @@ typedef struct ricci_spline_summary {
     /** The share of the fitted surface that lies in these patches; NaN of splines that were not fitted. */
     double folded_share;
     /**
-     * 1 for a fit to a surface whose distances are within the tolerance asked for (fit_max over the diagonal of
-     * the bounding box at most the tolerance, fit_rms a tenth of that) and that folds nowhere; else 0.
+     * 1 for a fit to a surface whose distances are within the tolerance asked for (fit_max over the diagonal
+     * of the bounding box at most the tolerance, fit_rms a tenth of that) and that folds nowhere; else 0.
      */
     uint32_t converged;
     /** 0. */
@@ -306,9 +306,10 @@ RICCI_API ricci_status ricci_spline_fit_surface(const ricci_metric *flat,
                                                 const ricci_control *control, ricci_spline **fitted);
 
 /**
- * A spline over a whole surface of any topology, near its vertices: ricci_spline_fit_surface over flat metrics
- * that are made for it, first the usual one (a sphere has a vertex at infinity), then those with more singular
- * vertices, until a fit holds; the best of all. ricci_spline_summary's `converged` says whether it holds.
+ * A spline over a whole surface of any topology, near its vertices: ricci_spline_fit_surface over flat
+ * metrics that are made for it, first the usual one (a sphere has a vertex at infinity), then those with more
+ * singular vertices, until a fit holds; the best of all. ricci_spline_summary's `converged` says whether it
+ * holds.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE, RICCI_ARGUMENT (a surface without positions),
  *         RICCI_LAYOUT (no flow to a flat metric converged), RICCI_SPLINE, RICCI_FACTORISATION,

@@ -76,10 +76,9 @@ public:
         return spline(make<ricci_spline>(ricci_spline_fit_surface, flat.get(), &options, of(watched)));
     }
     // Near the vertices of a whole surface of any topology, on flat metrics that are made for it.
-    static spline
-    of_mesh(const mesh &surface,
-            const ricci_spline_surface_options &options = init<ricci_spline_surface_options>(),
-            const control *watched = nullptr) {
+    static spline of_mesh(const mesh &surface,
+                          const ricci_spline_surface_options &options = init<ricci_spline_surface_options>(),
+                          const control *watched = nullptr) {
         return spline(make<ricci_spline>(ricci_spline_fit_mesh, surface.get(), &options, of(watched)));
     }
     void write(const std::string &path) const { check(ricci_spline_write(handle_, path.c_str())); }

@@ -173,8 +173,8 @@ CASES = [
         {"control_points": 9, "tolerance": 0.5, "fairness": 0.1, "spread": 0.2, "threads": 2, "degree": 4, "rounds": 3, "corrections": -1},
     ),
     (
-        options("bicubic_options", {"tolerance": 0.5, "angle": 0.1, "threads": 2}, bicubics._BICUBIC),
-        {"tolerance": 0.5, "angle": 0.1, "threads": 2},
+        options("bicubic_options", {"tolerance": 0.5, "angle": 0.1, "threads": 2, "control_points": 9, "folds": True}, bicubics._BICUBIC),
+        {"tolerance": 0.5, "angle": 0.1, "threads": 2, "control_points": 9, "folds": 1},
     ),
     (options("step_options", {"name": "part", "unit": "metre"}, bicubics._STEP), {"name": b"part", "unit": 1}),
 ]

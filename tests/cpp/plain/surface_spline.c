@@ -94,7 +94,8 @@ static void a_torus_is_fitted(void) {
     ricci_mesh_free(mesh);
 }
 
-/* A sphere is fitted by itself; it says that it holds, and that it does not where the tolerance is too small. */
+/* A sphere is fitted by itself; it says that it holds, and that it does not where the tolerance is too small.
+ */
 static void a_sphere_is_fitted(void) {
     ricci_mesh *mesh = NULL;
     ricci_spline *spline = NULL;
