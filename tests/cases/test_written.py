@@ -115,7 +115,7 @@ def test_the_export_of_a_folded_spline_fails_by_name(ricci, tmp_path):
     spline["control_points"][0] = [-x, -y, z]
     (tmp_path / "bent.json").write_text(json.dumps(spline))
     refused = ricci("spline", "export", "bent.json", "-o", "bent.step", "--tolerance", "1e-3")
-    assert refused.code == 2 and "turns back on itself" in refused.text and not (tmp_path / "bent.step").exists()
+    assert refused.code == 3 and "turns back on itself" in refused.text and not (tmp_path / "bent.step").exists()
     few = ricci("spline", "export", "s.json", "-o", "few.step", "--tolerance", "1e-3", "--control-points", "100")
     assert few.code == 2 and "larger tolerance" in few.text and not (tmp_path / "few.step").exists()
     bent = ricci("spline", "export", "bent.json", "-o", "bent.step", "--tolerance", "1e-3", "--allow-folds")

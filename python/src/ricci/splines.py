@@ -141,8 +141,8 @@ class Spline(Handle):
     def of_mesh(cls, surface: MeshLike, progress: Progress = None, **given: Unpack[SurfaceOptions]) -> Self:
         """A spline near the vertices of a whole surface of any topology, on flat metrics that are made for it.
 
-        The first is the usual one, in which a sphere has a vertex at infinity; those with more singular vertices follow until a fit holds, and the
-        best is kept. `summary.converged` says whether it holds.
+        The first is the usual one, in which a sphere has a vertex at infinity; those with more singular vertices follow until a fit
+        holds, and the best is kept. `summary.converged` says whether it holds.
 
         Raises:
             ArgumentError: a surface without positions.
