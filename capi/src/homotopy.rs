@@ -1,15 +1,13 @@
 //! Canonical homotopy bases, and words in their generators.
 
-use crate::arrays::{CallerBuffer, array, check_buffer, copy_counted, copy_out, text};
+use crate::arrays::{CallerBuffer, check_buffer, copy_counted, copy_out, text};
 use crate::control::{self, ricci_control};
 use crate::guard::{self, handle, shared};
-use crate::layout::ricci_layout;
 use crate::memory;
 use crate::mesh::ricci_mesh;
 use crate::paths::{copy_paths, copy_word, halfedges, letters, read_word, signed_edge, vertex_or_none};
 use crate::status::ricci_status;
 use crate::structs::{self, sized};
-use crate::uniformize::ricci_uniform;
 use ricci::mesh::{Mesh, VertexId};
 use ricci::topology::{HomotopyBasis, Lift, homotopy_basis, intersection_matrix};
 use std::ffi::c_char;
@@ -233,31 +231,5 @@ pub unsafe extern "C" fn ricci_homotopy_lift(
             .flat_map(|lift| letters(&lift.element).collect::<Vec<_>>())
             .collect();
         copy_out("words", &all, words, words_capacity)
-    })
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn ricci_uniform_lift_loop(
-    uniform: *const ricci_uniform,
-    layout: *const ricci_layout,
-    vertices: *const u32,
-    n_vertices: usize,
-    points: *mut f64,
-    capacity: usize,
-    n_points: *mut usize,
-    letters: *mut i32,
-    letters_capacity: usize,
-    n_letters: *mut usize,
-) -> ricci_status {
-    guard::with(uniform, |uniform| {
-        let (deck, layout) = (&uniform.quotient()?.deck, &shared(layout)?.layout);
-        let around: Vec<VertexId> =
-            array("vertices", vertices, n_vertices)?.into_iter().map(VertexId).collect();
-        let lifted = deck.lift_loop(layout, &around)?;
-        if !letters.is_null() || letters_capacity > 0 {
-            check_buffer("letters", lifted.element.word.len(), letters, letters_capacity)?;
-        }
-        copy_counted("points", lifted.points.as_flattened(), points, capacity, n_points)?;
-        copy_word(&lifted.element.word, letters, letters_capacity, n_letters)
     })
 }

@@ -1,6 +1,6 @@
 //! Surfaces in their canonical shape: the round sphere, or a quotient of the Euclidean or the hyperbolic plane.
 
-use crate::arrays::{check_buffer, copy_out};
+use crate::arrays::{array, check_buffer, copy_counted, copy_out};
 use crate::boundary;
 use crate::control::{self, ricci_control};
 use crate::domain::ricci_domain;
@@ -12,7 +12,7 @@ use crate::layout::{MODELS, ricci_layout};
 use crate::memory;
 use crate::mesh::{SPACES, ricci_mesh};
 use crate::metric::{ON, SCHEMES, Triangulation, ricci_metric};
-use crate::paths::{halfedges, vertex_or_none};
+use crate::paths::{copy_word, halfedges, vertex_or_none};
 use crate::report::stop_reason;
 use crate::status::*;
 use crate::structs::{self, sized};
@@ -20,7 +20,7 @@ use ricci::canonical::{
     FlowedSphere, Quotient, QuotientOptions, Sphere, Uniformization, quotient_of, uniformize,
 };
 use ricci::embed::BoundaryLoop;
-use ricci::mesh::{Mesh, PerVertex, Point};
+use ricci::mesh::{Mesh, PerVertex, Point, VertexId};
 use ricci::topology::FundamentalDomain;
 use std::ffi::c_char;
 use std::sync::Arc;
@@ -409,5 +409,31 @@ pub unsafe extern "C" fn ricci_uniform_lift(
         let Quotient { layout, deck, .. } = &**uniform.quotient()?;
         let path = halfedges(layout.mesh(), path, n_path)?;
         copy_out("points", &layout.lift(deck.corner, &path)?, points, capacity)
+    })
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_uniform_lift_loop(
+    uniform: *const ricci_uniform,
+    layout: *const ricci_layout,
+    vertices: *const u32,
+    n_vertices: usize,
+    points: *mut f64,
+    capacity: usize,
+    n_points: *mut usize,
+    letters: *mut i32,
+    letters_capacity: usize,
+    n_letters: *mut usize,
+) -> ricci_status {
+    guard::with(uniform, |uniform| {
+        let (deck, layout) = (&uniform.quotient()?.deck, &shared(layout)?.layout);
+        let around: Vec<VertexId> =
+            array("vertices", vertices, n_vertices)?.into_iter().map(VertexId).collect();
+        let lifted = deck.lift_loop(layout, &around)?;
+        if !letters.is_null() || letters_capacity > 0 {
+            check_buffer("letters", lifted.element.word.len(), letters, letters_capacity)?;
+        }
+        copy_counted("points", lifted.points.as_flattened(), points, capacity, n_points)?;
+        copy_word(&lifted.element.word, letters, letters_capacity, n_letters)
     })
 }

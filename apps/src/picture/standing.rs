@@ -110,17 +110,18 @@ impl<'a> WeighedSurface<'a> {
         let some: Vec<V3> =
             points.iter().step_by(points.len().div_ceil(MOST_POINTS).max(1)).copied().collect();
         let rough = WeighedSurface { points: &some, faces: Vec::new(), ..*self };
-        let mut scored: Vec<(f64, V3)> =
-            (0..DIRECTIONS).map(|k| sphere_point(k, DIRECTIONS)).map(|up| (rough.support(up), up)).collect();
-        scored.sort_by(|a, b| b.0.total_cmp(&a.0));
-        let turned = scored.into_iter().take(TURNED).map(|start| rough.turned(start));
+        let scored = |up: V3| (rough.support(up), up);
+        let mut starts: Vec<(f64, V3)> =
+            (0..DIRECTIONS).map(|k| scored(sphere_point(k, DIRECTIONS))).collect();
+        starts.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let turned = starts.into_iter().take(TURNED).map(|(_, up)| scored(rough.turned(up)));
         let (_, up) = turned.reduce(|a, b| if b.0 > a.0 { b } else { a })?;
         (self.support(up) >= SLANTED).then_some(up)
     }
 
-    /// A direction turned to the best one near it, with its score.
-    fn turned(&self, (mut score, mut up): (f64, V3)) -> (f64, V3) {
-        let mut by = TURNS[0];
+    /// A direction turned to the best one near it.
+    fn turned(&self, mut up: V3) -> V3 {
+        let (mut by, mut score) = (TURNS[0], self.support(up));
         while by > TURNS[1] {
             let [e, f] = complement(up);
             let around = (0..8)
@@ -132,7 +133,7 @@ impl<'a> WeighedSurface<'a> {
                 None => by *= 0.5,
             }
         }
-        (score, up)
+        up
     }
 
     /// The score of a direction by the support from below.

@@ -2,9 +2,11 @@
 
 use crate::error::{Error, Result, check_size};
 use std::collections::{HashMap, HashSet};
+#[cfg(feature = "gltf")]
 use std::ops::Range;
 
 /// Most primitives of a glTF file.
+#[cfg(feature = "gltf")]
 const MOST_STRETCHES: usize = 256;
 
 /// The names under which a face stands; an empty one for none.
@@ -74,6 +76,7 @@ impl FaceLabels {
 
     /// The stretches of faces with one material, and its name, an empty one for none; `None` where no face has one, and where there are more
     /// stretches than a file of glTF gets primitives.
+    #[cfg(feature = "gltf")]
     pub(crate) fn material_stretches(&self) -> Option<Vec<(Range<usize>, &str)>> {
         let mut made: Vec<(Range<usize>, &str)> = Vec::new();
         for (f, &label) in self.of_face.iter().enumerate() {
