@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 /// The headers, with the most functions that each may have.
 const HEADERS: &[(&str, usize)] = &[
     ("ricci", 65),
-    ("uniformize", 60),
+    ("uniformize", 61),
     ("circles", 10),
     ("harmonic", 20),
     ("match", 10),

@@ -13,10 +13,11 @@ use std::time::Instant;
 /// Most calls of one input.
 const MOST_CALLS: usize = 8;
 /// Calls that take a hundred times as long as others: one input of eight makes them.
-const LONG: [&str; 8] = [
+const LONG: [&str; 9] = [
     "ricci_match",
     "ricci_circle_domain_new",
     "ricci_spline_fit",
+    "ricci_spline_fit_mesh",
     "ricci_spline_fit_surface",
     "ricci_bicubic_new",
     "ricci_matching_map",
