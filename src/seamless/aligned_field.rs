@@ -1,12 +1,13 @@
 //! Smooth fields of four directions in the faces of a surface, along features and near directions that are asked for \[KCPS13\].
 
+use super::face_axes::FaceAxes;
 use super::sectors::Sectors;
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::complex::{Complex, add, conj, mul, norm, scale, unit};
 use crate::geometry::random::SplitMix64;
 use crate::geometry::triangle::{area_from, half_differences, plane_angles_with_weights};
-use crate::geometry::vector::{self, Vector};
+use crate::geometry::vector::Vector;
 use crate::linalg::{Cholesky, Pattern, Symmetric};
 use crate::mesh::{EdgeId, FaceId, HalfedgeId, Mesh, PerFace, PerHalfedge};
 use crate::metric::Surface;
@@ -75,10 +76,7 @@ impl CrossField {
         let (mesh, positions) = (surface.mesh(), surface.positions()?);
         let direction = |f: FaceId| {
             let places = mesh.face_vertices(f).map(|v| positions[v.index()]);
-            let first = vector::normalised(vector::sub(places[1], places[0]));
-            let second = vector::cross(vector::normalised(vector::triangle_normal(places)), first);
-            let (sin, cos) = self.angles[f].sin_cos();
-            vector::add(vector::scale(cos, first), vector::scale(sin, second))
+            FaceAxes::new(places).map_or([0.0; 3], |frame| frame.direction(self.angles[f]))
         };
         Some(PerFace::from_fn(mesh.n_faces(), direction))
     }

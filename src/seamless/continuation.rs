@@ -1,7 +1,7 @@
 //! Far targets, come to by way of targets between.
 
 use super::holonomy_state::{HolonomyState, HolonomyTarget};
-use super::newton::{NewtonEnd, reach_holonomy};
+use super::newton::{NewtonEnd, largest, reach_holonomy};
 use super::options::SeamlessOptions;
 use crate::control::Control;
 use crate::error::Result;
@@ -63,5 +63,5 @@ fn between(from: &HolonomyTarget, to: &HolonomyTarget, share: f64) -> HolonomyTa
 }
 
 fn error_of(state: &HolonomyState, target: &HolonomyTarget) -> f64 {
-    state.residual(target).iter().fold(0.0, |top: f64, x| top.max(x.abs()))
+    largest(&state.residual(target))
 }

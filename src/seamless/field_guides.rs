@@ -1,6 +1,7 @@
 //! What guides a field of directions on a surface in space: sharp edges, principal curvature, strokes.
 
 use super::aligned_field::FieldGuide;
+use super::face_axes::FaceAxes;
 use crate::error::{Error, Result};
 use crate::geometry::vector::{self, Vector};
 use crate::linalg::dense::solve_definite;
@@ -112,25 +113,4 @@ fn stroke_in(mesh: &Mesh, positions: &[Point], face: FaceId, direction: Vector) 
     let [x, y] = frame.flat(direction);
     let is_long = x.hypot(y) > 0.5 * vector::norm(direction);
     is_long.then(|| FieldGuide { face, angle: y.atan2(x), weight: STROKE_WEIGHT })
-}
-
-/// Two axes at right angles in a triangle, the first along its first side.
-struct FaceAxes {
-    axes: [Vector; 2],
-    area: f64,
-}
-
-impl FaceAxes {
-    /// None for a triangle without area.
-    fn new(places: [Point; 3]) -> Option<FaceAxes> {
-        let normal = vector::triangle_normal(places);
-        let area = 0.5 * vector::norm(normal);
-        let first = vector::normalised(vector::sub(places[1], places[0]));
-        let second = vector::cross(vector::normalised(normal), first);
-        (area > 0.0 && vector::norm(second) > 0.5).then_some(FaceAxes { axes: [first, second], area })
-    }
-
-    fn flat(&self, v: Vector) -> [f64; 2] {
-        self.axes.map(|axis| vector::dot(axis, v))
-    }
 }

@@ -15,6 +15,7 @@ mod continuation;
 mod corner_choice;
 mod cross_field;
 mod dual_loops;
+mod face_axes;
 mod field_guides;
 mod holonomy_state;
 mod least_norm;

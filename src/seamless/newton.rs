@@ -146,6 +146,6 @@ fn is_progress(before: &[f64], after: &[f64]) -> bool {
 }
 
 /// The largest absolute value.
-fn largest(x: &[f64]) -> f64 {
+pub(super) fn largest(x: &[f64]) -> f64 {
     x.iter().fold(0.0, |top: f64, x| top.max(x.abs()))
 }
