@@ -1,6 +1,6 @@
 //! Harmonic maps to the plane, to space and to the sphere.
 
-use crate::arrays::{array, copy_out, room};
+use crate::arrays::{array, check_buffer, copy_out, room};
 use crate::choice::choices;
 use crate::control::{self, ricci_control};
 use crate::failure::{Failure, Outcome};
@@ -123,9 +123,11 @@ pub unsafe extern "C" fn ricci_harmonic_map(
     size: usize,
 ) -> ricci_status {
     guard::with(mesh, |mesh| {
+        structs::check_place(summary, size)?;
         let found = found_map(mesh, &structs::read(spec)?, &control::of(control))?;
-        copy_out("points", &found.points, points, capacity)?;
         let told = found.energies.len().min(energies_capacity);
+        check_buffer("energies", told, energies, energies_capacity)?;
+        copy_out("points", &found.points, points, capacity)?;
         copy_out("energies", &found.energies[..told], energies, energies_capacity)?;
         structs::write(found.summary, summary, size)
     })

@@ -43,13 +43,18 @@ pub fn check(name: &str, size: usize) -> Outcome {
     Ok(())
 }
 
-/// Writes `value` to a caller's struct of `size` bytes: the fields that both know, and zeros in those that only the caller knows.
-pub fn write<S: Sized64>(value: S, place: *mut S, size: usize) -> Outcome {
-    const { assert!(align_of::<S>() == 8 && size_of::<usize>() == 8) };
+/// Refuses a place for a struct that [`write()`] refuses, before anything else is written.
+pub fn check_place<S: Sized64>(place: *mut S, size: usize) -> Outcome {
     if place.is_null() {
         return Err(Failure::null(S::NAME));
     }
-    check(S::NAME, size)?;
+    check(S::NAME, size)
+}
+
+/// Writes `value` to a caller's struct of `size` bytes: the fields that both know, and zeros in those that only the caller knows.
+pub fn write<S: Sized64>(value: S, place: *mut S, size: usize) -> Outcome {
+    const { assert!(align_of::<S>() == 8 && size_of::<usize>() == 8) };
+    check_place(place, size)?;
     let filled = size.min(size_of::<S>());
     let value = value.with_size(filled);
     // SAFETY: the caller's memory has `size` bytes (contract of the header), of which `filled` are copied.

@@ -35,12 +35,16 @@ const WRONG_SIZE: u32 = 1;
 /// Functions whose capacity counts rows of two numbers of the last buffer.
 const IN_PAIRS: [&str; 2] = ["ricci_structure_places", "ricci_uniform_sides"];
 /// Fields of summaries that do not apply to every surface, and may be NaN, as the headers say.
-const MAY_BE_NAN: [(&str, &str); 25] = [
+const MAY_BE_NAN: [(&str, &str); 29] = [
     ("ricci_circle_domain_summary", "modulus"),
     ("ricci_forms_summary", "asymmetry"),
     ("ricci_forms_summary", "star_residual"),
     ("ricci_forms_summary", "least_eigenvalue"),
     ("ricci_forms_summary", "modulus"),
+    ("ricci_harmonic_summary", "mean_value_residual"),
+    ("ricci_harmonic_summary", "modulus"),
+    ("ricci_harmonic_summary", "modulus_low"),
+    ("ricci_harmonic_summary", "modulus_high"),
     ("ricci_hole", "length"),
     ("ricci_hole", "area"),
     ("ricci_layout_summary", "qc_mean"),

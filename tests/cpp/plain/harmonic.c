@@ -196,6 +196,14 @@ static void check_figures(void) {
     CHECK(s.converged == 1 && s.n_energies > 10 && s.n_energies < 2000 && s.modulus != s.modulus);
     for (size_t k = 1; k < s.n_energies; k++) CHECK(energies[k] < energies[k - 1] + 1e-13);
     CHECK(fabs(s.energy - energy) < 1e-10);
+    // What fails writes nothing, into earlier buffers neither.
+    points[0] = 7;
+    FAILS(ricci_harmonic_map(mesh, &spec, NULL, points, 3 * M * N, NULL, 0, &s, 17), RICCI_STRUCT_SIZE,
+          "size 17");
+    CHECK(points[0] == 7);
+    FAILS(ricci_harmonic_map(mesh, &spec, NULL, points, 3 * M * N, NULL, 5, &s, sizeof s), RICCI_NULL,
+          "energies");
+    CHECK(points[0] == 7);
     ricci_mesh_free(mesh);
 }
 
