@@ -8,7 +8,7 @@ use crate::mesh::ricci_mesh;
 use crate::soup::ricci_soup;
 use crate::status::ricci_status;
 use crate::structs::{self, or, sized};
-use ricci::mesh::refine::{Refine, refine};
+use ricci::mesh::refine::{Refine, least_faces, refine};
 use ricci::metric::angle_refinement::{AngleRefinement, FinerMetric, refine_to_angle};
 
 #[repr(C)]
@@ -50,8 +50,9 @@ pub unsafe extern "C" fn ricci_soup_refine(
     guard::make(refined, || {
         let (given, soup) = (structs::read(options)?, &shared(soup)?.soup);
         let longest_edge = (given.longest_edge != 0.0).then_some(given.longest_edge);
-        let _reserve = memory::work(soup.positions.len().max(soup.faces.len()), memory::MESH)?;
-        Ok(ricci_soup::refined(refine(soup, &Refine { levels: given.levels, longest_edge })?))
+        let options = Refine { levels: given.levels, longest_edge };
+        let _reserve = memory::work(soup.positions.len().max(least_faces(soup, &options)?), memory::MESH)?;
+        Ok(ricci_soup::refined(refine(soup, &options)?))
     })
 }
 

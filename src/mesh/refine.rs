@@ -66,12 +66,11 @@ pub fn longest_edge(soup: &Soup) -> f64 {
 /// [`Error::Argument`] for a length that is not positive, coordinates or attributes that are not finite, and faces that name a missing
 /// vertex or one vertex twice, and a result of more than 67 million faces.
 pub fn refine(soup: &Soup, options: &Refine) -> Result<RefinedSoup> {
-    soup.check_writable()?;
+    least_faces(soup, options)?;
     if let Some(f) = soup.faces.iter().position(|&[a, b, c]| a == b || b == c || c == a) {
         let need = "three different vertices: `ricci repair` drops faces that use one twice";
         return Err(Error::argument("face to refine", f, need));
     }
-    check_count(soup, options)?;
     let mut parts = FaceParts::new(soup);
     for _ in 0..options.levels {
         parts.halve(|_, _| true)?;
@@ -87,24 +86,31 @@ fn too_many(faces: usize) -> Error {
     Error::argument("number of faces of the refined surface", faces, need)
 }
 
-/// Refuses lengths that are none, and refinements that surely have too many faces, before memory is taken for them.
-fn check_count(soup: &Soup, options: &Refine) -> Result<()> {
-    let too_large = |count: usize| Err(too_many(count));
+/// A number of faces that the refined list has at least: by its levels, or the area and the longest side of each given face.
+///
+/// # Errors
+/// [`Error::Argument`] for a longest edge that is no length, for coordinates or attributes that are not finite and faces that name a missing
+/// vertex, and for more than 67 million faces, before memory is taken for them.
+pub fn least_faces(soup: &Soup, options: &Refine) -> Result<usize> {
+    soup.check_writable()?;
     let four = 4usize.saturating_pow(options.levels.try_into().unwrap_or(u32::MAX));
     let by_levels = soup.faces.len().saturating_mul(four);
     if by_levels > MOST_FACES {
-        return too_large(by_levels);
+        return Err(too_many(by_levels));
     }
-    let Some(longest) = options.longest_edge else { return Ok(()) };
+    let Some(longest) = options.longest_edge else { return Ok(by_levels) };
     if !(longest > 0.0 && longest.is_finite()) {
         return Err(Error::argument("longest edge", longest, "a finite length greater than 0"));
     }
-    // The area of a triangle with sides of this length bounds that of every part.
+    // The area of a triangle with sides of this length bounds that of every part, and each part of a side belongs to another face.
     let largest = 0.25 * 3f64.sqrt() * longest * longest;
-    let at = |v: u32| soup.positions[v as usize];
-    let doubled = |f: &[u32; 3]| norm(triangle_normal(f.map(at)));
-    let least = soup.faces.iter().map(doubled).sum::<f64>() / 2.0 / largest;
-    if least > MOST_FACES as f64 { too_large(least as usize) } else { Ok(()) }
+    let parts = |f: &[u32; 3]| {
+        let [a, b, c] = f.map(|v| soup.positions[v as usize]);
+        let side = distance(a, b).max(distance(b, c)).max(distance(c, a));
+        (0.5 * norm(triangle_normal([a, b, c])) / largest).max((side / longest).ceil())
+    };
+    let least = soup.faces.iter().map(parts).sum::<f64>();
+    if least > MOST_FACES as f64 { Err(too_many(least as usize)) } else { Ok(by_levels.max(least as usize)) }
 }
 
 /// A point of the list: its vertex, and its weights in the given face.

@@ -3,7 +3,7 @@
 use ricci::geometry::Space;
 use ricci::mesh::check::diagnose;
 use ricci::mesh::io::{NumberColumn, NumberType, Soup};
-use ricci::mesh::refine::{Refine, RefinedSoup, longest_edge, refine};
+use ricci::mesh::refine::{Refine, RefinedSoup, least_faces, longest_edge, refine};
 use ricci::mesh::{Mesh, PerEdge, Place, VertexId, shapes};
 use ricci::metric::ShapeQuality;
 use ricci::metric::angle_refinement::{AngleRefinement, AngleReport, FinerMetric, refine_to_angle};
@@ -55,7 +55,10 @@ fn levels_cut_every_face_into_four() {
 fn edges_are_split_until_none_is_too_long() {
     let given = shapes::torus(2.0, 0.4, 7, 12).unwrap();
     for bound in [1.0, 0.31, 0.05] {
-        let finer = refine(&given, &Refine { levels: 0, longest_edge: Some(bound) }).unwrap();
+        let options = Refine { levels: 0, longest_edge: Some(bound) };
+        let finer = refine(&given, &options).unwrap();
+        let least = least_faces(&given, &options).unwrap();
+        assert!(least >= given.faces.len() && least <= finer.soup.faces.len());
         assert!(finer.longest_edge() <= bound && Mesh::from_soup(&finer.soup).unwrap().genus() == 1);
         check(&given, &finer);
     }
@@ -104,6 +107,10 @@ fn lists_that_are_no_surface_are_refined_and_attributes_are_interpolated() {
     assert!(matches!(refine(&twice, &Refine::default()), Err(Error::Argument { .. })));
     let endless = Refine { levels: 40, longest_edge: None };
     assert!(refine(&soup, &endless).unwrap_err().to_string().contains("67 million"));
+    // A needle has no area, but its sides have as many parts as fit on them.
+    let needle = Soup::new(vec![[0.0; 3], [1e9, 0.0, 0.0], [0.0, 1e-9, 0.0]], vec![[0, 1, 2]]);
+    let short = Refine { longest_edge: Some(1.0), ..Refine::default() };
+    assert!(refine(&needle, &short).unwrap_err().to_string().contains("67 million"));
     let negative = Refine { levels: 0, longest_edge: Some(-1.0) };
     assert!(matches!(refine(&soup, &negative), Err(Error::Argument { .. })));
 }

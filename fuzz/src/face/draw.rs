@@ -223,6 +223,15 @@ impl Session<'_> {
                     (_, "spread") if is_long && !self.tape.one_in(32) => 0.2_f64.to_bits(),
                     ("ricci_bicubic_options", "tolerance") => self.coarse(1.0).to_bits(),
                     ("ricci_bicubic_options", "angle") => self.coarse(std::f64::consts::PI).to_bits(),
+                    // A list of a few faces becomes as long as it is asked for.
+                    ("ricci_refine_options", "levels") => {
+                        if self.tape.one_in(16) {
+                            u64::MAX
+                        } else {
+                            self.tape.below(4) as u64
+                        }
+                    }
+                    ("ricci_refine_options", "longest_edge") => self.coarse(0.1).to_bits(),
                     (_, "size" | "reserved" | "reserved_too") => 0,
                     ("ricci_shape", "n") => self.tape.below(4) as u64,
                     ("ricci_match_options" | "ricci_uniform_options", "start") => 0,
