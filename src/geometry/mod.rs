@@ -41,6 +41,7 @@ pub mod vector;
 mod vertex;
 pub mod weights;
 pub mod worst;
+pub(crate) mod z_order;
 
 pub use double_double::DoubleDouble;
 pub use isometry::PlaneIsometry;

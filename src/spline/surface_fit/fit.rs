@@ -17,6 +17,8 @@ const LESS_FAIR: f64 = 0.3;
 const FAIRER: f64 = 100.0;
 /// Distance over the tolerance from which on a second round is the last.
 const HOPELESS: f64 = 2.0;
+/// Rounds after which a surface has no spline if none of them has given one.
+const TRIES: usize = 3;
 /// Most control points that are tried beyond a quarter of the number of vertices: fits with more take long.
 const MOST_TRIED: usize = 4000;
 
@@ -138,15 +140,19 @@ fn fit_rounds(
     let mut sizes =
         TriangleSizes::new(surface, flat, setting.triangles, |turns| setting.inside(turns), control)?;
     let singular = flat.singular()?;
-    let mut best: Option<SurfaceFit> = None;
+    let (mut best, mut failure): (Option<SurfaceFit>, _) = (None, None);
     let mut factor = 1.0;
     for rounds in 1..=options.rounds.max(1) {
         let domain = setting.domain(&sizes, flat, control)?;
         let found = match FitRound::new(domain, &setting, factor, control) {
             Ok(found) => found,
-            // An earlier round has given a spline, which is kept.
+            // An earlier round has given a spline, which is kept; or the vertices of another round make a better domain.
             Err(Error::Spline { .. } | Error::Factorisation { .. }) if best.is_some() => break,
-            Err(error) => return Err(error),
+            Err(error @ (Error::Spline { .. } | Error::Factorisation { .. })) if rounds < TRIES => {
+                failure = Some(error);
+                continue;
+            }
+            Err(error) => return Err(failure.unwrap_or(error)),
         };
         sizes.adapt(mesh, &found.triangles(), found.spline.space().patches().len(), options.degree);
         let [rms, max] = found.measures;
@@ -167,7 +173,7 @@ fn fit_rounds(
         }
         factor *= if miss > 1.0 { LESS_FAIR } else { FAIRER };
     }
-    best.ok_or_else(|| Error::argument("rounds", options.rounds, "1 or more"))
+    best.ok_or_else(|| failure.unwrap_or_else(|| Error::argument("rounds", options.rounds, "1 or more")))
 }
 
 impl SurfaceFit {

@@ -8,12 +8,13 @@ use super::plane::TURNS;
 use super::setting::{FitSetting, cost, miss};
 use super::sizes::VertexError;
 use crate::control::{Control, Stage};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::geometry::vector::Vector;
 use crate::mesh::FaceId;
 use crate::parallel::Pool;
 use crate::spline::triangular::{
-    FairnessUnit, FairnessWeights, FitSystem, PlacedRows, TangentPlanes, WeightedFit,
+    FairnessUnit, FairnessWeights, FitSystem, PlacedRows, TangentPlanes, WeightedFit, open_places,
+    partition_of_unity,
 };
 use crate::spline::{Hole, Parameter, Spline, SplineSpace, SurfacePoint};
 use std::sync::Arc;
@@ -39,6 +40,8 @@ const LESS_DAMPING: f64 = 0.3;
 const MORE_DAMPING: f64 = 10.0;
 const DAMPING_BOUNDS: [f64; 2] = [1e-3, 1.0];
 
+/// Largest deviation of the sum of all basis functions from 1: above rounding.
+const UNITY: f64 = 1e-9;
 /// Most times that patches in which a spline folds are made fairer.
 const UNFOLDINGS: usize = 8;
 /// Distance over the tolerance, and share of the patches that fold, from which on folds are left as they are.
@@ -83,6 +86,7 @@ impl FitRound {
                 .map(|v| setting.hole(&domain, &space, &places, v))
                 .collect::<Result<_>>()?,
         };
+        check_unity(&space, &holes, options.threads, control)?;
         let best = Pool::new(options.threads)?.run(|| {
             let system = FitSystem::new(&space, &holes, &places, FairnessUnit::Patches)?;
             let mut fitting =
@@ -100,6 +104,18 @@ impl FitRound {
         let all = self.places.iter().zip(&self.distances);
         all.map(|(&at, &miss)| (!is_covered(at)).then_some((at.patch as usize, miss))).collect()
     }
+}
+
+/// Refuses a space whose basis functions do not add up to 1 somewhere outside the cores of holes.
+fn check_unity(space: &Arc<SplineSpace>, holes: &[Hole], threads: usize, control: &Control) -> Result<()> {
+    let (patch, error) = partition_of_unity(space, &open_places(space, holes), threads, control)?;
+    if error > UNITY {
+        let message = format!(
+            "the basis functions miss the sum 1 by {error:.1e} there, as triangles of so coarse a domain reach around a singular vertex; allow more control points"
+        );
+        return Err(Error::Spline { what: "patch", index: patch, message });
+    }
+    Ok(())
 }
 
 /// A spline with the places of the vertices and their distances.

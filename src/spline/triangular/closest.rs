@@ -10,13 +10,14 @@ use super::hole::Hole;
 use super::patch::Parameter;
 use super::point::SurfacePoint;
 use super::recurrence::Scratch;
-use super::surface::{LARGEST, Spline, in_batches};
+use super::surface::{LARGEST, Spline, in_batches, in_batches_along};
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::bounds::Bounds;
 use crate::geometry::boxes::{BoundsNode, BoundsTree};
 use crate::geometry::complex::{Complex, add, scale};
 use crate::geometry::vector::{self, Vector, distance};
+use crate::geometry::z_order::z_order;
 use std::f64::consts::TAU;
 
 /// Least and most halvings of a triangle: enough that no bend is overlooked, and not too many cells of a wild surface.
@@ -211,7 +212,10 @@ impl ClosestPoints<'_> {
         if let Some(at) = points.iter().position(|p| !is_good(p)) {
             return Err(Error::argument("point", at, "one with finite coordinates, of size 1e150 at most"));
         }
-        in_batches(points, BATCH, threads, control, |scratch, &point| self.nearest(point, scratch))
+        // Points that follow each other are near each other, so that the cells of one are at hand for the next.
+        in_batches_along(&z_order(points), points, threads, control, |scratch, &point| {
+            self.nearest(point, scratch)
+        })
     }
 
     fn nearest(&self, target: Vector, scratch: &mut Scratch) -> Result<ClosestPoint> {

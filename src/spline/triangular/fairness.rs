@@ -15,6 +15,9 @@ const SAMPLES: usize = GRID * (GRID + 1) / 2;
 /// Weight of the bending relative to that of its variation: it matters where there are fewer points than a quadratic polynomial needs.
 const BENDING: f64 = 0.1;
 
+/// Largest entry of a patch's energy over that of the median patch: thinner patches have larger ones.
+const THIN: f64 = 1e6;
+
 /// The unit of length of the fairness energy, and what it is a mean of.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum FairnessUnit {
@@ -55,7 +58,21 @@ pub(super) fn energies(space: &SplineSpace, unit: FairnessUnit) -> Result<Vec<Pa
         let energy = grid.energy(space, patch, scratch)?;
         Ok(energy.matrix(&grid.couplings(space.degree(), side), weight * scale / SAMPLES as f64))
     });
-    found.into_iter().collect()
+    let mut energies = found.into_iter().collect::<Result<Vec<PatchEnergy>>>()?;
+    bound(&mut energies);
+    Ok(energies)
+}
+
+/// Scales down energies of patches so thin that beside them all others, and the points, would be lost in rounding.
+fn bound(energies: &mut [PatchEnergy]) {
+    let mut largest: Vec<f64> =
+        energies.iter().map(|of| of.matrix.iter().fold(0.0, |most: f64, x| most.max(x.abs()))).collect();
+    let all = largest.clone();
+    largest.sort_by(f64::total_cmp);
+    let Some(&median) = largest.get(largest.len() / 2) else { return };
+    for (energy, most) in energies.iter_mut().zip(all).filter(|(_, most)| *most > THIN * median) {
+        energy.matrix.iter_mut().for_each(|x| *x *= THIN * median / most);
+    }
 }
 
 /// The sample points of the fairness energy in a patch: the centres of those of its GRID² equal triangles that have its orientation.

@@ -1,5 +1,6 @@
 //! Measurement of how well a spline keeps the identities of triangular B-splines.
 
+use super::hole::Hole;
 use super::patch::{Parameter, Patch, Support};
 use super::point::SurfacePoint;
 use super::space::SplineSpace;
@@ -44,6 +45,30 @@ pub struct Identities {
     pub rough_sides: usize,
 }
 
+/// Seven places of each patch outside the cores of holes.
+pub(crate) fn open_places(space: &SplineSpace, holes: &[Hole]) -> Vec<Parameter> {
+    (0..space.patches().len())
+        .flat_map(|patch| PLACES.map(|weights| place(space, patch, weights)))
+        .filter(|&at| !holes.iter().any(|hole| hole.is_core(at)))
+        .collect()
+}
+
+/// The largest deviation |Σ B − 1| of the sum of all basis functions at these places, and the patch where it is.
+///
+/// # Errors
+/// Those of [`Spline::evaluate`].
+pub(crate) fn partition_of_unity(
+    space: &Arc<SplineSpace>,
+    places: &[Parameter],
+    threads: usize,
+    control: &Control,
+) -> Result<(usize, f64)> {
+    let ones = Spline::new(space.clone(), vec![[1.0, 0.0, 0.0]; space.n_control_points()])?;
+    let sums = ones.evaluate(places, 0, threads, control)?;
+    let errors = places.iter().zip(&sums).map(|(at, sum)| (at.patch as usize, (sum.point[0] - 1.0).abs()));
+    Ok(errors.fold((0, 0.0), |worst, next| if next.1 > worst.1 { next } else { worst }))
+}
+
 impl Spline {
     /// Measures the identities at seven places of each patch outside the cores of holes, and at the middle of each side between two
     /// patches.
@@ -52,13 +77,8 @@ impl Spline {
     /// Those of [`Spline::evaluate`].
     pub fn identities(&self, threads: usize, control: &Control) -> Result<Identities> {
         let space = self.space();
-        let places: Vec<Parameter> = (0..space.patches().len())
-            .flat_map(|patch| PLACES.map(|weights| place(space, patch, weights)))
-            .filter(|&at| !self.holes().iter().any(|hole| hole.is_core(at)))
-            .collect();
-        let ones = Spline::new(space.clone(), vec![[1.0, 0.0, 0.0]; space.n_control_points()])?;
-        let sums = ones.evaluate(&places, 0, threads, control)?;
-        let partition_of_unity = sums.iter().map(|sum| (sum.point[0] - 1.0).abs()).fold(0.0, f64::max);
+        let places = open_places(space, self.holes());
+        let partition_of_unity = partition_of_unity(space, &places, threads, control)?.1;
         let one_chart = space.check_one_chart().is_ok();
         let polynomial_reproduction =
             one_chart.then(|| reproduction(space, &places, threads, control)).transpose()?;

@@ -38,6 +38,7 @@ pub use fit::{FitOptions, PlacedPoints, SplineFit, fit, fit_filled};
 pub(super) use hole::INFINITE;
 pub use hole::{Hole, Sector};
 pub use identities::Identities;
+pub(crate) use identities::{open_places, partition_of_unity};
 pub use index::{MAX_DEGREE, basis_size, multi_indices};
 pub use knots::{KnotOptions, PlaneDomain, SPREAD};
 pub use locate::Locator;

@@ -16,6 +16,8 @@ use std::sync::Arc;
 
 /// Number of points that are evaluated between two checks for cancellation.
 const BATCH: usize = 1 << 16;
+/// The same of elements in another order, of which some take as long as a search for a nearest point.
+const BATCH_ALONG: usize = 1 << 12;
 
 /// Largest size of a coordinate, so that squares of distances stay finite.
 pub(super) const LARGEST: f64 = 1e150;
@@ -97,7 +99,14 @@ impl Spline {
         if order > 2 {
             return Err(Error::argument("order of derivatives", order, "0, 1 or 2"));
         }
-        in_batches(places, BATCH, threads, control, |scratch, &place| self.at(place, order, scratch))
+        let work = |scratch: &mut Scratch, place: &Parameter| self.at(*place, order, scratch);
+        if places.is_sorted_by_key(|place| place.patch) {
+            return in_batches(places, BATCH, threads, control, work);
+        }
+        // Places of one patch follow each other, so that what its basis functions need is at hand.
+        let mut sorted: Vec<u32> = (0..places.len() as u32).collect();
+        sorted.sort_by_key(|&i| (places[i as usize].patch, i));
+        in_batches_along(&sorted, places, threads, control, work)
     }
 
     pub(super) fn at(&self, at: Parameter, order: usize, scratch: &mut Scratch) -> Result<SurfacePoint> {
@@ -165,6 +174,26 @@ impl Spline {
     pub fn omega(&self, patch: usize) -> Vec<[f64; 2]> {
         self.space.patches().get(patch).map_or_else(Vec::new, |patch| omega(&patch.knots))
     }
+}
+
+/// [`in_batches`] with the elements in another order, given by their numbers; results, and the first error, are as without it.
+pub(super) fn in_batches_along<A: Sync, T: Send>(
+    order: &[u32],
+    all: &[A],
+    threads: usize,
+    control: &Control,
+    work: impl Fn(&mut Scratch, &A) -> Result<T> + Sync,
+) -> Result<Vec<T>> {
+    let of = |scratch: &mut Scratch, i: &u32| work(scratch, &all[*i as usize]);
+    let found = match in_batches(order, BATCH_ALONG, threads, control, of) {
+        Ok(found) => found,
+        Err(Error::Cancelled) => return Err(Error::Cancelled),
+        // The first element in the given order that fails is named.
+        Err(_) => return in_batches(all, BATCH_ALONG, threads, control, work),
+    };
+    let mut placed: Vec<Option<T>> = all.iter().map(|_| None).collect();
+    order.iter().zip(found).for_each(|(&i, of)| placed[i as usize] = Some(of));
+    Ok(placed.into_iter().flatten().collect())
 }
 
 /// The results of `work(memory, &all[i])` for every i, in parallel, with a check for cancellation after every `size` of them.
