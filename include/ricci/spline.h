@@ -151,7 +151,10 @@ typedef struct ricci_spline_summary {
 typedef struct ricci_spline_surface_options {
     /** sizeof(ricci_spline_surface_options), by ricci_init. */
     size_t size;
-    /** Number of control points, at most; 0: a quarter of the vertices. */
+    /**
+     * Number of control points, at most; 0: a quarter of the vertices, and where no such spline holds twice and
+     * four times as many, up to 4000.
+     */
     size_t control_points;
     /**
      * Largest distance of a vertex from the spline over the diagonal of the bounding box at which no further

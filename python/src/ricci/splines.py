@@ -66,7 +66,8 @@ class SurfaceOptions(TypedDict, total=False):
 
     Attributes:
         degree: 1 to 5; 3.
-        control_points: their number, at most; a quarter of the vertices.
+        control_points: their number, at most; a quarter of the vertices, and where no such spline holds twice and four times as
+            many, up to 4000.
         tolerance: largest distance of a vertex over the diagonal at which no further round is made; 0.01.
         fairness: weight of the variation of bending in the first round; chosen by cross-validation.
         spread: least distance of knots from their vertex; 0.9.
