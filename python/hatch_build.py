@@ -24,6 +24,8 @@ HEADERS = (
     "ricci",
     "repair",
     "shapes",
+    "homotopy",
+    "charts",
     "uniformize",
     "circles",
     "seamless",

@@ -43,7 +43,7 @@ pub struct ricci_bicubic_options {
     pub reserved: u32,
 }
 // SAFETY: numbers; 8-byte alignment, size first.
-sized!(ricci_bicubic_options, "options");
+sized!(ricci_bicubic_options, "options", reserved);
 
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
@@ -54,7 +54,7 @@ pub struct ricci_step_options {
     pub reserved: u32,
 }
 // SAFETY: numbers and a raw pointer; 8-byte alignment, size first.
-sized!(ricci_step_options, "options");
+sized!(ricci_step_options, "options", reserved);
 
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
@@ -76,7 +76,7 @@ pub struct ricci_bicubic_summary {
     pub normal_jump_of_spline: f64,
 }
 // SAFETY: numbers; 8-byte alignment, size first.
-sized!(ricci_bicubic_summary, "summary");
+sized!(ricci_bicubic_summary, "summary", reserved);
 
 impl ricci_bicubic_options {
     fn read(&self) -> BicubicOptions {

@@ -51,7 +51,7 @@ pub struct ricci_circle_domain_options {
     pub reserved: u32,
 }
 // SAFETY: numbers and raw pointers; 8-byte alignment, size first.
-sized!(ricci_circle_domain_options, "options");
+sized!(ricci_circle_domain_options, "options", reserved);
 
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]

@@ -5,8 +5,13 @@ use crate::guard::{self, handle, output, shared};
 use crate::status::ricci_status;
 use ricci::Control;
 use ricci::control::Stage;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
-pub struct ricci_control(Control);
+pub struct ricci_control {
+    control: Control,
+    /// Threads of calls that have no option for them, 0 for one per core.
+    threads: AtomicUsize,
+}
 handle!(ricci_control, "control");
 
 choices!(STAGES: Stage = "stage", [
@@ -21,12 +26,29 @@ choices!(STAGES: Stage = "stage", [
 /// The library's control of a handle; a new one for NULL.
 pub(crate) fn of(control: *const ricci_control) -> Control {
     // SAFETY: NULL, or from this library and alive (contract of the header).
-    unsafe { control.as_ref() }.map_or_else(Control::new, |control| control.0.clone())
+    unsafe { control.as_ref() }.map_or_else(Control::new, |control| control.control.clone())
+}
+
+/// The threads that a control asks for in calls without an option for them.
+pub(crate) fn threads(control: *const ricci_control) -> usize {
+    // SAFETY: as in `of`.
+    unsafe { control.as_ref() }.map_or(0, |control| control.threads.load(Ordering::Relaxed))
 }
 
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ricci_control_new(control: *mut *mut ricci_control) -> ricci_status {
-    guard::make(control, || Ok(ricci_control(Control::new())))
+    guard::make(control, || Ok(ricci_control { control: Control::new(), threads: AtomicUsize::new(0) }))
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_control_set_threads(
+    control: *const ricci_control,
+    threads: usize,
+) -> ricci_status {
+    guard::with(control, |control| {
+        control.threads.store(threads, Ordering::Relaxed);
+        Ok(())
+    })
 }
 
 #[unsafe(no_mangle)]
@@ -37,7 +59,7 @@ pub unsafe extern "C" fn ricci_control_free(control: *mut ricci_control) {
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ricci_control_cancel(control: *const ricci_control) -> ricci_status {
     guard::with(control, |control| {
-        control.0.cancel();
+        control.control.cancel();
         Ok(())
     })
 }
@@ -51,7 +73,7 @@ pub unsafe extern "C" fn ricci_control_progress(
 ) -> ricci_status {
     guard::call(|| {
         let (stage, fraction) = (output("stage", stage)?, output("fraction", fraction)?);
-        let control = &shared(control)?.0;
+        let control = &shared(control)?.control;
         let (now, done) = control.progress();
         stage.set(STAGES.number(now)?);
         fraction.set(done);

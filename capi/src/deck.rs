@@ -58,7 +58,7 @@ pub struct ricci_deck_spec {
     pub limit: usize,
 }
 // SAFETY: numbers and raw pointers; 8-byte alignment, size first.
-sized!(ricci_deck_spec, "deck");
+sized!(ricci_deck_spec, "deck", reserved);
 
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]

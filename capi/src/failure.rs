@@ -1,6 +1,7 @@
 //! The reason why a call fails: a status, a message, and the element and the amount as numbers.
 
 use crate::status::*;
+use ricci::mesh::check::Defect;
 use ricci::{Error, FilePosition};
 use std::borrow::Cow;
 
@@ -70,6 +71,13 @@ fn system_error(message: &str) -> f64 {
     number.and_then(|number| number.parse::<i32>().ok()).map_or(0.0, f64::from)
 }
 
+/// The first vertex that a defect concerns, or the first face.
+fn place(defect: &Defect) -> (FailureElement, usize) {
+    let first = |numbers: Vec<u32>, element| Some((element, *numbers.first()? as usize));
+    let vertex = first(defect.vertices(), FailureElement::Vertex);
+    vertex.or_else(|| first(defect.faces(), FailureElement::Face)).unwrap_or_default()
+}
+
 impl From<Error> for Failure {
     fn from(error: Error) -> Failure {
         let failure = Failure::new(error.code(), error.to_string());
@@ -81,6 +89,7 @@ impl From<Error> for Failure {
             }
             Error::Parse { at: FilePosition::Line(line), .. } => ((FailureElement::Line, *line), 0.0),
             Error::Parse { at: FilePosition::Byte(byte), .. } => ((FailureElement::Byte, *byte), 0.0),
+            Error::Defects(found) => (found.defects.first().map_or((FailureElement::None, 0), place), 0.0),
             Error::TooLarge { count, .. } => ((FailureElement::None, 0), *count as f64),
             Error::Gluing { face, .. } => ((FailureElement::Face, *face), 0.0),
             Error::EdgeLength { edge, length } => ((FailureElement::Edge, *edge), *length),

@@ -38,7 +38,7 @@ pub struct ricci_forms_options {
     pub reserved: u32,
 }
 // SAFETY: numbers and a raw pointer; 8-byte alignment, size first.
-sized!(ricci_forms_options, "options");
+sized!(ricci_forms_options, "options", reserved);
 
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]

@@ -88,7 +88,9 @@ pub fn with<H: OpaqueHandle>(handle: *const H, body: impl FnOnce(&H) -> Outcome)
 pub fn make<H: OpaqueHandle>(place: *mut *mut H, body: impl FnOnce() -> Outcome<H>) -> ricci_status {
     call(|| {
         let place = output(H::NAME, place)?;
-        place.set(Box::into_raw(Box::new(body()?)));
+        let handle = Box::into_raw(Box::new(body()?));
+        live::add(handle);
+        place.set(handle);
         Ok(())
     })
 }
@@ -104,7 +106,10 @@ pub fn change<H: MutableHandle, T>(handle: *mut H, body: impl FnOnce(&mut H) -> 
     // SAFETY: NULL, or from this library, alive and used by this thread only (contract of the header).
     let handle = unsafe { handle.as_mut() }.ok_or_else(|| Failure::null(H::NAME))?;
     if std::mem::replace(handle.poisoned(), true) {
-        let message = format!("an earlier call on this {} ended in an internal error; free it", H::NAME);
+        let message = format!(
+            "an earlier call on this {} ended in an internal error, or was under way in the process from which this one was forked; free it",
+            H::NAME
+        );
         return Err(Failure::new(RICCI_POISONED, message));
     }
     let result = body(handle);
@@ -112,12 +117,18 @@ pub fn change<H: MutableHandle, T>(handle: *mut H, body: impl FnOnce(&mut H) -> 
     result
 }
 
-/// Releases a handle, which may be NULL or poisoned.
-pub fn free<H>(handle: *mut H) {
+/// Releases a handle, which may be NULL or poisoned. With debug assertions one that is not alive is refused, with a message and a log entry.
+pub fn free<H: OpaqueHandle>(handle: *mut H) {
     if handle.is_null() {
         return;
     }
     let _host = HostFloatEnvironment::replace_by_default();
+    if !live::remove(handle) {
+        let message = format!("this {} was freed before, or is not one of this library", H::NAME);
+        log::error!("{message}");
+        thread_failure::keep(&Failure::argument(message));
+        return;
+    }
     // SAFETY: made by `make` and not freed before (contract of the header).
     let mut release = || {
         drop(unsafe { Box::from_raw(handle) });
@@ -125,6 +136,25 @@ pub fn free<H>(handle: *mut H) {
     };
     if let Err(message) = guarded(&mut release) {
         thread_failure::keep(&Failure::new(RICCI_PANIC, message));
+    }
+}
+
+/// The handles that are alive, which only builds with debug assertions keep.
+mod live {
+    use std::collections::BTreeSet;
+    use std::sync::{Mutex, PoisonError};
+
+    static LIVE: Mutex<BTreeSet<usize>> = Mutex::new(BTreeSet::new());
+
+    pub fn add<H>(handle: *mut H) {
+        if cfg!(debug_assertions) {
+            LIVE.lock().unwrap_or_else(PoisonError::into_inner).insert(handle.addr());
+        }
+    }
+
+    /// True if the handle was alive, and without debug assertions always.
+    pub fn remove<H>(handle: *mut H) -> bool {
+        !cfg!(debug_assertions) || LIVE.lock().unwrap_or_else(PoisonError::into_inner).remove(&handle.addr())
     }
 }
 
@@ -208,5 +238,18 @@ mod tests {
         assert_eq!(with(&read, |_| Ok(())), RICCI_OK);
         assert_eq!(call(|| Err(Failure::argument("x").needs(3))), RICCI_ARGUMENT);
         assert_eq!(last(), "x");
+    }
+
+    /// What would be undefined in a release build has a message in one with debug assertions.
+    #[test]
+    #[cfg(debug_assertions)]
+    fn a_second_release_is_refused() {
+        let mut handle: *mut Box2 = std::ptr::null_mut();
+        assert_eq!(make(&raw mut handle, || Ok(Box2 { poisoned: false, value: 1 })), RICCI_OK);
+        assert_eq!(call(|| Err(Failure::argument("x"))), RICCI_ARGUMENT);
+        free(handle);
+        assert_eq!(last(), "x");
+        free(handle);
+        assert_eq!(last(), "this box was freed before, or is not one of this library");
     }
 }

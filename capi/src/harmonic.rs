@@ -58,7 +58,7 @@ pub struct ricci_harmonic_summary {
     pub reserved: u32,
 }
 // SAFETY: numbers; 8-byte alignment, size first.
-sized!(ricci_harmonic_summary, "summary");
+sized!(ricci_harmonic_summary, "summary", reserved);
 
 /// The images of the mesh's vertices, and what is known of the map; fields without a meaning are NaN.
 struct FoundMap {

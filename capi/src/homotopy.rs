@@ -199,7 +199,7 @@ pub struct ricci_lift {
     pub reserved: u32,
 }
 // SAFETY: numbers and raw pointers; 8-byte alignment, size first.
-sized!(ricci_lift, "lift");
+sized!(ricci_lift, "lift", reserved);
 
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ricci_homotopy_lift(

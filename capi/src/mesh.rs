@@ -199,7 +199,7 @@ pub struct ricci_gluing {
     pub reserved: u32,
 }
 // SAFETY: numbers and raw pointers; 8-byte alignment, size first.
-sized!(ricci_gluing, "gluing");
+sized!(ricci_gluing, "gluing", reserved);
 
 /// The caller's lengths of the edges of a mesh, which must be finite and positive.
 fn lengths_of(mesh: &Mesh, lengths: *const f64, n: usize) -> Outcome<Arc<PerEdge<f64>>> {
@@ -273,7 +273,7 @@ pub struct ricci_attributes {
     pub reserved: u32,
 }
 // SAFETY: numbers and raw pointers; 8-byte alignment, size first.
-sized!(ricci_attributes, "attributes");
+sized!(ricci_attributes, "attributes", reserved);
 
 impl ricci_attributes {
     /// The attributes of a triangle list with the caller's in place of those that the caller can give: names of faces and further numbers stay.

@@ -130,7 +130,7 @@ pub struct ricci_metric_summary {
     pub reserved: u32,
 }
 // SAFETY: numbers; 8-byte alignment, size first.
-sized!(ricci_metric_summary, "summary");
+sized!(ricci_metric_summary, "summary", reserved);
 
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ricci_metric_new(

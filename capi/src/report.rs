@@ -72,7 +72,7 @@ pub struct ricci_report_summary {
     pub reserved: u32,
 }
 // SAFETY: numbers and a raw pointer; 8-byte alignment, size first.
-sized!(ricci_report_summary, "summary");
+sized!(ricci_report_summary, "summary", reserved);
 
 /// The vertices of the obstruction, their total curvature in the target, and the bound that it violates: every metric of the class has
 /// more curvature there.

@@ -59,7 +59,7 @@ pub struct ricci_seamless_options {
     pub n_sizes: usize,
 }
 // SAFETY: numbers and raw pointers; 8-byte alignment, size first.
-sized!(ricci_seamless_options, "options");
+sized!(ricci_seamless_options, "options", reserved);
 
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
@@ -79,7 +79,7 @@ pub struct ricci_seamless_summary {
     pub length_change: f64,
 }
 // SAFETY: numbers; 8-byte alignment, size first.
-sized!(ricci_seamless_summary, "summary");
+sized!(ricci_seamless_summary, "summary", reserved);
 
 /// The features that are named by their ends, and the sharp edges.
 fn read_features(given: &ricci_seamless_options, surface: &Surface) -> Outcome<Vec<EdgeId>> {

@@ -58,7 +58,7 @@ pub struct ricci_shape {
     pub n_points: usize,
 }
 // SAFETY: numbers and raw pointers; 8-byte alignment, size first.
-sized!(ricci_shape, "shape");
+sized!(ricci_shape, "shape", reserved);
 
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]

@@ -62,7 +62,7 @@ pub struct ricci_spline_spec {
     pub reserved: u32,
 }
 // SAFETY: numbers and raw pointers; 8-byte alignment, size first.
-sized!(ricci_spline_spec, "spec");
+sized!(ricci_spline_spec, "spec", reserved);
 
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
@@ -81,7 +81,7 @@ pub struct ricci_spline_summary {
     pub reserved: u32,
 }
 // SAFETY: numbers; 8-byte alignment, size first.
-sized!(ricci_spline_summary, "summary");
+sized!(ricci_spline_summary, "summary", reserved);
 
 /// The degree of a spline whose spec has degree 0.
 const USUAL_DEGREE: usize = 3;
@@ -277,6 +277,7 @@ pub unsafe extern "C" fn ricci_spline_tessellate(
         let spline = &shared(spline)?.spline;
         let faces = spline.space().patches().len().saturating_mul(sides.saturating_mul(sides));
         let _reserve = memory::work(faces, memory::POINT)?;
-        ricci_mesh::from_soup(spline.tessellate(sides, 0, &control::of(control))?)
+        let threads = control::threads(control);
+        ricci_mesh::from_soup(spline.tessellate(sides, threads, &control::of(control))?)
     })
 }

@@ -32,7 +32,7 @@ pub struct ricci_spline_surface_options {
     pub reserved: u32,
 }
 // SAFETY: numbers; 8-byte alignment, size first.
-sized!(ricci_spline_surface_options, "options");
+sized!(ricci_spline_surface_options, "options", reserved);
 
 impl ricci_spline_surface_options {
     /// The library's options of the caller's. Options without a field in C keep their defaults.
@@ -151,8 +151,9 @@ pub unsafe extern "C" fn ricci_spline_closest(
         check_buffer("values", n.saturating_mul(6), values, capacity)?;
         check_buffer("patches", n, patches, if patches.is_null() { 0 } else { n })?;
         let _reserve = memory::work(n.saturating_add(spline.space().patches().len()), memory::FIT)?;
-        let (points, control): (Vec<Vector>, _) = (array("points", points.cast(), n)?, control::of(control));
-        let found = spline.closest_points(0, &control)?.find(&points, 0, &control)?;
+        let points: Vec<Vector> = array("points", points.cast(), n)?;
+        let (threads, control) = (control::threads(control), control::of(control));
+        let found = spline.closest_points(threads, &control)?.find(&points, threads, &control)?;
         let row = |at: &ricci::spline::ClosestPoint| {
             let [x, y, z] = at.point;
             [at.place.x, at.place.y, x, y, z, at.distance]

@@ -17,15 +17,20 @@ const MOST_BYTES: usize = 4096;
 pub unsafe trait Sized64: Copy {
     /// The name of the struct in messages.
     const NAME: &'static str;
+    /// The names and places of its fields of 32 bits that have no meaning yet.
+    const RESERVED: &'static [(&'static str, usize)];
     /// The struct with another size in its first member.
     fn with_size(self, size: usize) -> Self;
 }
 
-/// Implements [`Sized64`] for a struct whose first member is `size: usize`. A comment at each use says why its contract holds.
+/// Implements [`Sized64`] for a struct whose first member is `size: usize`; its reserved fields follow its name in messages. A comment at
+/// each use says why its contract holds.
 macro_rules! sized {
-    ($type:ty, $name:literal) => {
+    ($type:ty, $name:literal $(, $reserved:ident)*) => {
         unsafe impl $crate::structs::Sized64 for $type {
             const NAME: &'static str = $name;
+            const RESERVED: &'static [(&'static str, usize)] =
+                &[$((stringify!($reserved), std::mem::offset_of!($type, $reserved))),*];
             fn with_size(self, size: usize) -> Self {
                 Self { size, ..self }
             }
@@ -88,6 +93,14 @@ pub fn read<S: Sized64>(place: *const S) -> Outcome<S> {
     let known = size.min(size_of::<S>());
     // SAFETY: both structs have at least `known` bytes, and any bytes are valid (`Sized64`).
     unsafe { std::ptr::copy_nonoverlapping(place.cast::<u8>(), (&raw mut value).cast::<u8>(), known) };
+    for &(field, at) in S::RESERVED {
+        // SAFETY: the field lies inside the struct.
+        let given = unsafe { (&raw const value).cast::<u8>().add(at).cast::<u32>().read() };
+        if given != 0 {
+            let message = format!("{}.{field} is {given}: it must be 0, as ricci_init leaves it", S::NAME);
+            return Err(Failure::new(RICCI_STRUCT_SIZE, message));
+        }
+    }
     Ok(value.with_size(size_of::<S>()))
 }
 
@@ -104,7 +117,7 @@ mod tests {
         reserved: u32,
     }
     // SAFETY: numbers; 8-byte alignment, size first.
-    sized!(SampleOptions, "options");
+    sized!(SampleOptions, "options", reserved);
 
     const GIVEN: SampleOptions = SampleOptions { size: 24, x: 2.5, n: 7, reserved: 0 };
 
@@ -125,6 +138,11 @@ mod tests {
         for size in [0, 8, 23, 4104, usize::MAX] {
             assert_eq!(read_at(&bytes(size, 0)).unwrap_err().status, RICCI_STRUCT_SIZE, "{size}");
         }
+        let mut used = bytes(24, 0);
+        used[1 + 20] = 3;
+        let failure = read_at(&used).unwrap_err();
+        assert_eq!(failure.status, RICCI_STRUCT_SIZE);
+        assert!(failure.message.contains("options.reserved is 3"), "{}", failure.message);
         let none = read::<SampleOptions>(std::ptr::null()).unwrap();
         assert_eq!(none, SampleOptions { size: 0, x: 0.0, n: 0, reserved: 0 });
     }

@@ -35,7 +35,7 @@ pub struct ricci_target {
     pub curvatures: *const f64,
 }
 // SAFETY: numbers and raw pointers; 8-byte alignment, size first.
-sized!(ricci_target, "target");
+sized!(ricci_target, "target", reserved);
 
 /// The vertices of a caller's array, which must be vertices of the surface.
 pub(crate) fn vertices(surface: &Surface, data: *const u32, n: usize) -> Outcome<Vec<VertexId>> {

@@ -76,7 +76,7 @@ pub struct ricci_uniform_options {
     pub reserved_too: u32,
 }
 // SAFETY: numbers and raw pointers; 8-byte alignment, size first.
-sized!(ricci_uniform_options, "options");
+sized!(ricci_uniform_options, "options", reserved, reserved_too);
 
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]

@@ -14,7 +14,7 @@
 #define RICCI_CGAL_HPP
 
 #include <CGAL/Surface_mesh.h>
-#include <ricci/ricci.hpp>
+#include <ricci/core.hpp>
 
 namespace ricci {
 namespace cgal {

@@ -5,7 +5,7 @@
 #define RICCI_CIRCLES_HPP
 
 #include <ricci/circles.h>
-#include <ricci/ricci.hpp>
+#include <ricci/core.hpp>
 
 namespace ricci {
 

@@ -11,7 +11,7 @@
 #define RICCI_EIGEN_HPP
 
 #include <Eigen/Core>
-#include <ricci/ricci.hpp>
+#include <ricci/core.hpp>
 
 namespace ricci {
 namespace eigen {

@@ -7,8 +7,8 @@
 #ifndef RICCI_HARMONIC_HPP
 #define RICCI_HARMONIC_HPP
 
+#include <ricci/core.hpp>
 #include <ricci/harmonic.h>
-#include <ricci/ricci.hpp>
 
 namespace ricci {
 

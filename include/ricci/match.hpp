@@ -7,8 +7,8 @@
 #ifndef RICCI_MATCH_HPP
 #define RICCI_MATCH_HPP
 
+#include <ricci/core.hpp>
 #include <ricci/match.h>
-#include <ricci/ricci.hpp>
 
 #include <array>
 #include <stdexcept>

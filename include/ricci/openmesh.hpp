@@ -5,9 +5,9 @@
 //     const auto factor = ricci::openmesh::factor(mesh, flat);
 //
 // `uv` is a property of half-edges: the coordinates of the corner at their tip; `factor` one of vertices.
-// Elements keep OpenMesh's numbers; call garbage_collection() first where elements were deleted. Properties
-// are added under the names "ricci:uv", "ricci:factor" and "ricci:curvature", or written again where the mesh
-// has them.
+// Elements keep OpenMesh's numbers; a mesh with deleted elements is refused until garbage_collection().
+// Properties are added under the names "ricci:uv", "ricci:factor" and "ricci:curvature", or written again
+// where the mesh has them.
 //
 // SPDX-License-Identifier: MIT OR Apache-2.0
 #ifndef RICCI_OPENMESH_HPP
@@ -15,7 +15,7 @@
 
 #include <OpenMesh/Core/Geometry/VectorT.hh>
 #include <OpenMesh/Core/Utils/Property.hh>
-#include <ricci/ricci.hpp>
+#include <ricci/core.hpp>
 
 namespace ricci {
 namespace openmesh {
@@ -30,8 +30,21 @@ std::array<::OpenMesh::HalfedgeHandle, 3> corners(const Mesh &mesh, ::OpenMesh::
     return all;
 }
 
-// The mesh, in the numbers of OpenMesh.
+// True if the mesh still has elements that were deleted.
+template <class Mesh> bool has_deleted(const Mesh &mesh) {
+    if (mesh.has_vertex_status())
+        for (std::size_t v = 0; v < mesh.n_vertices(); v++)
+            if (mesh.status(::OpenMesh::VertexHandle(static_cast<int>(v))).deleted()) return true;
+    if (mesh.has_face_status())
+        for (std::size_t f = 0; f < mesh.n_faces(); f++)
+            if (mesh.status(::OpenMesh::FaceHandle(static_cast<int>(f))).deleted()) return true;
+    return false;
+}
+
+// The mesh, in the numbers of OpenMesh. Throws std::invalid_argument for one with deleted elements.
 template <class Mesh> ricci::mesh from(const Mesh &mesh) {
+    if (has_deleted(mesh))
+        throw std::invalid_argument("the mesh has deleted elements: call garbage_collection() first");
     std::vector<double> positions;
     positions.reserve(3 * mesh.n_vertices());
     for (std::size_t v = 0; v < mesh.n_vertices(); v++) {

@@ -4,8 +4,8 @@
 #ifndef RICCI_REPAIR_HPP
 #define RICCI_REPAIR_HPP
 
+#include <ricci/core.hpp>
 #include <ricci/repair.h>
-#include <ricci/ricci.hpp>
 
 namespace ricci {
 

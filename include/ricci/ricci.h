@@ -16,9 +16,12 @@
  *
  * and the handles are freed: ricci_layout_free, ricci_metric_free (twice), ricci_mesh_free, in any order.
  *
- * Beside this header: ricci/repair.h (triangle lists with defects), ricci/uniformize.h (canonical shapes,
- * groups, covers, charts), ricci/shapes.h (sample surfaces); for C++ ricci/ricci.hpp and the adapters
- * openmesh.hpp, cgal.hpp, eigen.hpp.
+ * Beside this header, by theme: repair.h (triangle lists with defects), shapes.h (sample surfaces), charts.h
+ * (layouts on the faces of the mesh, and in charts), homotopy.h (fundamental groups), uniformize.h (canonical
+ * shapes, deck groups, covers), circles.h (circle domains), seamless.h (seamless metrics), harmonic.h
+ * (harmonic maps and 1-forms), match.h (maps between surfaces), structure.h (geometric structures), spline.h
+ * and bicubic.h (spline surfaces, and patches for CAD). For C++ ricci.hpp has the classes of all themes, and
+ * openmesh.hpp, cgal.hpp and eigen.hpp are adapters.
  *
  * Conventions
  *   - Every fallible call returns a ricci_status. ricci_last_error() has this thread's message,
@@ -352,6 +355,17 @@ RICCI_API_VOID void ricci_control_free(ricci_control *control);
  * @param control  the handle the call was given.
  */
 RICCI_API ricci_status ricci_control_cancel(const ricci_control *control);
+
+/**
+ * The number of threads of the calls that have no option for it: ricci_spline_closest and
+ * ricci_spline_tessellate. Results do not depend on it.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER.
+ *
+ * @param control  the handle that calls are given.
+ * @param threads  0 for one per core, the default; at most 256 are used.
+ */
+RICCI_API ricci_status ricci_control_set_threads(const ricci_control *control, size_t threads);
 
 /**
  * The stage that the call is in, and the part of it that is done.

@@ -4,7 +4,7 @@
 #ifndef RICCI_SEAMLESS_HPP
 #define RICCI_SEAMLESS_HPP
 
-#include <ricci/ricci.hpp>
+#include <ricci/core.hpp>
 #include <ricci/seamless.h>
 
 namespace ricci {

@@ -8,7 +8,7 @@
 #ifndef RICCI_SPLINE_HPP
 #define RICCI_SPLINE_HPP
 
-#include <ricci/ricci.hpp>
+#include <ricci/core.hpp>
 #include <ricci/spline.h>
 
 namespace ricci {

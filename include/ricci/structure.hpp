@@ -8,7 +8,7 @@
 #ifndef RICCI_STRUCTURE_HPP
 #define RICCI_STRUCTURE_HPP
 
-#include <ricci/ricci.hpp>
+#include <ricci/core.hpp>
 #include <ricci/structure.h>
 
 namespace ricci {

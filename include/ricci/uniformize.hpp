@@ -4,7 +4,7 @@
 #ifndef RICCI_UNIFORMIZE_HPP
 #define RICCI_UNIFORMIZE_HPP
 
-#include <ricci/ricci.hpp>
+#include <ricci/core.hpp>
 #include <ricci/uniformize.h>
 
 namespace ricci {

@@ -120,6 +120,12 @@ def test_a_whole_torus_is_fitted(ring):
     off = np.abs(np.hypot(np.hypot(points[:, 0], points[:, 1]) - 2, points[:, 2]) - 0.8)
     assert off.max() < 0.05
     patches, parameters, nearest, distance = ring.closest(points * 1.1)
+    control = ricci.Control()
+    control.set_threads(1)
+    backwards = ring.closest(points[::-1] * 1.1, control)
+    assert all(np.array_equal(found[::-1], again) for found, again in zip((patches, parameters, nearest, distance), backwards, strict=True))
+    with pytest.raises(ricci.ArgumentTypeError, match="threads"):
+        control.set_threads(-1)
     np.testing.assert_allclose(np.linalg.norm(nearest - points * 1.1, axis=1), distance, atol=1e-12)
     np.testing.assert_allclose(ring.evaluate(parameters, patches), nearest, atol=1e-9)
 

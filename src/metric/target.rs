@@ -17,6 +17,7 @@ use crate::error::{Error, Result, check_size};
 use crate::geometry::Space;
 use crate::mesh::{HalfedgeId, Mesh, PerEdge, PerVertex, VertexId};
 use crate::topology;
+use std::collections::HashSet;
 use std::f64::consts::PI;
 
 /// Largest error of Gauss–Bonnet that a given target may have, relative to `2π + Σ|K̄|`: targets written with ten digits
@@ -162,8 +163,12 @@ impl Target {
             Target::Auto(_) => return Err(kind("its cones are still to be placed")),
             Target::Cones(cones) => {
                 let mut target = PerVertex::filled(n, 0.0);
+                let mut named = HashSet::new();
                 for &(v, curvature) in cones {
                     target[vertex(v)?] = curvature;
+                    if !named.insert(v) {
+                        return Err(kind(&format!("vertex {v} is named twice")));
+                    }
                 }
                 target
             }

@@ -30,6 +30,8 @@ fn inadmissible_targets_are_refused_with_the_amount() {
         Error::TargetKind { target: "single", .. }
     ));
     assert!(matches!(resolve(Target::Cones(vec![(VertexId(99), 1.0)]), Space::E2), Error::TargetKind { .. }));
+    let twice = vec![(VertexId(1), 1.0), (VertexId(2), -2.0), (VertexId(1), 1.0)];
+    assert!(resolve(Target::Cones(twice), Space::E2).to_string().contains("vertex 1 is named twice"));
     // A vertex of five triangles cannot have curvature below 2π − 5π in a packing.
     let low = Target::Cones(vec![
         (VertexId(0), -10.0),

@@ -44,6 +44,17 @@ class Control:
         """Ask the running call, and every later one with this control, to stop; the call raises `Cancelled`."""
         lib.ricci_control_cancel(self._pointer)
 
+    def set_threads(self, threads: int) -> None:
+        """The number of threads of calls that have no option for it (`Spline.closest`, `Spline.tessellate`): 0, the default, is one for
+        each core.
+
+        Raises:
+            ArgumentTypeError: for what is no number from 0 on.
+        """
+        if not isinstance(threads, int) or threads < 0:
+            raise ArgumentTypeError(f"threads is a number from 0 on, not {threads!r}")
+        lib.ricci_control_set_threads(self._pointer, threads)
+
     def progress(self) -> tuple[str, float]:
         """The stage that the call is in, and the part of it that is done, in [0, 1]."""
         stage, fraction = ffi.new("uint32_t *"), ffi.new("double *")

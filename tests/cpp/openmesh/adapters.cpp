@@ -57,6 +57,28 @@ struct Expected {
     }
 };
 
+// A mesh is refused while it has a deleted face, and taken once that is gone.
+void check_deleted() {
+    using Kernel = OpenMesh::TriMesh_ArrayKernelT<>;
+    Kernel mesh = openmesh<Kernel>();
+    mesh.request_vertex_status();
+    mesh.request_edge_status();
+    mesh.request_halfedge_status();
+    mesh.request_face_status();
+    const std::size_t n_faces = mesh.n_faces();
+    CHECK(ricci::openmesh::from(mesh).summary().n_faces == n_faces);
+    mesh.delete_face(OpenMesh::FaceHandle(0), true);
+    bool refused = false;
+    try {
+        ricci::openmesh::from(mesh);
+    } catch (const std::invalid_argument &error) {
+        refused = std::string(error.what()).find("garbage_collection") != std::string::npos;
+    }
+    CHECK(refused);
+    mesh.garbage_collection();
+    CHECK(ricci::openmesh::from(mesh).summary().n_faces == n_faces - 1);
+}
+
 template <class Kernel> std::vector<double> check_openmesh(double off) {
     Kernel mesh = openmesh<Kernel>();
     const ricci::mesh in = ricci::openmesh::from(mesh);
@@ -138,6 +160,7 @@ std::vector<double> check_eigen() {
 } // namespace
 
 int main() {
+    check_deleted();
     const auto doubles = check_openmesh<Doubles>(0), floats = check_openmesh<Floats>(1e-7);
     const auto cgal = check_cgal(), eigen = check_eigen();
     double off = 0;

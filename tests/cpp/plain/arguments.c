@@ -231,6 +231,9 @@ static void a_diagnosis_names_the_elements_of_every_defect(void) {
     ricci_soup_summary summary;
     ricci_defect defect;
     FAILS(ricci_mesh_from_arrays(positions[0], 0, 5, faces[0], 2, &mesh), RICCI_DEFECTS, "");
+    ricci_failure failure;
+    OK(ricci_last_failure(&failure, sizeof failure));
+    CHECK(failure.element == RICCI_ELEMENT_VERTEX && (failure.index == 0 || failure.index == 4));
     OK(ricci_soup_from_arrays(positions[0], 0, 5, faces[0], 2, &soup));
     OK(ricci_soup_summarise(soup, &summary, sizeof summary));
     CHECK(summary.n_vertices == 5 && summary.n_edges == 5 && summary.n_faces == 2);

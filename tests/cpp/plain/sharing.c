@@ -1,7 +1,10 @@
 /* Two threads use one metric at the same time: a const handle may be shared, results agree bit for bit, and
- * each thread has its own last error. */
+ * each thread has its own last error. A process that is forked while a thread changes a solver may use every
+ * handle but that one. */
 #include "torus.h"
 #include <pthread.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 typedef struct {
     const ricci_metric *metric;
@@ -30,6 +33,57 @@ static void *work(void *argument) {
     return NULL;
 }
 
+typedef struct {
+    ricci_solver *solver;
+    const ricci_target *target;
+    ricci_control *control;
+} long_job;
+
+static void *solve_until_cancelled(void *argument) {
+    long_job *j = (long_job *)argument;
+    ricci_metric *end = NULL;
+    CHECK(ricci_solver_solve(j->solver, j->target, j->control, &end) == RICCI_CANCELLED);
+    CHECK(end == NULL);
+    return NULL;
+}
+
+static void a_child_is_told_of_a_solver_that_was_changing(const ricci_mesh *mesh,
+                                                          const ricci_metric *metric) {
+    const uint32_t cones[2] = {0, 100};
+    const double curvatures[2] = {2.5, -2.5};
+    const ricci_target target = target_of(RICCI_TARGET_CONES, cones, curvatures, 2);
+    ricci_flow_options options;
+    long_job j = {NULL, &target, NULL};
+    pthread_t thread;
+    uint32_t stage = RICCI_STAGE_IDLE;
+    double fraction = 0;
+    int ended = 0;
+    INIT(options);
+    options.method = RICCI_METHOD_GRADIENT;
+    options.tolerance = 1e-300;
+    options.max_iterations = 1000000000;
+    OK(ricci_solver_new(metric, &options, &j.solver));
+    OK(ricci_control_new(&j.control));
+    CHECK(pthread_create(&thread, NULL, solve_until_cancelled, &j) == 0);
+    while (stage != RICCI_STAGE_FLOW) OK(ricci_control_progress(j.control, &stage, &fraction, NULL));
+    const pid_t child = fork();
+    CHECK(child >= 0);
+    if (child == 0) {
+        ricci_metric *end = NULL;
+        ricci_mesh_summary summary;
+        const int is_told = ricci_solver_solve(j.solver, &target, NULL, &end) == RICCI_POISONED &&
+                            strstr(ricci_last_error(), "forked") != NULL;
+        const int is_readable = ricci_mesh_summarise(mesh, &summary, sizeof summary) == RICCI_OK;
+        _exit(is_told && is_readable ? 0 : 1);
+    }
+    CHECK(waitpid(child, &ended, 0) == child);
+    OK(ricci_control_cancel(j.control));
+    CHECK(pthread_join(thread, NULL) == 0);
+    CHECK(WIFEXITED(ended) && WEXITSTATUS(ended) == 0);
+    ricci_solver_free(j.solver);
+    ricci_control_free(j.control);
+}
+
 int main(void) {
     torus t = torus_new(24, 16);
     const size_t n = t.n_vertices;
@@ -47,6 +101,7 @@ int main(void) {
     }
     for (int i = 0; i < 2; i++) CHECK(pthread_join(threads[i], NULL) == 0);
     CHECK(memcmp(jobs[0].u, jobs[1].u, n * sizeof(double)) == 0);
+    a_child_is_told_of_a_solver_that_was_changing(mesh, metric);
     free(jobs[0].u);
     free(jobs[1].u);
     free(target);

@@ -30,6 +30,20 @@ static void middles(const ricci_spline *spline, uint32_t *patches, double *param
     free(knots);
 }
 
+/* Neither the order of points nor the number of threads changes a bit. */
+static void one_thread_finds_the_same_backwards(const ricci_spline *spline, const double *points,
+                                                const double *expected) {
+    double back[3 * N], found[6 * N];
+    ricci_control *control = NULL;
+    for (int i = 0; i < N; i++) memcpy(back + 3 * i, points + 3 * (N - 1 - i), 3 * sizeof *back);
+    OK(ricci_control_new(&control));
+    OK(ricci_control_set_threads(control, 1));
+    OK(ricci_spline_closest(spline, back, N, control, NULL, found, 6 * N));
+    for (int i = 0; i < N; i++)
+        CHECK(memcmp(found + 6 * i, expected + 6 * (N - 1 - i), 6 * sizeof *found) == 0);
+    ricci_control_free(control);
+}
+
 /* Points that stand off the surface along its normals come back to where they stand. */
 static void normals_lead_back(const ricci_spline *spline, double far) {
     uint32_t patches[N], nearest[N];
@@ -43,6 +57,7 @@ static void normals_lead_back(const ricci_spline *spline, double far) {
     for (int i = 0; i < N; i++)
         for (int x = 0; x < 3; x++) points[3 * i + x] = values[9 * i + x] + far * shape[5 * i + x];
     OK(ricci_spline_closest(spline, points, N, NULL, nearest, found, 6 * N));
+    one_thread_finds_the_same_backwards(spline, points, found);
     for (int i = 0; i < N; i++) {
         const double *at = found + 6 * i;
         CHECK(nearest[i] == patches[i] && fabs(at[5] - fabs(far)) < 1e-12);
