@@ -152,8 +152,8 @@ typedef struct ricci_spline_surface_options {
     /** sizeof(ricci_spline_surface_options), by ricci_init. */
     size_t size;
     /**
-     * Number of control points, at most; 0: a quarter of the vertices, and where no such spline holds twice
-     * and four times as many, up to 4000.
+     * Number of control points, at most; 0: a quarter of the vertices. Where no such spline holds,
+     * ricci_spline_fit_mesh tries twice and four times as many too, up to 4000.
      */
     size_t control_points;
     /**

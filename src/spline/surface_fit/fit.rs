@@ -62,67 +62,12 @@ impl SurfaceFit {
 
 /// Fits a spline to the vertices of a surface in space, over a flat metric of it. The triangles of the domain are about equally long on the
 /// surface in the first round, and become smaller where the fit is worse. Returned is the best of all rounds; they end early once the
-/// tolerance is met and the spline does not fold, and after the second where the tolerance is far, or a round gains nothing. Where no number
-/// of control points is given and no spline with a quarter as many as vertices holds, twice and four times as many are tried, up to 4000.
+/// tolerance is met and the spline does not fold, and after the second where the tolerance is far, or a round gains nothing.
 ///
 /// # Errors
 /// [`Error::Argument`] for a surface without positions, a metric that is not flat or lives on a double; [`Error::Spline`];
 /// [`Error::Factorisation`]; [`Error::Cancelled`].
 pub fn fit_surface(
-    surface: &Surface,
-    flat: &FlatMetric,
-    options: &SurfaceFitOptions,
-    control: &Control,
-) -> Result<SurfaceFit> {
-    fit_surface_over(surface, std::slice::from_ref(flat), options, control).map(|(fit, _)| fit)
-}
-
-/// [`fit_surface`] over several flat metrics in turn, until a fit holds its tolerance without folds; the best of them, with the number of
-/// its metric. More control points are tried over the best metric alone.
-///
-/// # Errors
-/// Those of [`fit_surface`], if it fails over every metric; [`Error::Argument`] for no metric.
-pub fn fit_surface_over(
-    surface: &Surface,
-    metrics: &[FlatMetric],
-    options: &SurfaceFitOptions,
-    control: &Control,
-) -> Result<(SurfaceFit, usize)> {
-    let (mut best, mut failure): (Option<(SurfaceFit, usize)>, _) = (None, None);
-    for count in counts(surface.mesh().n_vertices(), options.control_points) {
-        let options = SurfaceFitOptions { control_points: Some(count), ..options.clone() };
-        let chosen = best.as_ref().map(|&(_, k)| k);
-        for (k, flat) in metrics.iter().enumerate().filter(|&(k, _)| chosen.is_none_or(|best| best == k)) {
-            match fit_rounds(surface, flat, &options, control) {
-                Ok(fit) if fit.holds(options.tolerance) => return Ok((fit, k)),
-                Ok(fit) => {
-                    let cost = fit.cost(options.tolerance);
-                    if best.as_ref().is_none_or(|(best, _)| cost < best.cost(options.tolerance)) {
-                        best = Some((fit, k));
-                    }
-                }
-                Err(Error::Cancelled) => return Err(Error::Cancelled),
-                Err(error) => failure = failure.or(Some(error)),
-            }
-        }
-    }
-    let none = || Error::argument("flat metrics", 0, "one or more");
-    best.ok_or_else(|| failure.unwrap_or_else(none))
-}
-
-/// The numbers of control points with which fits are tried, of which later ones only if no earlier one holds: the given one, or from a
-/// quarter of the vertices on twice as many each time, up to the number of vertices.
-fn counts(vertices: usize, given: Option<usize>) -> Vec<usize> {
-    let Some(given) = given else {
-        let quarter = vertices / 4;
-        let more = [2 * quarter, vertices].into_iter().filter(|&n| n <= MOST_TRIED);
-        return std::iter::once(quarter).chain(more).collect();
-    };
-    vec![given]
-}
-
-/// [`fit_surface`] with a given number of control points.
-fn fit_rounds(
     surface: &Surface,
     flat: &FlatMetric,
     options: &SurfaceFitOptions,
@@ -174,6 +119,51 @@ fn fit_rounds(
         factor *= if miss > 1.0 { LESS_FAIR } else { FAIRER };
     }
     best.ok_or_else(|| failure.unwrap_or_else(|| Error::argument("rounds", options.rounds, "1 or more")))
+}
+
+/// [`fit_surface`] over several flat metrics in turn, until a fit holds its tolerance without folds; the best of them, with the number of
+/// its metric. Where no number of control points is given and no spline with a quarter as many as vertices holds, twice and four times as many
+/// are tried over the best metric, up to 4000.
+///
+/// # Errors
+/// Those of [`fit_surface`], if it fails over every metric; [`Error::Argument`] for no metric.
+pub fn fit_surface_over(
+    surface: &Surface,
+    metrics: &[FlatMetric],
+    options: &SurfaceFitOptions,
+    control: &Control,
+) -> Result<(SurfaceFit, usize)> {
+    let (mut best, mut failure): (Option<(SurfaceFit, usize)>, _) = (None, None);
+    for count in counts(surface.mesh().n_vertices(), options.control_points) {
+        let options = SurfaceFitOptions { control_points: Some(count), ..options.clone() };
+        let chosen = best.as_ref().map(|&(_, k)| k);
+        for (k, flat) in metrics.iter().enumerate().filter(|&(k, _)| chosen.is_none_or(|best| best == k)) {
+            match fit_surface(surface, flat, &options, control) {
+                Ok(fit) if fit.holds(options.tolerance) => return Ok((fit, k)),
+                Ok(fit) => {
+                    let cost = fit.cost(options.tolerance);
+                    if best.as_ref().is_none_or(|(best, _)| cost < best.cost(options.tolerance)) {
+                        best = Some((fit, k));
+                    }
+                }
+                Err(Error::Cancelled) => return Err(Error::Cancelled),
+                Err(error) => failure = failure.or(Some(error)),
+            }
+        }
+    }
+    let none = || Error::argument("flat metrics", 0, "one or more");
+    best.ok_or_else(|| failure.unwrap_or_else(none))
+}
+
+/// The numbers of control points with which fits are tried, of which later ones only if no earlier one holds: the given one, or from a
+/// quarter of the vertices on twice as many each time, up to the number of vertices.
+fn counts(vertices: usize, given: Option<usize>) -> Vec<usize> {
+    let Some(given) = given else {
+        let quarter = vertices / 4;
+        let more = [2 * quarter, vertices].into_iter().filter(|&n| n <= MOST_TRIED);
+        return std::iter::once(quarter).chain(more).collect();
+    };
+    vec![given]
 }
 
 impl SurfaceFit {

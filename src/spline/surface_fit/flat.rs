@@ -69,7 +69,10 @@ impl FlatMetric {
             return Ok(vec![FlatMetric::by_form(surface, options, control)?]);
         }
         let all = curvatures(surface, options, control)?;
-        let found = FlatMetric::within_range(surface, &all, options, control)?;
+        let mesh = surface.mesh();
+        // On a short boundary of a surface with handles there is no room for all corners.
+        let least = if !mesh.is_closed() && mesh.euler() < 0 { all.len() } else { 1 };
+        let found = FlatMetric::within_range(surface, &all, least, options, control)?;
         Ok(found.into_iter().map(|(_, flat, _)| flat).collect())
     }
 
@@ -81,17 +84,18 @@ impl FlatMetric {
         options: &FlatMetricOptions,
         control: &Control,
     ) -> Result<(FlatMetric, usize)> {
-        let found = FlatMetric::within_range(surface, all, options, control)?;
+        let found = FlatMetric::within_range(surface, all, 1, options, control)?;
         let best = found.into_iter().min_by(|a, b| a.0.total_cmp(&b.0));
         let none = || Error::Layout("there is no flat metric to choose".into());
         best.map(|(_, flat, k)| (flat, k)).ok_or_else(none)
     }
 
     /// The flat metrics with these curvatures, each with the range of its factor and its number, up to the first within the range of the
-    /// options. Those whose flow fails are left out, unless all do.
+    /// options, and so many at least. Those whose flow fails are left out, unless all do.
     fn within_range(
         surface: &Surface,
         all: &[Curvatures],
+        least: usize,
         options: &FlatMetricOptions,
         control: &Control,
     ) -> Result<Vec<(f64, FlatMetric, usize)>> {
@@ -106,7 +110,7 @@ impl FlatMetric {
                 Ok(flat) => {
                     let range = if all.len() == 1 { 1.0 } else { flat.factor_range(surface)? };
                     metrics.push((range, flat, k));
-                    if range <= options.range {
+                    if range <= options.range && metrics.len() >= least {
                         break;
                     }
                 }

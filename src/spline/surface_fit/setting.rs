@@ -33,7 +33,7 @@ const GROWTH: f64 = 1.15;
 pub struct SurfaceFitOptions {
     /// Degree of the spline, 1 to 5. Default 3.
     pub degree: usize,
-    /// Most control points. Default: a quarter of the number of vertices; if no such fit holds, twice and four times as many, up to 4000.
+    /// Most control points. Default: a quarter of the number of vertices; see [`super::fit_surface_over`] for more.
     pub control_points: Option<usize>,
     /// Largest distance of a vertex from the spline, over the diagonal of the bounding box; the root mean square distance is to be a tenth
     /// of it. Default 0.01.

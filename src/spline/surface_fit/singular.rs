@@ -197,6 +197,10 @@ fn auto(surface: &Surface, options: &FlatMetricOptions, control: &Control) -> Re
     }];
     if !mesh.is_closed() && mesh.euler() < 0 {
         all.push(Curvatures::At(at_one(surface, None, options, control)?));
+        if placed.cones.len() < 2 {
+            let (two, _) = place(surface, [2, 2], options, control)?;
+            all.push(Curvatures::At(with_corners(surface, &two)?));
+        }
     }
     if !is_usual {
         all.push(cones);
