@@ -1,0 +1,124 @@
+// A host with its own arrays, memory, threads and progress bar: splines near a sphere and a torus, fitted on
+// two threads of the host's, and the nearest points to many points in random order and in an order along the
+// surface.
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <random>
+#include <ricci/ricci.hpp>
+#include <thread>
+
+namespace {
+
+// The host's memory, of which it keeps account.
+std::atomic<std::size_t> in_use{0};
+
+template <class T> struct counted {
+    using value_type = T;
+    counted() = default;
+    template <class U> counted(const counted<U> &) {}
+    T *allocate(std::size_t n) {
+        in_use += n * sizeof(T);
+        return static_cast<T *>(::operator new(n * sizeof(T)));
+    }
+    void deallocate(T *place, std::size_t n) {
+        in_use -= n * sizeof(T);
+        ::operator delete(place);
+    }
+};
+template <class T, class U> bool operator==(const counted<T> &, const counted<U> &) { return true; }
+template <class T, class U> bool operator!=(const counted<T> &, const counted<U> &) { return false; }
+
+// Points numbered from 1, as CAD kernels have them, x, y, z one after the other in memory.
+class points {
+public:
+    explicit points(std::size_t n) : xyz_(3 * n) {}
+    std::size_t upper() const { return xyz_.size() / 3; }
+    double *value(std::size_t i) { return &xyz_[3 * (i - 1)]; }
+    ricci::span<double> all() const { return xyz_; }
+
+private:
+    std::vector<double, counted<double>> xyz_;
+};
+
+// The host's progress bar, on a thread of its own, until the call has returned.
+class progress_bar {
+public:
+    progress_bar(const char *name, const ricci::control &watched)
+        : thread_([this, name, &watched] {
+              while (!done_) {
+                  std::fprintf(stderr, "\r%s %3.0f %%", name, 100 * watched.progress().second);
+                  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+              }
+              std::fprintf(stderr, "\r%s done \n", name);
+          }) {}
+    ~progress_bar() {
+        done_ = true;
+        thread_.join();
+    }
+
+private:
+    std::atomic<bool> done_{false};
+    std::thread thread_;
+};
+
+ricci::spline fitted(std::uint32_t shape, std::size_t n, std::size_t m, const ricci::control &watched) {
+    ricci_shape what = ricci::init<ricci_shape>();
+    what.shape = shape, what.n = n, what.m = m, what.a = 2, what.b = 0.8;
+    ricci_spline_surface_options options = ricci::init<ricci_spline_surface_options>();
+    options.threads = 1; // the host has threads of its own
+    return ricci::spline::of_mesh(ricci::mesh::made(what), options, &watched);
+}
+
+// Points per second, and the distances.
+double speed(const ricci::spline &surface, const points &at, std::vector<double> &distances) {
+    const auto start = std::chrono::steady_clock::now();
+    const auto found = surface.closest(at.all());
+    const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
+    for (std::size_t k = 0; k < at.upper(); k++) distances.push_back(found.values[6 * k + 5]);
+    return double(at.upper()) / time.count();
+}
+
+} // namespace
+
+int main(int argc, char **argv) {
+    try {
+        const std::size_t n = argc > 1 ? std::size_t(std::atoi(argv[1])) : 40, count = n * n * 10;
+        const ricci::control sphere_control, torus_control;
+        std::unique_ptr<ricci::spline> sphere;
+        std::thread other(
+            [&] { sphere.reset(new ricci::spline(fitted(RICCI_SHAPE_SPHERE, n / 4, 0, sphere_control))); });
+        progress_bar *bar = new progress_bar("torus", torus_control);
+        const ricci::spline torus = fitted(RICCI_SHAPE_TORUS, n, n / 2, torus_control);
+        delete bar;
+        other.join();
+        for (const ricci::spline *of : {&torus, static_cast<const ricci::spline *>(sphere.get())})
+            if (of->summary().converged != 1 || of->summary().n_folded_patches != 0) return 1;
+
+        // Points 0.1 outside the torus, along its tube and in random order.
+        points sorted(count), shuffled(count);
+        std::vector<std::size_t> order(count);
+        for (std::size_t k = 0; k < count; k++) {
+            const double u = 6.283185307 * double(k) / double(count), v = 200 * u, r = 2 + 0.9 * std::cos(v);
+            double *p = sorted.value(k + 1);
+            p[0] = r * std::cos(u), p[1] = r * std::sin(u), p[2] = 0.9 * std::sin(v), order[k] = k;
+        }
+        std::shuffle(order.begin(), order.end(), std::mt19937(1));
+        for (std::size_t k = 0; k < count; k++)
+            std::copy_n(sorted.value(order[k] + 1), 3, shuffled.value(k + 1));
+        std::vector<double> along, anyhow;
+        const double ratio = 1 / speed(torus, sorted, along) * speed(torus, shuffled, anyhow);
+        bool good = in_use >= 6 * count * sizeof(double);
+        for (std::size_t k = 0; k < count; k++)
+            good = good && anyhow[k] == along[order[k]] && std::abs(along[k] - 0.1) < 0.02;
+        std::printf("nearest points in random order at %.2f of the speed in order\n", ratio);
+        return good ? 0 : 1;
+    } catch (const ricci::error &error) {
+        std::fprintf(stderr, "%s: %s\n", ricci_status_text(error.status()), error.what());
+        return 1;
+    }
+}
