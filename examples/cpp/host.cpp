@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <future>
 #include <memory>
 #include <random>
 #include <ricci/ricci.hpp>
@@ -89,15 +90,14 @@ int main(int argc, char **argv) {
     try {
         const std::size_t n = argc > 1 ? std::size_t(std::atoi(argv[1])) : 40, count = n * n * 10;
         const ricci::control sphere_control, torus_control;
-        std::unique_ptr<ricci::spline> sphere;
-        std::thread other(
-            [&] { sphere.reset(new ricci::spline(fitted(RICCI_SHAPE_SPHERE, n / 4, 0, sphere_control))); });
-        progress_bar *bar = new progress_bar("torus", torus_control);
+        auto later =
+            std::async(std::launch::async, fitted, RICCI_SHAPE_SPHERE, n / 4, 0, std::cref(sphere_control));
+        std::unique_ptr<progress_bar> bar(new progress_bar("torus", torus_control));
         const ricci::spline torus = fitted(RICCI_SHAPE_TORUS, n, n / 2, torus_control);
-        delete bar;
-        other.join();
-        for (const ricci::spline *of : {&torus, static_cast<const ricci::spline *>(sphere.get())})
-            if (of->summary().converged != 1 || of->summary().n_folded_patches != 0) return 1;
+        bar.reset();
+        const ricci::spline sphere = later.get();
+        for (const auto &s : {torus.summary(), sphere.summary()})
+            if (s.converged != 1 || s.n_folded_patches != 0) return 1;
 
         // Points 0.1 outside the torus, along its tube and in random order.
         points sorted(count), shuffled(count);
