@@ -6,7 +6,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <future>
 #include <memory>
 #include <random>
@@ -35,20 +34,16 @@ template <class T, class U> bool operator==(const counted<T> &, const counted<U>
 template <class T, class U> bool operator!=(const counted<T> &, const counted<U> &) { return false; }
 
 // Points numbered from 1, as CAD kernels have them, x, y, z one after the other in memory.
-class points {
-public:
-    explicit points(std::size_t n) : xyz_(3 * n) {}
-    std::size_t upper() const { return xyz_.size() / 3; }
-    double *value(std::size_t i) { return &xyz_[3 * (i - 1)]; }
-    ricci::span<double> all() const { return xyz_; }
-
-private:
-    std::vector<double, counted<double>> xyz_;
+struct points {
+    explicit points(std::size_t n) : xyz(3 * n) {}
+    std::size_t upper() const { return xyz.size() / 3; }
+    double *value(std::size_t i) { return &xyz[3 * (i - 1)]; }
+    ricci::span<double> all() const { return xyz; }
+    std::vector<double, counted<double>> xyz;
 };
 
 // The host's progress bar, on a thread of its own, until the call has returned.
-class progress_bar {
-public:
+struct progress_bar {
     progress_bar(const char *name, const ricci::control &watched)
         : thread_([this, name, &watched] {
               while (!done_) {
@@ -61,8 +56,6 @@ public:
         done_ = true;
         thread_.join();
     }
-
-private:
     std::atomic<bool> done_{false};
     std::thread thread_;
 };
@@ -88,7 +81,7 @@ double speed(const ricci::spline &surface, const points &at, std::vector<double>
 
 int main(int argc, char **argv) {
     try {
-        const std::size_t n = argc > 1 ? std::size_t(std::atoi(argv[1])) : 40, count = n * n * 10;
+        const std::size_t n = argc > 1 ? std::stoul(argv[1]) : 40, count = n * n * 10;
         const ricci::control sphere_control, torus_control;
         auto later =
             std::async(std::launch::async, fitted, RICCI_SHAPE_SPHERE, n / 4, 0, std::cref(sphere_control));
@@ -98,7 +91,6 @@ int main(int argc, char **argv) {
         const ricci::spline sphere = later.get();
         for (const auto &s : {torus.summary(), sphere.summary()})
             if (s.converged != 1 || s.n_folded_patches != 0) return 1;
-
         // Points 0.1 outside the torus, along its tube and in random order.
         points sorted(count), shuffled(count);
         std::vector<std::size_t> order(count);
@@ -111,14 +103,15 @@ int main(int argc, char **argv) {
         for (std::size_t k = 0; k < count; k++)
             std::copy_n(sorted.value(order[k] + 1), 3, shuffled.value(k + 1));
         std::vector<double> along, anyhow;
-        const double ratio = 1 / speed(torus, sorted, along) * speed(torus, shuffled, anyhow);
+        const double in_order = speed(torus, sorted, along),
+                     ratio = speed(torus, shuffled, anyhow) / in_order;
         bool good = in_use >= 6 * count * sizeof(double);
         for (std::size_t k = 0; k < count; k++)
             good = good && anyhow[k] == along[order[k]] && std::abs(along[k] - 0.1) < 0.02;
         std::printf("nearest points in random order at %.2f of the speed in order\n", ratio);
         return good ? 0 : 1;
     } catch (const ricci::error &error) {
-        std::fprintf(stderr, "%s: %s\n", ricci_status_text(error.status()), error.what());
+        std::fprintf(stderr, "%s\n", error.what());
         return 1;
     }
 }
