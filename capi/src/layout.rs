@@ -93,6 +93,7 @@ pub struct ricci_layout_summary {
     pub area_ratio_min_input: f64,
     pub area_ratio_max_input: f64,
     pub overlap: f64,
+    pub symmetric_dirichlet: f64,
 }
 // SAFETY: numbers; 8-byte alignment, size first.
 sized!(ricci_layout_summary, "summary");
@@ -275,6 +276,7 @@ pub unsafe extern "C" fn ricci_layout_summarise(
             area_ratio_min_input: input_figure(|q| q.area_ratio_min),
             area_ratio_max_input: input_figure(|q| q.area_ratio_max),
             overlap: layout.overlap().unwrap_or(f64::NAN),
+            symmetric_dirichlet: figure(|q| q.symmetric_dirichlet),
         };
         structs::write(figures, summary, size)
     })

@@ -77,6 +77,7 @@ pub struct ricci_seamless_summary {
     pub n_features: usize,
     pub conformal_change: f64,
     pub length_change: f64,
+    pub n_left_out: usize,
 }
 // SAFETY: numbers; 8-byte alignment, size first.
 sized!(ricci_seamless_summary, "summary", reserved);
@@ -196,6 +197,7 @@ pub unsafe extern "C" fn ricci_seamless_summarise(
             n_features: found.features.len(),
             conformal_change: found.length_changes[0],
             length_change: found.length_changes[1],
+            n_left_out: found.left_out.len(),
         };
         structs::write(figures, summary, size)
     })

@@ -114,7 +114,7 @@ class Run:
         self.folder, self.bad = folder, []
         self.kept, self.known = os.environ.get("RICCI_ROWS"), {}
         if self.kept and os.path.exists(self.kept):
-            self.known = {json.dumps(key): row for key, row in map(json.loads, open(self.kept))}
+            self.known = {json.dumps(key): kept for key, *kept in map(json.loads, open(self.kept))}
 
     def path(self, name):
         return os.path.join(self.folder, name)
@@ -170,14 +170,18 @@ class Run:
         return rows
 
     def keep(self, key, make):
-        """What `make()` returns, or what the file of RICCI_ROWS has kept of it under this key."""
+        """What `make()` returns, or what the file of RICCI_ROWS has kept of it under this key, with the lines that say what did not hold."""
         text = json.dumps(key)
-        if text not in self.known:
-            self.known[text] = make()
-            if self.kept:
-                with open(self.kept, "a") as file:
-                    file.write(json.dumps([key, self.known[text]]) + "\n")
-        return self.known[text]
+        if text in self.known:
+            row, *bad = self.known[text]
+            self.bad += bad[0] if bad else []
+            return row
+        before = len(self.bad)
+        self.known[text] = [make(), self.bad[before:]]
+        if self.kept:
+            with open(self.kept, "a") as file:
+                file.write(json.dumps([key, *self.known[text]]) + "\n")
+        return self.known[text][0]
 
 
 def main(content):

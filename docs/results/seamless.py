@@ -6,7 +6,7 @@ usage: docs/results/seamless.py [CORPUS [NAME…]] > docs/results/seamless.md   
 """
 import random
 
-from page import build, euler, file_of, genus, judged, loops, main, meshes, seconds, small, table, verdict
+from page import build, euler, failures, file_of, genus, judged, loops, main, meshes, seconds, small, table, verdict
 
 # Random signatures to a mesh, and the number of meshes, the smallest of each genus first.
 TRIED, RANDOM_MESHES = 20, 6
@@ -34,6 +34,7 @@ def row(run, mesh, cones, *options):
         off = small(report["result"]["holonomy_error"]) if report else "–"
         return [mesh["name"], mesh["V"], mesh["genus"], "not reached", str(why or "").strip()[:80], "–", off] + ["–"] * (len(HEAD) - 7)
     flow = run.report(f"{mesh['name']}, flow", "flow", file_of(mesh), "--space", "e2", "--uv", run.path("flow.obj"), seconds=600)
+    run.bad += failures(name, report)
     r = report["result"]
     seen = "–"
     if int(mesh["V"]) <= JUDGED and r["flipped_triangles"] is not None:
@@ -43,7 +44,8 @@ def row(run, mesh, cones, *options):
             seen = f"{said['seam_edges']}, {said['seams_not_exact']}, {said['flipped']}, {small(said['worst_angle_off'])}"
     return [mesh["name"], mesh["V"], mesh["genus"], len(r["cones"]), valences(r["cones"]),
             f"{r['iterations'] - r['newton_iterations']} + {r['newton_iterations']}", small(r["holonomy_error"]),
-            f"{small(r['area_ratio_min'])}, {small(r['area_ratio_max'])}", small(r["qc_max"]),
+            f"{small(r['area_ratio_min'])}, {small(r['area_ratio_max'])}", small(r["qc_max"]), small(r["symmetric_dirichlet"][1]),
+            f"{r['straight_edges']}, {r['features_left_out']}",
             f"{r['flipped_triangles']}, {r['degenerate_pieces']}", seen, seconds(report), seconds(flow) if flow else "–"]
 
 
@@ -82,6 +84,19 @@ def signatures(run, mesh):
     return [mesh["name"], mesh["V"], mesh["genus"], f"{reached} of {tried}", impossible, steps[len(steps) // 2] if steps else "–", steps[-1] if steps else "–"]
 
 
+def summed(rows):
+    """How many meshes are reached, in how many steps and how soon."""
+    reached = [dict(zip(HEAD, cells)) for cells in rows if cells[3] != "not reached"]
+    steps = sorted(int(cells["flow + Newton"].split("+")[1]) for cells in reached)
+    times = [float(cells["s"]) / max(float(cells["s of flow"]), 0.01) for cells in reached if cells["s of flow"] != "–"]
+    told = f"Reached: {len(reached)} of {len(rows)}"
+    if steps:
+        told += f"; Newton steps {steps[len(steps) // 2]} in the median, {steps[-1]} at most"
+    if times:
+        told += f"; at most three times as long as `flow` for {sum(t <= 3 for t in times)} of {len(times)}, in the median {sorted(times)[len(times) // 2]:.1f} times"
+    return told + "."
+
+
 def has_sharp_edges(run, mesh):
     report, _ = run.try_report("info", file_of(mesh), "--sharp", SHARP)
     return report is not None and any(len(found) > 20 for found in sharp_edges(report["result"]))
@@ -102,7 +117,8 @@ def content(run):
 Made by `docs/results/seamless.py` with {build}: `ricci seamless MESH --uv`, every mesh of one component; *not reached*: the refusal, or how far angles are off. *flow + Newton*: steps of the conformal flow
 with these cones and least-norm steps after it. *angles off by*: largest deviation, radians, around vertices and along loops that were found anew. *outside*: `check.py seamless`
 on the written file: edges of seams, those that are not exactly a rotation by a multiple of 90°, faces that it finds turned over or without area, largest deviation of an
-angle, radians. *s of flow*: `ricci flow --space e2 --uv` of the same mesh."""
+angle, radians. *symmetric Dirichlet*: 4 for an isometry, areas scaled to the same total. *straight edges, left out*: those of boundary and features, and features that are not
+straight. *s of flow*: `ricci flow --space e2 --uv` of the same mesh."""
     blocks = []
     creased = [mesh for mesh in every if int(mesh["V"]) <= CREASED and has_sharp_edges(run, mesh)]
     for title, those, key, cones, options in (
@@ -111,8 +127,7 @@ angle, radians. *s of flow*: `ricci flow --space e2 --uv` of the same mesh."""
         ("Eight placed cones", closed, "auto:8", "auto:8", ()),
     ):
         rows = [run.keep([mesh["name"], key], lambda: row(run, mesh, cones, *options)) for mesh in those]
-        reached = sum(cells[3] != "not reached" for cells in rows)
-        blocks.append(f"## {title}\n\nReached: {reached} of {len(rows)}.\n\n" + table(HEAD, rows))
+        blocks.append(f"## {title}\n\n{summed(rows)}\n\n" + table(HEAD, rows))
     chosen = [mesh for mesh in closed if genus(mesh) > 0][:RANDOM_MESHES]
     blocks.append(f"""## Random signatures
 

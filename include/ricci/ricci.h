@@ -1417,7 +1417,7 @@ typedef struct ricci_layout_summary {
      */
     size_t n_degenerate_input;
     /**
-     * The mean dilatation of the mesh's own faces. NaN, as all below but the last, where the layout is cut
+     * The mean dilatation of the mesh's own faces. NaN, as the three below, where the layout is cut
      * along edges of the metric's triangulation.
      */
     double qc_mean_input;
@@ -1432,6 +1432,11 @@ typedef struct ricci_layout_summary {
      * NaN outside the plane.
      */
     double overlap;
+    /**
+     * The symmetric Dirichlet energy: the mean over the input's area of the sum of the squares of the singular
+     * values and of their inverses, with both total areas scaled to be the same; 4 for an isometry.
+     */
+    double symmetric_dirichlet;
 } ricci_layout_summary;
 
 /**

@@ -70,7 +70,8 @@ typedef struct ricci_seamless_options {
     /**
      * Edges, by the two vertices at their ends, that become straight and parallel to an axis, with angles of
      * multiples of 90 degrees where they meet; NULL: none. Edges of the boundary do so anyway.
-     * Those around a piece with too few vertices to have right angles in all its corners are left out.
+     * Those around a piece with too few vertices to have right angles in all its corners are left out; with
+     * the cones of the field also those near angles that are furthest off where the target is not reached.
      */
     const uint32_t *features;
     /** The number of features. */
@@ -133,6 +134,8 @@ typedef struct ricci_seamless_summary {
     double conformal_change;
     /** The same in the result. */
     double length_change;
+    /** Features inside the surface that were asked for and are not straight. */
+    size_t n_left_out;
 } ricci_seamless_summary;
 
 /**

@@ -55,6 +55,8 @@ def test_boundaries_become_straight() -> None:
     made = ricci.seamless(ricci.make("disk", n=5), isometric_steps=2)
     assert made.converged
     assert made.summary.length_change <= made.summary.conformal_change
+    assert made.summary.n_left_out == 0
+    assert made.map().summary.symmetric_dirichlet >= 4.0
     layout = made.map()
     faces, corners, points = layout.mesh.F, layout.corners("refinement"), layout.points()
     sides = {}

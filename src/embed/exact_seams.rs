@@ -7,6 +7,7 @@
 //! each direction can take up anything along it.
 
 use super::layout::Layout;
+use super::straight_lines::{CoordinateClasses, PolygonSide, across, straighten};
 use crate::error::{Error, Result};
 use crate::geometry::{DoubleDouble, Motion, Space};
 use crate::mesh::HalfedgeId;
@@ -16,9 +17,11 @@ use std::f64::consts::FRAC_PI_2;
 const ROTATION_ROUNDING: f64 = 1e-6;
 /// Coordinates are below 2 to this power in units of the grid, so that sums and differences of two of them are exact.
 const GRID_BITS: i32 = 51;
+/// Multiples of the grid that coordinates are rounded to where lines are to be straight: what equations leave then can be halved some times.
+const COARSE: i64 = 256;
 
 /// A Gaussian integer: a vector in units of the grid.
-type GridVector = [i64; 2];
+pub(super) type GridVector = [i64; 2];
 
 impl Layout {
     /// Turns the layout such that a half-edge has the direction of the x axis.
@@ -34,24 +37,35 @@ impl Layout {
     }
 
     /// Moves the corners to a grid of powers of two such that the two sides of each edge of the cut differ by a rotation by a multiple of
-    /// 90° and a translation exactly, and edges of the boundary are parallel to an axis. Returns the largest distance by which a corner was
-    /// moved: a few units of rounding per edge of the cut.
+    /// 90° and a translation exactly, and edges of the boundary are parallel to an axis; so are those of `straight`, half-edges that are nearly
+    /// so, if the equations for them have a solution in whole numbers. Returns the largest distance by which a corner was moved: a few units of
+    /// rounding per edge of the cut.
     ///
     /// # Errors
     /// [`Error::Layout`] for a layout that is not in E², closed without cut or of several pieces, with a seam whose rotation is no multiple of
     /// 90° to 1e-6, or with an edge of the boundary that is off the axes by more ([`Layout::align`]).
-    pub fn make_seams_exact(&mut self) -> Result<f64> {
+    pub fn make_seams_exact(&mut self, straight: &[HalfedgeId]) -> Result<f64> {
         let quarters = self.quarter_turns()?;
         let boundary = self.cut_boundary()?;
         let extent = self.coordinates.iter().flatten().fold(0.0, |top: f64, x| top.max(x.abs()));
         let unit = 2f64.powi(extent.log2().ceil() as i32 + 1 - GRID_BITS);
-        let sides = closed_sides(self, &boundary, &quarters, unit)?;
         let on_grid = |[x, y]: [f64; 2]| [(x / unit).round() as i64, (y / unit).round() as i64];
         let mut exact: Vec<GridVector> = self.coordinates.iter().map(|&z| on_grid(z)).collect();
+        let mut classes = CoordinateClasses::new(self, straight);
+        let straightened = self.straight_sides(&boundary, &quarters, straight, unit, &mut classes)?;
+        let is_straight = !straight.is_empty() && straightened.is_some();
+        let sides = match straightened {
+            Some(sides) => sides,
+            None => closed_sides(self, &boundary, &quarters, unit)?,
+        };
         let mut at = boundary.first().map_or([0; 2], |&h| exact[self.corner_index[h] as usize]);
         for (&h, side) in boundary.iter().zip(&sides) {
             exact[self.corner_index[h] as usize] = at;
             at = [at[0] + side[0], at[1] + side[1]];
+        }
+        if is_straight {
+            let outer: Vec<u32> = boundary.iter().map(|&h| self.corner_index[h]).collect();
+            classes.make_equal(&mut exact, &outer);
         }
         let mut moved = 0.0f64;
         for (k, z) in exact.into_iter().enumerate() {
@@ -64,6 +78,51 @@ impl Layout {
         self.remainders.clear();
         self.find_flat();
         Ok(moved)
+    }
+
+    /// The sides of the boundary polygon with which it closes and lines inside can be straight; none without lines, and where the equations
+    /// have no solution in whole numbers.
+    fn straight_sides(
+        &self,
+        boundary: &[HalfedgeId],
+        quarters: &[i32],
+        straight: &[HalfedgeId],
+        unit: f64,
+        classes: &mut CoordinateClasses,
+    ) -> Result<Option<Vec<GridVector>>> {
+        if straight.is_empty() {
+            return Ok(None);
+        }
+        let mesh = self.mesh();
+        let mut is_line = vec![false; mesh.n_edges()];
+        straight.iter().for_each(|h| is_line[h.edge().index()] = true);
+        let (mut vectors, mut free) = (Vec::new(), Vec::new());
+        let mut number = vec![usize::MAX; mesh.n_edges()];
+        let coarse = unit * COARSE as f64;
+        for &h in boundary.iter().filter(|&&h| self.side[h] >= 0) {
+            let [a, b] = [self.uv(h), self.uv(mesh.next(h))];
+            let mut axes = [true; 2];
+            if self.side[h] == 0 {
+                self.boundary_side(h, unit)?;
+            }
+            if self.side[h] == 0 || is_line[h.edge().index()] {
+                axes[across(a, b)] = false;
+            }
+            number[h.edge().index()] = vectors.len();
+            let whole = |k: usize| if axes[k] { ((b[k] - a[k]) / coarse).round() as i64 * COARSE } else { 0 };
+            vectors.push([whole(0), whole(1)]);
+            free.push(axes);
+        }
+        let side = |&h: &HalfedgeId| {
+            let turn = |h: HalfedgeId| quarters[self.side[h].unsigned_abs() as usize - 1].rem_euclid(4);
+            let turns = if self.side[h] >= 0 { 0 } else { turn(h) + 2 };
+            PolygonSide { vector: number[h.edge().index()], turns }
+        };
+        let sides: Vec<PolygonSide> = boundary.iter().map(side).collect();
+        let corners: Vec<u32> = boundary.iter().map(|&h| self.corner_index[h]).collect();
+        let is_solved = straighten(&mut vectors, &free, &sides, &corners, classes);
+        let vector = |side: &PolygonSide| turned(vectors[side.vector], side.turns);
+        Ok(is_solved.then(|| sides.iter().map(vector).collect()))
     }
 
     /// The rotation of each seam from its left to its right side, quarter turns.
@@ -204,7 +263,7 @@ fn sub(a: GridVector, b: GridVector) -> GridVector {
 }
 
 /// iᵏ z.
-fn turned([x, y]: GridVector, k: i32) -> GridVector {
+pub(super) fn turned([x, y]: GridVector, k: i32) -> GridVector {
     match k.rem_euclid(4) {
         0 => [x, y],
         1 => [-y, x],

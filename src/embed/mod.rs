@@ -35,6 +35,7 @@ mod repaired_faces;
 pub mod repaired_input;
 mod separate_faces;
 pub mod sides;
+mod straight_lines;
 pub(crate) mod unfold;
 
 pub use boundary_lift::BoundaryLift;

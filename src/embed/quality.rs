@@ -53,6 +53,9 @@ pub struct Quality {
     pub area_ratio_min: f64,
     /// The largest `area_ratio`.
     pub area_ratio_max: f64,
+    /// The symmetric Dirichlet energy: the mean, weighed with the input areas, of `σ² + τ² + σ⁻² + τ⁻²` of the singular values σ and τ of the
+    /// linear maps, scaled such that both total areas are the same; 4 for an isometry.
+    pub symmetric_dirichlet: f64,
     /// The faces that have no area in the input or in the layout, or whose dilatation reaches the cap: their `qc` is [`DILATATION_CAP`],
     /// and the mean and the extremes leave them out.
     pub degenerate: Vec<FaceId>,
@@ -268,6 +271,7 @@ fn summary(qc: PerFace<f64>, areas: &PerFace<[f64; 2]>) -> Quality {
         if r.is_finite() { r } else { 1.0 }
     });
     let (mut weight, mut sum, mut most, mut ratios) = (0.0, 0.0, f64::NEG_INFINITY, [f64::INFINITY, 0.0]);
+    let mut energy = 0.0;
     let mut degenerate = Vec::new();
     for (f, (&qc, (area, &ratio))) in qc.iter().zip(areas.iter().zip(&area_ratio)).enumerate() {
         if qc >= DILATATION_CAP {
@@ -275,12 +279,15 @@ fn summary(qc: PerFace<f64>, areas: &PerFace<[f64; 2]>) -> Quality {
             continue;
         }
         (weight, sum) = (weight + area[0], sum + area[0] * qc);
+        // σ² and τ² are the area's ratio times K and over K.
+        energy += area[0] * (ratio * qc + ratio / qc + 1.0 / (ratio * qc) + qc / ratio);
         (most, ratios) = (most.max(qc), [ratios[0].min(ratio), ratios[1].max(ratio)]);
     }
     let is_any = degenerate.len() < qc.len();
     let or_one = |x: f64| if is_any { x } else { 1.0 };
     Quality {
         qc_mean: if weight > 0.0 { sum / weight } else { 1.0 },
+        symmetric_dirichlet: if weight > 0.0 { (energy / weight).min(f64::MAX) } else { 4.0 },
         qc_max: or_one(most),
         area_ratio_min: or_one(ratios[0]),
         area_ratio_max: or_one(ratios[1]),

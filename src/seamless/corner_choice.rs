@@ -6,10 +6,11 @@ use crate::mesh::Mesh;
 use std::collections::VecDeque;
 
 /// Edges from sector to sector, each sector with those that it shares an edge inside a piece with.
-struct Neighbours(Vec<Vec<u32>>);
+pub(super) struct Neighbours(Vec<Vec<u32>>);
 
 impl Neighbours {
-    fn new(mesh: &Mesh, sectors: &Sectors) -> Neighbours {
+    /// Those of these sectors.
+    pub fn new(mesh: &Mesh, sectors: &Sectors) -> Neighbours {
         let corners = sectors.of_corners(mesh);
         let mut near = vec![Vec::new(); sectors.len()];
         for f in mesh.faces() {
@@ -28,7 +29,7 @@ impl Neighbours {
     }
 
     /// The sector nearest to one, in edges, that is as asked.
-    fn nearest(&self, from: usize, is_asked: impl Fn(usize) -> bool) -> Option<usize> {
+    pub fn nearest(&self, from: usize, is_asked: impl Fn(usize) -> bool) -> Option<usize> {
         let mut is_seen = vec![false; self.0.len()];
         is_seen[from] = true;
         let mut waiting = VecDeque::from([from]);

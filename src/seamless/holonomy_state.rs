@@ -212,7 +212,7 @@ impl HolonomyState {
 
     /// The derivatives of the angle at a corner by the λ of its triangle's edges, times a factor:
     /// `∂α_i/∂λ_jk = ½ (cot α_j + cot α_k)`, `∂α_i/∂λ_ij = −½ cot α_j`.
-    fn angle_derivative(&self, f: FaceId, i: usize, factor: f64) -> [(u32, f64); 3] {
+    pub fn angle_derivative(&self, f: FaceId, i: usize, factor: f64) -> [(u32, f64); 3] {
         let (j, k) = ((i + 1) % 3, (i + 2) % 3);
         let opposite = self.mesh.opposite_edges(f);
         let w = self.half_cotangents[f];

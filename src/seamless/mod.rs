@@ -19,7 +19,9 @@ mod face_axes;
 mod field_guides;
 mod holonomy_state;
 mod least_norm;
+mod left_out;
 mod newton;
+mod opening;
 mod options;
 mod sectors;
 mod signature;
@@ -43,11 +45,15 @@ use crate::metric::Surface;
 use crate::parallel::Pool;
 use continuation::reach_by_stages;
 use holonomy_state::{HolonomyState, HolonomyTarget};
+use left_out::without_worst;
 use newton::{NewtonEnd, come_near};
 use signature::{check_existence, cones_of_sectors};
 use start::{chosen_right_angles, start_state};
 use std::f64::consts::FRAC_PI_2;
 use turning_choice::nearest_quarter_turns;
+
+/// Rounds in which features are given up where a metric is not reached; after them all that are inside the surface.
+const ROUNDS: usize = 6;
 
 /// A metric whose angles around cones and along loops are multiples of 90°.
 #[derive(Debug, Clone)]
@@ -63,6 +69,9 @@ pub struct Seamless {
     pub quarter_turns: Vec<i32>,
     /// The features that were kept and the edges of the boundary, on both triangulations.
     pub features: Vec<EdgeId>,
+    /// The features that were asked for inside the surface and are not straight, ascending: those around pieces without room for right angles,
+    /// and those near angles that were furthest off where the metric was not reached with all of them.
+    pub left_out: Vec<EdgeId>,
     /// Steps of the conformal flow, and Newton steps after it.
     pub iterations: [usize; 2],
     /// Root mean square over the edges of the change of 2 ln ℓ, less its mean, from the surface to the metric before the isometric steps and
@@ -93,7 +102,7 @@ impl Seamless {
     }
 
     /// The map into the plane, cut through all cones, on the common subdivision with the surface as it came where edges were flipped. Its
-    /// seams are exact, and edges of the boundary are parallel to an axis exactly ([`Layout::make_seams_exact`]).
+    /// seams are exact, and edges of the boundary and features are parallel to an axis exactly ([`Layout::make_seams_exact`]).
     ///
     /// # Errors
     /// Those of [`Layout::of_solution`] and [`Layout::make_seams_exact`].
@@ -103,10 +112,13 @@ impl Seamless {
         let cones = Some(cones.collect());
         let options = LayoutOptions { cones, ..LayoutOptions::default() };
         let mut layout = Layout::of_solution(&self.solution, &options, control)?;
-        if let Some(h) = self.on_features(layout.mesh()).first() {
+        let features = self.on_features(layout.mesh());
+        if let Some(h) = features.first() {
             layout.align(*h)?;
         }
-        let moved = layout.make_seams_exact()?;
+        let is_inner = |h: &&HalfedgeId| !layout.mesh().is_boundary_edge(h.edge());
+        let inner: Vec<HalfedgeId> = features.iter().filter(is_inner).copied().collect();
+        let moved = layout.make_seams_exact(&inner)?;
         let bend = self.bend(&layout);
         Ok(SeamlessMap { layout, moved, bend })
     }
@@ -155,7 +167,8 @@ pub struct SeamlessMap {
 ///
 /// Edges of the boundary and features become straight lines parallel to an axis between corners of multiples of 90°. They are not flipped:
 /// angles between them are asked for one by one, and the turning of arcs between those that no feature joins. The flow then is only the
-/// start, and where it breaks triangles at features Newton's method begins at the surface itself.
+/// start, and where it breaks triangles at features Newton's method begins at the surface itself. Where that is not reached with the cones
+/// of the field, features near the angles that are furthest off are given up, a few lines at a time ([`Seamless::left_out`]).
 ///
 /// Not reaching the target is no error: [`Seamless::converged`] is false then, and nothing is claimed of whether such a metric exists.
 ///
@@ -169,47 +182,86 @@ pub fn seamless(surface: &Surface, options: &SeamlessOptions, control: &Control)
         return Err(Error::argument("tolerance", options.tolerance, "positive"));
     }
     Pool::new(options.threads)?.run(|| {
-        let (sectors, right_angles) = chosen_right_angles(surface, options, control)?;
-        let (start, state) = start_state(surface, sectors, &right_angles, options, control)?;
-        let radians = |k: &i32| f64::from(*k) * FRAC_PI_2;
-        let mut target =
-            HolonomyTarget { angles: right_angles.iter().map(radians).collect(), turning: Vec::new() };
-        let quarter_turns = match &options.quarter_turns {
-            Some(turns) => {
-                check_size("quarter turns", turns.len(), state.loops.len())?;
-                turns.clone()
+        let mut features = options.features.clone();
+        let may_leave_out = options.cones == SeamlessCones::Field && options.quarter_turns.is_none();
+        let mut round = 0;
+        loop {
+            let (mut found, next) = attempt(surface, &features, options, control)?;
+            match next {
+                Some(fewer) if may_leave_out => {
+                    features = if round < ROUNDS { fewer } else { Vec::new() };
+                    round += 1;
+                }
+                _ => {
+                    found.left_out = left_out(surface.mesh(), &options.features, &found.features);
+                    return Ok(found);
+                }
             }
-            None => nearest_quarter_turns(&state, &target)?,
-        };
-        if state.sectors.are_vertices() {
-            check_existence(&state.mesh, &state.loops, &right_angles, &quarter_turns)?;
         }
-        target.turning = quarter_turns.iter().map(radians).collect();
-        let steps = start.report().map_or(0, |report| report.iterations);
-        let is_flow_enough = state.sectors.are_vertices() && quarter_turns.is_empty();
-        let mut end = if is_flow_enough {
-            NewtonEnd { state, iterations: 0 }
-        } else {
-            reach_by_stages(state, &target, options, control)?
-        };
-        let before = end.state.length_change()?;
-        if deviation(&end.state, &target) <= options.tolerance {
-            end = come_near(end, &target, options.isometric_steps, control)?;
-        }
-        let (error, length_changes) = (deviation(&end.state, &target), [before, end.state.length_change()?]);
-        let HolonomyState { mesh, metric, followed, loops, flips, sectors, .. } = end.state;
-        Ok(Seamless {
-            solution: start.at(mesh, metric, followed, flips),
-            cones: cones_of_sectors(surface.mesh(), &sectors, &right_angles),
-            loops,
-            quarter_turns,
-            features: sectors.features(),
-            iterations: [steps, end.iterations],
-            length_changes,
-            error,
-            tolerance: options.tolerance,
-        })
     })
+}
+
+/// The edges inside a surface that are in a list and not in another, which is sorted; ascending.
+fn left_out(mesh: &Mesh, asked: &[EdgeId], kept: &[EdgeId]) -> Vec<EdgeId> {
+    let is_left = |e: &EdgeId| !mesh.is_boundary_edge(*e) && kept.binary_search(e).is_err();
+    let mut left: Vec<EdgeId> = asked.iter().copied().filter(is_left).collect();
+    left.sort_unstable();
+    left.dedup();
+    left
+}
+
+/// One way to a seamless metric, with these features. Where it is not reached, and some are inside the surface, also those to go on with.
+fn attempt(
+    surface: &Surface,
+    features: &[EdgeId],
+    options: &SeamlessOptions,
+    control: &Control,
+) -> Result<(Seamless, Option<Vec<EdgeId>>)> {
+    let (sectors, right_angles) = chosen_right_angles(surface, features, options, control)?;
+    let (start, state) = start_state(surface, sectors, &right_angles, options, control)?;
+    let radians = |k: &i32| f64::from(*k) * FRAC_PI_2;
+    let mut target =
+        HolonomyTarget { angles: right_angles.iter().map(radians).collect(), turning: Vec::new() };
+    let quarter_turns = match &options.quarter_turns {
+        Some(turns) => {
+            check_size("quarter turns", turns.len(), state.loops.len())?;
+            turns.clone()
+        }
+        None => nearest_quarter_turns(&state, &target)?,
+    };
+    if state.sectors.are_vertices() {
+        check_existence(&state.mesh, &state.loops, &right_angles, &quarter_turns)?;
+    }
+    target.turning = quarter_turns.iter().map(radians).collect();
+    let steps = start.report().map_or(0, |report| report.iterations);
+    let is_flow_enough = state.sectors.are_vertices() && quarter_turns.is_empty();
+    let mut end = if is_flow_enough {
+        NewtonEnd { state, iterations: 0 }
+    } else {
+        reach_by_stages(state, &target, options, control)?
+    };
+    let before = end.state.length_change()?;
+    let mut next = None;
+    if deviation(&end.state, &target) <= options.tolerance {
+        end = come_near(end, &target, options.isometric_steps, control)?;
+    } else if !end.state.sectors.inner_features(&end.state.mesh).is_empty() {
+        next = Some(without_worst(&end.state, &target));
+    }
+    let (error, length_changes) = (deviation(&end.state, &target), [before, end.state.length_change()?]);
+    let HolonomyState { mesh, metric, followed, loops, flips, sectors, .. } = end.state;
+    let found = Seamless {
+        solution: start.at(mesh, metric, followed, flips),
+        cones: cones_of_sectors(surface.mesh(), &sectors, &right_angles),
+        loops,
+        quarter_turns,
+        features: sectors.features(),
+        left_out: Vec::new(),
+        iterations: [steps, end.iterations],
+        length_changes,
+        error,
+        tolerance: options.tolerance,
+    };
+    Ok((found, next))
 }
 
 /// [`Seamless::error`].

@@ -2,6 +2,7 @@
 
 use super::holonomy_state::{HolonomyState, HolonomyTarget};
 use super::least_norm::least_norm_solution;
+use super::opening::opening_step;
 use crate::control::{Control, Stage};
 use crate::error::{Error, Result};
 
@@ -17,6 +18,9 @@ const STALLED: f64 = 0.5;
 const NEAR: f64 = 1e-7;
 /// Steps in a row that do not halve the error, after which the iteration is given up.
 const SLOW_STEPS: usize = 60;
+/// Shares of steps below which they lead nowhere, and the number of such steps in a row after which the iteration is given up.
+const SHORT_SHARE: f64 = 2e-3;
+const SHORT_STEPS: usize = 6;
 
 /// Halvings of an isometric step before the iteration ends.
 const SHORTENINGS: usize = 12;
@@ -43,15 +47,15 @@ pub(super) fn reach_holonomy(
     control: &Control,
 ) -> Result<NewtonEnd> {
     let mut missing = state.residual(target);
-    let mut slow = 0;
+    let (mut slow, mut short) = (0, 0);
     for iterations in 0..most_iterations {
         control.step(Stage::Flow, iterations as f64 / most_iterations as f64)?;
         let error = largest(&missing);
         let end = |state| Ok(NewtonEnd { state, iterations });
-        if error == 0.0 || slow > SLOW_STEPS {
+        if error == 0.0 || slow > SLOW_STEPS || short > SHORT_STEPS {
             return end(state);
         }
-        let step = match least_norm_solution(&state.derivatives(), state.mesh.n_edges(), &missing) {
+        let step = match opening_step(&state, &missing) {
             // Triangles are so thin that no step can be told.
             Err(Error::Factorisation { .. }) => return end(state),
             step => step?,
@@ -79,6 +83,7 @@ pub(super) fn reach_holonomy(
                 end(state)
             };
         }
+        short = if factor < SHORT_SHARE { short + 1 } else { 0 };
         slow = if left_error > STALLED * error { slow + 1 } else { 0 };
         (state, missing) = (tried, left);
     }

@@ -29,7 +29,7 @@ pub struct SeamlessOptions {
     pub quarter_turns: Option<Vec<i32>>,
     /// Edges that become straight and parallel to an axis, with angles of multiples of 90° where they meet. Edges of the boundary do so
     /// anyway. Features around a piece with too few vertices to have right angles in all its corners are left out, until all pieces have
-    /// enough ([`super::Seamless::features`]). Default none.
+    /// enough, and with the cones of the field those without which a metric is reached ([`super::Seamless::left_out`]). Default none.
     pub features: Vec<EdgeId>,
     /// Directions that the field of [`SeamlessCones::Field`] is to be near. Default none.
     pub guides: Vec<FieldGuide>,

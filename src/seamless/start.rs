@@ -11,7 +11,7 @@ use crate::control::Control;
 use crate::error::{Error, Result, check_size};
 use crate::flow::{Flow, Options, Solution, auto_cones};
 use crate::geometry::Space;
-use crate::mesh::{Mesh, PerEdge, PerVertex, VertexId};
+use crate::mesh::{EdgeId, Mesh, PerEdge, PerVertex, VertexId};
 use crate::metric::{Class, Surface, Target};
 use std::f64::consts::FRAC_PI_2;
 
@@ -22,11 +22,12 @@ const FLOW_ITERATIONS: usize = 60;
 /// angles in all its corners are left out.
 pub(super) fn chosen_right_angles(
     surface: &Surface,
+    features: &[EdgeId],
     options: &SeamlessOptions,
     control: &Control,
 ) -> Result<(Sectors, Vec<i32>)> {
     let mesh = surface.mesh();
-    let mut sectors = Sectors::new(mesh, &options.features)?;
+    let mut sectors = Sectors::new(mesh, features)?;
     let of_curvature = |curvature: PerVertex<i32>| curvature.iter().map(|k| 4 - k).collect::<Vec<_>>();
     let right_angles = match &options.cones {
         SeamlessCones::Field if sectors.are_vertices() && options.guides.is_empty() => {

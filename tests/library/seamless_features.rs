@@ -112,6 +112,8 @@ fn a_flat_rectangle_returns_itself() {
     assert!(of.converged(), "{:e}", of.error);
     assert_eq!(of.cones.iter().map(|cone| cone.valence).collect::<Vec<_>>(), [1; 4]);
     let SeamlessMap { layout, bend, .. } = of.map(&Control::new()).unwrap();
+    let quality = layout.quality(surface.mesh(), surface.lengths()).unwrap();
+    assert!((quality.symmetric_dirichlet - 4.0).abs() < 1e-8, "{}", quality.symmetric_dirichlet);
     assert!(bend == 0.0 && layout.flipped.is_empty(), "{bend:e}");
     let [x, y] = [0, 1].map(|k| {
         let at: Vec<f64> = layout.coordinates.iter().map(|z| z[k]).collect();
@@ -150,7 +152,7 @@ fn a_box_of_squares_returns_itself_along_its_edges() {
     assert!(of.converged(), "{:e}", of.error);
     assert_eq!(of.cones.iter().map(|cone| cone.valence).collect::<Vec<_>>(), [3; 8]);
     assert!(spread_of_scale(&of, &surface) < 1e-8);
-    assert!(of.map(&Control::new()).unwrap().bend < 1e-9);
+    assert_eq!(of.map(&Control::new()).unwrap().bend, 0.0);
 }
 
 #[test]
@@ -259,4 +261,43 @@ fn one_double_zero_has_odd_spin() {
     }
     // Of the 16 spin structures of genus 2 six are odd.
     assert_eq!(refused, 10);
+}
+
+/// A torus whose wave has ridges and valleys that bend, so that sharp edges meet at all angles.
+fn ridged_torus() -> Surface {
+    let mut soup = shapes::torus(2.0, 1.0, 30, 18).unwrap();
+    for p in &mut soup.positions {
+        let (a, b) = (p[1].atan2(p[0]), p[2].atan2(p[0].hypot(p[1]) - 2.0));
+        let off = 1.0 + 0.25 * (5.0 * a + 3.0 * b).sin() * (4.0 * b).cos();
+        let around = p[0].hypot(p[1]);
+        let (x, z) = ((around - 2.0) * off + 2.0, p[2] * off);
+        *p = [p[0] * x / around, p[1] * x / around, z];
+    }
+    Surface::from_soup(&soup).unwrap()
+}
+
+#[test]
+fn sharp_edges_that_bend_are_reached_in_few_steps() {
+    let surface = ridged_torus();
+    let features = sharp_edges(&surface, 0.7).unwrap();
+    let asked = features.len();
+    let of = made(&surface, &SeamlessOptions { features, ..SeamlessOptions::default() });
+    println!("{asked} asked, {} left out, {:?} iterations", of.left_out.len(), of.iterations);
+    assert!(of.converged() && of.features.len() + of.left_out.len() == asked && asked > 60, "{:e}", of.error);
+    assert!(2 * of.left_out.len() < asked && of.iterations[1] <= 40, "{:?}", of.iterations);
+    assert!(off_right_angles(&of) < 1e-9);
+    let SeamlessMap { layout, bend, .. } = of.map(&Control::new()).unwrap();
+    assert!(bend == 0.0 && layout.flipped.is_empty(), "{bend:e}");
+}
+
+#[test]
+fn a_lone_sharp_triangle_is_left_out_and_told() {
+    // A triangle has no room for four right angles.
+    let surface = Surface::from_soup(&shapes::icosphere(4).unwrap()).unwrap();
+    let features = surface.mesh().face_halfedges(ricci::mesh::FaceId(0)).map(|h| h.edge()).to_vec();
+    let of = made(&surface, &SeamlessOptions { features: features.clone(), ..SeamlessOptions::default() });
+    let mut wanted = features;
+    wanted.sort_unstable();
+    assert!(of.converged() && of.features.is_empty());
+    assert_eq!(of.left_out, wanted);
 }

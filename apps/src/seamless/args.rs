@@ -23,6 +23,7 @@ Edges of the boundary and features become straight and parallel to an axis betwe
 
 Files
     --field F.csv       the field in each face of the input, of which the cones come with --cones field: rows face,x,y,z, a direction of length 1
+    --field F.png       a picture of it: four squares in each face with sides along the field, and the cones, red below valence 4, blue above
     --uv OUT.obj        the map as texture coordinates: each edge of a seam is, exactly in its decimal numbers, a rotation by a multiple of
                         90° and a translation of its other side
     --metric M.json     the metric on its own triangulation";
@@ -67,7 +68,7 @@ pub struct SeamlessArgs {
     /// Write the way back from the faces and vertices of --uv to those of the input
     #[arg(long, value_name = "X.csv")]
     pub xref: Option<FileName>,
-    /// Write the field of four directions
+    /// Write the field of four directions, as a table (.csv) or a picture (.png)
     #[arg(long, value_name = "F.csv")]
     pub field: Option<FileName>,
     /// Write the metric

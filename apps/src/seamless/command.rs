@@ -2,12 +2,12 @@
 
 use super::args::{ConesChoice, SeamlessArgs};
 use super::figures::{SeamlessOutcome, WrittenMap};
-use super::picture::draw;
+use super::picture::{draw, draw_field};
 use crate::csv;
 use crate::failure::{Failure, NO_POSITIONS};
 use crate::input::{self, Input};
 use crate::options::OnChoice;
-use crate::output::{check_extension, check_outputs};
+use crate::output::{check_extension, check_outputs, extension};
 use crate::progress::doing;
 use crate::report::timed;
 use crate::runner::{CommandRun, Job, JobHeader};
@@ -31,6 +31,7 @@ impl Job for SeamlessArgs {
 
     fn check(&self) -> Result<(), Failure> {
         check_extension("--uv", self.uv.as_deref(), &["obj", "glb"])?;
+        check_extension("--field", self.field.as_deref(), &["csv", "png"])?;
         check_extension("--picture", self.picture.picture.as_deref(), &["png", "svg"])?;
         let table = match &self.cones {
             ConesChoice::Table(path) => Some(path.as_path()),
@@ -62,7 +63,15 @@ impl Job for SeamlessArgs {
         let found = timed(&mut run.seconds.solve, solve)?;
         let map = map(&input, &found, run)?;
         let metric = SolvedMetric::new(found.solution.clone(), Some(found.target()))?;
-        Ok(SeamlessOutcome { input, found, map, metric, n_features: options.features.len(), field })
+        let mut energy_before = map.as_ref().ok().map(|map| map.laid.quality.symmetric_dirichlet);
+        if options.isometric_steps > 0 && map.is_ok() {
+            let plain = SeamlessOptions { isometric_steps: 0, ..options };
+            let solve = || doing("solving", || seamless(&input.surface, &plain, run.control));
+            let before = timed(&mut run.seconds.solve, solve)?;
+            energy_before =
+                self::map(&input, &before, run)?.ok().map(|map| map.laid.quality.symmetric_dirichlet);
+        }
+        Ok(SeamlessOutcome { input, found, map, metric, energy_before, field })
     }
 
     fn write(&self, outcome: &SeamlessOutcome, run: &mut CommandRun<'_>) -> Result<(), Failure> {
@@ -91,9 +100,14 @@ impl Job for SeamlessArgs {
             }
         }
         if let Some(field) = &outcome.field {
-            run.file("field", self.field.as_deref(), |outputs, path| {
-                outputs.add(path, |out| write_field(out, input, field))
-            })?;
+            let path = self.field.as_deref();
+            if path.is_some_and(|path| extension(path) == "png") {
+                run.picture("field", path, || draw_field(outcome, field, self))?;
+            } else {
+                run.file("field", path, |outputs, path| {
+                    outputs.add(path, |out| write_field(out, input, field))
+                })?;
+            }
         }
         run.file("metric", self.metric.as_deref(), |outputs, path| metric.write_metric(outputs, path))
     }

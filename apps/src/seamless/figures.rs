@@ -22,8 +22,8 @@ pub struct SeamlessOutcome {
     /// The map; why there is none, where it could not be made.
     pub map: Result<WrittenMap, String>,
     pub metric: SolvedMetric,
-    /// The number of sharp edges that were to be straight.
-    pub n_features: usize,
+    /// The symmetric Dirichlet energy of the map without isometric steps.
+    pub energy_before: Option<f64>,
     /// The field of four directions, if it is to be written.
     pub field: Option<CrossField>,
 }
@@ -35,15 +35,6 @@ pub struct WrittenMap {
     pub moved: f64,
     /// Largest angle, radians, between an axis and an edge of the boundary or a feature, once the map is turned to it; 0 without any.
     pub bend: f64,
-}
-
-impl SeamlessOutcome {
-    /// The number of sharp edges that are not straight, since pieces between them had no room for right angles in all their corners.
-    fn n_left_out(&self) -> usize {
-        let mesh = self.input.mesh();
-        let kept = self.found.features.iter().filter(|&&e| !mesh.is_boundary_edge(e)).count();
-        self.n_features.saturating_sub(kept)
-    }
 }
 
 impl JobOutcome for SeamlessOutcome {
@@ -79,14 +70,16 @@ impl JobOutcome for SeamlessOutcome {
             .iter()
             .map(|cone| json!({"vertex": cone.vertex.0, "valence": cone.valence}))
             .collect();
+        let energy = map.as_ref().ok().map(|map| map.laid.quality.symmetric_dirichlet);
         Figures::of_metric(metric)
             .with("converged", found.converged())
             .with("cones", cones)
             .with("holonomy", found.quarter_turns.clone())
             .with("holonomy_error", found.error)
             .with("length_changes", found.length_changes)
+            .with("symmetric_dirichlet", [self.energy_before, energy])
             .with("straight_edges", found.features.len())
-            .with("features_left_out", self.n_left_out())
+            .with("features_left_out", found.left_out.len())
             .with("straightness", map.as_ref().ok().map(|map| map.bend))
             .with("iterations", found.iterations[0] + found.iterations[1])
             .with("newton_iterations", found.iterations[1])
@@ -113,9 +106,9 @@ impl JobOutcome for SeamlessOutcome {
             found.error,
         );
         if !found.features.is_empty() {
-            let left_out = match self.n_left_out() {
+            let left_out = match found.left_out.len() {
                 0 => String::new(),
-                n => format!("; {n} sharp edges around pieces without room for right angles left out"),
+                n => format!("; {n} sharp edges left out"),
             };
             text += &format!(
                 "lines    {}{left_out}\n",

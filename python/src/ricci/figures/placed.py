@@ -39,12 +39,14 @@ class LayoutSummary:
         area_ratio_max: largest area distortion.
         n_degenerate_input: the faces without area of the mesh itself, where the map is made linear on them (``"input"``); the distortions
             of its faces leave them out.
-        qc_mean_input: the mean dilatation of the mesh's own faces. NaN, as all below but the last, where the layout is cut along edges of
+        qc_mean_input: the mean dilatation of the mesh's own faces. NaN, as the three below, where the layout is cut along edges of
             the metric's triangulation.
         qc_max_input: largest quasi-conformal dilatation of the mesh's own faces.
         area_ratio_min_input: smallest area distortion of the mesh's own faces.
         area_ratio_max_input: largest area distortion of the mesh's own faces.
         overlap: share of the layout's area that lies on other parts of it, up to rounding: an atlas has no overlaps. NaN outside the plane.
+        symmetric_dirichlet: the mean over the input's area of the sum of the squares of the singular values and of their inverses, with both
+            total areas scaled to be the same; 4 for an isometry.
     """
 
     space: Space
@@ -75,6 +77,7 @@ class LayoutSummary:
     area_ratio_min_input: float
     area_ratio_max_input: float
     overlap: float
+    symmetric_dirichlet: float
 
 
 @dataclass(frozen=True)
@@ -176,6 +179,7 @@ class SeamlessSummary:
         conformal_change: root mean square over the edges of the change of twice the logarithm of lengths, less its mean, before the
             isometric steps.
         length_change: the same in the result.
+        n_left_out: features inside the surface that were asked for and are not straight.
     """
 
     converged: bool
@@ -189,6 +193,7 @@ class SeamlessSummary:
     n_features: int
     conformal_change: float
     length_change: float
+    n_left_out: int
 
 
 @dataclass(frozen=True)
