@@ -235,8 +235,9 @@ RICCI_API ricci_status ricci_seamless_field(const ricci_mesh *mesh, const ricci_
 RICCI_API ricci_status ricci_seamless_metric(const ricci_seamless *result, ricci_metric **metric);
 
 /**
- * The map into the plane, cut through all cones; edges of the boundary are parallel to an axis exactly, other
- * features to rounding. Each edge of a seam is exactly, in the doubles of
+ * The map into the plane, cut through all cones; edges of the boundary and features are parallel to an axis
+ * exactly, features to rounding where whole numbers on the grid of coordinates have no solution for them.
+ * Each edge of a seam is exactly, in the doubles of
  * ricci_layout_points, a rotation by a multiple of 90 degrees and a translation of its other side.
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_LAYOUT (a metric that has not converged), RICCI_TOO_LARGE,
  * RICCI_NO_MEMORY, RICCI_CANCELLED.

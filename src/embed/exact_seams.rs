@@ -52,7 +52,7 @@ impl Layout {
         let on_grid = |[x, y]: [f64; 2]| [(x / unit).round() as i64, (y / unit).round() as i64];
         let mut exact: Vec<GridVector> = self.coordinates.iter().map(|&z| on_grid(z)).collect();
         let mut classes = CoordinateClasses::new(self, straight);
-        let straightened = self.straight_sides(&boundary, &quarters, straight, unit, &mut classes)?;
+        let straightened = self.straight_sides(&boundary, straight, unit, &mut classes)?;
         let is_straight = !straight.is_empty() && straightened.is_some();
         let sides = match straightened {
             Some(sides) => sides,
@@ -85,7 +85,6 @@ impl Layout {
     fn straight_sides(
         &self,
         boundary: &[HalfedgeId],
-        quarters: &[i32],
         straight: &[HalfedgeId],
         unit: f64,
         classes: &mut CoordinateClasses,
@@ -93,7 +92,7 @@ impl Layout {
         if straight.is_empty() {
             return Ok(None);
         }
-        let mesh = self.mesh();
+        let (mesh, quarters) = (self.mesh(), self.quarter_turns()?);
         let mut is_line = vec![false; mesh.n_edges()];
         straight.iter().for_each(|h| is_line[h.edge().index()] = true);
         let (mut vectors, mut free) = (Vec::new(), Vec::new());

@@ -16,7 +16,7 @@ use crate::metric::{Class, Surface, Target};
 use std::f64::consts::FRAC_PI_2;
 
 /// Most iterations of a flow beside features, which is only a start.
-const FLOW_ITERATIONS: usize = 60;
+const FLOW_ITERATIONS: usize = 20;
 
 /// The sectors between features and the boundary, and the right angles of each. Features around a piece that is too small to have right
 /// angles in all its corners are left out.
