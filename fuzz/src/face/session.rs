@@ -35,7 +35,7 @@ const WRONG_SIZE: u32 = 1;
 /// Functions whose capacity counts rows of two numbers of the last buffer.
 const IN_PAIRS: [&str; 2] = ["ricci_structure_places", "ricci_uniform_sides"];
 /// Fields of summaries that do not apply to every surface, and may be NaN, as the headers say.
-const MAY_BE_NAN: [(&str, &str); 29] = [
+const MAY_BE_NAN: [(&str, &str); 30] = [
     ("ricci_circle_domain_summary", "modulus"),
     ("ricci_forms_summary", "asymmetry"),
     ("ricci_forms_summary", "star_residual"),
@@ -56,6 +56,7 @@ const MAY_BE_NAN: [(&str, &str); 29] = [
     ("ricci_layout_summary", "area_ratio_min_input"),
     ("ricci_layout_summary", "area_ratio_max_input"),
     ("ricci_layout_summary", "overlap"),
+    ("ricci_layout_summary", "symmetric_dirichlet"),
     ("ricci_quality_summary", "min_angle"),
     ("ricci_quality_summary", "obtuse_fraction"),
     ("ricci_quality_summary", "edge_ratio"),

@@ -45,8 +45,8 @@ class LayoutSummary:
         area_ratio_min_input: smallest area distortion of the mesh's own faces.
         area_ratio_max_input: largest area distortion of the mesh's own faces.
         overlap: share of the layout's area that lies on other parts of it, up to rounding: an atlas has no overlaps. NaN outside the plane.
-        symmetric_dirichlet: the mean over the input's area of the sum of the squares of the singular values and of their inverses, with both
-            total areas scaled to be the same; 4 for an isometry.
+        symmetric_dirichlet: the mean over the input's area of the sum of the squares of the singular values and of their inverses, with
+            both total areas scaled to be the same; 4 for an isometry.
     """
 
     space: Space
