@@ -84,6 +84,8 @@ pub struct SurfaceLayout {
     /// The layout cut into charts, where that was asked for.
     pub packed: Option<PackedCharts>,
     pub quality: Quality,
+    /// Faces of the layout that are turned over where their sides are straight, as they are written and drawn.
+    pub flipped: Vec<FaceId>,
     /// The pieces of the subdivision whose image has almost no area, or the faces without area in the input or the layout; in charts also
     /// those that are smaller than the coordinates of the unit square resolve.
     pub degenerate: Vec<FaceId>,
@@ -103,7 +105,7 @@ pub fn lay_out(
     if !solution.is_unflipped() {
         subdivision = Some(Arc::new(timed(&mut seconds.refine, || solution.common_subdivision(control))?));
     }
-    let options = LayoutOptions { subdivision, ..LayoutOptions::default() };
+    let options = LayoutOptions { subdivision, straight_sides: true, ..LayoutOptions::default() };
     timed(&mut seconds.layout, || {
         let layout = Layout::of_solution(solution, &options, control)?;
         within(solution.threads(), || SurfaceLayout::new(input, solution, layout))
@@ -115,6 +117,7 @@ impl SurfaceLayout {
     pub fn new(input: &Input, solution: &Solution, layout: Layout) -> ricci::Result<SurfaceLayout> {
         let quality = layout.quality(input.mesh(), input.surface.lengths())?;
         let on_input = layout.on_input();
+        let flipped = layout.flipped_with_straight_sides(&layout.coordinates);
         let given = input.positions();
         let (weight, positions, degenerate) = match layout.common_subdivision() {
             Some(r) => {
@@ -137,6 +140,7 @@ impl SurfaceLayout {
             degenerate,
             modulus: layout.modulus(),
             quality,
+            flipped,
             layout,
         })
     }
@@ -149,6 +153,13 @@ impl SurfaceLayout {
     /// The common subdivision, where edges were flipped.
     pub fn common_subdivision(&self) -> Option<&CommonSubdivision> {
         self.layout.common_subdivision().map(|r| &**r)
+    }
+
+    /// The number of edges of the subdivision that were split so that straight sides turn no piece over.
+    pub fn n_straightened(&self) -> usize {
+        let beside =
+            |r: &CommonSubdivision| r.mesh.n_vertices().saturating_sub(r.n_vertices[0] + r.crossings.len());
+        self.common_subdivision().map_or(0, beside)
     }
 
     /// The homogeneous weights of the coordinates.
@@ -171,7 +182,7 @@ impl SurfaceLayout {
             },
             _ => WrittenFaces {
                 name: "",
-                flipped: &self.layout.flipped,
+                flipped: &self.flipped,
                 degenerate: &self.degenerate,
                 quality: &self.quality,
             },
@@ -208,6 +219,9 @@ impl SurfaceLayout {
             Some(_) => Some(
                 "add --repair, which splits the fewest of the input's edges, or leave --on input out: the map is exact on the common \
                  subdivision",
+            ),
+            None if self.flipped.len() > self.layout.flipped.len() => Some(
+                "straight sides turn them over, arcs of the hyperbolic plane do not: add --on input --repair",
             ),
             None => None,
         };

@@ -11,7 +11,12 @@ use crate::geometry::vector::{add, cross, dot, norm, scale, sub};
 use crate::geometry::{DoubleDouble, Space, worse};
 use crate::mesh::{Mesh, PerEdge, PerHalfedge, PerVertex, Point, VertexId};
 use crate::metric::Metric;
+use std::f64::consts::FRAC_2_PI;
 use std::sync::Arc;
+
+/// Span of u from which on a failure is put down to the length of the surface: squares of lengths have factors e^(2u), down to e^−708 in f64.
+/// Seen from its middle, a sheet spans π/2 times its length over its width.
+pub(super) const WIDEST_SPAN: f64 = 354.0;
 
 impl PuncturedSurface {
     /// The vertices in the plane, the smallest triangle at the origin; the puncture at (∞, ∞).
@@ -53,14 +58,29 @@ impl PuncturedSurface {
         }
         let outside = |v: &VertexId| *v != self.at && plane[*v].iter().any(|&x| !rounded(x).is_finite());
         match self.mesh.vertices().find(outside) {
-            Some(v) => {
-                let at = self.at;
-                Err(Error::Layout(format!(
-                    "seen from vertex {at} vertex {v} lies in no triangle: cut each triangle into four, `ricci refine --levels 1`"
-                )))
-            }
+            Some(v) => Err(self.unplaced(v)),
             None => Ok(plane),
         }
+    }
+
+    /// The error at a vertex without a place in the plane.
+    fn unplaced(&self, v: VertexId) -> Error {
+        let others = self.mesh.vertices().filter(|&w| w != self.at).map(|w| self.metric.u[w]);
+        let [least, most] =
+            others.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], u| [least.min(u), most.max(u)]);
+        let (at, span) = (self.at, most - least);
+        Error::Layout(if span > WIDEST_SPAN {
+            format!(
+                "seen from vertex {at} lengths near vertex {v} are e^{span:.0} times smaller than others: a part of the surface is about {:.0} \
+                 times as long as wide, or more, too long for f64s in one disk. `ricci flow` lays such a sheet out with the lengths of its outline; cut \
+                 across, its parts become disks",
+                span * FRAC_2_PI
+            )
+        } else {
+            format!(
+                "seen from vertex {at} vertex {v} lies in no triangle: cut each triangle into four, `ricci refine --levels 1`"
+            )
+        })
     }
 
     /// The similarity of the plane after which the weighted mean of the lifted vertices is the centre of the sphere.

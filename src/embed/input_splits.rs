@@ -174,21 +174,18 @@ impl<'a> InputSplits<'a> {
     fn crossing(&self, h: HalfedgeId, k: usize, crossing: u32, is_taken: bool) -> BorderPoint {
         let corner = self.layout.corner_index[self.parts.from(h, crossing)];
         let place = self.layout.coordinates[corner as usize];
-        let mut weights = [0.0; 3];
-        [weights[k], weights[(k + 1) % 3]] = self.weights_along(h, crossing);
+        // Without a subdivision there are no crossings.
+        let weights = self.weights_on(h, crossing).unwrap_or(CORNERS[k]);
         let price = if is_taken { 0 } else { self.price(h, crossing) };
         BorderPoint { spot: BorderSpot::Crossing(h.edge(), crossing), corner, place, weights, price }
     }
 
-    /// The weights of the ends of a half-edge at a crossing.
-    fn weights_along(&self, h: HalfedgeId, crossing: u32) -> [f64; 2] {
-        let known = self.layout.common_subdivision().and_then(|r| {
-            let v = r.mesh.origin(self.parts.from(h, crossing));
-            r.crossings.get(v.index().wrapping_sub(r.n_vertices[0]))
-        });
-        // Without a subdivision there are no crossings.
-        let [a, b] = known.map_or([0.5; 2], |crossing| crossing[0].weights);
-        if h.0 & 1 == 0 { [a, b] } else { [b, a] }
+    /// The weights, in the face of the half-edge h, of a crossing on it.
+    fn weights_on(&self, h: HalfedgeId, crossing: u32) -> Option<[f64; 3]> {
+        let r = self.layout.common_subdivision()?;
+        let part = self.parts.from(h, crossing);
+        let (piece, corner) = r.mesh.corner(part)?;
+        Some(r.place(0, (piece, corner), part).weights())
     }
 
     /// The price of splitting a half-edge at a crossing: less where the face across the edge stays sound with that alone.

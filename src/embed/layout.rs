@@ -330,7 +330,7 @@ impl Layout {
 
     /// The orientation of a triangle of a subdivision; `extent`: the largest coordinate of the whole layout, at which corners in E² are
     /// rounded. In H² and S² the triangle is moved to the origin first.
-    fn orientation(&self, f: FaceId, extent: f64) -> TriangleOrientation {
+    pub(super) fn orientation(&self, f: FaceId, extent: f64) -> TriangleOrientation {
         if self.space == Space::E2 {
             return TriangleFlatness::of(self.face_uv(f)).orientation(extent);
         }

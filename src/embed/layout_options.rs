@@ -55,6 +55,10 @@ pub struct LayoutOptions {
     pub scale: LayoutScale,
     /// [`crate::Solution::common_subdivision`] of the result, if the caller has it already.
     pub subdivision: Option<Arc<CommonSubdivision>>,
+    /// In H², with a cut along edges of the surface as it came: split edges of the subdivision, but for those on the boundary, until no piece is turned over where its sides
+    /// are drawn straight in the Poincaré disk, as files of [`super::Layout::coordinates`] draw them. Default: false, the subdivision of
+    /// [`crate::Solution::common_subdivision`].
+    pub straight_sides: bool,
     /// The number of threads, in a pool of the call's own unless the caller is in one ([`crate::parallel::within`]); default 0: as many as
     /// the flow had. The result does not depend on it.
     pub threads: usize,

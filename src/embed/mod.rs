@@ -36,6 +36,7 @@ pub mod repaired_input;
 mod separate_faces;
 pub mod sides;
 mod straight_lines;
+mod straight_sides;
 pub(crate) mod unfold;
 
 pub use boundary_lift::BoundaryLift;

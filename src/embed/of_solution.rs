@@ -95,8 +95,15 @@ fn cut_and_unfold<F: HalfedgeFrame>(
     let (root, cut) = root_and_cut(solution, &pieces, faces, options, control)?;
     // A sphere without cones needs no cut.
     let is_whole = cut.segments.is_empty() && given.is_closed();
-    let cut_of_pieces = if is_whole { None } else { Some(pieces.cut_of_input(given, &cut)?) };
-    let mut layout = unfold(pieces, faces, root, cut_of_pieces, control)?;
+    let lay_out = |pieces: LayoutPieces| {
+        let cut_of_pieces = if is_whole { None } else { Some(pieces.cut_of_input(given, &cut)?) };
+        unfold(pieces, faces, root, cut_of_pieces, control)
+    };
+    let mut layout = lay_out(pieces)?;
+    if options.straight_sides {
+        let again = |r| lay_out(LayoutPieces::Subdivision(r));
+        layout = layout.with_straight_sides(solution, control, again)?;
+    }
     layout.input = Some((given.clone(), cut));
     Ok(layout)
 }

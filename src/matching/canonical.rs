@@ -92,6 +92,7 @@ impl Opening<'_> {
             opening: LayoutOpening::InputCut(self.cut.clone()),
             subdivision: self.subdivision.clone(),
             threads: self.threads,
+            ..LayoutOptions::default()
         };
         let layout = Layout::of_solution(solution, &layout_options, control)?;
         let pairings: Vec<_> = layout.seams.iter().map(|seam| seam.pairing).collect();

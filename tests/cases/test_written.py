@@ -100,6 +100,8 @@ def test_a_map_with_given_places_that_folds_fails_by_name(ricci, case, read_obj,
     run = ricci("harmonic", case("fixed71.obj"), "--to", f"file:{case('fixed71.csv')}", "--uv", uv)
     # 576 of the 1152 triangles of the domain, which are 804 pieces of the file.
     assert tell(run, uv, read_obj) == 804
+    assert run.report["result"]["flipped_domain_triangles"] == 576
+    assert "804 triangles flipped (pieces of 576 of the 1152 triangles mapped)" in run.text
     assert "flipped_triangles = 8.040e2, limit 0.000e0 (faces " in run.text
     assert "--to disk" in run.text and "(804 in all)" in run.text
 

@@ -396,3 +396,36 @@ fn dual_circles_are_orthogonal_to_vertex_circles_with_and_without_flips() {
     let layout = Layout::of_solution(&curved, &options, &free).unwrap();
     assert!(matches!(CirclePattern::new(&layout, mesh, curved.metric()), Err(Error::Layout(_))));
 }
+
+/// Split edges leave the map as it is: every vertex of the input and every point of its faces comes to the same place.
+#[test]
+fn edges_are_split_where_straight_sides_turn_pieces_over() {
+    let plate = Surface::from_soup(&pierced_plate()).unwrap();
+    let class = Class::yamabe(Space::H2);
+    let solution = flow(plate, class, &Target::Uniform, &Options::default(), &Control::new()).unwrap();
+    let lay_out = |straight_sides: bool| {
+        let options = LayoutOptions { straight_sides, ..LayoutOptions::default() };
+        Layout::of_solution(&solution, &options, &Control::new()).unwrap()
+    };
+    let [plain, straight] = [false, true].map(lay_out);
+    assert!(plain.flipped.is_empty() && straight.flipped.is_empty());
+    let [before, after] = [&plain, &straight].map(|l| l.flipped_with_straight_sides(&l.coordinates).len());
+    assert!(after < before, "{before} faces, {after} of the split ones");
+    let [p, r] = [&plain, &straight].map(|layout| layout.common_subdivision().unwrap());
+    assert!(r.mesh.n_vertices() > p.mesh.n_vertices() && r.mesh.euler() == p.mesh.euler());
+    assert_eq!((r.n_vertices, r.crossings.len()), (p.n_vertices, p.crossings.len()));
+    for (a, b) in
+        plain.corner_uv().unwrap().iter().flatten().zip(straight.corner_uv().unwrap().iter().flatten())
+    {
+        assert!(distance(*a, *b) < 1e-9, "{a:?}, {b:?}");
+    }
+    let (before, after) = (p.forward(), r.forward());
+    for f in solution.given().faces() {
+        for weights in [[0.2, 0.3, 0.5], [0.7, 0.2, 0.1], [0.01, 0.01, 0.98]] {
+            let ((face, at), (same, there)) =
+                (before.image(f, weights).unwrap(), after.image(f, weights).unwrap());
+            assert_eq!(face, same);
+            assert!((0..3).all(|k| (at[k] - there[k]).abs() < 1e-6), "{f}: {at:?}, {there:?}");
+        }
+    }
+}

@@ -6,10 +6,15 @@ use crate::report::{Checks, Done, Figures, InputSummary};
 use crate::runner::{CommandRun, JobOutcome};
 use crate::say::{count, finish, modulus, surface};
 use crate::solved::GAUSS_BONNET;
-use ricci::canonical::DomainFrame;
 use ricci::canonical::circle_domain::ROUND;
+use ricci::canonical::{CircleDomain, DomainFrame};
 use ricci::metric::Scheme;
 use serde_json::json;
+use std::f64::consts::FRAC_2_PI;
+
+/// A remedy for triangles that are turned over: of sheets 200 times as long as wide, those with two rows of quadrilaterals fold five
+/// triangles, and none once each triangle is cut into four.
+const FINER: &str = "cut each triangle into four, `ricci refine --levels 1`";
 
 impl JobOutcome for CirclesOutcome {
     type Figures = Figures;
@@ -23,7 +28,8 @@ impl JobOutcome for CirclesOutcome {
         checks.add("overlapping_circles", domain.overlapping().len() as f64, 0.0);
         let errors = domain.report.domain_curvature_error * domain.metric.mesh().n_vertices() as f64;
         checks.add("layout_consistency", layout.consistency(), layout.consistency_limit(errors));
-        checks.add("flipped_triangles", layout.flipped.len() as f64, 0.0);
+        let finer = Some(FINER).filter(|_| domain.span_beyond_range().is_none());
+        checks.add_none("flipped_triangles", ["face", "faces"], self.laid.flipped(), finer);
         checks.add("unconverged", f64::from(u8::from(!domain.report.converged)), 0.0);
         checks
     }
@@ -116,6 +122,16 @@ fn frame_name(frame: DomainFrame) -> Option<&'static str> {
 /// Where the domain is not as exact as asked for, and what to change; empty if it is.
 fn why(outcome: &CirclesOutcome) -> String {
     let (domain, report) = (&outcome.domain, &outcome.domain.report);
+    if report.converged {
+        return String::new();
+    }
+    if let Some(span) = domain.span_beyond_range() {
+        return format!(
+            "why      some lengths are e^{span:.0} times smaller than others: a part of the surface is about {:.0} times as long as wide, or more, too long \
+             for doubles in one disk. ricci flow lays such a sheet out with the lengths of its outline; cut across, its parts become disks\n",
+            span * FRAC_2_PI
+        );
+    }
     let mut text = String::new();
     if let Some(k) = report.worst_loop.filter(|_| report.deviation > ROUND) {
         let c = &domain.circles[k];
@@ -134,11 +150,23 @@ fn why(outcome: &CirclesOutcome) -> String {
             None => format!("vertex {v}"),
         };
         text += &format!(
-            "why      max |K| = {:.1e} at {place}, limit {:.1e}: remesh thin triangles there, or ask for less (--tolerance)\n",
-            report.domain_curvature_error, outcome.tolerance
+            "why      max |K| = {:.1e} at {place}, limit {:.1e}: {}, or ask for less (--tolerance)\n",
+            report.domain_curvature_error,
+            outcome.tolerance,
+            if is_annulus_in_disk(domain) { STRIP } else { "remesh thin triangles there" }
         );
     }
+    if text.is_empty() && outcome.laid.flipped().is_empty() {
+        text += &format!("why      triangles break or circles overlap: {FINER}\n");
+    }
     text
+}
+
+/// The way out for an annulus whose inner circle is too small for the disk.
+const STRIP: &str = "doubles hold no more digits of so small a circle in the disk; --frame strip does";
+
+fn is_annulus_in_disk(domain: &CircleDomain) -> bool {
+    domain.frame == DomainFrame::Disk && domain.circles.len() == 2
 }
 
 /// The way to a rounder loop.
@@ -147,8 +175,11 @@ fn remedy(outcome: &CirclesOutcome) -> String {
     if domain.frame != DomainFrame::Disk {
         return "remesh thin triangles near it, or give it more edges (--least-loop)".into();
     }
-    if domain.circles.len() == 2 {
-        return "doubles hold no more digits of so small a circle in the disk; --frame strip does".into();
+    if domain.circles.len() == 1 {
+        return FINER.into();
+    }
+    if is_annulus_in_disk(domain) {
+        return STRIP.into();
     }
     "doubles do not hold this loop beside the others in one disk; try another outer loop (--outer), or cut the surface along its \
      long tubes and treat the parts"

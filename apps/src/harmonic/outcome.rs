@@ -30,6 +30,8 @@ pub struct PlaneMap {
     pub points: Vec<[f64; 2]>,
     /// The triangles that are written and turn over: pieces of the subdivision where there is one, else triangles of the domain.
     pub flipped: Vec<FaceId>,
+    /// The number of triangles of the domain that turn over.
+    pub flipped_in_domain: usize,
     /// The number of pieces without area.
     pub degenerate: usize,
 }
@@ -127,6 +129,16 @@ impl HarmonicOutcome {
         }
     }
 
+    /// The share of the domain's triangles that turn over, where pieces of them are counted too; empty if none does.
+    fn flipped_share(&self, plane: &PlaneMap) -> String {
+        match (&plane.subdivision, plane.flipped_in_domain) {
+            (None, _) | (_, 0) => String::new(),
+            (Some(_), n) => {
+                format!(" (pieces of {n} of the {} triangles mapped)", self.domain.mesh().n_faces())
+            }
+        }
+    }
+
     /// The largest rise of the energy in a step.
     fn energy_rise(&self) -> f64 {
         self.energies().windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max)
@@ -171,6 +183,7 @@ impl JobOutcome for HarmonicOutcome {
                 .with("energy", plane.map.energy)
                 .with("mean_value_residual", plane.map.mean_value_residual)
                 .with("flipped_triangles", plane.flipped.len())
+                .with("flipped_domain_triangles", plane.flipped_in_domain)
                 .with("degenerate_pieces", plane.degenerate)
                 .if_some("corners", plane.course.corner_numbers())
                 .if_some("modulus", plane.course.modulus.map(|(modulus, _)| modulus))
@@ -194,11 +207,12 @@ impl JobOutcome for HarmonicOutcome {
         };
         let map = match &self.map {
             MappedSurface::Plane(plane) => format!(
-                "map      energy {}{}, off the means of neighbours by {:.1e}, {}{added}\n{}",
+                "map      energy {}{}, off the means of neighbours by {:.1e}, {}{}{added}\n{}",
                 say::size(plane.map.energy, 6),
                 plane.course.steps(),
                 plane.map.mean_value_residual,
                 say::count(plane.flipped.len(), "triangle flipped", "triangles flipped"),
+                self.flipped_share(plane),
                 plane.course.modulus_line(),
             ),
             MappedSurface::Sphere(map) => format!(
@@ -299,7 +313,16 @@ impl PlaneMap {
         };
         let of_domain = planar::flipped(domain, &map.points);
         let Some(r) = &subdivision else {
-            return Ok(PlaneMap { map, course, subdivision, points, flipped: of_domain, degenerate: 0 });
+            let flipped_in_domain = of_domain.len();
+            return Ok(PlaneMap {
+                map,
+                course,
+                subdivision,
+                points,
+                flipped: of_domain,
+                flipped_in_domain,
+                degenerate: 0,
+            });
         };
         // A piece is turned over where its triangle of the domain is, even if rounding leaves no area to see it by.
         let of_domain: HashSet<FaceId> = of_domain.into_iter().collect();
@@ -314,6 +337,7 @@ impl PlaneMap {
                 degenerate += usize::from(area <= least);
             }
         }
-        Ok(PlaneMap { map, course, subdivision, points, flipped, degenerate })
+        let flipped_in_domain = of_domain.len();
+        Ok(PlaneMap { map, course, subdivision, points, flipped, flipped_in_domain, degenerate })
     }
 }

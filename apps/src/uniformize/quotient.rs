@@ -252,9 +252,10 @@ fn on_surface(
         None => Arc::new(timed(&mut seconds.refine, || solution.common_subdivision(control))?),
     };
     timed(&mut seconds.layout, || {
+        let again = |r| layout.on_subdivision(&r, solution.metric(), control);
         let refined = match layout.common_subdivision() {
             Some(_) => layout.clone(),
-            None => layout.on_subdivision(&subdivision, solution.metric(), control)?,
+            None => again(subdivision.clone())?.with_straight_sides(solution, control, again)?,
         };
         let mut laid = SurfaceLayout::new(task.input, solution, refined)?;
         if task.needs.on_input {

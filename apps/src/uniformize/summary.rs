@@ -52,7 +52,10 @@ fn quotient(u: &Uniformized, copies: bool) -> String {
     let flipped = || say::count(u.flipped().len(), "triangle flipped", "triangles flipped");
     let layout = u.laid().map_or_else(|_| flipped(), flow_summary::layout);
     let modulus = u.extremal_distance.map_or_else(String::new, |m| format!(", modulus {m:.6}"));
-    text += &format!("layout   {layout}{}{modulus}\n", say::modulus(u.deck.modulus()));
+    // The layout on the given surface has told that of a torus.
+    let is_told = u.laid().is_ok_and(|laid| laid.modulus.is_some());
+    let of_torus = if is_told { String::new() } else { say::modulus(u.deck.modulus()) };
+    text += &format!("layout   {layout}{of_torus}{modulus}\n");
     if let Some(Err(why)) = &u.laid {
         text += &format!("FAILED   to carry it back to the given triangulation: {why}\n");
     }

@@ -2,6 +2,7 @@
 
 use crate::files::{curvature_error, parse_obj};
 use crate::run::{Place, numbers};
+use crate::surfaces::sheet;
 use std::collections::{HashMap, HashSet};
 
 /// Texture coordinates on the boundary of a file's faces, and their corners.
@@ -166,7 +167,33 @@ fn a_domain_that_is_not_as_exact_as_asked_for_says_where_and_what_to_do() {
     assert_eq!(report["result"]["converged"], false);
     assert_eq!(report["result"]["stop_reason"], "rounding_floor");
     assert!(report["result"]["worst_vertex"].is_u64());
-    for part in ["why      max |K|", "limit 1.0e-15", "--tolerance", "FAILED: max_curvature_error"] {
+    for part in
+        ["why      max |K|", "limit 1.0e-15", "--frame strip", "--tolerance", "FAILED: max_curvature_error"]
+    {
         assert!(said.contains(part), "{part}: {said}");
     }
+}
+
+#[test]
+fn a_sheet_too_long_for_doubles_is_said_to_be_so() {
+    let place = Place::new();
+    place.put("long.obj", &sheet(300, 100, 1).obj());
+    let ended = place.expect(1, "circles long.obj --report r.json");
+    assert_eq!(place.json("r.json")["result"]["converged"], false);
+    let said = ended.out + &ended.err;
+    assert!(said.contains("times as long as wide, or more, too long") && !said.contains("refine"), "{said}");
+    place.expect(0, "flow long.obj --uv u.obj");
+}
+
+#[test]
+fn a_sheet_without_vertices_inside_is_advised_to_be_refined_which_helps() {
+    let place = Place::new();
+    place.put("sheet.obj", &sheet(50, 50, 1).obj());
+    let said = place.expect(1, "circles sheet.obj --report r.json").out;
+    let result = &place.json("r.json")["result"];
+    assert_eq!(result["converged"], false);
+    assert_ne!(result["stop_reason"], "converged");
+    assert!(said.contains("why      triangles break or circles overlap: cut each triangle into four, `ricci refine --levels 1`"), "{said}");
+    place.expect(0, "refine sheet.obj --levels 1 -o fine.obj");
+    place.expect(0, "circles fine.obj");
 }

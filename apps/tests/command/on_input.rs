@@ -2,7 +2,7 @@
 
 use crate::files::parse_obj;
 use crate::run::Place;
-use crate::surfaces::{genus_two, hill, sheared_hill};
+use crate::surfaces::{genus_two, hill, pierced_plate, sheared_hill};
 
 /// With `--on input` the file has the input's own vertices and faces, in order; the faces around an edge that is no seam share their
 /// points.
@@ -63,7 +63,8 @@ fn a_repair_leaves_no_face_turned_over() {
             "{line}"
         );
         assert_eq!(result["added_vertices"], own.v.len() - given.len(), "{line}");
-        assert_eq!(result["flipped_triangles"], 0, "{line}");
+        let flipped = result["flipped_triangles"].as_u64().unwrap();
+        assert_eq!(ended.code, Some(i32::from(flipped > 0)), "{line}");
         assert!(said.contains(&format!("repaired {folds} face")), "{line}\n{said}");
         let rows = place.text("x.csv").lines().count();
         assert_eq!(rows, own.faces.len() + own.v.len() + 2, "{line}");
@@ -143,4 +144,46 @@ fn doubled_area([a, b, c]: [[f64; 3]; 3]) -> f64 {
     let (p, q) = ([0, 1, 2].map(|k| b[k] - a[k]), [0, 1, 2].map(|k| c[k] - a[k]));
     let n = [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]];
     n.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+/// Lines of H² are arcs in the Poincaré disk, and files draw straight lines: thin pieces between an arc and its chord would be turned over,
+/// so edges are split there, and the way back knows the new vertices.
+#[test]
+fn straight_lines_turn_no_piece_of_a_hyperbolic_layout_over() {
+    let place = Place::new();
+    place.put("plate.obj", &pierced_plate().obj());
+    for (line, before) in [("flow plate.obj", 4), ("uniformize plate.obj", 13)] {
+        let line = format!("{line} --uv u.obj --xref x.csv --report r.json");
+        let ended = place.run(&line);
+        let (uv, result) = (parse_obj(&place.text("u.obj")), &place.json("r.json")["result"]);
+        assert_eq!(result["flipped_triangles"], 0, "{line}");
+        assert!(result["straightened_edges"].as_u64() > Some(0), "{line}: {result}");
+        let turned = (0..uv.faces.len()).filter(|&f| uv.area(f) <= 0.0).count() as u64;
+        let flat = result["degenerate_pieces"].as_u64().unwrap();
+        assert!(
+            (flipped..=flipped + flat).contains(&turned) && flipped < before,
+            "{line}: {turned}, {flipped}"
+        );
+        let (given, xref) = (pierced_plate(), place.text("x.csv"));
+        let rows = xref.split("output_vertex,source_face,b0,b1,b2\n").nth(1).unwrap().lines();
+        assert_eq!(rows.clone().count(), uv.v.len());
+        for row in rows {
+            let cells: Vec<f64> = row.split(',').map(|cell| cell.parse().unwrap()).collect();
+            let corners = given.faces[cells[1] as usize].map(|v| given.positions[v]);
+            for k in 0..3 {
+                let at: f64 = (0..3).map(|i| cells[2 + i] * corners[i][k]).sum();
+                assert!((at - uv.v[cells[0] as usize][k]).abs() < 1e-12, "{line}: {row}");
+            }
+        }
+        let areas = uv.faces.iter().map(|f| area(f.map(|v| uv.v[v]))).sum::<f64>();
+        let whole = given.faces.iter().map(|f| area(f.map(|v| given.positions[v]))).sum::<f64>();
+        assert!((areas / whole - 1.0).abs() < 1e-12, "{line}: {areas} of {whole}");
+    }
+}
+
+/// The area of a triangle in space.
+fn area([a, b, c]: [[f64; 3]; 3]) -> f64 {
+    let [p, q] = [b, c].map(|d| [0, 1, 2].map(|k| d[k] - a[k]));
+    let normal = [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]];
+    0.5 * normal.iter().map(|x| x * x).sum::<f64>().sqrt()
 }

@@ -132,3 +132,38 @@ pub fn one_vertex_torus(a: f64, b: f64, d: f64) -> String {
     })
     .to_string()
 }
+
+/// A plane sheet of length n and width 1 in n by m squares, cut along their diagonals.
+pub fn sheet(length: usize, n: usize, m: usize) -> Surface {
+    let at = |i: usize, j: usize| (m + 1) * i + j;
+    let place = |k: usize| {
+        let (i, j) = (k / (m + 1), k % (m + 1));
+        [length as f64 * i as f64 / n as f64, j as f64 / m as f64, 0.0]
+    };
+    let faces = (0..n * m).flat_map(|k| {
+        let (i, j) = (k / m, k % m);
+        [[at(i, j), at(i + 1, j), at(i + 1, j + 1)], [at(i, j), at(i + 1, j + 1), at(i, j + 1)]]
+    });
+    Surface { positions: (0..(n + 1) * (m + 1)).map(place).collect(), faces: faces.collect() }
+}
+
+/// A plate of 70 × 3 × 0.05 with two holes through it, in triangles of very different lengths: genus 2.
+pub fn pierced_plate() -> Surface {
+    let (xs, ys) = ([0.0, 1.0, 20.0, 50.0, 60.0, 70.0], [0.0, 1.0, 2.0, 3.0]);
+    let at = |[i, j]: [usize; 2], k: usize| (4 * k + j) * 6 + i;
+    let positions = (0..48).map(|v| [xs[v % 6], ys[v / 6 % 4], 0.05 * (v / 24) as f64]).collect();
+    let is_solid = |i: usize, j: usize| i < 5 && j < 3 && !(j == 1 && (i == 1 || i == 3));
+    let mut faces = Vec::new();
+    for (i, j) in (0..15).map(|k| (k / 3, k % 3)).filter(|&(i, j)| is_solid(i, j)) {
+        let square = [[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1]];
+        let [[a, b, c, d], [e, f, g, h]] = [1, 0].map(|k| square.map(|p| at(p, k)));
+        faces.extend([[a, b, c], [a, c, d], [e, g, f], [e, h, g]]);
+        let beside = [(i, j.wrapping_sub(1)), (i + 1, j), (i, j + 1), (i.wrapping_sub(1), j)];
+        for (side, _) in beside.into_iter().enumerate().filter(|&(_, (i, j))| !is_solid(i, j)) {
+            let (p, q) = (square[side], square[(side + 1) % 4]);
+            let [a, b, c, d] = [at(p, 0), at(q, 0), at(q, 1), at(p, 1)];
+            faces.extend([[a, b, c], [a, c, d]]);
+        }
+    }
+    Surface { positions, faces }
+}

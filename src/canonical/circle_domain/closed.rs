@@ -32,7 +32,8 @@ pub(super) fn solve(
     let mut subdivision = metric.common_subdivision_where(&|f| filled.is_original(f), control)?;
     round_off(&mut subdivision, &metric, &filled)?;
     let subdivision = Arc::new(subdivision);
-    let mut layout = whole.on_subdivision(&subdivision, metric.metric(), control)?;
+    let again = |r| whole.on_subdivision(&r, metric.metric(), control);
+    let mut layout = again(subdivision)?.with_straight_sides(&metric, control, again)?;
     layout.measure_area();
     if layout.space == Space::E2 {
         layout.scale_to_area(split.given().area()?)?;

@@ -31,7 +31,8 @@ pub struct CircleReport {
     /// True if the domain as it is returned has K = 0 to the tolerance, loops that are round to [`super::ROUND`], no two circles that overlap,
     /// and no flipped triangle.
     pub converged: bool,
-    /// Why the flow stopped; [`StopReason::RoundingFloor`] if it converged, but the domain as it is returned is not that exact.
+    /// Why the flow stopped. If it converged, but the domain as it is returned is not that exact, [`StopReason::RoundingFloor`]; if triangles
+    /// of it are flipped or circles overlap, [`StopReason::BrokenTriangles`].
     pub stop_reason: StopReason,
     /// Newton steps of the whole call.
     pub iterations: usize,

@@ -1,5 +1,6 @@
 //! The verdict on a circle domain as it is returned: whether it is converged, and why not.
 
+use super::super::lift::WIDEST_SPAN;
 use super::domain::{CircleDomain, CircleReport, DomainCircle};
 use super::options::ROUND;
 use crate::flow::StopReason;
@@ -28,26 +29,39 @@ impl CircleDomain {
         self.report.converged || (self.report.least_gap <= 0.0 && self.report.deviation <= ROUND)
     }
 
+    /// The span of the metric's u, if it is so large that f64s hardly hold the squares of all lengths: then a part of the surface is about 2/π
+    /// times that span as long as wide.
+    pub fn span_beyond_range(&self) -> Option<f64> {
+        let u = &self.metric.metric().u;
+        let [least, most] = u
+            .iter()
+            .fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], &u| [least.min(u), most.max(u)]);
+        (most - least > WIDEST_SPAN).then_some(most - least)
+    }
+
     /// The domain with the verdict on it as it is. `report` holds the stop reason of the flow.
     pub(super) fn judged(mut self, tolerance: f64) -> CircleDomain {
         let (deviation, worst_loop) = largest_deviation(&self.circles);
-        let fits = self.layout.flipped.is_empty() && self.report.least_gap > 0.0;
+        let fits = self.layout.flipped_with_straight_sides(&self.layout.coordinates).is_empty()
+            && self.report.least_gap > 0.0;
         let report = &mut self.report;
         (report.deviation, report.worst_loop) = (deviation, worst_loop);
-        report.stop_reason = report.stop_reason_of_domain(tolerance);
-        report.converged = report.stop_reason == StopReason::Converged && fits;
+        report.stop_reason = report.stop_reason_of_domain(tolerance, fits);
+        report.converged = report.stop_reason == StopReason::Converged;
         self
     }
 }
 
 impl CircleReport {
-    /// The stop reason of the flow, unless it converged and the domain is not that exact.
-    fn stop_reason_of_domain(&self, tolerance: f64) -> StopReason {
+    /// The stop reason of the flow, unless it converged and the domain is not that exact, or does not fit: triangles of it are flipped, or
+    /// circles overlap.
+    fn stop_reason_of_domain(&self, tolerance: f64, fits: bool) -> StopReason {
         let is_exact = self.domain_curvature_error <= tolerance && self.deviation <= ROUND;
         match self.stop_reason {
             StopReason::Converged if !is_exact => {
                 StopReason::RoundingFloor { size: worse(self.domain_curvature_error, self.deviation) }
             }
+            StopReason::Converged if !fits => StopReason::BrokenTriangles,
             reason => reason,
         }
     }

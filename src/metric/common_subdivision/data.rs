@@ -84,7 +84,8 @@ pub(crate) fn corner_at(weights: [f64; 3]) -> Option<usize> {
 #[derive(Debug, Clone, PartialEq)]
 pub struct CommonSubdivision {
     /// The pieces, triangulated: a surface of the same topology, and a Δ-complex if the triangulations are. Its vertices are those of
-    /// the first triangulation with their numbers, then the crossings, then those of the second that are not at one of the first.
+    /// the first triangulation with their numbers, then the crossings, then those of the second that are not at one of the first, then those
+    /// on edges that were split ([`crate::embed::LayoutOptions::straight_sides`]).
     pub mesh: Mesh,
     /// Number of vertices of each triangulation (on the faces that were kept).
     pub n_vertices: [usize; 2],
@@ -124,7 +125,11 @@ impl CommonSubdivision {
             let [from, to] = crossing[side].weights;
             [from, to, 0.0]
         } else if let Some(point) = self.points.get(v.index()) {
-            point[side].weights
+            let FacePoint { vertices, weights } = point[side];
+            if vertices[0] == v && weights[0] == 1.0 {
+                return PlaceInFace::Corner(corner);
+            }
+            weights
         } else {
             return PlaceInFace::Corner(corner);
         };

@@ -40,6 +40,7 @@ mod lines;
 mod maps;
 mod order;
 mod pieces;
+mod split_edges;
 mod strip;
 mod triangulations;
 

@@ -2,6 +2,7 @@
 #![allow(dead_code)]
 
 use ricci::geometry::Space;
+use ricci::mesh::io::Soup;
 use ricci::mesh::{Mesh, PerEdge, VertexId, io, shapes};
 use ricci::metric::curvature as curvature_of;
 use std::path::{Path, PathBuf};
@@ -153,4 +154,25 @@ impl Random {
     pub fn vertices(&mut self, mesh: &Mesh, n: usize) -> Vec<VertexId> {
         (0..n).map(|_| VertexId::from(self.below(mesh.n_vertices()))).collect()
     }
+}
+
+/// A plate of 70 × 3 × 0.05 with two holes through it, in triangles of very different lengths: genus 2.
+pub fn pierced_plate() -> Soup {
+    let (xs, ys) = ([0.0, 1.0, 20.0, 50.0, 60.0, 70.0], [0.0, 1.0, 2.0, 3.0]);
+    let positions = (0..48).map(|v| [xs[v % 6], ys[v / 6 % 4], 0.05 * (v / 24) as f64]).collect();
+    let at = |[i, j]: [usize; 2], k: usize| ((4 * k + j) * 6 + i) as u32;
+    let is_solid = |i: usize, j: usize| i < 5 && j < 3 && !(j == 1 && (i == 1 || i == 3));
+    let mut faces = Vec::new();
+    for (i, j) in (0..15).map(|k| (k / 3, k % 3)).filter(|&(i, j)| is_solid(i, j)) {
+        let square = [[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1]];
+        let [[a, b, c, d], [e, f, g, h]] = [1, 0].map(|k| square.map(|p| at(p, k)));
+        faces.extend([[a, b, c], [a, c, d], [e, g, f], [e, h, g]]);
+        let beside = [(i, j.wrapping_sub(1)), (i + 1, j), (i, j + 1), (i.wrapping_sub(1), j)];
+        for (side, _) in beside.into_iter().enumerate().filter(|&(_, (i, j))| !is_solid(i, j)) {
+            let (p, q) = (square[side], square[(side + 1) % 4]);
+            let [a, b, c, d] = [at(p, 0), at(q, 0), at(q, 1), at(p, 1)];
+            faces.extend([[a, b, c], [a, c, d]]);
+        }
+    }
+    Soup::new(positions, faces)
 }
