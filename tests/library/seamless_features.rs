@@ -143,6 +143,60 @@ fn a_flat_torus_without_turning_returns_itself() {
     }
 }
 
+/// Three squares in the shape of an L, each cut into `n` by `n`, with opposite sides glued: genus 2, one cone of 1080°.
+fn glued_squares(n: usize) -> Surface {
+    let width = 2 * n + 1;
+    let mut class: Vec<usize> = (0..width * width).collect();
+    let mut glue = |[i, j]: [usize; 2], [k, l]: [usize; 2]| {
+        let (from, to) = (class[i + width * j], class[k + width * l]);
+        class.iter_mut().filter(|c| **c == from).for_each(|c| *c = to);
+    };
+    for k in 0..=n {
+        glue([2 * n, k], [0, k]);
+        glue([n, n + k], [0, n + k]);
+        glue([k, 2 * n], [k, 0]);
+        glue([n + k, n], [n + k, 0]);
+    }
+    let mut names: Vec<usize> = Vec::new();
+    let mut vertex = |i: usize, j: usize| {
+        let c = class[i + width * j];
+        names.iter().position(|x| *x == c).unwrap_or_else(|| {
+            names.push(c);
+            names.len() - 1
+        }) as u32
+    };
+    let mut faces = Vec::new();
+    for (i, j) in (0..2 * n).flat_map(|i| (0..2 * n).map(move |j| (i, j))).filter(|(i, j)| *i < n || *j < n) {
+        let [a, b, c, d] = [vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1)];
+        faces.extend([[a, b, c], [a, c, d]]);
+    }
+    let mesh = Mesh::from_faces(names.len(), &faces).unwrap();
+    let mut lengths = PerEdge::filled(mesh.n_edges(), 1.0);
+    for f in mesh.faces() {
+        let [a, _, c] = mesh.face_vertices(f);
+        let sides = mesh.face_halfedges(f);
+        let diagonal = sides.into_iter().find(|&h| {
+            let ends = [mesh.origin(h), mesh.tip(h)];
+            if f.index() % 2 == 0 { ends == [c, a] } else { ends == [a, mesh.face_vertices(f)[1]] }
+        });
+        lengths[diagonal.unwrap().edge()] = 2f64.sqrt();
+    }
+    Surface::intrinsic(mesh, lengths, ricci::geometry::Space::E2).unwrap()
+}
+
+#[test]
+fn glued_squares_return_themselves() {
+    let surface = glued_squares(4);
+    let mesh = surface.mesh();
+    assert_eq!((mesh.n_vertices(), mesh.genus()), (3 * 16 - 2, 2));
+    let cone = mesh.vertices().max_by_key(|&v| mesh.fan(v).len()).unwrap();
+    let cones = SeamlessCones::Valences(vec![ConeValence { vertex: cone, valence: 12 }]);
+    let of = made(&surface, &SeamlessOptions { cones, ..SeamlessOptions::default() });
+    assert!(of.converged(), "{:e}", of.error);
+    assert!(of.quarter_turns.iter().all(|k| k % 4 == 0), "{:?}", of.quarter_turns);
+    assert!(spread_of_scale(&of, &surface) < 1e-8);
+}
+
 #[test]
 fn a_box_of_squares_returns_itself_along_its_edges() {
     let surface = block([2, 3, 4]);
