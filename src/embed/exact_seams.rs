@@ -7,7 +7,7 @@
 //! each direction can take up anything along it.
 
 use super::layout::Layout;
-use super::straight_lines::{CoordinateClasses, PolygonSide, across, straighten};
+use super::straight_lines::{CoordinateClasses, GridVector, OpenedSide, across, straighten, turned};
 use crate::error::{Error, Result};
 use crate::geometry::{DoubleDouble, Motion, Space};
 use crate::mesh::HalfedgeId;
@@ -19,9 +19,6 @@ const ROTATION_ROUNDING: f64 = 1e-6;
 const GRID_BITS: i32 = 51;
 /// Multiples of the grid that coordinates are rounded to where lines are to be straight: what equations leave then can be halved some times.
 const COARSE: i64 = 256;
-
-/// A Gaussian integer: a vector in units of the grid.
-pub(super) type GridVector = [i64; 2];
 
 impl Layout {
     /// Turns the layout such that a half-edge has the direction of the x axis.
@@ -115,12 +112,12 @@ impl Layout {
         let side = |&h: &HalfedgeId| {
             let turn = |h: HalfedgeId| quarters[self.side[h].unsigned_abs() as usize - 1].rem_euclid(4);
             let turns = if self.side[h] >= 0 { 0 } else { turn(h) + 2 };
-            PolygonSide { vector: number[h.edge().index()], turns }
+            OpenedSide { vector: number[h.edge().index()], turns }
         };
-        let sides: Vec<PolygonSide> = boundary.iter().map(side).collect();
+        let sides: Vec<OpenedSide> = boundary.iter().map(side).collect();
         let corners: Vec<u32> = boundary.iter().map(|&h| self.corner_index[h]).collect();
         let is_solved = straighten(&mut vectors, &free, &sides, &corners, classes);
-        let vector = |side: &PolygonSide| turned(vectors[side.vector], side.turns);
+        let vector = |side: &OpenedSide| turned(vectors[side.vector], side.turns);
         Ok(is_solved.then(|| sides.iter().map(vector).collect()))
     }
 
@@ -259,16 +256,6 @@ fn add(a: GridVector, b: GridVector) -> GridVector {
 
 fn sub(a: GridVector, b: GridVector) -> GridVector {
     [a[0] - b[0], a[1] - b[1]]
-}
-
-/// iᵏ z.
-pub(super) fn turned([x, y]: GridVector, k: i32) -> GridVector {
-    match k.rem_euclid(4) {
-        0 => [x, y],
-        1 => [-y, x],
-        2 => [-x, -y],
-        _ => [y, -x],
-    }
 }
 
 /// z / (1 − iᵏ), if that is a Gaussian integer.

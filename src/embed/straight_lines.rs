@@ -5,15 +5,17 @@
 //! them have to add up to 0 along one axis. With the closing of the whole boundary these are linear equations for the sides, solved by
 //! elimination with powers of two as pivots, so that all numbers stay dyadic.
 
-use super::exact_seams::{GridVector, turned};
 use super::layout::Layout;
 use crate::mesh::HalfedgeId;
 use crate::mesh::union_find::UnionFind;
 use std::collections::BTreeMap;
 
+/// A Gaussian integer: a vector in units of the grid.
+pub(super) type GridVector = [i64; 2];
+
 /// A side of the opened surface's boundary: that many quarter turns of the vector of an edge, in units of the grid.
 #[derive(Clone, Copy)]
-pub(super) struct PolygonSide {
+pub(super) struct OpenedSide {
     /// The number of the edge's vector.
     pub vector: usize,
     /// Quarter turns from that vector to the side.
@@ -62,6 +64,16 @@ impl CoordinateClasses {
     }
 }
 
+/// iᵏ z.
+pub(super) fn turned([x, y]: GridVector, k: i32) -> GridVector {
+    match k.rem_euclid(4) {
+        0 => [x, y],
+        1 => [-y, x],
+        2 => [-x, -y],
+        _ => [y, -x],
+    }
+}
+
 /// The axis across a line.
 pub(super) fn across(a: [f64; 2], b: [f64; 2]) -> usize {
     usize::from((b[0] - a[0]).abs() >= (b[1] - a[1]).abs())
@@ -72,7 +84,7 @@ pub(super) fn across(a: [f64; 2], b: [f64; 2]) -> usize {
 pub(super) fn straighten(
     vectors: &mut [GridVector],
     free: &[FreeAxes],
-    sides: &[PolygonSide],
+    sides: &[OpenedSide],
     corners: &[u32],
     classes: &mut CoordinateClasses,
 ) -> bool {
@@ -111,7 +123,7 @@ impl<'a> Elimination<'a> {
     }
 
     /// Asks that these sides add up to 0 along an axis; false if that contradicts what was asked before.
-    fn add(&mut self, sides: &[PolygonSide], axis: usize) -> bool {
+    fn add(&mut self, sides: &[OpenedSide], axis: usize) -> bool {
         let (mut row, mut right) = (BTreeMap::new(), 0.0);
         for side in sides {
             for from in 0..2 {
@@ -175,7 +187,7 @@ mod tests {
     #[test]
     fn a_rectangle_with_a_line_across_closes() {
         // Six sides: the line connects the middles of the lower and the upper edge, which are 64 off each other.
-        let sides: Vec<_> = (0..6).map(|vector| PolygonSide { vector, turns: 0 }).collect();
+        let sides: Vec<_> = (0..6).map(|vector| OpenedSide { vector, turns: 0 }).collect();
         let mut vectors = vec![[1024, 0], [1088, 0], [0, 512], [-1024, 0], [-1024, 0], [0, -576]];
         let free =
             vec![[true, false], [true, false], [false, true], [true, false], [true, false], [false, true]];

@@ -1,7 +1,7 @@
 //! Far targets, come to by way of targets between.
 
-use super::holonomy_state::{HolonomyState, HolonomyTarget};
-use super::newton::{NewtonEnd, largest, reach_holonomy};
+use super::holonomy_state::{HolonomyState, HolonomyTarget, largest};
+use super::newton::{NewtonEnd, reach_holonomy};
 use super::options::SeamlessOptions;
 use crate::control::Control;
 use crate::error::Result;

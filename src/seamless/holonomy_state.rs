@@ -243,3 +243,8 @@ fn sum_equal(row: &mut Vec<(u32, f64)>) {
         is_same
     });
 }
+
+/// The largest absolute value.
+pub(super) fn largest(x: &[f64]) -> f64 {
+    x.iter().fold(0.0, |top: f64, x| top.max(x.abs()))
+}

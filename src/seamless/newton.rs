@@ -1,6 +1,6 @@
 //! Newton's method for the angles around vertices and along loops, by least changes of the Penner coordinates.
 
-use super::holonomy_state::{HolonomyState, HolonomyTarget};
+use super::holonomy_state::{HolonomyState, HolonomyTarget, largest};
 use super::least_norm::least_norm_solution;
 use super::opening::opening_step;
 use crate::control::{Control, Stage};
@@ -148,9 +148,4 @@ fn is_progress(before: &[f64], after: &[f64]) -> bool {
     let (old, new) = (square(before).sqrt(), square(after).sqrt());
     let along: f64 = before.iter().zip(after).map(|(a, b)| a * b).sum();
     new.is_finite() && (new <= GOOD_SHARE * old || (new <= old && along >= 0.0))
-}
-
-/// The largest absolute value.
-pub(super) fn largest(x: &[f64]) -> f64 {
-    x.iter().fold(0.0, |top: f64, x| top.max(x.abs()))
 }

@@ -1,8 +1,7 @@
 //! Steps that keep triangles at features from closing: their sides are not flipped, so they would hold Newton's method up.
 
-use super::holonomy_state::HolonomyState;
+use super::holonomy_state::{HolonomyState, largest};
 use super::least_norm::least_norm_solution;
-use super::newton::largest;
 use crate::error::Result;
 use std::f64::consts::PI;
 
