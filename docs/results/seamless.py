@@ -16,7 +16,7 @@ JUDGED = 70_000
 SHARP, CREASED = "40", 20_000
 
 HEAD = ["mesh", "V", "genus", "cones", "valences", "flow + Newton", "angles off by", "smallest and largest area ratio", "largest dilatation",
-        "flipped, degenerate", "outside: seams, not exact, flipped, angles off", "s", "s of flow"]
+        "symmetric Dirichlet", "straight edges, left out", "flipped, degenerate", "outside: seams, not exact, flipped, angles off", "s", "s of flow"]
 
 
 def valences(cones):
