@@ -17,7 +17,7 @@ const LESS_FAIR: f64 = 0.3;
 const FAIRER: f64 = 100.0;
 /// Distance over the tolerance from which on a second round is the last.
 const HOPELESS: f64 = 2.0;
-/// Rounds after which a surface has no spline if none of them has given one.
+/// Domains that are refused, each with its own order of vertices, before a surface has no spline.
 const TRIES: usize = 3;
 /// Most control points that are tried beyond a quarter of the number of vertices: fits with more take long.
 const MOST_TRIED: usize = 4000;
@@ -86,19 +86,20 @@ pub fn fit_surface(
         TriangleSizes::new(surface, flat, setting.triangles, |turns| setting.inside(turns), control)?;
     let singular = flat.singular()?;
     let (mut best, mut failure): (Option<SurfaceFit>, _) = (None, None);
-    let mut factor = 1.0;
-    for rounds in 1..=options.rounds.max(1) {
+    let (mut factor, mut rounds, mut refused) = (1.0, 0, 0);
+    while rounds < options.rounds.max(1) {
         let domain = setting.domain(&sizes, flat, control)?;
         let found = match FitRound::new(domain, &setting, factor, control) {
             Ok(found) => found,
             // An earlier round has given a spline, which is kept; or the vertices of another round make a better domain.
             Err(Error::Spline { .. } | Error::Factorisation { .. }) if best.is_some() => break,
-            Err(error @ (Error::Spline { .. } | Error::Factorisation { .. })) if rounds < TRIES => {
-                failure = Some(error);
+            Err(error @ (Error::Spline { .. } | Error::Factorisation { .. })) if refused < TRIES => {
+                (failure, refused) = (failure.or(Some(error)), refused + 1);
                 continue;
             }
             Err(error) => return Err(failure.unwrap_or(error)),
         };
+        rounds += 1;
         sizes.adapt(mesh, &found.triangles(), found.spline.space().patches().len(), options.degree);
         let [rms, max] = found.measures;
         let FitRound { domain, places, spline, distances, fairness, folds, .. } = found;

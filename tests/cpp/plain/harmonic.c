@@ -201,7 +201,7 @@ static void check_figures(void) {
     FAILS(ricci_harmonic_map(mesh, &spec, NULL, points, 3 * M * N, NULL, 0, &s, 17), RICCI_STRUCT_SIZE,
           "size 17");
     CHECK(points[0] == 7);
-    FAILS(ricci_harmonic_map(mesh, &spec, NULL, points, 3 * M * N, NULL, 5, &s, sizeof s), RICCI_NULL,
+    FAILS(ricci_harmonic_map(mesh, &spec, NULL, points, 3 * M * N, NULL, 5, &s, sizeof s), RICCI_NULL_POINTER,
           "energies");
     CHECK(points[0] == 7);
     ricci_mesh_free(mesh);

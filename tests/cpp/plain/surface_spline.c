@@ -34,11 +34,12 @@ static void middles(const ricci_spline *spline, uint32_t *patches, double *param
 static void one_thread_finds_the_same_backwards(const ricci_spline *spline, const double *points,
                                                 const double *expected) {
     double back[3 * N], found[6 * N];
+    uint32_t patches[N];
     ricci_control *control = NULL;
     for (int i = 0; i < N; i++) memcpy(back + 3 * i, points + 3 * (N - 1 - i), 3 * sizeof *back);
     OK(ricci_control_new(&control));
     OK(ricci_control_set_threads(control, 1));
-    OK(ricci_spline_closest(spline, back, N, control, NULL, found, 6 * N));
+    OK(ricci_spline_closest(spline, back, N, control, patches, found, 6 * N));
     for (int i = 0; i < N; i++)
         CHECK(memcmp(found + 6 * i, expected + 6 * (N - 1 - i), 6 * sizeof *found) == 0);
     ricci_control_free(control);
