@@ -105,11 +105,7 @@ const NOT_ON_INPUT: &str =
 
 /// The failure of what needs a layout that is cut along edges of the mesh.
 pub(crate) fn not_on_input() -> Failure {
-    not_here(NOT_ON_INPUT)
-}
-
-fn not_here(message: &'static str) -> Failure {
-    Failure::new(RICCI_LAYOUT, message)
+    Failure::new(RICCI_LAYOUT, NOT_ON_INPUT)
 }
 
 /// The coordinates of a layout's points: two each in a model, three in ambient space.
@@ -191,7 +187,7 @@ impl ricci_layout {
             (Space::H2, Model::Klein) => Ok(self.layout.points.iter().map(|p| p[2]).collect()),
             _ => {
                 let message = "the map is not projective in these coordinates: take RICCI_MODEL_KLEIN in the hyperbolic plane";
-                Err(not_here(message))
+                Err(Failure::new(RICCI_LAYOUT, message))
             }
         }
     }
@@ -199,7 +195,7 @@ impl ricci_layout {
     fn quality(&self) -> Outcome<&Quality> {
         let message =
             "the metric's own triangulation has no distortion against the mesh: lay the refinement out";
-        self.quality.as_ref().ok_or_else(|| not_here(message))
+        self.quality.as_ref().ok_or_else(|| Failure::new(RICCI_LAYOUT, message))
     }
 }
 
