@@ -17,7 +17,7 @@ const LESS_FAIR: f64 = 0.3;
 const FAIRER: f64 = 100.0;
 /// Distance over the tolerance from which on a second round is the last.
 const HOPELESS: f64 = 2.0;
-/// Domains that are refused, each with its own order of vertices, before a surface has no spline.
+/// Domains that are refused, each with its own order of vertices, before one is taken whose basis functions do not add up to 1 everywhere.
 const TRIES: usize = 3;
 /// Most control points that are tried beyond a quarter of the number of vertices: fits with more take long.
 const MOST_TRIED: usize = 4000;
@@ -89,12 +89,13 @@ pub fn fit_surface(
     let (mut factor, mut rounds, mut refused) = (1.0, 0, 0);
     while rounds < options.rounds.max(1) {
         let domain = setting.domain(&sizes, flat, control)?;
-        let found = match FitRound::new(domain, &setting, factor, control) {
+        let found = match FitRound::new(domain, &setting, factor, refused < TRIES, control) {
             Ok(found) => found,
             // An earlier round has given a spline, which is kept; or the vertices of another round make a better domain.
             Err(Error::Spline { .. } | Error::Factorisation { .. }) if best.is_some() => break,
             Err(error @ (Error::Spline { .. } | Error::Factorisation { .. })) if refused < TRIES => {
                 (failure, refused) = (failure.or(Some(error)), refused + 1);
+                sizes.reorder();
                 continue;
             }
             Err(error) => return Err(failure.unwrap_or(error)),

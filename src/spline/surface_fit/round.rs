@@ -68,11 +68,13 @@ pub(super) struct FitRound {
 }
 
 impl FitRound {
-    /// Fits a spline over a domain, corrects the places, and looks for folds. `factor`: of the weight of the fairness.
+    /// Fits a spline over a domain, corrects the places, and looks for folds. `factor`: of the weight of the fairness. `is_checked`: a domain
+    /// whose basis functions do not add up to 1 is refused.
     pub fn new(
         domain: SurfaceDomain,
         setting: &FitSetting<'_>,
         factor: f64,
+        is_checked: bool,
         control: &Control,
     ) -> Result<FitRound> {
         let FitSetting { points, options, .. } = setting;
@@ -86,7 +88,9 @@ impl FitRound {
                 .map(|v| setting.hole(&domain, &space, &places, v))
                 .collect::<Result<_>>()?,
         };
-        check_unity(&space, &holes, options.threads, control)?;
+        if is_checked {
+            check_unity(&space, &holes, options.threads, control)?;
+        }
         let best = Pool::new(options.threads)?.run(|| {
             let system = FitSystem::new(&space, &holes, &places, FairnessUnit::Patches)?;
             let mut fitting =

@@ -152,6 +152,11 @@ impl<'a> TriangleSizes<'a> {
         sampling.spread(count, control)
     }
 
+    /// Chooses other vertices of the same sizes for the next domain.
+    pub fn reorder(&mut self) {
+        self.round += 1;
+    }
+
     /// Adapts the sizes so that all triangles would have like errors: a polynomial of degree n misses by the power n + 1 of the size.
     /// `misses` has the triangle and the error of each vertex.
     pub fn adapt(&mut self, mesh: &Mesh, misses: &[VertexError], triangles: usize, degree: usize) {
