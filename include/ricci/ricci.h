@@ -1435,8 +1435,8 @@ typedef struct ricci_layout_summary {
      */
     double overlap;
     /**
-     * The symmetric Dirichlet energy: the mean over the input's area of the sum of the squares of the singular
-     * values and of their inverses, with both total areas scaled to be the same; 4 for an isometry.
+     * The symmetric Dirichlet energy: the mean over the input's area of the sum of the squares of the
+     * singular values and of their inverses, with both total areas scaled to be the same; 4 for an isometry.
      */
     double symmetric_dirichlet;
 } ricci_layout_summary;
