@@ -74,7 +74,10 @@ static void a_child_is_told_of_a_solver_that_was_changing(const ricci_mesh *mesh
         const int is_told = ricci_solver_solve(j.solver, &target, NULL, &end) == RICCI_POISONED &&
                             strstr(ricci_last_error(), "forked") != NULL;
         const int is_readable = ricci_mesh_summarise(mesh, &summary, sizeof summary) == RICCI_OK;
-        _exit(is_told && is_readable ? 0 : 1);
+        /* Another program says the outcome: what the parent's threads hold would be a leak of this one. */
+        if (is_told && is_readable) execl("/bin/true", "true", (char *)NULL);
+        execl("/bin/false", "false", (char *)NULL);
+        _exit(1);
     }
     CHECK(waitpid(child, &ended, 0) == child);
     OK(ricci_control_cancel(j.control));
