@@ -16,7 +16,15 @@ use std::sync::Arc;
 
 /// Span of u from which on a failure is put down to the length of the surface: squares of lengths have factors e^(2u), down to e^−708 in f64.
 /// Seen from its middle, a sheet spans π/2 times its length over its width.
-pub(super) const WIDEST_SPAN: f64 = 354.0;
+const WIDEST_SPAN: f64 = 354.0;
+
+/// The span of u, if it is so large that f64s hardly hold the squares of all lengths: then a part of the surface is about 2/π times that span as
+/// long as wide.
+pub(super) fn span_beyond_range(u: impl Iterator<Item = f64>) -> Option<f64> {
+    let [least, most] =
+        u.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], u| [least.min(u), most.max(u)]);
+    (most - least > WIDEST_SPAN).then_some(most - least)
+}
 
 impl PuncturedSurface {
     /// The vertices in the plane, the smallest triangle at the origin; the puncture at (∞, ∞).
@@ -66,10 +74,8 @@ impl PuncturedSurface {
     /// The error at a vertex without a place in the plane.
     fn unplaced(&self, v: VertexId) -> Error {
         let others = self.mesh.vertices().filter(|&w| w != self.at).map(|w| self.metric.u[w]);
-        let [least, most] =
-            others.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], u| [least.min(u), most.max(u)]);
-        let (at, span) = (self.at, most - least);
-        Error::Layout(if span > WIDEST_SPAN {
+        let at = self.at;
+        Error::Layout(if let Some(span) = span_beyond_range(others) {
             format!(
                 "seen from vertex {at} lengths near vertex {v} are e^{span:.0} times smaller than others: a part of the surface is about {:.0} \
                  times as long as wide, or more, too long for f64s in one disk. `ricci flow` lays such a sheet out with the lengths of its outline; cut \

@@ -1,7 +1,7 @@
 //! Features that are given up where no metric is reached with all of them straight.
 
 use super::corner_choice::Neighbours;
-use super::holonomy_state::{HolonomyState, HolonomyTarget};
+use super::holonomy_state::{HolonomyState, HolonomyTarget, largest};
 use crate::mesh::{EdgeId, Mesh, PerEdge, VertexId};
 
 /// Features near angles that are off by this share of the largest error are given up together.
@@ -14,7 +14,7 @@ pub(super) fn without_worst(state: &HolonomyState, target: &HolonomyTarget) -> V
     let off = state.sector_angles().into_iter().zip(&target.angles).map(|(is, wanted)| (is - wanted).abs());
     let errors: Vec<f64> = off.collect();
     let inner = sectors.inner_features(mesh);
-    let top = errors.iter().fold(0.0f64, |top, x| top.max(*x));
+    let top = largest(&errors);
     let mut is_given_up = PerEdge::filled(mesh.n_edges(), false);
     let neighbours = Neighbours::new(mesh, sectors);
     let at = |v: VertexId| mesh.outgoing(v).map(|h| h.edge()).filter(|e| inner.binary_search(e).is_ok());

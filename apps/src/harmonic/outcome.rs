@@ -312,8 +312,8 @@ impl PlaneMap {
             None => map.points.clone(),
         };
         let of_domain = planar::flipped(domain, &map.points);
+        let flipped_in_domain = of_domain.len();
         let Some(r) = &subdivision else {
-            let flipped_in_domain = of_domain.len();
             return Ok(PlaneMap {
                 map,
                 course,
@@ -337,7 +337,6 @@ impl PlaneMap {
                 degenerate += usize::from(area <= least);
             }
         }
-        let flipped_in_domain = of_domain.len();
         Ok(PlaneMap { map, course, subdivision, points, flipped, flipped_in_domain, degenerate })
     }
 }

@@ -1,6 +1,6 @@
 //! The verdict on a circle domain as it is returned: whether it is converged, and why not.
 
-use super::super::lift::WIDEST_SPAN;
+use super::super::lift::span_beyond_range;
 use super::domain::{CircleDomain, CircleReport, DomainCircle};
 use super::options::ROUND;
 use crate::flow::StopReason;
@@ -32,11 +32,7 @@ impl CircleDomain {
     /// The span of the metric's u, if it is so large that f64s hardly hold the squares of all lengths: then a part of the surface is about 2/π
     /// times that span as long as wide.
     pub fn span_beyond_range(&self) -> Option<f64> {
-        let u = &self.metric.metric().u;
-        let [least, most] = u
-            .iter()
-            .fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], &u| [least.min(u), most.max(u)]);
-        (most - least > WIDEST_SPAN).then_some(most - least)
+        span_beyond_range(self.metric.metric().u.iter().copied())
     }
 
     /// The domain with the verdict on it as it is. `report` holds the stop reason of the flow.
