@@ -42,7 +42,8 @@ impl Figures {
     ///
     /// Faces without area in the input or the layout are `degenerate_pieces`, which the qc figures leave out; with charts also faces that
     /// are smaller than the coordinates of the unit square resolve. `crossings` counts the vertices of the subdivision beyond the input's,
-    /// but for those of `straightened_edges`: in H² edges of pieces that straight sides in the Poincaré disk would turn over.
+    /// but for those of `straightened_edges`: in H² edges of pieces that straight sides in the Poincaré disk would turn over, and
+    /// `turned_by_straight_sides` counts the pieces for which that did not suffice.
     pub fn distortion(self, laid: Option<&SurfaceLayout>) -> Figures {
         let written = laid.map(SurfaceLayout::written);
         let quality = written.as_ref().map(|written| written.quality);
@@ -61,6 +62,10 @@ impl Figures {
         .with("degenerate_pieces", written.as_ref().map(|written| written.degenerate.len()))
         .with("crossings", laid.and_then(SurfaceLayout::common_subdivision).map(|r| r.crossings.len()))
         .if_some("straightened_edges", laid.map(SurfaceLayout::n_straightened).filter(|&n| n > 0))
+        .if_some(
+            "turned_by_straight_sides",
+            laid.map(SurfaceLayout::n_turned_by_straight_sides).filter(|&n| n > 0),
+        )
     }
 
     /// The options that failed, with the reasons, and what the input's file holds and the file with the layout has no place for.

@@ -94,6 +94,12 @@ pub fn layout(laid: &SurfaceLayout) -> String {
     if !written.degenerate.is_empty() {
         text += &format!(", {} without area", count(written.degenerate.len(), "triangle", "triangles"));
     }
+    if let n @ 1.. = laid.n_turned_by_straight_sides() {
+        text += &format!(
+            "\nsides    {} upright in the hyperbolic plane, but turned over where a viewer draws straight sides for arcs",
+            count(n, "triangle is", "triangles are"),
+        );
+    }
     if let Some(repaired) = laid.repaired() {
         text += &format!(
             "\nrepaired {} that folded: {} of the input split at {}",

@@ -84,8 +84,8 @@ pub struct SurfaceLayout {
     /// The layout cut into charts, where that was asked for.
     pub packed: Option<PackedCharts>,
     pub quality: Quality,
-    /// Faces of the layout that are turned over where their sides are straight, as they are written and drawn.
-    pub flipped: Vec<FaceId>,
+    /// Faces of a layout in H² that are upright there, but turned over where a viewer draws straight sides for arcs.
+    pub turned_by_straight_sides: Vec<FaceId>,
     /// The pieces of the subdivision whose image has almost no area, or the faces without area in the input or the layout; in charts also
     /// those that are smaller than the coordinates of the unit square resolve.
     pub degenerate: Vec<FaceId>,
@@ -117,7 +117,7 @@ impl SurfaceLayout {
     pub fn new(input: &Input, solution: &Solution, layout: Layout) -> ricci::Result<SurfaceLayout> {
         let quality = layout.quality(input.mesh(), input.surface.lengths())?;
         let on_input = layout.on_input();
-        let flipped = layout.flipped_with_straight_sides(&layout.coordinates);
+        let turned_by_straight_sides = layout.turned_by_straight_sides(&layout.coordinates);
         let given = input.positions();
         let (weight, positions, degenerate) = match layout.common_subdivision() {
             Some(r) => {
@@ -140,7 +140,7 @@ impl SurfaceLayout {
             degenerate,
             modulus: layout.modulus(),
             quality,
-            flipped,
+            turned_by_straight_sides,
             layout,
         })
     }
@@ -160,6 +160,11 @@ impl SurfaceLayout {
         let beside =
             |r: &CommonSubdivision| r.mesh.n_vertices().saturating_sub(r.n_vertices[0] + r.crossings.len());
         self.common_subdivision().map_or(0, beside)
+    }
+
+    /// The number of written pieces of the subdivision that straight sides turn over all the same.
+    pub fn n_turned_by_straight_sides(&self) -> usize {
+        if self.own_faces.is_none() { self.turned_by_straight_sides.len() } else { 0 }
     }
 
     /// The homogeneous weights of the coordinates.
@@ -182,7 +187,7 @@ impl SurfaceLayout {
             },
             _ => WrittenFaces {
                 name: "",
-                flipped: &self.flipped,
+                flipped: &self.layout.flipped,
                 degenerate: &self.degenerate,
                 quality: &self.quality,
             },
@@ -219,9 +224,6 @@ impl SurfaceLayout {
             Some(_) => Some(
                 "add --repair, which splits the fewest of the input's edges, or leave --on input out: the map is exact on the common \
                  subdivision",
-            ),
-            None if self.flipped.len() > self.layout.flipped.len() => Some(
-                "straight sides turn them over, arcs of the hyperbolic plane do not: add --on input --repair",
             ),
             None => None,
         };

@@ -42,8 +42,6 @@ pub struct ricci_layout {
     on_input: Option<OnInput>,
     /// The distortion against the caller's mesh; none of a layout of the metric's own triangulation after flips.
     quality: Option<Quality>,
-    /// The faces of the layout's mesh that are turned over where straight lines join `points`.
-    flipped: Vec<FaceId>,
     /// The distortion on the caller's mesh, found when it is first asked for.
     of_input: OnceLock<Option<Quality>>,
 }
@@ -138,10 +136,8 @@ impl ricci_layout {
         let quality =
             if lies_on_input { Some(layout.quality(surface.mesh(), surface.lengths())?) } else { None };
         let (points, on_input) = (plane_points(&layout, model), layout.on_input());
-        let of_points = || layout.flipped_with_straight_sides(&points);
-        let flipped = if model == Model::Klein { layout.flipped.clone() } else { of_points() };
         let (layout, of_input) = (Arc::new(layout), OnceLock::new());
-        Ok(ricci_layout { points, on_input, quality, flipped, of_input, layout, state, model })
+        Ok(ricci_layout { points, on_input, quality, of_input, layout, state, model })
     }
 
     pub(crate) fn on_input(&self) -> Outcome<&OnInput> {
@@ -258,7 +254,7 @@ pub unsafe extern "C" fn ricci_layout_summarise(
             n_points: points.len(),
             n_seams: layout.seams.len(),
             n_seam_edges: layout.cut.segments.iter().map(Vec::len).sum(),
-            n_flipped: handle.flipped.len(),
+            n_flipped: handle.layout.flipped.len(),
             n_flipped_input: on_input.as_ref().map_or(0, |on_input| on_input.flipped.len()),
             n_degenerate: quality.map_or(0, |quality| quality.degenerate.len()),
             consistency: layout.consistency(),
@@ -370,7 +366,7 @@ pub unsafe extern "C" fn ricci_layout_flipped(
     guard::with(layout, |layout| {
         let flipped: &[FaceId] = match ON.choose(on)? {
             Triangulation::Input => &layout.on_input()?.flipped,
-            _ => &layout.flipped,
+            _ => &layout.layout.flipped,
         };
         copy_each("faces", flipped.len(), flipped.iter().map(|f| f.0), faces, capacity)
     })

@@ -1374,9 +1374,7 @@ typedef struct ricci_layout_summary {
     size_t n_seam_edges;
     /**
      * Faces that are not counterclockwise: by exact arithmetic; of a common subdivision, those that are
-     * clockwise by more than rounding. In H2, but for RICCI_MODEL_KLEIN, also faces that are turned over
-     * where the points are joined by straight lines, as files join them, though lines of H2 are arcs:
-     * ricci_repaired_input has none.
+     * clockwise by more than rounding. In H2 orientation is that of the Klein images, whatever the model.
      */
     size_t n_flipped;
     /**

@@ -57,7 +57,7 @@ fn layout_on(halved: &Input, domain: &CircleDomain) -> ricci::Result<SurfaceLayo
         degenerate: layout.degenerate.clone(),
         modulus: domain.torus_modulus,
         quality,
-        flipped: layout.flipped_with_straight_sides(&layout.coordinates),
+        turned_by_straight_sides: layout.turned_by_straight_sides(&layout.coordinates),
         layout,
     })
 }

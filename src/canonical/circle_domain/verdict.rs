@@ -38,8 +38,7 @@ impl CircleDomain {
     /// The domain with the verdict on it as it is. `report` holds the stop reason of the flow.
     pub(super) fn judged(mut self, tolerance: f64) -> CircleDomain {
         let (deviation, worst_loop) = largest_deviation(&self.circles);
-        let fits = self.layout.flipped_with_straight_sides(&self.layout.coordinates).is_empty()
-            && self.report.least_gap > 0.0;
+        let fits = self.layout.flipped.is_empty() && self.report.least_gap > 0.0;
         let report = &mut self.report;
         (report.deviation, report.worst_loop) = (deviation, worst_loop);
         report.stop_reason = report.stop_reason_of_domain(tolerance, fits);
