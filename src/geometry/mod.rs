@@ -26,6 +26,7 @@ pub mod packing;
 pub(crate) mod plane_triangle;
 pub mod polygon_triangles;
 pub mod predicates;
+pub(crate) mod quadrature;
 pub mod random;
 mod real;
 pub mod row_packing;

@@ -2,16 +2,16 @@
 //!
 //! ```
 //! use ricci::geometry::symplectic::symplectic_basis;
-//! // Two curves that meet once, the second crossing the first from left to right.
+//! // Two curves that meet once: the intersection number of the first with the second is −1.
 //! let basis = symplectic_basis(&[vec![0, -1], vec![1, 0]]).unwrap();
 //! assert_eq!(basis, [[1, 0], [0, -1]]);
 //! ```
 
-/// A basis a_1 … a_g, b_1 … b_g of ℤ^{2g} with `a_i·b_j = δ_ij` and all other products 0, for the antisymmetric form
-/// with this matrix (2g × 2g). Rows are the basis vectors in terms of the old ones.
+/// A basis a_1 … a_g, b_1 … b_g of ℤ^{2g} with `a_i·b_j = δ_ij` and `a_i·a_j = b_i·b_j = 0`, where x·y is the value of the antisymmetric form
+/// with this matrix (2g × 2g). Row k of the result is the k-th new basis vector in coordinates of the old basis, the a's first, then the b's.
 ///
-/// Integer elimination: take a vector, find one that pairs with it to 1 (by Euclid's algorithm among the others), and make the rest
-/// orthogonal to both. `None` if the matrix is not square, antisymmetric and unimodular.
+/// Integer elimination: take a vector, combine the others by Euclid's algorithm until exactly one has a product with it that is not 0, which
+/// must be ±1, and make the rest orthogonal to both. `None` if the matrix is not square, antisymmetric and unimodular.
 pub fn symplectic_basis(form: &[Vec<i64>]) -> Option<Vec<Vec<i64>>> {
     let n = form.len();
     let antisymmetric = (0..n).all(|i| form[i].len() == n && (0..=i).all(|j| form[i][j] == -form[j][i]));
@@ -67,18 +67,20 @@ mod tests {
 
     #[test]
     fn basis_has_the_standard_products() {
-        // Successive curves of a chain meet once; a second form with larger entries, from a change of basis.
+        // Successive curves of a chain meet once.
         let chain = |n: usize| -> Vec<Vec<i64>> {
             (0..n).map(|i| (0..n).map(|j| i64::from(j == i + 1) - i64::from(i == j + 1)).collect()).collect()
         };
-        let mixed = vec![vec![0, 2, 3, 1], vec![-2, 0, 1, 1], vec![-3, -1, 0, 1], vec![-1, -1, -1, 0]];
+        let degenerate = vec![vec![0, 2, 3, 1], vec![-2, 0, 1, 1], vec![-3, -1, 0, 1], vec![-1, -1, -1, 0]];
         for form in [chain(2), chain(4), chain(10)] {
             check(&form);
         }
         // det = (2·1 − 3·1 + 1·1)² = 0: not unimodular.
-        assert!(symplectic_basis(&mixed).is_none());
-        let other = vec![vec![0, 2, 3, 2], vec![-2, 0, 1, 1], vec![-3, -1, 0, 1], vec![-2, -1, -1, 0]];
-        check(&other);
+        assert!(symplectic_basis(&degenerate).is_none());
+        // A unimodular form with larger entries.
+        let larger_entries =
+            vec![vec![0, 2, 3, 2], vec![-2, 0, 1, 1], vec![-3, -1, 0, 1], vec![-2, -1, -1, 0]];
+        check(&larger_entries);
         assert!(symplectic_basis(&[vec![0, 2], vec![-2, 0]]).is_none());
         assert!(symplectic_basis(&[vec![0, 1], vec![1, 0]]).is_none());
         assert!(symplectic_basis(&[vec![0]]).is_none());

@@ -2,17 +2,24 @@
 //! with an affine atlas [DMS92; Sei91; GHQ06].
 //!
 //! `triangular` has the splines themselves, `surface_fit` their domains on flat metrics of whole surfaces and the fits over these, `bicubic`
-//! the tensor-product patches that CAD programs read.
+//! the tensor-product patches that CAD programs read. `quad` has splines over layouts of four-sided patches.
 
 mod bicubic;
+mod quad;
+#[cfg(feature = "step")]
+mod step;
 mod surface_fit;
 mod triangular;
 
 pub use bicubic::{
     BicubicFit, BicubicOptions, BicubicPatch, BicubicSurface, NormalAngles, PatchCurve, PatchSide,
 };
+pub use quad::{
+    ArcSide, PatchArc, PatchCorner, PatchLayout, QUINTIC, QuadFit, QuadFitOptions, QuadSpline,
+    QuadSplineSpace, SplineTarget, bilinear, fit_quads,
+};
 #[cfg(feature = "step")]
-pub use bicubic::{LengthUnit, StepOptions};
+pub use step::{LengthUnit, StepOptions};
 pub use surface_fit::{
     CoarseTriangulation, FitCondition, FitFailure, FlatMetric, FlatMetricOptions, SingularVertices,
     SurfaceDomain, SurfaceFit, SurfaceFitOptions, fit_surface, fit_surface_over, flat_curvatures,

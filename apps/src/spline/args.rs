@@ -5,7 +5,7 @@ use crate::picture::PictureArgs;
 use crate::uniformize::CornersChoice;
 use clap::{Args, Subcommand, ValueEnum};
 use ricci::mesh::VertexId;
-use ricci::spline::SingularVertices;
+use ricci::spline::{LengthUnit, SingularVertices};
 use ricci::structure::AffineSource;
 use serde::Serialize;
 use std::path::PathBuf;
@@ -247,6 +247,15 @@ pub enum UnitChoice {
     Mm,
     /// Metres
     M,
+}
+
+impl UnitChoice {
+    pub fn length_unit(self) -> LengthUnit {
+        match self {
+            UnitChoice::Mm => LengthUnit::Millimetre,
+            UnitChoice::M => LengthUnit::Metre,
+        }
+    }
 }
 
 fn not_negative(text: &str) -> Result<f64, String> {

@@ -1,12 +1,12 @@
 //! `ricci spline export` as a job: bicubic patches near a spline, for CAD.
 
-use super::args::{ExportArgs, UnitChoice};
+use super::args::ExportArgs;
 use crate::failure::Failure;
 use crate::output::{check_extension, check_outputs, extension};
 use crate::report::{Checks, Done, Figures, timed};
 use crate::runner::{CommandRun, Job, JobHeader, JobOutcome};
 use crate::say::count;
-use ricci::spline::{BicubicFit, BicubicOptions, LengthUnit, Spline, StepOptions};
+use ricci::spline::{BicubicFit, BicubicOptions, Spline, StepOptions};
 
 /// Largest angle, in degrees, between the normals of neighbouring patches: larger angles are seen in reflections.
 const NORMAL_JUMP: f64 = 1.0;
@@ -117,10 +117,6 @@ impl JobOutcome for ExportOutcome {
 }
 
 fn step_options(args: &ExportArgs) -> StepOptions {
-    let unit = match args.unit {
-        UnitChoice::Mm => LengthUnit::Millimetre,
-        UnitChoice::M => LengthUnit::Metre,
-    };
     let name = args.spline.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    StepOptions { name, unit }
+    StepOptions { name, unit: args.unit.length_unit() }
 }

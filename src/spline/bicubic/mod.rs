@@ -30,6 +30,4 @@ mod tangents;
 
 pub use angles::NormalAngles;
 pub use outcome::{BicubicFit, BicubicOptions};
-#[cfg(feature = "step")]
-pub use step::{LengthUnit, StepOptions};
 pub use surface::{BicubicPatch, BicubicSurface, PatchCurve, PatchSide};

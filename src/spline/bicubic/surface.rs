@@ -10,7 +10,7 @@ use crate::spline::triangular::SurfacePoint;
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "json", derive(serde::Serialize, serde::Deserialize))]
 pub struct PatchCurve {
-    /// The points of the surface at which the curve begins and ends: its first and last control point.
+    /// The numbers in [`BicubicSurface::points`] of the points at which the curve begins and ends: its first and last control point.
     pub ends: [u32; 2],
     /// Clamped knots: 0 four times, then ascending, then 1 four times.
     pub knots: Vec<f64>,
@@ -22,7 +22,7 @@ pub struct PatchCurve {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "json", derive(serde::Serialize, serde::Deserialize))]
 pub struct PatchSide {
-    /// The number of its curve.
+    /// The number of its curve in [`BicubicSurface::curves`].
     pub curve: u32,
     /// True if the curve runs against the way around the patch.
     pub reversed: bool,
@@ -32,8 +32,8 @@ pub struct PatchSide {
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "json", derive(serde::Serialize, serde::Deserialize))]
 pub struct BicubicPatch {
-    /// The patch of the spline that it is a third of, and the number of the corner there; numbers after those of the patches are cap
-    /// triangles at infinity.
+    /// The triangular patch of the spline that was cut into three, and the corner of it where this third lies. Numbers from that of the patches
+    /// on are those of the triangles that close a sphere's spline around the point at infinity.
     pub source: (u32, usize),
     /// The clamped knots in s and in t.
     pub knots: [Vec<f64>; 2],
@@ -71,7 +71,7 @@ impl BicubicPatch {
         SurfacePoint { point: at(0, 0), first: [at(1, 0), at(0, 1)], second: [at(2, 0), at(1, 1), at(0, 2)] }
     }
 
-    /// The place on a side at a share of the way along it, in the direction around the patch.
+    /// The parameters (s, t) of the point at a share of the way along a side, in the direction around the patch.
     pub fn on_side(side: usize, x: f64) -> [f64; 2] {
         [[x, 0.0], [1.0, x], [1.0 - x, 1.0], [0.0, 1.0 - x]][side % 4]
     }
@@ -110,7 +110,7 @@ impl BicubicPatch {
         }
     }
 
-    /// The points at the corners (0, 0), (1, 0), (1, 1), (0, 1).
+    /// The numbers of the points at the corners (0, 0), (1, 0), (1, 1), (0, 1).
     pub fn corners(&self, curves: &[PatchCurve]) -> [u32; 4] {
         self.sides.map(|side| curves[side.curve as usize].ends[usize::from(side.reversed)])
     }
@@ -162,14 +162,14 @@ impl BicubicSurface {
         self.patches.iter().flat_map(|patch| &patch.control).map(Vec::len).sum()
     }
 
-    /// The number of sides of patches that differ from their curve by a bit of a knot or a control point; 0 if the surface is watertight.
+    /// The number of sides of patches whose knots or control points are not bit for bit those of their curve; 0 if the surface is watertight.
     pub fn open_sides(&self) -> usize {
         let open = |patch: &BicubicPatch| (0..4).filter(|&k| !patch.has_curve(k, &self.curves)).count();
         self.patches.iter().map(open).sum()
     }
 
-    /// The signed volume inside some patches that close up, positive if normals point outwards, by tetrahedra over the nets of control
-    /// points.
+    /// About the signed volume inside some patches that close up: that of the polyhedron of their nets of control points; positive if normals
+    /// point outwards.
     pub fn volume(&self, part: &[usize]) -> f64 {
         let sixfold = |[a, b, c]: [Vector; 3]| dot(a, cross(b, c));
         let cells = |patch: &BicubicPatch| {

@@ -1,4 +1,4 @@
-//! The filling of a hole: a uniform bicubic B-spline over the square −1 ≤ p, q ≤ 1.
+//! The filling of a hole that a spline leaves around a singular vertex: a uniform bicubic B-spline over the square −1 ≤ p, q ≤ 1.
 
 use super::jet::Jet;
 use crate::error::{Error, Result};
@@ -9,7 +9,7 @@ use std::f64::consts::SQRT_2;
 /// Most cells along a side of the square: 361 coefficients, whose dense equations take milliseconds.
 const MOST_CELLS: usize = 16;
 
-/// A filling with k × k cells and (k + 3)² coefficients, rows of q after each other.
+/// A filling with k × k cells and (k + 3)² coefficients: that of i along p and j along q has the number i + (k + 3) j.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fill {
     cells: usize,
@@ -58,20 +58,20 @@ impl Fill {
         Fill { cells: side - 3, coefficients: vec![[0.0; 3]; side * side] }
     }
 
-    /// The basis functions at a place p + iq, as numbers and factors of coefficients.
+    /// The numbers of the coefficients whose basis functions are not 0 at a place p + iq, with the values of these.
     pub(super) fn factors(&self, [p, q]: Complex) -> impl Iterator<Item = (usize, f64)> {
         let side = self.cells + 3;
         let ((i, along), (j, across)) = (basis(p, self.cells), basis(q, self.cells));
         (0..16).map(move |k| ((j + k / 4) * side + i + k % 4, across[k / 4][0] * along[k % 4][0]))
     }
 
-    /// The second differences of the coefficients, as numbers and factors; mixed ones have the weight of two.
+    /// The second differences of the coefficients, as numbers and factors; mixed ones times √2, so that their squares count twice.
     pub(super) fn differences(&self) -> Vec<Vec<(usize, f64)>> {
         let side = self.cells + 3;
         let mut all = Vec::new();
         for at in 0..side * side {
-            for (room, step) in [(at % side, 1), (at / side, side)] {
-                if room + 2 < side {
+            for (position, step) in [(at % side, 1), (at / side, side)] {
+                if position + 2 < side {
                     all.push(vec![(at, 1.0), (at + step, -2.0), (at + 2 * step, 1.0)]);
                 }
             }
@@ -88,7 +88,7 @@ impl Fill {
         &self.coefficients
     }
 
-    /// The three coordinates, as jets of the variables of which p and q are jets.
+    /// The coordinates of the point at (p, q), with derivatives up to order two by the variables in which the jets p and q are given.
     pub(super) fn at(&self, [p, q]: [Jet; 2]) -> [Jet; 3] {
         let side = self.cells + 3;
         let ((i, along), (j, across)) = (basis(p.0[0], self.cells), basis(q.0[0], self.cells));

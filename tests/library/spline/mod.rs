@@ -7,6 +7,7 @@ mod closest;
 mod files;
 mod fit;
 mod knots;
+mod quad;
 mod smooth;
 
 use ricci::spline::{

@@ -1,0 +1,34 @@
+//! Splines over layouts of four-sided patches: degree 5 in both directions, tangent planes continuous across all arcs but creases.
+//!
+//! Across an arc with derivatives `p_v` and `q_v` into its patches and `p_u` along it the condition is `p_v + q_v = γ(u) p_u`, where γ is 2 cos of
+//! the angle between neighbouring arcs at either end, and vanishes to second order towards nodes with four arcs. These equations are linear
+//! in the control points and the same for every shape: they are solved once, and all splines over a layout are combinations of free control
+//! points.
+//!
+//! ```
+//! use ricci::spline::{PatchLayout, QuadSplineSpace};
+//! let cube = [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]];
+//! let space = QuadSplineSpace::new(PatchLayout::from_quads(8, &cube, &[])?, 1)?;
+//! assert_eq!((space.dimension(), space.n_control_points()), (96, 152));
+//! # Ok::<(), ricci::Error>(())
+//! ```
+
+mod elimination;
+mod fit;
+mod gluing;
+mod jumps;
+mod layout;
+mod quintic;
+mod space;
+mod spline;
+#[cfg(feature = "step")]
+mod step;
+mod system;
+mod target;
+
+pub use fit::{QuadFit, QuadFitOptions, bilinear, fit_quads};
+pub use layout::{ArcSide, PatchArc, PatchCorner, PatchLayout};
+pub use quintic::QUINTIC;
+pub use space::QuadSplineSpace;
+pub use spline::QuadSpline;
+pub use target::SplineTarget;

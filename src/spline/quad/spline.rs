@@ -1,0 +1,83 @@
+//! Splines over layouts of four-sided patches.
+
+use super::quintic::{LOCAL, QUINTIC, QuinticBasis, knots};
+use super::space::QuadSplineSpace;
+use crate::error::{Error, Result, check_size};
+use crate::geometry::vector::{Vector, add, scale};
+use crate::spline::triangular::SurfacePoint;
+use std::sync::Arc;
+
+/// A spline over a layout of four-sided patches: a surface whose tangent plane is continuous but at creases.
+#[derive(Clone)]
+pub struct QuadSpline {
+    space: Arc<QuadSplineSpace>,
+    control_points: Vec<Vector>,
+}
+
+impl QuadSpline {
+    /// The spline with these free control points.
+    ///
+    /// # Errors
+    /// [`Error::Size`] for another number than the dimension of the space.
+    pub fn of_free(space: Arc<QuadSplineSpace>, free: &[Vector]) -> Result<QuadSpline> {
+        let control_points = space.control_points(free)?;
+        check_size("control points", control_points.len(), space.n_control_points())?;
+        Ok(QuadSpline { space, control_points })
+    }
+
+    /// The space.
+    pub fn space(&self) -> &Arc<QuadSplineSpace> {
+        &self.space
+    }
+
+    /// The control points, by their numbers in [`QuadSplineSpace::control`].
+    pub fn control_points(&self) -> &[Vector] {
+        &self.control_points
+    }
+
+    /// The degree in each direction: 5.
+    pub fn degree(&self) -> usize {
+        QUINTIC
+    }
+
+    /// The knots of every patch in each direction.
+    pub fn knots(&self) -> Vec<f64> {
+        knots(self.space.spans())
+    }
+
+    /// The point at (u, v) of a patch, from 0 to 1 each, with first and second derivatives.
+    ///
+    /// # Errors
+    /// [`Error::Spline`] for a patch that does not exist or a place outside of it.
+    pub fn evaluate(&self, patch: usize, [u, v]: [f64; 2]) -> Result<SurfacePoint> {
+        let is_inside = (0.0..=1.0).contains(&u) && (0.0..=1.0).contains(&v);
+        if patch >= self.space.layout().patches().len() || !is_inside {
+            let message = format!("there is no place ({u}, {v}) of it: u and v run from 0 to 1");
+            return Err(Error::Spline { what: "patch", index: patch, message });
+        }
+        let [along_u, along_v] = [u, v].map(|x| QuinticBasis::at(self.space.spans(), x));
+        Ok(self.combined(patch, &along_u, &along_v))
+    }
+
+    /// The point with its derivatives where the basis functions of both directions are known.
+    pub(super) fn combined(
+        &self,
+        patch: usize,
+        along_u: &QuinticBasis,
+        along_v: &QuinticBasis,
+    ) -> SurfacePoint {
+        let (control, side) = (self.space.control(patch), self.space.side());
+        let at = |of_u: usize, of_v: usize| {
+            let mut sum = [0.0; 3];
+            for k in 0..LOCAL {
+                for l in 0..LOCAL {
+                    let number = control[(along_u.first + k) * side + along_v.first + l];
+                    let weight = along_u.derivatives[of_u][k] * along_v.derivatives[of_v][l];
+                    sum = add(sum, scale(weight, self.control_points[number as usize]));
+                }
+            }
+            sum
+        };
+        SurfacePoint { point: at(0, 0), first: [at(1, 0), at(0, 1)], second: [at(2, 0), at(1, 1), at(0, 2)] }
+    }
+}

@@ -1,0 +1,93 @@
+//! STEP files of splines over four-sided patches: a face for each patch, an edge for each arc.
+
+use super::layout::PatchCorner;
+use super::quintic::QUINTIC;
+use super::spline::QuadSpline;
+use crate::error::Result;
+use crate::geometry::vector::{Vector, cross, diagonal, dot};
+use crate::mesh::union_find::UnionFind;
+use crate::spline::step::{
+    StepCurve, StepOptions, StepPart, StepPatch, StepPatches, nurbs_curve, nurbs_surface,
+};
+use std::collections::BTreeMap;
+use std::io::Write;
+
+impl QuadSpline {
+    /// Writes the patches as STEP AP242. Each part that closes up becomes a solid with outward normals; the others become shells of one
+    /// surface model. Common sides are common edges with common control points. The same spline gives the same bytes.
+    ///
+    /// # Errors
+    /// [`crate::Error::Spline`] for control points that are not finite; [`crate::Error::Io`], without a path, if writing to `out` fails.
+    pub fn write_step(&self, options: &StepOptions, out: &mut impl Write) -> Result<()> {
+        let layout = self.space().layout();
+        let mut points = vec![[0.0; 3]; layout.n_nodes()];
+        layout.corners().for_each(|at| points[layout.node(at) as usize] = self.side_points(at)[0]);
+        let curve = |arc: usize| {
+            let [left, right] = layout.beside(arc);
+            let mut along = left.or(right).map(|side| self.side_points(side)).unwrap_or_default();
+            if left.is_none() {
+                along.reverse();
+            }
+            StepCurve { ends: layout.arcs()[arc].ends, curve: nurbs_curve(QUINTIC, self.knots(), along) }
+        };
+        let patch = |at: usize| StepPatch {
+            surface: nurbs_surface(QUINTIC, [self.knots(), self.knots()], self.net(at)),
+            sides: layout.patches()[at].map(|side| (side.arc as usize, side.reversed)),
+        };
+        let patches = StepPatches {
+            points: &points,
+            curves: (0..layout.arcs().len()).map(curve).collect(),
+            patches: (0..layout.patches().len()).map(patch).collect(),
+            parts: self.parts(),
+            diagonal: diagonal(self.control_points()),
+        };
+        patches.write(options, out)
+    }
+
+    /// The control points along a side, in the direction around the patch.
+    fn side_points(&self, at: PatchCorner) -> Vec<Vector> {
+        let along = (0..self.space().side()).map(|i| self.space().along(at, i, 0));
+        along.map(|c| self.control_points()[c as usize]).collect()
+    }
+
+    /// The control points of a patch: `net[i][j]`, i along u, j along v.
+    pub fn net(&self, patch: usize) -> Vec<Vec<Vector>> {
+        let rows = self.space().control(patch).chunks(self.space().side());
+        rows.map(|row| row.iter().map(|&c| self.control_points()[c as usize]).collect()).collect()
+    }
+
+    /// The connected parts of the surface.
+    fn parts(&self) -> Vec<StepPart> {
+        let layout = self.space().layout();
+        let mut same = UnionFind::new(layout.patches().len());
+        for arc in 0..layout.arcs().len() {
+            if let [Some(left), Some(right)] = layout.beside(arc) {
+                _ = same.join(left.patch as u32, right.patch as u32);
+            }
+        }
+        let mut parts: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
+        (0..layout.patches().len()).for_each(|p| parts.entry(same.root(p as u32)).or_default().push(p));
+        let part = |patches: Vec<usize>| {
+            let mut sides = patches.iter().flat_map(|&p| layout.patches()[p]);
+            let is_closed = sides.all(|side| !layout.beside(side.arc as usize).contains(&None));
+            StepPart { is_closed, is_inverted: is_closed && self.volume(&patches) < 0.0, patches }
+        };
+        parts.into_values().map(part).collect()
+    }
+
+    /// The signed volume inside patches that close up, by tetrahedra over their nets of control points.
+    fn volume(&self, patches: &[usize]) -> f64 {
+        let sixfold = |[a, b, c]: [Vector; 3]| dot(a, cross(b, c));
+        let of_patch = |&p: &usize| {
+            let net = self.net(p);
+            let cells = net.windows(2).flat_map(|two| {
+                (1..two[0].len()).map(|j| {
+                    let [a, b, c, d] = [two[0][j - 1], two[1][j - 1], two[1][j], two[0][j]];
+                    sixfold([a, b, c]) + sixfold([a, c, d])
+                })
+            });
+            cells.sum::<f64>()
+        };
+        patches.iter().map(of_patch).sum::<f64>() / 6.0
+    }
+}
