@@ -34,8 +34,8 @@ pub(super) struct ChartPartition {
     pub count: usize,
 }
 
-/// The division of a layout into connected charts. If its faces have the corners `triangles`, in the layout or after packing, the interiors
-/// of the upright faces of one chart are disjoint, exactly. `done` and `share`: the part of the control's stage that is over, and the part
+/// The division of a layout into connected charts. Overlaps are tested on the corners `triangles`, those in the layout or after packing: with
+/// these the interiors of the upright faces of one chart are disjoint, exactly. `done` and `share`: the part of the control's stage that is over, and the part
 /// that this call takes.
 pub(super) fn partition(
     layout: &PlaneLayout,
@@ -56,7 +56,7 @@ struct ChartGrowth<'a> {
     chart: PerFace<u32>,
     /// Per chart, its faces.
     members: Vec<Vec<FaceId>>,
-    /// The boxes of the faces; those of the chart that grows are present.
+    /// A search tree over the boxes of all faces, in which only the upright faces of the chart that grows are present.
     tree: BoxTree<'a>,
 }
 
@@ -119,8 +119,9 @@ impl<'a> ChartGrowth<'a> {
             let upright_first = self.is_upright(g).cmp(&self.is_upright(f));
             upright_first.then(area[g].total_cmp(&area[f])).then(f.cmp(&g))
         });
-        let mut refused = PerFace::filled(self.layout.mesh.n_faces(), NONE);
-        let mut done = 0;
+        // Per face, the last chart that it overlapped.
+        let mut refused_by = PerFace::filled(self.layout.mesh.n_faces(), NONE);
+        let mut faces_done = 0;
         for seed in seeds {
             if self.chart[seed] != NONE {
                 continue;
@@ -129,24 +130,24 @@ impl<'a> ChartGrowth<'a> {
             let mut members = Vec::new();
             let mut queue = BinaryHeap::from([Reverse((Key(0.0), seed))]);
             while let Some(Reverse((Key(distance), f))) = queue.pop() {
-                if self.chart[f] != NONE || refused[f] == number {
+                if self.chart[f] != NONE || refused_by[f] == number {
                     continue;
                 }
-                if usize::is_multiple_of(done, FACES_PER_STEP) {
-                    let part = done as f64 / self.layout.mesh.n_faces() as f64;
+                if usize::is_multiple_of(faces_done, FACES_PER_STEP) {
+                    let part = faces_done as f64 / self.layout.mesh.n_faces() as f64;
                     control.step(Stage::Layout, before + share * part)?;
                 }
                 if self.is_refused(f) {
                     // The chart only grows, so a face that overlaps it now will always overlap it.
-                    refused[f] = number;
+                    refused_by[f] = number;
                     continue;
                 }
                 self.enter(f);
                 self.chart[f] = number;
                 members.push(f);
-                done += 1;
+                faces_done += 1;
                 let here = self.centre(f);
-                for g in self.neighbours(f).filter(|&g| self.chart[g] == NONE && refused[g] != number) {
+                for g in self.neighbours(f).filter(|&g| self.chart[g] == NONE && refused_by[g] != number) {
                     let there = self.centre(g);
                     let step = (there[0] - here[0]).hypot(there[1] - here[1]);
                     queue.push(Reverse((Key(distance + step), g)));

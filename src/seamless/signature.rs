@@ -14,11 +14,13 @@ pub(super) const MOST_CURVED: i32 = 3;
 pub struct ConeValence {
     /// The vertex.
     pub vertex: VertexId,
-    /// The number of right angles around it: of squares that meet there, 1 or more; 4 at any other vertex.
+    /// The number of right angles around it, which is that of squares that meet there, at least 1. Vertices that are no cones have 4, on the
+    /// boundary 2.
     pub valence: u32,
 }
 
-/// The cones and corners of sectors with these right angles, by vertex.
+/// The vertices at which the right angles of the sectors do not add up to the regular number. A sector is the part of the angle at a vertex
+/// between two features or boundary edges.
 pub(super) fn cones_of_sectors(mesh: &Mesh, sectors: &Sectors, right_angles: &[i32]) -> Vec<ConeValence> {
     let mut valence = PerVertex::filled(mesh.n_vertices(), 0);
     sectors.vertex.iter().zip(right_angles).for_each(|(&v, k)| valence[v] += k);
@@ -41,8 +43,7 @@ pub(super) fn given_right_angles(mesh: &Mesh, sectors: &Sectors, cones: &[ConeVa
     let refused = |message: String| Error::TargetKind { target: "cones", message };
     let is_divided = |s: usize| sectors.is_bounded(s) && !mesh.is_boundary_vertex(sectors.vertex[s]);
     if sectors.len() != mesh.n_vertices() || (0..sectors.len()).any(is_divided) {
-        let need =
-            "those of the field where there are features, or where pieces of the surface meet at a vertex";
+        let need = "the cones of the field where features divide the angle at a vertex, or pieces of the surface meet at one";
         return Err(Error::argument("cones", "given valences", need));
     }
     let mut right_angles: Vec<i32> = mesh.vertices().map(|v| regular(mesh, v)).collect();
@@ -68,11 +69,11 @@ pub(super) fn given_right_angles(mesh: &Mesh, sectors: &Sectors, cones: &[ConeVa
 
 /// Refuses signatures that no metric has. Those of this list are known to be impossible; of all others nothing is claimed.
 ///
-/// - Genus 1 without cones: a flat torus turns nothing.
-/// - Genus 1, two cones of −a and a quarter turns, a dividing the turning of every loop \[IKRSS13\].
-/// - Genus 2, one cone of −8 or two of −6 and −2 quarter turns, all loops turning by half turns but not all by whole ones: the strata of
+/// - Genus 1 without cones: on a flat torus no loop turns.
+/// - Genus 1, two cones with curvatures of −a and a quarter turns, a dividing the turning of every loop \[IKRSS13\].
+/// - Genus 2, one cone with a curvature of −8 or two of −6 and −2 quarter turns, all loops turning by half turns but not all by whole ones: the strata of
 ///   quadratic differentials with one zero of order 4, or two of 3 and 1, are empty \[MS93\].
-/// - Genus 2, one cone of −8 quarter turns, all loops turning by whole turns, with an Arf invariant of 0: Abelian differentials with one zero
+/// - Genus 2, one cone with a curvature of −8 quarter turns, all loops turning by whole turns, with an Arf invariant of 0: Abelian differentials with one zero
 ///   of order 2 have odd spin \[KZ03\].
 ///
 /// # Errors
@@ -84,10 +85,10 @@ pub(super) fn check_existence(
     quarter_turns: &[i32],
 ) -> Result<()> {
     let refused = |message: String| Err(Error::TargetKind { target: "seamless", message });
-    let mut cones: Vec<i32> = right_angles.iter().map(|k| 4 - k).filter(|&k| k != 0).collect();
-    cones.sort_unstable();
+    let mut curvatures: Vec<i32> = right_angles.iter().map(|k| 4 - k).filter(|&k| k != 0).collect();
+    curvatures.sort_unstable();
     let all = |n: i32| quarter_turns.iter().all(|k| k % n == 0);
-    match (mesh.genus(), &cones[..]) {
+    match (mesh.genus(), &curvatures[..]) {
         (1, []) if quarter_turns.iter().any(|&k| k != 0) => {
             refused("a flat torus without cones turns along no loop; ask for no turning, or for cones".into())
         }

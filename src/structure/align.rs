@@ -1,4 +1,4 @@
-//! Rotations of charts that make as many transitions as possible translations.
+//! Rotations of charts by which the transitions along a spanning forest of their overlaps become translations.
 
 use super::developable::DevelopableSurface;
 use super::draft::ChartDraft;
@@ -7,36 +7,38 @@ use crate::geometry::Motion;
 use crate::geometry::complex::norm2;
 use std::collections::VecDeque;
 
-/// Turns charts about their origins so that transitions along a spanning tree of overlaps are translations. In E² all are then, if the
-/// holonomy has no rotation.
+/// Turns charts about their origins so that transitions along a spanning forest of overlaps are translations. In E² this makes all
+/// transitions translations if the holonomy has no rotations.
 pub(super) fn align(drafts: &mut [ChartDraft], overlaps: &[Overlap], surface: &DevelopableSurface) {
-    let mut beside: Vec<Vec<(usize, usize)>> = vec![Vec::new(); drafts.len()];
+    // Per chart the overlaps with others: the number of the overlap, and of the other chart.
+    let mut neighbours: Vec<Vec<(usize, usize)>> = vec![Vec::new(); drafts.len()];
     for (k, overlap) in overlaps.iter().enumerate() {
         let [i, j] = overlap.charts.map(|chart| chart as usize);
-        beside[i].push((k, j));
-        beside[j].push((k, i));
+        neighbours[i].push((k, j));
+        neighbours[j].push((k, i));
     }
     let mut done = vec![false; drafts.len()];
     for start in 0..drafts.len() {
         if std::mem::replace(&mut done[start], true) {
             continue;
         }
-        let mut open = VecDeque::from([start]);
-        while let Some(i) = open.pop_front() {
-            for &(k, j) in &beside[i] {
+        let mut queue = VecDeque::from([start]);
+        while let Some(i) = queue.pop_front() {
+            for &(k, j) in &neighbours[i] {
                 if std::mem::replace(&mut done[j], true) {
                     continue;
                 }
                 let overlap = &overlaps[k];
                 let [a, b] = overlap.face;
                 let [a, b] = if overlap.charts[0] as usize == i { [a, b] } else { [b, a] };
-                let there = drafts[j].places[b as usize].compose(&drafts[i].places[a as usize].inverse());
-                // Charts of a sphere about antipodes have no translation between them.
-                if f64::from(norm2(there.a)) > 0.0 {
-                    let back = Motion { b: [0.0.into(); 2], ..there }.inverse().normalised();
-                    drafts[j].turn(surface, &back);
+                let transition =
+                    drafts[j].places[b as usize].compose(&drafts[i].places[a as usize].inverse());
+                // With a = 0 it exchanges antipodes of the sphere and has no rotation; else it has that of the motion with b = 0.
+                if f64::from(norm2(transition.a)) > 0.0 {
+                    let rotation = Motion { b: [0.0.into(); 2], ..transition };
+                    drafts[j].turn(surface, &rotation.inverse().normalised());
                 }
-                open.push_back(j);
+                queue.push_back(j);
             }
         }
     }

@@ -5,13 +5,14 @@ use crate::control::Control;
 use crate::error::Result;
 use crate::mesh::{HalfedgeId, Mesh, PerEdge, VertexId};
 
-/// A basis of the first homology: closed loops of half-edges, each starting where the one before it ends.
+/// A basis of the first homology: closed loops, each a sequence of half-edges in which every half-edge starts where the one before it ends.
 ///
 /// There are 2g loops on a closed surface of genus g and 2g + b − 1 on one with b > 0 boundary loops. Let T be the shortest-path tree of
-/// vertex 0 and C a maximum spanning tree of the dual graph, weighted by the length of an edge's loop through vertex 0 \[EW05\]; each
-/// edge in neither of them closes a loop. With a boundary the outside is a node of the dual graph, so the surface collapses onto T and
-/// those edges. The path to vertex 0 and back that a loop starts and ends with is removed. Shortest loops come first. O(E log E + total
-/// length).
+/// vertex 0 and C a maximum spanning tree of the dual graph, in which an edge weighs as much as
+/// the loop is long that it closes with the paths of T from its ends to vertex 0 \[EW05\]; each edge in neither of them closes a loop. With a
+/// boundary the dual graph has one more node, for the outside of all boundary loops, and the surface retracts onto T and the edges in neither
+/// tree. The common part of the two paths of a loop is cut off, so that it need not pass through vertex 0. Shortest loops come first.
+/// O(E log E + total length).
 ///
 /// `lengths`: finite and positive, one per edge.
 ///
@@ -35,14 +36,16 @@ pub fn homology_generators(
     let tree = shortest_paths(mesh, lengths, root, control)?;
     control.check()?;
     let close = |h: HalfedgeId| {
-        let mut there: Vec<_> = tree.path(mesh, mesh.origin(h)).collect();
-        let mut back: Vec<_> = tree.path(mesh, mesh.tip(h)).collect();
-        while there.last().is_some() && there.last() == back.last() {
-            there.pop();
-            back.pop();
+        // A path lists half-edges that point away from the root, the last one first.
+        let mut to_origin: Vec<_> = tree.path(mesh, mesh.origin(h)).collect();
+        let mut to_tip: Vec<_> = tree.path(mesh, mesh.tip(h)).collect();
+        while to_origin.last().is_some() && to_origin.last() == to_tip.last() {
+            to_origin.pop();
+            to_tip.pop();
         }
-        let there = there.into_iter().rev();
-        there.chain([h]).chain(back.into_iter().map(HalfedgeId::twin)).collect()
+        let to_origin = to_origin.into_iter().rev();
+        to_origin.chain([h]).chain(to_tip.into_iter().map(HalfedgeId::twin)).collect()
     };
-    Ok(leftover(mesh, lengths, &tree, |_| false).into_iter().map(|e| close(e.halfedge())).collect())
+    let is_excluded = |_| false;
+    Ok(leftover(mesh, lengths, &tree, is_excluded).into_iter().map(|e| close(e.halfedge())).collect())
 }

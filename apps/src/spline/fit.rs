@@ -16,18 +16,20 @@ use serde::Serialize;
 use serde_json::{Map, Value};
 use std::io::Write;
 
-/// Largest difference of the sum of the basis functions from 1: 0 in exact arithmetic, as the two below.
-const UNITY: f64 = 1e-12;
+// Tolerances for errors that are 0 in exact arithmetic.
+/// Largest difference of the sum of the basis functions from 1.
+const UNITY_TOLERANCE: f64 = 1e-12;
 /// Largest error of a polynomial that the basis reproduces.
-const REPRODUCTION: f64 = 1e-10;
-/// Largest jump of a derivative across a side of two patches.
-const CONTINUITY: f64 = 1e-8;
+const REPRODUCTION_TOLERANCE: f64 = 1e-10;
+/// Largest jump of a derivative across a side that two patches share.
+const CONTINUITY_TOLERANCE: f64 = 1e-8;
 
 /// The options of a run as its report has them.
 #[derive(Serialize)]
 struct FitSettings<'a> {
     #[serde(flatten)]
     args: &'a FitArgs,
+    /// The values that the fit chose for options that were not given.
     #[serde(flatten)]
     defaults: &'a Map<String, Value>,
 }
@@ -113,15 +115,15 @@ fn figures(outcome: &FitOutcome, identities: &Identities) -> Figures {
         .with("partition_of_unity", identities.partition_of_unity)
         .if_some("polynomial_reproduction", identities.polynomial_reproduction)
         .with("continuity", identities.continuity)
-        // The number of sides of two patches, at corners of the boundary, across which the spline is less smooth than elsewhere.
+        // The number of sides that two patches share, at corners of the boundary, across which the spline is less smooth than elsewhere.
         .with("rough_sides", identities.rough_sides);
     figures.and(&outcome.figures)
 }
 
 fn check_identities(checks: &mut Checks, identities: &Identities) {
-    checks.add("partition_of_unity", identities.partition_of_unity, UNITY);
+    checks.add("partition_of_unity", identities.partition_of_unity, UNITY_TOLERANCE);
     if let Some(error) = identities.polynomial_reproduction {
-        checks.add("polynomial_reproduction", error, REPRODUCTION);
+        checks.add("polynomial_reproduction", error, REPRODUCTION_TOLERANCE);
     }
-    checks.add("continuity", identities.continuity, CONTINUITY);
+    checks.add("continuity", identities.continuity, CONTINUITY_TOLERANCE);
 }

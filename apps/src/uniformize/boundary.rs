@@ -1,4 +1,4 @@
-//! The options about the boundary of a surface, and the options of the library for them.
+//! Command-line options for the boundary of a surface, and their conversion to the library's options.
 
 use crate::failure::Failure;
 use crate::input::Input;
@@ -10,7 +10,7 @@ use ricci::topology::{SurfaceGroup, Word};
 use serde::Serialize;
 use std::str::FromStr;
 
-/// The shape of the boundary, and the closed geodesics that are measured.
+/// The shape of the boundary, and the words in the generators whose closed geodesics are measured.
 #[derive(Args, Serialize, Debug, Clone)]
 pub struct BoundaryArgs {
     /// What the boundary becomes: closed geodesics in the hyperbolic plane (χ < 0) or the plane (an annulus), or straight sides with
@@ -34,8 +34,8 @@ Corners of a straight boundary (--boundary straight):
                 along the x axis
   V:ANGLE,V,…   with these angles inside, in degrees; those without one share what is left. N corners have 180° N − 360° χ together, χ = 1 for a
                 disk
-  N             as many, with equal angles: the vertices where the boundary turns by more than 45° if there are just N, else at equal distances
-                along the longest boundary loop
+  N             this number of corners, with equal angles: the vertices where the boundary turns by more than 45° if there are just N, else
+                at equal distances along the longest boundary loop
 [default: 4 on a disk, none on an annulus, 4 |χ| of 270° on other surfaces]";
 
 #[derive(ValueEnum, Serialize, Debug, Clone, Copy, PartialEq)]
@@ -76,7 +76,7 @@ impl FromStr for CornersChoice {
 }
 
 impl CornersChoice {
-    /// The library's option for it.
+    /// Converts to the library's type.
     pub fn to_library(&self) -> Corners {
         let corner = |&(v, angle): &(u32, Option<f64>)| BoundaryCorner {
             vertex: VertexId(v),
@@ -96,7 +96,7 @@ impl BoundaryArgs {
         self.boundary.unwrap_or(usual)
     }
 
-    /// The library's option for it.
+    /// Converts to the library's type.
     pub fn to_library(&self) -> Boundary {
         match (self.choice(), &self.corners) {
             (BoundaryChoice::Geodesic, _) => Boundary::Geodesic,
@@ -124,7 +124,8 @@ impl BoundaryArgs {
         self.lengths.iter().map(word).collect()
     }
 
-    /// Refuse what can be refused once the surface is known.
+    /// Refuses options that do not fit this surface: boundary options on a closed surface, a geodesic boundary on a disk, words that are not
+    /// in its group.
     pub fn check(&self, input: &Input) -> Result<(), Failure> {
         let mesh = input.mesh();
         let usage = |message: &str| Err(Failure::Usage(message.into()));
@@ -141,14 +142,16 @@ impl BoundaryArgs {
             return Err(Failure::Input(format!("{path}: {why}{}", open_seams(input))));
         }
         if self.has_corners(input) && !self.lengths.is_empty() {
-            return usage("--lengths: with corners loops turn, and have no closed geodesic");
+            return usage(
+                "--lengths: measures closed geodesics of a geodesic boundary; with corners the metric is flat and going around a loop turns it, so it has none",
+            );
         }
         let group = SurfaceGroup { genus: mesh.genus(), boundaries: mesh.boundary_loops().len() };
         self.words(&group).map(drop)
     }
 }
 
-/// The hints about seams that are open by a rounding: the surface is then no disk, but was meant to be closed there.
+/// Hints about seams that rounding has left open. Such a mesh counts as a disk only because a seam that was meant to be closed is open.
 fn open_seams(input: &Input) -> String {
     let Some(positions) = input.surface.positions() else { return String::new() };
     let faces: Vec<[u32; 3]> =

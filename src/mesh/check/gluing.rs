@@ -16,14 +16,14 @@ pub(in crate::mesh) fn diagnose_gluing(
     if faces.is_empty() {
         defects.push(Defect::Empty { collapsed: 0 });
     }
-    // Half-edges that leave a vertex are in one fan when a corner or a gluing joins them: h and the half-edge opposite the previous one
-    // of its face.
+    // Half-edges that leave a vertex are in one fan if one comes from one to the other around the vertex: from h to the twin of the half-edge
+    // before it in its face.
     let mut fans = UnionFind::new(origin.len());
-    let mut inside = vec![false; origin.len()];
+    let mut has_face = vec![false; origin.len()];
     for s in sides {
         for k in 0..3 {
             fans.join(s[k], s[(k + 2) % 3] ^ 1);
-            inside[s[k] as usize] = true;
+            has_face[s[k] as usize] = true;
         }
     }
     let mut sheets = vec![0u32; n_vertices];
@@ -39,7 +39,7 @@ pub(in crate::mesh) fn diagnose_gluing(
     let edges = origin.len() / 2;
     let used = sheets.iter().filter(|&&sheets| sheets > 0).count();
     let euler = used as i64 - edges as i64 + faces.len() as i64;
-    let boundary = (0..origin.len()).filter(|&h| !inside[h]).map(|h| [origin[h], origin[h ^ 1]]);
+    let boundary = (0..origin.len()).filter(|&h| !has_face[h]).map(|h| [origin[h], origin[h ^ 1]]);
     let boundary_loops = boundary_loops(n_vertices, boundary);
     let genus = if defects.is_empty() { genus(euler, boundary_loops) } else { None };
     Diagnosis {

@@ -20,13 +20,14 @@ pub fn icosphere(n: usize) -> Result<Soup> {
     for (a, b) in [(1.0, golden), (-1.0, golden), (1.0, -golden), (-1.0, -golden)] {
         positions.extend([[0.0, a, b], [a, b, 0.0], [b, 0.0, a]]);
     }
-    let corners = icosahedron_faces(&positions);
-    // A point of an edge or face by its weights at the corners, smallest corner first; all its faces find the same entry.
+    let coarse_faces = icosahedron_faces(&positions);
+    // The number of each new point by its pairs (corner of the icosahedron, weight), sorted by corner: both faces at an edge find the same one.
     let mut known: HashMap<[(u32, u32); 3], u32> = HashMap::new();
     let base = positions.clone();
     let mut vertex = |face: [u32; 3], weights: [u32; 3]| {
         let mut key = [0, 1, 2].map(|i| if weights[i] == 0 { (u32::MAX, 0) } else { (face[i], weights[i]) });
         key.sort_unstable();
+        // Corners of weight 0 come last; if the second is one of them, the point is a corner of the icosahedron.
         if key[1].1 == 0 {
             return key[0].0;
         }
@@ -41,7 +42,7 @@ pub fn icosphere(n: usize) -> Result<Soup> {
     };
     let mut faces = Vec::new();
     let n = n as u32;
-    for face in corners {
+    for face in coarse_faces {
         for i in 0..n {
             for j in 0..n - i {
                 let mut at = |i: u32, j: u32| vertex(face, [n - i - j, i, j]);

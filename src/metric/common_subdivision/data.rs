@@ -24,12 +24,13 @@ pub(super) struct FacePoint {
     pub weights: [f64; 3],
 }
 
-/// The place of a corner of a triangle in a face, in two bytes: how the weights of the vertex belong to the corners of the face.
+/// How the stored weights of a vertex of the subdivision are assigned to the corners of the face that has the triangle, in two bytes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct PackedPlace {
     /// The corner of the face that the first weight belongs to. The others follow counterclockwise.
     pub corner: u8,
-    /// True if the first two weights change places: those of a crossing are along the half-edge 2e.
+    /// True if the first two weights are swapped: those of a crossing are stored in the direction of half-edge 2e, and the face has the
+    /// other one.
     pub backward: bool,
 }
 
@@ -87,12 +88,12 @@ pub struct CommonSubdivision {
     /// the first triangulation with their numbers, then the crossings, then those of the second that are not at one of the first, then those
     /// on edges that were split ([`crate::embed::LayoutOptions::straight_sides`]).
     pub mesh: Mesh,
-    /// Number of vertices of each triangulation (on the faces that were kept).
+    /// Number of vertices of each triangulation; of a subdivision of some faces only, of those on these faces.
     pub n_vertices: [usize; 2],
     /// The crossings: vertex `n_vertices[0] + k` is `crossings[k]`.
     pub crossings: Vec<Crossing>,
-    /// Homogeneous weight per vertex: that of its position in the second triangulation over that in the first. Positive and finite; only
-    /// quotients within a piece have a meaning.
+    /// Homogeneous weight per vertex: the scale of its homogeneous coordinates in the second triangulation over that in the first. Positive and
+    /// finite; only quotients within a piece have a meaning. These are no barycentric coordinates.
     pub weight: PerVertex<f64>,
     /// Per triangle, the piece (a polygon) that it is part of: triangles of one piece have consecutive numbers and the same projective map.
     pub polygon_of: PerFace<u32>,
@@ -126,6 +127,7 @@ impl CommonSubdivision {
             [from, to, 0.0]
         } else if let Some(point) = self.points.get(v.index()) {
             let FacePoint { vertices, weights } = point[side];
+            // A vertex of a triangulation is stored as itself with weight 1.
             if vertices[0] == v && weights[0] == 1.0 {
                 return PlaceInFace::Corner(corner);
             }
@@ -154,12 +156,12 @@ impl CommonSubdivision {
         Some(if h.0 & 1 == 0 { along } else { along.twin() })
     }
 
-    /// Homogeneous weights of a triangle's corners.
+    /// The homogeneous weights ([`CommonSubdivision::weight`]) of a triangle's corners.
     pub fn weights(&self, f: FaceId) -> [f64; 3] {
         self.mesh.face_vertices(f).map(|v| self.weight[v])
     }
 
-    /// The share of its face on a side that the smallest triangle takes, with its sign: not negative where no piece folds.
+    /// The least signed quotient of the area of a triangle and that of its face on a side: not negative where no piece folds.
     pub fn least_share(&self, side: usize) -> f64 {
         let share = |[a, b, c]: [[f64; 3]; 3]| {
             let minor = |i: usize, j: usize| b[i] * c[j] - b[j] * c[i];
@@ -169,7 +171,7 @@ impl CommonSubdivision {
     }
 }
 
-/// The error of triangulations that are not of one surface.
+/// The error where faces of both triangulations do not overlap as the record of flips says, so that they are not of one surface.
 pub(super) fn torn() -> Error {
     let message = "its faces and those of the final triangulation do not overlap as the flips say";
     Error::Connectivity { element: "mesh", index: 0, message }
