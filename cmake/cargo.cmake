@@ -6,6 +6,7 @@
 # RICCI_CARGO_TARGET      the Rust target; default when cross-compiling for Linux or, by MinGW, for Windows: that of CMake's processor;
 #                         else the host
 # RICCI_CARGO_WITH        packages that are built beside it, so that the crates of both are compiled once (tests/run: the command)
+# RICCI_FEATURES          parts of the library that a build can leave out: all by default, "gltf;gifti;gzip;step"
 # RICCI_CARGO_OFFLINE     ON: nothing is downloaded, as from the tarball of cmake/tarball.cmake
 
 find_program(CARGO cargo HINTS $ENV{CARGO_HOME}/bin $ENV{HOME}/.cargo/bin)
@@ -41,6 +42,12 @@ set(RICCI_CARGO_TARGET "${_target}" CACHE STRING "the Rust target; empty: the ho
 option(RICCI_CARGO_OFFLINE "build without the network" OFF)
 set(RICCI_CARGO_WITH "" CACHE STRING "cargo packages that are built beside ricci-capi")
 set(_cargo_packages --package ricci-capi --lib)
+set(RICCI_FEATURES gltf gifti gzip step CACHE STRING "parts of the library: gltf, gifti, gzip, step")
+if(NOT RICCI_FEATURES STREQUAL "gltf;gifti;gzip;step")
+  list(TRANSFORM RICCI_FEATURES PREPEND "ricci-capi/" OUTPUT_VARIABLE _features)
+  list(JOIN _features "," _features)
+  list(APPEND _cargo_packages --no-default-features "--features=${_features}")
+endif()
 if(RICCI_CARGO_WITH)
   list(TRANSFORM RICCI_CARGO_WITH PREPEND "--package=" OUTPUT_VARIABLE _cargo_with)
   list(APPEND _cargo_packages --bins ${_cargo_with})
@@ -103,7 +110,13 @@ if(WIN32)
 elseif(APPLE)
   set(RICCI_SYSTEM_LIBS m)
 else()
-  set(RICCI_SYSTEM_LIBS gcc_s pthread m dl)
+  # The unwinder is the compiler's: libgcc_s, or libgcc_eh where the program is linked with -static.
+  set(RICCI_SYSTEM_LIBS pthread m dl)
+endif()
+# Functions of the static library that a program does not call are left out of it.
+set(RICCI_STATIC_LINK_OPTIONS)
+if(CMAKE_SYSTEM_NAME STREQUAL "Linux")
+  set(RICCI_STATIC_LINK_OPTIONS LINKER:--gc-sections)
 endif()
 
 set(_built_files ${_built} ${_built_static} ${_built_import})
@@ -147,6 +160,7 @@ set_target_properties(ricci::ricci_static PROPERTIES
   IMPORTED_LOCATION ${RICCI_LIB_DIR}/${RICCI_STATIC}
   INTERFACE_INCLUDE_DIRECTORIES ${PROJECT_SOURCE_DIR}/include
   INTERFACE_COMPILE_DEFINITIONS RICCI_STATIC
+  INTERFACE_LINK_OPTIONS "${RICCI_STATIC_LINK_OPTIONS}"
   INTERFACE_LINK_LIBRARIES "${RICCI_SYSTEM_LIBS}")
 add_dependencies(ricci::ricci_static ricci_cargo)
 

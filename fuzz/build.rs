@@ -13,7 +13,8 @@ fn main() {
     let text = without_comments(&text);
     let (mut outside, mut calls) = (String::new(), String::new());
     for declaration in text.split("RICCI_API").filter_map(|rest| rest.split_once(';')).map(|(d, _)| d) {
-        function(declaration.trim_start_matches("_VOID"), &mut outside, &mut calls);
+        let declaration = declaration.trim_start_matches("_VOID").trim_start();
+        function(declaration.trim_start_matches("RICCI_EXPERIMENTAL"), &mut outside, &mut calls);
     }
     let mut structs = String::new();
     for body in text.split("typedef struct ").skip(1).filter_map(|rest| rest.split_once('}')) {

@@ -45,7 +45,7 @@ def declarations(folder: Path) -> str:
     text = re.sub(r"^#(?:[^\n]*\\\n)*[^\n]*$", "", text, flags=re.MULTILINE)
     text = re.sub(r"^static inline .*?^}", "", text, flags=re.MULTILINE | re.DOTALL)
     text = re.sub(r'extern "C" {|^}\s*$', "", text, flags=re.MULTILINE)
-    text = re.sub(r"RICCI_API(_VOID)?\b", "", text)
+    text = re.sub(r"RICCI_(API(_VOID)?|EXPERIMENTAL)\b", "", text)
     return re.sub(r"\n\s*\n+", "\n", text)
 
 

@@ -57,10 +57,11 @@ pub fn default_space(mesh: &Mesh) -> Space {
 /// out; with one it is written first, so that the memory of that is free again.
 pub fn run_flow(input: Input, job: FlowJob<'_>, run: &mut CommandRun<'_>) -> Result<FlowOutcome, Failure> {
     let (class, control) = (Class::new(job.scheme, job.space), run.control);
-    let (rule, rule_name) = rule(&input, &job, control)?;
-    let new_flow = || Flow::toward(&rule, input.surface.clone(), class, &job.options, control);
+    let (rule, rule_name) = rule(&input, &job, &control.part(0.05, 0.2))?;
+    let new_flow =
+        || Flow::toward(&rule, input.surface.clone(), class, &job.options, &control.part(0.2, 0.25));
     let mut flow = timed(&mut run.seconds.flip, new_flow)?;
-    let solution = flow.solve(&rule, control)?;
+    let solution = flow.solve(&rule, &control.part(0.25, 0.7))?;
     // The factorisation is most of the memory of a run, and the layout has no use for it.
     drop(flow);
     let (Some(report), Some(target)) = (solution.report().cloned(), solution.final_target()?) else {
@@ -71,7 +72,9 @@ pub fn run_flow(input: Input, job: FlowJob<'_>, run: &mut CommandRun<'_>) -> Res
         let mut seconds = PhaseSeconds::default();
         let layout = match no_layout(&solution, job.needs_layout) {
             Some(why) => Err(why),
-            None => or_reason(surface_layout::lay_out(&input, &solution, &mut seconds, control))?,
+            None => {
+                or_reason(surface_layout::lay_out(&input, &solution, &mut seconds, &control.part(0.7, 1.0)))?
+            }
         };
         Ok((layout, seconds))
     };

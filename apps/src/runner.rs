@@ -168,9 +168,11 @@ pub fn execute(job: &impl Job, control: &Control) -> Result<Done, Failure> {
 fn execute_in_pool(job: &impl Job, start: Instant, control: &Control) -> Result<Done, Failure> {
     let JobHeader { name, common, .. } = job.header();
     let progress = Progress::watch(control, common.quiet);
-    let mut run = CommandRun::new(control);
+    // The work fills nine tenths of the progress, its files the rest.
+    let work = control.part(0.0, 0.9);
+    let mut run = CommandRun::new(&work);
     let outcome = job.compute(&mut run)?;
-    control.step(Stage::Write, 0.0)?;
+    control.step(Stage::Write, 0.9)?;
     let begin = Instant::now();
     job.write(&outcome, &mut run)?;
     run.seconds.write += begin.elapsed().as_secs_f64() - run.seconds.picture;
@@ -187,6 +189,7 @@ fn execute_in_pool(job: &impl Job, start: Instant, control: &Control) -> Result<
     // A report that cannot be written keeps none of the others back.
     let files = run.outputs.commit()?.iter().map(|path| path_text(path)).collect();
     written?;
+    control.finish();
     drop(progress);
     let exit_code = if run.failed.0.is_empty() { checks.exit_code() } else { 1 };
     let mut done = Done {

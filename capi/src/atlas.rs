@@ -24,7 +24,7 @@ pub struct ricci_atlas {
     positions: Option<Arc<Vec<Point>>>,
     charts: Charts,
 }
-handle!(ricci_atlas, "atlas");
+handle!(ricci_atlas, "atlas", |atlas| atlas.layout.mesh().n_vertices());
 
 impl ricci_atlas {
     /// The point of every corner of every face.
@@ -62,7 +62,7 @@ pub unsafe extern "C" fn ricci_atlas_new(
         let ricci_layout { layout, points, state, .. } = handle;
         let _reserve = memory::work(layout.mesh().n_vertices(), memory::LAYOUT)?;
         let uv = |h| points[layout.corner_index[h] as usize];
-        let charts = charts(layout.mesh(), uv, &ChartOptions { margin }, &control::of(control))?;
+        let charts = charts(layout.mesh(), uv, &ChartOptions { margin }, &control::of(control)?)?;
         let positions = handle.positions()?;
         Ok(ricci_atlas { state: state.clone(), layout: layout.clone(), positions, charts })
     })

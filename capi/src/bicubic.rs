@@ -6,11 +6,12 @@ use crate::control::{self, ricci_control};
 use crate::failure::{Failure, Outcome};
 use crate::guard::{self, handle, shared};
 use crate::memory;
+use crate::optional::{LengthUnit, StepOptions, write_step};
 use crate::spline::ricci_spline;
 use crate::status::*;
 use crate::structs::{self, or, sized};
 use ricci::mesh::io::write_atomically;
-use ricci::spline::{BicubicFit, BicubicOptions, BicubicSurface, LengthUnit, StepOptions};
+use ricci::spline::{BicubicFit, BicubicOptions, BicubicSurface};
 use std::ffi::c_char;
 use std::io::Write;
 use std::path::Path;
@@ -121,7 +122,7 @@ fn bytes(
     let _reserve = memory::work(surface.n_control_points(), memory::BICUBIC_TEXT)?;
     let mut bytes = Vec::new();
     match format {
-        BicubicFormat::Step => surface.write_step(&options, &mut bytes)?,
+        BicubicFormat::Step => write_step(surface, &options, &mut bytes)?,
         BicubicFormat::Json => {
             surface.write_json(&mut bytes).map_err(|why| Failure::new(RICCI_IO, why.to_string()))?;
         }
@@ -140,7 +141,7 @@ pub unsafe extern "C" fn ricci_bicubic_new(
         let (spline, options) = (&shared(spline)?.spline, structs::read(options)?.read());
         let _batch = memory::work(BATCH, memory::POINT)?;
         let _reserve = memory::work(spline.space().patches().len(), memory::BICUBIC)?;
-        Ok(ricci_bicubic(spline.to_bicubic(&options, &control::of(control))?))
+        Ok(ricci_bicubic(spline.to_bicubic(&options, &control::of(control)?)?))
     })
 }
 

@@ -35,7 +35,7 @@ pub struct ricci_circle_domain {
     /// The initial metric of that surface, which layouts need.
     state: Arc<MetricState>,
 }
-handle!(ricci_circle_domain, "circle domain");
+handle!(ricci_circle_domain, "circle domain", |domain| domain.surface.mesh().n_vertices());
 
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
@@ -112,7 +112,7 @@ pub unsafe extern "C" fn ricci_circle_domain_new(
     domain: *mut *mut ricci_circle_domain,
 ) -> ricci_status {
     guard::make(domain, || {
-        let (options, control) = (read(structs::read(options)?)?, control::of(control));
+        let (options, control) = (read(structs::read(options)?)?, control::of(control)?);
         let mesh = shared(mesh)?;
         let _reserve = memory::work(mesh.connectivity.n_vertices(), memory::UNIFORM)?;
         let domain = circle_domain(mesh.surface()?, &options, &control)?;

@@ -1,17 +1,15 @@
 //! Progress and cancellation of a running call.
 
+use crate::call_control::{self, HostControl};
 use crate::choice::choices;
+use crate::failure::{Failure, Outcome};
 use crate::guard::{self, handle, output, shared};
 use crate::status::ricci_status;
 use ricci::Control;
 use ricci::control::Stage;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::Arc;
 
-pub struct ricci_control {
-    control: Control,
-    /// Threads of calls that have no option for them, 0 for one per core.
-    threads: AtomicUsize,
-}
+pub struct ricci_control(Arc<HostControl>);
 handle!(ricci_control, "control");
 
 choices!(STAGES: Stage = "stage", [
@@ -23,21 +21,57 @@ choices!(STAGES: Stage = "stage", [
     RICCI_STAGE_WRITE => Stage::Write,
 ]);
 
-/// The library's control of a handle; a new one for NULL.
-pub(crate) fn of(control: *const ricci_control) -> Control {
+fn host<'a>(control: *const ricci_control) -> Option<&'a HostControl> {
     // SAFETY: NULL, or from this library and alive (contract of the header).
-    unsafe { control.as_ref() }.map_or_else(Control::new, |control| control.control.clone())
+    unsafe { control.as_ref() }.map(|control| &*control.0)
+}
+
+/// The library's control of the call that this thread is in: that of the handle; for NULL the one that the thread uses; else a new one. One
+/// that was cancelled ends the call here.
+pub(crate) fn of(control: *const ricci_control) -> Outcome<Control> {
+    let control = call_control::begin(host(control));
+    control.check()?;
+    Ok(control)
+}
+
+/// [`of`] for a call that takes no handle.
+pub(crate) fn of_thread() -> Outcome<Control> {
+    of(std::ptr::null())
 }
 
 /// The threads that a control asks for in calls without an option for them.
 pub(crate) fn threads(control: *const ricci_control) -> usize {
-    // SAFETY: as in `of`.
-    unsafe { control.as_ref() }.map_or(0, |control| control.threads.load(Ordering::Relaxed))
+    call_control::threads(host(control))
 }
 
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ricci_control_new(control: *mut *mut ricci_control) -> ricci_status {
-    guard::make(control, || Ok(ricci_control { control: Control::new(), threads: AtomicUsize::new(0) }))
+    guard::make(control, || Ok(ricci_control(Arc::new(HostControl::new()))))
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_control_use(control: *const ricci_control) -> ricci_status {
+    guard::call(|| {
+        // SAFETY: as in `host`.
+        call_control::use_in_thread(unsafe { control.as_ref() }.map(|control| control.0.clone()));
+        Ok(())
+    })
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_control_part(
+    control: *const ricci_control,
+    from: f64,
+    to: f64,
+) -> ricci_status {
+    guard::with(control, |control| {
+        if !(0.0 <= from && from <= to && to <= 1.0) {
+            let message = format!("the part {from} to {to} of the progress does not lie in 0 to 1");
+            return Err(Failure::argument(message));
+        }
+        control.0.set_range([from, to]);
+        Ok(())
+    })
 }
 
 #[unsafe(no_mangle)]
@@ -46,7 +80,7 @@ pub unsafe extern "C" fn ricci_control_set_threads(
     threads: usize,
 ) -> ricci_status {
     guard::with(control, |control| {
-        control.threads.store(threads, Ordering::Relaxed);
+        control.0.set_threads(threads);
         Ok(())
     })
 }
@@ -59,7 +93,7 @@ pub unsafe extern "C" fn ricci_control_free(control: *mut ricci_control) {
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ricci_control_cancel(control: *const ricci_control) -> ricci_status {
     guard::with(control, |control| {
-        control.control.cancel();
+        control.0.control.cancel();
         Ok(())
     })
 }
@@ -73,7 +107,7 @@ pub unsafe extern "C" fn ricci_control_progress(
 ) -> ricci_status {
     guard::call(|| {
         let (stage, fraction) = (output("stage", stage)?, output("fraction", fraction)?);
-        let control = &shared(control)?.control;
+        let control = &shared(control)?.0.control;
         let (now, done) = control.progress();
         stage.set(STAGES.number(now)?);
         fraction.set(done);

@@ -102,7 +102,7 @@ pub unsafe extern "C" fn ricci_deck_new(
     deck: *mut *mut ricci_deck,
 ) -> ricci_status {
     guard::make(deck, || {
-        let (spec, control) = (structs::read(spec)?, control::of(control));
+        let (spec, control) = (structs::read(spec)?, control::of(control)?);
         let group = &shared(uniform)?.quotient()?.deck;
         let kind = KINDS.choose(spec.kind)?;
         let looked_at = if matches!(kind, DeckKind::Depth | DeckKind::Within) { spec.limit } else { 0 };

@@ -1,6 +1,7 @@
 //! The texts of a defect of a triangle list, or of a hint, as C has them.
 
 use crate::structs::sized;
+use crate::wording::in_functions;
 use ricci::mesh::check::{Defect, Hint};
 use std::ffi::{CString, c_char};
 
@@ -28,7 +29,8 @@ impl DefectTexts {
     }
 
     fn new(texts: [String; 3], vertices: Vec<u32>, faces: Vec<u32>) -> DefectTexts {
-        let text = |words: String| CString::new(words.replace('\0', "\u{fffd}")).unwrap_or_default();
+        let text =
+            |words: String| CString::new(in_functions(&words).replace('\0', "\u{fffd}")).unwrap_or_default();
         let [code, message, remedy] = texts.map(text);
         DefectTexts { code, message, remedy, vertices, faces }
     }

@@ -62,7 +62,7 @@ pub unsafe extern "C" fn ricci_dirichlet_new(
     guard::make(dirichlet, || {
         let quotient = shared(uniform)?.quotient()?.clone();
         let centre = centre_point(quotient.layout.space, centre)?;
-        let domain = dirichlet_domain(&quotient.deck, centre, quotient.layout.area, &control::of(control))?;
+        let domain = dirichlet_domain(&quotient.deck, centre, quotient.layout.area, &control::of(control)?)?;
         Ok(ricci_dirichlet { quotient, domain })
     })
 }

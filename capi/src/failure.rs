@@ -1,6 +1,7 @@
 //! The reason why a call fails: a status, a message, and the element and the amount as numbers.
 
 use crate::status::*;
+use crate::wording::in_functions;
 use ricci::mesh::check::Defect;
 use ricci::{Error, FilePosition};
 use std::borrow::Cow;
@@ -49,6 +50,16 @@ impl Failure {
         Failure::new(RICCI_ARGUMENT, message)
     }
 
+    /// The failure of a call to which the system has refused memory, so that it could not go on.
+    pub fn for_want_of_memory(self) -> Failure {
+        let message = if self.status == RICCI_CANCELLED {
+            "the system has no memory for the work of this call".into()
+        } else {
+            format!("the system has no memory for the work of this call ({})", self.message)
+        };
+        Failure::new(RICCI_NO_MEMORY, message)
+    }
+
     /// The same failure, at an element.
     pub fn at(self, element: FailureElement, index: usize) -> Failure {
         Failure { at: (element, index), ..self }
@@ -80,7 +91,7 @@ fn place(defect: &Defect) -> (FailureElement, usize) {
 
 impl From<Error> for Failure {
     fn from(error: Error) -> Failure {
-        let failure = Failure::new(error.code(), error.to_string());
+        let failure = Failure::new(error.code(), in_functions(&error.to_string()).into_owned());
         let (at, amount) = match &error {
             Error::Size { expected, .. } => return failure.needs(*expected),
             // The system cannot start as many threads.

@@ -13,6 +13,7 @@ use crate::target::{ricci_target, target_of, vertices};
 use ricci::flow::{Flips, Gradient, Method, Options, StepRule, with_cones_placed};
 use ricci::mesh::EdgeId;
 use ricci::{Class, Control, Flow, Target};
+use std::mem::ManuallyDrop;
 
 choices!(METHODS: Method = "method", [
     RICCI_METHOD_NEWTON => Method::Newton,
@@ -99,7 +100,7 @@ pub unsafe extern "C" fn ricci_flow(
     guard::make(result, || {
         let solution = &shared(metric)?.0.solution;
         let _reserve = memory::work(solution.mesh().n_vertices(), memory::FLOW)?;
-        let (surface, space, control) = (solution.surface(), solution.metric().space, control::of(control));
+        let (surface, space, control) = (solution.surface(), solution.metric().space, control::of(control)?);
         let options = read_options(options)?;
         let target = target_of(target, surface, space)?;
         let target = with_cones_placed(&target, surface, space, &control)?;
@@ -110,13 +111,31 @@ pub unsafe extern "C" fn ricci_flow(
 
 pub struct ricci_solver {
     poisoned: bool,
-    flow: Flow,
+    /// The process whose threads the flow keeps. One that is forked from it has none of them.
+    process: u32,
+    flow: ManuallyDrop<Flow>,
 }
 handle!(ricci_solver, "solver");
 
+impl ricci_solver {
+    fn is_of_this_process(&self) -> bool {
+        self.process == std::process::id()
+    }
+}
+
 impl MutableHandle for ricci_solver {
     fn poisoned(&mut self) -> &mut bool {
+        self.poisoned |= !self.is_of_this_process();
         &mut self.poisoned
+    }
+}
+
+impl Drop for ricci_solver {
+    fn drop(&mut self) {
+        if self.is_of_this_process() {
+            // SAFETY: dropped once, here. In another process the end of threads that are not there would be waited for: it keeps the memory.
+            unsafe { ManuallyDrop::drop(&mut self.flow) };
+        }
     }
 }
 
@@ -129,8 +148,8 @@ pub unsafe extern "C" fn ricci_solver_new(
     guard::make(solver, || {
         let solution = &shared(metric)?.0.solution;
         let _reserve = memory::work(solution.mesh().n_vertices(), memory::FLOW)?;
-        let flow = Flow::resume(solution, &read_options(options)?, &Control::new())?;
-        Ok(ricci_solver { poisoned: false, flow })
+        let flow = Flow::resume(solution, &read_options(options)?, &control::of_thread()?)?;
+        Ok(ricci_solver { poisoned: false, process: std::process::id(), flow: ManuallyDrop::new(flow) })
     })
 }
 
@@ -147,7 +166,8 @@ pub unsafe extern "C" fn ricci_solver_pin(
 ) -> ricci_status {
     guard::call(|| {
         guard::change(solver, |ricci_solver { flow, .. }| {
-            Ok(flow.pin(&vertices(flow.surface(), pinned, n_pinned)?, &Control::new())?)
+            let pinned = vertices(flow.surface(), pinned, n_pinned)?;
+            Ok(flow.pin(&pinned, &control::of_thread()?)?)
         })
     })
 }
@@ -160,7 +180,7 @@ pub unsafe extern "C" fn ricci_solver_solve(
     result: *mut *mut ricci_metric,
 ) -> ricci_status {
     guard::make(result, || {
-        let control = control::of(control);
+        let control = control::of(control)?;
         guard::change(solver, |ricci_solver { flow, .. }| {
             let _reserve = memory::work(flow.mesh().n_vertices(), memory::FLOW)?;
             let target = target_of(target, flow.surface(), flow.metric().space)?;

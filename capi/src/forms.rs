@@ -22,7 +22,7 @@ pub struct ricci_forms {
     dual: Option<HarmonicForms>,
     periods: Option<PeriodMatrix>,
 }
-handle!(ricci_forms, "forms");
+handle!(ricci_forms, "forms", |forms| forms.forms.domain.mesh().n_vertices());
 
 choices!(CLASSES: Classes = "classes", [
     RICCI_CLASSES_ABSOLUTE => Classes::Absolute,
@@ -74,7 +74,7 @@ pub unsafe extern "C" fn ricci_forms_new(
     forms: *mut *mut ricci_forms,
 ) -> ricci_status {
     guard::make(forms, || {
-        let (mesh, given, control) = (shared(mesh)?, structs::read(options)?, control::of(control));
+        let (mesh, given, control) = (shared(mesh)?, structs::read(options)?, control::of(control)?);
         let _reserve = memory::work(mesh.connectivity.n_vertices(), memory::UNIFORM)?;
         let options =
             FormsOptions { classes: CLASSES.choose(given.classes)?, base: vertex_or_none(given.base)? };

@@ -3,6 +3,7 @@
 //! The body runs in the default floating-point environment, and a panic becomes `RICCI_PANIC`. It poisons a handle that the body
 //! was changing; handles that the body only reads stay valid.
 
+use crate::call_control;
 use crate::failure::{Failure, Outcome};
 use crate::float_environment::HostFloatEnvironment;
 use crate::memory;
@@ -20,6 +21,11 @@ compile_error!("the C face catches panics, which needs panic = \"unwind\"");
 pub trait OpaqueHandle: Sized {
     /// The name of the type in messages.
     const NAME: &'static str;
+
+    /// The number of elements, mostly vertices, in proportion to which a call that reads the handle takes memory.
+    fn n_elements(&self) -> usize {
+        0
+    }
 }
 
 macro_rules! handle {
@@ -28,13 +34,25 @@ macro_rules! handle {
             const NAME: &'static str = $name;
         }
     };
+    ($type:ty, $name:literal, $n_elements:expr) => {
+        impl $crate::guard::OpaqueHandle for $type {
+            const NAME: &'static str = $name;
+
+            fn n_elements(&self) -> usize {
+                let count: fn(&$type) -> usize = $n_elements;
+                count(self)
+            }
+        }
+    };
 }
 pub(crate) use handle;
 
-/// The object of a handle that is only read.
+/// The object of a handle that is only read. Until the end of the call there is memory in reserve for copies of its numbers.
 pub fn shared<'a, H: OpaqueHandle>(handle: *const H) -> Outcome<&'a H> {
     // SAFETY: NULL, or from this library and alive (contract of the header).
-    unsafe { handle.as_ref() }.ok_or_else(|| Failure::null(H::NAME))
+    let object = unsafe { handle.as_ref() }.ok_or_else(|| Failure::null(H::NAME))?;
+    memory::for_call(object.n_elements())?;
+    Ok(object)
 }
 
 /// The place in the caller's memory to which a result is written.
@@ -62,9 +80,16 @@ pub fn call(body: impl FnOnce() -> Outcome) -> ricci_status {
 /// Runs a body for [`call`]. This function is not generic: a copy for each entry point would take a fifth of a megabyte.
 fn run(body: &mut dyn FnMut() -> Outcome) -> ricci_status {
     let _host = HostFloatEnvironment::replace_by_default();
-    let failure = match guarded(&mut || memory::little().and_then(|()| body())) {
+    let refusals = memory::refusals();
+    let result = guarded(&mut || memory::little().and_then(|()| body()));
+    memory::end_call();
+    let is_wanted = call_control::end(matches!(result, Ok(Ok(()))));
+    let failure = match result {
         Ok(Ok(())) => return RICCI_OK,
         Ok(Err(failure)) => {
+            // Nobody has cancelled the call, and memory was refused meanwhile: this has ended it, or made its work fail.
+            let is_refused = is_wanted && memory::refusals() != refusals && failure.status != RICCI_NO_MEMORY;
+            let failure = if is_refused { failure.for_want_of_memory() } else { failure };
             if !failure.is_question {
                 log::warn!("{}", failure.message);
             }
@@ -107,7 +132,7 @@ pub fn change<H: MutableHandle, T>(handle: *mut H, body: impl FnOnce(&mut H) -> 
     let handle = unsafe { handle.as_mut() }.ok_or_else(|| Failure::null(H::NAME))?;
     if std::mem::replace(handle.poisoned(), true) {
         let message = format!(
-            "an earlier call on this {} ended in an internal error, or was under way in the process from which this one was forked; free it",
+            "an earlier call on this {} ended in an internal error, or it belongs to the process from which this one was forked; free it",
             H::NAME
         );
         return Err(Failure::new(RICCI_POISONED, message));

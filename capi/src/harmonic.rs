@@ -105,7 +105,7 @@ pub unsafe extern "C" fn ricci_harmonic(
     capacity: usize,
 ) -> ricci_status {
     guard::with(mesh, |mesh| {
-        let found = found_map(mesh, &structs::read(spec)?, &control::of(control))?;
+        let found = found_map(mesh, &structs::read(spec)?, &control::of(control)?)?;
         copy_out("points", &found.points, points, capacity)
     })
 }
@@ -124,7 +124,7 @@ pub unsafe extern "C" fn ricci_harmonic_map(
 ) -> ricci_status {
     guard::with(mesh, |mesh| {
         structs::check_place(summary, size)?;
-        let found = found_map(mesh, &structs::read(spec)?, &control::of(control))?;
+        let found = found_map(mesh, &structs::read(spec)?, &control::of(control)?)?;
         let told = found.energies.len().min(energies_capacity);
         check_buffer("energies", told, energies, energies_capacity)?;
         copy_out("points", &found.points, points, capacity)?;

@@ -17,7 +17,7 @@ pub struct ricci_homotopy {
     pub(crate) mesh: Arc<Mesh>,
     pub(crate) basis: HomotopyBasis,
 }
-handle!(ricci_homotopy, "homotopy");
+handle!(ricci_homotopy, "homotopy", |homotopy| homotopy.mesh.n_vertices());
 
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
@@ -45,7 +45,7 @@ pub unsafe extern "C" fn ricci_homotopy_new(
         let _reserve = memory::work(mesh.connectivity.n_vertices(), memory::MESH)?;
         let (lengths, base) = (mesh.surface()?.lengths(), vertex_or_none(base)?);
         let mesh = mesh.connectivity.clone();
-        let basis = homotopy_basis(&mesh, lengths, base, &control::of(control))?;
+        let basis = homotopy_basis(&mesh, lengths, base, &control::of(control)?)?;
         Ok(ricci_homotopy { mesh, basis })
     })
 }

@@ -45,7 +45,7 @@ pub struct ricci_layout {
     /// The distortion on the caller's mesh, found when it is first asked for.
     of_input: OnceLock<Option<Quality>>,
 }
-handle!(ricci_layout, "layout");
+handle!(ricci_layout, "layout", |layout| layout.points.len() + layout.state.solution.mesh().n_vertices());
 
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
@@ -203,7 +203,7 @@ pub unsafe extern "C" fn ricci_layout_new(
     layout: *mut *mut ricci_layout,
 ) -> ricci_status {
     guard::make(layout, || {
-        let (state, control) = (&shared(metric)?.0, control::of(control));
+        let (state, control) = (&shared(metric)?.0, control::of(control)?);
         let given = structs::read(options)?;
         let _reserve = memory::work(state.solution.mesh().n_vertices(), memory::LAYOUT)?;
         let surface = state.solution.surface();

@@ -10,6 +10,7 @@
 //! | `float_environment` | sets the floating-point environment, and puts the host's back |
 //! | `memory` | asks the system for memory before the work, so that a refusal becomes a status |
 //! | `arrays`, `structs`, `choice`, `paths` | move arrays, structs, enum values, edge paths and words from and to C |
+//! | `call_control` | finds the control of the call that a thread is in |
 //! | `failure`, `thread_failure`, `status` | describe an error, and keep the last one of every thread |
 //!
 //! # Safety
@@ -25,16 +26,20 @@
 
 mod arrays;
 mod boundary;
+mod call_control;
 mod choice;
 mod failure;
 mod float_environment;
 mod guard;
 mod memory;
+mod optional;
 mod paths;
 mod soup_cache;
+mod soup_file;
 mod structs;
 mod texture;
 mod thread_failure;
+mod wording;
 
 pub mod atlas;
 pub mod bicubic;

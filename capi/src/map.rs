@@ -10,10 +10,10 @@ use crate::mesh::ricci_mesh;
 use crate::metric::{MetricState, ON, Triangulation, ricci_metric};
 use crate::status::*;
 use crate::structs::{self, sized};
+use ricci::Surface;
 use ricci::mesh::{FaceId, Mesh, PerVertex};
 use ricci::metric::CommonSubdivision;
 use ricci::metric::common_subdivision::Crossing;
-use ricci::{Control, Surface};
 use std::sync::Arc;
 
 // The elements that carried values belong to.
@@ -29,7 +29,7 @@ pub struct ricci_map {
     meshes: [Arc<Mesh>; 2],
     subdivision: Arc<CommonSubdivision>,
 }
-handle!(ricci_map, "map");
+handle!(ricci_map, "map", |map| map.subdivision.mesh.n_vertices());
 
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
@@ -64,7 +64,7 @@ pub(crate) fn weights(
 ) -> Outcome<PerVertex<f64>> {
     match subdivision {
         Some(subdivision) => Ok(subdivision.weight.clone()),
-        None => Ok(state.subdivision(&Control::new())?.weight.clone()),
+        None => Ok(state.subdivision(&control::of_thread()?)?.weight.clone()),
     }
 }
 
@@ -97,7 +97,7 @@ pub unsafe extern "C" fn ricci_map_new(
         let state = &shared(metric)?.0;
         let solution = &state.solution;
         let _reserve = memory::work(solution.mesh().n_vertices(), memory::LAYOUT)?;
-        let subdivision = state.subdivision(&control::of(control))?.clone();
+        let subdivision = state.subdivision(&control::of(control)?)?.clone();
         let meshes = [solution.given().clone(), solution.mesh().clone()];
         Ok(ricci_map { first: solution.surface().clone(), meshes, subdivision })
     })

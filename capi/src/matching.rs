@@ -27,7 +27,8 @@ pub struct ricci_matching {
     point_error: f64,
     threads: usize,
 }
-handle!(ricci_matching, "matching");
+handle!(ricci_matching, "matching", |matching| matching.source.mesh().n_vertices()
+    + matching.target.mesh().n_vertices());
 
 choices!(BOUNDARIES: BoundaryMatching = "correspondence of boundaries", [
     RICCI_MATCH_SLIDES => BoundaryMatching::Slides,
@@ -123,7 +124,7 @@ pub unsafe extern "C" fn ricci_match(
 ) -> ricci_status {
     guard::make(matching, || {
         let (source, target) = (shared(source)?, shared(target)?);
-        let (given, control) = (structs::read(options)?, control::of(control));
+        let (given, control) = (structs::read(options)?, control::of(control)?);
         let n = source.connectivity.n_vertices().saturating_add(target.connectivity.n_vertices());
         let _reserve = memory::work(n, memory::LAYOUT)?;
         let pairs: Vec<[u32; 2]> = array("landmarks", given.landmarks.cast(), given.n_landmarks)?;
@@ -334,7 +335,7 @@ pub unsafe extern "C" fn ricci_matching_map(
         let ricci_matching { matching, source, target, threads, .. } = shared(matching)?;
         let n = matching.forward.places.len().saturating_add(matching.backward.places.len());
         let _reserve = memory::work(n, memory::LAYOUT)?;
-        let overlay = matching.domain.overlay(*threads, &control::of(control))?;
+        let overlay = matching.domain.overlay(*threads, &control::of(control)?)?;
         Ok(ricci_map::of_surfaces([source, target], overlay))
     })
 }

@@ -2,17 +2,20 @@
 //!
 //! Rust ends the program where a small allocation fails. Therefore every call holds a small reserve, and a long call holds as much as
 //! its work is known to take. A call that cannot have its reserve fails before it has changed anything. When the system refuses
-//! memory later, all reserves are released and the allocation is tried once more.
+//! memory later, all reserves are released and the allocation is tried once more; and the call ends with a status at its next look at its
+//! control, which comes long before it has used the reserves up.
 
 use crate::failure::{Failure, Outcome};
 use crate::status::RICCI_NO_MEMORY;
+use ricci::control::EndQuestion;
 use ricci::parallel::MAX_THREADS;
 use std::alloc::{GlobalAlloc, Layout, System};
+use std::cell::RefCell;
 use std::num::NonZero;
 use std::path::Path;
 use std::ptr::null_mut;
-use std::sync::OnceLock;
 use std::sync::atomic::{AtomicPtr, AtomicUsize, Ordering};
+use std::sync::{Arc, OnceLock};
 
 /// Bytes that a call without a reserve of its own may take, for messages, handles and short lists.
 const LITTLE: usize = 1 << 18;
@@ -30,6 +33,8 @@ pub const MESH: usize = 1 << 11;
 pub const FILE: usize = 20;
 /// Most bytes per element of a deck group while its neighbours are searched: words, motions, and the table of those that are known.
 pub const ELEMENT: usize = 1 << 9;
+/// Most bytes per element of a handle for copies of its numbers, a summary, or a file of them: 810 per vertex of a layout's file.
+const COPY: usize = 1 << 10;
 /// Most bytes per vertex for a flow with flips: 1,990 were measured; the factor of its matrix grows with the logarithm of the size.
 pub const FLOW: usize = 1 << 12;
 /// Most bytes per vertex for a layout (580), a common subdivision (810) or charts (2,780).
@@ -122,11 +127,40 @@ struct RetryingAllocator;
 #[global_allocator]
 static ALLOCATOR: RetryingAllocator = RetryingAllocator;
 
+/// The number of times that the system has refused memory. Calls that were under way at a refusal end at their next look at their control.
+static REFUSALS: AtomicUsize = AtomicUsize::new(0);
+
+/// The number of times that the system has refused memory so far.
+pub fn refusals() -> usize {
+    REFUSALS.load(Ordering::Relaxed)
+}
+
+/// The question whether the system has refused memory since this call.
+pub fn end_at_refusal() -> Arc<dyn EndQuestion> {
+    let before = refusals();
+    Arc::new(move |_| refusals() != before)
+}
+
+/// The number of threads that are giving reserves back.
+static RELEASING: AtomicUsize = AtomicUsize::new(0);
+
 /// The memory that `ask` gives; if it gives none, all reserves are released and it is asked again.
 fn again(ask: impl Fn() -> *mut u8) -> *mut u8 {
     let first = ask();
-    // `count` releases every reserve, where `any` would stop at the first.
-    if first.is_null() && HELD.iter().filter(|slot| slot.release()).count() > 0 { ask() } else { first }
+    if !first.is_null() {
+        return first;
+    }
+    REFUSALS.fetch_add(1, Ordering::Relaxed);
+    RELEASING.fetch_add(1, Ordering::AcqRel);
+    HELD.iter().for_each(|slot| {
+        slot.release();
+    });
+    RELEASING.fetch_sub(1, Ordering::AcqRel);
+    // A thread that finds nothing to release waits for another one that is giving the reserves back.
+    while RELEASING.load(Ordering::Acquire) > 0 {
+        std::thread::yield_now();
+    }
+    ask()
 }
 
 // SAFETY: the system's allocator, with its contract; nothing here unwinds or allocates by itself.
@@ -180,6 +214,26 @@ pub fn little() -> Outcome {
         std::mem::forget(hold(LITTLE, &HELD[..1])?);
     }
     Ok(())
+}
+
+thread_local! {
+    /// The reserves that this thread's call holds for the handles that it reads.
+    static CALL: RefCell<Vec<Reserve>> = const { RefCell::new(Vec::new()) };
+}
+
+/// A reserve until the end of the call for copies of the numbers of so many elements; the small one is enough for few.
+pub fn for_call(elements: usize) -> Outcome {
+    let bytes = elements.saturating_mul(COPY);
+    if bytes > LITTLE / 2 {
+        let reserve = hold(bytes.saturating_add(LITTLE), &HELD[1..])?;
+        CALL.with_borrow_mut(|held| held.push(reserve));
+    }
+    Ok(())
+}
+
+/// Gives back what the call of this thread has held.
+pub fn end_call() {
+    CALL.with_borrow_mut(Vec::clear);
 }
 
 /// Bytes that the threads of a call may take, with one thread on each core.

@@ -2,15 +2,19 @@
 
 use crate::arrays::{self, CallerBuffer, copy_each, copy_out, copy_rows};
 use crate::choice::choices;
+use crate::control;
 use crate::failure::{Failure, Outcome};
 use crate::guard::{self, handle, shared};
 use crate::memory;
+use crate::optional::{Wrap, write_textured};
 use crate::paths::signed_edge;
+use crate::soup_file::{read_soup, write_soup};
 use crate::status::ricci_status;
 use crate::structs::{self, sized};
 use ricci::Surface;
+use ricci::control::Stage;
 use ricci::geometry::Space;
-use ricci::mesh::io::{self, Attributes, Soup, Texture, Wrap};
+use ricci::mesh::io::{Attributes, Soup};
 use ricci::mesh::{Mesh, PerEdge, Place, Point};
 use std::ffi::c_char;
 use std::sync::{Arc, OnceLock};
@@ -49,7 +53,7 @@ pub struct ricci_mesh {
     surface: OnceLock<Surface>,
     summary: OnceLock<ricci_mesh_summary>,
 }
-handle!(ricci_mesh, "mesh");
+handle!(ricci_mesh, "mesh", |mesh| mesh.connectivity.n_vertices().max(mesh.connectivity.n_faces() / 2));
 
 impl ricci_mesh {
     pub(crate) fn in_space(connectivity: Arc<Mesh>, positions: Arc<Vec<Point>>) -> ricci_mesh {
@@ -80,7 +84,10 @@ impl ricci_mesh {
 
     pub(crate) fn from_soup(soup: Soup) -> Outcome<ricci_mesh> {
         let _reserve = memory::work(soup.positions.len().max(soup.faces.len()), memory::MESH)?;
+        let control = control::of_thread()?;
+        control.step(Stage::Build, 0.6)?;
         let connectivity = Arc::new(Mesh::from_soup(&soup)?);
+        control.check()?;
         let Soup { positions, attributes, .. } = soup;
         Ok(ricci_mesh { attributes, ..ricci_mesh::in_space(connectivity, Arc::new(positions)) })
     }
@@ -252,10 +259,7 @@ pub unsafe extern "C" fn ricci_mesh_with_lengths(
 pub unsafe extern "C" fn ricci_mesh_read(path: *const c_char, mesh: *mut *mut ricci_mesh) -> ricci_status {
     guard::make(mesh, || {
         let path = arrays::path(path)?;
-        let reserve = memory::file(&path)?;
-        let soup = io::read(&path)?;
-        drop(reserve);
-        ricci_mesh::from_soup(soup)
+        ricci_mesh::from_soup(read_soup(&path)?)
     })
 }
 
@@ -315,16 +319,8 @@ pub unsafe extern "C" fn ricci_mesh_write(
         if !path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("glb")) {
             return Err(Failure::argument("a texture is written in .glb files only"));
         }
-        Ok(io::write_glb_textured(&path, &soup, Texture { png: &png, wrap, repeat: 1.0 })?)
+        write_textured(&path, &soup, &png, wrap)
     })
-}
-
-/// Writes a triangle list in the format of the file's extension.
-pub(crate) fn write_soup(path: &std::path::Path, soup: &Soup) -> Outcome {
-    for what in io::write(path, soup)? {
-        log::warn!("{}: left out: {what}", path.display());
-    }
-    Ok(())
 }
 
 #[unsafe(no_mangle)]

@@ -64,7 +64,7 @@ pub(crate) struct MetricState {
 }
 
 pub struct ricci_metric(pub(crate) Arc<MetricState>);
-handle!(ricci_metric, "metric");
+handle!(ricci_metric, "metric", |metric| metric.0.solution.mesh().n_vertices());
 
 /// The value of a cell, which is computed at the first question.
 fn computed_once<T>(cell: &OnceLock<T>, make: impl FnOnce() -> ricci::Result<T>) -> Outcome<&T> {

@@ -90,7 +90,7 @@ pub unsafe extern "C" fn ricci_mesh_refine_angle(
     refined: *mut *mut ricci_mesh,
 ) -> ricci_status {
     guard::make(refined, || {
-        let (given, control, mesh) = (structs::read(options)?, control::of(control), shared(mesh)?);
+        let (given, control, mesh) = (structs::read(options)?, control::of(control)?, shared(mesh)?);
         let usual = AngleRefinement::default();
         let least_angle = or(given.least_angle, usual.least_angle);
         let options = AngleRefinement { least_angle, most_added: given.most_added };

@@ -23,7 +23,7 @@ pub struct ricci_repaired_input {
     points: Vec<[f64; 2]>,
     quality: Quality,
 }
-handle!(ricci_repaired_input, "repaired");
+handle!(ricci_repaired_input, "repaired", |repaired| repaired.points.len());
 
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
@@ -67,7 +67,7 @@ pub unsafe extern "C" fn ricci_repaired_input_new(
         let ricci_layout { layout, points, state, .. } = shared(layout)?;
         let surface = state.solution.surface();
         let _reserve = memory::work(surface.mesh().n_vertices(), memory::LAYOUT)?;
-        let repaired = layout.repaired_input(&control::of(control))?.ok_or_else(not_on_input)?;
+        let repaired = layout.repaired_input(&control::of(control)?)?.ok_or_else(not_on_input)?;
         let quality = layout.quality_of_repaired(&repaired, surface.lengths())?;
         let points = repaired.points.iter().map(|&k| points[k as usize]).collect();
         Ok(ricci_repaired_input { state: state.clone(), repaired, points, quality })

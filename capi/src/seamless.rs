@@ -24,7 +24,7 @@ pub struct ricci_seamless {
     state: Arc<MetricState>,
     found: Seamless,
 }
-handle!(ricci_seamless, "seamless");
+handle!(ricci_seamless, "seamless", |seamless| seamless.state.solution.mesh().n_vertices());
 
 // The way in which cones are chosen.
 choices!(enum ConesRule, CONES = "cones", [
@@ -158,7 +158,7 @@ pub unsafe extern "C" fn ricci_seamless_new(
         let mesh = shared(mesh)?;
         let options = read_options(options, mesh.surface()?)?;
         let _reserve = memory::work(mesh.connectivity.n_vertices(), memory::FLOW)?;
-        let found = seamless(mesh.surface()?, &options, &control::of(control))?;
+        let found = seamless(mesh.surface()?, &options, &control::of(control)?)?;
         log::info!(
             "seamless: {} cones, {} + {} iterations, angles off by {:.1e}",
             found.cones.len(),
@@ -252,7 +252,7 @@ pub unsafe extern "C" fn ricci_seamless_field(
         let options = read_options(options, surface)?;
         arrays::check_buffer("directions", 3 * surface.mesh().n_faces(), directions, capacity)?;
         let _reserve = memory::work(mesh.connectivity.n_vertices(), memory::FLOW)?;
-        let field = CrossField::new(surface, &options.features, &options.guides, &control::of(control))?;
+        let field = CrossField::new(surface, &options.features, &options.guides, &control::of(control)?)?;
         let none = || Failure::argument("a field of directions in space needs a mesh with positions");
         copy_out("directions", &field.in_space(surface).ok_or_else(none)?, directions, capacity)
     })
@@ -275,7 +275,7 @@ pub unsafe extern "C" fn ricci_seamless_map(
     guard::make(layout, || {
         let ricci_seamless { state, found } = shared(result)?;
         let _reserve = memory::work(found.solution.given().n_vertices(), memory::LAYOUT)?;
-        let map = found.map(&control::of(control))?;
+        let map = found.map(&control::of(control)?)?;
         ricci_layout::new(state.clone(), map.layout, Model::Poincare)
     })
 }

@@ -5,13 +5,14 @@ use crate::defect_texts::{DefectTexts, ricci_defect};
 use crate::failure::{Failure, FailureElement, Outcome, no_such};
 use crate::guard::{self, handle, shared};
 use crate::memory;
-use crate::mesh::{MeshValue, VALUES, copy_attribute, count, ricci_attributes, ricci_mesh, write_soup};
+use crate::mesh::{MeshValue, VALUES, copy_attribute, count, ricci_attributes, ricci_mesh};
 use crate::soup_cache::SoupLists;
+use crate::soup_file::{read_soup, write_soup};
 use crate::status::ricci_status;
 use crate::structs::{self, sized};
 use ricci::mesh::check::{Diagnosis, diagnose};
 use ricci::mesh::holes::{Filling, HoleChoice};
-use ricci::mesh::io::{self, Soup};
+use ricci::mesh::io::Soup;
 use ricci::mesh::repair::{Repair, RepairSteps, Repaired, repair};
 use ricci::mesh::{Place, RefinedSoup};
 use std::ffi::c_char;
@@ -26,7 +27,7 @@ pub struct ricci_soup {
     diagnosis: OnceLock<DiagnosisTexts>,
     pub(crate) lists: SoupLists,
 }
-handle!(ricci_soup, "soup");
+handle!(ricci_soup, "soup", |list| list.soup.positions.len().max(list.soup.faces.len()));
 
 /// The diagnosis of a triangle list, with the texts of the defects as C strings.
 struct DiagnosisTexts {
@@ -181,8 +182,7 @@ pub unsafe extern "C" fn ricci_soup_with_attributes(
 pub unsafe extern "C" fn ricci_soup_read(path: *const c_char, soup: *mut *mut ricci_soup) -> ricci_status {
     guard::make(soup, || {
         let path = arrays::path(path)?;
-        let _reserve = memory::file(&path)?;
-        Ok(ricci_soup::new(io::read(&path)?))
+        Ok(ricci_soup::new(read_soup(&path)?))
     })
 }
 

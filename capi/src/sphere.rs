@@ -5,6 +5,7 @@ use crate::control::{self, ricci_control};
 use crate::failure::Failure;
 use crate::guard::{self, shared};
 use crate::layout::MODELS;
+use crate::memory;
 use crate::mesh::ricci_mesh;
 use crate::metric::{ON, Triangulation};
 use crate::status::*;
@@ -40,6 +41,7 @@ pub unsafe extern "C" fn ricci_sphere_mesh(
         let uniform = shared(uniform)?;
         let (positions, state) = (uniform.sphere_positions()?, &uniform.metric.0);
         let on = ON.choose(on)?;
+        let _reserve = memory::work(positions.len(), memory::LAYOUT)?;
         let own = || ricci_mesh::in_space(state.solution.mesh().clone(), Arc::new(positions.to_vec()));
         if on == Triangulation::Input {
             return Err(Failure::new(
@@ -49,7 +51,7 @@ pub unsafe extern "C" fn ricci_sphere_mesh(
         }
         Ok(
             match state
-                .subdivision_if_flipped(&control::of(control))?
+                .subdivision_if_flipped(&control::of(control)?)?
                 .filter(|_| on == Triangulation::Subdivision)
             {
                 Some(subdivision) => {

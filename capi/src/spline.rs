@@ -18,7 +18,8 @@ pub struct ricci_spline {
     /// None if it was not fitted.
     pub(crate) fitted: Option<FitFigures>,
 }
-handle!(ricci_spline, "spline");
+handle!(ricci_spline, "spline", |spline| spline.spline.space().patches().len()
+    + spline.spline.space().n_control_points());
 
 /// The figures of a fit.
 #[derive(Default)]
@@ -276,8 +277,10 @@ pub unsafe extern "C" fn ricci_spline_tessellate(
     guard::make(mesh, || {
         let spline = &shared(spline)?.spline;
         let faces = spline.space().patches().len().saturating_mul(sides.saturating_mul(sides));
-        let _reserve = memory::work(faces, memory::POINT)?;
+        let reserve = memory::work(faces, memory::POINT)?;
         let threads = control::threads(control);
-        ricci_mesh::from_soup(spline.tessellate(sides, threads, &control::of(control))?)
+        let soup = spline.tessellate(sides, threads, &control::of(control)?)?;
+        drop(reserve);
+        ricci_mesh::from_soup(soup)
     })
 }

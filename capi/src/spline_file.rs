@@ -1,11 +1,13 @@
 //! Splines as files and as text in memory.
 
 use crate::arrays::{self, copy_counted};
+use crate::control;
 use crate::failure::Outcome;
 use crate::guard;
 use crate::memory;
 use crate::spline::ricci_spline;
 use crate::status::ricci_status;
+use ricci::control::Stage;
 use ricci::spline::Spline;
 use std::ffi::c_char;
 
@@ -15,6 +17,7 @@ const TEXT_NAME: &str = "text";
 /// The spline that `make` reads, with a reserve for a text of this number of bytes.
 fn made(bytes: usize, make: impl FnOnce() -> ricci::Result<Spline>) -> Outcome<ricci_spline> {
     let _reserve = memory::work(bytes, memory::TEXT)?;
+    control::of_thread()?.step(Stage::Read, 0.2)?;
     Ok(make()?.into())
 }
 
@@ -49,6 +52,7 @@ pub unsafe extern "C" fn ricci_spline_write(
 ) -> ricci_status {
     guard::with(spline, |ricci_spline { spline, .. }| {
         let _reserve = memory::work(spline.space().patches().len(), memory::SPLINE_TEXT)?;
+        control::of_thread()?.step(Stage::Write, 0.2)?;
         Ok(spline.write(&arrays::path(path)?)?)
     })
 }

@@ -46,7 +46,7 @@ pub unsafe extern "C" fn ricci_spline_fit(
         // A negative weight stands for none; the library refuses NaN, with a message.
         let fairness = if fairness < 0.0 { 0.0 } else { fairness };
         let options = FitOptions { fairness, threads: given.threads };
-        let found = fit(space, &places, &points, &options, &control::of(control))?;
+        let found = fit(space, &places, &points, &options, &control::of(control)?)?;
         Ok(ricci_spline {
             spline: found.spline,
             fitted: Some(FitFigures { rms: found.rms, max: found.max, ..FitFigures::default() }),

@@ -111,7 +111,7 @@ pub unsafe extern "C" fn ricci_spline_evaluate(
         check_buffer("values", places.n.saturating_mul(size), values, capacity)?;
         let _reserve = memory::work(places.n, memory::POINT)?;
         let at = places.read(spline.space())?;
-        let found = spline.evaluate(&at, order, places.threads, &control::of(control))?;
+        let found = spline.evaluate(&at, order, places.threads, &control::of(control)?)?;
         let mut all = Vec::with_capacity(found.len() * size);
         found.iter().for_each(|at| which.add(at, &mut all));
         copy_out("values", &all, values, capacity)

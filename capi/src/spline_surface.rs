@@ -81,7 +81,7 @@ pub unsafe extern "C" fn ricci_spline_curvatures(
             n => SingularVertices::At(array("singular", singular, n)?.into_iter().map(VertexId).collect()),
         };
         let options = FlatMetricOptions { singular, range: or(range, usual.range), ..usual };
-        let found = flat_curvatures(mesh.surface()?, &options, &control::of(control))?;
+        let found = flat_curvatures(mesh.surface()?, &options, &control::of(control)?)?;
         let found: Vec<f64> = found.iter().copied().collect();
         copy_out("curvatures", &found, curvatures, capacity)
     })
@@ -95,11 +95,12 @@ pub unsafe extern "C" fn ricci_spline_fit_surface(
     fitted: *mut *mut ricci_spline,
 ) -> ricci_status {
     guard::make(fitted, || {
-        let (solution, control) = (&shared(flat)?.0.solution, control::of(control));
+        let (solution, control) = (&shared(flat)?.0.solution, control::of(control)?);
         let options = structs::read(options)?.read();
         let surface = solution.surface();
         let _reserve = memory::work(surface.mesh().n_vertices(), memory::FIT)?;
-        let found = fit_surface(surface, &FlatMetric::of(solution, &control)?, &options, &control)?;
+        let metric = FlatMetric::of(solution, &control.part(0.0, 0.1))?;
+        let found = fit_surface(surface, &metric, &options, &control.part(0.1, 1.0))?;
         Ok(with_figures(found, surface, options.tolerance))
     })
 }
@@ -112,14 +113,14 @@ pub unsafe extern "C" fn ricci_spline_fit_mesh(
     fitted: *mut *mut ricci_spline,
 ) -> ricci_status {
     guard::make(fitted, || {
-        let (mesh, control) = (shared(mesh)?, control::of(control));
+        let (mesh, control) = (shared(mesh)?, control::of(control)?);
         let options = structs::read(options)?.read();
         let surface = mesh.surface()?;
         let _reserve = memory::work(surface.mesh().n_vertices(), memory::FIT)?;
         let threads = flow::Options { threads: options.threads, ..flow::Options::default() };
         let flat = FlatMetricOptions { flow: threads, ..FlatMetricOptions::default() };
-        let metrics = FlatMetric::candidates(surface, &flat, &control)?;
-        let (found, _) = fit_surface_over(surface, &metrics, &options, &control)?;
+        let metrics = FlatMetric::candidates(surface, &flat, &control.part(0.0, 0.2))?;
+        let (found, _) = fit_surface_over(surface, &metrics, &options, &control.part(0.2, 1.0))?;
         Ok(with_figures(found, surface, options.tolerance))
     })
 }
@@ -152,8 +153,12 @@ pub unsafe extern "C" fn ricci_spline_closest(
         check_buffer("patches", n, patches, if patches.is_null() { 0 } else { n })?;
         let _reserve = memory::work(n.saturating_add(spline.space().patches().len()), memory::FIT)?;
         let points: Vec<Vector> = array("points", points.cast(), n)?;
-        let (threads, control) = (control::threads(control), control::of(control));
-        let found = spline.closest_points(threads, &control)?.find(&points, threads, &control)?;
+        let (threads, control) = (control::threads(control), control::of(control)?);
+        let found = spline.closest_points(threads, &control.part(0.0, 0.3))?.find(
+            &points,
+            threads,
+            &control.part(0.3, 1.0),
+        )?;
         let row = |at: &ricci::spline::ClosestPoint| {
             let [x, y, z] = at.point;
             [at.place.x, at.place.y, x, y, z, at.distance]

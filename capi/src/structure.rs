@@ -16,7 +16,10 @@ use ricci::structure::{AffineSource, Atlas, AtlasOptions, ChartKind, GroupElemen
 pub struct ricci_structure {
     pub(crate) atlas: Atlas,
 }
-handle!(ricci_structure, "structure");
+handle!(ricci_structure, "structure", |structure| {
+    let charts = structure.atlas.charts.iter();
+    structure.atlas.transitions.len() + charts.map(|chart| chart.faces.len()).sum::<usize>()
+});
 
 choices!(KINDS: Structure = "kind of structure", [
     RICCI_STRUCTURE_CONFORMAL => Structure::Conformal,
@@ -95,7 +98,7 @@ pub unsafe extern "C" fn ricci_structure_new(
     structure: *mut *mut ricci_structure,
 ) -> ricci_status {
     guard::make(structure, || {
-        let (mesh, given, control) = (shared(mesh)?, structs::read(options)?, control::of(control));
+        let (mesh, given, control) = (shared(mesh)?, structs::read(options)?, control::of(control)?);
         let _reserve = memory::work(mesh.connectivity.n_vertices(), memory::UNIFORM)?;
         let options = AtlasOptions {
             structure: KINDS.choose(kind)?,

@@ -5,6 +5,7 @@ use crate::choice::choices;
 use crate::control::{self, ricci_control};
 use crate::failure::{Failure, FailureElement, Outcome, no_such};
 use crate::guard::{self, shared};
+use crate::memory;
 use crate::metric::ricci_metric;
 use crate::status::*;
 use crate::structs::{self, sized};
@@ -99,9 +100,10 @@ pub unsafe extern "C" fn ricci_target_fill(
         let solution = &shared(metric)?.0.solution;
         let (surface, space) = (solution.surface(), solution.metric().space);
         arrays::check_buffer("curvatures", surface.mesh().n_vertices(), curvatures, capacity)?;
+        let _reserve = memory::work(surface.mesh().n_vertices(), memory::FLOW)?;
         let target = target_of(target, surface, space)?;
         let class = Class::new(solution.scheme()?, space);
-        let values = prescribed_curvature(&target, surface, class, &control::of(control))?;
+        let values = prescribed_curvature(&target, surface, class, &control::of(control)?)?;
         copy_out("curvatures", &values, curvatures, capacity)
     })
 }

@@ -1,7 +1,7 @@
 //! Files of layouts and charts: meshes with texture coordinates, in the format of the file's extension.
 
 use crate::failure::{Failure, Outcome};
-use crate::mesh::write_soup;
+use crate::soup_file::write_soup;
 use ricci::mesh::io::{self, Attributes, Format, Soup};
 use ricci::mesh::{Mesh, PerVertex, Point};
 use std::path::Path;

@@ -29,7 +29,7 @@ pub struct ricci_uniform {
     pub(crate) shape: CanonicalShape,
     pub(crate) metric: ricci_metric,
 }
-handle!(ricci_uniform, "uniform");
+handle!(ricci_uniform, "uniform", |uniform| uniform.metric.0.solution.mesh().n_vertices());
 
 #[derive(Clone)]
 pub(crate) enum CanonicalShape {
@@ -126,7 +126,7 @@ pub unsafe extern "C" fn ricci_uniformize(
     uniform: *mut *mut ricci_uniform,
 ) -> ricci_status {
     guard::make(uniform, || {
-        let (given, control) = (structs::read(options)?, control::of(control));
+        let (given, control) = (structs::read(options)?, control::of(control)?);
         let options = QuotientOptions {
             scheme: SCHEMES.choose(given.scheme)?,
             base: vertex_or_none(given.base)?,
@@ -354,7 +354,7 @@ pub unsafe extern "C" fn ricci_uniform_layout(
     layout: *mut *mut ricci_layout,
 ) -> ricci_status {
     guard::make(layout, || {
-        let (uniform, control) = (shared(uniform)?, control::of(control));
+        let (uniform, control) = (shared(uniform)?, control::of(control)?);
         let _reserve = memory::work(uniform.metric.0.solution.mesh().n_vertices(), memory::LAYOUT)?;
         let (quotient, state) = (uniform.quotient()?, &uniform.metric.0);
         let laid = match ON.choose(on)? {

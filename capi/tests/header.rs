@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 /// The headers, with the most functions that each may have.
 const HEADERS: &[(&str, usize)] = &[
-    ("ricci", 65),
+    ("ricci", 66),
     ("charts", 20),
     ("homotopy", 20),
     ("uniformize", 35),
@@ -69,6 +69,7 @@ fn declarations(text: &str) -> Vec<String> {
 fn normal(text: &str) -> String {
     let mut out =
         text.trim_start_matches([' ', '}']).replace("RICCI_API_VOID ", "").replace("RICCI_API ", "");
+    out = out.replace("RICCI_EXPERIMENTAL ", "");
     out = out.replace("struct ", "");
     out = out.split_whitespace().collect::<Vec<_>>().join(" ");
     for mark in ["*", "(", ")", ",", ";", "{", "}"] {

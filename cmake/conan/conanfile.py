@@ -64,4 +64,4 @@ class RicciConan(ConanFile):
         if not self.options.shared:
             self.cpp_info.defines = ["RICCI_STATIC"]
             if self.settings.os in ("Linux", "FreeBSD"):
-                self.cpp_info.system_libs = ["gcc_s", "pthread", "m", "dl"]
+                self.cpp_info.system_libs = ["pthread", "m", "dl"]

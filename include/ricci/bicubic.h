@@ -128,8 +128,10 @@ typedef struct ricci_bicubic_summary {
  * @param control  progress and cancellation, or NULL.
  * @param bicubic  out: the new handle, to be released by ricci_bicubic_free.
  */
-RICCI_API ricci_status ricci_bicubic_new(const ricci_spline *spline, const ricci_bicubic_options *options,
-                                         const ricci_control *control, ricci_bicubic **bicubic);
+RICCI_API RICCI_EXPERIMENTAL ricci_status ricci_bicubic_new(const ricci_spline *spline,
+                                                            const ricci_bicubic_options *options,
+                                                            const ricci_control *control,
+                                                            ricci_bicubic **bicubic);
 
 /**
  * Release bicubic patches.
@@ -147,8 +149,9 @@ RICCI_API_VOID void ricci_bicubic_free(ricci_bicubic *bicubic);
  * @param summary  out: the figures.
  * @param size     sizeof *summary.
  */
-RICCI_API ricci_status ricci_bicubic_summarise(const ricci_bicubic *bicubic, ricci_bicubic_summary *summary,
-                                               size_t size);
+RICCI_API RICCI_EXPERIMENTAL ricci_status ricci_bicubic_summarise(const ricci_bicubic *bicubic,
+                                                                  ricci_bicubic_summary *summary,
+                                                                  size_t size);
 
 /**
  * Write the patches in the format of the file's extension, whole or not at all.
@@ -160,8 +163,9 @@ RICCI_API ricci_status ricci_bicubic_summarise(const ricci_bicubic *bicubic, ric
  * @param options  of a STEP file its name and unit; NULL for the defaults.
  * @param path     file name in UTF-8, ending in .step, .stp or .json.
  */
-RICCI_API ricci_status ricci_bicubic_write(const ricci_bicubic *bicubic, const ricci_step_options *options,
-                                           const char *path);
+RICCI_API RICCI_EXPERIMENTAL ricci_status ricci_bicubic_write(const ricci_bicubic *bicubic,
+                                                              const ricci_step_options *options,
+                                                              const char *path);
 
 /**
  * The text of such a file.
@@ -176,9 +180,9 @@ RICCI_API ricci_status ricci_bicubic_write(const ricci_bicubic *bicubic, const r
  * @param capacity  bytes of `text`.
  * @param n_bytes   out: number of bytes with the NUL.
  */
-RICCI_API ricci_status ricci_bicubic_text(const ricci_bicubic *bicubic, uint32_t format,
-                                          const ricci_step_options *options, char *text, size_t capacity,
-                                          size_t *n_bytes);
+RICCI_API RICCI_EXPERIMENTAL ricci_status ricci_bicubic_text(const ricci_bicubic *bicubic, uint32_t format,
+                                                             const ricci_step_options *options, char *text,
+                                                             size_t capacity, size_t *n_bytes);
 
 #ifdef __cplusplus
 }

@@ -177,12 +177,24 @@ public:
     void cancel() const { check(ricci_control_cancel(handle_)); }
     // The number of threads of calls that have no option for it: 0, the default, is one for each core.
     void set_threads(std::size_t threads) const { check(ricci_control_set_threads(handle_, threads)); }
-    // RICCI_STAGE_*, and the part of it that is done.
+    // The part of the whole progress that the next calls fill: 0 <= from <= to <= 1.
+    void set_part(double from, double to) const { check(ricci_control_part(handle_, from, to)); }
+    // RICCI_STAGE_*, and the fraction of the whole call that is done.
     std::pair<std::uint32_t, double> progress() const {
         std::pair<std::uint32_t, double> now;
         check(ricci_control_progress(handle_, &now.first, &now.second, nullptr));
         return now;
     }
+};
+
+// As long as it lives, the control serves the calls of this thread that are given none: reading, building,
+// writing.
+class control_scope {
+public:
+    explicit control_scope(const control &used) { check(ricci_control_use(used.get())); }
+    ~control_scope() { (void)!ricci_control_use(nullptr); }
+    control_scope(const control_scope &) = delete;
+    control_scope &operator=(const control_scope &) = delete;
 };
 
 // The pointer that a call takes for a control; NULL without one.

@@ -81,6 +81,16 @@
 #define RICCI_API RICCI_API_VOID
 #endif
 
+/*
+ * Functions with this mark may change, or go, in a version that keeps all others. With
+ * RICCI_WARN_EXPERIMENTAL defined before the headers a compiler warns where they are used.
+ */
+#if defined(RICCI_WARN_EXPERIMENTAL) && defined(__GNUC__)
+#define RICCI_EXPERIMENTAL __attribute__((deprecated("experimental: a later version may change it")))
+#else
+#define RICCI_EXPERIMENTAL
+#endif
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -330,7 +340,7 @@ enum {
 };
 
 /**
- * A fresh control: no progress, not cancelled. Use one per long call.
+ * A fresh control: no progress, not cancelled. One may serve several calls, one after the other.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER.
  *
@@ -368,13 +378,38 @@ RICCI_API ricci_status ricci_control_cancel(const ricci_control *control);
 RICCI_API ricci_status ricci_control_set_threads(const ricci_control *control, size_t threads);
 
 /**
- * The stage that the call is in, and the part of it that is done.
+ * This thread's calls that are given no control use this one from now on, also those that have no argument
+ * for it: reading, building, repairing and writing. Between the parts of such a call the control is looked
+ * at.
+ *
+ * @return RICCI_OK.
+ *
+ * @param control  the handle, which may be released before the calls end; NULL: none, as at the beginning.
+ */
+RICCI_API ricci_status ricci_control_use(const ricci_control *control);
+
+/**
+ * The part of the whole progress that the next calls with this control fill, for a host that shows several
+ * calls in one bar. Without it every call runs from 0 to 1.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (not 0 <= from <= to <= 1).
+ *
+ * @param control  the handle that calls are given.
+ * @param from     the fraction at which the next call begins; progress never goes back, unless the part is
+ * all, 0 to 1, with which each call begins at 0 again.
+ * @param to       the fraction at which it ends.
+ */
+RICCI_API ricci_status ricci_control_part(const ricci_control *control, double from, double to);
+
+/**
+ * The stage that the call is in, and the fraction of the whole call that is done.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER.
  *
  * @param control       the handle the call was given.
  * @param stage         out: RICCI_STAGE_*, the current stage.
- * @param fraction      out: the part of this stage that is done, in [0, 1].
+ * @param fraction      out: the fraction of the call that is done, in [0, 1]: 0 at its beginning, never less
+ * than before, 1 once it has succeeded.
  * @param since_cancel  out: seconds since the first ricci_control_cancel, -1 if there was none; NULL if not
  *                      wanted. Asked right after a call has returned RICCI_CANCELLED it is the latency.
  */

@@ -155,8 +155,10 @@ typedef struct ricci_seamless_summary {
  * @param control  progress and cancellation; NULL for neither.
  * @param result   out: the new handle, to be released by ricci_seamless_free.
  */
-RICCI_API ricci_status ricci_seamless_new(const ricci_mesh *mesh, const ricci_seamless_options *options,
-                                          const ricci_control *control, ricci_seamless **result);
+RICCI_API RICCI_EXPERIMENTAL ricci_status ricci_seamless_new(const ricci_mesh *mesh,
+                                                             const ricci_seamless_options *options,
+                                                             const ricci_control *control,
+                                                             ricci_seamless **result);
 
 /**
  * Release a seamless metric. Handles that were made from it live on.
@@ -173,8 +175,9 @@ RICCI_API_VOID void ricci_seamless_free(ricci_seamless *result);
  * @param summary  out: the figures.
  * @param size     sizeof *summary.
  */
-RICCI_API ricci_status ricci_seamless_summarise(const ricci_seamless *result, ricci_seamless_summary *summary,
-                                                size_t size);
+RICCI_API RICCI_EXPERIMENTAL ricci_status ricci_seamless_summarise(const ricci_seamless *result,
+                                                                   ricci_seamless_summary *summary,
+                                                                   size_t size);
 
 /**
  * The cones, by vertex: the vertex and its valence, the number of right angles around it.
@@ -184,7 +187,8 @@ RICCI_API ricci_status ricci_seamless_summarise(const ricci_seamless *result, ri
  * @param cones     out: 2 `n_cones` numbers.
  * @param capacity  the room in `cones`.
  */
-RICCI_API ricci_status ricci_seamless_cones(const ricci_seamless *result, uint32_t *cones, size_t capacity);
+RICCI_API RICCI_EXPERIMENTAL ricci_status ricci_seamless_cones(const ricci_seamless *result, uint32_t *cones,
+                                                               size_t capacity);
 
 /**
  * The turning of each loop that was asked for, quarter turns.
@@ -194,8 +198,8 @@ RICCI_API ricci_status ricci_seamless_cones(const ricci_seamless *result, uint32
  * @param quarter_turns  out: `n_loops` numbers.
  * @param capacity       the room in `quarter_turns`.
  */
-RICCI_API ricci_status ricci_seamless_turning(const ricci_seamless *result, int32_t *quarter_turns,
-                                              size_t capacity);
+RICCI_API RICCI_EXPERIMENTAL ricci_status ricci_seamless_turning(const ricci_seamless *result,
+                                                                 int32_t *quarter_turns, size_t capacity);
 
 /**
  * The features that were kept and the edges of the boundary, each by the vertices at its ends.
@@ -205,8 +209,8 @@ RICCI_API ricci_status ricci_seamless_turning(const ricci_seamless *result, int3
  * @param vertices  out: 2 `n_features` numbers.
  * @param capacity  the room in `vertices`.
  */
-RICCI_API ricci_status ricci_seamless_features(const ricci_seamless *result, uint32_t *vertices,
-                                               size_t capacity);
+RICCI_API RICCI_EXPERIMENTAL ricci_status ricci_seamless_features(const ricci_seamless *result,
+                                                                  uint32_t *vertices, size_t capacity);
 
 /**
  * The smoothest field of four directions along features and the boundary, near strokes and principal
@@ -221,9 +225,10 @@ RICCI_API ricci_status ricci_seamless_features(const ricci_seamless *result, uin
  * @param directions  out: 3 numbers for each face.
  * @param capacity    the room in `directions`.
  */
-RICCI_API ricci_status ricci_seamless_field(const ricci_mesh *mesh, const ricci_seamless_options *options,
-                                            const ricci_control *control, double *directions,
-                                            size_t capacity);
+RICCI_API RICCI_EXPERIMENTAL ricci_status ricci_seamless_field(const ricci_mesh *mesh,
+                                                               const ricci_seamless_options *options,
+                                                               const ricci_control *control,
+                                                               double *directions, size_t capacity);
 
 /**
  * The metric on its Delaunay triangulation. Its report is that of the conformal flow.
@@ -232,7 +237,8 @@ RICCI_API ricci_status ricci_seamless_field(const ricci_mesh *mesh, const ricci_
  * @param result  the seamless metric.
  * @param metric  out: the new handle, to be released by ricci_metric_free.
  */
-RICCI_API ricci_status ricci_seamless_metric(const ricci_seamless *result, ricci_metric **metric);
+RICCI_API RICCI_EXPERIMENTAL ricci_status ricci_seamless_metric(const ricci_seamless *result,
+                                                                ricci_metric **metric);
 
 /**
  * The map into the plane, cut through all cones; edges of the boundary and features are parallel to an axis
@@ -246,8 +252,9 @@ RICCI_API ricci_status ricci_seamless_metric(const ricci_seamless *result, ricci
  * @param control  progress and cancellation; NULL for neither.
  * @param layout   out: the new handle, to be released by ricci_layout_free.
  */
-RICCI_API ricci_status ricci_seamless_map(const ricci_seamless *result, const ricci_control *control,
-                                          ricci_layout **layout);
+RICCI_API RICCI_EXPERIMENTAL ricci_status ricci_seamless_map(const ricci_seamless *result,
+                                                             const ricci_control *control,
+                                                             ricci_layout **layout);
 
 #ifdef __cplusplus
 }

@@ -287,9 +287,10 @@ RICCI_API ricci_status ricci_spline_fit(const ricci_spline *spline, const double
  * @param curvatures  out: one per vertex, radians.
  * @param capacity    entries of `curvatures`.
  */
-RICCI_API ricci_status ricci_spline_curvatures(const ricci_mesh *mesh, const uint32_t *singular,
-                                               size_t n_singular, double range, const ricci_control *control,
-                                               double *curvatures, size_t capacity);
+RICCI_API RICCI_EXPERIMENTAL ricci_status ricci_spline_curvatures(const ricci_mesh *mesh,
+                                                                  const uint32_t *singular, size_t n_singular,
+                                                                  double range, const ricci_control *control,
+                                                                  double *curvatures, size_t capacity);
 
 /**
  * A spline over a whole surface, near its vertices. A patch is a triangle of the flat metric, in a chart of
@@ -304,9 +305,9 @@ RICCI_API ricci_status ricci_spline_curvatures(const ricci_mesh *mesh, const uin
  * @param control  progress and cancellation, or NULL.
  * @param fitted   out: the new handle, to be released by ricci_spline_free.
  */
-RICCI_API ricci_status ricci_spline_fit_surface(const ricci_metric *flat,
-                                                const ricci_spline_surface_options *options,
-                                                const ricci_control *control, ricci_spline **fitted);
+RICCI_API RICCI_EXPERIMENTAL ricci_status
+ricci_spline_fit_surface(const ricci_metric *flat, const ricci_spline_surface_options *options,
+                         const ricci_control *control, ricci_spline **fitted);
 
 /**
  * A spline over a whole surface of any topology, near its vertices: ricci_spline_fit_surface over flat
@@ -323,9 +324,10 @@ RICCI_API ricci_status ricci_spline_fit_surface(const ricci_metric *flat,
  * @param control  progress and cancellation, or NULL.
  * @param fitted   out: the new handle, to be released by ricci_spline_free.
  */
-RICCI_API ricci_status ricci_spline_fit_mesh(const ricci_mesh *mesh,
-                                             const ricci_spline_surface_options *options,
-                                             const ricci_control *control, ricci_spline **fitted);
+RICCI_API RICCI_EXPERIMENTAL ricci_status ricci_spline_fit_mesh(const ricci_mesh *mesh,
+                                                                const ricci_spline_surface_options *options,
+                                                                const ricci_control *control,
+                                                                ricci_spline **fitted);
 
 /**
  * Release a spline.

@@ -36,7 +36,39 @@ def test_progress_is_told(large):
     flat = large.flow("uniform", lambda stage, fraction: told.append((stage, fraction)))
     assert flat.converged
     assert any(stage == "flow" for stage, _ in told)
-    assert all(0 <= fraction <= 1 for _, fraction in told)
+    fractions = [fraction for _, fraction in told]
+    assert fractions == sorted(fractions)
+    assert 0 <= fractions[0] <= fractions[-1] == 1
+
+
+def test_reading_writing_and_fits_have_progress(tmp_path, torus):
+    told = []
+    path = tmp_path / "torus.obj"
+    torus.write(path, progress=lambda stage, fraction: told.append((stage, fraction)))
+    assert told[-1] == ("write", 1)
+    ricci.read(path, lambda stage, fraction: told.append((stage, fraction)))
+    assert told[-1] == ("build", 1)
+    told.clear()
+    ricci.Spline.of_mesh(ricci.make("torus", a=2, b=0.8, n=30, m=20), lambda stage, fraction: told.append(fraction), rounds=2)
+    assert told == sorted(told)
+    assert told[-1] == 1
+    control = ricci.Control()
+    control.cancel()
+    with pytest.raises(ricci.Cancelled):
+        ricci.read(path, control)
+    assert ricci.read(path).summary.n_faces == torus.summary.n_faces
+
+
+def test_several_calls_fill_one_bar(torus):
+    control = ricci.Control()
+    control.set_part(0, 0.5)
+    flat = ricci.metric(torus).flow(progress=control)
+    assert control.progress()[1] == 0.5
+    control.set_part(0.5, 1)
+    ricci.layout(flat, progress=control)
+    assert control.progress()[1] == 1
+    with pytest.raises(ricci.ArgumentError):
+        control.set_part(0.5, 0.25)
 
 
 def test_a_control_cancels_from_another_thread(large):

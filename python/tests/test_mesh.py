@@ -168,7 +168,7 @@ def test_holes_are_filled_and_seams_are_named():
     torn = ricci.Soup(np.vstack([plate, plate + 1e-12]), [*faces[:16], *[[a + 25, b + 25, c + 25] for a, b, c in faces[16:]]])
     (hint,) = torn.hints
     assert hint.code == "open_seam"
-    assert "--weld" in hint.remedy
+    assert "Soup.repair(weld=" in hint.remedy
 
 
 def test_the_lists_of_a_triangle_list_are_those_of_its_file(tmp_path):

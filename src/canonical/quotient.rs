@@ -165,15 +165,16 @@ fn finish(
     control: &Control,
 ) -> Result<Quotient> {
     let (surface, given) = (flow.surface().clone(), flow.given().clone());
-    let (report, angle_defect) = solve(&mut flow, &corners, control)?;
+    let (report, angle_defect) = solve(&mut flow, &corners, &control.part(0.0, 0.6))?;
     let metric = flow.solution();
     Pool::new(options.flow.threads)?.run(|| {
-        let BasedLayout { mut layout, base, lengths } = BasedLayout::new(&metric, options.base, control)?;
+        let BasedLayout { mut layout, base, lengths } =
+            BasedLayout::new(&metric, options.base, &control.part(0.6, 0.8))?;
         if metric.metric().space == Space::E2 {
             layout.scale_to_area(surface.area()?)?;
             check_size(&layout)?;
         }
-        let basis = homotopy_basis(layout.mesh(), &lengths, Some(base), control)?;
+        let basis = homotopy_basis(layout.mesh(), &lengths, Some(base), &control.part(0.8, 0.9))?;
         let named: Vec<VertexId> = corners.iter().map(|corner| corner.0).collect();
         let boundary = if given.is_closed() {
             Vec::new()
@@ -185,7 +186,7 @@ fn finish(
             placement = upright(&layout, first)?;
             layout.move_by(&placement)?;
         }
-        let deck = DeckGroup::new(&metric, &layout, &basis, control)?;
+        let deck = DeckGroup::new(&metric, &layout, &basis, &control.part(0.9, 1.0))?;
         Ok(Quotient {
             report,
             angle_defect,

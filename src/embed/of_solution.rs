@@ -66,7 +66,7 @@ fn along_input_edges(solution: &Solution, options: &LayoutOptions, control: &Con
     let pieces = match &options.subdivision {
         Some(subdivision) => LayoutPieces::Subdivision(subdivision.clone()),
         None if solution.is_unflipped() => LayoutPieces::Mesh(solution.given().clone()),
-        None => LayoutPieces::Subdivision(Arc::new(solution.common_subdivision(control)?)),
+        None => LayoutPieces::Subdivision(Arc::new(solution.common_subdivision(&control.part(0.0, 0.3))?)),
     };
     if metric.space == Space::E2 {
         cut_and_unfold(solution, pieces, &Faces::in_plane(mesh, metric)?, options, control)
@@ -88,16 +88,16 @@ fn cut_and_unfold<F: HalfedgeFrame>(
     vertices.copied().try_for_each(|v| check_vertex(given, v))?;
     let asks_for_cut = options.cones.is_some() || matches!(options.opening, LayoutOpening::InputCut(_));
     if solution.is_one_piece() && !asks_for_cut {
-        let mut layout = unfold_whole(pieces, faces, options.root, control)?;
+        let mut layout = unfold_whole(pieces, faces, options.root, &control.part(0.3, 0.9))?;
         layout.input = Some((given.clone(), CutGraph::empty(given)));
         return Ok(layout);
     }
-    let (root, cut) = root_and_cut(solution, &pieces, faces, options, control)?;
+    let (root, cut) = root_and_cut(solution, &pieces, faces, options, &control.part(0.3, 0.5))?;
     // A sphere without cones needs no cut.
     let is_whole = cut.segments.is_empty() && given.is_closed();
     let lay_out = |pieces: LayoutPieces| {
         let cut_of_pieces = if is_whole { None } else { Some(pieces.cut_of_input(given, &cut)?) };
-        unfold(pieces, faces, root, cut_of_pieces, control)
+        unfold(pieces, faces, root, cut_of_pieces, &control.part(0.5, 0.9))
     };
     let mut layout = lay_out(pieces)?;
     if options.straight_sides {
@@ -198,9 +198,10 @@ impl BasedLayout {
         let (pieces, surface): (LayoutPieces, &Mesh) = match (solution.goes_beyond_given(), subdivision) {
             (false, _) => (LayoutPieces::Mesh(solution.mesh().clone()), solution.mesh()),
             (true, Some(subdivision)) => (LayoutPieces::Subdivision(subdivision.clone()), solution.given()),
-            (true, None) => {
-                (LayoutPieces::Subdivision(Arc::new(solution.common_subdivision(control)?)), solution.given())
-            }
+            (true, None) => (
+                LayoutPieces::Subdivision(Arc::new(solution.common_subdivision(&control.part(0.0, 0.4))?)),
+                solution.given(),
+            ),
         };
         let of_pieces = lengths_of_pieces(&pieces, &faces);
         let is_refined = pieces.common_subdivision().is_some();
@@ -212,7 +213,7 @@ impl BasedLayout {
             None => central_vertex(surface, &of_pieces, control)?,
         };
         let lengths = if is_refined { with_least_length(of_pieces) } else { of_pieces };
-        let layout = unfold(pieces, &faces, Some(base), None, control)?;
+        let layout = unfold(pieces, &faces, Some(base), None, &control.part(0.4, 1.0))?;
         Ok(BasedLayout { layout, base, lengths })
     }
 }

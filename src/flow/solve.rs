@@ -46,7 +46,8 @@ impl Flow {
             target => target,
         };
         let (space, given) = (self.metric.space, self.given().clone());
-        let target = with_cones_placed(target, self.surface(), space, control)?;
+        let was_placed = matches!(target, Target::Auto(_));
+        let target = with_cones_placed(target, self.surface(), space, &control.part(0.0, 0.5))?;
         let mut values = target.values(self.surface(), space)?;
         given.vertices().filter(|v| self.pinned[v.index()]).for_each(|v| values[v] = 0.0);
         check_upper(&given, &values)?;
@@ -54,7 +55,7 @@ impl Flow {
             check_total(&given, space, &values)?;
             settle_total(&given, space, &mut values);
         }
-        self.reach(&values, control)?;
+        self.reach(&values, &control.part(if was_placed { 0.5 } else { 0.0 }, 1.0))?;
         let (named, tolerance) = (target.named(), self.options.tolerance);
         if let Some(reached) = &mut self.now.reached {
             let is_cone = |v: &VertexId| named.contains(v) || reached.target[*v].abs() > tolerance;

@@ -43,8 +43,8 @@ impl CanonicalMetric {
         options: &Options,
         control: &Control,
     ) -> Result<CanonicalMetric> {
-        let mut flow = Flow::new(surface.clone(), Class::yamabe(space), options, control)?;
-        let solution = flow.solve(&Target::All(curvature), control)?;
+        let mut flow = Flow::new(surface.clone(), Class::yamabe(space), options, &control.part(0.0, 0.1))?;
+        let solution = flow.solve(&Target::All(curvature), &control.part(0.1, 1.0))?;
         let iterations = solution.report().map_or(0, |report| report.iterations);
         if !solution.converged() {
             let reason = solution.report().map(|report| report.stop_reason.to_string()).unwrap_or_default();

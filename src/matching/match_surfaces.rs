@@ -60,13 +60,14 @@ fn match_hard(
     let added = landmarks[options.landmarks.len()..].iter().map(|pair| pair[0]);
     let points: Vec<(VertexId, Place)> = added.zip(points.iter().map(|pair| pair[1])).collect();
     Pool::new(options.flow.threads)?.run(|| {
-        let (marks, pair) = in_best_order(surfaces, &landmarks, options, control)?;
+        let (marks, pair) = in_best_order(surfaces, &landmarks, options, &control.part(0.0, 0.7))?;
         if options.loop_shape == LoopShape::Geodesics {
-            return Matching::new(pair, splits, &points, control);
+            return Matching::new(pair, splits, &points, &control.part(0.7, 1.0));
         }
         let sides = [0, 1].map(|s| MarkedSurface { surface: surfaces[s], marks: &marks[s] });
-        let RoundMatching { pair, splits, holes } = in_round(&pair, sides, splits, options, control)?;
-        let matching = Matching::new(pair, [&splits[0], &splits[1]], &points, control)?;
+        let RoundMatching { pair, splits, holes } =
+            in_round(&pair, sides, splits, options, &control.part(0.7, 0.8))?;
+        let matching = Matching::new(pair, [&splits[0], &splits[1]], &points, &control.part(0.8, 1.0))?;
         if matching.outside > OUTSIDE {
             return Err(Error::Matching(format!(
                 "a vertex lies outside the other surface's domain with round holes by {:.1e} of a triangle",

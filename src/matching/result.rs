@@ -68,8 +68,8 @@ impl Matching {
                 flipped.first().or(target_flipped.first()).map_or(0, |f| f.index())
             )));
         }
-        let (forward, ahead) = locate(&pair.source, &pair.target, pair.seeds[0], control)?;
-        let (backward, back) = locate(&pair.target, &pair.source, pair.seeds[1], control)?;
+        let (forward, ahead) = locate(&pair.source, &pair.target, pair.seeds[0], &control.part(0.0, 0.5))?;
+        let (backward, back) = locate(&pair.target, &pair.source, pair.seeds[1], &control.part(0.5, 1.0))?;
         let images =
             points.iter().map(|(v, goal)| [on_given(forward[v.index()], splits[1]), *goal]).collect();
         let map = |places: Vec<Place>, from: usize| {

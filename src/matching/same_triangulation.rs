@@ -59,13 +59,14 @@ pub(super) fn in_frames_of_faces(
     let (mesh, landmarks) = (sides[0].surface.mesh(), &sides[0].marks.landmarks);
     let mut curvature = PerVertex::filled(mesh.n_vertices(), 0.0);
     landmarks.iter().for_each(|&v| curvature[v] = TAU * (1.0 - 1.0 / order as f64));
-    let [source, target] = for_both(|s| canonical_surface(sides[s].surface, &curvature, options, control))?;
+    let [source, target] =
+        for_both(|s| canonical_surface(sides[s].surface, &curvature, options, &control.part(0.0, 0.6)))?;
     let mut freedom = VertexFreedom::of(mesh, options.boundary);
     landmarks.iter().for_each(|&v| freedom[v] = VertexFreedom::Held);
     let settled = for_both(|s| {
         let mut placed = target.placed.clone();
         let weights = &[&source, &target][s].weights;
-        let report = balance(&mut placed, Springs { weights, freedom: &freedom }, control)?;
+        let report = balance(&mut placed, Springs { weights, freedom: &freedom }, &control.part(0.6, 1.0))?;
         Ok((placed, report))
     })?;
     let [(image, first), (domain, second)] = settled;

@@ -27,7 +27,7 @@ pub(super) fn reach_by_stages(
     control: &Control,
 ) -> Result<NewtonEnd> {
     let first = state.clone();
-    let at_once = reach_holonomy(state, target, options.max_iterations, control)?;
+    let at_once = reach_holonomy(state, target, options.max_iterations, &control.part(0.0, 0.5))?;
     let error = error_of(&at_once.state, target);
     if error <= options.tolerance {
         return Ok(at_once);
@@ -38,7 +38,12 @@ pub(super) fn reach_by_stages(
     for _ in 0..STAGES {
         let next = f64::min(done + share, 1.0);
         let between = between(&from, target, next);
-        let end = reach_holonomy(state.clone(), &between, STAGE_STEPS.min(options.max_iterations), control)?;
+        let end = reach_holonomy(
+            state.clone(),
+            &between,
+            STAGE_STEPS.min(options.max_iterations),
+            &control.part(0.5, 0.8),
+        )?;
         iterations += end.iterations;
         if error_of(&end.state, &between) <= STAGE_ERROR {
             (state, done) = (end.state, next);
@@ -50,7 +55,7 @@ pub(super) fn reach_by_stages(
             break;
         }
     }
-    let end = reach_holonomy(state, target, options.max_iterations, control)?;
+    let end = reach_holonomy(state, target, options.max_iterations, &control.part(0.8, 1.0))?;
     iterations += end.iterations;
     let best = if error_of(&end.state, target) < error { end } else { at_once };
     Ok(NewtonEnd { iterations, ..best })

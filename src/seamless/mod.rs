@@ -217,8 +217,8 @@ fn attempt(
     options: &SeamlessOptions,
     control: &Control,
 ) -> Result<(Seamless, Option<Vec<EdgeId>>)> {
-    let (sectors, right_angles) = chosen_right_angles(surface, features, options, control)?;
-    let (start, state) = start_state(surface, sectors, &right_angles, options, control)?;
+    let (sectors, right_angles) = chosen_right_angles(surface, features, options, &control.part(0.0, 0.3))?;
+    let (start, state) = start_state(surface, sectors, &right_angles, options, &control.part(0.3, 0.5))?;
     let radians = |k: &i32| f64::from(*k) * FRAC_PI_2;
     let mut target =
         HolonomyTarget { angles: right_angles.iter().map(radians).collect(), turning: Vec::new() };
@@ -238,12 +238,12 @@ fn attempt(
     let mut end = if is_flow_enough {
         NewtonEnd { state, iterations: 0 }
     } else {
-        reach_by_stages(state, &target, options, control)?
+        reach_by_stages(state, &target, options, &control.part(0.5, 0.9))?
     };
     let before = end.state.length_change()?;
     let mut next = None;
     if deviation(&end.state, &target) <= options.tolerance {
-        end = come_near(end, &target, options.isometric_steps, control)?;
+        end = come_near(end, &target, options.isometric_steps, &control.part(0.9, 1.0))?;
     } else if !end.state.sectors.inner_features(&end.state.mesh).is_empty() {
         next = Some(without_worst(&end.state, &target));
     }

@@ -121,7 +121,7 @@ pub(super) fn come_near(
         for _ in 0..SHORTENINGS {
             let moved = state.moved(&step, factor, control)?;
             if !moved.is_broken {
-                let tried = reach_holonomy(moved, target, RETURN_STEPS, control)?;
+                let tried = reach_holonomy(moved, target, RETURN_STEPS, &control.still())?;
                 let left = tried.state.residual(target);
                 let new_distance = tried.state.length_change()?;
                 if largest(&left) < RETURNED && new_distance < distance {

@@ -27,8 +27,8 @@ pub fn atlas(surface: &Surface, options: &AtlasOptions, control: &Control) -> Re
     if let Some(radius) = options.radius.filter(|r| r.is_nan() || *r <= 0.0) {
         return Err(Error::argument("radius", radius, "positive"));
     }
-    let found = structure_source(surface, options, control)?;
-    Pool::new(options.flow.threads)?.run(|| chart(found, options, control))
+    let found = structure_source(surface, options, &control.part(0.0, 0.6))?;
+    Pool::new(options.flow.threads)?.run(|| chart(found, options, &control.part(0.6, 1.0)))
 }
 
 /// The atlas of a developed surface.
@@ -36,8 +36,8 @@ fn chart(found: StructureSource, options: &AtlasOptions, control: &Control) -> R
     let (surface, structure) = (&found.developed, options.structure);
     let holonomy = Holonomy::new(surface, &found.basis, control)?;
     let mut drafts = match options.charts {
-        ChartKind::Stars => stars(surface, options.radius, control)?,
-        ChartKind::Patches => AtlasCover::new(surface, options.radius, control).cover()?,
+        ChartKind::Stars => stars(surface, options.radius, &control.part(0.0, 0.5))?,
+        ChartKind::Patches => AtlasCover::new(surface, options.radius, &control.part(0.0, 0.5)).cover()?,
     };
     if drafts.is_empty() {
         return Err(Error::Layout(
@@ -45,7 +45,7 @@ fn chart(found: StructureSource, options: &AtlasOptions, control: &Control) -> R
         ));
     }
     let mut lifts = FaceLifts::new(&drafts, surface.mesh().n_faces());
-    let overlaps = lifts.find_overlaps(&drafts, control)?;
+    let overlaps = lifts.find_overlaps(&drafts, &control.part(0.5, 1.0))?;
     align(&mut drafts, &overlaps, surface);
     let mut embedded: Vec<Result<bool>> = (0..drafts.len()).map(|_| Ok(false)).collect();
     parallel::fill(&mut embedded, |i| drafts[i].is_embedded(surface, control));

@@ -165,7 +165,8 @@ fn of_flow(
     options: &AtlasOptions,
     control: &Control,
 ) -> Result<StructureSource> {
-    let metric = flow(surface.clone(), Class::yamabe(Space::E2), target, &options.flow, control)?;
+    let metric =
+        flow(surface.clone(), Class::yamabe(Space::E2), target, &options.flow, &control.part(0.0, 0.7))?;
     // Of a doubled surface, or one with caps, only what was given is taken.
     let subdivision =
         metric.goes_beyond_given().then(|| metric.common_subdivision(control).map(Arc::new)).transpose()?;

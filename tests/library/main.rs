@@ -38,6 +38,7 @@ mod mesh_gifti;
 mod mesh_gltf;
 mod mesh_odd;
 mod outer;
+mod progress;
 mod range;
 mod refine;
 mod repair;

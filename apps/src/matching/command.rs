@@ -57,14 +57,18 @@ impl Job for MatchArgs {
         check_surfaces(self, [&input, &target])?;
         let options = options(self, [&input, &target])?;
         let matching = timed(&mut seconds.solve, || {
-            doing("matching", || match_surfaces(&input.surface, &target.surface, &options, control))
+            doing("matching", || {
+                match_surfaces(&input.surface, &target.surface, &options, &control.part(0.1, 0.8))
+            })
         })?;
         let mut outcome =
             MatchOutcome::new([input, target], matching, options.landmarks, self.same_numbering)?;
         if self.overlay.is_some() || self.overlay_places.is_some() {
             let overlay = timed(&mut seconds.solve, || {
                 let threads = self.common.threads;
-                doing("overlay", || outcome.matching.domain.overlay(threads, control).map_err(Failure::from))
+                doing("overlay", || {
+                    outcome.matching.domain.overlay(threads, &control.part(0.8, 1.0)).map_err(Failure::from)
+                })
             });
             if let Some(overlay) = run.failed.attempt("overlay", overlay)? {
                 outcome.lay_over(overlay)?;

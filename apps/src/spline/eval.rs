@@ -124,7 +124,11 @@ fn write_output(
         }
         EvalOutput::Nearest { to, out } => {
             let points = points(to)?;
-            let found = spline.closest_points(threads, control)?.find(&points, threads, control)?;
+            let found = spline.closest_points(threads, &control.part(0.0, 0.3))?.find(
+                &points,
+                threads,
+                &control.part(0.3, 1.0),
+            )?;
             outputs.add(out, |file| write_nearest(file, &points, &found))?;
             Ok(found.len())
         }

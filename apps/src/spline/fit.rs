@@ -53,7 +53,7 @@ impl Job for FitArgs {
         let mut outcome = timed(&mut run.seconds.solve, || {
             if self.planar { fit_planar(self, input, control) } else { fit_whole(self, input, control) }
         })?;
-        let identities = outcome.spline.identities(self.common.threads, control)?;
+        let identities = outcome.spline.identities(self.common.threads, &control.still())?;
         check_identities(&mut outcome.checks, &identities);
         outcome.figures = figures(&outcome, &identities);
         Ok(outcome)

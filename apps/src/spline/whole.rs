@@ -32,7 +32,8 @@ pub fn fit_whole(args: &FitArgs, input: Input, control: &Control) -> Result<FitO
         flow: flow::Options { threads, ..flow::Options::default() },
         ..FlatMetricOptions::default()
     };
-    let flats = doing("flat metric", || FlatMetric::candidates(&input.surface, &options, control))?;
+    let flats =
+        doing("flat metric", || FlatMetric::candidates(&input.surface, &options, &control.part(0.05, 0.2)))?;
     let usual = SurfaceFitOptions::default();
     let options = SurfaceFitOptions {
         degree: args.degree.into(),
@@ -42,7 +43,7 @@ pub fn fit_whole(args: &FitArgs, input: Input, control: &Control) -> Result<FitO
         threads,
         ..usual
     };
-    let fit = || fit_surface_over(&input.surface, &flats, &options, control);
+    let fit = || fit_surface_over(&input.surface, &flats, &options, &control.part(0.2, 1.0));
     let (fitted, chosen) = doing("fit", fit)?;
     let mut checks = Checks::default();
     checks.add("max", fitted.max, whole.tolerance);

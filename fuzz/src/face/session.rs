@@ -6,6 +6,7 @@ use super::shared::{self, Handles};
 use super::tape::Tape;
 use super::{Answer, CALLS, Call, Kind, Struct, call, layouts, parameters, word};
 use crate::is_rare;
+use ricci_c::control::ricci_control_use;
 use std::ffi::{CStr, c_char};
 use std::sync::OnceLock;
 use std::time::Instant;
@@ -126,6 +127,9 @@ pub fn run(bytes: &[u8]) {
         }
         session.kept.clear();
     }
+    // A control that the thread uses would stay with it for the next input.
+    // SAFETY: NULL is allowed.
+    assert_eq!(unsafe { ricci_control_use(std::ptr::null()) }, 0);
     // Handles are released in any order.
     let mut left: Vec<(&str, u64)> =
         session.own.iter().flat_map(|(of, handles)| handles.iter().map(|&h| (*of, h))).collect();

@@ -158,7 +158,10 @@ def call(function: Callable[..., int], *arguments: Any, progress: Progress = Non
 
 def _run(function: Callable[..., int], arguments: tuple[Any, ...], given: list[Any], progress: Progress) -> None:
     if not any(a is CONTROL for a in given):
-        check(function(*given))
+        if progress is None:
+            check(function(*given))
+        else:
+            run(progress, lambda control: _with_control(control, function, given))
         return
     at = next(k for k, a in enumerate(given) if a is CONTROL)
 
@@ -168,6 +171,15 @@ def _run(function: Callable[..., int], arguments: tuple[Any, ...], given: list[A
         return function(*given[:at], control, *given[at + 1 :])
 
     run(progress, work)
+
+
+def _with_control(control: Any, function: Callable[..., int], given: list[Any]) -> int:
+    """The status of a call that has no argument for a control, which the thread uses meanwhile."""
+    lib.ricci_control_use(control)
+    try:
+        return function(*given)
+    finally:
+        lib.ricci_control_use(ffi.NULL)
 
 
 def pointer(array: npt.NDArray[Any] | None) -> Any:

@@ -23,8 +23,9 @@ class Control:
     A control that was cancelled stays so: every later call with it is stopped as well.
 
     Args:
-        callback: called as ``callback(stage, fraction)`` from the thread that waits for the call, about every 0.05 s, with the name of
-            a stage (``"flow"``, ``"layout"``, ...) and the part of it that is done, in [0, 1]. What it raises stops the call.
+        callback: called as ``callback(stage, fraction)`` from the thread that waits for the call, about every 0.05 s and at its end, with
+            the name of a stage (``"flow"``, ``"layout"``, ...) and the fraction of the whole call that is done: from 0 to 1, never less than
+            before. What it raises stops the call.
     """
 
     def __init__(self, callback: Callable[[str, float], object] | None = None) -> None:
@@ -55,8 +56,16 @@ class Control:
             raise ArgumentTypeError(f"threads is a number from 0 on, not {threads!r}")
         lib.ricci_control_set_threads(self._pointer, threads)
 
+    def set_part(self, start: float, end: float) -> None:
+        """The part of the whole progress that the next calls fill, for several calls in one bar; 0 to 1 is all, as at the beginning.
+
+        Raises:
+            ArgumentError: unless 0 <= start <= end <= 1.
+        """
+        check(lib.ricci_control_part(self._pointer, start, end))
+
     def progress(self) -> tuple[str, float]:
-        """The stage that the call is in, and the part of it that is done, in [0, 1]."""
+        """The stage that the call is in, and the fraction of the whole call that is done, in [0, 1]."""
         stage, fraction = ffi.new("uint32_t *"), ffi.new("double *")
         lib.ricci_control_progress(self._pointer, stage, fraction, ffi.NULL)
         return STAGES[stage[0]], float(fraction[0])
@@ -121,7 +130,9 @@ def run(progress: Progress, work: Callable[[Any], int]) -> None:
         running.done.wait()
         raise
     failure = running.failure
-    if failure is not None:
+    if failure is None:
+        control._report()
+    else:
         try:
             # The traceback has no frames of the thread that ran the call. `finally` breaks the cycle of this frame and the exception.
             raise failure.with_traceback(None)

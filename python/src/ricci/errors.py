@@ -8,6 +8,7 @@ that code which knows nothing of this package treats them rightly.
 from __future__ import annotations
 
 import os
+import re
 import sys
 import warnings
 from collections.abc import Iterator
@@ -189,11 +190,18 @@ _FAMILIES: tuple[type[RicciError], ...] = (
 )
 
 
+def in_methods(message: str) -> str:
+    """A message of the library in the words of Python: its C functions are methods of the package, their fields keyword arguments."""
+    told = re.sub(r"ricci_soup_(repair|refine) with (\w+) = ([0-9.e+-]*[0-9])", r"Soup.\1(\2=\3)", message)
+    told = re.sub(r"ricci_soup_(repair|refine) with (\w+)", r"Soup.\1(\2=...)", told)
+    return told.replace("ricci_flow", "Metric.flow").replace("ricci_soup_", "Soup.")
+
+
 def last_failure(status: int) -> RicciError:
     """The exception for the last call of this thread that failed, which returned `status`."""
     failure = ffi.new("ricci_failure *")
     lib.ricci_last_failure(failure, ffi.sizeof("ricci_failure"))
-    message = ffi.string(lib.ricci_last_error()).decode("utf-8", "replace")
+    message = in_methods(ffi.string(lib.ricci_last_error()).decode("utf-8", "replace"))
     kind = _SINGLE.get(status) or _FAMILIES[status // 100]
     return kind(message, status, (failure.element, failure.index), failure.amount)
 

@@ -95,7 +95,7 @@ class Mesh(Triangles):
         self._pointer = made._pointer
 
     @classmethod
-    def read(cls, path: str | os.PathLike[str]) -> Self:
+    def read(cls, path: str | os.PathLike[str], progress: Progress = None) -> Self:
         """The mesh of a file (.obj, .off, .ply, .stl, .glb, .gltf, .gii, or .gz behind) with its attributes, in the file's numbers.
 
         Raises:
@@ -103,7 +103,7 @@ class Mesh(Triangles):
             ParseError: its content is not what the format says; the index is that of the line or byte.
             MeshError: the faces are no surface.
         """
-        return cls._made(lib.ricci_mesh_read, path_bytes(path))
+        return cls._made(lib.ricci_mesh_read, path_bytes(path), progress=progress)
 
     @classmethod
     def from_gluing(cls, faces: npt.ArrayLike, face_edges: npt.ArrayLike, lengths: npt.ArrayLike, geometry: Space = "e2") -> Self:
@@ -205,17 +205,18 @@ class Mesh(Triangles):
         filled(lib.ricci_mesh_places, self, pointer(faces), faces.size, out=weights)
         return frozen(faces), frozen(weights)
 
-    def write(self, path: str | os.PathLike[str], **attributes: Unpack[Attributes]) -> None:
+    def write(self, path: str | os.PathLike[str], progress: Progress = None, **attributes: Unpack[Attributes]) -> None:
         """Write the mesh as .obj, .off, .ply or .glb, whole or not at all, with the attributes that the format has.
 
         Args:
             path: the file.
+            progress: shows or stops the call.
             attributes: what to write beside positions and faces; none: what the mesh was read with.
         """
         given = options("attributes", attributes, _ATTRIBUTES) if attributes else None
         if given is not None:
             self._check_attributes(attributes)
-        call(lib.ricci_mesh_write, self, given if given is not None else ffi.NULL, path_bytes(path))
+        call(lib.ricci_mesh_write, self, given if given is not None else ffi.NULL, path_bytes(path), progress=progress)
 
     def _check_attributes(self, given: Attributes) -> None:
         """The library takes the sizes of attributes for granted, so they are checked here."""
@@ -297,6 +298,6 @@ def _glued(F: Indices, face_edges: Signed, lengths: Doubles, geometry: Space) ->
     return Mesh.from_gluing(F, face_edges, lengths, geometry)
 
 
-def read(path: str | os.PathLike[str]) -> Mesh:
+def read(path: str | os.PathLike[str], progress: Progress = None) -> Mesh:
     """The mesh of a file, as `Mesh.read`."""
-    return Mesh.read(path)
+    return Mesh.read(path, progress)

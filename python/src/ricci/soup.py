@@ -31,7 +31,8 @@ from ricci._call import (
 from ricci._library import ffi, lib
 from ricci._structs import Struct, Write, above_zero, index_list, number, options
 from ricci._triangles import Triangles
-from ricci.errors import ArgumentError
+from ricci.control import Progress
+from ricci.errors import ArgumentError, in_methods
 from ricci.figures import QualitySummary, SoupSummary
 from ricci.mesh import Mesh
 
@@ -173,13 +174,13 @@ class Soup(Triangles):
         return Soup, (self.V, self.F.view(np.uint32))
 
     @classmethod
-    def read(cls, path: str | os.PathLike[str]) -> Self:
+    def read(cls, path: str | os.PathLike[str], progress: Progress = None) -> Self:
         """The triangle list of a mesh file with its attributes, in the file's numbers."""
-        return cls._made(lib.ricci_soup_read, path_bytes(path))
+        return cls._made(lib.ricci_soup_read, path_bytes(path), progress=progress)
 
-    def write(self, path: str | os.PathLike[str]) -> None:
+    def write(self, path: str | os.PathLike[str], progress: Progress = None) -> None:
         """Write the list as .obj, .off, .ply or .glb, whole or not at all. It may have defects."""
-        call(lib.ricci_soup_write, self, path_bytes(path))
+        call(lib.ricci_soup_write, self, path_bytes(path), progress=progress)
 
     def repair(self, **given: Unpack[RepairOptions]) -> Soup:
         """The list after every repair that takes no guess. Defects that are left are a result, not an error."""
@@ -323,5 +324,5 @@ class Soup(Triangles):
     def _defect(self, one: Any, index: int) -> Defect:
         found = ffi.new("ricci_defect *")
         call(one, self, index, found, ffi.sizeof("ricci_defect"))
-        code, message, remedy = (ffi.string(text).decode() for text in (found.code, found.message, found.remedy))
+        code, message, remedy = (in_methods(ffi.string(text).decode()) for text in (found.code, found.message, found.remedy))
         return Defect(code, message, remedy, _view(self, found.vertices, found.n_vertices), _view(self, found.faces, found.n_faces))

@@ -153,9 +153,9 @@ class Spline(Handle):
         return cls._made(lib.ricci_spline_fit_mesh, mesh, options("spline_surface_options", given, _SURFACE), CONTROL, progress=progress)
 
     @classmethod
-    def read(cls, path: str | os.PathLike[str]) -> Self:
+    def read(cls, path: str | os.PathLike[str], progress: Progress = None) -> Self:
         """The spline of a file, `ricci-spline 1`."""
-        return cls._made(lib.ricci_spline_read, path_bytes(path))
+        return cls._made(lib.ricci_spline_read, path_bytes(path), progress=progress)
 
     def __reduce__(self) -> Any:
         """The text of the spline's file, which reads back as it was."""
@@ -166,9 +166,9 @@ class Spline(Handle):
         """The spline of a text that is such a file's."""
         return cls._made(lib.ricci_spline_parse, text.encode())
 
-    def write(self, path: str | os.PathLike[str]) -> None:
+    def write(self, path: str | os.PathLike[str], progress: Progress = None) -> None:
         """Write a spline file, whole or not at all; numbers are read back as they were."""
-        call(lib.ricci_spline_write, self, path_bytes(path))
+        call(lib.ricci_spline_write, self, path_bytes(path), progress=progress)
 
     def text(self) -> str:
         """The text of the spline's file."""

@@ -26,13 +26,14 @@ pub(super) fn solve(
     let PreparedSurface { split, filled, start, .. } = prepared;
     let mut flow = Flow::resume(&start, &options.of_flow(), control)?;
     let flat = PerVertex::filled(filled.mesh.n_vertices(), 0.0);
-    let report = flow.reach(&flat, control)?.clone();
+    let report = flow.reach(&flat, &control.part(0.0, 0.6))?.clone();
     let metric = flow.solution();
-    let whole = whole_layout(&metric, &filled, control)?;
-    let mut subdivision = metric.common_subdivision_where(&|f| filled.is_original(f), control)?;
+    let whole = whole_layout(&metric, &filled, &control.part(0.6, 0.8))?;
+    let mut subdivision =
+        metric.common_subdivision_where(&|f| filled.is_original(f), &control.part(0.8, 0.9))?;
     round_off(&mut subdivision, &metric, &filled)?;
     let subdivision = Arc::new(subdivision);
-    let again = |r| whole.on_subdivision(&r, metric.metric(), control);
+    let again = |r| whole.on_subdivision(&r, metric.metric(), &control.part(0.9, 1.0));
     let mut layout = again(subdivision)?.with_straight_sides(&metric, control, again)?;
     layout.measure_area();
     if layout.space == Space::E2 {

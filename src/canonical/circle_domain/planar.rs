@@ -43,7 +43,7 @@ pub(super) fn solve(
     let may = inside(&begin.mesh, surface.mesh(), &filled);
     let mut tried = PunctureSearch::new(&weights, PlaneSolver::new(&begin, &flow, control)?).only(may);
     let FoundPlane { surface: on, found, .. } = tried.best(&begin)?;
-    let plane = on.unfold_precisely(control)?;
+    let plane = on.unfold_precisely(&control.part(0.6, 0.7))?;
     let (iterations, seconds) = (tried.solver.iterations, tried.solver.seconds);
     drop(tried);
     let view = DiskView::new(&on, &plane, &filled, outer);
@@ -60,11 +60,11 @@ pub(super) fn solve(
         view = view.then(&only.to_centre());
     }
     let found = PlanarSolution { split, surface, filled, start, on, plane, found, outer, unit, tolerance };
-    let mut domain = found.seen(view.clone(), control)?;
+    let mut domain = found.seen(view.clone(), &control.part(0.7, 0.9))?;
     (domain.report.iterations, domain.report.seconds) = (iterations, seconds);
     let domain = domain.judged(tolerance);
     let is_lost = domain.report.worst_loop.is_some_and(|k| k != outer) && domain.report.deviation > ROUND;
-    if is_lost && is_centred { found.about_worst(view, domain, control) } else { Ok(domain) }
+    if is_lost && is_centred { found.about_worst(view, domain, &control.part(0.9, 1.0)) } else { Ok(domain) }
 }
 
 /// A planar surface in the plane, with all that a domain is made of.

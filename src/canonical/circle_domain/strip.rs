@@ -31,21 +31,21 @@ pub(super) fn solve(
     let outer = options.outer.unwrap_or_else(|| longest_loop(&surface));
     let mut flow = Flow::new(surface.clone(), Class::yamabe(Space::E2), &options.of_flow(), control)?;
     let flat = PerVertex::filled(surface.mesh().n_vertices(), 0.0);
-    let report = flow.reach(&flat, control)?.clone();
+    let report = flow.reach(&flat, &control.part(0.0, 0.6))?.clone();
     if report.is_reached() {
         flow.flatten(control)?;
     }
     let metric = flow.solution();
     let curvature = metric.metric().angle_defects(metric.mesh())?;
     let (domain_curvature_error, worst_vertex) = largest_curvature(&curvature, |_| true);
-    let subdivision = Arc::new(metric.common_subdivision(control)?);
+    let subdivision = Arc::new(metric.common_subdivision(&control.part(0.6, 0.8))?);
     let rims = rims(&subdivision, &filled);
     let layout_options = LayoutOptions {
         subdivision: Some(subdivision),
         scale: LayoutScale::AsSolved,
         ..LayoutOptions::default()
     };
-    let layout = Layout::of_solution(&metric, &layout_options, control)?;
+    let layout = Layout::of_solution(&metric, &layout_options, &control.part(0.8, 1.0))?;
     let layout = upright(layout, &rims[outer], &rims[1 - outer])?;
     let circles = circles(&layout, &rims, outer);
     let vertices: usize = circles.iter().map(|c| c.vertices).sum();

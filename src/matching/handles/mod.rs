@@ -44,7 +44,7 @@ pub(super) fn with_handles(
 ) -> Result<(DomainPair, Vec<PlacedMesh>)> {
     let surfaces = sides.map(|side| side.surface);
     let space = if surfaces[0].mesh().euler() == 0 { Space::E2 } else { Space::H2 };
-    let own = for_both(|s| handle_surface(sides[s], space, options, control))?;
+    let own = for_both(|s| handle_surface(sides[s], space, options, &control.part(0.0, 0.5)))?;
     let own = [&own[0], &own[1]];
     let order = loop_order(sides, own);
     let named = named(surfaces, own, &options.basis, &order)?;
@@ -55,11 +55,11 @@ pub(super) fn with_handles(
     let springs = [0, 1].map(|s| Springs { weights: &own[s].own.weights, freedom: &freedom[s] });
     let mut domain = own[1].own.placed.clone();
     search.straighten(&mut domain)?;
-    let second = relax(&mut domain, springs[1], control)?;
+    let second = relax(&mut domain, springs[1], &control.part(0.5, 0.6))?;
     // Beside a class that is named no other one is tried.
     let enough = if is_named { f64::INFINITY } else { UNTWISTED * second.energy };
     let LeastMap { mut image, relaxed: first, generators, mut tried } =
-        search.least(generators, springs[0], enough, control)?;
+        search.least(generators, springs[0], enough, &control.part(0.6, 0.8))?;
     let mut others = Vec::new();
     for next in generators.symmetric().into_iter().filter(|_| more && !is_named) {
         tried += 1;
@@ -69,7 +69,7 @@ pub(super) fn with_handles(
             _ => {}
         }
     }
-    let reports = settle_both([&mut image, &mut domain], springs, [first, second], control)?;
+    let reports = settle_both([&mut image, &mut domain], springs, [first, second], &control.part(0.8, 1.0))?;
     let seed = |from: &HandleSurface, to: &HandleSurface| WalkSeed {
         vertex: from.basis.base,
         near: to.own.placed.cover.own(to.basis.base),

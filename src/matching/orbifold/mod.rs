@@ -118,11 +118,11 @@ pub(super) fn in_orbifold(
     };
     let (boundary, threads) = (options.boundary, options.flow.threads);
     let problem = OrbifoldProblem { sides, shape, boundary, threads };
-    let metrics = for_both(|s| orbifold_metric(sides[s], shape, options, control))?;
-    let (marked, markings) = best_marking(problem, &metrics, control)?;
+    let metrics = for_both(|s| orbifold_metric(sides[s], shape, options, &control.part(0.0, 0.5)))?;
+    let (marked, markings) = best_marking(problem, &metrics, &control.part(0.5, 0.8))?;
     let MarkedMap { trees, mut domain, mut image, weights, freedom, relaxed } = marked;
     let springs = [0, 1].map(|s| Springs { weights: &weights[s], freedom: &freedom[s] });
-    let reports = settle_both([&mut image, &mut domain], springs, relaxed, control)?;
+    let reports = settle_both([&mut image, &mut domain], springs, relaxed, &control.part(0.8, 1.0))?;
     let start = |s: usize| -> Option<(VertexId, HalfedgeId)> {
         let h = *trees[s].landmark_corners.first().or_else(|| trees[s].arcs.first()?.first())?;
         Some((sides[s].surface.mesh().origin(h), h))

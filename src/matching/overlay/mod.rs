@@ -98,8 +98,8 @@ impl CommonDomain {
         control.check()?;
         within(threads, || {
             let [source, target] = &self.placed;
-            let settled = SettledVertices::new([source, target], self.seeds, control)?;
-            let arcs = OverlayGraph::new(&settled, target, control)?;
+            let settled = SettledVertices::new([source, target], self.seeds, &control.part(0.0, 0.5))?;
+            let arcs = OverlayGraph::new(&settled, target, &control.part(0.5, 0.9))?;
             pieces::subdivision(&arcs, &settled, target, [&self.given[0], &self.given[1]])
         })
     }

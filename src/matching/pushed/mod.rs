@@ -47,9 +47,11 @@ pub(super) fn with_pushed_landmarks(
 ) -> Result<DomainPair> {
     let bare = sides.map(without_landmarks);
     let bare_sides = [0, 1].map(|s| MarkedSurface { marks: &bare[s], ..sides[s] });
-    let (pair, others) = with_handles(bare_sides, true, options, control)?;
-    let [(source, first), (mut domain, second)] =
-        [in_own_orbifold(sides[0], options, control)?, in_own_orbifold(sides[1], options, control)?];
+    let (pair, others) = with_handles(bare_sides, true, options, &control.part(0.0, 0.4))?;
+    let [(source, first), (mut domain, second)] = [
+        in_own_orbifold(sides[0], options, &control.part(0.4, 0.5))?,
+        in_own_orbifold(sides[1], options, &control.part(0.5, 0.6))?,
+    ];
     let weights =
         [mean_value_weights(&source, sides[0].surface), mean_value_weights(&domain, sides[1].surface)];
     drop(source);
@@ -60,7 +62,7 @@ pub(super) fn with_pushed_landmarks(
     });
     let springs = [0, 1].map(|s| Springs { weights: &weights[s], freedom: &freedom[s] });
     straighten(&mut domain, sides[1].marks);
-    let target_relaxed = relax(&mut domain, springs[1], control)?;
+    let target_relaxed = relax(&mut domain, springs[1], &control.part(0.6, 0.7))?;
     let sources: Vec<&PlacedMesh> = std::iter::once(&pair.source).chain(&others).collect();
     let mut known: Vec<UniversalCover> = Vec::new();
     let image = |source: usize, variant: u64| -> Result<Option<PushedImage>> {
@@ -70,13 +72,14 @@ pub(super) fn with_pushed_landmarks(
             return Ok(None);
         }
         known.push(image.cover.clone());
-        let relaxed = relax(&mut image, springs[0], control)?;
+        let relaxed = relax(&mut image, springs[0], &control.part(0.7, 0.8))?;
         Ok(Some(PushedImage { image, seeds, relaxed }))
     };
     let enough = UNTWISTED * target_relaxed.energy;
     let (best, tried) = least(sources.len(), image, enough)?;
     let PushedImage { mut image, seeds, relaxed } = best;
-    let reports = settle_both([&mut image, &mut domain], springs, [relaxed, target_relaxed], control)?;
+    let reports =
+        settle_both([&mut image, &mut domain], springs, [relaxed, target_relaxed], &control.part(0.8, 1.0))?;
     let flow_iterations = [first, second];
     let markings = pair.markings + tried - 1;
     Ok(DomainPair { source: image, target: domain, seeds, reports, flow_iterations, markings })

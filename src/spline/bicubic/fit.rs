@@ -34,7 +34,7 @@ impl Spline {
     }
 
     fn check_folds(&self, options: &BicubicOptions, control: &Control) -> Result<()> {
-        let folds = self.folds(options.threads, control)?;
+        let folds = self.folds(options.threads, &control.still())?;
         let Some(&index) = folds.first() else { return Ok(()) };
         let message = format!(
             "the spline turns back on itself there, and in {} further patches: fit it again, with more fairness or more control points, or \

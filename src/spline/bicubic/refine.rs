@@ -61,7 +61,7 @@ impl<'a> BicubicRefinement<'a> {
             .chain(net.owners.iter().map(|at| place(at, [1.0, 0.0])))
             .chain((0..n as u32).map(|f| place(&(f, 0), [1.0, 1.0])))
             .collect();
-        let found = spline.evaluate(&places, 0, options.threads, control)?;
+        let found = spline.evaluate(&places, 0, options.threads, &control.still())?;
         let points: Vec<Vector> = found.iter().map(|at| at.point).collect();
         let surface = skeleton(&net, points);
         let (spans, misses) = (vec![1; net.corners.len()], vec![0.0; quads.len()]);
@@ -178,7 +178,7 @@ impl<'a> BicubicRefinement<'a> {
     /// The spline at places of quadrilaterals, with derivatives up to `order`.
     fn evaluate(&self, at: &[QuadPlace], order: usize) -> Result<Vec<SurfacePoint>> {
         let places: Vec<Parameter> = at.iter().map(|&(q, place)| self.quads[q].place(place)).collect();
-        self.spline.evaluate(&places, order, self.options.threads, self.control)
+        self.spline.evaluate(&places, order, self.options.threads, &self.control.still())
     }
 
     fn sample(&mut self, quads: &[usize]) -> Result<()> {

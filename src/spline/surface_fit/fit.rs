@@ -82,14 +82,20 @@ pub fn fit_surface(
         return Err(Error::argument("vertices of the flat metric", flat.mesh.n_vertices(), need));
     }
     let setting = FitSetting::new(mesh, points, options);
-    let mut sizes =
-        TriangleSizes::new(surface, flat, setting.triangles, |turns| setting.inside(turns), control)?;
+    let mut sizes = TriangleSizes::new(
+        surface,
+        flat,
+        setting.triangles,
+        |turns| setting.inside(turns),
+        &control.still(),
+    )?;
     let singular = flat.singular()?;
     let (mut best, mut failure): (Option<SurfaceFit>, _) = (None, None);
     let (mut factor, mut rounds, mut refused) = (1.0, 0, 0);
     while rounds < options.rounds.max(1) {
-        let domain = setting.domain(&sizes, flat, control)?;
-        let found = match FitRound::new(domain, &setting, factor, refused < TRIES, control) {
+        let control = &control.part_of(rounds, options.rounds);
+        let domain = setting.domain(&sizes, flat, &control.part(0.0, 0.1))?;
+        let found = match FitRound::new(domain, &setting, factor, refused < TRIES, &control.part(0.1, 1.0)) {
             Ok(found) => found,
             // An earlier round has given a spline, which is kept; or the vertices of another round make a better domain.
             Err(Error::Spline { .. } | Error::Factorisation { .. }) if best.is_some() => break,
@@ -98,6 +104,7 @@ pub fn fit_surface(
                 sizes.reorder();
                 continue;
             }
+            Err(Error::Cancelled) => return Err(Error::Cancelled),
             Err(error) => return Err(failure.unwrap_or(error)),
         };
         rounds += 1;
@@ -136,11 +143,14 @@ pub fn fit_surface_over(
     control: &Control,
 ) -> Result<(SurfaceFit, usize)> {
     let (mut best, mut failure): (Option<(SurfaceFit, usize)>, _) = (None, None);
-    for count in counts(surface.mesh().n_vertices(), options.control_points) {
+    let all = counts(surface.mesh().n_vertices(), options.control_points);
+    for (i, &count) in all.iter().enumerate() {
+        let of_count = control.part_of(i, all.len());
         let options = SurfaceFitOptions { control_points: Some(count), ..options.clone() };
         let chosen = best.as_ref().map(|&(_, k)| k);
         for (k, flat) in metrics.iter().enumerate().filter(|&(k, _)| chosen.is_none_or(|best| best == k)) {
-            match fit_surface(surface, flat, &options, control) {
+            let tried = if chosen.is_some() { of_count.clone() } else { of_count.part_of(k, metrics.len()) };
+            match fit_surface(surface, flat, &options, &tried) {
                 Ok(fit) if fit.holds(options.tolerance) => return Ok((fit, k)),
                 Ok(fit) => {
                     let cost = fit.cost(options.tolerance);

@@ -50,8 +50,8 @@ impl FlatMetric {
         if options.source == AffineSource::Form {
             return FlatMetric::by_form(surface, options, control);
         }
-        let all = curvatures(surface, options, control)?;
-        FlatMetric::best(surface, &all, options, control).map(|(flat, _)| flat)
+        let all = curvatures(surface, options, &control.part(0.0, 0.5))?;
+        FlatMetric::best(surface, &all, options, &control.part(0.5, 1.0)).map(|(flat, _)| flat)
     }
 
     /// The flat metrics among which [`SingularVertices::Auto`] chooses: the usual one first, with no singular vertex or one, and where its
@@ -68,11 +68,11 @@ impl FlatMetric {
         if options.source == AffineSource::Form {
             return Ok(vec![FlatMetric::by_form(surface, options, control)?]);
         }
-        let all = curvatures(surface, options, control)?;
+        let all = curvatures(surface, options, &control.part(0.0, 0.5))?;
         let mesh = surface.mesh();
         // On a short boundary of a surface with handles there is no room for all corners.
         let least = if !mesh.is_closed() && mesh.euler() < 0 { all.len() } else { 1 };
-        let found = FlatMetric::within_range(surface, &all, least, options, control)?;
+        let found = FlatMetric::within_range(surface, &all, least, options, &control.part(0.5, 1.0))?;
         Ok(found.into_iter().map(|(_, flat, _)| flat).collect())
     }
 
@@ -101,6 +101,7 @@ impl FlatMetric {
     ) -> Result<Vec<(f64, FlatMetric, usize)>> {
         let (mut metrics, mut failure) = (Vec::new(), None);
         for (k, curvatures) in all.iter().enumerate() {
+            let control = &control.part_of(k, all.len());
             let found = match curvatures {
                 Curvatures::Infinity(vertex) => FlatMetric::of_sphere(surface, *vertex, options, control),
                 Curvatures::At(target) => FlatMetric::by_flow(surface, target.clone(), options, control),
@@ -131,12 +132,13 @@ impl FlatMetric {
         control: &Control,
     ) -> Result<FlatMetric> {
         let target = Target::All(target);
-        let flat = flow(surface.clone(), Class::yamabe(Space::E2), &target, &options.flow, control)?;
+        let flat =
+            flow(surface.clone(), Class::yamabe(Space::E2), &target, &options.flow, &control.part(0.0, 0.8))?;
         if !flat.converged() {
             let error = flat.report().map_or(f64::NAN, |report| report.max_curvature_error);
             return Err(not_converged(error, options.flow.tolerance));
         }
-        FlatMetric::of(&flat, control)
+        FlatMetric::of(&flat, &control.part(0.8, 1.0))
     }
 
     /// The flat metric that a flow found; for a surface that was doubled or has caps, on what was given.
@@ -314,8 +316,9 @@ pub fn flat_curvatures(
     options: &FlatMetricOptions,
     control: &Control,
 ) -> Result<PerVertex<f64>> {
-    let all = curvatures(surface, options, control)?;
-    let best = if all.len() > 1 { FlatMetric::best(surface, &all, options, control)?.1 } else { 0 };
+    let all = curvatures(surface, options, &control.part(0.0, 0.5))?;
+    let best =
+        if all.len() > 1 { FlatMetric::best(surface, &all, options, &control.part(0.5, 1.0))?.1 } else { 0 };
     match (&all[best], all.last()) {
         (Curvatures::At(target), _) | (_, Some(Curvatures::At(target))) => Ok(target.clone()),
         _ => {

@@ -89,14 +89,14 @@ impl FitRound {
                 .collect::<Result<_>>()?,
         };
         if is_checked {
-            check_unity(&space, &holes, options.threads, control)?;
+            check_unity(&space, &holes, options.threads, &control.part(0.0, 0.1))?;
         }
         let best = Pool::new(options.threads)?.run(|| {
             let system = FitSystem::new(&space, &holes, &places, FairnessUnit::Patches)?;
             let mut fitting =
                 RoundFitting { setting, domain: &domain, space: &space, holes: &holes, system, factor };
-            let best = fitting.run(places, control)?;
-            fitting.unfold(best, control)
+            let best = fitting.run(places, &control.part(0.1, 0.7))?;
+            fitting.unfold(best, &control.part(0.7, 1.0))
         })?;
         let (FittedPlaces { places, spline, measures, distances, fairness }, folds) = best;
         Ok(FitRound { domain, places, spline, measures, fairness, folds, distances })
@@ -164,7 +164,7 @@ impl RoundFitting<'_> {
         for done in first..=options.corrections {
             control.step(Stage::Flow, done as f64 / options.corrections as f64)?;
             let spline = self.system.spline(self.space, self.holes, &fit.unknowns)?;
-            let found = spline.evaluate(&places, 1, options.threads, control)?;
+            let found = spline.evaluate(&places, 1, options.threads, &control.still())?;
             self.correct(&mut places, &found, &spline);
             placed = self.system.placed(&places, points)?;
             let next = self.measured(&places, &placed, &fit)?;
@@ -195,9 +195,10 @@ impl RoundFitting<'_> {
         let options = self.setting.options;
         let cost_of = |fit: &FittedPlaces, folds: &[usize]| cost(fit.measures, folds, options.tolerance);
         let mut weights = FairnessWeights::even(self.space, self.holes);
-        let mut folds = self.domain.folds(&best.spline, options.threads, control)?;
+        let mut folds = self.domain.folds(&best.spline, options.threads, &control.still())?;
         let mut last = (folds.clone(), miss(best.measures, options.tolerance));
-        for _ in 0..UNFOLDINGS {
+        for k in 0..UNFOLDINGS {
+            let control = &control.part_of(k, UNFOLDINGS);
             let is_far = last.1 > UNFOLDED_MISS;
             if last.0.is_empty()
                 || is_far
@@ -212,7 +213,7 @@ impl RoundFitting<'_> {
             let fit = WeightedFit { unknowns: self.system.fit(&placed, fairness)?, fairness };
             let next = self.improve(best.places.clone(), fit, POSITIONS + 1, control)?;
             last = (
-                self.domain.folds(&next.spline, options.threads, control)?,
+                self.domain.folds(&next.spline, options.threads, &control.still())?,
                 miss(next.measures, options.tolerance),
             );
             if cost_of(&next, &last.0) < cost_of(&best, &folds) {

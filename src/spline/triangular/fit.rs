@@ -93,7 +93,7 @@ pub fn fit_filled(
         let unknowns = system.fit(&placed, fairness)?;
         system.spline(space, holes, &unknowns)
     })?;
-    let found = spline.evaluate(places, 0, threads, control)?;
+    let found = spline.evaluate(places, 0, threads, &control.part(0.9, 1.0))?;
     let (mut sum, mut max) = (0.0, 0.0f64);
     for (found, point) in found.iter().zip(points) {
         let miss = distance(found.point, *point);

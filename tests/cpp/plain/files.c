@@ -104,6 +104,44 @@ static void welded(void) {
     ricci_mesh_free(mesh);
 }
 
+/* A thread's control serves calls that have no argument for one. */
+static void reading_and_writing_have_a_control(const ricci_mesh *mesh) {
+    ricci_control *control = NULL;
+    ricci_mesh *read = NULL;
+    uint32_t stage;
+    double fraction;
+    OK(ricci_control_new(&control));
+    OK(ricci_control_use(control));
+    OK(ricci_mesh_read("files.ply", &read));
+    OK(ricci_control_progress(control, &stage, &fraction, NULL));
+    CHECK(stage == RICCI_STAGE_BUILD && fraction == 1);
+    /* A part of a host's bar: progress does not begin again. */
+    OK(ricci_control_part(control, 0.25, 0.5));
+    OK(ricci_mesh_write(mesh, NULL, "used.ply"));
+    OK(ricci_control_progress(control, &stage, &fraction, NULL));
+    CHECK(stage == RICCI_STAGE_WRITE && fraction == 1);
+    FAILS(ricci_control_part(control, 0.5, 0.25), RICCI_ARGUMENT, "0.5");
+    FAILS(ricci_control_part(control, 0, NAN), RICCI_ARGUMENT, "NaN");
+    OK(ricci_control_cancel(control));
+    ricci_mesh_free(read);
+    read = NULL;
+    FAILS(ricci_mesh_read("files.ply", &read), RICCI_CANCELLED, "cancelled");
+    FAILS(ricci_mesh_write(mesh, NULL, "used.ply"), RICCI_CANCELLED, "cancelled");
+    OK(ricci_control_use(NULL));
+    OK(ricci_mesh_read("used.ply", &read));
+    ricci_mesh_free(read);
+    ricci_control_free(control);
+    /* A part that a call fills, with nothing done before. */
+    ricci_metric *metric = NULL, *flat = NULL;
+    OK(ricci_control_new(&control));
+    OK(ricci_control_part(control, 0, 0.5));
+    OK(ricci_metric_new(mesh, RICCI_SCHEME_YAMABE, RICCI_SPACE_E2, &metric));
+    OK(ricci_flow(metric, NULL, NULL, control, &flat));
+    OK(ricci_control_progress(control, &stage, &fraction, NULL));
+    CHECK(fraction == 0.5);
+    ricci_metric_free(metric), ricci_metric_free(flat), ricci_control_free(control);
+}
+
 int main(void) {
     ricci_mesh *mesh = NULL, *read = NULL;
     ricci_attributes attributes;
@@ -174,6 +212,7 @@ int main(void) {
 
     welded();
     hard_edges(mesh);
+    reading_and_writing_have_a_control(mesh);
     ricci_mesh_free(mesh);
     free(normals);
     free(colors);

@@ -223,6 +223,16 @@ int bicubic_patches() {
 }
 
 int failures() {
+    const ricci::control stopped;
+    stopped.set_part(0, 0.5);
+    stopped.cancel();
+    try {
+        const ricci::control_scope used(stopped);
+        ricci::mesh::read("no such file.obj");
+        return 24;
+    } catch (const ricci::error &error) {
+        if (error.status() != RICCI_CANCELLED) return 25;
+    }
     try {
         ricci::mesh::read("no such file.obj");
         return 21;

@@ -92,6 +92,7 @@ static ricci_status answer(ricci_status status) {
 static void job(const torus *t, double *uv) {
     ricci_mesh *mesh = NULL;
     ricci_metric *metric = NULL, *flat = NULL;
+    ricci_solver *solver = NULL;
     ricci_layout *layout = NULL;
     ricci_map *map = NULL;
     ricci_flow_options options;
@@ -100,6 +101,11 @@ static void job(const torus *t, double *uv) {
     options.threads = 1, laid.threads = 1;
     MUST(ricci_mesh_from_arrays(t->positions, 0, t->n_vertices, t->faces, t->n_faces, &mesh));
     MUST(ricci_metric_new(mesh, RICCI_SCHEME_YAMABE, RICCI_SPACE_E2, &metric));
+    MUST(ricci_solver_new(metric, &options, &solver));
+    MUST(ricci_solver_pin(solver, NULL, 0));
+    MUST(ricci_solver_solve(solver, NULL, NULL, &flat));
+    ricci_solver_free(solver), ricci_metric_free(flat);
+    flat = NULL;
     MUST(ricci_flow(metric, NULL, &options, NULL, &flat));
     MUST(ricci_layout_new(flat, &laid, NULL, &layout));
     MUST(ricci_map_new(flat, NULL, &map));

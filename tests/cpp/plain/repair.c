@@ -268,6 +268,24 @@ static void holes(void) {
     ricci_soup_free(soup);
 }
 
+/* A file's own numbers of vertices. */
+static void further_numbers_are_read(void) {
+    ricci_soup *soup = NULL;
+    double numbers[3];
+    FILE *file = fopen("numbers.ply", "w");
+    CHECK(file);
+    CHECK(fputs("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                "property float z\nproperty float quality\nelement face 1\n"
+                "property list uchar int vertex_indices\nend_header\n"
+                "0 0 0 0.5\n1 0 0 0.25\n0 1 0 2\n3 0 1 2\n",
+                file) >= 0);
+    CHECK(fclose(file) == 0);
+    OK(ricci_soup_read("numbers.ply", &soup));
+    OK(ricci_soup_numbers(soup, RICCI_OF_VERTICES, 0, numbers, 3));
+    CHECK(numbers[0] == 0.5 && numbers[1] == 0.25 && numbers[2] == 2);
+    ricci_soup_free(soup);
+}
+
 int main(void) {
     fin();
     attributes();
@@ -362,5 +380,6 @@ int main(void) {
     torus_free(&t);
     check_refined();
     seam();
+    further_numbers_are_read();
     return 0;
 }

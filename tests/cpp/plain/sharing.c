@@ -87,6 +87,33 @@ static void a_child_is_told_of_a_solver_that_was_changing(const ricci_mesh *mesh
     ricci_control_free(j.control);
 }
 
+/* A solver that rests keeps its threads, which a child does not have: it is told so and does not wait for
+ * them. */
+static void a_child_is_told_of_a_solver_that_rested(const ricci_metric *metric) {
+    ricci_flow_options options;
+    ricci_solver *solver = NULL;
+    ricci_metric *flat = NULL;
+    int ended = 0;
+    INIT(options);
+    options.threads = 2;
+    OK(ricci_solver_new(metric, &options, &solver));
+    OK(ricci_solver_solve(solver, NULL, NULL, &flat));
+    const pid_t child = fork();
+    CHECK(child >= 0);
+    if (child == 0) {
+        ricci_metric *end = NULL;
+        const int is_told = ricci_solver_solve(solver, NULL, NULL, &end) == RICCI_POISONED;
+        ricci_solver_free(solver);
+        const int is_well = ricci_flow(metric, NULL, &options, NULL, &end) == RICCI_OK;
+        if (is_told && is_well) execl("/bin/true", "true", (char *)NULL);
+        _exit(1);
+    }
+    CHECK(waitpid(child, &ended, 0) == child);
+    CHECK(WIFEXITED(ended) && WEXITSTATUS(ended) == 0);
+    ricci_metric_free(flat);
+    ricci_solver_free(solver);
+}
+
 int main(void) {
     torus t = torus_new(24, 16);
     const size_t n = t.n_vertices;
@@ -105,6 +132,7 @@ int main(void) {
     for (int i = 0; i < 2; i++) CHECK(pthread_join(threads[i], NULL) == 0);
     CHECK(memcmp(jobs[0].u, jobs[1].u, n * sizeof(double)) == 0);
     a_child_is_told_of_a_solver_that_was_changing(mesh, metric);
+    a_child_is_told_of_a_solver_that_rested(metric);
     free(jobs[0].u);
     free(jobs[1].u);
     free(target);

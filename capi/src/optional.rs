@@ -1,0 +1,68 @@
+//! The parts of the library that a build of the C face can leave out, by cargo features of the same names: STEP and glTF. The functions are
+//! there in every build; where a part is left out, they answer that.
+
+use crate::failure::Outcome;
+use ricci::mesh::io::Soup;
+use ricci::spline::BicubicSurface;
+use std::path::Path;
+
+#[cfg(feature = "gltf")]
+pub use ricci::mesh::io::Wrap;
+#[cfg(feature = "step")]
+pub use ricci::spline::{LengthUnit, StepOptions};
+
+#[cfg(not(feature = "gltf"))]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Wrap {
+    Repeat,
+    Mirror,
+    Clamp,
+}
+
+#[cfg(not(feature = "step"))]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LengthUnit {
+    Millimetre,
+    Metre,
+}
+
+#[cfg(not(feature = "step"))]
+#[derive(Debug, Clone)]
+#[allow(dead_code)]
+pub struct StepOptions {
+    pub name: String,
+    pub unit: LengthUnit,
+}
+
+#[cfg(not(all(feature = "gltf", feature = "step")))]
+fn left_out(what: &str, feature: &str) -> Outcome {
+    use crate::failure::Failure;
+    use crate::status::RICCI_UNKNOWN_FORMAT;
+    let message = format!("{what} was left out when this library was built (cargo feature `{feature}`)");
+    Err(Failure::new(RICCI_UNKNOWN_FORMAT, message))
+}
+
+/// Adds patches as a STEP file to `bytes`.
+pub fn write_step(surface: &BicubicSurface, options: &StepOptions, bytes: &mut Vec<u8>) -> Outcome {
+    #[cfg(feature = "step")]
+    return Ok(surface.write_step(options, bytes)?);
+    #[cfg(not(feature = "step"))]
+    {
+        let _ = (surface, options, bytes);
+        left_out("STEP", "step")
+    }
+}
+
+/// Writes a mesh with a texture as .glb.
+pub fn write_textured(path: &Path, soup: &Soup, png: &[u8], wrap: Wrap) -> Outcome {
+    #[cfg(feature = "gltf")]
+    {
+        use ricci::mesh::io::{Texture, write_glb_textured};
+        Ok(write_glb_textured(path, soup, Texture { png, wrap, repeat: 1.0 })?)
+    }
+    #[cfg(not(feature = "gltf"))]
+    {
+        let _ = (path, soup, png, wrap);
+        left_out("glTF", "gltf")
+    }
+}
