@@ -31,6 +31,8 @@ mod choice;
 mod failure;
 mod float_environment;
 mod guard;
+#[cfg(not(all(feature = "gltf", feature = "step")))]
+mod left_out;
 mod memory;
 mod optional;
 mod paths;

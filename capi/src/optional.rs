@@ -6,33 +6,14 @@ use ricci::mesh::io::Soup;
 use ricci::spline::BicubicSurface;
 use std::path::Path;
 
+#[cfg(not(feature = "gltf"))]
+pub use crate::left_out::WrapLeftOut as Wrap;
+#[cfg(not(feature = "step"))]
+pub use crate::left_out::{StepLeftOut as StepOptions, UnitLeftOut as LengthUnit};
 #[cfg(feature = "gltf")]
 pub use ricci::mesh::io::Wrap;
 #[cfg(feature = "step")]
 pub use ricci::spline::{LengthUnit, StepOptions};
-
-#[cfg(not(feature = "gltf"))]
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Wrap {
-    Repeat,
-    Mirror,
-    Clamp,
-}
-
-#[cfg(not(feature = "step"))]
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum LengthUnit {
-    Millimetre,
-    Metre,
-}
-
-#[cfg(not(feature = "step"))]
-#[derive(Debug, Clone)]
-#[allow(dead_code)]
-pub struct StepOptions {
-    pub name: String,
-    pub unit: LengthUnit,
-}
 
 #[cfg(not(all(feature = "gltf", feature = "step")))]
 fn left_out(what: &str, feature: &str) -> Outcome {

@@ -8,6 +8,8 @@
  *
  * The conventions are those of ricci/ricci.h. A patch of the spline becomes three bicubic B-spline patches;
  * neighbours share the control points of their common side, so that there are no gaps.
+ *
+ * Sources, by the keys of docs/bibliography.md: patches from their sides [Coo67].
  */
 
 #ifndef RICCI_BICUBIC_H

@@ -8,6 +8,8 @@
  *     ricci_atlas_write(atlas, 0, "charts.obj");
  *
  * The conventions are those of ricci/ricci.h.
+ *
+ * Sources, by the keys of docs/bibliography.md: packing [Jyl10].
  */
 
 #ifndef RICCI_CHARTS_H

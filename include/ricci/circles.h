@@ -8,6 +8,8 @@
  *     ricci_circle_domain_layout(domain, RICCI_MODEL_POINCARE, &layout);
  *
  * The conventions are those of ricci/ricci.h.
+ *
+ * Sources, by the keys of docs/bibliography.md: circle patterns [Thu80; BPS15].
  */
 
 #ifndef RICCI_CIRCLES_H

@@ -10,6 +10,9 @@
  *
  * The conventions are those of ricci/ricci.h. Maps and forms live on the intrinsic Delaunay triangulation of
  * the mesh, which has its vertices.
+ *
+ * Sources, by the keys of docs/bibliography.md: cotangent weights [PP93], 1-forms [GY03], periods [BS16],
+ * Tutte embeddings [Flo03].
  */
 
 #ifndef RICCI_HARMONIC_H

@@ -8,6 +8,9 @@
  *
  * The conventions are those of ricci/ricci.h. A word is an int32_t array of 1-based generator numbers,
  * negative for inverses.
+ *
+ * Sources, by the keys of docs/bibliography.md: shortest loops [EW05], words [Deh12; LPVV01], normal forms
+ * [Bra21; Sti93].
  */
 
 #ifndef RICCI_HOMOTOPY_H

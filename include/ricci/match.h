@@ -7,6 +7,9 @@
  *     ricci_matching_weights(matching, RICCI_MATCH_FORWARD, weights, 3 * n_vertices);
  *
  * The conventions are those of ricci/ricci.h.
+ *
+ * Sources, by the keys of docs/bibliography.md: maps of least energy [LWZ23; GLM19], orbifolds of landmarks
+ * [AL16].
  */
 
 #ifndef RICCI_MATCH_H

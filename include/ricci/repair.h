@@ -9,6 +9,8 @@
  *     ricci_soup_mesh(repaired, &mesh);                        // RICCI_DEFECTS if some are left
  *
  * The conventions are those of ricci/ricci.h.
+ *
+ * Sources, by the keys of docs/bibliography.md: filled holes [BS95; Lie03; BS08].
  */
 
 #ifndef RICCI_REPAIR_H

@@ -57,6 +57,9 @@
  *     ended when it returns (a ricci_solver keeps its threads until it is freed). Where memory does not
  *     suffice for as many as are asked for, there are fewer. Nothing is printed.
  *   - Platforms: 64-bit Linux (tested on x86-64, glibc); written for macOS and Windows, not tested there.
+ *
+ * Sources, by the keys of docs/bibliography.md: the unified Ricci flow [ZGZLYG14], its convergence with flips
+ * [BPS15; GLSW18].
  */
 
 #ifndef RICCI_H

@@ -7,6 +7,8 @@
  *     ricci_seamless_map(result, NULL, &layout);   // a layout with exact seams
  *
  * The conventions are those of ricci/ricci.h.
+ *
+ * Sources, by the keys of docs/bibliography.md: prescribed turning [CZ24], cross fields [KCPS13].
  */
 
 #ifndef RICCI_SEAMLESS_H

@@ -7,6 +7,8 @@
  *     ricci_make(&shape, &mesh);
  *
  * The conventions are those of ricci/ricci.h.
+ *
+ * Sources, by the keys of docs/bibliography.md: pairs of pants [Bus92], periods of curves [MN19].
  */
 
 #ifndef RICCI_SHAPES_H

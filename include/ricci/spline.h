@@ -10,6 +10,9 @@
  * The conventions are those of ricci/ricci.h. A spline of degree n, 1 to 5, has a patch for every face of its
  * domain and n + 1 knots at every vertex, the first of them the vertex itself. Its pieces are polynomials of
  * degree n, and derivatives up to the order n - 1 are continuous, except where knots were put together.
+ *
+ * Sources, by the keys of docs/bibliography.md: bases [DMS92; Sei91], splines over surfaces [GHQ06;
+ * GHJLQY08], fits [WPL06; CW79].
  */
 
 #ifndef RICCI_SPLINE_H

@@ -11,6 +11,9 @@
  * conformal, spherical and hyperbolic structures, on which Moebius transformations act, of the Euclidean
  * plane or the Klein disk for affine and projective ones, with 3 x 3 matrices that act on (x, y, 1) up to
  * scale.
+ *
+ * Sources, by the keys of docs/bibliography.md: structures from the Ricci flow [JKLLG08], affine atlases
+ * [GHQ06].
  */
 
 #ifndef RICCI_STRUCTURE_H

@@ -13,6 +13,9 @@
  * The conventions are those of ricci/ricci.h. Points of the hyperbolic plane and the sphere are ambient
  * coordinates (x, y, w), n x 3; the inline functions at the end convert them. A word is an int32_t array of
  * 1-based generator numbers, negative for inverses.
+ *
+ * Sources, by the keys of docs/bibliography.md: discrete uniformization [BPS15; GLSW18], of spheres [Riv94;
+ * Spr20].
  */
 
 #ifndef RICCI_UNIFORMIZE_H

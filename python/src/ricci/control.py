@@ -23,9 +23,9 @@ class Control:
     A control that was cancelled stays so: every later call with it is stopped as well.
 
     Args:
-        callback: called as ``callback(stage, fraction)`` from the thread that waits for the call, about every 0.05 s and at its end, with
-            the name of a stage (``"flow"``, ``"layout"``, ...) and the fraction of the whole call that is done: from 0 to 1, never less than
-            before. What it raises stops the call.
+        callback: called as ``callback(stage, fraction)`` from the thread that waits for the call, about every 0.05 s and at its end: with
+            the name of a stage (``"flow"``, ``"layout"``, ...) and the fraction of the whole call that is done, from 0 to 1, which
+            never goes back. What it raises stops the call.
     """
 
     def __init__(self, callback: Callable[[str, float], object] | None = None) -> None:

@@ -1,0 +1,24 @@
+//! Types in place of those of parts of the library that a build leaves out.
+#![allow(dead_code)]
+
+/// In place of the library's `Wrap`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum WrapLeftOut {
+    Repeat,
+    Mirror,
+    Clamp,
+}
+
+/// In place of the library's `LengthUnit`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum UnitLeftOut {
+    Millimetre,
+    Metre,
+}
+
+/// In place of the library's `StepOptions`.
+#[derive(Debug, Clone)]
+pub struct StepLeftOut {
+    pub name: String,
+    pub unit: UnitLeftOut,
+}
