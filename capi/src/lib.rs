@@ -43,8 +43,8 @@ mod texture;
 mod thread_failure;
 mod wording;
 
-pub mod atlas;
 pub mod bicubic;
+pub mod charts;
 pub mod circle_domain;
 pub mod circles;
 pub mod control;

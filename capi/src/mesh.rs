@@ -83,7 +83,7 @@ impl ricci_mesh {
     }
 
     pub(crate) fn from_soup(soup: Soup) -> Outcome<ricci_mesh> {
-        let _reserve = memory::work(soup.positions.len().max(soup.faces.len()), memory::MESH)?;
+        let _reserve = memory::work(soup.positions.len().max(soup.faces.len().div_ceil(2)), memory::MESH)?;
         let control = control::of_thread()?;
         control.step(Stage::Build, 0.6)?;
         let connectivity = Arc::new(Mesh::from_soup(&soup)?);

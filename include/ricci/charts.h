@@ -4,8 +4,8 @@
  *
  *     ricci_repaired_input_new(layout, NULL, &repaired);     // no face of the mesh turned over
  *     ricci_repaired_input_write(repaired, "flat.obj");
- *     ricci_atlas_new(layout, 0.01, NULL, &atlas);           // charts that do not overlap, packed
- *     ricci_atlas_write(atlas, 0, "charts.obj");
+ *     ricci_charts_new(layout, 0.01, NULL, &charts);           // charts that do not overlap, packed
+ *     ricci_charts_write(charts, 0, "charts.obj");
  *
  * The conventions are those of ricci/ricci.h.
  *
@@ -31,7 +31,7 @@ extern "C" {
 typedef struct ricci_repaired_input ricci_repaired_input;
 
 /** A layout in charts that do not overlap, packed into the unit square. */
-typedef struct ricci_atlas ricci_atlas;
+typedef struct ricci_charts ricci_charts;
 
 /* ---------------------------------------------------------------------------------------------------------
  * Repaired inputs
@@ -183,11 +183,11 @@ RICCI_API ricci_status ricci_repaired_input_corners(const ricci_repaired_input *
 RICCI_API ricci_status ricci_repaired_input_write(const ricci_repaired_input *repaired, const char *path);
 
 /* ---------------------------------------------------------------------------------------------------------
- * Atlases
+ * Charts
  */
 
-/** Figures of an atlas. */
-typedef struct ricci_atlas_summary {
+/** Figures of the charts of a layout. */
+typedef struct ricci_charts_summary {
     /** Bytes of this struct that are filled. */
     size_t size;
     /** Number of charts. */
@@ -211,7 +211,7 @@ typedef struct ricci_atlas_summary {
     double layout_seams;
     /** Total length of the charts' seams, in units of the layout. */
     double chart_seams;
-} ricci_atlas_summary;
+} ricci_charts_summary;
 
 /**
  * Cut a layout into charts and pack them into the unit square.
@@ -225,62 +225,62 @@ typedef struct ricci_atlas_summary {
  * @param margin   least distance of two charts, in sides of the unit square, from 0 to below 1; 1/256 is
  *                 usual.
  * @param control  progress and cancellation; NULL for neither.
- * @param atlas    out: the new handle, to be released by ricci_atlas_free.
+ * @param charts   out: the new handle, to be released by ricci_charts_free.
  */
-RICCI_API ricci_status ricci_atlas_new(const ricci_layout *layout, double margin,
-                                       const ricci_control *control, ricci_atlas **atlas);
+RICCI_API ricci_status ricci_charts_new(const ricci_layout *layout, double margin,
+                                        const ricci_control *control, ricci_charts **charts);
 
 /**
- * Release an atlas.
+ * Release charts.
  *
- * @param atlas  the handle, or NULL.
+ * @param packed  the handle, or NULL.
  */
-RICCI_API_VOID void ricci_atlas_free(ricci_atlas *atlas);
+RICCI_API_VOID void ricci_charts_free(ricci_charts *packed);
 
 /**
- * The figures of an atlas.
+ * The figures of charts.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE.
  *
- * @param atlas    the atlas.
+ * @param packed    the charts.
  * @param summary  out: the figures.
  * @param size     sizeof *summary.
  */
-RICCI_API ricci_status ricci_atlas_summarise(const ricci_atlas *atlas, ricci_atlas_summary *summary,
-                                             size_t size);
+RICCI_API ricci_status ricci_charts_summarise(const ricci_charts *packed, ricci_charts_summary *summary,
+                                              size_t size);
 
 /**
  * The chart of every face of the layout's mesh, from 0; charts with more area come first.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
  *
- * @param atlas     the atlas.
+ * @param packed     the charts.
  * @param charts    out: n_faces chart numbers.
  * @param capacity  entries of `charts`.
  */
-RICCI_API ricci_status ricci_atlas_faces(const ricci_atlas *atlas, uint32_t *charts, size_t capacity);
+RICCI_API ricci_status ricci_charts_faces(const ricci_charts *packed, uint32_t *charts, size_t capacity);
 
 /**
  * The points of the charts, in the unit square.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
  *
- * @param atlas     the atlas.
+ * @param packed     the charts.
  * @param points    out: n_points x 2, from 0 to 1.
  * @param capacity  entries of `points`, at least 2 n_points.
  */
-RICCI_API ricci_status ricci_atlas_points(const ricci_atlas *atlas, double *points, size_t capacity);
+RICCI_API ricci_status ricci_charts_points(const ricci_charts *packed, double *points, size_t capacity);
 
 /**
  * The point of every corner of every face of the layout's mesh: as OBJ's `vt` indices, but 0-based.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
  *
- * @param atlas     the atlas.
+ * @param packed     the charts.
  * @param corners   out: n_faces x 3 indices of points.
  * @param capacity  entries of `corners`, at least 3 n_faces.
  */
-RICCI_API ricci_status ricci_atlas_corners(const ricci_atlas *atlas, uint32_t *corners, size_t capacity);
+RICCI_API ricci_status ricci_charts_corners(const ricci_charts *packed, uint32_t *corners, size_t capacity);
 
 /**
  * The motions from the layout to the charts: the motion of chart k carries the layout's points, times `scale`
@@ -289,11 +289,11 @@ RICCI_API ricci_status ricci_atlas_corners(const ricci_atlas *atlas, uint32_t *c
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
  *
- * @param atlas     the atlas.
+ * @param packed     the charts.
  * @param motions   out: n_charts x 3: rotation (radians), translation x, y.
  * @param capacity  entries of `motions`, at least 3 n_charts.
  */
-RICCI_API ricci_status ricci_atlas_motions(const ricci_atlas *atlas, double *motions, size_t capacity);
+RICCI_API ricci_status ricci_charts_motions(const ricci_charts *packed, double *motions, size_t capacity);
 
 /**
  * Write the layout's mesh with its charts as texture coordinates, in the format of the file's extension, as
@@ -304,11 +304,11 @@ RICCI_API ricci_status ricci_atlas_motions(const ricci_atlas *atlas, double *mot
  * intrinsic; what the format has no place for), RICCI_DOMAIN, RICCI_LAYOUT (homogeneous charts of a layout
  * that is not in E2).
  *
- * @param atlas        the atlas.
+ * @param packed        the charts.
  * @param homogeneous  1: `vt qx qy q` with the q of ricci_map_weights; 0: `vt x y`.
  * @param path         file name in UTF-8, ending in .obj, .off, .ply or .glb.
  */
-RICCI_API ricci_status ricci_atlas_write(const ricci_atlas *atlas, uint32_t homogeneous, const char *path);
+RICCI_API ricci_status ricci_charts_write(const ricci_charts *packed, uint32_t homogeneous, const char *path);
 
 #ifdef __cplusplus
 }

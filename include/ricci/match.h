@@ -285,10 +285,15 @@ RICCI_API ricci_status ricci_matching_points(const ricci_matching *matching, uin
 RICCI_API ricci_status ricci_matching_soft_left(const ricci_matching *matching, double *left,
                                                 size_t capacity);
 
+/** Of the map of a matching: faces and edges of the source. */
+#define RICCI_ON_SOURCE RICCI_ON_INPUT
+/** Of the map of a matching: faces and edges of the target. */
+#define RICCI_ON_TARGET RICCI_ON_METRIC
+
 /**
  * The common subdivision of the two surfaces, in the domain where they were matched.
  *
- * In the functions of the map RICCI_ON_INPUT means the source and RICCI_ON_METRIC the target. Its vertices
+ * In the functions of the map `on` is RICCI_ON_SOURCE or RICCI_ON_TARGET. Its vertices
  * are those of the source, with their numbers, then the crossings, then the target's others, each with the
  * place that ricci_map_barycentric tells. ricci_map_mesh has them on the source.
  *

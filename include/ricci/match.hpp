@@ -83,7 +83,7 @@ public:
         check(ricci_matching_soft_left(get(), left.data(), left.size()));
         return left;
     }
-    // The common subdivision of the two surfaces: RICCI_ON_INPUT is the source, RICCI_ON_METRIC the target.
+    // The common subdivision of the two surfaces: RICCI_ON_SOURCE and RICCI_ON_TARGET are its two sides.
     ricci::map map(const control *watched = nullptr) const {
         return ricci::map(make<ricci_map>(ricci_matching_map, get(), of(watched)));
     }

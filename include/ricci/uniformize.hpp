@@ -135,18 +135,18 @@ public:
     void write(const std::string &path) const { check(ricci_repaired_input_write(handle_, path.c_str())); }
 };
 
-using atlas_handle = owned<ricci_atlas, ricci_atlas_free>;
+using charts_handle = owned<ricci_charts, ricci_charts_free>;
 
-class atlas : public atlas_handle {
+class charts : public charts_handle {
 public:
-    explicit atlas(const layout &of_layout, double margin = 1.0 / 256, const control *watched = nullptr)
-        : atlas_handle(make<ricci_atlas>(ricci_atlas_new, of_layout.get(), margin, of(watched))) {}
-    ricci_atlas_summary summary() const { return ricci::summary(ricci_atlas_summarise, get()); }
-    std::vector<std::uint32_t> faces() const { return values<std::uint32_t>(ricci_atlas_faces, get()); }
-    std::vector<double> points() const { return values<double>(ricci_atlas_points, get()); }
-    std::vector<std::uint32_t> corners() const { return values<std::uint32_t>(ricci_atlas_corners, get()); }
+    explicit charts(const layout &of_layout, double margin = 1.0 / 256, const control *watched = nullptr)
+        : charts_handle(make<ricci_charts>(ricci_charts_new, of_layout.get(), margin, of(watched))) {}
+    ricci_charts_summary summary() const { return ricci::summary(ricci_charts_summarise, get()); }
+    std::vector<std::uint32_t> faces() const { return values<std::uint32_t>(ricci_charts_faces, get()); }
+    std::vector<double> points() const { return values<double>(ricci_charts_points, get()); }
+    std::vector<std::uint32_t> corners() const { return values<std::uint32_t>(ricci_charts_corners, get()); }
     void write(const std::string &path, bool homogeneous = false) const {
-        check(ricci_atlas_write(handle_, homogeneous ? 1 : 0, path.c_str()));
+        check(ricci_charts_write(handle_, homogeneous ? 1 : 0, path.c_str()));
     }
 };
 

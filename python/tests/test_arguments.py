@@ -29,7 +29,7 @@ def things(torus, disk):
 # The functions, and the kinds that they take.
 TAKES = {
     "as_mesh": (ricci.as_mesh, "mesh"),
-    "atlas": (ricci.atlas, "layout"),
+    "charts": (ricci.charts, "layout"),
     "bicubic": (ricci.bicubic, "spline"),
     "change": (lambda x: ricci.change(x, "noise", amount=0.1), "mesh"),
     "circles": (ricci.circles, "mesh"),
@@ -102,7 +102,7 @@ def test_what_does_not_fit_is_refused_in_words(name, things, tmp_path, monkeypat
     [
         (lambda t: ricci.layout(t["mesh"]), "a Metric is needed, not Mesh: ricci.flow\\(mesh\\) makes one"),
         (lambda t: ricci.deck(t["mesh"]), "a Uniform is needed, not Mesh: ricci.uniformize\\(mesh\\) makes one"),
-        (lambda t: ricci.atlas(t["metric"]), "a Layout is needed, not Metric: ricci.layout\\(metric\\) makes one"),
+        (lambda t: ricci.charts(t["metric"]), "a Layout is needed, not Metric: ricci.layout\\(metric\\) makes one"),
         (lambda t: ricci.flow(t["mesh"], "uniform"), "target='uniform'"),
         (lambda t: ricci.as_mesh(t["mesh"].V), "give the faces F"),
         (lambda t: ricci.cohort("fuze.obj", Job("info")), "paths are a list of files: \\['fuze.obj'\\]"),
@@ -246,7 +246,7 @@ def test_files_fail_as_every_file_does(tmp_path):
 def test_indices_have_a_sign(torus, disk):
     flat = ricci.flow(torus, target="auto:2")
     laid, matched = ricci.layout(flat), ricci.match(disk, disk)
-    arrays = [torus.F, torus.edges, torus.face_edges, *disk.boundary, laid.corners(), laid.flipped(), ricci.atlas(laid).charts]
+    arrays = [torus.F, torus.edges, torus.face_edges, *disk.boundary, laid.corners(), laid.flipped(), ricci.charts(laid).charts]
     arrays += [flat.report.cones, flat.mirror, matched.faces(), ricci.Map(flat).faces(), ricci.Map(flat).crossings()[0]]
     arrays += [ricci.structure(torus).F, ricci.structure(torus).chart_faces[0], ricci.homotopy(torus).domain().corners[0]]
     arrays += [ricci.Soup(disk.V, disk.F).F, ricci.Soup(disk.V, disk.F[:1]).defects[0].vertices]

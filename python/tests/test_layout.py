@@ -109,7 +109,7 @@ def test_layouts_are_written_as_obj(tmp_path, laid, genus2):
 @pytest.mark.parametrize("ending", ["ply", "glb"])
 def test_layouts_are_written_in_the_format_of_the_ending(tmp_path, laid, genus2, ending):
     """Each format has the coordinates of every corner; glTF has a vertex once for each pair, in 24 bits."""
-    for writes in (laid, ricci.atlas(laid)):
+    for writes in (laid, ricci.charts(laid)):
         path = tmp_path / f"uv.{ending}"
         writes.write(path)
         assert not path.read_bytes().startswith(b"v ")
@@ -123,7 +123,7 @@ def test_what_a_format_has_no_place_for_is_refused(tmp_path, laid, disk):
     with pytest.raises(ricci.FileError, match=r"known are .obj, .off, .ply, .glb"):
         laid.write(tmp_path / "uv.vtk")
     with pytest.raises(ricci.FileError, match="unknown format"):
-        ricci.atlas(laid).write(tmp_path / "charts")
+        ricci.charts(laid).write(tmp_path / "charts")
     with pytest.raises(ricci.ArgumentError, match="has seams"):
         laid.write(tmp_path / "uv.off")
     with pytest.raises(ricci.ArgumentError, match=r"in .obj files only"):
@@ -181,7 +181,7 @@ def test_labels_stay_labels_on_the_refinement(flat, genus2):
 
 
 def test_charts_fill_the_unit_square_and_are_moved_copies(laid, tmp_path):
-    atlas = ricci.atlas(laid, margin=0.01)
+    atlas = ricci.charts(laid, margin=0.01)
     points = atlas.points[atlas.corners]
     assert points.min() >= 0
     assert points.max() <= 1
@@ -193,7 +193,7 @@ def test_charts_fill_the_unit_square_and_are_moved_copies(laid, tmp_path):
     atlas.write(tmp_path / "charts.obj")
     assert ricci.read(tmp_path / "charts.obj").uv is not None
     with pytest.raises(ricci.ArgumentError):
-        ricci.atlas(laid, margin=2)
+        ricci.charts(laid, margin=2)
 
 
 def test_values_are_carried_over_the_refinement(flat, genus2):

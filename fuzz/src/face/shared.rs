@@ -1,7 +1,7 @@
 //! Handles that every sequence of calls shares: made once, only read from then on, never released.
 
 use super::{CALLS, word};
-use ricci_c::atlas::ricci_atlas_new;
+use ricci_c::charts::ricci_charts_new;
 use ricci_c::bicubic::{ricci_bicubic_new, ricci_bicubic_options};
 use ricci_c::circle_domain::ricci_circle_domain_new;
 use ricci_c::control::{ricci_control_cancel, ricci_control_new};
@@ -104,7 +104,7 @@ impl Shelf {
             self.put("ricci_metric", flat);
             let layout =
                 self.put("ricci_layout", made(|p| unsafe { ricci_layout_new(flat, null(), null(), p) }));
-            self.put("ricci_atlas", made(|p| unsafe { ricci_atlas_new(layout, 0.01, null(), p) }));
+            self.put("ricci_charts", made(|p| unsafe { ricci_charts_new(layout, 0.01, null(), p) }));
             let repaired = made(|p| unsafe { ricci_repaired_input_new(layout, null(), p) });
             self.put("ricci_repaired_input", repaired);
             self.put("ricci_map", made(|p| unsafe { ricci_map_new(flat, null(), p) }));

@@ -39,7 +39,7 @@ from ricci.errors import (
 )
 from ricci.form import Forms, HarmonicMap, forms, harmonic, harmonic_map
 from ricci.fundamental import Domain, Homotopy, homotopy
-from ricci.layouts import Atlas, Layout, RepairedInput, SheetLine, atlas, layout
+from ricci.layouts import Charts, Layout, RepairedInput, SheetLine, charts, layout
 from ricci.log import log_to_logging
 from ricci.maps import Map
 from ricci.matching import Matching, match
@@ -55,9 +55,9 @@ from ricci.uniform import Uniform, uniformize
 __all__ = [
     "ArgumentError",
     "ArgumentTypeError",
-    "Atlas",
     "Bicubic",
     "Cancelled",
+    "Charts",
     "CircleDomain",
     "CohortResult",
     "Control",
@@ -103,9 +103,9 @@ __all__ = [
     "Uniform",
     "__version__",
     "as_mesh",
-    "atlas",
     "bicubic",
     "change",
+    "charts",
     "circles",
     "cohort",
     "cover",

@@ -31,13 +31,13 @@ from ricci._library import lib
 from ricci._structs import Write, above_zero, choice, index_list, one_index, options
 from ricci.control import Progress
 from ricci.errors import LayoutError, warn
-from ricci.figures import AtlasSummary, LayoutSummary, RepairedInputSummary
+from ricci.figures import ChartsSummary, LayoutSummary, RepairedInputSummary
 from ricci.figures.names import Model, On
 from ricci.mesh import Mesh
 from ricci.metrics import Metric
 from ricci.status import Status
 
-__all__ = ["Atlas", "Layout", "LayoutOptions", "RepairedInput", "Seam", "SheetLine", "atlas", "layout"]
+__all__ = ["Charts", "Layout", "LayoutOptions", "RepairedInput", "Seam", "SheetLine", "charts", "layout"]
 
 LAYERS: tuple[Literal["boundary"], Literal["seams"], Literal["folds"]] = ("boundary", "seams", "folds")
 
@@ -290,7 +290,7 @@ class RepairedInput(Handle):
         call(lib.ricci_repaired_input_write, self, path_bytes(path))
 
 
-class Atlas(Handle):
+class Charts(Handle):
     """A layout in charts that do not overlap, packed into the unit square.
 
     Args:
@@ -299,40 +299,40 @@ class Atlas(Handle):
         progress: a `Control` or a callback.
     """
 
-    _type: ClassVar[str] = "atlas"
-    _made_by: ClassVar[str] = "ricci.atlas(layout)"
+    _type: ClassVar[str] = "charts"
+    _made_by: ClassVar[str] = "ricci.charts(layout)"
 
     def __init__(self, layout: Layout, margin: float = 1 / 256, progress: Progress = None) -> None:
-        self._pointer = Atlas._made(lib.ricci_atlas_new, layout, margin, CONTROL, progress=progress)._pointer
+        self._pointer = Charts._made(lib.ricci_charts_new, layout, margin, CONTROL, progress=progress)._pointer
 
     @cached_property
-    def summary(self) -> AtlasSummary:
+    def summary(self) -> ChartsSummary:
         """Counts, scale, and the share of the square that is covered."""
-        return summary(AtlasSummary, "atlas", self)
+        return summary(ChartsSummary, "charts", self)
 
     @cached_property
     def charts(self) -> Indices:
         """The chart of every face of the layout's mesh; charts with more area come first."""
-        return frozen(filled(lib.ricci_atlas_faces, self, out=np.empty(self.summary.n_faces, np.uint32)))
+        return frozen(filled(lib.ricci_charts_faces, self, out=np.empty(self.summary.n_faces, np.uint32)))
 
     @cached_property
     def points(self) -> Doubles:
         """n_points x 2, from 0 to 1."""
-        return frozen(doubles(lib.ricci_atlas_points, self, shape=(self.summary.n_points, 2)))
+        return frozen(doubles(lib.ricci_charts_points, self, shape=(self.summary.n_points, 2)))
 
     @cached_property
     def corners(self) -> Indices:
         """The point of every corner of every face, n_faces x 3."""
-        return frozen(filled(lib.ricci_atlas_corners, self, out=np.empty((self.summary.n_faces, 3), np.uint32)))
+        return frozen(filled(lib.ricci_charts_corners, self, out=np.empty((self.summary.n_faces, 3), np.uint32)))
 
     @cached_property
     def motions(self) -> Doubles:
         """n_charts x 3: rotation (radians) and translation that carry the layout's points, times `summary.scale`, to the chart's."""
-        return frozen(doubles(lib.ricci_atlas_motions, self, shape=(self.summary.n_charts, 3)))
+        return frozen(doubles(lib.ricci_charts_motions, self, shape=(self.summary.n_charts, 3)))
 
     def write(self, path: str | os.PathLike[str], *, homogeneous: bool = False) -> None:
         """Write the layout's mesh with its charts as texture coordinates, as `Layout.write` does."""
-        call(lib.ricci_atlas_write, self, int(homogeneous), path_bytes(path))
+        call(lib.ricci_charts_write, self, int(homogeneous), path_bytes(path))
 
 
 # Largest curvature of a vertex, radians, that a layout does not cut through: the library's own bound for cones.
@@ -376,6 +376,6 @@ def layout(metric: Metric, progress: Progress = None, **given: Unpack[LayoutOpti
     return Layout._made(lib.ricci_layout_new, metric, options("layout_options", given, _LAYOUT), CONTROL, progress=progress)
 
 
-def atlas(layout: Layout, margin: float = 1 / 256, progress: Progress = None) -> Atlas:
+def charts(layout: Layout, margin: float = 1 / 256, progress: Progress = None) -> Charts:
     """Cut a layout into charts that do not overlap, and pack them into the unit square."""
-    return Atlas(layout, margin, progress)
+    return Charts(layout, margin, progress)

@@ -93,7 +93,7 @@ pub fn fit_surface(
     let (mut best, mut failure): (Option<SurfaceFit>, _) = (None, None);
     let (mut factor, mut rounds, mut refused) = (1.0, 0, 0);
     while rounds < options.rounds.max(1) {
-        let control = &control.part_of(rounds, options.rounds);
+        let control = &control.attempt(rounds);
         let domain = setting.domain(&sizes, flat, &control.part(0.0, 0.1))?;
         let found = match FitRound::new(domain, &setting, factor, refused < TRIES, &control.part(0.1, 1.0)) {
             Ok(found) => found,
@@ -145,11 +145,11 @@ pub fn fit_surface_over(
     let (mut best, mut failure): (Option<(SurfaceFit, usize)>, _) = (None, None);
     let all = counts(surface.mesh().n_vertices(), options.control_points);
     for (i, &count) in all.iter().enumerate() {
-        let of_count = control.part_of(i, all.len());
+        let of_count = control.attempt(i);
         let options = SurfaceFitOptions { control_points: Some(count), ..options.clone() };
         let chosen = best.as_ref().map(|&(_, k)| k);
         for (k, flat) in metrics.iter().enumerate().filter(|&(k, _)| chosen.is_none_or(|best| best == k)) {
-            let tried = if chosen.is_some() { of_count.clone() } else { of_count.part_of(k, metrics.len()) };
+            let tried = if chosen.is_some() { of_count.clone() } else { of_count.attempt(k) };
             match fit_surface(surface, flat, &options, &tried) {
                 Ok(fit) if fit.holds(options.tolerance) => return Ok((fit, k)),
                 Ok(fit) => {

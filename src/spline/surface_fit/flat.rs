@@ -101,7 +101,7 @@ impl FlatMetric {
     ) -> Result<Vec<(f64, FlatMetric, usize)>> {
         let (mut metrics, mut failure) = (Vec::new(), None);
         for (k, curvatures) in all.iter().enumerate() {
-            let control = &control.part_of(k, all.len());
+            let control = &control.attempt(k);
             let found = match curvatures {
                 Curvatures::Infinity(vertex) => FlatMetric::of_sphere(surface, *vertex, options, control),
                 Curvatures::At(target) => FlatMetric::by_flow(surface, target.clone(), options, control),

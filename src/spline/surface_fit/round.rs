@@ -25,6 +25,8 @@ const POSITIONS: usize = 2;
 const CORRECTIONS: usize = 5;
 /// Corrections end once one leaves more than this share of the root mean square distance.
 const GAIN: f64 = 0.98;
+/// Part of the progress that is left after each correction: most rounds take five to ten.
+const LEFT_AFTER_CORRECTION: f64 = 0.8;
 /// Longest step of a place in one correction, over the longest side of its triangle.
 const LONGEST_STEP: f64 = 0.25;
 /// The weight of the fairness at which cross-validation starts, and the largest one.
@@ -95,8 +97,8 @@ impl FitRound {
             let system = FitSystem::new(&space, &holes, &places, FairnessUnit::Patches)?;
             let mut fitting =
                 RoundFitting { setting, domain: &domain, space: &space, holes: &holes, system, factor };
-            let best = fitting.run(places, &control.part(0.1, 0.7))?;
-            fitting.unfold(best, &control.part(0.7, 1.0))
+            let best = fitting.run(places, &control.part(0.1, 0.9))?;
+            fitting.unfold(best, &control.part(0.9, 1.0))
         })?;
         let (FittedPlaces { places, spline, measures, distances, fairness }, folds) = best;
         Ok(FitRound { domain, places, spline, measures, fairness, folds, distances })
@@ -162,7 +164,7 @@ impl RoundFitting<'_> {
         let mut best = self.measured(&places, &placed, &fit)?;
         let (mut before, mut damping) = (f64::INFINITY, DAMPING);
         for done in first..=options.corrections {
-            control.step(Stage::Flow, done as f64 / options.corrections as f64)?;
+            control.step(Stage::Flow, 1.0 - LEFT_AFTER_CORRECTION.powi(done as i32))?;
             let spline = self.system.spline(self.space, self.holes, &fit.unknowns)?;
             let found = spline.evaluate(&places, 1, options.threads, &control.still())?;
             self.correct(&mut places, &found, &spline);

@@ -39,7 +39,7 @@ static pthread_t watcher;
 static void write_report(void) {
     char path[256];
     int failed = 0;
-    snprintf(path, sizeof path, "progress_%s.txt", program_invocation_short_name);
+    snprintf(path, sizeof path, "%s.txt", program_invocation_short_name);
     FILE *file = fopen(path, "w");
     for (int i = 0; i < CALLS_COUNT; i++) {
         if (tried[i].calls && file)

@@ -32,8 +32,8 @@ int main(void) {
     ricci_mesh *mesh = torus_mesh(&t);
     ricci_metric *metric = NULL, *flat = NULL, *curved = NULL;
     ricci_layout *layout = NULL;
-    ricci_atlas *charts = NULL;
-    ricci_atlas_summary summary;
+    ricci_charts *charts = NULL;
+    ricci_charts_summary summary;
     ricci_layout_summary plane;
     const size_t n = t.n_vertices;
     double *target = (double *)malloc(n * sizeof *target), *again = (double *)malloc(n * sizeof *again);
@@ -77,14 +77,14 @@ int main(void) {
     OK(ricci_layout_new(flat, NULL, NULL, &layout));
     OK(ricci_layout_summarise(layout, &plane, sizeof plane));
     check_lines(layout);
-    FAILS(ricci_atlas_new(layout, 1, NULL, &charts), RICCI_ARGUMENT, "margin");
-    FAILS(ricci_atlas_new(NULL, 0.01, NULL, &charts), RICCI_NULL_POINTER, "layout");
-    FAILS(ricci_atlas_new(layout, 0.01, NULL, NULL), RICCI_NULL_POINTER, "atlas");
-    OK(ricci_atlas_new(layout, 0.01, NULL, &charts));
+    FAILS(ricci_charts_new(layout, 1, NULL, &charts), RICCI_ARGUMENT, "margin");
+    FAILS(ricci_charts_new(NULL, 0.01, NULL, &charts), RICCI_NULL_POINTER, "layout");
+    FAILS(ricci_charts_new(layout, 0.01, NULL, NULL), RICCI_NULL_POINTER, "charts");
+    OK(ricci_charts_new(layout, 0.01, NULL, &charts));
     double *uv = (double *)room(6 * plane.n_faces, sizeof *uv);
     OK(ricci_layout_uv(layout, RICCI_ON_REFINEMENT, uv, 6 * plane.n_faces));
     ricci_layout_free(layout); /* charts live on */
-    OK(ricci_atlas_summarise(charts, &summary, sizeof summary));
+    OK(ricci_charts_summarise(charts, &summary, sizeof summary));
     CHECK(summary.n_faces == plane.n_faces && plane.n_vertices > plane.n_input_vertices &&
           summary.n_flipped == 0 && summary.n_charts >= 1);
     CHECK(summary.efficiency > 0.05 && summary.efficiency < 1 && summary.chart_seams >= summary.layout_seams);
@@ -94,12 +94,12 @@ int main(void) {
     uint32_t *corners = (uint32_t *)malloc(3 * n_faces * sizeof *corners);
     uint32_t *chart = (uint32_t *)malloc(n_faces * sizeof *chart);
     CHECK(points && corners && chart);
-    OK(ricci_atlas_points(charts, points, 2 * summary.n_points));
-    OK(ricci_atlas_corners(charts, corners, 3 * n_faces));
-    OK(ricci_atlas_faces(charts, chart, n_faces));
-    FAILS(ricci_atlas_points(charts, points, 2 * summary.n_points - 1), RICCI_BUFFER_TOO_SMALL, "points");
-    FAILS(ricci_atlas_corners(charts, corners, 0), RICCI_BUFFER_TOO_SMALL, "corners");
-    FAILS(ricci_atlas_faces(charts, NULL, n_faces), RICCI_NULL_POINTER, "charts");
+    OK(ricci_charts_points(charts, points, 2 * summary.n_points));
+    OK(ricci_charts_corners(charts, corners, 3 * n_faces));
+    OK(ricci_charts_faces(charts, chart, n_faces));
+    FAILS(ricci_charts_points(charts, points, 2 * summary.n_points - 1), RICCI_BUFFER_TOO_SMALL, "points");
+    FAILS(ricci_charts_corners(charts, corners, 0), RICCI_BUFFER_TOO_SMALL, "corners");
+    FAILS(ricci_charts_faces(charts, NULL, n_faces), RICCI_NULL_POINTER, "charts");
     for (size_t k = 0; k < 2 * summary.n_points; k++) CHECK(points[k] >= 0 && points[k] <= 1);
     for (size_t f = 0; f < n_faces; f++) {
         const double *a = points + 2 * corners[3 * f], *b = points + 2 * corners[3 * f + 1];
@@ -109,11 +109,11 @@ int main(void) {
         area += 0.5 * twice;
     }
     CHECK(fabs(area - summary.efficiency) < 1e-9);
-    OK(ricci_atlas_write(charts, 0, "charts.obj"));
+    OK(ricci_charts_write(charts, 0, "charts.obj"));
     /* Each chart is the layout, scaled, turned and moved. */
     double *motions = (double *)room(3 * summary.n_charts, sizeof *motions);
-    OK(ricci_atlas_motions(charts, motions, 3 * summary.n_charts));
-    FAILS(ricci_atlas_motions(charts, motions, 3 * summary.n_charts - 1), RICCI_BUFFER_TOO_SMALL, "motions");
+    OK(ricci_charts_motions(charts, motions, 3 * summary.n_charts));
+    FAILS(ricci_charts_motions(charts, motions, 3 * summary.n_charts - 1), RICCI_BUFFER_TOO_SMALL, "motions");
     for (size_t k = 0; k < 3 * n_faces; k++) {
         const double *m = motions + 3 * chart[k / 3], *p = points + 2 * corners[k];
         const double x = summary.scale * uv[2 * k], y = summary.scale * uv[2 * k + 1];
@@ -122,8 +122,8 @@ int main(void) {
     }
     free(uv), free(motions);
 
-    ricci_atlas_free(charts);
-    ricci_atlas_free(NULL);
+    ricci_charts_free(charts);
+    ricci_charts_free(NULL);
     ricci_metric_free(flat);
     ricci_metric_free(curved);
     ricci_metric_free(metric);

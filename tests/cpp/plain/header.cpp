@@ -46,7 +46,7 @@ int whole_job() {
     if (layout.line_points(0.5).size() != n_points) return 10;
     const ricci::map map(end);
     if (map.faces(RICCI_ON_INPUT).size() != map.summary().n_faces) return 6;
-    if (ricci::atlas(layout).faces().size() != summary.n_faces) return 7;
+    if (ricci::charts(layout).faces().size() != summary.n_faces) return 7;
     const ricci::repaired_input repaired(layout);
     if (repaired.summary().n_flipped != 0 || repaired.faces().size() != repaired.summary().n_faces) return 7;
     ricci::metric moved = std::move(start);

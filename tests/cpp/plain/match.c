@@ -27,7 +27,7 @@ static void check_map(const ricci_matching *matching, size_t n) {
     INIT(given);
     given.values = values, given.n_values = n, given.n_components = 1;
     OK(ricci_map_carry(map, &given, first, s.n_vertices));
-    given.on = RICCI_ON_METRIC;
+    given.on = RICCI_ON_TARGET;
     OK(ricci_map_carry(map, &given, second, s.n_vertices));
     OK(ricci_map_weights(map, weights, s.n_vertices));
     for (size_t v = 0; v < s.n_vertices; v++) {

@@ -114,10 +114,10 @@ static void check_layout(const ricci_mesh *mesh, uint32_t flips, const char *pat
     ricci_layout *layout = NULL;
     ricci_map *map = NULL;
     ricci_map_summary counts;
-    ricci_atlas *charts = NULL;
+    ricci_charts *charts = NULL;
     ricci_mesh *refined = NULL, *final_mesh = NULL;
     ricci_layout_summary s;
-    ricci_atlas_summary c;
+    ricci_charts_summary c;
     ricci_flow_options options;
     double *target = (double *)room(n, sizeof *target);
     INIT(options);
@@ -153,20 +153,20 @@ static void check_layout(const ricci_mesh *mesh, uint32_t flips, const char *pat
     FAILS(ricci_layout_write(layout, RICCI_ON_REFINEMENT, 1, NULL), RICCI_NULL_POINTER, "path");
     free(points);
 
-    OK(ricci_atlas_new(layout, 0.01, NULL, &charts));
-    OK(ricci_atlas_summarise(charts, &c, sizeof c));
+    OK(ricci_charts_new(layout, 0.01, NULL, &charts));
+    OK(ricci_charts_summarise(charts, &c, sizeof c));
     points = (double *)room(2 * c.n_points, sizeof *points);
-    OK(ricci_atlas_points(charts, points, 2 * c.n_points));
-    OK(ricci_atlas_corners(charts, corners, 3 * c.n_faces));
-    OK(ricci_atlas_write(charts, 1, path));
+    OK(ricci_charts_points(charts, points, 2 * c.n_points));
+    OK(ricci_charts_corners(charts, corners, 3 * c.n_faces));
+    OK(ricci_charts_write(charts, 1, path));
     check_homogeneous(path, map, &s, r.faces, points, corners, c.n_points);
-    FAILS(ricci_atlas_write(NULL, 1, path), RICCI_NULL_POINTER, "atlas");
+    FAILS(ricci_charts_write(NULL, 1, path), RICCI_NULL_POINTER, "charts");
 
     printf("%s: %zu vertices, %zu crossings, %zu charts\n", path, n, counts.n_crossings, c.n_charts);
     free(points), free(corners), free(positions), free(target);
     arrays_free(&r), arrays_free(&last), arrays_free(&given);
     ricci_mesh_free(refined), ricci_mesh_free(final_mesh);
-    ricci_atlas_free(charts), ricci_layout_free(layout), ricci_map_free(map);
+    ricci_charts_free(charts), ricci_layout_free(layout), ricci_map_free(map);
     ricci_metric_free(flat), ricci_metric_free(metric);
 }
 

@@ -140,7 +140,7 @@ static void the_way_back_is_a_layout_like_others(const ricci_uniform *quotient, 
     ricci_metric *metric = NULL;
     ricci_map *map = NULL;
     ricci_map_summary c;
-    ricci_atlas *charts = NULL;
+    ricci_charts *charts = NULL;
     arrays given = arrays_of(mesh, 1);
     ricci_uniform_summary q;
     OK(ricci_uniform_summarise(quotient, &q, sizeof q));
@@ -220,8 +220,8 @@ static void the_way_back_is_a_layout_like_others(const ricci_uniform *quotient, 
     ricci_mesh_summary m;
     OK(ricci_mesh_summarise(file, &m, sizeof m));
     CHECK(m.n_vertices == s.n_vertices && m.n_faces == s.n_faces && m.n_uv == s.n_faces);
-    OK(ricci_atlas_new(disk, 1.0 / 256, NULL, &charts));
-    ricci_atlas_free(charts);
+    OK(ricci_charts_new(disk, 1.0 / 256, NULL, &charts));
+    ricci_charts_free(charts);
     FAILS(ricci_uniform_layout(quotient, RICCI_ON_METRIC, RICCI_MODEL_AMBIENT, NULL, &klein), RICCI_ARGUMENT,
           "two coordinates");
     FAILS(ricci_uniform_layout(quotient, RICCI_ON_INPUT, RICCI_MODEL_KLEIN, NULL, &klein), RICCI_LAYOUT,
@@ -396,7 +396,7 @@ static void what_is_no_quotient_is_refused(void) {
     OK(ricci_dirichlet_new(other, NULL, NULL, &foreign));
     FAILS(deck_of(sound, RICCI_DECK_DIRICHLET_SIDES, foreign, &deck), RICCI_ARGUMENT, "another surface");
     CHECK(dirichlet == NULL && deck == NULL);
-    ricci_uniform_free(NULL), ricci_dirichlet_free(NULL), ricci_deck_free(NULL), ricci_atlas_free(NULL);
+    ricci_uniform_free(NULL), ricci_dirichlet_free(NULL), ricci_deck_free(NULL), ricci_charts_free(NULL);
     ricci_uniform_free(sound), ricci_uniform_free(other), ricci_dirichlet_free(foreign);
     ricci_control_free(control), ricci_metric_free(flat);
     ricci_mesh_free(bolza), ricci_mesh_free(other_mesh);

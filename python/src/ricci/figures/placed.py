@@ -134,8 +134,8 @@ class RepairedInputSummary:
 
 
 @dataclass(frozen=True)
-class AtlasSummary:
-    """Figures of an atlas.
+class ChartsSummary:
+    """Figures of the charts of a layout.
 
     Attributes:
         n_charts: number of charts.

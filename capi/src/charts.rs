@@ -16,7 +16,7 @@ use ricci::mesh::Point;
 use std::ffi::c_char;
 use std::sync::Arc;
 
-pub struct ricci_atlas {
+pub struct ricci_charts {
     state: Arc<MetricState>,
     /// The layout that was cut into charts.
     layout: Arc<Layout>,
@@ -24,9 +24,9 @@ pub struct ricci_atlas {
     positions: Option<Arc<Vec<Point>>>,
     charts: Charts,
 }
-handle!(ricci_atlas, "atlas", |atlas| atlas.layout.mesh().n_vertices());
+handle!(ricci_charts, "charts", |packed| packed.layout.mesh().n_vertices());
 
-impl ricci_atlas {
+impl ricci_charts {
     /// The point of every corner of every face.
     fn corners(&self) -> Vec<[u32; 3]> {
         corners_of(self.layout.mesh(), &self.charts.corner_index)
@@ -35,7 +35,7 @@ impl ricci_atlas {
 
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
-pub struct ricci_atlas_summary {
+pub struct ricci_charts_summary {
     pub size: usize,
     pub n_charts: usize,
     pub n_faces: usize,
@@ -48,39 +48,39 @@ pub struct ricci_atlas_summary {
     pub chart_seams: f64,
 }
 // SAFETY: numbers; 8-byte alignment, size first.
-sized!(ricci_atlas_summary, "summary");
+sized!(ricci_charts_summary, "summary");
 
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn ricci_atlas_new(
+pub unsafe extern "C" fn ricci_charts_new(
     layout: *const ricci_layout,
     margin: f64,
     control: *const ricci_control,
-    atlas: *mut *mut ricci_atlas,
+    packed: *mut *mut ricci_charts,
 ) -> ricci_status {
-    guard::make(atlas, || {
+    guard::make(packed, || {
         let handle = shared(layout)?;
         let ricci_layout { layout, points, state, .. } = handle;
         let _reserve = memory::work(layout.mesh().n_vertices(), memory::LAYOUT)?;
         let uv = |h| points[layout.corner_index[h] as usize];
         let charts = charts(layout.mesh(), uv, &ChartOptions { margin }, &control::of(control)?)?;
         let positions = handle.positions()?;
-        Ok(ricci_atlas { state: state.clone(), layout: layout.clone(), positions, charts })
+        Ok(ricci_charts { state: state.clone(), layout: layout.clone(), positions, charts })
     })
 }
 
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn ricci_atlas_free(atlas: *mut ricci_atlas) {
-    guard::free(atlas);
+pub unsafe extern "C" fn ricci_charts_free(packed: *mut ricci_charts) {
+    guard::free(packed);
 }
 
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn ricci_atlas_summarise(
-    atlas: *const ricci_atlas,
-    summary: *mut ricci_atlas_summary,
+pub unsafe extern "C" fn ricci_charts_summarise(
+    packed: *const ricci_charts,
+    summary: *mut ricci_charts_summary,
     size: usize,
 ) -> ricci_status {
-    guard::with(atlas, |ricci_atlas { layout, charts, .. }| {
-        let figures = ricci_atlas_summary {
+    guard::with(packed, |ricci_charts { layout, charts, .. }| {
+        let figures = ricci_charts_summary {
             size,
             n_charts: charts.count(),
             n_faces: layout.mesh().n_faces(),
@@ -97,58 +97,58 @@ pub unsafe extern "C" fn ricci_atlas_summarise(
 }
 
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn ricci_atlas_faces(
-    atlas: *const ricci_atlas,
+pub unsafe extern "C" fn ricci_charts_faces(
+    packed: *const ricci_charts,
     charts: *mut u32,
     capacity: usize,
 ) -> ricci_status {
-    guard::with(atlas, |atlas| copy_out("charts", &atlas.charts.chart, charts, capacity))
+    guard::with(packed, |packed| copy_out("charts", &packed.charts.chart, charts, capacity))
 }
 
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn ricci_atlas_points(
-    atlas: *const ricci_atlas,
+pub unsafe extern "C" fn ricci_charts_points(
+    packed: *const ricci_charts,
     points: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::with(atlas, |atlas| copy_out("points", &atlas.charts.coordinates, points, capacity))
+    guard::with(packed, |packed| copy_out("points", &packed.charts.coordinates, points, capacity))
 }
 
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn ricci_atlas_corners(
-    atlas: *const ricci_atlas,
+pub unsafe extern "C" fn ricci_charts_corners(
+    packed: *const ricci_charts,
     corners: *mut u32,
     capacity: usize,
 ) -> ricci_status {
-    guard::with(atlas, |atlas| copy_out("corners", &atlas.corners(), corners, capacity))
+    guard::with(packed, |packed| copy_out("corners", &packed.corners(), corners, capacity))
 }
 
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn ricci_atlas_motions(
-    atlas: *const ricci_atlas,
+pub unsafe extern "C" fn ricci_charts_motions(
+    packed: *const ricci_charts,
     motions: *mut f64,
     capacity: usize,
 ) -> ricci_status {
-    guard::with(atlas, |ricci_atlas { charts, .. }| {
+    guard::with(packed, |ricci_charts { charts, .. }| {
         let rows = charts.motions.iter().map(|m| [m.rotation, m.translation[0], m.translation[1]]);
         copy_each("motions", charts.motions.len(), rows, motions, capacity)
     })
 }
 
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn ricci_atlas_write(
-    atlas: *const ricci_atlas,
+pub unsafe extern "C" fn ricci_charts_write(
+    packed: *const ricci_charts,
     homogeneous: u32,
     path: *const c_char,
 ) -> ricci_status {
-    guard::with(atlas, |atlas| {
-        let ricci_atlas { state, layout, positions, charts } = atlas;
+    guard::with(packed, |packed| {
+        let ricci_charts { state, layout, positions, charts } = packed;
         let weights = match (homogeneous, layout.space) {
             (0, _) => None,
             (_, Space::E2) => Some((crate::map::weights(state, layout.common_subdivision())?, Vec::new())),
             _ => return Err(not_projective()),
         };
-        let (corners, positions) = (atlas.corners(), positions.clone());
+        let (corners, positions) = (packed.corners(), positions.clone());
         TextureFile { mesh: layout.mesh(), positions, points: &charts.coordinates, corners }
             .write(&arrays::path(path)?, weights)
     })
