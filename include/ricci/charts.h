@@ -225,10 +225,10 @@ typedef struct ricci_charts_summary {
  * @param margin   least distance of two charts, in sides of the unit square, from 0 to below 1; 1/256 is
  *                 usual.
  * @param control  progress and cancellation; NULL for neither.
- * @param charts   out: the new handle, to be released by ricci_charts_free.
+ * @param packed   out: the new handle, to be released by ricci_charts_free.
  */
 RICCI_API ricci_status ricci_charts_new(const ricci_layout *layout, double margin,
-                                        const ricci_control *control, ricci_charts **charts);
+                                        const ricci_control *control, ricci_charts **packed);
 
 /**
  * Release charts.

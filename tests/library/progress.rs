@@ -43,8 +43,8 @@ fn checks_after_end(work: &dyn Fn(&Control) -> Result<()>, end: usize) -> usize 
 
 /// Steps of each call at which it is ended.
 const ENDS: usize = 6;
-/// Checks that other threads, and loops in parallel, make beyond the one that ends the call.
-const MOST_BEYOND: usize = 64;
+/// Checks beyond the one that ends the call: loops in parallel make one for each element that is left, such as the charts of an atlas.
+const MOST_BEYOND: usize = 1024;
 
 fn judge(what: &str, work: &dyn Fn(&Control) -> Result<()>) {
     let seen = fractions(work);
