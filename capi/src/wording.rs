@@ -3,11 +3,14 @@
 use std::borrow::Cow;
 
 /// Words of messages and the words of the C face for them. An entry that begins as another one does stands before it.
-const WORDS: [(&str, &str); 15] = [
+const WORDS: [(&str, &str); 18] = [
     (" (--loops)", ""),
+    ("--loops K,K,…", "the field loops"),
+    ("ricci refine --intrinsic", "ricci_mesh_refine_angle"),
     ("no command makes", "no function makes"),
     ("ricci info lists them", "ricci_soup_loops lists them"),
     ("ricci flow --components all", "ricci_flow after ricci_soup_repair with component"),
+    ("ricci flow", "ricci_flow"),
     ("ricci repair --weld DISTANCE", "ricci_soup_repair with weld"),
     ("ricci repair --weld ", "ricci_soup_repair with weld = "),
     ("ricci repair --drop-nonfinite", "ricci_soup_repair with drop_non_finite"),

@@ -194,7 +194,8 @@ def in_methods(message: str) -> str:
     """A message of the library in the words of Python: its C functions are methods of the package, their fields keyword arguments."""
     told = re.sub(r"ricci_soup_(repair|refine) with (\w+) = ([0-9.e+-]*[0-9])", r"Soup.\1(\2=\3)", message)
     told = re.sub(r"ricci_soup_(repair|refine) with (\w+)", r"Soup.\1(\2=...)", told)
-    return told.replace("ricci_flow", "Metric.flow").replace("ricci_soup_", "Soup.")
+    told = told.replace("ricci_flow", "Metric.flow").replace("ricci_mesh_refine_angle", "Mesh.refine_angle")
+    return told.replace("ricci_soup_", "Soup.")
 
 
 def last_failure(status: int) -> RicciError:
