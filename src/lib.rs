@@ -16,6 +16,7 @@
 //! | [`harmonic`] | Laplacian, harmonic maps and 1-forms, period matrices, trajectories |
 //! | [`canonical`] | canonical shapes: uniformization, spheres, circle domains, straight boundaries |
 //! | [`seamless`] | metrics and maps whose cones and handles turn by multiples of 90° |
+//! | [`quads`] | T-meshes, integer-grid maps, quad meshes and layouts of seamless maps |
 //! | [`matching`] | maps between two surfaces |
 //! | [`structure`] | atlases: conformal, spherical, affine, hyperbolic, projective |
 //! | [`spline`] | triangular B-splines, fits over whole surfaces, bicubic patches for CAD |
@@ -38,6 +39,7 @@ pub mod matching;
 pub mod mesh;
 pub mod metric;
 pub mod parallel;
+pub mod quads;
 pub mod seamless;
 pub mod spline;
 pub mod structure;

@@ -20,6 +20,7 @@ const FLOORS: &[&[&str]] = &[
     &["flow"],
     &["embed", "harmonic"],
     &["canonical", "seamless"],
+    &["quads"],
     &["matching"],
     &["structure"],
     &["spline"],

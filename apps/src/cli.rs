@@ -7,6 +7,7 @@ use crate::harmonic::HarmonicArgs;
 use crate::info::InfoArgs;
 use crate::matching::MatchArgs;
 use crate::options::Common;
+use crate::quads::QuadsArgs;
 use crate::refine::RefineArgs;
 use crate::repair::RepairArgs;
 use crate::seamless::SeamlessArgs;
@@ -70,6 +71,9 @@ pub enum Command {
     /// A flat metric whose cones and handles turn by multiples of 90°, and its map, whose seams a grid of squares crosses
     #[command(after_help = crate::seamless::HELP)]
     Seamless(SeamlessArgs),
+    /// A quad mesh of the surface from a seamless map, regular but at its cones
+    #[command(after_help = crate::quads::HELP)]
+    Quads(QuadsArgs),
     /// Triangular B-splines: fitted to meshes, evaluated
     #[command(after_help = crate::spline::HELP)]
     Spline(SplineArgs),

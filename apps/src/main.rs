@@ -33,6 +33,7 @@ mod options;
 mod output;
 mod picture;
 mod progress;
+mod quads;
 mod quantity;
 mod refine;
 mod repair;
@@ -83,6 +84,7 @@ fn run(command: &Command, control: &Control) -> Result<u8, Failure> {
         Command::Circles(args) => runner::run(args, control),
         Command::Match(args) => runner::run(args, control),
         Command::Seamless(args) => runner::run(args, control),
+        Command::Quads(args) => runner::run(args, control),
         Command::Structure(args) => runner::run(args, control),
         Command::Info(args) => runner::run(args, control),
         Command::Repair(args) => runner::run(args, control),

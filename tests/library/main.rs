@@ -39,6 +39,7 @@ mod mesh_gltf;
 mod mesh_odd;
 mod outer;
 mod progress;
+mod quads;
 mod range;
 mod refine;
 mod repair;

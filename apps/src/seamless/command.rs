@@ -134,7 +134,7 @@ fn options(args: &SeamlessArgs, input: &Input) -> Result<SeamlessOptions, Failur
         None => None,
     };
     Ok(SeamlessOptions {
-        cones: cones(&args.cones, input)?,
+        cones: chosen_cones(&args.cones, input)?,
         quarter_turns: args.turning.clone(),
         features: features.unwrap_or_default(),
         guides,
@@ -156,7 +156,8 @@ fn write_field(out: &mut dyn Write, input: &Input, field: &CrossField) -> std::i
     Ok(())
 }
 
-fn cones(choice: &ConesChoice, input: &Input) -> Result<SeamlessCones, Failure> {
+/// The cones of an option.
+pub fn chosen_cones(choice: &ConesChoice, input: &Input) -> Result<SeamlessCones, Failure> {
     Ok(match choice {
         ConesChoice::Field => SeamlessCones::Field,
         ConesChoice::Auto(n) => SeamlessCones::Auto(*n),

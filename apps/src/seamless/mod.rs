@@ -5,4 +5,5 @@ mod command;
 mod figures;
 mod picture;
 
-pub use args::{HELP, SeamlessArgs};
+pub use args::{ConesChoice, HELP, SeamlessArgs};
+pub use command::chosen_cones;

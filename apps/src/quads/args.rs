@@ -1,0 +1,76 @@
+//! The options of `ricci quads`.
+
+use crate::options::{Common, FileName, SurfaceArgs};
+use crate::seamless::ConesChoice;
+use clap::Args;
+use ricci::quads::QuadSize;
+use serde::Serialize;
+
+pub const HELP: &str = "\
+Example: a torus as about 500 quads, and where their vertices lie on it
+    ricci make torus -o torus.obj
+    ricci quads torus.obj -o quads.obj --faces 500 --map on.csv
+
+All vertices have four quads but those at the cones of the seamless map, and edges run along the boundary and features. The map of each
+quad onto its unit square follows from whole numbers, without a tolerance.
+
+Files
+    -o Q.obj            faces with four corners, vertices on the input's faces
+    --map X.csv         rows quad_vertex,source_face,b0,b1,b2: the face of each vertex and barycentric coordinates in it";
+
+#[derive(Args, Serialize, Debug)]
+pub struct QuadsArgs {
+    #[command(flatten)]
+    #[serde(flatten)]
+    pub surface: SurfaceArgs,
+    /// The quad mesh (.obj)
+    #[arg(short = 'o', long = "out", value_name = "Q.obj")]
+    pub out: FileName,
+    #[command(flatten)]
+    #[serde(flatten)]
+    pub size: QuadSizeArgs,
+    /// The cones, as for `ricci seamless`: field, auto:N, or a table vertex,valence
+    #[arg(long, value_name = "CONES", default_value_t = ConesChoice::Field)]
+    pub cones: ConesChoice,
+    /// Take edges at which the surface turns by this much as features
+    #[arg(long, value_name = "DEGREES", value_parser = crate::options::positive)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub features: Option<f64>,
+    /// Largest deviation of an angle of the seamless metric from a multiple of 90°, radians
+    #[arg(long, value_name = "RADIANS", default_value_t = 1e-10, value_parser = crate::options::positive)]
+    pub tolerance: f64,
+    /// Write the places of the vertices on the input
+    #[arg(long, value_name = "X.csv")]
+    pub map: Option<FileName>,
+    #[command(flatten)]
+    #[serde(flatten)]
+    pub common: Common,
+}
+
+/// The size of the quads.
+#[derive(Args, Serialize, Debug)]
+#[group(multiple = false)]
+pub struct QuadSizeArgs {
+    /// The edge length, in the units of the input
+    #[arg(long, value_name = "L", value_parser = crate::options::positive)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub edge: Option<f64>,
+    /// About this number of quads [default: 1000]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub faces: Option<u32>,
+    /// As few quads as the lines between cones allow
+    #[arg(long)]
+    pub coarse: bool,
+}
+
+impl QuadSizeArgs {
+    pub fn size(&self) -> QuadSize {
+        match (self.edge, self.faces) {
+            (Some(edge), _) => QuadSize::Edge(edge),
+            (_, Some(n)) => QuadSize::Quads(n as usize),
+            _ if self.coarse => QuadSize::Coarse,
+            _ => QuadSize::Quads(1000),
+        }
+    }
+}

@@ -1,0 +1,88 @@
+//! `ricci quads` as a job: what it refuses, computes, writes and reports.
+
+use super::args::QuadsArgs;
+use super::figures::QuadsOutcome;
+use crate::failure::{Failure, NO_POSITIONS};
+use crate::input;
+use crate::output::{check_extension, check_outputs};
+use crate::progress::doing;
+use crate::report::timed;
+use crate::runner::{CommandRun, Job, JobHeader};
+use crate::seamless::{ConesChoice, chosen_cones};
+use ricci::quads::{QuadMesh, QuadOptions, quad_mesh};
+use ricci::seamless::{SeamlessOptions, seamless, sharp_edges};
+use std::io::Write;
+use std::time::Instant;
+
+impl Job for QuadsArgs {
+    type Outcome = QuadsOutcome;
+
+    fn header(&self) -> JobHeader<'_> {
+        JobHeader { name: "quads", common: &self.common, mesh: Some(&self.surface.file.mesh) }
+    }
+
+    fn check(&self) -> Result<(), Failure> {
+        check_extension("-o", Some(&self.out), &["obj"])?;
+        let table = match &self.cones {
+            ConesChoice::Table(path) => Some(path.as_path()),
+            _ => None,
+        };
+        let files = [Some(&self.out), self.map.as_ref(), self.common.report.as_ref()];
+        check_outputs(&[Some(&*self.surface.file.mesh), table], &files.map(|file| file.map(|f| &**f)))
+    }
+
+    fn compute(&self, run: &mut CommandRun<'_>) -> Result<QuadsOutcome, Failure> {
+        let input = input::surface(&self.surface, &mut run.seconds, run.control)?;
+        if input.positions().is_none() {
+            return Err(Failure::Usage(format!("-o: {NO_POSITIONS}")));
+        }
+        let features = match self.features {
+            Some(degrees) => sharp_edges(&input.surface, degrees.to_radians())?,
+            None => Vec::new(),
+        };
+        let options = SeamlessOptions {
+            cones: chosen_cones(&self.cones, &input)?,
+            features,
+            tolerance: self.tolerance,
+            threads: self.common.threads,
+            ..SeamlessOptions::default()
+        };
+        let solve = || doing("solving", || seamless(&input.surface, &options, run.control));
+        let found = timed(&mut run.seconds.solve, solve)?;
+        let options = QuadOptions { size: self.size.size(), threads: self.common.threads };
+        let begin = Instant::now();
+        let mesh = doing("dividing", || quad_mesh(&found, &options, run.control))?;
+        let seconds = begin.elapsed().as_secs_f64();
+        run.seconds.layout += seconds;
+        let positions = mesh.positions(&found.solution).ok_or_else(Failure::no_positions)?;
+        Ok(QuadsOutcome { input, found, mesh, positions })
+    }
+
+    fn write(&self, outcome: &QuadsOutcome, run: &mut CommandRun<'_>) -> Result<(), Failure> {
+        run.file("out", Some(&self.out), |outputs, path| outputs.add(path, |out| write_obj(out, outcome)))?;
+        run.file("map", self.map.as_deref(), |outputs, path| {
+            outputs.add(path, |out| write_places(out, &outcome.mesh))
+        })
+    }
+}
+
+/// The quad mesh as OBJ.
+fn write_obj(out: &mut dyn Write, outcome: &QuadsOutcome) -> std::io::Result<()> {
+    for [x, y, z] in &outcome.positions {
+        writeln!(out, "v {x} {y} {z}")?;
+    }
+    for quad in &outcome.mesh.quads {
+        let [a, b, c, d] = quad.map(|v| v + 1);
+        writeln!(out, "f {a} {b} {c} {d}")?;
+    }
+    Ok(())
+}
+
+/// The places of the vertices on the input.
+fn write_places(out: &mut dyn Write, mesh: &QuadMesh) -> std::io::Result<()> {
+    writeln!(out, "quad_vertex,source_face,b0,b1,b2")?;
+    for (v, (f, [b0, b1, b2])) in mesh.places.iter().enumerate() {
+        writeln!(out, "{v},{f},{b0},{b1},{b2}")?;
+    }
+    Ok(())
+}

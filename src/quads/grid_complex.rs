@@ -1,0 +1,139 @@
+//! The squares of an integer-grid map: each rectangle of a T-mesh divided into unit squares, glued along arcs. Arcs of length 0 and
+//! rectangles without width bring their points together.
+
+use super::t_mesh::{HalfArc, TMesh, TRectangle};
+use crate::mesh::union_find::UnionFind;
+
+/// Points and squares, numbered node by node, arc by arc, rectangle by rectangle.
+pub(super) struct GridComplex<'a> {
+    t_mesh: &'a TMesh,
+    numbers: &'a [i64],
+    /// Per arc the number of its first inner point.
+    arc_start: Vec<u32>,
+    /// Per rectangle the number of its first inner point.
+    rectangle_start: Vec<u32>,
+    /// The number of points.
+    pub n_points: usize,
+}
+
+/// The points along the sides of a rectangle: bottom and top from left to right, left and right from bottom to top.
+pub(super) struct RectangleSides {
+    pub bottom: Vec<u32>,
+    pub right: Vec<u32>,
+    pub top: Vec<u32>,
+    pub left: Vec<u32>,
+}
+
+impl<'a> GridComplex<'a> {
+    pub fn new(t_mesh: &'a TMesh, numbers: &'a [i64]) -> GridComplex<'a> {
+        let mut complex =
+            GridComplex { t_mesh, numbers, arc_start: Vec::new(), rectangle_start: Vec::new(), n_points: 0 };
+        let mut next = t_mesh.nodes.len();
+        for &n in numbers {
+            complex.arc_start.push(next as u32);
+            next += (n - 1).max(0) as usize;
+        }
+        for rectangle in &t_mesh.rectangles {
+            complex.rectangle_start.push(next as u32);
+            let [m, n] = complex.size(rectangle);
+            next += (m.saturating_sub(1)) * (n.saturating_sub(1));
+        }
+        complex.n_points = next;
+        complex
+    }
+
+    /// The squares along the first and the second side of a rectangle.
+    pub fn size(&self, rectangle: &TRectangle) -> [usize; 2] {
+        [0, 1].map(|k| rectangle.sides[k].iter().map(|h| self.numbers[h / 2]).sum::<i64>().max(0) as usize)
+    }
+
+    /// The number of squares.
+    pub fn n_squares(&self) -> usize {
+        self.t_mesh.rectangles.iter().map(|r| self.size(r).iter().product::<usize>()).sum()
+    }
+
+    /// The point of an arc at this distance from the half-arc's beginning.
+    pub fn arc_point(&self, h: HalfArc, k: i64) -> u32 {
+        let n = self.numbers[h / 2];
+        if k == 0 {
+            return self.t_mesh.origin(h) as u32;
+        }
+        if k == n {
+            return self.t_mesh.tip(h) as u32;
+        }
+        let from_first = if h % 2 == 0 { k } else { n - k };
+        self.arc_start[h / 2] + (from_first - 1) as u32
+    }
+
+    /// The points along a side, in its direction.
+    fn side(&self, side: &[HalfArc]) -> Vec<u32> {
+        let mut points: Vec<u32> = side.first().map(|&h| self.t_mesh.origin(h) as u32).into_iter().collect();
+        for &h in side {
+            points.extend((1..=self.numbers[h / 2]).map(|k| self.arc_point(h, k)));
+        }
+        points
+    }
+
+    pub fn sides(&self, rectangle: &TRectangle) -> RectangleSides {
+        let [bottom, right, mut top, mut left] = [0, 1, 2, 3].map(|k| self.side(&rectangle.sides[k]));
+        top.reverse();
+        left.reverse();
+        // An arc of length 0 at the end of a reversed side leaves its first node in the list; both are one point.
+        RectangleSides { bottom, right, top, left }
+    }
+
+    /// The number of an inner point of a rectangle.
+    pub fn inner_point(&self, r: usize, [m, _]: [usize; 2], [i, j]: [usize; 2]) -> u32 {
+        self.rectangle_start[r] + ((j - 1) * (m - 1) + i - 1) as u32
+    }
+
+    /// The point of a rectangle in column i and row j.
+    pub fn point(&self, r: usize, size: [usize; 2], sides: &RectangleSides, [i, j]: [usize; 2]) -> u32 {
+        let [m, n] = size;
+        match (i, j) {
+            (_, 0) => sides.bottom[i],
+            (_, j) if j == n => sides.top[i],
+            (0, _) => sides.left[j],
+            (i, _) if i == m => sides.right[j],
+            _ => self.inner_point(r, size, [i, j]),
+        }
+    }
+
+    /// The points that are the same.
+    pub fn identified(&self) -> UnionFind {
+        let mut same = UnionFind::new(self.n_points);
+        for (arc, _) in self.numbers.iter().enumerate().filter(|(_, n)| **n == 0) {
+            same.join(self.t_mesh.origin(2 * arc) as u32, self.t_mesh.tip(2 * arc) as u32);
+        }
+        for rectangle in &self.t_mesh.rectangles {
+            let [m, n] = self.size(rectangle);
+            if m > 0 && n > 0 {
+                continue;
+            }
+            let sides = self.sides(rectangle);
+            let pairs = if m == 0 { [&sides.left, &sides.right] } else { [&sides.bottom, &sides.top] };
+            pairs[0].iter().zip(pairs[1]).for_each(|(&a, &b)| {
+                same.join(a, b);
+            });
+        }
+        same
+    }
+
+    /// The corners of all squares, counterclockwise, as points that are not yet identified; and per square its rectangle.
+    pub fn squares(&self) -> (Vec<[u32; 4]>, Vec<u32>) {
+        let mut squares = Vec::new();
+        let mut of = Vec::new();
+        for (r, rectangle) in self.t_mesh.rectangles.iter().enumerate() {
+            let size = self.size(rectangle);
+            let sides = self.sides(rectangle);
+            for j in 0..size[1] {
+                for i in 0..size[0] {
+                    let corners = [[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1]];
+                    squares.push(corners.map(|at| self.point(r, size, &sides, at)));
+                    of.push(r as u32);
+                }
+            }
+        }
+        (squares, of)
+    }
+}

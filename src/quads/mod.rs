@@ -1,0 +1,20 @@
+//! Quad meshes of seamless maps: T-meshes by motorcycle graphs, whole numbers for their arcs, integer-grid maps, and layouts of four-sided
+//! patches.
+
+mod collapse;
+mod grid_complex;
+mod grid_surface;
+mod grid_vector;
+mod line_heading;
+mod motorcycle_graph;
+mod options;
+mod quad_figures;
+mod quad_mesh;
+mod quantisation;
+mod rectangle_map;
+mod t_mesh;
+mod t_mesh_node;
+
+pub use options::{QuadOptions, QuadSize};
+pub use quad_figures::{QuadShape, QuadTopology};
+pub use quad_mesh::{QuadMesh, quad_mesh};
