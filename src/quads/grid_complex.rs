@@ -1,6 +1,7 @@
 //! The squares of an integer-grid map: each rectangle of a T-mesh divided into unit squares, glued along arcs. Arcs of length 0 and
 //! rectangles without width bring their points together.
 
+use super::collapse::RawQuads;
 use super::t_mesh::{HalfArc, TMesh, TRectangle};
 use crate::mesh::union_find::UnionFind;
 
@@ -14,6 +15,8 @@ pub(super) struct GridComplex<'a> {
     rectangle_start: Vec<u32>,
     /// The number of points.
     pub n_points: usize,
+    /// The number of points at nodes and on arcs, which come first.
+    pub n_arc_points: usize,
 }
 
 /// The points along the sides of a rectangle: bottom and top from left to right, left and right from bottom to top.
@@ -26,13 +29,20 @@ pub(super) struct RectangleSides {
 
 impl<'a> GridComplex<'a> {
     pub fn new(t_mesh: &'a TMesh, numbers: &'a [i64]) -> GridComplex<'a> {
-        let mut complex =
-            GridComplex { t_mesh, numbers, arc_start: Vec::new(), rectangle_start: Vec::new(), n_points: 0 };
+        let mut complex = GridComplex {
+            t_mesh,
+            numbers,
+            arc_start: Vec::new(),
+            rectangle_start: Vec::new(),
+            n_points: 0,
+            n_arc_points: 0,
+        };
         let mut next = t_mesh.nodes.len();
         for &n in numbers {
             complex.arc_start.push(next as u32);
             next += (n - 1).max(0) as usize;
         }
+        complex.n_arc_points = next;
         for rectangle in &t_mesh.rectangles {
             complex.rectangle_start.push(next as u32);
             let [m, n] = complex.size(rectangle);
@@ -61,7 +71,7 @@ impl<'a> GridComplex<'a> {
         if k == n {
             return self.t_mesh.tip(h) as u32;
         }
-        let from_first = if h % 2 == 0 { k } else { n - k };
+        let from_first = if h.is_multiple_of(2) { k } else { n - k };
         self.arc_start[h / 2] + (from_first - 1) as u32
     }
 
@@ -99,9 +109,9 @@ impl<'a> GridComplex<'a> {
         }
     }
 
-    /// The points that are the same.
-    pub fn identified(&self) -> UnionFind {
-        let mut same = UnionFind::new(self.n_points);
+    /// The points that are the same, among the first so many: all of them, or those at nodes and on arcs.
+    pub fn identified(&self, n_points: usize) -> UnionFind {
+        let mut same = UnionFind::new(n_points);
         for (arc, _) in self.numbers.iter().enumerate().filter(|(_, n)| **n == 0) {
             same.join(self.t_mesh.origin(2 * arc) as u32, self.t_mesh.tip(2 * arc) as u32);
         }
@@ -135,5 +145,32 @@ impl<'a> GridComplex<'a> {
             }
         }
         (squares, of)
+    }
+
+    /// Points, each standing for all that are the same, at ends of edges that are not the only ones between these ends, once quads with two
+    /// sides in one edge are collapsed; and at corners that a quad has twice.
+    pub fn repeated_edges(&self) -> Vec<usize> {
+        let mut same = self.identified(self.n_points);
+        let (mut quads, rectangle) = self.squares();
+        quads.iter_mut().flatten().for_each(|p| *p = same.root(*p));
+        let mut raw = RawQuads { quads, rectangle, creases: Vec::new() };
+        let (points, _) = raw.collapse_single_corners((0..self.n_points).collect());
+        let mut sides = Vec::with_capacity(4 * raw.quads.len());
+        let mut repeated = Vec::new();
+        for quad in &raw.quads {
+            for k in 0..4 {
+                let side = [quad[k], quad[(k + 1) % 4]];
+                sides.push(side);
+                if side[0] == side[1] || side[0] == quad[(k + 2) % 4] {
+                    repeated.extend(side);
+                }
+            }
+        }
+        sides.sort_unstable();
+        let twice = sides.windows(2).filter(|pair| pair[0] == pair[1]);
+        repeated.extend(twice.flat_map(|pair| pair[0]));
+        repeated.sort_unstable();
+        repeated.dedup();
+        repeated.into_iter().map(|v| points[v as usize]).collect()
     }
 }

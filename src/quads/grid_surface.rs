@@ -28,8 +28,6 @@ pub(super) struct VertexSlot {
 #[derive(Debug, Clone)]
 pub(super) struct GridSurface {
     pub mesh: Arc<Mesh>,
-    /// Twice the units of the exact layout over the length 1 of the metric.
-    pub units_per_length: f64,
     /// Per half-edge the place of its origin in the coordinates of its face, even numbers.
     place: PerHalfedge<GridPoint>,
     /// Per half-edge the motion from the coordinates of its face to those of the face across.
@@ -98,7 +96,6 @@ impl GridSurface {
             place[h] = uv(h).map(|x| (x * per_unit) as i64);
         }
         let mut surface = GridSurface {
-            units_per_length: per_unit,
             across: PerHalfedge::filled(mesh.n_halfedges(), GridMotion::IDENTITY),
             is_wall: PerEdge::filled(mesh.n_edges(), false),
             off_axis: Vec::new(),

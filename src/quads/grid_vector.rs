@@ -83,12 +83,6 @@ impl GridMotion {
     pub fn after(&self, first: &GridMotion) -> GridMotion {
         GridMotion { turns: (self.turns + first.turns) % 4, shift: self.apply(first.shift) }
     }
-
-    pub fn inverse(&self) -> GridMotion {
-        let turns = (4 - self.turns) % 4;
-        let [x, y] = turned(self.shift, turns);
-        GridMotion { turns, shift: [-x, -y] }
-    }
 }
 
 #[cfg(test)]
@@ -96,11 +90,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn motions_are_undone_by_their_inverses() {
+    fn motions_carry_segments_to_segments() {
         for turns in 0..4 {
             let motion = GridMotion { turns, shift: [5, -7] };
-            assert_eq!(motion.inverse().after(&motion), GridMotion::IDENTITY);
-            assert_eq!(motion.inverse().apply(motion.apply([3, 4])), [3, 4]);
+            let segment = [[3, 4], [10, -2]];
+            let image = segment.map(|p| motion.apply(p));
+            assert_eq!(GridMotion::between(segment, image), Some(motion));
+            let there_and_back = GridMotion::between(image, segment).map(|back| back.after(&motion));
+            assert_eq!(there_and_back, Some(GridMotion::IDENTITY));
             assert_eq!(GridMotion::to_origin([3, 4], turns).apply([3, 4]), [0, 0]);
             assert_eq!(GridMotion::to_origin([3, 4], turns).turn(turns), 0);
         }

@@ -64,8 +64,8 @@ impl LineHeading {
         self.sign() * i128::from(point[self.moving()]) + self.offset
     }
 
-    /// The vector from a point of the line to this one.
-    pub fn from_line(&self, point: GridPoint) -> GridPoint {
+    /// The vector from a point of the line to another point.
+    pub fn offset_of(&self, point: GridPoint) -> GridPoint {
         minus(point, self.point_at(0))
     }
 

@@ -12,8 +12,10 @@ mod quad_figures;
 mod quad_mesh;
 mod quantisation;
 mod rectangle_map;
+mod separation;
 mod t_mesh;
 mod t_mesh_node;
+mod walk_search;
 
 pub use options::{QuadOptions, QuadSize};
 pub use quad_figures::{QuadShape, QuadTopology};

@@ -177,7 +177,7 @@ impl LineGrowth<'_> {
             LinePlace::Edge(_) => {
                 let apex = mesh.prev(h);
                 let at = surface.origin(apex);
-                match cross(unit(heading.axis), heading.from_line(at)) {
+                match cross(unit(heading.axis), heading.offset_of(at)) {
                     0 => {
                         self.come_to_vertex(line, &heading, (apex, at, opposite(heading.axis)));
                         return Ok(());

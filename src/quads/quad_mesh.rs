@@ -6,6 +6,7 @@ use super::grid_surface::GridSurface;
 use super::options::{QuadOptions, QuadSize};
 use super::quantisation::Quantisation;
 use super::rectangle_map::{MetricPlace, grid_places};
+use super::separation::Separation;
 use super::t_mesh::TMesh;
 use super::t_mesh_node::NodeKey;
 use crate::control::Control;
@@ -87,7 +88,7 @@ pub fn quad_mesh(seamless: &Seamless, options: &QuadOptions, control: &Control) 
         let given_area = area(solution.given(), geometry, solution.surface().lengths())?;
         let grid_area: f64 = t_mesh.rectangles.iter().map(|r| r.size[0] as f64 * r.size[1] as f64).sum();
         let unit = (given_area / grid_area).sqrt();
-        let (numbers, edge, cost) = numbers(&t_mesh, options.size, [unit, given_area], control)?;
+        let (numbers, edge, cost) = numbers(&surface, &t_mesh, options.size, [unit, given_area], control)?;
         let mut mesh = assemble(&surface, &t_mesh, &numbers, solution, control)?;
         (mesh.cost, mesh.edge) = (cost, edge);
         Ok(mesh)
@@ -96,21 +97,25 @@ pub fn quad_mesh(seamless: &Seamless, options: &QuadOptions, control: &Control) 
 
 /// Whole numbers of the arcs, the edge length, and the cost. `scale`: length of a unit of the grid on the surface, and the surface's area.
 fn numbers(
+    surface: &GridSurface,
     t_mesh: &TMesh,
     size: QuadSize,
     [unit, given_area]: [f64; 2],
     control: &Control,
 ) -> Result<(Vec<i64>, f64, f64)> {
+    let separation = Separation::new(surface, t_mesh);
     let quantised = |edge: f64| -> Result<Quantisation> {
         let wanted = t_mesh.arcs.iter().map(|arc| arc.length as f64 * unit / edge).collect();
-        Quantisation::balanced(t_mesh, wanted, 1, control)
+        let mut found = Quantisation::balanced(t_mesh, wanted, 0, control)?;
+        separation.enforce(&mut found, control)?;
+        Ok(found)
     };
     let (mut edge, goal) = match size {
         QuadSize::Edge(edge) => (edge, None),
         QuadSize::Quads(n) => ((given_area / n as f64).sqrt(), Some(n as f64)),
         QuadSize::Coarse => {
             let longest = t_mesh.arcs.iter().fold(0.0f64, |top, arc| top.max(arc.length as f64));
-            (longest * unit / COARSEST, None)
+            (2.0 * longest * unit, None)
         }
     };
     let mut found = quantised(edge)?;
@@ -132,7 +137,16 @@ fn numbers(
             (found, best) = (next, (off, edge));
         }
     }
-    found.descend(&mut |_| true, control)?;
+    let is_apart = &mut |numbers: &[i64]| separation.holds(numbers);
+    found.descend(is_apart, control)?;
+    if size == QuadSize::Coarse {
+        let mut other = found.restarted(1, control)?;
+        other.descend(is_apart, control)?;
+        if other.cost() < found.cost() {
+            found = other;
+        }
+    }
+    separation.enforce_single_edges(&mut found, control)?;
     let cost = found.cost();
     Ok((found.numbers, edge, cost))
 }
@@ -148,7 +162,7 @@ fn assemble(
     let complex = GridComplex::new(t_mesh, numbers);
     let places = grid_places(surface, t_mesh, &complex, numbers)?;
     control.check()?;
-    let mut same = complex.identified();
+    let mut same = complex.identified(complex.n_points);
     let (squares, rectangle) = complex.squares();
     // Of points that are the same, a vertex of the surface stands for all, else the first.
     let rank = |point: usize| match t_mesh.nodes.get(point) {

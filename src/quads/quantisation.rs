@@ -5,35 +5,51 @@
 //! directions, and the sign of what its first side has more than the opposite one. Walks may begin and end at the boundary \[LCK21\].
 
 use super::t_mesh::{HalfArc, TMesh};
+use super::walk_search::WalkSearch;
 use crate::control::Control;
 use crate::error::{Error, Result};
 use std::cmp::Ordering;
-use std::collections::{BTreeMap, BinaryHeap, VecDeque};
+use std::collections::{BinaryHeap, VecDeque};
 
 /// Costs that differ by less than this are the same; lengths are of the order of 1.
-const SAME_COST: f64 = 1e-9;
+pub(super) const SAME_COST: f64 = 1e-9;
+
+/// The cost of a step below the least number while sides are made even, far above that of any other walk.
+const BELOW_COST: f64 = 1e12;
+/// The cost of changing an arc by 2 less twice that of changing it by 1, per use of the arc.
+const REPEATED_COST: f64 = 1.0;
+
+/// Steps of searches in one descent, about half a second: numbers are consistent at any time, so that it can end anywhere.
+const MOST_WORK: usize = 40_000_000;
+/// Steps of a search that take as long as a test of one arc.
+const WORK_OF_TEST: usize = 30;
+/// Share of the cost that a descent has to gain for another to follow.
+const LEAST_GAIN: f64 = 1e-3;
 
 /// The end of walks at the boundary.
-const OUTSIDE: usize = 0;
+pub(super) const OUTSIDE: usize = 0;
 
 /// A quantisation that is being improved.
+#[derive(Debug, Clone)]
 pub(super) struct Quantisation {
     /// Per half-arc the rectangle and direction to its left, 2r + d, and the sign with which its side counts.
-    beside: Vec<Option<(usize, i64)>>,
+    pub(super) beside: Vec<Option<(usize, i64)>>,
     /// Per rectangle and direction the half-arcs of both sides.
     sides: Vec<Vec<HalfArc>>,
     /// Per state the steps that remove its excess.
-    steps: Vec<Vec<WalkStep>>,
+    pub(super) steps: Vec<Vec<WalkStep>>,
     /// Per arc the wanted length.
     wanted: Vec<f64>,
     /// Per arc the least number.
     least: Vec<i64>,
+    /// Per arc what each use costs in addition where walks have used it twice.
+    pub(super) surcharge: Vec<f64>,
     /// Per arc its number.
     pub numbers: Vec<i64>,
 }
 
 /// A step of a walk: this half-arc's arc changes by this much.
-type WalkStep = (HalfArc, i64);
+pub(super) type WalkStep = (HalfArc, i64);
 
 /// A state in the order of the search.
 #[derive(PartialEq)]
@@ -63,18 +79,13 @@ impl Quantisation {
             return Err(Error::Layout(format!("arc {a} is to have {} edges", wanted[a])));
         }
         let mut found = Quantisation::start(t_mesh, wanted, least);
-        // Where a shortest walk lowers an arc twice that has room for once only, walks need room for both; where there is none of these, all
-        // arcs are raised first.
-        while !found.balance(1, control)? && !found.balance(2, control)? {
-            let before = std::mem::replace(&mut found.numbers, vec![0; t_mesh.arcs.len()]);
-            found.raise_strips()?;
-            found.numbers.iter_mut().zip(before).for_each(|(n, old)| *n += old);
-        }
+        found.balance(control)?;
+        found.raise_strips()?;
         Ok(found)
     }
 
     /// Wanted lengths rounded, not balanced.
-    pub fn start(t_mesh: &TMesh, wanted: Vec<f64>, least: i64) -> Quantisation {
+    fn start(t_mesh: &TMesh, wanted: Vec<f64>, least: i64) -> Quantisation {
         let mut beside = vec![None; 2 * t_mesh.arcs.len()];
         let mut sides = vec![Vec::new(); 2 * t_mesh.rectangles.len()];
         for (r, rectangle) in t_mesh.rectangles.iter().enumerate() {
@@ -98,8 +109,8 @@ impl Quantisation {
                 None => steps[OUTSIDE].extend([(h, 1), (h, -1)]),
             }
         }
-        let least = vec![least; wanted.len()];
-        Quantisation { beside, sides, steps, wanted, least, numbers }
+        let (least, surcharge) = (vec![least; wanted.len()], vec![0.0; wanted.len()]);
+        Quantisation { beside, sides, steps, wanted, least, surcharge, numbers }
     }
 
     /// What the first side of each rectangle has more than the opposite one, per direction.
@@ -110,13 +121,42 @@ impl Quantisation {
         self.sides.iter().map(sum).collect()
     }
 
+    /// Another start: numbers that are at least this large, from which arcs may become 0.
+    ///
+    /// # Errors
+    /// Those of [`Quantisation::balanced`].
+    pub fn restarted(&self, least: i64, control: &Control) -> Result<Quantisation> {
+        let numbers = self.wanted.iter().map(|x| (x.round() as i64).max(least)).collect();
+        let mut other = Quantisation { numbers, least: vec![least; self.wanted.len()], ..self.clone() };
+        other.balance(control)?;
+        other.raise_strips()?;
+        other.descend(&mut |_| true, control)?;
+        other.least.fill(0);
+        Ok(other)
+    }
+
+    /// Keeps an arc above 0 from now on; its strip is raised.
+    ///
+    /// # Errors
+    /// [`Error::Layout`] as [`Quantisation::balanced`].
+    pub fn keep_above_zero(&mut self, arc: usize) -> Result<()> {
+        self.least[arc] = 1;
+        self.raise_strips()
+    }
+
+    /// The arc with the greatest wanted length of those that are 0.
+    pub fn longest_zero(&self, arcs: impl Iterator<Item = usize>) -> Option<usize> {
+        let zero = arcs.filter(|&a| self.numbers[a] == 0);
+        zero.max_by(|&a, &b| self.wanted[a].total_cmp(&self.wanted[b]).then(b.cmp(&a)))
+    }
+
     /// The sum of squared differences from the wanted lengths.
     pub fn cost(&self) -> f64 {
         self.numbers.iter().zip(&self.wanted).map(|(&n, x)| (n as f64 - x).powi(2)).sum()
     }
 
     /// The cost of a change of an arc; infinite below the least number.
-    fn change_cost(&self, arc: usize, change: i64) -> f64 {
+    pub(super) fn change_cost(&self, arc: usize, change: i64) -> f64 {
         let n = self.numbers[arc];
         if n + change < self.least[arc] {
             return f64::INFINITY;
@@ -126,24 +166,39 @@ impl Quantisation {
     }
 
     /// The state in which a rectangle's direction has an excess of this sign.
-    fn state(u: usize, sign: i64) -> usize {
+    pub(super) fn state(u: usize, sign: i64) -> usize {
         1 + 2 * u + usize::from(sign < 0)
     }
 
+    /// The rectangle and direction of a state that is not outside, and its sign.
+    fn excess_of(state: usize) -> (usize, i64) {
+        ((state - 1) / 2, if state % 2 == 1 { 1 } else { -1 })
+    }
+
     /// The state after a step.
-    fn after(&self, (h, change): WalkStep) -> usize {
+    pub(super) fn after(&self, (h, change): WalkStep) -> usize {
         self.beside[h ^ 1].map_or(OUTSIDE, |(v, sign)| Quantisation::state(v, change * sign))
     }
 
-    /// Removes what opposite sides differ by, along cheapest walks of arcs that can change so many times; false if some is left.
-    fn balance(&mut self, uses: i64, control: &Control) -> Result<bool> {
+    /// Removes what opposite sides differ by, along cheapest walks. Arcs may fall below the least number where nothing else is possible, so
+    /// that walks always exist.
+    ///
+    /// # Errors
+    /// [`Error::Layout`] for a graph without them, which no T-mesh has; [`Error::Cancelled`].
+    fn balance(&mut self, control: &Control) -> Result<()> {
+        // Searches from all excesses at once hide the walk from one to another behind those of the other; then each is tried alone.
+        let mut only: Option<usize> = None;
         loop {
             control.check()?;
             let mut excess = self.excess();
             if excess.iter().all(|e| *e == 0) {
-                return Ok(true);
+                return Ok(());
             }
-            let walks = self.cheapest_walks(&excess, uses);
+            let sources: Vec<usize> = (0..excess.len()).filter(|&u| excess[u] != 0).collect();
+            let walks = match only {
+                Some(k) => self.cheapest_walks(&excess, &sources[k % sources.len()..][..1]),
+                None => self.cheapest_walks(&excess, &sources),
+            };
             let mut is_changed = vec![false; self.numbers.len()];
             let mut is_better = false;
             for walk in walks {
@@ -163,11 +218,6 @@ impl Quantisation {
                 if walk.iter().any(|(h, _)| is_changed[h / 2]) || !is_less(from) || !is_less(to) {
                     continue;
                 }
-                let mut seen: Vec<usize> = walk.iter().map(|(h, _)| h / 2).collect();
-                seen.sort_unstable();
-                if seen.windows(2).any(|pair| pair[0] == pair[1]) && !self.is_allowed(&walk) {
-                    continue;
-                }
                 for &(h, change) in &walk {
                     self.numbers[h / 2] += change;
                     is_changed[h / 2] = true;
@@ -175,30 +225,29 @@ impl Quantisation {
                 excess = left;
                 is_better = true;
             }
-            if !is_better {
-                return Ok(false);
-            }
+            only = match only {
+                _ if is_better => None,
+                None => Some(0),
+                Some(k) if k + 1 < sources.len() => Some(k + 1),
+                Some(_) => {
+                    return Err(Error::Layout("opposite sides of rectangles cannot be made even".into()));
+                }
+            };
         }
     }
 
-    /// True if no arc on a walk falls below the least number.
-    fn is_allowed(&self, walk: &[WalkStep]) -> bool {
-        walk.iter().all(|(h, _)| {
-            let total: i64 = walk.iter().filter(|(g, _)| g / 2 == h / 2).map(|(_, change)| change).sum();
-            self.numbers[h / 2] + total >= self.least[h / 2]
-        })
-    }
-
     /// Walks from excesses to those that they cancel or to the boundary, the cheapest first. Gains count as no cost.
-    fn cheapest_walks(&self, excess: &[i64], uses: i64) -> Vec<Vec<WalkStep>> {
+    fn cheapest_walks(&self, excess: &[i64], sources: &[usize]) -> Vec<Vec<WalkStep>> {
         let n = self.steps.len();
         let mut distance = vec![f64::INFINITY; n];
         let mut came: Vec<Option<(usize, WalkStep)>> = vec![None; n];
+        let mut root = vec![usize::MAX; n];
         let mut waiting = BinaryHeap::new();
         let mut is_done = vec![false; n];
-        for (u, e) in excess.iter().enumerate().filter(|(_, e)| **e != 0) {
-            let state = Quantisation::state(u, e.signum());
+        for &u in sources {
+            let state = Quantisation::state(u, excess[u].signum());
             distance[state] = 0.0;
+            root[state] = u;
             waiting.push(Reached(0.0, state));
         }
         let mut ends = Vec::new();
@@ -207,22 +256,22 @@ impl Quantisation {
                 continue;
             }
             let is_end = state == OUTSIDE || {
-                let (u, s) = ((state - 1) / 2, if (state - 1) % 2 == 0 { 1 } else { -1 });
-                excess[u] * s < 0
+                let (u, s) = Quantisation::excess_of(state);
+                excess[u] * s < 0 && (root[state] != u || excess[u].abs() > 1)
             };
             if is_end && came[state].is_some() {
                 ends.push(state);
                 continue;
             }
             for &step in &self.steps[state] {
-                let cost = self.change_cost(step.0 / 2, step.1);
-                let (next, total) = (self.after(step), d + cost.max(0.0));
                 let arc = step.0 / 2;
-                if self.numbers[arc] + uses * step.1 >= self.least[arc].min(self.numbers[arc])
-                    && total < distance[next]
-                {
+                let falls_below = step.1 < 0 && self.numbers[arc] <= self.least[arc];
+                let cost = if falls_below { BELOW_COST } else { self.change_cost(arc, step.1).max(0.0) };
+                let (next, total) = (self.after(step), d + cost);
+                if total < distance[next] {
                     distance[next] = total;
                     came[next] = Some((state, step));
+                    root[next] = root[state];
                     waiting.push(Reached(total, next));
                 }
             }
@@ -240,20 +289,21 @@ impl Quantisation {
         ends.iter().map(walk).collect()
     }
 
-    /// Raises arcs below 1 to it along shortest closed walks, or walks from the boundary to the boundary.
+    /// Raises arcs below their least number to it along shortest closed walks, or walks from the boundary to the boundary.
     ///
     /// # Errors
     /// [`Error::Layout`] where an arc is on no such walk, which no T-mesh with lengths has.
-    pub fn raise_strips(&mut self) -> Result<()> {
+    fn raise_strips(&mut self) -> Result<()> {
         for arc in 0..self.numbers.len() {
-            if self.numbers[arc] >= 1 {
+            if self.numbers[arc] >= self.least[arc] {
                 continue;
             }
-            let strip = self.strip(arc);
-            let Some(strip) = strip else {
+            let Some(strip) = self.strip(arc) else {
                 return Err(Error::Layout(format!("arc {arc} lies on no strip of rectangles")));
             };
-            strip.into_iter().for_each(|h| self.numbers[h / 2] += 1);
+            while self.numbers[arc] < self.least[arc] {
+                strip.iter().for_each(|h| self.numbers[h / 2] += 1);
+            }
         }
         Ok(())
     }
@@ -317,122 +367,71 @@ impl Quantisation {
         changes.chunk_by(|a, b| a.0 == b.0).map(total).sum()
     }
 
-    /// Changes numbers along closed walks as long as that lowers the cost. Where a test refuses a change, the arcs that it would bring to 0
-    /// stay above it.
+    /// Makes the arcs dearer that a walk uses more than once, which costs more than twice the first use.
+    fn discourage(&mut self, walk: &[WalkStep]) {
+        let mut arcs: Vec<usize> = walk.iter().map(|(h, _)| h / 2).collect();
+        arcs.sort_unstable();
+        for same in arcs.chunk_by(|a, b| a == b).filter(|same| same.len() > 1) {
+            self.surcharge[same[0]] += REPEATED_COST;
+        }
+    }
+
+    /// Changes numbers along closed walks as long as that lowers the cost. A test is asked where arcs come to 0; where it refuses, the longest
+    /// of them stays above 0.
     pub fn descend(&mut self, is_good: &mut dyn FnMut(&[i64]) -> bool, control: &Control) -> Result<()> {
-        let mut search = WalkSearch::new(self.steps.len());
+        let least = self.least.clone();
+        let mut work = 0;
         loop {
-            control.check()?;
-            let mut is_better = false;
-            for walk in search.negative_walks(self) {
-                if self.walk_cost(&walk) >= -SAME_COST {
-                    continue;
-                }
-                is_better = true;
-                walk.iter().for_each(|&(h, change)| self.numbers[h / 2] += change);
-                if !is_good(&self.numbers) {
-                    for &(h, change) in &walk {
-                        self.least[h / 2] = self.least[h / 2].max(i64::from(self.numbers[h / 2] == 0));
-                        self.numbers[h / 2] -= change;
-                    }
-                }
-                walk.iter().for_each(|&(h, _)| search.wake(self, h / 2));
-            }
-            if !is_better {
+            let before = self.cost();
+            self.descend_once(is_good, &mut work, control)?;
+            // What was refused may be possible once other arcs have changed.
+            self.least.clone_from(&least);
+            if self.cost() > before - LEAST_GAIN * before || work > MOST_WORK {
                 return Ok(());
             }
         }
     }
-}
 
-/// A search for closed walks that lower the cost, by Bellman and Ford's method. Distances stay from one search to the next, so that only
-/// states near changes are looked at again.
-struct WalkSearch {
-    distance: Vec<f64>,
-    waiting: Vec<usize>,
-    is_waiting: Vec<bool>,
-}
-
-impl WalkSearch {
-    fn new(n: usize) -> WalkSearch {
-        WalkSearch { distance: vec![0.0; n], waiting: (0..n).collect(), is_waiting: vec![true; n] }
-    }
-
-    /// Looks again at the states from which an arc is changed.
-    fn wake(&mut self, of: &Quantisation, arc: usize) {
-        for h in [2 * arc, 2 * arc + 1] {
-            let states =
-                of.beside[h].map_or([OUTSIDE; 2], |(u, _)| [1, -1].map(|s| Quantisation::state(u, s)));
-            for state in states {
-                if !std::mem::replace(&mut self.is_waiting[state], true) {
-                    self.waiting.push(state);
+    /// [`Quantisation::descend`] until nothing is left that the test has not refused.
+    fn descend_once(
+        &mut self,
+        is_good: &mut dyn FnMut(&[i64]) -> bool,
+        work: &mut usize,
+        control: &Control,
+    ) -> Result<()> {
+        self.surcharge.fill(0.0);
+        let mut search = WalkSearch::new(self);
+        loop {
+            control.check()?;
+            let mut is_better = false;
+            for walk in search.negative_walks(self, work) {
+                is_better = true;
+                if self.walk_cost(&walk) >= -SAME_COST {
+                    self.discourage(&walk);
+                    walk.iter().for_each(|&(h, _)| search.wake(self, h / 2));
+                    continue;
                 }
-            }
-        }
-    }
-
-    /// Closed walks that seem to lower the cost; none only if there is none.
-    fn negative_walks(&mut self, of: &Quantisation) -> Vec<Vec<WalkStep>> {
-        let WalkSearch { distance, waiting, is_waiting } = self;
-        let n = distance.len();
-        let mut came: Vec<Option<(usize, WalkStep)>> = vec![None; n];
-        let mut changed = Vec::new();
-        for _ in 0..n {
-            for state in std::mem::take(waiting) {
-                is_waiting[state] = false;
-                for &step in &of.steps[state] {
-                    let next = of.after(step);
-                    let total = distance[state] + of.change_cost(step.0 / 2, step.1);
-                    if total < distance[next] - SAME_COST {
-                        distance[next] = total;
-                        came[next] = Some((state, step));
-                        changed.push(next);
-                        if !std::mem::replace(&mut is_waiting[next], true) {
-                            waiting.push(next);
-                        }
-                    }
+                walk.iter().for_each(|&(h, change)| self.numbers[h / 2] += change);
+                let is_zero = |step: &&WalkStep| self.numbers[step.0 / 2] == 0;
+                let longest = |a: &&WalkStep, b: &&WalkStep| {
+                    let [x, y] = [a, b].map(|step| self.wanted[step.0 / 2]);
+                    x.total_cmp(&y).then(b.0.cmp(&a.0))
+                };
+                let zero = walk.iter().filter(is_zero).max_by(longest);
+                if zero.is_some() {
+                    *work += WORK_OF_TEST * self.numbers.len();
                 }
+                if let Some(&(zero, _)) = zero
+                    && !is_good(&self.numbers)
+                {
+                    self.least[zero / 2] = 1;
+                    walk.iter().for_each(|&(h, change)| self.numbers[h / 2] -= change);
+                }
+                walk.iter().for_each(|&(h, _)| search.wake(self, h / 2));
             }
-            if waiting.is_empty() {
-                return Vec::new();
+            if !is_better || *work > MOST_WORK {
+                return Ok(());
             }
-            let walks = cycles(&came, &changed);
-            if !walks.is_empty() {
-                return walks;
-            }
-            changed.clear();
-        }
-        Vec::new()
-    }
-}
-
-/// The cycles of a graph in which each state came from at most one other, that are reached from these states.
-fn cycles(came: &[Option<(usize, WalkStep)>], starts: &[usize]) -> Vec<Vec<WalkStep>> {
-    // The round in which a state was seen.
-    let mut round: BTreeMap<usize, usize> = BTreeMap::new();
-    let mut found = Vec::new();
-    for (k, &start) in starts.iter().enumerate() {
-        let mut at = start;
-        while !round.contains_key(&at) {
-            round.insert(at, k);
-            let Some((before, _)) = came[at] else { break };
-            at = before;
-        }
-        if round[&at] != k || came[at].is_none() {
-            continue;
-        }
-        let (mut walk, mut state) = (Vec::new(), at);
-        while let Some((before, step)) = came[state] {
-            walk.push(step);
-            state = before;
-            if state == at {
-                break;
-            }
-        }
-        if state == at {
-            walk.reverse();
-            found.push(walk);
         }
     }
-    found
 }
