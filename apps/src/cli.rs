@@ -7,7 +7,7 @@ use crate::harmonic::HarmonicArgs;
 use crate::info::InfoArgs;
 use crate::matching::MatchArgs;
 use crate::options::Common;
-use crate::quads::QuadsArgs;
+use crate::quads::{LayoutArgs, QuadsArgs};
 use crate::refine::RefineArgs;
 use crate::repair::RepairArgs;
 use crate::seamless::SeamlessArgs;
@@ -74,6 +74,9 @@ pub enum Command {
     /// A quad mesh of the surface from a seamless map, regular but at its cones
     #[command(after_help = crate::quads::HELP)]
     Quads(QuadsArgs),
+    /// Few four-sided patches with whole sides, from the coarsest quad mesh of a seamless map
+    #[command(after_help = crate::quads::LAYOUT_HELP)]
+    Layout(LayoutArgs),
     /// Triangular B-splines: fitted to meshes, evaluated
     #[command(after_help = crate::spline::HELP)]
     Spline(SplineArgs),

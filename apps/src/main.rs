@@ -85,6 +85,7 @@ fn run(command: &Command, control: &Control) -> Result<u8, Failure> {
         Command::Match(args) => runner::run(args, control),
         Command::Seamless(args) => runner::run(args, control),
         Command::Quads(args) => runner::run(args, control),
+        Command::Layout(args) => runner::run(args, control),
         Command::Structure(args) => runner::run(args, control),
         Command::Info(args) => runner::run(args, control),
         Command::Repair(args) => runner::run(args, control),

@@ -8,7 +8,10 @@ mod grid_vector;
 mod line_heading;
 mod motorcycle_graph;
 mod options;
+mod quad_division;
 mod quad_figures;
+mod quad_halfedges;
+mod quad_layout;
 mod quad_mesh;
 mod quantisation;
 mod rectangle_map;
@@ -19,4 +22,5 @@ mod walk_search;
 
 pub use options::{QuadOptions, QuadSize};
 pub use quad_figures::{QuadShape, QuadTopology};
-pub use quad_mesh::{QuadMesh, quad_mesh};
+pub use quad_layout::{LayoutArc, LayoutNode, LayoutPatch, QuadLayout};
+pub use quad_mesh::{QuadMesh, quad_layout, quad_mesh};

@@ -1,5 +1,7 @@
 //! The options of quad meshes.
 
+use crate::error::{Error, Result};
+
 /// The size of the squares.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum QuadSize {
@@ -23,5 +25,19 @@ pub struct QuadOptions {
 impl Default for QuadOptions {
     fn default() -> QuadOptions {
         QuadOptions { size: QuadSize::Quads(1000), threads: 0 }
+    }
+}
+
+impl QuadOptions {
+    /// # Errors
+    /// [`Error::Argument`] for a size that is not positive.
+    pub(super) fn check(&self) -> Result<()> {
+        match self.size {
+            QuadSize::Edge(edge) if !(edge > 0.0 && edge.is_finite()) => {
+                Err(Error::argument("edge", edge, "positive"))
+            }
+            QuadSize::Quads(0) => Err(Error::argument("quads", 0, "positive")),
+            _ => Ok(()),
+        }
     }
 }

@@ -1,28 +1,18 @@
-//! Quad meshes read off an integer-grid map, with places on the surface as it came.
+//! Quad meshes and layouts of seamless metrics.
 
-use super::collapse::RawQuads;
-use super::grid_complex::GridComplex;
-use super::grid_surface::GridSurface;
-use super::options::{QuadOptions, QuadSize};
-use super::quantisation::Quantisation;
-use super::rectangle_map::{MetricPlace, grid_places};
-use super::separation::Separation;
-use super::t_mesh::TMesh;
-use super::t_mesh_node::NodeKey;
+use super::options::QuadOptions;
+use super::quad_division::QuadDivision;
+use super::quad_layout::QuadLayout;
 use crate::control::Control;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::flow::Solution;
 use crate::mesh::{EdgeId, FaceId, Point};
-use crate::metric::curvature::area;
 use crate::parallel::Pool;
 use crate::seamless::Seamless;
 
-/// Rounds in which the edge length is changed to come near a number of quads.
-const ROUNDS: usize = 5;
-/// Share by which the number of quads may differ from the one that was asked for.
-const NEAR_COUNT: f64 = 0.05;
-/// Wanted lengths of arcs, in edges, where as few quads as possible are asked for.
-const COARSEST: f64 = 1e-3;
+/// Edges of the quad mesh of a layout to a unit of length: arcs have so many points between their ends that they follow the surface, and no
+/// two edges have the same ends.
+const PARTS: u32 = 8;
 
 /// A pure quad mesh on a surface.
 #[derive(Debug, Clone, PartialEq)]
@@ -73,161 +63,25 @@ impl QuadMesh {
 /// [`Error::Argument`] for a size that is not positive; [`Error::Layout`] for a metric that is not seamless (not converged);
 /// [`Error::Cancelled`].
 pub fn quad_mesh(seamless: &Seamless, options: &QuadOptions, control: &Control) -> Result<QuadMesh> {
-    match options.size {
-        QuadSize::Edge(edge) if !(edge > 0.0 && edge.is_finite()) => {
-            return Err(Error::argument("edge", edge, "positive"));
-        }
-        QuadSize::Quads(0) => return Err(Error::argument("quads", 0, "positive")),
-        _ => {}
-    }
+    options.check()?;
     Pool::new(options.threads)?.run(|| {
-        let surface = GridSurface::new(seamless, control)?;
-        let t_mesh = TMesh::new(&surface, control)?;
-        let solution = &seamless.solution;
-        let geometry = solution.initial().input_geometry;
-        let given_area = area(solution.given(), geometry, solution.surface().lengths())?;
-        let grid_area: f64 = t_mesh.rectangles.iter().map(|r| r.size[0] as f64 * r.size[1] as f64).sum();
-        let unit = (given_area / grid_area).sqrt();
-        let (numbers, edge, cost) = numbers(&surface, &t_mesh, options.size, [unit, given_area], control)?;
-        let mut mesh = assemble(&surface, &t_mesh, &numbers, solution, control)?;
-        (mesh.cost, mesh.edge) = (cost, edge);
-        Ok(mesh)
+        let division = QuadDivision::new(seamless, control)?;
+        let mut found = division.quantised(options.size, control)?;
+        division.enforce_single_edges(&mut found, control)?;
+        division.mesh(&found, 1, control)
     })
 }
 
-/// Whole numbers of the arcs, the edge length, and the cost. `scale`: length of a unit of the grid on the surface, and the surface's area.
-fn numbers(
-    surface: &GridSurface,
-    t_mesh: &TMesh,
-    size: QuadSize,
-    [unit, given_area]: [f64; 2],
-    control: &Control,
-) -> Result<(Vec<i64>, f64, f64)> {
-    let separation = Separation::new(surface, t_mesh);
-    let quantised = |edge: f64| -> Result<Quantisation> {
-        let wanted = t_mesh.arcs.iter().map(|arc| arc.length as f64 * unit / edge).collect();
-        let mut found = Quantisation::balanced(t_mesh, wanted, 0, control)?;
-        separation.enforce(&mut found, control)?;
-        Ok(found)
-    };
-    let (mut edge, goal) = match size {
-        QuadSize::Edge(edge) => (edge, None),
-        QuadSize::Quads(n) => ((given_area / n as f64).sqrt(), Some(n as f64)),
-        QuadSize::Coarse => {
-            let longest = t_mesh.arcs.iter().fold(0.0f64, |top, arc| top.max(arc.length as f64));
-            (2.0 * longest * unit, None)
-        }
-    };
-    let mut found = quantised(edge)?;
-    if let Some(goal) = goal {
-        let count = |q: &Quantisation| GridComplex::new(t_mesh, &q.numbers).n_squares() as f64;
-        let mut best = ((count(&found) / goal).ln().abs(), edge);
-        for _ in 0..ROUNDS {
-            let ratio = count(&found) / goal;
-            if (ratio - 1.0).abs() < NEAR_COUNT {
-                break;
-            }
-            edge *= ratio.sqrt();
-            let next = quantised(edge)?;
-            let off = (count(&next) / goal).ln().abs();
-            if off >= best.0 {
-                edge = best.1;
-                break;
-            }
-            (found, best) = (next, (off, edge));
-        }
-    }
-    let is_apart = &mut |numbers: &[i64]| separation.holds(numbers);
-    found.descend(is_apart, control)?;
-    if size == QuadSize::Coarse {
-        let mut other = found.restarted(1, control)?;
-        other.descend(is_apart, control)?;
-        if other.cost() < found.cost() {
-            found = other;
-        }
-    }
-    separation.enforce_single_edges(&mut found, control)?;
-    let cost = found.cost();
-    Ok((found.numbers, edge, cost))
-}
-
-/// The quad mesh of these numbers.
-fn assemble(
-    surface: &GridSurface,
-    t_mesh: &TMesh,
-    numbers: &[i64],
-    solution: &Solution,
-    control: &Control,
-) -> Result<QuadMesh> {
-    let complex = GridComplex::new(t_mesh, numbers);
-    let places = grid_places(surface, t_mesh, &complex, numbers)?;
-    control.check()?;
-    let mut same = complex.identified(complex.n_points);
-    let (squares, rectangle) = complex.squares();
-    // Of points that are the same, a vertex of the surface stands for all, else the first.
-    let rank = |point: usize| match t_mesh.nodes.get(point) {
-        Some(NodeKey::Vertex(_)) => 0,
-        Some(_) => 1,
-        None => 2,
-    };
-    let roots: Vec<u32> = (0..complex.n_points as u32).map(|p| same.root(p)).collect();
-    let mut chosen: Vec<Option<usize>> = vec![None; complex.n_points];
-    for (point, &root) in roots.iter().enumerate() {
-        let known = &mut chosen[root as usize];
-        if known.is_none_or(|other| rank(point) < rank(other)) {
-            *known = Some(point);
-        }
-    }
-    let mut number = vec![u32::MAX; complex.n_points];
-    let mut on_metric: Vec<MetricPlace> = Vec::new();
-    let mut vertex = |point: u32| -> Result<u32> {
-        let root = roots[point as usize] as usize;
-        if number[root] == u32::MAX {
-            let place = chosen[root].and_then(|point| places[point]);
-            let place = place.ok_or_else(|| Error::Layout(format!("grid point {point} has no place")))?;
-            number[root] = on_metric.len() as u32;
-            on_metric.push(place);
-        }
-        Ok(number[root])
-    };
-    let mut quads = Vec::with_capacity(squares.len());
-    for [a, b, c, d] in squares {
-        quads.push([vertex(a)?, vertex(b)?, vertex(c)?, vertex(d)?]);
-    }
-    let mut creases = Vec::new();
-    for (a, arc) in t_mesh.arcs.iter().enumerate().filter(|(_, arc)| arc.is_wall) {
-        debug_assert!(arc.is_wall);
-        for k in 0..numbers[a] {
-            creases.push([vertex(complex.arc_point(2 * a, k))?, vertex(complex.arc_point(2 * a, k + 1))?]);
-        }
-    }
-    let mut raw = RawQuads { quads, rectangle, creases };
-    let places = on_given(solution, on_metric, control)?;
-    let (places, collapsed) = raw.collapse_single_corners(places);
-    let RawQuads { quads, rectangle, creases } = raw;
-    Ok(QuadMesh {
-        quads,
-        places,
-        rectangle,
-        collapsed,
-        t_mesh_size: [t_mesh.rectangles.len(), t_mesh.arcs.len()],
-        creases,
-        off_axis: surface.off_axis.clone(),
-        cost: 0.0,
-        edge: 0.0,
+/// The layout of a seamless metric: the patches of its quad mesh of this size, by default as few as the lines between cones allow, with
+/// each edge divided in [`QuadLayout::parts`].
+///
+/// # Errors
+/// Those of [`quad_mesh`].
+pub fn quad_layout(seamless: &Seamless, options: &QuadOptions, control: &Control) -> Result<QuadLayout> {
+    options.check()?;
+    Pool::new(options.threads)?.run(|| {
+        let division = QuadDivision::new(seamless, control)?;
+        let found = division.quantised(options.size, control)?;
+        QuadLayout::new(division.mesh(&found, PARTS, control)?, PARTS)
     })
-}
-
-/// Places on the metric's triangulation as places on the surface as it came.
-fn on_given(solution: &Solution, places: Vec<MetricPlace>, control: &Control) -> Result<Vec<MetricPlace>> {
-    if solution.is_unflipped() {
-        return Ok(places);
-    }
-    let subdivision = solution.common_subdivision(control)?;
-    let back = subdivision.backward();
-    let on = |(f, weights): MetricPlace| {
-        let image = back.image(f, weights);
-        image.ok_or_else(|| Error::Layout(format!("face {f} of the metric has no part of the surface")))
-    };
-    places.into_iter().map(on).collect()
 }

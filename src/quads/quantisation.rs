@@ -386,7 +386,7 @@ impl Quantisation {
             self.descend_once(is_good, &mut work, control)?;
             // What was refused may be possible once other arcs have changed.
             self.least.clone_from(&least);
-            if self.cost() > before - LEAST_GAIN * before || work > MOST_WORK {
+            if self.cost() >= before - LEAST_GAIN * before || work > MOST_WORK {
                 return Ok(());
             }
         }
@@ -431,6 +431,73 @@ impl Quantisation {
             }
             if !is_better || *work > MOST_WORK {
                 return Ok(());
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::random::SplitMix64;
+    use crate::mesh::union_find::UnionFind;
+    use crate::quads::t_mesh::{TArc, TRectangle};
+
+    /// Squares with these half-arcs on their sides; nodes do not matter.
+    fn squares(sides: &[[HalfArc; 4]]) -> TMesh {
+        let arc = TArc { ends: [(0, 0), (0, 0)], length: 1, is_wall: false };
+        let square = |side: &[HalfArc; 4]| TRectangle { sides: side.map(|h| vec![h]), size: [1, 1] };
+        TMesh {
+            nodes: Vec::new(),
+            arcs: vec![arc; 2 * sides.len()],
+            rectangles: sides.iter().map(square).collect(),
+        }
+    }
+
+    fn solved(t_mesh: &TMesh, wanted: &[f64], least: i64) -> Quantisation {
+        let control = Control::new();
+        let mut found = Quantisation::balanced(t_mesh, wanted.to_vec(), least, &control).unwrap();
+        found.descend(&mut |_| true, &control).unwrap();
+        assert!(found.excess().iter().all(|e| *e == 0));
+        assert!(found.numbers.iter().all(|n| *n >= least));
+        found
+    }
+
+    #[test]
+    fn a_square_whose_neighbouring_sides_are_glued_is_as_long_as_wide() {
+        // An arc on the first and the second side counts with the same sign in both directions: the graph is bidirected.
+        let t_mesh = squares(&[[0, 1, 2, 3]]);
+        assert_eq!(solved(&t_mesh, &[1.2, 2.9], 1).numbers, [2, 2]);
+        assert_eq!(solved(&t_mesh, &[0.1, 0.2], 1).numbers, [1, 1]);
+        assert_eq!(solved(&t_mesh, &[0.1, 0.2], 0).numbers, [0, 0]);
+    }
+
+    #[test]
+    fn arcs_that_have_to_be_equal_have_the_number_nearest_to_their_mean() {
+        let mut random = SplitMix64::new(5);
+        let mut below = |n: usize| (random.unit() * n as f64) as usize;
+        for round in 0..200 {
+            let n = 1 + round % 7;
+            let mut halfarcs: Vec<HalfArc> = (0..4 * n).collect();
+            (1..4 * n).rev().for_each(|k| halfarcs.swap(k, below(k + 1)));
+            let sides: Vec<[HalfArc; 4]> =
+                halfarcs.chunks_exact(4).map(|four| [four[0], four[1], four[2], four[3]]).collect();
+            let mut same = UnionFind::new(2 * n);
+            for side in &sides {
+                same.join((side[0] / 2) as u32, (side[2] / 2) as u32);
+                same.join((side[1] / 2) as u32, (side[3] / 2) as u32);
+            }
+            let wanted: Vec<f64> = (0..2 * n).map(|_| below(1000) as f64 / 123.0).collect();
+            let found = solved(&squares(&sides), &wanted, 1);
+            for arc in 0..2 * n {
+                let class: Vec<usize> =
+                    (0..2 * n).filter(|&a| same.root(a as u32) == same.root(arc as u32)).collect();
+                let mean = class.iter().map(|&a| wanted[a]).sum::<f64>() / class.len() as f64;
+                assert_eq!(
+                    found.numbers[arc],
+                    (mean.round() as i64).max(1),
+                    "round {round}: {sides:?} {wanted:?}"
+                );
             }
         }
     }

@@ -64,6 +64,11 @@ impl<'a> Separation<'a> {
         Separation { t_mesh, corners, is_special, wall, is_boundary: sides.iter().map(|&n| n < 2).collect() }
     }
 
+    /// True for a node that is a cone or corner, or at which walls end or meet.
+    pub fn is_special(&self, node: usize) -> bool {
+        self.is_special[node]
+    }
+
     /// True if the squares of these numbers form the surface with its cones and walls.
     pub fn holds(&self, numbers: &[i64]) -> bool {
         Identification::new(self.t_mesh, numbers).conflicts(self).is_empty()

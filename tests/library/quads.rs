@@ -1,9 +1,9 @@
-//! Quad meshes of seamless maps: known T-meshes of square-tiled surfaces, and what every quad mesh has.
+//! Quad meshes and layouts of seamless maps: known T-meshes of square-tiled surfaces, and what every quad mesh and layout has.
 
 use ricci::geometry::Space;
 use ricci::mesh::io::Soup;
 use ricci::mesh::{Mesh, PerEdge, VertexId, shapes};
-use ricci::quads::{QuadMesh, QuadOptions, QuadSize, quad_mesh};
+use ricci::quads::{QuadLayout, QuadMesh, QuadOptions, QuadSize, quad_layout, quad_mesh};
 use ricci::seamless::{ConeValence, Seamless, SeamlessCones, SeamlessOptions, seamless};
 use ricci::{Control, Error, Surface};
 use std::collections::BTreeMap;
@@ -71,6 +71,49 @@ fn quads(of: &Seamless, size: QuadSize) -> QuadMesh {
     quad_mesh(of, &QuadOptions { size, ..QuadOptions::default() }, &Control::new()).unwrap()
 }
 
+fn layout(of: &Seamless) -> QuadLayout {
+    let options = QuadOptions { size: QuadSize::Coarse, ..QuadOptions::default() };
+    quad_layout(of, &options, &Control::new()).unwrap()
+}
+
+/// What every layout has: the topology of the surface, arcs that end at nodes and are in two sides of patches, or in one on the boundary,
+/// opposite sides of the same length, and quads in every unit.
+fn check_layout(name: &str, of: &Seamless, layout: &QuadLayout) {
+    let QuadLayout { mesh, parts, nodes, arcs, patches } = layout;
+    let euler = nodes.len() as i64 - arcs.len() as i64 + patches.len() as i64;
+    assert_eq!(euler, of.solution.given().euler(), "{name}");
+    let mut ways = vec![[0, 0]; arcs.len()];
+    for patch in patches {
+        let length = |side: &[i32]| {
+            let lengths = side.iter().map(|a| arcs[a.unsigned_abs() as usize - 1].length);
+            lengths.sum::<u32>()
+        };
+        let lengths = patch.sides.each_ref().map(|side| length(side));
+        assert_eq!([lengths[0], lengths[1], lengths[0], lengths[1]], lengths, "{name}");
+        assert_eq!(patch.size, [lengths[0], lengths[1]], "{name}");
+        assert_eq!(patch.quads.len() as u32, lengths[0] * lengths[1] * parts * parts, "{name}");
+        let around: Vec<i32> = patch.sides.iter().flatten().copied().collect();
+        for (k, &a) in around.iter().enumerate() {
+            ways[a.unsigned_abs() as usize - 1][usize::from(a < 0)] += 1;
+            let end =
+                |a: i32, last: bool| arcs[a.unsigned_abs() as usize - 1].ends[usize::from((a < 0) != last)];
+            assert_eq!(end(a, true), end(around[(k + 1) % around.len()], false), "{name}");
+        }
+    }
+    for (arc, ways) in arcs.iter().zip(ways) {
+        assert!(ways == [1, 1] || (arc.is_crease && ways[0] + ways[1] == 1), "{name}: {ways:?}");
+        let ends = arc.ends.map(|k| nodes[k as usize].vertex);
+        assert_eq!(ends, [arc.vertices[0], arc.vertices[arc.vertices.len() - 1]], "{name}");
+        assert_eq!(arc.vertices.len() as u32, arc.length * parts + 1, "{name}");
+    }
+    let mut valences: Vec<u32> =
+        mesh.topology().irregular.iter().map(|&v| mesh.valences()[v as usize]).collect();
+    let mut cones: Vec<u32> = of.cones.iter().map(|cone| cone.valence).collect();
+    valences.sort_unstable();
+    cones.sort_unstable();
+    assert_eq!(valences, cones, "{name}");
+}
+
 /// What every quad mesh has: the topology of the surface, and no irregular vertex but at cones.
 fn check(name: &str, of: &Seamless, mesh: &QuadMesh) {
     let topology = mesh.topology();
@@ -96,6 +139,9 @@ fn a_square_torus_is_one_rectangle() {
     check("square torus", &of, &mesh);
     assert_eq!(mesh.t_mesh_size, [1, 2]);
     assert_eq!(mesh.quads.len(), 36);
+    let layout = layout(&of);
+    check_layout("square torus", &of, &layout);
+    assert_eq!((layout.nodes.len(), layout.arcs.len(), layout.patches.len()), (1, 2, 1));
 }
 
 #[test]
@@ -109,6 +155,9 @@ fn a_square_tiled_surface_of_genus_2_is_its_squares() {
     check("genus 2", &of, &mesh);
     assert_eq!(mesh.t_mesh_size, [3, 6]);
     assert_eq!(mesh.quads.len(), 3 * 16);
+    let layout = layout(&of);
+    check_layout("genus 2", &of, &layout);
+    assert_eq!((layout.nodes.len(), layout.arcs.len(), layout.patches.len()), (1, 6, 3));
 }
 
 /// The surface of a cube, each side divided into n × n cells.
@@ -151,6 +200,9 @@ fn a_cube_with_its_corners_as_cones_is_its_sides() {
     assert_eq!(mesh.quads.len(), 6 * 16);
     let shape = mesh.shape(&mesh.positions(&of.solution).unwrap());
     assert!(shape.angle_max < 1e-7 && (shape.edge_mean - 0.25).abs() < 1e-7, "{shape:?}");
+    let layout = layout(&of);
+    check_layout("cube", &of, &layout);
+    assert_eq!((layout.nodes.len(), layout.arcs.len(), layout.patches.len()), (8, 12, 6));
 }
 
 #[test]
@@ -167,6 +219,7 @@ fn quad_meshes_are_regular_off_cones() {
         let options = SeamlessOptions { cones, ..SeamlessOptions::default() };
         let of = seamless(&surface, &options, &Control::new()).unwrap();
         assert!(of.converged(), "{name}: {:e}", of.error);
+        check_layout(name, &of, &layout(&of));
         for n in [300, 2000] {
             let mesh = quads(&of, QuadSize::Quads(n));
             check(name, &of, &mesh);

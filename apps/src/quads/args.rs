@@ -1,4 +1,4 @@
-//! The options of `ricci quads`.
+//! The options of `ricci quads` and `ricci layout`.
 
 use crate::options::{Common, FileName, SurfaceArgs};
 use crate::seamless::ConesChoice;
@@ -22,13 +22,27 @@ Files
 pub struct QuadsArgs {
     #[command(flatten)]
     #[serde(flatten)]
-    pub surface: SurfaceArgs,
+    pub source: QuadSourceArgs,
     /// The quad mesh (.obj)
     #[arg(short = 'o', long = "out", value_name = "Q.obj")]
     pub out: FileName,
     #[command(flatten)]
     #[serde(flatten)]
     pub size: QuadSizeArgs,
+    /// Write the places of the vertices on the input
+    #[arg(long, value_name = "X.csv")]
+    pub map: Option<FileName>,
+    #[command(flatten)]
+    #[serde(flatten)]
+    pub common: Common,
+}
+
+/// The surface and its seamless metric.
+#[derive(Args, Serialize, Debug)]
+pub struct QuadSourceArgs {
+    #[command(flatten)]
+    #[serde(flatten)]
+    pub surface: SurfaceArgs,
     /// The cones, as for `ricci seamless`: field, auto:N, or a table vertex,valence
     #[arg(long, value_name = "CONES", default_value_t = ConesChoice::Field)]
     pub cones: ConesChoice,
@@ -39,12 +53,6 @@ pub struct QuadsArgs {
     /// Largest deviation of an angle of the seamless metric from a multiple of 90°, radians
     #[arg(long, value_name = "RADIANS", default_value_t = 1e-10, value_parser = crate::options::positive)]
     pub tolerance: f64,
-    /// Write the places of the vertices on the input
-    #[arg(long, value_name = "X.csv")]
-    pub map: Option<FileName>,
-    #[command(flatten)]
-    #[serde(flatten)]
-    pub common: Common,
 }
 
 /// The size of the quads.
@@ -73,4 +81,34 @@ impl QuadSizeArgs {
             _ => QuadSize::Quads(1000),
         }
     }
+}
+
+pub const LAYOUT_HELP: &str = "\
+Example: a surface of genus 2 divided into few four-sided patches
+    ricci make genus -o two.obj
+    ricci layout two.obj -o layout.json --mesh patches.obj
+
+The patches are those of a quad mesh with as few quads as its cones allow, between lines of edges that go straight on. Sides have whole
+lengths, and opposite sides the same.
+
+Files
+    -o L.json           {nodes, arcs, patches}: nodes by vertex of the input or face and weights, with valence and crease; arcs with the
+                        nodes from and to, length, crease and points in space; patches with size and four sides, each a list of arcs:
+                        arc a as a + 1 in its direction and −(a + 1) against it
+    --mesh Q.obj        the patches as quads, eight to a unit of length, each patch as a group";
+
+#[derive(Args, Serialize, Debug)]
+pub struct LayoutArgs {
+    #[command(flatten)]
+    #[serde(flatten)]
+    pub source: QuadSourceArgs,
+    /// The layout (.json)
+    #[arg(short = 'o', long = "out", value_name = "L.json")]
+    pub out: FileName,
+    /// Write the patches as quads (.obj)
+    #[arg(long, value_name = "Q.obj")]
+    pub mesh: Option<FileName>,
+    #[command(flatten)]
+    #[serde(flatten)]
+    pub common: Common,
 }

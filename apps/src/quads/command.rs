@@ -1,59 +1,37 @@
 //! `ricci quads` as a job: what it refuses, computes, writes and reports.
 
-use super::args::QuadsArgs;
+use super::args::{QuadSourceArgs, QuadsArgs};
 use super::figures::QuadsOutcome;
 use crate::failure::{Failure, NO_POSITIONS};
-use crate::input;
+use crate::input::{self, Input};
 use crate::output::{check_extension, check_outputs};
 use crate::progress::doing;
 use crate::report::timed;
 use crate::runner::{CommandRun, Job, JobHeader};
 use crate::seamless::{ConesChoice, chosen_cones};
 use ricci::quads::{QuadMesh, QuadOptions, quad_mesh};
-use ricci::seamless::{SeamlessOptions, seamless, sharp_edges};
+use ricci::seamless::{Seamless, SeamlessOptions, seamless, sharp_edges};
 use std::io::Write;
-use std::time::Instant;
+use std::path::Path;
 
 impl Job for QuadsArgs {
     type Outcome = QuadsOutcome;
 
     fn header(&self) -> JobHeader<'_> {
-        JobHeader { name: "quads", common: &self.common, mesh: Some(&self.surface.file.mesh) }
+        JobHeader { name: "quads", common: &self.common, mesh: Some(&self.source.surface.file.mesh) }
     }
 
     fn check(&self) -> Result<(), Failure> {
         check_extension("-o", Some(&self.out), &["obj"])?;
-        let table = match &self.cones {
-            ConesChoice::Table(path) => Some(path.as_path()),
-            _ => None,
-        };
         let files = [Some(&self.out), self.map.as_ref(), self.common.report.as_ref()];
-        check_outputs(&[Some(&*self.surface.file.mesh), table], &files.map(|file| file.map(|f| &**f)))
+        check_outputs(&self.source.files(), &files.map(|file| file.map(|f| &**f)))
     }
 
     fn compute(&self, run: &mut CommandRun<'_>) -> Result<QuadsOutcome, Failure> {
-        let input = input::surface(&self.surface, &mut run.seconds, run.control)?;
-        if input.positions().is_none() {
-            return Err(Failure::Usage(format!("-o: {NO_POSITIONS}")));
-        }
-        let features = match self.features {
-            Some(degrees) => sharp_edges(&input.surface, degrees.to_radians())?,
-            None => Vec::new(),
-        };
-        let options = SeamlessOptions {
-            cones: chosen_cones(&self.cones, &input)?,
-            features,
-            tolerance: self.tolerance,
-            threads: self.common.threads,
-            ..SeamlessOptions::default()
-        };
-        let solve = || doing("solving", || seamless(&input.surface, &options, run.control));
-        let found = timed(&mut run.seconds.solve, solve)?;
+        let (input, found) = solved(&self.source, self.common.threads, run)?;
         let options = QuadOptions { size: self.size.size(), threads: self.common.threads };
-        let begin = Instant::now();
-        let mesh = doing("dividing", || quad_mesh(&found, &options, run.control))?;
-        let seconds = begin.elapsed().as_secs_f64();
-        run.seconds.layout += seconds;
+        let divide = || doing("dividing", || quad_mesh(&found, &options, run.control));
+        let mesh = timed(&mut run.seconds.layout, divide)?;
         let positions = mesh.positions(&found.solution).ok_or_else(Failure::no_positions)?;
         Ok(QuadsOutcome { input, found, mesh, positions })
     }
@@ -64,6 +42,41 @@ impl Job for QuadsArgs {
             outputs.add(path, |out| write_places(out, &outcome.mesh))
         })
     }
+}
+
+impl QuadSourceArgs {
+    /// The files that are read.
+    pub fn files(&self) -> [Option<&Path>; 2] {
+        let table = match &self.cones {
+            ConesChoice::Table(path) => Some(path.as_path()),
+            _ => None,
+        };
+        [Some(&*self.surface.file.mesh), table]
+    }
+}
+
+/// The surface and its seamless metric.
+pub fn solved(
+    args: &QuadSourceArgs,
+    threads: usize,
+    run: &mut CommandRun<'_>,
+) -> Result<(Input, Seamless), Failure> {
+    let input = input::surface(&args.surface, &mut run.seconds, run.control)?;
+    if input.positions().is_none() {
+        return Err(Failure::Usage(format!("-o: {NO_POSITIONS}")));
+    }
+    let features =
+        args.features.map(|degrees| sharp_edges(&input.surface, degrees.to_radians())).transpose()?;
+    let options = SeamlessOptions {
+        cones: chosen_cones(&args.cones, &input)?,
+        features: features.unwrap_or_default(),
+        tolerance: args.tolerance,
+        threads,
+        ..SeamlessOptions::default()
+    };
+    let solve = || doing("solving", || seamless(&input.surface, &options, run.control));
+    let found = timed(&mut run.seconds.solve, solve)?;
+    Ok((input, found))
 }
 
 /// The quad mesh as OBJ.

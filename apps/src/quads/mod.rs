@@ -1,7 +1,8 @@
-//! `ricci quads`: quad meshes of seamless maps.
+//! `ricci quads` and `ricci layout`: quad meshes of seamless maps, and their patches.
 
 mod args;
 mod command;
 mod figures;
+mod layout_command;
 
-pub use args::{HELP, QuadsArgs};
+pub use args::{HELP, LAYOUT_HELP, LayoutArgs, QuadsArgs};

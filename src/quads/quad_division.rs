@@ -1,0 +1,236 @@
+//! The way from a seamless metric to quads: its T-mesh, whole numbers for a size of quads, and the quad mesh of these numbers.
+
+use super::collapse::RawQuads;
+use super::grid_complex::GridComplex;
+use super::grid_surface::GridSurface;
+use super::options::QuadSize;
+use super::quad_mesh::QuadMesh;
+use super::quantisation::Quantisation;
+use super::rectangle_map::{MetricPlace, grid_places};
+use super::separation::Separation;
+use super::t_mesh::TMesh;
+use super::t_mesh_node::NodeKey;
+use crate::control::Control;
+use crate::error::{Error, Result};
+use crate::flow::Solution;
+use crate::metric::curvature::area;
+use crate::seamless::Seamless;
+
+/// Rounds in which the edge length is changed to come near a number of quads.
+const ROUNDS: usize = 5;
+/// Share by which the number of quads may differ from the one that was asked for.
+const NEAR_COUNT: f64 = 0.05;
+/// Edge lengths, in lengths of the longest arc, that are tried where as few quads as possible are asked for: the longer, the less does the
+/// length of an arc count against its number.
+const COARSE_EDGES: [f64; 5] = [0.5, 1.0, 2.0, 4.0, 8.0];
+
+/// A seamless metric with its T-mesh.
+pub(super) struct QuadDivision<'a> {
+    solution: &'a Solution,
+    surface: GridSurface,
+    t_mesh: TMesh,
+    /// The length of a unit of the grid on the surface, where the map keeps the area.
+    unit: f64,
+    /// The area of the surface.
+    area: f64,
+}
+
+/// Numbers for the arcs, with the edge length for which they are.
+pub(super) struct SizedNumbers {
+    quantisation: Quantisation,
+    edge: f64,
+}
+
+impl<'a> QuadDivision<'a> {
+    /// # Errors
+    /// Those of [`GridSurface::new`] and [`TMesh::new`].
+    pub fn new(seamless: &'a Seamless, control: &Control) -> Result<QuadDivision<'a>> {
+        let surface = GridSurface::new(seamless, control)?;
+        let t_mesh = TMesh::new(&surface, control)?;
+        let solution = &seamless.solution;
+        let area = area(solution.given(), solution.initial().input_geometry, solution.surface().lengths())?;
+        let on_grid: f64 = t_mesh.rectangles.iter().map(|r| r.size[0] as f64 * r.size[1] as f64).sum();
+        Ok(QuadDivision { solution, surface, t_mesh, unit: (area / on_grid).sqrt(), area })
+    }
+
+    /// Whole numbers of the arcs for a size of quads.
+    ///
+    /// # Errors
+    /// Those of [`Quantisation::balanced`].
+    pub fn quantised(&self, size: QuadSize, control: &Control) -> Result<SizedNumbers> {
+        let separation = Separation::new(&self.surface, &self.t_mesh);
+        let is_apart = &mut |numbers: &[i64]| separation.holds(numbers);
+        if size != QuadSize::Coarse {
+            let mut found = self.near_size(size, &separation, control)?;
+            found.quantisation.descend(is_apart, control)?;
+            return Ok(found);
+        }
+        let longest = self.t_mesh.arcs.iter().map(|arc| arc.length).max().unwrap_or(0);
+        let mut best: Option<(usize, SizedNumbers)> = None;
+        for factor in COARSE_EDGES {
+            let edge = QuadSize::Edge(factor * longest as f64 * self.unit);
+            let mut found = self.near_size(edge, &separation, control)?;
+            let mut other = found.quantisation.restarted(1, control)?;
+            found.quantisation.descend(is_apart, control)?;
+            other.descend(is_apart, control)?;
+            let other = SizedNumbers { quantisation: other, edge: found.edge };
+            for found in [found, other] {
+                let n = GridComplex::new(&self.t_mesh, &found.quantisation.numbers).n_squares();
+                if best.as_ref().is_none_or(|(least, _)| n < *least) {
+                    best = Some((n, found));
+                }
+            }
+        }
+        best.map(|(_, found)| found).ok_or_else(|| Error::Layout("a T-mesh has no arcs".into()))
+    }
+
+    /// Numbers for a size of quads before any descent.
+    fn near_size(
+        &self,
+        size: QuadSize,
+        separation: &Separation<'_>,
+        control: &Control,
+    ) -> Result<SizedNumbers> {
+        let of_edge = |edge: f64| -> Result<SizedNumbers> {
+            let wanted = self.t_mesh.arcs.iter().map(|arc| arc.length as f64 * self.unit / edge).collect();
+            let mut quantisation = Quantisation::balanced(&self.t_mesh, wanted, 0, control)?;
+            separation.enforce(&mut quantisation, control)?;
+            Ok(SizedNumbers { quantisation, edge })
+        };
+        let goal = match size {
+            QuadSize::Edge(edge) => return of_edge(edge),
+            QuadSize::Quads(n) => n as f64,
+            QuadSize::Coarse => 1.0,
+        };
+        let ratio = |found: &SizedNumbers| {
+            GridComplex::new(&self.t_mesh, &found.quantisation.numbers).n_squares() as f64 / goal
+        };
+        let mut found = of_edge((self.area / goal).sqrt())?;
+        for _ in 0..ROUNDS {
+            let now = ratio(&found);
+            if (now - 1.0).abs() < NEAR_COUNT {
+                break;
+            }
+            let next = of_edge(found.edge * now.sqrt())?;
+            if ratio(&next).ln().abs() >= now.ln().abs() {
+                break;
+            }
+            found = next;
+        }
+        Ok(found)
+    }
+
+    /// Changes numbers until no two edges of the quad mesh have the same two ends.
+    ///
+    /// # Errors
+    /// Those of [`Separation::enforce_single_edges`].
+    pub fn enforce_single_edges(&self, found: &mut SizedNumbers, control: &Control) -> Result<()> {
+        let separation = Separation::new(&self.surface, &self.t_mesh);
+        separation.enforce_single_edges(&mut found.quantisation, control)
+    }
+
+    /// The quad mesh of these numbers, each edge divided in `parts`.
+    ///
+    /// # Errors
+    /// [`Error::Layout`] for a point without a place; [`Error::Cancelled`].
+    pub fn mesh(&self, found: &SizedNumbers, parts: u32, control: &Control) -> Result<QuadMesh> {
+        let numbers: Vec<i64> = found.quantisation.numbers.iter().map(|n| n * i64::from(parts)).collect();
+        let complex = GridComplex::new(&self.t_mesh, &numbers);
+        let places = grid_places(&self.surface, &self.t_mesh, &complex, &numbers)?;
+        control.check()?;
+        let mut points = PointVertices::new(self, &complex, places);
+        let (squares, rectangle) = complex.squares();
+        let mut quads = Vec::with_capacity(squares.len());
+        for [a, b, c, d] in squares {
+            quads.push([points.vertex(a)?, points.vertex(b)?, points.vertex(c)?, points.vertex(d)?]);
+        }
+        let mut creases = Vec::new();
+        for a in (0..numbers.len()).filter(|&a| self.t_mesh.arcs[a].is_wall) {
+            for k in 0..numbers[a] {
+                let ends = [k, k + 1].map(|k| complex.arc_point(2 * a, k));
+                creases.push([points.vertex(ends[0])?, points.vertex(ends[1])?]);
+            }
+        }
+        let mut raw = RawQuads { quads, rectangle, creases };
+        let places = on_given(self.solution, points.on_metric, control)?;
+        let (places, collapsed) = raw.collapse_single_corners(places);
+        let RawQuads { quads, rectangle, creases } = raw;
+        Ok(QuadMesh {
+            quads,
+            places,
+            rectangle,
+            collapsed,
+            t_mesh_size: [self.t_mesh.rectangles.len(), self.t_mesh.arcs.len()],
+            creases,
+            off_axis: self.surface.off_axis.clone(),
+            cost: found.quantisation.cost(),
+            edge: found.edge / f64::from(parts),
+        })
+    }
+}
+
+/// The vertices of a quad mesh that stand for the points of a grid complex.
+struct PointVertices {
+    places: Vec<Option<MetricPlace>>,
+    /// Per point the one that stands for all that are the same, and per such point the one whose place is taken.
+    root: Vec<u32>,
+    chosen: Vec<Option<usize>>,
+    /// Per such point its vertex.
+    number: Vec<u32>,
+    /// Per vertex its place.
+    on_metric: Vec<MetricPlace>,
+}
+
+impl PointVertices {
+    fn new(
+        division: &QuadDivision<'_>,
+        complex: &GridComplex<'_>,
+        places: Vec<Option<MetricPlace>>,
+    ) -> PointVertices {
+        let n = complex.n_points;
+        let mut same = complex.identified(n);
+        let root: Vec<u32> = (0..n as u32).map(|p| same.root(p)).collect();
+        // Of points that are the same, a cone or corner stands for all, then a vertex of the surface, a node, the first.
+        let separation = Separation::new(&division.surface, &division.t_mesh);
+        let rank = |point: usize| match division.t_mesh.nodes.get(point) {
+            Some(_) if separation.is_special(point) => 0,
+            Some(NodeKey::Vertex(_)) => 1,
+            Some(_) => 2,
+            None => 3,
+        };
+        let mut chosen: Vec<Option<usize>> = vec![None; n];
+        for (point, &root) in root.iter().enumerate() {
+            let known = &mut chosen[root as usize];
+            if places[point].is_some() && known.is_none_or(|other| rank(point) < rank(other)) {
+                *known = Some(point);
+            }
+        }
+        PointVertices { places, root, chosen, number: vec![u32::MAX; n], on_metric: Vec::new() }
+    }
+
+    /// The vertex that stands for a point.
+    fn vertex(&mut self, point: u32) -> Result<u32> {
+        let root = self.root[point as usize] as usize;
+        if self.number[root] == u32::MAX {
+            let place = self.chosen[root].and_then(|point| self.places[point]);
+            let place = place.ok_or_else(|| Error::Layout(format!("grid point {point} has no place")))?;
+            self.number[root] = self.on_metric.len() as u32;
+            self.on_metric.push(place);
+        }
+        Ok(self.number[root])
+    }
+}
+
+/// Places on the metric's triangulation as places on the surface as it came.
+fn on_given(solution: &Solution, places: Vec<MetricPlace>, control: &Control) -> Result<Vec<MetricPlace>> {
+    if solution.is_unflipped() {
+        return Ok(places);
+    }
+    let subdivision = solution.common_subdivision(control)?;
+    let back = subdivision.backward();
+    let on = |(f, weights): MetricPlace| {
+        let image = back.image(f, weights);
+        image.ok_or_else(|| Error::Layout(format!("face {f} of the metric has no part of the surface")))
+    };
+    places.into_iter().map(on).collect()
+}
