@@ -1,7 +1,9 @@
 //! Quad meshes of seamless maps: T-meshes by motorcycle graphs, whole numbers for their arcs, integer-grid maps, and layouts of four-sided
 //! patches.
 
+mod arc_graph;
 mod collapse;
+mod from_seamless;
 mod grid_complex;
 mod grid_surface;
 mod grid_vector;
@@ -20,7 +22,8 @@ mod t_mesh;
 mod t_mesh_node;
 mod walk_search;
 
+pub use from_seamless::{quad_layout, quad_mesh};
 pub use options::{QuadOptions, QuadSize};
 pub use quad_figures::{QuadShape, QuadTopology};
 pub use quad_layout::{LayoutArc, LayoutNode, LayoutPatch, QuadLayout};
-pub use quad_mesh::{QuadMesh, quad_layout, quad_mesh};
+pub use quad_mesh::QuadMesh;

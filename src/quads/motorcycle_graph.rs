@@ -45,6 +45,16 @@ struct LineSpan {
     heading: LineHeading,
 }
 
+/// A line's arrival at a vertex.
+struct VertexArrival {
+    /// A half-edge from the vertex.
+    halfedge: HalfedgeId,
+    /// The vertex in the coordinates of the line.
+    at: GridPoint,
+    /// The direction back along the line, in the coordinates of the half-edge's face.
+    back: Axis,
+}
+
 /// Events in the order in which they happen; those that start something come before those that end something at the same time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum GrowthEvent {
@@ -170,7 +180,11 @@ impl LineGrowth<'_> {
                     LineSpan { line, heading: heading.moved(&across, LinePlace::Edge(twin)) },
                 );
                 let back = across.turn(opposite(heading.axis));
-                self.come_to_vertex(line, &heading, (twin, surface.tip(h), back));
+                self.come_to_vertex(
+                    line,
+                    &heading,
+                    VertexArrival { halfedge: twin, at: surface.tip(h), back },
+                );
                 return Ok(());
             }
             LinePlace::Vertex(_) => mesh.next(h),
@@ -179,7 +193,8 @@ impl LineGrowth<'_> {
                 let at = surface.origin(apex);
                 match cross(unit(heading.axis), heading.offset_of(at)) {
                     0 => {
-                        self.come_to_vertex(line, &heading, (apex, at, opposite(heading.axis)));
+                        let back = opposite(heading.axis);
+                        self.come_to_vertex(line, &heading, VertexArrival { halfedge: apex, at, back });
                         return Ok(());
                     }
                     left if left > 0 => mesh.next(h),
@@ -201,16 +216,12 @@ impl LineGrowth<'_> {
         Ok(())
     }
 
-    /// A line comes to the origin of a half-edge, at this place of the heading's coordinates; `back` leads back in those of the half-edge.
-    fn come_to_vertex(
-        &mut self,
-        line: usize,
-        heading: &LineHeading,
-        (h, at, back): (HalfedgeId, GridPoint, Axis),
-    ) {
-        let vertex = self.surface.mesh.origin(h);
+    /// A line comes to a vertex.
+    fn come_to_vertex(&mut self, line: usize, heading: &LineHeading, arrival: VertexArrival) {
+        let VertexArrival { halfedge, at, back } = arrival;
+        let vertex = self.surface.mesh.origin(halfedge);
         let slots = self.surface.slots(vertex);
-        if let Some(back) = slots.iter().position(|slot| slot.halfedge == h && slot.axis == back) {
+        if let Some(back) = slots.iter().position(|slot| slot.halfedge == halfedge && slot.axis == back) {
             self.push(heading.length_at(at), GrowthEvent::Arrive { line, vertex, back });
         }
     }

@@ -1,18 +1,7 @@
-//! Quad meshes and layouts of seamless metrics.
+//! Quad meshes on surfaces.
 
-use super::options::QuadOptions;
-use super::quad_division::QuadDivision;
-use super::quad_layout::QuadLayout;
-use crate::control::Control;
-use crate::error::Result;
 use crate::flow::Solution;
 use crate::mesh::{EdgeId, FaceId, Point};
-use crate::parallel::Pool;
-use crate::seamless::Seamless;
-
-/// Edges of the quad mesh of a layout to a unit of length: arcs have so many points between their ends that they follow the surface, and no
-/// two edges have the same ends.
-const PARTS: u32 = 8;
 
 /// A pure quad mesh on a surface.
 #[derive(Debug, Clone, PartialEq)]
@@ -54,34 +43,4 @@ impl QuadMesh {
         self.quads.iter().flatten().for_each(|&v| valence[v as usize] += 1);
         valence
     }
-}
-
-/// The quad mesh of a seamless metric: the motorcycle graph of its map, a whole number for each arc, and the integer points of the map in
-/// which each rectangle has whole sides. Every vertex that is no cone or corner has four quads, two on the boundary.
-///
-/// # Errors
-/// [`Error::Argument`] for a size that is not positive; [`Error::Layout`] for a metric that is not seamless (not converged);
-/// [`Error::Cancelled`].
-pub fn quad_mesh(seamless: &Seamless, options: &QuadOptions, control: &Control) -> Result<QuadMesh> {
-    options.check()?;
-    Pool::new(options.threads)?.run(|| {
-        let division = QuadDivision::new(seamless, control)?;
-        let mut found = division.quantised(options.size, control)?;
-        division.enforce_single_edges(&mut found, control)?;
-        division.mesh(&found, 1, control)
-    })
-}
-
-/// The layout of a seamless metric: the patches of its quad mesh of this size, by default as few as the lines between cones allow, with
-/// each edge divided in [`QuadLayout::parts`].
-///
-/// # Errors
-/// Those of [`quad_mesh`].
-pub fn quad_layout(seamless: &Seamless, options: &QuadOptions, control: &Control) -> Result<QuadLayout> {
-    options.check()?;
-    Pool::new(options.threads)?.run(|| {
-        let division = QuadDivision::new(seamless, control)?;
-        let found = division.quantised(options.size, control)?;
-        QuadLayout::new(division.mesh(&found, PARTS, control)?, PARTS)
-    })
 }

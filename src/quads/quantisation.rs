@@ -4,15 +4,13 @@
 //! it, and so on: consistent changes are closed walks in the double cover of a bidirected graph, whose states are a rectangle, one of its two
 //! directions, and the sign of what its first side has more than the opposite one. Walks may begin and end at the boundary \[LCK21\].
 
+use super::arc_graph::{ArcGraph, OUTSIDE, WalkStep};
 use super::t_mesh::{HalfArc, TMesh};
-use super::walk_search::WalkSearch;
+use super::walk_search::{SAME_COST, WalkSearch};
 use crate::control::Control;
 use crate::error::{Error, Result};
 use std::cmp::Ordering;
-use std::collections::{BinaryHeap, VecDeque};
-
-/// Costs that differ by less than this are the same; lengths are of the order of 1.
-pub(super) const SAME_COST: f64 = 1e-9;
+use std::collections::BinaryHeap;
 
 /// The cost of a step below the least number while sides are made even, far above that of any other walk.
 const BELOW_COST: f64 = 1e12;
@@ -26,30 +24,19 @@ const WORK_OF_TEST: usize = 30;
 /// Share of the cost that a descent has to gain for another to follow.
 const LEAST_GAIN: f64 = 1e-3;
 
-/// The end of walks at the boundary.
-pub(super) const OUTSIDE: usize = 0;
-
 /// A quantisation that is being improved.
 #[derive(Debug, Clone)]
 pub(super) struct Quantisation {
-    /// Per half-arc the rectangle and direction to its left, 2r + d, and the sign with which its side counts.
-    pub(super) beside: Vec<Option<(usize, i64)>>,
-    /// Per rectangle and direction the half-arcs of both sides.
-    sides: Vec<Vec<HalfArc>>,
-    /// Per state the steps that remove its excess.
-    pub(super) steps: Vec<Vec<WalkStep>>,
+    graph: ArcGraph,
     /// Per arc the wanted length.
     wanted: Vec<f64>,
     /// Per arc the least number.
     least: Vec<i64>,
     /// Per arc what each use costs in addition where walks have used it twice.
-    pub(super) surcharge: Vec<f64>,
+    surcharge: Vec<f64>,
     /// Per arc its number.
     pub numbers: Vec<i64>,
 }
-
-/// A step of a walk: this half-arc's arc changes by this much.
-pub(super) type WalkStep = (HalfArc, i64);
 
 /// A state in the order of the search.
 #[derive(PartialEq)]
@@ -86,39 +73,17 @@ impl Quantisation {
 
     /// Wanted lengths rounded, not balanced.
     fn start(t_mesh: &TMesh, wanted: Vec<f64>, least: i64) -> Quantisation {
-        let mut beside = vec![None; 2 * t_mesh.arcs.len()];
-        let mut sides = vec![Vec::new(); 2 * t_mesh.rectangles.len()];
-        for (r, rectangle) in t_mesh.rectangles.iter().enumerate() {
-            for (k, side) in rectangle.sides.iter().enumerate() {
-                let u = 2 * r + k % 2;
-                for &h in side {
-                    beside[h] = Some((u, if k < 2 { 1 } else { -1 }));
-                    sides[u].push(h);
-                }
-            }
-        }
         let numbers = wanted.iter().map(|x| (x.round() as i64).max(least)).collect();
-        let mut steps = vec![Vec::new(); 2 * sides.len() + 1];
-        for (h, at) in beside.iter().enumerate() {
-            match *at {
-                Some((u, sign)) => {
-                    for s in [1, -1] {
-                        steps[Quantisation::state(u, s)].push((h, -s * sign));
-                    }
-                }
-                None => steps[OUTSIDE].extend([(h, 1), (h, -1)]),
-            }
-        }
         let (least, surcharge) = (vec![least; wanted.len()], vec![0.0; wanted.len()]);
-        Quantisation { beside, sides, steps, wanted, least, surcharge, numbers }
+        Quantisation { graph: ArcGraph::new(t_mesh), wanted, least, surcharge, numbers }
     }
 
     /// What the first side of each rectangle has more than the opposite one, per direction.
     pub fn excess(&self) -> Vec<i64> {
         let sum = |side: &Vec<HalfArc>| {
-            side.iter().map(|&h| self.beside[h].map_or(0, |(_, sign)| sign * self.numbers[h / 2])).sum()
+            side.iter().map(|&h| self.graph.beside[h].map_or(0, |(_, sign)| sign * self.numbers[h / 2])).sum()
         };
-        self.sides.iter().map(sum).collect()
+        self.graph.sides.iter().map(sum).collect()
     }
 
     /// Another start: numbers that are at least this large, from which arcs may become 0.
@@ -156,7 +121,7 @@ impl Quantisation {
     }
 
     /// The cost of a change of an arc; infinite below the least number.
-    pub(super) fn change_cost(&self, arc: usize, change: i64) -> f64 {
+    fn change_cost(&self, arc: usize, change: i64) -> f64 {
         let n = self.numbers[arc];
         if n + change < self.least[arc] {
             return f64::INFINITY;
@@ -165,19 +130,9 @@ impl Quantisation {
         after - before
     }
 
-    /// The state in which a rectangle's direction has an excess of this sign.
-    pub(super) fn state(u: usize, sign: i64) -> usize {
-        1 + 2 * u + usize::from(sign < 0)
-    }
-
-    /// The rectangle and direction of a state that is not outside, and its sign.
-    fn excess_of(state: usize) -> (usize, i64) {
-        ((state - 1) / 2, if state % 2 == 1 { 1 } else { -1 })
-    }
-
-    /// The state after a step.
-    pub(super) fn after(&self, (h, change): WalkStep) -> usize {
-        self.beside[h ^ 1].map_or(OUTSIDE, |(v, sign)| Quantisation::state(v, change * sign))
+    /// The costs of a change of an arc by 1 and by −1 in a search.
+    fn step_costs(&self, arc: usize) -> [f64; 2] {
+        [1, -1].map(|change| self.change_cost(arc, change) + self.surcharge[arc])
     }
 
     /// Removes what opposite sides differ by, along cheapest walks. Arcs may fall below the least number where nothing else is possible, so
@@ -203,8 +158,8 @@ impl Quantisation {
             let mut is_better = false;
             for walk in walks {
                 let (Some(&first), Some(&last)) = (walk.first(), walk.last()) else { continue };
-                let from = self.beside[first.0];
-                let to = self.beside[last.0 ^ 1];
+                let from = self.graph.beside[first.0];
+                let to = self.graph.beside[last.0 ^ 1];
                 let mut left = excess.clone();
                 let mut apply = |end: Option<(usize, i64)>, change: i64| {
                     if let Some((u, sign)) = end {
@@ -238,14 +193,14 @@ impl Quantisation {
 
     /// Walks from excesses to those that they cancel or to the boundary, the cheapest first. Gains count as no cost.
     fn cheapest_walks(&self, excess: &[i64], sources: &[usize]) -> Vec<Vec<WalkStep>> {
-        let n = self.steps.len();
+        let n = self.graph.steps.len();
         let mut distance = vec![f64::INFINITY; n];
         let mut came: Vec<Option<(usize, WalkStep)>> = vec![None; n];
         let mut root = vec![usize::MAX; n];
         let mut waiting = BinaryHeap::new();
         let mut is_done = vec![false; n];
         for &u in sources {
-            let state = Quantisation::state(u, excess[u].signum());
+            let state = ArcGraph::state(u, excess[u].signum());
             distance[state] = 0.0;
             root[state] = u;
             waiting.push(Reached(0.0, state));
@@ -256,18 +211,18 @@ impl Quantisation {
                 continue;
             }
             let is_end = state == OUTSIDE || {
-                let (u, s) = Quantisation::excess_of(state);
+                let (u, s) = ArcGraph::excess_of(state);
                 excess[u] * s < 0 && (root[state] != u || excess[u].abs() > 1)
             };
             if is_end && came[state].is_some() {
                 ends.push(state);
                 continue;
             }
-            for &step in &self.steps[state] {
+            for &step in &self.graph.steps[state] {
                 let arc = step.0 / 2;
                 let falls_below = step.1 < 0 && self.numbers[arc] <= self.least[arc];
                 let cost = if falls_below { BELOW_COST } else { self.change_cost(arc, step.1).max(0.0) };
-                let (next, total) = (self.after(step), d + cost);
+                let (next, total) = (self.graph.after(step), d + cost);
                 if total < distance[next] {
                     distance[next] = total;
                     came[next] = Some((state, step));
@@ -298,7 +253,7 @@ impl Quantisation {
             if self.numbers[arc] >= self.least[arc] {
                 continue;
             }
-            let Some(strip) = self.strip(arc) else {
+            let Some(strip) = self.graph.strip(arc) else {
                 return Err(Error::Layout(format!("arc {arc} lies on no strip of rectangles")));
             };
             while self.numbers[arc] < self.least[arc] {
@@ -306,54 +261,6 @@ impl Quantisation {
             }
         }
         Ok(())
-    }
-
-    /// Half-arcs of a closed walk across rectangles through an arc, or of one between two places of the boundary.
-    fn strip(&self, arc: usize) -> Option<Vec<HalfArc>> {
-        let forth = self.shortest_crossing(2 * arc, Some(2 * arc))?;
-        if forth.first() == forth.last() && forth.len() > 1 {
-            return Some(forth[1..].to_vec());
-        }
-        let back = self.shortest_crossing(2 * arc + 1, None)?;
-        Some(forth.into_iter().chain(back.into_iter().skip(1)).collect())
-    }
-
-    /// The shortest walk across rectangles that enters the one to the left of a half-arc: to the boundary or to a half-arc, which it crosses
-    /// at its end as it did at first.
-    fn shortest_crossing(&self, first: HalfArc, goal: Option<HalfArc>) -> Option<Vec<HalfArc>> {
-        let mut came: Vec<Option<HalfArc>> = vec![None; self.beside.len()];
-        let mut waiting = VecDeque::from([first]);
-        let trace = |came: &[Option<HalfArc>], last: HalfArc| {
-            let mut walk = vec![last];
-            let mut at = last;
-            while let Some(before) = came[at] {
-                walk.push(before);
-                if before == first {
-                    break;
-                }
-                at = before;
-            }
-            walk.reverse();
-            walk
-        };
-        while let Some(h) = waiting.pop_front() {
-            let Some((u, sign)) = self.beside[h] else { return Some(trace(&came, h)) };
-            for &g in &self.sides[u] {
-                // The walk leaves across the opposite side, into the rectangle to the left of the other half-arc.
-                let next = g ^ 1;
-                if self.beside[g].is_none_or(|(_, other)| other == sign) || came[next].is_some() {
-                    continue;
-                }
-                came[next] = Some(h);
-                if Some(next) == goal {
-                    return Some(trace(&came, next));
-                }
-                if next != first {
-                    waiting.push_back(next);
-                }
-            }
-        }
-        None
     }
 
     /// The change of the cost along a walk.
@@ -400,15 +307,15 @@ impl Quantisation {
         control: &Control,
     ) -> Result<()> {
         self.surcharge.fill(0.0);
-        let mut search = WalkSearch::new(self);
+        let mut search = WalkSearch::new(&self.graph, &|arc| self.step_costs(arc));
         loop {
             control.check()?;
             let mut is_better = false;
-            for walk in search.negative_walks(self, work) {
+            for walk in search.negative_walks(&self.graph, work) {
                 is_better = true;
                 if self.walk_cost(&walk) >= -SAME_COST {
                     self.discourage(&walk);
-                    walk.iter().for_each(|&(h, _)| search.wake(self, h / 2));
+                    walk.iter().for_each(|&(h, _)| search.wake(&self.graph, h / 2, self.step_costs(h / 2)));
                     continue;
                 }
                 walk.iter().for_each(|&(h, change)| self.numbers[h / 2] += change);
@@ -427,7 +334,7 @@ impl Quantisation {
                     self.least[zero / 2] = 1;
                     walk.iter().for_each(|&(h, change)| self.numbers[h / 2] -= change);
                 }
-                walk.iter().for_each(|&(h, _)| search.wake(self, h / 2));
+                walk.iter().for_each(|&(h, _)| search.wake(&self.graph, h / 2, self.step_costs(h / 2)));
             }
             if !is_better || *work > MOST_WORK {
                 return Ok(());

@@ -118,7 +118,7 @@ impl GridLines {
 }
 
 /// A triangle in the coordinates of a rectangle.
-struct DevelopedTriangle {
+struct TriangleInRectangle {
     face: FaceId,
     corners: [GridPoint; 3],
 }
@@ -128,7 +128,7 @@ fn developed_triangles(
     surface: &GridSurface,
     t_mesh: &TMesh,
     rectangle: &TRectangle,
-) -> Result<Vec<DevelopedTriangle>> {
+) -> Result<Vec<TriangleInRectangle>> {
     let mesh = &surface.mesh;
     let first = rectangle.sides[0][0];
     let (node, slot) = t_mesh.arcs[first / 2].ends[first % 2];
@@ -154,7 +154,7 @@ fn developed_triangles(
                 }
             }
         }
-        found.push(DevelopedTriangle { face, corners });
+        found.push(TriangleInRectangle { face, corners });
     }
     Ok(found)
 }
@@ -173,7 +173,7 @@ fn meets_inside(a: GridPoint, b: GridPoint, size: [i64; 2]) -> bool {
 /// Finds the triangles in which points lie: those in which the least barycentric coordinate is largest.
 fn locate(
     surface: &GridSurface,
-    developed: &[DevelopedTriangle],
+    developed: &[TriangleInRectangle],
     wanted: &[(u32, [f64; 2])],
     rectangle: &TRectangle,
     places: &mut [Option<MetricPlace>],

@@ -1,6 +1,9 @@
 //! The search for closed walks that lower the cost of a quantisation, by Bellman and Ford's method.
 
-use super::quantisation::{OUTSIDE, Quantisation, SAME_COST, WalkStep};
+use super::arc_graph::{ArcGraph, OUTSIDE, WalkStep};
+
+/// Costs that differ by less than this are the same; lengths are of the order of 1.
+pub(super) const SAME_COST: f64 = 1e-9;
 
 /// A step from a state, as the search needs it.
 #[derive(Clone, Copy)]
@@ -27,7 +30,8 @@ pub(super) struct WalkSearch {
 }
 
 impl WalkSearch {
-    pub fn new(of: &Quantisation) -> WalkSearch {
+    /// A search with these costs of a change by 1 and by −1 per arc.
+    pub fn new(of: &ArcGraph, costs: &dyn Fn(usize) -> [f64; 2]) -> WalkSearch {
         let n = of.steps.len();
         let (mut steps, mut first) = (Vec::new(), vec![0]);
         for of_state in &of.steps {
@@ -38,26 +42,23 @@ impl WalkSearch {
             }));
             first.push(steps.len());
         }
-        let mut search = WalkSearch {
+        WalkSearch {
             distance: vec![0.0; n],
             waiting: (0..n).collect(),
             is_waiting: vec![true; n],
             steps,
             first,
-            cost: vec![[0.0; 2]; of.numbers.len()],
+            cost: (0..of.beside.len() / 2).map(costs).collect(),
             seen: vec![0; n],
             n_walks: 0,
-        };
-        (0..of.numbers.len()).for_each(|arc| search.wake(of, arc));
-        search
+        }
     }
 
-    /// Looks again at the cost of an arc, and at the states from which it is changed.
-    pub fn wake(&mut self, of: &Quantisation, arc: usize) {
-        self.cost[arc] = [1, -1].map(|change| of.change_cost(arc, change) + of.surcharge[arc]);
+    /// Sets the costs of an arc, and looks again at the states from which it is changed.
+    pub fn wake(&mut self, of: &ArcGraph, arc: usize, cost: [f64; 2]) {
+        self.cost[arc] = cost;
         for h in [2 * arc, 2 * arc + 1] {
-            let states =
-                of.beside[h].map_or([OUTSIDE; 2], |(u, _)| [1, -1].map(|s| Quantisation::state(u, s)));
+            let states = of.beside[h].map_or([OUTSIDE; 2], |(u, _)| [1, -1].map(|s| ArcGraph::state(u, s)));
             for state in states {
                 if !std::mem::replace(&mut self.is_waiting[state], true) {
                     self.waiting.push(state);
@@ -67,7 +68,7 @@ impl WalkSearch {
     }
 
     /// Closed walks that seem to lower the cost; none only if there is none. Adds the number of steps that were looked at to the work.
-    pub fn negative_walks(&mut self, of: &Quantisation, work: &mut usize) -> Vec<Vec<WalkStep>> {
+    pub fn negative_walks(&mut self, of: &ArcGraph, work: &mut usize) -> Vec<Vec<WalkStep>> {
         let n = self.distance.len();
         // Per state the one before it, and the number of the step between.
         let mut came: Vec<Option<(u32, u32)>> = vec![None; n];
@@ -104,12 +105,7 @@ impl WalkSearch {
     }
 
     /// The cycles of the graph in which each state came from at most one other, that are reached backwards from these states.
-    fn cycles(
-        &mut self,
-        of: &Quantisation,
-        came: &[Option<(u32, u32)>],
-        starts: &[usize],
-    ) -> Vec<Vec<WalkStep>> {
+    fn cycles(&mut self, of: &ArcGraph, came: &[Option<(u32, u32)>], starts: &[usize]) -> Vec<Vec<WalkStep>> {
         let before_all = self.n_walks;
         let mut found = Vec::new();
         for &start in starts {
