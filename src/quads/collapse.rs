@@ -5,6 +5,8 @@ pub(super) struct RawQuads {
     pub quads: Vec<[u32; 4]>,
     pub rectangle: Vec<u32>,
     pub creases: Vec<[u32; 2]>,
+    /// Per vertex true on the boundary: two sides of a quad with the same ends then are two edges, around a hole.
+    pub is_border: Vec<bool>,
 }
 
 impl RawQuads {
@@ -18,7 +20,7 @@ impl RawQuads {
             let single = |quad: &[u32; 4]| {
                 let is_single =
                     |i: usize| quad[(i + 3) % 4] == quad[(i + 1) % 4] && valence[quad[i] as usize] == 1;
-                (0..4).any(is_single)
+                (0..4).any(|i| is_single(i) && !self.is_border[quad[i] as usize])
             };
             let gone: Vec<bool> = self.quads.iter().map(single).collect();
             if !gone.contains(&true) {
@@ -56,7 +58,12 @@ mod tests {
     fn a_quad_around_a_vertex_of_valence_1_goes() {
         // The quad (0, 1, 2, 1) closes the gap between two others at the edge 1–2.
         let quads = vec![[0, 1, 2, 1], [2, 1, 3, 4], [1, 2, 5, 6]];
-        let mut raw = RawQuads { quads, rectangle: vec![0, 1, 2], creases: vec![[0, 1], [3, 4]] };
+        let mut raw = RawQuads {
+            quads,
+            rectangle: vec![0, 1, 2],
+            creases: vec![[0, 1], [3, 4]],
+            is_border: vec![false; 7],
+        };
         let (places, gone) = raw.collapse_single_corners((0..7).collect());
         assert_eq!((gone, places), (1, vec![1, 2, 3, 4, 5, 6]));
         assert_eq!(raw.quads, [[1, 0, 2, 3], [0, 1, 4, 5]]);

@@ -147,13 +147,28 @@ impl<'a> GridComplex<'a> {
         (squares, of)
     }
 
+    /// The edges on the boundary.
+    pub fn border_edges(&self) -> Vec<[u32; 2]> {
+        let mut sides = vec![0; self.numbers.len()];
+        let rectangles = self.t_mesh.rectangles.iter();
+        rectangles.flat_map(|r| r.sides.iter().flatten()).for_each(|h| sides[h / 2] += 1);
+        let border = (0..sides.len()).filter(|&a| sides[a] < 2);
+        let edges =
+            |a: usize| (0..self.numbers[a]).map(move |k| [k, k + 1].map(|k| self.arc_point(2 * a, k)));
+        border.flat_map(edges).collect()
+    }
+
     /// Points, each standing for all that are the same, at ends of edges that are not the only ones between these ends, once quads with two
     /// sides in one edge are collapsed; and at corners that a quad has twice.
     pub fn repeated_edges(&self) -> Vec<usize> {
         let mut same = self.identified(self.n_points);
         let (mut quads, rectangle) = self.squares();
         quads.iter_mut().flatten().for_each(|p| *p = same.root(*p));
-        let mut raw = RawQuads { quads, rectangle, creases: Vec::new() };
+        let mut is_border = vec![false; self.n_points];
+        let border: Vec<[u32; 2]> =
+            self.border_edges().into_iter().map(|ends| ends.map(|p| same.root(p))).collect();
+        border.iter().flatten().for_each(|&p| is_border[p as usize] = true);
+        let mut raw = RawQuads { quads, rectangle, creases: Vec::new(), is_border };
         let (points, _) = raw.collapse_single_corners((0..self.n_points).collect());
         let mut sides = Vec::with_capacity(4 * raw.quads.len());
         let mut repeated = Vec::new();
@@ -169,6 +184,16 @@ impl<'a> GridComplex<'a> {
         sides.sort_unstable();
         let twice = sides.windows(2).filter(|pair| pair[0] == pair[1]);
         repeated.extend(twice.flat_map(|pair| pair[0]));
+        // Beyond an edge of the boundary there is no quad; a hole of two edges looks as if it were closed.
+        for ends in border {
+            let numbers = ends.map(|p| points.binary_search(&(p as usize)));
+            if let [Ok(a), Ok(b)] = numbers.map(|found| found.map(|v| v as u32)) {
+                let is_side = |side: [u32; 2]| sides.binary_search(&side).is_ok();
+                if is_side([a, b]) && is_side([b, a]) {
+                    repeated.extend([a, b]);
+                }
+            }
+        }
         repeated.sort_unstable();
         repeated.dedup();
         repeated.into_iter().map(|v| points[v as usize]).collect()

@@ -151,10 +151,14 @@ impl<'a> QuadDivision<'a> {
                 creases.push([points.vertex(ends[0])?, points.vertex(ends[1])?]);
             }
         }
-        let mut raw = RawQuads { quads, rectangle, creases };
+        let mut is_border = vec![false; points.on_metric.len()];
+        for point in complex.border_edges().into_iter().flatten() {
+            is_border[points.vertex(point)? as usize] = true;
+        }
+        let mut raw = RawQuads { quads, rectangle, creases, is_border };
         let places = on_given(self.solution, points.on_metric, control)?;
         let (places, collapsed) = raw.collapse_single_corners(places);
-        let RawQuads { quads, rectangle, creases } = raw;
+        let RawQuads { quads, rectangle, creases, .. } = raw;
         Ok(QuadMesh {
             quads,
             places,

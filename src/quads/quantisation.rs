@@ -109,6 +109,15 @@ impl Quantisation {
         self.raise_strips()
     }
 
+    /// Makes an arc longer by 1 at least; its strip is raised.
+    ///
+    /// # Errors
+    /// [`Error::Layout`] as [`Quantisation::balanced`].
+    pub fn make_longer(&mut self, arc: usize) -> Result<()> {
+        self.least[arc] = self.numbers[arc] + 1;
+        self.raise_strips()
+    }
+
     /// The arc with the greatest wanted length of those that are 0.
     pub fn longest_zero(&self, arcs: impl Iterator<Item = usize>) -> Option<usize> {
         let zero = arcs.filter(|&a| self.numbers[a] == 0);

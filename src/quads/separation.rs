@@ -10,6 +10,8 @@ use crate::error::{Error, Result};
 use crate::mesh::union_find::UnionFind;
 use std::collections::BTreeMap;
 
+/// Rounds in which arcs are made longer one by one to part edges with the same ends.
+const MOST_RAISED: usize = 64;
 /// Times that numbers are doubled: with four edges to each shortest arc, cones are too far apart for edges with the same ends.
 const MOST_DOUBLINGS: usize = 3;
 
@@ -98,14 +100,15 @@ impl<'a> Separation<'a> {
     }
 
     /// Raises strips of arcs of length 0 until no two edges of the quad mesh have the same two ends; where there are no such arcs near these
-    /// edges, all numbers are doubled.
+    /// edges, the shortest arcs there are made longer, and if that does not end, all numbers are doubled.
     ///
     /// # Errors
     /// [`Error::Layout`] where doubling does not help; [`Error::Cancelled`].
     pub fn enforce_single_edges(&self, found: &mut Quantisation, control: &Control) -> Result<()> {
-        let mut doublings = 0;
+        let (mut doublings, mut rounds) = (0, 0);
         loop {
             control.check()?;
+            rounds += 1;
             let same = Identification::new(self.t_mesh, &found.numbers);
             let conflicts = same.complex.repeated_edges();
             if conflicts.is_empty() {
@@ -115,6 +118,8 @@ impl<'a> Separation<'a> {
             if !arcs.is_empty() {
                 arcs.into_iter().try_for_each(|arc| found.keep_above_zero(arc))?;
                 self.enforce(found, control)?;
+            } else if let Some(arc) = same.shortest_arc_at(&conflicts).filter(|_| rounds < MOST_RAISED) {
+                found.make_longer(arc)?;
             } else if doublings < MOST_DOUBLINGS {
                 doublings += 1;
                 found.numbers.iter_mut().for_each(|n| *n *= 2);
@@ -169,6 +174,16 @@ impl<'a> Identification<'a> {
         let mut same = complex.identified(n);
         let root = (0..n as u32).map(|p| same.root(p) as usize).collect();
         Identification { complex, numbers, root }
+    }
+
+    /// The arc of the least number that has one of these points, each standing for its class.
+    fn shortest_arc_at(&self, classes: &[usize]) -> Option<usize> {
+        let has_point = |&a: &usize| {
+            let mut points = (0..=self.numbers[a]).map(|k| self.complex.arc_point(2 * a, k) as usize);
+            points.any(|p| classes.binary_search(&self.root[p]).is_ok())
+        };
+        let positive = (0..self.numbers.len()).filter(|&a| self.numbers[a] > 0);
+        positive.filter(has_point).min_by_key(|&a| (self.numbers[a], a))
     }
 
     /// The classes that are in conflict: of two special nodes or two walls, and those in which not as many squares meet as are to.
