@@ -22,6 +22,7 @@ mod matching;
 mod on_input;
 mod outputs;
 mod picture;
+mod quads;
 mod refine;
 mod repair;
 mod run;

@@ -1,0 +1,81 @@
+//! `ricci quads` and `ricci layout`: the files read back, with counts of our own.
+
+use crate::run::{Place, numbers, triples};
+use serde_json::Value;
+
+/// Positions and faces of an OBJ file.
+fn parse(text: &str) -> (Vec<[f64; 3]>, Vec<Vec<usize>>) {
+    let words = |line: &str| line.split_whitespace().map(str::to_string).collect::<Vec<_>>();
+    let point = |line: &str| -> [f64; 3] {
+        words(line).iter().map(|x| x.parse().unwrap()).collect::<Vec<_>>().try_into().unwrap()
+    };
+    let corner = |word: &String| word.split('/').next().unwrap().parse::<usize>().unwrap() - 1;
+    let positions = text.lines().filter_map(|line| line.strip_prefix("v ")).map(point).collect();
+    let faces = text.lines().filter_map(|line| line.strip_prefix("f "));
+    (positions, faces.map(|line| words(line).iter().map(corner).collect()).collect())
+}
+
+#[test]
+fn quads_lie_on_the_surface_and_are_irregular_at_cones_alone() {
+    let place = Place::new();
+    place.expect(0, "make genus -o two.obj");
+    place.expect(0, "quads two.obj -o q.obj --faces 400 --map on.csv --report r.json");
+    let (positions, triangles) = parse(&place.text("two.obj"));
+    let (vertices, quads) = parse(&place.text("q.obj"));
+    assert!(quads.iter().all(|quad| quad.len() == 4) && quads.len() > 300);
+    let mut valence = vec![0i64; vertices.len()];
+    quads.iter().flatten().for_each(|&v| valence[v] += 1);
+    assert_eq!(valence.iter().map(|k| 4 - k).sum::<i64>(), -8);
+    let report = place.json("r.json");
+    let irregular = valence.iter().filter(|k| **k != 4).count() as u64;
+    assert_eq!(report["result"]["irregular"].as_u64(), Some(irregular));
+    assert_eq!(report["result"]["cones"].as_u64(), Some(irregular));
+    assert_eq!(report["result"]["quads"].as_u64(), Some(quads.len() as u64));
+    let csv = place.text("on.csv");
+    assert_eq!(csv.lines().next(), Some("quad_vertex,source_face,b0,b1,b2"));
+    assert_eq!(csv.lines().count(), vertices.len() + 1);
+    for line in csv.lines().skip(1) {
+        let row: Vec<f64> = line.split(',').map(|x| x.parse().unwrap()).collect();
+        let corners = &triangles[row[1] as usize];
+        for i in 0..3 {
+            let at: f64 = (0..3).map(|k| row[2 + k] * positions[corners[k]][i]).sum();
+            assert!((at - vertices[row[0] as usize][i]).abs() < 1e-12, "{line}");
+        }
+    }
+}
+
+#[test]
+fn patches_of_a_layout_are_rectangles_of_whole_size() {
+    let place = Place::new();
+    place.expect(0, "make genus -o two.obj");
+    place.expect(0, "layout two.obj -o L.json --mesh p.obj --report r.json");
+    let file = place.json("L.json");
+    let list = |key: &str| file[key].as_array().unwrap().clone();
+    let (nodes, arcs, patches) = (list("nodes"), list("arcs"), list("patches"));
+    assert_eq!(nodes.len() as i64 - arcs.len() as i64 + patches.len() as i64, -2);
+    let length = |side: &Value| -> f64 {
+        let arc = |a: &f64| arcs[a.abs() as usize - 1]["length"].as_f64().unwrap();
+        numbers(side).iter().map(arc).sum()
+    };
+    for patch in &patches {
+        let sides: Vec<f64> = patch["arcs"].as_array().unwrap().iter().map(length).collect();
+        let size = numbers(&patch["size"]);
+        assert_eq!(sides, [size[0], size[1], size[0], size[1]]);
+    }
+    for arc in &arcs {
+        assert_eq!(triples(&arc["points"]).len() as f64, 8.0 * arc["length"].as_f64().unwrap() + 1.0);
+    }
+    let excess: i64 = nodes.iter().map(|node| 4 - node["valence"].as_i64().unwrap()).sum();
+    assert_eq!(excess, -8);
+    assert_eq!(place.json("r.json")["result"]["patches"].as_u64(), Some(patches.len() as u64));
+    assert!(parse(&place.text("p.obj")).1.len().is_multiple_of(64));
+}
+
+#[test]
+fn one_size_of_quads_is_asked_for() {
+    let place = Place::new();
+    place.expect(0, "make torus -o t.obj");
+    place.expect(2, "quads t.obj -o q.obj --faces 400 --edge 0.1");
+    place.expect(2, "quads t.obj -o q.txt");
+    place.expect(2, "layout t.obj -o L.obj");
+}
