@@ -86,7 +86,7 @@ impl QuadSizeArgs {
 pub const LAYOUT_HELP: &str = "\
 Example: a surface of genus 2 divided into few four-sided patches
     ricci make genus -o two.obj
-    ricci layout two.obj -o layout.json --mesh patches.obj
+    ricci layout two.obj -o layout.json --quads patches.obj
 
 The patches are those of a quad mesh with as few quads as its cones allow, between lines of edges that go straight on. Sides have whole
 lengths, and opposite sides the same.
@@ -95,7 +95,7 @@ Files
     -o L.json           {nodes, arcs, patches}: nodes by vertex of the input or face and weights, with valence and crease; arcs with the
                         nodes from and to, length, crease and points in space; patches with size and four sides, each a list of arcs:
                         arc a as a + 1 in its direction and −(a + 1) against it
-    --mesh Q.obj        the patches as quads, eight to a unit of length, each patch as a group";
+    --quads Q.obj       the patches as quads, eight to a unit of length, each patch as a group";
 
 #[derive(Args, Serialize, Debug)]
 pub struct LayoutArgs {
@@ -107,7 +107,7 @@ pub struct LayoutArgs {
     pub out: FileName,
     /// Write the patches as quads (.obj)
     #[arg(long, value_name = "Q.obj")]
-    pub mesh: Option<FileName>,
+    pub quads: Option<FileName>,
     #[command(flatten)]
     #[serde(flatten)]
     pub common: Common,

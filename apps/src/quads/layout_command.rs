@@ -32,8 +32,8 @@ impl Job for LayoutArgs {
 
     fn check(&self) -> Result<(), Failure> {
         check_extension("-o", Some(&self.out), &["json"])?;
-        check_extension("--mesh", self.mesh.as_deref(), &["obj"])?;
-        let files = [Some(&self.out), self.mesh.as_ref(), self.common.report.as_ref()];
+        check_extension("--quads", self.quads.as_deref(), &["obj"])?;
+        let files = [Some(&self.out), self.quads.as_ref(), self.common.report.as_ref()];
         check_outputs(&self.source.files(), &files.map(|file| file.map(|f| &**f)))
     }
 
@@ -48,7 +48,7 @@ impl Job for LayoutArgs {
 
     fn write(&self, outcome: &LayoutOutcome, run: &mut CommandRun<'_>) -> Result<(), Failure> {
         run.file("out", Some(&self.out), |outputs, path| outputs.add_json(path, &outcome.file()))?;
-        run.file("mesh", self.mesh.as_deref(), |outputs, path| {
+        run.file("quads", self.quads.as_deref(), |outputs, path| {
             outputs.add(path, |out| write_patches(out, outcome))
         })
     }

@@ -48,7 +48,7 @@ fn quads_lie_on_the_surface_and_are_irregular_at_cones_alone() {
 fn patches_of_a_layout_are_rectangles_of_whole_size() {
     let place = Place::new();
     place.expect(0, "make genus -o two.obj");
-    place.expect(0, "layout two.obj -o L.json --mesh p.obj --report r.json");
+    place.expect(0, "layout two.obj -o L.json --quads p.obj --report r.json");
     let file = place.json("L.json");
     let list = |key: &str| file[key].as_array().unwrap().clone();
     let (nodes, arcs, patches) = (list("nodes"), list("arcs"), list("patches"));
