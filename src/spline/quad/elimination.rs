@@ -18,7 +18,7 @@ struct SolvedRow {
 }
 
 /// The equations that were solved so far.
-pub(super) struct Elimination {
+pub(super) struct ControlEquations {
     rows: Vec<SolvedRow>,
     /// Per column the row that is solved for it.
     solved: Vec<Option<u32>>,
@@ -36,11 +36,11 @@ pub(super) struct Combinations {
     pub rows: Vec<SparseRow>,
 }
 
-impl Elimination {
+impl ControlEquations {
     /// No equation yet; `arcs`: per column the number of arcs in whose equations it is.
-    pub fn new(arcs: Vec<u32>) -> Elimination {
+    pub fn new(arcs: Vec<u32>) -> ControlEquations {
         let n = arcs.len();
-        Elimination { rows: Vec::new(), solved: vec![None; n], uses: vec![Vec::new(); n], arcs }
+        ControlEquations { rows: Vec::new(), solved: vec![None; n], uses: vec![Vec::new(); n], arcs }
     }
 
     /// Adds an equation Σ value · column = 0.

@@ -1,6 +1,6 @@
 //! The space of all splines over a layout: their tangent planes are continuous across every arc that is no crease.
 
-use super::elimination::{Combinations, Elimination, SparseRow};
+use super::elimination::{Combinations, ControlEquations, SparseRow};
 use super::gluing::{Gluing, GluingLengths};
 use super::layout::{ArcEnd, PatchCorner, PatchLayout};
 use super::quintic::{MAX_SPANS, basis_size};
@@ -53,7 +53,7 @@ impl QuadSplineSpace {
             (0..layout.arcs().len()).map(|arc| smooth_arc(&layout, arc)).collect();
         let nothing = Combinations { dimension: n, rows: Vec::new() };
         let mut space = QuadSplineSpace { layout, spans, control, combinations: nothing };
-        let mut equations = Elimination::new(space.arcs_of_columns(&smooth, n));
+        let mut equations = ControlEquations::new(space.arcs_of_columns(&smooth, n));
         space.add_tangent_planes(&smooth, &mut equations);
         space.add_curvatures(&smooth, &mut equations);
         space.combinations = equations.finish();
@@ -130,7 +130,7 @@ impl QuadSplineSpace {
         arcs
     }
 
-    fn add_tangent_planes(&self, smooth: &[Option<SmoothArc>], equations: &mut Elimination) {
+    fn add_tangent_planes(&self, smooth: &[Option<SmoothArc>], equations: &mut ControlEquations) {
         let n = self.side();
         let mut known: BTreeMap<[u64; 6], Vec<Vec<f64>>> = BTreeMap::new();
         for arc in smooth.iter().flatten() {
@@ -146,7 +146,7 @@ impl QuadSplineSpace {
 
     /// Adds equal second derivatives across arcs with γ = 0. Near a regular node whose crossing arc has γ ≠ 0 that would ask for γ'' = 0
     /// there: the equation of the control point next to the node is left out.
-    fn add_curvatures(&self, smooth: &[Option<SmoothArc>], equations: &mut Elimination) {
+    fn add_curvatures(&self, smooth: &[Option<SmoothArc>], equations: &mut ControlEquations) {
         let arc_at = |at: PatchCorner, turn: usize| {
             let side = self.layout.patches()[at.patch][(at.corner + turn) % 4];
             smooth[side.arc as usize].as_ref()
