@@ -152,7 +152,7 @@ fn measured(spline: QuadSpline, pieces: &[usize], target: &SplineTarget) -> Resu
         max: found.iter().fold(0.0f64, |most, patch| most.max(patch.largest)) / diagonal,
         worst_patch,
         normal_error: cosine.clamp(-1.0, 1.0).acos(),
-        folded_patches: (0..found.len()).filter(|&p| !(found[p].cosine > 0.0)).collect(),
+        folded_patches: (0..found.len()).filter(|&p| found[p].cosine <= 0.0).collect(),
         spline,
     })
 }

@@ -48,7 +48,8 @@ impl SplineTarget {
             return Err(Error::Size { what: "positions", expected: v as usize + 1, got: positions.len() });
         }
         let area = |f: &[u32; 3]| triangle_normal(f.map(|v| positions[v as usize]));
-        let flat = faces.iter().position(|f| !(norm(area(f)) > 0.0));
+        let has_normal = |size: f64| size > 0.0 && size.is_finite();
+        let flat = faces.iter().position(|f| !has_normal(norm(area(f))));
         if let Some(index) = flat.or(faces.is_empty().then_some(0)) {
             let message = "it has no area, so no normal: drop or repair it".into();
             return Err(Error::Spline { what: "face of the target", index, message });
