@@ -1,8 +1,8 @@
 //! Handles that every sequence of calls shares: made once, only read from then on, never released.
 
 use super::{CALLS, word};
-use ricci_c::charts::ricci_charts_new;
 use ricci_c::bicubic::{ricci_bicubic_new, ricci_bicubic_options};
+use ricci_c::charts::ricci_charts_new;
 use ricci_c::circle_domain::ricci_circle_domain_new;
 use ricci_c::control::{ricci_control_cancel, ricci_control_new};
 use ricci_c::deck::{ricci_deck_new, ricci_deck_spec};
