@@ -182,7 +182,7 @@ def test_07_errors_say_what_to_call(genus2):
     kinds = (TypeError, ValueError)
     refused(lambda: package.layout(genus2), TypeError, "a Metric is needed, not Mesh", "ricci.flow(mesh)")
     refused(lambda: package.deck(genus2), TypeError, "a Uniform is needed, not Mesh", "ricci.uniformize(mesh)")
-    refused(lambda: package.atlas(package.metric(genus2)), TypeError, "a Layout is needed, not Metric", "ricci.layout(metric)")
+    refused(lambda: package.charts(package.metric(genus2)), TypeError, "a Layout is needed, not Metric", "ricci.layout(metric)")
     refused(lambda: package.flow(genus2, "uniform"), TypeError, "target='uniform'")
     refused(lambda: package.as_mesh(pyvista.Sphere().cast_to_unstructured_grid()), TypeError, "extract_surface().triangulate()")
     assert package.to_pyvista((genus2.V, genus2.F)).n_points == genus2.n_vertices
@@ -237,7 +237,7 @@ def test_12_what_did_not_converge_warns_and_a_curved_metric_is_not_laid_out(genu
         package.layout(early)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        package.atlas(package.layout(package.flow(genus2, target="auto:6")))
+        package.charts(package.layout(package.flow(genus2, target="auto:6")))
     refused(lambda: package.layout(package.Metric(genus2)), package.LayoutError, "curved at", "ricci.flow(mesh", "cones=")
 
 
