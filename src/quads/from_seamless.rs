@@ -17,8 +17,8 @@ const PARTS: u32 = 8;
 /// which each rectangle has whole sides. Every vertex that is no cone or corner has four quads, two on the boundary.
 ///
 /// # Errors
-/// [`Error::Argument`] for a size that is not positive; [`Error::Layout`] for a metric that is not seamless (not converged);
-/// [`Error::Cancelled`].
+/// [`crate::Error::Argument`] for a size that is not positive; [`crate::Error::Layout`] for a metric that is not seamless (not converged);
+/// [`crate::Error::Cancelled`].
 pub fn quad_mesh(seamless: &Seamless, options: &QuadOptions, control: &Control) -> Result<QuadMesh> {
     options.check()?;
     Pool::new(options.threads)?.run(|| {
