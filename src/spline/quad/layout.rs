@@ -237,6 +237,7 @@ impl PatchLayout {
     }
 }
 
-fn ascending([a, b]: [u32; 2]) -> [u32; 2] {
+/// Two numbers, the smaller one first.
+pub(super) fn ascending([a, b]: [u32; 2]) -> [u32; 2] {
     [a.min(b), a.max(b)]
 }

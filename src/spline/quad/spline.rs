@@ -2,7 +2,7 @@
 
 use super::quintic::{LOCAL, QUINTIC, QuinticBasis, knots};
 use super::space::QuadSplineSpace;
-use crate::error::{Error, Result, check_size};
+use crate::error::{Error, Result};
 use crate::geometry::vector::{Vector, add, scale};
 use crate::spline::triangular::SurfacePoint;
 use std::sync::Arc;
@@ -21,7 +21,6 @@ impl QuadSpline {
     /// [`Error::Size`] for another number than the dimension of the space.
     pub fn of_free(space: Arc<QuadSplineSpace>, free: &[Vector]) -> Result<QuadSpline> {
         let control_points = space.control_points(free)?;
-        check_size("control points", control_points.len(), space.n_control_points())?;
         Ok(QuadSpline { space, control_points })
     }
 

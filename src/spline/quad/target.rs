@@ -1,5 +1,6 @@
 //! The surface that a spline is fitted to: triangles with a normal at every corner, cut at sharp edges into smooth pieces.
 
+use super::layout::ascending;
 use crate::error::{Error, Result};
 use crate::geometry::bounds::Bounds;
 use crate::geometry::boxes::{BoundsNode, BoundsTree};
@@ -235,8 +236,4 @@ fn corner_normals(positions: &[Point], faces: &[[u32; 3]], sharp: &BTreeSet<[u32
         normalised(if dot(sum, own) > 0.0 { sum } else { own })
     };
     (0..faces.len()).map(|f| [0, 1, 2].map(|k| normal_at(f, k))).collect()
-}
-
-fn ascending([a, b]: [u32; 2]) -> [u32; 2] {
-    [a.min(b), a.max(b)]
 }
