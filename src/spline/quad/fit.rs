@@ -10,7 +10,7 @@ use super::spline::QuadSpline;
 use super::system::{FitWeights, QuadSystem};
 use super::target::{FootPoint, SplineTarget};
 use crate::control::{Control, Stage};
-use crate::error::{Error, Result, check_size};
+use crate::error::{Error, Result};
 use crate::geometry::vector::{Vector, distance, dot};
 use crate::parallel;
 use std::sync::Arc;
@@ -104,7 +104,7 @@ pub fn fit_quads(
             let free = system.solve(weights, foot)?;
             spline = QuadSpline::of_free(space.clone(), &free)?;
         }
-        let fit = measured(spline, &pieces, target)?;
+        let fit = measured(spline, &pieces, target);
         control.step(Stage::Layout, 1.0)?;
         Ok(fit)
     })
@@ -123,7 +123,7 @@ fn weights_of(step: usize, last_bending: f64) -> FitWeights {
     }
 }
 
-fn measured(spline: QuadSpline, pieces: &[usize], target: &SplineTarget) -> Result<QuadFit> {
+fn measured(spline: QuadSpline, pieces: &[usize], target: &SplineTarget) -> QuadFit {
     let along: Vec<QuinticBasis> = (0..MEASURED)
         .map(|k| QuinticBasis::at(spline.space().spans(), k as f64 / (MEASURED - 1) as f64))
         .collect();
@@ -141,20 +141,19 @@ fn measured(spline: QuadSpline, pieces: &[usize], target: &SplineTarget) -> Resu
         found
     };
     let found = parallel::map(pieces.len(), of_patch);
-    check_size("patches", found.len(), pieces.len())?;
     let places = (pieces.len() * MEASURED * MEASURED).max(1) as f64;
     let diagonal = target.diagonal();
     let by_size = |a: &usize, b: &usize| found[*a].largest.total_cmp(&found[*b].largest);
     let worst_patch = (0..found.len()).max_by(by_size).unwrap_or(0);
     let cosine = found.iter().fold(1.0f64, |least, patch| least.min(patch.cosine));
-    Ok(QuadFit {
+    QuadFit {
         rms: (found.iter().map(|patch| patch.squares).sum::<f64>() / places).sqrt() / diagonal,
         max: found.iter().fold(0.0f64, |most, patch| most.max(patch.largest)) / diagonal,
         worst_patch,
         normal_error: cosine.clamp(-1.0, 1.0).acos(),
         folded_patches: (0..found.len()).filter(|&p| found[p].cosine <= 0.0).collect(),
         spline,
-    })
+    }
 }
 
 /// The bilinear map of each patch from the positions of its nodes: a start for fits over meshes of quadrilaterals.

@@ -4,6 +4,7 @@ use super::layout::PatchCorner;
 use super::quintic::QuinticBasis;
 use super::spline::QuadSpline;
 use crate::geometry::vector::{cross, dot, norm};
+use crate::spline::bicubic::BicubicPatch;
 
 /// Parts of an arc at whose ends normals are compared.
 const PARTS: usize = 20;
@@ -32,8 +33,7 @@ impl QuadSpline {
 
     /// The normal at a share of the way along a side.
     fn normal_on(&self, side: PatchCorner, x: f64) -> Option<[f64; 3]> {
-        let at = [[x, 0.0], [1.0, x], [1.0 - x, 1.0], [0.0, 1.0 - x]][side.corner % 4];
-        let [u, v] = at.map(|x| QuinticBasis::at(self.space().spans(), x));
+        let [u, v] = BicubicPatch::on_side(side.corner, x).map(|x| QuinticBasis::at(self.space().spans(), x));
         self.combined(side.patch, &u, &v).normal()
     }
 }
