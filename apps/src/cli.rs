@@ -13,6 +13,7 @@ use crate::repair::RepairArgs;
 use crate::seamless::SeamlessArgs;
 use crate::spline::SplineArgs;
 use crate::structure::StructureArgs;
+use crate::surface::ScanArgs;
 use crate::uniformize::{CoverArgs, UniformizeArgs};
 use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
@@ -77,6 +78,9 @@ pub enum Command {
     /// Few four-sided patches with whole sides, from the coarsest quad mesh of a seamless map
     #[command(after_help = crate::quads::LAYOUT_HELP)]
     Layout(LayoutArgs),
+    /// A solid of few four-sided faces with common tangent planes, fitted to a scan, as STEP
+    #[command(after_help = crate::surface::HELP)]
+    Surface(ScanArgs),
     /// Triangular B-splines: fitted to meshes, evaluated
     #[command(after_help = crate::spline::HELP)]
     Spline(SplineArgs),

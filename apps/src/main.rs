@@ -48,6 +48,7 @@ mod show;
 mod solved;
 mod spline;
 mod structure;
+mod surface;
 mod surface_layout;
 mod timing;
 mod uniformize;
@@ -86,6 +87,7 @@ fn run(command: &Command, control: &Control) -> Result<u8, Failure> {
         Command::Seamless(args) => runner::run(args, control),
         Command::Quads(args) => runner::run(args, control),
         Command::Layout(args) => runner::run(args, control),
+        Command::Surface(args) => runner::run(args, control),
         Command::Structure(args) => runner::run(args, control),
         Command::Info(args) => runner::run(args, control),
         Command::Repair(args) => runner::run(args, control),

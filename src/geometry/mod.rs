@@ -38,6 +38,7 @@ pub mod symplectic;
 pub mod triangle;
 pub mod triangle_flatness;
 pub mod triangle_overlap;
+pub(crate) mod triangle_tree;
 pub mod vector;
 mod vertex;
 pub mod weights;

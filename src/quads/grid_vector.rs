@@ -79,6 +79,12 @@ impl GridMotion {
         (axis + self.turns) % 4
     }
 
+    pub fn inverse(&self) -> GridMotion {
+        let turns = (4 - self.turns) % 4;
+        let [x, y] = turned(self.shift, turns);
+        GridMotion { turns, shift: [-x, -y] }
+    }
+
     /// This motion after another.
     pub fn after(&self, first: &GridMotion) -> GridMotion {
         GridMotion { turns: (self.turns + first.turns) % 4, shift: self.apply(first.shift) }
@@ -98,6 +104,7 @@ mod tests {
             assert_eq!(GridMotion::between(segment, image), Some(motion));
             let there_and_back = GridMotion::between(image, segment).map(|back| back.after(&motion));
             assert_eq!(there_and_back, Some(GridMotion::IDENTITY));
+            assert_eq!(motion.inverse().after(&motion), GridMotion::IDENTITY);
             assert_eq!(GridMotion::to_origin([3, 4], turns).apply([3, 4]), [0, 0]);
             assert_eq!(GridMotion::to_origin([3, 4], turns).turn(turns), 0);
         }

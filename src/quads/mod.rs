@@ -3,8 +3,14 @@
 
 mod arc_graph;
 mod collapse;
+mod embedded_squares;
 mod from_seamless;
+mod grid_charts;
 mod grid_complex;
+mod grid_distortion;
+mod grid_lines;
+mod grid_map;
+mod grid_places;
 mod grid_surface;
 mod grid_vector;
 mod line_heading;
@@ -16,7 +22,6 @@ mod quad_halfedges;
 mod quad_layout;
 mod quad_mesh;
 mod quantisation;
-mod rectangle_map;
 mod separation;
 mod t_mesh;
 mod t_mesh_node;
@@ -24,6 +29,6 @@ mod walk_search;
 
 pub use from_seamless::{quad_layout, quad_mesh};
 pub use options::{QuadOptions, QuadSize};
-pub use quad_figures::{QuadShape, QuadTopology};
+pub use quad_figures::{QuadDistance, QuadShape, QuadTopology};
 pub use quad_layout::{LayoutArc, LayoutNode, LayoutPatch, QuadLayout};
 pub use quad_mesh::QuadMesh;

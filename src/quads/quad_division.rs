@@ -1,15 +1,15 @@
 //! The way from a seamless metric to quads: its T-mesh, whole numbers for a size of quads, and the quad mesh of these numbers.
 
 use super::collapse::RawQuads;
+use super::embedded_squares::EmbeddedSquares;
 use super::grid_complex::GridComplex;
+use super::grid_places::MetricPlace;
 use super::grid_surface::GridSurface;
 use super::options::QuadSize;
 use super::quad_mesh::QuadMesh;
 use super::quantisation::Quantisation;
-use super::rectangle_map::{MetricPlace, grid_places};
 use super::separation::Separation;
 use super::t_mesh::TMesh;
-use super::t_mesh_node::NodeKey;
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::flow::Solution;
@@ -129,34 +129,46 @@ impl<'a> QuadDivision<'a> {
         separation.enforce_single_edges(&mut found.quantisation, control)
     }
 
-    /// The quad mesh of these numbers, each edge divided in `parts`.
+    /// The quad mesh of these numbers, each edge divided in `parts`. Where its squares fold on the surface, as where many arcs have the
+    /// length 0, all arcs get at least 1.
     ///
     /// # Errors
-    /// [`Error::Layout`] for a point without a place; [`Error::Cancelled`].
+    /// Those of [`EmbeddedSquares::new`] and [`Quantisation::restarted`]; [`Error::Cancelled`].
     pub fn mesh(&self, found: &SizedNumbers, parts: u32, control: &Control) -> Result<QuadMesh> {
-        let numbers: Vec<i64> = found.quantisation.numbers.iter().map(|n| n * i64::from(parts)).collect();
-        let complex = GridComplex::new(&self.t_mesh, &numbers);
-        let places = grid_places(&self.surface, &self.t_mesh, &complex, &numbers)?;
-        control.check()?;
-        let mut points = PointVertices::new(self, &complex, places);
-        let (squares, rectangle) = complex.squares();
-        let mut quads = Vec::with_capacity(squares.len());
-        for [a, b, c, d] in squares {
-            quads.push([points.vertex(a)?, points.vertex(b)?, points.vertex(c)?, points.vertex(d)?]);
+        let (surface, t_mesh) = (&self.surface, &self.t_mesh);
+        let numbers = &found.quantisation.numbers;
+        if let Some(squares) = EmbeddedSquares::new(surface, t_mesh, numbers, parts as usize, control)? {
+            return self.mesh_of(squares, found, parts, control);
         }
+        let quantisation = found.quantisation.restarted(1, control)?;
+        let raised = SizedNumbers { quantisation, edge: found.edge };
+        let numbers = &raised.quantisation.numbers;
+        let squares = EmbeddedSquares::of_positive(surface, t_mesh, numbers, parts as usize, control)?;
+        self.mesh_of(squares, &raised, parts, control)
+    }
+
+    fn mesh_of(
+        &self,
+        squares: EmbeddedSquares<'_>,
+        found: &SizedNumbers,
+        parts: u32,
+        control: &Control,
+    ) -> Result<QuadMesh> {
+        let EmbeddedSquares { charts, places: on_metric } = squares;
+        let numbers = &found.quantisation.numbers;
+        control.check()?;
+        let mut is_border = vec![false; on_metric.len()];
         let mut creases = Vec::new();
         for a in (0..numbers.len()).filter(|&a| self.t_mesh.arcs[a].is_wall) {
-            for k in 0..numbers[a] {
-                let ends = [k, k + 1].map(|k| complex.arc_point(2 * a, k));
-                creases.push([points.vertex(ends[0])?, points.vertex(ends[1])?]);
+            let vertices = charts.vertices_on_arc(a);
+            creases.extend(vertices.windows(2).map(|pair| [pair[0], pair[1]]));
+            if charts.is_border(a) {
+                vertices.iter().for_each(|&v| is_border[v as usize] = true);
             }
         }
-        let mut is_border = vec![false; points.on_metric.len()];
-        for point in complex.border_edges().into_iter().flatten() {
-            is_border[points.vertex(point)? as usize] = true;
-        }
-        let mut raw = RawQuads { quads, rectangle, creases, is_border };
-        let places = on_given(self.solution, points.on_metric, control)?;
+        let quads = charts.squares.iter().map(|square| square.map(|corner| corner.vertex)).collect();
+        let mut raw = RawQuads { quads, rectangle: charts.rectangle, creases, is_border };
+        let places = on_given(self.solution, on_metric, control)?;
         let (places, collapsed) = raw.collapse_single_corners(places);
         let RawQuads { quads, rectangle, creases, .. } = raw;
         Ok(QuadMesh {
@@ -170,58 +182,6 @@ impl<'a> QuadDivision<'a> {
             cost: found.quantisation.cost(),
             edge: found.edge / f64::from(parts),
         })
-    }
-}
-
-/// The vertices of a quad mesh that stand for the points of a grid complex.
-struct PointVertices {
-    places: Vec<Option<MetricPlace>>,
-    /// Per point the one that stands for all that are the same, and per such point the one whose place is taken.
-    root: Vec<u32>,
-    chosen: Vec<Option<usize>>,
-    /// Per such point its vertex.
-    number: Vec<u32>,
-    /// Per vertex its place.
-    on_metric: Vec<MetricPlace>,
-}
-
-impl PointVertices {
-    fn new(
-        division: &QuadDivision<'_>,
-        complex: &GridComplex<'_>,
-        places: Vec<Option<MetricPlace>>,
-    ) -> PointVertices {
-        let n = complex.n_points;
-        let mut same = complex.identified(n);
-        let root: Vec<u32> = (0..n as u32).map(|p| same.root(p)).collect();
-        // Of points that are the same, a cone or corner stands for all, then a vertex of the surface, a node, the first.
-        let separation = Separation::new(&division.surface, &division.t_mesh);
-        let rank = |point: usize| match division.t_mesh.nodes.get(point) {
-            Some(_) if separation.is_special(point) => 0,
-            Some(NodeKey::Vertex(_)) => 1,
-            Some(_) => 2,
-            None => 3,
-        };
-        let mut chosen: Vec<Option<usize>> = vec![None; n];
-        for (point, &root) in root.iter().enumerate() {
-            let known = &mut chosen[root as usize];
-            if places[point].is_some() && known.is_none_or(|other| rank(point) < rank(other)) {
-                *known = Some(point);
-            }
-        }
-        PointVertices { places, root, chosen, number: vec![u32::MAX; n], on_metric: Vec::new() }
-    }
-
-    /// The vertex that stands for a point.
-    fn vertex(&mut self, point: u32) -> Result<u32> {
-        let root = self.root[point as usize] as usize;
-        if self.number[root] == u32::MAX {
-            let place = self.chosen[root].and_then(|point| self.places[point]);
-            let place = place.ok_or_else(|| Error::Layout(format!("grid point {point} has no place")))?;
-            self.number[root] = self.on_metric.len() as u32;
-            self.on_metric.push(place);
-        }
-        Ok(self.number[root])
     }
 }
 

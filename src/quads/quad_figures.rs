@@ -1,8 +1,11 @@
 //! Figures of quad meshes: topology, recounted from the quads alone, and the shape of the quads in space.
 
 use super::quad_mesh::QuadMesh;
-use crate::geometry::vector::{cross, dot, norm, sub};
+use crate::flow::Solution;
+use crate::geometry::triangle_tree::TriangleTree;
+use crate::geometry::vector::{cross, dot, lerp, norm, sub};
 use crate::mesh::Point;
+use crate::parallel;
 use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_2;
 
@@ -32,7 +35,41 @@ pub struct QuadShape {
     pub edge_deviation: f64,
 }
 
+/// How far a quad mesh and the surface are apart in space.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct QuadDistance {
+    /// The largest distance of a vertex of the surface from the quads, each as two triangles, or of the middle of a quad or of a side from the
+    /// surface: the Hausdorff distance but for what lies between these places.
+    pub max: f64,
+    /// The root of the mean square of the distances of the vertices of the surface.
+    pub rms: f64,
+}
+
 impl QuadMesh {
+    /// The distance from the surface on which the quads lie, in its units; none for a surface without positions.
+    pub fn distance(&self, solution: &Solution) -> Option<QuadDistance> {
+        let (mesh, on_surface) = (solution.given(), solution.surface().positions()?);
+        let positions = self.positions(solution)?;
+        let at = |v: u32| positions[v as usize];
+        let halves = self.quads.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]].map(|t| t.map(at)));
+        let quads = TriangleTree::new(halves.collect());
+        let faces = mesh.faces().map(|f| mesh.face_vertices(f).map(|v| on_surface[v.index()]));
+        let surface = TriangleTree::new(faces.collect());
+        let of_vertices = parallel::map(on_surface.len(), |v| quads.nearest(on_surface[v]).distance);
+        let mean = |a: Point, b: Point| lerp(a, b, 0.5);
+        let of_quad = |k: usize| {
+            let [a, b, c, d] = self.quads[k].map(at);
+            let middles = [mean(a, b), mean(b, c), mean(c, d), mean(d, a), mean(mean(a, b), mean(c, d))];
+            middles.into_iter().fold(0.0, |most: f64, p| most.max(surface.nearest(p).distance))
+        };
+        let of_quads = parallel::map(self.quads.len(), of_quad);
+        let squares: f64 = of_vertices.iter().map(|x| x * x).sum();
+        Some(QuadDistance {
+            max: of_vertices.iter().chain(&of_quads).fold(0.0, |most, &x| most.max(x)),
+            rms: (squares / of_vertices.len().max(1) as f64).sqrt(),
+        })
+    }
+
     /// The topology, from the quads alone.
     pub fn topology(&self) -> QuadTopology {
         let mut quad_beside: BTreeMap<[u32; 2], usize> = BTreeMap::new();

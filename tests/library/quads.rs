@@ -261,3 +261,48 @@ fn sizes_that_are_none_are_refused() {
         assert!(matches!(refused, Err(Error::Argument { .. })), "{size:?}");
     }
 }
+
+/// The angle between the normals of the surface and of the corners of quads that have their vertices at these places is less than a right angle,
+/// and the quads have the area of the surface: no quad lies over another.
+fn check_sheets(name: &str, of: &Seamless, mesh: &QuadMesh, area_error: f64) {
+    let positions = mesh.positions(&of.solution).unwrap();
+    let (given, on_surface) = (of.solution.given(), of.solution.surface().positions().unwrap());
+    let normal = |[a, b, c]: [[f64; 3]; 3]| {
+        let [u, v] = [b, c].map(|p| [0, 1, 2].map(|k| p[k] - a[k]));
+        [0, 1, 2].map(|k| u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3])
+    };
+    let dot = |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| a[k] * b[k]).sum::<f64>();
+    let mut area = 0.0;
+    for quad in &mesh.quads {
+        for k in 0..4 {
+            let corners = [k, (k + 1) % 4, (k + 3) % 4].map(|i| positions[quad[i] as usize]);
+            let (f, _) = mesh.places[quad[k] as usize];
+            let face = normal(given.face_vertices(f).map(|v| on_surface[v.index()]));
+            let corner = normal(corners);
+            assert!(dot(face, corner) > 0.0, "{name}: quad {quad:?} turns over at its corner {k}");
+            area += dot(corner, corner).sqrt() / 4.0;
+        }
+    }
+    let of_faces = given.faces().map(|f| {
+        let n = normal(given.face_vertices(f).map(|v| on_surface[v.index()]));
+        dot(n, n).sqrt() / 2.0
+    });
+    let whole: f64 = of_faces.sum();
+    assert!((area / whole - 1.0).abs() < area_error, "{name}: quads have the area {area} of {whole}");
+}
+
+#[test]
+fn squares_do_not_fold_where_arcs_have_length_0() {
+    for (name, soup, cones) in [
+        ("torus", shapes::torus(2.0, 1.0, 60, 36).unwrap(), SeamlessCones::Auto(4)),
+        ("genus 2", shapes::genus(2, 12).unwrap(), SeamlessCones::Field),
+        ("ellipsoid", shapes::ellipsoid([1.6, 1.0, 0.7], 24).unwrap(), SeamlessCones::Field),
+    ] {
+        let surface = Surface::from_soup(&soup).unwrap();
+        let of =
+            seamless(&surface, &SeamlessOptions { cones, ..SeamlessOptions::default() }, &Control::new());
+        let of = of.unwrap();
+        check_sheets(name, &of, &layout(&of).mesh, 0.05);
+        check_sheets(name, &of, &quads(&of, QuadSize::Quads(2000)), 0.05);
+    }
+}

@@ -33,7 +33,8 @@ impl Job for QuadsArgs {
         let divide = || doing("dividing", || quad_mesh(&found, &options, run.control));
         let mesh = timed(&mut run.seconds.layout, divide)?;
         let positions = mesh.positions(&found.solution).ok_or_else(Failure::no_positions)?;
-        Ok(QuadsOutcome { input, found, mesh, positions })
+        let distance = mesh.distance(&found.solution).ok_or_else(Failure::no_positions)?;
+        Ok(QuadsOutcome { input, found, mesh, positions, distance })
     }
 
     fn write(&self, outcome: &QuadsOutcome, run: &mut CommandRun<'_>) -> Result<(), Failure> {

@@ -5,7 +5,7 @@ use crate::report::{Checks, Done, Figures, InputSummary};
 use crate::runner::{CommandRun, JobOutcome};
 use crate::say;
 use ricci::mesh::Point;
-use ricci::quads::QuadMesh;
+use ricci::quads::{QuadDistance, QuadMesh};
 use ricci::seamless::Seamless;
 
 pub struct QuadsOutcome {
@@ -14,6 +14,7 @@ pub struct QuadsOutcome {
     pub mesh: QuadMesh,
     /// The places of the vertices in space.
     pub positions: Vec<Point>,
+    pub distance: QuadDistance,
 }
 
 impl JobOutcome for QuadsOutcome {
@@ -56,6 +57,9 @@ impl JobOutcome for QuadsOutcome {
             .with("angle_max", shape.angle_max)
             .with("edge_mean", shape.edge_mean)
             .with("edge_deviation", shape.edge_deviation)
+            // In the units of the input.
+            .with("distance_max", self.distance.max)
+            .with("distance_rms", self.distance.rms)
             .missing(run)
     }
 
@@ -63,7 +67,7 @@ impl JobOutcome for QuadsOutcome {
         let topology = self.mesh.topology();
         let shape = self.mesh.shape(&self.positions);
         format!(
-            "{}T-mesh   {}, {}\nquads    {}, {}, edges of {:.4} on average, angles off 90° by {:.1}° on average\n{}",
+            "{}T-mesh   {}, {}\nquads    {}, {}, edges of {:.4} on average, angles off 90° by {:.1}° on average,\n         at most {:.2e} from the surface\n{}",
             say::surface(&self.input),
             say::count(self.mesh.t_mesh_size[0], "rectangle", "rectangles"),
             say::count(self.mesh.t_mesh_size[1], "arc", "arcs"),
@@ -71,6 +75,7 @@ impl JobOutcome for QuadsOutcome {
             say::count(topology.irregular.len(), "irregular vertex", "irregular vertices"),
             shape.edge_mean,
             shape.angle_mean.to_degrees(),
+            self.distance.max,
             say::ending(&self.input, done, false)
         )
     }

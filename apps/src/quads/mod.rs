@@ -5,4 +5,5 @@ mod command;
 mod figures;
 mod layout_command;
 
-pub use args::{HELP, LAYOUT_HELP, LayoutArgs, QuadsArgs};
+pub use args::{HELP, LAYOUT_HELP, LayoutArgs, QuadSourceArgs, QuadsArgs};
+pub use command::solved;

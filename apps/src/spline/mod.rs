@@ -10,7 +10,7 @@ mod picture;
 mod planar;
 mod whole;
 
-pub use args::{HELP, SplineArgs};
+pub use args::{HELP, SplineArgs, UnitChoice};
 
 use crate::failure::Failure;
 use crate::runner;

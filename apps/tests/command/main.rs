@@ -29,6 +29,7 @@ mod run;
 mod schemes;
 mod spline;
 mod structure;
+mod surface;
 mod surfaces;
 mod uniformize;
 mod usage;

@@ -68,7 +68,7 @@ struct PatchDistances {
 /// Fits a spline over four-sided patches to a target. `start`: a map of the patches, as (patch, (u, v)) → point, on or near the target; equal
 /// on common sides.
 ///
-/// Every patch belongs to the smooth piece of the target that is nearest to the middle of its start. Lengths of arcs, which should be about 1 in
+/// Every patch belongs to its own piece of the target, or to the smooth piece that is nearest to the middle of its start. Lengths of arcs, which should be about 1 in
 /// the mean, should be about proportional to those on the surface.
 ///
 /// # Errors
@@ -87,7 +87,7 @@ pub fn fit_quads(
         control.step(Stage::Layout, 0.0)?;
         let mut system = QuadSystem::new(&space)?;
         let patches = space.layout().patches().len();
-        let pieces = parallel::map(patches, |p| target.nearest_piece(start(p, [0.5, 0.5])));
+        let pieces = parallel::map(patches, |p| target.piece_of_patch(p, start(p, [0.5, 0.5])));
         let places: Vec<[f64; 2]> = system.places.iter().map(|place| place.parameters).collect();
         let at_start =
             |p: usize, place: usize| FootPoint { point: start(p, places[place]), normal: [0.0; 3] };

@@ -18,6 +18,7 @@ mod fit;
 mod gluing;
 mod jumps;
 mod layout;
+mod over_quads;
 mod quintic;
 mod space;
 mod spline;
@@ -28,6 +29,7 @@ mod target;
 
 pub use fit::{QuadFit, QuadFitOptions, bilinear, fit_quads};
 pub use layout::{ArcSide, PatchArc, PatchCorner, PatchLayout};
+pub use over_quads::{LayoutFitOptions, fit_quad_layout};
 pub use quintic::QUINTIC;
 pub use space::QuadSplineSpace;
 pub use spline::QuadSpline;

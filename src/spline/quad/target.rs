@@ -2,9 +2,8 @@
 
 use super::layout::ascending;
 use crate::error::{Error, Result};
-use crate::geometry::bounds::Bounds;
-use crate::geometry::boxes::{BoundsNode, BoundsTree};
-use crate::geometry::vector::{Vector, add, cross, dot, norm, normalised, scale, sub, triangle_normal};
+use crate::geometry::triangle_tree::TriangleTree;
+use crate::geometry::vector::{Vector, add, dot, norm, normalised, scale, sub, triangle_normal};
 use crate::mesh::Point;
 use crate::mesh::check::Features;
 use crate::mesh::union_find::UnionFind;
@@ -21,7 +20,7 @@ struct TargetTriangle {
 /// A smooth piece of the target.
 struct SmoothPiece {
     triangles: Vec<TargetTriangle>,
-    tree: BoundsTree,
+    tree: TriangleTree,
 }
 
 /// The point of the target that belongs to a point of a spline.
@@ -36,6 +35,8 @@ pub(super) struct FootPoint {
 pub struct SplineTarget {
     pieces: Vec<SmoothPiece>,
     diagonal: f64,
+    /// True if piece k is for patch k.
+    is_by_patch: bool,
 }
 
 impl SplineTarget {
@@ -45,34 +46,55 @@ impl SplineTarget {
     /// # Errors
     /// [`Error::Size`] for a corner that does not exist; [`Error::Spline`] for a face without area, or no face.
     pub fn new(positions: &[Point], faces: &[[u32; 3]], crease: f64) -> Result<SplineTarget> {
-        if let Some(&v) = faces.iter().flatten().find(|&&v| v as usize >= positions.len()) {
-            return Err(Error::Size { what: "positions", expected: v as usize + 1, got: positions.len() });
+        check_faces(positions, faces)?;
+        let features = Features::new(positions, faces, crease);
+        let sharp = features.edges.iter().map(|edge| ascending(edge.vertices)).collect();
+        let mut parts: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
+        pieces(faces, &sharp)
+            .into_iter()
+            .enumerate()
+            .for_each(|(f, k)| parts.entry(k).or_default().push(f as u32));
+        let parts: Vec<Vec<u32>> = parts.into_values().collect();
+        Ok(SplineTarget::divided(positions, faces, &sharp, &parts))
+    }
+
+    /// The target of a layout whose patches each lie on these faces; normals are continuous but across sharp edges.
+    ///
+    /// # Errors
+    /// Those of [`SplineTarget::new`].
+    pub fn of_patches(
+        positions: &[Point],
+        faces: &[[u32; 3]],
+        sharp: impl Iterator<Item = [u32; 2]>,
+        patches: &[Vec<u32>],
+    ) -> Result<SplineTarget> {
+        check_faces(positions, faces)?;
+        if let Some(index) = patches.iter().position(Vec::is_empty) {
+            let message = "no face of the target belongs to it".into();
+            return Err(Error::Spline { what: "patch of the target", index, message });
         }
-        let area = |f: &[u32; 3]| triangle_normal(f.map(|v| positions[v as usize]));
-        let has_normal = |size: f64| size > 0.0 && size.is_finite();
-        let flat = faces.iter().position(|f| !has_normal(norm(area(f))));
-        if let Some(index) = flat.or(faces.is_empty().then_some(0)) {
-            let message = "it has no area, so no normal: drop or repair it".into();
-            return Err(Error::Spline { what: "face of the target", index, message });
-        }
-        let sharp: BTreeSet<[u32; 2]> = Features::new(positions, faces, crease)
-            .edges
-            .iter()
-            .map(|edge| ascending(edge.vertices))
-            .collect();
-        let piece = pieces(faces, &sharp);
-        let normals = corner_normals(positions, faces, &sharp);
-        let mut parts: BTreeMap<u32, Vec<TargetTriangle>> = BTreeMap::new();
-        for (f, face) in faces.iter().enumerate() {
-            let corners = face.map(|v| positions[v as usize]);
-            parts.entry(piece[f]).or_default().push(TargetTriangle { corners, normals: normals[f] });
-        }
-        let with_tree = |triangles: Vec<TargetTriangle>| {
-            let boxes: Vec<Bounds> = triangles.iter().map(|t| Bounds::of(t.corners)).collect();
-            SmoothPiece { tree: BoundsTree::new(&boxes), triangles }
+        let sharp = sharp.map(ascending).collect();
+        let target = SplineTarget::divided(positions, faces, &sharp, patches);
+        Ok(SplineTarget { is_by_patch: true, ..target })
+    }
+
+    fn divided(
+        positions: &[Point],
+        faces: &[[u32; 3]],
+        sharp: &BTreeSet<[u32; 2]>,
+        parts: &[Vec<u32>],
+    ) -> SplineTarget {
+        let normals = corner_normals(positions, faces, sharp);
+        let triangle = |&f: &u32| {
+            let corners = faces[f as usize].map(|v| positions[v as usize]);
+            TargetTriangle { corners, normals: normals[f as usize] }
         };
-        let pieces = parts.into_values().map(with_tree).collect();
-        Ok(SplineTarget { pieces, diagonal: crate::geometry::vector::diagonal(positions) })
+        let piece = |part: &Vec<u32>| {
+            let triangles: Vec<TargetTriangle> = part.iter().map(triangle).collect();
+            SmoothPiece { tree: TriangleTree::new(triangles.iter().map(|t| t.corners).collect()), triangles }
+        };
+        let pieces = parts.iter().map(piece).collect();
+        SplineTarget { pieces, diagonal: crate::geometry::vector::diagonal(positions), is_by_patch: false }
     }
 
     /// Number of smooth pieces.
@@ -94,12 +116,32 @@ impl SplineTarget {
         (0..self.pieces.len()).min_by(|&a, &b| distance(a).total_cmp(&distance(b))).unwrap_or(0)
     }
 
+    /// The piece for a patch whose middle is near a point.
+    pub(super) fn piece_of_patch(&self, patch: usize, middle: Vector) -> usize {
+        if self.is_by_patch { patch } else { self.nearest_piece(middle) }
+    }
+
     /// The foot of a point on a piece, as on a surface that is curved between the corners of the nearest triangle [`offset`].
     pub(super) fn foot(&self, piece: usize, point: Vector) -> FootPoint {
         let nearest = self.pieces[piece].nearest(point);
         let normal = nearest.normal();
         FootPoint { point: sub(point, scale(offset(&nearest, normal, point), normal)), normal }
     }
+}
+
+/// Checks that corners exist and faces have an area.
+fn check_faces(positions: &[Point], faces: &[[u32; 3]]) -> Result<()> {
+    if let Some(&v) = faces.iter().flatten().find(|&&v| v as usize >= positions.len()) {
+        return Err(Error::Size { what: "positions", expected: v as usize + 1, got: positions.len() });
+    }
+    let area = |f: &[u32; 3]| triangle_normal(f.map(|v| positions[v as usize]));
+    let has_normal = |size: f64| size > 0.0 && size.is_finite();
+    let flat = faces.iter().position(|f| !has_normal(norm(area(f))));
+    if let Some(index) = flat.or(faces.is_empty().then_some(0)) {
+        let message = "it has no area, so no normal: drop or repair it".into();
+        return Err(Error::Spline { what: "face of the target", index, message });
+    }
+    Ok(())
 }
 
 /// A point of a triangle.
@@ -131,58 +173,10 @@ fn combined(weights: [f64; 3], [a, b, c]: [Vector; 3]) -> Vector {
 }
 
 impl SmoothPiece {
-    /// The point of the piece that is nearest to a point; of several triangles, that with the smallest number.
     fn nearest(&self, point: Vector) -> NearestPoint<'_> {
-        let mut best = (f64::INFINITY, u32::MAX, [1.0, 0.0, 0.0]);
-        let mut open = vec![(self.tree.distance(0, point), 0)];
-        while let Some((least, node)) = open.pop() {
-            if least > best.0 {
-                continue;
-            }
-            match self.tree.node(node) {
-                BoundsNode::Inner(children) => {
-                    let mut both = children.map(|child| (self.tree.distance(child, point), child));
-                    both.sort_by(|a, b| b.0.total_cmp(&a.0));
-                    open.extend(both);
-                }
-                BoundsNode::Leaf(triangles) => {
-                    for &t in triangles {
-                        let corners = self.triangles[t as usize].corners;
-                        let weights = nearest_weights(corners, point);
-                        let distance = norm(sub(combined(weights, corners), point));
-                        if (distance, t) < (best.0, best.1) {
-                            best = (distance, t, weights);
-                        }
-                    }
-                }
-            }
-        }
-        let triangle = &self.triangles[if best.1 == u32::MAX { 0 } else { best.1 as usize }];
-        NearestPoint { triangle, weights: best.2 }
+        let nearest = self.tree.nearest(point);
+        NearestPoint { triangle: &self.triangles[nearest.triangle], weights: nearest.weights }
     }
-}
-
-/// The barycentric coordinates of the point of a triangle that is nearest to a point [Eri05, §5.1.5].
-fn nearest_weights([a, b, c]: [Vector; 3], point: Vector) -> [f64; 3] {
-    let (ab, ac) = (sub(b, a), sub(c, a));
-    let normal = cross(ab, ac);
-    let square = dot(normal, normal);
-    let to = sub(point, a);
-    let [v, w] = [dot(cross(to, ac), normal) / square, dot(cross(ab, to), normal) / square];
-    let inside = [1.0 - v - w, v, w];
-    if inside.iter().all(|&x| x >= 0.0) {
-        return inside;
-    }
-    let corners = [a, b, c];
-    let on_side = |k: usize| {
-        let (from, along) = (corners[k], sub(corners[(k + 1) % 3], corners[k]));
-        let t = (dot(sub(point, from), along) / dot(along, along)).clamp(0.0, 1.0);
-        let mut weights = [0.0; 3];
-        (weights[k], weights[(k + 1) % 3]) = (1.0 - t, t);
-        (norm(sub(add(from, scale(t, along)), point)), weights)
-    };
-    let [first, second, third] = [0, 1, 2].map(on_side);
-    [second, third].into_iter().fold(first, |best, side| if side.0 < best.0 { side } else { best }).1
 }
 
 /// The number of the smooth piece of each face.

@@ -1,0 +1,51 @@
+//! The options of `ricci surface`.
+
+use crate::options::{Common, FileName, SurfaceArgs, positive};
+use crate::seamless::ConesChoice;
+use crate::spline::UnitChoice;
+use clap::Args;
+use serde::Serialize;
+
+pub const HELP: &str = "\
+Example: a surface of genus 2 as a solid of few four-sided faces
+    ricci make genus -o two.obj
+    ricci surface two.obj -o two.step --tolerance 1e-3 --report two_step.json
+
+A seamless map divides the surface into patches between lines that run straight from cone to cone; a spline of degree 5 over these patches, with
+common tangent planes across all sides but features, is fitted to the mesh along its normals. Where --tolerance is missed, patches get more
+spans. Faces that meet share their edges.
+
+Files
+    -o PART.step        STEP AP242: a solid where the surface is closed, else a shell";
+
+#[derive(Args, Serialize, Debug)]
+pub struct ScanArgs {
+    #[command(flatten)]
+    #[serde(flatten)]
+    pub surface: SurfaceArgs,
+    /// The patches (.step, .stp)
+    #[arg(short = 'o', long = "out", value_name = "PART.step")]
+    pub out: FileName,
+    /// Largest distance from the mesh, over the diagonal of its bounding box
+    #[arg(long, value_name = "T", default_value_t = 1e-3, value_parser = positive)]
+    pub tolerance: f64,
+    /// The cones, as for `ricci seamless`: field, auto:N, or a table vertex,valence
+    #[arg(long, value_name = "CONES", default_value_t = ConesChoice::Field)]
+    pub cones: ConesChoice,
+    /// Keep edges at which the surface turns by this much: they are sides of patches across which normals may jump
+    #[arg(long, value_name = "DEGREES", value_parser = positive)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub features: Option<f64>,
+    /// Most spans of a patch in each direction
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u8).range(1..=32))]
+    pub spans: u8,
+    /// Weight of bending at the end of the fit: 1e-11 without noise, 1e-8 for a noise of a thousandth of the diagonal
+    #[arg(long, value_name = "W", default_value_t = 1e-11, value_parser = positive)]
+    pub bending: f64,
+    /// The unit of the coordinates, which the file says
+    #[arg(long, value_enum, value_name = "UNIT", default_value = "mm")]
+    pub unit: UnitChoice,
+    #[command(flatten)]
+    #[serde(flatten)]
+    pub common: Common,
+}

@@ -1,0 +1,71 @@
+//! `ricci surface` as a job: what it refuses, computes and writes.
+
+use super::args::ScanArgs;
+use super::figures::{ScanOutcome, WrittenSurface};
+use crate::failure::Failure;
+use crate::output::{check_extension, check_outputs};
+use crate::progress::doing;
+use crate::quads::{QuadSourceArgs, solved};
+use crate::report::timed;
+use crate::runner::{CommandRun, Job, JobHeader};
+use crate::seamless::ConesChoice;
+use ricci::quads::{QuadOptions, QuadSize, quad_layout};
+use ricci::spline::{LayoutFitOptions, QuadFitOptions, StepOptions, fit_quad_layout};
+
+impl Job for ScanArgs {
+    type Outcome = ScanOutcome;
+
+    fn header(&self) -> JobHeader<'_> {
+        JobHeader { name: "surface", common: &self.common, mesh: Some(&self.surface.file.mesh) }
+    }
+
+    fn check(&self) -> Result<(), Failure> {
+        check_extension("-o", Some(&self.out), &["step", "stp"])?;
+        let table = match &self.cones {
+            ConesChoice::Table(path) => Some(path.as_path()),
+            _ => None,
+        };
+        let read = [Some(&*self.surface.file.mesh), table];
+        check_outputs(&read, &[Some(&*self.out), self.common.report.as_deref()])
+    }
+
+    fn compute(&self, run: &mut CommandRun<'_>) -> Result<ScanOutcome, Failure> {
+        let threads = self.common.threads;
+        let (input, seamless) = solved(&self.source(), threads, run)?;
+        let options = QuadOptions { size: QuadSize::Coarse, threads };
+        let divide = || doing("dividing", || quad_layout(&seamless, &options, run.control));
+        let layout = timed(&mut run.seconds.layout, divide)?;
+        let fit_options = LayoutFitOptions {
+            tolerance: self.tolerance,
+            most_spans: self.spans.into(),
+            fit: QuadFitOptions { bending: self.bending, threads },
+        };
+        let fit = || fit_quad_layout(&seamless, &layout, &fit_options, run.control);
+        let fit = timed(&mut run.seconds.solve, || doing("fitting", fit))?;
+        let mut step = Vec::new();
+        let name = self.surface.file.mesh.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let step_options = StepOptions { name, unit: self.unit.length_unit() };
+        timed(&mut run.seconds.write, || fit.spline.write_step(&step_options, &mut step))?;
+        let written = WrittenSurface { normal_jump: fit.spline.normal_jump(), step };
+        Ok(ScanOutcome { input, seamless, fit, written, tolerance: self.tolerance })
+    }
+
+    fn write(&self, outcome: &ScanOutcome, run: &mut CommandRun<'_>) -> Result<(), Failure> {
+        run.outputs.add_bytes(&self.out, &outcome.written.step)
+    }
+}
+
+impl ScanArgs {
+    /// The options of the seamless map.
+    fn source(&self) -> QuadSourceArgs {
+        QuadSourceArgs {
+            surface: self.surface.clone(),
+            cones: self.cones.clone(),
+            features: self.features,
+            tolerance: SEAMLESS_TOLERANCE,
+        }
+    }
+}
+
+/// Largest deviation of an angle of the seamless metric from a multiple of 90°, radians.
+const SEAMLESS_TOLERANCE: f64 = 1e-10;

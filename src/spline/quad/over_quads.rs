@@ -1,0 +1,266 @@
+//! Splines over the layouts of quad meshes: the lines between their irregular vertices bound the patches.
+
+use super::fit::{QuadFit, QuadFitOptions, bilinear, fit_quads};
+use super::layout::{ArcSide, PatchArc, PatchLayout};
+use super::space::QuadSplineSpace;
+use super::target::SplineTarget;
+use crate::control::Control;
+use crate::error::{Error, Result};
+use crate::geometry::vector::{Vector, add, distance, lerp, scale};
+use crate::mesh::union_find::UnionFind;
+use crate::mesh::{EdgeId, FaceId, Mesh};
+use crate::parallel;
+use crate::quads::{LayoutArc, LayoutPatch, QuadLayout};
+use crate::seamless::Seamless;
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+/// Rounds in which the vertices of the quads move, and the share of the way to the mean of their neighbours.
+const RELAXATIONS: usize = 60;
+const TOWARDS_MEAN: f64 = 0.7;
+/// By so much the weight of bending rises where patches fold, from the least up to the most.
+const STIFFER: f64 = 100.0;
+const LEAST_BENDING: f64 = 1e-13;
+const MOST_BENDING: f64 = 1e-7;
+/// Barycentric coordinate below which a place may lie on an edge.
+const ON_EDGE: f64 = 1e-6;
+
+/// Options of [`fit_quad_layout`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct LayoutFitOptions {
+    /// The largest distance of places of the patches from the target, over its diagonal: where it is missed, patches get more spans.
+    pub tolerance: f64,
+    /// Most spans of a patch in each direction, from 1 to 32.
+    pub most_spans: usize,
+    /// Those of each fit.
+    pub fit: QuadFitOptions,
+}
+
+impl Default for LayoutFitOptions {
+    fn default() -> Self {
+        LayoutFitOptions { tolerance: 1e-3, most_spans: 3, fit: QuadFitOptions::default() }
+    }
+}
+
+/// The points of the quad mesh in a patch: `points[i * (n + 1) + j]`, i along the first side, j along the second, m × n quads.
+struct PatchGrid {
+    size: [usize; 2],
+    points: Vec<Vector>,
+}
+
+/// Fits a spline over the patches of a quad layout to the surface of its seamless metric. Each patch is fitted to the part of the surface on
+/// which its quads lie, and to some more around it, up to features. Where patches fold, bending
+/// weighs more. The fit with the fewest spans within the tolerance, or else that with the fewest patches folded, then the least distance.
+///
+/// # Errors
+/// [`Error::Layout`] for a surface without positions, and for sides of patches that are not one arc; those of [`fit_quads`],
+/// [`SplineTarget::of_patches`] and [`QuadSplineSpace::new`].
+pub fn fit_quad_layout(
+    seamless: &Seamless,
+    layout: &QuadLayout,
+    options: &LayoutFitOptions,
+    control: &Control,
+) -> Result<QuadFit> {
+    let solution = &seamless.solution;
+    let (Some(positions), Some(vertices)) = (solution.surface().positions(), layout.mesh.positions(solution))
+    else {
+        return Err(Error::Layout(
+            "the surface has no positions in space, so there is nothing to fit".into(),
+        ));
+    };
+    let mesh = solution.given();
+    let creases: Vec<EdgeId> =
+        seamless.features.iter().copied().filter(|e| !layout.mesh.off_axis.contains(e)).collect();
+    let regions = patch_regions(mesh, layout, &creases);
+    let faces: Vec<[u32; 3]> = mesh.faces().map(|f| mesh.face_vertices(f).map(|v| v.0)).collect();
+    let sharp = creases.iter().map(|&e| mesh.ends(e).map(|v| v.0));
+    let target = SplineTarget::of_patches(positions, &faces, sharp, &regions)?;
+    let vertices = parallel::within(options.fit.threads, || relaxed(layout, vertices, &target, control))?;
+    let grids = PatchGrid::all(layout, &vertices)?;
+    let patches = patch_layout(layout, &vertices)?;
+    let start = |p: usize, uv: [f64; 2]| grids[p].at(uv);
+    let mut best: Option<QuadFit> = None;
+    for spans in 1..=options.most_spans.max(1) {
+        let space = Arc::new(QuadSplineSpace::new(patches.clone(), spans)?);
+        let mut fit_options = options.fit.clone();
+        loop {
+            let fit = fit_quads(space.clone(), &start, &target, &fit_options, control)?;
+            let (folds, is_near) = (fit.folded_patches.len(), fit.max <= options.tolerance);
+            if best.as_ref().is_none_or(|best| (folds, fit.max) < (best.folded_patches.len(), best.max)) {
+                best = Some(fit);
+            }
+            if folds == 0 && is_near {
+                return best.ok_or_else(no_patches);
+            }
+            fit_options.bending = STIFFER * fit_options.bending.max(LEAST_BENDING);
+            if folds == 0 || fit_options.bending > MOST_BENDING {
+                break;
+            }
+        }
+    }
+    best.ok_or_else(no_patches)
+}
+
+fn no_patches() -> Error {
+    Error::Layout("the layout has no patches".into())
+}
+
+/// The vertices of the quads moved along the surface towards the means of their neighbours, so that quads around cones, where the flat metric
+/// has no tangent plane, become as large as those around them; those on creases and the boundary stay.
+fn relaxed(
+    layout: &QuadLayout,
+    vertices: Vec<Vector>,
+    target: &SplineTarget,
+    control: &Control,
+) -> Result<Vec<Vector>> {
+    let n = vertices.len();
+    let mut neighbours: Vec<Vec<u32>> = vec![Vec::new(); n];
+    let (mut is_fixed, mut patch) = (vec![false; n], vec![0; n]);
+    for quad in &layout.mesh.quads {
+        for k in 0..4 {
+            neighbours[quad[k] as usize].extend([quad[(k + 1) % 4], quad[(k + 3) % 4]]);
+        }
+    }
+    for (p, of) in layout.patches.iter().enumerate() {
+        let corners = of.quads.iter().flat_map(|&q| layout.mesh.quads[q as usize]);
+        corners.for_each(|v| patch[v as usize] = p);
+    }
+    let on_creases = layout.arcs.iter().filter(|arc| arc.is_crease).flat_map(|arc| &arc.vertices);
+    on_creases.for_each(|&v| is_fixed[v as usize] = true);
+    let mut points = vertices;
+    for _ in 0..RELAXATIONS {
+        control.check()?;
+        let moved = |v: usize| {
+            let around = neighbours[v].iter().map(|&w| points[w as usize]);
+            let mean = scale(1.0 / neighbours[v].len() as f64, around.fold([0.0; 3], add));
+            let piece = target.piece_of_patch(patch[v], points[v]);
+            target.foot(piece, lerp(points[v], mean, TOWARDS_MEAN)).point
+        };
+        points =
+            parallel::map(n, |v| if is_fixed[v] || neighbours[v].is_empty() { points[v] } else { moved(v) });
+    }
+    Ok(points)
+}
+
+/// Per patch the faces on which vertices of its quads lie and those around them that are not beyond creases, so many rings that they cover the
+/// faces between the vertices and about a quarter more; ascending.
+fn patch_regions(mesh: &Mesh, layout: &QuadLayout, creases: &[EdgeId]) -> Vec<Vec<u32>> {
+    let faces_per_quad = mesh.n_faces() as f64 / layout.mesh.quads.len().max(1) as f64;
+    let rings = 2 + (1.5 * faces_per_quad.sqrt()).ceil() as usize;
+    let mut is_crease = vec![false; mesh.n_edges()];
+    creases.iter().for_each(|e| is_crease[e.index()] = true);
+    let of_patch = |p: usize| {
+        let on_lines = |v: u32| layout.mesh.places[v as usize].1.iter().any(|&w| w < ON_EDGE);
+        let vertices = layout.patches[p].quads.iter().flat_map(|&q| layout.mesh.quads[q as usize]);
+        // A vertex on an edge of the mesh lies as well on the other side, which may be beyond a crease.
+        let face = |v: u32| layout.mesh.places[v as usize].0;
+        let mut region: BTreeSet<FaceId> = vertices.clone().filter(|&v| !on_lines(v)).map(face).collect();
+        if region.is_empty() {
+            region.extend(vertices.map(face));
+        }
+        let mut last: Vec<FaceId> = region.iter().copied().collect();
+        for _ in 0..rings {
+            let around = last.iter().flat_map(|&f| mesh.face_halfedges(f));
+            let across = around.filter(|h| !is_crease[h.edge().index()]).filter_map(|h| mesh.face(h.twin()));
+            last = across.filter(|&f| region.insert(f)).collect();
+        }
+        region.into_iter().map(|f| f.0).collect()
+    };
+    parallel::map(layout.patches.len(), of_patch)
+}
+
+/// The layout with every side of every patch as one arc. Lengths, equal on opposite sides, are the means of those in space, in units of their
+/// mean.
+fn patch_layout(layout: &QuadLayout, vertices: &[Vector]) -> Result<PatchLayout> {
+    let side = |p: usize, side: &Vec<i32>| match side[..] {
+        [signed] => Ok(ArcSide { arc: signed.unsigned_abs() - 1, reversed: signed < 0 }),
+        _ => {
+            Err(Error::Layout(format!("a side of patch {p} is {} arcs: divide it at its nodes", side.len())))
+        }
+    };
+    let mut patches = Vec::with_capacity(layout.patches.len());
+    let mut strips = UnionFind::new(layout.arcs.len());
+    for (p, LayoutPatch { sides: [a, b, c, d], .. }) in layout.patches.iter().enumerate() {
+        let sides = [side(p, a)?, side(p, b)?, side(p, c)?, side(p, d)?];
+        strips.join(sides[0].arc, sides[2].arc);
+        strips.join(sides[1].arc, sides[3].arc);
+        patches.push(sides);
+    }
+    let in_space = |arc: &LayoutArc| -> f64 {
+        arc.vertices
+            .windows(2)
+            .map(|pair| distance(vertices[pair[0] as usize], vertices[pair[1] as usize]))
+            .sum()
+    };
+    let lengths: Vec<f64> = layout.arcs.iter().map(in_space).collect();
+    let mut of_strip = vec![(0.0, 0.0); lengths.len()];
+    for (k, length) in lengths.iter().enumerate() {
+        let (sum, count) = &mut of_strip[strips.root(k as u32) as usize];
+        (*sum, *count) = (*sum + length, *count + 1.0);
+    }
+    let unit = lengths.iter().sum::<f64>() / lengths.len().max(1) as f64;
+    let mut arcs = Vec::with_capacity(lengths.len());
+    for (k, LayoutArc { ends, is_crease, .. }) in layout.arcs.iter().enumerate() {
+        let (sum, count) = of_strip[strips.root(k as u32) as usize];
+        arcs.push(PatchArc { ends: *ends, length: sum / count / unit, is_crease: *is_crease });
+    }
+    PatchLayout::new(layout.nodes.len(), arcs, patches)
+}
+
+impl PatchGrid {
+    fn all(layout: &QuadLayout, vertices: &[Vector]) -> Result<Vec<PatchGrid>> {
+        let mut quad_at: BTreeMap<[u32; 2], [u32; 2]> = BTreeMap::new();
+        for quad in &layout.mesh.quads {
+            for k in 0..4 {
+                // Beyond an edge of a quad lies the one opposite to it.
+                let [a, b, c, d] = [0, 1, 2, 3].map(|i| quad[(k + i) % 4]);
+                quad_at.insert([a, b], [d, c]);
+            }
+        }
+        (0..layout.patches.len()).map(|p| PatchGrid::new(layout, p, &quad_at, vertices)).collect()
+    }
+
+    /// The grid of a patch: the vertices along its first side, then row after row beyond.
+    fn new(
+        layout: &QuadLayout,
+        p: usize,
+        beyond: &BTreeMap<[u32; 2], [u32; 2]>,
+        vertices: &[Vector],
+    ) -> Result<PatchGrid> {
+        let LayoutPatch { sides, size, .. } = &layout.patches[p];
+        let [m, n] = size.map(|x| (x * layout.parts) as usize);
+        let mut row: Vec<u32> = Vec::with_capacity(m + 1);
+        for &signed in &sides[0] {
+            let mut along = layout.arcs[signed.unsigned_abs() as usize - 1].vertices.clone();
+            if signed < 0 {
+                along.reverse();
+            }
+            row.extend(&along[usize::from(!row.is_empty())..]);
+        }
+        let no_grid = || Error::Layout(format!("patch {p} is no rectangle of quads"));
+        let mut rows = vec![row];
+        for j in 0..n {
+            let pairs = rows[j].windows(2).map(|pair| beyond.get(&[pair[0], pair[1]]).copied());
+            let next: Vec<[u32; 2]> = pairs.collect::<Option<_>>().ok_or_else(no_grid)?;
+            let last = next.last().map(|pair| pair[1]);
+            rows.push(next.iter().map(|pair| pair[0]).chain(last).collect());
+        }
+        if rows.iter().any(|row| row.len() != m + 1) {
+            return Err(no_grid());
+        }
+        let at = |k: usize| vertices[rows[k % (n + 1)][k / (n + 1)] as usize];
+        Ok(PatchGrid { size: [m, n], points: (0..(m + 1) * (n + 1)).map(at).collect() })
+    }
+
+    /// The point at a place of the patch, bilinear in every quad.
+    fn at(&self, uv: [f64; 2]) -> Vector {
+        let [m, n] = self.size;
+        let [(i, s), (j, t)] = [(uv[0], m), (uv[1], n)].map(|(x, count)| {
+            let scaled = x * count as f64;
+            let cell = (scaled as usize).min(count - 1);
+            (cell, scaled - cell as f64)
+        });
+        let point = |i: usize, j: usize| self.points[i * (n + 1) + j];
+        bilinear([point(i, j), point(i + 1, j), point(i + 1, j + 1), point(i, j + 1)], [s, t])
+    }
+}
