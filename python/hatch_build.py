@@ -29,6 +29,7 @@ HEADERS = (
     "uniformize",
     "circles",
     "seamless",
+    "quads",
     "harmonic",
     "match",
     "structure",

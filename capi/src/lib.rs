@@ -64,6 +64,8 @@ pub mod map;
 pub mod matching;
 pub mod mesh;
 pub mod metric;
+pub mod quad_layout;
+pub mod quads;
 pub mod quality;
 pub mod refine;
 pub mod repaired_input;

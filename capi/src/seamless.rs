@@ -22,7 +22,7 @@ use std::sync::Arc;
 
 pub struct ricci_seamless {
     state: Arc<MetricState>,
-    found: Seamless,
+    pub(crate) found: Seamless,
 }
 handle!(ricci_seamless, "seamless", |seamless| seamless.state.solution.mesh().n_vertices());
 

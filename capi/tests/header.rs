@@ -15,6 +15,7 @@ const HEADERS: &[(&str, usize)] = &[
     ("harmonic", 20),
     ("match", 10),
     ("seamless", 10),
+    ("quads", 20),
     ("spline", 25),
     ("bicubic", 10),
     ("structure", 20),

@@ -1,8 +1,12 @@
-// OpenMesh in and out: any TriMesh kernel, of float or double. Include OpenMesh before.
+// OpenMesh in and out: any TriMesh kernel, of float or double, and quads as any PolyMesh kernel. Include
+// OpenMesh before.
 //
 //     const auto flat = ricci::flow(ricci::metric(ricci::openmesh::from(mesh)), ricci::target::automatic(8));
 //     const auto uv = ricci::openmesh::uv(mesh, ricci::layout(flat));
 //     const auto factor = ricci::openmesh::factor(mesh, flat);
+//
+//     const ricci::quads quads{ricci::seamless(ricci::openmesh::from(mesh))};
+//     const auto four_sided = ricci::openmesh::poly_mesh<OpenMesh::PolyMesh_ArrayKernelT<>>(quads);
 //
 // `uv` is a property of half-edges: the coordinates of the corner at their tip; `factor` one of vertices.
 // Elements keep OpenMesh's numbers; a mesh with deleted elements is refused until garbage_collection().
@@ -16,6 +20,7 @@
 #include <OpenMesh/Core/Geometry/VectorT.hh>
 #include <OpenMesh/Core/Utils/Property.hh>
 #include <ricci/core.hpp>
+#include <ricci/quads.hpp>
 
 namespace ricci {
 namespace openmesh {
@@ -98,6 +103,27 @@ template <class Mesh>::OpenMesh::HPropHandleT<::OpenMesh::Vec2d> uv(Mesh &mesh, 
             i += 2;
         }
     return all;
+}
+
+// A mesh of quads, with the numbers of ricci, as a PolyMesh. Throws std::invalid_argument for quads that
+// OpenMesh does not join, as those with an edge or a vertex that is not manifold.
+template <class PolyMesh> PolyMesh poly_mesh(const quads &made) {
+    PolyMesh mesh;
+    const std::vector<double> positions = made.positions();
+    using Number = typename PolyMesh::Scalar;
+    for (std::size_t k = 0; k < positions.size(); k += 3)
+        mesh.add_vertex(typename PolyMesh::Point(static_cast<Number>(positions[k]),
+                                                 static_cast<Number>(positions[k + 1]),
+                                                 static_cast<Number>(positions[k + 2])));
+    const std::vector<std::uint32_t> faces = made.faces();
+    std::vector<::OpenMesh::VertexHandle> around(4);
+    for (std::size_t q = 0; q < faces.size(); q += 4) {
+        for (std::size_t k = 0; k < 4; k++)
+            around[k] = ::OpenMesh::VertexHandle(static_cast<int>(faces[q + k]));
+        if (!mesh.add_face(around).is_valid())
+            throw std::invalid_argument("OpenMesh does not join quad " + std::to_string(q / 4));
+    }
+    return mesh;
 }
 
 } // namespace openmesh

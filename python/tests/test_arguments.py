@@ -49,6 +49,8 @@ TAKES = {
     "spline": (ricci.spline, "mesh metric"),
     "plane": (ricci.Spline.plane, "mesh"),
     "of_surface": (ricci.Spline.of_surface, "metric"),
+    "quads": (ricci.quads, ""),
+    "quad_layout": (ricci.quad_layout, ""),
     "structure": (ricci.structure, "mesh"),
     "structures": (ricci.structures, "mesh"),
     "to_trimesh": (ricci.to_trimesh, "mesh"),

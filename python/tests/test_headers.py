@@ -94,7 +94,8 @@ def test_names_are_all_constants_of_their_prefix():
 
 
 def test_docstrings_name_every_argument():
-    for name in ("flow", "uniformize", "cover", "circles", "harmonic", "forms", "match", "spline", "structure", "cohort"):
+    names = "flow uniformize cover circles harmonic forms match spline structure quads quad_layout cohort"
+    for name in names.split():
         text = getattr(ricci, name).__doc__
         code = getattr(ricci, name).__code__
         arguments = code.co_varnames[: code.co_argcount]

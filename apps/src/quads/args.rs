@@ -15,7 +15,8 @@ All vertices have four quads but those at the cones of the seamless map, and edg
 quad onto its unit square follows from whole numbers, without a tolerance.
 
 Files
-    -o Q.obj            faces with four corners, vertices on the input's faces
+    -o Q.obj | Q.ply    faces with four corners, vertices on the input's faces
+    -o Q.glb            the same with two triangles for each quad, since glTF has no quads
     --map X.csv         rows quad_vertex,source_face,b0,b1,b2: the face of each vertex and barycentric coordinates in it";
 
 #[derive(Args, Serialize, Debug)]
@@ -23,7 +24,7 @@ pub struct QuadsArgs {
     #[command(flatten)]
     #[serde(flatten)]
     pub source: QuadSourceArgs,
-    /// The quad mesh (.obj)
+    /// The quad mesh (.obj, .ply, .glb)
     #[arg(short = 'o', long = "out", value_name = "Q.obj")]
     pub out: FileName,
     #[command(flatten)]
@@ -95,7 +96,9 @@ Files
     -o L.json           {nodes, arcs, patches}: nodes by vertex of the input or face and weights, with valence and crease; arcs with the
                         nodes from and to, length, crease and points in space; patches with size and four sides, each a list of arcs:
                         arc a as a + 1 in its direction and −(a + 1) against it
-    --quads Q.obj       the patches as quads, eight to a unit of length, each patch as a group";
+    --quads Q.obj       the patches as quads, eight to a unit of length, each patch as a group
+    --quads Q.ply       the same with the number of its patch for each quad
+    --quads Q.glb       two triangles for each quad, without the patches";
 
 #[derive(Args, Serialize, Debug)]
 pub struct LayoutArgs {
@@ -105,7 +108,7 @@ pub struct LayoutArgs {
     /// The layout (.json)
     #[arg(short = 'o', long = "out", value_name = "L.json")]
     pub out: FileName,
-    /// Write the patches as quads (.obj)
+    /// Write the patches as quads (.obj, .ply, .glb)
     #[arg(long, value_name = "Q.obj")]
     pub quads: Option<FileName>,
     #[command(flatten)]

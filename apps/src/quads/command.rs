@@ -2,6 +2,7 @@
 
 use super::args::{QuadSourceArgs, QuadsArgs};
 use super::figures::QuadsOutcome;
+use super::files::{EXTENSIONS, QuadFile};
 use crate::failure::{Failure, NO_POSITIONS};
 use crate::input::{self, Input};
 use crate::output::{check_extension, check_outputs};
@@ -22,7 +23,7 @@ impl Job for QuadsArgs {
     }
 
     fn check(&self) -> Result<(), Failure> {
-        check_extension("-o", Some(&self.out), &["obj"])?;
+        check_extension("-o", Some(&self.out), &EXTENSIONS)?;
         let files = [Some(&self.out), self.map.as_ref(), self.common.report.as_ref()];
         check_outputs(&self.source.files(), &files.map(|file| file.map(|f| &**f)))
     }
@@ -38,10 +39,10 @@ impl Job for QuadsArgs {
     }
 
     fn write(&self, outcome: &QuadsOutcome, run: &mut CommandRun<'_>) -> Result<(), Failure> {
-        run.file("out", Some(&self.out), |outputs, path| outputs.add(path, |out| write_obj(out, outcome)))?;
-        run.file("map", self.map.as_deref(), |outputs, path| {
-            outputs.add(path, |out| write_places(out, &outcome.mesh))
-        })
+        let QuadsOutcome { mesh, positions, .. } = outcome;
+        let file = QuadFile { positions, quads: &mesh.quads, patches: Vec::new() };
+        run.file("out", Some(&self.out), |outputs, path| file.write(outputs, path))?;
+        run.file("map", self.map.as_deref(), |outputs, path| outputs.add(path, |out| write_places(out, mesh)))
     }
 }
 
@@ -78,18 +79,6 @@ pub fn solved(
     let solve = || doing("solving", || seamless(&input.surface, &options, run.control));
     let found = timed(&mut run.seconds.solve, solve)?;
     Ok((input, found))
-}
-
-/// The quad mesh as OBJ.
-fn write_obj(out: &mut dyn Write, outcome: &QuadsOutcome) -> std::io::Result<()> {
-    for [x, y, z] in &outcome.positions {
-        writeln!(out, "v {x} {y} {z}")?;
-    }
-    for quad in &outcome.mesh.quads {
-        let [a, b, c, d] = quad.map(|v| v + 1);
-        writeln!(out, "f {a} {b} {c} {d}")?;
-    }
-    Ok(())
 }
 
 /// The places of the vertices on the input.

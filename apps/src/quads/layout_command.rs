@@ -2,6 +2,7 @@
 
 use super::args::LayoutArgs;
 use super::command::solved;
+use super::files::{EXTENSIONS, QuadFile};
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::output::{check_extension, check_outputs};
@@ -13,7 +14,6 @@ use ricci::mesh::{FaceId, Point};
 use ricci::quads::{QuadLayout, QuadOptions, QuadSize, quad_layout};
 use ricci::seamless::Seamless;
 use serde_json::{Value, json};
-use std::io::Write;
 
 pub struct LayoutOutcome {
     input: Input,
@@ -32,7 +32,7 @@ impl Job for LayoutArgs {
 
     fn check(&self) -> Result<(), Failure> {
         check_extension("-o", Some(&self.out), &["json"])?;
-        check_extension("--quads", self.quads.as_deref(), &["obj"])?;
+        check_extension("--quads", self.quads.as_deref(), &EXTENSIONS)?;
         let files = [Some(&self.out), self.quads.as_ref(), self.common.report.as_ref()];
         check_outputs(&self.source.files(), &files.map(|file| file.map(|f| &**f)))
     }
@@ -48,9 +48,10 @@ impl Job for LayoutArgs {
 
     fn write(&self, outcome: &LayoutOutcome, run: &mut CommandRun<'_>) -> Result<(), Failure> {
         run.file("out", Some(&self.out), |outputs, path| outputs.add_json(path, &outcome.file()))?;
-        run.file("quads", self.quads.as_deref(), |outputs, path| {
-            outputs.add(path, |out| write_patches(out, outcome))
-        })
+        let LayoutOutcome { layout, positions, .. } = outcome;
+        let patches = layout.patches.iter().map(|patch| &*patch.quads).collect();
+        let file = QuadFile { positions, quads: &layout.mesh.quads, patches };
+        run.file("quads", self.quads.as_deref(), |outputs, path| file.write(outputs, path))
     }
 }
 
@@ -133,19 +134,4 @@ impl JobOutcome for LayoutOutcome {
             say::ending(&self.input, done, false)
         )
     }
-}
-
-/// The patches as quads, each as a group.
-fn write_patches(out: &mut dyn Write, outcome: &LayoutOutcome) -> std::io::Result<()> {
-    for [x, y, z] in &outcome.positions {
-        writeln!(out, "v {x} {y} {z}")?;
-    }
-    for (k, patch) in outcome.layout.patches.iter().enumerate() {
-        writeln!(out, "g patch_{k}")?;
-        for &q in &patch.quads {
-            let [a, b, c, d] = outcome.layout.mesh.quads[q as usize].map(|v| v + 1);
-            writeln!(out, "f {a} {b} {c} {d}")?;
-        }
-    }
-    Ok(())
 }

@@ -3,6 +3,7 @@
 mod args;
 mod command;
 mod figures;
+mod files;
 mod layout_command;
 
 pub use args::{HELP, LAYOUT_HELP, LayoutArgs, QuadSourceArgs, QuadsArgs};

@@ -78,4 +78,62 @@ fn one_size_of_quads_is_asked_for() {
     place.expect(2, "quads t.obj -o q.obj --faces 400 --edge 0.1");
     place.expect(2, "quads t.obj -o q.txt");
     place.expect(2, "layout t.obj -o L.obj");
+    place.expect(2, "layout t.obj -o L.json --quads q.stl");
+}
+
+/// Positions, the corners of faces with four, and the numbers of their patches if they have them, of a binary PLY file.
+fn parse_ply(bytes: &[u8], has_patches: bool) -> (Vec<[f64; 3]>, Vec<Vec<usize>>, Vec<u32>) {
+    let end = b"end_header\n";
+    let start = bytes.windows(end.len()).position(|part| part == end).unwrap() + end.len();
+    let header = std::str::from_utf8(&bytes[..start]).unwrap();
+    assert!(header.starts_with("ply\nformat binary_little_endian 1.0\n"), "{header}");
+    assert_eq!(header.contains("property uint patch\n"), has_patches, "{header}");
+    let count = |what: &str| -> usize {
+        header.lines().find_map(|line| line.strip_prefix(what)).unwrap().trim().parse().unwrap()
+    };
+    let (n_vertices, n_faces) = (count("element vertex"), count("element face"));
+    let (vertices, faces) = bytes[start..].split_at(24 * n_vertices);
+    let numbers: Vec<f64> =
+        vertices.chunks_exact(8).map(|b| f64::from_le_bytes(b.try_into().unwrap())).collect();
+    let row = if has_patches { 21 } else { 17 };
+    assert_eq!(faces.len(), row * n_faces);
+    let word = |b: &[u8]| u32::from_le_bytes(b.try_into().unwrap());
+    let rows: Vec<Vec<u32>> =
+        faces.chunks_exact(row).map(|b| b[1..].chunks_exact(4).map(word).collect()).collect();
+    assert!(faces.chunks_exact(row).all(|b| b[0] == 4));
+    let corners = rows.iter().map(|row| row[..4].iter().map(|&v| v as usize).collect());
+    let patches = rows.iter().filter_map(|row| row.get(4).copied());
+    (numbers.as_chunks().0.to_vec(), corners.collect(), patches.collect())
+}
+
+#[test]
+fn other_formats_have_the_same_quads() {
+    let place = Place::new();
+    place.expect(0, "make torus -o t.obj");
+    for extension in ["obj", "ply", "glb"] {
+        place.expect(0, &format!("quads t.obj -o q.{extension} --faces 300"));
+        place.expect(0, &format!("layout t.obj -o L.json --quads p.{extension}"));
+        // What was written is read again, polygons as triangles.
+        for name in ["q", "p"] {
+            place.expect(0, &format!("info {name}.{extension} --report {name}_{extension}.json"));
+        }
+    }
+    for name in ["q", "p"] {
+        let (positions, quads) = parse(&place.text(&format!("{name}.obj")));
+        let bytes = std::fs::read(place.path(&format!("{name}.ply"))).unwrap();
+        let (same_positions, same_quads, patches) = parse_ply(&bytes, name == "p");
+        assert_eq!(same_positions, positions);
+        assert_eq!(
+            (same_quads.len(), patches.len()),
+            (quads.len(), if name == "p" { quads.len() } else { 0 })
+        );
+        if name == "q" {
+            assert_eq!(same_quads, quads);
+        }
+        for extension in ["obj", "ply", "glb"] {
+            let report = place.json(&format!("{name}_{extension}.json"));
+            let faces = report["input"]["faces"].as_u64();
+            assert_eq!(faces, Some(2 * quads.len() as u64), "{name}.{extension}: {report}");
+        }
+    }
 }

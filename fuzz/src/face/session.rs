@@ -14,7 +14,7 @@ use std::time::Instant;
 /// Most calls of one input.
 const MOST_CALLS: usize = 8;
 /// Calls that take a hundred times as long as others: one input of eight makes them.
-const LONG: [&str; 9] = [
+const LONG: [&str; 11] = [
     "ricci_match",
     "ricci_circle_domain_new",
     "ricci_spline_fit",
@@ -22,6 +22,8 @@ const LONG: [&str; 9] = [
     "ricci_spline_fit_surface",
     "ricci_bicubic_new",
     "ricci_matching_map",
+    "ricci_quads_new",
+    "ricci_quad_layout_new",
     "ricci_spline_closest",
     "ricci_hyperelliptic_periods",
 ];
@@ -36,7 +38,7 @@ const WRONG_SIZE: u32 = 1;
 /// Functions whose capacity counts rows of two numbers of the last buffer.
 const IN_PAIRS: [&str; 2] = ["ricci_structure_places", "ricci_uniform_sides"];
 /// Fields of summaries that do not apply to every surface, and may be NaN, as the headers say.
-const MAY_BE_NAN: [(&str, &str); 30] = [
+const MAY_BE_NAN: [(&str, &str); 34] = [
     ("ricci_circle_domain_summary", "modulus"),
     ("ricci_forms_summary", "asymmetry"),
     ("ricci_forms_summary", "star_residual"),
@@ -58,6 +60,10 @@ const MAY_BE_NAN: [(&str, &str); 30] = [
     ("ricci_layout_summary", "area_ratio_max_input"),
     ("ricci_layout_summary", "overlap"),
     ("ricci_layout_summary", "symmetric_dirichlet"),
+    ("ricci_quads_summary", "angle_mean"),
+    ("ricci_quads_summary", "angle_max"),
+    ("ricci_quads_summary", "edge_mean"),
+    ("ricci_quads_summary", "edge_deviation"),
     ("ricci_quality_summary", "min_angle"),
     ("ricci_quality_summary", "obtuse_fraction"),
     ("ricci_quality_summary", "edge_ratio"),

@@ -16,6 +16,8 @@ use ricci_c::map::ricci_map_new;
 use ricci_c::matching::ricci_match;
 use ricci_c::mesh::ricci_mesh;
 use ricci_c::metric::{ricci_metric, ricci_metric_new};
+use ricci_c::quad_layout::ricci_quad_layout_new;
+use ricci_c::quads::{ricci_quads_new, ricci_quads_options};
 use ricci_c::repaired_input::ricci_repaired_input_new;
 use ricci_c::seamless::ricci_seamless_new;
 use ricci_c::shapes::{ricci_make, ricci_shape};
@@ -114,6 +116,10 @@ impl Shelf {
         if matches!(shape, 0 | 4 | 7 | 9) {
             let seamless = made(|p| unsafe { ricci_seamless_new(mesh, null(), null(), p) });
             self.put("ricci_seamless", seamless);
+            let options = ricci_quads_options { sizing: 1, n_quads: 60, threads: 1, ..zeroed() };
+            self.put("ricci_quads", made(|p| unsafe { ricci_quads_new(seamless, &options, null(), p) }));
+            let layout = made(|p| unsafe { ricci_quad_layout_new(seamless, null(), null(), p) });
+            self.put("ricci_quad_layout", layout);
         }
         if matches!(shape, 4 | 7 | 9) {
             let domain = made(|p| unsafe { ricci_dirichlet_new(uniform, null(), null(), p) });

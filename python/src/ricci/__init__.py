@@ -45,6 +45,7 @@ from ricci.maps import Map
 from ricci.matching import Matching, match
 from ricci.mesh import Mesh, read
 from ricci.metrics import Metric, Report, Solver, flow, metric
+from ricci.quad_meshes import QuadLayout, Quads, quad_layout, quads
 from ricci.seams import Seamless, cross_field, seamless
 from ricci.shapes import change, hyperelliptic_periods, make
 from ricci.soup import Defect, Hole, Loop, Soup
@@ -87,6 +88,8 @@ __all__ = [
     "OutOfMemory",
     "ParseError",
     "Place",
+    "QuadLayout",
+    "Quads",
     "RepairedInput",
     "Report",
     "RicciError",
@@ -124,6 +127,8 @@ __all__ = [
     "make",
     "match",
     "metric",
+    "quad_layout",
+    "quads",
     "read",
     "seamless",
     "spline",

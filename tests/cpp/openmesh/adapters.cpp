@@ -6,6 +6,8 @@
 #include <ricci/eigen.hpp>
 #include <ricci/openmesh.hpp>
 
+#include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
+
 namespace {
 
 using Floats = OpenMesh::TriMesh_ArrayKernelT<>;
@@ -108,6 +110,36 @@ template <class Kernel> std::vector<double> check_openmesh(double off) {
     return expected.factor;
 }
 
+// The quads of a surface of genus 2 as a PolyMesh: closed, of its topology, irregular at its cones alone.
+template <class PolyMesh> void check_quads() {
+    ricci_shape shape = ricci::init<ricci_shape>();
+    shape.shape = RICCI_SHAPE_GENUS, shape.n = 4, shape.genus = 2;
+    const ricci::seamless flat(ricci::mesh::made(shape));
+    const ricci::quads quads(flat, ricci::quads_of_number(300));
+    const PolyMesh mesh = ricci::openmesh::poly_mesh<PolyMesh>(quads);
+    const auto summary = quads.summary();
+    CHECK(mesh.n_faces() == summary.n_quads && mesh.n_vertices() == summary.n_vertices);
+    CHECK(int(mesh.n_vertices()) - int(mesh.n_edges()) + int(mesh.n_faces()) == -2);
+    const auto positions = quads.positions();
+    const auto faces = quads.faces();
+    std::size_t irregular = 0;
+    int excess = 0;
+    for (auto v : mesh.vertices()) {
+        CHECK(!mesh.is_boundary(v));
+        irregular += mesh.valence(v) != 4;
+        excess += 4 - int(mesh.valence(v));
+        for (unsigned k = 0; k < 3; k++)
+            CHECK(mesh.point(v)[k] == typename PolyMesh::Scalar(positions[3 * std::size_t(v.idx()) + k]));
+    }
+    CHECK(irregular == summary.n_irregular && excess == -8);
+    for (auto f : mesh.faces()) {
+        std::vector<std::uint32_t> corners;
+        for (auto v : mesh.fv_range(f)) corners.push_back(std::uint32_t(v.idx()));
+        const auto first = faces.begin() + 4 * f.idx();
+        CHECK(corners.size() == 4 && std::is_permutation(corners.begin(), corners.end(), first));
+    }
+}
+
 std::vector<double> check_cgal() {
     Surface_mesh mesh;
     for (int i = 0; i < n * n; i++) mesh.add_vertex(Exact::Point_3(place(i)[0], place(i)[1], place(i)[2]));
@@ -161,6 +193,8 @@ std::vector<double> check_eigen() {
 
 int main() {
     check_deleted();
+    check_quads<OpenMesh::PolyMesh_ArrayKernelT<>>();
+    check_quads<OpenMesh::PolyMesh_ArrayKernelT<OpenMesh::DefaultTraitsDouble>>();
     const auto doubles = check_openmesh<Doubles>(0), floats = check_openmesh<Floats>(1e-7);
     const auto cgal = check_cgal(), eigen = check_eigen();
     double off = 0;

@@ -4,6 +4,7 @@
 #include <ricci/circles.hpp>
 #include <ricci/harmonic.hpp>
 #include <ricci/match.hpp>
+#include <ricci/quads.hpp>
 #include <ricci/repair.hpp>
 #include <ricci/spline.hpp>
 #include <ricci/structure.hpp>
@@ -161,6 +162,34 @@ int structures() {
     return 0;
 }
 
+// Quads of a torus and its layout of patches.
+int quads() {
+    ricci_shape shape = ricci::init<ricci_shape>();
+    shape.shape = RICCI_SHAPE_TORUS, shape.n = 16, shape.m = 10, shape.a = 2, shape.b = 1;
+    const ricci::seamless flat(ricci::mesh::made(shape));
+    const ricci::quads few(flat, ricci::quads_of_number(200)), fine(flat, ricci::quads_of_edge(0.4));
+    const auto all = few.summary();
+    if (all.euler != 0 || all.n_bad_edges + all.n_bad_vertices != 0) return 53;
+    if (few.faces().size() != 4 * all.n_quads || few.positions().size() != 3 * all.n_vertices) return 53;
+    if (few.places().second.size() != 3 * all.n_vertices || few.rectangles().size() != all.n_quads) return 54;
+    if (!few.creases().empty() || fine.summary().n_quads <= all.n_quads) return 54;
+    const ricci::quad_layout layout(flat);
+    const auto counts = layout.summary();
+    const auto sides = layout.sides();
+    const auto sizes = layout.sizes(), arcs = layout.arcs(), patches = layout.patches();
+    if (counts.n_nodes + counts.n_patches != counts.n_arcs || sides.size() != 4 * counts.n_patches) return 55;
+    for (std::size_t side = 0; side < sides.size(); side++) {
+        std::uint32_t length = 0;
+        for (std::int32_t a : sides[side]) length += arcs[4 * static_cast<std::size_t>(std::abs(a) - 1) + 2];
+        if (length != sizes[2 * (side / 4) + side % 2]) return 56;
+    }
+    const auto along = layout.arc_vertices();
+    for (std::size_t a = 0; a < along.size(); a++)
+        if (along[a].size() != counts.n_parts * arcs[4 * a + 2] + 1) return 57;
+    if (layout.nodes().size() != 3 * counts.n_nodes) return 58;
+    return layout.quads().summary().n_quads == patches.size() ? 0 : 58;
+}
+
 // A spline of a parabola over a square with a hole.
 int splines() {
     const std::vector<double> outer = {0, 0, 2, 0, 2, 2, 0, 2};
@@ -255,7 +284,7 @@ int failures() {
 } // namespace
 
 int main() {
-    for (int failed : {whole_job(), uniformization(), forms_and_maps(), structures(), splines(),
+    for (int failed : {whole_job(), uniformization(), forms_and_maps(), structures(), splines(), quads(),
                        bicubic_patches(), failures()})
         if (failed) return failed;
     return 0;

@@ -2,6 +2,7 @@
 
 from ricci.figures.covered import DeckSummary, DirichletSummary, DomainSummary, HomotopySummary, UniformSummary
 from ricci.figures.derived import BicubicSummary, FormsSummary, HarmonicSummary, MatchingSummary, SplineSummary, StructureSummary
+from ricci.figures.four_sided import QuadLayoutSummary, QuadsSummary
 from ricci.figures.placed import ChartsSummary, CircleDomainSummary, LayoutSummary, MapSummary, RepairedInputSummary, SeamlessSummary
 from ricci.figures.surface import MeshSummary, MetricSummary, QualitySummary, RefineSummary, ReportSummary, SoupSummary
 
@@ -20,6 +21,8 @@ __all__ = [
     "MatchingSummary",
     "MeshSummary",
     "MetricSummary",
+    "QuadLayoutSummary",
+    "QuadsSummary",
     "QualitySummary",
     "RefineSummary",
     "RepairedInputSummary",

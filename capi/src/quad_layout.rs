@@ -1,0 +1,176 @@
+//! Layouts of four-sided patches on quad meshes.
+
+use crate::arrays::{CallerBuffer, copy_each, copy_out, copy_rows};
+use crate::control::{self, ricci_control};
+use crate::guard::{self, handle, shared};
+use crate::memory;
+use crate::quads::{QuadsState, read_options, reserve, ricci_quads, ricci_quads_options};
+use crate::seamless::ricci_seamless;
+use crate::status::ricci_status;
+use crate::structs::{self, sized};
+use ricci::quads::{LayoutArc, LayoutNode, LayoutPatch, QuadLayout, QuadSize, quad_layout};
+use std::sync::Arc;
+
+pub struct ricci_quad_layout {
+    quads: Arc<QuadsState>,
+    nodes: Vec<LayoutNode>,
+    arcs: Vec<LayoutArc>,
+    patches: Vec<LayoutPatch>,
+    figures: ricci_quad_layout_summary,
+}
+handle!(ricci_quad_layout, "layout", |layout| layout.figures.n_vertices);
+
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct ricci_quad_layout_summary {
+    pub size: usize,
+    pub n_nodes: usize,
+    pub n_arcs: usize,
+    pub n_patches: usize,
+    pub n_units: usize,
+    pub n_parts: usize,
+    pub n_quads: usize,
+    pub n_vertices: usize,
+}
+// SAFETY: numbers; 8-byte alignment, size first.
+sized!(ricci_quad_layout_summary, "summary");
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_quad_layout_new(
+    seamless: *const ricci_seamless,
+    options: *const ricci_quads_options,
+    control: *const ricci_control,
+    layout: *mut *mut ricci_quad_layout,
+) -> ricci_status {
+    guard::make(layout, || {
+        let ricci_seamless { found, .. } = shared(seamless)?;
+        let options = read_options(options, QuadSize::Coarse)?;
+        let _reserve = reserve(found, options.size, memory::QUAD_LAYOUT)?;
+        let made = quad_layout(found, &options, &control::of(control)?)?;
+        let QuadLayout { mesh, parts, nodes, arcs, patches } = made;
+        log::info!("layout: {} patches of {} quads", patches.len(), mesh.quads.len());
+        let figures = ricci_quad_layout_summary {
+            size: 0,
+            n_nodes: nodes.len(),
+            n_arcs: arcs.len(),
+            n_patches: patches.len(),
+            n_units: patches.iter().map(|patch| patch.size[0] as usize * patch.size[1] as usize).sum(),
+            n_parts: parts as usize,
+            n_quads: mesh.quads.len(),
+            n_vertices: mesh.places.len(),
+        };
+        let quads = Arc::new(QuadsState::new(mesh, found));
+        Ok(ricci_quad_layout { quads, nodes, arcs, patches, figures })
+    })
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_quad_layout_free(layout: *mut ricci_quad_layout) {
+    guard::free(layout);
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_quad_layout_summarise(
+    layout: *const ricci_quad_layout,
+    summary: *mut ricci_quad_layout_summary,
+    size: usize,
+) -> ricci_status {
+    guard::with(layout, |layout| {
+        structs::write(ricci_quad_layout_summary { size, ..layout.figures }, summary, size)
+    })
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_quad_layout_quads(
+    layout: *const ricci_quad_layout,
+    quads: *mut *mut ricci_quads,
+) -> ricci_status {
+    guard::make(quads, || Ok(ricci_quads(shared(layout)?.quads.clone())))
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_quad_layout_nodes(
+    layout: *const ricci_quad_layout,
+    nodes: *mut u32,
+    capacity: usize,
+) -> ricci_status {
+    guard::with(layout, |layout| {
+        let row = |node: &LayoutNode| [node.vertex, node.valence, node.is_crease.into()];
+        copy_each("nodes", layout.nodes.len(), layout.nodes.iter().map(row), nodes, capacity)
+    })
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_quad_layout_arcs(
+    layout: *const ricci_quad_layout,
+    arcs: *mut u32,
+    capacity: usize,
+) -> ricci_status {
+    guard::with(layout, |layout| {
+        let row = |arc: &LayoutArc| [arc.ends[0], arc.ends[1], arc.length, arc.is_crease.into()];
+        copy_each("arcs", layout.arcs.len(), layout.arcs.iter().map(row), arcs, capacity)
+    })
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_quad_layout_arc_vertices(
+    layout: *const ricci_quad_layout,
+    vertices: *mut u32,
+    capacity: usize,
+    starts: *mut usize,
+    starts_capacity: usize,
+) -> ricci_status {
+    guard::with(layout, |layout| {
+        copy_rows(
+            "vertices",
+            layout.arcs.iter().map(|arc| arc.vertices.iter().copied()),
+            CallerBuffer(vertices, capacity),
+            CallerBuffer(starts, starts_capacity),
+        )
+    })
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_quad_layout_sides(
+    layout: *const ricci_quad_layout,
+    sides: *mut i32,
+    capacity: usize,
+    starts: *mut usize,
+    starts_capacity: usize,
+) -> ricci_status {
+    guard::with(layout, |layout| {
+        copy_rows(
+            "sides",
+            layout.patches.iter().flat_map(|patch| &patch.sides).map(|side| side.iter().copied()),
+            CallerBuffer(sides, capacity),
+            CallerBuffer(starts, starts_capacity),
+        )
+    })
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_quad_layout_sizes(
+    layout: *const ricci_quad_layout,
+    sizes: *mut u32,
+    capacity: usize,
+) -> ricci_status {
+    guard::with(layout, |layout| {
+        let sizes_of = layout.patches.iter().map(|patch| patch.size);
+        copy_each("sizes", layout.patches.len(), sizes_of, sizes, capacity)
+    })
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_quad_layout_patches(
+    layout: *const ricci_quad_layout,
+    patches: *mut u32,
+    capacity: usize,
+) -> ricci_status {
+    guard::with(layout, |layout| {
+        let mut patch_of = vec![0u32; layout.figures.n_quads];
+        for (k, patch) in (0..).zip(&layout.patches) {
+            patch.quads.iter().for_each(|&q| patch_of[q as usize] = k);
+        }
+        copy_out("patches", &patch_of, patches, capacity)
+    })
+}
