@@ -3,13 +3,15 @@
 use crate::arrays::{CallerBuffer, copy_each, copy_out, copy_rows};
 use crate::control::{self, ricci_control};
 use crate::guard::{self, handle, shared};
-use crate::memory;
 use crate::quads::{QuadsState, read_options, reserve, ricci_quads, ricci_quads_options};
 use crate::seamless::ricci_seamless;
 use crate::status::ricci_status;
 use crate::structs::{self, sized};
 use ricci::quads::{LayoutArc, LayoutNode, LayoutPatch, QuadLayout, QuadSize, quad_layout};
 use std::sync::Arc;
+
+/// The number of quads that take as much memory as a unit square of a layout.
+const PARTS_OF_UNIT: usize = 16;
 
 pub struct ricci_quad_layout {
     quads: Arc<QuadsState>,
@@ -45,7 +47,7 @@ pub unsafe extern "C" fn ricci_quad_layout_new(
     guard::make(layout, || {
         let ricci_seamless { found, .. } = shared(seamless)?;
         let options = read_options(options, QuadSize::Coarse)?;
-        let _reserve = reserve(found, options.size, memory::QUAD_LAYOUT)?;
+        let _reserve = reserve(found, options.size, PARTS_OF_UNIT)?;
         let made = quad_layout(found, &options, &control::of(control)?)?;
         let QuadLayout { mesh, parts, nodes, arcs, patches } = made;
         log::info!("layout: {} patches of {} quads", patches.len(), mesh.quads.len());

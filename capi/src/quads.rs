@@ -83,8 +83,8 @@ pub(crate) fn read_options(options: *const ricci_quads_options, usual: QuadSize)
     Ok(QuadOptions { size, threads: given.threads })
 }
 
-/// A reserve for work on a surface and on quads of this size, with so many bytes for each vertex and quad.
-pub(crate) fn reserve(seamless: &Seamless, size: QuadSize, bytes_each: usize) -> Outcome<Reserve> {
+/// A reserve for work on a surface and on quads of this size, each of which is made of so many parts with the memory of a quad.
+pub(crate) fn reserve(seamless: &Seamless, size: QuadSize, parts: usize) -> Outcome<Reserve> {
     let solution = &seamless.solution;
     let n_quads = match size {
         QuadSize::Quads(n) => n,
@@ -92,13 +92,15 @@ pub(crate) fn reserve(seamless: &Seamless, size: QuadSize, bytes_each: usize) ->
             let lengths = solution.surface().lengths();
             (area(solution.given(), solution.initial().input_geometry, lengths)? / edge / edge) as usize
         }
-        QuadSize::Edge(_) | QuadSize::Coarse => 0,
+        QuadSize::Edge(_) => 0,
+        // On samples they were up to twice as many as the cones.
+        QuadSize::Coarse => 4 * seamless.cones.len(),
     };
     if n_quads > i32::MAX as usize {
         let message = format!("{n_quads} quads of this size are more than a mesh can have");
         return Err(Failure::new(RICCI_TOO_LARGE, message).needs(n_quads));
     }
-    memory::work(solution.given().n_vertices() + n_quads, bytes_each)
+    memory::work(solution.given().n_vertices() + parts * n_quads, memory::QUADS)
 }
 
 impl QuadsState {
@@ -142,7 +144,7 @@ pub unsafe extern "C" fn ricci_quads_new(
     guard::make(quads, || {
         let ricci_seamless { found, .. } = shared(seamless)?;
         let options = read_options(options, QuadOptions::default().size)?;
-        let _reserve = reserve(found, options.size, memory::QUADS)?;
+        let _reserve = reserve(found, options.size, 1)?;
         let mesh = quad_mesh(found, &options, &control::of(control)?)?;
         log::info!("quads: {} in {} rectangles", mesh.quads.len(), mesh.t_mesh_size[0]);
         Ok(ricci_quads(Arc::new(QuadsState::new(mesh, found))))

@@ -126,8 +126,8 @@ typedef struct ricci_quad_layout_summary {
  *
  * Deterministic.
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE, RICCI_ARGUMENT (an unknown sizing, a number or an
- * edge length that is not positive), RICCI_LAYOUT (a metric that has not converged), RICCI_TOO_LARGE,
- * RICCI_NO_MEMORY, RICCI_FACTORISATION, RICCI_CANCELLED.
+ * edge length that is not positive), RICCI_LAYOUT (a metric so far from its target that its seams do not turn
+ * by multiples of 90 degrees), RICCI_TOO_LARGE, RICCI_NO_MEMORY, RICCI_FACTORISATION, RICCI_CANCELLED.
  *
  * @param seamless  the seamless metric.
  * @param options   the options; NULL for the defaults.

@@ -29,15 +29,16 @@ def check_quads(mesh: ricci.Mesh, made: ricci.Quads, euler: int) -> None:
     assert made.rectangles.max() < made.summary.n_rectangles
 
 
-def test_a_torus_has_regular_quads_alone() -> None:
+def test_a_torus_without_cones_has_regular_quads_alone() -> None:
     mesh = ricci.make("torus", a=2, b=1, n=24, m=12)
-    made = ricci.quads(ricci.seamless(mesh), n_quads=400)
+    flat = ricci.seamless(mesh, cones={})
+    made = ricci.quads(flat, n_quads=400)
     check_quads(mesh, made, 0)
     assert 0.8 * 400 < made.summary.n_quads < 1.2 * 400
     assert (np.bincount(made.F.ravel()) == 4).all()
     assert made.summary.n_irregular == 0
     assert made.creases.shape == (0, 2)
-    again = ricci.quads(ricci.seamless(mesh), edge=made.summary.edge, threads=1)
+    again = ricci.quads(flat, edge=made.summary.edge, threads=1)
     assert np.array_equal(again.F, made.F)
     assert np.array_equal(again.positions, made.positions)
 
@@ -107,3 +108,11 @@ def test_quads_without_positions_have_places() -> None:
     assert made.places.weights.shape == (made.summary.n_vertices, 3)
     with pytest.raises(ricci.ArgumentError, match="positions"):
         made.positions  # noqa: B018
+
+
+@pytest.mark.filterwarnings("ignore::ricci.NotConverged")
+def test_a_metric_that_is_not_seamless_is_refused() -> None:
+    far_off = ricci.seamless(ricci.make("genus", genus=2, n=4), quarter_turns=[9, -9, 9, -9], max_iterations=1)
+    for make in (ricci.quads, ricci.quad_layout):
+        with pytest.raises(ricci.LayoutError, match="seam"):
+            make(far_off)

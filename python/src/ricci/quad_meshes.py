@@ -176,7 +176,7 @@ def quads(seamless: Seamless, progress: Progress = None, **given: Unpack[QuadsOp
 
     Raises:
         ArgumentError: more than one size, or one that is not positive.
-        LayoutError: the seamless metric has not converged.
+        LayoutError: the seamless metric is so far from its target that its seams do not turn by multiples of 90 degrees.
     """
     return Quads._made(lib.ricci_quads_new, seamless, _options(given), CONTROL, progress=progress)
 
@@ -193,6 +193,6 @@ def quad_layout(seamless: Seamless, progress: Progress = None, **given: Unpack[Q
 
     Raises:
         ArgumentError: more than one size, or one that is not positive.
-        LayoutError: the seamless metric has not converged.
+        LayoutError: the seamless metric is so far from its target that its seams do not turn by multiples of 90 degrees.
     """
     return QuadLayout._made(lib.ricci_quad_layout_new, seamless, _options(given), CONTROL, progress=progress)
