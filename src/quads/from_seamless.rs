@@ -14,11 +14,12 @@ use crate::seamless::Seamless;
 const PARTS: u32 = 8;
 
 /// The quad mesh of a seamless metric: the motorcycle graph of its map, a whole number for each arc, and the integer points of the map in
-/// which each rectangle has whole sides. Every vertex that is no cone or corner has four quads, two on the boundary.
+/// which each rectangle has whole sides. The squares are embedded in the flat metric without folds. Every vertex that is no cone or corner has
+/// four quads, two on the boundary.
 ///
 /// # Errors
-/// [`crate::Error::Argument`] for a size that is not positive; [`crate::Error::Layout`] for a metric that is not seamless (not converged);
-/// [`crate::Error::Cancelled`].
+/// [`crate::Error::Argument`] for a size that is not positive; [`crate::Error::Layout`] for a metric so far from a seamless one that its seams
+/// do not turn by multiples of 90°; [`crate::Error::Cancelled`].
 pub fn quad_mesh(seamless: &Seamless, options: &QuadOptions, control: &Control) -> Result<QuadMesh> {
     options.check()?;
     Pool::new(options.threads)?.run(|| {
@@ -29,8 +30,8 @@ pub fn quad_mesh(seamless: &Seamless, options: &QuadOptions, control: &Control) 
     })
 }
 
-/// The layout of a seamless metric: the patches of its quad mesh of this size, by default as few as the lines between cones allow, with
-/// each edge divided in [`QuadLayout::parts`].
+/// The layout of a seamless metric: the patches of its quad mesh of this size, with each edge divided in [`QuadLayout::parts`].
+/// [`super::QuadSize::Coarse`] makes as few as the lines between cones allow.
 ///
 /// # Errors
 /// Those of [`quad_mesh`].
