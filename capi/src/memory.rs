@@ -41,8 +41,9 @@ pub const FLOW: usize = 1 << 12;
 pub const LAYOUT: usize = 1 << 12;
 /// Most bytes per vertex for a uniformization: 2,930 on a sphere.
 pub const UNIFORM: usize = 1 << 13;
-/// Most bytes per vertex and quad for a quad mesh: 990 on a torus of 12,800 vertices. A unit square of a layout, which is 64 quads, took 16,800.
-pub const QUADS: usize = 1 << 11;
+/// Most bytes per vertex and quad for a quad mesh: 4,000 for 60,000 quads on a torus of 8,192 vertices, and for each of the 64 quads of a unit
+/// square of a layout 3,400.
+pub const QUADS: usize = 3 << 11;
 /// Most bytes per evaluated point of a spline (448 with its derivatives) or per face of a tessellation (340).
 pub const POINT: usize = 1 << 9;
 /// Most bytes per point and per control point of a fit: 2,980 of degree 5.

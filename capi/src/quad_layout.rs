@@ -10,8 +10,8 @@ use crate::structs::{self, sized};
 use ricci::quads::{LayoutArc, LayoutNode, LayoutPatch, QuadLayout, QuadSize, quad_layout};
 use std::sync::Arc;
 
-/// The number of quads that take as much memory as a unit square of a layout.
-const PARTS_OF_UNIT: usize = 16;
+/// The number of quads of a unit square of a layout.
+const PARTS_OF_UNIT: usize = 64;
 
 pub struct ricci_quad_layout {
     quads: Arc<QuadsState>,

@@ -1,9 +1,9 @@
 //! The squares of a quad mesh embedded in the surface, so that no two overlap.
 
 use super::grid_charts::GridCharts;
-use super::grid_distortion::{TimedPlaces, advanced, least_distorted};
+use super::grid_distortion::{advanced, least_distorted};
 use super::grid_lines::straight_lines;
-use super::grid_map::GridMap;
+use super::grid_map::{GridMap, TimedPlaces};
 use super::grid_places::{MetricPlace, vertex_places};
 use super::grid_surface::GridSurface;
 use super::separation::Separation;
@@ -115,7 +115,7 @@ impl<'a> MappedSquares<'a> {
         parts: usize,
     ) -> (MappedSquares<'a>, TimedPlaces) {
         let parts_of = divided.charts.parts_of(&self.charts, parts);
-        let places = divided.map.subdivided(&self.map, from, (&parts_of, parts));
+        let places = divided.map.subdivided(&self.map, from, &parts_of);
         (divided, places)
     }
 }

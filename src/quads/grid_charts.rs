@@ -38,7 +38,7 @@ pub(super) struct ChartPlace {
 
 /// The side of a rectangle on which a half-arc lies.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct ArcSide {
+pub(super) struct HalfArcSide {
     pub rectangle: usize,
     /// The side, 0 to 3 counterclockwise.
     pub side: usize,
@@ -67,6 +67,14 @@ pub(super) struct SquarePart {
     pub at: [usize; 2],
 }
 
+/// Squares as parts of larger ones.
+pub(super) struct SquareParts {
+    /// Per square the part that it is.
+    pub part_of: Vec<SquarePart>,
+    /// The number of parts along a side of a larger square.
+    pub parts: usize,
+}
+
 /// What holds a vertex.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum VertexHold {
@@ -84,7 +92,7 @@ pub(super) struct GridCharts<'a> {
     /// Per arc the number of squares along it.
     numbers: Vec<i64>,
     /// Per half-arc its side; none outside of the boundary.
-    pub sides: Vec<Option<ArcSide>>,
+    pub sides: Vec<Option<HalfArcSide>>,
     /// Per half-arc its first point.
     first: Vec<usize>,
     /// The points along the half-arcs.
@@ -154,7 +162,7 @@ impl<'a> GridCharts<'a> {
     }
 
     /// Per square the one of other charts that it is a part of, whose sides are `parts` sides of these, and its column and row there.
-    pub fn parts_of(&self, undivided: &GridCharts<'_>, parts: usize) -> Vec<SquarePart> {
+    pub fn parts_of(&self, undivided: &GridCharts<'_>, parts: usize) -> SquareParts {
         let mut part_of = Vec::with_capacity(self.squares.len());
         let mut first = 0;
         for r in 0..self.t_mesh.rectangles.len() {
@@ -167,7 +175,7 @@ impl<'a> GridCharts<'a> {
             }
             first += m * n;
         }
-        part_of
+        SquareParts { part_of, parts }
     }
 
     /// Per vertex of other charts, whose squares have sides of `parts` sides of these, the vertex here.
@@ -175,7 +183,7 @@ impl<'a> GridCharts<'a> {
         let mut vertices = vec![NO_VERTEX; undivided.holds.len()];
         let last = parts - 1;
         let corners = [[0, 0], [last, 0], [last, last], [0, last]];
-        for (square, part) in self.squares.iter().zip(self.parts_of(undivided, parts)) {
+        for (square, part) in self.squares.iter().zip(self.parts_of(undivided, parts).part_of) {
             for c in (0..4).filter(|&c| corners[c] == part.at) {
                 vertices[undivided.squares[part.square][c].vertex as usize] = square[c].vertex;
             }
@@ -356,7 +364,7 @@ fn along(place: GridPoint, side: usize, by: i64) -> GridPoint {
 }
 
 /// The side of each half-arc.
-fn arc_sides(t_mesh: &TMesh, numbers: &[i64]) -> Vec<Option<ArcSide>> {
+fn arc_sides(t_mesh: &TMesh, numbers: &[i64]) -> Vec<Option<HalfArcSide>> {
     let mut sides = vec![None; 2 * numbers.len()];
     for (r, rectangle) in t_mesh.rectangles.iter().enumerate() {
         let around: Vec<(usize, HalfArc)> =
@@ -370,7 +378,7 @@ fn arc_sides(t_mesh: &TMesh, numbers: &[i64]) -> Vec<Option<ArcSide>> {
                 squares_before = 0;
             }
             sides[h] =
-                Some(ArcSide { rectangle: r, side, around: [before.1, after.1], begin, squares_before });
+                Some(HalfArcSide { rectangle: r, side, around: [before.1, after.1], begin, squares_before });
             let number = numbers[h / 2];
             begin = ChartPlace {
                 whole: along(begin.whole, side, number),

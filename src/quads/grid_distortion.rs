@@ -1,7 +1,7 @@
 //! The distortion of the squares of a grid map, and its descent. At each corner of a square the sides span a triangle, of the unit right
 //! triangle's image; the symmetric Dirichlet energy [SS15] of these four affine maps grows without bound before a triangle is turned over.
 
-use super::grid_map::{GridMap, PlaneVector, add, corner_sides, cross};
+use super::grid_map::{GridMap, PlaneVector, TimedPlaces, add, corner_sides, cross};
 use crate::control::Control;
 use crate::error::Result;
 use crate::parallel;
@@ -27,13 +27,6 @@ const SOUND_AREA: f64 = 0.1;
 const STEPS_ON_THE_WAY: usize = 8;
 const STEPS_AT_THE_END: usize = 60;
 
-/// Places without folds at some time.
-#[derive(Debug, Clone)]
-pub(super) struct TimedPlaces {
-    pub time: f64,
-    pub places: Vec<PlaneVector>,
-}
-
 /// Goes from places without folds to ones at time 1. Where squares with straight sides do not get there without folding, the last places in
 /// which no triangle was near to folding: squares that are divided go on from there.
 pub(super) fn advanced(map: &mut GridMap, from: TimedPlaces, control: &Control) -> Result<TimedPlaces> {
@@ -56,7 +49,7 @@ pub(super) fn advanced(map: &mut GridMap, from: TimedPlaces, control: &Control) 
             step = by / 2.0;
             continue;
         }
-        places = descended(map, next, (then, STEPS_ON_THE_WAY), control)?;
+        places = descended(map, TimedPlaces { time: then, places: next }, STEPS_ON_THE_WAY, control)?;
         (time, step, taken) = (then, 2.0 * step, taken + 1);
         if time == 1.0 || least_area(map, &places, time) > SOUND_AREA {
             sound = TimedPlaces { time, places: places.clone() };
@@ -80,7 +73,7 @@ pub(super) fn least_distorted(
     places: Vec<PlaneVector>,
     control: &Control,
 ) -> Result<Vec<PlaneVector>> {
-    descended(map, places, (1.0, STEPS_AT_THE_END), control)
+    descended(map, TimedPlaces { time: 1.0, places }, STEPS_AT_THE_END, control)
 }
 
 /// True if no triangle loses much of its area between two times.
@@ -161,10 +154,11 @@ struct PastStep {
 /// Laplacian as the first matrix.
 fn descended(
     map: &mut GridMap,
-    mut places: Vec<PlaneVector>,
-    (time, steps): (f64, usize),
+    from: TimedPlaces,
+    steps: usize,
     control: &Control,
 ) -> Result<Vec<PlaneVector>> {
+    let TimedPlaces { time, mut places } = from;
     let mut past: VecDeque<PastStep> = VecDeque::with_capacity(MEMORY);
     let mut value = energy(map, &places, time);
     let mut slope = gradient(map, &places, time);

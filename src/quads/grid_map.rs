@@ -2,8 +2,7 @@
 //! at time 0, where every square is a unit square, and at time 1 the lengths of the seamless map. Cones and corners go with their nodes,
 //! vertices on walls stay on them, and all others are where the squares are least distorted.
 
-use super::grid_charts::{ChartPlace, GridCharts, GridCorner, SquarePart, VertexHold};
-use super::grid_distortion::TimedPlaces;
+use super::grid_charts::{ChartPlace, GridCharts, GridCorner, SquareParts, VertexHold};
 use super::grid_vector::GridPoint;
 use super::t_mesh::HalfArc;
 use crate::error::{Error, Result};
@@ -16,6 +15,13 @@ const ANGLE_ERROR: f64 = 1e-6;
 
 /// A plane vector in units of the quad mesh.
 pub(super) type PlaneVector = [f64; 2];
+
+/// Places of the vertices, in their own coordinates, at some time.
+#[derive(Debug, Clone)]
+pub(super) struct TimedPlaces {
+    pub time: f64,
+    pub places: Vec<PlaneVector>,
+}
 
 /// A corner of a square: a vertex, and the motion from its own coordinates to those of the square's rectangle.
 #[derive(Debug, Clone, Copy)]
@@ -127,7 +133,8 @@ impl GridMap {
                 Coordinate::Unknown(n_unknowns - 1)
             }
         };
-        let coordinates = held.into_iter().map(|held| held.map(&mut coordinate)).collect();
+        let coordinates: Vec<[Coordinate; 2]> =
+            held.into_iter().map(|held| held.map(&mut coordinate)).collect();
         let laplacian = laplacian(&squares, &coordinates, n_unknowns as usize)?;
         let whole_places = charts.whole_places.iter().map(|p| p.map(|x| x as f64)).collect();
         let n_unknowns = n_unknowns as usize;
@@ -171,22 +178,17 @@ impl GridMap {
         }
     }
 
-    /// The places for which squares of an undivided map, `parts` of these along a side, are divided bilinearly: convex squares are divided in
+    /// The places for which squares of an undivided map are divided bilinearly: convex squares are divided in
     /// convex ones.
-    pub fn subdivided(
-        &self,
-        undivided: &GridMap,
-        from: &TimedPlaces,
-        (parts_of, parts): (&[SquarePart], usize),
-    ) -> TimedPlaces {
+    pub fn subdivided(&self, undivided: &GridMap, from: &TimedPlaces, division: &SquareParts) -> TimedPlaces {
         let mut divided = vec![[0.0; 2]; self.coordinates.len()];
-        for (square, part) in self.squares.iter().zip(parts_of) {
+        for (square, part) in self.squares.iter().zip(&division.part_of) {
             let [a, b, c, d] = undivided.corners(part.square, &from.places, from.time);
             for (corner, [i, j]) in square.iter().zip([[0, 0], [1, 0], [1, 1], [0, 1]]) {
-                let [s, t] = [part.at[0] + i, part.at[1] + j].map(|x| x as f64 / parts as f64);
+                let [s, t] = [part.at[0] + i, part.at[1] + j].map(|x| x as f64 / division.parts as f64);
                 let at =
                     |k: usize| (1.0 - t) * ((1.0 - s) * a[k] + s * b[k]) + t * ((1.0 - s) * d[k] + s * c[k]);
-                let place = [0, 1].map(|k| parts as f64 * at(k));
+                let place = [0, 1].map(|k| division.parts as f64 * at(k));
                 divided[corner.vertex] = corner.own_place(place, from.time);
             }
         }
@@ -282,7 +284,7 @@ fn anchors(
 }
 
 /// The matrix of the sum of squared lengths of the sides of all squares.
-fn laplacian(squares: &[[MapCorner; 4]], coordinates: &Vec<[Coordinate; 2]>, n: usize) -> Result<Cholesky> {
+fn laplacian(squares: &[[MapCorner; 4]], coordinates: &[[Coordinate; 2]], n: usize) -> Result<Cholesky> {
     // Each coordinate of a side is the difference of two coordinates of vertices.
     let mut differences: Vec<[Option<(usize, f64)>; 2]> = Vec::with_capacity(8 * squares.len());
     let term = |corner: &MapCorner, c: usize, sign: f64| {

@@ -6,6 +6,7 @@ use super::grid_map::{GridMap, PlaneVector, turned};
 use super::grid_surface::GridSurface;
 use super::grid_vector::GridMotion;
 use super::t_mesh::{HalfArc, TMesh};
+use super::t_mesh_node::NodeKey;
 use crate::error::{Error, Result};
 use crate::mesh::{FaceId, HalfedgeId};
 use std::collections::VecDeque;
@@ -46,6 +47,8 @@ pub(super) fn vertex_places(
     };
     search.place_held()?;
     search.place_beside_nodes(map)?;
+    search.reach_others()?;
+    search.place_beside_groups()?;
     search.reach_others()?;
     let place = |(v, place): (usize, Option<MetricPlace>)| {
         place.ok_or_else(|| Error::Layout(format!("vertex {v} of the quad mesh has no place")))
@@ -170,6 +173,30 @@ impl PlaceSearch<'_> {
             let from = begin.real.map(|x| x as f64);
             let there = self.walk(VertexChart { face, motion }, from, to)?;
             self.place(w, VertexChart { face: there.face, motion: there.motion.after(&next.motion.real) });
+        }
+        Ok(())
+    }
+
+    /// Places vertices that no side of a square joins to one that is placed, but by a corner that arcs of length 0 join to a cone or corner of the
+    /// surface: from the node at that corner, if the side from there ends at the cone.
+    fn place_beside_groups(&mut self) -> Result<()> {
+        for h in (0..self.charts.sides.len()).filter(|&h| self.charts.has_squares(h)) {
+            let [at, next] = [0, 1].map(|step| self.charts.point(h, step));
+            let (w, begin) = (next.vertex as usize, self.charts.node_place(h));
+            let VertexHold::Node(node) = self.charts.holds[at.vertex as usize] else { continue };
+            let (NodeKey::Vertex(cone), true, Some(begin)) =
+                (self.t_mesh.nodes[node], self.places[w].is_none(), begin)
+            else {
+                continue;
+            };
+            let (face, motion, _) = self.beside(h)?;
+            let [from, to] = [begin.real.map(|x| x as f64), applied(&next.motion.real, self.own[w])];
+            let there = self.walk(VertexChart { face, motion }, from, to)?;
+            let back = self.walk(there, to, applied(&at.motion.real, [0.0, 0.0]))?;
+            if self.surface.mesh.face_vertices(back.face).contains(&cone) {
+                let motion = there.motion.after(&next.motion.real);
+                self.place(w, VertexChart { face: there.face, motion });
+            }
         }
         Ok(())
     }
