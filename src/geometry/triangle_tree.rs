@@ -58,7 +58,8 @@ impl TriangleTree {
     }
 }
 
-fn combined(weights: [f64; 3], [a, b, c]: [Vector; 3]) -> Vector {
+/// The point of a triangle with these barycentric coordinates.
+pub(crate) fn combined(weights: [f64; 3], [a, b, c]: [Vector; 3]) -> Vector {
     [0, 1, 2].map(|x| weights[0] * a[x] + weights[1] * b[x] + weights[2] * c[x])
 }
 

@@ -65,7 +65,10 @@ impl<'a> EmbeddedSquares<'a> {
         }
         let places = least_distorted(&mut mapped.map, found.places, control)?;
         let places = vertex_places(surface, t_mesh, &mapped.charts, &mapped.map, &places)?;
-        let charts = squares(parts)?.charts;
+        if divided == parts {
+            return Ok(Some(EmbeddedSquares { charts: mapped.charts, places }));
+        }
+        let charts = divided_charts(t_mesh, numbers, parts, &separation);
         let vertices = mapped.charts.vertices_of(&charts, divided / parts);
         let places = vertices.into_iter().map(|v| places[v as usize]).collect();
         Ok(Some(EmbeddedSquares { charts, places }))
@@ -92,6 +95,16 @@ impl<'a> EmbeddedSquares<'a> {
     }
 }
 
+/// The unit squares of these numbers with sides divided in `parts`.
+fn divided_charts<'a>(
+    t_mesh: &'a TMesh,
+    numbers: &[i64],
+    parts: usize,
+    separation: &Separation<'_>,
+) -> GridCharts<'a> {
+    GridCharts::new(t_mesh, numbers.iter().map(|n| n * parts as i64).collect(), separation)
+}
+
 impl<'a> MappedSquares<'a> {
     /// # Errors
     /// Those of [`GridMap::new`].
@@ -101,7 +114,7 @@ impl<'a> MappedSquares<'a> {
         parts: usize,
         separation: &Separation<'_>,
     ) -> Result<MappedSquares<'a>> {
-        let charts = GridCharts::new(t_mesh, numbers.iter().map(|n| n * parts as i64).collect(), separation);
+        let charts = divided_charts(t_mesh, numbers, parts, separation);
         let on_grid: f64 = t_mesh.rectangles.iter().map(|r| r.size[0] as f64 * r.size[1] as f64).sum();
         let map = GridMap::new(&charts, (charts.squares.len() as f64 / on_grid).sqrt())?;
         Ok(MappedSquares { charts, map })

@@ -2,7 +2,7 @@
 //! them along the sides of squares, straight across triangles.
 
 use super::grid_charts::{GridCharts, VertexHold};
-use super::grid_map::{GridMap, PlaneVector, turned};
+use super::grid_map::{GridMap, PlaneVector, cross, turned};
 use super::grid_surface::GridSurface;
 use super::grid_vector::GridMotion;
 use super::t_mesh::{HalfArc, TMesh};
@@ -128,9 +128,9 @@ impl PlaceSearch<'_> {
             let next = if steps > mesh.n_halfedges() {
                 None
             } else if x > b {
-                straight_on(surface, e, motion, is_along)
+                in_line(surface, e, motion, |h| mesh.next(h), is_along)
             } else if x < a {
-                straight_back(surface, e, motion, is_along)
+                in_line(surface, e, motion, |h| mesh.prev(h), is_along)
             } else {
                 None
             };
@@ -264,42 +264,24 @@ impl PlaceSearch<'_> {
     }
 }
 
-/// The next half-edge in line at the tip of one, with the triangle to its left, and the motion to that triangle's coordinates.
-fn straight_on(
+/// The half-edge in line with one at its tip, where `around` is the next half-edge of a triangle, or at its origin, where it is the previous one;
+/// with the triangle to its left, and the motion to that triangle's coordinates.
+fn in_line(
     surface: &GridSurface,
     e: HalfedgeId,
     mut motion: GridMotion,
+    around: impl Fn(HalfedgeId) -> HalfedgeId,
     is_along: impl Fn(HalfedgeId, &GridMotion) -> bool,
 ) -> Option<(HalfedgeId, GridMotion)> {
     let mesh = &*surface.mesh;
-    let mut at = mesh.next(e);
+    let mut at = around(e);
     for _ in 0..mesh.n_halfedges() {
         if is_along(at, &motion) {
             return Some((at, motion));
         }
         mesh.face(at.twin())?;
         motion = surface.across(at).after(&motion);
-        at = mesh.next(at.twin());
-    }
-    None
-}
-
-/// The half-edge in line before one, with the triangle to its left, and the motion to that triangle's coordinates.
-fn straight_back(
-    surface: &GridSurface,
-    e: HalfedgeId,
-    mut motion: GridMotion,
-    is_along: impl Fn(HalfedgeId, &GridMotion) -> bool,
-) -> Option<(HalfedgeId, GridMotion)> {
-    let mesh = &*surface.mesh;
-    let mut at = mesh.prev(e);
-    for _ in 0..mesh.n_halfedges() {
-        if is_along(at, &motion) {
-            return Some((at, motion));
-        }
-        mesh.face(at.twin())?;
-        motion = surface.across(at).after(&motion);
-        at = mesh.prev(at.twin());
+        at = around(at.twin());
     }
     None
 }
@@ -308,10 +290,6 @@ fn straight_back(
 fn applied(motion: &GridMotion, p: PlaneVector) -> PlaneVector {
     let [x, y] = turned(p, motion.turns);
     [x + motion.shift[0] as f64, y + motion.shift[1] as f64]
-}
-
-fn cross(u: PlaneVector, v: PlaneVector) -> f64 {
-    u[0] * v[1] - u[1] * v[0]
 }
 
 /// Barycentric coordinates of a point in a triangle.

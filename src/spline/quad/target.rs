@@ -2,7 +2,7 @@
 
 use super::layout::ascending;
 use crate::error::{Error, Result};
-use crate::geometry::triangle_tree::TriangleTree;
+use crate::geometry::triangle_tree::{TriangleTree, combined};
 use crate::geometry::vector::{Vector, add, dot, norm, normalised, scale, sub, triangle_normal};
 use crate::mesh::Point;
 use crate::mesh::check::Features;
@@ -166,10 +166,6 @@ fn offset(nearest: &NearestPoint<'_>, normal: Vector, point: Vector) -> f64 {
     let TargetTriangle { corners, normals } = nearest.triangle;
     let height = |k: usize| 0.5 * dot(add(normals[k], normal), sub(point, corners[k]));
     (0..3).map(|k| nearest.weights[k] * height(k)).sum()
-}
-
-fn combined(weights: [f64; 3], [a, b, c]: [Vector; 3]) -> Vector {
-    [0, 1, 2].map(|x| weights[0] * a[x] + weights[1] * b[x] + weights[2] * c[x])
 }
 
 impl SmoothPiece {
