@@ -31,6 +31,7 @@ choices!(enum Sizing, SIZINGS = "sizing", [
     RICCI_QUADS_NUMBER => Number,
     RICCI_QUADS_EDGE => Edge,
     RICCI_QUADS_COARSE => Coarse,
+    RICCI_QUADS_AT_MOST => AtMost,
 ]);
 
 #[repr(C)]
@@ -79,6 +80,7 @@ pub(crate) fn read_options(options: *const ricci_quads_options, usual: QuadSize)
         Sizing::Number => QuadSize::Quads(given.n_quads),
         Sizing::Edge => QuadSize::Edge(given.edge),
         Sizing::Coarse => QuadSize::Coarse,
+        Sizing::AtMost => QuadSize::AtMost(given.n_quads),
     };
     Ok(QuadOptions { size, threads: given.threads })
 }
@@ -87,7 +89,7 @@ pub(crate) fn read_options(options: *const ricci_quads_options, usual: QuadSize)
 pub(crate) fn reserve(seamless: &Seamless, size: QuadSize, parts: usize) -> Outcome<Reserve> {
     let solution = &seamless.solution;
     let n_quads = match size {
-        QuadSize::Quads(n) => n,
+        QuadSize::Quads(n) | QuadSize::AtMost(n) => n,
         QuadSize::Edge(edge) if edge > 0.0 => {
             let lengths = solution.surface().lengths();
             (area(solution.given(), solution.initial().input_geometry, lengths)? / edge / edge) as usize

@@ -38,7 +38,9 @@ enum {
     /** Edges of about the length `edge`. */
     RICCI_QUADS_EDGE = 2,
     /** As few quads as the lines between cones allow. */
-    RICCI_QUADS_COARSE = 3
+    RICCI_QUADS_COARSE = 3,
+    /** At most `n_quads` quads, each side as near as that allows to its length on the surface. */
+    RICCI_QUADS_AT_MOST = 4
 };
 
 /** Options of quad meshes and layouts. Zeroed by ricci_init: the defaults. */
@@ -49,7 +51,7 @@ typedef struct ricci_quads_options {
     uint32_t sizing;
     /** 0. */
     uint32_t reserved;
-    /** RICCI_QUADS_NUMBER: the number of quads, 1 or more. */
+    /** RICCI_QUADS_NUMBER, RICCI_QUADS_AT_MOST: the number of quads, 1 or more. */
     size_t n_quads;
     /** RICCI_QUADS_EDGE: the length of edges, positive, in the units of the surface's lengths. */
     double edge;

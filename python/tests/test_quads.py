@@ -96,10 +96,10 @@ def test_one_size_is_asked_for() -> None:
 
 
 def test_the_size_that_is_given_arrives() -> None:
-    for given, sizing in (({}, 0), ({"n_quads": 7}, 1), ({"edge": 0.5}, 2), ({"coarse": True}, 3)):
+    for given, sizing in (({}, 0), ({"n_quads": 7}, 1), ({"edge": 0.5}, 2), ({"coarse": True}, 3), ({"at_most": 9}, 4)):
         struct = options("quads_options", {**given, "threads": 2}, _QUADS)._pointer
         assert (struct.sizing, struct.threads) == (sizing, 2)
-        assert (struct.n_quads, struct.edge) == (given.get("n_quads", 0), given.get("edge", 0.0))
+        assert (struct.n_quads, struct.edge) == (given.get("n_quads", given.get("at_most", 0)), given.get("edge", 0.0))
 
 
 def test_quads_without_positions_have_places() -> None:

@@ -24,9 +24,7 @@ pub fn quad_mesh(seamless: &Seamless, options: &QuadOptions, control: &Control) 
     options.check()?;
     Pool::new(options.threads)?.run(|| {
         let division = QuadDivision::new(seamless, control)?;
-        let mut found = division.quantised(options.size, control)?;
-        division.enforce_single_edges(&mut found, control)?;
-        division.mesh(&found, 1, control)
+        division.mesh(options.size, 1, true, control)
     })
 }
 
@@ -39,7 +37,6 @@ pub fn quad_layout(seamless: &Seamless, options: &QuadOptions, control: &Control
     options.check()?;
     Pool::new(options.threads)?.run(|| {
         let division = QuadDivision::new(seamless, control)?;
-        let found = division.quantised(options.size, control)?;
-        QuadLayout::new(division.mesh(&found, PARTS, control)?, PARTS)
+        QuadLayout::new(division.mesh(options.size, PARTS, false, control)?, PARTS)
     })
 }

@@ -2,6 +2,7 @@
 //! patches.
 
 mod arc_graph;
+mod coarsening;
 mod collapse;
 mod embedded_squares;
 mod from_seamless;

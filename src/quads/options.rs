@@ -11,6 +11,8 @@ pub enum QuadSize {
     Quads(usize),
     /// As few quads as the lines between cones allow.
     Coarse,
+    /// At most this number of quads, each side as near as that allows to its length on the surface.
+    AtMost(usize),
 }
 
 /// The options of [`super::quad_mesh`].
@@ -36,7 +38,7 @@ impl QuadOptions {
             QuadSize::Edge(edge) if !(edge > 0.0 && edge.is_finite()) => {
                 Err(Error::argument("edge", edge, "positive"))
             }
-            QuadSize::Quads(0) => Err(Error::argument("quads", 0, "positive")),
+            QuadSize::Quads(0) | QuadSize::AtMost(0) => Err(Error::argument("quads", 0, "positive")),
             _ => Ok(()),
         }
     }

@@ -1,5 +1,6 @@
 //! The way from a seamless metric to quads: its T-mesh, whole numbers for a size of quads, and the quad mesh of these numbers.
 
+use super::coarsening::coarsened;
 use super::collapse::RawQuads;
 use super::embedded_squares::EmbeddedSquares;
 use super::grid_complex::GridComplex;
@@ -23,6 +24,11 @@ const NEAR_COUNT: f64 = 0.05;
 /// Edge lengths, in lengths of the longest arc, that are tried where as few quads as possible are asked for: the longer, the less does the
 /// length of an arc count against its number.
 const COARSE_EDGES: [f64; 5] = [0.5, 1.0, 2.0, 4.0, 8.0];
+/// Factor and number of steps with which edges become longer until there are few enough quads.
+const LONGER_EDGE: f64 = 1.25;
+const LONGER_EDGES: usize = 12;
+/// Edge lengths, in the same unit, that are tried one after the other where the squares of these fold.
+const FINER_EDGES: [f64; 5] = [0.5, 0.25, 0.125, 0.0625, 0.03125];
 
 /// A seamless metric with its T-mesh.
 pub(super) struct QuadDivision<'a> {
@@ -36,7 +42,7 @@ pub(super) struct QuadDivision<'a> {
 }
 
 /// Numbers for the arcs, with the edge length for which they are.
-pub(super) struct SizedNumbers {
+struct SizedNumbers {
     quantisation: Quantisation,
     edge: f64,
 }
@@ -53,29 +59,94 @@ impl<'a> QuadDivision<'a> {
         Ok(QuadDivision { solution, surface, t_mesh, unit: (area / on_grid).sqrt(), area })
     }
 
-    /// Whole numbers of the arcs for a size of quads.
+    /// Whole numbers of the arcs for a size of quads; the next ones are for squares that fold with those before.
     ///
     /// # Errors
     /// Those of [`Quantisation::balanced`].
-    pub fn quantised(&self, size: QuadSize, control: &Control) -> Result<SizedNumbers> {
+    fn quantised(
+        &self,
+        size: QuadSize,
+        control: &Control,
+        is_embedded: &mut dyn FnMut(SizedNumbers) -> Result<bool>,
+    ) -> Result<()> {
         let separation = Separation::new(&self.surface, &self.t_mesh);
         let is_apart = &mut |numbers: &[i64]| separation.holds(numbers);
-        if size != QuadSize::Coarse {
+        if !matches!(size, QuadSize::Coarse | QuadSize::AtMost(_)) {
             let mut found = self.near_size(size, &separation, control)?;
             found.quantisation.descend(is_apart, control)?;
-            return Ok(found);
+            is_embedded(found)?;
+            return Ok(());
         }
+        let found = self.coarse(&separation, control)?;
+        let quantisation = coarsened(&found.quantisation, &separation, control)?;
+        let coarsest = SizedNumbers { quantisation, edge: found.edge };
+        if let QuadSize::AtMost(most) = size {
+            let least = self.n_squares(&coarsest);
+            if least > most {
+                return Err(Error::Layout(format!(
+                    "the fewest quads that were found are {least}, not {most}"
+                )));
+            }
+            if let Some(found) = self.at_most(most, &separation, control)?
+                && is_embedded(found)?
+            {
+                return Ok(());
+            }
+        }
+        if is_embedded(coarsest)? || is_embedded(found)? {
+            return Ok(());
+        }
+        for factor in FINER_EDGES {
+            let mut found = self.near_size(self.edge(factor), &separation, control)?;
+            found.quantisation.descend(is_apart, control)?;
+            if is_embedded(found)? {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    /// Numbers near the shortest edge length with at most so many squares, if one was found.
+    fn at_most(
+        &self,
+        most: usize,
+        separation: &Separation<'_>,
+        control: &Control,
+    ) -> Result<Option<SizedNumbers>> {
+        let mut edge = (self.area / most as f64).sqrt();
+        for _ in 0..LONGER_EDGES {
+            let mut found = self.near_size(QuadSize::Edge(edge), separation, control)?;
+            found.quantisation.descend(&mut |numbers| separation.holds(numbers), control)?;
+            if self.n_squares(&found) <= most {
+                return Ok(Some(found));
+            }
+            edge *= LONGER_EDGE;
+        }
+        Ok(None)
+    }
+
+    fn n_squares(&self, found: &SizedNumbers) -> usize {
+        GridComplex::new(&self.t_mesh, &found.quantisation.numbers).n_squares()
+    }
+
+    /// An edge as long as the longest arc times a factor.
+    fn edge(&self, factor: f64) -> QuadSize {
         let longest = self.t_mesh.arcs.iter().map(|arc| arc.length).max().unwrap_or(0);
+        QuadSize::Edge(factor * longest as f64 * self.unit)
+    }
+
+    /// The numbers with the fewest squares of those near several edge lengths.
+    fn coarse(&self, separation: &Separation<'_>, control: &Control) -> Result<SizedNumbers> {
+        let is_apart = &mut |numbers: &[i64]| separation.holds(numbers);
         let mut best: Option<(usize, SizedNumbers)> = None;
         for factor in COARSE_EDGES {
-            let edge = QuadSize::Edge(factor * longest as f64 * self.unit);
-            let mut found = self.near_size(edge, &separation, control)?;
+            let mut found = self.near_size(self.edge(factor), separation, control)?;
             let mut other = found.quantisation.restarted(1, control)?;
             found.quantisation.descend(is_apart, control)?;
             other.descend(is_apart, control)?;
             let other = SizedNumbers { quantisation: other, edge: found.edge };
             for found in [found, other] {
-                let n = GridComplex::new(&self.t_mesh, &found.quantisation.numbers).n_squares();
+                let n = self.n_squares(&found);
                 if best.as_ref().is_none_or(|(least, _)| n < *least) {
                     best = Some((n, found));
                 }
@@ -99,12 +170,10 @@ impl<'a> QuadDivision<'a> {
         };
         let goal = match size {
             QuadSize::Edge(edge) => return of_edge(edge),
-            QuadSize::Quads(n) => n as f64,
+            QuadSize::Quads(n) | QuadSize::AtMost(n) => n as f64,
             QuadSize::Coarse => 1.0,
         };
-        let ratio = |found: &SizedNumbers| {
-            GridComplex::new(&self.t_mesh, &found.quantisation.numbers).n_squares() as f64 / goal
-        };
+        let ratio = |found: &SizedNumbers| self.n_squares(found) as f64 / goal;
         let mut found = of_edge((self.area / goal).sqrt())?;
         for _ in 0..ROUNDS {
             let now = ratio(&found);
@@ -120,26 +189,37 @@ impl<'a> QuadDivision<'a> {
         Ok(found)
     }
 
-    /// Changes numbers until no two edges of the quad mesh have the same two ends.
+    /// The quad mesh for a size of quads, each edge divided in `parts`. Where squares fold on the surface, as where many arcs have the length
+    /// 0, other numbers are taken, and if nothing else helps all arcs get at least 1.
     ///
     /// # Errors
-    /// Those of [`Separation::enforce_single_edges`].
-    pub fn enforce_single_edges(&self, found: &mut SizedNumbers, control: &Control) -> Result<()> {
-        let separation = Separation::new(&self.surface, &self.t_mesh);
-        separation.enforce_single_edges(&mut found.quantisation, control)
-    }
-
-    /// The quad mesh of these numbers, each edge divided in `parts`. Where its squares fold on the surface, as where many arcs have the
-    /// length 0, all arcs get at least 1.
-    ///
-    /// # Errors
-    /// Those of [`EmbeddedSquares::new`] and [`Quantisation::restarted`]; [`Error::Cancelled`].
-    pub fn mesh(&self, found: &SizedNumbers, parts: u32, control: &Control) -> Result<QuadMesh> {
+    /// Those of [`EmbeddedSquares::new`] and [`Quantisation::restarted`], and with `single_edges`, which asks for no two edges with the same
+    /// ends, those of [`Separation::enforce_single_edges`]; [`Error::Cancelled`].
+    pub fn mesh(
+        &self,
+        size: QuadSize,
+        parts: u32,
+        single_edges: bool,
+        control: &Control,
+    ) -> Result<QuadMesh> {
         let (surface, t_mesh) = (&self.surface, &self.t_mesh);
-        let numbers = &found.quantisation.numbers;
-        if let Some(squares) = EmbeddedSquares::new(surface, t_mesh, numbers, parts as usize, control)? {
-            return self.mesh_of(squares, found, parts, control);
+        let separation = Separation::new(surface, t_mesh);
+        let (mut mesh, mut last) = (None, None);
+        self.quantised(size, control, &mut |mut found| {
+            if single_edges {
+                separation.enforce_single_edges(&mut found.quantisation, control)?;
+            }
+            let numbers = &found.quantisation.numbers;
+            if let Some(squares) = EmbeddedSquares::new(surface, t_mesh, numbers, parts as usize, control)? {
+                mesh = Some(self.mesh_of(squares, &found, parts, control)?);
+            }
+            last = Some(found);
+            Ok(mesh.is_some())
+        })?;
+        if let Some(mesh) = mesh {
+            return Ok(mesh);
         }
+        let Some(found) = last else { return Err(Error::Layout("a T-mesh has no arcs".into())) };
         let quantisation = found.quantisation.restarted(1, control)?;
         let raised = SizedNumbers { quantisation, edge: found.edge };
         let numbers = &raised.quantisation.numbers;

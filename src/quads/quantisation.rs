@@ -21,6 +21,8 @@ const REPEATED_COST: f64 = 1.0;
 const MOST_WORK: usize = 40_000_000;
 /// Steps of a search that take as long as a test of one arc.
 const WORK_OF_TEST: usize = 30;
+/// The cost of a longer arc where the number of squares is the cost: less than a square, so that it decides only between equally many.
+const LENGTH_COST: f64 = 0.01;
 /// Share of the cost that a descent has to gain for another to follow.
 const LEAST_GAIN: f64 = 1e-3;
 
@@ -34,6 +36,8 @@ pub(super) struct Quantisation {
     least: Vec<i64>,
     /// Per arc what each use costs in addition where walks have used it twice.
     surcharge: Vec<f64>,
+    /// Per arc the number of squares that come with a unit of it, where the number of squares is the cost.
+    squares_across: Option<Vec<f64>>,
     /// Per arc its number.
     pub numbers: Vec<i64>,
 }
@@ -75,7 +79,7 @@ impl Quantisation {
     fn start(t_mesh: &TMesh, wanted: Vec<f64>, least: i64) -> Quantisation {
         let numbers = wanted.iter().map(|x| (x.round() as i64).max(least)).collect();
         let (least, surcharge) = (vec![least; wanted.len()], vec![0.0; wanted.len()]);
-        Quantisation { graph: ArcGraph::new(t_mesh), wanted, least, surcharge, numbers }
+        Quantisation { graph: ArcGraph::new(t_mesh), wanted, least, surcharge, squares_across: None, numbers }
     }
 
     /// What the first side of each rectangle has more than the opposite one, per direction.
@@ -118,6 +122,11 @@ impl Quantisation {
         self.raise_strips()
     }
 
+    /// The least number of an arc.
+    pub fn set_least(&mut self, arc: usize, least: i64) {
+        self.least[arc] = least;
+    }
+
     /// The arc with the greatest wanted length of those that are 0.
     pub fn longest_zero(&self, arcs: impl Iterator<Item = usize>) -> Option<usize> {
         let zero = arcs.filter(|&a| self.numbers[a] == 0);
@@ -129,11 +138,45 @@ impl Quantisation {
         self.numbers.iter().zip(&self.wanted).map(|(&n, x)| (n as f64 - x).powi(2)).sum()
     }
 
+    /// From now on the number of squares is the cost of a descent.
+    pub fn prefer_few_squares(&mut self) {
+        self.squares_across = Some(self.counted_across());
+    }
+
+    /// The squares along the first side of each rectangle's direction.
+    fn extents(&self) -> Vec<i64> {
+        let sum = |side: &Vec<HalfArc>| {
+            let first = side.iter().filter(|&&h| self.graph.beside[h].is_some_and(|(_, sign)| sign > 0));
+            first.map(|h| self.numbers[h / 2]).sum()
+        };
+        self.graph.sides.iter().map(sum).collect()
+    }
+
+    /// Per arc the number of squares that come with a unit of it: half of those across the rectangles on both sides, which have another arc
+    /// on the opposite side.
+    fn counted_across(&self) -> Vec<f64> {
+        let extents = self.extents();
+        let across = |h: HalfArc| self.graph.beside[h].map_or(0.0, |(u, _)| 0.5 * extents[u ^ 1] as f64);
+        (0..self.numbers.len()).map(|a| across(2 * a) + across(2 * a + 1)).collect()
+    }
+
+    /// What a descent lowers: the number of squares with the sum of all lengths, or the difference from the wanted lengths.
+    pub fn value(&self) -> f64 {
+        if self.squares_across.is_none() {
+            return self.cost();
+        }
+        let squares: i64 = self.extents().as_chunks::<2>().0.iter().map(|[m, n]| m * n).sum();
+        squares as f64 + LENGTH_COST * self.numbers.iter().sum::<i64>() as f64
+    }
+
     /// The cost of a change of an arc; infinite below the least number.
     fn change_cost(&self, arc: usize, change: i64) -> f64 {
         let n = self.numbers[arc];
         if n + change < self.least[arc] {
             return f64::INFINITY;
+        }
+        if let Some(across) = &self.squares_across {
+            return change as f64 * (across[arc] + LENGTH_COST);
         }
         let [before, after] = [n, n + change].map(|n| (n as f64 - self.wanted[arc]).powi(2));
         after - before
@@ -274,6 +317,14 @@ impl Quantisation {
 
     /// The change of the cost along a walk.
     fn walk_cost(&self, walk: &[WalkStep]) -> f64 {
+        if self.squares_across.is_some() {
+            let mut after = self.numbers.clone();
+            walk.iter().for_each(|&(h, change)| after[h / 2] += change);
+            if after.iter().zip(&self.least).any(|(n, least)| n < least) {
+                return f64::INFINITY;
+            }
+            return Quantisation { numbers: after, ..self.clone() }.value() - self.value();
+        }
         let mut changes: Vec<(usize, i64)> = walk.iter().map(|(h, change)| (h / 2, *change)).collect();
         changes.sort_unstable();
         let total = |arc: &[(usize, i64)]| {
@@ -283,27 +334,39 @@ impl Quantisation {
         changes.chunk_by(|a, b| a.0 == b.0).map(total).sum()
     }
 
-    /// Makes the arcs dearer that a walk uses more than once, which costs more than twice the first use.
+    /// Makes the arcs dearer that a walk uses more than once, which costs more than twice the first use; where the number of squares is the
+    /// cost, all of its arcs.
     fn discourage(&mut self, walk: &[WalkStep]) {
         let mut arcs: Vec<usize> = walk.iter().map(|(h, _)| h / 2).collect();
         arcs.sort_unstable();
-        for same in arcs.chunk_by(|a, b| a == b).filter(|same| same.len() > 1) {
+        let least = if self.squares_across.is_some() { 1 } else { 2 };
+        for same in arcs.chunk_by(|a, b| a == b).filter(|same| same.len() >= least) {
             self.surcharge[same[0]] += REPEATED_COST;
         }
     }
 
+    /// Counts the squares across arcs after changes of numbers, and wakes the arcs for which they are others.
+    fn count_again(&mut self, search: &mut WalkSearch) {
+        let Some(before) = self.squares_across.take() else { return };
+        let across = self.counted_across();
+        let changed: Vec<usize> = (0..across.len()).filter(|&a| across[a] != before[a]).collect();
+        self.squares_across = Some(across);
+        changed.into_iter().for_each(|a| search.wake(&self.graph, a, self.step_costs(a)));
+    }
+
     /// Changes numbers along closed walks as long as that lowers the cost. A test is asked where arcs come to 0; where it refuses, the longest
     /// of them stays above 0.
-    pub fn descend(&mut self, is_good: &mut dyn FnMut(&[i64]) -> bool, control: &Control) -> Result<()> {
+    /// Returns the steps that its searches took.
+    pub fn descend(&mut self, is_good: &mut dyn FnMut(&[i64]) -> bool, control: &Control) -> Result<usize> {
         let least = self.least.clone();
         let mut work = 0;
         loop {
-            let before = self.cost();
+            let before = self.value();
             self.descend_once(is_good, &mut work, control)?;
             // What was refused may be possible once other arcs have changed.
             self.least.clone_from(&least);
-            if self.cost() >= before - LEAST_GAIN * before || work > MOST_WORK {
-                return Ok(());
+            if self.value() >= before - LEAST_GAIN * before || work > MOST_WORK {
+                return Ok(work);
             }
         }
     }
@@ -344,6 +407,7 @@ impl Quantisation {
                     walk.iter().for_each(|&(h, change)| self.numbers[h / 2] -= change);
                 }
                 walk.iter().for_each(|&(h, _)| search.wake(&self.graph, h / 2, self.step_costs(h / 2)));
+                self.count_again(&mut search);
             }
             if !is_better || *work > MOST_WORK {
                 return Ok(());

@@ -15,8 +15,8 @@ pub use bicubic::{
     BicubicFit, BicubicOptions, BicubicPatch, BicubicSurface, NormalAngles, PatchCurve, PatchSide,
 };
 pub use quad::{
-    ArcSide, LayoutFitOptions, PatchArc, PatchCorner, PatchLayout, QUINTIC, QuadFit, QuadFitOptions,
-    QuadSpline, QuadSplineSpace, SplineTarget, bilinear, fit_quad_layout, fit_quads,
+    ArcSide, FitDistances, LayoutFitOptions, PatchArc, PatchCorner, PatchLayout, QUINTIC, QuadFit,
+    QuadFitOptions, QuadSpline, QuadSplineSpace, SplineTarget, bilinear, fit_quad_layout, fit_quads,
 };
 #[cfg(feature = "step")]
 pub use step::{LengthUnit, StepOptions};

@@ -108,6 +108,10 @@ pub struct LayoutArgs {
     /// The layout (.json)
     #[arg(short = 'o', long = "out", value_name = "L.json")]
     pub out: FileName,
+    /// At most this number of patches, with sides near their lengths on the surface, in place of as few as possible
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub patches: Option<u32>,
     /// Write the patches as quads (.obj, .ply, .glb)
     #[arg(long, value_name = "Q.obj")]
     pub quads: Option<FileName>,

@@ -39,7 +39,8 @@ impl Job for LayoutArgs {
 
     fn compute(&self, run: &mut CommandRun<'_>) -> Result<LayoutOutcome, Failure> {
         let (input, found) = solved(&self.source, self.common.threads, run)?;
-        let options = QuadOptions { size: QuadSize::Coarse, threads: self.common.threads };
+        let size = self.patches.map_or(QuadSize::Coarse, |most| QuadSize::AtMost(most as usize));
+        let options = QuadOptions { size, threads: self.common.threads };
         let divide = || doing("dividing", || quad_layout(&found, &options, run.control));
         let layout = timed(&mut run.seconds.layout, divide)?;
         let positions = layout.mesh.positions(&found.solution).ok_or_else(Failure::no_positions)?;

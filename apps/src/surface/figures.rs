@@ -5,7 +5,7 @@ use crate::report::{Checks, Done, Figures, InputSummary};
 use crate::runner::{CommandRun, JobOutcome};
 use crate::say;
 use ricci::seamless::Seamless;
-use ricci::spline::QuadFit;
+use ricci::spline::{QuadFit, QuadSplineSpace};
 
 /// Largest angle between normals of neighbouring patches, degrees: far below what CAD programs take for tangent.
 const NORMAL_JUMP: f64 = 0.01;
@@ -32,7 +32,7 @@ impl JobOutcome for ScanOutcome {
     fn checks(&self) -> Checks {
         let mut checks = Checks::default();
         checks.add("holonomy_error", self.seamless.error, self.seamless.tolerance);
-        checks.add("max", self.fit.max, self.tolerance);
+        checks.add("max", self.fit.max(), self.tolerance);
         checks.add("normal_jump", self.written.normal_jump.to_degrees(), NORMAL_JUMP);
         let remedy = "the surface turns over there: ask for more --bending or --spans, or for other --cones";
         checks.add_none("folded_patches", ["patch", "patches"], &self.fit.folded_patches, Some(remedy));
@@ -50,15 +50,18 @@ impl JobOutcome for ScanOutcome {
             // STEP has one face for each patch.
             .with("faces", space.layout().patches().len())
             .with("degree", self.fit.spline.degree())
-            .with("spans", space.spans())
+            // The most of a patch in a direction.
+            .with("spans", most_spans(space))
             .with("control_points", space.n_control_points())
             .with("free_control_points", space.dimension())
             .with("cones", self.seamless.cones.len())
             .with("features_left_out", self.seamless.left_out.len())
             // Fractions of the diagonal of the bounding box.
-            .with("rms", self.fit.rms)
-            .with("max", self.fit.max)
-            .with("worst_patch", self.fit.worst_patch)
+            .with("rms", self.fit.to_target.rms.max(self.fit.of_vertices.rms))
+            .with("max", self.fit.max())
+            .with("vertex_rms", self.fit.of_vertices.rms)
+            .with("vertex_max", self.fit.of_vertices.max)
+            .with("worst_patch", self.fit.worst_patch())
             .with("folded_patches", &self.fit.folded_patches[..])
             // Degrees.
             .with("normal_error", self.fit.normal_error.to_degrees())
@@ -70,17 +73,21 @@ impl JobOutcome for ScanOutcome {
     fn summary(&self, done: &Done) -> String {
         let space = self.fit.spline.space();
         format!(
-            "{}patches  {} with {} a side, {}\ndistance {:.2e} of the diagonal at most (patch {}), {:.2e} in the root of the mean square\nnormals  of neighbouring patches agree to {:.1e} degrees, with the mesh to {:.2}\n{}",
+            "{}patches  {} with up to {} a side, {}\ndistance {:.2e} of the diagonal at most (patch {}), {:.2e} in the root of the mean square\nnormals  of neighbouring patches agree to {:.1e} degrees, with the mesh to {:.2}\n{}",
             say::surface(&self.input),
             say::count(space.layout().patches().len(), "patch", "patches"),
-            say::count(space.spans(), "span", "spans"),
+            say::count(most_spans(space), "span", "spans"),
             say::count(space.n_control_points(), "control point", "control points"),
-            self.fit.max,
-            self.fit.worst_patch,
-            self.fit.rms,
+            self.fit.max(),
+            self.fit.worst_patch(),
+            self.fit.to_target.rms.max(self.fit.of_vertices.rms),
             self.written.normal_jump.to_degrees(),
             self.fit.normal_error.to_degrees(),
             say::finish(done)
         )
     }
+}
+
+fn most_spans(space: &QuadSplineSpace) -> usize {
+    space.spans().iter().copied().max().unwrap_or(0)
 }

@@ -26,12 +26,14 @@ class QuadsOptions(TypedDict, total=False):
         n_quads: about this number of quads; 1,000 for a quad mesh. Of a layout they are its unit squares.
         edge: edges of about this length, in the units of the surface's lengths.
         coarse: as few quads as the lines between cones allow; the default of a layout.
+        at_most: at most this number of quads, each side as near as that allows to its length on the surface.
         threads: one for each core.
     """
 
     n_quads: int
     edge: float
     coarse: bool
+    at_most: int
     threads: int
 
 
@@ -52,12 +54,17 @@ def _coarse(struct: Struct, field: str, value: Any) -> None:
         struct.put("sizing", constant("QUADS", "coarse"))
 
 
-_QUADS: dict[str, Write] = {"n_quads": _sized("number"), "edge": _sized("edge"), "coarse": _coarse, "threads": number}
+def _at_most(struct: Struct, field: str, value: Any) -> None:
+    del field
+    _sized("at_most")(struct, "n_quads", value)
+
+
+_QUADS: dict[str, Write] = {"n_quads": _sized("number"), "edge": _sized("edge"), "coarse": _coarse, "at_most": _at_most, "threads": number}
 
 
 def _options(given: QuadsOptions) -> Struct:
     struct = options("quads_options", given, _QUADS)
-    sizes = [name for name in ("n_quads", "edge", "coarse") if given.get(name) not in (None, False)]
+    sizes = [name for name in ("n_quads", "edge", "coarse", "at_most") if given.get(name) not in (None, False)]
     if len(sizes) > 1:
         raise ArgumentError(f"one size is needed, not {' and '.join(sizes)}")
     return struct

@@ -4,10 +4,11 @@
 //! Where neighbouring patches meet, the space of splines prescribes how parameter lines cross. The map from which a fit starts crosses
 //! otherwise, so the surface has to slide along itself, which large weights at first make smooth.
 
+use super::nearest::{VertexPlace, vertex_places};
 use super::quintic::QuinticBasis;
 use super::space::QuadSplineSpace;
 use super::spline::QuadSpline;
-use super::system::{FitWeights, QuadSystem};
+use super::system::{FitGoal, FitPlace, FitWeights, QuadSystem};
 use super::target::{FootPoint, SplineTarget};
 use crate::control::{Control, Stage};
 use crate::error::{Error, Result};
@@ -17,6 +18,10 @@ use std::sync::Arc;
 
 /// Steps from the first weights to the last.
 const STEPS: usize = 14;
+/// The step with which fits from other splines begin.
+const LATE_STEP: usize = 8;
+/// Steps after which the nearest places of vertices are looked for on all patches.
+const STEPS_TO_SEARCH: usize = 4;
 /// The weights of bending and of tangential distance at the first step, and the latter at the last one.
 const FIRST_BENDING: f64 = 1e-5;
 const FIRST_TANGENTIAL: f64 = 1e-2;
@@ -40,33 +45,73 @@ impl Default for QuadFitOptions {
     }
 }
 
+/// The distances of a spline from its target, over the target's diagonal.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct FitDistances {
+    /// The root of the mean square.
+    pub rms: f64,
+    /// The largest.
+    pub max: f64,
+}
+
 /// A fitted spline with its distances from the target.
 pub struct QuadFit {
     /// The spline.
     pub spline: QuadSpline,
-    /// The root of the mean square of the distances of places of the patches from the target, over its diagonal.
-    pub rms: f64,
-    /// The largest of these distances, over the diagonal.
-    pub max: f64,
-    /// The patch with the largest distance.
-    pub worst_patch: usize,
+    /// The distances of places of the patches from the target.
+    pub to_target: FitDistances,
+    /// The distances of the vertices of the target from the nearest places of the patches.
+    pub of_vertices: FitDistances,
+    /// Per patch the largest of both distances, over the diagonal.
+    pub patch_max: Vec<f64>,
     /// The largest angle between the normals of spline and target at these places, radians.
     pub normal_error: f64,
     /// The patches that are turned over somewhere: their normal is more than a right angle off the target's; ascending.
     pub folded_patches: Vec<usize>,
 }
 
-/// The distances of a patch from its piece of the target.
-#[derive(Clone, Copy, Default)]
-struct PatchDistances {
-    squares: f64,
-    largest: f64,
-    /// The least cosine between normals.
-    cosine: f64,
+impl QuadFit {
+    /// The largest distance of either kind, over the diagonal.
+    pub fn max(&self) -> f64 {
+        self.to_target.max.max(self.of_vertices.max)
+    }
+
+    /// The patch with the largest distance.
+    pub fn worst_patch(&self) -> usize {
+        let by_size = |a: &usize, b: &usize| self.patch_max[*a].total_cmp(&self.patch_max[*b]);
+        (0..self.patch_max.len()).max_by(by_size).unwrap_or(0)
+    }
+}
+
+/// A place on or near the target for a place of a patch; equal on common sides.
+pub(super) type StartMap<'a> = &'a (dyn Fn(usize, [f64; 2]) -> Vector + Sync);
+
+/// What a fit starts from.
+pub(super) enum FitStart<'a> {
+    /// A map whose parameter lines may cross otherwise than those of splines: all steps are taken.
+    Map(StartMap<'a>),
+    /// A spline over the same layout with fewer spans: only the last steps are taken.
+    Spline(&'a QuadSpline),
+}
+
+impl FitStart<'_> {
+    fn at(&self, patch: usize, uv: [f64; 2]) -> Vector {
+        match self {
+            FitStart::Map(map) => map(patch, uv),
+            FitStart::Spline(spline) => spline.at(patch, uv).point,
+        }
+    }
+
+    fn first_step(&self) -> usize {
+        match self {
+            FitStart::Map(_) => 0,
+            FitStart::Spline(_) => LATE_STEP,
+        }
+    }
 }
 
 /// Fits a spline over four-sided patches to a target. `start`: a map of the patches, as (patch, (u, v)) → point, on or near the target; equal
-/// on common sides.
+/// on common sides. Minimised are the distances of the patches from the target and those of its vertices from the patches.
 ///
 /// Every patch belongs to its own piece of the target, or to the smooth piece that is nearest to the middle of its start. Lengths of arcs, which should be about 1 in
 /// the mean, should be about proportional to those on the surface.
@@ -80,34 +125,58 @@ pub fn fit_quads(
     options: &QuadFitOptions,
     control: &Control,
 ) -> Result<QuadFit> {
-    if !(options.bending >= 0.0 && options.bending <= FIRST_BENDING) {
-        return Err(Error::argument("bending", options.bending, "a number from 0 to 1e-5"));
-    }
     parallel::within(options.threads, || {
-        control.step(Stage::Layout, 0.0)?;
-        let mut system = QuadSystem::new(&space)?;
-        let patches = space.layout().patches().len();
-        let pieces = parallel::map(patches, |p| target.piece_of_patch(p, start(p, [0.5, 0.5])));
-        let places: Vec<[f64; 2]> = system.places.iter().map(|place| place.parameters).collect();
-        let at_start =
-            |p: usize, place: usize| FootPoint { point: start(p, places[place]), normal: [0.0; 3] };
-        let first = FitWeights { normal: 0.0, tangential: 1.0, bending: FIRST_BENDING };
-        let mut spline = QuadSpline::of_free(space.clone(), &system.solve(first, at_start)?)?;
-        let bases: Vec<[QuinticBasis; 2]> = system.places.iter().map(|place| place.basis).collect();
-        for step in 0..STEPS {
-            control.step(Stage::Layout, (step + 1) as f64 / (STEPS + 2) as f64)?;
-            let weights = weights_of(step, options.bending);
-            let foot = |p: usize, place: usize| {
-                let [u, v] = &bases[place];
-                target.foot(pieces[p], spline.combined(p, u, v).point)
-            };
-            let free = system.solve(weights, foot)?;
-            spline = QuadSpline::of_free(space.clone(), &free)?;
-        }
-        let fit = measured(spline, &pieces, target);
-        control.step(Stage::Layout, 1.0)?;
-        Ok(fit)
+        fit_from(space, &FitStart::Map(start), target, options.bending, control)
     })
+}
+
+/// [`fit_quads`] from either start, on the threads of the caller.
+pub(super) fn fit_from(
+    space: Arc<QuadSplineSpace>,
+    start: &FitStart<'_>,
+    target: &SplineTarget,
+    bending: f64,
+    control: &Control,
+) -> Result<QuadFit> {
+    if !(0.0..=FIRST_BENDING).contains(&bending) {
+        return Err(Error::argument("bending", bending, "a number from 0 to 1e-5"));
+    }
+    control.step(Stage::Layout, 0.0)?;
+    let mut system = QuadSystem::new(&space)?;
+    let patches = space.layout().patches().len();
+    let pieces = parallel::map(patches, |p| target.piece_of_patch(p, start.at(p, [0.5, 0.5])));
+    let at_start = |p: usize, uv: [f64; 2]| start.at(p, uv);
+    let mut vertices = vertex_places(target, &pieces, &at_start);
+    let first_step = start.first_step();
+    let first = FitWeights { normal: 0.0, tangential: 1.0, ..weights_of(first_step, bending) };
+    let to_start =
+        |p: usize, place: &FitPlace| FootPoint { point: start.at(p, place.parameters), normal: [0.0; 3] };
+    let free =
+        system.solve(&FitGoal { weights: first, foot: &to_start, vertices: &vec![Vec::new(); patches] })?;
+    let mut spline = QuadSpline::of_free(space.clone(), &free)?;
+    for step in first_step..STEPS {
+        control.step(Stage::Layout, (step + 1 - first_step) as f64 / (STEPS + 2 - first_step) as f64)?;
+        if (step - first_step).is_multiple_of(STEPS_TO_SEARCH) {
+            vertices = vertex_places(target, &pieces, &|p, uv| spline.at(p, uv).point);
+        }
+        vertices = moved_nearer(&vertices, &spline);
+        let foot = |p: usize, place: &FitPlace| {
+            let [u, v] = &place.basis;
+            target.foot(pieces[p], spline.combined(p, u, v).point)
+        };
+        let weights = weights_of(step, bending);
+        let free = system.solve(&FitGoal { weights, foot: &foot, vertices: &vertices })?;
+        spline = QuadSpline::of_free(space.clone(), &free)?;
+    }
+    let fit = measured(spline, &pieces, target);
+    control.step(Stage::Layout, 1.0)?;
+    Ok(fit)
+}
+
+/// The vertices at the nearest places of their patches, as these are now.
+fn moved_nearer(vertices: &[Vec<VertexPlace>], spline: &QuadSpline) -> Vec<Vec<VertexPlace>> {
+    let of_patch = |p: usize| vertices[p].iter().map(|place| place.nearer(spline, p)).collect();
+    parallel::map(vertices.len(), of_patch)
 }
 
 /// The weights of a step, which fall geometrically.
@@ -123,13 +192,29 @@ fn weights_of(step: usize, last_bending: f64) -> FitWeights {
     }
 }
 
+/// The distances of a patch.
+#[derive(Clone, Copy, Default)]
+struct PatchDistances {
+    /// The sum of the squared distances of its places from its piece of the target, and the largest distance.
+    squares: f64,
+    largest: f64,
+    /// The same of the vertices nearest to it, weighted by their shares.
+    vertex_squares: f64,
+    vertex_largest: f64,
+    /// The least cosine between normals.
+    cosine: f64,
+}
+
 fn measured(spline: QuadSpline, pieces: &[usize], target: &SplineTarget) -> QuadFit {
-    let along: Vec<QuinticBasis> = (0..MEASURED)
-        .map(|k| QuinticBasis::at(spline.space().spans(), k as f64 / (MEASURED - 1) as f64))
-        .collect();
+    let parameter = |k: usize| k as f64 / (MEASURED - 1) as f64;
+    let vertices = vertex_places(target, pieces, &|p, uv| spline.at(p, uv).point);
     let of_patch = |p: usize| {
         let mut found = PatchDistances { cosine: 1.0, ..PatchDistances::default() };
-        for (u, v) in along.iter().flat_map(|u| along.iter().map(move |v| (u, v))) {
+        let [along_u, along_v] = spline
+            .space()
+            .patch_spans(p)
+            .map(|spans| (0..MEASURED).map(|k| QuinticBasis::at(spans, parameter(k))).collect::<Vec<_>>());
+        for (u, v) in along_u.iter().flat_map(|u| along_v.iter().map(move |v| (u, v))) {
             let at = spline.combined(p, u, v);
             let foot = target.foot(pieces[p], at.point);
             let far = distance(at.point, foot.point);
@@ -138,18 +223,30 @@ fn measured(spline: QuadSpline, pieces: &[usize], target: &SplineTarget) -> Quad
             let normal = at.normal().unwrap_or([0.0; 3]);
             found.cosine = found.cosine.min(dot(normal, foot.normal));
         }
+        for place in &vertices[p] {
+            let nearest = spline.at(p, place.nearer(&spline, p).parameters).point;
+            let far = distance(nearest, place.vertex.point);
+            found.vertex_squares += place.vertex.share * far * far;
+            found.vertex_largest = found.vertex_largest.max(far);
+        }
         found
     };
     let found = parallel::map(pieces.len(), of_patch);
     let places = (pieces.len() * MEASURED * MEASURED).max(1) as f64;
     let diagonal = target.diagonal();
-    let by_size = |a: &usize, b: &usize| found[*a].largest.total_cmp(&found[*b].largest);
-    let worst_patch = (0..found.len()).max_by(by_size).unwrap_or(0);
+    let sum = |squares: &dyn Fn(&PatchDistances) -> f64| found.iter().map(squares).sum::<f64>();
+    let most = |largest: &dyn Fn(&PatchDistances) -> f64| found.iter().map(largest).fold(0.0f64, f64::max);
     let cosine = found.iter().fold(1.0f64, |least, patch| least.min(patch.cosine));
     QuadFit {
-        rms: (found.iter().map(|patch| patch.squares).sum::<f64>() / places).sqrt() / diagonal,
-        max: found.iter().fold(0.0f64, |most, patch| most.max(patch.largest)) / diagonal,
-        worst_patch,
+        to_target: FitDistances {
+            rms: (sum(&|patch| patch.squares) / places).sqrt() / diagonal,
+            max: most(&|patch| patch.largest) / diagonal,
+        },
+        of_vertices: FitDistances {
+            rms: sum(&|patch| patch.vertex_squares).sqrt() / diagonal,
+            max: most(&|patch| patch.vertex_largest) / diagonal,
+        },
+        patch_max: found.iter().map(|patch| patch.largest.max(patch.vertex_largest) / diagonal).collect(),
         normal_error: cosine.clamp(-1.0, 1.0).acos(),
         folded_patches: (0..found.len()).filter(|&p| found[p].cosine <= 0.0).collect(),
         spline,

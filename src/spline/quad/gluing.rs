@@ -18,12 +18,19 @@ pub(super) struct Gluing {
     pub lengths: GluingLengths,
 }
 
-/// The lengths in parameters of an arc and of the patches across it.
+/// A length in parameters with the number of spans on it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct GluingLength {
+    pub length: f64,
+    pub spans: usize,
+}
+
+/// The lengths of an arc and of the patches across it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct GluingLengths {
-    pub along: f64,
-    pub left: f64,
-    pub right: f64,
+    pub along: GluingLength,
+    pub left: GluingLength,
+    pub right: GluingLength,
 }
 
 impl Gluing {
@@ -55,18 +62,20 @@ impl Gluing {
     }
 
     /// The bits of its numbers, by which equal ones are found.
-    pub fn key(&self) -> [u64; 6] {
-        let [a, b, c] = self.coefficients;
+    pub fn key(&self) -> [u64; 9] {
+        let [a, b, c] = self.coefficients.map(f64::to_bits);
         let GluingLengths { along, left, right } = self.lengths;
-        [a, b, c, along, left, right].map(f64::to_bits)
+        let [d, e, f] = [along, left, right].map(|on| on.length.to_bits());
+        let [x, y, z] = [along, left, right].map(|on| on.spans as u64);
+        [a, b, c, d, e, f, x, y, z]
     }
 
     /// Independent equations of the condition, each with a coefficient for the control points of three rows along the arc: the first row
     /// inside the left patch, that inside the right one, and the arc's own.
-    pub fn equations(&self, spans: usize) -> Vec<Vec<f64>> {
+    pub fn equations(&self) -> Vec<Vec<f64>> {
+        let GluingLengths { along: GluingLength { length: along, spans }, left, right } = self.lengths;
         let n = basis_size(spans);
-        let GluingLengths { along, left, right } = self.lengths;
-        let [to_left, to_right] = [left, right].map(|depth| (QUINTIC * spans) as f64 / depth);
+        let [to_left, to_right] = [left, right].map(|across| (QUINTIC * across.spans) as f64 / across.length);
         let mut rows = Vec::with_capacity(PLACES * spans);
         for place in 0..PLACES * spans {
             let chebyshev = 0.5 - 0.5 * (PI * ((place % PLACES) as f64 + 0.5) / PLACES as f64).cos();

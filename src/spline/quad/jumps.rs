@@ -1,7 +1,6 @@
 //! The angles between the normals of neighbouring patches.
 
 use super::layout::PatchCorner;
-use super::quintic::QuinticBasis;
 use super::spline::QuadSpline;
 use crate::geometry::vector::{cross, dot, norm};
 use crate::spline::bicubic::BicubicPatch;
@@ -33,7 +32,6 @@ impl QuadSpline {
 
     /// The normal at a share of the way along a side.
     fn normal_on(&self, side: PatchCorner, x: f64) -> Option<[f64; 3]> {
-        let [u, v] = BicubicPatch::on_side(side.corner, x).map(|x| QuinticBasis::at(self.space().spans(), x));
-        self.combined(side.patch, &u, &v).normal()
+        self.at(side.patch, BicubicPatch::on_side(side.corner, x)).normal()
     }
 }

@@ -18,6 +18,7 @@ mod fit;
 mod gluing;
 mod jumps;
 mod layout;
+mod nearest;
 mod over_quads;
 mod quintic;
 mod space;
@@ -27,7 +28,7 @@ mod step;
 mod system;
 mod target;
 
-pub use fit::{QuadFit, QuadFitOptions, bilinear, fit_quads};
+pub use fit::{FitDistances, QuadFit, QuadFitOptions, bilinear, fit_quads};
 pub use layout::{ArcSide, PatchArc, PatchCorner, PatchLayout};
 pub use over_quads::{LayoutFitOptions, fit_quad_layout};
 pub use quintic::QUINTIC;

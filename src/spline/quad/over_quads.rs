@@ -1,6 +1,6 @@
 //! Splines over the layouts of quad meshes: the lines between their irregular vertices bound the patches.
 
-use super::fit::{QuadFit, QuadFitOptions, bilinear, fit_quads};
+use super::fit::{FitStart, QuadFit, QuadFitOptions, StartMap, bilinear, fit_from};
 use super::layout::{ArcSide, PatchArc, PatchLayout};
 use super::space::QuadSplineSpace;
 use super::target::SplineTarget;
@@ -22,6 +22,8 @@ const TOWARDS_MEAN: f64 = 0.7;
 const STIFFER: f64 = 100.0;
 const LEAST_BENDING: f64 = 1e-13;
 const MOST_BENDING: f64 = 1e-7;
+/// Spans in one direction of a patch that are shorter than those in the other by at most this factor are divided as well.
+const ABOUT_AS_LONG: f64 = 1.5;
 /// Barycentric coordinate below which a place may lie on an edge.
 const ON_EDGE: f64 = 1e-6;
 
@@ -50,10 +52,12 @@ struct PatchGrid {
 
 /// Fits a spline over the patches of a quad layout to the surface of its seamless metric. Each patch is fitted to the part of the surface on
 /// which its quads lie, and to some more around it, up to features. Where patches fold, bending
-/// weighs more. The fit with the fewest spans within the tolerance, or else that with the fewest patches folded, then the least distance.
+/// weighs more; strips of patches that are not within the tolerance get more spans. The first fit within the tolerance, or else that with the
+/// fewest patches folded, then the least distance.
 ///
 /// # Errors
-/// [`Error::Layout`] for a surface without positions, and for sides of patches that are not one arc; those of [`fit_quads`],
+/// [`Error::Layout`] for a surface without positions, and for sides of patches that are not one arc; those of
+/// [`super::fit_quads`],
 /// [`SplineTarget::of_patches`] and [`QuadSplineSpace::new`].
 pub fn fit_quad_layout(
     seamless: &Seamless,
@@ -79,30 +83,94 @@ pub fn fit_quad_layout(
     let grids = PatchGrid::all(layout, &vertices)?;
     let patches = patch_layout(layout, &vertices)?;
     let start = |p: usize, uv: [f64; 2]| grids[p].at(uv);
+    parallel::within(options.fit.threads, || fitted(&patches, &start, &target, options, control))
+}
+
+/// Fits with more and more spans on the strips of patches that are not within the tolerance.
+fn fitted(
+    patches: &PatchLayout,
+    start: StartMap<'_>,
+    target: &SplineTarget,
+    options: &LayoutFitOptions,
+    control: &Control,
+) -> Result<QuadFit> {
+    let mut spans = vec![1; patches.arcs().len()];
+    let mut bending = options.fit.bending;
     let mut best: Option<QuadFit> = None;
-    for spans in 1..=options.most_spans.max(1) {
-        let space = Arc::new(QuadSplineSpace::new(patches.clone(), spans)?);
-        let mut fit_options = options.fit.clone();
-        loop {
-            let fit = fit_quads(space.clone(), &start, &target, &fit_options, control)?;
-            let (folds, is_near) = (fit.folded_patches.len(), fit.max <= options.tolerance);
-            if best.as_ref().is_none_or(|best| (folds, fit.max) < (best.folded_patches.len(), best.max)) {
-                best = Some(fit);
+    let mut is_first = true;
+    loop {
+        let space = Arc::new(QuadSplineSpace::with_spans(patches.clone(), spans.clone())?);
+        let from = match &best {
+            Some(best) if best.folded_patches.is_empty() && !is_first => FitStart::Spline(&best.spline),
+            _ => FitStart::Map(start),
+        };
+        is_first = false;
+        let fit = fit_from(space, &from, target, bending, control)?;
+        let (folds, is_near) = (fit.folded_patches.len(), fit.max() <= options.tolerance);
+        let is_better = |best: &QuadFit| (folds, fit.max()) < (best.folded_patches.len(), best.max());
+        let stiffer = STIFFER * bending.max(LEAST_BENDING);
+        if folds > 0 && stiffer <= MOST_BENDING {
+            bending = stiffer;
+        } else {
+            bending = options.fit.bending;
+            let is_more = raise_spans(patches, &mut spans, &fit, options);
+            if (folds == 0 && is_near) || !is_more {
+                return Ok(match best {
+                    Some(best) if !is_better(&best) => best,
+                    _ => fit,
+                });
             }
-            if folds == 0 && is_near {
-                return best.ok_or_else(no_patches);
-            }
-            fit_options.bending = STIFFER * fit_options.bending.max(LEAST_BENDING);
-            if folds == 0 || fit_options.bending > MOST_BENDING {
-                break;
+        }
+        if best.as_ref().is_none_or(is_better) {
+            best = Some(fit);
+        }
+    }
+}
+
+/// Gives one more span to the strips of patches that fold or are not within the tolerance: to that in the direction in which spans are longer, or
+/// to both where they are about as long. False if there is none with fewer than the most.
+fn raise_spans(
+    patches: &PatchLayout,
+    spans: &mut [usize],
+    fit: &QuadFit,
+    options: &LayoutFitOptions,
+) -> bool {
+    let strips = strips(patches);
+    let mut raised = BTreeSet::new();
+    for (p, sides) in patches.patches().iter().enumerate() {
+        if fit.patch_max[p] <= options.tolerance && !fit.folded_patches.contains(&p) {
+            continue;
+        }
+        let arcs = [0, 1].map(|k| sides[k].arc as usize);
+        let net = fit.spline.net(p);
+        let along_u = |j: usize| net.windows(2).map(|two| distance(two[0][j], two[1][j])).sum::<f64>();
+        let along_v = |row: &Vec<Vector>| row.windows(2).map(|two| distance(two[0], two[1])).sum::<f64>();
+        let lengths =
+            [(0..net[0].len()).map(along_u).fold(0.0, f64::max), net.iter().map(along_v).fold(0.0, f64::max)];
+        let of_span = [0, 1].map(|k| lengths[k] / spans[arcs[k]] as f64);
+        for k in 0..2 {
+            let other = of_span[1 - k];
+            if spans[arcs[k]] < options.most_spans
+                && (of_span[k] * ABOUT_AS_LONG >= other || spans[arcs[1 - k]] >= options.most_spans)
+            {
+                raised.insert(strips[arcs[k]]);
             }
         }
     }
-    best.ok_or_else(no_patches)
+    for (arc, spans) in spans.iter_mut().enumerate() {
+        *spans += usize::from(raised.contains(&strips[arc]));
+    }
+    !raised.is_empty()
 }
 
-fn no_patches() -> Error {
-    Error::Layout("the layout has no patches".into())
+/// Per arc an arc of its strip, to which arcs belong that are opposite sides of patches, the same for all of them.
+fn strips(patches: &PatchLayout) -> Vec<u32> {
+    let mut same = UnionFind::new(patches.arcs().len());
+    for sides in patches.patches() {
+        same.join(sides[0].arc, sides[2].arc);
+        same.join(sides[1].arc, sides[3].arc);
+    }
+    (0..patches.arcs().len() as u32).map(|arc| same.root(arc)).collect()
 }
 
 /// The vertices of the quads moved along the surface towards the means of their neighbours, so that quads around cones, where the flat metric

@@ -24,25 +24,32 @@ pub(super) const fn basis_size(spans: usize) -> usize {
     LOCAL + MULTIPLICITY * (spans - 1)
 }
 
+/// The knot of a number.
+fn knot(spans: usize, number: usize) -> f64 {
+    match number.checked_sub(LOCAL) {
+        None => 0.0,
+        Some(inner) => ((inner / MULTIPLICITY + 1) as f64 / spans as f64).min(1.0),
+    }
+}
+
 /// The knots: 0 six times, each inner knot three times, 1 six times.
 pub(super) fn knots(spans: usize) -> Vec<f64> {
-    let inner = (1..spans).flat_map(|i| [i as f64 / spans as f64; MULTIPLICITY]);
-    [0.0; LOCAL].into_iter().chain(inner).chain([1.0; LOCAL]).collect()
+    (0..basis_size(spans) + LOCAL).map(|number| knot(spans, number)).collect()
 }
 
 impl QuinticBasis {
     /// The basis at x from 0 to 1; a knot between two spans counts for the second.
     pub fn at(spans: usize, x: f64) -> QuinticBasis {
         let span = ((x * spans as f64) as usize).min(spans - 1);
-        let knots = knots(spans);
+        let knot = |number: usize| knot(spans, number);
         let at = QUINTIC + MULTIPLICITY * span;
         let mut rows = [[0.0; LOCAL]; LOCAL];
         rows[0][0] = 1.0;
         for degree in 1..=QUINTIC {
             for j in 0..=degree {
                 let i = at + j - degree;
-                let rise = if j > 0 { share(x - knots[i], knots[i + degree] - knots[i]) } else { 0.0 };
-                let fall = share(knots[i + degree + 1] - x, knots[i + degree + 1] - knots[i + 1]);
+                let rise = if j > 0 { share(x - knot(i), knot(i + degree) - knot(i)) } else { 0.0 };
+                let fall = share(knot(i + degree + 1) - x, knot(i + degree + 1) - knot(i + 1));
                 let before = if j > 0 { rows[degree - 1][j - 1] } else { 0.0 };
                 let after = if j < degree { rows[degree - 1][j] } else { 0.0 };
                 rows[degree][j] = rise * before + fall * after;
@@ -51,8 +58,7 @@ impl QuinticBasis {
         let mut derivatives = [rows[QUINTIC]; 4];
         for (order, found) in derivatives.iter_mut().enumerate().skip(1) {
             let start = QUINTIC - order;
-            *found =
-                (start + 1..=QUINTIC).fold(rows[start], |below, degree| slope(&knots, at, degree, below));
+            *found = (start + 1..=QUINTIC).fold(rows[start], |below, degree| slope(spans, at, degree, below));
         }
         QuinticBasis { first: at - QUINTIC, derivatives }
     }
@@ -60,12 +66,13 @@ impl QuinticBasis {
 
 /// The derivatives of the basis functions of a degree, from those of one degree less or their derivatives. `at`: the last knot at or before
 /// the place.
-fn slope(knots: &[f64], at: usize, degree: usize, below: [f64; LOCAL]) -> [f64; LOCAL] {
+fn slope(spans: usize, at: usize, degree: usize, below: [f64; LOCAL]) -> [f64; LOCAL] {
+    let knot = |number: usize| knot(spans, number);
     let mut found = [0.0; LOCAL];
     for (j, found) in found.iter_mut().enumerate().take(degree + 1) {
         let i = at + j - degree;
-        let rise = if j > 0 { share(below[j - 1], knots[i + degree] - knots[i]) } else { 0.0 };
-        let fall = if j < degree { share(below[j], knots[i + degree + 1] - knots[i + 1]) } else { 0.0 };
+        let rise = if j > 0 { share(below[j - 1], knot(i + degree) - knot(i)) } else { 0.0 };
+        let fall = if j < degree { share(below[j], knot(i + degree + 1) - knot(i + 1)) } else { 0.0 };
         *found = degree as f64 * (rise - fall);
     }
     found

@@ -34,14 +34,20 @@ impl QuadSpline {
         &self.control_points
     }
 
+    /// The control points of a patch: `net[i][j]`, i along u, j along v.
+    pub fn net(&self, patch: usize) -> Vec<Vec<Vector>> {
+        let rows = self.space.control(patch).chunks(self.space.sides(patch)[1]);
+        rows.map(|row| row.iter().map(|&c| self.control_points[c as usize]).collect()).collect()
+    }
+
     /// The degree in each direction: 5.
     pub fn degree(&self) -> usize {
         QUINTIC
     }
 
-    /// The knots of every patch in each direction.
-    pub fn knots(&self) -> Vec<f64> {
-        knots(self.space.spans())
+    /// The knots of a patch along u and along v.
+    pub fn knots(&self, patch: usize) -> [Vec<f64>; 2] {
+        self.space.patch_spans(patch).map(knots)
     }
 
     /// The point at (u, v) of a patch, from 0 to 1 each, with first and second derivatives.
@@ -54,8 +60,13 @@ impl QuadSpline {
             let message = format!("there is no place ({u}, {v}) of it: u and v run from 0 to 1");
             return Err(Error::Spline { what: "patch", index: patch, message });
         }
-        let [along_u, along_v] = [u, v].map(|x| QuinticBasis::at(self.space.spans(), x));
-        Ok(self.combined(patch, &along_u, &along_v))
+        Ok(self.at(patch, [u, v]))
+    }
+
+    /// The point at a place of a patch that exists.
+    pub(super) fn at(&self, patch: usize, [u, v]: [f64; 2]) -> SurfacePoint {
+        let [m, n] = self.space.patch_spans(patch);
+        self.combined(patch, &QuinticBasis::at(m, u), &QuinticBasis::at(n, v))
     }
 
     /// The point with its derivatives where the basis functions of both directions are known.
@@ -65,7 +76,7 @@ impl QuadSpline {
         along_u: &QuinticBasis,
         along_v: &QuinticBasis,
     ) -> SurfacePoint {
-        let (control, side) = (self.space.control(patch), self.space.side());
+        let (control, [_, side]) = (self.space.control(patch), self.space.sides(patch));
         let at = |of_u: usize, of_v: usize| {
             let mut sum = [0.0; 3];
             for k in 0..LOCAL {

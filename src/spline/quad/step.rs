@@ -1,7 +1,7 @@
 //! STEP files of splines over four-sided patches: a face for each patch, an edge for each arc.
 
 use super::layout::PatchCorner;
-use super::quintic::QUINTIC;
+use super::quintic::{QUINTIC, knots};
 use super::spline::QuadSpline;
 use crate::error::Result;
 use crate::geometry::vector::{Vector, cross, diagonal, dot};
@@ -28,10 +28,13 @@ impl QuadSpline {
             if left.is_none() {
                 along.reverse();
             }
-            StepCurve { ends: layout.arcs()[arc].ends, curve: nurbs_curve(QUINTIC, self.knots(), along) }
+            StepCurve {
+                ends: layout.arcs()[arc].ends,
+                curve: nurbs_curve(QUINTIC, knots(self.space().spans()[arc]), along),
+            }
         };
         let patch = |at: usize| StepPatch {
-            surface: nurbs_surface(QUINTIC, [self.knots(), self.knots()], self.net(at)),
+            surface: nurbs_surface(QUINTIC, self.knots(at), self.net(at)),
             sides: layout.patches()[at].map(|side| (side.arc as usize, side.reversed)),
         };
         let patches = StepPatches {
@@ -46,14 +49,8 @@ impl QuadSpline {
 
     /// The control points along a side, in the direction around the patch.
     fn side_points(&self, at: PatchCorner) -> Vec<Vector> {
-        let along = (0..self.space().side()).map(|i| self.space().along(at, i, 0));
+        let along = (0..self.space().side(at)).map(|i| self.space().along(at, i, 0));
         along.map(|c| self.control_points()[c as usize]).collect()
-    }
-
-    /// The control points of a patch: `net[i][j]`, i along u, j along v.
-    pub fn net(&self, patch: usize) -> Vec<Vec<Vector>> {
-        let rows = self.space().control(patch).chunks(self.space().side());
-        rows.map(|row| row.iter().map(|&c| self.control_points()[c as usize]).collect()).collect()
     }
 
     /// The connected parts of the surface.

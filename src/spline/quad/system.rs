@@ -1,6 +1,7 @@
 //! The normal equations of a fit: squared distances of places of the patches from their feet, and the bending of the patches.
 
 use super::layout::PatchCorner;
+use super::nearest::VertexPlace;
 use super::quintic::{LOCAL, QUINTIC, QuinticBasis};
 use super::space::QuadSplineSpace;
 use super::target::FootPoint;
@@ -9,6 +10,7 @@ use crate::geometry::quadrature::gauss_legendre;
 use crate::geometry::vector::Vector;
 use crate::linalg::{Cholesky, Pattern, Symmetric};
 use crate::parallel;
+use std::collections::BTreeMap;
 
 /// Places in every span and direction at which distances are taken. As many as the degree has coefficients would be interpolated, with large
 /// errors between them.
@@ -19,6 +21,12 @@ const MOST_PAIRS: usize = 1 << 24;
 const AROUND: usize = LOCAL * LOCAL;
 /// The entries (i, j) of a symmetric 3 × 3 matrix.
 const ENTRIES: [[usize; 2]; 6] = [[0, 0], [0, 1], [0, 2], [1, 1], [1, 2], [2, 2]];
+
+/// The place of the entry (c, d) in [`ENTRIES`], and those on the diagonal.
+const ENTRY: [[usize; 3]; 3] = [[0, 1, 2], [1, 3, 4], [2, 4, 5]];
+const DIAGONAL: [usize; 3] = [0, 3, 5];
+/// The weight of all vertices of the target against that of all places of the patches.
+const VERTICES: f64 = 1.0;
 
 /// The weights of the terms of a fit.
 #[derive(Debug, Clone, Copy)]
@@ -31,17 +39,37 @@ pub(super) struct FitWeights {
     pub bending: f64,
 }
 
-/// A place in every patch, with the share of the patch that it stands for.
+/// A place along a direction of a patch.
+#[derive(Clone, Copy)]
+struct SpanPlace {
+    basis: QuinticBasis,
+    parameter: f64,
+    /// The share of the direction that it stands for.
+    weight: f64,
+}
+
+/// A place of a patch.
 pub(super) struct FitPlace {
     pub basis: [QuinticBasis; 2],
     pub parameters: [f64; 2],
+    /// The share of the patch that it stands for.
     weight: f64,
+}
+
+/// What a fit comes near: a foot for every place of a patch, and for every patch the vertices of the target that are nearest to it.
+pub(super) struct FitGoal<'a> {
+    pub weights: FitWeights,
+    pub foot: &'a (dyn Fn(usize, &FitPlace) -> FootPoint + Sync),
+    pub vertices: &'a [Vec<VertexPlace>],
 }
 
 /// The normal equations of fits over a space. Unknown 3 k + c is coordinate c of the free control point k.
 pub(super) struct QuadSystem<'a> {
     space: &'a QuadSplineSpace,
-    pub places: Vec<FitPlace>,
+    /// By numbers of spans the places along a direction.
+    along: BTreeMap<usize, Vec<SpanPlace>>,
+    /// The area of all patches in parameters.
+    area: f64,
     /// Per patch the free control points that it depends on, ascending, and its own control points as combinations of them.
     free: Vec<Vec<u32>>,
     pattern: Pattern,
@@ -72,20 +100,19 @@ impl<'a> QuadSystem<'a> {
         }
         let pattern = Pattern::new(3 * space.dimension(), &pairs)?;
         let cholesky = Cholesky::analyse(&pattern)?;
-        Ok(QuadSystem { space, places: places(space.spans()), free, pattern, cholesky })
+        let along = space.spans().iter().map(|&spans| (spans, span_places(spans))).collect();
+        let of_patch = |p: usize| lengths(space, p).iter().product::<f64>();
+        let area = (0..space.layout().patches().len()).map(of_patch).sum();
+        Ok(QuadSystem { space, along, area, free, pattern, cholesky })
     }
 
-    /// The free control points at which the weighted sum of squares is least. `foot`: the foot of a place of a patch, by their numbers.
+    /// The free control points at which the weighted sum of squares is least.
     ///
     /// # Errors
     /// [`Error::Factorisation`] where the places do not determine the spline.
-    pub fn solve(
-        &mut self,
-        weights: FitWeights,
-        foot: impl Fn(usize, usize) -> FootPoint + Sync,
-    ) -> Result<Vec<Vector>> {
+    pub fn solve(&mut self, goal: &FitGoal<'_>) -> Result<Vec<Vector>> {
         let n = self.free.len();
-        let found = parallel::map(n, |p| self.of_patch(p, weights, |place| foot(p, place)));
+        let found = parallel::map(n, |p| self.of_patch(p, goal));
         let mut values = vec![0.0; self.pattern.entries()];
         let mut right = vec![0.0; 3 * self.space.dimension()];
         for (free, equations) in self.free.iter().zip(&found) {
@@ -107,47 +134,50 @@ impl<'a> QuadSystem<'a> {
         for (a, &i) in free.iter().enumerate() {
             for (b, &j) in free.iter().enumerate().take(a + 1) {
                 let block = &equations.matrix[a * n + b];
-                for (&[c, d], &x) in ENTRIES.iter().zip(block) {
-                    add_to(&self.pattern, values, [3 * i as usize + c, 3 * j as usize + d], x);
-                    // The lower triangle of the whole has both halves of a block, but on the diagonal.
-                    if c != d && a != b {
-                        add_to(&self.pattern, values, [3 * i as usize + d, 3 * j as usize + c], x);
-                    }
+                for d in 0..3 {
+                    // The rows of a block follow each other; of one on the diagonal those from the diagonal on are stored.
+                    let first = if a == b { d } else { 0 };
+                    let Some(at) = self.pattern.position(3 * i as usize + first, 3 * j as usize + d) else {
+                        continue;
+                    };
+                    let column = &mut values[at..at + 3 - first];
+                    column.iter_mut().zip(first..).for_each(|(x, c)| *x += block[ENTRY[c][d]]);
                 }
             }
         }
     }
 
+    /// The places of a patch: those of Gauss in every span and direction, at which bending is integrated exactly.
+    fn places(&self, p: usize) -> impl Iterator<Item = FitPlace> + '_ {
+        let [of_u, of_v] = self.space.patch_spans(p).map(|spans| &self.along[&spans]);
+        of_u.iter().flat_map(move |u| {
+            of_v.iter().map(move |v| FitPlace {
+                basis: [u.basis, v.basis],
+                parameters: [u.parameter, v.parameter],
+                weight: u.weight * v.weight,
+            })
+        })
+    }
+
     /// The equations of a patch on the free control points.
-    fn of_patch(&self, p: usize, weights: FitWeights, foot: impl Fn(usize) -> FootPoint) -> PatchEquations {
-        let side = self.space.side();
-        let m = side * side;
-        let (mut matrix, mut right) = (vec![[0.0; 6]; m * m], vec![[0.0; 3]; m]);
-        let [a, b] = [0, 1].map(|corner| self.space.layout().length(PatchCorner { patch: p, corner }));
-        let [by_uu, by_uv, by_vv] = [b / a.powi(3), 2.0 / (a * b), a / b.powi(3)];
-        for (number, place) in self.places.iter().enumerate() {
-            let FootPoint { point, normal } = foot(number);
-            let tensor = ENTRIES.map(|[c, d]| {
-                let whole = if c == d { weights.tangential } else { 0.0 };
-                a * b * place.weight * (weights.normal * normal[c] * normal[d] + whole)
-            });
-            let pulled = product(&tensor, point);
-            let terms = place.terms(side);
-            let bending = weights.bending * place.weight;
-            for (i, [value, uu, uv, vv]) in terms {
-                right[i] = [0, 1, 2].map(|x| right[i][x] + value * pulled[x]);
-                for (j, other) in terms.iter().take_while(|(j, _)| *j <= i) {
-                    let bent =
-                        bending * (by_uu * uu * other[1] + by_uv * uv * other[2] + by_vv * vv * other[3]);
-                    let entry = &mut matrix[i * m + j];
-                    for (k, x) in entry.iter_mut().enumerate() {
-                        let [c, d] = ENTRIES[k];
-                        *x += value * other[0] * tensor[k] + if c == d { bent } else { 0.0 };
-                    }
-                }
-            }
+    fn of_patch(&self, p: usize, goal: &FitGoal<'_>) -> PatchEquations {
+        let weights = goal.weights;
+        let mut sum = PatchSum::new(self.space.sides(p), lengths(self.space, p));
+        let [a, b] = sum.lengths;
+        for place in self.places(p) {
+            let FootPoint { point, normal } = (goal.foot)(p, &place);
+            let tensor = tensor(normal, [weights.normal, weights.tangential], a * b * place.weight);
+            sum.add(&place, &tensor, point, weights.bending * place.weight);
         }
-        self.extracted(p, &matrix, &right)
+        let spans = self.space.patch_spans(p);
+        for VertexPlace { vertex, normal, parameters } in &goal.vertices[p] {
+            let basis = [0, 1].map(|k| QuinticBasis::at(spans[k], parameters[k]));
+            let place = FitPlace { basis, parameters: *parameters, weight: vertex.share };
+            let weight = VERTICES * self.area * vertex.share;
+            let tensor = tensor(*normal, [weights.normal, weights.tangential], weight);
+            sum.add(&place, &tensor, vertex.point, 0.0);
+        }
+        self.extracted(p, &sum.matrix, &sum.right)
     }
 
     /// The equations on control points as equations on the free ones.
@@ -193,18 +223,61 @@ impl FitPlace {
     }
 }
 
-/// The places of a patch: those of Gauss in every span and direction, at which bending is integrated exactly.
-fn places(spans: usize) -> Vec<FitPlace> {
+/// The lengths in parameters of the first two sides of a patch.
+fn lengths(space: &QuadSplineSpace, patch: usize) -> [f64; 2] {
+    [0, 1].map(|corner| space.layout().length(PatchCorner { patch, corner }))
+}
+
+/// The places of Gauss along a direction with a number of spans.
+fn span_places(spans: usize) -> Vec<SpanPlace> {
     let in_span = gauss_legendre(PLACES);
-    let along: Vec<[f64; 2]> = (0..spans)
-        .flat_map(|s| in_span.iter().map(move |[x, w]| [(s as f64 + x) / spans as f64, w / spans as f64]))
-        .collect();
-    let place = |&[u, of_u]: &[f64; 2], &[v, of_v]: &[f64; 2]| FitPlace {
-        basis: [u, v].map(|x| QuinticBasis::at(spans, x)),
-        parameters: [u, v],
-        weight: of_u * of_v,
+    let place = |s: usize, [x, w]: [f64; 2]| {
+        let parameter = (s as f64 + x) / spans as f64;
+        SpanPlace { basis: QuinticBasis::at(spans, parameter), parameter, weight: w / spans as f64 }
     };
-    along.iter().flat_map(|u| along.iter().map(|v| place(u, v)).collect::<Vec<_>>()).collect()
+    (0..spans).flat_map(|s| in_span.iter().map(move |&at| place(s, at))).collect()
+}
+
+/// The matrix of the squared distance from a tangent plane and from its point, with these weights, times another one.
+fn tensor(normal: Vector, [flat, whole]: [f64; 2], weight: f64) -> [f64; 6] {
+    ENTRIES.map(|[c, d]| weight * (flat * normal[c] * normal[d] + if c == d { whole } else { 0.0 }))
+}
+
+/// The equations of a patch on its own control points, as they add up.
+struct PatchSum {
+    matrix: Vec<[f64; 6]>,
+    right: Vec<Vector>,
+    /// The numbers of control points along u and along v.
+    sides: [usize; 2],
+    /// The lengths in parameters.
+    lengths: [f64; 2],
+}
+
+impl PatchSum {
+    fn new(sides: [usize; 2], lengths: [f64; 2]) -> PatchSum {
+        let m = sides[0] * sides[1];
+        PatchSum { matrix: vec![[0.0; 6]; m * m], right: vec![[0.0; 3]; m], sides, lengths }
+    }
+
+    /// Adds the squared distance of a place from a point, and its bending with a weight.
+    fn add(&mut self, place: &FitPlace, tensor: &[f64; 6], point: Vector, bending: f64) {
+        let m = self.right.len();
+        let [a, b] = self.lengths;
+        let bent = [b / a.powi(3), 2.0 / (a * b), a / b.powi(3)].map(|x| bending * x);
+        let pulled = product(tensor, point);
+        let terms = place.terms(self.sides[1]);
+        for (i, [value, uu, uv, vv]) in terms {
+            self.right[i] = [0, 1, 2].map(|x| self.right[i][x] + value * pulled[x]);
+            let of_bending = [bent[0] * uu, bent[1] * uv, bent[2] * vv];
+            for (j, other) in terms.iter().take_while(|(j, _)| *j <= i) {
+                let entry = &mut self.matrix[i * m + j];
+                let both = value * other[0];
+                entry.iter_mut().zip(tensor).for_each(|(x, t)| *x += both * t);
+                let bent = of_bending[0] * other[1] + of_bending[1] * other[2] + of_bending[2] * other[3];
+                DIAGONAL.into_iter().for_each(|k| entry[k] += bent);
+            }
+        }
+    }
 }
 
 /// The free control points that those of a patch depend on, ascending.
@@ -219,10 +292,4 @@ fn free_of(space: &QuadSplineSpace, patch: usize) -> Vec<u32> {
 /// The product of a symmetric matrix, as [`ENTRIES`], and a vector.
 fn product([xx, xy, xz, yy, yz, zz]: &[f64; 6], [x, y, z]: Vector) -> Vector {
     [xx * x + xy * y + xz * z, xy * x + yy * y + yz * z, xz * x + yz * y + zz * z]
-}
-
-fn add_to(pattern: &Pattern, values: &mut [f64], [i, j]: [usize; 2], x: f64) {
-    if let Some(at) = pattern.position(i, j) {
-        values[at] += x;
-    }
 }

@@ -17,10 +17,21 @@ struct TargetTriangle {
     normals: [Vector; 3],
 }
 
+/// A vertex of the target.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct TargetVertex {
+    pub number: u32,
+    pub point: Vector,
+    /// The share of the area that is nearer to it than to other vertices, about: a third of that of the triangles around it.
+    pub share: f64,
+}
+
 /// A smooth piece of the target.
 struct SmoothPiece {
     triangles: Vec<TargetTriangle>,
     tree: TriangleTree,
+    /// Its vertices with their unit normals, by number.
+    vertices: Vec<(TargetVertex, Vector)>,
 }
 
 /// The point of the target that belongs to a point of a spline.
@@ -89,9 +100,21 @@ impl SplineTarget {
             let corners = faces[f as usize].map(|v| positions[v as usize]);
             TargetTriangle { corners, normals: normals[f as usize] }
         };
+        let shares = area_shares(positions, faces);
+        let vertex = |number: u32| TargetVertex {
+            number,
+            point: positions[number as usize],
+            share: shares[number as usize],
+        };
         let piece = |part: &Vec<u32>| {
             let triangles: Vec<TargetTriangle> = part.iter().map(triangle).collect();
-            SmoothPiece { tree: TriangleTree::new(triangles.iter().map(|t| t.corners).collect()), triangles }
+            let mut by_number = BTreeMap::new();
+            for (&f, k) in part.iter().flat_map(|f| (0..3).map(move |k| (f, k))) {
+                by_number.entry(faces[f as usize][k]).or_insert(normals[f as usize][k]);
+            }
+            let vertices = by_number.into_iter().map(|(v, normal)| (vertex(v), normal)).collect();
+            let tree = TriangleTree::new(triangles.iter().map(|t| t.corners).collect());
+            SmoothPiece { triangles, tree, vertices }
         };
         let pieces = parts.iter().map(piece).collect();
         SplineTarget { pieces, diagonal: crate::geometry::vector::diagonal(positions), is_by_patch: false }
@@ -105,6 +128,11 @@ impl SplineTarget {
     /// The diagonal of the bounding box.
     pub fn diagonal(&self) -> f64 {
         self.diagonal
+    }
+
+    /// The vertices of a piece with their unit normals there, by number.
+    pub(super) fn vertices_of(&self, piece: usize) -> &[(TargetVertex, Vector)] {
+        &self.pieces[piece].vertices
     }
 
     /// The piece that is nearest to a point.
@@ -142,6 +170,18 @@ fn check_faces(positions: &[Point], faces: &[[u32; 3]]) -> Result<()> {
         return Err(Error::Spline { what: "face of the target", index, message });
     }
     Ok(())
+}
+
+/// Per vertex a third of the area of the triangles around it, over the area of all.
+fn area_shares(positions: &[Point], faces: &[[u32; 3]]) -> Vec<f64> {
+    let mut shares = vec![0.0; positions.len()];
+    for face in faces {
+        let area = norm(triangle_normal(face.map(|v| positions[v as usize])));
+        face.iter().for_each(|&v| shares[v as usize] += area);
+    }
+    let all: f64 = shares.iter().sum();
+    shares.iter_mut().for_each(|share| *share /= all);
+    shares
 }
 
 /// A point of a triangle.
