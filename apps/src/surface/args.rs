@@ -37,7 +37,7 @@ pub struct ScanArgs {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub features: Option<f64>,
     /// Most spans of a patch in each direction
-    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u8).range(1..=32))]
+    #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u8).range(1..=32))]
     pub spans: u8,
     /// Weight of bending at the end of the fit: 1e-11 without noise, 1e-8 for a noise of a thousandth of the diagonal
     #[arg(long, value_name = "W", default_value_t = 1e-11, value_parser = positive)]

@@ -15,6 +15,7 @@
 
 mod elimination;
 mod fit;
+mod fitted_surface;
 mod gluing;
 mod jumps;
 mod layout;

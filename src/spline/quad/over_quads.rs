@@ -1,14 +1,15 @@
 //! Splines over the layouts of quad meshes: the lines between their irregular vertices bound the patches.
 
 use super::fit::{FitStart, QuadFit, QuadFitOptions, StartMap, bilinear, fit_from};
+use super::fitted_surface::FittedSurface;
 use super::layout::{ArcSide, PatchArc, PatchLayout};
 use super::space::QuadSplineSpace;
+use super::spline::QuadSpline;
 use super::target::SplineTarget;
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::vector::{Vector, add, distance, lerp, scale};
 use crate::mesh::union_find::UnionFind;
-use crate::mesh::{EdgeId, FaceId, Mesh};
 use crate::parallel;
 use crate::quads::{LayoutArc, LayoutPatch, QuadLayout};
 use crate::seamless::Seamless;
@@ -16,7 +17,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 /// Rounds in which the vertices of the quads move, and the share of the way to the mean of their neighbours.
-const RELAXATIONS: usize = 60;
+const RELAXATIONS: usize = 120;
+const RELAXATIONS_TO_TARGET: usize = 20;
+/// Places of a patch in each direction whose faces tell on which part of the surface it lies.
+const PLACES_FOR_FACES: usize = 12;
 const TOWARDS_MEAN: f64 = 0.7;
 /// By so much the weight of bending rises where patches fold, from the least up to the most.
 const STIFFER: f64 = 100.0;
@@ -24,9 +28,6 @@ const LEAST_BENDING: f64 = 1e-13;
 const MOST_BENDING: f64 = 1e-7;
 /// Spans in one direction of a patch that are shorter than those in the other by at most this factor are divided as well.
 const ABOUT_AS_LONG: f64 = 1.5;
-/// Barycentric coordinate below which a place may lie on an edge.
-const ON_EDGE: f64 = 1e-6;
-
 /// Options of [`fit_quad_layout`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct LayoutFitOptions {
@@ -40,7 +41,7 @@ pub struct LayoutFitOptions {
 
 impl Default for LayoutFitOptions {
     fn default() -> Self {
-        LayoutFitOptions { tolerance: 1e-3, most_spans: 3, fit: QuadFitOptions::default() }
+        LayoutFitOptions { tolerance: 1e-3, most_spans: 4, fit: QuadFitOptions::default() }
     }
 }
 
@@ -51,46 +52,38 @@ struct PatchGrid {
 }
 
 /// Fits a spline over the patches of a quad layout to the surface of its seamless metric. Each patch is fitted to the part of the surface on
-/// which its quads lie, and to some more around it, up to features. Where patches fold, bending
-/// weighs more; strips of patches that are not within the tolerance get more spans. The first fit within the tolerance, or else that with the
-/// fewest patches folded, then the least distance.
+/// which it lies, and to some more around it, up to features. Where patches fold, bending weighs more; strips of patches that are not within the
+/// tolerance get more spans. The first fit within the tolerance, or else that with the fewest patches folded, then the least distance.
 ///
 /// # Errors
 /// [`Error::Layout`] for a surface without positions, and for sides of patches that are not one arc; those of
-/// [`super::fit_quads`],
-/// [`SplineTarget::of_patches`] and [`QuadSplineSpace::new`].
+/// [`super::fit_quads`], [`SplineTarget::of_patches`] and [`QuadSplineSpace::new`].
 pub fn fit_quad_layout(
     seamless: &Seamless,
     layout: &QuadLayout,
     options: &LayoutFitOptions,
     control: &Control,
 ) -> Result<QuadFit> {
-    let solution = &seamless.solution;
-    let (Some(positions), Some(vertices)) = (solution.surface().positions(), layout.mesh.positions(solution))
-    else {
+    let Some(vertices) = layout.mesh.positions(&seamless.solution) else {
         return Err(Error::Layout(
             "the surface has no positions in space, so there is nothing to fit".into(),
         ));
     };
-    let mesh = solution.given();
-    let creases: Vec<EdgeId> =
-        seamless.features.iter().copied().filter(|e| !layout.mesh.off_axis.contains(e)).collect();
-    let regions = patch_regions(mesh, layout, &creases);
-    let faces: Vec<[u32; 3]> = mesh.faces().map(|f| mesh.face_vertices(f).map(|v| v.0)).collect();
-    let sharp = creases.iter().map(|&e| mesh.ends(e).map(|v| v.0));
-    let target = SplineTarget::of_patches(positions, &faces, sharp, &regions)?;
-    let vertices = parallel::within(options.fit.threads, || relaxed(layout, vertices, &target, control))?;
-    let grids = PatchGrid::all(layout, &vertices)?;
-    let patches = patch_layout(layout, &vertices)?;
-    let start = |p: usize, uv: [f64; 2]| grids[p].at(uv);
-    parallel::within(options.fit.threads, || fitted(&patches, &start, &target, options, control))
+    parallel::within(options.fit.threads, || {
+        let surface = FittedSurface::new(seamless, layout)?;
+        let (vertices, target) = relaxed(layout, vertices, &surface, control)?;
+        let grids = PatchGrid::all(layout, &vertices)?;
+        let patches = patch_layout(layout, &vertices)?;
+        let start = |p: usize, uv: [f64; 2]| grids[p].at(uv);
+        fitted(&patches, &start, (&surface, target), options, control)
+    })
 }
 
 /// Fits with more and more spans on the strips of patches that are not within the tolerance.
 fn fitted(
     patches: &PatchLayout,
     start: StartMap<'_>,
-    target: &SplineTarget,
+    (surface, mut target): (&FittedSurface<'_>, SplineTarget),
     options: &LayoutFitOptions,
     control: &Control,
 ) -> Result<QuadFit> {
@@ -105,7 +98,7 @@ fn fitted(
             _ => FitStart::Map(start),
         };
         is_first = false;
-        let fit = fit_from(space, &from, target, bending, control)?;
+        let fit = fit_from(space, &from, &target, bending, control)?;
         let (folds, is_near) = (fit.folded_patches.len(), fit.max() <= options.tolerance);
         let is_better = |best: &QuadFit| (folds, fit.max()) < (best.folded_patches.len(), best.max());
         let stiffer = STIFFER * bending.max(LEAST_BENDING);
@@ -121,10 +114,24 @@ fn fitted(
                 });
             }
         }
+        if fit.folded_patches.is_empty() {
+            target = surface.target(&faces_of(&fit.spline, &target))?;
+        }
         if best.as_ref().is_none_or(is_better) {
             best = Some(fit);
         }
     }
+}
+
+/// Per patch the faces of its target at some of its places.
+fn faces_of(spline: &QuadSpline, target: &SplineTarget) -> Vec<Vec<u32>> {
+    let place = |k: usize| (k as f64 + 0.5) / PLACES_FOR_FACES as f64;
+    let of_patch = |p: usize| {
+        let places =
+            (0..PLACES_FOR_FACES).flat_map(|i| (0..PLACES_FOR_FACES).map(move |j| [place(i), place(j)]));
+        places.map(|uv| target.face_near(p, spline.at(p, uv).point)).collect()
+    };
+    parallel::map(spline.space().layout().patches().len(), of_patch)
 }
 
 /// Gives one more span to the strips of patches that fold or are not within the tolerance: to that in the direction in which spans are longer, or
@@ -174,67 +181,51 @@ fn strips(patches: &PatchLayout) -> Vec<u32> {
 }
 
 /// The vertices of the quads moved along the surface towards the means of their neighbours, so that quads around cones, where the flat metric
-/// has no tangent plane, become as large as those around them; those on creases and the boundary stay.
+/// has no tangent plane, become as large as those around them; those on creases and the boundary stay. Patches move along the surface with their
+/// vertices: the target of the moved patches is returned as well.
 fn relaxed(
     layout: &QuadLayout,
     vertices: Vec<Vector>,
-    target: &SplineTarget,
+    surface: &FittedSurface<'_>,
     control: &Control,
-) -> Result<Vec<Vector>> {
+) -> Result<(Vec<Vector>, SplineTarget)> {
     let n = vertices.len();
     let mut neighbours: Vec<Vec<u32>> = vec![Vec::new(); n];
-    let (mut is_fixed, mut patch) = (vec![false; n], vec![0; n]);
     for quad in &layout.mesh.quads {
         for k in 0..4 {
             neighbours[quad[k] as usize].extend([quad[(k + 1) % 4], quad[(k + 3) % 4]]);
         }
     }
-    for (p, of) in layout.patches.iter().enumerate() {
-        let corners = of.quads.iter().flat_map(|&q| layout.mesh.quads[q as usize]);
-        corners.for_each(|v| patch[v as usize] = p);
-    }
+    let mut is_fixed = vec![false; n];
     let on_creases = layout.arcs.iter().filter(|arc| arc.is_crease).flat_map(|arc| &arc.vertices);
     on_creases.for_each(|&v| is_fixed[v as usize] = true);
+    let (mut corners, mut patch): (Vec<Vec<u32>>, Vec<usize>) = (Vec::new(), vec![0; n]);
+    for (p, of) in layout.patches.iter().enumerate() {
+        corners.push(of.quads.iter().flat_map(|&q| layout.mesh.quads[q as usize]).collect());
+        corners[p].iter().for_each(|&v| patch[v as usize] = p);
+    }
     let mut points = vertices;
-    for _ in 0..RELAXATIONS {
+    let mut target = surface.target(&surface.faces_at_first(layout, &corners))?;
+    for round in 1..=RELAXATIONS {
         control.check()?;
         let moved = |v: usize| {
             let around = neighbours[v].iter().map(|&w| points[w as usize]);
             let mean = scale(1.0 / neighbours[v].len() as f64, around.fold([0.0; 3], add));
-            let piece = target.piece_of_patch(patch[v], points[v]);
-            target.foot(piece, lerp(points[v], mean, TOWARDS_MEAN)).point
+            target.foot(patch[v], lerp(points[v], mean, TOWARDS_MEAN)).point
         };
         points =
             parallel::map(n, |v| if is_fixed[v] || neighbours[v].is_empty() { points[v] } else { moved(v) });
+        if round % RELAXATIONS_TO_TARGET == 0 {
+            let face = |&v: &u32| target.face_near(patch[v as usize], points[v as usize]);
+            let inside = |p: usize| {
+                let free = corners[p].iter().filter(|&&v| !is_fixed[v as usize]);
+                let free: Vec<u32> = free.map(face).collect();
+                if free.is_empty() { vec![target.face_near(p, points[corners[p][0] as usize])] } else { free }
+            };
+            target = surface.target(&parallel::map(corners.len(), inside))?;
+        }
     }
-    Ok(points)
-}
-
-/// Per patch the faces on which vertices of its quads lie and those around them that are not beyond creases, so many rings that they cover the
-/// faces between the vertices and about a quarter more; ascending.
-fn patch_regions(mesh: &Mesh, layout: &QuadLayout, creases: &[EdgeId]) -> Vec<Vec<u32>> {
-    let faces_per_quad = mesh.n_faces() as f64 / layout.mesh.quads.len().max(1) as f64;
-    let rings = 2 + (1.5 * faces_per_quad.sqrt()).ceil() as usize;
-    let mut is_crease = vec![false; mesh.n_edges()];
-    creases.iter().for_each(|e| is_crease[e.index()] = true);
-    let of_patch = |p: usize| {
-        let on_lines = |v: u32| layout.mesh.places[v as usize].1.iter().any(|&w| w < ON_EDGE);
-        let vertices = layout.patches[p].quads.iter().flat_map(|&q| layout.mesh.quads[q as usize]);
-        // A vertex on an edge of the mesh lies as well on the other side, which may be beyond a crease.
-        let face = |v: u32| layout.mesh.places[v as usize].0;
-        let mut region: BTreeSet<FaceId> = vertices.clone().filter(|&v| !on_lines(v)).map(face).collect();
-        if region.is_empty() {
-            region.extend(vertices.map(face));
-        }
-        let mut last: Vec<FaceId> = region.iter().copied().collect();
-        for _ in 0..rings {
-            let around = last.iter().flat_map(|&f| mesh.face_halfedges(f));
-            let across = around.filter(|h| !is_crease[h.edge().index()]).filter_map(|h| mesh.face(h.twin()));
-            last = across.filter(|&f| region.insert(f)).collect();
-        }
-        region.into_iter().map(|f| f.0).collect()
-    };
-    parallel::map(layout.patches.len(), of_patch)
+    Ok((points, target))
 }
 
 /// The layout with every side of every patch as one arc. Lengths, equal on opposite sides, are the means of those in space, in units of their

@@ -28,6 +28,8 @@ pub(super) struct TargetVertex {
 
 /// A smooth piece of the target.
 struct SmoothPiece {
+    /// Per triangle its face of the target.
+    faces: Vec<u32>,
     triangles: Vec<TargetTriangle>,
     tree: TriangleTree,
     /// Its vertices with their unit normals, by number.
@@ -114,7 +116,7 @@ impl SplineTarget {
             }
             let vertices = by_number.into_iter().map(|(v, normal)| (vertex(v), normal)).collect();
             let tree = TriangleTree::new(triangles.iter().map(|t| t.corners).collect());
-            SmoothPiece { triangles, tree, vertices }
+            SmoothPiece { faces: part.clone(), triangles, tree, vertices }
         };
         let pieces = parts.iter().map(piece).collect();
         SplineTarget { pieces, diagonal: crate::geometry::vector::diagonal(positions), is_by_patch: false }
@@ -147,6 +149,12 @@ impl SplineTarget {
     /// The piece for a patch whose middle is near a point.
     pub(super) fn piece_of_patch(&self, patch: usize, middle: Vector) -> usize {
         if self.is_by_patch { patch } else { self.nearest_piece(middle) }
+    }
+
+    /// The face of a piece that is nearest to a point.
+    pub(super) fn face_near(&self, piece: usize, point: Vector) -> u32 {
+        let piece = &self.pieces[piece];
+        piece.faces[piece.tree.nearest(point).triangle]
     }
 
     /// The foot of a point on a piece, as on a surface that is curved between the corners of the nearest triangle [`offset`].
