@@ -54,7 +54,7 @@ impl BoundsTree {
             let seen = (point[x] - self.middle[x]) / self.size;
             (f64::from(low[x]) - seen).max(seen - f64::from(high[x])).max(0.0)
         };
-        beyond(0).hypot(beyond(1)).hypot(beyond(2)) * self.size
+        [0, 1, 2].map(|x| beyond(x) * beyond(x)).iter().sum::<f64>().sqrt() * self.size
     }
 
     pub fn node(&self, node: usize) -> BoundsNode<'_> {

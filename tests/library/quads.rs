@@ -72,8 +72,25 @@ fn quads(of: &Seamless, size: QuadSize) -> QuadMesh {
 }
 
 fn layout(of: &Seamless) -> QuadLayout {
-    let options = QuadOptions { size: QuadSize::Coarse, ..QuadOptions::default() };
-    quad_layout(of, &options, &Control::new()).unwrap()
+    sized_layout(of, QuadSize::Coarse).unwrap()
+}
+
+fn sized_layout(of: &Seamless, size: QuadSize) -> ricci::Result<QuadLayout> {
+    quad_layout(of, &QuadOptions { size, ..QuadOptions::default() }, &Control::new())
+}
+
+#[test]
+fn layouts_have_at_most_the_patches_that_are_asked_for() {
+    let of = Surface::from_soup(&shapes::genus(2, 6).unwrap()).unwrap();
+    let of = seamless(&of, &SeamlessOptions::default(), &Control::new()).unwrap();
+    let least = layout(&of).patches.len();
+    // Each node but cones has four patches around it: V − χ of them in all, with at least one node per cone.
+    assert!(least >= of.cones.len() + 2 && least <= 3 * (of.cones.len() + 2), "{least}");
+    let error = sized_layout(&of, QuadSize::AtMost(of.cones.len() + 1)).unwrap_err();
+    assert!(error.to_string().contains("the fewest quads"), "{error}");
+    let more = sized_layout(&of, QuadSize::AtMost(4 * least)).unwrap();
+    check_layout("genus 2, more patches", &of, &more);
+    assert!(more.patches.len() > least && more.patches.len() <= 4 * least, "{}", more.patches.len());
 }
 
 /// What every layout has: the topology of the surface, arcs that end at nodes and are in two sides of patches, or in one on the boundary,

@@ -98,7 +98,7 @@ impl FitStart<'_> {
     fn at(&self, patch: usize, uv: [f64; 2]) -> Vector {
         match self {
             FitStart::Map(map) => map(patch, uv),
-            FitStart::Spline(spline) => spline.at(patch, uv).point,
+            FitStart::Spline(spline) => spline.point_at(patch, uv),
         }
     }
 
@@ -157,12 +157,12 @@ pub(super) fn fit_from(
     for step in first_step..STEPS {
         control.step(Stage::Layout, (step + 1 - first_step) as f64 / (STEPS + 2 - first_step) as f64)?;
         if (step - first_step).is_multiple_of(STEPS_TO_SEARCH) {
-            vertices = vertex_places(target, &pieces, &|p, uv| spline.at(p, uv).point);
+            vertices = vertex_places(target, &pieces, &|p, uv| spline.point_at(p, uv));
         }
         vertices = moved_nearer(&vertices, &spline);
         let foot = |p: usize, place: &FitPlace| {
             let [u, v] = &place.basis;
-            target.foot(pieces[p], spline.combined(p, u, v).point)
+            target.foot(pieces[p], spline.point(p, [u, v]))
         };
         let weights = weights_of(step, bending);
         let free = system.solve(&FitGoal { weights, foot: &foot, vertices: &vertices })?;
@@ -207,7 +207,7 @@ struct PatchDistances {
 
 fn measured(spline: QuadSpline, pieces: &[usize], target: &SplineTarget) -> QuadFit {
     let parameter = |k: usize| k as f64 / (MEASURED - 1) as f64;
-    let vertices = vertex_places(target, pieces, &|p, uv| spline.at(p, uv).point);
+    let vertices = vertex_places(target, pieces, &|p, uv| spline.point_at(p, uv));
     let of_patch = |p: usize| {
         let mut found = PatchDistances { cosine: 1.0, ..PatchDistances::default() };
         let [along_u, along_v] = spline
@@ -224,7 +224,7 @@ fn measured(spline: QuadSpline, pieces: &[usize], target: &SplineTarget) -> Quad
             found.cosine = found.cosine.min(dot(normal, foot.normal));
         }
         for place in &vertices[p] {
-            let nearest = spline.at(p, place.nearer(&spline, p).parameters).point;
+            let nearest = spline.point_at(p, place.nearer(&spline, p).parameters);
             let far = distance(nearest, place.vertex.point);
             found.vertex_squares += place.vertex.share * far * far;
             found.vertex_largest = found.vertex_largest.max(far);

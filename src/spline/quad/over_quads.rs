@@ -129,7 +129,7 @@ fn faces_of(spline: &QuadSpline, target: &SplineTarget) -> Vec<Vec<u32>> {
     let of_patch = |p: usize| {
         let places =
             (0..PLACES_FOR_FACES).flat_map(|i| (0..PLACES_FOR_FACES).map(move |j| [place(i), place(j)]));
-        places.map(|uv| target.face_near(p, spline.at(p, uv).point)).collect()
+        places.map(|uv| target.face_near(p, spline.point_at(p, uv))).collect()
     };
     parallel::map(spline.space().layout().patches().len(), of_patch)
 }

@@ -63,10 +63,38 @@ impl QuadSpline {
         Ok(self.at(patch, [u, v]))
     }
 
+    /// The point at a place of a patch that exists, without derivatives.
+    pub(super) fn point_at(&self, patch: usize, [u, v]: [f64; 2]) -> Vector {
+        let [m, n] = self.space.patch_spans(patch);
+        self.point(patch, [&QuinticBasis::at(m, u), &QuinticBasis::at(n, v)])
+    }
+
     /// The point at a place of a patch that exists.
     pub(super) fn at(&self, patch: usize, [u, v]: [f64; 2]) -> SurfacePoint {
         let [m, n] = self.space.patch_spans(patch);
         self.combined(patch, &QuinticBasis::at(m, u), &QuinticBasis::at(n, v))
+    }
+
+    /// The control points of a patch that count where the basis functions are known: row k those of the function k along u.
+    fn around(
+        &self,
+        patch: usize,
+        [along_u, along_v]: [&QuinticBasis; 2],
+    ) -> impl Iterator<Item = [Vector; LOCAL]> + '_ {
+        let (control, [_, side]) = (self.space.control(patch), self.space.sides(patch));
+        let (first_u, first_v) = (along_u.first, along_v.first);
+        (0..LOCAL).map(move |k| {
+            let row = &control[(first_u + k) * side + first_v..][..LOCAL];
+            std::array::from_fn(|l| self.control_points[row[l] as usize])
+        })
+    }
+
+    /// The point where the basis functions of both directions are known.
+    pub(super) fn point(&self, patch: usize, along: [&QuinticBasis; 2]) -> Vector {
+        let weights = along.map(|basis| &basis.derivatives[0]);
+        self.around(patch, along)
+            .zip(weights[0])
+            .fold([0.0; 3], |sum, (row, &weight)| add(sum, scale(weight, weighted(&row, weights[1]))))
     }
 
     /// The point with its derivatives where the basis functions of both directions are known.
@@ -76,18 +104,21 @@ impl QuadSpline {
         along_u: &QuinticBasis,
         along_v: &QuinticBasis,
     ) -> SurfacePoint {
-        let (control, [_, side]) = (self.space.control(patch), self.space.sides(patch));
-        let at = |of_u: usize, of_v: usize| {
-            let mut sum = [0.0; 3];
-            for k in 0..LOCAL {
-                for l in 0..LOCAL {
-                    let number = control[(along_u.first + k) * side + along_v.first + l];
-                    let weight = along_u.derivatives[of_u][k] * along_v.derivatives[of_v][l];
-                    sum = add(sum, scale(weight, self.control_points[number as usize]));
+        let mut sums = [[[0.0; 3]; 3]; 3];
+        for (k, row) in self.around(patch, [along_u, along_v]).enumerate() {
+            let along_row = [0, 1, 2].map(|of_v| weighted(&row, &along_v.derivatives[of_v]));
+            for (of_u, sums) in sums.iter_mut().enumerate() {
+                for (sum, row) in sums.iter_mut().zip(&along_row).take(3 - of_u) {
+                    *sum = add(*sum, scale(along_u.derivatives[of_u][k], *row));
                 }
             }
-            sum
-        };
-        SurfacePoint { point: at(0, 0), first: [at(1, 0), at(0, 1)], second: [at(2, 0), at(1, 1), at(0, 2)] }
+        }
+        let [[point, by_v, by_vv], [by_u, by_uv, _], [by_uu, ..]] = sums;
+        SurfacePoint { point, first: [by_u, by_v], second: [by_uu, by_uv, by_vv] }
     }
+}
+
+/// The sum of points with weights.
+fn weighted(points: &[Vector; LOCAL], weights: &[f64; LOCAL]) -> Vector {
+    points.iter().zip(weights).fold([0.0; 3], |sum, (point, weight)| add(sum, scale(*weight, *point)))
 }

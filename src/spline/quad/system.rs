@@ -2,7 +2,7 @@
 
 use super::layout::PatchCorner;
 use super::nearest::VertexPlace;
-use super::quintic::{LOCAL, QUINTIC, QuinticBasis};
+use super::quintic::{LOCAL, QUINTIC, QuinticBasis, basis_size};
 use super::space::QuadSplineSpace;
 use super::target::FootPoint;
 use crate::error::{Error, Result};
@@ -48,6 +48,13 @@ struct SpanPlace {
     weight: f64,
 }
 
+/// A direction of a patch with a number of spans.
+struct SpanDirection {
+    places: Vec<SpanPlace>,
+    /// ∫ of the products of the derivatives of order 0, 1 and 2 of two basis functions i and j, at i · n + j of n functions.
+    products: [Vec<f64>; 3],
+}
+
 /// A place of a patch.
 pub(super) struct FitPlace {
     pub basis: [QuinticBasis; 2],
@@ -66,8 +73,8 @@ pub(super) struct FitGoal<'a> {
 /// The normal equations of fits over a space. Unknown 3 k + c is coordinate c of the free control point k.
 pub(super) struct QuadSystem<'a> {
     space: &'a QuadSplineSpace,
-    /// By numbers of spans the places along a direction.
-    along: BTreeMap<usize, Vec<SpanPlace>>,
+    /// By numbers of spans the directions of patches.
+    along: BTreeMap<usize, SpanDirection>,
     /// The area of all patches in parameters.
     area: f64,
     /// Per patch the free control points that it depends on, ascending, and its own control points as combinations of them.
@@ -100,7 +107,7 @@ impl<'a> QuadSystem<'a> {
         }
         let pattern = Pattern::new(3 * space.dimension(), &pairs)?;
         let cholesky = Cholesky::analyse(&pattern)?;
-        let along = space.spans().iter().map(|&spans| (spans, span_places(spans))).collect();
+        let along = space.spans().iter().map(|&spans| (spans, SpanDirection::new(spans))).collect();
         let of_patch = |p: usize| lengths(space, p).iter().product::<f64>();
         let area = (0..space.layout().patches().len()).map(of_patch).sum();
         Ok(QuadSystem { space, along, area, free, pattern, cholesky })
@@ -147,9 +154,9 @@ impl<'a> QuadSystem<'a> {
         }
     }
 
-    /// The places of a patch: those of Gauss in every span and direction, at which bending is integrated exactly.
+    /// The places of a patch: those of Gauss in every span and direction.
     fn places(&self, p: usize) -> impl Iterator<Item = FitPlace> + '_ {
-        let [of_u, of_v] = self.space.patch_spans(p).map(|spans| &self.along[&spans]);
+        let [of_u, of_v] = self.space.patch_spans(p).map(|spans| &self.along[&spans].places);
         of_u.iter().flat_map(move |u| {
             of_v.iter().map(move |v| FitPlace {
                 basis: [u.basis, v.basis],
@@ -167,15 +174,16 @@ impl<'a> QuadSystem<'a> {
         for place in self.places(p) {
             let FootPoint { point, normal } = (goal.foot)(p, &place);
             let tensor = tensor(normal, [weights.normal, weights.tangential], a * b * place.weight);
-            sum.add(&place, &tensor, point, weights.bending * place.weight);
+            sum.add(&place, &tensor, point);
         }
+        sum.bend(weights.bending, self.space.patch_spans(p).map(|spans| &self.along[&spans]));
         let spans = self.space.patch_spans(p);
         for VertexPlace { vertex, normal, parameters } in &goal.vertices[p] {
             let basis = [0, 1].map(|k| QuinticBasis::at(spans[k], parameters[k]));
             let place = FitPlace { basis, parameters: *parameters, weight: vertex.share };
             let weight = VERTICES * self.area * vertex.share;
             let tensor = tensor(*normal, [weights.normal, weights.tangential], weight);
-            sum.add(&place, &tensor, vertex.point, 0.0);
+            sum.add(&place, &tensor, vertex.point);
         }
         self.extracted(p, &sum.matrix, &sum.right)
     }
@@ -212,13 +220,12 @@ impl<'a> QuadSystem<'a> {
 }
 
 impl FitPlace {
-    /// The control points around the place, by ascending numbers in the patch, with their weights in S, S_uu, S_uv and S_vv.
-    fn terms(&self, side: usize) -> [(usize, [f64; 4]); AROUND] {
+    /// The control points around the place, by ascending numbers in the patch, with their weights.
+    fn terms(&self, side: usize) -> [(usize, f64); AROUND] {
         let [u, v] = &self.basis;
         std::array::from_fn(|t| {
             let (k, l) = (t / LOCAL, t % LOCAL);
-            let weight = |a: usize, b: usize| u.derivatives[a][k] * v.derivatives[b][l];
-            ((u.first + k) * side + v.first + l, [weight(0, 0), weight(2, 0), weight(1, 1), weight(0, 2)])
+            ((u.first + k) * side + v.first + l, u.derivatives[0][k] * v.derivatives[0][l])
         })
     }
 }
@@ -228,14 +235,29 @@ fn lengths(space: &QuadSplineSpace, patch: usize) -> [f64; 2] {
     [0, 1].map(|corner| space.layout().length(PatchCorner { patch, corner }))
 }
 
-/// The places of Gauss along a direction with a number of spans.
-fn span_places(spans: usize) -> Vec<SpanPlace> {
-    let in_span = gauss_legendre(PLACES);
-    let place = |s: usize, [x, w]: [f64; 2]| {
-        let parameter = (s as f64 + x) / spans as f64;
-        SpanPlace { basis: QuinticBasis::at(spans, parameter), parameter, weight: w / spans as f64 }
-    };
-    (0..spans).flat_map(|s| in_span.iter().map(move |&at| place(s, at))).collect()
+impl SpanDirection {
+    /// The direction with the places of Gauss in every span, at which products of derivatives are integrated exactly.
+    fn new(spans: usize) -> SpanDirection {
+        let in_span = gauss_legendre(PLACES);
+        let place = |s: usize, [x, w]: [f64; 2]| {
+            let parameter = (s as f64 + x) / spans as f64;
+            SpanPlace { basis: QuinticBasis::at(spans, parameter), parameter, weight: w / spans as f64 }
+        };
+        let places: Vec<SpanPlace> =
+            (0..spans).flat_map(|s| in_span.iter().map(move |&at| place(s, at))).collect();
+        let n = basis_size(spans);
+        let product = |order: usize| {
+            let mut sum = vec![0.0; n * n];
+            for SpanPlace { basis: QuinticBasis { first, derivatives }, weight, .. } in &places {
+                let values = derivatives[order];
+                for (i, j) in (0..LOCAL).flat_map(|i| (0..LOCAL).map(move |j| (i, j))) {
+                    sum[(first + i) * n + first + j] += weight * values[i] * values[j];
+                }
+            }
+            sum
+        };
+        SpanDirection { products: [0, 1, 2].map(product), places }
+    }
 }
 
 /// The matrix of the squared distance from a tangent plane and from its point, with these weights, times another one.
@@ -259,23 +281,32 @@ impl PatchSum {
         PatchSum { matrix: vec![[0.0; 6]; m * m], right: vec![[0.0; 3]; m], sides, lengths }
     }
 
-    /// Adds the squared distance of a place from a point, and its bending with a weight.
-    fn add(&mut self, place: &FitPlace, tensor: &[f64; 6], point: Vector, bending: f64) {
+    /// Adds the squared distance of a place from a point.
+    fn add(&mut self, place: &FitPlace, tensor: &[f64; 6], point: Vector) {
         let m = self.right.len();
-        let [a, b] = self.lengths;
-        let bent = [b / a.powi(3), 2.0 / (a * b), a / b.powi(3)].map(|x| bending * x);
         let pulled = product(tensor, point);
         let terms = place.terms(self.sides[1]);
-        for (i, [value, uu, uv, vv]) in terms {
+        for (number, (i, value)) in terms.into_iter().enumerate() {
             self.right[i] = [0, 1, 2].map(|x| self.right[i][x] + value * pulled[x]);
-            let of_bending = [bent[0] * uu, bent[1] * uv, bent[2] * vv];
-            for (j, other) in terms.iter().take_while(|(j, _)| *j <= i) {
-                let entry = &mut self.matrix[i * m + j];
-                let both = value * other[0];
-                entry.iter_mut().zip(tensor).for_each(|(x, t)| *x += both * t);
-                let bent = of_bending[0] * other[1] + of_bending[1] * other[2] + of_bending[2] * other[3];
-                DIAGONAL.into_iter().for_each(|k| entry[k] += bent);
+            for &(j, other) in &terms[..=number] {
+                let both = value * other;
+                self.matrix[i * m + j].iter_mut().zip(tensor).for_each(|(x, t)| *x += both * t);
             }
+        }
+    }
+
+    /// Adds ∫ S_uu² + 2 S_uv² + S_vv² over the rectangle with a weight.
+    fn bend(&mut self, weight: f64, [along_u, along_v]: [&SpanDirection; 2]) {
+        let [a, b] = self.lengths;
+        let [by_uu, by_uv, by_vv] = [b / a.powi(3), 2.0 / (a * b), a / b.powi(3)].map(|x| weight * x);
+        let [n_u, n_v] = self.sides;
+        let m = n_u * n_v;
+        for (i, j) in (0..m).flat_map(|i| (0..=i).map(move |j| (i, j))) {
+            let [u, v] = [(i / n_v) * n_u + j / n_v, (i % n_v) * n_v + j % n_v];
+            let of =
+                |order_u: usize, order_v: usize| along_u.products[order_u][u] * along_v.products[order_v][v];
+            let bent = by_uu * of(2, 0) + by_uv * of(1, 1) + by_vv * of(0, 2);
+            DIAGONAL.into_iter().for_each(|k| self.matrix[i * m + j][k] += bent);
         }
     }
 }
