@@ -7,6 +7,7 @@ use crate::failure::{Failure, FailureElement, Outcome};
 use crate::guard;
 use crate::memory;
 use crate::spline::ricci_spline;
+use crate::spline_memory;
 use crate::status::*;
 use crate::structs::{self, sized};
 use ricci::spline::{Locator, Parameter, SplineSpace, SurfacePoint};
@@ -87,7 +88,7 @@ pub unsafe extern "C" fn ricci_spline_locate(
     capacity: usize,
 ) -> ricci_status {
     guard::with(spline, |ricci_spline { spline, .. }| {
-        let _reserve = memory::work(n.saturating_add(spline.space().patches().len()), memory::POINT)?;
+        let _reserve = memory::work(n.saturating_add(spline.space().patches().len()), spline_memory::POINT)?;
         let points: Vec<[f64; 2]> = array("points", points.cast(), n)?;
         let domain = spline.space().domain()?;
         let locator = Locator::new(&domain);
@@ -109,7 +110,7 @@ pub unsafe extern "C" fn ricci_spline_evaluate(
         let (places, which) = (structs::read(places)?, QUANTITIES.choose(which)?);
         let (order, size) = which.sizes();
         check_buffer("values", places.n.saturating_mul(size), values, capacity)?;
-        let _reserve = memory::work(places.n, memory::POINT)?;
+        let _reserve = memory::work(places.n, spline_memory::POINT)?;
         let at = places.read(spline.space())?;
         let found = spline.evaluate(&at, order, places.threads, &control::of(control)?)?;
         let mut all = Vec::with_capacity(found.len() * size);

@@ -9,6 +9,9 @@
  * The conventions are those of ricci/ricci.h. A patch of the spline becomes three bicubic B-spline patches;
  * neighbours share the control points of their common side, so that there are no gaps.
  *
+ * A library that was built without the feature `splines` has these functions; each answers RICCI_LEFT_OUT.
+ * Without the feature `step` a STEP file is RICCI_UNKNOWN_FORMAT.
+ *
  * Sources, by the keys of docs/bibliography.md: patches from their sides [Coo67].
  */
 

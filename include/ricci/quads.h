@@ -11,6 +11,8 @@
  * The conventions are those of ricci/ricci.h; faces of a quad mesh are n x 4, counterclockwise seen from
  * outside.
  *
+ * A library that was built without the feature `quads` has these functions; each answers RICCI_LEFT_OUT.
+ *
  * Sources, by the keys of docs/bibliography.md: motorcycle graphs [EGKT08], whole lengths of arcs [LCK21].
  */
 

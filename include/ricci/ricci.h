@@ -16,13 +16,14 @@
  *
  * and the handles are freed: ricci_layout_free, ricci_metric_free (twice), ricci_mesh_free, in any order.
  *
- * Beside this header, by theme: repair.h (triangle lists with defects), shapes.h (sample surfaces), charts.h
- * (layouts on the faces of the mesh, and in charts), homotopy.h (fundamental groups), uniformize.h (canonical
- * shapes, deck groups, covers), circles.h (circle domains), seamless.h (seamless metrics), quads.h (quad
+ * Beside this header, by theme: repair.h (triangle lists with defects), labels.h (names of faces in files),
+ * refine.h (smaller triangles, metrics without small angles), shapes.h (sample surfaces), charts.h (layouts
+ * on the faces of the mesh, and in charts), homotopy.h (fundamental groups), uniformize.h (canonical shapes),
+ * deck.h (deck groups, covers), circles.h (circle domains), seamless.h (seamless metrics), quads.h (quad
  * meshes, and layouts of four-sided patches), harmonic.h (harmonic maps and 1-forms), match.h (maps between
- * surfaces), structure.h (geometric structures), spline.h and bicubic.h (spline surfaces, and patches for
- * CAD). For C++ ricci.hpp has the classes of all themes, and openmesh.hpp, cgal.hpp and eigen.hpp are
- * adapters.
+ * surfaces), structure.h (geometric structures), spline.h, surface_spline.h and bicubic.h (splines, splines
+ * over whole surfaces, and patches for CAD). For C++ ricci.hpp has the classes of all themes, and
+ * openmesh.hpp, cgal.hpp and eigen.hpp are adapters.
  *
  * Conventions
  *   - Every fallible call returns a ricci_status. ricci_last_error() has this thread's message,
@@ -57,6 +58,10 @@
  *   - Results are identical bit for bit for any number of threads. Threads are the call's own and have
  *     ended when it returns (a ricci_solver keeps its threads until it is freed). Where memory does not
  *     suffice for as many as are asked for, there are fewer. Nothing is printed.
+ *   - A build can leave parts out (RICCI_FEATURES of CMake); their functions stay. Without `gltf`, `gifti`,
+ *     `gzip` or `step` such files are RICCI_UNKNOWN_FORMAT, as is a texture for .glb. Without `splines` all
+ *     of spline.h, surface_spline.h and bicubic.h, without `quads` all of seamless.h and quads.h answers
+ *     RICCI_LEFT_OUT.
  *   - Platforms: 64-bit Linux (tested on x86-64, glibc); written for macOS and Windows, not tested there.
  *
  * Sources, by the keys of docs/bibliography.md: the unified Ricci flow [ZGZLYG14], its convergence with flips
@@ -142,6 +147,8 @@ enum {
     RICCI_STRUCT_SIZE = 14,
     /** There is not enough memory; handles are unchanged. */
     RICCI_NO_MEMORY = 15,
+    /** The function belongs to a part that was left out when the library was built. */
+    RICCI_LEFT_OUT = 16,
     /**
      * A file could not be read or written; amount: the number of the system's error (errno), 0 if it has
      * none.

@@ -8,6 +8,8 @@
  *
  * The conventions are those of ricci/ricci.h.
  *
+ * A library that was built without the feature `quads` has these functions; each answers RICCI_LEFT_OUT.
+ *
  * Sources, by the keys of docs/bibliography.md: prescribed turning [CZ24], cross fields [KCPS13].
  */
 

@@ -18,6 +18,7 @@ mod fit;
 mod gluing;
 mod jumps;
 mod layout;
+#[cfg(feature = "quads")]
 mod over_quads;
 mod quintic;
 mod space;
@@ -29,6 +30,7 @@ mod target;
 
 pub use fit::{QuadFit, QuadFitOptions, bilinear, fit_quads};
 pub use layout::{ArcSide, PatchArc, PatchCorner, PatchLayout};
+#[cfg(feature = "quads")]
 pub use over_quads::{LayoutFitOptions, fit_quad_layout};
 pub use quintic::QUINTIC;
 pub use space::QuadSplineSpace;
