@@ -111,11 +111,20 @@ typedef struct ricci_deck_spec {
     size_t n_words;
     /** WITHIN, DIRICHLET_SIDES: a domain of this surface. */
     const ricci_dirichlet *dirichlet;
-    /** WITHIN: largest distance that the centre moves. */
+    /**
+     * WITHIN: largest distance that the centre moves. Twice the radius of the domain reaches all copies that
+     * share a corner with it.
+     */
     double radius;
-    /** DEPTH: most letters of a word. */
+    /**
+     * DEPTH: most letters of a word. 2 suits pictures: each letter multiplies the number of elements by up to
+     * 4 g - 1 in genus g.
+     */
     size_t depth;
-    /** DEPTH, WITHIN: most elements that are looked at. */
+    /**
+     * DEPTH, WITHIN: most elements that are looked at. 1000 suits pictures; more elements are RICCI_TOO_LARGE
+     * instead of a long wait.
+     */
     size_t limit;
 } ricci_deck_spec;
 

@@ -47,15 +47,24 @@ enum {
 typedef struct ricci_quads_options {
     /** sizeof(ricci_quads_options). */
     size_t size;
-    /** RICCI_QUADS_*: how the size of the quads is told. Of a layout they are its unit squares. */
+    /**
+     * RICCI_QUADS_*: how the size of the quads is told. Of a layout they are its unit squares. Start with the
+     * default to see the cones.
+     */
     uint32_t sizing;
     /** 0. */
     uint32_t reserved;
-    /** RICCI_QUADS_NUMBER: the number of quads, 1 or more. */
+    /**
+     * RICCI_QUADS_NUMBER: the number of quads, 1 or more. Fewer than RICCI_QUADS_COARSE has are not to be
+     * had.
+     */
     size_t n_quads;
-    /** RICCI_QUADS_EDGE: the length of edges, positive, in the units of the surface's lengths. */
+    /**
+     * RICCI_QUADS_EDGE: the length of edges, positive, in the units of the surface's lengths. The wanted
+     * spacing of the control mesh.
+     */
     double edge;
-    /** Threads; 0: one for each core. */
+    /** Threads; 0: one for each core. 1 suits hosts that run several calls at once. */
     size_t threads;
 } ricci_quads_options;
 

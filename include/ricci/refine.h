@@ -27,13 +27,25 @@ extern "C" {
 typedef struct ricci_refine_options {
     /** sizeof(ricci_refine_options). */
     size_t size;
-    /** Of a triangle list: the number of times that every face is cut into four. */
+    /**
+     * Of a triangle list: the number of times that every face is cut into four. 1 halves the edges, and makes
+     * four times as many faces.
+     */
     size_t levels;
-    /** Of a triangle list: the length above which no edge is left; 0: any. */
+    /**
+     * Of a triangle list: the length above which no edge is left; 0: any. It suits values at vertices, which
+     * need a resolution.
+     */
     double longest_edge;
-    /** Of a metric: the least angle of its triangles, radians, at most 30 degrees; 0: 25 degrees. */
+    /**
+     * Of a metric: the least angle of its triangles, radians, at most 30 degrees; 0: 25 degrees. Larger ones
+     * need more vertices.
+     */
     double least_angle;
-    /** Of a metric: the most vertices that are added; 0: ten per face and 100000. */
+    /**
+     * Of a metric: the most vertices that are added; 0: ten per face and 100000. It is a limit of time and
+     * memory.
+     */
     size_t most_added;
 } ricci_refine_options;
 

@@ -162,27 +162,47 @@ typedef struct ricci_repair_options {
     /**
      * Vertices within this distance become one; 0: those in exactly the same place, where their faces are
      * then connected through edges, but not in edges in which more than two faces would meet
-     * (ricci_soup_refused); negative: no welding.
+     * (ricci_soup_refused); negative: no welding. ricci_soup_hint names the distance that closes an open
+     * seam.
      */
     double weld;
     /**
-     * Keep one connected piece: 1 is that with the most faces, 2 the next, and so on, up to n_components;
-     * 0: all. ricci_soup_origins is then the way back from the piece to the list.
+     * Keep one connected piece: 1 is that with the most faces, 2 the next, and so on, up to n_components; 0:
+     * all. ricci_soup_origins is then the way back from the piece to the list. 1 suits scans with loose
+     * pieces.
      */
     size_t component;
-    /** 1 cuts the surface open along edges in which more than two faces meet. */
+    /**
+     * 1 cuts the surface open along edges in which more than two faces meet. 0 suits solids, where such an
+     * edge is a mistake to be looked at; 1 unions of sheets.
+     */
     uint32_t cut_non_manifold_edges;
-    /** 1 drops the faces of vertices whose coordinates are not finite, which are RICCI_DEFECTS otherwise. */
+    /**
+     * 1 drops the faces of vertices whose coordinates are not finite, which are RICCI_DEFECTS otherwise. 1
+     * suits scans and brain surfaces with missing vertices, together with fill_holes.
+     */
     uint32_t drop_non_finite;
-    /** 1 divides faces at vertices that lie on their boundary edges, before welding. */
+    /**
+     * 1 divides faces at vertices that lie on their boundary edges, before welding. 1 suits tessellations of
+     * CAD programs face by face.
+     */
     uint32_t split_t_junctions;
-    /** 1 mends faces without area by collapses and flips; vertices keep their places. */
+    /**
+     * 1 mends faces without area by collapses and flips; vertices keep their places. 1 suits files of CAD
+     * programs, whose slivers no metric has.
+     */
     uint32_t mend_zero_area;
-    /** Fill the boundary loops of at most so many edges; 0: none; SIZE_MAX: all. */
+    /**
+     * Fill the boundary loops of at most so many edges; 0: none; SIZE_MAX: all. 100 fills small holes of
+     * scans and leaves openings that are meant.
+     */
     size_t fill_holes;
-    /** In place of it, vertices of the given list: the loops through them are filled. NULL: none. */
+    /**
+     * In place of it, vertices of the given list: the loops through them are filled. NULL: none. It suits
+     * parts of which one opening alone is a mistake.
+     */
     const uint32_t *holes;
-    /** Number of these vertices. */
+    /** Number of these vertices. 0 with NULL. */
     size_t n_holes;
 } ricci_repair_options;
 

@@ -992,7 +992,10 @@ enum {
 typedef struct ricci_target {
     /** sizeof(ricci_target). */
     size_t size;
-    /** RICCI_TARGET_*. */
+    /**
+     * RICCI_TARGET_*. Begin with the default, or with RICCI_TARGET_AUTO and 8 cones where areas should change
+     * little.
+     */
     uint32_t kind;
     /** 0. */
     uint32_t reserved;
@@ -1045,30 +1048,50 @@ enum {
 typedef struct ricci_flow_options {
     /** sizeof(ricci_flow_options). */
     size_t size;
-    /** RICCI_METHOD_*. */
+    /**
+     * RICCI_METHOD_*. Newton's method takes 4 to 7 steps on most surfaces; the gradient flow is for studies
+     * of the flow itself.
+     */
     uint32_t method;
-    /** RICCI_FLIPS_*. */
+    /** RICCI_FLIPS_*. Keep the default: without flips triangles can break before the target is reached. */
     uint32_t flips;
-    /** Largest |K - target| of a converged metric, radians, positive; 0: 1e-10. */
+    /**
+     * Largest |K - target| of a converged metric, radians, positive; 0: 1e-10. The default is met by all but
+     * a few flows of docs/results/flow.md; since Newton's last steps double the digits, a larger one saves
+     * little.
+     */
     double tolerance;
-    /** Steps before giving up; 0: 500 for Newton, 200,000 for the gradient flow. */
+    /**
+     * Steps before giving up; 0: 500 for Newton, 200,000 for the gradient flow. The defaults are far above
+     * what flows that arrive need (182 in docs/results/flow.md), so a lower limit is a limit of time.
+     */
     size_t max_iterations;
-    /** Threads of this flow, in a pool of its own; 0: one per core. The result does not depend on it. */
+    /**
+     * Threads of this flow, in a pool of its own; 0: one per core. The result does not depend on it. 1 suits
+     * hosts that run several calls at once.
+     */
     size_t threads;
-    /** Largest change of any u in one Newton step, positive; 0: 3. */
+    /**
+     * Largest change of any u in one Newton step, positive; 0: 3. The default lets lengths change by a factor
+     * of e^3 at a time; it seldom needs a change.
+     */
     double max_step;
     /**
-     * Edges that are not flipped, such as seams and feature lines: rows of ricci_mesh_edges of the mesh
-     * that the metric was made from. Targets that only their flips would reach are then out of reach.
+     * Edges that are not flipped, such as seams and feature lines: rows of ricci_mesh_edges of the mesh that
+     * the metric was made from. Targets that only their flips would reach are then out of reach. None suits
+     * all but texture seams and features that have to stay edges.
      */
     const uint32_t *fixed_edges;
     /** Entries of `fixed_edges`. */
     size_t n_fixed_edges;
-    /** RICCI_STEP_*: step rule of the gradient flow. */
+    /**
+     * RICCI_STEP_*: step rule of the gradient flow. The default needs no tuning; RICCI_STEP_STABLE follows
+     * the flow in time.
+     */
     uint32_t step;
-    /** Gradient flow in E2: 1 keeps the total area of the start. */
+    /** Gradient flow in E2: 1 keeps the total area of the start. Use it to compare shapes along the flow. */
     uint32_t area_normalised;
-    /** The step of RICCI_STEP_FIXED, positive. */
+    /** The step of RICCI_STEP_FIXED, positive. A trace with RICCI_STEP_STABLE shows how large it may be. */
     double step_size;
 } ricci_flow_options;
 
@@ -1373,24 +1396,30 @@ enum {
 typedef struct ricci_layout_options {
     /** sizeof(ricci_layout_options). */
     size_t size;
-    /** RICCI_MODEL_* with two coordinates: those of ricci_layout_uv and of files. */
+    /**
+     * RICCI_MODEL_* with two coordinates: those of ricci_layout_uv and of files. In H2 the default shows
+     * angles, RICCI_MODEL_KLEIN straight geodesics.
+     */
     uint32_t model;
-    /** RICCI_SCALE_*. */
+    /** RICCI_SCALE_*. Patterns to be cut from sheets need RICCI_SCALE_AS_SOLVED, textures the default. */
     uint32_t scale;
     /**
      * Vertices through which the cut has to go; those on the boundary change nothing. NULL with n_cones 0:
      * those of the flow (RICCI_REPORT_CONES), and of a metric without a flow those whose curvature is more
-     * than 1e-10 off flat. Not NULL with n_cones 0: none.
+     * than 1e-10 off flat. Not NULL with n_cones 0: none. NULL is right after a flow.
      */
     const uint32_t *cones;
     /** Entries of `cones`. */
     size_t n_cones;
     /**
-     * The vertex at the origin; NULL: in E2 a corner of the smallest triangle, elsewhere a vertex from
-     * which none is far.
+     * The vertex at the origin; NULL: in E2 a corner of the smallest triangle, elsewhere a vertex from which
+     * none is far. Name one only to bring layouts of several surfaces into the same place.
      */
     const uint32_t *root;
-    /** Threads; 0: as many as the flow had. The result does not depend on it. */
+    /**
+     * Threads; 0: as many as the flow had. The result does not depend on it. 1 suits hosts that run several
+     * calls at once.
+     */
     size_t threads;
 } ricci_layout_options;
 

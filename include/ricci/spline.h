@@ -66,25 +66,32 @@ enum {
 typedef struct ricci_spline_spec {
     /** sizeof(ricci_spline_spec), by ricci_init. */
     size_t size;
-    /** Knots, n_vertices x (degree + 1) x 2, the first of a vertex the vertex itself; NULL: by the rules. */
+    /**
+     * Knots, n_vertices x (degree + 1) x 2, the first of a vertex the vertex itself; NULL: by the rules. NULL
+     * suits all but spaces from other programs.
+     */
     const double *knots;
     /**
      * Vertices whose knots coincide, as at corners of the boundary, so that basis functions end there as
-     * those of Bezier triangles.
+     * those of Bezier triangles. Corners of the boundary need not be named, theirs coincide anyway.
      */
     const uint32_t *coincident;
-    /** Number of these vertices. */
+    /** Number of these vertices. 0 with NULL. */
     size_t n_coincident;
-    /** Edges, n_creases x 2 vertices, across which the spline may have a crease. */
+    /**
+     * Edges, n_creases x 2 vertices, across which the spline may have a crease. Edges of the part that are
+     * sharp.
+     */
     const uint32_t *creases;
-    /** Number of these edges. */
+    /** Number of these edges. 0 with NULL. */
     size_t n_creases;
     /**
      * Distance of the farthest knots from their vertex over the radius of the smallest circle inscribed in a
-     * face there, above 0 and below 1; 0: a half.
+     * face there, above 0 and below 1; 0: a half. Far knots make a spline look smoother; with near ones more
+     * points lie in one patch alone.
      */
     double spread;
-    /** 1 to 5; 0: 3. */
+    /** 1 to 5; 0: 3. 3 has continuous curvature; higher ones take more memory and time for each patch. */
     uint32_t degree;
     /** 0. */
     uint32_t reserved;
@@ -94,13 +101,18 @@ typedef struct ricci_spline_spec {
 typedef struct ricci_spline_places {
     /** sizeof(ricci_spline_places), by ricci_init. */
     size_t size;
-    /** The patch of each place, n of them; NULL: the one in which it lies. */
+    /**
+     * The patch of each place, n of them; NULL: the one in which it lies. Giving those that are known saves
+     * the search.
+     */
     const uint32_t *patches;
-    /** x and y of each place, n x 2. */
+    /** x and y of each place, n x 2. Any order is fast: places are sorted inside. */
     const double *parameters;
-    /** Number of places. */
+    /** Number of places. Many at a time are faster than one by one. */
     size_t n;
-    /** Threads, 0 for one per core; results do not depend on it. */
+    /**
+     * Threads, 0 for one per core; results do not depend on it. 1 suits hosts that run several calls at once.
+     */
     size_t threads;
 } ricci_spline_places;
 
@@ -108,14 +120,16 @@ typedef struct ricci_spline_places {
 typedef struct ricci_spline_fit_options {
     /** sizeof(ricci_spline_fit_options), by ricci_init. */
     size_t size;
-    /** The place in the spline of each point; NULL: at its own x and y. */
+    /** The place in the spline of each point; NULL: at its own x and y. NULL suits height fields. */
     const ricci_spline_places *places;
     /**
      * Weight of the variation of bending, times the area of the domain, beside the mean squared distance; 0:
-     * 1e-12, which decides where there are few points; below 0: none.
+     * 1e-12, which decides where there are few points; below 0: none. 1e-10 suits scans of 0.1 % noise.
      */
     double fairness;
-    /** Threads, 0 for one per core; results do not depend on it. */
+    /**
+     * Threads, 0 for one per core; results do not depend on it. 1 suits hosts that run several calls at once.
+     */
     size_t threads;
 } ricci_spline_fit_options;
 

@@ -36,30 +36,41 @@ typedef struct ricci_spline_surface_options {
     size_t size;
     /**
      * Number of control points, at most; 0: a quarter of the vertices. Where no such spline holds,
-     * ricci_spline_fit_mesh tries twice and four times as many too, up to 4000.
+     * ricci_spline_fit_mesh tries twice and four times as many too, up to 4000. More suit fine detail, as
+     * long as they are far fewer than vertices.
      */
     size_t control_points;
     /**
      * Largest distance of a vertex from the spline over the diagonal of the bounding box at which no further
-     * round is made; 0: 0.01.
+     * round is made; 0: 0.01. Below the noise of a scan more rounds do not help.
      */
     double tolerance;
     /**
      * Weight of the variation of bending in the first round, h^6 |D^3 F|^2 with h the longest side of each
      * triangle, as a mean over the triangles beside the mean squared distance; 0: chosen by cross-validation.
+     * The default suits noise of unknown size, which it estimates.
      */
     double fairness;
-    /** Least distance of knots from their vertex, as in ricci_spline_spec; 0: 0.9. */
+    /**
+     * Least distance of knots from their vertex, as in ricci_spline_spec; 0: 0.9. Keep the default, with
+     * which docs/results/splines.md was made.
+     */
     double spread;
-    /** Threads, 0 for one per core; results do not depend on it. */
+    /**
+     * Threads, 0 for one per core; results do not depend on it. 1 suits hosts that run several calls at once.
+     */
     size_t threads;
-    /** 1 to 5; 0: 3. */
+    /** 1 to 5; 0: 3. 3 suits CAD, whose patches are bicubic. */
     uint32_t degree;
-    /** Times that the sizes of the triangles are adapted to the errors; 0: 6. */
+    /**
+     * Times that the sizes of the triangles are adapted to the errors; 0: 6. The default ends early where the
+     * tolerance is met.
+     */
     uint32_t rounds;
     /**
      * Times at most that vertices are moved to where the spline is nearest, fewer where the tolerance is met
-     * or little is gained; 0: 20; below 0: none.
+     * or little is gained; 0: 20; below 0: none. Keep the default: without them a vertex is held to its first
+     * place in the domain.
      */
     int32_t corrections;
     /** 0. */

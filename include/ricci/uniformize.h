@@ -58,21 +58,27 @@ typedef struct ricci_uniform_options {
     size_t size;
     /**
      * How the flow is done; NULL: its defaults. A sphere takes tolerance, max_iterations (of all its flows)
-     * and threads; with RICCI_METHOD_GRADIENT it flows in S2 itself, with all of them and in any scheme.
+     * and threads; with RICCI_METHOD_GRADIENT it flows in S2 itself, with all of them and in any scheme. The
+     * defaults suit all but studies of the flow.
      */
     const ricci_flow_options *flow;
     /**
      * Where the flow starts, such as another flow's result, in its scheme; in E2 (genus 1) or H2 (more).
-     * NULL: at the mesh.
+     * NULL: at the mesh. A near metric saves steps where a surface is uniformized again after small changes.
      */
     const ricci_metric *start;
     /**
      * The vertex at a quotient's origin, where the loops of its homotopy basis meet; of a sphere the vertex
      * that is sent to infinity, or where the layout of one that flows in S2 starts. NULL: one from which no
-     * vertex is far; one from which sizes differ least; vertex 0.
+     * vertex is far; one from which sizes differ least; vertex 0. Name one to compare surfaces with
+     * corresponding vertices; NULL gives rounder layouts.
      */
     const uint32_t *base;
-    /** RICCI_SCHEME_*; spheres have RICCI_SCHEME_YAMABE, but for those that flow in S2. */
+    /**
+     * RICCI_SCHEME_*; spheres have RICCI_SCHEME_YAMABE, but for those that flow in S2. The default, inversive
+     * distances and virtual radii keep the surface's conformal structure, the two others do not
+     * (docs/results/schemes.md).
+     */
     uint32_t scheme;
     /** 0. */
     uint32_t reserved;
@@ -80,17 +86,20 @@ typedef struct ricci_uniform_options {
      * RICCI_BOUNDARY_STRAIGHT: n_corners vertices of the boundary. NULL: as many corners with equal angles,
      * the vertices where the boundary turns by more than 45 degrees if there are just as many, else at equal
      * distances along the longest loop; with n_corners = 0 four on a disk, none on an annulus, 4 |chi| on
-     * other surfaces.
+     * other surfaces. NULL suits rectangles with sharp corners, such as panels.
      */
     const uint32_t *corners;
     /**
      * n_corners angles inside the corners, radians; 0: corners without an angle share the rest. NULL: all are
-     * equal.
+     * equal. NULL suits rectangles.
      */
     const double *corner_angles;
-    /** Number of corners. */
+    /** Number of corners. Four make the modulus of a quadrilateral. */
     size_t n_corners;
-    /** RICCI_BOUNDARY_*: the shape that the boundary is given. */
+    /**
+     * RICCI_BOUNDARY_*: the shape that the boundary is given. Geodesics suit comparisons of shape, straight
+     * sides textures.
+     */
     uint32_t boundary;
     /** 0. */
     uint32_t reserved_too;
