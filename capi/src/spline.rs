@@ -278,7 +278,7 @@ pub unsafe extern "C" fn ricci_spline_tessellate(
     guard::make(mesh, || {
         let spline = &shared(spline)?.spline;
         let faces = spline.space().patches().len().saturating_mul(sides.saturating_mul(sides));
-        let reserve = memory::work(faces, spline_memory::POINT)?;
+        let reserve = memory::work(spline_memory::tessellation(faces), 1)?;
         let threads = control::threads(control);
         let soup = spline.tessellate(sides, threads, &control::of(control)?)?;
         drop(reserve);

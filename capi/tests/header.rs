@@ -116,7 +116,8 @@ fn every_header_is_listed_with_its_papers() {
             let comment = text.split("*/").next().unwrap().replace("\n *", "");
             let (_, sources) = comment.split_once("Sources, by the keys of docs/bibliography.md:").unwrap();
             let keys = sources.split('[').skip(1).flat_map(|s| s.split(']').next().unwrap().split("; "));
-            let missing: Vec<&str> = keys.filter(|k| !works.contains(&format!("| [{}] |", k.trim()))).collect();
+            let missing: Vec<&str> =
+                keys.filter(|k| !works.contains(&format!("| [{}] |", k.trim()))).collect();
             assert!(missing.is_empty() && sources.contains('['), "{name}.h: {missing:?}");
         }
     }
