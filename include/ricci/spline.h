@@ -124,7 +124,8 @@ typedef struct ricci_spline_fit_options {
     const ricci_spline_places *places;
     /**
      * Weight of the variation of bending, times the area of the domain, beside the mean squared distance; 0:
-     * 1e-12, which decides where there are few points; below 0: none. 1e-10 suits scans of 0.1 % noise.
+     * 1e-12, which decides where there are few points; below 0: none. 1e-8 suits scans of 0.1 % noise, where
+     * it had up to 8 times less error.
      */
     double fairness;
     /**
