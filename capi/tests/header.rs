@@ -275,6 +275,30 @@ fn every_function_has_its_comment() {
     }
 }
 
+/// Each field of a struct of options says what it is, and in a further sentence what suits whom.
+#[test]
+fn every_option_has_its_advice() {
+    let mut count = 0;
+    for (header_name, _) in HEADERS {
+        let text = header(header_name);
+        for body in text.split("typedef struct ").skip(1) {
+            let Some((name, rest)) = body.split_once(" {\n") else { continue };
+            let fields = rest.split("\n}").next().unwrap();
+            for field in fields.split("/**").skip(1).filter(|_| name.ends_with("_options")) {
+                let (comment, declaration) = field.split_once("*/").unwrap();
+                let field = name_of(declaration.trim());
+                if field == "size" || field.starts_with("reserved") {
+                    continue;
+                }
+                let words = comment.split_whitespace().filter(|w| *w != "*").collect::<Vec<_>>().join(" ");
+                assert!(words.contains(". "), "{name}.{field}: {words}");
+                count += 1;
+            }
+        }
+    }
+    assert!(count > 80, "{count}");
+}
+
 /// The table of docs/results/fuzz.md names every function and the targets that call it, which exist; no target is left out.
 #[test]
 fn every_function_has_its_fuzz_target() {

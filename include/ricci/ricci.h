@@ -1082,7 +1082,7 @@ typedef struct ricci_flow_options {
      * all but texture seams and features that have to stay edges.
      */
     const uint32_t *fixed_edges;
-    /** Entries of `fixed_edges`. */
+    /** Entries of `fixed_edges`. 0 with NULL. */
     size_t n_fixed_edges;
     /**
      * RICCI_STEP_*: step rule of the gradient flow. The default needs no tuning; RICCI_STEP_STABLE follows
@@ -1409,7 +1409,7 @@ typedef struct ricci_layout_options {
      * than 1e-10 off flat. Not NULL with n_cones 0: none. NULL is right after a flow.
      */
     const uint32_t *cones;
-    /** Entries of `cones`. */
+    /** Entries of `cones`. 0 with NULL. */
     size_t n_cones;
     /**
      * The vertex at the origin; NULL: in E2 a corner of the smallest triangle, elsewhere a vertex from which
