@@ -7,7 +7,7 @@ pub const POINT: usize = 1 << 9;
 /// Most bytes per face of a tessellation, beside the points that are evaluated at a time.
 const FACE: usize = 1 << 8;
 /// Most points of a tessellation that are evaluated at a time.
-const EVALUATED: usize = 1 << 16;
+const EVALUATED: usize = 1 << 14;
 /// Most bytes per point and per control point of a fit: 2,980 of degree 5.
 pub const FIT: usize = 1 << 12;
 /// Most bytes per byte of a spline's file while it is read: 29 of degree 5.

@@ -14,7 +14,7 @@ use std::collections::hash_map::Entry;
 /// Most vertices of a tessellation.
 const MOST_VERTICES: usize = 100_000_000;
 /// Number of places that are evaluated at a time, of which a point and a normal are kept each.
-const EVALUATED: usize = 1 << 16;
+const EVALUATED: usize = 1 << 14;
 
 impl Spline {
     /// A triangle mesh of the surface: n² triangles for each patch, and after these for each cap triangle at infinity, counterclockwise as
