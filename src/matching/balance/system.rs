@@ -170,6 +170,7 @@ impl<'a> BalanceSystem<'a> {
             }
             let tolerance = LINEAR[0].min(LINEAR[1] * residual).max(LINEAR[1] * BALANCED / residual);
             let direction = self.newton(placed, &logs, &mut solver, tolerance)?;
+            control.check()?;
             let mut length = 1.0;
             let mut found = None;
             for _ in 0..MOST_HALVINGS {
