@@ -136,7 +136,7 @@ static const ricci_harmonic_spec ROUND = {sizeof ROUND, NULL, NULL, 0, RICCI_HAR
 static const ricci_quads_options MANY = {sizeof MANY, RICCI_QUADS_NUMBER, 0, 20000, 0, 0};
 static const ricci_bicubic_options NEAR = {sizeof NEAR, 1e-5, 0, 0, 0, 1, 0};
 static ricci_harmonic_summary figures;
-static ricci_seamless_options isometric = {.size = sizeof isometric, .isometric_steps = 50};
+static ricci_seamless_options isometric = {.size = sizeof isometric, .isometric_steps = 5};
 
 FILLS(target_fill, ricci_target_fill(torus_metric, &EIGHT, control, numbers, n_most))
 MAKES(flow, ricci_metric, ricci_flow(torus_metric, NULL, NULL, control, &result))
