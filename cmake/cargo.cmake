@@ -6,7 +6,7 @@
 # RICCI_CARGO_TARGET      the Rust target; default when cross-compiling for Linux or, by MinGW, for Windows: that of CMake's processor;
 #                         else the host
 # RICCI_CARGO_WITH        packages that are built beside it, so that the crates of both are compiled once (tests/run: the command)
-# RICCI_FEATURES          parts of the library that a build can leave out: all by default, "gltf;gifti;gzip;step"
+# RICCI_FEATURES          parts of the library that a build can leave out: all by default, "gltf;gifti;gzip;quads;splines;step"
 # RICCI_CARGO_OFFLINE     ON: nothing is downloaded, as from the tarball of cmake/tarball.cmake
 
 find_program(CARGO cargo HINTS $ENV{CARGO_HOME}/bin $ENV{HOME}/.cargo/bin)
@@ -42,8 +42,9 @@ set(RICCI_CARGO_TARGET "${_target}" CACHE STRING "the Rust target; empty: the ho
 option(RICCI_CARGO_OFFLINE "build without the network" OFF)
 set(RICCI_CARGO_WITH "" CACHE STRING "cargo packages that are built beside ricci-capi")
 set(_cargo_packages --package ricci-capi --lib)
-set(RICCI_FEATURES gltf gifti gzip step CACHE STRING "parts of the library: gltf, gifti, gzip, step")
-if(NOT RICCI_FEATURES STREQUAL "gltf;gifti;gzip;step")
+set(_all_features gltf gifti gzip quads splines step)
+set(RICCI_FEATURES ${_all_features} CACHE STRING "parts of the library: gltf, gifti, gzip, quads, splines, step (with splines)")
+if(NOT RICCI_FEATURES STREQUAL "${_all_features}")
   list(TRANSFORM RICCI_FEATURES PREPEND "ricci-capi/" OUTPUT_VARIABLE _features)
   list(JOIN _features "," _features)
   list(APPEND _cargo_packages --no-default-features "--features=${_features}")

@@ -19,14 +19,17 @@ import cffi
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
 HERE = Path(__file__).resolve().parent
-# ricci.h and spline.h come before those that include them.
+# Headers with types come before those that include them.
 HEADERS = (
     "ricci",
     "repair",
+    "labels",
+    "refine",
     "shapes",
     "homotopy",
     "charts",
     "uniformize",
+    "deck",
     "circles",
     "seamless",
     "quads",
@@ -34,6 +37,7 @@ HEADERS = (
     "match",
     "structure",
     "spline",
+    "surface_spline",
     "bicubic",
 )
 

@@ -21,8 +21,9 @@
 //! | [`structure`] | atlases: conformal, spherical, affine, hyperbolic, projective |
 //! | [`spline`] | triangular B-splines, fits over whole surfaces, bicubic patches for CAD |
 //!
-//! Three cargo features, on by default, add file formats and the crates that they need: `gltf` reads and writes .glb and reads .gltf,
-//! `gifti` reads .gii, `json` reads and writes splines.
+//! Cargo features, on by default, add file formats and the crates that they need: `gltf` reads and writes .glb and reads .gltf, `gifti` reads
+//! .gii, `gzip` reads what gzip has packed, `json` reads and writes splines. Two others are the floors `splines` ([`spline`]) and `quads`
+//! ([`seamless`] and [`quads`]). `step`, off by default, writes STEP files of splines.
 
 // Readers and writers of formats, whose functions follow their formats, are excepted in mesh/io.
 #![warn(clippy::too_many_lines)]
@@ -39,8 +40,11 @@ pub mod matching;
 pub mod mesh;
 pub mod metric;
 pub mod parallel;
+#[cfg(feature = "quads")]
 pub mod quads;
+#[cfg(feature = "quads")]
 pub mod seamless;
+#[cfg(feature = "splines")]
 pub mod spline;
 pub mod structure;
 pub mod topology;

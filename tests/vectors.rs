@@ -1,6 +1,6 @@
 //! Golden vectors (`tests/vectors/README.md`): what the library computes agrees with the numbers that all languages are held to, and is the
 //! same bit for bit for any number of threads.
-#![cfg(feature = "json")]
+#![cfg(all(feature = "json", feature = "splines"))]
 #![allow(clippy::unwrap_used, clippy::print_stdout, clippy::print_stderr)]
 
 #[path = "vectors/calls.rs"]

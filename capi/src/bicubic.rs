@@ -8,6 +8,7 @@ use crate::guard::{self, handle, shared};
 use crate::memory;
 use crate::optional::{LengthUnit, StepOptions, write_step};
 use crate::spline::ricci_spline;
+use crate::spline_memory;
 use crate::status::*;
 use crate::structs::{self, or, sized};
 use ricci::mesh::io::write_atomically;
@@ -119,7 +120,7 @@ fn bytes(
     options: *const ricci_step_options,
 ) -> Outcome<Vec<u8>> {
     let options = structs::read(options)?.read()?;
-    let _reserve = memory::work(surface.n_control_points(), memory::BICUBIC_TEXT)?;
+    let _reserve = memory::work(surface.n_control_points(), spline_memory::BICUBIC_TEXT)?;
     let mut bytes = Vec::new();
     match format {
         BicubicFormat::Step => write_step(surface, &options, &mut bytes)?,
@@ -139,8 +140,8 @@ pub unsafe extern "C" fn ricci_bicubic_new(
 ) -> ricci_status {
     guard::make(bicubic, || {
         let (spline, options) = (&shared(spline)?.spline, structs::read(options)?.read());
-        let _batch = memory::work(BATCH, memory::POINT)?;
-        let _reserve = memory::work(spline.space().patches().len(), memory::BICUBIC)?;
+        let _batch = memory::work(BATCH, spline_memory::POINT)?;
+        let _reserve = memory::work(spline.space().patches().len(), spline_memory::BICUBIC)?;
         Ok(ricci_bicubic(spline.to_bicubic(&options, &control::of(control)?)?))
     })
 }

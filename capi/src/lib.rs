@@ -30,19 +30,24 @@ mod call_control;
 mod choice;
 mod failure;
 mod float_environment;
+#[cfg(any(test, not(all(feature = "quads", feature = "splines"))))]
+mod functions_left_out;
 mod guard;
-#[cfg(not(all(feature = "gltf", feature = "step")))]
+#[cfg(not(all(feature = "gltf", any(feature = "step", not(feature = "splines")))))]
 mod left_out;
 mod memory;
 mod optional;
 mod paths;
 mod soup_cache;
 mod soup_file;
+#[cfg(feature = "splines")]
+mod spline_memory;
 mod structs;
 mod texture;
 mod thread_failure;
 mod wording;
 
+#[cfg(feature = "splines")]
 pub mod bicubic;
 pub mod charts;
 pub mod circle_domain;
@@ -64,22 +69,30 @@ pub mod map;
 pub mod matching;
 pub mod mesh;
 pub mod metric;
+#[cfg(feature = "quads")]
 pub mod quad_layout;
+#[cfg(feature = "quads")]
 pub mod quads;
 pub mod quality;
 pub mod refine;
 pub mod repaired_input;
 pub mod report;
+#[cfg(feature = "quads")]
 pub mod seamless;
 pub mod shapes;
 pub mod sheet;
 pub mod soup;
 pub mod soup_lists;
 pub mod sphere;
+#[cfg(feature = "splines")]
 pub mod spline;
+#[cfg(feature = "splines")]
 pub mod spline_file;
+#[cfg(feature = "splines")]
 pub mod spline_fit;
+#[cfg(feature = "splines")]
 pub mod spline_places;
+#[cfg(feature = "splines")]
 pub mod spline_surface;
 pub mod status;
 pub mod structure;

@@ -26,7 +26,9 @@ const THREAD: usize = 6 << 20;
 /// Most reserves that are held at one time; further calls only try whether the system has the memory.
 const MOST_RESERVES: usize = 32;
 
-/// Most bytes per vertex, or per two faces, for building a mesh: 1,220 were measured on a torus of 38,400 vertices. The numbers
+/// Most bytes per vertex, or per two faces, for building a mesh of a list without defects: 163 on tori of 800 to 204,800 vertices.
+pub const SOUND_MESH: usize = 1 << 8;
+/// Most bytes per vertex, or per two faces, for building a mesh or naming the defects of its list: 1,220 were measured on a torus of 38,400 vertices. The numbers
 /// below were measured on the same torus.
 pub const MESH: usize = 1 << 11;
 /// Most bytes per byte of a mesh file while it is read; `tests/mesh_memory.rs` bounds the files that expand to more.
@@ -41,26 +43,6 @@ pub const FLOW: usize = 1 << 12;
 pub const LAYOUT: usize = 1 << 12;
 /// Most bytes per vertex for a uniformization: 2,930 on a sphere.
 pub const UNIFORM: usize = 1 << 13;
-/// Most bytes per vertex and quad for a quad mesh: 4,000 for 60,000 quads on a torus of 8,192 vertices, and for each of the 64 quads of a unit
-/// square of a layout 3,400.
-pub const QUADS: usize = 3 << 11;
-/// Most bytes per evaluated point of a spline (448 with its derivatives) or per face of a tessellation (340).
-pub const POINT: usize = 1 << 9;
-/// Most bytes per point and per control point of a fit: 2,980 of degree 5.
-pub const FIT: usize = 1 << 12;
-/// Most bytes per byte of a spline's file while it is read: 29 of degree 5.
-pub const TEXT: usize = 1 << 5;
-/// Most bytes per patch while the text of a spline is made: 8,430 of degree 5.
-pub const SPLINE_TEXT: usize = 1 << 14;
-/// Most bytes per patch of a spline while bicubic patches are made, beside the evaluated points: 13,400 with 8 spans a side.
-pub const BICUBIC: usize = 1 << 14;
-/// Most bytes per control point of bicubic patches while their text is made: 520 as STEP.
-pub const BICUBIC_TEXT: usize = 1 << 10;
-
-/// Most bytes per patch of a spline of this degree: 4,700 of degree 1 to 68,800 of degree 5 were measured.
-pub fn patch(degree: usize) -> usize {
-    1 << (12 + degree.min(ricci::spline::MAX_DEGREE))
-}
 
 /// A place for one reserve: its address and its size, both 0 while the slot is free.
 struct ReserveSlot {

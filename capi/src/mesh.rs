@@ -11,11 +11,11 @@ use crate::paths::signed_edge;
 use crate::soup_file::{read_soup, write_soup};
 use crate::status::ricci_status;
 use crate::structs::{self, sized};
-use ricci::Surface;
 use ricci::control::Stage;
 use ricci::geometry::Space;
 use ricci::mesh::io::{Attributes, Soup};
 use ricci::mesh::{Mesh, PerEdge, Place, Point};
+use ricci::{Control, Surface};
 use std::ffi::c_char;
 use std::sync::{Arc, OnceLock};
 
@@ -55,6 +55,20 @@ pub struct ricci_mesh {
 }
 handle!(ricci_mesh, "mesh", |mesh| mesh.connectivity.n_vertices().max(mesh.connectivity.n_faces() / 2));
 
+/// The connectivity of a triangle list. A list with defects takes several times the memory of one without, to name them, which is asked for when
+/// they are found.
+fn connected(soup: &Soup, control: &Control) -> Outcome<Mesh> {
+    let n = soup.positions.len().max(soup.faces.len().div_ceil(2));
+    let reserve = memory::work(n, memory::SOUND_MESH)?;
+    if let Some(mesh) = Mesh::from_sound(soup)? {
+        return Ok(mesh);
+    }
+    drop(reserve);
+    control.check()?;
+    let _reserve = memory::work(n, memory::MESH)?;
+    Ok(Mesh::from_soup(soup)?)
+}
+
 impl ricci_mesh {
     pub(crate) fn in_space(connectivity: Arc<Mesh>, positions: Arc<Vec<Point>>) -> ricci_mesh {
         ricci_mesh {
@@ -83,10 +97,9 @@ impl ricci_mesh {
     }
 
     pub(crate) fn from_soup(soup: Soup) -> Outcome<ricci_mesh> {
-        let _reserve = memory::work(soup.positions.len().max(soup.faces.len().div_ceil(2)), memory::MESH)?;
         let control = control::of_thread()?;
         control.step(Stage::Build, 0.6)?;
-        let connectivity = Arc::new(Mesh::from_soup(&soup)?);
+        let connectivity = Arc::new(connected(&soup, &control)?);
         control.check()?;
         let Soup { positions, attributes, .. } = soup;
         Ok(ricci_mesh { attributes, ..ricci_mesh::in_space(connectivity, Arc::new(positions)) })

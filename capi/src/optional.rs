@@ -3,19 +3,20 @@
 
 use crate::failure::Outcome;
 use ricci::mesh::io::Soup;
+#[cfg(feature = "splines")]
 use ricci::spline::BicubicSurface;
 use std::path::Path;
 
 #[cfg(not(feature = "gltf"))]
 pub use crate::left_out::WrapLeftOut as Wrap;
-#[cfg(not(feature = "step"))]
+#[cfg(all(feature = "splines", not(feature = "step")))]
 pub use crate::left_out::{StepLeftOut as StepOptions, UnitLeftOut as LengthUnit};
 #[cfg(feature = "gltf")]
 pub use ricci::mesh::io::Wrap;
 #[cfg(feature = "step")]
 pub use ricci::spline::{LengthUnit, StepOptions};
 
-#[cfg(not(all(feature = "gltf", feature = "step")))]
+#[cfg(not(all(feature = "gltf", any(feature = "step", not(feature = "splines")))))]
 fn left_out(what: &str, feature: &str) -> Outcome {
     use crate::failure::Failure;
     use crate::status::RICCI_UNKNOWN_FORMAT;
@@ -24,6 +25,7 @@ fn left_out(what: &str, feature: &str) -> Outcome {
 }
 
 /// Adds patches as a STEP file to `bytes`.
+#[cfg(feature = "splines")]
 pub fn write_step(surface: &BicubicSurface, options: &StepOptions, bytes: &mut Vec<u8>) -> Outcome {
     #[cfg(feature = "step")]
     return Ok(surface.write_step(options, bytes)?);

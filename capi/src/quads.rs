@@ -22,6 +22,10 @@ pub(crate) struct QuadsState {
     figures: ricci_quads_summary,
 }
 
+/// Most bytes per vertex and quad for a quad mesh: 4,000 for 60,000 quads on a torus of 8,192 vertices, and for each of the 64 quads of a unit
+/// square of a layout 3,400.
+const QUADS: usize = 3 << 11;
+
 pub struct ricci_quads(pub(crate) Arc<QuadsState>);
 handle!(ricci_quads, "quads", |quads| quads.0.mesh.places.len());
 
@@ -102,7 +106,7 @@ pub(crate) fn reserve(seamless: &Seamless, size: QuadSize, parts: usize) -> Outc
         let message = format!("{n_quads} quads of this size are more than a mesh can have");
         return Err(Failure::new(RICCI_TOO_LARGE, message).needs(n_quads));
     }
-    memory::work(solution.given().n_vertices() + parts * n_quads, memory::QUADS)
+    memory::work(solution.given().n_vertices() + parts * n_quads, QUADS)
 }
 
 impl QuadsState {

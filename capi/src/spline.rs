@@ -7,6 +7,7 @@ use crate::failure::{Failure, FailureElement, Outcome};
 use crate::guard::{self, handle, shared};
 use crate::memory;
 use crate::mesh::ricci_mesh;
+use crate::spline_memory;
 use crate::status::*;
 use crate::structs::{self, or, sized};
 use ricci::mesh::io::Soup;
@@ -147,7 +148,7 @@ pub unsafe extern "C" fn ricci_spline_new(
     guard::make(spline, || {
         let (mesh, spec) = (shared(domain)?, structs::read(spec)?);
         let Soup { positions, faces: triangles, .. } = mesh.soup()?;
-        let _reserve = memory::work(triangles.len(), memory::patch(spec.degree()))?;
+        let _reserve = memory::work(triangles.len(), spline_memory::patch(spec.degree()))?;
         let vertices = positions.into_iter().map(|[x, y, _]| [x, y]).collect();
         let domain = PlaneDomain { vertices, triangles };
         flat(SplineSpace::planar(&domain, &spec.knots(&domain)?)?)
@@ -277,7 +278,7 @@ pub unsafe extern "C" fn ricci_spline_tessellate(
     guard::make(mesh, || {
         let spline = &shared(spline)?.spline;
         let faces = spline.space().patches().len().saturating_mul(sides.saturating_mul(sides));
-        let reserve = memory::work(faces, memory::POINT)?;
+        let reserve = memory::work(spline_memory::tessellation(faces), 1)?;
         let threads = control::threads(control);
         let soup = spline.tessellate(sides, threads, &control::of(control)?)?;
         drop(reserve);

@@ -6,6 +6,7 @@ use crate::failure::Outcome;
 use crate::guard;
 use crate::memory;
 use crate::spline::ricci_spline;
+use crate::spline_memory;
 use crate::status::ricci_status;
 use ricci::control::Stage;
 use ricci::spline::Spline;
@@ -16,7 +17,7 @@ const TEXT_NAME: &str = "text";
 
 /// The spline that `make` reads, with a reserve for a text of this number of bytes.
 fn made(bytes: usize, make: impl FnOnce() -> ricci::Result<Spline>) -> Outcome<ricci_spline> {
-    let _reserve = memory::work(bytes, memory::TEXT)?;
+    let _reserve = memory::work(bytes, spline_memory::TEXT)?;
     control::of_thread()?.step(Stage::Read, 0.2)?;
     Ok(make()?.into())
 }
@@ -51,7 +52,7 @@ pub unsafe extern "C" fn ricci_spline_write(
     path: *const c_char,
 ) -> ricci_status {
     guard::with(spline, |ricci_spline { spline, .. }| {
-        let _reserve = memory::work(spline.space().patches().len(), memory::SPLINE_TEXT)?;
+        let _reserve = memory::work(spline.space().patches().len(), spline_memory::SPLINE_TEXT)?;
         control::of_thread()?.step(Stage::Write, 0.2)?;
         Ok(spline.write(&arrays::path(path)?)?)
     })
@@ -65,7 +66,7 @@ pub unsafe extern "C" fn ricci_spline_text(
     n_bytes: *mut usize,
 ) -> ricci_status {
     guard::with(spline, |ricci_spline { spline, .. }| {
-        let _reserve = memory::work(spline.space().patches().len(), memory::SPLINE_TEXT)?;
+        let _reserve = memory::work(spline.space().patches().len(), spline_memory::SPLINE_TEXT)?;
         let mut bytes = spline.to_json().into_bytes();
         bytes.push(0);
         copy_counted("text", &bytes, text.cast(), capacity, n_bytes)

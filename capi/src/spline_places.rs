@@ -7,8 +7,10 @@ use crate::failure::{Failure, FailureElement, Outcome};
 use crate::guard;
 use crate::memory;
 use crate::spline::ricci_spline;
+use crate::spline_memory;
 use crate::status::*;
 use crate::structs::{self, sized};
+use ricci::Control;
 use ricci::spline::{Locator, Parameter, SplineSpace, SurfacePoint};
 
 choices!(enum SplineQuantity, QUANTITIES = "which", [
@@ -54,10 +56,10 @@ pub struct ricci_spline_places {
 sized!(ricci_spline_places, "places");
 
 impl ricci_spline_places {
-    pub(crate) fn read(&self, space: &SplineSpace) -> Outcome<Vec<Parameter>> {
+    pub(crate) fn read(&self, space: &SplineSpace, control: &Control) -> Outcome<Vec<Parameter>> {
         let points: Vec<[f64; 2]> = array("parameters", self.parameters.cast(), self.n)?;
         if self.patches.is_null() {
-            return located(space, &points);
+            return located(space, &points, control);
         }
         let patches = array("patches", self.patches, self.n)?;
         let place = |(patch, [x, y]): (u32, [f64; 2])| Parameter { patch, x, y };
@@ -65,11 +67,21 @@ impl ricci_spline_places {
     }
 }
 
+/// Number of points between two looks at the control.
+const POINTS_PER_LOOK: usize = 256;
+
 /// The places of points of the domain: the patch in which each lies.
-pub(crate) fn located(space: &SplineSpace, points: &[[f64; 2]]) -> Outcome<Vec<Parameter>> {
+pub(crate) fn located(
+    space: &SplineSpace,
+    points: &[[f64; 2]],
+    control: &Control,
+) -> Outcome<Vec<Parameter>> {
     let domain = space.domain()?;
     let locator = Locator::new(&domain);
     let place = |(i, &[x, y]): (usize, &[f64; 2])| {
+        if i.is_multiple_of(POINTS_PER_LOOK) {
+            control.check()?;
+        }
         locator.locate([x, y]).ok_or_else(|| {
             let message = format!("point {i}: ({x}, {y}) lies outside the domain");
             Failure::new(RICCI_SPLINE, message).at(FailureElement::Entry, i)
@@ -87,7 +99,7 @@ pub unsafe extern "C" fn ricci_spline_locate(
     capacity: usize,
 ) -> ricci_status {
     guard::with(spline, |ricci_spline { spline, .. }| {
-        let _reserve = memory::work(n.saturating_add(spline.space().patches().len()), memory::POINT)?;
+        let _reserve = memory::work(n.saturating_add(spline.space().patches().len()), spline_memory::POINT)?;
         let points: Vec<[f64; 2]> = array("points", points.cast(), n)?;
         let domain = spline.space().domain()?;
         let locator = Locator::new(&domain);
@@ -109,9 +121,10 @@ pub unsafe extern "C" fn ricci_spline_evaluate(
         let (places, which) = (structs::read(places)?, QUANTITIES.choose(which)?);
         let (order, size) = which.sizes();
         check_buffer("values", places.n.saturating_mul(size), values, capacity)?;
-        let _reserve = memory::work(places.n, memory::POINT)?;
-        let at = places.read(spline.space())?;
-        let found = spline.evaluate(&at, order, places.threads, &control::of(control)?)?;
+        let _reserve = memory::work(places.n, spline_memory::POINT)?;
+        let control = control::of(control)?;
+        let at = places.read(spline.space(), &control)?;
+        let found = spline.evaluate(&at, order, places.threads, &control)?;
         let mut all = Vec::with_capacity(found.len() * size);
         found.iter().for_each(|at| which.add(at, &mut all));
         copy_out("values", &all, values, capacity)

@@ -7,6 +7,7 @@ use crate::memory;
 use crate::mesh::ricci_mesh;
 use crate::metric::ricci_metric;
 use crate::spline::{FitFigures, ricci_spline};
+use crate::spline_memory;
 use crate::status::ricci_status;
 use crate::structs::{self, or, sized};
 use ricci::geometry::vector::{Vector, diagonal};
@@ -98,7 +99,7 @@ pub unsafe extern "C" fn ricci_spline_fit_surface(
         let (solution, control) = (&shared(flat)?.0.solution, control::of(control)?);
         let options = structs::read(options)?.read();
         let surface = solution.surface();
-        let _reserve = memory::work(surface.mesh().n_vertices(), memory::FIT)?;
+        let _reserve = memory::work(surface.mesh().n_vertices(), spline_memory::FIT)?;
         let metric = FlatMetric::of(solution, &control.part(0.0, 0.1))?;
         let found = fit_surface(surface, &metric, &options, &control.part(0.1, 1.0))?;
         Ok(with_figures(found, surface, options.tolerance))
@@ -116,7 +117,7 @@ pub unsafe extern "C" fn ricci_spline_fit_mesh(
         let (mesh, control) = (shared(mesh)?, control::of(control)?);
         let options = structs::read(options)?.read();
         let surface = mesh.surface()?;
-        let _reserve = memory::work(surface.mesh().n_vertices(), memory::FIT)?;
+        let _reserve = memory::work(surface.mesh().n_vertices(), spline_memory::FIT)?;
         let threads = flow::Options { threads: options.threads, ..flow::Options::default() };
         let flat = FlatMetricOptions { flow: threads, ..FlatMetricOptions::default() };
         let metrics = FlatMetric::candidates(surface, &flat, &control.part(0.0, 0.2))?;
@@ -151,7 +152,7 @@ pub unsafe extern "C" fn ricci_spline_closest(
     guard::with(spline, |ricci_spline { spline, .. }| {
         check_buffer("values", n.saturating_mul(6), values, capacity)?;
         check_buffer("patches", n, patches, if patches.is_null() { 0 } else { n })?;
-        let _reserve = memory::work(n.saturating_add(spline.space().patches().len()), memory::FIT)?;
+        let _reserve = memory::work(n.saturating_add(spline.space().patches().len()), spline_memory::FIT)?;
         let points: Vec<Vector> = array("points", points.cast(), n)?;
         let (threads, control) = (control::threads(control), control::of(control)?);
         let found = spline.closest_points(threads, &control.part(0.0, 0.3))?.find(

@@ -24,6 +24,7 @@ statuses! {
     RICCI_BUFFER_TOO_SMALL = 13 => c"the caller's buffer is too small",
     RICCI_STRUCT_SIZE = 14 => c"a struct has a size or a field that this version of the library does not know",
     RICCI_NO_MEMORY = 15 => c"there is not enough memory; handles are unchanged",
+    RICCI_LEFT_OUT = 16 => c"this part was left out when the library was built",
     RICCI_IO = 100 => c"a file could not be read or written",
     RICCI_PARSE = 101 => c"a file's content is not what its format says",
     RICCI_UNKNOWN_FORMAT = 102 => c"unknown file format",

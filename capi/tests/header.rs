@@ -10,16 +10,20 @@ const HEADERS: &[(&str, usize)] = &[
     ("ricci", 66),
     ("charts", 20),
     ("homotopy", 20),
-    ("uniformize", 35),
+    ("uniformize", 20),
+    ("deck", 20),
     ("circles", 10),
     ("harmonic", 20),
     ("match", 10),
     ("seamless", 10),
     ("quads", 20),
-    ("spline", 25),
+    ("spline", 20),
+    ("surface_spline", 10),
     ("bicubic", 10),
     ("structure", 20),
-    ("repair", 40),
+    ("repair", 25),
+    ("labels", 10),
+    ("refine", 10),
     ("shapes", 10),
 ];
 
@@ -98,6 +102,27 @@ fn functions(name: &str) -> Vec<String> {
     all.filter(|d| d.contains('(') && !d.starts_with("typedef")).map(|d| name_of(&d)).collect()
 }
 
+/// The list above has every header of C, each of which names the papers that its theme rests on.
+#[test]
+fn every_header_is_listed_with_its_papers() {
+    let listed: std::collections::BTreeSet<&str> = HEADERS.iter().map(|(name, _)| *name).collect();
+    let works = std::fs::read_to_string(root().join("docs/bibliography.md")).unwrap();
+    for entry in std::fs::read_dir(root().join("include/ricci")).unwrap().flatten() {
+        let path = entry.path();
+        if path.extension().is_some_and(|e| e == "h") {
+            let name = path.file_stem().unwrap().to_string_lossy().into_owned();
+            assert!(listed.contains(&*name), "{name}.h");
+            let text = header(&name);
+            let comment = text.split("*/").next().unwrap().replace("\n *", "");
+            let (_, sources) = comment.split_once("Sources, by the keys of docs/bibliography.md:").unwrap();
+            let keys = sources.split('[').skip(1).flat_map(|s| s.split(']').next().unwrap().split("; "));
+            let missing: Vec<&str> =
+                keys.filter(|k| !works.contains(&format!("| [{}] |", k.trim()))).collect();
+            assert!(missing.is_empty() && sources.contains('['), "{name}.h: {missing:?}");
+        }
+    }
+}
+
 #[test]
 fn headers_declare_what_the_source_defines() {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -136,6 +161,40 @@ fn reserved_fields_are_named() {
         }
     }
     assert!(count > 15, "{count}");
+}
+
+/// The functions that a build without a feature has in place of those of some headers take the same arguments.
+#[test]
+fn functions_that_are_left_out_are_those_of_the_headers() {
+    let source = std::fs::read_to_string(root().join("capi/src/functions_left_out.rs")).unwrap();
+    let source = source.split("#[cfg(test)]").next().unwrap();
+    for (feature, names) in
+        [("splines", &["spline", "surface_spline", "bicubic"][..]), ("quads", &["seamless", "quads"])]
+    {
+        let list = source.split(&format!("left_out!({feature}, ")).nth(1).unwrap();
+        let list = list.split("]);").next().unwrap();
+        let entries = list.split(';').filter_map(|entry| entry.split("ricci_").nth(1));
+        let entries: BTreeMap<String, String> = entries
+            .map(|entry| entry.split_once('(').unwrap_or((entry, "Address)")))
+            .map(|(name, kinds)| (format!("ricci_{name}"), kinds.trim_end_matches(')').to_string()))
+            .collect();
+        let all = names.iter().flat_map(|name| declarations(&header(name)));
+        let all = all.filter(|d| d.contains('(') && !d.starts_with("typedef"));
+        let kind = |argument: &str| match argument.rsplit_once(' ').map(|(kind, _)| kind) {
+            _ if argument.contains('*') => "Address",
+            Some("size_t") => "usize",
+            Some("uint32_t") => "u32",
+            Some("double") => "f64",
+            _ => panic!("{argument}"),
+        };
+        let wanted = all.map(|d| {
+            let arguments = d.split_once('(').unwrap().1.trim_end_matches(';').trim_end_matches(')');
+            (name_of(&d), arguments.split(',').map(kind).collect::<Vec<_>>().join(", "))
+        });
+        let wanted: BTreeMap<String, String> = wanted.collect();
+        assert!(wanted.len() > 20, "{feature}");
+        assert_eq!(entries, wanted, "capi/src/functions_left_out.rs (left), headers (right)");
+    }
 }
 
 #[test]
@@ -214,6 +273,30 @@ fn every_function_has_its_comment() {
         assert_eq!(n, functions(header_name).len());
         assert!(n > 0 && n <= *most, "{header_name}.h has {n} functions");
     }
+}
+
+/// Each field of a struct of options says what it is, and in a further sentence what suits whom.
+#[test]
+fn every_option_has_its_advice() {
+    let mut count = 0;
+    for (header_name, _) in HEADERS {
+        let text = header(header_name);
+        for body in text.split("typedef struct ").skip(1) {
+            let Some((name, rest)) = body.split_once(" {\n") else { continue };
+            let fields = rest.split("\n}").next().unwrap();
+            for field in fields.split("/**").skip(1).filter(|_| name.ends_with("_options")) {
+                let (comment, declaration) = field.split_once("*/").unwrap();
+                let field = name_of(declaration.trim());
+                if field == "size" || field.starts_with("reserved") {
+                    continue;
+                }
+                let words = comment.split_whitespace().filter(|w| *w != "*").collect::<Vec<_>>().join(" ");
+                assert!(words.contains(". "), "{name}.{field}: {words}");
+                count += 1;
+            }
+        }
+    }
+    assert!(count > 80, "{count}");
 }
 
 /// The table of docs/results/fuzz.md names every function and the targets that call it, which exist; no target is left out.

@@ -1,5 +1,5 @@
 // A host with its own arrays, memory, threads and progress bar: splines near a sphere and a torus, fitted on
-// two threads of the host's, and the nearest points to many points in random order and in an order along the
+// two of its threads, and the nearest points to many points in random order and in an order along the
 // surface.
 #include <algorithm>
 #include <atomic>
@@ -68,13 +68,17 @@ ricci::spline fitted(std::uint32_t shape, std::size_t n, std::size_t m, const ri
     return ricci::spline::of_mesh(ricci::mesh::made(what), options, &watched);
 }
 
-// Points per second, and the distances.
+// Points per second, at best, and the distances.
 double speed(const ricci::spline &surface, const points &at, std::vector<double> &distances) {
-    const auto start = std::chrono::steady_clock::now();
-    const auto found = surface.closest(at.all());
-    const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
-    for (std::size_t k = 0; k < at.upper(); k++) distances.push_back(found.values[6 * k + 5]);
-    return double(at.upper()) / time.count();
+    double best = 0;
+    for (int round = 0; round < 3; round++) {
+        const auto start = std::chrono::steady_clock::now();
+        const auto found = surface.closest(at.all());
+        const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
+        best = std::max(best, double(at.upper()) / time.count());
+        for (std::size_t k = 0; k < at.upper(); k++) distances[k] = found.values[6 * k + 5];
+    }
+    return best;
 }
 
 } // namespace
@@ -102,10 +106,9 @@ int main(int argc, char **argv) {
         std::shuffle(order.begin(), order.end(), std::mt19937(1));
         for (std::size_t k = 0; k < count; k++)
             std::copy_n(sorted.value(order[k] + 1), 3, shuffled.value(k + 1));
-        std::vector<double> along, anyhow;
-        const double in_order = speed(torus, sorted, along),
-                     ratio = speed(torus, shuffled, anyhow) / in_order;
-        bool good = in_use >= 6 * count * sizeof(double);
+        std::vector<double> along(count), anyhow(count);
+        const double ratio = 1 / speed(torus, sorted, along) * speed(torus, shuffled, anyhow);
+        bool good = ratio >= 0.8 && in_use >= 6 * count * sizeof(double);
         for (std::size_t k = 0; k < count; k++)
             good = good && anyhow[k] == along[order[k]] && std::abs(along[k] - 0.1) < 0.02;
         std::printf("nearest points in random order at %.2f of the speed in order\n", ratio);

@@ -9,6 +9,9 @@
  * The conventions are those of ricci/ricci.h. A patch of the spline becomes three bicubic B-spline patches;
  * neighbours share the control points of their common side, so that there are no gaps.
  *
+ * A library that was built without the feature `splines` has these functions; each answers RICCI_LEFT_OUT.
+ * Without the feature `step` a STEP file is RICCI_UNKNOWN_FORMAT.
+ *
  * Sources, by the keys of docs/bibliography.md: patches from their sides [Coo67].
  */
 
@@ -47,19 +50,30 @@ enum {
 typedef struct ricci_bicubic_options {
     /** sizeof(ricci_bicubic_options), by ricci_init. */
     size_t size;
-    /** Largest distance from the spline over the diagonal of the summary, 1e-10 to 1; 0: 1e-4. */
+    /**
+     * Largest distance from the spline over the diagonal of the summary, 1e-10 to 1; 0: 1e-4. 1e-3 makes
+     * smaller files.
+     */
     double tolerance;
     /**
      * Largest angle between the normals of neighbouring patches beyond that between the spline's own. Patches
      * get more spans for it, but never to more than 128 spans along a side: see normal_jump_max. 0: half a
-     * degree.
+     * degree. Half a degree is hardly seen in reflections.
      */
     double angle;
-    /** Threads, 0 for one per core; results do not depend on it. */
+    /**
+     * Threads, 0 for one per core; results do not depend on it. 1 suits hosts that run several calls at once.
+     */
     size_t threads;
-    /** Most control points of all patches together; where more are needed nothing is made. 0: no limit. */
+    /**
+     * Most control points of all patches together; where more are needed nothing is made. 0: no limit. It
+     * bounds the size of the file.
+     */
     size_t control_points;
-    /** Not 0: patches of a spline that folds too, which is refused else. */
+    /**
+     * Not 0: patches of a spline that folds too, which is refused else. Only to look at what went wrong:
+     * other programs refuse such solids.
+     */
     uint32_t folds;
     /** 0. */
     uint32_t reserved;
@@ -69,9 +83,9 @@ typedef struct ricci_bicubic_options {
 typedef struct ricci_step_options {
     /** sizeof(ricci_step_options), by ricci_init. */
     size_t size;
-    /** The name of the part, in UTF-8; NULL: none. */
+    /** The name of the part, in UTF-8; NULL: none. Programs show it in their tree of parts. */
     const char *name;
-    /** RICCI_UNIT_MILLIMETRE or RICCI_UNIT_METRE. */
+    /** RICCI_UNIT_MILLIMETRE or RICCI_UNIT_METRE. Parts are usually in millimetres, buildings in metres. */
     uint32_t unit;
     /** 0. */
     uint32_t reserved;

@@ -42,23 +42,37 @@ enum {
 typedef struct ricci_circle_domain_options {
     /** sizeof(ricci_circle_domain_options). */
     size_t size;
-    /** Tolerance, max_iterations and threads of the flows; NULL: their defaults. */
+    /**
+     * Tolerance, max_iterations and threads of the flows; NULL: their defaults. The defaults suit all but
+     * studies of the flow.
+     */
     const ricci_flow_options *flow;
-    /** Genus 0: the boundary loop that becomes the unit circle; NULL: the longest. */
+    /**
+     * Genus 0: the boundary loop that becomes the unit circle; NULL: the longest. NULL suits surfaces with
+     * one large opening.
+     */
     const uint32_t *outer;
     /**
      * Genus 0: the vertex at the centre of the unit disk. NULL, and `three` too: of an annulus both circles
      * lie about the centre; else the barycentre of the area of the faces does, and the outer loop's first
-     * vertex lies at (1, 0).
+     * vertex lies at (1, 0). Name one to compare surfaces with a vertex that corresponds.
      */
     const uint32_t *centre;
-    /** Genus 0: three vertices of the outer loop, counterclockwise, to lie at `angles`; or NULL. */
+    /**
+     * Genus 0: three vertices of the outer loop, counterclockwise, to lie at `angles`; or NULL. They fix the
+     * map altogether, as comparisons of disks need it.
+     */
     const uint32_t *three;
-    /** Three angles, counterclockwise, radians; NULL: 0, 2 pi / 3, 4 pi / 3. */
+    /**
+     * Three angles, counterclockwise, radians; NULL: 0, 2 pi / 3, 4 pi / 3. The default spreads them evenly.
+     */
     const double *angles;
-    /** Edges of loops with fewer than this are halved; 0: 12. */
+    /** Edges of loops with fewer than this are halved; 0: 12. More make holes rounder in pictures. */
     size_t least_loop;
-    /** RICCI_FRAME_*; of a strip the surface is an annulus, and no vertex has a place. */
+    /**
+     * RICCI_FRAME_*; of a strip the surface is an annulus, and no vertex has a place. The default suits all
+     * but textures of tubes, which the strip unrolls.
+     */
     uint32_t frame;
     /** 0. */
     uint32_t reserved;

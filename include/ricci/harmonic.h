@@ -61,9 +61,15 @@ enum {
 typedef struct ricci_forms_options {
     /** sizeof(ricci_forms_options), by ricci_init. */
     size_t size;
-    /** The vertex where the loops meet; NULL: one from which they are short. */
+    /**
+     * The vertex where the loops meet; NULL: one from which they are short. Name one to compare period
+     * matrices of surfaces with corresponding loops.
+     */
     const uint32_t *base;
-    /** RICCI_CLASSES_... */
+    /**
+     * RICCI_CLASSES_... Flows around holes are absolute, potentials that are constant along each hole
+     * relative.
+     */
     uint32_t classes;
     /** 0. */
     uint32_t reserved;
@@ -102,21 +108,36 @@ typedef struct ricci_harmonic_spec {
     /**
      * Of RICCI_HARMONIC_VALUES: the vertices that are given, n of them. Of RICCI_HARMONIC_RECTANGLE: its four
      * corners, boundary vertices in order with the surface on the left, or none. Of RICCI_HARMONIC_POLYGON:
-     * its n corners in that order; NULL: those nearest to the n-th parts of the boundary's length.
+     * its n corners in that order; NULL: those nearest to the n-th parts of the boundary's length. NULL suits
+     * boundaries without corners.
      */
     const uint32_t *vertices;
-    /** Of RICCI_HARMONIC_VALUES: their places, n x 3. */
+    /**
+     * Of RICCI_HARMONIC_VALUES: their places, n x 3. Give the whole boundary where the image has to have a
+     * shape.
+     */
     const double *values;
-    /** Number of vertices, and of a polygon's corners. */
+    /** Number of vertices, and of a polygon's corners. 4 make a square. */
     size_t n;
-    /** RICCI_HARMONIC_DISK ... RICCI_HARMONIC_POLYGON. */
+    /**
+     * RICCI_HARMONIC_DISK ... RICCI_HARMONIC_POLYGON. The disk and polygons suit maps without folds, the
+     * rectangle moduli.
+     */
     uint32_t target;
-    /** RICCI_HARMONIC_SOLVE, RICCI_HARMONIC_HEAT. */
+    /**
+     * RICCI_HARMONIC_SOLVE, RICCI_HARMONIC_HEAT. Solving is the direct way; the heat flow shows the energy
+     * fall.
+     */
     uint32_t method;
-    /** Of the heat flow to the plane: length of a step, a time in units of area; 0: a hundredth of the area.
+    /**
+     * Of the heat flow to the plane: length of a step, a time in units of area; 0: a hundredth of the area.
+     * Smaller ones show more of the course.
      */
     double step;
-    /** Of the heat flow: most steps; 0: 10000, to the sphere 2000. */
+    /**
+     * Of the heat flow: most steps; 0: 10000, to the sphere 2000. The defaults are limits of time; the flow
+     * ends as soon as the map is harmonic.
+     */
     size_t max_iterations;
 } ricci_harmonic_spec;
 

@@ -11,6 +11,8 @@
  * The conventions are those of ricci/ricci.h; faces of a quad mesh are n x 4, counterclockwise seen from
  * outside.
  *
+ * A library that was built without the feature `quads` has these functions; each answers RICCI_LEFT_OUT.
+ *
  * Sources, by the keys of docs/bibliography.md: motorcycle graphs [EGKT08], whole lengths of arcs [LCK21].
  */
 
@@ -47,15 +49,24 @@ enum {
 typedef struct ricci_quads_options {
     /** sizeof(ricci_quads_options). */
     size_t size;
-    /** RICCI_QUADS_*: how the size of the quads is told. Of a layout they are its unit squares. */
+    /**
+     * RICCI_QUADS_*: how the size of the quads is told. Of a layout they are its unit squares. Start with the
+     * default to see the cones.
+     */
     uint32_t sizing;
     /** 0. */
     uint32_t reserved;
-    /** RICCI_QUADS_NUMBER, RICCI_QUADS_AT_MOST: the number of quads, 1 or more. */
+    /**
+     * RICCI_QUADS_NUMBER, RICCI_QUADS_AT_MOST: the number of quads, 1 or more. Fewer than RICCI_QUADS_COARSE
+     * has are not to be had.
+     */
     size_t n_quads;
-    /** RICCI_QUADS_EDGE: the length of edges, positive, in the units of the surface's lengths. */
+    /**
+     * RICCI_QUADS_EDGE: the length of edges, positive, in the units of the surface's lengths. The wanted
+     * spacing of the control mesh.
+     */
     double edge;
-    /** Threads; 0: one for each core. */
+    /** Threads; 0: one for each core. 1 suits hosts that run several calls at once. */
     size_t threads;
 } ricci_quads_options;
 

@@ -151,30 +151,6 @@ typedef struct ricci_hole {
     uint32_t filled;
 } ricci_hole;
 
-/** Which names. */
-enum {
-    /** Objects (`o` of OBJ). */
-    RICCI_LABEL_OBJECT = 0,
-    /** Groups (`g`); several of one face are one name, with blanks between them. */
-    RICCI_LABEL_GROUP = 1,
-    /** Materials (`usemtl`). */
-    RICCI_LABEL_MATERIAL = 2,
-    /** Smoothing groups (`s`). */
-    RICCI_LABEL_SMOOTHING = 3,
-    /** Not of faces, but of the further numbers of vertices, in their order. */
-    RICCI_LABEL_VERTEX_NUMBERS = 4,
-    /** Of the further numbers of faces. */
-    RICCI_LABEL_FACE_NUMBERS = 5
-};
-
-/** The elements that further numbers belong to. */
-enum {
-    /** Vertices. */
-    RICCI_OF_VERTICES = 0,
-    /** Faces. */
-    RICCI_OF_FACES = 1
-};
-
 /**
  * Steps of a repair that are done on request only. These are always done: dropping faces that use a vertex
  * twice or repeat a face, giving each fan of faces a vertex of its own, turning faces until neighbours agree,
@@ -186,64 +162,49 @@ typedef struct ricci_repair_options {
     /**
      * Vertices within this distance become one; 0: those in exactly the same place, where their faces are
      * then connected through edges, but not in edges in which more than two faces would meet
-     * (ricci_soup_refused); negative: no welding.
+     * (ricci_soup_refused); negative: no welding. ricci_soup_hint names the distance that closes an open
+     * seam.
      */
     double weld;
     /**
-     * Keep one connected piece: 1 is that with the most faces, 2 the next, and so on, up to n_components;
-     * 0: all. ricci_soup_origins is then the way back from the piece to the list.
+     * Keep one connected piece: 1 is that with the most faces, 2 the next, and so on, up to n_components; 0:
+     * all. ricci_soup_origins is then the way back from the piece to the list. 1 suits scans with loose
+     * pieces.
      */
     size_t component;
-    /** 1 cuts the surface open along edges in which more than two faces meet. */
+    /**
+     * 1 cuts the surface open along edges in which more than two faces meet. 0 suits solids, where such an
+     * edge is a mistake to be looked at; 1 unions of sheets.
+     */
     uint32_t cut_non_manifold_edges;
-    /** 1 drops the faces of vertices whose coordinates are not finite, which are RICCI_DEFECTS otherwise. */
+    /**
+     * 1 drops the faces of vertices whose coordinates are not finite, which are RICCI_DEFECTS otherwise. 1
+     * suits scans and brain surfaces with missing vertices, together with fill_holes.
+     */
     uint32_t drop_non_finite;
-    /** 1 divides faces at vertices that lie on their boundary edges, before welding. */
+    /**
+     * 1 divides faces at vertices that lie on their boundary edges, before welding. 1 suits tessellations of
+     * CAD programs face by face.
+     */
     uint32_t split_t_junctions;
-    /** 1 mends faces without area by collapses and flips; vertices keep their places. */
+    /**
+     * 1 mends faces without area by collapses and flips; vertices keep their places. 1 suits files of CAD
+     * programs, whose slivers no metric has.
+     */
     uint32_t mend_zero_area;
-    /** Fill the boundary loops of at most so many edges; 0: none; SIZE_MAX: all. */
+    /**
+     * Fill the boundary loops of at most so many edges; 0: none; SIZE_MAX: all. 100 fills small holes of
+     * scans and leaves openings that are meant.
+     */
     size_t fill_holes;
-    /** In place of it, vertices of the given list: the loops through them are filled. NULL: none. */
+    /**
+     * In place of it, vertices of the given list: the loops through them are filled. NULL: none. It suits
+     * parts of which one opening alone is a mistake.
+     */
     const uint32_t *holes;
-    /** Number of these vertices. */
+    /** Number of these vertices. 0 with NULL. */
     size_t n_holes;
 } ricci_repair_options;
-
-/** How far to refine. Zeroed by ricci_init: nothing is refined in space, metrics to 25 degrees. */
-typedef struct ricci_refine_options {
-    /** sizeof(ricci_refine_options). */
-    size_t size;
-    /** Of a triangle list: the number of times that every face is cut into four. */
-    size_t levels;
-    /** Of a triangle list: the length above which no edge is left; 0: any. */
-    double longest_edge;
-    /** Of a metric: the least angle of its triangles, radians, at most 30 degrees; 0: 25 degrees. */
-    double least_angle;
-    /** Of a metric: the most vertices that are added; 0: ten per face and 100000. */
-    size_t most_added;
-} ricci_refine_options;
-
-/** The course of a refinement of a metric. */
-typedef struct ricci_refine_summary {
-    /** Bytes of this struct that are filled. */
-    size_t size;
-    /** Vertices that were added inside the surface. */
-    size_t n_inside;
-    /** Vertices that were added on the boundary. */
-    size_t n_on_boundary;
-    /** Edges that were flipped. */
-    size_t n_flips;
-    /** Triangles with a smaller angle than asked for: 0 unless the most vertices were added. */
-    size_t n_below;
-    /** Triangles whose smaller angle the surface forces, at corners where it has an angle below 60 degrees.
-     */
-    size_t n_forced;
-    /** The smallest angle of the given triangles, radians. */
-    double given_angle;
-    /** The smallest angle of the triangles where the surface forces none, radians. */
-    double least_angle;
-} ricci_refine_summary;
 
 /**
  * A triangle list from arrays, which are copied. It may have any defects.
@@ -419,53 +380,6 @@ RICCI_API ricci_status ricci_soup_corners(const ricci_soup *soup, double angle, 
                                           size_t capacity, size_t *n_corners);
 
 /**
- * The names under which faces stand in a file, each once, and for each face the number of its name.
- *
- * Name 0 is empty: that of faces without one. The others come in the order of their first faces. Names of
- * numbers belong to no faces.
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (no such names).
- *
- * @param soup      the triangle list.
- * @param which     RICCI_LABEL_*.
- * @param numbers   out: n_faces numbers of names, none for names of numbers; NULL with capacity 0 asks
- *                  for the number of names alone.
- * @param capacity  entries of `numbers`.
- * @param n_names   out: the number of names.
- */
-RICCI_API ricci_status ricci_soup_labels(const ricci_soup *soup, uint32_t which, uint32_t *numbers,
-                                         size_t capacity, size_t *n_names);
-
-/**
- * One name of faces, or of further numbers.
- *
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (index, no such names).
- *
- * @param soup      the triangle list.
- * @param which     RICCI_LABEL_*.
- * @param index     which one, below n_names.
- * @param name      out: the name in UTF-8, NUL-terminated; NULL with capacity 0 to ask for its length.
- * @param capacity  bytes of `name`.
- * @param n_bytes   out: number of bytes with the NUL.
- */
-RICCI_API ricci_status ricci_soup_label(const ricci_soup *soup, uint32_t which, size_t index, char *name,
-                                        size_t capacity, size_t *n_bytes);
-
-/**
- * Further numbers of vertices or faces, which a file has under a name of its own, such as `quality` in PLY;
- * ricci_soup_label has their names.
- *
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (index, no such elements).
- *
- * @param soup      the triangle list.
- * @param of        RICCI_OF_VERTICES or RICCI_OF_FACES.
- * @param index     which ones, below n_vertex_numbers or n_face_numbers.
- * @param values    out: n_vertices or n_faces numbers, which may be NaN.
- * @param capacity  entries of `values`.
- */
-RICCI_API ricci_status ricci_soup_numbers(const ricci_soup *soup, uint32_t of, size_t index, double *values,
-                                          size_t capacity);
-
-/**
  * One hole that a repair was asked to fill: first those that it filled, then those that it left open.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (index, it was not repaired), RICCI_STRUCT_SIZE.
@@ -550,76 +464,12 @@ RICCI_API ricci_status ricci_soup_refused(const ricci_soup *repaired, uint32_t *
                                           size_t vertices_capacity, uint32_t *faces, size_t faces_capacity,
                                           size_t *starts, size_t starts_capacity);
 
-/**
- * The same surface in smaller triangles: edges are halved at their midpoints, every face is cut by straight
- * lines. The given vertices come first and keep their numbers; attributes are interpolated. The list may have
- * defects, but no face that uses a vertex twice.
- *
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE, RICCI_ARGUMENT (a result of more than 67 million
- *         faces, too), RICCI_NO_MEMORY.
- *
- * @param soup     the triangle list.
- * @param options  levels and longest_edge, or NULL.
- * @param refined  out: the new handle, to be released by ricci_soup_free.
- */
-RICCI_API ricci_status ricci_soup_refine(const ricci_soup *soup, const ricci_refine_options *options,
-                                         ricci_soup **refined);
-
-/**
- * Where the elements of a refined list lie in the list that it was made from.
- *
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (the list was not refined).
- *
- * @param refined                the refined list.
- * @param faces                  out: for each face the given face that it is a part of.
- * @param faces_capacity         entries of `faces`.
- * @param vertex_faces           out: for each vertex a given face that contains it; UINT32_MAX for a vertex
- *                               that no face uses.
- * @param vertex_faces_capacity  entries of `vertex_faces`.
- * @param weights                out: for each vertex its three barycentric coordinates there.
- * @param weights_capacity       entries of `weights`.
- */
-RICCI_API ricci_status ricci_soup_places(const ricci_soup *refined, uint32_t *faces, size_t faces_capacity,
-                                         uint32_t *vertex_faces, size_t vertex_faces_capacity,
-                                         double *weights, size_t weights_capacity);
-
-/**
- * The same Euclidean metric on a Delaunay triangulation without small angles: an intrinsic mesh, whose first
- * vertices are the given ones.
- *
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE, RICCI_ARGUMENT (an angle above 30 degrees, lengths
- *         of another geometry), RICCI_EDGE_LENGTH, RICCI_CONNECTIVITY, RICCI_TOO_LARGE, RICCI_NO_MEMORY,
- *         RICCI_CANCELLED.
- *
- * @param mesh     the surface.
- * @param options  least_angle and most_added, or NULL.
- * @param control  progress and cancellation, or NULL.
- * @param summary  out: the course, or NULL.
- * @param size     sizeof *summary.
- * @param refined  out: the new handle, to be released by ricci_mesh_free.
- */
-RICCI_API ricci_status ricci_mesh_refine_angle(const ricci_mesh *mesh, const ricci_refine_options *options,
-                                               const ricci_control *control, ricci_refine_summary *summary,
-                                               size_t size, ricci_mesh **refined);
-
-/**
- * Where the vertices of a refined metric lie on the surface that it was made from. Edges between them are
- * geodesics of that surface, which may cross any of its faces.
- *
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (not a mesh of
- *         ricci_mesh_refine_angle).
- *
- * @param refined           the refined metric.
- * @param faces             out: for each vertex a given face that contains it.
- * @param faces_capacity    entries of `faces`.
- * @param weights           out: for each vertex its three barycentric coordinates there, none negative.
- * @param weights_capacity  entries of `weights`.
- */
-RICCI_API ricci_status ricci_mesh_places(const ricci_mesh *refined, uint32_t *faces, size_t faces_capacity,
-                                         double *weights, size_t weights_capacity);
-
 #ifdef __cplusplus
 }
 #endif
+
+/* They were parts of this header. */
+#include <ricci/labels.h>
+#include <ricci/refine.h>
 
 #endif

@@ -16,13 +16,14 @@
  *
  * and the handles are freed: ricci_layout_free, ricci_metric_free (twice), ricci_mesh_free, in any order.
  *
- * Beside this header, by theme: repair.h (triangle lists with defects), shapes.h (sample surfaces), charts.h
- * (layouts on the faces of the mesh, and in charts), homotopy.h (fundamental groups), uniformize.h (canonical
- * shapes, deck groups, covers), circles.h (circle domains), seamless.h (seamless metrics), quads.h (quad
+ * Beside this header, by theme: repair.h (triangle lists with defects), labels.h (names of faces in files),
+ * refine.h (smaller triangles, metrics without small angles), shapes.h (sample surfaces), charts.h (layouts
+ * on the faces of the mesh, and in charts), homotopy.h (fundamental groups), uniformize.h (canonical shapes),
+ * deck.h (deck groups, covers), circles.h (circle domains), seamless.h (seamless metrics), quads.h (quad
  * meshes, and layouts of four-sided patches), harmonic.h (harmonic maps and 1-forms), match.h (maps between
- * surfaces), structure.h (geometric structures), spline.h and bicubic.h (spline surfaces, and patches for
- * CAD). For C++ ricci.hpp has the classes of all themes, and openmesh.hpp, cgal.hpp and eigen.hpp are
- * adapters.
+ * surfaces), structure.h (geometric structures), spline.h, surface_spline.h and bicubic.h (splines, splines
+ * over whole surfaces, and patches for CAD). For C++ ricci.hpp has the classes of all themes, and
+ * openmesh.hpp, cgal.hpp and eigen.hpp are adapters.
  *
  * Conventions
  *   - Every fallible call returns a ricci_status. ricci_last_error() has this thread's message,
@@ -57,6 +58,10 @@
  *   - Results are identical bit for bit for any number of threads. Threads are the call's own and have
  *     ended when it returns (a ricci_solver keeps its threads until it is freed). Where memory does not
  *     suffice for as many as are asked for, there are fewer. Nothing is printed.
+ *   - A build can leave parts out (RICCI_FEATURES of CMake); their functions stay. Without `gltf`, `gifti`,
+ *     `gzip` or `step` such files are RICCI_UNKNOWN_FORMAT, as is a texture for .glb. Without `splines` all
+ *     of spline.h, surface_spline.h and bicubic.h, without `quads` all of seamless.h and quads.h answers
+ *     RICCI_LEFT_OUT.
  *   - Platforms: 64-bit Linux (tested on x86-64, glibc); written for macOS and Windows, not tested there.
  *
  * Sources, by the keys of docs/bibliography.md: the unified Ricci flow [ZGZLYG14], its convergence with flips
@@ -142,6 +147,8 @@ enum {
     RICCI_STRUCT_SIZE = 14,
     /** There is not enough memory; handles are unchanged. */
     RICCI_NO_MEMORY = 15,
+    /** The function belongs to a part that was left out when the library was built. */
+    RICCI_LEFT_OUT = 16,
     /**
      * A file could not be read or written; amount: the number of the system's error (errno), 0 if it has
      * none.
@@ -985,7 +992,10 @@ enum {
 typedef struct ricci_target {
     /** sizeof(ricci_target). */
     size_t size;
-    /** RICCI_TARGET_*. */
+    /**
+     * RICCI_TARGET_*. Begin with the default, or with RICCI_TARGET_AUTO and 8 cones where areas should change
+     * little.
+     */
     uint32_t kind;
     /** 0. */
     uint32_t reserved;
@@ -1038,30 +1048,50 @@ enum {
 typedef struct ricci_flow_options {
     /** sizeof(ricci_flow_options). */
     size_t size;
-    /** RICCI_METHOD_*. */
+    /**
+     * RICCI_METHOD_*. Newton's method takes 4 to 7 steps on most surfaces; the gradient flow is for studies
+     * of the flow itself.
+     */
     uint32_t method;
-    /** RICCI_FLIPS_*. */
+    /** RICCI_FLIPS_*. Keep the default: without flips triangles can break before the target is reached. */
     uint32_t flips;
-    /** Largest |K - target| of a converged metric, radians, positive; 0: 1e-10. */
+    /**
+     * Largest |K - target| of a converged metric, radians, positive; 0: 1e-10. The default is met by all but
+     * a few flows of docs/results/flow.md; since Newton's last steps double the digits, a larger one saves
+     * little.
+     */
     double tolerance;
-    /** Steps before giving up; 0: 500 for Newton, 200,000 for the gradient flow. */
+    /**
+     * Steps before giving up; 0: 500 for Newton, 200,000 for the gradient flow. The defaults are far above
+     * what flows that arrive need (182 in docs/results/flow.md), so a lower limit is a limit of time.
+     */
     size_t max_iterations;
-    /** Threads of this flow, in a pool of its own; 0: one per core. The result does not depend on it. */
+    /**
+     * Threads of this flow, in a pool of its own; 0: one per core. The result does not depend on it. 1 suits
+     * hosts that run several calls at once.
+     */
     size_t threads;
-    /** Largest change of any u in one Newton step, positive; 0: 3. */
+    /**
+     * Largest change of any u in one Newton step, positive; 0: 3. The default lets lengths change by a factor
+     * of e^3 at a time; it seldom needs a change.
+     */
     double max_step;
     /**
-     * Edges that are not flipped, such as seams and feature lines: rows of ricci_mesh_edges of the mesh
-     * that the metric was made from. Targets that only their flips would reach are then out of reach.
+     * Edges that are not flipped, such as seams and feature lines: rows of ricci_mesh_edges of the mesh that
+     * the metric was made from. Targets that only their flips would reach are then out of reach. None suits
+     * all but texture seams and features that have to stay edges.
      */
     const uint32_t *fixed_edges;
-    /** Entries of `fixed_edges`. */
+    /** Entries of `fixed_edges`. 0 with NULL. */
     size_t n_fixed_edges;
-    /** RICCI_STEP_*: step rule of the gradient flow. */
+    /**
+     * RICCI_STEP_*: step rule of the gradient flow. The default needs no tuning; RICCI_STEP_STABLE follows
+     * the flow in time.
+     */
     uint32_t step;
-    /** Gradient flow in E2: 1 keeps the total area of the start. */
+    /** Gradient flow in E2: 1 keeps the total area of the start. Use it to compare shapes along the flow. */
     uint32_t area_normalised;
-    /** The step of RICCI_STEP_FIXED, positive. */
+    /** The step of RICCI_STEP_FIXED, positive. A trace with RICCI_STEP_STABLE shows how large it may be. */
     double step_size;
 } ricci_flow_options;
 
@@ -1366,24 +1396,30 @@ enum {
 typedef struct ricci_layout_options {
     /** sizeof(ricci_layout_options). */
     size_t size;
-    /** RICCI_MODEL_* with two coordinates: those of ricci_layout_uv and of files. */
+    /**
+     * RICCI_MODEL_* with two coordinates: those of ricci_layout_uv and of files. In H2 the default shows
+     * angles, RICCI_MODEL_KLEIN straight geodesics.
+     */
     uint32_t model;
-    /** RICCI_SCALE_*. */
+    /** RICCI_SCALE_*. Patterns to be cut from sheets need RICCI_SCALE_AS_SOLVED, textures the default. */
     uint32_t scale;
     /**
      * Vertices through which the cut has to go; those on the boundary change nothing. NULL with n_cones 0:
      * those of the flow (RICCI_REPORT_CONES), and of a metric without a flow those whose curvature is more
-     * than 1e-10 off flat. Not NULL with n_cones 0: none.
+     * than 1e-10 off flat. Not NULL with n_cones 0: none. NULL is right after a flow.
      */
     const uint32_t *cones;
-    /** Entries of `cones`. */
+    /** Entries of `cones`. 0 with NULL. */
     size_t n_cones;
     /**
-     * The vertex at the origin; NULL: in E2 a corner of the smallest triangle, elsewhere a vertex from
-     * which none is far.
+     * The vertex at the origin; NULL: in E2 a corner of the smallest triangle, elsewhere a vertex from which
+     * none is far. Name one only to bring layouts of several surfaces into the same place.
      */
     const uint32_t *root;
-    /** Threads; 0: as many as the flow had. The result does not depend on it. */
+    /**
+     * Threads; 0: as many as the flow had. The result does not depend on it. 1 suits hosts that run several
+     * calls at once.
+     */
     size_t threads;
 } ricci_layout_options;
 

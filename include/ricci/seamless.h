@@ -8,6 +8,8 @@
  *
  * The conventions are those of ricci/ricci.h.
  *
+ * A library that was built without the feature `quads` has these functions; each answers RICCI_LEFT_OUT.
+ *
  * Sources, by the keys of docs/bibliography.md: prescribed turning [CZ24], cross fields [KCPS13].
  */
 
@@ -42,60 +44,82 @@ enum {
 typedef struct ricci_seamless_options {
     /** sizeof(ricci_seamless_options). */
     size_t size;
-    /** RICCI_SEAMLESS_*: how cones are chosen. */
+    /**
+     * RICCI_SEAMLESS_*: how cones are chosen. The field suits quad meshes along features; the second is for
+     * closed surfaces with few cones.
+     */
     uint32_t cones;
     /** 0. */
     uint32_t reserved;
-    /** RICCI_SEAMLESS_AUTO: the number of cones; RICCI_SEAMLESS_VALENCES: entries of both arrays. */
+    /**
+     * RICCI_SEAMLESS_AUTO: the number of cones; RICCI_SEAMLESS_VALENCES: entries of both arrays. 8 on a
+     * sphere are the corners of a cube.
+     */
     size_t n_cones;
-    /** RICCI_SEAMLESS_VALENCES: the vertices of the cones. */
+    /** RICCI_SEAMLESS_VALENCES: the vertices of the cones. Corners of the shape are good places. */
     const uint32_t *vertices;
     /**
      * RICCI_SEAMLESS_VALENCES: the number of right angles around each, 1 or more; 4 at any other vertex
      * inside, 2 at any other on the boundary. The sum of 4 - valence, and of 2 - valence on the boundary, is
-     * 4 chi. Without features only.
+     * 4 chi. Without features only. 3 and 5 suit most corners, 1 and 2 tips.
      */
     const uint32_t *valences;
     /**
      * The turning of each of the `n_loops` paths, quarter turns; NULL: the nearest to that of the conformal
-     * metric with these cones.
+     * metric with these cones. NULL distorts least.
      */
     const int32_t *quarter_turns;
-    /** Its entries, `n_loops`. */
+    /** Its entries, `n_loops`. 0 with NULL. */
     size_t n_quarter_turns;
-    /** Largest deviation of an angle from its target, radians; 0: 1e-10. */
+    /**
+     * Largest deviation of an angle from its target, radians; 0: 1e-10. Keep the default: since Newton's last
+     * steps double the digits, a larger one saves little.
+     */
     double tolerance;
-    /** Most Newton steps after the conformal flow; 0: 100. */
+    /** Most Newton steps after the conformal flow; 0: 100. 26 is the most in docs/results/seamless.md. */
     size_t max_iterations;
-    /** Threads; 0: one for each core. */
+    /** Threads; 0: one for each core. 1 suits hosts that run several calls at once. */
     size_t threads;
     /**
      * Edges, by the two vertices at their ends, that become straight and parallel to an axis, with angles of
-     * multiples of 90 degrees where they meet; NULL: none. Edges of the boundary do so anyway.
-     * Those around a piece with too few vertices to have right angles in all its corners are left out; with
-     * the cones of the field also those near angles that are furthest off where the target is not reached.
+     * multiples of 90 degrees where they meet; NULL: none. Edges of the boundary do so anyway. Those around a
+     * piece with too few vertices to have right angles in all its corners are left out; with the cones of the
+     * field also those near angles that are furthest off where the target is not reached. Give the edges of
+     * the CAD model, or `feature_angle`.
      */
     const uint32_t *features;
-    /** The number of features. */
+    /** The number of features. 0 with NULL. */
     size_t n_features;
-    /** Edges at which the surface turns by so many radians are features too; 0: none. */
+    /**
+     * Edges at which the surface turns by so many radians are features too; 0: none. 0.7 (40 degrees) is that
+     * of docs/results/seamless.md and suits parts; 0 suits scans, whose noise has sharp edges too.
+     */
     double feature_angle;
-    /** The strength by which the field is drawn along principal curvature; 0: not at all. */
+    /**
+     * The strength by which the field is drawn along principal curvature; 0: not at all. Raise it until quads
+     * follow folds; 0 suits shapes without a preferred direction.
+     */
     double curvature;
-    /** Vertices at which the field is drawn along strokes; NULL: none. */
+    /**
+     * Vertices at which the field is drawn along strokes; NULL: none. A few strokes suffice where the field
+     * is free otherwise.
+     */
     const uint32_t *stroke_vertices;
-    /** Their directions in space, 3 numbers each. */
+    /** Their directions in space, 3 numbers each. Their lengths do not count. */
     const double *strokes;
-    /** The number of strokes. */
+    /** The number of strokes. 0 with NULL. */
     size_t n_strokes;
-    /** Steps towards the lengths of the surface with the same angles and turning; 0: none. */
+    /**
+     * Steps towards the lengths of the surface with the same angles and turning; 0: none. 0 is the fastest;
+     * more make quads of more even size.
+     */
     size_t isometric_steps;
     /**
      * Per vertex the factor by which lengths near it are to be larger than those of the surface, for the
-     * isometric steps; NULL: 1.
+     * isometric steps; NULL: 1. 2 where quads are to be half as long.
      */
     const double *sizes;
-    /** Its entries, one for each vertex. */
+    /** Its entries, one for each vertex. 0 with NULL. */
     size_t n_sizes;
 } ricci_seamless_options;
 

@@ -1,4 +1,5 @@
-/* ricci: triangular B-splines over the plane, and over whole surfaces.
+/* ricci: triangular B-splines over the plane; their evaluation, meshes and files, which are those of splines
+ * over whole surfaces too (ricci/surface_spline.h).
  *
  * SPDX-License-Identifier: MIT OR Apache-2.0
  *
@@ -10,6 +11,8 @@
  * The conventions are those of ricci/ricci.h. A spline of degree n, 1 to 5, has a patch for every face of its
  * domain and n + 1 knots at every vertex, the first of them the vertex itself. Its pieces are polynomials of
  * degree n, and derivatives up to the order n - 1 are continuous, except where knots were put together.
+ *
+ * A library that was built without the feature `splines` has these functions; each answers RICCI_LEFT_OUT.
  *
  * Sources, by the keys of docs/bibliography.md: bases [DMS92; Sei91], splines over surfaces [GHQ06;
  * GHJLQY08], fits [WPL06; CW79].
@@ -63,25 +66,32 @@ enum {
 typedef struct ricci_spline_spec {
     /** sizeof(ricci_spline_spec), by ricci_init. */
     size_t size;
-    /** Knots, n_vertices x (degree + 1) x 2, the first of a vertex the vertex itself; NULL: by the rules. */
+    /**
+     * Knots, n_vertices x (degree + 1) x 2, the first of a vertex the vertex itself; NULL: by the rules. NULL
+     * suits all but spaces from other programs.
+     */
     const double *knots;
     /**
      * Vertices whose knots coincide, as at corners of the boundary, so that basis functions end there as
-     * those of Bezier triangles.
+     * those of Bezier triangles. Corners of the boundary need not be named, theirs coincide anyway.
      */
     const uint32_t *coincident;
-    /** Number of these vertices. */
+    /** Number of these vertices. 0 with NULL. */
     size_t n_coincident;
-    /** Edges, n_creases x 2 vertices, across which the spline may have a crease. */
+    /**
+     * Edges, n_creases x 2 vertices, across which the spline may have a crease. Edges of the part that are
+     * sharp.
+     */
     const uint32_t *creases;
-    /** Number of these edges. */
+    /** Number of these edges. 0 with NULL. */
     size_t n_creases;
     /**
      * Distance of the farthest knots from their vertex over the radius of the smallest circle inscribed in a
-     * face there, above 0 and below 1; 0: a half.
+     * face there, above 0 and below 1; 0: a half. Far knots make a spline look smoother; with near ones more
+     * points lie in one patch alone.
      */
     double spread;
-    /** 1 to 5; 0: 3. */
+    /** 1 to 5; 0: 3. 3 has continuous curvature; higher ones take more memory and time for each patch. */
     uint32_t degree;
     /** 0. */
     uint32_t reserved;
@@ -91,13 +101,18 @@ typedef struct ricci_spline_spec {
 typedef struct ricci_spline_places {
     /** sizeof(ricci_spline_places), by ricci_init. */
     size_t size;
-    /** The patch of each place, n of them; NULL: the one in which it lies. */
+    /**
+     * The patch of each place, n of them; NULL: the one in which it lies. Giving those that are known saves
+     * the search.
+     */
     const uint32_t *patches;
-    /** x and y of each place, n x 2. */
+    /** x and y of each place, n x 2. Any order is fast: places are sorted inside. */
     const double *parameters;
-    /** Number of places. */
+    /** Number of places. Many at a time are faster than one by one. */
     size_t n;
-    /** Threads, 0 for one per core; results do not depend on it. */
+    /**
+     * Threads, 0 for one per core; results do not depend on it. 1 suits hosts that run several calls at once.
+     */
     size_t threads;
 } ricci_spline_places;
 
@@ -105,14 +120,17 @@ typedef struct ricci_spline_places {
 typedef struct ricci_spline_fit_options {
     /** sizeof(ricci_spline_fit_options), by ricci_init. */
     size_t size;
-    /** The place in the spline of each point; NULL: at its own x and y. */
+    /** The place in the spline of each point; NULL: at its own x and y. NULL suits height fields. */
     const ricci_spline_places *places;
     /**
      * Weight of the variation of bending, times the area of the domain, beside the mean squared distance; 0:
-     * 1e-12, which decides where there are few points; below 0: none.
+     * 1e-12, which decides where there are few points; below 0: none. 1e-8 suits scans of 0.1 % noise, where
+     * it had up to 8 times less error.
      */
     double fairness;
-    /** Threads, 0 for one per core; results do not depend on it. */
+    /**
+     * Threads, 0 for one per core; results do not depend on it. 1 suits hosts that run several calls at once.
+     */
     size_t threads;
 } ricci_spline_fit_options;
 
@@ -149,42 +167,6 @@ typedef struct ricci_spline_summary {
     /** 0. */
     uint32_t reserved;
 } ricci_spline_summary;
-
-/** Options of ricci_spline_fit_surface and ricci_spline_fit_mesh; zeros are the defaults. */
-typedef struct ricci_spline_surface_options {
-    /** sizeof(ricci_spline_surface_options), by ricci_init. */
-    size_t size;
-    /**
-     * Number of control points, at most; 0: a quarter of the vertices. Where no such spline holds,
-     * ricci_spline_fit_mesh tries twice and four times as many too, up to 4000.
-     */
-    size_t control_points;
-    /**
-     * Largest distance of a vertex from the spline over the diagonal of the bounding box at which no further
-     * round is made; 0: 0.01.
-     */
-    double tolerance;
-    /**
-     * Weight of the variation of bending in the first round, h^6 |D^3 F|^2 with h the longest side of each
-     * triangle, as a mean over the triangles beside the mean squared distance; 0: chosen by cross-validation.
-     */
-    double fairness;
-    /** Least distance of knots from their vertex, as in ricci_spline_spec; 0: 0.9. */
-    double spread;
-    /** Threads, 0 for one per core; results do not depend on it. */
-    size_t threads;
-    /** 1 to 5; 0: 3. */
-    uint32_t degree;
-    /** Times that the sizes of the triangles are adapted to the errors; 0: 6. */
-    uint32_t rounds;
-    /**
-     * Times at most that vertices are moved to where the spline is nearest, fewer where the tolerance is met
-     * or little is gained; 0: 20; below 0: none.
-     */
-    int32_t corrections;
-    /** 0. */
-    uint32_t reserved;
-} ricci_spline_surface_options;
 
 /**
  * Triangles inside polygons, as the domain of a spline: a mesh in the plane z = 0.
@@ -269,69 +251,6 @@ RICCI_API ricci_status ricci_spline_fit(const ricci_spline *spline, const double
                                         const ricci_spline_fit_options *options, const ricci_control *control,
                                         ricci_spline **fitted);
 
-/** Number of singular vertices: as few as keep the lengths of the flat metric comparable to those given. */
-#define RICCI_SPLINE_AUTO SIZE_MAX
-
-/**
- * Curvatures of a flat metric for a spline over a whole surface: those of singular vertices inside, and of
- * corners of the boundary, which take the rest; 0 elsewhere. ricci_flow makes the metric from them.
- *
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (a vertex that there is not,
- * on the boundary or named twice; a sphere with one singular vertex, or with too few vertices for three; a
- * range below 1), RICCI_TARGET_KIND (a number that the surface cannot have), RICCI_FACTORISATION,
- *         RICCI_NO_MEMORY, RICCI_CANCELLED.
- *
- * @param mesh        a surface.
- * @param singular    the singular vertices, or NULL: those that distort areas least.
- * @param n_singular  their number; RICCI_SPLINE_AUTO without `singular`: as few as bring the ratio of the
- *                    largest to the least factor between lengths within `range`.
- * @param range       that ratio, above 1; 0: 30.
- * @param control     progress and cancellation, or NULL.
- * @param curvatures  out: one per vertex, radians.
- * @param capacity    entries of `curvatures`.
- */
-RICCI_API RICCI_EXPERIMENTAL ricci_status ricci_spline_curvatures(const ricci_mesh *mesh,
-                                                                  const uint32_t *singular, size_t n_singular,
-                                                                  double range, const ricci_control *control,
-                                                                  double *curvatures, size_t capacity);
-
-/**
- * A spline over a whole surface, near its vertices. A patch is a triangle of the flat metric, in a chart of
- * its own; around singular vertices, of any total angle, a filling takes the place of the spline.
- *
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE, RICCI_ARGUMENT (a metric that is not Euclidean, a
- *         surface without positions), RICCI_SPLINE, RICCI_FACTORISATION, RICCI_NO_MEMORY, RICCI_CANCELLED.
- *
- * @param flat     a metric of the plane that ricci_flow has made flat: up to few vertices, or everywhere;
- * such as that with the curvatures of ricci_spline_curvatures.
- * @param options  degree and sizes; NULL for the defaults.
- * @param control  progress and cancellation, or NULL.
- * @param fitted   out: the new handle, to be released by ricci_spline_free.
- */
-RICCI_API RICCI_EXPERIMENTAL ricci_status
-ricci_spline_fit_surface(const ricci_metric *flat, const ricci_spline_surface_options *options,
-                         const ricci_control *control, ricci_spline **fitted);
-
-/**
- * A spline over a whole surface of any topology, near its vertices: ricci_spline_fit_surface over flat
- * metrics that are made for it, first the usual one (a sphere has a vertex at infinity), then those with more
- * singular vertices, until a fit holds; the best of all. ricci_spline_summary's `converged` says whether it
- * holds.
- *
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE, RICCI_ARGUMENT (a surface without positions),
- *         RICCI_LAYOUT (no flow to a flat metric converged), RICCI_SPLINE, RICCI_FACTORISATION,
- *         RICCI_NO_MEMORY, RICCI_CANCELLED.
- *
- * @param mesh     a surface.
- * @param options  degree and sizes; NULL for the defaults.
- * @param control  progress and cancellation, or NULL.
- * @param fitted   out: the new handle, to be released by ricci_spline_free.
- */
-RICCI_API RICCI_EXPERIMENTAL ricci_status ricci_spline_fit_mesh(const ricci_mesh *mesh,
-                                                                const ricci_spline_surface_options *options,
-                                                                const ricci_control *control,
-                                                                ricci_spline **fitted);
-
 /**
  * Release a spline.
  *
@@ -350,18 +269,6 @@ RICCI_API_VOID void ricci_spline_free(ricci_spline *spline);
  */
 RICCI_API ricci_status ricci_spline_summarise(const ricci_spline *spline, ricci_spline_summary *summary,
                                               size_t size);
-
-/**
- * The patches in which a fit to a surface folds: its normals turn by more than 60 degrees there between
- * places beside each other.
- *
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL.
- *
- * @param spline    the spline.
- * @param patches   out: n_folded_patches numbers of patches, ascending.
- * @param capacity  entries of `patches`.
- */
-RICCI_API ricci_status ricci_spline_folds(const ricci_spline *spline, uint32_t *patches, size_t capacity);
 
 /**
  * Control points, knots, or the abscissas of the control points.
@@ -420,24 +327,6 @@ RICCI_API ricci_status ricci_spline_locate(const ricci_spline *spline, const dou
 RICCI_API ricci_status ricci_spline_evaluate(const ricci_spline *spline, const ricci_spline_places *places,
                                              uint32_t which, const ricci_control *control, double *values,
                                              size_t capacity);
-
-/**
- * For points in space the nearest ones of the surface, many at a time, in parallel.
- *
- * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (a point that is not finite:
- * its number; a spline without patches), RICCI_NO_MEMORY, RICCI_CANCELLED.
- *
- * @param spline    the spline.
- * @param points    n x 3.
- * @param n         number of points.
- * @param control   progress and cancellation, or NULL.
- * @param patches   out: for each point the patch of the nearest one, n of them.
- * @param values    out: n x 6: x and y in the patch's chart, the nearest point, and its distance.
- * @param capacity  entries of `values`.
- */
-RICCI_API ricci_status ricci_spline_closest(const ricci_spline *spline, const double *points, size_t n,
-                                            const ricci_control *control, uint32_t *patches, double *values,
-                                            size_t capacity);
 
 /**
  * The polar form, or blossom, of the polynomial that the surface is in the middle of a patch: symmetric,
@@ -518,5 +407,8 @@ RICCI_API ricci_status ricci_spline_text(const ricci_spline *spline, char *text,
 #ifdef __cplusplus
 }
 #endif
+
+/* It was a part of this header. */
+#include <ricci/surface_spline.h>
 
 #endif

@@ -88,15 +88,24 @@ enum {
 typedef struct ricci_structure_options {
     /** sizeof(ricci_structure_options), by ricci_init. */
     size_t size;
-    /** Of the flow; NULL: its defaults. */
+    /** Of the flow; NULL: its defaults. The defaults suit all but studies of the flow. */
     const ricci_flow_options *flow;
-    /** The singular vertex of an affine structure by the flow; NULL: where areas are distorted least. */
+    /**
+     * The singular vertex of an affine structure by the flow; NULL: where areas are distorted least. NULL
+     * suits splines.
+     */
     const uint32_t *singular;
-    /** How far a patch reaches in the sphere or the hyperbolic plane; 0: by the size of the triangles. */
+    /**
+     * How far a patch reaches in the sphere or the hyperbolic plane; 0: by the size of the triangles. 0 gives
+     * few charts whose coordinates keep their digits.
+     */
     double radius;
-    /** RICCI_CHARTS_... */
+    /**
+     * RICCI_CHARTS_... Stars suit checks of the structure, patches files for other programs, since there are
+     * far fewer.
+     */
     uint32_t charts;
-    /** RICCI_AFFINE_... */
+    /** RICCI_AFFINE_... The 1-form suits translations alone, at the price of several zeros. */
     uint32_t source;
 } ricci_structure_options;
 

@@ -10,6 +10,7 @@
 //! way it turns. The logarithm of that small angle is counted as lost digits of u.
 
 use super::star::PuncturedSurface;
+use crate::control::Control;
 use crate::error::Result;
 use crate::mesh::{PerVertex, VertexId};
 use crate::topology::spanning::Key;
@@ -29,6 +30,7 @@ impl PuncturedSurface {
         plane: &PerVertex<[f64; 2]>,
         u: &PerVertex<f64>,
         may: &PerVertex<bool>,
+        control: &Control,
     ) -> Result<Vec<VertexId>> {
         // Per vertex, the least exterior angle of the polyhedron at its edges.
         let mut narrow = PerVertex::filled(self.mesh.n_vertices(), f64::INFINITY);
@@ -40,6 +42,7 @@ impl PuncturedSurface {
         for (arc, turning) in self.star().into_iter().zip(self.turning()?) {
             [self.at, self.mesh.tip(arc)].into_iter().for_each(|v| note(v, turning));
         }
+        control.check()?;
         let lost = |v: VertexId| -narrow[v].max(LEAST_ANGLE).ln();
         let top = u.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let depth = |v: VertexId| ((top - u[v]) as usize).min(DEPTHS - 1);
@@ -52,8 +55,12 @@ impl PuncturedSurface {
                 chosen.push(v);
             }
         }
-        let cost = |v| (Key(range(&self.seen_from(v, plane), v) + lost(v)), v);
-        Ok(ranked(chosen.into_iter().map(cost)))
+        let cost = |v| {
+            control.check()?;
+            Ok((Key(range(&self.seen_from(v, plane), v) + lost(v)), v))
+        };
+        let costs = chosen.into_iter().map(cost).collect::<Result<Vec<_>>>()?;
+        Ok(ranked(costs.into_iter()))
     }
 
     /// The vertex whose shortest edge is the longest, of those that `may` be punctured.

@@ -25,6 +25,7 @@ mod star;
 mod tries;
 pub mod uniformize;
 
+#[cfg(feature = "splines")]
 pub(crate) use boundary::evenly;
 pub use boundary::{Boundary, BoundaryCorner, Corners};
 pub use circle_domain::{

@@ -166,7 +166,9 @@ fn finish(
 ) -> Result<Quotient> {
     let (surface, given) = (flow.surface().clone(), flow.given().clone());
     let (report, angle_defect) = solve(&mut flow, &corners, &control.part(0.0, 0.6))?;
+    control.check()?;
     let metric = flow.solution();
+    control.check()?;
     Pool::new(options.flow.threads)?.run(|| {
         let BasedLayout { mut layout, base, lengths } =
             BasedLayout::new(&metric, options.base, &control.part(0.6, 0.8))?;
@@ -186,6 +188,7 @@ fn finish(
             placement = upright(&layout, first)?;
             layout.move_by(&placement)?;
         }
+        control.check()?;
         let deck = DeckGroup::new(&metric, &layout, &basis, &control.part(0.9, 1.0))?;
         Ok(Quotient {
             report,

@@ -85,7 +85,10 @@ impl<'a> PunctureSearch<'a> {
             }
         };
         let FoundPlane { surface, plane, .. } = &first;
+        let control = self.solver.control;
+        control.check()?;
         let view = surface.centre(plane, self.weights)?;
+        control.check()?;
         let centred = PerVertex::from_fn(plane.len(), |v| view.apply(plane[v]));
         let u = surface.spherical(&centred, view.scale.ln()).u;
         let seen_from = |v: VertexId| {
@@ -95,7 +98,7 @@ impl<'a> PunctureSearch<'a> {
             }
             Ok(moved)
         };
-        let candidates = surface.candidates(plane, &u, &self.may)?;
+        let candidates = surface.candidates(plane, &u, &self.may, control)?;
         self.first_good(candidates.into_iter().take(TRIES).map(seen_from), Some(&first), LAST_PLANE)
     }
 

@@ -26,7 +26,7 @@ use crate::topology::word::Letter;
 use std::collections::HashMap;
 
 /// Number of elements after which the control is asked again whether to stop.
-const ELEMENTS_PER_STEP: usize = 256;
+const ELEMENTS_PER_STEP: usize = 64;
 /// Largest difference of displacements, in H² a length and in E² in units of the longest generator, for which two elements are compared as
 /// words. One element by two words differs by far less; a larger value would only cost comparisons.
 const SAME: f64 = 1e-6;

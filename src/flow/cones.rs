@@ -164,12 +164,15 @@ impl<'a> ConePlacement<'a> {
             .collect();
         control.check()?;
         let mut system = NewtonSystem::new(&mesh, &fixed, None)?;
+        control.check()?;
         system.jacobian.assemble(&mesh, &metric, &state);
+        control.check()?;
         if system.factor().is_err() {
             let (size, shift) = (system.unknowns(), SHIFT * system.jacobian.mean_diagonal());
             system.jacobian.add_diagonal(|_| shift);
             system.factor().map_err(|_| factorisation(size, "the Laplacian is not positive definite"))?;
         }
+        control.check()?;
         let sum = closed.then(|| 2.0 * PI * mesh.euler() as f64);
         let mut place = ConePlacement {
             sum,

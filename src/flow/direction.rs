@@ -43,11 +43,14 @@ impl Flow {
         control: &Control,
     ) -> Result<bool> {
         let mut system = self.take_system(report)?;
+        control.check()?;
         self.assemble(&mut system, &at.state, report);
+        control.check()?;
         let mut found = self.direction_near(&mut system, at, report, control)?;
         let is_large = system.unknowns() >= SINGLE_FROM;
         if !found && is_large && self.single_serves && at.is_sound() {
             system = self.analysed(system, Precision::F32, report)?;
+            control.check()?;
             found = self.direction_single(&mut system, at, report, control)?;
             self.single_serves = found;
         }
@@ -89,6 +92,7 @@ impl Flow {
     ) -> Result<bool> {
         report.factorisations += 1;
         let factored = timed(&mut report.seconds.factor, || system.factor()).is_ok();
+        control.check()?;
         let most = if self.flips_allowed { TIES / at.error } else { MAX_FORCING };
         let forcing = f64::min(FORCING * at.error, f64::min(most, MAX_FORCING));
         Ok(factored && timed(&mut report.seconds.solve, || self.solve_near(system, at, forcing, control))?)
@@ -166,6 +170,7 @@ impl Flow {
             control.check()?;
             report.factorisations += 1;
             let factored = timed(&mut report.seconds.factor, || system.factor()).is_ok();
+            control.check()?;
             if factored && self.solve_step(system, at, report)? {
                 // If more shift does not shorten the step, it is not long because of loose vertices; the line search will cap it.
                 let now = largest(&at.step);

@@ -51,9 +51,12 @@ impl Flow {
                 }
                 None => NewtonSystem::new(&self.mesh, &fixed, None)?,
             };
+            control.check()?;
             system.jacobian.assemble(&self.mesh, &self.metric, &state);
             control.check()?;
-            let left = match system.factor() {
+            let factored = system.factor();
+            control.check()?;
+            let left = match factored {
                 Ok(()) => self.correct(&mut system, state, residual, control)?,
                 Err(_) => error,
             };

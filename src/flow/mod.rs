@@ -41,6 +41,7 @@ mod system;
 
 pub(crate) use active_set::{ActiveSet, BorrowedMetric};
 pub use cones::{AutoCones, auto_cones, with_cones_placed};
+#[cfg(feature = "splines")]
 pub(crate) use cones_within::outside_neighbourhoods;
 pub use cones_within::{ConeLimits, cones_at, cones_within};
 pub use jacobian::curvature_derivative;

@@ -26,6 +26,7 @@ pub mod packing;
 pub(crate) mod plane_triangle;
 pub mod polygon_triangles;
 pub mod predicates;
+#[cfg(feature = "splines")]
 pub(crate) mod quadrature;
 pub mod random;
 mod real;
@@ -38,11 +39,13 @@ pub mod symplectic;
 pub mod triangle;
 pub mod triangle_flatness;
 pub mod triangle_overlap;
+#[cfg(any(feature = "quads", feature = "splines"))]
 pub(crate) mod triangle_tree;
 pub mod vector;
 mod vertex;
 pub mod weights;
 pub mod worst;
+#[cfg(feature = "splines")]
 pub(crate) mod z_order;
 
 pub use double_double::DoubleDouble;

@@ -64,6 +64,7 @@ pub(super) fn in_frames_of_faces(
     let mut freedom = VertexFreedom::of(mesh, options.boundary);
     landmarks.iter().for_each(|&v| freedom[v] = VertexFreedom::Held);
     let settled = for_both(|s| {
+        control.check()?;
         let mut placed = target.placed.clone();
         let weights = &[&source, &target][s].weights;
         let report = balance(&mut placed, Springs { weights, freedom: &freedom }, &control.part(0.6, 1.0))?;
@@ -99,6 +100,7 @@ fn canonical_surface(
         is_inner.then(|| faces.across[h])
     };
     let cover = UniversalCover::new(mesh, space, across, &[])?;
+    control.check()?;
     let at = PerVertex::from_fn(mesh.n_vertices(), |v: VertexId| {
         let h = cover.own(v);
         if mesh.is_boundary_vertex(v) {
@@ -108,5 +110,6 @@ fn canonical_surface(
             Motion::to_origin(space, faces.corner[h]).inverse()
         }
     });
+    control.check()?;
     Ok(CanonicalSurface::new(surface, PlacedMesh { cover, at }, metric.iterations))
 }

@@ -42,15 +42,26 @@ impl Mesh {
     ///
     /// As [`Mesh::from_faces`].
     pub fn from_soup(soup: &Soup) -> Result<Mesh> {
+        if let Some(mesh) = Mesh::from_sound(soup)? {
+            return Ok(mesh);
+        }
+        let Soup { positions, faces, .. } = soup;
+        let incidence = Incidence::new(positions.len(), faces);
+        match defects(diagnose_positions(positions, faces, &incidence)) {
+            Some(error) => Err(error),
+            None => connect(faces, incidence),
+        }
+    }
+
+    /// The surface of a triangle list without defects; none where there are some, which [`Mesh::from_soup`] names in several times the memory.
+    ///
+    /// # Errors
+    /// [`Error::TooLarge`].
+    pub fn from_sound(soup: &Soup) -> Result<Option<Mesh>> {
         let Soup { positions, faces, .. } = soup;
         check_counts(positions.len(), faces.len())?;
-        let incidence = Incidence::new(positions.len(), faces);
-        let mesh = connect(faces, incidence);
-        if mesh.is_ok() && is_sound(positions, faces) {
-            return mesh;
-        }
-        let incidence = Incidence::new(positions.len(), faces);
-        defects(diagnose_positions(positions, faces, &incidence)).map_or(mesh, Err)
+        let mesh = connect(faces, Incidence::new(positions.len(), faces));
+        Ok(mesh.ok().filter(|_| is_sound(positions, faces)))
     }
 
     /// The surface of triangles glued along numbered edges: a Δ-complex, in which several edges may have the same ends.

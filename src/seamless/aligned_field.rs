@@ -66,7 +66,9 @@ impl CrossField {
     ) -> Result<CrossField> {
         let frames = FaceFrames::new(surface);
         let energy = frames.energy(surface.mesh(), sectors, guides)?;
+        control.check()?;
         let powers = energy.least(control)?;
+        control.check()?;
         let angles = powers.iter().map(|[x, y]| y.atan2(*x) / 4.0).collect::<Vec<_>>().into();
         Ok(CrossField { angles, corner: frames.corner, direction: frames.direction })
     }
@@ -245,11 +247,13 @@ impl FieldEnergy {
         let (pattern, values, mut right) = self.equations(&unknown, number)?;
         control.check()?;
         let mut cholesky = Cholesky::analyse(&pattern)?;
+        control.check()?;
         let failed = |_| Error::Factorisation {
             size: number,
             message: "the energy of fields of directions is not positive definite".into(),
         };
         cholesky.factor(Symmetric { pattern: &pattern, values: &values }).map_err(failed)?;
+        control.check()?;
         let asks = self.fixed.iter().any(Option::is_some) || self.pull.iter().any(|pull| pull.1 > 0.0);
         if asks {
             cholesky.solve(&mut right);

@@ -111,6 +111,7 @@ impl VertexFrames<'_> {
             message: "the energy of fields of directions is not positive definite".into(),
         };
         cholesky.factor(Symmetric { pattern: &pattern, values: &values }).map_err(failed)?;
+        control.check()?;
         let mut random = SplitMix64::new(1);
         let mut field: Vec<f64> = (0..2 * n).map(|_| random.unit() - 0.5).collect();
         for k in 0..STEPS {

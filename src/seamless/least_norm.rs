@@ -1,6 +1,7 @@
 //! The least change of lengths that meets linear equations for angles.
 
 use super::holonomy_state::DerivativeRows;
+use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::linalg::{Cholesky, Pattern, Symmetric};
 use sprs::{CsMat, TriMat};
@@ -14,8 +15,13 @@ const REFINEMENTS: usize = 2;
 /// The solution d of `J d = right` of least norm, `d = Jᵀ (J Jᵀ)⁻¹ right`; one entry for each of the `columns`.
 ///
 /// # Errors
-/// [`Error::Factorisation`] where the rows depend on each other by more than rounding and a small shift mend.
-pub(super) fn least_norm_solution(rows: &DerivativeRows, columns: usize, right: &[f64]) -> Result<Vec<f64>> {
+/// [`Error::Factorisation`] where the rows depend on each other by more than rounding and a small shift mend; [`Error::Cancelled`].
+pub(super) fn least_norm_solution(
+    rows: &DerivativeRows,
+    columns: usize,
+    right: &[f64],
+    control: &Control,
+) -> Result<Vec<f64>> {
     let n = rows.len();
     let mut entries = TriMat::new((n, columns));
     for (i, row) in rows.iter().enumerate() {
@@ -31,7 +37,9 @@ pub(super) fn least_norm_solution(rows: &DerivativeRows, columns: usize, right: 
             values[at] += x;
         }
     }
+    control.check()?;
     let mut cholesky = Cholesky::analyse(&pattern)?;
+    control.check()?;
     let mean = (0..n).map(|i| values[pattern.diagonal(i)]).sum::<f64>() / n.max(1) as f64;
     let mut has_factor_with = |shift: f64| {
         let mut shifted = values.clone();
@@ -44,11 +52,13 @@ pub(super) fn least_norm_solution(rows: &DerivativeRows, columns: usize, right: 
             message: "equations for angles around vertices and handles depend on each other".into(),
         });
     }
+    control.check()?;
     let matrix = Symmetric { pattern: &pattern, values: &values };
     let mut multipliers = right.to_vec();
     cholesky.solve(&mut multipliers);
     let mut residual = vec![0.0; n];
     for _ in 0..REFINEMENTS {
+        control.check()?;
         matrix.residual(&multipliers, right, &mut residual);
         cholesky.solve(&mut residual);
         multipliers.iter_mut().zip(&residual).for_each(|(x, r)| *x += r);

@@ -55,7 +55,7 @@ pub(super) fn reach_holonomy(
         if error == 0.0 || slow > SLOW_STEPS || short > SHORT_STEPS {
             return end(state);
         }
-        let step = match opening_step(&state, &missing) {
+        let step = match opening_step(&state, &missing, control) {
             // Triangles are so thin that no step can be told.
             Err(Error::Factorisation { .. }) => return end(state),
             step => step?,
@@ -111,7 +111,7 @@ pub(super) fn come_near(
         let along = |row: &Vec<(u32, f64)>| row.iter().map(|&(e, x)| x * step[e as usize]).sum::<f64>();
         let right: Vec<f64> =
             rows.iter().zip(state.residual(target)).map(|(row, missing)| missing - along(row)).collect();
-        let back = match least_norm_solution(&rows, step.len(), &right) {
+        let back = match least_norm_solution(&rows, step.len(), &right, control) {
             Err(Error::Factorisation { .. }) => break,
             back => back?,
         };

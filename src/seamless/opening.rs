@@ -2,6 +2,7 @@
 
 use super::holonomy_state::{HolonomyState, largest};
 use super::least_norm::least_norm_solution;
+use crate::control::Control;
 use crate::error::Result;
 use std::f64::consts::PI;
 
@@ -16,7 +17,7 @@ const SLACK: f64 = 0.1;
 ///
 /// # Errors
 /// Those of [`least_norm_solution`].
-pub(super) fn opening_step(state: &HolonomyState, missing: &[f64]) -> Result<Vec<f64>> {
+pub(super) fn opening_step(state: &HolonomyState, missing: &[f64], control: &Control) -> Result<Vec<f64>> {
     let (mut rows, mut right) = (state.derivatives(), missing.to_vec());
     let (n, share) = (state.mesh.n_edges(), largest(missing).min(OPENED));
     let mut columns = n;
@@ -34,7 +35,7 @@ pub(super) fn opening_step(state: &HolonomyState, missing: &[f64]) -> Result<Vec
             }
         }
     }
-    let mut step = least_norm_solution(&rows, columns, &right)?;
+    let mut step = least_norm_solution(&rows, columns, &right, control)?;
     step.truncate(n);
     Ok(step)
 }

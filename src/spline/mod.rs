@@ -15,9 +15,11 @@ pub use bicubic::{
     BicubicFit, BicubicOptions, BicubicPatch, BicubicSurface, NormalAngles, PatchCurve, PatchSide,
 };
 pub use quad::{
-    ArcSide, FitDistances, LayoutFitOptions, PatchArc, PatchCorner, PatchLayout, QUINTIC, QuadFit,
-    QuadFitOptions, QuadSpline, QuadSplineSpace, SplineTarget, bilinear, fit_quad_layout, fit_quads,
+    ArcSide, FitDistances, PatchArc, PatchCorner, PatchLayout, QUINTIC, QuadFit, QuadFitOptions, QuadSpline,
+    QuadSplineSpace, SplineTarget, bilinear, fit_quads,
 };
+#[cfg(feature = "quads")]
+pub use quad::{LayoutFitOptions, fit_quad_layout};
 #[cfg(feature = "step")]
 pub use step::{LengthUnit, StepOptions};
 pub use surface_fit::{

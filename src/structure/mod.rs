@@ -39,4 +39,5 @@ pub use kind::Structure;
 pub use options::{AffineSource, AtlasOptions, ChartKind};
 pub use overlaps::{FaceLift, Transition};
 pub use singular::least_distorting_vertex;
+#[cfg(feature = "splines")]
 pub(crate) use singular::singular_vertex;

@@ -39,18 +39,23 @@ mod mesh_gltf;
 mod mesh_odd;
 mod outer;
 mod progress;
+#[cfg(feature = "quads")]
 mod quads;
 mod range;
 mod refine;
 mod repair;
+#[cfg(feature = "quads")]
 mod seamless;
+#[cfg(feature = "quads")]
 mod seamless_features;
 mod shapes;
 mod solution;
 mod solver;
 mod sphere;
+#[cfg(feature = "splines")]
 mod spline;
 mod structure;
+#[cfg(feature = "splines")]
 mod surface_fit;
 mod surfaces;
 mod target;

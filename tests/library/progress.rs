@@ -7,6 +7,7 @@ use ricci::flow::Options;
 use ricci::geometry::Space;
 use ricci::mesh::io::Soup;
 use ricci::mesh::{Mesh, shapes};
+#[cfg(feature = "splines")]
 use ricci::spline::{FlatMetric, FlatMetricOptions, SurfaceFitOptions, fit_surface_over};
 use ricci::structure::{AtlasOptions, atlas};
 use ricci::{Class, Control, Error, Flow, Result, Surface, Target};
@@ -89,6 +90,7 @@ fn of_canonical_shapes() {
 }
 
 #[test]
+#[cfg(feature = "splines")]
 fn of_fits_of_splines() {
     let torus = surface(shapes::torus(2.0, 0.8, 24, 16).unwrap(), 0.0);
     judge("spline fit", &|control| {

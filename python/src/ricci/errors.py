@@ -26,6 +26,7 @@ __all__ = [
     "FileError",
     "InternalError",
     "LayoutError",
+    "LeftOutError",
     "MatchingError",
     "MeshError",
     "MetricError",
@@ -165,6 +166,10 @@ class MatchingError(RicciError, ValueError):
     """There is no map of the kind that was asked for between two surfaces."""
 
 
+class LeftOutError(RicciError, NotImplementedError):
+    """The call belongs to a part that was left out when the library was built."""
+
+
 class SplineError(RicciError, ValueError):
     """A spline, or an argument that one is made from, is not what it must be."""
 
@@ -174,6 +179,7 @@ _SINGLE: dict[int, type[RicciError]] = {
     Status.PANIC: InternalError,
     Status.POISONED: InternalError,
     Status.NO_MEMORY: OutOfMemory,
+    Status.LEFT_OUT: LeftOutError,
     Status.PARSE: ParseError,
     Status.MATCHING: MatchingError,
 }

@@ -23,6 +23,7 @@ class Status(IntEnum):
     BUFFER_TOO_SMALL = 13
     STRUCT_SIZE = 14
     NO_MEMORY = 15
+    LEFT_OUT = 16
     IO = 100
     PARSE = 101
     UNKNOWN_FORMAT = 102

@@ -41,7 +41,9 @@ pub(crate) fn relax(placed: &mut PlacedMesh, springs: Springs, control: &Control
     // An isometry starts in balance, and the target nearly everywhere: then the start is better than the minimum.
     let start = placed.clone();
     let off = [system.energy(&start.logarithms()), system.mean_residual(&start)];
+    control.check()?;
     let relaxed = system.minimise(placed, ENERGY_TOLERANCE, control)?;
+    control.check()?;
     if off[0] <= NEAR * relaxed.energy && off[1] <= system.mean_residual(placed) {
         *placed = start;
     }

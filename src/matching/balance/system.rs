@@ -119,12 +119,15 @@ impl<'a> BalanceSystem<'a> {
             control.step(Stage::Flow, steps as f64 / MOST_STEPS as f64)?;
             let energy = self.energy(&logs);
             let at = self.linearise(placed, &logs, &self.symmetric);
+            control.check()?;
             let mut direction = at.force.clone();
             let factors = match &mut solver {
                 Some(solver) => solver,
                 None => solver.insert(SymmetricFactors::new(self.n, &at.entries)?),
             };
+            control.check()?;
             factors.factor(&at.entries)?;
+            control.check()?;
             factors.solve(&mut direction);
             // The energy of each edge is counted once, its force at both ends: the decrease is that of a quadratic function.
             let slope: f64 = direction.iter().zip(&at.force).map(|(d, f)| d * f).sum();
@@ -167,6 +170,7 @@ impl<'a> BalanceSystem<'a> {
             }
             let tolerance = LINEAR[0].min(LINEAR[1] * residual).max(LINEAR[1] * BALANCED / residual);
             let direction = self.newton(placed, &logs, &mut solver, tolerance)?;
+            control.check()?;
             let mut length = 1.0;
             let mut found = None;
             for _ in 0..MOST_HALVINGS {

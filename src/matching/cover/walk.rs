@@ -19,7 +19,7 @@ const NEARLY_INSIDE: f64 = 1e-6;
 /// Difference of barycentric coordinates up to which two walks to a vertex end at the same place.
 const FITTING: f64 = 1e-3;
 /// Vertices located between two looks at the control.
-const VERTICES_PER_LOOK: usize = 1024;
+const VERTICES_PER_LOOK: usize = 256;
 /// Most steps of a walk; neighbours are seldom more than some dozens of faces apart.
 const MOST_STEPS: usize = 2000;
 /// Most faces that are looked at around a point.
@@ -80,7 +80,7 @@ pub(crate) fn located(
             }
         }
     }
-    worst = crate::geometry::worse(worst, walker.disagreement(points, &found)?);
+    worst = crate::geometry::worse(worst, walker.disagreement(points, &found, control)?);
     let found: Option<Vec<LocatedVertex>> = found.into_iter().collect();
     let found = found.ok_or_else(|| Error::Matching("the surface has several components".into()))?;
     Ok((found, worst))
@@ -120,10 +120,16 @@ impl FaceWalker<'_> {
     ///
     /// # Errors
     /// [`Error::Matching`] if they do not fit.
-    fn disagreement(&self, points: &PlacedMesh, found: &[Option<LocatedVertex>]) -> Result<f64> {
+    fn disagreement(
+        &self,
+        points: &PlacedMesh,
+        found: &[Option<LocatedVertex>],
+        control: &Control,
+    ) -> Result<f64> {
         let mesh = &points.cover.mesh;
-        let mut worst = 0.0;
+        let (mut worst, mut steps) = (0.0, 0);
         for h in mesh.halfedges() {
+            control.check_every(VERTICES_PER_LOOK, &mut steps)?;
             let Some(along) = points.cover.along(h) else { continue };
             let [from, to] = [mesh.origin(h), mesh.tip(h)];
             let (Some(start), Some(end)) = (found[from.index()], found[to.index()]) else { continue };

@@ -95,8 +95,10 @@ impl OverlayGraph {
             along: [Vec::new(), Vec::new()],
             around: vec![Vec::new(); count],
         };
+        control.check()?;
         let parts = arcs.part_edges(settled, target_mesh, &paths, first)?;
         arcs.name_boundary(settled, target_mesh, &parts)?;
+        control.check()?;
         arcs.turn(settled, target_mesh, &paths, &parts);
         if arcs.around.iter().map(Vec::len).sum::<usize>() != arcs.origin.len() {
             return Err(Error::Matching("edges of the overlay meet in no clear order".into()));
@@ -307,7 +309,8 @@ fn paths(
     control.step(Stage::Layout, 0.0)?;
     parallel::fill(&mut all, |e| {
         let e = EdgeId::from(e);
-        (!mesh.is_boundary_edge(e)).then(|| tracer.path(e.halfedge()))
+        let path = || control.check().and_then(|()| tracer.path(e.halfedge()));
+        (!mesh.is_boundary_edge(e)).then(path)
     });
     control.step(Stage::Layout, 1.0)?;
     all.into_iter().map(Option::transpose).collect()

@@ -100,6 +100,7 @@ impl CommonDomain {
             let [source, target] = &self.placed;
             let settled = SettledVertices::new([source, target], self.seeds, &control.part(0.0, 0.5))?;
             let arcs = OverlayGraph::new(&settled, target, &control.part(0.5, 0.9))?;
+            control.check()?;
             pieces::subdivision(&arcs, &settled, target, [&self.given[0], &self.given[1]])
         })
     }

@@ -9,6 +9,8 @@ use crate::geometry::plane_triangle::PlaneTriangle;
 use crate::geometry::{DoubleDouble, Motion};
 use crate::mesh::{FaceId, HalfedgeId, PerVertex, Place, VertexId};
 
+/// Number of vertices between two looks at the control.
+const VERTICES_PER_LOOK: usize = 256;
 /// Least distance by which a vertex is moved aside, as a share of the least height of its triangles, so that no three different points lie
 /// on one line.
 const ASIDE: f64 = 1e-12;
@@ -157,7 +159,9 @@ impl SettledVertices {
         let (found, _) = located(&source, target, seeds[0], control)?;
         let mut taken = PerVertex::filled(target.at.len(), None);
         let mut forward = Vec::with_capacity(found.len());
+        let mut steps = 0;
         for (v, found) in mesh.vertices().zip(&found) {
+            control.check_every(VERTICES_PER_LOOK, &mut steps)?;
             let mut standing = stand(&source, target, v, found)?;
             let same = |b: VertexId| (SAME * aside(v)).min(SAME * MOST_ASIDE * high[1][b]);
             if let Some((h, b)) = next_to(&source, target, v, &standing, same)
@@ -173,11 +177,14 @@ impl SettledVertices {
             return Err(Error::Matching(format!("face {f} of the source is too thin for an overlay")));
         }
         let (found, _) = located(target, &source, seeds[1], control)?;
-        let back = |(v, found): (VertexId, &LocatedVertex)| match taken[v] {
-            Some(_) => Ok(None),
-            None => stand(target, &source, v, found).map(Some),
+        let mut back = |(v, found): (VertexId, &LocatedVertex)| {
+            control.check_every(VERTICES_PER_LOOK, &mut steps)?;
+            match taken[v] {
+                Some(_) => Ok(None),
+                None => stand(target, &source, v, found).map(Some),
+            }
         };
-        let backward = target.cover.mesh.vertices().zip(&found).map(back).collect::<Result<_>>()?;
+        let backward = target.cover.mesh.vertices().zip(&found).map(&mut back).collect::<Result<_>>()?;
         Ok(SettledVertices { source, forward, backward, taken })
     }
 }

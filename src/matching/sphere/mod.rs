@@ -55,7 +55,7 @@ fn best_rotated(
     let points = [source, target].map(positions);
     let densities = [0, 1].map(|s| samples(surfaces[s], &points[s]));
     let mut least = LeastEnergy::new(f64::NEG_INFINITY);
-    for turn in turnings([&densities[0], &densities[1]])? {
+    for turn in turnings([&densities[0], &densities[1]], control)? {
         control.check()?;
         let mut turned = source.clone();
         let rotate = |p: Vector| turn.map(|row| dot(row, p));

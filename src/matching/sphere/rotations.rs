@@ -1,5 +1,6 @@
 //! Rotations of the sphere that bring one conformal factor as near as possible to another one.
 
+use crate::control::Control;
 use crate::error::Result;
 use crate::geometry::vector::{Vector, cross, dot, normalised};
 use crate::linalg::dense::symmetric_eigenvectors;
@@ -29,7 +30,7 @@ const HALVINGS: usize = 8;
 ///
 /// # Errors
 /// Those of [`symmetric_eigenvectors`].
-pub(super) fn turnings([from, to]: [&SphereSamples; 2]) -> Result<Vec<Rotation>> {
+pub(super) fn turnings([from, to]: [&SphereSamples; 2], control: &Control) -> Result<Vec<Rotation>> {
     let (own, other) = (axes(from)?, axes(to)?);
     // Two identical surfaces fit without a rotation, to the last digit.
     let mut all = vec![IDENTITY];
@@ -39,9 +40,11 @@ pub(super) fn turnings([from, to]: [&SphereSamples; 2]) -> Result<Vec<Rotation>>
     }
     let (samples, raster) = (SphereRaster::new(from).samples(), SphereRaster::new(to));
     let off = |turn: &Rotation| raster.difference(turn, &samples);
-    let mut coarse: Vec<(f64, Rotation)> = grid().into_iter().map(|turn| (off(&turn), turn)).collect();
+    let tried = |turn| control.check().map(|()| (off(&turn), turn));
+    let mut coarse: Vec<(f64, Rotation)> = grid().into_iter().map(tried).collect::<Result<_>>()?;
     coarse.sort_by(|a, b| a.0.total_cmp(&b.0));
     for (_, turn) in coarse.into_iter().take(REFINED) {
+        control.check()?;
         all.push(refined(turn, &off));
     }
     Ok(all)
@@ -186,6 +189,6 @@ mod tests {
         });
         let off =
             |turn: &Rotation| (0..3).map(|i| dot(sub(turn[i], by[i]), sub(turn[i], by[i]))).sum::<f64>();
-        assert!(turnings([&from, &to]).unwrap()[..5].iter().any(|turn| off(turn) < 1e-20));
+        assert!(turnings([&from, &to], &Control::new()).unwrap()[..5].iter().any(|turn| off(turn) < 1e-20));
     }
 }

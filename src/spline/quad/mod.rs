@@ -15,11 +15,13 @@
 
 mod elimination;
 mod fit;
+#[cfg(feature = "quads")]
 mod fitted_surface;
 mod gluing;
 mod jumps;
 mod layout;
 mod nearest;
+#[cfg(feature = "quads")]
 mod over_quads;
 mod quintic;
 mod space;
@@ -31,6 +33,7 @@ mod target;
 
 pub use fit::{FitDistances, QuadFit, QuadFitOptions, bilinear, fit_quads};
 pub use layout::{ArcSide, PatchArc, PatchCorner, PatchLayout};
+#[cfg(feature = "quads")]
 pub use over_quads::{LayoutFitOptions, fit_quad_layout};
 pub use quintic::QUINTIC;
 pub use space::QuadSplineSpace;

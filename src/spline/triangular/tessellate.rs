@@ -13,6 +13,8 @@ use std::collections::hash_map::Entry;
 
 /// Most vertices of a tessellation.
 const MOST_VERTICES: usize = 100_000_000;
+/// Number of places that are evaluated at a time, of which a point and a normal are kept each.
+const EVALUATED: usize = 1 << 14;
 
 impl Spline {
     /// A triangle mesh of the surface: n² triangles for each patch, and after these for each cap triangle at infinity, counterclockwise as
@@ -33,6 +35,7 @@ impl Spline {
         let mut known: HashMap<(Vec<u32>, [usize; 2]), u32> = HashMap::new();
         let (mut places, mut faces, mut uv) = (Vec::new(), Vec::new(), Vec::new());
         for (at, triangle) in all.iter().enumerate() {
+            control.check()?;
             let mut numbers = Vec::new();
             let mut coordinates = Vec::new();
             for weights in multi_indices(n) {
@@ -54,10 +57,16 @@ impl Spline {
                 uv.push(triangle.map(|i| coordinates[i]));
             }
         }
-        let found = self.evaluate(&places, 1, threads, control)?;
-        let normals = found.iter().map(|at| at.normal().unwrap_or_default()).collect();
+        drop(known);
+        let (mut positions, mut normals) = (Vec::new(), Vec::new());
+        let parts = places.len().div_ceil(EVALUATED);
+        for (k, places) in places.chunks(EVALUATED).enumerate() {
+            let found = self.evaluate(places, 1, threads, &control.part_of(k, parts))?;
+            positions.extend(found.iter().map(|at| at.point));
+            normals.extend(found.iter().map(|at| at.normal().unwrap_or_default()));
+        }
         let attributes = Attributes { normals: Some(normals), uv: Some(uv), ..Attributes::default() };
-        Ok(Soup { positions: found.iter().map(|at| at.point).collect(), faces, attributes })
+        Ok(Soup { positions, faces, attributes })
     }
 
     /// A key that is equal for a point on a side and the same point of the triangle beyond: the control points of the side, in an order
