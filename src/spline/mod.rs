@@ -19,7 +19,7 @@ pub use quad::{
     QuadSplineSpace, SplineTarget, bilinear, fit_quads,
 };
 #[cfg(feature = "quads")]
-pub use quad::{LayoutFitOptions, fit_quad_layout};
+pub use quad::{LayoutFit, LayoutFitOptions, fit_few_patches, fit_quad_layout};
 #[cfg(feature = "step")]
 pub use step::{LengthUnit, StepOptions};
 pub use surface_fit::{

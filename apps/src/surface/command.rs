@@ -9,8 +9,7 @@ use crate::quads::{QuadSourceArgs, solved};
 use crate::report::timed;
 use crate::runner::{CommandRun, Job, JobHeader};
 use crate::seamless::ConesChoice;
-use ricci::quads::{QuadOptions, QuadSize, quad_layout};
-use ricci::spline::{LayoutFitOptions, QuadFitOptions, StepOptions, fit_quad_layout};
+use ricci::spline::{LayoutFit, LayoutFitOptions, QuadFitOptions, StepOptions, fit_few_patches};
 
 impl Job for ScanArgs {
     type Outcome = ScanOutcome;
@@ -32,16 +31,13 @@ impl Job for ScanArgs {
     fn compute(&self, run: &mut CommandRun<'_>) -> Result<ScanOutcome, Failure> {
         let threads = self.common.threads;
         let (input, seamless) = solved(&self.source(), threads, run)?;
-        let options = QuadOptions { size: QuadSize::Coarse, threads };
-        let divide = || doing("dividing", || quad_layout(&seamless, &options, run.control));
-        let layout = timed(&mut run.seconds.layout, divide)?;
         let fit_options = LayoutFitOptions {
             tolerance: self.tolerance,
             most_spans: self.spans.into(),
             fit: QuadFitOptions { bending: self.bending, threads },
         };
-        let fit = || fit_quad_layout(&seamless, &layout, &fit_options, run.control);
-        let fit = timed(&mut run.seconds.solve, || doing("fitting", fit))?;
+        let fit = || fit_few_patches(&seamless, &fit_options, run.control);
+        let LayoutFit { fit, .. } = timed(&mut run.seconds.solve, || doing("fitting", fit))?;
         let mut step = Vec::new();
         let name = self.surface.file.mesh.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let step_options = StepOptions { name, unit: self.unit.length_unit() };

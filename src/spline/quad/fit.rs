@@ -18,6 +18,9 @@ use std::sync::Arc;
 
 /// Steps from the first weights to the last.
 const STEPS: usize = 14;
+/// Most further steps with the last weights, and the share of the distance of the vertices below which one has to bring it for another to follow.
+const MORE_STEPS: usize = 12;
+const SETTLED: f64 = 0.93;
 /// The step with which fits from other splines begin.
 const LATE_STEP: usize = 8;
 /// Steps after which the nearest places of vertices are looked for on all patches.
@@ -154,23 +157,44 @@ pub(super) fn fit_from(
     let free =
         system.solve(&FitGoal { weights: first, foot: &to_start, vertices: &vec![Vec::new(); patches] })?;
     let mut spline = QuadSpline::of_free(space.clone(), &free)?;
-    for step in first_step..STEPS {
-        control.step(Stage::Layout, (step + 1 - first_step) as f64 / (STEPS + 2 - first_step) as f64)?;
+    let mut last_error = f64::INFINITY;
+    for step in first_step..STEPS + MORE_STEPS {
+        let all = STEPS + MORE_STEPS + 2 - first_step;
+        control.step(Stage::Layout, (step + 1 - first_step) as f64 / all as f64)?;
         if (step - first_step).is_multiple_of(STEPS_TO_SEARCH) {
             vertices = vertex_places(target, &pieces, &|p, uv| spline.point_at(p, uv));
         }
         vertices = moved_nearer(&vertices, &spline);
+        if step >= STEPS {
+            let error = vertex_error(&vertices, &spline);
+            if error > SETTLED * last_error {
+                break;
+            }
+            last_error = error;
+        }
         let foot = |p: usize, place: &FitPlace| {
             let [u, v] = &place.basis;
             target.foot(pieces[p], spline.point(p, [u, v]))
         };
-        let weights = weights_of(step, bending);
+        let weights = weights_of(step.min(STEPS - 1), bending);
         let free = system.solve(&FitGoal { weights, foot: &foot, vertices: &vertices })?;
         spline = QuadSpline::of_free(space.clone(), &free)?;
     }
     let fit = measured(spline, &pieces, target);
     control.step(Stage::Layout, 1.0)?;
     Ok(fit)
+}
+
+/// The root of the mean square of the distances of vertices from their places.
+fn vertex_error(vertices: &[Vec<VertexPlace>], spline: &QuadSpline) -> f64 {
+    let of_patch = |p: usize| -> f64 {
+        let square = |place: &VertexPlace| {
+            let far = distance(spline.point_at(p, place.parameters), place.vertex.point);
+            place.vertex.share * far * far
+        };
+        vertices[p].iter().map(square).sum()
+    };
+    parallel::map(vertices.len(), of_patch).into_iter().sum::<f64>().sqrt()
 }
 
 /// The vertices at the nearest places of their patches, as these are now.

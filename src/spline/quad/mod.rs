@@ -14,6 +14,8 @@
 //! ```
 
 mod elimination;
+#[cfg(feature = "quads")]
+mod few_patches;
 mod fit;
 #[cfg(feature = "quads")]
 mod fitted_surface;
@@ -31,6 +33,8 @@ mod step;
 mod system;
 mod target;
 
+#[cfg(feature = "quads")]
+pub use few_patches::{LayoutFit, fit_few_patches};
 pub use fit::{FitDistances, QuadFit, QuadFitOptions, bilinear, fit_quads};
 pub use layout::{ArcSide, PatchArc, PatchCorner, PatchLayout};
 #[cfg(feature = "quads")]

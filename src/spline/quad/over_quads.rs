@@ -1,6 +1,6 @@
 //! Splines over the layouts of quad meshes: the lines between their irregular vertices bound the patches.
 
-use super::fit::{FitStart, QuadFit, QuadFitOptions, StartMap, bilinear, fit_from};
+use super::fit::{FitStart, QuadFit, QuadFitOptions, bilinear, fit_from};
 use super::fitted_surface::FittedSurface;
 use super::layout::{ArcSide, PatchArc, PatchLayout};
 use super::space::QuadSplineSpace;
@@ -74,51 +74,60 @@ pub fn fit_quad_layout(
         let (vertices, target) = relaxed(layout, vertices, &surface, control)?;
         let grids = PatchGrid::all(layout, &vertices)?;
         let patches = patch_layout(layout, &vertices)?;
-        let start = |p: usize, uv: [f64; 2]| grids[p].at(uv);
-        fitted(&patches, &start, (&surface, target), options, control)
+        LayoutStart { surface, grids, patches }.fitted(target, options, control)
     })
 }
 
-/// Fits with more and more spans on the strips of patches that are not within the tolerance.
-fn fitted(
-    patches: &PatchLayout,
-    start: StartMap<'_>,
-    (surface, mut target): (&FittedSurface<'_>, SplineTarget),
-    options: &LayoutFitOptions,
-    control: &Control,
-) -> Result<QuadFit> {
-    let mut spans = vec![1; patches.arcs().len()];
-    let mut bending = options.fit.bending;
-    let mut best: Option<QuadFit> = None;
-    let mut is_first = true;
-    loop {
-        let space = Arc::new(QuadSplineSpace::with_spans(patches.clone(), spans.clone())?);
-        let from = match &best {
-            Some(best) if best.folded_patches.is_empty() && !is_first => FitStart::Spline(&best.spline),
-            _ => FitStart::Map(start),
-        };
-        is_first = false;
-        let fit = fit_from(space, &from, &target, bending, control)?;
-        let (folds, is_near) = (fit.folded_patches.len(), fit.max() <= options.tolerance);
-        let is_better = |best: &QuadFit| (folds, fit.max()) < (best.folded_patches.len(), best.max());
-        let stiffer = STIFFER * bending.max(LEAST_BENDING);
-        if folds > 0 && stiffer <= MOST_BENDING {
-            bending = stiffer;
-        } else {
-            bending = options.fit.bending;
-            let is_more = raise_spans(patches, &mut spans, &fit, options);
-            if (folds == 0 && is_near) || !is_more {
-                return Ok(match best {
-                    Some(best) if !is_better(&best) => best,
-                    _ => fit,
-                });
+/// What fits over a layout start from.
+struct LayoutStart<'a> {
+    surface: FittedSurface<'a>,
+    grids: Vec<PatchGrid>,
+    patches: PatchLayout,
+}
+
+impl LayoutStart<'_> {
+    /// Fits with more and more spans on the strips of patches that are not within the tolerance.
+    fn fitted(
+        &self,
+        mut target: SplineTarget,
+        options: &LayoutFitOptions,
+        control: &Control,
+    ) -> Result<QuadFit> {
+        let LayoutStart { surface, grids, patches } = self;
+        let start = |p: usize, uv: [f64; 2]| grids[p].at(uv);
+        let mut spans = vec![1; patches.arcs().len()];
+        let mut bending = options.fit.bending;
+        let mut best: Option<QuadFit> = None;
+        let mut round = 0;
+        loop {
+            let space = Arc::new(QuadSplineSpace::with_spans(patches.clone(), spans.clone())?);
+            let from = match &best {
+                Some(best) if best.folded_patches.is_empty() => FitStart::Spline(&best.spline),
+                _ => FitStart::Map(&start),
+            };
+            let fit = fit_from(space, &from, &target, bending, &control.attempt(round))?;
+            round += 1;
+            let (folds, is_near) = (fit.folded_patches.len(), fit.max() <= options.tolerance);
+            let is_better = |best: &QuadFit| (folds, fit.max()) < (best.folded_patches.len(), best.max());
+            let stiffer = STIFFER * bending.max(LEAST_BENDING);
+            if folds > 0 && stiffer <= MOST_BENDING {
+                bending = stiffer;
+            } else {
+                bending = options.fit.bending;
+                let is_more = raise_spans(patches, &mut spans, &fit, options);
+                if (folds == 0 && is_near) || !is_more {
+                    return Ok(match best {
+                        Some(best) if !is_better(&best) => best,
+                        _ => fit,
+                    });
+                }
             }
-        }
-        if fit.folded_patches.is_empty() {
-            target = surface.target(&faces_of(&fit.spline, &target))?;
-        }
-        if best.as_ref().is_none_or(is_better) {
-            best = Some(fit);
+            if fit.folded_patches.is_empty() {
+                target = surface.target(&faces_of(&fit.spline, &target))?;
+            }
+            if best.as_ref().is_none_or(is_better) {
+                best = Some(fit);
+            }
         }
     }
 }
