@@ -2,7 +2,12 @@
 
 use crate::error::{Error, Result};
 use std::collections::BTreeMap;
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+/// Angles of fans between creases that differ from π by less than this are taken for π: a smooth crease or border, as coarse quads show it.
+const NEARLY_STRAIGHT: f64 = 0.35;
+/// Angles between arcs that differ from a right one by less than this, radians, are right ones.
+const RIGHT_ANGLE: f64 = 1e-9;
 
 /// An arc between two nodes of a layout: a side of one patch or of two.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -61,6 +66,8 @@ pub struct PatchLayout {
     patches: Vec<[ArcSide; 4]>,
     /// For each arc the side to its left, and that to its right.
     beside: Vec<[Option<PatchCorner>; 2]>,
+    /// For each corner of each patch the angle between neighbouring arcs in the fan around it.
+    sectors: Vec<[f64; 4]>,
 }
 
 impl PatchLayout {
@@ -118,9 +125,42 @@ impl PatchLayout {
         if let Some(at) = beside.iter().position(|sides| *sides == [None; 2]) {
             return refuse("arc", at, "no patch has it as a side");
         }
-        let layout = PatchLayout { n_nodes, arcs, patches, beside };
+        let sectors = vec![[FRAC_PI_2; 4]; patches.len()];
+        let mut layout = PatchLayout { n_nodes, arcs, patches, beside, sectors };
         layout.check_fans()?;
+        layout.sectors = layout.divided_fans(|_| PI);
         Ok(layout)
+    }
+
+    /// The same layout for a surface on which the patches have these angles at their corners, radians. Fans between creases or sides of the border
+    /// have the sum of their angles, or π where it is near to that; without angles all have π.
+    pub fn with_angles(mut self, angles: &[[f64; 4]]) -> PatchLayout {
+        let of_fan = |corners: &[PatchCorner]| {
+            let angle = corners.iter().map(|at| angles.get(at.patch).map_or(FRAC_PI_2, |all| all[at.corner]));
+            let angle: f64 = angle.sum();
+            if (angle - PI).abs() < NEARLY_STRAIGHT { PI } else { angle.min(TAU) }
+        };
+        self.sectors = self.divided_fans(of_fan);
+        self
+    }
+
+    /// Per corner the angle of its fan, divided by the number of its patches. A fan all around a node has 2π, also where a crease ends there;
+    /// `between`: that of one between two creases or sides of the border.
+    fn divided_fans(&self, between: impl Fn(&[PatchCorner]) -> f64) -> Vec<[f64; 4]> {
+        let mut sectors = self.sectors.clone();
+        for at in self.corners() {
+            let NodeFan { corners, is_closed } = self.fan(at);
+            if !is_closed && corners[0] != at {
+                continue;
+            }
+            let last = corners[corners.len() - 1];
+            let before = self.patches[last.patch][(last.corner + 3) % 4];
+            let after = self.patches[at.patch][at.corner];
+            let ends_there = before.arc == after.arc && before.reversed != after.reversed;
+            let angle = if is_closed || ends_there { TAU } else { between(&corners) };
+            corners.iter().for_each(|on| sectors[on.patch][on.corner] = angle / corners.len() as f64);
+        }
+        sectors
     }
 
     fn check_fans(&self) -> Result<()> {
@@ -225,14 +265,14 @@ impl PatchLayout {
         NodeFan { corners, is_closed }
     }
 
-    /// The way in which the arc of a side leaves the node at its start. Fans between creases have an angle of π.
+    /// The way in which the arc of a side leaves the node at its start.
     pub(super) fn start_of(&self, at: PatchCorner) -> ArcEnd {
         let NodeFan { corners, is_closed } = self.fan(at);
-        match (corners.len(), is_closed) {
-            (4, true) => ArcEnd::Regular,
-            (2, false) => ArcEnd::Across,
-            (n, true) => ArcEnd::Irregular(2.0 * (TAU / n as f64).cos()),
-            (n, false) => ArcEnd::Irregular(2.0 * (PI / n as f64).cos()),
+        let sector = self.sectors[at.patch][at.corner];
+        match is_closed {
+            true if corners.len() == 4 => ArcEnd::Regular,
+            false if (sector - FRAC_PI_2).abs() < RIGHT_ANGLE => ArcEnd::Across,
+            _ => ArcEnd::Irregular(2.0 * sector.cos()),
         }
     }
 }

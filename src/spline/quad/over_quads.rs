@@ -8,7 +8,7 @@ use super::spline::QuadSpline;
 use super::target::SplineTarget;
 use crate::control::Control;
 use crate::error::{Error, Result};
-use crate::geometry::vector::{Vector, add, distance, lerp, scale};
+use crate::geometry::vector::{Vector, add, cross, distance, dot, lerp, norm, scale, sub};
 use crate::mesh::union_find::UnionFind;
 use crate::parallel;
 use crate::quads::{LayoutArc, LayoutPatch, QuadLayout};
@@ -26,6 +26,9 @@ const TOWARDS_MEAN: f64 = 0.7;
 const STIFFER: f64 = 100.0;
 const LEAST_BENDING: f64 = 1e-13;
 const MOST_BENDING: f64 = 1e-7;
+/// The share of the distance below which a round has to bring it, and the rounds in a row that may not.
+const WORTHWHILE: f64 = 0.85;
+const MOST_FRUITLESS: usize = 1;
 /// Spans in one direction of a patch that are shorter than those in the other by at most this factor are divided as well.
 const ABOUT_AS_LONG: f64 = 1.5;
 /// Options of [`fit_quad_layout`].
@@ -73,7 +76,8 @@ pub fn fit_quad_layout(
         let surface = FittedSurface::new(seamless, layout)?;
         let (vertices, target) = relaxed(layout, vertices, &surface, control)?;
         let grids = PatchGrid::all(layout, &vertices)?;
-        let patches = patch_layout(layout, &vertices)?;
+        let angles: Vec<[f64; 4]> = grids.iter().map(PatchGrid::corner_angles).collect();
+        let patches = patch_layout(layout, &vertices)?.with_angles(&angles);
         LayoutStart { surface, grids, patches }.fitted(target, options, control)
     })
 }
@@ -98,7 +102,7 @@ impl LayoutStart<'_> {
         let mut spans = vec![1; patches.arcs().len()];
         let mut bending = options.fit.bending;
         let mut best: Option<QuadFit> = None;
-        let mut round = 0;
+        let (mut round, mut fruitless) = (0, 0);
         loop {
             let space = Arc::new(QuadSplineSpace::with_spans(patches.clone(), spans.clone())?);
             let from = match &best {
@@ -110,12 +114,19 @@ impl LayoutStart<'_> {
             let (folds, is_near) = (fit.folded_patches.len(), fit.max() <= options.tolerance);
             let is_better = |best: &QuadFit| (folds, fit.max()) < (best.folded_patches.len(), best.max());
             let stiffer = STIFFER * bending.max(LEAST_BENDING);
+            // More spans are of no use where they did not bring the last fit nearer.
+            fruitless = match &best {
+                Some(best) if folds >= best.folded_patches.len() && fit.max() > WORTHWHILE * best.max() => {
+                    fruitless + 1
+                }
+                _ => 0,
+            };
             if folds > 0 && stiffer <= MOST_BENDING {
                 bending = stiffer;
             } else {
                 bending = options.fit.bending;
                 let is_more = raise_spans(patches, &mut spans, &fit, options);
-                if (folds == 0 && is_near) || !is_more {
+                if (folds == 0 && is_near) || !is_more || fruitless > MOST_FRUITLESS {
                     return Ok(match best {
                         Some(best) if !is_better(&best) => best,
                         _ => fit,
@@ -318,6 +329,22 @@ impl PatchGrid {
         }
         let at = |k: usize| vertices[rows[k % (n + 1)][k / (n + 1)] as usize];
         Ok(PatchGrid { size: [m, n], points: (0..(m + 1) * (n + 1)).map(at).collect() })
+    }
+
+    /// The angles at the corners, radians.
+    fn corner_angles(&self) -> [f64; 4] {
+        let [m, n] = self.size;
+        let point = |i: usize, j: usize| self.points[i * (n + 1) + j];
+        let angle = |at: Vector, a: Vector, b: Vector| {
+            let [u, v] = [sub(a, at), sub(b, at)];
+            norm(cross(u, v)).atan2(dot(u, v))
+        };
+        [
+            angle(point(0, 0), point(1, 0), point(0, 1)),
+            angle(point(m, 0), point(m - 1, 0), point(m, 1)),
+            angle(point(m, n), point(m - 1, n), point(m, n - 1)),
+            angle(point(0, n), point(1, n), point(0, n - 1)),
+        ]
     }
 
     /// The point at a place of the patch, bilinear in every quad.

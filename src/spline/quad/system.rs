@@ -14,7 +14,9 @@ use std::collections::BTreeMap;
 
 /// Places in every span and direction at which distances are taken. As many as the degree has coefficients would be interpolated, with large
 /// errors between them.
-pub(super) const PLACES: usize = 2 * QUINTIC;
+const PLACES: usize = 2 * QUINTIC;
+/// The same in patches of several spans, each of which has half as many coefficients of its own.
+const PLACES_OF_SEVERAL: usize = QUINTIC + 2;
 /// Pairs of unknowns beyond which repeated ones are dropped on the way.
 const MOST_PAIRS: usize = 1 << 24;
 /// Number of control points that a place depends on.
@@ -238,7 +240,7 @@ fn lengths(space: &QuadSplineSpace, patch: usize) -> [f64; 2] {
 impl SpanDirection {
     /// The direction with the places of Gauss in every span, at which products of derivatives are integrated exactly.
     fn new(spans: usize) -> SpanDirection {
-        let in_span = gauss_legendre(PLACES);
+        let in_span = gauss_legendre(if spans == 1 { PLACES } else { PLACES_OF_SEVERAL });
         let place = |s: usize, [x, w]: [f64; 2]| {
             let parameter = (s as f64 + x) / spans as f64;
             SpanPlace { basis: QuinticBasis::at(spans, parameter), parameter, weight: w / spans as f64 }

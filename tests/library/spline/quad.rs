@@ -199,6 +199,23 @@ fn tangent_planes_are_continuous_where_strips_have_different_spans() {
 }
 
 #[test]
+fn a_crease_may_end_inside_and_turn_by_any_angle() {
+    let quads = slab();
+    let size = |layout: PatchLayout| QuadSplineSpace::new(layout, 1).unwrap();
+    // A crease along one side of a patch ends at both of its ends.
+    let crease = [[quads.faces[0][0], quads.faces[0][1]]];
+    let layout = PatchLayout::from_quads(quads.positions.len(), &quads.faces, &crease).unwrap();
+    assert!(size(layout.clone()).dimension() > quads.space(1).dimension());
+    let [gap, _] = jumps(&any_spline(&Arc::new(size(layout.clone()))));
+    assert!(gap < 1e-13, "{gap}");
+    for angle in [1.0, 2.4] {
+        let turned = layout.clone().with_angles(&vec![[angle; 4]; quads.faces.len()]);
+        let [gap, _] = jumps(&any_spline(&Arc::new(size(turned))));
+        assert!(gap < 1e-13, "{gap}");
+    }
+}
+
+#[test]
 fn a_crease_lets_the_normal_jump_and_nothing_else() {
     let quads = cells(&block([2, 2, 2]));
     // The lid z = 2 with its border.
