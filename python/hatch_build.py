@@ -35,6 +35,7 @@ HEADERS = (
     "structure",
     "spline",
     "bicubic",
+    "quad_spline",
 )
 
 

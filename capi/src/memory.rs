@@ -44,6 +44,8 @@ pub const UNIFORM: usize = 1 << 13;
 /// Most bytes per vertex and quad for a quad mesh: 4,000 for 60,000 quads on a torus of 8,192 vertices, and for each of the 64 quads of a unit
 /// square of a layout 3,400.
 pub const QUADS: usize = 3 << 11;
+/// Most bytes per vertex and quad for the fit of a spline over a quad layout.
+pub const QUAD_FIT: usize = 1 << 12;
 /// Most bytes per evaluated point of a spline (448 with its derivatives) or per face of a tessellation (340).
 pub const POINT: usize = 1 << 9;
 /// Most bytes per point and per control point of a fit: 2,980 of degree 5.

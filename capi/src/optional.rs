@@ -3,7 +3,7 @@
 
 use crate::failure::Outcome;
 use ricci::mesh::io::Soup;
-use ricci::spline::BicubicSurface;
+use ricci::spline::{BicubicSurface, QuadSpline};
 use std::path::Path;
 
 #[cfg(not(feature = "gltf"))]
@@ -30,6 +30,17 @@ pub fn write_step(surface: &BicubicSurface, options: &StepOptions, bytes: &mut V
     #[cfg(not(feature = "step"))]
     {
         let _ = (surface, options, bytes);
+        left_out("STEP", "step")
+    }
+}
+
+/// Adds the patches of a spline over a quad layout as a STEP file to `bytes`.
+pub fn write_quad_step(spline: &QuadSpline, options: &StepOptions, bytes: &mut Vec<u8>) -> Outcome {
+    #[cfg(feature = "step")]
+    return Ok(spline.write_step(options, bytes)?);
+    #[cfg(not(feature = "step"))]
+    {
+        let _ = (spline, options, bytes);
         left_out("STEP", "step")
     }
 }

@@ -18,6 +18,7 @@ const HEADERS: &[(&str, usize)] = &[
     ("quads", 20),
     ("spline", 25),
     ("bicubic", 10),
+    ("quad_spline", 20),
     ("structure", 20),
     ("repair", 40),
     ("shapes", 10),

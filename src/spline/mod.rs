@@ -15,8 +15,9 @@ pub use bicubic::{
     BicubicFit, BicubicOptions, BicubicPatch, BicubicSurface, NormalAngles, PatchCurve, PatchSide,
 };
 pub use quad::{
-    ArcSide, FitDistances, LayoutFitOptions, PatchArc, PatchCorner, PatchLayout, QUINTIC, QuadFit,
-    QuadFitOptions, QuadSpline, QuadSplineSpace, SplineTarget, bilinear, fit_quad_layout, fit_quads,
+    ArcSide, BezierExtraction, ExtractionMatrix, FitDistances, LayoutFitOptions, NearestPlace, NearestPlaces,
+    PatchArc, PatchCorner, PatchLayout, PatchPlace, QUINTIC, QuadFit, QuadFitOptions, QuadSpline,
+    QuadSplineSpace, SplineTarget, TessellationSize, bilinear, fit_quad_layout, fit_quads,
 };
 #[cfg(feature = "step")]
 pub use step::{LengthUnit, StepOptions};

@@ -3,7 +3,7 @@
 # The headers are compiled, each function with an empty body, into a library with full debug information; capi/tests/header.rs holds them
 # against the library's source, and the test `exports` against its symbols. RICCI_BLESS=1 writes the baseline anew.
 set(_stub "")
-foreach(_name ricci uniformize circles harmonic structure match seamless quads spline bicubic repair shapes)
+foreach(_name ricci uniformize circles harmonic structure match seamless quads spline bicubic quad_spline repair shapes)
   string(APPEND _stub "#include <ricci/${_name}.h>\n")
   file(READ ${HEADERS}/${_name}.h _header)
   string(REGEX REPLACE "/\\*[^*]*\\*+([^/*][^*]*\\*+)*/" "" _header "${_header}")

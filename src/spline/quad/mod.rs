@@ -13,13 +13,17 @@
 //! # Ok::<(), ricci::Error>(())
 //! ```
 
+mod bezier;
+mod closest;
 mod elimination;
+mod extraction;
 mod fit;
 mod gluing;
 mod jumps;
 mod layout;
 mod nearest;
 mod over_quads;
+mod places;
 mod quintic;
 mod space;
 mod spline;
@@ -27,11 +31,17 @@ mod spline;
 mod step;
 mod system;
 mod target;
+mod tessellate;
 
+pub use bezier::BezierExtraction;
+pub use closest::{NearestPlace, NearestPlaces};
+pub use extraction::ExtractionMatrix;
 pub use fit::{FitDistances, QuadFit, QuadFitOptions, bilinear, fit_quads};
 pub use layout::{ArcSide, PatchArc, PatchCorner, PatchLayout};
 pub use over_quads::{LayoutFitOptions, fit_quad_layout};
+pub use places::PatchPlace;
 pub use quintic::QUINTIC;
 pub use space::QuadSplineSpace;
 pub use spline::QuadSpline;
 pub use target::SplineTarget;
+pub use tessellate::TessellationSize;
