@@ -140,7 +140,8 @@ class QuadSpline(Handle):
         out = ffi.new("ricci_quad_patch *")
         call(lib.ricci_quad_spline_patch, self, number, out, ffi.sizeof("ricci_quad_patch"))
         flags = {"periodic", "reversed", "creases"}
-        return QuadPatch(**{name: tuple(bool(x) if name in flags else int(x) for x in getattr(out, name)) for name in QuadPatch._fields})
+        told: dict[str, Any] = {name: tuple(bool(x) if name in flags else int(x) for x in getattr(out, name)) for name in QuadPatch._fields}
+        return QuadPatch(**told)
 
     def poles(self, patch: int) -> Doubles:
         """m x n x 3, the control points of a patch: that of i along u and j along v at [i, j]."""
@@ -167,7 +168,7 @@ class QuadSpline(Handle):
         """
         out = ffi.new("ricci_quad_arc *")
         call(lib.ricci_quad_spline_arc, self, number, out, ffi.sizeof("ricci_quad_arc"))
-        pairs = {name: tuple(getattr(out, name)) for name in ("ends", "patches", "sides")}
+        pairs: dict[str, Any] = {name: tuple(getattr(out, name)) for name in ("ends", "patches", "sides")}
         return QuadArc(out.degree, out.n_poles, out.n_knots, **pairs, length=out.length, crease=bool(out.crease))
 
     def arc_poles(self, arc: int) -> Doubles:
@@ -245,7 +246,7 @@ class QuadSpline(Handle):
         return ExtractionMatrix(frozen(starts.astype(np.int64)), frozen(signed_view(columns)), frozen(values))
 
     def bezier(self, patch: int, along: Literal["u", "v"]) -> Doubles:
-        """spans x 6 x 6: per span along u or v the weight of its control point j, from 3 x span on, in its Bezier point k at [span, k, j]."""
+        """spans x 6 x 6: per span along u or v the weight of control point 3 x span + j in Bezier point k at [span, k, j]."""
         out: Doubles = listed(lib.ricci_quad_spline_bezier, self, patch, constant("ALONG", along), dtype=np.float64)
         return out.reshape(-1, 6, 6)
 
