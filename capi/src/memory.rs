@@ -46,6 +46,8 @@ pub const UNIFORM: usize = 1 << 13;
 pub const QUADS: usize = 3 << 11;
 /// Most bytes per vertex and quad for the fit of a spline over a quad layout.
 pub const QUAD_FIT: usize = 1 << 12;
+/// Most bytes per control point for the search structure of a spline over a quad layout.
+pub const QUAD_CELLS: usize = 1 << 12;
 /// Most bytes per evaluated point of a spline (448 with its derivatives) or per face of a tessellation (340).
 pub const POINT: usize = 1 << 9;
 /// Most bytes per point and per control point of a fit: 2,980 of degree 5.

@@ -56,6 +56,7 @@ impl ricci_quad_spline {
         if let Some(made) = self.nearest.get() {
             return Ok(made);
         }
+        let _reserve = memory::work(self.fit.spline.control_points().len(), memory::QUAD_CELLS)?;
         let made = self.fit.spline.nearest_places(threads, control)?;
         Ok(self.nearest.get_or_init(|| made))
     }

@@ -168,10 +168,9 @@ fn tangent_planes_are_continuous_across_arcs_for_any_free_control_points() {
     }
 }
 
-#[test]
-fn a_crease_lets_the_normal_jump_and_nothing_else() {
+/// A cube of eight cells, and its patches with creases around the lid z = 2.
+pub(super) fn lidded() -> (Quads, PatchLayout) {
     let quads = cells(&block([2, 2, 2]));
-    // The lid z = 2 with its border.
     let border: Vec<[u32; 2]> = quads
         .faces
         .iter()
@@ -183,6 +182,12 @@ fn a_crease_lets_the_normal_jump_and_nothing_else() {
         })
         .collect();
     let layout = PatchLayout::from_quads(quads.positions.len(), &quads.faces, &border).unwrap();
+    (quads, layout)
+}
+
+#[test]
+fn a_crease_lets_the_normal_jump_and_nothing_else() {
+    let (quads, layout) = lidded();
     assert_eq!(layout.arcs().iter().filter(|arc| arc.is_crease).count(), 8);
     let space = Arc::new(QuadSplineSpace::new(layout, 1).unwrap());
     assert!(space.dimension() > quads.space(1).dimension());
