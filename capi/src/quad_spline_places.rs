@@ -103,7 +103,7 @@ pub unsafe extern "C" fn ricci_quad_spline_closest(
 ) -> ricci_status {
     guard::with(spline, |spline| {
         check_buffer("values", n.saturating_mul(6), values, capacity)?;
-        check_buffer("patches", n, patches, if patches.is_null() { 0 } else { n })?;
+        check_buffer("patches", n, patches, n)?;
         let _reserve = memory::work(n, memory::POINT)?;
         let points: Vec<Vector> = array("points", points.cast(), n)?;
         let (threads, control) = (control::threads(control), control::of(control)?);

@@ -197,8 +197,7 @@ class QuadSpline(Handle):
         """
         which = constant("QUAD_SPLINE", what, tuple(_COLUMNS))
         array = _arrays.real(parameters, 2, "parameters")
-        numbers = _arrays.indices(patches, name="patches")
-        struct = _places(array, np.full(len(array), numbers, np.uint32) if numbers.ndim == 0 else numbers)
+        struct = _places(array, np.full(len(array), patches) if np.ndim(patches) == 0 else patches)
         out = np.empty((len(array), _COLUMNS[what]))
         filled(lib.ricci_quad_spline_evaluate, self, struct, which, CONTROL, out=out, progress=progress)
         return out.reshape(len(out), -1, 3) if what in ("first", "second", "third") else out
