@@ -12,6 +12,7 @@ use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::bounds::Bounds;
 use crate::geometry::boxes::{BoundsNode, BoundsTree};
+use crate::geometry::triangle_tree::triangle_distance;
 use crate::geometry::vector::{Vector, add, distance, dot, lerp, scale, triangle_normal};
 use crate::geometry::z_order::z_order;
 use crate::mesh::Point;
@@ -19,7 +20,7 @@ use crate::spline::triangular::{DescentEnd, descend, is_convex};
 
 /// Least and most halvings of a span in each direction: enough that no bend is overlooked, and not too many cells of a wild surface.
 const HALVINGS: [usize; 2] = [1, 5];
-/// Largest deviation of the Bézier points of a cell from the bilinear map of its corners, over its longest side, at which it is not divided.
+/// Largest distance of a cell from the triangles between its corners, over its longest side, at which it is not divided.
 const FLAT: f64 = 0.04;
 /// Share of the control points' largest coordinate by which boxes are widened against rounding.
 const SLACK: f64 = 1e-12;
@@ -43,6 +44,10 @@ struct PatchCell {
     patch: u32,
     low: [f64; 2],
     high: [f64; 2],
+    /// The points at its corners, counterclockwise.
+    corners: [Vector; 4],
+    /// No point of it is farther than this from the two triangles between its corners.
+    off: f64,
 }
 
 /// A search structure for the nearest places of a spline, see [`QuadSpline::nearest_places`].
@@ -89,7 +94,7 @@ impl QuadSpline {
         for (k, net) in self.bezier_nets(patch).iter().enumerate() {
             let corner = |i: usize, j: usize| [i as f64 / m as f64, j as f64 / n as f64];
             let (low, high) = (corner(k / n, k % n), corner(k / n + 1, k % n + 1));
-            division.add(PatchCell { patch: patch as u32, low, high }, net, 0);
+            division.add(PatchCell::new(patch as u32, [low, high], net), net, 0);
         }
         division
     }
@@ -105,7 +110,7 @@ impl PatchCells {
     /// Adds a rectangle as a cell, or its four quarters.
     fn add(&mut self, cell: PatchCell, net: &BezierNet, halvings: usize) {
         let [least, most] = HALVINGS;
-        if halvings == most || halvings >= least && bend(net) <= FLAT {
+        if halvings == most || halvings >= least && cell.off <= FLAT * cell.longest_side() {
             self.cells.push(cell);
             self.boxes.push(Bounds::of(net.iter().flatten().copied()));
             return;
@@ -115,31 +120,44 @@ impl PatchCells {
         let v = [cell.low[1], middle[1], cell.high[1]];
         for (i, half) in halves(net).iter().enumerate() {
             for (j, quarter) in halves(&transposed(half)).iter().enumerate() {
-                let part = PatchCell { low: [u[i], v[j]], high: [u[i + 1], v[j + 1]], ..cell };
-                self.add(part, &transposed(quarter), halvings + 1);
+                let (net, range) = (transposed(quarter), [[u[i], v[j]], [u[i + 1], v[j + 1]]]);
+                self.add(PatchCell::new(cell.patch, range, &net), &net, halvings + 1);
             }
         }
     }
 }
 
-/// The largest distance of a Bézier point from the bilinear map of the corners, over the longest side.
-fn bend(net: &BezierNet) -> f64 {
-    let corners = [net[0][0], net[QUINTIC][0], net[QUINTIC][QUINTIC], net[0][QUINTIC]];
-    let mut off = 0.0f64;
-    for (a, row) in net.iter().enumerate() {
-        for (b, &point) in row.iter().enumerate() {
-            let [s, t] = [a, b].map(|k| k as f64 / QUINTIC as f64);
-            let flat = lerp(lerp(corners[0], corners[1], s), lerp(corners[3], corners[2], s), t);
-            off = off.max(distance(point, flat));
-        }
-    }
-    let longest = (0..4).map(|k| distance(corners[k], corners[(k + 1) % 4])).fold(0.0, f64::max);
-    off / longest.max(f64::MIN_POSITIVE)
-}
-
 impl PatchCell {
-    /// The corners, counterclockwise.
-    fn corners(&self) -> [[f64; 2]; 4] {
+    /// The cell of a patch between two places with these Bézier points.
+    fn new(patch: u32, [low, high]: [[f64; 2]; 2], net: &BezierNet) -> PatchCell {
+        let corners = [net[0][0], net[QUINTIC][0], net[QUINTIC][QUINTIC], net[0][QUINTIC]];
+        let [a, b, c, d] = corners;
+        // The bilinear map of the corners is at most so far from the triangles.
+        let twist = 0.25 * distance(add(a, c), add(b, d));
+        let mut bend = 0.0f64;
+        for (k, row) in net.iter().enumerate() {
+            for (l, &point) in row.iter().enumerate() {
+                let [s, t] = [k, l].map(|k| k as f64 / QUINTIC as f64);
+                bend = bend.max(distance(point, lerp(lerp(a, b, s), lerp(d, c, s), t)));
+            }
+        }
+        PatchCell { patch, low, high, corners, off: bend + twist }
+    }
+
+    fn longest_side(&self) -> f64 {
+        let side = |k: usize| distance(self.corners[k], self.corners[(k + 1) % 4]);
+        (0..4).map(side).fold(0.0, f64::max)
+    }
+
+    /// A lower bound of its distance from a point.
+    fn distance(&self, point: Vector) -> f64 {
+        let [a, b, c, d] = self.corners;
+        let both = [[a, b, c], [a, c, d]].map(|corners| triangle_distance(corners, point));
+        if both.iter().any(|x| x.is_nan()) { 0.0 } else { both[0].min(both[1]) - self.off }
+    }
+
+    /// The parameters at the corners, counterclockwise.
+    fn parameters(&self) -> [[f64; 2]; 4] {
         let ([a, b], [c, d]) = (self.low, self.high);
         [[a, b], [c, b], [c, d], [a, d]]
     }
@@ -235,8 +253,11 @@ impl NearestPlaces {
                     open.extend(children);
                 }
                 BoundsNode::Leaf(found) => {
-                    for &cell in found {
-                        let reached = self.nearest_of_cell(&self.cells[cell as usize], sought);
+                    for cell in found.iter().map(|&cell| &self.cells[cell as usize]) {
+                        if best.is_some_and(|best| cell.distance(sought.point) > best.distance) {
+                            continue;
+                        }
+                        let reached = self.nearest_of_cell(cell, sought);
                         let is_nearer = |of: &NearestPlace| best.is_none_or(|b| of.distance < b.distance);
                         best = reached.filter(is_nearer).or(best);
                     }
@@ -251,12 +272,12 @@ impl NearestPlaces {
     fn nearest_of_cell(&self, cell: &PatchCell, sought: SoughtPoint) -> Option<NearestPlace> {
         let (patch, target) = (cell.patch as usize, sought.point);
         let surface = |at| self.spline.at(patch, cell.inside(at));
-        let mut starts = cell.corners().map(|at| (at, surface(at)));
+        let mut starts = cell.parameters().map(|at| (at, surface(at)));
         starts.sort_by(|a, b| distance(a.1.point, target).total_cmp(&distance(b.1.point, target)));
         let is_simple = starts.iter().all(|(_, point)| is_convex(point, target));
         let mut best: Option<DescentEnd> = None;
         for start in starts.into_iter().take(if is_simple { 1 } else { 4 }) {
-            let end = descend(cell.corners(), start, target, |at| Ok(surface(at))).ok()?;
+            let end = descend(cell.parameters(), start, target, |at| Ok(surface(at))).ok()?;
             let faces = |at| {
                 let own = self.spline.at(patch, cell.inside(at)).normal();
                 sought.normal.is_none_or(|normal| own.is_some_and(|own| dot(own, normal) > 0.0))
