@@ -44,9 +44,11 @@ pub const UNIFORM: usize = 1 << 13;
 /// Most bytes per vertex and quad for a quad mesh: 4,000 for 60,000 quads on a torus of 8,192 vertices, and for each of the 64 quads of a unit
 /// square of a layout 3,400.
 pub const QUADS: usize = 3 << 11;
-/// Most bytes per vertex and quad for the fit of a spline over a quad layout.
-pub const QUAD_FIT: usize = 1 << 12;
-/// Most bytes per control point for the search structure of a spline over a quad layout.
+/// Most bytes per vertex and quad for what a spline over a quad layout is fitted to: 1,970 with all that the fit took over 18 patches of one span.
+pub const QUAD_TARGET: usize = 1 << 12;
+/// Most bytes per pole for the fit itself, mostly for the factor of its matrix: 43,700 with 42 patches of 3 × 3 spans, 49,500 with 6.
+pub const QUAD_FIT: usize = 1 << 16;
+/// Most bytes per control point for the search structure of a spline over a quad layout: 170 over 42 patches of 3 × 3 spans.
 pub const QUAD_CELLS: usize = 1 << 12;
 /// Most bytes per evaluated point of a spline (448 with its derivatives) or per face of a tessellation (340).
 pub const POINT: usize = 1 << 9;

@@ -73,6 +73,12 @@ impl ricci_quad_spline_options {
     }
 }
 
+/// The poles of a patch with as many spans as are usual at most. Few patches get more, for which there is no reserve.
+fn usual_poles(options: &LayoutFitOptions) -> usize {
+    let spans = options.most_spans.min(LayoutFitOptions::default().most_spans);
+    (3 * spans + 3).pow(2)
+}
+
 impl ricci_quad_spline {
     fn new(fit: QuadFit, tolerance: f64, diagonal: f64) -> ricci_quad_spline {
         let (spline, space) = (&fit.spline, fit.spline.space());
@@ -118,14 +124,11 @@ pub unsafe extern "C" fn ricci_quad_spline_fit(
         } else {
             shared(layout)?.of_seamless(seamless)?
         };
-        let _reserve =
-            memory::work(solution.given().n_vertices() + layout.mesh.quads.len(), memory::QUAD_FIT)?;
+        let (quads, patches) = (layout.mesh.quads.len(), layout.patches.len());
+        let _target = memory::work(solution.given().n_vertices() + quads, memory::QUAD_TARGET)?;
+        let _fit = memory::work(patches * usual_poles(&options), memory::QUAD_FIT)?;
         let fit = fit_quad_layout(&seamless.found, &layout, &options, &control.part(0.2, 1.0))?;
-        log::info!(
-            "quad spline: {} patches, distances up to {:.1e} of the diagonal",
-            layout.patches.len(),
-            fit.max()
-        );
+        log::info!("quad spline: {} patches, distances up to {:.1e} of the diagonal", patches, fit.max());
         let diagonal = solution.surface().positions().map_or(0.0, |positions| diagonal(positions));
         Ok(ricci_quad_spline::new(fit, options.tolerance, diagonal))
     })

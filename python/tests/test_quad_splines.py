@@ -1,5 +1,8 @@
 """Splines over quad layouts: patches by a recurrence of our own, arcs, nearest places, meshes, matrices, files, refusals."""
 
+import runpy
+from pathlib import Path
+
 import numpy as np
 import pytest
 from scipy.interpolate import BSpline
@@ -125,6 +128,13 @@ def test_matrices(spline: ricci.QuadSpline) -> None:
     net = np.einsum("ak,bl,klx->abx", of_u[0], of_v[0], poles)
     assert np.allclose(net[0, 0], spline.evaluate(0, [[0, 0]])[0], atol=1e-12)
     assert np.allclose(net[5, 5], spline.evaluate(0, [[1 / len(of_u), 1 / len(of_v)]])[0], atol=1e-12)
+
+
+def test_poisson_s_equation_has_the_known_answer() -> None:
+    main = runpy.run_path(str(Path(__file__).parents[2] / "examples" / "python" / "poisson.py"))["main"]
+    coarse, fine = main(12, 2)
+    assert fine < coarse / 4
+    assert fine < 4e-3
 
 
 def test_step_files(spline: ricci.QuadSpline, tmp_path) -> None:
