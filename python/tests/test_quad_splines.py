@@ -102,7 +102,7 @@ def test_meshes_are_closed(flat: ricci.Seamless, spline: ricci.QuadSpline) -> No
     assert (mesh.n_faces, mesh.n_vertices) == (50 * s.n_patches, 25 * s.n_patches + 2)
     assert mesh.summary.n_boundary_loops == 0
     assert np.array_equal(spline.patch_of_faces(mesh), np.repeat(np.arange(s.n_patches), 50))
-    fine = spline.tessellate(tolerance=1e-4)
+    fine = spline.tessellate(tolerance=1e-3)
     corners = fine.V[fine.F]
     volume = np.linalg.det(corners).sum() / 6
     assert volume == pytest.approx(4 / 3 * np.pi * AXES.prod(), rel=5e-3)

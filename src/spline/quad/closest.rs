@@ -77,7 +77,10 @@ impl QuadSpline {
             return Err(Error::argument("patches", 0, "1 or more"));
         }
         let numbers: Vec<usize> = (0..n).collect();
-        let divided = in_batches(&numbers, threads, control, |&patch| Ok(self.divided(patch)))?;
+        let divided = in_batches(&numbers, threads, control, |&patch| {
+            control.check()?;
+            Ok(self.divided(patch))
+        })?;
         let largest = self.control_points().iter().flatten().fold(0.0f64, |m, x| m.max(x.abs()));
         let (mut cells, mut boxes) = (Vec::new(), Vec::new());
         for division in divided {

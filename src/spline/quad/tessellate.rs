@@ -55,7 +55,10 @@ impl QuadSpline {
         let parts = self.parts_of_arcs(size)?;
         let numbers = VertexNumbers::new(layout, &parts)?;
         let all: Vec<usize> = (0..layout.patches().len()).collect();
-        let grids = in_batches(&all, threads, control, |&patch| Ok(self.grid(patch, numbers.size(patch))))?;
+        let grids = in_batches(&all, threads, control, |&patch| {
+            control.check()?;
+            Ok(self.grid(patch, numbers.size(patch)))
+        })?;
         let mut positions = vec![[0.0; 3]; numbers.count];
         let mut normals = vec![[0.0; 3]; numbers.count];
         for (patch, grid) in grids.iter().enumerate() {

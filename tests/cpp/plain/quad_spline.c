@@ -251,7 +251,7 @@ static void meshes_are_closed(const ricci_quad_spline *spline, double exact) {
     for (size_t f = 0; f < t.n_faces; f++) CHECK(on[f] == f / 72);
     CHECK(ricci_quad_spline_patch_of_faces(spline, mesh, NULL, on, 1) == RICCI_BUFFER_TOO_SMALL);
     free(on);
-    OK(ricci_quad_spline_tessellate(spline, 0, 1e-4, NULL, &finer));
+    OK(ricci_quad_spline_tessellate(spline, 0, 1e-3, NULL, &finer));
     const double fine = volume(finer);
     CHECK(fabs(fine / exact - 1) < 5e-3 && fabs(coarse / exact - 1) < 5e-2 && coarse < fine);
     ricci_mesh_free(finer);
