@@ -37,7 +37,7 @@ struct VertexNumbers<'a> {
 
 /// A point of a grid with its unit normal; 0 where there is none.
 #[derive(Debug, Clone, Copy)]
-struct GridPoint {
+struct PatchGridPoint {
     point: Vector,
     normal: Vector,
 }
@@ -62,7 +62,7 @@ impl QuadSpline {
         let mut positions = vec![[0.0; 3]; numbers.count];
         let mut normals = vec![[0.0; 3]; numbers.count];
         for (patch, grid) in grids.iter().enumerate() {
-            for (at, GridPoint { point, normal }) in grid.iter().enumerate() {
+            for (at, PatchGridPoint { point, normal }) in grid.iter().enumerate() {
                 let vertex = numbers.vertex(patch, numbers.place(patch, at)) as usize;
                 positions[vertex] = *point;
                 normals[vertex] = add(normals[vertex], *normal);
@@ -113,7 +113,7 @@ impl QuadSpline {
     }
 
     /// The points at i / m, j / n of a patch, at i × (n + 1) + j.
-    fn grid(&self, patch: usize, [m, n]: [usize; 2]) -> Vec<GridPoint> {
+    fn grid(&self, patch: usize, [m, n]: [usize; 2]) -> Vec<PatchGridPoint> {
         let [p, q] = self.space().patch_spans(patch);
         let along = |spans: usize, parts: usize| -> Vec<QuinticBasis> {
             (0..=parts).map(|k| QuinticBasis::at(spans, k as f64 / parts as f64)).collect()
@@ -123,7 +123,7 @@ impl QuadSpline {
         for u in along(p, m) {
             for v in &along_v {
                 let at = self.combined(patch, &u, v);
-                grid.push(GridPoint { point: at.point, normal: at.normal().unwrap_or_default() });
+                grid.push(PatchGridPoint { point: at.point, normal: at.normal().unwrap_or_default() });
             }
         }
         grid

@@ -187,7 +187,8 @@ fn corners_at_creases_have_the_normals_of_their_patch() {
     let mut at_vertex: BTreeMap<u32, Vec<Vector>> = BTreeMap::new();
     for (f, face) in mesh.faces.iter().enumerate() {
         for k in 0..3 {
-            let own = spline.evaluate(patches[f] as usize, uv[f][k]).unwrap().normal().unwrap();
+            // At corners of the lid, whose border is smooth there, the derivatives are parallel.
+            let own = spline.evaluate(patches[f] as usize, uv[f][k]).unwrap().normal().unwrap_or_default();
             assert!(distance(own, corner_normals[f][k]) < 1e-6, "face {f}, corner {k}");
             at_vertex.entry(face[k]).or_default().push(corner_normals[f][k]);
         }
@@ -264,7 +265,7 @@ fn third_derivatives_are_difference_quotients() {
 fn faces_lie_on_the_patch_that_they_are_of_and_never_on_one_behind() {
     let spline = fitted_ellipsoid(12, 1, 0).spline;
     let control = Control::new();
-    let mesh = spline.tessellate(TessellationSize::Parts(7), 0, &control).unwrap();
+    let mesh = spline.tessellate(TessellationSize::Parts(15), 0, &control).unwrap();
     let search = spline.nearest_places(0, &control).unwrap();
     let found = search.patches_of_faces(&mesh.positions, &mesh.faces, 0, &control).unwrap();
     let own: Vec<u32> = mesh.attributes.face_numbers[0].values.iter().map(|&x| x as u32).collect();
@@ -272,10 +273,10 @@ fn faces_lie_on_the_patch_that_they_are_of_and_never_on_one_behind() {
     // Moved down, the upper faces are nearer to the lower side of the ellipsoid, which faces the other way.
     let up = |f: usize| {
         let corners = mesh.faces[f].map(|v| mesh.positions[v as usize]);
-        normalised(triangle_normal(corners))[2] > 0.95
+        normalised(triangle_normal(corners))[2] > 0.998
     };
     let upper: BTreeSet<u32> = (0..own.len()).filter(|&f| up(f)).map(|f| own[f]).collect();
-    assert!(upper.len() < 6, "{upper:?}");
+    assert!((1..3).contains(&upper.len()), "{upper:?}");
     let moved: Vec<Vector> = mesh.positions.iter().map(|&p| add(p, [0.0, 0.0, -0.8])).collect();
     let found = search.patches_of_faces(&moved, &mesh.faces, 0, &control).unwrap();
     let plain = nearest(&spline, &[[0.0, 0.0, -0.1]], 1);
