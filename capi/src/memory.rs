@@ -46,9 +46,9 @@ pub const UNIFORM: usize = 1 << 13;
 pub const QUADS: usize = 3 << 11;
 /// Most bytes per vertex and quad for what a spline over a quad layout is fitted to: 1,970 with all that the fit took over 18 patches of one span.
 pub const QUAD_TARGET: usize = 1 << 12;
-/// Most bytes per pole for the fit itself, mostly for the factor of its matrix: 43,700 with 42 patches of 3 × 3 spans, 49,500 with 6.
+/// Most bytes per pole for the fit itself, mostly for the factor of its matrix: 44,900 with 42 patches of 3 × 3 spans, 49,500 with 6.
 pub const QUAD_FIT: usize = 1 << 16;
-/// Most bytes per control point for the search structure of a spline over a quad layout: 170 over 42 patches of 3 × 3 spans.
+/// Most bytes per control point for the search structure of a spline over a quad layout: 310 over 42 patches of up to 3 × 3 spans.
 pub const QUAD_CELLS: usize = 1 << 12;
 /// Most bytes per evaluated point of a spline (448 with its derivatives) or per face of a tessellation (340).
 pub const POINT: usize = 1 << 9;
