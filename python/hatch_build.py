@@ -39,6 +39,7 @@ HEADERS = (
     "spline",
     "surface_spline",
     "bicubic",
+    "quad_spline",
 )
 
 

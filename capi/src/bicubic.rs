@@ -94,7 +94,7 @@ impl ricci_bicubic_options {
 }
 
 impl ricci_step_options {
-    fn read(&self) -> Outcome<StepOptions> {
+    pub(crate) fn read(&self) -> Outcome<StepOptions> {
         let name = if self.name.is_null() { "" } else { arrays::text("name", self.name)? };
         Ok(StepOptions { name: name.into(), unit: UNITS.choose(self.unit)? })
     }

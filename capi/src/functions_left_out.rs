@@ -17,30 +17,30 @@ fn answer(part: &str, feature: &str) -> ricci_status {
     })
 }
 
-/// Functions of a module `$part` by their names and parameters: those that return a status, then those that release a handle, of which none was
+/// Functions of a module `$part`, which is there under the condition `$have`, by their names and parameters: those that return a status, then those that release a handle, of which none was
 /// made. Where the part is there, the functions are compiled for tests only, and not exported.
 macro_rules! left_out {
-    ($part:ident, $feature:literal, $words:literal, [$($name:ident($($kind:ty),*);)*], [$($free:ident;)*]) => {
-        #[cfg(any(test, not(feature = $feature)))]
+    ($part:ident, $have:meta, $feature:literal, $words:literal, [$($name:ident($($kind:ty),*);)*], [$($free:ident;)*]) => {
+        #[cfg(any(test, not($have)))]
         // Where the part is there, a test calls a few of them.
-        #[cfg_attr(feature = $feature, allow(dead_code))]
+        #[cfg_attr($have, allow(dead_code))]
         mod $part {
             use super::*;
             $(
-                #[cfg_attr(not(feature = $feature), unsafe(no_mangle))]
+                #[cfg_attr(not($have), unsafe(no_mangle))]
                 pub extern "C" fn $name($(_: $kind),*) -> ricci_status {
                     answer($words, $feature)
                 }
             )*
             $(
-                #[cfg_attr(not(feature = $feature), unsafe(no_mangle))]
+                #[cfg_attr(not($have), unsafe(no_mangle))]
                 pub extern "C" fn $free(_: Address) {}
             )*
         }
     };
 }
 
-left_out!(splines, "splines", "splines", [
+left_out!(splines, feature = "splines", "splines", "splines", [
     ricci_spline_domain(Address, Address, usize, f64, Address);
     ricci_spline_new(Address, Address, Address);
     ricci_spline_with_points(Address, Address, usize, Address);
@@ -71,7 +71,7 @@ left_out!(splines, "splines", "splines", [
     ricci_bicubic_free;
 ]);
 
-left_out!(quads, "quads", "seamless metrics and quad meshes", [
+left_out!(quads, feature = "quads", "quads", "seamless metrics and quad meshes", [
     ricci_seamless_new(Address, Address, Address, Address);
     ricci_seamless_summarise(Address, Address, usize);
     ricci_seamless_cones(Address, Address, usize);
@@ -100,6 +100,27 @@ left_out!(quads, "quads", "seamless metrics and quad meshes", [
     ricci_seamless_free;
     ricci_quads_free;
     ricci_quad_layout_free;
+]);
+
+left_out!(quad_splines, all(feature = "quads", feature = "splines"), "quads,splines", "splines over quad layouts", [
+    ricci_quad_spline_fit(Address, Address, Address, Address, Address);
+    ricci_quad_spline_summarise(Address, Address, usize);
+    ricci_quad_spline_folds(Address, Address, usize);
+    ricci_quad_spline_patch(Address, usize, Address, usize);
+    ricci_quad_spline_poles(Address, usize, Address, usize);
+    ricci_quad_spline_knots(Address, usize, u32, Address, usize, Address, usize);
+    ricci_quad_spline_controls(Address, usize, Address, usize);
+    ricci_quad_spline_arc(Address, usize, Address, usize);
+    ricci_quad_spline_arc_poles(Address, usize, Address, usize);
+    ricci_quad_spline_evaluate(Address, Address, u32, Address, Address, usize);
+    ricci_quad_spline_closest(Address, Address, usize, Address, Address, Address, usize);
+    ricci_quad_spline_tessellate(Address, usize, f64, Address, Address);
+    ricci_quad_spline_patch_of_faces(Address, Address, Address, Address, usize);
+    ricci_quad_spline_extraction(Address, Address, usize, Address, usize, Address, usize);
+    ricci_quad_spline_bezier(Address, usize, u32, Address, usize);
+    ricci_quad_spline_write_step(Address, Address, Address);
+], [
+    ricci_quad_spline_free;
 ]);
 
 #[cfg(test)]

@@ -71,6 +71,14 @@ pub mod mesh;
 pub mod metric;
 #[cfg(feature = "quads")]
 pub mod quad_layout;
+#[cfg(all(feature = "quads", feature = "splines"))]
+pub mod quad_patch;
+#[cfg(all(feature = "quads", feature = "splines"))]
+pub mod quad_spline;
+#[cfg(all(feature = "quads", feature = "splines"))]
+pub mod quad_spline_file;
+#[cfg(all(feature = "quads", feature = "splines"))]
+pub mod quad_spline_places;
 #[cfg(feature = "quads")]
 pub mod quads;
 pub mod quality;

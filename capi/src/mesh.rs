@@ -112,7 +112,7 @@ impl ricci_mesh {
         Ok(Soup { positions, faces, attributes: self.attributes.clone() })
     }
 
-    fn positions(&self) -> Outcome<&[Point]> {
+    pub(crate) fn positions(&self) -> Outcome<&[Point]> {
         let positions = self.positions.as_ref().map(|positions| positions.as_slice());
         positions.ok_or_else(|| Failure::argument("this mesh is intrinsic: it has lengths, no positions"))
     }

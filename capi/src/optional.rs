@@ -5,6 +5,8 @@ use crate::failure::Outcome;
 use ricci::mesh::io::Soup;
 #[cfg(feature = "splines")]
 use ricci::spline::BicubicSurface;
+#[cfg(all(feature = "quads", feature = "splines"))]
+use ricci::spline::QuadSpline;
 use std::path::Path;
 
 #[cfg(not(feature = "gltf"))]
@@ -32,6 +34,18 @@ pub fn write_step(surface: &BicubicSurface, options: &StepOptions, bytes: &mut V
     #[cfg(not(feature = "step"))]
     {
         let _ = (surface, options, bytes);
+        left_out("STEP", "step")
+    }
+}
+
+/// Adds the patches of a spline over a quad layout as a STEP file to `bytes`.
+#[cfg(all(feature = "quads", feature = "splines"))]
+pub fn write_quad_step(spline: &QuadSpline, options: &StepOptions, bytes: &mut Vec<u8>) -> Outcome {
+    #[cfg(feature = "step")]
+    return Ok(spline.write_step(options, bytes)?);
+    #[cfg(not(feature = "step"))]
+    {
+        let _ = (spline, options, bytes);
         left_out("STEP", "step")
     }
 }

@@ -2,18 +2,24 @@
 
 use crate::arrays::{CallerBuffer, copy_each, copy_out, copy_rows};
 use crate::control::{self, ricci_control};
+use crate::failure::{Failure, Outcome};
 use crate::guard::{self, handle, shared};
+use crate::metric::MetricState;
 use crate::quads::{QuadsState, read_options, reserve, ricci_quads, ricci_quads_options};
 use crate::seamless::ricci_seamless;
 use crate::status::ricci_status;
 use crate::structs::{self, sized};
-use ricci::quads::{LayoutArc, LayoutNode, LayoutPatch, QuadLayout, QuadSize, quad_layout};
-use std::sync::Arc;
+use ricci::Control;
+use ricci::quads::{LayoutArc, LayoutNode, LayoutPatch, QuadLayout, QuadOptions, QuadSize, quad_layout};
+use ricci::seamless::Seamless;
+use std::sync::{Arc, Weak};
 
 /// The number of quads of a unit square of a layout.
 const PARTS_OF_UNIT: usize = 64;
 
 pub struct ricci_quad_layout {
+    /// The metric that it divides, by which it is told from layouts of others.
+    of: Weak<MetricState>,
     quads: Arc<QuadsState>,
     nodes: Vec<LayoutNode>,
     arcs: Vec<LayoutArc>,
@@ -37,6 +43,29 @@ pub struct ricci_quad_layout_summary {
 // SAFETY: numbers; 8-byte alignment, size first.
 sized!(ricci_quad_layout_summary, "summary");
 
+impl ricci_quad_layout {
+    /// The layout, if it is one of this seamless metric.
+    pub(crate) fn of_seamless(&self, seamless: &ricci_seamless) -> Outcome<QuadLayout> {
+        if !self.of.ptr_eq(&Arc::downgrade(&seamless.state)) {
+            return Err(Failure::argument("the layout is that of another seamless metric"));
+        }
+        Ok(QuadLayout {
+            mesh: self.quads.mesh().clone(),
+            parts: self.figures.n_parts as u32,
+            nodes: self.nodes.clone(),
+            arcs: self.arcs.clone(),
+            patches: self.patches.clone(),
+        })
+    }
+}
+
+/// The coarsest layout of a seamless metric, on this number of threads.
+pub(crate) fn coarsest(seamless: &Seamless, threads: usize, control: &Control) -> Outcome<QuadLayout> {
+    let options = QuadOptions { size: QuadSize::Coarse, threads };
+    let _reserve = reserve(seamless, options.size, PARTS_OF_UNIT)?;
+    Ok(quad_layout(seamless, &options, control)?)
+}
+
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ricci_quad_layout_new(
     seamless: *const ricci_seamless,
@@ -45,7 +74,7 @@ pub unsafe extern "C" fn ricci_quad_layout_new(
     layout: *mut *mut ricci_quad_layout,
 ) -> ricci_status {
     guard::make(layout, || {
-        let ricci_seamless { found, .. } = shared(seamless)?;
+        let ricci_seamless { state, found } = shared(seamless)?;
         let options = read_options(options, QuadSize::Coarse)?;
         let _reserve = reserve(found, options.size, PARTS_OF_UNIT)?;
         let made = quad_layout(found, &options, &control::of(control)?)?;
@@ -62,7 +91,7 @@ pub unsafe extern "C" fn ricci_quad_layout_new(
             n_vertices: mesh.places.len(),
         };
         let quads = Arc::new(QuadsState::new(mesh, found));
-        Ok(ricci_quad_layout { quads, nodes, arcs, patches, figures })
+        Ok(ricci_quad_layout { of: Arc::downgrade(state), quads, nodes, arcs, patches, figures })
     })
 }
 

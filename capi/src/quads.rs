@@ -110,6 +110,10 @@ pub(crate) fn reserve(seamless: &Seamless, size: QuadSize, parts: usize) -> Outc
 }
 
 impl QuadsState {
+    pub fn mesh(&self) -> &QuadMesh {
+        &self.mesh
+    }
+
     /// The quad mesh of a seamless metric.
     pub fn new(mesh: QuadMesh, seamless: &Seamless) -> QuadsState {
         let positions = mesh.positions(&seamless.solution);

@@ -21,7 +21,7 @@ use ricci::seamless::{
 use std::sync::Arc;
 
 pub struct ricci_seamless {
-    state: Arc<MetricState>,
+    pub(crate) state: Arc<MetricState>,
     pub(crate) found: Seamless,
 }
 handle!(ricci_seamless, "seamless", |seamless| seamless.state.solution.mesh().n_vertices());

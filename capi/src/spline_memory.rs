@@ -20,6 +20,16 @@ pub const BICUBIC: usize = 1 << 14;
 /// Most bytes per control point of bicubic patches while their text is made: 520 as STEP.
 pub const BICUBIC_TEXT: usize = 1 << 10;
 
+/// Most bytes per vertex and quad for what a spline over a quad layout is fitted to: 1,970 with all that the fit took over 18 patches of one span.
+#[cfg(feature = "quads")]
+pub const QUAD_TARGET: usize = 1 << 12;
+/// Most bytes per pole for the fit itself, mostly for the factor of its matrix: 44,900 with 42 patches of 3 × 3 spans, 49,500 with 6.
+#[cfg(feature = "quads")]
+pub const QUAD_FIT: usize = 1 << 16;
+/// Most bytes per control point for the search structure of a spline over a quad layout: 310 over 42 patches of up to 3 × 3 spans.
+#[cfg(feature = "quads")]
+pub const QUAD_CELLS: usize = 1 << 12;
+
 /// Most bytes per patch of a spline of this degree: 4,700 of degree 1 to 68,800 of degree 5 were measured.
 pub fn patch(degree: usize) -> usize {
     1 << (12 + degree.min(MAX_DEGREE))

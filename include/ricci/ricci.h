@@ -22,8 +22,9 @@
  * deck.h (deck groups, covers), circles.h (circle domains), seamless.h (seamless metrics), quads.h (quad
  * meshes, and layouts of four-sided patches), harmonic.h (harmonic maps and 1-forms), match.h (maps between
  * surfaces), structure.h (geometric structures), spline.h, surface_spline.h and bicubic.h (splines, splines
- * over whole surfaces, and patches for CAD). For C++ ricci.hpp has the classes of all themes, and
- * openmesh.hpp, cgal.hpp and eigen.hpp are adapters.
+ * over whole surfaces, and patches for CAD), quad_spline.h (splines over four-sided patches, for CAD and for
+ * analysis). For C++ ricci.hpp has the classes of all themes, and openmesh.hpp, cgal.hpp and eigen.hpp are
+ * adapters.
  *
  * Conventions
  *   - Every fallible call returns a ricci_status. ricci_last_error() has this thread's message,

@@ -1,6 +1,7 @@
 // All of ricci for C++: the classes of every theme. A program that includes one theme only compiles faster:
 // ricci/core.hpp (flattening), repair.hpp, uniformize.hpp (with homotopy.h and charts.h), circles.hpp,
-// seamless.hpp, quads.hpp, harmonic.hpp, match.hpp, structure.hpp, spline.hpp, bicubic.hpp.
+// seamless.hpp, quads.hpp, harmonic.hpp, match.hpp, structure.hpp, spline.hpp, bicubic.hpp,
+// quad_spline.hpp.
 //
 // SPDX-License-Identifier: MIT OR Apache-2.0
 #ifndef RICCI_HPP
@@ -11,6 +12,7 @@
 #include <ricci/core.hpp>
 #include <ricci/harmonic.hpp>
 #include <ricci/match.hpp>
+#include <ricci/quad_spline.hpp>
 #include <ricci/quads.hpp>
 #include <ricci/repair.hpp>
 #include <ricci/seamless.hpp>

@@ -51,6 +51,7 @@ TAKES = {
     "of_surface": (ricci.Spline.of_surface, "metric"),
     "quads": (ricci.quads, ""),
     "quad_layout": (ricci.quad_layout, ""),
+    "quad_spline": (ricci.quad_spline, ""),
     "structure": (ricci.structure, "mesh"),
     "structures": (ricci.structures, "mesh"),
     "to_trimesh": (ricci.to_trimesh, "mesh"),

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import ricci
-from ricci import atlases, bicubics, circle, covering, form, layouts, matching, mesh, metrics, shapes, soup, splines, uniform
+from ricci import atlases, bicubics, circle, covering, form, layouts, matching, mesh, metrics, quad_splines, shapes, soup, splines, uniform
 from ricci._library import ffi
 from ricci._structs import options
 from ricci.targets import target_struct
@@ -177,6 +177,10 @@ CASES = [
         {"tolerance": 0.5, "angle": 0.1, "threads": 2, "control_points": 9, "folds": 1},
     ),
     (options("step_options", {"name": "part", "unit": "metre"}, bicubics._STEP), {"name": b"part", "unit": 1}),
+    (
+        options("quad_spline_options", {"tolerance": 0.5, "bending": 0, "threads": 2, "most_spans": 4}, quad_splines._QUAD_SPLINE),
+        {"tolerance": 0.5, "bending": -1, "threads": 2, "most_spans": 4},
+    ),
 ]
 # What these structs leave to handles, or what a test of another file covers.
 ELSEWHERE = {

@@ -15,8 +15,9 @@ pub use bicubic::{
     BicubicFit, BicubicOptions, BicubicPatch, BicubicSurface, NormalAngles, PatchCurve, PatchSide,
 };
 pub use quad::{
-    ArcSide, FitDistances, PatchArc, PatchCorner, PatchLayout, QUINTIC, QuadFit, QuadFitOptions, QuadSpline,
-    QuadSplineSpace, SplineTarget, bilinear, fit_quads,
+    ArcSide, BezierExtraction, ExtractionMatrix, FitDistances, NearestPlace, NearestPlaces, PatchArc,
+    PatchCorner, PatchLayout, PatchPlace, QUINTIC, QuadFit, QuadFitOptions, QuadSpline, QuadSplineSpace,
+    SplineTarget, TessellationSize, bilinear, fit_quads,
 };
 #[cfg(feature = "quads")]
 pub use quad::{LayoutFit, LayoutFitOptions, fit_few_patches, fit_quad_layout};

@@ -153,7 +153,7 @@ impl Session<'_> {
             "threads" => [1, 2][usize::from(self.tape.one_in(32))],
             // By default, which is 0, the gradient flow makes thousands of steps.
             "max_iterations" => 1 + self.tape.below(40),
-            "sides" | "count" | "depth" | "least_loop" => self.tape.below(5),
+            "sides" | "parts" | "count" | "depth" | "least_loop" => self.tape.below(5),
             "genus" | "n_components" => self.tape.below(4),
             "m" => self.tape.below(9),
             // Of a curve, whose genus is half of it.

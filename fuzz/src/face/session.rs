@@ -14,7 +14,7 @@ use std::time::Instant;
 /// Most calls of one input.
 const MOST_CALLS: usize = 8;
 /// Calls that take a hundred times as long as others: one input of eight makes them.
-const LONG: [&str; 11] = [
+const LONG: [&str; 15] = [
     "ricci_match",
     "ricci_circle_domain_new",
     "ricci_spline_fit",
@@ -24,6 +24,10 @@ const LONG: [&str; 11] = [
     "ricci_matching_map",
     "ricci_quads_new",
     "ricci_quad_layout_new",
+    "ricci_quad_spline_fit",
+    "ricci_quad_spline_closest",
+    "ricci_quad_spline_patch_of_faces",
+    "ricci_quad_spline_tessellate",
     "ricci_spline_closest",
     "ricci_hyperelliptic_periods",
 ];
@@ -76,8 +80,13 @@ const MAY_BE_NAN: [(&str, &str); 34] = [
 ];
 /// Functions whose results may hold a NaN, as the headers say: curvatures where the surface has no tangent plane, circles that there
 /// are not, lengths of loops whose points are not finite, numbers of a file.
-const MAY_GIVE_NAN: [&str; 4] =
-    ["ricci_spline_evaluate", "ricci_layout_circles", "ricci_soup_loops", "ricci_soup_numbers"];
+const MAY_GIVE_NAN: [&str; 5] = [
+    "ricci_spline_evaluate",
+    "ricci_quad_spline_evaluate",
+    "ricci_layout_circles",
+    "ricci_soup_loops",
+    "ricci_soup_numbers",
+];
 
 /// The state of one input.
 pub struct Session<'a> {

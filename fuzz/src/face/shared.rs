@@ -17,6 +17,7 @@ use ricci_c::matching::ricci_match;
 use ricci_c::mesh::ricci_mesh;
 use ricci_c::metric::{ricci_metric, ricci_metric_new};
 use ricci_c::quad_layout::ricci_quad_layout_new;
+use ricci_c::quad_spline::{ricci_quad_spline_fit, ricci_quad_spline_options};
 use ricci_c::quads::{ricci_quads_new, ricci_quads_options};
 use ricci_c::repaired_input::ricci_repaired_input_new;
 use ricci_c::seamless::ricci_seamless_new;
@@ -120,6 +121,9 @@ impl Shelf {
             self.put("ricci_quads", made(|p| unsafe { ricci_quads_new(seamless, &options, null(), p) }));
             let layout = made(|p| unsafe { ricci_quad_layout_new(seamless, null(), null(), p) });
             self.put("ricci_quad_layout", layout);
+            let options = ricci_quad_spline_options { most_spans: 1, threads: 1, ..zeroed() };
+            let spline = made(|p| unsafe { ricci_quad_spline_fit(seamless, layout, &options, null(), p) });
+            self.put("ricci_quad_spline", spline);
         }
         if matches!(shape, 4 | 7 | 9) {
             let domain = made(|p| unsafe { ricci_dirichlet_new(uniform, null(), null(), p) });

@@ -47,6 +47,7 @@ from ricci.matching import Matching, match
 from ricci.mesh import Mesh, read
 from ricci.metrics import Metric, Report, Solver, flow, metric
 from ricci.quad_meshes import QuadLayout, Quads, quad_layout, quads
+from ricci.quad_splines import QuadSpline, quad_spline
 from ricci.seams import Seamless, cross_field, seamless
 from ricci.shapes import change, hyperelliptic_periods, make
 from ricci.soup import Defect, Hole, Loop, Soup
@@ -91,6 +92,7 @@ __all__ = [
     "ParseError",
     "Place",
     "QuadLayout",
+    "QuadSpline",
     "Quads",
     "RepairedInput",
     "Report",
@@ -130,6 +132,7 @@ __all__ = [
     "match",
     "metric",
     "quad_layout",
+    "quad_spline",
     "quads",
     "read",
     "seamless",

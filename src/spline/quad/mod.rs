@@ -13,7 +13,10 @@
 //! # Ok::<(), ricci::Error>(())
 //! ```
 
+mod bezier;
+mod closest;
 mod elimination;
+mod extraction;
 #[cfg(feature = "quads")]
 mod few_patches;
 mod fit;
@@ -25,6 +28,7 @@ mod layout;
 mod nearest;
 #[cfg(feature = "quads")]
 mod over_quads;
+mod places;
 mod quintic;
 mod space;
 mod spline;
@@ -32,14 +36,20 @@ mod spline;
 mod step;
 mod system;
 mod target;
+mod tessellate;
 
+pub use bezier::BezierExtraction;
+pub use closest::{NearestPlace, NearestPlaces};
+pub use extraction::ExtractionMatrix;
 #[cfg(feature = "quads")]
 pub use few_patches::{LayoutFit, fit_few_patches};
 pub use fit::{FitDistances, QuadFit, QuadFitOptions, bilinear, fit_quads};
 pub use layout::{ArcSide, PatchArc, PatchCorner, PatchLayout};
 #[cfg(feature = "quads")]
 pub use over_quads::{LayoutFitOptions, fit_quad_layout};
+pub use places::PatchPlace;
 pub use quintic::QUINTIC;
 pub use space::QuadSplineSpace;
 pub use spline::QuadSpline;
 pub use target::SplineTarget;
+pub use tessellate::TessellationSize;

@@ -8,7 +8,7 @@ pub(super) const LOCAL: usize = QUINTIC + 1;
 /// Most spans of a patch in each direction.
 pub(super) const MAX_SPANS: usize = 32;
 /// Multiplicity of inner knots.
-const MULTIPLICITY: usize = 3;
+pub(super) const MULTIPLICITY: usize = 3;
 
 /// The values and derivatives of order 1 to 3 of the basis functions that do not vanish at a place.
 #[derive(Debug, Clone, Copy)]

@@ -1,5 +1,6 @@
 //! Splines over layouts of four-sided patches.
 
+use super::layout::PatchCorner;
 use super::quintic::{LOCAL, QUINTIC, QuinticBasis, knots};
 use super::space::QuadSplineSpace;
 use crate::error::{Error, Result};
@@ -40,6 +41,29 @@ impl QuadSpline {
         rows.map(|row| row.iter().map(|&c| self.control_points[c as usize]).collect()).collect()
     }
 
+    /// The control points of an arc, from its start to its end. Its knots are those of the patches along it.
+    ///
+    /// # Errors
+    /// [`Error::Spline`] for an arc that does not exist.
+    pub fn arc_control_points(&self, arc: usize) -> Result<Vec<Vector>> {
+        let layout = self.space.layout();
+        if arc >= layout.arcs().len() {
+            return Err(Error::Spline { what: "arc", index: arc, message: "it does not exist".into() });
+        }
+        let [left, right] = layout.beside(arc);
+        let mut along = left.or(right).map(|side| self.side_points(side)).unwrap_or_default();
+        if left.is_none() {
+            along.reverse();
+        }
+        Ok(along)
+    }
+
+    /// The control points along a side, in the direction around the patch.
+    pub(super) fn side_points(&self, at: PatchCorner) -> Vec<Vector> {
+        let along = (0..self.space.side(at)).map(|i| self.space.along(at, i, 0));
+        along.map(|c| self.control_points[c as usize]).collect()
+    }
+
     /// The degree in each direction: 5.
     pub fn degree(&self) -> usize {
         QUINTIC
@@ -55,12 +79,18 @@ impl QuadSpline {
     /// # Errors
     /// [`Error::Spline`] for a patch that does not exist or a place outside of it.
     pub fn evaluate(&self, patch: usize, [u, v]: [f64; 2]) -> Result<SurfacePoint> {
+        self.check_place(patch, [u, v])?;
+        Ok(self.at(patch, [u, v]))
+    }
+
+    /// Refuses a patch that does not exist, and a place outside of it.
+    pub(super) fn check_place(&self, patch: usize, [u, v]: [f64; 2]) -> Result<()> {
         let is_inside = (0.0..=1.0).contains(&u) && (0.0..=1.0).contains(&v);
         if patch >= self.space.layout().patches().len() || !is_inside {
             let message = format!("there is no place ({u}, {v}) of it: u and v run from 0 to 1");
             return Err(Error::Spline { what: "patch", index: patch, message });
         }
-        Ok(self.at(patch, [u, v]))
+        Ok(())
     }
 
     /// The point at a place of a patch that exists, without derivatives.

@@ -1,6 +1,6 @@
 //! STEP files of splines over four-sided patches: a face for each patch, an edge for each arc.
 
-use super::layout::PatchCorner;
+use super::layout::PatchArc;
 use super::quintic::{QUINTIC, knots};
 use super::spline::QuadSpline;
 use crate::error::Result;
@@ -22,35 +22,24 @@ impl QuadSpline {
         let layout = self.space().layout();
         let mut points = vec![[0.0; 3]; layout.n_nodes()];
         layout.corners().for_each(|at| points[layout.node(at) as usize] = self.side_points(at)[0]);
-        let curve = |arc: usize| {
-            let [left, right] = layout.beside(arc);
-            let mut along = left.or(right).map(|side| self.side_points(side)).unwrap_or_default();
-            if left.is_none() {
-                along.reverse();
-            }
-            StepCurve {
-                ends: layout.arcs()[arc].ends,
-                curve: nurbs_curve(QUINTIC, knots(self.space().spans()[arc]), along),
-            }
-        };
+        let mut curves = Vec::with_capacity(layout.arcs().len());
+        for (arc, PatchArc { ends, .. }) in layout.arcs().iter().enumerate() {
+            let along = self.arc_control_points(arc)?;
+            let curve = nurbs_curve(QUINTIC, knots(self.space().spans()[arc]), along);
+            curves.push(StepCurve { ends: *ends, curve });
+        }
         let patch = |at: usize| StepPatch {
             surface: nurbs_surface(QUINTIC, self.knots(at), self.net(at)),
             sides: layout.patches()[at].map(|side| (side.arc as usize, side.reversed)),
         };
         let patches = StepPatches {
             points: &points,
-            curves: (0..layout.arcs().len()).map(curve).collect(),
+            curves,
             patches: (0..layout.patches().len()).map(patch).collect(),
             parts: self.parts(),
             diagonal: diagonal(self.control_points()),
         };
         patches.write(options, out)
-    }
-
-    /// The control points along a side, in the direction around the patch.
-    fn side_points(&self, at: PatchCorner) -> Vec<Vector> {
-        let along = (0..self.space().side(at)).map(|i| self.space().along(at, i, 0));
-        along.map(|c| self.control_points()[c as usize]).collect()
     }
 
     /// The connected parts of the surface.

@@ -1,4 +1,5 @@
-//! The nearest point of a smooth surface over one triangle, from a start, by Newton's method on half the squared distance.
+//! The nearest point of a smooth surface over a triangle or another convex polygon, from a start, by Newton's method on half the squared
+//! distance.
 
 use super::point::SurfacePoint;
 use crate::error::Result;
@@ -13,14 +14,14 @@ const HALVINGS: usize = 40;
 const DECREASE: f64 = 1e-4;
 /// Share of the value below which a predicted decrease is rounding, and the step is accepted without a test.
 const ROUNDING: f64 = 1e-12;
-/// Length of the last step, over the triangle's longest side. Steps square the error, so the error left is rounding.
+/// Length of the last step, over the polygon's longest side. Steps square the error, so the error left is rounding.
 const SHORT: f64 = 1e-11;
 /// Least determinant of the second derivative, over that of a flat surface, at which Newton's step is taken.
 const LEAST: f64 = 1e-8;
 
 /// The end of a descent.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct DescentEnd {
+pub(in crate::spline) struct DescentEnd {
     pub at: Complex,
     /// Distance between the target and the surface there.
     pub distance: f64,
@@ -29,7 +30,7 @@ pub(super) struct DescentEnd {
 }
 
 /// True if half the squared distance to a target has a positive definite second derivative at a point of the surface.
-pub(super) fn is_convex(at: &SurfacePoint, target: Vector) -> bool {
+pub(in crate::spline) fn is_convex(at: &SurfacePoint, target: Vector) -> bool {
     QuadraticModel::new(at, vector::sub(at.point, target)).is_exact
 }
 
@@ -62,16 +63,16 @@ impl QuadraticModel {
         -dot(self.gradient, step) - 0.5 * dot(step, self.times(step))
     }
 
-    /// The step to the least value of the model in a triangle, whose corners are given relative to the place.
-    fn step(&self, corners: [Complex; 3]) -> Complex {
+    /// The step to the least value of the model in a convex polygon, whose corners are given relative to the place, counterclockwise.
+    fn step(&self, corners: &[Complex]) -> Complex {
         let ([a, b, c], [p, q]) = (self.second, self.gradient);
         let det = a * c - b * b;
         let newton = [(b * q - c * p) / det, (b * p - a * q) / det];
-        let side = |k: usize| [corners[k], corners[(k + 1) % 3]];
+        let side = |k: usize| [corners[k], corners[(k + 1) % corners.len()]];
         let far = corners.iter().map(|&corner| norm(corner)).fold(0.0, f64::max);
         if det > LEAST * (a * c)
             && norm(newton) <= far
-            && (0..3).all(|k| doubled_area([newton, side(k)[0], side(k)[1]]) >= 0.0)
+            && (0..corners.len()).all(|k| doubled_area([newton, side(k)[0], side(k)[1]]) >= 0.0)
         {
             return newton;
         }
@@ -83,27 +84,27 @@ impl QuadraticModel {
             let share = if bend > 0.0 { -slope / bend } else { f64::from(slope < 0.0) };
             add(from, scale(share.clamp(0.0, 1.0), along))
         };
-        let steps = [on_side(0), on_side(1), on_side(2)];
-        steps.into_iter().max_by(|s, t| self.decrease(*s).total_cmp(&self.decrease(*t))).unwrap_or([0.0; 2])
+        let steps = (0..corners.len()).map(on_side);
+        steps.max_by(|s, t| self.decrease(*s).total_cmp(&self.decrease(*t))).unwrap_or([0.0; 2])
     }
 }
 
-/// Descends from a start in a counterclockwise triangle, with the surface there, to a place in the triangle at which the distance of the
+/// Descends from a start in a counterclockwise convex polygon, with the surface there, to a place in it at which the distance of the
 /// surface from the target has a local minimum. `surface` gives the point at a place with first and second derivatives. Except for
 /// rounding, the distance is not larger than at the start.
-pub(super) fn descend(
-    corners: [Complex; 3],
+pub(in crate::spline) fn descend<const N: usize>(
+    corners: [Complex; N],
     (mut at, mut here): (Complex, SurfacePoint),
     target: Vector,
     mut surface: impl FnMut(Complex) -> Result<SurfacePoint>,
 ) -> Result<DescentEnd> {
     let half_square = |p: Vector| 0.5 * vector::dot(vector::sub(p, target), vector::sub(p, target));
-    let size = (0..3).map(|k| distance(corners[k], corners[(k + 1) % 3])).fold(0.0, f64::max);
+    let size = (0..N).map(|k| distance(corners[k], corners[(k + 1) % N])).fold(0.0, f64::max);
     let mut value = half_square(here.point);
     let mut steps = 0;
     while steps < STEPS {
         let model = QuadraticModel::new(&here, vector::sub(here.point, target));
-        let step = model.step(corners.map(|c| sub(c, at)));
+        let step = model.step(&corners.map(|c| sub(c, at)));
         let decrease = model.decrease(step);
         if decrease.is_nan() || decrease <= 0.0 {
             break;

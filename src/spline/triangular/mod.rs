@@ -32,6 +32,7 @@ mod triangulate;
 
 pub(super) use cap::{CapTriangle, SurfaceTriangle};
 pub use closest::{ClosestPoint, ClosestPoints};
+pub(super) use descent::{DescentEnd, descend, is_convex};
 pub(super) use fairness::FairnessUnit;
 pub use fill::Fill;
 pub use fit::{FitOptions, PlacedPoints, SplineFit, fit, fit_filled};

@@ -4,6 +4,7 @@
 #include <ricci/circles.hpp>
 #include <ricci/harmonic.hpp>
 #include <ricci/match.hpp>
+#include <ricci/quad_spline.hpp>
 #include <ricci/quads.hpp>
 #include <ricci/repair.hpp>
 #include <ricci/spline.hpp>
@@ -190,6 +191,45 @@ int quads() {
     return layout.quads().summary().n_quads == patches.size() ? 0 : 58;
 }
 
+// A spline over the patches of an ellipsoid.
+int quad_splines() {
+    ricci_shape shape = ricci::init<ricci_shape>();
+    shape.shape = RICCI_SHAPE_ELLIPSOID, shape.n = 5, shape.a = 1.6, shape.b = 1.2, shape.c = 1;
+    const ricci::mesh mesh = ricci::mesh::made(shape);
+    const ricci::seamless flat(mesh);
+    ricci_quad_spline_options options = ricci::init<ricci_quad_spline_options>();
+    options.most_spans = 1;
+    const ricci::quad_spline spline(flat, options), same(flat, ricci::quad_layout(flat), options);
+    const auto all = spline.summary();
+    const auto patch = spline.patch(0);
+    const auto poles = spline.poles(0);
+    if (all.n_folded_patches != spline.folds().size() || same.poles(0) != poles) return 70;
+    if (poles.size() != 3 * patch.n_poles[0] * patch.n_poles[1]) return 71;
+    if (spline.controls(0).size() * 3 != poles.size()) return 71;
+    const auto knots = spline.knots(0, RICCI_ALONG_V);
+    if (knots.knots.size() != patch.n_knots[1] || knots.multiplicities[0] != 6) return 72;
+    if (spline.bezier(0, RICCI_ALONG_V).size() != 36 * (knots.knots.size() - 1)) return 72;
+    const auto arc = spline.arc(patch.arcs[0]);
+    if (spline.arc_poles(patch.arcs[0]).size() != 3 * arc.n_poles) return 73;
+    const std::vector<std::uint32_t> on = {0, 1};
+    const std::vector<double> at = {0.25, 0.5, 0.75, 0.5};
+    const auto points = spline.evaluate(on, at);
+    const auto found = spline.closest(points);
+    if (found.patches != on || found.values[5] > 1e-10 || found.values[11] > 1e-10) return 74;
+    if (spline.tessellated(3).summary().n_faces != 18 * all.n_patches) return 75;
+    if (spline.tessellated_within(0.01).summary().euler != 2) return 76;
+    if (spline.patch_of_faces(mesh).size() != mesh.summary().n_faces) return 77;
+    const auto matrix = spline.extraction();
+    if (matrix.starts.back() != matrix.values.size() || matrix.columns.size() != all.n_entries) return 78;
+    spline.write_step("quad_spline_cxx.step");
+    try {
+        spline.patch(all.n_patches);
+        return 79;
+    } catch (const ricci::error &error) {
+        return error.status() == RICCI_SPLINE ? 0 : 80;
+    }
+}
+
 // A spline of a parabola over a square with a hole.
 int splines() {
     const std::vector<double> outer = {0, 0, 2, 0, 2, 2, 0, 2};
@@ -285,7 +325,7 @@ int failures() {
 
 int main() {
     for (int failed : {whole_job(), uniformization(), forms_and_maps(), structures(), splines(), quads(),
-                       bicubic_patches(), failures()})
+                       quad_splines(), bicubic_patches(), failures()})
         if (failed) return failed;
     return 0;
 }

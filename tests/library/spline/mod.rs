@@ -8,6 +8,7 @@ mod files;
 mod fit;
 mod knots;
 mod quad;
+mod quad_places;
 mod smooth;
 
 use ricci::spline::{

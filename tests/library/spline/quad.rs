@@ -12,9 +12,9 @@ use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
 /// A mesh of quadrilaterals.
-struct Quads {
-    positions: Vec<[f64; 3]>,
-    faces: Vec<[u32; 4]>,
+pub(super) struct Quads {
+    pub(super) positions: Vec<[f64; 3]>,
+    pub(super) faces: Vec<[u32; 4]>,
 }
 
 impl Quads {
@@ -22,7 +22,7 @@ impl Quads {
         PatchLayout::from_quads(self.positions.len(), &self.faces, &[]).unwrap()
     }
 
-    fn space(&self, spans: usize) -> Arc<QuadSplineSpace> {
+    pub(super) fn space(&self, spans: usize) -> Arc<QuadSplineSpace> {
         Arc::new(QuadSplineSpace::new(self.layout(), spans).unwrap())
     }
 
@@ -32,7 +32,7 @@ impl Quads {
 }
 
 /// The surface of a set of unit cells, outwards.
-fn cells(set: &[[i32; 3]]) -> Quads {
+pub(super) fn cells(set: &[[i32; 3]]) -> Quads {
     let mut numbers: BTreeMap<[i32; 3], u32> = BTreeMap::new();
     let (mut positions, mut faces) = (Vec::new(), Vec::new());
     for cell in set {
@@ -63,7 +63,7 @@ fn cells(set: &[[i32; 3]]) -> Quads {
     Quads { positions, faces }
 }
 
-fn block([a, b, c]: [i32; 3]) -> Vec<[i32; 3]> {
+pub(super) fn block([a, b, c]: [i32; 3]) -> Vec<[i32; 3]> {
     (0..a).flat_map(|i| (0..b).flat_map(move |j| (0..c).map(move |k| [i, j, k]))).collect()
 }
 
@@ -101,7 +101,7 @@ fn torus([m, n]: [u32; 2]) -> Quads {
 }
 
 /// Some spline of a space, whose free control points are all different.
-fn any_spline(space: &Arc<QuadSplineSpace>) -> QuadSpline {
+pub(super) fn any_spline(space: &Arc<QuadSplineSpace>) -> QuadSpline {
     let coordinate =
         |k: usize, x: usize| (43758.5453 * (k as f64 * 12.9898 + x as f64 * 78.233).sin()).fract();
     let free: Vec<[f64; 3]> = (0..space.dimension()).map(|k| [0, 1, 2].map(|x| coordinate(k, x))).collect();
@@ -215,10 +215,9 @@ fn a_crease_may_end_inside_and_turn_by_any_angle() {
     }
 }
 
-#[test]
-fn a_crease_lets_the_normal_jump_and_nothing_else() {
+/// A cube of eight cells, and its patches with creases around the lid z = 2.
+pub(super) fn lidded() -> (Quads, PatchLayout) {
     let quads = cells(&block([2, 2, 2]));
-    // The lid z = 2 with its border.
     let border: Vec<[u32; 2]> = quads
         .faces
         .iter()
@@ -230,6 +229,12 @@ fn a_crease_lets_the_normal_jump_and_nothing_else() {
         })
         .collect();
     let layout = PatchLayout::from_quads(quads.positions.len(), &quads.faces, &border).unwrap();
+    (quads, layout)
+}
+
+#[test]
+fn a_crease_lets_the_normal_jump_and_nothing_else() {
+    let (quads, layout) = lidded();
     assert_eq!(layout.arcs().iter().filter(|arc| arc.is_crease).count(), 8);
     let space = Arc::new(QuadSplineSpace::new(layout, 1).unwrap());
     assert!(space.dimension() > quads.space(1).dimension());
@@ -260,7 +265,7 @@ fn layouts_that_cannot_be_are_refused_by_name() {
 }
 
 /// The point of an ellipsoid nearest to a point, by bisection, and the normal there.
-fn ellipsoid_foot(axes: [f64; 3], x: [f64; 3]) -> [[f64; 3]; 2] {
+pub(super) fn ellipsoid_foot(axes: [f64; 3], x: [f64; 3]) -> [[f64; 3]; 2] {
     let squares = axes.map(|a| a * a);
     let at = |t: f64| [0, 1, 2].map(|i| squares[i] * x[i] / (t + squares[i]));
     let level = |t: f64| (0..3).map(|i| (at(t)[i] / axes[i]).powi(2)).sum::<f64>() - 1.0;
@@ -282,10 +287,10 @@ fn ellipsoid_curvature(axes: [f64; 3], point: [f64; 3]) -> f64 {
     mean + (mean * mean - gauss).max(0.0).sqrt()
 }
 
-const AXES: [f64; 3] = [1.6, 1.0, 0.7];
+pub(super) const AXES: [f64; 3] = [1.6, 1.0, 0.7];
 
 /// The ellipsoid by a box of patches, from a mesh of it with edges of length 1 / n.
-fn fitted_ellipsoid(n: usize, spans: usize, threads: usize) -> QuadFit {
+pub(super) fn fitted_ellipsoid(n: usize, spans: usize, threads: usize) -> QuadFit {
     let quads = cells(&block([3, 1, 1]));
     let mut mesh = shapes::icosphere(n).unwrap();
     mesh.positions.iter_mut().for_each(|p| *p = [0, 1, 2].map(|i| AXES[i] * p[i]));

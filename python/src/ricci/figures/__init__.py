@@ -2,7 +2,7 @@
 
 from ricci.figures.covered import DeckSummary, DirichletSummary, DomainSummary, HomotopySummary, UniformSummary
 from ricci.figures.derived import BicubicSummary, FormsSummary, HarmonicSummary, MatchingSummary, SplineSummary, StructureSummary
-from ricci.figures.four_sided import QuadLayoutSummary, QuadsSummary
+from ricci.figures.four_sided import QuadLayoutSummary, QuadSplineSummary, QuadsSummary
 from ricci.figures.placed import ChartsSummary, CircleDomainSummary, LayoutSummary, MapSummary, RepairedInputSummary, SeamlessSummary
 from ricci.figures.surface import MeshSummary, MetricSummary, QualitySummary, RefineSummary, ReportSummary, SoupSummary
 
@@ -22,6 +22,7 @@ __all__ = [
     "MeshSummary",
     "MetricSummary",
     "QuadLayoutSummary",
+    "QuadSplineSummary",
     "QuadsSummary",
     "QualitySummary",
     "RefineSummary",

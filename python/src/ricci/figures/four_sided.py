@@ -1,4 +1,4 @@
-"""Counts and measured figures of quad meshes and of their layouts."""
+"""Counts and measured figures of quad meshes, of their layouts, and of splines over these."""
 
 from __future__ import annotations
 
@@ -69,3 +69,46 @@ class QuadLayoutSummary:
     n_parts: int
     n_quads: int
     n_vertices: int
+
+
+@dataclass(frozen=True)
+class QuadSplineSummary:
+    """Figures of a spline over a layout. Distances are over the diagonal of the surface's bounding box.
+
+    Attributes:
+        n_patches: patches.
+        n_arcs: arcs, each a side of one patch or of two.
+        n_nodes: nodes, where arcs end.
+        degree: along u and v: 5.
+        most_spans: largest number of spans of a patch along u or v.
+        n_control_points: control points of all patches, those on common sides once.
+        n_free: free control points, of which all others are combinations.
+        n_entries: entries of the extraction matrix.
+        n_folded_patches: patches that are turned over somewhere.
+        diagonal: the diagonal of the bounding box of the surface that was fitted.
+        rms: root of the mean squared distance of places of the patches from the surface.
+        max: the largest of these distances.
+        vertex_rms: root of the mean squared distance of the vertices from the spline.
+        vertex_max: the largest of these distances.
+        normal_error: the largest angle between the normals of spline and surface, radians.
+        normal_jump: the largest angle between normals on both sides of an arc that is no crease, radians.
+        converged: distances are within the tolerance that was asked for, and no patch is turned over.
+    """
+
+    n_patches: int
+    n_arcs: int
+    n_nodes: int
+    degree: int
+    most_spans: int
+    n_control_points: int
+    n_free: int
+    n_entries: int
+    n_folded_patches: int
+    diagonal: float
+    rms: float
+    max: float
+    vertex_rms: float
+    vertex_max: float
+    normal_error: float
+    normal_jump: float
+    converged: bool

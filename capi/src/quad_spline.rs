@@ -1,0 +1,164 @@
+//! Splines over the four-sided patches of quad layouts: the fit to a surface and its figures.
+
+use crate::arrays::copy_each;
+use crate::control::{self, ricci_control};
+use crate::guard::{self, handle, shared};
+use crate::memory;
+use crate::quad_layout::{coarsest, ricci_quad_layout};
+use crate::seamless::ricci_seamless;
+use crate::spline_memory;
+use crate::status::ricci_status;
+use crate::structs::{self, or, sized};
+use ricci::geometry::vector::diagonal;
+use ricci::spline::{LayoutFitOptions, NearestPlaces, QuadFit, QuadFitOptions, fit_quad_layout};
+use std::sync::OnceLock;
+
+pub struct ricci_quad_spline {
+    pub(crate) fit: QuadFit,
+    /// The diagonal of the bounding box of the surface.
+    pub(crate) diagonal: f64,
+    /// The search structure for nearest places, which the first search makes.
+    pub(crate) nearest: OnceLock<NearestPlaces>,
+    figures: ricci_quad_spline_summary,
+}
+handle!(ricci_quad_spline, "quad_spline", |spline| spline.figures.n_control_points);
+
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct ricci_quad_spline_options {
+    pub size: usize,
+    pub tolerance: f64,
+    pub bending: f64,
+    pub threads: usize,
+    pub most_spans: u32,
+    pub reserved: u32,
+}
+// SAFETY: numbers; 8-byte alignment, size first.
+sized!(ricci_quad_spline_options, "options", reserved);
+
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct ricci_quad_spline_summary {
+    pub size: usize,
+    pub n_patches: usize,
+    pub n_arcs: usize,
+    pub n_nodes: usize,
+    pub degree: usize,
+    pub most_spans: usize,
+    pub n_control_points: usize,
+    pub n_free: usize,
+    pub n_entries: usize,
+    pub n_folded_patches: usize,
+    pub diagonal: f64,
+    pub rms: f64,
+    pub max: f64,
+    pub vertex_rms: f64,
+    pub vertex_max: f64,
+    pub normal_error: f64,
+    pub normal_jump: f64,
+    pub converged: u32,
+    pub reserved: u32,
+}
+// SAFETY: numbers; 8-byte alignment, size first.
+sized!(ricci_quad_spline_summary, "summary", reserved);
+
+impl ricci_quad_spline_options {
+    fn read(&self) -> LayoutFitOptions {
+        let usual = LayoutFitOptions::default();
+        let bending = or(self.bending, usual.fit.bending);
+        LayoutFitOptions {
+            tolerance: or(self.tolerance, usual.tolerance),
+            most_spans: if self.most_spans == 0 { usual.most_spans } else { self.most_spans as usize },
+            fit: QuadFitOptions { bending: if bending < 0.0 { 0.0 } else { bending }, threads: self.threads },
+        }
+    }
+}
+
+/// The poles of a patch with as many spans as are usual at most. Few patches get more, for which there is no reserve.
+fn usual_poles(options: &LayoutFitOptions) -> usize {
+    let spans = options.most_spans.min(LayoutFitOptions::default().most_spans);
+    (3 * spans + 3).pow(2)
+}
+
+impl ricci_quad_spline {
+    fn new(fit: QuadFit, tolerance: f64, diagonal: f64) -> ricci_quad_spline {
+        let (spline, space) = (&fit.spline, fit.spline.space());
+        let figures = ricci_quad_spline_summary {
+            size: 0,
+            n_patches: space.layout().patches().len(),
+            n_arcs: space.layout().arcs().len(),
+            n_nodes: space.layout().n_nodes(),
+            degree: spline.degree(),
+            most_spans: space.spans().iter().copied().max().unwrap_or(0),
+            n_control_points: space.n_control_points(),
+            n_free: space.dimension(),
+            n_entries: (0..space.n_control_points()).map(|c| space.combination(c).len()).sum(),
+            n_folded_patches: fit.folded_patches.len(),
+            diagonal,
+            rms: fit.to_target.rms,
+            max: fit.to_target.max,
+            vertex_rms: fit.of_vertices.rms,
+            vertex_max: fit.of_vertices.max,
+            normal_error: fit.normal_error,
+            normal_jump: spline.normal_jump(),
+            converged: (fit.folded_patches.is_empty() && fit.max() <= tolerance).into(),
+            reserved: 0,
+        };
+        ricci_quad_spline { fit, diagonal, nearest: OnceLock::new(), figures }
+    }
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_quad_spline_fit(
+    seamless: *const ricci_seamless,
+    layout: *const ricci_quad_layout,
+    options: *const ricci_quad_spline_options,
+    control: *const ricci_control,
+    spline: *mut *mut ricci_quad_spline,
+) -> ricci_status {
+    guard::make(spline, || {
+        let (seamless, control) = (shared(seamless)?, control::of(control)?);
+        let options = structs::read(options)?.read();
+        let solution = &seamless.found.solution;
+        let layout = if layout.is_null() {
+            coarsest(&seamless.found, options.fit.threads, &control.part(0.0, 0.2))?
+        } else {
+            shared(layout)?.of_seamless(seamless)?
+        };
+        let (quads, patches) = (layout.mesh.quads.len(), layout.patches.len());
+        let _target = memory::work(solution.given().n_vertices() + quads, spline_memory::QUAD_TARGET)?;
+        let _fit = memory::work(patches * usual_poles(&options), spline_memory::QUAD_FIT)?;
+        let fit = fit_quad_layout(&seamless.found, &layout, &options, &control.part(0.2, 1.0))?;
+        log::info!("quad spline: {} patches, distances up to {:.1e} of the diagonal", patches, fit.max());
+        let diagonal = solution.surface().positions().map_or(0.0, |positions| diagonal(positions));
+        Ok(ricci_quad_spline::new(fit, options.tolerance, diagonal))
+    })
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_quad_spline_free(spline: *mut ricci_quad_spline) {
+    guard::free(spline);
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_quad_spline_summarise(
+    spline: *const ricci_quad_spline,
+    summary: *mut ricci_quad_spline_summary,
+    size: usize,
+) -> ricci_status {
+    guard::with(spline, |spline| {
+        structs::write(ricci_quad_spline_summary { size, ..spline.figures }, summary, size)
+    })
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_quad_spline_folds(
+    spline: *const ricci_quad_spline,
+    patches: *mut u32,
+    capacity: usize,
+) -> ricci_status {
+    guard::with(spline, |ricci_quad_spline { fit, .. }| {
+        let folded = fit.folded_patches.iter().map(|&patch| patch as u32);
+        copy_each("patches", folded.len(), folded, patches, capacity)
+    })
+}
