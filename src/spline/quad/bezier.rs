@@ -65,7 +65,7 @@ impl QuadSpline {
 }
 
 /// The Bézier points of both halves of a rectangle along u.
-pub(super) fn halves(net: &BezierNet) -> [BezierNet; 2] {
+fn halves(net: &BezierNet) -> [BezierNet; 2] {
     let (mut first, mut second) = (*net, *net);
     for b in 0..LOCAL {
         let mut points = std::array::from_fn::<_, LOCAL, _>(|a| net[a][b]);
@@ -80,8 +80,13 @@ pub(super) fn halves(net: &BezierNet) -> [BezierNet; 2] {
     [first, second]
 }
 
+/// The Bézier points of the quarters of a rectangle, at [0][1] that of small u and large v.
+pub(super) fn quarters(net: &BezierNet) -> [[BezierNet; 2]; 2] {
+    halves(net).map(|half| halves(&transposed(&half)).map(|quarter| transposed(&quarter)))
+}
+
 /// The Bézier points with u and v exchanged.
-pub(super) fn transposed(net: &BezierNet) -> BezierNet {
+fn transposed(net: &BezierNet) -> BezierNet {
     std::array::from_fn(|a| std::array::from_fn(|b| net[b][a]))
 }
 

@@ -4,7 +4,7 @@
 //! contains it. For a point, cells are visited by the distance of their boxes, those of neighbouring patches like others, and a descent
 //! finds the nearest place of each cell whose box is nearer than the best place so far.
 
-use super::bezier::{BezierNet, halves, transposed};
+use super::bezier::{BezierNet, quarters};
 use super::places::{PatchPlace, in_batches};
 use super::quintic::QUINTIC;
 use super::spline::QuadSpline;
@@ -121,10 +121,10 @@ impl PatchCells {
         let middle = [0, 1].map(|x| 0.5 * (cell.low[x] + cell.high[x]));
         let u = [cell.low[0], middle[0], cell.high[0]];
         let v = [cell.low[1], middle[1], cell.high[1]];
-        for (i, half) in halves(net).iter().enumerate() {
-            for (j, quarter) in halves(&transposed(half)).iter().enumerate() {
-                let (net, range) = (transposed(quarter), [[u[i], v[j]], [u[i + 1], v[j + 1]]]);
-                self.add(PatchCell::new(cell.patch, range, &net), &net, halvings + 1);
+        for (i, both) in quarters(net).iter().enumerate() {
+            for (j, quarter) in both.iter().enumerate() {
+                let range = [[u[i], v[j]], [u[i + 1], v[j + 1]]];
+                self.add(PatchCell::new(cell.patch, range, quarter), quarter, halvings + 1);
             }
         }
     }

@@ -1,5 +1,6 @@
 //! Triangle meshes of splines over four-sided patches: a grid on each patch, with common vertices on common sides.
 
+use super::bezier::{BezierNet, quarters};
 use super::layout::{PatchCorner, PatchLayout};
 use super::places::in_batches;
 use super::quintic::{QUINTIC, QuinticBasis};
@@ -10,6 +11,8 @@ use crate::geometry::vector::{Vector, add, norm, normalised, scale, sub};
 use crate::mesh::io::{Attributes, NumberColumn, NumberType, Soup};
 use crate::mesh::union_find::UnionFind;
 
+/// Halvings of spans in each direction before second derivatives are bounded by Bézier points: these come near the surface.
+const HALVINGS: usize = 2;
 /// Most vertices of a tessellation.
 const MOST_VERTICES: usize = 100_000_000;
 
@@ -158,32 +161,45 @@ impl QuadSpline {
         Ok((0..n as u32).map(|arc| most[same.root(arc) as usize].min(1e9) as usize).collect())
     }
 
-    /// Upper bounds of the second derivatives uu, uv, vv of a patch, by differences of its Bézier points.
+    /// Upper bounds of the second derivatives uu, uv, vv of a patch, by differences of the Bézier points of parts of its spans.
     fn second_derivative_bounds(&self, patch: usize) -> [f64; 3] {
-        let spans = self.space().patch_spans(patch).map(|n| n as f64);
-        let second = |[a, b, c]: [Vector; 3]| norm(add(sub(a, scale(2.0, b)), c));
-        let degree = QUINTIC as f64;
+        let parts = self.space().patch_spans(patch).map(|n| (n << HALVINGS) as f64);
         let mut most = [0.0f64; 3];
         for net in self.bezier_nets(patch) {
-            for (a, b) in (0..=QUINTIC).flat_map(|a| (0..=QUINTIC).map(move |b| (a, b))) {
-                if a + 2 <= QUINTIC {
-                    most[0] = most[0].max(second([net[a][b], net[a + 1][b], net[a + 2][b]]));
-                }
-                if b + 2 <= QUINTIC {
-                    most[2] = most[2].max(second([net[a][b], net[a][b + 1], net[a][b + 2]]));
-                }
-                if a < QUINTIC && b < QUINTIC {
-                    let [here, there] = [a, a + 1].map(|a| sub(net[a][b + 1], net[a][b]));
-                    most[1] = most[1].max(norm(sub(there, here)));
-                }
+            let mut nets = vec![net];
+            for _ in 0..HALVINGS {
+                nets = nets.iter().flat_map(|net| quarters(net).into_iter().flatten()).collect();
+            }
+            for found in nets.iter().map(second_differences) {
+                (0..3).for_each(|k| most[k] = most[k].max(found[k]));
             }
         }
+        let degree = QUINTIC as f64;
         [
-            most[0] * degree * (degree - 1.0) * spans[0] * spans[0],
-            most[1] * degree * degree * spans[0] * spans[1],
-            most[2] * degree * (degree - 1.0) * spans[1] * spans[1],
+            most[0] * degree * (degree - 1.0) * parts[0] * parts[0],
+            most[1] * degree * degree * parts[0] * parts[1],
+            most[2] * degree * (degree - 1.0) * parts[1] * parts[1],
         ]
     }
+}
+
+/// The largest second differences of Bézier points along u, along both, and along v.
+fn second_differences(net: &BezierNet) -> [f64; 3] {
+    let second = |[a, b, c]: [Vector; 3]| norm(add(sub(a, scale(2.0, b)), c));
+    let mut most = [0.0f64; 3];
+    for (a, b) in (0..=QUINTIC).flat_map(|a| (0..=QUINTIC).map(move |b| (a, b))) {
+        if a + 2 <= QUINTIC {
+            most[0] = most[0].max(second([net[a][b], net[a + 1][b], net[a + 2][b]]));
+        }
+        if b + 2 <= QUINTIC {
+            most[2] = most[2].max(second([net[a][b], net[a][b + 1], net[a][b + 2]]));
+        }
+        if a < QUINTIC && b < QUINTIC {
+            let [here, there] = [a, a + 1].map(|a| sub(net[a][b + 1], net[a][b]));
+            most[1] = most[1].max(norm(sub(there, here)));
+        }
+    }
+    most
 }
 
 impl<'a> VertexNumbers<'a> {
