@@ -1,4 +1,4 @@
-//! Quantisations with few squares: descents of the number of squares, each from the best numbers so far with a few strips raised.
+//! Quantisations with few squares: descents of the number of squares, each from the best numbers so far with one strip raised.
 
 use super::quantisation::Quantisation;
 use super::separation::Separation;
@@ -10,13 +10,11 @@ use crate::geometry::random::SplitMix64;
 const MOST_WORK: usize = 80_000_000;
 /// Descents that may follow each other without fewer squares, per arc.
 const FRUITLESS_PER_ARC: usize = 4;
-/// Most strips that are raised at once.
-const MOST_RAISED: usize = 3;
 /// The seed of the order in which strips are raised.
 const SEED: u64 = 2021;
 
 /// Numbers with as few squares as a search finds that starts from these: a descent along walks often ends where every single walk would let two
-/// cones fall together; from longer strips another descent leads past it.
+/// cones fall together; from a longer strip another descent leads past it.
 ///
 /// # Errors
 /// Those of [`Quantisation::make_longer`] and [`Quantisation::descend`].
@@ -34,11 +32,10 @@ pub(super) fn coarsened(
     let mut fruitless = 0;
     while work < MOST_WORK && fruitless < FRUITLESS_PER_ARC * n {
         let mut other = best.clone();
-        let mut below = |n: usize| (random.unit() * n as f64) as usize;
-        let raised: Vec<usize> = (0..1 + below(MOST_RAISED)).map(|_| below(n)).collect();
-        raised.iter().try_for_each(|&arc| other.make_longer(arc))?;
+        let arc = (random.unit() * n as f64) as usize;
+        other.make_longer(arc)?;
         work += other.descend(is_apart, control)?;
-        raised.iter().for_each(|&arc| other.set_least(arc, 0));
+        other.set_least(arc, 0);
         work += other.descend(is_apart, control)?;
         fruitless = if other.value() < best.value() { 0 } else { fruitless + 1 };
         if other.value() <= best.value() && separation.holds(&other.numbers) {

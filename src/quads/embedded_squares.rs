@@ -12,7 +12,7 @@ use crate::control::Control;
 use crate::error::Result;
 
 /// Most parts into which the sides of unit squares are divided for them to embed.
-const MOST_PARTS: usize = 32;
+const MOST_PARTS: usize = 8;
 /// Most squares that are divided ones.
 const MOST_SQUARES: usize = 20_000;
 

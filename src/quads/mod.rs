@@ -2,6 +2,7 @@
 //! patches.
 
 mod arc_graph;
+mod balance;
 mod coarsening;
 mod collapse;
 mod embedded_squares;

@@ -4,16 +4,12 @@
 //! it, and so on: consistent changes are closed walks in the double cover of a bidirected graph, whose states are a rectangle, one of its two
 //! directions, and the sign of what its first side has more than the opposite one. Walks may begin and end at the boundary \[LCK21\].
 
-use super::arc_graph::{ArcGraph, OUTSIDE, WalkStep};
+use super::arc_graph::{ArcGraph, WalkStep};
 use super::t_mesh::{HalfArc, TMesh};
 use super::walk_search::{SAME_COST, WalkSearch};
 use crate::control::Control;
 use crate::error::{Error, Result};
-use std::cmp::Ordering;
-use std::collections::BinaryHeap;
 
-/// The cost of a step below the least number while sides are made even, far above that of any other walk.
-const BELOW_COST: f64 = 1e12;
 /// The cost of changing an arc by 2 less twice that of changing it by 1, per use of the arc.
 const REPEATED_COST: f64 = 1.0;
 
@@ -29,35 +25,17 @@ const LEAST_GAIN: f64 = 1e-3;
 /// A quantisation that is being improved.
 #[derive(Debug, Clone)]
 pub(super) struct Quantisation {
-    graph: ArcGraph,
+    pub(super) graph: ArcGraph,
     /// Per arc the wanted length.
     wanted: Vec<f64>,
     /// Per arc the least number.
-    least: Vec<i64>,
+    pub(super) least: Vec<i64>,
     /// Per arc what each use costs in addition where walks have used it twice.
     surcharge: Vec<f64>,
     /// Per arc the number of squares that come with a unit of it, where the number of squares is the cost.
     squares_across: Option<Vec<f64>>,
     /// Per arc its number.
     pub numbers: Vec<i64>,
-}
-
-/// A state in the order of the search.
-#[derive(PartialEq)]
-struct Reached(f64, usize);
-
-impl Eq for Reached {}
-
-impl PartialOrd for Reached {
-    fn partial_cmp(&self, other: &Reached) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl Ord for Reached {
-    fn cmp(&self, other: &Reached) -> Ordering {
-        other.0.total_cmp(&self.0).then(other.1.cmp(&self.1))
-    }
 }
 
 impl Quantisation {
@@ -170,7 +148,7 @@ impl Quantisation {
     }
 
     /// The cost of a change of an arc; infinite below the least number.
-    fn change_cost(&self, arc: usize, change: i64) -> f64 {
+    pub(super) fn change_cost(&self, arc: usize, change: i64) -> f64 {
         let n = self.numbers[arc];
         if n + change < self.least[arc] {
             return f64::INFINITY;
@@ -185,115 +163,6 @@ impl Quantisation {
     /// The costs of a change of an arc by 1 and by −1 in a search.
     fn step_costs(&self, arc: usize) -> [f64; 2] {
         [1, -1].map(|change| self.change_cost(arc, change) + self.surcharge[arc])
-    }
-
-    /// Removes what opposite sides differ by, along cheapest walks. Arcs may fall below the least number where nothing else is possible, so
-    /// that walks always exist.
-    ///
-    /// # Errors
-    /// [`Error::Layout`] for a graph without them, which no T-mesh has; [`Error::Cancelled`].
-    fn balance(&mut self, control: &Control) -> Result<()> {
-        // Searches from all excesses at once hide the walk from one to another behind those of the other; then each is tried alone.
-        let mut only: Option<usize> = None;
-        loop {
-            control.check()?;
-            let mut excess = self.excess();
-            if excess.iter().all(|e| *e == 0) {
-                return Ok(());
-            }
-            let sources: Vec<usize> = (0..excess.len()).filter(|&u| excess[u] != 0).collect();
-            let walks = match only {
-                Some(k) => self.cheapest_walks(&excess, &sources[k % sources.len()..][..1]),
-                None => self.cheapest_walks(&excess, &sources),
-            };
-            let mut is_changed = vec![false; self.numbers.len()];
-            let mut is_better = false;
-            for walk in walks {
-                let (Some(&first), Some(&last)) = (walk.first(), walk.last()) else { continue };
-                let from = self.graph.beside[first.0];
-                let to = self.graph.beside[last.0 ^ 1];
-                let mut left = excess.clone();
-                let mut apply = |end: Option<(usize, i64)>, change: i64| {
-                    if let Some((u, sign)) = end {
-                        left[u] += sign * change;
-                    }
-                };
-                apply(from, first.1);
-                apply(to, last.1);
-                let is_less =
-                    |end: Option<(usize, i64)>| end.is_none_or(|(u, _)| left[u].abs() < excess[u].abs());
-                if walk.iter().any(|(h, _)| is_changed[h / 2]) || !is_less(from) || !is_less(to) {
-                    continue;
-                }
-                for &(h, change) in &walk {
-                    self.numbers[h / 2] += change;
-                    is_changed[h / 2] = true;
-                }
-                excess = left;
-                is_better = true;
-            }
-            only = match only {
-                _ if is_better => None,
-                None => Some(0),
-                Some(k) if k + 1 < sources.len() => Some(k + 1),
-                Some(_) => {
-                    return Err(Error::Layout("opposite sides of rectangles cannot be made even".into()));
-                }
-            };
-        }
-    }
-
-    /// Walks from excesses to those that they cancel or to the boundary, the cheapest first. Gains count as no cost.
-    fn cheapest_walks(&self, excess: &[i64], sources: &[usize]) -> Vec<Vec<WalkStep>> {
-        let n = self.graph.steps.len();
-        let mut distance = vec![f64::INFINITY; n];
-        let mut came: Vec<Option<(usize, WalkStep)>> = vec![None; n];
-        let mut root = vec![usize::MAX; n];
-        let mut waiting = BinaryHeap::new();
-        let mut is_done = vec![false; n];
-        for &u in sources {
-            let state = ArcGraph::state(u, excess[u].signum());
-            distance[state] = 0.0;
-            root[state] = u;
-            waiting.push(Reached(0.0, state));
-        }
-        let mut ends = Vec::new();
-        while let Some(Reached(d, state)) = waiting.pop() {
-            if std::mem::replace(&mut is_done[state], true) {
-                continue;
-            }
-            let is_end = state == OUTSIDE || {
-                let (u, s) = ArcGraph::excess_of(state);
-                excess[u] * s < 0 && (root[state] != u || excess[u].abs() > 1)
-            };
-            if is_end && came[state].is_some() {
-                ends.push(state);
-                continue;
-            }
-            for &step in &self.graph.steps[state] {
-                let arc = step.0 / 2;
-                let falls_below = step.1 < 0 && self.numbers[arc] <= self.least[arc];
-                let cost = if falls_below { BELOW_COST } else { self.change_cost(arc, step.1).max(0.0) };
-                let (next, total) = (self.graph.after(step), d + cost);
-                if total < distance[next] {
-                    distance[next] = total;
-                    came[next] = Some((state, step));
-                    root[next] = root[state];
-                    waiting.push(Reached(total, next));
-                }
-            }
-        }
-        let walk = |&end: &usize| {
-            let mut steps = Vec::new();
-            let mut at = end;
-            while let Some((before, step)) = came[at] {
-                steps.push(step);
-                at = before;
-            }
-            steps.reverse();
-            steps
-        };
-        ends.iter().map(walk).collect()
     }
 
     /// Raises arcs below their least number to it along shortest closed walks, or walks from the boundary to the boundary.

@@ -4,7 +4,7 @@
 //! Where neighbouring patches meet, the space of splines prescribes how parameter lines cross. The map from which a fit starts crosses
 //! otherwise, so the surface has to slide along itself, which large weights at first make smooth.
 
-use super::nearest::{VertexPlace, vertex_places};
+use super::nearest::{NearestToVertex, vertex_places};
 use super::quintic::QuinticBasis;
 use super::space::QuadSplineSpace;
 use super::spline::QuadSpline;
@@ -186,9 +186,9 @@ pub(super) fn fit_from(
 }
 
 /// The root of the mean square of the distances of vertices from their places.
-fn vertex_error(vertices: &[Vec<VertexPlace>], spline: &QuadSpline) -> f64 {
+fn vertex_error(vertices: &[Vec<NearestToVertex>], spline: &QuadSpline) -> f64 {
     let of_patch = |p: usize| -> f64 {
-        let square = |place: &VertexPlace| {
+        let square = |place: &NearestToVertex| {
             let far = distance(spline.point_at(p, place.parameters), place.vertex.point);
             place.vertex.share * far * far
         };
@@ -198,7 +198,7 @@ fn vertex_error(vertices: &[Vec<VertexPlace>], spline: &QuadSpline) -> f64 {
 }
 
 /// The vertices at the nearest places of their patches, as these are now.
-fn moved_nearer(vertices: &[Vec<VertexPlace>], spline: &QuadSpline) -> Vec<Vec<VertexPlace>> {
+fn moved_nearer(vertices: &[Vec<NearestToVertex>], spline: &QuadSpline) -> Vec<Vec<NearestToVertex>> {
     let of_patch = |p: usize| vertices[p].iter().map(|place| place.nearer(spline, p)).collect();
     parallel::map(vertices.len(), of_patch)
 }

@@ -17,7 +17,7 @@ const PARALLEL: f64 = 1e-12;
 
 /// A vertex of a target with the place of a patch that is nearest to it.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct VertexPlace {
+pub(super) struct NearestToVertex {
     pub vertex: TargetVertex,
     /// The unit normal of the target there.
     pub normal: Vector,
@@ -28,7 +28,7 @@ pub(super) struct VertexPlace {
 struct FoundPlace {
     distance: f64,
     patch: usize,
-    at: VertexPlace,
+    at: NearestToVertex,
 }
 
 /// Per patch the vertices of the target that are nearer to it than to the other patches of their pieces. `pieces`: that of each patch; `at`: the
@@ -37,7 +37,7 @@ pub(super) fn vertex_places(
     target: &SplineTarget,
     pieces: &[usize],
     at: &(dyn Fn(usize, [f64; 2]) -> Vector + Sync),
-) -> Vec<Vec<VertexPlace>> {
+) -> Vec<Vec<NearestToVertex>> {
     let mut patches: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
     pieces.iter().enumerate().for_each(|(patch, &piece)| patches.entry(piece).or_default().push(patch));
     let groups: Vec<(usize, Vec<usize>)> = patches.into_iter().collect();
@@ -78,7 +78,7 @@ fn places_of_piece(
         let cell = halves([within / 2 / PARTS, within / 2 % PARTS])[within % 2];
         let parameters = [0, 1].map(|x| (0..3).map(|c| nearest.weights[c] * cell[c][x]).sum::<f64>());
         let parameters = parameters.map(|x| x.clamp(0.0, 1.0));
-        let at = VertexPlace { vertex, normal, parameters };
+        let at = NearestToVertex { vertex, normal, parameters };
         FoundPlace { distance: nearest.distance, patch: patches[patch], at }
     })
 }
@@ -95,9 +95,9 @@ fn halves([i, j]: [usize; 2]) -> [[[f64; 2]; 3]; 2] {
     [[a, b, c], [a, c, d]]
 }
 
-impl VertexPlace {
+impl NearestToVertex {
     /// The place moved to the nearest one of its patch, by steps of Gauss and Newton as long as they come nearer.
-    pub fn nearer(self, spline: &QuadSpline, patch: usize) -> VertexPlace {
+    pub fn nearer(self, spline: &QuadSpline, patch: usize) -> NearestToVertex {
         let mut best = self;
         let mut at = spline.at(patch, best.parameters);
         for _ in 0..STEPS {

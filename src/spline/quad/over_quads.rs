@@ -114,6 +114,7 @@ impl LayoutStart<'_> {
             let (folds, is_near) = (fit.folded_patches.len(), fit.max() <= options.tolerance);
             let is_better = |best: &QuadFit| (folds, fit.max()) < (best.folded_patches.len(), best.max());
             let stiffer = STIFFER * bending.max(LEAST_BENDING);
+            let is_plain = spans.iter().all(|&n| n == 1);
             // More spans are of no use where they did not bring the last fit nearer.
             fruitless = match &best {
                 Some(best) if folds >= best.folded_patches.len() && fit.max() > WORTHWHILE * best.max() => {
@@ -121,7 +122,7 @@ impl LayoutStart<'_> {
                 }
                 _ => 0,
             };
-            if folds > 0 && stiffer <= MOST_BENDING {
+            if folds > 0 && stiffer <= MOST_BENDING && is_plain {
                 bending = stiffer;
             } else {
                 bending = options.fit.bending;

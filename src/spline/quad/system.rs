@@ -1,7 +1,7 @@
 //! The normal equations of a fit: squared distances of places of the patches from their feet, and the bending of the patches.
 
 use super::layout::PatchCorner;
-use super::nearest::VertexPlace;
+use super::nearest::NearestToVertex;
 use super::quintic::{LOCAL, QUINTIC, QuinticBasis, basis_size};
 use super::space::QuadSplineSpace;
 use super::target::FootPoint;
@@ -69,7 +69,7 @@ pub(super) struct FitPlace {
 pub(super) struct FitGoal<'a> {
     pub weights: FitWeights,
     pub foot: &'a (dyn Fn(usize, &FitPlace) -> FootPoint + Sync),
-    pub vertices: &'a [Vec<VertexPlace>],
+    pub vertices: &'a [Vec<NearestToVertex>],
 }
 
 /// The normal equations of fits over a space. Unknown 3 k + c is coordinate c of the free control point k.
@@ -180,7 +180,7 @@ impl<'a> QuadSystem<'a> {
         }
         sum.bend(weights.bending, self.space.patch_spans(p).map(|spans| &self.along[&spans]));
         let spans = self.space.patch_spans(p);
-        for VertexPlace { vertex, normal, parameters } in &goal.vertices[p] {
+        for NearestToVertex { vertex, normal, parameters } in &goal.vertices[p] {
             let basis = [0, 1].map(|k| QuinticBasis::at(spans[k], parameters[k]));
             let place = FitPlace { basis, parameters: *parameters, weight: vertex.share };
             let weight = VERTICES * self.area * vertex.share;
