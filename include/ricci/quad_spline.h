@@ -64,13 +64,14 @@ typedef struct ricci_quad_spline_options {
      */
     double tolerance;
     /**
-     * The weight of bending, up to 1e-5: 1e-8 suits scans with a noise of a thousandth of the diagonal; 0:
-     * 1e-11; below 0: none.
+     * The weight of bending, up to 1e-5; 0: 1e-11; below 0: none. 1e-8 suits scans with a noise of a
+     * thousandth of the diagonal.
      */
     double bending;
-    /** Threads, 0 for one per core; results do not depend on it. */
+    /** Threads, 0 for one per core; results do not depend on it. 1 suits hosts that run several calls at
+     * once. */
     size_t threads;
-    /** Most spans of a patch in each direction, up to 32; 0: 3. */
+    /** Most spans of a patch in each direction, up to 32; 0: 4. One gives the smallest files. */
     uint32_t most_spans;
     /** 0. */
     uint32_t reserved;

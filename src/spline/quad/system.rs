@@ -16,7 +16,7 @@ use std::collections::BTreeMap;
 /// errors between them.
 const PLACES: usize = 2 * QUINTIC;
 /// The same in patches of several spans, each of which has half as many coefficients of its own.
-const PLACES_OF_SEVERAL: usize = QUINTIC + 2;
+const PLACES_OF_SEVERAL: usize = 2 * QUINTIC;
 /// Pairs of unknowns beyond which repeated ones are dropped on the way.
 const MOST_PAIRS: usize = 1 << 24;
 /// Number of control points that a place depends on.

@@ -9,6 +9,7 @@ mod fit;
 mod knots;
 mod quad;
 mod quad_places;
+mod quad_strips;
 mod smooth;
 
 use ricci::spline::{

@@ -18,7 +18,7 @@ pub(super) struct Quads {
 }
 
 impl Quads {
-    fn layout(&self) -> PatchLayout {
+    pub fn layout(&self) -> PatchLayout {
         PatchLayout::from_quads(self.positions.len(), &self.faces, &[]).unwrap()
     }
 
@@ -68,7 +68,7 @@ pub(super) fn block([a, b, c]: [i32; 3]) -> Vec<[i32; 3]> {
 }
 
 /// A slab with two holes, of genus 2.
-fn slab() -> Quads {
+pub(super) fn slab() -> Quads {
     let mut set = block([5, 3, 1]);
     set.retain(|&[x, y, _]| !(y == 1 && (x == 1 || x == 3)));
     cells(&set)
@@ -115,7 +115,7 @@ fn on_side(side: usize, x: f64) -> [f64; 2] {
 
 /// The largest distance between points of both sides of all smooth arcs, and the largest determinant of the unit vectors along an arc and into
 /// both of its patches: 0 in a common tangent plane.
-fn jumps(spline: &QuadSpline) -> [f64; 2] {
+pub(super) fn jumps(spline: &QuadSpline) -> [f64; 2] {
     let layout = spline.space().layout();
     let mut worst = [0.0f64; 2];
     for arc in (0..layout.arcs().len()).filter(|&arc| !layout.arcs()[arc].is_crease) {
@@ -165,53 +165,6 @@ fn tangent_planes_are_continuous_across_arcs_for_any_free_control_points() {
                 quads.faces.len()
             );
         }
-    }
-}
-
-#[test]
-fn tangent_planes_are_continuous_where_strips_have_different_spans() {
-    for quads in [cells(&block([3, 1, 1])), slab(), trapezohedron(5)] {
-        let layout = quads.layout();
-        // Each strip of patches by its least arc, with 1, 2 or 3 spans in turn.
-        let mut strip: Vec<usize> = (0..layout.arcs().len()).collect();
-        for _ in 0..strip.len() {
-            for sides in layout.patches() {
-                for [a, b] in [[0, 2], [1, 3]].map(|pair| pair.map(|k| sides[k].arc as usize)) {
-                    let least = strip[a].min(strip[b]);
-                    (strip[a], strip[b]) = (least, least);
-                }
-            }
-        }
-        let mut strips = strip.clone();
-        strips.sort_unstable();
-        strips.dedup();
-        let spans = strip.iter().map(|s| 1 + strips.binary_search(s).unwrap() % 3).collect();
-        let space = Arc::new(QuadSplineSpace::with_spans(layout, spans).unwrap());
-        let spans = space.spans();
-        assert!(strips.len() > 1 && spans.contains(&1) && spans.contains(&2));
-        let [gap, turn] = jumps(&any_spline(&space));
-        assert!(gap < 1e-13 && turn < 1e-9, "{} patches: {gap}, {turn}", quads.faces.len());
-    }
-    let mut unequal = vec![1; 12];
-    unequal[0] = 2;
-    let cube = cells(&block([1, 1, 1])).layout();
-    assert!(matches!(QuadSplineSpace::with_spans(cube, unequal), Err(Error::Spline { what: "patch", .. })));
-}
-
-#[test]
-fn a_crease_may_end_inside_and_turn_by_any_angle() {
-    let quads = slab();
-    let size = |layout: PatchLayout| QuadSplineSpace::new(layout, 1).unwrap();
-    // A crease along one side of a patch ends at both of its ends.
-    let crease = [[quads.faces[0][0], quads.faces[0][1]]];
-    let layout = PatchLayout::from_quads(quads.positions.len(), &quads.faces, &crease).unwrap();
-    assert!(size(layout.clone()).dimension() > quads.space(1).dimension());
-    let [gap, _] = jumps(&any_spline(&Arc::new(size(layout.clone()))));
-    assert!(gap < 1e-13, "{gap}");
-    for angle in [1.0, 2.4] {
-        let turned = layout.clone().with_angles(&vec![[angle; 4]; quads.faces.len()]);
-        let [gap, _] = jumps(&any_spline(&Arc::new(size(turned))));
-        assert!(gap < 1e-13, "{gap}");
     }
 }
 
@@ -328,12 +281,13 @@ fn errors(spline: &QuadSpline) -> [f64; 3] {
 
 #[test]
 fn an_ellipsoid_is_met_from_its_mesh_to_second_order_of_the_mesh_and_better() {
-    let coarse = fitted_ellipsoid(12, 1, 0);
     let fine = fitted_ellipsoid(24, 1, 0);
-    let [before, after] = [&coarse, &fine].map(|fit| errors(&fit.spline));
+    let after = errors(&fine.spline);
+    // Meshes so coarse that their own error counts, not that of the space.
+    let [coarse, finer] = [6, 12].map(|n| errors(&fitted_ellipsoid(n, 1, 0).spline));
     assert!(fine.folded_patches.is_empty() && fine.spline.space().n_control_points() == 352);
     assert!(after[0] < 4e-6 && after[1] < 0.03 && after[2] < 0.006, "{after:?}");
-    assert!(before[0] / after[0] > 4.0, "{before:?} {after:?}");
+    assert!(coarse[0] / finer[0] > 4.0 && finer[0] > after[0], "{coarse:?} {finer:?} {after:?}");
     let [gap, turn] = jumps(&fine.spline);
     assert!(gap < 1e-14 && turn < 1e-11, "{gap}, {turn}");
     assert!(fine.spline.normal_jump() < 1e-10, "{}", fine.spline.normal_jump());
