@@ -64,7 +64,7 @@ typedef struct ricci_quad_spline_options {
      */
     double tolerance;
     /**
-     * The weight of bending, up to 1e-5; 0: 1e-11; below 0: none. 1e-8 suits scans with a noise of a
+     * The weight of bending, up to 1e-5; 0: 1e-8; below 0: none. The default suits scans with a noise of a
      * thousandth of the diagonal.
      */
     double bending;

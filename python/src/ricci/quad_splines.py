@@ -35,7 +35,7 @@ class QuadSplineOptions(TypedDict, total=False):
 
     Attributes:
         tolerance: largest distance between spline and surface over the diagonal; patches that are farther off get more spans. 0.001.
-        bending: the weight of bending, up to 1e-5: 1e-8 suits scans with a noise of a thousandth of the diagonal. 1e-11; 0: none.
+        bending: the weight of bending, up to 1e-5: 1e-8 suits scans with a noise of a thousandth of the diagonal. 1e-8; 0: none.
         most_spans: most spans of a patch in each direction, up to 32; 4.
         threads: one per core. The result does not depend on it.
     """

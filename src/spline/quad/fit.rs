@@ -23,8 +23,6 @@ const MORE_STEPS: usize = 12;
 const SETTLED: f64 = 0.93;
 /// The step with which fits from other splines begin.
 const LATE_STEP: usize = 8;
-/// Steps after which the nearest places of vertices are looked for on all patches.
-const STEPS_TO_SEARCH: usize = 4;
 /// The weights of bending and of tangential distance at the first step, and the latter at the last one.
 const FIRST_BENDING: f64 = 1e-5;
 const FIRST_TANGENTIAL: f64 = 1e-2;
@@ -148,8 +146,6 @@ pub(super) fn fit_from(
     let mut system = QuadSystem::new(&space)?;
     let patches = space.layout().patches().len();
     let pieces = parallel::map(patches, |p| target.piece_of_patch(p, start.at(p, [0.5, 0.5])));
-    let at_start = |p: usize, uv: [f64; 2]| start.at(p, uv);
-    let mut vertices = vertex_places(target, &pieces, &at_start);
     let first_step = start.first_step();
     let first = FitWeights { normal: 0.0, tangential: 1.0, ..weights_of(first_step, bending) };
     let to_start =
@@ -161,10 +157,9 @@ pub(super) fn fit_from(
     for step in first_step..STEPS + MORE_STEPS {
         let all = STEPS + MORE_STEPS + 2 - first_step;
         control.step(Stage::Layout, (step + 1 - first_step) as f64 / all as f64)?;
-        if (step - first_step).is_multiple_of(STEPS_TO_SEARCH) {
-            vertices = vertex_places(target, &pieces, &|p, uv| spline.point_at(p, uv));
-        }
-        vertices = moved_nearer(&vertices, &spline);
+        // All patches are searched at every step: vertices that are held in a patch from which they have moved away make it fold.
+        let near = vertex_places(target, &pieces, &|p, uv| spline.point_at(p, uv));
+        let vertices = moved_nearer(&near, &spline);
         if step >= STEPS {
             let error = vertex_error(&vertices, &spline);
             if error > SETTLED * last_error {

@@ -22,10 +22,9 @@ const RELAXATIONS_TO_TARGET: usize = 20;
 /// Places of a patch in each direction whose faces tell on which part of the surface it lies.
 const PLACES_FOR_FACES: usize = 12;
 const TOWARDS_MEAN: f64 = 0.7;
-/// By so much the weight of bending rises where patches fold, from the least up to the most.
-const STIFFER: f64 = 100.0;
-const LEAST_BENDING: f64 = 1e-13;
-const MOST_BENDING: f64 = 1e-7;
+/// Other weights of bending where patches fold, the last one first: stiffer ones keep parameter lines apart, softer ones do not draw thin
+/// handles together.
+const OTHER_BENDING: [f64; 3] = [1e-11, 1e-9, 1e-7];
 /// The share of the distance below which a round has to bring it, and the rounds in a row that may not.
 const WORTHWHILE: f64 = 0.85;
 const MOST_FRUITLESS: usize = 1;
@@ -44,7 +43,7 @@ pub struct LayoutFitOptions {
 
 impl Default for LayoutFitOptions {
     fn default() -> Self {
-        LayoutFitOptions { tolerance: 1e-3, most_spans: 4, fit: QuadFitOptions::default() }
+        LayoutFitOptions { tolerance: 1e-3, most_spans: 4, fit: QuadFitOptions { bending: 1e-8, threads: 0 } }
     }
 }
 
@@ -55,7 +54,7 @@ struct PatchGrid {
 }
 
 /// Fits a spline over the patches of a quad layout to the surface of its seamless metric. Each patch is fitted to the part of the surface on
-/// which it lies, and to some more around it, up to features. Where patches fold, bending weighs more; strips of patches that are not within the
+/// which it lies, and to some more around it, up to features. Where patches fold, other weights of bending are tried; strips of patches that are not within the
 /// tolerance get more spans. The first fit within the tolerance, or else that with the fewest patches folded, then the least distance.
 ///
 /// # Errors
@@ -102,6 +101,7 @@ impl LayoutStart<'_> {
         let mut spans = vec![1; patches.arcs().len()];
         let mut bending = options.fit.bending;
         let mut best: Option<QuadFit> = None;
+        let mut others: Vec<f64> = OTHER_BENDING.into_iter().filter(|&other| other != bending).collect();
         let (mut round, mut fruitless) = (0, 0);
         loop {
             let space = Arc::new(QuadSplineSpace::with_spans(patches.clone(), spans.clone())?);
@@ -113,7 +113,6 @@ impl LayoutStart<'_> {
             round += 1;
             let (folds, is_near) = (fit.folded_patches.len(), fit.max() <= options.tolerance);
             let is_better = |best: &QuadFit| (folds, fit.max()) < (best.folded_patches.len(), best.max());
-            let stiffer = STIFFER * bending.max(LEAST_BENDING);
             let is_plain = spans.iter().all(|&n| n == 1);
             // More spans are of no use where they did not bring the last fit nearer.
             fruitless = match &best {
@@ -122,8 +121,9 @@ impl LayoutStart<'_> {
                 }
                 _ => 0,
             };
-            if folds > 0 && stiffer <= MOST_BENDING && is_plain {
-                bending = stiffer;
+            let other = if folds > 0 && is_plain { others.pop() } else { None };
+            if let Some(other) = other {
+                bending = other;
             } else {
                 bending = options.fit.bending;
                 let is_more = raise_spans(patches, &mut spans, &fit, options);
