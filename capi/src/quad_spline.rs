@@ -101,7 +101,7 @@ impl ricci_quad_spline {
             vertex_max: fit.of_vertices.max,
             normal_error: fit.normal_error,
             normal_jump: spline.normal_jump(),
-            converged: (fit.folded_patches.is_empty() && fit.max() <= tolerance).into(),
+            converged: fit.is_within(tolerance).into(),
             reserved: 0,
         };
         ricci_quad_spline { fit, diagonal, nearest: OnceLock::new(), figures }

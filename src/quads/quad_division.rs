@@ -66,38 +66,37 @@ impl<'a> QuadDivision<'a> {
     fn quantised(
         &self,
         size: QuadSize,
+        separation: &Separation<'_>,
         control: &Control,
         is_embedded: &mut dyn FnMut(SizedNumbers) -> Result<bool>,
     ) -> Result<()> {
-        let separation = Separation::new(&self.surface, &self.t_mesh);
         let is_apart = &mut |numbers: &[i64]| separation.holds(numbers);
         if !matches!(size, QuadSize::Coarse | QuadSize::AtMost(_)) {
-            let mut found = self.near_size(size, &separation, control)?;
+            let mut found = self.near_size(size, separation, control)?;
             found.quantisation.descend(is_apart, control)?;
             is_embedded(found)?;
             return Ok(());
         }
-        let found = self.coarse(&separation, control)?;
-        let quantisation = coarsened(&found.quantisation, &separation, control)?;
+        if let QuadSize::AtMost(most) = size
+            && let Some(found) = self.at_most(most, separation, control)?
+            && is_embedded(found)?
+        {
+            return Ok(());
+        }
+        let found = self.coarse(separation, control)?;
+        let quantisation = coarsened(&found.quantisation, separation, control)?;
         let coarsest = SizedNumbers { quantisation, edge: found.edge };
-        if let QuadSize::AtMost(most) = size {
-            let least = self.n_squares(&coarsest);
-            if least > most {
-                return Err(Error::Layout(format!(
-                    "the fewest quads that were found are {least}, not {most}"
-                )));
-            }
-            if let Some(found) = self.at_most(most, &separation, control)?
-                && is_embedded(found)?
-            {
-                return Ok(());
-            }
+        let least = self.n_squares(&coarsest);
+        if matches!(size, QuadSize::AtMost(most) if least > most) {
+            return Err(Error::Layout(format!(
+                "the fewest quads that were found are {least}, more than asked for"
+            )));
         }
         if is_embedded(coarsest)? || is_embedded(found)? {
             return Ok(());
         }
         for factor in FINER_EDGES {
-            let mut found = self.near_size(self.edge(factor), &separation, control)?;
+            let mut found = self.near_size(self.edge(factor), separation, control)?;
             found.quantisation.descend(is_apart, control)?;
             if is_embedded(found)? {
                 break;
@@ -205,7 +204,7 @@ impl<'a> QuadDivision<'a> {
         let (surface, t_mesh) = (&self.surface, &self.t_mesh);
         let separation = Separation::new(surface, t_mesh);
         let (mut mesh, mut last) = (None, None);
-        self.quantised(size, control, &mut |mut found| {
+        self.quantised(size, &separation, control, &mut |mut found| {
             if single_edges {
                 separation.enforce_single_edges(&mut found.quantisation, control)?;
             }

@@ -9,6 +9,7 @@ use super::t_mesh::{HalfArc, TMesh};
 use super::walk_search::{SAME_COST, WalkSearch};
 use crate::control::Control;
 use crate::error::{Error, Result};
+use std::sync::Arc;
 
 /// The cost of changing an arc by 2 less twice that of changing it by 1, per use of the arc.
 const REPEATED_COST: f64 = 1.0;
@@ -25,7 +26,7 @@ const LEAST_GAIN: f64 = 1e-3;
 /// A quantisation that is being improved.
 #[derive(Debug, Clone)]
 pub(super) struct Quantisation {
-    pub(super) graph: ArcGraph,
+    pub(super) graph: Arc<ArcGraph>,
     /// Per arc the wanted length.
     wanted: Vec<f64>,
     /// Per arc the least number.
@@ -57,7 +58,14 @@ impl Quantisation {
     fn start(t_mesh: &TMesh, wanted: Vec<f64>, least: i64) -> Quantisation {
         let numbers = wanted.iter().map(|x| (x.round() as i64).max(least)).collect();
         let (least, surcharge) = (vec![least; wanted.len()], vec![0.0; wanted.len()]);
-        Quantisation { graph: ArcGraph::new(t_mesh), wanted, least, surcharge, squares_across: None, numbers }
+        Quantisation {
+            graph: Arc::new(ArcGraph::new(t_mesh)),
+            wanted,
+            least,
+            surcharge,
+            squares_across: None,
+            numbers,
+        }
     }
 
     /// What the first side of each rectangle has more than the opposite one, per direction.
@@ -122,10 +130,10 @@ impl Quantisation {
     }
 
     /// The squares along the first side of each rectangle's direction.
-    fn extents(&self) -> Vec<i64> {
+    fn extents(&self, numbers: &[i64]) -> Vec<i64> {
         let sum = |side: &Vec<HalfArc>| {
             let first = side.iter().filter(|&&h| self.graph.beside[h].is_some_and(|(_, sign)| sign > 0));
-            first.map(|h| self.numbers[h / 2]).sum()
+            first.map(|h| numbers[h / 2]).sum()
         };
         self.graph.sides.iter().map(sum).collect()
     }
@@ -133,18 +141,20 @@ impl Quantisation {
     /// Per arc the number of squares that come with a unit of it: half of those across the rectangles on both sides, which have another arc
     /// on the opposite side.
     fn counted_across(&self) -> Vec<f64> {
-        let extents = self.extents();
+        let extents = self.extents(&self.numbers);
         let across = |h: HalfArc| self.graph.beside[h].map_or(0.0, |(u, _)| 0.5 * extents[u ^ 1] as f64);
         (0..self.numbers.len()).map(|a| across(2 * a) + across(2 * a + 1)).collect()
     }
 
     /// What a descent lowers: the number of squares with the sum of all lengths, or the difference from the wanted lengths.
     pub fn value(&self) -> f64 {
-        if self.squares_across.is_none() {
-            return self.cost();
-        }
-        let squares: i64 = self.extents().as_chunks::<2>().0.iter().map(|[m, n]| m * n).sum();
-        squares as f64 + LENGTH_COST * self.numbers.iter().sum::<i64>() as f64
+        if self.squares_across.is_some() { self.squares_cost(&self.numbers) } else { self.cost() }
+    }
+
+    /// The number of squares of these numbers, with the sum of all lengths.
+    fn squares_cost(&self, numbers: &[i64]) -> f64 {
+        let squares: i64 = self.extents(numbers).as_chunks::<2>().0.iter().map(|[m, n]| m * n).sum();
+        squares as f64 + LENGTH_COST * numbers.iter().sum::<i64>() as f64
     }
 
     /// The cost of a change of an arc; infinite below the least number.
@@ -192,7 +202,7 @@ impl Quantisation {
             if after.iter().zip(&self.least).any(|(n, least)| n < least) {
                 return f64::INFINITY;
             }
-            return Quantisation { numbers: after, ..self.clone() }.value() - self.value();
+            return self.squares_cost(&after) - self.squares_cost(&self.numbers);
         }
         let mut changes: Vec<(usize, i64)> = walk.iter().map(|(h, change)| (h / 2, *change)).collect();
         changes.sort_unstable();

@@ -57,7 +57,7 @@ impl JobOutcome for ScanOutcome {
             .with("cones", self.seamless.cones.len())
             .with("features_left_out", self.seamless.left_out.len())
             // Fractions of the diagonal of the bounding box.
-            .with("rms", self.fit.to_target.rms.max(self.fit.of_vertices.rms))
+            .with("rms", self.fit.rms())
             .with("max", self.fit.max())
             .with("vertex_rms", self.fit.of_vertices.rms)
             .with("vertex_max", self.fit.of_vertices.max)
@@ -80,7 +80,7 @@ impl JobOutcome for ScanOutcome {
             say::count(space.n_control_points(), "control point", "control points"),
             self.fit.max(),
             self.fit.worst_patch(),
-            self.fit.to_target.rms.max(self.fit.of_vertices.rms),
+            self.fit.rms(),
             self.written.normal_jump.to_degrees(),
             self.fit.normal_error.to_degrees(),
             say::finish(done)

@@ -42,11 +42,8 @@ pub fn fit_few_patches(
             break;
         }
         let fit = fit_quad_layout(seamless, &layout, options, &of_attempt.part(0.2, 1.0))?;
-        let is_done = fit.folded_patches.is_empty() && fit.max() <= options.tolerance;
-        let is_better = |best: &LayoutFit| {
-            (fit.folded_patches.len(), fit.max()) < (best.fit.folded_patches.len(), best.fit.max())
-        };
-        if best.as_ref().is_none_or(is_better) {
+        let is_done = fit.is_within(options.tolerance);
+        if best.as_ref().is_none_or(|best| fit.is_better_than(&best.fit)) {
             best = Some(LayoutFit { layout, fit });
         }
         if is_done {

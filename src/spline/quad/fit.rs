@@ -77,6 +77,21 @@ impl QuadFit {
         self.to_target.max.max(self.of_vertices.max)
     }
 
+    /// The larger root of the mean square of both kinds, over the diagonal.
+    pub fn rms(&self) -> f64 {
+        self.to_target.rms.max(self.of_vertices.rms)
+    }
+
+    /// True if no patch is turned over and no distance is larger than this.
+    pub fn is_within(&self, tolerance: f64) -> bool {
+        self.folded_patches.is_empty() && self.max() <= tolerance
+    }
+
+    /// True if fewer patches are turned over than in another fit or, with equally many, the largest distance is less.
+    pub fn is_better_than(&self, other: &QuadFit) -> bool {
+        (self.folded_patches.len(), self.max()) < (other.folded_patches.len(), other.max())
+    }
+
     /// The patch with the largest distance.
     pub fn worst_patch(&self) -> usize {
         let by_size = |a: &usize, b: &usize| self.patch_max[*a].total_cmp(&self.patch_max[*b]);

@@ -1,8 +1,8 @@
 //! The surface under a layout, and the parts of it to which each patch is fitted.
 
-use super::target::SplineTarget;
+use super::target::{SplineTarget, TargetFaces};
 use crate::error::{Error, Result};
-use crate::mesh::{EdgeId, FaceId, Mesh, Point};
+use crate::mesh::{EdgeId, FaceId, Mesh};
 use crate::parallel;
 use crate::quads::QuadLayout;
 use crate::seamless::Seamless;
@@ -17,9 +17,7 @@ const LEAST_RINGS: usize = 3;
 /// A mesh in space with the creases over which patches do not reach.
 pub(super) struct FittedSurface<'a> {
     mesh: &'a Mesh,
-    positions: &'a [Point],
-    faces: Vec<[u32; 3]>,
-    creases: Vec<[u32; 2]>,
+    faces: TargetFaces<'a>,
     /// Per edge true on creases.
     is_crease: Vec<bool>,
     /// Rings of faces that belong to a patch around those on which its places lie.
@@ -28,12 +26,10 @@ pub(super) struct FittedSurface<'a> {
 
 impl<'a> FittedSurface<'a> {
     /// # Errors
-    /// [`Error::Layout`] for a surface without positions.
+    /// [`Error::Layout`] for a surface without positions; those of [`TargetFaces::new`].
     pub fn new(seamless: &'a Seamless, layout: &QuadLayout) -> Result<FittedSurface<'a>> {
         let solution = &seamless.solution;
-        let Some(positions) = solution.surface().positions() else {
-            return Err(Error::Layout("the surface has no positions in space".into()));
-        };
+        let positions = solution.surface().positions().ok_or_else(no_positions)?;
         let mesh = solution.given();
         let creases: Vec<EdgeId> =
             seamless.features.iter().copied().filter(|e| !layout.mesh.off_axis.contains(e)).collect();
@@ -42,9 +38,11 @@ impl<'a> FittedSurface<'a> {
         let faces_per_patch = mesh.n_faces() as f64 / layout.patches.len().max(1) as f64;
         Ok(FittedSurface {
             mesh,
-            positions,
-            faces: mesh.faces().map(|f| mesh.face_vertices(f).map(|v| v.0)).collect(),
-            creases: creases.iter().map(|&e| mesh.ends(e).map(|v| v.0)).collect(),
+            faces: TargetFaces::new(
+                positions,
+                mesh.faces().map(|f| mesh.face_vertices(f).map(|v| v.0)).collect(),
+                creases.iter().map(|&e| mesh.ends(e).map(|v| v.0)),
+            )?,
             is_crease,
             rings: LEAST_RINGS + (RINGS * faces_per_patch.sqrt()).ceil() as usize,
         })
@@ -64,7 +62,7 @@ impl<'a> FittedSurface<'a> {
     /// The target of patches that lie on these faces, each with the rings of faces around them that are not beyond creases.
     ///
     /// # Errors
-    /// Those of [`SplineTarget::of_patches`].
+    /// Those of [`TargetFaces::of_patches`].
     pub fn target(&self, faces: &[Vec<u32>]) -> Result<SplineTarget> {
         let around = |p: usize| {
             let mut region: BTreeSet<FaceId> = faces[p].iter().map(|&f| FaceId(f)).collect();
@@ -78,6 +76,11 @@ impl<'a> FittedSurface<'a> {
             region.into_iter().map(|f| f.0).collect()
         };
         let regions: Vec<Vec<u32>> = parallel::map(faces.len(), around);
-        SplineTarget::of_patches(self.positions, &self.faces, self.creases.iter().copied(), &regions)
+        self.faces.of_patches(&regions)
     }
+}
+
+/// The error where there is nothing in space to fit.
+pub(super) fn no_positions() -> Error {
+    Error::Layout("the surface has no positions in space, so there is nothing to fit".into())
 }

@@ -1,7 +1,7 @@
 //! Splines over the layouts of quad meshes: the lines between their irregular vertices bound the patches.
 
 use super::fit::{FitStart, QuadFit, QuadFitOptions, bilinear, fit_from};
-use super::fitted_surface::FittedSurface;
+use super::fitted_surface::{FittedSurface, no_positions};
 use super::layout::{ArcSide, PatchArc, PatchLayout};
 use super::space::QuadSplineSpace;
 use super::spline::QuadSpline;
@@ -66,11 +66,7 @@ pub fn fit_quad_layout(
     options: &LayoutFitOptions,
     control: &Control,
 ) -> Result<QuadFit> {
-    let Some(vertices) = layout.mesh.positions(&seamless.solution) else {
-        return Err(Error::Layout(
-            "the surface has no positions in space, so there is nothing to fit".into(),
-        ));
-    };
+    let vertices = layout.mesh.positions(&seamless.solution).ok_or_else(no_positions)?;
     parallel::within(options.fit.threads, || {
         let surface = FittedSurface::new(seamless, layout)?;
         let (vertices, target) = relaxed(layout, vertices, &surface, control)?;
@@ -111,8 +107,8 @@ impl LayoutStart<'_> {
             };
             let fit = fit_from(space, &from, &target, bending, &control.attempt(round))?;
             round += 1;
-            let (folds, is_near) = (fit.folded_patches.len(), fit.max() <= options.tolerance);
-            let is_better = |best: &QuadFit| (folds, fit.max()) < (best.folded_patches.len(), best.max());
+            let folds = fit.folded_patches.len();
+            let is_better = |best: &QuadFit| fit.is_better_than(best);
             let is_plain = spans.iter().all(|&n| n == 1);
             // More spans are of no use where they did not bring the last fit nearer.
             fruitless = match &best {
@@ -127,7 +123,7 @@ impl LayoutStart<'_> {
             } else {
                 bending = options.fit.bending;
                 let is_more = raise_spans(patches, &mut spans, &fit, options);
-                if (folds == 0 && is_near) || !is_more || fruitless > MOST_FRUITLESS {
+                if fit.is_within(options.tolerance) || !is_more || fruitless > MOST_FRUITLESS {
                     return Ok(match best {
                         Some(best) if !is_better(&best) => best,
                         _ => fit,
@@ -163,7 +159,7 @@ fn raise_spans(
     fit: &QuadFit,
     options: &LayoutFitOptions,
 ) -> bool {
-    let strips = strips(patches);
+    let strips = strips(patches.arcs().len(), patches.patches());
     let mut raised = BTreeSet::new();
     for (p, sides) in patches.patches().iter().enumerate() {
         if fit.patch_max[p] <= options.tolerance && !fit.folded_patches.contains(&p) {
@@ -192,13 +188,13 @@ fn raise_spans(
 }
 
 /// Per arc an arc of its strip, to which arcs belong that are opposite sides of patches, the same for all of them.
-fn strips(patches: &PatchLayout) -> Vec<u32> {
-    let mut same = UnionFind::new(patches.arcs().len());
-    for sides in patches.patches() {
+fn strips(n_arcs: usize, patches: &[[ArcSide; 4]]) -> Vec<usize> {
+    let mut same = UnionFind::new(n_arcs);
+    for sides in patches {
         same.join(sides[0].arc, sides[2].arc);
         same.join(sides[1].arc, sides[3].arc);
     }
-    (0..patches.arcs().len() as u32).map(|arc| same.root(arc)).collect()
+    (0..n_arcs as u32).map(|arc| same.root(arc) as usize).collect()
 }
 
 /// The vertices of the quads moved along the surface towards the means of their neighbours, so that quads around cones, where the flat metric
@@ -259,13 +255,10 @@ fn patch_layout(layout: &QuadLayout, vertices: &[Vector]) -> Result<PatchLayout>
         }
     };
     let mut patches = Vec::with_capacity(layout.patches.len());
-    let mut strips = UnionFind::new(layout.arcs.len());
     for (p, LayoutPatch { sides: [a, b, c, d], .. }) in layout.patches.iter().enumerate() {
-        let sides = [side(p, a)?, side(p, b)?, side(p, c)?, side(p, d)?];
-        strips.join(sides[0].arc, sides[2].arc);
-        strips.join(sides[1].arc, sides[3].arc);
-        patches.push(sides);
+        patches.push([side(p, a)?, side(p, b)?, side(p, c)?, side(p, d)?]);
     }
+    let strips = strips(layout.arcs.len(), &patches);
     let in_space = |arc: &LayoutArc| -> f64 {
         arc.vertices
             .windows(2)
@@ -275,13 +268,13 @@ fn patch_layout(layout: &QuadLayout, vertices: &[Vector]) -> Result<PatchLayout>
     let lengths: Vec<f64> = layout.arcs.iter().map(in_space).collect();
     let mut of_strip = vec![(0.0, 0.0); lengths.len()];
     for (k, length) in lengths.iter().enumerate() {
-        let (sum, count) = &mut of_strip[strips.root(k as u32) as usize];
+        let (sum, count) = &mut of_strip[strips[k]];
         (*sum, *count) = (*sum + length, *count + 1.0);
     }
     let unit = lengths.iter().sum::<f64>() / lengths.len().max(1) as f64;
     let mut arcs = Vec::with_capacity(lengths.len());
     for (k, LayoutArc { ends, is_crease, .. }) in layout.arcs.iter().enumerate() {
-        let (sum, count) = of_strip[strips.root(k as u32) as usize];
+        let (sum, count) = of_strip[strips[k]];
         arcs.push(PatchArc { ends: *ends, length: sum / count / unit, is_crease: *is_crease });
     }
     PatchLayout::new(layout.nodes.len(), arcs, patches)

@@ -1,10 +1,10 @@
 //! Places on splines over four-sided patches, and the surface at many of them.
 
-use super::quintic::{LOCAL, QuinticBasis};
+use super::quintic::QuinticBasis;
 use super::spline::QuadSpline;
 use crate::control::{Control, Stage};
 use crate::error::Result;
-use crate::geometry::vector::{Vector, add, scale};
+use crate::geometry::vector::Vector;
 use crate::parallel;
 use crate::spline::triangular::SurfacePoint;
 
@@ -42,16 +42,8 @@ impl QuadSpline {
         self.check_place(patch, parameters)?;
         let [m, n] = self.space().patch_spans(patch);
         let [along_u, along_v] = [QuinticBasis::at(m, parameters[0]), QuinticBasis::at(n, parameters[1])];
-        let (control, [_, side]) = (self.space().control(patch), self.space().sides(patch));
-        Ok([[3, 0], [2, 1], [1, 2], [0, 3]].map(|[of_u, of_v]| {
-            let mut sum = [0.0; 3];
-            for (k, l) in (0..LOCAL).flat_map(|k| (0..LOCAL).map(move |l| (k, l))) {
-                let number = control[(along_u.first + k) * side + along_v.first + l];
-                let weight = along_u.derivatives[of_u][k] * along_v.derivatives[of_v][l];
-                sum = add(sum, scale(weight, self.control_points()[number as usize]));
-            }
-            sum
-        }))
+        let orders = [[3, 0], [2, 1], [1, 2], [0, 3]];
+        Ok(orders.map(|of| self.derivative(patch, [&along_u, &along_v], of)))
     }
 }
 

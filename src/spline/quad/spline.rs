@@ -121,10 +121,19 @@ impl QuadSpline {
 
     /// The point where the basis functions of both directions are known.
     pub(super) fn point(&self, patch: usize, along: [&QuinticBasis; 2]) -> Vector {
-        let weights = along.map(|basis| &basis.derivatives[0]);
-        self.around(patch, along)
-            .zip(weights[0])
-            .fold([0.0; 3], |sum, (row, &weight)| add(sum, scale(weight, weighted(&row, weights[1]))))
+        self.derivative(patch, along, [0, 0])
+    }
+
+    /// The derivative of these orders along u and v where the basis functions of both directions are known.
+    pub(super) fn derivative(
+        &self,
+        patch: usize,
+        along: [&QuinticBasis; 2],
+        [of_u, of_v]: [usize; 2],
+    ) -> Vector {
+        let (weights, across) = (&along[0].derivatives[of_u], &along[1].derivatives[of_v]);
+        let rows = self.around(patch, along).zip(weights);
+        rows.fold([0.0; 3], |sum, (row, &weight)| add(sum, scale(weight, weighted(&row, across))))
     }
 
     /// The point with its derivatives where the basis functions of both directions are known.

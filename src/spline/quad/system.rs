@@ -15,8 +15,6 @@ use std::collections::BTreeMap;
 /// Places in every span and direction at which distances are taken. As many as the degree has coefficients would be interpolated, with large
 /// errors between them.
 const PLACES: usize = 2 * QUINTIC;
-/// The same in patches of several spans, each of which has half as many coefficients of its own.
-const PLACES_OF_SEVERAL: usize = 2 * QUINTIC;
 /// Pairs of unknowns beyond which repeated ones are dropped on the way.
 const MOST_PAIRS: usize = 1 << 24;
 /// Number of control points that a place depends on.
@@ -176,16 +174,15 @@ impl<'a> QuadSystem<'a> {
         for place in self.places(p) {
             let FootPoint { point, normal } = (goal.foot)(p, &place);
             let tensor = tensor(normal, [weights.normal, weights.tangential], a * b * place.weight);
-            sum.add(&place, &tensor, point);
+            sum.add(&place.basis, &tensor, point);
         }
         sum.bend(weights.bending, self.space.patch_spans(p).map(|spans| &self.along[&spans]));
         let spans = self.space.patch_spans(p);
         for NearestToVertex { vertex, normal, parameters } in &goal.vertices[p] {
             let basis = [0, 1].map(|k| QuinticBasis::at(spans[k], parameters[k]));
-            let place = FitPlace { basis, parameters: *parameters, weight: vertex.share };
             let weight = VERTICES * self.area * vertex.share;
             let tensor = tensor(*normal, [weights.normal, weights.tangential], weight);
-            sum.add(&place, &tensor, vertex.point);
+            sum.add(&basis, &tensor, vertex.point);
         }
         self.extracted(p, &sum.matrix, &sum.right)
     }
@@ -221,15 +218,12 @@ impl<'a> QuadSystem<'a> {
     }
 }
 
-impl FitPlace {
-    /// The control points around the place, by ascending numbers in the patch, with their weights.
-    fn terms(&self, side: usize) -> [(usize, f64); AROUND] {
-        let [u, v] = &self.basis;
-        std::array::from_fn(|t| {
-            let (k, l) = (t / LOCAL, t % LOCAL);
-            ((u.first + k) * side + v.first + l, u.derivatives[0][k] * v.derivatives[0][l])
-        })
-    }
+/// The control points that count where these basis functions do, by ascending numbers in the patch, with their weights.
+fn terms([u, v]: &[QuinticBasis; 2], side: usize) -> [(usize, f64); AROUND] {
+    std::array::from_fn(|t| {
+        let (k, l) = (t / LOCAL, t % LOCAL);
+        ((u.first + k) * side + v.first + l, u.derivatives[0][k] * v.derivatives[0][l])
+    })
 }
 
 /// The lengths in parameters of the first two sides of a patch.
@@ -240,7 +234,7 @@ fn lengths(space: &QuadSplineSpace, patch: usize) -> [f64; 2] {
 impl SpanDirection {
     /// The direction with the places of Gauss in every span, at which products of derivatives are integrated exactly.
     fn new(spans: usize) -> SpanDirection {
-        let in_span = gauss_legendre(if spans == 1 { PLACES } else { PLACES_OF_SEVERAL });
+        let in_span = gauss_legendre(PLACES);
         let place = |s: usize, [x, w]: [f64; 2]| {
             let parameter = (s as f64 + x) / spans as f64;
             SpanPlace { basis: QuinticBasis::at(spans, parameter), parameter, weight: w / spans as f64 }
@@ -284,10 +278,10 @@ impl PatchSum {
     }
 
     /// Adds the squared distance of a place from a point.
-    fn add(&mut self, place: &FitPlace, tensor: &[f64; 6], point: Vector) {
+    fn add(&mut self, basis: &[QuinticBasis; 2], tensor: &[f64; 6], point: Vector) {
         let m = self.right.len();
         let pulled = product(tensor, point);
-        let terms = place.terms(self.sides[1]);
+        let terms = terms(basis, self.sides[1]);
         for (number, (i, value)) in terms.into_iter().enumerate() {
             self.right[i] = [0, 1, 2].map(|x| self.right[i][x] + value * pulled[x]);
             for &(j, other) in &terms[..=number] {

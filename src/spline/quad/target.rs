@@ -61,14 +61,15 @@ impl SplineTarget {
     pub fn new(positions: &[Point], faces: &[[u32; 3]], crease: f64) -> Result<SplineTarget> {
         check_faces(positions, faces)?;
         let features = Features::new(positions, faces, crease);
-        let sharp = features.edges.iter().map(|edge| ascending(edge.vertices)).collect();
+        let sharp: BTreeSet<[u32; 2]> = features.edges.iter().map(|edge| ascending(edge.vertices)).collect();
+        let all = TargetFaces::new(positions, faces.to_vec(), sharp.iter().copied())?;
         let mut parts: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
         pieces(faces, &sharp)
             .into_iter()
             .enumerate()
             .for_each(|(f, k)| parts.entry(k).or_default().push(f as u32));
         let parts: Vec<Vec<u32>> = parts.into_values().collect();
-        Ok(SplineTarget::divided(positions, faces, &sharp, &parts))
+        Ok(all.divided(&parts))
     }
 
     /// The target of a layout whose patches each lie on these faces; normals are continuous but across sharp edges.
@@ -81,45 +82,7 @@ impl SplineTarget {
         sharp: impl Iterator<Item = [u32; 2]>,
         patches: &[Vec<u32>],
     ) -> Result<SplineTarget> {
-        check_faces(positions, faces)?;
-        if let Some(index) = patches.iter().position(Vec::is_empty) {
-            let message = "no face of the target belongs to it".into();
-            return Err(Error::Spline { what: "patch of the target", index, message });
-        }
-        let sharp = sharp.map(ascending).collect();
-        let target = SplineTarget::divided(positions, faces, &sharp, patches);
-        Ok(SplineTarget { is_by_patch: true, ..target })
-    }
-
-    fn divided(
-        positions: &[Point],
-        faces: &[[u32; 3]],
-        sharp: &BTreeSet<[u32; 2]>,
-        parts: &[Vec<u32>],
-    ) -> SplineTarget {
-        let normals = corner_normals(positions, faces, sharp);
-        let triangle = |&f: &u32| {
-            let corners = faces[f as usize].map(|v| positions[v as usize]);
-            TargetTriangle { corners, normals: normals[f as usize] }
-        };
-        let shares = area_shares(positions, faces);
-        let vertex = |number: u32| TargetVertex {
-            number,
-            point: positions[number as usize],
-            share: shares[number as usize],
-        };
-        let piece = |part: &Vec<u32>| {
-            let triangles: Vec<TargetTriangle> = part.iter().map(triangle).collect();
-            let mut by_number = BTreeMap::new();
-            for (&f, k) in part.iter().flat_map(|f| (0..3).map(move |k| (f, k))) {
-                by_number.entry(faces[f as usize][k]).or_insert(normals[f as usize][k]);
-            }
-            let vertices = by_number.into_iter().map(|(v, normal)| (vertex(v), normal)).collect();
-            let tree = TriangleTree::new(triangles.iter().map(|t| t.corners).collect());
-            SmoothPiece { faces: part.clone(), triangles, tree, vertices }
-        };
-        let pieces = parts.iter().map(piece).collect();
-        SplineTarget { pieces, diagonal: crate::geometry::vector::diagonal(positions), is_by_patch: false }
+        TargetFaces::new(positions, faces.to_vec(), sharp)?.of_patches(patches)
     }
 
     /// Number of smooth pieces.
@@ -162,6 +125,68 @@ impl SplineTarget {
         let nearest = self.pieces[piece].nearest(point);
         let normal = nearest.normal();
         FootPoint { point: sub(point, scale(offset(&nearest, normal, point), normal)), normal }
+    }
+}
+
+/// The faces of a target, from which pieces are taken.
+pub(super) struct TargetFaces<'a> {
+    positions: &'a [Point],
+    faces: Vec<[u32; 3]>,
+    /// The unit normals at the corners of each face.
+    normals: Vec<[Vector; 3]>,
+    /// Per vertex its share of the area.
+    shares: Vec<f64>,
+}
+
+impl<'a> TargetFaces<'a> {
+    /// # Errors
+    /// [`Error::Size`] for a corner that does not exist; [`Error::Spline`] for a face without area, or no face.
+    pub fn new(
+        positions: &'a [Point],
+        faces: Vec<[u32; 3]>,
+        sharp: impl Iterator<Item = [u32; 2]>,
+    ) -> Result<TargetFaces<'a>> {
+        check_faces(positions, &faces)?;
+        let sharp = sharp.map(ascending).collect();
+        let (normals, shares) = (corner_normals(positions, &faces, &sharp), area_shares(positions, &faces));
+        Ok(TargetFaces { positions, faces, normals, shares })
+    }
+
+    /// The target of patches that each lie on these faces.
+    ///
+    /// # Errors
+    /// [`Error::Spline`] for a patch without faces.
+    pub fn of_patches(&self, patches: &[Vec<u32>]) -> Result<SplineTarget> {
+        if let Some(index) = patches.iter().position(Vec::is_empty) {
+            let message = "no face of the target belongs to it".into();
+            return Err(Error::Spline { what: "patch of the target", index, message });
+        }
+        Ok(SplineTarget { is_by_patch: true, ..self.divided(patches) })
+    }
+
+    fn divided(&self, parts: &[Vec<u32>]) -> SplineTarget {
+        let TargetFaces { positions, faces, normals, shares } = self;
+        let triangle = |&f: &u32| {
+            let corners = faces[f as usize].map(|v| positions[v as usize]);
+            TargetTriangle { corners, normals: normals[f as usize] }
+        };
+        let vertex = |number: u32| TargetVertex {
+            number,
+            point: positions[number as usize],
+            share: shares[number as usize],
+        };
+        let piece = |part: &Vec<u32>| {
+            let triangles: Vec<TargetTriangle> = part.iter().map(triangle).collect();
+            let mut by_number = BTreeMap::new();
+            for (&f, k) in part.iter().flat_map(|f| (0..3).map(move |k| (f, k))) {
+                by_number.entry(faces[f as usize][k]).or_insert(normals[f as usize][k]);
+            }
+            let vertices = by_number.into_iter().map(|(v, normal)| (vertex(v), normal)).collect();
+            let tree = TriangleTree::new(triangles.iter().map(|t| t.corners).collect());
+            SmoothPiece { faces: part.clone(), triangles, tree, vertices }
+        };
+        let pieces = parts.iter().map(piece).collect();
+        SplineTarget { pieces, diagonal: crate::geometry::vector::diagonal(positions), is_by_patch: false }
     }
 }
 
