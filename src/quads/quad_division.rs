@@ -87,12 +87,25 @@ impl<'a> QuadDivision<'a> {
         let quantisation = coarsened(&found.quantisation, separation, control)?;
         let coarsest = SizedNumbers { quantisation, edge: found.edge };
         let least = self.n_squares(&coarsest);
-        if matches!(size, QuadSize::AtMost(most) if least > most) {
+        if let QuadSize::AtMost(most) = size
+            && least > most
+        {
             return Err(Error::Layout(format!(
                 "the fewest quads that were found are {least}, more than asked for"
             )));
         }
-        if is_embedded(coarsest)? || is_embedded(found)? {
+        if is_embedded(coarsest)? {
+            return Ok(());
+        }
+        if let QuadSize::AtMost(most) = size {
+            if self.n_squares(&found) <= most && is_embedded(found)? {
+                return Ok(());
+            }
+            let message =
+                format!("those of at most {most} quads that were found fold on the surface: ask for more");
+            return Err(Error::Layout(message));
+        }
+        if is_embedded(found)? {
             return Ok(());
         }
         for factor in FINER_EDGES {

@@ -35,7 +35,11 @@ pub fn fit_few_patches(
         let size = if more == 1 { QuadSize::Coarse } else { QuadSize::AtMost(more * least) };
         let of_attempt = control.attempt(k);
         let sized = QuadOptions { size, threads: options.fit.threads };
-        let layout = quad_layout(seamless, &sized, &of_attempt.part(0.0, 0.2))?;
+        let layout = match quad_layout(seamless, &sized, &of_attempt.part(0.0, 0.2)) {
+            // There need not be another layout.
+            Err(Error::Layout(_)) if best.is_some() => break,
+            other => other?,
+        };
         if more == 1 {
             least = layout.patches.len();
         } else if layout.patches.len() <= least {

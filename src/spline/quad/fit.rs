@@ -207,9 +207,12 @@ fn vertex_error(vertices: &[Vec<NearestToVertex>], spline: &QuadSpline) -> f64 {
     parallel::map(vertices.len(), of_patch).into_iter().sum::<f64>().sqrt()
 }
 
-/// The vertices at the nearest places of their patches, as these are now.
+/// The vertices at the nearest places of their patches, as these are now, but those that are nearer to another patch.
 fn moved_nearer(vertices: &[Vec<NearestToVertex>], spline: &QuadSpline) -> Vec<Vec<NearestToVertex>> {
-    let of_patch = |p: usize| vertices[p].iter().map(|place| place.nearer(spline, p)).collect();
+    let of_patch = |p: usize| {
+        let moved = vertices[p].iter().map(|place| place.nearer(spline, p));
+        moved.filter(|place| !place.is_beyond(spline, p)).collect()
+    };
     parallel::map(vertices.len(), of_patch)
 }
 

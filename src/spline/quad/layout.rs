@@ -228,7 +228,7 @@ impl PatchLayout {
     }
 
     /// The side on the other side of one's arc; none at creases and the border.
-    fn smooth_neighbour(&self, at: PatchCorner) -> Option<PatchCorner> {
+    pub(super) fn smooth_neighbour(&self, at: PatchCorner) -> Option<PatchCorner> {
         let side = self.patches[at.patch][at.corner];
         let is_smooth = !self.arcs[side.arc as usize].is_crease;
         self.beside[side.arc as usize][usize::from(!side.reversed)].filter(|_| is_smooth)

@@ -1,17 +1,21 @@
 //! The places of patches that are nearest to the vertices of a target: parts of it that no place of a patch has as its foot, as the tip of
 //! a limb, are seen from there only.
 
+use super::layout::PatchCorner;
 use super::spline::QuadSpline;
 use super::target::{SplineTarget, TargetVertex};
 use crate::geometry::triangle_tree::TriangleTree;
 use crate::geometry::vector::{Vector, distance, dot, sub};
 use crate::parallel;
+use crate::spline::triangular::SurfacePoint;
 use std::collections::BTreeMap;
 
 /// Parts of a side of a patch between which triangles are laid to find nearest places.
 const PARTS: usize = 16;
 /// Steps towards the nearest place of a patch.
 const STEPS: usize = 4;
+/// Parameters by which a nearer place has to be beyond a side to be counted there.
+const BEYOND: f64 = 1e-9;
 /// Squared sine of the angle between parameter lines below which they have no common tangent plane.
 const PARALLEL: f64 = 1e-12;
 
@@ -96,21 +100,40 @@ fn halves([i, j]: [usize; 2]) -> [[[f64; 2]; 3]; 2] {
 }
 
 impl NearestToVertex {
+    /// True if a nearer place is beyond a side of the patch, in a patch that continues the surface smoothly: seen from the side alone, the vertex
+    /// is farther off than it is.
+    pub fn is_beyond(&self, spline: &QuadSpline, patch: usize) -> bool {
+        let Some(whole) = self.whole_step(&spline.at(patch, self.parameters)) else { return false };
+        let beyond = [-whole[1], whole[0] - 1.0, whole[1] - 1.0, -whole[0]];
+        let layout = spline.space().layout();
+        (0..4).any(|corner| {
+            beyond[corner] > BEYOND && layout.smooth_neighbour(PatchCorner { patch, corner }).is_some()
+        })
+    }
+
+    /// The parameters after a step of Gauss and Newton from this point of the place, in the patch or not; none without a tangent plane.
+    fn whole_step(&self, at: &SurfacePoint) -> Option<[f64; 2]> {
+        let to = sub(self.vertex.point, at.point);
+        let [by_u, by_v] = at.first;
+        let [a, b, c] = [dot(by_u, by_u), dot(by_u, by_v), dot(by_v, by_v)];
+        let [p, q] = [dot(by_u, to), dot(by_v, to)];
+        let determinant = a * c - b * b;
+        let [u, v] = self.parameters;
+        let whole = || [u + (c * p - b * q) / determinant, v + (a * q - b * p) / determinant];
+        (determinant > PARALLEL * a * c).then(whole)
+    }
+
     /// The place moved to the nearest one of its patch, by steps of Gauss and Newton as long as they come nearer.
     pub fn nearer(self, spline: &QuadSpline, patch: usize) -> NearestToVertex {
         let mut best = self;
         let mut at = spline.at(patch, best.parameters);
         for _ in 0..STEPS {
+            let Some(whole) = best.whole_step(&at) else { break };
             let to = sub(self.vertex.point, at.point);
             let [by_u, by_v] = at.first;
             let [a, b, c] = [dot(by_u, by_u), dot(by_u, by_v), dot(by_v, by_v)];
             let [p, q] = [dot(by_u, to), dot(by_v, to)];
-            let determinant = a * c - b * b;
-            if determinant <= PARALLEL * a * c {
-                break;
-            }
             let [u, v] = best.parameters;
-            let whole = [u + (c * p - b * q) / determinant, v + (a * q - b * p) / determinant];
             let mut moved = whole.map(|x| x.clamp(0.0, 1.0));
             // On a side of the patch the other parameter goes to the nearest place of that side.
             if moved[0] != whole[0] && moved[1] == whole[1] {

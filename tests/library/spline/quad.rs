@@ -283,11 +283,11 @@ fn errors(spline: &QuadSpline) -> [f64; 3] {
 fn an_ellipsoid_is_met_from_its_mesh_to_second_order_of_the_mesh_and_better() {
     let fine = fitted_ellipsoid(24, 1, 0);
     let after = errors(&fine.spline);
-    // Meshes so coarse that their own error counts, not that of the space.
-    let [coarse, finer] = [6, 12].map(|n| errors(&fitted_ellipsoid(n, 1, 0).spline));
+    // The space of one span is the limit on these meshes, that of two is not.
+    let [coarse, finer] = [12, 24].map(|n| errors(&fitted_ellipsoid(n, 2, 0).spline));
     assert!(fine.folded_patches.is_empty() && fine.spline.space().n_control_points() == 352);
     assert!(after[0] < 4e-6 && after[1] < 0.03 && after[2] < 0.006, "{after:?}");
-    assert!(coarse[0] / finer[0] > 4.0 && finer[0] > after[0], "{coarse:?} {finer:?} {after:?}");
+    assert!(coarse[0] / finer[0] > 4.0 && finer[0] < after[0], "{coarse:?} {finer:?} {after:?}");
     let [gap, turn] = jumps(&fine.spline);
     assert!(gap < 1e-14 && turn < 1e-11, "{gap}, {turn}");
     assert!(fine.spline.normal_jump() < 1e-10, "{}", fine.spline.normal_jump());
@@ -395,7 +395,7 @@ fn a_torus_is_met_with_the_order_of_its_degree() {
     };
     let [coarse, fine] = [error(1), error(2)];
     println!("torus {coarse:.2e} {fine:.2e}");
-    assert!(coarse / fine > 11.0, "{coarse} {fine}");
+    assert!(coarse / fine > 16.0, "{coarse} {fine}");
 }
 
 #[cfg(feature = "step")]
