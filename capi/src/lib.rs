@@ -70,6 +70,7 @@ pub mod matching;
 pub mod mesh;
 pub mod metric;
 #[cfg(feature = "quads")]
+#[cfg_attr(not(feature = "splines"), allow(dead_code, reason = "what splines over layouts read"))]
 pub mod quad_layout;
 #[cfg(all(feature = "quads", feature = "splines"))]
 pub mod quad_patch;
@@ -80,6 +81,7 @@ pub mod quad_spline_file;
 #[cfg(all(feature = "quads", feature = "splines"))]
 pub mod quad_spline_places;
 #[cfg(feature = "quads")]
+#[cfg_attr(not(feature = "splines"), allow(dead_code, reason = "what splines over layouts read"))]
 pub mod quads;
 pub mod quality;
 pub mod refine;

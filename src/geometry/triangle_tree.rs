@@ -63,13 +63,8 @@ pub(crate) fn combined(weights: [f64; 3], [a, b, c]: [Vector; 3]) -> Vector {
     [0, 1, 2].map(|x| weights[0] * a[x] + weights[1] * b[x] + weights[2] * c[x])
 }
 
-/// The distance of a point from a triangle; NaN if it has no area.
-pub(crate) fn triangle_distance(corners: [Vector; 3], point: Vector) -> f64 {
-    norm(sub(combined(nearest_weights(corners, point), corners), point))
-}
-
 /// The barycentric coordinates of the point of a triangle that is nearest to a point [Eri05, §5.1.5].
-fn nearest_weights([a, b, c]: [Vector; 3], point: Vector) -> [f64; 3] {
+pub(crate) fn nearest_weights([a, b, c]: [Vector; 3], point: Vector) -> [f64; 3] {
     let (ab, ac) = (sub(b, a), sub(c, a));
     let normal = cross(ab, ac);
     let square = dot(normal, normal);

@@ -12,7 +12,7 @@ use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::bounds::Bounds;
 use crate::geometry::boxes::{BoundsNode, BoundsTree};
-use crate::geometry::triangle_tree::triangle_distance;
+use crate::geometry::triangle_tree::{combined, nearest_weights};
 use crate::geometry::vector::{Vector, add, distance, dot, lerp, scale, triangle_normal};
 use crate::geometry::z_order::z_order;
 use crate::mesh::Point;
@@ -298,4 +298,9 @@ impl NearestPlaces {
             NearestPlace { place: PatchPlace { patch, parameters }, point, distance }
         })
     }
+}
+
+/// The distance of a point from a triangle; NaN if it has no area.
+fn triangle_distance(corners: [Vector; 3], point: Vector) -> f64 {
+    distance(combined(nearest_weights(corners, point), corners), point)
 }

@@ -21,8 +21,6 @@ const STEPS: usize = 14;
 /// Most further steps with the last weights, and the share of the distance of the vertices below which one has to bring it for another to follow.
 const MORE_STEPS: usize = 12;
 const SETTLED: f64 = 0.93;
-/// The step with which fits from other splines begin.
-const LATE_STEP: usize = 8;
 /// The weights of bending and of tangential distance at the first step, and the latter at the last one.
 const FIRST_BENDING: f64 = 1e-5;
 const FIRST_TANGENTIAL: f64 = 1e-2;
@@ -103,26 +101,16 @@ impl QuadFit {
 pub(super) type StartMap<'a> = &'a (dyn Fn(usize, [f64; 2]) -> Vector + Sync);
 
 /// What a fit starts from.
-pub(super) enum FitStart<'a> {
-    /// A map whose parameter lines may cross otherwise than those of splines: all steps are taken.
-    Map(StartMap<'a>),
-    /// A spline over the same layout with fewer spans: only the last steps are taken.
-    Spline(&'a QuadSpline),
+pub(super) struct FitStart<'a> {
+    pub map: StartMap<'a>,
+    /// The first of the steps that are taken.
+    pub first_step: usize,
 }
 
-impl FitStart<'_> {
-    fn at(&self, patch: usize, uv: [f64; 2]) -> Vector {
-        match self {
-            FitStart::Map(map) => map(patch, uv),
-            FitStart::Spline(spline) => spline.point_at(patch, uv),
-        }
-    }
-
-    fn first_step(&self) -> usize {
-        match self {
-            FitStart::Map(_) => 0,
-            FitStart::Spline(_) => LATE_STEP,
-        }
+impl<'a> FitStart<'a> {
+    /// From a map whose parameter lines may cross otherwise than those of splines: all steps are taken.
+    pub fn of_map(map: StartMap<'a>) -> FitStart<'a> {
+        FitStart { map, first_step: 0 }
     }
 }
 
@@ -142,7 +130,7 @@ pub fn fit_quads(
     control: &Control,
 ) -> Result<QuadFit> {
     parallel::within(options.threads, || {
-        fit_from(space, &FitStart::Map(start), target, options.bending, control)
+        fit_from(space, &FitStart::of_map(start), target, options.bending, control)
     })
 }
 
@@ -160,11 +148,11 @@ pub(super) fn fit_from(
     control.step(Stage::Layout, 0.0)?;
     let mut system = QuadSystem::new(&space)?;
     let patches = space.layout().patches().len();
-    let pieces = parallel::map(patches, |p| target.piece_of_patch(p, start.at(p, [0.5, 0.5])));
-    let first_step = start.first_step();
+    let pieces = parallel::map(patches, |p| target.piece_of_patch(p, (start.map)(p, [0.5, 0.5])));
+    let first_step = start.first_step;
     let first = FitWeights { normal: 0.0, tangential: 1.0, ..weights_of(first_step, bending) };
     let to_start =
-        |p: usize, place: &FitPlace| FootPoint { point: start.at(p, place.parameters), normal: [0.0; 3] };
+        |p: usize, place: &FitPlace| FootPoint { point: (start.map)(p, place.parameters), normal: [0.0; 3] };
     let free =
         system.solve(&FitGoal { weights: first, foot: &to_start, vertices: &vec![Vec::new(); patches] })?;
     let mut spline = QuadSpline::of_free(space.clone(), &free)?;

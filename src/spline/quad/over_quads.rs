@@ -16,6 +16,8 @@ use crate::seamless::Seamless;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
+/// The step with which fits from other splines begin.
+const LATE_STEP: usize = 8;
 /// Rounds in which the vertices of the quads move, and the share of the way to the mean of their neighbours.
 const RELAXATIONS: usize = 120;
 const RELAXATIONS_TO_TARGET: usize = 20;
@@ -101,10 +103,10 @@ impl LayoutStart<'_> {
         let (mut round, mut fruitless) = (0, 0);
         loop {
             let space = Arc::new(QuadSplineSpace::with_spans(patches.clone(), spans.clone())?);
-            let from = match &best {
-                Some(best) if best.folded_patches.is_empty() => FitStart::Spline(&best.spline),
-                _ => FitStart::Map(&start),
-            };
+            let whole = best.as_ref().filter(|best| best.folded_patches.is_empty());
+            let last =
+                |p: usize, uv: [f64; 2]| whole.map_or_else(|| start(p, uv), |fit| fit.spline.point_at(p, uv));
+            let from = FitStart { map: &last, first_step: if whole.is_some() { LATE_STEP } else { 0 } };
             let fit = fit_from(space, &from, &target, bending, &control.attempt(round))?;
             round += 1;
             let folds = fit.folded_patches.len();

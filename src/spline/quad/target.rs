@@ -29,6 +29,7 @@ pub(super) struct TargetVertex {
 /// A smooth piece of the target.
 struct SmoothPiece {
     /// Per triangle its face of the target.
+    #[cfg(feature = "quads")]
     faces: Vec<u32>,
     triangles: Vec<TargetTriangle>,
     tree: TriangleTree,
@@ -115,6 +116,7 @@ impl SplineTarget {
     }
 
     /// The face of a piece that is nearest to a point.
+    #[cfg(feature = "quads")]
     pub(super) fn face_near(&self, piece: usize, point: Vector) -> u32 {
         let piece = &self.pieces[piece];
         piece.faces[piece.tree.nearest(point).triangle]
@@ -183,7 +185,13 @@ impl<'a> TargetFaces<'a> {
             }
             let vertices = by_number.into_iter().map(|(v, normal)| (vertex(v), normal)).collect();
             let tree = TriangleTree::new(triangles.iter().map(|t| t.corners).collect());
-            SmoothPiece { faces: part.clone(), triangles, tree, vertices }
+            SmoothPiece {
+                #[cfg(feature = "quads")]
+                faces: part.clone(),
+                triangles,
+                tree,
+                vertices,
+            }
         };
         let pieces = parts.iter().map(piece).collect();
         SplineTarget { pieces, diagonal: crate::geometry::vector::diagonal(positions), is_by_patch: false }
