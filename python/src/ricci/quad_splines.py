@@ -34,7 +34,8 @@ class QuadSplineOptions(TypedDict, total=False):
     """Options of fits over layouts.
 
     Attributes:
-        tolerance: largest distance between spline and surface over the diagonal; patches that are farther off get more spans. 0.001.
+        tolerance: largest distance between spline and surface over the diagonal; patches that are farther off get more spans. 0.001 or, where
+            that is more, four times the noise of the surface.
         bending: the weight of bending, up to 1e-5: 1e-8 suits scans with a noise of a thousandth of the diagonal. 1e-8; 0: none.
         most_spans: most spans of a patch in each direction, up to 32; 4.
         threads: one per core. The result does not depend on it.

@@ -92,7 +92,9 @@ class QuadSplineSummary:
         vertex_max: the largest of these distances.
         normal_error: the largest angle between the normals of spline and surface, radians.
         normal_jump: the largest angle between normals on both sides of an arc that is no crease, radians.
-        converged: distances are within the tolerance that was asked for, and no patch is turned over.
+        noise: the standard deviation of the noise of the surface's vertices over the diagonal, as their heights over the spline tell.
+        tolerance: over the diagonal: the one that was asked for, else as in the options.
+        converged: distances are within the tolerance, and no patch is turned over.
     """
 
     n_patches: int
@@ -111,4 +113,6 @@ class QuadSplineSummary:
     vertex_max: float
     normal_error: float
     normal_jump: float
+    noise: float
+    tolerance: float
     converged: bool
