@@ -199,15 +199,17 @@ fn measured(spline: QuadSpline, pieces: &[usize], target: &SplineTarget) -> Quad
     let sum = |squares: &dyn Fn(&PatchDistances) -> f64| found.iter().map(squares).sum::<f64>();
     let most = |largest: &dyn Fn(&PatchDistances) -> f64| found.iter().map(largest).fold(0.0f64, f64::max);
     let cosine = found.iter().fold(1.0f64, |least, patch| least.min(patch.cosine));
+    // Noise is what is left, or less.
+    let vertex_rms = sum(&|patch| patch.vertex_squares).sqrt();
     let heights = found.iter().flat_map(|patch| patch.heights.iter().copied()).collect();
     QuadFit {
-        noise: noise_of(&heights, target.edges()) / diagonal,
+        noise: noise_of(&heights, target.edges()).min(vertex_rms) / diagonal,
         to_target: FitDistances {
             rms: (sum(&|patch| patch.squares) / places).sqrt() / diagonal,
             max: most(&|patch| patch.largest) / diagonal,
         },
         of_vertices: FitDistances {
-            rms: sum(&|patch| patch.vertex_squares).sqrt() / diagonal,
+            rms: vertex_rms / diagonal,
             max: most(&|patch| patch.vertex_largest) / diagonal,
         },
         patch_max: found.iter().map(|patch| patch.largest.max(patch.vertex_largest) / diagonal).collect(),
