@@ -1,6 +1,5 @@
 //! The smoothest field of four directions on a closed surface \[KCPS13\], and its cones.
 
-use super::signature::MOST_CURVED;
 use crate::control::{Control, Stage};
 use crate::error::{Error, Result};
 use crate::geometry::complex::{Complex, conj, mul};
@@ -11,15 +10,18 @@ use crate::mesh::{FaceId, HalfedgeId, Mesh, PerHalfedge, PerVertex, VertexId};
 use crate::metric::Surface;
 use crate::metric::delaunay::{IntrinsicOptions, Triangulated, intrinsic_delaunay};
 use crate::metric::lengths::face_lengths;
+use std::collections::BTreeSet;
 use std::f64::consts::{PI, TAU};
 
 /// Steps of inverse iteration towards the field of least energy.
 const STEPS: usize = 30;
+/// Quarter turns of the most curved cone: around one with two quads both would share two edges.
+const MOST_CURVED_OF_FIELD: i32 = 1;
 /// Shift of the energy, relative to its mean diagonal: the energy of a parallel field is 0.
 const SHIFT: f64 = 1e-9;
 
 /// The curvature of the cones of the smoothest field of four directions, in quarter turns per vertex (V entries, total 4χ). A cone that lies
-/// inside a triangle goes to the corner whose own curvature is nearest to what it has then.
+/// inside a triangle goes to the corner whose own curvature is nearest to what it has then, or near it, so that all have three quads or more.
 ///
 /// # Errors
 /// Those of [`intrinsic_delaunay`]; [`Error::Factorisation`]; [`Error::Cancelled`].
@@ -160,18 +162,33 @@ impl VertexFrames<'_> {
             let index = self.index(f, field);
             let sign = index.signum();
             for _ in 0..index.abs() {
-                let corners = self.mesh.face_vertices(f);
                 let off = |v: VertexId| (f64::from(cones[v] + sign) - self.curvature[v] / (TAU / 4.0)).abs();
-                let best = corners
-                    .into_iter()
-                    .filter(|&v| cones[v] + sign <= MOST_CURVED)
-                    .min_by(|&a, &b| off(a).total_cmp(&off(b)));
-                if let Some(v) = best {
+                let is_blunt = |v: &VertexId| cones[*v] + sign <= MOST_CURVED_OF_FIELD;
+                let corners = self.mesh.face_vertices(f).into_iter().filter(is_blunt);
+                let best = corners.min_by(|&a, &b| off(a).total_cmp(&off(b)));
+                if let Some(v) = best.or_else(|| self.nearest(f, is_blunt)) {
                     cones[v] += sign;
                 }
             }
         }
         cones
+    }
+
+    /// The first of these vertices in the order of breadth from a triangle.
+    fn nearest(&self, f: FaceId, is_asked: impl Fn(&VertexId) -> bool) -> Option<VertexId> {
+        let mut found = self.mesh.face_vertices(f).to_vec();
+        let mut seen: BTreeSet<VertexId> = found.iter().copied().collect();
+        let mut next = 0;
+        while next < found.len() {
+            let v = found[next];
+            if is_asked(&v) {
+                return Some(v);
+            }
+            let around = self.mesh.outgoing(v).map(|h| self.mesh.tip(h));
+            found.extend(around.filter(|&w| seen.insert(w)));
+            next += 1;
+        }
+        None
     }
 
     /// The index of the field in a triangle, quarter turns: `(4Ω + Σ ω)/2π`, Ω being the scaled angles' excess over π and ω the turn of the

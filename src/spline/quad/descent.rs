@@ -112,7 +112,7 @@ pub(super) fn descend(
             log::debug!(
                 "fit: bending {bending:.1e}, tangential {tangential:.1e}, energy {energy:.3e}, {folded} folded"
             );
-            if folded <= at.folded() && energy <= before {
+            if energy <= before && (folded == 0 || at.folded() > 0) {
                 break Some(next);
             }
             tangential *= AFTER_REFUSAL;
