@@ -8,7 +8,7 @@ from page import build, file_of, loops, main, meshes, plain, seconds, small, tab
 # Vertices of the meshes.
 LEAST, MOST = 1000, 13_000
 # Most seconds of a run.
-LONGEST = 150
+LONGEST = 100
 
 HEAD = ["mesh", "V", "genus", "cones", "faces", "spans", "distance: most, rms", "noise", "folded", "normals of neighbours, °", "MB", "s", "holds"]
 

@@ -4,6 +4,7 @@
 //! otherwise, so the surface has to slide along itself. A weight of the way along the surface keeps places where their feet are known: it falls
 //! after steps that come nearer and rises after those that do not, which are not taken [Mar63].
 
+use super::layout::PatchCorner;
 use super::nearest::{NearestToVertex, vertex_places};
 use super::spline::QuadSpline;
 use super::system::{FitGoal, FitWeights, QuadSystem};
@@ -19,6 +20,8 @@ const STEPS: usize = 14;
 const MORE_STEPS: usize = 12;
 const SETTLED: f64 = 0.96;
 const FIRST_BENDING: f64 = 1e-5;
+/// Steps between the weights of bending with which a start is tried.
+const SOFTER: usize = 3;
 /// The weights of the distance along the surface: the first, the least, and the one beyond which no step comes nearer.
 const FIRST_TANGENTIAL: f64 = 1e-2;
 const LEAST_TANGENTIAL: f64 = 1e-6;
@@ -87,43 +90,45 @@ struct FitIterate {
     bending: f64,
 }
 
-/// The spline after steps of a fit from another one.
+/// The spline after steps of a fit. `feet`: per patch the points where its places are at first.
 ///
 /// # Errors
 /// [`Error::Factorisation`]; [`Error::Cancelled`].
 pub(super) fn descend(
-    system: &mut QuadSystem<'_>,
-    from: QuadSpline,
+    system: &mut QuadSystem,
+    feet: &[Vec<FootPoint>],
     target: &FitTarget<'_>,
     bendings: &Bendings,
     control: &Control,
 ) -> Result<QuadSpline> {
-    let mut at = FitIterate::new(system, from, target);
-    let mut tangential = FIRST_TANGENTIAL;
+    let (skipped, mut at) = stiffest_start(system, feet, target, bendings)?;
+    let mut tangential = vec![FIRST_TANGENTIAL; at.patches.len()];
     let most = bendings.steps() + MORE_STEPS;
-    for step in 0..most {
+    for step in skipped..most {
         control.step(Stage::Layout, (step + 1) as f64 / (most + 2) as f64)?;
         let bending = bendings.at(step);
         let before = at.energy(bending);
         let next = loop {
-            let spline = at.solved(system, FitWeights { normal: 1.0, tangential, bending })?;
+            let spline = at.solved(system, FitWeights { normal: 1.0, bending }, &tangential)?;
             let next = FitIterate::new(system, spline, target);
             let (energy, folded) = (next.energy(bending), next.folded());
-            log::debug!(
-                "fit: bending {bending:.1e}, tangential {tangential:.1e}, energy {energy:.3e}, {folded} folded"
-            );
-            if energy <= before && (folded == 0 || at.folded() > 0) {
+            log::debug!("fit: bending {bending:.1e}, energy {energy:.3e}, {folded} folded");
+            if folded <= at.folded() && energy <= before {
                 break Some(next);
             }
-            tangential *= AFTER_REFUSAL;
-            if tangential > MOST_TANGENTIAL {
+            let is_held =
+                if energy <= before { next.around_new_folds(&at) } else { vec![true; tangential.len()] };
+            for (weight, _) in tangential.iter_mut().zip(is_held).filter(|(_, is_held)| *is_held) {
+                *weight *= AFTER_REFUSAL;
+            }
+            if tangential.iter().any(|&weight| weight > MOST_TANGENTIAL) {
                 break None;
             }
             control.check()?;
         };
         let Some(next) = next else { break };
         at = next;
-        tangential = (tangential * AFTER_STEP).max(LEAST_TANGENTIAL);
+        tangential.iter_mut().for_each(|weight| *weight = (*weight * AFTER_STEP).max(LEAST_TANGENTIAL));
         if step >= bendings.steps() && at.energy(bending) > SETTLED * SETTLED * before {
             break;
         }
@@ -131,8 +136,39 @@ pub(super) fn descend(
     Ok(at.spline)
 }
 
+/// The spline that is nearest to the feet, with the largest weight of bending with which no patch is turned over, or else the fewest are; and the
+/// number of steps before that with this weight. Stiff splines cross sides as they have to and do not reach into thin limbs; soft ones do.
+fn stiffest_start(
+    system: &mut QuadSystem,
+    feet: &[Vec<FootPoint>],
+    target: &FitTarget<'_>,
+    bendings: &Bendings,
+) -> Result<(usize, FitIterate)> {
+    let mut with_bending_of = |step: usize| {
+        let goal = FitGoal {
+            weights: FitWeights { normal: 0.0, bending: bendings.at(step) },
+            tangential: &vec![1.0; feet.len()],
+            feet: &|p| &feet[p],
+            vertices: &|_| &[],
+        };
+        let free = system.solve(&goal)?;
+        Ok(FitIterate::new(system, QuadSpline::of_free(system.space().clone(), &free)?, target))
+    };
+    let mut best = (0, with_bending_of(0)?);
+    for step in (SOFTER..=bendings.steps()).step_by(SOFTER) {
+        if best.1.folded() == 0 {
+            break;
+        }
+        let found = with_bending_of(step)?;
+        if found.folded() < best.1.folded() {
+            best = (step, found);
+        }
+    }
+    Ok(best)
+}
+
 impl FitIterate {
-    fn new(system: &QuadSystem<'_>, spline: QuadSpline, target: &FitTarget<'_>) -> FitIterate {
+    fn new(system: &QuadSystem, spline: QuadSpline, target: &FitTarget<'_>) -> FitIterate {
         // All patches are searched at every step: vertices that are held in a patch from which they have moved away make it fold.
         let nearest = vertex_places(target.target, target.pieces, &|p, uv| spline.point_at(p, uv));
         let patch = |p: usize| PatchIterate::new(system, &spline, p, target, &nearest[p]);
@@ -140,16 +176,27 @@ impl FitIterate {
         FitIterate { patches, bending: system.bending_of(&spline), spline }
     }
 
-    fn solved(&self, system: &mut QuadSystem<'_>, weights: FitWeights) -> Result<QuadSpline> {
+    /// The spline of the next step. `tangential`: per patch the weight of the way along the surface.
+    fn solved(&self, system: &mut QuadSystem, weights: FitWeights, tangential: &[f64]) -> Result<QuadSpline> {
         let feet = |p: usize| &self.patches[p].feet[..];
         let vertices = |p: usize| &self.patches[p].vertices[..];
-        let free = system.solve(&FitGoal { weights, feet: &feet, vertices: &vertices })?;
-        QuadSpline::of_free(self.spline.space().clone(), &free)
+        let free = system.solve(&FitGoal { weights, tangential, feet: &feet, vertices: &vertices })?;
+        QuadSpline::of_free(system.space().clone(), &free)
     }
 
     /// What is to be least, with this weight of bending.
     fn energy(&self, bending: f64) -> f64 {
         self.patches.iter().map(|patch| patch.squares).sum::<f64>() + bending * self.bending
+    }
+
+    /// Per patch true if it is turned over and was not before, or is beside one.
+    fn around_new_folds(&self, before: &FitIterate) -> Vec<bool> {
+        let layout = self.spline.space().layout();
+        let is_new = |p: usize| self.patches[p].is_folded && !before.patches[p].is_folded;
+        let beside = |p: usize| {
+            (0..4).filter_map(move |corner| layout.smooth_neighbour(PatchCorner { patch: p, corner }))
+        };
+        (0..self.patches.len()).map(|p| is_new(p) || beside(p).any(|at| is_new(at.patch))).collect()
     }
 
     /// The number of patches that are turned over somewhere.
@@ -160,7 +207,7 @@ impl FitIterate {
 
 impl PatchIterate {
     fn new(
-        system: &QuadSystem<'_>,
+        system: &QuadSystem,
         spline: &QuadSpline,
         p: usize,
         target: &FitTarget<'_>,

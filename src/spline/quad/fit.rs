@@ -6,7 +6,7 @@ use super::noise::noise_of;
 use super::quintic::QuinticBasis;
 use super::space::QuadSplineSpace;
 use super::spline::QuadSpline;
-use super::system::{FitGoal, FitPlace, FitWeights, QuadSystem};
+use super::system::{FitPlace, QuadSystem};
 use super::target::{FootPoint, SplineTarget};
 use crate::control::{Control, Stage};
 use crate::error::Result;
@@ -135,17 +135,14 @@ pub(super) fn fit_from(
 ) -> Result<QuadFit> {
     let bendings = Bendings::new(bending, start.first_step)?;
     control.step(Stage::Layout, 0.0)?;
-    let mut system = QuadSystem::new(&space)?;
+    let mut system = QuadSystem::new(space.clone())?;
     let patches = space.layout().patches().len();
     let pieces = parallel::map(patches, |p| target.piece_of_patch(p, (start.map)(p, [0.5, 0.5])));
     let at_start =
         |p: usize, place: &FitPlace| FootPoint { point: (start.map)(p, place.parameters), normal: [0.0; 3] };
     let feet =
         parallel::map(patches, |p| system.places(p).map(|place| at_start(p, &place)).collect::<Vec<_>>());
-    let weights = FitWeights { normal: 0.0, tangential: 1.0, bending: bendings.at(0) };
-    let free = system.solve(&FitGoal { weights, feet: &|p| &feet[p], vertices: &|_| &[] })?;
-    let spline = QuadSpline::of_free(space.clone(), &free)?;
-    let spline = descend(&mut system, spline, &FitTarget { target, pieces: &pieces }, &bendings, control)?;
+    let spline = descend(&mut system, &feet, &FitTarget { target, pieces: &pieces }, &bendings, control)?;
     let fit = measured(spline, &pieces, target);
     control.step(Stage::Layout, 1.0)?;
     Ok(fit)

@@ -12,6 +12,7 @@ use crate::geometry::vector::{Vector, dot, sub};
 use crate::linalg::{Cholesky, Pattern, Symmetric};
 use crate::parallel;
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// Places in every span and direction at which distances are taken. As many as the degree has coefficients would be interpolated, with large
 /// errors between them.
@@ -34,8 +35,6 @@ const VERTICES: f64 = 1.0;
 pub(super) struct FitWeights {
     /// That of the squared distance from the tangent plane at the foot.
     pub normal: f64,
-    /// That of the squared distance from the foot.
-    pub tangential: f64,
     /// That of ∫ S_uu² + 2 S_uv² + S_vv² over the rectangles of the parameters.
     pub bending: f64,
 }
@@ -67,14 +66,16 @@ pub(super) struct FitPlace {
 /// What a fit comes near: a foot for every place of a patch, and for every patch the vertices of the target that are nearest to it.
 pub(super) struct FitGoal<'a> {
     pub weights: FitWeights,
+    /// Per patch the weight of the squared distance from the foot.
+    pub tangential: &'a [f64],
     /// Those of the places of a patch, in order.
     pub feet: &'a (dyn Fn(usize) -> &'a [FootPoint] + Sync),
     pub vertices: &'a (dyn Fn(usize) -> &'a [NearestToVertex] + Sync),
 }
 
 /// The normal equations of fits over a space. Unknown 3 k + c is coordinate c of the free control point k.
-pub(super) struct QuadSystem<'a> {
-    space: &'a QuadSplineSpace,
+pub(super) struct QuadSystem {
+    space: Arc<QuadSplineSpace>,
     /// By numbers of spans the directions of patches.
     along: BTreeMap<usize, SpanDirection>,
     /// The area of all patches in parameters.
@@ -92,9 +93,9 @@ struct PatchEquations {
     right: Vec<Vector>,
 }
 
-impl<'a> QuadSystem<'a> {
-    pub fn new(space: &'a QuadSplineSpace) -> Result<QuadSystem<'a>> {
-        let free: Vec<Vec<u32>> = (0..space.layout().patches().len()).map(|p| free_of(space, p)).collect();
+impl QuadSystem {
+    pub fn new(space: Arc<QuadSplineSpace>) -> Result<QuadSystem> {
+        let free: Vec<Vec<u32>> = (0..space.layout().patches().len()).map(|p| free_of(&space, p)).collect();
         let mut pairs = Vec::new();
         for of_patch in &free {
             let unknowns: Vec<u32> = of_patch.iter().flat_map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
@@ -110,9 +111,14 @@ impl<'a> QuadSystem<'a> {
         let pattern = Pattern::new(3 * space.dimension(), &pairs)?;
         let cholesky = Cholesky::analyse(&pattern)?;
         let along = space.spans().iter().map(|&spans| (spans, SpanDirection::new(spans))).collect();
-        let of_patch = |p: usize| lengths(space, p).iter().product::<f64>();
+        let of_patch = |p: usize| lengths(&space, p).iter().product::<f64>();
         let area = (0..space.layout().patches().len()).map(of_patch).sum();
         Ok(QuadSystem { space, along, area, free, pattern, cholesky })
+    }
+
+    /// The space of the splines.
+    pub fn space(&self) -> &Arc<QuadSplineSpace> {
+        &self.space
     }
 
     /// The free control points at which the weighted sum of squares is least.
@@ -178,7 +184,7 @@ impl<'a> QuadSystem<'a> {
         vertices: &[NearestToVertex],
     ) -> f64 {
         let square = |a: Vector, b: Vector| sub(a, b).map(|x| x * x).iter().sum::<f64>();
-        let [a, b] = lengths(self.space, p);
+        let [a, b] = lengths(&self.space, p);
         let of_place = |(place, foot): (FitPlace, &FootPoint)| {
             a * b * place.weight * square(spline.point(p, [&place.basis[0], &place.basis[1]]), foot.point)
         };
@@ -191,7 +197,7 @@ impl<'a> QuadSystem<'a> {
     /// ∫ S_uu² + 2 S_uv² + S_vv² over the rectangles of the parameters.
     pub fn bending_of(&self, spline: &QuadSpline) -> f64 {
         let of_patch = |p: usize| {
-            let mut sum = PatchSum::new(self.space.sides(p), lengths(self.space, p));
+            let mut sum = PatchSum::new(self.space.sides(p), lengths(&self.space, p));
             sum.bend(1.0, self.space.patch_spans(p).map(|spans| &self.along[&spans]));
             let net: Vec<Vector> = spline.net(p).into_iter().flatten().collect();
             let m = net.len();
@@ -207,10 +213,11 @@ impl<'a> QuadSystem<'a> {
     /// The equations of a patch on the free control points.
     fn of_patch(&self, p: usize, goal: &FitGoal<'_>) -> PatchEquations {
         let weights = goal.weights;
-        let mut sum = PatchSum::new(self.space.sides(p), lengths(self.space, p));
+        let of_distance = [weights.normal, goal.tangential[p]];
+        let mut sum = PatchSum::new(self.space.sides(p), lengths(&self.space, p));
         let [a, b] = sum.lengths;
         for (place, &FootPoint { point, normal }) in self.places(p).zip((goal.feet)(p)) {
-            let tensor = tensor(normal, [weights.normal, weights.tangential], a * b * place.weight);
+            let tensor = tensor(normal, of_distance, a * b * place.weight);
             sum.add(&place.basis, &tensor, point);
         }
         sum.bend(weights.bending, self.space.patch_spans(p).map(|spans| &self.along[&spans]));
@@ -218,7 +225,7 @@ impl<'a> QuadSystem<'a> {
         for NearestToVertex { vertex, normal, parameters } in (goal.vertices)(p) {
             let basis = [0, 1].map(|k| QuinticBasis::at(spans[k], parameters[k]));
             let weight = VERTICES * self.area * vertex.share;
-            let tensor = tensor(*normal, [weights.normal, weights.tangential], weight);
+            let tensor = tensor(*normal, of_distance, weight);
             sum.add(&basis, &tensor, vertex.point);
         }
         self.extracted(p, &sum.matrix, &sum.right)
