@@ -197,7 +197,7 @@ sys.path.insert(0, {tests!r})
 import cohort_jobs, ricci
 if __name__ == "__main__":
     try:
-        ricci.cohort({files!r}, cohort_jobs.works_long, "out", engine={engine!r}, workers=2)
+        ricci.cohort({files!r}, cohort_jobs.WorksLong("out/at"), "out", engine={engine!r}, workers=2)
     except KeyboardInterrupt:
         print("stopped", flush=True)
     time.sleep(60)
@@ -210,9 +210,18 @@ def children(pid):
     return psutil.Process(pid).children(recursive=True)
 
 
+def works(child):
+    """True of a process that has not ended and is no helper of the standard library."""
+    psutil = pytest.importorskip("psutil")
+    try:
+        return child.status() != psutil.STATUS_ZOMBIE and "resource_tracker" not in " ".join(child.cmdline())
+    except psutil.Error:
+        return False
+
+
 def serving(process):
-    """Its children that are at work, without helpers of the standard library."""
-    return [child for child in children(process.pid) if "resource_tracker" not in " ".join(child.cmdline())]
+    """Its children that are at work."""
+    return [child for child in children(process.pid) if works(child)]
 
 
 def wait_for(condition, seconds=30):
@@ -228,17 +237,24 @@ def hear_interrupts():
 
 
 @pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL])
-def test_no_worker_outlives_a_run_that_is_stopped(files, tmp_path, how):
-    psutil = pytest.importorskip("psutil")
+@pytest.mark.parametrize("engine", ["processes", "dask"])
+def test_no_worker_outlives_a_run_that_is_stopped(files, tmp_path, engine, how):
+    """For longer than a second, though they are in the middle of their meshes; what was done before is kept."""
+    if engine == "dask":
+        pytest.importorskip("distributed")
     script = tmp_path / "run.py"
-    script.write_text(STOPPED.format(tests=os.path.dirname(cohort_jobs.__file__), files=files, engine="processes"))
+
+    def kept():
+        return list((tmp_path / "out" / "rows").glob("*.results"))
+
+    script.write_text(STOPPED.format(tests=os.path.dirname(cohort_jobs.__file__), files=files, engine=engine))
     process = subprocess.Popen([sys.executable, str(script)], cwd=tmp_path, stdout=subprocess.PIPE, preexec_fn=hear_interrupts)
     try:
-        wait_for(lambda: len(serving(process)) == 2 and (tmp_path / "out" / "job.json").exists())
-        time.sleep(0.5)
+        wait_for(lambda: (len(list((tmp_path / "out" / "at").glob("*"))), len(kept())) == (2, 1))
         workers = serving(process)
         process.send_signal(how)
-        wait_for(lambda: not any(worker.is_running() and worker.status() != psutil.STATUS_ZOMBIE for worker in workers), 30)
+        wait_for(lambda: not any(map(works, workers)), 1)
+        assert len(kept()) == 1
         if how == signal.SIGINT:
             assert process.stdout.readline() == b"stopped\n"
     finally:

@@ -171,7 +171,14 @@ def _vertex_uv(mesh: Mesh) -> npt.NDArray[Any] | None:
 
 
 def _at_vertices(mesh: Mesh, fields: dict[str, Any]) -> dict[str, Any]:
-    """The attributes of the vertices by name, and the caller's fields."""
+    """The attributes of the vertices by name, and the caller's fields.
+
+    Raises:
+        ArgumentError: a field that has not one row for each vertex.
+    """
+    for name, values in fields.items():
+        if np.shape(values)[:1] != (mesh.n_vertices,):
+            raise ArgumentError(f"{name} has shape {np.shape(values)}, {mesh.n_vertices} rows are needed")
     own = {"normals": mesh.normals, "colors": mesh.colors}
     return {**{name: np.array(values) for name, values in own.items() if values is not None}, **fields}
 

@@ -12,7 +12,7 @@ from ricci import _arrays
 from ricci._call import Complexes, constant, doubles, pointer
 from ricci._library import lib
 from ricci._structs import Struct, Write, known, number, options, real_list
-from ricci.errors import ArgumentError
+from ricci.errors import ArgumentError, ArgumentTypeError
 from ricci.mesh import Mesh
 
 __all__ = ["ChangeOptions", "ShapeOptions", "change", "hyperelliptic_periods", "make"]
@@ -134,8 +134,11 @@ def _sizes(shape: str, given: Mapping[str, Any]) -> dict[str, Any]:
 
 def _pairs(points: npt.ArrayLike) -> npt.NDArray[np.float64]:
     """Complex numbers as rows of real and imaginary parts."""
-    array = np.ascontiguousarray(points, dtype=np.complex128)
-    return array.view(np.float64).reshape(-1, 2)
+    array = np.asarray(points)
+    if array.dtype.kind not in "biufc" or array.ndim != 1:
+        what = "texts" if array.dtype.kind in "US" else f"{array.dtype} of shape {array.shape}"
+        raise ArgumentTypeError(f"points are {what}: a list of complex numbers is needed")
+    return np.ascontiguousarray(array, dtype=np.complex128).view(np.float64).reshape(-1, 2)
 
 
 def _points(struct: Struct, field: str, value: Any) -> None:

@@ -11,8 +11,8 @@ from pathlib import Path
 from typing import Any, Literal, TypedDict, Unpack
 
 from ricci._structs import known
-from ricci.cohorts.engines import engine_of
-from ricci.cohorts.jobs import Job, Outcome, Row, one, repaired, signature
+from ricci.cohorts.engines import engine_of, inline
+from ricci.cohorts.jobs import Job, Outcome, Row, content_of, one, repaired, signature
 from ricci.errors import ArgumentError, ArgumentTypeError
 from ricci.mesh import Mesh, read
 
@@ -43,7 +43,8 @@ class CohortResult:
 
     Attributes:
         folder: with `results.parquet` and `reports.parquet`.
-        results: a `pyarrow.Table`, one row for each mesh: path, ok, error, status, element, index, amount, message, and the job's columns.
+        results: a `pyarrow.Table`, one row for each mesh: path, content (a digest of the file's bytes), ok, error, status, element, index,
+            amount, message, and the job's columns.
         reports: likewise: path, worker, seconds, and what else differs from run to run.
     """
 
@@ -59,6 +60,17 @@ class CohortResult:
         return self.results.select(names).filter(wrong).to_pylist()
 
 
+def _is_done(path: str, told: Mapping[str, tuple[bool, str | None]], retry: bool) -> bool:
+    """True of a mesh with a row that is of its file as it is now; of one that failed, unless such are tried again."""
+    if path not in told:
+        return False
+    ok, content = told[path]
+    if retry and not ok:
+        return False
+    # A file that only the workers can read has no content here, and is taken to be what it was.
+    return content_of(path) in (None, content)
+
+
 def cohort(
     paths: Iterable[str | os.PathLike[str]],
     job: Job | Callable[[Any], Outcome | Mapping[str, Any]],
@@ -69,8 +81,8 @@ def cohort(
 
     Each mesh is one row as soon as it is done; a run that was killed goes on where it stopped when it is called again, and its tables are
     those of a run in one go, but for the reports' seconds. What fails on one mesh, a worker's death included, is that row's error. A folder
-    goes on with its own job alone: one whose code has changed, or a number that it uses, is refused there. That a file has changed since is
-    not noticed: another version of the files wants another folder.
+    goes on with its own job alone: one whose code has changed, or a number that it uses, is refused there. A file whose bytes have changed
+    since is done again; of a file that names others, such as a .gltf with its .bin, that are its own bytes alone.
 
     Args:
         paths: mesh files, each once.
@@ -101,10 +113,11 @@ def cohort(
     by = "" if reader in (read, Mesh.read) else f" read by {signature(reader)}"
     store = Store(Path(out), signature(job) + by)
     told = store.done()
-    todo = [name for name in names if name not in told or (how.get("retry", False) and not told[name])]
+    todo = [name for name in names if not _is_done(name, told, how.get("retry", False))]
     done, tell = len(names) - len(todo), how.get("progress")
-    # Closed however the run ends, so that no worker is left.
-    with closing(engine(partial(one, job, reader), todo, workers or os.cpu_count() or 1)) as rows:
+    work = partial(one, job, reader)
+    # Closed however the run ends, so that no worker is left. Where nothing is to be done, no engine starts.
+    with closing(engine(work, todo, workers or os.cpu_count() or 1) if todo else inline(work, [], 1)) as rows:
         for row in rows:
             store.add(row)
             done += 1

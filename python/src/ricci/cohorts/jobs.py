@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 import os
 import threading
@@ -203,26 +204,37 @@ def plain(value: Any) -> Any:
 _NO_ERROR: dict[str, Any] = dict.fromkeys(("error", "status", "element", "index", "amount", "message"))
 
 
-def failed(path: str, wrong: BaseException) -> Row:
-    """The row of a mesh on which the job failed, or whose worker died."""
+def content_of(path: str) -> str | None:
+    """A digest of the bytes of a file, 32 hexadecimal digits; None where there is no such file, or it cannot be read."""
+    try:
+        with open(path, "rb") as file:
+            return hashlib.file_digest(file, lambda: hashlib.blake2b(digest_size=16)).hexdigest()
+    except (OSError, ValueError):
+        return None
+
+
+def failed(path: str, wrong: BaseException, content: str | None) -> Row:
+    """The row of a mesh with this content on which the job failed, or whose worker died."""
     found = {**_NO_ERROR, "error": type(wrong).__name__, "message": str(wrong)}
     if isinstance(wrong, RicciError):
         found |= {"status": wrong.status.name, "element": wrong.element, "index": wrong.index, "amount": wrong.amount}
-    return Row(path, {"path": path, "ok": False, **found}, {"path": path, "worker": os.getpid()})
+    return Row(path, {"path": path, "content": content, "ok": False, **found}, {"path": path, "worker": os.getpid()})
 
 
 def one(job: Callable[[Any], Outcome | Mapping[str, Any]], read: Callable[[str], Any], path: str) -> Row:
     """Read one mesh and do the job; whatever goes wrong becomes a row."""
     start = time.perf_counter()
+    # Before the file is read: one that changes meanwhile has another content afterwards, and is done again by the next run.
+    content = content_of(path)
     try:
         found = job(read(path))
         outcome = found if isinstance(found, Outcome) else Outcome(found, {})
         result = {name: plain(value) for name, value in outcome.result.items()}
         report = {name: plain(value) for name, value in outcome.report.items()}
     except Exception as wrong:
-        row = failed(path, wrong)
+        row = failed(path, wrong, content)
     else:
-        head = {"path": path, "ok": True, **_NO_ERROR}
+        head = {"path": path, "content": content, "ok": True, **_NO_ERROR}
         row = Row(path, {**result, **head}, {**report, "path": path, "worker": os.getpid()})
     row.report["seconds"] = time.perf_counter() - start
     return row
