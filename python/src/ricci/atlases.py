@@ -15,7 +15,7 @@ from ricci._call import CONTROL, Doubles, Handle, Indices, call, constant, doubl
 from ricci._library import ffi, lib
 from ricci._structs import Write, above_zero, choice, one_index, options
 from ricci.adapters import MeshLike, as_mesh
-from ricci.control import Progress
+from ricci.control import Progress, stages
 from ricci.errors import ArgumentError
 from ricci.figures import StructureSummary
 from ricci.figures.names import StructureKind
@@ -218,4 +218,5 @@ def structures(V: MeshLike, F: npt.ArrayLike | None = None, progress: Progress =
         kinds += ["hyperbolic", "projective"]
     elif mesh.summary.n_boundary_loops == 0 and mesh.genus == 0:
         kinds += ["spherical"]
-    return {kind: structure(mesh, kind=kind, progress=progress) for kind in kinds}
+    parts = stages(progress, [(k + 1) / len(kinds) for k in range(len(kinds))])
+    return {kind: structure(mesh, kind=kind, progress=part) for kind, part in zip(kinds, parts, strict=True)}

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Generator, Sequence
 from typing import Any, TypeAlias
 
 from ricci._library import ffi, lib
@@ -37,6 +37,7 @@ class Control:
             raise last_failure(status)
         self._pointer: Any = ffi.gc(made[0], lib.ricci_control_free)
         self._callback = callback
+        self._part = (0.0, 1.0)
 
     def __reduce__(self) -> Any:
         raise TypeError("a ricci.Control belongs to the calls of its own process, so that pickle cannot take it")
@@ -63,6 +64,7 @@ class Control:
             ArgumentError: unless 0 <= start <= end <= 1.
         """
         check(lib.ricci_control_part(self._pointer, start, end))
+        self._part = (start, end)
 
     def progress(self) -> tuple[str, float]:
         """The stage that the call is in, and the fraction of the whole call that is done, in [0, 1]."""
@@ -82,6 +84,27 @@ class Control:
 
 
 Progress: TypeAlias = "Control | Callable[[str, float], object] | None"
+
+
+def stages(progress: Progress, ends: Sequence[float]) -> Generator[Progress, None, None]:
+    """The progress of several calls in a row, each of which fills its part of the bar.
+
+    Args:
+        progress: of the whole.
+        ends: the fraction of the whole that is done after each call, ascending; the last is 1.
+    """
+    if progress is None:
+        yield from (None for _ in ends)
+        return
+    control = progress if isinstance(progress, Control) else Control(progress)
+    (first, last), start = control._part, 0.0
+    try:
+        for end in ends:
+            control.set_part(first + start * (last - first), first + end * (last - first))
+            start = end
+            yield control
+    finally:
+        control.set_part(first, last)
 
 
 class _Running:

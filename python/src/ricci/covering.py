@@ -15,7 +15,7 @@ from ricci._call import CONTROL, Complexes, Doubles, Handle, Indices, Signed, co
 from ricci._library import lib
 from ricci._structs import Struct, Write, known, nested, number, options
 from ricci.adapters import MeshLike
-from ricci.control import Progress
+from ricci.control import Progress, stages
 from ricci.errors import ArgumentError
 from ricci.figures import DeckSummary, DirichletSummary
 from ricci.figures.names import Model
@@ -205,14 +205,18 @@ def cover(V: MeshLike, F: npt.ArrayLike | None = None, progress: Progress = None
     known(given, CoverOptions.__annotations__)
     if "radius" in given and "depth" in given:
         raise ArgumentError("depth and radius: name one of them")
-    uniform = V if isinstance(V, Uniform) else uniformize(V, F, progress)
+    # Most of the time goes into the flow, where there is one.
+    parts = stages(progress, [0.3, 0.6, 1.0] if isinstance(V, Uniform) else [0.8, 0.85, 0.9, 1.0])
+    uniform = V if isinstance(V, Uniform) else uniformize(V, F, next(parts))
     limit = given.get("limit", LIMIT)
     if "depth" not in given and "radius" not in given:
-        across = {tuple(word.tolist()): None for word in deck(uniform, progress, kind="sides").words}
+        across = {tuple(word.tolist()): None for word in deck(uniform, next(parts), kind="sides").words}
         across.pop((), None)
-        found = deck(uniform, progress, kind="words", words=[(), *across])
+        found = deck(uniform, next(parts), kind="words", words=[(), *across])
     elif "radius" in given:
-        found = deck(uniform, progress, kind="within", dirichlet=dirichlet(uniform), radius=given["radius"], limit=limit)
+        domain = dirichlet(uniform, progress=next(parts))
+        found = deck(uniform, next(parts), kind="within", dirichlet=domain, radius=given["radius"], limit=limit)
     else:
-        found = deck(uniform, progress, kind="depth", depth=given["depth"], limit=limit)
-    return Cover(uniform, uniform.layout("refinement", progress=progress), found)
+        next(parts)
+        found = deck(uniform, next(parts), kind="depth", depth=given["depth"], limit=limit)
+    return Cover(uniform, uniform.layout("refinement", progress=next(parts)), found)

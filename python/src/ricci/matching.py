@@ -14,10 +14,10 @@ from ricci._arrays import frozen
 from ricci._call import CONTROL, Doubles, Handle, Indices, call, constant, doubles, filled, pointer, summary
 from ricci._labels import are_labels, heaviest
 from ricci._library import lib
-from ricci._structs import Struct, Write, above_zero, choice, index_list, options, real_list
+from ricci._structs import Struct, Write, above_zero, choice, index_list, known, options, real_list
 from ricci.adapters import MeshLike, as_mesh
 from ricci.control import Progress
-from ricci.errors import ArgumentError
+from ricci.errors import ArgumentError, ArgumentTypeError
 from ricci.figures import MatchingSummary
 from ricci.maps import Map
 from ricci.mesh import Mesh
@@ -55,6 +55,8 @@ class MatchOptions(TypedDict, total=False):
         loop_shape: boundary loops of surfaces with handles become ``"geodesics"``, or ``"circles"`` of a closed flat or hyperbolic surface.
         basis: pairs of closed edge paths that name the homotopy class, on surfaces with handles.
         threads: one per core. The result does not depend on it.
+        mirror: true if the map turns the surface over, as from a left half of a brain to a right one: the mirror image of the source is
+            mapped. All options and results have the numbers of the source itself.
     """
 
     landmarks: npt.ArrayLike
@@ -67,6 +69,7 @@ class MatchOptions(TypedDict, total=False):
     loop_shape: Literal["geodesics", "circles"]
     basis: Pairs
     threads: int
+    mirror: bool
 
 
 def _direction(name: Direction) -> int:
@@ -110,12 +113,37 @@ _MATCH: dict[str, Write] = {
 }
 
 
+# The corners of a face of the mirror image.
+_TURNED = [0, 2, 1]
+
+
+def _of_mirrored(given: dict[str, Any], source: Mesh, image: Mesh) -> dict[str, Any]:
+    """Options that speak of a surface, as they are for its mirror image: other orders of corners, of boundary loops and of edges."""
+    found = dict(given)
+    if given.get("points") is not None:
+        weights = _arrays.real(given["points"]["weights"]).copy()
+        weights[:, 0] = weights[:, 0][:, _TURNED]
+        found["points"] = {**given["points"], "weights": weights}
+    if np.shape(given.get("loops", ())) == (len(source.boundary),):
+        first = {int(loop.min()): k for k, loop in enumerate(source.boundary)}
+        found["loops"] = [given["loops"][first[int(loop.min())]] for loop in image.boundary]
+    if given.get("basis") is not None:
+        edges = np.empty(source.summary.n_edges, np.int32)
+        ours, theirs = source.face_edges[:, _TURNED], image.face_edges
+        # In the image a face runs along its edges the other way round.
+        edges[np.abs(ours) - 1] = -np.sign(ours) * theirs
+        found["basis"] = [([int(np.sign(e)) * int(edges[abs(e) - 1]) for e in path], other) for path, other in given["basis"]]
+    return found
+
+
 class Matching(Handle):
     """A map between two surfaces and its inverse; no face folds. It never changes."""
 
     # The surfaces, whose faces labels are looked up in.
     _source: Mesh
     _target: Mesh
+    # Whether the map turns the source over: then the library has its mirror image, whose faces have two corners exchanged.
+    _mirror: bool = False
 
     _type: ClassVar[str] = "matching"
     _made_by: ClassVar[str] = "ricci.match(source, target)"
@@ -132,7 +160,8 @@ class Matching(Handle):
 
     def weights(self, direction: Direction = "forward") -> Doubles:
         """n x 3 barycentric coordinates of the images in their faces, not negative, with the sum 1."""
-        return doubles(lib.ricci_matching_weights, self, _direction(direction), shape=(self._size(direction), 3))
+        found = doubles(lib.ricci_matching_weights, self, _direction(direction), shape=(self._size(direction), 3))
+        return found[:, _TURNED] if self._mirror and direction == "backward" else found
 
     def carry(self, values: npt.ArrayLike, direction: Direction = "forward", labels: bool | None = None) -> npt.NDArray[Any]:
         """Values at the vertices of the surface that the map leads to (n, or n x k), brought to those where it comes from.
@@ -173,7 +202,10 @@ class Matching(Handle):
         return frozen(doubles(lib.ricci_matching_soft_left, self, shape=(self.summary.n_soft,)))
 
     def map(self, progress: Progress = None) -> Map:
-        """The common subdivision of the two surfaces: in its methods ``"input"`` is the source and ``"metric"`` the target."""
+        """The common subdivision of the two surfaces: in its methods ``"input"`` is the source and ``"metric"`` the target.
+
+        With ``mirror`` it is that of the source's mirror image, `Mesh.mirrored`.
+        """
         made = Map._made(lib.ricci_matching_map, self, CONTROL, progress=progress)
         made._target = self._target
         return made
@@ -200,10 +232,15 @@ def match(source: MeshLike, target: MeshLike, progress: Progress = None, **given
         MatchingError: surfaces of different topology, landmarks in conflict, no map found.
     """
     hard: dict[str, Any] = dict(given.items())
+    mirror = hard.pop("mirror", False)
+    if not isinstance(mirror, bool | np.bool_):
+        raise ArgumentTypeError(f"mirror is {mirror!r}: it is True or False")
     if np.size(hard.get("soft", ())) != 2 * np.size(hard.get("soft_weights", ())):
         raise ArgumentError("soft and soft_weights: one weight for every pair")
-    struct = options("match_options", hard, _MATCH)
-    meshes = as_mesh(source), as_mesh(target)
-    made = Matching._made(lib.ricci_match, *meshes, struct, CONTROL, progress=progress)
-    made._source, made._target = meshes
+    known(hard, _MATCH)
+    start, end = as_mesh(source), as_mesh(target)
+    image = start.mirrored() if mirror else start
+    struct = options("match_options", _of_mirrored(hard, start, image) if mirror else hard, _MATCH)
+    made = Matching._made(lib.ricci_match, image, end, struct, CONTROL, progress=progress)
+    made._source, made._target, made._mirror = start, end, bool(mirror)
     return made

@@ -142,6 +142,33 @@ class Mesh(Triangles):
         kept = self._own_lengths()
         return made if kept is None else made.with_lengths(kept, self.summary.geometry)
 
+    def mirrored(self) -> Mesh:
+        """The mirror image: x has the other sign, and every face (a, b, c) is (a, c, b). Vertices and faces keep their numbers."""
+        turned = [0, 2, 1]
+        if not self.summary.has_positions:
+            return Mesh.from_gluing(self.F[:, turned], -self.face_edges[:, turned], self.lengths, self.summary.geometry)
+        aside = np.array([-1.0, 1.0, 1.0])
+        found: Attributes = {}
+        if self.colors is not None:
+            found["colors"] = self.colors
+        if self.normals is not None:
+            found["normals"] = self.normals * aside
+        if self.uv is not None:
+            found["uv"] = self.uv[:, turned]
+        if self.corner_normals is not None:
+            found["corner_normals"] = self.corner_normals[:, turned] * aside
+        made = Mesh(self.V * aside, self.F[:, turned])
+        if found:
+            made = made.with_attributes(**found)
+        own = self._own_lengths()
+        if own is None:
+            return made
+        # The mirror image may have its edges in another order.
+        ours, theirs = np.abs(self.face_edges[:, turned]) - 1, np.abs(made.face_edges) - 1
+        lengths = np.empty(made.summary.n_edges)
+        lengths[theirs] = own[ours]
+        return made.with_lengths(lengths, self.summary.geometry)
+
     def _own_lengths(self) -> Doubles | None:
         """The lengths of a mesh in space that were given in place of those between its positions, or None."""
         try:

@@ -31,7 +31,7 @@ from ricci._call import (
 from ricci._library import lib
 from ricci._structs import Struct, Write, above_zero, index_list, options, or_none, real_list
 from ricci.adapters import MeshLike, as_mesh
-from ricci.control import Progress
+from ricci.control import Progress, stages
 from ricci.errors import ArgumentError
 from ricci.figures import SplineSummary
 from ricci.mesh import Mesh
@@ -339,8 +339,9 @@ def flat_metric(mesh: Mesh, singular: int | str | npt.ArrayLike = "auto", range:
     elif isinstance(singular, int):
         number = singular
     curvatures = np.empty(mesh.n_vertices)
-    filled(lib.ricci_spline_curvatures, mesh, pointer(vertices), number, float(range), CONTROL, out=curvatures, progress=progress)
-    return Metric(mesh).flow(curvatures, progress)
+    parts = stages(progress, [0.5, 1.0])
+    filled(lib.ricci_spline_curvatures, mesh, pointer(vertices), number, float(range), CONTROL, out=curvatures, progress=next(parts))
+    return Metric(mesh).flow(curvatures, next(parts))
 
 
 def spline(V: MeshLike, F: npt.ArrayLike | None = None, progress: Progress = None, **given: Unpack[SurfaceOptions]) -> Spline:
