@@ -87,9 +87,12 @@ _INTEGERS = {"uint32_t": (32, False), "int32_t": (32, True), "uint64_t": (64, Fa
 def fitting(kind: Any, value: Any, name: str = "") -> Any:
     """A value as cffi takes it for an argument or a field of the type `kind`: handles as their pointers, numbers checked.
 
-    Raises:
-        ArgumentTypeError: it is of another type; the message says what is needed, and how one is made.
-        ArgumentError: a number out of range.
+    Raises
+    ------
+    ArgumentTypeError
+        it is of another type; the message says what is needed, and how one is made.
+    ArgumentError
+        a number out of range.
     """
     lead = f"{name}: " if name else ""
     if kind.kind == "pointer" and kind.item.kind == "struct":
@@ -144,8 +147,10 @@ def _fitting_all(function: Callable[..., int], arguments: tuple[Any, ...]) -> li
 def call(function: Callable[..., int], *arguments: Any, progress: Progress = None) -> None:
     """Call `function`; handles among the arguments are passed as their pointers, CONTROL as the control of `progress`.
 
-    Raises:
-        RicciError: the call failed, or an argument is of another type.
+    Raises
+    ------
+    RicciError
+        the call failed, or an argument is of another type.
     """
     given = _fitting_all(function, arguments)
     try:
@@ -295,8 +300,10 @@ class _PathBytes(bytes):
 def path_bytes(path: str | os.PathLike[str]) -> bytes:
     """A file's name as the library takes it.
 
-    Raises:
-        ArgumentTypeError: not the name of a file.
+    Raises
+    ------
+    ArgumentTypeError
+        not the name of a file.
     """
     try:
         name = os.fspath(path)
@@ -312,13 +319,19 @@ def path_bytes(path: str | os.PathLike[str]) -> bytes:
 def constant(prefix: str, name: str, among: tuple[str, ...] | None = None) -> int:
     """The constant RICCI_<prefix>_<NAME>.
 
-    Args:
-        prefix: the common prefix of the constants of its list.
-        name: the rest of its name, in lower case.
-        among: the names of the list, where several lists have the same prefix.
+    Parameters
+    ----------
+    prefix : str
+        the common prefix of the constants of its list.
+    name : str
+        the rest of its name, in lower case.
+    among : tuple[str, ...] | None
+        the names of the list, where several lists have the same prefix.
 
-    Raises:
-        ArgumentError: there is no such constant; the message lists the known names.
+    Raises
+    ------
+    ArgumentError
+        there is no such constant; the message lists the known names.
     """
     head = f"RICCI_{prefix}_"
     known = among or tuple(sorted(n.removeprefix(head).lower() for n in dir(lib) if n.startswith(head)))

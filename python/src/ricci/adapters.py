@@ -28,13 +28,19 @@ _Found: TypeAlias = "tuple[npt.ArrayLike, npt.ArrayLike, Attributes]"
 def as_mesh(V: MeshLike, F: npt.ArrayLike | None = None) -> Mesh:
     """The mesh that the arguments `V, F` of this package stand for.
 
-    Args:
-        V: n x 3 positions with `F`; without, a `Mesh`, a file's name, a pair (V, F), or another library's mesh.
-        F: m x 3 vertex indices from 0.
+    Parameters
+    ----------
+    V : MeshLike
+        n x 3 positions with `F`; without, a `Mesh`, a file's name, a pair (V, F), or another library's mesh.
+    F : npt.ArrayLike | None
+        m x 3 vertex indices from 0.
 
-    Raises:
-        ArgumentError: not a mesh.
-        MeshError: the faces are no surface.
+    Raises
+    ------
+    ArgumentError
+        not a mesh.
+    MeshError
+        the faces are no surface.
     """
     if F is not None:
         if isinstance(V, Mesh | str | os.PathLike | tuple) or _is_foreign(V):
@@ -55,8 +61,10 @@ def as_mesh(V: MeshLike, F: npt.ArrayLike | None = None) -> Mesh:
 def from_arrays_of(other: Any) -> _Arrays:
     """Positions and triangles of a pair (V, F), or of another library's mesh.
 
-    Raises:
-        ArgumentError: it is none of these, or has other faces than triangles.
+    Raises
+    ------
+    ArgumentError
+        it is none of these, or has other faces than triangles.
     """
     points, faces, _ = _parts_of(other)
     return points, faces
@@ -173,8 +181,10 @@ def _vertex_uv(mesh: Mesh) -> npt.NDArray[Any] | None:
 def _at_vertices(mesh: Mesh, fields: dict[str, Any]) -> dict[str, Any]:
     """The attributes of the vertices by name, and the caller's fields.
 
-    Raises:
-        ArgumentError: a field that has not one row for each vertex.
+    Raises
+    ------
+    ArgumentError
+        a field that has not one row for each vertex.
     """
     for name, values in fields.items():
         if np.shape(values)[:1] != (mesh.n_vertices,):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cached_property
-from typing import Any, ClassVar, Literal, TypeAlias, TypedDict, Unpack, get_args
+from typing import Any, ClassVar, Literal, TypeAlias, TypedDict, get_args
 
 import numpy as np
 import numpy.typing as npt
@@ -13,6 +13,7 @@ from ricci import _arrays
 from ricci._arrays import frozen
 from ricci._call import CONTROL, Complexes, Doubles, Handle, Indices, Signed, constant, doubles, filled, pointer, rows, summary
 from ricci._library import lib
+from ricci._signatures import picked, takes
 from ricci._structs import Struct, Write, known, nested, number, options
 from ricci.adapters import MeshLike
 from ricci.control import Progress, stages
@@ -32,14 +33,21 @@ Kind: TypeAlias = Literal["generators", "sides", "words", "depth", "within", "di
 class DeckSpec(TypedDict, total=False):
     """The deck transformations that are asked for.
 
-    Attributes:
-        kind: ``"generators"``, ``"sides"`` of the layout, ``"words"``, all to a ``"depth"``, all ``"within"`` a radius, or
-            ``"dirichlet_sides"``.
-        words: those of ``"words"``, each a list of letters.
-        dirichlet: for ``"within"`` and ``"dirichlet_sides"``, a domain of this surface.
-        radius: for ``"within"``: how far the centre may move.
-        depth: for ``"depth"``: most letters of a word.
-        limit: most elements that are looked at; 100,000.
+    Attributes
+    ----------
+    kind : Kind
+        ``"generators"``, ``"sides"`` of the layout, ``"words"``, all to a ``"depth"``, all ``"within"`` a radius, or
+        ``"dirichlet_sides"``.
+    words : Sequence[npt.ArrayLike]
+        those of ``"words"``, each a list of letters.
+    dirichlet : Dirichlet
+        for ``"within"`` and ``"dirichlet_sides"``, a domain of this surface.
+    radius : float
+        for ``"within"``: how far the centre may move.
+    depth : int
+        for ``"depth"``: most letters of a word.
+    limit : int
+        most elements that are looked at; 100,000.
     """
 
     kind: Kind
@@ -140,10 +148,14 @@ class Dirichlet(Handle):
 class CoverOptions(TypedDict, total=False):
     """A piece of the universal cover: the neighbours of a copy, all copies to a depth, or all within a radius of the base.
 
-    Attributes:
-        depth: most letters of a word in the generators; few of the copies with one letter share a side with the first one.
-        radius: how far the base may move.
-        limit: most elements that are looked at; 100,000.
+    Attributes
+    ----------
+    depth : int
+        most letters of a word in the generators; few of the copies with one letter share a side with the first one.
+    radius : float
+        how far the base may move.
+    limit : int
+        most elements that are looked at; 100,000.
     """
 
     depth: int
@@ -154,11 +166,16 @@ class CoverOptions(TypedDict, total=False):
 class Cover:
     """A piece of the universal cover: copies of a layout, moved by deck transformations.
 
-    Attributes:
-        uniform: the surface.
-        layout: the layout on the given surface (``"refinement"``), or on the metric's own triangulation.
-        deck: the deck transformation of every copy; the first is the identity.
-        faces: m x 3 indices of the points of a copy.
+    Attributes
+    ----------
+    uniform : Uniform
+        the surface.
+    layout : Layout
+        the layout on the given surface (``"refinement"``), or on the metric's own triangulation.
+    deck : Deck
+        the deck transformation of every copy; the first is the identity.
+    faces : Indices
+        m x 3 indices of the points of a copy.
     """
 
     def __init__(self, uniform: Uniform, layout: Layout, deck: Deck) -> None:
@@ -174,13 +191,28 @@ class Cover:
         return from_ambient(self.deck.apply(copy, self._points), self.deck.summary.space, model)
 
 
-def deck(uniform: Uniform, progress: Progress = None, **spec: Unpack[DeckSpec]) -> Deck:
+@takes(DeckSpec)
+def deck(
+    uniform: Uniform,
+    progress: Progress = None,
+    *,
+    kind: Kind = "generators",
+    words: Sequence[npt.ArrayLike] | None = None,
+    dirichlet: Dirichlet | None = None,
+    radius: float | None = None,
+    depth: int | None = None,
+    limit: int | None = None,
+) -> Deck:
     """Deck transformations of a quotient; by default the generators.
 
-    Raises:
-        LayoutError: a sphere.
-        ArgumentError: more elements than `limit`.
+    Raises
+    ------
+    LayoutError
+        a sphere.
+    ArgumentError
+        more elements than `limit`.
     """
+    spec = picked(locals(), DeckSpec)
     given = {"limit": LIMIT, **spec, "kind": constant("DECK", spec.get("kind", "generators"), get_args(Kind))}
     return Deck._made(lib.ricci_deck_new, uniform, options("deck_spec", given, _DECK), CONTROL, progress=progress)
 
@@ -193,15 +225,28 @@ def dirichlet(uniform: Uniform, centre: npt.ArrayLike | None = None, progress: P
     return Dirichlet._made(lib.ricci_dirichlet_new, uniform, pointer(point), CONTROL, progress=progress)
 
 
-def cover(V: MeshLike, F: npt.ArrayLike | None = None, progress: Progress = None, **given: Unpack[CoverOptions]) -> Cover:
+@takes(CoverOptions)
+def cover(
+    V: MeshLike,
+    F: npt.ArrayLike | None = None,
+    progress: Progress = None,
+    *,
+    depth: int | None = None,
+    radius: float | None = None,
+    limit: int | None = None,
+) -> Cover:
     """A piece of the universal cover of a surface that is no sphere; by default a copy and its neighbours, one across each of its sides.
 
-    Args:
-        V: a `Uniform`, or positions with `F`, or a mesh of any kind (`as_mesh`), which is uniformized first.
-        F: m x 3 vertex indices.
-        progress: a `Control` or a callback.
-        given: depth or radius, and limit (`CoverOptions`).
+    Parameters
+    ----------
+    V : MeshLike
+        a `Uniform`, or positions with `F`, or a mesh of any kind (`as_mesh`), which is uniformized first.
+    F : npt.ArrayLike | None
+        m x 3 vertex indices.
+    progress : Progress
+        a `Control` or a callback.
     """
+    given = picked(locals(), CoverOptions)
     known(given, CoverOptions.__annotations__)
     if "radius" in given and "depth" in given:
         raise ArgumentError("depth and radius: name one of them")

@@ -79,10 +79,14 @@ class Homotopy(Handle):
     def lift(self, vertex: int, path: npt.ArrayLike, element: npt.ArrayLike = ()) -> list[Signed]:
         """The lift of an edge path to the universal cover: the deck transformation of its start, then of the end of each edge.
 
-        Args:
-            vertex: where the path starts.
-            path: its edges.
-            element: the word of the lift that it starts at; the identity.
+        Parameters
+        ----------
+        vertex : int
+            where the path starts.
+        path : npt.ArrayLike
+            its edges.
+        element : npt.ArrayLike
+            the word of the lift that it starts at; the identity.
         """
         edges, letters = _arrays.signed(path), _arrays.signed(element, "element")
         struct = Struct("lift")
@@ -95,8 +99,10 @@ class Homotopy(Handle):
     def domain(self, cut: npt.ArrayLike | None = None) -> Domain:
         """The fundamental domain of a cut.
 
-        Args:
-            cut: edges, from 0, that open the surface into a disk; None for those of the basis's own polygon.
+        Parameters
+        ----------
+        cut : npt.ArrayLike | None
+            edges, from 0, that open the surface into a disk; None for those of the basis's own polygon.
         """
         edges = None if cut is None else _arrays.indices(cut)
         return Domain._made(lib.ricci_domain_new, self, pointer(edges), 0 if edges is None else edges.size)
@@ -139,11 +145,16 @@ class Domain(Handle):
 def homotopy(V: MeshLike, F: npt.ArrayLike | None = None, *, base: int | None = None, progress: Progress = None) -> Homotopy:
     """A canonical homotopy basis of a mesh, with short loops. The surface may have boundary.
 
-    Args:
-        V: n x 3 positions with `F`, or a mesh of any kind (`as_mesh`).
-        F: m x 3 vertex indices.
-        base: the base vertex; None for one from which the loops are short.
-        progress: a `Control` or a callback.
+    Parameters
+    ----------
+    V : MeshLike
+        n x 3 positions with `F`, or a mesh of any kind (`as_mesh`).
+    F : npt.ArrayLike | None
+        m x 3 vertex indices.
+    base : int | None
+        the base vertex; None for one from which the loops are short.
+    progress : Progress
+        a `Control` or a callback.
     """
     at = ffi.NULL if base is None else pointer(_arrays.index(base, "base"))
     return Homotopy._made(lib.ricci_homotopy_new, as_mesh(V, F), at, CONTROL, progress=progress)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from functools import cached_property
-from typing import Any, ClassVar, Literal, TypedDict, Unpack
+from typing import Any, ClassVar, Literal, TypedDict
 
 import numpy as np
 import numpy.typing as npt
@@ -28,6 +28,7 @@ from ricci._call import (
     summary,
 )
 from ricci._library import lib
+from ricci._signatures import picked, takes
 from ricci._structs import Write, above_zero, choice, index_list, one_index, options
 from ricci.control import Progress
 from ricci.errors import LayoutError, warn
@@ -45,12 +46,18 @@ LAYERS: tuple[Literal["boundary"], Literal["seams"], Literal["folds"]] = ("bound
 class LayoutOptions(TypedDict, total=False):
     """Options of a layout.
 
-    Attributes:
-        model: coordinates of `Layout.uv` and of files: ``"poincare"``, ``"klein"``, ``"half_plane"``.
-        scale: ``"input_area"``: the area of the surface as it came; ``"as_solved"``: lengths as the metric has them. E2 only.
-        cones: vertices through which the cut goes; those of the flow. An empty list: none.
-        root: the vertex at the origin.
-        threads: as many as the flow had. The result does not depend on it.
+    Attributes
+    ----------
+    model : Model
+        coordinates of `Layout.uv` and of files: ``"poincare"``, ``"klein"``, ``"half_plane"``.
+    scale : Literal["input_area", "as_solved"]
+        ``"input_area"``: the area of the surface as it came; ``"as_solved"``: lengths as the metric has them. E2 only.
+    cones : npt.ArrayLike
+        vertices through which the cut goes; those of the flow. An empty list: none.
+    root : int
+        the vertex at the origin.
+    threads : int
+        as many as the flow had. The result does not depend on it.
     """
 
     model: Model
@@ -78,9 +85,12 @@ _LAYOUT: dict[str, Write] = {
 class Seam:
     """One seam of a layout, and the isometry z -> (a z + b)/(c z + d) that carries its left side onto its right side.
 
-    Attributes:
-        mobius: 2 x 2 complex: ((a, b), (c, d)).
-        error: how far the edges of the seam are from it: relative to the diameter in E2, elsewhere a distance.
+    Attributes
+    ----------
+    mobius : Complexes
+        2 x 2 complex: ((a, b), (c, d)).
+    error
+        how far the edges of the seam are from it: relative to the diameter in E2, elsewhere a distance.
     """
 
     def __init__(self, row: Doubles) -> None:
@@ -95,11 +105,16 @@ FOLD_ANGLE = np.pi / 6
 class SheetLine:
     """A line along which a layout in the plane is cut or folded.
 
-    Attributes:
-        layer: ``"boundary"``; ``"seams"``, one side of a seam; or ``"folds"``.
-        seam: the number of the seam, or None.
-        closed: whether the line goes on from its last point to the first.
-        points: indices into `Layout.points`; a closed line does not repeat its first point.
+    Attributes
+    ----------
+    layer : Literal["boundary", "seams", "folds"]
+        ``"boundary"``; ``"seams"``, one side of a seam; or ``"folds"``.
+    seam
+        the number of the seam, or None.
+    closed
+        whether the line goes on from its last point to the first.
+    points : Indices
+        indices into `Layout.points`; a closed line does not repeat its first point.
     """
 
     def __init__(self, row: Any, points: Indices) -> None:
@@ -155,9 +170,11 @@ class Layout(Handle):
     def circle_pattern(self, which: Literal["vertices", "faces"] = "vertices") -> Doubles:
         """The circle pattern of a layout in the plane: centre and squared radius of each circle, n x 3.
 
-        Args:
-            which: the circles of the vertices, one per point of the layout; or those of the faces of the metric's triangulation, orthogonal
-                to the circles of their corners. NaN where there is none.
+        Parameters
+        ----------
+        which : Literal["vertices", "faces"]
+            the circles of the vertices, one per point of the layout; or those of the faces of the metric's triangulation, orthogonal
+            to the circles of their corners. NaN where there is none.
         """
         return np.asarray(listed(lib.ricci_layout_circles, self, constant("CIRCLES", which), dtype=float)).reshape(-1, 3)
 
@@ -182,23 +199,33 @@ class Layout(Handle):
     def write(self, path: str | os.PathLike[str], on: On = "input", *, homogeneous: bool = False) -> None:
         """Write the mesh with the layout as texture coordinates, as .obj, .ply, .glb or, without seams, .off.
 
-        Args:
-            path: the file, whose ending says the format.
-            on: the mesh, or what is laid out.
-            homogeneous: `vt qx qy q`, in which the projective map of every piece is linear; as .obj only.
+        Parameters
+        ----------
+        path : str | os.PathLike[str]
+            the file, whose ending says the format.
+        on : On
+            the mesh, or what is laid out.
+        homogeneous : bool
+            `vt qx qy q`, in which the projective map of every piece is linear; as .obj only.
 
-        Raises:
-            FileError: another ending.
-            ArgumentError: what the format has no place for.
+        Raises
+        ------
+        FileError
+            another ending.
+        ArgumentError
+            what the format has no place for.
         """
         call(lib.ricci_layout_write, self, constant("ON", on), int(homogeneous), path_bytes(path))
 
     def lines(self, fold_angle: float = FOLD_ANGLE, on: On = "input") -> list[SheetLine]:
         """The lines along which a layout in E2 is cut and folded.
 
-        Args:
-            fold_angle: edges of the mesh are folds where the normals of their faces differ by more than this, in radians.
-            on: along edges of the mesh, or of what is laid out.
+        Parameters
+        ----------
+        fold_angle : float
+            edges of the mesh are folds where the normals of their faces differ by more than this, in radians.
+        on : On
+            along edges of the mesh, or of what is laid out.
         """
         asked = (self, constant("ON", on), fold_angle)
         table = listed(lib.ricci_layout_lines, *asked, dtype=np.int32).reshape(-1, 4)
@@ -216,11 +243,16 @@ class Layout(Handle):
     ) -> None:
         """Write a layout in E2 as a mesh of points (x, y, 0), or its lines as a drawing for cutting.
 
-        Args:
-            path: the file: .obj, .off, .ply, .glb; or .svg, .dxf with the layers BOUNDARY, SEAMS and FOLDS.
-            on: the mesh, or what is laid out.
-            fold_angle: as of `lines`.
-            unit: the unit of the coordinates, for the size of an SVG.
+        Parameters
+        ----------
+        path : str | os.PathLike[str]
+            the file: .obj, .off, .ply, .glb; or .svg, .dxf with the layers BOUNDARY, SEAMS and FOLDS.
+        on : On
+            the mesh, or what is laid out.
+        fold_angle : float
+            as of `lines`.
+        unit : Literal["millimetre", "centimetre", "metre", "inch"]
+            the unit of the coordinates, for the size of an SVG.
         """
         call(lib.ricci_layout_write_flat, self, constant("ON", on), fold_angle, constant("SHEET", unit), path_bytes(path))
 
@@ -235,9 +267,12 @@ class Layout(Handle):
 class RepairedInput(Handle):
     """A layout on the faces of the mesh, with the fewest edges split that leave no face folded. Arrays of properties are read-only.
 
-    Args:
-        layout: the layout.
-        progress: a `Control` or a callback.
+    Parameters
+    ----------
+    layout : Layout
+        the layout.
+    progress : Progress
+        a `Control` or a callback.
     """
 
     _type: ClassVar[str] = "repaired_input"
@@ -293,10 +328,14 @@ class RepairedInput(Handle):
 class Charts(Handle):
     """A layout in charts that do not overlap, packed into the unit square.
 
-    Args:
-        layout: the layout.
-        margin: least distance of two charts, in sides of the unit square.
-        progress: a `Control` or a callback.
+    Parameters
+    ----------
+    layout : Layout
+        the layout.
+    margin : float
+        least distance of two charts, in sides of the unit square.
+    progress : Progress
+        a `Control` or a callback.
     """
 
     _type: ClassVar[str] = "charts"
@@ -362,15 +401,30 @@ def _check_flat(metric: Metric, has_cones: bool) -> None:
         )
 
 
-def layout(metric: Metric, progress: Progress = None, **given: Unpack[LayoutOptions]) -> Layout:
+@takes(LayoutOptions)
+def layout(
+    metric: Metric,
+    progress: Progress = None,
+    *,
+    model: Model = "poincare",
+    scale: Literal["input_area", "as_solved"] = "input_area",
+    cones: npt.ArrayLike | None = None,
+    root: int | None = None,
+    threads: int | None = None,
+) -> Layout:
     """The layout of a metric in its space, cut open along edges of the mesh through all cones.
 
-    Raises:
-        LayoutError: the metric has no layout; or it is curved, no flow has led to it, and `cones` does not say where it is to be cut.
+    Raises
+    ------
+    LayoutError
+        the metric has no layout; or it is curved, no flow has led to it, and `cones` does not say where it is to be cut.
 
-    Warns:
-        NotConverged: the flow that led to the metric did not come to its target, so that seams do not fit and faces may be folded.
+    Warns
+    -----
+    NotConverged
+        the flow that led to the metric did not come to its target, so that seams do not fit and faces may be folded.
     """
+    given = picked(locals(), LayoutOptions)
     if isinstance(metric, Metric):
         _check_flat(metric, given.get("cones") is not None)
     return Layout._made(lib.ricci_layout_new, metric, options("layout_options", given, _LAYOUT), CONTROL, progress=progress)

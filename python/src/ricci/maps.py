@@ -32,9 +32,12 @@ class Map(Handle):
     Its faces are parts of faces of both; its vertices are those of the mesh, with their numbers, then the crossings of edges. Of a
     `Matching`, ``"input"`` means the source and ``"metric"`` the target.
 
-    Args:
-        metric: the result of a flow.
-        progress: a `Control` or a callback.
+    Parameters
+    ----------
+    metric : Metric
+        the result of a flow.
+    progress : Progress
+        a `Control` or a callback.
     """
 
     # The mesh of the side "metric".
@@ -84,14 +87,21 @@ class Map(Handle):
 
         Whole numbers and flags are labels: a point gets the one that has the most weight in its face, and the result has their type.
 
-        Args:
-            values: one row for each vertex or face.
-            on: the side that they are on.
-            at: where they are.
-            labels: true or false says whether values are labels; None: whole numbers are, others are interpolated.
+        Parameters
+        ----------
+        values : npt.ArrayLike
+            one row for each vertex or face.
+        on : Side
+            the side that they are on.
+        at : Literal["vertices", "corners"]
+            where they are.
+        labels : bool | None
+            true or false says whether values are labels; None: whole numbers are, others are interpolated.
 
-        Raises:
-            ArgumentTypeError: complex numbers (carry the two parts), texts (carry their numbers).
+        Raises
+        ------
+        ArgumentTypeError
+            complex numbers (carry the two parts), texts (carry their numbers).
         """
         array = _arrays.numbers(values)
         lead = 1 if at == "vertices" else 2

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cached_property
-from typing import Any, ClassVar, Literal, TypedDict, Unpack
+from typing import Any, ClassVar, Literal, TypedDict
 
 import numpy as np
 import numpy.typing as npt
@@ -14,6 +14,7 @@ from ricci._arrays import frozen
 from ricci._call import CONTROL, Doubles, Handle, Indices, call, constant, doubles, filled, pointer, summary
 from ricci._labels import are_labels, heaviest
 from ricci._library import lib
+from ricci._signatures import picked, takes
 from ricci._structs import Struct, Write, above_zero, choice, index_list, known, options, real_list
 from ricci.adapters import MeshLike, as_mesh
 from ricci.control import Progress
@@ -32,9 +33,12 @@ Pairs = Sequence[tuple[npt.ArrayLike, npt.ArrayLike]]
 class Points(TypedDict):
     """Pairs of points that correspond.
 
-    Attributes:
-        faces: k x 2, of the source and of the target.
-        weights: k x 2 x 3 barycentric coordinates in these faces, each three with the sum 1.
+    Attributes
+    ----------
+    faces : npt.ArrayLike
+        k x 2, of the source and of the target.
+    weights : npt.ArrayLike
+        k x 2 x 3 barycentric coordinates in these faces, each three with the sum 1.
     """
 
     faces: npt.ArrayLike
@@ -44,19 +48,31 @@ class Points(TypedDict):
 class MatchOptions(TypedDict, total=False):
     """Options of a map between surfaces: the points and curves that correspond, and the boundary.
 
-    Attributes:
-        landmarks: k x 2 vertices, of the source and of the target, that correspond.
-        loops: for each boundary loop of the source that of the target; by landmarks on them, the others by descending length.
-        points: pairs of points that correspond as landmarks do.
-        curves: pairs of curves that correspond by shares of their lengths, as lists of vertices joined by edges.
-        soft: k x 2 vertices inside that need not be met.
-        soft_weights: k weights w >= 0: a landmark goes to the share w / (1 + w) of its way.
-        boundary: it ``"slides"`` until the map is harmonic, or goes by ``"arc_length"``.
-        loop_shape: boundary loops of surfaces with handles become ``"geodesics"``, or ``"circles"`` of a closed flat or hyperbolic surface.
-        basis: pairs of closed edge paths that name the homotopy class, on surfaces with handles.
-        threads: one per core. The result does not depend on it.
-        mirror: true if the map turns the surface over, as from a left half of a brain to a right one: the mirror image of the source is
-            mapped. All options and results have the numbers of the source itself.
+    Attributes
+    ----------
+    landmarks : npt.ArrayLike
+        k x 2 vertices, of the source and of the target, that correspond.
+    loops : npt.ArrayLike
+        for each boundary loop of the source that of the target; by landmarks on them, the others by descending length.
+    points : Points
+        pairs of points that correspond as landmarks do.
+    curves : Pairs
+        pairs of curves that correspond by shares of their lengths, as lists of vertices joined by edges.
+    soft : npt.ArrayLike
+        k x 2 vertices inside that need not be met.
+    soft_weights : npt.ArrayLike
+        k weights w >= 0: a landmark goes to the share w / (1 + w) of its way.
+    boundary : Literal["slides", "arc_length"]
+        it ``"slides"`` until the map is harmonic, or goes by ``"arc_length"``.
+    loop_shape : Literal["geodesics", "circles"]
+        boundary loops of surfaces with handles become ``"geodesics"``, or ``"circles"`` of a closed flat or hyperbolic surface.
+    basis : Pairs
+        pairs of closed edge paths that name the homotopy class, on surfaces with handles.
+    threads : int
+        one per core. The result does not depend on it.
+    mirror : bool
+        true if the map turns the surface over, as from a left half of a brain to a right one: the mirror image of the source is
+        mapped. All options and results have the numbers of the source itself.
     """
 
     landmarks: npt.ArrayLike
@@ -169,13 +185,19 @@ class Matching(Handle):
         ``carry(V_target)`` has the image of every vertex of the source. Whole numbers and flags are labels, such as those of parcels: a
         vertex gets the label that has the most weight in the face of its image, and the result has the type of `values`.
 
-        Args:
-            values: one row for each vertex.
-            direction: ``"forward"``: from the target to the source.
-            labels: true or false says whether values are labels; None: whole numbers are, others are interpolated.
+        Parameters
+        ----------
+        values : npt.ArrayLike
+            one row for each vertex.
+        direction : Direction
+            ``"forward"``: from the target to the source.
+        labels : bool | None
+            true or false says whether values are labels; None: whole numbers are, others are interpolated.
 
-        Raises:
-            ArgumentTypeError: complex numbers (carry the two parts), texts (carry their numbers).
+        Raises
+        ------
+        ArgumentTypeError
+            complex numbers (carry the two parts), texts (carry their numbers).
         """
         given = _arrays.numbers(values)
         other = self._size("backward" if direction == "forward" else "forward")
@@ -219,18 +241,41 @@ class Matching(Handle):
         return f"<ricci.Matching: {s.n_source_vertices} to {s.n_target_vertices} vertices, mean dilatation {s.qc_mean:.3f}>"
 
 
-def match(source: MeshLike, target: MeshLike, progress: Progress = None, **given: Unpack[MatchOptions]) -> Matching:
+@takes(MatchOptions)
+def match(
+    source: MeshLike,
+    target: MeshLike,
+    progress: Progress = None,
+    *,
+    landmarks: npt.ArrayLike | None = None,
+    loops: npt.ArrayLike | None = None,
+    points: Points | None = None,
+    curves: Pairs | None = None,
+    soft: npt.ArrayLike | None = None,
+    soft_weights: npt.ArrayLike | None = None,
+    boundary: Literal["slides", "arc_length"] = "slides",
+    loop_shape: Literal["geodesics", "circles"] = "geodesics",
+    basis: Pairs | None = None,
+    threads: int | None = None,
+    mirror: bool = False,
+) -> Matching:
     """The map from one surface to another one of the same topology: harmonic into the target's metric of constant curvature.
 
-    Args:
-        source: the surface whose vertices are mapped: a mesh of any kind (`as_mesh`), or a pair (V, F).
-        target: the surface that they are mapped to.
-        progress: a `Control` or a callback.
-        given: landmarks, curves, boundary, homotopy class (`MatchOptions`).
+    Parameters
+    ----------
+    source : MeshLike
+        the surface whose vertices are mapped: a mesh of any kind (`as_mesh`), or a pair (V, F).
+    target : MeshLike
+        the surface that they are mapped to.
+    progress : Progress
+        a `Control` or a callback.
 
-    Raises:
-        MatchingError: surfaces of different topology, landmarks in conflict, no map found.
+    Raises
+    ------
+    MatchingError
+        surfaces of different topology, landmarks in conflict, no map found.
     """
+    given = picked(locals(), MatchOptions)
     hard: dict[str, Any] = dict(given.items())
     mirror = hard.pop("mirror", False)
     if not isinstance(mirror, bool | np.bool_):

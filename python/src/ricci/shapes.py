@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, Literal, TypeAlias, TypedDict, Unpack
+from typing import Any, Literal, TypeAlias, TypedDict
 
 import numpy as np
 import numpy.typing as npt
@@ -11,6 +11,7 @@ import numpy.typing as npt
 from ricci import _arrays
 from ricci._call import Complexes, constant, doubles, pointer
 from ricci._library import lib
+from ricci._signatures import picked, takes
 from ricci._structs import Struct, Write, known, number, options, real_list
 from ricci.errors import ArgumentError, ArgumentTypeError
 from ricci.mesh import Mesh
@@ -39,16 +40,26 @@ Change: TypeAlias = Literal["punch", "grade", "caps", "needles", "noise", "inver
 class ShapeOptions(TypedDict, total=False):
     """Sizes of a surface; `shapes.h` describes them for each shape. Left out: as the command `ricci make` has them.
 
-    Attributes:
-        genus: number of handles, at least 1.
-        n: resolution.
-        m: resolution in the other direction.
-        a: first size.
-        b: second size.
-        c: third size.
-        p: times around the axis, of a knot.
-        q: times around the tube, of a knot.
-        points: complex branch points, of a hyperelliptic surface.
+    Attributes
+    ----------
+    genus : int
+        number of handles, at least 1.
+    n : int
+        resolution.
+    m : int
+        resolution in the other direction.
+    a : float
+        first size.
+    b : float
+        second size.
+    c : float
+        third size.
+    p : int
+        times around the axis, of a knot.
+    q : int
+        times around the tube, of a knot.
+    points : npt.ArrayLike
+        complex branch points, of a hyperelliptic surface.
     """
 
     genus: int
@@ -65,12 +76,18 @@ class ShapeOptions(TypedDict, total=False):
 class ChangeOptions(TypedDict, total=False):
     """Arguments of a change; `shapes.h` describes them for each change.
 
-    Attributes:
-        vertex: a vertex.
-        count: how many, or how often.
-        amount: how much.
-        seed: chooses what is random.
-        centre: a point in space.
+    Attributes
+    ----------
+    vertex : int
+        a vertex.
+    count : int
+        how many, or how often.
+    amount : float
+        how much.
+    seed : int
+        chooses what is random.
+    centre : npt.ArrayLike
+        a point in space.
     """
 
     vertex: int
@@ -153,24 +170,52 @@ _SHAPE: dict[str, Write] = {**dict.fromkeys(ShapeOptions.__annotations__, number
 _CHANGE: dict[str, Write] = {**dict.fromkeys(ChangeOptions.__annotations__, number), "centre": _centre, "change": number}
 
 
-def make(shape: Shape, **sizes: Unpack[ShapeOptions]) -> Mesh:
+@takes(ShapeOptions)
+def make(
+    shape: Shape,
+    *,
+    genus: int | None = None,
+    n: int | None = None,
+    m: int | None = None,
+    a: float | None = None,
+    b: float | None = None,
+    c: float | None = None,
+    p: int | None = None,
+    q: int | None = None,
+    points: npt.ArrayLike | None = None,
+) -> Mesh:
     """A sample surface: ``make("torus")``, or ``make("torus", a=2, b=1, n=48, m=24)``.
 
-    Args:
-        shape: which one; those from ``"flat_torus"`` on are intrinsic: gluings with lengths, without positions.
-        sizes: as the shape uses them; those that are left out are the defaults of the command `ricci make`.
+    Parameters
+    ----------
+    shape : Shape
+        which one; those from ``"flat_torus"`` on are intrinsic: gluings with lengths, without positions.
     """
+    sizes = picked(locals(), ShapeOptions)
     number_of = constant("SHAPE", shape)
     known(sizes, ShapeOptions.__annotations__)
     return Mesh._made(lib.ricci_make, options("shape", {**_sizes(shape, sizes), "shape": number_of}, _SHAPE))
 
 
-def change(mesh: Mesh, what: Change, **how: Unpack[ChangeOptions]) -> Mesh:
+@takes(ChangeOptions)
+def change(
+    mesh: Mesh,
+    what: Change,
+    *,
+    vertex: int | None = None,
+    count: int | None = None,
+    amount: float | None = None,
+    seed: int | None = None,
+    centre: npt.ArrayLike | None = None,
+) -> Mesh:
     """A changed copy of a surface in space, without its attributes: ``change(mesh, "punch", count=3)`` cuts three holes.
 
-    Raises:
-        ArgumentError: an argument that the change needs is not given.
+    Raises
+    ------
+    ArgumentError
+        an argument that the change needs is not given.
     """
+    how = picked(locals(), ChangeOptions)
     number_of = constant("CHANGE", what)
     known(how, ChangeOptions.__annotations__)
     missing = [name for name in _NEEDS[what] if how.get(name) is None]
@@ -182,8 +227,10 @@ def change(mesh: Mesh, what: Change, **how: Unpack[ChangeOptions]) -> Mesh:
 def hyperelliptic_periods(points: npt.ArrayLike) -> Complexes:
     """The g x g period matrix of the curve y^2 = (x - e_1) (x - e_2) ..., in some symplectic basis of cycles.
 
-    Args:
-        points: the finite branch points e_j, complex, all different: 2 g + 1, or 2 g + 2.
+    Parameters
+    ----------
+    points : npt.ArrayLike
+        the finite branch points e_j, complex, all different: 2 g + 1, or 2 g + 2.
     """
     pairs = _pairs(points)
     genus = (len(pairs) - 1) // 2

@@ -33,8 +33,10 @@ class WorkerDied(Exception):
 def packed(work: Work) -> bytes:
     """The work as bytes for another process: by name where it can be imported there, else by value.
 
-    Raises:
-        ArgumentError: it cannot be sent; the message says what to do.
+    Raises
+    ------
+    ArgumentError
+        it cannot be sent; the message says what to do.
     """
     advice = 'put it into a module that can be imported, or take engine="inline"'
     try:
@@ -93,9 +95,12 @@ class _Worker:
     def answer(self) -> Row | None:
         """The row of its mesh, that it has died there included; None: it is ready for work.
 
-        Raises:
-            ArgumentError: it cannot load the work.
-            RuntimeError: it ended before it came to that, as where this package cannot be imported.
+        Raises
+        ------
+        ArgumentError
+            it cannot load the work.
+        RuntimeError
+            it ended before it came to that, as where this package cannot be imported.
         """
         try:
             kind, content = pickle.loads(self.connection.recv_bytes())
@@ -201,8 +206,10 @@ def dask(work: Work, paths: Sequence[str], workers: int, client: Any = None) -> 
 def engine_of(engine: Any) -> Callable[[Work, Sequence[str], int], Rows]:
     """The engine of this name, or that of a `distributed.Client`.
 
-    Raises:
-        ArgumentError: there is none.
+    Raises
+    ------
+    ArgumentError
+        there is none.
     """
     named = {"inline": inline, "processes": processes, "dask": dask}
     if isinstance(engine, str) and engine in named:

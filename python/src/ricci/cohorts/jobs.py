@@ -33,9 +33,12 @@ __all__ = ["Job", "Outcome", "Row", "repaired"]
 class Outcome(NamedTuple):
     """The results of a job on one mesh.
 
-    Attributes:
-        result: numbers, texts and arrays that depend on the mesh alone.
-        report: what differs from run to run, such as seconds.
+    Attributes
+    ----------
+    result : Mapping[str, Any]
+        numbers, texts and arrays that depend on the mesh alone.
+    report : Mapping[str, Any]
+        what differs from run to run, such as seconds.
     """
 
     result: Mapping[str, Any]
@@ -46,10 +49,14 @@ class Outcome(NamedTuple):
 class Row:
     """One mesh of a cohort.
 
-    Attributes:
-        path: its file.
-        result: columns of the table of results, with `ok` and the error's columns.
-        report: columns of the table of reports, with the worker's process and seconds.
+    Attributes
+    ----------
+    path : str
+        its file.
+    result : dict[str, Any]
+        columns of the table of results, with `ok` and the error's columns.
+    report : dict[str, Any]
+        columns of the table of reports, with the worker's process and seconds.
     """
 
     path: str
@@ -64,10 +71,14 @@ class Job:
     The result has the figures of the mesh and of what the function made, and its arrays: of a flow the conformal factor, of circles the
     circles, of forms the period matrix.
 
-    Attributes:
-        kind: which function; ``"info"`` only counts.
-        options: its arguments by name. One thread is used unless they say otherwise: a cohort has its meshes side by side.
-        seconds: a mesh that takes longer is given up, with the error `Cancelled`.
+    Attributes
+    ----------
+    kind : Literal["info", "flow", "uniformize", "circles", "forms", "structure", "spline"]
+        which function; ``"info"`` only counts.
+    options : Mapping[str, Any]
+        its arguments by name. One thread is used unless they say otherwise: a cohort has its meshes side by side.
+    seconds : float | None
+        a mesh that takes longer is given up, with the error `Cancelled`.
     """
 
     kind: Literal["info", "flow", "uniformize", "circles", "forms", "structure", "spline"]
@@ -184,8 +195,10 @@ def repaired(path: str) -> Mesh:
 def plain(value: Any) -> Any:
     """A value as Parquet has it: arrays as lists, a complex number as its two parts.
 
-    Raises:
-        TypeError: it is nothing that a column can hold.
+    Raises
+    ------
+    TypeError
+        it is nothing that a column can hold.
     """
     if isinstance(value, np.ndarray):
         array = np.stack([value.real, value.imag], -1) if np.iscomplexobj(value) else value

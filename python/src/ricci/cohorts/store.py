@@ -51,8 +51,10 @@ def _read(path: Path) -> pa.Table:
 class Store:
     """The folder of a cohort: `results.parquet`, `reports.parquet`, and in `rows` the meshes that were done since these were written.
 
-    Raises:
-        ArgumentError: the folder has rows of another job.
+    Raises
+    ------
+    ArgumentError
+        the folder has rows of another job.
     """
 
     def __init__(self, folder: Path, job: str) -> None:
