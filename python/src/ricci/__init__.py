@@ -40,16 +40,18 @@ from ricci.errors import (
 )
 from ricci.form import Forms, FormsOptions, HarmonicMap, HarmonicOptions, forms, harmonic, harmonic_map
 from ricci.fundamental import Domain, Homotopy, homotopy
-from ricci.layouts import Charts, Layout, LayoutOptions, RepairedInput, SheetLine, charts, layout
+from ricci.layouts import Layout, LayoutOptions, RepairedInput, SheetLine, layout
 from ricci.log import log_to_logging
 from ricci.maps import Map
 from ricci.matching import Matching, MatchOptions, Points, match
 from ricci.mesh import Attributes, Mesh, read
-from ricci.metrics import FlowJob, FlowOptions, Metric, Report, Solver, flow, metric
+from ricci.metrics import FlowJob, FlowOptions, Metric, Report, flow, metric
+from ricci.packed_charts import Charts, charts
 from ricci.quad_meshes import QuadLayout, Quads, QuadsOptions, quad_layout, quads
 from ricci.quad_splines import QuadSpline, QuadSplineOptions, quad_spline
 from ricci.seams import Seamless, SeamlessOptions, cross_field, seamless
 from ricci.shapes import ChangeOptions, ShapeOptions, change, hyperelliptic_periods, make
+from ricci.solvers import Solver
 from ricci.soup import Defect, Hole, Loop, RepairOptions, Soup
 from ricci.spline_domains import flat_metric, spline_domain
 from ricci.splines import PlaneOptions, Spline, SurfaceOptions, spline

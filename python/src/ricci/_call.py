@@ -13,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ricci._library import ffi, lib
+from ricci._shown import Shown
 from ricci.control import Progress, check, run
 from ricci.errors import ArgumentError, ArgumentTypeError, FileError, last_failure, last_needed
 from ricci.figures.names import CONSTANTS
@@ -47,7 +48,7 @@ class Passed:
         raise TypeError(f"a ricci.{kind} is memory of the library, which pickle cannot take: send what it was made from ({self._made_by})")
 
 
-class Handle(Passed):
+class Handle(Shown, Passed):
     """An object of the library, freed with the Python object. The library keeps alive the objects that it was made from.
 
     Handles never change, so that a copy of one is the handle itself.

@@ -41,6 +41,12 @@ def as_mesh(V: MeshLike, F: npt.ArrayLike | None = None) -> Mesh:
         not a mesh.
     MeshError
         the faces are no surface.
+
+    Examples
+    --------
+    >>> mesh = ricci.as_mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+    >>> mesh
+    <ricci.Mesh: 3 vertices, 1 faces, genus 0, 1 boundary loops>
     """
     if F is not None:
         if isinstance(V, Mesh | str | os.PathLike | tuple) or _is_foreign(V):
@@ -208,6 +214,18 @@ def to_trimesh(mesh: MeshLike, **fields: Any) -> Any:
 
     Texture coordinates become its visual, or the face attribute `uv` where they have seams; colours its visual, beside texture coordinates
     the vertex attribute `colors`; normals the vertex attribute `normals`.
+
+    Parameters
+    ----------
+    mesh : MeshLike
+        a mesh of any kind (`as_mesh`).
+    fields : Any
+        n rows each, by the name of the vertex attribute.
+
+    Examples
+    --------
+    >>> ricci.to_trimesh(ricci.make("sphere", n=2)).is_watertight
+    True
     """
     import trimesh
 
@@ -229,6 +247,18 @@ def to_meshio(mesh: MeshLike, **fields: Any) -> Any:
     """A `meshio.Mesh`; `fields` (n rows each) become point data.
 
     Normals, colours and texture coordinates are the point data `normals`, `colors` and `uv`, the last at seams the cell data `uv`.
+
+    Parameters
+    ----------
+    mesh : MeshLike
+        a mesh of any kind (`as_mesh`).
+    fields : Any
+        n rows each, by the name of the point data.
+
+    Examples
+    --------
+    >>> ricci.to_meshio(ricci.make("disk", n=2)).cells_dict["triangle"].shape
+    (24, 3)
     """
     import meshio
 
@@ -242,6 +272,19 @@ def to_pyvista(mesh: MeshLike, **fields: Any) -> Any:
     """A `pyvista.PolyData`; `fields` (n rows each) become point data.
 
     Texture coordinates are its active ones, or the cell data `uv` where they have seams; normals and colours are point data.
+
+    Parameters
+    ----------
+    mesh : MeshLike
+        a mesh of any kind (`as_mesh`).
+    fields : Any
+        n rows each, by the name of the point data.
+
+    Examples
+    --------
+    >>> mesh = ricci.make("disk", n=2)
+    >>> ricci.to_pyvista(mesh, height=mesh.V[:, 2]).array_names
+    ['height']
     """
     import pyvista
 
@@ -262,6 +305,21 @@ def to_gifti(mesh: MeshLike, **fields: Any) -> Any:
 
     Whole numbers and flags are labels: they get the intent LABEL and a table of their values; other numbers have the intent SHAPE. GIFTI
     has no place for texture coordinates, whose loss is a warning.
+
+    Parameters
+    ----------
+    mesh : MeshLike
+        a mesh of any kind (`as_mesh`).
+    fields : Any
+        n numbers for each vertex, each by the name of its array.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> mesh = ricci.make("sphere", n=2)
+    >>> image = ricci.to_gifti(mesh, parcel=np.arange(mesh.n_vertices) % 3)
+    >>> [label.label for label in image.labeltable.labels]
+    ['0', '1', '2']
     """
     from nibabel.gifti import GiftiDataArray, GiftiImage
 

@@ -13,6 +13,7 @@ from ricci import _arrays
 from ricci._arrays import frozen
 from ricci._call import CONTROL, Doubles, Handle, Indices, call, constant, doubles, listed, pointer, rows, summary
 from ricci._library import ffi, lib
+from ricci._shown import Scene
 from ricci._signatures import picked, takes
 from ricci._structs import Write, above_zero, choice, one_index, options
 from ricci.adapters import MeshLike, as_mesh
@@ -72,6 +73,13 @@ class Place:
         first coordinate there.
     y : float
         second coordinate there.
+
+    Examples
+    --------
+    >>> found = ricci.structure(ricci.make("torus", n=16), kind="affine")
+    >>> place = found.places(0, [1 / 3, 1 / 3, 1 / 3])[0]
+    >>> 0 in found.chart_faces[place.chart]
+    True
     """
 
     chart: int
@@ -81,10 +89,22 @@ class Place:
 
 
 class Structure(Handle):
-    """A geometric structure of a surface: charts in the plane, and transitions in the structure's group. It never changes."""
+    """A geometric structure of a surface: charts in the plane, and transitions in the structure's group. It never changes.
+
+    Examples
+    --------
+    >>> found = ricci.structure(ricci.make("torus", n=16), kind="affine")
+    >>> found.summary.n_charts == len(found.chart_faces)
+    True
+    """
 
     _type: ClassVar[str] = "structure"
     _made_by: ClassVar[str] = "ricci.structure(mesh, kind=...)"
+    _figures: ClassVar[tuple[str, ...]] = ("kind", "n_charts", "n_transitions", "n_generators", "n_singular", "cocycle_residual")
+
+    def _scene(self) -> Scene | None:
+        first = int(np.argmax([len(faces) for faces in self.chart_faces]))
+        return Scene(self.coordinates(first), self.chart_corners[first])
 
     @cached_property
     def summary(self) -> StructureSummary:
@@ -230,6 +250,12 @@ def structure(
     ------
     ArgumentError
         a structure that the surface has not, or options that do not belong to it.
+
+    Examples
+    --------
+    >>> found = ricci.structure(ricci.make("genus", genus=2, n=3), kind="hyperbolic")
+    >>> found.holonomy.shape
+    (4, 2, 2)
     """
     given = picked(locals(), StructureOptions)
     struct = options("structure_options", given, _STRUCTURE)
@@ -239,7 +265,22 @@ def structure(
 
 
 def structures(V: MeshLike, F: npt.ArrayLike | None = None, progress: Progress = None) -> dict[str, Structure]:
-    """Every structure that a surface has, by its kind."""
+    """Every structure that a surface has, by its kind.
+
+    Parameters
+    ----------
+    V : MeshLike
+        n x 3 positions with `F`, or a mesh of any kind (`as_mesh`).
+    F : npt.ArrayLike | None
+        m x 3 vertex indices.
+    progress : Progress
+        a `Control` or a callback.
+
+    Examples
+    --------
+    >>> sorted(ricci.structures(ricci.make("torus", n=16)))
+    ['affine', 'conformal']
+    """
     mesh = as_mesh(V, F)
     kinds: list[StructureKind] = ["conformal", "affine"]
     if mesh.euler < 0:

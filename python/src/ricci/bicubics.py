@@ -67,10 +67,18 @@ _BICUBIC: dict[str, Write] = {**dict.fromkeys(BicubicOptions.__annotations__, ab
 
 
 class Bicubic(Handle):
-    """Bicubic B-spline patches near a spline, three for each of its patches; neighbours share the control points of their side."""
+    """Bicubic B-spline patches near a spline, three for each of its patches; neighbours share the control points of their side.
+
+    Examples
+    --------
+    >>> patches = ricci.bicubic(ricci.Spline.plane(ricci.make("disk", n=2), degree=2))
+    >>> patches.text("step")[:13]
+    'ISO-10303-21;'
+    """
 
     _type: ClassVar[str] = "bicubic"
     _made_by: ClassVar[str] = "ricci.bicubic(spline)"
+    _figures: ClassVar[tuple[str, ...]] = ("n_patches", "n_control_points", "spans_min", "spans_max", "distance", "normal_jump_max")
 
     @cached_property
     def summary(self) -> BicubicSummary:
@@ -105,12 +113,25 @@ def bicubic(
 ) -> Bicubic:
     """Bicubic patches within a tolerance of a spline, with as many spans as that takes, up to 128 along a side.
 
+    Parameters
+    ----------
+    spline : Spline
+        the spline.
+    progress : Progress
+        a `Control` or a callback.
+
     Raises
     ------
     SplineError
         a patch that 128 spans do not bring within the tolerance, or in which the spline folds; the index is its number.
     ArgumentError
         more control points than allowed are needed.
+
+    Examples
+    --------
+    >>> patches = ricci.bicubic(ricci.Spline.plane(ricci.make("disk", n=2), degree=2))
+    >>> patches.summary.n_patches
+    72
     """
     given = picked(locals(), BicubicOptions)
     return Bicubic._made(lib.ricci_bicubic_new, spline, options("bicubic_options", given, _BICUBIC), CONTROL, progress=progress)

@@ -11,6 +11,7 @@ import numpy.typing as npt
 from ricci._arrays import frozen
 from ricci._call import CONTROL, Doubles, Handle, constant, doubles, summary
 from ricci._library import lib
+from ricci._shown import Scene
 from ricci._signatures import picked, takes
 from ricci._structs import Write, above_zero, choice, index_list, one_index, options, real_list
 from ricci.adapters import MeshLike, as_mesh
@@ -80,10 +81,21 @@ _CIRCLES: dict[str, Write] = {
 
 
 class CircleDomain(Handle):
-    """A surface with boundary whose loops are circles: in the unit disk, a flat torus or a hyperbolic surface."""
+    """A surface with boundary whose loops are circles: in the unit disk, a flat torus or a hyperbolic surface.
+
+    Examples
+    --------
+    >>> ring = ricci.circles(ricci.make("annulus", a=0.5, b=1, n=4))
+    >>> round(ring.summary.modulus.imag, 3)
+    0.11
+    """
 
     _type: ClassVar[str] = "circle_domain"
     _made_by: ClassVar[str] = "ricci.circles(mesh)"
+    _figures: ClassVar[tuple[str, ...]] = ("space", "n_circles", "converged", "deviation", "modulus", "n_overlapping")
+
+    def _scene(self) -> Scene | None:
+        return self.layout()._scene()
 
     @cached_property
     def summary(self) -> CircleDomainSummary:
@@ -151,6 +163,12 @@ def circles(
         a closed surface; no such loop or vertex.
     LayoutError
         circles overlap however fine the loops are.
+
+    Examples
+    --------
+    >>> pants = ricci.change(ricci.make("sphere", n=8), "punch", count=3)
+    >>> ricci.circles(pants).circles.shape
+    (3, 4)
     """
     given = picked(locals(), CircleOptions)
     struct = options("circle_domain_options", given, _CIRCLES)

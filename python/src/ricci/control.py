@@ -28,6 +28,13 @@ class Control:
         called as ``callback(stage, fraction)`` from the thread that waits for the call, about every 0.05 s and at its end: with
         the name of a stage (``"flow"``, ``"layout"``, ...) and the fraction of the whole call that is done, from 0 to 1, which
         never goes back. What it raises stops the call.
+
+    Examples
+    --------
+    >>> control = ricci.Control(lambda stage, fraction: None)
+    >>> flat = ricci.flow(ricci.make("torus", n=16), progress=control)
+    >>> control.progress()[1]
+    1.0
     """
 
     def __init__(self, callback: Callable[[str, float], object] | None = None) -> None:

@@ -13,6 +13,7 @@ from ricci import _arrays
 from ricci._arrays import frozen
 from ricci._call import CONTROL, Complexes, Doubles, Handle, Indices, Signed, constant, doubles, filled, pointer, rows, summary
 from ricci._library import lib
+from ricci._shown import Scene
 from ricci._signatures import picked, takes
 from ricci._structs import Struct, Write, known, nested, number, options
 from ricci.adapters import MeshLike
@@ -76,10 +77,18 @@ LIMIT = 100_000
 
 
 class Deck(Handle):
-    """Deck transformations of a quotient, each as a word in the generators and as an isometry. They act from the left."""
+    """Deck transformations of a quotient, each as a word in the generators and as an isometry. They act from the left.
+
+    Examples
+    --------
+    >>> curved = ricci.uniformize(ricci.make("genus", genus=2, n=3))
+    >>> bool(ricci.deck(curved).lengths.min() > 0)
+    True
+    """
 
     _type: ClassVar[str] = "deck"
     _made_by: ClassVar[str] = "ricci.deck(uniform)"
+    _figures: ClassVar[tuple[str, ...]] = ("space", "n_elements", "n_letters", "longest")
 
     @cached_property
     def summary(self) -> DeckSummary:
@@ -124,10 +133,25 @@ class Deck(Handle):
 
 
 class Dirichlet(Handle):
-    """The points of the universal cover that are nearer to a centre than to its images: a convex polygon."""
+    """The points of the universal cover that are nearer to a centre than to its images: a convex polygon.
+
+    Examples
+    --------
+    >>> curved = ricci.uniformize(ricci.make("genus", genus=2, n=3))
+    >>> polygon = ricci.dirichlet(curved)
+    >>> polygon.corners.shape == (polygon.summary.n_sides, 3)
+    True
+    """
 
     _type: ClassVar[str] = "dirichlet"
     _made_by: ClassVar[str] = "ricci.dirichlet(uniform)"
+    _figures: ClassVar[tuple[str, ...]] = ("space", "n_sides", "area", "radius")
+
+    def _scene(self) -> Scene | None:
+        # Sides are straight in the Klein disk, so that the polygon is a fan about a corner: it is convex.
+        corners = from_ambient(self.corners, self.summary.space, "klein")
+        fan = np.arange(1, len(corners) - 1)
+        return Scene(corners, np.column_stack([np.zeros_like(fan), fan, fan + 1]))
 
     @cached_property
     def summary(self) -> DirichletSummary:
@@ -176,6 +200,12 @@ class Cover:
         the deck transformation of every copy; the first is the identity.
     faces : Indices
         m x 3 indices of the points of a copy.
+
+    Examples
+    --------
+    >>> piece = ricci.cover(ricci.make("torus", n=8), depth=1)
+    >>> len(piece), piece.points(0).shape[1]
+    (5, 2)
     """
 
     def __init__(self, uniform: Uniform, layout: Layout, deck: Deck) -> None:
@@ -205,12 +235,25 @@ def deck(
 ) -> Deck:
     """Deck transformations of a quotient; by default the generators.
 
+    Parameters
+    ----------
+    uniform : Uniform
+        the surface, no sphere.
+    progress : Progress
+        a `Control` or a callback.
+
     Raises
     ------
     LayoutError
         a sphere.
     ArgumentError
         more elements than `limit`.
+
+    Examples
+    --------
+    >>> curved = ricci.uniformize(ricci.make("genus", genus=2, n=3))
+    >>> len(ricci.deck(curved))
+    4
     """
     spec = picked(locals(), DeckSpec)
     given = {"limit": LIMIT, **spec, "kind": constant("DECK", spec.get("kind", "generators"), get_args(Kind))}
@@ -218,7 +261,23 @@ def deck(
 
 
 def dirichlet(uniform: Uniform, centre: npt.ArrayLike | None = None, progress: Progress = None) -> Dirichlet:
-    """The Dirichlet domain of a point in ambient coordinates; of the origin, where the base vertex is, if none is given."""
+    """The Dirichlet domain of a point in ambient coordinates; of the origin, where the base vertex is, if none is given.
+
+    Parameters
+    ----------
+    uniform : Uniform
+        the surface, no sphere.
+    centre : npt.ArrayLike | None
+        3 ambient coordinates.
+    progress : Progress
+        a `Control` or a callback.
+
+    Examples
+    --------
+    >>> curved = ricci.uniformize(ricci.make("genus", genus=2, n=3))
+    >>> round(ricci.dirichlet(curved).summary.area / 3.141592653589793, 6)
+    4.0
+    """
     point = None if centre is None else _arrays.real(centre)
     if point is not None and point.shape != (3,):
         raise ArgumentError(f"the centre has shape {point.shape}, (3,) is needed")
@@ -245,6 +304,12 @@ def cover(
         m x 3 vertex indices.
     progress : Progress
         a `Control` or a callback.
+
+    Examples
+    --------
+    >>> piece = ricci.cover(ricci.make("genus", genus=2, n=3))
+    >>> len(piece) == 1 + len({tuple(word) for word in ricci.deck(piece.uniform, kind="sides").words})
+    True
     """
     given = picked(locals(), CoverOptions)
     known(given, CoverOptions.__annotations__)

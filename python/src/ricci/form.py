@@ -27,6 +27,7 @@ from ricci._call import (
     summary,
 )
 from ricci._library import ffi, lib
+from ricci._shown import Scene
 from ricci._signatures import picked, takes
 from ricci._structs import Struct, Write, above_zero, choice, known, one_index, options
 from ricci.adapters import MeshLike, as_mesh
@@ -84,6 +85,12 @@ class HarmonicMap:
         the energy at the start of the heat flow and after each step; empty for a map that was solved for.
     summary : HarmonicSummary
         energy, residual, the modulus of a rectangle with bounds.
+
+    Examples
+    --------
+    >>> found = ricci.harmonic_map(ricci.make("disk", n=4))
+    >>> found.points.shape, found.summary.converged
+    ((61, 3), True)
     """
 
     points: Doubles
@@ -151,6 +158,15 @@ def harmonic(
     ------
     LayoutError
         a surface of another topology.
+
+    Examples
+    --------
+    >>> disk = ricci.make("disk", n=4)
+    >>> ricci.harmonic(disk).shape
+    (61, 3)
+    >>> rim = disk.boundary[0]
+    >>> bool(ricci.harmonic(disk, b=rim, bc=disk.V[rim, 0])[:, 0].max() <= 1)
+    True
     """
     given = picked(locals(), HarmonicOptions)
     mesh = as_mesh(V, F)
@@ -194,6 +210,12 @@ def harmonic_map(
     ------
     LayoutError
         a surface of another topology.
+
+    Examples
+    --------
+    >>> found = ricci.harmonic_map(ricci.make("disk", n=4), target="rectangle", b=[37, 43, 49, 55])
+    >>> found.summary.modulus_low <= found.summary.modulus <= found.summary.modulus_high
+    True
     """
     given = picked(locals(), HarmonicOptions)
     mesh = as_mesh(V, F)
@@ -231,10 +253,32 @@ _FORMS: dict[str, Write] = {"base": one_index, "classes": choice("CLASSES")}
 
 
 class Forms(Handle):
-    """A basis of the harmonic 1-forms of a surface, on its intrinsic Delaunay triangulation `mesh`. It never changes."""
+    """A basis of the harmonic 1-forms of a surface, on its intrinsic Delaunay triangulation `mesh`. It never changes.
+
+    Examples
+    --------
+    >>> basis = ricci.forms(ricci.make("torus", n=16))
+    >>> basis.values.shape == (2, basis.summary.n_edges)
+    True
+    """
+
+    # The mesh that they were asked for, which is drawn; its vertices are those of `mesh`.
+    _input: Mesh
 
     _type: ClassVar[str] = "forms"
     _made_by: ClassVar[str] = "ricci.forms(mesh)"
+    _figures: ClassVar[tuple[str, ...]] = ("n_forms", "genus", "n_edges", "closedness", "coclosedness", "modulus")
+
+    def _scene(self) -> Scene | None:
+        seen = self._input
+        if not seen.summary.has_positions:
+            return None
+        if not len(self):
+            return Scene(seen.V, seen.F)
+        strength = np.zeros(seen.n_vertices)
+        for end in self.mesh.edges.T:
+            np.maximum.at(strength, end, np.abs(self.values[0]))
+        return Scene(seen.V, seen.F, strength, "largest integral of the first form over an edge")
 
     @cached_property
     def summary(self) -> FormsSummary:
@@ -300,6 +344,15 @@ def forms(
         m x 3 vertex indices.
     progress : Progress
         a `Control` or a callback.
+
+    Examples
+    --------
+    >>> basis = ricci.forms(ricci.make("genus", genus=2, n=3))
+    >>> len(basis), basis.periods.shape
+    (4, (2, 2))
     """
     given = picked(locals(), FormsOptions)
-    return Forms._made(lib.ricci_forms_new, as_mesh(V, F), options("forms_options", given, _FORMS), CONTROL, progress=progress)
+    mesh = as_mesh(V, F)
+    made = Forms._made(lib.ricci_forms_new, mesh, options("forms_options", given, _FORMS), CONTROL, progress=progress)
+    made._input = mesh
+    return made

@@ -26,10 +26,19 @@ class Homotopy(Handle):
 
     The one relation is a1 b1 a1^-1 b1^-1 ... c1 ... cb = 1. A word is an array of letters: k for generator k (from 1), -k for its
     inverse; an edge path one of edge numbers from 1, negative against the edge.
+
+    Examples
+    --------
+    >>> loops = ricci.homotopy(ricci.make("torus", n=8))
+    >>> loops.intersections.tolist()
+    [[0, 1], [-1, 0]]
+    >>> loops.text(loops.parse("a1 b1 b1^-1"))
+    'a1'
     """
 
     _type: ClassVar[str] = "homotopy"
     _made_by: ClassVar[str] = "ricci.homotopy(mesh)"
+    _figures: ClassVar[tuple[str, ...]] = ("genus", "base", "n_generators", "n_boundary_loops", "n_relator", "n_loop_edges")
 
     @cached_property
     def summary(self) -> HomotopySummary:
@@ -109,10 +118,17 @@ class Homotopy(Handle):
 
 
 class Domain(Handle):
-    """A surface opened along a cut into a disk, lifted to the universal cover: a polygon whose sides are paired."""
+    """A surface opened along a cut into a disk, lifted to the universal cover: a polygon whose sides are paired.
+
+    Examples
+    --------
+    >>> ricci.homotopy(ricci.make("genus", genus=2, n=3)).domain().summary.n_sides
+    12
+    """
 
     _type: ClassVar[str] = "domain"
     _made_by: ClassVar[str] = "ricci.homotopy(mesh).domain()"
+    _figures: ClassVar[tuple[str, ...]] = ("n_sides", "n_side_edges", "n_side_letters", "n_corner_letters", "base_edge")
 
     @cached_property
     def summary(self) -> DomainSummary:
@@ -155,6 +171,12 @@ def homotopy(V: MeshLike, F: npt.ArrayLike | None = None, *, base: int | None = 
         the base vertex; None for one from which the loops are short.
     progress : Progress
         a `Control` or a callback.
+
+    Examples
+    --------
+    >>> loops = ricci.homotopy(ricci.make("genus", genus=2, n=3))
+    >>> loops.text(loops.path_word(loops.loops[0]))
+    'a1'
     """
     at = ffi.NULL if base is None else pointer(_arrays.index(base, "base"))
     return Homotopy._made(lib.ricci_homotopy_new, as_mesh(V, F), at, CONTROL, progress=progress)

@@ -1,4 +1,4 @@
-"""Layouts: coordinates of a surface that is cut open, in the plane, the hyperbolic plane or on the sphere; and charts of a layout."""
+"""Layouts: coordinates of a surface that is cut open, in the plane, the hyperbolic plane or on the sphere."""
 
 from __future__ import annotations
 
@@ -28,17 +28,18 @@ from ricci._call import (
     summary,
 )
 from ricci._library import lib
+from ricci._shown import Scene
 from ricci._signatures import picked, takes
 from ricci._structs import Write, above_zero, choice, index_list, one_index, options
 from ricci.control import Progress
 from ricci.errors import LayoutError, warn
-from ricci.figures import ChartsSummary, LayoutSummary, RepairedInputSummary
+from ricci.figures import LayoutSummary, RepairedInputSummary
 from ricci.figures.names import Model, On
 from ricci.mesh import Mesh
 from ricci.metrics import Metric
 from ricci.status import Status
 
-__all__ = ["Charts", "Layout", "LayoutOptions", "RepairedInput", "Seam", "SheetLine", "charts", "layout"]
+__all__ = ["Layout", "LayoutOptions", "RepairedInput", "Seam", "SheetLine", "layout"]
 
 LAYERS: tuple[Literal["boundary"], Literal["seams"], Literal["folds"]] = ("boundary", "seams", "folds")
 
@@ -115,6 +116,12 @@ class SheetLine:
         whether the line goes on from its last point to the first.
     points : Indices
         indices into `Layout.points`; a closed line does not repeat its first point.
+
+    Examples
+    --------
+    >>> laid = ricci.layout(ricci.flow(ricci.make("disk", n=4)))
+    >>> laid.lines()
+    [<ricci.SheetLine: boundary, 24 points, closed>]
     """
 
     def __init__(self, row: Any, points: Indices) -> None:
@@ -133,10 +140,22 @@ class Layout(Handle):
 
     If edges were flipped, the mesh of the layout is the common subdivision of the mesh and the metric's triangulation: ``on="refinement"``;
     ``on="input"`` makes the map linear on the faces of the mesh itself. Arrays of properties are read-only.
+
+    Examples
+    --------
+    >>> laid = ricci.layout(ricci.flow(ricci.make("disk", n=4)))
+    >>> laid.points().shape, laid.summary.n_flipped
+    ((61, 2), 0)
     """
 
     _type: ClassVar[str] = "layout"
     _made_by: ClassVar[str] = "ricci.layout(metric)"
+    _figures: ClassVar[tuple[str, ...]] = ("space", "n_faces", "n_seams", "n_flipped", "qc_mean", "area")
+
+    def _scene(self) -> Scene | None:
+        ratio = self.distortion("refinement")[1]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return Scene(self.points(), self.corners("refinement"), np.log(ratio), "logarithm of the change of area")
 
     @cached_property
     def summary(self) -> LayoutSummary:
@@ -273,13 +292,23 @@ class RepairedInput(Handle):
         the layout.
     progress : Progress
         a `Control` or a callback.
+
+    Examples
+    --------
+    >>> laid = ricci.layout(ricci.flow(ricci.make("genus", genus=2, n=3), target="auto:4"))
+    >>> laid.repaired_input().summary.n_flipped
+    0
     """
 
     _type: ClassVar[str] = "repaired_input"
     _made_by: ClassVar[str] = "ricci.layout(metric).repaired_input()"
+    _figures: ClassVar[tuple[str, ...]] = ("n_vertices", "n_faces", "n_split_edges", "n_flipped", "qc_mean", "qc_max")
 
     def __init__(self, layout: Layout, progress: Progress = None) -> None:
         self._pointer = RepairedInput._made(lib.ricci_repaired_input_new, layout, CONTROL, progress=progress)._pointer
+
+    def _scene(self) -> Scene | None:
+        return Scene(self.points, self.corners)
 
     @cached_property
     def summary(self) -> RepairedInputSummary:
@@ -325,55 +354,6 @@ class RepairedInput(Handle):
         call(lib.ricci_repaired_input_write, self, path_bytes(path))
 
 
-class Charts(Handle):
-    """A layout in charts that do not overlap, packed into the unit square.
-
-    Parameters
-    ----------
-    layout : Layout
-        the layout.
-    margin : float
-        least distance of two charts, in sides of the unit square.
-    progress : Progress
-        a `Control` or a callback.
-    """
-
-    _type: ClassVar[str] = "charts"
-    _made_by: ClassVar[str] = "ricci.charts(layout)"
-
-    def __init__(self, layout: Layout, margin: float = 1 / 256, progress: Progress = None) -> None:
-        self._pointer = Charts._made(lib.ricci_charts_new, layout, margin, CONTROL, progress=progress)._pointer
-
-    @cached_property
-    def summary(self) -> ChartsSummary:
-        """Counts, scale, and the share of the square that is covered."""
-        return summary(ChartsSummary, "charts", self)
-
-    @cached_property
-    def charts(self) -> Indices:
-        """The chart of every face of the layout's mesh; charts with more area come first."""
-        return frozen(filled(lib.ricci_charts_faces, self, out=np.empty(self.summary.n_faces, np.uint32)))
-
-    @cached_property
-    def points(self) -> Doubles:
-        """n_points x 2, from 0 to 1."""
-        return frozen(doubles(lib.ricci_charts_points, self, shape=(self.summary.n_points, 2)))
-
-    @cached_property
-    def corners(self) -> Indices:
-        """The point of every corner of every face, n_faces x 3."""
-        return frozen(filled(lib.ricci_charts_corners, self, out=np.empty((self.summary.n_faces, 3), np.uint32)))
-
-    @cached_property
-    def motions(self) -> Doubles:
-        """n_charts x 3: rotation (radians) and translation that carry the layout's points, times `summary.scale`, to the chart's."""
-        return frozen(doubles(lib.ricci_charts_motions, self, shape=(self.summary.n_charts, 3)))
-
-    def write(self, path: str | os.PathLike[str], *, homogeneous: bool = False) -> None:
-        """Write the layout's mesh with its charts as texture coordinates, as `Layout.write` does."""
-        call(lib.ricci_charts_write, self, int(homogeneous), path_bytes(path))
-
-
 # Largest curvature of a vertex, radians, that a layout does not cut through: the library's own bound for cones.
 _FLAT = 1e-10
 
@@ -414,6 +394,13 @@ def layout(
 ) -> Layout:
     """The layout of a metric in its space, cut open along edges of the mesh through all cones.
 
+    Parameters
+    ----------
+    metric : Metric
+        the metric, as a flow makes it.
+    progress : Progress
+        a `Control` or a callback.
+
     Raises
     ------
     LayoutError
@@ -423,13 +410,14 @@ def layout(
     -----
     NotConverged
         the flow that led to the metric did not come to its target, so that seams do not fit and faces may be folded.
+
+    Examples
+    --------
+    >>> flat = ricci.flow(ricci.make("genus", genus=2, n=3), target="auto:4")
+    >>> ricci.layout(flat).uv().shape
+    (1584, 3, 2)
     """
     given = picked(locals(), LayoutOptions)
     if isinstance(metric, Metric):
         _check_flat(metric, given.get("cones") is not None)
     return Layout._made(lib.ricci_layout_new, metric, options("layout_options", given, _LAYOUT), CONTROL, progress=progress)
-
-
-def charts(layout: Layout, margin: float = 1 / 256, progress: Progress = None) -> Charts:
-    """Cut a layout into charts that do not overlap, and pack them into the unit square."""
-    return Charts(layout, margin, progress)

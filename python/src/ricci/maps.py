@@ -13,6 +13,7 @@ from ricci._arrays import frozen
 from ricci._call import CONTROL, Doubles, Handle, Indices, call, constant, doubles, filled, pointer, signed_view, summary
 from ricci._labels import are_labels, heaviest
 from ricci._library import lib
+from ricci._shown import Scene
 from ricci._structs import Struct
 from ricci.control import Progress
 from ricci.errors import ArgumentError
@@ -38,6 +39,13 @@ class Map(Handle):
         the result of a flow.
     progress : Progress
         a `Control` or a callback.
+
+    Examples
+    --------
+    >>> flat = ricci.flow(ricci.make("torus", n=16))
+    >>> over = ricci.Map(flat)
+    >>> over.carry(flat.factor).shape == (over.summary.n_vertices,)
+    True
     """
 
     # The mesh of the side "metric".
@@ -45,10 +53,14 @@ class Map(Handle):
 
     _type: ClassVar[str] = "map"
     _made_by: ClassVar[str] = "ricci.Map(metric)"
+    _figures: ClassVar[tuple[str, ...]] = ("n_vertices", "n_edges", "n_faces", "n_crossings", "n_pieces")
 
     def __init__(self, metric: Metric, progress: Progress = None) -> None:
         self._pointer = Map._made(lib.ricci_map_new, metric, CONTROL, progress=progress)._pointer
         self._target: Mesh = metric.triangulation
+
+    def _scene(self) -> Scene | None:
+        return Scene(self.mesh.V, self.mesh.F, self.faces() * 0.6180339887498949 % 1)
 
     @cached_property
     def summary(self) -> MapSummary:

@@ -14,6 +14,7 @@ from ricci._arrays import frozen
 from ricci._call import CONTROL, Doubles, Handle, Indices, call, constant, doubles, filled, pointer, summary
 from ricci._labels import are_labels, heaviest
 from ricci._library import lib
+from ricci._shown import Scene
 from ricci._signatures import picked, takes
 from ricci._structs import Struct, Write, above_zero, choice, index_list, known, options, real_list
 from ricci.adapters import MeshLike, as_mesh
@@ -153,7 +154,16 @@ def _of_mirrored(given: dict[str, Any], source: Mesh, image: Mesh) -> dict[str, 
 
 
 class Matching(Handle):
-    """A map between two surfaces and its inverse; no face folds. It never changes."""
+    """A map between two surfaces and its inverse; no face folds. It never changes.
+
+    Examples
+    --------
+    >>> found = ricci.match(ricci.make("sphere", n=4), ricci.make("sphere", n=5))
+    >>> found.summary.n_flipped
+    0
+    >>> bool(found.weights().min() >= 0)
+    True
+    """
 
     # The surfaces, whose faces labels are looked up in.
     _source: Mesh
@@ -163,6 +173,13 @@ class Matching(Handle):
 
     _type: ClassVar[str] = "matching"
     _made_by: ClassVar[str] = "ricci.match(source, target)"
+    _figures: ClassVar[tuple[str, ...]] = ("n_source_vertices", "n_target_vertices", "n_flipped", "qc_mean", "qc_max", "distance_mean")
+
+    def _scene(self) -> Scene | None:
+        if not (self._source.summary.has_positions and self._target.summary.has_positions):
+            return None
+        image = self.carry(self._target.V)
+        return Scene(self._source.V, self._source.F, image[:, np.ptp(image, axis=0).argmax()], "coordinate of the image")
 
     @cached_property
     def summary(self) -> MatchingSummary:
@@ -274,6 +291,13 @@ def match(
     ------
     MatchingError
         surfaces of different topology, landmarks in conflict, no map found.
+
+    Examples
+    --------
+    >>> a, b = ricci.make("sphere", n=4), ricci.make("ellipsoid", n=5)
+    >>> found = ricci.match(a, b)
+    >>> found.carry(b.V).shape == a.V.shape
+    True
     """
     given = picked(locals(), MatchOptions)
     hard: dict[str, Any] = dict(given.items())

@@ -13,6 +13,7 @@ from ricci import _arrays
 from ricci._arrays import frozen
 from ricci._call import CONTROL, Doubles, Handle, Indices, Signed, call, constant, figures_of, filled, path_bytes, pointer, summary
 from ricci._library import ffi, lib
+from ricci._shown import Scene
 from ricci._signatures import picked, takes
 from ricci._structs import Struct, above_zero, choice, number, options, real_list
 from ricci._triangles import Triangles
@@ -96,10 +97,17 @@ class Mesh(Triangles):
         the faces are no surface (`Soup` lists the defects).
     ArgumentError
         an index that is negative or too large.
+
+    Examples
+    --------
+    >>> mesh = ricci.Mesh([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2], [0, 2, 3]])
+    >>> mesh.n_faces, mesh.euler, mesh.boundary[0].tolist()
+    (2, 1, [2, 3, 0, 1])
     """
 
     _type: ClassVar[str] = "mesh"
     _made_by: ClassVar[str] = "ricci.as_mesh(V, F), or ricci.read(path),"
+    _figures: ClassVar[tuple[str, ...]] = ("n_vertices", "n_edges", "n_faces", "euler", "genus", "n_boundary_loops")
     _faces_of: ClassVar[Any] = lib.ricci_mesh_faces
     _values_of: ClassVar[Any] = lib.ricci_mesh_values
 
@@ -107,6 +115,9 @@ class Mesh(Triangles):
         positions, faces = _arrays.points(V), _arrays.indices(F, 3, "F")
         made = Mesh._made(lib.ricci_mesh_from_arrays, pointer(positions), positions.strides[0], len(positions), pointer(faces), len(faces))
         self._pointer = made._pointer
+
+    def _scene(self) -> Scene | None:
+        return Scene(self.V, self.F) if self.summary.has_positions else None
 
     @classmethod
     def read(cls, path: str | os.PathLike[str], progress: Progress = None) -> Self:
@@ -156,7 +167,12 @@ class Mesh(Triangles):
     def with_attributes(
         self,
         *,
-        normals: npt.ArrayLike | None = None, colors: npt.ArrayLike | None = None, uv: npt.ArrayLike | None = None, corner_normals: npt.ArrayLike | None = None, png: bytes | None = None, wrap: Literal["repeat", "mirror", "clamp"] | None = None,
+        normals: npt.ArrayLike | None = None,
+        colors: npt.ArrayLike | None = None,
+        uv: npt.ArrayLike | None = None,
+        corner_normals: npt.ArrayLike | None = None,
+        png: bytes | None = None,
+        wrap: Literal["repeat", "mirror", "clamp"] | None = None,
     ) -> Mesh:
         """The same mesh with these attributes in place of its own: normals, colors, uv, corner_normals."""
         attributes = picked(locals(), Attributes)
@@ -275,7 +291,12 @@ class Mesh(Triangles):
         path: str | os.PathLike[str],
         progress: Progress = None,
         *,
-        normals: npt.ArrayLike | None = None, colors: npt.ArrayLike | None = None, uv: npt.ArrayLike | None = None, corner_normals: npt.ArrayLike | None = None, png: bytes | None = None, wrap: Literal["repeat", "mirror", "clamp"] | None = None,
+        normals: npt.ArrayLike | None = None,
+        colors: npt.ArrayLike | None = None,
+        uv: npt.ArrayLike | None = None,
+        corner_normals: npt.ArrayLike | None = None,
+        png: bytes | None = None,
+        wrap: Literal["repeat", "mirror", "clamp"] | None = None,
     ) -> None:
         """Write the mesh as .obj, .off, .ply or .glb, whole or not at all, with the attributes that the format has.
 
@@ -373,5 +394,19 @@ def _glued(F: Indices, face_edges: Signed, lengths: Doubles, geometry: Space) ->
 
 
 def read(path: str | os.PathLike[str], progress: Progress = None) -> Mesh:
-    """The mesh of a file, as `Mesh.read`."""
+    """The mesh of a file, as `Mesh.read`.
+
+    Parameters
+    ----------
+    path : str | os.PathLike[str]
+        the file: .obj, .off, .ply, .stl, .glb, .gltf, .gii, or .gz behind.
+    progress : Progress
+        a `Control` or a callback.
+
+    Examples
+    --------
+    >>> ricci.make("torus", n=8).write("ring.obj")
+    >>> ricci.read("ring.obj")
+    <ricci.Mesh: 32 vertices, 64 faces, genus 1, 0 boundary loops>
+    """
     return Mesh.read(path, progress)

@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-import threading
-from collections.abc import Callable
 from functools import cached_property
-from typing import Any, ClassVar, Literal, Self, TypedDict
+from typing import Any, ClassVar, Literal, TypedDict
 
 import numpy as np
 import numpy.typing as npt
 
-from ricci import _arrays
 from ricci._arrays import frozen
-from ricci._call import CONTROL, Doubles, Handle, Indices, Passed, call, constant, doubles, filled, pointer, summary
-from ricci._library import ffi, lib
+from ricci._call import CONTROL, Doubles, Handle, Indices, Passed, constant, doubles, filled, summary
+from ricci._library import lib
+from ricci._shown import Scene
 from ricci._signatures import picked, takes
 from ricci._structs import Struct, Write, above_zero, choice, index_list, number, options
 from ricci.adapters import MeshLike, as_mesh
@@ -24,7 +22,7 @@ from ricci.figures.names import Scheme, Space
 from ricci.mesh import Mesh
 from ricci.targets import TargetLike, target_struct
 
-__all__ = ["FlowJob", "FlowOptions", "Metric", "Report", "Solver", "flow", "metric"]
+__all__ = ["FlowJob", "FlowOptions", "Metric", "Report", "flow", "metric"]
 
 
 class FlowOptions(TypedDict, total=False):
@@ -98,19 +96,27 @@ def flow_struct(given: Any) -> Struct:
     return options("flow_options", given, _FLOW)
 
 
-class Report(Passed):
-    """The report of the flow that led to a metric: figures, target, residuals, and the vertices with the largest errors."""
+class Report(ReportSummary, Passed):
+    """The report of the flow that led to a metric: figures, target, residuals, and the vertices with the largest errors.
+
+    The figures are attributes of the report itself, as of `summary`.
+
+    Examples
+    --------
+    >>> report = ricci.flow(ricci.make("torus", n=16)).report
+    >>> report.stop_reason, report.max_curvature_error < 1e-10
+    ('converged', True)
+    """
 
     def __init__(self, of: Metric) -> None:
         # The library's object, not the Python one, which has this report: both are freed at once, without a search for cycles.
-        self._pointer = of._pointer
-        self._n_vertices = of.summary.n_vertices
-        self.summary = summary(ReportSummary, "report", self)
+        found = {"_pointer": of._pointer, "_n_vertices": of.summary.n_vertices}
+        self.__dict__.update(found)
+        told = summary(ReportSummary, "report", self)
+        self.__dict__.update({**vars(told), "summary": told})
 
-    @property
-    def converged(self) -> bool:
-        """True if the curvature error is within the tolerance and no triangle is broken."""
-        return self.summary.converged
+    summary: ReportSummary
+    _n_vertices: int
 
     @cached_property
     def target(self) -> Doubles:
@@ -169,14 +175,31 @@ class Metric(Handle):
         the geometry in which the metric will live.
     scheme : Scheme
         how lengths depend on u.
+
+    Examples
+    --------
+    >>> flat = ricci.flow(ricci.make("torus", n=16))
+    >>> float(abs(flat.curvature).max()) < 1e-9
+    True
+    >>> flat.factor.shape
+    (128,)
     """
+
+    # The mesh that it was made from, which is drawn; of metrics that come out of other objects None.
+    _input: Mesh | None = None
 
     _type: ClassVar[str] = "metric"
     _made_by: ClassVar[str] = "ricci.flow(mesh)"
+    _figures: ClassVar[tuple[str, ...]] = ("space", "scheme", "n_vertices", "n_flips", "area", "gauss_bonnet")
 
     def __init__(self, V: MeshLike, F: npt.ArrayLike | None = None, *, space: Space = "e2", scheme: Scheme = "yamabe") -> None:
-        made = Metric._made(lib.ricci_metric_new, as_mesh(V, F), constant("SCHEME", scheme), constant("SPACE", space))
+        self._input = as_mesh(V, F)
+        made = Metric._made(lib.ricci_metric_new, self._input, constant("SCHEME", scheme), constant("SPACE", space))
         self._pointer = made._pointer
+
+    def _scene(self) -> Scene | None:
+        seen = self._input
+        return None if seen is None or not seen.summary.has_positions else Scene(seen.V, seen.F, self.factor, "conformal factor")
 
     @takes(FlowOptions)
     def flow(
@@ -198,6 +221,7 @@ class Metric(Handle):
         """The metric of the class with the curvature `target`, as `ricci.flow`; it goes on from where this one is."""
         given = picked(locals(), FlowOptions)
         made = Metric._made(lib.ricci_flow, self, target_struct(target), flow_struct(given), CONTROL, progress=progress)
+        made._input = self._input
         made._warn()
         return made
 
@@ -308,70 +332,26 @@ class Metric(Handle):
         return f"<ricci.Metric: {s.scheme} in {s.space}, {s.n_vertices} vertices, {s.n_flips} flips>"
 
 
-class Solver(Handle):
-    """A solver for many targets on one metric: it keeps its analysis, its threads and the last solution. Threads take turns.
+def metric(V: MeshLike, F: npt.ArrayLike | None = None, *, space: Space = "e2", scheme: Scheme = "yamabe") -> Metric:
+    """The initial metric of a mesh in the conformal class of its lengths, as `Metric`.
 
     Parameters
     ----------
-    start : Metric
-        where the first solve starts.
-    given
-        how a flow is solved, as of `flow`.
+    V : MeshLike
+        n x 3 positions with `F`, or a mesh of any kind (`as_mesh`).
+    F : npt.ArrayLike | None
+        m x 3 vertex indices from 0.
+    space : Space
+        the geometry in which the metric will live.
+    scheme : Scheme
+        how lengths depend on u.
+
+    Examples
+    --------
+    >>> start = ricci.metric(ricci.make("torus", n=16))
+    >>> bool(abs(start.curvature.sum()) < 1e-9)
+    True
     """
-
-    _type: ClassVar[str] = "solver"
-    _made_by: ClassVar[str] = "ricci.Solver(metric)"
-
-    @takes(FlowOptions)
-    def __init__(
-        self,
-        start: Metric,
-        *,
-        method: Literal["newton", "gradient"] = "newton",
-        flips: Literal["auto", "never"] = "auto",
-        tolerance: float | None = None,
-        max_iterations: int | None = None,
-        threads: int | None = None,
-        max_step: float | None = None,
-        fixed_edges: npt.ArrayLike | None = None,
-        step: Literal["armijo", "barzilai_borwein", "stable", "fixed"] = "armijo",
-        step_size: float | None = None,
-        area_normalised: bool = False,
-    ) -> None:
-        given = picked(locals(), FlowOptions)
-        self._pointer = Solver._made(lib.ricci_solver_new, start, flow_struct(given))._pointer
-        self._turn = threading.Lock()
-
-    def __copy__(self) -> Self:
-        raise TypeError("a ricci.Solver changes with every solve, so that it has no copies: make another one of its metric")
-
-    def __deepcopy__(self, _: Any) -> Self:
-        return self.__copy__()
-
-    def pin(self, vertices: npt.ArrayLike = ()) -> None:
-        """Hold u fixed at these vertices in the following solves, whose curvature is then free; none releases all."""
-        pinned = _arrays.indices(vertices)
-        call(self._in_turn(lib.ricci_solver_pin), self, pointer(pinned) if pinned.size else ffi.NULL, pinned.size)
-
-    def solve(self, target: TargetLike = None, progress: Progress = None) -> Metric:
-        """The metric with this target, from where the last solve ended. After a failure the solver is where it was before."""
-        made = Metric._made(self._in_turn(lib.ricci_solver_solve), self, target_struct(target), CONTROL, progress=progress)
-        made._warn()
-        return made
-
-    def _in_turn(self, function: Callable[..., int]) -> Callable[..., int]:
-        """The function, which the library asks for by one thread at a time; held by the thread that runs it, until it has ended."""
-        turn = self._turn
-
-        def waiting(*arguments: Any) -> int:
-            with turn:
-                return function(*arguments)
-
-        return waiting
-
-
-def metric(V: MeshLike, F: npt.ArrayLike | None = None, *, space: Space = "e2", scheme: Scheme = "yamabe") -> Metric:
-    """The initial metric of a mesh in the conformal class of its lengths, as `Metric`."""
     return Metric(V, F, space=space, scheme=scheme)
 
 
@@ -419,6 +399,12 @@ def flow(
         there is no metric to begin with.
     Cancelled
         stopped by its control.
+
+    Examples
+    --------
+    >>> flat = ricci.flow(ricci.make("genus", genus=2, n=3), target="auto:4")
+    >>> flat.converged, flat.report.n_cones
+    (True, 4)
     """
     given = picked(locals(), FlowJob)
     how: dict[str, Any] = dict(given)

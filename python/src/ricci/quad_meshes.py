@@ -10,6 +10,7 @@ import numpy as np
 from ricci._arrays import frozen
 from ricci._call import CONTROL, Doubles, Handle, Indices, call, constant, doubles, filled, pointer, rows, signed_view, summary
 from ricci._library import lib
+from ricci._shown import Scene
 from ricci._signatures import picked, takes
 from ricci._structs import Struct, Write, above_zero, number, options
 from ricci.control import Progress
@@ -87,10 +88,22 @@ class QuadPlaces(NamedTuple):
 
 
 class Quads(Handle):
-    """A mesh of quads on a surface. Every vertex that is no cone or corner has four quads, two on the boundary."""
+    """A mesh of quads on a surface. Every vertex that is no cone or corner has four quads, two on the boundary.
+
+    Examples
+    --------
+    >>> made = ricci.quads(ricci.seamless(ricci.make("ellipsoid", n=8)), n_quads=200)
+    >>> made.positions.shape == (made.summary.n_vertices, 3)
+    True
+    """
 
     _type: ClassVar[str] = "quads"
     _made_by: ClassVar[str] = "ricci.quads(ricci.seamless(mesh))"
+    _figures: ClassVar[tuple[str, ...]] = ("n_quads", "n_vertices", "n_irregular", "n_creases", "angle_mean", "edge_mean")
+
+    def _scene(self) -> Scene | None:
+        halves = np.concatenate([self.F[:, [0, 1, 2]], self.F[:, [0, 2, 3]]])
+        return Scene(self.positions, halves, np.tile(self.rectangles, 2) * 0.6180339887498949 % 1)
 
     @cached_property
     def summary(self) -> QuadsSummary:
@@ -133,10 +146,22 @@ class Quads(Handle):
 
 
 class QuadLayout(Handle):
-    """A layout of four-sided patches, each a rectangle of quads."""
+    """A layout of four-sided patches, each a rectangle of quads.
+
+    Examples
+    --------
+    >>> patches = ricci.quad_layout(ricci.seamless(ricci.make("ellipsoid", n=8)))
+    >>> [len(sides) for sides in patches.sides] == [4] * patches.summary.n_patches
+    True
+    """
 
     _type: ClassVar[str] = "quad_layout"
     _made_by: ClassVar[str] = "ricci.quad_layout(ricci.seamless(mesh))"
+    _figures: ClassVar[tuple[str, ...]] = ("n_nodes", "n_arcs", "n_patches", "n_units", "n_parts", "n_quads")
+
+    def _scene(self) -> Scene | None:
+        seen = self.quads._scene()
+        return None if seen is None else seen._replace(values=np.tile(self.patches, 2) * 0.6180339887498949 % 1)
 
     @cached_property
     def summary(self) -> QuadLayoutSummary:
@@ -208,6 +233,12 @@ def quads(
         more than one size, or one that is not positive.
     LayoutError
         the seamless metric is so far from its target that its seams do not turn by multiples of 90 degrees.
+
+    Examples
+    --------
+    >>> made = ricci.quads(ricci.seamless(ricci.make("ellipsoid", n=8)), n_quads=200)
+    >>> made.F.shape[1], made.summary.euler
+    (4, 2)
     """
     given = picked(locals(), QuadsOptions)
     return Quads._made(lib.ricci_quads_new, seamless, _options(given), CONTROL, progress=progress)
@@ -241,6 +272,12 @@ def quad_layout(
         more than one size, or one that is not positive.
     LayoutError
         the seamless metric is so far from its target that its seams do not turn by multiples of 90 degrees.
+
+    Examples
+    --------
+    >>> patches = ricci.quad_layout(ricci.seamless(ricci.make("ellipsoid", n=8)))
+    >>> patches.summary.n_nodes - patches.summary.n_arcs + patches.summary.n_patches
+    2
     """
     given = picked(locals(), QuadsOptions)
     return QuadLayout._made(lib.ricci_quad_layout_new, seamless, _options(given), CONTROL, progress=progress)

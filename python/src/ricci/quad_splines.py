@@ -13,6 +13,7 @@ from ricci import _arrays
 from ricci._arrays import frozen
 from ricci._call import CONTROL, Doubles, Handle, Indices, call, constant, filled, listed, path_bytes, pointer, signed_view, summary
 from ricci._library import ffi, lib
+from ricci._shown import Scene
 from ricci._signatures import picked, takes
 from ricci._structs import Write, above_zero, number, options, or_none
 from ricci.adapters import MeshLike, as_mesh
@@ -122,10 +123,21 @@ class ExtractionMatrix(NamedTuple):
 
 
 class QuadSpline(Handle):
-    """A spline over a layout of four-sided patches, of degree 5 along u and v; its tangent planes are continuous but at creases."""
+    """A spline over a layout of four-sided patches, of degree 5 along u and v; its tangent planes are continuous but at creases.
+
+    Examples
+    --------
+    >>> smooth = ricci.quad_spline(ricci.seamless(ricci.make("ellipsoid", n=8)))
+    >>> smooth.evaluate(0, [[0.5, 0.5]]).shape
+    (1, 3)
+    """
 
     _type: ClassVar[str] = "quad_spline"
     _made_by: ClassVar[str] = "ricci.quad_spline(ricci.seamless(mesh))"
+    _figures: ClassVar[tuple[str, ...]] = ("n_patches", "n_control_points", "rms", "max", "normal_jump", "converged")
+
+    def _scene(self) -> Scene | None:
+        return self.tessellate(4)._scene()
 
     @cached_property
     def summary(self) -> QuadSplineSummary:
@@ -317,6 +329,12 @@ def quad_spline(
         a surface without positions; a metric so far from its target that it has no quads.
     SplineError
         a layout with one or two patches around a node.
+
+    Examples
+    --------
+    >>> smooth = ricci.quad_spline(ricci.seamless(ricci.make("ellipsoid", n=8)))
+    >>> smooth.summary.degree
+    5
     """
     given = picked(locals(), QuadSplineOptions)
     on: Any = ffi.NULL if layout is None else layout

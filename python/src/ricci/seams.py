@@ -12,6 +12,7 @@ from ricci import _arrays
 from ricci._arrays import frozen
 from ricci._call import CONTROL, Handle, constant, filled, summary
 from ricci._library import lib
+from ricci._shown import Scene
 from ricci._signatures import picked, takes
 from ricci._structs import Write, above_zero, index_list, number, options, real_list
 from ricci.adapters import MeshLike, as_mesh
@@ -114,10 +115,21 @@ _SEAMLESS: dict[str, Write] = {
 
 
 class Seamless(Handle):
-    """A flat metric whose angles around cones and along loops are multiples of 90 degrees."""
+    """A flat metric whose angles around cones and along loops are multiples of 90 degrees.
+
+    Examples
+    --------
+    >>> turning = ricci.seamless(ricci.make("torus", n=24), cones={})
+    >>> turning.summary.n_cones, turning.map().summary.n_flipped
+    (0, 0)
+    """
 
     _type: ClassVar[str] = "seamless"
     _made_by: ClassVar[str] = "ricci.seamless(mesh)"
+    _figures: ClassVar[tuple[str, ...]] = ("converged", "n_cones", "n_loops", "error", "n_flips", "n_features")
+
+    def _scene(self) -> Scene | None:
+        return self.map()._scene()
 
     @cached_property
     def summary(self) -> SeamlessSummary:
@@ -200,6 +212,11 @@ def seamless(
         features or strokes that do not exist; a choice of cones that does not fit a boundary or features.
     TargetError
         cones or a signature that no metric has.
+
+    Examples
+    --------
+    >>> ricci.seamless(ricci.make("ellipsoid", n=8)).converged
+    True
     """
     given = picked(locals(), SeamlessOptions)
     struct = options("seamless_options", given, _SEAMLESS)
@@ -247,6 +264,11 @@ def cross_field(
     ------
     ArgumentError
         a mesh without positions; features or strokes that do not exist.
+
+    Examples
+    --------
+    >>> ricci.cross_field(ricci.make("sphere", n=4)).shape
+    (320, 3)
     """
     given = picked(locals(), SeamlessOptions)
     mesh = as_mesh(V, F)

@@ -38,7 +38,7 @@ Change: TypeAlias = Literal["punch", "grade", "caps", "needles", "noise", "inver
 
 
 class ShapeOptions(TypedDict, total=False):
-    """Sizes of a surface; `shapes.h` describes them for each shape. Left out: as the command `ricci make` has them.
+    """Sizes of a surface; `make` says which ones a shape has. Left out: as the command `ricci make` has them.
 
     Attributes
     ----------
@@ -74,7 +74,7 @@ class ShapeOptions(TypedDict, total=False):
 
 
 class ChangeOptions(TypedDict, total=False):
-    """Arguments of a change; `shapes.h` describes them for each change.
+    """Arguments of a change; `change` says which ones it needs.
 
     Attributes
     ----------
@@ -189,7 +189,32 @@ def make(
     Parameters
     ----------
     shape : Shape
-        which one; those from ``"flat_torus"`` on are intrinsic: gluings with lengths, without positions.
+        which one, with the sizes that it has:
+
+        - ``"sphere"``: n. An icosahedron with each edge cut into n, on the unit sphere.
+        - ``"ellipsoid"``: a, b, c, n. The sphere scaled along x, y, z.
+        - ``"disk"``: n. A centre and n rings in the plane.
+        - ``"annulus"``: a, b, n, m. Inner and outer radius, steps outwards in geometric progression, vertices around.
+        - ``"torus"``: a, b, n, m. Radii of the centre circle and of the tube, vertices around the axis and around the tube.
+        - ``"genus"``: genus, a, n. Handles in a row, the first hole a times as wide as the last, n layers over a quarter of the tube.
+        - ``"knot"``: p, q, a, b, c, n, m. A tube of radius c around the curve that goes p times around the axis and q times around the
+          tube of a torus of radii a and b; n cross-sections, m vertices around.
+
+        These are intrinsic, gluings with lengths without positions:
+
+        - ``"flat_torus"``: a, b, n, m. Periods 1 and a + i b, of n x m parallelograms.
+        - ``"bolza"``: n. The regular hyperbolic octagon with opposite sides glued, every triangle cut into four n times.
+        - ``"one_vertex"``, ``"two_vertex"``: genus. A regular polygon with its sides glued, cut by diagonals or from its centre.
+        - ``"two_triangles"``. Glued along their sides.
+        - ``"pants"``: a, b, c, n. The hyperbolic surface with three geodesic boundaries of these lengths.
+        - ``"hyperelliptic"``: points, n. The double cover of the round sphere branched over these points; 40 n^2 faces.
+
+    Examples
+    --------
+    >>> ricci.make("genus", genus=3)
+    <ricci.Mesh: 4604 vertices, 9216 faces, genus 3, 0 boundary loops>
+    >>> ricci.make("flat_torus", a=0.5, b=1.2, n=8, m=8)
+    <ricci.Mesh: 64 vertices, 128 faces, genus 1, 0 boundary loops>
     """
     sizes = picked(locals(), ShapeOptions)
     number_of = constant("SHAPE", shape)
@@ -210,10 +235,29 @@ def change(
 ) -> Mesh:
     """A changed copy of a surface in space, without its attributes: ``change(mesh, "punch", count=3)`` cuts three holes.
 
+    Parameters
+    ----------
+    mesh : Mesh
+        the surface.
+    what : Change
+        what is done, with the arguments that it needs; new vertices come last:
+
+        - ``"punch"``: count. Cuts round holes, as far from each other and from the boundary as the vertices allow.
+        - ``"grade"``: vertex, count. Halves the edges around the vertex, then those of the smaller triangles around it, count times.
+        - ``"caps"``, ``"needles"``: count, amount, seed. Cuts faces into three by a vertex near the middle of a side, or near a corner;
+          the amount is the smallest angle or the length of the short edge.
+        - ``"noise"``: amount, seed. Moves every vertex by up to this share of the mean edge length in each coordinate.
+        - ``"invert"``: centre, amount. Maps by the inversion in the sphere of this centre and radius; faces keep their outside.
+
     Raises
     ------
     ArgumentError
         an argument that the change needs is not given.
+
+    Examples
+    --------
+    >>> ricci.change(ricci.make("sphere"), "punch", count=3)
+    <ricci.Mesh: 2313 vertices, 4528 faces, genus 0, 3 boundary loops>
     """
     how = picked(locals(), ChangeOptions)
     number_of = constant("CHANGE", what)
@@ -231,6 +275,11 @@ def hyperelliptic_periods(points: npt.ArrayLike) -> Complexes:
     ----------
     points : npt.ArrayLike
         the finite branch points e_j, complex, all different: 2 g + 1, or 2 g + 2.
+
+    Examples
+    --------
+    >>> ricci.hyperelliptic_periods([-1, 0, 1]).round(6)
+    array([[-0.+1.j]])
     """
     pairs = _pairs(points)
     genus = (len(pairs) - 1) // 2

@@ -29,6 +29,7 @@ from ricci._call import (
     text_of,
 )
 from ricci._library import ffi, lib
+from ricci._shown import Scene
 from ricci._signatures import picked, takes
 from ricci._structs import Struct, Write, above_zero, index_list, number, options
 from ricci._triangles import Triangles
@@ -100,6 +101,12 @@ class Defect:
         the vertices concerned, a view of the library's own memory.
     faces : Indices
         the faces concerned, likewise.
+
+    Examples
+    --------
+    >>> soup = ricci.Soup([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2], [0, 1, 5]])
+    >>> soup.defects[0].message
+    'face 1 uses vertex 5, which does not exist'
     """
 
     code: str
@@ -119,6 +126,12 @@ class Loop:
         its length; NaN if a vertex is not finite.
     vertices : Indices
         its vertices, in the direction of the faces beside it.
+
+    Examples
+    --------
+    >>> soup = ricci.Soup([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+    >>> soup.loops[0].vertices.tolist()
+    [0, 1, 2]
     """
 
     length: float
@@ -147,6 +160,12 @@ class Hole:
         the faces of the patch.
     vertices : range
         the vertices inside the patch.
+
+    Examples
+    --------
+    >>> soup = ricci.Soup([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+    >>> soup.repair(fill_holes="all").holes[0].n_edges
+    3
     """
 
     filled: bool
@@ -181,10 +200,19 @@ class Soup(Triangles):
         n x 3 positions.
     F : npt.ArrayLike
         m x 3 vertex indices; nothing is asked of them.
+
+    Examples
+    --------
+    >>> soup = ricci.Soup([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2], [0, 1, 2]])
+    >>> [defect.code for defect in soup.defects]
+    ['duplicate_face', 'inconsistent_orientation', 'inconsistent_orientation', 'inconsistent_orientation']
+    >>> soup.repair().mesh()
+    <ricci.Mesh: 3 vertices, 1 faces, genus 0, 1 boundary loops>
     """
 
     _type: ClassVar[str] = "soup"
     _made_by: ClassVar[str] = "ricci.Soup(V, F)"
+    _figures: ClassVar[tuple[str, ...]] = ("n_vertices", "n_faces", "n_components", "n_defects", "n_boundary_loops", "euler")
     _faces_of: ClassVar[Any] = lib.ricci_soup_faces
     _values_of: ClassVar[Any] = lib.ricci_soup_values
 
@@ -192,6 +220,11 @@ class Soup(Triangles):
         positions, faces = _arrays.points(V), _arrays.indices(F, 3, "F")
         made = Soup._made(lib.ricci_soup_from_arrays, pointer(positions), positions.strides[0], len(positions), pointer(faces), len(faces))
         self._pointer = made._pointer
+
+    def _scene(self) -> Scene | None:
+        # Indices and numbers of a list need not be any.
+        sound = (len(self.V) > self.F).all(1) & (self.F >= 0).all(1)
+        return Scene(self.V, self.F[sound]) if len(self.V) else None
 
     def __reduce__(self) -> Any:
         """The arrays of the list.

@@ -33,6 +33,11 @@ def spline_domain(polygons: Sequence[npt.ArrayLike], edge: float) -> Mesh:
     ------
     SplineError
         a polygon that crosses itself or another one.
+
+    Examples
+    --------
+    >>> ricci.spline_domain([[[0, 0], [1, 0], [1, 1], [0, 1]]], edge=0.5).euler
+    1
     """
     parts = [_arrays.real(part, 2, "polygons") for part in polygons]
     corners = np.concatenate(parts)
@@ -58,6 +63,12 @@ def flat_metric(mesh: Mesh, singular: int | str | npt.ArrayLike = "auto", range:
     ------
     ArgumentError
         a sphere with fewer than three singular vertices, or too few vertices for three (500 each).
+
+    Examples
+    --------
+    >>> flat = ricci.flat_metric(ricci.make("torus", n=16))
+    >>> bool(abs(flat.curvature).max() < 1e-9)
+    True
     """
     mesh = as_mesh(mesh)
     vertices = None if isinstance(singular, (int, str)) else np.ascontiguousarray(singular, dtype=np.uint32)

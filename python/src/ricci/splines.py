@@ -28,6 +28,7 @@ from ricci._call import (
     text_of,
 )
 from ricci._library import lib
+from ricci._shown import Scene
 from ricci._signatures import picked, takes
 from ricci._structs import Struct, Write, above_zero, index_list, options, or_none, real_list
 from ricci.adapters import MeshLike, as_mesh
@@ -126,10 +127,21 @@ def _places(parameters: npt.ArrayLike, patches: npt.ArrayLike | None) -> Struct:
 
 
 class Spline(Handle):
-    """A spline surface: basis functions over a domain, with a control point each. It never changes."""
+    """A spline surface: basis functions over a domain, with a control point each. It never changes.
+
+    Examples
+    --------
+    >>> flat = ricci.Spline.plane(ricci.make("disk", n=2), degree=2)
+    >>> flat.evaluate([[0.1, 0.2]]).round(12)
+    array([[0.1, 0.2, 0. ]])
+    """
 
     _type: ClassVar[str] = "spline"
     _made_by: ClassVar[str] = "ricci.spline(mesh)"
+    _figures: ClassVar[tuple[str, ...]] = ("degree", "n_patches", "n_control_points", "fit_rms", "fit_max", "n_folded_patches")
+
+    def _scene(self) -> Scene | None:
+        return self.tessellate(6)._scene()
 
     @classmethod
     @takes(PlaneOptions)
@@ -411,6 +423,12 @@ def spline(
         m x 3 vertex indices.
     progress : Progress
         a `Control` or a callback.
+
+    Examples
+    --------
+    >>> ring = ricci.spline(ricci.make("torus", n=24), rounds=1)
+    >>> ring.summary.degree
+    3
     """
     given = picked(locals(), SurfaceOptions)
     if isinstance(V, Metric):

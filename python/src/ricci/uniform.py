@@ -12,6 +12,7 @@ from ricci import _arrays
 from ricci._arrays import frozen
 from ricci._call import CONTROL, Doubles, Handle, Indices, Signed, call, constant, doubles, pointer, summary
 from ricci._library import ffi, lib
+from ricci._shown import Scene
 from ricci._signatures import picked, takes
 from ricci._structs import Write, choice, index_list, nested, one_index, options, real_list
 from ricci.adapters import MeshLike, as_mesh
@@ -84,10 +85,23 @@ class Uniform(Handle):
 
     Closed of genus 0: a convex polyhedron inscribed in the unit sphere. Others: the quotient of the plane or the hyperbolic plane by a
     deck group, with a layout about a base vertex. Points there are ambient coordinates (x, y, w); `ricci.models` converts them.
+
+    Examples
+    --------
+    >>> ring = ricci.uniformize(ricci.make("flat_torus", a=0.2, b=1.5, n=8, m=8))
+    >>> round(ring.summary.modulus.real, 6), round(ring.summary.modulus.imag, 6)
+    (0.2, 1.5)
     """
 
     _type: ClassVar[str] = "uniform"
     _made_by: ClassVar[str] = "ricci.uniformize(mesh)"
+    _figures: ClassVar[tuple[str, ...]] = ("genus", "space", "stop_reason", "iterations", "max_curvature_error", "modulus")
+
+    def _scene(self) -> Scene | None:
+        if self.summary.space == "s2":
+            sphere = self.sphere_mesh()
+            return Scene(sphere.V, sphere.F)
+        return self.layout()._scene()
 
     @cached_property
     def summary(self) -> UniformSummary:
@@ -230,6 +244,13 @@ def uniformize(
         geodesics around a disk.
     TargetError
         angles of corners that do not add up.
+
+    Examples
+    --------
+    >>> ricci.uniformize(ricci.make("genus", genus=2, n=3))
+    <ricci.Uniform: genus 2 in h2, converged>
+    >>> ricci.uniformize(ricci.make("sphere", n=4)).sphere_points().shape
+    (162, 3)
     """
     given = picked(locals(), UniformOptions)
     made = Uniform._made(lib.ricci_uniformize, as_mesh(V, F), options("uniform_options", given, _UNIFORM), CONTROL, progress=progress)

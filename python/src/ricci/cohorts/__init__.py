@@ -57,6 +57,12 @@ class CohortResult:
         amount, message, and the job's columns.
     reports : Any
         likewise: path, worker, seconds, and what else differs from run to run.
+
+    Examples
+    --------
+    >>> found = ricci.cohort(["missing.obj"], ricci.Job("info"), "out", engine="inline")
+    >>> [row["error"] for row in found.failures]
+    ['FileMissingError']
     """
 
     folder: Path
@@ -115,6 +121,13 @@ def cohort(
     ------
     ArgumentError
         a path that is there twice, a folder with rows of another job, no such engine.
+
+    Examples
+    --------
+    >>> ricci.make("torus", n=8).write("ring.obj")
+    >>> found = ricci.cohort(["ring.obj"], ricci.Job("info"), "out", engine="inline")
+    >>> found.results["genus"].to_pylist()
+    [1]
     """
     from ricci.cohorts.store import Store
 

@@ -79,6 +79,12 @@ class Job:
         its arguments by name. One thread is used unless they say otherwise: a cohort has its meshes side by side.
     seconds : float | None
         a mesh that takes longer is given up, with the error `Cancelled`.
+
+    Examples
+    --------
+    >>> job = ricci.Job("flow", {"target": "auto:4"}, seconds=60)
+    >>> job(ricci.make("genus", genus=2, n=3)).result["converged"]
+    True
     """
 
     kind: Literal["info", "flow", "uniformize", "circles", "forms", "structure", "spline"]
