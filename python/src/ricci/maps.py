@@ -11,7 +11,7 @@ import numpy.typing as npt
 from ricci import _arrays
 from ricci._arrays import frozen
 from ricci._call import CONTROL, Doubles, Handle, Indices, call, constant, doubles, filled, pointer, signed_view, summary
-from ricci._labels import are_labels, heaviest
+from ricci._labels import heaviest, mode_of
 from ricci._library import lib
 from ricci._shown import Scene
 from ricci._structs import Struct
@@ -93,7 +93,11 @@ class Map(Handle):
         return frozen(doubles(lib.ricci_map_weights, self, shape=(self.summary.n_vertices,)))
 
     def carry(
-        self, values: npt.ArrayLike, on: Side = "input", at: Literal["vertices", "corners"] = "vertices", labels: bool | None = None
+        self,
+        values: npt.ArrayLike,
+        on: Side = "input",
+        at: Literal["vertices", "corners"] = "vertices",
+        mode: Literal["nearest", "linear"] | None = None,
     ) -> npt.NDArray[Any]:
         """Values at vertices (n, or n x k) or corners (m x 3, or m x 3 x k), carried to those of the subdivision.
 
@@ -107,19 +111,22 @@ class Map(Handle):
             the side that they are on.
         at : Literal["vertices", "corners"]
             where they are.
-        labels : bool | None
-            true or false says whether values are labels; None: whole numbers are, others are interpolated.
+        mode : Literal["nearest", "linear"] | None
+            ``"nearest"``: as labels; ``"linear"``: interpolated, which whole numbers never are; None: by their type.
 
         Raises
         ------
         ArgumentTypeError
-            complex numbers (carry the two parts), texts (carry their numbers).
+            complex numbers (carry the two parts), texts (carry their numbers), whole numbers that are to be interpolated.
         """
         array = _arrays.numbers(values)
         lead = 1 if at == "vertices" else 2
         if array.ndim < lead or (lead == 2 and array.shape[1] != 3):
             raise ArgumentError(f"values at {at} have shape {array.shape}")
-        if are_labels(array, labels):
+        how = mode_of(array, mode)
+        if how == "conservative":
+            raise ArgumentError("a subdivision has its values where they were: conservative is a mode of Matching.carry")
+        if how == "nearest":
             return self._carry_labels(array, on, at)
         array = _arrays.real(array)
         rest = array.shape[lead:]

@@ -12,7 +12,7 @@ import numpy.typing as npt
 from ricci import _arrays
 from ricci._arrays import frozen
 from ricci._call import CONTROL, Doubles, Handle, Indices, call, constant, doubles, filled, pointer, summary
-from ricci._labels import are_labels, heaviest
+from ricci._labels import Mode, Pieces, conserved, heaviest, mode_of
 from ricci._library import lib
 from ricci._shown import Scene
 from ricci._signatures import picked, takes
@@ -196,7 +196,7 @@ class Matching(Handle):
         found = doubles(lib.ricci_matching_weights, self, _direction(direction), shape=(self._size(direction), 3))
         return found[:, _TURNED] if self._mirror and direction == "backward" else found
 
-    def carry(self, values: npt.ArrayLike, direction: Direction = "forward", labels: bool | None = None) -> npt.NDArray[Any]:
+    def carry(self, values: npt.ArrayLike, direction: Direction = "forward", mode: Mode | None = None) -> npt.NDArray[Any]:
         """Values at the vertices of the surface that the map leads to (n, or n x k), brought to those where it comes from.
 
         ``carry(V_target)`` has the image of every vertex of the source. Whole numbers and flags are labels, such as those of parcels: a
@@ -208,24 +208,42 @@ class Matching(Handle):
             one row for each vertex.
         direction : Direction
             ``"forward"``: from the target to the source.
-        labels : bool | None
-            true or false says whether values are labels; None: whole numbers are, others are interpolated.
+        mode : Literal["nearest", "linear", "conservative"] | None
+            ``"nearest"``: as labels. ``"linear"``: the value at the image of each vertex. ``"conservative"``: a density for each unit of
+            area, whose integral over the surface stays the same; an amount for each vertex is one divided by the vertex's area. None:
+            nearest for whole numbers and flags, which are never averaged, else linear.
 
         Raises
         ------
         ArgumentTypeError
-            complex numbers (carry the two parts), texts (carry their numbers).
+            complex numbers (carry the two parts), texts (carry their numbers), whole numbers that are to be averaged.
+        ArgumentError
+            rows of another number; densities on surfaces without positions.
         """
         given = _arrays.numbers(values)
         other = self._size("backward" if direction == "forward" else "forward")
         if given.ndim == 0 or len(given) != other:
             raise ArgumentError(f"values have shape {given.shape}, {other} rows are needed")
-        if are_labels(given, labels):
+        how = mode_of(given, mode)
+        if how == "conservative":
+            start, end = self._pieces[::-1] if direction == "forward" else self._pieces
+            return conserved(_arrays.real(given), start, end)
+        if how == "nearest":
             corners = (self._target if direction == "forward" else self._source).F
             return heaviest(given[corners[self.faces(direction)]], self.weights(direction))
         array = _arrays.real(given)
         shape = (self._size(direction), *array.shape[1:])
         return doubles(lib.ricci_matching_carry, self, _direction(direction), pointer(array), array.size, shape=shape)
+
+    @cached_property
+    def _pieces(self) -> tuple[Pieces, Pieces]:
+        """The common subdivision as parts of the faces of the source and of the target."""
+        if not (self._source.summary.has_positions and self._target.summary.has_positions):
+            raise ArgumentError("densities are carried between surfaces with positions, whose areas are those in space")
+        both = self.map()
+        weights = both.barycentric("input")
+        source = Pieces(self._source.V, self._source.F, both.faces("input"), weights[:, :, _TURNED] if self._mirror else weights)
+        return source, Pieces(self._target.V, self._target.F, both.faces("metric"), both.barycentric("metric"))
 
     @cached_property
     def points(self) -> tuple[Indices, Doubles]:
