@@ -21,6 +21,9 @@ NEEDS = {
     "to_meshio": "meshio",
     "to_pyvista": "pyvista",
     "to_gifti": "nibabel",
+    "from_gifti": "nibabel",
+    "Gifti": "nibabel",
+    "to_polyscope": "polyscope",
     "cohort": "pyarrow",
     "CohortResult": "pyarrow",
 }

@@ -176,7 +176,7 @@ def test_labels_stay_labels_on_the_refinement(flat, genus2):
     with pytest.raises(ricci.ArgumentTypeError, match="have no mean"):
         way.carry(labels, mode="linear")
     with pytest.raises(ricci.ArgumentError, match=r"a mode of Matching\.carry"):
-        way.carry(labels, mode="conservative")
+        way.carry(labels.astype(float), mode="conservative")
     metric_side = way.carry(np.arange(flat.summary.n_mesh_vertices), on="metric")
     assert np.array_equal(metric_side[: genus2.n_vertices], np.arange(genus2.n_vertices))
     with pytest.raises(ricci.ArgumentError, match="rows of labels"):

@@ -122,7 +122,7 @@ def test_heads_have_the_options_of_their_kinds():
 def test_no_function_hides_its_options():
     hidden = {name for name, of in public_functions() if any(p.kind is p.VAR_KEYWORD for p in inspect.signature(of).parameters.values())}
     # The names of these are the caller's own, of fields.
-    assert hidden == {"to_gifti", "to_meshio", "to_pyvista", "to_trimesh"}
+    assert hidden == {"to_gifti", "to_meshio", "to_polyscope", "to_pyvista", "to_trimesh"}
 
 
 def test_every_argument_has_a_type():

@@ -12,7 +12,7 @@ with the element and the amount (`RicciError`). Results are identical bit for bi
 """
 
 from ricci._library import VERSION as __version__
-from ricci.adapters import as_mesh, to_gifti, to_meshio, to_pyvista, to_trimesh
+from ricci.adapters import as_mesh, to_meshio, to_polyscope, to_pyvista, to_trimesh
 from ricci.atlases import Place, Structure, StructureOptions, structure, structures
 from ricci.bicubics import Bicubic, BicubicOptions, StepOptions, bicubic
 from ricci.circle import CircleDomain, CircleOptions, circles
@@ -40,6 +40,7 @@ from ricci.errors import (
 )
 from ricci.form import Forms, FormsOptions, HarmonicMap, HarmonicOptions, forms, harmonic, harmonic_map
 from ricci.fundamental import Domain, Homotopy, homotopy
+from ricci.gifti import Gifti, from_gifti, to_gifti
 from ricci.layouts import Layout, LayoutOptions, RepairedInput, SheetLine, layout
 from ricci.log import log_to_logging
 from ricci.maps import Map
@@ -84,6 +85,7 @@ __all__ = [
     "FlowOptions",
     "Forms",
     "FormsOptions",
+    "Gifti",
     "HarmonicMap",
     "HarmonicOptions",
     "Hole",
@@ -149,6 +151,7 @@ __all__ = [
     "flat_metric",
     "flow",
     "forms",
+    "from_gifti",
     "harmonic",
     "harmonic_map",
     "homotopy",
@@ -169,6 +172,7 @@ __all__ = [
     "structures",
     "to_gifti",
     "to_meshio",
+    "to_polyscope",
     "to_pyvista",
     "to_trimesh",
     "uniformize",

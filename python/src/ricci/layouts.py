@@ -135,6 +135,13 @@ class SheetLine:
         return f"<ricci.SheetLine: {self.layer}, {self.points.size} points{', closed' if self.closed else ''}>"
 
 
+def cut_open(mesh: Mesh, corners: Indices, points: Doubles) -> tuple[Doubles, Indices, Doubles, Indices]:
+    """A mesh in space with a vertex for each point of a layout: positions, faces, the points, and the vertex of the mesh of each."""
+    origins = np.zeros(len(points), np.int32)
+    origins[corners] = mesh.F
+    return mesh.V[origins], corners, points, origins
+
+
 class Layout(Handle):
     """The coordinates of a surface that is opened along a cut and unfolded in the space of its metric.
 
@@ -161,6 +168,10 @@ class Layout(Handle):
     def summary(self) -> LayoutSummary:
         """Counts, consistency and distortion."""
         return summary(LayoutSummary, "layout", self)
+
+    def _cut_open(self) -> tuple[Doubles, Indices, Doubles, Indices]:
+        """The surface with a vertex for each point of the layout: positions, faces, the points, and the vertex of the mesh of each."""
+        return cut_open(self.mesh, self.corners("refinement"), self.points())
 
     def points(self, model: Model = "poincare") -> Doubles:
         """n_points x 2 points, x 3 for ``"ambient"``."""
@@ -348,6 +359,9 @@ class RepairedInput(Handle):
     def uv(self) -> Doubles:
         """The coordinates of every corner of every face, n_faces x 3 x 2."""
         return self.points[self.corners]
+
+    def _cut_open(self) -> tuple[Doubles, Indices, Doubles, Indices]:
+        return cut_open(self.mesh, self.corners, self.points)
 
     def write(self, path: str | os.PathLike[str]) -> None:
         """Write the mesh with its edges split and the layout as texture coordinates, as `Layout.write` does."""

@@ -14,7 +14,7 @@ from ricci._library import lib
 from ricci._shown import Scene
 from ricci.control import Progress
 from ricci.figures import ChartsSummary
-from ricci.layouts import Layout
+from ricci.layouts import Layout, cut_open
 
 __all__ = ["Charts", "charts"]
 
@@ -44,6 +44,10 @@ class Charts(Handle):
 
     def __init__(self, layout: Layout, margin: float = 1 / 256, progress: Progress = None) -> None:
         self._pointer = Charts._made(lib.ricci_charts_new, layout, margin, CONTROL, progress=progress)._pointer
+        self._layout = layout
+
+    def _cut_open(self) -> tuple[Doubles, Indices, Doubles, Indices]:
+        return cut_open(self._layout.mesh, self.corners, self.points)
 
     def _scene(self) -> Scene | None:
         return Scene(self.points, self.corners, self.charts * 0.6180339887498949 % 1)
