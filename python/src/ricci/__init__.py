@@ -44,6 +44,7 @@ from ricci.gifti import Gifti, from_gifti, to_gifti
 from ricci.layouts import Layout, LayoutOptions, RepairedInput, SheetLine, layout
 from ricci.log import log_to_logging
 from ricci.maps import Map
+from ricci.marks import landmarks
 from ricci.matching import Matching, MatchOptions, Points, match
 from ricci.mesh import Attributes, Mesh, read
 from ricci.metrics import FlowJob, FlowOptions, Metric, Report, flow, metric
@@ -156,6 +157,7 @@ __all__ = [
     "harmonic_map",
     "homotopy",
     "hyperelliptic_periods",
+    "landmarks",
     "layout",
     "log_to_logging",
     "make",
