@@ -49,6 +49,7 @@ from ricci.matching import Matching, MatchOptions, Points, match
 from ricci.mesh import Attributes, Mesh, read
 from ricci.metrics import FlowJob, FlowOptions, Metric, Report, flow, metric
 from ricci.packed_charts import Charts, charts
+from ricci.pages import Page, show
 from ricci.quad_meshes import QuadLayout, Quads, QuadsOptions, quad_layout, quads
 from ricci.quad_splines import QuadSpline, QuadSplineOptions, quad_spline
 from ricci.seams import Seamless, SeamlessOptions, cross_field, seamless
@@ -108,6 +109,7 @@ __all__ = [
     "MetricError",
     "NotConverged",
     "OutOfMemory",
+    "Page",
     "ParseError",
     "Place",
     "PlaneOptions",
@@ -168,6 +170,7 @@ __all__ = [
     "quads",
     "read",
     "seamless",
+    "show",
     "spline",
     "spline_domain",
     "structure",

@@ -94,6 +94,9 @@ class CircleDomain(Handle):
     _made_by: ClassVar[str] = "ricci.circles(mesh)"
     _figures: ClassVar[tuple[str, ...]] = ("space", "n_circles", "converged", "deviation", "modulus", "n_overlapping")
 
+    def _sides(self) -> tuple[Any, ...]:
+        return self.layout()._sides()
+
     def _scene(self) -> Scene | None:
         return self.layout()._scene()
 

@@ -173,6 +173,16 @@ class Layout(Handle):
         """The surface with a vertex for each point of the layout: positions, faces, the points, and the vertex of the mesh of each."""
         return cut_open(self.mesh, self.corners("refinement"), self.points())
 
+    def _sides(self) -> tuple[Any, ...]:
+        """The surface, its image, and how the map changes areas and angles around the vertices, means of the faces."""
+        dilatation, ratio = self.distortion("refinement")
+        faces = self.mesh.F
+        around = np.bincount(faces.ravel(), minlength=self.mesh.n_vertices)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            told = {"logarithm of the change of area": np.log(ratio), "quasi-conformal dilatation": dilatation}
+            found = {name: np.bincount(faces.ravel(), np.repeat(values, 3), self.mesh.n_vertices) / around for name, values in told.items()}
+        return *self._cut_open(), found
+
     def points(self, model: Model = "poincare") -> Doubles:
         """n_points x 2 points, x 3 for ``"ambient"``."""
         columns = 3 if model == "ambient" else 2

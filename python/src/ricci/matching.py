@@ -175,6 +175,12 @@ class Matching(Handle):
     _made_by: ClassVar[str] = "ricci.match(source, target)"
     _figures: ClassVar[tuple[str, ...]] = ("n_source_vertices", "n_target_vertices", "n_flipped", "qc_mean", "qc_max", "distance_mean")
 
+    def _sides(self) -> tuple[Any, ...]:
+        """The source and its image on the target."""
+        if not (self._source.summary.has_positions and self._target.summary.has_positions):
+            raise ArgumentError("a map between intrinsic surfaces has no places in space that could be shown")
+        return self._source.V, self._source.F, self.carry(self._target.V), np.arange(self._source.n_vertices), {}
+
     def _scene(self) -> Scene | None:
         if not (self._source.summary.has_positions and self._target.summary.has_positions):
             return None

@@ -128,6 +128,9 @@ class Seamless(Handle):
     _made_by: ClassVar[str] = "ricci.seamless(mesh)"
     _figures: ClassVar[tuple[str, ...]] = ("converged", "n_cones", "n_loops", "error", "n_flips", "n_features")
 
+    def _sides(self) -> tuple[Any, ...]:
+        return self.map()._sides()
+
     def _scene(self) -> Scene | None:
         return self.map()._scene()
 

@@ -17,7 +17,7 @@ from ricci._signatures import picked, takes
 from ricci._structs import Write, choice, index_list, nested, one_index, options, real_list
 from ricci.adapters import MeshLike, as_mesh
 from ricci.control import Progress
-from ricci.errors import ArgumentError, warn
+from ricci.errors import ArgumentError, LayoutError, warn
 from ricci.figures import UniformSummary
 from ricci.figures.names import Model, On, Scheme
 from ricci.fundamental import Domain, Homotopy
@@ -93,9 +93,20 @@ class Uniform(Handle):
     (0.2, 1.5)
     """
 
+    # The mesh that was uniformized, which is shown.
+    _input: Mesh
+
     _type: ClassVar[str] = "uniform"
     _made_by: ClassVar[str] = "ricci.uniformize(mesh)"
     _figures: ClassVar[tuple[str, ...]] = ("genus", "space", "stop_reason", "iterations", "max_curvature_error", "modulus")
+
+    def _sides(self) -> tuple[Any, ...]:
+        """The surface and its image in the plane or the hyperbolic plane; of a sphere the given mesh and the unit sphere."""
+        if self.summary.space != "s2":
+            return self.layout()._sides()
+        if not self._input.summary.has_positions:
+            raise LayoutError("an intrinsic surface has no places in space that could be shown")
+        return self._input.V, self._input.F, self.sphere_points(), np.arange(self._input.n_vertices), {}
 
     def _scene(self) -> Scene | None:
         if self.summary.space == "s2":
@@ -253,7 +264,9 @@ def uniformize(
     (162, 3)
     """
     given = picked(locals(), UniformOptions)
-    made = Uniform._made(lib.ricci_uniformize, as_mesh(V, F), options("uniform_options", given, _UNIFORM), CONTROL, progress=progress)
+    mesh = as_mesh(V, F)
+    made = Uniform._made(lib.ricci_uniformize, mesh, options("uniform_options", given, _UNIFORM), CONTROL, progress=progress)
+    made._input = mesh
     s = made.summary
     if not s.converged:
         warn(f"the uniformization did not converge ({s.stop_reason}), curvature error {s.angle_defect:.1e}: look at its `summary`")
