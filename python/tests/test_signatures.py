@@ -34,7 +34,8 @@ from ricci._structs import options
 MODULES = [
     importlib.import_module(found.name)
     for found in pkgutil.walk_packages(ricci.__path__, "ricci.")
-    if not found.name.rpartition(".")[2].startswith("_native")
+    # Neither the declarations for cffi nor the library itself, which has the ending of a module.
+    if not found.name.rpartition(".")[2].startswith(("_native", "libricci"))
 ]
 KINDS = {
     name: value
