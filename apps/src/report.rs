@@ -189,6 +189,14 @@ impl Checks {
         self.0.insert(name, check);
     }
 
+    /// Add the check that `value` is at most `limit`, with what lets it hold.
+    pub fn add_with_remedy(&mut self, name: &'static str, value: f64, limit: f64, remedy: &str) {
+        self.add(name, value, limit);
+        if let Some(check) = self.0.get_mut(name).filter(|check| !check.holds) {
+            check.remedy = Some(remedy.into());
+        }
+    }
+
     /// Add the check that a list is empty. Where it is not, its elements are named, and a `remedy` if there is one.
     pub fn add_none<Id: ToString>(
         &mut self,

@@ -56,6 +56,8 @@ pub struct ricci_quad_spline_summary {
     pub vertex_max: f64,
     pub normal_error: f64,
     pub normal_jump: f64,
+    pub noise: f64,
+    pub tolerance: f64,
     pub converged: u32,
     pub reserved: u32,
 }
@@ -67,7 +69,7 @@ impl ricci_quad_spline_options {
         let usual = LayoutFitOptions::default();
         let bending = or(self.bending, usual.fit.bending);
         LayoutFitOptions {
-            tolerance: or(self.tolerance, usual.tolerance),
+            tolerance: (self.tolerance != 0.0).then_some(self.tolerance),
             most_spans: if self.most_spans == 0 { usual.most_spans } else { self.most_spans as usize },
             fit: QuadFitOptions { bending: if bending < 0.0 { 0.0 } else { bending }, threads: self.threads },
         }
@@ -81,7 +83,7 @@ fn usual_poles(options: &LayoutFitOptions) -> usize {
 }
 
 impl ricci_quad_spline {
-    fn new(fit: QuadFit, tolerance: f64, diagonal: f64) -> ricci_quad_spline {
+    fn new(fit: QuadFit, options: &LayoutFitOptions, diagonal: f64) -> ricci_quad_spline {
         let (spline, space) = (&fit.spline, fit.spline.space());
         let figures = ricci_quad_spline_summary {
             size: 0,
@@ -101,7 +103,9 @@ impl ricci_quad_spline {
             vertex_max: fit.of_vertices.max,
             normal_error: fit.normal_error,
             normal_jump: spline.normal_jump(),
-            converged: fit.is_within(tolerance).into(),
+            noise: fit.noise,
+            tolerance: options.limit(&fit),
+            converged: options.is_met_by(&fit).into(),
             reserved: 0,
         };
         ricci_quad_spline { fit, diagonal, nearest: OnceLock::new(), figures }
@@ -131,7 +135,7 @@ pub unsafe extern "C" fn ricci_quad_spline_fit(
         let fit = fit_quad_layout(&seamless.found, &layout, &options, &control.part(0.2, 1.0))?;
         log::info!("quad spline: {} patches, distances up to {:.1e} of the diagonal", patches, fit.max());
         let diagonal = solution.surface().positions().map_or(0.0, |positions| diagonal(positions));
-        Ok(ricci_quad_spline::new(fit, options.tolerance, diagonal))
+        Ok(ricci_quad_spline::new(fit, &options, diagonal))
     })
 }
 

@@ -9,7 +9,7 @@ import random
 from page import build, euler, failures, file_of, genus, judged, loops, main, meshes, seconds, small, table, verdict
 
 # Random signatures to a mesh, and the number of meshes, the smallest of each genus first.
-TRIED, RANDOM_MESHES = 20, 6
+TRIED, RANDOM_MESHES = 50, 20
 # Vertices up to which the outside program reads the written map.
 JUDGED = 70_000
 # The angle of sharp edges, degrees, and the most vertices of meshes with sharp edges.

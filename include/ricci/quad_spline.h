@@ -60,7 +60,7 @@ typedef struct ricci_quad_spline_options {
     size_t size;
     /**
      * Largest distance between spline and surface over the diagonal of the bounding box; patches that are
-     * farther off get more spans. 0: 0.001.
+     * farther off get more spans. 0: 0.001 or, where that is more, four times the noise of the surface.
      */
     double tolerance;
     /**
@@ -113,7 +113,14 @@ typedef struct ricci_quad_spline_summary {
     double normal_error;
     /** The largest angle between normals on both sides of an arc that is no crease, radians. */
     double normal_jump;
-    /** 1 for distances within the tolerance that was asked for, and no patch turned over; else 0. */
+    /**
+     * The standard deviation of the noise of the surface's vertices over the diagonal, as their heights over
+     * the spline tell.
+     */
+    double noise;
+    /** The tolerance, over the diagonal: the one that was asked for, else as in the options. */
+    double tolerance;
+    /** 1 for distances within the tolerance, and no patch turned over; else 0. */
     uint32_t converged;
     /** 0. */
     uint32_t reserved;

@@ -26,9 +26,11 @@ pub struct ScanArgs {
     /// The patches (.step, .stp)
     #[arg(short = 'o', long = "out", value_name = "PART.step")]
     pub out: FileName,
-    /// Largest distance from the mesh, over the diagonal of its bounding box
-    #[arg(long, value_name = "T", default_value_t = 1e-3, value_parser = positive)]
-    pub tolerance: f64,
+    /// Largest distance from the mesh, over the diagonal of its bounding box [default: 1e-3 or, where that is more, four times the noise
+    /// of the mesh]
+    #[arg(long, value_name = "T", value_parser = positive)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tolerance: Option<f64>,
     /// The cones, as for `ricci seamless`: field, auto:N, or a table vertex,valence
     #[arg(long, value_name = "CONES", default_value_t = ConesChoice::Field)]
     pub cones: ConesChoice,

@@ -43,7 +43,7 @@ impl Job for ScanArgs {
         let step_options = StepOptions { name, unit: self.unit.length_unit() };
         timed(&mut run.seconds.write, || fit.spline.write_step(&step_options, &mut step))?;
         let written = WrittenSurface { normal_jump: fit.spline.normal_jump(), step };
-        Ok(ScanOutcome { input, seamless, fit, written, tolerance: self.tolerance })
+        Ok(ScanOutcome { input, seamless, tolerance: fit_options.limit(&fit), fit, written })
     }
 
     fn write(&self, outcome: &ScanOutcome, run: &mut CommandRun<'_>) -> Result<(), Failure> {

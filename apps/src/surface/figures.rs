@@ -10,6 +10,9 @@ use ricci::spline::{QuadFit, QuadSplineSpace};
 /// Largest angle between normals of neighbouring patches, degrees: far below what CAD programs take for tangent.
 const NORMAL_JUMP: f64 = 0.01;
 
+/// The multiple of the noise within which nearly all vertices lie.
+const NOISE_WITHIN: f64 = 4.0;
+
 /// The file and what is measured of it.
 pub struct WrittenSurface {
     /// The largest angle between the normals of neighbouring patches, radians.
@@ -32,7 +35,15 @@ impl JobOutcome for ScanOutcome {
     fn checks(&self) -> Checks {
         let mut checks = Checks::default();
         checks.add("holonomy_error", self.seamless.error, self.seamless.tolerance);
-        checks.add("max", self.fit.max(), self.tolerance);
+        let noise = self.fit.noise;
+        let remedy = if self.tolerance < NOISE_WITHIN * noise {
+            format!(
+                "the mesh has noise of {noise:.1e} of the diagonal: ask for a --tolerance of four times as much"
+            )
+        } else {
+            "ask for more --spans or less --bending, or for --features where the mesh has edges".into()
+        };
+        checks.add_with_remedy("max", self.fit.max(), self.tolerance, &remedy);
         checks.add("normal_jump", self.written.normal_jump.to_degrees(), NORMAL_JUMP);
         let remedy = "the surface turns over there: ask for more --bending or --spans, or for other --cones";
         checks.add_none("folded_patches", ["patch", "patches"], &self.fit.folded_patches, Some(remedy));
@@ -61,6 +72,7 @@ impl JobOutcome for ScanOutcome {
             .with("max", self.fit.max())
             .with("vertex_rms", self.fit.of_vertices.rms)
             .with("vertex_max", self.fit.of_vertices.max)
+            .with("noise", self.fit.noise)
             .with("worst_patch", self.fit.worst_patch())
             .with("folded_patches", &self.fit.folded_patches[..])
             // Degrees.
@@ -73,7 +85,7 @@ impl JobOutcome for ScanOutcome {
     fn summary(&self, done: &Done) -> String {
         let space = self.fit.spline.space();
         format!(
-            "{}patches  {} with up to {} a side, {}\ndistance {:.2e} of the diagonal at most (patch {}), {:.2e} in the root of the mean square\nnormals  of neighbouring patches agree to {:.1e} degrees, with the mesh to {:.2}\n{}",
+            "{}patches  {} with up to {} a side, {}\ndistance {:.2e} of the diagonal at most (patch {}), {:.2e} in the root of the mean square, noise {:.1e}\nnormals  of neighbouring patches agree to {:.1e} degrees, with the mesh to {:.2}\n{}",
             say::surface(&self.input),
             say::count(space.layout().patches().len(), "patch", "patches"),
             say::count(most_spans(space), "span", "spans"),
@@ -81,6 +93,7 @@ impl JobOutcome for ScanOutcome {
             self.fit.max(),
             self.fit.worst_patch(),
             self.fit.rms(),
+            self.fit.noise,
             self.written.normal_jump.to_degrees(),
             self.fit.normal_error.to_degrees(),
             say::finish(done)

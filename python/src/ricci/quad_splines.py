@@ -38,7 +38,8 @@ class QuadSplineOptions(TypedDict, total=False):
     Attributes
     ----------
     tolerance : float
-        largest distance between spline and surface over the diagonal; patches that are farther off get more spans. 0.001.
+        largest distance between spline and surface over the diagonal; patches that are farther off get more spans. 0.001 or,
+        where that is more, four times the noise of the surface.
     bending : float
         the weight of bending, up to 1e-5: 1e-8 suits scans with a noise of a thousandth of the diagonal. 1e-8; 0: none.
     most_spans : int

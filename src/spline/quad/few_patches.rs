@@ -46,7 +46,7 @@ pub fn fit_few_patches(
             break;
         }
         let fit = fit_quad_layout(seamless, &layout, options, &of_attempt.part(0.2, 1.0))?;
-        let is_done = fit.is_within(options.tolerance);
+        let is_done = options.is_met_by(&fit);
         if best.as_ref().is_none_or(|best| fit.is_better_than(&best.fit)) {
             best = Some(LayoutFit { layout, fit });
         }

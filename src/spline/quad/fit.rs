@@ -1,30 +1,19 @@
-//! Fits of splines over four-sided patches: the distance along normals, with weights of fairness and of tangential distance that fall from
-//! step to step.
-//!
-//! Where neighbouring patches meet, the space of splines prescribes how parameter lines cross. The map from which a fit starts crosses
-//! otherwise, so the surface has to slide along itself, which large weights at first make smooth.
+//! Fits of splines over four-sided patches, and the distances that they leave.
 
-use super::nearest::{NearestToVertex, vertex_places};
+use super::descent::{Bendings, FitTarget, descend};
+use super::nearest::vertex_places;
+use super::noise::noise_of;
 use super::quintic::QuinticBasis;
 use super::space::QuadSplineSpace;
 use super::spline::QuadSpline;
 use super::system::{FitGoal, FitPlace, FitWeights, QuadSystem};
 use super::target::{FootPoint, SplineTarget};
 use crate::control::{Control, Stage};
-use crate::error::{Error, Result};
-use crate::geometry::vector::{Vector, distance, dot};
+use crate::error::Result;
+use crate::geometry::vector::{Vector, distance, dot, sub};
 use crate::parallel;
 use std::sync::Arc;
 
-/// Steps from the first weights to the last.
-const STEPS: usize = 14;
-/// Most further steps with the last weights, and the share of the distance of the vertices below which one has to bring it for another to follow.
-const MORE_STEPS: usize = 12;
-const SETTLED: f64 = 0.93;
-/// The weights of bending and of tangential distance at the first step, and the latter at the last one.
-const FIRST_BENDING: f64 = 1e-5;
-const FIRST_TANGENTIAL: f64 = 1e-2;
-const LAST_TANGENTIAL: f64 = 1e-6;
 /// Places of a patch in each direction at which a fit is measured: other ones than those of the fit.
 const MEASURED: usize = 23;
 
@@ -63,6 +52,8 @@ pub struct QuadFit {
     pub of_vertices: FitDistances,
     /// Per patch the largest of both distances, over the diagonal.
     pub patch_max: Vec<f64>,
+    /// The standard deviation of the noise of the vertices of the target, over its diagonal, as their heights over the spline tell.
+    pub noise: f64,
     /// The largest angle between the normals of spline and target at these places, radians.
     pub normal_error: f64,
     /// The patches that are turned over somewhere: their normal is more than a right angle off the target's; ascending.
@@ -142,83 +133,26 @@ pub(super) fn fit_from(
     bending: f64,
     control: &Control,
 ) -> Result<QuadFit> {
-    if !(0.0..=FIRST_BENDING).contains(&bending) {
-        return Err(Error::argument("bending", bending, "a number from 0 to 1e-5"));
-    }
+    let bendings = Bendings::new(bending, start.first_step)?;
     control.step(Stage::Layout, 0.0)?;
     let mut system = QuadSystem::new(&space)?;
     let patches = space.layout().patches().len();
     let pieces = parallel::map(patches, |p| target.piece_of_patch(p, (start.map)(p, [0.5, 0.5])));
-    let first_step = start.first_step;
-    let first = FitWeights { normal: 0.0, tangential: 1.0, ..weights_of(first_step, bending) };
-    let to_start =
+    let at_start =
         |p: usize, place: &FitPlace| FootPoint { point: (start.map)(p, place.parameters), normal: [0.0; 3] };
-    let free =
-        system.solve(&FitGoal { weights: first, foot: &to_start, vertices: &vec![Vec::new(); patches] })?;
-    let mut spline = QuadSpline::of_free(space.clone(), &free)?;
-    let mut last_error = f64::INFINITY;
-    for step in first_step..STEPS + MORE_STEPS {
-        let all = STEPS + MORE_STEPS + 2 - first_step;
-        control.step(Stage::Layout, (step + 1 - first_step) as f64 / all as f64)?;
-        // All patches are searched at every step: vertices that are held in a patch from which they have moved away make it fold.
-        let near = vertex_places(target, &pieces, &|p, uv| spline.point_at(p, uv));
-        let vertices = moved_nearer(&near, &spline);
-        if step >= STEPS {
-            let error = vertex_error(&vertices, &spline);
-            if error > SETTLED * last_error {
-                break;
-            }
-            last_error = error;
-        }
-        let foot = |p: usize, place: &FitPlace| {
-            let [u, v] = &place.basis;
-            target.foot(pieces[p], spline.point(p, [u, v]))
-        };
-        let weights = weights_of(step.min(STEPS - 1), bending);
-        let free = system.solve(&FitGoal { weights, foot: &foot, vertices: &vertices })?;
-        spline = QuadSpline::of_free(space.clone(), &free)?;
-    }
+    let feet =
+        parallel::map(patches, |p| system.places(p).map(|place| at_start(p, &place)).collect::<Vec<_>>());
+    let weights = FitWeights { normal: 0.0, tangential: 1.0, bending: bendings.at(0) };
+    let free = system.solve(&FitGoal { weights, feet: &|p| &feet[p], vertices: &|_| &[] })?;
+    let spline = QuadSpline::of_free(space.clone(), &free)?;
+    let spline = descend(&mut system, spline, &FitTarget { target, pieces: &pieces }, &bendings, control)?;
     let fit = measured(spline, &pieces, target);
     control.step(Stage::Layout, 1.0)?;
     Ok(fit)
 }
 
-/// The root of the mean square of the distances of vertices from their places.
-fn vertex_error(vertices: &[Vec<NearestToVertex>], spline: &QuadSpline) -> f64 {
-    let of_patch = |p: usize| -> f64 {
-        let square = |place: &NearestToVertex| {
-            let far = distance(spline.point_at(p, place.parameters), place.vertex.point);
-            place.vertex.share * far * far
-        };
-        vertices[p].iter().map(square).sum()
-    };
-    parallel::map(vertices.len(), of_patch).into_iter().sum::<f64>().sqrt()
-}
-
-/// The vertices at the nearest places of their patches, as these are now, but those that are nearer to another patch.
-fn moved_nearer(vertices: &[Vec<NearestToVertex>], spline: &QuadSpline) -> Vec<Vec<NearestToVertex>> {
-    let of_patch = |p: usize| {
-        let moved = vertices[p].iter().map(|place| place.nearer(spline, p));
-        moved.filter(|place| !place.is_beyond(spline, p)).collect()
-    };
-    parallel::map(vertices.len(), of_patch)
-}
-
-/// The weights of a step, which fall geometrically.
-fn weights_of(step: usize, last_bending: f64) -> FitWeights {
-    let share = step as f64 / (STEPS - 1) as f64;
-    let between = |first: f64, last: f64| {
-        if last > 0.0 { first * (last / first).powf(share) } else { first * (1.0 - share) }
-    };
-    FitWeights {
-        normal: 1.0,
-        tangential: between(FIRST_TANGENTIAL, LAST_TANGENTIAL),
-        bending: between(FIRST_BENDING, last_bending),
-    }
-}
-
 /// The distances of a patch.
-#[derive(Clone, Copy, Default)]
+#[derive(Default)]
 struct PatchDistances {
     /// The sum of the squared distances of its places from its piece of the target, and the largest distance.
     squares: f64,
@@ -226,6 +160,8 @@ struct PatchDistances {
     /// The same of the vertices nearest to it, weighted by their shares.
     vertex_squares: f64,
     vertex_largest: f64,
+    /// The heights of these vertices over the patch, along the normals of the target, by number.
+    heights: Vec<(u32, f64)>,
     /// The least cosine between normals.
     cosine: f64,
 }
@@ -253,6 +189,7 @@ fn measured(spline: QuadSpline, pieces: &[usize], target: &SplineTarget) -> Quad
             let far = distance(nearest, place.vertex.point);
             found.vertex_squares += place.vertex.share * far * far;
             found.vertex_largest = found.vertex_largest.max(far);
+            found.heights.push((place.vertex.number, dot(sub(place.vertex.point, nearest), place.normal)));
         }
         found
     };
@@ -262,13 +199,17 @@ fn measured(spline: QuadSpline, pieces: &[usize], target: &SplineTarget) -> Quad
     let sum = |squares: &dyn Fn(&PatchDistances) -> f64| found.iter().map(squares).sum::<f64>();
     let most = |largest: &dyn Fn(&PatchDistances) -> f64| found.iter().map(largest).fold(0.0f64, f64::max);
     let cosine = found.iter().fold(1.0f64, |least, patch| least.min(patch.cosine));
+    // Noise is what is left, or less.
+    let vertex_rms = sum(&|patch| patch.vertex_squares).sqrt();
+    let heights = found.iter().flat_map(|patch| patch.heights.iter().copied()).collect();
     QuadFit {
+        noise: noise_of(&heights, target.edges()).min(vertex_rms) / diagonal,
         to_target: FitDistances {
             rms: (sum(&|patch| patch.squares) / places).sqrt() / diagonal,
             max: most(&|patch| patch.largest) / diagonal,
         },
         of_vertices: FitDistances {
-            rms: sum(&|patch| patch.vertex_squares).sqrt() / diagonal,
+            rms: vertex_rms / diagonal,
             max: most(&|patch| patch.vertex_largest) / diagonal,
         },
         patch_max: found.iter().map(|patch| patch.largest.max(patch.vertex_largest) / diagonal).collect(),

@@ -133,15 +133,33 @@ impl PatchLayout {
     }
 
     /// The same layout for a surface on which the patches have these angles at their corners, radians. Fans between creases or sides of the border
-    /// have the sum of their angles, or π where it is near to that; without angles all have π.
+    /// have the sum of their angles, or π where it is near to that; without angles all have π. Two fans between the same two creases have one
+    /// angle, or that and its rest to 2π: tangents of creases that are opposite in one of them are opposite in the other.
     pub fn with_angles(mut self, angles: &[[f64; 4]]) -> PatchLayout {
-        let of_fan = |corners: &[PatchCorner]| {
-            let angle = corners.iter().map(|at| angles.get(at.patch).map_or(FRAC_PI_2, |all| all[at.corner]));
-            let angle: f64 = angle.sum();
-            if (angle - PI).abs() < NEARLY_STRAIGHT { PI } else { angle.min(TAU) }
+        let corner = |at: &PatchCorner| angles.get(at.patch).map_or(FRAC_PI_2, |all| all[at.corner]);
+        let sum = |fan: &[PatchCorner]| fan.iter().map(corner).sum::<f64>().min(TAU);
+        let of_fan = |fan: &[PatchCorner]| {
+            let own = sum(fan);
+            let least = |angle: f64| angle.min(TAU - angle);
+            let beyond = self.fan_beyond(fan).map_or(own, |other| sum(&other));
+            let between = 0.5 * (least(own) + least(beyond));
+            match own {
+                _ if PI - between < NEARLY_STRAIGHT => PI,
+                _ if own > PI => TAU - between,
+                _ => between,
+            }
         };
         self.sectors = self.divided_fans(of_fan);
         self
+    }
+
+    /// The other fan between the two creases that bound one, if these are all at its node.
+    fn fan_beyond(&self, fan: &[PatchCorner]) -> Option<Vec<PatchCorner>> {
+        let (first, last) = (fan[0], fan[fan.len() - 1]);
+        let after = self.neighbour(first)?;
+        let other = self.fan(PatchCorner { corner: (after.corner + 1) % 4, ..after }).corners;
+        let before = PatchCorner { corner: (last.corner + 3) % 4, ..last };
+        (self.neighbour(before) == Some(other[0])).then_some(other)
     }
 
     /// Per corner the angle of its fan, divided by the number of its patches. A fan all around a node has 2π, also where a crease ends there;
@@ -227,11 +245,16 @@ impl PatchLayout {
         self.length(PatchCorner { corner: (at.corner + 1) % 4, ..at })
     }
 
+    /// The side on the other side of one's arc; none at the border.
+    fn neighbour(&self, at: PatchCorner) -> Option<PatchCorner> {
+        let side = self.patches[at.patch][at.corner];
+        self.beside[side.arc as usize][usize::from(!side.reversed)]
+    }
+
     /// The side on the other side of one's arc; none at creases and the border.
     pub(super) fn smooth_neighbour(&self, at: PatchCorner) -> Option<PatchCorner> {
         let side = self.patches[at.patch][at.corner];
-        let is_smooth = !self.arcs[side.arc as usize].is_crease;
-        self.beside[side.arc as usize][usize::from(!side.reversed)].filter(|_| is_smooth)
+        self.neighbour(at).filter(|_| !self.arcs[side.arc as usize].is_crease)
     }
 
     /// The corner after one around its node, counterclockwise.

@@ -15,6 +15,7 @@
 
 mod bezier;
 mod closest;
+mod descent;
 mod elimination;
 mod extraction;
 #[cfg(feature = "quads")]
@@ -26,6 +27,7 @@ mod gluing;
 mod jumps;
 mod layout;
 mod nearest;
+mod noise;
 #[cfg(feature = "quads")]
 mod over_quads;
 mod places;

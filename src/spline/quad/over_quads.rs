@@ -24,19 +24,21 @@ const RELAXATIONS_TO_TARGET: usize = 20;
 /// Places of a patch in each direction whose faces tell on which part of the surface it lies.
 const PLACES_FOR_FACES: usize = 12;
 const TOWARDS_MEAN: f64 = 0.7;
-/// Other weights of bending where patches fold, the last one first: stiffer ones keep parameter lines apart, softer ones do not draw thin
-/// handles together.
-const OTHER_BENDING: [f64; 3] = [1e-11, 1e-9, 1e-7];
 /// The share of the distance below which a round has to bring it, and the rounds in a row that may not.
 const WORTHWHILE: f64 = 0.85;
 const MOST_FRUITLESS: usize = 1;
 /// Spans in one direction of a patch that are shorter than those in the other by at most this factor are divided as well.
 const ABOUT_AS_LONG: f64 = 1.5;
+/// The tolerance if none is asked for, and the multiple of the noise that is within it: of ten thousand vertices with noise one lies farther off.
+const USUAL_TOLERANCE: f64 = 1e-3;
+const NOISE_WITHIN: f64 = 4.0;
+
 /// Options of [`fit_quad_layout`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct LayoutFitOptions {
-    /// The largest distance of places of the patches from the target, over its diagonal: where it is missed, patches get more spans.
-    pub tolerance: f64,
+    /// The largest distance between spline and target, over its diagonal: where it is missed, patches get more spans. None: 1e-3 or, where that is
+    /// more, four times the noise of the target, which more spans would follow.
+    pub tolerance: Option<f64>,
     /// Most spans of a patch in each direction, from 1 to 32.
     pub most_spans: usize,
     /// Those of each fit.
@@ -45,7 +47,19 @@ pub struct LayoutFitOptions {
 
 impl Default for LayoutFitOptions {
     fn default() -> Self {
-        LayoutFitOptions { tolerance: 1e-3, most_spans: 4, fit: QuadFitOptions { bending: 1e-8, threads: 0 } }
+        LayoutFitOptions { tolerance: None, most_spans: 4, fit: QuadFitOptions { bending: 1e-8, threads: 0 } }
+    }
+}
+
+impl LayoutFitOptions {
+    /// The largest distance of a fit, over the diagonal of its target.
+    pub fn limit(&self, fit: &QuadFit) -> f64 {
+        self.tolerance.unwrap_or_else(|| USUAL_TOLERANCE.max(NOISE_WITHIN * fit.noise))
+    }
+
+    /// True if no patch of a fit is turned over and no distance is larger than [`LayoutFitOptions::limit`].
+    pub fn is_met_by(&self, fit: &QuadFit) -> bool {
+        fit.is_within(self.limit(fit))
     }
 }
 
@@ -56,7 +70,7 @@ struct PatchGrid {
 }
 
 /// Fits a spline over the patches of a quad layout to the surface of its seamless metric. Each patch is fitted to the part of the surface on
-/// which it lies, and to some more around it, up to features. Where patches fold, other weights of bending are tried; strips of patches that are not within the
+/// which it lies, and to some more around it, up to features. Strips of patches that fold or are not within the
 /// tolerance get more spans. The first fit within the tolerance, or else that with the fewest patches folded, then the least distance.
 ///
 /// # Errors
@@ -97,9 +111,7 @@ impl LayoutStart<'_> {
         let LayoutStart { surface, grids, patches } = self;
         let start = |p: usize, uv: [f64; 2]| grids[p].at(uv);
         let mut spans = vec![1; patches.arcs().len()];
-        let mut bending = options.fit.bending;
         let mut best: Option<QuadFit> = None;
-        let mut others: Vec<f64> = OTHER_BENDING.into_iter().filter(|&other| other != bending).collect();
         let (mut round, mut fruitless) = (0, 0);
         loop {
             let space = Arc::new(QuadSplineSpace::with_spans(patches.clone(), spans.clone())?);
@@ -107,11 +119,9 @@ impl LayoutStart<'_> {
             let last =
                 |p: usize, uv: [f64; 2]| whole.map_or_else(|| start(p, uv), |fit| fit.spline.point_at(p, uv));
             let from = FitStart { map: &last, first_step: if whole.is_some() { LATE_STEP } else { 0 } };
-            let fit = fit_from(space, &from, &target, bending, &control.attempt(round))?;
+            let fit = fit_from(space, &from, &target, options.fit.bending, &control.attempt(round))?;
             round += 1;
             let folds = fit.folded_patches.len();
-            let is_better = |best: &QuadFit| fit.is_better_than(best);
-            let is_plain = spans.iter().all(|&n| n == 1);
             // More spans are of no use where they did not bring the last fit nearer.
             fruitless = match &best {
                 Some(best) if folds >= best.folded_patches.len() && fit.max() > WORTHWHILE * best.max() => {
@@ -119,25 +129,19 @@ impl LayoutStart<'_> {
                 }
                 _ => 0,
             };
-            let other = if folds > 0 && is_plain { others.pop() } else { None };
-            if let Some(other) = other {
-                bending = other;
-            } else {
-                bending = options.fit.bending;
-                let is_more = raise_spans(patches, &mut spans, &fit, options);
-                if fit.is_within(options.tolerance) || !is_more || fruitless > MOST_FRUITLESS {
-                    return Ok(match best {
-                        Some(best) if !is_better(&best) => best,
-                        _ => fit,
-                    });
-                }
-            }
-            if fit.folded_patches.is_empty() {
+            let is_more = raise_spans(patches, &mut spans, &fit, options);
+            let is_done = options.is_met_by(&fit) || !is_more || fruitless > MOST_FRUITLESS;
+            if folds == 0 && !is_done {
                 target = surface.target(&faces_of(&fit.spline, &target))?;
             }
-            if best.as_ref().is_none_or(is_better) {
-                best = Some(fit);
+            let best_yet = match best.take() {
+                Some(best) if !fit.is_better_than(&best) => best,
+                _ => fit,
+            };
+            if is_done {
+                return Ok(best_yet);
             }
+            best = Some(best_yet);
         }
     }
 }
@@ -164,7 +168,7 @@ fn raise_spans(
     let strips = strips(patches.arcs().len(), patches.patches());
     let mut raised = BTreeSet::new();
     for (p, sides) in patches.patches().iter().enumerate() {
-        if fit.patch_max[p] <= options.tolerance && !fit.folded_patches.contains(&p) {
+        if fit.patch_max[p] <= options.limit(fit) && !fit.folded_patches.contains(&p) {
             continue;
         }
         let arcs = [0, 1].map(|k| sides[k].arc as usize);

@@ -4,10 +4,11 @@ use super::layout::PatchCorner;
 use super::nearest::NearestToVertex;
 use super::quintic::{LOCAL, QUINTIC, QuinticBasis, basis_size};
 use super::space::QuadSplineSpace;
+use super::spline::QuadSpline;
 use super::target::FootPoint;
 use crate::error::{Error, Result};
 use crate::geometry::quadrature::gauss_legendre;
-use crate::geometry::vector::Vector;
+use crate::geometry::vector::{Vector, dot, sub};
 use crate::linalg::{Cholesky, Pattern, Symmetric};
 use crate::parallel;
 use std::collections::BTreeMap;
@@ -66,8 +67,9 @@ pub(super) struct FitPlace {
 /// What a fit comes near: a foot for every place of a patch, and for every patch the vertices of the target that are nearest to it.
 pub(super) struct FitGoal<'a> {
     pub weights: FitWeights,
-    pub foot: &'a (dyn Fn(usize, &FitPlace) -> FootPoint + Sync),
-    pub vertices: &'a [Vec<NearestToVertex>],
+    /// Those of the places of a patch, in order.
+    pub feet: &'a (dyn Fn(usize) -> &'a [FootPoint] + Sync),
+    pub vertices: &'a (dyn Fn(usize) -> &'a [NearestToVertex] + Sync),
 }
 
 /// The normal equations of fits over a space. Unknown 3 k + c is coordinate c of the free control point k.
@@ -155,7 +157,7 @@ impl<'a> QuadSystem<'a> {
     }
 
     /// The places of a patch: those of Gauss in every span and direction.
-    fn places(&self, p: usize) -> impl Iterator<Item = FitPlace> + '_ {
+    pub fn places(&self, p: usize) -> impl Iterator<Item = FitPlace> + '_ {
         let [of_u, of_v] = self.space.patch_spans(p).map(|spans| &self.along[&spans].places);
         of_u.iter().flat_map(move |u| {
             of_v.iter().map(move |v| FitPlace {
@@ -166,19 +168,54 @@ impl<'a> QuadSystem<'a> {
         })
     }
 
+    /// The squared distances of the places of a patch from their feet and of vertices from theirs, with the weights that [`QuadSystem::solve`]
+    /// gives them.
+    pub fn squares(
+        &self,
+        spline: &QuadSpline,
+        p: usize,
+        feet: &[FootPoint],
+        vertices: &[NearestToVertex],
+    ) -> f64 {
+        let square = |a: Vector, b: Vector| sub(a, b).map(|x| x * x).iter().sum::<f64>();
+        let [a, b] = lengths(self.space, p);
+        let of_place = |(place, foot): (FitPlace, &FootPoint)| {
+            a * b * place.weight * square(spline.point(p, [&place.basis[0], &place.basis[1]]), foot.point)
+        };
+        let of_vertex = |NearestToVertex { vertex, parameters, .. }: &NearestToVertex| {
+            VERTICES * self.area * vertex.share * square(spline.point_at(p, *parameters), vertex.point)
+        };
+        self.places(p).zip(feet).map(of_place).sum::<f64>() + vertices.iter().map(of_vertex).sum::<f64>()
+    }
+
+    /// ∫ S_uu² + 2 S_uv² + S_vv² over the rectangles of the parameters.
+    pub fn bending_of(&self, spline: &QuadSpline) -> f64 {
+        let of_patch = |p: usize| {
+            let mut sum = PatchSum::new(self.space.sides(p), lengths(self.space, p));
+            sum.bend(1.0, self.space.patch_spans(p).map(|spans| &self.along[&spans]));
+            let net: Vec<Vector> = spline.net(p).into_iter().flatten().collect();
+            let m = net.len();
+            let of_pair = |i: usize, j: usize| {
+                let twice = if i == j { 1.0 } else { 2.0 };
+                twice * sum.matrix[i * m + j][DIAGONAL[0]] * dot(net[i], net[j])
+            };
+            (0..m).flat_map(|i| (0..=i).map(move |j| (i, j))).map(|(i, j)| of_pair(i, j)).sum::<f64>()
+        };
+        parallel::map(self.free.len(), of_patch).into_iter().sum()
+    }
+
     /// The equations of a patch on the free control points.
     fn of_patch(&self, p: usize, goal: &FitGoal<'_>) -> PatchEquations {
         let weights = goal.weights;
         let mut sum = PatchSum::new(self.space.sides(p), lengths(self.space, p));
         let [a, b] = sum.lengths;
-        for place in self.places(p) {
-            let FootPoint { point, normal } = (goal.foot)(p, &place);
+        for (place, &FootPoint { point, normal }) in self.places(p).zip((goal.feet)(p)) {
             let tensor = tensor(normal, [weights.normal, weights.tangential], a * b * place.weight);
             sum.add(&place.basis, &tensor, point);
         }
         sum.bend(weights.bending, self.space.patch_spans(p).map(|spans| &self.along[&spans]));
         let spans = self.space.patch_spans(p);
-        for NearestToVertex { vertex, normal, parameters } in &goal.vertices[p] {
+        for NearestToVertex { vertex, normal, parameters } in (goal.vertices)(p) {
             let basis = [0, 1].map(|k| QuinticBasis::at(spans[k], parameters[k]));
             let weight = VERTICES * self.area * vertex.share;
             let tensor = tensor(*normal, [weights.normal, weights.tangential], weight);

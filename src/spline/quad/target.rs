@@ -8,6 +8,7 @@ use crate::mesh::Point;
 use crate::mesh::check::Features;
 use crate::mesh::union_find::UnionFind;
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 /// A triangle of the target.
 #[derive(Debug, Clone, Copy)]
@@ -48,6 +49,8 @@ pub(super) struct FootPoint {
 /// Triangles with normals, cut at sharp edges into smooth pieces.
 pub struct SplineTarget {
     pieces: Vec<SmoothPiece>,
+    /// The edges between its faces, ascending.
+    edges: Arc<[[u32; 2]]>,
     diagonal: f64,
     /// True if piece k is for patch k.
     is_by_patch: bool,
@@ -96,6 +99,11 @@ impl SplineTarget {
         self.diagonal
     }
 
+    /// The edges between its faces, ascending.
+    pub(super) fn edges(&self) -> &[[u32; 2]] {
+        &self.edges
+    }
+
     /// The vertices of a piece with their unit normals there, by number.
     pub(super) fn vertices_of(&self, piece: usize) -> &[(TargetVertex, Vector)] {
         &self.pieces[piece].vertices
@@ -138,6 +146,8 @@ pub(super) struct TargetFaces<'a> {
     normals: Vec<[Vector; 3]>,
     /// Per vertex its share of the area.
     shares: Vec<f64>,
+    /// Their edges, ascending.
+    edges: Arc<[[u32; 2]]>,
 }
 
 impl<'a> TargetFaces<'a> {
@@ -151,7 +161,10 @@ impl<'a> TargetFaces<'a> {
         check_faces(positions, &faces)?;
         let sharp = sharp.map(ascending).collect();
         let (normals, shares) = (corner_normals(positions, &faces, &sharp), area_shares(positions, &faces));
-        Ok(TargetFaces { positions, faces, normals, shares })
+        let sides = faces.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]].map(ascending));
+        let edges: BTreeSet<[u32; 2]> = sides.collect();
+        let edges = edges.into_iter().collect();
+        Ok(TargetFaces { positions, faces, normals, shares, edges })
     }
 
     /// The target of patches that each lie on these faces.
@@ -167,7 +180,7 @@ impl<'a> TargetFaces<'a> {
     }
 
     fn divided(&self, parts: &[Vec<u32>]) -> SplineTarget {
-        let TargetFaces { positions, faces, normals, shares } = self;
+        let TargetFaces { positions, faces, normals, shares, edges } = self;
         let triangle = |&f: &u32| {
             let corners = faces[f as usize].map(|v| positions[v as usize]);
             TargetTriangle { corners, normals: normals[f as usize] }
@@ -194,7 +207,8 @@ impl<'a> TargetFaces<'a> {
             }
         };
         let pieces = parts.iter().map(piece).collect();
-        SplineTarget { pieces, diagonal: crate::geometry::vector::diagonal(positions), is_by_patch: false }
+        let diagonal = crate::geometry::vector::diagonal(positions);
+        SplineTarget { pieces, edges: edges.clone(), diagonal, is_by_patch: false }
     }
 }
 

@@ -135,8 +135,12 @@ class QuadSplineSummary:
         the largest angle between the normals of spline and surface, radians.
     normal_jump : float
         the largest angle between normals on both sides of an arc that is no crease, radians.
+    noise : float
+        the standard deviation of the noise of the surface's vertices over the diagonal, as their heights over the spline tell.
+    tolerance : float
+        over the diagonal: the one that was asked for, else as in the options.
     converged : bool
-        distances are within the tolerance that was asked for, and no patch is turned over.
+        distances are within the tolerance, and no patch is turned over.
     """
 
     n_patches: int
@@ -155,4 +159,6 @@ class QuadSplineSummary:
     vertex_max: float
     normal_error: float
     normal_jump: float
+    noise: float
+    tolerance: float
     converged: bool
