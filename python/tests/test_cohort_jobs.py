@@ -64,6 +64,31 @@ def test_jobs_of_scripts_and_notebooks_are_sent_by_value(files, tmp_path, engine
     assert printed[0] == f"[] {[10 * ricci.read(path).n_faces for path in files]}"
 
 
+CELLS = [
+    "import ricci\ndef job(mesh): return {'K': float(ricci.Metric(mesh).curvature.max())}",
+    "[ricci.cohort(PATHS, job, 'out1').failures, ricci.cohort(PATHS, job, 'out2', engine='dask', workers=1).failures]",
+    "from distributed import Client\nclient = Client(n_workers=1, threads_per_worker=1, dashboard_address=':0')",
+    "found = ricci.cohort(PATHS, job, 'out3', engine=client)\n[found.failures, found.results.column_names[-1]]",
+    "def job(mesh): return {'Kmin': float(ricci.Metric(mesh).curvature.min())}",
+    "try:\n    print(ricci.cohort(PATHS, job, 'out3', engine=client))\nexcept ricci.ArgumentError as wrong:\n    print(wrong)",
+    "client.close()",
+]
+
+
+def test_a_job_of_a_notebooks_cell_runs_on_every_engine(files, tmp_path):
+    nbformat = pytest.importorskip("nbformat")
+    nbclient = pytest.importorskip("nbclient")
+    for package in ("ipykernel", "pyarrow", "distributed", "cloudpickle"):
+        pytest.importorskip(package)
+    cells = [nbformat.v4.new_code_cell(cell) for cell in (f"PATHS = {files!r}", *CELLS)]
+    book = nbformat.v4.new_notebook(cells=cells)
+    nbclient.NotebookClient(book, timeout=120, kernel_name="python3", resources={"metadata": {"path": str(tmp_path)}}).execute()
+    told = [[out.get("text") or out["data"]["text/plain"] for out in cell.outputs if "text" in out or "data" in out] for cell in cells]
+    assert told[2][-1] == "[[], []]"
+    assert told[4] == ["[[], 'K']"]
+    assert "has changed since" in told[6][0]
+
+
 def test_a_job_that_cannot_be_sent_is_refused_at_once(files, tmp_path):
     held = threading.Lock()
 
@@ -257,6 +282,40 @@ def test_no_worker_outlives_a_run_that_is_stopped(files, tmp_path, engine, how):
         assert len(kept()) == 1
         if how == signal.SIGINT:
             assert process.stdout.readline() == b"stopped\n"
+    finally:
+        process.kill()
+        process.wait()
+
+
+INTERRUPTED = """
+import ricci
+from ricci.cohorts import Job
+if __name__ == "__main__":
+    try:
+        ricci.cohort({paths!r}, Job("flow", {{"target": "auto:40"}}), "out", engine="processes", workers=2)
+    except KeyboardInterrupt:
+        print("stopped", flush=True)
+    import time
+    time.sleep(60)
+"""
+
+
+def test_no_worker_outlives_an_interrupt_in_the_library(tmp_path):
+    psutil = pytest.importorskip("psutil")
+    pytest.importorskip("pyarrow")
+    ricci.make("torus", n=500).write(tmp_path / "large.obj")
+    script = tmp_path / "script.py"
+    script.write_text(INTERRUPTED.format(paths=[str(tmp_path / "large.obj")]))
+    process = subprocess.Popen([sys.executable, str(script)], cwd=tmp_path, stdout=subprocess.PIPE, preexec_fn=hear_interrupts)
+    try:
+        at_work = []
+        while not any(sum(child.cpu_times()[:2]) > 2 for child in at_work):
+            assert process.poll() is None, "the run was over before it could be stopped"
+            time.sleep(0.05)
+            at_work = psutil.Process(process.pid).children()
+        process.send_signal(signal.SIGINT)
+        assert psutil.wait_procs(at_work, timeout=1)[1] == []
+        assert process.stdout.readline() == b"stopped\n"
     finally:
         process.kill()
         process.wait()
