@@ -101,6 +101,9 @@ class Hook(BuildHookInterface):  # type: ignore[type-arg]
         if strip := shutil.which("strip"):
             subprocess.run([strip, "--strip-unneeded" if source.suffix == ".so" else "-x", str(made)], check=True)
         build_data["force_include"][str(made)] = f"ricci/{made.name}"
+        # The viewer of pages is that of the gallery.
+        for name in ("view.html", "page.css", "picogl.min.js", "shape.js", "paint.js", "turn.js"):
+            build_data["force_include"][str(HERE.parent / "apps" / "src" / "gallery" / name)] = f"ricci/viewer/{name}"
         licences(made.with_name("libricci.licences"))
         build_data["force_include"][str(made.with_name("libricci.licences"))] = "ricci/LICENSES-CRATES"
         for licence in ("LICENSE-MIT", "LICENSE-APACHE"):

@@ -1,5 +1,5 @@
 // Opens the gallery's page from disk in headless Chromium, over a pipe of the DevTools protocol: no message of an error, no request beside
-// the page, every view is drawn, a drag turns the surface, a place that is pointed at is marked on both sides.
+// the page, every view is drawn, a drag turns the surface, a place that is pointed at is marked on both sides, controls change both sides.
 // node gallery.mjs CHROMIUM PAGE PROFILE [SCREENSHOT.png]
 import { spawn } from "node:child_process";
 import { writeFileSync } from "node:fs";
@@ -80,6 +80,27 @@ const mouse = (type, x, y, buttons = 0) => {
   return send("Input.dispatchMouseEvent", { type, x, y, buttons, button, clickCount: button === "left" ? 1 : 0 });
 };
 
+// What can be chosen below a view changes both of its sides, and chosen back gives the picture of before.
+async function controls(canvas, left, right) {
+  await mouse("mouseMoved", 1, 1);
+  await pause(300);
+  const parts = `${canvas}.parentElement.querySelectorAll(".controls input, .controls select")`;
+  const kinds = await value(`[...${parts}].map((part) => part.type)`);
+  check(kinds.includes("range"), `a view of a layout has no density of checks: ${kinds}`);
+  for (let k = 0; k < kinds.length; k++) {
+    const before = [await left(), await right()];
+    const turn = (back) => value(`(() => { const p = ${parts}[${k}];
+      if (p.type === "checkbox") p.checked = ${back}; else if (p.type === "range") p.value = ${back} ? 24 : 60; else p.selectedIndex = ${back} ? 1 : 0;
+      p.dispatchEvent(new Event(p.type === "range" ? "input" : "change")); })()`);
+    await turn(false);
+    await pause(400);
+    check((await left()) !== before[0] && (await right()) !== before[1], `${kinds[k]} changes nothing`);
+    await turn(true);
+    await pause(400);
+    check((await left()) === before[0] && (await right()) === before[1], `${kinds[k]} does not go back`);
+  }
+}
+
 async function look() {
   const { targetInfos } = await send("Target.getTargets");
   const { targetId } = targetInfos.find((target) => target.type === "page");
@@ -135,7 +156,8 @@ async function look() {
   check(marked === 2, "a place that is pointed at is not marked on both sides");
   check((await right()) !== before[1], "no mark is seen beside the surface");
   const said = await value(`${canvas(flat)}.nextElementSibling.textContent`);
-  check(/on the surface, \(.+, .+\) beside it$/.test(said), `said: ${said}`);
+  check(/on the surface, \(.+, .+\) beside it(; .+)?$/.test(said), `said: ${said}`);
+  await controls(canvas(flat), left, right);
   if (screenshot) writeFileSync(screenshot, Buffer.from((await send("Page.captureScreenshot")).data, "base64"));
 
   const beside = requests.filter((url) => url !== address && !url.startsWith("data:"));

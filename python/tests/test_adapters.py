@@ -141,3 +141,66 @@ def test_arrays_pairs_files_and_meshes(sheet, tmp_path):
     assert ricci.as_mesh(sheet) is sheet
     with pytest.raises(ricci.ArgumentError, match="not dict"):
         ricci.as_mesh({"V": V})
+
+
+@pytest.fixture(scope="module")
+def laid(genus2):
+    return ricci.layout(ricci.flow(genus2, target="auto:6"))
+
+
+@pytest.mark.parametrize("library", ["trimesh", "meshio", "pyvista"])
+@pytest.mark.parametrize("kind", ["layout", "charts", "repaired input"])
+def test_layouts_are_given_cut_open(laid, genus2, library, kind):
+    """Each point of a layout is a vertex with its place in space and its coordinates, and they come back."""
+    pytest.importorskip(library)
+    given = {"layout": laid, "charts": ricci.charts(laid), "repaired input": laid.repaired_input()}[kind]
+    corners = given.corners("refinement") if kind == "layout" else given.corners
+    uv = given.points() if kind == "layout" else given.points
+    own = given.mesh if kind != "charts" else laid.mesh
+    sent = getattr(ricci, f"to_{library}")(given, height=own.V[:, 2])
+    again = ricci.as_mesh(sent) if kind != "charts" else None
+    data = {"trimesh": "vertex_attributes", "meshio": "point_data", "pyvista": "point_data"}[library]
+    origins = np.asarray(getattr(sent, data)["vertex"])
+    assert np.array_equal(origins[corners], own.F)
+    assert np.array_equal(np.asarray(getattr(sent, data)["height"]), own.V[origins, 2])
+    if again is not None:
+        assert np.array_equal(again.F, corners)
+        assert np.allclose(again.uv, uv[corners], atol=1e-6)
+        assert np.allclose(again.V, own.V[origins], atol=1e-6)
+        assert again.euler == 1
+    with pytest.raises(ricci.ArgumentError, match=r"rows, of the mesh, or \d+, of the points"):
+        getattr(ricci, f"to_{library}")(given, height=[1.0])
+
+
+def test_polyscope_shows_meshes_and_layouts(laid, dressed):
+    polyscope = pytest.importorskip("polyscope")
+    polyscope.init("openGL_mock")
+    shown = ricci.to_polyscope(laid, "layout", height=laid.mesh.V[:, 2], normal=laid.mesh.V)
+    assert shown.n_vertices() == laid.summary.n_points
+    assert shown.n_faces() == laid.summary.n_faces
+    whole, torn = dressed
+    assert ricci.to_polyscope(whole, "whole").n_vertices() == whole.n_vertices
+    assert ricci.to_polyscope(torn, "torn").n_corners() == 3 * torn.n_faces
+    assert polyscope.has_surface_mesh("layout")
+    polyscope.remove_all_structures()
+
+
+def test_gifti_comes_back_with_its_labels_and_anatomy(sheet, tmp_path):
+    nibabel = pytest.importorskip("nibabel")
+    told = {"AnatomicalStructurePrimary": "CortexRight", "GeometricType": "Inflated"}
+    parcels, depth = np.array([13, 14, 14, 0]), np.array([0.5, 1.5, 2.5, 3.5])
+    image = ricci.to_gifti(sheet, labels={13: "motor", 0: "unknown"}, anatomy=told, aparc=parcels, depth=depth)
+    nibabel.save(image, tmp_path / "sheet.gii")
+    found = ricci.from_gifti(tmp_path / "sheet.gii")
+    assert np.array_equal(found.mesh.F, sheet.F)
+    assert np.allclose(found.mesh.V, sheet.V)
+    assert found.labels == {0: "unknown", 13: "motor", 14: "14"}
+    assert found.anatomy == told
+    assert found.fields["aparc"].dtype == np.int32
+    assert found.fields["aparc"].tolist() == parcels.tolist()
+    assert found.fields["depth"].tolist() == depth.tolist()
+    assert nibabel.load(tmp_path / "sheet.gii").darrays[0].metadata["GeometricType"] == "Inflated"
+    alone = nibabel.gifti.GiftiImage(darrays=image.darrays[2:])
+    assert ricci.from_gifti(alone).mesh is None
+    with pytest.raises(ricci.ArgumentTypeError, match="not Mesh"):
+        ricci.from_gifti(sheet)

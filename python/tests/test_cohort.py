@@ -1,5 +1,6 @@
 """Cohorts: the same table by every engine, from every interruption; failures are rows."""
 
+import hashlib
 import os
 import signal
 import subprocess
@@ -203,6 +204,44 @@ def test_what_cannot_be_a_cohort_is_refused(files, tmp_path):
 
 def test_nothing_is_a_cohort_too(tmp_path):
     assert len(ricci.cohort([], Job("info"), tmp_path, engine="inline").results) == 0
+
+
+def test_a_file_that_has_changed_is_done_again(tmp_path):
+    kept, edited = tmp_path / "kept.obj", tmp_path / "edited.obj"
+    for path in (kept, edited):
+        ricci.make("disk", n=3).write(path)
+    run = {"engine": "inline", "out": tmp_path / "out"}
+    first = ricci.cohort([kept, edited], Job("info"), **run).results.to_pylist()
+    assert first[0]["content"] == first[1]["content"] == hashlib.blake2b(kept.read_bytes(), digest_size=16).hexdigest()
+    ricci.make("disk", n=5).write(edited)
+    done = []
+    again = ricci.cohort([kept, edited], Job("info"), **run, progress=lambda *at: done.append(at[2].path)).results.to_pylist()
+    assert done == [str(edited)]
+    assert again[0] == first[0]
+    assert [row["n_faces"] for row in again] == [ricci.read(kept).n_faces, ricci.read(edited).n_faces]
+    # What was absent is done when it is there; what is gone keeps its row.
+    late = tmp_path / "late.obj"
+    missing = ricci.cohort([late], Job("info"), **run).results.to_pylist()[0]
+    assert (missing["error"], missing["content"]) == ("FileMissingError", None)
+    ricci.make("disk", n=4).write(late)
+    assert ricci.cohort([late], Job("info"), **run).results["ok"].to_pylist()[0]
+    late.unlink()
+    assert ricci.cohort([late], Job("info"), **run).failures == []
+
+
+@pytest.mark.parametrize("engine", ["processes", "dask"])
+def test_where_nothing_is_to_be_done_nothing_starts(files, whole, tmp_path, engine, monkeypatch):
+    if engine == "dask":
+        distributed = pytest.importorskip("distributed")
+
+        def none(*_, **__):
+            raise AssertionError("a cluster was started")
+
+        monkeypatch.setattr(distributed, "LocalCluster", none)
+    monkeypatch.setattr(subprocess, "Popen", None)
+    run = {"engine": engine, "workers": 2}
+    assert len(ricci.cohort([], Job("flow"), tmp_path, **run).results) == 0
+    assert len(ricci.cohort(files, Job("flow"), whole.folder, **run).failures) == len(whole.failures)
 
 
 @pytest.mark.corpus

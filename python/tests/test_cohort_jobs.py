@@ -64,6 +64,31 @@ def test_jobs_of_scripts_and_notebooks_are_sent_by_value(files, tmp_path, engine
     assert printed[0] == f"[] {[10 * ricci.read(path).n_faces for path in files]}"
 
 
+CELLS = [
+    "import ricci\ndef job(mesh): return {'K': float(ricci.Metric(mesh).curvature.max())}",
+    "[ricci.cohort(PATHS, job, 'out1').failures, ricci.cohort(PATHS, job, 'out2', engine='dask', workers=1).failures]",
+    "from distributed import Client\nclient = Client(n_workers=1, threads_per_worker=1, dashboard_address=':0')",
+    "found = ricci.cohort(PATHS, job, 'out3', engine=client)\n[found.failures, found.results.column_names[-1]]",
+    "def job(mesh): return {'Kmin': float(ricci.Metric(mesh).curvature.min())}",
+    "try:\n    print(ricci.cohort(PATHS, job, 'out3', engine=client))\nexcept ricci.ArgumentError as wrong:\n    print(wrong)",
+    "client.close()",
+]
+
+
+def test_a_job_of_a_notebooks_cell_runs_on_every_engine(files, tmp_path):
+    nbformat = pytest.importorskip("nbformat")
+    nbclient = pytest.importorskip("nbclient")
+    for package in ("ipykernel", "pyarrow", "distributed", "cloudpickle"):
+        pytest.importorskip(package)
+    cells = [nbformat.v4.new_code_cell(cell) for cell in (f"PATHS = {files!r}", *CELLS)]
+    book = nbformat.v4.new_notebook(cells=cells)
+    nbclient.NotebookClient(book, timeout=120, kernel_name="python3", resources={"metadata": {"path": str(tmp_path)}}).execute()
+    told = [[out.get("text") or out["data"]["text/plain"] for out in cell.outputs if "text" in out or "data" in out] for cell in cells]
+    assert told[2][-1] == "[[], []]"
+    assert told[4] == ["[[], 'K']"]
+    assert "has changed since" in told[6][0]
+
+
 def test_a_job_that_cannot_be_sent_is_refused_at_once(files, tmp_path):
     held = threading.Lock()
 
@@ -197,7 +222,7 @@ sys.path.insert(0, {tests!r})
 import cohort_jobs, ricci
 if __name__ == "__main__":
     try:
-        ricci.cohort({files!r}, cohort_jobs.works_long, "out", engine={engine!r}, workers=2)
+        ricci.cohort({files!r}, cohort_jobs.WorksLong("out/at"), "out", engine={engine!r}, workers=2)
     except KeyboardInterrupt:
         print("stopped", flush=True)
     time.sleep(60)
@@ -210,9 +235,18 @@ def children(pid):
     return psutil.Process(pid).children(recursive=True)
 
 
+def works(child):
+    """True of a process that has not ended and is no helper of the standard library."""
+    psutil = pytest.importorskip("psutil")
+    try:
+        return child.status() != psutil.STATUS_ZOMBIE and "resource_tracker" not in " ".join(child.cmdline())
+    except psutil.Error:
+        return False
+
+
 def serving(process):
-    """Its children that are at work, without helpers of the standard library."""
-    return [child for child in children(process.pid) if "resource_tracker" not in " ".join(child.cmdline())]
+    """Its children that are at work."""
+    return [child for child in children(process.pid) if works(child)]
 
 
 def wait_for(condition, seconds=30):
@@ -228,19 +262,60 @@ def hear_interrupts():
 
 
 @pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL])
-def test_no_worker_outlives_a_run_that_is_stopped(files, tmp_path, how):
-    psutil = pytest.importorskip("psutil")
+@pytest.mark.parametrize("engine", ["processes", "dask"])
+def test_no_worker_outlives_a_run_that_is_stopped(files, tmp_path, engine, how):
+    """For longer than a second, though they are in the middle of their meshes; what was done before is kept."""
+    if engine == "dask":
+        pytest.importorskip("distributed")
     script = tmp_path / "run.py"
-    script.write_text(STOPPED.format(tests=os.path.dirname(cohort_jobs.__file__), files=files, engine="processes"))
+
+    def kept():
+        return list((tmp_path / "out" / "rows").glob("*.results"))
+
+    script.write_text(STOPPED.format(tests=os.path.dirname(cohort_jobs.__file__), files=files, engine=engine))
     process = subprocess.Popen([sys.executable, str(script)], cwd=tmp_path, stdout=subprocess.PIPE, preexec_fn=hear_interrupts)
     try:
-        wait_for(lambda: len(serving(process)) == 2 and (tmp_path / "out" / "job.json").exists())
-        time.sleep(0.5)
+        wait_for(lambda: (len(list((tmp_path / "out" / "at").glob("*"))), len(kept())) == (2, 1))
         workers = serving(process)
         process.send_signal(how)
-        wait_for(lambda: not any(worker.is_running() and worker.status() != psutil.STATUS_ZOMBIE for worker in workers), 30)
+        wait_for(lambda: not any(map(works, workers)), 1)
+        assert len(kept()) == 1
         if how == signal.SIGINT:
             assert process.stdout.readline() == b"stopped\n"
+    finally:
+        process.kill()
+        process.wait()
+
+
+INTERRUPTED = """
+import ricci
+from ricci.cohorts import Job
+if __name__ == "__main__":
+    try:
+        ricci.cohort({paths!r}, Job("flow", {{"target": "auto:40"}}), "out", engine="processes", workers=2)
+    except KeyboardInterrupt:
+        print("stopped", flush=True)
+    import time
+    time.sleep(60)
+"""
+
+
+def test_no_worker_outlives_an_interrupt_in_the_library(tmp_path):
+    psutil = pytest.importorskip("psutil")
+    pytest.importorskip("pyarrow")
+    ricci.make("torus", n=500).write(tmp_path / "large.obj")
+    script = tmp_path / "script.py"
+    script.write_text(INTERRUPTED.format(paths=[str(tmp_path / "large.obj")]))
+    process = subprocess.Popen([sys.executable, str(script)], cwd=tmp_path, stdout=subprocess.PIPE, preexec_fn=hear_interrupts)
+    try:
+        at_work = []
+        while not any(sum(child.cpu_times()[:2]) > 2 for child in at_work):
+            assert process.poll() is None, "the run was over before it could be stopped"
+            time.sleep(0.05)
+            at_work = psutil.Process(process.pid).children()
+        process.send_signal(signal.SIGINT)
+        assert psutil.wait_procs(at_work, timeout=1)[1] == []
+        assert process.stdout.readline() == b"stopped\n"
     finally:
         process.kill()
         process.wait()

@@ -71,6 +71,66 @@ def test_several_calls_fill_one_bar(torus):
         control.set_part(0.5, 0.25)
 
 
+LONG = {
+    "flow": lambda m, p: ricci.flow(m["genus2"], progress=p),
+    "layout": lambda m, p: ricci.layout(m["flat"], p),
+    "uniformize": lambda m, p: ricci.uniformize(m["genus2"], progress=p),
+    "sphere": lambda m, p: ricci.uniformize(m["sphere"], progress=p),
+    "cover": lambda m, p: ricci.cover(m["genus2"], progress=p),
+    "within": lambda m, p: ricci.cover(m["genus2"], progress=p, radius=2.0),
+    "depth": lambda m, p: ricci.cover(m["genus2"], progress=p, depth=1),
+    "match": lambda m, p: ricci.match(m["sphere"], m["finer"], p),
+    "match of genus 2": lambda m, p: ricci.match(m["genus2"], ricci.make("genus", genus=2, n=3), p),
+    "spline": lambda m, p: ricci.spline(m["sphere"], progress=p, rounds=2),
+    "flat metric": lambda m, p: ricci.flat_metric(m["genus2"], progress=p),
+    "bicubic": lambda m, p: ricci.bicubic(m["spline"], p),
+    "structures": lambda m, p: ricci.structures(m["genus2"], progress=p),
+    "seamless": lambda m, p: ricci.seamless(m["genus2"], progress=p),
+    "circles": lambda m, p: ricci.circles(m["pants"], progress=p),
+}
+
+
+@pytest.fixture(scope="module")
+def surfaces(genus2, pants):
+    sphere = ricci.make("sphere", n=8)
+    made = {"genus2": genus2, "pants": pants, "sphere": sphere, "finer": ricci.make("sphere", n=9)}
+    return made | {"flat": ricci.flow(genus2), "spline": ricci.spline(sphere, rounds=2)}
+
+
+@pytest.mark.parametrize("name", LONG)
+def test_progress_never_goes_back_and_ends_at_1(surfaces, name):
+    control, told = ricci.Control(), []
+    over = threading.Event()
+
+    def look():
+        while not over.is_set():
+            told.append(control.progress()[1])
+            time.sleep(0.0005)
+
+    looking = threading.Thread(target=look)
+    looking.start()
+    try:
+        LONG[name](surfaces, control)
+    finally:
+        over.set()
+        looking.join()
+    told.append(control.progress()[1])
+    assert told == sorted(told)
+    assert told[-1] == 1
+    heard = []
+    LONG[name](surfaces, lambda stage, fraction: heard.append(fraction))
+    assert heard == sorted(heard)
+    assert heard[-1] == 1
+
+
+def test_parts_lie_in_the_part_of_the_caller(genus2):
+    control = ricci.Control()
+    control.set_part(0.25, 0.75)
+    ricci.structures(genus2, progress=control)
+    assert control.progress()[1] == 0.75
+    control.set_part(0, 1)
+
+
 def test_a_control_cancels_from_another_thread(large):
     control = ricci.Control()
     when_it_flows(control, control.cancel)

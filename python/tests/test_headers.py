@@ -91,12 +91,3 @@ def test_names_are_all_constants_of_their_prefix():
         theirs = {name.removeprefix(head) for name in dir(lib) if name.startswith(head)} - others.get(prefix, set())
         assert {name.upper() for name in names} == theirs
         assert sorted(getattr(lib, head + name.upper()) for name in names) == list(range(len(names)))
-
-
-def test_docstrings_name_every_argument():
-    names = "flow uniformize cover circles harmonic forms match spline structure quads quad_layout quad_spline cohort"
-    for name in names.split():
-        text = getattr(ricci, name).__doc__
-        code = getattr(ricci, name).__code__
-        arguments = code.co_varnames[: code.co_argcount]
-        assert all(f"{argument}:" in text for argument in arguments), name

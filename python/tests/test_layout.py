@@ -173,7 +173,10 @@ def test_labels_stay_labels_on_the_refinement(flat, genus2):
     np.testing.assert_allclose(np.take_along_axis(shares, carried[None].astype(int), 0)[0], shares.max(0), atol=1e-12)
     assert set(np.unique(way.carry(genus2.F % 5, at="corners"))) <= set(range(5))
     assert way.carry(labels > 3).dtype == bool
-    assert way.carry(labels, labels=False).dtype == float
+    with pytest.raises(ricci.ArgumentTypeError, match="have no mean"):
+        way.carry(labels, mode="linear")
+    with pytest.raises(ricci.ArgumentError, match=r"a mode of Matching\.carry"):
+        way.carry(labels.astype(float), mode="conservative")
     metric_side = way.carry(np.arange(flat.summary.n_mesh_vertices), on="metric")
     assert np.array_equal(metric_side[: genus2.n_vertices], np.arange(genus2.n_vertices))
     with pytest.raises(ricci.ArgumentError, match="rows of labels"):

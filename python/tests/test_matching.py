@@ -47,8 +47,13 @@ def test_labels_are_carried_as_labels(disk):
         np.testing.assert_allclose(np.take_along_axis(shares, carried[None].astype(int), 0)[0], shares.max(0), atol=1e-12)
     both = np.stack([labels, labels[::-1]], 1)
     assert np.array_equal(found.carry(both)[:, 0], found.carry(labels))
-    assert found.carry(labels, labels=False).dtype == float
-    assert np.array_equal(found.carry(labels.astype(float), labels=True), found.carry(labels))
+    for mode in ("linear", "conservative"):
+        with pytest.raises(ricci.ArgumentTypeError, match="whole numbers are labels, which have no mean"):
+            found.carry(labels, mode=mode)
+    with pytest.raises(ricci.ArgumentError, match="none of nearest, linear, conservative"):
+        found.carry(labels, mode="cubic")
+    assert np.array_equal(found.carry(labels.astype(float), mode="nearest"), found.carry(labels))
+    assert np.array_equal(found.carry(target.V, mode="linear"), found.carry(target.V))
     assert np.array_equal(found.map().carry(np.arange(disk.n_vertices))[: disk.n_vertices], np.arange(disk.n_vertices))
     for wrong, words in (
         (disk.V[:, 0] * 1j, "real and imaginary parts"),
@@ -60,6 +65,38 @@ def test_labels_are_carried_as_labels(disk):
     masked = np.ma.masked_equal(labels, 3)
     with pytest.raises(ricci.ArgumentError, match="masked entries"):
         found.carry(masked)
+
+
+def areas_at(mesh):
+    """A third of the area of the faces around every vertex."""
+    sides = mesh.V[mesh.F[:, 1:]] - mesh.V[mesh.F[:, :1]]
+    faces = np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1) / 2
+    return np.bincount(mesh.F.ravel(), np.repeat(faces / 3, 3), mesh.n_vertices)
+
+
+@pytest.mark.parametrize("mirror", [False, True])
+def test_conservative_values_keep_their_integral(disk, mirror):
+    bumpy = ricci.Mesh(disk.V + [0, 0, 0.4] * np.cos(3 * disk.V[:, :1]) + 0.05 * np.sin(5 * disk.V[:, [1, 0, 0]]), disk.F)
+    plate = ricci.make("disk", n=9)
+    target = ricci.Mesh(plate.V * [2, 1, 1], plate.F)
+    found = ricci.match(bumpy, target.mirrored() if mirror else target, boundary="arc_length", mirror=mirror)
+    for direction, here, there in (("forward", bumpy, target), ("backward", target, bumpy)):
+        density = np.random.default_rng(4).random((there.n_vertices, 2))
+        carried = found.carry(density, direction, mode="conservative")
+        assert carried.shape == (here.n_vertices, 2)
+        np.testing.assert_allclose(areas_at(here) @ carried, areas_at(there) @ density, rtol=1e-9)
+        np.testing.assert_allclose(found.carry(density[:, 0], direction, mode="conservative"), carried[:, 0], rtol=1e-12)
+        # Interpolated values have another integral.
+        linear = areas_at(here) @ found.carry(density, direction)
+        assert (abs(linear - areas_at(there) @ density) > 0.01 * linear).all()
+
+
+def test_conservative_values_of_a_similar_copy_are_scaled(disk):
+    """A copy twice as large under a map that is the identity: areas are four times as large."""
+    copy = ricci.Mesh(2 * disk.V, disk.F)
+    rim = disk.boundary[0]
+    found = ricci.match(disk, copy, landmarks=[[v, v] for v in rim[[0, len(rim) // 3, 2 * len(rim) // 3]]])
+    np.testing.assert_allclose(found.carry(np.ones(disk.n_vertices), mode="conservative"), 4, rtol=1e-5)
 
 
 def test_spheres_and_tori(torus):

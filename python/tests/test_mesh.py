@@ -151,7 +151,7 @@ def test_defects_are_listed_as_views_and_repaired():
     assert repaired.mesh().n_faces == 2
     with pytest.raises(ricci.MeshError):
         soup.mesh()
-    with pytest.raises(ricci.ArgumentError, match="no option 'welding'; there are component"):
+    with pytest.raises(ricci.ArgumentError, match="no option 'welding' of repair; there are component"):
         soup.repair(welding=1.0)
 
 

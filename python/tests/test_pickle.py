@@ -88,6 +88,26 @@ def test_splines_and_lists_are_pickled(disk):
         pickle.dumps(ricci.Soup(broken.V[:3], broken.F[:2]).repair())
 
 
+def test_a_cache_of_joblib_keeps_meshes_and_splines(tmp_path):
+    """What comes out of the cache is what was put in, bit for bit, and the same arguments find it."""
+    joblib = pytest.importorskip("joblib")
+    memory, calls = joblib.Memory(tmp_path, verbose=0), []
+
+    def finer(mesh, levels):
+        calls.append(levels)
+        return ricci.Soup(mesh.V, mesh.F).refine(levels).mesh(), ricci.Spline.plane(ricci.make("disk", n=2), degree=2)
+
+    kept = memory.cache(finer, ignore=[])
+    disk = with_attributes(ricci.make("disk", n=4))
+    first, again_, other = kept(disk, 1), kept(with_attributes(ricci.make("disk", n=4)), 1), kept(ricci.make("disk", n=5), 1)
+    assert calls == [1, 1]
+    same(first[0], again_[0])
+    assert first[1].text() == again_[1].text()
+    assert other[0].n_faces != first[0].n_faces
+    assert joblib.hash(disk) == joblib.hash(again(disk))
+    assert joblib.hash(disk) != joblib.hash(ricci.make("disk", n=4))
+
+
 def test_the_others_say_what_to_send_instead(torus):
     flat = ricci.flow(torus)
     for value, makes in ((flat, "ricci.flow"), (ricci.layout(flat), "ricci.layout"), (ricci.uniformize(torus), "ricci.uniformize")):

@@ -1,8 +1,13 @@
 // The data of a view as arrays, and the small algebra of views.
 
-// Numbers of 16 bits, little-endian, in base64.
-function numbers(text) {
+// Numbers of 16 bits, little-endian, in base64; of 32 bits where they are wide.
+function numbers(text, wide = false) {
   const raw = atob(text);
+  if (wide) {
+    const bytes = Uint8Array.from(raw, (c) => c.charCodeAt(0));
+    const view = new DataView(bytes.buffer);
+    return Uint32Array.from({ length: raw.length / 4 }, (_, i) => view.getUint32(4 * i, true));
+  }
   const out = new Uint16Array(raw.length / 2);
   for (let i = 0; i < out.length; i++) out[i] = raw.charCodeAt(2 * i) | (raw.charCodeAt(2 * i + 1) << 8);
   return out;
@@ -68,4 +73,17 @@ function placed(points, corners, pick, rows) {
     for (let j = 0; j < 3; j++) v[j] += w * points[3 * corners[pick.face + k] + j];
   });
   return rows.map((row) => dot(row, v));
+}
+
+// The edges of one face alone, as pairs of corners: where a layout is cut open, and the boundary.
+function rims(corners) {
+  const sides = new Map();
+  for (let i = 0; i < corners.length; i += 3) {
+    for (let k = 0; k < 3; k++) {
+      const [a, b] = [corners[i + k], corners[i + ((k + 1) % 3)]];
+      const key = a < b ? a * 4294967296 + b : b * 4294967296 + a;
+      if (sides.has(key)) sides.set(key, null); else sides.set(key, [a, b]);
+    }
+  }
+  return [...sides.values()].filter((side) => side !== null).flat();
 }

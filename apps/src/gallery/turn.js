@@ -11,10 +11,14 @@ class View {
     this.shape = {
       surface: centred(data.surface),
       image: data.image && centred(data.image),
-      corners: numbers(data.corners),
+      corners: numbers(data.corners, data.wide),
     };
     this.loaded = painter.load(this.shape);
     this.said = canvas.nextElementSibling;
+    this.checks = !data.image ? 0 : data.flat ? CHECKS : CUBES;
+    this.quantity = null;
+    this.seams = false;
+    this.controls();
     const sides = data.image ? ["surface", "image"] : ["surface"];
     this.sides = sides.map((points) => {
       const flat = points === "image" && data.flat;
@@ -26,6 +30,45 @@ class View {
     canvas.addEventListener("pointerleave", () => { if (!this.held) { this.pick = null; this.ask(); } });
     canvas.addEventListener("wheel", (e) => this.wheel(e), { passive: false });
     new ResizeObserver(() => this.ask()).observe(canvas);
+  }
+
+  // What the reader may choose, below the canvas: the density of the checks, seams, a quantity.
+  controls() {
+    const { data } = this;
+    const row = document.createElement("p");
+    row.className = "controls";
+    const add = (words, part, event, act) => {
+      const label = document.createElement("label");
+      label.append(`${words} `, part);
+      part.addEventListener(event, () => { act(part); this.ask(); });
+      row.append(label, " ");
+    };
+    const input = (given) => Object.assign(document.createElement("input"), given);
+    if (data.image) {
+      const slider = input({ type: "range", min: 0, max: 100, value: this.checks });
+      add("checks", slider, "input", () => { this.checks = Number(slider.value); });
+    }
+    if (data.cut) {
+      const box = input({ type: "checkbox", checked: true });
+      this.seams = true;
+      add("seams", box, "change", () => { this.seams = box.checked; });
+    }
+    if (data.quantities && data.quantities.length > 0) {
+      const list = document.createElement("select");
+      [{ name: "none" }, ...data.quantities].forEach(({ name }) => list.append(new Option(name)));
+      const range = document.createElement("span");
+      const choose = () => {
+        this.quantity = data.quantities[list.selectedIndex - 1] || null;
+        const { low, high } = this.quantity || {};
+        range.textContent = this.quantity ? `${low.toPrecision(4)} (dark) to ${high.toPrecision(4)} (light)` : "";
+        if (this.quantity) this.loaded.amounts.data(Float32Array.from(numbersOf(this.quantity), (k) => k / 65534));
+      };
+      list.selectedIndex = 1;
+      choose();
+      add("colours", list, "change", choose);
+      row.append(range);
+    }
+    if (row.childNodes.length > 0) this.said.after(row);
   }
 
   rows(side) {
@@ -110,7 +153,9 @@ class View {
         scale: [(2 * radius) / w, (2 * radius) / h],
         shift: [(2 * x) / w - 1, 1 - (2 * y) / h],
         box: [Math.round(k * part * dense), 0, Math.ceil(part * dense), height],
-        checks: !this.data.image ? 0 : this.data.flat ? CHECKS : CUBES,
+        checks: this.checks,
+        colored: this.quantity ? 1 : 0,
+        seams: this.seams,
         lit: side.flat ? 0 : this.data.flat || !this.data.image ? 1 : 2,
       });
     });
@@ -120,6 +165,13 @@ class View {
     this.mark(pen);
     pen.setTransform(1, 0, 0, 1, 0, 0);
     canvas.dataset.drawn = Number(canvas.dataset.drawn || 0) + 1;
+  }
+
+  // The quantity at a picked place.
+  valueAt({ face, weights }) {
+    const { low, high } = this.quantity;
+    const k = weights.map((_, c) => numbersOf(this.quantity)[this.shape.corners[face + c]]);
+    return k.includes(65535) ? NaN : low + ((high - low) / 65534) * weights.reduce((sum, w, c) => sum + w * k[c], 0);
   }
 
   // The picked place on both sides: a ring where the surface hides it.
@@ -149,11 +201,14 @@ class View {
       });
     };
     const place = `(${where(surface).join(", ")})`;
-    this.said.textContent = image ? `${place} on the surface, (${where(image).slice(0, this.data.flat ? 2 : 3).join(", ")}) beside it` : place;
+    const value = this.quantity && this.valueAt(this.pick);
+    const told = this.quantity ? `; ${this.quantity.name} ${Number.isFinite(value) ? value.toPrecision(5) : "is no number here"}` : "";
+    const beside = image ? ` on the surface, (${where(image).slice(0, this.data.flat ? 2 : 3).join(", ")}) beside it` : "";
+    this.said.textContent = `${place}${beside}${told}`;
   }
 }
 
-// Each side's numbers are decoded once.
+// Numbers are decoded once.
 const decoded = new WeakMap();
 function numbersOf(points) {
   if (!decoded.has(points)) decoded.set(points, numbers(points.data));

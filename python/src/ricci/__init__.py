@@ -12,13 +12,13 @@ with the element and the amount (`RicciError`). Results are identical bit for bi
 """
 
 from ricci._library import VERSION as __version__
-from ricci.adapters import as_mesh, to_gifti, to_meshio, to_pyvista, to_trimesh
-from ricci.atlases import Place, Structure, structure, structures
-from ricci.bicubics import Bicubic, bicubic
-from ricci.circle import CircleDomain, circles
-from ricci.cohorts import CohortResult, Job, cohort
+from ricci.adapters import as_mesh, to_meshio, to_polyscope, to_pyvista, to_trimesh
+from ricci.atlases import Place, Structure, StructureOptions, structure, structures
+from ricci.bicubics import Bicubic, BicubicOptions, StepOptions, bicubic
+from ricci.circle import CircleDomain, CircleOptions, circles
+from ricci.cohorts import CohortOptions, CohortResult, Job, cohort
 from ricci.control import Control
-from ricci.covering import Cover, Deck, Dirichlet, cover, deck, dirichlet
+from ricci.covering import Cover, CoverOptions, Deck, DeckSpec, Dirichlet, cover, deck, dirichlet
 from ricci.errors import (
     ArgumentError,
     ArgumentTypeError,
@@ -38,49 +38,69 @@ from ricci.errors import (
     SplineError,
     TargetError,
 )
-from ricci.form import Forms, HarmonicMap, forms, harmonic, harmonic_map
+from ricci.form import Forms, FormsOptions, HarmonicMap, HarmonicOptions, forms, harmonic, harmonic_map
 from ricci.fundamental import Domain, Homotopy, homotopy
-from ricci.layouts import Charts, Layout, RepairedInput, SheetLine, charts, layout
+from ricci.gifti import Gifti, from_gifti, to_gifti
+from ricci.layouts import Layout, LayoutOptions, RepairedInput, SheetLine, layout
 from ricci.log import log_to_logging
 from ricci.maps import Map
-from ricci.matching import Matching, match
-from ricci.mesh import Mesh, read
-from ricci.metrics import Metric, Report, Solver, flow, metric
-from ricci.quad_meshes import QuadLayout, Quads, quad_layout, quads
-from ricci.quad_splines import QuadSpline, quad_spline
-from ricci.seams import Seamless, cross_field, seamless
-from ricci.shapes import change, hyperelliptic_periods, make
-from ricci.soup import Defect, Hole, Loop, Soup
-from ricci.splines import Spline, flat_metric, spline, spline_domain
+from ricci.marks import landmarks
+from ricci.matching import Matching, MatchOptions, Points, match
+from ricci.mesh import Attributes, Mesh, read
+from ricci.metrics import FlowJob, FlowOptions, Metric, Report, flow, metric
+from ricci.packed_charts import Charts, charts
+from ricci.pages import Page, show
+from ricci.quad_meshes import QuadLayout, Quads, QuadsOptions, quad_layout, quads
+from ricci.quad_splines import QuadSpline, QuadSplineOptions, quad_spline
+from ricci.seams import Seamless, SeamlessOptions, cross_field, seamless
+from ricci.shapes import ChangeOptions, ShapeOptions, change, hyperelliptic_periods, make
+from ricci.solvers import Solver
+from ricci.soup import Defect, Hole, Loop, RepairOptions, Soup
+from ricci.spline_domains import flat_metric, spline_domain
+from ricci.splines import PlaneOptions, Spline, SurfaceOptions, spline
 from ricci.status import Status
-from ricci.uniform import Uniform, uniformize
+from ricci.uniform import Uniform, UniformOptions, uniformize
 
 __all__ = [
     "ArgumentError",
     "ArgumentTypeError",
+    "Attributes",
     "Bicubic",
+    "BicubicOptions",
     "Cancelled",
+    "ChangeOptions",
     "Charts",
     "CircleDomain",
+    "CircleOptions",
+    "CohortOptions",
     "CohortResult",
     "Control",
     "Cover",
+    "CoverOptions",
     "Deck",
+    "DeckSpec",
     "Defect",
     "Dirichlet",
     "Domain",
     "FileError",
+    "FlowJob",
+    "FlowOptions",
     "Forms",
+    "FormsOptions",
+    "Gifti",
     "HarmonicMap",
+    "HarmonicOptions",
     "Hole",
     "Homotopy",
     "InternalError",
     "Job",
     "Layout",
     "LayoutError",
+    "LayoutOptions",
     "LeftOutError",
     "Loop",
     "Map",
+    "MatchOptions",
     "Matching",
     "MatchingError",
     "Mesh",
@@ -89,15 +109,23 @@ __all__ = [
     "MetricError",
     "NotConverged",
     "OutOfMemory",
+    "Page",
     "ParseError",
     "Place",
+    "PlaneOptions",
+    "Points",
     "QuadLayout",
     "QuadSpline",
+    "QuadSplineOptions",
     "Quads",
+    "QuadsOptions",
+    "RepairOptions",
     "RepairedInput",
     "Report",
     "RicciError",
     "Seamless",
+    "SeamlessOptions",
+    "ShapeOptions",
     "SheetLine",
     "Solver",
     "SolverError",
@@ -105,9 +133,13 @@ __all__ = [
     "Spline",
     "SplineError",
     "Status",
+    "StepOptions",
     "Structure",
+    "StructureOptions",
+    "SurfaceOptions",
     "TargetError",
     "Uniform",
+    "UniformOptions",
     "__version__",
     "as_mesh",
     "bicubic",
@@ -122,10 +154,12 @@ __all__ = [
     "flat_metric",
     "flow",
     "forms",
+    "from_gifti",
     "harmonic",
     "harmonic_map",
     "homotopy",
     "hyperelliptic_periods",
+    "landmarks",
     "layout",
     "log_to_logging",
     "make",
@@ -136,12 +170,14 @@ __all__ = [
     "quads",
     "read",
     "seamless",
+    "show",
     "spline",
     "spline_domain",
     "structure",
     "structures",
     "to_gifti",
     "to_meshio",
+    "to_polyscope",
     "to_pyvista",
     "to_trimesh",
     "uniformize",

@@ -29,8 +29,10 @@ _NOT_REAL = {
 def numbers(values: npt.ArrayLike, name: str = "values") -> npt.NDArray[Any]:
     """`values` as an array of real numbers, of whatever type they are.
 
-    Raises:
-        ArgumentTypeError: complex numbers, texts, objects, entries that are masked.
+    Raises
+    ------
+    ArgumentTypeError
+        complex numbers, texts, objects, entries that are masked.
     """
     if isinstance(values, np.ma.MaskedArray) and np.ma.is_masked(values):
         n = int(np.ma.getmaskarray(values).sum())
@@ -64,8 +66,10 @@ def points(values: npt.ArrayLike, name: str = "V") -> Doubles:
 def indices(values: npt.ArrayLike, columns: int | None = None, name: str = "indices") -> Indices:
     """Non-negative integers as contiguous 32-bit ones: int32 and uint32 arrays are taken as they are.
 
-    Raises:
-        ArgumentError: not integers, negative, or beyond 32 bits; the index is that of the entry.
+    Raises
+    ------
+    ArgumentError
+        not integers, negative, or beyond 32 bits; the index is that of the entry.
     """
     array = numbers(values, name)
     if array.size == 0:
@@ -84,8 +88,10 @@ def indices(values: npt.ArrayLike, columns: int | None = None, name: str = "indi
 def index(value: Any, name: str) -> Indices:
     """One index as an array of one entry.
 
-    Raises:
-        ArgumentTypeError: no whole number.
+    Raises
+    ------
+    ArgumentTypeError
+        no whole number.
     """
     if np.ndim(value) != 0:
         raise ArgumentTypeError(f"{name} is one index, not {value!r:.40}")

@@ -13,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ricci._library import ffi, lib
+from ricci._shown import Shown
 from ricci.control import Progress, check, run
 from ricci.errors import ArgumentError, ArgumentTypeError, FileError, last_failure, last_needed
 from ricci.figures.names import CONSTANTS
@@ -47,7 +48,7 @@ class Passed:
         raise TypeError(f"a ricci.{kind} is memory of the library, which pickle cannot take: send what it was made from ({self._made_by})")
 
 
-class Handle(Passed):
+class Handle(Shown, Passed):
     """An object of the library, freed with the Python object. The library keeps alive the objects that it was made from.
 
     Handles never change, so that a copy of one is the handle itself.
@@ -87,9 +88,12 @@ _INTEGERS = {"uint32_t": (32, False), "int32_t": (32, True), "uint64_t": (64, Fa
 def fitting(kind: Any, value: Any, name: str = "") -> Any:
     """A value as cffi takes it for an argument or a field of the type `kind`: handles as their pointers, numbers checked.
 
-    Raises:
-        ArgumentTypeError: it is of another type; the message says what is needed, and how one is made.
-        ArgumentError: a number out of range.
+    Raises
+    ------
+    ArgumentTypeError
+        it is of another type; the message says what is needed, and how one is made.
+    ArgumentError
+        a number out of range.
     """
     lead = f"{name}: " if name else ""
     if kind.kind == "pointer" and kind.item.kind == "struct":
@@ -144,8 +148,10 @@ def _fitting_all(function: Callable[..., int], arguments: tuple[Any, ...]) -> li
 def call(function: Callable[..., int], *arguments: Any, progress: Progress = None) -> None:
     """Call `function`; handles among the arguments are passed as their pointers, CONTROL as the control of `progress`.
 
-    Raises:
-        RicciError: the call failed, or an argument is of another type.
+    Raises
+    ------
+    RicciError
+        the call failed, or an argument is of another type.
     """
     given = _fitting_all(function, arguments)
     try:
@@ -295,8 +301,10 @@ class _PathBytes(bytes):
 def path_bytes(path: str | os.PathLike[str]) -> bytes:
     """A file's name as the library takes it.
 
-    Raises:
-        ArgumentTypeError: not the name of a file.
+    Raises
+    ------
+    ArgumentTypeError
+        not the name of a file.
     """
     try:
         name = os.fspath(path)
@@ -312,13 +320,19 @@ def path_bytes(path: str | os.PathLike[str]) -> bytes:
 def constant(prefix: str, name: str, among: tuple[str, ...] | None = None) -> int:
     """The constant RICCI_<prefix>_<NAME>.
 
-    Args:
-        prefix: the common prefix of the constants of its list.
-        name: the rest of its name, in lower case.
-        among: the names of the list, where several lists have the same prefix.
+    Parameters
+    ----------
+    prefix : str
+        the common prefix of the constants of its list.
+    name : str
+        the rest of its name, in lower case.
+    among : tuple[str, ...] | None
+        the names of the list, where several lists have the same prefix.
 
-    Raises:
-        ArgumentError: there is no such constant; the message lists the known names.
+    Raises
+    ------
+    ArgumentError
+        there is no such constant; the message lists the known names.
     """
     head = f"RICCI_{prefix}_"
     known = among or tuple(sorted(n.removeprefix(head).lower() for n in dir(lib) if n.startswith(head)))

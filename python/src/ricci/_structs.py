@@ -42,8 +42,10 @@ class Struct(Passed):
 def options(name: str, given: Mapping[str, Any], writers: Mapping[str, Write]) -> Struct:
     """The struct `ricci_<name>` with the given fields; None leaves a field's default.
 
-    Raises:
-        ArgumentError: a name that is no option; the message lists those that there are.
+    Raises
+    ------
+    ArgumentError
+        a name that is no option; the message lists those that there are.
     """
     struct = Struct(name)
     known(given, writers)
@@ -56,9 +58,12 @@ def options(name: str, given: Mapping[str, Any], writers: Mapping[str, Write]) -
 def known(given: Mapping[str, Any], names: Iterable[str]) -> None:
     """Refuse options by other names than these.
 
-    Raises:
-        ArgumentTypeError: options that are no mapping.
-        ArgumentError: a name that is no option; the message lists those that there are.
+    Raises
+    ------
+    ArgumentTypeError
+        options that are no mapping.
+    ArgumentError
+        a name that is no option; the message lists those that there are.
     """
     if not isinstance(given, Mapping):
         raise ArgumentTypeError(f"options are a dict of names and values, not {type(given).__name__}")

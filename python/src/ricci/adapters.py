@@ -2,14 +2,14 @@
 
 Normals, colours and texture coordinates go along both ways. Where a library has one pair of texture coordinates for each vertex and those
 of a mesh have seams, they become an attribute `uv` of its faces (m x 6, the pairs of the three corners): cutting the mesh open along the
-seams would make another surface of it.
+seams would make another surface of it. A layout is that other surface: it is given with a vertex for each of its points, so that each has
+one pair, and the number of its mesh's vertex as the attribute `vertex`.
 """
 
 from __future__ import annotations
 
 import os
-import warnings
-from typing import Any, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -17,7 +17,7 @@ import numpy.typing as npt
 from ricci.errors import ArgumentError, ArgumentTypeError
 from ricci.mesh import Attributes, Mesh
 
-__all__ = ["MeshLike", "as_mesh", "from_arrays_of", "to_gifti", "to_meshio", "to_pyvista", "to_trimesh"]
+__all__ = ["MeshLike", "as_mesh", "from_arrays_of", "to_meshio", "to_polyscope", "to_pyvista", "to_trimesh"]
 
 # A Mesh, a file's name, a pair of arrays (V, F), or an object of trimesh, meshio, PyVista or nibabel; as V with F = None.
 MeshLike: TypeAlias = Any
@@ -28,13 +28,25 @@ _Found: TypeAlias = "tuple[npt.ArrayLike, npt.ArrayLike, Attributes]"
 def as_mesh(V: MeshLike, F: npt.ArrayLike | None = None) -> Mesh:
     """The mesh that the arguments `V, F` of this package stand for.
 
-    Args:
-        V: n x 3 positions with `F`; without, a `Mesh`, a file's name, a pair (V, F), or another library's mesh.
-        F: m x 3 vertex indices from 0.
+    Parameters
+    ----------
+    V : MeshLike
+        n x 3 positions with `F`; without, a `Mesh`, a file's name, a pair (V, F), or another library's mesh.
+    F : npt.ArrayLike | None
+        m x 3 vertex indices from 0.
 
-    Raises:
-        ArgumentError: not a mesh.
-        MeshError: the faces are no surface.
+    Raises
+    ------
+    ArgumentError
+        not a mesh.
+    MeshError
+        the faces are no surface.
+
+    Examples
+    --------
+    >>> mesh = ricci.as_mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+    >>> mesh
+    <ricci.Mesh: 3 vertices, 1 faces, genus 0, 1 boundary loops>
     """
     if F is not None:
         if isinstance(V, Mesh | str | os.PathLike | tuple) or _is_foreign(V):
@@ -55,8 +67,10 @@ def as_mesh(V: MeshLike, F: npt.ArrayLike | None = None) -> Mesh:
 def from_arrays_of(other: Any) -> _Arrays:
     """Positions and triangles of a pair (V, F), or of another library's mesh.
 
-    Raises:
-        ArgumentError: it is none of these, or has other faces than triangles.
+    Raises
+    ------
+    ArgumentError
+        it is none of these, or has other faces than triangles.
     """
     points, faces, _ = _parts_of(other)
     return points, faces
@@ -161,28 +175,62 @@ def _of_nibabel(other: Any) -> _Found | None:
     return *found, {}
 
 
-def _vertex_uv(mesh: Mesh) -> npt.NDArray[Any] | None:
-    """n x 2 texture coordinates of the vertices, where the corners of every vertex agree on them."""
-    if mesh.uv is None:
-        return None
-    found = np.zeros((mesh.n_vertices, 2))
-    found[mesh.F] = mesh.uv
-    return found if np.array_equal(found[mesh.F], mesh.uv) else None
+class Dressed(NamedTuple):
+    """A mesh, or a layout cut open, as other libraries take it."""
+
+    #: n x 3.
+    V: npt.NDArray[Any]
+    #: m x 3.
+    F: npt.NDArray[Any]
+    #: n x 2 texture coordinates of the vertices, where their corners agree on them.
+    uv: npt.NDArray[Any] | None
+    #: Attributes of the vertices and the caller's fields, by name.
+    at_vertices: dict[str, Any]
+    #: Attributes of corners that do not fit vertices, one row for each face.
+    at_faces: dict[str, Any]
 
 
-def _at_vertices(mesh: Mesh, fields: dict[str, Any]) -> dict[str, Any]:
-    """The attributes of the vertices by name, and the caller's fields."""
+def dressed(mesh: MeshLike, fields: dict[str, Any]) -> Dressed:
+    """A mesh of any kind with its attributes and the caller's fields; a layout, or charts, with a vertex for each of their points.
+
+    Raises
+    ------
+    ArgumentError
+        a field that has not one row for each vertex.
+    """
+    cut = getattr(mesh, "_cut_open", None)
+    if cut is not None:
+        points, faces, uv, origins = cut()
+        return Dressed(points, faces, uv, {"vertex": origins, **_rows(fields, len(origins), origins)}, {})
+    mesh = as_mesh(mesh)
+    fields = _rows(fields, mesh.n_vertices, None)
     own = {"normals": mesh.normals, "colors": mesh.colors}
-    return {**{name: np.array(values) for name, values in own.items() if values is not None}, **fields}
-
-
-def _at_faces(mesh: Mesh) -> dict[str, Any]:
-    """The attributes of the corners that do not fit vertices, one row for each face."""
-    found = {}
-    if mesh.uv is not None and _vertex_uv(mesh) is None:
-        found["uv"] = mesh.uv.reshape(-1, 6).copy()
+    at_vertices = {**{name: np.array(values) for name, values in own.items() if values is not None}, **fields}
+    uv, at_faces = None, {}
+    if mesh.uv is not None:
+        found = np.zeros((mesh.n_vertices, 2))
+        found[mesh.F] = mesh.uv
+        uv = found if np.array_equal(found[mesh.F], mesh.uv) else None
+        if uv is None:
+            at_faces["uv"] = mesh.uv.reshape(-1, 6).copy()
     if mesh.corner_normals is not None:
-        found["corner_normals"] = mesh.corner_normals.reshape(-1, 9).copy()
+        at_faces["corner_normals"] = mesh.corner_normals.reshape(-1, 9).copy()
+    return Dressed(mesh.V, mesh.F.astype(np.int64), uv, at_vertices, at_faces)
+
+
+def _rows(fields: dict[str, Any], n: int, origins: npt.NDArray[Any] | None) -> dict[str, Any]:
+    """Fields with n rows; of a layout those with a row for each vertex of its mesh have one for each point."""
+    found = {}
+    for name, values in fields.items():
+        rows = np.shape(values)[:1]
+        whole = None if origins is None else int(origins.max()) + 1
+        if rows == (n,):
+            found[name] = values
+        elif origins is not None and rows == (whole,):
+            found[name] = np.asarray(values)[origins]
+        else:
+            needed = f"{n} rows are needed" if whole is None else f"{whole} rows, of the mesh, or {n}, of the points, are needed"
+            raise ArgumentError(f"{name} has shape {np.shape(values)}, {needed}")
     return found
 
 
@@ -191,18 +239,29 @@ def to_trimesh(mesh: MeshLike, **fields: Any) -> Any:
 
     Texture coordinates become its visual, or the face attribute `uv` where they have seams; colours its visual, beside texture coordinates
     the vertex attribute `colors`; normals the vertex attribute `normals`.
+
+    Parameters
+    ----------
+    mesh : MeshLike
+        a mesh of any kind (`as_mesh`), or a `Layout`, `RepairedInput` or `Charts`.
+    fields : Any
+        n rows each, by the name of the vertex attribute.
+
+    Examples
+    --------
+    >>> ricci.to_trimesh(ricci.make("sphere", n=2)).is_watertight
+    True
     """
     import trimesh
 
-    mesh = as_mesh(mesh)
-    uv, at_vertices = _vertex_uv(mesh), _at_vertices(mesh, fields)
+    V, F, uv, at_vertices, at_faces = dressed(mesh, fields)
     colors = at_vertices.pop("colors", None) if uv is None and "colors" not in fields else None
     return trimesh.Trimesh(
-        mesh.V,
-        mesh.F.astype(np.int64),
+        V,
+        F,
         process=False,
         vertex_attributes=at_vertices,
-        face_attributes=_at_faces(mesh),
+        face_attributes=at_faces,
         vertex_colors=None if colors is None else np.round(255 * colors).astype(np.uint8),
         visual=None if uv is None else trimesh.visual.TextureVisuals(uv=uv),
     )
@@ -212,76 +271,93 @@ def to_meshio(mesh: MeshLike, **fields: Any) -> Any:
     """A `meshio.Mesh`; `fields` (n rows each) become point data.
 
     Normals, colours and texture coordinates are the point data `normals`, `colors` and `uv`, the last at seams the cell data `uv`.
+
+    Parameters
+    ----------
+    mesh : MeshLike
+        a mesh of any kind (`as_mesh`), or a `Layout`, `RepairedInput` or `Charts`.
+    fields : Any
+        n rows each, by the name of the point data.
+
+    Examples
+    --------
+    >>> ricci.to_meshio(ricci.make("disk", n=2)).cells_dict["triangle"].shape
+    (24, 3)
     """
     import meshio
 
-    mesh = as_mesh(mesh)
-    uv, cells = _vertex_uv(mesh), {name: [values] for name, values in _at_faces(mesh).items()}
-    points = _at_vertices(mesh, fields if uv is None else {"uv": uv, **fields})
-    return meshio.Mesh(mesh.V, [("triangle", mesh.F.astype(np.int64))], point_data=points, cell_data=cells)
+    V, F, uv, at_vertices, at_faces = dressed(mesh, fields)
+    points = at_vertices if uv is None else {"uv": uv, **at_vertices}
+    return meshio.Mesh(V, [("triangle", F)], point_data=points, cell_data={name: [values] for name, values in at_faces.items()})
 
 
 def to_pyvista(mesh: MeshLike, **fields: Any) -> Any:
     """A `pyvista.PolyData`; `fields` (n rows each) become point data.
 
     Texture coordinates are its active ones, or the cell data `uv` where they have seams; normals and colours are point data.
+
+    Parameters
+    ----------
+    mesh : MeshLike
+        a mesh of any kind (`as_mesh`), or a `Layout`, `RepairedInput` or `Charts`.
+    fields : Any
+        n rows each, by the name of the point data.
+
+    Examples
+    --------
+    >>> mesh = ricci.make("disk", n=2)
+    >>> ricci.to_pyvista(mesh, height=mesh.V[:, 2]).array_names
+    ['height']
     """
     import pyvista
 
-    mesh = as_mesh(mesh)
-    made = pyvista.PolyData.from_regular_faces(np.array(mesh.V), mesh.F.astype(np.int64))
-    uv = _vertex_uv(mesh)
+    V, F, uv, at_vertices, at_faces = dressed(mesh, fields)
+    made = pyvista.PolyData.from_regular_faces(np.array(V), F)
     if uv is not None:
         made.active_texture_coordinates = uv
-    for name, values in _at_vertices(mesh, fields).items():
+    for name, values in at_vertices.items():
         made.point_data[name] = values
-    for name, values in _at_faces(mesh).items():
+    for name, values in at_faces.items():
         made.cell_data[name] = values
     return made
 
 
-def to_gifti(mesh: MeshLike, **fields: Any) -> Any:
-    """A `nibabel.GiftiImage` with pointset and triangles; `fields` (n numbers each) become arrays with these names.
+def to_polyscope(mesh: MeshLike, name: str = "ricci", **fields: Any) -> Any:
+    """Show the mesh in Polyscope: its `SurfaceMesh`, registered under this name; call ``polyscope.init()`` before.
 
-    Whole numbers and flags are labels: they get the intent LABEL and a table of their values; other numbers have the intent SHAPE. GIFTI
-    has no place for texture coordinates, whose loss is a warning.
+    Texture coordinates become the parameterization `uv`, of a mesh with seams at its corners; `fields` (n numbers each) scalar quantities
+    and those of n x 3 vectors.
+
+    Parameters
+    ----------
+    mesh : MeshLike
+        a mesh of any kind (`as_mesh`), or a `Layout`, `RepairedInput` or `Charts`.
+    name : str
+        the name in Polyscope's list of structures.
+    fields : Any
+        n rows each, by the name of the quantity.
+
+    Examples
+    --------
+    >>> import polyscope
+    >>> polyscope.init("openGL_mock")
+    >>> ricci.to_polyscope(ricci.make("sphere", n=2)).n_vertices()
+    42
     """
-    from nibabel.gifti import GiftiDataArray, GiftiImage
+    import polyscope
 
-    mesh = as_mesh(mesh)
-    points = GiftiDataArray(mesh.V.astype(np.float32), intent="NIFTI_INTENT_POINTSET", datatype="NIFTI_TYPE_FLOAT32")
-    faces = GiftiDataArray(mesh.F.astype(np.int32), intent="NIFTI_INTENT_TRIANGLE", datatype="NIFTI_TYPE_INT32")
-    image = GiftiImage(darrays=[points, faces])
-    if mesh.uv is not None:
-        warnings.warn("GIFTI has no place for texture coordinates: they are left out", UserWarning, stacklevel=2)
-    for name, values in _at_vertices(mesh, fields).items():
-        image.add_gifti_data_array(_gifti_array(name, np.asarray(values), image))
-    return image
-
-
-def _gifti_array(name: str, values: npt.NDArray[Any], image: Any) -> Any:
-    """One array of a GIFTI image, with the intent that its numbers have; labels are entered into the image's table."""
-    from nibabel.gifti import GiftiDataArray, GiftiLabel
-
-    if values.dtype.kind in "iub":
-        known = {label.key for label in image.labeltable.labels}
-        for key in np.unique(values.astype(np.int32)).tolist():
-            if key not in known:
-                label = GiftiLabel(key, *_color_of(key))
-                label.label = str(key)
-                image.labeltable.labels.append(label)
-        labels = np.asarray(values, np.int32)
-        return GiftiDataArray(labels, intent="NIFTI_INTENT_LABEL", datatype="NIFTI_TYPE_INT32", meta={"Name": name})
-    if values.dtype.kind != "f":
-        raise ArgumentTypeError(f"{name}: GIFTI holds numbers, not {values.dtype}")
-    intent = {3: "NIFTI_INTENT_VECTOR", 4: "NIFTI_INTENT_RGBA_VECTOR"}.get(values.shape[1] if values.ndim == 2 else 0, "NIFTI_INTENT_SHAPE")
-    return GiftiDataArray(values.astype(np.float32), intent=intent, datatype="NIFTI_TYPE_FLOAT32", meta={"Name": name})
-
-
-def _color_of(key: int) -> tuple[float, float, float, float]:
-    """A colour for a label: hues a golden section apart, so that near numbers are far apart; 0 is without colour."""
-    if key == 0:
-        return 0.0, 0.0, 0.0, 0.0
-    hue = 6 * (key * 0.6180339887498949 % 1)
-    red, green, blue = (min(max(abs((hue + turn) % 6 - 3) - 1, 0), 1) for turn in (0, 4, 2))
-    return red, green, blue, 1.0
+    V, F, uv, at_vertices, at_faces = dressed(mesh, fields)
+    made = polyscope.register_surface_mesh(name, V, F)
+    if uv is not None:
+        made.add_parameterization_quantity("uv", uv, defined_on="vertices")
+    elif "uv" in at_faces:
+        made.add_parameterization_quantity("uv", at_faces["uv"].reshape(-1, 2), defined_on="corners")
+    for label, values in at_vertices.items():
+        array = np.asarray(values, float)
+        if label == "colors":
+            made.add_color_quantity(label, array[:, :3])
+        elif array.ndim == 2 and array.shape[1] == 3:
+            made.add_vector_quantity(label, array)
+        else:
+            made.add_scalar_quantity(label, array)
+    return made

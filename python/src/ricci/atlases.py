@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, ClassVar, Literal, TypedDict, Unpack, get_args
+from typing import Any, ClassVar, Literal, TypedDict, get_args
 
 import numpy as np
 import numpy.typing as npt
@@ -13,9 +13,11 @@ from ricci import _arrays
 from ricci._arrays import frozen
 from ricci._call import CONTROL, Doubles, Handle, Indices, call, constant, doubles, listed, pointer, rows, summary
 from ricci._library import ffi, lib
+from ricci._shown import Scene
+from ricci._signatures import picked, takes
 from ricci._structs import Write, above_zero, choice, one_index, options
 from ricci.adapters import MeshLike, as_mesh
-from ricci.control import Progress
+from ricci.control import Progress, stages
 from ricci.errors import ArgumentError
 from ricci.figures import StructureSummary
 from ricci.figures.names import StructureKind
@@ -27,12 +29,18 @@ __all__ = ["Place", "Structure", "StructureOptions", "structure", "structures"]
 class StructureOptions(TypedDict, total=False):
     """Options of a structure: its charts, and the source of an affine structure.
 
-    Attributes:
-        flow: how the flow is done.
-        singular: the singular vertex of an affine structure by the flow; where areas are distorted least.
-        radius: how far a patch reaches in the sphere or the hyperbolic plane.
-        charts: ``"stars"`` of the vertices, or larger ``"patches"``.
-        source: an affine structure comes from a ``"flow"``, or from a holomorphic 1-``"form"``: transitions are translations.
+    Attributes
+    ----------
+    flow : FlowOptions
+        how the flow is done.
+    singular : int
+        the singular vertex of an affine structure by the flow; where areas are distorted least.
+    radius : float
+        how far a patch reaches in the sphere or the hyperbolic plane.
+    charts : Literal["stars", "patches"]
+        ``"stars"`` of the vertices, or larger ``"patches"``.
+    source : Literal["flow", "form"]
+        an affine structure comes from a ``"flow"``, or from a holomorphic 1-``"form"``: transitions are translations.
     """
 
     flow: FlowOptions
@@ -55,11 +63,23 @@ _STRUCTURE: dict[str, Write] = {
 class Place:
     """A point in a chart.
 
-    Attributes:
-        chart: the chart.
-        face: the place of the point's face in the chart's list of faces.
-        x: first coordinate there.
-        y: second coordinate there.
+    Attributes
+    ----------
+    chart : int
+        the chart.
+    face : int
+        the place of the point's face in the chart's list of faces.
+    x : float
+        first coordinate there.
+    y : float
+        second coordinate there.
+
+    Examples
+    --------
+    >>> found = ricci.structure(ricci.make("torus", n=16), kind="affine")
+    >>> place = found.places(0, [1 / 3, 1 / 3, 1 / 3])[0]
+    >>> 0 in found.chart_faces[place.chart]
+    True
     """
 
     chart: int
@@ -69,10 +89,22 @@ class Place:
 
 
 class Structure(Handle):
-    """A geometric structure of a surface: charts in the plane, and transitions in the structure's group. It never changes."""
+    """A geometric structure of a surface: charts in the plane, and transitions in the structure's group. It never changes.
+
+    Examples
+    --------
+    >>> found = ricci.structure(ricci.make("torus", n=16), kind="affine")
+    >>> found.summary.n_charts == len(found.chart_faces)
+    True
+    """
 
     _type: ClassVar[str] = "structure"
     _made_by: ClassVar[str] = "ricci.structure(mesh, kind=...)"
+    _figures: ClassVar[tuple[str, ...]] = ("kind", "n_charts", "n_transitions", "n_generators", "n_singular", "cocycle_residual")
+
+    def _scene(self) -> Scene | None:
+        first = int(np.argmax([len(faces) for faces in self.chart_faces]))
+        return Scene(self.coordinates(first), self.chart_corners[first])
 
     @cached_property
     def summary(self) -> StructureSummary:
@@ -149,9 +181,12 @@ class Structure(Handle):
     def places(self, face: int, weights: npt.ArrayLike) -> list[Place]:
         """All charts that contain a point.
 
-        Args:
-            face: a face of the triangulation.
-            weights: 3 weights of its corners.
+        Parameters
+        ----------
+        face : int
+            a face of the triangulation.
+        weights : npt.ArrayLike
+            3 weights of its corners.
         """
         given = _arrays.real(weights)
         if given.shape != (3,):
@@ -184,26 +219,45 @@ class Structure(Handle):
         return f"<ricci.Structure: {s.kind}, {s.n_charts} charts, {s.n_transitions} transitions>"
 
 
+@takes(StructureOptions)
 def structure(
     V: MeshLike,
     F: npt.ArrayLike | None = None,
     kind: StructureKind = "conformal",
     progress: Progress = None,
-    **given: Unpack[StructureOptions],
+    *,
+    flow: FlowOptions | None = None,
+    singular: int | None = None,
+    radius: float | None = None,
+    charts: Literal["stars", "patches"] = "stars",
+    source: Literal["flow", "form"] = "flow",
 ) -> Structure:
     """A geometric structure of a surface.
 
-    Args:
-        V: n x 3 positions with `F`, or a mesh of any kind (`as_mesh`).
-        F: m x 3 vertex indices.
-        kind: ``"conformal"`` (any surface), ``"spherical"`` (genus 0), ``"affine"``, ``"hyperbolic"`` or ``"projective"`` (negative
-            Euler characteristic).
-        progress: a `Control` or a callback.
-        given: charts, source, singular vertex (`StructureOptions`).
+    Parameters
+    ----------
+    V : MeshLike
+        n x 3 positions with `F`, or a mesh of any kind (`as_mesh`).
+    F : npt.ArrayLike | None
+        m x 3 vertex indices.
+    kind : StructureKind
+        ``"conformal"`` (any surface), ``"spherical"`` (genus 0), ``"affine"``, ``"hyperbolic"`` or ``"projective"`` (negative
+        Euler characteristic).
+    progress : Progress
+        a `Control` or a callback.
 
-    Raises:
-        ArgumentError: a structure that the surface has not, or options that do not belong to it.
+    Raises
+    ------
+    ArgumentError
+        a structure that the surface has not, or options that do not belong to it.
+
+    Examples
+    --------
+    >>> found = ricci.structure(ricci.make("genus", genus=2, n=3), kind="hyperbolic")
+    >>> found.holonomy.shape
+    (4, 2, 2)
     """
+    given = picked(locals(), StructureOptions)
     struct = options("structure_options", given, _STRUCTURE)
     return Structure._made(
         lib.ricci_structure_new, as_mesh(V, F), constant("STRUCTURE", kind, get_args(StructureKind)), struct, CONTROL, progress=progress
@@ -211,11 +265,27 @@ def structure(
 
 
 def structures(V: MeshLike, F: npt.ArrayLike | None = None, progress: Progress = None) -> dict[str, Structure]:
-    """Every structure that a surface has, by its kind."""
+    """Every structure that a surface has, by its kind.
+
+    Parameters
+    ----------
+    V : MeshLike
+        n x 3 positions with `F`, or a mesh of any kind (`as_mesh`).
+    F : npt.ArrayLike | None
+        m x 3 vertex indices.
+    progress : Progress
+        a `Control` or a callback.
+
+    Examples
+    --------
+    >>> sorted(ricci.structures(ricci.make("torus", n=16)))
+    ['affine', 'conformal']
+    """
     mesh = as_mesh(V, F)
     kinds: list[StructureKind] = ["conformal", "affine"]
     if mesh.euler < 0:
         kinds += ["hyperbolic", "projective"]
     elif mesh.summary.n_boundary_loops == 0 and mesh.genus == 0:
         kinds += ["spherical"]
-    return {kind: structure(mesh, kind=kind, progress=progress) for kind in kinds}
+    parts = stages(progress, [(k + 1) / len(kinds) for k in range(len(kinds))])
+    return {kind: structure(mesh, kind=kind, progress=part) for kind, part in zip(kinds, parts, strict=True)}

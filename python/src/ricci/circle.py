@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import Any, ClassVar, Literal, TypedDict, Unpack
+from typing import Any, ClassVar, Literal, TypedDict
 
 import numpy as np
 import numpy.typing as npt
@@ -11,6 +11,8 @@ import numpy.typing as npt
 from ricci._arrays import frozen
 from ricci._call import CONTROL, Doubles, Handle, constant, doubles, summary
 from ricci._library import lib
+from ricci._shown import Scene
+from ricci._signatures import picked, takes
 from ricci._structs import Write, above_zero, choice, index_list, one_index, options, real_list
 from ricci.adapters import MeshLike, as_mesh
 from ricci.control import Progress
@@ -27,16 +29,24 @@ __all__ = ["CircleDomain", "CircleOptions", "circles"]
 class CircleOptions(TypedDict, total=False):
     """Options of a circle domain.
 
-    Attributes:
-        flow: tolerance, max_iterations and threads of the flows.
-        outer: genus 0: the boundary loop that becomes the unit circle; the longest.
-        centre: genus 0: the vertex at the centre of the unit disk.
-        three: genus 0: three vertices of the outer loop, counterclockwise, to lie at `angles`.
-        angles: three angles, radians; 0, 2 pi / 3, 4 pi / 3.
-        least_loop: edges of loops with fewer than this are halved; 12.
-        frame: genus 0: ``"disk"``; of an annulus also ``"strip"``, its log coordinates [0, 2 pi] x [0, 2 pi m], the outer loop at y = 0,
-            (x, y) the point of the disk with angle x and radius e^-y; ``"auto"``: the disk, and the strip where doubles do not hold the
-            inner circle in the disk.
+    Attributes
+    ----------
+    flow : FlowOptions
+        tolerance, max_iterations and threads of the flows.
+    outer : int
+        genus 0: the boundary loop that becomes the unit circle; the longest.
+    centre : int
+        genus 0: the vertex at the centre of the unit disk.
+    three : npt.ArrayLike
+        genus 0: three vertices of the outer loop, counterclockwise, to lie at `angles`.
+    angles : npt.ArrayLike
+        three angles, radians; 0, 2 pi / 3, 4 pi / 3.
+    least_loop : int
+        edges of loops with fewer than this are halved; 12.
+    frame : Literal["auto", "disk", "strip"]
+        genus 0: ``"disk"``; of an annulus also ``"strip"``, its log coordinates [0, 2 pi] x [0, 2 pi m], the outer loop at y = 0,
+        (x, y) the point of the disk with angle x and radius e^-y; ``"auto"``: the disk, and the strip where doubles do not hold the
+        inner circle in the disk.
     """
 
     flow: FlowOptions
@@ -71,10 +81,24 @@ _CIRCLES: dict[str, Write] = {
 
 
 class CircleDomain(Handle):
-    """A surface with boundary whose loops are circles: in the unit disk, a flat torus or a hyperbolic surface."""
+    """A surface with boundary whose loops are circles: in the unit disk, a flat torus or a hyperbolic surface.
+
+    Examples
+    --------
+    >>> ring = ricci.circles(ricci.make("annulus", a=0.5, b=1, n=4))
+    >>> round(ring.summary.modulus.imag, 3)
+    0.11
+    """
 
     _type: ClassVar[str] = "circle_domain"
     _made_by: ClassVar[str] = "ricci.circles(mesh)"
+    _figures: ClassVar[tuple[str, ...]] = ("space", "n_circles", "converged", "deviation", "modulus", "n_overlapping")
+
+    def _sides(self) -> tuple[Any, ...]:
+        return self.layout()._sides()
+
+    def _scene(self) -> Scene | None:
+        return self.layout()._scene()
 
     @cached_property
     def summary(self) -> CircleDomainSummary:
@@ -106,22 +130,50 @@ class CircleDomain(Handle):
         return Layout._made(lib.ricci_circle_domain_layout, self, constant("MODEL", model))
 
 
-def circles(V: MeshLike, F: npt.ArrayLike | None = None, progress: Progress = None, **given: Unpack[CircleOptions]) -> CircleDomain:
+@takes(CircleOptions)
+def circles(
+    V: MeshLike,
+    F: npt.ArrayLike | None = None,
+    progress: Progress = None,
+    *,
+    flow: FlowOptions | None = None,
+    outer: int | None = None,
+    centre: int | None = None,
+    three: npt.ArrayLike | None = None,
+    angles: npt.ArrayLike | None = None,
+    least_loop: int | None = None,
+    frame: Literal["auto", "disk", "strip"] = "auto",
+) -> CircleDomain:
     """The conformal map of a surface with boundary to one whose boundary loops are circles.
 
-    Args:
-        V: n x 3 positions with `F`, or a mesh of any kind (`as_mesh`).
-        F: m x 3 vertex indices.
-        progress: a `Control` or a callback.
-        given: outer, centre, three, angles, least_loop, frame, flow (`CircleOptions`).
+    Parameters
+    ----------
+    V : MeshLike
+        n x 3 positions with `F`, or a mesh of any kind (`as_mesh`).
+    F : npt.ArrayLike | None
+        m x 3 vertex indices.
+    progress : Progress
+        a `Control` or a callback.
 
-    Warns:
-        NotConverged: the loops did not become circles; `summary` says why.
+    Warns
+    -----
+    NotConverged
+        the loops did not become circles; `summary` says why.
 
-    Raises:
-        ArgumentError: a closed surface; no such loop or vertex.
-        LayoutError: circles overlap however fine the loops are.
+    Raises
+    ------
+    ArgumentError
+        a closed surface; no such loop or vertex.
+    LayoutError
+        circles overlap however fine the loops are.
+
+    Examples
+    --------
+    >>> pants = ricci.change(ricci.make("sphere", n=8), "punch", count=3)
+    >>> ricci.circles(pants).circles.shape
+    (3, 4)
     """
+    given = picked(locals(), CircleOptions)
     struct = options("circle_domain_options", given, _CIRCLES)
     made = CircleDomain._made(lib.ricci_circle_domain_new, as_mesh(V, F), struct, CONTROL, progress=progress)
     s = made.summary

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Generator, Sequence
 from typing import Any, TypeAlias
 
 from ricci._library import ffi, lib
@@ -22,10 +22,19 @@ class Control:
 
     A control that was cancelled stays so: every later call with it is stopped as well.
 
-    Args:
-        callback: called as ``callback(stage, fraction)`` from the thread that waits for the call, about every 0.05 s and at its end: with
-            the name of a stage (``"flow"``, ``"layout"``, ...) and the fraction of the whole call that is done, from 0 to 1, which
-            never goes back. What it raises stops the call.
+    Parameters
+    ----------
+    callback : Callable[[str, float], object] | None
+        called as ``callback(stage, fraction)`` from the thread that waits for the call, about every 0.05 s and at its end: with
+        the name of a stage (``"flow"``, ``"layout"``, ...) and the fraction of the whole call that is done, from 0 to 1, which
+        never goes back. What it raises stops the call.
+
+    Examples
+    --------
+    >>> control = ricci.Control(lambda stage, fraction: None)
+    >>> flat = ricci.flow(ricci.make("torus", n=16), progress=control)
+    >>> control.progress()[1]
+    1.0
     """
 
     def __init__(self, callback: Callable[[str, float], object] | None = None) -> None:
@@ -37,6 +46,7 @@ class Control:
             raise last_failure(status)
         self._pointer: Any = ffi.gc(made[0], lib.ricci_control_free)
         self._callback = callback
+        self._part = (0.0, 1.0)
 
     def __reduce__(self) -> Any:
         raise TypeError("a ricci.Control belongs to the calls of its own process, so that pickle cannot take it")
@@ -49,8 +59,10 @@ class Control:
         """The number of threads of calls that have no option for it (`Spline.closest`, `Spline.tessellate`): 0, the default, is one for
         each core.
 
-        Raises:
-            ArgumentTypeError: for what is no number from 0 on.
+        Raises
+        ------
+        ArgumentTypeError
+            for what is no number from 0 on.
         """
         if not isinstance(threads, int) or threads < 0:
             raise ArgumentTypeError(f"threads is a number from 0 on, not {threads!r}")
@@ -59,10 +71,13 @@ class Control:
     def set_part(self, start: float, end: float) -> None:
         """The part of the whole progress that the next calls fill, for several calls in one bar; 0 to 1 is all, as at the beginning.
 
-        Raises:
-            ArgumentError: unless 0 <= start <= end <= 1.
+        Raises
+        ------
+        ArgumentError
+            unless 0 <= start <= end <= 1.
         """
         check(lib.ricci_control_part(self._pointer, start, end))
+        self._part = (start, end)
 
     def progress(self) -> tuple[str, float]:
         """The stage that the call is in, and the fraction of the whole call that is done, in [0, 1]."""
@@ -82,6 +97,30 @@ class Control:
 
 
 Progress: TypeAlias = "Control | Callable[[str, float], object] | None"
+
+
+def stages(progress: Progress, ends: Sequence[float]) -> Generator[Progress, None, None]:
+    """The progress of several calls in a row, each of which fills its part of the bar.
+
+    Parameters
+    ----------
+    progress : Progress
+        of the whole.
+    ends : Sequence[float]
+        the fraction of the whole that is done after each call, ascending; the last is 1.
+    """
+    if progress is None:
+        yield from (None for _ in ends)
+        return
+    control = progress if isinstance(progress, Control) else Control(progress)
+    (first, last), start = control._part, 0.0
+    try:
+        for end in ends:
+            control.set_part(first + start * (last - first), first + end * (last - first))
+            start = end
+            yield control
+    finally:
+        control.set_part(first, last)
 
 
 class _Running:
@@ -114,8 +153,10 @@ def run(progress: Progress, work: Callable[[Any], int]) -> None:
     On the main thread, and where there is a callback, the call runs beside this thread, which looks at it and takes signals. A
     KeyboardInterrupt, or what the callback raises, cancels the call; it is raised here once the call has ended.
 
-    Raises:
-        RicciError: the call failed.
+    Raises
+    ------
+    RicciError
+        the call failed.
     """
     control = progress if isinstance(progress, Control) else Control(progress)
     if control._callback is None and threading.current_thread() is not threading.main_thread():

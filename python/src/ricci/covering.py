@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cached_property
-from typing import Any, ClassVar, Literal, TypeAlias, TypedDict, Unpack, get_args
+from typing import Any, ClassVar, Literal, TypeAlias, TypedDict, get_args
 
 import numpy as np
 import numpy.typing as npt
@@ -13,9 +13,11 @@ from ricci import _arrays
 from ricci._arrays import frozen
 from ricci._call import CONTROL, Complexes, Doubles, Handle, Indices, Signed, constant, doubles, filled, pointer, rows, summary
 from ricci._library import lib
+from ricci._shown import Scene
+from ricci._signatures import picked, takes
 from ricci._structs import Struct, Write, known, nested, number, options
 from ricci.adapters import MeshLike
-from ricci.control import Progress
+from ricci.control import Progress, stages
 from ricci.errors import ArgumentError
 from ricci.figures import DeckSummary, DirichletSummary
 from ricci.figures.names import Model
@@ -32,14 +34,21 @@ Kind: TypeAlias = Literal["generators", "sides", "words", "depth", "within", "di
 class DeckSpec(TypedDict, total=False):
     """The deck transformations that are asked for.
 
-    Attributes:
-        kind: ``"generators"``, ``"sides"`` of the layout, ``"words"``, all to a ``"depth"``, all ``"within"`` a radius, or
-            ``"dirichlet_sides"``.
-        words: those of ``"words"``, each a list of letters.
-        dirichlet: for ``"within"`` and ``"dirichlet_sides"``, a domain of this surface.
-        radius: for ``"within"``: how far the centre may move.
-        depth: for ``"depth"``: most letters of a word.
-        limit: most elements that are looked at; 100,000.
+    Attributes
+    ----------
+    kind : Kind
+        ``"generators"``, ``"sides"`` of the layout, ``"words"``, all to a ``"depth"``, all ``"within"`` a radius, or
+        ``"dirichlet_sides"``.
+    words : Sequence[npt.ArrayLike]
+        those of ``"words"``, each a list of letters.
+    dirichlet : Dirichlet
+        for ``"within"`` and ``"dirichlet_sides"``, a domain of this surface.
+    radius : float
+        for ``"within"``: how far the centre may move.
+    depth : int
+        for ``"depth"``: most letters of a word.
+    limit : int
+        most elements that are looked at; 100,000.
     """
 
     kind: Kind
@@ -68,10 +77,18 @@ LIMIT = 100_000
 
 
 class Deck(Handle):
-    """Deck transformations of a quotient, each as a word in the generators and as an isometry. They act from the left."""
+    """Deck transformations of a quotient, each as a word in the generators and as an isometry. They act from the left.
+
+    Examples
+    --------
+    >>> curved = ricci.uniformize(ricci.make("genus", genus=2, n=3))
+    >>> bool(ricci.deck(curved).lengths.min() > 0)
+    True
+    """
 
     _type: ClassVar[str] = "deck"
     _made_by: ClassVar[str] = "ricci.deck(uniform)"
+    _figures: ClassVar[tuple[str, ...]] = ("space", "n_elements", "n_letters", "longest")
 
     @cached_property
     def summary(self) -> DeckSummary:
@@ -116,10 +133,25 @@ class Deck(Handle):
 
 
 class Dirichlet(Handle):
-    """The points of the universal cover that are nearer to a centre than to its images: a convex polygon."""
+    """The points of the universal cover that are nearer to a centre than to its images: a convex polygon.
+
+    Examples
+    --------
+    >>> curved = ricci.uniformize(ricci.make("genus", genus=2, n=3))
+    >>> polygon = ricci.dirichlet(curved)
+    >>> polygon.corners.shape == (polygon.summary.n_sides, 3)
+    True
+    """
 
     _type: ClassVar[str] = "dirichlet"
     _made_by: ClassVar[str] = "ricci.dirichlet(uniform)"
+    _figures: ClassVar[tuple[str, ...]] = ("space", "n_sides", "area", "radius")
+
+    def _scene(self) -> Scene | None:
+        # Sides are straight in the Klein disk, so that the polygon is a fan about a corner: it is convex.
+        corners = from_ambient(self.corners, self.summary.space, "klein")
+        fan = np.arange(1, len(corners) - 1)
+        return Scene(corners, np.column_stack([np.zeros_like(fan), fan, fan + 1]))
 
     @cached_property
     def summary(self) -> DirichletSummary:
@@ -140,10 +172,14 @@ class Dirichlet(Handle):
 class CoverOptions(TypedDict, total=False):
     """A piece of the universal cover: the neighbours of a copy, all copies to a depth, or all within a radius of the base.
 
-    Attributes:
-        depth: most letters of a word in the generators; few of the copies with one letter share a side with the first one.
-        radius: how far the base may move.
-        limit: most elements that are looked at; 100,000.
+    Attributes
+    ----------
+    depth : int
+        most letters of a word in the generators; few of the copies with one letter share a side with the first one.
+    radius : float
+        how far the base may move.
+    limit : int
+        most elements that are looked at; 100,000.
     """
 
     depth: int
@@ -154,11 +190,22 @@ class CoverOptions(TypedDict, total=False):
 class Cover:
     """A piece of the universal cover: copies of a layout, moved by deck transformations.
 
-    Attributes:
-        uniform: the surface.
-        layout: the layout on the given surface (``"refinement"``), or on the metric's own triangulation.
-        deck: the deck transformation of every copy; the first is the identity.
-        faces: m x 3 indices of the points of a copy.
+    Attributes
+    ----------
+    uniform : Uniform
+        the surface.
+    layout : Layout
+        the layout on the given surface (``"refinement"``), or on the metric's own triangulation.
+    deck : Deck
+        the deck transformation of every copy; the first is the identity.
+    faces : Indices
+        m x 3 indices of the points of a copy.
+
+    Examples
+    --------
+    >>> piece = ricci.cover(ricci.make("torus", n=8), depth=1)
+    >>> len(piece), piece.points(0).shape[1]
+    (5, 2)
     """
 
     def __init__(self, uniform: Uniform, layout: Layout, deck: Deck) -> None:
@@ -174,45 +221,112 @@ class Cover:
         return from_ambient(self.deck.apply(copy, self._points), self.deck.summary.space, model)
 
 
-def deck(uniform: Uniform, progress: Progress = None, **spec: Unpack[DeckSpec]) -> Deck:
+@takes(DeckSpec)
+def deck(
+    uniform: Uniform,
+    progress: Progress = None,
+    *,
+    kind: Kind = "generators",
+    words: Sequence[npt.ArrayLike] | None = None,
+    dirichlet: Dirichlet | None = None,
+    radius: float | None = None,
+    depth: int | None = None,
+    limit: int | None = None,
+) -> Deck:
     """Deck transformations of a quotient; by default the generators.
 
-    Raises:
-        LayoutError: a sphere.
-        ArgumentError: more elements than `limit`.
+    Parameters
+    ----------
+    uniform : Uniform
+        the surface, no sphere.
+    progress : Progress
+        a `Control` or a callback.
+
+    Raises
+    ------
+    LayoutError
+        a sphere.
+    ArgumentError
+        more elements than `limit`.
+
+    Examples
+    --------
+    >>> curved = ricci.uniformize(ricci.make("genus", genus=2, n=3))
+    >>> len(ricci.deck(curved))
+    4
     """
+    spec = picked(locals(), DeckSpec)
     given = {"limit": LIMIT, **spec, "kind": constant("DECK", spec.get("kind", "generators"), get_args(Kind))}
     return Deck._made(lib.ricci_deck_new, uniform, options("deck_spec", given, _DECK), CONTROL, progress=progress)
 
 
 def dirichlet(uniform: Uniform, centre: npt.ArrayLike | None = None, progress: Progress = None) -> Dirichlet:
-    """The Dirichlet domain of a point in ambient coordinates; of the origin, where the base vertex is, if none is given."""
+    """The Dirichlet domain of a point in ambient coordinates; of the origin, where the base vertex is, if none is given.
+
+    Parameters
+    ----------
+    uniform : Uniform
+        the surface, no sphere.
+    centre : npt.ArrayLike | None
+        3 ambient coordinates.
+    progress : Progress
+        a `Control` or a callback.
+
+    Examples
+    --------
+    >>> curved = ricci.uniformize(ricci.make("genus", genus=2, n=3))
+    >>> round(ricci.dirichlet(curved).summary.area / 3.141592653589793, 6)
+    4.0
+    """
     point = None if centre is None else _arrays.real(centre)
     if point is not None and point.shape != (3,):
         raise ArgumentError(f"the centre has shape {point.shape}, (3,) is needed")
     return Dirichlet._made(lib.ricci_dirichlet_new, uniform, pointer(point), CONTROL, progress=progress)
 
 
-def cover(V: MeshLike, F: npt.ArrayLike | None = None, progress: Progress = None, **given: Unpack[CoverOptions]) -> Cover:
+@takes(CoverOptions)
+def cover(
+    V: MeshLike,
+    F: npt.ArrayLike | None = None,
+    progress: Progress = None,
+    *,
+    depth: int | None = None,
+    radius: float | None = None,
+    limit: int | None = None,
+) -> Cover:
     """A piece of the universal cover of a surface that is no sphere; by default a copy and its neighbours, one across each of its sides.
 
-    Args:
-        V: a `Uniform`, or positions with `F`, or a mesh of any kind (`as_mesh`), which is uniformized first.
-        F: m x 3 vertex indices.
-        progress: a `Control` or a callback.
-        given: depth or radius, and limit (`CoverOptions`).
+    Parameters
+    ----------
+    V : MeshLike
+        a `Uniform`, or positions with `F`, or a mesh of any kind (`as_mesh`), which is uniformized first.
+    F : npt.ArrayLike | None
+        m x 3 vertex indices.
+    progress : Progress
+        a `Control` or a callback.
+
+    Examples
+    --------
+    >>> piece = ricci.cover(ricci.make("genus", genus=2, n=3))
+    >>> len(piece) == 1 + len({tuple(word) for word in ricci.deck(piece.uniform, kind="sides").words})
+    True
     """
+    given = picked(locals(), CoverOptions)
     known(given, CoverOptions.__annotations__)
     if "radius" in given and "depth" in given:
         raise ArgumentError("depth and radius: name one of them")
-    uniform = V if isinstance(V, Uniform) else uniformize(V, F, progress)
+    # Most of the time goes into the flow, where there is one.
+    parts = stages(progress, [0.3, 0.6, 1.0] if isinstance(V, Uniform) else [0.8, 0.85, 0.9, 1.0])
+    uniform = V if isinstance(V, Uniform) else uniformize(V, F, next(parts))
     limit = given.get("limit", LIMIT)
     if "depth" not in given and "radius" not in given:
-        across = {tuple(word.tolist()): None for word in deck(uniform, progress, kind="sides").words}
+        across = {tuple(word.tolist()): None for word in deck(uniform, next(parts), kind="sides").words}
         across.pop((), None)
-        found = deck(uniform, progress, kind="words", words=[(), *across])
+        found = deck(uniform, next(parts), kind="words", words=[(), *across])
     elif "radius" in given:
-        found = deck(uniform, progress, kind="within", dirichlet=dirichlet(uniform), radius=given["radius"], limit=limit)
+        domain = dirichlet(uniform, progress=next(parts))
+        found = deck(uniform, next(parts), kind="within", dirichlet=domain, radius=given["radius"], limit=limit)
     else:
-        found = deck(uniform, progress, kind="depth", depth=given["depth"], limit=limit)
-    return Cover(uniform, uniform.layout("refinement", progress=progress), found)
+        next(parts)
+        found = deck(uniform, next(parts), kind="depth", depth=given["depth"], limit=limit)
+    return Cover(uniform, uniform.layout("refinement", progress=next(parts)), found)

@@ -46,12 +46,26 @@ _ELEMENTS = {1: "vertex", 2: "edge", 3: "face", 4: "entry", 5: "line", 6: "byte"
 class RicciError(Exception):
     """A call of the library failed.
 
-    Attributes:
-        message: one sentence that names the element and says what to do.
-        status: what the call returned, a `Status`.
-        element: what `index` counts: ``"vertex"``, ``"edge"``, ``"face"``, ``"entry"``, ``"line"``, ``"byte"``, or None.
-        index: the element concerned, from 0 (lines from 1), or None.
-        amount: by how much, as the status says in `ricci.h`; 0 where it says nothing.
+    Attributes
+    ----------
+    message : str
+        one sentence that names the element and says what to do.
+    status : int
+        what the call returned, a `Status`.
+    element
+        what `index` counts: ``"vertex"``, ``"edge"``, ``"face"``, ``"entry"``, ``"line"``, ``"byte"``, or None.
+    index
+        the element concerned, from 0 (lines from 1), or None.
+    amount : float
+        by how much: what it counts depends on the status, and the message says it; 0 where there is nothing to be told.
+
+    Examples
+    --------
+    >>> try:
+    ...     ricci.flow(ricci.make("torus", n=8), target={7: 9.0})
+    ... except ricci.RicciError as wrong:
+    ...     wrong.element, wrong.index, wrong.status.name
+    ('vertex', 7, 'TARGET_AT_VERTEX')
     """
 
     def __init__(self, message: str, status: int = Status.ARGUMENT, place: tuple[int, int] = (0, -1), amount: float = 0.0) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import ClassVar, Literal, TypedDict, Unpack
+from typing import ClassVar, Literal, TypedDict
 
 import numpy as np
 import numpy.typing as npt
@@ -27,6 +27,8 @@ from ricci._call import (
     summary,
 )
 from ricci._library import ffi, lib
+from ricci._shown import Scene
+from ricci._signatures import picked, takes
 from ricci._structs import Struct, Write, above_zero, choice, known, one_index, options
 from ricci.adapters import MeshLike, as_mesh
 from ricci.control import Progress
@@ -40,15 +42,23 @@ __all__ = ["Forms", "FormsOptions", "HarmonicMap", "HarmonicOptions", "forms", "
 class HarmonicOptions(TypedDict, total=False):
     """The target of a harmonic map, and the vertices whose images are given.
 
-    Attributes:
-        target: a disk to the unit ``"disk"``, the ``"rectangle"`` of its modulus, or a regular ``"polygon"``; a closed surface of
-            genus 0 to the unit ``"sphere"``; ``"values"``: given places for some vertices.
-        b: the vertices that are given, for ``"values"``; the corners of a rectangle or a polygon.
-        bc: the places of the vertices `b`, k x 2 or k x 3, or k numbers.
-        n: number of corners of a polygon; of `b` where that is given.
-        method: ``"solve"``, or ``"heat"``: the heat flow df/dt = Laplacian of f, whose energy falls at every step (not to the rectangle).
-        step: length of a step of the heat flow to the plane, a time in units of area; a hundredth of the area.
-        max_iterations: most steps of the heat flow; 10000, to the sphere 2000.
+    Attributes
+    ----------
+    target : Literal["disk", "rectangle", "sphere", "values", "polygon"]
+        a disk to the unit ``"disk"``, the ``"rectangle"`` of its modulus, or a regular ``"polygon"``; a closed surface of
+        genus 0 to the unit ``"sphere"``; ``"values"``: given places for some vertices.
+    b : npt.ArrayLike
+        the vertices that are given, for ``"values"``; the corners of a rectangle or a polygon.
+    bc : npt.ArrayLike
+        the places of the vertices `b`, k x 2 or k x 3, or k numbers.
+    n : int
+        number of corners of a polygon; of `b` where that is given.
+    method : Literal["solve", "heat"]
+        ``"solve"``, or ``"heat"``: the heat flow df/dt = Laplacian of f, whose energy falls at every step (not to the rectangle).
+    step : float
+        length of a step of the heat flow to the plane, a time in units of area; a hundredth of the area.
+    max_iterations : int
+        most steps of the heat flow; 10000, to the sphere 2000.
     """
 
     target: Literal["disk", "rectangle", "sphere", "values", "polygon"]
@@ -67,10 +77,20 @@ _TARGETS = ("disk", "rectangle", "sphere", "values", "polygon")
 class HarmonicMap:
     """A harmonic map with its figures.
 
-    Attributes:
-        points: the images of the vertices, n x 3, in the plane with z = 0.
-        energies: the energy at the start of the heat flow and after each step; empty for a map that was solved for.
-        summary: energy, residual, the modulus of a rectangle with bounds.
+    Attributes
+    ----------
+    points : Doubles
+        the images of the vertices, n x 3, in the plane with z = 0.
+    energies : Doubles
+        the energy at the start of the heat flow and after each step; empty for a map that was solved for.
+    summary : HarmonicSummary
+        energy, residual, the modulus of a rectangle with bounds.
+
+    Examples
+    --------
+    >>> found = ricci.harmonic_map(ricci.make("disk", n=4))
+    >>> found.points.shape, found.summary.converged
+    ((61, 3), True)
     """
 
     points: Doubles
@@ -102,23 +122,53 @@ def _harmonic_struct(given: HarmonicOptions) -> Struct:
     return struct
 
 
-def harmonic(V: MeshLike, F: npt.ArrayLike | None = None, progress: Progress = None, **given: Unpack[HarmonicOptions]) -> Doubles:
+@takes(HarmonicOptions)
+def harmonic(
+    V: MeshLike,
+    F: npt.ArrayLike | None = None,
+    progress: Progress = None,
+    *,
+    target: Literal["disk", "rectangle", "sphere", "values", "polygon"] | None = None,
+    b: npt.ArrayLike | None = None,
+    bc: npt.ArrayLike | None = None,
+    n: int | None = None,
+    method: Literal["solve", "heat"] = "solve",
+    step: float | None = None,
+    max_iterations: int | None = None,
+) -> Doubles:
     """The harmonic map of a surface: by default of a disk to the unit disk, its boundary by length.
 
     ``harmonic(V, F, b=b, bc=bc)`` has the given places at the vertices `b`.
 
-    Args:
-        V: n x 3 positions with `F`, or a mesh of any kind (`as_mesh`).
-        F: m x 3 vertex indices.
-        progress: a `Control` or a callback.
-        given: where it goes (`HarmonicOptions`).
+    Parameters
+    ----------
+    V : MeshLike
+        n x 3 positions with `F`, or a mesh of any kind (`as_mesh`).
+    F : npt.ArrayLike | None
+        m x 3 vertex indices.
+    progress : Progress
+        a `Control` or a callback.
 
-    Returns:
+    Returns
+    -------
+    Doubles
         n x 3 points, in the plane with z = 0.
 
-    Raises:
-        LayoutError: a surface of another topology.
+    Raises
+    ------
+    LayoutError
+        a surface of another topology.
+
+    Examples
+    --------
+    >>> disk = ricci.make("disk", n=4)
+    >>> ricci.harmonic(disk).shape
+    (61, 3)
+    >>> rim = disk.boundary[0]
+    >>> bool(ricci.harmonic(disk, b=rim, bc=disk.V[rim, 0])[:, 0].max() <= 1)
+    True
     """
+    given = picked(locals(), HarmonicOptions)
     mesh = as_mesh(V, F)
     if given.get("target") == "values" and "bc" not in given:
         raise ArgumentError("harmonic values need b and bc")
@@ -126,21 +176,48 @@ def harmonic(V: MeshLike, F: npt.ArrayLike | None = None, progress: Progress = N
     return filled(lib.ricci_harmonic, mesh, _harmonic_struct(given), CONTROL, out=out, progress=progress)
 
 
-def harmonic_map(V: MeshLike, F: npt.ArrayLike | None = None, progress: Progress = None, **given: Unpack[HarmonicOptions]) -> HarmonicMap:
+@takes(HarmonicOptions)
+def harmonic_map(
+    V: MeshLike,
+    F: npt.ArrayLike | None = None,
+    progress: Progress = None,
+    *,
+    target: Literal["disk", "rectangle", "sphere", "values", "polygon"] | None = None,
+    b: npt.ArrayLike | None = None,
+    bc: npt.ArrayLike | None = None,
+    n: int | None = None,
+    method: Literal["solve", "heat"] = "solve",
+    step: float | None = None,
+    max_iterations: int | None = None,
+) -> HarmonicMap:
     """`harmonic` with its figures: the modulus of a rectangle with its bounds, the energies of a heat flow.
 
-    Args:
-        V: n x 3 positions with `F`, or a mesh of any kind (`as_mesh`).
-        F: m x 3 vertex indices.
-        progress: a `Control` or a callback.
-        given: where it goes, and how (`HarmonicOptions`).
+    Parameters
+    ----------
+    V : MeshLike
+        n x 3 positions with `F`, or a mesh of any kind (`as_mesh`).
+    F : npt.ArrayLike | None
+        m x 3 vertex indices.
+    progress : Progress
+        a `Control` or a callback.
 
-    Warns:
-        NotConverged: the steps of the heat flow ran out.
+    Warns
+    -----
+    NotConverged
+        the steps of the heat flow ran out.
 
-    Raises:
-        LayoutError: a surface of another topology.
+    Raises
+    ------
+    LayoutError
+        a surface of another topology.
+
+    Examples
+    --------
+    >>> found = ricci.harmonic_map(ricci.make("disk", n=4), target="rectangle", b=[37, 43, 49, 55])
+    >>> found.summary.modulus_low <= found.summary.modulus <= found.summary.modulus_high
+    True
     """
+    given = picked(locals(), HarmonicOptions)
     mesh = as_mesh(V, F)
     if given.get("target") == "values" and "bc" not in given:
         raise ArgumentError("harmonic values need b and bc")
@@ -160,9 +237,12 @@ def harmonic_map(V: MeshLike, F: npt.ArrayLike | None = None, progress: Progress
 class FormsOptions(TypedDict, total=False):
     """Options of harmonic forms.
 
-    Attributes:
-        base: the vertex where the loops meet; one from which they are short.
-        classes: on a surface with boundary, forms that flow along it (``"absolute"``), or are 0 along it (``"relative"``).
+    Attributes
+    ----------
+    base : int
+        the vertex where the loops meet; one from which they are short.
+    classes : Literal["absolute", "relative"]
+        on a surface with boundary, forms that flow along it (``"absolute"``), or are 0 along it (``"relative"``).
     """
 
     base: int
@@ -173,10 +253,32 @@ _FORMS: dict[str, Write] = {"base": one_index, "classes": choice("CLASSES")}
 
 
 class Forms(Handle):
-    """A basis of the harmonic 1-forms of a surface, on its intrinsic Delaunay triangulation `mesh`. It never changes."""
+    """A basis of the harmonic 1-forms of a surface, on its intrinsic Delaunay triangulation `mesh`. It never changes.
+
+    Examples
+    --------
+    >>> basis = ricci.forms(ricci.make("torus", n=16))
+    >>> basis.values.shape == (2, basis.summary.n_edges)
+    True
+    """
+
+    # The mesh that they were asked for, which is drawn; its vertices are those of `mesh`.
+    _input: Mesh
 
     _type: ClassVar[str] = "forms"
     _made_by: ClassVar[str] = "ricci.forms(mesh)"
+    _figures: ClassVar[tuple[str, ...]] = ("n_forms", "genus", "n_edges", "closedness", "coclosedness", "modulus")
+
+    def _scene(self) -> Scene | None:
+        seen = self._input
+        if not seen.summary.has_positions:
+            return None
+        if not len(self):
+            return Scene(seen.V, seen.F)
+        strength = np.zeros(seen.n_vertices)
+        for end in self.mesh.edges.T:
+            np.maximum.at(strength, end, np.abs(self.values[0]))
+        return Scene(seen.V, seen.F, strength, "largest integral of the first form over an edge")
 
     @cached_property
     def summary(self) -> FormsSummary:
@@ -214,20 +316,43 @@ class Forms(Handle):
     def periods(self) -> Complexes:
         """The g x g period matrix of a closed surface: symmetric, with positive imaginary part.
 
-        Raises:
-            LayoutError: genus 0, or a boundary.
+        Raises
+        ------
+        LayoutError
+            genus 0, or a boundary.
         """
         g = self.summary.genus
         return frozen(doubles(lib.ricci_forms_periods, self, shape=(g, g, 2)).view(np.complex128)[..., 0])
 
 
-def forms(V: MeshLike, F: npt.ArrayLike | None = None, progress: Progress = None, **given: Unpack[FormsOptions]) -> Forms:
+@takes(FormsOptions)
+def forms(
+    V: MeshLike,
+    F: npt.ArrayLike | None = None,
+    progress: Progress = None,
+    *,
+    base: int | None = None,
+    classes: Literal["absolute", "relative"] = "absolute",
+) -> Forms:
     """The harmonic 1-forms of a surface: form k has the integral 1 over loop k of a homotopy basis and 0 over the others.
 
-    Args:
-        V: n x 3 positions with `F`, or a mesh of any kind (`as_mesh`).
-        F: m x 3 vertex indices.
-        progress: a `Control` or a callback.
-        given: base and classes (`FormsOptions`).
+    Parameters
+    ----------
+    V : MeshLike
+        n x 3 positions with `F`, or a mesh of any kind (`as_mesh`).
+    F : npt.ArrayLike | None
+        m x 3 vertex indices.
+    progress : Progress
+        a `Control` or a callback.
+
+    Examples
+    --------
+    >>> basis = ricci.forms(ricci.make("genus", genus=2, n=3))
+    >>> len(basis), basis.periods.shape
+    (4, (2, 2))
     """
-    return Forms._made(lib.ricci_forms_new, as_mesh(V, F), options("forms_options", given, _FORMS), CONTROL, progress=progress)
+    given = picked(locals(), FormsOptions)
+    mesh = as_mesh(V, F)
+    made = Forms._made(lib.ricci_forms_new, mesh, options("forms_options", given, _FORMS), CONTROL, progress=progress)
+    made._input = mesh
+    return made

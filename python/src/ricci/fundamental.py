@@ -26,10 +26,19 @@ class Homotopy(Handle):
 
     The one relation is a1 b1 a1^-1 b1^-1 ... c1 ... cb = 1. A word is an array of letters: k for generator k (from 1), -k for its
     inverse; an edge path one of edge numbers from 1, negative against the edge.
+
+    Examples
+    --------
+    >>> loops = ricci.homotopy(ricci.make("torus", n=8))
+    >>> loops.intersections.tolist()
+    [[0, 1], [-1, 0]]
+    >>> loops.text(loops.parse("a1 b1 b1^-1"))
+    'a1'
     """
 
     _type: ClassVar[str] = "homotopy"
     _made_by: ClassVar[str] = "ricci.homotopy(mesh)"
+    _figures: ClassVar[tuple[str, ...]] = ("genus", "base", "n_generators", "n_boundary_loops", "n_relator", "n_loop_edges")
 
     @cached_property
     def summary(self) -> HomotopySummary:
@@ -79,10 +88,14 @@ class Homotopy(Handle):
     def lift(self, vertex: int, path: npt.ArrayLike, element: npt.ArrayLike = ()) -> list[Signed]:
         """The lift of an edge path to the universal cover: the deck transformation of its start, then of the end of each edge.
 
-        Args:
-            vertex: where the path starts.
-            path: its edges.
-            element: the word of the lift that it starts at; the identity.
+        Parameters
+        ----------
+        vertex : int
+            where the path starts.
+        path : npt.ArrayLike
+            its edges.
+        element : npt.ArrayLike
+            the word of the lift that it starts at; the identity.
         """
         edges, letters = _arrays.signed(path), _arrays.signed(element, "element")
         struct = Struct("lift")
@@ -95,18 +108,27 @@ class Homotopy(Handle):
     def domain(self, cut: npt.ArrayLike | None = None) -> Domain:
         """The fundamental domain of a cut.
 
-        Args:
-            cut: edges, from 0, that open the surface into a disk; None for those of the basis's own polygon.
+        Parameters
+        ----------
+        cut : npt.ArrayLike | None
+            edges, from 0, that open the surface into a disk; None for those of the basis's own polygon.
         """
         edges = None if cut is None else _arrays.indices(cut)
         return Domain._made(lib.ricci_domain_new, self, pointer(edges), 0 if edges is None else edges.size)
 
 
 class Domain(Handle):
-    """A surface opened along a cut into a disk, lifted to the universal cover: a polygon whose sides are paired."""
+    """A surface opened along a cut into a disk, lifted to the universal cover: a polygon whose sides are paired.
+
+    Examples
+    --------
+    >>> ricci.homotopy(ricci.make("genus", genus=2, n=3)).domain().summary.n_sides
+    12
+    """
 
     _type: ClassVar[str] = "domain"
     _made_by: ClassVar[str] = "ricci.homotopy(mesh).domain()"
+    _figures: ClassVar[tuple[str, ...]] = ("n_sides", "n_side_edges", "n_side_letters", "n_corner_letters", "base_edge")
 
     @cached_property
     def summary(self) -> DomainSummary:
@@ -139,11 +161,22 @@ class Domain(Handle):
 def homotopy(V: MeshLike, F: npt.ArrayLike | None = None, *, base: int | None = None, progress: Progress = None) -> Homotopy:
     """A canonical homotopy basis of a mesh, with short loops. The surface may have boundary.
 
-    Args:
-        V: n x 3 positions with `F`, or a mesh of any kind (`as_mesh`).
-        F: m x 3 vertex indices.
-        base: the base vertex; None for one from which the loops are short.
-        progress: a `Control` or a callback.
+    Parameters
+    ----------
+    V : MeshLike
+        n x 3 positions with `F`, or a mesh of any kind (`as_mesh`).
+    F : npt.ArrayLike | None
+        m x 3 vertex indices.
+    base : int | None
+        the base vertex; None for one from which the loops are short.
+    progress : Progress
+        a `Control` or a callback.
+
+    Examples
+    --------
+    >>> loops = ricci.homotopy(ricci.make("genus", genus=2, n=3))
+    >>> loops.text(loops.path_word(loops.loops[0]))
+    'a1'
     """
     at = ffi.NULL if base is None else pointer(_arrays.index(base, "base"))
     return Homotopy._made(lib.ricci_homotopy_new, as_mesh(V, F), at, CONTROL, progress=progress)

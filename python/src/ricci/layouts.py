@@ -1,10 +1,10 @@
-"""Layouts: coordinates of a surface that is cut open, in the plane, the hyperbolic plane or on the sphere; and charts of a layout."""
+"""Layouts: coordinates of a surface that is cut open, in the plane, the hyperbolic plane or on the sphere."""
 
 from __future__ import annotations
 
 import os
 from functools import cached_property
-from typing import Any, ClassVar, Literal, TypedDict, Unpack
+from typing import Any, ClassVar, Literal, TypedDict
 
 import numpy as np
 import numpy.typing as npt
@@ -28,16 +28,18 @@ from ricci._call import (
     summary,
 )
 from ricci._library import lib
+from ricci._shown import Scene
+from ricci._signatures import picked, takes
 from ricci._structs import Write, above_zero, choice, index_list, one_index, options
 from ricci.control import Progress
 from ricci.errors import LayoutError, warn
-from ricci.figures import ChartsSummary, LayoutSummary, RepairedInputSummary
+from ricci.figures import LayoutSummary, RepairedInputSummary
 from ricci.figures.names import Model, On
 from ricci.mesh import Mesh
 from ricci.metrics import Metric
 from ricci.status import Status
 
-__all__ = ["Charts", "Layout", "LayoutOptions", "RepairedInput", "Seam", "SheetLine", "charts", "layout"]
+__all__ = ["Layout", "LayoutOptions", "RepairedInput", "Seam", "SheetLine", "layout"]
 
 LAYERS: tuple[Literal["boundary"], Literal["seams"], Literal["folds"]] = ("boundary", "seams", "folds")
 
@@ -45,12 +47,18 @@ LAYERS: tuple[Literal["boundary"], Literal["seams"], Literal["folds"]] = ("bound
 class LayoutOptions(TypedDict, total=False):
     """Options of a layout.
 
-    Attributes:
-        model: coordinates of `Layout.uv` and of files: ``"poincare"``, ``"klein"``, ``"half_plane"``.
-        scale: ``"input_area"``: the area of the surface as it came; ``"as_solved"``: lengths as the metric has them. E2 only.
-        cones: vertices through which the cut goes; those of the flow. An empty list: none.
-        root: the vertex at the origin.
-        threads: as many as the flow had. The result does not depend on it.
+    Attributes
+    ----------
+    model : Model
+        coordinates of `Layout.uv` and of files: ``"poincare"``, ``"klein"``, ``"half_plane"``.
+    scale : Literal["input_area", "as_solved"]
+        ``"input_area"``: the area of the surface as it came; ``"as_solved"``: lengths as the metric has them. E2 only.
+    cones : npt.ArrayLike
+        vertices through which the cut goes; those of the flow. An empty list: none.
+    root : int
+        the vertex at the origin.
+    threads : int
+        as many as the flow had. The result does not depend on it.
     """
 
     model: Model
@@ -78,9 +86,12 @@ _LAYOUT: dict[str, Write] = {
 class Seam:
     """One seam of a layout, and the isometry z -> (a z + b)/(c z + d) that carries its left side onto its right side.
 
-    Attributes:
-        mobius: 2 x 2 complex: ((a, b), (c, d)).
-        error: how far the edges of the seam are from it: relative to the diameter in E2, elsewhere a distance.
+    Attributes
+    ----------
+    mobius : Complexes
+        2 x 2 complex: ((a, b), (c, d)).
+    error
+        how far the edges of the seam are from it: relative to the diameter in E2, elsewhere a distance.
     """
 
     def __init__(self, row: Doubles) -> None:
@@ -95,11 +106,22 @@ FOLD_ANGLE = np.pi / 6
 class SheetLine:
     """A line along which a layout in the plane is cut or folded.
 
-    Attributes:
-        layer: ``"boundary"``; ``"seams"``, one side of a seam; or ``"folds"``.
-        seam: the number of the seam, or None.
-        closed: whether the line goes on from its last point to the first.
-        points: indices into `Layout.points`; a closed line does not repeat its first point.
+    Attributes
+    ----------
+    layer : Literal["boundary", "seams", "folds"]
+        ``"boundary"``; ``"seams"``, one side of a seam; or ``"folds"``.
+    seam
+        the number of the seam, or None.
+    closed
+        whether the line goes on from its last point to the first.
+    points : Indices
+        indices into `Layout.points`; a closed line does not repeat its first point.
+
+    Examples
+    --------
+    >>> laid = ricci.layout(ricci.flow(ricci.make("disk", n=4)))
+    >>> laid.lines()
+    [<ricci.SheetLine: boundary, 24 points, closed>]
     """
 
     def __init__(self, row: Any, points: Indices) -> None:
@@ -113,20 +135,53 @@ class SheetLine:
         return f"<ricci.SheetLine: {self.layer}, {self.points.size} points{', closed' if self.closed else ''}>"
 
 
+def cut_open(mesh: Mesh, corners: Indices, points: Doubles) -> tuple[Doubles, Indices, Doubles, Indices]:
+    """A mesh in space with a vertex for each point of a layout: positions, faces, the points, and the vertex of the mesh of each."""
+    origins = np.zeros(len(points), np.int32)
+    origins[corners] = mesh.F
+    return mesh.V[origins], corners, points, origins
+
+
 class Layout(Handle):
     """The coordinates of a surface that is opened along a cut and unfolded in the space of its metric.
 
     If edges were flipped, the mesh of the layout is the common subdivision of the mesh and the metric's triangulation: ``on="refinement"``;
     ``on="input"`` makes the map linear on the faces of the mesh itself. Arrays of properties are read-only.
+
+    Examples
+    --------
+    >>> laid = ricci.layout(ricci.flow(ricci.make("disk", n=4)))
+    >>> laid.points().shape, laid.summary.n_flipped
+    ((61, 2), 0)
     """
 
     _type: ClassVar[str] = "layout"
     _made_by: ClassVar[str] = "ricci.layout(metric)"
+    _figures: ClassVar[tuple[str, ...]] = ("space", "n_faces", "n_seams", "n_flipped", "qc_mean", "area")
+
+    def _scene(self) -> Scene | None:
+        ratio = self.distortion("refinement")[1]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return Scene(self.points(), self.corners("refinement"), np.log(ratio), "logarithm of the change of area")
 
     @cached_property
     def summary(self) -> LayoutSummary:
         """Counts, consistency and distortion."""
         return summary(LayoutSummary, "layout", self)
+
+    def _cut_open(self) -> tuple[Doubles, Indices, Doubles, Indices]:
+        """The surface with a vertex for each point of the layout: positions, faces, the points, and the vertex of the mesh of each."""
+        return cut_open(self.mesh, self.corners("refinement"), self.points())
+
+    def _sides(self) -> tuple[Any, ...]:
+        """The surface, its image, and how the map changes areas and angles around the vertices, means of the faces."""
+        dilatation, ratio = self.distortion("refinement")
+        faces = self.mesh.F
+        around = np.bincount(faces.ravel(), minlength=self.mesh.n_vertices)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            told = {"logarithm of the change of area": np.log(ratio), "quasi-conformal dilatation": dilatation}
+            found = {name: np.bincount(faces.ravel(), np.repeat(values, 3), self.mesh.n_vertices) / around for name, values in told.items()}
+        return *self._cut_open(), found
 
     def points(self, model: Model = "poincare") -> Doubles:
         """n_points x 2 points, x 3 for ``"ambient"``."""
@@ -155,9 +210,11 @@ class Layout(Handle):
     def circle_pattern(self, which: Literal["vertices", "faces"] = "vertices") -> Doubles:
         """The circle pattern of a layout in the plane: centre and squared radius of each circle, n x 3.
 
-        Args:
-            which: the circles of the vertices, one per point of the layout; or those of the faces of the metric's triangulation, orthogonal
-                to the circles of their corners. NaN where there is none.
+        Parameters
+        ----------
+        which : Literal["vertices", "faces"]
+            the circles of the vertices, one per point of the layout; or those of the faces of the metric's triangulation, orthogonal
+            to the circles of their corners. NaN where there is none.
         """
         return np.asarray(listed(lib.ricci_layout_circles, self, constant("CIRCLES", which), dtype=float)).reshape(-1, 3)
 
@@ -182,23 +239,33 @@ class Layout(Handle):
     def write(self, path: str | os.PathLike[str], on: On = "input", *, homogeneous: bool = False) -> None:
         """Write the mesh with the layout as texture coordinates, as .obj, .ply, .glb or, without seams, .off.
 
-        Args:
-            path: the file, whose ending says the format.
-            on: the mesh, or what is laid out.
-            homogeneous: `vt qx qy q`, in which the projective map of every piece is linear; as .obj only.
+        Parameters
+        ----------
+        path : str | os.PathLike[str]
+            the file, whose ending says the format.
+        on : On
+            the mesh, or what is laid out.
+        homogeneous : bool
+            `vt qx qy q`, in which the projective map of every piece is linear; as .obj only.
 
-        Raises:
-            FileError: another ending.
-            ArgumentError: what the format has no place for.
+        Raises
+        ------
+        FileError
+            another ending.
+        ArgumentError
+            what the format has no place for.
         """
         call(lib.ricci_layout_write, self, constant("ON", on), int(homogeneous), path_bytes(path))
 
     def lines(self, fold_angle: float = FOLD_ANGLE, on: On = "input") -> list[SheetLine]:
         """The lines along which a layout in E2 is cut and folded.
 
-        Args:
-            fold_angle: edges of the mesh are folds where the normals of their faces differ by more than this, in radians.
-            on: along edges of the mesh, or of what is laid out.
+        Parameters
+        ----------
+        fold_angle : float
+            edges of the mesh are folds where the normals of their faces differ by more than this, in radians.
+        on : On
+            along edges of the mesh, or of what is laid out.
         """
         asked = (self, constant("ON", on), fold_angle)
         table = listed(lib.ricci_layout_lines, *asked, dtype=np.int32).reshape(-1, 4)
@@ -216,11 +283,16 @@ class Layout(Handle):
     ) -> None:
         """Write a layout in E2 as a mesh of points (x, y, 0), or its lines as a drawing for cutting.
 
-        Args:
-            path: the file: .obj, .off, .ply, .glb; or .svg, .dxf with the layers BOUNDARY, SEAMS and FOLDS.
-            on: the mesh, or what is laid out.
-            fold_angle: as of `lines`.
-            unit: the unit of the coordinates, for the size of an SVG.
+        Parameters
+        ----------
+        path : str | os.PathLike[str]
+            the file: .obj, .off, .ply, .glb; or .svg, .dxf with the layers BOUNDARY, SEAMS and FOLDS.
+        on : On
+            the mesh, or what is laid out.
+        fold_angle : float
+            as of `lines`.
+        unit : Literal["millimetre", "centimetre", "metre", "inch"]
+            the unit of the coordinates, for the size of an SVG.
         """
         call(lib.ricci_layout_write_flat, self, constant("ON", on), fold_angle, constant("SHEET", unit), path_bytes(path))
 
@@ -235,16 +307,29 @@ class Layout(Handle):
 class RepairedInput(Handle):
     """A layout on the faces of the mesh, with the fewest edges split that leave no face folded. Arrays of properties are read-only.
 
-    Args:
-        layout: the layout.
-        progress: a `Control` or a callback.
+    Parameters
+    ----------
+    layout : Layout
+        the layout.
+    progress : Progress
+        a `Control` or a callback.
+
+    Examples
+    --------
+    >>> laid = ricci.layout(ricci.flow(ricci.make("genus", genus=2, n=3), target="auto:4"))
+    >>> laid.repaired_input().summary.n_flipped
+    0
     """
 
     _type: ClassVar[str] = "repaired_input"
     _made_by: ClassVar[str] = "ricci.layout(metric).repaired_input()"
+    _figures: ClassVar[tuple[str, ...]] = ("n_vertices", "n_faces", "n_split_edges", "n_flipped", "qc_mean", "qc_max")
 
     def __init__(self, layout: Layout, progress: Progress = None) -> None:
         self._pointer = RepairedInput._made(lib.ricci_repaired_input_new, layout, CONTROL, progress=progress)._pointer
+
+    def _scene(self) -> Scene | None:
+        return Scene(self.points, self.corners)
 
     @cached_property
     def summary(self) -> RepairedInputSummary:
@@ -285,54 +370,12 @@ class RepairedInput(Handle):
         """The coordinates of every corner of every face, n_faces x 3 x 2."""
         return self.points[self.corners]
 
+    def _cut_open(self) -> tuple[Doubles, Indices, Doubles, Indices]:
+        return cut_open(self.mesh, self.corners, self.points)
+
     def write(self, path: str | os.PathLike[str]) -> None:
         """Write the mesh with its edges split and the layout as texture coordinates, as `Layout.write` does."""
         call(lib.ricci_repaired_input_write, self, path_bytes(path))
-
-
-class Charts(Handle):
-    """A layout in charts that do not overlap, packed into the unit square.
-
-    Args:
-        layout: the layout.
-        margin: least distance of two charts, in sides of the unit square.
-        progress: a `Control` or a callback.
-    """
-
-    _type: ClassVar[str] = "charts"
-    _made_by: ClassVar[str] = "ricci.charts(layout)"
-
-    def __init__(self, layout: Layout, margin: float = 1 / 256, progress: Progress = None) -> None:
-        self._pointer = Charts._made(lib.ricci_charts_new, layout, margin, CONTROL, progress=progress)._pointer
-
-    @cached_property
-    def summary(self) -> ChartsSummary:
-        """Counts, scale, and the share of the square that is covered."""
-        return summary(ChartsSummary, "charts", self)
-
-    @cached_property
-    def charts(self) -> Indices:
-        """The chart of every face of the layout's mesh; charts with more area come first."""
-        return frozen(filled(lib.ricci_charts_faces, self, out=np.empty(self.summary.n_faces, np.uint32)))
-
-    @cached_property
-    def points(self) -> Doubles:
-        """n_points x 2, from 0 to 1."""
-        return frozen(doubles(lib.ricci_charts_points, self, shape=(self.summary.n_points, 2)))
-
-    @cached_property
-    def corners(self) -> Indices:
-        """The point of every corner of every face, n_faces x 3."""
-        return frozen(filled(lib.ricci_charts_corners, self, out=np.empty((self.summary.n_faces, 3), np.uint32)))
-
-    @cached_property
-    def motions(self) -> Doubles:
-        """n_charts x 3: rotation (radians) and translation that carry the layout's points, times `summary.scale`, to the chart's."""
-        return frozen(doubles(lib.ricci_charts_motions, self, shape=(self.summary.n_charts, 3)))
-
-    def write(self, path: str | os.PathLike[str], *, homogeneous: bool = False) -> None:
-        """Write the layout's mesh with its charts as texture coordinates, as `Layout.write` does."""
-        call(lib.ricci_charts_write, self, int(homogeneous), path_bytes(path))
 
 
 # Largest curvature of a vertex, radians, that a layout does not cut through: the library's own bound for cones.
@@ -362,20 +405,43 @@ def _check_flat(metric: Metric, has_cones: bool) -> None:
         )
 
 
-def layout(metric: Metric, progress: Progress = None, **given: Unpack[LayoutOptions]) -> Layout:
+@takes(LayoutOptions)
+def layout(
+    metric: Metric,
+    progress: Progress = None,
+    *,
+    model: Model = "poincare",
+    scale: Literal["input_area", "as_solved"] = "input_area",
+    cones: npt.ArrayLike | None = None,
+    root: int | None = None,
+    threads: int | None = None,
+) -> Layout:
     """The layout of a metric in its space, cut open along edges of the mesh through all cones.
 
-    Raises:
-        LayoutError: the metric has no layout; or it is curved, no flow has led to it, and `cones` does not say where it is to be cut.
+    Parameters
+    ----------
+    metric : Metric
+        the metric, as a flow makes it.
+    progress : Progress
+        a `Control` or a callback.
 
-    Warns:
-        NotConverged: the flow that led to the metric did not come to its target, so that seams do not fit and faces may be folded.
+    Raises
+    ------
+    LayoutError
+        the metric has no layout; or it is curved, no flow has led to it, and `cones` does not say where it is to be cut.
+
+    Warns
+    -----
+    NotConverged
+        the flow that led to the metric did not come to its target, so that seams do not fit and faces may be folded.
+
+    Examples
+    --------
+    >>> flat = ricci.flow(ricci.make("genus", genus=2, n=3), target="auto:4")
+    >>> ricci.layout(flat).uv().shape
+    (1584, 3, 2)
     """
+    given = picked(locals(), LayoutOptions)
     if isinstance(metric, Metric):
         _check_flat(metric, given.get("cones") is not None)
     return Layout._made(lib.ricci_layout_new, metric, options("layout_options", given, _LAYOUT), CONTROL, progress=progress)
-
-
-def charts(layout: Layout, margin: float = 1 / 256, progress: Progress = None) -> Charts:
-    """Cut a layout into charts that do not overlap, and pack them into the unit square."""
-    return Charts(layout, margin, progress)

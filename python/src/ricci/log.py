@@ -23,7 +23,17 @@ def _receive(level: int, message: Any, _: Any) -> None:
 
 
 def log_to_logging(level: Level = "info") -> None:
-    """Send messages up to this level to the logger ``ricci``; ``"off"`` stops that. For the whole process."""
+    """Send messages up to this level to the logger ``ricci``; ``"off"`` stops that. For the whole process.
+
+    Parameters
+    ----------
+    level : Level
+        the least important level that is passed on.
+
+    Examples
+    --------
+    >>> ricci.log_to_logging("warn")
+    """
     check(lib.ricci_log_set(ffi.NULL if level == "off" else _receive, ffi.NULL, constant("LOG", level)))
 
 

@@ -11,8 +11,9 @@ import numpy.typing as npt
 from ricci import _arrays
 from ricci._arrays import frozen
 from ricci._call import CONTROL, Doubles, Handle, Indices, call, constant, doubles, filled, pointer, signed_view, summary
-from ricci._labels import are_labels, heaviest
+from ricci._labels import heaviest, mode_of
 from ricci._library import lib
+from ricci._shown import Scene
 from ricci._structs import Struct
 from ricci.control import Progress
 from ricci.errors import ArgumentError
@@ -32,9 +33,19 @@ class Map(Handle):
     Its faces are parts of faces of both; its vertices are those of the mesh, with their numbers, then the crossings of edges. Of a
     `Matching`, ``"input"`` means the source and ``"metric"`` the target.
 
-    Args:
-        metric: the result of a flow.
-        progress: a `Control` or a callback.
+    Parameters
+    ----------
+    metric : Metric
+        the result of a flow.
+    progress : Progress
+        a `Control` or a callback.
+
+    Examples
+    --------
+    >>> flat = ricci.flow(ricci.make("torus", n=16))
+    >>> over = ricci.Map(flat)
+    >>> over.carry(flat.factor).shape == (over.summary.n_vertices,)
+    True
     """
 
     # The mesh of the side "metric".
@@ -42,10 +53,14 @@ class Map(Handle):
 
     _type: ClassVar[str] = "map"
     _made_by: ClassVar[str] = "ricci.Map(metric)"
+    _figures: ClassVar[tuple[str, ...]] = ("n_vertices", "n_edges", "n_faces", "n_crossings", "n_pieces")
 
     def __init__(self, metric: Metric, progress: Progress = None) -> None:
         self._pointer = Map._made(lib.ricci_map_new, metric, CONTROL, progress=progress)._pointer
         self._target: Mesh = metric.triangulation
+
+    def _scene(self) -> Scene | None:
+        return Scene(self.mesh.V, self.mesh.F, self.faces() * 0.6180339887498949 % 1)
 
     @cached_property
     def summary(self) -> MapSummary:
@@ -78,26 +93,40 @@ class Map(Handle):
         return frozen(doubles(lib.ricci_map_weights, self, shape=(self.summary.n_vertices,)))
 
     def carry(
-        self, values: npt.ArrayLike, on: Side = "input", at: Literal["vertices", "corners"] = "vertices", labels: bool | None = None
+        self,
+        values: npt.ArrayLike,
+        on: Side = "input",
+        at: Literal["vertices", "corners"] = "vertices",
+        mode: Literal["nearest", "linear"] | None = None,
     ) -> npt.NDArray[Any]:
         """Values at vertices (n, or n x k) or corners (m x 3, or m x 3 x k), carried to those of the subdivision.
 
         Whole numbers and flags are labels: a point gets the one that has the most weight in its face, and the result has their type.
 
-        Args:
-            values: one row for each vertex or face.
-            on: the side that they are on.
-            at: where they are.
-            labels: true or false says whether values are labels; None: whole numbers are, others are interpolated.
+        Parameters
+        ----------
+        values : npt.ArrayLike
+            one row for each vertex or face.
+        on : Side
+            the side that they are on.
+        at : Literal["vertices", "corners"]
+            where they are.
+        mode : Literal["nearest", "linear"] | None
+            ``"nearest"``: as labels; ``"linear"``: interpolated, which whole numbers never are; None: by their type.
 
-        Raises:
-            ArgumentTypeError: complex numbers (carry the two parts), texts (carry their numbers).
+        Raises
+        ------
+        ArgumentTypeError
+            complex numbers (carry the two parts), texts (carry their numbers), whole numbers that are to be interpolated.
         """
         array = _arrays.numbers(values)
         lead = 1 if at == "vertices" else 2
         if array.ndim < lead or (lead == 2 and array.shape[1] != 3):
             raise ArgumentError(f"values at {at} have shape {array.shape}")
-        if are_labels(array, labels):
+        how = mode_of(array, mode)
+        if how == "conservative":
+            raise ArgumentError("a subdivision has its values where they were: conservative is a mode of Matching.carry")
+        if how == "nearest":
             return self._carry_labels(array, on, at)
         array = _arrays.real(array)
         rest = array.shape[lead:]

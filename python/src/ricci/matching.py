@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cached_property
-from typing import Any, ClassVar, Literal, TypedDict, Unpack
+from typing import Any, ClassVar, Literal, TypedDict
 
 import numpy as np
 import numpy.typing as npt
@@ -12,12 +12,14 @@ import numpy.typing as npt
 from ricci import _arrays
 from ricci._arrays import frozen
 from ricci._call import CONTROL, Doubles, Handle, Indices, call, constant, doubles, filled, pointer, summary
-from ricci._labels import are_labels, heaviest
+from ricci._labels import Mode, Pieces, conserved, heaviest, mode_of
 from ricci._library import lib
-from ricci._structs import Struct, Write, above_zero, choice, index_list, options, real_list
+from ricci._shown import Scene
+from ricci._signatures import picked, takes
+from ricci._structs import Struct, Write, above_zero, choice, index_list, known, options, real_list
 from ricci.adapters import MeshLike, as_mesh
 from ricci.control import Progress
-from ricci.errors import ArgumentError
+from ricci.errors import ArgumentError, ArgumentTypeError
 from ricci.figures import MatchingSummary
 from ricci.maps import Map
 from ricci.mesh import Mesh
@@ -32,9 +34,12 @@ Pairs = Sequence[tuple[npt.ArrayLike, npt.ArrayLike]]
 class Points(TypedDict):
     """Pairs of points that correspond.
 
-    Attributes:
-        faces: k x 2, of the source and of the target.
-        weights: k x 2 x 3 barycentric coordinates in these faces, each three with the sum 1.
+    Attributes
+    ----------
+    faces : npt.ArrayLike
+        k x 2, of the source and of the target.
+    weights : npt.ArrayLike
+        k x 2 x 3 barycentric coordinates in these faces, each three with the sum 1.
     """
 
     faces: npt.ArrayLike
@@ -44,17 +49,31 @@ class Points(TypedDict):
 class MatchOptions(TypedDict, total=False):
     """Options of a map between surfaces: the points and curves that correspond, and the boundary.
 
-    Attributes:
-        landmarks: k x 2 vertices, of the source and of the target, that correspond.
-        loops: for each boundary loop of the source that of the target; by landmarks on them, the others by descending length.
-        points: pairs of points that correspond as landmarks do.
-        curves: pairs of curves that correspond by shares of their lengths, as lists of vertices joined by edges.
-        soft: k x 2 vertices inside that need not be met.
-        soft_weights: k weights w >= 0: a landmark goes to the share w / (1 + w) of its way.
-        boundary: it ``"slides"`` until the map is harmonic, or goes by ``"arc_length"``.
-        loop_shape: boundary loops of surfaces with handles become ``"geodesics"``, or ``"circles"`` of a closed flat or hyperbolic surface.
-        basis: pairs of closed edge paths that name the homotopy class, on surfaces with handles.
-        threads: one per core. The result does not depend on it.
+    Attributes
+    ----------
+    landmarks : npt.ArrayLike
+        k x 2 vertices, of the source and of the target, that correspond.
+    loops : npt.ArrayLike
+        for each boundary loop of the source that of the target; by landmarks on them, the others by descending length.
+    points : Points
+        pairs of points that correspond as landmarks do.
+    curves : Pairs
+        pairs of curves that correspond by shares of their lengths, as lists of vertices joined by edges.
+    soft : npt.ArrayLike
+        k x 2 vertices inside that need not be met.
+    soft_weights : npt.ArrayLike
+        k weights w >= 0: a landmark goes to the share w / (1 + w) of its way.
+    boundary : Literal["slides", "arc_length"]
+        it ``"slides"`` until the map is harmonic, or goes by ``"arc_length"``.
+    loop_shape : Literal["geodesics", "circles"]
+        boundary loops of surfaces with handles become ``"geodesics"``, or ``"circles"`` of a closed flat or hyperbolic surface.
+    basis : Pairs
+        pairs of closed edge paths that name the homotopy class, on surfaces with handles.
+    threads : int
+        one per core. The result does not depend on it.
+    mirror : bool
+        true if the map turns the surface over, as from a left half of a brain to a right one: the mirror image of the source is
+        mapped. All options and results have the numbers of the source itself.
     """
 
     landmarks: npt.ArrayLike
@@ -67,6 +86,7 @@ class MatchOptions(TypedDict, total=False):
     loop_shape: Literal["geodesics", "circles"]
     basis: Pairs
     threads: int
+    mirror: bool
 
 
 def _direction(name: Direction) -> int:
@@ -110,15 +130,62 @@ _MATCH: dict[str, Write] = {
 }
 
 
+# The corners of a face of the mirror image.
+_TURNED = [0, 2, 1]
+
+
+def _of_mirrored(given: dict[str, Any], source: Mesh, image: Mesh) -> dict[str, Any]:
+    """Options that speak of a surface, as they are for its mirror image: other orders of corners, of boundary loops and of edges."""
+    found = dict(given)
+    if given.get("points") is not None:
+        weights = _arrays.real(given["points"]["weights"]).copy()
+        weights[:, 0] = weights[:, 0][:, _TURNED]
+        found["points"] = {**given["points"], "weights": weights}
+    if np.shape(given.get("loops", ())) == (len(source.boundary),):
+        first = {int(loop.min()): k for k, loop in enumerate(source.boundary)}
+        found["loops"] = [given["loops"][first[int(loop.min())]] for loop in image.boundary]
+    if given.get("basis") is not None:
+        edges = np.empty(source.summary.n_edges, np.int32)
+        ours, theirs = source.face_edges[:, _TURNED], image.face_edges
+        # In the image a face runs along its edges the other way round.
+        edges[np.abs(ours) - 1] = -np.sign(ours) * theirs
+        found["basis"] = [([int(np.sign(e)) * int(edges[abs(e) - 1]) for e in path], other) for path, other in given["basis"]]
+    return found
+
+
 class Matching(Handle):
-    """A map between two surfaces and its inverse; no face folds. It never changes."""
+    """A map between two surfaces and its inverse; no face folds. It never changes.
+
+    Examples
+    --------
+    >>> found = ricci.match(ricci.make("sphere", n=4), ricci.make("sphere", n=5))
+    >>> found.summary.n_flipped
+    0
+    >>> bool(found.weights().min() >= 0)
+    True
+    """
 
     # The surfaces, whose faces labels are looked up in.
     _source: Mesh
     _target: Mesh
+    # Whether the map turns the source over: then the library has its mirror image, whose faces have two corners exchanged.
+    _mirror: bool = False
 
     _type: ClassVar[str] = "matching"
     _made_by: ClassVar[str] = "ricci.match(source, target)"
+    _figures: ClassVar[tuple[str, ...]] = ("n_source_vertices", "n_target_vertices", "n_flipped", "qc_mean", "qc_max", "distance_mean")
+
+    def _sides(self) -> tuple[Any, ...]:
+        """The source and its image on the target."""
+        if not (self._source.summary.has_positions and self._target.summary.has_positions):
+            raise ArgumentError("a map between intrinsic surfaces has no places in space that could be shown")
+        return self._source.V, self._source.F, self.carry(self._target.V), np.arange(self._source.n_vertices), {}
+
+    def _scene(self) -> Scene | None:
+        if not (self._source.summary.has_positions and self._target.summary.has_positions):
+            return None
+        image = self.carry(self._target.V)
+        return Scene(self._source.V, self._source.F, image[:, np.ptp(image, axis=0).argmax()], "coordinate of the image")
 
     @cached_property
     def summary(self) -> MatchingSummary:
@@ -132,32 +199,57 @@ class Matching(Handle):
 
     def weights(self, direction: Direction = "forward") -> Doubles:
         """n x 3 barycentric coordinates of the images in their faces, not negative, with the sum 1."""
-        return doubles(lib.ricci_matching_weights, self, _direction(direction), shape=(self._size(direction), 3))
+        found = doubles(lib.ricci_matching_weights, self, _direction(direction), shape=(self._size(direction), 3))
+        return found[:, _TURNED] if self._mirror and direction == "backward" else found
 
-    def carry(self, values: npt.ArrayLike, direction: Direction = "forward", labels: bool | None = None) -> npt.NDArray[Any]:
+    def carry(self, values: npt.ArrayLike, direction: Direction = "forward", mode: Mode | None = None) -> npt.NDArray[Any]:
         """Values at the vertices of the surface that the map leads to (n, or n x k), brought to those where it comes from.
 
         ``carry(V_target)`` has the image of every vertex of the source. Whole numbers and flags are labels, such as those of parcels: a
         vertex gets the label that has the most weight in the face of its image, and the result has the type of `values`.
 
-        Args:
-            values: one row for each vertex.
-            direction: ``"forward"``: from the target to the source.
-            labels: true or false says whether values are labels; None: whole numbers are, others are interpolated.
+        Parameters
+        ----------
+        values : npt.ArrayLike
+            one row for each vertex.
+        direction : Direction
+            ``"forward"``: from the target to the source.
+        mode : Literal["nearest", "linear", "conservative"] | None
+            ``"nearest"``: as labels. ``"linear"``: the value at the image of each vertex. ``"conservative"``: a density for each unit of
+            area, whose integral over the surface stays the same; an amount for each vertex is one divided by the vertex's area. None:
+            nearest for whole numbers and flags, which are never averaged, else linear.
 
-        Raises:
-            ArgumentTypeError: complex numbers (carry the two parts), texts (carry their numbers).
+        Raises
+        ------
+        ArgumentTypeError
+            complex numbers (carry the two parts), texts (carry their numbers), whole numbers that are to be averaged.
+        ArgumentError
+            rows of another number; densities on surfaces without positions.
         """
         given = _arrays.numbers(values)
         other = self._size("backward" if direction == "forward" else "forward")
         if given.ndim == 0 or len(given) != other:
             raise ArgumentError(f"values have shape {given.shape}, {other} rows are needed")
-        if are_labels(given, labels):
+        how = mode_of(given, mode)
+        if how == "conservative":
+            start, end = self._pieces[::-1] if direction == "forward" else self._pieces
+            return conserved(_arrays.real(given), start, end)
+        if how == "nearest":
             corners = (self._target if direction == "forward" else self._source).F
             return heaviest(given[corners[self.faces(direction)]], self.weights(direction))
         array = _arrays.real(given)
         shape = (self._size(direction), *array.shape[1:])
         return doubles(lib.ricci_matching_carry, self, _direction(direction), pointer(array), array.size, shape=shape)
+
+    @cached_property
+    def _pieces(self) -> tuple[Pieces, Pieces]:
+        """The common subdivision as parts of the faces of the source and of the target."""
+        if not (self._source.summary.has_positions and self._target.summary.has_positions):
+            raise ArgumentError("densities are carried between surfaces with positions, whose areas are those in space")
+        both = self.map()
+        weights = both.barycentric("input")
+        source = Pieces(self._source.V, self._source.F, both.faces("input"), weights[:, :, _TURNED] if self._mirror else weights)
+        return source, Pieces(self._target.V, self._target.F, both.faces("metric"), both.barycentric("metric"))
 
     @cached_property
     def points(self) -> tuple[Indices, Doubles]:
@@ -173,7 +265,10 @@ class Matching(Handle):
         return frozen(doubles(lib.ricci_matching_soft_left, self, shape=(self.summary.n_soft,)))
 
     def map(self, progress: Progress = None) -> Map:
-        """The common subdivision of the two surfaces: in its methods ``"input"`` is the source and ``"metric"`` the target."""
+        """The common subdivision of the two surfaces: in its methods ``"input"`` is the source and ``"metric"`` the target.
+
+        With ``mirror`` it is that of the source's mirror image, `Mesh.mirrored`.
+        """
         made = Map._made(lib.ricci_matching_map, self, CONTROL, progress=progress)
         made._target = self._target
         return made
@@ -187,23 +282,58 @@ class Matching(Handle):
         return f"<ricci.Matching: {s.n_source_vertices} to {s.n_target_vertices} vertices, mean dilatation {s.qc_mean:.3f}>"
 
 
-def match(source: MeshLike, target: MeshLike, progress: Progress = None, **given: Unpack[MatchOptions]) -> Matching:
+@takes(MatchOptions)
+def match(
+    source: MeshLike,
+    target: MeshLike,
+    progress: Progress = None,
+    *,
+    landmarks: npt.ArrayLike | None = None,
+    loops: npt.ArrayLike | None = None,
+    points: Points | None = None,
+    curves: Pairs | None = None,
+    soft: npt.ArrayLike | None = None,
+    soft_weights: npt.ArrayLike | None = None,
+    boundary: Literal["slides", "arc_length"] = "slides",
+    loop_shape: Literal["geodesics", "circles"] = "geodesics",
+    basis: Pairs | None = None,
+    threads: int | None = None,
+    mirror: bool = False,
+) -> Matching:
     """The map from one surface to another one of the same topology: harmonic into the target's metric of constant curvature.
 
-    Args:
-        source: the surface whose vertices are mapped: a mesh of any kind (`as_mesh`), or a pair (V, F).
-        target: the surface that they are mapped to.
-        progress: a `Control` or a callback.
-        given: landmarks, curves, boundary, homotopy class (`MatchOptions`).
+    Parameters
+    ----------
+    source : MeshLike
+        the surface whose vertices are mapped: a mesh of any kind (`as_mesh`), or a pair (V, F).
+    target : MeshLike
+        the surface that they are mapped to.
+    progress : Progress
+        a `Control` or a callback.
 
-    Raises:
-        MatchingError: surfaces of different topology, landmarks in conflict, no map found.
+    Raises
+    ------
+    MatchingError
+        surfaces of different topology, landmarks in conflict, no map found.
+
+    Examples
+    --------
+    >>> a, b = ricci.make("sphere", n=4), ricci.make("ellipsoid", n=5)
+    >>> found = ricci.match(a, b)
+    >>> found.carry(b.V).shape == a.V.shape
+    True
     """
+    given = picked(locals(), MatchOptions)
     hard: dict[str, Any] = dict(given.items())
+    mirror = hard.pop("mirror", False)
+    if not isinstance(mirror, bool | np.bool_):
+        raise ArgumentTypeError(f"mirror is {mirror!r}: it is True or False")
     if np.size(hard.get("soft", ())) != 2 * np.size(hard.get("soft_weights", ())):
         raise ArgumentError("soft and soft_weights: one weight for every pair")
-    struct = options("match_options", hard, _MATCH)
-    meshes = as_mesh(source), as_mesh(target)
-    made = Matching._made(lib.ricci_match, *meshes, struct, CONTROL, progress=progress)
-    made._source, made._target = meshes
+    known(hard, _MATCH)
+    start, end = as_mesh(source), as_mesh(target)
+    image = start.mirrored() if mirror else start
+    struct = options("match_options", _of_mirrored(hard, start, image) if mirror else hard, _MATCH)
+    made = Matching._made(lib.ricci_match, image, end, struct, CONTROL, progress=progress)
+    made._source, made._target, made._mirror = start, end, bool(mirror)
     return made

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from functools import cached_property
-from typing import Any, ClassVar, Self, TypedDict, Unpack
+from typing import Any, ClassVar, Literal, Self, TypedDict
 
 import numpy as np
 import numpy.typing as npt
@@ -13,6 +13,8 @@ from ricci import _arrays
 from ricci._arrays import frozen
 from ricci._call import CONTROL, Doubles, Handle, Indices, Signed, call, constant, figures_of, filled, path_bytes, pointer, summary
 from ricci._library import ffi, lib
+from ricci._shown import Scene
+from ricci._signatures import picked, takes
 from ricci._structs import Struct, above_zero, choice, number, options, real_list
 from ricci._triangles import Triangles
 from ricci.control import Progress
@@ -26,13 +28,20 @@ __all__ = ["Attributes", "Mesh", "read"]
 class Attributes(TypedDict, total=False):
     """Attributes that are written beside positions and faces.
 
-    Attributes:
-        normals: n x 3, of the vertices.
-        colors: n x 4, of the vertices: red, green, blue, opacity, from 0 to 1.
-        uv: m x 3 x 2, texture coordinates of every corner.
-        corner_normals: m x 3 x 3, in place of `normals`.
-        png: the bytes of a PNG file, a texture for `uv`; .glb only.
-        wrap: how the texture goes on outside the unit square: ``"repeat"``, ``"mirror"``, ``"clamp"``.
+    Attributes
+    ----------
+    normals : npt.ArrayLike
+        n x 3, of the vertices.
+    colors : npt.ArrayLike
+        n x 4, of the vertices: red, green, blue, opacity, from 0 to 1.
+    uv : npt.ArrayLike
+        m x 3 x 2, texture coordinates of every corner.
+    corner_normals : npt.ArrayLike
+        m x 3 x 3, in place of `normals`.
+    png : bytes
+        the bytes of a PNG file, a texture for `uv`; .glb only.
+    wrap : Literal["repeat", "mirror", "clamp"]
+        how the texture goes on outside the unit square: ``"repeat"``, ``"mirror"``, ``"clamp"``.
     """
 
     normals: npt.ArrayLike
@@ -40,7 +49,7 @@ class Attributes(TypedDict, total=False):
     uv: npt.ArrayLike
     corner_normals: npt.ArrayLike
     png: bytes
-    wrap: str
+    wrap: Literal["repeat", "mirror", "clamp"]
 
 
 def _png(struct: Struct, field: str, value: bytes) -> None:
@@ -75,17 +84,30 @@ class Mesh(Triangles):
 
     Arrays are computed once and handed out read-only. Vertices, faces and corners have the order and numbers of the caller's arrays.
 
-    Args:
-        V: n x 3 positions. Rows may lie apart in memory: a view of a wider array is not copied before the library reads it.
-        F: m x 3 vertex indices from 0, consistently oriented; int32 and uint32 arrays are read where they are.
+    Parameters
+    ----------
+    V : npt.ArrayLike
+        n x 3 positions. Rows may lie apart in memory: a view of a wider array is not copied before the library reads it.
+    F : npt.ArrayLike
+        m x 3 vertex indices from 0, consistently oriented; int32 and uint32 arrays are read where they are.
 
-    Raises:
-        MeshError: the faces are no surface (`Soup` lists the defects).
-        ArgumentError: an index that is negative or too large.
+    Raises
+    ------
+    MeshError
+        the faces are no surface (`Soup` lists the defects).
+    ArgumentError
+        an index that is negative or too large.
+
+    Examples
+    --------
+    >>> mesh = ricci.Mesh([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2], [0, 2, 3]])
+    >>> mesh.n_faces, mesh.euler, mesh.boundary[0].tolist()
+    (2, 1, [2, 3, 0, 1])
     """
 
     _type: ClassVar[str] = "mesh"
     _made_by: ClassVar[str] = "ricci.as_mesh(V, F), or ricci.read(path),"
+    _figures: ClassVar[tuple[str, ...]] = ("n_vertices", "n_edges", "n_faces", "euler", "genus", "n_boundary_loops")
     _faces_of: ClassVar[Any] = lib.ricci_mesh_faces
     _values_of: ClassVar[Any] = lib.ricci_mesh_values
 
@@ -94,14 +116,21 @@ class Mesh(Triangles):
         made = Mesh._made(lib.ricci_mesh_from_arrays, pointer(positions), positions.strides[0], len(positions), pointer(faces), len(faces))
         self._pointer = made._pointer
 
+    def _scene(self) -> Scene | None:
+        return Scene(self.V, self.F) if self.summary.has_positions else None
+
     @classmethod
     def read(cls, path: str | os.PathLike[str], progress: Progress = None) -> Self:
         """The mesh of a file (.obj, .off, .ply, .stl, .glb, .gltf, .gii, or .gz behind) with its attributes, in the file's numbers.
 
-        Raises:
-            FileError: it cannot be read, or its ending is not known.
-            ParseError: its content is not what the format says; the index is that of the line or byte.
-            MeshError: the faces are no surface.
+        Raises
+        ------
+        FileError
+            it cannot be read, or its ending is not known.
+        ParseError
+            its content is not what the format says; the index is that of the line or byte.
+        MeshError
+            the faces are no surface.
         """
         return cls._made(lib.ricci_mesh_read, path_bytes(path), progress=progress)
 
@@ -109,11 +138,16 @@ class Mesh(Triangles):
     def from_gluing(cls, faces: npt.ArrayLike, face_edges: npt.ArrayLike, lengths: npt.ArrayLike, geometry: Space = "e2") -> Self:
         """An intrinsic surface: triangles glued along numbered edges. Two vertices may share several edges, an edge may be a loop.
 
-        Args:
-            faces: m x 3 vertices (a, b, c).
-            face_edges: m x 3 edge numbers (bc, ca, ab) from 1, negative where the face runs against the edge.
-            lengths: that of edge number e at e - 1.
-            geometry: in which the lengths are meant.
+        Parameters
+        ----------
+        faces : npt.ArrayLike
+            m x 3 vertices (a, b, c).
+        face_edges : npt.ArrayLike
+            m x 3 edge numbers (bc, ca, ab) from 1, negative where the face runs against the edge.
+        lengths : npt.ArrayLike
+            that of edge number e at e - 1.
+        geometry : Space
+            in which the lengths are meant.
         """
         corners, edges = _arrays.indices(faces, 3, "faces"), _arrays.signed(face_edges, "face_edges")
         given = {"n_vertices": int(corners.max()) + 1, "n_faces": len(corners), "geometry": constant("SPACE", geometry)}
@@ -129,8 +163,19 @@ class Mesh(Triangles):
         array = _arrays.real(lengths)
         return Mesh._made(lib.ricci_mesh_with_lengths, self, pointer(array), array.size, constant("SPACE", geometry))
 
-    def with_attributes(self, **attributes: Unpack[Attributes]) -> Mesh:
+    @takes(Attributes)
+    def with_attributes(
+        self,
+        *,
+        normals: npt.ArrayLike | None = None,
+        colors: npt.ArrayLike | None = None,
+        uv: npt.ArrayLike | None = None,
+        corner_normals: npt.ArrayLike | None = None,
+        png: bytes | None = None,
+        wrap: Literal["repeat", "mirror", "clamp"] | None = None,
+    ) -> Mesh:
         """The same mesh with these attributes in place of its own: normals, colors, uv, corner_normals."""
+        attributes = picked(locals(), Attributes)
         given = options("attributes", attributes, _ATTRIBUTES)
         self._check_attributes(attributes)
         positions, faces = _arrays.points(self.V), _arrays.indices(self.F, 3, "F")
@@ -141,6 +186,33 @@ class Mesh(Triangles):
             raise ArgumentError("this mesh has several edges between two vertices, or edges of an order of its own: it takes no attributes")
         kept = self._own_lengths()
         return made if kept is None else made.with_lengths(kept, self.summary.geometry)
+
+    def mirrored(self) -> Mesh:
+        """The mirror image: x has the other sign, and every face (a, b, c) is (a, c, b). Vertices and faces keep their numbers."""
+        turned = [0, 2, 1]
+        if not self.summary.has_positions:
+            return Mesh.from_gluing(self.F[:, turned], -self.face_edges[:, turned], self.lengths, self.summary.geometry)
+        aside = np.array([-1.0, 1.0, 1.0])
+        found: Attributes = {}
+        if self.colors is not None:
+            found["colors"] = self.colors
+        if self.normals is not None:
+            found["normals"] = self.normals * aside
+        if self.uv is not None:
+            found["uv"] = self.uv[:, turned]
+        if self.corner_normals is not None:
+            found["corner_normals"] = self.corner_normals[:, turned] * aside
+        made = Mesh(self.V * aside, self.F[:, turned])
+        if found:
+            made = made.with_attributes(**found)
+        own = self._own_lengths()
+        if own is None:
+            return made
+        # The mirror image may have its edges in another order.
+        ours, theirs = np.abs(self.face_edges[:, turned]) - 1, np.abs(made.face_edges) - 1
+        lengths = np.empty(made.summary.n_edges)
+        lengths[theirs] = own[ours]
+        return made.with_lengths(lengths, self.summary.geometry)
 
     def _own_lengths(self) -> Doubles | None:
         """The lengths of a mesh in space that were given in place of those between its positions, or None."""
@@ -161,8 +233,10 @@ class Mesh(Triangles):
     def __reduce__(self) -> Any:
         """The arrays that the mesh is made of again, bit for bit, with the order of its edges.
 
-        Raises:
-            TypeError: a triangulation in space with several edges between two vertices, which arrays cannot say.
+        Raises
+        ------
+        TypeError
+            a triangulation in space with several edges between two vertices, which arrays cannot say.
         """
         if not self.summary.has_positions:
             return _glued, (self.F, self.face_edges, self.lengths, self.summary.geometry)
@@ -182,10 +256,14 @@ class Mesh(Triangles):
 
         The mesh's `places` say where its vertices lie on this one.
 
-        Args:
-            least_angle: the least angle of its triangles, radians, at most 30 degrees; None: 25 degrees.
-            most_added: the most vertices that are added; None: ten per face and 100000.
-            progress: a `Control` or a callback.
+        Parameters
+        ----------
+        least_angle : float | None
+            the least angle of its triangles, radians, at most 30 degrees; None: 25 degrees.
+        most_added : int | None
+            the most vertices that are added; None: ten per face and 100000.
+        progress : Progress
+            a `Control` or a callback.
         """
         given = {"least_angle": least_angle, "most_added": most_added}
         struct = options("refine_options", given, dict.fromkeys(given, above_zero))
@@ -197,22 +275,39 @@ class Mesh(Triangles):
     def places(self) -> tuple[Indices, Doubles]:
         """Of a mesh that `refine_angle` made: for each vertex a face of the given mesh and its barycentric coordinates there.
 
-        Raises:
-            ArgumentError: the mesh was not refined.
+        Raises
+        ------
+        ArgumentError
+            the mesh was not refined.
         """
         faces = np.empty(self.summary.n_vertices, np.uint32)
         weights = np.empty((faces.size, 3))
         filled(lib.ricci_mesh_places, self, pointer(faces), faces.size, out=weights)
         return frozen(faces), frozen(weights)
 
-    def write(self, path: str | os.PathLike[str], progress: Progress = None, **attributes: Unpack[Attributes]) -> None:
+    @takes(Attributes)
+    def write(
+        self,
+        path: str | os.PathLike[str],
+        progress: Progress = None,
+        *,
+        normals: npt.ArrayLike | None = None,
+        colors: npt.ArrayLike | None = None,
+        uv: npt.ArrayLike | None = None,
+        corner_normals: npt.ArrayLike | None = None,
+        png: bytes | None = None,
+        wrap: Literal["repeat", "mirror", "clamp"] | None = None,
+    ) -> None:
         """Write the mesh as .obj, .off, .ply or .glb, whole or not at all, with the attributes that the format has.
 
-        Args:
-            path: the file.
-            progress: shows or stops the call.
-            attributes: what to write beside positions and faces; none: what the mesh was read with.
+        Parameters
+        ----------
+        path : str | os.PathLike[str]
+            the file.
+        progress : Progress
+            shows or stops the call.
         """
+        attributes = picked(locals(), Attributes)
         given = options("attributes", attributes, _ATTRIBUTES) if attributes else None
         if given is not None:
             self._check_attributes(attributes)
@@ -299,5 +394,19 @@ def _glued(F: Indices, face_edges: Signed, lengths: Doubles, geometry: Space) ->
 
 
 def read(path: str | os.PathLike[str], progress: Progress = None) -> Mesh:
-    """The mesh of a file, as `Mesh.read`."""
+    """The mesh of a file, as `Mesh.read`.
+
+    Parameters
+    ----------
+    path : str | os.PathLike[str]
+        the file: .obj, .off, .ply, .stl, .glb, .gltf, .gii, or .gz behind.
+    progress : Progress
+        a `Control` or a callback.
+
+    Examples
+    --------
+    >>> ricci.make("torus", n=8).write("ring.obj")
+    >>> ricci.read("ring.obj")
+    <ricci.Mesh: 32 vertices, 64 faces, genus 1, 0 boundary loops>
+    """
     return Mesh.read(path, progress)

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-import threading
-from collections.abc import Callable
 from functools import cached_property
-from typing import Any, ClassVar, Literal, Self, TypedDict, Unpack
+from typing import Any, ClassVar, Literal, TypedDict
 
 import numpy as np
 import numpy.typing as npt
 
-from ricci import _arrays
 from ricci._arrays import frozen
-from ricci._call import CONTROL, Doubles, Handle, Indices, Passed, call, constant, doubles, filled, pointer, summary
-from ricci._library import ffi, lib
+from ricci._call import CONTROL, Doubles, Handle, Indices, Passed, constant, doubles, filled, summary
+from ricci._library import lib
+from ricci._shown import Scene
+from ricci._signatures import picked, takes
 from ricci._structs import Struct, Write, above_zero, choice, index_list, number, options
 from ricci.adapters import MeshLike, as_mesh
 from ricci.control import Progress
@@ -23,24 +22,35 @@ from ricci.figures.names import Scheme, Space
 from ricci.mesh import Mesh
 from ricci.targets import TargetLike, target_struct
 
-__all__ = ["FlowJob", "FlowOptions", "Metric", "Report", "Solver", "flow", "metric"]
+__all__ = ["FlowJob", "FlowOptions", "Metric", "Report", "flow", "metric"]
 
 
 class FlowOptions(TypedDict, total=False):
     """Options of a flow; those that are left out have their defaults.
 
-    Attributes:
-        method: ``"newton"`` on the convex energy, or ``"gradient"``, the flow du/dt = target - K itself.
-        flips: ``"auto"``: edges are flipped as often as needed, so that every admissible target is reached; ``"never"``.
-        tolerance: largest |K - target| of a converged metric, radians; 1e-10.
-        max_iterations: steps before giving up; 500 for Newton, 200,000 for the gradient flow.
-        threads: of this flow; one per core. The result does not depend on it.
-        max_step: largest change of any u in one Newton step; 3.
-        fixed_edges: rows of `Mesh.edges` that are not flipped, such as feature lines.
-        step: step size of the gradient flow: ``"armijo"`` (the energy falls at every step), ``"stable"``, ``"fixed"``, or
-            ``"barzilai_borwein"`` (the energy may rise on the way); ``"armijo"``.
-        step_size: that of ``"fixed"``.
-        area_normalised: true if a gradient flow in E2 keeps the area of the start.
+    Attributes
+    ----------
+    method : Literal["newton", "gradient"]
+        ``"newton"`` on the convex energy, or ``"gradient"``, the flow du/dt = target - K itself.
+    flips : Literal["auto", "never"]
+        ``"auto"``: edges are flipped as often as needed, so that every admissible target is reached; ``"never"``.
+    tolerance : float
+        largest |K - target| of a converged metric, radians; 1e-10.
+    max_iterations : int
+        steps before giving up; 500 for Newton, 200,000 for the gradient flow.
+    threads : int
+        of this flow; one per core. The result does not depend on it.
+    max_step : float
+        largest change of any u in one Newton step; 3.
+    fixed_edges : npt.ArrayLike
+        rows of `Mesh.edges` that are not flipped, such as feature lines.
+    step : Literal["armijo", "barzilai_borwein", "stable", "fixed"]
+        step size of the gradient flow: ``"armijo"`` (the energy falls at every step), ``"stable"``, ``"fixed"``, or
+        ``"barzilai_borwein"`` (the energy may rise on the way); ``"armijo"``.
+    step_size : float
+        that of ``"fixed"``.
+    area_normalised : bool
+        true if a gradient flow in E2 keeps the area of the start.
     """
 
     method: Literal["newton", "gradient"]
@@ -58,10 +68,13 @@ class FlowOptions(TypedDict, total=False):
 class FlowJob(FlowOptions, total=False):
     """Options of `flow`: how it is solved, and the conformal class.
 
-    Attributes:
-        space: the geometry in which the metric lives: ``"e2"``, ``"h2"``, ``"s2"``; ``"e2"``.
-        scheme: how lengths depend on u: ``"yamabe"`` (vertex scaling), ``"inversive"``, ``"thurston"``, ``"tangential"``,
-            ``"virtual"``; ``"yamabe"``.
+    Attributes
+    ----------
+    space : Space
+        the geometry in which the metric lives: ``"e2"``, ``"h2"``, ``"s2"``; ``"e2"``.
+    scheme : Scheme
+        how lengths depend on u: ``"yamabe"`` (vertex scaling), ``"inversive"``, ``"thurston"``, ``"tangential"``,
+        ``"virtual"``; ``"yamabe"``.
     """
 
     space: Space
@@ -83,19 +96,27 @@ def flow_struct(given: Any) -> Struct:
     return options("flow_options", given, _FLOW)
 
 
-class Report(Passed):
-    """The report of the flow that led to a metric: figures, target, residuals, and the vertices with the largest errors."""
+class Report(ReportSummary, Passed):
+    """The report of the flow that led to a metric: figures, target, residuals, and the vertices with the largest errors.
+
+    The figures are attributes of the report itself, as of `summary`.
+
+    Examples
+    --------
+    >>> report = ricci.flow(ricci.make("torus", n=16)).report
+    >>> report.stop_reason, report.max_curvature_error < 1e-10
+    ('converged', True)
+    """
 
     def __init__(self, of: Metric) -> None:
         # The library's object, not the Python one, which has this report: both are freed at once, without a search for cycles.
-        self._pointer = of._pointer
-        self._n_vertices = of.summary.n_vertices
-        self.summary = summary(ReportSummary, "report", self)
+        found = {"_pointer": of._pointer, "_n_vertices": of.summary.n_vertices}
+        self.__dict__.update(found)
+        told = summary(ReportSummary, "report", self)
+        self.__dict__.update({**vars(told), "summary": told})
 
-    @property
-    def converged(self) -> bool:
-        """True if the curvature error is within the tolerance and no triangle is broken."""
-        return self.summary.converged
+    summary: ReportSummary
+    _n_vertices: int
 
     @cached_property
     def target(self) -> Doubles:
@@ -144,23 +165,63 @@ class Metric(Handle):
 
     A flow that flips edges leads to another triangulation, `triangulation`; vertices keep their numbers. Arrays are read-only.
 
-    Args:
-        V: n x 3 positions with `F`, or a mesh of any kind (`as_mesh`).
-        F: m x 3 vertex indices from 0.
-        space: the geometry in which the metric will live.
-        scheme: how lengths depend on u.
+    Parameters
+    ----------
+    V : MeshLike
+        n x 3 positions with `F`, or a mesh of any kind (`as_mesh`).
+    F : npt.ArrayLike | None
+        m x 3 vertex indices from 0.
+    space : Space
+        the geometry in which the metric will live.
+    scheme : Scheme
+        how lengths depend on u.
+
+    Examples
+    --------
+    >>> flat = ricci.flow(ricci.make("torus", n=16))
+    >>> float(abs(flat.curvature).max()) < 1e-9
+    True
+    >>> flat.factor.shape
+    (128,)
     """
+
+    # The mesh that it was made from, which is drawn; of metrics that come out of other objects None.
+    _input: Mesh | None = None
 
     _type: ClassVar[str] = "metric"
     _made_by: ClassVar[str] = "ricci.flow(mesh)"
+    _figures: ClassVar[tuple[str, ...]] = ("space", "scheme", "n_vertices", "n_flips", "area", "gauss_bonnet")
 
     def __init__(self, V: MeshLike, F: npt.ArrayLike | None = None, *, space: Space = "e2", scheme: Scheme = "yamabe") -> None:
-        made = Metric._made(lib.ricci_metric_new, as_mesh(V, F), constant("SCHEME", scheme), constant("SPACE", space))
+        self._input = as_mesh(V, F)
+        made = Metric._made(lib.ricci_metric_new, self._input, constant("SCHEME", scheme), constant("SPACE", space))
         self._pointer = made._pointer
 
-    def flow(self, target: TargetLike = None, progress: Progress = None, **given: Unpack[FlowOptions]) -> Metric:
+    def _scene(self) -> Scene | None:
+        seen = self._input
+        return None if seen is None or not seen.summary.has_positions else Scene(seen.V, seen.F, self.factor, "conformal factor")
+
+    @takes(FlowOptions)
+    def flow(
+        self,
+        target: TargetLike = None,
+        progress: Progress = None,
+        *,
+        method: Literal["newton", "gradient"] = "newton",
+        flips: Literal["auto", "never"] = "auto",
+        tolerance: float | None = None,
+        max_iterations: int | None = None,
+        threads: int | None = None,
+        max_step: float | None = None,
+        fixed_edges: npt.ArrayLike | None = None,
+        step: Literal["armijo", "barzilai_borwein", "stable", "fixed"] = "armijo",
+        step_size: float | None = None,
+        area_normalised: bool = False,
+    ) -> Metric:
         """The metric of the class with the curvature `target`, as `ricci.flow`; it goes on from where this one is."""
+        given = picked(locals(), FlowOptions)
         made = Metric._made(lib.ricci_flow, self, target_struct(target), flow_struct(given), CONTROL, progress=progress)
+        made._input = self._input
         made._warn()
         return made
 
@@ -176,8 +237,10 @@ class Metric(Handle):
     def fill(self, target: TargetLike = None, progress: Progress = None) -> Doubles:
         """The curvature that a target has at every vertex, n numbers in radians.
 
-        Raises:
-            TargetError: no metric has it; the element is the vertex, the amount by how much.
+        Raises
+        ------
+        TargetError
+            no metric has it; the element is the vertex, the amount by how much.
         """
         out = np.empty(self.summary.n_vertices)
         return filled(lib.ricci_target_fill, self, target_struct(target), CONTROL, out=out, progress=progress)
@@ -191,8 +254,10 @@ class Metric(Handle):
     def report(self) -> Report:
         """The report of the flow that led to this metric.
 
-        Raises:
-            ArgumentError: no flow has led here.
+        Raises
+        ------
+        ArgumentError
+            no flow has led here.
         """
         return Report(self)
 
@@ -267,78 +332,81 @@ class Metric(Handle):
         return f"<ricci.Metric: {s.scheme} in {s.space}, {s.n_vertices} vertices, {s.n_flips} flips>"
 
 
-class Solver(Handle):
-    """A solver for many targets on one metric: it keeps its analysis, its threads and the last solution. Threads take turns.
-
-    Args:
-        start: where the first solve starts.
-        given: how a flow is solved, as of `flow`.
-    """
-
-    _type: ClassVar[str] = "solver"
-    _made_by: ClassVar[str] = "ricci.Solver(metric)"
-
-    def __init__(self, start: Metric, **given: Unpack[FlowOptions]) -> None:
-        self._pointer = Solver._made(lib.ricci_solver_new, start, flow_struct(given))._pointer
-        self._turn = threading.Lock()
-
-    def __copy__(self) -> Self:
-        raise TypeError("a ricci.Solver changes with every solve, so that it has no copies: make another one of its metric")
-
-    def __deepcopy__(self, _: Any) -> Self:
-        return self.__copy__()
-
-    def pin(self, vertices: npt.ArrayLike = ()) -> None:
-        """Hold u fixed at these vertices in the following solves, whose curvature is then free; none releases all."""
-        pinned = _arrays.indices(vertices)
-        call(self._in_turn(lib.ricci_solver_pin), self, pointer(pinned) if pinned.size else ffi.NULL, pinned.size)
-
-    def solve(self, target: TargetLike = None, progress: Progress = None) -> Metric:
-        """The metric with this target, from where the last solve ended. After a failure the solver is where it was before."""
-        made = Metric._made(self._in_turn(lib.ricci_solver_solve), self, target_struct(target), CONTROL, progress=progress)
-        made._warn()
-        return made
-
-    def _in_turn(self, function: Callable[..., int]) -> Callable[..., int]:
-        """The function, which the library asks for by one thread at a time; held by the thread that runs it, until it has ended."""
-        turn = self._turn
-
-        def waiting(*arguments: Any) -> int:
-            with turn:
-                return function(*arguments)
-
-        return waiting
-
-
 def metric(V: MeshLike, F: npt.ArrayLike | None = None, *, space: Space = "e2", scheme: Scheme = "yamabe") -> Metric:
-    """The initial metric of a mesh in the conformal class of its lengths, as `Metric`."""
+    """The initial metric of a mesh in the conformal class of its lengths, as `Metric`.
+
+    Parameters
+    ----------
+    V : MeshLike
+        n x 3 positions with `F`, or a mesh of any kind (`as_mesh`).
+    F : npt.ArrayLike | None
+        m x 3 vertex indices from 0.
+    space : Space
+        the geometry in which the metric will live.
+    scheme : Scheme
+        how lengths depend on u.
+
+    Examples
+    --------
+    >>> start = ricci.metric(ricci.make("torus", n=16))
+    >>> bool(abs(start.curvature.sum()) < 1e-9)
+    True
+    """
     return Metric(V, F, space=space, scheme=scheme)
 
 
+@takes(FlowJob, FlowOptions)
 def flow(
     V: MeshLike,
     F: npt.ArrayLike | None = None,
     target: TargetLike = None,
     progress: Progress = None,
-    **given: Unpack[FlowJob],
+    *,
+    method: Literal["newton", "gradient"] = "newton",
+    flips: Literal["auto", "never"] = "auto",
+    tolerance: float | None = None,
+    max_iterations: int | None = None,
+    threads: int | None = None,
+    max_step: float | None = None,
+    fixed_edges: npt.ArrayLike | None = None,
+    step: Literal["armijo", "barzilai_borwein", "stable", "fixed"] = "armijo",
+    step_size: float | None = None,
+    area_normalised: bool = False,
+    space: Space = "e2",
+    scheme: Scheme = "yamabe",
 ) -> Metric:
     """Deform the metric of a mesh in its conformal class to a prescribed curvature.
 
     Whether it came that far is in ``result.converged``: a flow that stops early is a result with the warning `NotConverged`, not an error.
 
-    Args:
-        V: n x 3 positions with `F`, or a mesh of any kind (`as_mesh`).
-        F: m x 3 vertex indices from 0.
-        target: ``"uniform"``, ``"boundary"``, ``"single:V"``, ``"auto:N"``, a mapping of vertices to curvatures (0 elsewhere), or n
-            curvatures in radians. None: uniform on closed surfaces of genus 1 and more and outside E2, on the boundary of open ones.
-        progress: a `Control`, or a callback ``progress(stage, fraction)``.
-        given: space, scheme, and how it is solved (`FlowJob`).
+    Parameters
+    ----------
+    V : MeshLike
+        n x 3 positions with `F`, or a mesh of any kind (`as_mesh`).
+    F : npt.ArrayLike | None
+        m x 3 vertex indices from 0.
+    target : TargetLike
+        ``"uniform"``, ``"boundary"``, ``"single:V"``, ``"auto:N"``, a mapping of vertices to curvatures (0 elsewhere), or n
+        curvatures in radians. None: uniform on closed surfaces of genus 1 and more and outside E2, on the boundary of open ones.
+    progress : Progress
+        a `Control`, or a callback ``progress(stage, fraction)``.
 
-    Raises:
-        TargetError: no metric has the target; the element is the vertex, the amount by how much.
-        MeshError, MetricError: there is no metric to begin with.
-        Cancelled: stopped by its control.
+    Raises
+    ------
+    TargetError
+        no metric has the target; the element is the vertex, the amount by how much.
+    MeshError, MetricError
+        there is no metric to begin with.
+    Cancelled
+        stopped by its control.
+
+    Examples
+    --------
+    >>> flat = ricci.flow(ricci.make("genus", genus=2, n=3), target="auto:4")
+    >>> flat.converged, flat.report.n_cones
+    (True, 4)
     """
+    given = picked(locals(), FlowJob)
     how: dict[str, Any] = dict(given)
     start = Metric(V, F, space=how.pop("space", "e2"), scheme=how.pop("scheme", "yamabe"))
     return start.flow(target, progress, **how)

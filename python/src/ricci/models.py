@@ -1,4 +1,4 @@
-"""Points of the three spaces in other coordinates: ambient (x, y, w) from and to the models, as the inline functions of uniformize.h.
+"""Points of the three spaces in other coordinates: ambient (x, y, w) from and to the models, as the layouts of `uniformize` have them.
 
 The plane is (x, y, 1), the hyperbolic plane x^2 + y^2 - w^2 = -1 with w > 0, the sphere x^2 + y^2 + w^2 = 1.
 """

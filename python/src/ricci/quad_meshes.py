@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import Any, ClassVar, NamedTuple, TypedDict, Unpack
+from typing import Any, ClassVar, NamedTuple, TypedDict
 
 import numpy as np
 
 from ricci._arrays import frozen
 from ricci._call import CONTROL, Doubles, Handle, Indices, call, constant, doubles, filled, pointer, rows, signed_view, summary
 from ricci._library import lib
+from ricci._shown import Scene
+from ricci._signatures import picked, takes
 from ricci._structs import Struct, Write, above_zero, number, options
 from ricci.control import Progress
 from ricci.errors import ArgumentError
@@ -22,12 +24,18 @@ __all__ = ["QuadLayout", "QuadPlaces", "Quads", "QuadsOptions", "quad_layout", "
 class QuadsOptions(TypedDict, total=False):
     """Options of quad meshes and layouts: one size, and threads.
 
-    Attributes:
-        n_quads: about this number of quads; 1,000 for a quad mesh. Of a layout they are its unit squares.
-        edge: edges of about this length, in the units of the surface's lengths.
-        coarse: as few quads as the lines between cones allow; the default of a layout.
-        at_most: at most this number of quads, each side as near as that allows to its length on the surface.
-        threads: one for each core.
+    Attributes
+    ----------
+    n_quads : int
+        about this number of quads; 1,000 for a quad mesh. Of a layout they are its unit squares.
+    edge : float
+        edges of about this length, in the units of the surface's lengths.
+    coarse : bool
+        as few quads as the lines between cones allow; the default of a layout.
+    at_most : int
+        at most this number of quads, each side as near as that allows to its length on the surface.
+    threads : int
+        one for each core.
     """
 
     n_quads: int
@@ -80,10 +88,22 @@ class QuadPlaces(NamedTuple):
 
 
 class Quads(Handle):
-    """A mesh of quads on a surface. Every vertex that is no cone or corner has four quads, two on the boundary."""
+    """A mesh of quads on a surface. Every vertex that is no cone or corner has four quads, two on the boundary.
+
+    Examples
+    --------
+    >>> made = ricci.quads(ricci.seamless(ricci.make("ellipsoid", n=8)), n_quads=200)
+    >>> made.positions.shape == (made.summary.n_vertices, 3)
+    True
+    """
 
     _type: ClassVar[str] = "quads"
     _made_by: ClassVar[str] = "ricci.quads(ricci.seamless(mesh))"
+    _figures: ClassVar[tuple[str, ...]] = ("n_quads", "n_vertices", "n_irregular", "n_creases", "angle_mean", "edge_mean")
+
+    def _scene(self) -> Scene | None:
+        halves = np.concatenate([self.F[:, [0, 1, 2]], self.F[:, [0, 2, 3]]])
+        return Scene(self.positions, halves, np.tile(self.rectangles, 2) * 0.6180339887498949 % 1)
 
     @cached_property
     def summary(self) -> QuadsSummary:
@@ -99,8 +119,10 @@ class Quads(Handle):
     def positions(self) -> Doubles:
         """n x 3, the vertices in space.
 
-        Raises:
-            ArgumentError: a surface without positions.
+        Raises
+        ------
+        ArgumentError
+            a surface without positions.
         """
         return frozen(doubles(lib.ricci_quads_positions, self, shape=(self.summary.n_vertices, 3)))
 
@@ -124,10 +146,22 @@ class Quads(Handle):
 
 
 class QuadLayout(Handle):
-    """A layout of four-sided patches, each a rectangle of quads."""
+    """A layout of four-sided patches, each a rectangle of quads.
+
+    Examples
+    --------
+    >>> patches = ricci.quad_layout(ricci.seamless(ricci.make("ellipsoid", n=8)))
+    >>> [len(sides) for sides in patches.sides] == [4] * patches.summary.n_patches
+    True
+    """
 
     _type: ClassVar[str] = "quad_layout"
     _made_by: ClassVar[str] = "ricci.quad_layout(ricci.seamless(mesh))"
+    _figures: ClassVar[tuple[str, ...]] = ("n_nodes", "n_arcs", "n_patches", "n_units", "n_parts", "n_quads")
+
+    def _scene(self) -> Scene | None:
+        seen = self.quads._scene()
+        return None if seen is None else seen._replace(values=np.tile(self.patches, 2) * 0.6180339887498949 % 1)
 
     @cached_property
     def summary(self) -> QuadLayoutSummary:
@@ -171,35 +205,79 @@ class QuadLayout(Handle):
         return frozen(filled(lib.ricci_quad_layout_patches, self, out=np.empty(self.summary.n_quads, np.uint32)))
 
 
-def quads(seamless: Seamless, progress: Progress = None, **given: Unpack[QuadsOptions]) -> Quads:
+@takes(QuadsOptions)
+def quads(
+    seamless: Seamless,
+    progress: Progress = None,
+    *,
+    n_quads: int | None = None,
+    edge: float | None = None,
+    coarse: bool = False,
+    at_most: int | None = None,
+    threads: int | None = None,
+) -> Quads:
     """The quad mesh of a seamless metric: about 1,000 quads, unless another size is given.
 
     Vertices lie on the surface, irregular ones at its cones alone; features and the boundary are chains of edges.
 
-    Args:
-        seamless: the seamless metric.
-        progress: a `Control` or a callback.
-        given: n_quads, edge or coarse, threads (`QuadsOptions`).
+    Parameters
+    ----------
+    seamless : Seamless
+        the seamless metric.
+    progress : Progress
+        a `Control` or a callback.
 
-    Raises:
-        ArgumentError: more than one size, or one that is not positive.
-        LayoutError: the seamless metric is so far from its target that its seams do not turn by multiples of 90 degrees.
+    Raises
+    ------
+    ArgumentError
+        more than one size, or one that is not positive.
+    LayoutError
+        the seamless metric is so far from its target that its seams do not turn by multiples of 90 degrees.
+
+    Examples
+    --------
+    >>> made = ricci.quads(ricci.seamless(ricci.make("ellipsoid", n=8)), n_quads=200)
+    >>> made.F.shape[1], made.summary.euler
+    (4, 2)
     """
+    given = picked(locals(), QuadsOptions)
     return Quads._made(lib.ricci_quads_new, seamless, _options(given), CONTROL, progress=progress)
 
 
-def quad_layout(seamless: Seamless, progress: Progress = None, **given: Unpack[QuadsOptions]) -> QuadLayout:
+@takes(QuadsOptions)
+def quad_layout(
+    seamless: Seamless,
+    progress: Progress = None,
+    *,
+    n_quads: int | None = None,
+    edge: float | None = None,
+    coarse: bool = False,
+    at_most: int | None = None,
+    threads: int | None = None,
+) -> QuadLayout:
     """The layout of a seamless metric: the patches of its coarsest quad mesh, unless another size is given.
 
     Patches lie between the lines of edges that go straight on from irregular vertices and from corners of features and the boundary.
 
-    Args:
-        seamless: the seamless metric.
-        progress: a `Control` or a callback.
-        given: n_quads, edge or coarse, threads (`QuadsOptions`).
+    Parameters
+    ----------
+    seamless : Seamless
+        the seamless metric.
+    progress : Progress
+        a `Control` or a callback.
 
-    Raises:
-        ArgumentError: more than one size, or one that is not positive.
-        LayoutError: the seamless metric is so far from its target that its seams do not turn by multiples of 90 degrees.
+    Raises
+    ------
+    ArgumentError
+        more than one size, or one that is not positive.
+    LayoutError
+        the seamless metric is so far from its target that its seams do not turn by multiples of 90 degrees.
+
+    Examples
+    --------
+    >>> patches = ricci.quad_layout(ricci.seamless(ricci.make("ellipsoid", n=8)))
+    >>> patches.summary.n_nodes - patches.summary.n_arcs + patches.summary.n_patches
+    2
     """
+    given = picked(locals(), QuadsOptions)
     return QuadLayout._made(lib.ricci_quad_layout_new, seamless, _options(given), CONTROL, progress=progress)

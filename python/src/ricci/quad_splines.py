@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from functools import cached_property
-from typing import Any, ClassVar, Literal, NamedTuple, TypedDict, Unpack
+from typing import Any, ClassVar, Literal, NamedTuple, TypedDict
 
 import numpy as np
 import numpy.typing as npt
@@ -13,6 +13,8 @@ from ricci import _arrays
 from ricci._arrays import frozen
 from ricci._call import CONTROL, Doubles, Handle, Indices, call, constant, filled, listed, path_bytes, pointer, signed_view, summary
 from ricci._library import ffi, lib
+from ricci._shown import Scene
+from ricci._signatures import picked, takes
 from ricci._structs import Write, above_zero, number, options, or_none
 from ricci.adapters import MeshLike, as_mesh
 from ricci.bicubics import _STEP, StepOptions
@@ -33,12 +35,17 @@ _COLUMNS = {"point": 3, "first": 9, "second": 18, "third": 30, "shape": 5}
 class QuadSplineOptions(TypedDict, total=False):
     """Options of fits over layouts.
 
-    Attributes:
-        tolerance: largest distance between spline and surface over the diagonal; patches that are farther off get more spans. 0.001 or, where
-            that is more, four times the noise of the surface.
-        bending: the weight of bending, up to 1e-5: 1e-8 suits scans with a noise of a thousandth of the diagonal. 1e-8; 0: none.
-        most_spans: most spans of a patch in each direction, up to 32; 4.
-        threads: one per core. The result does not depend on it.
+    Attributes
+    ----------
+    tolerance : float
+        largest distance between spline and surface over the diagonal; patches that are farther off get more spans. 0.001 or,
+        where that is more, four times the noise of the surface.
+    bending : float
+        the weight of bending, up to 1e-5: 1e-8 suits scans with a noise of a thousandth of the diagonal. 1e-8; 0: none.
+    most_spans : int
+        most spans of a patch in each direction, up to 32; 4.
+    threads : int
+        one per core. The result does not depend on it.
     """
 
     tolerance: float
@@ -117,10 +124,21 @@ class ExtractionMatrix(NamedTuple):
 
 
 class QuadSpline(Handle):
-    """A spline over a layout of four-sided patches, of degree 5 along u and v; its tangent planes are continuous but at creases."""
+    """A spline over a layout of four-sided patches, of degree 5 along u and v; its tangent planes are continuous but at creases.
+
+    Examples
+    --------
+    >>> smooth = ricci.quad_spline(ricci.seamless(ricci.make("ellipsoid", n=8)))
+    >>> smooth.evaluate(0, [[0.5, 0.5]]).shape
+    (1, 3)
+    """
 
     _type: ClassVar[str] = "quad_spline"
     _made_by: ClassVar[str] = "ricci.quad_spline(ricci.seamless(mesh))"
+    _figures: ClassVar[tuple[str, ...]] = ("n_patches", "n_control_points", "rms", "max", "normal_jump", "converged")
+
+    def _scene(self) -> Scene | None:
+        return self.tessellate(4)._scene()
 
     @cached_property
     def summary(self) -> QuadSplineSummary:
@@ -135,8 +153,10 @@ class QuadSpline(Handle):
     def patch(self, number: int) -> QuadPatch:
         """Degrees and sizes of a patch, its arcs, and the patches that it meets.
 
-        Raises:
-            SplineError: no such patch.
+        Raises
+        ------
+        SplineError
+            no such patch.
         """
         out = ffi.new("ricci_quad_patch *")
         call(lib.ricci_quad_spline_patch, self, number, out, ffi.sizeof("ricci_quad_patch"))
@@ -164,8 +184,10 @@ class QuadSpline(Handle):
     def arc(self, number: int) -> QuadArc:
         """The ends of an arc, and the patches beside it.
 
-        Raises:
-            SplineError: no such arc.
+        Raises
+        ------
+        SplineError
+            no such arc.
         """
         out = ffi.new("ricci_quad_arc *")
         call(lib.ricci_quad_spline_arc, self, number, out, ffi.sizeof("ricci_quad_arc"))
@@ -185,16 +207,23 @@ class QuadSpline(Handle):
     ) -> Doubles:
         """Points of the surface with derivatives, normals or curvatures, in parallel.
 
-        Args:
-            patches: the patch of each place, or one for all.
-            parameters: k x 2, u and v of each place, from 0 to 1.
-            what: ``"point"``: k x 3; ``"first"``: k x 3 x 3, the point, its derivatives by u and v; ``"second"``: k x 6 x 3, those and
-                uu, uv, vv; ``"third"``: k x 10 x 3, those and uuu, uuv, uvv, vvv; ``"shape"``: k x 5, the outward unit normal and the
-                principal curvatures, the larger one first.
-            progress: a `Control` or a callback.
+        Parameters
+        ----------
+        patches : npt.ArrayLike
+            the patch of each place, or one for all.
+        parameters : npt.ArrayLike
+            k x 2, u and v of each place, from 0 to 1.
+        what : Literal["point", "first", "second", "third", "shape"]
+            ``"point"``: k x 3; ``"first"``: k x 3 x 3, the point, its derivatives by u and v; ``"second"``: k x 6 x 3, those and
+            uu, uv, vv; ``"third"``: k x 10 x 3, those and uuu, uuv, uvv, vvv; ``"shape"``: k x 5, the outward unit normal and the
+            principal curvatures, the larger one first.
+        progress : Progress
+            a `Control` or a callback.
 
-        Raises:
-            SplineError: a place that does not exist.
+        Raises
+        ------
+        SplineError
+            a place that does not exist.
         """
         which = constant("QUAD_SPLINE", what, tuple(_COLUMNS))
         array = _arrays.real(parameters, 2, "parameters")
@@ -215,13 +244,19 @@ class QuadSpline(Handle):
     def tessellate(self, parts: int | None = None, tolerance: float | None = None, progress: Progress = None) -> Mesh:
         """A mesh of the surface, patch after patch, with common vertices on common sides.
 
-        Args:
-            parts: each patch is divided into parts x parts cells of two triangles.
-            tolerance: largest distance between a triangle and the surface, in the units of the surface; a thousandth of the diagonal.
-            progress: a `Control` or a callback.
+        Parameters
+        ----------
+        parts : int | None
+            each patch is divided into parts x parts cells of two triangles.
+        tolerance : float | None
+            largest distance between a triangle and the surface, in the units of the surface; a thousandth of the diagonal.
+        progress : Progress
+            a `Control` or a callback.
 
-        Raises:
-            ArgumentError: both sizes, or one that is not positive.
+        Raises
+        ------
+        ArgumentError
+            both sizes, or one that is not positive.
         """
         if parts == 0 or tolerance == 0:
             raise ArgumentError("parts and tolerance must be above 0; None, or leaving them out, is the default")
@@ -250,8 +285,12 @@ class QuadSpline(Handle):
         out: Doubles = listed(lib.ricci_quad_spline_bezier, self, patch, constant("ALONG", along), dtype=np.float64)
         return out.reshape(-1, 6, 6)
 
-    def write_step(self, path: str | os.PathLike[str], **given: Unpack[StepOptions]) -> None:
+    @takes(StepOptions)
+    def write_step(
+        self, path: str | os.PathLike[str], *, name: str | None = None, unit: Literal["millimetre", "metre"] = "millimetre"
+    ) -> None:
         """Write the patches as .step or .stp (STEP AP242), whole or not at all: a face for each patch, an edge for each arc."""
+        given = picked(locals(), StepOptions)
         call(lib.ricci_quad_spline_write_step, self, options("step_options", given, _STEP), path_bytes(path))
 
     def __repr__(self) -> str:
@@ -259,24 +298,46 @@ class QuadSpline(Handle):
         return f"<ricci.QuadSpline: {s.n_patches} patches, {s.n_control_points} control points>"
 
 
+@takes(QuadSplineOptions)
 def quad_spline(
-    seamless: Seamless, layout: QuadLayout | None = None, progress: Progress = None, **given: Unpack[QuadSplineOptions]
+    seamless: Seamless,
+    layout: QuadLayout | None = None,
+    progress: Progress = None,
+    *,
+    tolerance: float | None = None,
+    bending: float | None = None,
+    most_spans: int | None = None,
+    threads: int | None = None,
 ) -> QuadSpline:
     """A spline over the patches of a layout, near the surface of its seamless metric.
 
     Patches that miss the tolerance get more spans; `summary.converged` says whether all are within it and none is turned over.
 
-    Args:
-        seamless: the seamless metric.
-        layout: a layout of it; None: the coarsest one.
-        progress: a `Control` or a callback.
-        given: tolerance, bending, most_spans, threads (`QuadSplineOptions`).
+    Parameters
+    ----------
+    seamless : Seamless
+        the seamless metric.
+    layout : QuadLayout | None
+        a layout of it; None: the coarsest one.
+    progress : Progress
+        a `Control` or a callback.
 
-    Raises:
-        ArgumentError: a layout of another seamless metric.
-        LayoutError: a surface without positions; a metric so far from its target that it has no quads.
-        SplineError: a layout with one or two patches around a node.
+    Raises
+    ------
+    ArgumentError
+        a layout of another seamless metric.
+    LayoutError
+        a surface without positions; a metric so far from its target that it has no quads.
+    SplineError
+        a layout with one or two patches around a node.
+
+    Examples
+    --------
+    >>> smooth = ricci.quad_spline(ricci.seamless(ricci.make("ellipsoid", n=8)))
+    >>> smooth.summary.degree
+    5
     """
+    given = picked(locals(), QuadSplineOptions)
     on: Any = ffi.NULL if layout is None else layout
     struct = options("quad_spline_options", given, _QUAD_SPLINE)
     return QuadSpline._made(lib.ricci_quad_spline_fit, seamless, on, struct, CONTROL, progress=progress)

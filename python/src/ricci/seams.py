@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import Any, ClassVar, TypedDict, Unpack
+from typing import Any, ClassVar, TypedDict
 
 import numpy as np
 import numpy.typing as npt
@@ -12,6 +12,8 @@ from ricci import _arrays
 from ricci._arrays import frozen
 from ricci._call import CONTROL, Handle, constant, filled, summary
 from ricci._library import lib
+from ricci._shown import Scene
+from ricci._signatures import picked, takes
 from ricci._structs import Write, above_zero, index_list, number, options, real_list
 from ricci.adapters import MeshLike, as_mesh
 from ricci.control import Progress
@@ -26,20 +28,32 @@ __all__ = ["Seamless", "SeamlessOptions", "cross_field", "seamless"]
 class SeamlessOptions(TypedDict, total=False):
     """Options of a seamless metric.
 
-    Attributes:
-        cones: ``"field"``: those of the smoothest field of four directions; a number: so many, placed so that areas change little, their
-            angles rounded to multiples of 90 degrees; a mapping from vertices to valences, the number of right angles around each: the sum
-            of 4 - valence, and of 2 - valence on the boundary, is 4 chi.
-        quarter_turns: the turning of each of the `n_loops` paths; the nearest to that of the conformal metric with these cones.
-        tolerance: largest deviation of an angle from its target, radians; 1e-10.
-        max_iterations: most Newton steps after the conformal flow; 100.
-        threads: one for each core.
-        features: m x 2 vertices: edges that become straight and parallel to an axis. Edges of the boundary do so anyway.
-        feature_angle: edges at which the surface turns by so many radians are features too.
-        curvature: the strength by which the field is drawn along principal curvature.
-        strokes: a mapping from vertices to directions in space, which the field is drawn along.
-        isometric_steps: steps towards the lengths of the surface with the same angles and turning; none.
-        sizes: for each vertex the factor by which lengths near it are to be larger, for the isometric steps.
+    Attributes
+    ----------
+    cones : str | int | dict[int, int]
+        ``"field"``: those of the smoothest field of four directions; a number: so many, placed so that areas change little, their
+        angles rounded to multiples of 90 degrees; a mapping from vertices to valences, the number of right angles around each: the sum
+        of 4 - valence, and of 2 - valence on the boundary, is 4 chi.
+    quarter_turns : npt.ArrayLike
+        the turning of each of the `n_loops` paths; the nearest to that of the conformal metric with these cones.
+    tolerance : float
+        largest deviation of an angle from its target, radians; 1e-10.
+    max_iterations : int
+        most Newton steps after the conformal flow; 100.
+    threads : int
+        one for each core.
+    features : npt.ArrayLike
+        m x 2 vertices: edges that become straight and parallel to an axis. Edges of the boundary do so anyway.
+    feature_angle : float
+        edges at which the surface turns by so many radians are features too.
+    curvature : float
+        the strength by which the field is drawn along principal curvature.
+    strokes : dict[int, npt.ArrayLike]
+        a mapping from vertices to directions in space, which the field is drawn along.
+    isometric_steps : int
+        steps towards the lengths of the surface with the same angles and turning; none.
+    sizes : npt.ArrayLike
+        for each vertex the factor by which lengths near it are to be larger, for the isometric steps.
     """
 
     cones: str | int | dict[int, int]
@@ -101,10 +115,24 @@ _SEAMLESS: dict[str, Write] = {
 
 
 class Seamless(Handle):
-    """A flat metric whose angles around cones and along loops are multiples of 90 degrees."""
+    """A flat metric whose angles around cones and along loops are multiples of 90 degrees.
+
+    Examples
+    --------
+    >>> turning = ricci.seamless(ricci.make("torus", n=24), cones={})
+    >>> turning.summary.n_cones, turning.map().summary.n_flipped
+    (0, 0)
+    """
 
     _type: ClassVar[str] = "seamless"
     _made_by: ClassVar[str] = "ricci.seamless(mesh)"
+    _figures: ClassVar[tuple[str, ...]] = ("converged", "n_cones", "n_loops", "error", "n_flips", "n_features")
+
+    def _sides(self) -> tuple[Any, ...]:
+        return self.map()._sides()
+
+    def _scene(self) -> Scene | None:
+        return self.map()._scene()
 
     @cached_property
     def summary(self) -> SeamlessSummary:
@@ -144,25 +172,56 @@ class Seamless(Handle):
         return Layout._made(lib.ricci_seamless_map, self, CONTROL, progress=progress)
 
 
-def seamless(V: MeshLike, F: npt.ArrayLike | None = None, progress: Progress = None, **given: Unpack[SeamlessOptions]) -> Seamless:
+@takes(SeamlessOptions)
+def seamless(
+    V: MeshLike,
+    F: npt.ArrayLike | None = None,
+    progress: Progress = None,
+    *,
+    cones: str | int | dict[int, int] | None = None,
+    quarter_turns: npt.ArrayLike | None = None,
+    tolerance: float | None = None,
+    max_iterations: int | None = None,
+    threads: int | None = None,
+    features: npt.ArrayLike | None = None,
+    feature_angle: float | None = None,
+    curvature: float | None = None,
+    strokes: dict[int, npt.ArrayLike] | None = None,
+    isometric_steps: int | None = None,
+    sizes: npt.ArrayLike | None = None,
+) -> Seamless:
     """A seamless metric of a surface near its conformal class.
 
     First the conformal metric with the cones, then least changes of the logarithms of lengths until 2g loops turn by multiples of
     90 degrees. Edges of the boundary and features become straight lines parallel to an axis.
 
-    Args:
-        V: n x 3 positions with `F`, or a mesh of any kind (`as_mesh`).
-        F: m x 3 vertex indices.
-        progress: a `Control` or a callback.
-        given: cones, quarter_turns, features, isometric_steps and others (`SeamlessOptions`).
+    Parameters
+    ----------
+    V : MeshLike
+        n x 3 positions with `F`, or a mesh of any kind (`as_mesh`).
+    F : npt.ArrayLike | None
+        m x 3 vertex indices.
+    progress : Progress
+        a `Control` or a callback.
 
-    Warns:
-        NotConverged: the target was not reached; whether a metric with this signature exists is not known.
+    Warns
+    -----
+    NotConverged
+        the target was not reached; whether a metric with this signature exists is not known.
 
-    Raises:
-        ArgumentError: features or strokes that do not exist; a choice of cones that does not fit a boundary or features.
-        TargetError: cones or a signature that no metric has.
+    Raises
+    ------
+    ArgumentError
+        features or strokes that do not exist; a choice of cones that does not fit a boundary or features.
+    TargetError
+        cones or a signature that no metric has.
+
+    Examples
+    --------
+    >>> ricci.seamless(ricci.make("ellipsoid", n=8)).converged
+    True
     """
+    given = picked(locals(), SeamlessOptions)
     struct = options("seamless_options", given, _SEAMLESS)
     made = Seamless._made(lib.ricci_seamless_new, as_mesh(V, F), struct, CONTROL, progress=progress)
     if not made.converged:
@@ -170,23 +229,51 @@ def seamless(V: MeshLike, F: npt.ArrayLike | None = None, progress: Progress = N
     return made
 
 
+@takes(SeamlessOptions)
 def cross_field(
-    V: MeshLike, F: npt.ArrayLike | None = None, progress: Progress = None, **given: Unpack[SeamlessOptions]
+    V: MeshLike,
+    F: npt.ArrayLike | None = None,
+    progress: Progress = None,
+    *,
+    cones: str | int | dict[int, int] | None = None,
+    quarter_turns: npt.ArrayLike | None = None,
+    tolerance: float | None = None,
+    max_iterations: int | None = None,
+    threads: int | None = None,
+    features: npt.ArrayLike | None = None,
+    feature_angle: float | None = None,
+    curvature: float | None = None,
+    strokes: dict[int, npt.ArrayLike] | None = None,
+    isometric_steps: int | None = None,
+    sizes: npt.ArrayLike | None = None,
 ) -> npt.NDArray[np.float64]:
     """The smoothest field of four directions along features and the boundary, near strokes and principal curvature.
 
-    Args:
-        V: n x 3 positions with `F`, or a mesh of any kind (`as_mesh`).
-        F: m x 3 vertex indices.
-        progress: a `Control` or a callback.
-        given: features, feature_angle, curvature, strokes (`SeamlessOptions`); others are passed over.
+    Parameters
+    ----------
+    V : MeshLike
+        n x 3 positions with `F`, or a mesh of any kind (`as_mesh`).
+    F : npt.ArrayLike | None
+        m x 3 vertex indices.
+    progress : Progress
+        a `Control` or a callback.
 
-    Returns:
+    Returns
+    -------
+    npt.NDArray[np.float64]
         m x 3: one of the four directions in each face, a unit vector.
 
-    Raises:
-        ArgumentError: a mesh without positions; features or strokes that do not exist.
+    Raises
+    ------
+    ArgumentError
+        a mesh without positions; features or strokes that do not exist.
+
+    Examples
+    --------
+    >>> ricci.cross_field(ricci.make("sphere", n=4)).shape
+    (320, 3)
     """
+    given = picked(locals(), SeamlessOptions)
     mesh = as_mesh(V, F)
     struct = options("seamless_options", given, _SEAMLESS)
     return filled(lib.ricci_seamless_field, mesh, struct, CONTROL, out=np.empty((mesh.summary.n_faces, 3)), progress=progress)

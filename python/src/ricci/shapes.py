@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, Literal, TypeAlias, TypedDict, Unpack
+from typing import Any, Literal, TypeAlias, TypedDict
 
 import numpy as np
 import numpy.typing as npt
@@ -11,8 +11,9 @@ import numpy.typing as npt
 from ricci import _arrays
 from ricci._call import Complexes, constant, doubles, pointer
 from ricci._library import lib
+from ricci._signatures import picked, takes
 from ricci._structs import Struct, Write, known, number, options, real_list
-from ricci.errors import ArgumentError
+from ricci.errors import ArgumentError, ArgumentTypeError
 from ricci.mesh import Mesh
 
 __all__ = ["ChangeOptions", "ShapeOptions", "change", "hyperelliptic_periods", "make"]
@@ -37,18 +38,28 @@ Change: TypeAlias = Literal["punch", "grade", "caps", "needles", "noise", "inver
 
 
 class ShapeOptions(TypedDict, total=False):
-    """Sizes of a surface; `shapes.h` describes them for each shape. Left out: as the command `ricci make` has them.
+    """Sizes of a surface; `make` says which ones a shape has. Left out: as the command `ricci make` has them.
 
-    Attributes:
-        genus: number of handles, at least 1.
-        n: resolution.
-        m: resolution in the other direction.
-        a: first size.
-        b: second size.
-        c: third size.
-        p: times around the axis, of a knot.
-        q: times around the tube, of a knot.
-        points: complex branch points, of a hyperelliptic surface.
+    Attributes
+    ----------
+    genus : int
+        number of handles, at least 1.
+    n : int
+        resolution.
+    m : int
+        resolution in the other direction.
+    a : float
+        first size.
+    b : float
+        second size.
+    c : float
+        third size.
+    p : int
+        times around the axis, of a knot.
+    q : int
+        times around the tube, of a knot.
+    points : npt.ArrayLike
+        complex branch points, of a hyperelliptic surface.
     """
 
     genus: int
@@ -63,14 +74,20 @@ class ShapeOptions(TypedDict, total=False):
 
 
 class ChangeOptions(TypedDict, total=False):
-    """Arguments of a change; `shapes.h` describes them for each change.
+    """Arguments of a change; `change` says which ones it needs.
 
-    Attributes:
-        vertex: a vertex.
-        count: how many, or how often.
-        amount: how much.
-        seed: chooses what is random.
-        centre: a point in space.
+    Attributes
+    ----------
+    vertex : int
+        a vertex.
+    count : int
+        how many, or how often.
+    amount : float
+        how much.
+    seed : int
+        chooses what is random.
+    centre : npt.ArrayLike
+        a point in space.
     """
 
     vertex: int
@@ -134,8 +151,11 @@ def _sizes(shape: str, given: Mapping[str, Any]) -> dict[str, Any]:
 
 def _pairs(points: npt.ArrayLike) -> npt.NDArray[np.float64]:
     """Complex numbers as rows of real and imaginary parts."""
-    array = np.ascontiguousarray(points, dtype=np.complex128)
-    return array.view(np.float64).reshape(-1, 2)
+    array = np.asarray(points)
+    if array.dtype.kind not in "biufc" or array.ndim != 1:
+        what = "texts" if array.dtype.kind in "US" else f"{array.dtype} of shape {array.shape}"
+        raise ArgumentTypeError(f"points are {what}: a list of complex numbers is needed")
+    return np.ascontiguousarray(array, dtype=np.complex128).view(np.float64).reshape(-1, 2)
 
 
 def _points(struct: Struct, field: str, value: Any) -> None:
@@ -150,24 +170,96 @@ _SHAPE: dict[str, Write] = {**dict.fromkeys(ShapeOptions.__annotations__, number
 _CHANGE: dict[str, Write] = {**dict.fromkeys(ChangeOptions.__annotations__, number), "centre": _centre, "change": number}
 
 
-def make(shape: Shape, **sizes: Unpack[ShapeOptions]) -> Mesh:
+@takes(ShapeOptions)
+def make(
+    shape: Shape,
+    *,
+    genus: int | None = None,
+    n: int | None = None,
+    m: int | None = None,
+    a: float | None = None,
+    b: float | None = None,
+    c: float | None = None,
+    p: int | None = None,
+    q: int | None = None,
+    points: npt.ArrayLike | None = None,
+) -> Mesh:
     """A sample surface: ``make("torus")``, or ``make("torus", a=2, b=1, n=48, m=24)``.
 
-    Args:
-        shape: which one; those from ``"flat_torus"`` on are intrinsic: gluings with lengths, without positions.
-        sizes: as the shape uses them; those that are left out are the defaults of the command `ricci make`.
+    Parameters
+    ----------
+    shape : Shape
+        which one, with the sizes that it has:
+
+        - ``"sphere"``: n. An icosahedron with each edge cut into n, on the unit sphere.
+        - ``"ellipsoid"``: a, b, c, n. The sphere scaled along x, y, z.
+        - ``"disk"``: n. A centre and n rings in the plane.
+        - ``"annulus"``: a, b, n, m. Inner and outer radius, steps outwards in geometric progression, vertices around.
+        - ``"torus"``: a, b, n, m. Radii of the centre circle and of the tube, vertices around the axis and around the tube.
+        - ``"genus"``: genus, a, n. Handles in a row, the first hole a times as wide as the last, n layers over a quarter of the tube.
+        - ``"knot"``: p, q, a, b, c, n, m. A tube of radius c around the curve that goes p times around the axis and q times around the
+          tube of a torus of radii a and b; n cross-sections, m vertices around.
+
+        These are intrinsic, gluings with lengths without positions:
+
+        - ``"flat_torus"``: a, b, n, m. Periods 1 and a + i b, of n x m parallelograms.
+        - ``"bolza"``: n. The regular hyperbolic octagon with opposite sides glued, every triangle cut into four n times.
+        - ``"one_vertex"``, ``"two_vertex"``: genus. A regular polygon with its sides glued, cut by diagonals or from its centre.
+        - ``"two_triangles"``. Glued along their sides.
+        - ``"pants"``: a, b, c, n. The hyperbolic surface with three geodesic boundaries of these lengths.
+        - ``"hyperelliptic"``: points, n. The double cover of the round sphere branched over these points; 40 n^2 faces.
+
+    Examples
+    --------
+    >>> ricci.make("genus", genus=3)
+    <ricci.Mesh: 4604 vertices, 9216 faces, genus 3, 0 boundary loops>
+    >>> ricci.make("flat_torus", a=0.5, b=1.2, n=8, m=8)
+    <ricci.Mesh: 64 vertices, 128 faces, genus 1, 0 boundary loops>
     """
+    sizes = picked(locals(), ShapeOptions)
     number_of = constant("SHAPE", shape)
     known(sizes, ShapeOptions.__annotations__)
     return Mesh._made(lib.ricci_make, options("shape", {**_sizes(shape, sizes), "shape": number_of}, _SHAPE))
 
 
-def change(mesh: Mesh, what: Change, **how: Unpack[ChangeOptions]) -> Mesh:
+@takes(ChangeOptions)
+def change(
+    mesh: Mesh,
+    what: Change,
+    *,
+    vertex: int | None = None,
+    count: int | None = None,
+    amount: float | None = None,
+    seed: int | None = None,
+    centre: npt.ArrayLike | None = None,
+) -> Mesh:
     """A changed copy of a surface in space, without its attributes: ``change(mesh, "punch", count=3)`` cuts three holes.
 
-    Raises:
-        ArgumentError: an argument that the change needs is not given.
+    Parameters
+    ----------
+    mesh : Mesh
+        the surface.
+    what : Change
+        what is done, with the arguments that it needs; new vertices come last:
+
+        - ``"punch"``: count. Cuts round holes, as far from each other and from the boundary as the vertices allow.
+        - ``"grade"``: vertex, count. Halves the edges around the vertex, then those of the smaller triangles around it, count times.
+        - ``"caps"``, ``"needles"``: count, amount, seed. Cuts faces into three by a vertex near the middle of a side, or near a corner;
+          the amount is the smallest angle or the length of the short edge.
+        - ``"noise"``: amount, seed. Moves every vertex by up to this share of the mean edge length in each coordinate.
+        - ``"invert"``: centre, amount. Maps by the inversion in the sphere of this centre and radius; faces keep their outside.
+
+    Raises
+    ------
+    ArgumentError
+        an argument that the change needs is not given.
+
+    Examples
+    --------
+    >>> ricci.change(ricci.make("sphere"), "punch", count=3)
+    <ricci.Mesh: 2313 vertices, 4528 faces, genus 0, 3 boundary loops>
     """
+    how = picked(locals(), ChangeOptions)
     number_of = constant("CHANGE", what)
     known(how, ChangeOptions.__annotations__)
     missing = [name for name in _NEEDS[what] if how.get(name) is None]
@@ -179,8 +271,15 @@ def change(mesh: Mesh, what: Change, **how: Unpack[ChangeOptions]) -> Mesh:
 def hyperelliptic_periods(points: npt.ArrayLike) -> Complexes:
     """The g x g period matrix of the curve y^2 = (x - e_1) (x - e_2) ..., in some symplectic basis of cycles.
 
-    Args:
-        points: the finite branch points e_j, complex, all different: 2 g + 1, or 2 g + 2.
+    Parameters
+    ----------
+    points : npt.ArrayLike
+        the finite branch points e_j, complex, all different: 2 g + 1, or 2 g + 2.
+
+    Examples
+    --------
+    >>> ricci.hyperelliptic_periods([-1, 0, 1]).round(6)
+    array([[-0.+1.j]])
     """
     pairs = _pairs(points)
     genus = (len(pairs) - 1) // 2

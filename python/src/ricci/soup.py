@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, ClassVar, Literal, Self, TypedDict, Unpack
+from typing import Any, ClassVar, Literal, Self, TypedDict
 
 import numpy as np
 import numpy.typing as npt
@@ -29,6 +29,8 @@ from ricci._call import (
     text_of,
 )
 from ricci._library import ffi, lib
+from ricci._shown import Scene
+from ricci._signatures import picked, takes
 from ricci._structs import Struct, Write, above_zero, index_list, number, options
 from ricci._triangles import Triangles
 from ricci.control import Progress
@@ -42,15 +44,24 @@ __all__ = ["Defect", "Hole", "Loop", "RepairOptions", "Soup"]
 class RepairOptions(TypedDict, total=False):
     """Steps of a repair that are done on request only.
 
-    Attributes:
-        weld: vertices within this distance become one; 0: those in exactly the same place; negative: none.
-        component: keep one connected piece: 1 is that with the most faces, 2 the next; 0: all.
-        cut_non_manifold_edges: cut the surface open along edges in which more than two faces meet.
-        drop_non_finite: drop the faces of vertices whose coordinates are not finite, which are an error otherwise.
-        split_t_junctions: divide faces at vertices that lie on their boundary edges, before welding.
-        mend_zero_area: mend faces without area by collapses and flips; vertices keep their places.
-        fill_holes: fill the boundary loops of at most so many edges, or ``"all"``.
-        holes: in place of it, vertices: the loops through them are filled.
+    Attributes
+    ----------
+    weld : float
+        vertices within this distance become one; 0: those in exactly the same place; negative: none.
+    component : int
+        keep one connected piece: 1 is that with the most faces, 2 the next; 0: all.
+    cut_non_manifold_edges : bool
+        cut the surface open along edges in which more than two faces meet.
+    drop_non_finite : bool
+        drop the faces of vertices whose coordinates are not finite, which are an error otherwise.
+    split_t_junctions : bool
+        divide faces at vertices that lie on their boundary edges, before welding.
+    mend_zero_area : bool
+        mend faces without area by collapses and flips; vertices keep their places.
+    fill_holes : int | Literal["all"]
+        fill the boundary loops of at most so many edges, or ``"all"``.
+    holes : npt.ArrayLike
+        in place of it, vertices: the loops through them are filled.
     """
 
     weld: float
@@ -78,12 +89,24 @@ _REPAIR: dict[str, Write] = {
 class Defect:
     """One defect of a triangle list.
 
-    Attributes:
-        code: stable name of the kind of defect, such as ``"non_manifold_edge"``.
-        message: one sentence with the elements concerned.
-        remedy: what to do about it.
-        vertices: the vertices concerned, a view of the library's own memory.
-        faces: the faces concerned, likewise.
+    Attributes
+    ----------
+    code : str
+        stable name of the kind of defect, such as ``"non_manifold_edge"``.
+    message : str
+        one sentence with the elements concerned.
+    remedy : str
+        what to do about it.
+    vertices : Indices
+        the vertices concerned, a view of the library's own memory.
+    faces : Indices
+        the faces concerned, likewise.
+
+    Examples
+    --------
+    >>> soup = ricci.Soup([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2], [0, 1, 5]])
+    >>> soup.defects[0].message
+    'face 1 uses vertex 5, which does not exist'
     """
 
     code: str
@@ -97,9 +120,18 @@ class Defect:
 class Loop:
     """A boundary loop.
 
-    Attributes:
-        length: its length; NaN if a vertex is not finite.
-        vertices: its vertices, in the direction of the faces beside it.
+    Attributes
+    ----------
+    length : float
+        its length; NaN if a vertex is not finite.
+    vertices : Indices
+        its vertices, in the direction of the faces beside it.
+
+    Examples
+    --------
+    >>> soup = ricci.Soup([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+    >>> soup.loops[0].vertices.tolist()
+    [0, 1, 2]
     """
 
     length: float
@@ -110,15 +142,30 @@ class Loop:
 class Hole:
     """A hole that a repair was asked to fill.
 
-    Attributes:
-        filled: False where it was left open.
-        reason: the reason for that; empty where it was filled.
-        vertex: the vertex of its loop with the lowest number, in the repaired list.
-        n_edges: number of edges of its loop.
-        length: length of the loop; NaN where it was left open, as the area.
-        area: area of the patch.
-        faces: the faces of the patch.
-        vertices: the vertices inside the patch.
+    Attributes
+    ----------
+    filled : bool
+        False where it was left open.
+    reason : str
+        the reason for that; empty where it was filled.
+    vertex : int
+        the vertex of its loop with the lowest number, in the repaired list.
+    n_edges : int
+        number of edges of its loop.
+    length : float
+        length of the loop; NaN where it was left open, as the area.
+    area : float
+        area of the patch.
+    faces : range
+        the faces of the patch.
+    vertices : range
+        the vertices inside the patch.
+
+    Examples
+    --------
+    >>> soup = ricci.Soup([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+    >>> soup.repair(fill_holes="all").holes[0].n_edges
+    3
     """
 
     filled: bool
@@ -147,13 +194,25 @@ def _view(owner: Handle, address: Any, n: int) -> Indices:
 class Soup(Triangles):
     """A triangle list with attributes, which may have defects; a repaired one knows the origins of its elements. It never changes.
 
-    Args:
-        V: n x 3 positions.
-        F: m x 3 vertex indices; nothing is asked of them.
+    Parameters
+    ----------
+    V : npt.ArrayLike
+        n x 3 positions.
+    F : npt.ArrayLike
+        m x 3 vertex indices; nothing is asked of them.
+
+    Examples
+    --------
+    >>> soup = ricci.Soup([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2], [0, 1, 2]])
+    >>> [defect.code for defect in soup.defects]
+    ['duplicate_face', 'inconsistent_orientation', 'inconsistent_orientation', 'inconsistent_orientation']
+    >>> soup.repair().mesh()
+    <ricci.Mesh: 3 vertices, 1 faces, genus 0, 1 boundary loops>
     """
 
     _type: ClassVar[str] = "soup"
     _made_by: ClassVar[str] = "ricci.Soup(V, F)"
+    _figures: ClassVar[tuple[str, ...]] = ("n_vertices", "n_faces", "n_components", "n_defects", "n_boundary_loops", "euler")
     _faces_of: ClassVar[Any] = lib.ricci_soup_faces
     _values_of: ClassVar[Any] = lib.ricci_soup_values
 
@@ -162,11 +221,18 @@ class Soup(Triangles):
         made = Soup._made(lib.ricci_soup_from_arrays, pointer(positions), positions.strides[0], len(positions), pointer(faces), len(faces))
         self._pointer = made._pointer
 
+    def _scene(self) -> Scene | None:
+        # Indices and numbers of a list need not be any.
+        sound = (len(self.V) > self.F).all(1) & (self.F >= 0).all(1)
+        return Scene(self.V, self.F[sound]) if len(self.V) else None
+
     def __reduce__(self) -> Any:
         """The arrays of the list.
 
-        Raises:
-            TypeError: a list with attributes, or a repaired one, whose origins arrays cannot say.
+        Raises
+        ------
+        TypeError
+            a list with attributes, or a repaired one, whose origins arrays cannot say.
         """
         s = self.summary
         if s.n_normals + s.n_colors + s.n_uv + s.n_corner_normals or self._is_repaired():
@@ -182,16 +248,32 @@ class Soup(Triangles):
         """Write the list as .obj, .off, .ply or .glb, whole or not at all. It may have defects."""
         call(lib.ricci_soup_write, self, path_bytes(path), progress=progress)
 
-    def repair(self, **given: Unpack[RepairOptions]) -> Soup:
+    @takes(RepairOptions)
+    def repair(
+        self,
+        *,
+        weld: float | None = None,
+        component: int | None = None,
+        cut_non_manifold_edges: bool = False,
+        drop_non_finite: bool = False,
+        split_t_junctions: bool = False,
+        mend_zero_area: bool = False,
+        fill_holes: int | Literal["all"] | None = None,
+        holes: npt.ArrayLike | None = None,
+    ) -> Soup:
         """The list after every repair that takes no guess. Defects that are left are a result, not an error."""
+        given = picked(locals(), RepairOptions)
         return Soup._made(lib.ricci_soup_repair, self, options("repair_options", given, _REPAIR))
 
     def refine(self, levels: int = 0, longest_edge: float | None = None) -> Soup:
         """The same surface in smaller triangles, attributes interpolated; `places` says where its elements lie in this list.
 
-        Args:
-            levels: the number of times that every face is cut into four.
-            longest_edge: the length above which no edge is left; None: any.
+        Parameters
+        ----------
+        levels : int
+            the number of times that every face is cut into four.
+        longest_edge : float | None
+            the length above which no edge is left; None: any.
         """
         struct = Struct("refine_options")
         struct.put("levels", levels)
@@ -213,8 +295,10 @@ class Soup(Triangles):
     def mesh(self) -> Mesh:
         """The mesh of a list without defects, with its attributes.
 
-        Raises:
-            MeshError: there are defects.
+        Raises
+        ------
+        MeshError
+            there are defects.
         """
         return Mesh._made(lib.ricci_soup_mesh, self)
 

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
 from functools import cached_property
-from typing import Any, ClassVar, Literal, Self, TypedDict, Unpack
+from typing import Any, ClassVar, Literal, Self, TypedDict
 
 import numpy as np
 import numpy.typing as npt
@@ -29,6 +28,8 @@ from ricci._call import (
     text_of,
 )
 from ricci._library import lib
+from ricci._shown import Scene
+from ricci._signatures import picked, takes
 from ricci._structs import Struct, Write, above_zero, index_list, options, or_none, real_list
 from ricci.adapters import MeshLike, as_mesh
 from ricci.control import Progress
@@ -37,7 +38,7 @@ from ricci.figures import SplineSummary
 from ricci.mesh import Mesh
 from ricci.metrics import Metric
 
-__all__ = ["PlaneOptions", "Spline", "SurfaceOptions", "flat_metric", "spline", "spline_domain"]
+__all__ = ["PlaneOptions", "Spline", "SurfaceOptions", "spline"]
 
 # Columns that the library writes for each place.
 _COLUMNS = {"point": 3, "first": 9, "second": 18, "shape": 5}
@@ -46,12 +47,18 @@ _COLUMNS = {"point": 3, "first": 9, "second": 18, "shape": 5}
 class PlaneOptions(TypedDict, total=False):
     """The basis functions of a spline over a domain in the plane.
 
-    Attributes:
-        degree: 1 to 5; 3.
-        knots: n x (degree + 1) x 2, the first of a vertex the vertex itself.
-        coincident: vertices whose knots coincide.
-        creases: k x 2 vertices: edges across which the spline may have a crease.
-        spread: distance of the farthest knots from their vertex over the radius of the smallest circle in a face there; 0.5.
+    Attributes
+    ----------
+    degree : int
+        1 to 5; 3.
+    knots : npt.ArrayLike
+        n x (degree + 1) x 2, the first of a vertex the vertex itself.
+    coincident : npt.ArrayLike
+        vertices whose knots coincide.
+    creases : npt.ArrayLike
+        k x 2 vertices: edges across which the spline may have a crease.
+    spread : float
+        distance of the farthest knots from their vertex over the radius of the smallest circle in a face there; 0.5.
     """
 
     degree: int
@@ -64,16 +71,25 @@ class PlaneOptions(TypedDict, total=False):
 class SurfaceOptions(TypedDict, total=False):
     """Options of a fit of a spline to a whole surface.
 
-    Attributes:
-        degree: 1 to 5; 3.
-        control_points: their number, at most; a quarter of the vertices, and where no such spline holds twice and four times as
-            many, up to 4000.
-        tolerance: largest distance of a vertex over the diagonal at which no further round is made; 0.01.
-        fairness: weight of the variation of bending in the first round; chosen by cross-validation.
-        spread: least distance of knots from their vertex; 0.9.
-        rounds: times that the sizes of the triangles are adapted to the errors; 6.
-        corrections: times at most that vertices are moved to the nearest points of the spline; 20; 0: none.
-        threads: one per core. The result does not depend on it.
+    Attributes
+    ----------
+    degree : int
+        1 to 5; 3.
+    control_points : int
+        their number, at most; a quarter of the vertices, and where no such spline holds twice and four times as
+        many, up to 4000.
+    tolerance : float
+        largest distance of a vertex over the diagonal at which no further round is made; 0.01.
+    fairness : float
+        weight of the variation of bending in the first round; chosen by cross-validation.
+    spread : float
+        least distance of knots from their vertex; 0.9.
+    rounds : int
+        times that the sizes of the triangles are adapted to the errors; 6.
+    corrections : int
+        times at most that vertices are moved to the nearest points of the spline; 20; 0: none.
+    threads : int
+        one per core. The result does not depend on it.
     """
 
     degree: int
@@ -111,18 +127,42 @@ def _places(parameters: npt.ArrayLike, patches: npt.ArrayLike | None) -> Struct:
 
 
 class Spline(Handle):
-    """A spline surface: basis functions over a domain, with a control point each. It never changes."""
+    """A spline surface: basis functions over a domain, with a control point each. It never changes.
+
+    Examples
+    --------
+    >>> flat = ricci.Spline.plane(ricci.make("disk", n=2), degree=2)
+    >>> flat.evaluate([[0.1, 0.2]]).round(12)
+    array([[0.1, 0.2, 0. ]])
+    """
 
     _type: ClassVar[str] = "spline"
     _made_by: ClassVar[str] = "ricci.spline(mesh)"
+    _figures: ClassVar[tuple[str, ...]] = ("degree", "n_patches", "n_control_points", "fit_rms", "fit_max", "n_folded_patches")
+
+    def _scene(self) -> Scene | None:
+        return self.tessellate(6)._scene()
 
     @classmethod
-    def plane(cls, domain: MeshLike, **given: Unpack[PlaneOptions]) -> Self:
+    @takes(PlaneOptions)
+    def plane(
+        cls,
+        domain: MeshLike,
+        *,
+        degree: int | None = None,
+        knots: npt.ArrayLike | None = None,
+        coincident: npt.ArrayLike | None = None,
+        creases: npt.ArrayLike | None = None,
+        spread: float | None = None,
+    ) -> Self:
         """A spline over a mesh that lies over the plane without folds; its surface is the plane z = 0.
 
-        Raises:
-            SplineError: a clockwise face, knots that give no basis.
+        Raises
+        ------
+        SplineError
+            a clockwise face, knots that give no basis.
         """
+        given = picked(locals(), PlaneOptions)
         mesh = as_mesh(domain)
         knots = given.get("knots")
         if knots is not None and np.size(knots) != mesh.n_vertices * (given.get("degree", 3) + 1) * 2:
@@ -130,25 +170,60 @@ class Spline(Handle):
         return cls._made(lib.ricci_spline_new, mesh, options("spline_spec", given, _PLANE))
 
     @classmethod
-    def of_surface(cls, flat: Metric, progress: Progress = None, **given: Unpack[SurfaceOptions]) -> Self:
+    @takes(SurfaceOptions)
+    def of_surface(
+        cls,
+        flat: Metric,
+        progress: Progress = None,
+        *,
+        degree: int | None = None,
+        control_points: int | None = None,
+        tolerance: float | None = None,
+        fairness: float | None = None,
+        spread: float | None = None,
+        rounds: int | None = None,
+        corrections: int | None = None,
+        threads: int | None = None,
+    ) -> Self:
         """A spline near the vertices of a whole surface, on a metric that a flow made flat, up to singular vertices.
 
-        Raises:
-            ArgumentError: the metric is not Euclidean.
+        Raises
+        ------
+        ArgumentError
+            the metric is not Euclidean.
         """
+        given = picked(locals(), SurfaceOptions)
         return cls._made(lib.ricci_spline_fit_surface, flat, options("spline_surface_options", given, _SURFACE), CONTROL, progress=progress)
 
     @classmethod
-    def of_mesh(cls, surface: MeshLike, progress: Progress = None, **given: Unpack[SurfaceOptions]) -> Self:
+    @takes(SurfaceOptions)
+    def of_mesh(
+        cls,
+        surface: MeshLike,
+        progress: Progress = None,
+        *,
+        degree: int | None = None,
+        control_points: int | None = None,
+        tolerance: float | None = None,
+        fairness: float | None = None,
+        spread: float | None = None,
+        rounds: int | None = None,
+        corrections: int | None = None,
+        threads: int | None = None,
+    ) -> Self:
         """A spline near the vertices of a whole surface of any topology, on flat metrics that are made for it.
 
         The first is the usual one, in which a sphere has a vertex at infinity; those with more singular vertices follow until a fit
         holds, and the best is kept. `summary.converged` says whether it holds.
 
-        Raises:
-            ArgumentError: a surface without positions.
-            LayoutError: no flow to a flat metric converged.
+        Raises
+        ------
+        ArgumentError
+            a surface without positions.
+        LayoutError
+            no flow to a flat metric converged.
         """
+        given = picked(locals(), SurfaceOptions)
         mesh = as_mesh(surface)
         return cls._made(lib.ricci_spline_fit_mesh, mesh, options("spline_surface_options", given, _SURFACE), CONTROL, progress=progress)
 
@@ -184,16 +259,32 @@ class Spline(Handle):
         array = _arrays.real(coefficients, 3, "coefficients")
         return Spline._made(lib.ricci_spline_with_polynomial, self, pointer(array), len(array))
 
-    def fit(self, points: npt.ArrayLike, places: npt.ArrayLike | None = None, progress: Progress = None, **how: float) -> Spline:
+    def fit(
+        self,
+        points: npt.ArrayLike,
+        places: npt.ArrayLike | None = None,
+        progress: Progress = None,
+        *,
+        fairness: float | None = None,
+        threads: int | None = None,
+    ) -> Spline:
         """The surface that is nearest to points in the sense of least squares.
 
-        Args:
-            points: k x 3.
-            places: k x 2, where in the spline they belong; None: over their own x and y.
-            progress: a `Control` or a callback.
-            how: `fairness`, the weight of the variation of bending (1e-12; 0: none), and `threads`.
+        Parameters
+        ----------
+        points : npt.ArrayLike
+            k x 3.
+        places : npt.ArrayLike | None
+            k x 2, where in the spline they belong; None: over their own x and y.
+        progress : Progress
+            a `Control` or a callback.
+        fairness : float | None
+            the weight of the variation of bending; 1e-12; 0: none.
+        threads : int | None
+            one per core. The result does not depend on it.
         """
         array = _arrays.real(points, 3, "points")
+        how = {"fairness": fairness, "threads": threads}
         struct = options("spline_fit_options", how, {"fairness": or_none, "threads": above_zero})
         if places is not None:
             struct.put("places", _places(places, None))
@@ -249,15 +340,22 @@ class Spline(Handle):
     ) -> Doubles:
         """Points of the surface with derivatives, normals or curvatures, in parallel.
 
-        Args:
-            parameters: k x 2, x and y of each place.
-            patches: the patch of each place; None: the one in which it lies, of a spline over the plane.
-            what: ``"point"``: k x 3; ``"first"``: k x 3 x 3, the point, its derivatives by x and y; ``"second"``: k x 6 x 3, those and
-                xx, xy, yy; ``"shape"``: k x 5, the unit normal and the principal curvatures, the larger one first.
-            progress: a `Control` or a callback.
+        Parameters
+        ----------
+        parameters : npt.ArrayLike
+            k x 2, x and y of each place.
+        patches : npt.ArrayLike | None
+            the patch of each place; None: the one in which it lies, of a spline over the plane.
+        what : Literal["point", "first", "second", "shape"]
+            ``"point"``: k x 3; ``"first"``: k x 3 x 3, the point, its derivatives by x and y; ``"second"``: k x 6 x 3, those and
+            xx, xy, yy; ``"shape"``: k x 5, the unit normal and the principal curvatures, the larger one first.
+        progress : Progress
+            a `Control` or a callback.
 
-        Raises:
-            SplineError: a place outside; the index is its number.
+        Raises
+        ------
+        SplineError
+            a place outside; the index is its number.
         """
         which = constant("SPLINE", what, tuple(_COLUMNS))
         struct = _places(parameters, patches)
@@ -300,58 +398,39 @@ class Spline(Handle):
         return f"<ricci.Spline: degree {s.degree}, {s.n_patches} patches, {s.n_control_points} control points>"
 
 
-def spline_domain(polygons: Sequence[npt.ArrayLike], edge: float) -> Mesh:
-    """Triangles inside polygons, as the domain of a spline: a mesh in the plane z = 0.
-
-    Args:
-        polygons: the corners of each, k x 2; the inside is what an odd number of them winds around.
-        edge: triangles are about as large as equilateral ones with this edge.
-
-    Raises:
-        SplineError: a polygon that crosses itself or another one.
-    """
-    parts = [_arrays.real(part, 2, "polygons") for part in polygons]
-    corners = np.concatenate(parts)
-    starts = np.concatenate([[0], np.cumsum([len(part) for part in parts])]).astype(np.uintp)
-    return Mesh._made(lib.ricci_spline_domain, pointer(corners), pointer(starts), len(parts), edge)
-
-
-def flat_metric(mesh: Mesh, singular: int | str | npt.ArrayLike = "auto", range: float = 30.0, progress: Progress = None) -> Metric:
-    """The flat metric of a surface on which a spline lives: its curvature is at singular vertices inside, and at corners of the boundary.
-
-    Args:
-        mesh: a surface.
-        singular: "auto" for as few as keep lengths within a factor `range` of each other; their number; or the vertices.
-        range: that factor, above 1.
-        progress: a `Control` or a callback.
-
-    Raises:
-        ArgumentError: a sphere with fewer than three singular vertices, or too few vertices for three (500 each).
-    """
-    mesh = as_mesh(mesh)
-    vertices = None if isinstance(singular, (int, str)) else np.ascontiguousarray(singular, dtype=np.uint32)
-    if isinstance(singular, str) and singular != "auto":
-        raise ArgumentError(f'singular is {singular!r}: "auto", a number or vertices')
-    # The largest size_t stands for as few as are needed.
-    number = 2**64 - 1
-    if vertices is not None:
-        number = len(vertices)
-    elif isinstance(singular, int):
-        number = singular
-    curvatures = np.empty(mesh.n_vertices)
-    filled(lib.ricci_spline_curvatures, mesh, pointer(vertices), number, float(range), CONTROL, out=curvatures, progress=progress)
-    return Metric(mesh).flow(curvatures, progress)
-
-
-def spline(V: MeshLike, F: npt.ArrayLike | None = None, progress: Progress = None, **given: Unpack[SurfaceOptions]) -> Spline:
+@takes(SurfaceOptions)
+def spline(
+    V: MeshLike,
+    F: npt.ArrayLike | None = None,
+    progress: Progress = None,
+    *,
+    degree: int | None = None,
+    control_points: int | None = None,
+    tolerance: float | None = None,
+    fairness: float | None = None,
+    spread: float | None = None,
+    rounds: int | None = None,
+    corrections: int | None = None,
+    threads: int | None = None,
+) -> Spline:
     """A spline near the vertices of a whole surface, with as few singular vertices as its shape needs.
 
-    Args:
-        V: n x 3 positions with `F`, a mesh of any kind (`as_mesh`), or a `Metric` that a flow made flat.
-        F: m x 3 vertex indices.
-        progress: a `Control` or a callback.
-        given: degree, number of control points, tolerance (`SurfaceOptions`).
+    Parameters
+    ----------
+    V : MeshLike
+        n x 3 positions with `F`, a mesh of any kind (`as_mesh`), or a `Metric` that a flow made flat.
+    F : npt.ArrayLike | None
+        m x 3 vertex indices.
+    progress : Progress
+        a `Control` or a callback.
+
+    Examples
+    --------
+    >>> ring = ricci.spline(ricci.make("torus", n=24), rounds=1)
+    >>> ring.summary.degree
+    3
     """
+    given = picked(locals(), SurfaceOptions)
     if isinstance(V, Metric):
         return Spline.of_surface(V, progress, **given)
     return Spline.of_mesh(as_mesh(V, F), progress, **given)

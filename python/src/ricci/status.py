@@ -10,7 +10,13 @@ __all__ = ["Status"]
 
 
 class Status(IntEnum):
-    """The statuses of the library. A number is never given out again."""
+    """The statuses of the library. A number is never given out again.
+
+    Examples
+    --------
+    >>> ricci.Status.OK.text
+    'done'
+    """
 
     OK = 0
     WRONG_SIZE = 1

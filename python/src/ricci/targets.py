@@ -46,8 +46,10 @@ def _rule(struct: Struct, text: str) -> None:
 def target_struct(target: TargetLike) -> Struct:
     """The struct of a target.
 
-    Raises:
-        ArgumentError: a rule that there is not.
+    Raises
+    ------
+    ArgumentError
+        a rule that there is not.
     """
     struct = Struct("target")
     if target is None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import Any, ClassVar, Literal, TypedDict, Unpack
+from typing import Any, ClassVar, Literal, TypedDict
 
 import numpy as np
 import numpy.typing as npt
@@ -12,10 +12,12 @@ from ricci import _arrays
 from ricci._arrays import frozen
 from ricci._call import CONTROL, Doubles, Handle, Indices, Signed, call, constant, doubles, pointer, summary
 from ricci._library import ffi, lib
+from ricci._shown import Scene
+from ricci._signatures import picked, takes
 from ricci._structs import Write, choice, index_list, nested, one_index, options, real_list
 from ricci.adapters import MeshLike, as_mesh
 from ricci.control import Progress
-from ricci.errors import ArgumentError, warn
+from ricci.errors import ArgumentError, LayoutError, warn
 from ricci.figures import UniformSummary
 from ricci.figures.names import Model, On, Scheme
 from ricci.fundamental import Domain, Homotopy
@@ -29,15 +31,23 @@ __all__ = ["Uniform", "UniformOptions", "uniformize"]
 class UniformOptions(TypedDict, total=False):
     """Options of a uniformization.
 
-    Attributes:
-        flow: how the flow is done; a sphere takes tolerance, max_iterations and threads, or with the method ``"gradient"``, by which it
-            flows in S2, all of them.
-        start: where the flow starts, such as another flow's result.
-        base: the vertex at a quotient's origin; of a sphere that which is sent to infinity.
-        scheme: spheres have ``"yamabe"``, but for those that flow in S2.
-        boundary: the shape that the boundary is given: ``"geodesic"`` loops, or ``"straight"`` sides between corners.
-        corners: vertices of the boundary, for straight sides; a number of them: as many are chosen.
-        corner_angles: angles inside the corners, radians; 0: those without one share what is left.
+    Attributes
+    ----------
+    flow : FlowOptions
+        how the flow is done; a sphere takes tolerance, max_iterations and threads, or with the method ``"gradient"``, by which it
+        flows in S2, all of them.
+    start : Metric
+        where the flow starts, such as another flow's result.
+    base : int
+        the vertex at a quotient's origin; of a sphere that which is sent to infinity.
+    scheme : Scheme
+        spheres have ``"yamabe"``, but for those that flow in S2.
+    boundary : Literal["geodesic", "straight"]
+        the shape that the boundary is given: ``"geodesic"`` loops, or ``"straight"`` sides between corners.
+    corners : npt.ArrayLike | int
+        vertices of the boundary, for straight sides; a number of them: as many are chosen.
+    corner_angles : npt.ArrayLike
+        angles inside the corners, radians; 0: those without one share what is left.
     """
 
     flow: FlowOptions
@@ -75,10 +85,34 @@ class Uniform(Handle):
 
     Closed of genus 0: a convex polyhedron inscribed in the unit sphere. Others: the quotient of the plane or the hyperbolic plane by a
     deck group, with a layout about a base vertex. Points there are ambient coordinates (x, y, w); `ricci.models` converts them.
+
+    Examples
+    --------
+    >>> ring = ricci.uniformize(ricci.make("flat_torus", a=0.2, b=1.5, n=8, m=8))
+    >>> round(ring.summary.modulus.real, 6), round(ring.summary.modulus.imag, 6)
+    (0.2, 1.5)
     """
+
+    # The mesh that was uniformized, which is shown.
+    _input: Mesh
 
     _type: ClassVar[str] = "uniform"
     _made_by: ClassVar[str] = "ricci.uniformize(mesh)"
+    _figures: ClassVar[tuple[str, ...]] = ("genus", "space", "stop_reason", "iterations", "max_curvature_error", "modulus")
+
+    def _sides(self) -> tuple[Any, ...]:
+        """The surface and its image in the plane or the hyperbolic plane; of a sphere the given mesh and the unit sphere."""
+        if self.summary.space != "s2":
+            return self.layout()._sides()
+        if not self._input.summary.has_positions:
+            raise LayoutError("an intrinsic surface has no places in space that could be shown")
+        return self._input.V, self._input.F, self.sphere_points(), np.arange(self._input.n_vertices), {}
+
+    def _scene(self) -> Scene | None:
+        if self.summary.space == "s2":
+            sphere = self.sphere_mesh()
+            return Scene(sphere.V, sphere.F)
+        return self.layout()._scene()
 
     @cached_property
     def summary(self) -> UniformSummary:
@@ -108,8 +142,10 @@ class Uniform(Handle):
     def layout(self, on: On = "refinement", model: Model = "poincare", progress: Progress = None) -> Layout:
         """The layout of a quotient about its base, on the common subdivision or on ``"metric"``, its own triangulation.
 
-        Raises:
-            LayoutError: a sphere, whose points are `sphere_points`; ``"input"``.
+        Raises
+        ------
+        LayoutError
+            a sphere, whose points are `sphere_points`; ``"input"``.
         """
         return Layout._made(lib.ricci_uniform_layout, self, constant("ON", on), constant("MODEL", model), CONTROL, progress=progress)
 
@@ -137,11 +173,16 @@ class Uniform(Handle):
     def lift_loop(self, vertices: npt.ArrayLike, layout: Layout | None = None) -> tuple[Doubles, Signed]:
         """The lift of a closed loop through vertices of the given mesh, each joined to the next by an edge and the last to the first.
 
-        Args:
-            vertices: the loop; the first may also be named again at the end.
-            layout: the layout on ``"refinement"``, if it is at hand; None: it is made.
+        Parameters
+        ----------
+        vertices : npt.ArrayLike
+            the loop; the first may also be named again at the end.
+        layout : Layout | None
+            the layout on ``"refinement"``, if it is at hand; None: it is made.
 
-        Returns:
+        Returns
+        -------
+        tuple[Doubles, Signed]
             The points along the lift (k x 3 ambient coordinates), also where edges of the metric's triangulation cross the loop, and the
             word of the deck transformation that carries the first point to the last.
         """
@@ -161,8 +202,10 @@ class Uniform(Handle):
     def sphere_points(self, model: Model = "ambient") -> Doubles:
         """The vertices of a sphere as unit vectors (n x 3), or in the plane under it (n x 2), infinite at the base.
 
-        Raises:
-            LayoutError: not a sphere; the plane under one that has flowed in S2.
+        Raises
+        ------
+        LayoutError
+            not a sphere; the plane under one that has flowed in S2.
         """
         shape = (self.metric.summary.n_vertices, 3 if model == "ambient" else 2)
         return doubles(lib.ricci_sphere_points, self, constant("MODEL", model), shape=shape)
@@ -176,23 +219,54 @@ class Uniform(Handle):
         return f"<ricci.Uniform: genus {s.genus} in {s.space}, {s.stop_reason}>"
 
 
-def uniformize(V: MeshLike, F: npt.ArrayLike | None = None, progress: Progress = None, **given: Unpack[UniformOptions]) -> Uniform:
+@takes(UniformOptions)
+def uniformize(
+    V: MeshLike,
+    F: npt.ArrayLike | None = None,
+    progress: Progress = None,
+    *,
+    flow: FlowOptions | None = None,
+    start: Metric | None = None,
+    base: int | None = None,
+    scheme: Scheme = "yamabe",
+    boundary: Literal["geodesic", "straight"] = "geodesic",
+    corners: npt.ArrayLike | int | None = None,
+    corner_angles: npt.ArrayLike | None = None,
+) -> Uniform:
     """The metric of constant curvature in the conformal class of a surface, by its Euler characteristic.
 
-    Args:
-        V: n x 3 positions with `F`, or a mesh of any kind (`as_mesh`).
-        F: m x 3 vertex indices.
-        progress: a `Control` or a callback.
-        given: base, boundary, corners, flow (`UniformOptions`).
+    Parameters
+    ----------
+    V : MeshLike
+        n x 3 positions with `F`, or a mesh of any kind (`as_mesh`).
+    F : npt.ArrayLike | None
+        m x 3 vertex indices.
+    progress : Progress
+        a `Control` or a callback.
 
-    Warns:
-        NotConverged: the result did not come to its metric; `summary` says why.
+    Warns
+    -----
+    NotConverged
+        the result did not come to its metric; `summary` says why.
 
-    Raises:
-        LayoutError: geodesics around a disk.
-        TargetError: angles of corners that do not add up.
+    Raises
+    ------
+    LayoutError
+        geodesics around a disk.
+    TargetError
+        angles of corners that do not add up.
+
+    Examples
+    --------
+    >>> ricci.uniformize(ricci.make("genus", genus=2, n=3))
+    <ricci.Uniform: genus 2 in h2, converged>
+    >>> ricci.uniformize(ricci.make("sphere", n=4)).sphere_points().shape
+    (162, 3)
     """
-    made = Uniform._made(lib.ricci_uniformize, as_mesh(V, F), options("uniform_options", given, _UNIFORM), CONTROL, progress=progress)
+    given = picked(locals(), UniformOptions)
+    mesh = as_mesh(V, F)
+    made = Uniform._made(lib.ricci_uniformize, mesh, options("uniform_options", given, _UNIFORM), CONTROL, progress=progress)
+    made._input = mesh
     s = made.summary
     if not s.converged:
         warn(f"the uniformization did not converge ({s.stop_reason}), curvature error {s.angle_defect:.1e}: look at its `summary`")

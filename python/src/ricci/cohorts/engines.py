@@ -5,6 +5,7 @@ No engine leaves a process behind: workers end with the run, however it ends, an
 
 from __future__ import annotations
 
+import asyncio
 import multiprocessing
 import multiprocessing.spawn
 import pickle
@@ -17,7 +18,7 @@ from contextlib import suppress
 from multiprocessing.connection import wait
 from typing import Any
 
-from ricci.cohorts.jobs import Row, failed
+from ricci.cohorts.jobs import Row, content_of, failed
 from ricci.cohorts.worker import REFUSED, ROW
 from ricci.errors import ArgumentError, ArgumentTypeError
 
@@ -32,8 +33,10 @@ class WorkerDied(Exception):
 def packed(work: Work) -> bytes:
     """The work as bytes for another process: by name where it can be imported there, else by value.
 
-    Raises:
-        ArgumentError: it cannot be sent; the message says what to do.
+    Raises
+    ------
+    ArgumentError
+        it cannot be sent; the message says what to do.
     """
     advice = 'put it into a module that can be imported, or take engine="inline"'
     try:
@@ -92,9 +95,12 @@ class _Worker:
     def answer(self) -> Row | None:
         """The row of its mesh, that it has died there included; None: it is ready for work.
 
-        Raises:
-            ArgumentError: it cannot load the work.
-            RuntimeError: it ended before it came to that, as where this package cannot be imported.
+        Raises
+        ------
+        ArgumentError
+            it cannot load the work.
+        RuntimeError
+            it ended before it came to that, as where this package cannot be imported.
         """
         try:
             kind, content = pickle.loads(self.connection.recv_bytes())
@@ -103,7 +109,7 @@ class _Worker:
             if not self.loaded:
                 raise RuntimeError(f"a worker ended before it had loaded the job ({ended}): what it wrote to stderr says why") from None
             path, self.path = self.path or "", None
-            return failed(path, WorkerDied(f"the process that worked on it has died ({ended})"))
+            return failed(path, WorkerDied(f"the process that worked on it has died ({ended})"), content_of(path))
         self.loaded = True
         if kind == REFUSED:
             raise ArgumentError(f"the workers cannot load the job or its reader ({content}): it must be importable where they run")
@@ -152,6 +158,11 @@ def processes(work: Work, paths: Sequence[str], workers: int) -> Rows:
             worker.end()
 
 
+async def _kill(nannies: Sequence[Any]) -> None:
+    """Ends the worker of each nanny. A cluster that is closed waits for seconds until workers have come to the end of their meshes."""
+    await asyncio.gather(*(nanny.kill(timeout=0.1, reason="the run has ended") for nanny in nannies))
+
+
 def dask(work: Work, paths: Sequence[str], workers: int, client: Any = None) -> Rows:
     """Does the work with the workers of a `distributed.Client`, or of a local cluster of processes that is made for it."""
     from distributed import Client, KilledWorker, LocalCluster, as_completed
@@ -159,10 +170,14 @@ def dask(work: Work, paths: Sequence[str], workers: int, client: Any = None) -> 
     packed(work)
     if client is None:
         with (
-            LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=":0") as cluster,
+            LocalCluster(n_workers=min(workers, len(paths)), threads_per_worker=1, dashboard_address=":0") as cluster,
             Client(cluster) as own,
         ):
-            yield from dask(work, paths, workers, own)
+            try:
+                yield from dask(work, paths, workers, own)
+            except BaseException:
+                cluster.sync(_kill, list(cluster.workers.values()))
+                raise
         return
     futures = {client.submit(work, path, pure=False): path for path in paths}
     suspects = []
@@ -173,7 +188,7 @@ def dask(work: Work, paths: Sequence[str], workers: int, client: Any = None) -> 
             if isinstance(wrong, KilledWorker):
                 suspects.append(path)
             else:
-                yield future.result() if wrong is None else failed(path, wrong)
+                yield future.result() if wrong is None else failed(path, wrong, content_of(path))
             future.release()
         # Dask blames every mesh that waited at a worker which died, so each is tried again by itself.
         for path in suspects:
@@ -181,7 +196,7 @@ def dask(work: Work, paths: Sequence[str], workers: int, client: Any = None) -> 
             futures[future] = path
             wrong = future.exception()
             del futures[future]
-            yield future.result() if wrong is None else failed(path, WorkerDied(str(wrong)))
+            yield future.result() if wrong is None else failed(path, WorkerDied(str(wrong)), content_of(path))
     finally:
         # Those that have not begun; what a worker of the caller's client is at, it brings to its end.
         if futures:
@@ -191,8 +206,10 @@ def dask(work: Work, paths: Sequence[str], workers: int, client: Any = None) -> 
 def engine_of(engine: Any) -> Callable[[Work, Sequence[str], int], Rows]:
     """The engine of this name, or that of a `distributed.Client`.
 
-    Raises:
-        ArgumentError: there is none.
+    Raises
+    ------
+    ArgumentError
+        there is none.
     """
     named = {"inline": inline, "processes": processes, "dask": dask}
     if isinstance(engine, str) and engine in named:

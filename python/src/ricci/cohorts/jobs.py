@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 import os
 import threading
@@ -32,9 +33,12 @@ __all__ = ["Job", "Outcome", "Row", "repaired"]
 class Outcome(NamedTuple):
     """The results of a job on one mesh.
 
-    Attributes:
-        result: numbers, texts and arrays that depend on the mesh alone.
-        report: what differs from run to run, such as seconds.
+    Attributes
+    ----------
+    result : Mapping[str, Any]
+        numbers, texts and arrays that depend on the mesh alone.
+    report : Mapping[str, Any]
+        what differs from run to run, such as seconds.
     """
 
     result: Mapping[str, Any]
@@ -45,10 +49,14 @@ class Outcome(NamedTuple):
 class Row:
     """One mesh of a cohort.
 
-    Attributes:
-        path: its file.
-        result: columns of the table of results, with `ok` and the error's columns.
-        report: columns of the table of reports, with the worker's process and seconds.
+    Attributes
+    ----------
+    path : str
+        its file.
+    result : dict[str, Any]
+        columns of the table of results, with `ok` and the error's columns.
+    report : dict[str, Any]
+        columns of the table of reports, with the worker's process and seconds.
     """
 
     path: str
@@ -63,10 +71,20 @@ class Job:
     The result has the figures of the mesh and of what the function made, and its arrays: of a flow the conformal factor, of circles the
     circles, of forms the period matrix.
 
-    Attributes:
-        kind: which function; ``"info"`` only counts.
-        options: its arguments by name. One thread is used unless they say otherwise: a cohort has its meshes side by side.
-        seconds: a mesh that takes longer is given up, with the error `Cancelled`.
+    Attributes
+    ----------
+    kind : Literal["info", "flow", "uniformize", "circles", "forms", "structure", "spline"]
+        which function; ``"info"`` only counts.
+    options : Mapping[str, Any]
+        its arguments by name. One thread is used unless they say otherwise: a cohort has its meshes side by side.
+    seconds : float | None
+        a mesh that takes longer is given up, with the error `Cancelled`.
+
+    Examples
+    --------
+    >>> job = ricci.Job("flow", {"target": "auto:4"}, seconds=60)
+    >>> job(ricci.make("genus", genus=2, n=3)).result["converged"]
+    True
     """
 
     kind: Literal["info", "flow", "uniformize", "circles", "forms", "structure", "spline"]
@@ -183,8 +201,10 @@ def repaired(path: str) -> Mesh:
 def plain(value: Any) -> Any:
     """A value as Parquet has it: arrays as lists, a complex number as its two parts.
 
-    Raises:
-        TypeError: it is nothing that a column can hold.
+    Raises
+    ------
+    TypeError
+        it is nothing that a column can hold.
     """
     if isinstance(value, np.ndarray):
         array = np.stack([value.real, value.imag], -1) if np.iscomplexobj(value) else value
@@ -203,26 +223,37 @@ def plain(value: Any) -> Any:
 _NO_ERROR: dict[str, Any] = dict.fromkeys(("error", "status", "element", "index", "amount", "message"))
 
 
-def failed(path: str, wrong: BaseException) -> Row:
-    """The row of a mesh on which the job failed, or whose worker died."""
+def content_of(path: str) -> str | None:
+    """A digest of the bytes of a file, 32 hexadecimal digits; None where there is no such file, or it cannot be read."""
+    try:
+        with open(path, "rb") as file:
+            return hashlib.file_digest(file, lambda: hashlib.blake2b(digest_size=16)).hexdigest()
+    except (OSError, ValueError):
+        return None
+
+
+def failed(path: str, wrong: BaseException, content: str | None) -> Row:
+    """The row of a mesh with this content on which the job failed, or whose worker died."""
     found = {**_NO_ERROR, "error": type(wrong).__name__, "message": str(wrong)}
     if isinstance(wrong, RicciError):
         found |= {"status": wrong.status.name, "element": wrong.element, "index": wrong.index, "amount": wrong.amount}
-    return Row(path, {"path": path, "ok": False, **found}, {"path": path, "worker": os.getpid()})
+    return Row(path, {"path": path, "content": content, "ok": False, **found}, {"path": path, "worker": os.getpid()})
 
 
 def one(job: Callable[[Any], Outcome | Mapping[str, Any]], read: Callable[[str], Any], path: str) -> Row:
     """Read one mesh and do the job; whatever goes wrong becomes a row."""
     start = time.perf_counter()
+    # Before the file is read: one that changes meanwhile has another content afterwards, and is done again by the next run.
+    content = content_of(path)
     try:
         found = job(read(path))
         outcome = found if isinstance(found, Outcome) else Outcome(found, {})
         result = {name: plain(value) for name, value in outcome.result.items()}
         report = {name: plain(value) for name, value in outcome.report.items()}
     except Exception as wrong:
-        row = failed(path, wrong)
+        row = failed(path, wrong, content)
     else:
-        head = {"path": path, "ok": True, **_NO_ERROR}
+        head = {"path": path, "content": content, "ok": True, **_NO_ERROR}
         row = Row(path, {**result, **head}, {**report, "path": path, "worker": os.getpid()})
     row.report["seconds"] = time.perf_counter() - start
     return row

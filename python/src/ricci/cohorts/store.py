@@ -21,6 +21,7 @@ from ricci.errors import ArgumentError
 # Columns that every row has, in this order before all others; those of results and of reports.
 HEAD = {
     "path": pa.string(),
+    "content": pa.string(),
     "ok": pa.bool_(),
     "error": pa.string(),
     "status": pa.string(),
@@ -50,8 +51,10 @@ def _read(path: Path) -> pa.Table:
 class Store:
     """The folder of a cohort: `results.parquet`, `reports.parquet`, and in `rows` the meshes that were done since these were written.
 
-    Raises:
-        ArgumentError: the folder has rows of another job.
+    Raises
+    ------
+    ArgumentError
+        the folder has rows of another job.
     """
 
     def __init__(self, folder: Path, job: str) -> None:
@@ -77,15 +80,19 @@ class Store:
         try:
             report, result = _table([row.report]), _table([row.result])
         except pa.ArrowException as wrong:
-            row = failed(row.path, wrong)
+            row = failed(row.path, wrong, row.result["content"])
             report, result = _table([row.report]), _table([row.result])
         _write(report, self._place("reports", row.path))
         _write(result, self._place("results", row.path))
 
-    def done(self) -> dict[str, bool]:
-        """The paths that have a row: true for those without error."""
+    def done(self) -> dict[str, tuple[bool, str | None]]:
+        """The paths that have a row: whether it is without error, and the content that the file had."""
         table = self._joined("results")
-        return dict(zip(table["path"].to_pylist(), table["ok"].to_pylist(), strict=True)) if len(table) else {}
+        if not len(table):
+            return {}
+        # A table without this column is of a time when nobody looked at it.
+        contents = table["content"].to_pylist() if "content" in table.column_names else [None] * len(table)
+        return dict(zip(table["path"].to_pylist(), zip(table["ok"].to_pylist(), contents, strict=True), strict=True))
 
     def _joined(self, kind: str) -> pa.Table:
         """The table and the rows beside it. If a path is in both, the row beside the table replaces that of the table."""

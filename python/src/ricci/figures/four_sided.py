@@ -9,24 +9,42 @@ from dataclasses import dataclass
 class QuadsSummary:
     """Figures of a quad mesh. The shape of the quads is NaN on a surface without positions.
 
-    Attributes:
-        n_quads: quads.
-        n_vertices: vertices.
-        n_irregular: vertices inside that have not four quads, and on the boundary that have not two.
-        n_collapsed: quads that were collapsed because two of their sides were one edge: those around cones of valence 1.
-        n_creases: edges on features and on the boundary.
-        n_off_axis: features that are not parallel to an axis exactly, so that edges need not run along them.
-        n_rectangles: rectangles of the T-mesh of the seamless map.
-        n_arcs: arcs of the T-mesh.
-        euler: vertices less edges plus quads, counted anew from the quads.
-        n_bad_edges: edges with more than one quad on a side, and sides of quads that have a vertex twice.
-        n_bad_vertices: vertices whose quads form more than one fan.
-        cost: the sum over the arcs of the squares of the edges along them less the wanted number of edges.
-        edge: the edge length that was asked for, or found for a number of quads, units of the surface's lengths.
-        angle_mean: the mean deviation of the corners' angles from 90 degrees in space, radians.
-        angle_max: the largest deviation of a corner's angle from 90 degrees, radians.
-        edge_mean: the mean length of the edges in space.
-        edge_deviation: the standard deviation of the lengths of the edges over their mean.
+    Attributes
+    ----------
+    n_quads : int
+        quads.
+    n_vertices : int
+        vertices.
+    n_irregular : int
+        vertices inside that have not four quads, and on the boundary that have not two.
+    n_collapsed : int
+        quads that were collapsed because two of their sides were one edge: those around cones of valence 1.
+    n_creases : int
+        edges on features and on the boundary.
+    n_off_axis : int
+        features that are not parallel to an axis exactly, so that edges need not run along them.
+    n_rectangles : int
+        rectangles of the T-mesh of the seamless map.
+    n_arcs : int
+        arcs of the T-mesh.
+    euler : int
+        vertices less edges plus quads, counted anew from the quads.
+    n_bad_edges : int
+        edges with more than one quad on a side, and sides of quads that have a vertex twice.
+    n_bad_vertices : int
+        vertices whose quads form more than one fan.
+    cost : float
+        the sum over the arcs of the squares of the edges along them less the wanted number of edges.
+    edge : float
+        the edge length that was asked for, or found for a number of quads, units of the surface's lengths.
+    angle_mean : float
+        the mean deviation of the corners' angles from 90 degrees in space, radians.
+    angle_max : float
+        the largest deviation of a corner's angle from 90 degrees, radians.
+    edge_mean : float
+        the mean length of the edges in space.
+    edge_deviation : float
+        the standard deviation of the lengths of the edges over their mean.
     """
 
     n_quads: int
@@ -52,14 +70,22 @@ class QuadsSummary:
 class QuadLayoutSummary:
     """Figures of a layout of patches.
 
-    Attributes:
-        n_nodes: nodes, where arcs end.
-        n_arcs: arcs between nodes.
-        n_patches: patches.
-        n_units: unit squares of all patches.
-        n_parts: edges of the quad mesh in one unit of length.
-        n_quads: quads of the quad mesh.
-        n_vertices: vertices of the quad mesh.
+    Attributes
+    ----------
+    n_nodes : int
+        nodes, where arcs end.
+    n_arcs : int
+        arcs between nodes.
+    n_patches : int
+        patches.
+    n_units : int
+        unit squares of all patches.
+    n_parts : int
+        edges of the quad mesh in one unit of length.
+    n_quads : int
+        quads of the quad mesh.
+    n_vertices : int
+        vertices of the quad mesh.
     """
 
     n_nodes: int
@@ -75,26 +101,46 @@ class QuadLayoutSummary:
 class QuadSplineSummary:
     """Figures of a spline over a layout. Distances are over the diagonal of the surface's bounding box.
 
-    Attributes:
-        n_patches: patches.
-        n_arcs: arcs, each a side of one patch or of two.
-        n_nodes: nodes, where arcs end.
-        degree: along u and v: 5.
-        most_spans: largest number of spans of a patch along u or v.
-        n_control_points: control points of all patches, those on common sides once.
-        n_free: free control points, of which all others are combinations.
-        n_entries: entries of the extraction matrix.
-        n_folded_patches: patches that are turned over somewhere.
-        diagonal: the diagonal of the bounding box of the surface that was fitted.
-        rms: root of the mean squared distance of places of the patches from the surface.
-        max: the largest of these distances.
-        vertex_rms: root of the mean squared distance of the vertices from the spline.
-        vertex_max: the largest of these distances.
-        normal_error: the largest angle between the normals of spline and surface, radians.
-        normal_jump: the largest angle between normals on both sides of an arc that is no crease, radians.
-        noise: the standard deviation of the noise of the surface's vertices over the diagonal, as their heights over the spline tell.
-        tolerance: over the diagonal: the one that was asked for, else as in the options.
-        converged: distances are within the tolerance, and no patch is turned over.
+    Attributes
+    ----------
+    n_patches : int
+        patches.
+    n_arcs : int
+        arcs, each a side of one patch or of two.
+    n_nodes : int
+        nodes, where arcs end.
+    degree : int
+        along u and v: 5.
+    most_spans : int
+        largest number of spans of a patch along u or v.
+    n_control_points : int
+        control points of all patches, those on common sides once.
+    n_free : int
+        free control points, of which all others are combinations.
+    n_entries : int
+        entries of the extraction matrix.
+    n_folded_patches : int
+        patches that are turned over somewhere.
+    diagonal : float
+        the diagonal of the bounding box of the surface that was fitted.
+    rms : float
+        root of the mean squared distance of places of the patches from the surface.
+    max : float
+        the largest of these distances.
+    vertex_rms : float
+        root of the mean squared distance of the vertices from the spline.
+    vertex_max : float
+        the largest of these distances.
+    normal_error : float
+        the largest angle between the normals of spline and surface, radians.
+    normal_jump : float
+        the largest angle between normals on both sides of an arc that is no crease, radians.
+    noise : float
+        the standard deviation of the noise of the surface's vertices over the diagonal, as their heights over the spline tell.
+    tolerance : float
+        over the diagonal: the one that was asked for, else as in the options.
+    converged : bool
+        distances are within the tolerance, and no patch is turned over.
     """
 
     n_patches: int
