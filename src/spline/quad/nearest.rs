@@ -67,9 +67,14 @@ fn places_of_piece(
     at: &(dyn Fn(usize, [f64; 2]) -> Vector + Sync),
 ) -> Vec<FoundPlace> {
     let mut corners = Vec::with_capacity(2 * PARTS * PARTS * patches.len());
-    for (&patch, i, j) in patches.iter().flat_map(|p| square_cells().map(move |[i, j]| (p, i, j))) {
-        for cell in halves([i, j]) {
-            corners.push(cell.map(|uv| at(patch, uv)));
+    for &patch in patches {
+        let along = |k: usize| k as f64 / PARTS as f64;
+        let row =
+            |i: usize| -> Vec<Vector> { (0..=PARTS).map(|j| at(patch, [along(i), along(j)])).collect() };
+        let grid = parallel::map(PARTS + 1, row);
+        for [i, j] in square_cells() {
+            let halves = halves([i, j]).map(|cell| cell.map(|[k, l]| grid[k][l]));
+            corners.extend(halves);
         }
     }
     let tree = TriangleTree::new(corners);
@@ -80,7 +85,8 @@ fn places_of_piece(
         let (patch, within) =
             (nearest.triangle / (2 * PARTS * PARTS), nearest.triangle % (2 * PARTS * PARTS));
         let cell = halves([within / 2 / PARTS, within / 2 % PARTS])[within % 2];
-        let parameters = [0, 1].map(|x| (0..3).map(|c| nearest.weights[c] * cell[c][x]).sum::<f64>());
+        let parameters = [0, 1]
+            .map(|x| (0..3).map(|c| nearest.weights[c] * cell[c][x] as f64).sum::<f64>() / PARTS as f64);
         let parameters = parameters.map(|x| x.clamp(0.0, 1.0));
         let at = NearestToVertex { vertex, normal, parameters };
         FoundPlace { distance: nearest.distance, patch: patches[patch], at }
@@ -92,10 +98,9 @@ fn square_cells() -> impl Iterator<Item = [usize; 2]> {
     (0..PARTS).flat_map(|i| (0..PARTS).map(move |j| [i, j]))
 }
 
-/// The parameters of both halves of a cell.
-fn halves([i, j]: [usize; 2]) -> [[[f64; 2]; 3]; 2] {
-    let corner = |k: usize, l: usize| [k, l].map(|x| x as f64 / PARTS as f64);
-    let [a, b, c, d] = [corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)];
+/// The corners of both halves of a cell, in parts of the sides.
+fn halves([i, j]: [usize; 2]) -> [[[usize; 2]; 3]; 2] {
+    let [a, b, c, d] = [[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1]];
     [[a, b, c], [a, c, d]]
 }
 

@@ -24,7 +24,7 @@ const RELAXATIONS_TO_TARGET: usize = 20;
 /// Places of a patch in each direction whose faces tell on which part of the surface it lies.
 const PLACES_FOR_FACES: usize = 12;
 const TOWARDS_MEAN: f64 = 0.7;
-/// The share of the distance below which a round has to bring it, and the rounds in a row that may not.
+/// The share of the distance below which a round has to bring it, and the rounds in a row that may not where no patch is turned over.
 const WORTHWHILE: f64 = 0.85;
 const MOST_FRUITLESS: usize = 1;
 /// Spans in one direction of a patch that are shorter than those in the other by at most this factor are divided as well.
@@ -122,7 +122,7 @@ impl LayoutStart<'_> {
             let fit = fit_from(space, &from, &target, options.fit.bending, &control.attempt(round))?;
             round += 1;
             let folds = fit.folded_patches.len();
-            // More spans are of no use where they did not bring the last fit nearer.
+            // More spans are of no use where they did not bring the last fit nearer, or turn fewer patches up again.
             fruitless = match &best {
                 Some(best) if folds >= best.folded_patches.len() && fit.max() > WORTHWHILE * best.max() => {
                     fruitless + 1
@@ -130,7 +130,8 @@ impl LayoutStart<'_> {
                 _ => 0,
             };
             let is_more = raise_spans(patches, &mut spans, &fit, options);
-            let is_done = options.is_met_by(&fit) || !is_more || fruitless > MOST_FRUITLESS;
+            let is_stuck = fruitless > if folds > 0 { 0 } else { MOST_FRUITLESS };
+            let is_done = options.is_met_by(&fit) || !is_more || is_stuck;
             if folds == 0 && !is_done {
                 target = surface.target(&faces_of(&fit.spline, &target))?;
             }
