@@ -8,9 +8,9 @@ use crate::quad_layout::{coarsest, ricci_quad_layout};
 use crate::seamless::ricci_seamless;
 use crate::spline_memory;
 use crate::status::ricci_status;
-use crate::structs::{self, or, sized};
+use crate::structs::{self, sized};
 use ricci::geometry::vector::diagonal;
-use ricci::spline::{LayoutFitOptions, NearestPlaces, QuadFit, QuadFitOptions, fit_quad_layout};
+use ricci::spline::{LayoutFitOptions, NearestPlaces, QuadFit, fit_quad_layout};
 use std::sync::OnceLock;
 
 pub struct ricci_quad_spline {
@@ -67,11 +67,11 @@ sized!(ricci_quad_spline_summary, "summary", reserved);
 impl ricci_quad_spline_options {
     fn read(&self) -> LayoutFitOptions {
         let usual = LayoutFitOptions::default();
-        let bending = or(self.bending, usual.fit.bending);
         LayoutFitOptions {
             tolerance: (self.tolerance != 0.0).then_some(self.tolerance),
             most_spans: if self.most_spans == 0 { usual.most_spans } else { self.most_spans as usize },
-            fit: QuadFitOptions { bending: if bending < 0.0 { 0.0 } else { bending }, threads: self.threads },
+            bending: (self.bending != 0.0).then_some(if self.bending < 0.0 { 0.0 } else { self.bending }),
+            threads: self.threads,
         }
     }
 }
@@ -125,7 +125,7 @@ pub unsafe extern "C" fn ricci_quad_spline_fit(
         let options = structs::read(options)?.read();
         let solution = &seamless.found.solution;
         let layout = if layout.is_null() {
-            coarsest(&seamless.found, options.fit.threads, &control.part(0.0, 0.2))?
+            coarsest(&seamless.found, options.threads, &control.part(0.0, 0.2))?
         } else {
             shared(layout)?.of_seamless(seamless)?
         };

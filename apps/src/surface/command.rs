@@ -9,7 +9,7 @@ use crate::quads::{QuadSourceArgs, solved};
 use crate::report::timed;
 use crate::runner::{CommandRun, Job, JobHeader};
 use crate::seamless::ConesChoice;
-use ricci::spline::{LayoutFit, LayoutFitOptions, QuadFitOptions, StepOptions, fit_few_patches};
+use ricci::spline::{LayoutFit, LayoutFitOptions, StepOptions, fit_few_patches};
 
 impl Job for ScanArgs {
     type Outcome = ScanOutcome;
@@ -34,7 +34,8 @@ impl Job for ScanArgs {
         let fit_options = LayoutFitOptions {
             tolerance: self.tolerance,
             most_spans: self.spans.into(),
-            fit: QuadFitOptions { bending: self.bending, threads },
+            bending: self.bending,
+            threads,
         };
         let fit = || fit_few_patches(&seamless, &fit_options, run.control);
         let LayoutFit { fit, .. } = timed(&mut run.seconds.solve, || doing("fitting", fit))?;

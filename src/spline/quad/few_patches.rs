@@ -34,7 +34,7 @@ pub fn fit_few_patches(
     for (k, more) in MORE_PATCHES.into_iter().enumerate() {
         let size = if more == 1 { QuadSize::Coarse } else { QuadSize::AtMost(more * least) };
         let of_attempt = control.attempt(k);
-        let sized = QuadOptions { size, threads: options.fit.threads };
+        let sized = QuadOptions { size, threads: options.threads };
         let layout = match quad_layout(seamless, &sized, &of_attempt.part(0.0, 0.2)) {
             // There need not be another layout.
             Err(Error::Layout(_)) if best.is_some() => break,

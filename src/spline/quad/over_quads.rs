@@ -1,6 +1,6 @@
 //! Splines over the layouts of quad meshes: the lines between their irregular vertices bound the patches.
 
-use super::fit::{FitStart, QuadFit, QuadFitOptions, bilinear, fit_from};
+use super::fit::{FitStart, QuadFit, bilinear, fit_from};
 use super::fitted_surface::{FittedSurface, no_positions};
 use super::layout::{ArcSide, PatchArc, PatchLayout};
 use super::space::QuadSplineSpace;
@@ -32,6 +32,12 @@ const ABOUT_AS_LONG: f64 = 1.5;
 /// The tolerance if none is asked for, and the multiple of the noise that is within it: of ten thousand vertices with noise one lies farther off.
 const USUAL_TOLERANCE: f64 = 1e-3;
 const NOISE_WITHIN: f64 = 4.0;
+/// The weights of bending if none is asked for: the most, for this noise over the diagonal, and the least.
+const MOST_BENDING: f64 = 1e-8;
+const NOISE_OF_MOST_BENDING: f64 = 1e-3;
+const LEAST_BENDING: f64 = 1e-11;
+/// The factor by which the weight of bending has to fall for a fit with the same spans.
+const MUCH_SOFTER: f64 = 0.1;
 
 /// Options of [`fit_quad_layout`].
 #[derive(Debug, Clone, PartialEq)]
@@ -41,13 +47,16 @@ pub struct LayoutFitOptions {
     pub tolerance: Option<f64>,
     /// Most spans of a patch in each direction, from 1 to 32.
     pub most_spans: usize,
-    /// Those of each fit.
-    pub fit: QuadFitOptions,
+    /// The weight of bending at the last step of a fit, from 0 to 1e-5. None: 1e-8 at first, then what suits the noise of the target: 1e-8 for a
+    /// thousandth of its diagonal, and in proportion to its square down to 1e-11.
+    pub bending: Option<f64>,
+    /// Threads; 0: as many as the process may use.
+    pub threads: usize,
 }
 
 impl Default for LayoutFitOptions {
     fn default() -> Self {
-        LayoutFitOptions { tolerance: None, most_spans: 4, fit: QuadFitOptions { bending: 1e-8, threads: 0 } }
+        LayoutFitOptions { tolerance: None, most_spans: 4, bending: None, threads: 0 }
     }
 }
 
@@ -55,6 +64,12 @@ impl LayoutFitOptions {
     /// The largest distance of a fit, over the diagonal of its target.
     pub fn limit(&self, fit: &QuadFit) -> f64 {
         self.tolerance.unwrap_or_else(|| USUAL_TOLERANCE.max(NOISE_WITHIN * fit.noise))
+    }
+
+    /// The weight of bending of the fit after one.
+    fn bending_after(&self, fit: &QuadFit) -> f64 {
+        let of_noise = MOST_BENDING * (fit.noise / NOISE_OF_MOST_BENDING).powi(2);
+        self.bending.unwrap_or_else(|| of_noise.clamp(LEAST_BENDING, MOST_BENDING))
     }
 
     /// True if no patch of a fit is turned over and no distance is larger than [`LayoutFitOptions::limit`].
@@ -83,7 +98,7 @@ pub fn fit_quad_layout(
     control: &Control,
 ) -> Result<QuadFit> {
     let vertices = layout.mesh.positions(&seamless.solution).ok_or_else(no_positions)?;
-    parallel::within(options.fit.threads, || {
+    parallel::within(options.threads, || {
         let surface = FittedSurface::new(seamless, layout)?;
         let (vertices, target) = relaxed(layout, vertices, &surface, control)?;
         let grids = PatchGrid::all(layout, &vertices)?;
@@ -112,6 +127,7 @@ impl LayoutStart<'_> {
         let start = |p: usize, uv: [f64; 2]| grids[p].at(uv);
         let mut spans = vec![1; patches.arcs().len()];
         let mut best: Option<QuadFit> = None;
+        let mut bending = options.bending.unwrap_or(MOST_BENDING);
         let (mut round, mut fruitless) = (0, 0);
         loop {
             let space = Arc::new(QuadSplineSpace::with_spans(patches.clone(), spans.clone())?);
@@ -119,7 +135,7 @@ impl LayoutStart<'_> {
             let last =
                 |p: usize, uv: [f64; 2]| whole.map_or_else(|| start(p, uv), |fit| fit.spline.point_at(p, uv));
             let from = FitStart { map: &last, first_step: if whole.is_some() { LATE_STEP } else { 0 } };
-            let fit = fit_from(space, &from, &target, options.fit.bending, &control.attempt(round))?;
+            let fit = fit_from(space, &from, &target, bending, &control.attempt(round))?;
             round += 1;
             let folds = fit.folded_patches.len();
             // More spans are of no use where they did not bring the last fit nearer, or turn fewer patches up again.
@@ -129,7 +145,9 @@ impl LayoutStart<'_> {
                 }
                 _ => 0,
             };
-            let is_more = raise_spans(patches, &mut spans, &fit, options);
+            let softer = if folds == 0 { options.bending_after(&fit) } else { bending };
+            let is_more = raise_spans(patches, &mut spans, &fit, options) || softer < MUCH_SOFTER * bending;
+            bending = softer;
             let is_stuck = fruitless > if folds > 0 { 0 } else { MOST_FRUITLESS };
             let is_done = options.is_met_by(&fit) || !is_more || is_stuck;
             if folds == 0 && !is_done {
