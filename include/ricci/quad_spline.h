@@ -64,9 +64,9 @@ typedef struct ricci_quad_spline_options {
      */
     double tolerance;
     /**
-     * The weight of bending, up to 1e-5; below 0: none; 0: 1e-8 for a noise of the surface of a thousandth of
-     * the diagonal, in proportion to the square of its measured noise, from 1e-11 on. 1e-8 suits scans with
-     * such a noise.
+     * The weight of bending, up to 1e-5; below 0: none; 0: 1e-8 and, where that misses the tolerance, as
+     * little as suits the measured noise, down to 1e-11. 1e-8 suits scans with a noise of a thousandth of the
+     * diagonal.
      */
     double bending;
     /** Threads, 0 for one per core; results do not depend on it. 1 suits hosts that run several calls at

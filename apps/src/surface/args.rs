@@ -41,8 +41,8 @@ pub struct ScanArgs {
     /// Most spans of a patch in each direction
     #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u8).range(1..=32))]
     pub spans: u8,
-    /// Weight of bending at the end of the fit, up to 1e-5: more for noise, less for more detail [default: 1e-8 for a noise of a thousandth of
-    /// the diagonal, in proportion to the square of the measured noise, from 1e-11 on]
+    /// Weight of bending at the end of the fit, up to 1e-5: more for noise, less for more detail [default: 1e-8; where that misses the
+    /// tolerance, as little as suits the measured noise, down to 1e-11]
     #[arg(long, value_name = "W", value_parser = positive)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub bending: Option<f64>,

@@ -36,8 +36,8 @@ const NOISE_WITHIN: f64 = 4.0;
 const MOST_BENDING: f64 = 1e-8;
 const NOISE_OF_MOST_BENDING: f64 = 1e-3;
 const LEAST_BENDING: f64 = 1e-11;
-/// The factor by which the weight of bending has to fall for a fit with the same spans.
-const MUCH_SOFTER: f64 = 0.1;
+/// The factor by which the weight of bending falls from fit to fit.
+const SOFTER: f64 = 0.1;
 
 /// Options of [`fit_quad_layout`].
 #[derive(Debug, Clone, PartialEq)]
@@ -47,8 +47,8 @@ pub struct LayoutFitOptions {
     pub tolerance: Option<f64>,
     /// Most spans of a patch in each direction, from 1 to 32.
     pub most_spans: usize,
-    /// The weight of bending at the last step of a fit, from 0 to 1e-5. None: 1e-8 at first, then what suits the noise of the target: 1e-8 for a
-    /// thousandth of its diagonal, and in proportion to its square down to 1e-11.
+    /// The weight of bending at the last step of a fit, from 0 to 1e-5. None: 1e-8; where all spans that there may be do not suffice, less and less
+    /// as far as suits the noise of the target, 1e-8 for a thousandth of its diagonal and in proportion to its square, down to 1e-11.
     pub bending: Option<f64>,
     /// Threads; 0: as many as the process may use.
     pub threads: usize,
@@ -66,8 +66,8 @@ impl LayoutFitOptions {
         self.tolerance.unwrap_or_else(|| USUAL_TOLERANCE.max(NOISE_WITHIN * fit.noise))
     }
 
-    /// The weight of bending of the fit after one.
-    fn bending_after(&self, fit: &QuadFit) -> f64 {
+    /// The least weight of bending, where the spans are as many as they may be.
+    fn least_bending(&self, fit: &QuadFit) -> f64 {
         let of_noise = MOST_BENDING * (fit.noise / NOISE_OF_MOST_BENDING).powi(2);
         self.bending.unwrap_or_else(|| of_noise.clamp(LEAST_BENDING, MOST_BENDING))
     }
@@ -145,9 +145,10 @@ impl LayoutStart<'_> {
                 }
                 _ => 0,
             };
-            let softer = if folds == 0 { options.bending_after(&fit) } else { bending };
-            let is_more = raise_spans(patches, &mut spans, &fit, options) || softer < MUCH_SOFTER * bending;
-            bending = softer;
+            let mut is_more = raise_spans(patches, &mut spans, &fit, options);
+            if !is_more && folds == 0 && bending > options.least_bending(&fit) {
+                (bending, is_more) = (SOFTER * bending, true);
+            }
             let is_stuck = fruitless > if folds > 0 { 0 } else { MOST_FRUITLESS };
             let is_done = options.is_met_by(&fit) || !is_more || is_stuck;
             if folds == 0 && !is_done {
