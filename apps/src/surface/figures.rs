@@ -10,9 +10,6 @@ use ricci::spline::{QuadFit, QuadSplineSpace};
 /// Largest angle between normals of neighbouring patches, degrees: far below what CAD programs take for tangent.
 const NORMAL_JUMP: f64 = 0.01;
 
-/// The multiple of the noise within which nearly all vertices lie.
-const NOISE_WITHIN: f64 = 4.0;
-
 /// The file and what is measured of it.
 pub struct WrittenSurface {
     /// The largest angle between the normals of neighbouring patches, radians.
@@ -36,7 +33,7 @@ impl JobOutcome for ScanOutcome {
         let mut checks = Checks::default();
         checks.add("holonomy_error", self.seamless.error, self.seamless.tolerance);
         let noise = self.fit.noise;
-        let remedy = if self.tolerance < NOISE_WITHIN * noise {
+        let remedy = if self.tolerance < self.fit.noise_limit() {
             format!(
                 "the mesh has noise of {noise:.1e} of the diagonal: ask for a --tolerance of four times as much"
             )

@@ -16,6 +16,8 @@ use std::sync::Arc;
 
 /// Places of a patch in each direction at which a fit is measured: other ones than those of the fit.
 const MEASURED: usize = 23;
+/// The multiple of the noise beyond which one of ten thousand vertices lies.
+const NOISE_WITHIN: f64 = 4.0;
 
 /// Options of fits over four-sided patches.
 #[derive(Debug, Clone, PartialEq)]
@@ -69,6 +71,11 @@ impl QuadFit {
     /// The larger root of the mean square of both kinds, over the diagonal.
     pub fn rms(&self) -> f64 {
         self.to_target.rms.max(self.of_vertices.rms)
+    }
+
+    /// The distance over the diagonal within which nearly all vertices with this noise lie: four times as much.
+    pub fn noise_limit(&self) -> f64 {
+        NOISE_WITHIN * self.noise
     }
 
     /// True if no patch is turned over and no distance is larger than this.

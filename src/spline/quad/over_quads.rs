@@ -29,9 +29,8 @@ const WORTHWHILE: f64 = 0.85;
 const MOST_FRUITLESS: usize = 1;
 /// Spans in one direction of a patch that are shorter than those in the other by at most this factor are divided as well.
 const ABOUT_AS_LONG: f64 = 1.5;
-/// The tolerance if none is asked for, and the multiple of the noise that is within it: of ten thousand vertices with noise one lies farther off.
+/// The tolerance if none is asked for.
 const USUAL_TOLERANCE: f64 = 1e-3;
-const NOISE_WITHIN: f64 = 4.0;
 /// The weights of bending if none is asked for: the most, for this noise over the diagonal, and the least.
 const MOST_BENDING: f64 = 1e-8;
 const NOISE_OF_MOST_BENDING: f64 = 1e-3;
@@ -63,7 +62,7 @@ impl Default for LayoutFitOptions {
 impl LayoutFitOptions {
     /// The largest distance of a fit, over the diagonal of its target.
     pub fn limit(&self, fit: &QuadFit) -> f64 {
-        self.tolerance.unwrap_or_else(|| USUAL_TOLERANCE.max(NOISE_WITHIN * fit.noise))
+        self.tolerance.unwrap_or_else(|| USUAL_TOLERANCE.max(fit.noise_limit()))
     }
 
     /// The least weight of bending, where the spans are as many as they may be.

@@ -197,13 +197,16 @@ impl QuadSystem {
     /// ∫ S_uu² + 2 S_uv² + S_vv² over the rectangles of the parameters.
     pub fn bending_of(&self, spline: &QuadSpline) -> f64 {
         let of_patch = |p: usize| {
-            let mut sum = PatchSum::new(self.space.sides(p), lengths(&self.space, p));
-            sum.bend(1.0, self.space.patch_spans(p).map(|spans| &self.along[&spans]));
             let net: Vec<Vector> = spline.net(p).into_iter().flatten().collect();
             let m = net.len();
+            let bent = bending(
+                1.0,
+                lengths(&self.space, p),
+                self.space.patch_spans(p).map(|spans| &self.along[&spans]),
+            );
             let of_pair = |i: usize, j: usize| {
                 let twice = if i == j { 1.0 } else { 2.0 };
-                twice * sum.matrix[i * m + j][DIAGONAL[0]] * dot(net[i], net[j])
+                twice * bent(i, j) * dot(net[i], net[j])
             };
             (0..m).flat_map(|i| (0..=i).map(move |j| (i, j))).map(|(i, j)| of_pair(i, j)).sum::<f64>()
         };
@@ -336,18 +339,29 @@ impl PatchSum {
     }
 
     /// Adds ∫ S_uu² + 2 S_uv² + S_vv² over the rectangle with a weight.
-    fn bend(&mut self, weight: f64, [along_u, along_v]: [&SpanDirection; 2]) {
-        let [a, b] = self.lengths;
-        let [by_uu, by_uv, by_vv] = [b / a.powi(3), 2.0 / (a * b), a / b.powi(3)].map(|x| weight * x);
-        let [n_u, n_v] = self.sides;
-        let m = n_u * n_v;
+    fn bend(&mut self, weight: f64, along: [&SpanDirection; 2]) {
+        let m = self.right.len();
+        let bent = bending(weight, self.lengths, along);
         for (i, j) in (0..m).flat_map(|i| (0..=i).map(move |j| (i, j))) {
-            let [u, v] = [(i / n_v) * n_u + j / n_v, (i % n_v) * n_v + j % n_v];
-            let of =
-                |order_u: usize, order_v: usize| along_u.products[order_u][u] * along_v.products[order_v][v];
-            let bent = by_uu * of(2, 0) + by_uv * of(1, 1) + by_vv * of(0, 2);
+            let bent = bent(i, j);
             DIAGONAL.into_iter().for_each(|k| self.matrix[i * m + j][k] += bent);
         }
+    }
+}
+
+/// A weight times ∫ of the products of the second derivatives of two control points' functions over a rectangle with these sides, as in
+/// ∫ S_uu² + 2 S_uv² + S_vv².
+fn bending(
+    weight: f64,
+    [a, b]: [f64; 2],
+    [along_u, along_v]: [&SpanDirection; 2],
+) -> impl Fn(usize, usize) -> f64 {
+    let [by_uu, by_uv, by_vv] = [b / a.powi(3), 2.0 / (a * b), a / b.powi(3)].map(|x| weight * x);
+    let [n_u, n_v] = [along_u, along_v].map(|along| along.products[0].len().isqrt());
+    move |i, j| {
+        let [u, v] = [(i / n_v) * n_u + j / n_v, (i % n_v) * n_v + j % n_v];
+        let of = |order_u: usize, order_v: usize| along_u.products[order_u][u] * along_v.products[order_v][v];
+        by_uu * of(2, 0) + by_uv * of(1, 1) + by_vv * of(0, 2)
     }
 }
 
