@@ -41,8 +41,8 @@ class QuadSplineOptions(TypedDict, total=False):
         largest distance between spline and surface over the diagonal; patches that are farther off get more spans. 0.001 or,
         where that is more, four times the noise of the surface.
     bending : float
-        the weight of bending, up to 1e-5; 0: none. 1e-8 and, where that misses the tolerance, as little as suits the measured noise, down to
-        1e-11.
+        the weight of bending, up to 1e-5; 0: none. 1e-8 and, where that misses the tolerance, as little as suits the measured noise, down
+        to 1e-11.
     most_spans : int
         most spans of a patch in each direction, up to 32; 4.
     threads : int

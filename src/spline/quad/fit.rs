@@ -115,11 +115,12 @@ impl<'a> FitStart<'a> {
 /// Fits a spline over four-sided patches to a target. `start`: a map of the patches, as (patch, (u, v)) → point, on or near the target; equal
 /// on common sides. Minimised are the distances of the patches from the target and those of its vertices from the patches.
 ///
-/// Every patch belongs to its own piece of the target, or to the smooth piece that is nearest to the middle of its start. Lengths of arcs, which should be about 1 in
-/// the mean, should be about proportional to those on the surface.
+/// Every patch belongs to its own piece of the target, or to the smooth piece that is nearest to the middle of its start. Lengths of arcs,
+/// which should be about 1 in the mean, should be about proportional to those on the surface.
 ///
 /// # Errors
-/// [`Error::Argument`] for an option out of its range; [`Error::Factorisation`]; [`Error::Cancelled`].
+/// [`Argument`](crate::error::Error::Argument) for an option out of its range; [`Factorisation`](crate::error::Error::Factorisation);
+/// [`Cancelled`](crate::error::Error::Cancelled).
 pub fn fit_quads(
     space: Arc<QuadSplineSpace>,
     start: &(dyn Fn(usize, [f64; 2]) -> Vector + Sync),
