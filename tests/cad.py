@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""Open the STEP files of `ricci spline export` in OpenCASCADE and in arris: topology, validity, distance from the mesh.
+"""Open the STEP files of `ricci spline export` and `ricci surface` in OpenCASCADE and in arris: topology, validity, distance from the mesh.
 
 usage: cad.py RICCI_BINARY [SPLINE MESH TOLERANCE]...
 """
 import json
+import math
 import os
 import subprocess
 import sys
@@ -29,6 +30,8 @@ RICCI = sys.argv[1]
 VERTICES = 40
 # Faces up to which arris reads a file: it checks what it reads, 12 faces in a second and 336 in more than a minute.
 FEW = 50
+# Tolerance of an edge over the diagonal: sides have control points and parameters in common with the patches beside them.
+EDGE_TOLERANCE = 1e-6
 passed = failed = 0
 
 
@@ -49,6 +52,12 @@ def parts(shape, kind):
 
 def vertices(path):
     return [[float(x) for x in line.split()[1:4]] for line in open(path) if line.startswith("v ")]
+
+
+def edge_tolerance(shape):
+    """The largest tolerance of an edge: how far the reader found it from the faces beside it."""
+    as_edge = getattr(TopoDS, "Edge_s", None) or TopoDS.Edge
+    return max(BRep_Tool.Tolerance_s(as_edge(edge)) for edge in parts(shape, Kind.TopAbs_EDGE))
 
 
 def sampled(shape, point):
@@ -75,6 +84,8 @@ def opened(name, path, report, points, fit):
     expected = [int(result["closed"]), 1, result["bicubic_patches"]]
     check(name + " topology", list(count.values()) == expected, f"{count}, {expected}")
     check(name + " BRepCheck", BRepCheck_Analyzer(shape).IsValid())
+    apart, limit = edge_tolerance(shape), EDGE_TOLERANCE * result["diagonal"]
+    check(name + " edges", apart <= limit, f"{apart}, {limit}")
     shell = parts(shape, Kind.TopAbs_SHELL)[0]
     check(name + " closed", BRep_Tool.IsClosed_s(shell) == result["closed"])
     if result["closed"]:
@@ -135,6 +146,42 @@ def fitted(name, shape, *options):
         export(name, spline, mesh, 1e-3, json.load(open(report))["result"]["max"])
 
 
+def enclosed(path):
+    """The signed volume inside the triangles of an OBJ file."""
+    corners = vertices(path)
+    faces = [[int(c.split("/")[0]) - 1 for c in line.split()[1:]] for line in open(path) if line.startswith("f ")]
+    volume = 0.0
+    for a, b, c in ((corners[i] for i in face) for face in faces):
+        volume += sum(a[k] * (b[k - 2] * c[k - 1] - b[k - 1] * c[k - 2]) for k in range(3)) / 6
+    return volume
+
+
+def large_patches(name, *shape):
+    """A solid of large patches near a generated mesh: one shell of the faces said, valid, of nearly the volume of the mesh."""
+    with tempfile.TemporaryDirectory() as out:
+        mesh, step, report = (os.path.join(out, f) for f in ("mesh.obj", "part.step", "r.json"))
+        subprocess.run([RICCI, "make", *shape, "-o", mesh, "--quiet"], check=True)
+        command = [RICCI, "surface", mesh, "-o", step, "--report", report, "--quiet"]
+        if subprocess.run(command, stderr=subprocess.PIPE).returncode not in (0, 1):
+            print(f"{name}: this command makes no surface of large patches; nothing was read")
+            return
+        reader = STEPControl_Reader()
+        check(name + " read", reader.ReadFile(step) == IFSelect_ReturnStatus.IFSelect_RetDone)
+        reader.TransferRoots()
+        solid, result = reader.OneShape(), json.load(open(report))["result"]
+        count = [len(parts(solid, kind)) for kind in (Kind.TopAbs_SOLID, Kind.TopAbs_SHELL, Kind.TopAbs_FACE)]
+        check(name + " topology", count == [1, 1, result["faces"]], f"{count}, {result['faces']}")
+        check(name + " BRepCheck", BRepCheck_Analyzer(solid).IsValid())
+        apart, limit = edge_tolerance(solid), EDGE_TOLERANCE * math.dist(*zip(*map(lambda x: (min(x), max(x)), zip(*vertices(mesh)))))
+        check(name + " edges", apart <= limit, f"{apart}, {limit}")
+        volume = GProp_GProps()
+        BRepGProp.VolumeProperties_s(solid, volume)
+        # A smooth surface through the vertices of a mesh bulges over its triangles.
+        ratio = volume.Mass() / enclosed(mesh)
+        check(name + " volume", 0.99 < ratio < 1.06, ratio)
+        print(f"{name}: {result['faces']} faces, edges within {apart:.1e}, volume {ratio:.4f} of that of the mesh")
+
+
 def square():
     """A square of a few faces, small enough for arris."""
     with tempfile.TemporaryDirectory() as out:
@@ -152,6 +199,9 @@ def square():
 square()
 fitted("hill", ["disk", "--height", "0.3"], "--planar")
 fitted("torus", ["torus"])
+large_patches("torus of large patches", "torus")
+large_patches("genus 2 of large patches", "genus")
+large_patches("knot of large patches", "knot")
 for spline, mesh, tolerance in zip(sys.argv[2::3], sys.argv[3::3], sys.argv[4::3]):
     export(os.path.basename(spline), spline, mesh, float(tolerance), 0.02)
 print(f"{passed} passed, {failed} failed")

@@ -4,7 +4,7 @@ use super::cubic::DEGREE;
 use super::surface::{BicubicPatch, BicubicSurface, PatchCurve};
 use crate::error::Result;
 use crate::spline::step::{
-    StepCurve, StepOptions, StepPart, StepPatch, StepPatches, nurbs_curve, nurbs_surface,
+    StepCurve, StepCurveGeometry, StepOptions, StepPart, StepPatch, StepPatches, StepSurfaceGeometry,
 };
 use std::io::Write;
 
@@ -25,10 +25,18 @@ impl BicubicSurface {
         };
         let curve = |PatchCurve { ends, knots, control }: &PatchCurve| StepCurve {
             ends: *ends,
-            curve: nurbs_curve(DEGREE, knots.clone(), control.clone()),
+            curve: StepCurveGeometry {
+                degree: DEGREE,
+                knots: knots.clone(),
+                control_points: control.clone(),
+            },
         };
         let patch = |BicubicPatch { knots, control, sides, .. }: &BicubicPatch| StepPatch {
-            surface: nurbs_surface(DEGREE, knots.clone(), control.clone()),
+            surface: StepSurfaceGeometry {
+                degree: DEGREE,
+                knots: knots.clone(),
+                control_points: control.clone(),
+            },
             sides: sides.map(|side| (side.curve as usize, side.reversed)),
         };
         let patches = StepPatches {

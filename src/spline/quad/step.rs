@@ -7,7 +7,7 @@ use crate::error::Result;
 use crate::geometry::vector::{Vector, cross, diagonal, dot};
 use crate::mesh::union_find::UnionFind;
 use crate::spline::step::{
-    StepCurve, StepOptions, StepPart, StepPatch, StepPatches, nurbs_curve, nurbs_surface,
+    StepCurve, StepCurveGeometry, StepOptions, StepPart, StepPatch, StepPatches, StepSurfaceGeometry,
 };
 use std::collections::BTreeMap;
 use std::io::Write;
@@ -24,12 +24,19 @@ impl QuadSpline {
         layout.corners().for_each(|at| points[layout.node(at) as usize] = self.side_points(at)[0]);
         let mut curves = Vec::with_capacity(layout.arcs().len());
         for (arc, PatchArc { ends, .. }) in layout.arcs().iter().enumerate() {
-            let along = self.arc_control_points(arc)?;
-            let curve = nurbs_curve(QUINTIC, knots(self.space().spans()[arc]), along);
+            let curve = StepCurveGeometry {
+                degree: QUINTIC,
+                knots: knots(self.space().spans()[arc]),
+                control_points: self.arc_control_points(arc)?,
+            };
             curves.push(StepCurve { ends: *ends, curve });
         }
         let patch = |at: usize| StepPatch {
-            surface: nurbs_surface(QUINTIC, self.knots(at), self.net(at)),
+            surface: StepSurfaceGeometry {
+                degree: QUINTIC,
+                knots: self.knots(at),
+                control_points: self.net(at),
+            },
             sides: layout.patches()[at].map(|side| (side.arc as usize, side.reversed)),
         };
         let patches = StepPatches {
