@@ -174,7 +174,7 @@ impl RefineArgs {
         };
         run.control.step(Stage::Build, 0.0)?;
         let options = Refine { levels: self.levels.into(), longest_edge: self.edge };
-        let finer = timed(&mut run.seconds.build, || refine(&soup, &options))?;
+        let finer = timed(&mut run.seconds.build, || refine(&soup, &options, run.control))?;
         let of = |soup: &Soup| diagnose(&soup.positions, &soup.faces);
         let area = [&soup, &finer.soup].map(|soup| ShapeQuality::of_soup(soup).area);
         let (given, diagnosis) = (Counts::from(&of(&soup)), Box::new(of(&finer.soup)));

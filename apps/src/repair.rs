@@ -173,7 +173,7 @@ impl Job for RepairArgs {
         run.control.step(Stage::Read, 0.0)?;
         let soup = timed(&mut run.seconds.read, || read_triangles(&self.mesh))?;
         run.control.step(Stage::Build, 0.0)?;
-        let repaired = timed(&mut run.seconds.build, || repair(&soup, &self.options()))?;
+        let repaired = timed(&mut run.seconds.build, || repair(&soup, &self.options(), run.control))?;
         let defects = DefectList::of(&repaired.soup, &repaired.diagnosis);
         let (path, out) = (self.mesh.clone(), self.out.clone());
         Ok(RepairOutcome { path, out, soup, repaired, defects })

@@ -53,10 +53,10 @@ pub struct ricci_step_options {
     pub size: usize,
     pub name: *const c_char,
     pub unit: u32,
-    pub reserved: u32,
+    pub colours: u32,
 }
 // SAFETY: numbers and a raw pointer; 8-byte alignment, size first.
-sized!(ricci_step_options, "options", reserved);
+sized!(ricci_step_options, "options");
 
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
@@ -96,7 +96,7 @@ impl ricci_bicubic_options {
 impl ricci_step_options {
     pub(crate) fn read(&self) -> Outcome<StepOptions> {
         let name = if self.name.is_null() { "" } else { arrays::text("name", self.name)? };
-        Ok(StepOptions { name: name.into(), unit: UNITS.choose(self.unit)? })
+        Ok(StepOptions { name: name.into(), unit: UNITS.choose(self.unit)?, colours: self.colours != 0 })
     }
 }
 

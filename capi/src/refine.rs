@@ -48,11 +48,12 @@ pub unsafe extern "C" fn ricci_soup_refine(
     refined: *mut *mut ricci_soup,
 ) -> ricci_status {
     guard::make(refined, || {
+        let control = control::of_thread()?;
         let (given, soup) = (structs::read(options)?, &shared(soup)?.soup);
         let longest_edge = (given.longest_edge != 0.0).then_some(given.longest_edge);
         let options = Refine { levels: given.levels, longest_edge };
         let _reserve = memory::work(soup.positions.len().max(least_faces(soup, &options)?), memory::MESH)?;
-        Ok(ricci_soup::refined(refine(soup, &options)?))
+        Ok(ricci_soup::refined(refine(soup, &options, &control)?))
     })
 }
 

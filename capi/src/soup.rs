@@ -1,6 +1,7 @@
 //! Triangle lists, which may have defects: reading, diagnosis, repair, writing.
 
 use crate::arrays::{self, CallerBuffer, check_buffer, copy_out, copy_rows};
+use crate::control;
 use crate::defect_texts::{DefectTexts, ricci_defect};
 use crate::failure::{Failure, FailureElement, Outcome, no_such};
 use crate::guard::{self, handle, shared};
@@ -349,10 +350,11 @@ pub unsafe extern "C" fn ricci_soup_repair(
     repaired: *mut *mut ricci_soup,
 ) -> ricci_status {
     guard::make(repaired, || {
+        let control = control::of_thread()?;
         let options = repair_options(&structs::read(options)?)?;
         let soup = &shared(soup)?.soup;
         let _reserve = memory::work(soup.positions.len().max(soup.faces.len()), memory::MESH)?;
-        let mut done = repair(soup, &options)?;
+        let mut done = repair(soup, &options, &control)?;
         let result = std::mem::take(&mut done.soup);
         Ok(ricci_soup { origin: Some(done), ..ricci_soup::new(result) })
     })

@@ -3,6 +3,7 @@
 pub mod face;
 pub mod surfaces;
 
+use ricci::control::Control;
 use ricci::Error;
 use ricci::mesh::check::diagnose;
 use ricci::mesh::io::{self, Attributes, Format, Soup};
@@ -81,7 +82,7 @@ pub fn build(soup: &Soup) {
 /// A repaired list names the origin of each element, with its attributes, has no more edges of three faces than before, and needs no
 /// second repair.
 pub fn mend(soup: &Soup, options: &Repair) {
-    let mended = match repair(soup, options) {
+    let mended = match repair(soup, options, &Control::new()) {
         Ok(mended) => mended,
         Err(Error::Argument { .. } | Error::Defects(_)) => return,
         Err(other) => panic!("{other}"),
@@ -139,7 +140,7 @@ pub fn mend(soup: &Soup, options: &Repair) {
         assert!(crowded(&mended.soup) <= crowded(soup));
     }
     let again = Repair { weld: None, component: None, ..options.clone() };
-    let again = repair(&mended.soup, &again).unwrap();
+    let again = repair(&mended.soup, &again, &Control::new()).unwrap();
     assert!(again.soup.faces == mended.soup.faces && again.steps == RepairSteps::default(), "repaired twice");
 }
 

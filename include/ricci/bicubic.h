@@ -79,7 +79,8 @@ typedef struct ricci_bicubic_options {
     uint32_t reserved;
 } ricci_bicubic_options;
 
-/** Entries of a STEP file beside the patches. Zeroed by ricci_init: no name, millimetres. */
+/** Entries of a STEP file beside the patches, whose faces are named `patch 0`, `patch 1`, … and whose edges where
+ * the surface has one `crease`. Zeroed by ricci_init: no name, millimetres, no colours. */
 typedef struct ricci_step_options {
     /** sizeof(ricci_step_options), by ricci_init. */
     size_t size;
@@ -87,8 +88,9 @@ typedef struct ricci_step_options {
     const char *name;
     /** RICCI_UNIT_MILLIMETRE or RICCI_UNIT_METRE. Parts are usually in millimetres, buildings in metres. */
     uint32_t unit;
-    /** 0. */
-    uint32_t reserved;
+    /** 1: faces have colours that differ from those of their neighbours, which suits a look at the patches; 0: none,
+     * which suits a part among others. */
+    uint32_t colours;
 } ricci_step_options;
 
 /** Figures of bicubic patches. */

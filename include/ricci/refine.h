@@ -76,7 +76,7 @@ typedef struct ricci_refine_summary {
  * defects, but no face that uses a vertex twice.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE, RICCI_ARGUMENT (a result of more than 67 million
- *         faces, too), RICCI_NO_MEMORY.
+ *         faces, too), RICCI_NO_MEMORY, RICCI_CANCELLED (the control of the thread).
  *
  * @param soup     the triangle list.
  * @param options  levels and longest_edge, or NULL.

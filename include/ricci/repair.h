@@ -421,7 +421,7 @@ RICCI_API ricci_status ricci_soup_write(const ricci_soup *soup, const char *path
  * Elements keep their order, and attributes stay with their elements; those of filled holes come last.
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (options, no such component), RICCI_TOO_LARGE,
  * RICCI_STRUCT_SIZE, RICCI_DEFECTS (a face that names no vertex or, without drop_non_finite, one without
- * finite coordinates).
+ * finite coordinates), RICCI_CANCELLED (the control of the thread).
  *
  * @param soup      the triangle list.
  * @param options   the steps on request, or NULL for the defaults.

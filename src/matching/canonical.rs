@@ -112,8 +112,16 @@ pub(super) struct CanonicalSurface {
 
 impl CanonicalSurface {
     /// A surface that is placed in its canonical metric.
-    pub fn new(surface: &Surface, placed: PlacedMesh, iterations: usize) -> CanonicalSurface {
-        let weights = mean_value_weights(&placed, surface);
-        CanonicalSurface { placed, weights, iterations }
+    ///
+    /// # Errors
+    /// [`Error::Cancelled`].
+    pub fn new(
+        surface: &Surface,
+        placed: PlacedMesh,
+        iterations: usize,
+        control: &Control,
+    ) -> Result<CanonicalSurface> {
+        let weights = mean_value_weights(&placed, surface, control)?;
+        Ok(CanonicalSurface { placed, weights, iterations })
     }
 }

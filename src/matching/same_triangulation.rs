@@ -99,6 +99,7 @@ fn canonical_surface(
         let is_inner = !mesh.is_outside(h) && !mesh.is_outside(h.twin());
         is_inner.then(|| faces.across[h])
     };
+    control.check()?;
     let cover = UniversalCover::new(mesh, space, across, &[])?;
     control.check()?;
     let at = PerVertex::from_fn(mesh.n_vertices(), |v: VertexId| {
@@ -111,5 +112,5 @@ fn canonical_surface(
         }
     });
     control.check()?;
-    Ok(CanonicalSurface::new(surface, PlacedMesh { cover, at }, metric.iterations))
+    CanonicalSurface::new(surface, PlacedMesh { cover, at }, metric.iterations, control)
 }

@@ -1,11 +1,12 @@
 //! Finer triangle lists of the same surface in space, with the place of each vertex and face in the given one.
 //!
 //! ```
+//! use ricci::control::Control;
 //! use ricci::mesh::{refine::{Refine, refine}, shapes};
 //! let torus = shapes::torus(2.0, 1.0, 12, 6)?;
-//! let finer = refine(&torus, &Refine { levels: 1, ..Refine::default() })?;
+//! let finer = refine(&torus, &Refine { levels: 1, ..Refine::default() }, &Control::new())?;
 //! assert_eq!(finer.soup.faces.len(), 4 * torus.faces.len());
-//! let short = refine(&torus, &Refine { longest_edge: Some(0.25), ..Refine::default() })?;
+//! let short = refine(&torus, &Refine { longest_edge: Some(0.25), ..Refine::default() }, &Control::new())?;
 //! assert!(short.longest_edge() <= 0.25);
 //! # Ok::<(), ricci::Error>(())
 //! ```
@@ -13,6 +14,7 @@
 use super::ids::FaceId;
 use super::io::{Attributes, NumberColumn, Soup};
 use super::place::Place;
+use crate::control::{Control, Stage};
 use crate::error::{Error, Result};
 use crate::geometry::vector::{distance, norm, triangle_normal};
 use std::collections::HashMap;
@@ -37,6 +39,8 @@ pub struct RefinedSoup {
     pub vertex_place: Vec<Option<Place>>,
 }
 
+/// Faces that are cut between two looks at the control.
+const FACES_PER_CHECK: usize = 1 << 12;
 /// Most faces of a refined list. About 10 GB hold them while they are made, and no other command takes more.
 const MOST_FACES: usize = 1 << 26;
 
@@ -64,20 +68,23 @@ pub fn longest_edge(soup: &Soup) -> f64 {
 ///
 /// # Errors
 /// [`Error::Argument`] for a length that is not positive, coordinates or attributes that are not finite, and faces that name a missing
-/// vertex or one vertex twice, and a result of more than 67 million faces.
-pub fn refine(soup: &Soup, options: &Refine) -> Result<RefinedSoup> {
+/// vertex or one vertex twice, and a result of more than 67 million faces; [`Error::Cancelled`].
+pub fn refine(soup: &Soup, options: &Refine, control: &Control) -> Result<RefinedSoup> {
     least_faces(soup, options)?;
     if let Some(f) = soup.faces.iter().position(|&[a, b, c]| a == b || b == c || c == a) {
         let need = "three different vertices: `ricci repair` drops faces that use one twice";
         return Err(Error::argument("face to refine", f, need));
     }
     let mut parts = FaceParts::new(soup);
-    for _ in 0..options.levels {
-        parts.halve(|_, _| true)?;
+    for level in 0..options.levels {
+        // Each level takes four times as long as the one before.
+        control.step(Stage::Build, 0.25f64.powi((options.levels - level).try_into().unwrap_or(i32::MAX)))?;
+        parts.halve(|_, _| true, control)?;
     }
     if let Some(longest) = options.longest_edge {
-        while parts.halve(|a, b| distance(a, b) > longest)? {}
+        while parts.halve(|a, b| distance(a, b) > longest, control)? {}
     }
+    control.check()?;
     Ok(parts.finish(soup))
 }
 
@@ -136,12 +143,14 @@ impl FaceParts {
     }
 
     /// Halve, once, the edges for whose ends `is_long` is true; false if there are none.
-    fn halve(&mut self, is_long: impl Fn([f64; 3], [f64; 3]) -> bool) -> Result<bool> {
+    fn halve(&mut self, is_long: impl Fn([f64; 3], [f64; 3]) -> bool, control: &Control) -> Result<bool> {
+        let mut steps = 0;
         let mut middles: HashMap<[u32; 2], u32> = HashMap::new();
         let faces = std::mem::take(&mut self.soup.faces);
         let mut marks = Vec::with_capacity(faces.len());
         let mut n_faces = faces.len();
         for face in &faces {
+            control.check_every(FACES_PER_CHECK, &mut steps)?;
             let sides = [0, 1, 2].map(|k| [face[k], face[(k + 1) % 3]]);
             let at = |v: u32| self.soup.positions[v as usize];
             let mark = sides.map(|[a, b]| is_long(at(a.min(b)), at(a.max(b))));
@@ -158,6 +167,7 @@ impl FaceParts {
         let origin = std::mem::take(&mut self.origin);
         let corners = std::mem::take(&mut self.corners);
         for (f, face) in faces.iter().enumerate() {
+            control.check_every(FACES_PER_CHECK, &mut steps)?;
             let corner = [0, 1, 2].map(|k| (face[k], corners[f][k]));
             let middle = [0, 1, 2].map(|k| {
                 let [(a, p), (b, q)] = [corner[k], corner[(k + 1) % 3]];

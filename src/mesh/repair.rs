@@ -1,11 +1,12 @@
 //! Repair of triangle lists, where it needs no guess.
 //!
 //! ```
+//! use ricci::control::Control;
 //! use ricci::mesh::io::Soup;
 //! use ricci::mesh::repair::{Repair, repair};
 //! let positions = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0]];
 //! let soup = Soup::new(positions, vec![[0, 1, 2], [1, 2, 3]]); // the second face looks the other way
-//! let repaired = repair(&soup, &Repair::default())?;
+//! let repaired = repair(&soup, &Repair::default(), &Control::new())?;
 //! assert_eq!((repaired.steps.turned_faces, repaired.diagnosis.defects.len()), (1, 0));
 //! # Ok::<(), ricci::Error>(())
 //! ```
@@ -18,6 +19,7 @@ use super::io::Soup;
 pub use super::join::RefusedWeld;
 use super::join::{join, repeats};
 use super::weld::{check_tolerance, coincident};
+use crate::control::{Control, Stage};
 use crate::error::{Error, Result};
 use std::collections::{HashMap, HashSet};
 
@@ -120,8 +122,8 @@ pub struct Repaired {
 /// # Errors
 ///
 /// [`Error::Defects`] for faces that name missing vertices and used vertices without finite coordinates, which cannot be repaired;
-/// [`Error::Argument`] for a tolerance that is negative or not finite and a component that does not exist.
-pub fn repair(soup: &Soup, options: &Repair) -> Result<Repaired> {
+/// [`Error::Argument`] for a tolerance that is negative or not finite and a component that does not exist; [`Error::Cancelled`].
+pub fn repair(soup: &Soup, options: &Repair, control: &Control) -> Result<Repaired> {
     refuse_garbage(soup, options.drop_non_finite)?;
     let mut work = RepairState {
         faces: soup.faces.clone(),
@@ -137,10 +139,14 @@ pub fn repair(soup: &Soup, options: &Repair) -> Result<Repaired> {
     if options.split_t_junctions {
         work.steps.joined_t_junctions = work.split_t_junctions(&soup.positions);
     }
+    control.step(Stage::Build, 0.2)?;
     let first = work.weld(soup, options.weld)?;
     work.drop_bad_faces();
+    control.step(Stage::Build, 0.4)?;
     work.separate(options.cut_non_manifold_edges);
+    control.check()?;
     work.orient();
+    control.step(Stage::Build, 0.6)?;
     let torn = options.component.map_or_else(Vec::new, |_| work.hints(soup));
     work.take(options.component)?;
     if options.mend_zero_area {
@@ -148,15 +154,17 @@ pub fn repair(soup: &Soup, options: &Repair) -> Result<Repaired> {
         work.separate(options.cut_non_manifold_edges);
     }
     work.sort_faces();
+    control.step(Stage::Build, 0.7)?;
     let mut done = Repaired { torn, ..work.finish(soup) };
-    done.fill(&options.holes, &first)?;
+    done.fill(&options.holes, &first, control)?;
+    control.step(Stage::Build, 0.9)?;
     done.diagnose();
     Ok(done)
 }
 
 impl Repaired {
     /// Fills holes. `first` has for each vertex of the input the one that it was joined with.
-    fn fill(&mut self, holes: &HoleChoice, first: &[u32]) -> Result<()> {
+    fn fill(&mut self, holes: &HoleChoice, first: &[u32], control: &Control) -> Result<()> {
         let choice = match holes {
             HoleChoice::Through(named) => {
                 let mut number: HashMap<u32, u32> = HashMap::new();
@@ -173,7 +181,7 @@ impl Repaired {
             }
             other => other.clone(),
         };
-        self.filling = fill_holes(&mut self.soup, &choice)?;
+        self.filling = fill_holes(&mut self.soup, &choice, control)?;
         self.vertex_origin.resize(self.soup.positions.len(), NEW);
         self.face_origin.resize(self.soup.faces.len(), NEW);
         Ok(())

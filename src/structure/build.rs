@@ -46,7 +46,7 @@ fn chart(found: StructureSource, options: &AtlasOptions, control: &Control) -> R
     }
     let mut lifts = FaceLifts::new(&drafts, surface.mesh().n_faces());
     let overlaps = lifts.find_overlaps(&drafts, &control.part(0.5, 1.0))?;
-    align(&mut drafts, &overlaps, surface);
+    align(&mut drafts, &overlaps, surface, control)?;
     let mut embedded: Vec<Result<bool>> = (0..drafts.len()).map(|_| Ok(false)).collect();
     parallel::fill(&mut embedded, |i| drafts[i].is_embedded(surface, control));
     let mut folded = Vec::new();
@@ -57,6 +57,7 @@ fn chart(found: StructureSource, options: &AtlasOptions, control: &Control) -> R
     }
     let transitions: Vec<_> =
         overlaps.into_iter().map(|overlap| overlap.transition(structure, &drafts)).collect();
+    control.check()?;
     let (space, mesh) = (surface.faces.space, surface.faces.mesh.clone());
     Ok(Atlas {
         structure,

@@ -175,6 +175,7 @@ impl ChartDraft {
     /// True if the faces are counterclockwise and do not overlap, except for nearly degenerate faces ([`LOW`]) and for overlaps that
     /// rounding explains ([`ROUNDING`]).
     pub fn is_embedded(&self, surface: &DevelopableSurface, control: &Control) -> Result<bool> {
+        control.check()?;
         // On a sphere, a closed fan of geodesic triangles about a common corner does not overlap either, whatever its size.
         let Some(mut triangles) = self.triangles(surface) else { return Ok(self.is_oriented()) };
         let size = largest_coordinate(triangles.as_flattened());

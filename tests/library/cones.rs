@@ -133,7 +133,7 @@ fn a_few_cones_carry_the_curvature_of_many_handles() {
     let Some(folder) = common::corpus("bad") else { return };
     let soup = io::read(&folder.join("gravgen_675cc.obj")).unwrap();
     let one = Repair { component: Some(0), ..Repair::default() };
-    let (mesh, lengths) = surface(&repair(&soup, &one).unwrap().soup);
+    let (mesh, lengths) = surface(&repair(&soup, &one, &Control::new()).unwrap().soup);
     assert_eq!(mesh.euler(), -46);
     let class = Class::yamabe(Space::E2);
     for n in [1, 4, 5] {

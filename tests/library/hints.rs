@@ -1,5 +1,6 @@
 //! Tests of findings that are no defects: open seams, T-junctions, coarse coordinates; and of boundary loops, sharp edges and corners.
 
+use ricci::control::Control;
 use ricci::mesh::check::{Features, Hint, OpenSeam, diagnose, hints};
 use ricci::mesh::io::Soup;
 use ricci::mesh::repair::{Repair, repair};
@@ -37,12 +38,15 @@ fn the_smallest_weld_that_closes_a_seam_is_found() {
         assert_eq!((found.vertices, found.boundary_edges, found.components), (20, [66, 48], [1, 1]));
         assert!(found.weld >= found.gap && found.weld <= 1.1 * found.gap, "{found:?}");
         assert_eq!(found.lost_faces, 0);
-        let done = repair(&soup, &Repair { weld: Some(found.weld), ..Repair::default() }).unwrap();
+        let done =
+            repair(&soup, &Repair { weld: Some(found.weld), ..Repair::default() }, &Control::new()).unwrap();
         assert_eq!((done.diagnosis.boundary_loops, done.diagnosis.euler), (2, 0));
         assert!(done.diagnosis.hints.is_empty(), "{:?}", done.diagnosis.hints);
         // No smaller distance of two digits does it.
         if found.gap > 0.0 {
-            let less = repair(&soup, &Repair { weld: Some(0.9 * found.gap), ..Repair::default() }).unwrap();
+            let less =
+                repair(&soup, &Repair { weld: Some(0.9 * found.gap), ..Repair::default() }, &Control::new())
+                    .unwrap();
             assert_eq!(less.diagnosis.boundary_loops, 1);
         }
     }
@@ -69,7 +73,8 @@ fn torn_pieces_are_welded_before_one_is_taken() {
     let (weld, components) =
         (told.find("ricci repair --weld").unwrap(), told.find("components; their").unwrap());
     assert!(weld < components && told.contains("weld first"), "{told}");
-    let closed = repair(&torn, &Repair { weld: Some(found.weld), ..Repair::default() }).unwrap();
+    let closed =
+        repair(&torn, &Repair { weld: Some(found.weld), ..Repair::default() }, &Control::new()).unwrap();
     assert_eq!((closed.diagnosis.euler, closed.diagnosis.defects.len()), (2, 0));
 }
 
@@ -118,7 +123,7 @@ fn loops_are_numbered_as_the_mesh_numbers_them() {
         assert_eq!(loops.iter().map(|rim| (rim.vertices.len(), rim.vertex())).collect::<Vec<_>>(), expected);
         assert!(loops.iter().all(|rim| rim.is_oriented && rim.length > 0.0));
     }
-    let closed = repair(&cut_cylinder(24, 3, 0.0), &Repair::default()).unwrap().soup;
+    let closed = repair(&cut_cylinder(24, 3, 0.0), &Repair::default(), &Control::new()).unwrap().soup;
     let circle = 24.0 * 2.0 * (TAU / 48.0).sin();
     let loops = rims(&closed.positions, &closed.faces);
     assert!(loops.len() == 2 && loops.iter().all(|rim| (rim.length - circle).abs() < 1e-12));
@@ -159,9 +164,9 @@ fn caps_and_needles_are_mended_and_traced_back() {
     let uv = |p: [f64; 3]| [p[0], p[1]];
     let corners = soup.faces.iter().map(|f| f.map(|v| uv(soup.positions[v as usize])));
     soup.attributes.uv = Some(corners.collect());
-    let before = repair(&soup, &Repair::default()).unwrap();
+    let before = repair(&soup, &Repair::default(), &Control::new()).unwrap();
     assert!(before.diagnosis.counts().contains(&("zero_area_face", 3)), "{:?}", before.diagnosis.counts());
-    let done = repair(&soup, &Repair { mend_zero_area: true, ..Repair::default() }).unwrap();
+    let done = repair(&soup, &Repair { mend_zero_area: true, ..Repair::default() }, &Control::new()).unwrap();
     assert_eq!(
         (done.diagnosis.defects.len(), done.diagnosis.euler, done.diagnosis.boundary_loops),
         (0, 1, 1)
@@ -192,12 +197,12 @@ fn caps_and_needles_are_mended_and_traced_back() {
         vec![[0.0; 3], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0], [1.0, 1.0, 0.0]],
         vec![[0, 2, 1], [0, 1, 3], [1, 2, 3]],
     );
-    let done = repair(&cap, &Repair { mend_zero_area: true, ..Repair::default() }).unwrap();
+    let done = repair(&cap, &Repair { mend_zero_area: true, ..Repair::default() }, &Control::new()).unwrap();
     assert_eq!((done.steps.opened_faces, done.soup.faces.len(), done.diagnosis.defects.len()), (1, 2, 0));
     let flat = Soup::new(
         vec![[0.0; 3], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0], [3.0, 0.0, 0.0]],
         vec![[0, 1, 2], [0, 2, 3], [0, 3, 1], [1, 3, 2]],
     );
-    let done = repair(&flat, &Repair { mend_zero_area: true, ..Repair::default() }).unwrap();
+    let done = repair(&flat, &Repair { mend_zero_area: true, ..Repair::default() }, &Control::new()).unwrap();
     assert_eq!(done.diagnosis.counts(), [("zero_area_face", 4)]);
 }

@@ -1,5 +1,6 @@
 //! Tests of filling holes: the topology, planes that stay planes, spheres whose error falls, what is left open and why.
 
+use ricci::control::Control;
 use ricci::mesh::holes::{HoleChoice, MOST_EXACT, fill_holes};
 use ricci::mesh::io::{Attributes, Soup};
 use ricci::mesh::repair::{NEW, Repair, repair};
@@ -12,7 +13,7 @@ fn plate(n: u32, is_hole: impl Fn(u32, u32) -> bool) -> Soup {
     let kept = (0..n * n).filter(|k| !is_hole(k % n, k / n)).map(|k| k % n + (n + 1) * (k / n));
     let faces = kept.flat_map(|k| [[k, k + 1, k + n + 2], [k, k + n + 2, k + n + 1]]).collect();
     let mut soup = Soup::new((0..(n + 1) * (n + 1)).map(at).collect(), faces);
-    soup = repair(&soup, &Repair::default()).unwrap().soup;
+    soup = repair(&soup, &Repair::default(), &Control::new()).unwrap().soup;
     soup
 }
 
@@ -39,7 +40,7 @@ fn a_hole_in_a_plate_stays_planar() {
         [(flat, [0.0, 0.0, 1.0, 0.0]), (tilted, [0.0, -sin, cos, -4.0 * cos + sin.mul_add(-3.0, 2.0 * cos)])]
     {
         let mut filled = soup.clone();
-        let filling = fill_holes(&mut filled, &HoleChoice::UpTo(60)).unwrap();
+        let filling = fill_holes(&mut filled, &HoleChoice::UpTo(60), &Control::new()).unwrap();
         assert_eq!((filling.filled.len(), filling.open.len()), (1, 0));
         let mesh = Mesh::from_soup(&filled).unwrap();
         assert_eq!((mesh.euler(), mesh.boundary_loops().len()), (1, 1));
@@ -65,7 +66,8 @@ fn a_sphere_with_a_hole_closes_and_its_error_falls() {
         let least = (2.5 / n as f64).cos();
         let is_cap = |f: &[u32; 3]| f.iter().all(|&v| soup.positions[v as usize][2] > least);
         soup.faces.retain(|f| !is_cap(f));
-        let done = repair(&soup, &Repair { holes: HoleChoice::All, ..Repair::default() }).unwrap();
+        let done =
+            repair(&soup, &Repair { holes: HoleChoice::All, ..Repair::default() }, &Control::new()).unwrap();
         assert_eq!((done.diagnosis.euler, done.diagnosis.defects.len()), (2, 0));
         let error = |p: &[f64; 3]| (p[0].hypot(p[1]).hypot(p[2]) - 1.0).abs();
         let most = done.soup.positions.iter().map(error).fold(0.0, f64::max);
@@ -86,7 +88,7 @@ fn a_sphere_with_a_hole_closes_and_its_error_falls() {
 fn only_the_loops_that_are_chosen_are_filled() {
     let soup = plate(12, |i, j| (i, j) == (2, 2) || (6..9).contains(&i) && (6..9).contains(&j));
     let filled = |holes: HoleChoice| {
-        let done = repair(&soup, &Repair { holes, ..Repair::default() }).unwrap();
+        let done = repair(&soup, &Repair { holes, ..Repair::default() }, &Control::new()).unwrap();
         (done.filling.filled.iter().map(|hole| hole.edges).collect::<Vec<_>>(), done.diagnosis.boundary_loops)
     };
     assert_eq!(filled(HoleChoice::Nothing), (vec![], 3));
@@ -95,7 +97,11 @@ fn only_the_loops_that_are_chosen_are_filled() {
     let vertex = 6 + 13 * 6;
     assert_eq!(filled(HoleChoice::Through(vec![vertex])), (vec![12], 2));
     assert_eq!(filled(HoleChoice::All).1, 0);
-    let inside = repair(&soup, &Repair { holes: HoleChoice::Through(vec![5 + 13 * 4]), ..Repair::default() });
+    let inside = repair(
+        &soup,
+        &Repair { holes: HoleChoice::Through(vec![5 + 13 * 4]), ..Repair::default() },
+        &Control::new(),
+    );
     assert!(inside.unwrap_err().to_string().contains("boundary loop"));
 }
 
@@ -113,7 +119,7 @@ fn long_loops_are_filled_ear_by_ear() {
         (0..n).flat_map(|k| [[k, k + n, (k + 1) % n + n], [k, (k + 1) % n + n, (k + 1) % n]]).collect();
     let mut soup = Soup::new(positions, faces);
     let ring = area(&soup);
-    let filling = fill_holes(&mut soup, &HoleChoice::Through(vec![0])).unwrap();
+    let filling = fill_holes(&mut soup, &HoleChoice::Through(vec![0]), &Control::new()).unwrap();
     let hole = &filling.filled[0];
     assert_eq!(hole.edges, n as usize);
     let polygon: f64 = (0..n)
@@ -131,7 +137,7 @@ fn long_loops_are_filled_ear_by_ear() {
 fn what_cannot_be_filled_is_said() {
     // A single triangle, whose patch would repeat it; a slit without area.
     let mut triangle = Soup::new(vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], vec![[0, 1, 2]]);
-    let filling = fill_holes(&mut triangle, &HoleChoice::All).unwrap();
+    let filling = fill_holes(&mut triangle, &HoleChoice::All, &Control::new()).unwrap();
     assert!(filling.filled.is_empty() && filling.open[0].reason.contains("repeat"));
     let positions = vec![
         [0.0, 0.0, 0.0],
@@ -142,7 +148,7 @@ fn what_cannot_be_filled_is_said() {
         [1.0, -2.0, 0.0],
     ];
     let mut slit = Soup::new(positions, vec![[4, 0, 1], [4, 1, 2], [5, 3, 0], [5, 2, 3], [4, 2, 5]]);
-    let filling = fill_holes(&mut slit, &HoleChoice::Through(vec![1])).unwrap();
+    let filling = fill_holes(&mut slit, &HoleChoice::Through(vec![1]), &Control::new()).unwrap();
     assert_eq!((filling.filled.len(), filling.open.len()), (0, 1), "{filling:?}");
 }
 
@@ -161,7 +167,7 @@ fn attributes_are_continued() {
         ),
         ..Attributes::default()
     };
-    fill_holes(&mut soup, &HoleChoice::UpTo(12)).unwrap();
+    fill_holes(&mut soup, &HoleChoice::UpTo(12), &Control::new()).unwrap();
     let Attributes { normals, colors, uv, .. } = &soup.attributes;
     assert!(normals.as_ref().unwrap().iter().all(|n| *n == [0.0, 0.0, 1.0]));
     assert_eq!(colors.as_ref().unwrap().len(), soup.positions.len());
@@ -182,9 +188,9 @@ fn vertices_that_are_not_finite_are_dropped_and_their_holes_filled() {
     for v in [20, 100, 101] {
         soup.positions[v] = [f64::NAN; 3];
     }
-    assert!(repair(&soup, &Repair::default()).is_err());
+    assert!(repair(&soup, &Repair::default(), &Control::new()).is_err());
     let options = Repair { drop_non_finite: true, holes: HoleChoice::All, ..Repair::default() };
-    let done = repair(&soup, &options).unwrap();
+    let done = repair(&soup, &options, &Control::new()).unwrap();
     assert!(done.steps.non_finite_faces >= 12 && done.steps.isolated_vertices == 3, "{:?}", done.steps);
     assert_eq!((done.diagnosis.euler, done.diagnosis.defects.len()), (2, 0));
     assert!(done.soup.positions.as_flattened().iter().all(|x| x.is_finite()));

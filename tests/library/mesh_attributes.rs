@@ -3,6 +3,7 @@
 use crate::common;
 use crate::common::Random;
 use ricci::Error;
+use ricci::control::Control;
 use ricci::mesh::io::{self, Attributes, FaceLabel, FaceLabels, Format, NumberColumn, NumberType, Soup};
 use ricci::mesh::repair::{Repair, repair};
 use ricci::mesh::{Mesh, shapes};
@@ -47,7 +48,7 @@ fn hard_edges_keep_a_normal_for_each_corner() {
     torn.faces[3].swap(1, 2);
     torn.attributes.corner_normals.as_mut().unwrap()[3].swap(1, 2);
     torn.attributes.uv.as_mut().unwrap()[3].swap(1, 2);
-    let mended = repair(&torn, &Repair::default()).unwrap();
+    let mended = repair(&torn, &Repair::default(), &Control::new()).unwrap();
     assert_eq!(mended.steps.turned_faces, 1);
     assert!(mended.soup == cube);
 }
@@ -276,7 +277,7 @@ fn names_and_numbers_go_through_a_repair() {
     // The second face looks the other way, and the first repeats a vertex.
     soup.faces[1].swap(0, 1);
     soup.faces[0][1] = soup.faces[0][0];
-    let repaired = repair(&soup, &Repair::default()).unwrap();
+    let repaired = repair(&soup, &Repair::default(), &Control::new()).unwrap();
     let (given, found) = (&soup.attributes, &repaired.soup.attributes);
     let labels = found.labels.as_ref().unwrap();
     for (f, &origin) in repaired.face_origin.iter().enumerate() {

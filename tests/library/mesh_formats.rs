@@ -3,6 +3,7 @@
 use crate::common;
 use crate::common::Random;
 use proptest::prelude::{any, prop, proptest};
+use ricci::control::Control;
 use ricci::mesh::io::{self, Attributes, Soup};
 use ricci::mesh::repair::{Repair, repair};
 use ricci::mesh::{Mesh, shapes};
@@ -360,7 +361,7 @@ fn accepted(soup: &Soup) {
     if let Ok(mesh) = Mesh::from_soup(soup) {
         mesh.validate().unwrap();
     }
-    if let Ok(done) = repair(soup, &Repair::default()) {
+    if let Ok(done) = repair(soup, &Repair::default(), &Control::new()) {
         let sound = done.diagnosis.defects.is_empty();
         assert_eq!(Mesh::from_soup(&done.soup).is_ok(), sound);
     }

@@ -41,7 +41,7 @@ fn check(given: &Soup, finer: &RefinedSoup) {
 #[test]
 fn levels_cut_every_face_into_four() {
     for given in [shapes::torus(2.0, 1.0, 9, 5).unwrap(), shapes::disk(3).unwrap()] {
-        let finer = refine(&given, &Refine { levels: 2, longest_edge: None }).unwrap();
+        let finer = refine(&given, &Refine { levels: 2, longest_edge: None }, &Control::new()).unwrap();
         assert_eq!(finer.soup.faces.len(), 16 * given.faces.len());
         assert!((finer.longest_edge() / longest_edge(&given) - 0.25).abs() < 1e-12);
         check(&given, &finer);
@@ -56,13 +56,13 @@ fn edges_are_split_until_none_is_too_long() {
     let given = shapes::torus(2.0, 0.4, 7, 12).unwrap();
     for bound in [1.0, 0.31, 0.05] {
         let options = Refine { levels: 0, longest_edge: Some(bound) };
-        let finer = refine(&given, &options).unwrap();
+        let finer = refine(&given, &options, &Control::new()).unwrap();
         let least = least_faces(&given, &options).unwrap();
         assert!(least >= given.faces.len() && least <= finer.soup.faces.len());
         assert!(finer.longest_edge() <= bound && Mesh::from_soup(&finer.soup).unwrap().genus() == 1);
         check(&given, &finer);
     }
-    let same = refine(&given, &Refine { levels: 0, longest_edge: Some(10.0) }).unwrap();
+    let same = refine(&given, &Refine { levels: 0, longest_edge: Some(10.0) }, &Control::new()).unwrap();
     assert_eq!(same.soup, given);
 }
 
@@ -79,7 +79,7 @@ fn lists_that_are_no_surface_are_refined_and_attributes_are_interpolated() {
     let column = |kind, values: Vec<f64>| NumberColumn { name: "n".into(), kind, values };
     soup.attributes.vertex_numbers = vec![column(NumberType::F64, (0..9).map(f64::from).collect())];
     soup.attributes.face_numbers = vec![column(NumberType::U8, vec![4.0, 5.0, 6.0, 7.0])];
-    let finer = refine(&soup, &Refine { levels: 1, longest_edge: None }).unwrap();
+    let finer = refine(&soup, &Refine { levels: 1, longest_edge: None }, &Control::new()).unwrap();
     let carried = &finer.soup.attributes;
     let of_face = finer.face_origin.iter().map(|f| 4.0 + f64::from(*f)).collect::<Vec<_>>();
     assert_eq!(carried.face_numbers[0].values, of_face);
@@ -104,15 +104,15 @@ fn lists_that_are_no_surface_are_refined_and_attributes_are_interpolated() {
         }
     }
     let twice = Soup::new(soup.positions.clone(), vec![[0, 1, 1]]);
-    assert!(matches!(refine(&twice, &Refine::default()), Err(Error::Argument { .. })));
+    assert!(matches!(refine(&twice, &Refine::default(), &Control::new()), Err(Error::Argument { .. })));
     let endless = Refine { levels: 40, longest_edge: None };
-    assert!(refine(&soup, &endless).unwrap_err().to_string().contains("67 million"));
+    assert!(refine(&soup, &endless, &Control::new()).unwrap_err().to_string().contains("67 million"));
     // A needle has no area, but its sides have as many parts as fit on them.
     let needle = Soup::new(vec![[0.0; 3], [1e9, 0.0, 0.0], [0.0, 1e-9, 0.0]], vec![[0, 1, 2]]);
     let short = Refine { longest_edge: Some(1.0), ..Refine::default() };
-    assert!(refine(&needle, &short).unwrap_err().to_string().contains("67 million"));
+    assert!(refine(&needle, &short, &Control::new()).unwrap_err().to_string().contains("67 million"));
     let negative = Refine { levels: 0, longest_edge: Some(-1.0) };
-    assert!(matches!(refine(&soup, &negative), Err(Error::Argument { .. })));
+    assert!(matches!(refine(&soup, &negative, &Control::new()), Err(Error::Argument { .. })));
 }
 
 /// Checks the places of a refined metric's vertices: given vertices are their own places; no edge, a geodesic, is shorter than the straight

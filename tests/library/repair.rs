@@ -3,6 +3,7 @@
 use crate::common;
 use crate::common::Random;
 use ricci::Error;
+use ricci::control::Control;
 use ricci::mesh::check::{Defect, diagnose};
 use ricci::mesh::io::{self, Attributes, Soup};
 use ricci::mesh::repair::{Repair, RepairSteps, Repaired, repair};
@@ -14,7 +15,7 @@ fn mend(soup: &Soup) -> Repaired {
 
 /// Repairs a soup, and checks what every repair must satisfy.
 fn check(soup: &Soup, options: &Repair) -> Repaired {
-    let done = repair(soup, options).unwrap();
+    let done = repair(soup, options, &Control::new()).unwrap();
     let mut left = diagnose(&done.soup.positions, &done.soup.faces);
     if let Some(Defect::Empty { collapsed }) = left.defects.first_mut() {
         *collapsed = done.steps.degenerate_faces;
@@ -55,7 +56,9 @@ fn check(soup: &Soup, options: &Repair) -> Repaired {
         assert!(refused.faces.iter().all(|&f| refused.vertices.iter().all(|&v| at(f, v))));
     }
     // A repaired soup stays as it is. (Welding is not repeated: faces that were dropped may allow more of it.)
-    let again = repair(&done.soup, &Repair { weld: None, component: None, ..options.clone() }).unwrap();
+    let again =
+        repair(&done.soup, &Repair { weld: None, component: None, ..options.clone() }, &Control::new())
+            .unwrap();
     assert_eq!(again.steps, RepairSteps::default());
     assert!(again.soup.positions == done.soup.positions && again.soup.faces == done.soup.faces);
     done
@@ -166,7 +169,7 @@ fn welding_makes_no_edge_of_more_than_two_faces() {
         let faces: Vec<[u32; 3]> =
             (0..2 + below(12)).map(|_| [0; 3].map(|_| below((places * copies) as usize))).collect();
         let soup = Soup::new(positions, faces);
-        let apart = repair(&soup, &Repair { weld: None, ..Repair::default() }).unwrap();
+        let apart = repair(&soup, &Repair { weld: None, ..Repair::default() }, &Control::new()).unwrap();
         let crowded = |done: &Repaired| {
             done.diagnosis.defects.iter().filter(|d| d.code() == "non_manifold_edge").count()
         };
@@ -278,7 +281,8 @@ fn welding_within_a_tolerance_joins_chains_and_no_more() {
             }
         }
         let expected = (0..300).filter(|&v| set[v] != v).count();
-        let done = repair(&cloud, &Repair { weld: Some(tolerance), ..Repair::default() }).unwrap();
+        let done =
+            repair(&cloud, &Repair { weld: Some(tolerance), ..Repair::default() }, &Control::new()).unwrap();
         assert_eq!(done.steps.welded_vertices, expected, "{tolerance}");
     }
 }
@@ -353,7 +357,9 @@ fn what_needs_a_guess_is_left_and_garbage_is_refused() {
     garbage.faces[7][1] = 99;
     garbage.positions[3][0] = f64::INFINITY;
     garbage.positions.push([f64::NAN; 3]);
-    let Err(Error::Defects(diagnosis)) = repair(&garbage, &Repair::default()) else { panic!() };
+    let Err(Error::Defects(diagnosis)) = repair(&garbage, &Repair::default(), &Control::new()) else {
+        panic!()
+    };
     assert_eq!(diagnosis.counts(), [("index_out_of_range", 1), ("non_finite_coordinate", 1)]);
     let sound = shapes::icosphere(1).unwrap();
     for options in [
@@ -361,7 +367,7 @@ fn what_needs_a_guess_is_left_and_garbage_is_refused() {
         Repair { weld: Some(f64::NAN), ..Repair::default() },
         Repair { component: Some(1), ..Repair::default() },
     ] {
-        assert!(matches!(repair(&sound, &options), Err(Error::Argument { .. })));
+        assert!(matches!(repair(&sound, &options, &Control::new()), Err(Error::Argument { .. })));
     }
 }
 

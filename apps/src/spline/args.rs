@@ -235,6 +235,9 @@ pub struct ExportArgs {
     /// The unit of the coordinates, which STEP files say
     #[arg(long, value_enum, value_name = "UNIT", default_value = "mm")]
     pub unit: UnitChoice,
+    /// Give each face of a STEP file a colour that differs from those of its neighbours
+    #[arg(long)]
+    pub colours: bool,
     #[command(flatten)]
     #[serde(flatten)]
     pub common: Common,

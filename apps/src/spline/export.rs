@@ -118,5 +118,5 @@ impl JobOutcome for ExportOutcome {
 
 fn step_options(args: &ExportArgs) -> StepOptions {
     let name = args.spline.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    StepOptions { name, unit: args.unit.length_unit() }
+    StepOptions { name, unit: args.unit.length_unit(), colours: args.colours }
 }

@@ -49,6 +49,9 @@ pub struct ScanArgs {
     /// The unit of the coordinates, which the file says
     #[arg(long, value_enum, value_name = "UNIT", default_value = "mm")]
     pub unit: UnitChoice,
+    /// Give each face a colour that differs from those of its neighbours
+    #[arg(long)]
+    pub colours: bool,
     #[command(flatten)]
     #[serde(flatten)]
     pub common: Common,

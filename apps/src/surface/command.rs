@@ -41,7 +41,7 @@ impl Job for ScanArgs {
         let LayoutFit { fit, .. } = timed(&mut run.seconds.solve, || doing("fitting", fit))?;
         let mut step = Vec::new();
         let name = self.surface.file.mesh.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let step_options = StepOptions { name, unit: self.unit.length_unit() };
+        let step_options = StepOptions { name, unit: self.unit.length_unit(), colours: self.colours };
         timed(&mut run.seconds.write, || fit.spline.write_step(&step_options, &mut step))?;
         let written = WrittenSurface { normal_jump: fit.spline.normal_jump(), step };
         Ok(ScanOutcome { input, seamless, tolerance: fit_options.limit(&fit), fit, written })

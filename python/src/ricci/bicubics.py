@@ -50,10 +50,13 @@ class StepOptions(TypedDict, total=False):
         the name of the part.
     unit : Literal["millimetre", "metre"]
         of the coordinates: ``"millimetre"``, ``"metre"``.
+    colours : bool
+        colours of faces that differ from those of their neighbours; False.
     """
 
     name: str
     unit: Literal["millimetre", "metre"]
+    colours: bool
 
 
 def _name(struct: Struct, field: str, value: str) -> None:
@@ -62,7 +65,7 @@ def _name(struct: Struct, field: str, value: str) -> None:
     struct.put(field, text)
 
 
-_STEP: dict[str, Write] = {"name": _name, "unit": choice("UNIT")}
+_STEP: dict[str, Write] = {"name": _name, "unit": choice("UNIT"), "colours": number}
 _BICUBIC: dict[str, Write] = {**dict.fromkeys(BicubicOptions.__annotations__, above_zero), "folds": number}
 
 
@@ -86,14 +89,26 @@ class Bicubic(Handle):
         return summary(BicubicSummary, "bicubic", self)
 
     @takes(StepOptions)
-    def write(self, path: str | os.PathLike[str], *, name: str | None = None, unit: Literal["millimetre", "metre"] = "millimetre") -> None:
+    def write(
+        self,
+        path: str | os.PathLike[str],
+        *,
+        name: str | None = None,
+        unit: Literal["millimetre", "metre"] = "millimetre",
+        colours: bool = False,
+    ) -> None:
         """Write the patches as .step, .stp (STEP AP242) or .json, whole or not at all."""
         given = picked(locals(), StepOptions)
         call(lib.ricci_bicubic_write, self, options("step_options", given, _STEP), path_bytes(path))
 
     @takes(StepOptions)
     def text(
-        self, kind: Literal["step", "json"] = "json", *, name: str | None = None, unit: Literal["millimetre", "metre"] = "millimetre"
+        self,
+        kind: Literal["step", "json"] = "json",
+        *,
+        name: str | None = None,
+        unit: Literal["millimetre", "metre"] = "millimetre",
+        colours: bool = False,
     ) -> str:
         """The text of such a file."""
         given = picked(locals(), StepOptions)

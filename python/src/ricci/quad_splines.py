@@ -288,7 +288,12 @@ class QuadSpline(Handle):
 
     @takes(StepOptions)
     def write_step(
-        self, path: str | os.PathLike[str], *, name: str | None = None, unit: Literal["millimetre", "metre"] = "millimetre"
+        self,
+        path: str | os.PathLike[str],
+        *,
+        name: str | None = None,
+        unit: Literal["millimetre", "metre"] = "millimetre",
+        colours: bool = False,
     ) -> None:
         """Write the patches as .step or .stp (STEP AP242), whole or not at all: a face for each patch, an edge for each arc."""
         given = picked(locals(), StepOptions)

@@ -28,6 +28,7 @@ pub(crate) fn unfold(
     let mut moved = vec![false; mesh.n_vertices()];
     let mut rings = 1;
     for _ in 0..MOST_ROUNDS {
+        control.check()?;
         let folded = placed.flipped();
         if folded.is_empty() {
             return Ok(moved.iter().filter(|m| **m).count());

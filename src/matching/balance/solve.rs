@@ -40,7 +40,9 @@ pub(crate) fn relax(placed: &mut PlacedMesh, springs: Springs, control: &Control
     }
     // An isometry starts in balance, and the target nearly everywhere: then the start is better than the minimum.
     let start = placed.clone();
-    let off = [system.energy(&start.logarithms()), system.mean_residual(&start)];
+    let energy = system.energy(&start.logarithms());
+    control.check()?;
+    let off = [energy, system.mean_residual(&start)];
     control.check()?;
     let relaxed = system.minimise(placed, ENERGY_TOLERANCE, control)?;
     control.check()?;

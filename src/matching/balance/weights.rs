@@ -1,6 +1,8 @@
 //! Mean value weights of a triangulation in its own canonical metric: they are positive, and by them every vertex is the mean of its
 //! neighbours.
 
+use crate::control::Control;
+use crate::error::Result;
 use crate::geometry::complex::{cross, dot};
 use crate::geometry::{Space, triangle};
 use crate::matching::cover::{PlacedMesh, determinant, logarithm, seen_from};
@@ -16,6 +18,8 @@ const FULL_TURN: f64 = 1e-3;
 const LARGEST_ANGLE: f64 = PI - 1e-9;
 /// Least length that enters a weight, as a share of the longest of the face.
 const LEAST_LENGTH: f64 = 1e-12;
+/// Faces whose shapes are taken between two looks at the control.
+const FACES_PER_CHECK: usize = 1 << 10;
 
 /// The angles of a face, the lengths of the sides that start at its corners, and true if the face is not turned over.
 #[derive(Debug, Clone, Copy)]
@@ -33,9 +37,21 @@ struct FaceShape {
 /// Angles and lengths are taken from `placed`, the triangulation as it lies in its own canonical domain; at vertices where this folds they
 /// are taken from the surface, where the weights are positive too. The weights of each vertex are multiplied by the mean length of its
 /// edges.
-pub(crate) fn mean_value_weights(placed: &PlacedMesh, surface: &Surface) -> PerHalfedge<f64> {
+///
+/// # Errors
+/// [`Error::Cancelled`](crate::error::Error::Cancelled).
+pub(crate) fn mean_value_weights(
+    placed: &PlacedMesh,
+    surface: &Surface,
+    control: &Control,
+) -> Result<PerHalfedge<f64>> {
     let mesh = &placed.cover.mesh;
-    let canonical: Vec<FaceShape> = mesh.faces().map(|f| shape_in_place(placed, f)).collect();
+    let (mut canonical, mut steps) = (Vec::with_capacity(mesh.n_faces()), 0);
+    for f in mesh.faces() {
+        control.check_every(FACES_PER_CHECK, &mut steps)?;
+        canonical.push(shape_in_place(placed, f));
+    }
+    control.check()?;
     let given: Vec<FaceShape> = mesh.faces().map(|f| shape_given(surface, f)).collect();
     let mut weights = PerHalfedge::filled(mesh.n_halfedges(), 0.0);
     for v in mesh.vertices() {
@@ -49,7 +65,7 @@ pub(crate) fn mean_value_weights(placed: &PlacedMesh, surface: &Surface) -> PerH
             weights[h] = sides(mesh, h, shapes).into_iter().flatten().sum::<f64>() * (length / count);
         }
     }
-    weights
+    Ok(weights)
 }
 
 /// The summands of a half-edge's weight from the faces on its two sides.

@@ -33,6 +33,7 @@ pub(crate) fn handle_surface(
     let mesh = surface.mesh();
     let basis = homotopy_basis(mesh, surface.lengths(), marks.landmarks.first().copied(), control)?;
     let cut = CutGraph::around(mesh, basis.cut(mesh));
+    control.check()?;
     let domain = FundamentalDomain::new(mesh, &cut.is_cut, &basis)?;
     let curvature = PerVertex::filled(mesh.n_vertices(), 0.0);
     let metric = CanonicalMetric::new(surface, space, curvature, &options.flow, control)?;
@@ -46,14 +47,16 @@ pub(crate) fn handle_surface(
         threads: options.flow.threads,
     };
     let (mut placed, _) = opening.place(&metric.solution, mesh, control)?;
+    control.check()?;
     let mut generators = generators(&basis, &domain, &placed, mesh)?;
     if let Some(closed) = generators.clone().closed() {
         placed.cover = cover_by_words(mesh, &basis, &domain, &closed)?;
         generators = closed;
     }
     add_lines(&mut generators, &basis, &placed, mesh)?;
+    control.check()?;
     Ok(HandleSurface {
-        own: CanonicalSurface::new(surface, placed, metric.iterations),
+        own: CanonicalSurface::new(surface, placed, metric.iterations, control)?,
         basis,
         domain,
         generators,

@@ -237,7 +237,8 @@ fn opened(
         threads: problem.threads,
     };
     let (placed, pairings) = opening.place(&of.metric.solution, surface.mesh(), control)?;
-    Ok(OpenedSurface { own: CanonicalSurface::new(surface, placed, of.metric.iterations), pairings })
+    let own = CanonicalSurface::new(surface, placed, of.metric.iterations, control)?;
+    Ok(OpenedSurface { own, pairings })
 }
 
 /// The start of the harmonic map: the source as it lies in its own metric, moved so that its first path starts where the target's does and

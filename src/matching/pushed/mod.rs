@@ -52,8 +52,10 @@ pub(super) fn with_pushed_landmarks(
         in_own_orbifold(sides[0], options, &control.part(0.4, 0.5))?,
         in_own_orbifold(sides[1], options, &control.part(0.5, 0.6))?,
     ];
-    let weights =
-        [mean_value_weights(&source, sides[0].surface), mean_value_weights(&domain, sides[1].surface)];
+    let weights = [
+        mean_value_weights(&source, sides[0].surface, control)?,
+        mean_value_weights(&domain, sides[1].surface, control)?,
+    ];
     drop(source);
     let freedom = sides.map(|MarkedSurface { surface, marks }| {
         let mut freedom = VertexFreedom::of(surface.mesh(), options.boundary);

@@ -97,7 +97,7 @@ fn settled(
 ) -> Result<BalanceReport> {
     let side = common.side(1);
     unfold(domain, weights, &[], control)?;
-    let weights = mean_value_weights(domain, side.surface);
+    let weights = mean_value_weights(domain, side.surface, control)?;
     balance(domain, Springs { weights: &weights, freedom: &freedom(side) }, control)
 }
 
@@ -126,7 +126,7 @@ fn image(
             Some(other) => other,
             None => {
                 untangle(&mut carried, &freedom, control)?;
-                other.insert(mean_value_weights(&carried, sides[0].surface))
+                other.insert(mean_value_weights(&carried, sides[0].surface, control)?)
             }
         };
         let is_changed = around(&image, &folded, rings);
@@ -174,7 +174,7 @@ fn with_round_holes(
         .map(|around| around.iter().map(|h| parts[h.index()].twin()).collect::<Vec<_>>());
     let holes = rims.enumerate().map(|(k, rim)| hole(&domain, &closed, k, &rim)).collect();
     let placed = PlacedMesh { cover, at };
-    Ok((CanonicalSurface::new(surface, placed, domain.report.iterations), holes))
+    Ok((CanonicalSurface::new(surface, placed, domain.report.iterations, control)?, holes))
 }
 
 /// The closed surface that has its holes filled, placed in the plane or the hyperbolic plane.

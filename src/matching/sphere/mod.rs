@@ -54,6 +54,7 @@ fn best_rotated(
 ) -> Result<PlacedMesh> {
     let points = [source, target].map(positions);
     let densities = [0, 1].map(|s| samples(surfaces[s], &points[s]));
+    control.check()?;
     let mut least = LeastEnergy::new(f64::NEG_INFINITY);
     for turn in turnings([&densities[0], &densities[1]], control)? {
         control.check()?;
@@ -178,7 +179,7 @@ fn about_landmarks(
     let ((size, from), (other_size, to)) = (about(&own, 0), about(&other, 1));
     let (sin, cos) = best_turn(&from, &to).sin_cos();
     let factor = [cos, sin].map(|x| x * (other_size - size).exp());
-    let mesh_weights = mean_value_weights(source, sides[0].surface);
+    let mesh_weights = mean_value_weights(source, sides[0].surface, control)?;
     let mut image = source.clone();
     image.at = PerVertex::from_fn(points[0].len(), |v: VertexId| {
         let seen = own.seen(points[0][v.index()]).map(|z| other.point(mul(factor, z)));
@@ -213,7 +214,8 @@ fn on_unit_sphere(
         PlacedMesh::frame(Space::S2, sphere.positions[v])
     });
     let mut placed = PlacedMesh { cover, at };
-    let weights = mean_value_weights(&placed, surface);
+    let weights = mean_value_weights(&placed, surface, control)?;
+    control.check()?;
     unfold(&mut placed, &weights, &[], control)?;
     Ok((placed, sphere.report.iterations))
 }

@@ -38,7 +38,9 @@ pub(super) fn turnings([from, to]: [&SphereSamples; 2], control: &Control) -> Re
         let turned = [own[0].map(|x| a * x), own[1].map(|x| b * x)];
         all.push(bringing([turned[0], turned[1]], [other[0], other[1]]));
     }
-    let (samples, raster) = (SphereRaster::new(from).samples(), SphereRaster::new(to));
+    let samples = SphereRaster::new(from).samples();
+    control.check()?;
+    let raster = SphereRaster::new(to);
     let off = |turn: &Rotation| raster.difference(turn, &samples);
     let tried = |turn| control.check().map(|()| (off(&turn), turn));
     let mut coarse: Vec<(f64, Rotation)> = grid().into_iter().map(tried).collect::<Result<_>>()?;

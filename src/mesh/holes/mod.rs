@@ -1,12 +1,13 @@
 //! Filling of holes: each boundary loop gets a patch of least area, refined to the edges around it and faired.
 //!
 //! ```
+//! use ricci::control::Control;
 //! use ricci::mesh::holes::HoleChoice;
 //! use ricci::mesh::repair::{Repair, repair};
 //! use ricci::mesh::{Mesh, shapes};
 //! let mut sphere = shapes::icosphere(4)?;
 //! sphere.faces.retain(|face| !face.contains(&20));
-//! let done = repair(&sphere, &Repair { holes: HoleChoice::All, ..Repair::default() })?;
+//! let done = repair(&sphere, &Repair { holes: HoleChoice::All, ..Repair::default() }, &Control::new())?;
 //! assert_eq!((done.filling.filled.len(), Mesh::from_soup(&done.soup)?.euler()), (1, 2));
 //! # Ok::<(), ricci::Error>(())
 //! ```
@@ -25,6 +26,7 @@ use super::Point;
 use super::incidence::Incidence;
 use super::io::{Attributes, Soup};
 use super::rims::{Rim, rims_of};
+use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::vector;
 use fair::{RingCorner, RingFace};
@@ -91,7 +93,7 @@ pub struct Filling {
 ///
 /// # Errors
 /// [`Error::Argument`] for a vertex of [`HoleChoice::Through`] on no loop; [`Error::TooLarge`] for more vertices than can be numbered.
-pub fn fill_holes(soup: &mut Soup, choice: &HoleChoice) -> Result<Filling> {
+pub fn fill_holes(soup: &mut Soup, choice: &HoleChoice, control: &Control) -> Result<Filling> {
     let mut filling = Filling::default();
     if *choice == HoleChoice::Nothing {
         return Ok(filling);
@@ -101,6 +103,7 @@ pub fn fill_holes(soup: &mut Soup, choice: &HoleChoice) -> Result<Filling> {
     let chosen = chosen(&rims, choice)?;
     let around = Surroundings::new(soup, &incidence, &chosen);
     for rim in chosen {
+        control.check()?;
         let (edges, vertex) = (rim.vertices.len(), rim.vertex());
         match reason_to_leave(rim, soup).map_or_else(|| around.patch(rim, soup), Err) {
             Ok(patch) => filling.filled.push(append(soup, rim, &patch)?),

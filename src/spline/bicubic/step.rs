@@ -25,6 +25,7 @@ impl BicubicSurface {
         };
         let curve = |PatchCurve { ends, knots, control }: &PatchCurve| StepCurve {
             ends: *ends,
+            is_crease: false,
             curve: StepCurveGeometry {
                 degree: DEGREE,
                 knots: knots.clone(),

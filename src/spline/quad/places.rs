@@ -3,7 +3,7 @@
 use super::quintic::QuinticBasis;
 use super::spline::QuadSpline;
 use crate::control::{Control, Stage};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::geometry::vector::Vector;
 use crate::parallel;
 use crate::spline::triangular::SurfacePoint;
@@ -47,7 +47,8 @@ impl QuadSpline {
     }
 }
 
-/// The results `work(&all[i])` for every i, in parallel, with a check for cancellation after every batch; the first error, if there is one.
+/// The results `work(&all[i])` for every i, in parallel, with a report after every batch; the first error, if there is one. None is
+/// begun after the call is cancelled.
 pub(super) fn in_batches<A: Sync, T: Send>(
     all: &[A],
     threads: usize,
@@ -59,7 +60,9 @@ pub(super) fn in_batches<A: Sync, T: Send>(
         for batch in all.chunks(BATCH) {
             control.step(Stage::Layout, done.len() as f64 / all.len() as f64)?;
             let mut found: Vec<Option<Result<T>>> = batch.iter().map(|_| None).collect();
-            parallel::fill(&mut found, |i| Some(work(&batch[i])));
+            parallel::fill(&mut found, |i| {
+                Some(if control.is_cancelled() { Err(Error::Cancelled) } else { work(&batch[i]) })
+            });
             done.extend(found.into_iter().flatten().collect::<Result<Vec<_>>>()?);
         }
         control.step(Stage::Layout, 1.0)?;

@@ -23,13 +23,13 @@ impl QuadSpline {
         let mut points = vec![[0.0; 3]; layout.n_nodes()];
         layout.corners().for_each(|at| points[layout.node(at) as usize] = self.side_points(at)[0]);
         let mut curves = Vec::with_capacity(layout.arcs().len());
-        for (arc, PatchArc { ends, .. }) in layout.arcs().iter().enumerate() {
+        for (arc, PatchArc { ends, is_crease, .. }) in layout.arcs().iter().enumerate() {
             let curve = StepCurveGeometry {
                 degree: QUINTIC,
                 knots: knots(self.space().spans()[arc]),
                 control_points: self.arc_control_points(arc)?,
             };
-            curves.push(StepCurve { ends: *ends, curve });
+            curves.push(StepCurve { ends: *ends, is_crease: *is_crease, curve });
         }
         let patch = |at: usize| StepPatch {
             surface: StepSurfaceGeometry {

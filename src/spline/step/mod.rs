@@ -9,14 +9,19 @@ use geometry::{ParameterPlane, add_curve, add_point, add_surface};
 pub(super) use geometry::{StepCurveGeometry, StepSurfaceGeometry};
 use shells::add_shells;
 use std::io::Write;
-use step_io::build::UnitsInput;
+use step_io::build::{StyleTarget, UnitsInput};
 use step_io::model as m;
+use step_io::scene::Rgb;
 use step_io::{Ap242Author, AuthorError, StepBuilder, StepModel};
 
 /// The time stamp of every file: fixed, so that the same patches give the same bytes.
 const TIME_STAMP: &str = "2000-01-01T00:00:00Z";
 /// Distance, over the diagonal, below which a reader may take two points as one. Common curves and points agree to the last bit.
 const UNCERTAINTY: f64 = 1e-7;
+
+/// The colours of faces, as red, green and blue in [0, 1]: five suffice where at most four patches lie beside one.
+const COLOURS: [[f64; 3]; 5] =
+    [[0.55, 0.70, 0.86], [0.95, 0.76, 0.50], [0.63, 0.80, 0.58], [0.87, 0.62, 0.62], [0.76, 0.68, 0.84]];
 
 type Authored<T> = std::result::Result<T, AuthorError>;
 
@@ -37,12 +42,16 @@ pub struct StepOptions {
     pub name: String,
     /// The unit of the coordinates.
     pub unit: LengthUnit,
+    /// True: faces have colours that differ from those of their neighbours, so that programs show the patches. By default they have none.
+    pub colours: bool,
 }
 
 /// A curve that is a side of one patch or of two.
 pub(super) struct StepCurve {
     /// The points at which it begins and ends.
     pub ends: [u32; 2],
+    /// True where the surface may have an edge: the file's edge is named `crease`.
+    pub is_crease: bool,
     pub curve: StepCurveGeometry,
 }
 
@@ -103,12 +112,18 @@ impl StepPatches<'_> {
         let surfaces = self.patches.iter().map(|patch| add_surface(builder.author(), &patch.surface));
         let surfaces = surfaces.collect::<Authored<Vec<_>>>()?;
         let edges = self.edges(builder.author(), &surfaces)?;
+        let colours = if options.colours { self.colours() } else { Vec::new() };
         let mut open = Vec::new();
         for part_of in &self.parts {
             let mut faces = Vec::with_capacity(part_of.patches.len());
             for &at in &part_of.patches {
                 let sides = self.patches[at].sides.map(|(curve, reversed)| (edges[curve], reversed));
-                faces.push(add_face(builder.author(), surfaces[at], sides, part_of.is_inverted)?);
+                let name = format!("patch {at}");
+                let face = add_face(builder.author(), &name, surfaces[at], sides, part_of.is_inverted)?;
+                if let Some([red, green, blue]) = colours.get(at).map(|&k| COLOURS[k]) {
+                    builder.style(StyleTarget::Face(face), Rgb { red, green, blue }, None)?;
+                }
+                faces.push(face);
             }
             if part_of.is_closed {
                 builder.solid(part, &options.name, faces)?;
@@ -144,7 +159,7 @@ impl StepPatches<'_> {
             }
         }
         let mut edges = Vec::with_capacity(self.curves.len());
-        for (StepCurve { ends, curve }, beside) in self.curves.iter().zip(&beside) {
+        for (StepCurve { ends, is_crease, curve }, beside) in self.curves.iter().zip(&beside) {
             let curve = add_curve(author, curve)?;
             let lines = beside.iter().map(|&(_, line)| m::PcurveOrSurfaceRef::Pcurve(line)).collect();
             let by = m::PreferredSurfaceCurveRepresentation::Curve3d;
@@ -154,16 +169,35 @@ impl StepPatches<'_> {
                 false => m::CurveRef::SurfaceCurve(author.add_surface_curve("", curve, lines, by)?),
             };
             let [from, to] = ends.map(|p| m::VertexRef::VertexPoint(vertices[p as usize]));
-            edges.push(author.add_edge_curve("", from, to, on_surfaces, true)?);
+            let name = if *is_crease { "crease" } else { "" };
+            edges.push(author.add_edge_curve(name, from, to, on_surfaces, true)?);
         }
         Ok(edges)
     }
+
+    /// For each patch the number of its colour: the first that no patch before it has across a side, or where all are taken, that of the
+    /// fewest.
+    fn colours(&self) -> Vec<usize> {
+        let mut beside = vec![Vec::new(); self.curves.len()];
+        let mut chosen = Vec::with_capacity(self.patches.len());
+        for StepPatch { sides, .. } in &self.patches {
+            let mut taken = [0; COLOURS.len()];
+            for &(curve, _) in sides {
+                beside[curve].iter().for_each(|&k: &usize| taken[k] += 1);
+            }
+            let colour = (0..COLOURS.len()).min_by_key(|&k| taken[k]).unwrap_or(0);
+            sides.iter().for_each(|&(curve, _)| beside[curve].push(colour));
+            chosen.push(colour);
+        }
+        chosen
+    }
 }
 
-/// Adds a face over a surface with its sides, as (edge, true if it runs against the way around). An inverted face has the normal against
+/// Adds a named face over a surface with its sides, as (edge, true if it runs against the way around). An inverted face has the normal against
 /// that of its surface.
 fn add_face(
     author: &mut Ap242Author,
+    name: &str,
     surface: m::BSplineSurfaceWithKnotsId,
     sides: [(m::EdgeCurveId, bool); 4],
     is_inverted: bool,
@@ -177,5 +211,5 @@ fn add_face(
     // The loop runs counterclockwise around the surface's own normal; the face's flags turn both at once.
     let bound = author.add_face_outer_bound("", around, !is_inverted)?;
     let surface = m::SurfaceRef::BSplineSurfaceWithKnots(surface);
-    author.add_advanced_face("", vec![m::FaceBoundRef::FaceOuterBound(bound)], surface, !is_inverted)
+    author.add_advanced_face(name, vec![m::FaceBoundRef::FaceOuterBound(bound)], surface, !is_inverted)
 }

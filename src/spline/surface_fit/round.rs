@@ -81,7 +81,9 @@ impl FitRound {
     ) -> Result<FitRound> {
         let FitSetting { points, options, .. } = setting;
         let space = Arc::new(domain.space(options.degree, options.spread)?);
+        control.check()?;
         let places = domain.places(points.len())?;
+        control.check()?;
         let holes: Vec<Hole> = match &domain.infinity {
             Some(infinity) => vec![infinity.hole.clone().blank(setting.coefficients(setting.inside(TURNS)))],
             None => domain
@@ -94,7 +96,7 @@ impl FitRound {
             check_unity(&space, &holes, options.threads, &control.part(0.0, 0.1))?;
         }
         let best = Pool::new(options.threads)?.run(|| {
-            let system = FitSystem::new(&space, &holes, &places, FairnessUnit::Patches)?;
+            let system = FitSystem::new(&space, &holes, &places, FairnessUnit::Patches, control)?;
             let mut fitting =
                 RoundFitting { setting, domain: &domain, space: &space, holes: &holes, system, factor };
             let best = fitting.run(places, &control.part(0.1, 0.9))?;
@@ -183,8 +185,8 @@ impl RoundFitting<'_> {
                 let change = if rms < before { LESS_DAMPING } else { MORE_DAMPING };
                 damping = (damping * change).clamp(DAMPING_BOUNDS[0], DAMPING_BOUNDS[1]);
                 let normals = self.normals(&found);
-                fit =
-                    self.system.fit_tangentially(&placed, &TangentPlanes { normals: &normals, damping }, fit);
+                let planes = TangentPlanes { normals: &normals, damping };
+                fit = self.system.fit_tangentially(&placed, &planes, fit)?;
             }
             before = rms;
         }

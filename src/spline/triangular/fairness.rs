@@ -3,7 +3,8 @@
 use super::patch::{Parameter, Patch};
 use super::recurrence::Scratch;
 use super::space::SplineSpace;
-use crate::error::Result;
+use crate::control::Control;
+use crate::error::{Error, Result};
 use crate::geometry::complex::{Complex, distance as between, doubled_area};
 use crate::parallel;
 use std::f64::consts::SQRT_2;
@@ -37,8 +38,12 @@ pub(super) struct PatchEnergy {
 /// The energies of all patches, whose sum is the energy of the spline.
 ///
 /// # Errors
-/// Those of [`SplineSpace::each`].
-pub(super) fn energies(space: &SplineSpace, unit: FairnessUnit) -> Result<Vec<PatchEnergy>> {
+/// Those of [`SplineSpace::each`]; [`Error::Cancelled`].
+pub(super) fn energies(
+    space: &SplineSpace,
+    unit: FairnessUnit,
+    control: &Control,
+) -> Result<Vec<PatchEnergy>> {
     let grids: Vec<FairnessGrid> = space.patches().iter().map(FairnessGrid::new).collect();
     let area: f64 = grids.iter().map(|grid| grid.area).sum();
     let count = grids.len().max(1) as f64;
@@ -47,6 +52,9 @@ pub(super) fn energies(space: &SplineSpace, unit: FairnessUnit) -> Result<Vec<Pa
     let mut found: Vec<Result<PatchEnergy>> = Vec::new();
     found.resize_with(grids.len(), || Ok(PatchEnergy { control: Vec::new(), matrix: Vec::new() }));
     parallel::fill_with(&mut found, Scratch::default, |scratch, patch| {
+        if control.is_cancelled() {
+            return Err(Error::Cancelled);
+        }
         let grid = &grids[patch];
         let (weight, side, scale) = match unit {
             FairnessUnit::Domain => (area * grid.area, side, 1.0),

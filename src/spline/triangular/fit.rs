@@ -87,7 +87,7 @@ pub fn fit_filled(
     }
     let spline = Pool::new(threads)?.run(|| {
         control.step(Stage::Flow, 0.0)?;
-        let mut system = FitSystem::new(space, holes, places, FairnessUnit::Domain)?;
+        let mut system = FitSystem::new(space, holes, places, FairnessUnit::Domain, control)?;
         control.step(Stage::Flow, 0.6)?;
         let placed = system.placed(places, points)?;
         let unknowns = system.fit(&placed, fairness)?;

@@ -196,7 +196,8 @@ pub(super) fn in_batches_along<A: Sync, T: Send>(
     Ok(placed.into_iter().flatten().collect())
 }
 
-/// The results of `work(memory, &all[i])` for every i, in parallel, with a check for cancellation after every `size` of them.
+/// The results of `work(memory, &all[i])` for every i, in parallel, with a report after every `size` of them. None is begun after the call is
+/// cancelled.
 pub(super) fn in_batches<A: Sync, T: Send>(
     all: &[A],
     size: usize,
@@ -209,7 +210,9 @@ pub(super) fn in_batches<A: Sync, T: Send>(
         for batch in all.chunks(size) {
             control.step(Stage::Layout, done.len() as f64 / all.len() as f64)?;
             let mut found: Vec<Option<Result<T>>> = batch.iter().map(|_| None).collect();
-            parallel::fill_with(&mut found, Scratch::default, |scratch, i| Some(work(scratch, &batch[i])));
+            parallel::fill_with(&mut found, Scratch::default, |scratch, i| {
+                Some(if control.is_cancelled() { Err(Error::Cancelled) } else { work(scratch, &batch[i]) })
+            });
             done.extend(found.into_iter().flatten().collect::<Result<Vec<_>>>()?);
         }
         Ok(done)

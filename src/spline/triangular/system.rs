@@ -7,6 +7,7 @@ use super::hole::Hole;
 use super::patch::Parameter;
 use super::space::SplineSpace;
 use super::surface::Spline;
+use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::vector::{Vector, dot, norm, sub};
 use crate::linalg::{Cholesky, Pattern, Symmetric};
@@ -38,6 +39,8 @@ pub(crate) struct FitSystem<'a> {
     fair_fillings: Vec<Vec<EquationTerms>>,
     /// The conditions on fillings at their rings, with the weighted ones of their fairness.
     conditions: Vec<f64>,
+    /// Looked at between the steps of a fit.
+    control: Control,
 }
 
 /// Points, each with the surface at its place as a sum over the unknowns.
@@ -77,26 +80,42 @@ pub(crate) struct WeightedFit {
 }
 
 impl<'a> FitSystem<'a> {
-    /// The system of a space with holes, for points at about these places.
+    /// The system of a space with holes, for points at about these places. Its fits end when the call is cancelled.
     pub fn new(
         space: &'a SplineSpace,
         holes: &'a [Hole],
         places: &[Parameter],
         unit: FairnessUnit,
+        control: &Control,
     ) -> Result<FitSystem<'a>> {
+        let control = control.still();
         let unknowns = FitUnknowns::new(space, holes);
-        let pattern = Pattern::new(unknowns.count(), &unknowns.pairs())?;
+        let pairs = unknowns.pairs();
+        control.check()?;
+        let pattern = Pattern::new(unknowns.count(), &pairs)?;
+        drop(pairs);
+        control.check()?;
         let cholesky = Cholesky::analyse(&pattern)?;
+        control.check()?;
         let mut rings = vec![0.0; pattern.entries()];
         let share = (1.0 / places.len().max(1) as f64).sqrt();
         for row in unknowns.on_rings(places, share)? {
             add_square(&pattern, &mut rings, &row, 1.0);
         }
         let fair_fillings = unknowns.fair_fillings(places, share);
-        let (energies, nothing) = (energies(space, unit)?, vec![0.0; pattern.entries()]);
+        let (energies, nothing) = (energies(space, unit, &control)?, vec![0.0; pattern.entries()]);
         let (fairness, conditions) = (nothing.clone(), nothing);
-        let mut system =
-            FitSystem { unknowns, pattern, cholesky, energies, fairness, rings, fair_fillings, conditions };
+        let mut system = FitSystem {
+            unknowns,
+            pattern,
+            cholesky,
+            energies,
+            fairness,
+            rings,
+            fair_fillings,
+            conditions,
+            control,
+        };
         system.weigh(&FairnessWeights::even(space, holes));
         Ok(system)
     }
@@ -120,6 +139,7 @@ impl<'a> FitSystem<'a> {
 
     /// The points with their places.
     pub fn placed<'p>(&self, places: &[Parameter], points: &'p [Vector]) -> Result<PlacedRows<'p>> {
+        self.control.check()?;
         Ok(PlacedRows { rows: self.unknowns.at(places)?, points })
     }
 
@@ -179,7 +199,7 @@ impl<'a> FitSystem<'a> {
         placed: &PlacedRows<'_>,
         planes: &TangentPlanes<'_>,
         mut fit: WeightedFit,
-    ) -> WeightedFit {
+    ) -> Result<WeightedFit> {
         let weight = fit.fairness;
         let constant: Vec<f64> =
             self.conditions.iter().zip(&self.fairness).map(|(c, f)| c + weight * f).collect();
@@ -193,6 +213,7 @@ impl<'a> FitSystem<'a> {
         let mut size = scalar(&residual, &ahead);
         let small = RESIDUAL * RESIDUAL * size;
         for _ in 0..ITERATIONS {
+            self.control.check()?;
             if size.is_nan() || size <= small {
                 break;
             }
@@ -212,7 +233,7 @@ impl<'a> FitSystem<'a> {
             size = next;
             direction.iter_mut().zip(&ahead).for_each(|(d, a)| *d = [0, 1, 2].map(|x| a[x] + turn * d[x]));
         }
-        fit
+        Ok(fit)
     }
 
     /// The spline of a solution.
@@ -235,6 +256,7 @@ impl<'a> FitSystem<'a> {
     }
 
     fn factor(&mut self, points: &[f64], fairness: f64) -> Result<()> {
+        self.control.check()?;
         let rest = self.conditions.iter().zip(&self.fairness);
         let values: Vec<f64> = points.iter().zip(rest).map(|(p, (c, f))| p + c + fairness * f).collect();
         let size = self.pattern.size();

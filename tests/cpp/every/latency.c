@@ -12,6 +12,7 @@
 #include <ricci/circles.h>
 #include <ricci/harmonic.h>
 #include <ricci/match.h>
+#include <ricci/quad_spline.h>
 #include <ricci/quads.h>
 #include <ricci/repair.h>
 #include <ricci/shapes.h>
@@ -41,10 +42,11 @@ static ricci_dirichlet *dirichlet;
 static ricci_matching *matching;
 static ricci_seamless *seamless;
 static ricci_spline *spline, *plane;
+static ricci_quad_spline *quad_spline;
 static ricci_soup *soup;
 static size_t n_most;
 static double *numbers, *points;
-static uint32_t *indices;
+static uint32_t *indices, *zeros;
 
 static ricci_mesh *made(uint32_t kind, size_t n, size_t m, double a, double b) {
     ricci_shape shape;
@@ -88,6 +90,7 @@ static void set_up(double n) {
     check(ricci_match(torus, torus, NULL, NULL, &matching));
     check(ricci_seamless_new(torus, NULL, NULL, &seamless));
     check(ricci_spline_fit_surface(flat, NULL, NULL, &spline));
+    check(ricci_quad_spline_fit(seamless, NULL, NULL, NULL, &quad_spline));
     /* A spline over a square, and points near it. */
     const double corners[] = {0, 0, 1, 0, 1, 1, 0, 1};
     const size_t starts[] = {0, 4};
@@ -101,7 +104,8 @@ static void set_up(double n) {
     numbers = malloc(6 * n_most * sizeof *numbers);
     indices = malloc(n_most * sizeof *indices);
     points = malloc(n_most * sizeof *points);
-    if (!numbers || !indices || !points) exit(1);
+    zeros = calloc(n_most, sizeof *zeros);
+    if (!numbers || !indices || !points || !zeros) exit(1);
     check(ricci_mesh_values(torus, RICCI_POSITIONS, points, 3 * s.n_vertices));
     check(ricci_mesh_faces(torus, indices, 3 * s.n_faces));
     check(ricci_soup_from_arrays(points, 0, s.n_vertices, indices, s.n_faces, &soup));
@@ -188,6 +192,21 @@ FILLS(mesh_write, ricci_mesh_write(torus, NULL, "latency.ply"))
 MAKES(soup_refine, ricci_soup, ricci_soup_refine(soup, &FINE, &result))
 MAKES(soup_repair, ricci_soup, ricci_soup_repair(soup, &REPAIR, &result))
 
+MAKES(quad_spline_fit, ricci_quad_spline, ricci_quad_spline_fit(seamless, NULL, NULL, control, &result))
+FILLS(quad_spline_closest,
+      ricci_quad_spline_closest(quad_spline, points, n_most / 3, control, indices, numbers, 6 * n_most))
+MAKES(quad_spline_tessellate, ricci_mesh, ricci_quad_spline_tessellate(quad_spline, 100, 0, control, &result))
+FILLS(quad_spline_patch_of_faces,
+      ricci_quad_spline_patch_of_faces(quad_spline, torus, control, indices, n_most))
+
+static ricci_status do_quad_spline_evaluate(const ricci_control *control) {
+    ricci_spline_places places;
+    check(ricci_init(&places, sizeof places));
+    places.patches = zeros, places.parameters = points, places.n = n_most / 3;
+    return ricci_quad_spline_evaluate(quad_spline, &places, RICCI_QUAD_SPLINE_POINT, control, numbers,
+                                      n_most);
+}
+
 static ricci_status do_spline_evaluate(const ricci_control *control) {
     ricci_spline_places places;
     check(ricci_init(&places, sizeof places));
@@ -241,6 +260,11 @@ static const struct {
             JOB(spline_evaluate),
             JOB(spline_tessellate),
             JOB(bicubic_new),
+            JOB(quad_spline_fit),
+            JOB(quad_spline_evaluate),
+            JOB(quad_spline_closest),
+            JOB(quad_spline_tessellate),
+            JOB(quad_spline_patch_of_faces),
             JOB(mesh_refine_angle),
             JOB(mesh_read),
             JOB(mesh_write),

@@ -300,11 +300,13 @@ static void an_ellipsoid_is_met(void) {
     meshes_are_closed(spline, 4.0 / 3.0 * pi * 1.6 * 1.2);
     ricci_step_options step;
     INIT(step);
-    step.name = "ellipsoid", step.unit = RICCI_UNIT_METRE;
+    step.name = "ellipsoid", step.unit = RICCI_UNIT_METRE, step.colours = 1;
     OK(ricci_quad_spline_write_step(spline, &step, "quad_spline.step"));
     CHECK(count_in_file("quad_spline.step", "ADVANCED_FACE(") == s.n_patches);
     CHECK(count_in_file("quad_spline.step", "MANIFOLD_SOLID_BREP(") == 1);
     CHECK(count_in_file("quad_spline.step", "'ellipsoid'") > 0);
+    CHECK(count_in_file("quad_spline.step", " STYLED_ITEM(") == s.n_patches);
+    CHECK(count_in_file("quad_spline.step", " PCURVE(") == 2 * s.n_arcs);
     ricci_quad_spline_free(spline);
 }
 

@@ -85,6 +85,7 @@ fn the_same_patches_give_the_same_bytes_twice_and_a_second_reader_finds_their_to
     let count = |name: &str| first.matches(&format!("= {name}(")).count();
     assert_eq!(count("ADVANCED_FACE"), surface.patches.len());
     assert_eq!(count("EDGE_CURVE"), surface.curves.len());
+    assert_eq!(count("PCURVE"), 2 * surface.curves.len());
     assert_eq!(count("VERTEX_POINT"), surface.points.len());
     assert_eq!([count("MANIFOLD_SOLID_BREP"), count("CLOSED_SHELL")], [1, 1]);
     assert!(first.contains("AP242_MANAGED_MODEL_BASED_3D_ENGINEERING_MIM_LF"));
