@@ -88,8 +88,8 @@ typedef struct ricci_step_options {
     const char *name;
     /** RICCI_UNIT_MILLIMETRE or RICCI_UNIT_METRE. Parts are usually in millimetres, buildings in metres. */
     uint32_t unit;
-    /** 1: faces have colours that differ from those of their neighbours, which suits a look at the patches; 0: none,
-     * which suits a part among others. */
+    /** 1: faces have colours that differ from those of their neighbours; 0: they have none. Colours suit a look at
+     * the patches, none a part among others. */
     uint32_t colours;
 } ricci_step_options;
 

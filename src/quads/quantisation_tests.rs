@@ -77,16 +77,16 @@ fn divided_squares(n: usize, divisions: usize, random: &mut SplitMix64) -> TMesh
         let across = lengths.sum::<i128>();
         let cut = 1 + below(across as usize - 1) as i128;
         // The first cut may fall on an arc that is on the opposite side as well.
-        cut_side(&mut t_mesh, (r, way + 2), across - cut);
-        let from = cut_side(&mut t_mesh, (r, way), cut);
-        let to = cut_side(&mut t_mesh, (r, way + 2), across - cut);
+        cut_side(&mut t_mesh, r, way + 2, across - cut);
+        let from = cut_side(&mut t_mesh, r, way, cut);
+        let to = cut_side(&mut t_mesh, r, way + 2, across - cut);
         divide(&mut t_mesh, r, way, [from, to]);
     }
     t_mesh
 }
 
 /// Divides the arc of a side that this place is inside of; returns the number of arcs of the side before the place.
-fn cut_side(t_mesh: &mut TMesh, (r, side): (usize, usize), place: i128) -> usize {
+fn cut_side(t_mesh: &mut TMesh, r: usize, side: usize, place: i128) -> usize {
     let (mut before, mut done) = (0, 0);
     loop {
         let h = t_mesh.rectangles[r].sides[side][done];
@@ -94,7 +94,7 @@ fn cut_side(t_mesh: &mut TMesh, (r, side): (usize, usize), place: i128) -> usize
         done += 1;
         if before + length > place {
             let along = place - before;
-            divide_arc(t_mesh, h / 2, if h % 2 == 0 { along } else { length - along });
+            divide_arc(t_mesh, h / 2, if h.is_multiple_of(2) { along } else { length - along });
             return done;
         }
         before += length;
@@ -175,13 +175,13 @@ fn least_cost(found: &Quantisation, least: i64) -> f64 {
     }
 }
 
-#[test]
-fn costs_are_within_a_hundredth_of_those_of_an_integer_program() {
+/// Of T-meshes divided up to so many times, how many have a cost within a hundredth of that of an integer program, and by how much more the
+/// worst costs.
+fn beside_referee(cases: usize, divisions: usize) -> (usize, f64) {
     let mut random = SplitMix64::new(11);
-    let (mut near, mut n_arcs, mut worst) = (0, 0, 0.0f64);
-    const CASES: usize = 60;
-    for case in 0..CASES {
-        let t_mesh = divided_squares(1 + case % 5, 2 + case % 9, &mut random);
+    let (mut near, mut worst) = (0, 0.0f64);
+    for case in 0..cases {
+        let t_mesh = divided_squares(1 + case % 5, 2 + case % (divisions - 1), &mut random);
         check_lengths(&t_mesh);
         let wanted: Vec<f64> = t_mesh.arcs.iter().map(|_| 0.3 + 5.0 * random.unit()).collect();
         let least = (case % 2) as i64;
@@ -190,9 +190,16 @@ fn costs_are_within_a_hundredth_of_those_of_an_integer_program() {
         let over = found.cost() / best - 1.0;
         assert!(over > -1e-9, "case {case}: {} is less than the least cost {best}", found.cost());
         near += usize::from(over <= 0.01);
-        n_arcs += wanted.len();
         worst = worst.max(over);
     }
-    println!("{near} of {CASES} within 1 %, at worst {worst:.3}; {n_arcs} arcs");
-    assert!(100 * near >= 95 * CASES, "{near} of {CASES}, at worst {worst}");
+    (near, worst)
+}
+
+#[test]
+fn costs_are_within_a_hundredth_of_those_of_an_integer_program() {
+    let (near, worst) = beside_referee(60, 10);
+    assert!(near >= 57, "{near} of 60, at worst {worst}");
+    // Where arcs lie on many twisted strips, a walk that uses an arc twice would be needed more often.
+    let (near, worst) = beside_referee(100, 41);
+    assert!(near >= 80 && worst < 0.5, "{near} of 100, at worst {worst}");
 }

@@ -1,9 +1,11 @@
 //! The curves and surfaces of a STEP file, and the lines in the parameters of surfaces that its edges follow.
 
-use super::Authored;
 use crate::geometry::vector::Vector;
-use step_io::Ap242Author;
 use step_io::model as m;
+use step_io::{Ap242Author, AuthorError};
+
+/// What is added to a file, or why it cannot be.
+pub(super) type Authored<T> = Result<T, AuthorError>;
 
 /// A B-spline curve without weights.
 pub(crate) struct StepCurveGeometry {

@@ -5,14 +5,14 @@ mod shells;
 
 use crate::error::{Error, Result};
 use crate::geometry::vector::Vector;
-use geometry::{ParameterPlane, add_curve, add_point, add_surface};
+use geometry::{Authored, ParameterPlane, add_curve, add_point, add_surface};
 pub(super) use geometry::{StepCurveGeometry, StepSurfaceGeometry};
 use shells::add_shells;
 use std::io::Write;
 use step_io::build::{StyleTarget, UnitsInput};
 use step_io::model as m;
 use step_io::scene::Rgb;
-use step_io::{Ap242Author, AuthorError, StepBuilder, StepModel};
+use step_io::{Ap242Author, StepBuilder, StepModel};
 
 /// The time stamp of every file: fixed, so that the same patches give the same bytes.
 const TIME_STAMP: &str = "2000-01-01T00:00:00Z";
@@ -22,8 +22,6 @@ const UNCERTAINTY: f64 = 1e-7;
 /// The colours of faces, as red, green and blue in [0, 1]: five suffice where at most four patches lie beside one.
 const COLOURS: [[f64; 3]; 5] =
     [[0.55, 0.70, 0.86], [0.95, 0.76, 0.50], [0.63, 0.80, 0.58], [0.87, 0.62, 0.62], [0.76, 0.68, 0.84]];
-
-type Authored<T> = std::result::Result<T, AuthorError>;
 
 /// The unit of the coordinates.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

@@ -1,6 +1,6 @@
 //! Open shells of a STEP file, which the builder of files does not know.
 
-use super::Authored;
+use super::geometry::Authored;
 use step_io::build::{Part, UnitsInput};
 use step_io::model as m;
 use step_io::{Ap242Author, StepBuilder};

@@ -9,6 +9,8 @@ mod fit;
 mod knots;
 mod quad;
 mod quad_places;
+#[cfg(feature = "step")]
+mod quad_step;
 mod quad_strips;
 mod smooth;
 
