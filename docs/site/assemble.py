@@ -141,7 +141,7 @@ def rooted(source: Path) -> None:
     results = sorted(path.stem for path in (source / "results").glob("*.md"))
     listed(source / "results" / "index.md", "Results", "Tables of what was measured, each with the program that measures it.", results)
     text = tree("Begin", ["tutorial", "capabilities", "pictures/index", "notebooks/index"])
-    text += tree("Use", ["commands", "python/index", "c/index", "c-conventions", "examples"])
+    text += tree("Use", ["commands", "python/index", "c/index", "c-conventions", "examples", "packages"])
     text += tree("Know", ["notation", "common-subdivision", "results/index", "architecture", "bibliography", "dependencies"])
     appended(source / "index.md", text)
 
