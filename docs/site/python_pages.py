@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import re
 import sys
 from pathlib import Path
 from typing import Any
@@ -19,6 +20,12 @@ def directive(name: str, value: Any) -> list[str]:
             options += ["   :inherited-members: int, object"]
         return [f".. autoclass:: {name}", *options, ""]
     return [f".. autofunction:: {name}", ""]
+
+
+def title_of(lead: str) -> str:
+    """What a module's documentation begins with: up to a colon or a full stop, or to the first comma of a long sentence."""
+    title = re.split(r"[:.]", lead, maxsplit=1)[0].replace("\n", " ")
+    return title if len(title) <= 50 else title.split(",")[0]
 
 
 def page(title: str, lead: str, names: list[tuple[str, Any]]) -> str:
@@ -57,6 +64,5 @@ def write(folder: Path) -> list[str]:
     )
     for short, (lead, names) in made.items():
         names.sort(key=lambda pair: (inspect.isclass(pair[1]), pair[0]))
-        title = short.replace("_", " ").capitalize()
-        (folder / f"{short}.rst").write_text(page(title, lead, names), encoding="utf-8")
+        (folder / f"{short}.rst").write_text(page(title_of(lead), lead, names), encoding="utf-8")
     return sorted(made)
