@@ -17,6 +17,15 @@ def test_the_example_of_the_front_page_runs(tmp_path, monkeypatch):
     assert np.isfinite(found["uv"]).all()
 
 
+def test_the_examples_of_the_tutorial_run(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    found = run(ROOT / "docs" / "tutorial.md")
+    assert (found["part"].summary.turned_faces, found["part"].defects) == (47, [])
+    assert found["flat"].converged
+    assert found["patches"].summary.distance <= 1e-4
+    assert (tmp_path / "part.step").read_text(encoding="utf-8").startswith("ISO-10303-21;")
+
+
 def test_the_examples_of_the_package_run(tmp_path, monkeypatch):
     pytest.importorskip("pyarrow")
     monkeypatch.chdir(tmp_path)

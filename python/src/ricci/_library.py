@@ -13,7 +13,8 @@ __all__ = ["ffi", "lib", "path"]
 
 # The version of the headers, whose macros cffi does not read: ricci.h, RICCI_VERSION_*.
 MAJOR, MINOR = 0, 1
-SUFFIX = ".dylib" if sys.platform == "darwin" else ".so"
+# Linux is tested; the others are written, and were not run.
+SUFFIX = {"darwin": ".dylib", "win32": ".dll"}.get(sys.platform, ".so")
 
 
 def _find() -> Path:
