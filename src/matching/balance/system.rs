@@ -162,6 +162,7 @@ impl<'a> BalanceSystem<'a> {
         control: &Control,
     ) -> Result<(usize, f64)> {
         let mut logs = placed.logarithms();
+        control.check()?;
         let mut residual = self.residual(placed, &logs);
         for step in 0..MOST_STEPS {
             control.step(Stage::Flow, step as f64 / MOST_STEPS as f64)?;
@@ -175,7 +176,9 @@ impl<'a> BalanceSystem<'a> {
             let mut found = None;
             for _ in 0..MOST_HALVINGS {
                 let next = self.stepped(placed, &direction, length);
+                control.check()?;
                 let next_logs = next.logarithms();
+                control.check()?;
                 let after = self.residual(&next, &next_logs);
                 if after < residual {
                     found = Some((next, next_logs, after));

@@ -3,6 +3,7 @@
 use super::coarse::CoarseTriangulation;
 use super::infinity::{BareHole, InfinityHole};
 use super::similarity::PlaneSimilarity;
+use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::Space;
 use crate::geometry::complex::{
@@ -189,8 +190,8 @@ impl SurfaceDomain {
     /// other singular vertices all knots coincide.
     ///
     /// # Errors
-    /// Those of [`SplineSpace::new`].
-    pub fn space(&self, degree: usize, spread: f64) -> Result<SplineSpace> {
+    /// Those of [`SplineSpace::new`]; [`Error::Cancelled`].
+    pub fn space(&self, degree: usize, spread: f64, control: &Control) -> Result<SplineSpace> {
         let mesh = &self.coarse.mesh;
         let mut around = PerVertex::from_fn(mesh.n_vertices(), |v: VertexId| {
             let around = self.surroundings(v);
@@ -216,7 +217,9 @@ impl SurfaceDomain {
                 Patch { chart: f.0, control: control.collect(), knots }
             })
             .collect();
-        let supports = mesh.faces().map(|f| self.supports(f, &patches)).collect::<Result<_>>()?;
+        let supports = |f| control.check().and_then(|()| self.supports(f, &patches));
+        let supports = mesh.faces().map(supports).collect::<Result<_>>()?;
+        control.check()?;
         SplineSpace::new(degree, patches, supports)
     }
 

@@ -80,7 +80,9 @@ impl FitRound {
         control: &Control,
     ) -> Result<FitRound> {
         let FitSetting { points, options, .. } = setting;
-        let space = Arc::new(domain.space(options.degree, options.spread)?);
+        let pool = Pool::new(options.threads)?;
+        let space = pool.run(|| domain.space(options.degree, options.spread, control))?;
+        let space = Arc::new(space);
         control.check()?;
         let places = domain.places(points.len())?;
         control.check()?;
@@ -95,7 +97,7 @@ impl FitRound {
         if is_checked {
             check_unity(&space, &holes, options.threads, &control.part(0.0, 0.1))?;
         }
-        let best = Pool::new(options.threads)?.run(|| {
+        let best = pool.run(|| {
             let system = FitSystem::new(&space, &holes, &places, FairnessUnit::Patches, control)?;
             let mut fitting =
                 RoundFitting { setting, domain: &domain, space: &space, holes: &holes, system, factor };

@@ -42,7 +42,7 @@ fn basis_functions_add_up_to_one() {
     {
         let (_, domain) = domain(Surface::from_soup(&surface).unwrap(), step);
         for degree in 1..=4 {
-            let space = Arc::new(domain.space(degree, 0.5).unwrap());
+            let space = Arc::new(domain.space(degree, 0.5, &Control::new()).unwrap());
             let ones = Spline::new(space.clone(), vec![[1.0, 2.0, -1.0]; space.n_control_points()]).unwrap();
             let mut worst = 0.0f64;
             for point in ones.evaluate(&places(&domain, 20), 1, 1, &Control::new()).unwrap() {
@@ -63,7 +63,7 @@ fn a_fit_comes_near_the_surface() {
         let surface = Surface::from_soup(&soup.unwrap()).unwrap();
         let points = surface.positions().unwrap().to_vec();
         let (_, domain) = domain(surface, 37);
-        let space: Arc<SplineSpace> = Arc::new(domain.space(3, 0.5).unwrap());
+        let space: Arc<SplineSpace> = Arc::new(domain.space(3, 0.5, &Control::new()).unwrap());
         let places = domain.places(points.len()).unwrap();
         let fitted = fit(&space, &places, &points, &FitOptions::default(), &Control::new()).unwrap();
         assert!(fitted.rms < most, "{} control points: {:e}", space.n_control_points(), fitted.rms);
