@@ -21,4 +21,5 @@ pub enum UnitLeftOut {
 pub struct StepLeftOut {
     pub name: String,
     pub unit: UnitLeftOut,
+    pub colours: bool,
 }
