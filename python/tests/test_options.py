@@ -176,7 +176,10 @@ CASES = [
         options("bicubic_options", {"tolerance": 0.5, "angle": 0.1, "threads": 2, "control_points": 9, "folds": True}, bicubics._BICUBIC),
         {"tolerance": 0.5, "angle": 0.1, "threads": 2, "control_points": 9, "folds": 1},
     ),
-    (options("step_options", {"name": "part", "unit": "metre"}, bicubics._STEP), {"name": b"part", "unit": 1}),
+    (
+        options("step_options", {"name": "part", "unit": "metre", "colours": True}, bicubics._STEP),
+        {"name": b"part", "unit": 1, "colours": 1},
+    ),
     (
         options("quad_spline_options", {"tolerance": 0.5, "bending": 0, "threads": 2, "most_spans": 4}, quad_splines._QUAD_SPLINE),
         {"tolerance": 0.5, "bending": -1, "threads": 2, "most_spans": 4},
