@@ -79,8 +79,8 @@ typedef struct ricci_bicubic_options {
     uint32_t reserved;
 } ricci_bicubic_options;
 
-/** Entries of a STEP file beside the patches, whose faces are named `patch 0`, `patch 1`, … and whose edges where
- * the surface has one `crease`. Zeroed by ricci_init: no name, millimetres, no colours. */
+/** Entries of a STEP file beside the patches, whose faces are named `patch 0`, `patch 1`, … and whose edges
+ * where the surface has one `crease`. Zeroed by ricci_init: no name, millimetres, no colours. */
 typedef struct ricci_step_options {
     /** sizeof(ricci_step_options), by ricci_init. */
     size_t size;
@@ -88,8 +88,8 @@ typedef struct ricci_step_options {
     const char *name;
     /** RICCI_UNIT_MILLIMETRE or RICCI_UNIT_METRE. Parts are usually in millimetres, buildings in metres. */
     uint32_t unit;
-    /** 1: faces have colours that differ from those of their neighbours; 0: they have none. Colours suit a look at
-     * the patches, none a part among others. */
+    /** 1: faces have colours that differ from those of their neighbours; 0: they have none. Colours suit a
+     * look at the patches, none a part among others. */
     uint32_t colours;
 } ricci_step_options;
 
