@@ -3,8 +3,8 @@
 pub mod face;
 pub mod surfaces;
 
-use ricci::control::Control;
 use ricci::Error;
+use ricci::control::Control;
 use ricci::mesh::check::diagnose;
 use ricci::mesh::io::{self, Attributes, Format, Soup};
 use ricci::mesh::repair::{Repair, RepairSteps, repair};
