@@ -4,6 +4,7 @@
 //! `triangular` has the splines themselves, `surface_fit` their domains on flat metrics of whole surfaces and the fits over these, `bicubic`
 //! the tensor-product patches that CAD programs read. `quad` has splines over layouts of four-sided patches.
 
+mod batches;
 mod bicubic;
 mod quad;
 #[cfg(feature = "step")]

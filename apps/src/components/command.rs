@@ -57,7 +57,7 @@ impl Job for ComponentsJob<'_> {
         if let Some(why) = input::out_of_range(&soup) {
             return Err(Failure::Input(format!("{}: {why}", path.display())));
         }
-        let pieces = timed(&mut run.seconds.build, || components(&soup, run.control))?;
+        let pieces = timed(&mut run.seconds.build, || components(&soup, &run.control.still()))?;
         let summary = InputSummary::new(path, &diagnose(&soup.positions, &soup.faces));
         let mut flows = Vec::with_capacity(pieces.len());
         for piece in pieces {

@@ -5,7 +5,7 @@
 //! finds the nearest place of each cell whose box is nearer than the best place so far.
 
 use super::bezier::{BezierNet, quarters};
-use super::places::{PatchPlace, in_batches};
+use super::places::{BATCH, PatchPlace};
 use super::quintic::QUINTIC;
 use super::spline::QuadSpline;
 use crate::control::Control;
@@ -16,6 +16,7 @@ use crate::geometry::triangle_tree::{combined, nearest_weights};
 use crate::geometry::vector::{Vector, add, distance, dot, lerp, scale, triangle_normal};
 use crate::geometry::z_order::z_order;
 use crate::mesh::Point;
+use crate::spline::batches::in_batches;
 use crate::spline::triangular::{DescentEnd, descend, is_convex};
 
 /// Least and most halvings of a span in each direction: enough that no bend is overlooked, and not too many cells of a wild surface.
@@ -77,9 +78,8 @@ impl QuadSpline {
             return Err(Error::argument("patches", 0, "1 or more"));
         }
         let numbers: Vec<usize> = (0..n).collect();
-        let divided = in_batches(&numbers, threads, control, |&patch| {
-            control.check()?;
-            Ok(self.divided(patch))
+        let divided = in_batches(&numbers, BATCH, threads, control, |(): &mut (), &patch| {
+            control.check().map(|()| self.divided(patch))
         })?;
         let largest = self.control_points().iter().flatten().fold(0.0f64, |m, x| m.max(x.abs()));
         let (mut cells, mut boxes) = (Vec::new(), Vec::new());
@@ -224,7 +224,9 @@ impl NearestPlaces {
         // Points that follow each other are near each other, so that the cells of one are at hand for the next.
         let points: Vec<Vector> = sought.iter().map(|of| of.point).collect();
         let order = z_order(&points);
-        let found = in_batches(&order, threads, control, |&i| Ok(self.nearest(sought[i as usize])))?;
+        let found = in_batches(&order, BATCH, threads, control, |(): &mut (), &i| {
+            Ok(self.nearest(sought[i as usize]))
+        })?;
         let mut placed: Vec<Option<NearestPlace>> = vec![None; points.len()];
         order.iter().zip(found).for_each(|(&i, of)| placed[i as usize] = of);
         let missing =

@@ -2,7 +2,7 @@
 
 use super::bezier::{BezierNet, quarters};
 use super::layout::{PatchCorner, PatchLayout};
-use super::places::in_batches;
+use super::places::BATCH;
 use super::quintic::{QUINTIC, QuinticBasis};
 use super::spline::QuadSpline;
 use crate::control::Control;
@@ -10,6 +10,7 @@ use crate::error::{Error, Result};
 use crate::geometry::vector::{Vector, add, norm, normalised, scale, sub};
 use crate::mesh::io::{Attributes, NumberColumn, NumberType, Soup};
 use crate::mesh::union_find::UnionFind;
+use crate::spline::batches::in_batches;
 
 /// Halvings of spans in each direction before second derivatives are bounded by Bézier points: these come near the surface.
 const HALVINGS: usize = 2;
@@ -58,9 +59,8 @@ impl QuadSpline {
         let parts = self.parts_of_arcs(size)?;
         let numbers = VertexNumbers::new(layout, &parts)?;
         let all: Vec<usize> = (0..layout.patches().len()).collect();
-        let grids = in_batches(&all, threads, control, |&patch| {
-            control.check()?;
-            Ok(self.grid(patch, numbers.size(patch)))
+        let grids = in_batches(&all, BATCH, threads, control, |(): &mut (), &patch| {
+            control.check().map(|()| self.grid(patch, numbers.size(patch)))
         })?;
         let mut positions = vec![[0.0; 3]; numbers.count];
         let mut normals = vec![[0.0; 3]; numbers.count];

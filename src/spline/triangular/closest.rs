@@ -10,7 +10,7 @@ use super::hole::Hole;
 use super::patch::Parameter;
 use super::point::SurfacePoint;
 use super::recurrence::Scratch;
-use super::surface::{LARGEST, Spline, in_batches, in_batches_along};
+use super::surface::{LARGEST, Spline, in_batches_along};
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::bounds::Bounds;
@@ -18,6 +18,7 @@ use crate::geometry::boxes::{BoundsNode, BoundsTree};
 use crate::geometry::complex::{Complex, add, scale};
 use crate::geometry::vector::{self, Vector, distance};
 use crate::geometry::z_order::z_order;
+use crate::spline::batches::in_batches;
 use std::f64::consts::TAU;
 
 /// Least and most halvings of a triangle: enough that no bend is overlooked, and not too many cells of a wild surface.
@@ -91,7 +92,7 @@ impl Spline {
         let pieces: Vec<CellRegion> = patches
             .chain((0..self.holes().len()).filter(|&hole| self.holes()[hole].fill.is_some()).flat_map(middle))
             .collect();
-        let cut = in_batches(&pieces, BATCH, threads, control, |scratch, &piece| {
+        let cut = in_batches(&pieces, BATCH, threads, control, |scratch: &mut Scratch, &piece| {
             let mut cutting =
                 CellDivision { spline: self, piece, scratch, cells: Vec::new(), boxes: Vec::new() };
             let corners = self.corners_of(piece);

@@ -7,11 +7,11 @@ use super::patch::Parameter;
 use super::point::SurfacePoint;
 use super::recurrence::Scratch;
 use super::space::SplineSpace;
-use crate::control::{Control, Stage};
+use crate::control::Control;
 use crate::error::{Error, Result, check_size};
 use crate::geometry::complex::doubled_area;
 use crate::geometry::vector::Vector;
-use crate::parallel::{self, Pool};
+use crate::spline::batches::in_batches;
 use std::sync::Arc;
 
 /// Number of points that are evaluated between two checks for cancellation.
@@ -194,27 +194,4 @@ pub(super) fn in_batches_along<A: Sync, T: Send>(
     let mut placed: Vec<Option<T>> = all.iter().map(|_| None).collect();
     order.iter().zip(found).for_each(|(&i, of)| placed[i as usize] = Some(of));
     Ok(placed.into_iter().flatten().collect())
-}
-
-/// The results of `work(memory, &all[i])` for every i, in parallel, with a report after every `size` of them. None is begun after the call is
-/// cancelled.
-pub(super) fn in_batches<A: Sync, T: Send>(
-    all: &[A],
-    size: usize,
-    threads: usize,
-    control: &Control,
-    work: impl Fn(&mut Scratch, &A) -> Result<T> + Sync,
-) -> Result<Vec<T>> {
-    Pool::new(threads)?.run(|| {
-        let mut done = Vec::with_capacity(all.len());
-        for batch in all.chunks(size) {
-            control.step(Stage::Layout, done.len() as f64 / all.len() as f64)?;
-            let mut found: Vec<Option<Result<T>>> = batch.iter().map(|_| None).collect();
-            parallel::fill_with(&mut found, Scratch::default, |scratch, i| {
-                Some(if control.is_cancelled() { Err(Error::Cancelled) } else { work(scratch, &batch[i]) })
-            });
-            done.extend(found.into_iter().flatten().collect::<Result<Vec<_>>>()?);
-        }
-        Ok(done)
-    })
 }
