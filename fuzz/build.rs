@@ -93,6 +93,7 @@ fn structure((head, _): (&str, &str), structs: &mut String) {
     let Some((name, fields)) = head.split_once('{').filter(|(name, _)| !name.contains(';')) else { return };
     let mut listed = String::new();
     for field in fields.split(';').map(str::trim).filter(|field| !field.is_empty()) {
+        let field = field.strip_prefix("struct ").unwrap_or(field);
         let (of, name) = named(field);
         let count: usize =
             field.split_once('[').map_or(1, |(_, rest)| rest.trim_end_matches(']').parse().unwrap());

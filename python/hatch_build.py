@@ -41,13 +41,17 @@ HEADERS = (
     "circles",
     "seamless",
     "quads",
+    "flatten",
+    "freesurfer",
     "harmonic",
     "match",
+    "moduli",
     "structure",
     "spline",
     "surface_spline",
     "bicubic",
     "quad_spline",
+    "archive",
 )
 
 

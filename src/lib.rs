@@ -6,6 +6,7 @@
 //! | floor | what lives there |
 //! |---|---|
 //! | [`error`], [`control`], [`parallel`] | error codes, progress and cancel, the thread pool of one call |
+//! | [`archive`] | results as bytes and files that read back bit for bit |
 //! | [`geometry`] | pure formulas: spaces, triangles, isometries, predicates |
 //! | [`linalg`] | sparse symmetric matrices with a fixed pattern, Cholesky |
 //! | [`mesh`] | connectivity (half-edge Δ-complex), building, diagnosis, files, generators |
@@ -14,24 +15,29 @@
 //! | [`flow`] | Newton and gradient flow, cones |
 //! | [`embed`] | layouts, their quality, charts; deck groups, universal covers |
 //! | [`harmonic`] | Laplacian, harmonic maps and 1-forms, period matrices, trajectories |
+//! | [`mod@flatten`] | maps to the plane of least stretch, without a turned triangle |
 //! | [`canonical`] | canonical shapes: uniformization, spheres, circle domains, straight boundaries |
 //! | [`seamless`] | metrics and maps whose cones and handles turn by multiples of 90° |
+//! | [`moduli`] | period matrices with proven bounds |
 //! | [`quads`] | T-meshes, integer-grid maps, quad meshes and layouts of seamless maps |
 //! | [`matching`] | maps between two surfaces |
-//! | [`structure`] | atlases: conformal, spherical, affine, hyperbolic, projective |
+//! | [`structure`] | atlases: conformal, spherical, affine, hyperbolic, projective, integer |
 //! | [`spline`] | triangular B-splines, fits over whole surfaces, bicubic patches for CAD |
+//! | [`records`] | what the files of results hold |
 //!
 //! Cargo features, on by default, add file formats and the crates that they need: `gltf` reads and writes .glb and reads .gltf, `gifti` reads
-//! .gii, `gzip` reads what gzip has packed, `json` reads and writes splines. Two others are the floors `splines` ([`spline`]) and `quads`
+//! .gii and reads and writes .vtp, `gzip` reads what gzip has packed, `json` reads and writes splines. Two others are the floors `splines` ([`spline`]) and `quads`
 //! ([`seamless`] and [`quads`]). `step`, off by default, writes STEP files of splines.
 
 // Readers and writers of formats, whose functions follow their formats, are excepted in mesh/io.
 #![warn(clippy::too_many_lines)]
 
+pub mod archive;
 pub mod canonical;
 pub mod control;
 pub mod embed;
 pub mod error;
+pub mod flatten;
 pub mod flow;
 pub mod geometry;
 pub mod harmonic;
@@ -39,9 +45,11 @@ pub mod linalg;
 pub mod matching;
 pub mod mesh;
 pub mod metric;
+pub mod moduli;
 pub mod parallel;
 #[cfg(feature = "quads")]
 pub mod quads;
+pub mod records;
 #[cfg(feature = "quads")]
 pub mod seamless;
 #[cfg(feature = "splines")]

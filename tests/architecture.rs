@@ -13,6 +13,7 @@ use std::process::Command;
 /// The floors from the lowest up. Floors of one line do not import each other.
 const FLOORS: &[&[&str]] = &[
     &["error", "control", "parallel"],
+    &["archive"],
     &["geometry", "linalg"],
     &["mesh"],
     &["topology"],
@@ -20,10 +21,11 @@ const FLOORS: &[&[&str]] = &[
     &["flow"],
     &["embed", "harmonic"],
     &["canonical", "seamless"],
-    &["quads"],
+    &["flatten", "moduli", "quads"],
     &["matching"],
     &["structure"],
     &["spline"],
+    &["records"],
 ];
 /// The one import that points up: the error type contains a mesh's diagnosis.
 const EXCEPTION: (&str, &str) = ("error", "mesh::check::Diagnosis");

@@ -1,5 +1,6 @@
-// Opens the gallery's page from disk in headless Chromium, over a pipe of the DevTools protocol: no message of an error, no request beside
-// the page, every view is drawn, a drag turns the surface, a place that is pointed at is marked on both sides, controls change both sides.
+// Opens the gallery's page, or one of `ricci view`, from disk in headless Chromium, over a pipe of the DevTools protocol: no message of an
+// error, no request beside the page, every view is drawn, a drag turns the surface, a place that is pointed at on either side is marked on both
+// and is the same place of both, controls change both sides, and a quantity has its legend.
 // node gallery.mjs CHROMIUM PAGE PROFILE [SCREENSHOT.png]
 import { spawn } from "node:child_process";
 import { writeFileSync } from "node:fs";
@@ -84,7 +85,8 @@ const mouse = (type, x, y, buttons = 0) => {
 async function controls(canvas, left, right) {
   await mouse("mouseMoved", 1, 1);
   await pause(300);
-  const parts = `${canvas}.parentElement.querySelectorAll(".controls input, .controls select")`;
+  const row = `${canvas}.nextElementSibling.nextElementSibling`;
+  const parts = `${row}.querySelectorAll("input, select")`;
   const kinds = await value(`[...${parts}].map((part) => part.type)`);
   check(kinds.includes("range"), `a view of a layout has no density of checks: ${kinds}`);
   for (let k = 0; k < kinds.length; k++) {
@@ -92,13 +94,52 @@ async function controls(canvas, left, right) {
     const turn = (back) => value(`(() => { const p = ${parts}[${k}];
       if (p.type === "checkbox") p.checked = ${back}; else if (p.type === "range") p.value = ${back} ? 24 : 60; else p.selectedIndex = ${back} ? 1 : 0;
       p.dispatchEvent(new Event(p.type === "range" ? "input" : "change")); })()`);
+    const legend = () => value(`${row}.querySelector("span").textContent`);
+    if (kinds[k] === "select-one") check(/\d \(dark\) to -?\d.* \(light\)$/.test(await legend()), `legend: ${await legend()}`);
     await turn(false);
     await pause(400);
+    if (kinds[k] === "select-one") check((await legend()) === "", "a legend without a quantity");
     check((await left()) !== before[0] && (await right()) !== before[1], `${kinds[k]} changes nothing`);
     await turn(true);
     await pause(400);
     check((await left()) === before[0] && (await right()) === before[1], `${kinds[k]} does not go back`);
   }
+}
+
+// What is said of a place that is pointed at, on a grid over one half of a view; fails where no place of the grid is marked on both sides.
+async function said(canvas, box, half) {
+  for (let k = 0; k < 25; k++) {
+    const at = [box[0] + box[2] * (0.5 * half + 0.15 + 0.05 * (k % 5)), box[1] + box[3] * (0.3 + 0.1 * Math.floor(k / 5))];
+    await mouse("mouseMoved", ...at);
+    await pause(150);
+    if ((await value(`Number(${canvas}.dataset.marks)`)) === 2) return value(`${canvas}.nextElementSibling.textContent`);
+  }
+  throw new Error(`a place that is pointed at on side ${half} is not marked on both sides`);
+}
+
+// Whether the two places that are said are one place of the surface: some face has both, with the same weights of its corners.
+async function corresponds(canvas, words) {
+  const [, on, beside] = words.match(/^\((.+)\) on the surface, \((.+)\) beside it/).map((text) => text.split(", ").map(Number));
+  const data = await value(`JSON.parse(document.getElementById("views").textContent)[${canvas}.dataset.view]`);
+  const bytes = (text) => Buffer.from(text, "base64");
+  const points = ({ from, step, data: text }) => {
+    const raw = bytes(text);
+    return (v) => [0, 1, 2].map((j) => from[j] + step * raw.readUInt16LE(6 * v + 2 * j));
+  };
+  const [surface, image, raw] = [points(data.surface), points(data.image), bytes(data.corners)];
+  const corner = (k) => (data.wide ? raw.readUInt32LE(4 * k) : raw.readUInt16LE(2 * k));
+  const area = (a, b, c) => (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+  let nearest = Infinity;
+  for (let f = 0; f < data.faces; f++) {
+    const corners = [0, 1, 2].map((k) => corner(3 * f + k));
+    const [a, b, c] = corners.map(image);
+    const weights = [area(beside, b, c), area(a, beside, c), area(a, b, beside)].map((x) => x / area(a, b, c));
+    // Numbers are said with five digits.
+    if (!(Math.min(...weights) > -0.05)) continue;
+    const place = [0, 1, 2].map((j) => corners.reduce((sum, v, k) => sum + weights[k] * surface(v)[j], 0));
+    nearest = Math.min(nearest, Math.hypot(...place.map((x, j) => x - on[j])));
+  }
+  check(nearest < 2e-3 * 65535 * data.surface.step, `${words}: these places are ${nearest} apart on the surface`);
 }
 
 async function look() {
@@ -145,25 +186,19 @@ async function look() {
   check((await left()) !== before[0], "a drag does not turn the surface");
   check((await right()) === before[1], "a drag of the surface changes the layout");
 
-  // Some places of a grid lie on the surface.
-  let marked = 0;
-  for (let k = 0; k < 25 && marked === 0; k++) {
-    const at = [box[0] + box[2] * (0.15 + 0.05 * (k % 5)), box[1] + box[3] * (0.3 + 0.1 * Math.floor(k / 5))];
-    await mouse("mouseMoved", ...at);
-    await pause(150);
-    marked = await value(`Number(${canvas(flat)}.dataset.marks)`);
+  for (const half of [0, 1]) {
+    const words = await said(canvas(flat), box, half);
+    check((await right()) !== before[1], "no mark is seen beside the surface");
+    check(/on the surface, \(.+, .+\) beside it(; .+)?$/.test(words), `said: ${words}`);
+    await corresponds(canvas(flat), words);
   }
-  check(marked === 2, "a place that is pointed at is not marked on both sides");
-  check((await right()) !== before[1], "no mark is seen beside the surface");
-  const said = await value(`${canvas(flat)}.nextElementSibling.textContent`);
-  check(/on the surface, \(.+, .+\) beside it(; .+)?$/.test(said), `said: ${said}`);
   await controls(canvas(flat), left, right);
   if (screenshot) writeFileSync(screenshot, Buffer.from((await send("Page.captureScreenshot")).data, "base64"));
 
   const beside = requests.filter((url) => url !== address && !url.startsWith("data:"));
   check(beside.length === 0, `requests beside the page: ${beside}`);
   check(troubles.length === 0, `errors of the page: ${troubles.join("; ")}`);
-  return `${views} views of ${file} are drawn; a drag turns a surface, a place is marked on both sides, no errors, no requests`;
+  return `${views} views of ${file} are drawn; a drag turns a surface, places on both sides are the same, no errors, no requests`;
 }
 
 look().then((words) => end(0, words), (error) => end(1, `${file}: ${error.message}`));

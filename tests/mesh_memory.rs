@@ -118,6 +118,18 @@ fn gifti(rows: usize, inflated: usize) -> Vec<u8> {
     format!("<GIFTI>{array}</GIFTI>").into_bytes()
 }
 
+/// A file whose points are one block of so many bytes that says that it unfolds to others.
+fn vtp(told: usize, inflated: usize) -> Vec<u8> {
+    let mut out = ZlibEncoder::new(Vec::new(), Compression::best());
+    out.write_all(&vec![0; inflated]).unwrap();
+    let block = out.finish().unwrap();
+    let sizes = [1, told, 0, block.len()].map(|n| (n as u64).to_le_bytes()).concat();
+    let head = "<VTKFile type=\"PolyData\" header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\"><PolyData><Piece><Points>\
+                <DataArray type=\"UInt8\" NumberOfComponents=\"3\" format=\"appended\" offset=\"0\"/></Points></Piece></PolyData>\
+                <AppendedData encoding=\"raw\">_";
+    [head.as_bytes(), &sizes, &block].concat()
+}
+
 fn ply(vertex: &str, vertices: usize, face: &str, faces: usize, body: &[u8]) -> Vec<u8> {
     let header = format!(
         "ply\nformat binary_little_endian 1.0\nelement vertex {vertices}\n{vertex}element {face} {faces}\n\
@@ -142,6 +154,22 @@ fn bombs(cases: &mut Vec<Case>) {
     bomb("GIFTI of zeros", io::parse_gifti, Box::new(|| gifti(20 * MB, 240 * MB)));
     bomb("GIFTI that inflates to more", io::parse_gifti, Box::new(|| gifti(1, 240 * MB)));
     bomb("GIFTI that inflates to less", io::parse_gifti, Box::new(|| gifti(1_000_000_000, 240 * MB)));
+    for (what, parse) in [
+        ("VTK of zeros", io::parse_vtk as Parse),
+        ("MZ3 of zeros", io::parse_mz3),
+        ("FreeSurfer of zeros", io::parse_freesurfer),
+    ] {
+        let head: &'static [u8] = match what {
+            "VTK of zeros" => {
+                b"# vtk DataFile Version 3.0\n\nBINARY\nDATASET POLYDATA\nPOINTS 1000000000 char\n"
+            }
+            "MZ3 of zeros" => b"MZ\x03\0\0\xff\xff\xff\0\xff\xff\xff\0\0\0\0",
+            _ => b"\xff\xff\xfe\n\n\x7f\xff\xff\xff\x7f\xff\xff\xff",
+        };
+        bomb(what, parse, Box::new(move || [head, &vec![0; N]].concat()));
+    }
+    bomb("VTP that inflates to more", io::parse_vtp, Box::new(|| vtp(1, 240 * MB)));
+    bomb("VTP of zeros", io::parse_vtp, Box::new(|| vtp(240 * MB, 240 * MB)));
     bomb(
         "glTF of zeros",
         io::parse_glb,
@@ -212,6 +240,21 @@ fn dense_texts(cases: &mut Vec<Case>) {
             list(&format!("OFF\n1 {count} 0\n0 0 0\n"), item, count, "")
         }));
     }
+    for item in ["1 ", "3 0 0 0\n"] {
+        cases.push(Case::new(format!("VTK {item:?}"), io::parse_vtk, None, move || {
+            let head = format!(
+                "# vtk DataFile Version 3.0\n\nASCII\nDATASET POLYDATA\nPOLYGONS {} {} ",
+                N / 8,
+                4 * (N / item.len())
+            );
+            list(&head, item, N / item.len(), "")
+        }));
+    }
+    for item in ["<a/>", "<DataArray type=\"UInt8\"/>"] {
+        cases.push(Case::new(format!("VTP {item}"), io::parse_vtp, Some(false), move || {
+            list("<VTKFile type=\"PolyData\"><PointData>", item, 2 * N / item.len(), "</VTKFile>")
+        }));
+    }
     const LOOP: &str = "outer loop\nvertex 0 0 0\nvertex 0 0 0\nvertex 0 0 0\nendloop\n";
     cases.push(Case::new("STL loops", io::parse_stl, Some(true), || {
         list("solid\n", LOOP, N / LOOP.len(), "")
@@ -265,8 +308,17 @@ fn dense_ply(cases: &mut Vec<Case>) {
 
 /// A large mesh with all attributes in every format, and a dense GIFTI file.
 fn honest(cases: &mut Vec<Case>) {
-    let parsers: [(&str, Parse); 4] =
-        [("obj", io::parse_obj), ("off", io::parse_off), ("ply", io::parse_ply), ("glb", io::parse_glb)];
+    let parsers: [(&str, Parse); 9] = [
+        ("obj", io::parse_obj),
+        ("off", io::parse_off),
+        ("ply", io::parse_ply),
+        ("glb", io::parse_glb),
+        ("vtk", io::parse_vtk),
+        ("vtp", io::parse_vtp),
+        ("mz3", io::parse_mz3),
+        ("pial", io::parse_freesurfer),
+        ("asc", io::parse_freesurfer),
+    ];
     for (extension, parse) in parsers {
         cases.push(Case::new(extension, parse, Some(true), move || {
             let mut soup = shapes::torus(2.0, 1.0, 600, 300).unwrap();

@@ -1,10 +1,13 @@
 //! The command line: all commands with their options.
 
+use crate::brain::BrainArgs;
 use crate::circles::CirclesArgs;
+use crate::flatten::FlattenArgs;
 use crate::flow_args::FlowArgs;
 use crate::forms::FormsArgs;
 use crate::harmonic::HarmonicArgs;
 use crate::info::InfoArgs;
+use crate::lengths::LengthsArgs;
 use crate::matching::MatchArgs;
 use crate::options::Common;
 use crate::quads::{LayoutArgs, QuadsArgs};
@@ -15,6 +18,7 @@ use crate::spline::SplineArgs;
 use crate::structure::StructureArgs;
 use crate::surface::ScanArgs;
 use crate::uniformize::{CoverArgs, UniformizeArgs};
+use crate::view::ViewArgs;
 use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
 
@@ -48,12 +52,21 @@ pub enum Command {
     /// The conformal metric with a prescribed curvature, and its layout
     #[command(after_help = crate::flow_args::HELP)]
     Flow(FlowArgs),
+    /// A map to the plane of least stretch, with a free boundary and no triangle turned over
+    #[command(after_help = crate::flatten::HELP)]
+    Flatten(FlattenArgs),
+    /// The maps of a cortical hemisphere, or of both: to the sphere, inflated, flat without the medial wall, with their distortion
+    #[command(after_help = crate::brain::HELP)]
+    Brain(BrainArgs),
     /// The metric of constant curvature of a closed surface, in the sphere, the plane or the hyperbolic plane
     #[command(after_help = crate::uniformize::UNIFORMIZE_HELP)]
     Uniformize(UniformizeArgs),
     /// A finite piece of the universal cover, with the group that rebuilds the surface from one copy
     #[command(after_help = crate::uniformize::COVER_HELP)]
     Cover(CoverArgs),
+    /// Closed geodesics of the metric of constant curvature, all up to a length, and the shortest on the surface
+    #[command(after_help = crate::lengths::HELP)]
+    Lengths(LengthsArgs),
     /// Harmonic maps to a disk, a rectangle, the sphere, or with given values
     #[command(after_help = crate::harmonic::HELP)]
     Harmonic(HarmonicArgs),
@@ -66,7 +79,7 @@ pub enum Command {
     /// A map between two surfaces of the same topology, landmarks to landmarks
     #[command(after_help = crate::matching::HELP)]
     Match(MatchArgs),
-    /// An atlas of a conformal, spherical, affine, hyperbolic or projective structure, with its transitions and holonomy
+    /// An atlas of a conformal, spherical, affine, hyperbolic, projective or integer structure, with its transitions and holonomy
     #[command(after_help = crate::structure::HELP)]
     Structure(StructureArgs),
     /// A flat metric whose cones and handles turn by multiples of 90°, and its map, whose seams a grid of squares crosses
@@ -84,6 +97,9 @@ pub enum Command {
     /// Triangular B-splines: fitted to meshes, evaluated
     #[command(after_help = crate::spline::HELP)]
     Spline(SplineArgs),
+    /// A page in which surfaces turn, each beside its layout or image, with quantities in colours
+    #[command(after_help = crate::view::HELP)]
+    View(ViewArgs),
     /// Make a sample surface
     #[command(after_help = crate::make::HELP)]
     Make(crate::make::MakeArgs),

@@ -2,7 +2,7 @@
 
 use crate::failure::Failure;
 use ricci::flow::TraceRow;
-use ricci::mesh::{EdgeId, Mesh, PerVertex, VertexId};
+use ricci::mesh::{EdgeId, HalfedgeId, Mesh, PerVertex, VertexId};
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -66,6 +66,34 @@ pub fn read_factors(path: &Path, n_vertices: usize) -> Result<Vec<(VertexId, f64
     read_rows(path, ["vertex", "factor"])?.into_iter().map(factor).collect()
 }
 
+/// Read `vertex,NAME` rows: a number of vertices, each at most once, and the name where a header has one. Lines as in
+/// [`read_curvatures`]; a number may be `nan`.
+pub fn read_numbers(
+    path: &Path,
+    n_vertices: usize,
+) -> Result<(Option<String>, Vec<(VertexId, f64)>), Failure> {
+    let (mut name, mut rows, mut named) = (None, Vec::new(), vec![false; n_vertices]);
+    for (i, [vertex, number]) in read_rows(path, ["vertex", "number"])? {
+        if rows.is_empty() && name.is_none() && vertex.eq_ignore_ascii_case("vertex") {
+            name = Some(number);
+            continue;
+        }
+        let v = vertex_of(path, i, &vertex, n_vertices)?;
+        let number = number.parse().map_err(|_| refuse(path, i, format!("`{number}` is no number")))?;
+        if std::mem::replace(&mut named[v.index()], true) {
+            return Err(refuse(path, i, format!("vertex {v} is named twice")));
+        }
+        rows.push((v, number));
+    }
+    if rows.is_empty() {
+        return Err(Failure::Input(format!(
+            "{}: no vertex has a number; rows are vertex,number",
+            path.display()
+        )));
+    }
+    Ok((name, rows))
+}
+
 /// Read `vertex,x,y,z` rows: a direction in space at a vertex. Lines as in [`read_curvatures`].
 pub fn read_directions(path: &Path, n_vertices: usize) -> Result<Vec<(VertexId, [f64; 3])>, Failure> {
     let rows = read_rows(path, ["vertex", "x", "y", "z"])?;
@@ -119,8 +147,13 @@ pub fn read_landmarks(path: &Path, n_vertices: [usize; 2]) -> Result<Vec<[Vertex
 /// Read `loop,vertex` rows: the vertices of loops, which follow each other; loops by their names, in order. Lines as in
 /// [`read_curvatures`], but for the names of a header.
 pub fn read_loops(path: &Path, n_vertices: usize) -> Result<Vec<(String, Vec<VertexId>)>, Failure> {
+    read_runs(path, "loop", n_vertices)
+}
+
+/// [`read_loops`] with another name of the first column.
+pub fn read_runs(path: &Path, of: &str, n_vertices: usize) -> Result<Vec<(String, Vec<VertexId>)>, Failure> {
     let mut loops: Vec<(String, Vec<VertexId>)> = Vec::new();
-    for (i, [name, vertex]) in read_rows(path, ["loop", "vertex"])? {
+    for (i, [name, vertex]) in read_rows(path, [of, "vertex"])? {
         let v = vertex_of(path, i, &vertex, n_vertices)?;
         match loops.iter_mut().find(|(known, _)| *known == name) {
             Some((_, vertices)) => vertices.push(v),
@@ -128,7 +161,38 @@ pub fn read_loops(path: &Path, n_vertices: usize) -> Result<Vec<(String, Vec<Ver
         }
     }
     if loops.is_empty() {
-        return Err(Failure::Input(format!("{}: no loop; rows are loop,vertex", path.display())));
+        return Err(Failure::Input(format!("{}: no {of}; rows are {of},vertex", path.display())));
+    }
+    Ok(loops)
+}
+
+/// Read `loop,edge` rows: closed paths, loops numbered from 0 in order, edges from 1 and negative against their direction. Lines as in
+/// [`read_curvatures`].
+pub fn read_edge_loops(path: &Path, mesh: &Mesh) -> Result<Vec<Vec<HalfedgeId>>, Failure> {
+    let mut loops: Vec<Vec<HalfedgeId>> = Vec::new();
+    for (i, [number, edge]) in read_rows(path, ["loop", "edge"])? {
+        let k = number.trim().parse::<usize>().ok().filter(|&k| k <= loops.len());
+        let k = k.ok_or_else(|| refuse(path, i, format!("`{number}` is not the number of the next loop")))?;
+        let e = edge
+            .trim()
+            .parse::<i32>()
+            .ok()
+            .filter(|e| (1..=mesh.n_edges() as u32).contains(&e.unsigned_abs()));
+        let e = e.ok_or_else(|| {
+            let most = mesh.n_edges();
+            refuse(
+                path,
+                i,
+                format!(
+                    "`{edge}` is no edge: edges are numbered 1 to {most}, negative against their direction"
+                ),
+            )
+        })?;
+        let h = EdgeId(e.unsigned_abs() - 1).halfedge();
+        if k == loops.len() {
+            loops.push(Vec::new());
+        }
+        loops[k].push(if e > 0 { h } else { h.twin() });
     }
     Ok(loops)
 }
@@ -150,7 +214,8 @@ pub fn read_edges(path: &Path, mesh: &Mesh) -> Result<Vec<EdgeId>, Failure> {
     Ok(edges)
 }
 
-fn refuse(path: &Path, line: usize, why: String) -> Failure {
+/// What is wrong with a line of a file.
+pub fn refuse(path: &Path, line: usize, why: String) -> Failure {
     Failure::Input(format!("{}:{line}: {why}", path.display()))
 }
 

@@ -128,6 +128,7 @@ pub fn execute(command: Command, control: &Control) -> Result<Done, Failure> {
         Command::Uniformize(args) => runner::execute(&CanonicalJob::from(&args), control),
         Command::Cover(args) => runner::execute(&CanonicalJob::from(&args), control),
         Command::Circles(args) => runner::execute(&args, control),
+        Command::Lengths(args) => runner::execute(&args, control),
         Command::Harmonic(args) => runner::execute(&args, control),
         Command::Match(args) => runner::execute(&args, control),
         Command::Forms(args) => runner::execute(&args, control),

@@ -20,6 +20,10 @@ const FOLD: f64 = 30.0;
 impl FlatArgs {
     /// Refuse names of files that have no known format.
     pub fn check(&self) -> Result<(), Failure> {
+        let drawn = self.flat.as_ref().is_none_or(|path| ["svg", "dxf"].contains(&extension(path).as_str()));
+        if self.allowance.is_some() && !drawn {
+            return Err(Failure::Usage("--allowance is drawn: give --flat a name in .svg or .dxf".into()));
+        }
         check_extension("--flat", self.flat.as_deref(), &["obj", "ply", "off", "glb", "svg", "dxf"])
     }
 
@@ -81,11 +85,11 @@ impl<'a> FlatLayout<'a> {
         let other = std::io::Error::other;
         match extension(path).as_str() {
             "svg" => {
-                let sheet = self.sheet(args);
+                let sheet = self.sheet(args)?;
                 outputs.add(path, |out| io::write_svg_to(out, &sheet, args.unit()).map_err(other))
             }
             "dxf" => {
-                let sheet = self.sheet(args);
+                let sheet = self.sheet(args)?;
                 outputs.add(path, |out| io::write_dxf_to(out, &sheet, args.unit()).map_err(other))
             }
             _ => {
@@ -102,17 +106,21 @@ impl<'a> FlatLayout<'a> {
         }
     }
 
-    fn sheet(&self, args: &FlatArgs) -> CuttingSheet {
+    fn sheet(&self, args: &FlatArgs) -> Result<CuttingSheet, Failure> {
         let mesh = self.input.mesh();
         let mut is_fold = PerEdge::filled(mesh.n_edges(), false);
         if let Some(positions) = self.input.positions() {
             let angle = args.fold_angle.unwrap_or(FOLD).to_radians();
             fold_edges(mesh, positions, angle).into_iter().for_each(|e| is_fold[e] = true);
         }
-        self.surface.sheet(|e| {
+        let sheet = self.surface.sheet(|e| {
             let of_input = self.subdivision.map_or(Some(e), |r| r.edge(0, e));
             of_input.is_some_and(|e| is_fold[e])
-        })
+        });
+        match args.allowance {
+            Some(distance) => Ok(sheet.with_allowance(distance)?),
+            None => Ok(sheet),
+        }
     }
 
     /// The input's colours at the points of the opened surface.

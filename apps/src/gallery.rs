@@ -10,6 +10,7 @@ use crate::csv::read_text;
 use crate::demo::{execute, make_directory, parse};
 use crate::failure::Failure;
 use crate::output::Outputs;
+use crate::page::PageView;
 use crate::report::path_text;
 use crate::{runner, say, spline};
 use page::{Exhibit, PageSection};
@@ -19,7 +20,7 @@ use rows::{GalleryRow, credit, figures, sections};
 use serde_json::Value;
 use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
-use view::{Companion, PageView};
+use view::Companion;
 
 /// A description of other programs' pictures of the same layouts; it ends the page where the corpus is at hand.
 const BESIDE: &str = include_str!("gallery/beside.md");
@@ -224,12 +225,12 @@ impl GalleryMaker<'_> {
         let report = report.ok().and_then(|bytes| serde_json::from_slice(&bytes).ok());
         let view = match beside {
             Err(why) => Err(why),
-            Ok((beside @ Companion::Texture, _)) => PageView::read(&written, beside, &written, row.up())?,
+            Ok((beside @ Companion::Texture, _)) => view::read(&written, beside, &written, row.up())?,
             Ok((Companion::Alone, _)) if row.draw.contains("{spline}") => {
                 self.run(parse(self.words(row, &format!("spline eval {{spline}} {TESSELLATED} {quiet}")))?)?;
-                PageView::read(&written, Companion::Alone, &written, row.up())?
+                view::read(&written, Companion::Alone, &written, row.up())?
             }
-            Ok((beside, _)) => PageView::read(&surface, beside, &written, row.up())?,
+            Ok((beside, _)) => view::read(&surface, beside, &written, row.up())?,
         };
         Ok((report, view))
     }

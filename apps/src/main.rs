@@ -2,6 +2,7 @@
 
 #![warn(clippy::too_many_lines)]
 
+mod brain;
 mod carry;
 mod charts;
 mod checkerboard;
@@ -15,6 +16,7 @@ mod demo;
 mod failure;
 mod figures;
 mod flat;
+mod flatten;
 mod flow;
 mod flow_args;
 mod flow_summary;
@@ -25,12 +27,15 @@ mod info;
 mod info_lists;
 mod input;
 mod job;
+mod lengths;
 mod listed;
 mod make;
 mod matching;
 mod metric_file;
+mod modulus;
 mod options;
 mod output;
+mod page;
 mod picture;
 mod progress;
 mod quads;
@@ -53,6 +58,8 @@ mod surface_layout;
 mod timing;
 mod uniformize;
 mod uv;
+mod vertex_distortion;
+mod view;
 
 use clap::{CommandFactory, Parser};
 use cli::{Cli, Command};
@@ -80,9 +87,12 @@ fn run(command: &Command, control: &Control) -> Result<u8, Failure> {
         Command::Flow(args) => runner::run(args, control),
         Command::Uniformize(args) => runner::run(&CanonicalJob::from(args), control),
         Command::Cover(args) => runner::run(&CanonicalJob::from(args), control),
+        Command::Lengths(args) => runner::run(args, control),
         Command::Harmonic(args) => runner::run(args, control),
         Command::Forms(args) => runner::run(args, control),
         Command::Circles(args) => runner::run(args, control),
+        Command::Flatten(args) => runner::run(args, control),
+        Command::Brain(args) => runner::run(args, control),
         Command::Match(args) => runner::run(args, control),
         Command::Seamless(args) => runner::run(args, control),
         Command::Quads(args) => runner::run(args, control),
@@ -93,6 +103,7 @@ fn run(command: &Command, control: &Control) -> Result<u8, Failure> {
         Command::Repair(args) => runner::run(args, control),
         Command::Refine(args) => runner::run(args, control),
         Command::Spline(args) => spline::run(args, control),
+        Command::View(args) => runner::run(args, control),
         Command::Make(args) => runner::run(args, control),
         Command::Demo(args) => demo::run(args, control),
         Command::Gallery(args) => gallery::run(args, control),

@@ -2,7 +2,7 @@
 
 use crate::failure::Failure;
 use crate::metric_file::LengthsFile;
-use crate::output::{check_extension, check_outputs, extension, format_of};
+use crate::output::{check_extension, check_mesh_extension, check_outputs, extension, format_of};
 use crate::report::{Done, InputSummary};
 use crate::runner::{CommandRun, Job, JobHeader, JobOutcome};
 use crate::say::count;
@@ -13,9 +13,10 @@ use clap::Args;
 use ricci::Surface;
 use ricci::geometry::hyperelliptic::period_matrix;
 use ricci::mesh::io::{self, Soup};
-use ricci::mesh::shapes::{self, IntrinsicSurface, TorusKnot};
+use ricci::mesh::shapes::{self, FenchelNielsen, IntrinsicSurface, PantsSurface, TorusKnot};
 use ricci::metric::ShapeQuality;
 use serde::Serialize;
+use std::io::Write;
 use std::path::PathBuf;
 
 pub const HELP: &str = "\
@@ -43,6 +44,8 @@ pub struct MakeOutcome {
     soup: Option<Soup>,
     surface: Surface,
     periods: Option<Vec<Vec<[f64; 2]>>>,
+    /// The loops that Fenchel–Nielsen coordinates belong to: edges numbered from 1, negative against their direction.
+    loops: Vec<Vec<i32>>,
 }
 
 /// The surface as the report has it.
@@ -67,23 +70,30 @@ impl Job for MakeArgs {
         match self.shape.destination() {
             Destination::Mesh(to) => {
                 let picture = to.picture.base.picture.as_deref();
-                check_extension("-o", Some(&to.out), &["obj", "off", "ply", "glb", "json"])?;
+                check_mesh_extension("-o", Some(&to.out), &["json"])?;
                 check_extension("--picture", picture, &["png"])?;
                 check_outputs(&[], &[Some(&to.out), report, picture])
             }
             Destination::Metric(to) => {
                 let name = "-o (this surface has no positions; its lengths are written)";
                 check_extension(name, Some(&to.out), &["json"])?;
-                check_outputs(&[], &[Some(&to.out), report])
+                check_extension("--loops", self.shape.loops(), &["csv"])?;
+                check_outputs(&[], &[Some(&to.out), report, self.shape.loops()])
             }
         }
     }
 
     fn compute(&self, _: &mut CommandRun<'_>) -> Result<MakeOutcome, Failure> {
+        let mut loops = Vec::new();
+        let intrinsic = |given: IntrinsicSurface| -> ricci::Result<_> {
+            let (mesh, lengths) = given.build()?;
+            Ok((None, Surface::intrinsic(mesh, lengths, given.geometry)?))
+        };
         let (soup, surface) = match (build(&self.shape)?, self.shape.destination()) {
-            (SampleSurface::Metric(given), _) => {
-                let (mesh, lengths) = given.build()?;
-                (None, Surface::intrinsic(mesh, lengths, given.geometry)?)
+            (SampleSurface::Metric(given), _) => intrinsic(given)?,
+            (SampleSurface::Marked(marked), _) => {
+                loops = marked.loops;
+                intrinsic(marked.surface)?
             }
             (SampleSurface::Mesh(soup), Destination::Mesh(to)) => {
                 let soup = to.spoil.apply(*soup)?;
@@ -93,7 +103,7 @@ impl Job for MakeArgs {
             (SampleSurface::Mesh(soup), Destination::Metric(_)) => (None, Surface::from_soup(&soup)?),
         };
         let periods = if self.header().common.report.is_some() { known_periods(&self.shape)? } else { None };
-        Ok(MakeOutcome { out: self.shape.destination().out().into(), soup, surface, periods })
+        Ok(MakeOutcome { out: self.shape.destination().out().into(), soup, surface, periods, loops })
     }
 
     fn write(&self, outcome: &MakeOutcome, run: &mut CommandRun<'_>) -> Result<(), Failure> {
@@ -105,9 +115,16 @@ impl Job for MakeArgs {
             }
             _ => {
                 let (mesh, geometry, lengths) = (surface.mesh(), surface.geometry(), surface.lengths());
-                run.outputs.add_json(out, &LengthsFile::new(mesh, geometry, lengths))?;
+                let mut file = LengthsFile::new(mesh, geometry, lengths);
+                if !outcome.loops.is_empty() {
+                    file = file.with_numbered_edges(mesh);
+                }
+                run.outputs.add_json(out, &file)?;
             }
         }
+        run.file("loops", self.shape.loops(), |outputs, path| {
+            outputs.add(path, |out| write_loops(out, &outcome.loops))
+        })?;
         let (Some(soup), Destination::Mesh(to)) = (&outcome.soup, self.shape.destination()) else {
             return Ok(());
         };
@@ -145,6 +162,14 @@ impl JobOutcome for MakeOutcome {
 enum SampleSurface {
     Mesh(Box<Soup>),
     Metric(IntrinsicSurface),
+    Marked(Box<PantsSurface>),
+}
+
+/// Rows `loop,edge`, loops numbered from 0, edges from 1 and negative against their direction.
+fn write_loops(out: &mut impl Write, loops: &[Vec<i32>]) -> std::io::Result<()> {
+    writeln!(out, "loop,edge")?;
+    let rows = loops.iter().enumerate().flat_map(|(k, path)| path.iter().map(move |e| (k, e)));
+    rows.into_iter().try_for_each(|(k, e)| writeln!(out, "{k},{e}"))
 }
 
 fn build(shape: &SampleShape) -> ricci::Result<SampleSurface> {
@@ -179,6 +204,16 @@ fn build(shape: &SampleShape) -> ricci::Result<SampleSurface> {
         }
         SampleShape::Pants { lengths, level, .. } => {
             SampleSurface::Metric(shapes::pants([lengths[0], lengths[1], lengths[2]], *level)?)
+        }
+        SampleShape::FenchelNielsen { genus, lengths, twists, boundaries, level, .. } => {
+            let twist = |k: usize| if twists.is_empty() { Some(0.0) } else { twists.get(k).copied() };
+            if !twists.is_empty() && twists.len() != lengths.len() {
+                let (expected, got) = (lengths.len(), twists.len());
+                return Err(ricci::Error::Size { what: "twists", expected, got });
+            }
+            let curves = lengths.iter().enumerate().filter_map(|(k, &l)| Some([l, twist(k)?])).collect();
+            let given = FenchelNielsen { genus: *genus, curves, boundaries: boundaries.clone() };
+            SampleSurface::Marked(Box::new(shapes::fenchel_nielsen(&given, *level)?))
         }
         SampleShape::Hyperelliptic { at, n, grading, .. } => {
             SampleSurface::Metric(shapes::hyperelliptic_graded(at, *n, *grading)?)

@@ -46,6 +46,12 @@ impl LengthsFile {
             lengths: per_face(mesh, lengths),
         }
     }
+
+    /// With the numbers of the edges, so that a file that names edges fits it.
+    pub fn with_numbered_edges(mut self, mesh: &Mesh) -> Self {
+        self.face_edges = Some(mesh.faces().map(|f| mesh.face_edges(f)).collect());
+        self
+    }
 }
 
 /// A metric on its final triangulation, as `--metric` writes it.

@@ -60,7 +60,7 @@ fn threads() -> impl TypedValueParser<Value = usize> {
 /// A mesh file, with the distance of welding.
 #[derive(Args, Serialize, Debug, Clone)]
 pub struct MeshArgs {
-    /// Mesh file (.obj, .off, .ply, .stl, .glb, .gltf, .gii; also .gz) or intrinsic metric (.json: `faces` and `lengths` suffice); - for stdin
+    /// Mesh file (.obj, .off, .ply, .stl, .glb, .gltf, .gii, .vtk, .vtp, .mz3, FreeSurfer's; also .gz) or intrinsic metric (.json: `faces` and `lengths` suffice); - for stdin
     #[serde(skip)]
     pub mesh: PathBuf,
     /// STL: corners within this distance are one vertex; 0: those in exactly the same place
@@ -239,6 +239,10 @@ pub struct FlatArgs {
     #[arg(long, value_name = "DEGREES", requires = "flat", value_parser = angle)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fold_angle: Option<f64>,
+    /// In drawings, a line outside the border and seams at this distance, on the layer ALLOWANCE
+    #[arg(long, value_name = "DISTANCE", requires = "flat", value_parser = positive)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub allowance: Option<f64>,
     /// The unit of the coordinates, for the size of an SVG [default: mm]
     #[arg(long, value_enum, value_name = "UNIT", requires = "flat")]
     #[serde(skip_serializing_if = "Option::is_none")]

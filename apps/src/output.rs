@@ -2,7 +2,7 @@
 //! regular files are written in place.
 
 use crate::failure::Failure;
-use ricci::mesh::io::{Format, TexturedMesh, destination};
+use ricci::mesh::io::{Format, TexturedMesh, destination, is_packed, packed};
 use serde::Serialize;
 use std::fs::{self, File, Permissions};
 use std::io::{self, BufWriter, Write};
@@ -107,6 +107,15 @@ impl Pending {
         self.directory.path().join("draft")
     }
 
+    /// Packs the complete file where its name ends in `.gz`.
+    fn pack(&self) -> io::Result<()> {
+        if is_packed(&self.path) {
+            let bytes = packed(&fs::read(self.draft())?)?;
+            fs::write(self.draft(), bytes)?;
+        }
+        Ok(())
+    }
+
     fn commit(&self) -> Result<PathBuf, Failure> {
         self.put_in_place().map_err(|e| failed(&self.path, e))?;
         Ok(self.path.clone())
@@ -153,6 +162,7 @@ impl Outputs {
         let pending = Pending::new(path).map_err(|e| failed(path, e))?;
         let mut buffer = BufWriter::new(File::create(pending.draft()).map_err(|e| failed(path, e))?);
         write(&mut buffer).and_then(|()| buffer.flush()).map_err(|e| failed(path, e))?;
+        pending.pack().map_err(|e| failed(path, e))?;
         self.pending.push(pending);
         Ok(())
     }
@@ -170,8 +180,15 @@ impl Outputs {
     ) -> Result<T, Failure> {
         let pending = Pending::new(path).map_err(|e| failed(path, e))?;
         let written = write(&pending.draft()).map_err(|e| failed(path, e))?;
+        pending.pack().map_err(|e| failed(path, e))?;
         self.pending.push(pending);
         Ok(written)
+    }
+
+    /// The bytes of the file that was written last.
+    pub fn last_bytes(&self) -> io::Result<Vec<u8>> {
+        let last = self.pending.last().ok_or_else(|| io::Error::other("no file was written"))?;
+        fs::read(last.draft())
     }
 
     /// Write a JSON file, indented for people.
@@ -286,6 +303,32 @@ pub fn check_extension(option: &str, path: Option<&Path>, known: &[&str]) -> Res
     Err(Failure::Usage(format!("{option} {}: the name must end in {}", path.display(), known.join(" or "))))
 }
 
+/// The extensions of mesh files that are written; the last ones are the names that FreeSurfer gives surfaces.
+const MESH_FILES: [&str; 17] = [
+    "obj",
+    "off",
+    "ply",
+    "glb",
+    "vtk",
+    "vtp",
+    "mz3",
+    "gii",
+    "asc",
+    "white",
+    "pial",
+    "inflated",
+    "sphere",
+    "reg",
+    "orig",
+    "smoothwm",
+    "midthickness",
+];
+
+/// [`check_extension`] for mesh files and those with `more` extensions.
+pub fn check_mesh_extension(option: &str, path: Option<&Path>, more: &[&str]) -> Result<(), Failure> {
+    check_extension(option, path, &[&MESH_FILES[..], more].concat())
+}
+
 /// True if a file of this name is the stdout of the process.
 pub fn is_stdout(path: &Path) -> bool {
     [STANDARD, "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"].iter().any(|name| path == Path::new(name))
@@ -307,9 +350,10 @@ pub fn write_textured(outputs: &mut Outputs, path: &Path, data: &TexturedMesh) -
     }
 }
 
-/// The extension in lower case.
+/// The extension in lower case; that before `.gz`, if that is the end.
 pub fn extension(path: &Path) -> String {
-    path.extension().unwrap_or_default().to_string_lossy().to_lowercase()
+    let inner = if is_packed(path) { &path.with_extension("") } else { path };
+    inner.extension().unwrap_or_default().to_string_lossy().to_lowercase()
 }
 
 fn directory_of(path: &Path) -> &Path {

@@ -4,7 +4,7 @@ use crate::failure::Failure;
 use crate::input::{self, FileContent};
 use crate::metric_file::LengthsFile;
 use crate::options::{Common, FileName, SurfaceArgs, positive};
-use crate::output::{check_extension, check_outputs, extension, format_of};
+use crate::output::{check_extension, check_mesh_extension, check_outputs, extension, format_of};
 use crate::picture::SurfacePictureArgs;
 use crate::report::{Checks, Counts, Done, Figures, InputSummary, timed};
 use crate::runner::{CommandRun, Job, JobHeader, JobOutcome};
@@ -40,7 +40,7 @@ pub struct RefineArgs {
     #[command(flatten)]
     #[serde(flatten)]
     pub surface: SurfaceArgs,
-    /// Refined mesh (.obj, .off, .ply, .glb), or with --intrinsic its metric (.json)
+    /// Refined mesh (.obj, .off, .ply, .glb, .vtk, .vtp, .mz3, .gii, FreeSurfer's; also .gz), or with --intrinsic its metric (.json)
     #[arg(short = 'o', long = "out", value_name = "OUT")]
     pub out: FileName,
     /// Cut every face into four, this many times
@@ -114,7 +114,7 @@ impl Job for RefineArgs {
                 return usage("--angle: at most 30 degrees, above which a refinement need not end");
             }
         } else {
-            check_extension("-o", Some(&self.out), &["obj", "off", "ply", "glb"])?;
+            check_mesh_extension("-o", Some(&self.out), &[])?;
             if self.levels == 0 && self.edge.is_none() {
                 return usage("say how far to refine: --levels N, --edge L, or --intrinsic --angle DEGREES");
             }

@@ -5,7 +5,7 @@ use crate::defects::DefectList;
 use crate::failure::Failure;
 use crate::input::read_triangles;
 use crate::options::{Common, FileName, distance};
-use crate::output::{check_extension, check_outputs, format_of};
+use crate::output::{check_extension, check_mesh_extension, check_outputs, format_of};
 use crate::picture::SurfacePictureArgs;
 use crate::repair_summary::RepairOutcome;
 use crate::report::timed;
@@ -37,10 +37,10 @@ The exit code is 1 if a defect is left that needs a guess; the file is written a
 
 #[derive(Args, Serialize, Debug)]
 pub struct RepairArgs {
-    /// Mesh file (.obj, .off, .ply, .stl, .glb, .gltf, .gii; also .gz)
+    /// Mesh file (.obj, .off, .ply, .stl, .glb, .gltf, .gii, .vtk, .vtp, .mz3, FreeSurfer's; also .gz)
     #[serde(skip)]
     pub mesh: PathBuf,
-    /// Repaired mesh (.obj, .off, .ply, .glb)
+    /// Repaired mesh (.obj, .off, .ply, .glb, .vtk, .vtp, .mz3, .gii, FreeSurfer's; also .gz)
     #[arg(short = 'o', long = "out", value_name = "OUT")]
     pub out: FileName,
     /// Weld vertices within this distance; 0 welds those in exactly the same place
@@ -162,7 +162,7 @@ impl Job for RepairArgs {
     }
 
     fn check(&self) -> Result<(), Failure> {
-        check_extension("-o", Some(&self.out), &["obj", "off", "ply", "glb"])?;
+        check_mesh_extension("-o", Some(&self.out), &[])?;
         let picture = self.picture.base.picture.as_deref();
         check_extension("--picture", picture, &["png"])?;
         let files = [Some(&*self.out), self.map.as_deref(), picture, self.common.report.as_deref()];

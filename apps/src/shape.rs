@@ -129,6 +129,31 @@ pub enum SampleShape {
         #[command(flatten)]
         to: ToMetric,
     },
+    /// A hyperbolic surface with given Fenchel–Nielsen coordinates: glued pairs of pants, as edge lengths
+    ///
+    /// The curves are a_1, …, a_g, the commutators of a_i and b_i (in genus 2 the first alone; in genus 1 with one boundary loop none), and the products
+    /// of the first i of commutators and boundary loops, as `ricci lengths --pants` lists them.
+    FenchelNielsen {
+        #[arg(short, long, default_value_t = 2)]
+        genus: usize,
+        /// Lengths of the 3g − 3 + b curves, from 0.001 to 30
+        #[arg(long, value_name = "L,L,…", value_delimiter = ',', default_values_t = [2.0, 2.0, 2.0])]
+        lengths: Vec<f64>,
+        /// Twists of these curves, to the left [default: 0]
+        #[arg(long, value_name = "T,T,…", value_delimiter = ',', allow_negative_numbers = true)]
+        twists: Vec<f64>,
+        /// Lengths of boundary loops [default: none]
+        #[arg(long, value_name = "L,L,…", value_delimiter = ',')]
+        boundaries: Vec<f64>,
+        /// Times that every triangle is cut into four
+        #[arg(long, default_value_t = 2)]
+        level: usize,
+        /// Write the loops a1, b1, … that the coordinates belong to, for `ricci lengths --loops`
+        #[arg(long, value_name = "L.csv")]
+        loops: Option<FileName>,
+        #[command(flatten)]
+        to: ToMetric,
+    },
     /// The curve y² = Π (x − e): the round sphere's double cover branched over given points, as edge lengths
     ///
     /// The report has the period matrix. Default: y² = x⁶ − 1, genus 2.
@@ -226,6 +251,7 @@ impl SampleShape {
             | SampleShape::Knot { to, .. } => Destination::Mesh(to),
             SampleShape::FlatTorus { to, .. }
             | SampleShape::Pants { to, .. }
+            | SampleShape::FenchelNielsen { to, .. }
             | SampleShape::Hyperelliptic { to, .. }
             | SampleShape::Bolza { to, .. }
             | SampleShape::OneVertex { to, .. }
@@ -235,10 +261,20 @@ impl SampleShape {
     }
 }
 
+impl SampleShape {
+    /// The name of the file of `--loops`.
+    pub fn loops(&self) -> Option<&Path> {
+        match self {
+            SampleShape::FenchelNielsen { loops, .. } => loops.as_deref(),
+            _ => None,
+        }
+    }
+}
+
 /// The output of a surface in space.
 #[derive(Args, Serialize, Debug)]
 pub struct ToMesh {
-    /// Mesh (.obj, .off, .ply, .glb), or its edge lengths (.json)
+    /// Mesh (.obj, .off, .ply, .glb, .vtk, .vtp, .mz3, .gii, FreeSurfer's; also .gz), or its edge lengths (.json)
     #[arg(short = 'o', long = "out", value_name = "OUT")]
     pub out: FileName,
     #[command(flatten)]

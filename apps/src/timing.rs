@@ -13,6 +13,7 @@ pub struct PhaseSeconds {
     pub analyse: f64,
     pub factor: f64,
     pub solve: f64,
+    pub bounds: f64,
     pub flip: f64,
     pub refine: f64,
     pub layout: f64,

@@ -69,7 +69,6 @@ pub fn begin(given: Option<&HostControl>) -> Control {
 }
 
 /// The number of threads for a call that has no option for it.
-#[cfg(feature = "splines")]
 pub fn threads(given: Option<&HostControl>) -> usize {
     with_host(given, |control| control.threads.load(Ordering::Relaxed)).unwrap_or(0)
 }

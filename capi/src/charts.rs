@@ -17,12 +17,12 @@ use std::ffi::c_char;
 use std::sync::Arc;
 
 pub struct ricci_charts {
-    state: Arc<MetricState>,
+    pub(crate) state: Arc<MetricState>,
     /// The layout that was cut into charts.
-    layout: Arc<Layout>,
+    pub(crate) layout: Arc<Layout>,
     /// The positions of its vertices; none of an intrinsic surface.
-    positions: Option<Arc<Vec<Point>>>,
-    charts: Charts,
+    pub(crate) positions: Option<Arc<Vec<Point>>>,
+    pub(crate) charts: Charts,
 }
 handle!(ricci_charts, "charts", |packed| packed.layout.mesh().n_vertices());
 

@@ -29,11 +29,20 @@ choices!(FRAMES: DomainFrame = "frame", [
 ]);
 
 pub struct ricci_circle_domain {
-    domain: CircleDomain,
+    pub(crate) domain: CircleDomain,
     /// The surface with the vertices that were added to its boundary loops.
     surface: Surface,
     /// The initial metric of that surface, which layouts need.
     state: Arc<MetricState>,
+}
+impl ricci_circle_domain {
+    /// The handle of a domain, with the surface of its split and the initial metric of that, which are made again.
+    pub(crate) fn of(domain: CircleDomain) -> Outcome<ricci_circle_domain> {
+        let surface = domain.split.surface()?;
+        let given = Solution::initial_of(surface.clone(), Class::yamabe(Space::E2))?;
+        let state = ricci_metric::at(given, None)?.0;
+        Ok(ricci_circle_domain { domain, surface, state })
+    }
 }
 handle!(ricci_circle_domain, "circle domain", |domain| domain.surface.mesh().n_vertices());
 
@@ -123,10 +132,7 @@ pub unsafe extern "C" fn ricci_circle_domain_new(
             domain.report.iterations,
             domain.report.domain_curvature_error
         );
-        let surface = domain.split.surface()?;
-        let given = Solution::initial_of(surface.clone(), Class::yamabe(Space::E2))?;
-        let state = ricci_metric::at(given, None)?.0;
-        Ok(ricci_circle_domain { domain, surface, state })
+        ricci_circle_domain::of(domain)
     })
 }
 

@@ -40,7 +40,6 @@ pub(crate) fn of_thread() -> Outcome<Control> {
 }
 
 /// The threads that a control asks for in calls without an option for them.
-#[cfg(feature = "splines")]
 pub(crate) fn threads(control: *const ricci_control) -> usize {
     call_control::threads(host(control))
 }

@@ -1,6 +1,8 @@
 //! Deck transformations: elements of the deck group as words with their isometries.
 
-use crate::arrays::{CallerBuffer, ambient, array, copy_each, copy_out, copy_rows};
+use crate::arrays::{
+    CallerBuffer, ambient, array, check_buffer, copy_counted, copy_each, copy_out, copy_rows,
+};
 use crate::choice::choices;
 use crate::control::{self, ricci_control};
 use crate::dirichlet::ricci_dirichlet;
@@ -12,13 +14,17 @@ use crate::paths::{letters, word_of};
 use crate::status::ricci_status;
 use crate::structs::{self, sized};
 use crate::uniformize::ricci_uniform;
+use ricci::canonical::Quotient;
 use ricci::embed::cover::{elements_to_depth, elements_within, moved};
 use ricci::embed::{DeckElement, DeckGroup};
 use ricci::geometry::{Motion, Space};
+use ricci::moduli::{SpectrumOptions, geodesics_on_surface, length_spectrum};
+use ricci::parallel::within;
 use ricci::topology::Letter;
+use std::sync::Arc;
 
 /// Most elements that memory is reserved for: the caller's limit only says where to stop, and is rarely reached.
-const MOST_RESERVED: usize = 1 << 16;
+pub(crate) const MOST_RESERVED: usize = 1 << 16;
 
 choices!(enum DeckKind, KINDS = "kind", [
     RICCI_DECK_GENERATORS => Generators,
@@ -27,6 +33,7 @@ choices!(enum DeckKind, KINDS = "kind", [
     RICCI_DECK_DEPTH => Depth,
     RICCI_DECK_WITHIN => Within,
     RICCI_DECK_DIRICHLET_SIDES => DirichletSides,
+    RICCI_DECK_GEODESICS => Geodesics,
 ]);
 
 choices!(enum DeckValues, VALUES = "which", [
@@ -34,11 +41,15 @@ choices!(enum DeckValues, VALUES = "which", [
     RICCI_DECK_MATRIX => Matrices,
     RICCI_DECK_TRACE => Traces,
     RICCI_DECK_LENGTH => Lengths,
+    RICCI_DECK_POWER => Powers,
 ]);
 
 pub struct ricci_deck {
     space: Space,
-    elements: Vec<DeckElement>,
+    pub(crate) quotient: Arc<Quotient>,
+    pub(crate) elements: Vec<DeckElement>,
+    /// How often each closed geodesic runs around, where they are asked for.
+    powers: Option<Vec<f64>>,
 }
 handle!(ricci_deck, "deck");
 
@@ -102,10 +113,14 @@ pub unsafe extern "C" fn ricci_deck_new(
     deck: *mut *mut ricci_deck,
 ) -> ricci_status {
     guard::make(deck, || {
+        let threads = control::threads(control);
         let (spec, control) = (structs::read(spec)?, control::of(control)?);
-        let group = &shared(uniform)?.quotient()?.deck;
+        let quotient = shared(uniform)?.quotient()?;
+        let group = &quotient.deck;
         let kind = KINDS.choose(spec.kind)?;
-        let looked_at = if matches!(kind, DeckKind::Depth | DeckKind::Within) { spec.limit } else { 0 };
+        let is_search = matches!(kind, DeckKind::Depth | DeckKind::Within | DeckKind::Geodesics);
+        let looked_at = if is_search { spec.limit } else { 0 };
+        let mut powers = None;
         let _reserve = memory::work(looked_at.min(MOST_RESERVED), memory::ELEMENT)?;
         let elements = match kind {
             DeckKind::Generators => generators(group),
@@ -119,8 +134,14 @@ pub unsafe extern "C" fn ricci_deck_new(
                 elements_within(group, shared(spec.dirichlet)?.of(group)?, spec.radius, spec.limit, &control)?
             }
             DeckKind::DirichletSides => shared(spec.dirichlet)?.of(group)?.sides.clone(),
+            DeckKind::Geodesics => {
+                let options = SpectrumOptions { longest: spec.radius, limit: spec.limit };
+                let found = within(threads, || length_spectrum(quotient, &options, &control))?.classes;
+                powers = Some(found.iter().map(|class| class.power as f64).collect());
+                found.into_iter().map(|class| class.element).collect()
+            }
         };
-        Ok(ricci_deck { space: group.space, elements })
+        Ok(ricci_deck { space: group.space, quotient: quotient.clone(), elements, powers })
     })
 }
 
@@ -184,6 +205,10 @@ pub unsafe extern "C" fn ricci_deck_values(
             DeckValues::Lengths => {
                 copy_each("values", n, motions.map(Motion::translation_length), values, capacity)
             }
+            DeckValues::Powers => match &deck.powers {
+                Some(powers) => copy_out("values", powers, values, capacity),
+                None => Err(Failure::argument("powers are known of RICCI_DECK_GEODESICS alone")),
+            },
         }
     })
 }
@@ -202,5 +227,36 @@ pub unsafe extern "C" fn ricci_deck_apply(
         let g = deck.elements.get(element);
         let g = g.ok_or_else(|| no_such(FailureElement::Entry, "element", element, count))?;
         copy_out("moved", &self::moved(&ambient("points", points, n_points)?, &g.motion), moved, capacity)
+    })
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_deck_geodesic(
+    deck: *const ricci_deck,
+    element: usize,
+    control: *const ricci_control,
+    faces: *mut u32,
+    faces_capacity: usize,
+    weights: *mut f64,
+    weights_capacity: usize,
+    n_points: *mut usize,
+) -> ricci_status {
+    guard::with(deck, |deck| {
+        let (quotient, control) = (&deck.quotient, control::of(control)?);
+        let count = deck.elements.len();
+        let g = deck.elements.get(element);
+        let g = g.ok_or_else(|| no_such(FailureElement::Entry, "element", element, count))?;
+        let _reserve = memory::work(quotient.metric.mesh().n_vertices(), memory::LAYOUT)?;
+        let line = geodesics_on_surface(quotient, [&g.motion], &control)?.concat();
+        let of_faces: Vec<u32> = line.iter().map(|place| place.face.0).collect();
+        if faces_capacity > 0 {
+            check_buffer("weights", 3 * line.len(), weights, weights_capacity)?;
+        }
+        copy_counted("faces", &of_faces, faces, faces_capacity, n_points)?;
+        if faces_capacity == 0 {
+            return Ok(());
+        }
+        let rows: Vec<[f64; 3]> = line.iter().map(|place| place.weights).collect();
+        copy_out("weights", &rows, weights, weights_capacity)
     })
 }

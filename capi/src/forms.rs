@@ -17,10 +17,10 @@ use ricci::harmonic::{
 use std::sync::Arc;
 
 pub struct ricci_forms {
-    forms: HarmonicForms,
+    pub(crate) forms: HarmonicForms,
     /// The harmonic forms of the dual classes; none on a closed surface, whose classes are their own duals.
-    dual: Option<HarmonicForms>,
-    periods: Option<PeriodMatrix>,
+    pub(crate) dual: Option<HarmonicForms>,
+    pub(crate) periods: Option<PeriodMatrix>,
 }
 handle!(ricci_forms, "forms", |forms| forms.forms.domain.mesh().n_vertices());
 

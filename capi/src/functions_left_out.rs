@@ -103,6 +103,7 @@ left_out!(quads, feature = "quads", "quads", "seamless metrics and quad meshes",
 ]);
 
 left_out!(quad_splines, all(feature = "quads", feature = "splines"), "quads,splines", "splines over quad layouts", [
+    ricci_quad_spline_fit_mesh(Address, f64, Address, Address, Address);
     ricci_quad_spline_fit(Address, Address, Address, Address, Address);
     ricci_quad_spline_summarise(Address, Address, usize);
     ricci_quad_spline_folds(Address, Address, usize);

@@ -113,11 +113,16 @@ pub fn with<H: OpaqueHandle>(handle: *const H, body: impl FnOnce(&H) -> Outcome)
 pub fn make<H: OpaqueHandle>(place: *mut *mut H, body: impl FnOnce() -> Outcome<H>) -> ricci_status {
     call(|| {
         let place = output(H::NAME, place)?;
-        let handle = Box::into_raw(Box::new(body()?));
-        live::add(handle);
-        place.set(handle);
+        place.set(boxed(body()?));
         Ok(())
     })
+}
+
+/// An object as a handle, which the caller frees.
+pub fn boxed<H: OpaqueHandle>(object: H) -> *mut H {
+    let handle = Box::into_raw(Box::new(object));
+    live::add(handle);
+    handle
 }
 
 /// A handle that calls change.

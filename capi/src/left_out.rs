@@ -1,6 +1,13 @@
 //! Types in place of those of parts of the library that a build leaves out.
 #![allow(dead_code)]
 
+/// In place of handles that nobody can have.
+pub enum SeamlessLeftOut {}
+pub enum QuadsLeftOut {}
+pub enum QuadLayoutLeftOut {}
+pub enum QuadSplineLeftOut {}
+pub enum SplineLeftOut {}
+
 /// In place of the library's `Wrap`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum WrapLeftOut {

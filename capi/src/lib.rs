@@ -24,16 +24,20 @@
 #![allow(clippy::missing_safety_doc)]
 #![warn(clippy::too_many_lines)]
 
+#[cfg(any(feature = "quads", feature = "splines"))]
+mod archive_parts;
+mod archive_records;
 mod arrays;
 mod boundary;
 mod call_control;
 mod choice;
 mod failure;
+pub mod flatten;
 mod float_environment;
 #[cfg(any(test, not(all(feature = "quads", feature = "splines"))))]
 mod functions_left_out;
 mod guard;
-#[cfg(not(all(feature = "gltf", any(feature = "step", not(feature = "splines")))))]
+#[cfg(not(all(feature = "gltf", feature = "quads", feature = "step")))]
 mod left_out;
 mod memory;
 mod optional;
@@ -47,18 +51,22 @@ mod texture;
 mod thread_failure;
 mod wording;
 
+pub mod archive;
 #[cfg(feature = "splines")]
 pub mod bicubic;
 pub mod charts;
 pub mod circle_domain;
 pub mod circles;
 pub mod control;
+mod cortex;
+mod darts;
 pub mod deck;
 pub mod defect_texts;
 pub mod dirichlet;
 pub mod domain;
 pub mod flow;
 pub mod forms;
+mod freesurfer;
 pub mod harmonic;
 pub mod homotopy;
 pub mod init;
@@ -69,6 +77,7 @@ pub mod map;
 pub mod matching;
 pub mod mesh;
 pub mod metric;
+pub mod moduli;
 #[cfg(feature = "quads")]
 #[cfg_attr(not(feature = "splines"), allow(dead_code, reason = "what splines over layouts read"))]
 pub mod quad_layout;

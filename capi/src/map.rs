@@ -11,9 +11,11 @@ use crate::metric::{MetricState, ON, Triangulation, ricci_metric};
 use crate::status::*;
 use crate::structs::{self, sized};
 use ricci::Surface;
-use ricci::mesh::{FaceId, Mesh, PerVertex};
+use ricci::mesh::io::Attributes;
+use ricci::mesh::{FaceId, PerVertex};
 use ricci::metric::CommonSubdivision;
 use ricci::metric::common_subdivision::Crossing;
+use ricci::records::MeshRecord;
 use std::sync::Arc;
 
 // The elements that carried values belong to.
@@ -24,10 +26,10 @@ choices!(enum CarriedAt, AT = "at", [
 
 pub struct ricci_map {
     /// The surface that is mapped.
-    first: Surface,
-    /// Both triangulations: the mesh and the metric's, or those of source and target.
-    meshes: [Arc<Mesh>; 2],
-    subdivision: Arc<CommonSubdivision>,
+    pub(crate) first: Surface,
+    /// The triangulation of the metric, or the target.
+    pub(crate) second: MeshRecord,
+    pub(crate) subdivision: Arc<CommonSubdivision>,
 }
 handle!(ricci_map, "map", |map| map.subdivision.mesh.n_vertices());
 
@@ -82,8 +84,7 @@ fn side(on: u32) -> Outcome<usize> {
 impl ricci_map {
     /// The map of two surfaces that were matched.
     pub(crate) fn of_surfaces([source, target]: [&Surface; 2], subdivision: CommonSubdivision) -> ricci_map {
-        let meshes = [source.mesh().clone(), target.mesh().clone()];
-        ricci_map { first: source.clone(), meshes, subdivision: Arc::new(subdivision) }
+        ricci_map { first: source.clone(), second: target.into(), subdivision: Arc::new(subdivision) }
     }
 }
 
@@ -98,8 +99,14 @@ pub unsafe extern "C" fn ricci_map_new(
         let solution = &state.solution;
         let _reserve = memory::work(solution.mesh().n_vertices(), memory::LAYOUT)?;
         let subdivision = state.subdivision(&control::of(control)?)?.clone();
-        let meshes = [solution.given().clone(), solution.mesh().clone()];
-        Ok(ricci_map { first: solution.surface().clone(), meshes, subdivision })
+        let second = MeshRecord {
+            mesh: solution.mesh().clone(),
+            positions: None,
+            lengths: Some((state.lengths.clone(), solution.metric().space)),
+            attributes: Attributes::default(),
+            places: None,
+        };
+        Ok(ricci_map { first: solution.surface().clone(), second, subdivision })
     })
 }
 
@@ -214,7 +221,7 @@ pub unsafe extern "C" fn ricci_map_carry(
         }
         let given = structs::read(values)?;
         let side = side(given.on)?;
-        let (mesh, subdivision) = (&map.meshes[side], &map.subdivision);
+        let (mesh, subdivision) = ([map.first.mesh(), &map.second.mesh][side], &map.subdivision);
         let all = match AT.choose(given.at)? {
             CarriedAt::Vertices => {
                 let values = CarriedValues::<1>::read(&given, mesh.n_vertices())?;

@@ -20,12 +20,14 @@ use ricci::matching::{
 use ricci::mesh::{FaceId, HalfedgeId, VertexId};
 
 pub struct ricci_matching {
-    matching: Matching,
-    source: Surface,
-    target: Surface,
-    quality: Option<(MapQuality, [f64; 2])>,
-    point_error: f64,
-    threads: usize,
+    pub(crate) matching: Matching,
+    pub(crate) source: Surface,
+    pub(crate) target: Surface,
+    pub(crate) quality: Option<(MapQuality, [f64; 2])>,
+    pub(crate) point_error: f64,
+    pub(crate) threads: usize,
+    /// True if it came from an archive that says that its source is a mirror image.
+    pub(crate) mirrored: bool,
 }
 handle!(ricci_matching, "matching", |matching| matching.source.mesh().n_vertices()
     + matching.target.mesh().n_vertices());
@@ -151,7 +153,15 @@ pub unsafe extern "C" fn ricci_match(
             missed = point_error(target, &matching)?;
         }
         let (source, target, threads) = (source.clone(), target.clone(), given.threads);
-        Ok(ricci_matching { matching, source, target, quality, point_error: missed, threads })
+        Ok(ricci_matching {
+            matching,
+            source,
+            target,
+            quality,
+            point_error: missed,
+            threads,
+            mirrored: false,
+        })
     })
 }
 

@@ -43,15 +43,15 @@ choices!(WRAPS: Wrap = "wrap", [
 
 pub struct ricci_mesh {
     pub(crate) connectivity: Arc<Mesh>,
-    positions: Option<Arc<Vec<Point>>>,
+    pub(crate) positions: Option<Arc<Vec<Point>>>,
     /// The caller's edge lengths with their geometry; without them lengths are measured in space.
-    lengths: Option<(Arc<PerEdge<f64>>, Space)>,
+    pub(crate) lengths: Option<(Arc<PerEdge<f64>>, Space)>,
     /// The attributes that the file had beside positions and faces.
-    attributes: Attributes,
+    pub(crate) attributes: Attributes,
     /// Of a refined metric, the places of its vertices on the surface that it was made from.
-    places: Option<Vec<Place>>,
-    surface: OnceLock<Surface>,
-    summary: OnceLock<ricci_mesh_summary>,
+    pub(crate) places: Option<Vec<Place>>,
+    pub(crate) surface: OnceLock<Surface>,
+    pub(crate) summary: OnceLock<ricci_mesh_summary>,
 }
 handle!(ricci_mesh, "mesh", |mesh| mesh.connectivity.n_vertices().max(mesh.connectivity.n_faces() / 2));
 

@@ -4,23 +4,23 @@ use crate::arrays::{CallerBuffer, copy_each, copy_out, copy_rows};
 use crate::control::{self, ricci_control};
 use crate::failure::{Failure, Outcome};
 use crate::guard::{self, handle, shared};
-use crate::metric::MetricState;
 use crate::quads::{QuadsState, read_options, reserve, ricci_quads, ricci_quads_options};
 use crate::seamless::ricci_seamless;
 use crate::status::ricci_status;
 use crate::structs::{self, sized};
 use ricci::Control;
+use ricci::mesh::Point;
 use ricci::quads::{LayoutArc, LayoutNode, LayoutPatch, QuadLayout, QuadOptions, QuadSize, quad_layout};
 use ricci::seamless::Seamless;
-use std::sync::{Arc, Weak};
+use std::sync::Arc;
 
 /// The number of quads of a unit square of a layout.
 const PARTS_OF_UNIT: usize = 64;
 
 pub struct ricci_quad_layout {
-    /// The metric that it divides, by which it is told from layouts of others.
-    of: Weak<MetricState>,
-    quads: Arc<QuadsState>,
+    /// The fingerprint of the seamless metric that it divides, by which it is told from layouts of others.
+    pub(crate) metric: u64,
+    pub(crate) quads: Arc<QuadsState>,
     nodes: Vec<LayoutNode>,
     arcs: Vec<LayoutArc>,
     patches: Vec<LayoutPatch>,
@@ -46,16 +46,37 @@ sized!(ricci_quad_layout_summary, "summary");
 impl ricci_quad_layout {
     /// The layout, if it is one of this seamless metric.
     pub(crate) fn of_seamless(&self, seamless: &ricci_seamless) -> Outcome<QuadLayout> {
-        if !self.of.ptr_eq(&Arc::downgrade(&seamless.state)) {
+        if self.metric != seamless.found.fingerprint() {
             return Err(Failure::argument("the layout is that of another seamless metric"));
         }
-        Ok(QuadLayout {
+        Ok(self.layout())
+    }
+
+    pub(crate) fn layout(&self) -> QuadLayout {
+        QuadLayout {
             mesh: self.quads.mesh().clone(),
             parts: self.figures.n_parts as u32,
             nodes: self.nodes.clone(),
             arcs: self.arcs.clone(),
             patches: self.patches.clone(),
-        })
+        }
+    }
+
+    /// The handle of a layout whose vertices have these positions, of the metric with this fingerprint.
+    pub(crate) fn of(layout: QuadLayout, positions: Option<Vec<Point>>, metric: u64) -> ricci_quad_layout {
+        let QuadLayout { mesh, parts, nodes, arcs, patches } = layout;
+        let figures = ricci_quad_layout_summary {
+            size: 0,
+            n_nodes: nodes.len(),
+            n_arcs: arcs.len(),
+            n_patches: patches.len(),
+            n_units: patches.iter().map(|patch| patch.size[0] as usize * patch.size[1] as usize).sum(),
+            n_parts: parts as usize,
+            n_quads: mesh.quads.len(),
+            n_vertices: mesh.places.len(),
+        };
+        let quads = Arc::new(QuadsState::new(mesh, positions));
+        ricci_quad_layout { metric, quads, nodes, arcs, patches, figures }
     }
 }
 
@@ -74,24 +95,13 @@ pub unsafe extern "C" fn ricci_quad_layout_new(
     layout: *mut *mut ricci_quad_layout,
 ) -> ricci_status {
     guard::make(layout, || {
-        let ricci_seamless { state, found } = shared(seamless)?;
+        let ricci_seamless { found, .. } = shared(seamless)?;
         let options = read_options(options, QuadSize::Coarse)?;
         let _reserve = reserve(found, options.size, PARTS_OF_UNIT)?;
         let made = quad_layout(found, &options, &control::of(control)?)?;
-        let QuadLayout { mesh, parts, nodes, arcs, patches } = made;
-        log::info!("layout: {} patches of {} quads", patches.len(), mesh.quads.len());
-        let figures = ricci_quad_layout_summary {
-            size: 0,
-            n_nodes: nodes.len(),
-            n_arcs: arcs.len(),
-            n_patches: patches.len(),
-            n_units: patches.iter().map(|patch| patch.size[0] as usize * patch.size[1] as usize).sum(),
-            n_parts: parts as usize,
-            n_quads: mesh.quads.len(),
-            n_vertices: mesh.places.len(),
-        };
-        let quads = Arc::new(QuadsState::new(mesh, found));
-        Ok(ricci_quad_layout { of: Arc::downgrade(state), quads, nodes, arcs, patches, figures })
+        log::info!("layout: {} patches of {} quads", made.patches.len(), made.mesh.quads.len());
+        let positions = made.mesh.positions(&found.solution);
+        Ok(ricci_quad_layout::of(made, positions, found.fingerprint()))
     })
 }
 

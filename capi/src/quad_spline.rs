@@ -2,15 +2,20 @@
 
 use crate::arrays::copy_each;
 use crate::control::{self, ricci_control};
+use crate::failure::Failure;
 use crate::guard::{self, handle, shared};
 use crate::memory;
+use crate::mesh::ricci_mesh;
 use crate::quad_layout::{coarsest, ricci_quad_layout};
 use crate::seamless::ricci_seamless;
 use crate::spline_memory;
 use crate::status::ricci_status;
 use crate::structs::{self, sized};
 use ricci::geometry::vector::diagonal;
-use ricci::spline::{LayoutFitOptions, NearestPlaces, QuadFit, fit_quad_layout};
+use ricci::seamless::sharp_edges;
+use ricci::spline::{
+    FewPatchesOptions, LayoutFit, LayoutFitOptions, NearestPlaces, QuadFit, fit_few_patches, fit_quad_layout,
+};
 use std::sync::OnceLock;
 
 pub struct ricci_quad_spline {
@@ -19,7 +24,7 @@ pub struct ricci_quad_spline {
     pub(crate) diagonal: f64,
     /// The search structure for nearest places, which the first search makes.
     pub(crate) nearest: OnceLock<NearestPlaces>,
-    figures: ricci_quad_spline_summary,
+    pub(crate) figures: ricci_quad_spline_summary,
 }
 handle!(ricci_quad_spline, "quad_spline", |spline| spline.figures.n_control_points);
 
@@ -76,14 +81,20 @@ impl ricci_quad_spline_options {
     }
 }
 
-/// The poles of a patch with as many spans as are usual at most. Few patches get more, for which there is no reserve.
+/// Patches for which there is a reserve of memory where their number is not known before, and quads in each.
+const RESERVED_PATCHES: usize = 60;
+const QUADS_OF_PATCH: usize = 64;
+/// Spans of a patch in each direction for which there is a reserve of memory.
+const RESERVED_SPANS: usize = 4;
+
+/// The poles of a patch with as many spans as most patches have at most. Few patches get more, for which there is no reserve.
 fn usual_poles(options: &LayoutFitOptions) -> usize {
-    let spans = options.most_spans.min(LayoutFitOptions::default().most_spans);
-    (3 * spans + 3).pow(2)
+    (3 * options.most_spans.min(RESERVED_SPANS) + 3).pow(2)
 }
 
 impl ricci_quad_spline {
-    fn new(fit: QuadFit, options: &LayoutFitOptions, diagonal: f64) -> ricci_quad_spline {
+    /// The handle of a spline that was to be within a tolerance, and is if it `converged`.
+    pub(crate) fn new(fit: QuadFit, diagonal: f64, tolerance: f64, converged: bool) -> ricci_quad_spline {
         let (spline, space) = (&fit.spline, fit.spline.space());
         let figures = ricci_quad_spline_summary {
             size: 0,
@@ -104,12 +115,47 @@ impl ricci_quad_spline {
             normal_error: fit.normal_error,
             normal_jump: spline.normal_jump(),
             noise: fit.noise,
-            tolerance: options.limit(&fit),
-            converged: options.is_met_by(&fit).into(),
+            tolerance,
+            converged: converged.into(),
             reserved: 0,
         };
         ricci_quad_spline { fit, diagonal, nearest: OnceLock::new(), figures }
     }
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_quad_spline_fit_mesh(
+    mesh: *const ricci_mesh,
+    feature_angle: f64,
+    options: *const ricci_quad_spline_options,
+    control: *const ricci_control,
+    spline: *mut *mut ricci_quad_spline,
+) -> ricci_status {
+    guard::make(spline, || {
+        let (mesh, control) = (shared(mesh)?, control::of(control)?);
+        let fit = structs::read(options)?.read();
+        let surface = mesh.surface()?;
+        let Some(positions) = surface.positions() else {
+            return Err(Failure::argument("a spline near a mesh needs one with positions"));
+        };
+        if !(feature_angle.is_finite() && feature_angle >= 0.0) {
+            return Err(Failure::argument("the angle of features is to be a finite number from 0 on"));
+        }
+        let features = if feature_angle > 0.0 { sharp_edges(surface, feature_angle)? } else { Vec::new() };
+        let n = mesh.connectivity.n_vertices();
+        let _metric = memory::work(n, memory::FLOW)?;
+        let _target = memory::work(n + RESERVED_PATCHES * QUADS_OF_PATCH, spline_memory::QUAD_TARGET)?;
+        let _fit = memory::work(RESERVED_PATCHES * usual_poles(&fit), spline_memory::QUAD_FIT)?;
+        let options = FewPatchesOptions { cones: None, features, fit };
+        let LayoutFit { layout, fit, .. } = fit_few_patches(surface, &options, &control)?;
+        log::info!(
+            "quad spline: {} patches, distances up to {:.1e} of the diagonal",
+            layout.patches.len(),
+            fit.max()
+        );
+        let (tolerance, converged) = (options.fit.limit(&fit), options.fit.is_met_by(&fit));
+        Ok(ricci_quad_spline::new(fit, diagonal(positions), tolerance, converged))
+    })
 }
 
 #[unsafe(no_mangle)]
@@ -135,7 +181,8 @@ pub unsafe extern "C" fn ricci_quad_spline_fit(
         let fit = fit_quad_layout(&seamless.found, &layout, &options, &control.part(0.2, 1.0))?;
         log::info!("quad spline: {} patches, distances up to {:.1e} of the diagonal", patches, fit.max());
         let diagonal = solution.surface().positions().map_or(0.0, |positions| diagonal(positions));
-        Ok(ricci_quad_spline::new(fit, &options, diagonal))
+        let (tolerance, converged) = (options.limit(&fit), options.is_met_by(&fit));
+        Ok(ricci_quad_spline::new(fit, diagonal, tolerance, converged))
     })
 }
 

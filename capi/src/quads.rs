@@ -17,8 +17,8 @@ use std::sync::Arc;
 
 /// A quad mesh, with the places of its vertices in space if the surface has positions.
 pub(crate) struct QuadsState {
-    mesh: QuadMesh,
-    positions: Option<Vec<Point>>,
+    pub mesh: QuadMesh,
+    pub positions: Option<Vec<Point>>,
     figures: ricci_quads_summary,
 }
 
@@ -115,8 +115,13 @@ impl QuadsState {
     }
 
     /// The quad mesh of a seamless metric.
-    pub fn new(mesh: QuadMesh, seamless: &Seamless) -> QuadsState {
+    pub fn of_seamless(mesh: QuadMesh, seamless: &Seamless) -> QuadsState {
         let positions = mesh.positions(&seamless.solution);
+        QuadsState::new(mesh, positions)
+    }
+
+    /// A quad mesh with the positions of its vertices.
+    pub fn new(mesh: QuadMesh, positions: Option<Vec<Point>>) -> QuadsState {
         let topology = mesh.topology();
         let shape = positions.as_ref().map(|positions| mesh.shape(positions));
         let [n_rectangles, n_arcs] = mesh.t_mesh_size;
@@ -157,7 +162,7 @@ pub unsafe extern "C" fn ricci_quads_new(
         let _reserve = reserve(found, options.size, 1)?;
         let mesh = quad_mesh(found, &options, &control::of(control)?)?;
         log::info!("quads: {} in {} rectangles", mesh.quads.len(), mesh.t_mesh_size[0]);
-        Ok(ricci_quads(Arc::new(QuadsState::new(mesh, found))))
+        Ok(ricci_quads(Arc::new(QuadsState::of_seamless(mesh, found))))
     })
 }
 

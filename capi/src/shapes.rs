@@ -1,6 +1,6 @@
 //! Sample surfaces, and changes of a surface in space: holes, slivers, noise, inversion.
 
-use crate::arrays;
+use crate::arrays::{self, CallerBuffer, copy_rows};
 use crate::choice::choices;
 use crate::failure::{Failure, Outcome};
 use crate::guard::{self, shared};
@@ -11,7 +11,7 @@ use crate::structs::{self, sized};
 use num_complex::Complex64;
 use ricci::geometry::hyperelliptic::period_matrix;
 use ricci::mesh::io::Soup;
-use ricci::mesh::shapes::{self, IntrinsicSurface, Sliver, TorusKnot};
+use ricci::mesh::shapes::{self, FenchelNielsen, IntrinsicSurface, Sliver, TorusKnot};
 use std::sync::Arc;
 
 choices!(enum SampleKind, SHAPES = "shape", [
@@ -29,6 +29,7 @@ choices!(enum SampleKind, SHAPES = "shape", [
     RICCI_SHAPE_TWO_TRIANGLES => TwoTriangles,
     RICCI_SHAPE_PANTS => Pants,
     RICCI_SHAPE_HYPERELLIPTIC => Hyperelliptic,
+    RICCI_SHAPE_FENCHEL_NIELSEN => FenchelNielsen,
 ]);
 
 choices!(enum ShapeChange, CHANGES = "change", [
@@ -79,6 +80,42 @@ fn branch_points(points: *const f64, n_points: usize) -> Outcome<Vec<Complex64>>
     Ok(points.into_iter().map(|[re, im]| Complex64::new(re, im)).collect())
 }
 
+/// The rows of a surface of glued pairs of pants: 3 g − 3 + b curves, then b boundary loops.
+fn coordinates(genus: usize, points: *const f64, n_points: usize) -> Outcome<FenchelNielsen> {
+    let mut curves: Vec<[f64; 2]> = arrays::array("points", points.cast(), n_points)?;
+    let n_boundaries = (n_points + 3).saturating_sub(genus.saturating_mul(3)) / 2;
+    let boundaries = curves.split_off(n_points.saturating_sub(n_boundaries));
+    if let Some([_, twist]) = boundaries.iter().find(|[_, twist]| *twist != 0.0) {
+        return Err(Failure::argument(format!("a boundary loop has the twist {twist}: 0 is needed")));
+    }
+    let boundaries = boundaries.into_iter().map(|[length, _]| length).collect();
+    Ok(FenchelNielsen { genus, curves, boundaries })
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_make_loops(
+    shape: *const ricci_shape,
+    edges: *mut i32,
+    edges_capacity: usize,
+    starts: *mut usize,
+    starts_capacity: usize,
+) -> ricci_status {
+    guard::call(|| {
+        if shape.is_null() {
+            return Err(Failure::null("shape"));
+        }
+        let ricci_shape { shape, genus, n, points, n_points, .. } = structs::read(shape)?;
+        let shape = SHAPES.choose(shape)?;
+        if shape != SampleKind::FenchelNielsen {
+            return Err(Failure::argument("only glued pairs of pants are made with loops"));
+        }
+        let _reserve = room_for(shape, [n, n_points, genus])?;
+        let loops = shapes::fenchel_nielsen(&coordinates(genus, points, n_points)?, n)?.loops;
+        let rows = loops.iter().map(|path| path.iter().copied());
+        copy_rows("edges", rows, CallerBuffer(edges, edges_capacity), CallerBuffer(starts, starts_capacity))
+    })
+}
+
 /// Most bytes per entry of a period matrix while it is computed.
 const PERIOD: usize = 1 << 8;
 
@@ -102,6 +139,8 @@ fn faces_of(shape: SampleKind, [n, m, genus]: [usize; 3]) -> usize {
         SampleKind::OneVertex | SampleKind::TwoVertex => genus.saturating_mul(4),
         SampleKind::TwoTriangles => 2,
         SampleKind::Hyperelliptic => square.saturating_mul(40),
+        // Genus and boundary loops of a surface with no more curves.
+        SampleKind::FenchelNielsen => cut(n).saturating_mul(genus.saturating_add(m).saturating_mul(32)),
     }
 }
 
@@ -119,7 +158,8 @@ pub unsafe extern "C" fn ricci_make(shape: *const ricci_shape, mesh: *mut *mut r
         }
         let ricci_shape { shape, genus, n, m, a, b, c, p, q, points, n_points, .. } = structs::read(shape)?;
         let shape = SHAPES.choose(shape)?;
-        let _reserve = room_for(shape, [n, m, genus])?;
+        let _reserve =
+            room_for(shape, [n, if shape == SampleKind::FenchelNielsen { n_points } else { m }, genus])?;
         ricci_mesh::from_soup(match shape {
             SampleKind::Sphere => shapes::icosphere(n)?,
             SampleKind::Ellipsoid => shapes::ellipsoid([a, b, c], n)?,
@@ -136,6 +176,11 @@ pub unsafe extern "C" fn ricci_make(shape: *const ricci_shape, mesh: *mut *mut r
             SampleKind::Pants => return intrinsic(shapes::pants([a, b, c], n)?),
             SampleKind::Hyperelliptic => {
                 return intrinsic(shapes::hyperelliptic(&branch_points(points, n_points)?, n)?);
+            }
+            SampleKind::FenchelNielsen => {
+                return intrinsic(
+                    shapes::fenchel_nielsen(&coordinates(genus, points, n_points)?, n)?.surface,
+                );
             }
         })
     })

@@ -17,6 +17,7 @@ choices!(LAYERS: SheetLayer = "layer", [
     RICCI_LAYER_BOUNDARY => SheetLayer::Boundary,
     RICCI_LAYER_SEAMS => SheetLayer::Seams,
     RICCI_LAYER_FOLDS => SheetLayer::Folds,
+    RICCI_LAYER_ALLOWANCE => SheetLayer::Allowance,
 ]);
 
 choices!(UNITS: SheetUnit = "unit", [

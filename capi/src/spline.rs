@@ -11,31 +11,17 @@ use crate::spline_memory;
 use crate::status::*;
 use crate::structs::{self, or, sized};
 use ricci::mesh::io::Soup;
+use ricci::records::SplineFigures;
 use ricci::spline::{KnotOptions, PlaneDomain, Polynomial, Spline, SplineSpace, basis_size, triangulate};
 use std::sync::Arc;
 
 pub struct ricci_spline {
     pub(crate) spline: Spline,
     /// None if it was not fitted.
-    pub(crate) fitted: Option<FitFigures>,
+    pub(crate) fitted: Option<SplineFigures>,
 }
 handle!(ricci_spline, "spline", |spline| spline.spline.space().patches().len()
     + spline.spline.space().n_control_points());
-
-/// The figures of a fit.
-#[derive(Default)]
-pub(crate) struct FitFigures {
-    /// The root mean square of the distances to the points.
-    pub rms: f64,
-    /// The largest of these distances.
-    pub max: f64,
-    /// The patches in which the spline of a surface folds, ascending.
-    pub folds: Vec<u32>,
-    /// The share of the surface in these patches.
-    pub folded_share: f64,
-    /// True for a surface that is within its tolerance and does not fold.
-    pub holds: bool,
-}
 
 impl From<Spline> for ricci_spline {
     fn from(spline: Spline) -> ricci_spline {
@@ -199,7 +185,7 @@ pub unsafe extern "C" fn ricci_spline_summarise(
 ) -> ricci_status {
     guard::with(spline, |ricci_spline { spline, fitted }| {
         let space = spline.space();
-        let of_fit = |figure: fn(&FitFigures) -> f64| fitted.as_ref().map_or(f64::NAN, figure);
+        let of_fit = |figure: fn(&SplineFigures) -> f64| fitted.as_ref().map_or(f64::NAN, figure);
         let figures = ricci_spline_summary {
             size,
             degree: space.degree(),

@@ -4,11 +4,12 @@ use crate::arrays::array;
 use crate::control::{self, ricci_control};
 use crate::guard::{self, shared};
 use crate::memory;
-use crate::spline::{FitFigures, ricci_spline};
+use crate::spline::ricci_spline;
 use crate::spline_memory;
 use crate::spline_places::{located, ricci_spline_places};
 use crate::status::ricci_status;
 use crate::structs::{self, or, sized};
+use ricci::records::SplineFigures;
 use ricci::spline::{FitOptions, fit};
 
 #[repr(C)]
@@ -51,7 +52,7 @@ pub unsafe extern "C" fn ricci_spline_fit(
         let found = fit(space, &places, &points, &options, &control)?;
         Ok(ricci_spline {
             spline: found.spline,
-            fitted: Some(FitFigures { rms: found.rms, max: found.max, ..FitFigures::default() }),
+            fitted: Some(SplineFigures { rms: found.rms, max: found.max, ..SplineFigures::default() }),
         })
     })
 }

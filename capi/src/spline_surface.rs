@@ -6,12 +6,13 @@ use crate::guard::{self, shared};
 use crate::memory;
 use crate::mesh::ricci_mesh;
 use crate::metric::ricci_metric;
-use crate::spline::{FitFigures, ricci_spline};
+use crate::spline::ricci_spline;
 use crate::spline_memory;
 use crate::status::ricci_status;
 use crate::structs::{self, or, sized};
 use ricci::geometry::vector::{Vector, diagonal};
 use ricci::mesh::VertexId;
+use ricci::records::SplineFigures;
 use ricci::spline::{
     FlatMetric, FlatMetricOptions, SingularVertices, SurfaceFit, SurfaceFitOptions, fit_surface,
     fit_surface_over, flat_curvatures,
@@ -129,7 +130,7 @@ pub unsafe extern "C" fn ricci_spline_fit_mesh(
 /// The spline of a fit to a surface with its figures, in the units of the surface.
 fn with_figures(found: SurfaceFit, surface: &Surface, tolerance: f64) -> ricci_spline {
     let size = surface.positions().map_or(0.0, |points| diagonal(points));
-    let figures = FitFigures {
+    let figures = SplineFigures {
         rms: found.rms * size,
         max: found.max * size,
         folds: found.folds.iter().map(|&patch| patch as u32).collect(),

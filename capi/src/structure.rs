@@ -27,6 +27,7 @@ choices!(KINDS: Structure = "kind of structure", [
     RICCI_STRUCTURE_AFFINE => Structure::Affine,
     RICCI_STRUCTURE_HYPERBOLIC => Structure::Hyperbolic,
     RICCI_STRUCTURE_PROJECTIVE => Structure::Projective,
+    RICCI_STRUCTURE_INTEGER => Structure::Integer,
 ]);
 
 choices!(CHARTS: ChartKind = "charts", [
@@ -48,6 +49,7 @@ pub struct ricci_structure_options {
     pub radius: f64,
     pub charts: u32,
     pub source: u32,
+    pub n_quads: usize,
 }
 // SAFETY: numbers and raw pointers; 8-byte alignment, size first.
 sized!(ricci_structure_options, "options");
@@ -106,6 +108,7 @@ pub unsafe extern "C" fn ricci_structure_new(
             radius: (given.radius != 0.0).then_some(given.radius),
             source: SOURCES.choose(given.source)?,
             singular: vertex_or_none(given.singular)?,
+            quads: (given.n_quads != 0).then_some(given.n_quads),
             flow: read_options(given.flow)?,
         };
         Ok(ricci_structure { atlas: atlas(mesh.surface()?, &options, &control)? })

@@ -55,9 +55,14 @@ impl TextureFile<'_> {
     /// Writes another format than OBJ, if it holds these texture coordinates.
     fn write_as(&self, format: Format, path: &Path, positions: Vec<Point>) -> Outcome {
         let uv = self.corners.iter().map(|corners| corners.map(|p| self.points[p as usize])).collect();
-        if format == Format::Off && self.has_seams(positions.len()) {
+        if !format.has_texture_coordinates() {
             return Err(Failure::argument(
-                "OFF has one pair of texture coordinates for each vertex, and this layout has seams: write .obj, .ply or .glb",
+                "files of this format have no texture coordinates: write .obj, .off, .ply or .glb",
+            ));
+        }
+        if format.has_no_seams() && self.has_seams(positions.len()) {
+            return Err(Failure::argument(
+                "files of this format have one pair of texture coordinates for each vertex, and this layout has seams: write .obj, .ply or .glb",
             ));
         }
         let attributes = Attributes { uv: Some(uv), ..Attributes::default() };

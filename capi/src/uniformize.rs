@@ -39,6 +39,24 @@ pub(crate) enum CanonicalShape {
 }
 
 impl ricci_uniform {
+    /// The handle of a canonical shape.
+    pub(crate) fn of(shape: Uniformization) -> Outcome<ricci_uniform> {
+        let (metric, report) = (
+            shape.metric().clone(),
+            match &shape {
+                Uniformization::Sphere(_) => None,
+                Uniformization::FlowedSphere(sphere) => Some(sphere.report.clone()),
+                Uniformization::Quotient(quotient) => Some(quotient.report.clone()),
+            },
+        );
+        let shape = match shape {
+            Uniformization::Sphere(sphere) => CanonicalShape::Sphere(Arc::from(sphere)),
+            Uniformization::FlowedSphere(sphere) => CanonicalShape::FlowedSphere(Arc::from(sphere)),
+            Uniformization::Quotient(quotient) => CanonicalShape::Quotient(Arc::from(quotient)),
+        };
+        Ok(ricci_uniform { shape, metric: ricci_metric::at(metric, report)? })
+    }
+
     /// The vertices of a sphere.
     pub(crate) fn sphere_positions(&self) -> Outcome<&PerVertex<Point>> {
         match &self.shape {
@@ -136,49 +154,42 @@ pub unsafe extern "C" fn ricci_uniformize(
         if !given.start.is_null() {
             let start = &shared(given.start)?.0.solution;
             let _reserve = memory::work(start.mesh().n_vertices(), memory::UNIFORM)?;
-            return of_quotient(quotient_of(start, &options, &control)?);
+            let shape = Uniformization::Quotient(Box::new(quotient_of(start, &options, &control)?));
+            log_end(&shape);
+            return ricci_uniform::of(shape);
         }
         let mesh = shared(mesh)?;
         let _reserve = memory::work(mesh.connectivity.n_vertices(), memory::UNIFORM)?;
-        match uniformize(mesh.surface()?, &options, &control)? {
-            Uniformization::Quotient(quotient) => of_quotient(*quotient),
-            Uniformization::Sphere(sphere) => {
-                let report = &sphere.report;
-                log::info!(
-                    "uniformize: sphere {} after {} iterations, max |K| = {:.1e}",
-                    report.stop_reason,
-                    report.iterations,
-                    report.spherical_curvature_error
-                );
-                let metric = ricci_metric::at(sphere.metric.clone(), None)?;
-                Ok(ricci_uniform { shape: CanonicalShape::Sphere(Arc::new(*sphere)), metric })
-            }
-            Uniformization::FlowedSphere(sphere) => {
-                let report = &sphere.report;
-                log::info!(
-                    "uniformize: flow in S2 {} after {} iterations, max |K| = {:.1e}",
-                    report.stop_reason,
-                    report.iterations,
-                    report.max_curvature_error
-                );
-                let metric = ricci_metric::at(sphere.metric.clone(), Some(report.clone()))?;
-                Ok(ricci_uniform { shape: CanonicalShape::FlowedSphere(Arc::new(*sphere)), metric })
-            }
-        }
+        let shape = uniformize(mesh.surface()?, &options, &control)?;
+        log_end(&shape);
+        ricci_uniform::of(shape)
     })
 }
 
-fn of_quotient(quotient: Quotient) -> Outcome<ricci_uniform> {
-    log::info!(
-        "uniformize: {} after {} iterations, max |K| = {:.1e}, side pairings within {:.1e}, relation {:.1e}",
-        quotient.report.stop_reason,
-        quotient.report.iterations,
-        quotient.angle_defect,
-        quotient.deck.side_residual,
-        quotient.deck.relation_residual
-    );
-    let metric = ricci_metric::at(quotient.metric.clone(), Some(quotient.report.clone()))?;
-    Ok(ricci_uniform { shape: CanonicalShape::Quotient(Arc::new(quotient)), metric })
+/// Tells the log how a uniformization ended.
+fn log_end(shape: &Uniformization) {
+    match shape {
+        Uniformization::Quotient(quotient) => log::info!(
+            "uniformize: {} after {} iterations, max |K| = {:.1e}, side pairings within {:.1e}, relation {:.1e}",
+            quotient.report.stop_reason,
+            quotient.report.iterations,
+            quotient.angle_defect,
+            quotient.deck.side_residual,
+            quotient.deck.relation_residual
+        ),
+        Uniformization::Sphere(sphere) => log::info!(
+            "uniformize: sphere {} after {} iterations, max |K| = {:.1e}",
+            sphere.report.stop_reason,
+            sphere.report.iterations,
+            sphere.report.spherical_curvature_error
+        ),
+        Uniformization::FlowedSphere(sphere) => log::info!(
+            "uniformize: flow in S2 {} after {} iterations, max |K| = {:.1e}",
+            sphere.report.stop_reason,
+            sphere.report.iterations,
+            sphere.report.max_curvature_error
+        ),
+    }
 }
 
 #[unsafe(no_mangle)]

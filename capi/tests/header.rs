@@ -8,13 +8,17 @@ use std::path::{Path, PathBuf};
 /// The headers, with the most functions that each may have.
 const HEADERS: &[(&str, usize)] = &[
     ("ricci", 66),
+    ("archive", 10),
     ("charts", 20),
     ("homotopy", 20),
     ("uniformize", 20),
     ("deck", 20),
     ("circles", 10),
+    ("flatten", 10),
+    ("freesurfer", 10),
     ("harmonic", 20),
     ("match", 10),
+    ("moduli", 10),
     ("seamless", 10),
     ("quads", 20),
     ("spline", 20),

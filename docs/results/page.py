@@ -28,6 +28,9 @@ def corpus_of(kind):
 
 
 corpus = corpus_of("good")
+# The meshes of the corpus that are made of flat and round faces.
+CAD = {"anchor_519", "bamboo_pen", "block_2132", "boot", "casting", "chair_10k", "couplingdown", "fandisk", "fixed_top", "helmet", "joint_221",
+       "maze", "pinion", "pinion_10k", "plate_holes", "thingi_1146164", "tray_bottom", "trim_star", "turbine", "universal_joint"}
 
 
 def index(folder):

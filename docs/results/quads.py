@@ -5,14 +5,12 @@ usage: docs/results/quads.py [CORPUS [NAME…]] > docs/results/quads.md     (aft
 """
 import math
 
-from page import build, failures, file_of, genus, judged, loops, main, meshes, read_obj, seconds, small, table, verdict
+from page import CAD, build, failures, file_of, genus, judged, loops, main, meshes, read_obj, seconds, small, table, verdict
 
 # About so many quads, and the sizes of the tables.
 SIZES = (1000, 10_000)
-# The angle of sharp edges, degrees, and the meshes that are made of flat and round faces.
+# The angle of sharp edges, degrees.
 SHARP = "40"
-CAD = {"anchor_519", "bamboo_pen", "block_2132", "boot", "casting", "chair_10k", "couplingdown", "fandisk", "fixed_top", "helmet", "joint_221",
-       "maze", "pinion", "pinion_10k", "plate_holes", "thingi_1146164", "tray_bottom", "trim_star", "turbine", "universal_joint"}
 # Most seconds of a run.
 LONGEST = 300
 

@@ -14,7 +14,7 @@ JUDGING = 120
 TITLES = {
     "conformal": "Conformal", "spherical": "Spherical", "affine": "Affine, by the flow, stars", "affine patches": "Affine, by the flow, patches",
     "affine form": "Affine, from a holomorphic 1-form", "hyperbolic": "Hyperbolic, stars", "hyperbolic patches": "Hyperbolic, patches",
-    "projective": "Projective",
+    "projective": "Projective", "integer": "Integer, of about 1000 quads",
 }
 
 
@@ -22,6 +22,7 @@ def kinds(mesh):
     closed, genus, euler = page.loops(mesh) == 0, page.genus(mesh), page.euler(mesh)
     wanted = ["conformal", "affine", "affine patches"] + (["spherical"] if euler == 2 else [])
     wanted += ["affine form"] if closed and genus > 0 else []
+    wanted += ["integer"]
     return wanted + (["hyperbolic", "hyperbolic patches", "projective"] if euler < 0 else [])
 
 
@@ -30,6 +31,7 @@ def one(run, mesh, kind):
     words, (out,) = kind.split(), run.fresh("A.json")
     asked = ["--from", "form"] if "form" in words else []
     asked += ["--charts", "patches"] if "patches" in words else []
+    asked += ["--faces", "1000"] if words[0] == "integer" else []
     row = {"mesh": mesh["name"], "kind": kind, "bad": []}
     report, why = run.try_report("structure", page.file_of(mesh), "--kind", words[0], *asked, "--atlas", out)
     if report is None or not os.path.exists(out):

@@ -42,6 +42,7 @@ libfuzzer_sys::fuzz_target!(|data: &[u8]| {
         source: if how & 64 == 0 { AffineSource::Flow } else { AffineSource::Form },
         radius: (how & 128 != 0).then_some(0.5),
         singular,
+        quads: None,
         flow: flow::Options {
             max_iterations: usize::from(steps % MOST_STEPS),
             threads: 1,

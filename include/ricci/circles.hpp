@@ -14,6 +14,7 @@ using circle_domain_handle = owned<ricci_circle_domain, ricci_circle_domain_free
 // A surface with boundary whose loops are circles.
 class circle_domain : public circle_domain_handle {
 public:
+    explicit circle_domain(ricci_circle_domain *handle) : circle_domain_handle(handle) {}
     explicit circle_domain(const mesh &on,
                            const ricci_circle_domain_options &options = init<ricci_circle_domain_options>(),
                            const control *watched = nullptr)

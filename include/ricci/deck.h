@@ -65,7 +65,13 @@ enum {
      */
     RICCI_DECK_WITHIN = 4,
     /** Those of the sides of `dirichlet`. */
-    RICCI_DECK_DIRICHLET_SIDES = 5
+    RICCI_DECK_DIRICHLET_SIDES = 5,
+    /**
+     * All closed geodesics up to length `radius`, by length: an element of each conjugacy class, of a class
+     * and that of its inverses once. The search is complete: it looks at all elements whose line can meet the
+     * Dirichlet domain of the base.
+     */
+    RICCI_DECK_GEODESICS = 6
 };
 
 /** Numbers of deck transformations. */
@@ -90,7 +96,10 @@ enum {
      * n_elements: the translation lengths along their axes, which are the lengths of the closed geodesics in
      * their free homotopy classes.
      */
-    RICCI_DECK_LENGTH = 3
+    RICCI_DECK_LENGTH = 3,
+    /** n_elements, of RICCI_DECK_GEODESICS alone: how often each runs around a shorter one on its line;
+       else 1. */
+    RICCI_DECK_POWER = 4
 };
 
 /** A set of deck transformations. Zeroed by ricci_init: the generators. */
@@ -112,8 +121,9 @@ typedef struct ricci_deck_spec {
     /** WITHIN, DIRICHLET_SIDES: a domain of this surface. */
     const ricci_dirichlet *dirichlet;
     /**
-     * WITHIN: largest distance that the centre moves. Twice the radius of the domain reaches all copies that
-     * share a corner with it.
+     * WITHIN: largest distance that the centre moves; GEODESICS: largest length. Twice the radius of the
+     * domain reaches all copies that share a corner with it; a surface of genus 2 has about e^L / (2 L)
+     * closed geodesics up to L.
      */
     double radius;
     /**
@@ -122,8 +132,8 @@ typedef struct ricci_deck_spec {
      */
     size_t depth;
     /**
-     * DEPTH, WITHIN: most elements that are looked at. 1000 suits pictures; more elements are RICCI_TOO_LARGE
-     * instead of a long wait.
+     * DEPTH, WITHIN, GEODESICS: most elements that are looked at. 1000 suits pictures, 1,000,000 lengths up
+     * to 9; more elements are RICCI_TOO_LARGE instead of a long wait.
      */
     size_t limit;
 } ricci_deck_spec;
@@ -212,7 +222,7 @@ RICCI_API ricci_status ricci_deck_words(const ricci_deck *deck, int32_t *words, 
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT.
  *
  * @param deck      the elements.
- * @param which     RICCI_DECK_MOBIUS, _MATRIX, _TRACE or _LENGTH.
+ * @param which     RICCI_DECK_MOBIUS, _MATRIX, _TRACE, _LENGTH or _POWER.
  * @param values    out: the numbers, in the shape that is documented at the constant.
  * @param capacity  entries of `values`.
  */
@@ -293,6 +303,30 @@ RICCI_API ricci_status ricci_dirichlet_corners(const ricci_dirichlet *dirichlet,
  */
 RICCI_API ricci_status ricci_dirichlet_partners(const ricci_dirichlet *dirichlet, int32_t *partners,
                                                 size_t capacity);
+
+/**
+ * The closed geodesic of an element on the given surface in its hyperbolic metric, as a closed line of points
+ * on edges of the common subdivision of the given triangulation and the metric's. Of a power it is run
+ * through once.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (no such element),
+ * RICCI_LAYOUT (a surface that is not hyperbolic; the element of a loop that can be contracted),
+ * RICCI_NO_MEMORY, RICCI_CANCELLED.
+ *
+ * @param deck              the elements.
+ * @param element           the number of one of them.
+ * @param control           progress and cancellation, or NULL.
+ * @param faces             out: per point a face of the given mesh; NULL with capacity 0 for their number
+ * alone.
+ * @param faces_capacity    entries of `faces`.
+ * @param weights           out: n_points x 3, the weights of that face's corners.
+ * @param weights_capacity  entries of `weights`.
+ * @param n_points          out: number of points; the first one is not repeated at the end.
+ */
+RICCI_API ricci_status ricci_deck_geodesic(const ricci_deck *deck, size_t element,
+                                           const ricci_control *control, uint32_t *faces,
+                                           size_t faces_capacity, double *weights, size_t weights_capacity,
+                                           size_t *n_points);
 
 #ifdef __cplusplus
 }

@@ -2,8 +2,7 @@
  *
  * SPDX-License-Identifier: MIT OR Apache-2.0
  *
- *     ricci_seamless_new(mesh, NULL, NULL, &seamless);
- *     ricci_quad_spline_fit(seamless, NULL, NULL, NULL, &spline);      // on the coarsest layout
+ *     ricci_quad_spline_fit_mesh(mesh, 0, NULL, NULL, &spline);       // with as few patches as will do
  *     ricci_quad_spline_summarise(spline, &summary, sizeof summary);  // how near, how smooth
  *     ricci_quad_spline_write_step(spline, NULL, "part.step");
  *
@@ -72,7 +71,7 @@ typedef struct ricci_quad_spline_options {
     /** Threads, 0 for one per core; results do not depend on it. 1 suits hosts that run several calls at
      * once. */
     size_t threads;
-    /** Most spans of a patch in each direction, up to 32; 0: 4. One gives the smallest files. */
+    /** Most spans of a patch in each direction, up to 32; 0: 6. One gives the smallest files. */
     uint32_t most_spans;
     /** 0. */
     uint32_t reserved;
@@ -175,6 +174,31 @@ typedef struct ricci_quad_arc {
     /** 0. */
     uint32_t reserved;
 } ricci_quad_arc;
+
+/**
+ * A spline with few patches, near a mesh: over the coarsest layouts of seamless metrics with other cones in
+ * turn, and last over a layout with up to twice as many patches. Patches that miss the tolerance get more
+ * spans; the first fit within the tolerance, or else that with the fewest patches turned over, then the
+ * least distance.
+ *
+ * Deterministic.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE, RICCI_ARGUMENT (an angle below 0 or not finite,
+ *         bending, spans, a mesh without positions), RICCI_TARGET_KIND (no cones fit the surface),
+ *         RICCI_LAYOUT (no layout was found), RICCI_SPLINE (a face without area), RICCI_TOO_LARGE,
+ *         RICCI_NO_MEMORY, RICCI_FACTORISATION, RICCI_CANCELLED; those of ricci_seamless_new.
+ *
+ * @param mesh           the mesh.
+ * @param feature_angle  edges at which the surface turns by this much, radians, become sides of patches
+ *                       across which normals may jump; 0: none.
+ * @param options        the options; NULL for the defaults.
+ * @param control        progress and cancellation, or NULL.
+ * @param spline         out: the new handle, to be released by ricci_quad_spline_free.
+ */
+RICCI_API RICCI_EXPERIMENTAL ricci_status ricci_quad_spline_fit_mesh(const ricci_mesh *mesh,
+                                                                     double feature_angle,
+                                                                     const ricci_quad_spline_options *options,
+                                                                     const ricci_control *control,
+                                                                     ricci_quad_spline **spline);
 
 /**
  * A spline over the patches of a layout, near the surface of its seamless metric. Patches that miss the

@@ -33,6 +33,13 @@ using quad_spline_handle = owned<ricci_quad_spline, ricci_quad_spline_free>;
 // A spline over a layout of four-sided patches.
 class quad_spline : public quad_spline_handle {
 public:
+    explicit quad_spline(ricci_quad_spline *handle) : quad_spline_handle(handle) {}
+    // With few patches near a mesh; edges at which it turns by the angle stay sharp, none for 0.
+    explicit quad_spline(const mesh &near, double feature_angle = 0,
+                         const ricci_quad_spline_options &options = init<ricci_quad_spline_options>(),
+                         const control *watched = nullptr)
+        : quad_spline_handle(make<ricci_quad_spline>(ricci_quad_spline_fit_mesh, near.get(), feature_angle,
+                                                     &options, of(watched))) {}
     // On the coarsest layout.
     explicit quad_spline(const seamless &on,
                          const ricci_quad_spline_options &options = init<ricci_quad_spline_options>(),

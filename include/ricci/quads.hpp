@@ -63,6 +63,7 @@ using quad_layout_handle = owned<ricci_quad_layout, ricci_quad_layout_free>;
 // A layout of four-sided patches, each a rectangle of quads.
 class quad_layout : public quad_layout_handle {
 public:
+    explicit quad_layout(ricci_quad_layout *handle) : quad_layout_handle(handle) {}
     explicit quad_layout(const seamless &on, const ricci_quads_options &options = init<ricci_quads_options>(),
                          const control *watched = nullptr)
         : quad_layout_handle(

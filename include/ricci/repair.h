@@ -241,8 +241,9 @@ RICCI_API ricci_status ricci_soup_with_attributes(const ricci_soup *soup, const 
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (not UTF-8), RICCI_IO, RICCI_PARSE,
  * RICCI_UNKNOWN_FORMAT.
  *
- * @param path  file name in UTF-8, ending in .obj, .off, .ply, .stl, .glb, .gltf or .gii, or in one of
- *              these and .gz.
+ * @param path  file name in UTF-8, ending in .obj, .off, .ply, .stl, .glb, .gltf, .gii, .vtk, .vtp, .mz3, or
+ *              as FreeSurfer names surfaces (.white, .pial, .inflated, .sphere, .reg, .orig, .smoothwm,
+ *              .midthickness, .asc), or in one of these and .gz.
  * @param soup  out: the new handle, to be released by ricci_soup_free.
  */
 RICCI_API ricci_status ricci_soup_read(const char *path, ricci_soup **soup);

@@ -20,11 +20,11 @@
  * refine.h (smaller triangles, metrics without small angles), shapes.h (sample surfaces), charts.h (layouts
  * on the faces of the mesh, and in charts), homotopy.h (fundamental groups), uniformize.h (canonical shapes),
  * deck.h (deck groups, covers), circles.h (circle domains), seamless.h (seamless metrics), quads.h (quad
- * meshes, and layouts of four-sided patches), harmonic.h (harmonic maps and 1-forms), match.h (maps between
- * surfaces), structure.h (geometric structures), spline.h, surface_spline.h and bicubic.h (splines, splines
- * over whole surfaces, and patches for CAD), quad_spline.h (splines over four-sided patches, for CAD and for
- * analysis). For C++ ricci.hpp has the classes of all themes, and openmesh.hpp, cgal.hpp and eigen.hpp are
- * adapters.
+ * meshes, and layouts of four-sided patches), flatten.h (flat maps of least stretch, cortices), freesurfer.h
+ * (its data), harmonic.h (harmonic maps and 1-forms), match.h (maps between surfaces), structure.h (geometric
+ * structures), spline.h, surface_spline.h and bicubic.h (splines, splines over whole surfaces, and patches
+ * for CAD), quad_spline.h (splines over four-sided patches, for CAD and for analysis). For C++ ricci.hpp has
+ * the classes of all themes, and openmesh.hpp, cgal.hpp and eigen.hpp are adapters.
  *
  * Conventions
  *   - Every fallible call returns a ricci_status. ricci_last_error() has this thread's message,
@@ -607,8 +607,9 @@ RICCI_API ricci_status ricci_mesh_with_lengths(const ricci_mesh *mesh, const dou
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (not UTF-8), RICCI_IO, RICCI_PARSE,
  * RICCI_UNKNOWN_FORMAT, RICCI_DEFECTS.
  *
- * @param path  file name in UTF-8, ending in .obj, .off, .ply, .stl, .glb, .gltf or .gii, or in one of
- *              these and .gz.
+ * @param path  file name in UTF-8, ending in .obj, .off, .ply, .stl, .glb, .gltf, .gii, .vtk, .vtp, .mz3, or
+ *              as FreeSurfer names surfaces (.white, .pial, .inflated, .sphere, .reg, .orig, .smoothwm,
+ *              .midthickness, .asc), or in one of these and .gz.
  * @param mesh  out: the new handle, to be released by ricci_mesh_free.
  */
 RICCI_API ricci_status ricci_mesh_read(const char *path, ricci_mesh **mesh);
@@ -618,9 +619,10 @@ RICCI_API ricci_status ricci_mesh_read(const char *path, ricci_mesh **mesh);
  *
  * OBJ and OFF are text with as many digits as are needed, PLY is binary, and positions read back as they are;
  * GLB has 24 bits of the distance from the centre of the mesh, and writes a vertex with several texture
- * coordinates once for each. Attributes that the format has no place for (in PLY and OFF, several normals at
- * a vertex; in OFF, several texture coordinates) are left out, with a warning to the callback of
- * ricci_log_set. A file of that name is replaced only once the new one is complete.
+ * coordinates once for each. VTK has 64 bits, MZ3 and binary surfaces of FreeSurfer 24. Attributes that the
+ * format has no place for (in PLY, OFF and VTK, several normals at a vertex; in OFF and VTK, several texture
+ * coordinates; in files of FreeSurfer, all) are left out, with a warning to the callback of ricci_log_set. A
+ * file of that name is replaced only once the new one is complete.
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_IO, RICCI_UNKNOWN_FORMAT, RICCI_STRUCT_SIZE, RICCI_ARGUMENT
  * (the mesh is intrinsic, a number is not finite, the texture is no PNG file or has no uv),
  * RICCI_TOO_LARGE, RICCI_NO_MEMORY.
@@ -628,7 +630,8 @@ RICCI_API ricci_status ricci_mesh_read(const char *path, ricci_mesh **mesh);
  * @param mesh        the mesh.
  * @param attributes  the attributes to write beside positions and faces, or NULL for those that the mesh was
  *                    read with.
- * @param path        file name in UTF-8, ending in .obj, .off, .ply or .glb.
+ * @param path        file name in UTF-8, ending in .obj, .off, .ply, .glb, .vtk, .vtp, .mz3 or .gii, or as
+ *                    FreeSurfer names surfaces; .gz behind packs it.
  */
 RICCI_API ricci_status ricci_mesh_write(const ricci_mesh *mesh, const ricci_attributes *attributes,
                                         const char *path);
@@ -1695,14 +1698,17 @@ RICCI_API ricci_status ricci_layout_mesh(const ricci_layout *layout, ricci_mesh 
 RICCI_API ricci_status ricci_layout_write(const ricci_layout *layout, uint32_t on, uint32_t homogeneous,
                                           const char *path);
 
-/** The layers of the lines of a layout in the plane, and their names in files: BOUNDARY, SEAMS, FOLDS. */
+/** The layers of the lines of a layout in the plane, and their names in files: BOUNDARY, SEAMS, FOLDS,
+ * ALLOWANCE. */
 enum {
     /** The boundary of the surface. */
     RICCI_LAYER_BOUNDARY = 0,
     /** A side of a seam; the other side is another line. */
     RICCI_LAYER_SEAMS = 1,
     /** An edge of the given mesh along which the surface in space has a crease. */
-    RICCI_LAYER_FOLDS = 2
+    RICCI_LAYER_FOLDS = 2,
+    /** A line outside the border for sewing, which the command draws; layouts have none. */
+    RICCI_LAYER_ALLOWANCE = 3
 };
 
 /** The unit of coordinates, for the size of an SVG drawing. */

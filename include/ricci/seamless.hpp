@@ -14,6 +14,7 @@ using seamless_handle = owned<ricci_seamless, ricci_seamless_free>;
 // A flat metric whose angles around cones and along loops are multiples of 90 degrees.
 class seamless : public seamless_handle {
 public:
+    explicit seamless(ricci_seamless *handle) : seamless_handle(handle) {}
     explicit seamless(const mesh &on, const ricci_seamless_options &options = init<ricci_seamless_options>(),
                       const control *watched = nullptr)
         : seamless_handle(make<ricci_seamless>(ricci_seamless_new, on.get(), &options, of(watched))) {}

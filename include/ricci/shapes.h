@@ -76,7 +76,14 @@ enum {
      * over the `points` e_j: spherical edge lengths, angle 4 pi over the points. Vertex j lies over e_j. n:
      * frequency of the sphere below; 40 n^2 faces.
      */
-    RICCI_SHAPE_HYPERELLIPTIC = 13
+    RICCI_SHAPE_HYPERELLIPTIC = 13,
+    /**
+     * Intrinsic: the hyperbolic surface of this `genus` with given Fenchel-Nielsen coordinates, pairs of
+     * pants of two hexagons each; every triangle cut into four n times. `points`: length and twist of each of
+     * the 3 g - 3 + b curves of ricci_fenchel_nielsen, then of each of b boundary loops its length and 0.
+     * Lengths from 1e-3 to 30, twists from -30 to 30.
+     */
+    RICCI_SHAPE_FENCHEL_NIELSEN = 14
 };
 
 /** A surface to be made. Zeroed by ricci_init. */
@@ -103,9 +110,15 @@ typedef struct ricci_shape {
     uint32_t p;
     /** Times around the tube. */
     uint32_t q;
-    /** n_points x 2: real and imaginary parts of the finite branch points, all different. */
+    /**
+     * n_points x 2: real and imaginary parts of the finite branch points, all different; or lengths and
+     * twists.
+     */
     const double *points;
-    /** 2 g + 1 (infinity is one more) or 2 g + 2, at least 3. */
+    /**
+     * 2 g + 1 (infinity is one more) or 2 g + 2, at least 3, branch points; 3 g - 3 + 2 b rows of lengths and
+     * twists.
+     */
     size_t n_points;
 } ricci_shape;
 
@@ -171,6 +184,23 @@ typedef struct ricci_change_spec {
  * @param mesh   out: the new handle, to be released by ricci_mesh_free.
  */
 RICCI_API ricci_status ricci_make(const ricci_shape *shape, ricci_mesh **mesh);
+
+/**
+ * The loops a1, b1, ..., ag, bg, c1, ..., cb that the coordinates of RICCI_SHAPE_FENCHEL_NIELSEN belong to,
+ * as edge paths of the surface that ricci_make makes; they start and end at vertex 0.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (also:
+ * another shape), RICCI_SIZE (another number of curves), RICCI_TOO_LARGE, RICCI_TRIANGLE_INEQUALITY.
+ *
+ * @param shape            the surface.
+ * @param edges            out: the paths one after the other: edges numbered from 1, negative backwards; NULL
+ * with capacity 0 for their number alone.
+ * @param edges_capacity   entries of `edges`.
+ * @param starts           out: 2 g + b + 1 offsets: path k is edges[starts[k] .. starts[k + 1]).
+ * @param starts_capacity  entries of `starts`.
+ */
+RICCI_API ricci_status ricci_make_loops(const ricci_shape *shape, int32_t *edges, size_t edges_capacity,
+                                        size_t *starts, size_t starts_capacity);
 
 /**
  * A changed copy of a surface in space, without its attributes.

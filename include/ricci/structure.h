@@ -39,7 +39,13 @@ enum {
     /** Negative Euler characteristic: charts in the Poincare disk. */
     RICCI_STRUCTURE_HYPERBOLIC = 3,
     /** Negative Euler characteristic: charts in the Klein disk, where geodesics are straight. */
-    RICCI_STRUCTURE_PROJECTIVE = 4
+    RICCI_STRUCTURE_PROJECTIVE = 4,
+    /**
+     * Any surface: the quads of a mesh are unit squares in charts, transitions turn by multiples of 90
+     * degrees and move by whole numbers. The triangulation is that of the quads, two triangles each, with
+     * the vertices of ricci_layout_new (or of ricci_quads_new for n_quads) and its places on the mesh.
+     */
+    RICCI_STRUCTURE_INTEGER = 5
 };
 
 /** What the charts are. */
@@ -107,6 +113,11 @@ typedef struct ricci_structure_options {
     uint32_t charts;
     /** RICCI_AFFINE_... The 1-form suits translations alone, at the price of several zeros. */
     uint32_t source;
+    /**
+     * The number of quads of an integer structure, about; 0: those of the layout with as few patches as are
+     * found. 0 suits splines and analysis, a number a grid of one size.
+     */
+    size_t n_quads;
 } ricci_structure_options;
 
 /** Figures of a structure. */
@@ -148,7 +159,10 @@ typedef struct ricci_structure_summary {
     double transition_residual;
     /** How far transitions around overlaps of three charts are from the identity, at most. */
     double cocycle_residual;
-    /** How far the relation of the group is from the identity, over its partial products. */
+    /**
+     * How far the relation of the group is from the identity, over its partial products; 0 for an integer
+     * structure with singular vertices, around which it turns: there is no relation then.
+     */
     double relation_residual;
     /** Largest |K| at a vertex that is not singular, radians. */
     double max_curvature_error;

@@ -29,6 +29,7 @@ using structure_handle = owned<ricci_structure, ricci_structure_free>;
 
 class structure : public structure_handle {
 public:
+    explicit structure(ricci_structure *handle) : structure_handle(handle) {}
     explicit structure(const mesh &on, std::uint32_t kind,
                        const ricci_structure_options &options = init<ricci_structure_options>(),
                        const control *watched = nullptr)

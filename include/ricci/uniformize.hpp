@@ -45,6 +45,17 @@ public:
     std::vector<double> moved(std::size_t element, span<double> points) const {
         return ricci::values<double>(ricci_deck_apply, get(), element, points.data(), points.size() / 3);
     }
+    // The closed geodesic of an element: faces of the given mesh, and three weights each.
+    std::pair<std::vector<std::uint32_t>, std::vector<double>>
+    geodesic(std::size_t element, const control *watched = nullptr) const {
+        std::size_t n = 0;
+        check(ricci_deck_geodesic(get(), element, of(watched), nullptr, 0, nullptr, 0, &n));
+        std::pair<std::vector<std::uint32_t>, std::vector<double>> line{std::vector<std::uint32_t>(n),
+                                                                        std::vector<double>(3 * n)};
+        check(ricci_deck_geodesic(get(), element, of(watched), line.first.data(), n, line.second.data(),
+                                  3 * n, &n));
+        return line;
+    }
 };
 
 using dirichlet_handle = owned<ricci_dirichlet, ricci_dirichlet_free>;
@@ -64,6 +75,7 @@ using uniform_handle = owned<ricci_uniform, ricci_uniform_free>;
 // A closed surface with its metric of constant curvature.
 class uniform : public uniform_handle {
 public:
+    explicit uniform(ricci_uniform *handle) : uniform_handle(handle) {}
     explicit uniform(const mesh &on, const ricci_uniform_options &options = init<ricci_uniform_options>(),
                      const control *watched = nullptr)
         : uniform_handle(make<ricci_uniform>(ricci_uniformize, on.get(), &options, of(watched))) {}
@@ -139,6 +151,7 @@ using charts_handle = owned<ricci_charts, ricci_charts_free>;
 
 class charts : public charts_handle {
 public:
+    explicit charts(ricci_charts *handle) : charts_handle(handle) {}
     explicit charts(const layout &of_layout, double margin = 1.0 / 256, const control *watched = nullptr)
         : charts_handle(make<ricci_charts>(ricci_charts_new, of_layout.get(), margin, of(watched))) {}
     ricci_charts_summary summary() const { return ricci::summary(ricci_charts_summarise, get()); }

@@ -133,6 +133,23 @@ def test_a_worker_that_dies_costs_one_mesh(files, tmp_path, engine):
     assert errors == {"broken.obj": "MeshError", "twice.obj": "MeshError", "genus2.obj": "WorkerDied"}
 
 
+def test_a_cluster_whose_workers_do_not_come_back_is_replaced(files, whole, tmp_path, monkeypatch):
+    """Dask does not start a worker again that dies while it is starting: here, none of the first that die."""
+    distributed = pytest.importorskip("distributed")
+    exits, again = [], distributed.Nanny._on_worker_exit
+
+    async def forgotten(nanny, code):
+        exits.append(code)
+        if code == 0 or len(exits) > 2:
+            await again(nanny, code)
+
+    monkeypatch.setattr(distributed.Nanny, "_on_worker_exit", forgotten)
+    found = ricci.cohort(files, cohort_jobs.dies_on_genus2, tmp_path, engine="dask", workers=2)
+    assert len(exits) > 2
+    assert {row["error"] for row in found.failures} == {"MeshError", "WorkerDied"}
+    assert len(found.results) == len(files)
+
+
 @pytest.mark.parametrize("engine", ["inline", "processes", "dask"])
 def test_results_that_cannot_be_kept_are_failures(files, tmp_path, engine):
     some = [path for path in files if path.stem in ("torus", "genus2", "genus3")]

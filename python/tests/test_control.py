@@ -87,6 +87,10 @@ LONG = {
     "structures": lambda m, p: ricci.structures(m["genus2"], progress=p),
     "seamless": lambda m, p: ricci.seamless(m["genus2"], progress=p),
     "circles": lambda m, p: ricci.circles(m["pants"], progress=p),
+    "flatten": lambda m, p: ricci.flatten(m["pants"], progress=p),
+    "flatten_darts": lambda m, p: ricci.flatten_darts(m["pants"], progress=p, strain_warp=0.01, most=1),
+    "flatten_sphere": lambda m, p: ricci.flatten_sphere(m["sphere"], progress=p),
+    "brain": lambda m, p: ricci.brain(m["sphere"], progress=p),
 }
 
 

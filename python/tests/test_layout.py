@@ -121,11 +121,15 @@ def test_layouts_are_written_in_the_format_of_the_ending(tmp_path, laid, genus2,
 
 def test_what_a_format_has_no_place_for_is_refused(tmp_path, laid, disk):
     with pytest.raises(ricci.FileError, match=r"known are .obj, .off, .ply, .glb"):
-        laid.write(tmp_path / "uv.vtk")
+        laid.write(tmp_path / "uv.stl")
+    for name in ("uv.mz3", "lh.pial"):
+        with pytest.raises(ricci.ArgumentError, match=r"no texture coordinates: write .obj, .off"):
+            laid.write(tmp_path / name)
     with pytest.raises(ricci.FileError, match="unknown format"):
         ricci.charts(laid).write(tmp_path / "charts")
-    with pytest.raises(ricci.ArgumentError, match="has seams"):
-        laid.write(tmp_path / "uv.off")
+    for name in ("uv.off", "uv.vtk", "uv.vtp"):
+        with pytest.raises(ricci.ArgumentError, match="has seams"):
+            laid.write(tmp_path / name)
     with pytest.raises(ricci.ArgumentError, match=r"in .obj files only"):
         laid.write(tmp_path / "uv.ply", "refinement", homogeneous=True)
     assert list(tmp_path.iterdir()) == []
@@ -155,10 +159,10 @@ def test_flat_metrics_need_no_flow(disk):
 
 
 def test_a_metric_that_has_not_converged_is_told_of(genus2):
-    with pytest.warns(ricci.NotConverged, match="the flow stopped \\(iteration_limit\\) after 1 steps") as flowed:
+    with pytest.warns(ricci.ConvergenceWarning, match="the flow stopped \\(iteration_limit\\) after 1 steps") as flowed:
         early = ricci.flow(genus2, target="auto:6", max_iterations=1)
     assert flowed[0].filename == __file__
-    with pytest.warns(ricci.NotConverged, match="has not converged.*its seams do not fit") as laid:
+    with pytest.warns(ricci.ConvergenceWarning, match="has not converged.*its seams do not fit") as laid:
         ricci.layout(early)
     assert laid[0].filename == __file__
 

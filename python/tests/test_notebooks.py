@@ -1,7 +1,12 @@
-"""The notebooks of the documentation run from their first cell to their last, in a folder of their own, and what they assert holds."""
+"""The notebooks of the documentation run from their first cell to their last, in a folder of their own, and what they assert holds.
+
+RICCI_NOTEBOOKS is a folder for the notebooks with their outputs, of which the pages of the documentation are made.
+"""
 
 import json
+import os
 import re
+from pathlib import Path
 
 import pytest
 
@@ -31,3 +36,5 @@ def test_notebooks_run(path, tmp_path):
     pages = [output["data"]["text/html"] for output in outputs if "text/html" in output.get("data", {})]
     assert any("data:image/png" in page or "<iframe srcdoc" in page for page in pages) or path.stem == "cohort"
     assert not [output for output in outputs if output.output_type == "stream" and re.search("Warning|Traceback", output.text)]
+    if folder := os.environ.get("RICCI_NOTEBOOKS"):
+        nbformat.write(book, Path(folder) / path.name)

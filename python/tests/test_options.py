@@ -4,7 +4,25 @@ import numpy as np
 import pytest
 
 import ricci
-from ricci import atlases, bicubics, circle, covering, form, layouts, matching, mesh, metrics, quad_splines, shapes, soup, splines, uniform
+from ricci import (
+    atlases,
+    bicubics,
+    circle,
+    covering,
+    flat_maps,
+    form,
+    layouts,
+    matching,
+    mesh,
+    metrics,
+    moduli,
+    quad_splines,
+    shapes,
+    sheets,
+    soup,
+    splines,
+    uniform,
+)
 from ricci._library import ffi
 from ricci._structs import options
 from ricci.targets import target_struct
@@ -96,6 +114,47 @@ CASES = [
         ),
         {"flow": FLOW, "outer": [1], "centre": [5], "three": [1, 2, 3], "angles": [0.1, 0.2, 0.3], "least_loop": 20, "frame": 2},
     ),
+    (
+        options("dart_options", {"strain_warp": 0.1, "strain_weft": 0.2, "shear": 0.3, "warp": 0.4, "budget": 5, "most": 6}, sheets._DARTS),
+        {"strain_warp": 0.1, "strain_weft": 0.2, "shear": 0.3, "warp": 0.4, "budget": 5, "most": 6},
+    ),
+    (
+        options(
+            "flatten_options",
+            {
+                "energy": "distance",
+                "conformal": 0.25,
+                "tolerance": 1e-6,
+                "rings": 3,
+                "injective": True,
+                "max_iterations": 9,
+                "weights": [1, 2, 3],
+                "pins": {4: [0.5, 6], 2: [7, 8]},
+                "straight": [[1, 2, 3], [4, 5, 6, 7]],
+            },
+            flat_maps._FLATTEN,
+        ),
+        {
+            "energy": 3,
+            "conformal": 0.25,
+            "tolerance": 1e-6,
+            "rings": 3,
+            "injective": 1,
+            "max_iterations": 9,
+            "weights": [1, 2, 3],
+            "n_weights": 3,
+            "pins": [4, 2],
+            "places": [0.5, 6, 7, 8],
+            "n_pins": 2,
+            "straight": [1, 2, 3, 4, 5, 6, 7],
+            "straight_sizes": [3, 4],
+            "n_straight": 2,
+        },
+    ),
+    (
+        options("bounds_options", {"width": 0.5, "most_unknowns": 9, "degree": "linear"}, moduli._BOUNDS),
+        {"width": 0.5, "most_unknowns": 9, "degree": 1},
+    ),
     (options("forms_options", {"base": 4, "classes": "relative"}, form._FORMS), {"base": [4], "classes": 1}),
     (
         form._harmonic_struct(
@@ -141,10 +200,10 @@ CASES = [
     (
         options(
             "structure_options",
-            {"flow": FLOW, "singular": 3, "radius": 0.5, "charts": "patches", "source": "form"},
+            {"flow": FLOW, "singular": 3, "radius": 0.5, "charts": "patches", "source": "form", "n_quads": 300},
             atlases._STRUCTURE,
         ),
-        {"flow": FLOW, "singular": [3], "radius": 0.5, "charts": 1, "source": 1},
+        {"flow": FLOW, "singular": [3], "radius": 0.5, "charts": 1, "source": 1, "n_quads": 300},
     ),
     (
         options(

@@ -7,6 +7,7 @@ import os
 import re
 import shutil
 import subprocess
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -22,8 +23,21 @@ def laid(genus2):
 
 def data_of(page):
     """The data of a page's view, decoded."""
-    text = re.search(r'<script type="application/json" id="views">(.*?)</script>', page.html, re.DOTALL).group(1)
-    return json.loads(text)["view"]
+    return parts_of(page.html)[0]
+
+
+def parts_of(text):
+    """The data of the view in the text of a page, decoded, and what is before and behind it."""
+    before, data, behind = re.fullmatch(r'(.*<script type="application/json" id="views">)(.*?)(</script>.*)', text, re.DOTALL).groups()
+    return json.loads(data)["view"], before, behind
+
+
+def command():
+    """The command of the release build."""
+    given = os.environ.get("RICCI") or Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target")) / "release" / "ricci"
+    if not Path(given).exists():
+        pytest.skip("the command is absent: RICCI names it")
+    return given
 
 
 def numbers(text, kind="<u2"):
@@ -79,6 +93,31 @@ def test_objects_with_a_surface_are_shown(kind, laid, genus2, disk, pants):
     corners = numbers(view["corners"])
     assert corners.size == 3 * view["faces"]
     assert corners.max() + 1 == view["vertices"] == len(points(view["surface"]))
+
+
+def test_the_command_makes_the_same_page_of_the_same_layout(laid, tmp_path):
+    """But for the number of each vertex, the direction that is up, which it chooses by the shape, and rounding of the distortion."""
+    height = laid.mesh.V[:, 2]
+    laid.write(tmp_path / "flat.obj", on="refinement")
+    (tmp_path / "height.csv").write_text("vertex,height\n" + "".join(f"{v},{z!r}\n" for v, z in enumerate(height.tolist())))
+    words = ["view", "flat.obj", "--values", "height.csv", "--title", "Layout", "-o", "page.html", "--quiet"]
+    subprocess.run([command(), *words], cwd=tmp_path, check=True)
+    ours, *ours_around = parts_of(ricci.show(laid, {"height": height}).html)
+    theirs, *theirs_around = parts_of((tmp_path / "page.html").read_text())
+    assert ours_around == theirs_around
+    assert ours.keys() == theirs.keys()
+    for name in ("vertices", "faces", "wide", "flat", "cut"):
+        assert ours[name] == theirs[name], name
+    corners, their_corners = (numbers(view["corners"]) for view in (ours, theirs))
+    for side in ("surface", "image"):
+        for name in ("from", "step"):
+            assert ours[side][name] == theirs[side][name], (side, name)
+        found, wanted = (numbers(view[side]["data"]).reshape(-1, 3) for view in (theirs, ours))
+        assert np.array_equal(found[their_corners], wanted[corners]), side
+    for found, wanted in zip(theirs["quantities"], ours["quantities"], strict=True):
+        assert found["name"] == wanted["name"]
+        assert [found["low"], found["high"]] == pytest.approx([wanted["low"], wanted["high"]], rel=1e-6, abs=1e-9)
+        assert np.abs(numbers(found["data"])[their_corners] - numbers(wanted["data"])[corners]).max() <= 1
 
 
 def test_large_surfaces_have_wide_numbers():

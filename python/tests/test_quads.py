@@ -110,7 +110,7 @@ def test_quads_without_positions_have_places() -> None:
         made.positions  # noqa: B018
 
 
-@pytest.mark.filterwarnings("ignore::ricci.NotConverged")
+@pytest.mark.filterwarnings("ignore::ricci.ConvergenceWarning")
 def test_a_metric_that_is_not_seamless_is_refused() -> None:
     far_off = ricci.seamless(ricci.make("genus", genus=2, n=4), quarter_turns=[9, -9, 9, -9], max_iterations=1)
     for make in (ricci.quads, ricci.quad_layout):

@@ -20,6 +20,7 @@ from ricci import (
     matching,
     mesh,
     metrics,
+    moduli,
     quad_meshes,
     quad_splines,
     seams,
@@ -47,9 +48,12 @@ KINDS = {
 STRUCTS = {
     "Attributes": ("attributes", {"png_size"}, set()),
     "BicubicOptions": ("bicubic_options", set(), set()),
+    "BoundsOptions": ("bounds_options", set(), set()),
     "ChangeOptions": ("change_spec", {"change"}, set()),
     "CircleOptions": ("circle_domain_options", set(), set()),
+    "DartOptions": ("dart_options", set(), set()),
     "DeckSpec": ("deck_spec", {"letters", "n_letters", "starts"}, {"words"}),
+    "FlattenOptions": ("flatten_options", {"places", "straight_sizes"}, set()),
     "FlowJob": ("flow_options", set(), {"space", "scheme"}),
     "FlowOptions": ("flow_options", set(), set()),
     "FormsOptions": ("forms_options", set(), set()),
@@ -62,6 +66,11 @@ STRUCTS = {
     "RepairOptions": ("repair_options", set(), set()),
     "SeamlessOptions": ("seamless_options", {"vertices", "valences", "stroke_vertices"}, set()),
     "ShapeOptions": ("shape", {"shape"}, set()),
+    "SphereFlatOptions": (
+        "flatten_options",
+        {"injective", "n_pins", "n_straight", "pins", "places", "rings", "straight", "straight_sizes"},
+        set(),
+    ),
     "StepOptions": ("step_options", set(), set()),
     "StructureOptions": ("structure_options", set(), set()),
     "SurfaceOptions": ("spline_surface_options", set(), set()),
@@ -70,6 +79,7 @@ STRUCTS = {
 WITHOUT = {"CohortOptions", "CoverOptions", "Points"}
 WRITERS = {
     "BicubicOptions": bicubics._BICUBIC,
+    "BoundsOptions": moduli._BOUNDS,
     "CircleOptions": circle._CIRCLES,
     "DeckSpec": covering._DECK,
     "FlowOptions": metrics._FLOW,
@@ -174,7 +184,7 @@ def test_help_describes_every_option():
 
 
 def test_functions_of_the_front_name_every_argument():
-    names = "flow uniformize cover circles harmonic forms match spline structure quads quad_layout quad_spline cohort"
+    names = "flow uniformize cover circles harmonic forms match spline structure quads quad_layout quad_spline fit_few_patches cohort"
     for name in names.split():
         function = getattr(ricci, name)
         for argument in inspect.signature(function).parameters:

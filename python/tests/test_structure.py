@@ -69,6 +69,19 @@ def test_affine_structures_have_one_singular_vertex_or_zeros(genus2):
     np.testing.assert_allclose(rotation / rotation[:, :1, :1], np.broadcast_to(np.eye(2), rotation.shape), atol=1e-8)
 
 
+def test_integer_structures_have_whole_coordinates_and_transitions(torus, genus2):
+    for mesh in (torus, genus2):
+        found = ricci.structure(mesh, kind="integer", n_quads=300)
+        assert found.summary.kind == "integer"
+        charts = [found.coordinates(k) for k in range(found.summary.n_charts)]
+        assert all(np.array_equal(xy, np.round(xy)) for xy in charts)
+        assert np.array_equal(found.transitions[1], np.round(found.transitions[1]))
+        assert found.summary.transition_residual == 0.0
+        assert found.summary.n_faces % 2 == 0
+    with pytest.raises(ricci.ArgumentError):
+        ricci.structure(torus, kind="affine", n_quads=300)
+
+
 def test_every_structure_of_a_surface(torus, genus2):
     assert set(ricci.structures(torus)) == {"conformal", "affine"}
     assert "spherical" in ricci.structures(ricci.make("sphere", n=3))

@@ -10,6 +10,7 @@
 //! ```
 
 use super::boundary::{Boundary, target};
+use crate::archive::stored;
 use crate::control::Control;
 use crate::embed::{BasedLayout, BoundaryLoop, DeckGroup, Layout, boundary_sides};
 use crate::error::{Error, Result};
@@ -80,6 +81,8 @@ pub struct Quotient {
     /// The corners of a straight boundary, with the angles inside, radians.
     pub corners: Vec<(VertexId, f64)>,
 }
+stored!(sections Quotient { report, angle_defect, metric, layout, placement, lengths, basis, deck, boundary,
+    corners });
 
 impl Quotient {
     /// The extremal distance \[PS10\] of the two loops of an annulus in E² with straight loops, or of the first and the third side of a disk

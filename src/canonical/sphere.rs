@@ -15,8 +15,9 @@ use super::lift::{lifted, nonconvexity, off_centre};
 use super::puncture::PlaneSolver;
 use super::star::{NEARLY_FLAT, PuncturedSurface};
 use super::tries::{FoundPlane, PunctureSearch, on_a_circle, said};
+use crate::archive::stored;
 use crate::control::Control;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, check_size};
 use crate::flow::{Flow, FlowSeconds, Options, Solution, StopReason};
 use crate::geometry::double_double::two_sum;
 use crate::geometry::{DoubleDouble, Space, largest, triangle};
@@ -91,6 +92,9 @@ pub struct SphereReport {
     /// `|Σ w x|/Σ w` of the positions, w one third of the area of the given faces at a vertex.
     pub centring: f64,
 }
+stored!(sections SphereReport { converged, stop_reason, iterations, flips, start_flips, puncture, tried,
+    max_curvature_error, spherical_curvature_error, gauss_bonnet, u_range, smallest_edge,
+    delaunay_violation, link_turning, nonconvexity, centring } without { seconds });
 
 /// A surface on the unit sphere.
 #[derive(Debug, Clone)]
@@ -104,6 +108,16 @@ pub struct Sphere {
     pub plane: PerVertex<[f64; 2]>,
     /// The report.
     pub report: SphereReport,
+}
+stored!(sections Sphere { metric, positions, plane, report } check Sphere::check_parts);
+
+impl Sphere {
+    /// Checks that the parts of an archive fit each other.
+    fn check_parts(&self) -> Result<()> {
+        let n = self.metric.mesh().n_vertices();
+        check_size("positions", self.positions.len(), n)?;
+        check_size("points of the plane", self.plane.len(), n)
+    }
 }
 
 /// A surface of genus 0 as a convex polyhedron in the unit sphere: the one whose edges, after flips inside the conformal class, are chords

@@ -12,6 +12,7 @@
 //! # Ok::<(), ricci::Error>(())
 //! ```
 
+use crate::archive::stored;
 use crate::control::Control;
 use crate::embed::{Layout, LayoutOpening, LayoutOptions};
 use crate::error::{Error, Result};
@@ -35,6 +36,7 @@ pub struct FlowedSphere {
     /// Unit vectors (V entries).
     pub positions: PerVertex<Point>,
 }
+stored!(sections FlowedSphere { metric, report, root, layout, positions });
 
 /// The flow in S² to K = 0, and its metric laid out on the unit sphere from `root` (default: vertex 0).
 ///

@@ -3,6 +3,7 @@
 use super::cover_walk::CoverWalks;
 use super::element::DeckElement;
 use super::layout::Layout;
+use crate::archive::stored;
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::bounding_line::BoundingLine;
@@ -22,6 +23,7 @@ pub struct BoundaryLift {
     /// A point of the lift in ambient coordinates.
     pub point: [f64; 3],
 }
+stored!(sections BoundaryLift { generator, element, point });
 
 impl BoundaryLift {
     /// The lift of a boundary loop in the layout, from the half-edge `start` on the boundary. `copy`: the word of the element that carries

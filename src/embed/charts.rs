@@ -25,6 +25,7 @@
 //! ```
 
 use super::chart_growth::{ChartPartition, PlaneLayout, partition};
+use crate::archive::stored;
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::PlaneIsometry;
@@ -84,6 +85,8 @@ pub struct Charts {
     /// coordinates. They lie in the charts of their neighbours, and may overlap the faces around them by as much as their own size.
     pub degenerate: Vec<FaceId>,
 }
+stored!(sections Charts { chart, corner_index, coordinates, motions, scale, efficiency, is_seam,
+    seam_length, flipped, degenerate });
 
 impl Charts {
     /// The number of charts.

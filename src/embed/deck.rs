@@ -17,8 +17,9 @@ use super::boundary_lift::BoundaryLift;
 use super::cover_walk::CoverWalks;
 use super::element::DeckElement;
 use super::layout::Layout;
+use crate::archive::stored;
 use crate::control::Control;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, check_size};
 use crate::flow::Solution;
 use crate::geometry::modulus::modulus;
 use crate::geometry::motion::precise_point;
@@ -27,6 +28,11 @@ use crate::mesh::HalfedgeId;
 use crate::topology::word::{Letter, Word};
 use crate::topology::{DomainSide, FundamentalDomain, HomotopyBasis, SurfaceGroup};
 use std::f64::consts::TAU;
+
+/// Largest residual and error of the relator of loops that are a basis; one of them is enough. A product of other loops is no small motion, but
+/// may be small beside the longest of its partial products.
+const MOST_RESIDUAL: f64 = 1e-16;
+const MOST_RELATION_ERROR: f64 = 1e-3;
 
 /// The group of deck transformations of the universal cover of a layout. It acts from the left: M(γ) carries the base lift to the end of
 /// γ's lift, and `M(γδ) = M(γ) M(δ)`.
@@ -56,6 +62,8 @@ pub struct DeckGroup {
     /// The largest difference between the pairing of a side and the isometry of the side's word, relative as `relation_residual` is.
     pub side_residual: f64,
 }
+stored!(sections DeckGroup { space, group, generators, sides, borders, corner, relation_residual,
+    relation_error, side_residual });
 
 impl DeckGroup {
     /// The deck group of a layout without cones of this metric ([`super::LayoutOpening::MetricEdges`]), with the generators of a homotopy basis
@@ -114,6 +122,52 @@ impl DeckGroup {
         let whole = deck.motion(&relator)?;
         deck.relation_error = whole.distance_from_identity().min(f64::MAX);
         deck.relation_residual = deck.residual(&relator, &whole)?;
+        Ok(deck)
+    }
+
+    /// The deck group with loops of one's own as generators, edge paths on the mesh that is laid out; without sides and borders.
+    ///
+    /// # Errors
+    /// [`Error::Size`] for another number of loops than `group` has generators; [`Error::Argument`] for edges that do not follow each other, or loops
+    /// that do not start and end at one vertex; [`Error::Layout`] where their relator is not 1; [`Error::Cancelled`].
+    pub fn of_loops(
+        metric: &Solution,
+        layout: &Layout,
+        group: SurfaceGroup,
+        loops: &[Vec<HalfedgeId>],
+        control: &Control,
+    ) -> Result<DeckGroup> {
+        let mesh = layout.mesh();
+        check_size("loops of a canonical basis", loops.len(), group.n_generators())?;
+        let ends = |path: &Vec<HalfedgeId>| Some((mesh.origin(*path.first()?), mesh.tip(*path.last()?)));
+        let base = loops.first().and_then(ends).map(|(v, _)| v);
+        if let Some(k) = loops.iter().position(|path| ends(path) != base.map(|v| (v, v))) {
+            let need = "start and end at one vertex with the others";
+            return Err(Error::argument("loop of a canonical basis", k, need));
+        }
+        let corner = base.and_then(|v| mesh.outgoing(v).find(|&h| !mesh.is_outside(h)));
+        let corner = corner.ok_or_else(|| Error::Layout("loops of a canonical basis have no face".into()))?;
+        let walks = CoverWalks::new(metric, layout)?;
+        let element = |path: &Vec<HalfedgeId>| walks.element(corner, path, control);
+        let mut deck = DeckGroup {
+            space: layout.space,
+            group,
+            generators: loops.iter().map(element).collect::<Result<_>>()?,
+            sides: Vec::new(),
+            borders: Vec::new(),
+            corner,
+            relation_residual: 0.0,
+            relation_error: 0.0,
+            side_residual: 0.0,
+        };
+        let relator = group.relator();
+        let whole = deck.motion(&relator)?;
+        deck.relation_error = whole.distance_from_identity().min(f64::MAX);
+        deck.relation_residual = deck.residual(&relator, &whole)?;
+        if deck.relation_residual > MOST_RESIDUAL && deck.relation_error > MOST_RELATION_ERROR {
+            let text = group.text(&relator);
+            return Err(Error::Layout(format!("the loops are no canonical basis: {text} is not 1 for them")));
+        }
         Ok(deck)
     }
 

@@ -1,5 +1,6 @@
 //! The elements of deck groups, each with its word and its isometry.
 
+use crate::archive::stored;
 use crate::geometry::{DoubleDouble, Motion, Space};
 use crate::topology::word::Word;
 
@@ -11,6 +12,7 @@ pub struct DeckElement {
     /// The element as an isometry.
     pub motion: Motion<DoubleDouble>,
 }
+stored!(sections DeckElement { word, motion });
 
 impl DeckElement {
     /// The identity.

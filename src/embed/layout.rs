@@ -15,6 +15,7 @@
 //! ```
 
 use super::pieces::LayoutPieces;
+use crate::archive::stored;
 use crate::error::{Error, Result};
 use crate::geometry::complex::{norm, quick_norm};
 use crate::geometry::model::{distance as hyperbolic_distance, poincare};
@@ -114,6 +115,7 @@ pub struct Seam {
     /// a distance elsewhere.
     pub residual: f64,
 }
+stored!(row Seam { pairing: Motion<DoubleDouble>, residual: f64 });
 
 /// Largest rotation, in radians, of an isometry that counts as a translation. On flat tori, whose sides are paired by translations,
 /// rounding in double-double precision leaves about 1e-30, and positions in f64 show no rotation below 1e-16.

@@ -24,6 +24,7 @@ mod frame;
 mod input_splits;
 pub mod layout;
 mod layout_options;
+mod layout_parts;
 pub mod lifted_loop;
 mod moving;
 mod of_planar_domain;

@@ -1,5 +1,6 @@
 //! The triangles that are laid out: the metric's triangulation, or a subdivision of it.
 
+use crate::archive::{ArchiveReader, ArchiveWriter, Stored};
 use crate::error::{Error, Result};
 use crate::mesh::{EdgeId, FaceId, HalfedgeId, Mesh, PerEdge, VertexId};
 use crate::metric::CommonSubdivision;
@@ -15,6 +16,24 @@ pub(super) enum LayoutPieces {
     Mesh(Arc<Mesh>),
     /// The triangles of a common subdivision.
     Subdivision(Arc<CommonSubdivision>),
+}
+
+impl Stored for LayoutPieces {
+    const LEAST: usize = 5;
+
+    fn write(&self, to: &mut ArchiveWriter) {
+        self.common_subdivision().cloned().write(to);
+        if let LayoutPieces::Mesh(mesh) = self {
+            mesh.write(to);
+        }
+    }
+
+    fn read(from: &mut ArchiveReader<'_>) -> Result<Self> {
+        match Option::read(from)? {
+            Some(subdivision) => Ok(LayoutPieces::Subdivision(subdivision)),
+            None => Stored::read(from).map(LayoutPieces::Mesh),
+        }
+    }
 }
 
 impl LayoutPieces {

@@ -199,6 +199,35 @@ fn area_near([p, q, r]: [Point; 3]) -> f64 {
     2.0 * det.atan2(1.0 + form(p, q) + form(q, r) + form(r, p))
 }
 
+impl Quality {
+    /// The distortion of texture coordinates: of the linear maps from triangles in space to triangles in the plane. `faces`: F triples of
+    /// indices into `positions`; `uv`: F triples of points of the plane, those of the corners. A triangle that is turned over counts with
+    /// the dilatation of its mirror image.
+    ///
+    /// # Errors
+    /// [`Error::Size`] where there are fewer positions than the faces name, or another number of texture coordinates.
+    pub fn of_texture(positions: &[Point], faces: &[[u32; 3]], uv: &[[[f64; 2]; 3]]) -> Result<Quality> {
+        check_size("texture coordinates", uv.len(), faces.len())?;
+        let need = faces.as_flattened().iter().map(|&v| v as usize + 1).fold(0, usize::max);
+        check_size("positions", positions.len().min(need), need)?;
+        // Units in which the longest side is 1 keep areas from over- and underflow.
+        let side = |f: &[u32; 3], [i, j]: [usize; 2]| {
+            vector::norm(vector::sub(positions[f[i] as usize], positions[f[j] as usize]))
+        };
+        let sides = |f: &[u32; 3]| [[1, 2], [2, 0], [0, 1]].map(|ends| side(f, ends));
+        let longest = faces.iter().flat_map(sides).fold(f64::MIN_POSITIVE, f64::max);
+        let extent = largest_coordinate(uv.as_flattened()).max(f64::MIN_POSITIVE);
+        let (mut qc, mut areas) = (vec![DILATATION_CAP; faces.len()], vec![[0.0; 2]; faces.len()]);
+        parallel::fill_both(&mut qc, &mut areas, |f| {
+            // The excess is that of rounding: the sides are those of a triangle.
+            let (from, _) = in_plane(sides(&faces[f]).map(|l| l / longest), CORNERS);
+            let to = uv[f].map(|p| p.map(|x| x / extent));
+            (dilatation(from, to), [from, to].map(|t| 0.5 * doubled_area(t).abs()))
+        });
+        Ok(summary(qc.into(), &areas.into()))
+    }
+}
+
 /// The triangles of the surface as it came, with the lengths of their edges.
 struct InputTriangles<'a> {
     mesh: &'a Mesh,
@@ -333,6 +362,35 @@ fn dilatation_of_sides([p, q]: [Complex; 2], [p_image, q_image]: [Complex; 2]) -
 mod tests {
     use super::*;
     use crate::geometry::model::from_poincare;
+
+    #[test]
+    fn texture_coordinates_have_the_dilatation_and_the_areas_of_their_linear_maps() {
+        let positions = [[0.0, 0.0, 7.0], [3.0, 0.0, 7.0], [0.0, 4.0, 7.0], [3.0, 4.0, 7.0], [6.0, 8.0, 7.0]];
+        let faces = [[0, 1, 2], [1, 3, 2], [0, 3, 4]];
+        // The first face twice as wide, the second as it is and turned over, the third without area in both.
+        let uv = [
+            [[0.0, 0.0], [6.0, 0.0], [0.0, 4.0]],
+            [[0.0, 0.0], [0.0, 4.0], [3.0, 4.0]],
+            [[0.0, 0.0], [1.0, 1.0], [2.0, 2.0]],
+        ];
+        let found = Quality::of_texture(&positions, &faces, &uv).unwrap();
+        for (f, qc, ratio) in [(0, 2.0, 4.0 / 3.0), (1, 1.0, 2.0 / 3.0)] {
+            let f = FaceId(f);
+            assert!(
+                (found.qc[f] - qc).abs() < 1e-12 && (found.area_ratio[f] - ratio).abs() < 1e-12,
+                "{found:?}"
+            );
+        }
+        assert_eq!((found.degenerate, found.area_ratio[FaceId(2)]), (vec![FaceId(2)], 1.0));
+        assert!(matches!(
+            Quality::of_texture(&positions, &faces, &uv[1..]),
+            Err(Error::Size { expected: 3, .. })
+        ));
+        assert!(matches!(
+            Quality::of_texture(&positions[..3], &faces, &uv),
+            Err(Error::Size { expected: 5, .. })
+        ));
+    }
 
     #[test]
     fn areas_near_the_origin_are_those_of_the_sides() {

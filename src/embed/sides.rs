@@ -2,6 +2,7 @@
 
 use super::cover_walk::CoverWalks;
 use super::layout::{Layout, distance_from_origin};
+use crate::archive::stored;
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::flow::Solution;
@@ -20,6 +21,7 @@ pub struct BoundaryLoop {
     /// Its straight sides, one after the other, the surface on their left; a loop without corners has one, all around.
     pub sides: Vec<BoundarySide>,
 }
+stored!(sections BoundaryLoop { generator, start, sides });
 
 /// A straight side of the boundary.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,6 +34,7 @@ pub struct BoundarySide {
     /// side's length.
     pub straightness: f64,
 }
+stored!(sections BoundarySide { from, length, straightness });
 
 impl BoundaryLoop {
     /// The sum of the lengths of its sides.

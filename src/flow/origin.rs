@@ -1,8 +1,9 @@
 //! The start that flows on a surface share: the surface, its triangulation at the start, and the initial metric there.
 
 use super::options::Options;
+use crate::archive::{invalid, stored};
 use crate::control::Control;
-use crate::error::Result;
+use crate::error::{Result, check_size};
 use crate::mesh::{Double, EdgeId, FixedEdges, Flip, Mesh, NormalCoordinates, PerEdge};
 use crate::metric::delaunay::{Triangulated, boundary_fails};
 use crate::metric::start::{initial_on, make_delaunay};
@@ -31,6 +32,8 @@ pub(super) struct FlowOrigin {
     /// True if this start on one copy is one half of the start on the double, because no boundary edge would be flipped there.
     pub is_half: bool,
 }
+stored!(sections FlowOrigin { surface, class, double, caps, initial, flips, flipped, fixed, follows, is_half
+    } check FlowOrigin::check_parts);
 
 /// The triangulation that isometric flips have made.
 #[derive(Debug)]
@@ -41,8 +44,41 @@ pub(super) struct FlippedStart {
     /// The given edges on it.
     pub given: NormalCoordinates,
 }
+stored!(sections FlippedStart { mesh, lengths, given });
+
+/// Checks that a triangulation that flips have made has as many elements as the one before.
+pub(super) fn check_same_size(mesh: &Mesh, before: &Mesh) -> Result<()> {
+    check_size("vertices", mesh.n_vertices(), before.n_vertices())?;
+    check_size("edges", mesh.n_edges(), before.n_edges())?;
+    check_size("faces", mesh.n_faces(), before.n_faces())
+}
 
 impl FlowOrigin {
+    /// The triangulation that flips before the flow start from: the given one, its double, or the one with caps.
+    pub fn before_flips(&self) -> &Mesh {
+        match (&self.double, &self.caps) {
+            (Some(double), _) => &double.mesh,
+            (None, Some(capped)) => capped,
+            (None, None) => self.surface.mesh(),
+        }
+    }
+
+    /// Checks that the arrays of an archive fit each other.
+    fn check_parts(&self) -> Result<()> {
+        let base = self.before_flips();
+        let (given, n) = (self.surface.mesh(), base.n_vertices());
+        if given.n_vertices() > n || given.n_edges() > base.n_edges() || given.n_faces() > base.n_faces() {
+            return Err(invalid("triangulation of the start", "one that contains the given one"));
+        }
+        self.initial.metric.check_sizes(base)?;
+        check_size("radii", self.initial.radii.len(), n)?;
+        check_size("u of the input", self.initial.input_u.len(), n)?;
+        let Some(FlippedStart { mesh, lengths, given }) = &self.flipped else { return Ok(()) };
+        check_same_size(mesh, base)?;
+        check_size("lengths of the start", lengths.len(), mesh.n_edges())?;
+        given.check_size(mesh)
+    }
+
     /// The initial metric on the given triangulation, whose edges stay.
     ///
     /// # Errors

@@ -13,6 +13,8 @@
 //! ```
 
 use super::seconds::FlowSeconds;
+use crate::archive::{ArchiveReader, ArchiveWriter, Stored, stored};
+use crate::error::Result;
 use crate::mesh::{Double, VertexId};
 use std::collections::BTreeSet;
 
@@ -47,6 +49,39 @@ pub enum StopReason {
     Stalled,
     /// The iteration limit came first.
     IterationLimit,
+}
+
+impl Stored for StopReason {
+    const LEAST: usize = 1;
+
+    fn write(&self, to: &mut ArchiveWriter) {
+        let (number, amount): (u8, Option<f64>) = match *self {
+            StopReason::Converged => (0, None),
+            StopReason::RoundingFloor { size } => (1, Some(size)),
+            StopReason::BrokenTriangles => (2, None),
+            StopReason::Infeasible => (3, None),
+            StopReason::Diverged => (4, None),
+            StopReason::OutOfReach { step } => (5, Some(step)),
+            StopReason::Stalled => (6, None),
+            StopReason::IterationLimit => (7, None),
+        };
+        number.write(to);
+        amount.iter().for_each(|amount| amount.write(to));
+    }
+
+    fn read(from: &mut ArchiveReader<'_>) -> Result<Self> {
+        Ok(match u8::read(from)? {
+            0 => StopReason::Converged,
+            1 => StopReason::RoundingFloor { size: Stored::read(from)? },
+            2 => StopReason::BrokenTriangles,
+            3 => StopReason::Infeasible,
+            4 => StopReason::Diverged,
+            5 => StopReason::OutOfReach { step: Stored::read(from)? },
+            6 => StopReason::Stalled,
+            7 => StopReason::IterationLimit,
+            other => return Err(from.wrong(format!("{other} is no reason to stop"))),
+        })
+    }
 }
 
 impl StopReason {
@@ -86,6 +121,7 @@ pub struct TraceRow {
     /// Step size that led here.
     pub step_size: f64,
 }
+stored!(row TraceRow { step: usize, energy: f64, max_curvature_error: f64, area: f64, step_size: f64 });
 
 /// Vertices named in [`Report::worst`].
 pub const WORST: usize = 8;
@@ -105,6 +141,7 @@ pub struct Obstruction {
     /// The bound, not attained, radians. (Both sums are formed in f64.)
     pub least: f64,
 }
+stored!(sections Obstruction { vertices, curvature, least });
 
 /// Result of a flow, with everything needed to judge it.
 #[derive(Debug, Clone, PartialEq)]
@@ -150,6 +187,9 @@ pub struct Report {
     /// Seconds by phase.
     pub seconds: FlowSeconds,
 }
+stored!(sections Report { stop_reason, iterations, flips, max_curvature_error, tolerance, angle_defect,
+    rounding_floor, double_double, broken_triangles, worst, obstruction, gauss_bonnet, residuals, trace,
+    shifted, factorisations, unknowns, factor_entries } without { seconds });
 
 impl Report {
     pub(super) fn new(tolerance: f64) -> Report {

@@ -1,7 +1,8 @@
 //! The result of a flow: a metric of the surface, with its report, its cones and the way back to the surface as it was given.
 
-use super::origin::{FlippedStart, FlowOrigin};
+use super::origin::{FlippedStart, FlowOrigin, check_same_size};
 use super::report::Report;
+use crate::archive::{in_range, stored};
 use crate::control::Control;
 use crate::error::{Error, Result, check_size};
 use crate::mesh::{Double, EdgeId, FaceId, Mesh, NormalCoordinates, PerVertex, VertexId};
@@ -30,6 +31,7 @@ pub struct Solution {
     pub(super) reached: Option<ReachedTarget>,
     pub(super) threads: usize,
 }
+stored!(sections Solution { origin, mesh, metric, followed, flips, reached } without { threads } check Solution::check_parts);
 
 /// The target of a flow and its report.
 #[derive(Debug, Clone)]
@@ -41,8 +43,22 @@ pub(super) struct ReachedTarget {
     /// [`Solution::is_one_piece`].
     pub is_one_piece: bool,
 }
+stored!(sections ReachedTarget { report, target, cones, is_one_piece });
 
 impl Solution {
+    /// Checks that the arrays of an archive fit each other.
+    fn check_parts(&self) -> Result<()> {
+        check_same_size(&self.mesh, self.origin.before_flips())?;
+        self.metric.check_sizes(&self.mesh)?;
+        self.followed.iter().try_for_each(|normal| normal.check_size(&self.mesh))?;
+        let Some(ReachedTarget { report, target, cones, .. }) = &self.reached else { return Ok(()) };
+        let n = self.given().n_vertices();
+        check_size("target", target.len(), n)?;
+        let named = report.obstruction.iter().flat_map(|found| &found.vertices);
+        let named = named.chain(report.worst.iter().map(|(v, _)| v)).chain(cones);
+        in_range("vertex", named.map(|v| v.index()), self.mesh.n_vertices())
+    }
+
     /// The initial metric of the surface in a class, on the given triangulation: no flow has been made, [`Solution::report`] is none.
     ///
     /// # Errors

@@ -9,6 +9,7 @@
 
 use super::complex::{add, cross, dot, mul, sub};
 use super::{DoubleDouble, Motion};
+use crate::archive::stored;
 use std::f64::consts::{PI, TAU};
 
 /// `z ↦ e^{iθ} z + t`.
@@ -19,6 +20,7 @@ pub struct PlaneIsometry {
     /// Translation t.
     pub translation: [f64; 2],
 }
+stored!(sections PlaneIsometry { rotation, translation });
 
 impl PlaneIsometry {
     /// The identity.

@@ -15,6 +15,7 @@
 //! assert!((distance(origin, from_poincare([0.5, 0.0])) - 3f64.ln()).abs() < 1e-15);
 //! ```
 
+use crate::archive::stored;
 use crate::error::Error;
 
 /// A model of H² by plane coordinates, or the hyperboloid itself.
@@ -30,6 +31,13 @@ pub enum Model {
     /// The hyperboloid in R^{2,1}.
     Hyperboloid,
 }
+stored!(variants Model {
+        Poincare = 0,
+        Klein = 1,
+        HalfPlane = 2,
+        Hyperboloid = 3,
+    }
+);
 
 impl Model {
     /// The name used on the command line.

@@ -7,6 +7,7 @@
 //! # Ok::<(), ricci::Error>(())
 //! ```
 
+use crate::archive::stored;
 use crate::error::Error;
 use std::ops::RangeInclusive;
 
@@ -23,6 +24,12 @@ pub enum Space {
     /// The unit sphere, λ = +1.
     S2,
 }
+stored!(variants Space {
+        E2 = 0,
+        H2 = 1,
+        S2 = 2,
+    }
+);
 
 impl Space {
     /// Constant curvature λ.

@@ -28,8 +28,29 @@ impl TriangleTree {
     }
 
     pub fn nearest(&self, point: Vector) -> NearestOfTriangles {
+        self.search(point, f64::INFINITY, &|_| true)
+    }
+
+    /// The nearest point of the triangles whose normal is at an acute angle to a direction, if one is within a distance.
+    #[cfg(any(feature = "splines", test))]
+    pub fn nearest_facing(
+        &self,
+        point: Vector,
+        direction: Vector,
+        within: f64,
+    ) -> Option<NearestOfTriangles> {
+        let is_facing = |t: usize| {
+            let [a, b, c] = self.triangles[t];
+            dot(cross(sub(b, a), sub(c, a)), direction) > 0.0
+        };
+        let found = self.search(point, within, &is_facing);
+        (found.distance < within).then_some(found)
+    }
+
+    /// The nearest point of triangles of a kind nearer than a distance, which is that of the result where there is none.
+    fn search(&self, point: Vector, within: f64, is_wanted: &dyn Fn(usize) -> bool) -> NearestOfTriangles {
         let mut best =
-            NearestOfTriangles { triangle: usize::MAX, weights: [1.0, 0.0, 0.0], distance: f64::INFINITY };
+            NearestOfTriangles { triangle: usize::MAX, weights: [1.0, 0.0, 0.0], distance: within };
         let mut open = vec![(self.tree.distance(0, point), 0)];
         while let Some((least, node)) = open.pop() {
             if least > best.distance {
@@ -42,7 +63,7 @@ impl TriangleTree {
                     open.extend(both);
                 }
                 BoundsNode::Leaf(triangles) => {
-                    for t in triangles.iter().map(|&t| t as usize) {
+                    for t in triangles.iter().map(|&t| t as usize).filter(|&t| is_wanted(t)) {
                         let corners = self.triangles[t];
                         let weights = nearest_weights(corners, point);
                         let distance = norm(sub(combined(weights, corners), point));
@@ -98,5 +119,17 @@ mod tests {
         assert_eq!((above.triangle, above.distance, above.weights), (1, 0.25, [0.5, 0.25, 0.25]));
         let beside = tree.nearest([-3.0, 0.0, -4.0]);
         assert_eq!((beside.triangle, beside.distance, beside.weights), (0, 5.0, [1.0, 0.0, 0.0]));
+    }
+
+    #[test]
+    fn nearest_points_that_face_a_direction() {
+        let low = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        let [a, b, c] = low.map(|[x, y, _]| [x, y, 1.0]);
+        let tree = TriangleTree::new(vec![low, [a, c, b]]);
+        let up = tree.nearest_facing([0.25, 0.25, 0.75], [0.1, 0.0, 1.0], 0.8).unwrap();
+        assert_eq!((up.triangle, up.distance), (0, 0.75));
+        assert_eq!(tree.nearest_facing([0.25, 0.25, 0.75], [0.1, 0.0, 1.0], 0.7), None);
+        let down = tree.nearest_facing([0.25, 0.25, 0.75], [0.1, 0.0, -1.0], 0.8).unwrap();
+        assert_eq!((down.triangle, down.distance), (1, 0.25));
     }
 }

@@ -11,6 +11,7 @@
 //! # Ok::<(), ricci::Error>(())
 //! ```
 
+use crate::archive::stored;
 use crate::control::Control;
 use crate::error::{Result, check_size};
 use crate::mesh::{EdgeId, HalfedgeId, Mesh, PerVertex, VertexId};
@@ -19,6 +20,7 @@ use crate::topology::HomotopyBasis;
 /// A 1-form with integer values: the edges e on which it is not 0, ascending, with its integrals over their half-edges 2e.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Cochain(pub Vec<(EdgeId, i32)>);
+stored!(id Cochain);
 
 /// Number of edges after which the control is asked again whether to stop.
 const EDGES_PER_STEP: usize = 4096;

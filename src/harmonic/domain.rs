@@ -17,6 +17,7 @@
 //! # Ok::<(), ricci::Error>(())
 //! ```
 
+use crate::archive::stored;
 use crate::control::Control;
 use crate::error::{Error, Result, check_size};
 use crate::flow::Solution;
@@ -41,8 +42,19 @@ pub struct Domain {
     face_areas: PerFace<f64>,
     vertex_areas: PerVertex<f64>,
 }
+stored!(sections Domain { metric, lengths, cotangents, weights, face_areas, vertex_areas } check Domain::check_parts);
 
 impl Domain {
+    /// Checks that the parts of an archive fit each other.
+    fn check_parts(&self) -> Result<()> {
+        let mesh = self.metric.mesh();
+        check_size("lengths", self.lengths.len(), mesh.n_edges())?;
+        check_size("cotangents", self.cotangents.len(), mesh.n_faces())?;
+        check_size("weights", self.weights.len(), mesh.n_edges())?;
+        check_size("areas of faces", self.face_areas.len(), mesh.n_faces())?;
+        check_size("areas of vertices", self.vertex_areas.len(), mesh.n_vertices())
+    }
+
     /// The domain of a surface on its intrinsic Delaunay triangulation; [`Domain::common_subdivision`] is the common subdivision with the given one.
     ///
     /// # Errors

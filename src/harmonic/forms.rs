@@ -16,6 +16,7 @@ use super::cohomology::{Cochain, absolute, relative};
 use super::domain::Domain;
 use super::laplace::Laplace;
 use super::one_form::OneForm;
+use crate::archive::stored;
 use crate::control::{Control, Stage};
 use crate::error::Result;
 use crate::geometry::worse;
@@ -33,6 +34,11 @@ pub enum Classes {
     /// Forms that are 0 along the boundary. On the double they are those that the mirror symmetry reverses.
     Relative,
 }
+stored!(variants Classes {
+        Absolute = 0,
+        Relative = 1,
+    }
+);
 
 /// The options of [`HarmonicForms::new`].
 #[derive(Debug, Clone, Copy, Default)]
@@ -81,6 +87,8 @@ pub struct HarmonicForms {
     /// The seconds that the phases took.
     pub seconds: FormsSeconds,
 }
+stored!(sections HarmonicForms { domain, basis, classes, forms, cochains, closedness, coclosedness } without
+    { seconds });
 
 /// Number of forms in one solve, which reads the factor once for all of them.
 const COLUMNS: usize = 8;

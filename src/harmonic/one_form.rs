@@ -10,6 +10,7 @@
 //! ```
 
 use super::domain::Domain;
+use crate::archive::stored;
 use crate::error::{Result, check_size};
 use crate::geometry::complex::{Complex, add};
 use crate::mesh::{EdgeId, HalfedgeId, Mesh, PerEdge};
@@ -17,6 +18,7 @@ use crate::mesh::{EdgeId, HalfedgeId, Mesh, PerEdge};
 /// A real 1-form: its integral over the half-edge 2e of every edge e (E entries).
 #[derive(Debug, Clone, PartialEq)]
 pub struct OneForm(pub PerEdge<f64>);
+stored!(id OneForm);
 
 /// A complex 1-form: its integral over the half-edge 2e of every edge e (E entries).
 #[derive(Debug, Clone, PartialEq)]

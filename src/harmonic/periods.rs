@@ -22,6 +22,7 @@
 
 use super::forms::HarmonicForms;
 use super::one_form::{ComplexForm, OneForm};
+use crate::archive::stored;
 use crate::error::{Error, Result, check_size};
 use crate::geometry::complex::Complex;
 use crate::geometry::modulus::modulus;
@@ -41,6 +42,7 @@ pub struct PeriodMatrix {
     /// The least eigenvalue of Im Π, which is positive.
     pub least_eigenvalue: f64,
 }
+stored!(sections PeriodMatrix { matrix, star, asymmetry, star_residual, least_eigenvalue });
 
 impl PeriodMatrix {
     /// The period matrix of a surface, from its harmonic forms.

@@ -11,6 +11,7 @@
 //! ```
 
 use super::one_form::{ComplexForm, OneForm};
+use crate::archive::stored;
 use crate::geometry::complex::{cross, dot, neg, norm};
 use crate::mesh::union_find::UnionFind;
 use crate::mesh::{EdgeId, FaceId, HalfedgeId, Mesh, PerFace, PerVertex, VertexId};
@@ -91,6 +92,7 @@ pub struct Zero {
     /// The number of zeros that coincide there; negative for a pole, which a form has only if the mesh is too coarse for it.
     pub multiplicity: i64,
 }
+stored!(row Zero { vertex: VertexId, multiplicity: i64 });
 
 /// The zeros of a complex closed form, by vertex. On a closed surface their multiplicities add up to 2g − 2, for every form.
 ///

@@ -27,6 +27,21 @@ pub fn solve_definite(a: &[Vec<f64>], b: &[Vec<f64>]) -> Result<Vec<Vec<f64>>> {
     Ok((0..x.nrows()).map(|i| (0..x.ncols()).map(|j| x[(i, j)]).collect()).collect())
 }
 
+/// The lower triangle L with `L Lᵀ = a` for a symmetric positive definite matrix (n×n), whose lower triangle is read.
+///
+/// # Errors
+/// As [`solve_definite`].
+///
+/// # Panics
+/// If rows have different lengths.
+pub fn cholesky(a: &[Vec<f64>]) -> Result<Vec<Vec<f64>>> {
+    let message = "the dense matrix is not positive definite".to_string();
+    let factor = matrix(a).llt(Side::Lower).map_err(|_| Error::Factorisation { size: a.len(), message })?;
+    let lower = factor.L();
+    let entry = |i: usize, j: usize| if j <= i { lower[(i, j)] } else { 0.0 };
+    Ok((0..a.len()).map(|i| (0..a.len()).map(|j| entry(i, j)).collect()).collect())
+}
+
 /// The eigenvalues of a symmetric matrix (n×n), whose lower triangle is read, ascending.
 ///
 /// # Errors

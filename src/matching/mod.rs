@@ -92,6 +92,7 @@ mod same_triangulation;
 mod sphere;
 mod strategy;
 mod surface_map;
+mod teichmuller;
 
 pub use crate::mesh::Place;
 pub use balance::BalanceReport;
@@ -102,3 +103,4 @@ pub use quality::{MapQuality, cycle_error, dilatations, map_quality, point_error
 pub use result::Matching;
 pub use round::RoundHole;
 pub use surface_map::SurfaceMap;
+pub use teichmuller::{DilatationBracket, LowerBoundKind, dilatation_bracket};

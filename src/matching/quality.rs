@@ -2,6 +2,7 @@
 
 use super::result::Matching;
 use super::surface_map::SurfaceMap;
+use crate::archive::stored;
 use crate::embed::quality::DILATATION_CAP;
 use crate::error::{Error, Result, check_size};
 use crate::geometry::vector::{cross, diagonal, distance, dot, norm, sub, triangle_normal};
@@ -31,6 +32,8 @@ pub struct MapQuality {
     /// Largest distance between the image of a landmark and its partner.
     pub landmark_error: f64,
 }
+stored!(sections MapQuality { qc_mean, qc_max, area_ratio_min, area_ratio_mean, area_ratio_max, area_log,
+    distance_mean, distance_max, landmark_error });
 
 /// The distortion of a map. `landmarks`: pairs of vertices that it should bring to each other.
 ///
@@ -119,7 +122,7 @@ fn area(corners: [Point; 3]) -> f64 {
 }
 
 /// Largest over smallest singular value of the linear map from one triangle to another, [`DILATATION_CAP`] at most.
-fn dilatation(from: [Point; 3], to: [Point; 3]) -> f64 {
+pub(super) fn dilatation(from: [Point; 3], to: [Point; 3]) -> f64 {
     // In an orthonormal basis of the first triangle's plane the edges are (l, 0) and (x, y).
     let [a, b] = [sub(from[1], from[0]), sub(from[2], from[0])];
     let length = norm(a);

@@ -6,6 +6,7 @@ use super::domain_pair::DomainPair;
 use super::overlay::CommonDomain;
 use super::round::RoundHole;
 use super::surface_map::SurfaceMap;
+use crate::archive::stored;
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::Space;
@@ -46,6 +47,8 @@ pub struct Matching {
     /// Both triangulations in the domain: for their common subdivision, and for pictures.
     pub domain: CommonDomain,
 }
+stored!(sections Matching { forward, backward, points, soft_left, space, holes, flipped, target_flipped,
+    outside, balance, flow_iterations, markings, domain });
 
 impl Matching {
     /// The maps both ways between two surfaces in one domain. `splits`: the given surfaces with the vertices that were added; `points`: the

@@ -9,6 +9,7 @@
 //! # Ok::<(), ricci::Error>(())
 //! ```
 
+use crate::archive::stored;
 use crate::error::{Error, Result, check_size};
 use crate::mesh::{Mesh, Place, VertexId};
 
@@ -18,6 +19,7 @@ pub struct SurfaceMap {
     /// Per vertex of the surface that the map starts from its image.
     pub places: Vec<Place>,
 }
+stored!(sections SurfaceMap { places });
 
 impl SurfaceMap {
     /// The values at the images of the vertices, from values at the vertices of the target (V entries): positions, texture coordinates

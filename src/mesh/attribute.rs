@@ -10,6 +10,8 @@
 //! ```
 
 use super::ids::{EdgeId, FaceId, HalfedgeId, VertexId};
+use crate::archive::{ArchiveReader, ArchiveWriter, Stored};
+use crate::error::Result;
 use std::marker::PhantomData;
 use std::ops::{Deref, DerefMut, Index, IndexMut};
 
@@ -60,6 +62,18 @@ impl<I, T> PerElement<I, T> {
 impl<I, T> From<Vec<T>> for PerElement<I, T> {
     fn from(values: Vec<T>) -> Self {
         Self { values, id: PhantomData }
+    }
+}
+
+impl<I, T: Stored> Stored for PerElement<I, T> {
+    const LEAST: usize = Vec::<T>::LEAST;
+
+    fn write(&self, to: &mut ArchiveWriter) {
+        self.values.write(to);
+    }
+
+    fn read(from: &mut ArchiveReader<'_>) -> Result<Self> {
+        Vec::read(from).map(Self::from)
     }
 }
 

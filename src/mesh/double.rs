@@ -11,6 +11,7 @@
 use super::flip::marked;
 use super::halfedge::Mesh;
 use super::ids::{EdgeId, FaceId, HalfedgeId, VertexId};
+use crate::archive::{in_range, invalid, stored};
 use crate::error::{Error, Result, check_size};
 
 /// Two copies of a surface, the second mirrored, glued along the boundary: a closed surface with a mirror symmetry.
@@ -28,8 +29,21 @@ pub struct Double {
     /// For each edge of the double the edge of the surface that it is or mirrors.
     edge_origin: Vec<u32>,
 }
+stored!(sections Double { mesh, counts, mirror, edge_origin } check Double::check_parts);
 
 impl Double {
+    /// Checks that the arrays of an archive fit each other.
+    fn check_parts(&self) -> Result<()> {
+        check_size("mirror images", self.mirror.len(), self.mesh.n_vertices())?;
+        check_size("edges of halves", self.edge_origin.len(), self.mesh.n_edges())?;
+        let counts = [self.mesh.n_vertices(), self.mesh.n_edges(), self.mesh.n_faces()];
+        if (0..3).any(|k| self.counts[k] > counts[k]) {
+            return Err(invalid("half of a double", "a part of it"));
+        }
+        in_range("mirror image", self.mirror.iter().map(|&v| v as usize), self.mesh.n_vertices())?;
+        in_range("edge of a half", self.edge_origin.iter().map(|&e| e as usize), self.counts[1])
+    }
+
     /// The double of a surface.
     ///
     /// # Errors

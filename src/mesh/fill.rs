@@ -10,6 +10,7 @@
 
 use super::halfedge::Mesh;
 use super::ids::{EdgeId, FaceId, HalfedgeId, VertexId};
+use crate::archive::stored;
 use crate::error::{Error, Result};
 
 /// A closed surface made from an open one by adding a *hub* for each boundary loop, a vertex joined to all vertices of the loop.
@@ -25,6 +26,7 @@ pub struct FilledMesh {
     n_vertices: usize,
     n_faces: usize,
 }
+stored!(sections FilledMesh { mesh, loops, n_vertices, n_faces });
 
 impl FilledMesh {
     /// Fills every boundary loop.

@@ -12,6 +12,7 @@
 
 use super::halfedge::Mesh;
 use super::ids::{EdgeId, HalfedgeId};
+use crate::archive::stored;
 use crate::error::{Error, Result};
 
 /// A flip of an edge that has a value, its length or its weight η. Callbacks that follow flips receive it just before the flip.
@@ -29,6 +30,7 @@ pub struct FixedEdges {
     /// For each edge, true if it is in the set; empty for the empty set.
     is_fixed: Vec<bool>,
 }
+stored!(sections FixedEdges { is_fixed });
 
 impl FixedEdges {
     /// The empty set.

@@ -22,6 +22,7 @@
 //! ```
 
 use super::ids::{EdgeId, FaceId, HalfedgeId, VertexId};
+use crate::archive::stored;
 use crate::error::{Error, Result};
 use crate::parallel;
 
@@ -42,6 +43,7 @@ pub struct Mesh {
     /// For each face the half-edge of its first corner.
     first: Vec<u32>,
 }
+stored!(sections Mesh { next, origin, face, out, first } check Mesh::validate);
 
 /// Runs in parallel inside a pool: most of the time is spent on memory that is touched for the first time.
 impl Clone for Mesh {

@@ -6,12 +6,16 @@
 //! assert_eq!((h.0, h.twin().0, h.twin().edge()), (6, 7, EdgeId(3)));
 //! ```
 
+use crate::archive::stored;
+
 macro_rules! id {
     ($(#[$doc:meta])* $name:ident) => {
         $(#[$doc])*
         #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
         #[repr(transparent)]
         pub struct $name(pub u32);
+
+        stored!(id $name);
 
         impl $name {
             /// The index as `usize`.

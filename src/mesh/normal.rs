@@ -29,6 +29,7 @@
 
 use super::halfedge::Mesh;
 use super::ids::{EdgeId, HalfedgeId, VertexId};
+use crate::archive::{in_range, invalid, stored};
 use crate::error::{Error, Result, check_size};
 use std::sync::Arc;
 
@@ -44,6 +45,7 @@ pub struct NormalCoordinates {
     /// The first edge whose coordinate left the range.
     overflow: Option<EdgeId>,
 }
+stored!(sections NormalCoordinates { now, given, overflow } check NormalCoordinates::check_parts);
 
 /// The part of the coordinates that flips change.
 #[derive(Debug, Clone, PartialEq)]
@@ -53,6 +55,7 @@ struct CurveCoordinates {
     /// For each half-edge its roundabout, below the given degree of its origin.
     first: Vec<u32>,
 }
+stored!(sections CurveCoordinates { crossings, first });
 
 /// The given triangulation's half-edges in order around the vertices, which identify the curves.
 #[derive(Debug, PartialEq)]
@@ -62,6 +65,7 @@ struct GivenOrder {
     /// The half-edges counterclockwise around each vertex; on the boundary the one outside is last.
     halfedges: Vec<HalfedgeId>,
 }
+stored!(sections GivenOrder { start, halfedges });
 
 impl GivenOrder {
     /// The start and the end of a vertex's half-edges.
@@ -102,6 +106,28 @@ impl Strands {
 }
 
 impl NormalCoordinates {
+    /// Checks that these are curves on a mesh of this size.
+    ///
+    /// # Errors
+    /// [`Error::Size`].
+    pub(crate) fn check_size(&self, mesh: &Mesh) -> Result<()> {
+        check_size("normal coordinates", self.now.crossings.len(), mesh.n_edges())?;
+        check_size("roundabouts", self.given.start.len(), mesh.n_vertices() + 1)
+    }
+
+    /// Checks that the arrays of an archive fit each other: every vertex has an edge, and every number is in range.
+    fn check_parts(&self) -> Result<()> {
+        let (CurveCoordinates { crossings, first }, GivenOrder { start, halfedges }) =
+            (&*self.now, &*self.given);
+        check_size("curve coordinates", first.len(), 2 * crossings.len())?;
+        check_size("half-edges around vertices", halfedges.len(), first.len())?;
+        let ends = start.first() == Some(&0) && start.last() == Some(&(halfedges.len() as u32));
+        if !ends || start.windows(2).any(|pair| pair[0] >= pair[1]) {
+            return Err(invalid("order around vertices", "a list of half-edges for each vertex"));
+        }
+        in_range("half-edge", halfedges.iter().map(|h| h.index()), halfedges.len())
+    }
+
     /// The coordinates of a triangulation on itself: every edge is a curve.
     pub fn new(mesh: &Mesh) -> NormalCoordinates {
         let mut first = vec![0; mesh.n_halfedges()];
@@ -216,8 +242,7 @@ impl NormalCoordinates {
     /// [`Error::Size`] if these are not the coordinates of this mesh; [`Error::TooLarge`] if coordinates have left the range, or if there
     /// are more crossings than can be numbered.
     pub fn check(&self, mesh: &Mesh) -> Result<usize> {
-        check_size("normal coordinates", self.now.crossings.len(), mesh.n_edges())?;
-        check_size("roundabouts", self.given.start.len(), mesh.n_vertices() + 1)?;
+        self.check_size(mesh)?;
         let what = "crossings of the input's edges with those of the final triangulation";
         let total = self.now.crossings.iter().try_fold(0i64, |sum, &n| sum.checked_add(n.max(0)));
         match total {

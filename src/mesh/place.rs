@@ -1,7 +1,9 @@
 //! Points of surfaces, given by a face and barycentric coordinates.
 
+use super::Point;
 use super::halfedge::Mesh;
 use super::ids::{FaceId, VertexId};
+use crate::archive::stored;
 use crate::error::{Error, Result};
 
 /// A point of a surface.
@@ -12,8 +14,15 @@ pub struct Place {
     /// Its barycentric coordinates in the face: not negative, with sum 1.
     pub weights: [f64; 3],
 }
+stored!(row Place { face: FaceId, weights: [f64; 3] });
 
 impl Place {
+    /// The point in space, on a mesh with these positions (V entries).
+    pub fn point(&self, mesh: &Mesh, positions: &[Point]) -> Point {
+        let corners = mesh.face_vertices(self.face).map(|v| positions[v.index()]);
+        [0, 1, 2].map(|i| (0..3).map(|k| self.weights[k] * corners[k][i]).sum())
+    }
+
     /// A vertex of a mesh, as a corner of one of its faces.
     ///
     /// # Errors

@@ -60,11 +60,7 @@ impl FinerMetric {
     /// length: 0 but for rounding, since the edge is a geodesic of the given surface. `None` where that has no positions in space.
     pub fn line_excess(&self, given: &Surface) -> Option<f64> {
         let positions = given.positions()?;
-        let at = |v: VertexId| {
-            let Place { face, weights } = self.places[v.index()];
-            let corners = given.mesh().face_vertices(face).map(|v| positions[v.index()]);
-            [0, 1, 2].map(|i| (0..3).map(|k| weights[k] * corners[k][i]).sum::<f64>())
-        };
+        let at = |v: VertexId| self.places[v.index()].point(given.mesh(), positions);
         let mesh = self.surface.mesh();
         let excess = |e: EdgeId| {
             let [a, b] = mesh.ends(e).map(at);

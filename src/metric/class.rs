@@ -7,6 +7,7 @@
 //! ```
 
 use super::scheme::Scheme;
+use crate::archive::stored;
 use crate::geometry::Space;
 
 /// A conformal class up to the surface: how lengths depend on the variables u, and the background geometry of the triangles.
@@ -17,6 +18,7 @@ pub struct Class {
     /// The geometry of the result's triangles; the input's lengths may be read in another one.
     pub space: Space,
 }
+stored!(sections Class { scheme, space });
 
 impl Class {
     /// Any scheme in any space.

@@ -88,7 +88,7 @@ impl FlipQueue {
     ///
     /// # Errors
     /// [`Error::Cancelled`]; some flips are done then.
-    pub(super) fn flip_until_empty<T: Copy>(
+    pub(crate) fn flip_until_empty<T: Copy>(
         &mut self,
         most: usize,
         surface: &mut Flippable<'_, T, impl FnMut(&Mesh, &PerEdge<T>, HalfedgeId) -> Option<T>>,
@@ -119,7 +119,7 @@ impl FlipQueue {
 }
 
 /// A triangulation with a value per edge, and the rule by which its edges are flipped.
-pub(super) struct Flippable<'a, T, D> {
+pub(crate) struct Flippable<'a, T, D> {
     pub mesh: &'a mut Mesh,
     /// Length or η.
     pub values: &'a mut PerEdge<T>,
@@ -134,17 +134,17 @@ pub(super) struct Flippable<'a, T, D> {
 /// Ordinary surfaces need less than one isometric flip per edge, and single cones on the corpus at most ten flips per edge inside the
 /// class (200,000 flips on 20,000 edges). A million takes one or two seconds, and is more than it takes to unwind a torus of two
 /// vertices that is sheared 100,000 times (400,000 flips), the thinnest that is accepted.
-pub(super) fn allowance(n_edges: usize) -> usize {
+pub(crate) fn allowance(n_edges: usize) -> usize {
     100 * n_edges + 1_000_000
 }
 
 /// True if an edge lies between two different faces. No other edge has another diagonal.
-pub(super) fn between_faces(mesh: &Mesh, h: HalfedgeId) -> bool {
+pub(crate) fn between_faces(mesh: &Mesh, h: HalfedgeId) -> bool {
     let [f, g] = [h, h.twin()].map(|h| mesh.face(h));
     f.is_some() && g.is_some() && f != g
 }
 
 /// The error of flips that do not end.
-pub(super) fn endless(message: &'static str) -> Error {
+pub(crate) fn endless(message: &'static str) -> Error {
     Error::Connectivity { element: "mesh", index: 0, message }
 }

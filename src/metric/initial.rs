@@ -14,6 +14,7 @@ use super::curvature::area;
 use super::lengths::{Metric, face_lengths};
 use super::scheme::Scheme;
 use super::scheme_distance::SchemeDistance;
+use crate::archive::stored;
 use crate::error::{Error, Result, check_size};
 use crate::geometry::conformal::{Vertex, radius};
 use crate::geometry::scaled::scaled;
@@ -42,6 +43,8 @@ pub struct Initial {
     /// The distance of this metric from that of the surface, by that.
     pub distance: SchemeDistance,
 }
+stored!(sections Initial { metric, input_geometry, radii, input_u, clamped_edges, max_length_change,
+    distance });
 
 /// The initial metric of a class for input `lengths` (E entries, read in `input_geometry`), carried into the space of the class.
 ///

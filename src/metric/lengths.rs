@@ -10,6 +10,7 @@
 //! # Ok::<(), ricci::Error>(())
 //! ```
 
+use crate::archive::stored;
 use crate::error::{Error, Result, check_size};
 use crate::geometry::conformal::{self, Edge, Vertex, differences, in_one_unit, is_precise, radius};
 use crate::geometry::double_double::MAX_EXPONENT;
@@ -35,17 +36,26 @@ pub struct Metric {
     /// The low parts of the u in double-double precision; V entries, at most half an ulp of u. 0 in a metric that no flow has made.
     pub u_low: PerVertex<f64>,
 }
+stored!(sections Metric { space, epsilon, eta, u, u_low });
 
 impl Metric {
+    /// Checks that the numbers of vertices and edges agree with the mesh.
+    ///
+    /// # Errors
+    /// [`Error::Size`].
+    pub(crate) fn check_sizes(&self, mesh: &Mesh) -> Result<()> {
+        check_size("epsilon", self.epsilon.len(), mesh.n_vertices())?;
+        check_size("eta", self.eta.len(), mesh.n_edges())?;
+        check_size("u", self.u.len(), mesh.n_vertices())?;
+        check_size("u_low", self.u_low.len(), mesh.n_vertices())
+    }
+
     /// Checks that the numbers of vertices and edges agree with the mesh; ε is −1, 0 or 1; η and u are finite, and their low parts at most an ulp of them.
     ///
     /// # Errors
     /// [`Error::Size`], [`Error::Argument`] (ε, `u_low`), [`Error::Domain`] (u), [`Error::EdgeWeight`] (η).
     pub fn check(&self, mesh: &Mesh) -> Result<()> {
-        check_size("epsilon", self.epsilon.len(), mesh.n_vertices())?;
-        check_size("eta", self.eta.len(), mesh.n_edges())?;
-        check_size("u", self.u.len(), mesh.n_vertices())?;
-        check_size("u_low", self.u_low.len(), mesh.n_vertices())?;
+        self.check_sizes(mesh)?;
         if let Some(v) = mesh.vertices().find(|&v| !(-1..=1).contains(&self.epsilon[v])) {
             let value = format!("{} at vertex {v}", self.epsilon[v]);
             return Err(Error::Argument { what: "epsilon", value, need: "−1, 0 or 1" });

@@ -13,7 +13,7 @@ pub mod class;
 pub mod common_subdivision;
 pub mod curvature;
 pub mod delaunay;
-mod flip_queue;
+pub(crate) mod flip_queue;
 pub mod initial;
 pub mod isometric;
 pub mod lengths;

@@ -6,6 +6,7 @@
 //! # Ok::<(), ricci::Error>(())
 //! ```
 
+use crate::archive::stored;
 use crate::error::Error;
 
 /// A discrete conformal structure: which vertex types and edge weights a metric is represented with.
@@ -22,6 +23,14 @@ pub enum Scheme {
     /// Virtual radius circle packing (imaginary circles): ε = −1, η > 1. Represents any metric exactly.
     Virtual,
 }
+stored!(variants Scheme {
+        Yamabe = 0,
+        Inversive = 1,
+        Thurston = 2,
+        Tangential = 3,
+        Virtual = 4,
+    }
+);
 
 impl Scheme {
     /// All schemes.

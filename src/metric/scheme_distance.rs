@@ -10,6 +10,7 @@
 //! ```
 
 use super::lengths::face_lengths;
+use crate::archive::stored;
 use crate::geometry::triangle::half_differences;
 use crate::mesh::{EdgeId, FaceId, Mesh, PerEdge, PerFace};
 use crate::parallel;
@@ -39,6 +40,8 @@ pub struct SchemeDistance {
     /// The face where it is largest; none if no length differs.
     pub face: Option<FaceId>,
 }
+stored!(sections SchemeDistance { max_log_length, mean_log_length, edge, max_dilatation, mean_dilatation,
+    face });
 
 impl Default for SchemeDistance {
     /// No distance: the start is the surface's own metric.

@@ -13,6 +13,7 @@
 
 use super::common_subdivision::CORNERS;
 use super::surface::Surface;
+use crate::archive::stored;
 use crate::error::{Error, Result, check_size};
 use crate::geometry::flip::diagonal;
 use crate::geometry::triangle::{self, sine};
@@ -40,6 +41,8 @@ pub struct Split {
     parent: Vec<FaceId>,
     corners: Vec<[[f64; 3]; 3]>,
 }
+stored!(sections Split { given, origin, face, sides, lengths, positions, n_vertices, ahead, added, parent,
+    corners });
 
 /// Largest amount by which weights may be negative, or their sum may differ from 1.
 const WEIGHTS: f64 = 1e-9;

@@ -4,6 +4,7 @@ use super::class::Class;
 use super::curvature::area;
 use super::initial::{Initial, initial_metric};
 use super::lengths::lengths_from_positions;
+use crate::archive::stored;
 use crate::error::{Result, check_size};
 use crate::geometry::Space;
 use crate::mesh::io::{self, Soup};
@@ -29,8 +30,16 @@ pub struct Surface {
     geometry: Space,
     positions: Option<Arc<Vec<Point>>>,
 }
+stored!(sections Surface { mesh, lengths, geometry, positions } check Surface::check_parts);
 
 impl Surface {
+    /// Checks that the arrays of an archive fit each other.
+    fn check_parts(&self) -> Result<()> {
+        check_size("lengths", self.lengths.len(), self.mesh.n_edges())?;
+        let positions = self.positions.as_ref();
+        positions.map_or(Ok(()), |all| check_size("positions", all.len(), self.mesh.n_vertices()))
+    }
+
     /// The surface of a mesh file ([`io::read`]).
     ///
     /// # Errors

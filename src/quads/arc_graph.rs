@@ -60,6 +60,12 @@ impl ArcGraph {
         ((state - 1) / 2, if state % 2 == 1 { 1 } else { -1 })
     }
 
+    /// The state before a step.
+    pub fn before(&self, step: WalkStep) -> usize {
+        let (h, change) = step;
+        self.beside[h].map_or(OUTSIDE, |(u, sign)| ArcGraph::state(u, -change * sign))
+    }
+
     /// The state after a step.
     pub fn after(&self, step: WalkStep) -> usize {
         let (h, change) = step;

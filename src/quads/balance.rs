@@ -2,31 +2,13 @@
 
 use super::arc_graph::{ArcGraph, OUTSIDE, WalkStep};
 use super::quantisation::Quantisation;
+use super::reached::Reached;
 use crate::control::Control;
 use crate::error::{Error, Result};
-use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
 /// The cost of a step below the least number while sides are made even, far above that of any other walk.
 const BELOW_COST: f64 = 1e12;
-
-/// A state in the order of the search.
-#[derive(PartialEq)]
-struct Reached(f64, usize);
-
-impl Eq for Reached {}
-
-impl PartialOrd for Reached {
-    fn partial_cmp(&self, other: &Reached) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl Ord for Reached {
-    fn cmp(&self, other: &Reached) -> Ordering {
-        other.0.total_cmp(&self.0).then(other.1.cmp(&self.1))
-    }
-}
 
 impl Quantisation {
     /// Removes what opposite sides differ by, along cheapest walks. Arcs may fall below the least number where nothing else is possible, so

@@ -2,12 +2,12 @@
 
 use super::quantisation::Quantisation;
 use super::separation::Separation;
-use crate::control::Control;
+use crate::control::{Control, Stage};
 use crate::error::Result;
 use crate::geometry::random::SplitMix64;
 
-/// Steps of searches in all descents, about a second.
-const MOST_WORK: usize = 80_000_000;
+/// Steps of searches in all descents from one start, about a second; fewer in instrumented builds, where each takes ten times as long.
+const MOST_WORK: usize = if cfg!(fuzzing) { 1_600_000 } else { 160_000_000 };
 /// Descents that may follow each other without fewer squares, per arc.
 const FRUITLESS_PER_ARC: usize = 4;
 /// The seed of the order in which strips are raised.
@@ -31,6 +31,7 @@ pub(super) fn coarsened(
     let n = best.numbers.len();
     let mut fruitless = 0;
     while work < MOST_WORK && fruitless < FRUITLESS_PER_ARC * n {
+        control.step(Stage::Layout, work as f64 / MOST_WORK as f64)?;
         let mut other = best.clone();
         let arc = (random.unit() * n as f64) as usize;
         other.make_longer(arc)?;

@@ -1,7 +1,7 @@
 //! The squares of a quad mesh embedded in the surface, so that no two overlap.
 
 use super::grid_charts::GridCharts;
-use super::grid_distortion::{advanced, least_distorted};
+use super::grid_distortion::{Advance, advanced, least_distorted};
 use super::grid_lines::straight_lines;
 use super::grid_map::{GridMap, TimedPlaces};
 use super::grid_places::{MetricPlace, vertex_places};
@@ -14,13 +14,21 @@ use crate::error::Result;
 /// Most parts into which the sides of unit squares are divided for them to embed.
 const MOST_PARTS: usize = 8;
 /// Most squares that are divided ones.
-const MOST_SQUARES: usize = 20_000;
+const MOST_SQUARES: usize = 4_000;
 
 /// A quad mesh by the squares of a T-mesh, and the places of its vertices.
 pub(super) struct EmbeddedSquares<'a> {
     pub charts: GridCharts<'a>,
     /// Per vertex its place on the metric's triangulation.
     pub places: Vec<MetricPlace>,
+}
+
+/// Squares that are embedded, or the rectangles in which they fold.
+pub(super) enum Embedding<'a> {
+    /// The squares.
+    Embedded(EmbeddedSquares<'a>),
+    /// The rectangles, ascending.
+    Stuck(Vec<usize>),
 }
 
 /// Squares and their map.
@@ -30,31 +38,35 @@ struct MappedSquares<'a> {
 }
 
 impl<'a> EmbeddedSquares<'a> {
-    /// The unit squares of these numbers, with sides divided in `parts`, embedded with little distortion; none where they fold even if they are
-    /// divided further.
+    /// The unit squares of these numbers, with sides divided in `parts`, embedded with little distortion, or the rectangles in which they
+    /// fold even if they are divided further.
     ///
     /// # Errors
     /// Those of [`GridMap::new`] and [`vertex_places`]; [`crate::Error::Cancelled`].
-    pub fn new(
+    pub fn of_numbers(
         surface: &GridSurface,
-        t_mesh: &'a TMesh,
+        separation: &Separation<'a>,
         numbers: &[i64],
         parts: usize,
         control: &Control,
-    ) -> Result<Option<EmbeddedSquares<'a>>> {
-        let separation = Separation::new(surface, t_mesh);
-        let squares = |parts: usize| MappedSquares::new(t_mesh, numbers, parts, &separation);
+    ) -> Result<Embedding<'a>> {
+        let t_mesh = separation.t_mesh;
+        let squares = |parts: usize| MappedSquares::new(t_mesh, numbers, parts, separation);
         let mut mapped = squares(1)?;
         let whole_places = mapped.map.whole_places.clone();
         let mut found = TimedPlaces { time: 0.0, places: whole_places };
         let mut divided = 1;
         loop {
-            found = advanced(&mut mapped.map, found, control)?;
+            let Advance { reached, stuck } = advanced(&mut mapped.map, found, &control.part(0.0, 0.6))?;
+            found = reached;
             if found.time == 1.0 {
                 break;
             }
             if divided == MOST_PARTS || 4 * mapped.charts.squares.len() > MOST_SQUARES {
-                return Ok(None);
+                let mut rectangles: Vec<usize> =
+                    stuck.iter().map(|&k| mapped.charts.rectangle[k] as usize).collect();
+                rectangles.dedup();
+                return Ok(Embedding::Stuck(rectangles));
             }
             divided *= 2;
             (mapped, found) = mapped.subdivided(squares(divided)?, &found, 2);
@@ -63,31 +75,31 @@ impl<'a> EmbeddedSquares<'a> {
             (mapped, found) = mapped.subdivided(squares(parts)?, &found, parts / divided);
             divided = parts;
         }
-        let places = least_distorted(&mut mapped.map, found.places, control)?;
+        let places = least_distorted(&mut mapped.map, found.places, &control.part(0.6, 1.0))?;
         let places = vertex_places(surface, t_mesh, &mapped.charts, &mapped.map, &places)?;
         if divided == parts {
-            return Ok(Some(EmbeddedSquares { charts: mapped.charts, places }));
+            return Ok(Embedding::Embedded(EmbeddedSquares { charts: mapped.charts, places }));
         }
-        let charts = divided_charts(t_mesh, numbers, parts, &separation);
+        let charts = divided_charts(t_mesh, numbers, parts, separation);
         let vertices = mapped.charts.vertices_of(&charts, divided / parts);
         let places = vertices.into_iter().map(|v| places[v as usize]).collect();
-        Ok(Some(EmbeddedSquares { charts, places }))
+        Ok(Embedding::Embedded(EmbeddedSquares { charts, places }))
     }
 
     /// The unit squares of positive numbers, with sides divided in `parts`, embedded with little distortion: from straight lines in every
     /// rectangle.
     ///
     /// # Errors
-    /// Those of [`EmbeddedSquares::new`].
+    /// Those of [`EmbeddedSquares::of_numbers`].
     pub fn of_positive(
         surface: &GridSurface,
-        t_mesh: &'a TMesh,
+        separation: &Separation<'a>,
         numbers: &[i64],
         parts: usize,
         control: &Control,
     ) -> Result<EmbeddedSquares<'a>> {
-        let separation = Separation::new(surface, t_mesh);
-        let MappedSquares { charts, mut map } = MappedSquares::new(t_mesh, numbers, parts, &separation)?;
+        let t_mesh = separation.t_mesh;
+        let MappedSquares { charts, mut map } = MappedSquares::new(t_mesh, numbers, parts, separation)?;
         let places = straight_lines(t_mesh, &charts, &map);
         let places = least_distorted(&mut map, places, control)?;
         let places = vertex_places(surface, t_mesh, &charts, &map, &places)?;

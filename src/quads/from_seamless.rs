@@ -23,8 +23,8 @@ const PARTS: u32 = 8;
 pub fn quad_mesh(seamless: &Seamless, options: &QuadOptions, control: &Control) -> Result<QuadMesh> {
     options.check()?;
     Pool::new(options.threads)?.run(|| {
-        let division = QuadDivision::new(seamless, control)?;
-        division.mesh(options.size, 1, true, control)
+        let division = QuadDivision::new(seamless, &control.part(0.0, 0.2))?;
+        division.mesh(options.size, 1, true, &control.part(0.2, 1.0))
     })
 }
 
@@ -36,7 +36,7 @@ pub fn quad_mesh(seamless: &Seamless, options: &QuadOptions, control: &Control) 
 pub fn quad_layout(seamless: &Seamless, options: &QuadOptions, control: &Control) -> Result<QuadLayout> {
     options.check()?;
     Pool::new(options.threads)?.run(|| {
-        let division = QuadDivision::new(seamless, control)?;
-        QuadLayout::new(division.mesh(options.size, PARTS, false, control)?, PARTS)
+        let division = QuadDivision::new(seamless, &control.part(0.0, 0.1))?;
+        QuadLayout::new(division.mesh(options.size, PARTS, false, &control.part(0.1, 1.0))?, PARTS)
     })
 }

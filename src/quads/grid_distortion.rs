@@ -1,8 +1,8 @@
 //! The distortion of the squares of a grid map, and its descent. At each corner of a square the sides span a triangle, of the unit right
-//! triangle's image; the symmetric Dirichlet energy [SS15] of these four affine maps grows without bound before a triangle is turned over.
+//! triangle's image; the symmetric Dirichlet energy \[SS15\] of these four affine maps grows without bound before a triangle is turned over.
 
 use super::grid_map::{GridMap, PlaneVector, TimedPlaces, add, corner_sides, cross};
-use crate::control::Control;
+use crate::control::{Control, Stage};
 use crate::error::Result;
 use crate::parallel;
 use std::collections::VecDeque;
@@ -27,44 +27,70 @@ const SOUND_AREA: f64 = 0.1;
 const STEPS_ON_THE_WAY: usize = 8;
 const STEPS_AT_THE_END: usize = 60;
 
-/// Goes from places without folds to ones at time 1. Where squares with straight sides do not get there without folding, the last places in
-/// which no triangle was near to folding: squares that are divided go on from there.
-pub(super) fn advanced(map: &mut GridMap, from: TimedPlaces, control: &Control) -> Result<TimedPlaces> {
+/// How far squares came on the way to time 1.
+pub(super) struct Advance {
+    /// The last places in which no triangle was near to folding.
+    pub reached: TimedPlaces,
+    /// The squares that would fold beyond them; none at time 1.
+    pub stuck: Vec<usize>,
+}
+
+/// Goes from places without folds to ones at time 1. Where squares with straight sides do not get there without folding, squares that are divided
+/// go on from there.
+pub(super) fn advanced(map: &mut GridMap, from: TimedPlaces, control: &Control) -> Result<Advance> {
     let (first, last) = (map.whole_places.clone(), map.harmonic());
     if map.is_embedded(&last, 1.0) {
-        return Ok(TimedPlaces { time: 1.0, places: last });
+        return Ok(Advance { reached: TimedPlaces { time: 1.0, places: last }, stuck: Vec::new() });
     }
     let TimedPlaces { mut time, mut places } = from;
     let mut sound = TimedPlaces { time, places: places.clone() };
     let (mut step, mut taken) = (FIRST_STEP, 0);
-    while time < 1.0 && taken < MOST_STEPS && step >= LEAST_STEP_OF_TIME {
-        control.check()?;
-        let by = f64::min(step, 1.0 - time);
-        let mut next = places.clone();
+    let later = |places: &[PlaneVector], by: f64| {
+        let mut next = places.to_vec();
         for (k, place) in next.iter_mut().enumerate() {
             add(place, [0, 1].map(|c| by * (last[k][c] - first[k][c])));
         }
+        next
+    };
+    while time < 1.0 && taken < MOST_STEPS && step >= LEAST_STEP_OF_TIME {
+        control.step(Stage::Layout, time)?;
+        let by = f64::min(step, 1.0 - time);
+        let next = later(&places, by);
         let then = if by < step { 1.0 } else { time + by };
         if !keeps_areas(map, [&places, &next], [time, then]) {
             step = by / 2.0;
             continue;
         }
-        places = descended(map, TimedPlaces { time: then, places: next }, STEPS_ON_THE_WAY, control)?;
+        let part = control.part(time, then);
+        places = descended(map, TimedPlaces { time: then, places: next }, STEPS_ON_THE_WAY, &part)?;
         (time, step, taken) = (then, 2.0 * step, taken + 1);
         if time == 1.0 || least_area(map, &places, time) > SOUND_AREA {
             sound = TimedPlaces { time, places: places.clone() };
         }
     }
-    Ok(sound)
+    let mut stuck = Vec::new();
+    if sound.time < 1.0 {
+        let by = f64::min(2.0 * LEAST_STEP_OF_TIME, 1.0 - time);
+        let next = later(&places, by);
+        let loses = |&k: &usize| !square_keeps_areas(map, [&places, &next], [time, time + by], k);
+        stuck = (0..map.squares.len()).filter(loses).collect();
+        if stuck.is_empty() {
+            let is_thin = |&k: &usize| square_area(map, &places, time, k) <= SOUND_AREA;
+            stuck = (0..map.squares.len()).filter(is_thin).collect();
+        }
+    }
+    Ok(Advance { reached: sound, stuck })
+}
+
+/// The smallest area that the sides at a corner of this square span.
+fn square_area(map: &GridMap, places: &[PlaneVector], time: f64, square: usize) -> f64 {
+    let at = map.corners(square, places, time);
+    (0..4).map(|i| corner_sides(&at, i)).fold(f64::INFINITY, |least, [u, v]| least.min(cross(u, v)))
 }
 
 /// The smallest area that the sides at a corner of a square span.
 fn least_area(map: &GridMap, places: &[PlaneVector], time: f64) -> f64 {
-    let of_square = |k: usize| {
-        let at = map.corners(k, places, time);
-        (0..4).map(|i| corner_sides(&at, i)).fold(f64::INFINITY, |least, [u, v]| least.min(cross(u, v)))
-    };
-    (0..map.squares.len()).map(of_square).fold(f64::INFINITY, f64::min)
+    (0..map.squares.len()).map(|k| square_area(map, places, time, k)).fold(f64::INFINITY, f64::min)
 }
 
 /// The places of little distortion at time 1, from places without folds.
@@ -78,15 +104,18 @@ pub(super) fn least_distorted(
 
 /// True if no triangle loses much of its area between two times.
 fn keeps_areas(map: &GridMap, places: [&[PlaneVector]; 2], times: [f64; 2]) -> bool {
-    (0..map.squares.len()).all(|k| {
-        let [before, after] = [0, 1].map(|t| map.corners(k, places[t], times[t]));
-        (0..4).all(|i| {
-            let [a, b] = [&before, &after].map(|at| {
-                let [u, v] = corner_sides(at, i);
-                cross(u, v)
-            });
-            b > KEPT_AREA * f64::min(a, 1.0)
-        })
+    (0..map.squares.len()).all(|k| square_keeps_areas(map, places, times, k))
+}
+
+/// True if no triangle of this square loses much of its area between two times.
+fn square_keeps_areas(map: &GridMap, places: [&[PlaneVector]; 2], times: [f64; 2], square: usize) -> bool {
+    let [before, after] = [0, 1].map(|t| map.corners(square, places[t], times[t]));
+    (0..4).all(|i| {
+        let [a, b] = [&before, &after].map(|at| {
+            let [u, v] = corner_sides(at, i);
+            cross(u, v)
+        });
+        b > KEPT_AREA * f64::min(a, 1.0)
     })
 }
 
@@ -162,8 +191,8 @@ fn descended(
     let mut past: VecDeque<PastStep> = VecDeque::with_capacity(MEMORY);
     let mut value = energy(map, &places, time);
     let mut slope = gradient(map, &places, time);
-    for _ in 0..steps {
-        control.check()?;
+    for k in 0..steps {
+        control.step(Stage::Layout, k as f64 / steps as f64)?;
         let mut direction = descent_direction(map, &slope, &past);
         let mut decrease = -dot(&slope, &direction);
         if decrease.is_nan() || decrease <= 0.0 {

@@ -257,7 +257,7 @@ pub(super) fn add(sum: &mut PlaneVector, v: PlaneVector) {
     sum[1] += v[1];
 }
 
-/// For each connected piece in which no vertex is held in both coordinates, a half-arc from the node at which it is to be.
+/// For each connected piece in which no vertex is held in both coordinates, a half-arc with a square to its left, from the node at which it is to be.
 fn anchors(
     charts: &GridCharts<'_>,
     squares: &[[MapCorner; 4]],
@@ -274,7 +274,7 @@ fn anchors(
         is_held[pieces.root(v as u32) as usize] = true;
     }
     let mut anchors = Vec::new();
-    for h in (0..charts.sides.len()).filter(|&h| charts.sides[h].is_some()) {
+    for h in (0..charts.sides.len()).filter(|&h| charts.has_squares(h)) {
         let piece = pieces.root(charts.point(h, 0).vertex) as usize;
         if !std::mem::replace(&mut is_held[piece], true) {
             anchors.push(h);

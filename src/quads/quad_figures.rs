@@ -51,7 +51,7 @@ impl QuadMesh {
         let (mesh, on_surface) = (solution.given(), solution.surface().positions()?);
         let positions = self.positions(solution)?;
         let at = |v: u32| positions[v as usize];
-        let halves = self.quads.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]].map(|t| t.map(at)));
+        let halves = self.quads.iter().flat_map(|&quad| QuadMesh::halves(quad).map(|t| t.map(at)));
         let quads = TriangleTree::new(halves.collect());
         let faces = mesh.faces().map(|f| mesh.face_vertices(f).map(|v| on_surface[v.index()]));
         let surface = TriangleTree::new(faces.collect());

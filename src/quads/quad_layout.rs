@@ -3,6 +3,7 @@
 
 use super::quad_halfedges::QuadHalfedges;
 use super::quad_mesh::QuadMesh;
+use crate::archive::stored;
 use crate::error::{Error, Result};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -20,6 +21,7 @@ pub struct QuadLayout {
     /// The patches.
     pub patches: Vec<LayoutPatch>,
 }
+stored!(sections QuadLayout { mesh, parts, nodes, arcs, patches });
 
 /// A node of a layout.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -31,6 +33,7 @@ pub struct LayoutNode {
     /// True on features and the boundary.
     pub is_crease: bool,
 }
+stored!(row LayoutNode { vertex: u32, valence: u32, is_crease: bool });
 
 /// An arc of a layout.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -44,6 +47,7 @@ pub struct LayoutArc {
     /// The vertices of the quad mesh along it, from the first node to the second.
     pub vertices: Vec<u32>,
 }
+stored!(sections LayoutArc { ends, length, is_crease, vertices });
 
 /// A patch of a layout.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -55,6 +59,7 @@ pub struct LayoutPatch {
     /// The quads of the patch.
     pub quads: Vec<u32>,
 }
+stored!(sections LayoutPatch { sides, size, quads });
 
 impl QuadLayout {
     /// The layout of a quad mesh whose edges are `parts` to a unit of length.

@@ -1,7 +1,8 @@
 //! Quad meshes on surfaces.
 
+use crate::archive::stored;
 use crate::flow::Solution;
-use crate::mesh::{EdgeId, FaceId, Point};
+use crate::mesh::{EdgeId, FaceId, Place, Point};
 
 /// A pure quad mesh on a surface.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,15 +26,19 @@ pub struct QuadMesh {
     /// The edge length that was asked for, or found for a number of quads, in the units of the surface's lengths.
     pub edge: f64,
 }
+stored!(sections QuadMesh { quads, places, rectangle, t_mesh_size, collapsed, creases, off_axis, cost, edge
+});
 
 impl QuadMesh {
+    /// The two triangles of a quad, cut from its first corner to the third.
+    pub fn halves([a, b, c, d]: [u32; 4]) -> [[u32; 3]; 2] {
+        [[a, b, c], [a, c, d]]
+    }
+
     /// The places of the vertices in space; none for a surface without positions.
     pub fn positions(&self, solution: &Solution) -> Option<Vec<Point>> {
         let (mesh, positions) = (solution.given(), solution.surface().positions()?);
-        let at = |(f, weights): &(FaceId, [f64; 3])| {
-            let corners = mesh.face_vertices(*f).map(|v| positions[v.index()]);
-            [0, 1, 2].map(|i| (0..3).map(|k| weights[k] * corners[k][i]).sum())
-        };
+        let at = |&(face, weights): &(FaceId, [f64; 3])| Place { face, weights }.point(mesh, positions);
         Some(self.places.iter().map(at).collect())
     }
 

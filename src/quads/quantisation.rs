@@ -6,33 +6,21 @@
 
 use super::arc_graph::{ArcGraph, WalkStep};
 use super::t_mesh::{HalfArc, TMesh};
-use super::walk_search::{SAME_COST, WalkSearch};
 use crate::control::Control;
 use crate::error::{Error, Result};
 use std::sync::Arc;
 
-/// The cost of changing an arc by 2 less twice that of changing it by 1, per use of the arc.
-const REPEATED_COST: f64 = 1.0;
-
-/// Steps of searches in one descent, about half a second: numbers are consistent at any time, so that it can end anywhere.
-const MOST_WORK: usize = 40_000_000;
-/// Steps of a search that take as long as a test of one arc.
-const WORK_OF_TEST: usize = 30;
 /// The cost of a longer arc where the number of squares is the cost: less than a square, so that it decides only between equally many.
 const LENGTH_COST: f64 = 0.01;
-/// Share of the cost that a descent has to gain for another to follow.
-const LEAST_GAIN: f64 = 1e-3;
 
 /// A quantisation that is being improved.
 #[derive(Debug, Clone)]
 pub(super) struct Quantisation {
     pub(super) graph: Arc<ArcGraph>,
     /// Per arc the wanted length.
-    wanted: Vec<f64>,
+    pub(super) wanted: Vec<f64>,
     /// Per arc the least number.
     pub(super) least: Vec<i64>,
-    /// Per arc what each use costs in addition where walks have used it twice.
-    surcharge: Vec<f64>,
     /// Per arc the number of squares that come with a unit of it, where the number of squares is the cost.
     squares_across: Option<Vec<f64>>,
     /// Per arc its number.
@@ -57,15 +45,8 @@ impl Quantisation {
     /// Wanted lengths rounded, not balanced.
     fn start(t_mesh: &TMesh, wanted: Vec<f64>, least: i64) -> Quantisation {
         let numbers = wanted.iter().map(|x| (x.round() as i64).max(least)).collect();
-        let (least, surcharge) = (vec![least; wanted.len()], vec![0.0; wanted.len()]);
-        Quantisation {
-            graph: Arc::new(ArcGraph::new(t_mesh)),
-            wanted,
-            least,
-            surcharge,
-            squares_across: None,
-            numbers,
-        }
+        let least = vec![least; wanted.len()];
+        Quantisation { graph: Arc::new(ArcGraph::new(t_mesh)), wanted, least, squares_across: None, numbers }
     }
 
     /// What the first side of each rectangle has more than the opposite one, per direction.
@@ -159,7 +140,11 @@ impl Quantisation {
 
     /// The cost of a change of an arc; infinite below the least number.
     pub(super) fn change_cost(&self, arc: usize, change: i64) -> f64 {
-        let n = self.numbers[arc];
+        self.cost_from(arc, self.numbers[arc], change)
+    }
+
+    /// The cost of a change of an arc from this number; infinite below the least number.
+    pub(super) fn cost_from(&self, arc: usize, n: i64, change: i64) -> f64 {
         if n + change < self.least[arc] {
             return f64::INFINITY;
         }
@@ -171,15 +156,15 @@ impl Quantisation {
     }
 
     /// The costs of a change of an arc by 1 and by −1 in a search.
-    fn step_costs(&self, arc: usize) -> [f64; 2] {
-        [1, -1].map(|change| self.change_cost(arc, change) + self.surcharge[arc])
+    pub(super) fn step_costs(&self, arc: usize) -> [f64; 2] {
+        [1, -1].map(|change| self.change_cost(arc, change))
     }
 
     /// Raises arcs below their least number to it along shortest closed walks, or walks from the boundary to the boundary.
     ///
     /// # Errors
     /// [`Error::Layout`] where an arc is on no such walk, which no T-mesh with lengths has.
-    fn raise_strips(&mut self) -> Result<()> {
+    pub(super) fn raise_strips(&mut self) -> Result<()> {
         for arc in 0..self.numbers.len() {
             if self.numbers[arc] >= self.least[arc] {
                 continue;
@@ -194,8 +179,22 @@ impl Quantisation {
         Ok(())
     }
 
+    /// True if the number of squares is the cost.
+    pub(super) fn counts_squares(&self) -> bool {
+        self.squares_across.is_some()
+    }
+
+    /// Counts the squares across arcs after changes of numbers; returns the arcs for which they are others.
+    pub(super) fn count_again(&mut self) -> Vec<usize> {
+        let Some(before) = self.squares_across.take() else { return Vec::new() };
+        let across = self.counted_across();
+        let changed = (0..across.len()).filter(|&a| across[a] != before[a]).collect();
+        self.squares_across = Some(across);
+        changed
+    }
+
     /// The change of the cost along a walk.
-    fn walk_cost(&self, walk: &[WalkStep]) -> f64 {
+    pub(super) fn walk_cost(&self, walk: &[WalkStep]) -> f64 {
         if self.squares_across.is_some() {
             let mut after = self.numbers.clone();
             walk.iter().for_each(|&(h, change)| after[h / 2] += change);
@@ -212,89 +211,12 @@ impl Quantisation {
         };
         changes.chunk_by(|a, b| a.0 == b.0).map(total).sum()
     }
-
-    /// Makes the arcs dearer that a walk uses more than once, which costs more than twice the first use; where the number of squares is the
-    /// cost, all of its arcs.
-    fn discourage(&mut self, walk: &[WalkStep]) {
-        let mut arcs: Vec<usize> = walk.iter().map(|(h, _)| h / 2).collect();
-        arcs.sort_unstable();
-        let least = if self.squares_across.is_some() { 1 } else { 2 };
-        for same in arcs.chunk_by(|a, b| a == b).filter(|same| same.len() >= least) {
-            self.surcharge[same[0]] += REPEATED_COST;
-        }
-    }
-
-    /// Counts the squares across arcs after changes of numbers, and wakes the arcs for which they are others.
-    fn count_again(&mut self, search: &mut WalkSearch) {
-        let Some(before) = self.squares_across.take() else { return };
-        let across = self.counted_across();
-        let changed: Vec<usize> = (0..across.len()).filter(|&a| across[a] != before[a]).collect();
-        self.squares_across = Some(across);
-        changed.into_iter().for_each(|a| search.wake(&self.graph, a, self.step_costs(a)));
-    }
-
-    /// Changes numbers along closed walks as long as that lowers the cost. A test is asked where arcs come to 0; where it refuses, the longest
-    /// of them stays above 0.
-    /// Returns the steps that its searches took.
-    pub fn descend(&mut self, is_good: &mut dyn FnMut(&[i64]) -> bool, control: &Control) -> Result<usize> {
-        let least = self.least.clone();
-        let mut work = 0;
-        loop {
-            let before = self.value();
-            self.descend_once(is_good, &mut work, control)?;
-            // What was refused may be possible once other arcs have changed.
-            self.least.clone_from(&least);
-            if self.value() >= before - LEAST_GAIN * before || work > MOST_WORK {
-                return Ok(work);
-            }
-        }
-    }
-
-    /// [`Quantisation::descend`] until nothing is left that the test has not refused.
-    fn descend_once(
-        &mut self,
-        is_good: &mut dyn FnMut(&[i64]) -> bool,
-        work: &mut usize,
-        control: &Control,
-    ) -> Result<()> {
-        self.surcharge.fill(0.0);
-        let mut search = WalkSearch::new(&self.graph, &|arc| self.step_costs(arc));
-        loop {
-            control.check()?;
-            let mut is_better = false;
-            for walk in search.negative_walks(&self.graph, work) {
-                is_better = true;
-                if self.walk_cost(&walk) >= -SAME_COST {
-                    self.discourage(&walk);
-                    walk.iter().for_each(|&(h, _)| search.wake(&self.graph, h / 2, self.step_costs(h / 2)));
-                    continue;
-                }
-                walk.iter().for_each(|&(h, change)| self.numbers[h / 2] += change);
-                let is_zero = |step: &&WalkStep| self.numbers[step.0 / 2] == 0;
-                let longest = |a: &&WalkStep, b: &&WalkStep| {
-                    let [x, y] = [a, b].map(|step| self.wanted[step.0 / 2]);
-                    x.total_cmp(&y).then(b.0.cmp(&a.0))
-                };
-                let zero = walk.iter().filter(is_zero).max_by(longest);
-                if zero.is_some() {
-                    *work += WORK_OF_TEST * self.numbers.len();
-                }
-                if let Some(&(zero, _)) = zero
-                    && !is_good(&self.numbers)
-                {
-                    self.least[zero / 2] = 1;
-                    walk.iter().for_each(|&(h, change)| self.numbers[h / 2] -= change);
-                }
-                walk.iter().for_each(|&(h, _)| search.wake(&self.graph, h / 2, self.step_costs(h / 2)));
-                self.count_again(&mut search);
-            }
-            if !is_better || *work > MOST_WORK {
-                return Ok(());
-            }
-        }
-    }
 }
 
 #[cfg(test)]
 #[path = "quantisation_tests.rs"]
 mod tests;
+
+#[cfg(test)]
+#[path = "quantisation_table_tests.rs"]
+mod table_tests;

@@ -8,7 +8,7 @@ use super::t_mesh_node::NodeKey;
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::mesh::union_find::UnionFind;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Rounds in which arcs are made longer one by one to part edges with the same ends.
 const MOST_RAISED: usize = 64;
@@ -17,7 +17,7 @@ const MOST_DOUBLINGS: usize = 3;
 
 /// The nodes and arcs of a T-mesh that are to stay apart.
 pub(super) struct Separation<'a> {
-    t_mesh: &'a TMesh,
+    pub t_mesh: &'a TMesh,
     /// Per node the number of squares around it.
     corners: Vec<u32>,
     /// True at cones, corners, and ends and junctions of walls.
@@ -116,10 +116,16 @@ impl<'a> Separation<'a> {
             }
             let arcs = self.arcs_to_raise(&same, &conflicts, found);
             if !arcs.is_empty() {
-                arcs.into_iter().try_for_each(|arc| found.keep_above_zero(arc))?;
-                self.enforce(found, control)?;
-            } else if let Some(arc) = same.shortest_arc_at(&conflicts).filter(|_| rounds < MOST_RAISED) {
-                found.make_longer(arc)?;
+                self.raise(arcs, found, control)?;
+                continue;
+            }
+            let shortest = same.shortest_arcs_at(&conflicts);
+            if rounds < MOST_RAISED && !shortest.is_empty() {
+                for (arc, number) in shortest {
+                    if found.numbers[arc] == number {
+                        found.make_longer(arc)?;
+                    }
+                }
             } else if doublings < MOST_DOUBLINGS {
                 doublings += 1;
                 found.numbers.iter_mut().for_each(|n| *n *= 2);
@@ -127,6 +133,35 @@ impl<'a> Separation<'a> {
                 return Err(Error::Layout("two edges of the quad mesh have the same ends".into()));
             }
         }
+    }
+
+    /// Raises strips of arcs of length 0 at these rectangles; false where there is none.
+    ///
+    /// # Errors
+    /// Those of [`Separation::enforce`].
+    pub fn raise_near(
+        &self,
+        rectangles: &[usize],
+        found: &mut Quantisation,
+        control: &Control,
+    ) -> Result<bool> {
+        let same = Identification::new(self.t_mesh, &found.numbers);
+        let half_arcs = rectangles.iter().flat_map(|&r| self.t_mesh.rectangles[r].sides.iter().flatten());
+        let mut classes: Vec<usize> = half_arcs.map(|&h| same.root[self.t_mesh.origin(h)]).collect();
+        classes.sort_unstable();
+        classes.dedup();
+        let arcs = self.arcs_to_raise(&same, &classes, found);
+        if arcs.is_empty() {
+            return Ok(false);
+        }
+        self.raise(arcs, found, control)?;
+        Ok(true)
+    }
+
+    /// Keeps arcs above 0 from now on, with cones, corners and walls apart.
+    fn raise(&self, arcs: Vec<usize>, found: &mut Quantisation, control: &Control) -> Result<()> {
+        arcs.into_iter().try_for_each(|arc| found.keep_above_zero(arc))?;
+        self.enforce(found, control)
     }
 
     /// Per class of points that is in conflict the longest arc of length 0 in it, else of a rectangle beside it.
@@ -176,14 +211,18 @@ impl<'a> Identification<'a> {
         Identification { complex, numbers, root }
     }
 
-    /// The arc of the least number that has one of these points, each standing for its class.
-    fn shortest_arc_at(&self, classes: &[usize]) -> Option<usize> {
-        let has_point = |&a: &usize| {
-            let mut points = (0..=self.numbers[a]).map(|k| self.complex.arc_point(2 * a, k) as usize);
-            points.any(|p| classes.binary_search(&self.root[p]).is_ok())
-        };
-        let positive = (0..self.numbers.len()).filter(|&a| self.numbers[a] > 0);
-        positive.filter(has_point).min_by_key(|&a| (self.numbers[a], a))
+    /// For each of these points, each standing for its class, the arc of the least number that has it, with this number.
+    fn shortest_arcs_at(&self, classes: &[usize]) -> BTreeSet<(usize, i64)> {
+        let mut shortest: Vec<Option<(i64, usize)>> = vec![None; classes.len()];
+        for arc in (0..self.numbers.len()).filter(|&a| self.numbers[a] > 0) {
+            for k in 0..=self.numbers[arc] {
+                let class = self.root[self.complex.arc_point(2 * arc, k) as usize];
+                let Ok(at) = classes.binary_search(&class) else { continue };
+                let known = shortest[at].get_or_insert((self.numbers[arc], arc));
+                *known = (*known).min((self.numbers[arc], arc));
+            }
+        }
+        shortest.into_iter().flatten().map(|(number, arc)| (arc, number)).collect()
     }
 
     /// The classes that are in conflict: of two special nodes or two walls, and those in which not as many squares meet as are to.

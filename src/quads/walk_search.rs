@@ -1,6 +1,9 @@
 //! The search for closed walks that lower the cost of a quantisation, by Bellman and Ford's method.
 
 use super::arc_graph::{ArcGraph, OUTSIDE, WalkStep};
+use super::reached::Reached;
+use super::t_mesh::HalfArc;
+use std::collections::BinaryHeap;
 
 /// Costs that differ by less than this are the same; lengths are of the order of 1.
 pub(super) const SAME_COST: f64 = 1e-9;
@@ -9,12 +12,22 @@ pub(super) const SAME_COST: f64 = 1e-9;
 #[derive(Clone, Copy)]
 struct SearchStep {
     next: u32,
-    arc: u32,
+    half: u32,
     /// 0 for a longer arc, 1 for a shorter one.
     way: u32,
 }
 
+/// How a state was reached: from which state, by which of its steps, at what cost, and in which search.
+#[derive(Clone, Copy)]
+struct Arrival {
+    search: u32,
+    from: u32,
+    step: u32,
+    cost: f64,
+}
+
 /// A search whose distances stay from one walk to the next, so that only states near changes are looked at again.
+#[derive(Clone)]
 pub(super) struct WalkSearch {
     distance: Vec<f64>,
     waiting: Vec<usize>,
@@ -22,22 +35,25 @@ pub(super) struct WalkSearch {
     /// Per state its steps, and the first of them in the list of all.
     steps: Vec<SearchStep>,
     first: Vec<usize>,
-    /// Per arc the cost of a change by 1 and by −1.
+    /// Per half-arc the cost of the steps that change it by 1 and by −1.
     cost: Vec<[f64; 2]>,
+    /// Per state the way to it in one search, and the number of that search.
+    came: Vec<Arrival>,
+    n_searches: u32,
     /// Per state the last walk back in which it was seen.
     seen: Vec<usize>,
     n_walks: usize,
 }
 
 impl WalkSearch {
-    /// A search with these costs of a change by 1 and by −1 per arc.
+    /// A search with these costs of the steps that change a half-arc by 1 and by −1.
     pub fn new(of: &ArcGraph, costs: &dyn Fn(usize) -> [f64; 2]) -> WalkSearch {
         let n = of.steps.len();
         let (mut steps, mut first) = (Vec::new(), vec![0]);
         for of_state in &of.steps {
             steps.extend(of_state.iter().map(|&(h, change)| SearchStep {
                 next: of.after((h, change)) as u32,
-                arc: (h / 2) as u32,
+                half: h as u32,
                 way: u32::from(change < 0),
             }));
             first.push(steps.len());
@@ -48,21 +64,21 @@ impl WalkSearch {
             is_waiting: vec![true; n],
             steps,
             first,
-            cost: (0..of.beside.len() / 2).map(costs).collect(),
+            cost: (0..of.beside.len()).map(costs).collect(),
+            came: vec![Arrival { search: 0, from: 0, step: 0, cost: 0.0 }; n],
+            n_searches: 0,
             seen: vec![0; n],
             n_walks: 0,
         }
     }
 
-    /// Sets the costs of an arc, and looks again at the states from which it is changed.
-    pub fn wake(&mut self, of: &ArcGraph, arc: usize, cost: [f64; 2]) {
-        self.cost[arc] = cost;
-        for h in [2 * arc, 2 * arc + 1] {
-            let states = of.beside[h].map_or([OUTSIDE; 2], |(u, _)| [1, -1].map(|s| ArcGraph::state(u, s)));
-            for state in states {
-                if !std::mem::replace(&mut self.is_waiting[state], true) {
-                    self.waiting.push(state);
-                }
+    /// Sets the costs of a half-arc's steps, and looks again at the states from which they are taken.
+    pub fn wake(&mut self, of: &ArcGraph, h: HalfArc, cost: [f64; 2]) {
+        self.cost[h] = cost;
+        let states = of.beside[h].map_or([OUTSIDE; 2], |(u, _)| [1, -1].map(|s| ArcGraph::state(u, s)));
+        for state in states {
+            if !std::mem::replace(&mut self.is_waiting[state], true) {
+                self.waiting.push(state);
             }
         }
     }
@@ -70,8 +86,7 @@ impl WalkSearch {
     /// Closed walks that seem to lower the cost; none only if there is none. Adds the number of steps that were looked at to the work.
     pub fn negative_walks(&mut self, of: &ArcGraph, work: &mut usize) -> Vec<Vec<WalkStep>> {
         let n = self.distance.len();
-        // Per state the one before it, and the number of the step between.
-        let mut came: Vec<Option<(u32, u32)>> = vec![None; n];
+        self.n_searches += 1;
         let mut changed = Vec::new();
         for _ in 0..n {
             for state in std::mem::take(&mut self.waiting) {
@@ -79,12 +94,13 @@ impl WalkSearch {
                 let range = self.first[state]..self.first[state + 1];
                 *work += range.len();
                 let distance = self.distance[state];
-                for (k, step) in self.steps[range].iter().enumerate() {
+                for k in 0..range.len() {
+                    let step = self.steps[range.start + k];
                     let next = step.next as usize;
-                    let total = distance + self.cost[step.arc as usize][step.way as usize];
+                    let total = distance + self.cost[step.half as usize][step.way as usize];
                     if total < self.distance[next] - SAME_COST {
                         self.distance[next] = total;
-                        came[next] = Some((state as u32, k as u32));
+                        self.came[next] = self.arrival(state, k, total);
                         changed.push(next);
                         if !std::mem::replace(&mut self.is_waiting[next], true) {
                             self.waiting.push(next);
@@ -95,7 +111,7 @@ impl WalkSearch {
             if self.waiting.is_empty() {
                 return Vec::new();
             }
-            let walks = self.cycles(of, &came, &changed);
+            let walks = self.cycles(of, &changed);
             if !walks.is_empty() {
                 return walks;
             }
@@ -104,8 +120,65 @@ impl WalkSearch {
         Vec::new()
     }
 
+    /// The cheapest closed walk that begins with this step, whose way back has to cost infinitely much, after a search has found nothing: its distances
+    /// then leave no step a negative cost.
+    pub fn cheapest_walk(
+        &mut self,
+        of: &ArcGraph,
+        first: WalkStep,
+        work: &mut usize,
+    ) -> Option<Vec<WalkStep>> {
+        self.n_searches += 1;
+        let (start, goal) = (of.after(first), of.before(first));
+        self.came[start] = self.arrival(start, 0, 0.0);
+        let mut waiting = BinaryHeap::from([Reached(0.0, start)]);
+        while let Some(Reached(so_far, state)) = waiting.pop() {
+            if state == goal {
+                break;
+            }
+            if self.came[state].cost < so_far {
+                continue;
+            }
+            let range = self.first[state]..self.first[state + 1];
+            *work += range.len();
+            for k in 0..range.len() {
+                let step = self.steps[range.start + k];
+                let next = step.next as usize;
+                let cost = self.cost[step.half as usize][step.way as usize];
+                if cost == f64::INFINITY {
+                    continue;
+                }
+                let total = so_far + (cost + self.distance[state] - self.distance[next]).max(0.0);
+                if self.arrived(next).is_none_or(|known| total < known.cost) {
+                    self.came[next] = self.arrival(state, k, total);
+                    waiting.push(Reached(total, next));
+                }
+            }
+        }
+        let mut walk = Vec::new();
+        let mut state = goal;
+        while state != start {
+            let arrival = self.arrived(state)?;
+            state = arrival.from as usize;
+            walk.push(of.steps[state][arrival.step as usize]);
+        }
+        walk.push(first);
+        walk.reverse();
+        Some(walk)
+    }
+
+    /// An arrival of this search.
+    fn arrival(&self, from: usize, step: usize, cost: f64) -> Arrival {
+        Arrival { search: self.n_searches, from: from as u32, step: step as u32, cost }
+    }
+
+    /// How this search reached a state, if it did.
+    fn arrived(&self, state: usize) -> Option<Arrival> {
+        Some(self.came[state]).filter(|arrival| arrival.search == self.n_searches)
+    }
+
     /// The cycles of the graph in which each state came from at most one other, that are reached backwards from these states.
-    fn cycles(&mut self, of: &ArcGraph, came: &[Option<(u32, u32)>], starts: &[usize]) -> Vec<Vec<WalkStep>> {
+    fn cycles(&mut self, of: &ArcGraph, starts: &[usize]) -> Vec<Vec<WalkStep>> {
         let before_all = self.n_walks;
         let mut found = Vec::new();
         for &start in starts {
@@ -113,16 +186,16 @@ impl WalkSearch {
             let mut at = start;
             while self.seen[at] <= before_all {
                 self.seen[at] = self.n_walks;
-                let Some((before, _)) = came[at] else { break };
-                at = before as usize;
+                let Some(arrival) = self.arrived(at) else { break };
+                at = arrival.from as usize;
             }
-            if self.seen[at] != self.n_walks || came[at].is_none() {
+            if self.seen[at] != self.n_walks || self.arrived(at).is_none() {
                 continue;
             }
             let (mut walk, mut state) = (Vec::new(), at);
-            while let Some((before, step)) = came[state] {
-                state = before as usize;
-                walk.push(of.steps[state][step as usize]);
+            while let Some(arrival) = self.arrived(state) {
+                state = arrival.from as usize;
+                walk.push(of.steps[state][arrival.step as usize]);
                 if state == at {
                     walk.reverse();
                     found.push(walk);

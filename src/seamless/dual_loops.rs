@@ -2,6 +2,7 @@
 //! feature to feature; their turning, and how flips change them.
 
 use super::sectors::Sectors;
+use crate::archive::stored;
 use crate::error::{Error, Result};
 use crate::mesh::{EdgeId, HalfedgeId, Mesh, PerEdge, PerFace, PerHalfedge, VertexId};
 use std::collections::VecDeque;
@@ -16,6 +17,7 @@ pub struct DualLoops {
     /// Per edge, the number of times that paths cross it.
     crossings: PerEdge<u32>,
 }
+stored!(sections DualLoops { loops, n_closed, crossings });
 
 /// A passage through a face: the half-edge of the face over which the path came in, and the one over which it leaves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -36,6 +36,7 @@ pub use field_guides::{curvature_guides, sharp_edges, stroke_guides};
 pub use options::{SeamlessCones, SeamlessOptions};
 pub use signature::ConeValence;
 
+use crate::archive::{ArchiveWriter, Stored, stored};
 use crate::control::Control;
 use crate::embed::{Layout, LayoutOptions};
 use crate::error::{Error, Result, check_size};
@@ -48,6 +49,7 @@ use holonomy_state::{HolonomyState, HolonomyTarget};
 use left_out::without_worst;
 use newton::{NewtonEnd, come_near};
 use signature::{check_existence, cones_of_sectors};
+pub use start::placed_cones;
 use start::{chosen_right_angles, start_state};
 use std::f64::consts::FRAC_PI_2;
 use turning_choice::nearest_quarter_turns;
@@ -83,8 +85,18 @@ pub struct Seamless {
     /// The tolerance that was asked for.
     pub tolerance: f64,
 }
+stored!(sections Seamless { solution, cones, loops, quarter_turns, features, left_out, iterations,
+    length_changes, error, tolerance });
 
 impl Seamless {
+    /// A number by which this metric is told from others: the checksum of its triangulation and its u.
+    pub fn fingerprint(&self) -> u64 {
+        let mut writer = ArchiveWriter::default();
+        Mesh::write(self.solution.mesh(), &mut writer);
+        self.solution.metric().u.write(&mut writer);
+        writer.fingerprint()
+    }
+
     /// True if every angle is within the tolerance of its target.
     pub fn converged(&self) -> bool {
         self.error <= self.tolerance

@@ -3,6 +3,7 @@
 use super::dual_loops::DualLoops;
 use super::sectors::Sectors;
 use super::spin::arf_invariant;
+use crate::archive::stored;
 use crate::error::{Error, Result};
 use crate::mesh::{Mesh, PerVertex, VertexId};
 
@@ -18,6 +19,7 @@ pub struct ConeValence {
     /// boundary 2.
     pub valence: u32,
 }
+stored!(row ConeValence { vertex: VertexId, valence: u32 });
 
 /// The vertices at which the right angles of the sectors do not add up to the regular number. A sector is the part of the angle at a vertex
 /// between two features or boundary edges.

@@ -6,7 +6,7 @@ use super::cross_field::field_cones;
 use super::holonomy_state::HolonomyState;
 use super::options::{SeamlessCones, SeamlessOptions};
 use super::sectors::Sectors;
-use super::signature::{MOST_CURVED, given_right_angles};
+use super::signature::{ConeValence, MOST_CURVED, given_right_angles};
 use crate::control::Control;
 use crate::error::{Error, Result, check_size};
 use crate::flow::{Flow, Options, Solution, auto_cones};
@@ -17,6 +17,8 @@ use std::f64::consts::FRAC_PI_2;
 
 /// Most iterations of a flow beside features, which is only a start.
 const FLOW_ITERATIONS: usize = 20;
+/// The least and the most curvature of corners of patches, in quarter turns.
+const OF_PATCHES: [i32; 2] = [-2, 1];
 
 /// The sectors between features and the boundary, and the right angles of each. Features around a piece that is too small to have right
 /// angles in all its corners are left out.
@@ -46,7 +48,10 @@ pub(super) fn chosen_right_angles(
                 return Err(Error::argument("cones", "placed ones", need));
             }
             let placed = auto_cones(mesh, surface.lengths(), *n, control)?;
-            of_curvature(rounded_to_quarters(mesh, &placed.cones))
+            let quarters = rounded_to_quarters(mesh, &placed.cones, [i32::MIN, MOST_CURVED]);
+            let mut curvature = PerVertex::filled(mesh.n_vertices(), 0);
+            placed.cones.iter().zip(quarters).for_each(|(cone, k)| curvature[cone.0] = k);
+            of_curvature(curvature)
         }
         SeamlessCones::Valences(cones) => given_right_angles(mesh, &sectors, cones)?,
     };
@@ -67,26 +72,44 @@ fn without_piece(mesh: &Mesh, sectors: &Sectors, sector: usize) -> Result<Sector
     Sectors::new(mesh, &left)
 }
 
-/// Curvature of cones rounded to quarter turns such that the total is 4χ and no angle is below 90°.
-fn rounded_to_quarters(mesh: &Mesh, cones: &[(VertexId, f64)]) -> PerVertex<i32> {
+/// This many cones of a closed surface, placed so that areas change little ([`auto_cones`]), with valences from 3 to 6, which suit corners of
+/// patches; fewer where some are flat once they are rounded.
+///
+/// # Errors
+/// Those of [`auto_cones`]; [`Error::TargetKind`] where so many cones with such valences do not add up to the curvature of the surface.
+pub fn placed_cones(surface: &Surface, n: usize, control: &Control) -> Result<Vec<ConeValence>> {
+    let mesh = surface.mesh();
+    let placed = auto_cones(mesh, surface.lengths(), n, control)?.cones;
+    let quarters = rounded_to_quarters(mesh, &placed, OF_PATCHES);
+    let total: i64 = quarters.iter().map(|&k| i64::from(k)).sum();
+    if total != 4 * mesh.euler() {
+        let message = format!(
+            "{n} cones with valences from 3 to 6 do not add up to the curvature of the surface; more do"
+        );
+        return Err(Error::TargetKind { target: "cones", message });
+    }
+    let cone =
+        |((vertex, _), k): (&(VertexId, f64), i32)| ConeValence { vertex: *vertex, valence: (4 - k) as u32 };
+    Ok(placed.iter().zip(quarters).filter(|(_, k)| *k != 0).map(cone).collect())
+}
+
+/// Curvature of cones rounded to quarter turns between these bounds, such that the total is 4χ where the bounds allow it.
+fn rounded_to_quarters(mesh: &Mesh, cones: &[(VertexId, f64)], [least, most]: [i32; 2]) -> Vec<i32> {
     let exact = |k: usize| cones[k].1 / FRAC_PI_2;
     let mut quarters: Vec<i32> =
-        (0..cones.len()).map(|k| (exact(k).round() as i32).min(MOST_CURVED)).collect();
+        (0..cones.len()).map(|k| (exact(k).round() as i32).clamp(least, most)).collect();
     loop {
         let missing = 4 * mesh.euler() - quarters.iter().map(|&k| i64::from(k)).sum::<i64>();
         let step = missing.signum() as i32;
         let off = |k: &usize| f64::from(step) * (exact(*k) - f64::from(quarters[*k]));
-        let most = (0..cones.len())
-            .filter(|&k| quarters[k] + step <= MOST_CURVED)
+        let furthest = (0..cones.len())
+            .filter(|&k| (least..=most).contains(&(quarters[k] + step)))
             .max_by(|a, b| off(a).total_cmp(&off(b)));
-        match most {
+        match furthest {
             Some(k) if step != 0 => quarters[k] += step,
-            _ => break,
+            _ => return quarters,
         }
     }
-    let mut curvature = PerVertex::filled(mesh.n_vertices(), 0);
-    cones.iter().zip(&quarters).for_each(|(cone, &k)| curvature[cone.0] = k);
-    curvature
 }
 
 /// The conformal metric whose angles around vertices add up to these of their sectors; where features keep the flow from it, the surface

@@ -21,7 +21,7 @@ pub use quad::{
     SplineTarget, TessellationSize, bilinear, fit_quads,
 };
 #[cfg(feature = "quads")]
-pub use quad::{LayoutFit, LayoutFitOptions, fit_few_patches, fit_quad_layout};
+pub use quad::{FewPatchesOptions, LayoutFit, LayoutFitOptions, fit_few_patches, fit_quad_layout};
 #[cfg(feature = "step")]
 pub use step::{LengthUnit, StepOptions};
 pub use surface_fit::{

@@ -6,12 +6,13 @@ use super::element::GroupElement;
 use super::holonomy::Holonomy;
 use super::kind::Structure;
 use super::overlaps::{FaceLift, FaceLifts, Transition};
-use crate::error::{Error, Result};
+use crate::archive::{in_range, stored};
+use crate::error::{Error, Result, check_size};
 use crate::flow::Solution;
 use crate::geometry::complex::distance;
 use crate::geometry::{Space, worse};
 use crate::harmonic::Zero;
-use crate::mesh::{FaceId, Mesh, VertexId};
+use crate::mesh::{FaceId, Mesh, Place, VertexId};
 use crate::metric::CommonSubdivision;
 use std::sync::Arc;
 
@@ -29,6 +30,7 @@ pub struct Chart {
     /// The coordinates of these vertices.
     pub coordinates: Vec<[f64; 2]>,
 }
+stored!(sections Chart { faces, n_core, corners, vertices, coordinates });
 
 /// A point in a chart.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -50,7 +52,8 @@ pub struct Atlas {
     pub structure: Structure,
     /// The space in which charts lie.
     pub space: Space,
-    /// The triangulation of the charts. Its first vertices are those of the surface; for a surface with boundary that was solved on its
+    /// The triangulation of the charts. Its first vertices are those of the surface, but for an integer structure, whose triangles are halves of
+    /// quads; for a surface with boundary that was solved on its
     /// double it is the common subdivision, and has more.
     pub mesh: Arc<Mesh>,
     /// The metric of the triangulation, with the way back to the given surface: that of the structure, or for an atlas from a form the
@@ -58,6 +61,8 @@ pub struct Atlas {
     pub metric: Arc<Solution>,
     /// The common subdivision, if the triangulation is one.
     pub subdivision: Option<Arc<CommonSubdivision>>,
+    /// The places of the vertices on the given surface, for an integer structure: its quad q is faces 2q and 2q + 1.
+    pub on_given: Option<Vec<Place>>,
     /// The charts.
     pub charts: Vec<Chart>,
     /// One transition for each connected overlap, from the chart of the lower number to the other.
@@ -82,11 +87,17 @@ pub struct Atlas {
     pub folded: Vec<u32>,
     pub(super) lifts: FaceLifts,
 }
+stored!(sections Atlas { structure, space, mesh, metric, subdivision, on_given, charts, transitions,
+    singular_vertices, excluded, zeros, curvature_error, converged, holonomy, cocycles, folded, lifts } check Atlas::check_parts);
 
 impl Chart {
     pub(super) fn new(draft: ChartDraft, structure: Structure, space: Space) -> Chart {
         Chart {
-            coordinates: draft.points.iter().map(|&p| structure.coordinates(space, p)).collect(),
+            coordinates: draft
+                .points
+                .iter()
+                .map(|&p| structure.coordinates(space, p).map(|x| structure.exact(x)))
+                .collect(),
             n_core: if draft.n_core == 0 { draft.faces.len() } else { draft.n_core },
             faces: draft.faces,
             corners: draft.corners,
@@ -96,6 +107,31 @@ impl Chart {
 }
 
 impl Atlas {
+    /// Checks that the parts of an archive fit each other.
+    fn check_parts(&self) -> Result<()> {
+        let (n, m) = (self.mesh.n_vertices(), self.mesh.n_faces());
+        if let Some(places) = &self.on_given {
+            check_size("places on the given surface", places.len(), n)?;
+        }
+        for chart in &self.charts {
+            check_size("corners of a chart", chart.corners.len(), chart.faces.len())?;
+            check_size("coordinates of a chart", chart.coordinates.len(), chart.vertices.len())?;
+            let corners = chart.corners.as_flattened().iter().map(|&k| k as usize);
+            in_range("vertex of a chart", corners, chart.vertices.len())?;
+            in_range("face", chart.faces.iter().map(|f| f.index()), m)?;
+            in_range("vertex", chart.vertices.iter().map(|v| v.index()), n)?;
+        }
+        for Transition { from, to, pairs, .. } in &self.transitions {
+            in_range("chart", [*from, *to].into_iter().map(|k| k as usize), self.charts.len())?;
+            for (k, chart) in [*from, *to].into_iter().enumerate() {
+                let vertices = pairs.iter().map(|pair| pair[k] as usize);
+                in_range("vertex of a chart", vertices, self.charts[chart as usize].vertices.len())?;
+            }
+        }
+        let sizes: Vec<usize> = self.charts.iter().map(|chart| chart.faces.len()).collect();
+        self.lifts.check_parts(m, &sizes, self.transitions.len())
+    }
+
     /// The lifts of a face of [`Atlas::mesh`] to charts, ascending; empty for an excluded face.
     ///
     /// # Errors

@@ -5,11 +5,12 @@ use super::atlas::{Atlas, Chart};
 use super::cocycle::check_cocycle_condition;
 use super::developable::DevelopableSurface;
 use super::draft::ChartDraft;
+use super::flat_source::StructureSource;
 use super::growth::AtlasCover;
 use super::holonomy::Holonomy;
 use super::options::{AtlasOptions, ChartKind};
-use super::overlaps::FaceLifts;
-use super::source::{StructureSource, structure_source};
+use super::overlaps::{FaceLifts, Transition};
+use super::source::structure_source;
 use super::stars::star;
 use crate::control::Control;
 use crate::error::{Error, Result};
@@ -57,6 +58,7 @@ fn chart(found: StructureSource, options: &AtlasOptions, control: &Control) -> R
     }
     let transitions: Vec<_> =
         overlaps.into_iter().map(|overlap| overlap.transition(structure, &drafts)).collect();
+    let transitions = if surface.turns { off_singular(transitions, surface, &drafts) } else { transitions };
     control.check()?;
     let (space, mesh) = (surface.faces.space, surface.faces.mesh.clone());
     Ok(Atlas {
@@ -76,7 +78,26 @@ fn chart(found: StructureSource, options: &AtlasOptions, control: &Control) -> R
         mesh,
         metric: found.metric,
         subdivision: found.subdivision,
+        on_given: found.on_given,
     })
+}
+
+/// Transitions without the singular vertices of their overlaps, where any others are left: charts that meet in such a vertex alone, on
+/// different sides, have other transitions.
+fn off_singular(
+    mut transitions: Vec<Transition>,
+    surface: &DevelopableSurface,
+    drafts: &[ChartDraft],
+) -> Vec<Transition> {
+    for transition in &mut transitions {
+        let vertices = &drafts[transition.from as usize].vertices;
+        let is_regular = |pair: &&[u32; 2]| !surface.singular[vertices[pair[0] as usize]];
+        let regular: Vec<[u32; 2]> = transition.pairs.iter().filter(is_regular).copied().collect();
+        if !regular.is_empty() {
+            transition.pairs = regular;
+        }
+    }
+    transitions
 }
 
 /// The stars of all regular vertices, and grown charts over the faces that are in none of them.

@@ -1,6 +1,7 @@
 //! How far transitions of charts that overlap in threes are from `T_jk T_ij = T_ik`.
 
 use super::overlaps::{FaceLifts, Transition};
+use crate::archive::stored;
 use crate::geometry::worse;
 use crate::mesh::FaceId;
 use std::collections::BTreeSet;
@@ -13,6 +14,7 @@ pub struct CocycleCheck {
     /// The largest difference, see [`super::GroupElement::difference`]; infinite if two transitions cannot be composed.
     pub residual: f64,
 }
+stored!(sections CocycleCheck { triples, residual });
 
 /// For every face and every three charts that contain it; each triple of transitions is compared once.
 pub(super) fn check_cocycle_condition(

@@ -17,6 +17,10 @@ pub(super) struct DevelopableSurface {
     pub excluded: PerFace<bool>,
     /// Vertices that no chart may contain inside.
     pub singular: PerVertex<bool>,
+    /// Charts begin at the first corner of a face and not at its middle.
+    pub begins_at_corners: bool,
+    /// The holonomy around a singular vertex is a rotation.
+    pub turns: bool,
 }
 
 impl DevelopableSurface {
@@ -24,7 +28,7 @@ impl DevelopableSurface {
     pub fn new(faces: FaceTransitions) -> DevelopableSurface {
         let excluded = PerFace::filled(faces.mesh.n_faces(), false);
         let singular = PerVertex::filled(faces.mesh.n_vertices(), false);
-        DevelopableSurface { faces, excluded, singular }
+        DevelopableSurface { faces, excluded, singular, begins_at_corners: false, turns: false }
     }
 
     /// The surface with given points of a space as vertices; faces with a point that is not finite are excluded.
@@ -104,10 +108,10 @@ impl DevelopableSurface {
         self.faces.corners[f].map(|p| place.apply(precise_point(space, p)).map(f64::from))
     }
 
-    /// The motion that takes corner `k` of a face to the origin, or the face's middle if there is no `k`.
+    /// The motion that takes corner `k` of a face to the origin; if there is no `k` the face's middle, or its first corner.
     pub fn place_about(&self, f: FaceId, k: Option<usize>) -> Motion<DoubleDouble> {
         let (space, corners) = (self.faces.space, self.faces.corners[f]);
-        let at = match k {
+        let at = match k.or(self.begins_at_corners.then_some(0)) {
             Some(k) => precise_point(space, corners[k]),
             None => middle(space, corners),
         };

@@ -1,6 +1,8 @@
 //! Elements of the transformation groups of structures, as matrices that act on chart coordinates.
 
 use super::kind::Structure;
+use crate::archive::{ArchiveReader, ArchiveWriter, Stored};
+use crate::error::Result;
 use crate::geometry::{DoubleDouble, Motion};
 use nalgebra::{Complex, Matrix2, Matrix3, SMatrix, Vector2, Vector3};
 
@@ -13,6 +15,26 @@ pub enum GroupElement {
     Projective(Matrix3<f64>),
 }
 
+impl Stored for GroupElement {
+    const LEAST: usize = 65;
+
+    fn write(&self, to: &mut ArchiveWriter) {
+        matches!(self, GroupElement::Mobius(_)).write(to);
+        match self {
+            GroupElement::Mobius(matrix) => matrix.iter().for_each(|entry| entry.write(to)),
+            GroupElement::Projective(matrix) => matrix.iter().for_each(|entry| entry.write(to)),
+        }
+    }
+
+    fn read(from: &mut ArchiveReader<'_>) -> Result<Self> {
+        Ok(if bool::read(from)? {
+            GroupElement::Mobius(Matrix2::from_column_slice(&<[Complex<f64>; 4]>::read(from)?))
+        } else {
+            GroupElement::Projective(Matrix3::from_column_slice(&<[f64; 9]>::read(from)?))
+        })
+    }
+}
+
 impl GroupElement {
     /// An isometry of the space as an element of the group of a structure.
     pub fn of_motion(structure: Structure, motion: &Motion<DoubleDouble>) -> GroupElement {
@@ -20,7 +42,7 @@ impl GroupElement {
             let [[a, b], [c, d]] = motion.mobius().map(|row| row.map(|[re, im]| Complex::new(re, im)));
             return GroupElement::Mobius(Matrix2::new(a, b, c, d));
         }
-        let rows = motion.matrix().map(|row| row.map(f64::from));
+        let rows = motion.matrix().map(|row| row.map(|x| structure.exact(f64::from(x))));
         GroupElement::Projective(Matrix3::from_fn(|i, j| rows[i][j]))
     }
 

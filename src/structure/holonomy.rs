@@ -4,6 +4,7 @@
 use super::developable::DevelopableSurface;
 use super::element::GroupElement;
 use super::kind::Structure;
+use crate::archive::stored;
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::geometry::complex::norm2;
@@ -15,7 +16,8 @@ use crate::topology::{HomotopyBasis, SurfaceGroup, crossed_halfedges};
 /// canonical basis.
 ///
 /// It does not matter on which side a loop passes a singular vertex: the holonomy around one is the identity, since its cone angle is a
-/// multiple of 2π.
+/// multiple of 2π. Only those of an integer structure turn by other multiples of 90°: there the values are those of the loops of the basis,
+/// and there is no relation between them.
 #[derive(Debug, Clone)]
 pub struct Holonomy {
     /// The fundamental group of the surface, with names and relator.
@@ -23,9 +25,11 @@ pub struct Holonomy {
     /// The values at a1, b1, …, ag, bg, c1, …, cb, in a frame with the base at its origin: `M(γδ) = M(γ) M(δ)`, where γδ is γ first.
     pub generators: Vec<Motion<DoubleDouble>>,
     /// `‖R − I‖ / max_k ‖P_k‖²`: R is the product of the relator's letters, P_k those of its first k letters. Frobenius norms of 2×2
-    /// matrices. In E², lengths are divided first by the larger of the longest translation and √area. 0 without generators.
+    /// matrices. In E², lengths are divided first by the larger of the longest translation and √area. 0 where there is no relation: without
+    /// generators, and around singular vertices that turn.
     pub relation_residual: f64,
 }
+stored!(sections Holonomy { group, generators, relation_residual });
 
 impl Holonomy {
     pub(super) fn new(
@@ -46,7 +50,8 @@ impl Holonomy {
             let walk = crossed.iter().fold(identity, |m, &h| m.compose(&surface.faces.across[h]));
             generators.push(walk.conjugated_by(&base_place).normalised());
         }
-        let relation_residual = residual(basis.group, &generators, surface.size());
+        let relation_residual =
+            if surface.turns { 0.0 } else { residual(basis.group, &generators, surface.size()) };
         Ok(Holonomy { group: basis.group, generators, relation_residual })
     }
 

@@ -1,5 +1,6 @@
 //! The kinds of geometric structures, and the coordinates of their charts.
 
+use crate::archive::stored;
 use crate::error::Error;
 use crate::geometry::Space;
 use crate::geometry::model::{from_klein, from_poincare, klein, poincare};
@@ -18,16 +19,29 @@ pub enum Structure {
     Hyperbolic,
     /// Charts in the Klein disk, where geodesics are straight, with transitions in SO⁺(2,1) ⊂ PGL(3,R); for χ < 0.
     Projective,
+    /// Charts in the Euclidean plane in which the quads of a mesh are unit squares with whole coordinates; transitions are rotations by
+    /// multiples of 90° with integer translations. Vertices without four quads are singular.
+    Integer,
 }
+stored!(variants Structure {
+        Conformal = 0,
+        Spherical = 1,
+        Affine = 2,
+        Hyperbolic = 3,
+        Projective = 4,
+        Integer = 5,
+    }
+);
 
 impl Structure {
     /// All structures.
-    pub const ALL: [Structure; 5] = [
+    pub const ALL: [Structure; 6] = [
         Structure::Conformal,
         Structure::Spherical,
         Structure::Affine,
         Structure::Hyperbolic,
         Structure::Projective,
+        Structure::Integer,
     ];
 
     /// The name used on the command line and in files.
@@ -38,12 +52,19 @@ impl Structure {
             Structure::Affine => "affine",
             Structure::Hyperbolic => "hyperbolic",
             Structure::Projective => "projective",
+            Structure::Integer => "integer",
         }
     }
 
     /// True if coordinates are complex numbers, on which Möbius transformations act.
     pub fn is_complex(self) -> bool {
         matches!(self, Structure::Conformal | Structure::Spherical | Structure::Hyperbolic)
+    }
+
+    /// A number of a vertex's coordinates or of a transition: whole in an integer structure, where rounding alone keeps it from that.
+    pub(super) fn exact(self, x: f64) -> f64 {
+        // Adding 0 makes −0 positive.
+        if self == Structure::Integer { x.round() + 0.0 } else { x }
     }
 
     /// The coordinates in a chart of a point in ambient coordinates.
@@ -92,7 +113,11 @@ impl std::str::FromStr for Structure {
     fn from_str(name: &str) -> Result<Structure, Error> {
         let found = Structure::ALL.into_iter().find(|kind| kind.name().eq_ignore_ascii_case(name));
         found.ok_or_else(|| {
-            Error::argument("structure", name, "conformal, spherical, affine, hyperbolic or projective")
+            Error::argument(
+                "structure",
+                name,
+                "conformal, spherical, affine, hyperbolic, projective or integer",
+            )
         })
     }
 }

@@ -21,8 +21,11 @@ mod cocycle;
 mod developable;
 mod draft;
 mod element;
+mod flat_source;
 mod growth;
 mod holonomy;
+#[cfg(feature = "quads")]
+mod integer;
 mod kind;
 mod options;
 mod overlaps;

@@ -42,6 +42,9 @@ pub struct AtlasOptions {
     /// The singular vertex of the flow's affine structure, on a closed surface of genus 0 (where it goes to infinity) or at least 2.
     /// Default: on a sphere that of [`crate::canonical::SphereOptions::puncture`], else [`super::least_distorting_vertex`].
     pub singular: Option<VertexId>,
+    /// The number of quads of an integer structure, about. Default: the quads of the layout with as few patches as are found
+    /// ([`crate::quads::quad_layout`]).
+    pub quads: Option<usize>,
     /// Options of the flow.
     pub flow: flow::Options,
 }
@@ -54,6 +57,7 @@ impl Default for AtlasOptions {
             radius: None,
             source: AffineSource::default(),
             singular: None,
+            quads: None,
             flow: flow::Options::default(),
         }
     }

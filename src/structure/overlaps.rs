@@ -3,6 +3,7 @@
 use super::draft::{ChartDraft, NONE};
 use super::element::GroupElement;
 use super::kind::Structure;
+use crate::archive::{in_range, invalid, stored};
 use crate::control::{Control, Stage};
 use crate::error::Result;
 use crate::mesh::FaceId;
@@ -19,6 +20,7 @@ pub struct FaceLift {
     /// The number of the face in the chart.
     pub face: u32,
 }
+stored!(row FaceLift { chart: u32, face: u32 });
 
 /// The change of coordinates over one connected overlap of two charts.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,9 +31,10 @@ pub struct Transition {
     pub to: u32,
     /// The map.
     pub element: GroupElement,
-    /// The vertices of the overlap, by their numbers in both charts.
+    /// The vertices of the overlap, by their numbers in both charts; for an integer structure with cones those that are not singular.
     pub pairs: Vec<[u32; 2]>,
 }
+stored!(sections Transition { from, to, element, pairs });
 
 /// The lifts of every face, and the transition between any two of them.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,8 +47,22 @@ pub(super) struct FaceLifts {
     /// For each pair of lifts of a face, first before second, the number of the transition from the first to the second.
     transition: Vec<u32>,
 }
+stored!(sections FaceLifts { starts, all, pairs, transition });
 
 impl FaceLifts {
+    /// Checks that the lifts of an archive are those of faces of charts with these numbers of faces.
+    pub(super) fn check_parts(&self, n_faces: usize, charts: &[usize], n_transitions: usize) -> Result<()> {
+        let ends = self.starts.first() == Some(&0) && self.starts.last() == Some(&(self.all.len() as u32));
+        if !ends || self.starts.len() != n_faces + 1 || self.starts.windows(2).any(|pair| pair[0] > pair[1]) {
+            return Err(invalid("lifts of faces", "a list for each face"));
+        }
+        in_range("chart", self.all.iter().map(|lift| lift.chart as usize), charts.len())?;
+        if self.all.iter().any(|lift| lift.face as usize >= charts[lift.chart as usize]) {
+            return Err(invalid("lifts of faces", "faces of their charts"));
+        }
+        in_range("transition", self.transition.iter().map(|&k| k as usize), n_transitions)
+    }
+
     pub fn new(drafts: &[ChartDraft], n_faces: usize) -> FaceLifts {
         let mut count = vec![0u32; n_faces + 1];
         drafts.iter().flat_map(|draft| &draft.faces).for_each(|f| count[f.index() + 1] += 1);

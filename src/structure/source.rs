@@ -1,6 +1,7 @@
 //! The metrics and forms from which the charts of each structure are developed.
 
 use super::developable::DevelopableSurface;
+use super::flat_source::{StructureSource, source_of_flat};
 use super::kind::Structure;
 use super::options::{AffineSource, AtlasOptions};
 use super::singular::singular_vertex;
@@ -8,33 +9,16 @@ use crate::canonical::{QuotientOptions, Sphere, SphereOptions, uniformize_quotie
 use crate::control::Control;
 use crate::embed::FaceTransitions;
 use crate::error::{Error, Result};
-use crate::flow::{Solution, flow};
+use crate::flow::flow;
 use crate::geometry::Space;
-use crate::geometry::complex::{cross, dot, neg, sub};
-use crate::harmonic::{Domain, FormsOptions, HarmonicForms, Zero, even_combination, with_conjugate, zeros};
+use crate::geometry::complex::{cross, dot, neg};
+use crate::harmonic::{Domain, FormsOptions, HarmonicForms, even_combination, with_conjugate, zeros};
 use crate::mesh::{Mesh, PerEdge, PerVertex, VertexId};
-use crate::metric::{Class, CommonSubdivision, Surface, Target};
+use crate::metric::{Class, Surface, Target};
 use crate::parallel::Pool;
-use crate::topology::{HomotopyBasis, homotopy_basis};
+use crate::topology::homotopy_basis;
 use std::f64::consts::TAU;
 use std::sync::Arc;
-
-/// Length, over the longest edge, to which shorter edges are raised for the search for loops.
-const SHORTEST: f64 = 1e-12;
-/// Deviation, in radians, from a full turn up to which an angle counts as one.
-const FULL: f64 = 1e-9;
-
-/// A surface from which charts are developed, with its metric and figures.
-pub(super) struct StructureSource {
-    pub developed: DevelopableSurface,
-    pub metric: Arc<Solution>,
-    /// The common subdivision, if the developed surface lies on it and not on the metric's triangulation.
-    pub subdivision: Option<Arc<CommonSubdivision>>,
-    pub basis: HomotopyBasis,
-    pub zeros: Vec<Zero>,
-    pub curvature_error: f64,
-    pub converged: bool,
-}
 
 /// Develops a surface for the charts of a structure.
 pub(super) fn structure_source(
@@ -46,6 +30,8 @@ pub(super) fn structure_source(
     check(mesh, options)?;
     let (closed, euler) = (mesh.is_closed(), mesh.euler());
     match (options.structure, options.source) {
+        #[cfg(feature = "quads")]
+        (Structure::Integer, _) => super::integer::of_quads(surface, options, control),
         (Structure::Affine, AffineSource::Form) => of_form(surface, options, control),
         (Structure::Affine, _) if closed && euler == 2 => of_plane(surface, options, control),
         (Structure::Affine, _) if closed && euler < 0 => {
@@ -68,6 +54,16 @@ pub(super) fn structure_source(
 /// Checks that a surface has a structure, and that options belong to it.
 fn check(mesh: &Mesh, options: &AtlasOptions) -> Result<()> {
     let (closed, euler, structure) = (mesh.is_closed(), mesh.euler(), options.structure);
+    if structure == Structure::Integer && !cfg!(feature = "quads") {
+        return Err(Error::argument(
+            "structure",
+            structure,
+            "another one: this library was built without quads",
+        ));
+    }
+    if let Some(n) = options.quads.filter(|&n| n == 0 || structure != Structure::Integer) {
+        return Err(Error::argument("quads", n, "positive, and left out for structures other than integer"));
+    }
     let need = match structure {
         Structure::Spherical if !closed || euler != 2 => "closed of genus 0 for a spherical structure",
         Structure::Hyperbolic if euler >= 0 => "of negative Euler characteristic for a hyperbolic structure",
@@ -137,6 +133,7 @@ fn simply_connected(
         zeros: Vec::new(),
         curvature_error: sphere.report.spherical_curvature_error,
         converged: sphere.report.converged,
+        on_given: None,
     })
 }
 
@@ -155,6 +152,7 @@ fn of_quotient(surface: &Surface, options: &AtlasOptions, control: &Control) -> 
         basis: quotient.basis,
         metric: Arc::new(quotient.metric),
         subdivision,
+        on_given: None,
     })
 }
 
@@ -174,47 +172,7 @@ fn of_flow(
     let factor = (surface.area()? / faces.area).sqrt();
     let mut developed = DevelopableSurface::new(faces).scaled(factor);
     target.named().into_iter().for_each(|v| developed.singular[v] = true);
-    mark_wide_corners(&mut developed);
-    Ok(StructureSource {
-        basis: homotopy_basis(developed.mesh(), &lengths(&developed), None, control)?,
-        developed,
-        zeros: Vec::new(),
-        curvature_error: metric.report().map_or(f64::NAN, |report| report.max_curvature_error),
-        converged: metric.converged(),
-        metric: Arc::new(metric),
-        subdivision,
-    })
-}
-
-/// Marks boundary vertices with an angle of at least a full turn: no chart in the plane can contain all faces of such a vertex.
-fn mark_wide_corners(developed: &mut DevelopableSurface) {
-    let mesh = developed.faces.mesh.clone();
-    let mut angle = PerVertex::filled(mesh.n_vertices(), 0.0);
-    for f in mesh.faces() {
-        let corners = developed.faces.corners[f].map(|[x, y, _]| [x, y]);
-        for (k, v) in mesh.face_vertices(f).into_iter().enumerate() {
-            let [z, w] = [1, 2].map(|i| sub(corners[(k + i) % 3], corners[k]));
-            angle[v] += cross(z, w).atan2(dot(z, w));
-        }
-    }
-    let is_wide = |v: &VertexId| mesh.is_boundary_vertex(*v) && angle[*v] > TAU - FULL;
-    mesh.vertices().filter(is_wide).for_each(|v| developed.singular[v] = true);
-}
-
-/// The edge lengths of a flat surface for the search for loops.
-fn lengths(developed: &DevelopableSurface) -> PerEdge<f64> {
-    let mesh = developed.mesh();
-    let mut lengths = PerEdge::filled(mesh.n_edges(), 0.0);
-    for f in mesh.faces() {
-        let corners = developed.faces.corners[f];
-        for (k, h) in mesh.face_halfedges(f).into_iter().enumerate() {
-            let (p, q) = (corners[k], corners[(k + 1) % 3]);
-            lengths[h.edge()] = (p[0] - q[0]).hypot(p[1] - q[1]);
-        }
-    }
-    let least = SHORTEST * lengths.iter().copied().fold(0.0, f64::max);
-    lengths.iter_mut().for_each(|l| *l = l.max(least));
-    lengths
+    Ok(StructureSource { subdivision, ..source_of_flat(developed, metric, control)? })
 }
 
 /// The surface developed to the plane by a holomorphic 1-form.
@@ -251,6 +209,7 @@ fn of_form(surface: &Surface, options: &AtlasOptions, control: &Control) -> Resu
             developed: developed.scaled(factor),
             curvature_error: 0.0,
             converged: true,
+            on_given: None,
         })
     })
 }

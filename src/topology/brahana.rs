@@ -1,6 +1,7 @@
 //! Brahana's normal form of the boundary word of a polygon: first one commutator per handle, then boundary letters.
 
 use super::word::{Letter, Word, inverse};
+use crate::archive::stored;
 
 /// The two loops of one handle, as words in the polygon's letters.
 pub(super) struct HandleWords {
@@ -27,6 +28,7 @@ pub(super) struct Prefix {
     pub digits: Vec<u8>,
     pub n_ends: usize,
 }
+stored!(row Prefix { digits: Vec<u8>, n_ends: usize });
 
 /// Most places from which the word is read. A surface of genus 32 has 128 places, so that up to this genus all are tried.
 const MAX_STARTS: usize = 128;

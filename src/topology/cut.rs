@@ -13,6 +13,7 @@
 use super::check_lengths;
 use super::shorten::{LEAST_SAVING, MOVES_PER_FACE, fan};
 use super::spanning::{OutgoingEdges, leftover};
+use crate::archive::stored;
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::mesh::union_find::UnionFind;
@@ -30,6 +31,7 @@ pub struct CutGraph {
     /// in exactly one.
     pub segments: Vec<Vec<HalfedgeId>>,
 }
+stored!(sections CutGraph { is_cut, nodes, segments });
 
 impl CutGraph {
     /// No cut at all.
@@ -146,7 +148,7 @@ pub fn is_disk(mesh: &Mesh, is_cut: &PerEdge<bool>) -> bool {
 }
 
 /// Checks that the surface is connected and not empty; `advice` tells the user what to do with the components of another surface.
-pub(super) fn check_connected(mesh: &Mesh, advice: &str) -> Result<()> {
+pub(crate) fn check_connected(mesh: &Mesh, advice: &str) -> Result<()> {
     if is_connected(mesh, |_| false) {
         return Ok(());
     }

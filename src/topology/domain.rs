@@ -17,6 +17,7 @@ use super::homotopy::HomotopyBasis;
 use super::lift::Lift;
 use super::reduction::Reduction;
 use super::word::Word;
+use crate::archive::stored;
 use crate::error::{Error, Result, check_size};
 use crate::mesh::{HalfedgeId, Mesh, PerEdge, PerFace, PerHalfedge, VertexId};
 use std::collections::VecDeque;
@@ -32,6 +33,7 @@ pub struct DomainSide {
     /// is its inverse. Reduced; the identity on the boundary of the surface.
     pub element: Word,
 }
+stored!(sections DomainSide { halfedges, partner, element });
 
 /// A surface opened into a disk D, lifted to the universal cover so that it has a corner at the base lift p̃.
 #[derive(Debug, Clone)]
@@ -45,6 +47,7 @@ pub struct FundamentalDomain {
     pub corners: Vec<Lift>,
     side_of: PerHalfedge<Option<u32>>,
 }
+stored!(sections FundamentalDomain { base_corner, sides, corners, side_of });
 
 impl FundamentalDomain {
     /// The domain of a cut that opens the surface into a disk, such as [`super::cut_graph`] and [`HomotopyBasis::cut`] make. Its elements

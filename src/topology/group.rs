@@ -9,6 +9,7 @@
 //! ```
 
 use super::word::{Letter, Word};
+use crate::archive::stored;
 use crate::error::{Error, Result};
 
 /// The fundamental group of the surface of genus g with b boundary loops,
@@ -26,6 +27,7 @@ pub struct SurfaceGroup {
     /// Number b of boundary loops.
     pub boundaries: usize,
 }
+stored!(sections SurfaceGroup { genus, boundaries });
 
 impl SurfaceGroup {
     /// Number of generators, 2g + b.

@@ -21,6 +21,7 @@ use super::shorten::{path_length, shorten};
 use super::spanning::Forest;
 use super::word::{Letter, Word};
 use super::{check_connected, check_lengths, check_path, check_vertex, corners_along};
+use crate::archive::stored;
 use crate::control::Control;
 use crate::error::{Result, check_size};
 use crate::mesh::{EdgeId, HalfedgeId, Mesh, PerEdge, PerHalfedge, VertexId};
@@ -55,6 +56,7 @@ pub struct HomotopyBasis {
     place: PerHalfedge<u32>,
     places: PlaceWords,
 }
+stored!(sections HomotopyBasis { base, group, loops, rims, tree, place, places });
 
 /// The polygon's word is read from several places, whose loops are pulled straight and compared, until these loops have had this number
 /// of edges in total per edge of the mesh. This bounds the time.

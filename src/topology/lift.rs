@@ -15,6 +15,7 @@ use super::homotopy::HomotopyBasis;
 use super::reduction::Reduction;
 use super::word::Word;
 use super::{check_path, check_vertex};
+use crate::archive::stored;
 use crate::error::{Error, Result};
 use crate::mesh::{HalfedgeId, Mesh, VertexId};
 
@@ -27,6 +28,7 @@ pub struct Lift {
     /// element: compare with [`super::SurfaceGroup::equal`].
     pub element: Word,
 }
+stored!(sections Lift { vertex, element });
 
 /// The lifts along the lift of a path: its start, then the end of each of its edges. See [`HomotopyBasis::lift`].
 pub struct LiftedPath<'a> {

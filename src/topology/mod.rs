@@ -44,7 +44,7 @@ pub(crate) use check::{check_lengths, check_path, check_vertex};
 use check::{check_loop, corners_along};
 pub(crate) use corner::number_corners;
 pub(crate) use corner_walk::{corner_walk, crossed_halfedges};
-use cut::check_connected;
+pub(crate) use cut::check_connected;
 pub use cut::{CutGraph, cut_graph};
 pub use domain::{DomainSide, FundamentalDomain};
 pub use farthest::{central_vertex, farthest_vertices};

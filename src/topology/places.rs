@@ -2,6 +2,7 @@
 
 use super::brahana::Prefix;
 use super::word::{Letter, Word};
+use crate::archive::stored;
 
 /// The data from which the word of the boundary of a polygon from one place to another is composed.
 ///
@@ -14,6 +15,7 @@ pub(super) struct PlaceWords {
     /// For each handle the first k letters of `a b a⁻¹ b⁻¹`, k = 0 … 4, as words in the generators.
     pub products: Vec<[Word; 5]>,
 }
+stored!(sections PlaceWords { prefixes, products });
 
 impl PlaceWords {
     /// The word of the boundary between two places: `P(from)⁻¹ P(to)`, without the factors that the two have in common.

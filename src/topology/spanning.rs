@@ -11,6 +11,7 @@
 
 use super::nearest::NearestQueue;
 use super::{check_lengths, check_vertex};
+use crate::archive::stored;
 use crate::control::Control;
 use crate::error::Result;
 use crate::mesh::union_find::UnionFind;
@@ -44,6 +45,7 @@ pub struct Forest {
     /// The half-edge that enters the vertex on its path from the source; `None` at a source.
     pub parent: PerVertex<Option<HalfedgeId>>,
 }
+stored!(sections Forest { distance, parent });
 
 impl Forest {
     /// The path from `v` up to its source, as half-edges that lead downwards: the last one leaves the source.

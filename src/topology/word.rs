@@ -8,9 +8,13 @@
 //! assert!(word.times(&word.inverse()).is_empty());
 //! ```
 
+use crate::archive::stored;
+
 /// A generator or its inverse: generator k is letter `2k`, its inverse `2k + 1` (like edges and half-edges).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Letter(pub u32);
+
+stored!(id Letter);
 
 impl Letter {
     /// Generator `k` (below 2³¹), counted from 0.
@@ -42,6 +46,7 @@ impl Letter {
 /// hash are those of the free group. Letters compose left to right, as paths do.
 #[derive(Debug, Clone, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Word(Vec<Letter>);
+stored!(id Word);
 
 impl Word {
     /// The empty word.

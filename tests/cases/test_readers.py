@@ -254,7 +254,7 @@ def test_numbers_of_a_ply_go_through_repair(ricci, tmp_path):
     assert [body[32 * 9 + 14 * f + 13] for f in range(8)].count(200) == 4
     run = ricci("flow", "m.ply", "--uv", "u.obj")
     said = run.report["result"]["left_out"]
-    assert "numbers of vertices `quality`, `label`: only PLY has them" in said and "numbers of faces `flags`: only PLY has them" in said
+    assert "numbers of vertices `quality`, `label`: only PLY and VTK have them" in said and "numbers of faces `flags`: only PLY and VTK have them" in said
 
 
 @pytest.mark.parametrize("command", [["flow"], ["uniformize", "--boundary", "straight"], ["harmonic", "--to", "disk"]])

@@ -1,6 +1,7 @@
 //! Tests of the library in one program, so that it is linked once: a module for each subject.
 #![allow(clippy::unwrap_used, clippy::print_stdout, clippy::print_stderr)]
 
+mod archives;
 mod bordered;
 mod cancel;
 mod charts;
@@ -13,6 +14,11 @@ mod delaunay;
 mod derivative;
 mod descent;
 mod extreme;
+mod few_patches;
+mod flatten;
+mod flatten_conditions;
+mod flatten_darts;
+mod flatten_sphere;
 mod flip_formula;
 mod flips;
 mod flips_open;
@@ -28,6 +34,8 @@ mod layout;
 mod matching;
 #[cfg(feature = "gltf")]
 mod mesh_attributes;
+#[cfg(all(feature = "gifti", feature = "gzip"))]
+mod mesh_brain;
 mod mesh_build;
 mod mesh_files;
 #[cfg(all(feature = "gltf", feature = "gifti"))]

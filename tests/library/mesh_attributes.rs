@@ -232,7 +232,7 @@ fn names_and_numbers_go_to_the_format_that_holds_them() {
     let soup = labelled();
     let names = "2 materials, 2 groups, 1 object name: only OBJ has them";
     let numbers = ["numbers of vertices `quality`, `label`", "numbers of faces `region`"]
-        .map(|n| format!("{n}: only PLY has them"));
+        .map(|n| format!("{n}: only PLY and VTK have them"));
     assert_eq!(io::write(&at("m.obj"), &soup).unwrap(), numbers);
     assert_eq!(io::read(&at("m.obj")).unwrap().attributes.labels, soup.attributes.labels);
     assert_eq!(io::write(&at("m.ply"), &soup).unwrap(), [names]);

@@ -232,7 +232,7 @@ fn forms(case: &Case) -> Found {
 fn structure(case: &Case, threads: usize) -> Found {
     let structure = Structure::ALL.into_iter().find(|s| s.name() == case.text("kind")).unwrap();
     let model = match structure {
-        Structure::Conformal | Structure::Affine => Model::Plane,
+        Structure::Conformal | Structure::Affine | Structure::Integer => Model::Plane,
         Structure::Spherical => Model::UnderSphere,
         Structure::Hyperbolic => Model::Poincare,
         Structure::Projective => Model::Klein,

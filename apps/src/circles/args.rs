@@ -1,5 +1,6 @@
 //! The options of `ricci circles`.
 
+use crate::modulus::ModulusArgs;
 use crate::options::{Common, FileName, FlatArgs, SurfaceArgs, choices, positive};
 use crate::picture::{PictureArgs, TextureChoice};
 use clap::Args;
@@ -68,6 +69,9 @@ pub struct CirclesArgs {
     #[command(flatten)]
     #[serde(flatten)]
     pub flat: FlatArgs,
+    #[command(flatten)]
+    #[serde(flatten)]
+    pub modulus: ModulusArgs,
     #[command(flatten)]
     #[serde(flatten)]
     pub picture: PictureArgs,

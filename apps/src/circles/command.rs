@@ -40,7 +40,9 @@ impl Job for CirclesArgs {
             return Err(Failure::Usage(why.into()));
         }
         let flat = &self.flat.flat;
-        let files = [&self.metric, &self.uv, &self.xref, flat, &self.picture.picture, &self.common.report];
+        let bounds = &self.modulus.bounds;
+        let files =
+            [&self.metric, &self.uv, &self.xref, flat, bounds, &self.picture.picture, &self.common.report];
         check_outputs(&[Some(&self.surface.file.mesh)], &files.map(|file| file.as_deref()))
     }
 
@@ -49,7 +51,13 @@ impl Job for CirclesArgs {
         check_surface(self, &input)?;
         let mut taken = 0.0;
         let domain = timed(&mut taken, || circle_domain(&input.surface, &options(self), run.control))?;
-        CirclesOutcome::new(input, domain, self.tolerance, taken, &mut run.seconds)
+        let bounds = match domain.modulus {
+            Some(_) => Some(self.modulus.find(&input, &[], run)?),
+            None => None,
+        };
+        let mut outcome = CirclesOutcome::new(input, domain, self.tolerance, taken, &mut run.seconds)?;
+        outcome.modulus = bounds;
+        Ok(outcome)
     }
 
     fn write(&self, outcome: &CirclesOutcome, run: &mut CommandRun<'_>) -> Result<(), Failure> {
@@ -64,6 +72,7 @@ impl Job for CirclesArgs {
         run.file("flat", self.flat.flat.as_deref(), |outputs, path| {
             FlatLayout::new(halved, laid, OnChoice::Refined)?.write(outputs, path, &self.flat)
         })?;
+        self.modulus.write(outcome.modulus.as_ref(), run)?;
         let style = self.picture.style(self.texture.unwrap_or(TextureChoice::Circles), self.common.threads);
         let draw = || picture::draw(outcome, &style, self.picture.is_svg());
         run.picture("picture", self.picture.picture.as_deref(), draw)

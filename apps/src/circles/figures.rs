@@ -42,7 +42,7 @@ impl JobOutcome for CirclesOutcome {
         let CirclesOutcome { domain, laid, .. } = self;
         let report = &domain.report;
         let circle = |c: &ricci::canonical::DomainCircle| json!({"loop": c.boundary_loop, "center": c.centre, "radius": c.radius, "log_radius": c.log_radius, "deviation": c.deviation, "vertices": c.vertices});
-        Figures::default()
+        let figures = Figures::default()
             .with("space", domain.layout.space.name())
             .with("scheme", if domain.frame == DomainFrame::Strip { Scheme::Yamabe.name() } else { MIXED })
             .if_some("frame", frame_name(domain.frame))
@@ -60,7 +60,8 @@ impl JobOutcome for CirclesOutcome {
             .with("halved_edges", report.halved_edges)
             .with("crossed_edges", report.crossed_edges)
             .if_some("puncture", report.puncture.map(|v| v.0))
-            .if_some("modulus", domain.modulus)
+            .if_some("modulus", domain.modulus);
+        crate::modulus::add_figures(figures, self.modulus.as_ref())
             .if_some("modulus", domain.torus_modulus)
             .with("area", domain.layout.area)
             .with("flipped_triangles", laid.flipped().len())
@@ -89,6 +90,7 @@ impl JobOutcome for CirclesOutcome {
             if domain.frame == DomainFrame::Strip { ", as lines of a strip (log coordinates)" } else { "" },
             domain.modulus.map_or_else(String::new, |m| format!(", modulus {m:.6}"))
         );
+        text += &crate::modulus::line(self.modulus.as_ref());
         text += &why(self);
         if report.halved_edges + report.crossed_edges > 0 {
             text += &format!(

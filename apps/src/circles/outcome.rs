@@ -6,6 +6,7 @@ use crate::report::PhaseSeconds;
 use crate::surface_layout::SurfaceLayout;
 use ricci::canonical::CircleDomain;
 use ricci::mesh::PerVertex;
+use ricci::moduli::ModulusBounds;
 
 pub struct CirclesOutcome {
     pub input: Input,
@@ -17,6 +18,8 @@ pub struct CirclesOutcome {
     pub gauss_bonnet: f64,
     /// The limit of max |K|.
     pub tolerance: f64,
+    /// Proven bounds of the modulus of an annulus.
+    pub modulus: Option<ModulusBounds>,
 }
 
 impl CirclesOutcome {
@@ -35,7 +38,7 @@ impl CirclesOutcome {
         seconds.layout = (taken - domain.report.seconds.total).max(0.0);
         let laid = layout_on(&halved, &domain).map_err(failed)?;
         let gauss_bonnet = curvature.gauss_bonnet;
-        Ok(CirclesOutcome { input, domain, halved, laid, gauss_bonnet, tolerance })
+        Ok(CirclesOutcome { input, domain, halved, laid, gauss_bonnet, tolerance, modulus: None })
     }
 }
 

@@ -4,6 +4,7 @@ use crate::options::{Common, FileName, SurfaceArgs, choices};
 use crate::picture::{PictureArgs, TextureChoice, Zoom, zoom};
 use clap::{Args, ValueEnum};
 use ricci::harmonic::Classes;
+use ricci::moduli::Degree;
 use serde::Serialize;
 
 pub const HELP: &str = "\
@@ -14,7 +15,12 @@ Example: the period matrix of a surface of genus 2, its holomorphic forms, and t
 Forms live on the intrinsic Delaunay triangulation of the surface. Form k has the integral 1 over loop k of the basis a1, b1, a2, b2, …
 (of absolute classes then the boundary loops c1, …; of relative ones the arcs between boundary loops) and 0 over the others.
 
+The period matrix of a closed surface comes with a proven bound: every entry is within its radius. It is that of the polyhedron that the file
+of --forms gives; where its relative width is above --width, forms on finer triangulations narrow it.
+
 Files
+    --bounds B.json            what proves the bound: faces, lengths (the sums of lengths and lengths_lo), edges, and per form integers and a
+                               function, linear on every face, with quadratic terms on edges; period matrix and gap
     --forms F.json             faces, lengths and edges of that triangulation, and per form a value for each edge; holomorphic forms
                                with integrals 1 over a loop a_i and 0 over the others; of open surfaces each form with its conjugate
     --uv OUT.obj | OUT.glb     the surface, opened, with the integral of the chosen form as texture coordinates";
@@ -35,6 +41,16 @@ pub struct FormsArgs {
     #[arg(long, value_name = "X,X,…", value_delimiter = ',', allow_hyphen_values = true, value_parser = coefficient)]
     #[serde(skip)]
     pub combination: Vec<f64>,
+    /// Largest relative width of the period matrix of a closed surface: forms on finer triangulations are tried until it is reached
+    #[arg(long, value_name = "W", value_parser = width)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub width: Option<f64>,
+    /// The functions of the forms that narrow the period matrix
+    #[arg(long, value_enum, default_value_t = DegreeChoice::Quadratic)]
+    pub degree: DegreeChoice,
+    /// Write the forms that prove the width of the period matrix
+    #[arg(long, value_name = "B.json")]
+    pub bounds: Option<FileName>,
     /// Write the forms
     #[arg(long, value_name = "F.json")]
     pub forms: Option<FileName>,
@@ -78,6 +94,20 @@ pub enum FormPictureChoice {
 }
 
 choices!(ClassesChoice = Classes { Absolute, Relative });
+
+choices!(
+    DegreeChoice = Degree {
+        /// Linear on every face: the width falls as 1 over the number of vertices
+        Linear,
+        /// Quadratic where that narrows most: the width falls about as 1 over its square
+        Quadratic
+    }
+);
+
+/// A relative width, at least 0.
+pub fn width(text: &str) -> Result<f64, String> {
+    crate::options::number(text, |x| x >= 0.0, "must be a number, at least 0")
+}
 
 /// Largest size of a coefficient, and the inverse of the least one: no square overflows or underflows.
 const LARGEST: f64 = 1e100;

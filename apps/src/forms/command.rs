@@ -1,7 +1,7 @@
 //! `ricci forms` as a job: what it refuses, computes, writes and reports.
 
 use super::args::FormsArgs;
-use super::file::FormsFile;
+use super::file::{BoundsFile, FormsFile};
 use super::outcome::FormsOutcome;
 use super::picture::{draw, write_uv};
 use crate::failure::{Failure, NO_POSITIONS};
@@ -30,7 +30,7 @@ impl Job for FormsArgs {
             let why = "--show, --zoom, --view, --up: an SVG shows the integral of the form alone; use .png, or leave them out";
             return Err(Failure::Usage(why.into()));
         }
-        let files = [&self.forms, &self.uv, &self.picture.picture, &self.common.report];
+        let files = [&self.forms, &self.bounds, &self.uv, &self.picture.picture, &self.common.report];
         check_outputs(&[Some(&self.surface.file.mesh)], &files.map(|file| file.as_deref()))
     }
 
@@ -44,6 +44,12 @@ impl Job for FormsArgs {
         let (input, control) = (&outcome.input, run.control);
         run.file("forms", self.forms.as_deref(), |outputs, path| {
             outputs.add_json(path, &FormsFile::new(outcome))
+        })?;
+        run.file("bounds", self.bounds.as_deref(), |outputs, path| {
+            let none =
+                || Failure::Failed("the surface has no period matrix, for it is open or a sphere".into());
+            let bounds = outcome.bounds.as_ref().ok_or_else(none)?;
+            outputs.add_json(path, &BoundsFile::new(bounds, outcome.forms.basis.group.names()))
         })?;
         run.file("uv", self.uv.as_deref(), |outputs, path| {
             write_uv(outputs, path, input, &outcome.chosen()?.layout)

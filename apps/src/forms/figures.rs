@@ -5,10 +5,48 @@ use crate::report::{Checks, Done, Figures, InputSummary};
 use crate::runner::{CommandRun, JobOutcome};
 use crate::say;
 use ricci::harmonic::Zero;
+use ricci::moduli::PeriodBounds;
 use serde_json::{Value, json};
 
 fn zeros(zeros: &[Zero]) -> Value {
     zeros.iter().map(|z| json!({"vertex": z.vertex.0, "multiplicity": z.multiplicity})).collect()
+}
+
+/// The proven period matrix, with the radius of each entry.
+fn bounds(found: &PeriodBounds) -> Value {
+    let g = found.matrix.len();
+    let radius: Vec<Vec<f64>> = (0..g).map(|i| (0..g).map(|j| found.radius(i, j)).collect()).collect();
+    let mut figures = json!({
+        "period_matrix": found.matrix,
+        "radius": radius,
+        "first_gap": found.first_gap,
+        "vertices_added": found.n_added,
+        "unknowns": found.n_unknowns,
+        "systems": found.rounds,
+        "reached": found.is_reached,
+    });
+    // In a basis of short loops, whose rows are sums of the loops a1, b1, ….
+    let reduced = found.reduced();
+    figures["reduced"] =
+        json!({"period_matrix": reduced.matrix, "radius": reduced.radius, "loops": reduced.loops});
+    if let Some(tau) = found.modulus() {
+        figures["modulus"] = json!(tau.value);
+        figures["modulus_radius"] = json!(tau.radius);
+    }
+    figures
+}
+
+/// The width of the period matrix in words.
+fn width(found: &PeriodBounds) -> String {
+    let narrowed = if found.is_reached { "" } else { ", not as narrow as asked for" };
+    let modulus = found.modulus().map_or_else(String::new, |tau| {
+        format!("{}, off by at most {:.1e}", say::modulus(Some(tau.value)), tau.radius)
+    });
+    format!(
+        "bounds   Π is known to {:.1e}{narrowed}, by {} more{modulus}\n",
+        found.gap,
+        say::count(found.n_added, "vertex", "vertices"),
+    )
 }
 
 /// Largest dω of a form of the basis, relative to its largest value.
@@ -34,6 +72,9 @@ impl JobOutcome for FormsOutcome {
             let off = self.zeros.iter().map(|zeros| (total(zeros) - expected).abs()).max().unwrap_or(0);
             checks.add("zeros_missing", off as f64, 0.0);
         }
+        if let (Some(bounds), Some(width)) = (&self.bounds, self.width) {
+            checks.add_with_remedy("width", bounds.gap, width, "ask for a larger --width");
+        }
         checks
     }
 
@@ -57,7 +98,9 @@ impl JobOutcome for FormsOutcome {
             .with("riemann_symmetry", periods.map(|p| p.asymmetry))
             .with("riemann_min_eigenvalue", periods.map(|p| p.least_eigenvalue))
             .with("star_residual", periods.map(|p| p.star_residual))
-            .if_some("modulus", periods.and_then(|p| p.modulus()).map(|tau| json!(tau)));
+            .if_some("modulus", periods.and_then(|p| p.modulus()).map(|tau| json!(tau)))
+            .if_some("gap", self.bounds.as_ref().map(|b| b.gap))
+            .if_some("bounds", self.bounds.as_ref().map(bounds));
         match &self.chosen {
             Some(chosen) => figures
                 .with("combination", chosen.coefficients.clone())
@@ -89,6 +132,7 @@ impl JobOutcome for FormsOutcome {
                 say::modulus(periods.modulus())
             );
         }
+        text += &self.bounds.as_ref().map_or_else(String::new, width);
         if let Some(chosen) = &self.chosen {
             let total: i64 = chosen.zeros.iter().map(|z| z.multiplicity).sum();
             text += &format!(

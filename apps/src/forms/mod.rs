@@ -7,4 +7,5 @@ mod file;
 mod outcome;
 mod picture;
 
-pub use args::{FormsArgs, HELP};
+pub use args::{FormsArgs, HELP, width};
+pub use file::BoundsFile;

@@ -11,6 +11,7 @@ use ricci::harmonic::{
     even_combination, indices, integrate, unevenness, with_conjugate, zeros,
 };
 use ricci::mesh::VertexId;
+use ricci::moduli::{BoundsOptions, PeriodBounds, period_bounds};
 use ricci::topology::cut_graph;
 use std::sync::Arc;
 
@@ -21,6 +22,10 @@ pub struct FormsOutcome {
     dual: Option<HarmonicForms>,
     /// The period matrix of a closed surface of genus 1 or more.
     pub periods: Option<PeriodMatrix>,
+    /// Its bounds.
+    pub bounds: Option<PeriodBounds>,
+    /// The width that was asked for; none for the default.
+    pub width: Option<f64>,
     /// The holomorphic forms: the basis ζ_i of a closed surface; of an open one every form with its conjugate.
     pub holomorphic: Vec<ComplexForm>,
     /// The zeros of each holomorphic form.
@@ -67,6 +72,8 @@ impl FormsOutcome {
         let has_forms = !forms.forms.is_empty();
         let mut outcome = FormsOutcome {
             periods: if is_open || !has_forms { None } else { Some(PeriodMatrix::new(&forms)?) },
+            bounds: None,
+            width: args.width,
             holomorphic: Vec::new(),
             zeros: Vec::new(),
             chosen: None,
@@ -74,6 +81,7 @@ impl FormsOutcome {
             forms,
             dual,
         };
+        outcome.find_bounds(args, seconds, control)?;
         outcome.find_holomorphic()?;
         outcome.chosen = if has_forms { Some(outcome.choose(args, seconds, control)?) } else { None };
         Ok(outcome)
@@ -86,6 +94,25 @@ impl FormsOutcome {
     pub fn chosen(&self) -> Result<&ChosenForm, Failure> {
         let none = || Failure::Failed("the surface has no harmonic form but 0".into());
         self.chosen.as_ref().ok_or_else(none)
+    }
+
+    fn find_bounds(
+        &mut self,
+        args: &FormsArgs,
+        seconds: &mut PhaseSeconds,
+        control: &Control,
+    ) -> Result<(), Failure> {
+        if self.periods.is_some() {
+            let default = BoundsOptions::default();
+            let options = BoundsOptions {
+                width: args.width.unwrap_or(default.width),
+                degree: args.degree.into(),
+                ..default
+            };
+            let find = || doing("bounds", || period_bounds(&self.forms, &options, control));
+            self.bounds = Some(timed(&mut seconds.bounds, find)?);
+        }
+        Ok(())
     }
 
     fn find_holomorphic(&mut self) -> Result<(), Failure> {

@@ -1,19 +1,12 @@
 //! The gallery as one HTML page without other files: pictures, commands, figures of the reports, and views that turn.
 
-use super::view::{MOST_VERTICES, PageView, embedded};
+use super::view::MOST_VERTICES;
 use crate::failure::Failure;
+use crate::page::{PROGRAM, PageView, STYLE, data, embedded, escaped, fill};
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
 
 const FRAME: &str = include_str!("page.html");
-const STYLE: &str = include_str!("page.css");
-/// The scripts of the page, each of which uses those before it; the first is a library (MIT, its licence at its head).
-const PROGRAM: [&str; 4] = [
-    include_str!("picogl.min.js"),
-    include_str!("shape.js"),
-    include_str!("paint.js"),
-    include_str!("turn.js"),
-];
 
 /// Longest list of a report whose entries are shown.
 const LONGEST_LIST: usize = 6;
@@ -58,32 +51,17 @@ pub fn write(parts: &[PageSection]) -> Result<String, Failure> {
             push(&mut body, format_args!("<p>See also above: {}.</p>\n", links.join(", ")));
         }
     }
-    // No end tag can begin inside the data: names and base64 have no `<`, and what could is written as its number.
-    let views = Value::Object(views).to_string().replace('<', "\\u003c");
+    let views = data(views);
     let limit = MOST_VERTICES.to_string();
-    let program = PROGRAM.join("\n");
     let filled = [
         ("{style}", STYLE),
         ("{limit}", &limit),
         ("{contents}", &contents),
         ("{body}", &body),
         ("{views}", &views),
-        ("{program}", &program),
+        ("{program}", &PROGRAM),
     ];
     fill(FRAME, &filled)
-}
-
-/// A text with each of the marks, which come in this order, replaced.
-fn fill(frame: &str, marks: &[(&str, &str)]) -> Result<String, Failure> {
-    let (mut page, mut rest) = (String::new(), frame);
-    for (mark, text) in marks {
-        let (before, after) = rest
-            .split_once(mark)
-            .ok_or_else(|| Failure::Failed(format!("the page has no place for {mark}")))?;
-        page.extend([before, text]);
-        rest = after;
-    }
-    Ok(page + rest)
 }
 
 fn article(exhibit: &Exhibit) -> String {
@@ -148,10 +126,6 @@ fn shown(value: &Value) -> Option<String> {
         Value::Array(list) => list.iter().map(shown).collect::<Option<Vec<_>>>().map(|list| list.join(", ")),
         value => Some(value.to_string()),
     }
-}
-
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
 fn push(text: &mut String, more: std::fmt::Arguments<'_>) {

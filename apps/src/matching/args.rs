@@ -151,6 +151,13 @@ pub struct MatchArgs {
     /// Write where the corners of those parts lie in both surfaces
     #[arg(long, value_name = "O.csv")]
     pub overlay_places: Option<FileName>,
+    /// Tell a bracket of the Teichmüller distance, half of the logarithm of the least dilatation of the maps of this class: from below by period
+    /// matrices or moduli, from above by the map
+    #[arg(long)]
+    pub distance: bool,
+    /// Largest relative width of these period matrices or moduli
+    #[arg(long, value_name = "W", default_value_t = 1e-3, requires = "distance", value_parser = crate::forms::width)]
+    pub width: f64,
     /// Write a picture of both triangulations in the domain (.png)
     #[arg(long, value_name = "D.png")]
     pub domains: Option<FileName>,

@@ -14,7 +14,8 @@ use crate::progress::doing;
 use crate::report::timed;
 use crate::runner::{CommandRun, Job, JobHeader};
 use ricci::flow;
-use ricci::matching::{MatchOptions, match_surfaces};
+use ricci::matching::{MatchOptions, dilatation_bracket, match_surfaces};
+use ricci::moduli::BoundsOptions;
 use std::path::Path;
 
 impl Job for MatchArgs {
@@ -63,7 +64,7 @@ impl Job for MatchArgs {
         })?;
         let mut outcome =
             MatchOutcome::new([input, target], matching, options.landmarks, self.same_numbering)?;
-        if self.overlay.is_some() || self.overlay_places.is_some() {
+        if self.overlay.is_some() || self.overlay_places.is_some() || self.distance {
             let overlay = timed(&mut seconds.solve, || {
                 let threads = self.common.threads;
                 doing("overlay", || {
@@ -72,6 +73,13 @@ impl Job for MatchArgs {
             });
             if let Some(overlay) = run.failed.attempt("overlay", overlay)? {
                 outcome.lay_over(overlay)?;
+            }
+            if let (true, Some(overlay)) = (self.distance, &outcome.overlay) {
+                let surfaces = [&outcome.source.surface, &outcome.target.surface];
+                let options = BoundsOptions { width: self.width, ..BoundsOptions::default() };
+                let find = || dilatation_bracket(surfaces, overlay, &outcome.landmarks, &options, control);
+                let found = timed(&mut seconds.bounds, || doing("distance", find))?;
+                outcome.distance = Some(found);
             }
         }
         Ok(outcome)

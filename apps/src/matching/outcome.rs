@@ -6,7 +6,10 @@ use crate::runner::{CommandRun, JobOutcome};
 use crate::say;
 use ricci::geometry::vector::{diagonal, distance};
 use ricci::geometry::{Space, model, worse};
-use ricci::matching::{MapQuality, Matching, RoundHole, cycle_error, map_quality, point_error, uncovered};
+use ricci::matching::{
+    DilatationBracket, LowerBoundKind, MapQuality, Matching, RoundHole, cycle_error, map_quality,
+    point_error, uncovered,
+};
 use ricci::mesh::VertexId;
 use ricci::metric::CommonSubdivision;
 use serde_json::{Value, json};
@@ -35,6 +38,37 @@ pub struct MatchOutcome {
     pub overlay: Option<CommonSubdivision>,
     /// The shares of the areas of source and target that the overlay misses.
     uncovered: [f64; 2],
+    /// The bracket of the Teichmüller distance, where it is asked for.
+    pub distance: Option<DilatationBracket>,
+}
+
+/// The bracket for the summary.
+fn bracket_line(found: &DilatationBracket) -> String {
+    let [low, high] = [found.lower, found.upper].map(|k| 0.5 * k.ln());
+    format!(
+        "distance between {low:.8} and {high:.8} in Teichmüller's metric: dilatations {:.8} and {:.8}\n",
+        found.lower, found.upper
+    )
+}
+
+/// The bracket as the report has it.
+fn bracket(found: &DilatationBracket) -> Value {
+    let by = match found.kind {
+        LowerBoundKind::PeriodMatrices => "period matrices",
+        LowerBoundKind::Moduli => "moduli",
+        LowerBoundKind::None => "nothing",
+    };
+    let dilatation = [found.lower, found.upper];
+    json!({
+        "dilatation": dilatation,
+        "distance": dilatation.map(|k| 0.5 * k.ln()),
+        "dilatation_99": found.most,
+        "lower_by": by,
+        "gaps": found.gaps,
+        "by_numbers": found.by_numbers,
+        "pieces_left_out": found.left_out,
+        "area_left_out": found.left_out_area,
+    })
 }
 
 impl MatchOutcome {
@@ -69,6 +103,7 @@ impl MatchOutcome {
             partners,
             overlay,
             uncovered,
+            distance: None,
         })
     }
 
@@ -122,6 +157,7 @@ impl JobOutcome for MatchOutcome {
         let [first, second] = m.balance;
         let partners = self.partners();
         Figures::default()
+            .if_some("teichmueller", self.distance.as_ref().map(bracket))
             .with("space", m.space.name())
             .with("landmarks", self.landmarks.len())
             .if_some("points", Some(m.points.len()).filter(|n| *n > 0))
@@ -160,7 +196,7 @@ impl JobOutcome for MatchOutcome {
         });
         format!(
             "{}target   {}map      in {}, {}, {} compared; no face folds\n\
-             quality  dilatation {:.2} on average, at most {:.1e}; there and back {:.1e} of the diagonal, at most {:.1e}\n{partners}{}",
+             quality  dilatation {:.2} on average, at most {:.1e}; there and back {:.1e} of the diagonal, at most {:.1e}\n{partners}{}{}",
             say::surface(&self.source),
             say::surface(&self.target).trim_start_matches("surface").trim_start(),
             m.space,
@@ -170,6 +206,7 @@ impl JobOutcome for MatchOutcome {
             q.qc_max,
             self.cycle[0],
             self.cycle[1],
+            self.distance.as_ref().map_or_else(String::new, bracket_line),
             say::finish(done),
         )
     }

@@ -117,7 +117,7 @@ pub struct Zoom {
 pub type ViewAngles = [f64; 2];
 
 /// The unit vector along an axis by its name.
-fn direction(axis: &str) -> [f64; 3] {
+pub fn direction(axis: &str) -> [f64; 3] {
     let sign = if axis.starts_with('-') { -1.0 } else { 1.0 };
     ['x', 'y', 'z'].map(|name| if axis.ends_with(name) { sign } else { 0.0 })
 }

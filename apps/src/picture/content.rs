@@ -36,6 +36,12 @@ pub enum LineMeaning {
     Trajectories,
     /// Borders of charts of an atlas, and its singular vertices.
     Charts,
+    /// Edges of quads, and irregular vertices.
+    Quads,
+    /// Arcs of a layout of four-sided patches, those on features second, and irregular vertices.
+    Arcs,
+    /// Closed geodesics.
+    Geodesics,
     /// Something else, which other words tell.
     Untold,
 }

@@ -33,6 +33,7 @@ fn entries(picture: &Picture<'_>) -> Vec<(Mark, &'static str)> {
     seams.sort_unstable();
     seams.dedup();
     let lines = |seams: &[usize]| Mark::Lines(seams.iter().take(SAMPLES).map(|&k| seam_color(k)).collect());
+    let of = |k: usize| seams.iter().copied().filter(|s| *s == k).collect::<Vec<_>>();
     if !seams.is_empty() {
         match picture.lines {
             LineMeaning::Seams => entries.push((lines(&seams), "seams: sides of one colour belong together")),
@@ -42,10 +43,16 @@ fn entries(picture: &Picture<'_>) -> Vec<(Mark, &'static str)> {
             LineMeaning::Charts => entries.push((lines(&seams), "borders of cores of charts")),
             LineMeaning::Cut => entries.push((lines(&seams), "cut, across which the integral jumps")),
             LineMeaning::Trajectories => {
-                let of = |k: usize| seams.iter().copied().filter(|s| *s == k).collect::<Vec<_>>();
                 entries.push((lines(&of(0)), "horizontal trajectories"));
                 entries.push((lines(&of(1)), "vertical trajectories"));
             }
+            LineMeaning::Quads => entries.push((lines(&seams), "edges of quads")),
+            LineMeaning::Arcs => {
+                let named = [(of(0), "arcs between patches"), (of(1), "arcs on features and the boundary")];
+                let there = named.into_iter().filter(|(arcs, _)| !arcs.is_empty());
+                entries.extend(there.map(|(arcs, name)| (lines(&arcs), name)));
+            }
+            LineMeaning::Geodesics => entries.push((lines(&seams), "shortest closed geodesics")),
             LineMeaning::Untold => {}
         }
     }
@@ -56,6 +63,9 @@ fn entries(picture: &Picture<'_>) -> Vec<(Mark, &'static str)> {
             ["corners of the boundary, less than 180°", "corners of the boundary, more than 180°"]
         }
         LineMeaning::Charts => ["singular vertices"; 2],
+        LineMeaning::Quads | LineMeaning::Arcs => {
+            ["irregular vertices with fewer quads around them", "irregular vertices with more quads"]
+        }
         _ => [
             "cones of positive curvature, less than 360° around",
             "cones of negative curvature, more than 360°",

@@ -32,7 +32,7 @@ mod texture;
 mod upright;
 mod vector;
 
-pub use args::{ColorChoice, FlowPictureArgs, PictureArgs, SurfacePictureArgs, Zoom, zoom};
+pub use args::{ColorChoice, FlowPictureArgs, PictureArgs, SurfacePictureArgs, Zoom, direction, zoom};
 pub use camera::{Camera, Viewpoint};
 pub use colormap::{CLASSES, ColorScale, HUES};
 pub use content::{LineMeaning, Picture};

@@ -1,6 +1,7 @@
 //! The options of `ricci quads` and `ricci layout`.
 
 use crate::options::{Common, FileName, SurfaceArgs};
+use crate::picture::PictureArgs;
 use crate::seamless::ConesChoice;
 use clap::Args;
 use ricci::quads::QuadSize;
@@ -33,6 +34,12 @@ pub struct QuadsArgs {
     /// Write the places of the vertices on the input
     #[arg(long, value_name = "X.csv")]
     pub map: Option<FileName>,
+    /// Texture coordinates: in each rectangle of the T-mesh the quads are unit squares with whole coordinates (.obj)
+    #[arg(long)]
+    pub texture: bool,
+    #[command(flatten)]
+    #[serde(flatten)]
+    pub picture: PictureArgs,
     #[command(flatten)]
     #[serde(flatten)]
     pub common: Common,
@@ -115,6 +122,12 @@ pub struct LayoutArgs {
     /// Write the patches as quads (.obj, .ply, .glb)
     #[arg(long, value_name = "Q.obj")]
     pub quads: Option<FileName>,
+    /// Texture coordinates of --quads: in each patch the quads are unit squares with whole coordinates (.obj)
+    #[arg(long, requires = "quads")]
+    pub texture: bool,
+    #[command(flatten)]
+    #[serde(flatten)]
+    pub picture: PictureArgs,
     #[command(flatten)]
     #[serde(flatten)]
     pub common: Common,

@@ -1,9 +1,12 @@
 //! Files of quads: OBJ and PLY with faces of four corners, binary glTF with two triangles for each quad.
 
+use super::texture::PatchPoint;
 use crate::failure::Failure;
 use crate::output::{Outputs, extension, write_textured};
 use ricci::mesh::Point;
 use ricci::mesh::io::TexturedMesh;
+use ricci::quads::QuadMesh;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::Write;
 use std::path::Path;
 
@@ -16,6 +19,8 @@ pub struct QuadFile<'a> {
     pub quads: &'a [[u32; 4]],
     /// The quads of each patch; none for quads without patches.
     pub patches: Vec<&'a [u32]>,
+    /// Per quad the texture coordinates of its corners, for OBJ; none to leave them out.
+    pub texture: Option<Vec<[PatchPoint; 4]>>,
 }
 
 impl QuadFile<'_> {
@@ -24,8 +29,8 @@ impl QuadFile<'_> {
         match extension(path).as_str() {
             "ply" => outputs.add(path, |out| self.write_ply(out)),
             "glb" => {
-                let halves = |[a, b, c, d]: [u32; 4]| [[a, b, c], [a, c, d]];
-                let faces: Vec<[u32; 3]> = self.quads.iter().copied().flat_map(halves).collect();
+                let faces: Vec<[u32; 3]> =
+                    self.quads.iter().flat_map(|&quad| QuadMesh::halves(quad)).collect();
                 let data =
                     TexturedMesh { positions: self.positions, faces: &faces, ..TexturedMesh::default() };
                 write_textured(outputs, path, &data)
@@ -39,14 +44,35 @@ impl QuadFile<'_> {
         for [x, y, z] in self.positions {
             writeln!(out, "v {x} {y} {z}")?;
         }
+        let numbers = self.write_texture(out)?;
         if self.patches.is_empty() {
-            return self.quads.iter().try_for_each(|&quad| write_face(out, quad));
+            return (0..self.quads.len()).try_for_each(|q| self.write_face(out, q, &numbers));
         }
         for (k, patch) in self.patches.iter().enumerate() {
             writeln!(out, "g patch_{k}")?;
-            patch.iter().try_for_each(|&q| write_face(out, self.quads[q as usize]))?;
+            patch.iter().try_for_each(|&q| self.write_face(out, q as usize, &numbers))?;
         }
         Ok(())
+    }
+
+    /// The texture coordinates, each once; returns their numbers, from 1.
+    fn write_texture(&self, out: &mut dyn Write) -> std::io::Result<BTreeMap<PatchPoint, usize>> {
+        let points: BTreeSet<PatchPoint> = self.texture.iter().flatten().flatten().copied().collect();
+        points.iter().try_for_each(|[x, y]| writeln!(out, "vt {x} {y}"))?;
+        Ok(points.into_iter().zip(1..).collect())
+    }
+
+    /// A face of OBJ.
+    fn write_face(
+        &self,
+        out: &mut dyn Write,
+        q: usize,
+        numbers: &BTreeMap<PatchPoint, usize>,
+    ) -> std::io::Result<()> {
+        let [a, b, c, d] = self.quads[q].map(|v| v + 1);
+        let Some(texture) = &self.texture else { return writeln!(out, "f {a} {b} {c} {d}") };
+        let [s, t, u, v] = texture[q].map(|point| numbers[&point]);
+        writeln!(out, "f {a}/{s} {b}/{t} {c}/{u} {d}/{v}")
     }
 
     /// Binary PLY, the patch of each quad as a number of it.
@@ -76,10 +102,4 @@ impl QuadFile<'_> {
         }
         Ok(())
     }
-}
-
-/// A face of OBJ.
-fn write_face(out: &mut dyn Write, quad: [u32; 4]) -> std::io::Result<()> {
-    let [a, b, c, d] = quad.map(|v| v + 1);
-    writeln!(out, "f {a} {b} {c} {d}")
 }

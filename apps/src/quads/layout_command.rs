@@ -3,6 +3,8 @@
 use super::args::LayoutArgs;
 use super::command::solved;
 use super::files::{EXTENSIONS, QuadFile};
+use super::picture::ShownQuads;
+use super::texture::{PatchPoint, PatchQuads, patch_coordinates};
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::output::{check_extension, check_outputs};
@@ -11,7 +13,7 @@ use crate::report::{Checks, Done, Figures, InputSummary, timed};
 use crate::runner::{CommandRun, Job, JobHeader, JobOutcome};
 use crate::say;
 use ricci::mesh::{FaceId, Point};
-use ricci::quads::{QuadLayout, QuadOptions, QuadSize, quad_layout};
+use ricci::quads::{LayoutPatch, QuadLayout, QuadOptions, QuadSize, quad_layout};
 use ricci::seamless::Seamless;
 use serde_json::{Value, json};
 
@@ -33,7 +35,16 @@ impl Job for LayoutArgs {
     fn check(&self) -> Result<(), Failure> {
         check_extension("-o", Some(&self.out), &["json"])?;
         check_extension("--quads", self.quads.as_deref(), &EXTENSIONS)?;
-        let files = [Some(&self.out), self.quads.as_ref(), self.common.report.as_ref()];
+        if self.texture {
+            check_extension("--quads with --texture", self.quads.as_deref(), &["obj"])?;
+        }
+        check_extension("--picture", self.picture.picture.as_deref(), &["png"])?;
+        let files = [
+            Some(&self.out),
+            self.quads.as_ref(),
+            self.picture.picture.as_ref(),
+            self.common.report.as_ref(),
+        ];
         check_outputs(&self.source.files(), &files.map(|file| file.map(|f| &**f)))
     }
 
@@ -51,9 +62,27 @@ impl Job for LayoutArgs {
         run.file("out", Some(&self.out), |outputs, path| outputs.add_json(path, &outcome.file()))?;
         let LayoutOutcome { layout, positions, .. } = outcome;
         let patches = layout.patches.iter().map(|patch| &*patch.quads).collect();
-        let file = QuadFile { positions, quads: &layout.mesh.quads, patches };
-        run.file("quads", self.quads.as_deref(), |outputs, path| file.write(outputs, path))
+        let texture = self.texture.then(|| side_coordinates(layout));
+        let file = QuadFile { positions, quads: &layout.mesh.quads, patches, texture };
+        run.file("quads", self.quads.as_deref(), |outputs, path| file.write(outputs, path))?;
+        let shown = ShownQuads { mesh: &layout.mesh, positions, layout: Some(layout) };
+        run.picture("picture", self.picture.picture.as_deref(), || {
+            shown.draw(&self.picture, self.common.threads)
+        })
     }
+}
+
+/// The coordinates of the corners of quads in their patches: the first side runs along the first axis.
+fn side_coordinates(layout: &QuadLayout) -> Vec<[PatchPoint; 4]> {
+    let first = |side: i32| {
+        let vertices = &layout.arcs[side.unsigned_abs() as usize - 1].vertices;
+        let n = vertices.len();
+        if side > 0 { [vertices[0], vertices[1]] } else { [vertices[n - 1], vertices[n - 2]] }
+    };
+    let of = |patch: &LayoutPatch| patch.sides[0].first().map(|&side| first(side));
+    let patches: Vec<PatchQuads<'_>> =
+        layout.patches.iter().map(|patch| PatchQuads { quads: &patch.quads, first: of(patch) }).collect();
+    patch_coordinates(&layout.mesh.quads, &patches)
 }
 
 impl LayoutOutcome {
@@ -76,7 +105,7 @@ impl LayoutOutcome {
             let [from, to] = arc.ends;
             json!({"from": from, "to": to, "length": arc.length, "crease": arc.is_crease, "points": points})
         };
-        let patch = |patch: &ricci::quads::LayoutPatch| json!({"arcs": patch.sides, "size": patch.size});
+        let patch = |patch: &LayoutPatch| json!({"arcs": patch.sides, "size": patch.size});
         json!({
             "nodes": nodes.iter().map(node).collect::<Vec<_>>(),
             "arcs": arcs.iter().map(arc).collect::<Vec<_>>(),

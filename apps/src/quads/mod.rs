@@ -5,6 +5,8 @@ mod command;
 mod figures;
 mod files;
 mod layout_command;
+mod picture;
+mod texture;
 
-pub use args::{HELP, LAYOUT_HELP, LayoutArgs, QuadSourceArgs, QuadsArgs};
-pub use command::solved;
+pub use args::{HELP, LAYOUT_HELP, LayoutArgs, QuadsArgs};
+pub use command::with_positions;

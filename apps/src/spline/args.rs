@@ -185,7 +185,7 @@ pub struct EvalArgs {
     /// A mesh of N × N triangles per patch, with normals
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000))]
     pub tessellate: Option<u16>,
-    /// Write rows (.csv) or the mesh (.obj, .off, .ply, .glb)
+    /// Write rows (.csv) or the mesh (.obj, .off, .ply, .glb, .vtk, .vtp, .mz3, .gii, FreeSurfer's; also .gz)
     #[arg(short = 'o', long = "out", value_name = "OUT", required_unless_present = "picture")]
     pub out: Option<FileName>,
     #[command(flatten)]

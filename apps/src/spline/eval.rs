@@ -5,7 +5,7 @@ use super::picture::draw;
 use crate::csv::read_rows;
 use crate::failure::Failure;
 use crate::options::FileName;
-use crate::output::{Outputs, check_extension, check_outputs, format_of};
+use crate::output::{Outputs, check_extension, check_mesh_extension, check_outputs, format_of};
 use crate::report::{Done, Figures, timed};
 use crate::runner::{CommandRun, Job, JobHeader, JobOutcome};
 use crate::say::count;
@@ -58,8 +58,10 @@ impl Job for EvalArgs {
     fn check(&self) -> Result<(), Failure> {
         EvalOutput::of(self)?;
         let has_rows = self.at.is_some() || self.closest.is_some();
-        let known: &[&str] = if has_rows { &["csv"] } else { &["obj", "off", "ply", "glb"] };
-        check_extension("-o", self.out.as_deref(), known)?;
+        match has_rows {
+            true => check_extension("-o", self.out.as_deref(), &["csv"])?,
+            false => check_mesh_extension("-o", self.out.as_deref(), &[])?,
+        }
         check_extension("--picture", self.picture.picture.as_deref(), &["png"])?;
         let files = [&self.out, &self.picture.picture, &self.common.report];
         check_outputs(

@@ -17,12 +17,14 @@ Kinds
     affine       charts in the Euclidean plane, transitions its motions; a closed surface of genus other than 1 has singular vertices
     hyperbolic   negative Euler characteristic: charts in the Poincaré disk, SU(1,1)
     projective   negative Euler characteristic: charts in the Klein disk, SO(2,1)
+    integer      any surface: the quads of a layout are unit squares, transitions turn by multiples of 90° and move by whole numbers
 
 Files
     --atlas A.json             charts (vertices, coordinates, faces, and for each corner of these its place among the vertices),
                                transitions (one for each connected overlap: matrix and shared vertices), singular vertices. A
                                vertex may be in a chart more than once. Faces are those of the metric's triangulation, whose first
-                               vertices are the input's";
+                               vertices are the input's; those of an integer structure are halves of quads, with `places`: for each vertex a face of
+                               the input and barycentric coordinates in it";
 
 #[derive(Args, Serialize, Debug)]
 pub struct StructureArgs {
@@ -39,6 +41,10 @@ pub struct StructureArgs {
     #[arg(long, value_name = "VERTEX")]
     #[serde(skip)]
     pub singular: Option<u32>,
+    /// About so many quads of an integer structure [default: those of the layout with the fewest patches]
+    #[arg(long, value_name = "N")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub faces: Option<usize>,
     /// Edge flips of the flow: as needed, or never, so that the faces of the atlas are the input's
     #[arg(long, value_enum, default_value_t = FlipsChoice::Auto)]
     pub flips: FlipsChoice,
@@ -60,6 +66,6 @@ pub struct StructureArgs {
     pub common: Common,
 }
 
-choices!(KindChoice = Structure { Conformal, Spherical, Affine, Hyperbolic, Projective });
+choices!(KindChoice = Structure { Conformal, Spherical, Affine, Hyperbolic, Projective, Integer });
 choices!(SourceChoice = AffineSource { Flow, Form });
 choices!(ChartsChoice = ChartKind { Stars, Patches });

@@ -42,6 +42,7 @@ impl Job for StructureArgs {
             radius: self.radius,
             source: self.from.into(),
             singular: self.singular.map(VertexId),
+            quads: self.faces,
             flow: flow::Options {
                 threads: self.common.threads,
                 flips: self.flips.into(),

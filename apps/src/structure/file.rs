@@ -14,6 +14,9 @@ pub struct AtlasFile<'a> {
     charts: Vec<ChartFile<'a>>,
     transitions: Vec<TransitionFile<'a>>,
     singular_vertices: Vec<u32>,
+    /// Per vertex of an integer structure its place on the input: a face and barycentric coordinates in it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    places: Option<Vec<(u32, [f64; 3])>>,
 }
 
 #[derive(Serialize)]
@@ -75,6 +78,10 @@ impl<'a> AtlasFile<'a> {
             charts: charts.collect(),
             transitions: transitions.collect(),
             singular_vertices: atlas.singular_vertices.iter().map(|v| v.0).collect(),
+            places: atlas
+                .on_given
+                .as_ref()
+                .map(|places| places.iter().map(|place| (place.face.0, place.weights)).collect()),
         }
     }
 }

@@ -29,8 +29,9 @@ pub fn draw(
 ) -> Result<Vec<u8>, Failure> {
     let owner = owners(atlas);
     let colour = hues(&atlas.mesh, |f| owner[f], atlas.charts.len());
-    // The given surface, cut along the edges of the atlas's triangulation.
+    // The given surface, cut along the edges of the atlas's triangulation; for an integer structure its quads.
     let subdivision = match &atlas.subdivision {
+        _ if atlas.on_given.is_some() => None,
         Some(subdivision) => Some(subdivision.clone()),
         None if atlas.metric.is_unflipped() => None,
         None => Some(Arc::new(atlas.metric.common_subdivision(control)?)),
@@ -40,7 +41,12 @@ pub fn draw(
         Some(r) if atlas.subdivision.is_none() => r.faces[1][f],
         _ => f,
     };
-    let positions = input.positions_on(subdivision.as_deref())?;
+    let positions = match (&atlas.on_given, input.positions()) {
+        (Some(places), Some(positions)) => {
+            places.iter().map(|place| place.point(input.surface.mesh(), positions)).collect()
+        }
+        _ => input.positions_on(subdivision.as_deref())?,
+    };
     let value = |f: FaceId| owner[face(f)].map_or(f64::NAN, |chart| colour[chart as usize] as f64);
     let field = ColorField {
         corners: mesh.faces().map(|f| [value(f); 3]).collect(),

@@ -13,7 +13,7 @@ Example: a surface of genus 2 as a solid of few four-sided faces
 
 A seamless map divides the surface into patches between lines that run straight from cone to cone; a spline of degree 5 over these patches, with
 common tangent planes across all sides but features, is fitted to the mesh along its normals. Where --tolerance is missed, patches get more
-spans. Faces that meet share their edges.
+spans, and other cones are tried. Faces that meet share their edges.
 
 Files
     -o PART.step        STEP AP242: a solid where the surface is closed, else a shell";
@@ -31,15 +31,17 @@ pub struct ScanArgs {
     #[arg(long, value_name = "T", value_parser = positive)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<f64>,
-    /// The cones, as for `ricci seamless`: field, auto:N, or a table vertex,valence
-    #[arg(long, value_name = "CONES", default_value_t = ConesChoice::Field)]
-    pub cones: ConesChoice,
+    /// The cones, as for `ricci seamless`: field, auto:N, or a table vertex,valence [default: without --features several numbers of placed
+    /// cones in turn, then those of the field, until the fit is within the tolerance]
+    #[arg(long, value_name = "CONES")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cones: Option<ConesChoice>,
     /// Keep edges at which the surface turns by this much: they are sides of patches across which normals may jump
     #[arg(long, value_name = "DEGREES", value_parser = positive)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub features: Option<f64>,
     /// Most spans of a patch in each direction
-    #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u8).range(1..=32))]
+    #[arg(long, value_name = "N", default_value_t = 6, value_parser = clap::value_parser!(u8).range(1..=32))]
     pub spans: u8,
     /// Weight of bending at the end of the fit, up to 1e-5: more for noise, less for more detail [default: 1e-8; where that misses the
     /// tolerance, as little as suits the measured noise, down to 1e-11]

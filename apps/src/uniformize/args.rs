@@ -1,6 +1,7 @@
 //! The options of `ricci uniformize` and `ricci cover`.
 
 use super::boundary::BoundaryArgs;
+use crate::modulus::ModulusArgs;
 use crate::options::{FileName, MetricArgs, choices};
 use crate::picture::{PictureArgs, TextureChoice};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -24,6 +25,7 @@ unit sphere, as a convex polyhedron with its centre of mass in the middle (with 
 A surface with boundary and χ < 0 gets closed geodesics for its boundary loops, in the hyperbolic plane; an annulus becomes a flat cylinder,
 whose modulus is height over circumference. With --boundary straight the surface lies in the plane, its boundary straight from corner to
 corner; four right angles on a disk make a rectangle, whose modulus is the length of its second side over that of its first.
+Such a modulus comes with two proven bounds of that of the polyhedral surface, rounding included.
 
 Files
     --metric M.json            the metric on its triangulation, as of ricci flow
@@ -87,6 +89,8 @@ pub struct CanonicalArgs {
 pub struct UniformizeArgs {
     #[command(flatten)]
     pub canonical: CanonicalArgs,
+    #[command(flatten)]
+    pub modulus: ModulusArgs,
     /// What the picture shows [default: both; without positions in space, and in .svg, dirichlet]
     #[arg(long, value_enum, requires = "picture")]
     pub show: Option<UniformPictureChoice>,

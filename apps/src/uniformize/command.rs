@@ -36,10 +36,19 @@ impl Job for CanonicalJob<'_> {
             cover.find(u, run)?;
             u.lifts = lifts(u, cover, &input)?;
         }
+        if let (UniformShape::Quotient(u), Some(modulus)) = (&mut shape, self.modulus)
+            && u.extremal_distance.is_some()
+        {
+            let corners: Vec<VertexId> = u.corners.iter().map(|corner| corner.0).collect();
+            u.modulus = Some(modulus.find(&input, &corners, run)?);
+        }
         Ok(CanonicalOutcome { input, shape, shown, has_copies: self.cover.is_some() })
     }
 
     fn write(&self, outcome: &CanonicalOutcome, run: &mut CommandRun<'_>) -> Result<(), Failure> {
+        if let (Some(modulus), UniformShape::Quotient(u)) = (self.modulus, &outcome.shape) {
+            modulus.write(u.modulus.as_ref(), run)?;
+        }
         self.write_files(outcome, run)
     }
 

@@ -15,7 +15,7 @@ pub fn of_quotient(u: &Uniformized, copies: bool, run: &CommandRun<'_>) -> Figur
     let layout = laid.map_or(&u.layout, |laid| &laid.layout);
     let lengths = &u.lengths;
     let length = |path: &Vec<HalfedgeId>| path.iter().map(|h| lengths[h.edge()]).sum::<f64>();
-    Figures::of_metric(&u.solved)
+    let figures = Figures::of_metric(&u.solved)
         .course(&u.report, &u.solved)
         .with("max_curvature_error", u.solved.curvature_error())
         // max |K| of the metric that was laid out, in double-double precision.
@@ -41,7 +41,8 @@ pub fn of_quotient(u: &Uniformized, copies: bool, run: &CommandRun<'_>) -> Figur
         // Total length of each generator's loop on the surface, in the metric.
         .with("loop_lengths", u.basis.loops.iter().map(length).collect::<Vec<_>>())
         .if_some("modulus", u.deck.modulus())
-        .if_some("modulus", u.extremal_distance)
+        .if_some("modulus", u.extremal_distance);
+    crate::modulus::add_figures(figures, u.modulus.as_ref())
         .if_some(
             "boundary_lengths",
             bordered(u).then(|| u.boundary.iter().map(|b| b.length()).collect::<Vec<_>>()),

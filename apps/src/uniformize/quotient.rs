@@ -15,6 +15,7 @@ use ricci::embed::{
 use ricci::flow::{Report, Solution};
 use ricci::geometry::{DoubleDouble, Motion, Space, worse};
 use ricci::mesh::{FaceId, PerEdge, VertexId};
+use ricci::moduli::ModulusBounds;
 use ricci::topology::{HomotopyBasis, Word};
 use std::cmp::Ordering;
 use std::f64::consts::PI;
@@ -63,6 +64,8 @@ pub struct Uniformized {
     pub corners: Vec<(VertexId, f64)>,
     /// The height over the base of a rectangle, or the height over the circumference of a flat cylinder.
     pub extremal_distance: Option<f64>,
+    /// Proven bounds of this modulus.
+    pub modulus: Option<ModulusBounds>,
     /// The words of `--lengths`, with the lengths of their closed geodesics.
     pub geodesics: Vec<(String, f64)>,
     /// The Dirichlet domain of the base point, where an output needs it, or the reason why there is none.
@@ -126,6 +129,7 @@ impl Uniformized {
             boundary,
             corners,
             extremal_distance,
+            modulus: None,
             geodesics,
             domain,
             elements,

@@ -11,6 +11,7 @@ use super::quotient::Uniformized;
 use super::task::OutputNeeds;
 use crate::failure::{Failure, NO_POSITIONS};
 use crate::input::Input;
+use crate::modulus::ModulusArgs;
 use crate::options::{FileName, FlipsChoice, MethodChoice, OnChoice, SchemeChoice};
 use crate::output::{check_extension, check_outputs};
 use crate::picture::TextureChoice;
@@ -53,6 +54,9 @@ pub struct CanonicalJob<'a> {
     pub model: Option<ModelChoice>,
     #[serde(skip)]
     pub cover: Option<CoverRequest<'a>>,
+    /// What is told of the modulus, by `ricci uniformize`.
+    #[serde(flatten, skip_serializing_if = "Option::is_none")]
+    pub modulus: Option<&'a ModulusArgs>,
 }
 
 impl CoverRequest<'_> {
@@ -107,7 +111,14 @@ impl CoverRequest<'_> {
 impl<'a> From<&'a UniformizeArgs> for CanonicalJob<'a> {
     fn from(args: &'a UniformizeArgs) -> Self {
         let shown = args.show.map(CanonicalPictureChoice::Uniform);
-        CanonicalJob { args: &args.canonical, command: "uniformize", shown, model: args.model, cover: None }
+        CanonicalJob {
+            args: &args.canonical,
+            command: "uniformize",
+            shown,
+            model: args.model,
+            cover: None,
+            modulus: Some(&args.modulus),
+        }
     }
 }
 
@@ -116,7 +127,14 @@ impl<'a> From<&'a CoverArgs> for CanonicalJob<'a> {
         let cover = Some(CoverRequest::new(args));
         let shown = args.show.unwrap_or(CoverPictureChoice::Tiles);
         let shown = Some(CanonicalPictureChoice::Cover(shown));
-        CanonicalJob { args: &args.canonical, command: "cover", shown, model: args.model, cover }
+        CanonicalJob {
+            args: &args.canonical,
+            command: "cover",
+            shown,
+            model: args.model,
+            cover,
+            modulus: None,
+        }
     }
 }
 
@@ -186,6 +204,7 @@ impl CanonicalJob<'_> {
             args.to.flat.flat.as_deref(),
             args.sphere.as_deref(),
             args.generators.as_deref(),
+            self.modulus.and_then(|modulus| modulus.bounds.as_deref()),
             picture,
             args.to.common.report.as_deref(),
             copies,
@@ -349,6 +368,7 @@ impl CanonicalJob<'_> {
             show: drawn.then_some(shown),
             args,
             cover: self.cover,
+            modulus: self.modulus,
         }
     }
 }
@@ -370,4 +390,6 @@ pub struct CanonicalSettings<'a> {
     args: &'a CanonicalArgs,
     #[serde(flatten)]
     cover: Option<CoverRequest<'a>>,
+    #[serde(flatten, skip_serializing_if = "Option::is_none")]
+    modulus: Option<&'a ModulusArgs>,
 }

@@ -56,6 +56,7 @@ fn quotient(u: &Uniformized, copies: bool) -> String {
     let is_told = u.laid().is_ok_and(|laid| laid.modulus.is_some());
     let of_torus = if is_told { String::new() } else { say::modulus(u.deck.modulus()) };
     text += &format!("layout   {layout}{of_torus}{modulus}\n");
+    text += &crate::modulus::line(u.modulus.as_ref());
     if let Some(Err(why)) = &u.laid {
         text += &format!("FAILED   to carry it back to the given triangulation: {why}\n");
     }

@@ -38,7 +38,7 @@ fn read_dxf(text: &str) -> Vec<Drawn> {
         .filter(|w| w[0] == (0, "LAYER") && w[1].0 == 2)
         .map(|w| w[1].1)
         .collect();
-    assert_eq!(layers, ["BOUNDARY", "SEAMS", "FOLDS"]);
+    assert_eq!(layers, ["BOUNDARY", "SEAMS", "FOLDS", "ALLOWANCE"]);
     let (mut drawn, mut entity) = (Vec::<Drawn>::new(), "");
     for &(code, value) in &pairs[at("ENTITIES")..] {
         if code == 0 {

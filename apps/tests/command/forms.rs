@@ -106,3 +106,103 @@ fn surfaces_without_forms_and_open_ones_say_so() {
     assert!(place.expect(2, "forms b.json --uv uv.obj").err.contains("no positions"));
     assert!(place.expect(2, "forms b.json --base 999999").err.contains("no such vertex"));
 }
+
+/// The energies of the forms in a file of `--bounds`, from its lengths and values, at the midpoints of the sides of every face.
+fn energies(file: &Value) -> Vec<Vec<f64>> {
+    let (high, low) = (triples(&file["lengths"]), triples(&file["lengths_lo"]));
+    let sides: Vec<[i64; 3]> = triples(&file["face_edges"]).iter().map(|t| t.map(|x| x as i64)).collect();
+    let lists = |name: &str| file[name].as_array().unwrap().iter().map(numbers).collect::<Vec<_>>();
+    let (values, curves) = (lists("harmonic"), lists("curve"));
+    let n = values.len();
+    let mut total = vec![vec![0.0; n]; n];
+    for (f, e) in sides.iter().enumerate() {
+        let l = [0, 1, 2].map(|k| high[f][k] + low[f][k]);
+        let cot = [0, 1, 2].map(|k| {
+            let [a, b, c] = [l[(k + 1) % 3], l[(k + 2) % 3], l[k]];
+            let cos = (a * a + b * b - c * c) / (2.0 * a * b);
+            cos / (1.0 - cos * cos).sqrt()
+        });
+        let of = |list: &[f64], k: usize| list[e[k].unsigned_abs() as usize - 1];
+        for m in 0..3 {
+            let at: Vec<[f64; 3]> = (0..n)
+                .map(|form| {
+                    let mut at = [0, 1, 2].map(|k| of(&values[form], k) * e[k].signum() as f64);
+                    let b = [0, 1, 2].map(|k| of(&curves[form], k));
+                    let turn = 2.0 * (b[(m + 1) % 3] + b[(m + 2) % 3] - b[m]);
+                    at[(m + 1) % 3] += turn;
+                    at[(m + 2) % 3] -= turn;
+                    at
+                })
+                .collect();
+            for i in 0..n {
+                for j in 0..n {
+                    total[i][j] += (0..3).map(|k| cot[k] * at[i][k] * at[j][k]).sum::<f64>() / 6.0;
+                }
+            }
+        }
+    }
+    total
+}
+
+#[test]
+fn the_file_of_bounds_proves_what_the_report_tells() {
+    let place = Place::new();
+    place.expect(0, "make genus -o two.obj");
+    let told = place.expect(0, "forms two.obj --width 1e-4 --bounds B.json --report r.json");
+    assert!(told.out.contains("Π is known to"), "{}", told.out);
+    let report = place.json("r.json");
+    let (gap, bounds) = (report["result"]["gap"].as_f64().unwrap(), &report["result"]["bounds"]);
+    assert!(gap <= 1e-4 && bounds["first_gap"].as_f64().unwrap() > gap);
+    assert_eq!((&bounds["reached"], &report["checks"]["width"]["holds"]), (&true.into(), &true.into()));
+    // Trace of Ĝ⁻¹ M: between 2g and 2g d, with Ĝ⁻¹ = S Ĝ Sᵀ.
+    let file = place.json("B.json");
+    let pi: Vec<Vec<Vec<f64>>> = file["period_matrix"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|row| row.as_array().unwrap().iter().map(numbers).collect())
+        .collect();
+    let [x, y] = [0, 1].map(|k| [0, 1].map(|i| [0, 1].map(|j| pi[i][j][k])));
+    let det = y[0][0] * y[1][1] - y[0][1] * y[1][0];
+    let inverse = [[y[1][1] / det, -y[0][1] / det], [-y[1][0] / det, y[0][0] / det]];
+    let times = |a: [[f64; 2]; 2], b: [[f64; 2]; 2]| {
+        [0, 1].map(|i| [0, 1].map(|j| a[i][0] * b[0][j] + a[i][1] * b[1][j]))
+    };
+    let slope = times(x, inverse);
+    let square = times(slope, x);
+    // Ĝ⁻¹ in the order a1, b1, a2, b2.
+    let entry = |i: usize, j: usize| match (i % 2, j % 2) {
+        (0, 0) => inverse[i / 2][j / 2],
+        (0, _) => slope[j / 2][i / 2],
+        (_, 0) => slope[i / 2][j / 2],
+        _ => y[i / 2][j / 2] + square[i / 2][j / 2],
+    };
+    let upper = energies(&file);
+    let trace: f64 =
+        (0..4).flat_map(|i| (0..4).map(move |j| (i, j))).map(|(i, j)| entry(i, j) * upper[j][i]).sum();
+    assert!(trace >= 4.0 - 1e-9 && trace <= 4.0 * (1.0 + gap) + 1e-9, "{trace} {gap}");
+    let [wide, radius] = ["period_matrix", "radius"].map(|name| &bounds[name]);
+    assert_eq!(wide, &file["period_matrix"]);
+    let expected = gap * (y[0][0] * y[1][1]).sqrt();
+    assert!((radius[0][1].as_f64().unwrap() / expected - 1.0).abs() < 1e-12);
+}
+
+#[test]
+fn widths_that_are_not_reached_are_told() {
+    let place = Place::new();
+    place.expect(0, "make flat-torus --tau 0.25 1.5 -n 4 -m 4 -o t.json");
+    let told = place.expect(0, "forms t.json --report r.json");
+    assert!(told.out.contains("modulus 0.250000 + 1.500000 i, off by at most"), "{}", told.out);
+    let bounds = &place.json("r.json")["result"]["bounds"];
+    assert!(bounds["modulus_radius"].as_f64().unwrap() < 1e-11 && bounds["vertices_added"] == 0);
+    // Rounding keeps the proven gap above 0.
+    let ended = place.expect(1, "forms t.json --width 0");
+    assert!(
+        ended.out.contains("not as narrow as asked for") && ended.out.contains("a larger --width"),
+        "{}",
+        ended.out
+    );
+    assert!(place.expect(2, "forms t.json --width=-1").err.contains("at least 0"));
+    place.expect(0, "make annulus -o a.obj");
+    assert!(place.expect(1, "forms a.obj --bounds B.json").out.contains("no period matrix"));
+}

@@ -5,18 +5,21 @@
 
 mod attributes;
 mod boundaries;
+mod brain;
 mod charts;
 mod circles;
 mod complex;
 mod cover;
 mod files;
 mod flat;
+mod flatten;
 mod flips;
 mod flow;
 mod forms;
 mod gallery;
 mod harmonic;
 mod info;
+mod lengths;
 mod make;
 mod matching;
 mod on_input;
@@ -33,3 +36,4 @@ mod surface;
 mod surfaces;
 mod uniformize;
 mod usage;
+mod view;

@@ -19,6 +19,8 @@ fn shapes_have_their_topology() {
         ("one-vertex", "m.json", 2, 0),
         ("two-vertex -g 3", "m.json", 3, 0),
         ("two-triangles", "m.json", 0, 0),
+        ("fenchel-nielsen", "m.json", 2, 0),
+        ("fenchel-nielsen -g 1 --lengths 2,3 --twists=-1,0.5 --boundaries 1,2 --level 1", "m.json", 1, 2),
     ] {
         place.expect(0, &format!("make {line} -o {file} --quiet --threads 1 --report made.json"));
         place.expect(0, &format!("info {file} --report r.json"));

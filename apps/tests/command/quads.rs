@@ -71,6 +71,51 @@ fn patches_of_a_layout_are_rectangles_of_whole_size() {
     assert!(parse(&place.text("p.obj")).1.len().is_multiple_of(64));
 }
 
+/// The texture coordinates of the corners of all faces, by group.
+fn textures(text: &str) -> Vec<Vec<Vec<[i64; 2]>>> {
+    let (mut points, mut groups) = (Vec::new(), vec![Vec::new()]);
+    for line in text.lines() {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        match words[0] {
+            "vt" => points.push([1, 2].map(|k| words[k].parse::<i64>().unwrap())),
+            "g" => groups.push(Vec::new()),
+            "f" => {
+                let corner =
+                    |word: &&str| points[word.split('/').nth(1).unwrap().parse::<usize>().unwrap() - 1];
+                groups.last_mut().unwrap().push(words[1..].iter().map(corner).collect());
+            }
+            _ => {}
+        }
+    }
+    groups
+}
+
+#[test]
+fn texture_coordinates_are_whole_and_each_quad_is_a_unit_square() {
+    let place = Place::new();
+    place.expect(0, "make genus -o two.obj");
+    place.expect(0, "layout two.obj -o L.json --quads p.obj --texture");
+    place.expect(0, "quads two.obj -o q.obj --faces 400 --texture");
+    place.expect(2, "quads two.obj -o q.ply --texture");
+    place.expect(2, "layout two.obj -o L.json --texture");
+    let of_patches = textures(&place.text("p.obj"));
+    for quad in of_patches.iter().chain(&textures(&place.text("q.obj"))).flatten() {
+        for k in 0..4 {
+            let side = |k: usize| [0, 1].map(|c| quad[(k + 1) % 4][c] - quad[k % 4][c]);
+            let ([x, y], next) = (side(k), side(k + 1));
+            assert!(x.abs() + y.abs() == 1 && next == [-y, x], "{quad:?}");
+        }
+    }
+    let file = place.json("L.json");
+    let patches = file["patches"].as_array().unwrap();
+    assert_eq!(of_patches.len(), patches.len() + 1);
+    for (patch, quads) in patches.iter().zip(&of_patches[1..]) {
+        let most = [0, 1].map(|c| quads.iter().flatten().map(|p| p[c]).max().unwrap() as f64 / 8.0);
+        assert_eq!(most.to_vec(), numbers(&patch["size"]));
+        assert_eq!(quads.len() as f64, 64.0 * most[0] * most[1]);
+    }
+}
+
 #[test]
 fn one_size_of_quads_is_asked_for() {
     let place = Place::new();

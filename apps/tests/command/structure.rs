@@ -96,6 +96,8 @@ fn files_hold_atlases_of_every_kind_and_reports_their_figures() {
         ("two.obj --kind projective", 3, 0),
         ("two.obj --kind conformal", 2, 0),
         ("ball.obj --kind spherical", 2, 0),
+        ("ball.obj --kind integer --charts patches --picture p.png", 3, 8),
+        ("two.obj --kind integer --faces 500", 3, 16),
     ];
     for (asked, size, singular) in cases {
         place.expect(0, &format!("structure {asked} --atlas A.json --report r.json"));
@@ -126,6 +128,8 @@ fn structures_that_a_surface_has_not_are_refused() {
         ("torus.obj --kind spherical", "genus 0"),
         ("torus.obj --kind projective", "negative Euler characteristic"),
         ("torus.obj --kind affine --singular 7", "genus other than 1"),
+        ("torus.obj --kind affine --faces 100", "left out for structures other than integer"),
+        ("torus.obj --kind integer --faces 0", "positive"),
         ("bolza.json --kind affine --singular 100000", "no such vertex"),
         ("bolza.json --kind hyperbolic --from form", "affine"),
         ("bolza.json --kind affine --from form --flips never", "leave it out"),

@@ -159,7 +159,8 @@ impl Session<'_> {
             // Of a curve, whose genus is half of it.
             "n_points" => self.tape.below(20),
             "limit" => 1 + self.tape.below(200),
-            "n_curves" | "n_basis" => self.tape.below(9),
+            "n_curves" | "n_basis" | "n_straight" => self.tape.below(9),
+            "rings" => self.tape.below(4),
             "control_points" => 1 + self.tape.below(60),
             _ => self.tape.count(self.needed),
         }
@@ -192,8 +193,30 @@ impl Session<'_> {
         }
     }
 
+    /// The struct of one object, sometimes of none or two.
+    fn objects(&mut self, of: &'static Struct) -> u64 {
+        let (fields, full) = &layouts()[of.name];
+        let mut bytes = vec![0; STRUCT_BYTES];
+        bytes[..8].copy_from_slice(&full.to_ne_bytes());
+        let n = [1, 1, 1, 1, 1, 1, 0, 2][self.tape.below(8)];
+        for _ in 0..n {
+            let (name, kind, start, _) = fields[self.tape.below(fields.len())];
+            let value = match kind {
+                Kind::Own(of) => self.handle(of),
+                Kind::U32 if name == "mirrored" => self.tape.number().into(),
+                _ => continue,
+            };
+            bytes[start..start + kind.size()].copy_from_slice(&value.to_ne_bytes()[..kind.size()]);
+        }
+        let kept = self.keep(bytes);
+        self.place(kept, 0)
+    }
+
     /// A struct that is given, with most fields zero.
     fn structure(&mut self, of: &'static Struct) -> u64 {
+        if of.name == "ricci_objects" {
+            return self.objects(of);
+        }
         let is_long = LONG.contains(&of.name);
         let (fields, full) = &layouts()[of.name];
         // What is left out asks for a thread for each core.

@@ -14,7 +14,7 @@ use std::time::Instant;
 /// Most calls of one input.
 const MOST_CALLS: usize = 8;
 /// Calls that take a hundred times as long as others: one input of eight makes them.
-const LONG: [&str; 15] = [
+const LONG: [&str; 16] = [
     "ricci_match",
     "ricci_circle_domain_new",
     "ricci_spline_fit",
@@ -25,6 +25,7 @@ const LONG: [&str; 15] = [
     "ricci_quads_new",
     "ricci_quad_layout_new",
     "ricci_quad_spline_fit",
+    "ricci_quad_spline_fit_mesh",
     "ricci_quad_spline_closest",
     "ricci_quad_spline_patch_of_faces",
     "ricci_quad_spline_tessellate",
@@ -42,7 +43,9 @@ const WRONG_SIZE: u32 = 1;
 /// Functions whose capacity counts rows of two numbers of the last buffer.
 const IN_PAIRS: [&str; 2] = ["ricci_structure_places", "ricci_uniform_sides"];
 /// Fields of summaries that do not apply to every surface, and may be NaN, as the headers say.
-const MAY_BE_NAN: [(&str, &str); 34] = [
+const MAY_BE_NAN: [(&str, &str); 36] = [
+    ("ricci_bounds_summary", "modulus"),
+    ("ricci_bounds_summary", "modulus_radius"),
     ("ricci_circle_domain_summary", "modulus"),
     ("ricci_forms_summary", "asymmetry"),
     ("ricci_forms_summary", "star_residual"),
@@ -249,7 +252,7 @@ impl Session<'_> {
         }
     }
 
-    fn summarised(&self, name: &str, kept: usize, of: &Struct, size: usize) {
+    fn summarised(&mut self, name: &str, kept: usize, of: &Struct, size: usize) {
         let bytes = &self.kept[kept];
         assert!(untouched(&bytes[size..]), "{name}: beyond {size}");
         let (fields, full) = &layouts()[of.name];
@@ -267,6 +270,13 @@ impl Session<'_> {
                     Kind::Text => {
                         let place = u64::from_ne_bytes(bytes[at..at + 8].try_into().unwrap());
                         assert!(!text(place as *const c_char).is_empty(), "{name}: {field} says nothing");
+                    }
+                    // An object that the call has made, and that this session releases.
+                    Kind::Own(made) => {
+                        let handle = u64::from_ne_bytes(bytes[at..at + 8].try_into().unwrap());
+                        if handle != 0 {
+                            self.own.entry(made).or_default().push(handle);
+                        }
                     }
                     _ => {}
                 }

@@ -1,6 +1,7 @@
 //! Handles that every sequence of calls shares: made once, only read from then on, never released.
 
 use super::{CALLS, word};
+use ricci_c::archive::{ricci_archive_new, ricci_objects};
 use ricci_c::bicubic::{ricci_bicubic_new, ricci_bicubic_options};
 use ricci_c::charts::ricci_charts_new;
 use ricci_c::circle_domain::ricci_circle_domain_new;
@@ -88,6 +89,8 @@ impl Shelf {
             self.put("ricci_homotopy", homotopy);
             self.put("ricci_domain", made(|p| unsafe { ricci_domain_new(homotopy, null(), 0, p) }));
             self.put("ricci_forms", made(|p| unsafe { ricci_forms_new(mesh, null(), null(), p) }));
+            let kept = ricci_objects { mesh, ..zeroed() };
+            self.put("ricci_archive", made(|p| unsafe { ricci_archive_new(&kept, p) }));
             self.put("ricci_structure", made(|p| unsafe { ricci_structure_new(mesh, 0, null(), null(), p) }));
         }
     }
@@ -96,6 +99,8 @@ impl Shelf {
     fn class_of(&mut self, mesh: *const ricci_mesh, shape: u32) {
         let metric: *mut ricci_metric = made(|p| unsafe { ricci_metric_new(mesh, 0, 0, p) });
         self.put("ricci_metric", metric);
+        let kept = ricci_objects { metric, ..zeroed() };
+        self.put("ricci_archive", made(|p| unsafe { ricci_archive_new(&kept, p) }));
         let uniform: *mut ricci_uniform = made(|p| unsafe { ricci_uniformize(mesh, null(), null(), p) });
         self.put("ricci_uniform", uniform);
         if matches!(shape, 2 | 3) {

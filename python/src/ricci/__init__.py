@@ -11,18 +11,21 @@ PyVista or nibabel. Long calls release the GIL, show their progress (`progress=c
 with the element and the amount (`RicciError`). Results are identical bit for bit for any number of threads.
 """
 
+from ricci._kept import load
 from ricci._library import VERSION as __version__
 from ricci.adapters import as_mesh, to_meshio, to_polyscope, to_pyvista, to_trimesh
 from ricci.atlases import Place, Structure, StructureOptions, structure, structures
 from ricci.bicubics import Bicubic, BicubicOptions, StepOptions, bicubic
 from ricci.circle import CircleDomain, CircleOptions, circles
-from ricci.cohorts import CohortOptions, CohortResult, Job, cohort
+from ricci.cohorts import CohortOptions, CohortResult, Job, ModuliDistances, classical_scaling, cohort, moduli_distances
 from ricci.control import Control
+from ricci.cortices import Brain, brain, flat_part, inflate, medial_wall
 from ricci.covering import Cover, CoverOptions, Deck, DeckSpec, Dirichlet, cover, deck, dirichlet
 from ricci.errors import (
     ArgumentError,
     ArgumentTypeError,
     Cancelled,
+    ConvergenceWarning,
     FileError,
     InternalError,
     LayoutError,
@@ -30,7 +33,6 @@ from ricci.errors import (
     MatchingError,
     MeshError,
     MetricError,
-    NotConverged,
     OutOfMemory,
     ParseError,
     RicciError,
@@ -38,7 +40,21 @@ from ricci.errors import (
     SplineError,
     TargetError,
 )
+from ricci.flat_maps import Distortion, FlatMap, FlattenOptions, SphereFlatOptions, flatten, flatten_sphere
 from ricci.form import Forms, FormsOptions, HarmonicMap, HarmonicOptions, forms, harmonic, harmonic_map
+from ricci.freesurfers import (
+    Annotation,
+    Patch,
+    VertexLabel,
+    read_annotation,
+    read_label,
+    read_patch,
+    read_values,
+    write_annotation,
+    write_label,
+    write_patch,
+    write_values,
+)
 from ricci.fundamental import Domain, Homotopy, homotopy
 from ricci.gifti import Gifti, from_gifti, to_gifti
 from ricci.layouts import Layout, LayoutOptions, RepairedInput, SheetLine, layout
@@ -48,12 +64,23 @@ from ricci.marks import landmarks
 from ricci.matching import Matching, MatchOptions, Points, match
 from ricci.mesh import Attributes, Mesh, read
 from ricci.metrics import FlowJob, FlowOptions, Metric, Report, flow, metric
+from ricci.moduli import (
+    BoundsOptions,
+    ModulusBounds,
+    PeriodBounds,
+    dilatation_bracket,
+    fenchel_nielsen,
+    modulus_bounds,
+    pants,
+    period_bounds,
+)
 from ricci.packed_charts import Charts, charts
 from ricci.pages import Page, show
 from ricci.quad_meshes import QuadLayout, Quads, QuadsOptions, quad_layout, quads
-from ricci.quad_splines import QuadSpline, QuadSplineOptions, quad_spline
+from ricci.quad_splines import QuadSpline, QuadSplineOptions, fit_few_patches, quad_spline
 from ricci.seams import Seamless, SeamlessOptions, cross_field, seamless
-from ricci.shapes import ChangeOptions, ShapeOptions, change, hyperelliptic_periods, make
+from ricci.shapes import ChangeOptions, ShapeOptions, change, hyperelliptic_periods, make, make_loops
+from ricci.sheets import Darted, DartOptions, Strains, flatten_darts, strains
 from ricci.solvers import Solver
 from ricci.soup import Defect, Hole, Loop, RepairOptions, Soup
 from ricci.spline_domains import flat_metric, spline_domain
@@ -62,11 +89,14 @@ from ricci.status import Status
 from ricci.uniform import Uniform, UniformOptions, uniformize
 
 __all__ = [
+    "Annotation",
     "ArgumentError",
     "ArgumentTypeError",
     "Attributes",
     "Bicubic",
     "BicubicOptions",
+    "BoundsOptions",
+    "Brain",
     "Cancelled",
     "ChangeOptions",
     "Charts",
@@ -75,14 +105,20 @@ __all__ = [
     "CohortOptions",
     "CohortResult",
     "Control",
+    "ConvergenceWarning",
     "Cover",
     "CoverOptions",
+    "DartOptions",
+    "Darted",
     "Deck",
     "DeckSpec",
     "Defect",
     "Dirichlet",
+    "Distortion",
     "Domain",
     "FileError",
+    "FlatMap",
+    "FlattenOptions",
     "FlowJob",
     "FlowOptions",
     "Forms",
@@ -107,10 +143,13 @@ __all__ = [
     "MeshError",
     "Metric",
     "MetricError",
-    "NotConverged",
+    "ModuliDistances",
+    "ModulusBounds",
     "OutOfMemory",
     "Page",
     "ParseError",
+    "Patch",
+    "PeriodBounds",
     "Place",
     "PlaneOptions",
     "Points",
@@ -130,28 +169,40 @@ __all__ = [
     "Solver",
     "SolverError",
     "Soup",
+    "SphereFlatOptions",
     "Spline",
     "SplineError",
     "Status",
     "StepOptions",
+    "Strains",
     "Structure",
     "StructureOptions",
     "SurfaceOptions",
     "TargetError",
     "Uniform",
     "UniformOptions",
+    "VertexLabel",
     "__version__",
     "as_mesh",
     "bicubic",
+    "brain",
     "change",
     "charts",
     "circles",
+    "classical_scaling",
     "cohort",
     "cover",
     "cross_field",
     "deck",
+    "dilatation_bracket",
     "dirichlet",
+    "fenchel_nielsen",
+    "fit_few_patches",
     "flat_metric",
+    "flat_part",
+    "flatten",
+    "flatten_darts",
+    "flatten_sphere",
     "flow",
     "forms",
     "from_gifti",
@@ -159,20 +210,33 @@ __all__ = [
     "harmonic_map",
     "homotopy",
     "hyperelliptic_periods",
+    "inflate",
     "landmarks",
     "layout",
+    "load",
     "log_to_logging",
     "make",
+    "make_loops",
     "match",
+    "medial_wall",
     "metric",
+    "moduli_distances",
+    "modulus_bounds",
+    "pants",
+    "period_bounds",
     "quad_layout",
     "quad_spline",
     "quads",
     "read",
+    "read_annotation",
+    "read_label",
+    "read_patch",
+    "read_values",
     "seamless",
     "show",
     "spline",
     "spline_domain",
+    "strains",
     "structure",
     "structures",
     "to_gifti",
@@ -181,4 +245,8 @@ __all__ = [
     "to_pyvista",
     "to_trimesh",
     "uniformize",
+    "write_annotation",
+    "write_label",
+    "write_patch",
+    "write_values",
 ]

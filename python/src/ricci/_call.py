@@ -22,6 +22,7 @@ from ricci.status import Status
 Doubles = npt.NDArray[np.float64]
 Complexes = npt.NDArray[np.complex128]
 Indices = npt.NDArray[np.int32]
+Booleans = npt.NDArray[np.bool_]
 Signed = npt.NDArray[np.int32]
 Longs = npt.NDArray[np.int64]
 

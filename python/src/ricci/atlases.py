@@ -11,7 +11,8 @@ import numpy.typing as npt
 
 from ricci import _arrays
 from ricci._arrays import frozen
-from ricci._call import CONTROL, Doubles, Handle, Indices, call, constant, doubles, listed, pointer, rows, summary
+from ricci._call import CONTROL, Doubles, Indices, call, constant, doubles, listed, pointer, rows, summary
+from ricci._kept import Kept
 from ricci._library import ffi, lib
 from ricci._shown import Scene
 from ricci._signatures import picked, takes
@@ -41,6 +42,8 @@ class StructureOptions(TypedDict, total=False):
         ``"stars"`` of the vertices, or larger ``"patches"``.
     source : Literal["flow", "form"]
         an affine structure comes from a ``"flow"``, or from a holomorphic 1-``"form"``: transitions are translations.
+    n_quads : int
+        about so many quads of an integer structure; those of the layout with the fewest patches.
     """
 
     flow: FlowOptions
@@ -48,6 +51,7 @@ class StructureOptions(TypedDict, total=False):
     radius: float
     charts: Literal["stars", "patches"]
     source: Literal["flow", "form"]
+    n_quads: int
 
 
 _STRUCTURE: dict[str, Write] = {
@@ -56,6 +60,7 @@ _STRUCTURE: dict[str, Write] = {
     "radius": above_zero,
     "charts": choice("CHARTS"),
     "source": choice("AFFINE"),
+    "n_quads": above_zero,
 }
 
 
@@ -88,7 +93,7 @@ class Place:
     y: float
 
 
-class Structure(Handle):
+class Structure(Kept):
     """A geometric structure of a surface: charts in the plane, and transitions in the structure's group. It never changes.
 
     Examples
@@ -231,6 +236,7 @@ def structure(
     radius: float | None = None,
     charts: Literal["stars", "patches"] = "stars",
     source: Literal["flow", "form"] = "flow",
+    n_quads: int | None = None,
 ) -> Structure:
     """A geometric structure of a surface.
 
@@ -242,7 +248,8 @@ def structure(
         m x 3 vertex indices.
     kind : StructureKind
         ``"conformal"`` (any surface), ``"spherical"`` (genus 0), ``"affine"``, ``"hyperbolic"`` or ``"projective"`` (negative
-        Euler characteristic).
+        Euler characteristic), or ``"integer"`` (any surface): the quads of a layout are unit squares. Its triangles are halves of these
+        quads.
     progress : Progress
         a `Control` or a callback.
 
@@ -265,7 +272,7 @@ def structure(
 
 
 def structures(V: MeshLike, F: npt.ArrayLike | None = None, progress: Progress = None) -> dict[str, Structure]:
-    """Every structure that a surface has, by its kind.
+    """Every structure that a surface has, by its kind, but the integer ones, which come from a mesh of quads.
 
     Parameters
     ----------

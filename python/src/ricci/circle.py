@@ -9,7 +9,8 @@ import numpy as np
 import numpy.typing as npt
 
 from ricci._arrays import frozen
-from ricci._call import CONTROL, Doubles, Handle, constant, doubles, summary
+from ricci._call import CONTROL, Doubles, constant, doubles, summary
+from ricci._kept import Kept
 from ricci._library import lib
 from ricci._shown import Scene
 from ricci._signatures import picked, takes
@@ -80,7 +81,7 @@ _CIRCLES: dict[str, Write] = {
 }
 
 
-class CircleDomain(Handle):
+class CircleDomain(Kept):
     """A surface with boundary whose loops are circles: in the unit disk, a flat torus or a hyperbolic surface.
 
     Examples
@@ -157,7 +158,7 @@ def circles(
 
     Warns
     -----
-    NotConverged
+    ConvergenceWarning
         the loops did not become circles; `summary` says why.
 
     Raises

@@ -11,8 +11,23 @@ import numpy.typing as npt
 
 from ricci import _arrays
 from ricci._arrays import frozen
-from ricci._call import CONTROL, Complexes, Doubles, Handle, Indices, Signed, constant, doubles, filled, pointer, rows, summary
-from ricci._library import lib
+from ricci._call import (
+    CONTROL,
+    Complexes,
+    Doubles,
+    Handle,
+    Indices,
+    Signed,
+    call,
+    constant,
+    doubles,
+    filled,
+    pointer,
+    rows,
+    signed_view,
+    summary,
+)
+from ricci._library import ffi, lib
 from ricci._shown import Scene
 from ricci._signatures import picked, takes
 from ricci._structs import Struct, Write, known, nested, number, options
@@ -28,7 +43,7 @@ from ricci.uniform import Uniform, uniformize
 __all__ = ["Cover", "CoverOptions", "Deck", "DeckSpec", "Dirichlet", "cover", "deck", "dirichlet"]
 
 
-Kind: TypeAlias = Literal["generators", "sides", "words", "depth", "within", "dirichlet_sides"]
+Kind: TypeAlias = Literal["generators", "sides", "words", "depth", "within", "dirichlet_sides", "geodesics"]
 
 
 class DeckSpec(TypedDict, total=False):
@@ -37,14 +52,14 @@ class DeckSpec(TypedDict, total=False):
     Attributes
     ----------
     kind : Kind
-        ``"generators"``, ``"sides"`` of the layout, ``"words"``, all to a ``"depth"``, all ``"within"`` a radius, or
-        ``"dirichlet_sides"``.
+        ``"generators"``, ``"sides"`` of the layout, ``"words"``, all to a ``"depth"``, all ``"within"`` a radius,
+        ``"dirichlet_sides"``, or an element of every class of closed ``"geodesics"`` up to a length.
     words : Sequence[npt.ArrayLike]
         those of ``"words"``, each a list of letters.
     dirichlet : Dirichlet
         for ``"within"`` and ``"dirichlet_sides"``, a domain of this surface.
     radius : float
-        for ``"within"``: how far the centre may move.
+        for ``"within"``: how far the centre may move; for ``"geodesics"``: the largest length.
     depth : int
         for ``"depth"``: most letters of a word.
     limit : int
@@ -122,6 +137,28 @@ class Deck(Handle):
     def lengths(self) -> Doubles:
         """The translation lengths of the elements: lengths of the closed geodesics in their free homotopy classes."""
         return frozen(self._values("LENGTH"))
+
+    @cached_property
+    def powers(self) -> Doubles:
+        """How often each closed geodesic runs around a shorter one on its line, else 1; known of ``"geodesics"`` alone."""
+        return frozen(self._values("POWER"))
+
+    def geodesic(self, element: int, progress: Progress = None) -> tuple[Signed, Doubles]:
+        """The closed geodesic of an element on the given surface: per point a face, and k x 3 weights of the face's corners.
+
+        The line is closed, and its first point is not repeated. Of a power it is run through once.
+
+        Raises
+        ------
+        LayoutError
+            a surface that is not hyperbolic, or the element of a loop that can be contracted.
+        """
+        n = ffi.new("size_t *")
+        call(lib.ricci_deck_geodesic, self, element, CONTROL, ffi.NULL, 0, ffi.NULL, 0, n, progress=progress)
+        faces, weights = np.empty(n[0], np.uint32), np.empty((n[0], 3))
+        places = (pointer(faces), faces.size, pointer(weights), weights.size)
+        call(lib.ricci_deck_geodesic, self, element, CONTROL, *places, n)
+        return frozen(signed_view(faces)), frozen(weights)
 
     def apply(self, element: int, points: npt.ArrayLike) -> Doubles:
         """k x 3 points in ambient coordinates, moved by one element, computed in double-double precision."""

@@ -23,6 +23,7 @@ __all__ = [
     "ArgumentError",
     "ArgumentTypeError",
     "Cancelled",
+    "ConvergenceWarning",
     "FileError",
     "InternalError",
     "LayoutError",
@@ -30,7 +31,6 @@ __all__ = [
     "MatchingError",
     "MeshError",
     "MetricError",
-    "NotConverged",
     "OutOfMemory",
     "ParseError",
     "RicciError",
@@ -234,7 +234,7 @@ def last_needed() -> int:
     return int(failure.needed)
 
 
-class NotConverged(UserWarning):
+class ConvergenceWarning(UserWarning):
     """A result is handed out that did not come to its target; `converged` of it is False, and its `summary` says why."""
 
 
@@ -258,4 +258,4 @@ def warn(message: str) -> None:
     level, frame = 2, sys._getframe(1)
     while frame.f_back is not None and frame.f_globals.get("__name__", "").partition(".")[0] == "ricci":
         level, frame = level + 1, frame.f_back
-    warnings.warn(message, NotConverged, stacklevel=level)
+    warnings.warn(message, ConvergenceWarning, stacklevel=level)

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import ClassVar, Literal, TypedDict
+from typing import Any, ClassVar, Literal, TypedDict
 
 import numpy as np
 import numpy.typing as npt
@@ -15,7 +16,6 @@ from ricci._call import (
     CONTROL,
     Complexes,
     Doubles,
-    Handle,
     Longs,
     call,
     constant,
@@ -26,6 +26,7 @@ from ricci._call import (
     sized_list,
     summary,
 )
+from ricci._kept import Kept
 from ricci._library import ffi, lib
 from ricci._shown import Scene
 from ricci._signatures import picked, takes
@@ -203,7 +204,7 @@ def harmonic_map(
 
     Warns
     -----
-    NotConverged
+    ConvergenceWarning
         the steps of the heat flow ran out.
 
     Raises
@@ -252,7 +253,7 @@ class FormsOptions(TypedDict, total=False):
 _FORMS: dict[str, Write] = {"base": one_index, "classes": choice("CLASSES")}
 
 
-class Forms(Handle):
+class Forms(Kept):
     """A basis of the harmonic 1-forms of a surface, on its intrinsic Delaunay triangulation `mesh`. It never changes.
 
     Examples
@@ -268,6 +269,9 @@ class Forms(Handle):
     _type: ClassVar[str] = "forms"
     _made_by: ClassVar[str] = "ricci.forms(mesh)"
     _figures: ClassVar[tuple[str, ...]] = ("n_forms", "genus", "n_edges", "closedness", "coclosedness", "modulus")
+
+    def _come_from(self, found: Mapping[str, Any]) -> None:
+        self._input = found["mesh"]
 
     def _scene(self) -> Scene | None:
         seen = self._input

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from functools import cached_property
-from typing import Any, ClassVar, Literal, TypedDict
+from typing import Any, ClassVar, Literal, TypeAlias, TypedDict
 
 import numpy as np
 import numpy.typing as npt
@@ -27,6 +27,7 @@ from ricci._call import (
     rows,
     summary,
 )
+from ricci._kept import Kept
 from ricci._library import lib
 from ricci._shown import Scene
 from ricci._signatures import picked, takes
@@ -41,7 +42,8 @@ from ricci.status import Status
 
 __all__ = ["Layout", "LayoutOptions", "RepairedInput", "Seam", "SheetLine", "layout"]
 
-LAYERS: tuple[Literal["boundary"], Literal["seams"], Literal["folds"]] = ("boundary", "seams", "folds")
+Layer: TypeAlias = Literal["boundary", "seams", "folds", "allowance"]
+LAYERS: tuple[Layer, ...] = ("boundary", "seams", "folds", "allowance")
 
 
 class LayoutOptions(TypedDict, total=False):
@@ -126,7 +128,7 @@ class SheetLine:
 
     def __init__(self, row: Any, points: Indices) -> None:
         layer, seam, closed, _ = (int(x) for x in row)
-        self.layer: Literal["boundary", "seams", "folds"] = LAYERS[layer]
+        self.layer: Layer = LAYERS[layer]
         self.seam = seam if seam >= 0 else None
         self.closed = closed == 1
         self.points = points
@@ -142,7 +144,7 @@ def cut_open(mesh: Mesh, corners: Indices, points: Doubles) -> tuple[Doubles, In
     return mesh.V[origins], corners, points, origins
 
 
-class Layout(Handle):
+class Layout(Kept):
     """The coordinates of a surface that is opened along a cut and unfolded in the space of its metric.
 
     If edges were flipped, the mesh of the layout is the common subdivision of the mesh and the metric's triangulation: ``on="refinement"``;
@@ -432,7 +434,7 @@ def layout(
 
     Warns
     -----
-    NotConverged
+    ConvergenceWarning
         the flow that led to the metric did not come to its target, so that seams do not fit and faces may be folded.
 
     Examples

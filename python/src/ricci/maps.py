@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import cached_property
 from typing import Any, ClassVar, Literal
 
@@ -10,7 +11,8 @@ import numpy.typing as npt
 
 from ricci import _arrays
 from ricci._arrays import frozen
-from ricci._call import CONTROL, Doubles, Handle, Indices, call, constant, doubles, filled, pointer, signed_view, summary
+from ricci._call import CONTROL, Doubles, Indices, call, constant, doubles, filled, pointer, signed_view, summary
+from ricci._kept import Kept
 from ricci._labels import heaviest, mode_of
 from ricci._library import lib
 from ricci._shown import Scene
@@ -27,7 +29,7 @@ __all__ = ["Map"]
 Side = Literal["input", "metric"]
 
 
-class Map(Handle):
+class Map(Kept):
     """The common subdivision of the mesh that a metric was made from and the metric's triangulation.
 
     Its faces are parts of faces of both; its vertices are those of the mesh, with their numbers, then the crossings of edges. Of a
@@ -61,6 +63,9 @@ class Map(Handle):
 
     def _scene(self) -> Scene | None:
         return Scene(self.mesh.V, self.mesh.F, self.faces() * 0.6180339887498949 % 1)
+
+    def _come_from(self, found: Mapping[str, Any]) -> None:
+        self._target = found["target"]
 
     @cached_property
     def summary(self) -> MapSummary:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 from typing import Any, ClassVar, Literal, TypedDict
 
@@ -11,7 +11,8 @@ import numpy.typing as npt
 
 from ricci import _arrays
 from ricci._arrays import frozen
-from ricci._call import CONTROL, Doubles, Handle, Indices, call, constant, doubles, filled, pointer, summary
+from ricci._call import CONTROL, Doubles, Indices, call, constant, doubles, filled, pointer, summary
+from ricci._kept import Kept
 from ricci._labels import Mode, Pieces, conserved, heaviest, mode_of
 from ricci._library import lib
 from ricci._shown import Scene
@@ -153,7 +154,7 @@ def _of_mirrored(given: dict[str, Any], source: Mesh, image: Mesh) -> dict[str, 
     return found
 
 
-class Matching(Handle):
+class Matching(Kept):
     """A map between two surfaces and its inverse; no face folds. It never changes.
 
     Examples
@@ -174,6 +175,11 @@ class Matching(Handle):
     _type: ClassVar[str] = "matching"
     _made_by: ClassVar[str] = "ricci.match(source, target)"
     _figures: ClassVar[tuple[str, ...]] = ("n_source_vertices", "n_target_vertices", "n_flipped", "qc_mean", "qc_max", "distance_mean")
+
+    def _come_from(self, found: Mapping[str, Any]) -> None:
+        self._mirror = found["mirrored"]
+        self._source = found["mesh"].mirrored() if self._mirror else found["mesh"]
+        self._target = found["target"]
 
     def _sides(self) -> tuple[Any, ...]:
         """The source and its image on the target."""

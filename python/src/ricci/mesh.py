@@ -12,6 +12,7 @@ import numpy.typing as npt
 from ricci import _arrays
 from ricci._arrays import frozen
 from ricci._call import CONTROL, Doubles, Handle, Indices, Signed, call, constant, figures_of, filled, path_bytes, pointer, summary
+from ricci._kept import Kept
 from ricci._library import ffi, lib
 from ricci._shown import Scene
 from ricci._signatures import picked, takes
@@ -69,17 +70,13 @@ _ATTRIBUTES = {
 }
 
 
-# Those that a mesh keeps.
-_KEPT = ("normals", "colors", "uv", "corner_normals")
-
-
 class _List(Handle):
     """A triangle list of the library, on the way to a mesh with attributes."""
 
     _type: ClassVar[str] = "soup"
 
 
-class Mesh(Triangles):
+class Mesh(Kept, Triangles):
     """A connected oriented triangulated surface with the lengths of its edges. It never changes.
 
     Arrays are computed once and handed out read-only. Vertices, faces and corners have the order and numbers of the caller's arrays.
@@ -121,7 +118,8 @@ class Mesh(Triangles):
 
     @classmethod
     def read(cls, path: str | os.PathLike[str], progress: Progress = None) -> Self:
-        """The mesh of a file (.obj, .off, .ply, .stl, .glb, .gltf, .gii, or .gz behind) with its attributes, in the file's numbers.
+        """The mesh of a file with its attributes, in the file's numbers (.obj, .off, .ply, .stl, .glb, .gltf, .gii, .vtk, .vtp, .mz3,
+        FreeSurfer's, or .gz behind).
 
         Raises
         ------
@@ -229,25 +227,6 @@ class Mesh(Triangles):
             return len(self.lengths) > 0
         except RicciError:
             return False
-
-    def __reduce__(self) -> Any:
-        """The arrays that the mesh is made of again, bit for bit, with the order of its edges.
-
-        Raises
-        ------
-        TypeError
-            a triangulation in space with several edges between two vertices, which arrays cannot say.
-        """
-        if not self.summary.has_positions:
-            return _glued, (self.F, self.face_edges, self.lengths, self.summary.geometry)
-        try:
-            same = np.array_equal(Mesh(self.V, self.F).face_edges, self.face_edges)
-        except RicciError:
-            same = False
-        if not same:
-            raise TypeError("a mesh in space with several edges between two vertices, as a common subdivision, cannot be pickled")
-        kept = {name: getattr(self, name) for name in _KEPT if getattr(self, name) is not None}
-        return _in_space, (self.V, self.F, kept, self._own_lengths(), self.summary.geometry)
 
     def refine_angle(
         self, least_angle: float | None = None, most_added: int | None = None, progress: Progress = None
@@ -380,26 +359,13 @@ class Mesh(Triangles):
         return f"<ricci.Mesh: {s.n_vertices} vertices, {s.n_faces} faces, genus {s.genus}, {s.n_boundary_loops} boundary loops>"
 
 
-def _in_space(V: Doubles, F: Indices, attributes: Attributes, lengths: Doubles | None, geometry: Space) -> Mesh:
-    """The mesh of a pickle."""
-    mesh = Mesh(V, F)
-    if attributes:
-        mesh = mesh.with_attributes(**attributes)
-    return mesh if lengths is None else mesh.with_lengths(lengths, geometry)
-
-
-def _glued(F: Indices, face_edges: Signed, lengths: Doubles, geometry: Space) -> Mesh:
-    """The intrinsic mesh of a pickle."""
-    return Mesh.from_gluing(F, face_edges, lengths, geometry)
-
-
 def read(path: str | os.PathLike[str], progress: Progress = None) -> Mesh:
     """The mesh of a file, as `Mesh.read`.
 
     Parameters
     ----------
     path : str | os.PathLike[str]
-        the file: .obj, .off, .ply, .stl, .glb, .gltf, .gii, or .gz behind.
+        the file: .obj, .off, .ply, .stl, .glb, .gltf, .gii, .vtk, .vtp, .mz3, a surface of FreeSurfer such as ``lh.pial``, or .gz behind.
     progress : Progress
         a `Control` or a callback.
 

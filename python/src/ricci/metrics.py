@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import cached_property
 from typing import Any, ClassVar, Literal, TypedDict
 
@@ -9,7 +10,8 @@ import numpy as np
 import numpy.typing as npt
 
 from ricci._arrays import frozen
-from ricci._call import CONTROL, Doubles, Handle, Indices, Passed, constant, doubles, filled, summary
+from ricci._call import CONTROL, Doubles, Indices, Passed, constant, doubles, filled, summary
+from ricci._kept import Archive, Kept
 from ricci._library import lib
 from ricci._shown import Scene
 from ricci._signatures import picked, takes
@@ -149,6 +151,10 @@ class Report(ReportSummary, Passed):
         """Vertices that prove that the target cannot be reached, ascending; none unless the flow stopped as infeasible."""
         return self._vertices("OBSTRUCTION", self.summary.n_obstruction)
 
+    def __reduce__(self) -> Any:
+        """The bytes of the metric whose report it is."""
+        return _report, (Archive.of("metric", self._pointer).bytes(),)
+
     def _values(self, which: str, *shape: int) -> Any:
         return frozen(doubles(lib.ricci_report_values, self._pointer, getattr(lib, f"RICCI_REPORT_{which}"), shape=shape))
 
@@ -160,7 +166,12 @@ class Report(ReportSummary, Passed):
         return f"<ricci.Report: {s.stop_reason} after {s.iterations} steps, {s.flips} flips, error {s.max_curvature_error:.1e}>"
 
 
-class Metric(Handle):
+def _report(data: bytes) -> Report:
+    """The report of a pickle."""
+    return Report(Archive.parse(data).object())
+
+
+class Metric(Kept):
     """A metric of a surface in a conformal class, with the report of the flow that led to it. It never changes; a flow makes a new one.
 
     A flow that flips edges leads to another triangulation, `triangulation`; vertices keep their numbers. Arrays are read-only.
@@ -196,6 +207,9 @@ class Metric(Handle):
         self._input = as_mesh(V, F)
         made = Metric._made(lib.ricci_metric_new, self._input, constant("SCHEME", scheme), constant("SPACE", space))
         self._pointer = made._pointer
+
+    def _come_from(self, found: Mapping[str, Any]) -> None:
+        self._input = found["mesh"]
 
     def _scene(self) -> Scene | None:
         seen = self._input
@@ -377,7 +391,7 @@ def flow(
 ) -> Metric:
     """Deform the metric of a mesh in its conformal class to a prescribed curvature.
 
-    Whether it came that far is in ``result.converged``: a flow that stops early is a result with the warning `NotConverged`, not an error.
+    Whether it came that far is in ``result.converged``: a flow that stops early is a result with a `ConvergenceWarning`, not an error.
 
     Parameters
     ----------

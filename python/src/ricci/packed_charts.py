@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 from functools import cached_property
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
 from ricci._arrays import frozen
-from ricci._call import CONTROL, Doubles, Handle, Indices, call, doubles, filled, path_bytes, summary
+from ricci._call import CONTROL, Doubles, Indices, call, doubles, filled, path_bytes, summary
+from ricci._kept import Kept
 from ricci._library import lib
 from ricci._shown import Scene
 from ricci.control import Progress
@@ -19,7 +21,7 @@ from ricci.layouts import Layout, cut_open
 __all__ = ["Charts", "charts"]
 
 
-class Charts(Handle):
+class Charts(Kept):
     """A layout in charts that do not overlap, packed into the unit square.
 
     Parameters
@@ -45,6 +47,9 @@ class Charts(Handle):
     def __init__(self, layout: Layout, margin: float = 1 / 256, progress: Progress = None) -> None:
         self._pointer = Charts._made(lib.ricci_charts_new, layout, margin, CONTROL, progress=progress)._pointer
         self._layout = layout
+
+    def _come_from(self, found: Mapping[str, Any]) -> None:
+        self._layout = found["layout"]
 
     def _cut_open(self) -> tuple[Doubles, Indices, Doubles, Indices]:
         return cut_open(self._layout.mesh, self.corners, self.points)

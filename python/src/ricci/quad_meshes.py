@@ -8,7 +8,8 @@ from typing import Any, ClassVar, NamedTuple, TypedDict
 import numpy as np
 
 from ricci._arrays import frozen
-from ricci._call import CONTROL, Doubles, Handle, Indices, call, constant, doubles, filled, pointer, rows, signed_view, summary
+from ricci._call import CONTROL, Doubles, Indices, call, constant, doubles, filled, pointer, rows, signed_view, summary
+from ricci._kept import Kept
 from ricci._library import lib
 from ricci._shown import Scene
 from ricci._signatures import picked, takes
@@ -87,7 +88,7 @@ class QuadPlaces(NamedTuple):
     weights: Doubles
 
 
-class Quads(Handle):
+class Quads(Kept):
     """A mesh of quads on a surface. Every vertex that is no cone or corner has four quads, two on the boundary.
 
     Examples
@@ -145,7 +146,7 @@ class Quads(Handle):
         return frozen(filled(lib.ricci_quads_rectangles, self, out=np.empty(self.summary.n_quads, np.uint32)))
 
 
-class QuadLayout(Handle):
+class QuadLayout(Kept):
     """A layout of four-sided patches, each a rectangle of quads.
 
     Examples

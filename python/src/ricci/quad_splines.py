@@ -11,7 +11,8 @@ import numpy.typing as npt
 
 from ricci import _arrays
 from ricci._arrays import frozen
-from ricci._call import CONTROL, Doubles, Handle, Indices, call, constant, filled, listed, path_bytes, pointer, signed_view, summary
+from ricci._call import CONTROL, Doubles, Indices, call, constant, filled, listed, path_bytes, pointer, signed_view, summary
+from ricci._kept import Kept
 from ricci._library import ffi, lib
 from ricci._shown import Scene
 from ricci._signatures import picked, takes
@@ -26,7 +27,7 @@ from ricci.quad_meshes import QuadLayout
 from ricci.seams import Seamless
 from ricci.splines import _places
 
-__all__ = ["ExtractionMatrix", "NearestPlaces", "QuadArc", "QuadPatch", "QuadSpline", "QuadSplineOptions", "quad_spline"]
+__all__ = ["ExtractionMatrix", "NearestPlaces", "QuadArc", "QuadPatch", "QuadSpline", "QuadSplineOptions", "fit_few_patches", "quad_spline"]
 
 # Columns that the library writes for each place.
 _COLUMNS = {"point": 3, "first": 9, "second": 18, "third": 30, "shape": 5}
@@ -44,7 +45,7 @@ class QuadSplineOptions(TypedDict, total=False):
         the weight of bending, up to 1e-5; 0: none. 1e-8 and, where that misses the tolerance, as little as suits the measured noise, down
         to 1e-11.
     most_spans : int
-        most spans of a patch in each direction, up to 32; 4.
+        most spans of a patch in each direction, up to 32; 6.
     threads : int
         one per core. The result does not depend on it.
     """
@@ -124,7 +125,7 @@ class ExtractionMatrix(NamedTuple):
     values: Doubles
 
 
-class QuadSpline(Handle):
+class QuadSpline(Kept):
     """A spline over a layout of four-sided patches, of degree 5 along u and v; its tangent planes are continuous but at creases.
 
     Examples
@@ -135,7 +136,7 @@ class QuadSpline(Handle):
     """
 
     _type: ClassVar[str] = "quad_spline"
-    _made_by: ClassVar[str] = "ricci.quad_spline(ricci.seamless(mesh))"
+    _made_by: ClassVar[str] = "ricci.fit_few_patches(mesh)"
     _figures: ClassVar[tuple[str, ...]] = ("n_patches", "n_control_points", "rms", "max", "normal_jump", "converged")
 
     def _scene(self) -> Scene | None:
@@ -347,3 +348,49 @@ def quad_spline(
     on: Any = ffi.NULL if layout is None else layout
     struct = options("quad_spline_options", given, _QUAD_SPLINE)
     return QuadSpline._made(lib.ricci_quad_spline_fit, seamless, on, struct, CONTROL, progress=progress)
+
+
+@takes(QuadSplineOptions)
+def fit_few_patches(
+    V: MeshLike,
+    F: npt.ArrayLike | None = None,
+    feature_angle: float = 0.0,
+    progress: Progress = None,
+    *,
+    tolerance: float | None = None,
+    bending: float | None = None,
+    most_spans: int | None = None,
+    threads: int | None = None,
+) -> QuadSpline:
+    """A spline with few patches, near a mesh: over the coarsest layouts of seamless metrics with other cones in turn.
+
+    Patches that miss the tolerance get more spans; `summary.converged` says whether all are within it and none is turned over.
+
+    Parameters
+    ----------
+    V : MeshLike
+        n x 3 positions with `F`, or a mesh of any kind (`as_mesh`).
+    F : npt.ArrayLike | None
+        m x 3 vertex indices.
+    feature_angle : float
+        edges at which the surface turns by this much, radians, become sides of patches across which normals may jump; 0: none.
+    progress : Progress
+        a `Control` or a callback.
+
+    Raises
+    ------
+    ArgumentError
+        a mesh without positions; an angle below 0.
+    LayoutError
+        no layout was found.
+
+    Examples
+    --------
+    >>> smooth = ricci.fit_few_patches(ricci.make("ellipsoid", n=8))
+    >>> smooth.summary.converged
+    True
+    """
+    given = picked(locals(), QuadSplineOptions)
+    mesh = as_mesh(V, F)
+    struct = options("quad_spline_options", given, _QUAD_SPLINE)
+    return QuadSpline._made(lib.ricci_quad_spline_fit_mesh, mesh, float(feature_angle), struct, CONTROL, progress=progress)

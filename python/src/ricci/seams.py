@@ -10,7 +10,8 @@ import numpy.typing as npt
 
 from ricci import _arrays
 from ricci._arrays import frozen
-from ricci._call import CONTROL, Handle, constant, filled, summary
+from ricci._call import CONTROL, constant, filled, summary
+from ricci._kept import Kept
 from ricci._library import lib
 from ricci._shown import Scene
 from ricci._signatures import picked, takes
@@ -114,7 +115,7 @@ _SEAMLESS: dict[str, Write] = {
 }
 
 
-class Seamless(Handle):
+class Seamless(Kept):
     """A flat metric whose angles around cones and along loops are multiples of 90 degrees.
 
     Examples
@@ -206,7 +207,7 @@ def seamless(
 
     Warns
     -----
-    NotConverged
+    ConvergenceWarning
         the target was not reached; whether a metric with this signature exists is not known.
 
     Raises

@@ -9,14 +9,14 @@ import numpy as np
 import numpy.typing as npt
 
 from ricci import _arrays
-from ricci._call import Complexes, constant, doubles, pointer
+from ricci._call import Complexes, Signed, constant, doubles, pointer, rows
 from ricci._library import lib
 from ricci._signatures import picked, takes
 from ricci._structs import Struct, Write, known, number, options, real_list
 from ricci.errors import ArgumentError, ArgumentTypeError
 from ricci.mesh import Mesh
 
-__all__ = ["ChangeOptions", "ShapeOptions", "change", "hyperelliptic_periods", "make"]
+__all__ = ["ChangeOptions", "ShapeOptions", "change", "hyperelliptic_periods", "make", "make_loops"]
 
 Shape: TypeAlias = Literal[
     "sphere",
@@ -33,6 +33,7 @@ Shape: TypeAlias = Literal[
     "two_triangles",
     "pants",
     "hyperelliptic",
+    "fenchel_nielsen",
 ]
 Change: TypeAlias = Literal["punch", "grade", "caps", "needles", "noise", "invert"]
 
@@ -59,7 +60,7 @@ class ShapeOptions(TypedDict, total=False):
     q : int
         times around the tube, of a knot.
     points : npt.ArrayLike
-        complex branch points, of a hyperelliptic surface.
+        complex branch points, of a hyperelliptic surface; lengths and twists as length + 1j * twist, of glued pairs of pants.
     """
 
     genus: int
@@ -112,6 +113,7 @@ _DEFAULTS: dict[str, dict[str, Any]] = {
     "two_vertex": {"genus": 2},
     "pants": {"a": 1.0, "b": 2.0, "c": 3.0, "n": 4},
     "hyperelliptic": {"n": 16, "points": [np.exp(1j * np.pi * k / 3) for k in range(6)]},
+    "fenchel_nielsen": {"genus": 2, "n": 2, "points": [2.0, 2.0, 2.0]},
 }
 # What a change needs to be told.
 _NEEDS: dict[str, tuple[str, ...]] = {
@@ -208,6 +210,8 @@ def make(
         - ``"two_triangles"``. Glued along their sides.
         - ``"pants"``: a, b, c, n. The hyperbolic surface with three geodesic boundaries of these lengths.
         - ``"hyperelliptic"``: points, n. The double cover of the round sphere branched over these points; 40 n^2 faces.
+        - ``"fenchel_nielsen"``: genus, points, n. The hyperbolic surface of glued pairs of pants, with length + 1j * twist of each of the
+          3 g - 3 + b curves of `fenchel_nielsen`, then the lengths of b boundary loops.
 
     Examples
     --------
@@ -220,6 +224,34 @@ def make(
     number_of = constant("SHAPE", shape)
     known(sizes, ShapeOptions.__annotations__)
     return Mesh._made(lib.ricci_make, options("shape", {**_sizes(shape, sizes), "shape": number_of}, _SHAPE))
+
+
+def make_loops(genus: int = 2, points: npt.ArrayLike = (2.0, 2.0, 2.0), n: int = 2) -> list[Signed]:
+    """The loops a1, b1, ..., c1, ... that the coordinates of ``make("fenchel_nielsen", genus=genus, points=points, n=n)`` belong to.
+
+    They are edge paths that start and end at vertex 0: edges numbered from 1, negative backwards.
+
+    Parameters
+    ----------
+    genus : int
+        number of handles.
+    points : npt.ArrayLike
+        length + 1j * twist of each curve, then the lengths of boundary loops.
+    n : int
+        times that every triangle is cut into four.
+
+    Examples
+    --------
+    >>> points = [2 + 0.5j, 3 + 1j, 2.5 - 0.2j]
+    >>> surface, loops = ricci.make("fenchel_nielsen", points=points), ricci.make_loops(points=points)
+    >>> ricci.fenchel_nielsen(ricci.uniformize(surface), loops).round(9).tolist()
+    [[2.0, 0.5], [3.0, 1.0], [2.5, -0.2]]
+    """
+    sizes = {"genus": genus, "points": points, "n": n, "shape": constant("SHAPE", "fenchel_nielsen")}
+    struct = options("shape", sizes, _SHAPE)
+    n_curves = len(_pairs(points))
+    n_generators = 2 * genus + max(n_curves + 3 - 3 * genus, 0) // 2
+    return rows(n_generators, lib.ricci_make_loops, struct)
 
 
 @takes(ChangeOptions)

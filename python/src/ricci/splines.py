@@ -14,7 +14,6 @@ from ricci._arrays import frozen
 from ricci._call import (
     CONTROL,
     Doubles,
-    Handle,
     Indices,
     Signed,
     call,
@@ -27,6 +26,7 @@ from ricci._call import (
     summary,
     text_of,
 )
+from ricci._kept import Kept
 from ricci._library import lib
 from ricci._shown import Scene
 from ricci._signatures import picked, takes
@@ -126,7 +126,7 @@ def _places(parameters: npt.ArrayLike, patches: npt.ArrayLike | None) -> Struct:
     return struct
 
 
-class Spline(Handle):
+class Spline(Kept):
     """A spline surface: basis functions over a domain, with a control point each. It never changes.
 
     Examples
@@ -231,10 +231,6 @@ class Spline(Handle):
     def read(cls, path: str | os.PathLike[str], progress: Progress = None) -> Self:
         """The spline of a file, `ricci-spline 1`."""
         return cls._made(lib.ricci_spline_read, path_bytes(path), progress=progress)
-
-    def __reduce__(self) -> Any:
-        """The text of the spline's file, which reads back as it was."""
-        return Spline.parse, (self.text(),)
 
     @classmethod
     def parse(cls, text: str) -> Self:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import cached_property
 from typing import Any, ClassVar, Literal, TypedDict
 
@@ -10,7 +11,8 @@ import numpy.typing as npt
 
 from ricci import _arrays
 from ricci._arrays import frozen
-from ricci._call import CONTROL, Doubles, Handle, Indices, Signed, call, constant, doubles, pointer, summary
+from ricci._call import CONTROL, Doubles, Indices, Signed, call, constant, doubles, pointer, summary
+from ricci._kept import Kept
 from ricci._library import ffi, lib
 from ricci._shown import Scene
 from ricci._signatures import picked, takes
@@ -80,7 +82,7 @@ _UNIFORM: dict[str, Write] = {
 }
 
 
-class Uniform(Handle):
+class Uniform(Kept):
     """A surface with its metric of constant curvature.
 
     Closed of genus 0: a convex polyhedron inscribed in the unit sphere. Others: the quotient of the plane or the hyperbolic plane by a
@@ -99,6 +101,9 @@ class Uniform(Handle):
     _type: ClassVar[str] = "uniform"
     _made_by: ClassVar[str] = "ricci.uniformize(mesh)"
     _figures: ClassVar[tuple[str, ...]] = ("genus", "space", "stop_reason", "iterations", "max_curvature_error", "modulus")
+
+    def _come_from(self, found: Mapping[str, Any]) -> None:
+        self._input = found["mesh"]
 
     def _sides(self) -> tuple[Any, ...]:
         """The surface and its image in the plane or the hyperbolic plane; of a sphere the given mesh and the unit sphere."""
@@ -246,7 +251,7 @@ def uniformize(
 
     Warns
     -----
-    NotConverged
+    ConvergenceWarning
         the result did not come to its metric; `summary` says why.
 
     Raises

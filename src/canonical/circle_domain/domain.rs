@@ -2,6 +2,7 @@
 
 use super::options::DomainFrame;
 use super::place::hub_pairs;
+use crate::archive::stored;
 use crate::embed::Layout;
 use crate::flow::{FlowSeconds, Solution, StopReason};
 use crate::mesh::{FilledMesh, VertexId};
@@ -24,6 +25,7 @@ pub struct DomainCircle {
     /// Vertices on the circle: those of the loop, and those that were added to it.
     pub vertices: usize,
 }
+stored!(sections DomainCircle { boundary_loop, centre, radius, log_radius, deviation, vertices });
 
 /// The report of [`super::circle_domain()`].
 #[derive(Debug, Clone, PartialEq)]
@@ -62,6 +64,9 @@ pub struct CircleReport {
     /// Seconds of the flows; the rest of the call is neither in the phases nor in `total`.
     pub seconds: FlowSeconds,
 }
+stored!(sections CircleReport { converged, stop_reason, iterations, flips, max_curvature_error,
+    domain_curvature_error, worst_vertex, deviation, worst_loop, centred_on, halved_edges, crossed_edges,
+    least_gap, puncture } without { seconds });
 
 /// A surface whose boundary loops are circles.
 #[derive(Debug, Clone)]
@@ -90,6 +95,8 @@ pub struct CircleDomain {
     /// The report.
     pub report: CircleReport,
 }
+stored!(sections CircleDomain { split, filled, metric, frame, layout, circles, outer, modulus,
+    torus_modulus, report });
 
 impl CircleDomain {
     /// The loops whose circles overlap another one, ascending: those of two hubs that are joined by an edge with η ≤ 1. Such an edge exists

@@ -1,5 +1,6 @@
 //! Options of circle domains.
 
+use crate::archive::stored;
 use crate::error::{Error, Result};
 use crate::flow::Options;
 use crate::mesh::VertexId;
@@ -34,6 +35,12 @@ pub enum DomainFrame {
     /// the modulus.
     Strip,
 }
+stored!(variants DomainFrame {
+        Auto = 0,
+        Disk = 1,
+        Strip = 2,
+    }
+);
 
 /// Largest deviation of a loop from its circle, as a share of the radius, of a converged domain.
 pub const ROUND: f64 = 1e-9;

@@ -1,5 +1,6 @@
 //! The conditions of a harmonic map, and the outcome of the search for it.
 
+use crate::archive::stored;
 use crate::matching::options::BoundaryMatching;
 use crate::mesh::{Mesh, PerHalfedge, PerVertex, VertexId};
 
@@ -51,3 +52,4 @@ pub struct BalanceReport {
     /// Largest distance of a vertex from the mean of its neighbours, as a share of their mean distance.
     pub residual: f64,
 }
+stored!(sections BalanceReport { energy_steps, energy, balance_steps, residual });

@@ -5,8 +5,9 @@ mod face_boxes;
 mod walk;
 
 pub(super) use self::walk::{LocatedVertex, WalkSeed, locate, located};
+use crate::archive::{in_range, stored};
 use crate::embed::Layout;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, check_size};
 use crate::geometry::motion::precise_point;
 use crate::geometry::{DoubleDouble, Motion, Space};
 use crate::mesh::{FaceId, HalfedgeId, Mesh, PerHalfedge, PerVertex, VertexId};
@@ -33,8 +34,19 @@ pub(super) struct UniversalCover {
     /// Per vertex the half-edge of its own corner.
     own: PerVertex<HalfedgeId>,
 }
+stored!(sections UniversalCover { mesh, space, motions, n_across, across, corner, own } check UniversalCover::check_parts);
 
 impl UniversalCover {
+    /// Checks that the parts of an archive fit each other.
+    fn check_parts(&self) -> Result<()> {
+        check_size("sides", self.across.len(), self.mesh.n_halfedges())?;
+        check_size("corners", self.corner.len(), self.mesh.n_halfedges())?;
+        check_size("own corners", self.own.len(), self.mesh.n_vertices())?;
+        let named = self.across.iter().chain(&self.corner).map(|&k| k as usize);
+        in_range("motion", named.chain(self.n_across.checked_sub(1)), self.motions.len())?;
+        in_range("half-edge", self.own.iter().map(|h| h.index()), self.mesh.n_halfedges())
+    }
+
     /// The cover with these transformations across half-edges, `None` for the identity. `own`: half-edges whose corners become the own
     /// corners of their vertices. A vertex on the boundary always has the corner at the boundary edge that leaves it with the surface on
     /// the left.
@@ -152,6 +164,7 @@ pub(super) struct PlacedMesh {
     pub cover: UniversalCover,
     pub at: PerVertex<Motion<DoubleDouble>>,
 }
+stored!(sections PlacedMesh { cover, at });
 
 /// A point in double-double precision.
 pub(super) type PrecisePoint = [DoubleDouble; 3];

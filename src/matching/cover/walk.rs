@@ -5,6 +5,7 @@
 
 use super::face_boxes::FaceBoxes;
 use super::{PlacedMesh, determinant, logarithm, seen_from};
+use crate::archive::stored;
 use crate::control::{Control, Stage};
 use crate::error::{Error, Result};
 use crate::geometry::{DoubleDouble, Motion};
@@ -31,6 +32,7 @@ pub(crate) struct WalkSeed {
     pub vertex: VertexId,
     pub near: HalfedgeId,
 }
+stored!(row WalkSeed { vertex: VertexId, near: HalfedgeId });
 
 /// Per vertex of `points` its place in `domain`, and the largest distance by which one lies outside the domain, or by which the ends of two
 /// walks to it differ, as a share of the nearest triangle. Both lie in the same space over one surface, with the same deck group.

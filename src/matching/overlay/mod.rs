@@ -14,8 +14,9 @@ mod trace;
 
 use super::cover::PlacedMesh;
 use super::cover::WalkSeed;
+use crate::archive::{in_range, stored};
 use crate::control::Control;
-use crate::error::Result;
+use crate::error::{Result, check_size};
 use crate::geometry::{Motion, Space};
 use crate::mesh::union_find::UnionFind;
 use crate::mesh::{FaceId, HalfedgeId, VertexId};
@@ -34,6 +35,7 @@ pub struct CommonDomain {
     seeds: [WalkSeed; 2],
     given: [GivenSurface; 2],
 }
+stored!(sections CommonDomain { placed, seeds, given } check CommonDomain::check_parts);
 
 /// A face of the source or the target in the domain.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,6 +49,21 @@ pub struct DomainTriangle {
 }
 
 impl CommonDomain {
+    /// Checks that the parts of an archive fit each other.
+    fn check_parts(&self) -> Result<()> {
+        for s in 0..2 {
+            let (placed, given) = (&self.placed[s], &self.given[s]);
+            let mesh = &placed.cover.mesh;
+            check_size("frames of vertices", placed.at.len(), mesh.n_vertices())?;
+            check_size("parts of faces", given.parts.len(), mesh.n_faces())?;
+            in_range("face", given.parts.iter().map(|(f, _)| f.index()), given.mesh.n_faces())?;
+            let (seed, other) = (self.seeds[s], &self.placed[1 - s].cover.mesh);
+            in_range("vertex", [seed.vertex.index()].into_iter(), mesh.n_vertices())?;
+            in_range("half-edge", [seed.near.index()].into_iter(), other.n_halfedges())?;
+        }
+        Ok(())
+    }
+
     pub(super) fn new(placed: [PlacedMesh; 2], seeds: [WalkSeed; 2], splits: [&Split; 2]) -> CommonDomain {
         let given = [0, 1].map(|s| GivenSurface {
             mesh: splits[s].given().mesh().clone(),

@@ -3,6 +3,7 @@
 use super::super::cover::PlacedMesh;
 use super::arcs::{NONE, OverlayGraph};
 use super::stand::{SettledVertices, VertexPlace, WeightedPlace};
+use crate::archive::stored;
 use crate::error::{Error, Result};
 use crate::mesh::{EdgeId, FaceId, HalfedgeId, Mesh, PerEdge, PerFace, Place};
 use crate::metric::CommonSubdivision;
@@ -16,6 +17,7 @@ pub(super) struct GivenSurface {
     /// Per face in the domain: the given face that it is a part of, and the weights of its corners there.
     pub parts: Vec<(FaceId, [[f64; 3]; 3])>,
 }
+stored!(sections GivenSurface { mesh, parts });
 
 /// The role of a vertex of the graph in one of the two triangulations.
 enum VertexRole {

@@ -17,6 +17,7 @@ use super::domain_pair::DomainPair;
 use super::landmarks::MarkedSurface;
 use super::options::{BoundaryMatching, MatchOptions};
 use super::pushed::{DomainChange, OldDomain};
+use crate::archive::stored;
 use crate::canonical::{CircleDomain, CircleDomainOptions, circle_domain};
 use crate::control::Control;
 use crate::embed::LayoutScale;
@@ -41,6 +42,7 @@ pub struct RoundHole {
     /// the radius.
     pub deviation: f64,
 }
+stored!(sections RoundHole { boundary_loop, centre, radius, deviation });
 
 /// Both surfaces in a domain with round holes.
 pub(super) struct RoundMatching {

@@ -14,3 +14,8 @@ pub(super) fn decode(text: &[u8]) -> Result<Vec<u8>, String> {
     let plain: Vec<u8> = text.iter().copied().filter(|b| !b.is_ascii_whitespace()).collect();
     LENIENT.decode(plain).map_err(|e| format!("the base64 text is damaged: {e}"))
 }
+
+/// The text of these bytes, on one line.
+pub(super) fn encode(bytes: &[u8]) -> String {
+    LENIENT.encode(bytes)
+}

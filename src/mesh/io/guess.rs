@@ -4,6 +4,7 @@
 use super::off::split_header;
 use super::scan::{BYTE_ORDER_MARK, Location};
 use super::stl::{announces_its_size, is_text};
+use super::{freesurfer, mz3};
 use crate::error::Result;
 
 /// The format of a file that holds a surface.
@@ -21,6 +22,14 @@ pub enum SurfaceFormat {
     Gltf,
     /// GIFTI.
     Gifti,
+    /// VTK, legacy.
+    Vtk,
+    /// VTK in XML.
+    Vtp,
+    /// MZ3.
+    Mz3,
+    /// A surface of FreeSurfer, binary or text.
+    FreeSurfer,
     /// The JSON of an intrinsic metric: lengths without positions.
     Metric,
 }
@@ -53,6 +62,11 @@ fn marked(bytes: &[u8], text: &[u8]) -> Option<SurfaceFormat> {
     let word = text.split(u8::is_ascii_whitespace).next().unwrap_or_default();
     match word {
         _ if bytes.starts_with(b"glTF") => Some(SurfaceFormat::Gltf),
+        _ if bytes.starts_with(freesurfer::BINARY_MARK) || text.starts_with(freesurfer::TEXT_MARK) => {
+            Some(SurfaceFormat::FreeSurfer)
+        }
+        _ if text.starts_with(b"# vtk DataFile") => Some(SurfaceFormat::Vtk),
+        _ if mz3::begins(bytes) => Some(SurfaceFormat::Mz3),
         b"ply" => Some(SurfaceFormat::Ply),
         _ if announces_its_size(bytes) => Some(SurfaceFormat::Stl),
         _ if word.eq_ignore_ascii_case(b"solid") || word.eq_ignore_ascii_case(b"facet") => {
@@ -61,6 +75,7 @@ fn marked(bytes: &[u8], text: &[u8]) -> Option<SurfaceFormat> {
         [b'{', ..] if has(text, b"\"asset\"") => Some(SurfaceFormat::Gltf),
         [b'{', ..] => Some(SurfaceFormat::Metric),
         [b'<', ..] if has(&text[..text.len().min(HEAD)], b"<GIFTI") => Some(SurfaceFormat::Gifti),
+        [b'<', ..] if has(&text[..text.len().min(HEAD)], b"<VTKFile") => Some(SurfaceFormat::Vtp),
         _ if begins_off(first_word(text)) => Some(SurfaceFormat::Off),
         _ => None,
     }
@@ -101,7 +116,6 @@ const STRANGERS: &[(&[u8], &str)] = &[
     (b"\x28\xb5\x2f\xfd", "packed by zstd; unpack it (unzstd), or pack it with gzip"),
     (b"Kaydara FBX", "an FBX file, which is not read; export it as glTF, OBJ or PLY"),
     (b"ISO-10303-21", "a STEP file, which is not read; export a mesh of it as OBJ, PLY or STL"),
-    (b"# vtk DataFile", "a VTK file, which is not read; export it as PLY, OBJ or STL"),
     (b"#VRML", "a VRML file, which is not read; export it as OBJ, PLY or STL"),
     (b"$MeshFormat", "a Gmsh file, which is not read; export it as PLY, OBJ or STL"),
     (b"MeshVersionFormatted", "a Medit file, which is not read; export it as OBJ, OFF or PLY"),
@@ -110,7 +124,6 @@ const STRANGERS: &[(&[u8], &str)] = &[
     (b"\x89PNG", "a PNG picture, not a mesh"),
     (b"\xff\xd8\xff", "a JPEG picture, not a mesh"),
     (b"\x89HDF", "an HDF5 file, which is not read; export the mesh as OBJ, PLY or STL"),
-    (b"\xff\xff\xfe", "a FreeSurfer surface, which is not read; `mris_convert` makes .gii of it"),
 ];
 
 /// A sentence that says what a file is which holds no surface, as far as its beginning tells that.
@@ -129,8 +142,7 @@ fn stranger(bytes: &[u8], text: &[u8]) -> Option<String> {
         let page = "this is an HTML page, such as servers send where a download has failed or needs a login";
         return Some(format!("{page}; download the mesh itself"));
     }
-    let known: [(&[u8], &str); 4] =
-        [(b"<collada", "Collada"), (b"<vtkfile", "VTK"), (b"<x3d", "X3D"), (b"<amf", "AMF")];
+    let known: [(&[u8], &str); 3] = [(b"<collada", "Collada"), (b"<x3d", "X3D"), (b"<amf", "AMF")];
     let (_, name) = known.into_iter().find(|(element, _)| has(&head, element))?;
     Some(format!("this is a {name} file, which is not read; export it as OBJ, PLY or STL"))
 }

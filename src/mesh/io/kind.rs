@@ -1,5 +1,7 @@
 //! The types of numbers in binary files.
 
+use crate::archive::stored;
+
 /// A type of numbers.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum NumberType {
@@ -24,6 +26,19 @@ pub enum NumberType {
     /// A floating-point number of 64 bits.
     F64,
 }
+stored!(variants NumberType {
+        I8 = 0,
+        U8 = 1,
+        I16 = 2,
+        U16 = 3,
+        I32 = 4,
+        U32 = 5,
+        I64 = 6,
+        U64 = 7,
+        F32 = 8,
+        F64 = 9,
+    }
+);
 
 impl NumberType {
     /// The type with this name in PLY, which has the names of C and names with a size; GIFTI has the latter with a prefix.

@@ -1,5 +1,6 @@
 //! Objects, groups and materials: the names under which faces stand in an OBJ file.
 
+use crate::archive::stored;
 use crate::error::{Error, Result, check_size};
 use std::collections::{HashMap, HashSet};
 #[cfg(feature = "gltf")]
@@ -21,6 +22,7 @@ pub struct FaceLabel {
     /// The smoothing group (`s`).
     pub smoothing: String,
 }
+stored!(sections FaceLabel { object, group, material, smoothing });
 
 impl FaceLabel {
     /// The names in the order of [`KEYWORDS`].
@@ -44,6 +46,7 @@ pub struct PlainMaterial {
     /// From 0, a mirror, to 1.
     pub roughness: f64,
 }
+stored!(sections PlainMaterial { name, base_color, metallic, roughness });
 
 /// The label of every face.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -57,6 +60,7 @@ pub struct FaceLabels {
     /// The materials whose look is known; only glTF holds it.
     pub materials: Vec<PlainMaterial>,
 }
+stored!(sections FaceLabels { libraries, labels, of_face, materials });
 
 impl FaceLabels {
     /// The labels of other faces, each that of the face it comes from. A face from none has no names.

@@ -7,21 +7,24 @@
 //! # Ok::<(), ricci::Error>(())
 //! ```
 
-mod atomic;
 #[cfg(any(feature = "gltf", feature = "gifti"))]
 mod base64;
 mod budget;
 mod content;
 mod file_format;
+pub mod freesurfer;
 #[cfg(feature = "gifti")]
 mod gifti;
 #[cfg(feature = "gifti")]
 mod gifti_data;
+#[cfg(feature = "gifti")]
+mod gifti_write;
 #[cfg(feature = "gltf")]
 mod gltf;
 mod guess;
 mod kind;
 mod labels;
+mod mz3;
 mod number_column;
 mod obj;
 mod obj_write;
@@ -39,16 +42,23 @@ mod surface_file;
 pub mod text;
 mod textured;
 mod unpack;
+mod vtk;
 
-pub use atomic::{destination, write_atomically};
+pub use crate::archive::{destination, write_atomically};
 pub use file_format::Format;
+pub use freesurfer::{parse_freesurfer, write_freesurfer, write_freesurfer_text};
 #[cfg(feature = "gifti")]
 pub use gifti::parse_gifti;
+#[cfg(feature = "gifti")]
+pub use gifti_write::{
+    GiftiLabel, GiftiNotes, GiftiTransform, gifti_labels, gifti_surface, gifti_values, write_gifti,
+};
 #[cfg(feature = "gltf")]
 pub use gltf::{Texture, Wrap, parse_glb, write_glb};
 pub use guess::SurfaceFormat;
 pub use kind::NumberType;
 pub use labels::{FaceLabel, FaceLabels, PlainMaterial};
+pub use mz3::{parse_mz3, write_mz3};
 pub use number_column::NumberColumn;
 pub use obj::parse_obj;
 pub use obj_write::{write_obj, write_obj_to};
@@ -61,11 +71,18 @@ pub use soup::{Attributes, Soup};
 pub use stl::{parse_stl, parse_stl_welded};
 pub use surface_file::SurfaceFile;
 pub use textured::TexturedMesh;
+#[cfg(feature = "gzip")]
+pub use unpack::packed;
+pub use unpack::{file_bytes, is_packed, packed_for};
+pub use vtk::{parse_vtk, write_vtk};
+#[cfg(feature = "gifti")]
+pub use vtk::{parse_vtp, write_vtp};
 
 use crate::error::Result;
 use std::path::Path;
 
-/// Reads a mesh file: .obj, .off, .ply, .stl; with the cargo feature `gltf` .glb and .gltf, with `gifti` .gii; with `gzip` each also
+/// Reads a mesh file: .obj, .off, .ply, .stl, .vtk, .mz3, surfaces of FreeSurfer; with the cargo feature `gltf` .glb and .gltf, with `gifti` .gii
+/// and .vtp; with `gzip` each also
 /// packed, with `.gz` at the end. What is in the file counts, also under the name of another format.
 ///
 /// # Errors
@@ -75,13 +92,34 @@ pub fn read(path: &Path) -> Result<Soup> {
     SurfaceFile::open(path)?.soup()
 }
 
-/// Writes a mesh file in the format for its extension.
+/// Writes a mesh file in the format for its extension; with `.gz` at its end, packed.
 ///
 /// # Errors
 ///
 /// Those of [`Format::of`] and [`write_as`].
 pub fn write(path: &Path, soup: &Soup) -> Result<Vec<String>> {
-    write_as(path, Format::of(path)?, soup)
+    let format = Format::of(path)?;
+    #[cfg(feature = "gzip")]
+    if is_packed(path) {
+        return write_packed(path, format, soup);
+    }
+    write_as(path, format, soup)
+}
+
+/// Writes a mesh file that gzip packs, atomically: what is packed is first written to a file of its own.
+#[cfg(feature = "gzip")]
+fn write_packed(path: &Path, format: Format, soup: &Soup) -> Result<Vec<String>> {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let plain = path.with_file_name(format!(".{name}.{}.plain", std::process::id()));
+    let left_out = write_as(&plain, format, soup);
+    let bytes = left_out.as_ref().ok().map(|_| std::fs::read(&plain));
+    let _ = std::fs::remove_file(&plain);
+    let left_out = left_out?;
+    let failed =
+        |e: std::io::Error| crate::Error::Io { path: path.display().to_string(), message: e.to_string() };
+    let bytes = bytes.unwrap_or_else(|| Ok(Vec::new())).and_then(|bytes| packed(&bytes)).map_err(failed)?;
+    write_atomically(path, |out| std::io::Write::write_all(out, &bytes))?;
+    Ok(left_out)
 }
 
 /// Writes binary glTF with a texture over the texture coordinates of a mesh.
@@ -107,6 +145,14 @@ pub fn write_as(path: &Path, format: Format, soup: &Soup) -> Result<Vec<String>>
     match format {
         Format::Ply => return write_ply(path, soup),
         Format::Off => return write_off(path, soup),
+        Format::Vtk => return write_vtk(path, soup),
+        #[cfg(feature = "gifti")]
+        Format::Vtp => return write_vtp(path, soup),
+        Format::Mz3 => return write_mz3(path, soup),
+        #[cfg(feature = "gifti")]
+        Format::Gifti => return write_gifti(path, soup),
+        Format::FreeSurfer => return write_freesurfer(path, soup),
+        Format::FreeSurferText => return write_freesurfer_text(path, soup),
         Format::Obj => textured::with_textured(soup, |data| write_obj(path, data))?,
         #[cfg(feature = "gltf")]
         Format::Glb => textured::with_textured(soup, |data| write_glb(path, data, None).map(drop))?,

@@ -1,6 +1,7 @@
 //! Further numbers of vertices and faces, under the names that a PLY file gives them.
 
 use super::kind::NumberType;
+use crate::archive::stored;
 use crate::error::{Error, Result, check_size};
 
 /// A number of every vertex, or of every face, with its name.
@@ -13,6 +14,7 @@ pub struct NumberColumn {
     /// The numbers, which may be NaN.
     pub values: Vec<f64>,
 }
+stored!(sections NumberColumn { name, kind, values });
 
 impl NumberColumn {
     /// The numbers of other elements, each that of the element it comes from. An element from none has NaN, where the type has it, or 0.

@@ -31,6 +31,11 @@ impl Polygons {
         self.ends.is_empty()
     }
 
+    /// The end of each polygon in `corners`.
+    pub fn ends(&self) -> impl Iterator<Item = usize> + '_ {
+        self.ends.iter().copied()
+    }
+
     pub fn len(&self) -> usize {
         self.ends.len()
     }

@@ -3,6 +3,7 @@
 use super::Format;
 use super::labels::FaceLabels;
 use super::number_column::{NumberColumn, told};
+use crate::archive::stored;
 use crate::error::{Error, Result, check_size};
 use crate::mesh::Point;
 
@@ -32,13 +33,15 @@ pub struct Attributes {
     pub uv: Option<Vec<[[f64; 2]; 3]>>,
     /// The objects, groups and materials under which faces stand, which OBJ can hold.
     pub labels: Option<FaceLabels>,
-    /// Further numbers of vertices (V entries each), which PLY can hold.
+    /// Further numbers of vertices (V entries each), which PLY and VTK can hold.
     pub vertex_numbers: Vec<NumberColumn>,
-    /// Further numbers of faces (F entries each), which PLY can hold.
+    /// Further numbers of faces (F entries each), which PLY and VTK can hold.
     pub face_numbers: Vec<NumberColumn>,
     /// The parts of the file that are not here, each with the reason: what a writer of these attributes leaves out as well.
     pub unread: Vec<String>,
 }
+stored!(sections Attributes { normals, corner_normals, colors, uv, labels, vertex_numbers, face_numbers,
+    unread });
 
 /// The defaults of [`Attributes`].
 pub(super) const NO_NORMAL: Point = [0.0; 3];
@@ -55,6 +58,19 @@ impl Attributes {
         let seams =
             uv.map(|_| "texture coordinates, for they have seams: the format has one pair per vertex");
         corner_normals.into_iter().chain(seams).map(String::from).collect()
+    }
+
+    /// What is left out of a format that has positions and faces alone.
+    pub(super) fn all_left_out(&self, format: Format) -> Vec<String> {
+        let has_normals = self.normals.is_some() || self.corner_normals.is_some();
+        let parts = [
+            (has_normals, "normals"),
+            (self.colors.is_some(), "colours"),
+            (self.uv.is_some(), "texture coordinates"),
+        ];
+        let bare =
+            parts.into_iter().filter(|(has, _)| *has).map(|(_, what)| format!("{what}: the format has none"));
+        bare.chain(self.unheld(format)).collect()
     }
 
     /// What a format has no room for beside normals, colours and texture coordinates, and what was not read in the first place.
@@ -77,8 +93,9 @@ impl Attributes {
         let labels = self.labels.as_ref().and_then(names);
         let numbers = [(&self.vertex_numbers, "vertices"), (&self.face_numbers, "faces")];
         let numbers = numbers.into_iter().filter_map(|(columns, element)| told(columns, element));
-        let numbers =
-            numbers.filter(|_| format != Format::Ply).map(|what| format!("{what}: only PLY has them"));
+        let numbers = numbers
+            .filter(|_| !format.has_numbers())
+            .map(|what| format!("{what}: only PLY and VTK have them"));
         labels.into_iter().chain(numbers).chain(self.unread.iter().cloned()).collect()
     }
 

@@ -18,10 +18,24 @@ pub(super) const READERS: &[(&str, SurfaceFormat)] = &[
     ("gltf", SurfaceFormat::Gltf),
     #[cfg(feature = "gifti")]
     ("gii", SurfaceFormat::Gifti),
+    ("vtk", SurfaceFormat::Vtk),
+    #[cfg(feature = "gifti")]
+    ("vtp", SurfaceFormat::Vtp),
+    ("mz3", SurfaceFormat::Mz3),
+    ("asc", SurfaceFormat::FreeSurfer),
+    ("white", SurfaceFormat::FreeSurfer),
+    ("pial", SurfaceFormat::FreeSurfer),
+    ("inflated", SurfaceFormat::FreeSurfer),
+    ("sphere", SurfaceFormat::FreeSurfer),
+    ("orig", SurfaceFormat::FreeSurfer),
+    ("smoothwm", SurfaceFormat::FreeSurfer),
+    ("midthickness", SurfaceFormat::FreeSurfer),
+    ("reg", SurfaceFormat::FreeSurfer),
 ];
 
 /// Extensions whose readers need a cargo feature, with its name.
-pub(super) const READER_FEATURES: &[(&str, &str)] = &[("glb", "gltf"), ("gltf", "gltf"), ("gii", "gifti")];
+pub(super) const READER_FEATURES: &[(&str, &str)] =
+    &[("glb", "gltf"), ("gltf", "gltf"), ("gii", "gifti"), ("vtp", "gifti")];
 
 /// The contents of a file that holds a surface, unpacked where gzip has packed it, and its format.
 ///
@@ -39,7 +53,7 @@ pub struct SurfaceFile {
 }
 
 impl SurfaceFile {
-    /// Reads a file: .obj, .off, .ply, .stl, .json; with the cargo feature `gltf` .glb and .gltf, with `gifti` .gii; with `gzip` each
+    /// Reads a file: .obj, .off, .ply, .stl, .vtk, .mz3, surfaces of FreeSurfer, .json; with the cargo feature `gltf` .glb and .gltf, with `gifti` .gii and .vtp; with `gzip` each
     /// also with `.gz` at the end (case does not matter).
     ///
     /// # Errors
@@ -98,11 +112,18 @@ impl SurfaceFile {
             SurfaceFormat::Gltf => super::gltf::parse_beside(bytes, name, self.folder.as_deref()),
             #[cfg(feature = "gifti")]
             SurfaceFormat::Gifti => super::parse_gifti(bytes, name),
+            SurfaceFormat::Vtk => super::parse_vtk(bytes, name),
+            #[cfg(feature = "gifti")]
+            SurfaceFormat::Vtp => super::parse_vtp(bytes, name),
+            SurfaceFormat::Mz3 => super::parse_mz3(bytes, name),
+            SurfaceFormat::FreeSurfer => super::parse_freesurfer(bytes, name),
             SurfaceFormat::Metric => self.unknown("this is JSON, such as an intrinsic metric, not a mesh"),
             #[cfg(not(feature = "gltf"))]
             SurfaceFormat::Gltf => self.unknown("glTF needs the cargo feature `gltf`"),
             #[cfg(not(feature = "gifti"))]
             SurfaceFormat::Gifti => self.unknown("GIFTI needs the cargo feature `gifti`"),
+            #[cfg(not(feature = "gifti"))]
+            SurfaceFormat::Vtp => self.unknown("VTK in XML needs the cargo feature `gifti`"),
         }
     }
 

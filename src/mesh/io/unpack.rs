@@ -1,7 +1,8 @@
-//! Unpacking of files that gzip has packed.
+//! Files that gzip has packed, unpacked and packed.
 
 use super::scan::Location;
 use crate::error::Result;
+use std::path::Path;
 
 /// The first bytes of every gzip file.
 const MAGIC: [u8; 2] = [0x1f, 0x8b];
@@ -11,6 +12,49 @@ const MAGIC: [u8; 2] = [0x1f, 0x8b];
 const ANY_FILE: usize = 64 << 20;
 #[cfg(feature = "gzip")]
 const PER_BYTE: usize = 32;
+
+/// True if the name of a file says that gzip packs it: `.gz` at its end.
+pub fn is_packed(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("gz"))
+}
+
+/// The bytes as gzip packs them, without a time.
+///
+/// # Errors
+/// Those of the system, for lack of memory.
+#[cfg(feature = "gzip")]
+pub fn packed(bytes: &[u8]) -> std::io::Result<Vec<u8>> {
+    use std::io::Write;
+    let mut out = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::default());
+    out.write_all(bytes)?;
+    out.finish()
+}
+
+/// The bytes of a file as they were before gzip, if that has packed them.
+///
+/// # Errors
+/// [`crate::Error::Io`]; [`crate::Error::Parse`] for damaged data, and in a build without the cargo feature `gzip` for packed ones.
+pub fn file_bytes(path: &Path) -> Result<Vec<u8>> {
+    unpacked(super::content::content(path)?, &path.display().to_string())
+}
+
+/// Bytes as they stand in a file of this name: packed if it ends in `.gz`.
+///
+/// # Errors
+/// [`crate::Error::UnknownFormat`] in a build without the cargo feature `gzip`; [`crate::Error::Io`] for lack of memory.
+pub fn packed_for(path: &Path, bytes: Vec<u8>) -> Result<Vec<u8>> {
+    if !is_packed(path) {
+        return Ok(bytes);
+    }
+    #[cfg(feature = "gzip")]
+    return packed(&bytes)
+        .map_err(|e| crate::Error::Io { path: path.display().to_string(), message: e.to_string() });
+    #[cfg(not(feature = "gzip"))]
+    Err(crate::Error::UnknownFormat {
+        path: path.display().to_string(),
+        message: ".gz files need the cargo feature `gzip`, without which this library was built".into(),
+    })
+}
 
 /// The bytes of a file as they were before gzip, which may have packed it in several parts; other files are returned as they are.
 ///
@@ -68,7 +112,7 @@ mod tests {
     use flate2::{Compression, write::GzEncoder};
     use std::io::Write;
 
-    fn packed(bytes: &[u8]) -> Vec<u8> {
+    fn best(bytes: &[u8]) -> Vec<u8> {
         let mut out = GzEncoder::new(Vec::new(), Compression::best());
         out.write_all(bytes).and_then(|()| out.finish()).unwrap_or_default()
     }
@@ -77,16 +121,16 @@ mod tests {
     fn parts_are_joined_and_damage_is_told() {
         let message = |bytes: Vec<u8>| unpacked(bytes, "m.gz").unwrap_err().to_string();
         assert_eq!(unpacked(b"plain".to_vec(), "m").ok().as_deref(), Some(&b"plain"[..]));
-        let two = [packed(b"one "), packed(b"two")].concat();
+        let two = [best(b"one "), best(b"two")].concat();
         assert_eq!(unpacked(two.clone(), "m.gz").ok().as_deref(), Some(&b"one two"[..]));
         assert!(message(two[..two.len() - 9].to_vec()).contains("the gzip data are damaged"));
-        assert!(message(packed(&packed(b"x"))).contains("packed this file twice"));
+        assert!(message(best(&best(b"x"))).contains("packed this file twice"));
     }
 
     /// 80 MB of zeros take 80 kB, from which 67 MB may unfold.
     #[test]
     fn a_file_that_unfolds_to_a_thousand_times_its_size_is_refused() {
-        let bomb = packed(&vec![0; 80 << 20]);
+        let bomb = best(&vec![0; 80 << 20]);
         assert!(bomb.len() < 1 << 20);
         let error = unpacked(bomb, "bomb.gz").unwrap_err().to_string();
         assert!(error.contains("the most for its size"), "{error}");

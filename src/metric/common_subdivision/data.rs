@@ -1,6 +1,7 @@
 //! The common subdivision as data: its surface, and the place of each part of it in both triangulations.
 
-use crate::error::Error;
+use crate::archive::{in_range, invalid, stored};
+use crate::error::{Error, Result, check_size};
 use crate::mesh::{EdgeId, FaceId, HalfedgeId, Mesh, PerEdge, PerFace, PerVertex, VertexId};
 
 /// A point on an edge. The weights belong to the ends (those of the half-edge 2e), are not negative and add up to 1.
@@ -13,6 +14,7 @@ pub struct EdgePoint {
     /// Weights of the positions of the ends.
     pub weights: [f64; 2],
 }
+stored!(row EdgePoint { edge: EdgeId, ends: [VertexId; 2], weights: [f64; 2] });
 
 /// A vertex where an edge of the first triangulation and an edge of the second cross, as a point on either.
 pub type Crossing = [EdgePoint; 2];
@@ -23,6 +25,7 @@ pub(super) struct FacePoint {
     pub vertices: [VertexId; 3],
     pub weights: [f64; 3],
 }
+stored!(row FacePoint { vertices: [VertexId; 3], weights: [f64; 3] });
 
 /// How the stored weights of a vertex of the subdivision are assigned to the corners of the face that has the triangle, in two bytes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -33,6 +36,7 @@ pub(super) struct PackedPlace {
     /// other one.
     pub backward: bool,
 }
+stored!(row PackedPlace { corner: u8, backward: bool });
 
 /// The place of a corner of a triangle in a face.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -107,8 +111,39 @@ pub struct CommonSubdivision {
     /// Per vertex, its place in each triangulation. Empty where every vertex is a crossing or a vertex of both.
     pub(super) points: Vec<[FacePoint; 2]>,
 }
+stored!(sections CommonSubdivision { mesh, n_vertices, crossings, weight, polygon_of, faces,
+    halfedges_along, places, points } check CommonSubdivision::check_parts);
 
 impl CommonSubdivision {
+    /// Checks that the arrays of an archive fit each other.
+    fn check_parts(&self) -> Result<()> {
+        let (n, e, f) = (self.mesh.n_vertices(), self.mesh.n_edges(), self.mesh.n_faces());
+        check_size("weights", self.weight.len(), n)?;
+        check_size("pieces", self.polygon_of.len(), f)?;
+        check_size("places", self.places.len(), f)?;
+        check_size("edges along triangulations", self.halfedges_along.len(), e)?;
+        self.faces.iter().try_for_each(|faces| check_size("faces of triangles", faces.len(), f))?;
+        let ends = self.n_vertices[0].checked_add(self.crossings.len()).is_some_and(|end| end <= n);
+        if !ends || self.n_vertices[1] > n || self.points.len() > n {
+            return Err(invalid(
+                "vertices of a common subdivision",
+                "those of both triangulations and crossings",
+            ));
+        }
+        in_range("corner", self.places.as_flattened().as_flattened().iter().map(|p| p.corner.into()), 3)
+    }
+
+    /// Checks that a subdivision of an archive is one of triangulations with these numbers of faces and half-edges.
+    pub(crate) fn check_sides(&self, sides: [&Mesh; 2]) -> Result<()> {
+        for (s, side) in sides.into_iter().enumerate() {
+            in_range("face", self.faces[s].iter().map(|f| f.index()), side.n_faces())?;
+            let along = self.halfedges_along.iter().filter_map(|both| both[s]);
+            in_range("half-edge", along.map(|h| h.index()), side.n_halfedges())?;
+            in_range("edge", self.crossings.iter().map(|point| point[s].edge.index()), side.n_edges())?;
+        }
+        Ok(())
+    }
+
     /// Weights of a triangle's corners in its face on a side, `[corner of the triangle][corner of the face]`: barycentric coordinates if
     /// that is plane.
     pub fn barycentric(&self, side: usize, f: FaceId) -> [[f64; 3]; 3] {

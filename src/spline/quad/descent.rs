@@ -116,6 +116,10 @@ pub(super) fn descend(
             if folded <= at.folded() && energy <= before {
                 break Some(next);
             }
+            if step >= bendings.steps() && energy > SETTLED * SETTLED * before {
+                // Nothing but a smaller step could still come nearer, and not by much.
+                break None;
+            }
             let is_held =
                 if energy <= before { next.around_new_folds(&at) } else { vec![true; tangential.len()] };
             for (weight, _) in tangential.iter_mut().zip(is_held).filter(|(_, is_held)| *is_held) {

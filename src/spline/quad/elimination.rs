@@ -1,5 +1,7 @@
 //! Homogeneous equations between control points, solved one after the other: each control point becomes a combination of free ones.
 
+use crate::archive::stored;
+
 /// Entries of a row: columns, ascending, with values.
 pub(super) type SparseRow = Vec<(u32, f64)>;
 
@@ -35,6 +37,7 @@ pub(super) struct Combinations {
     /// For each column, the numbers of free ones with their weights.
     pub rows: Vec<SparseRow>,
 }
+stored!(sections Combinations { dimension, rows });
 
 impl ControlEquations {
     /// No equation yet; `arcs`: per column the number of arcs in whose equations it is.

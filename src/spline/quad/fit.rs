@@ -8,6 +8,7 @@ use super::space::QuadSplineSpace;
 use super::spline::QuadSpline;
 use super::system::{FitPlace, QuadSystem};
 use super::target::{FootPoint, SplineTarget};
+use crate::archive::stored;
 use crate::control::{Control, Stage};
 use crate::error::Result;
 use crate::geometry::vector::{Vector, distance, dot, sub};
@@ -43,8 +44,10 @@ pub struct FitDistances {
     /// The largest.
     pub max: f64,
 }
+stored!(row FitDistances { rms: f64, max: f64 });
 
 /// A fitted spline with its distances from the target.
+#[derive(Clone)]
 pub struct QuadFit {
     /// The spline.
     pub spline: QuadSpline,
@@ -61,6 +64,7 @@ pub struct QuadFit {
     /// The patches that are turned over somewhere: their normal is more than a right angle off the target's; ascending.
     pub folded_patches: Vec<usize>,
 }
+stored!(sections QuadFit { spline, to_target, of_vertices, patch_max, noise, normal_error, folded_patches });
 
 impl QuadFit {
     /// The largest distance of either kind, over the diagonal.
@@ -186,8 +190,9 @@ fn measured(spline: QuadSpline, pieces: &[usize], target: &SplineTarget) -> Quad
             let far = distance(at.point, foot.point);
             found.squares += far * far;
             found.largest = found.largest.max(far);
-            let normal = at.normal().unwrap_or([0.0; 3]);
-            found.cosine = found.cosine.min(dot(normal, foot.normal));
+            let normal = at.normal();
+            let facing = target.foot_facing(pieces[p], at.point, foot, normal);
+            found.cosine = found.cosine.min(dot(normal.unwrap_or([0.0; 3]), facing.normal));
         }
         for place in &vertices[p] {
             let nearest = spline.point_at(p, place.nearer(&spline, p).parameters);

@@ -1,6 +1,7 @@
 //! Layouts of four-sided patches: how their sides meet, and the fans of patches around their nodes.
 
-use crate::error::{Error, Result};
+use crate::archive::{invalid, stored};
+use crate::error::{Error, Result, check_size};
 use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -19,6 +20,7 @@ pub struct PatchArc {
     /// True if the surface may have an edge there: its normal may jump.
     pub is_crease: bool,
 }
+stored!(row PatchArc { ends: [u32; 2], length: f64, is_crease: bool });
 
 /// A side of a patch of a layout.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -28,6 +30,7 @@ pub struct ArcSide {
     /// True if the arc runs against the way around the patch.
     pub reversed: bool,
 }
+stored!(row ArcSide { arc: u32, reversed: bool });
 
 /// A corner of a patch: corner k lies at the start of side k.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -37,6 +40,7 @@ pub struct PatchCorner {
     /// The number of the corner, and of the side that starts there, along the way around (0, 0), (1, 0), (1, 1), (0, 1).
     pub corner: usize,
 }
+stored!(row PatchCorner { patch: usize, corner: usize });
 
 /// The patches around a node between two creases or sides of the border, or all around it.
 #[derive(Debug, Clone, PartialEq)]
@@ -69,8 +73,21 @@ pub struct PatchLayout {
     /// For each corner of each patch the angle between neighbouring arcs in the fan around it.
     sectors: Vec<[f64; 4]>,
 }
+stored!(sections PatchLayout { n_nodes, arcs, patches, beside, sectors } check PatchLayout::check_parts);
 
 impl PatchLayout {
+    /// Checks that the parts of an archive fit each other.
+    fn check_parts(&self) -> Result<()> {
+        let (arcs, patches) = (self.arcs.clone(), self.patches.clone());
+        let again = PatchLayout::new(self.n_nodes, arcs, patches)?;
+        check_size("corners", self.sectors.len(), again.sectors.len())?;
+        if again.beside == self.beside {
+            Ok(())
+        } else {
+            Err(invalid("patches beside arcs", "those with the arcs as sides"))
+        }
+    }
+
     /// The layout whose patches are the faces of a mesh of quadrilaterals, counterclockwise, all of the same lengths. `creases`: pairs of nodes that a side joins.
     ///
     /// # Errors

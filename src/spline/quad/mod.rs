@@ -32,6 +32,8 @@ mod noise;
 mod over_quads;
 mod places;
 mod quintic;
+#[cfg(feature = "quads")]
+mod relaxed_quads;
 mod space;
 mod spline;
 #[cfg(feature = "step")]
@@ -44,7 +46,7 @@ pub use bezier::BezierExtraction;
 pub use closest::{NearestPlace, NearestPlaces};
 pub use extraction::ExtractionMatrix;
 #[cfg(feature = "quads")]
-pub use few_patches::{LayoutFit, fit_few_patches};
+pub use few_patches::{FewPatchesOptions, LayoutFit, fit_few_patches};
 pub use fit::{FitDistances, QuadFit, QuadFitOptions, bilinear, fit_quads};
 pub use layout::{ArcSide, PatchArc, PatchCorner, PatchLayout};
 #[cfg(feature = "quads")]

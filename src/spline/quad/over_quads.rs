@@ -3,12 +3,13 @@
 use super::fit::{FitStart, QuadFit, bilinear, fit_from};
 use super::fitted_surface::{FittedSurface, no_positions};
 use super::layout::{ArcSide, PatchArc, PatchLayout};
+use super::relaxed_quads::RelaxedQuads;
 use super::space::QuadSplineSpace;
 use super::spline::QuadSpline;
 use super::target::SplineTarget;
 use crate::control::Control;
 use crate::error::{Error, Result};
-use crate::geometry::vector::{Vector, add, cross, distance, dot, lerp, norm, scale, sub};
+use crate::geometry::vector::{Vector, cross, distance, dot, norm, sub};
 use crate::mesh::union_find::UnionFind;
 use crate::parallel;
 use crate::quads::{LayoutArc, LayoutPatch, QuadLayout};
@@ -16,14 +17,11 @@ use crate::seamless::Seamless;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-/// The step with which fits from other splines begin.
-const LATE_STEP: usize = 8;
-/// Rounds in which the vertices of the quads move, and the share of the way to the mean of their neighbours.
-const RELAXATIONS: usize = 120;
-const RELAXATIONS_TO_TARGET: usize = 20;
+/// The step with which fits from other splines begin, and the multiple of the tolerance within which these must be: others may lack a limb.
+const LATE_STEP: usize = 10;
+const NEAR: f64 = 10.0;
 /// Places of a patch in each direction whose faces tell on which part of the surface it lies.
 const PLACES_FOR_FACES: usize = 12;
-const TOWARDS_MEAN: f64 = 0.7;
 /// The share of the distance below which a round has to bring it, and the rounds in a row that may not where no patch is turned over.
 const WORTHWHILE: f64 = 0.85;
 const MOST_FRUITLESS: usize = 1;
@@ -55,7 +53,7 @@ pub struct LayoutFitOptions {
 
 impl Default for LayoutFitOptions {
     fn default() -> Self {
-        LayoutFitOptions { tolerance: None, most_spans: 4, bending: None, threads: 0 }
+        LayoutFitOptions { tolerance: None, most_spans: 6, bending: None, threads: 0 }
     }
 }
 
@@ -99,10 +97,10 @@ pub fn fit_quad_layout(
     let vertices = layout.mesh.positions(&seamless.solution).ok_or_else(no_positions)?;
     parallel::within(options.threads, || {
         let surface = FittedSurface::new(seamless, layout)?;
-        let (vertices, target) = relaxed(layout, vertices, &surface, control)?;
-        let grids = PatchGrid::all(layout, &vertices)?;
+        let RelaxedQuads { points, target } = RelaxedQuads::new(layout, vertices, &surface, control)?;
+        let grids = PatchGrid::all(layout, &points)?;
         let angles: Vec<[f64; 4]> = grids.iter().map(PatchGrid::corner_angles).collect();
-        let patches = patch_layout(layout, &vertices)?.with_angles(&angles);
+        let patches = patch_layout(layout, &points)?.with_angles(&angles);
         LayoutStart { surface, grids, patches }.fitted(target, options, control)
     })
 }
@@ -130,7 +128,8 @@ impl LayoutStart<'_> {
         let (mut round, mut fruitless) = (0, 0);
         loop {
             let space = Arc::new(QuadSplineSpace::with_spans(patches.clone(), spans.clone())?);
-            let whole = best.as_ref().filter(|best| best.folded_patches.is_empty());
+            let is_near = |fit: &&QuadFit| fit.is_within(NEAR * options.limit(fit));
+            let whole = best.as_ref().filter(is_near);
             let last =
                 |p: usize, uv: [f64; 2]| whole.map_or_else(|| start(p, uv), |fit| fit.spline.point_at(p, uv));
             let from = FitStart { map: &last, first_step: if whole.is_some() { LATE_STEP } else { 0 } };
@@ -220,54 +219,6 @@ fn strips(n_arcs: usize, patches: &[[ArcSide; 4]]) -> Vec<usize> {
         same.join(sides[1].arc, sides[3].arc);
     }
     (0..n_arcs as u32).map(|arc| same.root(arc) as usize).collect()
-}
-
-/// The vertices of the quads moved along the surface towards the means of their neighbours, so that quads around cones, where the flat metric
-/// has no tangent plane, become as large as those around them; those on creases and the boundary stay. Patches move along the surface with their
-/// vertices: the target of the moved patches is returned as well.
-fn relaxed(
-    layout: &QuadLayout,
-    vertices: Vec<Vector>,
-    surface: &FittedSurface<'_>,
-    control: &Control,
-) -> Result<(Vec<Vector>, SplineTarget)> {
-    let n = vertices.len();
-    let mut neighbours: Vec<Vec<u32>> = vec![Vec::new(); n];
-    for quad in &layout.mesh.quads {
-        for k in 0..4 {
-            neighbours[quad[k] as usize].extend([quad[(k + 1) % 4], quad[(k + 3) % 4]]);
-        }
-    }
-    let mut is_fixed = vec![false; n];
-    let on_creases = layout.arcs.iter().filter(|arc| arc.is_crease).flat_map(|arc| &arc.vertices);
-    on_creases.for_each(|&v| is_fixed[v as usize] = true);
-    let (mut corners, mut patch): (Vec<Vec<u32>>, Vec<usize>) = (Vec::new(), vec![0; n]);
-    for (p, of) in layout.patches.iter().enumerate() {
-        corners.push(of.quads.iter().flat_map(|&q| layout.mesh.quads[q as usize]).collect());
-        corners[p].iter().for_each(|&v| patch[v as usize] = p);
-    }
-    let mut points = vertices;
-    let mut target = surface.target(&surface.faces_at_first(layout, &corners))?;
-    for round in 1..=RELAXATIONS {
-        control.check()?;
-        let moved = |v: usize| {
-            let around = neighbours[v].iter().map(|&w| points[w as usize]);
-            let mean = scale(1.0 / neighbours[v].len() as f64, around.fold([0.0; 3], add));
-            target.foot(patch[v], lerp(points[v], mean, TOWARDS_MEAN)).point
-        };
-        points =
-            parallel::map(n, |v| if is_fixed[v] || neighbours[v].is_empty() { points[v] } else { moved(v) });
-        if round % RELAXATIONS_TO_TARGET == 0 {
-            let face = |&v: &u32| target.face_near(patch[v as usize], points[v as usize]);
-            let inside = |p: usize| {
-                let free = corners[p].iter().filter(|&&v| !is_fixed[v as usize]);
-                let free: Vec<u32> = free.map(face).collect();
-                if free.is_empty() { vec![target.face_near(p, points[corners[p][0] as usize])] } else { free }
-            };
-            target = surface.target(&parallel::map(corners.len(), inside))?;
-        }
-    }
-    Ok((points, target))
 }
 
 /// The layout with every side of every patch as one arc. Lengths, equal on opposite sides, are the means of those in space, in units of their

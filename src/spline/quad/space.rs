@@ -4,7 +4,8 @@ use super::elimination::{Combinations, ControlEquations, SparseRow};
 use super::gluing::{Gluing, GluingLength, GluingLengths};
 use super::layout::{ArcEnd, ArcSide, PatchCorner, PatchLayout};
 use super::quintic::{MAX_SPANS, basis_size};
-use crate::error::{Error, Result};
+use crate::archive::{in_range, stored};
+use crate::error::{Error, Result, check_size};
 use crate::geometry::vector::Vector;
 use crate::mesh::union_find::UnionFind;
 use std::collections::BTreeMap;
@@ -25,6 +26,7 @@ pub struct QuadSplineSpace {
     control: Vec<Vec<u32>>,
     combinations: Combinations,
 }
+stored!(sections QuadSplineSpace { layout, spans, control, combinations } check QuadSplineSpace::check_parts);
 
 /// An arc across which the tangent plane is continuous.
 struct SmoothArc {
@@ -35,6 +37,16 @@ struct SmoothArc {
 }
 
 impl QuadSplineSpace {
+    /// Checks that the parts of an archive fit each other.
+    fn check_parts(&self) -> Result<()> {
+        let n = self.combinations.rows.len();
+        check_size("spans", self.spans.len(), self.layout.arcs().len())?;
+        check_size("patches", self.control.len(), self.layout.patches().len())?;
+        in_range("control point", self.control.iter().flatten().map(|&k| k as usize), n)?;
+        let free = self.combinations.rows.iter().flatten().map(|&(k, _)| k as usize);
+        in_range("free control point", free, self.combinations.dimension)
+    }
+
     /// The space over a layout with a number of spans per patch and direction, from 1 to 32.
     ///
     /// # Errors
@@ -51,7 +63,7 @@ impl QuadSplineSpace {
     /// u32 can number; [`Error::Spline`] where opposite sides have other numbers of spans, and where all splines of the space have a vanishing
     /// tangent at a node.
     pub fn with_spans(layout: PatchLayout, spans: Vec<usize>) -> Result<QuadSplineSpace> {
-        crate::error::check_size("spans of arcs", spans.len(), layout.arcs().len())?;
+        check_size("spans of arcs", spans.len(), layout.arcs().len())?;
         if let Some(&other) = spans.iter().find(|spans| !(1..=MAX_SPANS).contains(*spans)) {
             return Err(Error::argument("spans", other, "a number from 1 to 32"));
         }
@@ -144,7 +156,7 @@ impl QuadSplineSpace {
     /// # Errors
     /// [`Error::Size`] for another number of free points.
     pub fn control_points(&self, free: &[Vector]) -> Result<Vec<Vector>> {
-        crate::error::check_size("free control points", free.len(), self.dimension())?;
+        check_size("free control points", free.len(), self.dimension())?;
         let point = |row: &SparseRow| {
             row.iter()
                 .fold([0.0; 3], |sum: Vector, &(k, w)| [0, 1, 2].map(|x| sum[x] + w * free[k as usize][x]))

@@ -3,7 +3,8 @@
 use super::layout::PatchCorner;
 use super::quintic::{LOCAL, QUINTIC, QuinticBasis, knots};
 use super::space::QuadSplineSpace;
-use crate::error::{Error, Result};
+use crate::archive::stored;
+use crate::error::{Error, Result, check_size};
 use crate::geometry::vector::{Vector, add, scale};
 use crate::spline::triangular::SurfacePoint;
 use std::sync::Arc;
@@ -14,8 +15,14 @@ pub struct QuadSpline {
     space: Arc<QuadSplineSpace>,
     control_points: Vec<Vector>,
 }
+stored!(sections QuadSpline { space, control_points } check QuadSpline::check_parts);
 
 impl QuadSpline {
+    /// Checks that the parts of an archive fit each other.
+    fn check_parts(&self) -> Result<()> {
+        check_size("control points", self.control_points.len(), self.space.n_control_points())
+    }
+
     /// The spline with these free control points.
     ///
     /// # Errors

@@ -14,9 +14,10 @@ use crate::parallel;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// Places in every span and direction at which distances are taken. As many as the degree has coefficients would be interpolated, with large
-/// errors between them.
-const PLACES: usize = 2 * QUINTIC;
+/// Places in every span and direction at which distances are taken: of patches with one span, and of others, which have fewer coefficients per
+/// span. As many as there are coefficients would be interpolated, with large errors between them.
+const PLACES_OF_ONE_SPAN: usize = 2 * QUINTIC;
+const PLACES_OF_A_SPAN: usize = 7;
 /// Pairs of unknowns beyond which repeated ones are dropped on the way.
 const MOST_PAIRS: usize = 1 << 24;
 /// Number of control points that a place depends on.
@@ -281,7 +282,7 @@ fn lengths(space: &QuadSplineSpace, patch: usize) -> [f64; 2] {
 impl SpanDirection {
     /// The direction with the places of Gauss in every span, at which products of derivatives are integrated exactly.
     fn new(spans: usize) -> SpanDirection {
-        let in_span = gauss_legendre(PLACES);
+        let in_span = gauss_legendre(if spans == 1 { PLACES_OF_ONE_SPAN } else { PLACES_OF_A_SPAN });
         let place = |s: usize, [x, w]: [f64; 2]| {
             let parameter = (s as f64 + x) / spans as f64;
             SpanPlace { basis: QuinticBasis::at(spans, parameter), parameter, weight: w / spans as f64 }

@@ -2,13 +2,17 @@
 
 use super::layout::ascending;
 use crate::error::{Error, Result};
-use crate::geometry::triangle_tree::{TriangleTree, combined};
+use crate::geometry::triangle_tree::{NearestOfTriangles, TriangleTree, combined};
 use crate::geometry::vector::{Vector, add, dot, norm, normalised, scale, sub, triangle_normal};
 use crate::mesh::Point;
 use crate::mesh::check::Features;
 use crate::mesh::union_find::UnionFind;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
+
+/// How much farther than the nearest point of the target one that faces the same way as the spline may be to be its foot, over the diagonal:
+/// thicker walls are told by their distance.
+const RIM: f64 = 3e-3;
 
 /// A triangle of the target.
 #[derive(Debug, Clone, Copy)]
@@ -132,9 +136,22 @@ impl SplineTarget {
 
     /// The foot of a point on a piece, as on a surface that is curved between the corners of the nearest triangle [`offset`].
     pub(super) fn foot(&self, piece: usize, point: Vector) -> FootPoint {
-        let nearest = self.pieces[piece].nearest(point);
-        let normal = nearest.normal();
-        FootPoint { point: sub(point, scale(offset(&nearest, normal, point), normal)), normal }
+        self.pieces[piece].nearest(point).foot(point)
+    }
+
+    /// The foot of a point of a spline with this normal, on the part of a piece that faces the same way if that is about as near as the rest: the point
+    /// nearest to one at the rim of a thin wall may be on its other side. It tells whether the spline is turned over there.
+    /// `foot`: the nearest one, by [`SplineTarget::foot`].
+    pub(super) fn foot_facing(
+        &self,
+        piece: usize,
+        point: Vector,
+        foot: FootPoint,
+        normal: Option<Vector>,
+    ) -> FootPoint {
+        let Some(normal) = normal.filter(|&normal| dot(normal, foot.normal) <= 0.0) else { return foot };
+        let within = norm(sub(foot.point, point)) + RIM * self.diagonal;
+        self.pieces[piece].nearest_facing(point, normal, within).map_or(foot, |nearest| nearest.foot(point))
     }
 }
 
@@ -253,6 +270,11 @@ impl NearestPoint<'_> {
     fn normal(&self) -> Vector {
         normalised(combined(self.weights, self.triangle.normals))
     }
+
+    fn foot(&self, point: Vector) -> FootPoint {
+        let normal = self.normal();
+        FootPoint { point: sub(point, scale(offset(self, normal, point), normal)), normal }
+    }
 }
 
 /// The height of a point over the surface through the corners of the triangle nearest to it: the mean, by weights there, of its heights along
@@ -265,7 +287,15 @@ fn offset(nearest: &NearestPoint<'_>, normal: Vector, point: Vector) -> f64 {
 
 impl SmoothPiece {
     fn nearest(&self, point: Vector) -> NearestPoint<'_> {
-        let nearest = self.tree.nearest(point);
+        self.point_at(self.tree.nearest(point))
+    }
+
+    /// The nearest point of the triangles that face a direction, if one is within a distance.
+    fn nearest_facing(&self, point: Vector, direction: Vector, within: f64) -> Option<NearestPoint<'_>> {
+        self.tree.nearest_facing(point, direction, within).map(|nearest| self.point_at(nearest))
+    }
+
+    fn point_at(&self, nearest: NearestOfTriangles) -> NearestPoint<'_> {
         NearestPoint { triangle: &self.triangles[nearest.triangle], weights: nearest.weights }
     }
 }

@@ -10,8 +10,10 @@
 #include <pthread.h>
 #include <ricci/bicubic.h>
 #include <ricci/circles.h>
+#include <ricci/flatten.h>
 #include <ricci/harmonic.h>
 #include <ricci/match.h>
+#include <ricci/moduli.h>
 #include <ricci/quad_spline.h>
 #include <ricci/quads.h>
 #include <ricci/repair.h>
@@ -39,6 +41,8 @@ static ricci_solver *solver;
 static ricci_layout *layout;
 static ricci_uniform *quotient, *polyhedron;
 static ricci_dirichlet *dirichlet;
+static ricci_deck *generators;
+static ricci_forms *forms;
 static ricci_matching *matching;
 static ricci_seamless *seamless;
 static ricci_spline *spline, *plane;
@@ -87,6 +91,8 @@ static void set_up(double n) {
     check(ricci_uniformize(two, NULL, NULL, &quotient));
     check(ricci_uniformize(sphere, NULL, NULL, &polyhedron));
     check(ricci_dirichlet_new(quotient, NULL, NULL, &dirichlet));
+    check(ricci_deck_new(quotient, NULL, NULL, &generators));
+    check(ricci_forms_new(two, NULL, NULL, &forms));
     check(ricci_match(torus, torus, NULL, NULL, &matching));
     check(ricci_seamless_new(torus, NULL, NULL, &seamless));
     check(ricci_spline_fit_surface(flat, NULL, NULL, &spline));
@@ -135,11 +141,22 @@ static const ricci_refine_options FINE = {sizeof FINE, 2, 0, 0, 0};
 static const ricci_repair_options REPAIR = {sizeof REPAIR, 1e-7, 0, 1, 1, 1, 1, SIZE_MAX, NULL, 0};
 static const ricci_deck_spec DEEP = {sizeof DEEP, RICCI_DECK_DEPTH, 0, NULL, 0, NULL, 0, NULL, 0.,
                                      6,           10000000};
-static const ricci_structure_options FORM = {sizeof FORM, NULL, NULL, 0, 0, RICCI_AFFINE_FORM};
+static const ricci_deck_spec SHORT = {sizeof SHORT, RICCI_DECK_GEODESICS, 0, NULL, 0, NULL, 0, NULL, 5, 0,
+                                      10000000};
+static const ricci_bounds_options NARROW = {sizeof NARROW, 1e-5, 0, RICCI_DEGREE_QUADRATIC, 0};
+static const ricci_structure_options FORM = {sizeof FORM, NULL, NULL, 0, 0, RICCI_AFFINE_FORM, 0};
 static const ricci_harmonic_spec ROUND = {sizeof ROUND, NULL, NULL, 0, RICCI_HARMONIC_SPHERE, 0, 0, 0};
 static const ricci_quads_options MANY = {sizeof MANY, RICCI_QUADS_NUMBER, 0, 20000, 0, 0};
-static const ricci_bicubic_options NEAR = {sizeof NEAR, 1e-5, 0, 0, 0, 1, 0};
+static const ricci_bicubic_options NEAR = {sizeof NEAR, 1e-3, 0.2, 0, 0, 1, 0};
 static ricci_harmonic_summary figures;
+static ricci_flatten_summary flat_figures;
+static ricci_dart_summary dart_figures;
+static const ricci_flatten_options LENGTHS = {.size = sizeof LENGTHS, .energy = RICCI_FLATTEN_DISTANCE};
+static const ricci_flatten_options APART = {.size = sizeof APART, .injective = 1};
+static const ricci_dart_options TIGHT = {.size = sizeof TIGHT, .strain_warp = 1e-9, .most = 1};
+static ricci_bounds_summary bounds_figures;
+static ricci_dilatation_bracket bracket_figures;
+static size_t n_points;
 static ricci_seamless_options isometric = {.size = sizeof isometric, .isometric_steps = 5};
 
 FILLS(target_fill, ricci_target_fill(torus_metric, &EIGHT, control, numbers, n_most))
@@ -159,12 +176,32 @@ MAKES(uniform_layout, ricci_layout,
       ricci_uniform_layout(quotient, RICCI_ON_REFINEMENT, RICCI_MODEL_POINCARE, control, &result))
 MAKES(sphere_mesh, ricci_mesh, ricci_sphere_mesh(polyhedron, RICCI_ON_REFINEMENT, control, &result))
 MAKES(deck_new, ricci_deck, ricci_deck_new(quotient, &DEEP, control, &result))
+MAKES(deck_geodesics, ricci_deck, ricci_deck_new(quotient, &SHORT, control, &result))
+FILLS(deck_geodesic,
+      ricci_deck_geodesic(generators, 0, control, indices, n_most, numbers, 6 * n_most, &n_points))
 MAKES(dirichlet_new, ricci_dirichlet, ricci_dirichlet_new(quotient, NULL, control, &result))
 MAKES(circle_domain_new, ricci_circle_domain, ricci_circle_domain_new(annulus, NULL, control, &result))
+FILLS(flatten,
+      ricci_flatten(disk, NULL, control, numbers, n_most, NULL, 0, &flat_figures, sizeof flat_figures))
+FILLS(flatten_distance,
+      ricci_flatten(disk, &LENGTHS, control, numbers, n_most, NULL, 0, &flat_figures, sizeof flat_figures))
+FILLS(flatten_injective,
+      ricci_flatten(disk, &APART, control, numbers, n_most, NULL, 0, &flat_figures, sizeof flat_figures))
+FILLS(flatten_sphere, ricci_flatten_sphere(sphere, NULL, control, numbers, n_most, NULL, 0, &flat_figures,
+                                           sizeof flat_figures))
+FILLS(inflate, ricci_inflate(sphere, 0, 0, control, numbers, n_most))
+MAKES(flatten_darts, ricci_mesh,
+      ricci_flatten_darts(disk, NULL, &TIGHT, control, NULL, 0, &dart_figures, sizeof dart_figures, &result))
 FILLS(harmonic, ricci_harmonic(disk, NULL, control, numbers, n_most))
 FILLS(harmonic_map_to_sphere, ricci_harmonic_map(sphere, &ROUND, control, numbers, n_most, numbers + n_most,
                                                  n_most, &figures, sizeof figures))
 MAKES(forms_new, ricci_forms, ricci_forms_new(two, NULL, control, &result))
+FILLS(forms_bounds,
+      ricci_forms_bounds(forms, &NARROW, control, numbers, n_most, &bounds_figures, sizeof bounds_figures))
+FILLS(modulus_bounds,
+      ricci_modulus_bounds(annulus, NULL, &NARROW, control, numbers, &bounds_figures, sizeof bounds_figures))
+FILLS(matching_bracket,
+      ricci_matching_bracket(matching, NULL, NULL, control, &bracket_figures, sizeof bracket_figures))
 MAKES(match_tori, ricci_matching, ricci_match(torus, torus, NULL, control, &result))
 MAKES(match_spheres, ricci_matching, ricci_match(sphere, sphere, NULL, control, &result))
 MAKES(match_genus_2, ricci_matching, ricci_match(two, two, NULL, control, &result))
@@ -192,6 +229,7 @@ FILLS(mesh_write, ricci_mesh_write(torus, NULL, "latency.ply"))
 MAKES(soup_refine, ricci_soup, ricci_soup_refine(soup, &FINE, &result))
 MAKES(soup_repair, ricci_soup, ricci_soup_repair(soup, &REPAIR, &result))
 
+MAKES(quad_spline_fit_mesh, ricci_quad_spline, ricci_quad_spline_fit_mesh(two, 0, NULL, control, &result))
 MAKES(quad_spline_fit, ricci_quad_spline, ricci_quad_spline_fit(seamless, NULL, NULL, control, &result))
 FILLS(quad_spline_closest,
       ricci_quad_spline_closest(quad_spline, points, n_most / 3, control, indices, numbers, 6 * n_most))
@@ -235,11 +273,22 @@ static const struct {
             JOB(uniform_layout),
             JOB(sphere_mesh),
             JOB(deck_new),
+            JOB(deck_geodesics),
+            JOB(deck_geodesic),
             JOB(dirichlet_new),
             JOB(circle_domain_new),
+            JOB(flatten),
+            JOB(flatten_distance),
+            JOB(flatten_injective),
+            JOB(flatten_sphere),
+            JOB(inflate),
+            JOB(flatten_darts),
             JOB(harmonic),
             JOB(harmonic_map_to_sphere),
             JOB(forms_new),
+            JOB(forms_bounds),
+            JOB(modulus_bounds),
+            JOB(matching_bracket),
             JOB(match_tori),
             JOB(match_spheres),
             JOB(match_genus_2),
@@ -260,6 +309,7 @@ static const struct {
             JOB(spline_evaluate),
             JOB(spline_tessellate),
             JOB(bicubic_new),
+            JOB(quad_spline_fit_mesh),
             JOB(quad_spline_fit),
             JOB(quad_spline_evaluate),
             JOB(quad_spline_closest),

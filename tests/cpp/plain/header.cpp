@@ -1,9 +1,13 @@
 // The headers are clean C++; handles free themselves, failures throw with status, element, amount and
 // message.
+#include <ricci/archive.hpp>
 #include <ricci/bicubic.hpp>
 #include <ricci/circles.hpp>
+#include <ricci/flatten.hpp>
+#include <ricci/freesurfer.hpp>
 #include <ricci/harmonic.hpp>
 #include <ricci/match.hpp>
+#include <ricci/moduli.hpp>
 #include <ricci/quad_spline.hpp>
 #include <ricci/quads.hpp>
 #include <ricci/repair.hpp>
@@ -59,6 +63,24 @@ int whole_job() {
     return defects && solver.solve(target).report().converged == 1 ? 0 : 9;
 }
 
+// What is kept comes back as it was, with what it was made from.
+int archives() {
+    const auto mesh = ricci::mesh::from(positions, faces);
+    const ricci::metric end = ricci::flow(
+        ricci::metric(mesh), ricci::target::given(std::vector<double>(4, 3.14159265358979323846)));
+    const ricci::archive kept(end);
+    const ricci::archive same = ricci::archive::parse(kept.bytes());
+    const auto again = same.get_as<ricci::metric>();
+    if (again.lengths() != end.lengths() || ricci::archive(again).bytes() != kept.bytes()) return 61;
+    if (same.get_as<ricci::mesh>().positions() != positions) return 62;
+    try {
+        same.get_as<ricci::layout>();
+        return 63;
+    } catch (const std::invalid_argument &) {
+        return 0;
+    }
+}
+
 // One class for every closed surface; words and loops as lists.
 int uniformization() {
     ricci_shape shape = ricci::init<ricci_shape>();
@@ -81,6 +103,13 @@ int uniformization() {
     if (words.size() != 8 || words[0].empty() || octagon.corners().size() != 24) return 13;
     for (double trace : sides.values(RICCI_DECK_TRACE))
         if (std::abs(trace - 2 * (1 + std::sqrt(2.0))) > 1e-9) return 14;
+    ricci_deck_spec shortest = ricci::init<ricci_deck_spec>();
+    shortest.kind = RICCI_DECK_GEODESICS, shortest.radius = 3.1, shortest.limit = 100000;
+    const auto systoles = bolza.deck(shortest);
+    const auto line = systoles.geodesic(0);
+    if (systoles.summary().n_elements != 12 || line.second.size() != 3 * line.first.size()) return 14;
+    if (ricci::fenchel_nielsen(bolza).size() != 6) return 14;
+    if (ricci::n_pants_curves(2, 4) != 3 || ricci::n_pants_curves(0, 2) != 0) return 14;
     const auto basis = bolza.homotopy();
     const auto loops = basis.loops();
     std::size_t edges = 0;
@@ -89,11 +118,47 @@ int uniformization() {
     return edges == basis.summary().n_loop_edges && basis.reduced(none).empty() ? 0 : 15;
 }
 
+// Data of FreeSurfer, written and read again.
+int brain_files() {
+    ricci::write_values("every.sulc", {1, 2, 3}, 1);
+    ricci::write_label("every.label", {{0, 2}, {}, {0.5, 1}});
+    ricci::write_patch("every.flat", {{5}, {1, 2, 0}, {1}});
+    ricci::write_annotation("every.annot", {{0, -1, 1}, {"a", "b"}, {1, 2, 3, 0, 4, 5, 6, 0}});
+    const auto regions = ricci::read_annotation("every.annot");
+    const bool same = ricci::read_values("every.sulc").size() == 3 &&
+                      ricci::read_label("every.label").values[1] == 1 &&
+                      ricci::read_patch("every.flat").vertices[0] == 5 && regions.names[1] == "b" &&
+                      regions.regions[1] == -1 && regions.colors[4] == 4;
+    return same ? 0 : 24;
+}
+
+// A ball on the sphere, inflated, and without a part of it.
+int cortices() {
+    ricci_shape shape = ricci::init<ricci_shape>();
+    shape.shape = RICCI_SHAPE_SPHERE, shape.n = 4;
+    const auto ball = ricci::mesh::made(shape);
+    const std::size_t n = ball.summary().n_vertices;
+    const auto round = ricci::flatten_sphere(ball);
+    const auto view = ricci::inflate(ball);
+    auto marks = ricci::medial_wall(ball, view, {1, 0, 0}, 0.2);
+    for (auto &mark : marks) mark = 1 - mark;
+    const auto part = ricci::flat_part(ball, marks);
+    return round.points.size() == 3 * n && view.size() == 3 * n && part == marks ? 0 : 23;
+}
+
 // Forms with the periods of the flat torus of i, a map of a disk, and an annulus between circles.
 int forms_and_maps() {
     ricci_shape shape = ricci::init<ricci_shape>();
     shape.shape = RICCI_SHAPE_DISK, shape.n = 5;
     const auto disk = ricci::mesh::made(shape);
+    const auto unrolled = ricci::flatten(disk);
+    const auto strained = ricci::flatten_strains(disk, unrolled.points);
+    const auto opened = ricci::flatten_darts(disk);
+    if (strained.size() != 3 * disk.summary().n_faces || opened.summary.n_darts != 0) return 22;
+    if (unrolled.points.size() != 2 * disk.summary().n_vertices ||
+        unrolled.energies.size() != unrolled.summary.n_energies ||
+        unrolled.summary.after[RICCI_DISTORTION_MAX_LENGTH_ERROR] > 1e-12)
+        return 35;
     const std::vector<double> round = ricci::harmonic(disk);
     double farthest = 0;
     for (std::size_t v = 0; v + 2 < round.size(); v += 3)
@@ -126,6 +191,9 @@ int forms_and_maps() {
     const ricci::forms forms(ricci::mesh::made(shape));
     const auto figures = forms.summary();
     if (figures.n_forms != 4 || forms.periods().size() != 8 || figures.least_eigenvalue <= 0) return 33;
+    const ricci::period_bounds bounds(forms);
+    if (bounds.summary.gap > 1e-3 || bounds.genus != 2 || bounds.at(1, 1).imaginary <= 0) return 33;
+    if (std::abs(bounds.at(0, 1).real - bounds.at(1, 0).real) > 0 || bounds.at(0, 0).radius <= 0) return 33;
     const std::vector<double> first = {1, 0, 0, 0};
     const auto real = forms.values(0), both = forms.holomorphic(first);
     if (both.size() != 2 * real.size() || both[0] != real[0]) return 34;
@@ -324,8 +392,8 @@ int failures() {
 } // namespace
 
 int main() {
-    for (int failed : {whole_job(), uniformization(), forms_and_maps(), structures(), splines(), quads(),
-                       quad_splines(), bicubic_patches(), failures()})
+    for (int failed : {whole_job(), archives(), uniformization(), forms_and_maps(), cortices(), brain_files(),
+                       structures(), splines(), quads(), quad_splines(), bicubic_patches(), failures()})
         if (failed) return failed;
     return 0;
 }

@@ -8,6 +8,7 @@
 #include <malloc.h>
 #include <ricci/bicubic.h>
 #include <ricci/circles.h>
+#include <ricci/flatten.h>
 #include <ricci/harmonic.h>
 #include <ricci/match.h>
 #include <ricci/repair.h>

@@ -323,14 +323,20 @@ static void a_disk_has_a_border(void) {
 }
 
 static void what_cannot_be_is_refused(void) {
-    ricci_mesh *mesh = NULL;
+    ricci_mesh *mesh = NULL, *finer = NULL;
     ricci_quad_layout *layout = NULL;
     ricci_quad_spline *spline = NULL, *none = NULL;
     OK(make_sized(RICCI_SHAPE_ELLIPSOID, 4, 0, 1.6, 1.2, 1, &mesh));
-    ricci_seamless *seamless = seamless_of(mesh), *other = seamless_of(mesh);
+    OK(make_sized(RICCI_SHAPE_ELLIPSOID, 5, 0, 1.6, 1.2, 1, &finer));
+    ricci_seamless *seamless = seamless_of(mesh), *other = seamless_of(finer);
+    ricci_mesh_free(finer);
     OK(ricci_quad_layout_new(other, NULL, NULL, &layout));
     ricci_quad_spline_options options;
     INIT(options);
+    CHECK(ricci_quad_spline_fit_mesh(NULL, 0, NULL, NULL, &none) == RICCI_NULL_POINTER);
+    CHECK(ricci_quad_spline_fit_mesh(mesh, 0, NULL, NULL, NULL) == RICCI_NULL_POINTER);
+    FAILS(ricci_quad_spline_fit_mesh(mesh, -1, NULL, NULL, &none), RICCI_ARGUMENT, "angle");
+    FAILS(ricci_quad_spline_fit_mesh(mesh, INFINITY, NULL, NULL, &none), RICCI_ARGUMENT, "angle");
     CHECK(ricci_quad_spline_fit(NULL, NULL, NULL, NULL, &none) == RICCI_NULL_POINTER);
     CHECK(ricci_quad_spline_fit(seamless, NULL, NULL, NULL, NULL) == RICCI_NULL_POINTER);
     FAILS(ricci_quad_spline_fit(seamless, layout, NULL, NULL, &none), RICCI_ARGUMENT, "another");
@@ -342,8 +348,12 @@ static void what_cannot_be_is_refused(void) {
     OK(ricci_control_new(&control));
     OK(ricci_control_cancel(control));
     CHECK(ricci_quad_spline_fit(seamless, NULL, NULL, control, &none) == RICCI_CANCELLED);
+    CHECK(ricci_quad_spline_fit_mesh(mesh, 0, NULL, control, &none) == RICCI_CANCELLED);
     ricci_quad_layout_free(layout);
     ricci_seamless_free(other);
+    OK(ricci_quad_spline_fit_mesh(mesh, 0, NULL, NULL, &spline));
+    CHECK(figures_of(spline).n_patches >= 6 && figures_of(spline).converged);
+    ricci_quad_spline_free(spline);
     spline = fitted(seamless, NULL, 1, 1);
     ricci_seamless_free(seamless);
     const ricci_quad_spline_summary s = figures_of(spline);

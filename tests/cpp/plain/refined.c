@@ -341,7 +341,7 @@ static void noise_makes_no_cones(const ricci_mesh *mesh) {
     FAILS(ricci_layout_uv(layout, RICCI_ON_INPUT, uv, 6 * n_faces - 1), RICCI_BUFFER_TOO_SMALL, "uv");
     OK(ricci_layout_write(layout, RICCI_ON_INPUT, 0, "refined_input.obj"));
     OK(ricci_layout_write(layout, RICCI_ON_INPUT, 0, "refined_input.ply"));
-    FAILS(ricci_layout_write(layout, RICCI_ON_INPUT, 0, "refined_input.vtk"), RICCI_UNKNOWN_FORMAT, ".glb");
+    FAILS(ricci_layout_write(layout, RICCI_ON_INPUT, 0, "refined_input.stl"), RICCI_UNKNOWN_FORMAT, ".glb");
     OK(ricci_mesh_read("refined_input.obj", &back));
     OK(ricci_mesh_summarise(back, &read, sizeof read));
     CHECK(read.n_vertices == n && read.n_faces == n_faces && read.n_uv == n_faces);

@@ -181,7 +181,7 @@ static void genus_two(void) {
     structure = NULL;
     FAILS(ricci_structure_new(mesh, RICCI_STRUCTURE_SPHERICAL, NULL, NULL, &structure), RICCI_ARGUMENT,
           "structure");
-    FAILS(ricci_structure_new(mesh, 5, NULL, NULL, &structure), RICCI_ARGUMENT, "kind of structure is 5");
+    FAILS(ricci_structure_new(mesh, 6, NULL, NULL, &structure), RICCI_ARGUMENT, "kind of structure is 6");
     options.source = 2;
     FAILS(ricci_structure_new(mesh, RICCI_STRUCTURE_AFFINE, &options, NULL, &structure), RICCI_ARGUMENT,
           "source");
@@ -201,6 +201,11 @@ int main(void) {
     OK(make_sphere(4, &mesh));
     structure = made(mesh, RICCI_STRUCTURE_SPHERICAL, RICCI_CHARTS_PATCHES, 0);
     CHECK(summary_of(structure).space == RICCI_SPACE_S2 && summary_of(structure).n_generators == 0);
+    ricci_structure_free(structure);
+    structure = made(mesh, RICCI_STRUCTURE_INTEGER, RICCI_CHARTS_PATCHES, 0);
+    /* Two triangles for each quad, 8 cones of valence 3 at least, and no transition that rounding moved. */
+    CHECK(summary_of(structure).n_faces % 2 == 0 && summary_of(structure).n_singular >= 8);
+    CHECK(summary_of(structure).transition_residual == 0);
     ricci_structure_free(structure), ricci_mesh_free(mesh);
     return 0;
 }

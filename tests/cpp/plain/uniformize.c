@@ -389,7 +389,7 @@ static void what_is_no_quotient_is_refused(void) {
     FAILS(ricci_dirichlet_new(sound, x, NULL, &dirichlet), RICCI_ARGUMENT, "finite");
     FAILS(deck_of(sound, RICCI_DECK_GENERATORS, NULL, NULL), RICCI_NULL_POINTER, "deck");
     FAILS(deck_of(NULL, RICCI_DECK_GENERATORS, NULL, &deck), RICCI_NULL_POINTER, "uniform");
-    FAILS(deck_of(sound, 6, NULL, &deck), RICCI_ARGUMENT, "kind is 6");
+    FAILS(deck_of(sound, 7, NULL, &deck), RICCI_ARGUMENT, "kind is 7");
     FAILS(deck_of(sound, RICCI_DECK_DIRICHLET_SIDES, NULL, &deck), RICCI_NULL_POINTER, "dirichlet");
     OK(make_genus(2, 1, 1, &other_mesh));
     OK(ricci_uniformize(other_mesh, NULL, NULL, &other));

@@ -1,5 +1,6 @@
 //! Atlases of generated surfaces, checked by theorems.
 
+mod integer;
 mod known;
 mod points;
 
@@ -37,6 +38,8 @@ fn all_options(surface: &Surface) -> Vec<AtlasOptions> {
         Structure::Conformal | Structure::Affine => true,
         Structure::Spherical => closed && euler == 2,
         Structure::Hyperbolic | Structure::Projective => euler < 0,
+        // Its triangles are others than those of the surface: see `integer`.
+        Structure::Integer => false,
     };
     let mut all = Vec::new();
     for charts in [ChartKind::Stars, ChartKind::Patches] {
@@ -77,6 +80,10 @@ fn check(name: &str, atlas: &Atlas, within: f64) {
     };
     for v in mesh.vertices() {
         let singular = atlas.singular_vertices.contains(&v);
+        // Around a cone with less than a full turn a chart may have all faces, open along an edge.
+        if singular && atlas.structure == Structure::Integer {
+            continue;
+        }
         assert_eq!(inside[v], !singular && !touches(v), "{name}: vertex {v}");
     }
 }

@@ -11,13 +11,25 @@ from pathlib import Path
 from typing import Any, Literal, TypedDict
 
 from ricci._signatures import takes
+from ricci.cohorts.distances import ModuliDistances, classical_scaling, moduli_distances
 from ricci.cohorts.engines import engine_of, inline
 from ricci.cohorts.jobs import Job, Outcome, Row, content_of, one, repaired, signature
 from ricci.errors import ArgumentError, ArgumentTypeError
 from ricci.mesh import Mesh
 from ricci.mesh import read as read_mesh
 
-__all__ = ["CohortOptions", "CohortResult", "Job", "Outcome", "Row", "cohort", "repaired"]
+__all__ = [
+    "CohortOptions",
+    "CohortResult",
+    "Job",
+    "ModuliDistances",
+    "Outcome",
+    "Row",
+    "classical_scaling",
+    "cohort",
+    "moduli_distances",
+    "repaired",
+]
 
 
 class CohortOptions(TypedDict, total=False):

@@ -12,6 +12,7 @@ import pickle
 import signal
 import subprocess
 import sys
+import time
 from collections import deque
 from collections.abc import Callable, Generator, Sequence
 from contextlib import suppress
@@ -163,44 +164,100 @@ async def _kill(nannies: Sequence[Any]) -> None:
     await asyncio.gather(*(nanny.kill(timeout=0.1, reason="the run has ended") for nanny in nannies))
 
 
-def dask(work: Work, paths: Sequence[str], workers: int, client: Any = None) -> Rows:
-    """Does the work with the workers of a `distributed.Client`, or of a local cluster of processes that is made for it."""
-    from distributed import Client, KilledWorker, LocalCluster, as_completed
+def _in_own_cluster(work: Work, paths: Sequence[str], workers: int) -> Rows:
+    """Does the work with a local cluster of processes that is made for it, and with another where none of its workers comes back."""
+    from distributed import Client, LocalCluster
 
-    packed(work)
-    if client is None:
+    left, lost = dict.fromkeys(paths), 0
+    while left and lost < _MOST_LOST:
         with (
-            LocalCluster(n_workers=min(workers, len(paths)), threads_per_worker=1, dashboard_address=":0") as cluster,
+            LocalCluster(n_workers=min(workers, len(left)), threads_per_worker=1, dashboard_address=":0") as cluster,
             Client(cluster) as own,
         ):
             try:
-                yield from dask(work, paths, workers, own)
+                for row in _by_client(work, list(left), own, lambda: not any(nanny.is_alive() for nanny in cluster.workers.values())):
+                    lost = 0
+                    del left[row.path]
+                    yield row
+            except _ClusterLost:
+                lost += 1
             except BaseException:
                 cluster.sync(_kill, list(cluster.workers.values()))
                 raise
-        return
+    for path in left:
+        yield failed(path, WorkerDied(f"the workers of {lost} clusters in turn have died and not come back"), content_of(path))
+
+
+# Seconds without a process of a cluster after which it is given up: a worker that dies is started again within a second, but Dask forgets
+# one that dies while it is still starting, and then waits for ever.
+_PATIENCE = 5.0
+# Clusters in turn that are lost without a row before the rest fails.
+_MOST_LOST = 3
+
+
+class _ClusterLost(Exception):
+    """No worker of a cluster is left, and none is started again."""
+
+
+def _each(futures: Sequence[Any], is_lost: Callable[[], bool]) -> Generator[tuple[Any, Row | BaseException], None, None]:
+    """Futures in the order in which they are done, with their rows or what went wrong.
+
+    A row comes with its future: asked for afterwards it would be waited for where the worker that has it dies in between.
+
+    Raises
+    ------
+    _ClusterLost
+        `is_lost` has said for some seconds that no worker is left, and none is done.
+    """
+    from distributed import as_completed
+
+    completed, since = as_completed(futures, with_results=True, raise_errors=False), time.monotonic()
+    while not completed.is_empty():
+        if completed.has_ready():
+            future, found = next(completed)
+            yield future, found[1] if future.status == "error" else found
+            since = time.monotonic()
+        elif not is_lost():
+            since = time.monotonic()
+            time.sleep(0.01)
+        elif time.monotonic() - since > _PATIENCE:
+            raise _ClusterLost
+        else:
+            time.sleep(0.1)
+
+
+def _by_client(work: Work, paths: Sequence[str], client: Any, is_lost: Callable[[], bool]) -> Rows:
+    """Does the work with the workers of a client; `is_lost`: whether there are none and none will come."""
+    from distributed import KilledWorker
+
     futures = {client.submit(work, path, pure=False): path for path in paths}
     suspects = []
     try:
-        for future in as_completed(list(futures)):
+        for future, found in _each(list(futures), is_lost):
             path = futures.pop(future)
-            wrong = future.exception()
-            if isinstance(wrong, KilledWorker):
+            if isinstance(found, KilledWorker):
                 suspects.append(path)
             else:
-                yield future.result() if wrong is None else failed(path, wrong, content_of(path))
+                yield found if isinstance(found, Row) else failed(path, found, content_of(path))
             future.release()
         # Dask blames every mesh that waited at a worker which died, so each is tried again by itself.
         for path in suspects:
             future = client.submit(work, path, pure=False)
             futures[future] = path
-            wrong = future.exception()
+            ((_, found),) = _each([future], is_lost)
             del futures[future]
-            yield future.result() if wrong is None else failed(path, WorkerDied(str(wrong)), content_of(path))
+            yield found if isinstance(found, Row) else failed(path, WorkerDied(str(found)), content_of(path))
     finally:
         # Those that have not begun; what a worker of the caller's client is at, it brings to its end.
         if futures:
             client.cancel(list(futures))
+
+
+def dask(work: Work, paths: Sequence[str], workers: int, client: Any = None) -> Rows:
+    """Does the work with the workers of a `distributed.Client`, or of a local cluster of processes that is made for it."""
+    packed(work)
+    # A cluster of the caller's may have no workers for a while.
+    yield from _in_own_cluster(work, paths, workers) if client is None else _by_client(work, paths, client, lambda: False)
 
 
 def engine_of(engine: Any) -> Callable[[Work, Sequence[str], int], Rows]:

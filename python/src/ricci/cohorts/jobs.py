@@ -23,6 +23,7 @@ from ricci.errors import ArgumentError, RicciError, silent
 from ricci.form import FormsOptions, forms
 from ricci.mesh import Mesh
 from ricci.metrics import FlowJob, FlowOptions, flow
+from ricci.moduli import BoundsOptions, fenchel_nielsen, modulus_bounds, period_bounds
 from ricci.soup import Soup
 from ricci.splines import SurfaceOptions, spline
 from ricci.uniform import UniformOptions, uniformize
@@ -69,11 +70,12 @@ class Job:
     """A function of this package as the job of a cohort: ``Job("flow", {"target": "auto:4"})``.
 
     The result has the figures of the mesh and of what the function made, and its arrays: of a flow the conformal factor, of circles the
-    circles, of forms the period matrix.
+    circles, of forms the period matrix, of moduli what is known with bounds: of closed surfaces the period matrix with the radii of its
+    entries and, from genus 2 on, lengths and twists of pants; of annuli, and of disks with four `corners`, the bounds of the modulus.
 
     Attributes
     ----------
-    kind : Literal["info", "flow", "uniformize", "circles", "forms", "structure", "spline"]
+    kind : Literal["info", "flow", "uniformize", "circles", "forms", "moduli", "structure", "spline"]
         which function; ``"info"`` only counts.
     options : Mapping[str, Any]
         its arguments by name. One thread is used unless they say otherwise: a cohort has its meshes side by side.
@@ -87,7 +89,7 @@ class Job:
     True
     """
 
-    kind: Literal["info", "flow", "uniformize", "circles", "forms", "structure", "spline"]
+    kind: Literal["info", "flow", "uniformize", "circles", "forms", "moduli", "structure", "spline"]
     options: Mapping[str, Any] = field(default_factory=dict)
     seconds: float | None = None
 
@@ -161,6 +163,18 @@ def _forms(mesh: Mesh, given: Mapping[str, Any], control: Control) -> _Found:
     return _figures(found), {"periods": found.periods} if closed else {}
 
 
+def _moduli(mesh: Mesh, given: Mapping[str, Any], control: Control) -> _Found:
+    how = {name: value for name, value in given.items() if name != "corners"}
+    if mesh.summary.n_boundary_loops > 0:
+        between = modulus_bounds(mesh, given.get("corners"), control, **how)
+        return _figures(between), {"low": between.low, "high": between.high}
+    bounds = period_bounds(forms(mesh, progress=control), control, **how)
+    arrays = {"periods": bounds.matrix, "radius": bounds.radius}
+    if mesh.genus > 1:
+        arrays["pants"] = fenchel_nielsen(uniformize(mesh, progress=control, flow={"threads": 1}))
+    return _figures(bounds), arrays
+
+
 def _structure(mesh: Mesh, given: Mapping[str, Any], control: Control) -> _Found:
     found = structure(mesh, progress=control, **{**given, "flow": {**_ONE_THREAD, **given.get("flow", {})}})
     return _figures(found), {"holonomy": found.holonomy}
@@ -176,6 +190,7 @@ _KINDS: dict[str, Callable[[Mesh, Mapping[str, Any], Control], _Found]] = {
     "uniformize": _uniformize,
     "circles": _circles,
     "forms": _forms,
+    "moduli": _moduli,
     "structure": _structure,
     "spline": _spline,
 }
@@ -188,6 +203,7 @@ _OPTIONS: dict[str, frozenset[str]] = {
     "uniformize": frozenset(UniformOptions.__annotations__),
     "circles": frozenset(CircleOptions.__annotations__),
     "forms": frozenset(FormsOptions.__annotations__),
+    "moduli": frozenset({"corners", *BoundsOptions.__annotations__}),
     "structure": frozenset({"kind", *StructureOptions.__annotations__}),
     "spline": frozenset(SurfaceOptions.__annotations__),
 }

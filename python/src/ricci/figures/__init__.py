@@ -1,18 +1,33 @@
 """Counts and measured figures of the library's objects, as dataclasses with the fields of the `ricci_..._summary` structs."""
 
 from ricci.figures.covered import DeckSummary, DirichletSummary, DomainSummary, HomotopySummary, UniformSummary
-from ricci.figures.derived import BicubicSummary, FormsSummary, HarmonicSummary, MatchingSummary, SplineSummary, StructureSummary
+from ricci.figures.derived import (
+    BicubicSummary,
+    BoundsSummary,
+    DilatationBracket,
+    FormsSummary,
+    HarmonicSummary,
+    MatchingSummary,
+    SplineSummary,
+    StructureSummary,
+)
+from ricci.figures.flattened import DartSummary, FlattenSummary
 from ricci.figures.four_sided import QuadLayoutSummary, QuadSplineSummary, QuadsSummary
 from ricci.figures.placed import ChartsSummary, CircleDomainSummary, LayoutSummary, MapSummary, RepairedInputSummary, SeamlessSummary
-from ricci.figures.surface import MeshSummary, MetricSummary, QualitySummary, RefineSummary, ReportSummary, SoupSummary
+from ricci.figures.surface import ArchiveSummary, MeshSummary, MetricSummary, QualitySummary, RefineSummary, ReportSummary, SoupSummary
 
 __all__ = [
+    "ArchiveSummary",
     "BicubicSummary",
+    "BoundsSummary",
     "ChartsSummary",
     "CircleDomainSummary",
+    "DartSummary",
     "DeckSummary",
+    "DilatationBracket",
     "DirichletSummary",
     "DomainSummary",
+    "FlattenSummary",
     "FormsSummary",
     "HarmonicSummary",
     "HomotopySummary",

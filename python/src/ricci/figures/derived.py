@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ricci.figures.names import Space, StructureKind
+from ricci.figures.names import LowerBound, Space, StructureKind
 
 
 @dataclass(frozen=True)
@@ -45,6 +45,74 @@ class FormsSummary:
     star_residual: float
     least_eigenvalue: float
     modulus: complex
+
+
+@dataclass(frozen=True)
+class BoundsSummary:
+    """Figures of a bound of a period matrix.
+
+    Attributes
+    ----------
+    gap : float
+        a proven d - 1: with the energies G of the surface's harmonic forms and those H of the matrix, H / d <= G <= d H.
+    first_gap : float
+        the gap on the triangulation of the forms alone, rounded.
+    modulus : complex
+        of a torus, the modulus; NaN of others.
+    modulus_radius : float
+        of a torus, the distance within which the modulus is; NaN of others.
+    n_added : int
+        number of vertices that were added.
+    n_unknowns : int
+        number of unknowns of the last system.
+    n_systems : int
+        number of systems that were solved.
+    reached : bool
+        true if the gap is at most the width.
+    """
+
+    gap: float
+    first_gap: float
+    modulus: complex
+    modulus_radius: float
+    n_added: int
+    n_unknowns: int
+    n_systems: int
+    reached: bool
+
+
+@dataclass(frozen=True)
+class DilatationBracket:
+    """Two numbers between which the least dilatation K of the maps of a class lies; the Teichmüller distance is log(K) / 2.
+
+    Attributes
+    ----------
+    lower : float
+        no map of the class has a smaller dilatation.
+    upper : float
+        the dilatation of a map of the class, the largest over the pieces of the common subdivision.
+    most : float
+        the dilatation that 99 % of the source's area stay below.
+    left_out_area : float
+        the share of the source's area in pieces that rounding leaves without a shape.
+    gaps : tuple[float, float]
+        the relative widths of the period matrices or moduli of source and target.
+    n_left_out : int
+        number of those pieces; they do not count in `upper`.
+    lower_by : LowerBound
+        what proves the lower bound.
+    by_numbers : bool
+        true if `upper` is of the map by the numbers of vertices, linear on the faces of one triangulation on both surfaces.
+    """
+
+    lower: float
+    upper: float
+    most: float
+    left_out_area: float
+    gaps: tuple[float, float]
+    n_left_out: int
+    lower_by: LowerBound
+    by_numbers: bool
 
 
 @dataclass(frozen=True)

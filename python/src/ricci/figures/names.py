@@ -18,7 +18,10 @@ Stop: TypeAlias = Literal[
     "out_of_reach",
 ]
 Frame: TypeAlias = Literal["auto", "disk", "strip"]
-StructureKind: TypeAlias = Literal["conformal", "spherical", "affine", "hyperbolic", "projective"]
+FlattenStart: TypeAlias = Literal["conformal", "tutte", "untangled"]
+FlattenStop: TypeAlias = Literal["converged", "rounding", "max_iterations", "barrier", "no_step", "unmet"]
+StructureKind: TypeAlias = Literal["conformal", "spherical", "affine", "hyperbolic", "projective", "integer"]
+LowerBound: TypeAlias = Literal["none", "periods", "moduli"]
 On: TypeAlias = Literal["input", "metric", "refinement"]
 
 # For a type of field the prefix of the constants that it stands for, and their names: other constants may have the same prefix.
@@ -28,5 +31,8 @@ CONSTANTS: dict[str, tuple[str, tuple[str, ...]]] = {
     "Model": ("MODEL", get_args(Model)),
     "Stop": ("STOP", get_args(Stop)),
     "Frame": ("FRAME", get_args(Frame)),
+    "FlattenStart": ("FLATTEN_FROM", get_args(FlattenStart)),
+    "FlattenStop": ("FLATTEN", get_args(FlattenStop)),
+    "LowerBound": ("LOWER", get_args(LowerBound)),
     "StructureKind": ("STRUCTURE", get_args(StructureKind)),
 }

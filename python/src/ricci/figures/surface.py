@@ -8,6 +8,25 @@ from ricci.figures.names import Scheme, Space, Stop
 
 
 @dataclass(frozen=True)
+class ArchiveSummary:
+    """What an archive holds.
+
+    Attributes
+    ----------
+    kind : str
+        the kind of object.
+    n_bytes : int
+        number of bytes of the whole archive.
+    format : int
+        the version of the format.
+    """
+
+    kind: str
+    n_bytes: int
+    format: int
+
+
+@dataclass(frozen=True)
 class MeshSummary:
     """Counts of a mesh.
 

@@ -7,12 +7,13 @@ use crate::mesh::io::write_atomically;
 use std::io::{self, Write};
 use std::path::Path;
 
-/// The colour of a layer, by its number in DXF: 7 is black on white, 1 red, 5 blue.
+/// The colour of a layer, by its number in DXF: 7 is black on white, 1 red, 5 blue, 3 green.
 fn color(layer: SheetLayer) -> u8 {
     match layer {
         SheetLayer::Boundary => 7,
         SheetLayer::Seams => 1,
         SheetLayer::Folds => 5,
+        SheetLayer::Allowance => 3,
     }
 }
 

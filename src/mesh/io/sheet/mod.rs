@@ -10,6 +10,7 @@
 //! # Ok::<(), ricci::Error>(())
 //! ```
 
+mod allowance;
 mod dxf;
 mod svg;
 
@@ -28,11 +29,14 @@ pub enum SheetLayer {
     Seams,
     /// An edge along which the surface in space has a crease.
     Folds,
+    /// A line outside the border, where a sheet is cut that is to be sewn along it ([`CuttingSheet::with_allowance`]).
+    Allowance,
 }
 
 impl SheetLayer {
     /// All layers, in the order in which files list them.
-    pub const ALL: [SheetLayer; 3] = [SheetLayer::Boundary, SheetLayer::Seams, SheetLayer::Folds];
+    pub const ALL: [SheetLayer; 4] =
+        [SheetLayer::Boundary, SheetLayer::Seams, SheetLayer::Folds, SheetLayer::Allowance];
 
     /// The name of the layer in files.
     pub fn name(self) -> &'static str {
@@ -40,6 +44,7 @@ impl SheetLayer {
             SheetLayer::Boundary => "BOUNDARY",
             SheetLayer::Seams => "SEAMS",
             SheetLayer::Folds => "FOLDS",
+            SheetLayer::Allowance => "ALLOWANCE",
         }
     }
 }

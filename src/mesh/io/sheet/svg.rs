@@ -17,6 +17,7 @@ fn color(layer: SheetLayer) -> &'static str {
         SheetLayer::Boundary => "#000000",
         SheetLayer::Seams => "#ff0000",
         SheetLayer::Folds => "#0000ff",
+        SheetLayer::Allowance => "#00a000",
     }
 }
 

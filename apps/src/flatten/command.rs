@@ -1,0 +1,151 @@
+//! `ricci flatten` as a job: what it refuses, computes, writes and reports.
+
+use super::args::{EnergyChoice, FlattenArgs};
+use super::outcome::FlattenOutcome;
+use super::part::{self, Part};
+use crate::failure::{Failure, NO_POSITIONS};
+use crate::input::Input;
+use crate::output::{check_extension, check_outputs};
+use crate::progress::doing;
+use crate::runner::{CommandRun, Job, JobHeader};
+use ricci::flatten::{FlattenOptions, flatten};
+use serde::Serialize;
+use std::io::Write;
+
+impl Job for FlattenArgs {
+    type Outcome = FlattenOutcome;
+
+    fn header(&self) -> JobHeader<'_> {
+        JobHeader { name: "flatten", common: &self.common, mesh: Some(&self.surface.file.mesh) }
+    }
+
+    fn check(&self) -> Result<(), Failure> {
+        check_extension("--uv", self.uv.as_deref(), &["obj", "glb"])?;
+        check_extension("--picture", self.picture.picture.as_deref(), &["png", "svg"])?;
+        self.flat.check()?;
+        if self.has_limits() && (self.pin.is_some() || self.straight.is_some() || self.patch.is_some()) {
+            let why = "--strain and --shear open darts, which can take pinned vertices, straight pieces and vertices of a --patch apart";
+            return Err(Failure::Usage(why.into()));
+        }
+        if self.energy == EnergyChoice::Area && self.conformal == Some(0.0) {
+            let why = "--conformal 0: maps that keep areas are too many for one to be least; give a share above 0, or leave it out";
+            return Err(Failure::Usage(why.into()));
+        }
+        let files = [
+            &self.trace,
+            &self.uv,
+            &self.flat.flat,
+            &self.patch,
+            &self.areal,
+            &self.shape,
+            &self.picture.picture,
+            &self.common.report,
+        ];
+        let read = [&self.label, &self.weights, &self.pin, &self.straight].map(|file| file.as_deref());
+        check_outputs(
+            &[&[Some(&*self.surface.file.mesh)], &read[..]].concat(),
+            &files.map(|file| file.as_deref()),
+        )
+    }
+
+    fn compute(&self, run: &mut CommandRun<'_>) -> Result<FlattenOutcome, Failure> {
+        let part = part::read(&self.surface, self.label.as_deref(), run)?;
+        check_surface(self, &part.input)?;
+        let options = self.options_with_conditions(&part)?;
+        let (Part { input, origins, n_whole }, flat, sheet) = if self.has_limits() {
+            let (part, flat, sheet) = self.with_darts(part, &options, run)?;
+            (part, flat, Some(sheet))
+        } else {
+            let flat = doing("flattening", || flatten(&part.input.surface, &options, run.control))?;
+            (part, flat, None)
+        };
+        [run.seconds.layout, run.seconds.solve] = flat.report.seconds;
+        Ok(FlattenOutcome {
+            input,
+            origins,
+            n_whole,
+            flat,
+            sheet,
+            tolerance: self.tolerance,
+            injective: self.injective,
+            has_conditions: self.pin.is_some() || self.straight.is_some(),
+            written_turned: Default::default(),
+        })
+    }
+
+    fn write(&self, outcome: &FlattenOutcome, run: &mut CommandRun<'_>) -> Result<(), Failure> {
+        run.file("trace", self.trace.as_deref(), |outputs, path| {
+            outputs.add(path, |out| write_energies(out, &outcome.flat.report.energies))
+        })?;
+        run.file("uv", self.uv.as_deref(), |outputs, path| outcome.write_uv(outputs, path))?;
+        run.file("flat", self.flat.flat.as_deref(), |outputs, path| {
+            outcome.write_flat(outputs, path, &self.flat)
+        })?;
+        run.file("patch", self.patch.as_deref(), |outputs, path| outputs.add_bytes(path, &outcome.patch()?))?;
+        run.file("areal", self.areal.as_deref(), |outputs, path| outputs.add_bytes(path, &outcome.areal()?))?;
+        run.file("shape", self.shape.as_deref(), |outputs, path| outputs.add_bytes(path, &outcome.shape()?))?;
+        run.picture("picture", self.picture.picture.as_deref(), || outcome.draw(self))
+    }
+
+    fn settings<'a>(&'a self, outcome: &'a FlattenOutcome) -> impl Serialize + 'a {
+        let input_geometry = outcome.input.surface.geometry().name();
+        FlattenSettings { input_geometry, args: self, conformal: self.options().conformal_share() }
+    }
+}
+
+impl FlattenArgs {
+    /// The library's options, but for what files say.
+    pub fn options(&self) -> FlattenOptions {
+        FlattenOptions {
+            energy: self.energy.into(),
+            conformal: self.conformal,
+            tolerance: self.tolerance,
+            max_iterations: self.max_iterations,
+            rings: self.rings,
+            injective: self.injective,
+            threads: self.common.threads,
+            ..FlattenOptions::default()
+        }
+    }
+}
+
+/// Refuse what can be refused once the surface is known.
+fn check_surface(args: &FlattenArgs, input: &Input) -> Result<(), Failure> {
+    let mesh = input.mesh();
+    let (genus, loops, path) = (mesh.genus(), mesh.boundary_loops().len(), input.path.display());
+    if genus > 0 || loops == 0 {
+        let way = if genus == 0 {
+            "`ricci uniformize` maps this one to the sphere"
+        } else {
+            "`ricci flow` lays this one out, cut open"
+        };
+        return Err(Failure::Input(format!(
+            "{path}: the surface has genus {genus} and {loops} boundary loops; an open surface of genus 0 is needed; {way}"
+        )));
+    }
+    let in_space = input.positions().is_some();
+    let drawn = args.picture.picture.is_some() && !args.picture.is_svg();
+    let refused = [
+        (args.uv.is_some() && !in_space, format!("--uv: {NO_POSITIONS}; use --flat")),
+        (drawn && !in_space, format!("--picture: {NO_POSITIONS}; use .svg")),
+    ];
+    match refused.into_iter().find(|(refused, _)| *refused) {
+        Some((_, why)) => Err(Failure::Usage(why)),
+        None => args.flat.check_surface(input),
+    }
+}
+
+/// The energy at the start and after each step.
+fn write_energies(out: &mut impl Write, energies: &[f64]) -> std::io::Result<()> {
+    writeln!(out, "step,energy")?;
+    energies.iter().enumerate().try_for_each(|(step, energy)| writeln!(out, "{step},{energy:?}"))
+}
+
+/// The options of a run as its report has them.
+#[derive(Serialize)]
+struct FlattenSettings<'a> {
+    input_geometry: &'static str,
+    #[serde(flatten)]
+    args: &'a FlattenArgs,
+    conformal: f64,
+}

@@ -1,0 +1,150 @@
+//! The checks, the figures and the summary of `ricci flatten`.
+
+use super::outcome::{FlattenOutcome, StrainedSheet};
+use crate::report::{Checks, Done, Figures, InputSummary};
+use crate::runner::{CommandRun, JobOutcome};
+use crate::say;
+use ricci::flatten::{Distortion, FlattenStop};
+use serde_json::{Value, json};
+
+/// The most by which pinned vertices and straight pieces may miss where they are to be, in the diameter of the map.
+const MOST_MISFIT: f64 = 1e-11;
+
+impl JobOutcome for FlattenOutcome {
+    type Figures = Figures;
+
+    fn checks(&self) -> Checks {
+        let report = &self.flat.report;
+        let mut checks = Checks::default();
+        if report.stop != FlattenStop::Rounding {
+            checks.add("newton_decrement", report.decrement, self.tolerance);
+        }
+        checks.add("not_converged", f64::from(u8::from(!report.converged())), 0.0);
+        if self.injective {
+            checks.add("overlaps", f64::from(u8::from(!report.one_to_one)), 0.0);
+        }
+        if self.has_conditions {
+            checks.add("misfit", report.misfit, MOST_MISFIT);
+        }
+        if let Some(sheet) = &self.sheet {
+            let remedy = "allow more darts (--darts, --open), or a material that bears more";
+            checks.add_with_remedy("strain_over_limit", sheet.taken[1], 1.0, remedy);
+        }
+        if let Some(&turned) = self.written_turned.get() {
+            checks.add("turned_triangles_in_file", turned as f64, 0.0);
+        }
+        checks
+    }
+
+    fn input(&self) -> Option<InputSummary> {
+        Some(InputSummary::of(&self.input))
+    }
+
+    fn figures(&self, run: &CommandRun<'_>) -> Figures {
+        let report = &self.flat.report;
+        Figures::default()
+            .if_some("whole_vertices", self.origins.as_ref().map(|_| self.n_whole))
+            .with("start", report.start.name())
+            .with("stop_reason", report.stop.name())
+            .with("converged", report.converged())
+            .with("iterations", report.iterations())
+            .with("unclamped_steps", report.unclamped)
+            .with("newton_decrement", report.decrement)
+            .with("gradient", report.gradient)
+            .with("energies", report.energies.clone())
+            .with("before", distortion(&report.before))
+            .with("after", distortion(&report.after))
+            .with("overlap", report.overlap)
+            .with("one_to_one", report.one_to_one)
+            .if_some("sheet", self.sheet.as_ref().map(StrainedSheet::figures))
+            .if_some("misfit", self.has_conditions.then_some(report.misfit))
+            // The library gives no map in which exact arithmetic finds a turned triangle.
+            .with("turned_triangles", 0)
+            .if_some("turned_triangles_in_file", self.written_turned.get().copied())
+            .failed(&run.failed)
+            .with("left_out", run.outputs.left_out())
+    }
+
+    fn summary(&self, done: &Done) -> String {
+        let report = &self.flat.report;
+        let mut text = say::surface(&self.input);
+        let steps = say::count(report.iterations(), "step", "steps");
+        text += &format!(
+            "map      {} after {steps} from the {} map, {} by the Hessian itself, decrement {:.1e}\n",
+            report.stop.name(),
+            report.start.name(),
+            report.unclamped,
+            report.decrement
+        );
+        text += &line("before  ", &report.before);
+        text += &line("after   ", &report.after);
+        if report.overlap > 0.0 {
+            text +=
+                &format!("overlap  {:.2} % of the map lies on other parts of it\n", 100.0 * report.overlap);
+        }
+        if let Some(sheet) = &self.sheet {
+            text += &sheet.summary();
+        }
+        if self.injective && report.one_to_one {
+            text += "overlap  none, by exact arithmetic on the numbers of the points\n";
+        }
+        if self.has_conditions {
+            text += &format!(
+                "misfit   {:.1e} of the map's diameter from pins and straight lines\n",
+                report.misfit
+            );
+        }
+        if let Some(why) = why(report.stop) {
+            text += &format!("why      {why}\n");
+        }
+        text + &say::finish(done)
+    }
+}
+
+fn line(name: &str, of: &Distortion) -> String {
+    format!(
+        "{name} energy {:.6}, stretch {:.4} to {:.4}, lengths off by {:.2} % in the mean and {:.1} % at most, areas by {:.2} % and {:.1} %\n",
+        of.energy,
+        of.least_stretch,
+        of.most_stretch,
+        100.0 * of.mean_length_error,
+        100.0 * of.max_length_error,
+        100.0 * of.mean_area_error,
+        100.0 * of.max_area_error
+    )
+}
+
+/// The reason of a descent that did not converge, with a remedy.
+fn why(stop: FlattenStop) -> Option<&'static str> {
+    match stop {
+        FlattenStop::Converged | FlattenStop::Rounding => None,
+        FlattenStop::MaxIterations => {
+            Some("the steps ran out: give more (--max-iterations), or ask for less (--tolerance)")
+        }
+        FlattenStop::Barrier => {
+            Some("the energy falls on toward a triangle without area: --energy isometric does not")
+        }
+        FlattenStop::NoStep => {
+            Some("no step lowers the energy: remesh thin triangles, or ask for less (--tolerance)")
+        }
+        FlattenStop::Unmet => Some(
+            "no map was found that has pinned vertices and straight pieces where they are to be and turns no triangle over: see whether one exists, and start with fewer",
+        ),
+    }
+}
+
+/// The change of lengths and areas as reports have it.
+pub fn distortion(of: &Distortion) -> Value {
+    json!({
+        "energy": of.energy,
+        "least_stretch": of.least_stretch,
+        "most_stretch": of.most_stretch,
+        "mean_length_error": of.mean_length_error,
+        "max_length_error": of.max_length_error,
+        "mean_area_error": of.mean_area_error,
+        "max_area_error": of.max_area_error,
+        "mean_dilatation": of.mean_dilatation,
+        "max_dilatation": of.max_dilatation,
+        "area": of.area,
+    })
+}

@@ -1,0 +1,105 @@
+//! A flat map as files and in pictures.
+
+use super::args::FlattenArgs;
+use super::outcome::FlattenOutcome;
+use crate::failure::Failure;
+use crate::flat::FlatLayout;
+use crate::options::FlatArgs;
+use crate::output::Outputs;
+use crate::picture::{self, Picture, ShownLayout, ShownSurface, TextureChoice};
+use crate::uv::UvMesh;
+use ricci::embed::FlatSurface;
+use ricci::geometry::predicates::orientation;
+use ricci::mesh::io::SurfaceFile;
+use ricci::mesh::io::freesurfer::{SurfacePatch, patch_bytes};
+use ricci::mesh::{Mesh, PerHalfedge, VertexId};
+use std::borrow::Cow;
+use std::cmp::Ordering;
+use std::path::Path;
+
+impl FlattenOutcome {
+    fn mesh(&self) -> &Mesh {
+        self.input.mesh()
+    }
+
+    /// Per half-edge the number of the point of the corner at its origin.
+    fn corner_index(&self) -> PerHalfedge<u32> {
+        PerHalfedge::from_fn(self.mesh().n_halfedges(), |h| self.mesh().origin(h).0)
+    }
+
+    /// The surface with the map as texture coordinates. The file is read again, and the triangles are counted that its numbers turn over.
+    pub fn write_uv(&self, outputs: &mut Outputs, path: &Path) -> Result<(), Failure> {
+        let Some(positions) = self.input.positions() else { return Err(Failure::no_positions()) };
+        let index = self.corner_index();
+        let drawn = UvMesh {
+            mesh: self.mesh(),
+            positions: positions.into(),
+            index: &index,
+            texcoords: &self.flat.points,
+            weights: &[],
+            subdivision: None,
+        };
+        drawn.write(outputs, path, &self.input)?;
+        let told = |why: &dyn std::fmt::Display| Failure::Failed(format!("{}: {why}", path.display()));
+        let bytes = outputs.last_bytes().map_err(|why| told(&why))?;
+        let soup = SurfaceFile::of_bytes(bytes, &path.display().to_string())?.soup()?;
+        let Some(uv) = soup.attributes.uv.filter(|uv| uv.len() == self.mesh().n_faces()) else {
+            return Err(told(&"the file does not read back with texture coordinates for all faces"));
+        };
+        let turned = uv.iter().filter(|&&[a, b, c]| orientation(a, b, c) != Ordering::Greater).count();
+        self.written_turned.get_or_init(|| turned);
+        Ok(())
+    }
+
+    /// The image in the plane as geometry.
+    pub fn write_flat(&self, outputs: &mut Outputs, path: &Path, args: &FlatArgs) -> Result<(), Failure> {
+        let index = self.corner_index();
+        let points = Cow::Borrowed(&self.flat.points[..]);
+        let surface = FlatSurface { mesh: self.mesh(), corner_index: &index, points, seams: Vec::new() };
+        FlatLayout { surface, input: &self.input, subdivision: None }.write(outputs, path, args)
+    }
+
+    /// The bytes of the map as a patch of FreeSurfer.
+    pub fn patch(&self) -> Result<Vec<u8>, Failure> {
+        let mesh = self.mesh();
+        let vertices: Vec<u32> = mesh.vertices().map(|v| self.origin(v)).collect();
+        let mut seen = std::collections::HashSet::new();
+        if let Some(v) = vertices.iter().find(|v| !seen.insert(**v)) {
+            let why = format!(
+                "the part touches itself at vertex {v} alone, which a patch has once: leave it out of the label"
+            );
+            return Err(Failure::Failed(why));
+        }
+        let patch = SurfacePatch {
+            vertices,
+            positions: self.flat.points.iter().map(|[x, y]| [*x, *y, 0.0]).collect(),
+            is_border: mesh.vertices().map(|v| mesh.is_boundary_vertex(v)).collect(),
+        };
+        Ok(patch_bytes(&patch)?)
+    }
+
+    /// The surface beside its image, or as SVG the image alone.
+    pub fn draw(&self, args: &FlattenArgs) -> Result<Vec<u8>, Failure> {
+        let mesh = self.mesh();
+        let style = args.picture.style(TextureChoice::Checker, args.common.threads);
+        let faces = mesh.triangles();
+        let corner_uv: Vec<_> = faces.iter().map(|f| f.map(|v| self.flat.points[v as usize])).collect();
+        let outer = mesh.halfedges().filter(|&h| mesh.is_outside(h.twin()));
+        let at = |v: VertexId| self.flat.points[v.index()];
+        let boundary: Vec<_> = outer.map(|h| (at(mesh.origin(h)), at(mesh.tip(h)))).collect();
+        let flat = Some(ShownLayout { corner_uv: &corner_uv, boundary: &boundary, ..ShownLayout::default() });
+        if args.picture.is_svg() {
+            return picture::svg(&Picture { flat, ..Picture::default() }, &style);
+        }
+        let Some(positions) = self.input.positions() else { return Err(Failure::no_positions()) };
+        let surface = ShownSurface {
+            positions,
+            faces: &faces,
+            corner_uv: Some(&corner_uv),
+            seams: &[],
+            cones: &[],
+            is_closed: false,
+        };
+        picture::png(&Picture { surface: Some(surface), flat, ..Picture::default() }, &style)
+    }
+}

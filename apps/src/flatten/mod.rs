@@ -1,0 +1,14 @@
+//! `ricci flatten`: maps to the plane of least stretch, without a triangle that is turned over.
+
+mod args;
+mod command;
+mod conditions;
+mod figures;
+mod files;
+mod outcome;
+mod part;
+mod sheet;
+mod vertex_values;
+
+pub use args::{FlattenArgs, HELP};
+pub use figures::distortion;
