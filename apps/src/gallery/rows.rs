@@ -165,7 +165,12 @@ mod tests {
             .unwrap()
             .filter_map(|entry| entry.unwrap().file_name().to_str()?.strip_suffix(".png").map(String::from))
             .collect();
-        assert_eq!(names.into_iter().map(String::from).collect::<HashSet<_>>(), drawn);
+        // Scripts beside the pages of results draw the others.
+        let page = include_str!("../../../docs/results/teichmuller.md");
+        let (on_the_page, rest): (HashSet<_>, HashSet<_>) =
+            drawn.into_iter().partition(|name| page.contains(&format!("(../pictures/{name}.png)")));
+        assert_eq!(on_the_page.len(), 2, "{on_the_page:?}");
+        assert_eq!(names.into_iter().map(String::from).collect::<HashSet<_>>(), rest);
     }
 
     #[test]

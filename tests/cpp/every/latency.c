@@ -96,7 +96,8 @@ static void set_up(double n) {
     check(ricci_match(torus, torus, NULL, NULL, &matching));
     check(ricci_seamless_new(torus, NULL, NULL, &seamless));
     check(ricci_spline_fit_surface(flat, NULL, NULL, &spline));
-    check(ricci_quad_spline_fit(seamless, NULL, NULL, NULL, &quad_spline));
+    const ricci_quad_spline_options one_span = {sizeof one_span, 0, 1e-8, 0, 1, 0};
+    check(ricci_quad_spline_fit(seamless, NULL, &one_span, NULL, &quad_spline));
     /* A spline over a square, and points near it. */
     const double corners[] = {0, 0, 1, 0, 1, 1, 0, 1};
     const size_t starts[] = {0, 4};
@@ -219,7 +220,9 @@ MAKES(structure_of_form, ricci_structure,
 MAKES(spline_fit, ricci_spline, ricci_spline_fit(plane, points, n_most / 3, NULL, control, &result))
 FILLS(spline_curvatures, ricci_spline_curvatures(two, NULL, RICCI_SPLINE_AUTO, 0, control, numbers, n_most))
 MAKES(spline_fit_surface, ricci_spline, ricci_spline_fit_surface(flat, NULL, control, &result))
-MAKES(spline_fit_mesh, ricci_spline, ricci_spline_fit_mesh(two, NULL, control, &result))
+/* The sizes of triangles are adapted once. */
+static const ricci_spline_surface_options ONCE = {.size = sizeof ONCE, .tolerance = 0.05, .rounds = 1};
+MAKES(spline_fit_mesh, ricci_spline, ricci_spline_fit_mesh(two, &ONCE, control, &result))
 FILLS(spline_closest, ricci_spline_closest(spline, points, n_most / 3, control, indices, numbers, 6 * n_most))
 MAKES(spline_tessellate, ricci_mesh, ricci_spline_tessellate(spline, 16, control, &result))
 MAKES(bicubic_new, ricci_bicubic, ricci_bicubic_new(spline, &NEAR, control, &result))
@@ -229,8 +232,11 @@ FILLS(mesh_write, ricci_mesh_write(torus, NULL, "latency.ply"))
 MAKES(soup_refine, ricci_soup, ricci_soup_refine(soup, &FINE, &result))
 MAKES(soup_repair, ricci_soup, ricci_soup_repair(soup, &REPAIR, &result))
 
-MAKES(quad_spline_fit_mesh, ricci_quad_spline, ricci_quad_spline_fit_mesh(two, 0, NULL, control, &result))
-MAKES(quad_spline_fit, ricci_quad_spline, ricci_quad_spline_fit(seamless, NULL, NULL, control, &result))
+/* What is rough is not met to a thousandth. */
+static const ricci_quad_spline_options ROUGH = {sizeof ROUGH, 0.02, 1e-8, 0, 2, 0};
+MAKES(quad_spline_fit_mesh, ricci_quad_spline,
+      ricci_quad_spline_fit_mesh(sphere, 0, &ROUGH, control, &result))
+MAKES(quad_spline_fit, ricci_quad_spline, ricci_quad_spline_fit(seamless, NULL, &ROUGH, control, &result))
 FILLS(quad_spline_closest,
       ricci_quad_spline_closest(quad_spline, points, n_most / 3, control, indices, numbers, 6 * n_most))
 MAKES(quad_spline_tessellate, ricci_mesh, ricci_quad_spline_tessellate(quad_spline, 100, 0, control, &result))

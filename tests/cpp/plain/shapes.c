@@ -105,7 +105,7 @@ int main(void) {
     shape.n_points = 4, shape.points = NULL;
     FAILS(ricci_make(&shape, &mesh), RICCI_NULL_POINTER, "points");
     FAILS(make_sized(RICCI_SHAPE_PANTS, 1, 0, 1, 0, 1, &mesh), RICCI_ARGUMENT, "boundary length");
-    FAILS(make_glued(14, 1, &mesh), RICCI_ARGUMENT, "shape is 14");
+    FAILS(make_glued(15, 1, &mesh), RICCI_ARGUMENT, "shape is 15");
     FAILS(ricci_make(NULL, &mesh), RICCI_NULL_POINTER, "shape");
     FAILS(make_genus(0, 2, 1, &mesh), RICCI_ARGUMENT, "genus");
     FAILS(make_sphere(4, NULL), RICCI_NULL_POINTER, "mesh");
