@@ -168,7 +168,8 @@ fn density(
     (values, scale)
 }
 
-fn at_vertices(mesh: &Mesh, values: &PerVertex<f64>, scale: ColorScale) -> ColorField {
+/// Values at vertices, linear in each face.
+pub fn at_vertices(mesh: &Mesh, values: &PerVertex<f64>, scale: ColorScale) -> ColorField {
     ColorField { corners: mesh.faces().map(|f| mesh.face_vertices(f).map(|v| values[v])).collect(), scale }
 }
 

@@ -11,6 +11,7 @@ mod planar;
 mod whole;
 
 pub use args::{HELP, SplineArgs, UnitChoice};
+pub use picture::{curvature, reflection};
 
 use crate::failure::Failure;
 use crate::runner;

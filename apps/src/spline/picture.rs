@@ -62,7 +62,7 @@ fn corners(spline: &Spline, soup: &Soup, sides: usize) -> Vec<Parameter> {
 }
 
 /// The Gaussian curvature.
-fn curvature(corners: &[SurfacePoint]) -> ColorField {
+pub fn curvature(corners: &[SurfacePoint]) -> ColorField {
     let gauss = |at: &SurfacePoint| at.principal_curvatures().map_or(f64::NAN, |[a, b]| a * b);
     let values: Vec<f64> = corners.iter().map(gauss).collect();
     let scale = ColorScale::of_signed("Gaussian curvature", &values);
@@ -70,7 +70,7 @@ fn curvature(corners: &[SurfacePoint]) -> ColorField {
 }
 
 /// Reflection lines of light lines at infinity, circles around the horizontal axis of the picture.
-fn reflection(corners: &[SurfacePoint], camera: &Camera) -> ColorField {
+pub fn reflection(corners: &[SurfacePoint], camera: &Camera) -> ColorField {
     let angle = |at: &SurfacePoint| at.normal().map_or(f64::NAN, |normal| reflected(camera.apply(normal)));
     let values: Vec<f64> = corners.iter().map(angle).collect();
     let scale = ColorScale::of_stripes(

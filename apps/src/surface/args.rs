@@ -1,9 +1,10 @@
 //! The options of `ricci surface`.
 
 use crate::options::{Common, FileName, SurfaceArgs, positive};
+use crate::picture::PictureArgs;
 use crate::seamless::ConesChoice;
 use crate::spline::UnitChoice;
-use clap::Args;
+use clap::{Args, ValueEnum};
 use serde::Serialize;
 
 pub const HELP: &str = "\
@@ -16,7 +17,9 @@ common tangent planes across all sides but features, is fitted to the mesh along
 spans, and other cones are tried. Faces that meet share their edges.
 
 Files
-    -o PART.step        STEP AP242: a solid where the surface is closed, else a shell";
+    -o PART.step        STEP AP242: a solid where the surface is closed, else a shell
+    --patches P.json    knots and numbers of control points of every patch: tensor-product B-splines of degree 5
+    --mesh M.obj        triangles of the patches, 24 parts to a side (.obj, .ply, .glb, .stl and the other formats of meshes)";
 
 #[derive(Args, Serialize, Debug)]
 pub struct ScanArgs {
@@ -26,6 +29,14 @@ pub struct ScanArgs {
     /// The patches (.step, .stp)
     #[arg(short = 'o', long = "out", value_name = "PART.step")]
     pub out: FileName,
+    /// Write the patches with their knots and control points (.json)
+    #[arg(long, value_name = "P.json")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub patches: Option<FileName>,
+    /// Write triangles of the patches
+    #[arg(long, value_name = "M.obj")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mesh: Option<FileName>,
     /// Largest distance from the mesh, over the diagonal of its bounding box [default: 1e-3 or, where that is more, four times the noise
     /// of the mesh]
     #[arg(long, value_name = "T", value_parser = positive)]
@@ -56,5 +67,29 @@ pub struct ScanArgs {
     pub colours: bool,
     #[command(flatten)]
     #[serde(flatten)]
+    pub picture: PictureArgs,
+    /// What the picture shows in colours
+    #[arg(long, value_enum, value_name = "QUANTITY", default_value = "patches", requires = "picture")]
+    pub color: ScanColor,
+    /// Draw combs along the sides and the middle lines of patches: as long as the curvature along the line is large
+    #[arg(long, requires = "picture")]
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub combs: bool,
+    #[command(flatten)]
+    #[serde(flatten)]
     pub common: Common,
+}
+
+/// Quantities that a picture of patches shows in colours.
+#[derive(ValueEnum, Serialize, Debug, Clone, Copy, PartialEq)]
+#[serde(rename_all = "lowercase")]
+pub enum ScanColor {
+    /// The patches
+    Patches,
+    /// The distance of the mesh from the patches, over the diagonal, on the mesh
+    Distance,
+    /// Gaussian curvature
+    Curvature,
+    /// Reflections of light lines at infinity: as smooth as the normals
+    Reflection,
 }

@@ -2,15 +2,19 @@
 
 use super::args::ScanArgs;
 use super::figures::{ScanOutcome, WrittenSurface};
+use super::picture::{PARTS, draw};
 use crate::failure::Failure;
-use crate::output::{check_extension, check_outputs};
+use crate::output::{check_extension, check_mesh_extension, check_outputs, format_of};
 use crate::progress::doing;
 use crate::quads::with_positions;
 use crate::report::timed;
 use crate::runner::{CommandRun, Job, JobHeader};
 use crate::seamless::{ConesChoice, chosen_cones};
+use ricci::mesh::io;
 use ricci::seamless::sharp_edges;
-use ricci::spline::{FewPatchesOptions, LayoutFit, LayoutFitOptions, StepOptions, fit_few_patches};
+use ricci::spline::{
+    FewPatchesOptions, LayoutFit, LayoutFitOptions, StepOptions, TessellationSize, fit_few_patches,
+};
 
 impl Job for ScanArgs {
     type Outcome = ScanOutcome;
@@ -25,8 +29,18 @@ impl Job for ScanArgs {
             Some(ConesChoice::Table(path)) => Some(path.as_path()),
             _ => None,
         };
+        check_extension("--patches", self.patches.as_deref(), &["json"])?;
+        check_mesh_extension("--mesh", self.mesh.as_deref(), &[])?;
+        check_extension("--picture", self.picture.picture.as_deref(), &["png"])?;
         let read = [Some(&*self.surface.file.mesh), table];
-        check_outputs(&read, &[Some(&*self.out), self.common.report.as_deref()])
+        let files = [
+            Some(&self.out),
+            self.patches.as_ref(),
+            self.mesh.as_ref(),
+            self.picture.picture.as_ref(),
+            self.common.report.as_ref(),
+        ];
+        check_outputs(&read, &files.map(|file| file.map(|f| &**f)))
     }
 
     fn compute(&self, run: &mut CommandRun<'_>) -> Result<ScanOutcome, Failure> {
@@ -53,6 +67,17 @@ impl Job for ScanArgs {
     }
 
     fn write(&self, outcome: &ScanOutcome, run: &mut CommandRun<'_>) -> Result<(), Failure> {
-        run.outputs.add_bytes(&self.out, &outcome.written.step)
+        let spline = &outcome.fit.spline;
+        run.outputs.add_bytes(&self.out, &outcome.written.step)?;
+        run.file("patches", self.patches.as_deref(), |outputs, path| {
+            outputs.add(path, |mut out| spline.write_json(&mut out))
+        })?;
+        let (threads, control) = (self.common.threads, run.control);
+        run.file("mesh", self.mesh.as_deref(), |outputs, path| {
+            let soup = spline.tessellate(TessellationSize::Parts(PARTS), threads, control)?;
+            let format = format_of(path)?;
+            outputs.add_named(path, |path| io::write_as(path, format, &soup).map(drop))
+        })?;
+        run.picture("picture", self.picture.picture.as_deref(), || draw(outcome, self, control))
     }
 }

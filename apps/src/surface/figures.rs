@@ -4,6 +4,7 @@ use crate::input::Input;
 use crate::report::{Checks, Done, Figures, InputSummary};
 use crate::runner::{CommandRun, JobOutcome};
 use crate::say;
+use ricci::geometry::vector::{cross, dot, sub};
 use ricci::seamless::Seamless;
 use ricci::spline::{QuadFit, QuadSplineSpace};
 
@@ -53,6 +54,7 @@ impl JobOutcome for ScanOutcome {
 
     fn figures(&self, run: &CommandRun<'_>) -> Figures {
         let space = self.fit.spline.space();
+        let volumes = volumes(&self.input, &self.fit);
         Figures::default()
             .with("patches", space.layout().patches().len())
             // STEP has one face for each patch.
@@ -75,6 +77,9 @@ impl JobOutcome for ScanOutcome {
             // Degrees.
             .with("normal_error", self.fit.normal_error.to_degrees())
             .with("normal_jump", self.written.normal_jump.to_degrees())
+            // The volume inside, and how much more that is than the mesh has inside, over that; none with a boundary.
+            .with("volume", volumes.map(|[of_spline, _]| of_spline))
+            .with("volume_error", volumes.map(|[of_spline, of_mesh]| of_spline / of_mesh - 1.0))
             .with("bytes", self.written.step.len())
             .missing(run)
     }
@@ -100,4 +105,15 @@ impl JobOutcome for ScanOutcome {
 
 fn most_spans(space: &QuadSplineSpace) -> usize {
     space.spans().iter().copied().max().unwrap_or(0)
+}
+
+/// The volumes inside the spline and inside the mesh; none with a boundary.
+fn volumes(input: &Input, fit: &QuadFit) -> Option<[f64; 2]> {
+    let (mesh, points) = (input.mesh(), input.positions().filter(|_| input.mesh().is_closed())?);
+    let corner = points.first()?;
+    let sixfold = |f| {
+        let [a, b, c] = mesh.face_vertices(f).map(|v| sub(points[v.index()], *corner));
+        dot(a, cross(b, c))
+    };
+    Some([fit.spline.volume(), mesh.faces().map(sixfold).sum::<f64>() / 6.0])
 }

@@ -3,5 +3,6 @@
 mod args;
 mod command;
 mod figures;
+mod picture;
 
 pub use args::{HELP, ScanArgs};

@@ -8,7 +8,10 @@ fn closed_surfaces_become_solids_of_few_faces() {
     let place = Place::new();
     for (shape, tolerance, most) in [("ellipsoid", 1e-3, 6), ("torus", 1e-3, 16)] {
         place.expect(0, &format!("make {shape} -o in.obj"));
-        place.expect(0, &format!("surface in.obj -o out.step --tolerance {tolerance} --report r.json"));
+        place.expect(
+            0,
+            &format!("surface in.obj -o out.step --tolerance {tolerance} --report r.json --patches p.json --mesh m.obj"),
+        );
         let (report, text) = (place.json("r.json"), place.text("out.step"));
         let result = &report["result"];
         let faces = result["faces"].as_u64().unwrap() as usize;
@@ -18,6 +21,66 @@ fn closed_surfaces_become_solids_of_few_faces() {
         assert_eq!(result["bytes"].as_u64(), Some(text.len() as u64), "{shape}");
         assert!(result["max"].as_f64().unwrap() <= tolerance, "{shape}: {result}");
         assert!(result["normal_jump"].as_f64().unwrap() < 1e-6, "{shape}: {result}");
+        assert!(result["volume_error"].as_f64().unwrap().abs() < 1e-3, "{shape}: {result}");
+        let of_triangles = volume(&place.text("m.obj"));
+        assert!(
+            (result["volume"].as_f64().unwrap() / of_triangles - 1.0).abs() < 2e-3,
+            "{shape}: {of_triangles}"
+        );
+        assert_patches(&place.json("p.json"), faces);
+    }
+}
+
+/// The volume inside the triangles of an OBJ file.
+fn volume(text: &str) -> f64 {
+    let rows = |key: &str| text.lines().filter_map(move |l| l.strip_prefix(key)).collect::<Vec<_>>();
+    let points: Vec<Vec<f64>> =
+        rows("v ").iter().map(|l| l.split_whitespace().map(|x| x.parse().unwrap()).collect()).collect();
+    let sixfold = |l: &&str| {
+        let number = |corner: &str| corner.split('/').next().unwrap().parse::<usize>().unwrap() - 1;
+        let [a, b, c] = <[_; 3]>::try_from(l.split_whitespace().map(number).collect::<Vec<_>>()).unwrap();
+        let (a, b, c) = (&points[a], &points[b], &points[c]);
+        let minor = |i: usize, j: usize| b[i] * c[j] - b[j] * c[i];
+        a[0] * minor(1, 2) + a[1] * minor(2, 0) + a[2] * minor(0, 1)
+    };
+    rows("f ").iter().map(sixfold).sum::<f64>() / 6.0
+}
+
+/// Every patch has as many control points as its knots say, all control points are there, and none belongs to no patch.
+fn assert_patches(file: &serde_json::Value, count: usize) {
+    assert_eq!(file["format"], "ricci-quad-spline 1");
+    let (degree, points) = (file["degree"].as_u64().unwrap(), file["control_points"].as_array().unwrap());
+    let patches = file["patches"].as_array().unwrap();
+    assert_eq!(patches.len(), count);
+    let mut is_used = vec![false; points.len()];
+    for patch in patches {
+        let control = patch["control"].as_array().unwrap();
+        let knots = |key: &str| patch[key].as_array().unwrap().len() as u64;
+        assert_eq!(control.len() as u64 + degree + 1, knots("knots_u"));
+        for row in control {
+            let row = row.as_array().unwrap();
+            assert_eq!(row.len() as u64 + degree + 1, knots("knots_v"));
+            row.iter().for_each(|k| is_used[k.as_u64().unwrap() as usize] = true);
+        }
+    }
+    assert!(is_used.iter().all(|&is_used| is_used));
+    assert_eq!(file["creases"].as_array().unwrap().len(), 0);
+}
+
+/// Pictures of every kind are drawn, and differ.
+#[test]
+fn pictures_show_patches_distances_curvature_and_reflections() {
+    let place = Place::new();
+    place.expect(0, "make torus -n 24 -o in.obj");
+    let mut known = Vec::new();
+    for how in ["patches", "patches --combs", "distance", "curvature", "reflection"] {
+        let line = format!(
+            "surface in.obj -o out.step --tolerance 0.01 --picture p.png --draft --size 200 --color {how}"
+        );
+        place.expect(0, &line);
+        let bytes = std::fs::read(place.path("p.png")).unwrap();
+        assert!(!known.contains(&bytes), "{how}");
+        known.push(bytes);
     }
 }
 

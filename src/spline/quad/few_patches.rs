@@ -11,6 +11,8 @@ use crate::seamless::{Seamless, SeamlessCones, SeamlessOptions, placed_cones, se
 
 /// Numbers of placed cones over which fits are tried where none are asked for; then those of the field.
 const PLACED: [usize; 2] = [24, 40];
+/// The multiple of the tolerance beyond which the cones of the field are not tried after placed ones: there they came no nearer, and take longest.
+const HOPELESS: f64 = 3.0;
 /// The factor by which a layout may have more patches than the coarsest one with the same cones, where that does not suffice.
 const MORE_PATCHES: usize = 2;
 
@@ -37,7 +39,8 @@ pub struct LayoutFit {
 }
 
 /// Fits a spline with few patches to a surface: over the coarsest layout of a seamless metric, with other cones where that is not within the tolerance
-/// or folds, and last over a layout with up to twice as many patches. The first fit within the tolerance, or else that with the fewest patches
+/// or folds, and last over a layout with up to twice as many patches; where placed cones leave more than three times the tolerance, that is the
+/// end. The first fit within the tolerance, or else that with the fewest patches
 /// folded, then the least distance.
 ///
 /// # Errors
@@ -51,6 +54,9 @@ pub fn fit_few_patches(
     let has_choice = options.cones.is_none() && options.features.is_empty() && surface.mesh().is_closed();
     let placed = PLACED.into_iter().filter(|_| has_choice).map(Some);
     for (k, n) in placed.chain([None]).enumerate() {
+        if n.is_none() && search.is_hopeless() {
+            break;
+        }
         match search.is_found_with(surface, n, &control.attempt(k)) {
             Ok(true) => break,
             Ok(false) => {}
@@ -70,6 +76,12 @@ struct FewPatchesSearch<'a> {
 }
 
 impl FewPatchesSearch<'_> {
+    /// True if the best fit so far is so far off that another choice of cones will not do.
+    fn is_hopeless(&self) -> bool {
+        let limit = |fit: &QuadFit| HOPELESS * self.options.fit.limit(fit);
+        self.best.as_ref().is_some_and(|best| best.fit.max() > limit(&best.fit))
+    }
+
     /// Fits over the coarsest layout with this many placed cones, or with those that were asked for and then over a finer layout as well. True where one
     /// is within the tolerance.
     fn is_found_with(&mut self, surface: &Surface, placed: Option<usize>, control: &Control) -> Result<bool> {

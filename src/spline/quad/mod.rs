@@ -20,6 +20,8 @@ mod elimination;
 mod extraction;
 #[cfg(feature = "quads")]
 mod few_patches;
+#[cfg(feature = "json")]
+mod file;
 mod fit;
 #[cfg(feature = "quads")]
 mod fitted_surface;
@@ -41,6 +43,7 @@ mod step;
 mod system;
 mod target;
 mod tessellate;
+mod volume;
 
 pub use bezier::BezierExtraction;
 pub use closest::{NearestPlace, NearestPlaces};

@@ -4,7 +4,7 @@ use super::layout::PatchArc;
 use super::quintic::{QUINTIC, knots};
 use super::spline::QuadSpline;
 use crate::error::Result;
-use crate::geometry::vector::{Vector, cross, diagonal, dot};
+use crate::geometry::vector::diagonal;
 use crate::mesh::union_find::UnionFind;
 use crate::spline::step::{
     StepCurve, StepCurveGeometry, StepOptions, StepPart, StepPatch, StepPatches, StepSurfaceGeometry,
@@ -63,24 +63,8 @@ impl QuadSpline {
         let part = |patches: Vec<usize>| {
             let mut sides = patches.iter().flat_map(|&p| layout.patches()[p]);
             let is_closed = sides.all(|side| !layout.beside(side.arc as usize).contains(&None));
-            StepPart { is_closed, is_inverted: is_closed && self.volume(&patches) < 0.0, patches }
+            StepPart { is_closed, is_inverted: is_closed && self.volume_of(&patches) < 0.0, patches }
         };
         parts.into_values().map(part).collect()
-    }
-
-    /// The signed volume inside patches that close up, by tetrahedra over their nets of control points.
-    fn volume(&self, patches: &[usize]) -> f64 {
-        let sixfold = |[a, b, c]: [Vector; 3]| dot(a, cross(b, c));
-        let of_patch = |&p: &usize| {
-            let net = self.net(p);
-            let cells = net.windows(2).flat_map(|two| {
-                (1..two[0].len()).map(|j| {
-                    let [a, b, c, d] = [two[0][j - 1], two[1][j - 1], two[1][j], two[0][j]];
-                    sixfold([a, b, c]) + sixfold([a, c, d])
-                })
-            });
-            cells.sum::<f64>()
-        };
-        patches.iter().map(of_patch).sum::<f64>() / 6.0
     }
 }
