@@ -133,9 +133,12 @@ def test_matrices(spline: ricci.QuadSpline) -> None:
 
 def test_poisson_s_equation_has_the_known_answer() -> None:
     main = runpy.run_path(str(Path(__file__).parents[2] / "examples" / "python" / "poisson.py"))["main"]
-    coarse, fine = main(12, 2)
+    coarse, fine = main("sphere", 12, 2)
     assert fine < coarse / 4
     assert fine < 4e-3
+    coarse, fine = main("genus2", 4, 2)
+    assert fine < coarse / 4
+    assert fine < 1e-2
 
 
 def test_step_files(spline: ricci.QuadSpline, tmp_path) -> None:
