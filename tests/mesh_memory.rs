@@ -118,6 +118,17 @@ fn gifti(rows: usize, inflated: usize) -> Vec<u8> {
     format!("<GIFTI>{array}</GIFTI>").into_bytes()
 }
 
+/// The same with one number per row.
+fn gifti_column(rows: usize, inflated: usize) -> Vec<u8> {
+    let text = String::from_utf8(gifti(rows, inflated)).unwrap();
+    text.replace("POINTSET", "SHAPE").replace("Dim1=\"3\"", "Dim1=\"1\"").into_bytes()
+}
+
+/// The reader of values, as readers of surfaces are called.
+fn gifti_values(bytes: &[u8], path: &str) -> Result<Soup> {
+    io::parse_gifti_columns(bytes, path).map(|_| Soup::default())
+}
+
 /// A file whose points are one block of so many bytes that says that it unfolds to others.
 fn vtp(told: usize, inflated: usize) -> Vec<u8> {
     let mut out = ZlibEncoder::new(Vec::new(), Compression::best());
@@ -152,6 +163,7 @@ fn bombs(cases: &mut Vec<Case>) {
     bomb("glTF instances", io::parse_glb, Box::new(|| strips(10_000, 100, 20_000)));
     bomb("glTF strip of bytes", io::parse_glb, Box::new(|| strips(3, 2 * N, 1)));
     bomb("GIFTI of zeros", io::parse_gifti, Box::new(|| gifti(20 * MB, 240 * MB)));
+    bomb("GIFTI values of zeros", gifti_values, Box::new(|| gifti_column(60 * MB, 240 * MB)));
     bomb("GIFTI that inflates to more", io::parse_gifti, Box::new(|| gifti(1, 240 * MB)));
     bomb("GIFTI that inflates to less", io::parse_gifti, Box::new(|| gifti(1_000_000_000, 240 * MB)));
     for (what, parse) in [
@@ -207,6 +219,14 @@ fn dense_texts(cases: &mut Vec<Case>) {
     cases.push(Case::new("glTF nesting", io::parse_glb, Some(false), || {
         list(&format!("{GLTF}\"x\":"), "[", N, "")
     }));
+    for item in [
+        "<Label Key='1'/>",
+        "<DataArray Dimensionality='1' Dim0='0' DataType='NIFTI_TYPE_FLOAT32' Encoding='ASCII'><Data/></DataArray>",
+    ] {
+        cases.push(Case::new(format!("GIFTI values {item}"), gifti_values, None, move || {
+            list("<GIFTI>", item, 2 * N / item.len(), "</GIFTI>")
+        }));
+    }
     for item in ["<a>", "<a/>", "<DataArray/>", "<DataArray><Data/></DataArray>", "&a;"] {
         cases.push(Case::new(format!("GIFTI {item}"), io::parse_gifti, Some(false), move || {
             list("<GIFTI>", item, 2 * N / item.len(), "</GIFTI>")

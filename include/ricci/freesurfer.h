@@ -21,7 +21,8 @@ extern "C" {
 #endif
 
 /**
- * Values at the vertices of a surface: curv, sulc, area, thickness.
+ * Values at the vertices of a surface: curv, sulc, area, thickness; by its content also a file of GIFTI with
+ * one array of values (.shape.gii, .func.gii).
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (a name that is not UTF-8),
  *         RICCI_IO, RICCI_PARSE.
@@ -118,8 +119,9 @@ RICCI_API ricci_status ricci_patch_write(const char *path, const uint32_t *verti
                                          const uint32_t *is_border, size_t n);
 
 /**
- * An annotation: one named region per vertex, with the colours of the regions. Buffers are NULL with capacity
- * 0 where they are not asked for; the number of regions is that of the lines of `names`.
+ * An annotation: one named region per vertex, with the colours of the regions; by its content also labels of
+ * GIFTI (.label.gii). Buffers are NULL with capacity 0 where they are not asked for; the number of regions is
+ * that of the lines of `names`.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_ARGUMENT (a name that is not UTF-8),
  *         RICCI_IO, RICCI_PARSE.

@@ -5,6 +5,7 @@ use base64::engine::general_purpose::STANDARD;
 use flate2::Compression;
 use flate2::write::{GzEncoder, ZlibEncoder};
 use ricci::mesh::Mesh;
+use ricci::mesh::io::freesurfer::{AnnotationEntry, parse_annotation, parse_values};
 use ricci::mesh::io::{self, Soup};
 use ricci::{Error, FilePosition};
 use std::io::Write;
@@ -194,4 +195,78 @@ fn what_cannot_be_read_is_refused_by_line() {
     for end in 0..text.trim_end().len() {
         assert!(parse(&text[..end]).is_err(), "cut at {end}");
     }
+}
+
+/// One array of one number per vertex.
+fn column(intent: &str, kind: &str, dims: &str, data: &str) -> String {
+    format!(
+        "<DataArray Intent=\"NIFTI_INTENT_{intent}\" DataType=\"NIFTI_TYPE_{kind}\" Encoding=\"ASCII\" {dims}>\
+         <MetaData><MD><Name>Units</Name><Value>mm</Value></MD><MD><Name><![CDATA[Name]]></Name><Value>deep &amp; wide</Value></MD></MetaData>\
+         <Data>{data}</Data></DataArray>\n"
+    )
+}
+
+#[test]
+fn values_and_labels_read_back_and_are_known_by_their_content() {
+    let notes = io::GiftiNotes::default();
+    let bytes = io::gifti_values(&[("sulc", &[0.5, -1.25]), ("curv", &[2.0, f64::NAN])], &notes).unwrap();
+    let found = io::parse_gifti_columns(&bytes, "t.shape.gii").unwrap();
+    let told: Vec<_> =
+        found.columns.iter().map(|c| (c.intent.as_str(), c.name.as_str(), c.values[0])).collect();
+    assert_eq!(told, [("SHAPE", "sulc", 0.5), ("SHAPE", "curv", 2.0)]);
+    assert!(found.columns[1].values[1].is_nan());
+    let message = parse_values(&bytes, "t.shape.gii").unwrap_err().to_string();
+    assert!(message.contains("2 arrays"), "{message}");
+    let one = io::gifti_values(&[("", &[0.5, -1.25, 3.0])], &notes).unwrap();
+    assert_eq!(parse_values(&one, "t.shape.gii").unwrap(), [0.5, -1.25, 3.0]);
+
+    let label = |key, name: &str, color| io::GiftiLabel { key, name: name.into(), color };
+    let table = [label(0, "???", [0.0, 0.0, 0.0, 0.0]), label(7, "left ]]> right", [1.0, 0.2, 0.4, 1.0])];
+    let bytes = io::gifti_labels(&[7, 0, 7], &table, &notes).unwrap();
+    let found = io::parse_gifti_columns(&bytes, "t.label.gii").unwrap();
+    assert_eq!((found.table.as_slice(), found.labels()), (&table[..], Some(vec![Some(1), Some(0), Some(1)])));
+    let annotation = parse_annotation(&bytes, "t.label.gii").unwrap();
+    assert_eq!(annotation.regions, [Some(1), Some(0), Some(1)]);
+    let AnnotationEntry { name, index, color } = &annotation.entries[1];
+    assert_eq!((name.as_str(), *index, *color), ("left ]]> right", 7, [255, 51, 102, 0]));
+}
+
+#[test]
+fn columns_of_other_programs_are_read_and_damaged_ones_are_refused_with_the_line() {
+    let read = |arrays: &[String]| io::parse_gifti_columns(file(arrays).as_bytes(), "t.func.gii");
+    let flat = "Dimensionality=\"1\" Dim0=\"3\"";
+    let both = [
+        column("TIME_SERIES", "FLOAT64", flat, "1 2.5 -3e2"),
+        column("LABEL", "INT32", "Dimensionality=\"2\" Dim0=\"2\" Dim1=\"1\"", "4 5"),
+        // A surface beside the values is no column.
+        array("POINTSET", "FLOAT64", "ASCII", "", &"0 ".repeat(12)),
+    ];
+    let found = read(&both).unwrap();
+    assert_eq!(found.columns.len(), 2);
+    assert_eq!(
+        (found.columns[0].name.as_str(), &found.columns[0].values[..]),
+        ("deep & wide", &[1.0, 2.5, -300.0][..])
+    );
+    assert_eq!(found.labels(), Some(vec![None, None]));
+    assert!(parse(&file(&both[..1])).unwrap_err().to_string().contains("no NIFTI_INTENT_POINTSET"));
+    for (data, words) in [("1 2", "end after 2 of 3"), ("1 2 3 4", "after the last"), ("1 x 3", "`x`")] {
+        let message = read(&[column("SHAPE", "FLOAT64", flat, data)]).unwrap_err().to_string();
+        assert!(message.contains(words) && message.contains("t.func.gii:"), "{message}");
+    }
+    let table = |row: &str| {
+        let text = file(&[]).replace("</GIFTI>", &format!("<LabelTable>{row}</LabelTable></GIFTI>"));
+        io::parse_gifti_columns(text.as_bytes(), "t.label.gii").map(|found| found.table)
+    };
+    assert_eq!(table("<Label Index=\"3\">a</Label>").unwrap()[0].key, 3);
+    for (row, words) in [
+        ("<Label>a</Label>", "without Key"),
+        ("<Label Key=\"1.5\">a</Label>", "whole number"),
+        ("<Label Key=\"1\" Red=\"255\">a</Label>", "from 0 to 1"),
+    ] {
+        let message = table(row).unwrap_err().to_string();
+        assert!(message.contains(words), "{message}");
+    }
+    let none = parse_values(file(&[]).as_bytes(), "t.shape.gii").unwrap_err().to_string();
+    assert!(none.contains("no array of one value per vertex"), "{none}");
+    assert!(parse_annotation(file(&both[..1]).as_bytes(), "t.label.gii").is_err());
 }

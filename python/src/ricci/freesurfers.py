@@ -119,7 +119,7 @@ def read_values(path: FileName) -> Doubles:
     Parameters
     ----------
     path : FileName
-        the file, packed by gzip or not.
+        the file, packed by gzip or not; by its content also one of GIFTI with one array of values (.shape.gii, .func.gii).
 
     Examples
     --------
@@ -277,7 +277,7 @@ def read_annotation(path: FileName) -> Annotation:
     Parameters
     ----------
     path : FileName
-        the file, packed by gzip or not.
+        the file, packed by gzip or not; by its content also labels of GIFTI (.label.gii).
 
     Examples
     --------

@@ -8,7 +8,9 @@ use super::{Attributes, Soup};
 use crate::error::Result;
 use crate::mesh::Point;
 use quick_xml::Reader;
-use quick_xml::events::Event;
+use quick_xml::escape::unescape;
+use quick_xml::events::{BytesStart, Event};
+use std::borrow::Cow;
 
 /// Parses a GIFTI surface: its `NIFTI_INTENT_POINTSET`, its `NIFTI_INTENT_TRIANGLE` and, as normals, an array `NIFTI_INTENT_VECTOR` of
 /// one vector per vertex; other arrays are skipped. Data are ASCII, base64 or compressed base64, in either byte order and either array
@@ -21,16 +23,37 @@ use quick_xml::events::Event;
 ///
 /// [`crate::Error::Parse`] with the line.
 pub fn parse_gifti(bytes: &[u8], path: &str) -> Result<Soup> {
+    let mut arrays = GiftiArrays { budget: Budget::of(bytes), ..GiftiArrays::default() };
+    read_gifti(bytes, path, &mut arrays)?;
+    arrays.soup(Location::whole(path))
+}
+
+/// What takes the parts of a file that it needs.
+pub(super) trait GiftiVisitor {
+    /// The text of an array's data.
+    fn array(&mut self, header: &ArrayHeader, text: &str, place: Location<'_>) -> Result<()>;
+
+    /// A row of the table of labels and its name as it is written.
+    fn label(&mut self, _tag: &BytesStart<'_>, _name: &str, _place: Location<'_>) -> Result<()> {
+        Ok(())
+    }
+}
+
+/// Goes through a file.
+///
+/// # Errors
+/// [`crate::Error::Parse`] with the line; those of the visitor.
+pub(super) fn read_gifti(bytes: &[u8], path: &str, visitor: &mut dyn GiftiVisitor) -> Result<()> {
     let mut reader = Reader::from_reader(bytes);
     reader.config_mut().expand_empty_elements = true;
     let mut lines = LineCounter { bytes, at: 0, line: 1 };
-    let mut arrays = GiftiArrays { budget: Budget::of(bytes), ..GiftiArrays::default() };
-    // The array that is being read.
+    // The array that is being read, and whether the note that is being read is its name.
     let mut inside: Option<ArrayHeader> = None;
-    let mut root = false;
+    let (mut root, mut is_name) = (false, false);
     loop {
         let event = reader.read_event();
         let place = Location::line(path, lines.until(reader.buffer_position()));
+        let no_xml = |e: quick_xml::Error| place.error(format!("this is no XML: {e}"));
         match event {
             Ok(Event::Start(tag)) if !root => {
                 if tag.name().0 != "GIFTI" {
@@ -38,24 +61,45 @@ pub fn parse_gifti(bytes: &[u8], path: &str) -> Result<Soup> {
                 }
                 root = true;
             }
-            Ok(Event::Start(tag)) => match (tag.name().0, &inside) {
+            Ok(Event::Start(tag)) => match (tag.name().0, &mut inside) {
                 ("DataArray", None) => inside = Some(ArrayHeader::new(&tag, place)?),
                 ("DataArray", Some(_)) => return place.error("a DataArray inside another".into()),
                 ("Data", Some(array)) => match reader.read_text(tag.name()) {
-                    Ok(text) => arrays.take(array, &text, place)?,
-                    Err(e) => return place.error(format!("this is no XML: {e}")),
+                    Ok(text) => visitor.array(array, &text, place)?,
+                    Err(e) => return no_xml(e),
+                },
+                ("Name", Some(_)) => match reader.read_text(tag.name()) {
+                    Ok(text) => is_name = plain(&text) == "Name",
+                    Err(e) => return no_xml(e),
+                },
+                ("Value", Some(array)) if is_name => match reader.read_text(tag.name()) {
+                    Ok(text) => array.name = plain(&text).into(),
+                    Err(e) => return no_xml(e),
+                },
+                ("Label", None) => match reader.read_text(tag.name()) {
+                    Ok(text) => visitor.label(&tag, &plain(&text), place)?,
+                    Err(e) => return no_xml(e),
                 },
                 _ => {}
             },
             Ok(Event::End(tag)) if tag.name().0 == "DataArray" => inside = None,
-            Ok(Event::End(tag)) if tag.name().0 == "GIFTI" => break,
+            Ok(Event::End(tag)) if tag.name().0 == "GIFTI" => return Ok(()),
             Ok(Event::Eof) if root => return place.error("the file ends inside the element `GIFTI`".into()),
             Ok(Event::Eof) => return place.error("this is no GIFTI file: it has no element".into()),
             Ok(_) => {}
-            Err(e) => return place.error(format!("this is no XML: {e}")),
+            Err(e) => return no_xml(e),
         }
     }
-    arrays.soup(Location::whole(path))
+}
+
+/// A text as it is meant: without the marks that let it hold any character, or with these written out.
+fn plain(text: &str) -> Cow<'_, str> {
+    let text = text.trim();
+    match text.strip_prefix("<![CDATA[").and_then(|text| text.strip_suffix("]]>")) {
+        Some(inner) => inner.replace("]]]]><![CDATA[>", "]]>").into(),
+        // An entity that is not known stays as it is.
+        None => unescape(text).unwrap_or(Cow::Borrowed(text)),
+    }
 }
 
 /// Line numbers of ascending byte positions.
@@ -88,8 +132,8 @@ struct GiftiArrays {
     others: Vec<String>,
 }
 
-impl GiftiArrays {
-    fn take(&mut self, header: &ArrayHeader, text: &str, place: Location<'_>) -> Result<()> {
+impl GiftiVisitor for GiftiArrays {
+    fn array(&mut self, header: &ArrayHeader, text: &str, place: Location<'_>) -> Result<()> {
         let budget = &mut self.budget;
         let mut rows = |what| header.table(&ArrayText { what, text, place }, budget);
         let points = |table: VectorTable| (0..table.rows).map(|i| table.row(i)).collect();
@@ -117,7 +161,9 @@ impl GiftiArrays {
         }
         Ok(())
     }
+}
 
+impl GiftiArrays {
     fn soup(self, place: Location<'_>) -> Result<Soup> {
         let Some(positions) = self.points else {
             return place.error(

@@ -36,6 +36,8 @@ enum DataEncoding {
 #[derive(Default)]
 pub(super) struct ArrayHeader {
     pub intent: String,
+    /// The name that a note gives it.
+    pub name: String,
     data_type: String,
     encoding: String,
     external: String,
@@ -82,8 +84,28 @@ impl ArrayHeader {
         self.dimensionality == 2 && self.dims[1] == 3 && self.data_type.starts_with("NIFTI_TYPE_FLOAT")
     }
 
+    /// True if the array has one number per row.
+    pub fn is_column(&self) -> bool {
+        self.dimensionality == 1 || (self.dimensionality == 2 && self.dims[1] == 1)
+    }
+
     /// The rows of three numbers in a text.
     pub fn table(&self, data: &ArrayText<'_>, budget: &mut Budget) -> Result<VectorTable> {
+        if self.dimensionality != 2 || self.dims[1] != 3 {
+            let what = data.what;
+            return data.place.error(format!("{what} have Dimensionality=\"2\" and Dim1=\"3\""));
+        }
+        self.rows(data, 3, budget)
+    }
+
+    /// The numbers in a text, one per row ([`ArrayHeader::is_column`]).
+    pub fn column(&self, data: &ArrayText<'_>, budget: &mut Budget) -> Result<Vec<f64>> {
+        let table = self.rows(data, 1, budget)?;
+        Ok((0..table.rows).map(|i| table.number(i)).collect())
+    }
+
+    /// The rows of so many numbers in a text.
+    fn rows(&self, data: &ArrayText<'_>, columns: usize, budget: &mut Budget) -> Result<VectorTable> {
         let &ArrayText { what, text, place } = data;
         let name = self.data_type.strip_prefix("NIFTI_TYPE_").map(str::to_ascii_lowercase);
         let Some(kind) = name.and_then(|name| NumberType::named(&name)) else {
@@ -92,10 +114,7 @@ impl ArrayHeader {
         if what == "triangles" && !kind.is_integer() {
             return place.error(format!("{what} of DataType=\"{}\" have no integers", self.data_type));
         }
-        let (rows, true) = (self.dims[0], self.dimensionality == 2 && self.dims[1] == 3) else {
-            return place.error(format!("{what} have Dimensionality=\"2\" and Dim1=\"3\""));
-        };
-        let Ok(rows) = usize::try_from(rows) else {
+        let Ok(rows) = usize::try_from(self.dims[0]) else {
             return place.error(format!("{what} have no Dim0"));
         };
         if rows > u32::MAX as usize {
@@ -117,11 +136,11 @@ impl ArrayHeader {
             return place.error(format!("the {what} have markup among their data"));
         }
         let stored = if encoding == DataEncoding::Ascii { size_of::<f64>() } else { kind.size() };
-        let kept = if what == "triangles" { size_of::<[u32; 3]>() } else { size_of::<[f64; 3]>() };
-        budget.take(rows, 3 * stored + kept, what, place)?;
+        let kept = if what == "triangles" { size_of::<u32>() } else { size_of::<f64>() };
+        budget.take(rows, columns * (stored + kept), what, place)?;
         let numbers = match encoding {
-            DataEncoding::Ascii => ArrayNumbers::Text(ascii(data, 3 * rows)?),
-            _ => ArrayNumbers::Binary(binary(data, encoding, 3 * rows * stored)?, kind),
+            DataEncoding::Ascii => ArrayNumbers::Text(ascii(data, columns * rows)?),
+            _ => ArrayNumbers::Binary(binary(data, encoding, columns * rows * stored)?, kind),
         };
         Ok(VectorTable { rows, numbers, big_endian: self.big_endian, column_major: self.column_major })
     }

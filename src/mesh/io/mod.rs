@@ -18,6 +18,8 @@ mod gifti;
 #[cfg(feature = "gifti")]
 mod gifti_data;
 #[cfg(feature = "gifti")]
+mod gifti_values;
+#[cfg(feature = "gifti")]
 mod gifti_write;
 #[cfg(feature = "gltf")]
 mod gltf;
@@ -49,6 +51,8 @@ pub use file_format::Format;
 pub use freesurfer::{parse_freesurfer, write_freesurfer, write_freesurfer_text};
 #[cfg(feature = "gifti")]
 pub use gifti::parse_gifti;
+#[cfg(feature = "gifti")]
+pub use gifti_values::{GiftiColumn, GiftiColumns, parse_gifti_columns};
 #[cfg(feature = "gifti")]
 pub use gifti_write::{
     GiftiLabel, GiftiNotes, GiftiTransform, gifti_labels, gifti_surface, gifti_values, write_gifti,

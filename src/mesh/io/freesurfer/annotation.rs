@@ -2,6 +2,10 @@
 
 use super::big_endian::{BigEndianWords, signed};
 use crate::error::{Error, Result};
+#[cfg(feature = "gifti")]
+use crate::mesh::io::gifti_values::{GiftiColumns, is_xml, parse_gifti_columns};
+#[cfg(feature = "gifti")]
+use crate::mesh::io::{gifti_write::GiftiLabel, scan::Location};
 
 /// A region of an annotation.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -30,12 +34,17 @@ fn number_of(color: [u8; 4]) -> u32 {
     u32::from_le_bytes([color[0], color[1], color[2], 0])
 }
 
-/// Parses an annotation with its table of colours, of the present version or the one before. A vertex whose number no region has, or that the
-/// file does not name, is in none. `path` is used in errors.
+/// Parses an annotation with its table of colours, of the present version or the one before; also, by its content, labels of GIFTI
+/// (`.label.gii`), with the cargo feature `gifti`. A vertex whose number no region has, or that the file does not name, is in none. `path` is
+/// used in errors.
 ///
 /// # Errors
-/// [`crate::Error::Parse`] with the byte.
+/// [`crate::Error::Parse`] with the byte, or the line.
 pub fn parse_annotation(bytes: &[u8], path: &str) -> Result<Annotation> {
+    #[cfg(feature = "gifti")]
+    if is_xml(bytes) {
+        return of_gifti(&parse_gifti_columns(bytes, path)?, path);
+    }
     let mut words = BigEndianWords::new(bytes, path);
     let n = words.count("the number of vertices")?;
     words.holds(n, 8, "vertices")?;
@@ -62,6 +71,24 @@ pub fn parse_annotation(bytes: &[u8], path: &str) -> Result<Annotation> {
         *region = number.and_then(|number| known.get(&(number as u32 & 0xff_ffff)).copied());
     }
     Ok(found)
+}
+
+/// Labels of GIFTI as an annotation: colours are rounded to whole numbers.
+#[cfg(feature = "gifti")]
+fn of_gifti(found: &GiftiColumns, path: &str) -> Result<Annotation> {
+    let Some(labels) = found.labels() else {
+        return Location::whole(path).error("the file has no array of labels".into());
+    };
+    let regions = labels.into_iter().map(|row| row.map(|row| row as u32)).collect();
+    let mut entries = Vec::with_capacity(found.table.len());
+    for GiftiLabel { key, name, color: [red, green, blue, alpha] } in &found.table {
+        let Ok(index) = u32::try_from(*key) else {
+            return Location::whole(path).error(format!("the label {key} is negative; regions count from 0"));
+        };
+        let color = [*red, *green, *blue, 1.0 - alpha].map(|part| (255.0 * part).round() as u8);
+        entries.push(AnnotationEntry { name: name.clone(), index, color });
+    }
+    Ok(Annotation { regions, entries, source: String::new() })
 }
 
 /// Reads a table of colours: a number of entries, or a negative version, then the entries with numbers of their own.

@@ -2,17 +2,24 @@
 
 use super::big_endian::{BigEndianWords, signed, single};
 use crate::error::Result;
+#[cfg(feature = "gifti")]
+use crate::mesh::io::gifti_values::{is_xml, parse_gifti_columns};
 
 /// The first three bytes of files in single precision; older ones begin with the number of vertices.
 const MARK: u32 = 0xff_ffff;
 /// The numbers of older files are hundredths.
 const HUNDREDTH: f64 = 100.0;
 
-/// Parses a file of one value per vertex. `path` is used in errors.
+/// Parses a file of one value per vertex; also, by its content, one of GIFTI with one array (`.shape.gii`, `.func.gii`), with the cargo feature
+/// `gifti`. `path` is used in errors.
 ///
 /// # Errors
-/// [`crate::Error::Parse`] with the byte.
+/// [`crate::Error::Parse`] with the byte, or the line.
 pub fn parse_values(bytes: &[u8], path: &str) -> Result<Vec<f64>> {
+    #[cfg(feature = "gifti")]
+    if is_xml(bytes) {
+        return parse_gifti_columns(bytes, path)?.only(path);
+    }
     let mut words = BigEndianWords::new(bytes, path);
     let first = words.small("the mark")?;
     if first != MARK {
