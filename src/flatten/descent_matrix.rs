@@ -1,7 +1,9 @@
 //! The Newton system of a map: two unknowns per vertex, one sparse pattern for all steps.
 
 use super::rest_triangle::TriangleModel;
+use super::seam_ties::SeamTies;
 use super::term::Term;
+use super::tied_matrix::TiedMatrix;
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::linalg::{Cholesky, Pattern, Symmetric};
@@ -29,16 +31,25 @@ pub(super) struct DescentMatrix<'a> {
     corners: Vec<[u32; 3]>,
     models: Vec<TriangleModel>,
     values: Vec<f64>,
+    /// The matrix in the unknowns of points that are tied along seams; none where every point is free.
+    tied: Option<TiedMatrix<'a>>,
+    tied_values: Vec<f64>,
+    ties: Option<&'a SeamTies>,
     cholesky: Cholesky,
-    pub gradient: Vec<f64>,
+    gradient: Vec<f64>,
 }
 
 impl<'a> DescentMatrix<'a> {
-    /// `pairs`: the vertices that further terms join, beside those of edges.
+    /// `pairs`: the vertices that further terms join, beside those of edges. `ties`: of vertices along seams, if there are any.
     ///
     /// # Errors
     /// Those of [`Pattern::new`] and [`Cholesky::analyse`]; [`Error::Cancelled`].
-    pub fn new(mesh: &'a Mesh, pairs: Vec<[u32; 2]>, control: &Control) -> Result<DescentMatrix<'a>> {
+    pub fn new(
+        mesh: &'a Mesh,
+        pairs: Vec<[u32; 2]>,
+        ties: Option<&'a SeamTies>,
+        control: &Control,
+    ) -> Result<DescentMatrix<'a>> {
         let n = 2 * mesh.n_vertices();
         let within = mesh.vertices().map(|v| (2 * v.0 + 1, 2 * v.0));
         let apart = pairs.iter().copied().filter(|[a, b]| a != b);
@@ -54,10 +65,25 @@ impl<'a> DescentMatrix<'a> {
         let corners = mesh.triangles();
         let mut places = vec![[0; 21]; corners.len()];
         parallel::fill(&mut places, |f| places_of(&pattern, corners[f]));
-        let cholesky = Cholesky::analyse(&pattern)?;
+        let tied = ties.map(|ties| TiedMatrix::new(ties, &pattern)).transpose()?;
+        let tied_values = vec![0.0; tied.as_ref().map_or(0, |tied| tied.pattern.entries())];
+        let cholesky = Cholesky::analyse(tied.as_ref().map_or(&pattern, |tied| &tied.pattern))?;
         let models = vec![TriangleModel { gradient: [0.0; 6], hessian: [0.0; 21] }; corners.len()];
         let (values, gradient) = (vec![0.0; pattern.entries()], vec![0.0; n]);
-        Ok(DescentMatrix { mesh, pairs, pattern, places, corners, models, values, cholesky, gradient })
+        Ok(DescentMatrix {
+            mesh,
+            pairs,
+            pattern,
+            places,
+            corners,
+            models,
+            values,
+            tied,
+            tied_values,
+            ties,
+            cholesky,
+            gradient,
+        })
     }
 
     /// Makes room for the entries that these pairs of vertices share.
@@ -73,7 +99,7 @@ impl<'a> DescentMatrix<'a> {
         all.iter_mut().for_each(|pair| pair.sort_unstable());
         all.sort_unstable();
         all.dedup();
-        *self = DescentMatrix::new(self.mesh, all, control)?;
+        *self = DescentMatrix::new(self.mesh, all, self.ties, control)?;
         Ok(())
     }
 
@@ -104,18 +130,24 @@ impl<'a> DescentMatrix<'a> {
     /// The Newton step from the points of the last assembly; `None` where the Hessian is not positive definite, or the step does not lead
     /// down. A clamped Hessian is only not definite by rounding, and gets a larger share of the mean diagonal.
     pub fn step(&mut self, clamped: bool) -> Option<NewtonStep> {
-        let n = self.pattern.size();
-        let mean = (0..n).map(|i| self.values[self.pattern.diagonal(i)]).sum::<f64>() / n as f64;
+        let (pattern, values) = match &self.tied {
+            Some(tied) => {
+                tied.fill(&self.values, &mut self.tied_values);
+                (&tied.pattern, &mut self.tied_values)
+            }
+            None => (&self.pattern, &mut self.values),
+        };
+        let n = pattern.size();
+        let mean = (0..n).map(|i| values[pattern.diagonal(i)]).sum::<f64>() / n as f64;
         let (most, mut added) = (if clamped { MOST_SHIFTS } else { 0 }, 0.0);
         for k in 0..=most {
             let shift = SHIFT * MORE_SHIFT.powi(k) * mean;
             for i in 0..n {
-                self.values[self.pattern.diagonal(i)] += shift - added;
+                values[pattern.diagonal(i)] += shift - added;
             }
             added = shift;
-            let matrix = Symmetric { pattern: &self.pattern, values: &self.values };
-            if self.cholesky.factor(matrix).is_ok()
-                && let Some(step) = self.solved()
+            if self.cholesky.factor(Symmetric { pattern, values }).is_ok()
+                && let Some(step) = solved(&mut self.cholesky, &self.gradient, self.tied.as_ref())
             {
                 return Some(step);
             }
@@ -123,13 +155,28 @@ impl<'a> DescentMatrix<'a> {
         None
     }
 
-    fn solved(&mut self) -> Option<NewtonStep> {
-        let mut x: Vec<f64> = self.gradient.iter().map(|g| -g).collect();
-        self.cholesky.solve(&mut x);
-        let slope: f64 = self.gradient.iter().zip(&x).map(|(g, d)| g * d).sum();
-        let direction = x.as_chunks::<2>().0.to_vec();
-        (slope <= 0.0).then_some(NewtonStep { direction, slope })
+    /// The largest slope of the last assembly in an unknown.
+    pub fn steepest(&self) -> f64 {
+        let most = |slopes: &[f64]| slopes.iter().fold(0.0, |most, g| f64::max(most, g.abs()));
+        match &self.tied {
+            Some(tied) => most(&tied.slopes(&self.gradient)),
+            None => most(&self.gradient),
+        }
     }
+}
+
+/// The Newton step with a matrix that is factored, if it does not lead up.
+fn solved(cholesky: &mut Cholesky, gradient: &[f64], tied: Option<&TiedMatrix<'_>>) -> Option<NewtonStep> {
+    let slopes = tied.map(|tied| tied.slopes(gradient));
+    let slopes = slopes.as_deref().unwrap_or(gradient);
+    let mut x: Vec<f64> = slopes.iter().map(|g| -g).collect();
+    cholesky.solve(&mut x);
+    let slope: f64 = slopes.iter().zip(&x).map(|(g, d)| g * d).sum();
+    let direction = match tied {
+        Some(tied) => tied.steps(&x),
+        None => x.as_chunks::<2>().0.to_vec(),
+    };
+    (slope <= 0.0).then_some(NewtonStep { direction, slope })
 }
 
 /// A model with the places of its entries and its corners.

@@ -10,6 +10,7 @@ use super::plane_start::{PlaneStart, check_surface, plane_start};
 use super::report::{FlattenReport, FlattenStop};
 use super::rest_triangle::{RestTriangle, rest_triangles};
 use super::rim::BorderRim;
+use super::seam_ties::SeamTies;
 use super::terms::Terms;
 use super::upright::is_upright;
 use crate::control::Control;
@@ -61,7 +62,7 @@ pub fn flatten(surface: &Surface, options: &FlattenOptions, control: &Control) -
         let rim = BorderRim::new(surface.mesh());
         let start = plane_start(surface, options.injective.then_some(&rim), &control.part(0.0, OF_START))?;
         let seconds = begun.elapsed().as_secs_f64();
-        let flat = Flattener { surface, rest, unit, shares, options, rim };
+        let flat = Flattener { surface, rest, unit, shares, options, rim, ties: None };
         let found = flat.descended(start, &control.part(OF_START, 1.0))?;
         control.finish();
         let report =
@@ -71,17 +72,23 @@ pub fn flatten(surface: &Surface, options: &FlattenOptions, control: &Control) -
 }
 
 /// What a descent needs.
-struct Flattener<'a> {
-    surface: &'a Surface,
-    rest: Vec<RestTriangle>,
-    unit: f64,
-    shares: EnergyShares,
-    options: &'a FlattenOptions,
-    rim: BorderRim,
+pub(super) struct Flattener<'a> {
+    pub surface: &'a Surface,
+    pub rest: Vec<RestTriangle>,
+    pub unit: f64,
+    pub shares: EnergyShares,
+    pub options: &'a FlattenOptions,
+    pub rim: BorderRim,
+    /// Of points along seams; none where the surface is open itself.
+    pub ties: Option<&'a SeamTies>,
 }
 
 impl Flattener<'_> {
-    fn descended(&self, start: PlaneStart, control: &Control) -> Result<Flattening> {
+    /// The map of least energy that steps from a start lead to.
+    ///
+    /// # Errors
+    /// [`Error::Layout`] where a triangle loses its area to rounding; [`Error::Factorisation`]; [`Error::Cancelled`].
+    pub fn descended(&self, start: PlaneStart, control: &Control) -> Result<Flattening> {
         let mesh = self.surface.mesh();
         let corners = mesh.triangles();
         let points = self.scaled(&corners, start.points)?;
@@ -92,13 +99,13 @@ impl Flattener<'_> {
         }
         let terms = Terms::new(self.surface, self.options, self.unit, control)?;
         control.check()?;
-        let mut system = DescentMatrix::new(mesh, terms.standing_pairs(), control)?;
+        let mut system = DescentMatrix::new(mesh, terms.standing_pairs(), self.ties, control)?;
         let map = PlaneMoves { corners: &corners, rest: &self.rest, shares: self.shares, terms };
         let mut descent = MapDescent::new(map, points);
         let stop = self.settled(&mut descent, &mut system, control)?;
         descent.map.look_at(&descent.points, &mut system, control)?;
         descent.map.assemble(&mut system, &descent.points, true);
-        let gradient = steepest(&system.gradient) * diameter(&descent.points);
+        let gradient = system.steepest() * diameter(&descent.points);
         let missed = descent.map.terms.misfit(&descent.points);
         let misfit = missed / diameter(&descent.points);
         let MapDescent { points, energies, unclamped, decrement, .. } = descent;
@@ -215,13 +222,9 @@ impl Flattener<'_> {
     }
 }
 
-fn out_of_range() -> Error {
+pub(super) fn out_of_range() -> Error {
     let why = "a triangle loses its area to rounding: parts of the surface are too small for doubles beside the rest; weld or remesh them";
     Error::Layout(why.into())
-}
-
-fn steepest(gradient: &[f64]) -> f64 {
-    gradient.iter().fold(0.0, |most, g| f64::max(most, g.abs()))
 }
 
 /// The diagonal of the bounding box.

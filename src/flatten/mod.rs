@@ -35,6 +35,11 @@ mod report;
 mod rest_triangle;
 mod rim;
 mod ring_distances;
+// Made for seams alone, which seamless metrics have.
+#[cfg_attr(not(feature = "quads"), expect(dead_code))]
+mod seam_ties;
+#[cfg(feature = "quads")]
+mod seamless_flat_map;
 mod sphere_flat_map;
 mod sphere_moves;
 mod sphere_triangle;
@@ -42,6 +47,7 @@ mod step_bound;
 mod strain;
 mod term;
 mod terms;
+mod tied_matrix;
 mod tutte;
 mod upright;
 
@@ -54,5 +60,7 @@ pub use options::{
     AREA_CONFORMAL, DISTANCE_ISOMETRIC, DistortionEnergy, FlattenOptions, MAX_ITERATIONS, RINGS, TOLERANCE,
 };
 pub use report::{FlattenReport, FlattenStart, FlattenStop};
+#[cfg(feature = "quads")]
+pub use seamless_flat_map::{SeamlessFlattening, flatten_seamless};
 pub use sphere_flat_map::{SphereFlattening, flatten_sphere};
 pub use strain::{FaceStrain, StrainLimits, strains};

@@ -12,6 +12,8 @@ pub enum FlattenStart {
     Tutte,
     /// On the sphere: the conformal map, which turned triangles of the surface over that were turned back.
     Untangled,
+    /// A seamless map ([`crate::seamless`]), whose seams stay rotations.
+    Seamless,
 }
 
 impl FlattenStart {
@@ -21,6 +23,7 @@ impl FlattenStart {
             FlattenStart::Conformal => "conformal",
             FlattenStart::Tutte => "tutte",
             FlattenStart::Untangled => "untangled",
+            FlattenStart::Seamless => "seamless",
         }
     }
 }

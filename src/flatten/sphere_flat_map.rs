@@ -129,7 +129,7 @@ impl RoundMap<'_> {
         let mesh = self.surface.mesh();
         let corners = mesh.triangles();
         let begun = Instant::now();
-        let mut system = DescentMatrix::new(mesh, Vec::new(), control)?;
+        let mut system = DescentMatrix::new(mesh, Vec::new(), None, control)?;
         let moves = |softness: f64| SphereMoves {
             corners: &corners,
             rest: &self.rest,
@@ -148,7 +148,7 @@ impl RoundMap<'_> {
         let FlattenOptions { tolerance, max_iterations, .. } = *options;
         let stop = descent.run(&mut system, tolerance, max_iterations, &control.part(OF_START, 1.0))?;
         descent.map.assemble(&mut system, &descent.points, true);
-        let gradient = system.gradient.iter().fold(0.0, |most, g| f64::max(most, g.abs()));
+        let gradient = system.steepest();
         let MapDescent { points, energies, unclamped, decrement, .. } = descent;
         let start = if is_tangled { FlattenStart::Untangled } else { FlattenStart::Conformal };
         let after = self.distortion(&corners, &points);

@@ -18,6 +18,8 @@ mod few_patches;
 mod flatten;
 mod flatten_conditions;
 mod flatten_darts;
+#[cfg(feature = "quads")]
+mod flatten_seams;
 mod flatten_sphere;
 mod flip_formula;
 mod flips;
