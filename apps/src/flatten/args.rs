@@ -2,6 +2,7 @@
 
 use crate::options::{Common, FileName, FlatArgs, SurfaceArgs, choices, number, positive};
 use crate::picture::PictureArgs;
+use crate::seamless::ConesChoice;
 use clap::Args;
 use clap::builder::TypedValueParser;
 use ricci::flatten::DistortionEnergy;
@@ -26,6 +27,10 @@ Conditions, in CSV files whose vertices and faces count from 0
     --pin P.csv                vertex,x,y: where vertices are, to the last digit
     --straight S.csv           piece,vertex: runs of vertices, such as parts of the border, each on a straight line
     --injective                no part lies on another one: sides of the border repel each other, and an exact test says so of the numbers written
+
+Closed surfaces of genus 1 and more, and spheres with --cones, are cut open along seams that stay rotations by multiples of 90°, exactly so in the
+    numbers of the files. The cones are those of --cones field, auto:N or V.csv, as for `ricci seamless`. Where a triangle would be turned over at the start,
+    edges are split; the first vertices are the input's.
 
 Sheets: --strain 0.05,0.1 --shear 10 are the limits of a material along --warp 0 (degrees from x) and across. Where the flat sheet would be
     strained more when it takes the shape of the surface, seams open from the border inwards, one after the other, until the limits hold,
@@ -54,6 +59,10 @@ pub struct FlattenArgs {
     /// Most edges between two vertices whose distance --energy distance keeps
     #[arg(long, value_name = "K", default_value_t = ricci::flatten::RINGS, value_parser = rings())]
     pub rings: usize,
+    /// The cones of a closed surface: field, auto:N, or a table vertex,valence [default: field for genus 1 and more]
+    #[arg(long, value_name = "CONES")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cones: Option<ConesChoice>,
     /// Let no part of the map lie on another one
     #[arg(long)]
     pub injective: bool,

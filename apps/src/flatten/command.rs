@@ -1,6 +1,7 @@
 //! `ricci flatten` as a job: what it refuses, computes, writes and reports.
 
 use super::args::{EnergyChoice, FlattenArgs};
+use super::closed::ClosedMap;
 use super::outcome::FlattenOutcome;
 use super::part::{self, Part};
 use crate::failure::{Failure, NO_POSITIONS};
@@ -8,7 +9,8 @@ use crate::input::Input;
 use crate::output::{check_extension, check_outputs};
 use crate::progress::doing;
 use crate::runner::{CommandRun, Job, JobHeader};
-use ricci::flatten::{FlattenOptions, flatten};
+use crate::seamless::ConesChoice;
+use ricci::flatten::{FlattenOptions, Flattening, flatten};
 use serde::Serialize;
 use std::io::Write;
 
@@ -41,9 +43,13 @@ impl Job for FlattenArgs {
             &self.picture.picture,
             &self.common.report,
         ];
+        let cones = match &self.cones {
+            Some(ConesChoice::Table(path)) => Some(path.as_path()),
+            _ => None,
+        };
         let read = [&self.label, &self.weights, &self.pin, &self.straight].map(|file| file.as_deref());
         check_outputs(
-            &[&[Some(&*self.surface.file.mesh)], &read[..]].concat(),
+            &[&[Some(&*self.surface.file.mesh), cones], &read[..]].concat(),
             &files.map(|file| file.as_deref()),
         )
     }
@@ -52,7 +58,15 @@ impl Job for FlattenArgs {
         let part = part::read(&self.surface, self.label.as_deref(), run)?;
         check_surface(self, &part.input)?;
         let options = self.options_with_conditions(&part)?;
-        let (Part { input, origins, n_whole }, flat, sheet) = if self.has_limits() {
+        let mut closed = None;
+        let (Part { input, origins, n_whole }, flat, sheet) = if part.input.mesh().boundary_loops().is_empty()
+        {
+            let found = self.closed_map(&part.input, &options, run)?;
+            let ClosedMap { map, .. } = &found;
+            let flat = Flattening { points: map.layout.coordinates.clone(), report: map.report.clone() };
+            closed = Some(found);
+            (part, flat, None)
+        } else if self.has_limits() {
             let (part, flat, sheet) = self.with_darts(part, &options, run)?;
             (part, flat, Some(sheet))
         } else {
@@ -66,6 +80,7 @@ impl Job for FlattenArgs {
             n_whole,
             flat,
             sheet,
+            closed,
             tolerance: self.tolerance,
             injective: self.injective,
             has_conditions: self.pin.is_some() || self.straight.is_some(),
@@ -113,9 +128,11 @@ impl FlattenArgs {
 fn check_surface(args: &FlattenArgs, input: &Input) -> Result<(), Failure> {
     let mesh = input.mesh();
     let (genus, loops, path) = (mesh.genus(), mesh.boundary_loops().len(), input.path.display());
-    if genus > 0 || loops == 0 {
+    if loops == 0 && (genus > 0 || args.cones.is_some()) {
+        args.check_closed()?;
+    } else if genus > 0 || loops == 0 {
         let way = if genus == 0 {
-            "`ricci uniformize` maps this one to the sphere"
+            "`ricci uniformize` maps this one to the sphere, --cones auto:8 cuts it open along seams"
         } else {
             "`ricci flow` lays this one out, cut open"
         };

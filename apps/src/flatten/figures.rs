@@ -1,5 +1,6 @@
 //! The checks, the figures and the summary of `ricci flatten`.
 
+use super::closed::ClosedMap;
 use super::outcome::{FlattenOutcome, StrainedSheet};
 use crate::report::{Checks, Done, Figures, InputSummary};
 use crate::runner::{CommandRun, JobOutcome};
@@ -7,6 +8,8 @@ use crate::say;
 use ricci::flatten::{Distortion, FlattenStop};
 use serde_json::{Value, json};
 
+/// Largest distance, over the diameter of the map, by which a corner was moved to make seams exact.
+const MOVED: f64 = 1e-9;
 /// The most by which pinned vertices and straight pieces may miss where they are to be, in the diameter of the map.
 const MOST_MISFIT: f64 = 1e-11;
 
@@ -29,6 +32,9 @@ impl JobOutcome for FlattenOutcome {
         if let Some(sheet) = &self.sheet {
             let remedy = "allow more darts (--darts, --open), or a material that bears more";
             checks.add_with_remedy("strain_over_limit", sheet.taken[1], 1.0, remedy);
+        }
+        if let Some(closed) = &self.closed {
+            checks.add("moved_corners", closed.moved(), MOVED);
         }
         if let Some(&turned) = self.written_turned.get() {
             checks.add("turned_triangles_in_file", turned as f64, 0.0);
@@ -56,6 +62,7 @@ impl JobOutcome for FlattenOutcome {
             .with("after", distortion(&report.after))
             .with("overlap", report.overlap)
             .with("one_to_one", report.one_to_one)
+            .if_some("seams", self.closed.as_ref().map(ClosedMap::figures))
             .if_some("sheet", self.sheet.as_ref().map(StrainedSheet::figures))
             .if_some("misfit", self.has_conditions.then_some(report.misfit))
             // The library gives no map in which exact arithmetic finds a turned triangle.
@@ -81,6 +88,9 @@ impl JobOutcome for FlattenOutcome {
         if report.overlap > 0.0 {
             text +=
                 &format!("overlap  {:.2} % of the map lies on other parts of it\n", 100.0 * report.overlap);
+        }
+        if let Some(closed) = &self.closed {
+            text += &closed.summary();
         }
         if let Some(sheet) = &self.sheet {
             text += &sheet.summary();

@@ -1,6 +1,7 @@
 //! A flat map as files and in pictures.
 
 use super::args::FlattenArgs;
+use super::closed::ClosedMap;
 use super::outcome::FlattenOutcome;
 use crate::failure::Failure;
 use crate::flat::FlatLayout;
@@ -12,24 +13,48 @@ use ricci::embed::FlatSurface;
 use ricci::geometry::predicates::orientation;
 use ricci::mesh::io::SurfaceFile;
 use ricci::mesh::io::freesurfer::{SurfacePatch, patch_bytes};
-use ricci::mesh::{Mesh, PerHalfedge, VertexId};
+use ricci::mesh::{HalfedgeId, Mesh, PerHalfedge, Point};
+use ricci::metric::CommonSubdivision;
 use std::borrow::Cow;
 use std::cmp::Ordering;
 use std::path::Path;
 
 impl FlattenOutcome {
     fn mesh(&self) -> &Mesh {
-        self.input.mesh()
+        self.closed.as_ref().map_or(self.input.mesh(), |closed| closed.map.surface.mesh())
+    }
+
+    /// The subdivision of a closed surface some of whose edges were split.
+    fn subdivision(&self) -> Option<&CommonSubdivision> {
+        self.closed.as_ref()?.map.refinement.as_deref()
+    }
+
+    fn positions(&self) -> Result<&[Point], Failure> {
+        let own = match &self.closed {
+            Some(closed) => closed.map.surface.positions().map(|all| &all[..]),
+            None => self.input.positions(),
+        };
+        own.ok_or_else(Failure::no_positions)
     }
 
     /// Per half-edge the number of the point of the corner at its origin.
     fn corner_index(&self) -> PerHalfedge<u32> {
+        if let Some(closed) = &self.closed {
+            return closed.map.layout.corner_index.clone();
+        }
         PerHalfedge::from_fn(self.mesh().n_halfedges(), |h| self.mesh().origin(h).0)
+    }
+
+    /// The half-edges on the left side of the seams of a closed surface, with their numbers.
+    fn seams(&self) -> Vec<(HalfedgeId, usize)> {
+        let Some(closed) = &self.closed else { return Vec::new() };
+        let segments = closed.map.layout.cut.segments.iter().enumerate();
+        segments.flat_map(|(k, segment)| segment.iter().map(move |&h| (h, k))).collect()
     }
 
     /// The surface with the map as texture coordinates. The file is read again, and the triangles are counted that its numbers turn over.
     pub fn write_uv(&self, outputs: &mut Outputs, path: &Path) -> Result<(), Failure> {
-        let Some(positions) = self.input.positions() else { return Err(Failure::no_positions()) };
+        let positions = self.positions()?;
         let index = self.corner_index();
         let drawn = UvMesh {
             mesh: self.mesh(),
@@ -37,7 +62,7 @@ impl FlattenOutcome {
             index: &index,
             texcoords: &self.flat.points,
             weights: &[],
-            subdivision: None,
+            subdivision: self.subdivision(),
         };
         drawn.write(outputs, path, &self.input)?;
         let told = |why: &dyn std::fmt::Display| Failure::Failed(format!("{}: {why}", path.display()));
@@ -55,8 +80,8 @@ impl FlattenOutcome {
     pub fn write_flat(&self, outputs: &mut Outputs, path: &Path, args: &FlatArgs) -> Result<(), Failure> {
         let index = self.corner_index();
         let points = Cow::Borrowed(&self.flat.points[..]);
-        let surface = FlatSurface { mesh: self.mesh(), corner_index: &index, points, seams: Vec::new() };
-        FlatLayout { surface, input: &self.input, subdivision: None }.write(outputs, path, args)
+        let surface = FlatSurface { mesh: self.mesh(), corner_index: &index, points, seams: self.seams() };
+        FlatLayout { surface, input: &self.input, subdivision: self.subdivision() }.write(outputs, path, args)
     }
 
     /// The bytes of the map as a patch of FreeSurfer.
@@ -83,15 +108,20 @@ impl FlattenOutcome {
         let mesh = self.mesh();
         let style = args.picture.style(TextureChoice::Checker, args.common.threads);
         let faces = mesh.triangles();
-        let corner_uv: Vec<_> = faces.iter().map(|f| f.map(|v| self.flat.points[v as usize])).collect();
-        let outer = mesh.halfedges().filter(|&h| mesh.is_outside(h.twin()));
-        let at = |v: VertexId| self.flat.points[v.index()];
-        let boundary: Vec<_> = outer.map(|h| (at(mesh.origin(h)), at(mesh.tip(h)))).collect();
+        let index = self.corner_index();
+        let at = |h: HalfedgeId| self.flat.points[index[h] as usize];
+        let corner_uv: Vec<_> = mesh.faces().map(|f| mesh.face_halfedges(f).map(at)).collect();
+        let is_side = |h: &HalfedgeId| {
+            let is_cut = |closed: &ClosedMap| closed.map.layout.side(*h) != 0;
+            mesh.is_outside(h.twin()) || self.closed.as_ref().is_some_and(is_cut)
+        };
+        let sides = mesh.halfedges().filter(is_side);
+        let boundary: Vec<_> = sides.map(|h| (at(h), at(mesh.next(h)))).collect();
         let flat = Some(ShownLayout { corner_uv: &corner_uv, boundary: &boundary, ..ShownLayout::default() });
         if args.picture.is_svg() {
             return picture::svg(&Picture { flat, ..Picture::default() }, &style);
         }
-        let Some(positions) = self.input.positions() else { return Err(Failure::no_positions()) };
+        let positions = self.positions()?;
         let surface = ShownSurface {
             positions,
             faces: &faces,

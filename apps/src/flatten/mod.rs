@@ -1,6 +1,7 @@
 //! `ricci flatten`: maps to the plane of least stretch, without a triangle that is turned over.
 
 mod args;
+mod closed;
 mod command;
 mod conditions;
 mod figures;

@@ -179,11 +179,66 @@ fn darts_are_suggested_where_a_material_bears_less_and_drawings_have_allowances(
 fn what_cannot_be_flattened_is_refused_with_the_way_out() {
     let place = Place::new();
     place.expect(0, "make torus -o t.obj");
-    assert!(place.expect(3, "flatten t.obj").err.contains("ricci flow"));
+    for option in ["--injective", "--strain 0.1,0.1", "--energy distance", "--areal lh.areal"] {
+        let said = place.expect(2, &format!("flatten t.obj {option}")).err;
+        assert!(said.contains("is for open surfaces"), "{option}: {said}");
+    }
+    place.expect(0, "make torus -n 12 --holes 1 -o h.obj");
+    assert!(place.expect(3, "flatten h.obj").err.contains("ricci flow"));
     place.expect(0, "make sphere -n 3 -o s.obj");
     assert!(place.expect(3, "flatten s.obj").err.contains("ricci uniformize"));
     place.expect(0, "make disk -n 3 -o d.obj");
     assert!(place.expect(2, "flatten d.obj --conformal 1.5").err.contains("share from 0 to 1"));
     assert!(place.expect(2, "flatten d.obj --energy area --conformal 0").err.contains("above 0"));
     assert!(place.expect(2, "flatten d.obj --uv flat.ply").err.contains(".obj or .glb"));
+}
+
+/// Per directed edge its vector in a texture.
+fn sides(text: &str) -> std::collections::HashMap<[usize; 2], [f64; 2]> {
+    let at: Vec<Vec<f64>> = text.lines().filter(|l| l.starts_with("vt ")).map(numbers_after).collect();
+    let mut sides = std::collections::HashMap::new();
+    for line in text.lines().filter(|l| l.starts_with("f ")) {
+        let corners: Vec<Vec<usize>> = line
+            .split(' ')
+            .skip(1)
+            .map(|word| word.split('/').map(|part| part.parse::<usize>().unwrap() - 1).collect())
+            .collect();
+        for (a, b) in [(0, 1), (1, 2), (2, 0)].map(|(a, b)| (&corners[a], &corners[b])) {
+            let (from, to) = (&at[a[1]], &at[b[1]]);
+            sides.insert([a[0], b[0]], [to[0] - from[0], to[1] - from[1]]);
+        }
+    }
+    sides
+}
+
+fn numbers_after(line: &str) -> Vec<f64> {
+    line.split(' ').skip(1).map(|x| x.parse().unwrap()).collect()
+}
+
+#[test]
+fn a_torus_is_cut_open_along_seams_that_are_rotations() {
+    let place = Place::new();
+    place.expect(0, "make torus -n 12 -o t.obj");
+    let said = place
+        .expect(0, "flatten t.obj --cones auto:4 --uv flat.obj --flat f.svg --picture p.png --report r.json");
+    assert!(said.out.contains("exact rotations by multiples of 90° between"), "{}", said.out);
+    let text = place.text("flat.obj");
+    assert!(doubled_areas(&text).iter().all(|area| *area > 0.0));
+    let sides = sides(&text);
+    let mut n_turned = 0;
+    for (&[a, b], &[x, y]) in &sides {
+        let [z, w] = sides[&[b, a]].map(|part| -part);
+        assert!([[x, y], [-y, x], [-x, -y], [y, -x]].contains(&[z, w]), "{a} {b}: {x} {y} and {z} {w}");
+        n_turned += usize::from([z, w] != [x, y]);
+    }
+    assert!(n_turned > 0);
+    let result = &place.json("r.json")["result"];
+    assert_eq!(result["start"].as_str(), Some("seamless"));
+    assert!(!result["seams"]["cones"].as_array().unwrap().is_empty());
+    let [before, after] = ["before", "after"].map(|when| result[when]["energy"].as_f64().unwrap());
+    assert!(4.0 < after && after < before, "{before} to {after}");
+    // A ball has no seams of its own; corners of a cube give it some.
+    place.expect(0, "make sphere -n 4 -o s.obj");
+    place.expect(0, "flatten s.obj --cones auto:8 --uv ball.obj");
+    assert!(doubled_areas(&place.text("ball.obj")).iter().all(|area| *area > 0.0));
 }
