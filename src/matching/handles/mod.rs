@@ -3,11 +3,13 @@
 //!
 //! A homotopy basis is found on each surface. Both have the same relator, so a class is given by bringing each letter of the source to the
 //! same letter of the target. This correspondence of the bases is arbitrary, so twists and turns of the handles follow as long as they
-//! lower the energy of the harmonic map. A class that the user names by pairs of loops ([`named_class`]) is taken as it is.
+//! lower the energy of the harmonic map; of tori the energies of all classes are known from the lattices. A class that the user names by
+//! pairs of loops ([`named_class`]) is taken as it is.
 
 mod generators;
 mod handle_surface;
 mod named_class;
+mod nearest_torus;
 mod search;
 
 use super::balance::{Springs, relax, settle_both};
@@ -24,6 +26,7 @@ use crate::metric::Surface;
 use generators::Generators;
 use handle_surface::{HandleSurface, handle_surface};
 use named_class::{LetterImages, SurfaceWithLoops, letter_images};
+use nearest_torus::nearest_class;
 use search::{ClassSearch, LeastMap};
 
 /// Energy of the source in the target's domain over that of the target itself, below which no other class is tried.
@@ -49,17 +52,23 @@ pub(super) fn with_handles(
     let order = loop_order(sides, own);
     let named = named(surfaces, own, &options.basis, &order)?;
     let is_named = named.is_some();
-    let generators = named.unwrap_or_else(|| own[1].generators.clone().reordered(&order));
+    let is_torus = space == Space::E2;
+    let (generators, compared) = match named {
+        Some(named) => (named, 0),
+        None if is_torus => nearest_class(&own[0].generators, own[1].generators.clone()),
+        None => (own[1].generators.clone().reordered(&order), 0),
+    };
     let search = ClassSearch { surfaces, own, boundary: options.boundary };
     let freedom = [0, 1].map(|s| search.freedom(s, space));
     let springs = [0, 1].map(|s| Springs { weights: &own[s].own.weights, freedom: &freedom[s] });
     let mut domain = own[1].own.placed.clone();
     search.straighten(&mut domain)?;
     let second = relax(&mut domain, springs[1], &control.part(0.5, 0.6))?;
-    // Beside a class that is named no other one is tried.
-    let enough = if is_named { f64::INFINITY } else { UNTWISTED * second.energy };
+    // Beside a class that is named, or the best one of tori, no other one is tried.
+    let enough = if is_named || is_torus { f64::INFINITY } else { UNTWISTED * second.energy };
     let LeastMap { mut image, relaxed: first, generators, mut tried } =
         search.least(generators, springs[0], enough, &control.part(0.6, 0.8))?;
+    tried = tried.max(compared);
     let mut others = Vec::new();
     for next in generators.symmetric().into_iter().filter(|_| more && !is_named) {
         tried += 1;
