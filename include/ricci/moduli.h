@@ -109,7 +109,7 @@ RICCI_API ricci_status ricci_forms_bounds(const ricci_forms *forms, const ricci_
 enum {
     /** Nothing is known of this topology: the bound is 1. */
     RICCI_LOWER_NONE = 0,
-    /** Period matrices of closed surfaces. */
+    /** Period matrices of closed surfaces, or of the doubles of surfaces with boundary. */
     RICCI_LOWER_PERIODS = 1,
     /** Moduli of annuli, or of quadrilaterals. */
     RICCI_LOWER_MODULI = 2

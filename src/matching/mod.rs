@@ -53,6 +53,7 @@
 //!   loops as circles, if wanted                        round/
 //!   the vertices of each in the other's triangles      cover/walk.rs       result.rs   surface_map.rs
 //! common subdivision of both, distortion of the map    overlay/            quality.rs
+//! bracket of the Teichmueller distance                 teichmuller.rs      energy_ratio.rs
 //! ```
 //!
 //! # Example
@@ -76,6 +77,7 @@ mod canonical;
 mod cover;
 mod disk;
 mod domain_pair;
+mod energy_ratio;
 mod fit;
 mod handles;
 mod landmarks;
@@ -93,6 +95,9 @@ mod sphere;
 mod strategy;
 mod surface_map;
 mod teichmuller;
+#[cfg(test)]
+#[allow(clippy::unwrap_used, clippy::print_stdout)]
+mod teichmuller_tests;
 
 pub use crate::mesh::Place;
 pub use balance::BalanceReport;

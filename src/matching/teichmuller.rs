@@ -6,21 +6,21 @@
 //! a map of dilatation K changes energies at most by the factor K, so K is at least the largest ratio of energies of classes that correspond,
 //! the largest eigenvalue of one energy matrix against the other; of annuli and quadrilaterals the ratio of their moduli \[Ahl06\].
 
+use super::energy_ratio::{ROUNDING, ratio_of_energies};
 use super::quality::dilatation;
 use crate::control::Control;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::geometry::vector::{cross, norm, sub};
-use crate::harmonic::{Domain, FormsOptions, HarmonicForms};
-use crate::linalg::dense::{cholesky, symmetric_eigenvalues};
-use crate::mesh::{EdgeId, FaceId, HalfedgeId, Mesh, PerEdge, PerFace, Point, VertexId};
+use crate::harmonic::Domain;
+use crate::mesh::{FaceId, Mesh, Point, VertexId};
 use crate::metric::common_subdivision::CommonSubdivision;
 use crate::metric::{Surface, lengths::face_lengths};
-use crate::moduli::{BoundsOptions, PeriodBounds, modulus_bounds, parts_of_edges, period_bounds};
+use crate::moduli::{BoundsOptions, modulus_bounds};
 
 /// What the lower bound is proven by.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LowerBoundKind {
-    /// Period matrices of closed surfaces.
+    /// Period matrices of closed surfaces, or of the doubles of surfaces with boundary.
     PeriodMatrices,
     /// Moduli of annuli, or of disks with four landmarks on the boundary, whose maps keep these.
     Moduli,
@@ -54,16 +54,12 @@ pub struct DilatationBracket {
 const THIN: f64 = 1e-6;
 /// Share of the area that [`DilatationBracket::most`] is for.
 const MOST: f64 = 0.99;
-/// Largest distance of an integral from a whole number.
-const WHOLE: f64 = 1e-3;
-/// Relative rounding of eigenvalues.
-const ROUNDING: f64 = 1e-12;
 
 /// The bracket of a map between two surfaces, by the common subdivision of both ([`super::CommonDomain::overlay`]). Triangles are measured by their
 /// lengths, in H² and S² by their chords. `landmarks`: pairs of vertices that the maps of the class bring to each other.
 ///
 /// # Errors
-/// Those of [`period_bounds`] and [`modulus_bounds`]; [`Error::Matching`] for the subdivision of other surfaces.
+/// Those of [`crate::moduli::period_bounds`] and [`modulus_bounds`]; [`crate::Error::Matching`] for the subdivision of other surfaces.
 pub fn dilatation_bracket(
     surfaces: [&Surface; 2],
     overlay: &CommonSubdivision,
@@ -77,15 +73,7 @@ pub fn dilatation_bracket(
     let mut bracket = above(domains.each_ref(), overlay);
     let by_numbers = above_by_numbers(domains.each_ref(), landmarks);
     let mesh = surfaces[0].mesh();
-    if mesh.is_closed() && mesh.genus() > 0 {
-        let found = ratio_of_energies(domains.each_ref(), overlay, options, control)?;
-        let (lower, gaps) = (found.ratio, found.gaps);
-        bracket = DilatationBracket { lower, kind: LowerBoundKind::PeriodMatrices, gaps, ..bracket };
-        if let Some(other) = by_numbers.filter(|other| found.keeps_loops && other.upper < bracket.upper) {
-            bracket = DilatationBracket { upper: other.upper, most: other.most, ..bracket };
-            (bracket.left_out, bracket.left_out_area, bracket.by_numbers) = (0, 0.0, true);
-        }
-    } else if let Some(corners) = corners(mesh, landmarks) {
+    if let Some(corners) = corners(mesh, landmarks) {
         let of = |s: usize| {
             let control = control.part(0.5 * s as f64, 0.5 * s as f64 + 0.5);
             modulus_bounds(surfaces[s], &corners[s], options, &control)
@@ -94,6 +82,14 @@ pub fn dilatation_bracket(
         let lower = (a.interval[0] / b.interval[1]).max(b.interval[0] / a.interval[1]) * (1.0 - ROUNDING);
         let gaps = [a.torus.gap, b.torus.gap];
         bracket = DilatationBracket { lower, kind: LowerBoundKind::Moduli, gaps, ..bracket };
+    } else if mesh.genus() > 0 || mesh.boundary_loops().len() > 1 {
+        let found = ratio_of_energies(surfaces, overlay, options, control)?;
+        let (lower, gaps) = (found.ratio, found.gaps);
+        bracket = DilatationBracket { lower, kind: LowerBoundKind::PeriodMatrices, gaps, ..bracket };
+        if let Some(other) = by_numbers.filter(|other| found.keeps_loops && other.upper < bracket.upper) {
+            bracket = DilatationBracket { upper: other.upper, most: other.most, ..bracket };
+            (bracket.left_out, bracket.left_out_area, bracket.by_numbers) = (0, 0.0, true);
+        }
     }
     bracket.lower = bracket.lower.max(1.0);
     Ok(bracket)
@@ -191,247 +187,4 @@ fn above_by_numbers(domains: [&Domain; 2], landmarks: &[[VertexId; 2]]) -> Optio
     let total = shapes.iter().map(|shape| shape.1).sum();
     let (upper, most) = largest(shapes, total);
     Some(NumberedMap { upper, most })
-}
-
-/// What energies of both surfaces prove.
-struct EnergyRatio {
-    ratio: f64,
-    gaps: [f64; 2],
-    /// True if both have one triangulation, and the map brings loops to homologous ones of the same edges.
-    keeps_loops: bool,
-}
-
-/// The largest ratio, of either surface to the other, that energies of classes which correspond certainly have, and the gaps.
-fn ratio_of_energies(
-    domains: [&Domain; 2],
-    overlay: &CommonSubdivision,
-    options: &BoundsOptions,
-    control: &Control,
-) -> Result<EnergyRatio> {
-    let of = |s: usize| -> Result<(HarmonicForms, PeriodBounds)> {
-        let control = control.part(0.5 * s as f64, 0.5 * s as f64 + 0.5);
-        let forms = HarmonicForms::new(domains[s], &FormsOptions::default(), &control.part(0.0, 0.3))?;
-        let bounds = period_bounds(&forms, options, &control.part(0.3, 1.0))?;
-        Ok((forms, bounds))
-    };
-    let [(forms, bounds), (others, other)] = [of(0)?, of(1)?];
-    let classes = pulled_back(&forms, &others, domains[1].mesh(), overlay)?;
-    // The energies of the classes on the source that those of the target's basis are pulled back to.
-    let own = bounds.energies();
-    let n = own.len();
-    let through = |i: usize, j: usize| -> f64 {
-        let row = |i: usize, l: usize| (0..n).map(|k| classes[i][k] * own[k][l]).sum::<f64>();
-        (0..n).map(|l| row(i, l) * classes[j][l]).sum()
-    };
-    let source: Vec<Vec<f64>> = (0..n).map(|i| (0..n).map(|j| through(i, j)).collect()).collect();
-    let ratios = relative_eigenvalues(&source, &other.energies())?;
-    let (least, largest) = (ratios[0], ratios[n - 1]);
-    let blur = (1.0 + bounds.gap) * (1.0 + other.gap);
-    let ratio = largest.max(1.0 / least) / blur * (1.0 - ROUNDING);
-    let keeps_loops = domains[0].mesh() == domains[1].mesh() && classes == by_edges(&forms, &others);
-    Ok(EnergyRatio { ratio, gaps: [bounds.gap, other.gap], keeps_loops })
-}
-
-/// Per class of the target its integrals over the edges of the loops of the source's basis, on one triangulation.
-fn by_edges(forms: &HarmonicForms, others: &HarmonicForms) -> Vec<Vec<f64>> {
-    let n = forms.domain.mesh().n_edges();
-    let class = |cells: &[(EdgeId, i32)]| -> Vec<f64> {
-        let mut values = PerEdge::filled(n, 0);
-        cells.iter().for_each(|&(e, x)| values[e] = x);
-        let along = |h: &HalfedgeId| if h.0 & 1 == 0 { values[h.edge()] } else { -values[h.edge()] };
-        forms.basis.loops.iter().map(|path| f64::from(path.iter().map(along).sum::<i32>())).collect()
-    };
-    others.cochains.iter().map(|cochain| class(&cochain.0)).collect()
-}
-
-/// The eigenvalues of `a⁻¹ b`, ascending.
-fn relative_eigenvalues(a: &[Vec<f64>], b: &[Vec<f64>]) -> Result<Vec<f64>> {
-    let (lower, n) = (cholesky(a)?, a.len());
-    // L⁻¹ b L⁻ᵀ, by forward substitution from both sides.
-    let solve = |rows: Vec<Vec<f64>>| -> Vec<Vec<f64>> {
-        let mut x = rows;
-        for i in 0..n {
-            for j in 0..n {
-                let sum: f64 = (0..i).map(|k| lower[i][k] * x[k][j]).sum();
-                x[i][j] = (x[i][j] - sum) / lower[i][i];
-            }
-        }
-        (0..n).map(|j| x.iter().map(|row| row[j]).collect()).collect()
-    };
-    symmetric_eigenvalues(&solve(solve(b.to_vec())))
-}
-
-/// Per class of the target the integrals of its pullback over the loops of the source's basis, whole numbers.
-fn pulled_back(
-    forms: &HarmonicForms,
-    others: &HarmonicForms,
-    target: &Mesh,
-    overlay: &CommonSubdivision,
-) -> Result<Vec<Vec<f64>>> {
-    let parts = parts_of_edges(overlay, &overlay.mesh, &forms.basis.loops);
-    let torn = || Error::Matching("loops of the source do not go to closed loops of the target".into());
-    let class = |cells: &[(EdgeId, i32)]| -> Result<Vec<f64>> {
-        let mut values = PerEdge::filled(target.n_edges(), 0);
-        cells.iter().for_each(|&(e, x)| values[e] = x);
-        let on = |h: HalfedgeId| f64::from(if h.0 & 1 == 0 { values[h.edge()] } else { -values[h.edge()] });
-        let potential: PerFace<[f64; 3]> = PerFace::from_fn(target.n_faces(), |f| {
-            let [ab, bc, _] = target.face_halfedges(f);
-            [0.0, on(ab), on(ab) + on(bc)]
-        });
-        let integral = |path: &Vec<HalfedgeId>| -> Result<f64> {
-            let along = |&part: &HalfedgeId| integral_along(overlay, &potential, part);
-            let sum: f64 = path.iter().flat_map(|h| &parts[h]).map(along).sum();
-            if (sum - sum.round()).abs() <= WHOLE { Ok(sum.round()) } else { Err(torn()) }
-        };
-        forms.basis.loops.iter().map(integral).collect()
-    };
-    others.cochains.iter().map(|cochain| class(&cochain.0)).collect()
-}
-
-/// The integral over a half-edge of the subdivision of the form that is the derivative of a linear function on every face of the target.
-fn integral_along(overlay: &CommonSubdivision, potential: &PerFace<[f64; 3]>, part: HalfedgeId) -> f64 {
-    let (mesh, sign, h) = match overlay.mesh.face(part) {
-        Some(_) => (&overlay.mesh, 1.0, part),
-        None => (&overlay.mesh, -1.0, part.twin()),
-    };
-    let Some(f) = mesh.face(h) else { return 0.0 };
-    let k = mesh.face_halfedges(f).iter().position(|&side| side == h).unwrap_or(0);
-    let places = overlay.barycentric(1, f);
-    let at = |w: [f64; 3]| -> f64 { w.iter().zip(potential[overlay.faces[1][f]]).map(|(w, u)| w * u).sum() };
-    sign * (at(places[(k + 1) % 3]) - at(places[k]))
-}
-
-#[cfg(test)]
-#[allow(clippy::unwrap_used, clippy::print_stdout)]
-mod tests {
-    use super::*;
-    use crate::geometry::Space;
-    use crate::matching::{MatchOptions, match_surfaces};
-    use crate::mesh::shapes;
-
-    fn flat_torus(tau: [f64; 2], n: usize) -> Surface {
-        let (mesh, lengths) = shapes::flat_torus(tau, n, n).unwrap().build().unwrap();
-        Surface::intrinsic(mesh, lengths, Space::E2).unwrap()
-    }
-
-    fn bracket(surfaces: [&Surface; 2], options: &MatchOptions) -> DilatationBracket {
-        let control = Control::new();
-        let found = match_surfaces(surfaces[0], surfaces[1], options, &control).unwrap();
-        let overlay = found.domain.overlay(0, &control).unwrap();
-        dilatation_bracket(surfaces, &overlay, &options.landmarks, &BoundsOptions::default(), &control)
-            .unwrap()
-    }
-
-    /// The extremal map of flat tori is affine, and log K the hyperbolic distance of their moduli in the class of the map.
-    #[test]
-    fn flat_tori_have_the_distance_of_their_moduli() {
-        for (a, b, m) in
-            [([0.1, 1.1], [0.35, 1.4], 7), ([0.0, 1.0], [0.0, 3.0], 6), ([-0.3, 2.0], [0.3, 0.96], 5)]
-        {
-            let (source, target) = (flat_torus(a, 8), flat_torus(b, m));
-            let found = bracket([&source, &target], &MatchOptions::default());
-            println!("{a:?} {b:?}: {found:?}");
-            assert!(found.lower > 1.0 && found.upper / found.lower < 1.0 + 1e-6, "{found:?}");
-            // One of the distances between τ and the images of τ' under the modular group.
-            let is_one = (-6..=6i32).flat_map(|p| (-6..=6).map(move |q| (p, q))).any(|(p, q)| {
-                (-6..=6).flat_map(|r| (-6..=6).map(move |s| (r, s))).any(|(r, s): (i32, i32)| {
-                    let [p, q, r, s] = [p, q, r, s].map(f64::from);
-                    let (dx, dy) = (r * b[0] + s, r * b[1]);
-                    let square = dx * dx + dy * dy;
-                    let image = [((p * b[0] + q) * dx + p * b[1] * dy) / square, b[1] / square];
-                    let chord =
-                        ((a[0] - image[0]).powi(2) + (a[1] - image[1]).powi(2)) / (4.0 * a[1] * image[1]);
-                    p * s - q * r == 1.0
-                        && ((2.0 * chord.sqrt().asinh()).exp() / found.lower - 1.0).abs() < 1e-6
-                })
-            });
-            assert!(is_one, "{a:?} {b:?}: {found:?}");
-        }
-    }
-
-    /// Three squares in an L, cut into n × n cells of this size: the affine map between two is extremal, with the loops of both its classes.
-    fn squares_in_an_l(width: f64, height: f64, n: usize) -> Surface {
-        let (right, up) = ([1, 0, 2], [2, 1, 0]);
-        let (mut faces, mut face_edges, mut lengths) = (Vec::new(), Vec::new(), Vec::new());
-        let mut edges = std::collections::HashMap::new();
-        let mut corners = crate::mesh::union_find::UnionFind::new(3 * (n + 1) * (n + 1));
-        let place = |i: usize, x: usize, y: usize| (i * (n + 1) * (n + 1) + x * (n + 1) + y) as u32;
-        for i in 0..3 {
-            for k in 0..=n {
-                corners.join(place(i, n, k), place(right[i], 0, k));
-                corners.join(place(i, k, n), place(up[i], k, 0));
-            }
-        }
-        let mut names = std::collections::HashMap::new();
-        for (i, x, y) in (0..3).flat_map(|i| (0..n).flat_map(move |x| (0..n).map(move |y| (i, x, y)))) {
-            let mut vertex = |x: usize, y: usize| {
-                let next = names.len() as u32;
-                *names.entry(corners.root(place(i, x, y))).or_insert(next)
-            };
-            let [a, b, c, d] = [vertex(x, y), vertex(x + 1, y), vertex(x + 1, y + 1), vertex(x, y + 1)];
-            let mut edge = |kind: usize, i: usize, x: usize, y: usize| {
-                let length = [width, height, width.hypot(height)][kind] / n as f64;
-                *edges.entry((kind, i, x, y)).or_insert_with(|| {
-                    lengths.push(length);
-                    lengths.len() as i32
-                })
-            };
-            let east = if x + 1 == n { edge(1, right[i], 0, y) } else { edge(1, i, x + 1, y) };
-            let north = if y + 1 == n { edge(0, up[i], x, 0) } else { edge(0, i, x, y + 1) };
-            let [south, west, across] = [edge(0, i, x, y), edge(1, i, x, y), edge(2, i, x, y)];
-            faces.extend([[a, b, c], [a, c, d]]);
-            face_edges.extend([[east, -across, south], [-north, -west, across]]);
-        }
-        let given = shapes::IntrinsicSurface {
-            n_vertices: names.len(),
-            faces,
-            face_edges,
-            lengths,
-            geometry: Space::E2,
-        };
-        let (mesh, lengths) = given.build().unwrap();
-        Surface::intrinsic(mesh, lengths, Space::E2).unwrap()
-    }
-
-    #[test]
-    fn square_tiled_surfaces_have_the_dilatation_of_their_stretch() {
-        for (n, k) in [(4, 1.5f64), (6, 2.0)] {
-            let (square, long) = (squares_in_an_l(1.0, 1.0, n), squares_in_an_l(k.sqrt(), 1.0 / k.sqrt(), n));
-            let options = BoundsOptions { width: 1e-4, ..BoundsOptions::default() };
-            let control = Control::new();
-            let found = match_surfaces(&square, &long, &MatchOptions::default(), &control).unwrap();
-            let overlay = found.domain.overlay(0, &control).unwrap();
-            let found = dilatation_bracket([&square, &long], &overlay, &[], &options, &control).unwrap();
-            println!("{n}, {k}: {found:?}");
-            assert!(found.by_numbers && (found.upper / k - 1.0).abs() < 1e-12, "{k}: {found:?}");
-            assert!(found.lower <= k && found.lower > k / (1.0 + 2.5e-4), "{k}: {found:?}");
-        }
-    }
-
-    #[test]
-    fn an_inversion_of_a_surface_of_genus_2_has_the_distance_0() {
-        let surface =
-            |n: usize, ratio: f64| Surface::from_soup(&shapes::tapered_genus(2, n, ratio).unwrap()).unwrap();
-        // An inversion is conformal: the distance is 0.
-        let found = bracket([&surface(4, 1.0), &surface(4, 2.2)], &MatchOptions::default());
-        assert!(found.lower < 1.0 + 1e-2 && found.upper > 1.0 && found.most < 1.1, "{found:?}");
-    }
-
-    #[test]
-    fn round_annuli_have_the_ratio_of_their_moduli() {
-        let mut last = f64::INFINITY;
-        for n in [6, 12, 24] {
-            let ring = |inner: f64, m: usize| {
-                Surface::from_soup(&shapes::annulus(inner, 1.0, n, m).unwrap()).unwrap()
-            };
-            let found = bracket([&ring(0.5, 6 * n), &ring(0.3, 5 * n)], &MatchOptions::default());
-            let truth = 0.3f64.ln() / 0.5f64.ln();
-            println!("{n}: {found:?}, {truth}");
-            assert!(found.lower <= found.upper && (found.lower / truth - 1.0).abs() < 0.02, "{found:?}");
-            let width = found.upper / found.lower;
-            assert!(width < last, "{n}: {width}");
-            last = width;
-        }
-        assert!(last < 1.2, "{last}");
-    }
 }
