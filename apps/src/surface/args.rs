@@ -19,7 +19,7 @@ spans, and other cones are tried. Faces that meet share their edges.
 Files
     -o PART.step        STEP AP242: a solid where the surface is closed, else a shell
     --patches P.json    knots and numbers of control points of every patch: tensor-product B-splines of degree 5
-    --mesh M.obj        triangles of the patches, 24 parts to a side (.obj, .ply, .glb, .stl and the other formats of meshes)";
+    --triangles M.obj   triangles of the patches, 24 parts to a side (.obj, .ply, .glb, .stl and the other formats of meshes)";
 
 #[derive(Args, Serialize, Debug)]
 pub struct ScanArgs {
@@ -36,7 +36,7 @@ pub struct ScanArgs {
     /// Write triangles of the patches
     #[arg(long, value_name = "M.obj")]
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub mesh: Option<FileName>,
+    pub triangles: Option<FileName>,
     /// Largest distance from the mesh, over the diagonal of its bounding box [default: 1e-3 or, where that is more, four times the noise
     /// of the mesh]
     #[arg(long, value_name = "T", value_parser = positive)]

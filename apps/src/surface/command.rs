@@ -30,13 +30,13 @@ impl Job for ScanArgs {
             _ => None,
         };
         check_extension("--patches", self.patches.as_deref(), &["json"])?;
-        check_mesh_extension("--mesh", self.mesh.as_deref(), &[])?;
+        check_mesh_extension("--triangles", self.triangles.as_deref(), &[])?;
         check_extension("--picture", self.picture.picture.as_deref(), &["png"])?;
         let read = [Some(&*self.surface.file.mesh), table];
         let files = [
             Some(&self.out),
             self.patches.as_ref(),
-            self.mesh.as_ref(),
+            self.triangles.as_ref(),
             self.picture.picture.as_ref(),
             self.common.report.as_ref(),
         ];
@@ -73,7 +73,7 @@ impl Job for ScanArgs {
             outputs.add(path, |mut out| spline.write_json(&mut out))
         })?;
         let (threads, control) = (self.common.threads, run.control);
-        run.file("mesh", self.mesh.as_deref(), |outputs, path| {
+        run.file("triangles", self.triangles.as_deref(), |outputs, path| {
             let soup = spline.tessellate(TessellationSize::Parts(PARTS), threads, control)?;
             let format = format_of(path)?;
             outputs.add_named(path, |path| io::write_as(path, format, &soup).map(drop))

@@ -10,7 +10,7 @@ fn closed_surfaces_become_solids_of_few_faces() {
         place.expect(0, &format!("make {shape} -o in.obj"));
         place.expect(
             0,
-            &format!("surface in.obj -o out.step --tolerance {tolerance} --report r.json --patches p.json --mesh m.obj"),
+            &format!("surface in.obj -o out.step --tolerance {tolerance} --report r.json --patches p.json --triangles m.obj"),
         );
         let (report, text) = (place.json("r.json"), place.text("out.step"));
         let result = &report["result"];
