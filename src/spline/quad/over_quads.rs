@@ -25,6 +25,12 @@ const PLACES_FOR_FACES: usize = 12;
 /// The share of the distance below which a round has to bring it, and the rounds in a row that may not where no patch is turned over.
 const WORTHWHILE: f64 = 0.85;
 const MOST_FRUITLESS: usize = 1;
+/// The multiple of the tolerance that a fit has to come below with all its spans, if every round brings as much as the last one did.
+const EXPECTED: f64 = 2.0;
+/// Free control points for each edge of the target beyond which more spans would follow its faces, and not its shape.
+const FREE_PER_EDGE: f64 = 1.5;
+/// Free control points of a span, in each direction.
+const FREE_OF_SPAN: usize = 3;
 /// Spans in one direction of a patch that are shorter than those in the other by at most this factor are divided as well.
 const ABOUT_AS_LONG: f64 = 1.5;
 /// The tolerance if none is asked for.
@@ -83,7 +89,7 @@ struct PatchGrid {
 
 /// Fits a spline over the patches of a quad layout to the surface of its seamless metric. Each patch is fitted to the part of the surface on
 /// which it lies, and to some more around it, up to features. Strips of patches that fold or are not within the
-/// tolerance get more spans. The first fit within the tolerance, or else that with the fewest patches folded, then the least distance.
+/// tolerance get more spans, as long as it can be expected that they will suffice. The first fit within the tolerance, or else that with the fewest patches folded, then the least distance.
 ///
 /// # Errors
 /// [`Error::Layout`] for a surface without positions, and for sides of patches that are not one arc; those of
@@ -143,12 +149,22 @@ impl LayoutStart<'_> {
                 }
                 _ => 0,
             };
-            let mut is_more = raise_spans(patches, &mut spans, &fit, options);
+            let rounds_left = options.most_spans.saturating_sub(spans.iter().copied().max().unwrap_or(1));
+            let is_hopeless = best.as_ref().is_some_and(|best| {
+                let share = (fit.max() / best.max()).min(1.0);
+                folds == 0 && fit.max() * share.powi(rounds_left as i32) > EXPECTED * options.limit(&fit)
+            });
+            let mut raised = spans.clone();
+            let mut is_more = raise_spans(patches, &mut raised, &fit, options)
+                && free_points(patches, &raised) as f64 <= FREE_PER_EDGE * target.edges().len() as f64;
+            if is_more {
+                spans = raised;
+            }
             if !is_more && folds == 0 && bending > options.least_bending(&fit) {
                 (bending, is_more) = (SOFTER * bending, true);
             }
             let is_stuck = fruitless > if folds > 0 { 0 } else { MOST_FRUITLESS };
-            let is_done = options.is_met_by(&fit) || !is_more || is_stuck;
+            let is_done = options.is_met_by(&fit) || !is_more || is_stuck || is_hopeless;
             if folds == 0 && !is_done {
                 target = surface.target(&faces_of(&fit.spline, &target))?;
             }
@@ -209,6 +225,12 @@ fn raise_spans(
         *spans += usize::from(raised.contains(&strips[arc]));
     }
     !raised.is_empty()
+}
+
+/// About the number of free control points of patches with these spans along their arcs.
+fn free_points(patches: &PatchLayout, spans: &[usize]) -> usize {
+    let along = |side: ArcSide| FREE_OF_SPAN * spans[side.arc as usize];
+    patches.patches().iter().map(|sides| along(sides[0]) * along(sides[1])).sum()
 }
 
 /// Per arc an arc of its strip, to which arcs belong that are opposite sides of patches, the same for all of them.
