@@ -13,7 +13,7 @@ TRIED, RANDOM_MESHES = 50, 20
 # Vertices up to which the outside program reads the written map.
 JUDGED = 70_000
 # The angle of sharp edges, degrees, and the most vertices of meshes with sharp edges.
-SHARP, CREASED = "40", 20_000
+SHARP, CREASED = "40", 7_000
 
 HEAD = ["mesh", "V", "genus", "cones", "valences", "flow + Newton", "angles off by", "smallest and largest area ratio", "largest dilatation",
         "symmetric Dirichlet", "straight edges, left out", "flipped, degenerate", "outside: seams, not exact, flipped, angles off", "s", "s of flow"]
