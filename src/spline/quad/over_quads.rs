@@ -28,7 +28,7 @@ const MOST_FRUITLESS: usize = 1;
 /// The multiple of the tolerance that a fit has to come below with all its spans, if every round brings as much as the last one did.
 const EXPECTED: f64 = 2.0;
 /// Free control points for each edge of the target beyond which more spans would follow its faces, and not its shape.
-const FREE_PER_EDGE: f64 = 1.5;
+const FREE_PER_EDGE: f64 = 3.0;
 /// Free control points of a span, in each direction.
 const FREE_OF_SPAN: usize = 3;
 /// Spans in one direction of a patch that are shorter than those in the other by at most this factor are divided as well.
