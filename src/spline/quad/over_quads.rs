@@ -89,7 +89,7 @@ struct PatchGrid {
 
 /// Fits a spline over the patches of a quad layout to the surface of its seamless metric. Each patch is fitted to the part of the surface on
 /// which it lies, and to some more around it, up to features. Strips of patches that fold or are not within the
-/// tolerance get more spans, as long as it can be expected that they will suffice. The first fit within the tolerance, or else that with the fewest patches folded, then the least distance.
+/// tolerance get more spans. The first fit within the tolerance, or else that with the fewest patches folded, then the least distance.
 ///
 /// # Errors
 /// [`Error::Layout`] for a surface without positions, and for sides of patches that are not one arc; those of
@@ -100,6 +100,24 @@ pub fn fit_quad_layout(
     options: &LayoutFitOptions,
     control: &Control,
 ) -> Result<QuadFit> {
+    fit_over(&FittedLayout { seamless, layout, is_one_of_many: false }, options, control)
+}
+
+/// A layout to which a spline is fitted.
+pub(super) struct FittedLayout<'a> {
+    pub seamless: &'a Seamless,
+    pub layout: &'a QuadLayout,
+    /// True where other layouts are tried as well: then the fit ends where more spans cannot be expected to suffice.
+    pub is_one_of_many: bool,
+}
+
+/// [`fit_quad_layout`], also as one of many.
+pub(super) fn fit_over(
+    fitted: &FittedLayout<'_>,
+    options: &LayoutFitOptions,
+    control: &Control,
+) -> Result<QuadFit> {
+    let FittedLayout { seamless, layout, is_one_of_many } = *fitted;
     let vertices = layout.mesh.positions(&seamless.solution).ok_or_else(no_positions)?;
     parallel::within(options.threads, || {
         let surface = FittedSurface::new(seamless, layout)?;
@@ -107,7 +125,7 @@ pub fn fit_quad_layout(
         let grids = PatchGrid::all(layout, &points)?;
         let angles: Vec<[f64; 4]> = grids.iter().map(PatchGrid::corner_angles).collect();
         let patches = patch_layout(layout, &points)?.with_angles(&angles);
-        LayoutStart { surface, grids, patches }.fitted(target, options, control)
+        LayoutStart { surface, grids, patches, is_one_of_many }.fitted(target, options, control)
     })
 }
 
@@ -116,6 +134,7 @@ struct LayoutStart<'a> {
     surface: FittedSurface<'a>,
     grids: Vec<PatchGrid>,
     patches: PatchLayout,
+    is_one_of_many: bool,
 }
 
 impl LayoutStart<'_> {
@@ -126,7 +145,7 @@ impl LayoutStart<'_> {
         options: &LayoutFitOptions,
         control: &Control,
     ) -> Result<QuadFit> {
-        let LayoutStart { surface, grids, patches } = self;
+        let LayoutStart { surface, grids, patches, is_one_of_many } = self;
         let start = |p: usize, uv: [f64; 2]| grids[p].at(uv);
         let mut spans = vec![1; patches.arcs().len()];
         let mut best: Option<QuadFit> = None;
@@ -149,14 +168,14 @@ impl LayoutStart<'_> {
                 }
                 _ => 0,
             };
-            let rounds_left = options.most_spans.saturating_sub(spans.iter().copied().max().unwrap_or(1));
-            let is_hopeless = best.as_ref().is_some_and(|best| {
-                let share = (fit.max() / best.max()).min(1.0);
-                folds == 0 && fit.max() * share.powi(rounds_left as i32) > EXPECTED * options.limit(&fit)
-            });
+            let is_hopeless =
+                *is_one_of_many && is_hopeless(best.as_ref(), &fit, spans.iter().max(), options);
             let mut raised = spans.clone();
+            let is_too_free = |spans: &[usize]| {
+                free_points(patches, spans) as f64 > FREE_PER_EDGE * target.edges().len() as f64
+            };
             let mut is_more = raise_spans(patches, &mut raised, &fit, options)
-                && free_points(patches, &raised) as f64 <= FREE_PER_EDGE * target.edges().len() as f64;
+                && !(*is_one_of_many && is_too_free(&raised));
             if is_more {
                 spans = raised;
             }
@@ -225,6 +244,19 @@ fn raise_spans(
         *spans += usize::from(raised.contains(&strips[arc]));
     }
     !raised.is_empty()
+}
+
+/// True if a fit without folds will not come near the tolerance with the most spans, if every round brings as much as the last one did.
+fn is_hopeless(
+    before: Option<&QuadFit>,
+    fit: &QuadFit,
+    spans: Option<&usize>,
+    options: &LayoutFitOptions,
+) -> bool {
+    let rounds = options.most_spans.saturating_sub(spans.copied().unwrap_or(1));
+    let expected = |before: &QuadFit| fit.max() * (fit.max() / before.max()).min(1.0).powi(rounds as i32);
+    fit.folded_patches.is_empty()
+        && before.is_some_and(|before| expected(before) > EXPECTED * options.limit(fit))
 }
 
 /// About the number of free control points of patches with these spans along their arcs.
