@@ -6,7 +6,7 @@ second and of the fourth order. The answers are known. On the sphere, of spheric
 surface, of a function g of space, div grad g is the trace of its second derivatives within the tangent plane and the sum of the principal
 curvatures times its derivative along the normal.
 
-    python examples/python/poisson.py [SURFACE [SIZE]]     SURFACE: sphere or genus2; SIZE: of `ricci.make`; 32 for the sphere, 12 for genus 2
+    python examples/python/poisson.py [SURFACE [SIZE]]     SURFACE: sphere or genus2; SIZE: of `ricci.make`; 32 for the sphere, 4 for genus 2
 """
 
 import sys
@@ -54,7 +54,7 @@ class Sphere:
 class GenusTwo:
     """A plane wave of space on a surface of genus 2."""
 
-    size = 12
+    size = 4
     exact = staticmethod(wave)
 
     @staticmethod
