@@ -217,7 +217,7 @@ fn untangled<'a>(
         }
         if left == 0 || softer > MOST_SOFTER {
             return Err(Error::Layout(format!(
-                "{turned} triangles of the conformal map to the sphere stay turned over: refine the surface, or remesh its thin triangles"
+                "{turned} triangles of the conformal map to the sphere stay turned over, as they do at the ends of long thin limbs: leave such parts out, or flatten with cones"
             )));
         }
         let depth = -hard.least_det(&points).min(0.0);
