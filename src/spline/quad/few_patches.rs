@@ -1,7 +1,7 @@
 //! Splines of few patches: over the coarsest layouts of seamless metrics with other cones in turn, until one is within the tolerance.
 
 use super::fit::QuadFit;
-use super::over_quads::{FittedLayout, LayoutFitOptions, fit_over};
+use super::over_quads::{LayoutFitOptions, fit_quad_layout};
 use crate::control::Control;
 use crate::error::{Error, Result};
 use crate::mesh::EdgeId;
@@ -44,7 +44,7 @@ pub struct LayoutFit {
 /// folded, then the least distance.
 ///
 /// # Errors
-/// Those of [`seamless`], [`quad_layout`] and [`fit_quad_layout`](super::fit_quad_layout) with the last of the cones.
+/// Those of [`seamless`], [`quad_layout`] and [`fit_quad_layout`] with the last of the cones.
 pub fn fit_few_patches(
     surface: &Surface,
     options: &FewPatchesOptions,
@@ -124,8 +124,7 @@ impl FewPatchesSearch<'_> {
         let sized = QuadOptions { size, threads: options.threads };
         let layout = quad_layout(metric, &sized, &control.part(0.0, 0.2))?;
         let n = layout.patches.len();
-        let fitted = FittedLayout { seamless: metric, layout: &layout, is_one_of_many: true };
-        let fit = fit_over(&fitted, options, &control.part(0.2, 1.0))?;
+        let fit = fit_quad_layout(metric, &layout, options, &control.part(0.2, 1.0))?;
         log::debug!("{n} patches: distances up to {:.1e}, {} folded", fit.max(), fit.folded_patches.len());
         let is_found = options.is_met_by(&fit);
         if self.best.as_ref().is_none_or(|best| fit.is_better_than(&best.fit)) {

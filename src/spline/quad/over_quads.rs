@@ -25,12 +25,6 @@ const PLACES_FOR_FACES: usize = 12;
 /// The share of the distance below which a round has to bring it, and the rounds in a row that may not where no patch is turned over.
 const WORTHWHILE: f64 = 0.85;
 const MOST_FRUITLESS: usize = 1;
-/// The multiple of the tolerance that a fit has to come below with all its spans, if every round brings as much as the last one did.
-const EXPECTED: f64 = 2.0;
-/// Free control points for each edge of the target beyond which more spans would follow its faces, and not its shape.
-const FREE_PER_EDGE: f64 = 3.0;
-/// Free control points of a span, in each direction.
-const FREE_OF_SPAN: usize = 3;
 /// Spans in one direction of a patch that are shorter than those in the other by at most this factor are divided as well.
 const ABOUT_AS_LONG: f64 = 1.5;
 /// The tolerance if none is asked for.
@@ -100,24 +94,6 @@ pub fn fit_quad_layout(
     options: &LayoutFitOptions,
     control: &Control,
 ) -> Result<QuadFit> {
-    fit_over(&FittedLayout { seamless, layout, is_one_of_many: false }, options, control)
-}
-
-/// A layout to which a spline is fitted.
-pub(super) struct FittedLayout<'a> {
-    pub seamless: &'a Seamless,
-    pub layout: &'a QuadLayout,
-    /// True where other layouts are tried as well: then the fit ends where more spans cannot be expected to suffice.
-    pub is_one_of_many: bool,
-}
-
-/// [`fit_quad_layout`], also as one of many.
-pub(super) fn fit_over(
-    fitted: &FittedLayout<'_>,
-    options: &LayoutFitOptions,
-    control: &Control,
-) -> Result<QuadFit> {
-    let FittedLayout { seamless, layout, is_one_of_many } = *fitted;
     let vertices = layout.mesh.positions(&seamless.solution).ok_or_else(no_positions)?;
     parallel::within(options.threads, || {
         let surface = FittedSurface::new(seamless, layout)?;
@@ -125,7 +101,7 @@ pub(super) fn fit_over(
         let grids = PatchGrid::all(layout, &points)?;
         let angles: Vec<[f64; 4]> = grids.iter().map(PatchGrid::corner_angles).collect();
         let patches = patch_layout(layout, &points)?.with_angles(&angles);
-        LayoutStart { surface, grids, patches, is_one_of_many }.fitted(target, options, control)
+        LayoutStart { surface, grids, patches }.fitted(target, options, control)
     })
 }
 
@@ -134,7 +110,6 @@ struct LayoutStart<'a> {
     surface: FittedSurface<'a>,
     grids: Vec<PatchGrid>,
     patches: PatchLayout,
-    is_one_of_many: bool,
 }
 
 impl LayoutStart<'_> {
@@ -145,7 +120,7 @@ impl LayoutStart<'_> {
         options: &LayoutFitOptions,
         control: &Control,
     ) -> Result<QuadFit> {
-        let LayoutStart { surface, grids, patches, is_one_of_many } = self;
+        let LayoutStart { surface, grids, patches } = self;
         let start = |p: usize, uv: [f64; 2]| grids[p].at(uv);
         let mut spans = vec![1; patches.arcs().len()];
         let mut best: Option<QuadFit> = None;
@@ -168,22 +143,12 @@ impl LayoutStart<'_> {
                 }
                 _ => 0,
             };
-            let is_hopeless =
-                *is_one_of_many && is_hopeless(best.as_ref(), &fit, spans.iter().max(), options);
-            let mut raised = spans.clone();
-            let is_too_free = |spans: &[usize]| {
-                free_points(patches, spans) as f64 > FREE_PER_EDGE * target.edges().len() as f64
-            };
-            let mut is_more = raise_spans(patches, &mut raised, &fit, options)
-                && !(*is_one_of_many && is_too_free(&raised));
-            if is_more {
-                spans = raised;
-            }
+            let mut is_more = raise_spans(patches, &mut spans, &fit, options);
             if !is_more && folds == 0 && bending > options.least_bending(&fit) {
                 (bending, is_more) = (SOFTER * bending, true);
             }
             let is_stuck = fruitless > if folds > 0 { 0 } else { MOST_FRUITLESS };
-            let is_done = options.is_met_by(&fit) || !is_more || is_stuck || is_hopeless;
+            let is_done = options.is_met_by(&fit) || !is_more || is_stuck;
             if folds == 0 && !is_done {
                 target = surface.target(&faces_of(&fit.spline, &target))?;
             }
@@ -244,25 +209,6 @@ fn raise_spans(
         *spans += usize::from(raised.contains(&strips[arc]));
     }
     !raised.is_empty()
-}
-
-/// True if a fit without folds will not come near the tolerance with the most spans, if every round brings as much as the last one did.
-fn is_hopeless(
-    before: Option<&QuadFit>,
-    fit: &QuadFit,
-    spans: Option<&usize>,
-    options: &LayoutFitOptions,
-) -> bool {
-    let rounds = options.most_spans.saturating_sub(spans.copied().unwrap_or(1));
-    let expected = |before: &QuadFit| fit.max() * (fit.max() / before.max()).min(1.0).powi(rounds as i32);
-    fit.folded_patches.is_empty()
-        && before.is_some_and(|before| expected(before) > EXPECTED * options.limit(fit))
-}
-
-/// About the number of free control points of patches with these spans along their arcs.
-fn free_points(patches: &PatchLayout, spans: &[usize]) -> usize {
-    let along = |side: ArcSide| FREE_OF_SPAN * spans[side.arc as usize];
-    patches.patches().iter().map(|sides| along(sides[0]) * along(sides[1])).sum()
 }
 
 /// Per arc an arc of its strip, to which arcs belong that are opposite sides of patches, the same for all of them.
