@@ -29,7 +29,7 @@ fn closed_surfaces_become_solids_of_few_faces() {
         assert!((0.0..1e-2).contains(&result["volume_error"].as_f64().unwrap()), "{shape}: {result}");
         let of_triangles = volume(&place.text("m.obj"));
         assert!(
-            (result["volume"].as_f64().unwrap() / of_triangles - 1.0).abs() < 2e-3,
+            (result["volume"].as_f64().unwrap() / of_triangles - 1.0).abs() < 4e-3,
             "{shape}: {of_triangles}"
         );
         assert_patches(&place.json("p.json"), faces);
