@@ -4,6 +4,7 @@ use super::args::BrainArgs;
 use super::outcome::{Cortex, Hemisphere};
 use super::side::HemisphereSide;
 use crate::failure::Failure;
+use crate::flatten::named_vertices;
 use crate::input;
 use crate::progress::doing;
 use crate::vertex_distortion::VertexDistortion;
@@ -14,7 +15,6 @@ use ricci::flatten::{
 use ricci::geometry::vector::{cross, dot, normalised, sub};
 use ricci::mesh::Point;
 use ricci::mesh::io::Soup;
-use ricci::mesh::io::freesurfer::parse_label;
 use ricci::metric::Surface;
 use std::path::Path;
 
@@ -37,7 +37,7 @@ impl BrainArgs {
         let inflating = InflateOptions { time: self.inflate, threads, ..InflateOptions::default() };
         let inflated = doing("inflating", || inflate(&surface, &inflating, &control.part(0.6, 0.7)))?;
         let is_cortex = match label {
-            Some(label) => flat_part(&surface, &labelled(label, inflated.len())?)?,
+            Some(label) => flat_part(&surface, &named_vertices(label, inflated.len())?)?,
             None => {
                 let wall = medial_wall(&surface, &inflated, side.medial(), self.wall)?;
                 wall.into_iter().map(|wall| !wall).collect()
@@ -88,24 +88,6 @@ fn not_flat(path: &Path, why: Failure) -> Failure {
         Failure::Cancelled => Failure::Cancelled,
         why => Failure::Input(format!("{}: the cortex cannot be laid flat: {why}", path.display())),
     }
-}
-
-/// For each of `n` vertices, true if the label names it.
-fn labelled(path: &Path, n: usize) -> Result<Vec<bool>, Failure> {
-    let name = path.display().to_string();
-    let bytes = std::fs::read(path).map_err(|e| Failure::Input(format!("{name}: {e}")))?;
-    let label = parse_label(&String::from_utf8_lossy(&bytes), &name)?;
-    let mut is_named = vec![false; n];
-    for v in label.vertices.into_iter().flatten() {
-        match is_named.get_mut(v as usize) {
-            Some(named) => *named = true,
-            None => {
-                let why = format!("{name}: the label names vertex {v}, the surface has {n}");
-                return Err(Failure::Input(why));
-            }
-        }
-    }
-    Ok(is_named)
 }
 
 /// The faces of the cortex as a surface of their own, laid flat.

@@ -13,3 +13,4 @@ mod vertex_values;
 
 pub use args::{FlattenArgs, HELP};
 pub use figures::distortion;
+pub use part::named_vertices;

@@ -58,7 +58,7 @@ pub fn read(args: &SurfaceArgs, label: Option<&Path>, run: &mut CommandRun<'_>) 
 }
 
 /// For each of `n` vertices, true if the label names it.
-fn named_vertices(path: &Path, n: usize) -> Result<Vec<bool>, Failure> {
+pub fn named_vertices(path: &Path, n: usize) -> Result<Vec<bool>, Failure> {
     let name = path.display().to_string();
     let bytes = std::fs::read(path).map_err(|e| Failure::Input(format!("{name}: {e}")))?;
     let label = parse_label(&String::from_utf8_lossy(&bytes), &name)?;
