@@ -34,19 +34,29 @@ pub enum FileContent {
 
 /// Read the file of a mesh or of an intrinsic metric. A file on stdin is read as one with a name is: what it holds says what it is.
 pub fn content(file: &MeshArgs) -> Result<FileContent, Failure> {
-    let found = if file.mesh == Path::new(STANDARD) {
-        let mut bytes = Vec::new();
-        std::io::stdin().lock().read_to_end(&mut bytes).map_err(|e| Failure::Input(format!("stdin: {e}")))?;
-        SurfaceFile::of_bytes(bytes, "stdin")?
-    } else {
-        SurfaceFile::open(&file.mesh)?
-    };
+    let found = opened(&file.mesh)?;
     match (found.format(), file.weld) {
         (SurfaceFormat::Stl, Some(weld)) => Ok(FileContent::Triangles(Box::new(found.welded(weld)?))),
         (_, Some(_)) => Err(Failure::Usage(WELD_ELSEWHERE.into())),
         (SurfaceFormat::Metric, None) => Ok(FileContent::Lengths(found.text())),
         (_, None) => Ok(FileContent::Triangles(Box::new(found.soup()?))),
     }
+}
+
+/// The vertices and polygons of an OBJ file, by its name or from stdin.
+pub fn polygons(mesh: &Path) -> ricci::Result<(Vec<Point>, Vec<Vec<u32>>)> {
+    opened(mesh)?.polygons()
+}
+
+/// A file, by its name or from stdin.
+fn opened(mesh: &Path) -> ricci::Result<SurfaceFile> {
+    if mesh != Path::new(STANDARD) {
+        return SurfaceFile::open(mesh);
+    }
+    let failed = |e: std::io::Error| ricci::Error::Io { path: "stdin".into(), message: e.to_string() };
+    let mut bytes = Vec::new();
+    std::io::stdin().lock().read_to_end(&mut bytes).map_err(failed)?;
+    SurfaceFile::of_bytes(bytes, "stdin")
 }
 
 const WELD_ELSEWHERE: &str = "--weld: only an STL file has no vertices of its own; ricci repair welds";

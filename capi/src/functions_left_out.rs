@@ -120,6 +120,8 @@ left_out!(quad_splines, all(feature = "quads", feature = "splines"), "quads,spli
     ricci_quad_spline_extraction(Address, Address, usize, Address, usize, Address, usize);
     ricci_quad_spline_bezier(Address, usize, u32, Address, usize);
     ricci_quad_spline_write_step(Address, Address, Address);
+    ricci_quad_spline_write_json(Address, Address);
+    ricci_quad_spline_fit_quads(Address, Address, Address, Address);
 ], [
     ricci_quad_spline_free;
 ]);

@@ -58,6 +58,8 @@ pub mod charts;
 pub mod circle_domain;
 pub mod circles;
 pub mod control;
+#[cfg(all(feature = "quads", feature = "splines"))]
+pub mod control_mesh;
 mod cortex;
 mod darts;
 pub mod deck;

@@ -50,6 +50,14 @@ pub fn write_quad_step(spline: &QuadSpline, options: &StepOptions, bytes: &mut V
     }
 }
 
+/// Adds the patches of a spline over a quad layout as JSON to `bytes`.
+#[cfg(all(feature = "quads", feature = "splines"))]
+pub fn write_quad_json(spline: &QuadSpline, bytes: &mut Vec<u8>) -> Outcome {
+    use crate::failure::Failure;
+    use crate::status::RICCI_IO;
+    spline.write_json(bytes).map_err(|why| Failure::new(RICCI_IO, why.to_string()))
+}
+
 /// Writes a mesh with a texture as .glb.
 pub fn write_textured(path: &Path, soup: &Soup, png: &[u8], wrap: Wrap) -> Outcome {
     #[cfg(feature = "gltf")]

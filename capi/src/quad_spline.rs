@@ -65,12 +65,13 @@ pub struct ricci_quad_spline_summary {
     pub tolerance: f64,
     pub converged: u32,
     pub reserved: u32,
+    pub volume: f64,
 }
 // SAFETY: numbers; 8-byte alignment, size first.
 sized!(ricci_quad_spline_summary, "summary", reserved);
 
 impl ricci_quad_spline_options {
-    fn read(&self) -> LayoutFitOptions {
+    pub(crate) fn read(&self) -> LayoutFitOptions {
         let usual = LayoutFitOptions::default();
         LayoutFitOptions {
             tolerance: (self.tolerance != 0.0).then_some(self.tolerance),
@@ -118,6 +119,7 @@ impl ricci_quad_spline {
             tolerance,
             converged: converged.into(),
             reserved: 0,
+            volume: if space.layout().is_closed() { spline.volume() } else { f64::NAN },
         };
         ricci_quad_spline { fit, diagonal, nearest: OnceLock::new(), figures }
     }

@@ -1,11 +1,11 @@
-//! STEP files of splines over quad layouts.
+//! Files of splines over quad layouts.
 
 use crate::arrays;
 use crate::bicubic::ricci_step_options;
 use crate::failure::{Failure, Outcome};
 use crate::guard;
 use crate::memory;
-use crate::optional::write_quad_step;
+use crate::optional::{write_quad_json, write_quad_step};
 use crate::quad_spline::ricci_quad_spline;
 use crate::spline_memory;
 use crate::status::*;
@@ -15,16 +15,14 @@ use std::ffi::c_char;
 use std::io::Write;
 use std::path::Path;
 
-/// Refuses another extension than those of STEP files.
-fn check_extension(path: &Path) -> Outcome {
+/// Refuses another extension than these.
+fn check_extension(path: &Path, known: &[&str]) -> Outcome {
     let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
-    match extension.as_deref() {
-        Some("step" | "stp") => Ok(()),
-        _ => {
-            let message = format!("{}: unknown format; known are .step, .stp", path.display());
-            Err(Failure::new(RICCI_UNKNOWN_FORMAT, message))
-        }
+    if extension.is_some_and(|extension| known.contains(&&*extension)) {
+        return Ok(());
     }
+    let message = format!("{}: unknown format; known are .{}", path.display(), known.join(", ."));
+    Err(Failure::new(RICCI_UNKNOWN_FORMAT, message))
 }
 
 #[unsafe(no_mangle)]
@@ -35,11 +33,27 @@ pub unsafe extern "C" fn ricci_quad_spline_write_step(
 ) -> ricci_status {
     guard::with(spline, |ricci_quad_spline { fit, .. }| {
         let (path, options) = (arrays::path(path)?, structs::read(options)?.read()?);
-        check_extension(&path)?;
+        check_extension(&path, &["step", "stp"])?;
         let points = fit.spline.space().n_control_points();
         let _reserve = memory::work(points, spline_memory::BICUBIC_TEXT)?;
         let mut bytes = Vec::new();
         write_quad_step(&fit.spline, &options, &mut bytes)?;
+        Ok(write_atomically(&path, |out| out.write_all(&bytes))?)
+    })
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_quad_spline_write_json(
+    spline: *const ricci_quad_spline,
+    path: *const c_char,
+) -> ricci_status {
+    guard::with(spline, |ricci_quad_spline { fit, .. }| {
+        let path = arrays::path(path)?;
+        check_extension(&path, &["json"])?;
+        let points = fit.spline.space().n_control_points();
+        let _reserve = memory::work(points, spline_memory::BICUBIC_TEXT)?;
+        let mut bytes = Vec::new();
+        write_quad_json(&fit.spline, &mut bytes)?;
         Ok(write_atomically(&path, |out| out.write_all(&bytes))?)
     })
 }

@@ -124,6 +124,8 @@ typedef struct ricci_quad_spline_summary {
     uint32_t converged;
     /** 0. */
     uint32_t reserved;
+    /** The volume inside, negative if normals point inwards; NaN with a boundary. */
+    double volume;
 } ricci_quad_spline_summary;
 
 /** A patch: what a host needs beside poles and knots to build its own B-spline surface. */
@@ -477,8 +479,22 @@ RICCI_API RICCI_EXPERIMENTAL ricci_status ricci_quad_spline_write_step(const ric
                                                                        const ricci_step_options *options,
                                                                        const char *path);
 
+/**
+ * Write the knots and control points of the patches as JSON (`ricci-quad-spline 1`).
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (not UTF-8), RICCI_IO, RICCI_UNKNOWN_FORMAT (another
+ *         extension; a library built without JSON), RICCI_NO_MEMORY.
+ *
+ * @param spline  the spline.
+ * @param path    file name in UTF-8, ending in .json.
+ */
+RICCI_API RICCI_EXPERIMENTAL ricci_status ricci_quad_spline_write_json(const ricci_quad_spline *spline,
+                                                                       const char *path);
+
 #ifdef __cplusplus
 }
 #endif
+
+#include <ricci/control_mesh.h>
 
 #endif

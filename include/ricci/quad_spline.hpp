@@ -51,6 +51,12 @@ public:
                 const control *watched = nullptr)
         : quad_spline_handle(make<ricci_quad_spline>(ricci_quad_spline_fit, on.get(), layout.get(), &options,
                                                      of(watched))) {}
+    // Near the Catmull-Clark surface of a control mesh.
+    explicit quad_spline(const ricci_control_mesh &control_mesh,
+                         const ricci_quad_spline_options &options = init<ricci_quad_spline_options>(),
+                         const control *watched = nullptr)
+        : quad_spline_handle(
+              make<ricci_quad_spline>(ricci_quad_spline_fit_quads, &control_mesh, &options, of(watched))) {}
     ricci_quad_spline_summary summary() const { return ricci::summary(ricci_quad_spline_summarise, get()); }
     // The patches that are turned over somewhere.
     std::vector<std::uint32_t> folds() const { return values<std::uint32_t>(ricci_quad_spline_folds, get()); }
@@ -132,6 +138,9 @@ public:
     void write_step(const std::string &path,
                     const ricci_step_options &options = init<ricci_step_options>()) const {
         check(ricci_quad_spline_write_step(get(), &options, path.c_str()));
+    }
+    void write_json(const std::string &path) const {
+        check(ricci_quad_spline_write_json(get(), path.c_str()));
     }
 };
 

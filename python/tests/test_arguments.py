@@ -60,6 +60,7 @@ TAKES = {
     "of_surface": (ricci.Spline.of_surface, "metric"),
     "quads": (ricci.quads, ""),
     "quad_layout": (ricci.quad_layout, ""),
+    "fit_control_mesh": (lambda x: ricci.fit_control_mesh(x, [[0, 1, 2, 3]]), ""),
     "fit_few_patches": (ricci.fit_few_patches, "mesh"),
     "quad_spline": (ricci.quad_spline, ""),
     "structure": (ricci.structure, "mesh"),

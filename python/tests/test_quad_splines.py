@@ -1,5 +1,6 @@
 """Splines over quad layouts: patches by a recurrence of our own, arcs, nearest places, meshes, matrices, files, refusals."""
 
+import json
 import runpy
 from pathlib import Path
 
@@ -148,6 +149,29 @@ def test_step_files(spline: ricci.QuadSpline, tmp_path) -> None:
     assert "'part'" in text
     with pytest.raises(ricci.FileError, match=r"known are \.step, \.stp"):
         spline.write_step(tmp_path / "a.obj")
+
+
+CUBE = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [1, 3, 7, 5], [3, 2, 6, 7], [2, 0, 4, 6]]
+
+
+def test_control_meshes(tmp_path: Path) -> None:
+    corners = np.array([[x, y, z] for z in (-1, 1) for y in (-1, 1) for x in (-1, 1)], float)
+    smooth = ricci.fit_control_mesh(corners, CUBE, tolerance=0.01)
+    assert smooth.summary.converged
+    assert smooth.summary.n_patches == 6
+    tessellated = smooth.tessellate(24)
+    a, b, c = (np.asarray(tessellated.V)[np.asarray(tessellated.F)[:, k]] for k in range(3))
+    inside = np.einsum("ij,ij->", a, np.cross(b, c)) / 6
+    assert smooth.summary.volume == pytest.approx(inside, rel=2e-3)
+    smooth.write_json(tmp_path / "cube.json")
+    written = json.loads((tmp_path / "cube.json").read_text())
+    assert len(written["control_points"]) == smooth.summary.n_control_points
+    sheet = ricci.fit_control_mesh([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2, 3]])
+    assert np.isnan(sheet.summary.volume)
+    with pytest.raises(ricci.SplineError, match="same direction"):
+        ricci.fit_control_mesh(corners, [*CUBE, CUBE[0]])
+    with pytest.raises(ricci.ArgumentError, match="n x 4"):
+        ricci.fit_control_mesh(corners, [[0, 1, 2]])
 
 
 def test_what_cannot_be_is_refused(flat: ricci.Seamless, spline: ricci.QuadSpline) -> None:

@@ -35,5 +35,7 @@ mod walk_search;
 pub use from_seamless::{quad_layout, quad_mesh};
 pub use options::{QuadOptions, QuadSize};
 pub use quad_figures::{QuadDistance, QuadShape, QuadTopology};
+#[cfg(feature = "splines")]
+pub(crate) use quad_layout::QuadPatches;
 pub use quad_layout::{LayoutArc, LayoutNode, LayoutPatch, QuadLayout};
 pub use quad_mesh::QuadMesh;

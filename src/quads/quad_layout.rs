@@ -67,12 +67,38 @@ impl QuadLayout {
     /// # Errors
     /// [`Error::Layout`] for quads with edges in more than two of them, and where a piece between lines is no rectangle of whole units.
     pub fn new(mesh: QuadMesh, parts: u32) -> Result<QuadLayout> {
-        let halfedges = QuadHalfedges::new(&mesh.quads)?;
-        let lines = LayoutLines::new(&mesh, &halfedges);
+        let QuadPatches { nodes, arcs, patches } =
+            QuadPatches::new(&mesh.quads, mesh.valences(), &mesh.creases, parts)?;
+        Ok(QuadLayout { parts, nodes, arcs, patches, mesh })
+    }
+}
+
+/// The parts of a layout.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct QuadPatches {
+    pub nodes: Vec<LayoutNode>,
+    pub arcs: Vec<LayoutArc>,
+    pub patches: Vec<LayoutPatch>,
+}
+
+impl QuadPatches {
+    /// Those of quads whose edges are `parts` to a unit of length. `valence`: the number of quads around each vertex; `creases`: the edges of
+    /// features and of the boundary.
+    ///
+    /// # Errors
+    /// Those of [`QuadLayout::new`].
+    pub fn new(
+        quads: &[[u32; 4]],
+        valence: Vec<u32>,
+        creases: &[[u32; 2]],
+        parts: u32,
+    ) -> Result<QuadPatches> {
+        let halfedges = QuadHalfedges::new(quads)?;
+        let lines = LayoutLines::new(&halfedges, valence, creases);
         let (nodes, arcs, side) = lines.arcs(parts)?;
         let pieces = lines.pieces().into_iter();
         let patches = pieces.map(|quads| lines.patch(&arcs, &side, quads)).collect::<Result<_>>()?;
-        Ok(QuadLayout { parts, nodes, arcs, patches, mesh })
+        Ok(QuadPatches { nodes, arcs, patches })
     }
 }
 
@@ -90,15 +116,14 @@ struct LayoutLines<'a> {
 }
 
 impl<'a> LayoutLines<'a> {
-    fn new(mesh: &QuadMesh, halfedges: &'a QuadHalfedges<'a>) -> LayoutLines<'a> {
-        let n = mesh.places.len();
+    fn new(halfedges: &'a QuadHalfedges<'a>, valence: Vec<u32>, creases: &[[u32; 2]]) -> LayoutLines<'a> {
+        let n = valence.len();
         let mut is_border = vec![false; n];
         for h in (0..halfedges.len()).filter(|&h| halfedges.twin(h).is_none()) {
             is_border[halfedges.origin(h) as usize] = true;
             is_border[halfedges.tip(h) as usize] = true;
         }
-        let creases = mesh.creases.iter().map(|&[a, b]| [a.min(b), a.max(b)]).collect();
-        let valence = mesh.valences();
+        let creases = creases.iter().map(|&[a, b]| [a.min(b), a.max(b)]).collect();
         let is_marked = vec![false; halfedges.len()];
         let mut lines =
             LayoutLines { halfedges, creases, valence, is_border, is_marked, is_node: vec![false; n] };

@@ -21,7 +21,10 @@ pub use quad::{
     SplineTarget, TessellationSize, bilinear, fit_quads,
 };
 #[cfg(feature = "quads")]
-pub use quad::{FewPatchesOptions, LayoutFit, LayoutFitOptions, fit_few_patches, fit_quad_layout};
+pub use quad::{
+    ControlMesh, ControlMeshFit, FewPatchesOptions, LayoutFit, LayoutFitOptions, fit_control_mesh,
+    fit_few_patches, fit_quad_layout,
+};
 #[cfg(feature = "step")]
 pub use step::{LengthUnit, StepOptions};
 pub use surface_fit::{

@@ -10,6 +10,7 @@ mod circles;
 mod common;
 mod common_subdivision;
 mod cones;
+mod control_mesh;
 mod delaunay;
 mod derivative;
 mod descent;

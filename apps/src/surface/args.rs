@@ -14,7 +14,8 @@ Example: a surface of genus 2 as a solid of few four-sided faces
 
 A seamless map divides the surface into patches between lines that run straight from cone to cone; a spline of degree 5 over these patches, with
 common tangent planes across all sides but features, is fitted to the mesh along its normals. Where --tolerance is missed, patches get more
-spans, and other cones are tried. Faces that meet share their edges.
+spans, and other cones are tried. Faces that meet share their edges. With --from-quads the input is a control mesh instead, whose Catmull–Clark
+surface is fitted over patches of its own quads.
 
 Files
     -o PART.step        STEP AP242: a solid where the surface is closed, else a shell
@@ -51,6 +52,11 @@ pub struct ScanArgs {
     #[arg(long, value_name = "DEGREES", value_parser = positive)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub features: Option<f64>,
+    /// The file (.obj) is a control mesh of quads, or of any polygons: fit its Catmull–Clark surface, with patches between the lines of edges
+    /// that go straight on from irregular vertices
+    #[arg(long, conflicts_with_all = ["cones", "features", "weld", "input_geometry"])]
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub from_quads: bool,
     /// Most spans of a patch in each direction
     #[arg(long, value_name = "N", default_value_t = 6, value_parser = clap::value_parser!(u8).range(1..=32))]
     pub spans: u8,

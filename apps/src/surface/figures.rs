@@ -20,7 +20,8 @@ pub struct WrittenSurface {
 
 pub struct ScanOutcome {
     pub input: Input,
-    pub seamless: Seamless,
+    /// The metric whose cones are corners of patches; a control mesh has none.
+    pub seamless: Option<Seamless>,
     pub fit: QuadFit,
     pub written: WrittenSurface,
     /// The limit of the distance.
@@ -32,7 +33,9 @@ impl JobOutcome for ScanOutcome {
 
     fn checks(&self) -> Checks {
         let mut checks = Checks::default();
-        checks.add("holonomy_error", self.seamless.error, self.seamless.tolerance);
+        if let Some(seamless) = &self.seamless {
+            checks.add("holonomy_error", seamless.error, seamless.tolerance);
+        }
         let noise = self.fit.noise;
         let remedy = if self.tolerance < self.fit.noise_limit() {
             format!(
@@ -64,8 +67,8 @@ impl JobOutcome for ScanOutcome {
             .with("spans", most_spans(space))
             .with("control_points", space.n_control_points())
             .with("free_control_points", space.dimension())
-            .with("cones", self.seamless.cones.len())
-            .with("features_left_out", self.seamless.left_out.len())
+            .with("cones", self.seamless.as_ref().map(|seamless| seamless.cones.len()))
+            .with("features_left_out", self.seamless.as_ref().map(|seamless| seamless.left_out.len()))
             // Fractions of the diagonal of the bounding box.
             .with("rms", self.fit.rms())
             .with("max", self.fit.max())

@@ -100,3 +100,36 @@ fn a_tolerance_that_is_missed_is_told() {
     assert_eq!(report["checks"]["max"]["holds"], false);
     assert!(place.exists("out.step"));
 }
+
+/// The Catmull–Clark surface of a cube is a solid of six faces, with the symmetries of the cube; what is no control mesh is named.
+#[test]
+fn control_meshes_become_solids() {
+    let place = Place::new();
+    let cube = "v -1 -1 -1\nv 1 -1 -1\nv -1 1 -1\nv 1 1 -1\nv -1 -1 1\nv 1 -1 1\nv -1 1 1\nv 1 1 1\n\
+        f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 2 4 8 6\nf 4 3 7 8\nf 3 1 5 7\n";
+    place.put("cube.obj", cube);
+    place.expect(
+        0,
+        "surface cube.obj --from-quads -o out.step --tolerance 0.01 --report r.json --triangles m.obj",
+    );
+    let result = &place.json("r.json")["result"];
+    assert_eq!((result["faces"].as_u64(), result["cones"].is_null()), (Some(6), true), "{result}");
+    assert_eq!(place.text("out.step").matches("CLOSED_SHELL(").count(), 1);
+    // It reaches as far to one side as to the other.
+    let text = place.text("m.obj");
+    let points: Vec<Vec<f64>> = text
+        .lines()
+        .filter_map(|l| l.strip_prefix("v "))
+        .map(|l| l.split_whitespace().map(|x| x.parse().unwrap()).collect())
+        .collect();
+    for k in 0..3 {
+        let reach = points.iter().map(|p| p[k]).fold(0.0, f64::max);
+        let back = points.iter().map(|p| -p[k]).fold(0.0, f64::max);
+        assert!((reach - back).abs() < 1e-6, "{reach} {back}");
+    }
+    place.put("open.obj", &cube.replace("f 3 1 5 7\n", "f 3 1 5\nf 3 1 7\n"));
+    let ended = place.expect(3, "surface open.obj --from-quads -o no.step");
+    assert!(ended.err.contains("same direction"), "{}", ended.err);
+    assert!(!place.exists("no.step"));
+    place.expect(2, "surface cube.obj --from-quads --cones auto:8 -o no.step");
+}

@@ -14,7 +14,7 @@ use std::time::Instant;
 /// Most calls of one input.
 const MOST_CALLS: usize = 8;
 /// Calls that take a hundred times as long as others: one input of eight makes them.
-const LONG: [&str; 16] = [
+const LONG: [&str; 17] = [
     "ricci_match",
     "ricci_circle_domain_new",
     "ricci_spline_fit",
@@ -26,6 +26,7 @@ const LONG: [&str; 16] = [
     "ricci_quad_layout_new",
     "ricci_quad_spline_fit",
     "ricci_quad_spline_fit_mesh",
+    "ricci_quad_spline_fit_quads",
     "ricci_quad_spline_closest",
     "ricci_quad_spline_patch_of_faces",
     "ricci_quad_spline_tessellate",
@@ -71,6 +72,7 @@ const MAY_BE_NAN: [(&str, &str); 36] = [
     ("ricci_quads_summary", "angle_max"),
     ("ricci_quads_summary", "edge_mean"),
     ("ricci_quads_summary", "edge_deviation"),
+    ("ricci_quad_spline_summary", "volume"),
     ("ricci_quality_summary", "min_angle"),
     ("ricci_quality_summary", "obtuse_fraction"),
     ("ricci_quality_summary", "edge_ratio"),

@@ -19,6 +19,7 @@ from ricci.bicubics import Bicubic, BicubicOptions, StepOptions, bicubic
 from ricci.circle import CircleDomain, CircleOptions, circles
 from ricci.cohorts import CohortOptions, CohortResult, Job, ModuliDistances, classical_scaling, cohort, moduli_distances
 from ricci.control import Control
+from ricci.control_meshes import fit_control_mesh
 from ricci.cortices import Brain, brain, flat_part, inflate, medial_wall
 from ricci.covering import Cover, CoverOptions, Deck, DeckSpec, Dirichlet, cover, deck, dirichlet
 from ricci.errors import (
@@ -197,6 +198,7 @@ __all__ = [
     "dilatation_bracket",
     "dirichlet",
     "fenchel_nielsen",
+    "fit_control_mesh",
     "fit_few_patches",
     "flat_metric",
     "flat_part",

@@ -300,6 +300,10 @@ class QuadSpline(Kept):
         given = picked(locals(), StepOptions)
         call(lib.ricci_quad_spline_write_step, self, options("step_options", given, _STEP), path_bytes(path))
 
+    def write_json(self, path: str | os.PathLike[str]) -> None:
+        """Write the knots and control points of the patches as .json (`ricci-quad-spline 1`), whole or not at all."""
+        call(lib.ricci_quad_spline_write_json, self, path_bytes(path))
+
     def __repr__(self) -> str:
         s = self.summary
         return f"<ricci.QuadSpline: {s.n_patches} patches, {s.n_control_points} control points>"

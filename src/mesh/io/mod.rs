@@ -64,7 +64,7 @@ pub use kind::NumberType;
 pub use labels::{FaceLabel, FaceLabels, PlainMaterial};
 pub use mz3::{parse_mz3, write_mz3};
 pub use number_column::NumberColumn;
-pub use obj::parse_obj;
+pub use obj::{parse_obj, parse_obj_polygons};
 pub use obj_write::{write_obj, write_obj_to};
 pub use off::{parse_off, write_off};
 pub use ply::{parse_ply, write_ply};

@@ -22,15 +22,28 @@ use std::borrow::Cow;
 ///
 /// [`crate::Error::Parse`] with the line.
 pub fn parse_obj(bytes: &[u8], path: &str) -> Result<Soup> {
-    let file = match in_parts(bytes, path) {
-        Some(file) => file,
-        None => {
-            let text = std::str::from_utf8(bytes);
-            let latin = |_| Cow::Owned(bytes.iter().map(|&b| char::from(b)).collect());
-            ObjFile::read(&text.map_or_else(latin, Cow::Borrowed), path)?
-        }
-    };
-    file.soup(Budget::of(bytes), Location::whole(path))
+    read_whole(bytes, path)?.soup(Budget::of(bytes), Location::whole(path))
+}
+
+/// Parses OBJ text as [`parse_obj`], but leaves polygons whole: the positions of the vertices, and the corners of each face.
+///
+/// # Errors
+///
+/// [`crate::Error::Parse`] with the line.
+pub fn parse_obj_polygons(bytes: &[u8], path: &str) -> Result<(Vec<Point>, Vec<Vec<u32>>)> {
+    let ObjFile { positions, polygons, .. } = read_whole(bytes, path)?;
+    let place = Location::whole(path);
+    Budget::of(bytes).take(polygons.len(), size_of::<Vec<u32>>(), "faces", place)?;
+    Ok((positions, polygons.all().map(<[u32]>::to_vec).collect()))
+}
+
+fn read_whole(bytes: &[u8], path: &str) -> Result<ObjFile> {
+    if let Some(file) = in_parts(bytes, path) {
+        return Ok(file);
+    }
+    let text = std::str::from_utf8(bytes);
+    let latin = |_| Cow::Owned(bytes.iter().map(|&b| char::from(b)).collect());
+    ObjFile::read(&text.map_or_else(latin, Cow::Borrowed), path)
 }
 
 /// Least bytes of a part of a file that is read on its own.

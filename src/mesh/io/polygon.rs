@@ -40,6 +40,12 @@ impl Polygons {
         self.ends.len()
     }
 
+    /// The vertices of each polygon.
+    pub fn all(&self) -> impl Iterator<Item = &[u32]> {
+        let starts = std::iter::once(0).chain(self.ends());
+        starts.zip(self.ends()).map(|(start, end)| &self.corners[start..end])
+    }
+
     /// The number of the polygon that each of its triangles is a part of.
     pub fn owners<'a>(&'a self, triangles: &'a [[usize; 3]]) -> impl Iterator<Item = usize> + 'a {
         let mut polygon = 0;

@@ -2,8 +2,12 @@
 
 use super::file_format::by_extension;
 use super::guess::{SurfaceFormat, format};
-use super::{Soup, content, parse_obj, parse_off, parse_ply, parse_stl, parse_stl_welded, unpack};
+use super::scan::Location;
+use super::{
+    Soup, content, parse_obj, parse_obj_polygons, parse_off, parse_ply, parse_stl, parse_stl_welded, unpack,
+};
 use crate::error::{Error, Result};
+use crate::mesh::Point;
 use std::path::{Path, PathBuf};
 
 /// The format that each extension names.
@@ -99,6 +103,17 @@ impl SurfaceFile {
             log::info!("{}: left out: {what}", self.name);
         }
         Ok(soup)
+    }
+
+    /// The vertices and the polygons of an OBJ file, as they are.
+    ///
+    /// # Errors
+    /// [`Error::Parse`] with the line where the file violates its format, and for a file of another format.
+    pub fn polygons(&self) -> Result<(Vec<Point>, Vec<Vec<u32>>)> {
+        match self.format {
+            SurfaceFormat::Obj => parse_obj_polygons(&self.bytes, &self.name),
+            _ => Location::whole(&self.name).error("polygons are read from OBJ files alone".into()),
+        }
     }
 
     fn parsed(&self) -> Result<Soup> {

@@ -2,7 +2,7 @@
 
 use super::target::{SplineTarget, TargetFaces};
 use crate::error::{Error, Result};
-use crate::mesh::{EdgeId, FaceId, Mesh};
+use crate::mesh::{EdgeId, FaceId, Mesh, Point};
 use crate::parallel;
 use crate::quads::QuadLayout;
 use crate::seamless::Seamless;
@@ -33,9 +33,22 @@ impl<'a> FittedSurface<'a> {
         let mesh = solution.given();
         let creases: Vec<EdgeId> =
             seamless.features.iter().copied().filter(|e| !layout.mesh.off_axis.contains(e)).collect();
+        FittedSurface::of_mesh(mesh, positions, &creases, layout.patches.len())
+    }
+
+    /// A mesh in space under this many patches.
+    ///
+    /// # Errors
+    /// Those of [`TargetFaces::new`].
+    pub fn of_mesh(
+        mesh: &'a Mesh,
+        positions: &'a [Point],
+        creases: &[EdgeId],
+        n_patches: usize,
+    ) -> Result<FittedSurface<'a>> {
         let mut is_crease = vec![false; mesh.n_edges()];
         creases.iter().for_each(|e| is_crease[e.index()] = true);
-        let faces_per_patch = mesh.n_faces() as f64 / layout.patches.len().max(1) as f64;
+        let faces_per_patch = mesh.n_faces() as f64 / n_patches.max(1) as f64;
         Ok(FittedSurface {
             mesh,
             faces: TargetFaces::new(

@@ -88,6 +88,11 @@ impl PatchLayout {
         }
     }
 
+    /// True if every arc is a side of two patches: the surface has no boundary.
+    pub fn is_closed(&self) -> bool {
+        self.beside.iter().all(|sides| !sides.contains(&None))
+    }
+
     /// The layout whose patches are the faces of a mesh of quadrilaterals, counterclockwise, all of the same lengths. `creases`: pairs of nodes that a side joins.
     ///
     /// # Errors

@@ -15,6 +15,8 @@
 
 mod bezier;
 mod closest;
+#[cfg(feature = "quads")]
+mod control_mesh;
 mod descent;
 mod elimination;
 mod extraction;
@@ -31,7 +33,11 @@ mod layout;
 mod nearest;
 mod noise;
 #[cfg(feature = "quads")]
+mod over_control_mesh;
+#[cfg(feature = "quads")]
 mod over_quads;
+#[cfg(feature = "quads")]
+mod patch_grid;
 mod places;
 mod quintic;
 #[cfg(feature = "quads")]
@@ -47,11 +53,15 @@ mod volume;
 
 pub use bezier::BezierExtraction;
 pub use closest::{NearestPlace, NearestPlaces};
+#[cfg(feature = "quads")]
+pub use control_mesh::ControlMesh;
 pub use extraction::ExtractionMatrix;
 #[cfg(feature = "quads")]
 pub use few_patches::{FewPatchesOptions, LayoutFit, fit_few_patches};
 pub use fit::{FitDistances, QuadFit, QuadFitOptions, bilinear, fit_quads};
 pub use layout::{ArcSide, PatchArc, PatchCorner, PatchLayout};
+#[cfg(feature = "quads")]
+pub use over_control_mesh::{ControlMeshFit, fit_control_mesh};
 #[cfg(feature = "quads")]
 pub use over_quads::{LayoutFitOptions, fit_quad_layout};
 pub use places::PatchPlace;

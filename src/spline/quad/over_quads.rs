@@ -1,20 +1,20 @@
 //! Splines over the layouts of quad meshes: the lines between their irregular vertices bound the patches.
 
-use super::fit::{FitStart, QuadFit, bilinear, fit_from};
+use super::fit::{FitStart, QuadFit, fit_from};
 use super::fitted_surface::{FittedSurface, no_positions};
-use super::layout::{ArcSide, PatchArc, PatchLayout};
+use super::layout::PatchLayout;
+use super::patch_grid::{DividedQuads, PatchGrid, strips};
 use super::relaxed_quads::RelaxedQuads;
 use super::space::QuadSplineSpace;
 use super::spline::QuadSpline;
 use super::target::SplineTarget;
 use crate::control::Control;
-use crate::error::{Error, Result};
-use crate::geometry::vector::{Vector, cross, distance, dot, norm, sub};
-use crate::mesh::union_find::UnionFind;
+use crate::error::Result;
+use crate::geometry::vector::{Vector, distance};
 use crate::parallel;
-use crate::quads::{LayoutArc, LayoutPatch, QuadLayout};
+use crate::quads::QuadLayout;
 use crate::seamless::Seamless;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 /// The step with which fits from other splines begin, and the multiple of the tolerance within which these must be: others may lack a limb.
@@ -32,7 +32,7 @@ const USUAL_TOLERANCE: f64 = 1e-3;
 /// The weights of bending if none is asked for: the most, for this noise over the diagonal, and the least.
 const MOST_BENDING: f64 = 1e-8;
 const NOISE_OF_MOST_BENDING: f64 = 1e-3;
-const LEAST_BENDING: f64 = 1e-11;
+pub(super) const LEAST_BENDING: f64 = 1e-11;
 /// The factor by which the weight of bending falls from fit to fit.
 const SOFTER: f64 = 0.1;
 
@@ -75,12 +75,6 @@ impl LayoutFitOptions {
     }
 }
 
-/// The points of the quad mesh in a patch: `points[i * (n + 1) + j]`, i along the first side, j along the second, m × n quads.
-struct PatchGrid {
-    size: [usize; 2],
-    points: Vec<Vector>,
-}
-
 /// Fits a spline over the patches of a quad layout to the surface of its seamless metric. Each patch is fitted to the part of the surface on
 /// which it lies, and to some more around it, up to features. Strips of patches that fold or are not within the
 /// tolerance get more spans. The first fit within the tolerance, or else that with the fewest patches folded, then the least distance.
@@ -98,31 +92,54 @@ pub fn fit_quad_layout(
     parallel::within(options.threads, || {
         let surface = FittedSurface::new(seamless, layout)?;
         let RelaxedQuads { points, target } = RelaxedQuads::new(layout, vertices, &surface, control)?;
-        let grids = PatchGrid::all(layout, &points)?;
-        let angles: Vec<[f64; 4]> = grids.iter().map(PatchGrid::corner_angles).collect();
-        let patches = patch_layout(layout, &points)?.with_angles(&angles);
-        LayoutStart { surface, grids, patches }.fitted(target, options, control)
+        let spans = vec![1; layout.arcs.len()];
+        LayoutStart::new(surface, &DividedQuads::of_layout(layout, &points), spans)?
+            .fitted(target, options, control)
     })
 }
 
 /// What fits over a layout start from.
-struct LayoutStart<'a> {
+pub(super) struct LayoutStart<'a> {
     surface: FittedSurface<'a>,
     grids: Vec<PatchGrid>,
     patches: PatchLayout,
+    /// Per arc the spans along it.
+    spans: Vec<usize>,
+    /// The first step of the first fit.
+    first_step: usize,
 }
 
-impl LayoutStart<'_> {
+impl<'a> LayoutStart<'a> {
+    /// From the quads of a surface, with these spans along each arc.
+    ///
+    /// # Errors
+    /// Those of [`DividedQuads::grids`] and [`DividedQuads::patch_layout`].
+    pub fn new(
+        surface: FittedSurface<'a>,
+        divided: &DividedQuads<'_>,
+        spans: Vec<usize>,
+    ) -> Result<LayoutStart<'a>> {
+        let grids = divided.grids()?;
+        let angles: Vec<[f64; 4]> = grids.iter().map(PatchGrid::corner_angles).collect();
+        let patches = divided.patch_layout()?.with_angles(&angles);
+        Ok(LayoutStart { surface, grids, patches, spans, first_step: 0 })
+    }
+
+    /// The same with points that lie on the surface as those of a spline do: fits begin with little bending.
+    pub fn nearly_fitted(self) -> LayoutStart<'a> {
+        LayoutStart { first_step: LATE_STEP, ..self }
+    }
+
     /// Fits with more and more spans on the strips of patches that are not within the tolerance.
-    fn fitted(
+    pub fn fitted(
         &self,
         mut target: SplineTarget,
         options: &LayoutFitOptions,
         control: &Control,
     ) -> Result<QuadFit> {
-        let LayoutStart { surface, grids, patches } = self;
+        let LayoutStart { surface, grids, patches, .. } = self;
         let start = |p: usize, uv: [f64; 2]| grids[p].at(uv);
-        let mut spans = vec![1; patches.arcs().len()];
+        let mut spans = self.spans.clone();
         let mut best: Option<QuadFit> = None;
         let mut bending = options.bending.unwrap_or(MOST_BENDING);
         let (mut round, mut fruitless) = (0, 0);
@@ -132,7 +149,10 @@ impl LayoutStart<'_> {
             let whole = best.as_ref().filter(is_near);
             let last =
                 |p: usize, uv: [f64; 2]| whole.map_or_else(|| start(p, uv), |fit| fit.spline.point_at(p, uv));
-            let from = FitStart { map: &last, first_step: if whole.is_some() { LATE_STEP } else { 0 } };
+            let from = FitStart {
+                map: &last,
+                first_step: if whole.is_some() { LATE_STEP } else { self.first_step },
+            };
             let fit = fit_from(space, &from, &target, bending, &control.attempt(round))?;
             round += 1;
             let folds = fit.folded_patches.len();
@@ -210,123 +230,4 @@ fn raise_spans(
         *spans += usize::from(raised.contains(&strips[arc]));
     }
     !raised.is_empty()
-}
-
-/// Per arc an arc of its strip, to which arcs belong that are opposite sides of patches, the same for all of them.
-fn strips(n_arcs: usize, patches: &[[ArcSide; 4]]) -> Vec<usize> {
-    let mut same = UnionFind::new(n_arcs);
-    for sides in patches {
-        same.join(sides[0].arc, sides[2].arc);
-        same.join(sides[1].arc, sides[3].arc);
-    }
-    (0..n_arcs as u32).map(|arc| same.root(arc) as usize).collect()
-}
-
-/// The layout with every side of every patch as one arc. Lengths, equal on opposite sides, are the means of those in space, in units of their
-/// mean.
-fn patch_layout(layout: &QuadLayout, vertices: &[Vector]) -> Result<PatchLayout> {
-    let side = |p: usize, side: &Vec<i32>| match side[..] {
-        [signed] => Ok(ArcSide { arc: signed.unsigned_abs() - 1, reversed: signed < 0 }),
-        _ => {
-            Err(Error::Layout(format!("a side of patch {p} is {} arcs: divide it at its nodes", side.len())))
-        }
-    };
-    let mut patches = Vec::with_capacity(layout.patches.len());
-    for (p, LayoutPatch { sides: [a, b, c, d], .. }) in layout.patches.iter().enumerate() {
-        patches.push([side(p, a)?, side(p, b)?, side(p, c)?, side(p, d)?]);
-    }
-    let strips = strips(layout.arcs.len(), &patches);
-    let in_space = |arc: &LayoutArc| -> f64 {
-        arc.vertices
-            .windows(2)
-            .map(|pair| distance(vertices[pair[0] as usize], vertices[pair[1] as usize]))
-            .sum()
-    };
-    let lengths: Vec<f64> = layout.arcs.iter().map(in_space).collect();
-    let mut of_strip = vec![(0.0, 0.0); lengths.len()];
-    for (k, length) in lengths.iter().enumerate() {
-        let (sum, count) = &mut of_strip[strips[k]];
-        (*sum, *count) = (*sum + length, *count + 1.0);
-    }
-    let unit = lengths.iter().sum::<f64>() / lengths.len().max(1) as f64;
-    let mut arcs = Vec::with_capacity(lengths.len());
-    for (k, LayoutArc { ends, is_crease, .. }) in layout.arcs.iter().enumerate() {
-        let (sum, count) = of_strip[strips[k]];
-        arcs.push(PatchArc { ends: *ends, length: sum / count / unit, is_crease: *is_crease });
-    }
-    PatchLayout::new(layout.nodes.len(), arcs, patches)
-}
-
-impl PatchGrid {
-    fn all(layout: &QuadLayout, vertices: &[Vector]) -> Result<Vec<PatchGrid>> {
-        let mut quad_at: BTreeMap<[u32; 2], [u32; 2]> = BTreeMap::new();
-        for quad in &layout.mesh.quads {
-            for k in 0..4 {
-                // Beyond an edge of a quad lies the one opposite to it.
-                let [a, b, c, d] = [0, 1, 2, 3].map(|i| quad[(k + i) % 4]);
-                quad_at.insert([a, b], [d, c]);
-            }
-        }
-        (0..layout.patches.len()).map(|p| PatchGrid::new(layout, p, &quad_at, vertices)).collect()
-    }
-
-    /// The grid of a patch: the vertices along its first side, then row after row beyond.
-    fn new(
-        layout: &QuadLayout,
-        p: usize,
-        beyond: &BTreeMap<[u32; 2], [u32; 2]>,
-        vertices: &[Vector],
-    ) -> Result<PatchGrid> {
-        let LayoutPatch { sides, size, .. } = &layout.patches[p];
-        let [m, n] = size.map(|x| (x * layout.parts) as usize);
-        let mut row: Vec<u32> = Vec::with_capacity(m + 1);
-        for &signed in &sides[0] {
-            let mut along = layout.arcs[signed.unsigned_abs() as usize - 1].vertices.clone();
-            if signed < 0 {
-                along.reverse();
-            }
-            row.extend(&along[usize::from(!row.is_empty())..]);
-        }
-        let no_grid = || Error::Layout(format!("patch {p} is no rectangle of quads"));
-        let mut rows = vec![row];
-        for j in 0..n {
-            let pairs = rows[j].windows(2).map(|pair| beyond.get(&[pair[0], pair[1]]).copied());
-            let next: Vec<[u32; 2]> = pairs.collect::<Option<_>>().ok_or_else(no_grid)?;
-            let last = next.last().map(|pair| pair[1]);
-            rows.push(next.iter().map(|pair| pair[0]).chain(last).collect());
-        }
-        if rows.iter().any(|row| row.len() != m + 1) {
-            return Err(no_grid());
-        }
-        let at = |k: usize| vertices[rows[k % (n + 1)][k / (n + 1)] as usize];
-        Ok(PatchGrid { size: [m, n], points: (0..(m + 1) * (n + 1)).map(at).collect() })
-    }
-
-    /// The angles at the corners, radians.
-    fn corner_angles(&self) -> [f64; 4] {
-        let [m, n] = self.size;
-        let point = |i: usize, j: usize| self.points[i * (n + 1) + j];
-        let angle = |at: Vector, a: Vector, b: Vector| {
-            let [u, v] = [sub(a, at), sub(b, at)];
-            norm(cross(u, v)).atan2(dot(u, v))
-        };
-        [
-            angle(point(0, 0), point(1, 0), point(0, 1)),
-            angle(point(m, 0), point(m - 1, 0), point(m, 1)),
-            angle(point(m, n), point(m - 1, n), point(m, n - 1)),
-            angle(point(0, n), point(1, n), point(0, n - 1)),
-        ]
-    }
-
-    /// The point at a place of the patch, bilinear in every quad.
-    fn at(&self, uv: [f64; 2]) -> Vector {
-        let [m, n] = self.size;
-        let [(i, s), (j, t)] = [(uv[0], m), (uv[1], n)].map(|(x, count)| {
-            let scaled = x * count as f64;
-            let cell = (scaled as usize).min(count - 1);
-            (cell, scaled - cell as f64)
-        });
-        let point = |i: usize, j: usize| self.points[i * (n + 1) + j];
-        bilinear([point(i, j), point(i + 1, j), point(i + 1, j + 1), point(i, j + 1)], [s, t])
-    }
 }

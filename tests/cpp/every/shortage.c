@@ -27,7 +27,7 @@ extern void __libc_free(void *p);
 
 /* Calls of a function that are tried, allocations at which memory runs out in one call, and limits of the
  * address space beyond what is in use, in kilobytes. */
-enum { TRIED_CALLS = 2, SHORTAGES = 24 };
+enum { TRIED_CALLS = 2, SHORTAGES = 16 };
 static const long LIMITS[] = {0, 256, 1024, 4096, 8192, 16384, 32768, 65536, 131072, 262144};
 enum { N_LIMITS = sizeof LIMITS / sizeof *LIMITS };
 /* Seconds after which a child is ended. */

@@ -290,6 +290,13 @@ int quad_splines() {
     const auto matrix = spline.extraction();
     if (matrix.starts.back() != matrix.values.size() || matrix.columns.size() != all.n_entries) return 78;
     spline.write_step("quad_spline_cxx.step");
+    const std::vector<std::uint32_t> square = {0, 1, 2, 3};
+    const std::vector<double> places = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
+    auto one = ricci::init<ricci_control_mesh>();
+    one.positions = places.data(), one.n_vertices = 4, one.quads = square.data(), one.n_quads = 1;
+    const ricci::quad_spline plate(one);
+    if (plate.summary().n_patches != 1 || !std::isnan(plate.summary().volume)) return 110;
+    plate.write_json("quad_spline_cxx.json");
     try {
         spline.patch(all.n_patches);
         return 79;

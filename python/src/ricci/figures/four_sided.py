@@ -141,6 +141,8 @@ class QuadSplineSummary:
         over the diagonal: the one that was asked for, else as in the options.
     converged : bool
         distances are within the tolerance, and no patch is turned over.
+    volume : float
+        inside, negative if normals point inwards; NaN with a boundary.
     """
 
     n_patches: int
@@ -162,3 +164,4 @@ class QuadSplineSummary:
     noise: float
     tolerance: float
     converged: bool
+    volume: float
