@@ -51,6 +51,7 @@ HEADERS = (
     "surface_spline",
     "bicubic",
     "quad_spline",
+    "control_mesh",
     "archive",
 )
 

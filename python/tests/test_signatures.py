@@ -184,8 +184,8 @@ def test_help_describes_every_option():
 
 
 def test_functions_of_the_front_name_every_argument():
-    names = "flow uniformize cover circles harmonic forms match spline structure quads quad_layout quad_spline fit_control_mesh fit_few_patches cohort"
-    for name in names.split():
+    names = "flow uniformize cover circles harmonic forms match spline structure quads quad_layout quad_spline fit_few_patches cohort"
+    for name in [*names.split(), "fit_control_mesh"]:
         function = getattr(ricci, name)
         for argument in inspect.signature(function).parameters:
             assert f"\n{argument} : " in inspect.getdoc(function), (name, argument)

@@ -28,8 +28,8 @@ def fit_control_mesh(
 ) -> QuadSpline:
     """A spline near the Catmull-Clark surface of a control mesh of quadrilaterals.
 
-    Patches lie between the lines of edges that go straight on from irregular vertices, with one span for each quadrilateral, up to 32: where no
-    irregular vertex is near, the surface is such a spline.
+    Patches lie between the lines of edges that go straight on from irregular vertices, with one span for each quadrilateral, up to 32:
+    where no irregular vertex is near, the surface is such a spline.
 
     Parameters
     ----------
