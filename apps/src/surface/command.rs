@@ -1,6 +1,6 @@
 //! `ricci surface` as a job: what it refuses, computes and writes.
 
-use super::args::ScanArgs;
+use super::args::{ScanArgs, ScanColor};
 use super::figures::{ScanOutcome, WrittenSurface};
 use super::picture::{PARTS, draw};
 use crate::failure::Failure;
@@ -31,6 +31,11 @@ impl Job for ScanArgs {
             Some(ConesChoice::Table(path)) => Some(path.as_path()),
             _ => None,
         };
+        if self.combs && self.color == ScanColor::Distance {
+            return Err(Failure::Usage(
+                "--combs: --color distance draws the mesh, which has no patches".into(),
+            ));
+        }
         check_extension("--patches", self.patches.as_deref(), &["json"])?;
         check_mesh_extension("--triangles", self.triangles.as_deref(), &[])?;
         check_extension("--picture", self.picture.picture.as_deref(), &["png"])?;
@@ -61,7 +66,11 @@ impl Job for ScanArgs {
         let name = self.surface.file.mesh.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let step_options = StepOptions { name, unit: self.unit.length_unit(), colours: self.colours };
         timed(&mut run.seconds.write, || fit.spline.write_step(&step_options, &mut step))?;
-        let written = WrittenSurface { normal_jump: fit.spline.normal_jump(), step };
+        let written = WrittenSurface {
+            normal_jump: fit.spline.normal_jump(),
+            n_faces: fit.spline.n_step_faces()?,
+            step,
+        };
         Ok(ScanOutcome { input, seamless, tolerance: fit_options.limit(&fit), fit, written })
     }
 

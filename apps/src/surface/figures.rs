@@ -15,6 +15,7 @@ const NORMAL_JUMP: f64 = 0.01;
 pub struct WrittenSurface {
     /// The largest angle between the normals of neighbouring patches, radians.
     pub normal_jump: f64,
+    pub n_faces: usize,
     pub step: Vec<u8>,
 }
 
@@ -60,8 +61,8 @@ impl JobOutcome for ScanOutcome {
         let volumes = volumes(&self.input, &self.fit);
         Figures::default()
             .with("patches", space.layout().patches().len())
-            // STEP has one face for each patch.
-            .with("faces", space.layout().patches().len())
+            // STEP has one face for each patch, but one for those that lie in one plane and meet.
+            .with("faces", self.written.n_faces)
             .with("degree", self.fit.spline.degree())
             // The most of a patch in a direction.
             .with("spans", most_spans(space))
@@ -90,11 +91,12 @@ impl JobOutcome for ScanOutcome {
     fn summary(&self, done: &Done) -> String {
         let space = self.fit.spline.space();
         format!(
-            "{}patches  {} with up to {} a side, {}\ndistance {:.2e} of the diagonal at most (patch {}), {:.2e} in the root of the mean square, noise {:.1e}\nnormals  of neighbouring patches agree to {:.1e} degrees, with the mesh to {:.2}\n{}",
+            "{}patches  {} with up to {} a side, {}, as {}\ndistance {:.2e} of the diagonal at most (patch {}), {:.2e} in the root of the mean square, noise {:.1e}\nnormals  of neighbouring patches agree to {:.1e} degrees, with the mesh to {:.2}\n{}",
             say::surface(&self.input),
             say::count(space.layout().patches().len(), "patch", "patches"),
             say::count(most_spans(space), "span", "spans"),
             say::count(space.n_control_points(), "control point", "control points"),
+            say::count(self.written.n_faces, "face", "faces"),
             self.fit.max(),
             self.fit.worst_patch(),
             self.fit.rms(),

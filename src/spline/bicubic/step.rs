@@ -41,6 +41,7 @@ impl BicubicSurface {
             sides: sides.map(|side| (side.curve as usize, side.reversed)),
         };
         let patches = StepPatches {
+            planes: false,
             points: &self.points,
             curves: self.curves.iter().map(curve).collect(),
             patches: self.patches.iter().map(patch).collect(),

@@ -147,9 +147,10 @@ pub(super) fn fit_from(
 ) -> Result<QuadFit> {
     let bendings = Bendings::new(bending, start.first_step)?;
     control.step(Stage::Layout, 0.0)?;
-    let mut system = QuadSystem::new(space.clone())?;
     let patches = space.layout().patches().len();
     let pieces = parallel::map(patches, |p| target.piece_of_patch(p, (start.map)(p, [0.5, 0.5])));
+    let is_flat = pieces.iter().map(|&piece| target.is_flat(piece)).collect();
+    let mut system = QuadSystem::new(space.clone(), is_flat)?;
     let at_start =
         |p: usize, place: &FitPlace| FootPoint { point: (start.map)(p, place.parameters), normal: [0.0; 3] };
     let feet =

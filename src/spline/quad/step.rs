@@ -1,4 +1,4 @@
-//! STEP files of splines over four-sided patches: a face for each patch, an edge for each arc.
+//! STEP files of splines over four-sided patches: a face for each patch or plane, an edge for each arc that bounds one.
 
 use super::layout::PatchArc;
 use super::quintic::{QUINTIC, knots};
@@ -13,12 +13,24 @@ use std::collections::BTreeMap;
 use std::io::Write;
 
 impl QuadSpline {
-    /// Writes the patches as STEP AP242. Each part that closes up becomes a solid with outward normals; the others become shells of one
+    /// Writes the patches as STEP AP242; those that lie in one plane and meet as one face of it. Each part that closes up becomes a solid with outward normals; the others become shells of one
     /// surface model. Common sides are common edges with common control points. The same spline gives the same bytes.
     ///
     /// # Errors
     /// [`crate::Error::Spline`] for control points that are not finite; [`crate::Error::Io`], without a path, if writing to `out` fails.
     pub fn write_step(&self, options: &StepOptions, out: &mut impl Write) -> Result<()> {
+        self.with_step_patches(|patches| patches.write(options, out))?
+    }
+
+    /// The number of faces that [`QuadSpline::write_step`] writes: one for each patch, but patches that lie in one plane and meet are one.
+    ///
+    /// # Errors
+    /// [`crate::Error::Spline`].
+    pub fn n_step_faces(&self) -> Result<usize> {
+        self.with_step_patches(|patches| patches.n_faces())
+    }
+
+    fn with_step_patches<T>(&self, use_them: impl FnOnce(&StepPatches<'_>) -> T) -> Result<T> {
         let layout = self.space().layout();
         let mut points = vec![[0.0; 3]; layout.n_nodes()];
         layout.corners().for_each(|at| points[layout.node(at) as usize] = self.side_points(at)[0]);
@@ -45,8 +57,9 @@ impl QuadSpline {
             patches: (0..layout.patches().len()).map(patch).collect(),
             parts: self.parts(),
             diagonal: diagonal(self.control_points()),
+            planes: true,
         };
-        patches.write(options, out)
+        Ok(use_them(&patches))
     }
 
     /// The connected parts of the surface.

@@ -28,6 +28,8 @@ const ENTRIES: [[usize; 2]; 6] = [[0, 0], [0, 1], [0, 2], [1, 1], [1, 2], [2, 2]
 /// The place of the entry (c, d) in [`ENTRIES`], and those on the diagonal.
 const ENTRY: [[usize; 3]; 3] = [[0, 1, 2], [1, 3, 4], [2, 4, 5]];
 const DIAGONAL: [usize; 3] = [0, 3, 5];
+/// The weight of distances from flat pieces of the target against those from others, so that their patches are flat too.
+const OF_FLAT: f64 = 1e6;
 /// The weight of all vertices of the target against that of all places of the patches.
 const VERTICES: f64 = 1.0;
 
@@ -81,6 +83,8 @@ pub(super) struct QuadSystem {
     along: BTreeMap<usize, SpanDirection>,
     /// The area of all patches in parameters.
     area: f64,
+    /// Per patch the weight of the distances of its places.
+    of_places: Vec<f64>,
     /// Per patch the free control points that it depends on, ascending, and its own control points as combinations of them.
     free: Vec<Vec<u32>>,
     pattern: Pattern,
@@ -95,7 +99,8 @@ struct PatchEquations {
 }
 
 impl QuadSystem {
-    pub fn new(space: Arc<QuadSplineSpace>) -> Result<QuadSystem> {
+    /// `is_flat`: per patch true if its piece of the target is flat.
+    pub fn new(space: Arc<QuadSplineSpace>, is_flat: Vec<bool>) -> Result<QuadSystem> {
         let free: Vec<Vec<u32>> = (0..space.layout().patches().len()).map(|p| free_of(&space, p)).collect();
         let mut pairs = Vec::new();
         for of_patch in &free {
@@ -114,7 +119,8 @@ impl QuadSystem {
         let along = space.spans().iter().map(|&spans| (spans, SpanDirection::new(spans))).collect();
         let of_patch = |p: usize| lengths(&space, p).iter().product::<f64>();
         let area = (0..space.layout().patches().len()).map(of_patch).sum();
-        Ok(QuadSystem { space, along, area, free, pattern, cholesky })
+        let of_places = is_flat.iter().map(|&is_flat| if is_flat { OF_FLAT } else { 1.0 }).collect();
+        Ok(QuadSystem { space, along, area, of_places, free, pattern, cholesky })
     }
 
     /// The space of the splines.
@@ -187,7 +193,11 @@ impl QuadSystem {
         let square = |a: Vector, b: Vector| sub(a, b).map(|x| x * x).iter().sum::<f64>();
         let [a, b] = lengths(&self.space, p);
         let of_place = |(place, foot): (FitPlace, &FootPoint)| {
-            a * b * place.weight * square(spline.point(p, [&place.basis[0], &place.basis[1]]), foot.point)
+            self.of_places[p]
+                * a
+                * b
+                * place.weight
+                * square(spline.point(p, [&place.basis[0], &place.basis[1]]), foot.point)
         };
         let of_vertex = |NearestToVertex { vertex, parameters, .. }: &NearestToVertex| {
             VERTICES * self.area * vertex.share * square(spline.point_at(p, *parameters), vertex.point)
@@ -221,7 +231,8 @@ impl QuadSystem {
         let mut sum = PatchSum::new(self.space.sides(p), lengths(&self.space, p));
         let [a, b] = sum.lengths;
         for (place, &FootPoint { point, normal }) in self.places(p).zip((goal.feet)(p)) {
-            let tensor = tensor(normal, of_distance, a * b * place.weight);
+            let [along_normal, tangential] = of_distance;
+            let tensor = tensor(normal, [self.of_places[p] * along_normal, tangential], a * b * place.weight);
             sum.add(&place.basis, &tensor, point);
         }
         sum.bend(weights.bending, self.space.patch_spans(p).map(|spans| &self.along[&spans]));

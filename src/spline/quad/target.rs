@@ -14,6 +14,9 @@ use std::sync::Arc;
 /// thicker walls are told by their distance.
 const RIM: f64 = 3e-3;
 
+/// The distance from a plane, over the diagonal, within which the vertices of a flat piece lie: single precision and six digits leave less.
+const FLAT: f64 = 1e-6;
+
 /// A triangle of the target.
 #[derive(Debug, Clone, Copy)]
 struct TargetTriangle {
@@ -38,6 +41,8 @@ struct SmoothPiece {
     faces: Vec<u32>,
     triangles: Vec<TargetTriangle>,
     tree: TriangleTree,
+    /// A point of the plane in which all of it lies, if it does.
+    plane: Option<FootPoint>,
     /// Its vertices with their unit normals, by number.
     vertices: Vec<(TargetVertex, Vector)>,
 }
@@ -48,6 +53,14 @@ pub(super) struct FootPoint {
     pub point: Vector,
     /// The unit normal of the target there.
     pub normal: Vector,
+}
+
+impl FootPoint {
+    /// The foot of a point on the plane through this one.
+    fn foot(&self, point: Vector) -> FootPoint {
+        let height = dot(sub(point, self.point), self.normal);
+        FootPoint { point: sub(point, scale(height, self.normal)), normal: self.normal }
+    }
 }
 
 /// Triangles with normals, cut at sharp edges into smooth pieces.
@@ -136,7 +149,15 @@ impl SplineTarget {
 
     /// The foot of a point on a piece, as on a surface that is curved between the corners of the nearest triangle [`offset`].
     pub(super) fn foot(&self, piece: usize, point: Vector) -> FootPoint {
-        self.pieces[piece].nearest(point).foot(point)
+        match self.pieces[piece].plane {
+            Some(plane) => plane.foot(point),
+            None => self.pieces[piece].nearest(point).foot(point),
+        }
+    }
+
+    /// True if a piece lies in a plane.
+    pub(super) fn is_flat(&self, piece: usize) -> bool {
+        self.pieces[piece].plane.is_some()
     }
 
     /// The foot of a point of a spline with this normal, on the part of a piece that faces the same way if that is about as near as the rest: the point
@@ -207,6 +228,7 @@ impl<'a> TargetFaces<'a> {
             point: positions[number as usize],
             share: shares[number as usize],
         };
+        let diagonal = crate::geometry::vector::diagonal(positions);
         let piece = |part: &Vec<u32>| {
             let triangles: Vec<TargetTriangle> = part.iter().map(triangle).collect();
             let mut by_number = BTreeMap::new();
@@ -218,15 +240,24 @@ impl<'a> TargetFaces<'a> {
             SmoothPiece {
                 #[cfg(feature = "quads")]
                 faces: part.clone(),
+                plane: plane_of(&triangles, FLAT * diagonal),
                 triangles,
                 tree,
                 vertices,
             }
         };
         let pieces = parts.iter().map(piece).collect();
-        let diagonal = crate::geometry::vector::diagonal(positions);
         SplineTarget { pieces, edges: edges.clone(), diagonal, is_by_patch: false }
     }
+}
+
+/// A point of the plane of triangles with their mean normal, if all corners are within a distance of it.
+fn plane_of(triangles: &[TargetTriangle], within: f64) -> Option<FootPoint> {
+    let sum = triangles.iter().fold([0.0; 3], |sum, t| add(sum, triangle_normal(t.corners)));
+    let plane = FootPoint { point: triangles.first()?.corners[0], normal: normalised(sum) };
+    let is_near = |p: &Vector| dot(sub(*p, plane.point), plane.normal).abs() <= within;
+    let has_normal = norm(plane.normal) > 0.5;
+    (has_normal && triangles.iter().flat_map(|t| &t.corners).all(is_near)).then_some(plane)
 }
 
 /// Checks that corners exist and faces have an area.

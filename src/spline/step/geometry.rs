@@ -1,6 +1,7 @@
 //! The curves and surfaces of a STEP file, and the lines in the parameters of surfaces that its edges follow.
 
-use crate::geometry::vector::Vector;
+use super::planes::StepPlane;
+use crate::geometry::vector::{Vector, cross, normalised};
 use step_io::model as m;
 use step_io::{Ap242Author, AuthorError};
 
@@ -103,6 +104,32 @@ pub(super) fn add_surface(
         v_knots,
         m::KnotType::Unspecified,
     )
+}
+
+/// The surface of a face.
+#[derive(Clone, Copy)]
+pub(super) enum FaceSurface {
+    Spline(m::BSplineSurfaceWithKnotsId),
+    Plane(m::PlaneId),
+}
+
+/// Adds a plane.
+pub(super) fn add_plane(author: &mut Ap242Author, plane: StepPlane) -> Authored<m::PlaneId> {
+    let [x, y, z] = plane.normal.map(f64::abs);
+    // Along the plane, and at least 45 degrees off the axis that is nearest to the normal.
+    let axis = if x <= y && x <= z {
+        [1.0, 0.0, 0.0]
+    } else if y <= z {
+        [0.0, 1.0, 0.0]
+    } else {
+        [0.0, 0.0, 1.0]
+    };
+    let along = normalised(cross(axis, plane.normal));
+    let origin = m::CartesianPointRef::CartesianPoint(add_point(author, plane.origin)?);
+    let normal = m::DirectionRef::Direction(author.add_direction("", plane.normal.into())?);
+    let along = m::DirectionRef::Direction(author.add_direction("", along.into())?);
+    let placement = author.add_axis2_placement3d("", origin, Some(normal), Some(along))?;
+    author.add_plane("", m::Axis2Placement3dRef::Axis2Placement3d(placement))
 }
 
 /// The plane of the parameters of surfaces.

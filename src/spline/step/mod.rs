@@ -1,13 +1,16 @@
 //! STEP files (AP242) of tensor-product patches: closed parts as solids, open ones as shells, with common edges and vertices.
 
 mod geometry;
+mod planes;
 mod shells;
 
 use crate::error::{Error, Result};
 use crate::geometry::vector::Vector;
-use geometry::{Authored, ParameterPlane, add_curve, add_point, add_surface};
+use geometry::{Authored, FaceSurface, ParameterPlane, add_curve, add_plane, add_point, add_surface};
 pub(super) use geometry::{StepCurveGeometry, StepSurfaceGeometry};
+use planes::{FlatFace, Side, flat_faces};
 use shells::add_shells;
+use std::collections::BTreeMap;
 use std::io::Write;
 use step_io::build::{StyleTarget, UnitsInput};
 use step_io::model as m;
@@ -79,6 +82,8 @@ pub(super) struct StepPatches<'a> {
     pub parts: Vec<StepPart>,
     /// The diagonal of the box around the surface.
     pub diagonal: f64,
+    /// True: patches whose control points lie in a plane are written as faces of it, those that meet as one.
+    pub planes: bool,
 }
 
 impl StepPatches<'_> {
@@ -107,17 +112,23 @@ impl StepPatches<'_> {
         header.file_name.clone_from(&options.name);
         header.originating_system = concat!("ricci ", env!("CARGO_PKG_VERSION")).into();
         let part = builder.part(&options.name);
-        let surfaces = self.patches.iter().map(|patch| add_surface(builder.author(), &patch.surface));
-        let surfaces = surfaces.collect::<Authored<Vec<_>>>()?;
-        let edges = self.edges(builder.author(), &surfaces)?;
+        let flat = self.flat_faces();
+        let surfaces = self.surfaces(builder.author(), &flat)?;
+        let edges = self.edges(builder.author(), &surfaces, &flat)?;
         let colours = if options.colours { self.colours() } else { Vec::new() };
+        let mut flat_of = vec![None; self.patches.len()];
+        flat.iter().for_each(|face| face.patches.iter().for_each(|&p| flat_of[p] = Some(face)));
         let mut open = Vec::new();
         for part_of in &self.parts {
             let mut faces = Vec::with_capacity(part_of.patches.len());
             for &at in &part_of.patches {
-                let sides = self.patches[at].sides.map(|(curve, reversed)| (edges[curve], reversed));
-                let name = format!("patch {at}");
-                let face = add_face(builder.author(), &name, surfaces[at], sides, part_of.is_inverted)?;
+                let (name, loops) = match flat_of[at] {
+                    None => (format!("patch {at}"), vec![self.patches[at].sides.to_vec()]),
+                    Some(face) if face.patches[0] == at => (format!("plane {at}"), face.loops.clone()),
+                    Some(_) => continue,
+                };
+                let face = FaceOnSurface { surface: surfaces[at], loops, is_inverted: part_of.is_inverted };
+                let face = add_face(builder.author(), &name, &face, &edges)?;
                 if let Some([red, green, blue]) = colours.get(at).map(|&k| COLOURS[k]) {
                     builder.style(StyleTarget::Face(face), Rgb { red, green, blue }, None)?;
                 }
@@ -135,42 +146,97 @@ impl StepPatches<'_> {
         Ok(builder.finish())
     }
 
-    /// Adds an edge for each curve, with the curves in the parameters of the patches beside it: a reader that had to find those by projection
-    /// would take the wrong side of a thin patch.
+    /// The number of faces of the file.
+    pub fn n_faces(&self) -> usize {
+        self.flat_faces().iter().fold(self.patches.len(), |n, face| n + 1 - face.patches.len())
+    }
+
+    /// The faces on planes.
+    fn flat_faces(&self) -> Vec<FlatFace> {
+        if self.planes { flat_faces(self, UNCERTAINTY * self.diagonal) } else { Vec::new() }
+    }
+
+    /// Per curve the patches of which it is a side, each with the number of that side.
+    fn beside(&self) -> Vec<Vec<(usize, usize)>> {
+        let mut beside = vec![Vec::new(); self.curves.len()];
+        for (at, StepPatch { sides, .. }) in self.patches.iter().enumerate() {
+            sides.iter().enumerate().for_each(|(side, &(curve, _))| beside[curve].push((at, side)));
+        }
+        beside
+    }
+
+    /// Adds the surface of each patch; those of one face on a plane have one.
+    fn surfaces(&self, author: &mut Ap242Author, flat: &[FlatFace]) -> Authored<Vec<FaceSurface>> {
+        let mut planes = vec![None; self.patches.len()];
+        for face in flat {
+            let plane = add_plane(author, face.plane)?;
+            face.patches.iter().for_each(|&p| planes[p] = Some(plane));
+        }
+        let surface = |(plane, patch): (Option<m::PlaneId>, &StepPatch)| match plane {
+            Some(plane) => Ok(FaceSurface::Plane(plane)),
+            None => add_surface(author, &patch.surface).map(FaceSurface::Spline),
+        };
+        planes.into_iter().zip(&self.patches).map(surface).collect()
+    }
+
+    /// Adds an edge for each curve that is a side of a face, with the curves in the parameters of the patches beside it: a reader that had to find
+    /// those by projection would take the wrong side of a thin patch. On a plane it finds the right ones.
     fn edges(
         &self,
         author: &mut Ap242Author,
-        surfaces: &[m::BSplineSurfaceWithKnotsId],
-    ) -> Authored<Vec<m::EdgeCurveId>> {
+        surfaces: &[FaceSurface],
+        flat: &[FlatFace],
+    ) -> Authored<BTreeMap<usize, m::EdgeCurveId>> {
         let plane = ParameterPlane::add(author)?;
-        let mut vertices = Vec::with_capacity(self.points.len());
-        for &at in self.points {
-            let point = m::PointRef::CartesianPoint(add_point(author, at)?);
-            vertices.push(author.add_vertex_point("", point)?);
-        }
-        let mut beside = vec![Vec::new(); self.curves.len()];
-        for (at, StepPatch { surface, sides }) in self.patches.iter().enumerate() {
-            for (side, &(curve, reversed)) in sides.iter().enumerate() {
-                let along = surface.side(side, reversed);
-                let line = plane.add_line(author, surfaces[at], self.curves[curve].curve.domain(), along)?;
-                beside[curve].push((at, line));
+        let is_side = self.are_sides(flat);
+        let mut vertices = vec![None; self.points.len()];
+        let beside = self.beside();
+        let mut edges = BTreeMap::new();
+        for at in (0..self.curves.len()).filter(|&at| is_side[at]) {
+            let (StepCurve { ends, is_crease, curve }, beside) = (&self.curves[at], &beside[at]);
+            let mut lines = Vec::with_capacity(2);
+            for &(at, side) in beside {
+                lines.push(match surfaces[at] {
+                    FaceSurface::Plane(id) => m::PcurveOrSurfaceRef::Plane(id),
+                    FaceSurface::Spline(id) => {
+                        let StepPatch { surface, sides } = &self.patches[at];
+                        let along = surface.side(side, sides[side].1);
+                        m::PcurveOrSurfaceRef::Pcurve(plane.add_line(author, id, curve.domain(), along)?)
+                    }
+                });
             }
-        }
-        let mut edges = Vec::with_capacity(self.curves.len());
-        for (StepCurve { ends, is_crease, curve }, beside) in self.curves.iter().zip(&beside) {
             let curve = add_curve(author, curve)?;
-            let lines = beside.iter().map(|&(_, line)| m::PcurveOrSurfaceRef::Pcurve(line)).collect();
             let by = m::PreferredSurfaceCurveRepresentation::Curve3d;
             let is_seam = beside.len() == 2 && beside[0].0 == beside[1].0;
             let on_surfaces = match is_seam {
                 true => m::CurveRef::SeamCurve(author.add_seam_curve("", curve, lines, by)?),
                 false => m::CurveRef::SurfaceCurve(author.add_surface_curve("", curve, lines, by)?),
             };
-            let [from, to] = ends.map(|p| m::VertexRef::VertexPoint(vertices[p as usize]));
+            let mut vertex = |p: u32| match vertices[p as usize] {
+                Some(known) => Ok(known),
+                None => self.add_vertex(author, p).inspect(|&new| vertices[p as usize] = Some(new)),
+            };
+            let [from, to] = [vertex(ends[0])?, vertex(ends[1])?].map(m::VertexRef::VertexPoint);
             let name = if *is_crease { "crease" } else { "" };
-            edges.push(author.add_edge_curve(name, from, to, on_surfaces, true)?);
+            edges.insert(at, author.add_edge_curve(name, from, to, on_surfaces, true)?);
         }
         Ok(edges)
+    }
+
+    fn add_vertex(&self, author: &mut Ap242Author, p: u32) -> Authored<m::VertexPointId> {
+        let point = m::PointRef::CartesianPoint(add_point(author, self.points[p as usize])?);
+        author.add_vertex_point("", point)
+    }
+
+    /// Per curve true if it is a side of a face: curves inside faces on planes are none.
+    fn are_sides(&self, flat: &[FlatFace]) -> Vec<bool> {
+        let mut is_side = vec![false; self.curves.len()];
+        let mut is_flat = vec![false; self.patches.len()];
+        flat.iter().flat_map(|face| &face.patches).for_each(|&p| is_flat[p] = true);
+        let curved = (0..self.patches.len()).filter(|&p| !is_flat[p]).flat_map(|p| self.patches[p].sides);
+        let all = curved.chain(flat.iter().flat_map(|face| face.loops.iter().flatten().copied()));
+        all.for_each(|(curve, _)| is_side[curve] = true);
+        is_side
     }
 
     /// For each patch the number of its colour: the first that no patch before it has across a side, or where all are taken, that of the
@@ -191,23 +257,39 @@ impl StepPatches<'_> {
     }
 }
 
-/// Adds a named face over a surface with its sides, as (edge, true if it runs against the way around). An inverted face has the normal against
-/// that of its surface.
+/// A face: its surface, and its sides, first those of the outer loop. An inverted one has the normal against that of its surface.
+struct FaceOnSurface {
+    surface: FaceSurface,
+    loops: Vec<Vec<Side>>,
+    is_inverted: bool,
+}
+
+/// Adds a named face whose sides are some of these edges.
 fn add_face(
     author: &mut Ap242Author,
     name: &str,
-    surface: m::BSplineSurfaceWithKnotsId,
-    sides: [(m::EdgeCurveId, bool); 4],
-    is_inverted: bool,
+    face: &FaceOnSurface,
+    edges: &BTreeMap<usize, m::EdgeCurveId>,
 ) -> Authored<m::AdvancedFaceId> {
-    let mut around = Vec::with_capacity(4);
-    for (edge, reversed) in sides {
-        let edge = author.add_oriented_edge("", m::EdgeRef::EdgeCurve(edge), !reversed)?;
-        around.push(m::OrientedEdgeRef::OrientedEdge(edge));
+    let mut bounds = Vec::with_capacity(face.loops.len());
+    for sides in &face.loops {
+        let mut around = Vec::with_capacity(sides.len());
+        for &(curve, reversed) in sides {
+            let edge = author.add_oriented_edge("", m::EdgeRef::EdgeCurve(edges[&curve]), !reversed)?;
+            around.push(m::OrientedEdgeRef::OrientedEdge(edge));
+        }
+        let around = m::LoopRef::EdgeLoop(author.add_edge_loop("", around)?);
+        // The loop runs counterclockwise around the surface's own normal; the face's flags turn both at once.
+        bounds.push(match bounds.is_empty() {
+            true => {
+                m::FaceBoundRef::FaceOuterBound(author.add_face_outer_bound("", around, !face.is_inverted)?)
+            }
+            false => m::FaceBoundRef::FaceBound(author.add_face_bound("", around, !face.is_inverted)?),
+        });
     }
-    let around = m::LoopRef::EdgeLoop(author.add_edge_loop("", around)?);
-    // The loop runs counterclockwise around the surface's own normal; the face's flags turn both at once.
-    let bound = author.add_face_outer_bound("", around, !is_inverted)?;
-    let surface = m::SurfaceRef::BSplineSurfaceWithKnots(surface);
-    author.add_advanced_face(name, vec![m::FaceBoundRef::FaceOuterBound(bound)], surface, !is_inverted)
+    let surface = match face.surface {
+        FaceSurface::Plane(id) => m::SurfaceRef::Plane(id),
+        FaceSurface::Spline(id) => m::SurfaceRef::BSplineSurfaceWithKnots(id),
+    };
+    author.add_advanced_face(name, bounds, surface, !face.is_inverted)
 }
