@@ -3,12 +3,17 @@
 use super::args::BrainArgs;
 use super::outcome::Hemisphere;
 use crate::failure::Failure;
-use crate::picture::{self, ColorField, ColorScale, Picture, ShownLayout, ShownSurface, TextureChoice};
+use crate::picture::{
+    self, ColorField, ColorScale, Picture, ShownLayout, ShownSurface, Style, TextureChoice, Viewpoint,
+};
 use ricci::mesh::VertexId;
 
 impl BrainArgs {
     pub fn draw(&self, of: &Hemisphere) -> Result<Vec<u8>, Failure> {
-        let style = self.picture().style(TextureChoice::None, self.common.threads);
+        // Cortices lie in space with z up; they are seen from the side that is away from the other hemisphere.
+        let lateral = of.side.medial().map(|x| -x);
+        let view = Viewpoint { up: Some([0.0, 0.0, 1.0]), from: Some(lateral), angles: None };
+        let style = Style { view, ..self.picture().style(TextureChoice::None, self.common.threads) };
         let faces = of.surface.mesh().triangles();
         let on_sphere = of.on_sphere(1.0);
         let shown = |positions| ShownSurface {
