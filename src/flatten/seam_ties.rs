@@ -4,7 +4,8 @@
 //! An edge of the cut has the rotation `iᵏ` and an unknown translation t: its right side is `iᵏ z + t` where its left side is z. So all
 //! points at a vertex of the cut follow from one of them, x, and from the translations of the edges that are crossed on the way around. Once
 //! around, `x = iᵐ x + T`. If iᵐ is not 1, the vertex is a cone and `x = T/(1 − iᵐ)`; if it is, x is free and T = 0 is an equation for the
-//! translations, which is solved for one of them.
+//! translations, which is solved for one of them. At a vertex of the boundary there is no way around: one of its points is free, and the others
+//! follow from it.
 
 use crate::error::{Error, Result};
 use crate::geometry::complex::{Complex, add, conj, cross, dot, mul, norm2, scale, sub};
@@ -138,9 +139,9 @@ fn add_times(sum: &mut Combination, factor: Complex, other: &Combination) {
 /// The points at one vertex of the cut, counterclockwise.
 struct AroundVertex {
     corners: Vec<TiedCorner>,
-    /// Quarter turns once around.
+    /// Quarter turns once around; 0 at the boundary.
     turn: i32,
-    /// The translation once around.
+    /// The translation once around; 0 at the boundary.
     shift: Combination,
 }
 
@@ -204,16 +205,23 @@ impl<'a> OpenedMesh<'a> {
         self.sides(e.halfedge()).map(|side| side[0])
     }
 
-    /// The points at a vertex of a closed surface, if an edge of the cut ends there.
+    /// The points at a vertex, if an edge of the cut ends there.
     fn around(&self, v: VertexId) -> Option<AroundVertex> {
         let mesh = self.mesh;
-        let first = mesh.outgoing(v).find(|&h| self.is_cut[h.edge()])?;
+        mesh.outgoing(v).find(|&h| self.is_cut[h.edge()])?;
+        // At the boundary the first half-edge is the one without a face on its right.
+        let at_boundary = mesh.outgoing(v).find(|&h| mesh.is_outside(h.twin()));
+        let first = at_boundary.or_else(|| mesh.outgoing(v).find(|&h| self.is_cut[h.edge()]))?;
         let mut now = TiedCorner { point: self.corner[first], turn: 0, shift: Combination::new() };
         let mut corners = Vec::new();
         let mut h = first;
         loop {
             // Counterclockwise around the vertex, to the next half-edge that leaves it.
             h = mesh.prev(h).twin();
+            if mesh.is_outside(h) {
+                corners.push(now);
+                return Some(AroundVertex { corners, turn: 0, shift: Combination::new() });
+            }
             if !self.is_cut[h.edge()] {
                 continue;
             }

@@ -1,4 +1,5 @@
-//! Closed surfaces laid flat with as little stretch as possible: the surface is cut open, and its seams stay rotations by multiples of 90°.
+//! Surfaces with handles or cones laid flat with as little stretch as possible: the surface is cut open, and its seams stay rotations by
+//! multiples of 90°. A boundary is free.
 //!
 //! The cones and the turning along loops are those of a seamless metric ([`crate::seamless`]). Among all maps with these, Newton's method
 //! descends the energy of [`super::flatten()`], from the map of that metric.
@@ -25,7 +26,7 @@ use crate::seamless::Seamless;
 use std::sync::Arc;
 use std::time::Instant;
 
-/// A closed surface, cut open and laid flat with little stretch, with seams that are rotations by multiples of 90° and translations exactly.
+/// A surface, cut open and laid flat with little stretch, with seams that are rotations by multiples of 90° and translations exactly.
 #[derive(Debug, Clone)]
 pub struct SeamlessFlattening {
     /// The surface, with edges split where the map that the descent started from would turn triangles over without; its first vertices are
@@ -49,15 +50,16 @@ const OF_MAP: f64 = 0.2;
 const OF_START: f64 = 0.3;
 const OF_DESCENT: f64 = 0.9;
 
-/// The map to the plane of least distortion among those of a closed surface with the cones and the turning of a seamless metric of it: Newton's
-/// method on the energy of the options [SS15; SGK19], in unknowns in which seams are rotations whatever their values.
+/// The map to the plane of least distortion among those of a surface with the cones and the turning of a seamless metric of it: Newton's
+/// method on the energy of the options [SS15; SGK19], in unknowns in which seams are rotations whatever their values. The boundary of an
+/// open surface is free: it need not stay straight, nor do features.
 ///
 /// The triangles are those of the surface; where the map of the seamless metric turns some over, the fewest of its edges are split
 /// ([`Layout::repaired_input`]). A descent that does not converge leaves the best map found.
 ///
 /// # Errors
-/// [`Error::Argument`] for options outside their ranges, conditions and energies of open surfaces alone, and a surface that is not closed
-/// or not flat inside its triangles; [`Error::Layout`] for a metric that is not seamless to rounding, triangles that stay turned over, and a
+/// [`Error::Argument`] for options outside their ranges, conditions and energies of maps without seams alone, and a surface that is not
+/// flat inside its triangles; [`Error::Layout`] for a metric that is not seamless to rounding, triangles that stay turned over, and a
 /// triangle without area; [`Error::TriangleInequality`]; [`Error::Factorisation`]; [`Error::Cancelled`].
 pub fn flatten_seamless(
     seamless: &Seamless,
@@ -96,10 +98,6 @@ fn check(given: &Surface, options: &FlattenOptions) -> Result<()> {
         let need = "e2: a map to the plane is linear on flat triangles";
         return Err(Error::argument("geometry of the surface", given.geometry().name(), need));
     }
-    if !mesh.boundary_loops().is_empty() {
-        let loops = mesh.boundary_loops().len();
-        return Err(Error::argument("boundary loops", loops, "0: seams are kept on closed surfaces alone"));
-    }
     if options.energy == DistortionEnergy::Distance {
         let need = "isometric, arap or area: shortest paths that cross seams have no length in one piece of the plane";
         return Err(Error::argument("energy", options.energy.name(), need));
@@ -110,9 +108,7 @@ fn check(given: &Surface, options: &FlattenOptions) -> Result<()> {
         ("straight", !options.straight.is_empty()),
     ];
     match conditions.into_iter().find(|(_, is_given)| *is_given) {
-        Some((what, _)) => {
-            Err(Error::argument(what, "given", "left out: it is for open surfaces without seams"))
-        }
+        Some((what, _)) => Err(Error::argument(what, "given", "left out: it is for maps without seams")),
         None => Ok(()),
     }
 }
@@ -153,6 +149,9 @@ impl SeamlessStart {
         let (mesh, corner) = (self.surface.mesh(), &self.corner_index);
         let differs = |e: EdgeId| {
             let (h, t) = (e.halfedge(), e.halfedge().twin());
+            if mesh.is_boundary_edge(e) {
+                return false;
+            }
             corner[h] != corner[mesh.next(t)] || corner[mesh.next(h)] != corner[t]
         };
         PerEdge::from_fn(mesh.n_edges(), differs)

@@ -1,7 +1,9 @@
-//! Closed surfaces laid flat with seams that are rotations: boxes unfold without stretch, whatever map the descent starts from, seams are exact,
+//! Surfaces with handles and cones laid flat with seams that are rotations: boxes, open or closed, unfold without stretch, whatever map the descent starts from, seams are exact,
 //! and nothing is turned over.
 
-use ricci::flatten::{DistortionEnergy, FlattenOptions, FlattenStart, SeamlessFlattening, flatten_seamless};
+use ricci::flatten::{
+    DistortionEnergy, FlattenOptions, FlattenStart, SeamlessFlattening, flatten, flatten_seamless,
+};
 use ricci::geometry::Space;
 use ricci::geometry::predicates::orientation;
 use ricci::mesh::io::Soup;
@@ -14,6 +16,11 @@ use std::f64::consts::FRAC_PI_2;
 
 /// The surface of unit cubes, each side of a cube in n × n squares, and the number of squares around each vertex.
 fn cubes(cells: &[[i32; 3]], n: i32) -> (Surface, Vec<u32>) {
+    open_cubes(cells, n, 0)
+}
+
+/// The same without the last squares, so many.
+fn open_cubes(cells: &[[i32; 3]], n: i32, n_missing: usize) -> (Surface, Vec<u32>) {
     let mut number: HashMap<[i32; 3], u32> = HashMap::new();
     let (mut faces, mut squares) = (Vec::new(), Vec::new());
     for &cell in cells {
@@ -44,6 +51,8 @@ fn cubes(cells: &[[i32; 3]], n: i32) -> (Surface, Vec<u32>) {
             }
         }
     }
+    faces.truncate(faces.len() - 2 * n_missing);
+    squares.truncate(squares.len() - 4 * n_missing);
     let mut positions = vec![[0.0; 3]; number.len()];
     number.into_iter().for_each(|(at, v)| positions[v as usize] = at.map(f64::from));
     let mut around = vec![0; positions.len()];
@@ -54,8 +63,9 @@ fn cubes(cells: &[[i32; 3]], n: i32) -> (Surface, Vec<u32>) {
 
 /// A metric with the cones of the cubes that is far from their own lengths.
 fn swollen(surface: &Surface, around: &[u32]) -> Seamless {
-    let cones = (0..).zip(around).filter(|(_, valence)| **valence != 4);
-    let cones = cones.map(|(v, &valence)| ConeValence { vertex: VertexId(v), valence }).collect();
+    let regular = |v: VertexId| if surface.mesh().is_boundary_vertex(v) { 2 } else { 4 };
+    let cones = surface.mesh().vertices().zip(around).filter(|(v, valence)| **valence != regular(*v));
+    let cones = cones.map(|(vertex, &valence)| ConeValence { vertex, valence }).collect();
     let positions = surface.positions().unwrap();
     let size = |v: VertexId| f64::exp(0.15 * positions[v.index()][0]);
     let options = SeamlessOptions {
@@ -74,7 +84,7 @@ fn check_map(found: &SeamlessFlattening) {
         let ([ax, ay], [bx, by]) = (layout.uv(h), layout.uv(mesh.next(h)));
         [bx - ax, by - ay]
     };
-    for e in mesh.edges() {
+    for e in mesh.edges().filter(|&e| !mesh.is_boundary_edge(e)) {
         // A side, and the opposite of the other one: the same but for a rotation.
         let [x, y] = side(e.halfedge());
         let other = side(e.halfedge().twin()).map(|z| -z);
@@ -89,7 +99,7 @@ fn check_map(found: &SeamlessFlattening) {
             total[mesh.origin(h)] += (x * w - y * z).atan2(x * z + y * w);
         }
     }
-    for v in mesh.vertices() {
+    for v in mesh.vertices().filter(|&v| !mesh.is_boundary_vertex(v)) {
         let quarters = total[v] / FRAC_PI_2;
         assert!((quarters - quarters.round()).abs() < 1e-9, "vertex {v}: {quarters} right angles");
     }
@@ -104,11 +114,15 @@ fn flat(found: &Seamless, options: &FlattenOptions) -> SeamlessFlattening {
 }
 
 #[test]
-fn boxes_and_rings_of_cubes_unfold_without_stretch() {
+fn boxes_and_rings_of_cubes_unfold_without_stretch_closed_and_open() {
     let ring: Vec<_> = (0..9).filter(|k| *k != 4).map(|k| [k / 3, k % 3, 0]).collect();
-    for (name, cells, genus) in [("cube", vec![[0, 0, 0]], 0), ("ring", ring, 1)] {
-        let (surface, around) = cubes(&cells, 3 - genus);
+    let one = vec![[0, 0, 0]];
+    for (name, cells, genus, n_missing) in
+        [("cube", &one, 0, 0), ("open cube", &one, 0, 1), ("ring", &ring, 1, 0), ("open ring", &ring, 1, 1)]
+    {
+        let (surface, around) = open_cubes(cells, 3 - genus, n_missing);
         assert_eq!(surface.mesh().genus() as i32, genus);
+        assert_eq!(surface.mesh().boundary_loops().len(), n_missing);
         let flat = flat(&swollen(&surface, &around), &FlattenOptions::default());
         let (before, after) = (flat.report.before, flat.report.after);
         assert!(before.energy > 4.01, "{name}: {before:?}");
@@ -162,8 +176,24 @@ fn what_has_no_seams_is_refused_by_name() {
     let control = Control::new();
     control.cancel();
     assert!(matches!(flatten_seamless(&found, &usual, &control), Err(Error::Cancelled)));
-    let disk = Surface::from_soup(&shapes::disk(3).unwrap()).unwrap();
-    let open = seamless(&disk, &SeamlessOptions::default(), &Control::new()).unwrap();
-    let of_open = flatten_seamless(&open, &usual, &Control::new());
-    assert!(matches!(of_open, Err(Error::Argument { what: "boundary loops", .. })));
+}
+
+#[test]
+fn without_cones_inside_the_map_is_that_of_the_open_surface() {
+    let mut bowl = shapes::disk(4).unwrap();
+    bowl.positions.iter_mut().for_each(|[x, y, z]| *z = 0.4 * (*x * *x + 0.5 * *y * *y));
+    let surface = Surface::from_soup(&bowl).unwrap();
+    let rim = surface.mesh().vertices().filter(|&v| surface.mesh().is_boundary_vertex(v));
+    let mut rim: Vec<VertexId> = rim.collect();
+    let angle = |v: &VertexId| bowl.positions[v.index()][1].atan2(bowl.positions[v.index()][0]);
+    rim.sort_by(|a, b| angle(a).total_cmp(&angle(b)));
+    // Four corners of a right angle, so that the metric is that of a rectangle.
+    let cones = (0..4).map(|k| ConeValence { vertex: rim[k * rim.len() / 4], valence: 1 }).collect();
+    let options = SeamlessOptions { cones: SeamlessCones::Valences(cones), ..SeamlessOptions::default() };
+    let rectangle = seamless(&surface, &options, &Control::new()).unwrap();
+    let with_seams = flat(&rectangle, &FlattenOptions::default());
+    let free = flatten(&surface, &FlattenOptions::default(), &Control::new()).unwrap();
+    let [one, other] = [with_seams.report.after.energy, free.report.after.energy];
+    assert!((one - other).abs() < 1e-10 && one > 4.0, "{one} and {other}");
+    assert!(with_seams.report.before.energy > one + 0.01);
 }

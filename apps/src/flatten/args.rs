@@ -28,8 +28,8 @@ Conditions, in CSV files whose vertices and faces count from 0
     --straight S.csv           piece,vertex: runs of vertices, such as parts of the border, each on a straight line
     --injective                no part lies on another one: sides of the border repel each other, and an exact test says so of the numbers written
 
-Closed surfaces of genus 1 and more, and spheres with --cones, are cut open along seams that stay rotations by multiples of 90°, exactly so in the
-    numbers of the files. The cones are those of --cones field, auto:N or V.csv, as for `ricci seamless`. Where a triangle would be turned over at the start,
+Surfaces of genus 1 and more, and others with --cones, are cut open along seams that stay rotations by multiples of 90°, exactly so in the
+    numbers of the files; a boundary is free. The cones are those of --cones field, auto:N or V.csv, as for `ricci seamless`. Where a triangle would be turned over at the start,
     edges are split; the first vertices are the input's.
 
 Sheets: --strain 0.05,0.1 --shear 10 are the limits of a material along --warp 0 (degrees from x) and across. Where the flat sheet would be
@@ -59,7 +59,7 @@ pub struct FlattenArgs {
     /// Most edges between two vertices whose distance --energy distance keeps
     #[arg(long, value_name = "K", default_value_t = ricci::flatten::RINGS, value_parser = rings())]
     pub rings: usize,
-    /// The cones of a closed surface: field, auto:N, or a table vertex,valence [default: field for genus 1 and more]
+    /// Cut the surface open along seams between cones: field, auto:N, or a table vertex,valence [default: field for genus 1 and more]
     #[arg(long, value_name = "CONES")]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cones: Option<ConesChoice>,

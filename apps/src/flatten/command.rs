@@ -1,9 +1,9 @@
 //! `ricci flatten` as a job: what it refuses, computes, writes and reports.
 
 use super::args::{EnergyChoice, FlattenArgs};
-use super::closed::ClosedMap;
 use super::outcome::FlattenOutcome;
 use super::part::{self, Part};
+use super::seamed::SeamedMap;
 use crate::failure::{Failure, NO_POSITIONS};
 use crate::input::Input;
 use crate::output::{check_extension, check_outputs};
@@ -58,13 +58,12 @@ impl Job for FlattenArgs {
         let part = part::read(&self.surface, self.label.as_deref(), run)?;
         check_surface(self, &part.input)?;
         let options = self.options_with_conditions(&part)?;
-        let mut closed = None;
-        let (Part { input, origins, n_whole }, flat, sheet) = if part.input.mesh().boundary_loops().is_empty()
-        {
-            let found = self.closed_map(&part.input, &options, run)?;
-            let ClosedMap { map, .. } = &found;
+        let mut seamed = None;
+        let (Part { input, origins, n_whole }, flat, sheet) = if self.has_seams(part.input.mesh()) {
+            let found = self.seamed_map(&part.input, &options, run)?;
+            let SeamedMap { map, .. } = &found;
             let flat = Flattening { points: map.layout.coordinates.clone(), report: map.report.clone() };
-            closed = Some(found);
+            seamed = Some(found);
             (part, flat, None)
         } else if self.has_limits() {
             let (part, flat, sheet) = self.with_darts(part, &options, run)?;
@@ -80,7 +79,7 @@ impl Job for FlattenArgs {
             n_whole,
             flat,
             sheet,
-            closed,
+            seamed,
             tolerance: self.tolerance,
             injective: self.injective,
             has_conditions: self.pin.is_some() || self.straight.is_some(),
@@ -127,17 +126,12 @@ impl FlattenArgs {
 /// Refuse what can be refused once the surface is known.
 fn check_surface(args: &FlattenArgs, input: &Input) -> Result<(), Failure> {
     let mesh = input.mesh();
-    let (genus, loops, path) = (mesh.genus(), mesh.boundary_loops().len(), input.path.display());
-    if loops == 0 && (genus > 0 || args.cones.is_some()) {
-        args.check_closed()?;
-    } else if genus > 0 || loops == 0 {
-        let way = if genus == 0 {
-            "`ricci uniformize` maps this one to the sphere, --cones auto:8 cuts it open along seams"
-        } else {
-            "`ricci flow` lays this one out, cut open"
-        };
+    let (loops, path) = (mesh.boundary_loops().len(), input.path.display());
+    if args.has_seams(mesh) {
+        args.check_seamed()?;
+    } else if loops == 0 {
         return Err(Failure::Input(format!(
-            "{path}: the surface has genus {genus} and {loops} boundary loops; an open surface of genus 0 is needed; {way}"
+            "{path}: the surface is closed; --cones auto:8 cuts it open along seams, `ricci uniformize` maps it to the sphere"
         )));
     }
     let in_space = input.positions().is_some();

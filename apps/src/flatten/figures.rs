@@ -1,7 +1,7 @@
 //! The checks, the figures and the summary of `ricci flatten`.
 
-use super::closed::ClosedMap;
 use super::outcome::{FlattenOutcome, StrainedSheet};
+use super::seamed::SeamedMap;
 use crate::report::{Checks, Done, Figures, InputSummary};
 use crate::runner::{CommandRun, JobOutcome};
 use crate::say;
@@ -33,8 +33,8 @@ impl JobOutcome for FlattenOutcome {
             let remedy = "allow more darts (--darts, --open), or a material that bears more";
             checks.add_with_remedy("strain_over_limit", sheet.taken[1], 1.0, remedy);
         }
-        if let Some(closed) = &self.closed {
-            checks.add("moved_corners", closed.moved(), MOVED);
+        if let Some(seamed) = &self.seamed {
+            checks.add("moved_corners", seamed.moved(), MOVED);
         }
         if let Some(&turned) = self.written_turned.get() {
             checks.add("turned_triangles_in_file", turned as f64, 0.0);
@@ -62,7 +62,7 @@ impl JobOutcome for FlattenOutcome {
             .with("after", distortion(&report.after))
             .with("overlap", report.overlap)
             .with("one_to_one", report.one_to_one)
-            .if_some("seams", self.closed.as_ref().map(ClosedMap::figures))
+            .if_some("seams", self.seamed.as_ref().map(SeamedMap::figures))
             .if_some("sheet", self.sheet.as_ref().map(StrainedSheet::figures))
             .if_some("misfit", self.has_conditions.then_some(report.misfit))
             // The library gives no map in which exact arithmetic finds a turned triangle.
@@ -89,8 +89,8 @@ impl JobOutcome for FlattenOutcome {
             text +=
                 &format!("overlap  {:.2} % of the map lies on other parts of it\n", 100.0 * report.overlap);
         }
-        if let Some(closed) = &self.closed {
-            text += &closed.summary();
+        if let Some(seamed) = &self.seamed {
+            text += &seamed.summary();
         }
         if let Some(sheet) = &self.sheet {
             text += &sheet.summary();

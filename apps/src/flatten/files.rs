@@ -1,8 +1,8 @@
 //! A flat map as files and in pictures.
 
 use super::args::FlattenArgs;
-use super::closed::ClosedMap;
 use super::outcome::FlattenOutcome;
+use super::seamed::SeamedMap;
 use crate::failure::Failure;
 use crate::flat::FlatLayout;
 use crate::options::FlatArgs;
@@ -21,17 +21,17 @@ use std::path::Path;
 
 impl FlattenOutcome {
     fn mesh(&self) -> &Mesh {
-        self.closed.as_ref().map_or(self.input.mesh(), |closed| closed.map.surface.mesh())
+        self.seamed.as_ref().map_or(self.input.mesh(), |seamed| seamed.map.surface.mesh())
     }
 
-    /// The subdivision of a closed surface some of whose edges were split.
+    /// The subdivision of a surface with seams some of whose edges were split.
     fn subdivision(&self) -> Option<&CommonSubdivision> {
-        self.closed.as_ref()?.map.refinement.as_deref()
+        self.seamed.as_ref()?.map.refinement.as_deref()
     }
 
     fn positions(&self) -> Result<&[Point], Failure> {
-        let own = match &self.closed {
-            Some(closed) => closed.map.surface.positions().map(|all| &all[..]),
+        let own = match &self.seamed {
+            Some(seamed) => seamed.map.surface.positions().map(|all| &all[..]),
             None => self.input.positions(),
         };
         own.ok_or_else(Failure::no_positions)
@@ -39,16 +39,16 @@ impl FlattenOutcome {
 
     /// Per half-edge the number of the point of the corner at its origin.
     fn corner_index(&self) -> PerHalfedge<u32> {
-        if let Some(closed) = &self.closed {
-            return closed.map.layout.corner_index.clone();
+        if let Some(seamed) = &self.seamed {
+            return seamed.map.layout.corner_index.clone();
         }
         PerHalfedge::from_fn(self.mesh().n_halfedges(), |h| self.mesh().origin(h).0)
     }
 
-    /// The half-edges on the left side of the seams of a closed surface, with their numbers.
+    /// The half-edges on the left side of seams, with their numbers.
     fn seams(&self) -> Vec<(HalfedgeId, usize)> {
-        let Some(closed) = &self.closed else { return Vec::new() };
-        let segments = closed.map.layout.cut.segments.iter().enumerate();
+        let Some(seamed) = &self.seamed else { return Vec::new() };
+        let segments = seamed.map.layout.cut.segments.iter().enumerate();
         segments.flat_map(|(k, segment)| segment.iter().map(move |&h| (h, k))).collect()
     }
 
@@ -112,8 +112,8 @@ impl FlattenOutcome {
         let at = |h: HalfedgeId| self.flat.points[index[h] as usize];
         let corner_uv: Vec<_> = mesh.faces().map(|f| mesh.face_halfedges(f).map(at)).collect();
         let is_side = |h: &HalfedgeId| {
-            let is_cut = |closed: &ClosedMap| closed.map.layout.side(*h) != 0;
-            mesh.is_outside(h.twin()) || self.closed.as_ref().is_some_and(is_cut)
+            let is_cut = |seamed: &SeamedMap| seamed.map.layout.side(*h) != 0;
+            mesh.is_outside(h.twin()) || self.seamed.as_ref().is_some_and(is_cut)
         };
         let sides = mesh.halfedges().filter(is_side);
         let boundary: Vec<_> = sides.map(|h| (at(h), at(mesh.next(h)))).collect();

@@ -1,13 +1,13 @@
 //! `ricci flatten`: maps to the plane of least stretch, without a triangle that is turned over.
 
 mod args;
-mod closed;
 mod command;
 mod conditions;
 mod figures;
 mod files;
 mod outcome;
 mod part;
+mod seamed;
 mod sheet;
 mod vertex_values;
 

@@ -1,6 +1,6 @@
 //! A flat map of a surface, and what was seen when its file was read again.
 
-use super::closed::ClosedMap;
+use super::seamed::SeamedMap;
 use crate::input::Input;
 use ricci::flatten::{Dart, FaceStrain, Flattening, StrainLimits};
 use ricci::mesh::VertexId;
@@ -15,8 +15,8 @@ pub struct FlattenOutcome {
     pub flat: Flattening,
     /// The strains of the sheet, and the darts; none where no limit is given.
     pub sheet: Option<StrainedSheet>,
-    /// The map of a closed surface, whose points are those of `flat`; none of an open one.
-    pub closed: Option<ClosedMap>,
+    /// The map with seams, whose points are those of `flat`; none of a map without.
+    pub seamed: Option<SeamedMap>,
     /// The Newton decrement that was asked for.
     pub tolerance: f64,
     /// True if no part of the map is to lie on another one.

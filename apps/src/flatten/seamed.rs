@@ -1,4 +1,4 @@
-//! Closed surfaces laid flat: cut open along seams that stay rotations by multiples of 90°.
+//! Surfaces with handles or cones laid flat: cut open along seams that stay rotations by multiples of 90°.
 
 use super::args::{EnergyChoice, FlattenArgs};
 use crate::failure::Failure;
@@ -8,14 +8,15 @@ use crate::runner::CommandRun;
 use crate::seamless::{ConesChoice, chosen_cones};
 use ricci::control::Stage;
 use ricci::flatten::{FlattenOptions, SeamlessFlattening, flatten_seamless};
+use ricci::mesh::Mesh;
 use ricci::seamless::{ConeValence, SeamlessOptions, seamless};
 use serde_json::{Value, json};
 
 /// The part of the progress that the seamless metric fills.
 const OF_METRIC: f64 = 0.4;
 
-/// A closed surface that is laid flat.
-pub struct ClosedMap {
+/// A surface that is laid flat with seams.
+pub struct SeamedMap {
     pub map: SeamlessFlattening,
     pub cones: Vec<ConeValence>,
     pub quarter_turns: Vec<i32>,
@@ -24,8 +25,8 @@ pub struct ClosedMap {
 }
 
 impl FlattenArgs {
-    /// Refuses what is for open surfaces alone.
-    pub fn check_closed(&self) -> Result<(), Failure> {
+    /// Refuses what is for maps without seams alone.
+    pub fn check_seamed(&self) -> Result<(), Failure> {
         let refused = [
             ("--label", self.label.is_some()),
             ("--injective", self.injective),
@@ -40,20 +41,25 @@ impl FlattenArgs {
         ];
         match refused.into_iter().find(|(_, is_given)| *is_given) {
             Some((option, _)) => {
-                let why = "is for open surfaces; this one is closed, and is cut open along seams";
+                let why = "is for maps without seams; this surface is cut open along some, as it has handles or --cones are given";
                 Err(Failure::Usage(format!("{option} {why}")))
             }
             None => Ok(()),
         }
     }
 
-    /// The map of a closed surface.
-    pub fn closed_map(
+    /// True if the surface is cut open along seams.
+    pub fn has_seams(&self, mesh: &Mesh) -> bool {
+        mesh.genus() > 0 || self.cones.is_some()
+    }
+
+    /// The map of a surface with seams.
+    pub fn seamed_map(
         &self,
         input: &Input,
         options: &FlattenOptions,
         run: &CommandRun<'_>,
-    ) -> Result<ClosedMap, Failure> {
+    ) -> Result<SeamedMap, Failure> {
         let choice = self.cones.as_ref().unwrap_or(&ConesChoice::Field);
         let metric = SeamlessOptions {
             cones: chosen_cones(choice, input)?,
@@ -73,11 +79,11 @@ impl FlattenArgs {
         let lay_flat = || flatten_seamless(&found, options, &run.control.part(OF_METRIC, 1.0));
         let map = doing("flattening", lay_flat)?;
         let n_added = map.surface.mesh().n_vertices() - input.mesh().n_vertices();
-        Ok(ClosedMap { map, cones: found.cones, quarter_turns: found.quarter_turns, n_added })
+        Ok(SeamedMap { map, cones: found.cones, quarter_turns: found.quarter_turns, n_added })
     }
 }
 
-impl ClosedMap {
+impl SeamedMap {
     /// The largest distance by which a corner was moved to make the seams exact, over the diameter of the map.
     pub fn moved(&self) -> f64 {
         self.map.moved / self.map.layout.diameter
