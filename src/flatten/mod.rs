@@ -18,6 +18,8 @@
 //! # Ok::<(), ricci::Error>(())
 //! ```
 
+mod coarse_rings;
+mod coarse_sphere;
 mod darts;
 #[cfg(test)]
 mod derivative_tests;

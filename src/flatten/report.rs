@@ -14,6 +14,9 @@ pub enum FlattenStart {
     Untangled,
     /// A seamless map ([`crate::seamless`]), whose seams stay rotations.
     Seamless,
+    /// On the sphere: a map of the triangulation alone, vertex by vertex from coarse to fine \[PH03\]. The conformal map turns triangles over, and
+    /// they stay so.
+    CoarseToFine,
 }
 
 impl FlattenStart {
@@ -24,6 +27,7 @@ impl FlattenStart {
             FlattenStart::Tutte => "tutte",
             FlattenStart::Untangled => "untangled",
             FlattenStart::Seamless => "seamless",
+            FlattenStart::CoarseToFine => "coarse-to-fine",
         }
     }
 }

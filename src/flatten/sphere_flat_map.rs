@@ -1,5 +1,6 @@
 //! Maps of closed surfaces of genus 0 to the sphere of their area, with as little stretch as possible.
 
+use super::coarse_sphere::coarse_to_fine;
 use super::descent::{MapDescent, MovingMap};
 use super::descent_matrix::DescentMatrix;
 use super::distortion::Distortion;
@@ -23,8 +24,9 @@ use std::time::Instant;
 
 /// The part of the progress that the start fills.
 const OF_START: f64 = 0.4;
-/// Most Newton steps that turn triangles back, and the decrement that is small enough for the last of them.
-const MOST_UNTANGLING: usize = 1000;
+/// Most Newton steps that turn triangles back without fewer of them being left than before, and the decrement that is small enough for the
+/// last of them.
+const MOST_UNTANGLING: usize = 60;
 const UNTANGLED: f64 = 1e-3;
 /// The softness of determinants in the depth of the deepest triangle that is turned over, and at least.
 const SOFTNESS: f64 = 0.2;
@@ -32,6 +34,9 @@ const LEAST_SOFTNESS: f64 = 1e-3;
 /// The factor by which it grows where no step lowers the energy, and the most that it becomes so.
 const SOFTER: f64 = 10.0;
 const MOST_SOFTER: f64 = 1e6;
+
+/// What helps where no map is found that turns no triangle over.
+const STAY_TURNED: &str = "triangles stay turned over on the sphere, and there is no map of the triangulation alone, as two edges have the same ends: refine the surface";
 
 /// A map of a surface to the unit sphere that turns no triangle over, by exact arithmetic on these numbers.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,13 +48,14 @@ pub struct SphereFlattening {
 }
 
 /// The map to the sphere of least distortion of a closed surface of genus 0: Newton's method on the energy of the options [SS15; SGK19] from
-/// the conformal map ([`uniformize_sphere`]), whose triangles are turned back first where it turns any over \[GKKPR21\]. The sphere has the area
-/// of the surface. With the isometric energy areal and shape distortion are balanced; [`FlattenOptions::conformal`] and
+/// the conformal map ([`uniformize_sphere`]), whose triangles are turned back first where it turns any over \[GKKPR21\]. Where some stay turned over,
+/// as on long thin limbs, which the conformal map makes too small for doubles, the start is a map of the triangulation alone, from coarse to
+/// fine \[PH03\]. The sphere has the area of the surface. With the isometric energy areal and shape distortion are balanced; [`FlattenOptions::conformal`] and
 /// [`DistortionEnergy::Area`] weigh them otherwise. The sphere is turned as the surface is in space, if it has positions.
 ///
 /// # Errors
 /// [`Error::Argument`] for options outside their ranges, for energies and conditions that are those of plane maps alone, and for a surface
-/// that is no sphere; [`Error::Layout`] for a triangle without area and where triangles of the start stay turned over;
+/// that is no sphere; [`Error::Layout`] for a triangle without area and where no map without a turned triangle is found, as of a triangulation with two edges between the same vertices;
 /// [`Error::TriangleInequality`]; [`Error::Factorisation`]; [`Error::Cancelled`].
 pub fn flatten_sphere(
     surface: &Surface,
@@ -130,27 +136,15 @@ impl RoundMap<'_> {
         let corners = mesh.triangles();
         let begun = Instant::now();
         let mut system = DescentMatrix::new(mesh, Vec::new(), None, control)?;
-        let moves = |softness: f64| SphereMoves {
-            corners: &corners,
-            rest: &self.rest,
-            shares: self.shares,
-            soft: SoftDet { softness },
-        };
-        let is_tangled = moves(0.0).n_turned(&points) > 0;
-        let points = if is_tangled {
-            untangled(moves, points, &mut system, &control.part(0.8 * OF_START, OF_START))?
-        } else {
-            points
-        };
+        let (points, start) = self.start(points, &mut system, &control.part(0.8 * OF_START, OF_START))?;
         let before = self.distortion(&corners, &points);
         let untangling = begun.elapsed().as_secs_f64();
-        let mut descent = MapDescent::new(moves(0.0), points);
+        let mut descent = MapDescent::new(self.moves(&corners, 0.0), points);
         let FlattenOptions { tolerance, max_iterations, .. } = *options;
         let stop = descent.run(&mut system, tolerance, max_iterations, &control.part(OF_START, 1.0))?;
         descent.map.assemble(&mut system, &descent.points, true);
         let gradient = system.steepest();
         let MapDescent { points, energies, unclamped, decrement, .. } = descent;
-        let start = if is_tangled { FlattenStart::Untangled } else { FlattenStart::Conformal };
         let after = self.distortion(&corners, &points);
         let report = FlattenReport {
             start,
@@ -168,6 +162,32 @@ impl RoundMap<'_> {
             seconds: [untangling, begun.elapsed().as_secs_f64() - untangling],
         };
         Ok(SphereFlattening { points, report })
+    }
+
+    fn moves<'a>(&'a self, corners: &'a [[u32; 3]], softness: f64) -> SphereMoves<'a> {
+        SphereMoves { corners, rest: &self.rest, shares: self.shares, soft: SoftDet { softness } }
+    }
+
+    /// The conformal map, its triangles turned back where it turns any over; where they stay turned over, a map of the triangulation alone.
+    fn start(
+        &self,
+        points: Vec<Vector>,
+        system: &mut DescentMatrix<'_>,
+        control: &Control,
+    ) -> Result<(Vec<Vector>, FlattenStart)> {
+        let mesh = self.surface.mesh();
+        let corners = mesh.triangles();
+        let moves = |softness: f64| self.moves(&corners, softness);
+        if moves(0.0).n_turned(&points) == 0 {
+            return Ok((points, FlattenStart::Conformal));
+        }
+        if let Some(points) = untangled(moves, points, system, &control.part(0.0, 0.5))? {
+            return Ok((points, FlattenStart::Untangled));
+        }
+        match coarse_to_fine(mesh, &control.part(0.5, 1.0))? {
+            Some(points) if moves(0.0).n_turned(&points) == 0 => Ok((points, FlattenStart::CoarseToFine)),
+            _ => Err(Error::Layout(STAY_TURNED.into())),
+        }
     }
 
     fn distortion(&self, corners: &[[u32; 3]], points: &[Vector]) -> Distortion {
@@ -200,25 +220,27 @@ fn is_one_to_one(corners: &[[u32; 3]], points: &[Vector]) -> bool {
     (total / (4.0 * PI) - 1.0).abs() < 0.25
 }
 
-/// Turns triangles back that are turned over: descends energies that are finite there, and harden as the triangles come back.
+/// Turns triangles back that are turned over: descends energies that are finite there, and harden as the triangles come back. `None` where
+/// some stay turned over.
 fn untangled<'a>(
     moves: impl Fn(f64) -> SphereMoves<'a>,
     points: Vec<Vector>,
     system: &mut DescentMatrix<'_>,
     control: &Control,
-) -> Result<Vec<Vector>> {
+) -> Result<Option<Vec<Vector>>> {
     let mut points = points;
-    let (mut left, mut softer) = (MOST_UNTANGLING, 1.0);
+    let (mut left, mut softer, mut fewest) = (MOST_UNTANGLING, 1.0, usize::MAX);
     loop {
         let hard = moves(0.0);
         let turned = hard.n_turned(&points);
         if turned == 0 {
-            return Ok(points);
+            return Ok(Some(points));
+        }
+        if turned < fewest {
+            (fewest, left) = (turned, MOST_UNTANGLING);
         }
         if left == 0 || softer > MOST_SOFTER {
-            return Err(Error::Layout(format!(
-                "{turned} triangles of the conformal map to the sphere stay turned over, as they do at the ends of long thin limbs: leave such parts out, or flatten with cones"
-            )));
+            return Ok(None);
         }
         let depth = -hard.least_det(&points).min(0.0);
         let softness = softer * LEAST_SOFTNESS.max(SOFTNESS * depth);

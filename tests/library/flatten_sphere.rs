@@ -5,9 +5,11 @@ use ricci::flatten::{
     DistortionEnergy, FlattenOptions, FlattenStart, FlattenStop, SphereFlattening, flatten_sphere,
 };
 use ricci::geometry::predicates::winding;
+use ricci::mesh::io::Soup;
 use ricci::mesh::shapes;
 use ricci::{Control, Error, Surface};
 use std::cmp::Ordering;
+use std::f64::consts::TAU;
 
 fn round(surface: &Surface, options: &FlattenOptions) -> SphereFlattening {
     let found = flatten_sphere(surface, options, &Control::new()).unwrap();
@@ -113,6 +115,38 @@ fn triangles_that_the_conformal_map_turns_over_are_turned_back() {
         assert_eq!(found.report.start, FlattenStart::Untangled, "{name}");
         assert!(found.report.converged(), "{name}: {:?}", found.report.stop);
     }
+}
+
+/// A triangular tube of so many rings between two tips, with regular triangles.
+fn tube(n: usize) -> Surface {
+    let at = |i: usize, j: usize| (1 + 3 * i + j % 3) as u32;
+    let last = 3 * n as u32 + 1;
+    let mut positions = vec![[0.0, 0.0, -0.5]];
+    let mut faces = Vec::new();
+    for (i, j) in (0..n).flat_map(|i| (0..3).map(move |j| (i, j))) {
+        let angle = (j as f64 + 0.5 * (i % 2) as f64) * TAU / 3.0;
+        positions.push([0.5 * angle.cos(), 0.5 * angle.sin(), 0.8 * i as f64]);
+        // Rings are turned by half a side, forth and back.
+        let [below, above] = [[at(i, j), at(i, j + 1)], [at(i + 1, j), at(i + 1, j + 1)]];
+        match i % 2 {
+            _ if i + 1 == n => {}
+            0 => faces.extend([[below[0], below[1], above[0]], [above[0], below[1], above[1]]]),
+            _ => faces.extend([[below[0], above[1], above[0]], [below[0], below[1], above[1]]]),
+        }
+    }
+    positions.push([0.0, 0.0, 0.8 * n as f64 - 0.3]);
+    for j in 0..3 {
+        faces.extend([[0, at(0, j + 1), at(0, j)], [last, at(n - 1, j), at(n - 1, j + 1)]]);
+    }
+    Surface::from_soup(&Soup::new(positions, faces)).unwrap()
+}
+
+#[test]
+fn limbs_that_the_conformal_map_makes_too_small_for_doubles_start_from_the_triangulation_alone() {
+    let options = FlattenOptions { max_iterations: 5, ..FlattenOptions::default() };
+    let found = round(&tube(60), &options);
+    assert_eq!(found.report.start, FlattenStart::CoarseToFine);
+    assert!(found.report.after.energy < found.report.before.energy);
 }
 
 #[test]
