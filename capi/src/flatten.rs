@@ -27,6 +27,8 @@ choices!(STARTS: FlattenStart = "start of a flat map", [
     RICCI_FLATTEN_FROM_CONFORMAL => FlattenStart::Conformal,
     RICCI_FLATTEN_FROM_TUTTE => FlattenStart::Tutte,
     RICCI_FLATTEN_FROM_UNTANGLED => FlattenStart::Untangled,
+    RICCI_FLATTEN_FROM_SEAMLESS => FlattenStart::Seamless,
+    RICCI_FLATTEN_FROM_COARSE => FlattenStart::CoarseToFine,
 ]);
 
 choices!(STOPS: FlattenStop = "end of a flat map", [
@@ -151,7 +153,7 @@ pub unsafe extern "C" fn ricci_flatten_sphere(
 }
 
 /// The energies that there is room for.
-fn told(report: &FlattenReport, energies: *mut f64, capacity: usize) -> Outcome<&[f64]> {
+pub(crate) fn told(report: &FlattenReport, energies: *mut f64, capacity: usize) -> Outcome<&[f64]> {
     let told = report.energies.len().min(capacity);
     check_buffer("energies", told, energies, capacity)?;
     Ok(&report.energies[..told])
@@ -184,7 +186,7 @@ fn straight_pieces(given: &ricci_flatten_options) -> Outcome<Vec<Vec<VertexId>>>
     Ok(sizes.iter().map(|&n| vertices.by_ref().take(n as usize).collect()).collect())
 }
 
-fn figures_of(report: &FlattenReport) -> Outcome<ricci_flatten_summary> {
+pub(crate) fn figures_of(report: &FlattenReport) -> Outcome<ricci_flatten_summary> {
     let distortion = |of: &Distortion| std::array::from_fn(|k| FIGURES.values[k].1(of));
     Ok(ricci_flatten_summary {
         size: 0,

@@ -80,6 +80,7 @@ left_out!(quads, feature = "quads", "quads", "seamless metrics and quad meshes",
     ricci_seamless_field(Address, Address, Address, Address, usize);
     ricci_seamless_metric(Address, Address);
     ricci_seamless_map(Address, Address, Address);
+    ricci_seamless_flatten(Address, Address, Address, Address, usize, Address, usize, Address);
     ricci_quads_new(Address, Address, Address, Address);
     ricci_quads_summarise(Address, Address, usize);
     ricci_quads_faces(Address, Address, usize);

@@ -140,6 +140,18 @@ impl ricci_layout {
         Ok(ricci_layout { points, on_input, quality, of_input, layout, state, model })
     }
 
+    /// A layout in the plane whose metric is its own, so that its distortion is that against these lengths.
+    pub(crate) fn of_lengths(
+        state: Arc<MetricState>,
+        layout: Layout,
+        lengths: &PerEdge<f64>,
+    ) -> Outcome<ricci_layout> {
+        let [quality, of_input] =
+            [layout.quality(layout.mesh(), lengths)?, layout.quality(layout.mesh(), lengths)?];
+        let made = ricci_layout::new(state, layout, Model::Poincare)?;
+        Ok(ricci_layout { quality: Some(quality), of_input: OnceLock::from(Some(of_input)), ..made })
+    }
+
     pub(crate) fn on_input(&self) -> Outcome<&OnInput> {
         self.on_input.as_ref().ok_or_else(not_on_input)
     }

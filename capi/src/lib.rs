@@ -100,6 +100,8 @@ pub mod repaired_input;
 pub mod report;
 #[cfg(feature = "quads")]
 pub mod seamless;
+#[cfg(feature = "quads")]
+pub mod seamless_flat;
 pub mod shapes;
 pub mod sheet;
 pub mod soup;

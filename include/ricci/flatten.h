@@ -10,7 +10,8 @@
  *
  * Sources, by the keys of docs/bibliography.md: the energy and its barrier [SS15], its Hessian [SGK19], the
  * conformal energy [HG00], rigid maps [LZXGG08], distances of neighbours [FSD99], shortest paths [MMP87],
- * conditions by multipliers [NW06], Tutte embeddings [Flo03], triangles turned back [GKKPR21],
+ * conditions by multipliers [NW06], Tutte embeddings [Flo03], triangles turned back [GKKPR21], maps of
+ * triangulations from coarse to fine [PH03],
  * inflated views [KSB12], cuts to where stretch is most [GGH02].
  */
 
@@ -48,7 +49,12 @@ enum {
     /** Every vertex at the mean of its neighbours: the conformal layout turns a triangle over. */
     RICCI_FLATTEN_FROM_TUTTE = 1,
     /** On the sphere: the conformal map turned triangles over, which were turned back. */
-    RICCI_FLATTEN_FROM_UNTANGLED = 2
+    RICCI_FLATTEN_FROM_UNTANGLED = 2,
+    /** A seamless map, whose seams stay rotations: ricci_seamless_flatten. */
+    RICCI_FLATTEN_FROM_SEAMLESS = 3,
+    /** On the sphere: a map of the triangulation alone, where triangles of the conformal map stay turned
+       over. */
+    RICCI_FLATTEN_FROM_COARSE = 4
 };
 
 /** Why a descent ended. */
@@ -272,9 +278,11 @@ RICCI_API ricci_status ricci_flatten(const ricci_mesh *mesh, const ricci_flatten
  * The map to the unit sphere of least distortion of a closed surface of genus 0: Newton's method from the
  * conformal map. Stretches are those to a sphere with the area of the surface.
  *
- * No triangle is turned over as seen from outside, by exact arithmetic on `points`. With the isometric energy
- * areas and shapes are distorted alike; `conformal` and RICCI_FLATTEN_AREA weigh them otherwise. The sphere
- * is turned as the surface is in space [Kab76]. The points are the same bits for any number of threads.
+ * No triangle is turned over as seen from outside, by exact arithmetic on `points`; surfaces on whose limbs
+ * the conformal map is too small for doubles start from a map of the triangulation alone. With the isometric
+ * energy areas and shapes are distorted alike; `conformal` and RICCI_FLATTEN_AREA weigh them otherwise. The
+ * sphere is turned as the surface is in space [Kab76]. The points are the same bits for any number of
+ * threads.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_STRUCT_SIZE, RICCI_ARGUMENT (a surface
  *         that is no sphere; an energy or a condition of maps to the plane alone), RICCI_LAYOUT (a triangle

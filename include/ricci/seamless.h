@@ -10,13 +10,14 @@
  *
  * A library that was built without the feature `quads` has these functions; each answers RICCI_LEFT_OUT.
  *
- * Sources, by the keys of docs/bibliography.md: prescribed turning [CZ24], cross fields [KCPS13].
+ * Sources, by the keys of docs/bibliography.md: prescribed turning [CZ24], cross fields [KCPS13], maps of
+ * least stretch [SS15].
  */
 
 #ifndef RICCI_SEAMLESS_H
 #define RICCI_SEAMLESS_H
 
-#include <ricci/ricci.h>
+#include <ricci/flatten.h>
 #include <ricci/uniformize.h>
 
 #ifdef __cplusplus
@@ -281,6 +282,33 @@ RICCI_API RICCI_EXPERIMENTAL ricci_status ricci_seamless_metric(const ricci_seam
 RICCI_API RICCI_EXPERIMENTAL ricci_status ricci_seamless_map(const ricci_seamless *result,
                                                              const ricci_control *control,
                                                              ricci_layout **layout);
+
+/**
+ * The map into the plane of least distortion among those with the cones and the turning of a seamless metric:
+ * Newton's method from its map. Seams stay rotations by multiples of 90 degrees and translations, exactly in
+ * the doubles of ricci_layout_points; a boundary is free, and features need not stay straight.
+ *
+ * The mesh of the layout is the given one; where the map of the metric turns triangles over, the fewest of
+ * its edges are split, and its first vertices are the given ones. Distortions of the layout are those against
+ * the surface. No triangle is turned over. A descent that does not converge gives the best
+ * map found, and `stop` says why. The points are the same bits for any number of threads.
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_BUFFER_TOO_SMALL, RICCI_STRUCT_SIZE, RICCI_ARGUMENT
+ * (RICCI_FLATTEN_DISTANCE, `injective`, pinned vertices and straight runs, which are for maps without seams),
+ * RICCI_LAYOUT (a metric that has not converged, triangles that stay turned over, a triangle without area),
+ * RICCI_TRIANGLE_INEQUALITY, RICCI_TOO_LARGE, RICCI_FACTORISATION, RICCI_NO_MEMORY, RICCI_CANCELLED.
+ *
+ * @param result    the seamless metric.
+ * @param options   the energy, weights of the faces of the given mesh, or NULL.
+ * @param control   progress and cancellation, or NULL.
+ * @param energies  out: the energies of the steps, as many as there is room for; NULL for none.
+ * @param capacity  entries of `energies`.
+ * @param summary   out: the figures. Overlap and `one_to_one` are those of the surface cut open.
+ * @param size      sizeof *summary.
+ * @param layout    out: the new handle, to be released by ricci_layout_free.
+ */
+RICCI_API RICCI_EXPERIMENTAL ricci_status ricci_seamless_flatten(
+    const ricci_seamless *result, const ricci_flatten_options *options, const ricci_control *control,
+    double *energies, size_t capacity, ricci_flatten_summary *summary, size_t size, ricci_layout **layout);
 
 #ifdef __cplusplus
 }

@@ -4,7 +4,7 @@
 #ifndef RICCI_SEAMLESS_HPP
 #define RICCI_SEAMLESS_HPP
 
-#include <ricci/core.hpp>
+#include <ricci/flatten.hpp>
 #include <ricci/seamless.h>
 
 namespace ricci {
@@ -31,6 +31,13 @@ public:
     // The map into the plane, with exact seams.
     ricci::layout map(const control *watched = nullptr) const {
         return ricci::layout(make<ricci_layout>(ricci_seamless_map, get(), of(watched)));
+    }
+    // The map of least stretch with these cones and this turning; the figures go to `told`.
+    ricci::layout flatten(const ricci_flatten_options &options = init<ricci_flatten_options>(),
+                          ricci_flatten_summary *told = nullptr, const control *watched = nullptr) const {
+        ricci_flatten_summary own;
+        return ricci::layout(make<ricci_layout>(ricci_seamless_flatten, get(), &options, of(watched), nullptr,
+                                                std::size_t(0), told ? told : &own, sizeof own));
     }
 };
 

@@ -42,6 +42,7 @@ TAKES = {
     "flat_part": (lambda x: ricci.flat_part(x, marked=[True]), "mesh"),
     "flatten": (ricci.flatten, "mesh"),
     "flatten_darts": (ricci.flatten_darts, "mesh"),
+    "flatten_seamless": (ricci.flatten_seamless, ""),
     "flatten_sphere": (ricci.flatten_sphere, "mesh"),
     "flow": (ricci.flow, "mesh"),
     "forms": (ricci.forms, "mesh"),

@@ -38,6 +38,20 @@ def test_its_seams_are_exact(surface: ricci.Mesh) -> None:
     assert turned > 0
 
 
+def test_the_map_of_least_stretch_keeps_the_seams(surface: ricci.Mesh) -> None:
+    flat = ricci.flatten_seamless(ricci.seamless(surface))
+    assert flat.converged
+    assert flat.summary.start == "seamless"
+    assert 4 < flat.after.energy < flat.before.energy
+    assert flat.energies.size == flat.summary.n_energies
+    figures = flat.layout.summary
+    assert figures.n_flipped == 0
+    assert figures.consistency < 1e-14
+    assert 4.01 < figures.symmetric_dirichlet == pytest.approx(flat.after.energy, rel=0.1)
+    with pytest.raises(ricci.ArgumentError, match="number of weights"):
+        ricci.flatten_seamless(ricci.seamless(surface), weights=[1.0])
+
+
 def test_what_cannot_be_is_refused(surface: ricci.Mesh) -> None:
     with pytest.raises(ricci.TargetError, match="this surface has -8"):
         ricci.seamless(surface, cones={0: 5})

@@ -65,6 +65,11 @@ STRUCTS = {
     "QuadsOptions": ("quads_options", {"sizing"}, {"coarse", "at_most"}),
     "RepairOptions": ("repair_options", set(), set()),
     "SeamlessOptions": ("seamless_options", {"vertices", "valences", "stroke_vertices"}, set()),
+    "SeamlessFlatOptions": (
+        "flatten_options",
+        {"injective", "n_pins", "n_straight", "pins", "places", "rings", "straight", "straight_sizes"},
+        set(),
+    ),
     "ShapeOptions": ("shape", {"shape"}, set()),
     "SphereFlatOptions": (
         "flatten_options",

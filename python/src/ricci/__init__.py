@@ -41,7 +41,17 @@ from ricci.errors import (
     SplineError,
     TargetError,
 )
-from ricci.flat_maps import Distortion, FlatMap, FlattenOptions, SphereFlatOptions, flatten, flatten_sphere
+from ricci.flat_maps import (
+    Distortion,
+    FlatMap,
+    FlattenOptions,
+    SeamlessFlatMap,
+    SeamlessFlatOptions,
+    SphereFlatOptions,
+    flatten,
+    flatten_seamless,
+    flatten_sphere,
+)
 from ricci.form import Forms, FormsOptions, HarmonicMap, HarmonicOptions, forms, harmonic, harmonic_map
 from ricci.freesurfers import (
     Annotation,
@@ -164,6 +174,8 @@ __all__ = [
     "Report",
     "RicciError",
     "Seamless",
+    "SeamlessFlatMap",
+    "SeamlessFlatOptions",
     "SeamlessOptions",
     "ShapeOptions",
     "SheetLine",
@@ -204,6 +216,7 @@ __all__ = [
     "flat_part",
     "flatten",
     "flatten_darts",
+    "flatten_seamless",
     "flatten_sphere",
     "flow",
     "forms",

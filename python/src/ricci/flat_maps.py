@@ -18,8 +18,20 @@ from ricci.adapters import MeshLike, as_mesh
 from ricci.control import Progress
 from ricci.errors import warn
 from ricci.figures import FlattenSummary
+from ricci.layouts import Layout
+from ricci.seams import Seamless
 
-__all__ = ["Distortion", "FlatMap", "FlattenOptions", "SphereFlatOptions", "flatten", "flatten_sphere"]
+__all__ = [
+    "Distortion",
+    "FlatMap",
+    "FlattenOptions",
+    "SeamlessFlatMap",
+    "SeamlessFlatOptions",
+    "SphereFlatOptions",
+    "flatten",
+    "flatten_seamless",
+    "flatten_sphere",
+]
 
 
 class FlattenOptions(TypedDict, total=False):
@@ -293,14 +305,137 @@ def flatten_sphere(
     return _found(lib.ricci_flatten_sphere, 3, as_mesh(V, F), {**picked(locals(), SphereFlatOptions)}, progress)
 
 
+class SeamlessFlatOptions(TypedDict, total=False):
+    """What a map with seams keeps, and where the descent to it ends.
+
+    Attributes
+    ----------
+    energy : Literal["isometric", "arap", "area"]
+        lengths (s² + t² + 1/s² + 1/t²), lengths as rigidly as possible, or areas (2 (s t + 1/(s t))).
+    conformal : float
+        share of the conformal energy 2 (s/t + t/s), from 0 to 1; none, but 0.1 for ``"area"``, where 0 is that too.
+    tolerance : float
+        Newton decrement of a converged map; 1e-8.
+    max_iterations : int
+        most Newton steps; 2000.
+    weights : npt.ArrayLike
+        per face of the surface a factor above 0 of its part in the energy; 1.
+    """
+
+    energy: Literal["isometric", "arap", "area"]
+    conformal: float
+    tolerance: float
+    max_iterations: int
+    weights: npt.ArrayLike
+
+
+@dataclass(frozen=True)
+class SeamlessFlatMap:
+    """A map to the plane whose seams are rotations by multiples of 90 degrees, with its figures.
+
+    Attributes
+    ----------
+    layout : Layout
+        the map. Its mesh is the surface, some of whose edges can be split; the first vertices are the surface's.
+    energies : Doubles
+        the energy that is least: at the start and after each step.
+    summary : FlattenSummary
+        how the descent began and ended.
+
+    Examples
+    --------
+    >>> flat = ricci.flatten_seamless(ricci.seamless(ricci.make("torus", n=12), cones={}))
+    >>> flat.converged, flat.layout.summary.n_flipped
+    (True, 0)
+    """
+
+    layout: Layout
+    energies: Doubles
+    summary: FlattenSummary
+
+    @property
+    def converged(self) -> bool:
+        """True if the map is as good as the tolerance asks, or as doubles hold."""
+        return self.summary.stop in ("converged", "rounding")
+
+    @property
+    def before(self) -> Distortion:
+        """The change of lengths and areas by the map of the seamless metric."""
+        return Distortion(*self.summary.before)
+
+    @property
+    def after(self) -> Distortion:
+        """The change of lengths and areas by this map."""
+        return Distortion(*self.summary.after)
+
+
+@takes(SeamlessFlatOptions)
+def flatten_seamless(
+    turning: Seamless,
+    progress: Progress = None,
+    *,
+    energy: Literal["isometric", "arap", "area"] = "isometric",
+    conformal: float | None = None,
+    tolerance: float | None = None,
+    max_iterations: int | None = None,
+    weights: npt.ArrayLike | None = None,
+) -> SeamlessFlatMap:
+    """The map to the plane of least distortion among those with the cones and the turning of a seamless metric, no triangle turned over.
+
+    Seams stay rotations by multiples of 90 degrees and translations, exactly in doubles; a boundary is free.
+
+    Parameters
+    ----------
+    turning : Seamless
+        a seamless metric that has converged.
+    progress : Progress
+        a `Control` or a callback.
+
+    Warns
+    -----
+    ConvergenceWarning
+        the descent ended before the tolerance was reached; the best map found is returned.
+
+    Raises
+    ------
+    LayoutError
+        a seamless metric that has not converged, triangles that stay turned over, a triangle without area.
+
+    Examples
+    --------
+    >>> flat = ricci.flatten_seamless(ricci.seamless(ricci.make("torus", n=12), cones={}))
+    >>> flat.after.energy < flat.before.energy
+    True
+    """
+    given: dict[str, Any] = {**picked(locals(), SeamlessFlatOptions)}
+    energies = _room(given)
+    out = ffi.new("ricci_flatten_summary *")
+    places = (pointer(energies), energies.size, out, ffi.sizeof("ricci_flatten_summary"))
+    struct = options("flatten_options", given, _FLATTEN)
+    layout = Layout._made(lib.ricci_seamless_flatten, turning, struct, CONTROL, *places, progress=progress)
+    told = _told(out)
+    return SeamlessFlatMap(layout, energies[: told.n_energies].copy(), told)
+
+
+def _room(given: dict[str, Any]) -> Doubles:
+    """Room for the energies of all steps."""
+    return np.empty((given.get("max_iterations") or 2000) + 1)
+
+
+def _told(out: Any) -> FlattenSummary:
+    """The figures of a descent, with a warning where it ended early."""
+    told = figures_of(FlattenSummary, out)
+    if told.stop not in ("converged", "rounding"):
+        warn(f"the descent to a flat map ended early ({told.stop}): decrement {told.decrement:.1e} after {told.n_energies - 1} steps")
+    return told
+
+
 def _found(function: Any, columns: int, mesh: Any, given: dict[str, Any], progress: Progress) -> FlatMap:
     points = np.empty((mesh.n_vertices, columns))
-    energies = np.empty((given.get("max_iterations") or 2000) + 1)
+    energies = _room(given)
     out = ffi.new("ricci_flatten_summary *")
     struct = options("flatten_options", given, _FLATTEN)
     places = (pointer(points), points.size, pointer(energies), energies.size)
     call(function, mesh, struct, CONTROL, *places, out, ffi.sizeof("ricci_flatten_summary"), progress=progress)
-    told = figures_of(FlattenSummary, out)
-    if told.stop not in ("converged", "rounding"):
-        warn(f"the descent to a flat map ended early ({told.stop}): decrement {told.decrement:.1e} after {told.n_energies - 1} steps")
+    told = _told(out)
     return FlatMap(points, energies[: told.n_energies].copy(), told)

@@ -211,6 +211,8 @@ MAKES(seamless_new, ricci_seamless, ricci_seamless_new(torus, NULL, control, &re
 MAKES(seamless_isometric, ricci_seamless, ricci_seamless_new(torus, &isometric, control, &result))
 FILLS(seamless_field, ricci_seamless_field(torus, NULL, control, numbers, n_most))
 MAKES(seamless_map, ricci_layout, ricci_seamless_map(seamless, control, &result))
+MAKES(seamless_flatten, ricci_layout,
+      ricci_seamless_flatten(seamless, NULL, control, NULL, 0, &flat_figures, sizeof flat_figures, &result))
 MAKES(quads_new, ricci_quads, ricci_quads_new(seamless, &MANY, control, &result))
 MAKES(quad_layout_new, ricci_quad_layout, ricci_quad_layout_new(seamless, NULL, control, &result))
 MAKES(structure_affine, ricci_structure,
@@ -303,6 +305,7 @@ static const struct {
             JOB(seamless_isometric),
             JOB(seamless_field),
             JOB(seamless_map),
+            JOB(seamless_flatten),
             JOB(quads_new),
             JOB(quad_layout_new),
             JOB(structure_affine),

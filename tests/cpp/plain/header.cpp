@@ -236,6 +236,9 @@ int quads() {
     ricci_shape shape = ricci::init<ricci_shape>();
     shape.shape = RICCI_SHAPE_TORUS, shape.n = 16, shape.m = 10, shape.a = 2, shape.b = 1;
     const ricci::seamless flat(ricci::mesh::made(shape));
+    ricci_flatten_summary told;
+    const ricci::layout least = flat.flatten(ricci::init<ricci_flatten_options>(), &told);
+    if (told.stop != RICCI_FLATTEN_CONVERGED || told.n_energies < 2 || least.summary().n_flipped) return 52;
     const ricci::quads few(flat, ricci::quads_of_number(200)), fine(flat, ricci::quads_of_edge(0.4));
     const auto all = few.summary();
     if (all.euler != 0 || all.n_bad_edges + all.n_bad_vertices != 0) return 53;

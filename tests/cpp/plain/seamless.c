@@ -4,10 +4,8 @@
 #include <ricci/seamless.h>
 
 /* Every edge of a seam is exactly a rotation of its other side by a multiple of 90 degrees. */
-static void seams_are_exact(const ricci_seamless *result) {
-    ricci_layout *layout = NULL;
+static void seams_are_exact(ricci_layout *layout) {
     ricci_layout_summary s;
-    OK(ricci_seamless_map(result, NULL, &layout));
     OK(ricci_layout_summarise(layout, &s, sizeof s));
     CHECK(s.n_flipped == 0 && s.n_seam_edges > 0);
     double *points = (double *)room(2 * s.n_points, sizeof *points);
@@ -53,6 +51,7 @@ static void surfaces_become_seamless(void) {
     ricci_seamless *result = NULL;
     ricci_seamless_summary s;
     ricci_seamless_options options;
+    ricci_layout *layout = NULL;
     INIT(options);
     options.cones = RICCI_SEAMLESS_AUTO;
     options.n_cones = 8;
@@ -69,7 +68,8 @@ static void surfaces_become_seamless(void) {
     OK(ricci_metric_summarise(metric, &m, sizeof m));
     CHECK(m.space == RICCI_SPACE_E2 && m.broken_triangles == 0);
     ricci_metric_free(metric);
-    seams_are_exact(result);
+    OK(ricci_seamless_map(result, NULL, &layout));
+    seams_are_exact(layout);
     ricci_seamless_free(result);
     /* The turning that was found, asked for. */
     options.quarter_turns = turning;
@@ -113,6 +113,28 @@ static void impossible_signatures_are_refused(void) {
     ricci_mesh_free(mesh);
 }
 
+/* The map of least stretch with the same turning: exact seams, less energy, at each step. */
+static void stretches_less(const ricci_seamless *result) {
+    ricci_flatten_options options;
+    ricci_flatten_summary told;
+    ricci_layout_summary s;
+    ricci_layout *layout = NULL;
+    double energies[3];
+    INIT(options);
+    options.injective = 1;
+    FAILS(ricci_seamless_flatten(result, &options, NULL, NULL, 0, &told, sizeof told, &layout),
+          RICCI_ARGUMENT, "injective");
+    CHECK(ricci_seamless_flatten(NULL, NULL, NULL, NULL, 0, &told, sizeof told, &layout) ==
+          RICCI_NULL_POINTER);
+    OK(ricci_seamless_flatten(result, NULL, NULL, energies, 3, &told, sizeof told, &layout));
+    CHECK(told.start == RICCI_FLATTEN_FROM_SEAMLESS && told.stop == RICCI_FLATTEN_CONVERGED);
+    CHECK(told.n_energies > 3 && energies[0] > energies[1] && energies[1] > energies[2]);
+    CHECK(told.energy < energies[2] && told.energy > 4);
+    OK(ricci_layout_summarise(layout, &s, sizeof s));
+    CHECK(s.n_flipped == 0 && s.symmetric_dirichlet > 4 && s.symmetric_dirichlet < energies[0]);
+    seams_are_exact(layout);
+}
+
 /* An annulus becomes a cylinder without cones or corners, whose 48 edges on the boundary are straight. */
 static void boundaries_become_straight(void) {
     ricci_mesh *mesh = NULL;
@@ -123,6 +145,7 @@ static void boundaries_become_straight(void) {
     const uint32_t edge[2] = {0, 9999}, vertex = 0;
     const double zero[3] = {0, 0, 0};
     double field[3 * 96];
+    ricci_layout *layout = NULL;
     INIT(options);
     OK(make_sized(RICCI_SHAPE_ANNULUS, 2, 24, 0.5, 1, 0, &mesh));
     options.isometric_steps = 2;
@@ -132,7 +155,9 @@ static void boundaries_become_straight(void) {
     CHECK(s.length_change <= s.conformal_change && s.n_left_out == 0);
     OK(ricci_seamless_features(result, ends, 96));
     CHECK(ricci_seamless_features(result, ends, 95) == RICCI_BUFFER_TOO_SMALL);
-    seams_are_exact(result);
+    OK(ricci_seamless_map(result, NULL, &layout));
+    seams_are_exact(layout);
+    stretches_less(result);
     ricci_seamless_free(result);
     OK(ricci_seamless_field(mesh, NULL, NULL, field, 3 * 96));
     CHECK(ricci_seamless_field(mesh, NULL, NULL, field, 3) == RICCI_BUFFER_TOO_SMALL);

@@ -56,7 +56,8 @@ class FlattenSummary:
         that at the end.
     start : FlattenStart
         the ``"conformal"`` layout, or ``"tutte"``'s embedding where that turns a triangle over; on the sphere the conformal map
-        with its triangles turned back, ``"untangled"``.
+        with its triangles turned back, ``"untangled"``, or a map of the triangulation alone, ``"coarse"``; ``"seamless"`` where
+        seams stay rotations.
     stop : FlattenStop
         why the descent ended: ``"converged"``, ``"rounding"``, ``"max_iterations"``, ``"barrier"``, ``"no_step"`` or ``"unmet"``
         (pinned vertices or

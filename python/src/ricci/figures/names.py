@@ -18,7 +18,7 @@ Stop: TypeAlias = Literal[
     "out_of_reach",
 ]
 Frame: TypeAlias = Literal["auto", "disk", "strip"]
-FlattenStart: TypeAlias = Literal["conformal", "tutte", "untangled"]
+FlattenStart: TypeAlias = Literal["conformal", "tutte", "untangled", "seamless", "coarse"]
 FlattenStop: TypeAlias = Literal["converged", "rounding", "max_iterations", "barrier", "no_step", "unmet"]
 StructureKind: TypeAlias = Literal["conformal", "spherical", "affine", "hyperbolic", "projective", "integer"]
 LowerBound: TypeAlias = Literal["none", "periods", "moduli"]
