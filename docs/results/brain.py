@@ -20,7 +20,7 @@ from page import corpus, main, ricci, table
 CORTICES = [("fsaverage5 pial", "cortex_fsaverage5_pial_left", "lh"), ("fsaverage5 pial", "cortex_fsaverage5_pial_right", "rh"),
             ("fsaverage5 white", "cortex_fsaverage5_white_left", "lh")]
 SUBJECTS = 20
-# The part of the time of the cohort after which it is stopped for the first time.
+# The part of the subjects after which the cohort is stopped for the first time.
 STOPPED = 0.4
 
 
@@ -136,15 +136,19 @@ def cohort(run):
         subprocess.run([ricci, "repair", path, "--no-weld", "-o", run.path(f"{side}.white"), "--quiet"], check=True, capture_output=True)
         os.rename(run.path(f"{side}.white"), run.path(f"{side}.average"))
     folders = [subject(run, k) for k in range(SUBJECTS)]
-    begun, stopped_in = time.monotonic(), None
+    seconds, stopped_in = [], None
     for k, folder in enumerate(folders):
         if k == int(STOPPED * SUBJECTS):
             working = subprocess.Popen(command(folder), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-            time.sleep(0.5 * (time.monotonic() - begun) / k)
+            # Well before the end of the quickest subject so far.
+            time.sleep(0.3 * min(seconds))
+            run.insist(working.poll() is None, "the cohort was to be stopped at work, and had ended")
             working.send_signal(signal.SIGINT)
             stopped_in = working.wait()
             break
+        begun = time.monotonic()
         run.insist(subprocess.run(command(folder)).returncode == 0, f"subject {k} failed")
+        seconds.append(time.monotonic() - begun)
     run.insist(stopped_in == 4, f"the cohort was stopped with exit code {stopped_in}, not 4")
     before = {path: os.stat(path).st_mtime_ns for path in files_of(folders)}
     for k, folder in enumerate(folders):

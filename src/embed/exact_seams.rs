@@ -42,6 +42,18 @@ impl Layout {
     /// [`Error::Layout`] for a layout that is not in E², closed without cut or of several pieces, with a seam whose rotation is no multiple of
     /// 90° to 1e-6, or with an edge of the boundary that is off the axes by more ([`Layout::align`]).
     pub fn make_seams_exact(&mut self, straight: &[HalfedgeId]) -> Result<f64> {
+        self.moved_to_grid(straight, true)
+    }
+
+    /// The same of a layout whose boundary has any direction, and keeps it.
+    ///
+    /// # Errors
+    /// Those of [`Layout::make_seams_exact`] but for the boundary's.
+    pub fn make_seams_exact_beside_free_boundary(&mut self) -> Result<f64> {
+        self.moved_to_grid(&[], false)
+    }
+
+    fn moved_to_grid(&mut self, straight: &[HalfedgeId], is_on_axes: bool) -> Result<f64> {
         let quarters = self.quarter_turns()?;
         let boundary = self.cut_boundary()?;
         let extent = self.coordinates.iter().flatten().fold(0.0, |top: f64, x| top.max(x.abs()));
@@ -53,7 +65,12 @@ impl Layout {
         let is_straight = !straight.is_empty() && straightened.is_some();
         let sides = match straightened {
             Some(sides) => sides,
-            None => closed_sides(self, &boundary, &quarters, unit)?,
+            None => {
+                let outer = boundary.iter().copied().filter(|&h| self.side[h] == 0);
+                let side =
+                    |h| if is_on_axes { self.boundary_side(h, unit) } else { Ok(self.grid_side(h, unit)) };
+                closed_sides(self, &boundary, &quarters, outer.map(side).collect::<Result<_>>()?, unit)?
+            }
         };
         let mut at = boundary.first().map_or([0; 2], |&h| exact[self.corner_index[h] as usize]);
         for (&h, side) in boundary.iter().zip(&sides) {
@@ -167,6 +184,12 @@ impl Layout {
         Ok(boundary)
     }
 
+    /// An edge in units of the grid.
+    fn grid_side(&self, h: HalfedgeId, unit: f64) -> GridVector {
+        let [a, b] = [self.uv(h), self.uv(self.mesh().next(h))];
+        [0, 1].map(|k| ((b[k] - a[k]) / unit).round() as i64)
+    }
+
     /// An edge of the boundary in units of the grid, parallel to an axis.
     fn boundary_side(&self, h: HalfedgeId, unit: f64) -> Result<GridVector> {
         let [a, b] = [self.uv(h), self.uv(self.mesh().next(h))];
@@ -177,29 +200,25 @@ impl Layout {
                 format!("edge {} of the boundary is {:.1e} radians off the axes", h.edge(), off / long);
             return Err(Error::Layout(message));
         }
-        let whole = |x: f64| (x / unit).round() as i64;
-        Ok(if x.abs() >= y.abs() { [whole(x), 0] } else { [0, whole(y)] })
+        let [right, up] = self.grid_side(h, unit);
+        Ok(if x.abs() >= y.abs() { [right, 0] } else { [0, up] })
     }
 }
 
-/// The sides of the boundary polygon in units of the grid: those of one edge of the cut are exactly w and −iᵏ w, those of the boundary
-/// parallel to an axis, and all of them add up to 0.
+/// The sides of the boundary polygon in units of the grid: those of one edge of the cut are exactly w and −iᵏ w, those of the boundary the
+/// given ones (`free`) but for a few units, and all of them add up to 0.
 fn closed_sides(
     layout: &Layout,
     boundary: &[HalfedgeId],
     quarters: &[i32],
+    mut free: Vec<GridVector>,
     unit: f64,
 ) -> Result<Vec<GridVector>> {
     let mesh = layout.mesh();
     let turn = |h: HalfedgeId| quarters[layout.side[h].unsigned_abs() as usize - 1].rem_euclid(4);
-    let vector = |h: HalfedgeId| {
-        let [a, b] = [layout.uv(h), layout.uv(mesh.next(h))];
-        [0, 1].map(|k| ((b[k] - a[k]) / unit).round() as i64)
-    };
     let left: Vec<HalfedgeId> = boundary.iter().copied().filter(|&h| layout.side[h] > 0).collect();
     let outer: Vec<HalfedgeId> = boundary.iter().copied().filter(|&h| layout.side[h] == 0).collect();
-    let mut free = outer.iter().map(|&h| layout.boundary_side(h, unit)).collect::<Result<Vec<_>>>()?;
-    let mut sides: Vec<GridVector> = left.iter().map(|&h| vector(h)).collect();
+    let mut sides: Vec<GridVector> = left.iter().map(|&h| layout.grid_side(h, unit)).collect();
     let seams: Vec<i32> = left.iter().map(|&h| turn(h)).collect();
     let off = sides.iter().zip(&seams).fold([0; 2], |sum, (&w, &k)| add(sum, sub(w, turned(w, k))));
     close(&mut sides, &seams, &mut free, off)?;
@@ -213,8 +232,8 @@ fn closed_sides(
     Ok(boundary.iter().map(side).collect())
 }
 
-/// Changes sides such that all add up to 0: those of the boundary, each along its axis, by what they can take up, and one of the seams by the
-/// rest. `off`: the sum of the seams' sides.
+/// Changes sides such that all add up to 0: those of the boundary, along axes along which they have a part, by what they can take up, and one of
+/// the seams by the rest. `off`: the sum of the seams' sides.
 fn close(sides: &mut [GridVector], turns: &[i32], free: &mut [GridVector], off: GridVector) -> Result<()> {
     let mut off = free.iter().fold(off, |sum, &w| add(sum, w));
     // The longest side of the boundary along each axis.

@@ -36,7 +36,7 @@ pub struct SeamlessFlattening {
     pub refinement: Option<Arc<CommonSubdivision>>,
     /// The metric of the plane on it.
     pub solution: Solution,
-    /// The map. Its seams are exact ([`Layout::make_seams_exact`]).
+    /// The map. Its seams are exact ([`Layout::make_seams_exact_beside_free_boundary`]).
     pub layout: Layout,
     /// The largest distance by which a corner was moved to make the seams exact.
     pub moved: f64,
@@ -203,7 +203,7 @@ impl SeamlessStart {
         let solution = Solution::initial_of(flat, Class::yamabe(Space::E2))?;
         let options = LayoutOptions { scale: LayoutScale::AsSolved, ..LayoutOptions::default() };
         let mut layout = Layout::of_solution(&solution, &options, control)?;
-        let moved = layout.make_seams_exact(&[])?;
+        let moved = layout.make_seams_exact_beside_free_boundary()?;
         if !layout.flipped.is_empty() {
             return Err(out_of_range());
         }
