@@ -41,9 +41,9 @@ pub struct ricci_layout {
     /// The layout on the caller's mesh; none if the layout is cut along edges of another triangulation.
     on_input: Option<OnInput>,
     /// The distortion against the caller's mesh; none of a layout of the metric's own triangulation after flips.
-    quality: Option<Quality>,
+    pub(crate) quality: Option<Quality>,
     /// The distortion on the caller's mesh, found when it is first asked for.
-    of_input: OnceLock<Option<Quality>>,
+    pub(crate) of_input: OnceLock<Option<Quality>>,
 }
 handle!(ricci_layout, "layout", |layout| layout.points.len() + layout.state.solution.mesh().n_vertices());
 
@@ -138,18 +138,6 @@ impl ricci_layout {
         let (points, on_input) = (plane_points(&layout, model), layout.on_input());
         let (layout, of_input) = (Arc::new(layout), OnceLock::new());
         Ok(ricci_layout { points, on_input, quality, of_input, layout, state, model })
-    }
-
-    /// A layout in the plane whose metric is its own, so that its distortion is that against these lengths.
-    pub(crate) fn of_lengths(
-        state: Arc<MetricState>,
-        layout: Layout,
-        lengths: &PerEdge<f64>,
-    ) -> Outcome<ricci_layout> {
-        let [quality, of_input] =
-            [layout.quality(layout.mesh(), lengths)?, layout.quality(layout.mesh(), lengths)?];
-        let made = ricci_layout::new(state, layout, Model::Poincare)?;
-        Ok(ricci_layout { quality: Some(quality), of_input: OnceLock::from(Some(of_input)), ..made })
     }
 
     pub(crate) fn on_input(&self) -> Outcome<&OnInput> {

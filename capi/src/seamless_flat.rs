@@ -2,16 +2,36 @@
 
 use crate::arrays::copy_out;
 use crate::control::{self, ricci_control};
+use crate::failure::Outcome;
 use crate::flatten::{figures_of, library_options, ricci_flatten_options, ricci_flatten_summary, told};
 use crate::guard::{self, shared};
 use crate::layout::ricci_layout;
 use crate::memory;
-use crate::metric::ricci_metric;
+use crate::metric::{MetricState, ricci_metric};
 use crate::seamless::ricci_seamless;
 use crate::status::ricci_status;
 use crate::structs;
 use ricci::Control;
+use ricci::embed::Layout;
 use ricci::flatten::{FlattenOptions, flatten_seamless};
+use ricci::geometry::Model;
+use ricci::mesh::PerEdge;
+use std::sync::{Arc, OnceLock};
+
+impl ricci_layout {
+    /// A layout in the plane whose metric is its own, so that its distortion is that against these lengths.
+    pub(crate) fn of_lengths(
+        state: Arc<MetricState>,
+        layout: Layout,
+        lengths: &PerEdge<f64>,
+    ) -> Outcome<ricci_layout> {
+        let [quality, of_input] =
+            [layout.quality(layout.mesh(), lengths)?, layout.quality(layout.mesh(), lengths)?];
+        let mut made = ricci_layout::new(state, layout, Model::Poincare)?;
+        (made.quality, made.of_input) = (Some(quality), OnceLock::from(Some(of_input)));
+        Ok(made)
+    }
+}
 
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ricci_seamless_flatten(

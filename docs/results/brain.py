@@ -2,7 +2,7 @@
 """Spheres, inflated views and flat maps of cortices, read again by nibabel; and a cohort of twenty subjects that is stopped and resumed.
 
 usage: docs/results/brain.py [CORPUS] > docs/results/brain.md
-(after: cargo build --release -p ricci-apps, in a Python with: pip install numpy nibabel)
+(after: cargo build --release -p ricci-apps, in a Python with: pip install numpy nibabel nilearn autoflatten)
 
 Turned triangles, lengths and areas are those that this file finds in the numbers that nibabel reads.
 """
@@ -13,8 +13,12 @@ import time
 from fractions import Fraction
 
 import nibabel
+import nilearn
 import numpy as np
+from autoflatten.flatten.algorithm import count_flipped_triangles
+from autoflatten.viz import compute_kring_distortion
 from nibabel import freesurfer
+from nilearn.surface import load_surf_data, load_surf_mesh
 from page import corpus, main, ricci, table
 
 CORTICES = [("fsaverage5 pial", "cortex_fsaverage5_pial_left", "lh"), ("fsaverage5 pial", "cortex_fsaverage5_pial_right", "rh"),
@@ -111,6 +115,34 @@ def cortex_row(run, name, file, side):
             f"{flat['after']['energy']:.4f}", f"{lengths_off(V, inside, P[number]):.2f}", in_plane, f"{100 * flat['overlap']:.2g}"]
 
 
+def same_in_nilearn(run, name, at, n):
+    """Insists that nilearn's own loaders read the files of both formats, and the same from both."""
+    for kind in ("sphere", "inflated"):
+        one, other = (load_surf_mesh(f"{at}.{kind}{ending}") for ending in ("", ".surf.gii"))
+        same = (one.coordinates == other.coordinates).all() and (one.faces == other.faces).all()
+        run.insist(same and len(one.coordinates) == n, f"{name}: nilearn reads another {kind} from GIFTI")
+    sulc = [load_surf_data(f"{at}.sulc{ending}") for ending in ("", ".shape.gii")]
+    run.insist(len(sulc[0]) == n and (sulc[0] == sulc[1]).all(), f"{name}: nilearn reads another sulc from GIFTI")
+
+
+def others_row(run, name, file, side, energy):
+    """What nilearn and autoflatten say of the files."""
+    report, at, (V, F) = written(run, f"{name}-{energy}", side, os.path.join(corpus, f"{file}.obj"), "--energy", energy)
+    if report is None:
+        return None
+    same_in_nilearn(run, name, at, len(V))
+    vertices, P, _ = patch(f"{at}.cortex.patch.flat")
+    order = np.argsort(vertices)
+    vertices, P = vertices[order], P[order, :2]
+    number = np.full(len(V), -1)
+    number[vertices] = np.arange(len(vertices))
+    inside = F[(number[F] >= 0).all(axis=1)]
+    turned_over = int(count_flipped_triangles(P, number[inside]))
+    run.insist(turned_over == 0, f"{name}: autoflatten finds {turned_over} flipped triangles")
+    errors = [compute_kring_distortion(P, V, F, vertices, k=k, verbose=False)[1] for k in (2, 7)]
+    return [f"{name}, {side}", energy, *(f"{error:.2f}" for error in errors), turned_over]
+
+
 def subject(run, k):
     """Both hemispheres of a synthetic subject: the average ones, stretched and bent by a few waves."""
     random = np.random.default_rng(k)
@@ -181,6 +213,12 @@ def content(run):
            "surface's area. *dilatation*: larger stretch over the smaller one. *turned*: triangles that are not counterclockwise in the single-precision numbers of the files, by "
            "fractions where floating point is not sure. Left: the sphere; right: the flat map.")
     yield table(head, rows)
+    yield "## What other programs say"
+    yield (f"The loaders of nilearn {nilearn.__version__} open the spheres, the inflated views and the values, in FreeSurfer's format and in GIFTI, and read the same numbers from both. "
+           "The distance error of a flat map by autoflatten's own function (1.0.7; percent, over the pairs of vertices that up to so many edges separate, with its estimate of "
+           "lengths on the surface), and the flipped triangles that it counts. The hemispheres are cut at the medial wall alone, without the further cuts into the cortex that flat maps often have.")
+    yield table(["surface", "what is kept", "distance error, 2 edges", "7 edges", "flipped"],
+                run.rows([(*one, energy) for one in CORTICES for energy in ("isometric", "distance")], lambda run, one: others_row(run, *one)))
     yield "## A cohort that is stopped"
     yield (f"{SUBJECTS} synthetic subjects: both hemispheres of fsaverage5, stretched and bent. The cohort is stopped by Ctrl-C in its {int(STOPPED * SUBJECTS) + 1}th subject, "
            "and the same command with `--resume` goes on; files appear whole or not at all. The last column is the cohort run once more, with nothing left to do.")
