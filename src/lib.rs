@@ -20,6 +20,7 @@
 //! | [`seamless`] | metrics and maps whose cones and handles turn by multiples of 90° |
 //! | [`moduli`] | period matrices with proven bounds |
 //! | [`quads`] | T-meshes, integer-grid maps, quad meshes and layouts of seamless maps |
+//! | [`texture`] | texture atlases of whole models: charts on the faces, packed into a page |
 //! | [`matching`] | maps between two surfaces |
 //! | [`structure`] | atlases: conformal, spherical, affine, hyperbolic, projective, integer |
 //! | [`spline`] | triangular B-splines, fits over whole surfaces, bicubic patches for CAD |
@@ -55,6 +56,7 @@ pub mod seamless;
 #[cfg(feature = "splines")]
 pub mod spline;
 pub mod structure;
+pub mod texture;
 pub mod topology;
 
 pub use control::Control;

@@ -22,7 +22,7 @@ const FLOORS: &[&[&str]] = &[
     &["embed", "harmonic"],
     &["canonical", "seamless"],
     &["flatten", "moduli", "quads"],
-    &["matching"],
+    &["matching", "texture"],
     &["structure"],
     &["spline"],
     &["records"],

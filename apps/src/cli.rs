@@ -1,5 +1,6 @@
 //! The command line: all commands with their options.
 
+use crate::atlas::TextureArgs;
 use crate::brain::BrainArgs;
 use crate::circles::CirclesArgs;
 use crate::flatten::FlattenArgs;
@@ -67,6 +68,9 @@ pub enum Command {
     /// Closed geodesics of the metric of constant curvature, all up to a length, and the shortest on the surface
     #[command(after_help = crate::lengths::HELP)]
     Lengths(LengthsArgs),
+    /// Texture coordinates for a whole model of any kind, on its own faces, packed into a page
+    #[command(after_help = crate::atlas::HELP)]
+    Atlas(TextureArgs),
     /// Harmonic maps to a disk, a rectangle, the sphere, or with given values
     #[command(after_help = crate::harmonic::HELP)]
     Harmonic(HarmonicArgs),

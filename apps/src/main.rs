@@ -2,6 +2,7 @@
 
 #![warn(clippy::too_many_lines)]
 
+mod atlas;
 mod brain;
 mod carry;
 mod charts;
@@ -88,6 +89,7 @@ fn run(command: &Command, control: &Control) -> Result<u8, Failure> {
         Command::Uniformize(args) => runner::run(&CanonicalJob::from(args), control),
         Command::Cover(args) => runner::run(&CanonicalJob::from(args), control),
         Command::Lengths(args) => runner::run(args, control),
+        Command::Atlas(args) => runner::run(args, control),
         Command::Harmonic(args) => runner::run(args, control),
         Command::Forms(args) => runner::run(args, control),
         Command::Circles(args) => runner::run(args, control),

@@ -35,7 +35,7 @@ mod plane_moves;
 mod plane_start;
 mod report;
 mod rest_triangle;
-mod rim;
+pub(crate) mod rim;
 mod ring_distances;
 // Made for seams alone, which seamless metrics have.
 #[cfg_attr(not(feature = "quads"), expect(dead_code))]

@@ -9,7 +9,7 @@ use crate::mesh::Mesh;
 use std::cmp::Ordering;
 
 /// The sides of the border, with the surface on their left.
-pub(super) struct BorderRim {
+pub(crate) struct BorderRim {
     sides: Vec<[u32; 2]>,
     /// Per loop its vertices, with the surface on the left.
     loops: Vec<Vec<u32>>,
@@ -49,6 +49,25 @@ impl BorderRim {
             crossed = crossed || (i < j && sides_meet(self.sides[i], self.sides[j], points));
         });
         crossed
+    }
+
+    /// The pairs of sides that meet elsewhere than at the vertex that they share, each pair ascending, in ascending order.
+    pub fn crossings(&self, points: &[[f64; 2]]) -> Vec<[usize; 2]> {
+        let boxes: Vec<SweptBox> =
+            self.sides.iter().map(|side| box_of(side.map(|v| points[v as usize]))).collect();
+        let mut found = Vec::new();
+        meeting(&boxes, &boxes, |i, j| {
+            if i < j && sides_meet(self.sides[i], self.sides[j], points) {
+                found.push([i, j]);
+            }
+        });
+        found.sort_unstable();
+        found
+    }
+
+    /// The vertices of the loops, with the surface on the left.
+    pub fn loops(&self) -> &[Vec<u32>] {
+        &self.loops
     }
 
     /// The number of loops that run counterclockwise, of loops that do not cross themselves: by the turn at the lowest vertex.

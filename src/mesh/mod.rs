@@ -33,6 +33,7 @@ pub mod remove;
 pub mod repair;
 pub mod rims;
 pub mod shapes;
+pub mod sheets;
 mod thin;
 pub(crate) mod union_find;
 mod weld;

@@ -31,7 +31,7 @@ pub mod homology;
 pub mod homotopy;
 pub mod intersection;
 pub mod lift;
-mod nearest;
+pub(crate) mod nearest;
 mod places;
 mod polygon;
 pub mod reduction;

@@ -70,6 +70,7 @@ mod structure;
 mod surface_fit;
 mod surfaces;
 mod target;
+mod texture;
 mod topology;
 mod unfold;
 mod uniformization;

@@ -3,6 +3,7 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod atlas;
 mod attributes;
 mod boundaries;
 mod brain;

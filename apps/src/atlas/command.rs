@@ -1,0 +1,54 @@
+//! `ricci atlas` as a job: what it refuses, computes and writes.
+
+use super::args::TextureArgs;
+use super::files;
+use super::outcome::TextureOutcome;
+use crate::carry::stays_behind;
+use crate::failure::Failure;
+use crate::input::{out_of_range, read_triangles};
+use crate::output::{check_extension, check_outputs, format_of};
+use crate::report::timed;
+use crate::runner::{CommandRun, Job, JobHeader};
+use ricci::control::Stage;
+use ricci::mesh::io;
+use ricci::texture::texture_atlas;
+
+impl Job for TextureArgs {
+    type Outcome = TextureOutcome;
+
+    fn header(&self) -> JobHeader<'_> {
+        JobHeader { name: "atlas", common: &self.common, mesh: Some(&self.mesh) }
+    }
+
+    fn check(&self) -> Result<(), Failure> {
+        check_extension("-o", Some(&self.out), &["obj", "glb"])?;
+        let picture = self.picture.picture.as_deref();
+        check_extension("--picture", picture, &["png", "svg"])?;
+        let files = [Some(&*self.out), self.xref.as_deref(), picture, self.common.report.as_deref()];
+        check_outputs(&[Some(&self.mesh)], &files)
+    }
+
+    fn compute(&self, run: &mut CommandRun<'_>) -> Result<TextureOutcome, Failure> {
+        run.control.step(Stage::Read, 0.0)?;
+        let mut soup = timed(&mut run.seconds.read, || read_triangles(&self.mesh))?;
+        if let Some(why) = out_of_range(&soup) {
+            return Err(Failure::Input(format!("{}: {why}", self.mesh.display())));
+        }
+        let had_coordinates = soup.attributes.uv.take().is_some();
+        let make = || texture_atlas(&soup, &self.options(), run.control);
+        let atlas = timed(&mut run.seconds.layout, make)?;
+        soup.attributes.uv = Some(atlas.corner_uv.clone());
+        Ok(TextureOutcome { path: self.mesh.clone(), soup, atlas, stretch: self.stretch, had_coordinates })
+    }
+
+    fn write(&self, outcome: &TextureOutcome, run: &mut CommandRun<'_>) -> Result<(), Failure> {
+        let (format, soup) = (format_of(&self.out)?, &outcome.soup);
+        let left_out = run.outputs.add_named(&self.out, |path| io::write_as(path, format, soup))?;
+        run.outputs.leave_out(left_out);
+        run.outputs.leave_out(stays_behind(soup.attributes.labels.as_ref(), &self.mesh, &self.out));
+        run.file("xref", self.xref.as_deref(), |outputs, path| {
+            outputs.add(path, |out| files::write_origins(out, outcome))
+        })?;
+        run.picture("picture", self.picture.picture.as_deref(), || files::draw(outcome, self))
+    }
+}

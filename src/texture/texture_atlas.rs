@@ -1,0 +1,347 @@
+//! The texture atlas of a model, from its triangles to the page.
+
+use super::cross_cut::waist;
+use super::flat_chart::{ChartFaces, FlatChart};
+use super::opening::{alone, laid_flat};
+use super::options::TextureOptions;
+use super::page_packing::{MOST_TEXELS, PackedPage, Packing};
+use super::quality::{FaceMap, TextureQuality, face_map};
+use crate::control::{Control, Stage};
+use crate::error::{Error, Result};
+use crate::geometry::complex::doubled_area;
+use crate::geometry::packing::{least_rectangle, least_square};
+use crate::geometry::predicates::orientation;
+use crate::geometry::triangle_overlap::{TriangleCorners, overlapping};
+use crate::geometry::vector::distance;
+use crate::mesh::io::Soup;
+use crate::mesh::sheets::{Sheet, Sheets, sheets};
+use crate::mesh::{Mesh, Point};
+use crate::parallel;
+use std::cmp::Ordering;
+use std::collections::HashMap;
+
+/// Coordinates are multiples of the inverse of this number, which numbers of 32 bits below 1 hold without rounding: the files that have
+/// these and those that have 64 bits hold the same map.
+const GRID: f64 = (1u64 << 24) as f64;
+/// The most times that faces which rounding folds are taken out of their charts.
+const MENDINGS: usize = 3;
+/// Least length of such a face in texels, and least height in its length.
+const LEAST_TEXELS: f64 = 0.1;
+const LEAST_HEIGHT: f64 = 0.02;
+/// The texels along a side at which divisions of charts are tried.
+const TRIAL_TEXELS: usize = 256;
+/// The least gain of the filled share, per division, by which divisions stay.
+const WORTH_DIVIDING: f64 = 0.01;
+/// The divisions in a row without such a gain after which no further one is tried.
+const WITHOUT_GAIN: u32 = 5;
+/// The part of the share filled before that charts with one more division have to fill to be divided further.
+const MAY_LOSE: f64 = 0.8;
+/// Charts that are tried at each division for what their boxes leave empty.
+const WASTEFUL: usize = 2;
+/// The most charts of a page that is filled by divisions: more fill it by themselves.
+const MOST_CHARTS: usize = 64;
+
+/// A model with texture coordinates on its own faces.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TextureAtlas {
+    /// Per face of the model, in its order, the coordinates of its corners in the unit square: multiples of 2⁻²⁴.
+    pub corner_uv: Vec<TriangleCorners>,
+    /// Per face its chart; charts are numbered by their area, the largest first. [`TextureAtlas::NO_CHART`] for a face without a place.
+    pub chart: Vec<u32>,
+    /// The number of charts.
+    pub charts: usize,
+    /// The faces without a place: with a corner that is missing or not finite, or with two corners in one place. Their coordinates are 0.
+    pub placeless: Vec<u32>,
+    /// The faces that are turned over or without area on the page, by exact arithmetic on [`TextureAtlas::corner_uv`]. Only rounding to the
+    /// grid makes one, of a face some thousand times thinner than a texel.
+    pub folded: Vec<u32>,
+    /// The faces whose interior meets that of an earlier face on the page, by exact arithmetic.
+    pub overlapping: Vec<u32>,
+    /// The faces whose corners run clockwise on the page because they run against those of most faces around them.
+    pub turned: Vec<u32>,
+    /// The edges of the model with several faces along which it was opened because it is no surface there.
+    pub opened_edges: usize,
+    /// The sheets of the model: connected pieces that are surfaces.
+    pub sheets: usize,
+    /// Stretch, seams and fill.
+    pub quality: TextureQuality,
+}
+
+impl TextureAtlas {
+    /// The chart of a face without a place.
+    pub const NO_CHART: u32 = u32::MAX;
+}
+
+/// A texture atlas for any triangle list: every face keeps its number and gets a place.
+///
+/// The result is the same for any number of threads.
+///
+/// # Errors
+/// [`Error::Argument`] for an option outside its range; [`Error::Layout`] for a model of which no face has an area; [`Error::Cancelled`].
+pub fn texture_atlas(soup: &Soup, options: &TextureOptions, control: &Control) -> Result<TextureAtlas> {
+    options.check()?;
+    parallel::within(options.threads, || {
+        control.step(Stage::Build, 0.0)?;
+        let found = sheets(soup);
+        let mut charts = all_charts(soup, &found.sheets, options, control)?;
+        if charts.is_empty() {
+            return Err(Error::Layout(
+                "no face of the model has a place: there is nothing to lay out".into(),
+            ));
+        }
+        control.step(Stage::Layout, 0.6)?;
+        divide_to_fill(&mut charts, options, control)?;
+        let mut atlas = packed(soup, &found, &mut charts, options, control)?;
+        for _ in 0..MENDINGS {
+            if atlas.folded.is_empty() && atlas.overlapping.is_empty() {
+                break;
+            }
+            take_out(&mut charts, &atlas);
+            atlas = packed(soup, &found, &mut charts, options, control)?;
+        }
+        control.finish();
+        Ok(atlas)
+    })
+}
+
+/// The charts, sorted, on their page.
+fn packed(
+    soup: &Soup,
+    found: &Sheets,
+    charts: &mut [FlatChart],
+    options: &TextureOptions,
+    control: &Control,
+) -> Result<TextureAtlas> {
+    charts.sort_by(|a, b| b.area().total_cmp(&a.area()).then(a.part.faces[0].cmp(&b.part.faces[0])));
+    let texels = (options.page as usize).min(MOST_TEXELS);
+    let margin = (options.margin as usize * texels).div_ceil(options.page as usize);
+    let page = PackedPage { texels, margin, is_thorough: true };
+    let packing = page.pack(charts, 0.0, control)?.ok_or_else(no_room)?;
+    control.step(Stage::Layout, 0.9)?;
+    let mut atlas = on_page(soup, charts, &packing, texels as f64);
+    // Charts have the corners of a turned face in the other order.
+    let turned: Vec<u32> = (0..soup.faces.len() as u32).filter(|f| found.turned[*f as usize]).collect();
+    turned.iter().for_each(|f| atlas.corner_uv[*f as usize].swap(1, 2));
+    let placeless = found.placeless.clone();
+    let (opened_edges, sheets) = (found.opened_edges, found.sheets.len());
+    TextureAtlas { turned, placeless, opened_edges, sheets, ..atlas }.checked(soup, options.page, control)
+}
+
+/// Gives each face that rounding folds or lets overlap a chart of its own, wide enough for the grid.
+fn take_out(charts: &mut Vec<FlatChart>, atlas: &TextureAtlas) {
+    let is_bad =
+        |f: &u32| atlas.folded.binary_search(f).is_ok() || atlas.overlapping.binary_search(f).is_ok();
+    let least = LEAST_TEXELS * atlas.quality.texel_length();
+    let mut kept = Vec::with_capacity(charts.len());
+    for chart in std::mem::take(charts) {
+        let bad: Vec<bool> = chart.part.faces.iter().map(is_bad).collect();
+        if !bad.contains(&true) {
+            kept.push(chart);
+            continue;
+        }
+        // Each bad face has a number of its own; the others have those of their pieces.
+        let n = bad.len() as u32;
+        let pieces = chart.part.pieces_without(&bad);
+        let number: Vec<u32> =
+            (0..n).map(|f| if bad[f as usize] { f } else { n + pieces[f as usize] }).collect();
+        for (part, origins) in chart.part.parts(&number) {
+            let points = origins.iter().map(|&v| chart.points[v as usize]).collect();
+            let is_alone = part.faces.len() == 1 && is_bad(&part.faces[0]);
+            kept.push(if is_alone { alone(part, [least, LEAST_HEIGHT]) } else { FlatChart { part, points } });
+        }
+    }
+    *charts = kept;
+}
+
+fn no_room() -> Error {
+    Error::Layout("the charts find no room on the page: take a larger page or a smaller margin".into())
+}
+
+/// The flat charts of all sheets.
+fn all_charts(
+    soup: &Soup,
+    sheets: &[Sheet],
+    options: &TextureOptions,
+    control: &Control,
+) -> Result<Vec<FlatChart>> {
+    let flat = parallel::map(sheets.len(), |k| {
+        let Sheet { faces, corners, origins } = sheets[k].clone();
+        let positions: Vec<Point> = origins.iter().map(|&v| soup.positions[v as usize]).collect();
+        laid_flat(ChartFaces { faces, corners, positions }, options, control)
+    });
+    let mut all = Vec::new();
+    for charts in flat {
+        all.extend(charts?);
+    }
+    Ok(all)
+}
+
+/// Divides charts at their waists as long as the page is filled better for it.
+fn divide_to_fill(charts: &mut Vec<FlatChart>, options: &TextureOptions, control: &Control) -> Result<()> {
+    if options.fill == 0.0 || charts.len() > MOST_CHARTS {
+        return Ok(());
+    }
+    let texels = (options.page as usize).min(TRIAL_TEXELS);
+    // Texels that are touched in part already keep charts apart about as far as the margin does on the whole page.
+    let page = PackedPage { texels, margin: 0, is_thorough: false };
+    let Some(first) = page.pack(charts, 0.0, control)? else { return Ok(()) };
+    let (mut now, mut best, mut since) = (charts.clone(), first.fill, 0);
+    let mut fill = best;
+    while best < options.fill && since < WITHOUT_GAIN {
+        let Some((tried, filled)) = best_division(&now, fill, &page, control)? else { break };
+        (now, fill, since) = (tried, filled, since + 1);
+        if fill > best + WORTH_DIVIDING * f64::from(since) {
+            (*charts, best, since) = (now.clone(), fill, 0);
+        }
+    }
+    Ok(())
+}
+
+/// The charts with one of the most wasteful ones divided: the one that fills most of the page for its length, and what is filled then; none
+/// if each leaves much less filled than before.
+fn best_division(
+    charts: &[FlatChart],
+    fill: f64,
+    page: &PackedPage,
+    control: &Control,
+) -> Result<Option<(Vec<FlatChart>, f64)>> {
+    let mut found: Option<(f64, Vec<FlatChart>, f64)> = None;
+    for k in candidates(charts) {
+        let Some((parts, cost)) = divided(&charts[k]) else { continue };
+        let mut tried = charts.to_vec();
+        tried.splice(k..=k, parts);
+        let Some(packing) = page.pack(&tried, MAY_LOSE * fill, control)? else { continue };
+        let gain = packing.fill - fill;
+        // Where none helps at once, the largest chart is divided: it keeps all others small.
+        let is_first = found.is_none();
+        let worth = if gain > WORTH_DIVIDING {
+            gain / cost
+        } else if is_first {
+            0.0
+        } else {
+            gain.min(0.0) - WORTH_DIVIDING
+        };
+        if found.as_ref().is_none_or(|known| worth > known.0) {
+            found = Some((worth, tried, packing.fill));
+        }
+    }
+    Ok(found.map(|(_, charts, fill)| (charts, fill)))
+}
+
+/// The charts that may be divided for the page: the one that needs the largest square, and those with the largest part of their boxes empty.
+fn candidates(charts: &[FlatChart]) -> Vec<usize> {
+    let measure = |chart: &FlatChart| {
+        let [long, short] = least_rectangle(&chart.points).1;
+        [least_square(&chart.points).1[0], long * long.min(4.0 * short) - chart.area()]
+    };
+    let measured: Vec<[f64; 2]> = charts.iter().map(measure).collect();
+    let by = |k: usize| {
+        let mut order: Vec<usize> = (0..charts.len()).collect();
+        order.sort_by(|&i, &j| measured[j][k].total_cmp(&measured[i][k]).then(i.cmp(&j)));
+        order
+    };
+    let largest = by(0)[0];
+    let wasteful = by(1).into_iter().filter(|&k| k != largest).take(WASTEFUL);
+    std::iter::once(largest).chain(wasteful).collect()
+}
+
+/// A chart divided at its waist, and the length of the cut.
+fn divided(chart: &FlatChart) -> Option<(Vec<FlatChart>, f64)> {
+    let mesh: Mesh = chart.part.mesh().ok()?;
+    let cut = waist(chart, &mesh)?;
+    Some((chart.apart(&mesh, |e| cut.is_cut[e]), cut.length))
+}
+
+/// The coordinates on the page.
+fn on_page(soup: &Soup, charts: &[FlatChart], packing: &Packing, texels: f64) -> TextureAtlas {
+    let n = soup.faces.len();
+    let mut atlas = TextureAtlas {
+        corner_uv: vec![[[0.0; 2]; 3]; n],
+        chart: vec![TextureAtlas::NO_CHART; n],
+        charts: charts.len(),
+        placeless: Vec::new(),
+        folded: Vec::new(),
+        overlapping: Vec::new(),
+        turned: Vec::new(),
+        opened_edges: 0,
+        sheets: 0,
+        quality: TextureQuality::default(),
+    };
+    for (k, (chart, place)) in charts.iter().zip(&packing.places).enumerate() {
+        let rounded = |x: f64| (x / texels * GRID).round().clamp(0.0, GRID - 1.0) / GRID;
+        let points: Vec<[f64; 2]> =
+            chart.points.iter().map(|p| place.of(*p, packing.scale).map(rounded)).collect();
+        for (&f, corners) in chart.part.faces.iter().zip(&chart.part.corners) {
+            atlas.corner_uv[f as usize] = corners.map(|v| points[v as usize]);
+            atlas.chart[f as usize] = k as u32;
+        }
+    }
+    atlas
+}
+
+impl TextureAtlas {
+    /// The atlas with its checks and figures.
+    fn checked(mut self, soup: &Soup, page: u32, control: &Control) -> Result<TextureAtlas> {
+        let is_placed = |f: &u32| self.chart[*f as usize] != TextureAtlas::NO_CHART;
+        let is_folded = |f: &u32| {
+            let [a, b, c] = self.corner_uv[*f as usize];
+            let wanted =
+                if self.turned.binary_search(f).is_ok() { Ordering::Less } else { Ordering::Greater };
+            orientation(a, b, c) != wanted
+        };
+        self.folded = (0..self.chart.len() as u32).filter(is_placed).filter(is_folded).collect();
+        self.overlapping =
+            overlapping(&self.corner_uv, &control.still())?.into_iter().map(|f| f as u32).collect();
+        let map = |f: u32| {
+            let corners = soup.faces[f as usize].map(|v| soup.positions[v as usize]);
+            let flat = self.corner_uv[f as usize];
+            face_map(corners, flat).filter(|_| doubled_area(flat) != 0.0)
+        };
+        let placed = (0..self.chart.len() as u32).filter(is_placed);
+        let maps: Vec<FaceMap> = placed.filter_map(map).collect();
+        self.quality = TextureQuality::new(&maps, self.seam_length(soup), page);
+        Ok(self)
+    }
+
+    /// The length of the seams: of each edge once for each pair of faces that have other coordinates there than all pairs before; of n faces
+    /// (n + 1)/2 can be continued by none.
+    fn seam_length(&self, soup: &Soup) -> f64 {
+        let key = |v: u32| soup.positions[v as usize].map(f64::to_bits);
+        let mut edges: HashMap<[[u64; 3]; 2], SeamEdge> = HashMap::new();
+        for (f, corners) in soup.faces.iter().enumerate() {
+            if self.chart[f] == TextureAtlas::NO_CHART {
+                continue;
+            }
+            for k in 0..3 {
+                let ends = [k, (k + 1) % 3].map(|k| (corners[k], self.corner_uv[f][k]));
+                let ends = if key(ends[0].0) <= key(ends[1].0) { ends } else { [ends[1], ends[0]] };
+                let edge = edges.entry(ends.map(|end| key(end.0))).or_insert_with(|| {
+                    let [a, b] = ends.map(|end| soup.positions[end.0 as usize]);
+                    SeamEdge { length: distance(a, b), faces: 0, places: Vec::new() }
+                });
+                edge.faces += 1;
+                let uv = ends.map(|end| end.1);
+                if !edge.places.contains(&uv) {
+                    edge.places.push(uv);
+                }
+            }
+        }
+        let mut lengths: Vec<f64> = edges.values().map(SeamEdge::seam).filter(|l| *l > 0.0).collect();
+        // Sums do not depend on the order of a hash table.
+        lengths.sort_by(f64::total_cmp);
+        lengths.iter().sum()
+    }
+}
+
+/// An edge of the model with the places of its faces' sides on the page.
+struct SeamEdge {
+    length: f64,
+    faces: usize,
+    places: Vec<[[f64; 2]; 2]>,
+}
+
+impl SeamEdge {
+    fn seam(&self) -> f64 {
+        self.length * self.places.len().saturating_sub(self.faces.div_ceil(2)) as f64
+    }
+}

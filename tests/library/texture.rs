@@ -1,0 +1,162 @@
+//! Texture atlases of whole models, on their own faces.
+
+use ricci::mesh::io::Soup;
+use ricci::mesh::{Point, shapes, sheets::sheets};
+use ricci::texture::{TextureAtlas, TextureOptions, texture_atlas};
+use ricci::{Control, Error};
+
+/// The six squares of a cube, each of two triangles.
+fn cube() -> Soup {
+    let positions = (0..8).map(|v| [0, 1, 2].map(|k| f64::from(v >> k & 1))).collect();
+    let squares = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    let faces = squares.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]).collect();
+    Soup::new(positions, faces)
+}
+
+fn atlas(soup: &Soup, options: &TextureOptions) -> TextureAtlas {
+    let atlas = texture_atlas(soup, options, &Control::new()).unwrap();
+    assert_eq!(atlas.corner_uv.len(), soup.faces.len());
+    assert!(atlas.corner_uv.as_flattened().as_flattened().iter().all(|x| (0.0..1.0).contains(x)));
+    assert_eq!((&atlas.folded, &atlas.overlapping), (&vec![], &vec![]));
+    atlas
+}
+
+fn small() -> TextureOptions {
+    TextureOptions { page: 128, threads: 1, ..TextureOptions::default() }
+}
+
+/// A model without its last faces and with some others, which share no vertices with it.
+fn beside(mut soup: Soup, other: &Soup, shift: f64) -> Soup {
+    let n = soup.positions.len() as u32;
+    soup.positions.extend(other.positions.iter().map(|p| [p[0] + shift, p[1], p[2]]));
+    soup.faces.extend(other.faces.iter().map(|f| f.map(|v| v + n)));
+    soup
+}
+
+#[test]
+fn a_cube_unfolds_without_stretch_along_seven_of_its_edges() {
+    let whole = atlas(&cube(), &TextureOptions { fill: 0.0, ..small() });
+    let quality = whole.quality;
+    assert_eq!((whole.charts, whole.sheets), (1, 1));
+    // A spanning tree of 8 corners has 7 edges; the area is 6.
+    assert!((quality.seam_length - 7.0 / 6f64.sqrt()).abs() < 1e-9, "{quality:?}");
+    assert!((quality.stretch_l2 - 1.0).abs() < 1e-4 && quality.stretch_max < 1.001, "{quality:?}");
+    assert!(quality.angle_99 < 0.05 && quality.log_area_deviation < 1e-3, "{quality:?}");
+    // The page is filled by 6 squares.
+    let side = (quality.fill / 6.0).sqrt();
+    assert!((quality.texel_density - 128.0 * side).abs() < 1e-9, "{quality:?}");
+    let [a, b, _] = whole.corner_uv[0];
+    assert!(((a[0] - b[0]).hypot(a[1] - b[1]) - side).abs() < 1e-4 * side);
+    let filled = atlas(&cube(), &small());
+    assert!(filled.quality.fill > quality.fill, "{} {}", filled.quality.fill, quality.fill);
+}
+
+#[test]
+fn the_bound_of_the_stretch_holds_and_costs_seams() {
+    let sphere = shapes::icosphere(3).unwrap();
+    let found = [1.6, 1.15].map(|stretch| {
+        let atlas = atlas(&sphere, &TextureOptions { stretch, fill: 0.0, ..small() });
+        assert!(atlas.quality.stretch_99 <= 1.02 * stretch, "{:?}", atlas.quality);
+        atlas.quality.seam_length
+    });
+    assert!(found[0] < found[1], "{found:?}");
+}
+
+#[test]
+fn charts_keep_their_margin() {
+    let model = beside(cube(), &shapes::icosphere(1).unwrap(), 5.0);
+    let options = TextureOptions { margin: 4, page: 256, ..small() };
+    let atlas = atlas(&model, &options);
+    assert!(atlas.charts > 1);
+    // Corners of different charts are farther apart than the margin, and from the border half of it.
+    let corners: Vec<(u32, [f64; 2])> = atlas
+        .corner_uv
+        .iter()
+        .zip(&atlas.chart)
+        .flat_map(|(uv, k)| uv.map(|p| (*k, p.map(|x| 256.0 * x))))
+        .collect();
+    for (k, p) in &corners {
+        assert!(p.iter().all(|x| (2.0..=254.0).contains(x)), "{p:?}");
+        for (_, q) in corners.iter().filter(|(other, _)| other != k) {
+            assert!((p[0] - q[0]).abs().max((p[1] - q[1]).abs()) >= 4.0, "{p:?} {q:?}");
+        }
+    }
+}
+
+#[test]
+fn any_list_of_triangles_has_an_atlas() {
+    // A wing on an edge of the cube, a face that names a vertex twice, one with a vertex in the place of another, one that is not finite.
+    let mut model = beside(cube(), &shapes::disk(2).unwrap(), 3.0);
+    let n = model.positions.len() as u32;
+    model.positions.extend([[0.5, -1.0, -1.0], [1.0, 0.0, 0.0], [f64::NAN, 0.0, 0.0]]);
+    let before = model.faces.len() as u32;
+    model.faces.extend([[0, 1, n], [0, 0, 2], [1, n + 1, 5], [0, 1, n + 2], [0, 1, n + 9]]);
+    let found = atlas(&model, &small());
+    assert_eq!((found.sheets, found.opened_edges), (3, 1));
+    assert_eq!(found.placeless, [before + 1, before + 2, before + 3, before + 4]);
+    assert!(found.placeless.iter().all(|f| found.chart[*f as usize] == TextureAtlas::NO_CHART));
+    assert!((0..=before).all(|f| (found.chart[f as usize] as usize) < found.charts));
+    let nothing = Soup::new(model.positions.clone(), vec![[0, 0, 1]]);
+    let refused = texture_atlas(&nothing, &small(), &Control::new());
+    assert!(matches!(refused, Err(Error::Layout(_))), "{refused:?}");
+}
+
+#[test]
+fn faces_that_run_against_their_neighbours_stay_in_the_chart() {
+    let mut model = cube();
+    model.faces[3].swap(1, 2);
+    let found = atlas(&model, &TextureOptions { fill: 0.0, ..small() });
+    assert_eq!((&found.turned, found.charts, found.sheets), (&vec![3], 1, 1));
+    let area = |f: usize| {
+        let [a, b, c] = found.corner_uv[f];
+        (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+    };
+    assert!((0..12).all(|f| (area(f) < 0.0) == (f == 3)));
+    assert!((found.quality.seam_length - 7.0 / 6f64.sqrt()).abs() < 1e-9);
+}
+
+#[test]
+fn a_strip_with_one_side_is_opened() {
+    let at = |k: usize, side: f64| -> Point {
+        let t = std::f64::consts::PI * k as f64 / 8.0;
+        let r = 1.0 + side * 0.2 * (0.5 * t).cos();
+        [r * t.cos(), r * t.sin(), 0.2 * side * (0.5 * t).sin()]
+    };
+    let positions: Vec<Point> = (0..16).flat_map(|k| [at(k, -1.0), at(k, 1.0)]).collect();
+    let quad = |k: u32| {
+        let [a, b] = [2 * k, 2 * k + 1];
+        let [c, d] = if k == 15 { [1, 0] } else { [2 * k + 2, 2 * k + 3] };
+        [[a, c, d], [a, d, b]]
+    };
+    let strip = Soup::new(positions, (0..16).flat_map(quad).collect());
+    let open = sheets(&strip);
+    assert_eq!((open.sheets.len(), open.opened_edges), (1, 1));
+    assert_eq!(open.sheets[0].origins.len(), 34);
+    let found = atlas(&strip, &small());
+    assert_eq!((found.sheets, found.placeless.len()), (1, 0));
+}
+
+#[test]
+fn the_atlas_is_the_same_for_any_number_of_threads() {
+    let model = shapes::torus(2.0, 0.7, 20, 12).unwrap();
+    let one = atlas(&model, &small());
+    assert_eq!(one, atlas(&model, &TextureOptions { threads: 3, ..small() }));
+}
+
+#[test]
+fn options_outside_their_ranges_are_refused_and_work_is_cancelled() {
+    let usual = small();
+    for options in [
+        TextureOptions { stretch: 1.0, ..usual.clone() },
+        TextureOptions { stretch: f64::NAN, ..usual.clone() },
+        TextureOptions { page: 1000, ..usual.clone() },
+        TextureOptions { margin: 17, ..usual.clone() },
+        TextureOptions { fill: 1.5, ..usual.clone() },
+    ] {
+        let refused = texture_atlas(&cube(), &options, &Control::new());
+        assert!(matches!(refused, Err(Error::Argument { .. })), "{options:?}: {refused:?}");
+    }
+    let control = Control::new();
+    control.cancel();
+    assert_eq!(texture_atlas(&cube(), &usual, &control), Err(Error::Cancelled));
+}
