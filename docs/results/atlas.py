@@ -198,6 +198,8 @@ def say(rows, left_out):
     print(f"- 99 % of the area within the bound 1.3 of the stretch (and 2 % for the scales of charts) on {sum(r['ricci']['stretch_99'] <= 1.326 for r in done.values())} of {len(done)}.")
     placeless = {n: r["ricci"]["placeless"] for n, r in done.items() if r["ricci"]["placeless"]}
     print(f"- Faces without a place (two corners in one place, or not finite): {placeless or 'none'}.")
+    alone = [n for n, r in done.items() if "error" in r.get("xatlas", {"error": ""})]
+    print(f"- Without xatlas beside it: {len(alone)} models.")
     if left_out:
         print(f"- Left out for time: {', '.join(left_out)}.")
     print("\n| " + " | ".join(names) + " |\n|" + "---|" * len(names))

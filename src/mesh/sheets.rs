@@ -35,7 +35,7 @@ pub struct Sheet {
 
 /// The sheets of a triangle list.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Sheets {
+pub struct SheetList {
     /// The sheets, in the order of their first faces.
     pub sheets: Vec<Sheet>,
     /// The faces that are in no sheet: those with a corner that does not exist or is not finite, or with two corners in one place.
@@ -50,7 +50,7 @@ pub struct Sheets {
 type Partners = Vec<u32>;
 
 /// Cuts a triangle list into sheets. Vertices in exactly the same place count as one. O(F log F).
-pub fn sheets(soup: &Soup) -> Sheets {
+pub fn sheets(soup: &Soup) -> SheetList {
     let is_finite =
         |v: &u32| soup.positions.get(*v as usize).is_some_and(|p| p.iter().all(|x| x.is_finite()));
     let first = coincident(&soup.positions, 0.0);
@@ -82,7 +82,7 @@ pub fn sheets(soup: &Soup) -> Sheets {
         alone.into_iter().for_each(|f| set_free(f, &mut partner));
     };
     let placeless = (0..faces.len() as u32).filter(|&f| !is_placed[f as usize]).collect();
-    Sheets { sheets: gathered(&faces, &vertices, &is_placed, &partner), placeless, turned, opened_edges }
+    SheetList { sheets: gathered(&faces, &vertices, &is_placed, &partner), placeless, turned, opened_edges }
 }
 
 /// Per face, true if it is turned so that neighbours agree: the fewer faces of each piece, of two equal parts that without the first face.

@@ -38,7 +38,7 @@ pub(super) struct PackedPage {
 
 /// Where a chart lies: its points turned by the angle, times the scale, moved.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(super) struct ChartPlace {
+pub(super) struct PagePlace {
     pub angle: f64,
     pub shift: [f64; 2],
 }
@@ -48,7 +48,7 @@ pub(super) struct ChartPlace {
 pub(super) struct Packing {
     /// Texels per unit of length.
     pub scale: f64,
-    pub places: Vec<ChartPlace>,
+    pub places: Vec<PagePlace>,
     /// The share of the page that the charts' areas fill.
     pub fill: f64,
 }
@@ -70,7 +70,7 @@ struct ScaledCharts<'a> {
     scale: f64,
 }
 
-impl ChartPlace {
+impl PagePlace {
     pub fn of(&self, p: [f64; 2], scale: f64) -> [f64; 2] {
         let (sin, cos) = self.angle.sin_cos();
         [scale * (cos * p[0] - sin * p[1]) + self.shift[0], scale * (sin * p[0] + cos * p[1]) + self.shift[1]]
@@ -141,10 +141,10 @@ impl PackedPage {
         scaled: &ScaledCharts<'_>,
         order: &[usize],
         control: &Control,
-    ) -> Result<Option<Vec<ChartPlace>>> {
+    ) -> Result<Option<Vec<PagePlace>>> {
         let ScaledCharts { charts, directions, scale } = *scaled;
         let mut page = TexelMask::new(self.room() + 2 * self.margin, self.room() + 2 * self.margin);
-        let mut places = vec![ChartPlace::default(); charts.len()];
+        let mut places = vec![PagePlace::default(); charts.len()];
         for &k in order {
             control.check()?;
             let turned =
@@ -153,7 +153,7 @@ impl PackedPage {
             let Some(chosen) = &turned[which] else { return Ok(None) };
             page.add(&chosen.mask, [x + self.margin, y + self.margin]);
             let shift = [0, 1].map(|c| ([x, y][c] + self.edge()) as f64 - chosen.low[c]);
-            places[k] = ChartPlace { angle: chosen.angle, shift };
+            places[k] = PagePlace { angle: chosen.angle, shift };
         }
         Ok(Some(places))
     }
@@ -184,7 +184,7 @@ impl PackedPage {
 
     /// The texels of a chart in one direction; none if they are more than those of the page.
     fn mask(&self, chart: &FlatChart, angle: f64, scale: f64) -> Option<TurnedMask> {
-        let turn = ChartPlace { angle, shift: [0.0; 2] };
+        let turn = PagePlace { angle, shift: [0.0; 2] };
         let points: Vec<[f64; 2]> = chart.points.iter().map(|p| turn.of(*p, scale)).collect();
         let bound = |c: usize, pick: fn(f64, f64) -> f64| points.iter().map(|p| p[c]).reduce(pick);
         let low = [bound(0, f64::min)?, bound(1, f64::min)?].map(f64::floor);

@@ -19,7 +19,7 @@ pub struct TextureQuality {
     pub stretch_max: f64,
     /// The value that max(σ, 1/τ) exceeds on a hundredth of the area.
     pub stretch_99: f64,
-    /// The mean of the angle by which the two directions that are perpendicular before and after deviate most between: 2 atan((σ − τ)/(σ + τ)), in degrees.
+    /// The mean of the largest change of an angle between two directions of a face: 2 atan((σ − τ)/(σ + τ)), in degrees.
     pub angle_mean: f64,
     /// The value that this angle exceeds on a hundredth of the area, in degrees.
     pub angle_99: f64,
@@ -47,7 +47,9 @@ pub(super) fn face_map([a, b, c]: [Point; 3], [p, q, r]: [[f64; 2]; 3]) -> Optio
     let (u, v) = (sub(b, a), sub(c, a));
     let (length, doubled) = (norm(u), norm(triangle_normal([a, b, c])));
     let longest = dot(u, u).max(dot(v, v)).max(dot(sub(c, b), sub(c, b)));
-    if !(0.5 * doubled > THINNEST * longest) {
+    // Also of coordinates whose products are no numbers.
+    let has_area = 0.5 * doubled > THINNEST * longest;
+    if !has_area {
         return None;
     }
     let (x, y) = (dot(u, v) / length, doubled / length);

@@ -14,7 +14,7 @@ use crate::geometry::predicates::orientation;
 use crate::geometry::triangle_overlap::{TriangleCorners, overlapping};
 use crate::geometry::vector::distance;
 use crate::mesh::io::Soup;
-use crate::mesh::sheets::{Sheet, Sheets, sheets};
+use crate::mesh::sheets::{Sheet, SheetList, sheets};
 use crate::mesh::{Mesh, Point};
 use crate::parallel;
 use std::cmp::Ordering;
@@ -107,7 +107,7 @@ pub fn texture_atlas(soup: &Soup, options: &TextureOptions, control: &Control) -
 /// The charts, sorted, on their page.
 fn packed(
     soup: &Soup,
-    found: &Sheets,
+    found: &SheetList,
     charts: &mut [FlatChart],
     options: &TextureOptions,
     control: &Control,

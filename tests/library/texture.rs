@@ -22,10 +22,10 @@ fn atlas(soup: &Soup, options: &TextureOptions) -> TextureAtlas {
 }
 
 fn small() -> TextureOptions {
-    TextureOptions { page: 128, threads: 1, ..TextureOptions::default() }
+    TextureOptions { page: 128, fill: 0.0, threads: 1, ..TextureOptions::default() }
 }
 
-/// A model without its last faces and with some others, which share no vertices with it.
+/// A model and another one, moved along x, without common vertices.
 fn beside(mut soup: Soup, other: &Soup, shift: f64) -> Soup {
     let n = soup.positions.len() as u32;
     soup.positions.extend(other.positions.iter().map(|p| [p[0] + shift, p[1], p[2]]));
@@ -35,7 +35,7 @@ fn beside(mut soup: Soup, other: &Soup, shift: f64) -> Soup {
 
 #[test]
 fn a_cube_unfolds_without_stretch_along_seven_of_its_edges() {
-    let whole = atlas(&cube(), &TextureOptions { fill: 0.0, ..small() });
+    let whole = atlas(&cube(), &small());
     let quality = whole.quality;
     assert_eq!((whole.charts, whole.sheets), (1, 1));
     // A spanning tree of 8 corners has 7 edges; the area is 6.
@@ -47,7 +47,7 @@ fn a_cube_unfolds_without_stretch_along_seven_of_its_edges() {
     assert!((quality.texel_density - 128.0 * side).abs() < 1e-9, "{quality:?}");
     let [a, b, _] = whole.corner_uv[0];
     assert!(((a[0] - b[0]).hypot(a[1] - b[1]) - side).abs() < 1e-4 * side);
-    let filled = atlas(&cube(), &small());
+    let filled = atlas(&cube(), &TextureOptions { fill: 0.68, ..small() });
     assert!(filled.quality.fill > quality.fill, "{} {}", filled.quality.fill, quality.fill);
 }
 
@@ -55,7 +55,7 @@ fn a_cube_unfolds_without_stretch_along_seven_of_its_edges() {
 fn the_bound_of_the_stretch_holds_and_costs_seams() {
     let sphere = shapes::icosphere(3).unwrap();
     let found = [1.6, 1.15].map(|stretch| {
-        let atlas = atlas(&sphere, &TextureOptions { stretch, fill: 0.0, ..small() });
+        let atlas = atlas(&sphere, &TextureOptions { stretch, ..small() });
         assert!(atlas.quality.stretch_99 <= 1.02 * stretch, "{:?}", atlas.quality);
         atlas.quality.seam_length
     });
@@ -88,7 +88,7 @@ fn any_list_of_triangles_has_an_atlas() {
     // A wing on an edge of the cube, a face that names a vertex twice, one with a vertex in the place of another, one that is not finite.
     let mut model = beside(cube(), &shapes::disk(2).unwrap(), 3.0);
     let n = model.positions.len() as u32;
-    model.positions.extend([[0.5, -1.0, -1.0], [1.0, 0.0, 0.0], [f64::NAN, 0.0, 0.0]]);
+    model.positions.extend([[0.5, 0.5, 0.5], [1.0, 0.0, 0.0], [f64::NAN, 0.0, 0.0]]);
     let before = model.faces.len() as u32;
     model.faces.extend([[0, 1, n], [0, 0, 2], [1, n + 1, 5], [0, 1, n + 2], [0, 1, n + 9]]);
     let found = atlas(&model, &small());
@@ -105,7 +105,7 @@ fn any_list_of_triangles_has_an_atlas() {
 fn faces_that_run_against_their_neighbours_stay_in_the_chart() {
     let mut model = cube();
     model.faces[3].swap(1, 2);
-    let found = atlas(&model, &TextureOptions { fill: 0.0, ..small() });
+    let found = atlas(&model, &small());
     assert_eq!((&found.turned, found.charts, found.sheets), (&vec![3], 1, 1));
     let area = |f: usize| {
         let [a, b, c] = found.corner_uv[f];
@@ -138,7 +138,7 @@ fn a_strip_with_one_side_is_opened() {
 
 #[test]
 fn the_atlas_is_the_same_for_any_number_of_threads() {
-    let model = shapes::torus(2.0, 0.7, 20, 12).unwrap();
+    let model = shapes::torus(2.0, 0.7, 14, 8).unwrap();
     let one = atlas(&model, &small());
     assert_eq!(one, atlas(&model, &TextureOptions { threads: 3, ..small() }));
 }
