@@ -28,7 +28,7 @@ THINNEST = 1e-9
 def wavefront(path):
     """Positions, faces, texture coordinates of the corners."""
     V, T, F, G = [], [], [], []
-    for word in (line.split() for line in open(path, errors="replace")):
+    for word in (line.split() for line in Path(path).read_text(errors="replace").splitlines()):
         if word and word[0] == "v":
             V.append([float(x) for x in word[1:4]])
         elif word and word[0] == "vt":
@@ -53,7 +53,7 @@ def seams(V, F, uv):
     length = np.linalg.norm(V[F].reshape(-1, 3) - V[np.roll(F, -1, axis=1)].reshape(-1, 3), axis=1)
     _, edge, count = np.unique(ends, axis=0, return_inverse=True, return_counts=True)
     edge = edge.ravel()
-    different, first = np.unique(np.concatenate([edge[:, None], np.round(sides * 2**22)], 1), axis=0, return_index=True)
+    _, first = np.unique(np.concatenate([edge[:, None], np.round(sides * 2**22)], 1), axis=0, return_index=True)
     places = np.bincount(edge[first], minlength=len(count))
     lengths = np.zeros(len(count))
     lengths[edge] = length
@@ -107,7 +107,7 @@ def ours(path, folder):
     begun = time.time()
     words = [command, "atlas", path, "-o", out, "--report", report, "--quiet"]
     try:
-        done = subprocess.run(words, capture_output=True, text=True, timeout=LONGEST)
+        done = subprocess.run(words, capture_output=True, text=True, timeout=LONGEST, check=False)
     except subprocess.TimeoutExpired:
         return {"error": f"not done in {LONGEST} s"}
     if done.returncode > 1:
@@ -147,7 +147,7 @@ def row(path, known, folder):
     if "xatlas" not in known and "error" not in known["ricci"]:
         words = [sys.executable, __file__, "--xatlas", Path(folder) / "atlas.obj"]
         try:
-            done = subprocess.run(words, capture_output=True, text=True, timeout=LONGEST)
+            done = subprocess.run(words, capture_output=True, text=True, timeout=LONGEST, check=False)
             known["xatlas"] = json.loads(done.stdout) if done.returncode == 0 else {"error": f"exit {done.returncode}"}
         except subprocess.TimeoutExpired:
             known["xatlas"] = {"error": f"not done in {LONGEST} s"}
@@ -158,7 +158,7 @@ def cells(known):
     a, b = known.get("ricci", {}), known.get("xatlas", {})
     if "error" in a:
         return [a["error"]] + [""] * 9
-    pair = lambda key, form: f"{a[key]:{form}} | " + (f"{b[key]:{form}}" if key in b else "–")  # noqa: E731
+    pair = lambda key, form: f"{a[key]:{form}} | " + (f"{b[key]:{form}}" if key in b else "–")
     return [
         str(a["faces"]),
         pair("charts", "d"),
@@ -178,7 +178,7 @@ def say(rows, left_out):
     names = ["mesh", "faces", "charts", "x", "L2", "x", "L∞", "99 %", "angle", "x", "angle 99 %", "σ", "x", "seam", "x", "fill", "x", "s", "x"]
     done = {name: r for name, r in rows.items() if "error" not in r["ricci"]}
     both = [r for r in done.values() if "error" not in r.get("xatlas", {"error": ""})]
-    share = lambda test: f"{sum(map(test, both))} of {len(both)}"  # noqa: E731
+    share = lambda test: f"{sum(map(test, both))} of {len(both)}"
     print("# Texture atlases: `ricci atlas` beside xatlas\n")
     print("By `docs/results/atlas.py`: page of 1024 texels, margin 2, defaults; xatlas (`bruteForce`, resolution 1024, padding 2) on the file")
     print("that the command wrote, its columns are those headed x. Figures are computed from the written coordinates, seconds include reading and")
@@ -215,7 +215,7 @@ def main():
     rows, left_out = json.loads(kept.read_text()) if kept.exists() else {}, []
     order = {}
     for part in ("bad", "good"):
-        for entry in csv.DictReader(open(corpus / part / "INDEX.csv")):
+        for entry in csv.DictReader((corpus / part / "INDEX.csv").read_text().splitlines()):
             order[entry["file"]] = (corpus / part / entry["file"], int(entry["F"] or 0))
     with tempfile.TemporaryDirectory() as folder:
         for name, (path, n) in sorted(order.items(), key=lambda entry: entry[1][1]):
