@@ -14,10 +14,11 @@ use crate::structs::{self, sized};
 use ricci::Surface;
 use ricci::flow::Options;
 use ricci::matching::{
-    BoundaryMatching, LoopShape, MapQuality, MatchOptions, Matching, Place, SoftLandmark, SurfaceMap,
-    cycle_error, map_quality, match_surfaces, point_error,
+    BoundaryMatching, LandmarkSearch, LoopShape, MapQuality, MapVerdict, MatchOptions, Matching, Place,
+    SoftLandmark, SurfaceMap, cycle_error, judge, map_quality, match_by_shape, match_surfaces, point_error,
 };
 use ricci::mesh::{FaceId, HalfedgeId, VertexId};
+use ricci::parallel::within;
 
 pub struct ricci_matching {
     pub(crate) matching: Matching,
@@ -40,6 +41,12 @@ choices!(BOUNDARIES: BoundaryMatching = "correspondence of boundaries", [
 choices!(LOOP_SHAPES: LoopShape = "shape of boundary loops", [
     RICCI_MATCH_GEODESICS => LoopShape::Geodesics,
     RICCI_MATCH_CIRCLES => LoopShape::Circles,
+]);
+
+choices!(VERDICTS: MapVerdict = "verdict", [
+    RICCI_VERDICT_GOOD => MapVerdict::Good,
+    RICCI_VERDICT_ROUGH => MapVerdict::Rough,
+    RICCI_VERDICT_UNLIKELY => MapVerdict::Unlikely,
 ]);
 
 choices!(enum MapDirection, DIRECTIONS = "direction of a matching", [
@@ -106,7 +113,48 @@ pub struct ricci_matching_summary {
 // SAFETY: numbers; 8-byte alignment, size first.
 sized!(ricci_matching_summary, "summary");
 
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct ricci_matching_judgement {
+    pub size: usize,
+    pub area_log_mean: f64,
+    pub area_log_99: f64,
+    pub qc_mean: f64,
+    pub qc_99: f64,
+    pub cycle_mean: f64,
+    pub agreement: f64,
+    pub verdict: u32,
+    pub reserved: u32,
+}
+// SAFETY: numbers; 8-byte alignment, size first.
+sized!(ricci_matching_judgement, "judgement", reserved);
+
 impl ricci_matching {
+    /// A matching with its figures. Quality and errors are distances in space, which intrinsic surfaces do not have.
+    fn new(
+        both: [&Surface; 2],
+        matching: Matching,
+        landmarks: &[[VertexId; 2]],
+        threads: usize,
+    ) -> Outcome<ricci_matching> {
+        let (mut quality, mut missed) = (None, 0.0);
+        if both.iter().all(|s| s.positions().is_some()) {
+            let cycle = cycle_error(both, [&matching.forward, &matching.backward])?;
+            quality = Some((map_quality(both, &matching.forward, landmarks)?, cycle));
+            missed = point_error(both[1], &matching)?;
+        }
+        let [source, target] = both.map(Surface::clone);
+        Ok(ricci_matching {
+            matching,
+            source,
+            target,
+            quality,
+            point_error: missed,
+            threads,
+            mirrored: false,
+        })
+    }
+
     /// The map of a direction, and the surface that it leads to.
     fn map(&self, direction: u32) -> Outcome<(&SurfaceMap, &Surface)> {
         Ok(match DIRECTIONS.choose(direction)? {
@@ -127,41 +175,80 @@ pub unsafe extern "C" fn ricci_match(
     guard::make(matching, || {
         let (source, target) = (shared(source)?, shared(target)?);
         let (given, control) = (structs::read(options)?, control::of(control)?);
-        let n = source.connectivity.n_vertices().saturating_add(target.connectivity.n_vertices());
+        let _reserve = reserve([source, target])?;
+        let options = to_library([source, target], &given)?;
+        let both = [source.surface()?, target.surface()?];
+        let matching = match_surfaces(both[0], both[1], &options, &control)?;
+        ricci_matching::new(both, matching, &options.landmarks, given.threads)
+    })
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_match_by_shape(
+    source: *const ricci_mesh,
+    target: *const ricci_mesh,
+    options: *const ricci_match_options,
+    control: *const ricci_control,
+    matching: *mut *mut ricci_matching,
+) -> ricci_status {
+    guard::make(matching, || {
+        let (source, target) = (shared(source)?, shared(target)?);
+        let (given, control) = (structs::read(options)?, control::of(control)?);
+        let _reserve = reserve([source, target])?;
+        let options = to_library([source, target], &given)?;
+        let both = [source.surface()?, target.surface()?];
+        let found = match_by_shape(both, &options, &LandmarkSearch::default(), &control)?;
+        ricci_matching::new(both, found.matching, &found.landmarks, given.threads)
+    })
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ricci_matching_judge(
+    matching: *const ricci_matching,
+    control: *const ricci_control,
+    judgement: *mut ricci_matching_judgement,
+    size: usize,
+) -> ricci_status {
+    guard::with(matching, |ricci_matching { matching, source, target, threads, .. }| {
+        let control = control::of(control)?;
+        let n = source.mesh().n_vertices().saturating_add(target.mesh().n_vertices());
         let _reserve = memory::work(n, memory::LAYOUT)?;
-        let pairs: Vec<[u32; 2]> = array("landmarks", given.landmarks.cast(), given.n_landmarks)?;
-        let loops: Vec<u32> = array("loops", given.loops, given.n_loops)?;
-        let options = MatchOptions {
-            points: points(&given)?,
-            curves: curves(&given)?,
-            soft: soft(&given)?,
-            basis: basis([source, target], &given)?,
-            landmarks: pairs.into_iter().map(|pair| pair.map(VertexId)).collect(),
-            loops: (!loops.is_empty()).then(|| loops.into_iter().map(|k| k as usize).collect()),
-            boundary: BOUNDARIES.choose(given.boundary)?,
-            loop_shape: LOOP_SHAPES.choose(given.loop_shape)?,
-            flow: Options { threads: given.threads, ..Options::default() },
+        let found = within(*threads, || judge([source, target], matching, &control))?;
+        let figures = ricci_matching_judgement {
+            size: 0,
+            area_log_mean: found.area_log_mean,
+            area_log_99: found.area_log_99,
+            qc_mean: found.qc_mean,
+            qc_99: found.qc_99,
+            cycle_mean: found.cycle_mean,
+            agreement: found.agreement,
+            verdict: VERDICTS.number(found.verdict)?,
+            reserved: 0,
         };
-        let (source, target) = (source.surface()?, target.surface()?);
-        let matching = match_surfaces(source, target, &options, &control)?;
-        // Quality and errors are distances in space, which intrinsic surfaces do not have.
-        let both = [source, target];
-        let (mut quality, mut missed) = (None, 0.0);
-        if both.iter().all(|s| s.positions().is_some()) {
-            let cycle = cycle_error(both, [&matching.forward, &matching.backward])?;
-            quality = Some((map_quality(both, &matching.forward, &options.landmarks)?, cycle));
-            missed = point_error(target, &matching)?;
-        }
-        let (source, target, threads) = (source.clone(), target.clone(), given.threads);
-        Ok(ricci_matching {
-            matching,
-            source,
-            target,
-            quality,
-            point_error: missed,
-            threads,
-            mirrored: false,
-        })
+        structs::write(figures, judgement, size)
+    })
+}
+
+/// Room for matching surfaces.
+fn reserve(meshes: [&ricci_mesh; 2]) -> Outcome<memory::Reserve> {
+    let [n, m] = meshes.map(|mesh| mesh.connectivity.n_vertices());
+    memory::work(n.saturating_add(m), memory::LAYOUT)
+}
+
+/// The caller's options.
+fn to_library(meshes: [&ricci_mesh; 2], given: &ricci_match_options) -> Outcome<MatchOptions> {
+    let pairs: Vec<[u32; 2]> = array("landmarks", given.landmarks.cast(), given.n_landmarks)?;
+    let loops: Vec<u32> = array("loops", given.loops, given.n_loops)?;
+    Ok(MatchOptions {
+        points: points(given)?,
+        curves: curves(given)?,
+        soft: soft(given)?,
+        basis: basis(meshes, given)?,
+        landmarks: pairs.into_iter().map(|pair| pair.map(VertexId)).collect(),
+        loops: (!loops.is_empty()).then(|| loops.into_iter().map(|k| k as usize).collect()),
+        boundary: BOUNDARIES.choose(given.boundary)?,
+        loop_shape: LOOP_SHAPES.choose(given.loop_shape)?,
+        flow: Options { threads: given.threads, ..Options::default() },
     })
 }
 

@@ -20,7 +20,8 @@ SAME = [("pair_cat_A", "pair_cat_B"), ("human_man", "human_woman"), ("pair_face_
 OTHER = [("pair_cat_A", "pair_lion_A"), ("pair_faust_002", "pair_faust_085"), ("pair_hand_plain", "pair_hand_vulcan"), ("femur_01", "femur_02"),
          ("face_bff", "face_libigl"), ("pair_mac_smooth", "pair_mac_blocky"), ("eight_766", "eight_3498"), ("genus3", "pretzel"), ("bob", "kitten_10k"),
          ("spot_low", "cow_cgal"), ("homer", "human_man")]
-LANDMARKS = [0, 4, 8, 16]
+# Numbers of landmarks; auto: they are found by the shapes of the surfaces.
+LANDMARKS = ["auto", 0, 4, 8, 16]
 FIGURE_12 = """The case of [JKLLG08, Fig. 12]: every loop becomes a round hole of a flat torus (`--loop-shape circles`), and beside it a geodesic of a hyperbolic metric,
 which is the default. *roundness*: largest distance of a vertex of a loop, of either surface, from the circle of the loop, over the radius. A hole bends
 away from the surface around it, so that faces may fold beside it: the weights of the map are changed there, and where that does not open all of them, it is an error. Which
@@ -83,7 +84,11 @@ def matched(run, name, paths, landmarks=(), same=False, seconds=None, overlay=Fa
 def answer(run, paths, landmarks, same, seconds, overlay, more):
     rows, over = run.fresh("map.csv", "overlay.obj")
     asked = ["match", *paths, "--map", rows, *more]
-    if landmarks:
+    if landmarks == "auto":
+        asked += ["--landmarks", "auto"]
+    elif not landmarks:
+        asked += ["--landmarks", "none"]
+    else:
         pairs = write_rows(run.path("landmarks.csv"), "source_vertex,target_vertex", [(v, v) for v in landmarks])
         asked += ["--landmarks", pairs]
     asked += ["--same-numbering"] if same else []
@@ -112,16 +117,18 @@ def pairs(run):
     rows, partners = [], {n: [] for n in LANDMARKS}
     for pair, paths in known_pairs(SAME + OTHER):
         same, name = pair in SAME, " → ".join(pair)
-        vertices = farthest(paths[0], max(LANDMARKS)) if same else []
-        for n in LANDMARKS if same else LANDMARKS[:1]:
+        vertices = farthest(paths[0], max(LANDMARKS[1:])) if same else []
+        for n in LANDMARKS if same else LANDMARKS[:2]:
             title, far = f"{name}, {n} landmarks", "–"
-            report, seen = matched(run, title, paths, vertices[:n], same, PATIENCE)
+            report, seen = matched(run, title, paths, n if n == "auto" else vertices[:n], same, PATIENCE)
             if report is None:
                 continue
             run.insist(not seen or seen["covered"] and seen["weights_off"] < 1e-12, f"{title}, outside: {seen}")
             if same:
                 partners[n].append(report["result"]["partner_mean"])
                 far = f"{report['result']['partner_mean']:.4f}, {report['result']['partner_max']:.4f}"
+            r = report["result"]
+            n = f"auto: {r['landmarks']}" if n == "auto" else n
             rows.append(row(name, report, seen, n, far))
     medians = [[n, len(partners[n]), f"{statistics.median(partners[n]):.4f}"] for n in LANDMARKS if partners[n]]
     return table(["pair", "landmarks", "partners: mean, max", *HEAD], rows), medians

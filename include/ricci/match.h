@@ -222,6 +222,81 @@ RICCI_API ricci_status ricci_match(const ricci_mesh *source, const ricci_mesh *t
                                    ricci_matching **matching);
 
 /**
+ * The same map, with landmarks that are found by the shapes of the surfaces where they make it better:
+ * extremities and eigenfunctions of the Laplacian propose maps, of which the one that keeps distances best is
+ * refined. Landmarks, points, soft landmarks and curves of the options are not looked at.
+ *
+ * @return as ricci_match; RICCI_ARGUMENT for a surface without positions too.
+ *
+ * @param source    the surface whose vertices are mapped.
+ * @param target    the surface that they are mapped to.
+ * @param options   loops, boundary and threads, or NULL.
+ * @param control   progress and cancellation, or NULL.
+ * @param matching  out: the map; free it with ricci_matching_free.
+ */
+RICCI_API ricci_status ricci_match_by_shape(const ricci_mesh *source, const ricci_mesh *target,
+                                            const ricci_match_options *options, const ricci_control *control,
+                                            ricci_matching **matching);
+
+/** What a map is good for. */
+enum {
+    /**
+     * Values can be carried along it point by point: area_log_mean is at most 0.5, qc_mean 1.5, cycle_mean
+     * 0.005, and agreement at least 0.8.
+     */
+    RICCI_VERDICT_GOOD = 0,
+    /** Values can be carried along it where they vary slowly. */
+    RICCI_VERDICT_ROUGH = 1,
+    /**
+     * Landmarks are needed: area_log_mean is above 2, qc_mean above 6, cycle_mean above 0.1, or agreement
+     * below 0.3.
+     */
+    RICCI_VERDICT_UNLIKELY = 2
+};
+
+/** How much a map distorts, and whether it brings alike points to each other. */
+typedef struct ricci_matching_judgement {
+    /** Bytes of this struct that are filled. */
+    size_t size;
+    /** Mean by area of |ln| of a face's share of the image's area over its share of its own surface. */
+    double area_log_mean;
+    /** That which is exceeded on 1 % of the area. */
+    double area_log_99;
+    /** Mean by area of the quasi-conformal dilatation of the faces. */
+    double qc_mean;
+    /** That which is exceeded on 1 % of the area. */
+    double qc_99;
+    /**
+     * Mean distance of a vertex from where the map and its inverse bring it, over the diagonal of the
+     * source's bounding box.
+     */
+    double cycle_mean;
+    /**
+     * Agreement of the mean distance from the surface at corresponding points: 1 where it is equal, 0 where
+     * the map does no better than chance.
+     */
+    double agreement;
+    /** RICCI_VERDICT_*. */
+    uint32_t verdict;
+    /** Always 0. */
+    uint32_t reserved;
+} ricci_matching_judgement;
+
+/**
+ * The judgement of a map, in space.
+ *
+ * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_ARGUMENT (a surface without positions; no such size),
+ * RICCI_NO_MEMORY, RICCI_CANCELLED.
+ *
+ * @param matching   the matching.
+ * @param control    progress and cancellation, or NULL.
+ * @param judgement  out: the judgement.
+ * @param size       sizeof *judgement.
+ */
+RICCI_API ricci_status ricci_matching_judge(const ricci_matching *matching, const ricci_control *control,
+                                            ricci_matching_judgement *judgement, size_t size);
+
+/**
  * Release a matching.
  *
  * @param matching  the matching, or NULL.

@@ -53,6 +53,19 @@ public:
              const control *watched = nullptr)
         : matching_handle(
               make<ricci_matching>(ricci_match, source.get(), target.get(), &options, of(watched))) {}
+    // The map with landmarks that are found by the shapes of the surfaces.
+    static matching by_shape(const mesh &source, const mesh &target,
+                             const ricci_match_options &options = init<ricci_match_options>(),
+                             const control *watched = nullptr) {
+        return matching(
+            make<ricci_matching>(ricci_match_by_shape, source.get(), target.get(), &options, of(watched)));
+    }
+    // How much the map distorts, and what it is good for.
+    ricci_matching_judgement judgement(const control *watched = nullptr) const {
+        ricci_matching_judgement all{};
+        check(ricci_matching_judge(get(), of(watched), &all, sizeof all));
+        return all;
+    }
     ricci_matching_summary summary() const { return ricci::summary(ricci_matching_summarise, get()); }
     // The faces that the vertices go to.
     std::vector<std::uint32_t> faces(std::uint32_t direction = RICCI_MATCH_FORWARD) const {

@@ -154,3 +154,16 @@ def test_conflicts_are_named(disk, torus):
         ricci.match(disk, disk, landmarks=[[5, 9], [5, 11]])
     with pytest.raises(ricci.ArgumentError):
         ricci.match(disk, disk, landmarks=[[5, 10**6]])
+
+
+def test_a_surface_matched_to_itself_by_its_shape_is_judged_good():
+    torus = ricci.make("torus", n=12, m=8)
+    found = ricci.match(torus, torus, landmarks="auto")
+    judged = found.judgement()
+    assert judged.verdict == "good"
+    assert judged.agreement == pytest.approx(1, abs=1e-3)
+    assert judged.area_log_99 < 1e-6
+    with pytest.raises(ricci.ArgumentError, match="auto"):
+        ricci.match(torus, torus, landmarks="tips")
+    with pytest.raises(ricci.ArgumentError, match="soft"):
+        ricci.match(torus, torus, landmarks="auto", soft=[[0, 1]], soft_weights=[1.0])

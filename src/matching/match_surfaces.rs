@@ -131,7 +131,11 @@ fn check_loop_shape(source: &Surface, options: &MatchOptions) -> Result<()> {
     Ok(())
 }
 
-fn check_topology(source: &Surface, target: &Surface) -> Result<()> {
+/// Checks that a homeomorphism exists.
+///
+/// # Errors
+/// [`Error::Matching`].
+pub(super) fn check_topology(source: &Surface, target: &Surface) -> Result<()> {
     let [(genus, loops), (other_genus, other_loops)] =
         [source, target].map(|s| (s.mesh().genus(), s.mesh().boundary_loops().len()));
     if genus != other_genus {

@@ -38,7 +38,7 @@
 //!
 //! ```text
 //! match_surfaces                                       match_surfaces.rs   options.rs
-//!   what corresponds: landmarks, curves, loops         landmarks/
+//!   what corresponds: landmarks, curves, loops         landmarks/          found/ (by shape)
 //!   the strategy, from genus, loops, landmarks         strategy.rs         domain_pair.rs
 //!   |  same numbering          frames of faces         same_triangulation.rs
 //!   |  sphere, < 3 landmarks   rotation or Moebius     sphere/             fit/
@@ -53,6 +53,7 @@
 //!   loops as circles, if wanted                        round/
 //!   the vertices of each in the other's triangles      cover/walk.rs       result.rs   surface_map.rs
 //! common subdivision of both, distortion of the map    overlay/            quality.rs
+//! the judgement of a map                               judgement.rs        even_sample.rs
 //! bracket of the Teichmueller distance                 teichmuller.rs      energy_ratio.rs
 //! ```
 //!
@@ -78,8 +79,11 @@ mod cover;
 mod disk;
 mod domain_pair;
 mod energy_ratio;
+mod even_sample;
 mod fit;
+mod found;
 mod handles;
+mod judgement;
 mod landmarks;
 mod least_energy;
 mod match_surfaces;
@@ -101,6 +105,8 @@ mod teichmuller_tests;
 
 pub use crate::mesh::Place;
 pub use balance::BalanceReport;
+pub use found::{FoundLandmarks, LandmarkSearch, ShapeMatching, find_landmarks, match_by_shape};
+pub use judgement::{MapJudgement, MapVerdict, judge};
 pub use match_surfaces::match_surfaces;
 pub use options::{BoundaryMatching, LoopShape, MatchOptions, SoftLandmark};
 pub use overlay::{CommonDomain, DomainTriangle};

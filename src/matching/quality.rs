@@ -88,6 +88,37 @@ pub fn map_quality(
     })
 }
 
+/// The distortion of one face of the source, with its area.
+pub(super) struct FaceDistortion {
+    pub area: f64,
+    /// |ln| of its share of the image's area over its share of its own surface.
+    pub area_log: f64,
+    pub dilatation: f64,
+}
+
+/// The distortion of the faces that have an area.
+///
+/// # Errors
+/// As [`map_quality`].
+pub(super) fn face_distortions(
+    [source, target]: [&Surface; 2],
+    map: &SurfaceMap,
+) -> Result<Vec<FaceDistortion>> {
+    let (from, to) = (positions(source)?, positions(target)?);
+    check_size("places of the map", map.places.len(), from.len())?;
+    let images = map.carry(target.mesh(), to)?;
+    let mesh = source.mesh();
+    let face = |points: &[Point], f| mesh.face_vertices(f).map(|v| points[v.index()]);
+    let totals = [from, &images].map(|points| mesh.faces().map(|f| area(face(points, f))).sum::<f64>());
+    let distortion = |f| {
+        let (own, image) = (face(from, f), face(&images, f));
+        let ratio = (area(image) / totals[1].max(f64::MIN_POSITIVE)) / (area(own) / totals[0]);
+        let area_log = ratio.max(f64::MIN_POSITIVE).ln().abs();
+        FaceDistortion { area: area(own), area_log, dilatation: dilatation(own, image) }
+    };
+    Ok(mesh.faces().map(distortion).filter(|face| face.area > 0.0).collect())
+}
+
 /// Per face of the source the dilatation of the map, [`DILATATION_CAP`] at most.
 ///
 /// # Errors

@@ -56,5 +56,6 @@ pub use intersection::{intersection_matrix, intersection_number};
 pub use lift::{Lift, LiftedPath};
 pub(crate) use nearest::NearestQueue;
 pub use reduction::Reduction;
+pub(crate) use spanning::OutgoingEdges;
 pub use spanning::{Forest, shortest_paths};
 pub use word::{Letter, Word};

@@ -118,7 +118,7 @@ impl OutgoingEdge {
 }
 
 /// The edges that leave each vertex, next to each other in memory. This pays when there are several searches on the same mesh.
-pub(super) struct OutgoingEdges<'a> {
+pub(crate) struct OutgoingEdges<'a> {
     mesh: &'a Mesh,
     pub lengths: &'a PerEdge<f64>,
     /// The edges that leave vertex v are `edges[starts[v]..starts[v + 1]]`.

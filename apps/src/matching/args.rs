@@ -5,7 +5,7 @@ use crate::picture::PictureArgs;
 use clap::{Args, ValueEnum};
 use ricci::matching::{BoundaryMatching, LoopShape};
 use serde::Serialize;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 pub const HELP: &str = "\
 Example: a torus onto a thicker one, and the first in the shape of the second
@@ -18,6 +18,11 @@ landmarks and straight boundaries, and the source goes into it by a harmonic map
 landmarks and loops leave open one of low energy is taken, or that which --basis names. Boundaries slide along each other between landmarks on them, or go to each other by
 shares of their length; with --loop-shape circles they become round holes of a closed surface. Spheres without landmarks are
 turned until their conformal factors fit best.
+
+Where nothing says what corresponds, landmarks are found by the shapes of the surfaces: extremities and eigenfunctions of the Laplacian propose
+maps, of which the one that keeps distances best is refined. The map with them is compared with the one without any, and the better one is taken.
+The verdict on a map is good, rough or unlikely. Good: mean |ln area| at most 0.5, mean dilatation at most 1.5, there and back at most 0.005,
+agreement at least 0.8. Unlikely, which is exit 1: one of them beyond 2, 6, 0.1 or 0.3.
 
 Files
     --landmarks L.csv    rows source_vertex,target_vertex: pairs inside the surfaces, or on their boundaries, in any number. On surfaces with
@@ -93,6 +98,16 @@ impl From<LoopShapeName> for LoopShape {
     }
 }
 
+/// What `--landmarks` says.
+pub enum LandmarkChoice<'a> {
+    /// They are found.
+    Auto,
+    /// There are none.
+    None,
+    /// They are in this file.
+    File(&'a Path),
+}
+
 #[derive(Args, Serialize, Debug)]
 pub struct MatchArgs {
     #[command(flatten)]
@@ -100,9 +115,10 @@ pub struct MatchArgs {
     pub source: MeshArgs,
     /// Mesh file of the surface that the source is mapped to
     pub target: PathBuf,
-    /// Pairs of vertices that correspond: rows source_vertex,target_vertex
-    #[arg(long, value_name = "L.csv")]
-    pub landmarks: Option<FileName>,
+    /// Pairs of vertices that correspond: rows source_vertex,target_vertex; auto: they are found by the shapes of the surfaces where nothing
+    /// else says what corresponds; none
+    #[arg(long, value_name = "auto|none|L.csv", default_value = "auto")]
+    pub landmarks: FileName,
     /// Pairs of points that correspond: rows source_face,s0,s1,s2,target_face,t0,t1,t2
     #[arg(long, value_name = "P.csv")]
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -174,4 +190,15 @@ pub struct MatchArgs {
     #[command(flatten)]
     #[serde(flatten)]
     pub common: Common,
+}
+
+impl MatchArgs {
+    pub fn landmark_choice(&self) -> LandmarkChoice<'_> {
+        let others = [&self.points, &self.soft, &self.curves, &self.basis];
+        match self.landmarks.to_str() {
+            Some("auto") if others.iter().all(|file| file.is_none()) => LandmarkChoice::Auto,
+            Some("auto" | "none") => LandmarkChoice::None,
+            _ => LandmarkChoice::File(&self.landmarks),
+        }
+    }
 }

@@ -1,9 +1,9 @@
 //! `ricci match` as a job: what it refuses, computes, writes and reports.
 
-use super::args::{MatchArgs, MatchPictureChoice};
+use super::args::{LandmarkChoice, MatchArgs, MatchPictureChoice};
 use super::files::{write_carried, write_map, write_moved, write_overlay, write_places};
 use super::marks;
-use super::outcome::MatchOutcome;
+use super::outcome::{MatchOutcome, MatchedSurfaces};
 use super::pictures::draw;
 use crate::csv;
 use crate::failure::Failure;
@@ -13,9 +13,13 @@ use crate::output::{check_extension, check_outputs};
 use crate::progress::doing;
 use crate::report::timed;
 use crate::runner::{CommandRun, Job, JobHeader};
+use ricci::Control;
 use ricci::flow;
-use ricci::matching::{MatchOptions, dilatation_bracket, match_surfaces};
+use ricci::matching::{
+    LandmarkSearch, MatchOptions, dilatation_bracket, judge, match_by_shape, match_surfaces,
+};
 use ricci::moduli::BoundsOptions;
+use ricci::parallel::within;
 use std::path::Path;
 
 impl Job for MatchArgs {
@@ -44,9 +48,13 @@ impl Job for MatchArgs {
             &self.picture.picture,
             &self.common.report,
         ];
-        let tables = [&self.landmarks, &self.points, &self.soft, &self.curves, &self.basis];
-        let surfaces = [Some(self.source.mesh.as_path()), Some(self.target.as_path())];
-        let inputs: Vec<_> = surfaces.into_iter().chain(tables.map(|file| file.as_deref())).collect();
+        let tables = [&self.points, &self.soft, &self.curves, &self.basis];
+        let landmarks = match self.landmark_choice() {
+            LandmarkChoice::File(path) => Some(path),
+            _ => None,
+        };
+        let inputs = [Some(self.source.mesh.as_path()), Some(self.target.as_path()), landmarks];
+        let inputs: Vec<_> = inputs.into_iter().chain(tables.map(|file| file.as_deref())).collect();
         check_outputs(&inputs, &files.map(|file| file.as_deref()))
     }
 
@@ -57,13 +65,10 @@ impl Job for MatchArgs {
         let target = input::read(&target, None, seconds, control)?;
         check_surfaces(self, [&input, &target])?;
         let options = options(self, [&input, &target])?;
-        let matching = timed(&mut seconds.solve, || {
-            doing("matching", || {
-                match_surfaces(&input.surface, &target.surface, &options, &control.part(0.1, 0.8))
-            })
+        let found = timed(&mut seconds.solve, || {
+            doing("matching", || find(self, [&input, &target], options, &control.part(0.1, 0.8)))
         })?;
-        let mut outcome =
-            MatchOutcome::new([input, target], matching, options.landmarks, self.same_numbering)?;
+        let mut outcome = MatchOutcome::new([input, target], found, self.same_numbering)?;
         if self.overlay.is_some() || self.overlay_places.is_some() || self.distance {
             let overlay = timed(&mut seconds.solve, || {
                 let threads = self.common.threads;
@@ -109,11 +114,33 @@ impl Job for MatchArgs {
     }
 }
 
+/// The map, with its judgement and the landmarks that were given or found.
+fn find(
+    args: &MatchArgs,
+    surfaces: [&Input; 2],
+    options: MatchOptions,
+    control: &Control,
+) -> ricci::Result<MatchedSurfaces> {
+    let [source, target] = surfaces.map(|input| &input.surface);
+    if let LandmarkChoice::Auto = args.landmark_choice() {
+        let matched = match_by_shape([source, target], &options, &LandmarkSearch::default(), control)?;
+        let (matching, landmarks, judgement) = (matched.matching, matched.landmarks, matched.judgement);
+        return Ok(MatchedSurfaces { matching, landmarks, judgement, found: Some(matched.found) });
+    }
+    let matching = match_surfaces(source, target, &options, &control.part(0.0, 0.9))?;
+    let judged = || judge([source, target], &matching, &control.part(0.9, 1.0));
+    let judgement = within(options.flow.threads, judged)?;
+    Ok(MatchedSurfaces { matching, landmarks: options.landmarks, judgement, found: None })
+}
+
 /// The library's options, with the tables that the arguments name.
 fn options(args: &MatchArgs, surfaces: [&Input; 2]) -> Result<MatchOptions, Failure> {
     let meshes = surfaces.map(Input::mesh);
     Ok(MatchOptions {
-        landmarks: table(&args.landmarks, |path| csv::read_landmarks(path, meshes.map(|m| m.n_vertices())))?,
+        landmarks: match args.landmark_choice() {
+            LandmarkChoice::File(path) => csv::read_landmarks(path, meshes.map(|m| m.n_vertices()))?,
+            _ => Vec::new(),
+        },
         points: table(&args.points, |path| marks::read_points(path, meshes))?,
         soft: table(&args.soft, |path| marks::read_soft(path, meshes))?,
         curves: table(&args.curves, |path| marks::read_curves(path, meshes))?,

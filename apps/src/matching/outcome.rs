@@ -7,8 +7,8 @@ use crate::say;
 use ricci::geometry::vector::{diagonal, distance};
 use ricci::geometry::{Space, model, worse};
 use ricci::matching::{
-    DilatationBracket, LowerBoundKind, MapQuality, Matching, RoundHole, cycle_error, map_quality,
-    point_error, uncovered,
+    DilatationBracket, FoundLandmarks, LowerBoundKind, MapJudgement, MapQuality, MapVerdict, Matching,
+    RoundHole, cycle_error, map_quality, point_error, uncovered,
 };
 use ricci::mesh::VertexId;
 use ricci::metric::CommonSubdivision;
@@ -23,11 +23,25 @@ const ROUND: f64 = 1e-9;
 /// Largest difference from 1 of the sum of the weights of a place, and most that one of them is below 0.
 const WEIGHTS: f64 = 1e-12;
 
+/// What lets a map be more likely.
+const UNLIKELY: &str = "parts of the surfaces that are not alike go to each other: name corresponding vertices with --landmarks L.csv, at tips and joints";
+
+/// A map with its judgement, and its landmarks.
+pub struct MatchedSurfaces {
+    pub matching: Matching,
+    pub landmarks: Vec<[VertexId; 2]>,
+    pub judgement: MapJudgement,
+    /// What was found by the shapes of the surfaces, where that was asked for.
+    pub found: Option<FoundLandmarks>,
+}
+
 pub struct MatchOutcome {
     pub source: Input,
     pub target: Input,
     pub matching: Matching,
     pub landmarks: Vec<[VertexId; 2]>,
+    judgement: MapJudgement,
+    found: Option<FoundLandmarks>,
     quality: MapQuality,
     /// The largest distance between the image of a point that corresponds and its partner, as a share of the diagonal.
     point_error: f64,
@@ -74,10 +88,10 @@ fn bracket(found: &DilatationBracket) -> Value {
 impl MatchOutcome {
     pub fn new(
         surfaces: [Input; 2],
-        matching: Matching,
-        landmarks: Vec<[VertexId; 2]>,
+        matched: MatchedSurfaces,
         same_numbering: bool,
     ) -> ricci::Result<MatchOutcome> {
+        let MatchedSurfaces { matching, landmarks, judgement, found } = matched;
         let [source, target] = surfaces;
         let surfaces = [&source.surface, &target.surface];
         let quality = map_quality(surfaces, &matching.forward, &landmarks)?;
@@ -97,6 +111,8 @@ impl MatchOutcome {
             target,
             matching,
             landmarks,
+            judgement,
+            found,
             quality,
             point_error,
             cycle,
@@ -145,6 +161,8 @@ impl JobOutcome for MatchOutcome {
             checks.add("roundness", off.fold(0.0, worse), ROUND);
         }
         checks.add("weights", off.fold(0.0, f64::max), WEIGHTS);
+        let is_unlikely = self.judgement.verdict == MapVerdict::Unlikely;
+        checks.add_with_remedy("unlikely", f64::from(u8::from(is_unlikely)), 0.0, UNLIKELY);
         checks
     }
 
@@ -171,6 +189,14 @@ impl JobOutcome for MatchOutcome {
             .with("area_ratio_mean", q.area_ratio_mean)
             .with("area_ratio_max", q.area_ratio_max)
             .with("area_log", q.area_log)
+            .with("area_log_99", self.judgement.area_log_99)
+            .with("qc_99", self.judgement.qc_99)
+            .with("agreement", self.judgement.agreement)
+            .with("verdict", self.judgement.verdict.name())
+            .if_some("landmarks_found", self.found.as_ref().map(|_| pairs(&self.landmarks)))
+            .if_some("misfit", self.found.as_ref().and_then(|found| found.misfit))
+            .if_some("mirrored_misfit", self.found.as_ref().and_then(|found| found.mirrored_misfit))
+            .if_some("mirror", self.found.as_ref().map(FoundLandmarks::is_mirrored))
             .with("distance_mean", q.distance_mean)
             .with("distance_max", q.distance_max)
             .with("cycle_mean", self.cycle[0])
@@ -196,20 +222,54 @@ impl JobOutcome for MatchOutcome {
         });
         format!(
             "{}target   {}map      in {}, {}, {} compared; no face folds\n\
-             quality  dilatation {:.2} on average, at most {:.1e}; there and back {:.1e} of the diagonal, at most {:.1e}\n{partners}{}{}",
+             quality  dilatation {:.2} on average, at most {:.1e}; there and back {:.1e} of the diagonal, at most {:.1e}\n{}{partners}{}{}",
             say::surface(&self.source),
             say::surface(&self.target).trim_start_matches("surface").trim_start(),
             m.space,
-            say::count(self.landmarks.len(), "landmark", "landmarks"),
+            landmarks(self),
             say::count(m.markings, "class", "classes"),
             q.qc_mean,
             q.qc_max,
             self.cycle[0],
             self.cycle[1],
+            verdict(self),
             self.distance.as_ref().map_or_else(String::new, bracket_line),
             say::finish(done),
         )
     }
+}
+
+/// The number of landmarks, and whether they were found.
+fn landmarks(outcome: &MatchOutcome) -> String {
+    let count = outcome.landmarks.len();
+    match &outcome.found {
+        Some(_) if count > 0 => say::count(count, "landmark found", "landmarks found"),
+        _ => say::count(count, "landmark", "landmarks"),
+    }
+}
+
+/// Pairs of vertices by their numbers.
+fn pairs(landmarks: &[[VertexId; 2]]) -> Vec<[u32; 2]> {
+    landmarks.iter().map(|pair| pair.map(|v| v.0)).collect()
+}
+
+/// What a map is good for, in one line, and what else is to be known of the search for its landmarks.
+fn verdict(outcome: &MatchOutcome) -> String {
+    let j = &outcome.judgement;
+    let mirror = match &outcome.found {
+        Some(found) if found.is_mirrored() => {
+            "mirror   one surface is like a mirror image of the other: a map that turns it over would fit better\n"
+        }
+        _ => "",
+    };
+    format!(
+        "verdict  {}: areas change by e^{:.2} on average, by e^{:.1} on 1 % of the surface; dilatation {:.1} on 1 %; agreement {:.2}\n{mirror}",
+        j.verdict.name(),
+        j.area_log_mean,
+        j.area_log_99,
+        j.qc_99,
+        j.agreement
+    )
 }
 
 /// The loops as circles; none where they are geodesics.

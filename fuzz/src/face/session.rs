@@ -16,6 +16,7 @@ const MOST_CALLS: usize = 8;
 /// Calls that take a hundred times as long as others: one input of eight makes them.
 const LONG: [&str; 17] = [
     "ricci_match",
+    "ricci_match_by_shape",
     "ricci_circle_domain_new",
     "ricci_spline_fit",
     "ricci_spline_fit_mesh",

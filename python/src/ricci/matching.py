@@ -11,17 +11,17 @@ import numpy.typing as npt
 
 from ricci import _arrays
 from ricci._arrays import frozen
-from ricci._call import CONTROL, Doubles, Indices, call, constant, doubles, filled, pointer, summary
+from ricci._call import CONTROL, Doubles, Indices, call, constant, doubles, figures_of, filled, pointer, summary
 from ricci._kept import Kept
 from ricci._labels import Mode, Pieces, conserved, heaviest, mode_of
-from ricci._library import lib
+from ricci._library import ffi, lib
 from ricci._shown import Scene
 from ricci._signatures import picked, takes
 from ricci._structs import Struct, Write, above_zero, choice, index_list, known, options, real_list
 from ricci.adapters import MeshLike, as_mesh
 from ricci.control import Progress
 from ricci.errors import ArgumentError, ArgumentTypeError
-from ricci.figures import MatchingSummary
+from ricci.figures import MatchingJudgement, MatchingSummary
 from ricci.maps import Map
 from ricci.mesh import Mesh
 
@@ -52,8 +52,9 @@ class MatchOptions(TypedDict, total=False):
 
     Attributes
     ----------
-    landmarks : npt.ArrayLike
-        k x 2 vertices, of the source and of the target, that correspond.
+    landmarks : npt.ArrayLike | Literal["auto"]
+        k x 2 vertices, of the source and of the target, that correspond; ``"auto"``: they are found by the shapes of the surfaces where
+        they make the map better, and nothing else can say what corresponds but `loops`, `boundary` and `basis`.
     loops : npt.ArrayLike
         for each boundary loop of the source that of the target; by landmarks on them, the others by descending length.
     points : Points
@@ -77,7 +78,7 @@ class MatchOptions(TypedDict, total=False):
         mapped. All options and results have the numbers of the source itself.
     """
 
-    landmarks: npt.ArrayLike
+    landmarks: npt.ArrayLike | Literal["auto"]
     loops: npt.ArrayLike
     points: Points
     curves: Pairs
@@ -198,6 +199,23 @@ class Matching(Kept):
         """Distortion, distances, energy."""
         return summary(MatchingSummary, "matching", self)
 
+    def judgement(self, progress: Progress = None) -> MatchingJudgement:
+        """How much the map distorts, whether it brings alike points to each other, and what it is good for.
+
+        Parameters
+        ----------
+        progress : Progress
+            a `Control` or a callback.
+
+        Raises
+        ------
+        ArgumentError
+            a surface without positions.
+        """
+        out = ffi.new("ricci_matching_judgement *")
+        call(lib.ricci_matching_judge, self, CONTROL, out, ffi.sizeof("ricci_matching_judgement"), progress=progress)
+        return figures_of(MatchingJudgement, out)
+
     def faces(self, direction: Direction = "forward") -> Indices:
         """The face of the other surface that every vertex goes to."""
         out = np.empty(self._size(direction), np.uint32)
@@ -294,7 +312,7 @@ def match(
     target: MeshLike,
     progress: Progress = None,
     *,
-    landmarks: npt.ArrayLike | None = None,
+    landmarks: npt.ArrayLike | Literal["auto"] | None = None,
     loops: npt.ArrayLike | None = None,
     points: Points | None = None,
     curves: Pairs | None = None,
@@ -336,10 +354,17 @@ def match(
         raise ArgumentTypeError(f"mirror is {mirror!r}: it is True or False")
     if np.size(hard.get("soft", ())) != 2 * np.size(hard.get("soft_weights", ())):
         raise ArgumentError("soft and soft_weights: one weight for every pair")
+    is_found = isinstance(landmarks, str)
+    if is_found:
+        if landmarks != "auto":
+            raise ArgumentError(f"landmarks is {landmarks!r}: it is 'auto' or pairs of vertices")
+        if any(hard.get(name) is not None for name in ("points", "curves", "soft")):
+            raise ArgumentError("landmarks='auto' finds what corresponds: points, curves and soft landmarks are not for it")
+        del hard["landmarks"]
     known(hard, _MATCH)
     start, end = as_mesh(source), as_mesh(target)
     image = start.mirrored() if mirror else start
     struct = options("match_options", _of_mirrored(hard, start, image) if mirror else hard, _MATCH)
-    made = Matching._made(lib.ricci_match, image, end, struct, CONTROL, progress=progress)
+    made = Matching._made(lib.ricci_match_by_shape if is_found else lib.ricci_match, image, end, struct, CONTROL, progress=progress)
     made._source, made._target, made._mirror = start, end, bool(mirror)
     return made

@@ -157,6 +157,7 @@ static const ricci_flatten_options APART = {.size = sizeof APART, .injective = 1
 static const ricci_dart_options TIGHT = {.size = sizeof TIGHT, .strain_warp = 1e-9, .most = 1};
 static ricci_bounds_summary bounds_figures;
 static ricci_dilatation_bracket bracket_figures;
+static ricci_matching_judgement judgement_figures;
 static size_t n_points;
 static ricci_seamless_options isometric = {.size = sizeof isometric, .isometric_steps = 5};
 
@@ -203,6 +204,8 @@ FILLS(modulus_bounds,
       ricci_modulus_bounds(annulus, NULL, &NARROW, control, numbers, &bounds_figures, sizeof bounds_figures))
 FILLS(matching_bracket,
       ricci_matching_bracket(matching, NULL, NULL, control, &bracket_figures, sizeof bracket_figures))
+FILLS(matching_judge, ricci_matching_judge(matching, control, &judgement_figures, sizeof judgement_figures))
+MAKES(match_by_shape, ricci_matching, ricci_match_by_shape(sphere, sphere, NULL, control, &result))
 MAKES(match_tori, ricci_matching, ricci_match(torus, torus, NULL, control, &result))
 MAKES(match_spheres, ricci_matching, ricci_match(sphere, sphere, NULL, control, &result))
 MAKES(match_genus_2, ricci_matching, ricci_match(two, two, NULL, control, &result))
@@ -297,6 +300,8 @@ static const struct {
             JOB(forms_bounds),
             JOB(modulus_bounds),
             JOB(matching_bracket),
+            JOB(matching_judge),
+            JOB(match_by_shape),
             JOB(match_tori),
             JOB(match_spheres),
             JOB(match_genus_2),

@@ -112,6 +112,22 @@ static void check_marks(const ricci_mesh *torus) {
     CHECK(matching == NULL);
 }
 
+/* The map of a small torus to itself, whose landmarks are looked for, is the identity and judged to be good.
+ */
+static void check_judgement(const ricci_mesh *torus) {
+    ricci_matching *matching = NULL;
+    ricci_matching_judgement all;
+    OK(ricci_match_by_shape(torus, torus, NULL, NULL, &matching));
+    OK(ricci_matching_judge(matching, NULL, &all, sizeof all));
+    CHECK(all.verdict == RICCI_VERDICT_GOOD && all.reserved == 0 && all.agreement > 0.999);
+    CHECK(all.area_log_99 < 1e-6 && all.qc_99 < 1 + 1e-6 && all.cycle_mean < 1e-6);
+    FAILS(ricci_matching_judge(NULL, NULL, &all, sizeof all), RICCI_NULL_POINTER, "matching");
+    ricci_matching_free(matching);
+    matching = NULL;
+    FAILS(ricci_match_by_shape(torus, NULL, NULL, NULL, &matching), RICCI_NULL_POINTER, "mesh");
+    CHECK(matching == NULL);
+}
+
 /* A curve, and the number of points that its vertices make. */
 static void check_curves(const ricci_mesh *disk) {
     ricci_matching *matching = NULL;
@@ -211,6 +227,7 @@ int main(void) {
     check_identity(disk, NULL);
     check_identity(torus, NULL);
     check_marks(torus);
+    check_judgement(torus);
     check_curves(disk);
     check_basis(torus);
     check_circles(disk);

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ricci.figures.names import LowerBound, Space, StructureKind
+from ricci.figures.names import LowerBound, Space, StructureKind, Verdict
 
 
 @dataclass(frozen=True)
@@ -144,6 +144,38 @@ class HarmonicSummary:
     modulus_high: float
     n_energies: int
     converged: bool
+
+
+@dataclass(frozen=True)
+class MatchingJudgement:
+    """How much a map distorts, whether it brings alike points to each other, and what it is good for.
+
+    Attributes
+    ----------
+    area_log_mean : float
+        mean by area of ``|ln|`` of a face's share of the image's area over its share of its own surface.
+    area_log_99 : float
+        that which is exceeded on 1 % of the area.
+    qc_mean : float
+        mean by area of the quasi-conformal dilatation of the faces.
+    qc_99 : float
+        that which is exceeded on 1 % of the area.
+    cycle_mean : float
+        mean distance of a vertex from where the map and its inverse bring it, over the diagonal of the source.
+    agreement : float
+        of the mean distance from the surface at corresponding points: 1 where it is equal, 0 where the map does no better than chance.
+    verdict : Verdict
+        ``"good"``: at most 0.5, 1.5 and 0.005 in the means, and an agreement of at least 0.8. ``"unlikely"``, landmarks are needed: above
+        2, 6 or 0.1, or an agreement below 0.3. Else ``"rough"``.
+    """
+
+    area_log_mean: float
+    area_log_99: float
+    qc_mean: float
+    qc_99: float
+    cycle_mean: float
+    agreement: float
+    verdict: Verdict
 
 
 @dataclass(frozen=True)

@@ -22,6 +22,7 @@ FlattenStart: TypeAlias = Literal["conformal", "tutte", "untangled", "seamless",
 FlattenStop: TypeAlias = Literal["converged", "rounding", "max_iterations", "barrier", "no_step", "unmet"]
 StructureKind: TypeAlias = Literal["conformal", "spherical", "affine", "hyperbolic", "projective", "integer"]
 LowerBound: TypeAlias = Literal["none", "periods", "moduli"]
+Verdict: TypeAlias = Literal["good", "rough", "unlikely"]
 On: TypeAlias = Literal["input", "metric", "refinement"]
 
 # For a type of field the prefix of the constants that it stands for, and their names: other constants may have the same prefix.
@@ -34,5 +35,6 @@ CONSTANTS: dict[str, tuple[str, tuple[str, ...]]] = {
     "FlattenStart": ("FLATTEN_FROM", get_args(FlattenStart)),
     "FlattenStop": ("FLATTEN", get_args(FlattenStop)),
     "LowerBound": ("LOWER", get_args(LowerBound)),
+    "Verdict": ("VERDICT", get_args(Verdict)),
     "StructureKind": ("STRUCTURE", get_args(StructureKind)),
 }

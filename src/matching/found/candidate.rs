@@ -1,0 +1,97 @@
+//! Candidates: rough maps between the samples of two surfaces, refined and judged by the distances that they keep.
+
+use super::assignment::assignments;
+use super::extremities::Extremity;
+use super::sampled::SampledSurface;
+use super::spectral_map::{SpectralSides, nearest_rows};
+use crate::control::Control;
+use crate::error::Result;
+use crate::parallel;
+
+/// A map between samples.
+pub(super) struct Candidate {
+    /// Per sample of the source the place of its image.
+    pub map: Vec<usize>,
+    /// The mean difference of distances, and the mean distance of the target's samples from images.
+    pub misfit: f64,
+    /// The share of the area that keeps its side, less the share that is turned over.
+    pub side: f64,
+}
+
+/// Number of functions from which candidates are refined: those of the rough shape, whose signs are tried.
+const ROUGH: usize = 6;
+/// Number of functions up to which candidates are refined before they are judged.
+const JUDGED: usize = 40;
+/// Number of functions that are added at once.
+const STEP: usize = 2;
+/// Number of neighbours from which the side of an image is found.
+const NEIGHBOURS: usize = 8;
+
+/// All candidates: assignments of extremities, and signs of the first functions.
+///
+/// # Errors
+/// Those of [`SpectralSides::refined`]; [`crate::Error::Cancelled`].
+pub(super) fn candidates(
+    [source, target]: &[SampledSurface<'_>; 2],
+    ends: &[Vec<Extremity>; 2],
+    control: &Control,
+) -> Result<Vec<Candidate>> {
+    let mut starts = Vec::new();
+    for pairs in assignments(&ends[0], &ends[1]) {
+        let rows = |s: usize, sampled: &SampledSurface<'_>| -> Vec<Vec<f64>> {
+            let row = |&v| pairs.iter().map(|pair| ends[s][pair[s]].distance[v]).collect();
+            sampled.even.samples.iter().map(row).collect()
+        };
+        starts.push(nearest_rows(&rows(0, source), &rows(1, target)));
+    }
+    let (from, to) = (source.at_samples(), target.at_samples());
+    let rough = ROUGH.min(from.first().map_or(0, |row| row.len())).min(to.first().map_or(0, |row| row.len()));
+    let own: Vec<Vec<f64>> = from.iter().map(|row| row[..rough].to_vec()).collect();
+    for signs in 0..1usize << rough.saturating_sub(1) {
+        // The first function is constant.
+        let sign = |k: usize| if k > 0 && signs >> (k - 1) & 1 == 1 { -1.0 } else { 1.0 };
+        let turned = |row: &&[f64]| (0..rough).map(|k| sign(k) * row[k]).collect();
+        starts.push(nearest_rows(&own, &to.iter().map(turned).collect::<Vec<Vec<f64>>>()));
+    }
+    let sides = SpectralSides { from: &from, shares: &source.even.shares, to: &to };
+    let count = starts.len();
+    let judged = parallel::map(count, |k| {
+        control.check()?;
+        let map = sides.refined(starts[k].clone(), (ROUGH..=JUDGED).step_by(STEP))?;
+        let (misfit, side) = (misfit(source, target, &map), side(source, target, &map));
+        Ok(Candidate { map, misfit, side })
+    });
+    judged.into_iter().collect()
+}
+
+fn misfit(source: &SampledSurface<'_>, target: &SampledSurface<'_>, map: &[usize]) -> f64 {
+    let mut off = 0.0;
+    for (i, row) in source.even.distances.iter().enumerate() {
+        let images = &target.even.distances[map[i]];
+        let differences =
+            row.iter().zip(map).zip(&source.even.shares).map(|((d, &j), s)| s * (d - images[j]).abs());
+        off += source.even.shares[i] * differences.sum::<f64>();
+    }
+    let missed = |row: &Vec<f64>| map.iter().map(|&j| row[j]).fold(f64::INFINITY, f64::min);
+    off + target.even.distances.iter().zip(&target.even.shares).map(|(row, s)| s * missed(row)).sum::<f64>()
+}
+
+/// The share of the area that keeps its side, less that which is turned over: around each sample the map is linear by least squares, and
+/// the determinant has the sign of that of Σ x yᵀ over neighbours x with their images y.
+fn side(source: &SampledSurface<'_>, target: &SampledSurface<'_>, map: &[usize]) -> f64 {
+    let mut sum = 0.0;
+    for i in 0..map.len() {
+        let mut around: Vec<usize> = (0..map.len()).filter(|&j| j != i).collect();
+        around.sort_by(|&a, &b| source.even.distances[i][a].total_cmp(&source.even.distances[i][b]));
+        let mut matrix = [[0.0; 2]; 2];
+        for &j in around.iter().take(NEIGHBOURS) {
+            let (own, image) = (source.step(i, j), target.step(map[i], map[j]));
+            (0..2).for_each(|k| (0..2).for_each(|l| matrix[k][l] += own[k] * image[l]));
+        }
+        let determinant = matrix[0][0] * matrix[1][1] - matrix[0][1] * matrix[1][0];
+        if determinant != 0.0 {
+            sum += source.even.shares[i] * determinant.signum();
+        }
+    }
+    sum
+}
