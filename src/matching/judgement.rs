@@ -60,7 +60,7 @@ pub struct MapJudgement {
 const AREA_LOG: [f64; 2] = [0.5, 2.0];
 const DILATATION: [f64; 2] = [1.5, 6.0];
 const CYCLE: [f64; 2] = [0.005, 0.1];
-const AGREEMENT: [f64; 2] = [0.8, 0.3];
+const AGREEMENT: [f64; 2] = [0.8, 0.4];
 /// Share of the area on which the 99 % figures are exceeded.
 const TAIL: f64 = 0.01;
 /// Number of vertices whose distances say how remote others are.
