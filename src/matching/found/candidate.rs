@@ -20,8 +20,10 @@ pub(super) struct Candidate {
 
 /// Number of functions from which candidates are refined: those of the rough shape, whose signs are tried.
 const ROUGH: usize = 6;
-/// Number of functions up to which candidates are refined before they are judged.
-const JUDGED: usize = 40;
+/// Numbers of functions up to which candidates are refined before they are judged: all of them, and the best of these once more.
+const JUDGED: [usize; 2] = [14, 40];
+/// Number of candidates of each side of the surface that are judged once more.
+const KEPT: usize = 8;
 /// Number of functions that are added at once.
 const STEP: usize = 2;
 /// Number of neighbours from which the side of an image is found.
@@ -54,14 +56,25 @@ pub(super) fn candidates(
         starts.push(nearest_rows(&own, &to.iter().map(turned).collect::<Vec<Vec<f64>>>()));
     }
     let sides = SpectralSides { from: &from, shares: &source.even.shares, to: &to };
-    let count = starts.len();
-    let judged = parallel::map(count, |k| {
-        control.check()?;
-        let map = sides.refined(starts[k].clone(), (ROUGH..=JUDGED).step_by(STEP))?;
-        let (misfit, side) = (misfit(source, target, &map), side(source, target, &map));
-        Ok(Candidate { map, misfit, side })
-    });
-    judged.into_iter().collect()
+    let judged = |starts: &[Vec<usize>], first: usize, last: usize| -> Result<Vec<Candidate>> {
+        let judged = parallel::map(starts.len(), |k| {
+            control.check()?;
+            let map = sides.refined(starts[k].clone(), (first..=last).step_by(STEP))?;
+            let (misfit, side) = (misfit(source, target, &map), side(source, target, &map));
+            Ok(Candidate { map, misfit, side })
+        });
+        judged.into_iter().collect()
+    };
+    let [rough_last, last] = JUDGED;
+    let kept = best_of_each_side(judged(&starts, ROUGH, rough_last)?);
+    judged(&kept, rough_last + STEP, last)
+}
+
+/// The maps of the candidates of least misfit, as many that keep the sides of the surface as that turn it over, if there are.
+fn best_of_each_side(mut all: Vec<Candidate>) -> Vec<Vec<usize>> {
+    all.sort_by(|a, b| a.misfit.total_cmp(&b.misfit));
+    let (turned, kept): (Vec<Candidate>, Vec<Candidate>) = all.into_iter().partition(|c| c.side < 0.0);
+    [kept, turned].into_iter().flat_map(|side| side.into_iter().take(KEPT)).map(|c| c.map).collect()
 }
 
 fn misfit(source: &SampledSurface<'_>, target: &SampledSurface<'_>, map: &[usize]) -> f64 {
