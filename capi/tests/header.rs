@@ -17,7 +17,7 @@ const HEADERS: &[(&str, usize)] = &[
     ("flatten", 10),
     ("freesurfer", 10),
     ("harmonic", 20),
-    ("match", 10),
+    ("match", 20),
     ("moduli", 10),
     ("seamless", 10),
     ("quads", 20),

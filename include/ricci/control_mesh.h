@@ -28,7 +28,7 @@ typedef struct ricci_control_mesh {
     /** Number of vertices; each is a corner of a quadrilateral. */
     size_t n_vertices;
     /** n_quads x 4 vertex indices, 0-based, counterclockwise seen from outside. */
-    const int32_t *quads;
+    const uint32_t *quads;
     /** Number of quadrilaterals, at least 1. */
     size_t n_quads;
 } ricci_control_mesh;

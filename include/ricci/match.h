@@ -249,7 +249,7 @@ enum {
     RICCI_VERDICT_ROUGH = 1,
     /**
      * Landmarks are needed: area_log_mean is above 2, qc_mean above 6, cycle_mean above 0.1, or agreement
-     * below 0.4.
+     * below 0.4 on surfaces without handles.
      */
     RICCI_VERDICT_UNLIKELY = 2
 };

@@ -61,6 +61,8 @@ const AREA_LOG: [f64; 2] = [0.5, 2.0];
 const DILATATION: [f64; 2] = [1.5, 6.0];
 const CYCLE: [f64; 2] = [0.005, 0.1];
 const AGREEMENT: [f64; 2] = [0.8, 0.4];
+/// The same on surfaces with handles, where the class of a map decides what goes where: no agreement alone makes one unlikely.
+const AGREEMENT_WITH_HANDLES: [f64; 2] = [0.8, f64::NEG_INFINITY];
 /// Share of the area on which the 99 % figures are exceeded.
 const TAIL: f64 = 0.01;
 /// Number of vertices whose distances say how remote others are.
@@ -94,7 +96,8 @@ pub fn judge(surfaces: [&Surface; 2], matching: &Matching, control: &Control) ->
         agreement: 1.0 - apart / from.blind_difference(&to).max(TELLING),
         verdict: MapVerdict::Rough,
     };
-    judgement.verdict = judgement.word();
+    let has_handles = surfaces[0].mesh().genus() > 0;
+    judgement.verdict = judgement.word(if has_handles { AGREEMENT_WITH_HANDLES } else { AGREEMENT });
     Ok(judgement)
 }
 
@@ -105,13 +108,13 @@ impl MapJudgement {
         self.area_log_mean + self.qc_mean.ln() + 1.0 - self.agreement
     }
 
-    /// The word for these figures: the worst that one of them asks for.
-    fn word(&self) -> MapVerdict {
+    /// The word for these figures: the worst that one of them asks for. `agreement`: its bounds.
+    fn word(&self, agreement: [f64; 2]) -> MapVerdict {
         let within = |k: usize| {
             self.area_log_mean <= AREA_LOG[k]
                 && self.qc_mean <= DILATATION[k]
                 && self.cycle_mean <= CYCLE[k]
-                && self.agreement >= AGREEMENT[k]
+                && self.agreement >= agreement[k]
         };
         if within(0) {
             MapVerdict::Good

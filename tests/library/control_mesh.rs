@@ -75,9 +75,11 @@ fn a_cube_comes_nearer_with_its_quads() {
         println!("{n}: {:.2e} at most, {:.2e} rms, volume {:.6}", fit.max(), fit.rms(), fit.spline.volume());
         assert_eq!(fit.spline.space().layout().patches().len(), 6);
         assert!(fit.folded_patches.is_empty() && fit.spline.normal_jump() < 1e-8);
-        fit.max()
+        [fit.rms(), fit.max()]
     });
-    assert!(errors[0] < 1e-2 && errors[1] < errors[0] && errors[2] < 0.5 * errors[1], "{errors:?}");
+    let [of_one, of_two, of_four] = errors;
+    assert!(of_one[1] < 2e-4 && of_two[1] < of_one[1] && of_four[1] < of_two[1], "{errors:?}");
+    assert!(of_two[0] < of_one[0] / 3.0 && of_four[0] < of_two[0] / 2.0, "{errors:?}");
 }
 
 #[test]
@@ -90,7 +92,7 @@ fn borders_and_other_polygons_are_fitted() {
     let sheet = ControlMesh::new(points, faces.map(quad).collect()).unwrap();
     let found = fitted(&sheet, &LayoutFitOptions::default());
     assert_eq!(found.fit.spline.space().layout().patches().len(), 1);
-    assert!(found.fit.max() < 1e-6, "{:e}", found.fit.max());
+    assert!(found.fit.max() < 1e-4, "{:e}", found.fit.max());
     // Four triangles are refined to twelve quads, three around each corner and each middle of a face: every one is a patch.
     let points = vec![[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]];
     let faces = [[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]].map(|face| face.to_vec()).to_vec();

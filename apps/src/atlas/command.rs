@@ -36,7 +36,11 @@ impl Job for TextureArgs {
         }
         let had_coordinates = soup.attributes.uv.take().is_some();
         let make = || texture_atlas(&soup, &self.options(), run.control);
-        let atlas = timed(&mut run.seconds.layout, make)?;
+        let atlas = timed(&mut run.seconds.layout, make).map_err(|error| match error {
+            // It is the model that has nothing to lay out.
+            ricci::Error::Layout(why) => Failure::Input(format!("{}: {why}", self.mesh.display())),
+            error => error.into(),
+        })?;
         soup.attributes.uv = Some(atlas.corner_uv.clone());
         Ok(TextureOutcome { path: self.mesh.clone(), soup, atlas, stretch: self.stretch, had_coordinates })
     }

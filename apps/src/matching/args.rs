@@ -22,7 +22,8 @@ turned until their conformal factors fit best.
 Where nothing says what corresponds, landmarks are found by the shapes of the surfaces: extremities and eigenfunctions of the Laplacian propose
 maps, of which the one that keeps distances best is refined. The map with them is compared with the one without any, and the better one is taken.
 The verdict on a map is good, rough or unlikely. Good: mean |ln area| at most 0.5, mean dilatation at most 1.5, there and back at most 0.005,
-agreement at least 0.8. Unlikely, which is exit 1: one of them beyond 2, 6, 0.1 or 0.4.
+agreement at least 0.8. Unlikely, which is exit 1: one of them beyond 2, 6, 0.1 or, on surfaces
+without handles, 0.4. With --distance no landmarks are looked for: the map without any has the least dilatation.
 
 Files
     --landmarks L.csv    rows source_vertex,target_vertex: pairs inside the surfaces, or on their boundaries, in any number. On surfaces with
@@ -196,7 +197,9 @@ impl MatchArgs {
     pub fn landmark_choice(&self) -> LandmarkChoice<'_> {
         let others = [&self.points, &self.soft, &self.curves, &self.basis];
         match self.landmarks.to_str() {
-            Some("auto") if others.iter().all(|file| file.is_none()) => LandmarkChoice::Auto,
+            Some("auto") if !self.distance && others.iter().all(|file| file.is_none()) => {
+                LandmarkChoice::Auto
+            }
             Some("auto" | "none") => LandmarkChoice::None,
             _ => LandmarkChoice::File(&self.landmarks),
         }

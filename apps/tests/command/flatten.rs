@@ -181,10 +181,10 @@ fn what_cannot_be_flattened_is_refused_with_the_way_out() {
     place.expect(0, "make torus -o t.obj");
     for option in ["--injective", "--strain 0.1,0.1", "--energy distance", "--areal lh.areal"] {
         let said = place.expect(2, &format!("flatten t.obj {option}")).err;
-        assert!(said.contains("is for open surfaces"), "{option}: {said}");
+        assert!(said.contains(" is for "), "{option}: {said}");
     }
     place.expect(0, "make torus -n 12 --holes 1 -o h.obj");
-    assert!(place.expect(3, "flatten h.obj").err.contains("ricci flow"));
+    assert!(place.expect(0, "flatten h.obj").out.contains("seams"));
     place.expect(0, "make sphere -n 3 -o s.obj");
     assert!(place.expect(3, "flatten s.obj").err.contains("ricci uniformize"));
     place.expect(0, "make disk -n 3 -o d.obj");

@@ -9,7 +9,7 @@ use crate::error::Result;
 use crate::parallel;
 
 /// A map between samples.
-pub(super) struct Candidate {
+pub(super) struct MapCandidate {
     /// Per sample of the source the place of its image.
     pub map: Vec<usize>,
     /// The mean difference of distances, and the mean distance of the target's samples from images.
@@ -37,7 +37,7 @@ pub(super) fn candidates(
     [source, target]: &[SampledSurface<'_>; 2],
     ends: &[Vec<Extremity>; 2],
     control: &Control,
-) -> Result<Vec<Candidate>> {
+) -> Result<Vec<MapCandidate>> {
     let mut starts = Vec::new();
     for pairs in assignments(&ends[0], &ends[1]) {
         let rows = |s: usize, sampled: &SampledSurface<'_>| -> Vec<Vec<f64>> {
@@ -56,12 +56,12 @@ pub(super) fn candidates(
         starts.push(nearest_rows(&own, &to.iter().map(turned).collect::<Vec<Vec<f64>>>()));
     }
     let sides = SpectralSides { from: &from, shares: &source.even.shares, to: &to };
-    let judged = |starts: &[Vec<usize>], first: usize, last: usize| -> Result<Vec<Candidate>> {
+    let judged = |starts: &[Vec<usize>], first: usize, last: usize| -> Result<Vec<MapCandidate>> {
         let judged = parallel::map(starts.len(), |k| {
             control.check()?;
             let map = sides.refined(starts[k].clone(), (first..=last).step_by(STEP))?;
             let (misfit, side) = (misfit(source, target, &map), side(source, target, &map));
-            Ok(Candidate { map, misfit, side })
+            Ok(MapCandidate { map, misfit, side })
         });
         judged.into_iter().collect()
     };
@@ -71,9 +71,9 @@ pub(super) fn candidates(
 }
 
 /// The maps of the candidates of least misfit, as many that keep the sides of the surface as that turn it over, if there are.
-fn best_of_each_side(mut all: Vec<Candidate>) -> Vec<Vec<usize>> {
+fn best_of_each_side(mut all: Vec<MapCandidate>) -> Vec<Vec<usize>> {
     all.sort_by(|a, b| a.misfit.total_cmp(&b.misfit));
-    let (turned, kept): (Vec<Candidate>, Vec<Candidate>) = all.into_iter().partition(|c| c.side < 0.0);
+    let (turned, kept): (Vec<MapCandidate>, Vec<MapCandidate>) = all.into_iter().partition(|c| c.side < 0.0);
     [kept, turned].into_iter().flat_map(|side| side.into_iter().take(KEPT)).map(|c| c.map).collect()
 }
 

@@ -18,7 +18,7 @@ use crate::mesh::{PerVertex, VertexId};
 use crate::metric::Surface;
 use crate::parallel;
 pub use by_shape::{ShapeMatching, match_by_shape};
-use candidate::{Candidate, candidates};
+use candidate::{MapCandidate, candidates};
 use extremities::{Extremity, extremities};
 use sampled::{FUNCTIONS, SampledSurface};
 use spectral_map::SpectralSides;
@@ -118,7 +118,7 @@ pub fn find_landmarks(
 fn landmarks(
     [source, target]: &[SampledSurface<'_>; 2],
     ends: &[Extremity],
-    candidate: &Candidate,
+    candidate: &MapCandidate,
     most: usize,
     control: &Control,
 ) -> Result<Vec<[VertexId; 2]>> {

@@ -2,10 +2,9 @@
 
 use super::file_format::by_extension;
 use super::guess::{SurfaceFormat, format};
+use super::obj::parse_obj_polygons;
 use super::scan::Location;
-use super::{
-    Soup, content, parse_obj, parse_obj_polygons, parse_off, parse_ply, parse_stl, parse_stl_welded, unpack,
-};
+use super::{Soup, content, parse_obj, parse_off, parse_ply, parse_stl, parse_stl_welded, unpack};
 use crate::error::{Error, Result};
 use crate::mesh::Point;
 use std::path::{Path, PathBuf};

@@ -31,7 +31,7 @@ pub struct ControlMesh {
 
 /// What a vertex has around it.
 #[derive(Clone, Default)]
-struct AroundVertex {
+struct ControlVertex {
     /// The number of its faces.
     valence: usize,
     /// The sums over its faces of a point of each, and over its edges of the vertices at the other ends.
@@ -206,8 +206,8 @@ impl ControlMesh {
     }
 
     /// What each vertex has around it. `point`: that of a face, seen from this one of its corners.
-    fn around(&self, edges: &ControlEdges, point: impl Fn(usize, usize) -> Vector) -> Vec<AroundVertex> {
-        let mut around = vec![AroundVertex::default(); self.positions.len()];
+    fn around(&self, edges: &ControlEdges, point: impl Fn(usize, usize) -> Vector) -> Vec<ControlVertex> {
+        let mut around = vec![ControlVertex::default(); self.positions.len()];
         for (f, face) in self.faces.iter().enumerate() {
             for (k, &v) in face.iter().enumerate() {
                 let at = &mut around[v as usize];
@@ -245,13 +245,13 @@ fn is_one_fan(fan: &BTreeMap<u32, u32>) -> bool {
 }
 
 /// The vertex after a step of refinement; the faces around it count by their centres.
-fn moved(p: Vector, around: &AroundVertex) -> Vector {
+fn moved(p: Vector, around: &ControlVertex) -> Vector {
     let n = around.valence as f64;
     match around {
-        AroundVertex { valence: 1, n_border: 2, .. } => p,
-        AroundVertex { n_border: 2, of_border, .. } => add(scale(0.75, p), scale(0.125, *of_border)),
+        ControlVertex { valence: 1, n_border: 2, .. } => p,
+        ControlVertex { n_border: 2, of_border, .. } => add(scale(0.75, p), scale(0.125, *of_border)),
         // (centres + 2 middles of edges + (n − 3) p) / n, in means.
-        AroundVertex { of_faces, of_edges, .. } => {
+        ControlVertex { of_faces, of_edges, .. } => {
             let middles = scale(0.5, add(scale(n, p), *of_edges));
             scale(1.0 / (n * n), add(add(*of_faces, scale(2.0, middles)), scale(n * (n - 3.0), p)))
         }
@@ -259,12 +259,12 @@ fn moved(p: Vector, around: &AroundVertex) -> Vector {
 }
 
 /// The point of the limit at a vertex; the quadrilaterals around it count by their opposite corners.
-fn limit(p: Vector, around: &AroundVertex) -> Vector {
+fn limit(p: Vector, around: &ControlVertex) -> Vector {
     let n = around.valence as f64;
     match around {
-        AroundVertex { valence: 1, n_border: 2, .. } => p,
-        AroundVertex { n_border: 2, of_border, .. } => scale(1.0 / 6.0, add(scale(4.0, p), *of_border)),
-        AroundVertex { of_faces, of_edges, .. } => {
+        ControlVertex { valence: 1, n_border: 2, .. } => p,
+        ControlVertex { n_border: 2, of_border, .. } => scale(1.0 / 6.0, add(scale(4.0, p), *of_border)),
+        ControlVertex { of_faces, of_edges, .. } => {
             let sum = add(add(scale(n * n, p), scale(4.0, *of_edges)), *of_faces);
             scale(1.0 / (n * (n + 5.0)), sum)
         }

@@ -1,6 +1,5 @@
 //! The curves and surfaces of a STEP file, and the lines in the parameters of surfaces that its edges follow.
 
-use super::planes::StepPlane;
 use crate::geometry::vector::{Vector, cross, normalised};
 use step_io::model as m;
 use step_io::{Ap242Author, AuthorError};
@@ -111,6 +110,13 @@ pub(super) fn add_surface(
 pub(super) enum FaceSurface {
     Spline(m::BSplineSurfaceWithKnotsId),
     Plane(m::PlaneId),
+}
+
+/// A plane with its unit normal.
+#[derive(Clone, Copy)]
+pub(super) struct StepPlane {
+    pub origin: Vector,
+    pub normal: Vector,
 }
 
 /// Adds a plane.

@@ -1,14 +1,16 @@
 //! STEP files (AP242) of tensor-product patches: closed parts as solids, open ones as shells, with common edges and vertices.
 
 mod geometry;
+mod patches;
 mod planes;
 mod shells;
 
 use crate::error::{Error, Result};
-use crate::geometry::vector::Vector;
 use geometry::{Authored, FaceSurface, ParameterPlane, add_curve, add_plane, add_point, add_surface};
 pub(super) use geometry::{StepCurveGeometry, StepSurfaceGeometry};
-use planes::{FlatFace, Side, flat_faces};
+use patches::Side;
+pub(super) use patches::{StepCurve, StepPart, StepPatch, StepPatches};
+use planes::{FlatFace, flat_faces};
 use shells::add_shells;
 use std::collections::BTreeMap;
 use std::io::Write;
@@ -45,45 +47,6 @@ pub struct StepOptions {
     pub unit: LengthUnit,
     /// True: faces have colours that differ from those of their neighbours, so that programs show the patches. By default they have none.
     pub colours: bool,
-}
-
-/// A curve that is a side of one patch or of two.
-pub(super) struct StepCurve {
-    /// The points at which it begins and ends.
-    pub ends: [u32; 2],
-    /// True where the surface may have an edge: the file's edge is named `crease`.
-    pub is_crease: bool,
-    pub curve: StepCurveGeometry,
-}
-
-/// A patch.
-pub(super) struct StepPatch {
-    pub surface: StepSurfaceGeometry,
-    /// Its sides along the way around: the curve of each, and true if that runs against the way.
-    pub sides: [(usize, bool); 4],
-}
-
-/// A connected part of a surface of patches.
-pub(super) struct StepPart {
-    /// The numbers of its patches.
-    pub patches: Vec<usize>,
-    /// True if every side of its patches belongs to two of them.
-    pub is_closed: bool,
-    /// True if the normals of its patches point inwards.
-    pub is_inverted: bool,
-}
-
-/// Patches that share curves and points.
-pub(super) struct StepPatches<'a> {
-    /// The points at which curves end.
-    pub points: &'a [Vector],
-    pub curves: Vec<StepCurve>,
-    pub patches: Vec<StepPatch>,
-    pub parts: Vec<StepPart>,
-    /// The diagonal of the box around the surface.
-    pub diagonal: f64,
-    /// True: patches whose control points lie in a plane are written as faces of it, those that meet as one.
-    pub planes: bool,
 }
 
 impl StepPatches<'_> {
@@ -154,15 +117,6 @@ impl StepPatches<'_> {
     /// The faces on planes.
     fn flat_faces(&self) -> Vec<FlatFace> {
         if self.planes { flat_faces(self, UNCERTAINTY * self.diagonal) } else { Vec::new() }
-    }
-
-    /// Per curve the patches of which it is a side, each with the number of that side.
-    fn beside(&self) -> Vec<Vec<(usize, usize)>> {
-        let mut beside = vec![Vec::new(); self.curves.len()];
-        for (at, StepPatch { sides, .. }) in self.patches.iter().enumerate() {
-            sides.iter().enumerate().for_each(|(side, &(curve, _))| beside[curve].push((at, side)));
-        }
-        beside
     }
 
     /// Adds the surface of each patch; those of one face on a plane have one.

@@ -1,18 +1,9 @@
 //! Flat patches of a STEP file: those that lie in one plane and meet become one face of it.
 
-use super::{StepPatch, StepPatches};
+use super::geometry::StepPlane;
+use super::patches::{Side, StepPatch, StepPatches};
 use crate::geometry::vector::{Vector, cross, dot, norm, scale, sub};
 use std::collections::{BTreeMap, BTreeSet};
-
-/// A curve as a side of a face, and true if it runs against the way around.
-pub(super) type Side = (usize, bool);
-
-/// A plane with its unit normal.
-#[derive(Clone, Copy)]
-pub(super) struct StepPlane {
-    pub origin: Vector,
-    pub normal: Vector,
-}
 
 /// A face on a plane.
 pub(super) struct FlatFace {

@@ -166,7 +166,7 @@ class MatchingJudgement:
         of the mean distance from the surface at corresponding points: 1 where it is equal, 0 where the map does no better than chance.
     verdict : Verdict
         ``"good"``: at most 0.5, 1.5 and 0.005 in the means, and an agreement of at least 0.8. ``"unlikely"``, landmarks are needed: above
-        2, 6 or 0.1, or an agreement below 0.4. Else ``"rough"``.
+        2, 6 or 0.1, or an agreement below 0.4 without handles. Else ``"rough"``.
     """
 
     area_log_mean: float
