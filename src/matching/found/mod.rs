@@ -79,7 +79,7 @@ const OUTLIER: [f64; 2] = [3.0, 0.05];
 /// Pairs of vertices of two surfaces that correspond by their shapes. The result is the same for any number of threads.
 ///
 /// # Errors
-/// [`crate::Error::Argument`] for a surface without positions, whose sides are not known; those of [`crate::harmonic::spectrum`];
+/// [`crate::Error::Argument`] for a surface without positions, whose sides are not known; those of [`crate::harmonic::spectrum()`];
 /// [`crate::Error::Cancelled`].
 pub fn find_landmarks(
     surfaces: [&Surface; 2],

@@ -31,7 +31,7 @@ pub(super) struct SampledSurface<'a> {
 
 impl<'a> SampledSurface<'a> {
     /// # Errors
-    /// [`crate::Error::Argument`] for a surface without positions; those of [`spectrum`]; [`crate::Error::Cancelled`].
+    /// [`crate::Error::Argument`] for a surface without positions; those of [`spectrum()`]; [`crate::Error::Cancelled`].
     pub fn new(surface: &'a Surface, control: &Control) -> Result<SampledSurface<'a>> {
         let even = EvenSample::new(surface, SAMPLES, &control.part(0.0, 0.4))?;
         let domain = Domain::new(surface, &control.part(0.4, 0.5))?;

@@ -80,7 +80,7 @@ impl LayoutFitOptions {
 /// tolerance get more spans. The first fit within the tolerance, or else that with the fewest patches folded, then the least distance.
 ///
 /// # Errors
-/// [`Error::Layout`] for a surface without positions, and for sides of patches that are not one arc; those of
+/// [`crate::Error::Layout`] for a surface without positions, and for sides of patches that are not one arc; those of
 /// [`super::fit_quads`], [`SplineTarget::of_patches`] and [`QuadSplineSpace::new`].
 pub fn fit_quad_layout(
     seamless: &Seamless,
