@@ -22,7 +22,7 @@ turned until their conformal factors fit best.
 Where nothing says what corresponds, landmarks are found by the shapes of the surfaces: extremities and eigenfunctions of the Laplacian propose
 maps, of which the one that keeps distances best is refined. The map with them is compared with the one without any, and the better one is taken.
 The verdict on a map is good, rough or unlikely. Good: mean |ln area| at most 0.5, mean dilatation at most 1.5, there and back at most 0.005,
-agreement at least 0.8. Unlikely, which is exit 1: one of them beyond 2, 6, 0.1 or, on surfaces
+agreement at least 0.8. Unlikely, which is exit 1 unless landmarks are given: one of them beyond 2, 6, 0.1 or, on surfaces
 without handles, 0.4. With --distance no landmarks are looked for: the map without any has the least dilatation.
 
 Files

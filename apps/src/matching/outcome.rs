@@ -161,8 +161,12 @@ impl JobOutcome for MatchOutcome {
             checks.add("roundness", off.fold(0.0, worse), ROUND);
         }
         checks.add("weights", off.fold(0.0, f64::max), WEIGHTS);
-        let is_unlikely = self.judgement.verdict == MapVerdict::Unlikely;
-        checks.add_with_remedy("unlikely", f64::from(u8::from(is_unlikely)), 0.0, UNLIKELY);
+        // Where landmarks are given the user has said what corresponds.
+        let are_given = self.found.is_none() && !self.landmarks.is_empty();
+        if !are_given {
+            let is_unlikely = self.judgement.verdict == MapVerdict::Unlikely;
+            checks.add_with_remedy("unlikely", f64::from(u8::from(is_unlikely)), 0.0, UNLIKELY);
+        }
         checks
     }
 
