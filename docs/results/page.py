@@ -190,7 +190,7 @@ class Run:
 def main(content):
     """Print the page whose blocks `content(run)` returns; empty ones are left out."""
     with tempfile.TemporaryDirectory() as folder:
-        blocks = content(Run(folder))
+        blocks = list(content(Run(folder)))
     print("\n\n".join(block.strip("\n") for block in blocks if block))
 
 

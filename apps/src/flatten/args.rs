@@ -32,12 +32,17 @@ Surfaces of genus 1 and more, and others with --cones, are cut open along seams 
     numbers of the files; a boundary is free. The cones are those of --cones field, auto:N or V.csv, as for `ricci seamless`. Where a triangle would be turned over at the start,
     edges are split; the first vertices are the input's.
 
+Closed surfaces of genus 0 come to the sphere of their area, with --energy isometric or area, from the conformal map or one of the triangulation
+    alone: --sphere S.obj has the input's vertices and faces on the unit sphere, turned as the surface is in space. It is read again as well.
+
 Sheets: --strain 0.05,0.1 --shear 10 are the limits of a material along --warp 0 (degrees from x) and across. Where the flat sheet would be
     strained more when it takes the shape of the surface, seams open from the border inwards, one after the other, until the limits hold,
     --darts are made, or --open LENGTH is used up. The report has the strains and the darts; files have the surface cut open.
 
 Files
     --uv OUT.obj | OUT.glb     the surface with the map as texture coordinates, in the surface's unit of length
+    --sphere S.obj | .ply | .off | .glb | lh.sphere
+                               the map on the unit sphere, of closed surfaces of genus 0
     --flat OUT.obj | .ply | .off | .glb | .svg | .dxf
                                the map in the plane as a mesh, or as lines for cutting
     --patch lh.patch.flat      the map as a patch of FreeSurfer: the numbers of the vertices, negative on the border, and their places, z = 0
@@ -108,6 +113,9 @@ pub struct FlattenArgs {
     /// Write the surface with its map to the plane as texture coordinates, .obj or .glb
     #[arg(long, value_name = "OUT.obj")]
     pub uv: Option<FileName>,
+    /// Write the map of a closed surface of genus 0 to the unit sphere as a mesh
+    #[arg(long, value_name = "S.obj")]
+    pub sphere: Option<FileName>,
     #[command(flatten)]
     #[serde(flatten)]
     pub flat: FlatArgs,

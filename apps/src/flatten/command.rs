@@ -1,12 +1,12 @@
 //! `ricci flatten` as a job: what it refuses, computes, writes and reports.
 
 use super::args::{EnergyChoice, FlattenArgs};
-use super::outcome::FlattenOutcome;
+use super::outcome::{FlattenOutcome, PlaneOutcome};
 use super::part::{self, Part};
 use super::seamed::SeamedMap;
 use crate::failure::{Failure, NO_POSITIONS};
 use crate::input::Input;
-use crate::output::{check_extension, check_outputs};
+use crate::output::{check_extension, check_mesh_extension, check_outputs};
 use crate::progress::doing;
 use crate::runner::{CommandRun, Job, JobHeader};
 use crate::seamless::ConesChoice;
@@ -23,6 +23,7 @@ impl Job for FlattenArgs {
 
     fn check(&self) -> Result<(), Failure> {
         check_extension("--uv", self.uv.as_deref(), &["obj", "glb"])?;
+        check_mesh_extension("--sphere", self.sphere.as_deref(), &[])?;
         check_extension("--picture", self.picture.picture.as_deref(), &["png", "svg"])?;
         self.flat.check()?;
         if self.has_limits() && (self.pin.is_some() || self.straight.is_some() || self.patch.is_some()) {
@@ -36,6 +37,7 @@ impl Job for FlattenArgs {
         let files = [
             &self.trace,
             &self.uv,
+            &self.sphere,
             &self.flat.flat,
             &self.patch,
             &self.areal,
@@ -58,6 +60,9 @@ impl Job for FlattenArgs {
         let part = part::read(&self.surface, self.label.as_deref(), run)?;
         check_surface(self, &part.input)?;
         let options = self.options_with_conditions(&part)?;
+        if self.is_round(part.input.mesh()) {
+            return Ok(FlattenOutcome::Sphere(Box::new(self.round_map(part.input, &options, run)?)));
+        }
         let mut seamed = None;
         let (Part { input, origins, n_whole }, flat, sheet) = if self.has_seams(part.input.mesh()) {
             let found = self.seamed_map(&part.input, &options, run)?;
@@ -73,7 +78,7 @@ impl Job for FlattenArgs {
             (part, flat, None)
         };
         [run.seconds.layout, run.seconds.solve] = flat.report.seconds;
-        Ok(FlattenOutcome {
+        Ok(FlattenOutcome::Plane(Box::new(PlaneOutcome {
             input,
             origins,
             n_whole,
@@ -84,13 +89,21 @@ impl Job for FlattenArgs {
             injective: self.injective,
             has_conditions: self.pin.is_some() || self.straight.is_some(),
             written_turned: Default::default(),
-        })
+        })))
     }
 
     fn write(&self, outcome: &FlattenOutcome, run: &mut CommandRun<'_>) -> Result<(), Failure> {
+        let report = match outcome {
+            FlattenOutcome::Plane(found) => &found.flat.report,
+            FlattenOutcome::Sphere(found) => &found.map.report,
+        };
         run.file("trace", self.trace.as_deref(), |outputs, path| {
-            outputs.add(path, |out| write_energies(out, &outcome.flat.report.energies))
+            outputs.add(path, |out| write_energies(out, &report.energies))
         })?;
+        let outcome = match outcome {
+            FlattenOutcome::Plane(found) => found,
+            FlattenOutcome::Sphere(found) => return self.write_round(found, run),
+        };
         run.file("uv", self.uv.as_deref(), |outputs, path| outcome.write_uv(outputs, path))?;
         run.file("flat", self.flat.flat.as_deref(), |outputs, path| {
             outcome.write_flat(outputs, path, &self.flat)
@@ -102,7 +115,7 @@ impl Job for FlattenArgs {
     }
 
     fn settings<'a>(&'a self, outcome: &'a FlattenOutcome) -> impl Serialize + 'a {
-        let input_geometry = outcome.input.surface.geometry().name();
+        let input_geometry = outcome.source().surface.geometry().name();
         FlattenSettings { input_geometry, args: self, conformal: self.options().conformal_share() }
     }
 }
@@ -126,13 +139,15 @@ impl FlattenArgs {
 /// Refuse what can be refused once the surface is known.
 fn check_surface(args: &FlattenArgs, input: &Input) -> Result<(), Failure> {
     let mesh = input.mesh();
-    let (loops, path) = (mesh.boundary_loops().len(), input.path.display());
+    if args.is_round(mesh) {
+        return args.check_round(input);
+    }
+    if args.sphere.is_some() {
+        let why = "is for closed surfaces of genus 0 without --cones; this one is laid into the plane (--uv, --flat)";
+        return Err(Failure::Usage(format!("--sphere {why}")));
+    }
     if args.has_seams(mesh) {
         args.check_seamed()?;
-    } else if loops == 0 {
-        return Err(Failure::Input(format!(
-            "{path}: the surface is closed; --cones auto:8 cuts it open along seams, `ricci uniformize` maps it to the sphere"
-        )));
     }
     let in_space = input.positions().is_some();
     let drawn = args.picture.picture.is_some() && !args.picture.is_svg();

@@ -1,11 +1,11 @@
 //! The checks, the figures and the summary of `ricci flatten`.
 
-use super::outcome::{FlattenOutcome, StrainedSheet};
+use super::outcome::{PlaneOutcome, StrainedSheet};
 use super::seamed::SeamedMap;
-use crate::report::{Checks, Done, Figures, InputSummary};
-use crate::runner::{CommandRun, JobOutcome};
+use crate::report::{Checks, Done, Figures};
+use crate::runner::CommandRun;
 use crate::say;
-use ricci::flatten::{Distortion, FlattenStop};
+use ricci::flatten::{Distortion, FlattenReport, FlattenStop};
 use serde_json::{Value, json};
 
 /// Largest distance, over the diameter of the map, by which a corner was moved to make seams exact.
@@ -13,16 +13,10 @@ const MOVED: f64 = 1e-9;
 /// The most by which pinned vertices and straight pieces may miss where they are to be, in the diameter of the map.
 const MOST_MISFIT: f64 = 1e-11;
 
-impl JobOutcome for FlattenOutcome {
-    type Figures = Figures;
-
-    fn checks(&self) -> Checks {
+impl PlaneOutcome {
+    pub fn checks(&self) -> Checks {
         let report = &self.flat.report;
-        let mut checks = Checks::default();
-        if report.stop != FlattenStop::Rounding {
-            checks.add("newton_decrement", report.decrement, self.tolerance);
-        }
-        checks.add("not_converged", f64::from(u8::from(!report.converged())), 0.0);
+        let mut checks = descent_checks(report, self.tolerance);
         if self.injective {
             checks.add("overlaps", f64::from(u8::from(!report.one_to_one)), 0.0);
         }
@@ -42,24 +36,10 @@ impl JobOutcome for FlattenOutcome {
         checks
     }
 
-    fn input(&self) -> Option<InputSummary> {
-        Some(InputSummary::of(&self.input))
-    }
-
-    fn figures(&self, run: &CommandRun<'_>) -> Figures {
+    pub fn figures(&self, run: &CommandRun<'_>) -> Figures {
         let report = &self.flat.report;
-        Figures::default()
-            .if_some("whole_vertices", self.origins.as_ref().map(|_| self.n_whole))
-            .with("start", report.start.name())
-            .with("stop_reason", report.stop.name())
-            .with("converged", report.converged())
-            .with("iterations", report.iterations())
-            .with("unclamped_steps", report.unclamped)
-            .with("newton_decrement", report.decrement)
-            .with("gradient", report.gradient)
-            .with("energies", report.energies.clone())
-            .with("before", distortion(&report.before))
-            .with("after", distortion(&report.after))
+        let whole = self.origins.as_ref().map(|_| self.n_whole);
+        descent_figures(Figures::default().if_some("whole_vertices", whole), report)
             .with("overlap", report.overlap)
             .with("one_to_one", report.one_to_one)
             .if_some("seams", self.seamed.as_ref().map(SeamedMap::figures))
@@ -72,19 +52,10 @@ impl JobOutcome for FlattenOutcome {
             .with("left_out", run.outputs.left_out())
     }
 
-    fn summary(&self, done: &Done) -> String {
+    pub fn summary(&self, done: &Done) -> String {
         let report = &self.flat.report;
         let mut text = say::surface(&self.input);
-        let steps = say::count(report.iterations(), "step", "steps");
-        text += &format!(
-            "map      {} after {steps} from the {} map, {} by the Hessian itself, decrement {:.1e}\n",
-            report.stop.name(),
-            report.start.name(),
-            report.unclamped,
-            report.decrement
-        );
-        text += &line("before  ", &report.before);
-        text += &line("after   ", &report.after);
+        text += &descent_summary(report);
         if report.overlap > 0.0 {
             text +=
                 &format!("overlap  {:.2} % of the map lies on other parts of it\n", 100.0 * report.overlap);
@@ -104,11 +75,55 @@ impl JobOutcome for FlattenOutcome {
                 report.misfit
             );
         }
-        if let Some(why) = why(report.stop) {
-            text += &format!("why      {why}\n");
-        }
-        text + &say::finish(done)
+        text + &reason(report) + &say::finish(done)
     }
+}
+
+/// The checks of a descent that was asked for this Newton decrement.
+pub fn descent_checks(report: &FlattenReport, tolerance: f64) -> Checks {
+    let mut checks = Checks::default();
+    if report.stop != FlattenStop::Rounding {
+        checks.add("newton_decrement", report.decrement, tolerance);
+    }
+    checks.add("not_converged", f64::from(u8::from(!report.converged())), 0.0);
+    checks
+}
+
+/// The figures of a descent, behind others.
+pub fn descent_figures(before: Figures, report: &FlattenReport) -> Figures {
+    before
+        .with("start", report.start.name())
+        .with("stop_reason", report.stop.name())
+        .with("converged", report.converged())
+        .with("iterations", report.iterations())
+        .with("unclamped_steps", report.unclamped)
+        .with("newton_decrement", report.decrement)
+        .with("gradient", report.gradient)
+        .with("energies", report.energies.clone())
+        // Three figures of the map by themselves: its energy, its largest stretch, and the mean of |length / length - 1| over the edges.
+        .with("energy", report.after.energy)
+        .with("stretch_max", report.after.most_stretch)
+        .with("distance_error", report.after.mean_length_error)
+        .with("before", distortion(&report.before))
+        .with("after", distortion(&report.after))
+}
+
+/// A descent in the lines of a summary.
+pub fn descent_summary(report: &FlattenReport) -> String {
+    let steps = say::count(report.iterations(), "step", "steps");
+    let map = format!(
+        "map      {} after {steps} from the {} map, {} by the Hessian itself, decrement {:.1e}\n",
+        report.stop.name(),
+        report.start.name(),
+        report.unclamped,
+        report.decrement
+    );
+    map + &line("before  ", &report.before) + &line("after   ", &report.after)
+}
+
+/// The line that says why a descent did not converge, with a remedy; empty where it did.
+pub fn reason(report: &FlattenReport) -> String {
+    why(report.stop).map_or_else(String::new, |why| format!("why      {why}\n"))
 }
 
 fn line(name: &str, of: &Distortion) -> String {

@@ -1,7 +1,7 @@
 //! A flat map as files and in pictures.
 
 use super::args::FlattenArgs;
-use super::outcome::FlattenOutcome;
+use super::outcome::PlaneOutcome;
 use super::seamed::SeamedMap;
 use crate::failure::Failure;
 use crate::flat::FlatLayout;
@@ -19,7 +19,7 @@ use std::borrow::Cow;
 use std::cmp::Ordering;
 use std::path::Path;
 
-impl FlattenOutcome {
+impl PlaneOutcome {
     fn mesh(&self) -> &Mesh {
         self.seamed.as_ref().map_or(self.input.mesh(), |seamed| seamed.map.surface.mesh())
     }

@@ -7,6 +7,7 @@ mod figures;
 mod files;
 mod outcome;
 mod part;
+mod round;
 mod seamed;
 mod sheet;
 mod vertex_values;

@@ -1,12 +1,22 @@
-//! A flat map of a surface, and what was seen when its file was read again.
+//! A map of a surface to the plane or the sphere, and what was seen when its file was read again.
 
+use super::round::RoundOutcome;
 use super::seamed::SeamedMap;
 use crate::input::Input;
+use crate::report::{Checks, Done, Figures, InputSummary};
+use crate::runner::{CommandRun, JobOutcome};
 use ricci::flatten::{Dart, FaceStrain, Flattening, StrainLimits};
 use ricci::mesh::VertexId;
 use std::sync::OnceLock;
 
-pub struct FlattenOutcome {
+/// What `ricci flatten` finds.
+pub enum FlattenOutcome {
+    Plane(Box<PlaneOutcome>),
+    Sphere(Box<RoundOutcome>),
+}
+
+/// A map to the plane.
+pub struct PlaneOutcome {
     pub input: Input,
     /// Per vertex its number in the whole surface; none where that is what is flattened.
     pub origins: Option<Vec<u32>>,
@@ -37,9 +47,48 @@ pub struct StrainedSheet {
     pub taken: [f64; 2],
 }
 
-impl FlattenOutcome {
+impl PlaneOutcome {
     /// The number of a vertex in the whole surface.
     pub fn origin(&self, v: VertexId) -> u32 {
         self.origins.as_ref().map_or(v.0, |origins| origins[v.index()])
+    }
+}
+
+impl FlattenOutcome {
+    /// The surface that is mapped.
+    pub fn source(&self) -> &Input {
+        match self {
+            FlattenOutcome::Plane(found) => &found.input,
+            FlattenOutcome::Sphere(found) => &found.input,
+        }
+    }
+}
+
+impl JobOutcome for FlattenOutcome {
+    type Figures = Figures;
+
+    fn checks(&self) -> Checks {
+        match self {
+            FlattenOutcome::Plane(found) => found.checks(),
+            FlattenOutcome::Sphere(found) => found.checks(),
+        }
+    }
+
+    fn input(&self) -> Option<InputSummary> {
+        Some(InputSummary::of(self.source()))
+    }
+
+    fn figures(&self, run: &CommandRun<'_>) -> Figures {
+        match self {
+            FlattenOutcome::Plane(found) => found.figures(run),
+            FlattenOutcome::Sphere(found) => found.figures(run),
+        }
+    }
+
+    fn summary(&self, done: &Done) -> String {
+        match self {
+            FlattenOutcome::Plane(found) => found.summary(done),
+            FlattenOutcome::Sphere(found) => found.summary(done),
+        }
     }
 }

@@ -1,11 +1,11 @@
 //! Areal and shape distortion of a flat map at the vertices, as files of FreeSurfer.
 
-use super::outcome::FlattenOutcome;
+use super::outcome::PlaneOutcome;
 use crate::failure::Failure;
 use crate::vertex_distortion::VertexDistortion;
 use ricci::mesh::io::freesurfer::values_bytes;
 
-impl FlattenOutcome {
+impl PlaneOutcome {
     /// log2 of the area of the faces around each vertex in the plane over that on the surface.
     pub fn areal(&self) -> Result<Vec<u8>, Failure> {
         self.values(VertexDistortion::of_plane(&self.input.surface, &self.flat.points)?.areal)

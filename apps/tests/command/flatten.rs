@@ -186,11 +186,42 @@ fn what_cannot_be_flattened_is_refused_with_the_way_out() {
     place.expect(0, "make torus -n 12 --holes 1 -o h.obj");
     assert!(place.expect(0, "flatten h.obj").out.contains("seams"));
     place.expect(0, "make sphere -n 3 -o s.obj");
-    assert!(place.expect(3, "flatten s.obj").err.contains("ricci uniformize"));
+    assert!(place.expect(2, "flatten s.obj --uv u.obj").err.contains("--sphere S.obj"));
+    assert!(place.expect(3, "flatten s.obj --energy arap").err.contains("isometric or area"));
     place.expect(0, "make disk -n 3 -o d.obj");
+    assert!(place.expect(2, "flatten d.obj --sphere s.obj").err.contains("closed surfaces"));
     assert!(place.expect(2, "flatten d.obj --conformal 1.5").err.contains("share from 0 to 1"));
     assert!(place.expect(2, "flatten d.obj --energy area --conformal 0").err.contains("above 0"));
     assert!(place.expect(2, "flatten d.obj --uv flat.ply").err.contains(".obj or .glb"));
+}
+
+#[test]
+fn an_ellipsoid_comes_to_the_sphere() {
+    let place = Place::new();
+    place.expect(0, "make ellipsoid -n 6 -o e.obj");
+    place.expect(
+        0,
+        "flatten e.obj --sphere s.obj --trace t.csv --areal e.areal --shape e.shape --picture s.png --report r.json",
+    );
+    let report = place.json("r.json");
+    let result = &report["result"];
+    assert_eq!(result["turned_triangles_in_file"].as_u64(), Some(0));
+    assert_eq!(report["checks"]["turned_triangles_in_file"]["holds"].as_bool(), Some(true));
+    assert!(result["after"]["energy"].as_f64() < result["before"]["energy"].as_f64());
+    assert_eq!(result["energy"], result["after"]["energy"]);
+    let (before, after) = (place.text("e.obj"), place.text("s.obj"));
+    let faces =
+        |text: &str| text.lines().filter(|l| l.starts_with("f ")).map(str::to_string).collect::<Vec<_>>();
+    assert_eq!(faces(&before), faces(&after));
+    for line in after.lines().filter(|l| l.starts_with("v ")) {
+        let square: f64 = numbers_after(line).iter().map(|x| x * x).sum();
+        assert!((square - 1.0).abs() < 1e-14, "{line}");
+    }
+    assert_eq!(place.text("t.csv").lines().count(), numbers(&result["energies"]).len() + 1);
+    // The long ends of the surface come to small parts of the sphere.
+    place.expect(0, "flatten e.obj --energy area --sphere lh.sphere --report a.json");
+    let error = |report: &serde_json::Value| report["result"]["after"]["mean_area_error"].as_f64();
+    assert!(error(&place.json("a.json")) < error(&report));
 }
 
 /// Per directed edge its vector in a texture.

@@ -149,7 +149,8 @@ pub(super) fn fit_from(
     control.step(Stage::Layout, 0.0)?;
     let patches = space.layout().patches().len();
     let pieces = parallel::map(patches, |p| target.piece_of_patch(p, (start.map)(p, [0.5, 0.5])));
-    let is_flat = pieces.iter().map(|&piece| target.is_flat(piece)).collect();
+    let is_flat: Vec<bool> = pieces.iter().map(|&piece| target.is_flat(piece)).collect();
+    log::debug!("{} of {patches} patches lie in planes", is_flat.iter().filter(|is_flat| **is_flat).count());
     let mut system = QuadSystem::new(space.clone(), is_flat)?;
     let at_start =
         |p: usize, place: &FitPlace| FootPoint { point: (start.map)(p, place.parameters), normal: [0.0; 3] };
