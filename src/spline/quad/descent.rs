@@ -152,6 +152,7 @@ fn stiffest_start(
         let goal = FitGoal {
             weights: FitWeights { normal: 0.0, bending: bendings.at(step) },
             tangential: &vec![1.0; feet.len()],
+            before: None,
             feet: &|p| &feet[p],
             vertices: &|_| &[],
         };
@@ -184,7 +185,9 @@ impl FitIterate {
     fn solved(&self, system: &mut QuadSystem, weights: FitWeights, tangential: &[f64]) -> Result<QuadSpline> {
         let feet = |p: usize| &self.patches[p].feet[..];
         let vertices = |p: usize| &self.patches[p].vertices[..];
-        let free = system.solve(&FitGoal { weights, tangential, feet: &feet, vertices: &vertices })?;
+        let before = Some(&self.spline);
+        let free =
+            system.solve(&FitGoal { weights, tangential, before, feet: &feet, vertices: &vertices })?;
         QuadSpline::of_free(system.space().clone(), &free)
     }
 

@@ -8,7 +8,7 @@ use super::spline::QuadSpline;
 use super::target::FootPoint;
 use crate::error::{Error, Result};
 use crate::geometry::quadrature::gauss_legendre;
-use crate::geometry::vector::{Vector, dot, sub};
+use crate::geometry::vector::{Vector, add, dot, scale, sub};
 use crate::linalg::{Cholesky, Pattern, Symmetric};
 use crate::parallel;
 use std::collections::BTreeMap;
@@ -30,6 +30,8 @@ const ENTRY: [[usize; 3]; 3] = [[0, 1, 2], [1, 3, 4], [2, 4, 5]];
 const DIAGONAL: [usize; 3] = [0, 3, 5];
 /// The weight of distances from flat pieces of the target against those from others, so that their patches are flat too.
 const OF_FLAT: f64 = 1e6;
+/// The weight of the way along a flat piece beside that of its gradient.
+const OF_WAY_IN_PLANE: f64 = 1e-3;
 /// The weight of all vertices of the target against that of all places of the patches.
 const VERTICES: f64 = 1.0;
 
@@ -69,8 +71,10 @@ pub(super) struct FitPlace {
 /// What a fit comes near: a foot for every place of a patch, and for every patch the vertices of the target that are nearest to it.
 pub(super) struct FitGoal<'a> {
     pub weights: FitWeights,
-    /// Per patch the weight of the squared distance from the foot.
+    /// Per patch the weight of the squared distance from the foot; of a flat patch, where `before` is known, that of the gradient of the way from there.
     pub tangential: &'a [f64],
+    /// The spline from which a step is taken.
+    pub before: Option<&'a QuadSpline>,
     /// Those of the places of a patch, in order.
     pub feet: &'a (dyn Fn(usize) -> &'a [FootPoint] + Sync),
     pub vertices: &'a (dyn Fn(usize) -> &'a [NearestToVertex] + Sync),
@@ -83,8 +87,8 @@ pub(super) struct QuadSystem {
     along: BTreeMap<usize, SpanDirection>,
     /// The area of all patches in parameters.
     area: f64,
-    /// Per patch the weight of the distances of its places.
-    of_places: Vec<f64>,
+    /// Per patch true if its piece of the target is flat.
+    is_flat: Vec<bool>,
     /// Per patch the free control points that it depends on, ascending, and its own control points as combinations of them.
     free: Vec<Vec<u32>>,
     pattern: Pattern,
@@ -99,7 +103,6 @@ struct PatchEquations {
 }
 
 impl QuadSystem {
-    /// `is_flat`: per patch true if its piece of the target is flat.
     pub fn new(space: Arc<QuadSplineSpace>, is_flat: Vec<bool>) -> Result<QuadSystem> {
         let free: Vec<Vec<u32>> = (0..space.layout().patches().len()).map(|p| free_of(&space, p)).collect();
         let mut pairs = Vec::new();
@@ -119,8 +122,12 @@ impl QuadSystem {
         let along = space.spans().iter().map(|&spans| (spans, SpanDirection::new(spans))).collect();
         let of_patch = |p: usize| lengths(&space, p).iter().product::<f64>();
         let area = (0..space.layout().patches().len()).map(of_patch).sum();
-        let of_places = is_flat.iter().map(|&is_flat| if is_flat { OF_FLAT } else { 1.0 }).collect();
-        Ok(QuadSystem { space, along, area, of_places, free, pattern, cholesky })
+        Ok(QuadSystem { space, along, area, is_flat, free, pattern, cholesky })
+    }
+
+    /// The weight of the distances of the places of a patch.
+    fn of_places(&self, p: usize) -> f64 {
+        if self.is_flat[p] { OF_FLAT } else { 1.0 }
     }
 
     /// The space of the splines.
@@ -193,7 +200,7 @@ impl QuadSystem {
         let square = |a: Vector, b: Vector| sub(a, b).map(|x| x * x).iter().sum::<f64>();
         let [a, b] = lengths(&self.space, p);
         let of_place = |(place, foot): (FitPlace, &FootPoint)| {
-            self.of_places[p]
+            self.of_places(p)
                 * a
                 * b
                 * place.weight
@@ -227,15 +234,23 @@ impl QuadSystem {
     /// The equations of a patch on the free control points.
     fn of_patch(&self, p: usize, goal: &FitGoal<'_>) -> PatchEquations {
         let weights = goal.weights;
-        let of_distance = [weights.normal, goal.tangential[p]];
+        let along = self.space.patch_spans(p).map(|spans| &self.along[&spans]);
+        let tangential = goal.tangential[p];
+        // In a plane nothing but their sides tells places where to be: they go with them.
+        let before = goal.before.filter(|_| self.is_flat[p]);
+        let of_distance =
+            [weights.normal, if before.is_some() { OF_WAY_IN_PLANE * tangential } else { tangential }];
         let mut sum = PatchSum::new(self.space.sides(p), lengths(&self.space, p));
         let [a, b] = sum.lengths;
         for (place, &FootPoint { point, normal }) in self.places(p).zip((goal.feet)(p)) {
             let [along_normal, tangential] = of_distance;
-            let tensor = tensor(normal, [self.of_places[p] * along_normal, tangential], a * b * place.weight);
+            let tensor = tensor(normal, [self.of_places(p) * along_normal, tangential], a * b * place.weight);
             sum.add(&place.basis, &tensor, point);
         }
-        sum.bend(weights.bending, self.space.patch_spans(p).map(|spans| &self.along[&spans]));
+        sum.bend(weights.bending, along);
+        if let Some(before) = before {
+            sum.keep_shape(tangential, along, &before.net(p).concat());
+        }
         let spans = self.space.patch_spans(p);
         for NearestToVertex { vertex, normal, parameters } in (goal.vertices)(p) {
             let basis = [0, 1].map(|k| QuinticBasis::at(spans[k], parameters[k]));
@@ -346,6 +361,22 @@ impl PatchSum {
             for &(j, other) in &terms[..=number] {
                 let both = value * other;
                 self.matrix[i * m + j].iter_mut().zip(tensor).for_each(|(x, t)| *x += both * t);
+            }
+        }
+    }
+
+    /// Adds ∫ d_u² + d_v² over the rectangle with a weight, d the way from a spline with these control points.
+    fn keep_shape(&mut self, weight: f64, [along_u, along_v]: [&SpanDirection; 2], before: &[Vector]) {
+        let ([a, b], m) = (self.lengths, before.len());
+        let [n_u, n_v] = [along_u, along_v].map(|along| along.products[0].len().isqrt());
+        for (i, j) in (0..m).flat_map(|i| (0..m).map(move |j| (i, j))) {
+            let [u, v] = [(i / n_v) * n_u + j / n_v, (i % n_v) * n_v + j % n_v];
+            let of =
+                |order_u: usize, order_v: usize| along_u.products[order_u][u] * along_v.products[order_v][v];
+            let both = weight * (b / a * of(1, 0) + a / b * of(0, 1));
+            self.right[i] = add(self.right[i], scale(both, before[j]));
+            if j <= i {
+                DIAGONAL.into_iter().for_each(|k| self.matrix[i * m + j][k] += both);
             }
         }
     }
