@@ -33,6 +33,7 @@ impl BicubicSurface {
             },
         };
         let patch = |BicubicPatch { knots, control, sides, .. }: &BicubicPatch| StepPatch {
+            cylinder: None,
             surface: StepSurfaceGeometry {
                 degree: DEGREE,
                 knots: knots.clone(),

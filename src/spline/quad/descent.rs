@@ -1,14 +1,15 @@
 //! Steps of a fit: the distance along normals and the bending, whose weight falls from step to step.
 //!
 //! Where neighbouring patches meet, the space of splines prescribes how parameter lines cross. The map from which a fit starts crosses
-//! otherwise, so the surface has to slide along itself. A weight of the way along the surface keeps places where their feet are known: it falls
-//! after steps that come nearer and rises after those that do not, which are not taken [Mar63].
+//! otherwise, so the surface has to slide along itself. A weight of the gradient of the way keeps the shape of patches, which so go with their
+//! sides: it falls after steps that come nearer and rises after those that do not, which are not taken [Mar63].
 
 use super::layout::PatchCorner;
 use super::nearest::{NearestToVertex, vertex_places};
+use super::piece_form::FootPoint;
 use super::spline::QuadSpline;
 use super::system::{FitGoal, FitWeights, QuadSystem};
-use super::target::{FootPoint, SplineTarget};
+use super::target::SplineTarget;
 use crate::control::{Control, Stage};
 use crate::error::{Error, Result};
 use crate::geometry::vector::dot;
@@ -22,7 +23,7 @@ const SETTLED: f64 = 0.96;
 const FIRST_BENDING: f64 = 1e-5;
 /// Steps between the weights of bending with which a start is tried.
 const SOFTER: usize = 3;
-/// The weights of the distance along the surface: the first, the least, and the one beyond which no step comes nearer.
+/// The weights of the gradient of the way: the first, the least, and the one beyond which no step comes nearer.
 const FIRST_TANGENTIAL: f64 = 1e-2;
 const LEAST_TANGENTIAL: f64 = 1e-6;
 const MOST_TANGENTIAL: f64 = 1.0;

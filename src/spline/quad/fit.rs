@@ -3,11 +3,12 @@
 use super::descent::{Bendings, FitTarget, descend};
 use super::nearest::vertex_places;
 use super::noise::noise_of;
+use super::piece_form::{FootPoint, PieceForm};
 use super::quintic::QuinticBasis;
 use super::space::QuadSplineSpace;
 use super::spline::QuadSpline;
 use super::system::{FitPlace, QuadSystem};
-use super::target::{FootPoint, SplineTarget};
+use super::target::SplineTarget;
 use crate::archive::stored;
 use crate::control::{Control, Stage};
 use crate::error::Result;
@@ -149,9 +150,9 @@ pub(super) fn fit_from(
     control.step(Stage::Layout, 0.0)?;
     let patches = space.layout().patches().len();
     let pieces = parallel::map(patches, |p| target.piece_of_patch(p, (start.map)(p, [0.5, 0.5])));
-    let is_flat: Vec<bool> = pieces.iter().map(|&piece| target.is_flat(piece)).collect();
-    log::debug!("{} of {patches} patches lie in planes", is_flat.iter().filter(|is_flat| **is_flat).count());
-    let mut system = QuadSystem::new(space.clone(), is_flat)?;
+    let forms: Vec<Option<PieceForm>> = pieces.iter().map(|&piece| target.form(piece)).collect();
+    log::debug!("{} of {patches} patches lie on planes or cylinders", forms.iter().flatten().count());
+    let mut system = QuadSystem::new(space.clone(), &forms)?;
     let at_start =
         |p: usize, place: &FitPlace| FootPoint { point: (start.map)(p, place.parameters), normal: [0.0; 3] };
     let feet =

@@ -38,6 +38,7 @@ mod over_control_mesh;
 mod over_quads;
 #[cfg(feature = "quads")]
 mod patch_grid;
+mod piece_form;
 mod places;
 mod quintic;
 #[cfg(feature = "quads")]

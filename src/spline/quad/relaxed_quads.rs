@@ -1,7 +1,8 @@
 //! The vertices of a layout's quads moved along the surface, so that quads become about as large as those around them and none turns over.
 
 use super::fitted_surface::FittedSurface;
-use super::target::{FootPoint, SplineTarget};
+use super::piece_form::FootPoint;
+use super::target::SplineTarget;
 use crate::control::Control;
 use crate::error::Result;
 use crate::geometry::vector::{Vector, add, cross, dot, lerp, normalised, scale, sub};

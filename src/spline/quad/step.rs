@@ -1,19 +1,30 @@
-//! STEP files of splines over four-sided patches: a face for each patch or plane, an edge for each arc that bounds one.
+//! STEP files of splines over four-sided patches: a face for each patch, on a cylinder where it lies on one, or plane, an edge for each arc that bounds one.
 
 use super::layout::PatchArc;
 use super::quintic::{QUINTIC, knots};
 use super::spline::QuadSpline;
 use crate::error::Result;
-use crate::geometry::vector::diagonal;
+use crate::geometry::cylinder::Cylinder;
+use crate::geometry::vector::{add, diagonal, dot, norm, normalised};
 use crate::mesh::union_find::UnionFind;
 use crate::spline::step::{
-    StepCurve, StepCurveGeometry, StepOptions, StepPart, StepPatch, StepPatches, StepSurfaceGeometry,
+    PatchCylinder, StepCurve, StepCurveGeometry, StepOptions, StepPart, StepPatch, StepPatches,
+    StepSurfaceGeometry,
 };
 use std::collections::BTreeMap;
 use std::io::Write;
 
+/// Places of a patch in each direction that lie on the cylinder that is written in its place, the distance within which they do, over the
+/// diagonal, and the least cosine of the angle between normals.
+const PLACES_ON_CYLINDER: usize = 9;
+const ON_CYLINDER: f64 = 1e-6;
+const ALONG: f64 = 0.999;
+/// The least part of the radius to which the mean of the directions from the axis comes: patches that go farther around stay splines.
+const LEAST_MIDDLE: f64 = 0.3;
+
 impl QuadSpline {
-    /// Writes the patches as STEP AP242; those that lie in one plane and meet as one face of it. Each part that closes up becomes a solid with outward normals; the others become shells of one
+    /// Writes the patches as STEP AP242; those that lie in one plane and meet as one face of it, and those that lie on a cylinder as faces of
+    /// it. Each part that closes up becomes a solid with outward normals; the others become shells of one
     /// surface model. Common sides are common edges with common control points. The same spline gives the same bytes.
     ///
     /// # Errors
@@ -43,7 +54,9 @@ impl QuadSpline {
             };
             curves.push(StepCurve { ends: *ends, is_crease: *is_crease, curve });
         }
+        let diagonal = diagonal(self.control_points());
         let patch = |at: usize| StepPatch {
+            cylinder: self.cylinder_of(at, diagonal),
             surface: StepSurfaceGeometry {
                 degree: QUINTIC,
                 knots: self.knots(at),
@@ -56,10 +69,32 @@ impl QuadSpline {
             curves,
             patches: (0..layout.patches().len()).map(patch).collect(),
             parts: self.parts(),
-            diagonal: diagonal(self.control_points()),
+            diagonal,
             planes: true,
         };
         Ok(use_them(&patches))
+    }
+
+    /// The cylinder on which a patch lies.
+    fn cylinder_of(&self, patch: usize, diagonal: f64) -> Option<PatchCylinder> {
+        let place = |k: usize| k as f64 / (PLACES_ON_CYLINDER - 1) as f64;
+        let of_place = |k: usize| {
+            let [u, v] = [place(k / PLACES_ON_CYLINDER), place(k % PLACES_ON_CYLINDER)];
+            let at = self.at(patch, [u, v]);
+            at.normal().map(|normal| (at.point, (normal, 1.0)))
+        };
+        let all: Option<Vec<_>> = (0..PLACES_ON_CYLINDER * PLACES_ON_CYLINDER).map(of_place).collect();
+        let (points, normals): (Vec<_>, Vec<_>) = all?.into_iter().unzip();
+        let cylinder = Cylinder::near(&points, &normals)?;
+        let is_on = points.iter().all(|&p| cylinder.distance(p).abs() <= ON_CYLINDER * diagonal);
+        let cosines = points.iter().zip(&normals).map(|(&p, (n, _))| dot(normalised(cylinder.radial(p)), *n));
+        let cosines: Vec<f64> = cosines.collect();
+        let is_hollow = cosines[0] < 0.0;
+        let is_along = cosines.iter().all(|cosine| cosine.abs() > ALONG && (*cosine < 0.0) == is_hollow);
+        let sum = points.iter().map(|&p| cylinder.radial(p)).fold([0.0; 3], add);
+        let is_half_or_less = norm(sum) > LEAST_MIDDLE * cylinder.radius * points.len() as f64;
+        let fits = is_on && is_along && is_half_or_less && cylinder.radius <= diagonal;
+        fits.then(|| PatchCylinder { cylinder, middle: normalised(sum), is_hollow })
     }
 
     /// The connected parts of the surface.

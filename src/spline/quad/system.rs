@@ -2,10 +2,10 @@
 
 use super::layout::PatchCorner;
 use super::nearest::NearestToVertex;
+use super::piece_form::{FootPoint, PieceForm};
 use super::quintic::{LOCAL, QUINTIC, QuinticBasis, basis_size};
 use super::space::QuadSplineSpace;
 use super::spline::QuadSpline;
-use super::target::FootPoint;
 use crate::error::{Error, Result};
 use crate::geometry::quadrature::gauss_legendre;
 use crate::geometry::vector::{Vector, add, dot, scale, sub};
@@ -30,8 +30,10 @@ const ENTRY: [[usize; 3]; 3] = [[0, 1, 2], [1, 3, 4], [2, 4, 5]];
 const DIAGONAL: [usize; 3] = [0, 3, 5];
 /// The weight of distances from flat pieces of the target against those from others, so that their patches are flat too.
 const OF_FLAT: f64 = 1e6;
-/// The weight of the way along a flat piece beside that of its gradient.
-const OF_WAY_IN_PLANE: f64 = 1e-3;
+/// That of distances from pieces on cylinders, near which polynomials come but on which they do not lie.
+const OF_ROUND: f64 = 1e3;
+/// The weight of the squared way from where places were, over that of its gradient.
+const OF_WAY: f64 = 1e-3;
 /// The weight of all vertices of the target against that of all places of the patches.
 const VERTICES: f64 = 1.0;
 
@@ -71,7 +73,8 @@ pub(super) struct FitPlace {
 /// What a fit comes near: a foot for every place of a patch, and for every patch the vertices of the target that are nearest to it.
 pub(super) struct FitGoal<'a> {
     pub weights: FitWeights,
-    /// Per patch the weight of the squared distance from the foot; of a flat patch, where `before` is known, that of the gradient of the way from there.
+    /// Per patch the weight of the squared gradient of the way from the spline before and, much less, of the squared distance from the foot; at the
+    /// start that of the latter.
     pub tangential: &'a [f64],
     /// The spline from which a step is taken.
     pub before: Option<&'a QuadSpline>,
@@ -87,8 +90,8 @@ pub(super) struct QuadSystem {
     along: BTreeMap<usize, SpanDirection>,
     /// The area of all patches in parameters.
     area: f64,
-    /// Per patch true if its piece of the target is flat.
-    is_flat: Vec<bool>,
+    /// Per patch the weight of the distances of its places.
+    of_places: Vec<f64>,
     /// Per patch the free control points that it depends on, ascending, and its own control points as combinations of them.
     free: Vec<Vec<u32>>,
     pattern: Pattern,
@@ -103,7 +106,8 @@ struct PatchEquations {
 }
 
 impl QuadSystem {
-    pub fn new(space: Arc<QuadSplineSpace>, is_flat: Vec<bool>) -> Result<QuadSystem> {
+    /// `forms`: per patch the plane or cylinder on which its piece of the target lies.
+    pub fn new(space: Arc<QuadSplineSpace>, forms: &[Option<PieceForm>]) -> Result<QuadSystem> {
         let free: Vec<Vec<u32>> = (0..space.layout().patches().len()).map(|p| free_of(&space, p)).collect();
         let mut pairs = Vec::new();
         for of_patch in &free {
@@ -122,12 +126,13 @@ impl QuadSystem {
         let along = space.spans().iter().map(|&spans| (spans, SpanDirection::new(spans))).collect();
         let of_patch = |p: usize| lengths(&space, p).iter().product::<f64>();
         let area = (0..space.layout().patches().len()).map(of_patch).sum();
-        Ok(QuadSystem { space, along, area, is_flat, free, pattern, cholesky })
-    }
-
-    /// The weight of the distances of the places of a patch.
-    fn of_places(&self, p: usize) -> f64 {
-        if self.is_flat[p] { OF_FLAT } else { 1.0 }
+        let of_places = |form: &Option<PieceForm>| match form {
+            Some(PieceForm::Plane(_)) => OF_FLAT,
+            Some(PieceForm::Cylinder(..)) => OF_ROUND,
+            None => 1.0,
+        };
+        let of_places = forms.iter().map(of_places).collect();
+        Ok(QuadSystem { space, along, area, of_places, free, pattern, cholesky })
     }
 
     /// The space of the splines.
@@ -200,7 +205,7 @@ impl QuadSystem {
         let square = |a: Vector, b: Vector| sub(a, b).map(|x| x * x).iter().sum::<f64>();
         let [a, b] = lengths(&self.space, p);
         let of_place = |(place, foot): (FitPlace, &FootPoint)| {
-            self.of_places(p)
+            self.of_places[p]
                 * a
                 * b
                 * place.weight
@@ -236,19 +241,18 @@ impl QuadSystem {
         let weights = goal.weights;
         let along = self.space.patch_spans(p).map(|spans| &self.along[&spans]);
         let tangential = goal.tangential[p];
-        // In a plane nothing but their sides tells places where to be: they go with them.
-        let before = goal.before.filter(|_| self.is_flat[p]);
-        let of_distance =
-            [weights.normal, if before.is_some() { OF_WAY_IN_PLANE * tangential } else { tangential }];
+        // Sides and limbs move, and the places between go with them: what is kept is the shape, and next to nothing of where it was.
+        let along_surface = if goal.before.is_some() { OF_WAY * tangential } else { tangential };
+        let of_distance = [weights.normal, along_surface];
         let mut sum = PatchSum::new(self.space.sides(p), lengths(&self.space, p));
         let [a, b] = sum.lengths;
         for (place, &FootPoint { point, normal }) in self.places(p).zip((goal.feet)(p)) {
             let [along_normal, tangential] = of_distance;
-            let tensor = tensor(normal, [self.of_places(p) * along_normal, tangential], a * b * place.weight);
+            let tensor = tensor(normal, [self.of_places[p] * along_normal, tangential], a * b * place.weight);
             sum.add(&place.basis, &tensor, point);
         }
         sum.bend(weights.bending, along);
-        if let Some(before) = before {
+        if let Some(before) = goal.before {
             sum.keep_shape(tangential, along, &before.net(p).concat());
         }
         let spans = self.space.patch_spans(p);

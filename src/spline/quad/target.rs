@@ -1,6 +1,7 @@
 //! The surface that a spline is fitted to: triangles with a normal at every corner, cut at sharp edges into smooth pieces.
 
 use super::layout::ascending;
+use super::piece_form::{FootPoint, PieceForm};
 use crate::error::{Error, Result};
 use crate::geometry::triangle_tree::{NearestOfTriangles, TriangleTree, combined};
 use crate::geometry::vector::{Vector, add, dot, norm, normalised, scale, sub, triangle_normal};
@@ -13,9 +14,6 @@ use std::sync::Arc;
 /// How much farther than the nearest point of the target one that faces the same way as the spline may be to be its foot, over the diagonal:
 /// thicker walls are told by their distance.
 const RIM: f64 = 3e-3;
-
-/// The distance from a plane, over the diagonal, within which the vertices of a flat piece lie: single precision and six digits leave less.
-const FLAT: f64 = 1e-6;
 
 /// A triangle of the target.
 #[derive(Debug, Clone, Copy)]
@@ -41,26 +39,10 @@ struct SmoothPiece {
     faces: Vec<u32>,
     triangles: Vec<TargetTriangle>,
     tree: TriangleTree,
-    /// A point of the plane in which all of it lies, if it does.
-    plane: Option<FootPoint>,
+    /// The plane or cylinder on which all of it lies, if it does.
+    form: Option<PieceForm>,
     /// Its vertices with their unit normals, by number.
     vertices: Vec<(TargetVertex, Vector)>,
-}
-
-/// The point of the target that belongs to a point of a spline.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct FootPoint {
-    pub point: Vector,
-    /// The unit normal of the target there.
-    pub normal: Vector,
-}
-
-impl FootPoint {
-    /// The foot of a point on the plane through this one.
-    fn foot(&self, point: Vector) -> FootPoint {
-        let height = dot(sub(point, self.point), self.normal);
-        FootPoint { point: sub(point, scale(height, self.normal)), normal: self.normal }
-    }
 }
 
 /// Triangles with normals, cut at sharp edges into smooth pieces.
@@ -149,15 +131,13 @@ impl SplineTarget {
 
     /// The foot of a point on a piece, as on a surface that is curved between the corners of the nearest triangle [`offset`].
     pub(super) fn foot(&self, piece: usize, point: Vector) -> FootPoint {
-        match self.pieces[piece].plane {
-            Some(plane) => plane.foot(point),
-            None => self.pieces[piece].nearest(point).foot(point),
-        }
+        let exact = self.pieces[piece].form.and_then(|form| form.foot(point));
+        exact.unwrap_or_else(|| self.pieces[piece].nearest(point).foot(point))
     }
 
-    /// True if a piece lies in a plane.
-    pub(super) fn is_flat(&self, piece: usize) -> bool {
-        self.pieces[piece].plane.is_some()
+    /// The plane or cylinder on which a piece lies, if it does.
+    pub(super) fn form(&self, piece: usize) -> Option<PieceForm> {
+        self.pieces[piece].form
     }
 
     /// The foot of a point of a spline with this normal, on the part of a piece that faces the same way if that is about as near as the rest: the point
@@ -236,11 +216,13 @@ impl<'a> TargetFaces<'a> {
                 by_number.entry(faces[f as usize][k]).or_insert(normals[f as usize][k]);
             }
             let vertices = by_number.into_iter().map(|(v, normal)| (vertex(v), normal)).collect();
-            let tree = TriangleTree::new(triangles.iter().map(|t| t.corners).collect());
+            let corners: Vec<[Vector; 3]> = triangles.iter().map(|t| t.corners).collect();
+            let form = PieceForm::of(&corners, diagonal);
+            let tree = TriangleTree::new(corners);
             SmoothPiece {
                 #[cfg(feature = "quads")]
                 faces: part.clone(),
-                plane: plane_of(&triangles, FLAT * diagonal),
+                form,
                 triangles,
                 tree,
                 vertices,
@@ -249,15 +231,6 @@ impl<'a> TargetFaces<'a> {
         let pieces = parts.iter().map(piece).collect();
         SplineTarget { pieces, edges: edges.clone(), diagonal, is_by_patch: false }
     }
-}
-
-/// A point of the plane of triangles with their mean normal, if all corners are within a distance of it.
-fn plane_of(triangles: &[TargetTriangle], within: f64) -> Option<FootPoint> {
-    let sum = triangles.iter().fold([0.0; 3], |sum, t| add(sum, triangle_normal(t.corners)));
-    let plane = FootPoint { point: triangles.first()?.corners[0], normal: normalised(sum) };
-    let is_near = |p: &Vector| dot(sub(*p, plane.point), plane.normal).abs() <= within;
-    let has_normal = norm(plane.normal) > 0.5;
-    (has_normal && triangles.iter().flat_map(|t| &t.corners).all(is_near)).then_some(plane)
 }
 
 /// Checks that corners exist and faces have an area.

@@ -1,5 +1,6 @@
 //! The curves and surfaces of a STEP file, and the lines in the parameters of surfaces that its edges follow.
 
+use crate::geometry::cylinder::Cylinder;
 use crate::geometry::vector::{Vector, cross, normalised};
 use step_io::model as m;
 use step_io::{Ap242Author, AuthorError};
@@ -110,6 +111,8 @@ pub(super) fn add_surface(
 pub(super) enum FaceSurface {
     Spline(m::BSplineSurfaceWithKnotsId),
     Plane(m::PlaneId),
+    /// With true where the patch has the normals that point to the axis.
+    Cylinder(m::CylindricalSurfaceId, bool),
 }
 
 /// A plane with its unit normal.
@@ -130,12 +133,32 @@ pub(super) fn add_plane(author: &mut Ap242Author, plane: StepPlane) -> Authored<
     } else {
         [0.0, 0.0, 1.0]
     };
-    let along = normalised(cross(axis, plane.normal));
-    let origin = m::CartesianPointRef::CartesianPoint(add_point(author, plane.origin)?);
-    let normal = m::DirectionRef::Direction(author.add_direction("", plane.normal.into())?);
-    let along = m::DirectionRef::Direction(author.add_direction("", along.into())?);
-    let placement = author.add_axis2_placement3d("", origin, Some(normal), Some(along))?;
-    author.add_plane("", m::Axis2Placement3dRef::Axis2Placement3d(placement))
+    let placement = add_placement(author, plane.origin, plane.normal, normalised(cross(axis, plane.normal)))?;
+    author.add_plane("", placement)
+}
+
+/// Adds a cylinder. `away`: the unit direction from the axis in which its parameters begin, and a reader has a seam.
+pub(super) fn add_cylinder(
+    author: &mut Ap242Author,
+    cylinder: &Cylinder,
+    away: Vector,
+) -> Authored<m::CylindricalSurfaceId> {
+    let placement = add_placement(author, cylinder.origin, cylinder.axis, away)?;
+    author.add_cylindrical_surface("", placement, cylinder.radius)
+}
+
+/// Adds a place with a unit direction through it, and another one across.
+fn add_placement(
+    author: &mut Ap242Author,
+    origin: Vector,
+    direction: Vector,
+    across: Vector,
+) -> Authored<m::Axis2Placement3dRef> {
+    let origin = m::CartesianPointRef::CartesianPoint(add_point(author, origin)?);
+    let direction = m::DirectionRef::Direction(author.add_direction("", direction.into())?);
+    let across = m::DirectionRef::Direction(author.add_direction("", across.into())?);
+    let placement = author.add_axis2_placement3d("", origin, Some(direction), Some(across))?;
+    Ok(m::Axis2Placement3dRef::Axis2Placement3d(placement))
 }
 
 /// The plane of the parameters of surfaces.

@@ -6,10 +6,12 @@ mod planes;
 mod shells;
 
 use crate::error::{Error, Result};
-use geometry::{Authored, FaceSurface, ParameterPlane, add_curve, add_plane, add_point, add_surface};
+use geometry::{
+    Authored, FaceSurface, ParameterPlane, add_curve, add_cylinder, add_plane, add_point, add_surface,
+};
 pub(super) use geometry::{StepCurveGeometry, StepSurfaceGeometry};
 use patches::Side;
-pub(super) use patches::{StepCurve, StepPart, StepPatch, StepPatches};
+pub(super) use patches::{PatchCylinder, StepCurve, StepPart, StepPatch, StepPatches};
 use planes::{FlatFace, flat_faces};
 use shells::add_shells;
 use std::collections::BTreeMap;
@@ -86,7 +88,10 @@ impl StepPatches<'_> {
             let mut faces = Vec::with_capacity(part_of.patches.len());
             for &at in &part_of.patches {
                 let (name, loops) = match flat_of[at] {
-                    None => (format!("patch {at}"), vec![self.patches[at].sides.to_vec()]),
+                    None => {
+                        let kind = if self.patches[at].cylinder.is_some() { "cylinder" } else { "patch" };
+                        (format!("{kind} {at}"), vec![self.patches[at].sides.to_vec()])
+                    }
                     Some(face) if face.patches[0] == at => (format!("plane {at}"), face.loops.clone()),
                     Some(_) => continue,
                 };
@@ -126,15 +131,19 @@ impl StepPatches<'_> {
             let plane = add_plane(author, face.plane)?;
             face.patches.iter().for_each(|&p| planes[p] = Some(plane));
         }
-        let surface = |(plane, patch): (Option<m::PlaneId>, &StepPatch)| match plane {
-            Some(plane) => Ok(FaceSurface::Plane(plane)),
-            None => add_surface(author, &patch.surface).map(FaceSurface::Spline),
+        let surface = |(plane, patch): (Option<m::PlaneId>, &StepPatch)| match (plane, &patch.cylinder) {
+            (Some(plane), _) => Ok(FaceSurface::Plane(plane)),
+            (None, Some(PatchCylinder { cylinder, middle, is_hollow })) => {
+                let id = add_cylinder(author, cylinder, middle.map(|x| -x))?;
+                Ok(FaceSurface::Cylinder(id, *is_hollow))
+            }
+            (None, None) => add_surface(author, &patch.surface).map(FaceSurface::Spline),
         };
         planes.into_iter().zip(&self.patches).map(surface).collect()
     }
 
     /// Adds an edge for each curve that is a side of a face, with the curves in the parameters of the patches beside it: a reader that had to find
-    /// those by projection would take the wrong side of a thin patch. On a plane it finds the right ones.
+    /// those by projection would take the wrong side of a thin patch. On a plane or a cylinder it finds the right ones.
     fn edges(
         &self,
         author: &mut Ap242Author,
@@ -152,8 +161,9 @@ impl StepPatches<'_> {
             for &(at, side) in beside {
                 lines.push(match surfaces[at] {
                     FaceSurface::Plane(id) => m::PcurveOrSurfaceRef::Plane(id),
+                    FaceSurface::Cylinder(id, _) => m::PcurveOrSurfaceRef::CylindricalSurface(id),
                     FaceSurface::Spline(id) => {
-                        let StepPatch { surface, sides } = &self.patches[at];
+                        let StepPatch { surface, sides, .. } = &self.patches[at];
                         let along = surface.side(side, sides[side].1);
                         m::PcurveOrSurfaceRef::Pcurve(plane.add_line(author, id, curve.domain(), along)?)
                     }
@@ -211,7 +221,7 @@ impl StepPatches<'_> {
     }
 }
 
-/// A face: its surface, and its sides, first those of the outer loop. An inverted one has the normal against that of its surface.
+/// A face: its surface, and its sides, first those of the outer loop. An inverted one has the normal against that of its patch.
 struct FaceOnSurface {
     surface: FaceSurface,
     loops: Vec<Vec<Side>>,
@@ -225,6 +235,9 @@ fn add_face(
     face: &FaceOnSurface,
     edges: &BTreeMap<usize, m::EdgeCurveId>,
 ) -> Authored<m::AdvancedFaceId> {
+    // Normals of a cylinder point away from its axis.
+    let is_hollow = matches!(face.surface, FaceSurface::Cylinder(_, true));
+    let is_along = face.is_inverted == is_hollow;
     let mut bounds = Vec::with_capacity(face.loops.len());
     for sides in &face.loops {
         let mut around = Vec::with_capacity(sides.len());
@@ -233,7 +246,7 @@ fn add_face(
             around.push(m::OrientedEdgeRef::OrientedEdge(edge));
         }
         let around = m::LoopRef::EdgeLoop(author.add_edge_loop("", around)?);
-        // The loop runs counterclockwise around the surface's own normal; the face's flags turn both at once.
+        // The loop runs counterclockwise around the patch's own normal; the face's flags turn both at once.
         bounds.push(match bounds.is_empty() {
             true => {
                 m::FaceBoundRef::FaceOuterBound(author.add_face_outer_bound("", around, !face.is_inverted)?)
@@ -243,7 +256,8 @@ fn add_face(
     }
     let surface = match face.surface {
         FaceSurface::Plane(id) => m::SurfaceRef::Plane(id),
+        FaceSurface::Cylinder(id, _) => m::SurfaceRef::CylindricalSurface(id),
         FaceSurface::Spline(id) => m::SurfaceRef::BSplineSurfaceWithKnots(id),
     };
-    author.add_advanced_face(name, bounds, surface, !face.is_inverted)
+    author.add_advanced_face(name, bounds, surface, is_along)
 }

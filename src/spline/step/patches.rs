@@ -1,6 +1,7 @@
 //! Patches that share curves and points, as they are written to a STEP file.
 
 use super::geometry::{StepCurveGeometry, StepSurfaceGeometry};
+use crate::geometry::cylinder::Cylinder;
 use crate::geometry::vector::Vector;
 
 /// A curve as a side of a face, and true if it runs against the way around.
@@ -18,8 +19,20 @@ pub(crate) struct StepCurve {
 /// A patch.
 pub(crate) struct StepPatch {
     pub surface: StepSurfaceGeometry,
+    /// The cylinder on which it lies, if it does.
+    pub cylinder: Option<PatchCylinder>,
     /// Its sides along the way around: the curve of each, and true if that runs against the way.
     pub sides: [(usize, bool); 4],
+}
+
+/// The cylinder of a patch.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct PatchCylinder {
+    pub cylinder: Cylinder,
+    /// The unit direction from the axis to the middle of the patch.
+    pub middle: Vector,
+    /// True if the patch has the normals that point to the axis.
+    pub is_hollow: bool,
 }
 
 /// A connected part of a surface of patches.

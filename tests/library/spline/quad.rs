@@ -302,9 +302,9 @@ fn a_fit_is_the_same_for_any_number_of_threads() {
     assert_eq!(one.patch_max[one.worst_patch()], one.max());
 }
 
-#[test]
-fn the_sharp_edges_of_a_drum_are_kept() {
-    // Two lids of five patches and a barrel of four, on a cylinder of radius 1 and height 2.
+/// A spline over a cylinder of radius 1 between z = -1 and 1 from its mesh with 96 sectors: two lids of nine patches and a barrel of twelve. Per patch true
+/// on a lid.
+pub(super) fn fitted_drum() -> (QuadFit, Vec<bool>) {
     let mut set = cells(&block([3, 3, 1]));
     let is_lid = |face: &[u32; 4]| {
         let z = face.map(|v| set.positions[v as usize][2]);
@@ -327,6 +327,12 @@ fn the_sharp_edges_of_a_drum_are_kept() {
     assert_eq!(target.n_pieces(), 3);
     let start = |patch: usize, uv: [f64; 2]| set.at(patch, uv);
     let fit = fit_quads(space, &start, &target, &QuadFitOptions::default(), &Control::new()).unwrap();
+    (fit, lids)
+}
+
+#[test]
+fn the_sharp_edges_of_a_drum_are_kept() {
+    let (fit, lids) = fitted_drum();
     let mut worst = [0.0f64; 2];
     for (patch, lid) in lids.iter().enumerate() {
         for (i, j) in (0..=18).flat_map(|i| (0..=18).map(move |j| (i, j))) {
@@ -339,7 +345,11 @@ fn the_sharp_edges_of_a_drum_are_kept() {
             }
         }
     }
-    assert!(worst[0] < 1e-6 && worst[1] < 2e-4, "{worst:?}");
+    // The mesh has chords of the circle, 5e-4 inside of it; its vertices tell the cylinder.
+    assert!(worst[0] < 1e-12 && worst[1] < 3e-6, "{worst:?}");
+    let volume = fit.spline.volume();
+    assert!((volume / TAU - 1.0).abs() < 1e-6, "{volume}");
+    assert!(fit.max() < 1e-6, "{}", fit.max());
 }
 
 /// A point of the grid of 3 × 3 × 1 cells on the drum: squares around the axis become circles.

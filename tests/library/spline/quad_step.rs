@@ -1,6 +1,6 @@
 //! STEP files of splines over four-sided patches.
 
-use super::quad::fitted_ellipsoid;
+use super::quad::{fitted_drum, fitted_ellipsoid};
 use ricci::spline::{PatchLayout, StepOptions};
 
 #[test]
@@ -33,6 +33,32 @@ fn a_step_file_has_a_face_for_each_patch_of_a_closed_shell() {
     let coloured = write(&StepOptions { colours: true, ..options });
     assert_eq!(coloured.matches(" STYLED_ITEM(").count(), 14);
     neighbours_differ(&coloured, fit.spline.space().layout());
+}
+
+#[test]
+fn a_drum_has_planes_and_cylinders() {
+    let (fit, lids) = fitted_drum();
+    let mut bytes = Vec::new();
+    fit.spline.write_step(&StepOptions::default(), &mut bytes).unwrap();
+    let text = String::from_utf8(bytes).unwrap();
+    let barrel = lids.iter().filter(|lid| !**lid).count();
+    for (entity, count) in [
+        ("ADVANCED_FACE(", 2 + barrel),
+        ("= PLANE(", 2),
+        ("CYLINDRICAL_SURFACE(", barrel),
+        ("B_SPLINE_SURFACE_WITH_KNOTS(", 0),
+        ("MANIFOLD_SOLID_BREP(", 1),
+        ("'crease'", 2 * barrel),
+    ] {
+        assert_eq!(text.matches(entity).count(), count, "{entity}");
+    }
+    assert_eq!(fit.spline.n_step_faces().unwrap(), 2 + barrel);
+    // Radii as they are written.
+    let radii = text.lines().filter(|line| line.contains("CYLINDRICAL_SURFACE(")).map(|line| {
+        let (_, last) = line.trim_end_matches([')', ';']).rsplit_once(',').unwrap();
+        last.trim().parse::<f64>().unwrap()
+    });
+    assert!(radii.map(|radius| (radius - 1.0).abs()).fold(0.0, f64::max) < 1e-5);
 }
 
 /// The faces on both sides of every arc have different colours in a STEP file.
