@@ -64,17 +64,26 @@ fn single(part: ChartFaces) -> FlatChart {
     alone(part, [0.0, THINNEST])
 }
 
-/// The chart of a single face, whose first side and whose height over it have at least these lengths, the height in first sides.
+/// The chart of a single face, whose longest side and whose height over it have at least these lengths, the height in longest sides.
 pub(super) fn alone(part: ChartFaces, [least, thinnest]: [f64; 2]) -> FlatChart {
     let [a, b, c] = part.triangle(0);
-    let [ab, bc, ca] = widened([distance(a, b), distance(b, c), distance(c, a)]);
+    let lengths = match widened([distance(a, b), distance(b, c), distance(c, a)]) {
+        // Corners whose distances are too small for numbers.
+        [0.0, ..] => [least; 3],
+        lengths => lengths,
+    };
+    // The longest side comes first: over a shorter one the height says nothing of how thin the face is.
+    let first = (0..3).fold(0, |most, k| if lengths[k] > lengths[most] { k } else { most });
+    let [ab, bc, ca] = [0, 1, 2].map(|k| lengths[(first + k) % 3]);
+    if ab == 0.0 {
+        return FlatChart { part, points: vec![[0.0; 2]; 3] };
+    }
     let x = (ab * ab + ca * ca - bc * bc) / (2.0 * ab);
-    let y = (ca * ca - x * x).max(0.0).sqrt().max(thinnest * ab.max(bc).max(ca));
-    let factor = f64::max(1.0, least / ab.max(bc).max(ca));
+    let y = (ca * ca - x * x).max(0.0).sqrt().max(thinnest * ab);
+    let factor = f64::max(1.0, least / ab);
     let mut points = vec![[0.0; 2]; 3];
-    for (v, p) in part.corners[0].into_iter().zip([[0.0, 0.0], [ab, 0.0], [x, y]]) {
-        let p = p.map(|x| factor * x);
-        points[v as usize] = p;
+    for (k, p) in [[0.0, 0.0], [ab, 0.0], [x, y]].into_iter().enumerate() {
+        points[part.corners[0][(first + k) % 3] as usize] = p.map(|x| factor * x);
     }
     FlatChart { part, points }
 }

@@ -1,6 +1,7 @@
 //! How much an atlas stretches its model, and how long its seams are.
 
 use super::flat_chart::FlatChart;
+use crate::geometry::complex::doubled_area;
 use crate::geometry::vector::{dot, norm, sub, triangle_normal};
 use crate::mesh::Point;
 
@@ -58,7 +59,8 @@ pub(super) fn face_map([a, b, c]: [Point; 3], [p, q, r]: [[f64; 2]; 3]) -> Optio
     let square = |d: [f64; 2]| d[0] * d[0] + d[1] * d[1];
     let (e, g) = (square(along), square(across));
     let mixed = along[0] * across[0] + along[1] * across[1];
-    let det = (along[0] * across[1] - along[1] * across[0]).abs();
+    // From the area in the plane, which has no rounding on the grid of an atlas.
+    let det = doubled_area([p, q, r]).abs() / doubled;
     let sigma = (0.5 * (e + g) + (0.5 * (e - g)).hypot(mixed)).sqrt();
     (sigma > 0.0 && sigma.is_finite())
         .then(|| FaceMap { area: 0.5 * doubled, singular: [sigma, det / sigma] })

@@ -23,11 +23,16 @@ use std::collections::HashMap;
 /// Coordinates are multiples of the inverse of this number, which numbers of 32 bits below 1 hold without rounding: the files that have
 /// these and those that have 64 bits hold the same map.
 const GRID: f64 = (1u64 << 24) as f64;
-/// The most times that faces which rounding folds are taken out of their charts.
-const MENDINGS: usize = 3;
+/// The most times that faces which rounding folds are taken out of their charts. Faces that fold even then get no place.
+const MENDINGS: usize = 4;
+/// Least height, in steps of the grid, of a face that no rounding folds: its corner and the side across move by half the diagonal of a step
+/// each, before, and by as much in the coordinates by which the height is measured.
+const SAFE_STEPS: f64 = 3.0;
 /// Least length of such a face in texels, and least height in its length.
 const LEAST_TEXELS: f64 = 0.1;
 const LEAST_HEIGHT: f64 = 0.02;
+/// Largest coordinates of models that are laid out as they are: products of four lengths neither overflow nor lose digits.
+const MODERATE: std::ops::RangeInclusive<f64> = 1e-60..=1e60;
 /// The texels along a side at which divisions of charts are tried.
 const TRIAL_TEXELS: usize = 256;
 /// The least gain of the filled share, per division, by which divisions stay.
@@ -50,12 +55,13 @@ pub struct TextureAtlas {
     pub chart: Vec<u32>,
     /// The number of charts.
     pub charts: usize,
-    /// The faces without a place: with a corner that is missing or not finite, or with two corners in one place. Their coordinates are 0.
+    /// The faces without a place: with a corner that is missing or not finite, with two corners in one place, or so thin that rounding to
+    /// the grid folds them in charts of their own too. Their coordinates are 0.
     pub placeless: Vec<u32>,
-    /// The faces that are turned over or without area on the page, by exact arithmetic on [`TextureAtlas::corner_uv`]. Only rounding to the
-    /// grid makes one, of a face some thousand times thinner than a texel.
+    /// The faces that are turned over or without area on the page, by exact arithmetic on [`TextureAtlas::corner_uv`]. There are none: faces
+    /// that rounding to the grid folds, some thousand times thinner than a texel, get charts of their own, or else no place.
     pub folded: Vec<u32>,
-    /// The faces whose interior meets that of an earlier face on the page, by exact arithmetic.
+    /// The faces whose interior meets that of an earlier face on the page, by exact arithmetic. There are none.
     pub overlapping: Vec<u32>,
     /// The faces whose corners run clockwise on the page because they run against those of most faces around them.
     pub turned: Vec<u32>,
@@ -80,6 +86,8 @@ impl TextureAtlas {
 /// [`Error::Argument`] for an option outside its range; [`Error::Layout`] for a model of which no face has an area; [`Error::Cancelled`].
 pub fn texture_atlas(soup: &Soup, options: &TextureOptions, control: &Control) -> Result<TextureAtlas> {
     options.check()?;
+    let (moderate, factor) = at_moderate_size(soup);
+    let soup = moderate.as_ref().unwrap_or(soup);
     parallel::within(options.threads, || {
         control.step(Stage::Build, 0.0)?;
         let found = sheets(soup);
@@ -99,9 +107,23 @@ pub fn texture_atlas(soup: &Soup, options: &TextureOptions, control: &Control) -
             take_out(&mut charts, &atlas);
             atlas = packed(soup, &found, &mut charts, options, control)?;
         }
+        let mut atlas = without_bad(atlas, soup, options.page, control)?;
+        atlas.quality.texel_density *= factor;
         control.finish();
         Ok(atlas)
     })
+}
+
+/// A model whose size has squares outside the range of numbers, times a power of two, and that power; no other model for 1.
+fn at_moderate_size(soup: &Soup) -> (Option<Soup>, f64) {
+    let sizes = soup.positions.as_flattened().iter().map(|x| x.abs()).filter(|x| x.is_finite());
+    let most = sizes.fold(0.0, f64::max);
+    if most == 0.0 || MODERATE.contains(&most) {
+        return (None, 1.0);
+    }
+    let factor = (-most.log2().floor()).clamp(-1000.0, 1000.0).exp2();
+    let positions = soup.positions.iter().map(|p| p.map(|x| factor * x)).collect();
+    (Some(Soup::new(positions, soup.faces.clone())), factor)
 }
 
 /// The charts, sorted, on their page.
@@ -127,13 +149,46 @@ fn packed(
     TextureAtlas { turned, placeless, opened_edges, sheets, ..atlas }.checked(soup, options.page, control)
 }
 
-/// Gives each face that rounding folds or lets overlap a chart of its own, wide enough for the grid.
+/// The atlas, in which faces that are folded or overlap others have lost their places.
+fn without_bad(mut atlas: TextureAtlas, soup: &Soup, page: u32, control: &Control) -> Result<TextureAtlas> {
+    if atlas.folded.is_empty() && atlas.overlapping.is_empty() {
+        return Ok(atlas);
+    }
+    for f in [&atlas.folded[..], &atlas.overlapping[..]].concat() {
+        atlas.corner_uv[f as usize] = [[0.0; 2]; 3];
+        atlas.chart[f as usize] = TextureAtlas::NO_CHART;
+        atlas.placeless.push(f);
+    }
+    atlas.placeless.sort_unstable();
+    atlas.placeless.dedup();
+    let mut used: Vec<u32> = atlas.chart.iter().copied().filter(|k| *k != TextureAtlas::NO_CHART).collect();
+    used.sort_unstable();
+    used.dedup();
+    for chart in atlas.chart.iter_mut().filter(|k| **k != TextureAtlas::NO_CHART) {
+        *chart = used.partition_point(|k| *k < *chart) as u32;
+    }
+    atlas.charts = used.len();
+    atlas.checked(soup, page, control)
+}
+
+/// True for a face whose height on the page is so small that another rounding could fold it.
+fn is_at_risk(uv: TriangleCorners) -> bool {
+    let longest = (0..3).map(|k| {
+        let [p, q] = [uv[k], uv[(k + 1) % 3]];
+        (p[0] - q[0]).hypot(p[1] - q[1])
+    });
+    doubled_area(uv).abs() * GRID < SAFE_STEPS * longest.fold(0.0, f64::max)
+}
+
+/// Gives each face that rounding folds or lets overlap, or could fold elsewhere, a chart of its own, wide enough for the grid.
 fn take_out(charts: &mut Vec<FlatChart>, atlas: &TextureAtlas) {
-    let is_bad =
+    let is_folded =
         |f: &u32| atlas.folded.binary_search(f).is_ok() || atlas.overlapping.binary_search(f).is_ok();
     let least = LEAST_TEXELS * atlas.quality.texel_length();
     let mut kept = Vec::with_capacity(charts.len());
     for chart in std::mem::take(charts) {
+        let is_alone = chart.part.faces.len() == 1;
+        let is_bad = |f: &u32| is_folded(f) || (!is_alone && is_at_risk(atlas.corner_uv[*f as usize]));
         let bad: Vec<bool> = chart.part.faces.iter().map(is_bad).collect();
         if !bad.contains(&true) {
             kept.push(chart);

@@ -79,7 +79,7 @@ impl JobOutcome for TextureOutcome {
         if !atlas.placeless.is_empty() {
             let faces = count(atlas.placeless.len(), "face", "faces");
             text += &format!(
-                "no place {faces} with two corners in one place; the first is {}\n",
+                "no place {faces} with two corners in one place or too thin for the page; the first is {}\n",
                 atlas.placeless[0]
             );
         }
