@@ -34,6 +34,7 @@ HEADERS = (
     "labels",
     "refine",
     "shapes",
+    "texture",
     "homotopy",
     "charts",
     "uniformize",

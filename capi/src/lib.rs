@@ -80,6 +80,7 @@ pub mod matching;
 pub mod mesh;
 pub mod metric;
 pub mod moduli;
+pub mod polygons;
 #[cfg(feature = "quads")]
 #[cfg_attr(not(feature = "splines"), allow(dead_code, reason = "what splines over layouts read"))]
 pub mod quad_layout;
@@ -121,5 +122,6 @@ pub mod status;
 pub mod structure;
 pub mod structure_parts;
 pub mod target;
+pub mod texture_atlas;
 pub mod uniformize;
 pub mod version;

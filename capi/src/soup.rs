@@ -13,7 +13,7 @@ use crate::status::ricci_status;
 use crate::structs::{self, sized};
 use ricci::mesh::check::{Diagnosis, diagnose};
 use ricci::mesh::holes::{Filling, HoleChoice};
-use ricci::mesh::io::Soup;
+use ricci::mesh::io::{PolygonTriangles, Soup};
 use ricci::mesh::repair::{Repair, RepairSteps, Repaired, repair};
 use ricci::mesh::{Place, RefinedSoup};
 use std::ffi::c_char;
@@ -25,6 +25,8 @@ pub struct ricci_soup {
     origin: Option<Repaired>,
     /// Where its elements lie in the list that it was refined from, if it was; its own `soup` is empty.
     finer: Option<RefinedSoup>,
+    /// The polygon that each face is a part of, if the list was made of polygons.
+    polygons: Option<Vec<u32>>,
     diagnosis: OnceLock<DiagnosisTexts>,
     pub(crate) lists: SoupLists,
 }
@@ -38,11 +40,12 @@ struct DiagnosisTexts {
 }
 
 impl ricci_soup {
-    fn new(soup: Soup) -> ricci_soup {
+    pub(crate) fn new(soup: Soup) -> ricci_soup {
         ricci_soup {
             soup,
             origin: None,
             finer: None,
+            polygons: None,
             diagnosis: OnceLock::new(),
             lists: SoupLists::default(),
         }
@@ -52,6 +55,17 @@ impl ricci_soup {
     pub(crate) fn refined(mut finer: RefinedSoup) -> ricci_soup {
         let soup = std::mem::take(&mut finer.soup);
         ricci_soup { finer: Some(finer), ..ricci_soup::new(soup) }
+    }
+
+    /// The triangles of polygons.
+    pub(crate) fn of_polygons(found: PolygonTriangles) -> ricci_soup {
+        ricci_soup { polygons: Some(found.polygon), ..ricci_soup::new(found.soup) }
+    }
+
+    /// For each face the polygon that it is a part of.
+    pub(crate) fn polygons(&self) -> Outcome<&[u32]> {
+        let polygons = self.polygons.as_deref();
+        polygons.ok_or_else(|| Failure::argument("this triangle list was not made of polygons"))
     }
 
     /// For each face of a refined list its face, and for each vertex its place, in the list that it was made from.

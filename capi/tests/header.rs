@@ -31,6 +31,7 @@ const HEADERS: &[(&str, usize)] = &[
     ("labels", 10),
     ("refine", 10),
     ("shapes", 10),
+    ("texture", 10),
 ];
 
 fn root() -> PathBuf {

@@ -66,6 +66,7 @@ TAKES = {
     "quad_spline": (ricci.quad_spline, ""),
     "structure": (ricci.structure, "mesh"),
     "structures": (ricci.structures, "mesh"),
+    "texture_atlas": (ricci.texture_atlas, "mesh soup"),
     "to_trimesh": (ricci.to_trimesh, "mesh layout"),
     "to_meshio": (ricci.to_meshio, "mesh layout"),
     "to_pyvista": (ricci.to_pyvista, "mesh layout"),
@@ -180,6 +181,7 @@ def plane(**given):
         (lambda mesh: mesh.refine_angle(least_angle=0), "least_angle"),
         (lambda mesh: mesh.refine_angle(most_added=0), "most_added"),
         (lambda mesh: ricci.Soup(mesh.V, mesh.F).refine(longest_edge=0.0), "longest_edge"),
+        *((lambda mesh, name=name: ricci.texture_atlas(mesh, **{name: 0}), name) for name in ("stretch", "page", "threads")),
         (lambda mesh: plane(degree=0), "degree"),
         (lambda mesh: plane(spread=0.0), "spread"),
         *(

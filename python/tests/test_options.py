@@ -21,6 +21,7 @@ from ricci import (
     sheets,
     soup,
     splines,
+    texture_atlases,
     uniform,
 )
 from ricci._library import ffi
@@ -238,6 +239,10 @@ CASES = [
     (
         options("step_options", {"name": "part", "unit": "metre", "colours": True}, bicubics._STEP),
         {"name": b"part", "unit": 1, "colours": 1},
+    ),
+    (
+        options("texture_options", {"stretch": 1.5, "fill": 0, "page": 64, "margin": 0, "threads": 2}, texture_atlases._TEXTURE),
+        {"stretch": 1.5, "fill": -1, "page": 64, "margin": -1, "threads": 2},
     ),
     (
         options("quad_spline_options", {"tolerance": 0.5, "bending": 0, "threads": 2, "most_spans": 4}, quad_splines._QUAD_SPLINE),

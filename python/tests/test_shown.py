@@ -48,6 +48,7 @@ def objects(genus2, disk, pants):
         ricci.Soup(disk.V, disk.F),
         ricci.bicubic(spline, tolerance=0.01),
         ricci.quad_spline(turning),
+        ricci.texture_atlas(disk, page=64),
     ]
     return {type(value).__name__: value for value in found}
 

@@ -27,6 +27,7 @@ from ricci import (
     shapes,
     soup,
     splines,
+    texture_atlases,
     uniform,
 )
 from ricci._library import ffi
@@ -79,6 +80,7 @@ STRUCTS = {
     "StepOptions": ("step_options", set(), set()),
     "StructureOptions": ("structure_options", set(), set()),
     "SurfaceOptions": ("spline_surface_options", set(), set()),
+    "TextureOptions": ("texture_options", set(), set()),
     "UniformOptions": ("uniform_options", set(), set()),
 }
 WITHOUT = {"CohortOptions", "CoverOptions", "Points"}
@@ -99,6 +101,7 @@ WRITERS = {
     "StepOptions": bicubics._STEP,
     "StructureOptions": atlases._STRUCTURE,
     "SurfaceOptions": splines._SURFACE,
+    "TextureOptions": texture_atlases._TEXTURE,
     "UniformOptions": uniform._UNIFORM,
     "Attributes": mesh._ATTRIBUTES,
     "ShapeOptions": shapes._SHAPE,
@@ -190,7 +193,7 @@ def test_help_describes_every_option():
 
 def test_functions_of_the_front_name_every_argument():
     names = "flow uniformize cover circles harmonic forms match spline structure quads quad_layout quad_spline fit_few_patches cohort"
-    for name in [*names.split(), "fit_control_mesh"]:
+    for name in [*names.split(), "fit_control_mesh", "texture_atlas"]:
         function = getattr(ricci, name)
         for argument in inspect.signature(function).parameters:
             assert f"\n{argument} : " in inspect.getdoc(function), (name, argument)

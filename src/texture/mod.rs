@@ -35,8 +35,10 @@ mod page_bits;
 mod page_packing;
 mod quality;
 mod seam_points;
+mod seam_split;
 mod texture_atlas;
 
 pub use options::TextureOptions;
 pub use quality::TextureQuality;
+pub use seam_split::SeamSplitModel;
 pub use texture_atlas::{TextureAtlas, texture_atlas};

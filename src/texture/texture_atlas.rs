@@ -384,7 +384,8 @@ impl TextureAtlas {
         let mut lengths: Vec<f64> = edges.values().map(SeamEdge::seam).filter(|l| *l > 0.0).collect();
         // Sums do not depend on the order of a hash table.
         lengths.sort_by(f64::total_cmp);
-        lengths.iter().sum()
+        // From 0, since the sum of no numbers is −0.
+        lengths.iter().fold(0.0, |sum, l| sum + l)
     }
 }
 

@@ -1,6 +1,6 @@
 //! Texture atlases of whole models, on their own faces.
 
-use ricci::mesh::io::Soup;
+use ricci::mesh::io::{Soup, triangles_of_polygons};
 use ricci::mesh::{Point, shapes, sheets::sheets};
 use ricci::texture::{TextureAtlas, TextureOptions, texture_atlas};
 use ricci::{Control, Error};
@@ -101,6 +101,41 @@ fn any_list_of_triangles_has_an_atlas() {
     assert!(matches!(refused, Err(Error::Layout(_))), "{refused:?}");
 }
 
+/// The size of a model does not matter, also where squares of its lengths leave the range of numbers.
+#[test]
+fn models_of_extreme_size_have_the_atlas_of_usual_ones() {
+    let usual = atlas(&cube(), &small());
+    for exponent in [-900.0, 700.0] {
+        let size = f64::exp2(exponent);
+        let mut model = cube();
+        model.positions.as_flattened_mut().iter_mut().for_each(|x| *x *= size);
+        let found = atlas(&model, &small());
+        assert_eq!(found.corner_uv, usual.corner_uv);
+        assert_eq!(found.quality.texel_density * size, usual.quality.texel_density);
+    }
+    // Beside a large face there is one whose lengths are too small to be measured.
+    let tiny = [[0.0; 3], [1e-200, 0.0, 0.0], [0.0, 1e-200, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    let found = atlas(&Soup::new(tiny.to_vec(), vec![[0, 3, 4], [0, 1, 2]]), &small());
+    assert_eq!((found.chart, found.placeless.len()), (vec![0, 1], 0));
+}
+
+/// Faces that are thinner than the grid of the coordinates lie in charts of their own, and so do no others.
+#[test]
+fn needles_lie_in_charts_of_their_own() {
+    let thin = 1e-9;
+    let ends = [0.0, 1.0, 1.0 + thin, 2.0, 2.0 + thin, 3.0];
+    let positions: Vec<Point> = ends.iter().flat_map(|&x| [[x, 0.0, 0.0], [x, 1.0, 0.0]]).collect();
+    let column = |k: u32| [[2 * k, 2 * k + 2, 2 * k + 3], [2 * k, 2 * k + 3, 2 * k + 1]];
+    let strip = Soup::new(positions, (0..5).flat_map(column).collect());
+    let found = atlas(&strip, &small());
+    assert_eq!((found.placeless.len(), found.charts), (0, 3 + 4));
+    for f in 0..10 {
+        let sharing = found.chart.iter().filter(|k| **k == found.chart[f]).count();
+        assert_eq!(sharing, if matches!(f / 2, 1 | 3) { 1 } else { 2 }, "{f}");
+    }
+    assert!(found.quality.stretch_99 < 1.01 && found.quality.stretch_max.is_finite(), "{:?}", found.quality);
+}
+
 #[test]
 fn faces_that_run_against_their_neighbours_stay_in_the_chart() {
     let mut model = cube();
@@ -134,6 +169,38 @@ fn a_strip_with_one_side_is_opened() {
     assert_eq!(open.sheets[0].origins.len(), 34);
     let found = atlas(&strip, &small());
     assert_eq!((found.sheets, found.placeless.len()), (1, 0));
+}
+
+#[test]
+fn split_vertices_have_one_place_each() {
+    let mut model = cube();
+    model.faces.push([3, 3, 5]);
+    let found = atlas(&model, &small());
+    let split = found.split(&model.faces);
+    // A disk of 12 triangles with 14 sides on its border, both of 7 seams: 25 edges − 12 + 1 = 14 vertices.
+    assert_eq!((split.faces.len(), split.uv.len()), (12, 14));
+    assert_eq!(split.face_origin, (0..12).collect::<Vec<u32>>());
+    for (face, f) in split.faces.iter().zip(&split.face_origin) {
+        assert_eq!(face.map(|v| split.vertex_origin[v as usize]), model.faces[*f as usize]);
+        assert_eq!(face.map(|v| split.uv[v as usize]), found.corner_uv[*f as usize]);
+    }
+}
+
+#[test]
+fn polygons_become_triangles_that_know_them() {
+    // An arrow, which no fan from its first corner covers, and a polygon of two corners.
+    let arrow = vec![[0.5, 1.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 0.0], [2.0, 1.0, 0.0]];
+    let found = triangles_of_polygons(arrow, &[1, 2, 0, 3, 3, 0, 2, 3], &[0, 4, 6, 8]).unwrap();
+    assert_eq!((found.soup.faces.len(), &found.polygon[..]), (2, &[0, 0][..]));
+    let area = |[a, b, c]: [u32; 3]| {
+        let [p, q, r] = [a, b, c].map(|v| found.soup.positions[v as usize]);
+        0.5 * ((q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]))
+    };
+    assert!(found.soup.faces.iter().all(|f| area(*f) > 0.0), "{:?}", found.soup.faces);
+    for starts in [&[0, 4, 3][..], &[1, 4], &[0, 4], &[]] {
+        let refused = triangles_of_polygons(Vec::new(), &[0, 1, 2, 3, 4], starts);
+        assert!(matches!(refused, Err(Error::Argument { .. })), "{starts:?}: {refused:?}");
+    }
 }
 
 #[test]

@@ -14,7 +14,7 @@ use std::time::Instant;
 /// Most calls of one input.
 const MOST_CALLS: usize = 8;
 /// Calls that take a hundred times as long as others: one input of eight makes them.
-const LONG: [&str; 18] = [
+const LONG: [&str; 19] = [
     "ricci_match",
     "ricci_match_by_shape",
     "ricci_circle_domain_new",
@@ -32,6 +32,7 @@ const LONG: [&str; 18] = [
     "ricci_quad_spline_patch_of_faces",
     "ricci_quad_spline_tessellate",
     "ricci_spline_closest",
+    "ricci_texture_atlas_new",
     "ricci_hyperelliptic_periods",
 ];
 /// Faces of a mesh that is kept for later calls.

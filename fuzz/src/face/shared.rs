@@ -26,6 +26,7 @@ use ricci_c::shapes::{ricci_make, ricci_shape};
 use ricci_c::soup::{ricci_soup_from_arrays, ricci_soup_repair};
 use ricci_c::spline::{ricci_spline_domain, ricci_spline_new, ricci_spline_spec};
 use ricci_c::structure::ricci_structure_new;
+use ricci_c::texture_atlas::{ricci_texture_atlas_new, ricci_texture_options};
 use ricci_c::uniformize::{ricci_uniform, ricci_uniformize};
 use std::collections::HashMap;
 use std::ptr::{null, null_mut};
@@ -157,6 +158,9 @@ impl Shelf {
             made(|p| unsafe { ricci_soup_from_arrays(positions.as_ptr(), 0, 5, faces.as_ptr(), 6, p) });
         self.put("ricci_soup", soup);
         self.put("ricci_soup", made(|p| unsafe { ricci_soup_repair(soup, null(), p) }));
+        let options = ricci_texture_options { page: 64, threads: 1, ..zeroed() };
+        let atlas = made(|p| unsafe { ricci_texture_atlas_new(soup, &options, null(), p) });
+        self.put("ricci_texture_atlas", atlas);
         self.put("ricci_control", made(|p| unsafe { ricci_control_new(p) }));
         let cancelled = made(|p| unsafe { ricci_control_new(p) });
         assert_eq!(unsafe { ricci_control_cancel(cancelled) }, 0);

@@ -97,6 +97,7 @@ from ricci.soup import Defect, Hole, Loop, RepairOptions, Soup
 from ricci.spline_domains import flat_metric, spline_domain
 from ricci.splines import PlaneOptions, Spline, SurfaceOptions, spline
 from ricci.status import Status
+from ricci.texture_atlases import SplitModel, TextureAtlas, TextureOptions, texture_atlas
 from ricci.uniform import Uniform, UniformOptions, uniformize
 
 __all__ = [
@@ -185,6 +186,7 @@ __all__ = [
     "SphereFlatOptions",
     "Spline",
     "SplineError",
+    "SplitModel",
     "Status",
     "StepOptions",
     "Strains",
@@ -192,6 +194,8 @@ __all__ = [
     "StructureOptions",
     "SurfaceOptions",
     "TargetError",
+    "TextureAtlas",
+    "TextureOptions",
     "Uniform",
     "UniformOptions",
     "VertexLabel",
@@ -254,6 +258,7 @@ __all__ = [
     "strains",
     "structure",
     "structures",
+    "texture_atlas",
     "to_gifti",
     "to_meshio",
     "to_polyscope",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, ClassVar, Literal, Self, TypedDict
@@ -291,6 +292,20 @@ class Soup(Triangles):
         weights = np.empty((at.size, 3))
         filled(lib.ricci_soup_places, self, pointer(faces), faces.size, pointer(at), at.size, out=weights)
         return frozen(faces), frozen(at), frozen(weights)
+
+    @classmethod
+    def of_polygons(cls, V: npt.ArrayLike, polygons: Iterable[npt.ArrayLike]) -> Self:
+        """The triangles of polygons, each a list of vertices: fans of convex ones; `polygons` of the list leads back."""
+        points, parts = _arrays.points(V), [_arrays.indices(corners, name=f"polygon {k}") for k, corners in enumerate(polygons)]
+        starts = np.cumsum([0, *(part.size for part in parts)]).astype(np.uintp)
+        corners = np.concatenate([np.empty(0, np.uint32), *(part.ravel() for part in parts)])
+        given = (pointer(points), points.strides[0], len(points), pointer(corners), pointer(starts), len(parts))
+        return cls._made(lib.ricci_soup_from_polygons, *given)
+
+    @cached_property
+    def polygons(self) -> Indices:
+        """Of a list `of_polygons`, the polygon of each face."""
+        return frozen(filled(lib.ricci_soup_polygons, self, out=np.empty(self.summary.n_faces, np.uint32)))
 
     def mesh(self) -> Mesh:
         """The mesh of a list without defects, with its attributes.

@@ -68,6 +68,7 @@ pub use obj::{parse_obj, parse_obj_polygons};
 pub use obj_write::{write_obj, write_obj_to};
 pub use off::{parse_off, write_off};
 pub use ply::{parse_ply, write_ply};
+pub use polygon::{PolygonTriangles, triangles_of_polygons};
 pub use sheet::{
     CuttingSheet, SheetLayer, SheetLine, SheetUnit, write_dxf, write_dxf_to, write_svg, write_svg_to,
 };

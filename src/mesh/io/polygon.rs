@@ -2,7 +2,8 @@
 
 use super::budget::Budget;
 use super::scan::Location;
-use crate::error::Result;
+use super::soup::Soup;
+use crate::error::{Error, Result};
 use crate::geometry::predicates::orientation;
 use crate::mesh::Point;
 use std::cmp::Ordering;
@@ -126,6 +127,55 @@ impl Polygons {
     pub fn face(&self, triangle: [usize; 3]) -> [u32; 3] {
         triangle.map(|k| self.corners[k])
     }
+}
+
+/// Polygons cut into triangles.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PolygonTriangles {
+    /// The triangles, polygon after polygon.
+    pub soup: Soup,
+    /// Per triangle the number of its polygon.
+    pub polygon: Vec<u32>,
+}
+
+/// The triangles of polygons as files have them: convex ones become fans from their first corner, others are cut ear by ear. Polygon k has
+/// the corners from `starts[k]` to before `starts[k + 1]`, the last entry of `starts` is the number of corners. A polygon of one or two
+/// corners has no triangle.
+///
+/// ```
+/// use ricci::mesh::io::triangles_of_polygons;
+/// let positions = vec![[0., 0., 0.], [1., 0., 0.], [1., 1., 0.], [0., 1., 0.], [2., 0., 0.]];
+/// let found = triangles_of_polygons(positions, &[0, 1, 2, 3, 1, 4, 2], &[0, 4, 7])?;
+/// assert_eq!(found.soup.faces, [[0, 1, 2], [0, 2, 3], [1, 4, 2]]);
+/// assert_eq!(found.polygon, [0, 0, 1]);
+/// # Ok::<(), ricci::Error>(())
+/// ```
+///
+/// # Errors
+/// [`Error::Argument`] if `starts` does not ascend from 0 to the number of corners.
+pub fn triangles_of_polygons(
+    positions: Vec<Point>,
+    corners: &[u32],
+    starts: &[usize],
+) -> Result<PolygonTriangles> {
+    let ends = starts.get(1..).unwrap_or_default();
+    let ascends = starts.windows(2).all(|pair| pair[0] <= pair[1]);
+    if starts.first().is_some_and(|&start| start != 0) {
+        return Err(Error::argument("starts[0]", starts[0], "0"));
+    }
+    if !ascends || ends.last().copied().unwrap_or(0) != corners.len() {
+        return Err(Error::argument(
+            "starts",
+            format!("{} offsets", starts.len()),
+            "ascending, and the last is the number of corners",
+        ));
+    }
+    let polygons = Polygons { corners: corners.to_vec(), ends: ends.to_vec() };
+    // A corner becomes at most one triangle, so that memory is bounded by what the caller holds.
+    let mut budget = Budget::of_size(usize::MAX);
+    let triangles = polygons.triangles(&positions, &mut budget, Location::whole("polygons"))?;
+    let polygon = polygons.owners(&triangles).map(|k| k as u32).collect();
+    Ok(PolygonTriangles { soup: Soup::new(positions, polygons.faces(&triangles)), polygon })
 }
 
 /// The knowledge about a corner of a polygon while ears are cut off.

@@ -13,6 +13,7 @@
 #include <ricci/repair.hpp>
 #include <ricci/spline.hpp>
 #include <ricci/structure.hpp>
+#include <ricci/texture.hpp>
 #include <ricci/uniformize.hpp>
 
 #include <algorithm>
@@ -369,6 +370,30 @@ int bicubic_patches() {
     }
 }
 
+// A roof of two squares, given as polygons, unfolds into one chart.
+int texture_atlases() {
+    ricci::lists<std::uint32_t> squares;
+    squares.entries = {0, 1, 2, 3, 3, 2, 4, 5}, squares.starts = {0, 4, 8};
+    const std::vector<double> roof = {0, 0, 0, 1, 0, 0, 1, 1, 1, 0, 1, 1, 1, 2, 0, 0, 2, 0};
+    const ricci::soup model = ricci::soup_of_polygons(roof, squares);
+    if (ricci::polygons_of(model) != std::vector<std::uint32_t>{0, 0, 1, 1}) return 120;
+    auto options = ricci::init<ricci_texture_options>();
+    options.page = 64;
+    const ricci::texture_atlas atlas(model, options);
+    const auto split = atlas.split();
+    if (atlas.summary().n_charts != 1 || atlas.charts() != std::vector<std::uint32_t>(4, 0)) return 121;
+    if (split.vertices.size() != 6 || split.uv.size() != 12 || split.faces.size() != 4) return 122;
+    if (!atlas.faces(RICCI_TEXTURE_FOLDED).empty() || split.corners.size() != 12) return 123;
+    if (atlas.textured().values(RICCI_UV) != atlas.uv()) return 124;
+    options.page = 100;
+    try {
+        const ricci::texture_atlas none(model, options);
+        return 125;
+    } catch (const ricci::error &error) {
+        return error.status() == RICCI_ARGUMENT ? 0 : 126;
+    }
+}
+
 int failures() {
     const ricci::control stopped;
     stopped.set_part(0, 0.5);
@@ -402,8 +427,9 @@ int failures() {
 } // namespace
 
 int main() {
-    for (int failed : {whole_job(), archives(), uniformization(), forms_and_maps(), cortices(), brain_files(),
-                       structures(), splines(), quads(), quad_splines(), bicubic_patches(), failures()})
+    for (int failed :
+         {whole_job(), archives(), uniformization(), forms_and_maps(), cortices(), brain_files(),
+          structures(), splines(), quads(), quad_splines(), bicubic_patches(), texture_atlases(), failures()})
         if (failed) return failed;
     return 0;
 }

@@ -16,6 +16,7 @@ from ricci.figures.flattened import DartSummary, FlattenSummary
 from ricci.figures.four_sided import QuadLayoutSummary, QuadSplineSummary, QuadsSummary
 from ricci.figures.placed import ChartsSummary, CircleDomainSummary, LayoutSummary, MapSummary, RepairedInputSummary, SeamlessSummary
 from ricci.figures.surface import ArchiveSummary, MeshSummary, MetricSummary, QualitySummary, RefineSummary, ReportSummary, SoupSummary
+from ricci.figures.textured import TextureAtlasSummary
 
 __all__ = [
     "ArchiveSummary",
@@ -49,5 +50,6 @@ __all__ = [
     "SoupSummary",
     "SplineSummary",
     "StructureSummary",
+    "TextureAtlasSummary",
     "UniformSummary",
 ]
