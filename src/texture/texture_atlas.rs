@@ -105,7 +105,11 @@ pub fn texture_atlas(soup: &Soup, options: &TextureOptions, control: &Control) -
                 break;
             }
             take_out(&mut charts, &atlas);
-            atlas = packed(soup, &found, &mut charts, options, control)?;
+            match packed(soup, &found, &mut charts, options, control) {
+                // A small page has no room for so many charts: these faces get no place.
+                Err(Error::Layout(_)) => break,
+                mended => atlas = mended?,
+            }
         }
         let mut atlas = without_bad(atlas, soup, options.page, control)?;
         atlas.quality.texel_density *= factor;
