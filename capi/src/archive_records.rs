@@ -17,6 +17,7 @@ use ricci::archive::Kept;
 use ricci::canonical::{CircleDomain, Uniformization};
 use ricci::embed::Layout;
 use ricci::geometry::Model;
+use ricci::matching::FoundLandmarks;
 use ricci::records::{
     ChartsRecord, FormsRecord, LayoutRecord, MapRecord, MatchingRecord, MeshRecord, MetricRecord,
 };
@@ -235,7 +236,17 @@ impl ArchivedHandle for ricci_matching {
 
     fn restored(record: MatchingRecord) -> Outcome<ricci_matching> {
         let MatchingRecord { matching, source, target, quality, point_error, mirrored } = record;
-        Ok(ricci_matching { matching, source, target, quality, point_error, threads: 0, mirrored })
+        Ok(ricci_matching {
+            matching,
+            source,
+            target,
+            quality,
+            point_error,
+            landmarks: Vec::new(),
+            found: FoundLandmarks::default(),
+            threads: 0,
+            mirrored,
+        })
     }
 
     fn origin(&self) -> ArchiveOrigin {

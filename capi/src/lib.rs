@@ -103,6 +103,7 @@ pub mod report;
 pub mod seamless;
 #[cfg(feature = "quads")]
 pub mod seamless_flat;
+pub mod shape_matching;
 pub mod shapes;
 pub mod sheet;
 pub mod soup;

@@ -14,11 +14,10 @@ use crate::structs::{self, sized};
 use ricci::Surface;
 use ricci::flow::Options;
 use ricci::matching::{
-    BoundaryMatching, LandmarkSearch, LoopShape, MapQuality, MapVerdict, MatchOptions, Matching, Place,
-    SoftLandmark, SurfaceMap, cycle_error, judge, map_quality, match_by_shape, match_surfaces, point_error,
+    BoundaryMatching, FoundLandmarks, LoopShape, MapQuality, MatchOptions, Matching, Place, SoftLandmark,
+    SurfaceMap, cycle_error, map_quality, match_surfaces, point_error,
 };
 use ricci::mesh::{FaceId, HalfedgeId, VertexId};
-use ricci::parallel::within;
 
 pub struct ricci_matching {
     pub(crate) matching: Matching,
@@ -26,6 +25,9 @@ pub struct ricci_matching {
     pub(crate) target: Surface,
     pub(crate) quality: Option<(MapQuality, [f64; 2])>,
     pub(crate) point_error: f64,
+    /// The landmarks of the map inside both surfaces, and what was found by their shapes: neither is kept in archives.
+    pub(crate) landmarks: Vec<[VertexId; 2]>,
+    pub(crate) found: FoundLandmarks,
     pub(crate) threads: usize,
     /// True if it came from an archive that says that its source is a mirror image.
     pub(crate) mirrored: bool,
@@ -41,12 +43,6 @@ choices!(BOUNDARIES: BoundaryMatching = "correspondence of boundaries", [
 choices!(LOOP_SHAPES: LoopShape = "shape of boundary loops", [
     RICCI_MATCH_GEODESICS => LoopShape::Geodesics,
     RICCI_MATCH_CIRCLES => LoopShape::Circles,
-]);
-
-choices!(VERDICTS: MapVerdict = "verdict", [
-    RICCI_VERDICT_GOOD => MapVerdict::Good,
-    RICCI_VERDICT_ROUGH => MapVerdict::Rough,
-    RICCI_VERDICT_UNLIKELY => MapVerdict::Unlikely,
 ]);
 
 choices!(enum MapDirection, DIRECTIONS = "direction of a matching", [
@@ -113,25 +109,9 @@ pub struct ricci_matching_summary {
 // SAFETY: numbers; 8-byte alignment, size first.
 sized!(ricci_matching_summary, "summary");
 
-#[repr(C)]
-#[derive(Debug, Clone, Copy)]
-pub struct ricci_matching_judgement {
-    pub size: usize,
-    pub area_log_mean: f64,
-    pub area_log_99: f64,
-    pub qc_mean: f64,
-    pub qc_99: f64,
-    pub cycle_mean: f64,
-    pub agreement: f64,
-    pub verdict: u32,
-    pub reserved: u32,
-}
-// SAFETY: numbers; 8-byte alignment, size first.
-sized!(ricci_matching_judgement, "judgement", reserved);
-
 impl ricci_matching {
     /// A matching with its figures. Quality and errors are distances in space, which intrinsic surfaces do not have.
-    fn new(
+    pub fn new(
         both: [&Surface; 2],
         matching: Matching,
         landmarks: &[[VertexId; 2]],
@@ -150,6 +130,8 @@ impl ricci_matching {
             target,
             quality,
             point_error: missed,
+            landmarks: landmarks.to_vec(),
+            found: FoundLandmarks::default(),
             threads,
             mirrored: false,
         })
@@ -183,60 +165,14 @@ pub unsafe extern "C" fn ricci_match(
     })
 }
 
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn ricci_match_by_shape(
-    source: *const ricci_mesh,
-    target: *const ricci_mesh,
-    options: *const ricci_match_options,
-    control: *const ricci_control,
-    matching: *mut *mut ricci_matching,
-) -> ricci_status {
-    guard::make(matching, || {
-        let (source, target) = (shared(source)?, shared(target)?);
-        let (given, control) = (structs::read(options)?, control::of(control)?);
-        let _reserve = reserve([source, target])?;
-        let options = to_library([source, target], &given)?;
-        let both = [source.surface()?, target.surface()?];
-        let found = match_by_shape(both, &options, &LandmarkSearch::default(), &control)?;
-        ricci_matching::new(both, found.matching, &found.landmarks, given.threads)
-    })
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn ricci_matching_judge(
-    matching: *const ricci_matching,
-    control: *const ricci_control,
-    judgement: *mut ricci_matching_judgement,
-    size: usize,
-) -> ricci_status {
-    guard::with(matching, |ricci_matching { matching, source, target, threads, .. }| {
-        let control = control::of(control)?;
-        let n = source.mesh().n_vertices().saturating_add(target.mesh().n_vertices());
-        let _reserve = memory::work(n, memory::LAYOUT)?;
-        let found = within(*threads, || judge([source, target], matching, &control))?;
-        let figures = ricci_matching_judgement {
-            size: 0,
-            area_log_mean: found.area_log_mean,
-            area_log_99: found.area_log_99,
-            qc_mean: found.qc_mean,
-            qc_99: found.qc_99,
-            cycle_mean: found.cycle_mean,
-            agreement: found.agreement,
-            verdict: VERDICTS.number(found.verdict)?,
-            reserved: 0,
-        };
-        structs::write(figures, judgement, size)
-    })
-}
-
 /// Room for matching surfaces.
-fn reserve(meshes: [&ricci_mesh; 2]) -> Outcome<memory::Reserve> {
+pub fn reserve(meshes: [&ricci_mesh; 2]) -> Outcome<memory::Reserve> {
     let [n, m] = meshes.map(|mesh| mesh.connectivity.n_vertices());
     memory::work(n.saturating_add(m), memory::LAYOUT)
 }
 
 /// The caller's options.
-fn to_library(meshes: [&ricci_mesh; 2], given: &ricci_match_options) -> Outcome<MatchOptions> {
+pub fn to_library(meshes: [&ricci_mesh; 2], given: &ricci_match_options) -> Outcome<MatchOptions> {
     let pairs: Vec<[u32; 2]> = array("landmarks", given.landmarks.cast(), given.n_landmarks)?;
     let loops: Vec<u32> = array("loops", given.loops, given.n_loops)?;
     Ok(MatchOptions {

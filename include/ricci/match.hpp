@@ -66,6 +66,24 @@ public:
         check(ricci_matching_judge(get(), of(watched), &all, sizeof all));
         return all;
     }
+    // What was found of landmarks.
+    ricci_found_landmarks found() const {
+        ricci_found_landmarks all{};
+        check(ricci_matching_found(get(), &all, sizeof all));
+        return all;
+    }
+    // Pairs of vertices of the source and of the target that correspond, for ricci_match_options too.
+    std::vector<std::array<std::uint32_t, 2>> landmarks(std::uint32_t kind = RICCI_LANDMARKS_USED) const {
+        const ricci_found_landmarks all = found();
+        const std::size_t n = kind == RICCI_LANDMARKS_KEPT       ? all.n_kept
+                              : kind == RICCI_LANDMARKS_MIRRORED ? all.n_mirrored
+                                                                 : all.n_used;
+        std::vector<std::uint32_t> flat(2 * n);
+        check(ricci_matching_landmarks(get(), kind, flat.data(), flat.size()));
+        std::vector<std::array<std::uint32_t, 2>> pairs(n);
+        for (std::size_t k = 0; k < n; k++) pairs[k] = {flat[2 * k], flat[2 * k + 1]};
+        return pairs;
+    }
     ricci_matching_summary summary() const { return ricci::summary(ricci_matching_summarise, get()); }
     // The faces that the vertices go to.
     std::vector<std::uint32_t> faces(std::uint32_t direction = RICCI_MATCH_FORWARD) const {

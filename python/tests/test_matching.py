@@ -167,3 +167,22 @@ def test_a_surface_matched_to_itself_by_its_shape_is_judged_good():
         ricci.match(torus, torus, landmarks="tips")
     with pytest.raises(ricci.ArgumentError, match="soft"):
         ricci.match(torus, torus, landmarks="auto", soft=[[0, 1]], soft_weights=[1.0])
+
+
+def test_landmarks_that_are_found_are_told_of_both_sides():
+    ball = ricci.make("sphere", n=6)
+    # No plane of symmetry: three arms of different lengths at right angles.
+    out = sum(length * np.exp(-8 * (1 - ball.V[:, axis])) for axis, length in enumerate((1.6, 1.2, 0.8)))
+    one = ricci.Mesh(ball.V * (1 + out)[:, None], ball.F)
+    found = ricci.match(one, one, landmarks="auto")
+    assert found.found.n_kept == len(found.landmarks("kept")) >= 3
+    assert not found.found.mirror
+    np.testing.assert_array_equal(*found.landmarks("kept").T)
+    other = ricci.match(one, one.mirrored(), landmarks="auto")
+    assert other.found.mirror
+    pairs = other.landmarks("mirrored")
+    np.testing.assert_array_equal(*pairs.T)
+    turned = ricci.match(one, one.mirrored(), landmarks=pairs, mirror=True)
+    np.testing.assert_array_equal(turned.landmarks(), pairs)
+    np.testing.assert_allclose(turned.carry(one.V), one.V, atol=1e-6)
+    assert turned.found.n_paired == turned.found.n_signed == 0

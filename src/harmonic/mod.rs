@@ -46,6 +46,7 @@ pub use map::{HarmonicMap, MapConstraints, harmonic_map};
 pub use one_form::{ComplexForm, OneForm};
 pub use periods::PeriodMatrix;
 pub use simple::simple_domain;
+pub(crate) use spectrum::spectrum_within;
 pub use spectrum::{Spectrum, spectrum};
 pub use sphere::{SphereMap, SphereMapOptions, SphereMethod, sphere_map};
 pub use star::with_conjugate;

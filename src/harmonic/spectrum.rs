@@ -15,7 +15,7 @@ use super::laplace::Laplace;
 use crate::control::{Control, Stage};
 use crate::error::{Error, Result};
 use crate::geometry::random::SplitMix64;
-use crate::linalg::dense::{symmetric_eigenvalues, symmetric_eigenvectors};
+use crate::linalg::dense::{dot, symmetric_eigenpairs};
 use crate::parallel;
 
 /// The first eigenfunctions of the Laplacian of a surface, with Neumann conditions where it has a boundary.
@@ -44,6 +44,19 @@ const SEED: u64 = 0x7370_6563_7472_756d;
 /// [`Error::Factorisation`] for a surface of several components, and where the search does not converge; those of [`Laplace::with_mass`];
 /// [`Error::Cancelled`].
 pub fn spectrum(domain: &Domain, count: usize, control: &Control) -> Result<Spectrum> {
+    spectrum_within(domain, count, CONVERGED, control)
+}
+
+/// [`spectrum`] with another bound of the residual of an eigenpair of the inverse, over its eigenvalue.
+///
+/// # Errors
+/// Those of [`spectrum`].
+pub(crate) fn spectrum_within(
+    domain: &Domain,
+    count: usize,
+    tolerance: f64,
+    control: &Control,
+) -> Result<Spectrum> {
     let n = domain.mesh().n_vertices();
     let count = count.min(n);
     let total: f64 = domain.vertex_areas().iter().sum();
@@ -55,6 +68,7 @@ pub fn spectrum(domain: &Domain, count: usize, control: &Control) -> Result<Spec
         basis: Vec::new(),
         projected: Vec::new(),
         last: 0,
+        tolerance,
         random: SplitMix64::new(SEED),
     };
     let most = (MOST[0] * count + MOST[1]).min(n);
@@ -91,6 +105,8 @@ struct KrylovSpace {
     projected: Vec<Vec<f64>>,
     /// The number of vectors in the last block of the basis.
     last: usize,
+    /// Residual of an eigenpair, over its eigenvalue, up to which it is found.
+    tolerance: f64,
     random: SplitMix64,
 }
 
@@ -105,17 +121,21 @@ impl KrylovSpace {
         let mut columns: Vec<f64> =
             block.iter().flat_map(|q| q.iter().zip(&self.root).map(|(q, s)| q * s)).collect();
         laplace.solve(&mut columns)?;
+        let recent = self.basis.len().saturating_sub(self.last);
         self.last = block.len();
         self.basis.extend(block);
-        let mut images = Vec::new();
-        for column in columns.chunks(n) {
-            let mut image: Vec<f64> = column.iter().zip(&self.root).map(|(x, s)| x * s).collect();
-            self.projected.push(project_out(&self.basis, &mut image));
-            images.push(Some(image));
+        let image = |column: &[f64]| column.iter().zip(&self.root).map(|(x, s)| x * s).collect();
+        let mut images: Vec<Vec<f64>> = columns.chunks(n).map(image).collect();
+        // But for rounding, images have components in the last two blocks alone.
+        let near = project_all_out(&self.basis[recent..], &mut images);
+        let all = project_all_out(&self.basis, &mut images);
+        for (mut row, near) in all.into_iter().zip(near) {
+            row[recent..].iter_mut().zip(near).for_each(|(sum, c)| *sum += c);
+            self.projected.push(row);
         }
         images.truncate(n - self.basis.len());
         let mut coupling = Vec::new();
-        Ok((self.orthonormal(images, &mut coupling), coupling))
+        Ok((self.orthonormal(images.into_iter().map(Some).collect(), &mut coupling), coupling))
     }
 
     /// An orthonormal block beside the basis, from vectors that are orthogonal to it, or random ones where there are none. Per vector its
@@ -154,15 +174,15 @@ impl KrylovSpace {
             .iter()
             .map(|row| (0..size).map(|j| row.get(j).copied().unwrap_or(0.0)).collect())
             .collect();
-        let (values, vectors) = (symmetric_eigenvalues(&matrix)?, symmetric_eigenvectors(&matrix)?);
-        let pairs: Vec<(f64, &Vec<f64>)> = values.into_iter().zip(&vectors).rev().take(count).collect();
-        let open = |(value, vector): &(f64, &Vec<f64>)| {
+        let pairs: Vec<(f64, Vec<f64>)> =
+            symmetric_eigenpairs(&matrix)?.into_iter().rev().take(count).collect();
+        let open = |(value, vector): &(f64, Vec<f64>)| {
             let last = &vector[size - self.last..];
             let rest = (0..coupling.len()).map(|k| {
                 let part = |(row, y): (&Vec<f64>, &f64)| row.get(k).map_or(0.0, |r| r * y);
                 coupling.iter().zip(last).map(part).sum::<f64>()
             });
-            rest.map(|r| r * r).sum::<f64>().sqrt() > CONVERGED * value.abs()
+            rest.map(|r| r * r).sum::<f64>().sqrt() > self.tolerance * value.abs()
         };
         let is_whole = size == self.root.len();
         if !is_whole && (coupling.len() < self.last || pairs.iter().any(open)) {
@@ -170,7 +190,7 @@ impl KrylovSpace {
         }
         let functions = parallel::map(pairs.len(), |k| {
             let mut function = vec![0.0; self.root.len()];
-            for (q, y) in self.basis.iter().zip(pairs[k].1) {
+            for (q, y) in self.basis.iter().zip(&pairs[k].1) {
                 function.iter_mut().zip(q).for_each(|(f, q)| *f += y * q);
             }
             function.iter_mut().zip(&self.root).for_each(|(f, s)| *f /= s);
@@ -181,11 +201,37 @@ impl KrylovSpace {
     }
 }
 
+/// Rows of vectors that are worked on at once: those of a block stay in the cache while the basis is read once for all of them.
+const ROWS: usize = 1024;
+
+/// Takes the components along an orthonormal basis from vectors; returns them, per vector.
+fn project_all_out(basis: &[Vec<f64>], vectors: &mut [Vec<f64>]) -> Vec<Vec<f64>> {
+    let parts: Vec<Vec<f64>> =
+        parallel::map(basis.len(), |k| vectors.iter().map(|vector| dot(&basis[k], vector)).collect());
+    let n = vectors.first().map_or(0, Vec::len);
+    let pieces = parallel::map(n.div_ceil(ROWS), |c| {
+        let rows = ROWS * c..n.min(ROWS * (c + 1));
+        let mut pieces: Vec<Vec<f64>> = vectors.iter().map(|vector| vector[rows.clone()].to_vec()).collect();
+        for (q, parts) in basis.iter().zip(&parts) {
+            for (piece, c) in pieces.iter_mut().zip(parts) {
+                piece.iter_mut().zip(&q[rows.clone()]).for_each(|(x, q)| *x -= c * q);
+            }
+        }
+        pieces
+    });
+    for (c, pieces) in pieces.into_iter().enumerate() {
+        for (vector, piece) in vectors.iter_mut().zip(pieces) {
+            vector[ROWS * c..][..piece.len()].copy_from_slice(&piece);
+        }
+    }
+    (0..vectors.len()).map(|i| parts.iter().map(|row| row[i]).collect()).collect()
+}
+
 /// Takes the components along an orthonormal basis from a vector, twice because the first time leaves rounding; returns them.
 fn project_out(basis: &[Vec<f64>], vector: &mut [f64]) -> Vec<f64> {
     let mut all = vec![0.0; basis.len()];
     for _ in 0..2 {
-        let parts = parallel::map(basis.len(), |k| product(&basis[k], vector));
+        let parts = parallel::map(basis.len(), |k| dot(&basis[k], vector));
         parallel::in_parts(vector, |start, part| {
             for (q, c) in basis.iter().zip(&parts) {
                 part.iter_mut().zip(&q[start..]).for_each(|(x, q)| *x -= c * q);
@@ -196,12 +242,8 @@ fn project_out(basis: &[Vec<f64>], vector: &mut [f64]) -> Vec<f64> {
     all
 }
 
-fn product(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
 fn length_of(a: &[f64]) -> f64 {
-    product(a, a).sqrt()
+    dot(a, a).sqrt()
 }
 
 #[cfg(test)]
@@ -209,6 +251,7 @@ mod tests {
     use super::*;
     use crate::Surface;
     use crate::geometry::Space;
+    use crate::linalg::dense::symmetric_eigenvalues;
     use crate::mesh::shapes;
 
     #[test]

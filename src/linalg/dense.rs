@@ -64,12 +64,38 @@ pub fn symmetric_eigenvalues(a: &[Vec<f64>]) -> Result<Vec<f64>> {
 /// # Panics
 /// If rows have different lengths.
 pub fn symmetric_eigenvectors(a: &[Vec<f64>]) -> Result<Vec<Vec<f64>>> {
+    symmetric_eigenpairs(a).map(|pairs| pairs.into_iter().map(|(_, vector)| vector).collect())
+}
+
+/// The eigenvalues of a symmetric matrix (n×n), whose lower triangle is read, ascending, each with its eigenvector; these are orthonormal.
+///
+/// # Errors
+/// As [`symmetric_eigenvalues`].
+///
+/// # Panics
+/// If rows have different lengths.
+pub fn symmetric_eigenpairs(a: &[Vec<f64>]) -> Result<Vec<(f64, Vec<f64>)>> {
     let message = "the eigenvectors of the dense matrix were not found".to_string();
     let eigen = matrix(a)
         .self_adjoint_eigen(Side::Lower)
         .map_err(|_| Error::Factorisation { size: a.len(), message })?;
-    let vectors = eigen.U();
-    Ok((0..vectors.ncols()).map(|j| (0..vectors.nrows()).map(|i| vectors[(i, j)]).collect()).collect())
+    let (vectors, values) = (eigen.U(), eigen.S().column_vector());
+    let pair = |j| (values[j], (0..vectors.nrows()).map(|i| vectors[(i, j)]).collect());
+    Ok((0..vectors.ncols()).map(pair).collect())
+}
+
+/// Partial sums of a scalar product, which do not wait for each other.
+const LANES: usize = 8;
+
+/// The scalar product of two rows of the same length, by partial sums in a fixed order.
+pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let mut sums = [0.0; LANES];
+    let (a, b) = (a.chunks_exact(LANES), b.chunks_exact(LANES));
+    let rest: f64 = a.remainder().iter().zip(b.remainder()).map(|(a, b)| a * b).sum();
+    for (a, b) in a.zip(b) {
+        sums.iter_mut().zip(a.iter().zip(b)).for_each(|(sum, (a, b))| *sum += a * b);
+    }
+    sums.iter().sum::<f64>() + rest
 }
 
 fn matrix(rows: &[Vec<f64>]) -> Mat<f64> {

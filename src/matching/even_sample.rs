@@ -23,9 +23,14 @@ pub(super) struct EvenSample<'a> {
     pub shares: Vec<f64>,
     /// Per vertex the place of the nearest sample.
     pub nearest: PerVertex<u32>,
-    /// Per vertex the mean of its distances from the samples, over the mean of that by area.
+    /// Per vertex the mean of its distances from the first [`REMOTE`] samples, over the mean of that by area.
     pub remoteness: PerVertex<f64>,
+    /// Per one of these samples the share of the area that is nearer to it than to the others of them.
+    first_shares: Vec<f64>,
 }
+
+/// Number of vertices whose distances say how remote others are.
+pub(super) const REMOTE: usize = 100;
 
 impl<'a> EvenSample<'a> {
     /// At most so many vertices, from the one that is farthest from vertex 0 on.
@@ -55,6 +60,7 @@ impl<'a> EvenSample<'a> {
             shares: Vec::new(),
             nearest: vec![0; mesh.n_vertices()].into(),
             remoteness: vec![0.0; mesh.n_vertices()].into(),
+            first_shares: Vec::new(),
             areas,
         };
         sample.choose(count.min(mesh.n_vertices()), control)?;
@@ -72,8 +78,13 @@ impl<'a> EvenSample<'a> {
         let mut rows: Vec<Vec<f64>> = Vec::new();
         for k in 0..count {
             let distance = outgoing.shortest_paths(&[next], control)?.distance;
+            if k == REMOTE {
+                self.first_shares = self.shares_of(k);
+            }
             for v in mesh.vertices() {
-                self.remoteness[v] += distance[v];
+                if k < REMOTE {
+                    self.remoteness[v] += distance[v];
+                }
                 if distance[v] < least[v] {
                     (least[v], self.nearest[v]) = (distance[v], k as u32);
                 }
@@ -86,11 +97,20 @@ impl<'a> EvenSample<'a> {
             next = farthest(&least);
         }
         self.distances = rows;
-        self.shares = vec![0.0; count];
-        mesh.vertices().for_each(|v| self.shares[self.nearest[v] as usize] += self.areas[v]);
+        self.shares = self.shares_of(count);
+        if count <= REMOTE {
+            self.first_shares = self.shares.clone();
+        }
         let mean: f64 = self.remoteness.iter().zip(self.areas.iter()).map(|(r, a)| r * a).sum();
         self.remoteness.iter_mut().for_each(|r| *r /= mean.max(f64::MIN_POSITIVE));
         Ok(())
+    }
+
+    /// Per sample of so many the share of the area that is nearest to it.
+    fn shares_of(&self, count: usize) -> Vec<f64> {
+        let mut shares = vec![0.0; count];
+        self.surface.mesh().vertices().for_each(|v| shares[self.nearest[v] as usize] += self.areas[v]);
+        shares
     }
 
     /// The mean difference of how remote two points are that are chosen blindly, by area, on this surface.
@@ -101,7 +121,11 @@ impl<'a> EvenSample<'a> {
     /// The mean difference of how remote two points are that are chosen blindly, by area, one on each surface.
     pub fn blind_difference(&self, other: &EvenSample<'_>) -> f64 {
         let of = |even: &EvenSample<'_>| -> Vec<(f64, f64)> {
-            even.samples.iter().zip(&even.shares).map(|(&v, &share)| (even.remoteness[v], share)).collect()
+            even.samples
+                .iter()
+                .zip(&even.first_shares)
+                .map(|(&v, &share)| (even.remoteness[v], share))
+                .collect()
         };
         let to = of(other);
         of(self).iter().map(|(a, s)| s * to.iter().map(|(b, t)| t * (a - b).abs()).sum::<f64>()).sum()

@@ -1,6 +1,6 @@
 //! The judgement of a map between two surfaces: how much it distorts, whether it brings alike points to each other, and one word for that.
 
-use super::even_sample::EvenSample;
+use super::even_sample::{EvenSample, REMOTE};
 use super::quality::{cycle_error, face_distortions};
 use super::result::Matching;
 use crate::control::Control;
@@ -65,8 +65,6 @@ const AGREEMENT: [f64; 2] = [0.8, 0.4];
 const AGREEMENT_WITH_HANDLES: [f64; 2] = [0.8, f64::NEG_INFINITY];
 /// Share of the area on which the 99 % figures are exceeded.
 const TAIL: f64 = 0.01;
-/// Number of vertices whose distances say how remote others are.
-const SAMPLES: usize = 100;
 /// Difference of the descriptor between blindly chosen points below which it does not tell points of a surface apart, as on a sphere.
 const TELLING: f64 = 0.1;
 
@@ -75,12 +73,20 @@ const TELLING: f64 = 0.1;
 /// # Errors
 /// [`crate::Error::Size`] for other surfaces; [`crate::Error::Argument`] for surfaces without positions; [`crate::Error::Cancelled`].
 pub fn judge(surfaces: [&Surface; 2], matching: &Matching, control: &Control) -> Result<MapJudgement> {
+    let [from, to] =
+        surfaces.map(|surface| move |control: &Control| EvenSample::new(surface, REMOTE, control));
+    let (from, to) = parallel::join(|| from(&control.part(0.0, 1.0)), || to(&control.part(0.0, 1.0)));
+    judge_sampled([&from?, &to?], matching)
+}
+
+/// [`judge`] for surfaces that are sampled already, with [`REMOTE`] vertices or more.
+///
+/// # Errors
+/// Those of [`judge`].
+pub(super) fn judge_sampled([from, to]: [&EvenSample<'_>; 2], matching: &Matching) -> Result<MapJudgement> {
+    let surfaces = [from.surface, to.surface];
     let faces = face_distortions(surfaces, &matching.forward)?;
     let [cycle_mean, _] = cycle_error(surfaces, [&matching.forward, &matching.backward])?;
-    let [from, to] =
-        surfaces.map(|surface| move |control: &Control| EvenSample::new(surface, SAMPLES, control));
-    let (from, to) = parallel::join(|| from(&control.part(0.0, 1.0)), || to(&control.part(0.0, 1.0)));
-    let (from, to) = (from?, to?);
     let remote: Vec<[f64; 1]> = to.remoteness.iter().map(|r| [*r]).collect();
     let images = matching.forward.carry(surfaces[1].mesh(), &remote)?;
     let off = |v: VertexId| from.areas[v] * (from.remoteness[v] - images[v.index()][0]).abs();
@@ -93,7 +99,7 @@ pub fn judge(surfaces: [&Surface; 2], matching: &Matching, control: &Control) ->
         qc_mean: mean(&dilatation),
         qc_99: exceeded(dilatation),
         cycle_mean,
-        agreement: 1.0 - apart / from.blind_difference(&to).max(TELLING),
+        agreement: 1.0 - apart / from.blind_difference(to).max(TELLING),
         verdict: MapVerdict::Rough,
     };
     let has_handles = surfaces[0].mesh().genus() > 0;

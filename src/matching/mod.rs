@@ -105,7 +105,7 @@ mod teichmuller_tests;
 
 pub use crate::mesh::Place;
 pub use balance::BalanceReport;
-pub use found::{FoundLandmarks, LandmarkSearch, ShapeMatching, find_landmarks, match_by_shape};
+pub use found::{FoundLandmarks, FoundPairs, LandmarkSearch, ShapeMatching, find_landmarks, match_by_shape};
 pub use judgement::{MapJudgement, MapVerdict, judge};
 pub use match_surfaces::match_surfaces;
 pub use options::{BoundaryMatching, LoopShape, MatchOptions, SoftLandmark};

@@ -24,6 +24,9 @@ maps, of which the one that keeps distances best is refined. The map with them i
 The verdict on a map is good, rough or unlikely. Good: mean |ln area| at most 0.5, mean dilatation at most 1.5, there and back at most 0.005,
 agreement at least 0.8. Unlikely, which is exit 1 unless landmarks are given: one of them beyond 2, 6, 0.1 or, on surfaces
 without handles, 0.4. With --distance no landmarks are looked for: the map without any has the least dilatation.
+The report tells the landmarks of the map (landmarks_found), whether one surface is like a mirror image of the other (mirror), and of the search, under
+search, the best candidate that keeps the sides of the surface (kept) and the best that turns it over (mirrored): their pairs, their misfits and
+how they began. Those of mirrored are landmarks of a map from the mirror image of the source, whose vertices have the same numbers.
 
 Files
     --landmarks L.csv    rows source_vertex,target_vertex: pairs inside the surfaces, or on their boundaries, in any number. On surfaces with

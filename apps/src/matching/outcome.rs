@@ -7,8 +7,8 @@ use crate::say;
 use ricci::geometry::vector::{diagonal, distance};
 use ricci::geometry::{Space, model, worse};
 use ricci::matching::{
-    DilatationBracket, FoundLandmarks, LowerBoundKind, MapJudgement, MapQuality, MapVerdict, Matching,
-    RoundHole, cycle_error, map_quality, point_error, uncovered,
+    DilatationBracket, FoundLandmarks, FoundPairs, LowerBoundKind, MapJudgement, MapQuality, MapVerdict,
+    Matching, RoundHole, cycle_error, map_quality, point_error, uncovered,
 };
 use ricci::mesh::VertexId;
 use ricci::metric::CommonSubdivision;
@@ -198,9 +198,8 @@ impl JobOutcome for MatchOutcome {
             .with("agreement", self.judgement.agreement)
             .with("verdict", self.judgement.verdict.name())
             .if_some("landmarks_found", self.found.as_ref().map(|_| pairs(&self.landmarks)))
-            .if_some("misfit", self.found.as_ref().and_then(|found| found.misfit))
-            .if_some("mirrored_misfit", self.found.as_ref().and_then(|found| found.mirrored_misfit))
             .if_some("mirror", self.found.as_ref().map(FoundLandmarks::is_mirrored))
+            .if_some("search", self.found.as_ref().map(search))
             .with("distance_mean", q.distance_mean)
             .with("distance_max", q.distance_max)
             .with("cycle_mean", self.cycle[0])
@@ -255,6 +254,20 @@ fn landmarks(outcome: &MatchOutcome) -> String {
 /// Pairs of vertices by their numbers.
 fn pairs(landmarks: &[[VertexId; 2]]) -> Vec<[u32; 2]> {
     landmarks.iter().map(|pair| pair.map(|v| v.0)).collect()
+}
+
+/// The best candidates of the search for landmarks, that which keeps the sides of the surface and that which turns it over.
+fn search(found: &FoundLandmarks) -> Value {
+    let [paired, signed] = found.candidates;
+    let side = |side: &FoundPairs| {
+        let begin = if side.candidate < paired { "extremities" } else { "signs" };
+        json!({"pairs": pairs(&side.pairs), "misfit": side.misfit, "candidate": side.candidate, "begins_with": begin})
+    };
+    json!({
+        "candidates": {"extremities": paired, "signs": signed},
+        "kept": found.kept.as_ref().map(side),
+        "mirrored": found.mirrored.as_ref().map(side),
+    })
 }
 
 /// What a map is good for, in one line, and what else is to be known of the search for its landmarks.

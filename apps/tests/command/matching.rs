@@ -186,6 +186,13 @@ fn a_map_is_judged_and_an_unlikely_one_is_exit_1() {
     assert!(said.out.contains("verdict  good"), "{}", said.out);
     let result = &place.json("R.json")["result"];
     assert!(result["verdict"] == "good" && result["agreement"].as_f64().unwrap() > 0.9, "{result}");
+    let search = &result["search"];
+    for side in ["kept", "mirrored"] {
+        let found = &search[side];
+        assert!(found["misfit"].as_f64().unwrap() < 0.1, "{search}");
+        assert!(found["pairs"].as_array().unwrap().iter().all(|pair| pair.as_array().unwrap().len() == 2));
+    }
+    assert!(search["candidates"]["signs"].as_u64().unwrap() > 0 && result["mirror"] == false, "{result}");
     // A needle has no parts that are like those of a lens.
     place.expect(0, "make ellipsoid --axes 1 1 6 -n 5 -o needle.obj");
     place.expect(0, "make ellipsoid --axes 1 3 3 -n 5 -o lens.obj");

@@ -21,7 +21,7 @@ from ricci._structs import Struct, Write, above_zero, choice, index_list, known,
 from ricci.adapters import MeshLike, as_mesh
 from ricci.control import Progress
 from ricci.errors import ArgumentError, ArgumentTypeError
-from ricci.figures import MatchingJudgement, MatchingSummary
+from ricci.figures import FoundLandmarks, MatchingJudgement, MatchingSummary
 from ricci.maps import Map
 from ricci.mesh import Mesh
 
@@ -215,6 +215,36 @@ class Matching(Kept):
         out = ffi.new("ricci_matching_judgement *")
         call(lib.ricci_matching_judge, self, CONTROL, out, ffi.sizeof("ricci_matching_judgement"), progress=progress)
         return figures_of(MatchingJudgement, out)
+
+    @cached_property
+    def found(self) -> FoundLandmarks:
+        """What was found of landmarks with ``landmarks="auto"``; without that, and from an archive, no candidates."""
+        out = ffi.new("ricci_found_landmarks *")
+        call(lib.ricci_matching_found, self, out, ffi.sizeof("ricci_found_landmarks"))
+        return figures_of(FoundLandmarks, out)
+
+    def landmarks(self, kind: Literal["used", "kept", "mirrored"] = "used") -> Indices:
+        """k x 2 vertices of the source and of the target that correspond; an archive keeps none.
+
+        A surface with a plane of symmetry has two maps that fit equally well. That which turns the surface over is
+        ``match(source, target, landmarks=found.landmarks("mirrored"), mirror=True)``.
+
+        Parameters
+        ----------
+        kind : Literal["used", "kept", "mirrored"]
+            ``"used"``: those that the map meets, without points and curves. Those that ``landmarks="auto"`` found, by the best candidate
+            that keeps the sides of the surface (``"kept"``), or turns it over (``"mirrored"``).
+
+        Examples
+        --------
+        >>> egg = ricci.make("ellipsoid", n=5, a=2, b=1, c=0.8)
+        >>> found = ricci.match(egg, egg, landmarks="auto")
+        >>> found.landmarks("mirrored").shape[1]
+        2
+        """
+        which = constant("LANDMARKS", kind, ("used", "kept", "mirrored"))
+        sizes = (self.found.n_used, self.found.n_kept, self.found.n_mirrored)
+        return filled(lib.ricci_matching_landmarks, self, which, out=np.empty((sizes[which], 2), np.uint32))
 
     def faces(self, direction: Direction = "forward") -> Indices:
         """The face of the other surface that every vertex goes to."""

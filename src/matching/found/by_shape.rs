@@ -1,9 +1,10 @@
 //! The choice between the map with landmarks that are found and the one without any.
 
-use super::{FoundLandmarks, LandmarkSearch, find_landmarks};
+use super::{FoundLandmarks, LandmarkSearch, search_landmarks};
 use crate::control::Control;
 use crate::error::{Error, Result};
-use crate::matching::judgement::{MapJudgement, MapVerdict, judge};
+use crate::matching::even_sample::EvenSample;
+use crate::matching::judgement::{MapJudgement, MapVerdict, judge_sampled};
 use crate::matching::match_surfaces::{check_topology, match_surfaces};
 use crate::matching::options::MatchOptions;
 use crate::matching::result::Matching;
@@ -30,12 +31,12 @@ const UNCLEAR: f64 = 0.08;
 const FEWEST: usize = 3;
 
 /// The map from one surface to another one of the same topology, with landmarks that are found by their shapes where they make the map
-/// better. Where these are clear they are tried first, elsewhere the map without any. The first map that is [`MapVerdict::Good`] is taken,
-/// else that of less distortion. Landmarks, points, soft landmarks and curves of the options are not looked at. The result is the same for
-/// any number of threads.
+/// better. Where these are clear the map with them is made first, and taken unless it is [`MapVerdict::Unlikely`]; elsewhere the map without
+/// any is made first, and taken if it is [`MapVerdict::Good`]. Of two maps that of less distortion is taken. Landmarks, points, soft landmarks
+/// and curves of the options are not looked at. The result is the same for any number of threads.
 ///
 /// # Errors
-/// Those of [`match_surfaces`] where no map is found, of [`find_landmarks`] and of [`judge`]; [`Error::Cancelled`].
+/// Those of [`match_surfaces`] where no map is found, of [`super::find_landmarks`] and of [`crate::matching::judge`]; [`Error::Cancelled`].
 pub fn match_by_shape(
     surfaces: [&Surface; 2],
     options: &MatchOptions,
@@ -43,11 +44,12 @@ pub fn match_by_shape(
     control: &Control,
 ) -> Result<ShapeMatching> {
     check_topology(surfaces[0], surfaces[1])?;
-    let found = within(options.flow.threads, || find_landmarks(surfaces, search, &control.part(0.0, 0.2)))?;
+    let threads = options.flow.threads;
+    let (found, sampled) = within(threads, || search_landmarks(surfaces, search, &control.part(0.0, 0.2)))?;
     let has_handles = surfaces[0].mesh().genus() > 0;
-    let is_clear = found.misfit.is_some_and(|misfit| misfit <= UNCLEAR);
-    let enough = found.pairs.len() >= FEWEST && (is_clear || !has_handles);
-    let attempts = ShapeAttempts { surfaces, options, found: &found };
+    let is_clear = found.kept.as_ref().is_some_and(|kept| kept.misfit <= UNCLEAR);
+    let enough = found.pairs().len() >= FEWEST && (is_clear || !has_handles);
+    let attempts = ShapeAttempts { sampled: &sampled, options, found: &found };
     let mut best: Option<ShapeMatching> = None;
     let marked_first = is_clear && enough && !has_handles;
     for (k, marked) in [marked_first, !marked_first].into_iter().enumerate() {
@@ -61,8 +63,12 @@ pub fn match_by_shape(
             }
             (_, next) => Some(next?),
         };
-        let is_good = best.as_ref().is_some_and(|best| best.judgement.verdict == MapVerdict::Good);
-        if is_good || !enough && best.is_some() {
+        let is_taken = best.as_ref().is_some_and(|best| match best.judgement.verdict {
+            MapVerdict::Good => true,
+            MapVerdict::Rough => marked,
+            MapVerdict::Unlikely => false,
+        });
+        if is_taken || !enough && best.is_some() {
             break;
         }
     }
@@ -71,7 +77,7 @@ pub fn match_by_shape(
 
 /// The maps that are tried.
 struct ShapeAttempts<'a> {
-    surfaces: [&'a Surface; 2],
+    sampled: &'a [EvenSample<'a>; 2],
     options: &'a MatchOptions,
     found: &'a FoundLandmarks,
 }
@@ -79,7 +85,7 @@ struct ShapeAttempts<'a> {
 impl ShapeAttempts<'_> {
     /// The map with all landmarks, or with half of them if that of all is not found.
     fn with_most(&self, control: &Control) -> Result<ShapeMatching> {
-        let all = self.found.pairs.len();
+        let all = self.found.pairs().len();
         match self.with(all, &control.part(0.0, 0.6)) {
             Err(Error::Matching(_)) if all / 2 >= FEWEST => self.with(all / 2, &control.part(0.6, 1.0)),
             found => found,
@@ -87,12 +93,13 @@ impl ShapeAttempts<'_> {
     }
 
     fn with(&self, count: usize, control: &Control) -> Result<ShapeMatching> {
-        let landmarks = self.found.pairs[..count].to_vec();
+        let landmarks = self.found.pairs()[..count].to_vec();
         let (points, soft, curves) = (Vec::new(), Vec::new(), Vec::new());
         let options =
             MatchOptions { landmarks: landmarks.clone(), points, soft, curves, ..self.options.clone() };
-        let matching = match_surfaces(self.surfaces[0], self.surfaces[1], &options, control)?;
-        let judgement = within(options.flow.threads, || judge(self.surfaces, &matching, &control.still()))?;
+        let [from, to] = self.sampled;
+        let matching = match_surfaces(from.surface, to.surface, &options, control)?;
+        let judgement = within(options.flow.threads, || judge_sampled([from, to], &matching))?;
         Ok(ShapeMatching { matching, landmarks, judgement, found: self.found.clone() })
     }
 }

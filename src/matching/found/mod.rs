@@ -14,6 +14,7 @@ mod spectral_map;
 
 use crate::control::Control;
 use crate::error::Result;
+use crate::matching::even_sample::EvenSample;
 use crate::mesh::{PerVertex, VertexId};
 use crate::metric::Surface;
 use crate::parallel;
@@ -36,21 +37,30 @@ impl Default for LandmarkSearch {
     }
 }
 
-/// Pairs of vertices that correspond by the shapes of two surfaces.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct FoundLandmarks {
-    /// Vertices inside the source and the target; extremities first, then each far from those before it. There are none where no candidate
-    /// keeps the sides of the surface, and where a surface is as round as a ball.
+/// Pairs of vertices that correspond by one candidate.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FoundPairs {
+    /// Vertices inside the source and the target; extremities first, then each far from those before it.
     pub pairs: Vec<[VertexId; 2]>,
     /// How far the map between samples, from which the pairs are read off, is from an isometry: the mean difference of distances, and the mean
     /// distance of the target's samples from images, on surfaces of area 1. 0.03 to 0.04 for animals in other poses, 0.06 from a cat to
     /// a lion.
-    pub misfit: Option<f64>,
-    /// The same of the best candidate that turns the surface over. Where it is clearly smaller, one surface is like a mirror image of the
-    /// other.
-    pub mirrored_misfit: Option<f64>,
-    /// Number of candidates.
-    pub candidates: usize,
+    pub misfit: f64,
+    /// The number of the candidate, in the order of [`FoundLandmarks::candidates`].
+    pub candidate: usize,
+}
+
+/// Pairs of vertices that correspond by the shapes of two surfaces. A surface with a plane of symmetry has two maps that fit equally well,
+/// one of which turns it over: both are told.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct FoundLandmarks {
+    /// By the best candidate that keeps the sides of the surface. There is none where no candidate does, and where a surface is as round as
+    /// a ball.
+    pub kept: Option<FoundPairs>,
+    /// By the best candidate that turns the surface over: landmarks of a map from the mirror image of the source.
+    pub mirrored: Option<FoundPairs>,
+    /// Numbers of candidates that begin with pairs of extremities, those of least cost first, and with signs of eigenfunctions.
+    pub candidates: [usize; 2],
 }
 
 /// Factor below which the misfit of maps that turn the surface over says that one surface is like a mirror image of the other. Of surfaces
@@ -60,10 +70,17 @@ const MIRRORED: f64 = 0.8;
 impl FoundLandmarks {
     /// True if one surface is like a mirror image of the other: maps that turn it over fit clearly better.
     pub fn is_mirrored(&self) -> bool {
-        match (self.misfit, self.mirrored_misfit) {
-            (own, Some(mirrored)) => own.is_none_or(|own| mirrored < MIRRORED * own),
+        match (&self.kept, &self.mirrored) {
+            (kept, Some(mirrored)) => {
+                kept.as_ref().is_none_or(|kept| mirrored.misfit < MIRRORED * kept.misfit)
+            }
             _ => false,
         }
+    }
+
+    /// The pairs of a map that keeps the sides of the surface.
+    pub fn pairs(&self) -> &[[VertexId; 2]] {
+        self.kept.as_ref().map_or(&[], |kept| &kept.pairs)
     }
 }
 
@@ -86,33 +103,45 @@ pub fn find_landmarks(
     options: &LandmarkSearch,
     control: &Control,
 ) -> Result<FoundLandmarks> {
+    search_landmarks(surfaces, options, control).map(|(found, _)| found)
+}
+
+/// [`find_landmarks`], and the samples of the surfaces.
+///
+/// # Errors
+/// Those of [`find_landmarks`].
+fn search_landmarks<'a>(
+    surfaces: [&'a Surface; 2],
+    options: &LandmarkSearch,
+    control: &Control,
+) -> Result<(FoundLandmarks, [EvenSample<'a>; 2])> {
     let (source, target) = parallel::join(
         || SampledSurface::new(surfaces[0], &control.part(0.0, 0.7)),
         || SampledSurface::new(surfaces[1], &control.part(0.0, 0.7)),
     );
     let sampled = [source?, target?];
     if sampled.iter().any(|side| side.even.spread() < TELLING) {
-        return Ok(FoundLandmarks::default());
+        return Ok((FoundLandmarks::default(), sampled.map(|side| side.even)));
     }
     let ends = [0, 1].map(|s| extremities(&sampled[s], EXTREMITIES[s], &control.part(0.7, 0.75)));
     let [from, to] = ends;
     let ends = [from?, to?];
-    let all = candidates(&sampled, &ends, &control.part(0.75, 0.9))?;
-    let best = |turned: bool| {
-        let own = all.iter().filter(|c| (c.side < 0.0) == turned);
-        own.min_by(|a, b| a.misfit.total_cmp(&b.misfit))
+    let (all, candidates) = candidates(&sampled, &ends, &control.part(0.75, 0.9))?;
+    let best = |is_turned: bool, control: &Control| -> Result<Option<FoundPairs>> {
+        let own = all.iter().filter(|c| (c.side < 0.0) == is_turned);
+        let Some(best) = own.min_by(|a, b| a.misfit.total_cmp(&b.misfit)) else { return Ok(None) };
+        let pairs = landmarks(&sampled, &ends[0], best, options.most, control)?;
+        Ok(Some(FoundPairs { pairs, misfit: best.misfit, candidate: best.start }))
     };
-    let pairs = match best(false) {
-        Some(candidate) => landmarks(&sampled, &ends[0], candidate, options.most, control)?,
-        None => Vec::new(),
-    };
-    Ok(FoundLandmarks {
-        pairs,
-        misfit: best(false).map(|c| c.misfit),
-        mirrored_misfit: best(true).map(|c| c.misfit),
-        candidates: all.len(),
-    })
+    let kept = best(false, &control.part(0.9, 0.95))?;
+    let mirrored = best(true, &control.part(0.95, 1.0))?;
+    Ok((FoundLandmarks { kept, mirrored, candidates }, sampled.map(|side| side.even)))
 }
+
+/// Numbers of functions to which the map that is taken is refined, as one between samples and then as one to all vertices of the target: the
+/// latter takes as many times longer as there are more vertices than samples.
+const REFINED_AT_SAMPLES: [usize; 3] = [42, 46, 50];
+const REFINED_AT_VERTICES: [usize; 2] = [50, FUNCTIONS];
 
 /// Pairs of the map of a candidate, which is refined to all vertices of the target.
 fn landmarks(
@@ -122,10 +151,13 @@ fn landmarks(
     most: usize,
     control: &Control,
 ) -> Result<Vec<[VertexId; 2]>> {
+    let (from, shares) = (source.at_samples(), &source.even.shares);
+    let coarse = SpectralSides { from: &from, shares, to: &target.at_samples() };
+    let map = coarse.refined(candidate.map.clone(), REFINED_AT_SAMPLES.into_iter())?;
     let to: Vec<&[f64]> = target.functions.iter().map(Vec::as_slice).collect();
-    let sides = SpectralSides { from: &source.at_samples(), shares: &source.even.shares, to: &to };
-    let map = candidate.map.iter().map(|&k| target.even.samples[k].index()).collect();
-    let map = sides.refined(map, (FUNCTIONS / 2..=FUNCTIONS).step_by(6))?;
+    let fine = SpectralSides { from: &from, shares, to: &to };
+    let map = map.into_iter().map(|k| target.even.samples[k].index()).collect();
+    let map = fine.refined(map, REFINED_AT_VERTICES.into_iter())?;
     let image = |i: usize| VertexId(map[i] as u32);
     let meshes = [source.even.surface.mesh(), target.even.surface.mesh()];
     let is_inside = |i: usize| {
@@ -202,13 +234,13 @@ mod tests {
     fn landmarks_of_a_twisted_creature_are_their_own_partners() {
         let (one, other) = (creature(0.0, false), creature(0.2, false));
         let found = find_landmarks([&one, &other], &LandmarkSearch::default(), &Control::new()).unwrap();
-        assert!(found.pairs.len() >= 6 && !found.is_mirrored(), "{found:?}");
+        assert!(found.pairs().len() >= 6 && !found.is_mirrored(), "{found:?}");
         let points = one.positions().unwrap();
         let apart = |pair: &[VertexId; 2]| {
             let [p, q] = pair.map(|v| points[v.index()]);
             crate::geometry::vector::distance(p, q)
         };
-        let most = found.pairs.iter().map(apart).fold(0.0, f64::max);
+        let most = found.pairs().iter().map(apart).fold(0.0, f64::max);
         assert!(most < 0.25, "{most} {found:?}");
     }
 
@@ -217,5 +249,12 @@ mod tests {
         let surfaces = [&creature(0.0, false), &creature(0.0, true)];
         let found = find_landmarks(surfaces, &LandmarkSearch::default(), &Control::new()).unwrap();
         assert!(found.is_mirrored(), "{found:?}");
+        // The mirror image has the same vertices.
+        let mirrored = found.mirrored.unwrap();
+        assert!(
+            mirrored.pairs.len() >= 6 && mirrored.candidate < found.candidates.iter().sum(),
+            "{mirrored:?}"
+        );
+        assert!(mirrored.pairs.iter().all(|[v, w]| v == w), "{mirrored:?}");
     }
 }

@@ -3,7 +3,7 @@
 use crate::control::Control;
 use crate::error::Result;
 use crate::geometry::vector::{cross, dot, norm, sub, triangle_normal};
-use crate::harmonic::{Domain, spectrum};
+use crate::harmonic::{Domain, spectrum_within};
 use crate::matching::even_sample::EvenSample;
 use crate::mesh::{Point, VertexId};
 use crate::metric::Surface;
@@ -12,6 +12,8 @@ use crate::metric::Surface;
 const SAMPLES: usize = 300;
 /// Number of eigenfunctions: a fifth of the samples, at which they have to be told apart.
 pub(super) const FUNCTIONS: usize = 60;
+/// Residual of an eigenfunction, over its eigenvalue: far below the differences between surfaces, and half of the work of one of rounding.
+const PRECISION: f64 = 1e-5;
 /// Times of the heat kernel on a surface of area 1, in a geometric sequence, from those of details to those of the whole.
 const HEAT: [f64; 2] = [0.003, 0.3];
 /// Number of these times.
@@ -31,12 +33,12 @@ pub(super) struct SampledSurface<'a> {
 
 impl<'a> SampledSurface<'a> {
     /// # Errors
-    /// [`crate::Error::Argument`] for a surface without positions; those of [`spectrum()`]; [`crate::Error::Cancelled`].
+    /// [`crate::Error::Argument`] for a surface without positions; those of [`crate::harmonic::spectrum()`]; [`crate::Error::Cancelled`].
     pub fn new(surface: &'a Surface, control: &Control) -> Result<SampledSurface<'a>> {
         let even = EvenSample::new(surface, SAMPLES, &control.part(0.0, 0.4))?;
         let domain = Domain::new(surface, &control.part(0.4, 0.5))?;
         let total: f64 = domain.vertex_areas().iter().sum();
-        let found = spectrum(&domain, FUNCTIONS, &control.part(0.5, 1.0))?;
+        let found = spectrum_within(&domain, FUNCTIONS, PRECISION, &control.part(0.5, 1.0))?;
         let n = surface.mesh().n_vertices();
         Ok(SampledSurface {
             normals: normals(surface, &even.points),

@@ -1,7 +1,7 @@
 //! Maps between sampled surfaces that are refined from few eigenfunctions to many \[MRRSWO19\].
 
 use crate::error::Result;
-use crate::linalg::dense::solve_definite;
+use crate::linalg::dense::{dot, solve_definite};
 use crate::parallel;
 
 /// Share of the mean diagonal that is added to a matrix of normal equations: samples do not tell all functions apart.
@@ -53,27 +53,31 @@ impl SpectralSides<'_> {
 
     /// Per point the one where it can go whose functions, taken back by C, are nearest.
     fn nearest(&self, matrix: &[Vec<f64>], size: usize) -> Vec<usize> {
-        let images: Vec<(Vec<f64>, f64)> = parallel::map(self.to.len().div_ceil(64), |part| {
-            let rows = &self.to[64 * part..self.to.len().min(64 * (part + 1))];
-            rows.iter()
-                .map(|row| {
-                    let product = |c: &Vec<f64>| c.iter().zip(*row).map(|(c, b)| c * b).sum::<f64>();
-                    let image: Vec<f64> = matrix.iter().map(product).collect();
-                    let square = image.iter().map(|x| x * x).sum();
-                    (image, square)
-                })
-                .collect::<Vec<_>>()
-        })
-        .concat();
-        parallel::map(self.from.len(), |x| nearest_image(&self.from[x][..size], &images))
+        let images = parallel::map(self.to.len(), |y| {
+            SpectralPoint::new(matrix.iter().map(|row| dot(row, &self.to[y][..size])).collect())
+        });
+        parallel::map(self.from.len(), |x| nearest_point(&self.from[x][..size], &images))
     }
 }
 
-/// The place of the image nearest to a point, the first of equal ones.
-fn nearest_image(point: &[f64], images: &[(Vec<f64>, f64)]) -> usize {
+/// A point by its values, and the sum of their squares.
+struct SpectralPoint {
+    values: Vec<f64>,
+    square: f64,
+}
+
+impl SpectralPoint {
+    fn new(values: Vec<f64>) -> SpectralPoint {
+        let square = dot(&values, &values);
+        SpectralPoint { values, square }
+    }
+}
+
+/// The place of the nearest of other points, the first of equal ones.
+fn nearest_point(point: &[f64], others: &[SpectralPoint]) -> usize {
     let mut best = (f64::INFINITY, 0);
-    for (k, (image, square)) in images.iter().enumerate() {
-        let off = square - 2.0 * image.iter().zip(point).map(|(a, b)| a * b).sum::<f64>();
+    for (k, other) in others.iter().enumerate() {
+        let off = other.square - 2.0 * dot(&other.values, point);
         if off < best.0 {
             best = (off, k);
         }
@@ -83,7 +87,6 @@ fn nearest_image(point: &[f64], images: &[(Vec<f64>, f64)]) -> usize {
 
 /// Per row the place of the nearest of other rows of the same length.
 pub(super) fn nearest_rows(rows: &[Vec<f64>], others: &[Vec<f64>]) -> Vec<usize> {
-    let images: Vec<(Vec<f64>, f64)> =
-        others.iter().map(|row| (row.clone(), row.iter().map(|x| x * x).sum())).collect();
-    parallel::map(rows.len(), |x| nearest_image(&rows[x], &images))
+    let others: Vec<SpectralPoint> = others.iter().map(|row| SpectralPoint::new(row.clone())).collect();
+    parallel::map(rows.len(), |x| nearest_point(&rows[x], &others))
 }

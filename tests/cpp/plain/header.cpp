@@ -184,6 +184,13 @@ int forms_and_maps() {
     if (marked.summary().n_markings != 1 || marked.soft_left().size() != 1 || marked.soft_left()[0] <= 0 ||
         marked.points().size() != 1 || marked.points()[0][1].face != 3)
         return 36;
+    const std::uint32_t own_places[] = {3, 3};
+    ricci_match_options held = ricci::init<ricci_match_options>();
+    held.landmarks = own_places, held.n_landmarks = 1;
+    const ricci::matching met_there(torus, torus, held);
+    if (met_there.landmarks().size() != 1 || met_there.landmarks()[0][1] != 3 ||
+        !met_there.landmarks(RICCI_LANDMARKS_KEPT).empty() || met_there.found().has_kept != 0)
+        return 36;
     const std::vector<std::uint32_t> at = {0, 1};
     const std::vector<double> places = {0, 0, 2, 0, 0, 2};
     for (std::size_t v = 0; v < round.size() / 3; v++)

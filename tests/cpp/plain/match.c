@@ -112,6 +112,26 @@ static void check_marks(const ricci_mesh *torus) {
     CHECK(matching == NULL);
 }
 
+/* Landmarks that are found are vertices; a surface that is its own mirror image is no other one's. */
+static void check_found(const ricci_matching *matching) {
+    ricci_found_landmarks all;
+    uint32_t pairs[2 * 64];
+    OK(ricci_matching_found(matching, &all, sizeof all));
+    CHECK(all.reserved == 0 && all.mirror == 0 && all.has_kept == 1 && all.has_mirrored == 1);
+    CHECK(all.n_signed > 0 && all.candidate < all.n_paired + all.n_signed && all.misfit < 0.1);
+    const size_t n[3] = {all.n_used, all.n_kept, all.n_mirrored};
+    const size_t n_vertices = summary_of(matching).n_source_vertices;
+    for (uint32_t kind = 0; kind < 3; kind++) {
+        CHECK(n[kind] <= 64);
+        OK(ricci_matching_landmarks(matching, kind, pairs, 2 * n[kind]));
+        for (size_t k = 0; k < 2 * n[kind]; k++) CHECK(pairs[k] < n_vertices);
+    }
+    CHECK(n[1] > 0);
+    FAILS(ricci_matching_landmarks(matching, 1, pairs, 2 * n[1] - 1), RICCI_BUFFER_TOO_SMALL, "pairs");
+    FAILS(ricci_matching_landmarks(matching, 3, pairs, 2 * 64), RICCI_ARGUMENT, "kind");
+    FAILS(ricci_matching_found(NULL, &all, sizeof all), RICCI_NULL_POINTER, "matching");
+}
+
 /* The map of a small torus to itself, whose landmarks are looked for, is the identity and judged to be good.
  */
 static void check_judgement(const ricci_mesh *torus) {
@@ -122,6 +142,7 @@ static void check_judgement(const ricci_mesh *torus) {
     CHECK(all.verdict == RICCI_VERDICT_GOOD && all.reserved == 0 && all.agreement > 0.999);
     CHECK(all.area_log_99 < 1e-6 && all.qc_99 < 1 + 1e-6 && all.cycle_mean < 1e-6);
     FAILS(ricci_matching_judge(NULL, NULL, &all, sizeof all), RICCI_NULL_POINTER, "matching");
+    check_found(matching);
     ricci_matching_free(matching);
     matching = NULL;
     FAILS(ricci_match_by_shape(torus, NULL, NULL, NULL, &matching), RICCI_NULL_POINTER, "mesh");

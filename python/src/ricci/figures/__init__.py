@@ -7,13 +7,12 @@ from ricci.figures.derived import (
     DilatationBracket,
     FormsSummary,
     HarmonicSummary,
-    MatchingJudgement,
-    MatchingSummary,
     SplineSummary,
     StructureSummary,
 )
 from ricci.figures.flattened import DartSummary, FlattenSummary
 from ricci.figures.four_sided import QuadLayoutSummary, QuadSplineSummary, QuadsSummary
+from ricci.figures.matched import FoundLandmarks, MatchingJudgement, MatchingSummary
 from ricci.figures.placed import ChartsSummary, CircleDomainSummary, LayoutSummary, MapSummary, RepairedInputSummary, SeamlessSummary
 from ricci.figures.surface import ArchiveSummary, MeshSummary, MetricSummary, QualitySummary, RefineSummary, ReportSummary, SoupSummary
 from ricci.figures.textured import TextureAtlasSummary
@@ -31,6 +30,7 @@ __all__ = [
     "DomainSummary",
     "FlattenSummary",
     "FormsSummary",
+    "FoundLandmarks",
     "HarmonicSummary",
     "HomotopySummary",
     "LayoutSummary",
