@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Maps between surfaces whose partners are known, without landmarks and with eight, beside functional maps of pyFM, as tables.
 
-usage: docs/results/partners.py [CORPUS] > docs/results/partners.md
+usage: docs/results/partners.py [CORPUS [NAME…]] > docs/results/partners.md     (the names are those of first surfaces, and of deformed ones)
 (after: cargo build --release -p ricci-apps, in a Python with: pip install numpy scipy pyfmaps)
 """
 import contextlib
@@ -13,7 +13,7 @@ import time
 
 import numpy as np
 from deformed import KINDS, NOISE, SWOLLEN, TURNED, deformed, renumbered
-from page import corpus, main, read_obj, ricci, table, verdict, write_obj, write_rows
+from page import corpus, main, named, read_obj, ricci, table, verdict, write_obj, write_rows
 from pyFM.functional import FunctionalMapping
 from pyFM.mesh import TriMesh
 from scipy.sparse import coo_matrix
@@ -129,9 +129,13 @@ def surface(name):
 def cases(run):
     """The pairs, each made when it is its turn."""
     for seed, (first, second) in enumerate(GIVEN):
+        if named and first not in named:
+            continue
         places, faces, new = renumbered(*surface(second), np.random.default_rng(seed))
         yield f"{first} → {second}", lambda name, s=surface(first), t=(places, faces), new=new: Case(run, name, s, t, new)
     for seed, shape in enumerate(SHAPES):
+        if named and shape not in named:
+            continue
         for kind in KINDS:
             V, F = surface(shape)
             yield f"{shape}, {kind}", lambda name, V=V, F=F, d=deformed(V, F, kind, 100 + seed): Case(run, name, (V, F), d[:2], d[2])
@@ -165,6 +169,8 @@ def content(run):
     for part, kept in (("of the corpus", [n for n in names if "→" in n]), ("deformed", [n for n in names if "→" not in n])):
         for method in METHODS:
             all_of = [found[n, method] for n in kept if "why" not in found[n, method]]
+            if not all_of:
+                continue
             failed = [n for n in kept if "why" in found[n, method] or found[n, method]["mean"] > FAILED]
             shares = np.mean([r["within"] for r in all_of], 0)
             curves.append([part, SAID[method], len(all_of), f"{np.median([r['median'] for r in all_of]):.4f}", f"{np.median([r['mean'] for r in all_of]):.4f}",
