@@ -12,7 +12,7 @@ use crate::metric::Surface;
 const SAMPLES: usize = 300;
 /// Number of eigenfunctions: a fifth of the samples, at which they have to be told apart.
 pub(super) const FUNCTIONS: usize = 60;
-/// Residual of an eigenfunction, over its eigenvalue: far below the differences between surfaces, and half of the work of one of rounding.
+/// Residual of an eigenfunction, over its eigenvalue: far below the differences between surfaces.
 const PRECISION: f64 = 1e-5;
 /// Times of the heat kernel on a surface of area 1, in a geometric sequence, from those of details to those of the whole.
 const HEAT: [f64; 2] = [0.003, 0.3];
