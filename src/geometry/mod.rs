@@ -11,8 +11,6 @@ pub mod clip;
 pub mod complex;
 pub mod conformal;
 pub mod cover_share;
-#[cfg(feature = "splines")]
-pub(crate) mod cylinder;
 pub mod disk_barycentre;
 pub mod double_double;
 pub mod enclosure;

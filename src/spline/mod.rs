@@ -6,6 +6,7 @@
 
 mod batches;
 mod bicubic;
+mod cylinder;
 mod quad;
 #[cfg(feature = "step")]
 mod step;

@@ -3,6 +3,7 @@
 mod args;
 mod command;
 mod conditions;
+mod descent;
 mod figures;
 mod files;
 mod outcome;
@@ -13,5 +14,5 @@ mod sheet;
 mod vertex_values;
 
 pub use args::{FlattenArgs, HELP};
-pub use figures::distortion;
+pub use descent::distortion;
 pub use part::named_vertices;

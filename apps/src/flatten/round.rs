@@ -1,7 +1,7 @@
 //! Maps of closed surfaces of genus 0 to the sphere: what they refuse, compute, write and report.
 
 use super::args::FlattenArgs;
-use super::figures::{descent_checks, descent_figures, descent_summary, reason};
+use super::descent::{descent_checks, descent_figures, descent_summary, reason};
 use crate::failure::{Failure, NO_POSITIONS};
 use crate::input::Input;
 use crate::output::{Outputs, format_of};

@@ -1,7 +1,7 @@
 //! Planes and cylinders on which smooth pieces of a target lie, as those of parts made by machines do.
 
-use crate::geometry::cylinder::Cylinder;
 use crate::geometry::vector::{Vector, add, dot, norm, normalised, scale, sub, triangle_normal};
+use crate::spline::cylinder::Cylinder;
 
 /// The distance from a plane, over the diagonal, within which the vertices of a flat piece lie: single precision and six digits leave less.
 const FLAT: f64 = 1e-6;

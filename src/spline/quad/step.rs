@@ -4,9 +4,9 @@ use super::layout::PatchArc;
 use super::quintic::{QUINTIC, knots};
 use super::spline::QuadSpline;
 use crate::error::Result;
-use crate::geometry::cylinder::Cylinder;
 use crate::geometry::vector::{add, diagonal, dot, norm, normalised};
 use crate::mesh::union_find::UnionFind;
+use crate::spline::cylinder::Cylinder;
 use crate::spline::step::{
     PatchCylinder, StepCurve, StepCurveGeometry, StepOptions, StepPart, StepPatch, StepPatches,
     StepSurfaceGeometry,

@@ -1,7 +1,7 @@
 //! The curves and surfaces of a STEP file, and the lines in the parameters of surfaces that its edges follow.
 
-use crate::geometry::cylinder::Cylinder;
 use crate::geometry::vector::{Vector, cross, normalised};
+use crate::spline::cylinder::Cylinder;
 use step_io::model as m;
 use step_io::{Ap242Author, AuthorError};
 

@@ -1,8 +1,8 @@
 //! Patches that share curves and points, as they are written to a STEP file.
 
 use super::geometry::{StepCurveGeometry, StepSurfaceGeometry};
-use crate::geometry::cylinder::Cylinder;
 use crate::geometry::vector::Vector;
+use crate::spline::cylinder::Cylinder;
 
 /// A curve as a side of a face, and true if it runs against the way around.
 pub(super) type Side = (usize, bool);

@@ -1,6 +1,6 @@
 //! Circular cylinders, and those on which points lie.
 
-use super::vector::{Vector, add, cross, dot, norm, normalised, scale, sub};
+use crate::geometry::vector::{Vector, add, cross, dot, norm, normalised, scale, sub};
 use crate::linalg::dense::{solve_definite, symmetric_eigenvectors};
 
 /// Newton steps from the axis that normals tell.
