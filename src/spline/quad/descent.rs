@@ -1,8 +1,9 @@
 //! Steps of a fit: the distance along normals and the bending, whose weight falls from step to step.
 //!
 //! Where neighbouring patches meet, the space of splines prescribes how parameter lines cross. The map from which a fit starts crosses
-//! otherwise, so the surface has to slide along itself. A weight of the gradient of the way keeps the shape of patches, which so go with their
-//! sides: it falls after steps that come nearer and rises after those that do not, which are not taken [Mar63].
+//! otherwise, so the surface has to slide along itself. A weight of the way along the surface keeps places where their feet are known: it falls
+//! after steps that come nearer and rises after those that do not, which are not taken [Mar63]. In patches on planes and cylinders, and in those that
+//! folds have stopped, it is the gradient of the way that is weighed: they keep their shape and go with their sides.
 
 use super::layout::PatchCorner;
 use super::nearest::{NearestToVertex, vertex_places};
@@ -23,7 +24,7 @@ const SETTLED: f64 = 0.96;
 const FIRST_BENDING: f64 = 1e-5;
 /// Steps between the weights of bending with which a start is tried.
 const SOFTER: usize = 3;
-/// The weights of the gradient of the way: the first, the least, and the one beyond which no step comes nearer.
+/// The weights of the way along the surface, or of its gradient: the first, the least, and the one beyond which no step comes nearer.
 const FIRST_TANGENTIAL: f64 = 1e-2;
 const LEAST_TANGENTIAL: f64 = 1e-6;
 const MOST_TANGENTIAL: f64 = 1.0;
@@ -104,13 +105,16 @@ pub(super) fn descend(
 ) -> Result<QuadSpline> {
     let (skipped, mut at) = stiffest_start(system, feet, target, bendings)?;
     let mut tangential = vec![FIRST_TANGENTIAL; at.patches.len()];
+    let mut keeps_shape: Vec<bool> =
+        target.pieces.iter().map(|&piece| target.target.form(piece).is_some()).collect();
     let most = bendings.steps() + MORE_STEPS;
     for step in skipped..most {
         control.step(Stage::Layout, (step + 1) as f64 / (most + 2) as f64)?;
         let bending = bendings.at(step);
         let before = at.energy(bending);
         let next = loop {
-            let spline = at.solved(system, FitWeights { normal: 1.0, bending }, &tangential)?;
+            let weights = FitWeights { normal: 1.0, bending };
+            let spline = at.solved(system, weights, &tangential, &keeps_shape)?;
             let next = FitIterate::new(system, spline, target);
             let (energy, folded) = (next.energy(bending), next.folded());
             log::debug!("fit: bending {bending:.1e}, energy {energy:.3e}, {folded} folded");
@@ -121,11 +125,12 @@ pub(super) fn descend(
                 // Nothing but a smaller step could still come nearer, and not by much.
                 break None;
             }
-            let is_held =
-                if energy <= before { next.around_new_folds(&at) } else { vec![true; tangential.len()] };
+            let around_folds = next.around_new_folds(&at);
+            let is_held = if energy <= before { around_folds.clone() } else { vec![true; tangential.len()] };
             for (weight, _) in tangential.iter_mut().zip(is_held).filter(|(_, is_held)| *is_held) {
                 *weight *= AFTER_REFUSAL;
             }
+            keeps_shape.iter_mut().zip(around_folds).for_each(|(keeps, folds)| *keeps |= folds);
             if tangential.iter().any(|&weight| weight > MOST_TANGENTIAL) {
                 break None;
             }
@@ -153,7 +158,7 @@ fn stiffest_start(
         let goal = FitGoal {
             weights: FitWeights { normal: 0.0, bending: bendings.at(step) },
             tangential: &vec![1.0; feet.len()],
-            before: None,
+            shape: None,
             feet: &|p| &feet[p],
             vertices: &|_| &[],
         };
@@ -183,12 +188,18 @@ impl FitIterate {
     }
 
     /// The spline of the next step. `tangential`: per patch the weight of the way along the surface.
-    fn solved(&self, system: &mut QuadSystem, weights: FitWeights, tangential: &[f64]) -> Result<QuadSpline> {
+    /// `keeps_shape`: per patch true if that is the weight of its gradient.
+    fn solved(
+        &self,
+        system: &mut QuadSystem,
+        weights: FitWeights,
+        tangential: &[f64],
+        keeps_shape: &[bool],
+    ) -> Result<QuadSpline> {
         let feet = |p: usize| &self.patches[p].feet[..];
         let vertices = |p: usize| &self.patches[p].vertices[..];
-        let before = Some(&self.spline);
-        let free =
-            system.solve(&FitGoal { weights, tangential, before, feet: &feet, vertices: &vertices })?;
+        let shape = Some((&self.spline, keeps_shape));
+        let free = system.solve(&FitGoal { weights, tangential, shape, feet: &feet, vertices: &vertices })?;
         QuadSpline::of_free(system.space().clone(), &free)
     }
 

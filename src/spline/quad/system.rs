@@ -73,11 +73,11 @@ pub(super) struct FitPlace {
 /// What a fit comes near: a foot for every place of a patch, and for every patch the vertices of the target that are nearest to it.
 pub(super) struct FitGoal<'a> {
     pub weights: FitWeights,
-    /// Per patch the weight of the squared gradient of the way from the spline before and, much less, of the squared distance from the foot; at the
-    /// start that of the latter.
+    /// Per patch the weight of the squared distance from the foot or, where patches keep their shape, of the squared gradient of the way from the spline
+    /// before.
     pub tangential: &'a [f64],
-    /// The spline from which a step is taken.
-    pub before: Option<&'a QuadSpline>,
+    /// The spline before, and per patch true if it keeps its shape; none at the start.
+    pub shape: Option<(&'a QuadSpline, &'a [bool])>,
     /// Those of the places of a patch, in order.
     pub feet: &'a (dyn Fn(usize) -> &'a [FootPoint] + Sync),
     pub vertices: &'a (dyn Fn(usize) -> &'a [NearestToVertex] + Sync),
@@ -241,8 +241,9 @@ impl QuadSystem {
         let weights = goal.weights;
         let along = self.space.patch_spans(p).map(|spans| &self.along[&spans]);
         let tangential = goal.tangential[p];
-        // Sides and limbs move, and the places between go with them: what is kept is the shape, and next to nothing of where it was.
-        let along_surface = if goal.before.is_some() { OF_WAY * tangential } else { tangential };
+        // Sides move, and the places between go with them: what is kept is the shape, and next to nothing of where it was.
+        let shape = goal.shape.filter(|(_, is_kept)| is_kept[p]).map(|(before, _)| before);
+        let along_surface = if shape.is_some() { OF_WAY * tangential } else { tangential };
         let of_distance = [weights.normal, along_surface];
         let mut sum = PatchSum::new(self.space.sides(p), lengths(&self.space, p));
         let [a, b] = sum.lengths;
@@ -252,7 +253,7 @@ impl QuadSystem {
             sum.add(&place.basis, &tensor, point);
         }
         sum.bend(weights.bending, along);
-        if let Some(before) = goal.before {
+        if let Some(before) = shape {
             sum.keep_shape(tangential, along, &before.net(p).concat());
         }
         let spans = self.space.patch_spans(p);
