@@ -464,8 +464,8 @@ RICCI_API RICCI_EXPERIMENTAL ricci_status ricci_quad_spline_bezier(const ricci_q
 
 /**
  * Write the patches as STEP AP242, whole or not at all: parts that close up are solids with outward normals,
- * the others shells of one surface model; a face for each patch, an edge for each arc. The same spline gives
- * the same bytes.
+ * the others shells of one surface model; faces on planes and cylinders, else one for each patch. The same
+ * spline gives the same bytes.
  *
  * @return RICCI_OK, RICCI_NULL_POINTER, RICCI_STRUCT_SIZE, RICCI_ARGUMENT (not UTF-8, no such unit),
  * RICCI_IO, RICCI_UNKNOWN_FORMAT (another extension; a library built without STEP), RICCI_SPLINE,

@@ -17,6 +17,9 @@ common tangent planes across all sides but features, is fitted to the mesh along
 spans, and other cones are tried. Faces that meet share their edges. With --from-quads the input is a control mesh instead, whose Catmull–Clark
 surface is fitted over patches of its own quads.
 
+Between features (--features) pieces whose vertices lie on a plane or a cylinder are fitted to that and written as faces on it; of patches that meet
+in a plane one face becomes.
+
 Files
     -o PART.step        STEP AP242: a solid where the surface is closed, else a shell
     --patches P.json    knots and numbers of control points of every patch: tensor-product B-splines of degree 5

@@ -296,7 +296,7 @@ class QuadSpline(Kept):
         unit: Literal["millimetre", "metre"] = "millimetre",
         colours: bool = False,
     ) -> None:
-        """Write the patches as .step or .stp (STEP AP242), whole or not at all: a face for each patch, an edge for each arc."""
+        """Write the patches as .step or .stp (STEP AP242), whole or not at all: faces on planes and cylinders, else one for each patch."""
         given = picked(locals(), StepOptions)
         call(lib.ricci_quad_spline_write_step, self, options("step_options", given, _STEP), path_bytes(path))
 
