@@ -156,11 +156,13 @@ impl<'a> LayoutStart<'a> {
             let fit = fit_from(space, &from, &target, bending, &control.attempt(round))?;
             round += 1;
             let folds = fit.folded_patches.len();
-            // More spans are of no use where they leave as many patches turned over, or do not bring the last fit nearer.
-            let is_fruitless = |best: &QuadFit| {
-                folds >= best.folded_patches.len() && (folds > 0 || fit.max() > WORTHWHILE * best.max())
+            // More spans are of no use where they did not bring the last fit nearer, or turn fewer patches up again.
+            fruitless = match &best {
+                Some(best) if folds >= best.folded_patches.len() && fit.max() > WORTHWHILE * best.max() => {
+                    fruitless + 1
+                }
+                _ => 0,
             };
-            fruitless = if best.as_ref().is_some_and(is_fruitless) { fruitless + 1 } else { 0 };
             let mut is_more = raise_spans(patches, &mut spans, &fit, options);
             if !is_more && folds == 0 && bending > options.least_bending(&fit) {
                 (bending, is_more) = (SOFTER * bending, true);
