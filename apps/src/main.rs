@@ -34,6 +34,7 @@ mod make;
 mod matching;
 mod metric_file;
 mod modulus;
+mod on_sphere;
 mod options;
 mod output;
 mod page;

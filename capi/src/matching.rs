@@ -11,6 +11,7 @@ use crate::mesh::ricci_mesh;
 use crate::paths::halfedges_of;
 use crate::status::*;
 use crate::structs::{self, sized};
+use ricci::Control;
 use ricci::Surface;
 use ricci::flow::Options;
 use ricci::matching::{
@@ -154,25 +155,38 @@ pub unsafe extern "C" fn ricci_match(
     control: *const ricci_control,
     matching: *mut *mut ricci_matching,
 ) -> ricci_status {
+    let surfaces = [source, target];
+    made(surfaces, options, control, matching, |both, options, control, threads| {
+        let matching = match_surfaces(both[0], both[1], options, control)?;
+        ricci_matching::new(both, matching, &options.landmarks, threads)
+    })
+}
+
+/// What `make` makes of two surfaces with the caller's options and number of threads.
+pub fn made(
+    surfaces: [*const ricci_mesh; 2],
+    options: *const ricci_match_options,
+    control: *const ricci_control,
+    matching: *mut *mut ricci_matching,
+    make: impl FnOnce([&Surface; 2], &MatchOptions, &Control, usize) -> Outcome<ricci_matching>,
+) -> ricci_status {
     guard::make(matching, || {
-        let (source, target) = (shared(source)?, shared(target)?);
+        let meshes = [shared(surfaces[0])?, shared(surfaces[1])?];
         let (given, control) = (structs::read(options)?, control::of(control)?);
-        let _reserve = reserve([source, target])?;
-        let options = to_library([source, target], &given)?;
-        let both = [source.surface()?, target.surface()?];
-        let matching = match_surfaces(both[0], both[1], &options, &control)?;
-        ricci_matching::new(both, matching, &options.landmarks, given.threads)
+        let _reserve = reserve(meshes)?;
+        let options = to_library(meshes, &given)?;
+        make([meshes[0].surface()?, meshes[1].surface()?], &options, &control, given.threads)
     })
 }
 
 /// Room for matching surfaces.
-pub fn reserve(meshes: [&ricci_mesh; 2]) -> Outcome<memory::Reserve> {
+fn reserve(meshes: [&ricci_mesh; 2]) -> Outcome<memory::Reserve> {
     let [n, m] = meshes.map(|mesh| mesh.connectivity.n_vertices());
     memory::work(n.saturating_add(m), memory::LAYOUT)
 }
 
 /// The caller's options.
-pub fn to_library(meshes: [&ricci_mesh; 2], given: &ricci_match_options) -> Outcome<MatchOptions> {
+fn to_library(meshes: [&ricci_mesh; 2], given: &ricci_match_options) -> Outcome<MatchOptions> {
     let pairs: Vec<[u32; 2]> = array("landmarks", given.landmarks.cast(), given.n_landmarks)?;
     let loops: Vec<u32> = array("loops", given.loops, given.n_loops)?;
     Ok(MatchOptions {

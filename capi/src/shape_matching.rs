@@ -3,8 +3,8 @@
 use crate::arrays::copy_out;
 use crate::choice::choices;
 use crate::control::{self, ricci_control};
-use crate::guard::{self, shared};
-use crate::matching::{reserve, ricci_match_options, ricci_matching, to_library};
+use crate::guard;
+use crate::matching::{made, ricci_match_options, ricci_matching};
 use crate::memory;
 use crate::mesh::ricci_mesh;
 use crate::status::*;
@@ -70,14 +70,10 @@ pub unsafe extern "C" fn ricci_match_by_shape(
     control: *const ricci_control,
     matching: *mut *mut ricci_matching,
 ) -> ricci_status {
-    guard::make(matching, || {
-        let (source, target) = (shared(source)?, shared(target)?);
-        let (given, control) = (structs::read(options)?, control::of(control)?);
-        let _reserve = reserve([source, target])?;
-        let options = to_library([source, target], &given)?;
-        let both = [source.surface()?, target.surface()?];
-        let shaped = match_by_shape(both, &options, &LandmarkSearch::default(), &control)?;
-        let matching = ricci_matching::new(both, shaped.matching, &shaped.landmarks, given.threads)?;
+    let surfaces = [source, target];
+    made(surfaces, options, control, matching, |both, options, control, threads| {
+        let shaped = match_by_shape(both, options, &LandmarkSearch::default(), control)?;
+        let matching = ricci_matching::new(both, shaped.matching, &shaped.landmarks, threads)?;
         Ok(ricci_matching { found: shaped.found, ..matching })
     })
 }

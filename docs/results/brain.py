@@ -19,7 +19,7 @@ from autoflatten.flatten.algorithm import count_flipped_triangles
 from autoflatten.viz import compute_kring_distortion
 from nibabel import freesurfer
 from nilearn.surface import load_surf_data, load_surf_mesh
-from page import corpus, main, ricci, table
+from page import corpus, main, ricci, table, verdict
 
 CORTICES = [("fsaverage5 pial", "cortex_fsaverage5_pial_left", "lh"), ("fsaverage5 pial", "cortex_fsaverage5_pial_right", "rh"),
             ("fsaverage5 white", "cortex_fsaverage5_white_left", "lh")]
@@ -223,10 +223,7 @@ def content(run):
     yield (f"{SUBJECTS} synthetic subjects: both hemispheres of fsaverage5, stretched and bent. The cohort is stopped by Ctrl-C in its {int(STOPPED * SUBJECTS) + 1}th subject, "
            "and the same command with `--resume` goes on; files appear whole or not at all. The last column is the cohort run once more, with nothing left to do.")
     yield table(["subjects", "files when stopped", "files in the end", "of the first made twice", "made again once more"], cohort(run))
-    if run.bad:
-        yield "What does not hold:\n\n" + "\n".join(f"- {line}" for line in run.bad)
-    else:
-        yield "All checks hold."
+    yield verdict(run.bad, "All checks hold.")
 
 
 if __name__ == "__main__":

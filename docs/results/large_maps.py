@@ -18,7 +18,7 @@ from brain import patch, turned
 from flatten import energy, length_errors, texture
 from flatten import turned as turned_in_plane
 from nibabel import freesurfer
-from page import file_of, loops, main, meshes, ricci, table
+from page import file_of, loops, main, meshes, ricci, table, verdict
 
 # Faces of cortices are cut into four until they have at least so many vertices.
 VERTICES = 150_000
@@ -157,10 +157,7 @@ def content(run):
     yield ("Sheets rolled up to a spiral of twelve turns, with 37 holes, by `ricci flatten`. Lengths: mean and largest |length in the plane / length - 1| of the edges, in the file.")
     yield table(["surface", "V", "holes", "steps", "energy", "lengths: mean", "most", "turned", "s", "processor s", "GB"],
                 run.rows((0, 0.3), lambda run, bumps: run.keep(["sheet", bumps], lambda: sheet_row(run, bumps))))
-    if run.bad:
-        yield "What does not hold:\n\n" + "\n".join(f"- {line}" for line in run.bad)
-    else:
-        yield "All checks hold."
+    yield verdict(run.bad, "All checks hold.")
 
 
 if __name__ == "__main__":

@@ -62,6 +62,19 @@ pub fn normalised(a: Vector) -> Vector {
     if length > 0.0 { scale(1.0 / length, a) } else { a }
 }
 
+/// A unit vector across a unit vector: along the plane that it is the normal of, and at least 45 degrees off the axis that is nearest to it.
+pub fn perpendicular(a: Vector) -> Vector {
+    let [x, y, z] = a.map(f64::abs);
+    let axis = if x <= y && x <= z {
+        [1.0, 0.0, 0.0]
+    } else if y <= z {
+        [0.0, 1.0, 0.0]
+    } else {
+        [0.0, 0.0, 1.0]
+    };
+    normalised(cross(axis, a))
+}
+
 /// Normal of a triangle: twice its area long, on the side from which its corners run counterclockwise.
 pub fn triangle_normal([a, b, c]: [Vector; 3]) -> Vector {
     cross(sub(b, a), sub(c, a))

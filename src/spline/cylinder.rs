@@ -1,6 +1,6 @@
 //! Circular cylinders, and those on which points lie.
 
-use crate::geometry::vector::{Vector, add, cross, dot, norm, normalised, scale, sub};
+use crate::geometry::vector::{Vector, add, cross, dot, norm, normalised, perpendicular, scale, sub};
 use crate::linalg::dense::{solve_definite, symmetric_eigenvectors};
 
 /// Newton steps from the axis that normals tell.
@@ -48,15 +48,7 @@ impl Cylinder {
 
     /// Two directions across the axis, which follow each other counterclockwise around it.
     fn across(&self) -> [Vector; 2] {
-        let [x, y, z] = self.axis.map(f64::abs);
-        let other = if x <= y && x <= z {
-            [1.0, 0.0, 0.0]
-        } else if y <= z {
-            [0.0, 1.0, 0.0]
-        } else {
-            [0.0, 0.0, 1.0]
-        };
-        let first = normalised(cross(self.axis, other));
+        let first = perpendicular(self.axis);
         [first, cross(self.axis, first)]
     }
 

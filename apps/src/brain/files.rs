@@ -4,9 +4,10 @@ use super::args::BrainArgs;
 use super::names::{FREESURFER, GIFTI, PICTURE};
 use super::outcome::Hemisphere;
 use crate::failure::Failure;
+use crate::on_sphere::n_turned;
 use crate::output::Outputs;
 use crate::runner::CommandRun;
-use ricci::geometry::predicates::{orientation, winding};
+use ricci::geometry::predicates::orientation;
 use ricci::mesh::Point;
 use ricci::mesh::io::freesurfer::{
     SurfacePatch, VertexLabel, label_text, parse_freesurfer, parse_patch, patch_bytes, values_bytes,
@@ -89,11 +90,7 @@ impl BrainArgs {
 fn turned_on_sphere(outputs: &Outputs) -> Result<usize, Failure> {
     let bytes = outputs.last_bytes().map_err(|e| Failure::Failed(e.to_string()))?;
     let back = parse_freesurfer(&bytes, "the sphere")?;
-    let is_turned = |f: &&[u32; 3]| {
-        let [a, b, c] = f.map(|v| back.positions[v as usize]);
-        winding(a, b, c) != Ordering::Greater
-    };
-    Ok(back.faces.iter().filter(is_turned).count())
+    Ok(n_turned(&back))
 }
 
 impl Hemisphere {

@@ -4,6 +4,7 @@ use super::args::FlattenArgs;
 use super::descent::{descent_checks, descent_figures, descent_summary, reason};
 use crate::failure::{Failure, NO_POSITIONS};
 use crate::input::Input;
+use crate::on_sphere::n_turned;
 use crate::output::{Outputs, format_of};
 use crate::picture::{self, ColorField, ColorScale, Picture, ShownSurface, TextureChoice};
 use crate::progress::doing;
@@ -12,11 +13,9 @@ use crate::runner::CommandRun;
 use crate::say;
 use crate::vertex_distortion::VertexDistortion;
 use ricci::flatten::{FlattenOptions, SphereFlattening, flatten_sphere};
-use ricci::geometry::predicates::winding;
 use ricci::mesh::Mesh;
 use ricci::mesh::io::freesurfer::values_bytes;
 use ricci::mesh::io::{Soup, SurfaceFile, write_as};
-use std::cmp::Ordering;
 use std::path::Path;
 use std::sync::OnceLock;
 
@@ -131,11 +130,7 @@ impl RoundOutcome {
         if back.faces.len() != soup.faces.len() {
             return Err(told(&"the file does not read back with all faces"));
         }
-        let is_turned = |f: &&[u32; 3]| {
-            let [a, b, c] = f.map(|v| back.positions[v as usize]);
-            winding(a, b, c) != Ordering::Greater
-        };
-        self.written_turned.get_or_init(|| back.faces.iter().filter(is_turned).count());
+        self.written_turned.get_or_init(|| n_turned(&back));
         Ok(())
     }
 

@@ -1,6 +1,6 @@
 //! The curves and surfaces of a STEP file, and the lines in the parameters of surfaces that its edges follow.
 
-use crate::geometry::vector::{Vector, cross, normalised};
+use crate::geometry::vector::{Vector, perpendicular};
 use crate::spline::cylinder::Cylinder;
 use step_io::model as m;
 use step_io::{Ap242Author, AuthorError};
@@ -124,16 +124,7 @@ pub(super) struct StepPlane {
 
 /// Adds a plane.
 pub(super) fn add_plane(author: &mut Ap242Author, plane: StepPlane) -> Authored<m::PlaneId> {
-    let [x, y, z] = plane.normal.map(f64::abs);
-    // Along the plane, and at least 45 degrees off the axis that is nearest to the normal.
-    let axis = if x <= y && x <= z {
-        [1.0, 0.0, 0.0]
-    } else if y <= z {
-        [0.0, 1.0, 0.0]
-    } else {
-        [0.0, 0.0, 1.0]
-    };
-    let placement = add_placement(author, plane.origin, plane.normal, normalised(cross(axis, plane.normal)))?;
+    let placement = add_placement(author, plane.origin, plane.normal, perpendicular(plane.normal))?;
     author.add_plane("", placement)
 }
 
